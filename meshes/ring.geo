@@ -1,0 +1,55 @@
+// Free circular ring of rectangular section about the z axis, for comparison with the theory of thin rings. Lengths in m.
+DefineConstant[
+  order = {1, Name "order"},              // 1 linear, 2 quadratic cells
+  serendipity = {0, Name "serendipity"},  // 1: quadratic cells without nodes in the middle of faces and cells (hex20)
+  R = {0.1, Name "R"},                    // radius of the middle line
+  thickness = {0.002, Name "thickness"},  // radial
+  width = {0.003, Name "width"},          // axial
+  n_theta = {96 / order, Name "n_theta"}, // cells around, a multiple of 4
+  n_r = {1, Name "n_r"},                  // cells through the thickness
+  n_z = {1, Name "n_z"}                   // cells across the width
+];
+Include "grid.inc";
+
+base = 0;
+arc_centre = 9001;
+count_3 = 4;
+cells = 1;
+div_1[] = {n_r};
+div_2[] = {n_z};
+div_3[] = {n_theta / 4, n_theta / 4, n_theta / 4, n_theta / 4};
+inner[] = {};
+outer[] = {};
+bottom[] = {};
+top[] = {};
+ring[] = {};
+For j In {0 : 1}
+  Point(arc_centre + j) = {0, 0, (j - 0.5) * width};
+EndFor
+// Radius, axis and angle are a right-handed system when the angle runs clockwise.
+For k In {0 : 3}
+  For j In {0 : 1}
+    For i In {0 : 1}
+      r = R + (i - 0.5) * thickness;
+      Point(1 + i + 10 * j + 100 * k) = {r * Cos(Pi / 2 * k), -r * Sin(Pi / 2 * k), (j - 0.5) * width};
+    EndFor
+  EndFor
+EndFor
+i = 0; j = 0;
+For k In {0 : 3}
+  Call GridBlock;
+  inner[] += {5001 + 100 * k};
+  outer[] += {5002 + 100 * k};
+  bottom[] += {6001 + 100 * k};
+  top[] += {6011 + 100 * k};
+  ring[] += {8001 + 100 * k};
+EndFor
+
+Physical Surface("inner") = inner[];
+Physical Surface("outer") = outer[];
+Physical Surface("bottom") = bottom[];
+Physical Surface("top") = top[];
+Physical Volume("ring") = ring[];
+
+Mesh.ElementOrder = order;
+Mesh.SecondOrderIncomplete = serendipity;

@@ -1,0 +1,36 @@
+#pragma once
+/// The method from mesh to flutter, one call per section of the paper. Reporting takes it from here.
+#include <memory>
+#include <vector>
+
+#include "flutter/flutter.hpp"
+#include "modes/modes.hpp"
+#include "steady/steady.hpp"
+
+namespace squeal {
+
+/// Frictions in a row with the same active set, and the modes of that set.
+struct ModalSegment {
+  PetscInt openNodes = 0;
+  PetscInt unknowns = 0;
+  modes::Modes modes;                             ///< empty with the direct method
+  std::vector<OwnedVec> shapes;                   ///< the first `-report_modes` modes in nodal displacements, largest entry 1
+  std::vector<flutter::FrictionPoint> points;
+};
+
+struct Analysis {
+  std::unique_ptr<mesh::Mesh> mesh;               ///< at a fixed address: contact and steady borrow it
+  elasticity::Bodies bodies;
+  contact::Contact contact;
+  std::vector<steady::Solution> steady;           ///< [friction]
+  std::vector<ModalSegment> segments;
+  double modesFloorSeconds = 0;                   ///< one factorisation and 400 blocked solves, if `-modes_benchmark`
+
+  /// Every friction has a steady solution.
+  bool converged() const;
+};
+
+/// Collective. Runs all stages that the options ask for. Errors as the stages document them.
+Analysis analyse(MPI_Comm comm);
+
+}  // namespace squeal

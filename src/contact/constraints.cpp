@@ -1,0 +1,56 @@
+#include "contact/constraints.hpp"
+
+#include <set>
+
+#include "petsc/check.hpp"
+#include "petsc/options.hpp"
+
+namespace squeal::contact {
+namespace {
+
+const TextOption clampedOption("constraint", "constraint_<group>_clamped", "", "components (some of xyz) of displacement held on the group's nodes");
+const RealListOption displacementOption("constraint", "constraint_<group>_displacement", "0,0,0", "m", anyReal,
+                                        "values of the clamped components");
+const TextOption imageOption("constraint", "constraint_<group>_image_of", "", "the group is the periodic image of this one, its translate");
+
+}  // namespace
+
+std::vector<std::string> constrainedGroups() {
+  for (const auto& group : displacementOption.subjects())
+    if (!clampedOption.given(group))
+      throw Error("option -" + displacementOption.fullName(group) + " needs -" + clampedOption.fullName(group));
+  return clampedOption.subjects();
+}
+
+std::vector<mesh::PeriodicRequest> periodicPairs() {
+  std::vector<mesh::PeriodicRequest> pairs;
+  for (const auto& image : imageOption.subjects()) pairs.push_back({image, imageOption.get(image)});
+  return pairs;
+}
+
+Constraints readConstraints(const mesh::Mesh& mesh) {
+  const auto dimension = static_cast<std::size_t>(mesh.dimension);
+  Constraints constraints;
+  constraints.held.assign(dimension * static_cast<std::size_t>(mesh.ownedNodes), 0);
+  constraints.displacement.assign(constraints.held.size(), 0.0);
+  std::string failure;
+  for (const auto& group : constrainedGroups()) {
+    const std::string components = clampedOption.get(group), allowed = std::string("xyz").substr(0, dimension);
+    const auto values = displacementOption.get(group);
+    if (components.empty() || components.find_first_not_of(allowed) != std::string::npos)
+      throw Error("option -" + clampedOption.fullName(group) + " '" + components + "': must be some of the letters " + allowed);
+    if (values.size() < dimension) throw Error("option -" + displacementOption.fullName(group) + ": must have " + std::to_string(dimension) + " components");
+    for (PetscInt node : mesh.nodeGroups.at(group))
+      for (char letter : components) {
+        const auto component = static_cast<std::size_t>(letter - 'x'), at = dimension * static_cast<std::size_t>(node) + component;
+        if (constraints.held[at] && constraints.displacement[at] != values[component])
+          failure = "option -" + displacementOption.fullName(group) + ": a node of this group is displaced differently by another group";
+        constraints.held[at] = 1;
+        constraints.displacement[at] = values[component];
+      }
+  }
+  failTogether(mesh.comm, failure);
+  return constraints;
+}
+
+}  // namespace squeal::contact

@@ -1,0 +1,22 @@
+#pragma once
+/// Clamped, guided and displaced surfaces, periodic images: what removes rows of u before contact does.
+#include <vector>
+
+#include "mesh/mesh.hpp"
+
+namespace squeal::contact {
+
+/// Groups that constraint options name, for the mesh reader.
+std::vector<std::string> constrainedGroups();
+std::vector<mesh::PeriodicRequest> periodicPairs();
+
+/// Cartesian components held at each owned node.
+struct Constraints {
+  std::vector<unsigned char> held;     ///< [owned node · dimension + component] 1 if held
+  std::vector<double> displacement;    ///< [owned node · dimension + component] its value where held, m
+};
+
+/// Collective. Errors: component that the dimension does not have, displacement without clamp, two groups that disagree.
+Constraints readConstraints(const mesh::Mesh& mesh);
+
+}  // namespace squeal::contact

@@ -1,0 +1,339 @@
+#include "contact/contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "elasticity/element.hpp"
+#include "petsc/options.hpp"
+#include "petsc/text.hpp"
+
+namespace squeal::contact {
+namespace {
+
+const TextOption padOption("contact", "contact_<interface>_pad", "", "surface group of the pad side (slave) of an interface");
+const TextOption discOption("contact", "contact_<interface>_disc", "", "surface group of the disc side (master), meshed alike");
+const RealListOption obstacleVelocityOption("contact", "contact_<interface>_obstacle_velocity", "0,0,0", "m/s", anyReal,
+                                            "instead of a disc: a rigid flat obstacle in the plane of the pad face, sliding at this velocity");
+const RealListOption obstacleDisplacementOption("contact", "contact_<interface>_obstacle_displacement", "0,0,0", "m", anyReal,
+                                                "displacement of the rigid obstacle, which presses the pad");
+
+double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Point cross(const Point& a, const Point& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
+Point scaled(const Point& a, double s) { return {s * a[0], s * a[1], s * a[2]}; }
+std::string text(const Point& p) { return formatted("(%.6g, %.6g, %.6g)", p[0], p[1], p[2]); }
+
+Point pointOf(const RealListOption& option, const std::string& subject) {
+  auto values = option.get(subject);
+  if (values.size() < 2 || values.size() > 3) throw Error("option -" + option.fullName(subject) + ": two or three components are wanted");
+  values.resize(3, 0.0);
+  return {values[0], values[1], values[2]};
+}
+
+OwnedMat nodalMatrix(const mesh::Mesh& mesh, PetscInt blocksPerRow) {
+  OwnedMat matrix;
+  const PetscInt owned = mesh.dimension * mesh.ownedNodes, entries = blocksPerRow * mesh.dimension;
+  check(MatCreateAIJ(mesh.comm, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE, entries, nullptr, entries, nullptr, matrix.out()));
+  return matrix;
+}
+
+void assembled(Mat matrix) {
+  check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
+  check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
+}
+
+/// Explicit zeros are kept, so that E never leaves the pattern of T and f only scales entries.
+void setBlock(Mat matrix, int dimension, PetscInt rowNode, PetscInt columnNode, const std::vector<double>& block) {
+  std::vector<PetscInt> rows, columns;
+  for (int d = 0; d < dimension; ++d) rows.push_back(dimension * rowNode + d), columns.push_back(dimension * columnNode + d);
+  check(MatSetValues(matrix, dimension, rows.data(), dimension, columns.data(), block.data(), INSERT_VALUES));
+}
+
+std::vector<double> outer(const Point& a, const Point& b, int dimension, double factor = 1) {
+  std::vector<double> block;
+  for (int i = 0; i < dimension; ++i)
+    for (int j = 0; j < dimension; ++j) block.push_back(factor * a[static_cast<std::size_t>(i)] * b[static_cast<std::size_t>(j)]);
+  return block;
+}
+
+/// u of periodic images from that of their primaries.
+OwnedMat periodicity(const mesh::Mesh& mesh) {
+  OwnedMat matrix = nodalMatrix(mesh, 1);
+  std::vector<PetscInt> source;
+  for (PetscInt node = 0; node < mesh.ownedNodes; ++node) source.push_back(mesh.firstNode + node);
+  for (const auto& image : mesh.images) source[static_cast<std::size_t>(image.node)] = image.primary;
+  for (PetscInt node = 0; node < mesh.ownedNodes; ++node)
+    for (int d = 0; d < mesh.dimension; ++d)
+      check(MatSetValue(matrix, mesh.dimension * (mesh.firstNode + node) + d, mesh.dimension * source[static_cast<std::size_t>(node)] + d, 1, INSERT_VALUES));
+  assembled(matrix);
+  return matrix;
+}
+
+/// Sums over the pad faces at each node: area-weighted normals (towards the pad) and ∫ φ dA; those of images go to the primaries.
+struct FaceSums {
+  OwnedVec normal, area;  // nodal vectors; area in component 0
+};
+
+FaceSums sumFaces(const mesh::Mesh& mesh, const Contact& contact) {
+  FaceSums local{elasticity::nodalVector(mesh), elasticity::nodalVector(mesh)}, sums{elasticity::nodalVector(mesh), elasticity::nodalVector(mesh)};
+  for (const auto& block : mesh.faces) {
+    const auto& table = elasticity::shapeTable(block.type);
+    for (std::size_t e = 0; e < block.surface.size(); ++e) {
+      if (!contact.isPadSurface(mesh.surfaces[static_cast<std::size_t>(block.surface[e])])) continue;
+      std::vector<Point> points;
+      const PetscInt* nodes = block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerFace);
+      for (int i = 0; i < block.nodesPerFace; ++i) points.push_back(mesh.coordinates[static_cast<std::size_t>(nodes[i])]);
+      const auto faceMass = elasticity::faceMass(table, points);
+      const auto normals = elasticity::nodeNormals(table, points, -block.sign[e]);
+      double faceArea = 0;
+      for (double entry : faceMass) faceArea += entry;
+      for (int i = 0; i < block.nodesPerFace; ++i) {
+        const PetscInt row = mesh.dimension * mesh.globalNode[static_cast<std::size_t>(nodes[i])];
+        double weight = 0;
+        for (int j = 0; j < block.nodesPerFace; ++j) weight += faceMass[static_cast<std::size_t>(i * block.nodesPerFace + j)];
+        check(VecSetValue(local.area, row, weight, ADD_VALUES));
+        for (int d = 0; d < mesh.dimension; ++d)
+          check(VecSetValue(local.normal, row + d, faceArea * normals[static_cast<std::size_t>(i)][static_cast<std::size_t>(d)], ADD_VALUES));
+      }
+    }
+  }
+  for (Vec vector : {local.normal.get(), local.area.get()}) check(VecAssemblyBegin(vector)), check(VecAssemblyEnd(vector));
+  check(MatMultTranspose(contact.periodic, local.normal, sums.normal));
+  check(MatMultTranspose(contact.periodic, local.area, sums.area));
+  return sums;
+}
+
+std::vector<ContactNode> contactNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, const std::vector<mesh::InterfaceRequest>& requests,
+                                      const FaceSums& sums) {
+  std::vector<ContactNode> nodes;
+  std::vector<Point> obstacleVelocity;
+  for (const auto& request : requests) obstacleVelocity.push_back(pointOf(obstacleVelocityOption, request.name));
+  const PetscScalar *normal = nullptr, *area = nullptr;
+  check(VecGetArrayRead(sums.normal, &normal));
+  check(VecGetArrayRead(sums.area, &area));
+  for (const auto& pair : mesh.pairs) {
+    ContactNode node{};
+    node.position = mesh.coordinates[static_cast<std::size_t>(pair.node)];
+    node.node = pair.node, node.globalNode = mesh.firstNode + pair.node, node.master = pair.master, node.interface = pair.interface;
+    node.area = area[mesh.dimension * pair.node];
+    for (int d = 0; d < mesh.dimension; ++d) node.normal[static_cast<std::size_t>(d)] = normal[mesh.dimension * pair.node + d];
+    node.normal = scaled(node.normal, 1 / std::sqrt(dot(node.normal, node.normal)));
+    const Point velocity = pair.masterBody >= 0 ? bodies.motions[static_cast<std::size_t>(pair.masterBody)].velocity(node.position)
+                                                : obstacleVelocity[static_cast<std::size_t>(pair.interface)];
+    // w = −V in the tangent plane [2.15].
+    const double along = dot(velocity, node.normal);
+    Point w{};
+    for (std::size_t d = 0; d < 3; ++d) w[d] = -(velocity[d] - along * node.normal[d]);
+    node.slipSpeed = std::sqrt(dot(w, w));
+    // A velocity along the normal leaves only rounding in the tangent plane.
+    if (node.slipSpeed > 1e-12 * std::sqrt(dot(velocity, velocity))) node.slip = scaled(w, 1 / node.slipSpeed);
+    else node.slipSpeed = 0;
+    nodes.push_back(node);
+  }
+  check(VecRestoreArrayRead(sums.normal, &normal));
+  check(VecRestoreArrayRead(sums.area, &area));
+  return nodes;
+}
+
+/// Tangents t1, t2 at a contact node, held Cartesian directions first. In the plane only the first is used.
+struct Frame {
+  std::vector<Point> tangents;
+  std::vector<int> heldComponent;  ///< [tangent] Cartesian component held along it, or −1
+};
+
+Frame frameOf(const ContactNode& node, const Constraints& constraints, int dimension) {
+  Frame frame;
+  for (int d = 0; d < dimension; ++d)
+    if (constraints.held[static_cast<std::size_t>(dimension * node.node + d)]) {
+      Point e{};
+      e[static_cast<std::size_t>(d)] = 1;
+      if (std::abs(dot(e, node.normal)) > 1e-6)
+        throw Error("a -constraint_<group>_clamped option holds component " + std::string(1, static_cast<char>('x' + d)) +
+                    " of the pad contact node at " + text(node.position) + ", which is not tangential there; contact decides the normal component");
+      frame.tangents.push_back(e);
+      frame.heldComponent.push_back(d);
+    }
+  if (dimension == 2) {
+    if (frame.tangents.empty()) frame.tangents.push_back({-node.normal[1], node.normal[0], 0}), frame.heldComponent.push_back(-1);
+    return frame;
+  }
+  if (frame.tangents.empty()) {
+    // Any direction not along n does.
+    std::size_t least = 0;
+    for (std::size_t d = 1; d < 3; ++d)
+      if (std::abs(node.normal[d]) < std::abs(node.normal[least])) least = d;
+    Point e{};
+    e[least] = 1;
+    const Point t = cross(node.normal, e);
+    frame.tangents.push_back(scaled(t, 1 / std::sqrt(dot(t, t))));
+    frame.heldComponent.push_back(-1);
+  }
+  if (frame.tangents.size() == 1) frame.tangents.push_back(cross(node.normal, frame.tangents[0])), frame.heldComponent.push_back(-1);
+  return frame;
+}
+
+/// Fills A (before periodicity), the free components of z and the values of the others.
+void buildKinematics(const mesh::Mesh& mesh, const std::vector<mesh::InterfaceRequest>& requests, Contact& contact, Mat a, Vec held) {
+  const Constraints& constraints = contact.constraints;
+  const int dimension = mesh.dimension;
+  const auto local = [&](PetscInt node, int d) { return static_cast<std::size_t>(dimension * node + d); };
+  contact.free.assign(constraints.held.size(), 1);
+  std::vector<unsigned char> isPad(static_cast<std::size_t>(mesh.ownedNodes), 0);
+  for (const auto& node : contact.nodes) isPad[static_cast<std::size_t>(node.node)] = 1;
+  std::vector<double> values(constraints.held.size(), 0.0);
+  for (PetscInt node = 0; node < mesh.ownedNodes; ++node) {
+    if (isPad[static_cast<std::size_t>(node)]) continue;
+    for (int d = 0; d < dimension; ++d) {
+      check(MatSetValue(a, dimension * (mesh.firstNode + node) + d, dimension * (mesh.firstNode + node) + d, 1, INSERT_VALUES));
+      if (!constraints.held[local(node, d)]) continue;
+      contact.free[local(node, d)] = 0;
+      values[local(node, d)] = constraints.displacement[local(node, d)];
+    }
+  }
+  std::vector<Point> obstacleDisplacement;
+  for (const auto& request : requests) obstacleDisplacement.push_back(pointOf(obstacleDisplacementOption, request.name));
+  std::string failure;
+  for (const auto& node : contact.nodes) try {
+      const Frame frame = frameOf(node, constraints, dimension);
+      std::vector<double> block(static_cast<std::size_t>(dimension * dimension));
+      for (int i = 0; i < dimension; ++i) {
+        for (int t = 0; t < dimension - 1; ++t) block[static_cast<std::size_t>(i * dimension + t)] = frame.tangents[static_cast<std::size_t>(t)][static_cast<std::size_t>(i)];
+        block[static_cast<std::size_t>(i * dimension + dimension - 1)] = node.normal[static_cast<std::size_t>(i)];
+      }
+      setBlock(a, dimension, node.globalNode, node.globalNode, block);
+      if (node.master >= 0) setBlock(a, dimension, node.globalNode, node.master, outer(node.normal, node.normal, dimension));
+      else values[local(node.node, dimension - 1)] = dot(node.normal, obstacleDisplacement[static_cast<std::size_t>(node.interface)]);
+      for (int t = 0; t < dimension - 1; ++t) {
+        const int component = frame.heldComponent[static_cast<std::size_t>(t)];
+        if (component < 0) continue;
+        contact.free[local(node.node, t)] = 0;
+        values[local(node.node, t)] = constraints.displacement[local(node.node, component)];
+      }
+    } catch (const Error& error) {
+      failure = error.what();
+    }
+  failTogether(mesh.comm, failure);
+  for (const auto& image : mesh.images)
+    for (int d = 0; d < dimension; ++d) contact.free[local(image.node, d)] = 0;
+  assembled(a);
+  PetscScalar* array = nullptr;
+  check(VecGetArray(held, &array));
+  std::copy(values.begin(), values.end(), array);
+  check(VecRestoreArray(held, &array));
+}
+
+void requireFlatObstacles(const mesh::Mesh& mesh, const Contact& contact) {
+  std::string failure;
+  for (std::size_t i = 0; i < contact.interfaces.size(); ++i) {
+    double sums[4] = {0, 0, 0, 0};
+    for (const auto& node : contact.nodes)
+      if (node.interface == static_cast<int>(i) && node.master < 0) {
+        for (std::size_t d = 0; d < 3; ++d) sums[d] += node.normal[d];
+        sums[3] += 1;
+      }
+    check(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, mesh.comm));
+    for (const auto& node : contact.nodes)
+      if (node.interface == static_cast<int>(i) && node.master < 0 && sums[0] * node.normal[0] + sums[1] * node.normal[1] + sums[2] * node.normal[2] < (1 - 1e-10) * sums[3])
+        failure = "option -" + padOption.fullName(contact.interfaces[i]) + ": the face on the rigid obstacle must be flat; its normal turns at " + text(node.position);
+  }
+  failTogether(mesh.comm, failure);
+}
+
+}  // namespace
+
+std::vector<mesh::InterfaceRequest> readInterfaces() {
+  std::vector<mesh::InterfaceRequest> requests;
+  for (const Option* option : {static_cast<const Option*>(&discOption), static_cast<const Option*>(&obstacleVelocityOption), static_cast<const Option*>(&obstacleDisplacementOption)})
+    for (const auto& name : option->subjects())
+      if (!padOption.given(name)) throw Error("option -" + option->fullName(name) + " needs -" + padOption.fullName(name));
+  for (const auto& name : padOption.subjects()) {
+    const bool disc = discOption.given(name), obstacle = obstacleVelocityOption.given(name) || obstacleDisplacementOption.given(name);
+    if (disc == obstacle)
+      throw Error("option -" + padOption.fullName(name) + ": give either -" + discOption.fullName(name) + " or -" + obstacleVelocityOption.fullName(name));
+    requests.push_back({name, padOption.get(name), disc ? discOption.get(name) : ""});
+  }
+  return requests;
+}
+
+Contact build(const mesh::Mesh& mesh, const elasticity::Bodies& bodies) {
+  const auto requests = readInterfaces();
+  Contact contact;
+  contact.constraints = readConstraints(mesh);
+  contact.mesh = &mesh;
+  for (const auto& request : requests) contact.interfaces.push_back(request.name), contact.padSurfaces.push_back(request.pad);
+  contact.periodic = periodicity(mesh);
+  contact.nodes = contactNodes(mesh, bodies, requests, sumFaces(mesh, contact));
+  PetscInt sums[2] = {static_cast<PetscInt>(contact.nodes.size()), 0};
+  // tri6 corners weigh zero, quad8 corners less: consistent nodal forces of a positive pressure are not positive there.
+  for (const auto& block : mesh.faces) {
+    const auto& table = elasticity::shapeTable(block.type);
+    const bool serendipity = table.order > 1 && (table.name == "tri6" || table.name == "quad8");
+    for (int surface : block.surface) sums[1] += serendipity && contact.isPadSurface(mesh.surfaces[static_cast<std::size_t>(surface)]);
+  }
+  check(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPIU_INT, MPI_SUM, mesh.comm));
+  contact.totalNodes = sums[0];
+  contact.weightsPositive = sums[1] == 0;
+
+  OwnedMat a = nodalMatrix(mesh, 2);
+  const OwnedVec held = elasticity::nodalVector(mesh);
+  buildKinematics(mesh, requests, contact, a, held);
+  requireFlatObstacles(mesh, contact);
+  check(MatMatMult(contact.periodic, a, MAT_INITIAL_MATRIX, PETSC_DEFAULT, contact.kinematics.out()));
+  contact.offset = elasticity::nodalVector(mesh);
+  check(MatMult(contact.kinematics, held, contact.offset));
+  rejectLooseBodies(mesh, contact);
+  return contact;
+}
+
+bool Contact::isPadSurface(const std::string& surface) const {
+  return std::find(padSurfaces.begin(), padSurfaces.end(), surface) != padSurfaces.end();
+}
+
+Transformation Contact::transformation(const std::vector<unsigned char>& gapFree, const std::vector<unsigned char>& slides) const {
+  const int dimension = mesh->dimension;
+  std::vector<unsigned char> unknown = free;
+  const auto gapAt = [&](const ContactNode& node) { return static_cast<std::size_t>(dimension * node.node + dimension - 1); };
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (!gapFree[i]) unknown[gapAt(nodes[i])] = 0;
+
+  Transformation result;
+  result.ownedColumns = static_cast<PetscInt>(std::count(unknown.begin(), unknown.end(), 1));
+  PetscInt end = 0;
+  check(MPI_Scan(&result.ownedColumns, &end, 1, MPIU_INT, MPI_SUM, mesh->comm));
+  check(MPI_Allreduce(&result.ownedColumns, &result.columns, 1, MPIU_INT, MPI_SUM, mesh->comm));
+  std::vector<PetscInt> column(unknown.size(), -1);
+  PetscInt next = end - result.ownedColumns;
+  for (std::size_t i = 0; i < unknown.size(); ++i)
+    if (unknown[i]) column[i] = next++;
+  for (const auto& node : nodes) result.gapColumn.push_back(column[gapAt(node)]);
+
+  const PetscInt owned = dimension * mesh->ownedNodes, first = dimension * mesh->firstNode;
+  check(MatCreateAIJ(mesh->comm, owned, result.ownedColumns, PETSC_DETERMINE, PETSC_DETERMINE, 1, nullptr, 0, nullptr, result.selection.out()));
+  for (std::size_t i = 0; i < column.size(); ++i)
+    if (column[i] >= 0) check(MatSetValue(result.selection, first + static_cast<PetscInt>(i), column[i], 1, INSERT_VALUES));
+  assembled(result.selection);
+  check(MatMatMult(kinematics, result.selection, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.trial.out()));
+
+  const OwnedMat s = nodalMatrix(*mesh, 2);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (!slides[i]) continue;
+    setBlock(s, dimension, nodes[i].globalNode, nodes[i].globalNode, outer(nodes[i].normal, nodes[i].slip, dimension));
+    if (nodes[i].master >= 0) setBlock(s, dimension, nodes[i].globalNode, nodes[i].master, outer(nodes[i].normal, nodes[i].slip, dimension, -1));
+  }
+  assembled(s);
+  OwnedMat primaries;
+  check(MatMatMult(s, result.trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, primaries.out()));
+  check(MatMatMult(periodic, primaries, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.friction.out()));  // images follow in the test functions too
+  return result;
+}
+
+void requireSlip(const Contact& contact) {
+  std::string failure;
+  for (const auto& node : contact.nodes)
+    if (node.slipSpeed == 0 && failure.empty())
+      failure = "option -flutter_friction: friction needs a sliding velocity, but |w| = 0 at the contact node at " + text(node.position) + " of interface '" +
+                contact.interfaces[static_cast<std::size_t>(node.interface)] + "'; give -motion_<body>_velocity or _speed, or -" +
+                obstacleVelocityOption.fullName(contact.interfaces[static_cast<std::size_t>(node.interface)]);
+  failTogether(contact.mesh->comm, failure);
+}
+
+}  // namespace squeal::contact

@@ -1,0 +1,115 @@
+/// Rigid motions that nothing stops: a small dense problem, six unknowns per connected part of the mesh.
+#include <petscsys.h>  // first: the next header needs it
+
+#include <petscblaslapack.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/contact.hpp"
+#include "petsc/text.hpp"
+
+namespace squeal::contact {
+namespace {
+
+/// Rigid motions of all parts: 3 translations and 3 rotations (2 and 1 in the plane) each, rotations in units of 1/length.
+class RigidMotions {
+ public:
+  RigidMotions(const mesh::Mesh& mesh, Point centre, double length)
+      : perPart_(mesh.dimension == 2 ? 3 : 6), size_(perPart_ * mesh.parts), dimension_(mesh.dimension), centre_(centre), length_(length) {}
+  int size() const { return size_; }
+  int perPart() const { return perPart_; }
+  /// Adds factor · direction·u(x) of part `part` to the row of coefficients.
+  void add(std::vector<double>& row, int part, const Point& x, const Point& direction, double factor) const {
+    double* a = row.data() + part * perPart_;
+    const Point r{(x[0] - centre_[0]) / length_, (x[1] - centre_[1]) / length_, (x[2] - centre_[2]) / length_};
+    for (int d = 0; d < dimension_; ++d) a[d] += factor * direction[static_cast<std::size_t>(d)];
+    // direction · (e_k × r)
+    const Point moment{direction[2] * r[1] - direction[1] * r[2], direction[0] * r[2] - direction[2] * r[0], direction[1] * r[0] - direction[0] * r[1]};
+    if (dimension_ == 2) a[2] += factor * moment[2];
+    else
+      for (int k = 0; k < 3; ++k) a[3 + k] += factor * moment[static_cast<std::size_t>(k)];
+  }
+
+ private:
+  int perPart_, size_, dimension_;
+  Point centre_;
+  double length_;
+};
+
+Point unit(int d) {
+  Point e{};
+  e[static_cast<std::size_t>(d)] = 1;
+  return e;
+}
+
+RigidMotions rigidMotions(const mesh::Mesh& mesh) {
+  double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+  for (const auto& p : mesh.coordinates)
+    for (std::size_t d = 0; d < 3; ++d) low[d] = std::min(low[d], p[d]), high[d] = std::max(high[d], p[d]);
+  check(MPI_Allreduce(MPI_IN_PLACE, low, 3, MPI_DOUBLE, MPI_MIN, mesh.comm));
+  check(MPI_Allreduce(MPI_IN_PLACE, high, 3, MPI_DOUBLE, MPI_MAX, mesh.comm));
+  double length = 0;
+  for (int d = 0; d < 3; ++d) length = std::max(length, high[d] - low[d]);
+  return {mesh, {(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2}, length};
+}
+
+/// Gram matrix Σ cᵀc of all constraint rows on rigid motions; its kernel is what nothing stops.
+std::vector<double> gram(const mesh::Mesh& mesh, const Contact& contact, const RigidMotions& motions) {
+  const auto n = static_cast<std::size_t>(motions.size());
+  std::vector<double> g(n * n, 0.0), row(n);
+  const auto keep = [&] {
+    for (std::size_t i = 0; i < n; ++i)
+      if (row[i] != 0)
+        for (std::size_t j = 0; j < n; ++j) g[i * n + j] += row[i] * row[j];
+    std::fill(row.begin(), row.end(), 0.0);
+  };
+  for (PetscInt node = 0; node < mesh.ownedNodes; ++node)
+    for (int d = 0; d < mesh.dimension; ++d)
+      if (contact.constraints.held[static_cast<std::size_t>(mesh.dimension * node + d)]) {
+        motions.add(row, mesh.nodePart[static_cast<std::size_t>(node)], mesh.coordinates[static_cast<std::size_t>(node)], unit(d), 1);
+        keep();
+      }
+  for (const auto& image : mesh.images)
+    for (int d = 0; d < mesh.dimension; ++d) {
+      const auto& x = mesh.coordinates[static_cast<std::size_t>(image.node)];
+      motions.add(row, mesh.nodePart[static_cast<std::size_t>(image.node)], x, unit(d), 1);
+      motions.add(row, image.primaryPart, {x[0] - image.shift[0], x[1] - image.shift[1], x[2] - image.shift[2]}, unit(d), -1);
+      keep();
+    }
+  for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
+    const auto& node = contact.nodes[i];
+    motions.add(row, mesh.nodePart[static_cast<std::size_t>(node.node)], node.position, node.normal, 1);
+    if (node.master >= 0) motions.add(row, mesh.pairs[i].masterPart, node.position, node.normal, -1);
+    keep();
+  }
+  check(MPI_Allreduce(MPI_IN_PLACE, g.data(), static_cast<int>(n * n), MPI_DOUBLE, MPI_SUM, mesh.comm));
+  return g;
+}
+
+}  // namespace
+
+void rejectLooseBodies(const mesh::Mesh& mesh, const Contact& contact) {
+  const RigidMotions motions = rigidMotions(mesh);
+  std::vector<double> g = gram(mesh, contact, motions);
+  PetscBLASInt n = motions.size(), work = 8 * n, info = 0;
+  std::vector<double> eigenvalues(static_cast<std::size_t>(n)), space(static_cast<std::size_t>(work));
+  LAPACKsyev_("V", "U", &n, g.data(), &n, eigenvalues.data(), space.data(), &work, &info);
+  if (info != 0) throw Error("the rigid motions of the bodies cannot be examined");
+  // A support over a thousandth of the model still holds a rotation with 1e-6 of a translation's weight per node.
+  if (eigenvalues.front() > 1e-12 * std::max(eigenvalues.back(), 1.0)) return;
+  int worst = 0;
+  double most = -1;
+  for (int part = 0; part < mesh.parts; ++part) {
+    double weight = 0;
+    for (int k = 0; k < motions.perPart(); ++k) weight += g[static_cast<std::size_t>(part * motions.perPart() + k)] * g[static_cast<std::size_t>(part * motions.perPart() + k)];
+    if (weight > most) most = weight, worst = part;
+  }
+  std::string motion;
+  for (int k = 0; k < motions.perPart(); ++k) motion += formatted(k ? ", %.3g" : "%.3g", g[static_cast<std::size_t>(worst * motions.perPart() + k)]);
+  throw Error("singular problem: body '" + mesh.partName[static_cast<std::size_t>(worst)] + "' can move rigidly while contact stays closed without friction (" +
+              (mesh.dimension == 2 ? "translation x, y, rotation z: " : "translations x, y, z, rotations x, y, z: ") + motion +
+              "); hold it with -constraint_<group>_clamped");
+}
+
+}  // namespace squeal::contact

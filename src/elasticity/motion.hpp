@@ -1,0 +1,26 @@
+#pragma once
+/// The base motion of a body's matter: V = ω k × (x − x0), or a translation (formulation: section 2 of the paper).
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+
+namespace squeal::elasticity {
+
+struct Motion {
+  mesh::Point translation{};  ///< m/s
+  double speed = 0;           ///< ω, rad/s
+  mesh::Point axis{0, 0, 1};  ///< k, unit vector
+  mesh::Point origin{};       ///< x0, m
+
+  /// V(x), m/s.
+  mesh::Point velocity(const mesh::Point& x) const;
+};
+
+/// Bodies with a `-motion_<body>_*` option.
+std::vector<std::string> movingBodies();
+/// Motion of each body in turn; none given: at rest. Error: rotation and translation together, axis of zero length.
+std::vector<Motion> readMotions(const std::vector<std::string>& bodies);
+
+}  // namespace squeal::elasticity

@@ -1,0 +1,53 @@
+#include "elasticity/shape.hpp"
+
+#include <gmsh.h>
+
+#include <map>
+
+namespace squeal::elasticity {
+namespace {
+
+std::vector<double> basis(int type, const std::vector<double>& points, const char* what) {
+  int components = 0, orientations = 0;
+  std::vector<double> values;
+  gmsh::model::mesh::getBasisFunctions(type, points, what, components, values, orientations);
+  return values;
+}
+
+std::string elementName(int dimension, int corners, int nodes) {
+  const char* shape = "element";
+  if (dimension == 0) shape = "point";
+  if (dimension == 1) shape = "line";
+  if (dimension == 2) shape = corners == 3 ? "tri" : "quad";
+  if (dimension == 3) shape = corners == 4 ? "tet" : corners == 5 ? "pyramid" : corners == 6 ? "wedge" : "hex";
+  return shape + std::to_string(nodes);
+}
+
+ShapeTable tabulate(int type) {
+  ShapeTable table;
+  std::string gmshName;
+  std::vector<double> local;
+  gmsh::model::mesh::getElementProperties(type, gmshName, table.dimension, table.order, table.nodes, local, table.corners);
+  table.type = type;
+  table.name = elementName(table.dimension, table.corners, table.nodes);
+  // gmsh's odd-degree rules are the tensor-product ones on quadrilaterals and hexahedra.
+  gmsh::model::mesh::getIntegrationPoints(type, "Gauss" + std::to_string(2 * table.order + 1), table.point, table.weight);
+  table.value = basis(type, table.point, "Lagrange");
+  table.gradient = basis(type, table.point, "GradLagrange");
+  std::vector<double> nodes;
+  for (int i = 0; i < table.nodes; ++i)
+    for (int d = 0; d < 3; ++d) nodes.push_back(d < table.dimension ? local[static_cast<std::size_t>(i * table.dimension + d)] : 0.0);
+  table.nodeGradient = basis(type, nodes, "GradLagrange");
+  table.centreGradient = basis(type, {0, 0, 0}, "GradLagrange");
+  return table;
+}
+
+}  // namespace
+
+const ShapeTable& shapeTable(int gmshType) {
+  static std::map<int, ShapeTable> tables;
+  const auto found = tables.find(gmshType);
+  return found != tables.end() ? found->second : tables.emplace(gmshType, tabulate(gmshType)).first->second;
+}
+
+}  // namespace squeal::elasticity

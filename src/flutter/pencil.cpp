@@ -1,0 +1,109 @@
+#include "flutter/pencil.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace squeal::flutter {
+
+double Term::coefficient(double friction) const { return factor * std::pow(friction, frictionExponent); }
+
+bool Pencil::hasPower(int power) const {
+  return std::any_of(terms_.begin(), terms_.end(), [&](const Term& term) { return term.power == power; });
+}
+
+MPI_Comm Pencil::comm() const { return PetscObjectComm(reinterpret_cast<PetscObject>(terms_.at(0).matrix.get())); }
+
+OwnedMat Pencil::assembled(int power, double friction) const {
+  OwnedMat sum;
+  for (const auto& term : terms_) {
+    if (term.power != power) continue;
+    if (!sum) {
+      check(MatDuplicate(term.matrix, MAT_COPY_VALUES, sum.out()));
+      check(MatScale(sum, term.coefficient(friction)));
+    } else {
+      check(MatAXPY(sum, term.coefficient(friction), term.matrix, DIFFERENT_NONZERO_PATTERN));
+    }
+    check(MatSetOption(sum, MAT_SYMMETRIC, PETSC_FALSE));
+  }
+  return sum;
+}
+
+void Pencil::apply(int power, double friction, Vec x, Vec y) const {
+  check(VecZeroEntries(y));
+  OwnedVec part;
+  check(VecDuplicate(y, part.out()));
+  for (const auto& term : terms_)
+    if (const double c = term.coefficient(friction); term.power == power && c != 0) {
+      check(MatMult(term.matrix, x, part));
+      check(VecAXPY(y, c, part));
+    }
+}
+
+double Pencil::norm(int power, double friction) const {
+  if (!hasPower(power)) return 0;
+  OwnedVec& v = singular_[power];
+  const bool fresh = !v;
+  OwnedVec image, part;
+  check(MatCreateVecs(terms_[0].matrix, image.out(), part.out()));
+  if (fresh) {
+    // Largest eigenvalues belong to rough vectors; a fixed pseudo-random start has them all.
+    PetscInt first = 0, end = 0;
+    check(VecDuplicate(image, v.out()));
+    check(VecGetOwnershipRange(v, &first, &end));
+    for (PetscInt i = first; i < end; ++i) check(VecSetValue(v, i, std::sin(12.9898 * static_cast<double>(i + 1)), INSERT_VALUES));
+    check(VecAssemblyBegin(v));
+    check(VecAssemblyEnd(v));
+  }
+  double estimate = 0;
+  for (int sweep = 0; sweep < (fresh ? 20 : 3); ++sweep) {
+    PetscReal size = 0;
+    check(VecNormalize(v, nullptr));
+    apply(power, friction, v, image);
+    check(VecNorm(image, NORM_2, &size));
+    estimate = std::max(estimate, static_cast<double>(size));
+    check(VecZeroEntries(v));
+    for (const auto& term : terms_)
+      if (const double c = term.coefficient(friction); term.power == power && c != 0) {
+        check(MatMultTranspose(term.matrix, image, part));
+        check(VecAXPY(v, c, part));
+      }
+  }
+  return estimate;
+}
+
+double backwardError(const Pencil& pencil, double friction, std::complex<double> s, Vec real, Vec imaginary) {
+  OwnedVec residual[2], product;
+  check(VecDuplicate(real, product.out()));
+  double length = 0, scale = 0;
+  for (auto& part : residual) {
+    check(VecDuplicate(real, part.out()));
+    check(VecZeroEntries(part));
+  }
+  for (int power = 0; power <= 2; ++power) {
+    if (!pencil.hasPower(power)) continue;
+    const std::complex<double> factor = std::pow(s, power);
+    scale += std::abs(factor) * pencil.norm(power, friction);
+    for (Vec d : {real, imaginary}) {
+      if (!d) continue;
+      const std::complex<double> c = d == real ? factor : factor * std::complex<double>(0, 1);
+      pencil.apply(power, friction, d, product);
+      check(VecAXPY(residual[0], c.real(), product));
+      check(VecAXPY(residual[1], c.imag(), product));
+    }
+  }
+  double sum = 0;
+  for (Vec part : {residual[0].get(), residual[1].get()}) {
+    PetscReal size = 0;
+    check(VecNorm(part, NORM_2, &size));
+    sum += size * size;
+  }
+  for (Vec d : {real, imaginary}) {
+    if (!d) continue;
+    PetscReal size = 0;
+    check(VecNorm(d, NORM_2, &size));
+    length += size * size;
+  }
+  return std::sqrt(sum / length) / scale;
+}
+
+}  // namespace squeal::flutter

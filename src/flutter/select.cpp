@@ -1,0 +1,67 @@
+#include "flutter/select.hpp"
+
+#include <algorithm>
+
+#include "petsc/options.hpp"
+
+namespace squeal::flutter {
+namespace {
+
+const RealListOption frictionOption("flutter", "flutter_friction", "0.4", "", nonNegative, "friction coefficients", true);
+const ChoiceOption methodOption("flutter", "flutter_method", {"reduced", "direct"}, "reduced",
+                                "reduced: dense problem on the free modes; direct: all unknowns, for checking");
+const RealOption toleranceOption("flutter", "flutter_unstable_tolerance", 1e-6, "", nonNegative,
+                                 "unstable if the growth rate exceeds this fraction of |s|");
+const IntegerOption shapesOption("flutter", "flutter_shapes", 3, 0, "number of fastest growing complex modes kept for the report at each friction");
+
+}  // namespace
+
+std::vector<double> frictions() {
+  auto list = frictionOption.get();
+  if (list.empty()) throw Error("option -flutter_friction: the list is empty");
+  return list;
+}
+
+bool directWanted() { return methodOption.get() == "direct"; }
+
+int FrictionPoint::unstableCount() const {
+  return static_cast<int>(std::count_if(eigenvalues.begin(), eigenvalues.end(), [](const auto& e) { return e.unstable; }));
+}
+
+double FrictionPoint::worstBackwardError() const {
+  double worst = 0;
+  for (const auto& eigenvalue : eigenvalues) worst = std::max(worst, eigenvalue.backwardError);
+  return worst;
+}
+
+void judge(std::vector<Eigenvalue>& eigenvalues) {
+  const double tolerance = toleranceOption.get();
+  for (auto& eigenvalue : eigenvalues) eigenvalue.unstable = eigenvalue.s.real() > tolerance * std::abs(eigenvalue.s);
+}
+
+void keepShapes(FrictionPoint& point, Mat trial, const std::function<void(std::size_t, Vec, Vec)>& unknowns) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < point.eigenvalues.size(); ++i)
+    if (point.eigenvalues[i].unstable) order.push_back(i);
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return point.eigenvalues[a].s.real() > point.eigenvalues[b].s.real(); });
+  order.resize(std::min(order.size(), static_cast<std::size_t>(shapesOption.get())));
+  OwnedVec real, imaginary;
+  check(MatCreateVecs(trial, real.out(), nullptr));
+  check(VecDuplicate(real, imaginary.out()));
+  for (std::size_t index : order) {
+    unknowns(index, real, imaginary);
+    Shape shape{index, {}, {}};
+    check(MatCreateVecs(trial, nullptr, shape.real.out()));
+    check(VecDuplicate(shape.real, shape.imaginary.out()));
+    check(MatMult(trial, real, shape.real));
+    check(MatMult(trial, imaginary, shape.imaginary));
+    PetscReal a = 0, b = 0;
+    check(VecNorm(shape.real, NORM_INFINITY, &a));
+    check(VecNorm(shape.imaginary, NORM_INFINITY, &b));
+    check(VecScale(shape.real, 1 / std::max(a, b)));
+    check(VecScale(shape.imaginary, 1 / std::max(a, b)));
+    point.shapes.push_back(std::move(shape));
+  }
+}
+
+}  // namespace squeal::flutter

@@ -1,0 +1,178 @@
+/// Which node stands opposite which: periodic images and matching contact nodes.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "mesh/whole.hpp"
+#include "petsc/check.hpp"
+#include "petsc/text.hpp"
+
+namespace squeal::mesh {
+namespace {
+
+std::string positionText(const Point& p) { return formatted("(%.6g, %.6g, %.6g)", p[0], p[1], p[2]); }
+
+double squaredDistance(const Point& a, const Point& b) {
+  double sum = 0;
+  for (std::size_t d = 0; d < 3; ++d) sum += (a[d] - b[d]) * (a[d] - b[d]);
+  return sum;
+}
+
+/// Finds nodes by position with buckets of twice the tolerance.
+class Locator {
+ public:
+  Locator(const WholeMesh& mesh, const std::vector<PetscInt>& nodes, double tolerance) : mesh_(mesh), tolerance_(tolerance) {
+    for (PetscInt node : nodes) buckets_[bucket(mesh.points[static_cast<std::size_t>(node)])].push_back(node);
+  }
+  /// Nodes within the tolerance of `where`.
+  std::vector<PetscInt> at(const Point& where) const {
+    std::vector<PetscInt> found;
+    const auto centre = bucket(where);
+    for (long i = -1; i <= 1; ++i)
+      for (long j = -1; j <= 1; ++j)
+        for (long k = -1; k <= 1; ++k) {
+          const auto entry = buckets_.find({centre[0] + i, centre[1] + j, centre[2] + k});
+          if (entry == buckets_.end()) continue;
+          for (PetscInt node : entry->second)
+            if (squaredDistance(mesh_.points[static_cast<std::size_t>(node)], where) <= tolerance_ * tolerance_) found.push_back(node);
+        }
+    return found;
+  }
+
+ private:
+  using Bucket = std::array<long, 3>;
+  Bucket bucket(const Point& p) const {
+    Bucket b;
+    for (std::size_t d = 0; d < 3; ++d) b[d] = std::lround(std::floor(p[d] / (2 * tolerance_)));
+    return b;
+  }
+  const WholeMesh& mesh_;
+  double tolerance_;
+  std::map<Bucket, std::vector<PetscInt>> buckets_;
+};
+
+/// Coordinates in mesh files carry some 6 to 16 digits; nodes closer than this are at the same place.
+double tolerance(const WholeMesh& mesh) {
+  Point low = mesh.points[0], high = low;
+  for (const auto& p : mesh.points)
+    for (std::size_t d = 0; d < 3; ++d) low[d] = std::min(low[d], p[d]), high[d] = std::max(high[d], p[d]);
+  return 1e-6 * std::sqrt(squaredDistance(low, high));
+}
+
+Point lowCorner(const WholeMesh& mesh, const std::vector<PetscInt>& nodes) {
+  Point low = mesh.points[static_cast<std::size_t>(nodes.at(0))];
+  for (PetscInt node : nodes)
+    for (std::size_t d = 0; d < 3; ++d) low[d] = std::min(low[d], mesh.points[static_cast<std::size_t>(node)][d]);
+  return low;
+}
+
+void pairImages(WholeMesh& mesh, const PeriodicRequest& request, double near) {
+  const auto& images = mesh.nodeGroups.at(request.image);
+  const auto& primaries = mesh.nodeGroups.at(request.of);
+  const Point from = lowCorner(mesh, primaries), to = lowCorner(mesh, images);
+  const Locator locator(mesh, primaries, near);
+  for (PetscInt image : images) {
+    const auto& p = mesh.points[static_cast<std::size_t>(image)];
+    const Point where{p[0] - to[0] + from[0], p[1] - to[1] + from[1], p[2] - to[2] + from[2]};
+    // Two bodies may meet here at one place (a contact node on the periodic boundary): the image follows its own body.
+    PetscInt partner = -1;
+    for (PetscInt node : locator.at(where))
+      if (partner < 0 || mesh.part[static_cast<std::size_t>(node)] == mesh.part[static_cast<std::size_t>(image)]) partner = node;
+    const std::string option = "option -constraint_" + request.image + "_image_of " + request.of;
+    if (partner < 0)
+      throw Error(option + ": the node at " + positionText(p) + " of '" + request.image + "' has no partner in '" + request.of +
+                  "'; the two must be meshed alike, one the translate of the other");
+    if (partner == image) throw Error(option + ": a group cannot be its own image");
+    if (mesh.primary[static_cast<std::size_t>(image)] == image) mesh.primary[static_cast<std::size_t>(image)] = partner;
+  }
+}
+
+/// Follows images of images (the edge of a doubly periodic box) to the end.
+void resolveImages(WholeMesh& mesh) {
+  for (PetscInt node = 0; node < mesh.nodeCount(); ++node) {
+    PetscInt end = node;
+    int steps = 0;
+    while (mesh.primary[static_cast<std::size_t>(end)] != end) {
+      end = mesh.primary[static_cast<std::size_t>(end)];
+      if (++steps > 8) throw Error("options -constraint_<group>_image_of: the images go round in a circle");
+    }
+    mesh.primary[static_cast<std::size_t>(node)] = end;
+    if (end == node) continue;
+    const auto &p = mesh.points[static_cast<std::size_t>(node)], &q = mesh.points[static_cast<std::size_t>(end)];
+    mesh.images.push_back({node, end, {p[0] - q[0], p[1] - q[1], p[2] - q[2]}, mesh.part[static_cast<std::size_t>(end)]});
+  }
+  for (auto& [name, nodes] : mesh.nodeGroups) {
+    std::set<PetscInt> primaries;
+    for (PetscInt node : nodes) primaries.insert(mesh.primary[static_cast<std::size_t>(node)]);
+    nodes.assign(primaries.begin(), primaries.end());
+  }
+}
+
+std::vector<int> bodyOfNode(const WholeMesh& mesh) {
+  std::vector<int> body(mesh.points.size(), -1);
+  for (const auto& block : mesh.cells)
+    for (std::size_t i = 0; i < block.nodes.size(); ++i)
+      body[static_cast<std::size_t>(block.nodes[i])] = block.label[i / static_cast<std::size_t>(block.nodesPerElement)];
+  return body;
+}
+
+std::set<PetscInt> padNodes(const WholeMesh& mesh, const std::string& surface) {
+  const auto index = static_cast<int>(std::find(mesh.surfaces.begin(), mesh.surfaces.end(), surface) - mesh.surfaces.begin());
+  std::set<PetscInt> nodes;
+  for (const auto& block : mesh.faces)
+    for (std::size_t i = 0; i < block.nodes.size(); ++i)
+      if (block.label[i / static_cast<std::size_t>(block.nodesPerElement)] == index)
+        nodes.insert(mesh.primary[static_cast<std::size_t>(block.nodes[i])]);
+  return nodes;
+}
+
+void pairContact(WholeMesh& mesh, const InterfaceRequest& request, int interface, const std::vector<int>& body, double near) {
+  const std::set<PetscInt> pad = padNodes(mesh, request.pad);
+  if (request.disc.empty()) {
+    for (PetscInt node : pad) mesh.pairs.push_back({node, -1, interface, -1, -1});
+    return;
+  }
+  std::vector<PetscInt> disc;  // shared nodes: the group holds the twins of both sides
+  for (PetscInt node : mesh.nodeGroups.at(request.disc))
+    if (!pad.count(node)) disc.push_back(node);
+  const Locator locator(mesh, disc, near);
+  for (PetscInt node : pad) {
+    const auto found = locator.at(mesh.points[static_cast<std::size_t>(node)]);
+    if (found.empty())
+      throw Error("options -contact_" + request.name + "_pad " + request.pad + ", -contact_" + request.name + "_disc " + request.disc +
+                  ": the node at " + positionText(mesh.points[static_cast<std::size_t>(node)]) +
+                  " of the pad has no node of the disc at the same place; contact needs matching meshes");
+    const auto master = static_cast<std::size_t>(found[0]);
+    mesh.pairs.push_back({node, found[0], interface, body[master], mesh.part[master]});
+  }
+}
+
+void rejectChains(const WholeMesh& mesh, const Request& request) {
+  std::set<PetscInt> slaves;
+  for (const auto& pair : mesh.pairs)
+    if (!slaves.insert(pair.node).second)
+      throw Error("option -contact_" + request.interfaces[static_cast<std::size_t>(pair.interface)].name + "_pad: the node at " +
+                  positionText(mesh.points[static_cast<std::size_t>(pair.node)]) + " is already a pad node of another interface");
+  for (const auto& pair : mesh.pairs)
+    if (slaves.count(pair.master))
+      throw Error("option -contact_" + request.interfaces[static_cast<std::size_t>(pair.interface)].name + "_disc: the node at " +
+                  positionText(mesh.points[static_cast<std::size_t>(pair.master)]) + " is also a pad node of an interface");
+}
+
+}  // namespace
+
+void pairNodes(WholeMesh& mesh, const Request& request) {
+  const double near = tolerance(mesh);
+  mesh.primary.resize(mesh.points.size());
+  for (PetscInt node = 0; node < mesh.nodeCount(); ++node) mesh.primary[static_cast<std::size_t>(node)] = node;
+  for (const auto& periodic : request.periodic) pairImages(mesh, periodic, near);
+  resolveImages(mesh);
+  const auto body = bodyOfNode(mesh);
+  for (std::size_t i = 0; i < request.interfaces.size(); ++i)
+    pairContact(mesh, request.interfaces[i], static_cast<int>(i), body, near);
+  rejectChains(mesh, request);
+}
+
+}  // namespace squeal::mesh

@@ -1,0 +1,293 @@
+/// From the whole mesh on rank 0 to each rank's part.
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <set>
+
+#include "mesh/whole.hpp"
+#include "petsc/check.hpp"
+#include "petsc/options.hpp"
+
+namespace squeal::mesh {
+namespace {
+
+const TextOption fileOption("mesh", "mesh_file", std::nullopt, "mesh or geometry, any format the gmsh library reads; a .geo is meshed in memory");
+const TextOption setOption("mesh", "mesh_set", "", "parameters of a .geo file by their DefineConstant names: name=number,…");
+
+/// Flat message: numbers and texts in the order they are written, read back in the same order.
+class Buffer {
+ public:
+  template <class Number>
+  void put(const std::vector<Number>& values) {
+    static_assert(std::is_trivially_copyable_v<Number>);
+    const std::size_t count = values.size(), begin = bytes_.size();
+    bytes_.resize(begin + sizeof count + count * sizeof(Number));
+    std::memcpy(bytes_.data() + begin, &count, sizeof count);
+    if (count) std::memcpy(bytes_.data() + begin + sizeof count, values.data(), count * sizeof(Number));
+  }
+  void put(const std::vector<std::string>& texts) {
+    put(std::vector<std::size_t>{texts.size()});
+    for (const auto& text : texts) put(std::vector<char>(text.begin(), text.end()));
+  }
+  template <class Number>
+  std::vector<Number> take() {
+    std::size_t count = 0;
+    std::memcpy(&count, bytes_.data() + at_, sizeof count);
+    std::vector<Number> values(count);
+    if (count) std::memcpy(values.data(), bytes_.data() + at_ + sizeof count, count * sizeof(Number));
+    at_ += sizeof count + count * sizeof(Number);
+    return values;
+  }
+  std::vector<std::string> takeTexts() {
+    std::vector<std::string> texts(take<std::size_t>().at(0));
+    for (auto& text : texts) {
+      const auto characters = take<char>();
+      text.assign(characters.begin(), characters.end());
+    }
+    return texts;
+  }
+  std::vector<char>& bytes() { return bytes_; }
+
+ private:
+  std::vector<char> bytes_;
+  std::size_t at_ = 0;
+};
+
+/// Who owns which node, and the numbers under which all ranks know them: owned nodes of a rank are contiguous.
+struct Numbering {
+  std::vector<int> owner;             ///< [whole node]
+  std::vector<PetscInt> global;       ///< [whole node]
+  std::vector<PetscInt> whole;        ///< [global node]
+  std::vector<PetscInt> firstOfRank;  ///< [rank], and the total at the end
+};
+
+Numbering number(const WholeMesh& mesh, const std::vector<int>& cellRank, int ranks) {
+  Numbering numbering;
+  numbering.owner.assign(mesh.points.size(), ranks);
+  std::size_t cell = 0;
+  for (const auto& block : mesh.cells)
+    for (std::size_t e = 0; e < block.tag.size(); ++e, ++cell)
+      for (int i = 0; i < block.nodesPerElement; ++i) {
+        auto& owner = numbering.owner[static_cast<std::size_t>(block.nodes[e * static_cast<std::size_t>(block.nodesPerElement) + static_cast<std::size_t>(i)])];
+        owner = std::min(owner, cellRank[cell]);
+      }
+  numbering.whole.resize(mesh.points.size());
+  std::iota(numbering.whole.begin(), numbering.whole.end(), 0);
+  std::stable_sort(numbering.whole.begin(), numbering.whole.end(), [&](PetscInt a, PetscInt b) {
+    return numbering.owner[static_cast<std::size_t>(a)] < numbering.owner[static_cast<std::size_t>(b)];
+  });
+  numbering.global.resize(mesh.points.size());
+  numbering.firstOfRank.assign(static_cast<std::size_t>(ranks) + 1, 0);
+  for (PetscInt g = 0; g < mesh.nodeCount(); ++g) {
+    const auto node = static_cast<std::size_t>(numbering.whole[static_cast<std::size_t>(g)]);
+    numbering.global[node] = g;
+    ++numbering.firstOfRank[static_cast<std::size_t>(numbering.owner[node]) + 1];
+  }
+  std::partial_sum(numbering.firstOfRank.begin(), numbering.firstOfRank.end(), numbering.firstOfRank.begin());
+  return numbering;
+}
+
+/// Items of the mesh sorted by the rank that gets them, so that packing all ranks is one pass over the mesh.
+struct Shares {
+  std::vector<std::vector<std::vector<PetscInt>>> cells, faces;  // [rank][block] -> element
+  std::vector<std::vector<PetscInt>> images, pairs;              // [rank] -> item
+  std::vector<std::vector<std::vector<PetscInt>>> groups;        // [rank][group] -> whole node
+};
+
+Shares share(const WholeMesh& mesh, const Numbering& numbering, const std::vector<int>& cellRank, int ranks) {
+  const auto size = static_cast<std::size_t>(ranks);
+  Shares shares;
+  shares.cells.assign(size, std::vector<std::vector<PetscInt>>(mesh.cells.size()));
+  shares.faces.assign(size, std::vector<std::vector<PetscInt>>(mesh.faces.size()));
+  shares.groups.assign(size, std::vector<std::vector<PetscInt>>(mesh.nodeGroups.size()));
+  shares.images.resize(size);
+  shares.pairs.resize(size);
+  std::size_t cell = 0;
+  for (std::size_t b = 0; b < mesh.cells.size(); ++b)
+    for (std::size_t e = 0; e < mesh.cells[b].tag.size(); ++e, ++cell)
+      shares.cells[static_cast<std::size_t>(cellRank[cell])][b].push_back(static_cast<PetscInt>(e));
+  for (std::size_t b = 0; b < mesh.faces.size(); ++b)
+    for (std::size_t e = 0; e < mesh.faces[b].tag.size(); ++e)
+      shares.faces[static_cast<std::size_t>(cellRank[static_cast<std::size_t>(mesh.faces[b].cell[e])])][b].push_back(static_cast<PetscInt>(e));
+  const auto ownerOf = [&](PetscInt node) { return static_cast<std::size_t>(numbering.owner[static_cast<std::size_t>(node)]); };
+  for (std::size_t i = 0; i < mesh.images.size(); ++i) shares.images[ownerOf(mesh.images[i].node)].push_back(static_cast<PetscInt>(i));
+  for (std::size_t i = 0; i < mesh.pairs.size(); ++i) shares.pairs[ownerOf(mesh.pairs[i].node)].push_back(static_cast<PetscInt>(i));
+  std::size_t g = 0;
+  for (const auto& [name, nodes] : mesh.nodeGroups) {
+    for (PetscInt node : nodes) shares.groups[ownerOf(node)][g].push_back(node);
+    ++g;
+  }
+  return shares;
+}
+
+std::vector<PetscInt> elementNodes(const WholeBlock& block, const std::vector<PetscInt>& elements) {
+  std::vector<PetscInt> nodes;
+  for (PetscInt e : elements) {
+    const auto begin = block.nodes.begin() + e * block.nodesPerElement;
+    nodes.insert(nodes.end(), begin, begin + block.nodesPerElement);
+  }
+  return nodes;
+}
+
+template <class Number>
+std::vector<Number> picked(const std::vector<Number>& all, const std::vector<PetscInt>& which) {
+  std::vector<Number> some;
+  for (PetscInt i : which) some.push_back(all[static_cast<std::size_t>(i)]);
+  return some;
+}
+
+Buffer pack(const WholeMesh& mesh, const Numbering& numbering, const Shares& shares, std::size_t rank) {
+  // Local numbers: owned nodes in global order, then the ghosts of this rank's cells.
+  std::vector<PetscInt> local;  // local -> global
+  for (PetscInt g = numbering.firstOfRank[rank]; g < numbering.firstOfRank[rank + 1]; ++g) local.push_back(g);
+  const PetscInt first = numbering.firstOfRank[rank], end = numbering.firstOfRank[rank + 1];
+  std::set<PetscInt> ghosts;
+  for (std::size_t b = 0; b < mesh.cells.size(); ++b)
+    for (PetscInt node : elementNodes(mesh.cells[b], shares.cells[rank][b])) {
+      const PetscInt g = numbering.global[static_cast<std::size_t>(node)];
+      if (g < first || g >= end) ghosts.insert(g);
+    }
+  local.insert(local.end(), ghosts.begin(), ghosts.end());
+  const auto toLocal = [&](PetscInt node) {
+    const PetscInt g = numbering.global[static_cast<std::size_t>(node)];
+    if (g >= first && g < end) return g - first;
+    return static_cast<PetscInt>(std::lower_bound(local.begin() + (end - first), local.end(), g) - local.begin());
+  };
+  const auto allToLocal = [&](std::vector<PetscInt> nodes) {
+    for (auto& node : nodes) node = toLocal(node);
+    return nodes;
+  };
+
+  Buffer buffer;
+  buffer.put(std::vector<PetscInt>{mesh.dimension, mesh.nodeCount(), mesh.cellCount(), end - first, first,
+                                   static_cast<PetscInt>(mesh.partName.size())});
+  buffer.put(mesh.bodies);
+  buffer.put(mesh.surfaces);
+  buffer.put(mesh.partName);
+  buffer.put(local);
+  std::vector<PetscInt> whole;
+  for (PetscInt g : local) whole.push_back(numbering.whole[static_cast<std::size_t>(g)]);
+  buffer.put(picked(mesh.points, whole));
+  buffer.put(picked(mesh.tags, whole));
+  buffer.put(picked(mesh.part, whole));
+  buffer.put(std::vector<PetscInt>{static_cast<PetscInt>(mesh.cells.size())});
+  for (std::size_t b = 0; b < mesh.cells.size(); ++b) {
+    const auto& block = mesh.cells[b];
+    buffer.put(std::vector<PetscInt>{block.type, block.nodesPerElement});
+    buffer.put(allToLocal(elementNodes(block, shares.cells[rank][b])));
+    buffer.put(picked(block.label, shares.cells[rank][b]));
+    buffer.put(picked(block.tag, shares.cells[rank][b]));
+  }
+  buffer.put(std::vector<PetscInt>{static_cast<PetscInt>(mesh.faces.size())});
+  for (std::size_t b = 0; b < mesh.faces.size(); ++b) {
+    const auto& block = mesh.faces[b];
+    buffer.put(std::vector<PetscInt>{block.type, block.nodesPerElement});
+    buffer.put(allToLocal(elementNodes(block, shares.faces[rank][b])));
+    buffer.put(picked(block.label, shares.faces[rank][b]));
+    buffer.put(picked(block.sign, shares.faces[rank][b]));
+  }
+  std::vector<std::string> names;
+  for (const auto& [name, nodes] : mesh.nodeGroups) names.push_back(name);
+  buffer.put(names);
+  for (const auto& nodes : shares.groups[rank]) buffer.put(allToLocal(nodes));
+  auto images = picked(mesh.images, shares.images[rank]);
+  for (auto& image : images) image.node = toLocal(image.node), image.primary = numbering.global[static_cast<std::size_t>(image.primary)];
+  buffer.put(images);
+  auto pairs = picked(mesh.pairs, shares.pairs[rank]);
+  for (auto& pair : pairs) {
+    pair.node = toLocal(pair.node);
+    if (pair.master >= 0) pair.master = numbering.global[static_cast<std::size_t>(pair.master)];
+  }
+  // In local order, so that everything kept per contact node (gap columns of T, reports) runs the same way.
+  std::sort(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) { return a.node < b.node; });
+  buffer.put(pairs);
+  return buffer;
+}
+
+Mesh unpack(MPI_Comm comm, Buffer& buffer) {
+  Mesh mesh;
+  mesh.comm = comm;
+  const auto sizes = buffer.take<PetscInt>();
+  mesh.dimension = static_cast<int>(sizes[0]), mesh.totalNodes = sizes[1], mesh.totalCells = sizes[2];
+  mesh.ownedNodes = sizes[3], mesh.firstNode = sizes[4], mesh.parts = static_cast<int>(sizes[5]);
+  mesh.bodies = buffer.takeTexts();
+  mesh.surfaces = buffer.takeTexts();
+  mesh.partName = buffer.takeTexts();
+  mesh.globalNode = buffer.take<PetscInt>();
+  mesh.coordinates = buffer.take<Point>();
+  mesh.nodeTag = buffer.take<PetscInt>();
+  mesh.nodePart = buffer.take<int>();
+  mesh.cells.resize(static_cast<std::size_t>(buffer.take<PetscInt>().at(0)));
+  for (auto& block : mesh.cells) {
+    const auto kind = buffer.take<PetscInt>();
+    block.type = static_cast<int>(kind[0]), block.nodesPerCell = static_cast<int>(kind[1]);
+    block.nodes = buffer.take<PetscInt>();
+    block.body = buffer.take<int>();
+    block.tag = buffer.take<PetscInt>();
+  }
+  mesh.faces.resize(static_cast<std::size_t>(buffer.take<PetscInt>().at(0)));
+  for (auto& block : mesh.faces) {
+    const auto kind = buffer.take<PetscInt>();
+    block.type = static_cast<int>(kind[0]), block.nodesPerFace = static_cast<int>(kind[1]);
+    block.nodes = buffer.take<PetscInt>();
+    block.surface = buffer.take<int>();
+    block.sign = buffer.take<int>();
+  }
+  for (const auto& name : buffer.takeTexts()) mesh.nodeGroups[name] = buffer.take<PetscInt>();
+  mesh.images = buffer.take<Image>();
+  mesh.pairs = buffer.take<ContactPair>();
+  return mesh;
+}
+
+/// Collective. Sends buffers[r] from rank 0 to rank r.
+Buffer scatter(MPI_Comm comm, std::vector<Buffer>& buffers) {
+  int rank = 0;
+  check(MPI_Comm_rank(comm, &rank));
+  std::vector<int> counts, offsets;
+  std::vector<char> all;
+  std::string failure;
+  for (auto& buffer : buffers) {
+    if (all.size() + buffer.bytes().size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+      failure = "the mesh is too large for one rank to hand out (2 GiB of message)";
+    counts.push_back(static_cast<int>(buffer.bytes().size()));
+    offsets.push_back(static_cast<int>(all.size()));
+    all.insert(all.end(), buffer.bytes().begin(), buffer.bytes().end());
+    std::vector<char>().swap(buffer.bytes());
+  }
+  failTogether(comm, failure);
+  int count = 0;
+  check(MPI_Scatter(counts.data(), 1, MPI_INT, &count, 1, MPI_INT, 0, comm));
+  Buffer mine;
+  mine.bytes().resize(static_cast<std::size_t>(count));
+  check(MPI_Scatterv(all.data(), counts.data(), offsets.data(), MPI_CHAR, mine.bytes().data(), count, MPI_CHAR, 0, comm));
+  return mine;
+}
+
+}  // namespace
+
+Mesh read(MPI_Comm comm, const Request& request) {
+  const std::string file = fileOption.get();
+  const auto parameters = setOption.list();
+  int rank = 0, size = 1;
+  check(MPI_Comm_rank(comm, &rank));
+  check(MPI_Comm_size(comm, &size));
+  std::vector<Buffer> buffers;
+  std::string failure;
+  if (rank == 0) try {
+      WholeMesh whole = load(file, parameters, request);
+      pairNodes(whole, request);
+      const auto cellRank = partition(whole, size);
+      const Numbering numbering = number(whole, cellRank, size);
+      const Shares shares = share(whole, numbering, cellRank, size);
+      for (int r = 0; r < size; ++r) buffers.push_back(pack(whole, numbering, shares, static_cast<std::size_t>(r)));
+    } catch (const std::exception& error) {
+      failure = error.what();
+    }
+  failTogether(comm, failure);
+  Buffer mine = scatter(comm, buffers);
+  return unpack(comm, mine);
+}
+
+}  // namespace squeal::mesh

@@ -1,0 +1,461 @@
+#include "mesh/whole.hpp"
+
+#include <gmsh.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numeric>
+#include <set>
+
+#include "petsc/check.hpp"
+#include "petsc/text.hpp"
+
+namespace squeal::mesh {
+namespace {
+
+/// Elements of one physical group as gmsh gives them, nodes by index into WholeMesh::points.
+struct GroupElements {
+  int dimension = 0;
+  std::vector<WholeBlock> blocks;
+};
+
+class GmshModel {
+ public:
+  GmshModel(const std::string& file, const std::vector<std::string>& parameters);
+  ~GmshModel() { gmsh::clear(); }
+  GmshModel(const GmshModel&) = delete;
+  GmshModel& operator=(const GmshModel&) = delete;
+
+  /// Error naming the group, the option that wants it and the groups there are, if the mesh has none of this name.
+  GroupElements group(const std::string& name, const std::string& wantedBy) const;
+  Point point(std::size_t tag) const { return points_.at(tag); }
+  int largestDimension() const;
+  /// Tags of all elements of the largest dimension (to find cells without a body), with the names of their groups.
+  std::map<std::size_t, std::string> allCells(int dimension) const;
+
+ private:
+  std::map<std::string, std::vector<std::pair<int, int>>> groups_;  // name -> (dimension, physical tag)
+  std::map<std::size_t, Point> points_;
+};
+
+GmshModel::GmshModel(const std::string& file, const std::vector<std::string>& parameters) {
+  if (!std::filesystem::is_regular_file(file)) throw Error("option -mesh_file " + file + ": there is no such file");
+  gmsh::clear();
+  gmsh::logger::start();
+  std::string failure;
+  try {
+    for (const auto& parameter : parameters) {
+      const auto parts = split(parameter, '=');
+      char* end = nullptr;
+      const double value = parts.size() == 2 ? std::strtod(parts[1].c_str(), &end) : 0;
+      if (parts.size() != 2 || parts[1].empty() || *end) throw Error("option -mesh_set " + parameter + ": must be a list of name=number");
+      gmsh::onelab::setNumber(parts[0], {value});
+    }
+    gmsh::open(file);
+    std::vector<std::size_t> tags;
+    std::vector<double> coordinates, parametric;
+    gmsh::model::mesh::getNodes(tags, coordinates, parametric);
+    if (tags.empty()) {  // a geometry: mesh it in memory
+      gmsh::model::mesh::generate(std::max(2, gmsh::model::getDimension()));
+      gmsh::model::mesh::getNodes(tags, coordinates, parametric);
+    }
+    for (std::size_t i = 0; i < tags.size(); ++i)
+      points_[tags[i]] = {coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]};
+    gmsh::vectorpair physical;
+    gmsh::model::getPhysicalGroups(physical);
+    for (auto [dimension, tag] : physical) {
+      std::string name;
+      gmsh::model::getPhysicalName(dimension, tag, name);
+      groups_[name.empty() ? std::to_string(tag) : name].emplace_back(dimension, tag);
+    }
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& error) {
+    failure = error.what();
+  } catch (const std::string& error) {  // gmsh before 4.9
+    failure = error;
+  }
+  std::vector<std::string> log;
+  gmsh::logger::get(log);
+  gmsh::logger::stop();
+  for (const auto& line : log)
+    if (failure.empty() && line.rfind("Error", 0) == 0) failure = line;
+  if (!failure.empty()) throw Error("option -mesh_file " + file + ": gmsh says: " + failure);
+  if (points_.empty()) throw Error("option -mesh_file " + file + ": the mesh is empty");
+}
+
+GroupElements GmshModel::group(const std::string& name, const std::string& wantedBy) const {
+  const auto found = groups_.find(name);
+  if (found == groups_.end()) {
+    std::vector<std::string> names;
+    for (const auto& [known, where] : groups_) names.push_back(known);
+    throw Error(wantedBy + " names group '" + name + "', which is not in the mesh; its groups are: " + joined(names));
+  }
+  GroupElements elements;
+  for (auto [dimension, tag] : found->second) elements.dimension = std::max(elements.dimension, dimension);
+  for (auto [dimension, physical] : found->second) {
+    if (dimension != elements.dimension) continue;
+    std::vector<int> entities;
+    gmsh::model::getEntitiesForPhysicalGroup(dimension, physical, entities);
+    for (int entity : entities) {
+      std::vector<int> types;
+      std::vector<std::vector<std::size_t>> tags, nodes;
+      gmsh::model::mesh::getElements(types, tags, nodes, dimension, entity);
+      for (std::size_t t = 0; t < types.size(); ++t) {
+        auto block = std::find_if(elements.blocks.begin(), elements.blocks.end(), [&](const auto& b) { return b.type == types[t]; });
+        if (block == elements.blocks.end()) {
+          block = elements.blocks.insert(block, WholeBlock{});
+          std::string typeName;
+          int typeDimension = 0, order = 0;
+          std::vector<double> local;
+          block->type = types[t];
+          gmsh::model::mesh::getElementProperties(types[t], typeName, typeDimension, order, block->nodesPerElement, local,
+                                                  block->corners);
+        }
+        block->tag.insert(block->tag.end(), tags[t].begin(), tags[t].end());
+        block->nodes.insert(block->nodes.end(), nodes[t].begin(), nodes[t].end());  // gmsh tags for now
+      }
+    }
+  }
+  return elements;
+}
+
+int GmshModel::largestDimension() const { return gmsh::model::getDimension(); }
+
+std::map<std::size_t, std::string> GmshModel::allCells(int dimension) const {
+  std::map<std::size_t, std::string> cells;
+  gmsh::vectorpair entities;
+  gmsh::model::getEntities(entities, dimension);
+  for (auto [d, entity] : entities) {
+    std::vector<int> physical, types;
+    gmsh::model::getPhysicalGroupsForEntity(d, entity, physical);
+    std::vector<std::string> names;
+    for (const auto& [name, where] : groups_)
+      for (auto [gd, tag] : where)
+        if (gd == d && std::find(physical.begin(), physical.end(), tag) != physical.end()) names.push_back(name);
+    std::vector<std::vector<std::size_t>> tags, nodes;
+    gmsh::model::mesh::getElements(types, tags, nodes, d, entity);
+    for (const auto& list : tags)
+      for (auto tag : list) cells[tag] = names.empty() ? "(no group)" : joined(names);
+  }
+  return cells;
+}
+
+/// gmsh node tags -> indices into mesh.points, which grows when `adding`.
+class NodeIndex {
+ public:
+  NodeIndex(WholeMesh& mesh, const GmshModel& model) : mesh_(mesh), model_(model) {}
+  void add(std::vector<PetscInt>& tags) {
+    for (auto& tag : tags) {
+      const auto [entry, isNew] = index_.emplace(tag, mesh_.nodeCount());
+      if (isNew) {
+        mesh_.points.push_back(model_.point(static_cast<std::size_t>(tag)));
+        mesh_.tags.push_back(tag);
+      }
+      tag = entry->second;
+    }
+  }
+  /// False if a node belongs to no cell.
+  bool translate(std::vector<PetscInt>& tags) const {
+    for (auto& tag : tags) {
+      const auto entry = index_.find(tag);
+      if (entry == index_.end()) return false;
+      tag = entry->second;
+    }
+    return true;
+  }
+
+ private:
+  WholeMesh& mesh_;
+  const GmshModel& model_;
+  std::map<PetscInt, PetscInt> index_;
+};
+
+void readBodies(WholeMesh& mesh, const GmshModel& model, const Request& request, NodeIndex& index) {
+  mesh.bodies = request.bodies;
+  std::map<PetscInt, int> bodyOf;
+  for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
+    const std::string option = "option -material_" + mesh.bodies[b] + "_young";
+    auto group = model.group(mesh.bodies[b], option);
+    if (b == 0) mesh.dimension = group.dimension;
+    if (group.dimension != mesh.dimension || group.dimension < 2)
+      throw Error(option + ": group '" + mesh.bodies[b] + "' has dimension " + std::to_string(group.dimension) +
+                  "; bodies are all volumes, or all surfaces of a plane mesh");
+    for (auto& block : group.blocks) {
+      index.add(block.nodes);
+      auto known = std::find_if(mesh.cells.begin(), mesh.cells.end(), [&](const auto& c) { return c.type == block.type; });
+      if (known == mesh.cells.end()) known = mesh.cells.insert(known, WholeBlock{block.type, block.nodesPerElement, block.corners, {}, {}, {}});
+      for (auto tag : block.tag) {
+        const auto [entry, isNew] = bodyOf.emplace(tag, static_cast<int>(b));
+        if (!isNew)
+          throw Error("cell " + std::to_string(tag) + " is in the groups '" + mesh.bodies[static_cast<std::size_t>(entry->second)] +
+                      "' and '" + mesh.bodies[b] + "', which both have a material; a cell has one");
+      }
+      known->nodes.insert(known->nodes.end(), block.nodes.begin(), block.nodes.end());
+      known->tag.insert(known->tag.end(), block.tag.begin(), block.tag.end());
+      known->label.insert(known->label.end(), block.tag.size(), static_cast<int>(b));
+    }
+  }
+  for (const auto& [tag, groups] : model.allCells(model.largestDimension()))
+    if (model.largestDimension() == mesh.dimension && !bodyOf.count(static_cast<PetscInt>(tag)))
+      throw Error("group '" + groups + "' has no material: give -material_<group>_young, _poisson and _density (cell " +
+                  std::to_string(tag) + ")");
+  if (mesh.dimension == 2)
+    for (const auto& point : mesh.points)
+      if (std::abs(point[2] - mesh.points[0][2]) > 0) throw Error("option -mesh_file: a plane mesh must lie in a plane z = constant");
+}
+
+/// Which cells stand at the nodes of interest, and in which all of an element's corners lie.
+class Adjacency {
+ public:
+  Adjacency(const WholeMesh& mesh, const std::set<PetscInt>& nodesOfInterest) : mesh_(mesh) {
+    PetscInt cell = 0;
+    for (const auto& block : mesh.cells)
+      for (std::size_t e = 0; e < block.tag.size(); ++e, ++cell)
+        for (int i = 0; i < block.nodesPerElement; ++i) {
+          const PetscInt node = block.nodes[e * static_cast<std::size_t>(block.nodesPerElement) + static_cast<std::size_t>(i)];
+          if (nodesOfInterest.count(node)) cells_[node].push_back(cell);
+        }
+  }
+  std::vector<PetscInt> cellsHolding(const PetscInt* corners, int count) const {
+    std::vector<PetscInt> common = cells_.at(corners[0]);
+    for (int i = 1; i < count; ++i) {
+      std::vector<PetscInt> both;
+      const auto& next = cells_.at(corners[i]);
+      std::set_intersection(common.begin(), common.end(), next.begin(), next.end(), std::back_inserter(both));
+      common = both;
+    }
+    return common;
+  }
+
+ private:
+  const WholeMesh& mesh_;
+  std::map<PetscInt, std::vector<PetscInt>> cells_;
+};
+
+struct CellReference {
+  WholeBlock* block;
+  std::size_t element;
+  PetscInt* nodes() const { return block->nodes.data() + element * static_cast<std::size_t>(block->nodesPerElement); }
+};
+
+std::vector<CellReference> references(WholeMesh& mesh) {
+  std::vector<CellReference> all;
+  for (auto& block : mesh.cells)
+    for (std::size_t e = 0; e < block.tag.size(); ++e) all.push_back({&block, e});
+  return all;
+}
+
+/// Everything named that is not a body: read once, before nodes are split.
+struct NamedElements {
+  std::map<std::string, GroupElements> groups;
+  std::set<PetscInt> nodes() const {
+    std::set<PetscInt> all;
+    for (const auto& [name, group] : groups)
+      for (const auto& block : group.blocks) all.insert(block.nodes.begin(), block.nodes.end());
+    return all;
+  }
+};
+
+NamedElements readNamed(const WholeMesh& mesh, const GmshModel& model, const Request& request, const NodeIndex& index) {
+  NamedElements named;
+  const auto add = [&](const std::string& name, const std::string& wantedBy, int dimension) {
+    if (named.groups.count(name)) return;
+    auto group = model.group(name, wantedBy);
+    if (dimension >= 0 && group.dimension != dimension)
+      throw Error(wantedBy + ": group '" + name + "' has dimension " + std::to_string(group.dimension) + "; a boundary of dimension " +
+                  std::to_string(dimension) + " is wanted");
+    for (auto& block : group.blocks)
+      if (!index.translate(block.nodes)) throw Error(wantedBy + ": group '" + name + "' has nodes that belong to no body");
+    named.groups[name] = group;
+  };
+  const int boundary = mesh.dimension - 1;
+  for (const auto& interface : request.interfaces) {
+    add(interface.pad, "option -contact_" + interface.name + "_pad", boundary);
+    if (!interface.disc.empty()) add(interface.disc, "option -contact_" + interface.name + "_disc", boundary);
+  }
+  for (const auto& surface : request.surfaces) add(surface, "option -load_" + surface + "_pressure", boundary);
+  for (const auto& group : request.nodeGroups) add(group, "a -constraint_" + group + "_* option", -1);
+  for (const auto& pair : request.periodic) {
+    add(pair.image, "option -constraint_" + pair.image + "_image_of", -1);
+    add(pair.of, "option -constraint_" + pair.image + "_image_of", -1);
+  }
+  return named;
+}
+
+/// The two sides of a contact interface whose nodes both bodies share.
+enum class Side { resting, moving };
+
+class Splitter {
+ public:
+  Splitter(WholeMesh& mesh, const Request& request, const NamedElements& named)
+      : mesh_(mesh), request_(request), adjacency_(mesh, named.nodes()), cells_(references(mesh)) {
+    for (const auto& body : mesh.bodies)
+      moves_.push_back(std::find(request.moving.begin(), request.moving.end(), body) != request.moving.end());
+  }
+  Side side(PetscInt cell) const {
+    const auto& reference = cells_[static_cast<std::size_t>(cell)];
+    return moves_[static_cast<std::size_t>(reference.block->label[reference.element])] ? Side::moving : Side::resting;
+  }
+  std::string bodyName(PetscInt cell) const {
+    const auto& reference = cells_[static_cast<std::size_t>(cell)];
+    return mesh_.bodies[static_cast<std::size_t>(reference.block->label[reference.element])];
+  }
+  const Adjacency& adjacency() const { return adjacency_; }
+  CellReference cell(PetscInt number) const { return cells_[static_cast<std::size_t>(number)]; }
+
+  /// Doubles each node on contact faces that lie between a moving and a resting cell; the resting cells take the new nodes.
+  void split(const NamedElements& named) {
+    for (const auto& interface : request_.interfaces)
+      for (const auto& block : named.groups.at(interface.pad).blocks)
+        for (std::size_t e = 0; e < block.tag.size(); ++e) {
+          const PetscInt* nodes = block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerElement);
+          const auto neighbours = adjacency_.cellsHolding(nodes, block.corners);
+          if (neighbours.size() < 2) continue;
+          if (side(neighbours[0]) == side(neighbours[1]))
+            throw Error("option -contact_" + interface.name + "_pad: the bodies '" + bodyName(neighbours[0]) + "' and '" +
+                        bodyName(neighbours[1]) + "' share the nodes of '" + interface.pad +
+                        "'; to tell disc from pad, exactly one of them must have a -motion_<body>_* option");
+          for (int i = 0; i < block.nodesPerElement; ++i) restingTwin_.emplace(nodes[i], -1);
+        }
+    for (auto& [node, twin] : restingTwin_) {
+      twin = mesh_.nodeCount();
+      mesh_.points.push_back(mesh_.points[static_cast<std::size_t>(node)]);
+      mesh_.tags.push_back(mesh_.tags[static_cast<std::size_t>(node)]);
+    }
+    if (restingTwin_.empty()) return;
+    for (std::size_t c = 0; c < cells_.size(); ++c)
+      if (side(static_cast<PetscInt>(c)) == Side::resting)
+        for (int i = 0; i < cells_[c].block->nodesPerElement; ++i) cells_[c].nodes()[i] = twin(cells_[c].nodes()[i], Side::resting);
+  }
+  PetscInt twin(PetscInt node, Side side) const {
+    if (side == Side::moving) return node;
+    const auto found = restingTwin_.find(node);
+    return found == restingTwin_.end() ? node : found->second;
+  }
+
+ private:
+  WholeMesh& mesh_;
+  const Request& request_;
+  Adjacency adjacency_;  // of the nodes before the split
+  std::vector<CellReference> cells_;
+  std::vector<bool> moves_;
+  std::map<PetscInt, PetscInt> restingTwin_;
+};
+
+/// Nodes of a group after the split: an element that bounds cells of both sides gives the nodes of both.
+std::vector<PetscInt> groupNodes(const GroupElements& group, const Splitter& splitter) {
+  std::set<PetscInt> nodes;
+  for (const auto& block : group.blocks)
+    for (std::size_t e = 0; e < block.tag.size(); ++e) {
+      const PetscInt* element = block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerElement);
+      for (PetscInt cell : splitter.adjacency().cellsHolding(element, block.corners))
+        for (int i = 0; i < block.nodesPerElement; ++i) nodes.insert(splitter.twin(element[i], splitter.side(cell)));
+    }
+  return {nodes.begin(), nodes.end()};
+}
+
+Point centroid(const WholeMesh& mesh, const PetscInt* nodes, int count) {
+  Point centre{};
+  for (int i = 0; i < count; ++i)
+    for (std::size_t d = 0; d < 3; ++d) centre[d] += mesh.points[static_cast<std::size_t>(nodes[i])][d] / count;
+  return centre;
+}
+
+/// +1 if the normal of the face by the order of its corners points away from `inside`.
+int outwardSign(const WholeMesh& mesh, const PetscInt* nodes, int corners, const Point& inside) {
+  const auto at = [&](int i) { return mesh.points[static_cast<std::size_t>(nodes[i])]; };
+  const Point a = at(0), b = at(1), c = mesh.dimension == 3 ? at(2) : a;
+  const Point e{b[0] - a[0], b[1] - a[1], b[2] - a[2]}, g{c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+  const Point normal = mesh.dimension == 3 ? Point{e[1] * g[2] - e[2] * g[1], e[2] * g[0] - e[0] * g[2], e[0] * g[1] - e[1] * g[0]}
+                                           : Point{e[1], -e[0], 0};
+  const Point centre = centroid(mesh, nodes, corners);
+  double dot = 0;
+  for (std::size_t d = 0; d < 3; ++d) dot += normal[d] * (centre[d] - inside[d]);
+  return dot > 0 ? 1 : -1;
+}
+
+void readFaces(WholeMesh& mesh, const Request& request, const NamedElements& named, const Splitter& splitter) {
+  std::set<std::string> pads, wanted(request.surfaces.begin(), request.surfaces.end());
+  for (const auto& interface : request.interfaces) pads.insert(interface.pad);
+  wanted.insert(pads.begin(), pads.end());
+  mesh.surfaces.assign(wanted.begin(), wanted.end());
+  for (std::size_t s = 0; s < mesh.surfaces.size(); ++s) {
+    const std::string& name = mesh.surfaces[s];
+    for (const auto& block : named.groups.at(name).blocks) {
+      auto known = std::find_if(mesh.faces.begin(), mesh.faces.end(), [&](const auto& f) { return f.type == block.type; });
+      if (known == mesh.faces.end()) {
+        known = mesh.faces.insert(known, WholeFaces{});
+        known->type = block.type, known->nodesPerElement = block.nodesPerElement, known->corners = block.corners;
+      }
+      for (std::size_t e = 0; e < block.tag.size(); ++e) {
+        const PetscInt* nodes = block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerElement);
+        auto cells = splitter.adjacency().cellsHolding(nodes, block.corners);
+        if (pads.count(name) && cells.size() == 2)  // shared with the disc: the pad's face is meant
+          cells = {splitter.side(cells[0]) == Side::resting ? cells[0] : cells[1]};
+        if (cells.size() != 1)
+          throw Error("surface group '" + name + "': face " + std::to_string(block.tag[e]) +
+                      " must bound one cell of a body, it bounds " + std::to_string(cells.size()));
+        const CellReference cell = splitter.cell(cells[0]);
+        for (int i = 0; i < block.nodesPerElement; ++i) known->nodes.push_back(splitter.twin(nodes[i], splitter.side(cells[0])));
+        known->label.push_back(static_cast<int>(s));
+        known->tag.push_back(block.tag[e]);
+        known->cell.push_back(cells[0]);
+        known->sign.push_back(outwardSign(mesh, nodes, block.corners, centroid(mesh, cell.nodes(), cell.block->corners)));
+      }
+    }
+  }
+}
+
+/// Connected parts of the mesh by union-find over the nodes of each cell.
+void findParts(WholeMesh& mesh) {
+  std::vector<PetscInt> parent(mesh.points.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](PetscInt node) {
+    while (parent[static_cast<std::size_t>(node)] != node) {
+      auto& up = parent[static_cast<std::size_t>(node)];
+      up = parent[static_cast<std::size_t>(up)];
+      node = up;
+    }
+    return node;
+  };
+  for (auto cell : references(mesh))
+    for (int i = 1; i < cell.block->nodesPerElement; ++i) {
+      const PetscInt a = root(cell.nodes()[0]), b = root(cell.nodes()[i]);
+      parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+    }
+  std::map<PetscInt, int> number;
+  mesh.part.resize(mesh.points.size());
+  for (PetscInt node = 0; node < mesh.nodeCount(); ++node)
+    mesh.part[static_cast<std::size_t>(node)] = number.emplace(root(node), static_cast<int>(number.size())).first->second;
+  std::vector<std::set<std::string>> names(number.size());
+  for (auto cell : references(mesh))
+    names[static_cast<std::size_t>(mesh.part[static_cast<std::size_t>(cell.nodes()[0])])].insert(
+        mesh.bodies[static_cast<std::size_t>(cell.block->label[cell.element])]);
+  for (const auto& set : names) mesh.partName.push_back(joined({set.begin(), set.end()}, "+"));
+}
+
+}  // namespace
+
+PetscInt WholeMesh::cellCount() const {
+  std::size_t count = 0;
+  for (const auto& block : cells) count += block.tag.size();
+  return static_cast<PetscInt>(count);
+}
+
+WholeMesh load(const std::string& file, const std::vector<std::string>& parameters, const Request& request) {
+  const GmshModel model(file, parameters);
+  WholeMesh mesh;
+  NodeIndex index(mesh, model);
+  readBodies(mesh, model, request, index);
+  const NamedElements named = readNamed(mesh, model, request, index);
+  Splitter splitter(mesh, request, named);
+  splitter.split(named);
+  readFaces(mesh, request, named, splitter);
+  for (const auto& [name, group] : named.groups) mesh.nodeGroups[name] = groupNodes(group, splitter);
+  findParts(mesh);
+  return mesh;
+}
+
+}  // namespace squeal::mesh

@@ -1,0 +1,38 @@
+#include "modes/benchmark.hpp"
+
+#include "petsc/stages.hpp"
+#include "petsc/text.hpp"
+
+namespace squeal::modes {
+
+double floorSeconds(const contact::AssociatedSystem& system) {
+  const Mat k = system.matrices().k0;
+  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(k));
+  Stage stage(comm, "floor");
+  const double begin = MPI_Wtime();
+  Mat factor = nullptr;
+  check(MatGetFactor(k, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &factor));
+  const OwnedMat owner(factor);
+  check(MatMumpsSetIcntl(factor, 27, 32));  // right-hand sides MUMPS takes at once
+  MatFactorInfo info;
+  check(MatFactorInfoInitialize(&info));
+  check(MatCholeskyFactorSymbolic(factor, k, nullptr, &info));
+  check(MatCholeskyFactorNumeric(factor, k, &info));
+  const double factored = MPI_Wtime();
+  PetscInt local = 0;
+  check(MatGetLocalSize(k, &local, nullptr));
+  for (int done = 0; done < 400; done += 32) {
+    const PetscInt columns = std::min(32, 400 - done);
+    OwnedMat rhs, solution;
+    check(MatCreateDense(comm, local, PETSC_DECIDE, PETSC_DETERMINE, columns, nullptr, rhs.out()));
+    check(MatSetRandom(rhs, nullptr));
+    check(MatDuplicate(rhs, MAT_DO_NOT_COPY_VALUES, solution.out()));
+    check(MatMatSolve(factor, rhs, solution));
+  }
+  double seconds = MPI_Wtime() - begin;
+  check(MPI_Allreduce(MPI_IN_PLACE, &seconds, 1, MPI_DOUBLE, MPI_MAX, comm));
+  stage.finish(formatted("one factorisation %.2f s and 400 solves in blocks of 32", factored - begin));
+  return seconds;
+}
+
+}  // namespace squeal::modes

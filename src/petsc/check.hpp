@@ -1,0 +1,25 @@
+#pragma once
+/// Errors: who reports them, and how all ranks learn of them.
+#include <petscsys.h>
+
+#include <source_location>
+#include <stdexcept>
+#include <string>
+
+namespace squeal {
+
+/// A mistake in the input or a problem without an answer, known to every rank. The message names the option or group and
+/// the rule it breaks. Thrown on all ranks of the communicator together, so that the program ends without a hang.
+class Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Checks the return code of a PETSc, SLEPc or MPI call. A failure there is a defect or a lack of memory, perhaps on this rank
+/// alone: the PETSc traceback is printed and MPI_Abort ends all ranks.
+void check(PetscErrorCode code, std::source_location where = std::source_location::current());
+
+/// Collective. Throws Error on all ranks with the message of the lowest rank whose `localMessage` is not empty; returns if all are.
+void failTogether(MPI_Comm comm, const std::string& localMessage);
+
+}  // namespace squeal

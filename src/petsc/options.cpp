@@ -1,0 +1,301 @@
+#include "petsc/options.hpp"
+
+#include <petscsys.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <set>
+#include <sstream>
+
+#include "petsc/check.hpp"
+#include "petsc/text.hpp"
+
+namespace squeal {
+namespace {
+
+// Order in which the manual lists the stages: that of the method.
+const std::vector<std::string> stages = {"general", "mesh",   "elasticity", "constraint", "load",  "motion",
+                                         "contact", "steady", "modes",      "flutter",    "report"};
+
+std::vector<const Option*>& registry() {
+  static std::vector<const Option*> options;
+  return options;
+}
+
+std::vector<const SolverPrefix*>& prefixes() {
+  static std::vector<const SolverPrefix*> list;
+  return list;
+}
+
+std::map<std::string, std::string>& recipe() {
+  static std::map<std::string, std::string> values;
+  return values;
+}
+
+std::size_t stageRank(const std::string& stage) {
+  return static_cast<std::size_t>(std::find(stages.begin(), stages.end(), stage) - stages.begin());
+}
+
+template <class Item>
+std::vector<const Item*> byStage(std::vector<const Item*> items) {
+  std::stable_sort(items.begin(), items.end(), [](auto* a, auto* b) { return stageRank(a->stage) < stageRank(b->stage); });
+  return items;
+}
+
+/// Name and value of all options in the PETSc database. PetscOptionsLeftGet alone hides the used ones, so the text form is read:
+/// a word that begins with a dash and a non-digit is a name.
+std::vector<std::string> namesGiven() {
+  char* all = nullptr;
+  check(PetscOptionsGetAll(nullptr, &all));
+  std::vector<std::string> names;
+  std::istringstream words(all);
+  for (std::string word; words >> word;)
+    if (word.size() > 1 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1]))) names.push_back(word.substr(1));
+  check(PetscFree(all));
+  return names;
+}
+
+std::vector<std::string> namesLeft() {
+  PetscInt count = 0;
+  char **names = nullptr, **values = nullptr;
+  check(PetscOptionsLeftGet(nullptr, &count, &names, &values));
+  std::vector<std::string> left(names, names + count);
+  check(PetscOptionsLeftRestore(nullptr, &count, &names, &values));
+  return left;
+}
+
+std::size_t editDistance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t above = row[j];
+      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      diagonal = above;
+    }
+  }
+  return row[b.size()];
+}
+
+bool startsWith(const std::string& text, const std::string& start) { return text.compare(0, start.size(), start) == 0; }
+
+}  // namespace
+
+Option::Option(std::string stage_, std::string name_, std::string default_, std::string unit_, std::string meaning_, std::string rule_)
+    : stage(std::move(stage_)),
+      name(std::move(name_)),
+      defaultText(std::move(default_)),
+      unit(std::move(unit_)),
+      meaning(std::move(meaning_)),
+      rule(std::move(rule_)) {
+  registry().push_back(this);
+}
+
+std::vector<const Option*> Option::all() { return byStage(registry()); }
+
+std::string Option::fullName(const std::string& subject) const {
+  const auto open = name.find('<');
+  if (open == std::string::npos) return name;
+  return name.substr(0, open) + subject + name.substr(name.find('>') + 1);
+}
+
+bool Option::given(const std::string& subject) const {
+  PetscBool has = PETSC_FALSE;
+  check(PetscOptionsHasName(nullptr, nullptr, ("-" + fullName(subject)).c_str(), &has));
+  return has;
+}
+
+bool Option::matches(const std::string& full) const {
+  const auto open = name.find('<');
+  if (open == std::string::npos) return full == name;
+  const std::string before = name.substr(0, open), after = name.substr(name.find('>') + 1);
+  return full.size() > before.size() + after.size() && startsWith(full, before) &&
+         full.compare(full.size() - after.size(), after.size(), after) == 0;
+}
+
+std::vector<std::string> Option::subjects() const {
+  const auto open = name.find('<');
+  const std::size_t around = name.size() - (name.find('>') - open + 1);
+  std::set<std::string> found;
+  for (const auto& full : namesGiven())
+    if (matches(full)) found.insert(full.substr(open, full.size() - around));
+  return {found.begin(), found.end()};
+}
+
+std::string Option::text(const std::string& subject) const {
+  const std::string full = fullName(subject);
+  char buffer[4096] = "";
+  PetscBool set = PETSC_FALSE;
+  check(PetscOptionsGetString(nullptr, nullptr, ("-" + full).c_str(), buffer, sizeof buffer, &set));
+  if (!set && rule == "required") throw Error("option -" + full + " is missing: " + meaning);
+  const std::string value = set ? buffer : defaultText;
+  recipe()[full] = value;
+  return value;
+}
+
+void Option::reject(const std::string& subject, const std::string& value) const {
+  throw Error("option -" + fullName(subject) + " " + value + ": " + meaning + (unit.empty() ? "" : " [" + unit + "]") + "; must be " +
+              rule);
+}
+
+double Option::number(const std::string& subject, const std::string& value) const {
+  double x = 0;
+  const char* begin = value.c_str() + (value[0] == '+' ? 1 : 0);
+  const char* end = value.c_str() + value.size();
+  const auto [stop, error] = std::from_chars(begin, end, x);
+  if (error != std::errc() || stop != end || !std::isfinite(x)) reject(subject, "'" + value + "'");
+  return x;
+}
+
+bool Range::holds(double x) const { return (openLow ? x > low : x >= low) && (openHigh ? x < high : x <= high); }
+
+std::string Range::text() const {
+  std::string words;
+  if (std::isfinite(low)) words += (openLow ? "> " : ">= ") + shortest(low);
+  if (std::isfinite(high)) words += (words.empty() ? "" : " and ") + std::string(openHigh ? "< " : "<= ") + shortest(high);
+  return words.empty() ? "a number" : "a number " + words;
+}
+
+namespace {
+std::string requiredOr(bool hasDefault, const std::string& rule) { return hasDefault ? rule : "required"; }
+}  // namespace
+
+RealOption::RealOption(std::string stage, std::string name, std::optional<double> byDefault, std::string unit, Range range,
+                       std::string meaning)
+    : Option(std::move(stage), std::move(name), byDefault ? shortest(*byDefault) : "", std::move(unit), std::move(meaning),
+             requiredOr(byDefault.has_value(), range.text())),
+      range_(range) {}
+
+double RealOption::get(const std::string& subject) const {
+  const std::string value = text(subject);
+  const double x = number(subject, value);
+  if (!range_.holds(x)) throw Error("option -" + fullName(subject) + " " + value + ": " + meaning + "; must be " + range_.text());
+  return x;
+}
+
+IntegerOption::IntegerOption(std::string stage, std::string name, int byDefault, int lowest, std::string meaning)
+    : Option(std::move(stage), std::move(name), std::to_string(byDefault), "", std::move(meaning),
+             "an integer >= " + std::to_string(lowest)),
+      lowest_(lowest) {}
+
+int IntegerOption::get(const std::string& subject) const {
+  const std::string value = text(subject);
+  int x = 0;
+  const auto [stop, error] = std::from_chars(value.data(), value.data() + value.size(), x);
+  if (error != std::errc() || stop != value.data() + value.size() || x < lowest_) reject(subject, value);
+  return x;
+}
+
+RealListOption::RealListOption(std::string stage, std::string name, std::string byDefault, std::string unit, Range range,
+                               std::string meaning, bool ranges)
+    : Option(std::move(stage), std::move(name), std::move(byDefault), std::move(unit), std::move(meaning),
+             std::string(ranges ? "first:last:step or " : "") + "a comma-separated list, each " + range.text()),
+      range_(range),
+      ranges_(ranges) {}
+
+std::vector<double> RealListOption::get(const std::string& subject) const {
+  const std::string value = text(subject);
+  std::vector<double> list;
+  const auto parts = split(value, ':');
+  if (ranges_ && parts.size() > 1) {
+    if (parts.size() != 3) reject(subject, value);
+    const double first = number(subject, parts[0]), last = number(subject, parts[1]), step = number(subject, parts[2]);
+    if (!(step > 0) || last < first || (last - first) / step > 1e6) reject(subject, value);
+    // Half a step of slack: 0:0.6:0.05 ends at 0.6 although 12 × 0.05 is not the double nearest to it.
+    const auto steps = static_cast<int>(std::floor((last - first) / step + 1e-9));
+    for (int i = 0; i <= steps; ++i) list.push_back(std::stod(formatted("%.12g", first + i * step)));
+  } else {
+    for (const auto& part : split(value, ',')) list.push_back(number(subject, part));
+  }
+  for (double x : list)
+    if (!range_.holds(x)) reject(subject, value);
+  return list;
+}
+
+FlagOption::FlagOption(std::string stage, std::string name, bool byDefault, std::string meaning)
+    : Option(std::move(stage), std::move(name), byDefault ? "on" : "off", "", std::move(meaning), "on or off") {}
+
+bool FlagOption::get(const std::string& subject) const {
+  const std::string value = text(subject);
+  if (value.empty() || value == "on" || value == "true" || value == "yes" || value == "1") return true;
+  if (value == "off" || value == "false" || value == "no" || value == "0") return false;
+  reject(subject, value);
+}
+
+ChoiceOption::ChoiceOption(std::string stage, std::string name, std::vector<std::string> choices, std::string byDefault,
+                           std::string meaning)
+    : Option(std::move(stage), std::move(name), std::move(byDefault), "", std::move(meaning), joined(choices, " or ")),
+      choices_(std::move(choices)) {}
+
+std::string ChoiceOption::get(const std::string& subject) const {
+  const std::string value = text(subject);
+  if (std::find(choices_.begin(), choices_.end(), value) == choices_.end()) reject(subject, value);
+  return value;
+}
+
+TextOption::TextOption(std::string stage, std::string name, std::optional<std::string> byDefault, std::string meaning)
+    : Option(std::move(stage), std::move(name), byDefault.value_or(""), "", std::move(meaning),
+             requiredOr(byDefault.has_value(), "text")) {}
+
+std::string TextOption::get(const std::string& subject) const { return text(subject); }
+
+std::vector<std::string> TextOption::list(const std::string& subject) const { return split(text(subject), ','); }
+
+SolverPrefix::SolverPrefix(std::string stage_, std::string prefix_, std::string meaning_)
+    : stage(std::move(stage_)), prefix(std::move(prefix_)), meaning(std::move(meaning_)) {
+  prefixes().push_back(this);
+}
+
+std::vector<const SolverPrefix*> SolverPrefix::all() { return byStage(prefixes()); }
+
+void SolverPrefix::rejectUnused(const std::vector<std::string>& exceptAfter) const {
+  for (const auto& name : namesLeft()) {
+    if (!startsWith(name, prefix)) continue;
+    const std::string rest = name.substr(prefix.size());
+    if (std::any_of(exceptAfter.begin(), exceptAfter.end(), [&](const auto& later) { return startsWith(rest, later); })) continue;
+    throw Error("option -" + name + " is unknown to the solver with prefix -" + prefix);
+  }
+}
+
+void rejectUnknownOptions() {
+  for (const auto& name : namesLeft()) {
+    const auto options = Option::all();
+    if (std::any_of(options.begin(), options.end(), [&](auto* option) { return option->matches(name); })) continue;
+    const auto solvers = SolverPrefix::all();
+    if (std::any_of(solvers.begin(), solvers.end(), [&](auto* solver) { return startsWith(name, solver->prefix); })) continue;
+    std::string nearest;
+    std::size_t least = 4;  // more than three wrong letters are another word
+    for (const auto* option : options)
+      if (const auto distance = editDistance(name, option->name); distance < least) least = distance, nearest = option->name;
+    throw Error("unknown option -" + name + (nearest.empty() ? "" : "; did you mean -" + nearest + "?") +
+                " (squeal -help lists all options)");
+  }
+}
+
+std::string manual() {
+  std::string page = "squeal -options_file CASE.yaml [-option value …]: flutter of steady sliding brakes (brake squeal)\n"
+                     "Lengths in m, masses in kg, times in s unless the case keeps another consistent system. <…> stands for a name.\n";
+  const auto options = Option::all();
+  const auto solvers = SolverPrefix::all();
+  for (const auto& stage : stages) {
+    page += "\n" + stage + "\n";
+    for (const auto* option : options) {
+      if (option->stage != stage) continue;
+      const std::string left = "  -" + option->name + (option->unit.empty() ? "" : " [" + option->unit + "]");
+      page += formatted("%-52s ", left.c_str()) + option->meaning;
+      page += option->rule == "required" ? " (required)\n"
+                                         : " (default " + (option->defaultText.empty() ? "none" : option->defaultText) + "; " +
+                                               option->rule + ")\n";
+    }
+    for (const auto* solver : solvers)
+      if (solver->stage == stage) page += formatted("%-52s ", ("  -" + solver->prefix + "*").c_str()) + solver->meaning + "\n";
+  }
+  return page;
+}
+
+const std::map<std::string, std::string>& resolvedOptions() { return recipe(); }
+
+}  // namespace squeal

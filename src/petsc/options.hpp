@@ -1,0 +1,123 @@
+#pragma once
+/// The user interface: every option is declared once, beside the physics that uses it, with stage, default, unit, meaning and check.
+/// Names hold at most one placeholder in angle brackets, e.g. `material_<group>_young`, replaced by a name from the mesh.
+/// All values come from the PETSc options database, the same on every rank, so every Error thrown here is thrown on all ranks.
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace squeal {
+
+/// What `-help` prints of an option.
+class Option {
+ public:
+  const std::string stage, name, defaultText, unit, meaning, rule;
+
+  /// Full name without the dash, the placeholder replaced by `subject`.
+  std::string fullName(const std::string& subject = {}) const;
+  bool given(const std::string& subject = {}) const;
+  /// The words that stand for the placeholder in the options given, sorted: the <group> of each `-material_<group>_young`.
+  std::vector<std::string> subjects() const;
+  /// True if the full name (no dash) is this option's for some subject.
+  bool matches(const std::string& fullName) const;
+  /// All declared options in order of stage, then of declaration.
+  static std::vector<const Option*> all();
+
+ protected:
+  Option(std::string stage, std::string name, std::string defaultText, std::string unit, std::string meaning, std::string rule);
+  ~Option() = default;
+  Option(const Option&) = delete;
+  /// Text given by the user or the default; an option without default that is not given is an Error. Recorded for the recipe.
+  std::string text(const std::string& subject) const;
+  [[noreturn]] void reject(const std::string& subject, const std::string& value) const;
+  double number(const std::string& subject, const std::string& value) const;
+};
+
+struct Range {
+  double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
+  bool openLow = false, openHigh = false;
+  bool holds(double x) const;
+  std::string text() const;
+};
+inline constexpr Range anyReal{};
+inline constexpr Range positive{0, std::numeric_limits<double>::infinity(), true, false};
+inline constexpr Range nonNegative{0};
+
+class RealOption : public Option {
+ public:
+  /// No default: required wherever it is asked for.
+  RealOption(std::string stage, std::string name, std::optional<double> byDefault, std::string unit, Range range, std::string meaning);
+  double get(const std::string& subject = {}) const;
+
+ private:
+  Range range_;
+};
+
+class IntegerOption : public Option {
+ public:
+  IntegerOption(std::string stage, std::string name, int byDefault, int lowest, std::string meaning);
+  int get(const std::string& subject = {}) const;
+
+ private:
+  int lowest_;
+};
+
+/// Comma-separated reals; with `ranges`, `first:last:step` stands for an arithmetic sequence (last included).
+class RealListOption : public Option {
+ public:
+  RealListOption(std::string stage, std::string name, std::string byDefault, std::string unit, Range range, std::string meaning,
+                 bool ranges = false);
+  std::vector<double> get(const std::string& subject = {}) const;
+
+ private:
+  Range range_;
+  bool ranges_;
+};
+
+class FlagOption : public Option {
+ public:
+  FlagOption(std::string stage, std::string name, bool byDefault, std::string meaning);
+  bool get(const std::string& subject = {}) const;
+};
+
+class ChoiceOption : public Option {
+ public:
+  ChoiceOption(std::string stage, std::string name, std::vector<std::string> choices, std::string byDefault, std::string meaning);
+  std::string get(const std::string& subject = {}) const;
+
+ private:
+  std::vector<std::string> choices_;
+};
+
+class TextOption : public Option {
+ public:
+  /// No default: required wherever it is asked for.
+  TextOption(std::string stage, std::string name, std::optional<std::string> byDefault, std::string meaning);
+  std::string get(const std::string& subject = {}) const;
+  /// Split at commas; an empty text is an empty list.
+  std::vector<std::string> list(const std::string& subject = {}) const;
+};
+
+/// Prefix handed to a PETSc or SLEPc solver: options that begin with it belong to that solver.
+class SolverPrefix {
+ public:
+  SolverPrefix(std::string stage, std::string prefix, std::string meaning);
+  const std::string stage, prefix, meaning;
+  /// Collective. Error if an option with this prefix is still unused, i.e. known to no solver; call after the solver is configured.
+  /// `exceptAfter` names sub-prefixes whose options are read later (by a factorisation).
+  void rejectUnused(const std::vector<std::string>& exceptAfter = {}) const;
+  static std::vector<const SolverPrefix*> all();
+};
+
+/// Collective. Error for an option that neither this program nor PETSc knows, with the nearest known name.
+void rejectUnknownOptions();
+
+/// The manual printed by `-help`.
+std::string manual();
+
+/// Name and value of every option asked for so far: the recipe of the run.
+const std::map<std::string, std::string>& resolvedOptions();
+
+}  // namespace squeal

@@ -1,0 +1,65 @@
+#include "petsc/stages.hpp"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "petsc/check.hpp"
+#include "petsc/options.hpp"
+#include "petsc/text.hpp"
+
+namespace squeal {
+namespace {
+
+const FlagOption quiet("general", "quiet", false, "print nothing but errors");
+
+std::vector<StageRecord>& records() {
+  static std::vector<StageRecord> list;
+  return list;
+}
+
+bool speaks(MPI_Comm comm) {
+  int rank = 0;
+  check(MPI_Comm_rank(comm, &rank));
+  return rank == 0 && !quiet.get();
+}
+
+}  // namespace
+
+Stage::Stage(MPI_Comm comm, std::string name) : comm_(comm), name_(std::move(name)), begin_(MPI_Wtime()) {}
+
+void Stage::progress(const std::string& text) {
+  const double now = MPI_Wtime();
+  if (now - lastProgress_ < 0.5 || !speaks(comm_)) return;
+  lastProgress_ = now;
+  const bool terminal = isatty(fileno(stdout));
+  std::printf("%s%-10s %8.1f s  %s%s", terminal ? "\r\033[K" : "", name_.c_str(), now - begin_, text.c_str(), terminal ? "" : "\n");
+  std::fflush(stdout);
+}
+
+void Stage::finish(const std::string& result) {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  double seconds = MPI_Wtime() - begin_, memory = 1024.0 * static_cast<double>(usage.ru_maxrss);
+  check(MPI_Allreduce(MPI_IN_PLACE, &seconds, 1, MPI_DOUBLE, MPI_MAX, comm_));
+  check(MPI_Allreduce(MPI_IN_PLACE, &memory, 1, MPI_DOUBLE, MPI_SUM, comm_));
+  auto known = std::find_if(records().begin(), records().end(), [&](const auto& record) { return record.name == name_; });
+  if (known == records().end()) known = records().insert(known, {name_, 0, 0});
+  known->seconds += seconds;
+  known->peakMemoryBytes = memory;
+  if (!speaks(comm_)) return;
+  std::printf("%s%-10s %8.2f s  %s\n", isatty(fileno(stdout)) ? "\r\033[K" : "", name_.c_str(), seconds, result.c_str());
+  std::fflush(stdout);
+}
+
+void say(MPI_Comm comm, const std::string& text) {
+  if (!speaks(comm)) return;
+  std::printf("%s\n", text.c_str());
+  std::fflush(stdout);
+}
+
+const std::vector<StageRecord>& stageRecords() { return records(); }
+
+}  // namespace squeal

@@ -1,0 +1,36 @@
+#pragma once
+/// Where a run is: one line per stage with its wall time, progress within long stages, and the record for the summary.
+#include <mpi.h>
+
+#include <string>
+#include <vector>
+
+namespace squeal {
+
+struct StageRecord {
+  std::string name;
+  double seconds = 0;           ///< wall time, maximum over the ranks
+  double peakMemoryBytes = 0;   ///< high-water mark of resident memory at the end of the stage, summed over the ranks
+};
+
+/// A stage of the method, from construction to finish(). Collective.
+class Stage {
+ public:
+  Stage(MPI_Comm comm, std::string name);
+  /// Says on the terminal (rank 0, unless -quiet) what was found, with the time; keeps the record.
+  void finish(const std::string& result);
+  /// Progress of long work, at most about twice a second; the text replaces the last one on a terminal.
+  void progress(const std::string& text);
+
+ private:
+  MPI_Comm comm_;
+  std::string name_;
+  double begin_, lastProgress_ = 0;
+};
+
+/// Text for the user on rank 0, silent with -quiet.
+void say(MPI_Comm comm, const std::string& text);
+/// All finished stages in order; stages finished several times (one per friction) are summed.
+const std::vector<StageRecord>& stageRecords();
+
+}  // namespace squeal

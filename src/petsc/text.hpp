@@ -1,0 +1,15 @@
+#pragma once
+/// Text for messages and tables.
+#include <string>
+#include <vector>
+
+namespace squeal {
+
+/// printf into a string.
+[[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...);
+std::string joined(const std::vector<std::string>& words, const std::string& separator = ", ");
+std::vector<std::string> split(const std::string& text, char separator);
+/// The shortest decimal text that reads back as the same double.
+std::string shortest(double value);
+
+}  // namespace squeal

@@ -1,0 +1,171 @@
+/// Fields for ParaView and for other programs: steady displacement and pressure, free modes, complex modes and the squeal in motion.
+#include <algorithm>
+#include <cmath>
+
+#include "petsc/options.hpp"
+#include "petsc/text.hpp"
+#include "report/hdf5.hpp"
+#include "report/report.hpp"
+#include "report/vtu.hpp"
+
+namespace squeal::report {
+namespace {
+
+const IntegerOption animatedOption("report", "report_animated", 1, 0, "number of fastest growing modes of the whole sweep written as a time series over one period");
+const IntegerOption framesOption("report", "report_frames", 16, 4, "frames of one period");
+
+/// Brings nodal values from their owners to all ranks whose cells need them.
+class Ghosts {
+ public:
+  explicit Ghosts(const mesh::Mesh& mesh) : mesh_(mesh) {
+    std::vector<PetscInt> nodes(mesh.globalNode.begin(), mesh.globalNode.end());
+    OwnedIS from;
+    check(ISCreateBlock(mesh.comm, mesh.dimension, static_cast<PetscInt>(nodes.size()), nodes.data(), PETSC_COPY_VALUES, from.out()));
+    check(VecCreateSeq(PETSC_COMM_SELF, mesh.dimension * mesh.localNodes(), local_.out()));
+    const OwnedVec global = elasticity::nodalVector(mesh);
+    check(VecScatterCreate(global, from, local_, nullptr, scatter_.out()));
+  }
+  Field vector(const std::string& name, Vec u) const {
+    check(VecScatterBegin(scatter_, u, local_, INSERT_VALUES, SCATTER_FORWARD));
+    check(VecScatterEnd(scatter_, u, local_, INSERT_VALUES, SCATTER_FORWARD));
+    Field field{name, 3, {}};
+    const PetscScalar* values = nullptr;
+    check(VecGetArrayRead(local_, &values));
+    for (PetscInt node = 0; node < mesh_.localNodes(); ++node)
+      for (int d = 0; d < 3; ++d) field.values.push_back(d < mesh_.dimension ? values[mesh_.dimension * node + d] : 0.0);
+    check(VecRestoreArrayRead(local_, &values));
+    return field;
+  }
+  /// The first component alone.
+  Field scalar(const std::string& name, Vec u) const {
+    const Field all = vector(name, u);
+    Field field{name, 1, {}};
+    for (std::size_t i = 0; i < all.values.size(); i += 3) field.values.push_back(all.values[i]);
+    return field;
+  }
+
+ private:
+  const mesh::Mesh& mesh_;
+  OwnedVec local_;
+  OwnedScatter scatter_;
+};
+
+/// Contact pressure at the pad nodes, zero elsewhere, in component 0 of a nodal vector; gap in component 1.
+OwnedVec contactField(const Analysis& analysis, const steady::Solution& solution) {
+  const auto& mesh = *analysis.mesh;
+  OwnedVec field = elasticity::nodalVector(mesh);
+  for (std::size_t i = 0; i < solution.contact.size(); ++i) {
+    const PetscInt row = mesh.dimension * analysis.contact.nodes[i].globalNode;
+    check(VecSetValue(field, row, solution.contact[i].pressure, INSERT_VALUES));
+    check(VecSetValue(field, row + 1, solution.contact[i].gap, INSERT_VALUES));
+  }
+  check(VecAssemblyBegin(field));
+  check(VecAssemblyEnd(field));
+  return field;
+}
+
+struct Animated {
+  double growth;
+  const flutter::FrictionPoint* point;
+  const flutter::Shape* shape;
+};
+
+std::vector<Animated> fastest(const Analysis& analysis) {
+  std::vector<Animated> all;
+  for (const auto& segment : analysis.segments)
+    for (const auto& point : segment.points)
+      for (const auto& shape : point.shapes) all.push_back({point.eigenvalues[shape.index].s.real(), &point, &shape});
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.growth > b.growth; });
+  all.resize(std::min(all.size(), static_cast<std::size_t>(animatedOption.get())));
+  return all;
+}
+
+std::string shapeName(const flutter::FrictionPoint& point, const flutter::Shape& shape) {
+  return formatted("mode_%03d_%.0f_Hz", static_cast<int>(shape.index) + 1, point.eigenvalues[shape.index].s.imag() / (2 * M_PI));
+}
+
+/// Re(d e^{iφ}) over one period: pressing play in ParaView shows the squeal. The growth is left out, it would hide the shape.
+void animate(const Analysis& analysis, const Ghosts& ghosts, const Animated& item, const std::filesystem::path& folder) {
+  const int frames = framesOption.get();
+  const double period = 2 * M_PI / item.point->eigenvalues[item.shape->index].s.imag();
+  if (!std::isfinite(period)) return;  // divergence does not oscillate
+  const std::string name = "squeal_friction_" + frictionText(item.point->friction) + "_" + shapeName(*item.point, *item.shape);
+  std::vector<std::pair<double, std::filesystem::path>> files;
+  OwnedVec u;
+  check(VecDuplicate(item.shape->real, u.out()));
+  for (int frame = 0; frame <= frames; ++frame) {
+    const double phase = 2 * M_PI * frame / frames;
+    check(VecCopy(item.shape->real, u));
+    check(VecScale(u, std::cos(phase)));
+    check(VecAXPY(u, -std::sin(phase), item.shape->imaginary));
+    const auto stem = folder / name / formatted("frame_%03d", frame);
+    writeVtu(*analysis.mesh, stem, {ghosts.vector("displacement", u)});
+    files.emplace_back(period * frame / frames, stem.string() + ".pvtu");
+  }
+  writePvd(analysis.mesh->comm, folder / (name + ".pvd"), files);
+}
+
+}  // namespace
+
+void writeFields(const Analysis& analysis, const std::filesystem::path& folder) {
+  const auto& mesh = *analysis.mesh;
+  const auto vtk = folder / "vtk";
+  const Ghosts ghosts(mesh);
+  std::vector<std::pair<double, std::filesystem::path>> steadyFiles;
+  for (const auto& solution : analysis.steady) {
+    if (!solution.converged) continue;
+    const auto stem = vtk / ("steady_friction_" + frictionText(solution.friction));
+    writeVtu(mesh, stem, {ghosts.vector("displacement", solution.displacement), ghosts.scalar("contact_pressure", contactField(analysis, solution))});
+    steadyFiles.emplace_back(solution.friction, stem.string() + ".pvtu");
+  }
+  writePvd(mesh.comm, vtk / "steady.pvd", steadyFiles);
+  for (const auto& segment : analysis.segments) {
+    std::vector<Field> fields;
+    for (std::size_t i = 0; i < segment.shapes.size(); ++i)
+      fields.push_back(ghosts.vector(formatted("mode_%03zu_%.0f_Hz", i + 1, segment.modes.angularFrequency[i] / (2 * M_PI)), segment.shapes[i]));
+    if (!fields.empty()) writeVtu(mesh, vtk / ("modes_from_friction_" + frictionText(segment.points.front().friction)), fields);
+    for (const auto& point : segment.points) {
+      std::vector<Field> shapes;
+      for (const auto& shape : point.shapes) {
+        shapes.push_back(ghosts.vector(shapeName(point, shape) + "_real", shape.real));
+        shapes.push_back(ghosts.vector(shapeName(point, shape) + "_imaginary", shape.imaginary));
+      }
+      if (!shapes.empty()) writeVtu(mesh, vtk / ("complex_modes_friction_" + frictionText(point.friction)), shapes);
+    }
+  }
+  for (const auto& item : fastest(analysis)) animate(analysis, ghosts, item, vtk);
+}
+
+void writeHdf5(const Analysis& analysis, const std::filesystem::path& folder) {
+  Hdf5File file(analysis.mesh->comm, folder / "results.h5");
+  int rank = 0;
+  check(MPI_Comm_rank(analysis.mesh->comm, &rank));
+  file.writeMesh(*analysis.mesh);
+  for (const auto& solution : analysis.steady) {
+    if (!solution.converged) continue;
+    const std::string group = "/steady/friction_" + frictionText(solution.friction);
+    file.writeNodeVector(group, "displacement", solution.displacement);
+    file.writeNodeVector(group, "contact_pressure_gap", contactField(analysis, solution));
+    file.writeAttribute(group, "friction", solution.friction);
+  }
+  for (std::size_t s = 0; s < analysis.segments.size(); ++s) {
+    const auto& segment = analysis.segments[s];
+    const std::string modesGroup = formatted("/modes/active_set_%zu", s + 1);
+    std::vector<std::vector<double>> frequencies;
+    for (std::size_t i = 0; i < segment.modes.angularFrequency.size(); ++i) frequencies.push_back({segment.modes.angularFrequency[i], segment.modes.relativeResidual[i]});
+    file.writeTable(modesGroup, "frequencies", {"angular_frequency_rad_per_s", "relative_residual"}, rank == 0 ? frequencies : std::vector<std::vector<double>>{});
+    for (std::size_t i = 0; i < segment.shapes.size(); ++i) file.writeNodeVector(modesGroup, formatted("mode_%03zu", i + 1), segment.shapes[i]);
+    for (const auto& point : segment.points) {
+      const std::string group = "/flutter/friction_" + frictionText(point.friction);
+      std::vector<std::vector<double>> rows;
+      for (const auto& e : point.eigenvalues) rows.push_back({e.s.real(), e.s.imag(), e.backwardError});
+      file.writeTable(group, "eigenvalues", {"growth_rate_1_per_s", "angular_frequency_rad_per_s", "backward_error"}, rank == 0 ? rows : std::vector<std::vector<double>>{});
+      for (const auto& shape : point.shapes) {
+        file.writeNodeVector(group, formatted("mode_%03zu_real", shape.index + 1), shape.real);
+        file.writeNodeVector(group, formatted("mode_%03zu_imaginary", shape.index + 1), shape.imaginary);
+      }
+    }
+  }
+}
+
+}  // namespace squeal::report

@@ -1,0 +1,81 @@
+#include "report/report.hpp"
+
+#include <system_error>
+
+#include "petsc/options.hpp"
+#include "petsc/stages.hpp"
+#include "petsc/text.hpp"
+
+namespace squeal::report {
+namespace {
+
+const TextOption directoryOption("report", "report_dir", "results", "folder for the results; those of an earlier run in it are replaced");
+const FlagOption fieldsOption("report", "report_fields", true, "write fields: results.h5 and the VTK files");
+
+/// Names that a run makes; nothing else in the folder is touched.
+bool isResult(const std::filesystem::path& name) {
+  const std::string text = name.filename().string();
+  const auto begins = [&](const char* start) { return text.rfind(start, 0) == 0; };
+  return text == "eigenvalues.csv" || text == "modes.csv" || text == "summary.json" || text == "results.h5" || text == "stability.png" ||
+         text == "options.txt" || text == "vtk" || text == ".partial" || (begins("steady_") && name.extension() == ".csv") || (begins("modes_") && name.extension() == ".csv");
+}
+
+void onRankZero(MPI_Comm comm, const std::string& option, const auto& action) {
+  int rank = 0;
+  check(MPI_Comm_rank(comm, &rank));
+  std::string failure;
+  if (rank == 0) try {
+      action();
+    } catch (const std::filesystem::filesystem_error& error) {
+      failure = option + ": " + error.what();
+    }
+  failTogether(comm, failure);
+}
+
+}  // namespace
+
+Directory::Directory(MPI_Comm comm) : comm_(comm), path_(directoryOption.get()), staging_(path_ / ".partial") {
+  onRankZero(comm, "option -report_dir", [&] {
+    std::filesystem::create_directories(path_);
+    for (const auto& entry : std::filesystem::directory_iterator(path_))
+      if (isResult(entry.path())) std::filesystem::remove_all(entry.path());
+    std::filesystem::create_directories(staging_);
+  });
+}
+
+Directory::~Directory() {
+  int rank = 0;
+  MPI_Comm_rank(comm_, &rank);
+  std::error_code ignored;
+  if (rank == 0) std::filesystem::remove_all(staging_, ignored);
+}
+
+void Directory::commit() const {
+  onRankZero(comm_, "option -report_dir", [&] {
+    std::vector<std::filesystem::path> names;
+    for (const auto& entry : std::filesystem::directory_iterator(staging_))
+      if (entry.path().filename() != "summary.json") names.push_back(entry.path().filename());
+    names.push_back("summary.json");
+    for (const auto& name : names) std::filesystem::rename(staging_ / name, path_ / name);
+  });
+}
+
+std::string frictionText(double friction) { return shortest(friction); }
+
+void write(const Analysis& analysis, const Directory& directory) {
+  const MPI_Comm comm = analysis.mesh->comm;
+  {
+    Stage stage(comm, "report");
+    writeTables(analysis, directory.staging());
+    if (fieldsOption.get()) {
+      writeHdf5(analysis, directory.staging());
+      writeFields(analysis, directory.staging());
+    }
+    stage.finish("results in " + directory.path().string());
+  }
+  writeSummary(analysis, directory.staging());  // after the last stage: it holds the times
+  directory.commit();
+  say(comm, stabilityTable(analysis));
+}
+
+}  // namespace squeal::report

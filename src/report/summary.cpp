@@ -1,0 +1,98 @@
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "petsc/options.hpp"
+#include "petsc/session.hpp"
+#include "petsc/stages.hpp"
+#include "report/report.hpp"
+
+namespace squeal::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json point3(const mesh::Point& p) { return Json::array({p[0], p[1], p[2]}); }
+
+Json steadyEntry(const steady::Solution& solution) {
+  Json entry;
+  entry["snes_reason"] = solution.reason;
+  entry["converged"] = solution.converged;
+  entry["iterations"] = solution.iterations;
+  entry["open_nodes"] = solution.openNodes;
+  entry["smallest_pressure_pa"] = solution.smallestPressure;
+  entry["relative_imbalance"] = solution.imbalance;
+  for (const auto& resultant : solution.resultants)
+    entry["interfaces"][resultant.interface] = {{"normal_force_n", point3(resultant.normalForce)}, {"friction_force_n", point3(resultant.frictionForce)}};
+  return entry;
+}
+
+Json unstableModes(const flutter::FrictionPoint& point) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < point.eigenvalues.size(); ++i) {
+    const auto& e = point.eigenvalues[i];
+    if (e.unstable)
+      list.push_back({{"mode", i + 1}, {"frequency_hz", e.s.imag() / (2 * M_PI)}, {"growth_rate_1_per_s", e.s.real()}, {"backward_error", e.backwardError}});
+  }
+  return list;
+}
+
+const flutter::FrictionPoint* pointAt(const Analysis& analysis, double friction) {
+  for (const auto& segment : analysis.segments)
+    for (const auto& point : segment.points)
+      if (point.friction == friction) return &point;
+  return nullptr;
+}
+
+}  // namespace
+
+void writeSummary(const Analysis& analysis, const std::filesystem::path& folder) {
+  const auto& mesh = *analysis.mesh;
+  int ranks = 1, rank = 0;
+  check(MPI_Comm_size(mesh.comm, &ranks));
+  check(MPI_Comm_rank(mesh.comm, &rank));
+  Json summary;
+  summary["version"] = version();
+  const auto& options = resolvedOptions();
+  summary["case"] = std::filesystem::path(options.at("mesh_file")).stem().string();
+  summary["ranks"] = ranks;
+  summary["nodes"] = mesh.totalNodes;
+  summary["cells"] = mesh.totalCells;
+  summary["contact_nodes"] = analysis.contact.totalNodes;
+  summary["method"] = flutter::directWanted() ? "direct" : "reduced";
+  summary["dofs"] = analysis.segments.empty() ? 0 : analysis.segments.front().unknowns;
+  summary["frictions"] = Json::array();
+  for (const auto& solution : analysis.steady) {
+    Json entry = {{"friction", solution.friction}, {"steady", steadyEntry(solution)}};
+    if (const auto* point = pointAt(analysis, solution.friction)) {
+      entry["eigenvalues"] = point->eigenvalues.size();
+      entry["worst_backward_error"] = point->worstBackwardError();
+      entry["unstable_modes"] = unstableModes(*point);
+    }
+    summary["frictions"].push_back(entry);
+  }
+  summary["active_sets"] = Json::array();
+  for (const auto& segment : analysis.segments) {
+    Json entry = {{"first_friction", segment.points.front().friction}, {"last_friction", segment.points.back().friction},
+                  {"open_nodes", segment.openNodes}, {"dofs", segment.unknowns}, {"modes", segment.modes.angularFrequency.size()}};
+    if (segment.modes.inertiaCount)
+      entry["sturm_count"] = {{"shift_rad2_per_s2", segment.modes.inertiaShift}, {"eigenvalues_below", segment.modes.inertiaCount}, {"confirmed", segment.modes.countConfirmed}};
+    summary["active_sets"].push_back(entry);
+  }
+  double total = 0;
+  for (const auto& record : stageRecords()) {
+    summary["stages"][record.name] = {{"wall_s", record.seconds}, {"peak_memory_bytes", record.peakMemoryBytes}};
+    total += record.seconds;
+  }
+  summary["wall_s"] = total;
+  if (analysis.modesFloorSeconds > 0) summary["modes_floor_s"] = analysis.modesFloorSeconds;
+  summary["options"] = options;
+  std::string failure;
+  if (rank == 0) {
+    std::ofstream file(folder / "summary.json");
+    file << summary.dump(2) << "\n";
+    if (!file.flush()) failure = "option -report_dir: cannot write " + (folder / "summary.json").string();
+  }
+  failTogether(mesh.comm, failure);
+}
+
+}  // namespace squeal::report

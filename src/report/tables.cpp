@@ -1,0 +1,117 @@
+/// The comma-separated tables and the terminal's stability table.
+#include <cstdio>
+#include <fstream>
+
+#include "petsc/options.hpp"
+#include "petsc/session.hpp"
+#include "petsc/text.hpp"
+#include "report/report.hpp"
+
+namespace squeal::report {
+namespace {
+
+std::string eigenvalueTable(const Analysis& analysis) {
+  std::string table = "friction,mode,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,damping_ratio,backward_error\n";
+  for (const auto& segment : analysis.segments)
+    for (const auto& point : segment.points)
+      for (std::size_t i = 0; i < point.eigenvalues.size(); ++i) {
+        const auto& e = point.eigenvalues[i];
+        table += frictionText(point.friction) + "," + std::to_string(i + 1) +
+                 formatted(",%.15e,%.15e,%.15e,%.15e,%.3e\n", e.s.real(), e.s.imag(), e.s.imag() / (2 * M_PI), -e.s.real() / std::abs(e.s), e.backwardError);
+      }
+  return table;
+}
+
+std::string modeTable(const modes::Modes& modes) {
+  std::string table = "mode,angular_frequency_rad_per_s,frequency_hz,relative_residual\n";
+  for (std::size_t i = 0; i < modes.angularFrequency.size(); ++i)
+    table += formatted("%zu,%.15e,%.15e,%.3e\n", i + 1, modes.angularFrequency[i], modes.angularFrequency[i] / (2 * M_PI), modes.relativeResidual[i]);
+  return table;
+}
+
+/// Rows of this rank; surface data only, gathered on rank 0.
+std::string steadyRows(const Analysis& analysis, const steady::Solution& solution) {
+  std::string rows;
+  for (std::size_t i = 0; i < solution.contact.size(); ++i) {
+    const auto& p = analysis.contact.nodes[i].position;
+    const auto& state = solution.contact[i];
+    rows += formatted("%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,", p[0], p[1], p[2], state.gap, state.normalForce, state.pressure, state.frictionForce[0],
+                      state.frictionForce[1], state.frictionForce[2]) +
+            analysis.contact.interfaces[static_cast<std::size_t>(analysis.contact.nodes[i].interface)] + "\n";
+  }
+  return rows;
+}
+
+std::string gathered(MPI_Comm comm, const std::string& text) {
+  int rank = 0, size = 1, length = static_cast<int>(text.size());
+  check(MPI_Comm_rank(comm, &rank));
+  check(MPI_Comm_size(comm, &size));
+  std::vector<int> lengths(static_cast<std::size_t>(size)), offsets(lengths.size(), 0);
+  check(MPI_Gather(&length, 1, MPI_INT, lengths.data(), 1, MPI_INT, 0, comm));
+  for (std::size_t r = 1; r < lengths.size(); ++r) offsets[r] = offsets[r - 1] + lengths[r - 1];
+  std::string all(rank == 0 ? static_cast<std::size_t>(offsets.back() + lengths.back()) : 0, ' ');
+  check(MPI_Gatherv(text.data(), length, MPI_CHAR, all.data(), lengths.data(), offsets.data(), MPI_CHAR, 0, comm));
+  return all;
+}
+
+void writeFile(MPI_Comm comm, const std::filesystem::path& path, const std::string& text) {
+  int rank = 0;
+  check(MPI_Comm_rank(comm, &rank));
+  std::string failure;
+  if (rank == 0) {
+    std::ofstream file(path, std::ios::binary);
+    file << text;
+    if (!file.flush()) failure = "option -report_dir: cannot write " + path.string();
+  }
+  failTogether(comm, failure);
+}
+
+std::string recipe(MPI_Comm comm) {
+  int size = 1;
+  check(MPI_Comm_size(comm, &size));
+  std::string text = formatted("# squeal %s, %d ranks: the options of this run, defaults included, as an -options_file\n", version(), size);
+  for (const auto& [name, value] : resolvedOptions())
+    if (!value.empty() && name != "report_dir") text += "-" + name + " " + value + "\n";
+  return text;
+}
+
+}  // namespace
+
+void writeTables(const Analysis& analysis, const std::filesystem::path& folder) {
+  const MPI_Comm comm = analysis.mesh->comm;
+  writeFile(comm, folder / "eigenvalues.csv", eigenvalueTable(analysis));
+  for (std::size_t s = 0; s < analysis.segments.size(); ++s) {
+    if (analysis.segments[s].modes.angularFrequency.empty()) continue;
+    // modes.csv: the first active set; each later one has its own file, named by its first friction.
+    const std::string name = s == 0 ? "modes.csv" : "modes_" + frictionText(analysis.segments[s].points.at(0).friction) + ".csv";
+    writeFile(comm, folder / name, modeTable(analysis.segments[s].modes));
+  }
+  for (const auto& solution : analysis.steady)
+    if (solution.converged)
+      writeFile(comm, folder / ("steady_" + frictionText(solution.friction) + ".csv"),
+                "x_m,y_m,z_m,gap_m,normal_force_n,pressure_pa,friction_force_x_n,friction_force_y_n,friction_force_z_n,interface\n" +
+                    gathered(comm, steadyRows(analysis, solution)));
+  writeFile(comm, folder / "options.txt", recipe(comm));
+}
+
+std::string stabilityTable(const Analysis& analysis) {
+  std::string table = "\nfriction  unstable modes: frequency Hz (growth 1/s)";
+  for (const auto& solution : analysis.steady)
+    if (!solution.converged) table += formatted("\n%8g  no steady sliding solution found (%s)", solution.friction, solution.reason.c_str());
+  for (const auto& segment : analysis.segments)
+    for (const auto& point : segment.points) {
+      table += formatted("\n%8g  ", point.friction);
+      if (point.unstableCount() == 0) table += "none: steady sliding is stable";
+      int shown = 0;
+      for (std::size_t i = 0; i < point.eigenvalues.size(); ++i) {
+        const auto& e = point.eigenvalues[i];
+        if (!e.unstable) continue;
+        if (++shown > 6) continue;
+        table += formatted("%s%.6g (%.4g)", shown > 1 ? ", " : "", e.s.imag() / (2 * M_PI), e.s.real());
+      }
+      if (shown > 6) table += formatted(", and %d more in eigenvalues.csv", shown - 6);
+    }
+  return table;
+}
+
+}  // namespace squeal::report

@@ -1,0 +1,31 @@
+#pragma once
+/// Fields on the mesh as VTK files, which ParaView opens with all nodes of quadratic cells.
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+
+namespace squeal::report {
+
+/// Values at the nodes.
+struct Field {
+  std::string name;
+  int components = 1;          ///< 1: scalar; 3: vector (plane problems: the third one 0)
+  std::vector<double> values;  ///< [local node][component], ghosts included
+};
+
+/// Collective. Writes `stem`.pvtu and the pieces `stem`/…_RANK.vtu (a folder, so that the report folder stays readable): compressed
+/// binary, coordinates in double and fields in single precision. Beside the fields: node_tag and part of the nodes, body (index)
+/// and rank of the cells.
+/// Errors (all ranks): a file that cannot be written, naming -report_dir; a cell type that VTK lacks; a field of the wrong size.
+void writeVtu(const mesh::Mesh& mesh, const std::filesystem::path& stem, const std::vector<Field>& pointFields);
+
+/// Collective. Rank 0 writes a ParaView collection of (time, file) pairs: the frames of an animation or of a sweep. The files are
+/// named relative to the folder of `path`, so that the report folder can be moved (all paths absolute, or all relative).
+/// Errors (all ranks): a file that cannot be written, naming -report_dir.
+void writePvd(MPI_Comm comm, const std::filesystem::path& path,
+              const std::vector<std::pair<double, std::filesystem::path>>& frames);
+
+}  // namespace squeal::report
