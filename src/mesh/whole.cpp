@@ -39,18 +39,31 @@ class GmshModel {
   std::map<std::size_t, Point> points_;
 };
 
+void setParameters(const std::vector<std::string>& parameters) {
+  std::vector<std::string> known;
+  gmsh::onelab::getNames(known);
+  for (const auto& parameter : parameters) {
+    const auto parts = split(parameter, '=');
+    char* end = nullptr;
+    const double value = parts.size() == 2 ? std::strtod(parts[1].c_str(), &end) : 0;
+    if (parts.size() != 2 || parts[1].empty() || *end) throw Error("option -mesh_set " + parameter + ": must be a list of name=number");
+    if (std::find(known.begin(), known.end(), parts[0]) == known.end())
+      throw Error("option -mesh_set " + parameter + ": the geometry has no parameter '" + parts[0] + "'; it has: " + joined(known));
+    gmsh::onelab::setNumber(parts[0], {value});
+  }
+}
+
 GmshModel::GmshModel(const std::string& file, const std::vector<std::string>& parameters) {
   if (!std::filesystem::is_regular_file(file)) throw Error("option -mesh_file " + file + ": there is no such file");
   gmsh::clear();
   gmsh::logger::start();
   std::string failure;
   try {
-    for (const auto& parameter : parameters) {
-      const auto parts = split(parameter, '=');
-      char* end = nullptr;
-      const double value = parts.size() == 2 ? std::strtod(parts[1].c_str(), &end) : 0;
-      if (parts.size() != 2 || parts[1].empty() || *end) throw Error("option -mesh_set " + parameter + ": must be a list of name=number");
-      gmsh::onelab::setNumber(parts[0], {value});
+    gmsh::onelab::clear();  // gmsh keeps parameters from one file to the next
+    if (!parameters.empty()) {
+      gmsh::open(file);  // once with its own values, to learn the names it knows
+      setParameters(parameters);
+      gmsh::clear();
     }
     gmsh::open(file);
     std::vector<std::size_t> tags;

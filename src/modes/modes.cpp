@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "modes/blocklanczos.hpp"
 #include "petsc/options.hpp"
 #include "petsc/stages.hpp"
 #include "petsc/text.hpp"
@@ -11,6 +12,11 @@ namespace squeal::modes {
 namespace {
 
 const IntegerOption countOption("modes", "modes_count", 200, 1, "number of free-vibration modes, the basis of the reduced problem");
+const ChoiceOption solverOption("modes", "modes_solver", {"auto", "block_lanczos", "eps"}, "auto",
+                                "block_lanczos: blocked solves with MUMPS; eps: SLEPc; auto: block_lanczos, or eps if a -modes_eps_* option is given or "
+                                "the modes are more than a tenth of the unknowns");
+const IntegerOption blockOption("modes", "modes_block_size", 8, 1, "right-hand sides that block_lanczos solves for together");
+const RealOption toleranceOption("modes", "modes_tolerance", 1e-8, "", {0, 1e-2, true, false}, "relative error of the eigenvalues of S = inverse(K) M (of eps: -modes_eps_tol)");
 const FlagOption sturmOption("modes", "modes_sturm", true, "confirm by the inertia of K - sigma M that no mode is missing (one more factorisation)");
 const SolverPrefix solverPrefix("modes", "modes_eps_", "SLEPc EPS of the free vibrations: tol, ncv, mpd, type, …");
 
@@ -32,7 +38,7 @@ OwnedEPS solver(const contact::AssociatedSystem& system, int count, Stage& stage
   // Half as many vectors again as modes, enlarged in portions of 100, took the fewest solves.
   const int size = static_cast<int>(system.size()), vectors = std::min(size, count + std::max(50, count / 2));
   check(EPSSetDimensions(eps, count, vectors, std::min(vectors, 100)));
-  check(EPSSetTolerances(eps, 1e-10, PETSC_DEFAULT));
+  check(EPSSetTolerances(eps, toleranceOption.get(), PETSC_DEFAULT));
   check(EPSSetPurify(eps, PETSC_FALSE));
   check(EPSMonitorSet(eps, report, &stage, nullptr));
   ST st = nullptr;
@@ -78,52 +84,87 @@ void confirmCount(const contact::AssociatedSystem& system, Modes& modes) {
   modes.countConfirmed = modes.inertiaCount == static_cast<int>(below);
 }
 
-}  // namespace
+void requireConverged(int converged, int count) {
+  if (converged < count)
+    throw Error(formatted("free vibration: only %d of %d modes converged; raise -modes_eps_max_it or -modes_eps_ncv, or loosen -modes_tolerance", converged, count));
+}
 
-Modes compute(const contact::AssociatedSystem& system) {
-  const int count = countOption.get();
-  if (count > system.size())
-    throw Error(formatted("option -modes_count %d: the problem has only %d unknowns", count, static_cast<int>(system.size())));
-  const Mat k = system.matrices().k0, m = system.matrices().m0;
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(k));
-  Stage stage(comm, "modes");
+/// Eigenvalues ascending and vectors, M-orthonormal, by SLEPc.
+void solveByEps(const contact::AssociatedSystem& system, int count, Stage& stage, Modes& modes) {
+  const Mat k = system.matrices().k0;
   const OwnedEPS eps = solver(system, count, stage);
   check(EPSSolve(eps));
   PetscInt converged = 0, iterations = 0;
   check(EPSGetConverged(eps, &converged));
   check(EPSGetIterationNumber(eps, &iterations));
-  if (converged < count)
-    throw Error(formatted("free vibration: only %d of %d modes converged; raise -modes_eps_max_it or -modes_eps_ncv", static_cast<int>(converged), count));
-
-  Modes modes;
-  modes.iterations = static_cast<int>(iterations);
-  OwnedVec d, kd, md;
-  check(MatCreateVecs(k, d.out(), kd.out()));
-  check(VecDuplicate(d, md.out()));
-  check(BVCreate(comm, modes.vectors.out()));
+  requireConverged(static_cast<int>(converged), count);
+  OwnedVec d;
+  check(MatCreateVecs(k, d.out(), nullptr));
+  check(BVCreate(PetscObjectComm(reinterpret_cast<PetscObject>(k)), modes.vectors.out()));
   check(BVSetSizesFromVec(modes.vectors, d, count));
   check(BVSetType(modes.vectors, BVSVEC));
   std::vector<std::pair<double, PetscInt>> order;
   for (PetscInt i = 0; i < converged; ++i) {
     PetscScalar value = 0;
     check(EPSGetEigenvalue(eps, i, &value, nullptr));
-    if (!(value > 0)) throw Error(formatted("free vibration: eigenvalue %g is not positive; a body is loose or nearly so", value));
     order.emplace_back(value, i);
   }
   std::sort(order.begin(), order.end());
   for (int i = 0; i < count; ++i) {
     check(EPSGetEigenvector(eps, order[static_cast<std::size_t>(i)].second, d, nullptr));
-    const double lambda = order[static_cast<std::size_t>(i)].first;
+    check(BVInsertVec(modes.vectors, i, d));
+    modes.lambda.push_back(order[static_cast<std::size_t>(i)].first);
+  }
+  modes.iterations = static_cast<int>(iterations);
+}
+
+void solveByLanczos(const contact::AssociatedSystem& system, int count, Stage& stage, Modes& modes) {
+  const auto& matrices = system.matrices();
+  auto result = blockLanczos(matrices.k0, matrices.m0, system.solver(), count, blockOption.get(), toleranceOption.get(), 20,
+                             [&](int restarts, int converged) { stage.progress(formatted("%d restarts: %d of %d modes converged", restarts, converged, count)); });
+  requireConverged(result.converged, count);
+  modes.lambda = result.lambda;
+  modes.vectors = std::move(result.vectors);
+  modes.iterations = result.restarts;
+}
+
+void measureResiduals(const contact::AssociatedSystem& system, Modes& modes) {
+  const Mat k = system.matrices().k0, m = system.matrices().m0;
+  OwnedVec kd, md;
+  check(MatCreateVecs(k, kd.out(), md.out()));
+  for (std::size_t i = 0; i < modes.lambda.size(); ++i) {
+    if (!(modes.lambda[i] > 0)) throw Error(formatted("free vibration: eigenvalue %g is not positive; a body is loose or nearly so", modes.lambda[i]));
+    Vec d = nullptr;
+    check(BVGetColumn(modes.vectors, static_cast<PetscInt>(i), &d));
     check(MatMult(k, d, kd));
     check(MatMult(m, d, md));
+    check(BVRestoreColumn(modes.vectors, static_cast<PetscInt>(i), &d));
     PetscReal scale = 0, residual = 0;
     check(VecNorm(md, NORM_2, &scale));
-    check(VecAXPY(kd, -lambda, md));
+    check(VecAXPY(kd, -modes.lambda[i], md));
     check(VecNorm(kd, NORM_2, &residual));
-    modes.angularFrequency.push_back(std::sqrt(lambda));
-    modes.relativeResidual.push_back(residual / (lambda * scale));
-    check(BVInsertVec(modes.vectors, i, d));
+    modes.angularFrequency.push_back(std::sqrt(modes.lambda[i]));
+    modes.relativeResidual.push_back(residual / (modes.lambda[i] * scale));
   }
+}
+
+bool lanczosWanted(int count, PetscInt size) {
+  const std::string solver = solverOption.get();
+  if (solver != "auto") return solver == "block_lanczos";
+  return !solverPrefix.given() && 10 * static_cast<PetscInt>(count) <= size;
+}
+
+}  // namespace
+
+Modes compute(const contact::AssociatedSystem& system) {
+  const int count = countOption.get();
+  if (count > system.size())
+    throw Error(formatted("option -modes_count %d: the problem has only %d unknowns", count, static_cast<int>(system.size())));
+  Stage stage(PetscObjectComm(reinterpret_cast<PetscObject>(system.matrices().k0.get())), "modes");
+  Modes modes;
+  if (lanczosWanted(count, system.size())) solveByLanczos(system, count, stage, modes);
+  else solveByEps(system, count, stage, modes);
+  measureResiduals(system, modes);
   if (sturmOption.get()) confirmCount(system, modes);
   stage.finish(formatted("%d modes to %.4g Hz, worst relative residual %.1e%s", count, modes.angularFrequency.back() / (2 * M_PI),
                          *std::max_element(modes.relativeResidual.begin(), modes.relativeResidual.end()),

@@ -7,7 +7,8 @@
 namespace squeal::modes {
 
 struct Modes {
-  std::vector<double> angularFrequency;   ///< ascending, rad/s
+  std::vector<double> lambda;             ///< ω², ascending, rad²/s²
+  std::vector<double> angularFrequency;   ///< ω, rad/s
   std::vector<double> relativeResidual;   ///< ‖K d − ω² M d‖ / (ω² ‖M d‖)
   OwnedBV vectors;                        ///< n × count, M0-orthonormal
   int iterations = 0;                     ///< restarts of the eigensolver
@@ -16,7 +17,7 @@ struct Modes {
   double inertiaShift = 0;                ///< σ, rad²/s²
 };
 
-/// Collective. The lowest `-modes_count` modes by SLEPc EPS (-modes_eps_*, -modes_st_*). Error: more modes wanted than there are
+/// Collective. The lowest `-modes_count` modes by block Lanczos or SLEPc EPS (-modes_solver, -modes_eps_*, -modes_st_*). Error: more modes wanted than there are
 /// unknowns; not converged.
 Modes compute(const contact::AssociatedSystem& system);
 

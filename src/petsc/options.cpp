@@ -249,6 +249,11 @@ SolverPrefix::SolverPrefix(std::string stage_, std::string prefix_, std::string 
   prefixes().push_back(this);
 }
 
+bool SolverPrefix::given() const {
+  const auto names = namesGiven();
+  return std::any_of(names.begin(), names.end(), [&](const auto& name) { return startsWith(name, prefix); });
+}
+
 std::vector<const SolverPrefix*> SolverPrefix::all() { return byStage(prefixes()); }
 
 void SolverPrefix::rejectUnused(const std::vector<std::string>& exceptAfter) const {

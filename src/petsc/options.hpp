@@ -105,6 +105,8 @@ class SolverPrefix {
  public:
   SolverPrefix(std::string stage, std::string prefix, std::string meaning);
   const std::string stage, prefix, meaning;
+  /// True if an option with this prefix is given.
+  bool given() const;
   /// Collective. Error if an option with this prefix is still unused, i.e. known to no solver; call after the solver is configured.
   /// `exceptAfter` names sub-prefixes whose options are read later (by a factorisation).
   void rejectUnused(const std::vector<std::string>& exceptAfter = {}) const;

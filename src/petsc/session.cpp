@@ -29,6 +29,7 @@ Session::Session(int argc, char** argv) {
 }
 
 Session::~Session() {
+  PetscOptionsSetValue(nullptr, "-options_left", "no");  // rejectUnknownOptions says it before the run, not after
   gmsh::finalize();
   SlepcFinalize();
 }

@@ -1,7 +1,6 @@
 #include "petsc/stages.hpp"
 
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -28,14 +27,13 @@ bool speaks(MPI_Comm comm) {
 
 }  // namespace
 
-Stage::Stage(MPI_Comm comm, std::string name) : comm_(comm), name_(std::move(name)), begin_(MPI_Wtime()) {}
+Stage::Stage(MPI_Comm comm, std::string name) : comm_(comm), name_(std::move(name)), begin_(MPI_Wtime()), lastProgress_(begin_) {}
 
 void Stage::progress(const std::string& text) {
   const double now = MPI_Wtime();
-  if (now - lastProgress_ < 0.5 || !speaks(comm_)) return;
+  if (now - lastProgress_ < 2 || !speaks(comm_)) return;
   lastProgress_ = now;
-  const bool terminal = isatty(fileno(stdout));
-  std::printf("%s%-10s %8.1f s  %s%s", terminal ? "\r\033[K" : "", name_.c_str(), now - begin_, text.c_str(), terminal ? "" : "\n");
+  std::printf("%-10s %8.2f s … %s\n", name_.c_str(), now - begin_, text.c_str());
   std::fflush(stdout);
 }
 
@@ -50,7 +48,7 @@ void Stage::finish(const std::string& result) {
   known->seconds += seconds;
   known->peakMemoryBytes = memory;
   if (!speaks(comm_)) return;
-  std::printf("%s%-10s %8.2f s  %s\n", isatty(fileno(stdout)) ? "\r\033[K" : "", name_.c_str(), seconds, result.c_str());
+  std::printf("%-10s %8.2f s  %s\n", name_.c_str(), seconds, result.c_str());
   std::fflush(stdout);
 }
 

@@ -19,13 +19,13 @@ class Stage {
   Stage(MPI_Comm comm, std::string name);
   /// Says on the terminal (rank 0, unless -quiet) what was found, with the time; keeps the record.
   void finish(const std::string& result);
-  /// Progress of long work, at most about twice a second; the text replaces the last one on a terminal.
+  /// Progress of long work, a line every two seconds at most: plain lines, since output of parallel jobs goes through pipes and files.
   void progress(const std::string& text);
 
  private:
   MPI_Comm comm_;
   std::string name_;
-  double begin_, lastProgress_ = 0;
+  double begin_, lastProgress_;
 };
 
 /// Text for the user on rank 0, silent with -quiet.

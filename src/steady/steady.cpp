@@ -98,7 +98,10 @@ OwnedVec Problem::guess(double friction, const contact::AssociatedSystem& system
   check(PCSetType(pc, PCSHELL));
   check(PCShellSetContext(pc, system.solver()));
   check(PCShellSetApply(pc, applySolver));
-  check(KSPSolve(solver, rhs, y));  // a guess: what it misses, SNES finds
+  check(KSPSolve(solver, rhs, y));
+  KSPConvergedReason reason;
+  check(KSPGetConvergedReason(solver, &reason));
+  if (reason < 0) check(KSPSolve(system.solver(), rhs, y));  // near a friction without solution: the frictionless guess
   const OwnedVec z = elasticity::nodalVector(mesh_);
   OwnedVec x = rightVector(matrices_.k0);
   check(MatMult(closed.transformation.selection, y, z));

@@ -1,0 +1,87 @@
+#pragma once
+/// Two elastic layers of period Lx = 3 in plane strain, one sliding on the other: the disc, −1 ≤ y ≤ 0, clamped at y = −1, whose matter moves along +x,
+/// and the pad, 0 ≤ y ≤ 0.6, held at y = 0.6. The speed enters the direction of friction alone (approximation A).
+#include "exact/waves.hpp"
+
+namespace squeal::exact::two_layers {
+
+inline constexpr Material disc{1, 0.3, 1}, pad{0.4, 0.25, 0.6};
+inline constexpr double discThickness = 1, padThickness = 0.6, period = 3;
+
+/// Steady sliding, the top of the pad displaced down by `depth`: uniform strain in each layer, the same normal stress −p and shear stress in both. The
+/// shortenings p h/(λ+2μ) of the layers add up to `depth`; the disc drags the pad along +x with f p: σ_xy = f σ_yy = −f p, and u = 0 where the layers
+/// are held.
+struct Steady {
+  double friction, depth;
+  double pressure() const { return depth / (discThickness / disc.uniaxial() + padThickness / pad.uniaxial()); }
+  double u(double y, bool inPad) const {
+    return inPad ? friction * pressure() / pad.mu() * (padThickness - y) : -friction * pressure() / disc.mu() * (y + discThickness);
+  }
+  double v(double y, bool inPad) const {
+    return inPad ? -depth + pressure() / pad.uniaxial() * (padThickness - y) : -pressure() / disc.uniaxial() * (y + discThickness);
+  }
+};
+
+/// Zero where s is an eigenvalue of wave number index n: u = v = 0 where the layers are held; v and σ_yy continuous, and σ_xy = f σ_yy on both sides of
+/// the interface.
+inline Complex characteristic(double friction, int n, Complex s) {
+  const double k = 2 * M_PI * n / period;
+  const Waves bottom = wavesAt(disc, k, s, -discThickness), below = wavesAt(disc, k, s, 0);
+  const Waves above = wavesAt(pad, k, s, 0), top = wavesAt(pad, k, s, padThickness);
+  Matrix<8> conditions{};
+  for (std::size_t j = 0; j < 4; ++j) {
+    conditions[0][j] = bottom.u[j], conditions[1][j] = bottom.v[j];
+    conditions[2][4 + j] = top.u[j], conditions[3][4 + j] = top.v[j];
+    conditions[4][j] = below.v[j], conditions[4][4 + j] = -above.v[j];
+    conditions[5][j] = below.yy[j], conditions[5][4 + j] = -above.yy[j];
+    conditions[6][j] = below.xy[j] - friction * below.yy[j];
+    conditions[7][4 + j] = above.xy[j] - friction * above.yy[j];
+  }
+  return determinant(conditions);
+}
+
+// The lowest eigenvalues with Im s ≥ 0 by ascending Im s: roots of the characteristic equation for all n, converged to 1e-8 or better.
+
+/// f = 0.1
+inline constexpr std::array<Eigenvalue, 30> friction01{{
+  {0, 0, 0.97416652744}, {0, 0, 1.35192622526}, {1, -5.8183788984e-03, 1.95764988226},
+  {-1, 5.8183788980e-03, 1.95764988226}, {0, 0, 1.96165178465}, {-1, 1.5978651984e-03, 2.2269235958},
+  {1, -1.5978652015e-03, 2.2269235958}, {-1, 5.0724461958e-04, 2.41482739745}, {1, -5.0724461962e-04, 2.41482739745},
+  {-2, 9.8148024739e-04, 2.58047862043}, {2, -9.8148024743e-04, 2.58047862043}, {0, 0, 2.92249958232},
+  {3, 1.2055287125e-02, 3.52354249581}, {-3, -1.2055287126e-02, 3.52354249581}, {-2, -3.3427193462e-02, 3.58184531094},
+  {2, 3.3427193463e-02, 3.58184531094}, {-1, 2.7272816829e-03, 3.59193505731}, {1, -2.7272816827e-03, 3.59193505731},
+  {2, -2.0725558323e-02, 3.91621054829}, {-2, 2.0725558324e-02, 3.91621054829}, {0, 0, 4.05577867599},
+  {-1, -5.8814305477e-02, 4.16755502029}, {1, 5.8814305477e-02, 4.16755502029}, {0, 0, 4.27637722803},
+  {-3, -2.4943791987e-02, 4.50001998478}, {3, 2.4943791979e-02, 4.50001998479}, {-4, -2.4340710190e-02, 4.53713327078},
+  {4, 2.4340710190e-02, 4.53713327078}, {-2, -9.1644661855e-03, 4.65432204308}, {2, 9.1644661836e-03, 4.65432204308},
+}};
+
+/// f = 0.3
+inline constexpr std::array<Eigenvalue, 30> friction03{{
+  {0, 0, 0.974166527442}, {0, 0, 1.3519262253}, {1, -1.7466859809e-02, 1.95742019332},
+  {-1, 1.7466859809e-02, 1.95742019332}, {0, 0, 1.96165178465}, {-1, 4.7581604999e-03, 2.22650870626},
+  {1, -4.7581605000e-03, 2.22650870626}, {-1, 1.5059632759e-03, 2.41468042139}, {1, -1.5059632758e-03, 2.41468042139},
+  {2, -2.9295487068e-03, 2.58028521689}, {-2, 2.9295487110e-03, 2.58028521689}, {0, 0, 2.92249958232},
+  {3, 3.6082395115e-02, 3.52580798288}, {-3, -3.6082395116e-02, 3.52580798289}, {-2, -9.5046468647e-02, 3.5709040255},
+  {2, 9.5046468647e-02, 3.5709040255}, {1, -7.8089097376e-03, 3.59038573377}, {-1, 7.8089097376e-03, 3.59038573377},
+  {2, -5.6950823131e-02, 3.92772601876}, {-2, 5.6950823130e-02, 3.92772601876}, {0, 0, 4.05577867597},
+  {-1, -1.6851276882e-01, 4.14865604435}, {1, 1.6851276882e-01, 4.14865604435}, {0, 0, 4.27637722804},
+  {-3, -7.4643128555e-02, 4.4959279195}, {3, 7.4643128555e-02, 4.4959279195}, {-4, -7.3034341042e-02, 4.539853126},
+  {4, 7.3034341038e-02, 4.539853126}, {2, 2.7485887211e-02, 4.65413007069}, {-2, -2.7485887224e-02, 4.6541300707},
+}};
+
+/// f = 0.5
+inline constexpr std::array<Eigenvalue, 30> friction05{{
+  {0, 0, 0.974166527441}, {0, 0, 1.3519262253}, {1, -2.9149287694e-02, 1.95695126008},
+  {-1, 2.9149287693e-02, 1.95695126009}, {0, 0, 1.96165178466}, {-1, 7.8132745088e-03, 2.22569228735},
+  {1, -7.8132745094e-03, 2.22569228735}, {1, -2.4588302109e-03, 2.41439503445}, {-1, 2.4588302108e-03, 2.41439503445},
+  {-2, 4.8337888305e-03, 2.57990461384}, {2, -4.8337888313e-03, 2.57990461384}, {0, 0, 2.92249958231},
+  {-3, -5.9855982463e-02, 3.53034801625}, {3, 5.9855982463e-02, 3.53034801625}, {-2, -1.4832447826e-01, 3.55666401054},
+  {2, 1.4832447826e-01, 3.55666401054}, {-1, 1.1958781158e-02, 3.58770953859}, {1, -1.1958781158e-02, 3.58770953859},
+  {2, -8.4862237018e-02, 3.94311141653}, {-2, 8.4862237018e-02, 3.94311141653}, {0, 0, 4.05577867598},
+  {-1, -2.6290259126e-01, 4.12104758397}, {1, 2.6290259126e-01, 4.12104758397}, {0, 0, 4.27637722803},
+  {3, 1.2378805498e-01, 4.48784039142}, {-3, -1.2378805498e-01, 4.48784039142}, {-4, -1.2176742107e-01, 4.54529504455},
+  {4, 1.2176742106e-01, 4.54529504456}, {-2, -4.5783882275e-02, 4.65373223198}, {2, 4.5783882275e-02, 4.65373223198},
+}};
+
+}  // namespace squeal::exact::two_layers

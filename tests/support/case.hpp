@@ -1,0 +1,52 @@
+#pragma once
+/// Runs the method as a user would: options in, the whole analysis out.
+#include <petscsys.h>
+
+#include <cstdarg>
+#include <cstdio>
+#include <string>
+
+#include "analysis.hpp"
+#include "petsc/check.hpp"
+
+namespace squeal::test {
+
+/// Collective. Runs with these options alone.
+inline Analysis runOptions(const std::string& options) {
+  check(PetscOptionsClear(nullptr));
+  check(PetscOptionsInsertString(nullptr, ("-quiet " + options).c_str()));
+  return analyse(PETSC_COMM_WORLD);
+}
+
+/// Collective. Runs a case file with a few options changed.
+inline Analysis runCase(const std::string& name, const std::string& changes = {}) {
+  check(PetscOptionsClear(nullptr));
+  check(PetscOptionsInsertFileYAML(PETSC_COMM_WORLD, nullptr, ("options/" + name + ".yaml").c_str(), PETSC_TRUE));
+  check(PetscOptionsInsertString(nullptr, ("-quiet " + changes).c_str()));
+  return analyse(PETSC_COMM_WORLD);
+}
+
+/// Measured figures, once for all ranks.
+[[gnu::format(printf, 1, 2)]] inline void print(const char* format, ...) {
+  int rank = 0;
+  check(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
+  if (rank != 0) return;
+  va_list arguments;
+  va_start(arguments, format);
+  std::vprintf(format, arguments);
+  va_end(arguments);
+}
+
+/// Collective. The largest value of all ranks.
+inline double largest(double value) {
+  check(MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD));
+  return value;
+}
+
+/// Collective. The sum over all ranks.
+inline double total(double value) {
+  check(MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD));
+  return value;
+}
+
+}  // namespace squeal::test

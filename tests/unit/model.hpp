@@ -1,0 +1,164 @@
+#pragma once
+/// What tests of single stages share: options in, mesh, bodies and contact out; matrices and vectors as plain arrays on every rank.
+#include <fstream>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "contact/contact.hpp"
+#include "contact/coupled.hpp"
+#include "elasticity/elasticity.hpp"
+#include "mesh/mesh.hpp"
+#include "petsc/check.hpp"
+#include "petsc/owned.hpp"
+
+namespace squeal::test {
+
+/// The options database holds these alone.
+inline void setOptions(const std::string& options) {
+  check(PetscOptionsClear(nullptr));
+  check(PetscOptionsInsertString(nullptr, ("-quiet " + options).c_str()));
+}
+
+/// The same for a case file with changes.
+inline void setCase(const std::string& name, const std::string& changes = {}) {
+  check(PetscOptionsClear(nullptr));
+  check(PetscOptionsInsertFileYAML(PETSC_COMM_WORLD, nullptr, ("options/" + name + ".yaml").c_str(), PETSC_TRUE));
+  check(PetscOptionsInsertString(nullptr, ("-quiet " + changes).c_str()));
+}
+
+inline std::string material(const std::string& body, const std::string& young, const std::string& poisson, const std::string& density) {
+  const std::string name = " -material_" + body;
+  return name + "_young " + young + name + "_poisson " + poisson + name + "_density " + density + " ";
+}
+
+/// The message of the Error that `action` throws; empty if none.
+template <class Action>
+std::string errorOf(const Action& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// What the options in force ask of the mesh, as the analysis does.
+inline mesh::Request requestOfOptions() {
+  mesh::Request request;
+  request.bodies = elasticity::materialGroups();
+  request.moving = elasticity::movingBodies();
+  request.nodeGroups = contact::constrainedGroups();
+  request.surfaces = elasticity::loadedSurfaces();
+  request.interfaces = contact::readInterfaces();
+  request.periodic = contact::periodicPairs();
+  return request;
+}
+
+/// Collective.
+inline mesh::Mesh readMesh() { return mesh::read(PETSC_COMM_WORLD, requestOfOptions()); }
+
+/// The stages before the first solution. Contact borrows the mesh, which therefore keeps its address.
+struct Model {
+  std::unique_ptr<mesh::Mesh> mesh;
+  elasticity::Bodies bodies;
+  contact::Contact contact;
+};
+
+/// Collective. From the options in force.
+inline Model buildModel() {
+  Model model;
+  model.mesh = std::make_unique<mesh::Mesh>(readMesh());
+  model.bodies = elasticity::assemble(*model.mesh);
+  model.contact = contact::build(*model.mesh, model.bodies);
+  return model;
+}
+
+/// Collective. All entries on every rank, column-major.
+struct DenseCopy {
+  PetscInt rows = 0, columns = 0;
+  std::vector<double> values;
+  double operator()(PetscInt i, PetscInt j) const { return values[static_cast<std::size_t>(j * rows + i)]; }
+};
+
+inline DenseCopy denseCopy(Mat matrix) {
+  DenseCopy copy;
+  check(MatGetSize(matrix, &copy.rows, &copy.columns));
+  OwnedIS rows, columns;
+  check(ISCreateStride(PETSC_COMM_SELF, copy.rows, 0, 1, rows.out()));
+  check(ISCreateStride(PETSC_COMM_SELF, copy.columns, 0, 1, columns.out()));
+  const IS rowSets[] = {rows}, columnSets[] = {columns};
+  Mat* sub = nullptr;
+  check(MatCreateSubMatrices(matrix, 1, rowSets, columnSets, MAT_INITIAL_MATRIX, &sub));
+  OwnedMat dense;
+  check(MatConvert(sub[0], MATSEQDENSE, MAT_INITIAL_MATRIX, dense.out()));
+  check(MatDestroySubMatrices(1, &sub));
+  const PetscScalar* values = nullptr;
+  check(MatDenseGetArrayRead(dense, &values));
+  copy.values.assign(values, values + copy.rows * copy.columns);
+  check(MatDenseRestoreArrayRead(dense, &values));
+  return copy;
+}
+
+/// Collective. All entries on every rank.
+inline std::vector<double> allEntries(Vec vector) {
+  OwnedScatter scatter;
+  OwnedVec all;
+  check(VecScatterCreateToAll(vector, scatter.out(), all.out()));
+  check(VecScatterBegin(scatter, vector, all, INSERT_VALUES, SCATTER_FORWARD));
+  check(VecScatterEnd(scatter, vector, all, INSERT_VALUES, SCATTER_FORWARD));
+  PetscInt size = 0;
+  const PetscScalar* values = nullptr;
+  check(VecGetSize(all, &size));
+  check(VecGetArrayRead(all, &values));
+  std::vector<double> copy(values, values + size);
+  check(VecRestoreArrayRead(all, &values));
+  return copy;
+}
+
+/// Collective. A nodal vector with the values of `field(x)`, a Point.
+template <class Field>
+OwnedVec nodalField(const mesh::Mesh& mesh, const Field& field) {
+  OwnedVec u = elasticity::nodalVector(mesh);
+  PetscScalar* values = nullptr;
+  check(VecGetArray(u, &values));
+  for (PetscInt node = 0; node < mesh.ownedNodes; ++node) {
+    const mesh::Point value = field(mesh.coordinates[static_cast<std::size_t>(node)]);
+    for (int d = 0; d < mesh.dimension; ++d) values[mesh.dimension * node + d] = value[static_cast<std::size_t>(d)];
+  }
+  check(VecRestoreArray(u, &values));
+  return u;
+}
+
+/// Collective. xᵀ A y.
+inline double form(Vec x, Mat a, Vec y) {
+  OwnedVec product;
+  check(VecDuplicate(x, product.out()));
+  check(MatMult(a, y, product));
+  PetscScalar value = 0;
+  check(VecDot(x, product, &value));
+  return value;
+}
+
+inline double dot(Vec x, Vec y) {
+  PetscScalar value = 0;
+  check(VecDot(x, y, &value));
+  return value;
+}
+
+inline double dot(const mesh::Point& a, const mesh::Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// Collective. A file of the test, written by one rank before any reads it.
+inline std::string writeFile(const std::string& name, const std::string& text) {
+  const std::string path = std::string(SQUEAL_OUTPUT_DIR) + "/" + name;
+  int rank = 0;
+  check(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
+  if (rank == 0) std::ofstream(path) << text;
+  check(MPI_Barrier(PETSC_COMM_WORLD));
+  return path;
+}
+
+}  // namespace squeal::test
