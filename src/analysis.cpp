@@ -1,6 +1,7 @@
 #include "analysis.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "modes/benchmark.hpp"
 #include "petsc/options.hpp"
@@ -120,17 +121,22 @@ ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::si
     if (benchmarkWanted.get()) floor = modes::floorSeconds(system);
     segment.shapes = nodalShapes(segment.modes, system);
     Stage stage(analysis.mesh->comm, "flutter");
-    reduced = std::make_unique<flutter::ReducedProblem>(pencil, segment.modes.vectors);
+    reduced = std::make_unique<flutter::ReducedProblem>(pencil, system, segment.modes);
     stage.finish("friction operators projected on the modes");
   }
-  for (std::size_t i = first; i < last; ++i) {
+  // The largest friction first: its corrections nearly suffice for the others.
+  std::vector<std::size_t> order{last - 1};
+  for (std::size_t i = first; i + 1 < last; ++i) order.push_back(i);
+  segment.points.resize(last - first);
+  for (std::size_t i : order) {
     const double friction = analysis.steady[i].friction;
     Stage stage(analysis.mesh->comm, "flutter");
     const Mat trial = system.matrices().transformation.trial;
-    segment.points.push_back(direct ? flutter::solveDirect(pencil, friction, trial) : reduced->solve(friction, trial));
-    const auto& point = segment.points.back();
-    stage.finish(formatted("friction %g: %d of %d eigenvalues unstable, worst backward error %.1e", friction, point.unstableCount(),
-                           static_cast<int>(point.eigenvalues.size()), point.worstBackwardError()));
+    auto& point = segment.points[i - first];
+    point = direct ? flutter::solveDirect(pencil, friction, trial) : reduced->solve(friction, trial);
+    stage.finish(formatted("friction %g: %d of %d eigenvalues unstable%s, worst backward error %.1e%s", friction, point.unstableCount(), point.bandCount(),
+                           point.bandTop > 0 ? formatted(" to %.4g Hz", point.bandTop / (2 * M_PI)).c_str() : "", point.worstBackwardError(),
+                           direct ? "" : formatted(", basis of %d", static_cast<int>(reduced->basisSize())).c_str()));
   }
   return segment;
 }

@@ -312,6 +312,7 @@ Transformation Contact::transformation(const std::vector<unsigned char>& gapFree
     if (column[i] >= 0) check(MatSetValue(result.selection, first + static_cast<PetscInt>(i), column[i], 1, INSERT_VALUES));
   assembled(result.selection);
   check(MatMatMult(kinematics, result.selection, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.trial.out()));
+  check(MatSetBlockSizes(result.trial, dimension, 1));  // so that T x is a nodal vector that knows its components
 
   const OwnedMat s = nodalMatrix(*mesh, 2);
   for (std::size_t i = 0; i < nodes.size(); ++i) {

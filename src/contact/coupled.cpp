@@ -49,7 +49,10 @@ AssociatedSystem::AssociatedSystem(const elasticity::Bodies& bodies, const Conta
 }
 
 KSP AssociatedSystem::solver() const {
-  if (solver_) return solver_;
+  if (solver_) {
+    factorise();
+    return solver_;
+  }
   Stage stage(PetscObjectComm(reinterpret_cast<PetscObject>(matrices_.k0.get())), "factor");
   check(KSPCreate(PetscObjectComm(reinterpret_cast<PetscObject>(matrices_.k0.get())), solver_.out()));
   check(KSPSetOptionsPrefix(solver_, factorisation.prefix.c_str()));
@@ -60,13 +63,21 @@ KSP AssociatedSystem::solver() const {
   check(PCSetType(pc, PCCHOLESKY));
   check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
   check(KSPSetFromOptions(solver_));
+  factorise();
+  stage.finish(formatted("stiffness of the closed, frictionless contact: %d unknowns", static_cast<int>(size())));
+  return solver_;
+}
+
+/// Does nothing where the factorisation is at hand. (An EPS that has used the solver leaves it without.)
+void AssociatedSystem::factorise() const {
+  PC pc = nullptr;
+  check(KSPSetOperators(solver_, matrices_.k0, matrices_.k0));
   check(KSPSetUp(solver_));
+  check(KSPGetPC(solver_, &pc));
   PCFailedReason failed;
   check(PCGetFailedReason(pc, &failed));
   if (failed != PC_NOERROR)
     throw Error("the stiffness matrix of the closed, frictionless contact cannot be factorised (options -modes_st_pc_*): is a body loose, or is memory short?");
-  stage.finish(formatted("stiffness of the closed, frictionless contact: %d unknowns", static_cast<int>(size())));
-  return solver_;
 }
 
 void rejectUnusedSolverOptions() { factorisation.rejectUnused(); }

@@ -31,6 +31,7 @@ class AssociatedSystem {
   KSP solver() const;
 
  private:
+  void factorise() const;
   CoupledMatrices matrices_;
   std::vector<unsigned char> closed_;
   PetscInt openNodes_ = 0;

@@ -61,6 +61,7 @@ double Pencil::norm(int power, double friction) const {
     apply(power, friction, v, image);
     check(VecNorm(image, NORM_2, &size));
     estimate = std::max(estimate, static_cast<double>(size));
+    if (size == 0) return estimate;  // a term that vanishes at this friction: v stays a start for the next
     check(VecZeroEntries(v));
     for (const auto& term : terms_)
       if (const double c = term.coefficient(friction); term.power == power && c != 0) {

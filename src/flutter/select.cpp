@@ -1,6 +1,7 @@
 #include "flutter/select.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "petsc/options.hpp"
 
@@ -13,24 +14,37 @@ const ChoiceOption methodOption("flutter", "flutter_method", {"reduced", "direct
 const RealOption toleranceOption("flutter", "flutter_unstable_tolerance", 1e-6, "", nonNegative,
                                  "unstable if the growth rate exceeds this fraction of |s|");
 const IntegerOption shapesOption("flutter", "flutter_shapes", 3, 0, "number of fastest growing complex modes kept for the report at each friction");
+const RealOption shapesBelowOption("flutter", "flutter_shapes_below", 20000, "Hz", positive,
+                                   "complex modes of higher frequency are not kept; squeal is what can be heard");
 
 }  // namespace
 
 std::vector<double> frictions() {
   auto list = frictionOption.get();
   if (list.empty()) throw Error("option -flutter_friction: the list is empty");
+  std::sort(list.begin(), list.end());  // each steady solution starts from the one before
+  if (std::adjacent_find(list.begin(), list.end()) != list.end()) throw Error("option -flutter_friction: a value is given twice");
   return list;
 }
 
 bool directWanted() { return methodOption.get() == "direct"; }
 
 int FrictionPoint::unstableCount() const {
-  return static_cast<int>(std::count_if(eigenvalues.begin(), eigenvalues.end(), [](const auto& e) { return e.unstable; }));
+  return static_cast<int>(std::count_if(eigenvalues.begin(), eigenvalues.end(), [&](const auto& e) { return e.unstable && inBand(e); }));
+}
+
+int FrictionPoint::unstableAbove() const {
+  return static_cast<int>(std::count_if(eigenvalues.begin(), eigenvalues.end(), [&](const auto& e) { return e.unstable && !inBand(e); }));
+}
+
+int FrictionPoint::bandCount() const {
+  return static_cast<int>(std::count_if(eigenvalues.begin(), eigenvalues.end(), [&](const auto& e) { return inBand(e); }));
 }
 
 double FrictionPoint::worstBackwardError() const {
   double worst = 0;
-  for (const auto& eigenvalue : eigenvalues) worst = std::max(worst, eigenvalue.backwardError);
+  for (const auto& eigenvalue : eigenvalues)
+    if (inBand(eigenvalue)) worst = std::max(worst, eigenvalue.backwardError);
   return worst;
 }
 
@@ -42,7 +56,7 @@ void judge(std::vector<Eigenvalue>& eigenvalues) {
 void keepShapes(FrictionPoint& point, Mat trial, const std::function<void(std::size_t, Vec, Vec)>& unknowns) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < point.eigenvalues.size(); ++i)
-    if (point.eigenvalues[i].unstable) order.push_back(i);
+    if (point.eigenvalues[i].unstable && point.inBand(point.eigenvalues[i]) && point.eigenvalues[i].s.imag() < 2 * M_PI * shapesBelowOption.get()) order.push_back(i);
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return point.eigenvalues[a].s.real() > point.eigenvalues[b].s.real(); });
   order.resize(std::min(order.size(), static_cast<std::size_t>(shapesOption.get())));
   OwnedVec real, imaginary;

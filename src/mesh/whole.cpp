@@ -42,6 +42,7 @@ class GmshModel {
 void setParameters(const std::vector<std::string>& parameters) {
   std::vector<std::string> known;
   gmsh::onelab::getNames(known);
+  gmsh::onelab::clear();  // a default computed from other parameters must follow the values given here
   for (const auto& parameter : parameters) {
     const auto parts = split(parameter, '=');
     char* end = nullptr;

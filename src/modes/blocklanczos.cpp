@@ -208,6 +208,7 @@ class Lanczos {
     r_.assign(b * b, 0.0);
     for (std::size_t i = 0; i < b; ++i) r_[i * b + i] = 1;
     double largest = 0;
+    int refills = 0;
     for (int pass = 0; pass < 3; ++pass) {
       massTimesW();
       const PetscScalar* read = nullptr;
@@ -233,8 +234,9 @@ class Lanczos {
         if (pass > 0) return;
         continue;
       }
+      if (++refills > 5) throw Error("free vibration: block Lanczos cannot extend its basis; use -modes_solver eps");
       refill(lost);
-      pass = 0;
+      pass = -1;
     }
   }
 
@@ -274,10 +276,7 @@ class Lanczos {
 
 LanczosResult blockLanczos(Mat k, Mat m, KSP solver, int count, int blockSize, double tolerance, int maxRestarts,
                            const std::function<void(int, int)>& progress) {
-  PetscInt n = 0;
-  check(MatGetSize(k, &n, nullptr));
-  // Room for 3 vectors a mode: met before the first restart nearly always.
-  const PetscInt limit = std::min<PetscInt>(n, 3 * count + 8 * blockSize);
+  const PetscInt limit = lanczosVectors(count, blockSize);
   Lanczos lanczos(k, m, solver, blockSize, limit);
   LanczosResult result;
   lanczos.start();

@@ -14,7 +14,7 @@ namespace {
 const IntegerOption countOption("modes", "modes_count", 200, 1, "number of free-vibration modes, the basis of the reduced problem");
 const ChoiceOption solverOption("modes", "modes_solver", {"auto", "block_lanczos", "eps"}, "auto",
                                 "block_lanczos: blocked solves with MUMPS; eps: SLEPc; auto: block_lanczos, or eps if a -modes_eps_* option is given or "
-                                "the modes are more than a tenth of the unknowns");
+                                "the problem is small");
 const IntegerOption blockOption("modes", "modes_block_size", 8, 1, "right-hand sides that block_lanczos solves for together");
 const RealOption toleranceOption("modes", "modes_tolerance", 1e-8, "", {0, 1e-2, true, false}, "relative error of the eigenvalues of S = inverse(K) M (of eps: -modes_eps_tol)");
 const FlagOption sturmOption("modes", "modes_sturm", true, "confirm by the inertia of K - sigma M that no mode is missing (one more factorisation)");
@@ -36,7 +36,7 @@ OwnedEPS solver(const contact::AssociatedSystem& system, int count, Stage& stage
   check(EPSSetWhichEigenpairs(eps, EPS_TARGET_MAGNITUDE));
   check(EPSSetTarget(eps, 0));
   // Half as many vectors again as modes, enlarged in portions of 100, took the fewest solves.
-  const int size = static_cast<int>(system.size()), vectors = std::min(size, count + std::max(50, count / 2));
+  const int size = static_cast<int>(system.size()), vectors = std::min(size, count + std::clamp(count / 2, 50, 100));  // SLEPc wants vectors <= count + portion
   check(EPSSetDimensions(eps, count, vectors, std::min(vectors, 100)));
   check(EPSSetTolerances(eps, toleranceOption.get(), PETSC_DEFAULT));
   check(EPSSetPurify(eps, PETSC_FALSE));
@@ -148,10 +148,13 @@ void measureResiduals(const contact::AssociatedSystem& system, Modes& modes) {
   }
 }
 
+/// The method keeps up to lanczosVectors() vectors; it must not run out of directions.
 bool lanczosWanted(int count, PetscInt size) {
   const std::string solver = solverOption.get();
-  if (solver != "auto") return solver == "block_lanczos";
-  return !solverPrefix.given() && 10 * static_cast<PetscInt>(count) <= size;
+  const bool fits = 2 * lanczosVectors(count, blockOption.get()) <= size;
+  if (solver == "block_lanczos" && !fits)
+    throw Error(formatted("option -modes_solver block_lanczos: %d modes of %d unknowns are too many for it; use eps", count, static_cast<int>(size)));
+  return solver == "block_lanczos" || (solver == "auto" && fits && !solverPrefix.given());
 }
 
 }  // namespace

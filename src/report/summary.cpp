@@ -30,7 +30,7 @@ Json unstableModes(const flutter::FrictionPoint& point) {
   Json list = Json::array();
   for (std::size_t i = 0; i < point.eigenvalues.size(); ++i) {
     const auto& e = point.eigenvalues[i];
-    if (e.unstable)
+    if (e.unstable && point.inBand(e))
       list.push_back({{"mode", i + 1}, {"frequency_hz", e.s.imag() / (2 * M_PI)}, {"growth_rate_1_per_s", e.s.real()}, {"backward_error", e.backwardError}});
   }
   return list;
@@ -66,6 +66,12 @@ void writeSummary(const Analysis& analysis, const std::filesystem::path& folder)
     if (const auto* point = pointAt(analysis, solution.friction)) {
       entry["eigenvalues"] = point->eigenvalues.size();
       entry["worst_backward_error"] = point->worstBackwardError();
+      if (point->bandTop > 0) {
+        entry["band_top_hz"] = point->bandTop / (2 * M_PI);
+        entry["accuracy_asked"] = point->accuracy;
+        entry["accuracy_met"] = point->worstBackwardError() <= point->accuracy;
+        entry["unstable_above_band_uncertified"] = point->unstableAbove();
+      }
       entry["unstable_modes"] = unstableModes(*point);
     }
     summary["frictions"].push_back(entry);

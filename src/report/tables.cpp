@@ -105,12 +105,19 @@ std::string stabilityTable(const Analysis& analysis) {
       int shown = 0;
       for (std::size_t i = 0; i < point.eigenvalues.size(); ++i) {
         const auto& e = point.eigenvalues[i];
-        if (!e.unstable) continue;
+        if (!e.unstable || !point.inBand(e)) continue;
         if (++shown > 6) continue;
         table += formatted("%s%.6g (%.4g)", shown > 1 ? ", " : "", e.s.imag() / (2 * M_PI), e.s.real());
       }
       if (shown > 6) table += formatted(", and %d more in eigenvalues.csv", shown - 6);
     }
+  for (const auto& segment : analysis.segments)
+    for (const auto& point : segment.points)
+      if (point.bandTop > 0 && point.worstBackwardError() > point.accuracy)
+        table += formatted("\nfriction %g: the backward errors in the band exceed %.0e, see eigenvalues.csv; raise -modes_count or -flutter_rounds", point.friction, point.accuracy);
+  if (!analysis.segments.empty() && analysis.segments.front().points.front().bandTop > 0)
+    table += formatted("\nEigenvalues up to %.5g Hz are corrected to the full-order problem; those above in eigenvalues.csv are not.",
+                       analysis.segments.front().points.front().bandTop / (2 * M_PI));
   return table;
 }
 
