@@ -107,6 +107,13 @@ std::vector<ContactNode> contactNodes(const mesh::Mesh& mesh, const elasticity::
   std::vector<ContactNode> nodes;
   std::vector<Point> obstacleVelocity;
   for (const auto& request : requests) obstacleVelocity.push_back(pointOf(obstacleVelocityOption, request.name));
+  const auto discVelocity = [&](const mesh::ContactPair& pair) {
+    return pair.masterBody >= 0 ? bodies.motions[static_cast<std::size_t>(pair.masterBody)].velocity(mesh.coordinates[static_cast<std::size_t>(pair.node)])
+                                : obstacleVelocity[static_cast<std::size_t>(pair.interface)];
+  };
+  double fastest = 0;
+  for (const auto& pair : mesh.pairs) fastest = std::max(fastest, std::sqrt(dot(discVelocity(pair), discVelocity(pair))));
+  check(MPI_Allreduce(MPI_IN_PLACE, &fastest, 1, MPI_DOUBLE, MPI_MAX, mesh.comm));
   const PetscScalar *normal = nullptr, *area = nullptr;
   check(VecGetArrayRead(sums.normal, &normal));
   check(VecGetArrayRead(sums.area, &area));
@@ -117,15 +124,14 @@ std::vector<ContactNode> contactNodes(const mesh::Mesh& mesh, const elasticity::
     node.area = area[mesh.dimension * pair.node];
     for (int d = 0; d < mesh.dimension; ++d) node.normal[static_cast<std::size_t>(d)] = normal[mesh.dimension * pair.node + d];
     node.normal = scaled(node.normal, 1 / std::sqrt(dot(node.normal, node.normal)));
-    const Point velocity = pair.masterBody >= 0 ? bodies.motions[static_cast<std::size_t>(pair.masterBody)].velocity(node.position)
-                                                : obstacleVelocity[static_cast<std::size_t>(pair.interface)];
+    const Point velocity = discVelocity(pair);
     // w = −V in the tangent plane [2.15].
     const double along = dot(velocity, node.normal);
     Point w{};
     for (std::size_t d = 0; d < 3; ++d) w[d] = -(velocity[d] - along * node.normal[d]);
     node.slipSpeed = std::sqrt(dot(w, w));
-    // A velocity along the normal leaves only rounding in the tangent plane.
-    if (node.slipSpeed > 1e-12 * std::sqrt(dot(velocity, velocity))) node.slip = scaled(w, 1 / node.slipSpeed);
+    // On the axis of a rotation, and where the velocity is along the normal, only rounding is left.
+    if (node.slipSpeed > 1e-12 * fastest) node.slip = scaled(w, 1 / node.slipSpeed);
     else node.slipSpeed = 0;
     nodes.push_back(node);
   }

@@ -204,7 +204,7 @@ std::vector<double> RealListOption::get(const std::string& subject) const {
     if (parts.size() != 3) reject(subject, value);
     const double first = number(subject, parts[0]), last = number(subject, parts[1]), step = number(subject, parts[2]);
     if (!(step > 0) || last < first || (last - first) / step > 1e6) reject(subject, value);
-    // Half a step of slack: 0:0.6:0.05 ends at 0.6 although 12 × 0.05 is not the double nearest to it.
+    // A little slack: 0:0.6:0.05 ends at 0.6 although 12 × 0.05 is not the double nearest to it.
     const auto steps = static_cast<int>(std::floor((last - first) / step + 1e-9));
     for (int i = 0; i <= steps; ++i) list.push_back(std::stod(formatted("%.12g", first + i * step)));
   } else {

@@ -4,8 +4,8 @@
 /// Potentials: u = ∂φ/∂x + ∂ψ/∂y, v = ∂φ/∂y − ∂ψ/∂x turn ρ s² u = div σ into φ'' = a² φ, ψ'' = b² ψ across a layer, with
 /// a² = k² + ρ s²/(λ+2μ), b² = k² + ρ s²/μ. Hence
 ///   u = ikφ + ψ',  v = φ' − ikψ,  σ_xy = μ (2ikφ' + (b²+k²) ψ),  σ_yy = λ (a²−k²) φ + 2μ (a² φ − ikψ'),
-/// four functions per layer: cosh ay and (sinh ay)/a for φ, the same with b for ψ. The conditions at the faces of the layers are linear in their four
-/// amplitudes; s is an eigenvalue where the determinant of these conditions vanishes.
+/// four functions per layer: cosh ay and (sinh ay)/a for φ, the same with b for ψ. The conditions at the faces of the layers are
+/// linear in their four amplitudes; s is an eigenvalue where the determinant of these conditions vanishes.
 #include <array>
 #include <cmath>
 #include <complex>
@@ -17,8 +17,8 @@ using Complex = std::complex<double>;
 
 /// One eigenvalue with Im s ≥ 0.
 struct Eigenvalue {
-  int n;             ///< wave number index
-  double re, im;     ///< growth rate and angular frequency, 1/s
+  int n;          ///< wave number index
+  double re, im;  ///< growth rate and angular frequency, 1/s
   Complex s() const { return {re, im}; }
 };
 
@@ -35,10 +35,13 @@ struct Waves {
 };
 
 inline Waves wavesAt(const Material& material, double k, Complex s, double y) {
-  const Complex i(0, 1), a2 = k * k + material.density * s * s / material.uniaxial(), b2 = k * k + material.density * s * s / material.mu();
+  const Complex i(0, 1), a2 = k * k + material.density * s * s / material.uniaxial(),
+                         b2 = k * k + material.density * s * s / material.mu();
   const Complex a = std::sqrt(a2), b = std::sqrt(b2);
-  const std::array<Complex, 4> phi{std::cosh(a * y), std::sinh(a * y) / a, 0, 0}, dPhi{a * std::sinh(a * y), std::cosh(a * y), 0, 0};
-  const std::array<Complex, 4> psi{0, 0, std::cosh(b * y), std::sinh(b * y) / b}, dPsi{0, 0, b * std::sinh(b * y), std::cosh(b * y)};
+  const std::array<Complex, 4> phi{std::cosh(a * y), std::sinh(a * y) / a, 0, 0},
+      dPhi{a * std::sinh(a * y), std::cosh(a * y), 0, 0};
+  const std::array<Complex, 4> psi{0, 0, std::cosh(b * y), std::sinh(b * y) / b},
+      dPsi{0, 0, b * std::sinh(b * y), std::cosh(b * y)};
   Waves waves;
   for (std::size_t j = 0; j < 4; ++j) {
     waves.u[j] = i * k * phi[j] + dPsi[j];

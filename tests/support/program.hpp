@@ -31,8 +31,10 @@ inline Options without(Options options, const std::vector<std::string>& names) {
   return options;
 }
 
-inline std::string commandLine(const Options& options) {
+/// The options file first: what comes after it overrides it.
+inline std::string commandLine(Options options) {
   std::string line;
+  if (const auto file = options.extract("options_file")) line = "-options_file '" + file.mapped() + "'";
   for (const auto& [name, value] : options) line += " -" + name + (value.empty() ? "" : " '" + value + "'");
   return line;
 }
@@ -52,23 +54,24 @@ inline void writeText(const fs::path& path, const std::string& text) {
   if (!file.flush()) throw std::runtime_error("cannot write " + path.string());
 }
 
-struct Run {
-  int exitCode = -1;        ///< 124: still running after the time limit, ended
-  std::string out, error;   ///< stdout, stderr (mpirun's own words on a failure among them)
-  fs::path folder;          ///< -report_dir
+struct ProgramRun {
+  int exitCode = -1;       ///< 124: still running after the time limit, ended
+  std::string out, error;  ///< stdout, stderr (mpirun's own words on a failure among them)
+  fs::path folder;         ///< -report_dir
 };
 
 /// A place to write for one test.
 inline fs::path placeFor(const std::string& name) { return fs::path(SQUEAL_OUTPUT_DIR) / name; }
 
 /// Runs the program in the repository's folder with the results in `name`/results, where what lies there stays.
-inline Run runAgain(const std::string& name, int ranks, const std::string& options, int seconds = 120) {
-  Run run;
+inline ProgramRun runAgain(const std::string& name, int ranks, const std::string& options, int seconds = 120) {
+  ProgramRun run;
   run.folder = placeFor(name) / "results";
   fs::create_directories(placeFor(name));
   const fs::path out = placeFor(name) / "stdout.txt", error = placeFor(name) / "stderr.txt";
-  const std::string command = "cd '" SQUEAL_SOURCE_DIR "' && exec timeout -k 5 " + std::to_string(seconds) + " '" SQUEAL_MPIEXEC "' " + std::to_string(ranks) +
-                              " '" SQUEAL_EXECUTABLE "' " + options + " -report_dir '" + run.folder.string() + "' >'" + out.string() + "' 2>'" + error.string() + "'";
+  const std::string command = "cd '" SQUEAL_SOURCE_DIR "' && exec timeout -k 5 " + std::to_string(seconds) +
+                              " '" SQUEAL_MPIEXEC "' " + std::to_string(ranks) + " '" SQUEAL_EXECUTABLE "' " + options +
+                              " -report_dir '" + run.folder.string() + "' >'" + out.string() + "' 2>'" + error.string() + "'";
   const int status = std::system(command.c_str());
   run.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
   run.out = contentOf(out);
@@ -77,7 +80,7 @@ inline Run runAgain(const std::string& name, int ranks, const std::string& optio
 }
 
 /// The same with an empty folder to begin with.
-inline Run runProgram(const std::string& name, int ranks, const std::string& options, int seconds = 120) {
+inline ProgramRun runProgram(const std::string& name, int ranks, const std::string& options, int seconds = 120) {
   fs::remove_all(placeFor(name));
   return runAgain(name, ranks, options, seconds);
 }

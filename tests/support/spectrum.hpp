@@ -36,8 +36,8 @@ std::vector<Complex> exactValues(const Table& table, std::size_t count) {
   return list;
 }
 
-/// For each wanted value the found one that belongs to it. The closest pair of all is matched first, then the closest of the rest: no found value
-/// is used twice, so a double eigenvalue found once shows as an error.
+/// For each wanted value the found one that belongs to it. The closest pair of all is matched first, then the closest of the rest:
+/// no found value is used twice, so a double eigenvalue found once shows as an error.
 inline std::vector<Complex> matched(const std::vector<Complex>& wanted, const std::vector<Complex>& found) {
   std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;
   for (std::size_t i = 0; i < wanted.size(); ++i)
@@ -90,7 +90,8 @@ inline double rootMeanSquare(const std::vector<double>& values) {
 }
 
 /// Prints and checks the order of convergence of each error between two meshes, the second of cells half as large.
-inline void expectOrder(double expected, double tolerance, const std::vector<double>& coarse, const std::vector<double>& fine, const char* what) {
+inline void expectOrder(double expected, double tolerance, const std::vector<double>& coarse, const std::vector<double>& fine,
+                        const char* what) {
   double low = INFINITY, high = 0;
   for (std::size_t i = 0; i < coarse.size(); ++i) {
     const double order = std::log2(coarse[i] / fine.at(i));

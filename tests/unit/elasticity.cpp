@@ -1,8 +1,7 @@
 // K, M and loads of every element on distorted cells: what holds exactly whatever the shape.
 #include <gtest/gtest.h>
-#include <petscsys.h>  // before the next header, which needs it
-
 #include <petscblaslapack.h>
+#include <petscsys.h>  // before the next header, which needs it
 
 #include <algorithm>
 #include <cmath>
@@ -47,8 +46,8 @@ const Element elements[] = {
 std::string patchOptions(const Element& element, const std::string& more = {}) {
   return std::string("-mesh_file meshes/patch_") + (element.dimension == 2 ? "2d" : "3d") + ".geo -mesh_set " + element.parameters +
          test::material("body", std::to_string(young), std::to_string(poisson), std::to_string(density)) +
-         "-constraint_boundary_clamped " + (element.dimension == 2 ? "xy" : "xyz") + " -load_boundary_pressure 0 -elasticity_incompatible_modes " +
-         element.incompatible + " " + more;
+         "-constraint_boundary_clamped " + (element.dimension == 2 ? "xy" : "xyz") +
+         " -load_boundary_pressure 0 -elasticity_incompatible_modes " + element.incompatible + " " + more;
 }
 
 /// The unit square or cube of distorted cells.
@@ -87,7 +86,8 @@ class Patch : public testing::TestWithParam<Element> {
   elasticity::Bodies bodies;
 };
 
-INSTANTIATE_TEST_SUITE_P(Elements, Patch, testing::ValuesIn(elements), [](const auto& info) { return std::string(info.param.label); });
+INSTANTIATE_TEST_SUITE_P(Elements, Patch, testing::ValuesIn(elements),
+                         [](const auto& info) { return std::string(info.param.label); });
 
 std::vector<double> symmetricEigenvalues(test::DenseCopy matrix) {
   PetscBLASInt n = matrix.rows, length = 40 * n, info = 0;
@@ -107,7 +107,8 @@ double asymmetry(const test::DenseCopy& matrix) {
   return worst / largest;
 }
 
-// Strain energy vanishes for rigid motions and for nothing else: no spurious mode from quadrature, none from the incompatible modes.
+// Strain energy vanishes for rigid motions and for nothing else: no spurious mode from quadrature, none from the incompatible
+// modes.
 TEST_P(Patch, KernelOfStiffnessIsRigidMotions) {
   build();
   const auto stiffness = test::denseCopy(bodies.stiffness);
@@ -123,7 +124,8 @@ TEST_P(Patch, KernelOfStiffnessIsRigidMotions) {
     EXPECT_LT(rest, 1e-13 * eigenvalues.back() * size);
   }
   EXPECT_LT(std::abs(eigenvalues[motions.size() - 1]), 1e-13 * eigenvalues.back());
-  EXPECT_GT(eigenvalues[motions.size()], 1e-4 * eigenvalues.back());  // the first strained mode of some hundred unknowns, well apart from zero
+  EXPECT_GT(eigenvalues[motions.size()],
+            1e-4 * eigenvalues.back());  // the first strained mode of some hundred unknowns, well apart from zero
 }
 
 /// Solves K u = 0 inside for the values of `u` on the boundary, which replace those inside.
@@ -176,12 +178,14 @@ double energyDensity(int dimension, bool planeStress) {
 
 void constantStrain(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, double energy) {
   const auto exact = test::nodalField(mesh, [&](const Point& x) { return linearField(x, mesh.dimension); });
-  const auto inside = static_cast<double>(mesh.totalNodes) - test::total(static_cast<double>(mesh.nodeGroups.at("boundary").size()));
+  const auto inside =
+      static_cast<double>(mesh.totalNodes) - test::total(static_cast<double>(mesh.nodeGroups.at("boundary").size()));
   ASSERT_GE(inside, 1);
   OwnedVec u = test::nodalField(mesh, [&](const Point& x) { return linearField(x, mesh.dimension); });
   for (PetscInt node = 0; node < mesh.ownedNodes; ++node)  // what the solver is not to see
     if (const auto& boundary = mesh.nodeGroups.at("boundary"); std::find(boundary.begin(), boundary.end(), node) == boundary.end())
-      for (int d = 0; d < mesh.dimension; ++d) check(VecSetValue(u, mesh.dimension * (mesh.firstNode + node) + d, 1e3, INSERT_VALUES));
+      for (int d = 0; d < mesh.dimension; ++d)
+        check(VecSetValue(u, mesh.dimension * (mesh.firstNode + node) + d, 1e3, INSERT_VALUES));
   check(VecAssemblyBegin(u));
   check(VecAssemblyEnd(u));
   solveInside(mesh, bodies.stiffness, u);
@@ -225,7 +229,8 @@ TEST_P(Patch, PressureOnClosedBoundary) {
         u[j] = x[i];
         return u;
       });
-      EXPECT_NEAR(test::dot(field, bodies.load), i == j && i < static_cast<std::size_t>(dimension()) ? -pressure : 0, 1e-13 * pressure);
+      EXPECT_NEAR(test::dot(field, bodies.load), i == j && i < static_cast<std::size_t>(dimension()) ? -pressure : 0,
+                  1e-13 * pressure);
     }
 }
 
@@ -239,7 +244,8 @@ TEST_P(Patch, CentrifugalForceIsThatOfTheCentreOfMass) {
   Point r{0.5 - origin[0], 0.5 - origin[1], dimension() == 2 ? 0 : 0.5 - origin[2]};
   const double along = test::dot(r, k), unitForce = density * speed * speed;
   for (std::size_t d = 0; d < static_cast<std::size_t>(dimension()); ++d)
-    EXPECT_NEAR(test::dot(unit(static_cast<int>(d)), bodies.load), unitForce * (r[d] - along * k[d]), 2e-12 * unitForce);  // gmsh's points for tetrahedra have 13 digits
+    EXPECT_NEAR(test::dot(unit(static_cast<int>(d)), bodies.load), unitForce * (r[d] - along * k[d]),
+                2e-12 * unitForce);  // gmsh's points for tetrahedra have 13 digits
   build(motion + "-load_centrifugal off");
   PetscReal size = 1;
   check(VecNorm(bodies.load, NORM_INFINITY, &size));
@@ -249,15 +255,15 @@ TEST_P(Patch, CentrifugalForceIsThatOfTheCentreOfMass) {
 // On one plane face: total force −p A n, its centre that of the face.
 TEST(Load, PressureOnOneFace) {
   for (const std::string set : {"recombine=1", "recombine=0", "order=2", "order=2,serendipity=1", "order=2,recombine=0"}) {
-    test::setOptions("-mesh_file meshes/beam.geo -mesh_set Lx=2,Ly=0.5,Lz=0.3,nx=4,ny=2,nz=1," + set + test::material("beam", "1", "0.3", "1") +
-                     "-load_top_pressure 7");
+    test::setOptions("-mesh_file meshes/beam.geo -mesh_set Lx=2,Ly=0.5,Lz=0.3,nx=4,ny=2,nz=1," + set +
+                     test::material("beam", "1", "0.3", "1") + "-load_top_pressure 7");
     const auto mesh = test::readMesh();
     const auto bodies = elasticity::assemble(mesh);
     const auto work = [&](const auto& field) { return test::dot(test::nodalField(mesh, field), bodies.load); };
     EXPECT_NEAR(work([](const Point&) { return Point{1, 0, 0}; }), 0, 1e-13) << set;
     EXPECT_NEAR(work([](const Point&) { return Point{0, 1, 0}; }), 0, 1e-13) << set;
-    EXPECT_NEAR(work([](const Point&) { return Point{0, 0, 1}; }), -7.0, 1e-12) << set;                 // 7 Pa · 2 m · 0.5 m
-    EXPECT_NEAR(work([](const Point& x) { return Point{0, 0, x[0]}; }), -7.0, 1e-12) << set;           // centre at x = 1
+    EXPECT_NEAR(work([](const Point&) { return Point{0, 0, 1}; }), -7.0, 1e-12) << set;       // 7 Pa · 2 m · 0.5 m
+    EXPECT_NEAR(work([](const Point& x) { return Point{0, 0, x[0]}; }), -7.0, 1e-12) << set;  // centre at x = 1
     EXPECT_NEAR(work([](const Point& x) { return Point{0, 0, x[1]}; }), 0, 1e-12) << set;
   }
 }
@@ -265,7 +271,8 @@ TEST(Load, PressureOnOneFace) {
 /// The unit square of four quadrangles; the nodes of the last one, tag 104, run clockwise if `inverted`.
 std::string fourCells(bool inverted) {
   std::string text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"lining\"\n$EndPhysicalNames\n$Nodes\n9\n";
-  for (int i = 0; i < 9; ++i) text += std::to_string(i + 1) + " " + std::to_string(0.5 * (i % 3)) + " " + std::to_string(0.5 * (i / 3)) + " 0\n";
+  for (int i = 0; i < 9; ++i)
+    text += std::to_string(i + 1) + " " + std::to_string(0.5 * (i % 3)) + " " + std::to_string(0.5 * (i / 3)) + " 0\n";
   text += "$EndNodes\n$Elements\n4\n101 3 2 1 1 1 2 5 4\n102 3 2 1 1 2 3 6 5\n103 3 2 1 1 4 5 8 7\n104 3 2 1 1 ";
   return text + (inverted ? "5 8 9 6" : "5 6 9 8") + "\n$EndElements\n";
 }

@@ -28,7 +28,8 @@ inline void setCase(const std::string& name, const std::string& changes = {}) {
   check(PetscOptionsInsertString(nullptr, ("-quiet " + changes).c_str()));
 }
 
-inline std::string material(const std::string& body, const std::string& young, const std::string& poisson, const std::string& density) {
+inline std::string material(const std::string& body, const std::string& young, const std::string& poisson,
+                            const std::string& density) {
   const std::string name = " -material_" + body;
   return name + "_young " + young + name + "_poisson " + poisson + name + "_density " + density + " ";
 }

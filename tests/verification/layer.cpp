@@ -18,7 +18,8 @@ const std::vector<Complex>& exactAt(double friction) {
   return lists.at(friction);
 }
 
-// The tables hold 10 digits after the point; the slope of the determinant is taken by differences of 1e-5, which leaves more digits than needed here.
+// The tables hold 10 digits after the point; the slope of the determinant is taken by differences of 1e-5, which leaves more digits
+// than needed here.
 TEST(Layer, TablesSolveTheCharacteristicEquation) {
   const auto worstStep = [](double friction, const auto& table) {
     double result = 0;
@@ -34,8 +35,18 @@ TEST(Layer, TablesSolveTheCharacteristicEquation) {
   EXPECT_LT(worstStep(0.6, one_layer::friction06), 1e-8);
 }
 
-// The program's own case, with nothing changed: 36 × 12 bilinear cells, higher-order mass, 200 modes. The bounds are those that published computations on
-// this mesh are judged by.
+/// 1 % in |s| and 0.01 in growth rates, which reach 0.3: bilinear cells, 7 to the shortest of these wavelengths, cannot do much
+/// better.
+void expectAccurate(const flutter::FrictionPoint& point, const char* method) {
+  const Errors found = errors(exactAt(point.friction), eigenvaluesOf(point));
+  print("f = %g, %s, worst of the first 30: |s| %.3f %%, growth rate %.4f\n", point.friction, method, 100 * worst(found.modulus),
+        worst(found.growth));
+  EXPECT_LT(worst(found.modulus), 0.01) << method << ", f = " << point.friction;
+  EXPECT_LT(worst(found.growth), 0.01) << method << ", f = " << point.friction;
+  EXPECT_GT(point.unstableCount(), 0) << method << ", f = " << point.friction;
+}
+
+// The program's own case, with nothing changed: 36 × 12 bilinear cells, higher-order mass, 200 modes.
 TEST(Layer, CaseFile) {
   const Analysis analysis = runCase("layer");
   ASSERT_EQ(analysis.segments.size(), 1U);
@@ -44,33 +55,25 @@ TEST(Layer, CaseFile) {
   EXPECT_EQ(segment.openNodes, 0);
   EXPECT_TRUE(segment.modes.countConfirmed);
   const Errors free = errors(exactAt(0), eigenvaluesOf(segment.modes));
-  print("f = 0: worst frequency error %.3f %% of the first 30, %.3f %% of the first 70\n", 100 * worst(free.frequency, 30), 100 * worst(free.frequency, 70));
+  print("f = 0: worst frequency error %.3f %% of the first 30, %.3f %% of the first 70\n", 100 * worst(free.frequency, 30),
+        100 * worst(free.frequency, 70));
   EXPECT_LT(worst(free.frequency, 30), 0.005);
   EXPECT_LT(worst(free.frequency, 70), 0.01);
   ASSERT_EQ(segment.points.size(), 4U);
-  for (const auto& point : segment.points) {
-    if (point.friction == 0) continue;
-    const Errors found = errors(exactAt(point.friction), eigenvaluesOf(point));
-    print("f = %g, 200 modes: worst of the first 30: |s| %.3f %%, growth rate %.4f\n", point.friction, 100 * worst(found.modulus), worst(found.growth));
-    EXPECT_LT(worst(found.modulus), 0.01) << "f = " << point.friction;
-    EXPECT_LT(worst(found.growth), 0.01) << "f = " << point.friction;
-    EXPECT_GT(point.unstableCount(), 0);
-  }
+  EXPECT_EQ(segment.points[0].friction, 0);
+  EXPECT_EQ(segment.points[0].unstableCount(), 0);
+  for (std::size_t i = 1; i < 4; ++i) expectAccurate(segment.points[i], "200 modes");
 }
 
 TEST(Layer, FullOrder) {
   const Analysis analysis = runCase("layer", "-flutter_method direct -flutter_direct_count 60 -flutter_friction 0.2,0.4,0.6");
   ASSERT_EQ(analysis.segments.size(), 1U);
   ASSERT_EQ(analysis.segments[0].points.size(), 3U);
-  for (const auto& point : analysis.segments[0].points) {
-    const Errors found = errors(exactAt(point.friction), eigenvaluesOf(point));
-    print("f = %g, full order: worst of the first 30: |s| %.3f %%, growth rate %.4f\n", point.friction, 100 * worst(found.modulus), worst(found.growth));
-    EXPECT_LT(worst(found.modulus), 0.01) << "f = " << point.friction;
-    EXPECT_LT(worst(found.growth), 0.01) << "f = " << point.friction;
-  }
+  for (const auto& point : analysis.segments[0].points) expectAccurate(point, "full order");
 }
 
-// The exact frequencies of +n and −n are equal, and the periodic mesh of equal cells keeps the symmetry: equal to rounding in the eigensolver.
+// The exact frequencies of +n and −n are equal, and the periodic mesh of equal cells keeps the symmetry: equal to rounding in the
+// eigensolver.
 TEST(Layer, DoubleModesAreDouble) {
   const Analysis analysis = runCase("layer", "-flutter_friction 0 -modes_count 90");
   const auto match = matched(exactAt(0), eigenvaluesOf(analysis.segments.at(0).modes));
@@ -81,19 +84,21 @@ TEST(Layer, DoubleModesAreDouble) {
     ++doubles;
     EXPECT_NEAR(match[i].imag() / match[i + 1].imag(), 1, 1e-8) << "wave number index " << other.n << " at " << one.im;
   }
-  const auto simple = std::count_if(one_layer::frictionless.begin(), one_layer::frictionless.end(), [](const auto& e) { return e.n == 0; });
+  const auto simple =
+      std::count_if(one_layer::frictionless.begin(), one_layer::frictionless.end(), [](const auto& e) { return e.n == 0; });
   // The 70th frequency may be the first of a pair.
   EXPECT_GE(2 * doubles + 1 + static_cast<int>(simple), 70);
 }
 
-// Bilinear cells with consistent mass: the error of a frequency is C h² + O(h⁴). They are Rayleigh–Ritz values, so the i-th lies above the i-th exact one
-// (min–max principle) and is compared with it.
+// Bilinear cells with consistent mass: the error of a frequency is C h² + O(h⁴). They are Rayleigh–Ritz values, so the i-th lies
+// above the i-th exact one (min–max principle) and is compared with it.
 TEST(Layer, SecondOrderWithConsistentMass) {
   const std::size_t count = 30;
   std::vector<std::vector<double>> above;
   for (const char* cells : {"nx=36,ny=12", "nx=72,ny=24", "nx=144,ny=48"}) {
     const Analysis analysis =
-        runCase("layer", std::string("-mesh_set ") + cells + " -elasticity_mass consistent -modes_count 40 -modes_sturm 0 -flutter_friction 0");
+        runCase("layer", std::string("-mesh_set ") + cells +
+                             " -elasticity_mass consistent -modes_count 40 -modes_sturm 0 -flutter_friction 0");
     const auto& found = analysis.segments.at(0).modes.angularFrequency;
     above.emplace_back();
     for (std::size_t i = 0; i < count; ++i) {
@@ -102,18 +107,21 @@ TEST(Layer, SecondOrderWithConsistentMass) {
     }
     print("%s, consistent mass: worst of the first 30 frequencies %.4f %%\n", cells, 100 * worst(above.back()));
   }
-  for (std::size_t level = 0; level < 2; ++level) expectOrder(2, level == 0 ? 0.05 : 0.02, above[level], above[level + 1], "frequencies");
+  for (std::size_t level = 0; level < 2; ++level)
+    expectOrder(2, level == 0 ? 0.05 : 0.02, above[level], above[level + 1], "frequencies");
 }
 
-// Quadratic elements: the error of s² is of order h⁴, also with friction, as right and left modes are both approximated to h² in energy.
-// The orders 3.86 to 4.01 seen here come closer to 4 on finer meshes.
+// Quadratic elements: the error of s² is of order h⁴, also with friction, as right and left modes are both approximated to h² in
+// energy. The orders 3.86 to 4.01 seen here come closer to 4 on finer meshes.
 void expectFourthOrder(const std::string& element) {
   std::vector<Errors> found;
   for (const char* cells : {"nx=24,ny=8", "nx=48,ny=16"}) {
-    const Analysis analysis = runCase("layer", std::string("-mesh_set order=2,") + element + "," + cells +
-                                                   " -elasticity_mass consistent -flutter_method direct -flutter_direct_count 24 -flutter_friction 0.4");
+    const Analysis analysis =
+        runCase("layer", std::string("-mesh_set order=2,") + element + "," + cells +
+                             " -elasticity_mass consistent -flutter_method direct -flutter_direct_count 24 -flutter_friction 0.4");
     found.push_back(errors(exactValues(one_layer::friction04, 12), eigenvaluesOf(analysis.segments.at(0).points.at(0))));
-    print("%s, f = 0.4, worst of the first 12: |s - s*|/|s*| %.1e, growth rate %.1e\n", cells, worst(found.back().relative), worst(found.back().growth));
+    print("%s, f = 0.4, worst of the first 12: |s - s*|/|s*| %.1e, growth rate %.1e\n", cells, worst(found.back().relative),
+          worst(found.back().growth));
   }
   expectOrder(4, 0.2, found[0].relative, found[1].relative, "eigenvalues");
 }
@@ -134,8 +142,8 @@ TEST(Layer, AllModesGiveTheFullOrderProblem) {
     ASSERT_EQ(wanted.size(), 84U);
     ASSERT_EQ(point.eigenvalues.size(), 84U);
     const Errors found = errors(wanted, eigenvaluesOf(point));
-    print("f = %g, all 84 modes against full order: %.1e; backward errors %.1e and %.1e\n", point.friction, worst(found.relative), point.worstBackwardError(),
-          direct.segments[0].points[i].worstBackwardError());
+    print("f = %g, all 84 modes against full order: %.1e; backward errors %.1e and %.1e\n", point.friction, worst(found.relative),
+          point.worstBackwardError(), direct.segments[0].points[i].worstBackwardError());
     EXPECT_LT(worst(found.relative), 1e-8);
   }
 }

@@ -1,0 +1,115 @@
+#pragma once
+/// One case on several numbers of ranks: the partition changes the order of every sum, and nothing else.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "support/program.hpp"
+#include "support/spectrum.hpp"
+
+namespace squeal::test {
+
+/// What a run found, at each friction in order.
+struct Findings {
+  std::vector<double> frequencies;                     ///< free modes, rad/s
+  std::map<double, std::vector<Complex>> eigenvalues;  ///< [friction]
+  std::map<double, CsvTable> steady;                   ///< [friction]
+  nlohmann::json summary;
+};
+
+inline Findings findingsOf(const ProgramRun& run) {
+  Findings findings;
+  findings.summary = nlohmann::json::parse(contentOf(run.folder / "summary.json"));
+  findings.frequencies = readCsv(run.folder / "modes.csv").column("angular_frequency_rad_per_s");
+  const CsvTable table = readCsv(run.folder / "eigenvalues.csv");
+  const auto friction = table.column("friction"), growth = table.column("growth_rate_1_per_s"),
+             frequency = table.column("angular_frequency_rad_per_s");
+  for (std::size_t i = 0; i < friction.size(); ++i) findings.eigenvalues[friction[i]].emplace_back(growth[i], frequency[i]);
+  for (const auto& entry : findings.summary.at("frictions"))
+    if (entry.at("steady").at("converged"))
+      findings.steady[entry.at("friction")] =
+          readCsv(run.folder / ("steady_" + shortest(entry.at("friction").get<double>()) + ".csv"));
+  return findings;
+}
+
+/// Normal force and friction of each contact node, found again by its place.
+inline std::map<std::vector<std::string>, std::vector<double>> contactForces(const CsvTable& table) {
+  const auto normal = table.column("normal_force_n"), x = table.column("friction_force_x_n"),
+             y = table.column("friction_force_y_n"), z = table.column("friction_force_z_n");
+  std::map<std::vector<std::string>, std::vector<double>> forces;
+  for (std::size_t i = 0; i < table.rows.size(); ++i)
+    forces[{table.rows[i].begin(), table.rows[i].begin() + 3}] = {normal[i], x[i], y[i], z[i]};
+  return forces;
+}
+
+/// The largest difference of any contact force, relative to the largest force.
+inline double forceDifference(const CsvTable& a, const CsvTable& b) {
+  const auto left = contactForces(a), right = contactForces(b);
+  if (left.size() != a.rows.size() || left.size() != right.size()) return INFINITY;
+  double largest = 0, worst = 0;
+  for (const auto& [place, forces] : left) {
+    const auto twin = right.find(place);
+    if (twin == right.end()) return INFINITY;
+    for (std::size_t i = 0; i < forces.size(); ++i) {
+      largest = std::max(largest, std::abs(forces[i]));
+      worst = std::max(worst, std::abs(forces[i] - twin->second[i]));
+    }
+  }
+  return worst / largest;
+}
+
+inline int unstableModes(const Findings& findings, std::size_t friction) {
+  return static_cast<int>(findings.summary.at("frictions").at(friction).at("unstable_modes").size());
+}
+
+/// Frequencies, eigenvalues, contact forces and counts of `other` are those of `one`; prints the differences.
+inline void expectSame(const Findings& one, const Findings& other, const std::string& label) {
+  SCOPED_TRACE(label);
+  ASSERT_EQ(one.frequencies.size(), other.frequencies.size());
+  double frequency = 0;
+  for (std::size_t i = 0; i < one.frequencies.size(); ++i)
+    frequency = std::max(frequency, std::abs(other.frequencies[i] / one.frequencies[i] - 1));
+  EXPECT_LT(frequency, 1e-8);  // twice the digits of the modes' residuals, which are below 1e-5
+  double eigenvalue = 0, force = 0;
+  ASSERT_EQ(one.eigenvalues.size(), other.eigenvalues.size());
+  for (const auto& [friction, values] : one.eigenvalues) {
+    const auto& twins = other.eigenvalues.at(friction);
+    ASSERT_EQ(values.size(), twins.size());
+    eigenvalue = std::max(eigenvalue, worst(errors(values, twins).relative));
+    force = std::max(force, forceDifference(one.steady.at(friction), other.steady.at(friction)));
+  }
+  EXPECT_LT(eigenvalue, 1e-6);
+  EXPECT_LT(force, 1e-8);  // the steady problem is solved to 1e-11
+  const auto& frictions = one.summary.at("frictions");
+  ASSERT_EQ(frictions.size(), other.summary.at("frictions").size());
+  int iterations = 0;
+  for (std::size_t i = 0; i < frictions.size(); ++i) {
+    EXPECT_EQ(unstableModes(one, i), unstableModes(other, i)) << "friction " << frictions[i].at("friction");
+    for (const auto* findings : {&one, &other})
+      iterations = std::max(iterations, findings->summary.at("frictions").at(i).at("steady").at("iterations").get<int>());
+  }
+  EXPECT_LE(iterations, 6);
+  std::printf(
+      "%s: frequencies differ by %.1e, eigenvalues by %.1e of |s|, contact forces by %.1e of the largest; SNES iterations <= %d; "
+      "unstable modes at the last friction: %d\n",
+      label.c_str(), frequency, eigenvalue, force, iterations, unstableModes(one, frictions.size() - 1));
+}
+
+/// Runs a case on 1, 2 and 3 ranks.
+inline void expectSameOnAllRanks(const std::string& name, const std::string& options, int seconds) {
+  Findings one;
+  for (int ranks : {1, 2, 3}) {
+    const std::string label = name + " on " + std::to_string(ranks) + " ranks";
+    const ProgramRun run =
+        runProgram("ranks/" + name + "_np" + std::to_string(ranks), ranks, options + " -quiet -report_fields off", seconds);
+    ASSERT_EQ(run.exitCode, 0) << label << ": " << run.error;
+    Findings findings = findingsOf(run);
+    EXPECT_EQ(findings.summary.at("ranks"), ranks);
+    if (ranks == 1)
+      one = std::move(findings);
+    else
+      expectSame(one, findings, label);
+  }
+}
+
+}  // namespace squeal::test

@@ -1,0 +1,66 @@
+// Cases that contact must refuse: bodies that nothing holds, constraints and interfaces that contradict each other.
+#include <gtest/gtest.h>
+
+#include "unit/model.hpp"
+
+namespace squeal {
+namespace {
+
+using test::contains;
+using test::errorOf;
+
+const std::string layers = "-mesh_set nx=6,ny_disc=3,ny_pad=2";
+const std::string cylinderBodies = "-mesh_file meshes/cylinders.geo -mesh_set n_inner=2,n_outer=2,n_theta=16" +
+                                   test::material("inner", "1", "0.3", "1") + test::material("outer", "1", "0.3", "1");
+const std::string cylinders =
+    cylinderBodies +
+    "-contact_ring_pad outer_face -contact_ring_disc inner_face -constraint_sym_x_clamped x -constraint_sym_y_clamped y";
+
+/// The case of two layers without one of its options.
+std::string messageWithout(const std::string& option) {
+  test::setCase("two_layers", layers);
+  check(PetscOptionsClearValue(nullptr, option.c_str()));
+  if (option == "-constraint_pad_top_clamped") check(PetscOptionsClearValue(nullptr, "-constraint_pad_top_displacement"));
+  return errorOf([] { test::buildModel(); });
+}
+
+// Closed contact holds a body across the interface only: without friction it slides away.
+TEST(Loose, BodyIsNamed) {
+  auto message = messageWithout("-constraint_pad_top_clamped");
+  EXPECT_TRUE(contains(message, "body 'pad' can move rigidly") && contains(message, "-constraint_<group>_clamped")) << message;
+  message = messageWithout("-constraint_disc_bottom_clamped");
+  EXPECT_TRUE(contains(message, "body 'disc' can move rigidly")) << message;
+  EXPECT_EQ(messageWithout("-quiet"), "");
+  // Only across, or only along: both leave one motion.
+  test::setCase("two_layers", layers + " -constraint_pad_top_clamped y");
+  EXPECT_TRUE(contains(errorOf([] { test::buildModel(); }), "'pad'"));
+  test::setCase("two_layers", layers + " -constraint_pad_top_clamped x -constraint_pad_top_displacement 0,0,0");
+  EXPECT_EQ(errorOf([] { test::buildModel(); }), "");  // contact holds y
+  // A cylinder in another one: free to turn unless a line of each is held.
+  test::setOptions(cylinders);
+  EXPECT_EQ(errorOf([] { test::buildModel(); }), "");
+  for (const char* line : {"-constraint_sym_x_clamped", "-constraint_sym_y_clamped"}) check(PetscOptionsClearValue(nullptr, line));
+  EXPECT_TRUE(contains(errorOf([] { test::buildModel(); }), "can move rigidly"));
+}
+
+TEST(Contact, BadInputIsNamed) {
+  const std::pair<const char*, const char*> mistakes[] = {
+      {"-constraint_pad_face_clamped y", "not tangential"},  // contact decides the normal component
+      {"-constraint_pad_top_clamped xz", "-constraint_pad_top_clamped"},
+      {"-contact_second_disc disc_face", "needs -contact_second_pad"},
+      {"-contact_second_pad pad_top", "either -contact_second_disc or"},
+      {"-contact_interface_obstacle_velocity 1,0,0", "either"},
+  };
+  for (const auto& [change, words] : mistakes) {
+    test::setCase("two_layers", layers + " " + change);
+    const auto message = errorOf([] { test::buildModel(); });
+    EXPECT_TRUE(contains(message, words)) << change << ": " << message;
+  }
+  // A round face on a flat plate.
+  test::setOptions(cylinderBodies +
+                   "-constraint_inner_bore_clamped xy -contact_rim_pad outer_rim -contact_rim_obstacle_velocity 1,0,0");
+  EXPECT_TRUE(contains(errorOf([] { test::buildModel(); }), "must be flat"));
+}
+
+}  // namespace
+}  // namespace squeal

@@ -1,0 +1,234 @@
+// Steady sliding: uniform strain against the closed forms, and contact that opens against statics.
+#include <gtest/gtest.h>
+
+#include "exact/one_layer.hpp"
+#include "exact/two_layers.hpp"
+#include "support/case.hpp"
+#include "support/contact.hpp"
+
+namespace squeal::test {
+namespace {
+
+constexpr double depth = 0.01;  // by which the case files press
+
+/// Collective. Largest difference from `exact(x, y, part)` -> {u, v} at any node, relative to the largest exact component.
+template <class Exact>
+double displacementError(const Analysis& analysis, const steady::Solution& solution, const Exact& exact) {
+  const auto& mesh = *analysis.mesh;
+  const PetscScalar* values = nullptr;
+  double error = 0, scale = 0;
+  check(VecGetArrayRead(solution.displacement, &values));
+  for (PetscInt node = 0; node < mesh.ownedNodes; ++node) {
+    const auto i = static_cast<std::size_t>(node);
+    const auto wanted = exact(mesh.coordinates[i], mesh.partName[static_cast<std::size_t>(mesh.nodePart[i])]);
+    for (std::size_t d = 0; d < static_cast<std::size_t>(mesh.dimension); ++d) {
+      error = std::max(error, std::abs(values[mesh.dimension * node + static_cast<PetscInt>(d)] - wanted[d]));
+      scale = std::max(scale, std::abs(wanted[d]));
+    }
+  }
+  check(VecRestoreArrayRead(solution.displacement, &values));
+  return largest(error) / largest(scale);
+}
+
+/// Collective. Pressure everywhere, its resultants over the contact, and friction along x · `sense`.
+void expectUniformPressure(const Analysis& analysis, const steady::Solution& solution, double pressure, double area, double normalY,
+                           double sense) {
+  double error = 0;
+  for (std::size_t i = 0; i < solution.contact.size(); ++i) {
+    const auto& state = solution.contact[i];
+    const double friction = sense * solution.friction * state.normalForce;
+    error = std::max(error, std::abs(state.pressure / pressure - 1));
+    EXPECT_NEAR(state.gap, 0, 1e-10 * depth);
+    EXPECT_NEAR(state.frictionForce[0], friction, 1e-12 * pressure * area);
+    EXPECT_NEAR(state.frictionForce[1], 0, 1e-12 * pressure * area);
+  }
+  EXPECT_LT(largest(error), 1e-10);
+  EXPECT_NEAR(solution.smallestPressure / pressure, 1, 1e-10);
+  EXPECT_EQ(solution.openNodes, 0);
+  EXPECT_LT(solution.imbalance, 1e-8);
+  ASSERT_EQ(solution.resultants.size(), 1U);
+  EXPECT_NEAR(solution.resultants[0].normalForce[1], normalY * pressure * area, 1e-10 * pressure * area);
+  EXPECT_NEAR(solution.resultants[0].frictionForce[0], sense * solution.friction * pressure * area, 1e-10 * pressure * area);
+  EXPECT_GT(analysis.contact.totalNodes, 0);
+}
+
+/// All element types of the plane hold the uniform strain exactly: what is left is the solvers' rounding.
+const std::vector<std::string> elements{"order=1,recombine=1", "order=1,recombine=0", "order=2,recombine=1",
+                                        "order=2,recombine=1,serendipity=1", "order=2,recombine=0"};
+
+const std::string steadyOnly = " -flutter_friction 0,0.3,0.6 -modes_count 1 -modes_sturm 0";
+
+void expectLayer(const std::string& changes, double sense) {
+  const Analysis analysis = runCase("layer", changes + steadyOnly);
+  ASSERT_EQ(analysis.steady.size(), 3U);
+  for (const auto& solution : analysis.steady) {
+    const exact::one_layer::Steady exact{solution.friction, depth};
+    const double error = displacementError(analysis, solution, [&](const mesh::Point& x, const std::string&) {
+      return std::array<double, 2>{sense * exact.u(x[1]), exact.v(x[1])};
+    });
+    print("layer %s, f = %g: displacement %.1e, imbalance %.1e, %d iterations\n", changes.c_str(), solution.friction, error,
+          solution.imbalance, solution.iterations);
+    EXPECT_TRUE(solution.converged);
+    EXPECT_LT(error, 1e-10);
+    expectUniformPressure(analysis, solution, exact.pressure(), exact::one_layer::period, -1, sense);
+  }
+}
+
+TEST(Steady, LayerCaseFile) { expectLayer("", 1); }
+TEST(Steady, LayerWithOtherElements) {
+  for (const auto& element : elements) expectLayer("-mesh_set nx=6,ny=3," + element, 1);
+}
+TEST(Steady, PlateSlidingTheOtherWay) { expectLayer("-mesh_set nx=6,ny=3 -contact_plate_obstacle_velocity -2,0,0", -1); }
+
+void expectTwoLayers(const std::string& changes) {
+  const Analysis analysis = runCase("two_layers", changes + steadyOnly);
+  ASSERT_EQ(analysis.steady.size(), 3U);
+  for (const auto& solution : analysis.steady) {
+    const exact::two_layers::Steady exact{solution.friction, depth};
+    const double error = displacementError(analysis, solution, [&](const mesh::Point& x, const std::string& part) {
+      return std::array<double, 2>{exact.u(x[1], part == "pad"), exact.v(x[1], part == "pad")};
+    });
+    print("two_layers %s, f = %g: displacement %.1e, imbalance %.1e, %d iterations\n", changes.c_str(), solution.friction, error,
+          solution.imbalance, solution.iterations);
+    EXPECT_TRUE(solution.converged);
+    EXPECT_LT(error, 1e-10);
+    expectUniformPressure(analysis, solution, exact.pressure(), exact::two_layers::period, 1, 1);
+  }
+}
+
+TEST(Steady, TwoLayersCaseFile) { expectTwoLayers(""); }
+TEST(Steady, TwoLayersWithOtherElements) {
+  for (const auto& element : elements) expectTwoLayers("-mesh_set nx=6,ny_disc=3,ny_pad=2," + element);
+  expectTwoLayers("-mesh_set nx=6,ny_disc=3,ny_pad=2,shared=1");
+}
+
+/// The layer as a slab of hex20: the consistent forces of a uniform pressure are negative at the corners of its faces.
+const std::string hex20 = "-mesh_file meshes/layer_slab.geo -constraint_layer_clamped z -mesh_set nx=6,ny=3,order=2,serendipity=1";
+
+TEST(Steady, ClosedSerendipityFacesAreAccepted) {
+  const Analysis analysis = runCase("layer", hex20 + steadyOnly);
+  ASSERT_EQ(analysis.steady.size(), 3U);
+  for (const auto& solution : analysis.steady) {
+    const exact::one_layer::Steady exact{solution.friction, depth};
+    const double error = displacementError(analysis, solution, [&](const mesh::Point& x, const std::string&) {
+      return std::array<double, 3>{exact.u(x[1]), exact.v(x[1]), 0};
+    });
+    print("hex20, f = %g: displacement %.1e, smallest pressure / exact - 1: %.1e\n", solution.friction, error,
+          solution.smallestPressure / exact.pressure() - 1);
+    EXPECT_TRUE(solution.converged) << solution.reason;
+    EXPECT_LT(error, 1e-10);
+    expectUniformPressure(analysis, solution, exact.pressure(), exact::one_layer::period * 0.5, -1,
+                          1);  // depth along z: that of one cell, 3/6
+  }
+}
+
+// A block with free ends, guided along x on the side that a pressure P loads, is dragged along by friction on the other side.
+// Statics alone gives what the contact transmits: Σ R_N = P L, Σ R_T = f P L along the velocity, and as friction acts at a distance
+// H from the guide, which can only take forces along x, the centre of pressure moves by f H from the middle towards the leading
+// end. Beyond a sixth of the length a linear pressure would become tension at the trailing end: the contact opens there. Beyond the
+// half there is no equilibrium: the block topples.
+constexpr double blockLength = 1, loadPressure = 0.01;
+
+std::string plateOnBlock(const std::string& frictions, const std::string& mesh = "nx=16,ny=16") {
+  return "-mesh_file meshes/layer.geo -mesh_set Lx=1,h=1," + mesh +
+         " -material_layer_young 1 -material_layer_poisson 0.3 -material_layer_density 1 -constraint_bottom_clamped x "
+         "-load_bottom_pressure 0.01"
+         " -contact_plate_pad top -contact_plate_obstacle_velocity 1,0,0 -modes_count 10 -flutter_friction " +
+         frictions;
+}
+
+std::string blockOnDisc(const std::string& frictions) {
+  return "-mesh_file meshes/two_layers.geo -mesh_set Lx=1,h_disc=0.5,h_pad=0.8,nx=16,ny_disc=8,ny_pad=12 -material_disc_young 1 "
+         "-material_disc_poisson 0.3"
+         " -material_disc_density 1 -material_pad_young 0.4 -material_pad_poisson 0.25 -material_pad_density 0.6 "
+         "-motion_disc_velocity 1,0,0"
+         " -constraint_disc_bottom_clamped xy -constraint_pad_top_clamped x -load_pad_top_pressure 0.01"
+         " -contact_interface_pad pad_face -contact_interface_disc disc_face -modes_count 10 -flutter_friction " +
+         frictions;
+}
+
+/// Collective. The solution satisfies every law of steady sliding, so it is the solution; it is open at the trailing end and
+/// nowhere else.
+void expectPartlyOpen(const Analysis& analysis, const steady::Solution& solution, double height) {
+  ASSERT_TRUE(solution.converged) << solution.reason;
+  const Violations violation = violations(analysis, solution);
+  const Transmitted sums = transmitted(analysis, solution);
+  print("f = %g: %d iterations, %d of %d nodes open, centre of pressure %.9f, equilibrium %.1e, imbalance %.1e\n",
+        solution.friction, solution.iterations, static_cast<int>(solution.openNodes), static_cast<int>(analysis.contact.totalNodes),
+        sums.centre, violation.equilibrium, solution.imbalance);
+  EXPECT_LE(solution.iterations, 6);
+  EXPECT_LT(violation.gap, 1e-12);
+  EXPECT_LT(violation.penetration, 1e-12);
+  EXPECT_LT(violation.tension, 1e-9);
+  EXPECT_LT(violation.complementarity, 1e-9);
+  EXPECT_LT(violation.coulomb, 1e-12);
+  EXPECT_LT(violation.equilibrium, 1e-9);
+  EXPECT_LT(solution.imbalance, 1e-8);
+  const double load = loadPressure * blockLength;
+  EXPECT_NEAR(sums.normal / load, 1, 1e-9);
+  EXPECT_NEAR(sums.friction / load, solution.friction, 1e-9);
+  EXPECT_NEAR(sums.centre, blockLength / 2 - solution.friction * height, 1e-8);
+
+  double lastClosed = 0, firstOpen = blockLength;
+  for (std::size_t i = 0; i < solution.contact.size(); ++i) {
+    const double x = analysis.contact.nodes[i].position[0];
+    if (solution.closed[i]) {
+      lastClosed = std::max(lastClosed, x);
+    } else {
+      firstOpen = std::min(firstOpen, x);
+      EXPECT_GT(solution.contact[i].gap, 0);
+    }
+  }
+  EXPECT_LT(largest(lastClosed), -largest(-firstOpen));
+  EXPECT_GT(solution.openNodes, 0);
+}
+
+TEST(Steady, BlockUnderPlateOpens) {
+  const Analysis analysis = runOptions(plateOnBlock("0.35"));
+  ASSERT_EQ(analysis.steady.size(), 1U);
+  expectPartlyOpen(analysis, analysis.steady[0], 1);
+}
+
+TEST(Steady, BlockOnDiscOpens) {
+  const Analysis analysis = runOptions(blockOnDisc("0.35"));
+  ASSERT_EQ(analysis.steady.size(), 1U);
+  expectPartlyOpen(analysis, analysis.steady[0], 0.8);
+}
+
+// At f = 0.6 the centre of pressure would lie outside the block: no solution exists, which is said, and no flutter is computed
+// there.
+TEST(Steady, TopplingBlockHasNoSolution) {
+  const Analysis analysis = runOptions(plateOnBlock("0.3,0.35,0.6"));
+  ASSERT_EQ(analysis.steady.size(), 3U);
+  expectPartlyOpen(analysis, analysis.steady[0], 1);
+  expectPartlyOpen(analysis, analysis.steady[1], 1);
+  print("f = 0.6: %s after %d iterations\n", analysis.steady[2].reason.c_str(), analysis.steady[2].iterations);
+  EXPECT_FALSE(analysis.steady[2].converged);
+  EXPECT_FALSE(analysis.converged());
+  std::vector<double> solved;
+  for (const auto& segment : analysis.segments)
+    for (const auto& point : segment.points) solved.push_back(point.friction);
+  EXPECT_EQ(solved, (std::vector<double>{0.3, 0.35}));
+}
+
+// The same with hex20: node by node nothing can be decided where forces of both signs belong to one pressure, so an opening contact
+// is refused.
+TEST(Steady, OpeningSerendipityFacesAreRefused) {
+  const Analysis analysis = runOptions(plateOnBlock("0.35", "nx=8,ny=8,order=2,serendipity=1") +
+                                       " -mesh_file meshes/layer_slab.geo -constraint_layer_clamped z");
+  ASSERT_EQ(analysis.steady.size(), 1U);
+  EXPECT_FALSE(analysis.steady[0].converged);
+  EXPECT_NE(analysis.steady[0].reason.find("quad8"), std::string::npos) << analysis.steady[0].reason;
+  EXPECT_TRUE(analysis.segments.empty());
+}
+
+// The consistent forces of a pressure on 3-node edges are positive at the ends and in the middle: quadratic cells are decided node
+// by node in the plane.
+TEST(Steady, QuadraticBlockOpens) {
+  const Analysis analysis = runOptions(plateOnBlock("0.35", "order=2,nx=8,ny=8"));
+  ASSERT_EQ(analysis.steady.size(), 1U);
+  expectPartlyOpen(analysis, analysis.steady[0], 1);
+}
+
+}  // namespace
+}  // namespace squeal::test
