@@ -6,6 +6,7 @@
 #include "contact/coupled.hpp"
 #include "flutter/basis.hpp"
 #include "flutter/dense.hpp"
+#include "flutter/images.hpp"
 #include "flutter/pencil.hpp"
 #include "modes/modes.hpp"
 
@@ -61,10 +62,8 @@ class ReducedProblem {
 
  private:
   struct Residuals;
-  struct Images;
   void extend();
-  Images images(double friction) const;
-  Residuals residuals(const Images& images, const std::vector<DensePair>& pairs) const;
+  Residuals residuals(double friction, const std::vector<DensePair>& pairs) const;
   double length(const std::vector<std::complex<double>>& q) const;
   void correct(const Residuals& residuals, const std::vector<std::size_t>& bad);
   std::vector<double> projected(int power, double friction) const;
@@ -72,7 +71,7 @@ class ReducedProblem {
   const Pencil& pencil_;
   const contact::AssociatedSystem& system_;
   Basis basis_;
-  std::vector<OwnedBV> images_;                    // [term] A_t V
+  std::vector<Image> images_;                      // [term] A_t V
   std::vector<std::vector<double>> projections_;   // [term] Vᵀ A_t V, column-major
   std::vector<double> gram_;                       // VᵀV
   PetscInt projected_ = 0;                         // columns of the basis that images and projections hold

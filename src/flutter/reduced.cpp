@@ -1,7 +1,3 @@
-#include <petscsys.h>  // first: the next header needs it
-
-#include <petscblaslapack.h>
-
 #include <cmath>
 
 #include "flutter/dense.hpp"
@@ -22,31 +18,16 @@ const IntegerOption growthOption("flutter", "flutter_growth", 1000, 0, "most vec
 bool correctionsWanted() { return basisOption.get() == "corrected"; }
 
 
-/// Rows of a BV on this rank for the life of the object; columns are contiguous (type svec).
-class ReadColumns {
- public:
-  explicit ReadColumns(BV bv) : bv_(bv) {
-    check(BVGetSizes(bv, &rows_, nullptr, &columns_));
-    check(BVGetArrayRead(bv, &values_));
+/// A projection of `old` columns grown to `size`: the new columns, and the new rows below the old columns (empty: by symmetry).
+void grow(DenseMatrix& matrix, PetscInt old, PetscInt size, const DenseMatrix& right, const DenseMatrix& below) {
+  const auto n = static_cast<std::size_t>(size), o = static_cast<std::size_t>(old), added = n - o;
+  DenseMatrix grown(n * n);
+  for (std::size_t j = 0; j < o; ++j) {
+    std::copy_n(matrix.begin() + static_cast<std::ptrdiff_t>(j * o), o, grown.begin() + static_cast<std::ptrdiff_t>(j * n));
+    for (std::size_t i = 0; i < added; ++i) grown[j * n + o + i] = below.empty() ? right[i * n + j] : below[j * added + i];
   }
-  ~ReadColumns() { BVRestoreArrayRead(bv_, &values_); }
-  ReadColumns(const ReadColumns&) = delete;
-  ReadColumns& operator=(const ReadColumns&) = delete;
-  const PetscScalar* values() const { return values_; }
-  PetscInt rows() const { return rows_; }
-  PetscInt columns() const { return columns_; }
-
- private:
-  BV bv_;
-  PetscInt rows_ = 0, columns_ = 0;
-  const PetscScalar* values_ = nullptr;
-};
-
-/// result (rows × k) += X (rows × columns) · coefficients (columns × k), all column-major
-void multiplyAdd(const double* x, PetscInt rowCount, PetscInt columnCount, const std::vector<double>& coefficients, std::vector<double>& result) {
-  PetscBLASInt rows = rowCount, inner = columnCount, columns = static_cast<PetscBLASInt>(coefficients.size() / static_cast<std::size_t>(columnCount));
-  const PetscScalar one = 1;
-  if (rows > 0 && columns > 0) BLASgemm_("N", "N", &rows, &columns, &inner, &one, x, &rows, coefficients.data(), &inner, &one, result.data(), &rows);
+  std::copy(right.begin(), right.end(), grown.begin() + static_cast<std::ptrdiff_t>(o * n));
+  matrix = std::move(grown);
 }
 
 /// The dense problem is solved on rank 0 alone, so that rounding cannot make the ranks disagree on the order or number of eigenvalues.
@@ -72,11 +53,11 @@ std::vector<DensePair> solveOnce(MPI_Comm comm, const DenseMatrix& mass, const D
   return pairs;
 }
 
-/// Real and imaginary parts of s_j^power q_j as columns 2j, 2j+1.
-std::vector<double> columns(const std::vector<DensePair>& pairs, int power) {
+/// Real and imaginary parts of c s_j^power q_j as columns 2j, 2j+1.
+std::vector<double> columns(const std::vector<DensePair>& pairs, int power, double c = 1) {
   std::vector<double> matrix;
   for (const auto& pair : pairs) {
-    const std::complex<double> factor = std::pow(pair.s, power);
+    const std::complex<double> factor = c * std::pow(pair.s, power);
     for (const auto& entry : pair.q) matrix.push_back((factor * entry).real());
     for (const auto& entry : pair.q) matrix.push_back((factor * entry).imag());
   }
@@ -111,17 +92,13 @@ struct ReducedProblem::Residuals {
   std::vector<double> backwardError;  // [pair]
 };
 
-/// Σ c_t A_t V of each power of s at one friction, on this rank's rows.
-struct ReducedProblem::Images {
-  double norm[3] = {0, 0, 0};
-  std::vector<double> values[3];  // column-major, empty where there is no term
-};
-
 ReducedProblem::ReducedProblem(const Pencil& pencil, const contact::AssociatedSystem& system, const modes::Modes& modes)
     : pencil_(pencil), system_(system), basis_(modes.vectors, system.matrices().m0) {
   const auto& w = modes.angularFrequency;
   modeCount_ = w.size();
   if (correctionsWanted()) bandTop_ = bandOption.get() > 0 ? 2 * M_PI * bandOption.get() : w[std::min(w.size() - 1, w.size() * 2 / 5)];
+  for (const auto& term : pencil.terms()) images_.emplace_back(term.matrix);
+  projections_.resize(images_.size());
   extend();
 }
 
@@ -129,31 +106,24 @@ ReducedProblem::ReducedProblem(const Pencil& pencil, const contact::AssociatedSy
 void ReducedProblem::extend() {
   const PetscInt old = projected_, size = basis_.size(), added = size - old;
   if (added == 0) return;
-  images_.resize(pencil_.terms().size());
-  projections_.resize(pencil_.terms().size());
+  const OwnedBV fresh = columnsLike(basis_.columns(), added), product = columnsLike(basis_.columns(), added);
+  check(BVSetActiveColumns(basis_.columns(), old, size));
+  check(BVCopy(basis_.columns(), fresh));
+  check(BVSetActiveColumns(basis_.columns(), 0, size));
+  const MPI_Comm comm = pencil_.comm();
   for (std::size_t t = 0; t < pencil_.terms().size(); ++t) {
-    if (!images_[t]) images_[t] = columnsLike(basis_.columns(), size);
-    else check(BVResize(images_[t], size, PETSC_TRUE));
-    check(BVSetActiveColumns(basis_.columns(), old, size));
-    check(BVSetActiveColumns(images_[t], old, size));
-    check(BVMatMult(basis_.columns(), pencil_.terms()[t].matrix, images_[t]));
-    check(BVSetActiveColumns(basis_.columns(), 0, size));
-    check(BVSetActiveColumns(images_[t], 0, size));
-    OwnedMat dense;
-    check(MatCreateSeqDense(PETSC_COMM_SELF, size, size, nullptr, dense.out()));
-    check(BVDot(images_[t], basis_.columns(), dense));  // Vᵀ A V
-    const PetscScalar* values = nullptr;
-    check(MatDenseGetArrayRead(dense, &values));
-    projections_[t].assign(values, values + size * size);
-    check(MatDenseRestoreArrayRead(dense, &values));
+    const Mat matrix = pencil_.terms()[t].matrix;
+    check(BVMatMult(fresh, matrix, product));
+    const ReadColumns all(basis_.columns()), image(product);
+    images_[t].append(image.values(), added);
+    PetscBool known = PETSC_FALSE, symmetric = PETSC_FALSE;
+    check(MatIsSymmetricKnown(matrix, &known, &symmetric));
+    const auto right = images_[t].transposedProduct(comm, all, 0, size, old, size);  // Vᵀ (A V_new)
+    const auto below = known && symmetric ? DenseMatrix{} : images_[t].transposedProduct(comm, all, old, size, 0, old);  // V_newᵀ (A V_old)
+    grow(projections_[t], old, size, right, below);
   }
-  OwnedMat products;
-  check(MatCreateSeqDense(PETSC_COMM_SELF, size, size, nullptr, products.out()));
-  check(BVDot(basis_.columns(), basis_.columns(), products));
-  const PetscScalar* values = nullptr;
-  check(MatDenseGetArrayRead(products, &values));
-  gram_.assign(values, values + size * size);
-  check(MatDenseRestoreArrayRead(products, &values));
+  const ReadColumns all(basis_.columns());
+  grow(gram_, old, size, transposedProduct(comm, all.values(), all.rows(), size, all.values() + old * all.rows(), added), {});
   projected_ = size;
 }
 
@@ -168,33 +138,18 @@ std::vector<double> ReducedProblem::projected(int power, double friction) const 
   return sum;
 }
 
-ReducedProblem::Images ReducedProblem::images(double friction) const {
-  Images result;
-  for (int power = 0; power < 3; ++power) result.norm[power] = pencil_.norm(power, friction);
-  for (std::size_t t = 0; t < images_.size(); ++t) {
-    const Term& term = pencil_.terms()[t];
-    const double c = term.coefficient(friction);
-    const ReadColumns image(images_[t]);
-    auto& sum = result.values[term.power];
-    const std::size_t count = static_cast<std::size_t>(image.rows()) * static_cast<std::size_t>(image.columns());
-    sum.resize(count, 0.0);
-    if (c != 0)
-      for (std::size_t i = 0; i < count; ++i) sum[i] += c * image.values()[i];
-  }
-  return result;
-}
-
-ReducedProblem::Residuals ReducedProblem::residuals(const Images& images, const std::vector<DensePair>& pairs) const {
+ReducedProblem::Residuals ReducedProblem::residuals(double friction, const std::vector<DensePair>& pairs) const {
   Residuals result;
   PetscInt rows = 0;
   check(BVGetSizes(basis_.columns(), &rows, nullptr, nullptr));
   result.rows = static_cast<std::size_t>(rows);
   result.residual.assign(2 * result.rows * pairs.size(), 0.0);
-  for (int power = 0; power < 3; ++power)
-    if (!images.values[power].empty()) multiplyAdd(images.values[power].data(), rows, basis_.size(), columns(pairs, power), result.residual);
+  for (std::size_t t = 0; t < images_.size(); ++t)
+    images_[t].multiplyAdd(columns(pairs, pencil_.terms()[t].power, pencil_.terms()[t].coefficient(friction)), basis_.size(), result.residual);
   const auto norms = squaredNorms(pencil_.comm(), result.residual, result.rows, pairs.size());
+  const double scales[3] = {pencil_.norm(0, friction), pencil_.norm(1, friction), pencil_.norm(2, friction)};
   for (std::size_t j = 0; j < pairs.size(); ++j) {
-    const double size = std::abs(pairs[j].s), scale = images.norm[0] + size * images.norm[1] + size * size * images.norm[2];
+    const double size = std::abs(pairs[j].s), scale = scales[0] + size * scales[1] + size * size * scales[2];
     result.backwardError.push_back(std::sqrt(norms[j]) / (scale * length(pairs[j].q)));
   }
   return result;
@@ -245,15 +200,13 @@ FrictionPoint ReducedProblem::solve(double friction, Mat trial) {
   point.accuracy = bandTop_ > 0 ? accuracyOption.get() : 0;
   const PetscInt largest = std::min(basis_.size() + static_cast<PetscInt>(growthOption.get()), system_.size());
   std::vector<DensePair> pairs, band;
-  Images images;
   Residuals found;
   for (int round = 0;; ++round) {
     pairs = solveOnce(pencil_.comm(), projected(2, friction), projected(1, friction), projected(0, friction), static_cast<int>(basis_.size()));
     // The corrections bring eigenvalues of high frequency of their own, which mean nothing.
     pairs.resize(std::min(pairs.size(), modeCount_));
     band.assign(pairs.begin(), std::find_if(pairs.begin(), pairs.end(), [&](const auto& pair) { return pair.s.imag() > bandTop_; }));
-    images = this->images(friction);
-    found = residuals(images, band);
+    found = residuals(friction, band);
     std::vector<std::size_t> bad;
     for (std::size_t j = 0; j < band.size(); ++j)
       if (found.backwardError[j] > point.accuracy) bad.push_back(j);
@@ -262,7 +215,7 @@ FrictionPoint ReducedProblem::solve(double friction, Mat trial) {
     correct(found, bad);
     if (basis_.size() == before) break;  // the residuals are rounding
   }
-  const Residuals above = residuals(images, {pairs.begin() + static_cast<std::ptrdiff_t>(band.size()), pairs.end()});
+  const Residuals above = residuals(friction, {pairs.begin() + static_cast<std::ptrdiff_t>(band.size()), pairs.end()});
   for (std::size_t j = 0; j < pairs.size(); ++j)
     point.eigenvalues.push_back({pairs[j].s, j < band.size() ? found.backwardError[j] : above.backwardError[j - band.size()], false});
   judge(point.eigenvalues);
