@@ -86,6 +86,7 @@ std::vector<steady::Solution> steadySweep(const Analysis& analysis, const std::v
                            solution.reason.c_str(), solution.iterations, static_cast<int>(solution.openNodes),
                            static_cast<int>(analysis.contact.totalNodes), solution.smallestPressure, solution.imbalance));
     if (solution.converged) closed = solution.closed;
+    else complain(analysis.mesh->comm, formatted("no steady sliding solution found at -flutter_friction %g: %s", friction, solution.reason.c_str()));
   }
   return solutions;
 }
@@ -115,6 +116,7 @@ ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::si
   segment.unknowns = system.size();
   const flutter::Pencil pencil = flutter::approximationA(system);
   const bool direct = flutter::directWanted();
+  if (direct) contact::rejectUnusedSolverOptions();
   std::unique_ptr<flutter::ReducedProblem> reduced;
   if (!direct) {
     segment.modes = modes::compute(system);
@@ -149,6 +151,7 @@ bool Analysis::converged() const {
 
 Analysis analyse(MPI_Comm comm) {
   rejectUnknownOptions();
+  flutter::rejectIdleSolverOptions();
   const auto frictions = flutter::frictions();
   Analysis analysis;
   analysis.mesh = std::make_unique<mesh::Mesh>(readMesh(comm));

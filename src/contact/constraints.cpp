@@ -32,9 +32,11 @@ Constraints readConstraints(const mesh::Mesh& mesh) {
   const auto dimension = static_cast<std::size_t>(mesh.dimension);
   Constraints constraints;
   constraints.held.assign(dimension * static_cast<std::size_t>(mesh.ownedNodes), 0);
+  constraints.heldBy.assign(constraints.held.size(), -1);
   constraints.displacement.assign(constraints.held.size(), 0.0);
   std::string failure;
   for (const auto& group : constrainedGroups()) {
+    constraints.groups.push_back(group);
     const std::string components = clampedOption.get(group), allowed = std::string("xyz").substr(0, dimension);
     const auto values = displacementOption.get(group);
     if (components.empty() || components.find_first_not_of(allowed) != std::string::npos)
@@ -46,6 +48,7 @@ Constraints readConstraints(const mesh::Mesh& mesh) {
         if (constraints.held[at] && constraints.displacement[at] != values[component])
           failure = "option -" + displacementOption.fullName(group) + ": a node of this group is displaced differently by another group";
         constraints.held[at] = 1;
+        constraints.heldBy[at] = static_cast<int>(constraints.groups.size()) - 1;
         constraints.displacement[at] = values[component];
       }
   }

@@ -153,7 +153,8 @@ Frame frameOf(const ContactNode& node, const Constraints& constraints, int dimen
       Point e{};
       e[static_cast<std::size_t>(d)] = 1;
       if (std::abs(dot(e, node.normal)) > 1e-6)
-        throw Error("a -constraint_<group>_clamped option holds component " + std::string(1, static_cast<char>('x' + d)) +
+        throw Error("option -constraint_" + constraints.groups[static_cast<std::size_t>(constraints.heldBy[static_cast<std::size_t>(dimension * node.node + d)])] +
+                    "_clamped holds component " + std::string(1, static_cast<char>('x' + d)) +
                     " of the pad contact node at " + text(node.position) + ", which is not tangential there; contact decides the normal component");
       frame.tangents.push_back(e);
       frame.heldComponent.push_back(d);

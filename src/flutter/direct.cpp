@@ -46,6 +46,12 @@ OwnedEPS solver(Mat stiffness, Mat mass) {
 
 }  // namespace
 
+void rejectIdleSolverOptions() {
+  for (const auto* prefix : {&epsPrefix, &stPrefix})
+    if (prefix->given() && !directWanted())
+      throw Error("options -" + prefix->prefix + "* (" + joined(prefix->names()) + ") are used by -flutter_method direct alone");
+}
+
 FrictionPoint solveDirect(const Pencil& pencil, double friction, Mat trial) {
   if (pencil.hasPower(1)) throw Error("option -flutter_method direct: problems with damping need the quadratic solver");
   const OwnedMat stiffness = pencil.assembled(0, friction), mass = pencil.assembled(2, friction);

@@ -43,6 +43,9 @@ std::vector<double> frictions();
 /// `-flutter_method`: true for the direct solve on all unknowns.
 bool directWanted();
 
+/// Collective. Error for -flutter_eps_* and -flutter_st_* options where the direct method, which alone uses them, is not asked for.
+void rejectIdleSolverOptions();
+
 /// The terms of [4.15–4.16] under approximation A: K0 + f K1 + s² (M0 + f M1).
 Pencil approximationA(const contact::AssociatedSystem& system);
 

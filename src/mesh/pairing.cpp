@@ -87,6 +87,9 @@ void pairImages(WholeMesh& mesh, const PeriodicRequest& request, double near) {
     if (partner == image) throw Error(option + ": a group cannot be its own image");
     if (mesh.primary[static_cast<std::size_t>(image)] == image) mesh.primary[static_cast<std::size_t>(image)] = partner;
   }
+  if (images.size() != primaries.size())
+    throw Error(formatted("option -constraint_%s_image_of %s: the groups have %zu and %zu nodes; they must be meshed alike", request.image.c_str(),
+                          request.of.c_str(), images.size(), primaries.size()));
 }
 
 /// Follows images of images (the edge of a doubly periodic box) to the end.
@@ -149,6 +152,34 @@ void pairContact(WholeMesh& mesh, const InterfaceRequest& request, int interface
   }
 }
 
+/// Each face of the pad must lie on one face of the disc, node on node: a finer disc face would carry nodes that no gap watches.
+void requireEqualFaces(const WholeMesh& mesh, const InterfaceRequest& request, int interface) {
+  if (request.disc.empty()) return;
+  std::map<PetscInt, PetscInt> master;
+  for (const auto& pair : mesh.pairs)
+    if (pair.interface == interface) master[pair.node] = pair.master;
+  std::set<std::vector<PetscInt>> discFaces;
+  for (auto face : mesh.discFaces.at(request.disc)) {
+    for (auto& node : face) node = mesh.primary[static_cast<std::size_t>(node)];
+    std::sort(face.begin(), face.end());
+    discFaces.insert(face);
+  }
+  const auto index = static_cast<int>(std::find(mesh.surfaces.begin(), mesh.surfaces.end(), request.pad) - mesh.surfaces.begin());
+  for (const auto& block : mesh.faces)
+    for (std::size_t e = 0; e < block.tag.size(); ++e) {
+      if (block.label[e] != index) continue;
+      std::vector<PetscInt> masters;
+      for (int i = 0; i < block.nodesPerElement; ++i)
+        masters.push_back(master.at(mesh.primary[static_cast<std::size_t>(block.nodes[e * static_cast<std::size_t>(block.nodesPerElement) + static_cast<std::size_t>(i)])]));
+      const Point where = mesh.points[static_cast<std::size_t>(block.nodes[e * static_cast<std::size_t>(block.nodesPerElement)])];
+      for (auto& node : masters) node = mesh.primary[static_cast<std::size_t>(node)];
+      std::sort(masters.begin(), masters.end());
+      if (!discFaces.count(masters))
+        throw Error("options -contact_" + request.name + "_pad " + request.pad + ", -contact_" + request.name + "_disc " + request.disc + ": the face of the pad at " +
+                    positionText(where) + " does not lie on one face of the disc; contact needs matching meshes");
+    }
+}
+
 void rejectChains(const WholeMesh& mesh, const Request& request) {
   std::set<PetscInt> slaves;
   for (const auto& pair : mesh.pairs)
@@ -173,6 +204,7 @@ void pairNodes(WholeMesh& mesh, const Request& request) {
   for (std::size_t i = 0; i < request.interfaces.size(); ++i)
     pairContact(mesh, request.interfaces[i], static_cast<int>(i), body, near);
   rejectChains(mesh, request);
+  for (std::size_t i = 0; i < request.interfaces.size(); ++i) requireEqualFaces(mesh, request.interfaces[i], static_cast<int>(i));
 }
 
 }  // namespace squeal::mesh

@@ -186,6 +186,18 @@ class NodeIndex {
   std::map<PetscInt, PetscInt> index_;
 };
 
+/// First- and second-order cells; reports and contact know no others.
+void requireSupported(const WholeBlock& block, const std::string& body) {
+  static const std::set<int> supported = {2, 3, 4, 5, 6, 9, 10, 11, 12, 13, 16, 17, 18};
+  if (supported.count(block.type)) return;
+  std::string name;
+  int dimension = 0, order = 0, nodes = 0, corners = 0;
+  std::vector<double> local;
+  gmsh::model::mesh::getElementProperties(block.type, name, dimension, order, nodes, local, corners);
+  throw Error("option -mesh_file: group '" + body + "' has cells '" + name +
+              "'; supported are tri3, tri6, quad4, quad8, quad9, tet4, tet10, hex8, hex20, hex27, wedge6, wedge15, wedge18");
+}
+
 void readBodies(WholeMesh& mesh, const GmshModel& model, const Request& request, NodeIndex& index) {
   mesh.bodies = request.bodies;
   std::map<PetscInt, int> bodyOf;
@@ -197,6 +209,7 @@ void readBodies(WholeMesh& mesh, const GmshModel& model, const Request& request,
       throw Error(option + ": group '" + mesh.bodies[b] + "' has dimension " + std::to_string(group.dimension) +
                   "; bodies are all volumes, or all surfaces of a plane mesh");
     for (auto& block : group.blocks) {
+      requireSupported(block, mesh.bodies[b]);
       index.add(block.nodes);
       auto known = std::find_if(mesh.cells.begin(), mesh.cells.end(), [&](const auto& c) { return c.type == block.type; });
       if (known == mesh.cells.end()) known = mesh.cells.insert(known, WholeBlock{block.type, block.nodesPerElement, block.corners, {}, {}, {}});
@@ -370,6 +383,22 @@ std::vector<PetscInt> groupNodes(const GroupElements& group, const Splitter& spl
   return {nodes.begin(), nodes.end()};
 }
 
+/// Faces of the disc sides by their nodes after the split, once for each cell that they bound.
+void readDiscFaces(WholeMesh& mesh, const Request& request, const NamedElements& named, const Splitter& splitter) {
+  for (const auto& interface : request.interfaces) {
+    if (interface.disc.empty()) continue;
+    auto& faces = mesh.discFaces[interface.disc];
+    for (const auto& block : named.groups.at(interface.disc).blocks)
+      for (std::size_t e = 0; e < block.tag.size(); ++e) {
+        const PetscInt* nodes = block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerElement);
+        for (PetscInt cell : splitter.adjacency().cellsHolding(nodes, block.corners)) {
+          faces.emplace_back();
+          for (int i = 0; i < block.nodesPerElement; ++i) faces.back().push_back(splitter.twin(nodes[i], splitter.side(cell)));
+        }
+      }
+  }
+}
+
 Point centroid(const WholeMesh& mesh, const PetscInt* nodes, int count) {
   Point centre{};
   for (int i = 0; i < count; ++i)
@@ -467,6 +496,7 @@ WholeMesh load(const std::string& file, const std::vector<std::string>& paramete
   Splitter splitter(mesh, request, named);
   splitter.split(named);
   readFaces(mesh, request, named, splitter);
+  readDiscFaces(mesh, request, named, splitter);
   for (const auto& [name, group] : named.groups) mesh.nodeGroups[name] = groupNodes(group, splitter);
   findParts(mesh);
   return mesh;

@@ -43,16 +43,9 @@ std::vector<const Item*> byStage(std::vector<const Item*> items) {
   return items;
 }
 
-/// Name and value of all options in the PETSc database. PetscOptionsLeftGet alone hides the used ones, so the text form is read:
-/// a word that begins with a dash and a non-digit is a name.
 std::vector<std::string> namesGiven() {
-  char* all = nullptr;
-  check(PetscOptionsGetAll(nullptr, &all));
   std::vector<std::string> names;
-  std::istringstream words(all);
-  for (std::string word; words >> word;)
-    if (word.size() > 1 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1]))) names.push_back(word.substr(1));
-  check(PetscFree(all));
+  for (const auto& [name, value] : givenOptions()) names.push_back(name);
   return names;
 }
 
@@ -64,6 +57,8 @@ std::vector<std::string> namesLeft() {
   check(PetscOptionsLeftRestore(nullptr, &count, &names, &values));
   return left;
 }
+
+bool startsWith(const std::string& text, const std::string& start) { return text.compare(0, start.size(), start) == 0; }
 
 std::size_t editDistance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
@@ -80,17 +75,33 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
   return row[b.size()];
 }
 
-bool startsWith(const std::string& text, const std::string& start) { return text.compare(0, start.size(), start) == 0; }
+/// The option nearest to a mistyped name, its placeholder filled with the part of the name that fits best; empty if none is near.
+std::string nearestName(const std::string& name) {
+  std::string nearest;
+  std::size_t least = 4;  // more than three wrong letters are another word
+  const auto consider = [&](const std::string& candidate) {
+    if (const auto distance = editDistance(name, candidate); distance < least) least = distance, nearest = candidate;
+  };
+  for (const auto* option : Option::all()) {
+    if (option->name.find('<') == std::string::npos) consider(option->name);
+    else
+      for (std::size_t begin = 0; begin < name.size(); ++begin)
+        for (std::size_t end = begin + 1; end <= name.size(); ++end) consider(option->fullName(name.substr(begin, end - begin)));
+  }
+  return nearest;
+}
 
 }  // namespace
 
-Option::Option(std::string stage_, std::string name_, std::string default_, std::string unit_, std::string meaning_, std::string rule_)
+Option::Option(std::string stage_, std::string name_, std::string default_, std::string unit_, std::string meaning_, std::string rule_,
+               bool required_)
     : stage(std::move(stage_)),
       name(std::move(name_)),
       defaultText(std::move(default_)),
       unit(std::move(unit_)),
       meaning(std::move(meaning_)),
-      rule(std::move(rule_)) {
+      rule(std::move(rule_)),
+      required(required_) {
   registry().push_back(this);
 }
 
@@ -130,7 +141,7 @@ std::string Option::text(const std::string& subject) const {
   char buffer[4096] = "";
   PetscBool set = PETSC_FALSE;
   check(PetscOptionsGetString(nullptr, nullptr, ("-" + full).c_str(), buffer, sizeof buffer, &set));
-  if (!set && rule == "required") throw Error("option -" + full + " is missing: " + meaning);
+  if (!set && required) throw Error("option -" + full + " is missing: " + meaning);
   const std::string value = set ? buffer : defaultText;
   recipe()[full] = value;
   return value;
@@ -159,14 +170,10 @@ std::string Range::text() const {
   return words.empty() ? "a number" : "a number " + words;
 }
 
-namespace {
-std::string requiredOr(bool hasDefault, const std::string& rule) { return hasDefault ? rule : "required"; }
-}  // namespace
-
 RealOption::RealOption(std::string stage, std::string name, std::optional<double> byDefault, std::string unit, Range range,
                        std::string meaning)
     : Option(std::move(stage), std::move(name), byDefault ? shortest(*byDefault) : "", std::move(unit), std::move(meaning),
-             requiredOr(byDefault.has_value(), range.text())),
+             range.text(), !byDefault),
       range_(range) {}
 
 double RealOption::get(const std::string& subject) const {
@@ -238,7 +245,7 @@ std::string ChoiceOption::get(const std::string& subject) const {
 
 TextOption::TextOption(std::string stage, std::string name, std::optional<std::string> byDefault, std::string meaning)
     : Option(std::move(stage), std::move(name), byDefault.value_or(""), "", std::move(meaning),
-             requiredOr(byDefault.has_value(), "text")) {}
+             "text", !byDefault) {}
 
 std::string TextOption::get(const std::string& subject) const { return text(subject); }
 
@@ -249,9 +256,11 @@ SolverPrefix::SolverPrefix(std::string stage_, std::string prefix_, std::string 
   prefixes().push_back(this);
 }
 
-bool SolverPrefix::given() const {
-  const auto names = namesGiven();
-  return std::any_of(names.begin(), names.end(), [&](const auto& name) { return startsWith(name, prefix); });
+std::vector<std::string> SolverPrefix::names() const {
+  std::vector<std::string> ours;
+  for (const auto& name : namesGiven())
+    if (startsWith(name, prefix)) ours.push_back("-" + name);
+  return ours;
 }
 
 std::vector<const SolverPrefix*> SolverPrefix::all() { return byStage(prefixes()); }
@@ -271,13 +280,13 @@ void rejectUnknownOptions() {
     if (std::any_of(options.begin(), options.end(), [&](auto* option) { return option->matches(name); })) continue;
     const auto solvers = SolverPrefix::all();
     if (std::any_of(solvers.begin(), solvers.end(), [&](auto* solver) { return startsWith(name, solver->prefix); })) continue;
-    std::string nearest;
-    std::size_t least = 4;  // more than three wrong letters are another word
-    for (const auto* option : options)
-      if (const auto distance = editDistance(name, option->name); distance < least) least = distance, nearest = option->name;
+    const std::string nearest = nearestName(name);
     throw Error("unknown option -" + name + (nearest.empty() ? "" : "; did you mean -" + nearest + "?") +
                 " (squeal -help lists all options)");
   }
+  for (const auto* option : Option::all())
+    for (const auto& subject : option->name.find('<') == std::string::npos ? std::vector<std::string>{""} : option->subjects())
+      if (option->given(subject)) option->validate(subject);
 }
 
 std::string manual() {
@@ -291,7 +300,7 @@ std::string manual() {
       if (option->stage != stage) continue;
       const std::string left = "  -" + option->name + (option->unit.empty() ? "" : " [" + option->unit + "]");
       page += formatted("%-52s ", left.c_str()) + option->meaning;
-      page += option->rule == "required" ? " (required)\n"
+      page += option->required ? " (required; " + option->rule + ")\n"
                                          : " (default " + (option->defaultText.empty() ? "none" : option->defaultText) + "; " +
                                                option->rule + ")\n";
     }
@@ -302,5 +311,21 @@ std::string manual() {
 }
 
 const std::map<std::string, std::string>& resolvedOptions() { return recipe(); }
+
+std::map<std::string, std::string> givenOptions() {
+  // PetscOptionsLeftGet hides the used ones, so the text form is read: a word that begins with a dash and a letter is a name, what follows
+  // up to the next name is its value.
+  char* all = nullptr;
+  check(PetscOptionsGetAll(nullptr, &all));
+  std::map<std::string, std::string> given;
+  std::istringstream words(all);
+  std::string name;
+  for (std::string word; words >> word;) {
+    if (word.size() > 1 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1]))) given[name = word.substr(1)];
+    else if (!name.empty()) given[name] += (given[name].empty() ? "" : " ") + word;
+  }
+  check(PetscFree(all));
+  return given;
+}
 
 }  // namespace squeal

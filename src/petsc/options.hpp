@@ -14,6 +14,7 @@ namespace squeal {
 class Option {
  public:
   const std::string stage, name, defaultText, unit, meaning, rule;
+  const bool required;  ///< no default: an Error wherever it is asked for and not given
 
   /// Full name without the dash, the placeholder replaced by `subject`.
   std::string fullName(const std::string& subject = {}) const;
@@ -22,11 +23,13 @@ class Option {
   std::vector<std::string> subjects() const;
   /// True if the full name (no dash) is this option's for some subject.
   bool matches(const std::string& fullName) const;
+  /// Error if the value given for this subject breaks the rule.
+  virtual void validate(const std::string& subject) const = 0;
   /// All declared options in order of stage, then of declaration.
   static std::vector<const Option*> all();
 
  protected:
-  Option(std::string stage, std::string name, std::string defaultText, std::string unit, std::string meaning, std::string rule);
+  Option(std::string stage, std::string name, std::string defaultText, std::string unit, std::string meaning, std::string rule, bool required = false);
   ~Option() = default;
   Option(const Option&) = delete;
   /// Text given by the user or the default; an option without default that is not given is an Error. Recorded for the recipe.
@@ -50,6 +53,7 @@ class RealOption : public Option {
   /// No default: required wherever it is asked for.
   RealOption(std::string stage, std::string name, std::optional<double> byDefault, std::string unit, Range range, std::string meaning);
   double get(const std::string& subject = {}) const;
+  void validate(const std::string& subject) const override { get(subject); }
 
  private:
   Range range_;
@@ -59,6 +63,7 @@ class IntegerOption : public Option {
  public:
   IntegerOption(std::string stage, std::string name, int byDefault, int lowest, std::string meaning);
   int get(const std::string& subject = {}) const;
+  void validate(const std::string& subject) const override { get(subject); }
 
  private:
   int lowest_;
@@ -70,6 +75,7 @@ class RealListOption : public Option {
   RealListOption(std::string stage, std::string name, std::string byDefault, std::string unit, Range range, std::string meaning,
                  bool ranges = false);
   std::vector<double> get(const std::string& subject = {}) const;
+  void validate(const std::string& subject) const override { get(subject); }
 
  private:
   Range range_;
@@ -80,12 +86,14 @@ class FlagOption : public Option {
  public:
   FlagOption(std::string stage, std::string name, bool byDefault, std::string meaning);
   bool get(const std::string& subject = {}) const;
+  void validate(const std::string& subject) const override { get(subject); }
 };
 
 class ChoiceOption : public Option {
  public:
   ChoiceOption(std::string stage, std::string name, std::vector<std::string> choices, std::string byDefault, std::string meaning);
   std::string get(const std::string& subject = {}) const;
+  void validate(const std::string& subject) const override { get(subject); }
 
  private:
   std::vector<std::string> choices_;
@@ -96,6 +104,7 @@ class TextOption : public Option {
   /// No default: required wherever it is asked for.
   TextOption(std::string stage, std::string name, std::optional<std::string> byDefault, std::string meaning);
   std::string get(const std::string& subject = {}) const;
+  void validate(const std::string& subject) const override { get(subject); }
   /// Split at commas; an empty text is an empty list.
   std::vector<std::string> list(const std::string& subject = {}) const;
 };
@@ -105,21 +114,25 @@ class SolverPrefix {
  public:
   SolverPrefix(std::string stage, std::string prefix, std::string meaning);
   const std::string stage, prefix, meaning;
-  /// True if an option with this prefix is given.
-  bool given() const;
+  /// Options given with this prefix, with a dash.
+  std::vector<std::string> names() const;
+  bool given() const { return !names().empty(); }
   /// Collective. Error if an option with this prefix is still unused, i.e. known to no solver; call after the solver is configured.
   /// `exceptAfter` names sub-prefixes whose options are read later (by a factorisation).
   void rejectUnused(const std::vector<std::string>& exceptAfter = {}) const;
   static std::vector<const SolverPrefix*> all();
 };
 
-/// Collective. Error for an option that neither this program nor PETSc knows, with the nearest known name.
+/// Collective. Error for an option that neither this program nor PETSc knows, with the nearest known name, and for a value of ours that breaks
+/// its rule: both before any work is done.
 void rejectUnknownOptions();
 
 /// The manual printed by `-help`.
 std::string manual();
 
-/// Name and value of every option asked for so far: the recipe of the run.
+/// Name and value of every option of ours asked for so far, defaults included.
 const std::map<std::string, std::string>& resolvedOptions();
+/// Name and value of every option given, PETSc's own included, whether by file or on the command line.
+std::map<std::string, std::string> givenOptions();
 
 }  // namespace squeal

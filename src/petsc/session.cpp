@@ -3,12 +3,32 @@
 #include <gmsh.h>
 #include <slepcsys.h>
 
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
 #include "petsc/check.hpp"
 
 namespace squeal {
+
+namespace {
+
+/// Collective. Ends the program if rank 0 cannot read an options file.
+void requireReadable(const char* file) {
+  int rank = 0, readable = 1;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (rank == 0) readable = std::ifstream(file).good() && !std::filesystem::is_directory(file);
+  MPI_Bcast(&readable, 1, MPI_INT, 0, MPI_COMM_WORLD);
+  if (readable) return;
+  if (rank == 0) std::fprintf(stderr, "squeal: error: option -options_file %s: there is no such file\n", file);
+  MPI_Finalize();
+  std::exit(1);
+}
+
+}  // namespace
 
 Session::Session(int argc, char** argv) {
   // PETSc's own -help lists several hundred options of its parts; ours is the manual of this program and replaces it.
@@ -20,6 +40,9 @@ Session::Session(int argc, char** argv) {
     else
       kept.push_back(argv[i]);
   }
+  check(MPI_Init(&argc, &argv));  // before PETSc's, so that a missing file is told in one line instead of a traceback
+  for (int i = 1; i + 1 < argc; ++i)
+    if (std::string(argv[i]) == "-options_file") requireReadable(argv[i + 1]);
   int count = static_cast<int>(kept.size());
   kept.push_back(nullptr);
   char** arguments = kept.data();
@@ -32,6 +55,7 @@ Session::~Session() {
   PetscOptionsSetValue(nullptr, "-options_left", "no");  // rejectUnknownOptions says it before the run, not after
   gmsh::finalize();
   SlepcFinalize();
+  MPI_Finalize();
 }
 
 MPI_Comm Session::comm() const { return PETSC_COMM_WORLD; }

@@ -58,6 +58,12 @@ void say(MPI_Comm comm, const std::string& text) {
   std::fflush(stdout);
 }
 
+void complain(MPI_Comm comm, const std::string& text) {
+  int rank = 0;
+  check(MPI_Comm_rank(comm, &rank));
+  if (rank == 0) std::fprintf(stderr, "squeal: %s\n", text.c_str());
+}
+
 const std::vector<StageRecord>& stageRecords() { return records(); }
 
 }  // namespace squeal

@@ -30,6 +30,8 @@ class Stage {
 
 /// Text for the user on rank 0, silent with -quiet.
 void say(MPI_Comm comm, const std::string& text);
+/// A warning on the standard error output of rank 0, also with -quiet.
+void complain(MPI_Comm comm, const std::string& text);
 /// All finished stages in order; stages finished several times (one per friction) are summed.
 const std::vector<StageRecord>& stageRecords();
 

@@ -73,6 +73,7 @@ void write(const Analysis& analysis, const Directory& directory) {
     }
     stage.finish("results in " + directory.path().string());
   }
+  writeRecipe(analysis, directory.staging());
   writeSummary(analysis, directory.staging());  // after the last stage: it holds the times
   directory.commit();
   say(comm, stabilityTable(analysis));

@@ -34,6 +34,8 @@ std::string frictionText(double friction);
 
 /// The parts of write(), each collective, into `folder`.
 void writeTables(const Analysis& analysis, const std::filesystem::path& folder);
+/// options.txt; after all else, when every option has been asked for.
+void writeRecipe(const Analysis& analysis, const std::filesystem::path& folder);
 void writeSummary(const Analysis& analysis, const std::filesystem::path& folder);
 void writeHdf5(const Analysis& analysis, const std::filesystem::path& folder);
 void writeFields(const Analysis& analysis, const std::filesystem::path& folder);

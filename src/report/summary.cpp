@@ -18,6 +18,7 @@ Json steadyEntry(const steady::Solution& solution) {
   entry["snes_reason"] = solution.reason;
   entry["converged"] = solution.converged;
   entry["iterations"] = solution.iterations;
+  if (!solution.converged) return entry;  // where SNES stopped means nothing
   entry["open_nodes"] = solution.openNodes;
   entry["smallest_pressure_pa"] = solution.smallestPressure;
   entry["relative_imbalance"] = solution.imbalance;

@@ -42,6 +42,27 @@ std::string steadyRows(const Analysis& analysis, const steady::Solution& solutio
   return rows;
 }
 
+/// One line for one friction of a sweep: the lowest unstable modes.
+std::string sweepRow(const flutter::FrictionPoint& point) {
+  std::string row = formatted("\n%8g  ", point.friction);
+  if (point.unstableCount() == 0) return row + "none: steady sliding is stable";
+  int shown = 0;
+  for (const auto& e : point.eigenvalues)
+    if (e.unstable && point.inBand(e) && ++shown <= 6) row += formatted("%s%.6g (%.4g)", shown > 1 ? ", " : "", e.s.imag() / (2 * M_PI), e.s.real());
+  return row + (shown > 6 ? formatted(", and %d more in eigenvalues.csv", shown - 6) : "");
+}
+
+/// The unstable modes of a single friction, a line each; modes are numbered by frequency.
+std::string modeRows(const flutter::FrictionPoint& point) {
+  if (point.unstableCount() == 0) return formatted("\nnone at friction %g: steady sliding is stable", point.friction);
+  std::string rows;
+  for (std::size_t i = 0; i < point.eigenvalues.size(); ++i) {
+    const auto& e = point.eigenvalues[i];
+    if (e.unstable && point.inBand(e)) rows += formatted("\n%4zu  %12.6g %12.5g", i + 1, e.s.imag() / (2 * M_PI), e.s.real());
+  }
+  return rows;
+}
+
 std::string gathered(MPI_Comm comm, const std::string& text) {
   int rank = 0, size = 1, length = static_cast<int>(text.size());
   check(MPI_Comm_rank(comm, &rank));
@@ -66,12 +87,16 @@ void writeFile(MPI_Comm comm, const std::filesystem::path& path, const std::stri
   failTogether(comm, failure);
 }
 
+/// An -options_file that repeats the run; defaults that were in force stand in comments.
 std::string recipe(MPI_Comm comm) {
   int size = 1;
   check(MPI_Comm_size(comm, &size));
-  std::string text = formatted("# squeal %s, %d ranks: the options of this run, defaults included, as an -options_file\n", version(), size);
+  std::string text = formatted("# squeal %s, %d ranks: the options of this run; defaults in comments\n", version(), size);
+  const auto given = givenOptions();
+  for (const auto& [name, value] : given)
+    if (name != "report_dir" && name != "options_file") text += "-" + name + (value.empty() ? "" : " " + value) + "\n";
   for (const auto& [name, value] : resolvedOptions())
-    if (!value.empty() && name != "report_dir") text += "-" + name + " " + value + "\n";
+    if (!given.count(name) && name != "report_dir") text += "# -" + name + " " + value + "\n";
   return text;
 }
 
@@ -91,30 +116,24 @@ void writeTables(const Analysis& analysis, const std::filesystem::path& folder) 
       writeFile(comm, folder / ("steady_" + frictionText(solution.friction) + ".csv"),
                 "x_m,y_m,z_m,gap_m,normal_force_n,pressure_pa,friction_force_x_n,friction_force_y_n,friction_force_z_n,interface\n" +
                     gathered(comm, steadyRows(analysis, solution)));
-  writeFile(comm, folder / "options.txt", recipe(comm));
+}
+
+void writeRecipe(const Analysis& analysis, const std::filesystem::path& folder) {
+  writeFile(analysis.mesh->comm, folder / "options.txt", recipe(analysis.mesh->comm));
 }
 
 std::string stabilityTable(const Analysis& analysis) {
-  std::string table = "\nfriction  unstable modes: frequency Hz (growth 1/s)";
+  const bool sweep = analysis.steady.size() > 1;
+  std::string table = sweep ? "\nfriction  unstable modes: frequency Hz (growth 1/s)" : "\nmode  frequency Hz   growth 1/s";
   for (const auto& solution : analysis.steady)
     if (!solution.converged) table += formatted("\n%8g  no steady sliding solution found (%s)", solution.friction, solution.reason.c_str());
   for (const auto& segment : analysis.segments)
-    for (const auto& point : segment.points) {
-      table += formatted("\n%8g  ", point.friction);
-      if (point.unstableCount() == 0) table += "none: steady sliding is stable";
-      int shown = 0;
-      for (std::size_t i = 0; i < point.eigenvalues.size(); ++i) {
-        const auto& e = point.eigenvalues[i];
-        if (!e.unstable || !point.inBand(e)) continue;
-        if (++shown > 6) continue;
-        table += formatted("%s%.6g (%.4g)", shown > 1 ? ", " : "", e.s.imag() / (2 * M_PI), e.s.real());
-      }
-      if (shown > 6) table += formatted(", and %d more in eigenvalues.csv", shown - 6);
-    }
+    for (const auto& point : segment.points) table += sweep ? sweepRow(point) : modeRows(point);
   for (const auto& segment : analysis.segments)
     for (const auto& point : segment.points)
       if (point.bandTop > 0 && point.worstBackwardError() > point.accuracy)
-        table += formatted("\nfriction %g: the backward errors in the band exceed %.0e, see eigenvalues.csv; raise -modes_count or -flutter_rounds", point.friction, point.accuracy);
+        table += formatted("\nfriction %g: backward errors in the band exceed %.0e, see eigenvalues.csv; raise -modes_count or -flutter_rounds", point.friction,
+                           point.accuracy);
   if (!analysis.segments.empty() && analysis.segments.front().points.front().bandTop > 0)
     table += formatted("\nEigenvalues up to %.5g Hz are corrected to the full-order problem; those above in eigenvalues.csv are not.",
                        analysis.segments.front().points.front().bandTop / (2 * M_PI));

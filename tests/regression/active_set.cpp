@@ -1,0 +1,307 @@
+// A block clamped at its foot and pressed at its top by a sliding plate. Friction bends it and its nodes lift one after the other:
+// the active set changes within a sweep, until at some friction no steady sliding state is left.
+#include <array>
+
+#include "support/case.hpp"
+#include "support/ranks.hpp"
+
+namespace squeal::test {
+namespace {
+
+const std::string block =
+    "-mesh_file meshes/layer.geo -mesh_set Lx=0.5,nx=4,ny=8 -material_layer_young 1e9 -material_layer_poisson 0.3 "
+    "-material_layer_density 1000"
+    " -constraint_bottom_clamped xy -contact_plate_pad top -contact_plate_obstacle_velocity 1,0,0 "
+    "-contact_plate_obstacle_displacement 0,-0.001,0"
+    " -report_fields off ";
+
+// 4 x 8 cells: 40 free nodes of 45, 5 of them in contact; a closed gap is no unknown.
+constexpr int contactNodes = 5, closedUnknowns = 75;
+
+// --- the complementarity problem of one friction, condensed to the gaps: F = S g + q >= 0, g >= 0, F g = 0 ---
+
+using Rows = std::vector<std::vector<double>>;  // [row][column]
+
+/// A⁻¹ B by Gaussian elimination with row pivoting.
+Rows solve(Rows a, Rows b) {
+  const std::size_t n = a.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    std::size_t pivot = k;
+    for (std::size_t i = k + 1; i < n; ++i)
+      if (std::abs(a[i][k]) > std::abs(a[pivot][k])) pivot = i;
+    std::swap(a[k], a[pivot]), std::swap(b[k], b[pivot]);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (i == k) continue;
+      const double factor = a[i][k] / a[k][k];
+      for (std::size_t j = k; j < n; ++j) a[i][j] -= factor * a[k][j];
+      for (std::size_t j = 0; j < b[i].size(); ++j) b[i][j] -= factor * b[k][j];
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i)
+    for (double& entry : b[i]) entry /= a[i][i];
+  return b;
+}
+
+Rows part(const Rows& a, const std::vector<std::size_t>& rows, const std::vector<std::size_t>& columns) {
+  Rows result;
+  for (auto i : rows) {
+    result.emplace_back();
+    for (auto j : columns) result.back().push_back(a[i][j]);
+  }
+  return result;
+}
+
+struct Condensed {
+  Rows s;
+  std::vector<double> q;
+};
+
+/// From the program's own matrices, by other algebra than its solver's.
+Condensed condensed(const Analysis& analysis, double friction) {
+  const std::vector<unsigned char> all(analysis.contact.nodes.size(), 1);
+  const auto coupled = contact::couple(analysis.bodies, analysis.contact, all, all, false);
+  const OwnedMat jacobian = contact::CoupledMatrices::affine(coupled.k0, coupled.k1, friction);
+  const OwnedVec residual = elasticity::nodalVector(*analysis.mesh);
+  OwnedVec constant, slope;
+  check(MatCreateVecs(coupled.k0, constant.out(), slope.out()));
+  check(MatMult(analysis.bodies.stiffness, analysis.contact.offset, residual));
+  check(VecAXPY(residual, -1, analysis.bodies.load));
+  check(MatMultTranspose(coupled.transformation.trial, residual, constant));
+  check(MatMultTranspose(coupled.transformation.friction, residual, slope));
+  check(VecAXPY(constant, friction, slope));
+
+  // One more column for the constant: the Schur complement of both at once.
+  const auto n = static_cast<std::size_t>(coupled.transformation.columns);
+  Rows full(n, std::vector<double>(n + 1));
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) {
+      const auto row = static_cast<PetscInt>(i), column = static_cast<PetscInt>(j);
+      check(MatGetValues(jacobian, 1, &row, 1, &column, &full[i][j]));
+    }
+  const PetscScalar* values = nullptr;
+  check(VecGetArrayRead(constant, &values));
+  for (std::size_t i = 0; i < n; ++i) full[i][n] = values[i];
+  check(VecRestoreArrayRead(constant, &values));
+  std::vector<std::size_t> gaps(coupled.transformation.gapColumn.begin(), coupled.transformation.gapColumn.end()), inner,
+      right = gaps;
+  for (std::size_t i = 0; i < n; ++i)
+    if (std::find(gaps.begin(), gaps.end(), i) == gaps.end()) inner.push_back(i);
+  right.push_back(n);
+  const Rows response = solve(part(full, inner, inner), part(full, inner, right)), coupling = part(full, gaps, inner);
+  Rows outer = part(full, gaps, right);
+  for (std::size_t i = 0; i < outer.size(); ++i)
+    for (std::size_t j = 0; j < outer[i].size(); ++j)
+      for (std::size_t k = 0; k < inner.size(); ++k) outer[i][j] -= coupling[i][k] * response[k][j];
+  Condensed result;
+  for (auto& row : outer) {
+    result.q.push_back(row.back());
+    row.pop_back();
+    result.s.push_back(row);
+  }
+  return result;
+}
+
+/// Gaps and forces of every solution, found by trying all sets of open nodes.
+struct Sliding {
+  std::vector<double> gap, force;
+};
+
+std::vector<Sliding> allSolutions(const Condensed& problem) {
+  const std::size_t n = problem.q.size();
+  std::vector<Sliding> solutions;
+  for (unsigned set = 0; set < 1U << n; ++set) {
+    std::vector<std::size_t> open;
+    Rows right;
+    for (std::size_t i = 0; i < n; ++i)
+      if (set >> i & 1U) open.push_back(i), right.push_back({-problem.q[i]});
+    const Rows gaps = solve(part(problem.s, open, open), right);
+    Sliding sliding{std::vector<double>(n, 0.0), problem.q};
+    for (std::size_t k = 0; k < open.size(); ++k) sliding.gap[open[k]] = gaps[k][0];
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j) sliding.force[i] += problem.s[i][j] * sliding.gap[j];
+    for (auto i : open) sliding.force[i] = 0;
+    const auto negative = [](double x) { return x < 0; };
+    if (std::none_of(sliding.gap.begin(), sliding.gap.end(), negative) &&
+        std::none_of(sliding.force.begin(), sliding.force.end(), negative))
+      solutions.push_back(sliding);
+  }
+  return solutions;
+}
+
+TEST(ActiveSet, SteadyStateIsTheOneThatExists) {
+  const Analysis analysis = runOptions(block + "-modes_count 5 -flutter_friction 0:1:0.1");
+  ASSERT_EQ(analysis.contact.nodes.size(), static_cast<std::size_t>(contactNodes));
+  int without = 0, opening = 0;
+  for (const auto& steady : analysis.steady) {
+    SCOPED_TRACE("friction " + std::to_string(steady.friction) + ": " + steady.reason);
+    const auto solutions = allSolutions(condensed(analysis, steady.friction));
+    std::printf("friction %.1f: %zu solutions among %d active sets; SNES: %s after %d iterations, %d open\n", steady.friction,
+                solutions.size(), 1 << contactNodes, steady.reason.c_str(), steady.iterations, static_cast<int>(steady.openNodes));
+    EXPECT_EQ(steady.converged, !solutions.empty());
+    without += solutions.empty();
+    if (solutions.size() != 1 || !steady.converged) continue;
+    opening += steady.openNodes > 0;
+    const double largest = *std::max_element(solutions[0].force.begin(), solutions[0].force.end()),
+                 widest = *std::max_element(solutions[0].gap.begin(), solutions[0].gap.end());
+    for (std::size_t i = 0; i < analysis.contact.nodes.size(); ++i) {
+      // SNES stops at 1e-11 of the forces; near the last friction with a solution the gaps answer with up to thirty times that.
+      // Gaps open from 1e-3 m.
+      EXPECT_NEAR(steady.contact[i].gap, solutions[0].gap[i], 1e-9 * (1e-3 + widest));
+      EXPECT_NEAR(steady.contact[i].normalForce, solutions[0].force[i], 1e-9 * largest);
+      EXPECT_EQ(steady.closed[i] != 0, solutions[0].force[i] > 0);
+    }
+  }
+  EXPECT_GE(without, 1);
+  EXPECT_GE(opening, 3);
+}
+
+/// The sweep on this number of ranks, run once for the tests that read it.
+const ProgramRun& sweepOn(int ranks) {
+  static std::map<int, ProgramRun> runs;
+  if (!runs.count(ranks))
+    runs[ranks] = runProgram("active_set/sweep_np" + std::to_string(ranks), ranks,
+                             block + "-modes_count 21 -flutter_friction 0:0.7:0.1 -quiet");
+  return runs[ranks];
+}
+
+TEST(ActiveSet, ModesAreComputedAnewWhereItChanges) {
+  const ProgramRun& sweep = sweepOn(1);
+  ASSERT_EQ(sweep.exitCode, 0) << sweep.error;
+  const Findings findings = findingsOf(sweep);
+  const auto& sets = findings.summary.at("active_sets");
+  ASSERT_GE(sets.size(), 3U);
+  EXPECT_EQ(findings.summary.at("dofs"), closedUnknowns);
+  std::vector<double> before;
+  for (const auto& set : sets) {
+    const int open = set.at("open_nodes"), unknowns = set.at("dofs");
+    const double first = set.at("first_friction");
+    std::printf("from friction %.1f: %d open nodes, %d unknowns\n", first, open, unknowns);
+    EXPECT_EQ(unknowns, closedUnknowns + open);
+    EXPECT_EQ(set.at("modes"), 21);
+    EXPECT_TRUE(set.at("sturm_count").at("confirmed"));
+    // Open nodes free the structure: no frequency rises (Rayleigh), and the first falls.
+    const auto now = readCsv(sweep.folder / (before.empty() ? "modes.csv" : "modes_" + shortest(first) + ".csv"))
+                         .column("angular_frequency_rad_per_s");
+    for (std::size_t i = 0; i < before.size(); ++i) EXPECT_LE(now[i], before[i] * (1 + 1e-9)) << "mode " << i + 1;
+    EXPECT_TRUE(before.empty() || now[0] < before[0] * (1 - 1e-6));
+    before = now;
+    // The way through the sweep leaves no trace: alone, from the bonded state, this friction gives the same.
+    const ProgramRun alone =
+        runProgram("active_set/alone_" + shortest(first), 1, block + "-modes_count 21 -quiet -flutter_friction " + shortest(first));
+    ASSERT_EQ(alone.exitCode, 0) << alone.error;
+    const Findings same = findingsOf(alone);
+    EXPECT_LT(worst(errors(findings.inBand(first), same.eigenvalues.at(first)).relative), 1e-6);
+    EXPECT_LT(forceDifference(findings.steady.at(first), same.steady.at(first)), 1e-8);
+  }
+}
+
+TEST(ActiveSet, OpenNodesCarryNoFriction) {
+  const ProgramRun run = runProgram("active_set/open", 2, block + "-modes_count 21 -flutter_friction 0.1,0.3,0.5 -quiet");
+  ASSERT_EQ(run.exitCode, 0) << run.error;
+  const Findings findings = findingsOf(run);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto& entry = findings.summary.at("frictions").at(k);
+    const double friction = entry.at("friction");
+    const CsvTable& table = findings.steady.at(friction);
+    const auto gap = table.column("gap_m"), normal = table.column("normal_force_n"), along = table.column("friction_force_x_n");
+    ASSERT_EQ(gap.size(), static_cast<std::size_t>(contactNodes));
+    const double largest = *std::max_element(normal.begin(), normal.end());
+    int open = 0;
+    for (std::size_t i = 0; i < gap.size(); ++i) {
+      EXPECT_NEAR(along[i], friction * normal[i], 1e-10 * largest);  // the plate drags the block along with it
+      if (gap[i] > 1e-12) {
+        ++open;
+        EXPECT_NEAR(normal[i], 0, 1e-9 * largest);
+      } else {
+        EXPECT_GE(gap[i], 0);
+        EXPECT_GT(normal[i], 1e-6 * largest);
+      }
+    }
+    EXPECT_EQ(entry.at("steady").at("open_nodes"), open);
+    EXPECT_EQ(open > 0, friction > 0.2) << "friction " << friction;
+  }
+}
+
+// With every mode kept the basis is the whole space, whichever nodes are open.
+TEST(ActiveSet, ReducedAndDirectAgree) {
+  for (const auto& [friction, open] : std::map<std::string, int>{{"0.1", 0}, {"0.4", 2}, {"0.5", 3}}) {
+    SCOPED_TRACE("friction " + friction);
+    const std::string all = std::to_string(closedUnknowns + open), options = block + "-quiet -flutter_friction " + friction;
+    const ProgramRun reduced = runProgram("active_set/reduced_" + friction, 1, options + " -modes_count " + all);
+    const ProgramRun direct =
+        runProgram("active_set/direct_" + friction, 1, options + " -flutter_method direct -flutter_direct_count " + all);
+    ASSERT_EQ(reduced.exitCode, 0) << reduced.error;
+    ASSERT_EQ(direct.exitCode, 0) << direct.error;
+    const auto eigenvaluesIn = [](const ProgramRun& run) {
+      const CsvTable table = readCsv(run.folder / "eigenvalues.csv");
+      const auto growth = table.column("growth_rate_1_per_s"), frequency = table.column("angular_frequency_rad_per_s");
+      std::vector<Complex> values;
+      for (std::size_t i = 0; i < growth.size(); ++i) values.emplace_back(growth[i], frequency[i]);
+      return values;
+    };
+    const auto one = eigenvaluesIn(reduced), other = eigenvaluesIn(direct);
+    ASSERT_EQ(one.size(), static_cast<std::size_t>(closedUnknowns + open));
+    ASSERT_EQ(other.size(), one.size());
+    // Backward errors of 1e-13, times the condition of eigenvalues near where two of them meet.
+    const double difference = worst(errors(one, other).relative);
+    EXPECT_LT(difference, 1e-7);
+    const auto count = [](const std::vector<Complex>& values) {
+      return std::count_if(values.begin(), values.end(), [](Complex s) { return s.real() > 1e-6 * std::abs(s); });
+    };
+    EXPECT_EQ(count(one), count(other));
+    std::printf("friction %s: reduced and direct differ by %.1e of |s| in %zu eigenvalues, %d unstable\n", friction.c_str(),
+                difference, one.size(), static_cast<int>(count(one)));
+  }
+}
+
+TEST(ActiveSet, SameOnOneAndTwoRanks) {
+  std::vector<Findings> findings;
+  for (int ranks : {1, 2}) {
+    const ProgramRun& run = sweepOn(ranks);
+    ASSERT_EQ(run.exitCode, 0) << run.error;
+    findings.push_back(findingsOf(run));
+  }
+  expectSame(findings[0], findings[1], "active sets on 2 ranks");
+  const auto& one = findings[0].summary.at("active_sets");
+  const auto& two = findings[1].summary.at("active_sets");
+  ASSERT_EQ(one.size(), two.size());
+  for (std::size_t i = 0; i < one.size(); ++i)
+    for (const char* key : {"first_friction", "last_friction", "open_nodes", "dofs"})
+      EXPECT_EQ(one[i].at(key), two[i].at(key)) << key << " of set " << i + 1;
+}
+
+TEST(ActiveSet, FrictionWithoutSteadyState) {
+  for (int ranks : {1, 2}) {
+    SCOPED_TRACE(std::to_string(ranks) + " ranks");
+    const ProgramRun run =
+        runProgram("active_set/none_np" + std::to_string(ranks), ranks, block + "-modes_count 21 -flutter_friction 0.1,0.9,0.5");
+    EXPECT_EQ(run.exitCode, 2) << run.error;
+    EXPECT_NE(run.out.find("0.9  no steady sliding solution"), std::string::npos) << run.out;
+    const auto friction = readCsv(run.folder / "eigenvalues.csv").column("friction");
+    EXPECT_EQ(std::count(friction.begin(), friction.end(), 0.1), 21);
+    EXPECT_EQ(std::count(friction.begin(), friction.end(), 0.5), 21);
+    EXPECT_EQ(friction.size(), 42U);
+    EXPECT_FALSE(fs::exists(run.folder / "steady_0.9.csv"));
+    const auto summary = nlohmann::json::parse(contentOf(run.folder / "summary.json"));
+    for (const auto& entry : summary.at("frictions")) {
+      const bool exists = entry.at("friction") != 0.9;
+      EXPECT_EQ(entry.at("steady").at("converged"), exists);
+      EXPECT_EQ(entry.at("steady").at("snes_reason").get<std::string>().rfind("DIVERGED", 0) == 0, !exists);
+      EXPECT_EQ(entry.contains("unstable_modes"), exists);
+    }
+  }
+}
+
+// Nothing at all to report is reported all the same.
+TEST(ActiveSet, NoFrictionHasASteadyState) {
+  const ProgramRun run =
+      runProgram("active_set/nothing", 2, block + "-report_fields on -modes_count 21 -flutter_friction 0.9 -quiet");
+  EXPECT_EQ(run.exitCode, 2) << run.error;
+  EXPECT_EQ(run.out, "");
+  EXPECT_NE(run.error.find("no steady sliding solution"), std::string::npos) << "-quiet hides no failure";
+  EXPECT_TRUE(readCsv(run.folder / "eigenvalues.csv").rows.empty());
+  EXPECT_TRUE(nlohmann::json::parse(contentOf(run.folder / "summary.json")).at("active_sets").empty());
+}
+
+}  // namespace
+}  // namespace squeal::test
