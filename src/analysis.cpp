@@ -12,20 +12,15 @@ namespace squeal {
 namespace {
 
 const IntegerOption modesShown("report", "report_modes", 10, 0, "number of free modes written as fields");
-const FlagOption benchmarkWanted("modes", "modes_benchmark", false, "time one factorisation and 400 solves in blocks of 32, the floor of the stage");
+const FlagOption benchmarkWanted("modes", "modes_benchmark", false,
+                                 "time one factorisation and 400 solves in blocks of 32, the floor of the stage");
 
 mesh::Mesh readMesh(MPI_Comm comm) {
-  mesh::Request request;
-  request.bodies = elasticity::materialGroups();
-  request.moving = elasticity::movingBodies();
-  request.nodeGroups = contact::constrainedGroups();
-  request.surfaces = elasticity::loadedSurfaces();
-  request.interfaces = contact::readInterfaces();
-  request.periodic = contact::periodicPairs();
+  const mesh::Request request = meshRequest();
   Stage stage(comm, "mesh");
   mesh::Mesh mesh = mesh::read(comm, request);
-  stage.finish(formatted("%d nodes, %d cells, %d bodies in %d connected parts", static_cast<int>(mesh.totalNodes), static_cast<int>(mesh.totalCells),
-                         static_cast<int>(mesh.bodies.size()), mesh.parts));
+  stage.finish(formatted("%d nodes, %d cells, %d bodies in %d connected parts", static_cast<int>(mesh.totalNodes),
+                         static_cast<int>(mesh.totalCells), static_cast<int>(mesh.bodies.size()), mesh.parts));
   return mesh;
 }
 
@@ -40,8 +35,9 @@ contact::Contact buildContact(const mesh::Mesh& mesh, const elasticity::Bodies& 
   Stage stage(mesh.comm, "contact");
   contact::Contact contact = contact::build(mesh, bodies);
   if (std::any_of(frictions.begin(), frictions.end(), [](double f) { return f > 0; })) contact::requireSlip(contact);
-  stage.finish(formatted("%d contact nodes on %d interfaces%s", static_cast<int>(contact.totalNodes), static_cast<int>(contact.interfaces.size()),
-                         contact.weightsPositive ? "" : "; faces with non-positive nodal weights: accepted only while contact is closed everywhere"));
+  stage.finish(formatted(
+      "%d contact nodes on %d interfaces%s", static_cast<int>(contact.totalNodes), static_cast<int>(contact.interfaces.size()),
+      contact.weightsPositive ? "" : "; faces with non-positive nodal weights: accepted only while contact is closed everywhere"));
   return contact;
 }
 
@@ -61,7 +57,8 @@ class CurrentSystem {
       Stage stage(analysis_.mesh->comm, "contact");
       system_ = std::make_unique<contact::AssociatedSystem>(analysis_.bodies, analysis_.contact, closed);
       stage.finish(formatted("%d unknowns with %d of %d contact nodes closed", static_cast<int>(system_->size()),
-                             static_cast<int>(analysis_.contact.totalNodes - system_->openNodes()), static_cast<int>(analysis_.contact.totalNodes)));
+                             static_cast<int>(analysis_.contact.totalNodes - system_->openNodes()),
+                             static_cast<int>(analysis_.contact.totalNodes)));
     }
     return *system_;
   }
@@ -82,11 +79,14 @@ std::vector<steady::Solution> steadySweep(const Analysis& analysis, const std::v
     Stage stage(analysis.mesh->comm, "steady");
     solutions.push_back(problem.solve(friction, current));
     const auto& solution = solutions.back();
-    stage.finish(formatted("friction %g: %s after %d iterations, %d of %d nodes open, smallest pressure %.4g, imbalance %.0e", friction,
-                           solution.reason.c_str(), solution.iterations, static_cast<int>(solution.openNodes),
+    stage.finish(formatted("friction %g: %s after %d iterations, %d of %d nodes open, smallest pressure %.4g, imbalance %.0e",
+                           friction, solution.reason.c_str(), solution.iterations, static_cast<int>(solution.openNodes),
                            static_cast<int>(analysis.contact.totalNodes), solution.smallestPressure, solution.imbalance));
-    if (solution.converged) closed = solution.closed;
-    else complain(analysis.mesh->comm, formatted("no steady sliding solution found at -flutter_friction %g: %s", friction, solution.reason.c_str()));
+    if (solution.converged)
+      closed = solution.closed;
+    else
+      complain(analysis.mesh->comm,
+               formatted("no steady sliding solution found at -flutter_friction %g: %s", friction, solution.reason.c_str()));
   }
   return solutions;
 }
@@ -110,7 +110,8 @@ std::vector<OwnedVec> nodalShapes(const modes::Modes& modes, const contact::Asso
 }
 
 /// Modes of one active set, then flutter at the frictions from `first` to `last` that share it.
-ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::size_t last, const contact::AssociatedSystem& system, double& floor) {
+ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::size_t last, const contact::AssociatedSystem& system,
+                            double& floor) {
   ModalSegment segment;
   segment.openNodes = system.openNodes();
   segment.unknowns = system.size();
@@ -136,14 +137,26 @@ ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::si
     const Mat trial = system.matrices().transformation.trial;
     auto& point = segment.points[i - first];
     point = direct ? flutter::solveDirect(pencil, friction, trial) : reduced->solve(friction, trial);
-    stage.finish(formatted("friction %g: %d of %d eigenvalues unstable%s, worst backward error %.1e%s", friction, point.unstableCount(), point.bandCount(),
-                           point.bandTop > 0 ? formatted(" to %.4g Hz", point.bandTop / (2 * M_PI)).c_str() : "", point.worstBackwardError(),
-                           direct ? "" : formatted(", basis of %d", static_cast<int>(reduced->basisSize())).c_str()));
+    stage.finish(formatted(
+        "friction %g: %d of %d eigenvalues unstable%s, worst backward error %.1e%s", friction, point.unstableCount(),
+        point.bandCount(), point.bandTop > 0 ? formatted(" to %.4g Hz", point.bandTop / (2 * M_PI)).c_str() : "",
+        point.worstBackwardError(), direct ? "" : formatted(", basis of %d", static_cast<int>(reduced->basisSize())).c_str()));
   }
   return segment;
 }
 
 }  // namespace
+
+mesh::Request meshRequest() {
+  mesh::Request request;
+  request.bodies = elasticity::materialGroups();
+  request.moving = elasticity::movingBodies();
+  request.nodeGroups = contact::constrainedGroups();
+  request.surfaces = elasticity::loadedSurfaces();
+  request.interfaces = contact::readInterfaces();
+  request.periodic = contact::periodicPairs();
+  return request;
+}
 
 bool Analysis::converged() const {
   return std::all_of(steady.begin(), steady.end(), [](const auto& solution) { return solution.converged; });
@@ -163,7 +176,9 @@ Analysis analyse(MPI_Comm comm) {
     last = first + 1;
     const auto& start = analysis.steady[first];
     if (!start.converged) continue;
-    while (last < frictions.size() && analysis.steady[last].converged && sameOnAllRanks(comm, analysis.steady[last].closed, start.closed)) ++last;
+    while (last < frictions.size() && analysis.steady[last].converged &&
+           sameOnAllRanks(comm, analysis.steady[last].closed, start.closed))
+      ++last;
     analysis.segments.push_back(flutterSegment(analysis, first, last, system.of(start.closed), analysis.modesFloorSeconds));
   }
   return analysis;

@@ -13,22 +13,25 @@ namespace squeal {
 struct ModalSegment {
   PetscInt openNodes = 0;
   PetscInt unknowns = 0;
-  modes::Modes modes;                             ///< empty with the direct method
-  std::vector<OwnedVec> shapes;                   ///< the first `-report_modes` modes in nodal displacements, largest entry 1
+  modes::Modes modes;            ///< empty with the direct method
+  std::vector<OwnedVec> shapes;  ///< the first `-report_modes` modes in nodal displacements, largest entry 1
   std::vector<flutter::FrictionPoint> points;
 };
 
 struct Analysis {
-  std::unique_ptr<mesh::Mesh> mesh;               ///< at a fixed address: contact and steady borrow it
+  std::unique_ptr<mesh::Mesh> mesh;  ///< at a fixed address: contact and steady borrow it
   elasticity::Bodies bodies;
   contact::Contact contact;
-  std::vector<steady::Solution> steady;           ///< [friction]
+  std::vector<steady::Solution> steady;  ///< [friction]
   std::vector<ModalSegment> segments;
-  double modesFloorSeconds = 0;                   ///< one factorisation and 400 blocked solves, if `-modes_benchmark`
+  double modesFloorSeconds = 0;  ///< one factorisation and 400 blocked solves, if `-modes_benchmark`
 
   /// Every friction has a steady solution.
   bool converged() const;
 };
+
+/// What the options of all stages ask of the mesh.
+mesh::Request meshRequest();
 
 /// Collective. Runs all stages that the options ask for. Errors as the stages document them.
 Analysis analyse(MPI_Comm comm);

@@ -8,10 +8,12 @@
 namespace squeal::contact {
 namespace {
 
-const TextOption clampedOption("constraint", "constraint_<group>_clamped", "", "components (some of xyz) of displacement held on the group's nodes");
+const TextOption clampedOption("constraint", "constraint_<group>_clamped", "",
+                               "components (some of xyz) of displacement held on the group's nodes");
 const RealListOption displacementOption("constraint", "constraint_<group>_displacement", "0,0,0", "m", anyReal,
                                         "values of the clamped components");
-const TextOption imageOption("constraint", "constraint_<group>_image_of", "", "the group is the periodic image of this one, its translate");
+const TextOption imageOption("constraint", "constraint_<group>_image_of", "",
+                             "the group is the periodic image of this one, its translate");
 
 }  // namespace
 
@@ -41,12 +43,14 @@ Constraints readConstraints(const mesh::Mesh& mesh) {
     const auto values = displacementOption.get(group);
     if (components.empty() || components.find_first_not_of(allowed) != std::string::npos)
       throw Error("option -" + clampedOption.fullName(group) + " '" + components + "': must be some of the letters " + allowed);
-    if (values.size() < dimension) throw Error("option -" + displacementOption.fullName(group) + ": must have " + std::to_string(dimension) + " components");
+    if (values.size() < dimension)
+      throw Error("option -" + displacementOption.fullName(group) + ": must have " + std::to_string(dimension) + " components");
     for (PetscInt node : mesh.nodeGroups.at(group))
       for (char letter : components) {
         const auto component = static_cast<std::size_t>(letter - 'x'), at = dimension * static_cast<std::size_t>(node) + component;
         if (constraints.held[at] && constraints.displacement[at] != values[component])
-          failure = "option -" + displacementOption.fullName(group) + ": a node of this group is displaced differently by another group";
+          failure =
+              "option -" + displacementOption.fullName(group) + ": a node of this group is displaced differently by another group";
         constraints.held[at] = 1;
         constraints.heldBy[at] = static_cast<int>(constraints.groups.size()) - 1;
         constraints.displacement[at] = values[component];

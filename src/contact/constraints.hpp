@@ -12,10 +12,10 @@ std::vector<mesh::PeriodicRequest> periodicPairs();
 
 /// Cartesian components held at each owned node.
 struct Constraints {
-  std::vector<unsigned char> held;     ///< [owned node · dimension + component] 1 if held
-  std::vector<int> heldBy;             ///< [owned node · dimension + component] index into groups
-  std::vector<std::string> groups;     ///< groups with a clamp
-  std::vector<double> displacement;    ///< [owned node · dimension + component] its value where held, m
+  std::vector<unsigned char> held;   ///< [owned node · dimension + component] 1 if held
+  std::vector<int> heldBy;           ///< [owned node · dimension + component] index into groups
+  std::vector<std::string> groups;   ///< groups with a clamp
+  std::vector<double> displacement;  ///< [owned node · dimension + component] its value where held, m
 };
 
 /// Collective. Errors: component that the dimension does not have, displacement without clamp, two groups that disagree.

@@ -12,19 +12,23 @@ namespace {
 
 const TextOption padOption("contact", "contact_<interface>_pad", "", "surface group of the pad side (slave) of an interface");
 const TextOption discOption("contact", "contact_<interface>_disc", "", "surface group of the disc side (master), meshed alike");
-const RealListOption obstacleVelocityOption("contact", "contact_<interface>_obstacle_velocity", "0,0,0", "m/s", anyReal,
-                                            "instead of a disc: a rigid flat obstacle in the plane of the pad face, sliding at this velocity");
+const RealListOption obstacleVelocityOption(
+    "contact", "contact_<interface>_obstacle_velocity", "0,0,0", "m/s", anyReal,
+    "instead of a disc: a rigid flat obstacle in the plane of the pad face, sliding at this velocity");
 const RealListOption obstacleDisplacementOption("contact", "contact_<interface>_obstacle_displacement", "0,0,0", "m", anyReal,
                                                 "displacement of the rigid obstacle, which presses the pad");
 
 double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Point cross(const Point& a, const Point& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
+Point cross(const Point& a, const Point& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
 Point scaled(const Point& a, double s) { return {s * a[0], s * a[1], s * a[2]}; }
 std::string text(const Point& p) { return formatted("(%.6g, %.6g, %.6g)", p[0], p[1], p[2]); }
 
 Point pointOf(const RealListOption& option, const std::string& subject) {
   auto values = option.get(subject);
-  if (values.size() < 2 || values.size() > 3) throw Error("option -" + option.fullName(subject) + ": two or three components are wanted");
+  if (values.size() < 2 || values.size() > 3)
+    throw Error("option -" + option.fullName(subject) + ": two or three components are wanted");
   values.resize(3, 0.0);
   return {values[0], values[1], values[2]};
 }
@@ -63,7 +67,8 @@ OwnedMat periodicity(const mesh::Mesh& mesh) {
   for (const auto& image : mesh.images) source[static_cast<std::size_t>(image.node)] = image.primary;
   for (PetscInt node = 0; node < mesh.ownedNodes; ++node)
     for (int d = 0; d < mesh.dimension; ++d)
-      check(MatSetValue(matrix, mesh.dimension * (mesh.firstNode + node) + d, mesh.dimension * source[static_cast<std::size_t>(node)] + d, 1, INSERT_VALUES));
+      check(MatSetValue(matrix, mesh.dimension * (mesh.firstNode + node) + d,
+                        mesh.dimension * source[static_cast<std::size_t>(node)] + d, 1, INSERT_VALUES));
   assembled(matrix);
   return matrix;
 }
@@ -74,7 +79,8 @@ struct FaceSums {
 };
 
 FaceSums sumFaces(const mesh::Mesh& mesh, const Contact& contact) {
-  FaceSums local{elasticity::nodalVector(mesh), elasticity::nodalVector(mesh)}, sums{elasticity::nodalVector(mesh), elasticity::nodalVector(mesh)};
+  FaceSums local{elasticity::nodalVector(mesh), elasticity::nodalVector(mesh)},
+      sums{elasticity::nodalVector(mesh), elasticity::nodalVector(mesh)};
   for (const auto& block : mesh.faces) {
     const auto& table = elasticity::shapeTable(block.type);
     for (std::size_t e = 0; e < block.surface.size(); ++e) {
@@ -92,7 +98,8 @@ FaceSums sumFaces(const mesh::Mesh& mesh, const Contact& contact) {
         for (int j = 0; j < block.nodesPerFace; ++j) weight += faceMass[static_cast<std::size_t>(i * block.nodesPerFace + j)];
         check(VecSetValue(local.area, row, weight, ADD_VALUES));
         for (int d = 0; d < mesh.dimension; ++d)
-          check(VecSetValue(local.normal, row + d, faceArea * normals[static_cast<std::size_t>(i)][static_cast<std::size_t>(d)], ADD_VALUES));
+          check(VecSetValue(local.normal, row + d, faceArea * normals[static_cast<std::size_t>(i)][static_cast<std::size_t>(d)],
+                            ADD_VALUES));
       }
     }
   }
@@ -102,13 +109,14 @@ FaceSums sumFaces(const mesh::Mesh& mesh, const Contact& contact) {
   return sums;
 }
 
-std::vector<ContactNode> contactNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, const std::vector<mesh::InterfaceRequest>& requests,
-                                      const FaceSums& sums) {
+std::vector<ContactNode> contactNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
+                                      const std::vector<mesh::InterfaceRequest>& requests, const FaceSums& sums) {
   std::vector<ContactNode> nodes;
   std::vector<Point> obstacleVelocity;
   for (const auto& request : requests) obstacleVelocity.push_back(pointOf(obstacleVelocityOption, request.name));
   const auto discVelocity = [&](const mesh::ContactPair& pair) {
-    return pair.masterBody >= 0 ? bodies.motions[static_cast<std::size_t>(pair.masterBody)].velocity(mesh.coordinates[static_cast<std::size_t>(pair.node)])
+    return pair.masterBody >= 0 ? bodies.motions[static_cast<std::size_t>(pair.masterBody)].velocity(
+                                      mesh.coordinates[static_cast<std::size_t>(pair.node)])
                                 : obstacleVelocity[static_cast<std::size_t>(pair.interface)];
   };
   double fastest = 0;
@@ -131,8 +139,10 @@ std::vector<ContactNode> contactNodes(const mesh::Mesh& mesh, const elasticity::
     for (std::size_t d = 0; d < 3; ++d) w[d] = -(velocity[d] - along * node.normal[d]);
     node.slipSpeed = std::sqrt(dot(w, w));
     // On the axis of a rotation, and where the velocity is along the normal, only rounding is left.
-    if (node.slipSpeed > 1e-12 * fastest) node.slip = scaled(w, 1 / node.slipSpeed);
-    else node.slipSpeed = 0;
+    if (node.slipSpeed > 1e-12 * fastest)
+      node.slip = scaled(w, 1 / node.slipSpeed);
+    else
+      node.slipSpeed = 0;
     nodes.push_back(node);
   }
   check(VecRestoreArrayRead(sums.normal, &normal));
@@ -153,9 +163,11 @@ Frame frameOf(const ContactNode& node, const Constraints& constraints, int dimen
       Point e{};
       e[static_cast<std::size_t>(d)] = 1;
       if (std::abs(dot(e, node.normal)) > 1e-6)
-        throw Error("option -constraint_" + constraints.groups[static_cast<std::size_t>(constraints.heldBy[static_cast<std::size_t>(dimension * node.node + d)])] +
-                    "_clamped holds component " + std::string(1, static_cast<char>('x' + d)) +
-                    " of the pad contact node at " + text(node.position) + ", which is not tangential there; contact decides the normal component");
+        throw Error(
+            "option -constraint_" +
+            constraints.groups[static_cast<std::size_t>(constraints.heldBy[static_cast<std::size_t>(dimension * node.node + d)])] +
+            "_clamped holds component " + std::string(1, static_cast<char>('x' + d)) + " of the pad contact node at " +
+            text(node.position) + ", which is not tangential there; contact decides the normal component");
       frame.tangents.push_back(e);
       frame.heldComponent.push_back(d);
     }
@@ -174,12 +186,14 @@ Frame frameOf(const ContactNode& node, const Constraints& constraints, int dimen
     frame.tangents.push_back(scaled(t, 1 / std::sqrt(dot(t, t))));
     frame.heldComponent.push_back(-1);
   }
-  if (frame.tangents.size() == 1) frame.tangents.push_back(cross(node.normal, frame.tangents[0])), frame.heldComponent.push_back(-1);
+  if (frame.tangents.size() == 1)
+    frame.tangents.push_back(cross(node.normal, frame.tangents[0])), frame.heldComponent.push_back(-1);
   return frame;
 }
 
 /// Fills A (before periodicity), the free components of z and the values of the others.
-void buildKinematics(const mesh::Mesh& mesh, const std::vector<mesh::InterfaceRequest>& requests, Contact& contact, Mat a, Vec held) {
+void buildKinematics(const mesh::Mesh& mesh, const std::vector<mesh::InterfaceRequest>& requests, Contact& contact, Mat a,
+                     Vec held) {
   const Constraints& constraints = contact.constraints;
   const int dimension = mesh.dimension;
   const auto local = [&](PetscInt node, int d) { return static_cast<std::size_t>(dimension * node + d); };
@@ -203,12 +217,16 @@ void buildKinematics(const mesh::Mesh& mesh, const std::vector<mesh::InterfaceRe
       const Frame frame = frameOf(node, constraints, dimension);
       std::vector<double> block(static_cast<std::size_t>(dimension * dimension));
       for (int i = 0; i < dimension; ++i) {
-        for (int t = 0; t < dimension - 1; ++t) block[static_cast<std::size_t>(i * dimension + t)] = frame.tangents[static_cast<std::size_t>(t)][static_cast<std::size_t>(i)];
+        for (int t = 0; t < dimension - 1; ++t)
+          block[static_cast<std::size_t>(i * dimension + t)] =
+              frame.tangents[static_cast<std::size_t>(t)][static_cast<std::size_t>(i)];
         block[static_cast<std::size_t>(i * dimension + dimension - 1)] = node.normal[static_cast<std::size_t>(i)];
       }
       setBlock(a, dimension, node.globalNode, node.globalNode, block);
-      if (node.master >= 0) setBlock(a, dimension, node.globalNode, node.master, outer(node.normal, node.normal, dimension));
-      else values[local(node.node, dimension - 1)] = dot(node.normal, obstacleDisplacement[static_cast<std::size_t>(node.interface)]);
+      if (node.master >= 0)
+        setBlock(a, dimension, node.globalNode, node.master, outer(node.normal, node.normal, dimension));
+      else
+        values[local(node.node, dimension - 1)] = dot(node.normal, obstacleDisplacement[static_cast<std::size_t>(node.interface)]);
       for (int t = 0; t < dimension - 1; ++t) {
         const int component = frame.heldComponent[static_cast<std::size_t>(t)];
         if (component < 0) continue;
@@ -239,8 +257,10 @@ void requireFlatObstacles(const mesh::Mesh& mesh, const Contact& contact) {
       }
     check(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, mesh.comm));
     for (const auto& node : contact.nodes)
-      if (node.interface == static_cast<int>(i) && node.master < 0 && sums[0] * node.normal[0] + sums[1] * node.normal[1] + sums[2] * node.normal[2] < (1 - 1e-10) * sums[3])
-        failure = "option -" + padOption.fullName(contact.interfaces[i]) + ": the face on the rigid obstacle must be flat; its normal turns at " + text(node.position);
+      if (node.interface == static_cast<int>(i) && node.master < 0 &&
+          sums[0] * node.normal[0] + sums[1] * node.normal[1] + sums[2] * node.normal[2] < (1 - 1e-10) * sums[3])
+        failure = "option -" + padOption.fullName(contact.interfaces[i]) +
+                  ": the face on the rigid obstacle must be flat; its normal turns at " + text(node.position);
   }
   failTogether(mesh.comm, failure);
 }
@@ -249,13 +269,16 @@ void requireFlatObstacles(const mesh::Mesh& mesh, const Contact& contact) {
 
 std::vector<mesh::InterfaceRequest> readInterfaces() {
   std::vector<mesh::InterfaceRequest> requests;
-  for (const Option* option : {static_cast<const Option*>(&discOption), static_cast<const Option*>(&obstacleVelocityOption), static_cast<const Option*>(&obstacleDisplacementOption)})
+  for (const Option* option : {static_cast<const Option*>(&discOption), static_cast<const Option*>(&obstacleVelocityOption),
+                               static_cast<const Option*>(&obstacleDisplacementOption)})
     for (const auto& name : option->subjects())
       if (!padOption.given(name)) throw Error("option -" + option->fullName(name) + " needs -" + padOption.fullName(name));
   for (const auto& name : padOption.subjects()) {
-    const bool disc = discOption.given(name), obstacle = obstacleVelocityOption.given(name) || obstacleDisplacementOption.given(name);
+    const bool disc = discOption.given(name),
+               obstacle = obstacleVelocityOption.given(name) || obstacleDisplacementOption.given(name);
     if (disc == obstacle)
-      throw Error("option -" + padOption.fullName(name) + ": give either -" + discOption.fullName(name) + " or -" + obstacleVelocityOption.fullName(name));
+      throw Error("option -" + padOption.fullName(name) + ": give either -" + discOption.fullName(name) + " or -" +
+                  obstacleVelocityOption.fullName(name));
     requests.push_back({name, padOption.get(name), disc ? discOption.get(name) : ""});
   }
   return requests;
@@ -274,7 +297,8 @@ Contact build(const mesh::Mesh& mesh, const elasticity::Bodies& bodies) {
   for (const auto& block : mesh.faces) {
     const auto& table = elasticity::shapeTable(block.type);
     const bool serendipity = table.order > 1 && (table.name == "tri6" || table.name == "quad8");
-    for (int surface : block.surface) sums[1] += serendipity && contact.isPadSurface(mesh.surfaces[static_cast<std::size_t>(surface)]);
+    for (int surface : block.surface)
+      sums[1] += serendipity && contact.isPadSurface(mesh.surfaces[static_cast<std::size_t>(surface)]);
   }
   check(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPIU_INT, MPI_SUM, mesh.comm));
   contact.totalNodes = sums[0];
@@ -314,7 +338,8 @@ Transformation Contact::transformation(const std::vector<unsigned char>& gapFree
   for (const auto& node : nodes) result.gapColumn.push_back(column[gapAt(node)]);
 
   const PetscInt owned = dimension * mesh->ownedNodes, first = dimension * mesh->firstNode;
-  check(MatCreateAIJ(mesh->comm, owned, result.ownedColumns, PETSC_DETERMINE, PETSC_DETERMINE, 1, nullptr, 0, nullptr, result.selection.out()));
+  check(MatCreateAIJ(mesh->comm, owned, result.ownedColumns, PETSC_DETERMINE, PETSC_DETERMINE, 1, nullptr, 0, nullptr,
+                     result.selection.out()));
   for (std::size_t i = 0; i < column.size(); ++i)
     if (column[i] >= 0) check(MatSetValue(result.selection, first + static_cast<PetscInt>(i), column[i], 1, INSERT_VALUES));
   assembled(result.selection);
@@ -325,12 +350,14 @@ Transformation Contact::transformation(const std::vector<unsigned char>& gapFree
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (!slides[i]) continue;
     setBlock(s, dimension, nodes[i].globalNode, nodes[i].globalNode, outer(nodes[i].normal, nodes[i].slip, dimension));
-    if (nodes[i].master >= 0) setBlock(s, dimension, nodes[i].globalNode, nodes[i].master, outer(nodes[i].normal, nodes[i].slip, dimension, -1));
+    if (nodes[i].master >= 0)
+      setBlock(s, dimension, nodes[i].globalNode, nodes[i].master, outer(nodes[i].normal, nodes[i].slip, dimension, -1));
   }
   assembled(s);
   OwnedMat primaries;
   check(MatMatMult(s, result.trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, primaries.out()));
-  check(MatMatMult(periodic, primaries, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.friction.out()));  // images follow in the test functions too
+  check(MatMatMult(periodic, primaries, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
+                   result.friction.out()));  // images follow in the test functions too
   return result;
 }
 
@@ -338,8 +365,9 @@ void requireSlip(const Contact& contact) {
   std::string failure;
   for (const auto& node : contact.nodes)
     if (node.slipSpeed == 0 && failure.empty())
-      failure = "option -flutter_friction: friction needs a sliding velocity, but |w| = 0 at the contact node at " + text(node.position) + " of interface '" +
-                contact.interfaces[static_cast<std::size_t>(node.interface)] + "'; give -motion_<body>_velocity or _speed, or -" +
+      failure = "option -flutter_friction: friction needs a sliding velocity, but |w| = 0 at the contact node at " +
+                text(node.position) + " of interface '" + contact.interfaces[static_cast<std::size_t>(node.interface)] +
+                "'; give -motion_<body>_velocity or _speed, or -" +
                 obstacleVelocityOption.fullName(contact.interfaces[static_cast<std::size_t>(node.interface)]);
   failTogether(contact.mesh->comm, failure);
 }

@@ -9,7 +9,8 @@
 namespace squeal::contact {
 namespace {
 
-const SolverPrefix factorisation("modes", "modes_st_", "SLEPc ST, KSP and PC with the factorisation of K (MUMPS LDLt): st_type, ksp_*, pc_*, …");
+const SolverPrefix factorisation("modes", "modes_st_",
+                                 "SLEPc ST, KSP and PC with the factorisation of K (MUMPS LDLt): st_type, ksp_*, pc_*, …");
 
 }  // namespace
 
@@ -77,7 +78,9 @@ void AssociatedSystem::factorise() const {
   PCFailedReason failed;
   check(PCGetFailedReason(pc, &failed));
   if (failed != PC_NOERROR)
-    throw Error("the stiffness matrix of the closed, frictionless contact cannot be factorised (options -modes_st_pc_*): is a body loose, or is memory short?");
+    throw Error(
+        "the stiffness matrix of the closed, frictionless contact cannot be factorised (options -modes_st_pc_*): is a body loose, "
+        "or is memory short?");
 }
 
 void rejectUnusedSolverOptions() { factorisation.rejectUnused(); }

@@ -17,8 +17,8 @@ struct CoupledMatrices {
 CoupledMatrices couple(const elasticity::Bodies& bodies, const Contact& contact, const std::vector<unsigned char>& gapFree,
                        const std::vector<unsigned char>& slides, bool withMass);
 
-/// The ideal associated system [4.17]: contact closed on the active nodes, no friction, no rotation. K0 is symmetric positive definite; its
-/// one factorisation serves the steady problem and the modes of this active set.
+/// The ideal associated system [4.17]: contact closed on the active nodes, no friction, no rotation. K0 is symmetric positive
+/// definite; its one factorisation serves the steady problem and the modes of this active set.
 class AssociatedSystem {
  public:
   /// Collective. `closed[i]`: contact node i is active. Factorises K0 on first use of solver().

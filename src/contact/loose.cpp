@@ -16,7 +16,11 @@ namespace {
 class RigidMotions {
  public:
   RigidMotions(const mesh::Mesh& mesh, Point centre, double length)
-      : perPart_(mesh.dimension == 2 ? 3 : 6), size_(perPart_ * mesh.parts), dimension_(mesh.dimension), centre_(centre), length_(length) {}
+      : perPart_(mesh.dimension == 2 ? 3 : 6),
+        size_(perPart_ * mesh.parts),
+        dimension_(mesh.dimension),
+        centre_(centre),
+        length_(length) {}
   int size() const { return size_; }
   int perPart() const { return perPart_; }
   /// Adds factor · direction·u(x) of part `part` to the row of coefficients.
@@ -25,8 +29,10 @@ class RigidMotions {
     const Point r{(x[0] - centre_[0]) / length_, (x[1] - centre_[1]) / length_, (x[2] - centre_[2]) / length_};
     for (int d = 0; d < dimension_; ++d) a[d] += factor * direction[static_cast<std::size_t>(d)];
     // direction · (e_k × r)
-    const Point moment{direction[2] * r[1] - direction[1] * r[2], direction[0] * r[2] - direction[2] * r[0], direction[1] * r[0] - direction[0] * r[1]};
-    if (dimension_ == 2) a[2] += factor * moment[2];
+    const Point moment{direction[2] * r[1] - direction[1] * r[2], direction[0] * r[2] - direction[2] * r[0],
+                       direction[1] * r[0] - direction[0] * r[1]};
+    if (dimension_ == 2)
+      a[2] += factor * moment[2];
     else
       for (int k = 0; k < 3; ++k) a[3 + k] += factor * moment[static_cast<std::size_t>(k)];
   }
@@ -67,7 +73,8 @@ std::vector<double> gram(const mesh::Mesh& mesh, const Contact& contact, const R
   for (PetscInt node = 0; node < mesh.ownedNodes; ++node)
     for (int d = 0; d < mesh.dimension; ++d)
       if (contact.constraints.held[static_cast<std::size_t>(mesh.dimension * node + d)]) {
-        motions.add(row, mesh.nodePart[static_cast<std::size_t>(node)], mesh.coordinates[static_cast<std::size_t>(node)], unit(d), 1);
+        motions.add(row, mesh.nodePart[static_cast<std::size_t>(node)], mesh.coordinates[static_cast<std::size_t>(node)], unit(d),
+                    1);
         keep();
       }
   for (const auto& image : mesh.images)
@@ -102,12 +109,16 @@ void rejectLooseBodies(const mesh::Mesh& mesh, const Contact& contact) {
   double most = -1;
   for (int part = 0; part < mesh.parts; ++part) {
     double weight = 0;
-    for (int k = 0; k < motions.perPart(); ++k) weight += g[static_cast<std::size_t>(part * motions.perPart() + k)] * g[static_cast<std::size_t>(part * motions.perPart() + k)];
+    for (int k = 0; k < motions.perPart(); ++k)
+      weight +=
+          g[static_cast<std::size_t>(part * motions.perPart() + k)] * g[static_cast<std::size_t>(part * motions.perPart() + k)];
     if (weight > most) most = weight, worst = part;
   }
   std::string motion;
-  for (int k = 0; k < motions.perPart(); ++k) motion += formatted(k ? ", %.3g" : "%.3g", g[static_cast<std::size_t>(worst * motions.perPart() + k)]);
-  throw Error("singular problem: body '" + mesh.partName[static_cast<std::size_t>(worst)] + "' can move rigidly while contact stays closed without friction (" +
+  for (int k = 0; k < motions.perPart(); ++k)
+    motion += formatted(k ? ", %.3g" : "%.3g", g[static_cast<std::size_t>(worst * motions.perPart() + k)]);
+  throw Error("singular problem: body '" + mesh.partName[static_cast<std::size_t>(worst)] +
+              "' can move rigidly while contact stays closed without friction (" +
               (mesh.dimension == 2 ? "translation x, y, rotation z: " : "translations x, y, z, rotations x, y, z: ") + motion +
               "); hold it with -constraint_<group>_clamped");
 }

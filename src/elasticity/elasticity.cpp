@@ -10,14 +10,19 @@ namespace squeal::elasticity {
 namespace {
 
 const RealOption youngOption("elasticity", "material_<group>_young", std::nullopt, "Pa", positive, "Young's modulus of the body");
-const RealOption poissonOption("elasticity", "material_<group>_poisson", std::nullopt, "", {-1, 0.5, true, true}, "Poisson's ratio of the body");
-const RealOption densityOption("elasticity", "material_<group>_density", std::nullopt, "kg/m3", positive, "mass density of the body");
-const ChoiceOption massOption("elasticity", "elasticity_mass", {"consistent", "higher_order"}, "consistent",
-                              "mass matrix; higher_order: mean of consistent and lumped, fourth-order frequencies on linear elements");
+const RealOption poissonOption("elasticity", "material_<group>_poisson", std::nullopt, "", {-1, 0.5, true, true},
+                               "Poisson's ratio of the body");
+const RealOption densityOption("elasticity", "material_<group>_density", std::nullopt, "kg/m3", positive,
+                               "mass density of the body");
+const ChoiceOption massOption(
+    "elasticity", "elasticity_mass", {"consistent", "higher_order"}, "consistent",
+    "mass matrix; higher_order: mean of consistent and lumped, fourth-order frequencies on linear elements");
 const TextOption incompatibleOption("elasticity", "elasticity_incompatible_modes", "hex8",
                                     "element types (quad4, hex8) given incompatible bending modes, or none");
-const ChoiceOption planeOption("elasticity", "elasticity_plane", {"strain", "stress"}, "strain", "plane problems: plane strain or plane stress");
-const RealOption pressureOption("load", "load_<group>_pressure", 0.0, "Pa", anyReal, "pressure on a surface group, positive inwards");
+const ChoiceOption planeOption("elasticity", "elasticity_plane", {"strain", "stress"}, "strain",
+                               "plane problems: plane strain or plane stress");
+const RealOption pressureOption("load", "load_<group>_pressure", 0.0, "Pa", anyReal,
+                                "pressure on a surface group, positive inwards");
 const FlagOption centrifugalOption("load", "load_centrifugal", true, "centrifugal forces on rotating bodies");
 
 struct Material {
@@ -29,7 +34,8 @@ std::vector<Material> readMaterials(const mesh::Mesh& mesh) {
   const bool planeStress = planeOption.get() == "stress";
   std::vector<Material> materials;
   for (const auto& body : mesh.bodies)
-    materials.push_back({isotropic(youngOption.get(body), poissonOption.get(body), mesh.dimension, planeStress), densityOption.get(body)});
+    materials.push_back(
+        {isotropic(youngOption.get(body), poissonOption.get(body), mesh.dimension, planeStress), densityOption.get(body)});
   return materials;
 }
 
@@ -75,7 +81,8 @@ void forEachCell(const mesh::Mesh& mesh, Visit visit) {
   for (const auto& block : mesh.cells) {
     const ShapeTable& table = shapeTable(block.type);
     for (std::size_t e = 0; e < block.tag.size(); ++e) try {
-        visit(block, e, table, cellNodes(mesh, block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerCell), block.nodesPerCell));
+        visit(block, e, table,
+              cellNodes(mesh, block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerCell), block.nodesPerCell));
       } catch (const InvertedElement&) {
         if (failure.empty())
           failure = "inverted element: cell " + std::to_string(block.tag[e]) + " (" + table.name + ") of group '" +
@@ -86,7 +93,8 @@ void forEachCell(const mesh::Mesh& mesh, Visit visit) {
 }
 
 /// Adds the entries of one element: `components` copies of a scalar matrix, or one matrix on all components.
-void append(Triples& triples, const mesh::Mesh& mesh, const PetscInt* nodes, int count, const std::vector<double>& matrix, bool scalar) {
+void append(Triples& triples, const mesh::Mesh& mesh, const PetscInt* nodes, int count, const std::vector<double>& matrix,
+            bool scalar) {
   const int dimension = mesh.dimension;
   for (int i = 0; i < count; ++i)
     for (int a = 0; a < dimension; ++a)
@@ -95,8 +103,9 @@ void append(Triples& triples, const mesh::Mesh& mesh, const PetscInt* nodes, int
           if (scalar && a != b) continue;
           triples.row.push_back(dimension * mesh.globalNode[static_cast<std::size_t>(nodes[i])] + a);
           triples.column.push_back(dimension * mesh.globalNode[static_cast<std::size_t>(nodes[j])] + b);
-          triples.value.push_back(scalar ? matrix[static_cast<std::size_t>(i * count + j)]
-                                         : matrix[static_cast<std::size_t>((i * dimension + a) * count * dimension + j * dimension + b)]);
+          triples.value.push_back(
+              scalar ? matrix[static_cast<std::size_t>(i * count + j)]
+                     : matrix[static_cast<std::size_t>((i * dimension + a) * count * dimension + j * dimension + b)]);
         }
 }
 
@@ -105,7 +114,8 @@ void assembleMatrices(const mesh::Mesh& mesh, const std::vector<Material>& mater
   const MassKind kind = massOption.get() == "consistent" ? MassKind::consistent : MassKind::higherOrder;
   std::size_t entries = 0;
   for (const auto& block : mesh.cells)
-    entries += block.tag.size() * static_cast<std::size_t>(block.nodesPerCell * block.nodesPerCell * mesh.dimension * mesh.dimension);
+    entries +=
+        block.tag.size() * static_cast<std::size_t>(block.nodesPerCell * block.nodesPerCell * mesh.dimension * mesh.dimension);
   Triples k, m;
   k.reserve(entries);
   m.reserve(entries / static_cast<std::size_t>(mesh.dimension));
@@ -146,7 +156,9 @@ void assembleLoad(const mesh::Mesh& mesh, const std::vector<Material>& materials
       const Motion& motion = bodies.motions[static_cast<std::size_t>(block.body[e])];
       if (motion.speed != 0)
         addLoad(bodies.load, mesh, block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerCell), block.nodesPerCell,
-                centrifugal(table, points, materials[static_cast<std::size_t>(block.body[e])].density, motion.speed, motion.axis, motion.origin), 1);
+                centrifugal(table, points, materials[static_cast<std::size_t>(block.body[e])].density, motion.speed, motion.axis,
+                            motion.origin),
+                1);
     });
   check(VecAssemblyBegin(bodies.load));
   check(VecAssemblyEnd(bodies.load));
@@ -158,9 +170,11 @@ std::vector<std::string> materialGroups() {
   auto groups = youngOption.subjects();
   for (const Option* option : {static_cast<const Option*>(&poissonOption), static_cast<const Option*>(&densityOption)})
     for (const auto& group : option->subjects())
-      if (!youngOption.given(group)) throw Error("option -" + youngOption.fullName(group) + " is missing, but -" + option->fullName(group) + " is given");
+      if (!youngOption.given(group))
+        throw Error("option -" + youngOption.fullName(group) + " is missing, but -" + option->fullName(group) + " is given");
   if (groups.empty()) throw Error("no body: give -material_<group>_young, _poisson and _density for each volume group of the mesh");
-  for (const auto& group : groups) youngOption.get(group), poissonOption.get(group), densityOption.get(group);  // checks before the mesh is read
+  for (const auto& group : groups)
+    youngOption.get(group), poissonOption.get(group), densityOption.get(group);  // checks before the mesh is read
   return groups;
 }
 

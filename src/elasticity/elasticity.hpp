@@ -1,5 +1,6 @@
 #pragma once
-/// The elastic bodies, uncoupled: K, M and the loads on all nodal displacements u. N = dimension × nodes, row dimension·node + component.
+/// The elastic bodies, uncoupled: K, M and the loads on all nodal displacements u. N = dimension × nodes, row dimension·node +
+/// component.
 #include "elasticity/motion.hpp"
 #include "mesh/mesh.hpp"
 #include "petsc/owned.hpp"

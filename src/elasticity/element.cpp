@@ -67,8 +67,10 @@ std::vector<double> condensed(const std::vector<double>& k, int all, int inner) 
   const int outer = all - inner;
   std::vector<double> kii(static_cast<std::size_t>(inner * inner)), kio(static_cast<std::size_t>(inner * outer));  // column-major
   for (int a = 0; a < inner; ++a) {
-    for (int b = 0; b < inner; ++b) kii[static_cast<std::size_t>(b * inner + a)] = k[static_cast<std::size_t>((outer + a) * all + outer + b)];
-    for (int b = 0; b < outer; ++b) kio[static_cast<std::size_t>(b * inner + a)] = k[static_cast<std::size_t>((outer + a) * all + b)];
+    for (int b = 0; b < inner; ++b)
+      kii[static_cast<std::size_t>(b * inner + a)] = k[static_cast<std::size_t>((outer + a) * all + outer + b)];
+    for (int b = 0; b < outer; ++b)
+      kio[static_cast<std::size_t>(b * inner + a)] = k[static_cast<std::size_t>((outer + a) * all + b)];
   }
   std::vector<double> solved = kio, result(static_cast<std::size_t>(outer * outer));
   PetscBLASInt n = inner, m = outer, info = 0;
@@ -77,7 +79,8 @@ std::vector<double> condensed(const std::vector<double>& k, int all, int inner) 
   for (int a = 0; a < outer; ++a)
     for (int b = 0; b < outer; ++b) {
       double sum = k[static_cast<std::size_t>(a * all + b)];
-      for (int c = 0; c < inner; ++c) sum -= kio[static_cast<std::size_t>(a * inner + c)] * solved[static_cast<std::size_t>(b * inner + c)];
+      for (int c = 0; c < inner; ++c)
+        sum -= kio[static_cast<std::size_t>(a * inner + c)] * solved[static_cast<std::size_t>(b * inner + c)];
       result[static_cast<std::size_t>(a * outer + b)] = sum;
     }
   return result;
@@ -107,8 +110,10 @@ Hooke isotropic(double young, double poisson, int dimension, bool planeStress) {
   for (int i = 0; i < size; ++i)
     for (int j = 0; j < size; ++j) {
       auto& entry = hooke.matrix[static_cast<std::size_t>(i * size + j)];
-      if (i < normals && j < normals) entry = lambda + (i == j ? 2 * mu : 0);
-      else if (i == j) entry = mu;
+      if (i < normals && j < normals)
+        entry = lambda + (i == j ? 2 * mu : 0);
+      else if (i == j)
+        entry = mu;
     }
   return hooke;
 }
@@ -213,7 +218,8 @@ std::vector<double> faceMass(const ShapeTable& table, const std::vector<Point>& 
   const auto n = static_cast<std::size_t>(table.nodes);
   std::vector<double> m(n * n, 0.0);
   for (int q = 0; q < table.points(); ++q) {
-    const double factor = table.weight[static_cast<std::size_t>(q)] * norm(faceNormal(table.gradient.data() + 3 * q * table.nodes, nodes, table.dimension));
+    const double factor = table.weight[static_cast<std::size_t>(q)] *
+                          norm(faceNormal(table.gradient.data() + 3 * q * table.nodes, nodes, table.dimension));
     const double* value = table.value.data() + static_cast<std::size_t>(q) * n;
     for (std::size_t a = 0; a < n; ++a)
       for (std::size_t b = 0; b < n; ++b) m[a * n + b] += factor * value[a] * value[b];

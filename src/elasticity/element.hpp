@@ -21,12 +21,13 @@ Hooke isotropic(double young, double poisson, int dimension, bool planeStress);
 struct InvertedElement {};
 
 /// K_ij = ∫ Bᵢᵀ D Bⱼ, row-major, rows and columns [node][component], N/m (per unit thickness in the plane).
-/// `incompatible` (quad4, hex8): quadratic bubble modes of Taylor, Beresford and Wilson (1976), condensed; they pass the patch test.
+/// `incompatible` (quad4, hex8): quadratic bubble modes of Taylor, Beresford and Wilson (1976), condensed; they pass the patch
+/// test.
 std::vector<double> stiffness(const ShapeTable& table, const std::vector<Point>& nodes, const Hooke& hooke, bool incompatible);
 
 enum class MassKind { consistent, higherOrder };
-/// m_ij = ∫ ρ φᵢ φⱼ, row-major [node][node], kg, one copy for all components. Higher order: the mean of the consistent matrix and the
-/// diagonal one with the same total (diagonal scaling of Hinton, Rock and Zienkiewicz 1976, row sums on linear elements).
+/// m_ij = ∫ ρ φᵢ φⱼ, row-major [node][node], kg, one copy for all components. Higher order: the mean of the consistent matrix and
+/// the diagonal one with the same total (diagonal scaling of Hinton, Rock and Zienkiewicz 1976, row sums on linear elements).
 std::vector<double> mass(const ShapeTable& table, const std::vector<Point>& nodes, double density, MassKind kind);
 
 /// ∫ φᵢ ρ ω² r, [node][3], N: centrifugal force for the squared speed ω² about the axis (unit vector) through `origin`.

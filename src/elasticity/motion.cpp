@@ -9,14 +9,16 @@
 namespace squeal::elasticity {
 namespace {
 
-const RealListOption velocityOption("motion", "motion_<body>_velocity", "0,0,0", "m/s", anyReal, "the body's matter translates with this velocity");
+const RealListOption velocityOption("motion", "motion_<body>_velocity", "0,0,0", "m/s", anyReal,
+                                    "the body's matter translates with this velocity");
 const RealOption speedOption("motion", "motion_<body>_speed", 0.0, "rad/s", anyReal, "the body's matter rotates at this speed");
 const RealListOption axisOption("motion", "motion_<body>_axis", "0,0,1", "", anyReal, "axis of the rotation, right-handed");
 const RealListOption originOption("motion", "motion_<body>_origin", "0,0,0", "m", anyReal, "a point of the axis");
 
 mesh::Point point(const RealListOption& option, const std::string& body) {
   const auto values = option.get(body);
-  if (values.size() != 2 && values.size() != 3) throw Error("option -" + option.fullName(body) + ": two or three components are wanted");
+  if (values.size() != 2 && values.size() != 3)
+    throw Error("option -" + option.fullName(body) + ": two or three components are wanted");
   return {values[0], values[1], values.size() == 3 ? values[2] : 0.0};
 }
 
@@ -40,13 +42,16 @@ std::vector<Motion> readMotions(const std::vector<std::string>& bodies) {
   for (const Option* option : {static_cast<const Option*>(&velocityOption), static_cast<const Option*>(&speedOption),
                                static_cast<const Option*>(&axisOption), static_cast<const Option*>(&originOption)})
     for (const auto& body : option->subjects())
-      if (!known.count(body)) throw Error("option -" + option->fullName(body) + ": '" + body + "' is not a body (a group with a material)");
+      if (!known.count(body))
+        throw Error("option -" + option->fullName(body) + ": '" + body + "' is not a body (a group with a material)");
   std::vector<Motion> motions;
   for (const auto& body : bodies) {
     if (velocityOption.given(body) && speedOption.given(body))
-      throw Error("options -" + velocityOption.fullName(body) + " and -" + speedOption.fullName(body) + ": a body translates or rotates, not both");
+      throw Error("options -" + velocityOption.fullName(body) + " and -" + speedOption.fullName(body) +
+                  ": a body translates or rotates, not both");
     Motion motion{point(velocityOption, body), speedOption.get(body), point(axisOption, body), point(originOption, body)};
-    const double length = std::sqrt(motion.axis[0] * motion.axis[0] + motion.axis[1] * motion.axis[1] + motion.axis[2] * motion.axis[2]);
+    const double length =
+        std::sqrt(motion.axis[0] * motion.axis[0] + motion.axis[1] * motion.axis[1] + motion.axis[2] * motion.axis[2]);
     if (!(length > 0)) throw Error("option -" + axisOption.fullName(body) + ": the axis has no length");
     for (auto& component : motion.axis) component /= length;
     motions.push_back(motion);

@@ -36,7 +36,8 @@ ShapeTable tabulate(int type) {
   table.gradient = basis(type, table.point, "GradLagrange");
   std::vector<double> nodes;
   for (int i = 0; i < table.nodes; ++i)
-    for (int d = 0; d < 3; ++d) nodes.push_back(d < table.dimension ? local[static_cast<std::size_t>(i * table.dimension + d)] : 0.0);
+    for (int d = 0; d < 3; ++d)
+      nodes.push_back(d < table.dimension ? local[static_cast<std::size_t>(i * table.dimension + d)] : 0.0);
   table.nodeGradient = basis(type, nodes, "GradLagrange");
   table.centreGradient = basis(type, {0, 0, 0}, "GradLagrange");
   return table;

@@ -1,5 +1,6 @@
 #pragma once
-/// Shape functions and quadrature of one element type, tabulated by the gmsh library: any nodal Lagrange or serendipity element it knows.
+/// Shape functions and quadrature of one element type, tabulated by the gmsh library: any nodal Lagrange or serendipity element it
+/// knows.
 #include <string>
 #include <vector>
 

@@ -78,8 +78,8 @@ std::vector<double> Basis::symmetricEigen(Mat matrix) {
 PetscInt Basis::add(BV block, PetscInt count, double dependent) {
   orthogonalise(block, count);
   normalise(block, count);
-  // Eigenvectors of the Gram matrix give orthonormal combinations; small eigenvalues are combinations that depend on the others. Once more
-  // for what rounding left.
+  // Eigenvectors of the Gram matrix give orthonormal combinations; small eigenvalues are combinations that depend on the others.
+  // Once more for what rounding left.
   for (int pass = 0; pass < 2 && count > 0; ++pass) {
     if (pass > 0) orthogonalise(block, count);
     const OwnedMat products = gram(block, count);

@@ -21,7 +21,8 @@ struct Generalized {
 };
 
 /// LAPACK's real storage of conjugate pairs as complex numbers.
-Generalized unpacked(const std::vector<double>& real, const std::vector<double>& imaginary, const std::vector<double>& beta, const std::vector<double>& vectors) {
+Generalized unpacked(const std::vector<double>& real, const std::vector<double>& imaginary, const std::vector<double>& beta,
+                     const std::vector<double>& vectors) {
   Generalized result;
   const std::size_t n = real.size();
   for (std::size_t j = 0; j < n; ++j) {
@@ -45,12 +46,12 @@ Generalized generalized(DenseMatrix a, DenseMatrix b, int size) {
   const auto n = static_cast<std::size_t>(size);
   PetscBLASInt order = size, one = 1, query = -1, info = 0;
   std::vector<double> real(n), imaginary(n), beta(n), vectors(n * n), work(1);
-  LAPACKggev_("N", "V", &order, a.data(), &order, b.data(), &order, real.data(), imaginary.data(), beta.data(), nullptr, &one, vectors.data(), &order,
-         work.data(), &query, &info);
+  LAPACKggev_("N", "V", &order, a.data(), &order, b.data(), &order, real.data(), imaginary.data(), beta.data(), nullptr, &one,
+              vectors.data(), &order, work.data(), &query, &info);
   PetscBLASInt length = static_cast<PetscBLASInt>(work[0]);
   work.resize(static_cast<std::size_t>(length));
-  LAPACKggev_("N", "V", &order, a.data(), &order, b.data(), &order, real.data(), imaginary.data(), beta.data(), nullptr, &one, vectors.data(), &order,
-         work.data(), &length, &info);
+  LAPACKggev_("N", "V", &order, a.data(), &order, b.data(), &order, real.data(), imaginary.data(), beta.data(), nullptr, &one,
+              vectors.data(), &order, work.data(), &length, &info);
   if (info != 0) throw Error("LAPACK dggev failed on the reduced eigenproblem (info " + std::to_string(info) + ")");
   return unpacked(real, imaginary, beta, vectors);
 }
@@ -60,17 +61,20 @@ Generalized standard(DenseMatrix a, int size) {
   const auto n = static_cast<std::size_t>(size);
   PetscBLASInt order = size, one = 1, query = -1, info = 0;
   std::vector<double> real(n), imaginary(n), vectors(n * n), work(1);
-  LAPACKgeev_("N", "V", &order, a.data(), &order, real.data(), imaginary.data(), nullptr, &one, vectors.data(), &order, work.data(), &query, &info);
+  LAPACKgeev_("N", "V", &order, a.data(), &order, real.data(), imaginary.data(), nullptr, &one, vectors.data(), &order, work.data(),
+              &query, &info);
   PetscBLASInt length = static_cast<PetscBLASInt>(work[0]);
   work.resize(static_cast<std::size_t>(length));
-  LAPACKgeev_("N", "V", &order, a.data(), &order, real.data(), imaginary.data(), nullptr, &one, vectors.data(), &order, work.data(), &length, &info);
+  LAPACKgeev_("N", "V", &order, a.data(), &order, real.data(), imaginary.data(), nullptr, &one, vectors.data(), &order, work.data(),
+              &length, &info);
   if (info != 0) throw Error("LAPACK dgeev failed on the reduced eigenproblem (info " + std::to_string(info) + ")");
   return unpacked(real, imaginary, std::vector<double>(n, 1.0), vectors);
 }
 
 std::vector<DensePair> linearInSquare(const DenseMatrix& mass, const DenseMatrix& stiffness, int m) {
-  // K q = μ M q with μ = −s²; both roots ±s are eigenvalues, one of them (two, if real) has Im s ≥ 0. In an M0-orthonormal basis M is the
-  // identity but for friction: M⁻¹ K is formed safely, and QR takes a third of the time of QZ. Where M is far from that, QZ it is.
+  // K q = μ M q with μ = −s²; both roots ±s are eigenvalues, one of them (two, if real) has Im s ≥ 0. In an M0-orthonormal basis M
+  // is the identity but for friction: M⁻¹ K is formed safely, and QR takes a third of the time of QZ. Where M is far from that, QZ
+  // it is.
   DenseMatrix factor = mass, product = stiffness;
   PetscBLASInt n = m, info = 0;
   std::vector<PetscBLASInt> pivots(static_cast<std::size_t>(m));
@@ -110,7 +114,8 @@ std::vector<DensePair> companion(const DenseMatrix& mass, const DenseMatrix& dam
   const Generalized solved = generalized(a, b, 2 * size);
   std::vector<DensePair> pairs;
   for (std::size_t j = 0; j < solved.value.size(); ++j)
-    if (solved.value[j].imag() >= 0) pairs.push_back({unit * solved.value[j], {solved.vector[j].begin(), solved.vector[j].begin() + size}});
+    if (solved.value[j].imag() >= 0)
+      pairs.push_back({unit * solved.value[j], {solved.vector[j].begin(), solved.vector[j].begin() + size}});
   return pairs;
 }
 

@@ -8,7 +8,8 @@
 namespace squeal::flutter {
 namespace {
 
-const IntegerOption countOption("flutter", "flutter_direct_count", 100, 1, "number of eigenvalues nearest to zero found by the direct method");
+const IntegerOption countOption("flutter", "flutter_direct_count", 100, 1,
+                                "number of eigenvalues nearest to zero found by the direct method");
 const SolverPrefix epsPrefix("flutter", "flutter_eps_", "SLEPc EPS of the direct method");
 const SolverPrefix stPrefix("flutter", "flutter_st_", "SLEPc ST, KSP and PC of the direct method");
 
@@ -61,8 +62,9 @@ FrictionPoint solveDirect(const Pencil& pencil, double friction, Mat trial) {
   check(EPSGetConverged(eps, &converged));
   check(EPSGetDimensions(eps, &wanted, nullptr, nullptr));
   if (converged < wanted)
-    throw Error(formatted("direct method at friction %g: only %d of %d eigenvalues converged; raise -flutter_eps_max_it or -flutter_eps_ncv", friction,
-                          static_cast<int>(converged), static_cast<int>(wanted)));
+    throw Error(formatted(
+        "direct method at friction %g: only %d of %d eigenvalues converged; raise -flutter_eps_max_it or -flutter_eps_ncv",
+        friction, static_cast<int>(converged), static_cast<int>(wanted)));
   FrictionPoint point;
   point.friction = friction;
   OwnedVec real, imaginary;

@@ -32,10 +32,10 @@ struct FrictionPoint {
   double bandTop = 0;                   ///< rad/s: eigenvalues up to here are corrected to `accuracy`; 0: none are
   double accuracy = 0;                  ///< backward error asked for in the band
   bool inBand(const Eigenvalue& eigenvalue) const { return bandTop == 0 || eigenvalue.s.imag() <= bandTop; }
-  int unstableCount() const;            ///< in the band
-  int unstableAbove() const;            ///< above it
+  int unstableCount() const;  ///< in the band
+  int unstableAbove() const;  ///< above it
   int bandCount() const;
-  double worstBackwardError() const;    ///< in the band
+  double worstBackwardError() const;  ///< in the band
 };
 
 /// Frictions asked for, ascending. Error: an empty list, a negative value, a value given twice.
@@ -49,10 +49,11 @@ void rejectIdleSolverOptions();
 /// The terms of [4.15–4.16] under approximation A: K0 + f K1 + s² (M0 + f M1).
 Pencil approximationA(const contact::AssociatedSystem& system);
 
-/// Rayleigh–Ritz [4.19] on the free modes and, unless `-reduction_basis modal`, on corrections of its own residuals. The modes alone miss
-/// unstable eigenvalues and invent others; K0⁻¹ r for the residuals r of all pairs of the band, solved for together with the real symmetric
-/// factorisation that the modes used, brings the full-order backward error of the whole band below `-flutter_accuracy`, about a decade a
-/// round. The basis is kept over a sweep. As many eigenvalues as there are modes are reported.
+/// Rayleigh–Ritz [4.19] on the free modes and, unless `-reduction_basis modal`, on corrections of its own residuals. The modes
+/// alone miss unstable eigenvalues and invent others; K0⁻¹ r for the residuals r of all pairs of the band, solved for together
+/// with the real symmetric factorisation that the modes used, brings the full-order backward error of the whole band below
+/// `-flutter_accuracy`, about a decade a round. The basis is kept over a sweep. As many eigenvalues as there are modes are
+/// reported.
 class ReducedProblem {
  public:
   /// Collective. Borrows pencil and solver (of K0) for its life; `modes` are M0-orthonormal with ascending frequencies.
@@ -60,7 +61,7 @@ class ReducedProblem {
   /// Collective. Shapes are mapped to nodal displacements by `trial` (T).
   FrictionPoint solve(double friction, Mat trial);
   PetscInt basisSize() const { return basis_.size(); }
-  int solves() const { return solves_; }   ///< right-hand sides solved for so far
+  int solves() const { return solves_; }       ///< right-hand sides solved for so far
   double bandTop() const { return bandTop_; }  ///< rad/s
 
  private:
@@ -74,17 +75,17 @@ class ReducedProblem {
   const Pencil& pencil_;
   const contact::AssociatedSystem& system_;
   Basis basis_;
-  std::vector<Image> images_;                      // [term] A_t V
-  std::vector<std::vector<double>> projections_;   // [term] Vᵀ A_t V, column-major
-  std::vector<double> gram_;                       // VᵀV
-  PetscInt projected_ = 0;                         // columns of the basis that images and projections hold
+  std::vector<Image> images_;                     // [term] A_t V
+  std::vector<std::vector<double>> projections_;  // [term] Vᵀ A_t V, column-major
+  std::vector<double> gram_;                      // VᵀV
+  PetscInt projected_ = 0;                        // columns of the basis that images and projections hold
   std::size_t modeCount_ = 0;
   double bandTop_ = 0;
   int solves_ = 0;
 };
 
-/// Collective. The lowest `-flutter_direct_count` eigenvalues of the problem on all unknowns, without reduction: SLEPc EPS in −s², shift-and-invert
-/// (-flutter_eps_*, -flutter_st_*). Error: the pencil has damping; not converged.
+/// Collective. The lowest `-flutter_direct_count` eigenvalues of the problem on all unknowns, without reduction: SLEPc EPS in −s²,
+/// shift-and-invert (-flutter_eps_*, -flutter_st_*). Error: the pencil has damping; not converged.
 FrictionPoint solveDirect(const Pencil& pencil, double friction, Mat trial);
 
 }  // namespace squeal::flutter

@@ -13,10 +13,13 @@ ReadColumns::ReadColumns(BV bv) : bv_(bv) {
   check(BVGetArrayRead(bv, &values_));
 }
 
-void multiplyAdd(const double* x, PetscInt rowCount, PetscInt columnCount, const std::vector<double>& coefficients, std::vector<double>& result) {
-  PetscBLASInt rows = rowCount, inner = columnCount, columns = static_cast<PetscBLASInt>(coefficients.size() / static_cast<std::size_t>(columnCount));
+void multiplyAdd(const double* x, PetscInt rowCount, PetscInt columnCount, const std::vector<double>& coefficients,
+                 std::vector<double>& result) {
+  PetscBLASInt rows = rowCount, inner = columnCount,
+               columns = static_cast<PetscBLASInt>(coefficients.size() / static_cast<std::size_t>(columnCount));
   const PetscScalar one = 1;
-  if (rows > 0 && columns > 0) BLASgemm_("N", "N", &rows, &columns, &inner, &one, x, &rows, coefficients.data(), &inner, &one, result.data(), &rows);
+  if (rows > 0 && columns > 0)
+    BLASgemm_("N", "N", &rows, &columns, &inner, &one, x, &rows, coefficients.data(), &inner, &one, result.data(), &rows);
 }
 
 DenseMatrix transposedProduct(MPI_Comm comm, const double* x, PetscInt rowCount, PetscInt m, const double* y, PetscInt n) {
@@ -53,13 +56,16 @@ void Image::multiplyAdd(const std::vector<double>& coefficients, PetscInt column
   std::vector<double> part(rows_.size() * count, 0.0);
   flutter::multiplyAdd(values_.data(), kept, columns, coefficients, part);
   for (std::size_t j = 0; j < count; ++j)
-    for (std::size_t i = 0; i < rows_.size(); ++i) result[j * static_cast<std::size_t>(localRows_) + static_cast<std::size_t>(rows_[i])] += part[j * rows_.size() + i];
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      result[j * static_cast<std::size_t>(localRows_) + static_cast<std::size_t>(rows_[i])] += part[j * rows_.size() + i];
 }
 
-DenseMatrix Image::transposedProduct(MPI_Comm comm, const ReadColumns& v, PetscInt xBegin, PetscInt xEnd, PetscInt begin, PetscInt end) const {
+DenseMatrix Image::transposedProduct(MPI_Comm comm, const ReadColumns& v, PetscInt xBegin, PetscInt xEnd, PetscInt begin,
+                                     PetscInt end) const {
   const auto kept = static_cast<PetscInt>(rows_.size());
   const double* image = values_.data() + begin * kept;
-  if (kept == localRows_) return flutter::transposedProduct(comm, v.values() + xBegin * v.rows(), kept, xEnd - xBegin, image, end - begin);
+  if (kept == localRows_)
+    return flutter::transposedProduct(comm, v.values() + xBegin * v.rows(), kept, xEnd - xBegin, image, end - begin);
   std::vector<double> x;
   x.reserve(rows_.size() * static_cast<std::size_t>(xEnd - xBegin));
   for (PetscInt j = xBegin; j < xEnd; ++j)

@@ -1,5 +1,6 @@
 #pragma once
-/// Tall matrices by this rank's rows: the basis V and its images A V. Products of them are BLAS on the local rows and one reduction.
+/// Tall matrices by this rank's rows: the basis V and its images A V. Products of them are BLAS on the local rows and one
+/// reduction.
 #include <vector>
 
 #include "flutter/dense.hpp"
@@ -25,7 +26,8 @@ class ReadColumns {
 };
 
 /// result (rows × k) += X (rows × columns) · coefficients (columns × k), local, all column-major.
-void multiplyAdd(const double* x, PetscInt rows, PetscInt columns, const std::vector<double>& coefficients, std::vector<double>& result);
+void multiplyAdd(const double* x, PetscInt rows, PetscInt columns, const std::vector<double>& coefficients,
+                 std::vector<double>& result);
 
 /// Collective. Xᵀ Y for X rows × m and Y rows × n, column-major m × n, the same on all ranks.
 DenseMatrix transposedProduct(MPI_Comm comm, const double* x, PetscInt rows, PetscInt m, const double* y, PetscInt n);
@@ -39,7 +41,8 @@ class Image {
   /// result (all local rows × k) += (A V) · coefficients.
   void multiplyAdd(const std::vector<double>& coefficients, PetscInt columns, std::vector<double>& result) const;
   /// Collective. Columns [xBegin, xEnd) of V, transposed, times columns [begin, end) of A V.
-  DenseMatrix transposedProduct(MPI_Comm comm, const ReadColumns& v, PetscInt xBegin, PetscInt xEnd, PetscInt begin, PetscInt end) const;
+  DenseMatrix transposedProduct(MPI_Comm comm, const ReadColumns& v, PetscInt xBegin, PetscInt xEnd, PetscInt begin,
+                                PetscInt end) const;
 
  private:
   PetscInt localRows_ = 0;

@@ -1,6 +1,6 @@
 #pragma once
-/// The friction-perturbed problem P(s; f) d = 0 as one affine object, P = Σ_t c_t(f) s^p_t A_t with c_t(f) = factor · f^a. It knows nothing
-/// of finite elements: [4.15–4.16] enter as terms.
+/// The friction-perturbed problem P(s; f) d = 0 as one affine object, P = Σ_t c_t(f) s^p_t A_t with c_t(f) = factor · f^a. It
+/// knows nothing of finite elements: [4.15–4.16] enter as terms.
 #include <complex>
 #include <vector>
 
@@ -9,9 +9,9 @@
 namespace squeal::flutter {
 
 struct Term {
-  OwnedMat matrix;            ///< n×n
-  int power = 0;              ///< of s: 0 stiffness, 1 damping, 2 mass
-  int frictionExponent = 0;   ///< a
+  OwnedMat matrix;           ///< n×n
+  int power = 0;             ///< of s: 0 stiffness, 1 damping, 2 mass
+  int frictionExponent = 0;  ///< a
   double factor = 1;
 
   double coefficient(double friction) const;
@@ -28,8 +28,8 @@ class Pencil {
   OwnedMat assembled(int power, double friction) const;
   /// Collective. y = (sum of the terms with this power) x.
   void apply(int power, double friction, Vec x, Vec y) const;
-  /// Collective. Estimate from below of the 2-norm of the sum, by power iteration on AᵀA continued from the last call for this power:
-  /// from below, so that a backward error made with it is never flattered.
+  /// Collective. Estimate from below of the 2-norm of the sum, by power iteration on AᵀA continued from the last call for this
+  /// power: from below, so that a backward error made with it is never flattered.
   double norm(int power, double friction) const;
 
  private:

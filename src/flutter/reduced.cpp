@@ -7,16 +7,18 @@
 namespace squeal::flutter {
 namespace {
 
-const ChoiceOption basisOption("flutter", "reduction_basis", {"corrected", "modal"}, "corrected",
-                               "corrected: free modes and static corrections of the residuals in the band; modal: free modes alone");
-const RealOption accuracyOption("flutter", "flutter_accuracy", 1e-9, "", positive, "full-order backward error to which the eigenvalues of the band are corrected");
+const ChoiceOption basisOption(
+    "flutter", "reduction_basis", {"corrected", "modal"}, "corrected",
+    "corrected: free modes and static corrections of the residuals in the band; modal: free modes alone");
+const RealOption accuracyOption("flutter", "flutter_accuracy", 1e-9, "", positive,
+                                "full-order backward error to which the eigenvalues of the band are corrected");
 const RealOption bandOption("flutter", "flutter_band", 0, "Hz", nonNegative,
                             "frequency up to which eigenvalues are corrected; 0: that of mode 0.4 x -modes_count");
 const IntegerOption roundsOption("flutter", "flutter_rounds", 12, 0, "most rounds of corrections at one friction");
-const IntegerOption growthOption("flutter", "flutter_growth", 1000, 0, "most vectors that corrections may add to the basis at one friction");
+const IntegerOption growthOption("flutter", "flutter_growth", 1000, 0,
+                                 "most vectors that corrections may add to the basis at one friction");
 
 bool correctionsWanted() { return basisOption.get() == "corrected"; }
-
 
 /// A projection of `old` columns grown to `size`: the new columns, and the new rows below the old columns (empty: by symmetry).
 void grow(DenseMatrix& matrix, PetscInt old, PetscInt size, const DenseMatrix& right, const DenseMatrix& below) {
@@ -30,8 +32,10 @@ void grow(DenseMatrix& matrix, PetscInt old, PetscInt size, const DenseMatrix& r
   matrix = std::move(grown);
 }
 
-/// The dense problem is solved on rank 0 alone, so that rounding cannot make the ranks disagree on the order or number of eigenvalues.
-std::vector<DensePair> solveOnce(MPI_Comm comm, const DenseMatrix& mass, const DenseMatrix& damping, const DenseMatrix& stiffness, int m) {
+/// The dense problem is solved on rank 0 alone, so that rounding cannot make the ranks disagree on the order or number of
+/// eigenvalues.
+std::vector<DensePair> solveOnce(MPI_Comm comm, const DenseMatrix& mass, const DenseMatrix& damping, const DenseMatrix& stiffness,
+                                 int m) {
   int rank = 0;
   check(MPI_Comm_rank(comm, &rank));
   std::vector<DensePair> pairs;
@@ -96,7 +100,8 @@ ReducedProblem::ReducedProblem(const Pencil& pencil, const contact::AssociatedSy
     : pencil_(pencil), system_(system), basis_(modes.vectors, system.matrices().m0) {
   const auto& w = modes.angularFrequency;
   modeCount_ = w.size();
-  if (correctionsWanted()) bandTop_ = bandOption.get() > 0 ? 2 * M_PI * bandOption.get() : w[std::min(w.size() - 1, w.size() * 2 / 5)];
+  if (correctionsWanted())
+    bandTop_ = bandOption.get() > 0 ? 2 * M_PI * bandOption.get() : w[std::min(w.size() - 1, w.size() * 2 / 5)];
   for (const auto& term : pencil.terms()) images_.emplace_back(term.matrix);
   projections_.resize(images_.size());
   extend();
@@ -119,7 +124,8 @@ void ReducedProblem::extend() {
     PetscBool known = PETSC_FALSE, symmetric = PETSC_FALSE;
     check(MatIsSymmetricKnown(matrix, &known, &symmetric));
     const auto right = images_[t].transposedProduct(comm, all, 0, size, old, size);  // Vᵀ (A V_new)
-    const auto below = known && symmetric ? DenseMatrix{} : images_[t].transposedProduct(comm, all, old, size, 0, old);  // V_newᵀ (A V_old)
+    const auto below =
+        known && symmetric ? DenseMatrix{} : images_[t].transposedProduct(comm, all, old, size, 0, old);  // V_newᵀ (A V_old)
     grow(projections_[t], old, size, right, below);
   }
   const ReadColumns all(basis_.columns());
@@ -145,7 +151,8 @@ ReducedProblem::Residuals ReducedProblem::residuals(double friction, const std::
   result.rows = static_cast<std::size_t>(rows);
   result.residual.assign(2 * result.rows * pairs.size(), 0.0);
   for (std::size_t t = 0; t < images_.size(); ++t)
-    images_[t].multiplyAdd(columns(pairs, pencil_.terms()[t].power, pencil_.terms()[t].coefficient(friction)), basis_.size(), result.residual);
+    images_[t].multiplyAdd(columns(pairs, pencil_.terms()[t].power, pencil_.terms()[t].coefficient(friction)), basis_.size(),
+                           result.residual);
   const auto norms = squaredNorms(pencil_.comm(), result.residual, result.rows, pairs.size());
   const double scales[3] = {pencil_.norm(0, friction), pencil_.norm(1, friction), pencil_.norm(2, friction)};
   for (std::size_t j = 0; j < pairs.size(); ++j) {
@@ -178,7 +185,8 @@ void ReducedProblem::correct(const Residuals& residuals, const std::vector<std::
   PetscScalar* values = nullptr;
   check(MatDenseGetArrayWrite(rhs, &values));
   for (std::size_t j = 0; j < bad.size(); ++j)
-    std::copy_n(residuals.residual.begin() + static_cast<std::ptrdiff_t>(2 * bad[j] * residuals.rows), 2 * residuals.rows, values + 2 * j * residuals.rows);
+    std::copy_n(residuals.residual.begin() + static_cast<std::ptrdiff_t>(2 * bad[j] * residuals.rows), 2 * residuals.rows,
+                values + 2 * j * residuals.rows);
   check(MatDenseRestoreArrayWrite(rhs, &values));
   check(MatDuplicate(rhs, MAT_DO_NOT_COPY_VALUES, solution.out()));
   check(KSPMatSolve(system_.solver(), rhs, solution));
@@ -202,10 +210,12 @@ FrictionPoint ReducedProblem::solve(double friction, Mat trial) {
   std::vector<DensePair> pairs, band;
   Residuals found;
   for (int round = 0;; ++round) {
-    pairs = solveOnce(pencil_.comm(), projected(2, friction), projected(1, friction), projected(0, friction), static_cast<int>(basis_.size()));
+    pairs = solveOnce(pencil_.comm(), projected(2, friction), projected(1, friction), projected(0, friction),
+                      static_cast<int>(basis_.size()));
     // The corrections bring eigenvalues of high frequency of their own, which mean nothing.
     pairs.resize(std::min(pairs.size(), modeCount_));
-    band.assign(pairs.begin(), std::find_if(pairs.begin(), pairs.end(), [&](const auto& pair) { return pair.s.imag() > bandTop_; }));
+    band.assign(pairs.begin(),
+                std::find_if(pairs.begin(), pairs.end(), [&](const auto& pair) { return pair.s.imag() > bandTop_; }));
     found = residuals(friction, band);
     std::vector<std::size_t> bad;
     for (std::size_t j = 0; j < band.size(); ++j)
@@ -217,7 +227,8 @@ FrictionPoint ReducedProblem::solve(double friction, Mat trial) {
   }
   const Residuals above = residuals(friction, {pairs.begin() + static_cast<std::ptrdiff_t>(band.size()), pairs.end()});
   for (std::size_t j = 0; j < pairs.size(); ++j)
-    point.eigenvalues.push_back({pairs[j].s, j < band.size() ? found.backwardError[j] : above.backwardError[j - band.size()], false});
+    point.eigenvalues.push_back(
+        {pairs[j].s, j < band.size() ? found.backwardError[j] : above.backwardError[j - band.size()], false});
   judge(point.eigenvalues);
   keepShapes(point, trial, [&](std::size_t index, Vec real, Vec imaginary) {
     const ReadColumns basis(basis_.columns());

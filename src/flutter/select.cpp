@@ -13,7 +13,8 @@ const ChoiceOption methodOption("flutter", "flutter_method", {"reduced", "direct
                                 "reduced: dense problem on the free modes; direct: all unknowns, for checking");
 const RealOption toleranceOption("flutter", "flutter_unstable_tolerance", 1e-6, "", nonNegative,
                                  "unstable if the growth rate exceeds this fraction of |s|");
-const IntegerOption shapesOption("flutter", "flutter_shapes", 3, 0, "number of fastest growing complex modes kept for the report at each friction");
+const IntegerOption shapesOption("flutter", "flutter_shapes", 3, 0,
+                                 "number of fastest growing complex modes kept for the report at each friction");
 const RealOption shapesBelowOption("flutter", "flutter_shapes_below", 20000, "Hz", positive,
                                    "complex modes of higher frequency are not kept; squeal is what can be heard");
 
@@ -30,11 +31,13 @@ std::vector<double> frictions() {
 bool directWanted() { return methodOption.get() == "direct"; }
 
 int FrictionPoint::unstableCount() const {
-  return static_cast<int>(std::count_if(eigenvalues.begin(), eigenvalues.end(), [&](const auto& e) { return e.unstable && inBand(e); }));
+  return static_cast<int>(
+      std::count_if(eigenvalues.begin(), eigenvalues.end(), [&](const auto& e) { return e.unstable && inBand(e); }));
 }
 
 int FrictionPoint::unstableAbove() const {
-  return static_cast<int>(std::count_if(eigenvalues.begin(), eigenvalues.end(), [&](const auto& e) { return e.unstable && !inBand(e); }));
+  return static_cast<int>(
+      std::count_if(eigenvalues.begin(), eigenvalues.end(), [&](const auto& e) { return e.unstable && !inBand(e); }));
 }
 
 int FrictionPoint::bandCount() const {
@@ -56,8 +59,11 @@ void judge(std::vector<Eigenvalue>& eigenvalues) {
 void keepShapes(FrictionPoint& point, Mat trial, const std::function<void(std::size_t, Vec, Vec)>& unknowns) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < point.eigenvalues.size(); ++i)
-    if (point.eigenvalues[i].unstable && point.inBand(point.eigenvalues[i]) && point.eigenvalues[i].s.imag() < 2 * M_PI * shapesBelowOption.get()) order.push_back(i);
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return point.eigenvalues[a].s.real() > point.eigenvalues[b].s.real(); });
+    if (point.eigenvalues[i].unstable && point.inBand(point.eigenvalues[i]) &&
+        point.eigenvalues[i].s.imag() < 2 * M_PI * shapesBelowOption.get())
+      order.push_back(i);
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return point.eigenvalues[a].s.real() > point.eigenvalues[b].s.real(); });
   order.resize(std::min(order.size(), static_cast<std::size_t>(shapesOption.get())));
   OwnedVec real, imaginary;
   check(MatCreateVecs(trial, real.out(), nullptr));

@@ -9,7 +9,8 @@ namespace squeal::flutter {
 /// Marks unstable eigenvalues.
 void judge(std::vector<Eigenvalue>& eigenvalues);
 
-/// Collective. Keeps the `-flutter_shapes` fastest growing shapes of `point`; `unknowns(index, real, imaginary)` fills the mode in the unknowns x.
+/// Collective. Keeps the `-flutter_shapes` fastest growing shapes of `point`; `unknowns(index, real, imaginary)` fills the mode in
+/// the unknowns x.
 void keepShapes(FrictionPoint& point, Mat trial, const std::function<void(std::size_t, Vec, Vec)>& unknowns);
 
 }  // namespace squeal::flutter

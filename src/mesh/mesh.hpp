@@ -13,7 +13,7 @@ using Point = std::array<double, 3>;
 
 /// Cells of one gmsh element type on this rank. Cells belong to one rank; every node of a cell is a local node of its rank.
 struct CellBlock {
-  int type = 0;                 ///< gmsh element type
+  int type = 0;  ///< gmsh element type
   int nodesPerCell = 0;
   std::vector<PetscInt> nodes;  ///< [cell][node] local node, in gmsh's order
   std::vector<int> body;        ///< [cell] index into Mesh::bodies
@@ -39,23 +39,23 @@ struct Image {
 
 /// A contact node of the pad side (slave) and the disc node at the same place (master).
 struct ContactPair {
-  PetscInt node;      ///< local node of the pad side (owned)
-  PetscInt master;    ///< global node of the disc side; −1: rigid obstacle
-  int interface;      ///< index into Request::interfaces
-  int masterBody;     ///< index into Mesh::bodies of the disc side; −1: rigid obstacle
-  int masterPart;     ///< connected part of the master node; −1: rigid obstacle
+  PetscInt node;    ///< local node of the pad side (owned)
+  PetscInt master;  ///< global node of the disc side; −1: rigid obstacle
+  int interface;    ///< index into Request::interfaces
+  int masterBody;   ///< index into Mesh::bodies of the disc side; −1: rigid obstacle
+  int masterPart;   ///< connected part of the master node; −1: rigid obstacle
 };
 
 struct Mesh {
   MPI_Comm comm = MPI_COMM_NULL;
-  int dimension = 3;            ///< 2: plane problem in x, y; 3: solid
+  int dimension = 3;  ///< 2: plane problem in x, y; 3: solid
   PetscInt totalNodes = 0, totalCells = 0;
-  PetscInt ownedNodes = 0;      ///< local nodes 0 … ownedNodes−1 are owned here, the rest are ghosts
-  PetscInt firstNode = 0;       ///< global number of local node 0; owned nodes are contiguous
-  std::vector<PetscInt> globalNode;   ///< [local node] global number
-  std::vector<Point> coordinates;     ///< [local node], m
-  std::vector<PetscInt> nodeTag;      ///< [local node] gmsh's tag; the two nodes of a split shared node repeat it
-  std::vector<int> nodePart;          ///< [local node] connected part (0 … parts−1) of the bodies once contact is cut
+  PetscInt ownedNodes = 0;           ///< local nodes 0 … ownedNodes−1 are owned here, the rest are ghosts
+  PetscInt firstNode = 0;            ///< global number of local node 0; owned nodes are contiguous
+  std::vector<PetscInt> globalNode;  ///< [local node] global number
+  std::vector<Point> coordinates;    ///< [local node], m
+  std::vector<PetscInt> nodeTag;     ///< [local node] gmsh's tag; the two nodes of a split shared node repeat it
+  std::vector<int> nodePart;         ///< [local node] connected part (0 … parts−1) of the bodies once contact is cut
   int parts = 0;
   std::vector<std::string> partName;  ///< [part] names of its bodies joined by '+'
   std::vector<std::string> bodies;    ///< groups with a material
@@ -81,17 +81,18 @@ struct PeriodicRequest {
 
 /// What the later stages need from the mesh.
 struct Request {
-  std::vector<std::string> bodies;         ///< volume groups with a material
-  std::vector<std::string> moving;         ///< bodies with a motion: the disc side of an interface whose nodes are shared
-  std::vector<std::string> nodeGroups;     ///< groups of any dimension whose nodes are constrained
-  std::vector<std::string> surfaces;       ///< surface groups that are loaded; those of interfaces are added
+  std::vector<std::string> bodies;      ///< volume groups with a material
+  std::vector<std::string> moving;      ///< bodies with a motion: the disc side of an interface whose nodes are shared
+  std::vector<std::string> nodeGroups;  ///< groups of any dimension whose nodes are constrained
+  std::vector<std::string> surfaces;    ///< surface groups that are loaded; those of interfaces are added
   std::vector<InterfaceRequest> interfaces;
   std::vector<PeriodicRequest> periodic;
 };
 
 /// Collective. Reads (or meshes, for a .geo) `-mesh_file` through the gmsh library on rank 0, splits nodes shared across contact
-/// interfaces, pairs contact and periodic nodes, partitions with METIS and hands each rank its part. Only rank 0 holds the whole mesh.
-/// Errors (all ranks): unreadable file, missing group, cell without material, surface that bounds no body, nodes without a partner.
+/// interfaces, pairs contact and periodic nodes, partitions with METIS and hands each rank its part. Only rank 0 holds the whole
+/// mesh. Errors (all ranks): unreadable file, missing group, cell without material, surface that bounds no body, nodes without a
+/// partner.
 Mesh read(MPI_Comm comm, const Request& request);
 
 }  // namespace squeal::mesh

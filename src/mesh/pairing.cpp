@@ -36,7 +36,8 @@ class Locator {
           const auto entry = buckets_.find({centre[0] + i, centre[1] + j, centre[2] + k});
           if (entry == buckets_.end()) continue;
           for (PetscInt node : entry->second)
-            if (squaredDistance(mesh_.points[static_cast<std::size_t>(node)], where) <= tolerance_ * tolerance_) found.push_back(node);
+            if (squaredDistance(mesh_.points[static_cast<std::size_t>(node)], where) <= tolerance_ * tolerance_)
+              found.push_back(node);
         }
     return found;
   }
@@ -88,8 +89,8 @@ void pairImages(WholeMesh& mesh, const PeriodicRequest& request, double near) {
     if (mesh.primary[static_cast<std::size_t>(image)] == image) mesh.primary[static_cast<std::size_t>(image)] = partner;
   }
   if (images.size() != primaries.size())
-    throw Error(formatted("option -constraint_%s_image_of %s: the groups have %zu and %zu nodes; they must be meshed alike", request.image.c_str(),
-                          request.of.c_str(), images.size(), primaries.size()));
+    throw Error(formatted("option -constraint_%s_image_of %s: the groups have %zu and %zu nodes; they must be meshed alike",
+                          request.image.c_str(), request.of.c_str(), images.size(), primaries.size()));
 }
 
 /// Follows images of images (the edge of a doubly periodic box) to the end.
@@ -144,8 +145,8 @@ void pairContact(WholeMesh& mesh, const InterfaceRequest& request, int interface
   for (PetscInt node : pad) {
     const auto found = locator.at(mesh.points[static_cast<std::size_t>(node)]);
     if (found.empty())
-      throw Error("options -contact_" + request.name + "_pad " + request.pad + ", -contact_" + request.name + "_disc " + request.disc +
-                  ": the node at " + positionText(mesh.points[static_cast<std::size_t>(node)]) +
+      throw Error("options -contact_" + request.name + "_pad " + request.pad + ", -contact_" + request.name + "_disc " +
+                  request.disc + ": the node at " + positionText(mesh.points[static_cast<std::size_t>(node)]) +
                   " of the pad has no node of the disc at the same place; contact needs matching meshes");
     const auto master = static_cast<std::size_t>(found[0]);
     mesh.pairs.push_back({node, found[0], interface, body[master], mesh.part[master]});
@@ -170,13 +171,15 @@ void requireEqualFaces(const WholeMesh& mesh, const InterfaceRequest& request, i
       if (block.label[e] != index) continue;
       std::vector<PetscInt> masters;
       for (int i = 0; i < block.nodesPerElement; ++i)
-        masters.push_back(master.at(mesh.primary[static_cast<std::size_t>(block.nodes[e * static_cast<std::size_t>(block.nodesPerElement) + static_cast<std::size_t>(i)])]));
+        masters.push_back(master.at(mesh.primary[static_cast<std::size_t>(
+            block.nodes[e * static_cast<std::size_t>(block.nodesPerElement) + static_cast<std::size_t>(i)])]));
       const Point where = mesh.points[static_cast<std::size_t>(block.nodes[e * static_cast<std::size_t>(block.nodesPerElement)])];
       for (auto& node : masters) node = mesh.primary[static_cast<std::size_t>(node)];
       std::sort(masters.begin(), masters.end());
       if (!discFaces.count(masters))
-        throw Error("options -contact_" + request.name + "_pad " + request.pad + ", -contact_" + request.name + "_disc " + request.disc + ": the face of the pad at " +
-                    positionText(where) + " does not lie on one face of the disc; contact needs matching meshes");
+        throw Error("options -contact_" + request.name + "_pad " + request.pad + ", -contact_" + request.name + "_disc " +
+                    request.disc + ": the face of the pad at " + positionText(where) +
+                    " does not lie on one face of the disc; contact needs matching meshes");
     }
 }
 

@@ -19,16 +19,16 @@ std::vector<int> partition(const WholeMesh& mesh, int ranks) {
   for (const auto& block : mesh.cells)
     for (std::size_t e = 0; e < block.tag.size(); ++e) {
       for (int i = 0; i < block.corners; ++i)
-        corners.push_back(static_cast<idx_t>(
-            canonical[static_cast<std::size_t>(block.nodes[e * static_cast<std::size_t>(block.nodesPerElement) + static_cast<std::size_t>(i)])]));
+        corners.push_back(static_cast<idx_t>(canonical[static_cast<std::size_t>(
+            block.nodes[e * static_cast<std::size_t>(block.nodesPerElement) + static_cast<std::size_t>(i)])]));
       start.push_back(static_cast<idx_t>(corners.size()));
       weight.push_back(block.nodesPerElement);
     }
   idx_t elements = static_cast<idx_t>(rank.size()), nodes = static_cast<idx_t>(mesh.nodeCount()), parts = ranks, cut = 0;
   idx_t common = mesh.dimension;  // corners shared by neighbours: an edge in the plane, a triangle in space
   std::vector<idx_t> elementPart(rank.size()), nodePart(mesh.points.size());
-  if (METIS_PartMeshDual(&elements, &nodes, start.data(), corners.data(), weight.data(), nullptr, &common, &parts, nullptr, nullptr, &cut,
-                         elementPart.data(), nodePart.data()) != METIS_OK)
+  if (METIS_PartMeshDual(&elements, &nodes, start.data(), corners.data(), weight.data(), nullptr, &common, &parts, nullptr, nullptr,
+                         &cut, elementPart.data(), nodePart.data()) != METIS_OK)
     throw Error("METIS cannot partition the mesh");
   for (std::size_t c = 0; c < rank.size(); ++c) rank[c] = static_cast<int>(elementPart[c]);
   return rank;

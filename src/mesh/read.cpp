@@ -13,7 +13,8 @@
 namespace squeal::mesh {
 namespace {
 
-const TextOption fileOption("mesh", "mesh_file", std::nullopt, "mesh or geometry, any format the gmsh library reads; a .geo is meshed in memory");
+const TextOption fileOption("mesh", "mesh_file", std::nullopt,
+                            "mesh or geometry, any format the gmsh library reads; a .geo is meshed in memory");
 const TextOption setOption("mesh", "mesh_set", "", "parameters of a .geo file by their DefineConstant names: name=number,…");
 
 /// Flat message: numbers and texts in the order they are written, read back in the same order.
@@ -70,7 +71,8 @@ Numbering number(const WholeMesh& mesh, const std::vector<int>& cellRank, int ra
   for (const auto& block : mesh.cells)
     for (std::size_t e = 0; e < block.tag.size(); ++e, ++cell)
       for (int i = 0; i < block.nodesPerElement; ++i) {
-        auto& owner = numbering.owner[static_cast<std::size_t>(block.nodes[e * static_cast<std::size_t>(block.nodesPerElement) + static_cast<std::size_t>(i)])];
+        auto& owner = numbering.owner[static_cast<std::size_t>(
+            block.nodes[e * static_cast<std::size_t>(block.nodesPerElement) + static_cast<std::size_t>(i)])];
         owner = std::min(owner, cellRank[cell]);
       }
   numbering.whole.resize(mesh.points.size());
@@ -110,9 +112,11 @@ Shares share(const WholeMesh& mesh, const Numbering& numbering, const std::vecto
       shares.cells[static_cast<std::size_t>(cellRank[cell])][b].push_back(static_cast<PetscInt>(e));
   for (std::size_t b = 0; b < mesh.faces.size(); ++b)
     for (std::size_t e = 0; e < mesh.faces[b].tag.size(); ++e)
-      shares.faces[static_cast<std::size_t>(cellRank[static_cast<std::size_t>(mesh.faces[b].cell[e])])][b].push_back(static_cast<PetscInt>(e));
+      shares.faces[static_cast<std::size_t>(cellRank[static_cast<std::size_t>(mesh.faces[b].cell[e])])][b].push_back(
+          static_cast<PetscInt>(e));
   const auto ownerOf = [&](PetscInt node) { return static_cast<std::size_t>(numbering.owner[static_cast<std::size_t>(node)]); };
-  for (std::size_t i = 0; i < mesh.images.size(); ++i) shares.images[ownerOf(mesh.images[i].node)].push_back(static_cast<PetscInt>(i));
+  for (std::size_t i = 0; i < mesh.images.size(); ++i)
+    shares.images[ownerOf(mesh.images[i].node)].push_back(static_cast<PetscInt>(i));
   for (std::size_t i = 0; i < mesh.pairs.size(); ++i) shares.pairs[ownerOf(mesh.pairs[i].node)].push_back(static_cast<PetscInt>(i));
   std::size_t g = 0;
   for (const auto& [name, nodes] : mesh.nodeGroups) {
@@ -193,7 +197,8 @@ Buffer pack(const WholeMesh& mesh, const Numbering& numbering, const Shares& sha
   buffer.put(names);
   for (const auto& nodes : shares.groups[rank]) buffer.put(allToLocal(nodes));
   auto images = picked(mesh.images, shares.images[rank]);
-  for (auto& image : images) image.node = toLocal(image.node), image.primary = numbering.global[static_cast<std::size_t>(image.primary)];
+  for (auto& image : images)
+    image.node = toLocal(image.node), image.primary = numbering.global[static_cast<std::size_t>(image.primary)];
   buffer.put(images);
   auto pairs = picked(mesh.pairs, shares.pairs[rank]);
   for (auto& pair : pairs) {

@@ -24,12 +24,13 @@ struct WholeMesh {
   std::vector<WholeBlock> cells;
   std::vector<WholeFaces> faces;
   std::map<std::string, std::vector<PetscInt>> nodeGroups;
-  std::map<std::string, std::vector<std::vector<PetscInt>>> discFaces;  ///< [surface of a disc side] nodes of each face, of all cells it bounds
-  std::vector<int> part;                ///< [node] connected part
+  std::map<std::string, std::vector<std::vector<PetscInt>>>
+      discFaces;          ///< [surface of a disc side] nodes of each face, of all cells it bounds
+  std::vector<int> part;  ///< [node] connected part
   std::vector<std::string> partName;
-  std::vector<PetscInt> primary;        ///< [node] the node it repeats, itself if none
-  std::vector<Image> images;            ///< whole-mesh numbers
-  std::vector<ContactPair> pairs;       ///< whole-mesh numbers
+  std::vector<PetscInt> primary;   ///< [node] the node it repeats, itself if none
+  std::vector<Image> images;       ///< whole-mesh numbers
+  std::vector<ContactPair> pairs;  ///< whole-mesh numbers
 
   PetscInt nodeCount() const { return static_cast<PetscInt>(points.size()); }
   PetscInt cellCount() const;

@@ -1,6 +1,7 @@
-/// Block Lanczos with full orthogonalisation and thick restart (Golub and Underwood 1977; Wu and Simon 2000) on the operator S = K⁻¹ M, which
-/// is self-adjoint in the inner product of M. A direct solver answers a block of right-hand sides many times faster than as many single
-/// ones, because the factor is read from memory once a block; SLEPc's Krylov-Schur asks for them one at a time.
+/// Block Lanczos with full orthogonalisation and thick restart (Golub and Underwood 1977; Wu and Simon 2000) on the operator S =
+/// K⁻¹ M, which is self-adjoint in the inner product of M. A direct solver answers a block of right-hand sides many times faster
+/// than as many single ones, because the factor is read from memory once a block; SLEPc's Krylov-Schur asks for them one at a
+/// time.
 #include "modes/blocklanczos.hpp"
 
 #include <slepcsys.h>  // first: the next header needs it
@@ -93,11 +94,13 @@ class Lanczos {
     for (std::size_t j = 0; j < k; ++j) {
       const std::size_t from = k - 1 - j;
       ritz.value.push_back(ascending[from]);
-      ritz.vector.insert(ritz.vector.end(), a.begin() + static_cast<std::ptrdiff_t>(from * k), a.begin() + static_cast<std::ptrdiff_t>((from + 1) * k));
+      ritz.vector.insert(ritz.vector.end(), a.begin() + static_cast<std::ptrdiff_t>(from * k),
+                         a.begin() + static_cast<std::ptrdiff_t>((from + 1) * k));
       PetscReal sum = 0;
       for (PetscInt i = 0; i < b_; ++i) {
         PetscReal entry = 0;
-        for (PetscInt l = 0; l < b_; ++l) entry += r_[static_cast<std::size_t>(l * b_ + i)] * a[from * k + k - static_cast<std::size_t>(b_ - l)];
+        for (PetscInt l = 0; l < b_; ++l)
+          entry += r_[static_cast<std::size_t>(l * b_ + i)] * a[from * k + k - static_cast<std::size_t>(b_ - l)];
         sum += entry * entry;
       }
       ritz.residual.push_back(std::sqrt(sum));
@@ -111,10 +114,11 @@ class Lanczos {
     const PetscInt chunk = 256;  // rows at a time: no second copy of V
     std::vector<PetscScalar> rowsOfV(static_cast<std::size_t>(chunk * kept));
     for (PetscInt begin = 0; begin < rows_; begin += chunk) {
-      PetscBLASInt rows = static_cast<PetscBLASInt>(std::min(chunk, rows_ - begin)), columns = static_cast<PetscBLASInt>(kept), inner = static_cast<PetscBLASInt>(k_),
-                   leading = static_cast<PetscBLASInt>(rows_);
+      PetscBLASInt rows = static_cast<PetscBLASInt>(std::min(chunk, rows_ - begin)), columns = static_cast<PetscBLASInt>(kept),
+                   inner = static_cast<PetscBLASInt>(k_), leading = static_cast<PetscBLASInt>(rows_);
       const PetscScalar one = 1, zero = 0;
-      BLASgemm_("N", "N", &rows, &columns, &inner, &one, column(0) + begin, &leading, ritz.vector.data(), &inner, &zero, rowsOfV.data(), &rows);
+      BLASgemm_("N", "N", &rows, &columns, &inner, &one, column(0) + begin, &leading, ritz.vector.data(), &inner, &zero,
+                rowsOfV.data(), &rows);
       for (PetscInt j = 0; j < kept; ++j) std::copy_n(rowsOfV.data() + j * rows, rows, column(j) + begin);
     }
     k_ = kept;
@@ -169,7 +173,8 @@ class Lanczos {
     const PetscScalar* mw = nullptr;
     Small result(static_cast<std::size_t>(count * b_), 0.0);
     check(MatDenseGetArrayRead(mw_, &mw));
-    PetscBLASInt rows = static_cast<PetscBLASInt>(rows_), leading = std::max<PetscBLASInt>(rows, 1), columns = static_cast<PetscBLASInt>(b_), m = static_cast<PetscBLASInt>(count);
+    PetscBLASInt rows = static_cast<PetscBLASInt>(rows_), leading = std::max<PetscBLASInt>(rows, 1),
+                 columns = static_cast<PetscBLASInt>(b_), m = static_cast<PetscBLASInt>(count);
     const PetscScalar one = 1, zero = 0;
     if (rows > 0 && m > 0) BLASgemm_("T", "N", &m, &columns, &rows, &one, x, &leading, mw, &leading, &zero, result.data(), &m);
     check(MatDenseRestoreArrayRead(mw_, &mw));
@@ -184,16 +189,20 @@ class Lanczos {
     const Small h = products(column(first), count);
     PetscScalar* w = nullptr;
     check(MatDenseGetArray(w_, &w));
-    PetscBLASInt rows = static_cast<PetscBLASInt>(rows_), leading = std::max<PetscBLASInt>(rows, 1), columns = static_cast<PetscBLASInt>(b_), inner = static_cast<PetscBLASInt>(count);
+    PetscBLASInt rows = static_cast<PetscBLASInt>(rows_), leading = std::max<PetscBLASInt>(rows, 1),
+                 columns = static_cast<PetscBLASInt>(b_), inner = static_cast<PetscBLASInt>(count);
     const PetscScalar minus = -1, one = 1;
-    if (rows > 0 && count > 0) BLASgemm_("N", "N", &rows, &columns, &inner, &minus, column(first), &leading, h.data(), &inner, &one, w, &leading);
+    if (rows > 0 && count > 0)
+      BLASgemm_("N", "N", &rows, &columns, &inner, &minus, column(first), &leading, h.data(), &inner, &one, w, &leading);
     check(MatDenseRestoreArray(w_, &w));
     for (PetscInt j = 0; j < b_; ++j)
-      for (PetscInt i = 0; i < count; ++i) sum[static_cast<std::size_t>(j * k_ + first + i)] += h[static_cast<std::size_t>(j * count + i)];
+      for (PetscInt i = 0; i < count; ++i)
+        sum[static_cast<std::size_t>(j * k_ + first + i)] += h[static_cast<std::size_t>(j * count + i)];
   }
 
-  /// W made M-orthogonal to V; the summed coefficients (k × b). In exact arithmetic only the last two blocks have a part in S V_last (three-term
-  /// recurrence), so one pass over these and one over all of V does; after a restart, and for random columns, all of V has: two full passes.
+  /// W made M-orthogonal to V; the summed coefficients (k × b). In exact arithmetic only the last two blocks have a part in S
+  /// V_last (three-term recurrence), so one pass over these and one over all of V does; after a restart, and for random columns,
+  /// all of V has: two full passes.
   Small orthogonalise(bool recurrence) {
     Small sum(static_cast<std::size_t>(k_ * b_), 0.0);
     subtract(recurrence ? std::max<PetscInt>(0, k_ - 2 * b_) : 0, sum);
@@ -201,8 +210,8 @@ class Lanczos {
     return sum;
   }
 
-  /// W = Q R with Qᵀ M Q = I by the eigenvectors of WᵀMW (Stathopoulos and Wu 2002), twice; Q replaces W. Directions that have vanished
-  /// (an invariant subspace is complete) are replaced by random ones orthogonal to V, with zero rows in R.
+  /// W = Q R with Qᵀ M Q = I by the eigenvectors of WᵀMW (Stathopoulos and Wu 2002), twice; Q replaces W. Directions that have
+  /// vanished (an invariant subspace is complete) are replaced by random ones orthogonal to V, with zero rows in R.
   void orthonormalise() {
     const auto b = static_cast<std::size_t>(b_);
     r_.assign(b * b, 0.0);
@@ -245,9 +254,11 @@ class Lanczos {
     PetscScalar* w = nullptr;
     check(MatDenseGetArray(w_, &w));
     old_.assign(w, w + b_ * rows_);
-    PetscBLASInt rows = static_cast<PetscBLASInt>(rows_), leading = std::max<PetscBLASInt>(rows, 1), columns = static_cast<PetscBLASInt>(b_);
+    PetscBLASInt rows = static_cast<PetscBLASInt>(rows_), leading = std::max<PetscBLASInt>(rows, 1),
+                 columns = static_cast<PetscBLASInt>(b_);
     const PetscScalar one = 1, zero = 0;
-    if (rows > 0) BLASgemm_("N", "N", &rows, &columns, &columns, &one, old_.data(), &leading, x.data(), &columns, &zero, w, &leading);
+    if (rows > 0)
+      BLASgemm_("N", "N", &rows, &columns, &columns, &one, old_.data(), &leading, x.data(), &columns, &zero, w, &leading);
     check(MatDenseRestoreArray(w_, &w));
   }
 

@@ -14,12 +14,13 @@ struct LanczosResult {
   std::vector<double> lambda;  ///< ascending, ω²
   OwnedBV vectors;             ///< n × converged, M-orthonormal
   int converged = 0;
-  int solves = 0;              ///< right-hand sides solved for
+  int solves = 0;  ///< right-hand sides solved for
   int restarts = 0;
 };
 
-/// Collective. The `count` smallest eigenvalues of K d = λ M d, K symmetric positive definite and factorised in `solver` (MUMPS), M symmetric
-/// positive definite, of at least 2·lanczosVectors() rows. A pair has converged when ‖K⁻¹M d − d/λ‖_M ≤ tolerance/λ. `progress(restarts, converged)` is called on all ranks.
+/// Collective. The `count` smallest eigenvalues of K d = λ M d, K symmetric positive definite and factorised in `solver` (MUMPS),
+/// M symmetric positive definite, of at least 2·lanczosVectors() rows. A pair has converged when ‖K⁻¹M d − d/λ‖_M ≤ tolerance/λ.
+/// `progress(restarts, converged)` is called on all ranks.
 LanczosResult blockLanczos(Mat k, Mat m, KSP solver, int count, int blockSize, double tolerance, int maxRestarts,
                            const std::function<void(int, int)>& progress);
 

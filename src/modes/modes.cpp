@@ -12,16 +12,21 @@ namespace squeal::modes {
 namespace {
 
 const IntegerOption countOption("modes", "modes_count", 200, 1, "number of free-vibration modes, the basis of the reduced problem");
-const ChoiceOption solverOption("modes", "modes_solver", {"auto", "block_lanczos", "eps"}, "auto",
-                                "block_lanczos: blocked solves with MUMPS; eps: SLEPc; auto: block_lanczos, or eps if a -modes_eps_* option is given or "
-                                "the problem is small");
+const ChoiceOption solverOption(
+    "modes", "modes_solver", {"auto", "block_lanczos", "eps"}, "auto",
+    "block_lanczos: blocked solves with MUMPS; eps: SLEPc; auto: block_lanczos, or eps if a -modes_eps_* option is given or "
+    "the problem is small");
 const IntegerOption blockOption("modes", "modes_block_size", 8, 1, "right-hand sides that block_lanczos solves for together");
-const RealOption toleranceOption("modes", "modes_tolerance", 1e-8, "", {0, 1e-2, true, false}, "relative error of the eigenvalues of S = inverse(K) M (of eps: -modes_eps_tol)");
-const FlagOption sturmOption("modes", "modes_sturm", true, "confirm by the inertia of K - sigma M that no mode is missing (one more factorisation)");
+const RealOption toleranceOption("modes", "modes_tolerance", 1e-8, "", {0, 1e-2, true, false},
+                                 "relative error of the eigenvalues of S = inverse(K) M (of eps: -modes_eps_tol)");
+const FlagOption sturmOption("modes", "modes_sturm", true,
+                             "confirm by the inertia of K - sigma M that no mode is missing (one more factorisation)");
 const SolverPrefix solverPrefix("modes", "modes_eps_", "SLEPc EPS of the free vibrations: tol, ncv, mpd, type, …");
 
-PetscErrorCode report(EPS, PetscInt iteration, PetscInt converged, PetscScalar*, PetscScalar*, PetscReal*, PetscInt, void* context) {
-  static_cast<Stage*>(context)->progress(formatted("restart %d: %d modes converged", static_cast<int>(iteration), static_cast<int>(converged)));
+PetscErrorCode report(EPS, PetscInt iteration, PetscInt converged, PetscScalar*, PetscScalar*, PetscReal*, PetscInt,
+                      void* context) {
+  static_cast<Stage*>(context)->progress(
+      formatted("restart %d: %d modes converged", static_cast<int>(iteration), static_cast<int>(converged)));
   return 0;
 }
 
@@ -36,7 +41,8 @@ OwnedEPS solver(const contact::AssociatedSystem& system, int count, Stage& stage
   check(EPSSetWhichEigenpairs(eps, EPS_TARGET_MAGNITUDE));
   check(EPSSetTarget(eps, 0));
   // Half as many vectors again as modes, enlarged in portions of 100, took the fewest solves.
-  const int size = static_cast<int>(system.size()), vectors = std::min(size, count + std::clamp(count / 2, 50, 100));  // SLEPc wants vectors <= count + portion
+  const int size = static_cast<int>(system.size()),
+            vectors = std::min(size, count + std::clamp(count / 2, 50, 100));  // SLEPc wants vectors <= count + portion
   check(EPSSetDimensions(eps, count, vectors, std::min(vectors, 100)));
   check(EPSSetTolerances(eps, toleranceOption.get(), PETSC_DEFAULT));
   check(EPSSetPurify(eps, PETSC_FALSE));
@@ -86,7 +92,9 @@ void confirmCount(const contact::AssociatedSystem& system, Modes& modes) {
 
 void requireConverged(int converged, int count) {
   if (converged < count)
-    throw Error(formatted("free vibration: only %d of %d modes converged; raise -modes_eps_max_it or -modes_eps_ncv, or loosen -modes_tolerance", converged, count));
+    throw Error(formatted(
+        "free vibration: only %d of %d modes converged; raise -modes_eps_max_it or -modes_eps_ncv, or loosen -modes_tolerance",
+        converged, count));
 }
 
 /// Eigenvalues ascending and vectors, M-orthonormal, by SLEPc.
@@ -121,7 +129,9 @@ void solveByEps(const contact::AssociatedSystem& system, int count, Stage& stage
 void solveByLanczos(const contact::AssociatedSystem& system, int count, Stage& stage, Modes& modes) {
   const auto& matrices = system.matrices();
   auto result = blockLanczos(matrices.k0, matrices.m0, system.solver(), count, blockOption.get(), toleranceOption.get(), 20,
-                             [&](int restarts, int converged) { stage.progress(formatted("%d restarts: %d of %d modes converged", restarts, converged, count)); });
+                             [&](int restarts, int converged) {
+                               stage.progress(formatted("%d restarts: %d of %d modes converged", restarts, converged, count));
+                             });
   requireConverged(result.converged, count);
   modes.lambda = result.lambda;
   modes.vectors = std::move(result.vectors);
@@ -133,7 +143,8 @@ void measureResiduals(const contact::AssociatedSystem& system, Modes& modes) {
   OwnedVec kd, md;
   check(MatCreateVecs(k, kd.out(), md.out()));
   for (std::size_t i = 0; i < modes.lambda.size(); ++i) {
-    if (!(modes.lambda[i] > 0)) throw Error(formatted("free vibration: eigenvalue %g is not positive; a body is loose or nearly so", modes.lambda[i]));
+    if (!(modes.lambda[i] > 0))
+      throw Error(formatted("free vibration: eigenvalue %g is not positive; a body is loose or nearly so", modes.lambda[i]));
     Vec d = nullptr;
     check(BVGetColumn(modes.vectors, static_cast<PetscInt>(i), &d));
     check(MatMult(k, d, kd));
@@ -153,7 +164,8 @@ bool lanczosWanted(int count, PetscInt size) {
   const std::string solver = solverOption.get();
   const bool fits = 2 * lanczosVectors(count, blockOption.get()) <= size;
   if (solver == "block_lanczos" && !fits)
-    throw Error(formatted("option -modes_solver block_lanczos: %d modes of %d unknowns are too many for it; use eps", count, static_cast<int>(size)));
+    throw Error(formatted("option -modes_solver block_lanczos: %d modes of %d unknowns are too many for it; use eps", count,
+                          static_cast<int>(size)));
   return solver == "block_lanczos" || (solver == "auto" && fits && !solverPrefix.given());
 }
 
@@ -165,13 +177,17 @@ Modes compute(const contact::AssociatedSystem& system) {
     throw Error(formatted("option -modes_count %d: the problem has only %d unknowns", count, static_cast<int>(system.size())));
   Stage stage(PetscObjectComm(reinterpret_cast<PetscObject>(system.matrices().k0.get())), "modes");
   Modes modes;
-  if (lanczosWanted(count, system.size())) solveByLanczos(system, count, stage, modes);
-  else solveByEps(system, count, stage, modes);
+  if (lanczosWanted(count, system.size()))
+    solveByLanczos(system, count, stage, modes);
+  else
+    solveByEps(system, count, stage, modes);
   measureResiduals(system, modes);
   if (sturmOption.get()) confirmCount(system, modes);
   stage.finish(formatted("%d modes to %.4g Hz, worst relative residual %.1e%s", count, modes.angularFrequency.back() / (2 * M_PI),
                          *std::max_element(modes.relativeResidual.begin(), modes.relativeResidual.end()),
-                         !sturmOption.get() ? "" : modes.countConfirmed ? ", count confirmed by inertia" : ", COUNT NOT CONFIRMED BY INERTIA"));
+                         !sturmOption.get()     ? ""
+                         : modes.countConfirmed ? ", count confirmed by inertia"
+                                                : ", COUNT NOT CONFIRMED BY INERTIA"));
   return modes;
 }
 

@@ -83,7 +83,8 @@ std::string nearestName(const std::string& name) {
     if (const auto distance = editDistance(name, candidate); distance < least) least = distance, nearest = candidate;
   };
   for (const auto* option : Option::all()) {
-    if (option->name.find('<') == std::string::npos) consider(option->name);
+    if (option->name.find('<') == std::string::npos)
+      consider(option->name);
     else
       for (std::size_t begin = 0; begin < name.size(); ++begin)
         for (std::size_t end = begin + 1; end <= name.size(); ++end) consider(option->fullName(name.substr(begin, end - begin)));
@@ -93,8 +94,8 @@ std::string nearestName(const std::string& name) {
 
 }  // namespace
 
-Option::Option(std::string stage_, std::string name_, std::string default_, std::string unit_, std::string meaning_, std::string rule_,
-               bool required_)
+Option::Option(std::string stage_, std::string name_, std::string default_, std::string unit_, std::string meaning_,
+               std::string rule_, bool required_)
     : stage(std::move(stage_)),
       name(std::move(name_)),
       defaultText(std::move(default_)),
@@ -148,8 +149,8 @@ std::string Option::text(const std::string& subject) const {
 }
 
 void Option::reject(const std::string& subject, const std::string& value) const {
-  throw Error("option -" + fullName(subject) + " " + value + ": " + meaning + (unit.empty() ? "" : " [" + unit + "]") + "; must be " +
-              rule);
+  throw Error("option -" + fullName(subject) + " " + value + ": " + meaning + (unit.empty() ? "" : " [" + unit + "]") +
+              "; must be " + rule);
 }
 
 double Option::number(const std::string& subject, const std::string& value) const {
@@ -244,8 +245,7 @@ std::string ChoiceOption::get(const std::string& subject) const {
 }
 
 TextOption::TextOption(std::string stage, std::string name, std::optional<std::string> byDefault, std::string meaning)
-    : Option(std::move(stage), std::move(name), byDefault.value_or(""), "", std::move(meaning),
-             "text", !byDefault) {}
+    : Option(std::move(stage), std::move(name), byDefault.value_or(""), "", std::move(meaning), "text", !byDefault) {}
 
 std::string TextOption::get(const std::string& subject) const { return text(subject); }
 
@@ -290,8 +290,9 @@ void rejectUnknownOptions() {
 }
 
 std::string manual() {
-  std::string page = "squeal -options_file CASE.yaml [-option value …]: flutter of steady sliding brakes (brake squeal)\n"
-                     "Lengths in m, masses in kg, times in s unless the case keeps another consistent system. <…> stands for a name.\n";
+  std::string page =
+      "squeal -options_file CASE.yaml [-option value …]: flutter of steady sliding brakes (brake squeal)\n"
+      "Lengths in m, masses in kg, times in s unless the case keeps another consistent system. <…> stands for a name.\n";
   const auto options = Option::all();
   const auto solvers = SolverPrefix::all();
   for (const auto& stage : stages) {
@@ -300,9 +301,9 @@ std::string manual() {
       if (option->stage != stage) continue;
       const std::string left = "  -" + option->name + (option->unit.empty() ? "" : " [" + option->unit + "]");
       page += formatted("%-52s ", left.c_str()) + option->meaning;
-      page += option->required ? " (required; " + option->rule + ")\n"
-                                         : " (default " + (option->defaultText.empty() ? "none" : option->defaultText) + "; " +
-                                               option->rule + ")\n";
+      page += option->required
+                  ? " (required; " + option->rule + ")\n"
+                  : " (default " + (option->defaultText.empty() ? "none" : option->defaultText) + "; " + option->rule + ")\n";
     }
     for (const auto* solver : solvers)
       if (solver->stage == stage) page += formatted("%-52s ", ("  -" + solver->prefix + "*").c_str()) + solver->meaning + "\n";
@@ -313,16 +314,18 @@ std::string manual() {
 const std::map<std::string, std::string>& resolvedOptions() { return recipe(); }
 
 std::map<std::string, std::string> givenOptions() {
-  // PetscOptionsLeftGet hides the used ones, so the text form is read: a word that begins with a dash and a letter is a name, what follows
-  // up to the next name is its value.
+  // PetscOptionsLeftGet hides the used ones, so the text form is read: a word that begins with a dash and a letter is a name, what
+  // follows up to the next name is its value.
   char* all = nullptr;
   check(PetscOptionsGetAll(nullptr, &all));
   std::map<std::string, std::string> given;
   std::istringstream words(all);
   std::string name;
   for (std::string word; words >> word;) {
-    if (word.size() > 1 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1]))) given[name = word.substr(1)];
-    else if (!name.empty()) given[name] += (given[name].empty() ? "" : " ") + word;
+    if (word.size() > 1 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1])))
+      given[name = word.substr(1)];
+    else if (!name.empty())
+      given[name] += (given[name].empty() ? "" : " ") + word;
   }
   check(PetscFree(all));
   return given;

@@ -1,6 +1,6 @@
 #pragma once
-/// The user interface: every option is declared once, beside the physics that uses it, with stage, default, unit, meaning and check.
-/// Names hold at most one placeholder in angle brackets, e.g. `material_<group>_young`, replaced by a name from the mesh.
+/// The user interface: every option is declared once, beside the physics that uses it, with stage, default, unit, meaning and
+/// check. Names hold at most one placeholder in angle brackets, e.g. `material_<group>_young`, replaced by a name from the mesh.
 /// All values come from the PETSc options database, the same on every rank, so every Error thrown here is thrown on all ranks.
 #include <limits>
 #include <map>
@@ -29,7 +29,8 @@ class Option {
   static std::vector<const Option*> all();
 
  protected:
-  Option(std::string stage, std::string name, std::string defaultText, std::string unit, std::string meaning, std::string rule, bool required = false);
+  Option(std::string stage, std::string name, std::string defaultText, std::string unit, std::string meaning, std::string rule,
+         bool required = false);
   ~Option() = default;
   Option(const Option&) = delete;
   /// Text given by the user or the default; an option without default that is not given is an Error. Recorded for the recipe.
@@ -51,7 +52,8 @@ inline constexpr Range nonNegative{0};
 class RealOption : public Option {
  public:
   /// No default: required wherever it is asked for.
-  RealOption(std::string stage, std::string name, std::optional<double> byDefault, std::string unit, Range range, std::string meaning);
+  RealOption(std::string stage, std::string name, std::optional<double> byDefault, std::string unit, Range range,
+             std::string meaning);
   double get(const std::string& subject = {}) const;
   void validate(const std::string& subject) const override { get(subject); }
 
@@ -123,8 +125,8 @@ class SolverPrefix {
   static std::vector<const SolverPrefix*> all();
 };
 
-/// Collective. Error for an option that neither this program nor PETSc knows, with the nearest known name, and for a value of ours that breaks
-/// its rule: both before any work is done.
+/// Collective. Error for an option that neither this program nor PETSc knows, with the nearest known name, and for a value of ours
+/// that breaks its rule: both before any work is done.
 void rejectUnknownOptions();
 
 /// The manual printed by `-help`.

@@ -9,8 +9,8 @@ namespace squeal {
 
 struct StageRecord {
   std::string name;
-  double seconds = 0;           ///< wall time, maximum over the ranks
-  double peakMemoryBytes = 0;   ///< high-water mark of resident memory at the end of the stage, summed over the ranks
+  double seconds = 0;          ///< wall time, maximum over the ranks
+  double peakMemoryBytes = 0;  ///< high-water mark of resident memory at the end of the stage, summed over the ranks
 };
 
 /// A stage of the method, from construction to finish(). Collective.
@@ -19,7 +19,8 @@ class Stage {
   Stage(MPI_Comm comm, std::string name);
   /// Says on the terminal (rank 0, unless -quiet) what was found, with the time; keeps the record.
   void finish(const std::string& result);
-  /// Progress of long work, a line every two seconds at most: plain lines, since output of parallel jobs goes through pipes and files.
+  /// Progress of long work, a line every two seconds at most: plain lines, since output of parallel jobs goes through pipes and
+  /// files.
   void progress(const std::string& text);
 
  private:

@@ -1,4 +1,5 @@
-/// Fields for ParaView and for other programs: steady displacement and pressure, free modes, complex modes and the squeal in motion.
+/// Fields for ParaView and for other programs: steady displacement and pressure, free modes, complex modes and the squeal in
+/// motion.
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +12,8 @@
 namespace squeal::report {
 namespace {
 
-const IntegerOption animatedOption("report", "report_animated", 1, 0, "number of fastest growing modes of the whole sweep written as a time series over one period");
+const IntegerOption animatedOption("report", "report_animated", 1, 0,
+                                   "number of fastest growing modes of the whole sweep written as a time series over one period");
 const IntegerOption framesOption("report", "report_frames", 16, 4, "frames of one period");
 
 /// Brings nodal values from their owners to all ranks whose cells need them.
@@ -20,7 +22,8 @@ class Ghosts {
   explicit Ghosts(const mesh::Mesh& mesh) : mesh_(mesh) {
     std::vector<PetscInt> nodes(mesh.globalNode.begin(), mesh.globalNode.end());
     OwnedIS from;
-    check(ISCreateBlock(mesh.comm, mesh.dimension, static_cast<PetscInt>(nodes.size()), nodes.data(), PETSC_COPY_VALUES, from.out()));
+    check(
+        ISCreateBlock(mesh.comm, mesh.dimension, static_cast<PetscInt>(nodes.size()), nodes.data(), PETSC_COPY_VALUES, from.out()));
     check(VecCreateSeq(PETSC_COMM_SELF, mesh.dimension * mesh.localNodes(), local_.out()));
     const OwnedVec global = elasticity::nodalVector(mesh);
     check(VecScatterCreate(global, from, local_, nullptr, scatter_.out()));
@@ -115,14 +118,17 @@ void writeFields(const Analysis& analysis, const std::filesystem::path& folder) 
   for (const auto& solution : analysis.steady) {
     if (!solution.converged) continue;
     const auto stem = vtk / ("steady_friction_" + frictionText(solution.friction));
-    writeVtu(mesh, stem, {ghosts.vector("displacement", solution.displacement), ghosts.scalar("contact_pressure", contactField(analysis, solution))});
+    writeVtu(mesh, stem,
+             {ghosts.vector("displacement", solution.displacement),
+              ghosts.scalar("contact_pressure", contactField(analysis, solution))});
     steadyFiles.emplace_back(solution.friction, stem.string() + ".pvtu");
   }
   writePvd(mesh.comm, vtk / "steady.pvd", steadyFiles);
   for (const auto& segment : analysis.segments) {
     std::vector<Field> fields;
     for (std::size_t i = 0; i < segment.shapes.size(); ++i)
-      fields.push_back(ghosts.vector(formatted("mode_%03zu_%.0f_Hz", i + 1, segment.modes.angularFrequency[i] / (2 * M_PI)), segment.shapes[i]));
+      fields.push_back(
+          ghosts.vector(formatted("mode_%03zu_%.0f_Hz", i + 1, segment.modes.angularFrequency[i] / (2 * M_PI)), segment.shapes[i]));
     if (!fields.empty()) writeVtu(mesh, vtk / ("modes_from_friction_" + frictionText(segment.points.front().friction)), fields);
     for (const auto& point : segment.points) {
       std::vector<Field> shapes;
@@ -152,14 +158,18 @@ void writeHdf5(const Analysis& analysis, const std::filesystem::path& folder) {
     const auto& segment = analysis.segments[s];
     const std::string modesGroup = formatted("/modes/active_set_%zu", s + 1);
     std::vector<std::vector<double>> frequencies;
-    for (std::size_t i = 0; i < segment.modes.angularFrequency.size(); ++i) frequencies.push_back({segment.modes.angularFrequency[i], segment.modes.relativeResidual[i]});
-    file.writeTable(modesGroup, "frequencies", {"angular_frequency_rad_per_s", "relative_residual"}, rank == 0 ? frequencies : std::vector<std::vector<double>>{});
-    for (std::size_t i = 0; i < segment.shapes.size(); ++i) file.writeNodeVector(modesGroup, formatted("mode_%03zu", i + 1), segment.shapes[i]);
+    for (std::size_t i = 0; i < segment.modes.angularFrequency.size(); ++i)
+      frequencies.push_back({segment.modes.angularFrequency[i], segment.modes.relativeResidual[i]});
+    file.writeTable(modesGroup, "frequencies", {"angular_frequency_rad_per_s", "relative_residual"},
+                    rank == 0 ? frequencies : std::vector<std::vector<double>>{});
+    for (std::size_t i = 0; i < segment.shapes.size(); ++i)
+      file.writeNodeVector(modesGroup, formatted("mode_%03zu", i + 1), segment.shapes[i]);
     for (const auto& point : segment.points) {
       const std::string group = "/flutter/friction_" + frictionText(point.friction);
       std::vector<std::vector<double>> rows;
       for (const auto& e : point.eigenvalues) rows.push_back({e.s.real(), e.s.imag(), e.backwardError});
-      file.writeTable(group, "eigenvalues", {"growth_rate_1_per_s", "angular_frequency_rad_per_s", "backward_error"}, rank == 0 ? rows : std::vector<std::vector<double>>{});
+      file.writeTable(group, "eigenvalues", {"growth_rate_1_per_s", "angular_frequency_rad_per_s", "backward_error"},
+                      rank == 0 ? rows : std::vector<std::vector<double>>{});
       for (const auto& shape : point.shapes) {
         file.writeNodeVector(group, formatted("mode_%03zu_real", shape.index + 1), shape.real);
         file.writeNodeVector(group, formatted("mode_%03zu_imaginary", shape.index + 1), shape.imaginary);

@@ -9,15 +9,17 @@
 namespace squeal::report {
 namespace {
 
-const TextOption directoryOption("report", "report_dir", "results", "folder for the results; those of an earlier run in it are replaced");
+const TextOption directoryOption("report", "report_dir", "results",
+                                 "folder for the results; those of an earlier run in it are replaced");
 const FlagOption fieldsOption("report", "report_fields", true, "write fields: results.h5 and the VTK files");
 
 /// Names that a run makes; nothing else in the folder is touched.
 bool isResult(const std::filesystem::path& name) {
   const std::string text = name.filename().string();
   const auto begins = [&](const char* start) { return text.rfind(start, 0) == 0; };
-  return text == "eigenvalues.csv" || text == "modes.csv" || text == "summary.json" || text == "results.h5" || text == "stability.png" ||
-         text == "options.txt" || text == "vtk" || text == ".partial" || (begins("steady_") && name.extension() == ".csv") || (begins("modes_") && name.extension() == ".csv");
+  return text == "eigenvalues.csv" || text == "modes.csv" || text == "summary.json" || text == "results.h5" ||
+         text == "stability.png" || text == "options.txt" || text == "vtk" || text == ".partial" ||
+         (begins("steady_") && name.extension() == ".csv") || (begins("modes_") && name.extension() == ".csv");
 }
 
 void onRankZero(MPI_Comm comm, const std::string& option, const auto& action) {

@@ -23,7 +23,8 @@ Json steadyEntry(const steady::Solution& solution) {
   entry["smallest_pressure_pa"] = solution.smallestPressure;
   entry["relative_imbalance"] = solution.imbalance;
   for (const auto& resultant : solution.resultants)
-    entry["interfaces"][resultant.interface] = {{"normal_force_n", point3(resultant.normalForce)}, {"friction_force_n", point3(resultant.frictionForce)}};
+    entry["interfaces"][resultant.interface] = {{"normal_force_n", point3(resultant.normalForce)},
+                                                {"friction_force_n", point3(resultant.frictionForce)}};
   return entry;
 }
 
@@ -32,7 +33,10 @@ Json unstableModes(const flutter::FrictionPoint& point) {
   for (std::size_t i = 0; i < point.eigenvalues.size(); ++i) {
     const auto& e = point.eigenvalues[i];
     if (e.unstable && point.inBand(e))
-      list.push_back({{"mode", i + 1}, {"frequency_hz", e.s.imag() / (2 * M_PI)}, {"growth_rate_1_per_s", e.s.real()}, {"backward_error", e.backwardError}});
+      list.push_back({{"mode", i + 1},
+                      {"frequency_hz", e.s.imag() / (2 * M_PI)},
+                      {"growth_rate_1_per_s", e.s.real()},
+                      {"backward_error", e.backwardError}});
   }
   return list;
 }
@@ -79,10 +83,15 @@ void writeSummary(const Analysis& analysis, const std::filesystem::path& folder)
   }
   summary["active_sets"] = Json::array();
   for (const auto& segment : analysis.segments) {
-    Json entry = {{"first_friction", segment.points.front().friction}, {"last_friction", segment.points.back().friction},
-                  {"open_nodes", segment.openNodes}, {"dofs", segment.unknowns}, {"modes", segment.modes.angularFrequency.size()}};
+    Json entry = {{"first_friction", segment.points.front().friction},
+                  {"last_friction", segment.points.back().friction},
+                  {"open_nodes", segment.openNodes},
+                  {"dofs", segment.unknowns},
+                  {"modes", segment.modes.angularFrequency.size()}};
     if (segment.modes.inertiaCount)
-      entry["sturm_count"] = {{"shift_rad2_per_s2", segment.modes.inertiaShift}, {"eigenvalues_below", segment.modes.inertiaCount}, {"confirmed", segment.modes.countConfirmed}};
+      entry["sturm_count"] = {{"shift_rad2_per_s2", segment.modes.inertiaShift},
+                              {"eigenvalues_below", segment.modes.inertiaCount},
+                              {"confirmed", segment.modes.countConfirmed}};
     summary["active_sets"].push_back(entry);
   }
   double total = 0;

@@ -17,7 +17,8 @@ std::string eigenvalueTable(const Analysis& analysis) {
       for (std::size_t i = 0; i < point.eigenvalues.size(); ++i) {
         const auto& e = point.eigenvalues[i];
         table += frictionText(point.friction) + "," + std::to_string(i + 1) +
-                 formatted(",%.15e,%.15e,%.15e,%.15e,%.3e\n", e.s.real(), e.s.imag(), e.s.imag() / (2 * M_PI), -e.s.real() / std::abs(e.s), e.backwardError);
+                 formatted(",%.15e,%.15e,%.15e,%.15e,%.3e\n", e.s.real(), e.s.imag(), e.s.imag() / (2 * M_PI),
+                           -e.s.real() / std::abs(e.s), e.backwardError);
       }
   return table;
 }
@@ -25,7 +26,8 @@ std::string eigenvalueTable(const Analysis& analysis) {
 std::string modeTable(const modes::Modes& modes) {
   std::string table = "mode,angular_frequency_rad_per_s,frequency_hz,relative_residual\n";
   for (std::size_t i = 0; i < modes.angularFrequency.size(); ++i)
-    table += formatted("%zu,%.15e,%.15e,%.3e\n", i + 1, modes.angularFrequency[i], modes.angularFrequency[i] / (2 * M_PI), modes.relativeResidual[i]);
+    table += formatted("%zu,%.15e,%.15e,%.3e\n", i + 1, modes.angularFrequency[i], modes.angularFrequency[i] / (2 * M_PI),
+                       modes.relativeResidual[i]);
   return table;
 }
 
@@ -35,8 +37,8 @@ std::string steadyRows(const Analysis& analysis, const steady::Solution& solutio
   for (std::size_t i = 0; i < solution.contact.size(); ++i) {
     const auto& p = analysis.contact.nodes[i].position;
     const auto& state = solution.contact[i];
-    rows += formatted("%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,", p[0], p[1], p[2], state.gap, state.normalForce, state.pressure, state.frictionForce[0],
-                      state.frictionForce[1], state.frictionForce[2]) +
+    rows += formatted("%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,", p[0], p[1], p[2], state.gap, state.normalForce,
+                      state.pressure, state.frictionForce[0], state.frictionForce[1], state.frictionForce[2]) +
             analysis.contact.interfaces[static_cast<std::size_t>(analysis.contact.nodes[i].interface)] + "\n";
   }
   return rows;
@@ -48,7 +50,8 @@ std::string sweepRow(const flutter::FrictionPoint& point) {
   if (point.unstableCount() == 0) return row + "none: steady sliding is stable";
   int shown = 0;
   for (const auto& e : point.eigenvalues)
-    if (e.unstable && point.inBand(e) && ++shown <= 6) row += formatted("%s%.6g (%.4g)", shown > 1 ? ", " : "", e.s.imag() / (2 * M_PI), e.s.real());
+    if (e.unstable && point.inBand(e) && ++shown <= 6)
+      row += formatted("%s%.6g (%.4g)", shown > 1 ? ", " : "", e.s.imag() / (2 * M_PI), e.s.real());
   return row + (shown > 6 ? formatted(", and %d more in eigenvalues.csv", shown - 6) : "");
 }
 
@@ -113,9 +116,10 @@ void writeTables(const Analysis& analysis, const std::filesystem::path& folder) 
   }
   for (const auto& solution : analysis.steady)
     if (solution.converged)
-      writeFile(comm, folder / ("steady_" + frictionText(solution.friction) + ".csv"),
-                "x_m,y_m,z_m,gap_m,normal_force_n,pressure_pa,friction_force_x_n,friction_force_y_n,friction_force_z_n,interface\n" +
-                    gathered(comm, steadyRows(analysis, solution)));
+      writeFile(
+          comm, folder / ("steady_" + frictionText(solution.friction) + ".csv"),
+          "x_m,y_m,z_m,gap_m,normal_force_n,pressure_pa,friction_force_x_n,friction_force_y_n,friction_force_z_n,interface\n" +
+              gathered(comm, steadyRows(analysis, solution)));
 }
 
 void writeRecipe(const Analysis& analysis, const std::filesystem::path& folder) {
@@ -126,17 +130,20 @@ std::string stabilityTable(const Analysis& analysis) {
   const bool sweep = analysis.steady.size() > 1;
   std::string table = sweep ? "\nfriction  unstable modes: frequency Hz (growth 1/s)" : "\nmode  frequency Hz   growth 1/s";
   for (const auto& solution : analysis.steady)
-    if (!solution.converged) table += formatted("\n%8g  no steady sliding solution found (%s)", solution.friction, solution.reason.c_str());
+    if (!solution.converged)
+      table += formatted("\n%8g  no steady sliding solution found (%s)", solution.friction, solution.reason.c_str());
   for (const auto& segment : analysis.segments)
     for (const auto& point : segment.points) table += sweep ? sweepRow(point) : modeRows(point);
   for (const auto& segment : analysis.segments)
     for (const auto& point : segment.points)
       if (point.bandTop > 0 && point.worstBackwardError() > point.accuracy)
-        table += formatted("\nfriction %g: backward errors in the band exceed %.0e, see eigenvalues.csv; raise -modes_count or -flutter_rounds", point.friction,
-                           point.accuracy);
+        table += formatted(
+            "\nfriction %g: backward errors in the band exceed %.0e, see eigenvalues.csv; raise -modes_count or -flutter_rounds",
+            point.friction, point.accuracy);
   if (!analysis.segments.empty() && analysis.segments.front().points.front().bandTop > 0)
-    table += formatted("\nEigenvalues up to %.5g Hz are corrected to the full-order problem; those above in eigenvalues.csv are not.",
-                       analysis.segments.front().points.front().bandTop / (2 * M_PI));
+    table +=
+        formatted("\nEigenvalues up to %.5g Hz are corrected to the full-order problem; those above in eigenvalues.csv are not.",
+                  analysis.segments.front().points.front().bandTop / (2 * M_PI));
   return table;
 }
 

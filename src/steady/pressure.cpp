@@ -3,7 +3,8 @@
 
 namespace squeal::steady {
 
-std::vector<double> consistentPressure(const mesh::Mesh& mesh, const contact::Contact& contact, const std::vector<ContactState>& states) {
+std::vector<double> consistentPressure(const mesh::Mesh& mesh, const contact::Contact& contact,
+                                       const std::vector<ContactState>& states) {
   // One scalar per node, kept in the first component of a nodal vector, so that the periodic matrix folds images as it does for u.
   const PetscInt owned = mesh.dimension * mesh.ownedNodes;
   OwnedMat faces, folded;
@@ -15,7 +16,8 @@ std::vector<double> consistentPressure(const mesh::Mesh& mesh, const contact::Co
       std::vector<Point> points;
       std::vector<PetscInt> rows;
       for (int i = 0; i < block.nodesPerFace; ++i) {
-        const auto node = static_cast<std::size_t>(block.nodes[e * static_cast<std::size_t>(block.nodesPerFace) + static_cast<std::size_t>(i)]);
+        const auto node =
+            static_cast<std::size_t>(block.nodes[e * static_cast<std::size_t>(block.nodesPerFace) + static_cast<std::size_t>(i)]);
         points.push_back(mesh.coordinates[node]);
         rows.push_back(mesh.dimension * mesh.globalNode[node]);
       }

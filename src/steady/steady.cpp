@@ -14,10 +14,10 @@ const SolverPrefix solverPrefix("steady", "steady_", "PETSc SNES VI, KSP and PC 
 
 using OwnedSNES = Owned<SNES, SNESDestroy>;
 
-/// The problem in units of its own size, x = xUnit x̂ and F = forceUnit F̂, so that the tolerances of SNES, absolute ones among them
-/// (-steady_snes_vi_zero_tolerance is 1e-8), mean the same in metres and in millimetres.
+/// The problem in units of its own size, x = xUnit x̂ and F = forceUnit F̂, so that the tolerances of SNES, absolute ones among
+/// them (-steady_snes_vi_zero_tolerance is 1e-8), mean the same in metres and in millimetres.
 struct Scaled {
-  Mat jacobian;   // n×n, F̂ = jacobian x̂ + constant
+  Mat jacobian;  // n×n, F̂ = jacobian x̂ + constant
   Vec constant;
 };
 
@@ -76,7 +76,9 @@ Solution Problem::solve(double friction, const contact::AssociatedSystem& system
   recover(x, solution);
   if (!contact_.weightsPositive && solution.smallestPressure < 0) {
     solution.converged = false;
-    solution.reason = "contact opens, which cannot be decided node by node on tri6 or quad8 faces; mesh the contact faces with linear or 9-node elements";
+    solution.reason =
+        "contact opens, which cannot be decided node by node on tri6 or quad8 faces; mesh the contact faces with linear or 9-node "
+        "elements";
   }
   return solution;
 }
@@ -181,7 +183,8 @@ void Problem::recover(Vec x, Solution& solution) const {
     const auto& node = contact_.nodes[i];
     ContactState state;
     state.gap = values[matrices_.transformation.gapColumn[i] - first];
-    for (int d = 0; d < mesh_.dimension; ++d) state.normalForce += forces[mesh_.dimension * node.node + d] * node.normal[static_cast<std::size_t>(d)];
+    for (int d = 0; d < mesh_.dimension; ++d)
+      state.normalForce += forces[mesh_.dimension * node.node + d] * node.normal[static_cast<std::size_t>(d)];
     for (std::size_t d = 0; d < 3; ++d) state.frictionForce[d] = -solution.friction * state.normalForce * node.slip[d];
     state.pressure = state.normalForce / node.area;
     largest = std::max(largest, std::abs(state.normalForce));

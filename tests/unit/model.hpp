@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "analysis.hpp"
 #include "contact/contact.hpp"
 #include "contact/coupled.hpp"
 #include "elasticity/elasticity.hpp"
@@ -47,20 +48,8 @@ std::string errorOf(const Action& action) {
 
 inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-/// What the options in force ask of the mesh, as the analysis does.
-inline mesh::Request requestOfOptions() {
-  mesh::Request request;
-  request.bodies = elasticity::materialGroups();
-  request.moving = elasticity::movingBodies();
-  request.nodeGroups = contact::constrainedGroups();
-  request.surfaces = elasticity::loadedSurfaces();
-  request.interfaces = contact::readInterfaces();
-  request.periodic = contact::periodicPairs();
-  return request;
-}
-
 /// Collective.
-inline mesh::Mesh readMesh() { return mesh::read(PETSC_COMM_WORLD, requestOfOptions()); }
+inline mesh::Mesh readMesh() { return mesh::read(PETSC_COMM_WORLD, meshRequest()); }
 
 /// The stages before the first solution. Contact borrows the mesh, which therefore keeps its address.
 struct Model {
