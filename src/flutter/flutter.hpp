@@ -16,6 +16,7 @@ struct Eigenvalue {
   std::complex<double> s;    ///< growth rate + i angular frequency, 1/s
   double backwardError = 0;  ///< of the full-order problem
   bool unstable = false;     ///< Re s > -flutter_unstable_tolerance · |s|
+  bool inBand = true;        ///< corrected; false: above the band, of the plain modal projection
 };
 
 /// A complex mode d = real + i imaginary in nodal displacements, N entries, largest entry 1.
@@ -31,9 +32,8 @@ struct FrictionPoint {
   std::vector<Shape> shapes;            ///< of the fastest growing ones
   double bandTop = 0;                   ///< rad/s: eigenvalues up to here are corrected to `accuracy`; 0: none are
   double accuracy = 0;                  ///< backward error asked for in the band
-  bool inBand(const Eigenvalue& eigenvalue) const { return bandTop == 0 || eigenvalue.s.imag() <= bandTop; }
-  int unstableCount() const;  ///< in the band
-  int unstableAbove() const;  ///< above it
+  int unstableCount() const;            ///< in the band
+  int unstableAbove() const;            ///< above it
   int bandCount() const;
   double worstBackwardError() const;  ///< in the band
 };
@@ -70,7 +70,8 @@ class ReducedProblem {
   Residuals residuals(double friction, const std::vector<DensePair>& pairs) const;
   double length(const std::vector<std::complex<double>>& q) const;
   void correct(const Residuals& residuals, const std::vector<std::size_t>& bad);
-  std::vector<double> projected(int power, double friction) const;
+  std::vector<double> projected(int power, double friction, PetscInt columns) const;
+  std::vector<DensePair> dense(double friction, PetscInt columns) const;
 
   const Pencil& pencil_;
   const contact::AssociatedSystem& system_;

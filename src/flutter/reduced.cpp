@@ -18,6 +18,13 @@ const IntegerOption roundsOption("flutter", "flutter_rounds", 12, 0, "most round
 const IntegerOption growthOption("flutter", "flutter_growth", 1000, 0,
                                  "most vectors that corrections may add to the basis at one friction");
 
+/// Between two free modes, two fifths up the list, that are not a double one: no eigenvalue sits on the edge for rounding to decide.
+double bandOfModes(const std::vector<double>& w) {
+  std::size_t k = w.size() * 2 / 5;
+  while (k + 1 < w.size() && w[k + 1] < (1 + 1e-4) * w[k]) ++k;
+  return k + 1 < w.size() ? 0.5 * (w[k] + w[k + 1]) : w.back();
+}
+
 bool correctionsWanted() { return basisOption.get() == "corrected"; }
 
 /// A projection of `old` columns grown to `size`: the new columns, and the new rows below the old columns (empty: by symmetry).
@@ -100,8 +107,7 @@ ReducedProblem::ReducedProblem(const Pencil& pencil, const contact::AssociatedSy
     : pencil_(pencil), system_(system), basis_(modes.vectors, system.matrices().m0) {
   const auto& w = modes.angularFrequency;
   modeCount_ = w.size();
-  if (correctionsWanted())
-    bandTop_ = bandOption.get() > 0 ? 2 * M_PI * bandOption.get() : w[std::min(w.size() - 1, w.size() * 2 / 5)];
+  if (correctionsWanted()) bandTop_ = bandOption.get() > 0 ? 2 * M_PI * bandOption.get() : bandOfModes(w);
   for (const auto& term : pencil.terms()) images_.emplace_back(term.matrix);
   projections_.resize(images_.size());
   extend();
@@ -133,15 +139,26 @@ void ReducedProblem::extend() {
   projected_ = size;
 }
 
-std::vector<double> ReducedProblem::projected(int power, double friction) const {
+/// Σ c_t Vᵀ A_t V of one power of s on the first `columns` of the basis.
+std::vector<double> ReducedProblem::projected(int power, double friction, PetscInt columns) const {
+  const auto m = static_cast<std::size_t>(columns), size = static_cast<std::size_t>(basis_.size());
   std::vector<double> sum;
   for (std::size_t t = 0; t < projections_.size(); ++t) {
     if (pencil_.terms()[t].power != power) continue;
-    sum.resize(projections_[t].size(), 0.0);
+    sum.resize(m * m, 0.0);
     const double c = pencil_.terms()[t].coefficient(friction);
-    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += c * projections_[t][i];
+    for (std::size_t j = 0; j < m; ++j)
+      for (std::size_t i = 0; i < m; ++i) sum[j * m + i] += c * projections_[t][j * size + i];
   }
   return sum;
+}
+
+/// Collective. Eigenvalues on the first `columns` of the basis, by ascending frequency; q has the length of the whole basis.
+std::vector<DensePair> ReducedProblem::dense(double friction, PetscInt columns) const {
+  auto pairs = solveOnce(pencil_.comm(), projected(2, friction, columns), projected(1, friction, columns),
+                         projected(0, friction, columns), static_cast<int>(columns));
+  for (auto& pair : pairs) pair.q.resize(static_cast<std::size_t>(basis_.size()), 0.0);
+  return pairs;
 }
 
 ReducedProblem::Residuals ReducedProblem::residuals(double friction, const std::vector<DensePair>& pairs) const {
@@ -207,15 +224,11 @@ FrictionPoint ReducedProblem::solve(double friction, Mat trial) {
   point.bandTop = bandTop_;
   point.accuracy = bandTop_ > 0 ? accuracyOption.get() : 0;
   const PetscInt largest = std::min(basis_.size() + static_cast<PetscInt>(growthOption.get()), system_.size());
-  std::vector<DensePair> pairs, band;
+  std::vector<DensePair> band;
   Residuals found;
   for (int round = 0;; ++round) {
-    pairs = solveOnce(pencil_.comm(), projected(2, friction), projected(1, friction), projected(0, friction),
-                      static_cast<int>(basis_.size()));
-    // The corrections bring eigenvalues of high frequency of their own, which mean nothing.
-    pairs.resize(std::min(pairs.size(), modeCount_));
-    band.assign(pairs.begin(),
-                std::find_if(pairs.begin(), pairs.end(), [&](const auto& pair) { return pair.s.imag() > bandTop_; }));
+    band = dense(friction, basis_.size());
+    band.erase(std::find_if(band.begin(), band.end(), [&](const auto& pair) { return pair.s.imag() > bandTop_; }), band.end());
     found = residuals(friction, band);
     std::vector<std::size_t> bad;
     for (std::size_t j = 0; j < band.size(); ++j)
@@ -225,15 +238,19 @@ FrictionPoint ReducedProblem::solve(double friction, Mat trial) {
     correct(found, bad);
     if (basis_.size() == before) break;  // the residuals are rounding
   }
-  const Residuals above = residuals(friction, {pairs.begin() + static_cast<std::ptrdiff_t>(band.size()), pairs.end()});
-  for (std::size_t j = 0; j < pairs.size(); ++j)
-    point.eigenvalues.push_back(
-        {pairs[j].s, j < band.size() ? found.backwardError[j] : above.backwardError[j - band.size()], false});
+  // The corrections bring eigenvalues of high frequency of their own, which mean nothing; above the band the modes speak alone.
+  std::vector<DensePair> above = dense(friction, static_cast<PetscInt>(modeCount_));
+  above.erase(above.begin(), above.begin() + static_cast<std::ptrdiff_t>(std::min(band.size(), above.size())));
+  const Residuals rest = residuals(friction, above);
+  for (std::size_t j = 0; j < band.size(); ++j) point.eigenvalues.push_back({band[j].s, found.backwardError[j], false, true});
+  for (std::size_t j = 0; j < above.size(); ++j)
+    point.eigenvalues.push_back({above[j].s, rest.backwardError[j], false, bandTop_ == 0});
   judge(point.eigenvalues);
   keepShapes(point, trial, [&](std::size_t index, Vec real, Vec imaginary) {
     const ReadColumns basis(basis_.columns());
     std::vector<double> shape(2 * static_cast<std::size_t>(basis.rows()), 0.0);
-    multiplyAdd(basis.values(), basis.rows(), basis.columns(), columns({pairs[index]}, 0), shape);
+    multiplyAdd(basis.values(), basis.rows(), basis.columns(),
+                columns({index < band.size() ? band[index] : above[index - band.size()]}, 0), shape);
     for (Vec part : {real, imaginary}) {
       PetscScalar* entries = nullptr;
       check(VecGetArray(part, &entries));

@@ -32,22 +32,22 @@ bool directWanted() { return methodOption.get() == "direct"; }
 
 int FrictionPoint::unstableCount() const {
   return static_cast<int>(
-      std::count_if(eigenvalues.begin(), eigenvalues.end(), [&](const auto& e) { return e.unstable && inBand(e); }));
+      std::count_if(eigenvalues.begin(), eigenvalues.end(), [&](const auto& e) { return e.unstable && e.inBand; }));
 }
 
 int FrictionPoint::unstableAbove() const {
   return static_cast<int>(
-      std::count_if(eigenvalues.begin(), eigenvalues.end(), [&](const auto& e) { return e.unstable && !inBand(e); }));
+      std::count_if(eigenvalues.begin(), eigenvalues.end(), [&](const auto& e) { return e.unstable && !e.inBand; }));
 }
 
 int FrictionPoint::bandCount() const {
-  return static_cast<int>(std::count_if(eigenvalues.begin(), eigenvalues.end(), [&](const auto& e) { return inBand(e); }));
+  return static_cast<int>(std::count_if(eigenvalues.begin(), eigenvalues.end(), [&](const auto& e) { return e.inBand; }));
 }
 
 double FrictionPoint::worstBackwardError() const {
   double worst = 0;
   for (const auto& eigenvalue : eigenvalues)
-    if (inBand(eigenvalue)) worst = std::max(worst, eigenvalue.backwardError);
+    if (eigenvalue.inBand) worst = std::max(worst, eigenvalue.backwardError);
   return worst;
 }
 
@@ -59,7 +59,7 @@ void judge(std::vector<Eigenvalue>& eigenvalues) {
 void keepShapes(FrictionPoint& point, Mat trial, const std::function<void(std::size_t, Vec, Vec)>& unknowns) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < point.eigenvalues.size(); ++i)
-    if (point.eigenvalues[i].unstable && point.inBand(point.eigenvalues[i]) &&
+    if (point.eigenvalues[i].unstable && point.eigenvalues[i].inBand &&
         point.eigenvalues[i].s.imag() < 2 * M_PI * shapesBelowOption.get())
       order.push_back(i);
   std::sort(order.begin(), order.end(),

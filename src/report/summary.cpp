@@ -32,7 +32,7 @@ Json unstableModes(const flutter::FrictionPoint& point) {
   Json list = Json::array();
   for (std::size_t i = 0; i < point.eigenvalues.size(); ++i) {
     const auto& e = point.eigenvalues[i];
-    if (e.unstable && point.inBand(e))
+    if (e.unstable && e.inBand)
       list.push_back({{"mode", i + 1},
                       {"frequency_hz", e.s.imag() / (2 * M_PI)},
                       {"growth_rate_1_per_s", e.s.real()},

@@ -50,7 +50,7 @@ std::string sweepRow(const flutter::FrictionPoint& point) {
   if (point.unstableCount() == 0) return row + "none: steady sliding is stable";
   int shown = 0;
   for (const auto& e : point.eigenvalues)
-    if (e.unstable && point.inBand(e) && ++shown <= 6)
+    if (e.unstable && e.inBand && ++shown <= 6)
       row += formatted("%s%.6g (%.4g)", shown > 1 ? ", " : "", e.s.imag() / (2 * M_PI), e.s.real());
   return row + (shown > 6 ? formatted(", and %d more in eigenvalues.csv", shown - 6) : "");
 }
@@ -61,7 +61,7 @@ std::string modeRows(const flutter::FrictionPoint& point) {
   std::string rows;
   for (std::size_t i = 0; i < point.eigenvalues.size(); ++i) {
     const auto& e = point.eigenvalues[i];
-    if (e.unstable && point.inBand(e)) rows += formatted("\n%4zu  %12.6g %12.5g", i + 1, e.s.imag() / (2 * M_PI), e.s.real());
+    if (e.unstable && e.inBand) rows += formatted("\n%4zu  %12.6g %12.5g", i + 1, e.s.imag() / (2 * M_PI), e.s.real());
   }
   return rows;
 }
