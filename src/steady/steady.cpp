@@ -239,7 +239,8 @@ double Problem::imbalance(const Solution& solution, Vec nodalForces) const {
   check(VecAssemblyBegin(contactForces));
   check(VecAssemblyEnd(contactForces));
   // [part][contact, supports, load][component]
-  std::vector<double> sums(static_cast<std::size_t>(mesh_.parts) * 9, 0.0);
+  // and at the end the sum of all magnitudes, the scale of what cancels: resultants may vanish on their own.
+  std::vector<double> sums(static_cast<std::size_t>(mesh_.parts) * 9 + 1, 0.0);
   const auto at = [&](int part, int kind, int d) -> double& { return sums[static_cast<std::size_t>(part * 9 + kind * 3 + d)]; };
   const PetscScalar *forces = nullptr, *loads = nullptr, *contacts = nullptr;
   check(VecGetArrayRead(nodalForces, &forces));
@@ -249,22 +250,23 @@ double Problem::imbalance(const Solution& solution, Vec nodalForces) const {
     for (int d = 0; d < dimension; ++d) {
       const int part = mesh_.nodePart[static_cast<std::size_t>(node)];
       const PetscInt row = dimension * node + d;
+      const double support = contact_.constraints.held[static_cast<std::size_t>(row)] ? forces[row] - contacts[row] : 0;
       at(part, 0, d) += contacts[row];
+      at(part, 1, d) += support;
       at(part, 2, d) += loads[row];
-      if (contact_.constraints.held[static_cast<std::size_t>(row)]) at(part, 1, d) += forces[row] - contacts[row];
+      sums.back() += std::abs(contacts[row]) + std::abs(support) + std::abs(loads[row]);
     }
   check(VecRestoreArrayRead(nodalForces, &forces));
   check(VecRestoreArrayRead(bodies_.load, &loads));
   check(VecRestoreArrayRead(contactForces, &contacts));
   check(MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, mesh_.comm));
-  double worst = 0, size = 0;
+  double worst = 0;
   for (int part = 0; part < mesh_.parts; ++part) {
     double rest = 0;
     for (int d = 0; d < dimension; ++d) rest += std::pow(at(part, 0, d) + at(part, 1, d) + at(part, 2, d), 2);
     worst = std::max(worst, std::sqrt(rest));
-    for (int kind = 0; kind < 3; ++kind) size = std::max(size, std::hypot(at(part, kind, 0), at(part, kind, 1), at(part, kind, 2)));
   }
-  return size > 0 ? worst / size : 0;
+  return sums.back() > 0 ? worst / sums.back() : 0;
 }
 
 }  // namespace squeal::steady

@@ -33,7 +33,8 @@ struct Solution {
   PetscInt openNodes = 0;             ///< of all ranks
   double smallestPressure = 0;        ///< over all contact nodes, Pa
   std::vector<Resultant> resultants;  ///< [interface]
-  double imbalance = 0;               ///< worst |contact + supports + load| of a connected part, relative to the largest of them
+  double imbalance =
+      0;  ///< worst |contact + supports + load| of a connected part over the sum of the magnitudes of all nodal forces
 };
 
 /// The complementarity problem F(x) = L(f)ᵀ (K (T x + u0) − b), gaps g ≥ 0 ⟂ F_g = R_N ≥ 0, F = 0 elsewhere.
