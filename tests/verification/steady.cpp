@@ -230,5 +230,31 @@ TEST(Steady, QuadraticBlockOpens) {
   expectPartlyOpen(analysis, analysis.steady[0], 1);
 }
 
+TEST(Steady, TwoInterfacesOnOneBody) {
+  // The layer between two plates that close in by 0.01 each and slide alike, its ends held along x: without friction the strain is
+  // uniform, ε_yy = −0.02, and the pressure on both faces (λ + 2μ)·0.02. A second interface is only two more options.
+  const Analysis analysis = runOptions(
+      "-mesh_file meshes/layer.geo -material_layer_young 1 -material_layer_poisson 0.3 -material_layer_density 1 "
+      "-constraint_left_clamped x -constraint_right_clamped x "
+      "-contact_upper_pad top -contact_upper_obstacle_velocity 1,0,0 -contact_upper_obstacle_displacement 0,-0.01,0 "
+      "-contact_lower_pad bottom -contact_lower_obstacle_velocity 1,0,0 -contact_lower_obstacle_displacement 0,0.01,0 "
+      "-modes_count 10 -flutter_friction 0,0.2");
+  const double pressure = 0.7 / (1.3 * 0.4) * 0.02;  // E (1 − ν) / ((1 + ν)(1 − 2ν)) |ε|
+  ASSERT_EQ(analysis.steady.size(), 2U);
+  double error = 0;
+  for (const auto& state : analysis.steady[0].contact) error = std::max(error, std::abs(state.pressure / pressure - 1));
+  EXPECT_LT(largest(error), 1e-10);  // rounding of a direct solve
+  for (const auto& solution : analysis.steady) {
+    ASSERT_EQ(solution.resultants.size(), 2U);
+    EXPECT_LT(solution.imbalance, 1e-10);
+    const auto &lower = solution.resultants[0], &upper = solution.resultants[1];
+    // Mirror images about y = −1/2: equal and opposite normal forces, equal friction, f times as large.
+    EXPECT_NEAR(lower.normalForce[1], 3 * pressure, 1e-10 * pressure);
+    EXPECT_NEAR(upper.normalForce[1], -3 * pressure, 1e-10 * pressure);
+    EXPECT_NEAR(lower.frictionForce[0], solution.friction * 3 * pressure, 1e-10 * pressure);
+    EXPECT_NEAR(upper.frictionForce[0], solution.friction * 3 * pressure, 1e-10 * pressure);
+  }
+}
+
 }  // namespace
 }  // namespace squeal::test
