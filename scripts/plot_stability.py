@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 """Plots frequency and growth rate of every mode against friction.
 
-plot_stability.py REPORT_DIR reads REPORT_DIR/eigenvalues.csv and writes REPORT_DIR/stability.png.
+plot_stability.py REPORT_DIR reads REPORT_DIR/eigenvalues.csv and writes REPORT_DIR/stability.png. Eigenvalues above the band of
+REPORT_DIR/summary.json, which nobody vouches for, are left out.
 """
 import csv
+import json
 import sys
 from pathlib import Path
 
@@ -26,6 +28,17 @@ def read_eigenvalues(path):
             raise ValueError(f"{path}: the header must be\n{','.join(HEADER)}\nnot\n{','.join(header)}")
         values = np.array([[float(x) for x in row] for row in rows if row]).reshape(-1, len(HEADER))
     return dict(zip(HEADER, values.T))
+
+
+def within_band(table, path):
+    """The rows up to the top of the band at their friction; all of them where there is no summary or no band."""
+    try:
+        entries = json.loads(path.read_text())["frictions"]
+    except (OSError, ValueError, KeyError):
+        return table
+    top = {entry["friction"]: entry["band_top_hz"] for entry in entries if "band_top_hz" in entry}
+    limits = np.array([top.get(friction, np.inf) for friction in table["friction"]])
+    return {name: column[table["frequency_hz"] <= limits] for name, column in table.items()}
 
 
 def draw(table):
@@ -73,7 +86,7 @@ def main():
         sys.exit("usage: plot_stability.py REPORT_DIR")
     folder = Path(sys.argv[1])
     try:
-        table = read_eigenvalues(folder / "eigenvalues.csv")
+        table = within_band(read_eigenvalues(folder / "eigenvalues.csv"), folder / "summary.json")
     except (OSError, ValueError) as error:
         sys.exit(f"plot_stability: {error}")
     if len(table["friction"]) == 0:
