@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
-"""Plots frequency and growth rate of every mode against friction.
+"""Plots frequency and growth rate of every mode against friction, and the critical friction against speed.
 
-plot_stability.py REPORT_DIR reads REPORT_DIR/eigenvalues.csv and writes REPORT_DIR/stability.png. Eigenvalues above the band of
-REPORT_DIR/summary.json, which nobody vouches for, are left out.
+plot_stability.py REPORT_DIR reads REPORT_DIR/eigenvalues.csv and writes REPORT_DIR/stability.png; for a sweep over speeds one
+stability_speed_SPEED.png each, and critical_friction.png. Eigenvalues above the band, which nobody vouches for, are left out.
 """
 import csv
-import json
 import sys
 from pathlib import Path
 
@@ -15,7 +14,9 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-HEADER = ("friction,mode,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,damping_ratio,backward_error").split(",")
+HEADER = (
+    "friction,speed,mode,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,damping_ratio,backward_error,in_band"
+).split(",")
 UNSTABLE = 1e-6  # a growth rate is taken for positive above this fraction of |s|; below it is round-off
 
 
@@ -30,21 +31,15 @@ def read_eigenvalues(path):
     return dict(zip(HEADER, values.T))
 
 
-def within_band(table, path):
-    """The rows up to the top of the band at their friction; all of them where there is no summary or no band."""
-    try:
-        entries = json.loads(path.read_text())["frictions"]
-    except (OSError, ValueError, KeyError):
-        return table
-    top = {entry["friction"]: entry["band_top_hz"] for entry in entries if "band_top_hz" in entry}
-    limits = np.array([top.get(friction, np.inf) for friction in table["friction"]])
-    return {name: column[table["frequency_hz"] <= limits] for name, column in table.items()}
+def within_band(table):
+    """The rows that the program vouches for."""
+    return {name: column[table["in_band"] == 1] for name, column in table.items()}
 
 
 def draw(table):
     friction, growth = table["friction"], table["growth_rate_1_per_s"]
     roundoff = UNSTABLE * np.hypot(growth, table["angular_frequency_rad_per_s"])
-    unstable = growth > roundoff
+    unstable = unstable_rows(table)
     kilo = np.max(table["frequency_hz"], initial=0) >= 2000
     frequency = table["frequency_hz"] / (1000 if kilo else 1)
 
@@ -81,17 +76,52 @@ def summary(friction, unstable):
     return text + f"{np.count_nonzero(unstable)} unstable, from friction {np.min(friction[unstable]):g} on"
 
 
+def unstable_rows(table):
+    growth = table["growth_rate_1_per_s"]
+    return growth > UNSTABLE * np.hypot(growth, table["angular_frequency_rad_per_s"])
+
+
+def draw_critical(table):
+    """The first unstable friction of the sweep at each speed; the bar reaches down to the last stable one below it."""
+    figure, axes = plt.subplots(figsize=(9, 5), layout="constrained")
+    unstable = unstable_rows(table)
+    frictions = np.unique(table["friction"])
+    for speed in np.unique(table["speed"]):
+        at_speed = table["speed"] == speed
+        critical = table["friction"][at_speed & unstable]
+        if len(critical):
+            first = np.min(critical)
+            below = np.max(frictions[frictions < first], initial=0)
+            axes.errorbar(speed, first, [[first - below], [0]], fmt="o", color="C3", capsize=3)
+        else:
+            axes.plot(speed, np.max(frictions), "^", color="C0")
+    axes.plot([], [], "o", color="C3", label="first unstable friction of the sweep, down to the last stable one")
+    axes.plot([], [], "^", color="C0", label="stable up to this friction")
+    axes.set_xscale("log")
+    axes.set_ylim(0, 1.1 * np.max(frictions))
+    axes.set_xlabel("speed factor [-]")
+    axes.set_ylabel("critical friction [-]")
+    axes.grid(color="0.92")
+    axes.legend(frameon=False)
+    return figure
+
+
 def main():
     if len(sys.argv) != 2:
         sys.exit("usage: plot_stability.py REPORT_DIR")
     folder = Path(sys.argv[1])
     try:
-        table = within_band(read_eigenvalues(folder / "eigenvalues.csv"), folder / "summary.json")
+        table = within_band(read_eigenvalues(folder / "eigenvalues.csv"))
     except (OSError, ValueError) as error:
         sys.exit(f"plot_stability: {error}")
     if len(table["friction"]) == 0:
         sys.exit(f"plot_stability: {folder / 'eigenvalues.csv'} holds no eigenvalue")
-    draw(table).savefig(folder / "stability.png", dpi=150)
+    speeds = np.unique(table["speed"])
+    for speed in speeds:
+        name = "stability.png" if len(speeds) == 1 else f"stability_speed_{speed:g}.png"
+        draw({key: column[table["speed"] == speed] for key, column in table.items()}).savefig(folder / name, dpi=150)
+    if len(speeds) > 1:
+        draw_critical(table).savefig(folder / "critical_friction.png", dpi=150)
 
 
 if __name__ == "__main__":

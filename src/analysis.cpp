@@ -31,10 +31,9 @@ elasticity::Bodies assembleBodies(const mesh::Mesh& mesh) {
   return bodies;
 }
 
-contact::Contact buildContact(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, const std::vector<double>& frictions) {
+contact::Contact buildContact(const mesh::Mesh& mesh, const elasticity::Bodies& bodies) {
   Stage stage(mesh.comm, "contact");
   contact::Contact contact = contact::build(mesh, bodies);
-  if (std::any_of(frictions.begin(), frictions.end(), [](double f) { return f > 0; })) contact::requireSlip(contact);
   stage.finish(formatted(
       "%d contact nodes on %d interfaces%s", static_cast<int>(contact.totalNodes), static_cast<int>(contact.interfaces.size()),
       contact.weightsPositive ? "" : "; faces with non-positive nodal weights: accepted only while contact is closed everywhere"));
@@ -68,27 +67,50 @@ class CurrentSystem {
   std::unique_ptr<contact::AssociatedSystem> system_;
 };
 
-/// Steady sliding at every friction, each started from the active set of the one before.
-std::vector<steady::Solution> steadySweep(const Analysis& analysis, const std::vector<double>& frictions, CurrentSystem& system) {
+std::string pointText(const Parameters& at) {
+  return formatted("friction %g", at.friction) + (at.speed == 1 ? "" : formatted(", speed %g", at.speed));
+}
+
+/// Steady sliding at every point, each started from the active set of the one before.
+std::vector<steady::Solution> steadySweep(const Analysis& analysis, const std::vector<Parameters>& points, CurrentSystem& system) {
   const steady::Problem problem(*analysis.mesh, analysis.bodies, analysis.contact);
   std::vector<unsigned char> closed(analysis.contact.nodes.size(), 1);  // bonded
   std::vector<steady::Solution> solutions;
-  for (double friction : frictions) {
+  for (const auto& at : points) {
     const auto& current = system.of(closed);
     current.solver();
     Stage stage(analysis.mesh->comm, "steady");
-    solutions.push_back(problem.solve(friction, current));
+    solutions.push_back(problem.solve(at, current));
     const auto& solution = solutions.back();
-    stage.finish(formatted("friction %g: %s after %d iterations, %d of %d nodes open, smallest pressure %.4g, imbalance %.0e",
-                           friction, solution.reason.c_str(), solution.iterations, static_cast<int>(solution.openNodes),
-                           static_cast<int>(analysis.contact.totalNodes), solution.smallestPressure, solution.imbalance));
+    stage.finish(formatted("%s: %s after %d iterations, %d of %d nodes open, smallest pressure %.4g, imbalance %.0e",
+                           pointText(at).c_str(), solution.reason.c_str(), solution.iterations,
+                           static_cast<int>(solution.openNodes), static_cast<int>(analysis.contact.totalNodes),
+                           solution.smallestPressure, solution.imbalance));
     if (solution.converged)
       closed = solution.closed;
     else
-      complain(analysis.mesh->comm,
-               formatted("no steady sliding solution found at -flutter_friction %g: %s", friction, solution.reason.c_str()));
+      complain(analysis.mesh->comm, formatted("no steady sliding solution found at -flutter_friction %g, -flutter_speed %g: %s",
+                                              at.friction, at.speed, solution.reason.c_str()));
   }
   return solutions;
+}
+
+/// At each speed, or once where K and the slip are the same at all.
+std::vector<SpeedUniqueness> examineUniqueness(const Analysis& analysis, const std::vector<Parameters>& points) {
+  std::vector<double> frictions, speeds;
+  for (const auto& at : points) {
+    if (speeds.empty() || speeds.back() != at.speed) speeds.push_back(at.speed);
+    if (speeds.size() == 1) frictions.push_back(at.friction);
+  }
+  if (analysis.contact.slipIsGiven()) speeds.resize(1);
+  std::vector<SpeedUniqueness> result;
+  for (double speed : speeds) {
+    Stage stage(analysis.mesh->comm, "steady");
+    result.push_back({speed, steady::examine(analysis.bodies, analysis.contact, speed, frictions)});
+    const auto& last = result.back().found.judgements.back();
+    stage.finish(formatted("uniqueness at friction %g: %s (%s)", last.friction, last.verdict.c_str(), last.reason.c_str()));
+  }
+  return result;
 }
 
 std::vector<OwnedVec> nodalShapes(const modes::Modes& modes, const contact::AssociatedSystem& system) {
@@ -98,9 +120,9 @@ std::vector<OwnedVec> nodalShapes(const modes::Modes& modes, const contact::Asso
     Vec d = nullptr;
     OwnedVec u;
     PetscReal largest = 0;
-    check(MatCreateVecs(system.matrices().transformation.trial, nullptr, u.out()));
+    check(MatCreateVecs(system.transformation().trial, nullptr, u.out()));
     check(BVGetColumn(modes.vectors, i, &d));
-    check(MatMult(system.matrices().transformation.trial, d, u));
+    check(MatMult(system.transformation().trial, d, u));
     check(BVRestoreColumn(modes.vectors, i, &d));
     check(VecNorm(u, NORM_INFINITY, &largest));
     check(VecScale(u, 1 / largest));
@@ -109,36 +131,59 @@ std::vector<OwnedVec> nodalShapes(const modes::Modes& modes, const contact::Asso
   return shapes;
 }
 
-/// Modes of one active set, then flutter at the frictions from `first` to `last` that share it.
-ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::size_t last, const contact::AssociatedSystem& system,
-                            double& floor) {
+/// The terms of one point, and the change of its geometric stiffness from that in the modes of the segment.
+std::vector<flutter::Term> termsOf(const Analysis& analysis, const contact::AssociatedSystem& system,
+                                   const steady::Solution& solution, Mat prestress) {
+  OwnedMat change;
+  if (prestress) {
+    change = elasticity::geometricStiffness(*analysis.mesh, solution.displacement);
+    check(MatAXPY(change, -1, prestress, SAME_NONZERO_PATTERN));
+  }
+  return flutter::pointTerms(analysis.contact, system, solution, change);
+}
+
+/// Modes of one active set, then flutter at the points from `first` to `last` that share it.
+ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::size_t last, CurrentSystem& current, double& floor) {
+  const auto& closed = analysis.steady[first].closed;
+  OwnedMat prestress;
+  std::unique_ptr<contact::AssociatedSystem> stressed;
+  if (elasticity::prestressWanted()) {
+    prestress = elasticity::geometricStiffness(*analysis.mesh, analysis.steady[first].displacement);
+    stressed = std::make_unique<contact::AssociatedSystem>(analysis.bodies, analysis.contact, closed, prestress);
+  }
+  const contact::AssociatedSystem& system = stressed ? *stressed : current.of(closed);
+  const Mat trial = system.transformation().trial;
   ModalSegment segment;
   segment.openNodes = system.openNodes();
   segment.unknowns = system.size();
-  const flutter::Pencil pencil = flutter::approximationA(system);
+  flutter::Pencil pencil = flutter::affineTerms(analysis.contact, system);
   const bool direct = flutter::directWanted();
   if (direct) contact::rejectUnusedSolverOptions();
   std::unique_ptr<flutter::ReducedProblem> reduced;
+  std::vector<flutter::Term> modal;
   if (!direct) {
     segment.modes = modes::compute(system);
     if (benchmarkWanted.get()) floor = modes::floorSeconds(system);
     segment.shapes = nodalShapes(segment.modes, system);
-    Stage stage(analysis.mesh->comm, "flutter");
-    reduced = std::make_unique<flutter::ReducedProblem>(pencil, system, segment.modes);
-    stage.finish("friction operators projected on the modes");
+    pencil.add(flutter::modalDamping(segment.modes, system.m0()));
+    reduced = std::make_unique<flutter::ReducedProblem>(pencil, system.m0(), system.solver(), segment.modes);
   }
   // The largest friction first: its corrections nearly suffice for the others.
-  std::vector<std::size_t> order{last - 1};
-  for (std::size_t i = first; i + 1 < last; ++i) order.push_back(i);
+  std::vector<std::size_t> order;
+  for (std::size_t i = first; i < last; ++i) order.push_back(i);
+  std::rotate(order.begin(),
+              std::max_element(order.begin(), order.end(),
+                               [&](auto a, auto b) { return analysis.steady[a].at.friction < analysis.steady[b].at.friction; }),
+              order.end());
   segment.points.resize(last - first);
   for (std::size_t i : order) {
-    const double friction = analysis.steady[i].friction;
+    const Parameters& at = analysis.steady[i].at;
     Stage stage(analysis.mesh->comm, "flutter");
-    const Mat trial = system.matrices().transformation.trial;
+    pencil.setPointTerms(termsOf(analysis, system, analysis.steady[i], prestress));
     auto& point = segment.points[i - first];
-    point = direct ? flutter::solveDirect(pencil, friction, trial) : reduced->solve(friction, trial);
+    point = direct ? flutter::solveDirect(pencil, at, trial) : reduced->solve(at, trial);
     stage.finish(formatted(
-        "friction %g: %d of %d eigenvalues unstable%s, worst backward error %.1e%s", friction, point.unstableCount(),
+        "%s: %d of %d eigenvalues unstable%s, worst backward error %.1e%s", pointText(at).c_str(), point.unstableCount(),
         point.bandCount(), point.bandTop > 0 ? formatted(" to %.4g Hz", point.bandTop / (2 * M_PI)).c_str() : "",
         point.worstBackwardError(), direct ? "" : formatted(", basis of %d", static_cast<int>(reduced->basisSize())).c_str()));
   }
@@ -152,6 +197,7 @@ mesh::Request meshRequest() {
   request.bodies = elasticity::materialGroups();
   request.moving = elasticity::movingBodies();
   request.nodeGroups = contact::constrainedGroups();
+  for (const auto& group : elasticity::groundedGroups()) request.nodeGroups.push_back(group);
   request.surfaces = elasticity::loadedSurfaces();
   request.interfaces = contact::readInterfaces();
   request.periodic = contact::periodicPairs();
@@ -165,21 +211,22 @@ bool Analysis::converged() const {
 Analysis analyse(MPI_Comm comm) {
   rejectUnknownOptions();
   flutter::rejectIdleSolverOptions();
-  const auto frictions = flutter::frictions();
+  const auto points = flutter::points();
   Analysis analysis;
   analysis.mesh = std::make_unique<mesh::Mesh>(readMesh(comm));
   analysis.bodies = assembleBodies(*analysis.mesh);
-  analysis.contact = buildContact(*analysis.mesh, analysis.bodies, frictions);
+  analysis.contact = buildContact(*analysis.mesh, analysis.bodies);
   CurrentSystem system(analysis);
-  analysis.steady = steadySweep(analysis, frictions, system);
-  for (std::size_t first = 0, last = 0; first < frictions.size(); first = last) {
+  analysis.steady = steadySweep(analysis, points, system);
+  if (analysis.contact.totalNodes > 0 && steady::uniquenessWanted()) analysis.uniqueness = examineUniqueness(analysis, points);
+  for (std::size_t first = 0, last = 0; first < points.size(); first = last) {
     last = first + 1;
     const auto& start = analysis.steady[first];
     if (!start.converged) continue;
-    while (last < frictions.size() && analysis.steady[last].converged &&
+    while (last < points.size() && analysis.steady[last].converged &&
            sameOnAllRanks(comm, analysis.steady[last].closed, start.closed))
       ++last;
-    analysis.segments.push_back(flutterSegment(analysis, first, last, system.of(start.closed), analysis.modesFloorSeconds));
+    analysis.segments.push_back(flutterSegment(analysis, first, last, system, analysis.modesFloorSeconds));
   }
   return analysis;
 }

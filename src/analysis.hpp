@@ -6,10 +6,17 @@
 #include "flutter/flutter.hpp"
 #include "modes/modes.hpp"
 #include "steady/steady.hpp"
+#include "steady/uniqueness.hpp"
 
 namespace squeal {
 
-/// Frictions in a row with the same active set, and the modes of that set.
+/// What is known of the number of steady states at one speed, for all frictions.
+struct SpeedUniqueness {
+  double speed = 1;
+  steady::Uniqueness found;
+};
+
+/// Points of the sweep in a row with the same active set, and the modes of that set.
 struct ModalSegment {
   PetscInt openNodes = 0;
   PetscInt unknowns = 0;
@@ -22,11 +29,12 @@ struct Analysis {
   std::unique_ptr<mesh::Mesh> mesh;  ///< at a fixed address: contact and steady borrow it
   elasticity::Bodies bodies;
   contact::Contact contact;
-  std::vector<steady::Solution> steady;  ///< [friction]
+  std::vector<steady::Solution> steady;     ///< [point of the sweep]
+  std::vector<SpeedUniqueness> uniqueness;  ///< one entry for all speeds where they share it; empty unless -steady_uniqueness
   std::vector<ModalSegment> segments;
   double modesFloorSeconds = 0;  ///< one factorisation and 400 blocked solves, if `-modes_benchmark`
 
-  /// Every friction has a steady solution.
+  /// Every point has a steady solution.
   bool converged() const;
 };
 

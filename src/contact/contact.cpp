@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/sliding.hpp"
 #include "elasticity/element.hpp"
 #include "petsc/options.hpp"
 #include "petsc/text.hpp"
@@ -18,11 +19,6 @@ const RealListOption obstacleVelocityOption(
 const RealListOption obstacleDisplacementOption("contact", "contact_<interface>_obstacle_displacement", "0,0,0", "m", anyReal,
                                                 "displacement of the rigid obstacle, which presses the pad");
 
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Point scaled(const Point& a, double s) { return {s * a[0], s * a[1], s * a[2]}; }
 std::string text(const Point& p) { return formatted("(%.6g, %.6g, %.6g)", p[0], p[1], p[2]); }
 
 Point pointOf(const RealListOption& option, const std::string& subject) {
@@ -31,32 +27,6 @@ Point pointOf(const RealListOption& option, const std::string& subject) {
     throw Error("option -" + option.fullName(subject) + ": two or three components are wanted");
   values.resize(3, 0.0);
   return {values[0], values[1], values[2]};
-}
-
-OwnedMat nodalMatrix(const mesh::Mesh& mesh, PetscInt blocksPerRow) {
-  OwnedMat matrix;
-  const PetscInt owned = mesh.dimension * mesh.ownedNodes, entries = blocksPerRow * mesh.dimension;
-  check(MatCreateAIJ(mesh.comm, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE, entries, nullptr, entries, nullptr, matrix.out()));
-  return matrix;
-}
-
-void assembled(Mat matrix) {
-  check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
-  check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
-}
-
-/// Explicit zeros are kept, so that E never leaves the pattern of T and f only scales entries.
-void setBlock(Mat matrix, int dimension, PetscInt rowNode, PetscInt columnNode, const std::vector<double>& block) {
-  std::vector<PetscInt> rows, columns;
-  for (int d = 0; d < dimension; ++d) rows.push_back(dimension * rowNode + d), columns.push_back(dimension * columnNode + d);
-  check(MatSetValues(matrix, dimension, rows.data(), dimension, columns.data(), block.data(), INSERT_VALUES));
-}
-
-std::vector<double> outer(const Point& a, const Point& b, int dimension, double factor = 1) {
-  std::vector<double> block;
-  for (int i = 0; i < dimension; ++i)
-    for (int j = 0; j < dimension; ++j) block.push_back(factor * a[static_cast<std::size_t>(i)] * b[static_cast<std::size_t>(j)]);
-  return block;
 }
 
 /// u of periodic images from that of their primaries.
@@ -75,7 +45,7 @@ OwnedMat periodicity(const mesh::Mesh& mesh) {
 
 /// Sums over the pad faces at each node: area-weighted normals (towards the pad) and ∫ φ dA; those of images go to the primaries.
 struct FaceSums {
-  OwnedVec normal, area;  // nodal vectors; area in component 0
+  OwnedVec normal, area;  // nodal vectors; area in component 0, lumped area in component 1
 };
 
 FaceSums sumFaces(const mesh::Mesh& mesh, const Contact& contact) {
@@ -90,13 +60,16 @@ FaceSums sumFaces(const mesh::Mesh& mesh, const Contact& contact) {
       for (int i = 0; i < block.nodesPerFace; ++i) points.push_back(mesh.coordinates[static_cast<std::size_t>(nodes[i])]);
       const auto faceMass = elasticity::faceMass(table, points);
       const auto normals = elasticity::nodeNormals(table, points, -block.sign[e]);
-      double faceArea = 0;
+      double faceArea = 0, trace = 0;
       for (double entry : faceMass) faceArea += entry;
+      for (int i = 0; i < block.nodesPerFace; ++i) trace += faceMass[static_cast<std::size_t>(i * (block.nodesPerFace + 1))];
       for (int i = 0; i < block.nodesPerFace; ++i) {
         const PetscInt row = mesh.dimension * mesh.globalNode[static_cast<std::size_t>(nodes[i])];
         double weight = 0;
         for (int j = 0; j < block.nodesPerFace; ++j) weight += faceMass[static_cast<std::size_t>(i * block.nodesPerFace + j)];
         check(VecSetValue(local.area, row, weight, ADD_VALUES));
+        check(VecSetValue(local.area, row + 1, faceArea * faceMass[static_cast<std::size_t>(i * (block.nodesPerFace + 1))] / trace,
+                          ADD_VALUES));
         for (int d = 0; d < mesh.dimension; ++d)
           check(VecSetValue(local.normal, row + d, faceArea * normals[static_cast<std::size_t>(i)][static_cast<std::size_t>(d)],
                             ADD_VALUES));
@@ -130,6 +103,7 @@ std::vector<ContactNode> contactNodes(const mesh::Mesh& mesh, const elasticity::
     node.position = mesh.coordinates[static_cast<std::size_t>(pair.node)];
     node.node = pair.node, node.globalNode = mesh.firstNode + pair.node, node.master = pair.master, node.interface = pair.interface;
     node.area = area[mesh.dimension * pair.node];
+    node.lumpedArea = area[mesh.dimension * pair.node + 1];
     for (int d = 0; d < mesh.dimension; ++d) node.normal[static_cast<std::size_t>(d)] = normal[mesh.dimension * pair.node + d];
     node.normal = scaled(node.normal, 1 / std::sqrt(dot(node.normal, node.normal)));
     const Point velocity = discVelocity(pair);
@@ -291,6 +265,7 @@ Contact build(const mesh::Mesh& mesh, const elasticity::Bodies& bodies) {
   contact.mesh = &mesh;
   for (const auto& request : requests) contact.interfaces.push_back(request.name), contact.padSurfaces.push_back(request.pad);
   contact.periodic = periodicity(mesh);
+  contact.law = FrictionLaw::read();
   contact.nodes = contactNodes(mesh, bodies, requests, sumFaces(mesh, contact));
   PetscInt sums[2] = {static_cast<PetscInt>(contact.nodes.size()), 0};
   // tri6 corners weigh zero, quad8 corners less: consistent nodal forces of a positive pressure are not positive there.
@@ -311,7 +286,8 @@ Contact build(const mesh::Mesh& mesh, const elasticity::Bodies& bodies) {
   check(MatMatMult(contact.periodic, a, MAT_INITIAL_MATRIX, PETSC_DEFAULT, contact.kinematics.out()));
   contact.offset = elasticity::nodalVector(mesh);
   check(MatMult(contact.kinematics, held, contact.offset));
-  rejectLooseBodies(mesh, contact);
+  buildSliding(bodies, contact);
+  rejectLooseBodies(mesh, contact, bodies.springs);
   return contact;
 }
 
@@ -319,7 +295,7 @@ bool Contact::isPadSurface(const std::string& surface) const {
   return std::find(padSurfaces.begin(), padSurfaces.end(), surface) != padSurfaces.end();
 }
 
-Transformation Contact::transformation(const std::vector<unsigned char>& gapFree, const std::vector<unsigned char>& slides) const {
+Transformation Contact::transformation(const std::vector<unsigned char>& gapFree) const {
   const int dimension = mesh->dimension;
   std::vector<unsigned char> unknown = free;
   const auto gapAt = [&](const ContactNode& node) { return static_cast<std::size_t>(dimension * node.node + dimension - 1); };
@@ -346,29 +322,19 @@ Transformation Contact::transformation(const std::vector<unsigned char>& gapFree
   check(MatMatMult(kinematics, result.selection, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.trial.out()));
   check(MatSetBlockSizes(result.trial, dimension, 1));  // so that T x is a nodal vector that knows its components
 
-  const OwnedMat s = nodalMatrix(*mesh, 2);
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (!slides[i]) continue;
-    setBlock(s, dimension, nodes[i].globalNode, nodes[i].globalNode, outer(nodes[i].normal, nodes[i].slip, dimension));
-    if (nodes[i].master >= 0)
-      setBlock(s, dimension, nodes[i].globalNode, nodes[i].master, outer(nodes[i].normal, nodes[i].slip, dimension, -1));
-  }
-  assembled(s);
-  OwnedMat primaries;
-  check(MatMatMult(s, result.trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, primaries.out()));
-  check(MatMatMult(periodic, primaries, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
-                   result.friction.out()));  // images follow in the test functions too
   return result;
 }
 
-void requireSlip(const Contact& contact) {
+void requireSlip(const Contact& contact, const std::vector<Slip>& slip, const std::vector<unsigned char>& active) {
   std::string failure;
-  for (const auto& node : contact.nodes)
-    if (node.slipSpeed == 0 && failure.empty())
+  for (std::size_t i = 0; i < slip.size(); ++i)
+    if (active[i] && slip[i].speed == 0 && failure.empty()) {
+      const auto& node = contact.nodes[i];
       failure = "option -flutter_friction: friction needs a sliding velocity, but |w| = 0 at the contact node at " +
                 text(node.position) + " of interface '" + contact.interfaces[static_cast<std::size_t>(node.interface)] +
                 "'; give -motion_<body>_velocity or _speed, or -" +
                 obstacleVelocityOption.fullName(contact.interfaces[static_cast<std::size_t>(node.interface)]);
+    }
   failTogether(contact.mesh->comm, failure);
 }
 

@@ -14,39 +14,54 @@ const SolverPrefix factorisation("modes", "modes_st_",
 
 }  // namespace
 
-OwnedMat CoupledMatrices::affine(Mat x0, Mat x1, double friction) {
+OwnedMat Projection::friction(Mat slipRows) const {
+  OwnedMat result;
+  check(MatTransposeMatMult(slipRows, reaction, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.out()));
+  return result;
+}
+
+Projection project(const Contact& contact, const Transformation& transformation, Mat x) {
+  Projection projection;
+  if (!x) return projection;
+  OwnedMat xt;
+  check(MatMatMult(x, transformation.trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, xt.out()));
+  check(MatTransposeMatMult(transformation.trial, xt, MAT_INITIAL_MATRIX, PETSC_DEFAULT, projection.matrix.out()));
+  check(MatMatMult(contact.reaction, xt, MAT_INITIAL_MATRIX, PETSC_DEFAULT, projection.reaction.out()));
+  PetscBool known = PETSC_FALSE, symmetric = PETSC_FALSE;
+  check(MatIsSymmetricKnown(x, &known, &symmetric));
+  if (known && symmetric) check(MatSetOption(projection.matrix, MAT_SYMMETRIC, PETSC_TRUE));
+  return projection;
+}
+
+OwnedMat affine(Mat x0, Mat x1, double f) {
   OwnedMat sum;
   check(MatDuplicate(x0, MAT_COPY_VALUES, sum.out()));
-  if (friction == 0) return sum;
-  // E only scales and adds within the pattern of T, so X1 stays within that of X0.
-  check(MatAXPY(sum, friction, x1, SUBSET_NONZERO_PATTERN));
+  if (f == 0) return sum;
+  // Normal forces of a contact node come from its cells, and so do its tangential rows: Sᵀ N X T stays within Tᵀ X T.
+  check(MatAXPY(sum, f, x1, SUBSET_NONZERO_PATTERN));
   check(MatSetOption(sum, MAT_SYMMETRIC, PETSC_FALSE));
   return sum;
 }
 
-CoupledMatrices couple(const elasticity::Bodies& bodies, const Contact& contact, const std::vector<unsigned char>& gapFree,
-                       const std::vector<unsigned char>& slides, bool withMass) {
-  CoupledMatrices coupled;
-  coupled.transformation = contact.transformation(gapFree, slides);
-  const auto triple = [&](Mat x, OwnedMat& x0, OwnedMat& x1) {
-    OwnedMat xt;
-    check(MatMatMult(x, coupled.transformation.trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, xt.out()));
-    check(MatTransposeMatMult(coupled.transformation.trial, xt, MAT_INITIAL_MATRIX, PETSC_DEFAULT, x0.out()));
-    check(MatTransposeMatMult(coupled.transformation.friction, xt, MAT_INITIAL_MATRIX, PETSC_DEFAULT, x1.out()));
-    check(MatSetOption(x0, MAT_SYMMETRIC, PETSC_TRUE));
-  };
-  triple(bodies.stiffness, coupled.k0, coupled.k1);
-  if (withMass) triple(bodies.mass, coupled.m0, coupled.m1);
-  return coupled;
-}
-
-AssociatedSystem::AssociatedSystem(const elasticity::Bodies& bodies, const Contact& contact, std::vector<unsigned char> closed)
+AssociatedSystem::AssociatedSystem(const elasticity::Bodies& bodies, const Contact& contact, std::vector<unsigned char> closed,
+                                   Mat prestress)
     : closed_(std::move(closed)) {
   std::vector<unsigned char> open;
   for (auto isClosed : closed_) open.push_back(!isClosed);
   openNodes_ = static_cast<PetscInt>(std::count(open.begin(), open.end(), 1));
   check(MPI_Allreduce(MPI_IN_PLACE, &openNodes_, 1, MPIU_INT, MPI_SUM, contact.mesh->comm));
-  matrices_ = couple(bodies, contact, open, closed_, true);
+  transformation_ = contact.transformation(open);
+  OwnedMat stressed;
+  if (prestress) {
+    check(MatDuplicate(bodies.stiffness, MAT_COPY_VALUES, stressed.out()));
+    check(MatAXPY(stressed, 1, prestress, SAME_NONZERO_PATTERN));
+    check(MatSetOption(stressed, MAT_SYMMETRIC, PETSC_TRUE));
+  }
+  stiffness_ = project(contact, transformation_, prestress ? stressed.get() : bodies.stiffness.get());
+  mass_ = project(contact, transformation_, bodies.mass);
+  damping_ = project(contact, transformation_, bodies.damping);
+  gyroscopic_ = project(contact, transformation_, bodies.gyroscopic);
+  rotationStiffness_ = project(contact, transformation_, bodies.rotationStiffness);
 }
 
 KSP AssociatedSystem::solver() const {
@@ -54,10 +69,10 @@ KSP AssociatedSystem::solver() const {
     factorise();
     return solver_;
   }
-  Stage stage(PetscObjectComm(reinterpret_cast<PetscObject>(matrices_.k0.get())), "factor");
-  check(KSPCreate(PetscObjectComm(reinterpret_cast<PetscObject>(matrices_.k0.get())), solver_.out()));
+  Stage stage(PetscObjectComm(reinterpret_cast<PetscObject>(stiffness_.matrix.get())), "factor");
+  check(KSPCreate(PetscObjectComm(reinterpret_cast<PetscObject>(stiffness_.matrix.get())), solver_.out()));
   check(KSPSetOptionsPrefix(solver_, factorisation.prefix.c_str()));
-  check(KSPSetOperators(solver_, matrices_.k0, matrices_.k0));
+  check(KSPSetOperators(solver_, stiffness_.matrix, stiffness_.matrix));
   check(KSPSetType(solver_, KSPPREONLY));
   PC pc = nullptr;
   check(KSPGetPC(solver_, &pc));
@@ -72,7 +87,7 @@ KSP AssociatedSystem::solver() const {
 /// Does nothing where the factorisation is at hand. (An EPS that has used the solver leaves it without.)
 void AssociatedSystem::factorise() const {
   PC pc = nullptr;
-  check(KSPSetOperators(solver_, matrices_.k0, matrices_.k0));
+  check(KSPSetOperators(solver_, stiffness_.matrix, stiffness_.matrix));
   check(KSPSetUp(solver_));
   check(KSPGetPC(solver_, &pc));
   PCFailedReason failed;

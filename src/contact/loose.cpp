@@ -1,12 +1,9 @@
 /// Rigid motions that nothing stops: a small dense problem, six unknowns per connected part of the mesh.
-#include <petscsys.h>  // first: the next header needs it
-
-#include <petscblaslapack.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "contact/contact.hpp"
+#include "petsc/symmetric.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal::contact {
@@ -60,8 +57,10 @@ RigidMotions rigidMotions(const mesh::Mesh& mesh) {
   return {mesh, {(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2}, length};
 }
 
-/// Gram matrix Σ cᵀc of all constraint rows on rigid motions; its kernel is what nothing stops.
-std::vector<double> gram(const mesh::Mesh& mesh, const Contact& contact, const RigidMotions& motions) {
+/// Gram matrix Σ cᵀc of all rows of supports (springs among them, however soft) on rigid motions, those of contact on demand; its
+/// kernel is what nothing stops.
+std::vector<double> gram(const mesh::Mesh& mesh, const Contact& contact, Vec springs, const RigidMotions& motions,
+                         bool contactCloses) {
   const auto n = static_cast<std::size_t>(motions.size());
   std::vector<double> g(n * n, 0.0), row(n);
   const auto keep = [&] {
@@ -70,13 +69,17 @@ std::vector<double> gram(const mesh::Mesh& mesh, const Contact& contact, const R
         for (std::size_t j = 0; j < n; ++j) g[i * n + j] += row[i] * row[j];
     std::fill(row.begin(), row.end(), 0.0);
   };
+  const PetscScalar* spring = nullptr;
+  if (springs) check(VecGetArrayRead(springs, &spring));
   for (PetscInt node = 0; node < mesh.ownedNodes; ++node)
     for (int d = 0; d < mesh.dimension; ++d)
-      if (contact.constraints.held[static_cast<std::size_t>(mesh.dimension * node + d)]) {
+      if (const PetscInt i = mesh.dimension * node + d;
+          contact.constraints.held[static_cast<std::size_t>(i)] || (spring && spring[i] > 0)) {
         motions.add(row, mesh.nodePart[static_cast<std::size_t>(node)], mesh.coordinates[static_cast<std::size_t>(node)], unit(d),
                     1);
         keep();
       }
+  if (springs) check(VecRestoreArrayRead(springs, &spring));
   for (const auto& image : mesh.images)
     for (int d = 0; d < mesh.dimension; ++d) {
       const auto& x = mesh.coordinates[static_cast<std::size_t>(image.node)];
@@ -84,7 +87,7 @@ std::vector<double> gram(const mesh::Mesh& mesh, const Contact& contact, const R
       motions.add(row, image.primaryPart, {x[0] - image.shift[0], x[1] - image.shift[1], x[2] - image.shift[2]}, unit(d), -1);
       keep();
     }
-  for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
+  for (std::size_t i = 0; contactCloses && i < contact.nodes.size(); ++i) {
     const auto& node = contact.nodes[i];
     motions.add(row, mesh.nodePart[static_cast<std::size_t>(node.node)], node.position, node.normal, 1);
     if (node.master >= 0) motions.add(row, mesh.pairs[i].masterPart, node.position, node.normal, -1);
@@ -96,15 +99,12 @@ std::vector<double> gram(const mesh::Mesh& mesh, const Contact& contact, const R
 
 }  // namespace
 
-void rejectLooseBodies(const mesh::Mesh& mesh, const Contact& contact) {
+std::optional<LooseBody> looseBody(const mesh::Mesh& mesh, const Contact& contact, Vec springs, bool contactCloses) {
   const RigidMotions motions = rigidMotions(mesh);
-  std::vector<double> g = gram(mesh, contact, motions);
-  PetscBLASInt n = motions.size(), work = 8 * n, info = 0;
-  std::vector<double> eigenvalues(static_cast<std::size_t>(n)), space(static_cast<std::size_t>(work));
-  LAPACKsyev_("V", "U", &n, g.data(), &n, eigenvalues.data(), space.data(), &work, &info);
-  if (info != 0) throw Error("the rigid motions of the bodies cannot be examined");
+  std::vector<double> g = gram(mesh, contact, springs, motions, contactCloses);
+  const auto eigenvalues = symmetricEigen(g, motions.size());
   // A support over a thousandth of the model still holds a rotation with 1e-6 of a translation's weight per node.
-  if (eigenvalues.front() > 1e-12 * std::max(eigenvalues.back(), 1.0)) return;
+  if (eigenvalues.front() > 1e-12 * std::max(eigenvalues.back(), 1.0)) return std::nullopt;
   int worst = 0;
   double most = -1;
   for (int part = 0; part < mesh.parts; ++part) {
@@ -117,10 +117,14 @@ void rejectLooseBodies(const mesh::Mesh& mesh, const Contact& contact) {
   std::string motion;
   for (int k = 0; k < motions.perPart(); ++k)
     motion += formatted(k ? ", %.3g" : "%.3g", g[static_cast<std::size_t>(worst * motions.perPart() + k)]);
-  throw Error("singular problem: body '" + mesh.partName[static_cast<std::size_t>(worst)] +
-              "' can move rigidly while contact stays closed without friction (" +
-              (mesh.dimension == 2 ? "translation x, y, rotation z: " : "translations x, y, z, rotations x, y, z: ") + motion +
-              "); hold it with -constraint_<group>_clamped");
+  return LooseBody{mesh.partName[static_cast<std::size_t>(worst)],
+                   (mesh.dimension == 2 ? "translation x, y, rotation z: " : "translations x, y, z, rotations x, y, z: ") + motion};
+}
+
+void rejectLooseBodies(const mesh::Mesh& mesh, const Contact& contact, Vec springs) {
+  if (const auto loose = looseBody(mesh, contact, springs, true))
+    throw Error("singular problem: body '" + loose->body + "' can move rigidly while contact stays closed without friction (" +
+                loose->motion + "); hold it with -constraint_<group>_clamped or -ground_<group>_stiffness");
 }
 
 }  // namespace squeal::contact

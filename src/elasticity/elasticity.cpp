@@ -2,42 +2,26 @@
 
 #include <algorithm>
 
+#include "elasticity/assembly.hpp"
+#include "elasticity/convection.hpp"
 #include "elasticity/element.hpp"
+#include "elasticity/ground.hpp"
+#include "elasticity/material.hpp"
 #include "petsc/options.hpp"
-#include "petsc/text.hpp"
 
 namespace squeal::elasticity {
 namespace {
 
-const RealOption youngOption("elasticity", "material_<group>_young", std::nullopt, "Pa", positive, "Young's modulus of the body");
-const RealOption poissonOption("elasticity", "material_<group>_poisson", std::nullopt, "", {-1, 0.5, true, true},
-                               "Poisson's ratio of the body");
-const RealOption densityOption("elasticity", "material_<group>_density", std::nullopt, "kg/m3", positive,
-                               "mass density of the body");
 const ChoiceOption massOption(
     "elasticity", "elasticity_mass", {"consistent", "higher_order"}, "consistent",
     "mass matrix; higher_order: mean of consistent and lumped, fourth-order frequencies on linear elements");
 const TextOption incompatibleOption("elasticity", "elasticity_incompatible_modes", "hex8",
                                     "element types (quad4, hex8) given incompatible bending modes, or none");
-const ChoiceOption planeOption("elasticity", "elasticity_plane", {"strain", "stress"}, "strain",
-                               "plane problems: plane strain or plane stress");
+const FlagOption prestressOption("elasticity", "elasticity_prestress", false,
+                                 "on: the stress of steady sliding stiffens or softens the vibrations (geometric stiffness)");
 const RealOption pressureOption("load", "load_<group>_pressure", 0.0, "Pa", anyReal,
                                 "pressure on a surface group, positive inwards");
 const FlagOption centrifugalOption("load", "load_centrifugal", true, "centrifugal forces on rotating bodies");
-
-struct Material {
-  Hooke hooke;
-  double density;
-};
-
-std::vector<Material> readMaterials(const mesh::Mesh& mesh) {
-  const bool planeStress = planeOption.get() == "stress";
-  std::vector<Material> materials;
-  for (const auto& body : mesh.bodies)
-    materials.push_back(
-        {isotropic(youngOption.get(body), poissonOption.get(body), mesh.dimension, planeStress), densityOption.get(body)});
-  return materials;
-}
 
 std::vector<std::string> incompatibleElements() {
   auto names = incompatibleOption.list();
@@ -48,98 +32,106 @@ std::vector<std::string> incompatibleElements() {
   return names;
 }
 
-std::vector<Point> cellNodes(const mesh::Mesh& mesh, const PetscInt* nodes, int count) {
-  std::vector<Point> points;
-  for (int i = 0; i < count; ++i) points.push_back(mesh.coordinates[static_cast<std::size_t>(nodes[i])]);
-  return points;
+std::vector<double> scaled(std::vector<double> values, double factor) {
+  for (auto& value : values) value *= factor;
+  return values;
 }
 
-/// Entries of a matrix as (row, column, value) triples, the interface of MatSetPreallocationCOO.
-struct Triples {
-  std::vector<PetscInt> row, column;
-  std::vector<PetscScalar> value;
-  void reserve(std::size_t count) { row.reserve(count), column.reserve(count), value.reserve(count); }
-};
-
-OwnedMat toMatrix(const mesh::Mesh& mesh, Triples& triples) {
-  OwnedMat matrix;
-  const PetscInt owned = mesh.dimension * mesh.ownedNodes;
-  check(MatCreate(mesh.comm, matrix.out()));
-  check(MatSetSizes(matrix, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE));
-  check(MatSetBlockSize(matrix, mesh.dimension));
-  check(MatSetType(matrix, MATAIJ));
-  check(MatSetPreallocationCOO(matrix, static_cast<PetscCount>(triples.row.size()), triples.row.data(), triples.column.data()));
-  check(MatSetValuesCOO(matrix, triples.value.data(), INSERT_VALUES));
-  check(MatSetOption(matrix, MAT_SYMMETRIC, PETSC_TRUE));
-  return matrix;
+/// The same scalar matrix on each component, rows and columns [node][component].
+std::vector<double> onAllComponents(const std::vector<double>& scalar, int count, int dimension) {
+  const auto n = static_cast<std::size_t>(count), components = static_cast<std::size_t>(dimension), size = n * components;
+  std::vector<double> full(size * size, 0.0);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j)
+      for (std::size_t d = 0; d < components; ++d) full[(i * components + d) * size + j * components + d] = scalar[i * n + j];
+  return full;
 }
 
-/// Calls `visit(block, cell index, table, coordinates)` for each cell; where it throws InvertedElement all ranks get an Error.
-template <class Visit>
-void forEachCell(const mesh::Mesh& mesh, Visit visit) {
-  std::string failure;
-  for (const auto& block : mesh.cells) {
-    const ShapeTable& table = shapeTable(block.type);
-    for (std::size_t e = 0; e < block.tag.size(); ++e) try {
-        visit(block, e, table,
-              cellNodes(mesh, block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerCell), block.nodesPerCell));
-      } catch (const InvertedElement&) {
-        if (failure.empty())
-          failure = "inverted element: cell " + std::to_string(block.tag[e]) + " (" + table.name + ") of group '" +
-                    mesh.bodies[static_cast<std::size_t>(block.body[e])] + "' has a Jacobian that is not positive";
-      }
+/// Collective. [local node][component], ghosts included.
+std::vector<double> localValues(const mesh::Mesh& mesh, Vec u) {
+  OwnedIS nodes;
+  OwnedVec local;
+  OwnedScatter scatter;
+  check(ISCreateBlock(PETSC_COMM_SELF, mesh.dimension, mesh.localNodes(), mesh.globalNode.data(), PETSC_COPY_VALUES, nodes.out()));
+  check(VecCreateSeq(PETSC_COMM_SELF, mesh.dimension * mesh.localNodes(), local.out()));
+  check(VecScatterCreate(u, nodes, local, nullptr, scatter.out()));
+  check(VecScatterBegin(scatter, u, local, INSERT_VALUES, SCATTER_FORWARD));
+  check(VecScatterEnd(scatter, u, local, INSERT_VALUES, SCATTER_FORWARD));
+  const PetscScalar* array = nullptr;
+  check(VecGetArrayRead(local, &array));
+  std::vector<double> values(array, array + mesh.dimension * mesh.localNodes());
+  check(VecRestoreArrayRead(local, &array));
+  return values;
+}
+
+/// `diagonal` may be null.
+void appendDiagonal(Triples& triples, const mesh::Mesh& mesh, Vec diagonal) {
+  if (!diagonal) return;
+  const PetscScalar* values = nullptr;
+  check(VecGetArrayRead(diagonal, &values));
+  for (PetscInt i = 0; i < mesh.dimension * mesh.ownedNodes; ++i) {
+    triples.row.push_back(mesh.dimension * mesh.firstNode + i);
+    triples.column.push_back(mesh.dimension * mesh.firstNode + i);
+    triples.value.push_back(values[i]);
   }
-  failTogether(mesh.comm, failure);
+  check(VecRestoreArrayRead(diagonal, &values));
 }
 
-/// Adds the entries of one element: `components` copies of a scalar matrix, or one matrix on all components.
-void append(Triples& triples, const mesh::Mesh& mesh, const PetscInt* nodes, int count, const std::vector<double>& matrix,
-            bool scalar) {
-  const int dimension = mesh.dimension;
-  for (int i = 0; i < count; ++i)
-    for (int a = 0; a < dimension; ++a)
-      for (int j = 0; j < count; ++j)
-        for (int b = 0; b < dimension; ++b) {
-          if (scalar && a != b) continue;
-          triples.row.push_back(dimension * mesh.globalNode[static_cast<std::size_t>(nodes[i])] + a);
-          triples.column.push_back(dimension * mesh.globalNode[static_cast<std::size_t>(nodes[j])] + b);
-          triples.value.push_back(
-              scalar ? matrix[static_cast<std::size_t>(i * count + j)]
-                     : matrix[static_cast<std::size_t>((i * dimension + a) * count * dimension + j * dimension + b)]);
-        }
+/// Entries of all element matrices of this rank.
+std::size_t denseEntries(const mesh::Mesh& mesh) {
+  std::size_t entries = 0;
+  for (const auto& block : mesh.cells)
+    entries +=
+        block.tag.size() * static_cast<std::size_t>(block.nodesPerCell * block.nodesPerCell * mesh.dimension * mesh.dimension);
+  return entries;
 }
 
 void assembleMatrices(const mesh::Mesh& mesh, const std::vector<Material>& materials, Bodies& bodies) {
   const auto incompatible = incompatibleElements();
   const MassKind kind = massOption.get() == "consistent" ? MassKind::consistent : MassKind::higherOrder;
-  std::size_t entries = 0;
-  for (const auto& block : mesh.cells)
-    entries +=
-        block.tag.size() * static_cast<std::size_t>(block.nodesPerCell * block.nodesPerCell * mesh.dimension * mesh.dimension);
-  Triples k, m;
-  k.reserve(entries);
-  m.reserve(entries / static_cast<std::size_t>(mesh.dimension));
+  Triples k, m, c;
+  k.reserve(denseEntries(mesh));
+  m.reserve(denseEntries(mesh) / static_cast<std::size_t>(mesh.dimension));
   forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table, const std::vector<Point>& points) {
     const Material& material = materials[static_cast<std::size_t>(block.body[e])];
     const PetscInt* nodes = block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerCell);
     const bool bubbles = std::find(incompatible.begin(), incompatible.end(), table.name) != incompatible.end();
-    append(k, mesh, nodes, block.nodesPerCell, stiffness(table, points, material.hooke, bubbles), false);
-    append(m, mesh, nodes, block.nodesPerCell, mass(table, points, material.density, kind), true);
+    const auto cellStiffness = stiffness(table, points, material.law, bubbles);
+    const auto cellMass = mass(table, points, material.density, kind);
+    append(k, mesh, nodes, block.nodesPerCell, cellStiffness, false);
+    append(m, mesh, nodes, block.nodesPerCell, cellMass, true);
+    if (material.massDamping > 0) append(c, mesh, nodes, block.nodesPerCell, scaled(cellMass, material.massDamping), true);
+    if (material.stiffnessDamping > 0)
+      append(c, mesh, nodes, block.nodesPerCell, scaled(cellStiffness, material.stiffnessDamping), false);
   });
-  bodies.stiffness = toMatrix(mesh, k);
-  k = {};
-  bodies.mass = toMatrix(mesh, m);
+  Ground ground = readGround(mesh);
+  appendDiagonal(k, mesh, ground.springs);
+  appendDiagonal(c, mesh, ground.dashpots);
+  bodies.stiffness = toMatrix(mesh, k, Symmetry::rounded);
+  bodies.mass = toMatrix(mesh, m, Symmetry::rounded);
+  bodies.springs = std::move(ground.springs);
+  const bool damped = ground.dashpots || std::any_of(materials.begin(), materials.end(), [](const Material& material) {
+                        return material.massDamping > 0 || material.stiffnessDamping > 0;
+                      });
+  if (damped) bodies.damping = toMatrix(mesh, c, Symmetry::rounded);  // C = α M + (β + η / 2πf) K, dashpots
 }
 
-/// Adds [node][3] values of one element to the load.
-void addLoad(Vec load, const mesh::Mesh& mesh, const PetscInt* nodes, int count, const std::vector<double>& values, double factor) {
-  for (int i = 0; i < count; ++i)
-    for (int d = 0; d < mesh.dimension; ++d)
-      check(VecSetValue(load, mesh.dimension * mesh.globalNode[static_cast<std::size_t>(nodes[i])] + d,
-                        factor * values[static_cast<std::size_t>(3 * i + d)], ADD_VALUES));
+void assembleCentrifugal(const mesh::Mesh& mesh, const std::vector<Material>& materials, Bodies& bodies) {
+  bodies.centrifugal = nodalVector(mesh);
+  if (centrifugalOption.get())
+    forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table, const std::vector<Point>& points) {
+      const Motion& motion = bodies.motions[static_cast<std::size_t>(block.body[e])];
+      if (motion.speed != 0)
+        addLoad(bodies.centrifugal, mesh, block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerCell), block.nodesPerCell,
+                centrifugal(table, points, materials[static_cast<std::size_t>(block.body[e])].density, motion.speed, motion.axis,
+                            motion.origin),
+                1);
+    });
+  check(VecAssemblyBegin(bodies.centrifugal));
+  check(VecAssemblyEnd(bodies.centrifugal));
 }
 
-void assembleLoad(const mesh::Mesh& mesh, const std::vector<Material>& materials, Bodies& bodies) {
+void assembleLoad(const mesh::Mesh& mesh, Bodies& bodies) {
   bodies.load = nodalVector(mesh);
   std::vector<double> pressure;
   for (const auto& surface : mesh.surfaces) pressure.push_back(pressureOption.get(surface));
@@ -149,36 +141,18 @@ void assembleLoad(const mesh::Mesh& mesh, const std::vector<Material>& materials
       const PetscInt* nodes = block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerFace);
       if (p != 0)
         addLoad(bodies.load, mesh, nodes, block.nodesPerFace,
-                faceNormals(shapeTable(block.type), cellNodes(mesh, nodes, block.nodesPerFace), block.sign[e]), -p);
+                faceNormals(shapeTable(block.type), pointsOf(mesh, nodes, block.nodesPerFace), block.sign[e]), -p);
     }
-  if (centrifugalOption.get())
-    forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table, const std::vector<Point>& points) {
-      const Motion& motion = bodies.motions[static_cast<std::size_t>(block.body[e])];
-      if (motion.speed != 0)
-        addLoad(bodies.load, mesh, block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerCell), block.nodesPerCell,
-                centrifugal(table, points, materials[static_cast<std::size_t>(block.body[e])].density, motion.speed, motion.axis,
-                            motion.origin),
-                1);
-    });
   check(VecAssemblyBegin(bodies.load));
   check(VecAssemblyEnd(bodies.load));
+  check(VecAXPY(bodies.load, 1, bodies.centrifugal));
 }
 
 }  // namespace
 
-std::vector<std::string> materialGroups() {
-  auto groups = youngOption.subjects();
-  for (const Option* option : {static_cast<const Option*>(&poissonOption), static_cast<const Option*>(&densityOption)})
-    for (const auto& group : option->subjects())
-      if (!youngOption.given(group))
-        throw Error("option -" + youngOption.fullName(group) + " is missing, but -" + option->fullName(group) + " is given");
-  if (groups.empty()) throw Error("no body: give -material_<group>_young, _poisson and _density for each volume group of the mesh");
-  for (const auto& group : groups)
-    youngOption.get(group), poissonOption.get(group), densityOption.get(group);  // checks before the mesh is read
-  return groups;
-}
-
 std::vector<std::string> loadedSurfaces() { return pressureOption.subjects(); }
+
+bool prestressWanted() { return prestressOption.get(); }
 
 OwnedVec nodalVector(const mesh::Mesh& mesh) {
   OwnedVec vector;
@@ -194,8 +168,28 @@ Bodies assemble(const mesh::Mesh& mesh) {
   bodies.motions = readMotions(mesh.bodies);
   const auto materials = readMaterials(mesh);
   assembleMatrices(mesh, materials, bodies);
-  assembleLoad(mesh, materials, bodies);
+  if (convectiveTerms()) assembleConvection(mesh, materials, bodies);
+  assembleCentrifugal(mesh, materials, bodies);
+  assembleLoad(mesh, bodies);
   return bodies;
+}
+
+OwnedMat geometricStiffness(const mesh::Mesh& mesh, Vec displacement) {
+  const auto materials = readMaterials(mesh);
+  const auto incompatible = incompatibleElements();
+  const auto values = localValues(mesh, displacement);
+  Triples k;
+  k.reserve(denseEntries(mesh));
+  forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table, const std::vector<Point>& points) {
+    const PetscInt* nodes = block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerCell);
+    std::vector<double> u;
+    for (int i = 0; i < block.nodesPerCell; ++i)
+      for (int d = 0; d < mesh.dimension; ++d) u.push_back(values[static_cast<std::size_t>(mesh.dimension * nodes[i] + d)]);
+    const bool bubbles = std::find(incompatible.begin(), incompatible.end(), table.name) != incompatible.end();
+    const auto cell = geometricStiffness(table, points, materials[static_cast<std::size_t>(block.body[e])].law, bubbles, u);
+    append(k, mesh, nodes, block.nodesPerCell, onAllComponents(cell, block.nodesPerCell, mesh.dimension), false);  // pattern of K
+  });
+  return toMatrix(mesh, k, Symmetry::symmetric);
 }
 
 }  // namespace squeal::elasticity

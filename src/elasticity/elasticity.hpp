@@ -1,6 +1,6 @@
 #pragma once
-/// The elastic bodies, uncoupled: K, M and the loads on all nodal displacements u. N = dimension × nodes, row dimension·node +
-/// component.
+/// The elastic bodies, uncoupled: their matrices and the loads on all nodal displacements u. N = dimension × nodes, row
+/// dimension·node + component.
 #include "elasticity/motion.hpp"
 #include "mesh/mesh.hpp"
 #include "petsc/owned.hpp"
@@ -8,19 +8,34 @@
 namespace squeal::elasticity {
 
 struct Bodies {
-  OwnedMat stiffness;           ///< K, N×N, symmetric, block-diagonal over the bodies, N/m
-  OwnedMat mass;                ///< M, N×N, symmetric positive definite, kg
-  OwnedVec load;                ///< b, N: pressures and centrifugal forces, N
-  std::vector<Motion> motions;  ///< [body]
+  OwnedMat stiffness;  ///< K, N×N, symmetric, block-diagonal over the bodies, grounded springs included, N/m
+  OwnedMat mass;       ///< M, N×N, symmetric positive definite, kg
+  OwnedMat damping;    ///< C, N×N, symmetric, of rates in the axes at rest, N·s/m; empty if there is none
+  OwnedMat gyroscopic;  ///< G = 2∫ρ(Dφⱼ)·φᵢ at the base motions, N×N, exactly skew, N·s/m; empty without convective terms
+  OwnedMat rotationStiffness;   ///< K^R = −∫ρ(Dφⱼ)·(Dφᵢ) at the base motions, exactly symmetric, N/m; empty as G
+  OwnedVec load;                ///< b, N: pressures, and centrifugal forces at the base motions, N
+  OwnedVec centrifugal;         ///< the centrifugal part of b, N
+  OwnedVec springs;             ///< N: stiffness of grounded springs, N/m; empty if there are none
+  std::vector<Motion> motions;  ///< [body], base motions
 };
 
-/// Volume groups with a material, from the `-material_<group>_young` options. Error if there is none.
+/// Volume groups with a material, from the options that give an elastic law (`-material_<group>_young`, …). Error if there is none.
 std::vector<std::string> materialGroups();
 /// Surface groups with a `-load_<group>_pressure` option.
 std::vector<std::string> loadedSurfaces();
 
-/// Collective. Assembles K, M and b. Errors: bad or missing material, inverted element (names body and cell).
+/// Groups with a `-ground_<group>_*` option.
+std::vector<std::string> groundedGroups();
+
+/// Collective. Errors: bad or missing material, inverted element (names body and cell), convective terms on a body that does not
+/// keep its place as its matter moves.
 Bodies assemble(const mesh::Mesh& mesh);
+
+/// `-elasticity_prestress`: the geometric stiffness of steady sliding joins K.
+bool prestressWanted();
+/// Collective. K_σ,ij = ∫ ∇φᵢ·σ∇φⱼ on each component, σ = D ε of the nodal displacements given (of their incompatible modes, too):
+/// N×N, exactly symmetric, with the pattern of K, N/m.
+OwnedMat geometricStiffness(const mesh::Mesh& mesh, Vec displacement);
 
 /// Collective. A vector of nodal displacements, N entries, block size = dimension.
 OwnedVec nodalVector(const mesh::Mesh& mesh);

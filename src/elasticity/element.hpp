@@ -1,21 +1,12 @@
 #pragma once
 /// Element matrices: coordinates and material in, small dense arrays out. No PETSc object is seen here. Not collective.
-#include <array>
 #include <vector>
 
+#include "elasticity/hooke.hpp"
 #include "elasticity/shape.hpp"
 #include "mesh/mesh.hpp"
 
 namespace squeal::elasticity {
-
-using mesh::Point;
-
-/// Hooke's law σ = D ε with engineering shear strains; row-major, 3×3 (xx, yy, xy) or 6×6 (xx, yy, zz, xy, yz, zx), Pa.
-struct Hooke {
-  int size = 6;
-  std::vector<double> matrix;
-};
-Hooke isotropic(double young, double poisson, int dimension, bool planeStress);
 
 /// Thrown by the routines below where det J ≤ 0 at a quadrature point.
 struct InvertedElement {};
@@ -23,7 +14,12 @@ struct InvertedElement {};
 /// K_ij = ∫ Bᵢᵀ D Bⱼ, row-major, rows and columns [node][component], N/m (per unit thickness in the plane).
 /// `incompatible` (quad4, hex8): quadratic bubble modes of Taylor, Beresford and Wilson (1976), condensed; they pass the patch
 /// test.
-std::vector<double> stiffness(const ShapeTable& table, const std::vector<Point>& nodes, const Hooke& hooke, bool incompatible);
+std::vector<double> stiffness(const ShapeTable& table, const std::vector<Point>& nodes, const Law& law, bool incompatible);
+
+/// ∫ ∇φᵢ·σ∇φⱼ, row-major [node][node], one copy for all components, N/m. σ = D ε of the displacement, [node][component], m, and of
+/// the bubbles that go with it.
+std::vector<double> geometricStiffness(const ShapeTable& table, const std::vector<Point>& nodes, const Law& law, bool incompatible,
+                                       std::vector<double> displacement);
 
 enum class MassKind { consistent, higherOrder };
 /// m_ij = ∫ ρ φᵢ φⱼ, row-major [node][node], kg, one copy for all components. Higher order: the mean of the consistent matrix and
@@ -34,10 +30,24 @@ std::vector<double> mass(const ShapeTable& table, const std::vector<Point>& node
 std::vector<double> centrifugal(const ShapeTable& table, const std::vector<Point>& nodes, double density, double speed,
                                 const Point& axis, const Point& origin);
 
+/// Convective terms of matter that moves through the element with the velocity V, row-major [node][node], one copy for all
+/// components; Dφ = V·∇φ.
+struct Convection {
+  std::vector<double> gyroscopic;  ///< ∫ ρ ((Dφⱼ) φᵢ − (Dφᵢ) φⱼ), kg/s: 2 ∫ ρ (Dφⱼ) φᵢ where no matter crosses the surface
+  std::vector<double> rotationStiffness;  ///< −∫ ρ (Dφⱼ)(Dφᵢ), N/m
+  std::vector<double> flux;               ///< ∫ Dφᵢ, m³/s, [node]; summed over a body: ∮ φᵢ V·n
+  std::vector<double> fluxScale;          ///< ∫ |Dφᵢ|, m³/s, [node]
+};
+/// `velocity`: V at the nodes; affine in x, so the shape functions interpolate it exactly.
+Convection convection(const ShapeTable& table, const std::vector<Point>& nodes, const std::vector<Point>& velocity, double density);
+
 /// ∫ φᵢ n dA on a face (line in the plane), [node][3]; n along the normal by node order times `sign`.
 std::vector<double> faceNormals(const ShapeTable& table, const std::vector<Point>& nodes, int sign);
 /// ∫ φᵢ φⱼ dA on a face, row-major [node][node].
 std::vector<double> faceMass(const ShapeTable& table, const std::vector<Point>& nodes);
+/// Derivative of each shape function along the velocity at each node of the face, [at node][function], 1/s for velocities in m/s.
+/// Only the part of `velocity` in the plane of the face counts.
+std::vector<double> faceDerivative(const ShapeTable& table, const std::vector<Point>& nodes, const std::vector<Point>& velocity);
 /// Unit normal of the face at each of its nodes, by node order times `sign`, [node][3].
 std::vector<Point> nodeNormals(const ShapeTable& table, const std::vector<Point>& nodes, int sign);
 

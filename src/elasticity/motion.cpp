@@ -12,14 +12,30 @@ namespace {
 const RealListOption velocityOption("motion", "motion_<body>_velocity", "0,0,0", "m/s", anyReal,
                                     "the body's matter translates with this velocity");
 const RealOption speedOption("motion", "motion_<body>_speed", 0.0, "rad/s", anyReal, "the body's matter rotates at this speed");
+const RealOption rpmOption("motion", "motion_<body>_rpm", 0.0, "1/min", anyReal, "the same in revolutions per minute");
 const RealListOption axisOption("motion", "motion_<body>_axis", "0,0,1", "", anyReal, "axis of the rotation, right-handed");
 const RealListOption originOption("motion", "motion_<body>_origin", "0,0,0", "m", anyReal, "a point of the axis");
+const FlagOption convectiveOption(
+    "motion", "motion_convective", false,
+    "on: the matter of moving bodies carries its displacement along (gyroscopic and rotation stiffness "
+    "terms); off: approximation A");
 
 mesh::Point point(const RealListOption& option, const std::string& body) {
   const auto values = option.get(body);
   if (values.size() != 2 && values.size() != 3)
     throw Error("option -" + option.fullName(body) + ": two or three components are wanted");
   return {values[0], values[1], values.size() == 3 ? values[2] : 0.0};
+}
+
+/// ω, rad/s, from whichever option gives it.
+double rotationSpeed(const std::string& body) {
+  const bool inRpm = rpmOption.given(body);
+  if (inRpm && speedOption.given(body))
+    throw Error("options -" + speedOption.fullName(body) + " and -" + rpmOption.fullName(body) + ": give the speed once");
+  if (velocityOption.given(body) && (inRpm || speedOption.given(body)))
+    throw Error("options -" + velocityOption.fullName(body) + " and -" + (inRpm ? rpmOption : speedOption).fullName(body) +
+                ": a body translates or rotates, not both");
+  return inRpm ? rpmOption.get(body) * 2 * M_PI / 60 : speedOption.get(body);
 }
 
 }  // namespace
@@ -30,26 +46,29 @@ mesh::Point Motion::velocity(const mesh::Point& x) const {
           translation[2] + speed * (axis[0] * r[1] - axis[1] * r[0])};
 }
 
+bool Motion::moves() const { return speed != 0 || translation != mesh::Point{}; }
+
+bool convectiveTerms() { return convectiveOption.get(); }
+
 std::vector<std::string> movingBodies() {
   std::set<std::string> bodies;
-  for (const auto& body : velocityOption.subjects()) bodies.insert(body);
-  for (const auto& body : speedOption.subjects()) bodies.insert(body);
+  for (const Option* option : {static_cast<const Option*>(&velocityOption), static_cast<const Option*>(&speedOption),
+                               static_cast<const Option*>(&rpmOption)})
+    for (const auto& body : option->subjects()) bodies.insert(body);
   return {bodies.begin(), bodies.end()};
 }
 
 std::vector<Motion> readMotions(const std::vector<std::string>& bodies) {
   const std::set<std::string> known(bodies.begin(), bodies.end());
-  for (const Option* option : {static_cast<const Option*>(&velocityOption), static_cast<const Option*>(&speedOption),
-                               static_cast<const Option*>(&axisOption), static_cast<const Option*>(&originOption)})
+  for (const Option* option :
+       {static_cast<const Option*>(&velocityOption), static_cast<const Option*>(&speedOption),
+        static_cast<const Option*>(&rpmOption), static_cast<const Option*>(&axisOption), static_cast<const Option*>(&originOption)})
     for (const auto& body : option->subjects())
       if (!known.count(body))
         throw Error("option -" + option->fullName(body) + ": '" + body + "' is not a body (a group with a material)");
   std::vector<Motion> motions;
   for (const auto& body : bodies) {
-    if (velocityOption.given(body) && speedOption.given(body))
-      throw Error("options -" + velocityOption.fullName(body) + " and -" + speedOption.fullName(body) +
-                  ": a body translates or rotates, not both");
-    Motion motion{point(velocityOption, body), speedOption.get(body), point(axisOption, body), point(originOption, body)};
+    Motion motion{point(velocityOption, body), rotationSpeed(body), point(axisOption, body), point(originOption, body)};
     const double length =
         std::sqrt(motion.axis[0] * motion.axis[0] + motion.axis[1] * motion.axis[1] + motion.axis[2] * motion.axis[2]);
     if (!(length > 0)) throw Error("option -" + axisOption.fullName(body) + ": the axis has no length");

@@ -16,11 +16,15 @@ struct Motion {
 
   /// V(x), m/s.
   mesh::Point velocity(const mesh::Point& x) const;
+  bool moves() const;
 };
 
+/// Option -motion_convective: the matter of moving bodies carries its displacement along, D u = (V·∇)u.
+bool convectiveTerms();
 /// Bodies with a `-motion_<body>_*` option.
 std::vector<std::string> movingBodies();
-/// Motion of each body in turn; none given: at rest. Error: rotation and translation together, axis of zero length.
+/// Motion of each body in turn; none given: at rest. Error: rotation and translation together, both units of the
+/// speed, axis of zero length.
 std::vector<Motion> readMotions(const std::vector<std::string>& bodies);
 
 }  // namespace squeal::elasticity

@@ -1,11 +1,10 @@
 #include "flutter/basis.hpp"
 
-#include <petscsys.h>  // first: the next header needs it
-
-#include <petscblaslapack.h>
-
 #include <cmath>
 #include <vector>
+
+#include "flutter/images.hpp"
+#include "petsc/symmetric.hpp"
 
 namespace squeal::flutter {
 
@@ -25,14 +24,13 @@ Basis::Basis(BV start, Mat mass) : mass_(mass) {
   check(BVCopy(start, columns_));
 }
 
-OwnedMat Basis::gram(BV block, PetscInt count) const {
-  OwnedMat result;
+DenseMatrix Basis::gram(BV block, PetscInt count) const {
   const OwnedBV image = columnsLike(block, count);
   check(BVSetActiveColumns(block, 0, count));
   check(BVMatMult(block, mass_, image));
-  check(MatCreateSeqDense(PETSC_COMM_SELF, count, count, nullptr, result.out()));
-  check(BVDot(image, block, result));
-  return result;
+  const ReadColumns left(block), right(image);
+  return transposedProduct(PetscObjectComm(reinterpret_cast<PetscObject>(block)), left.values(), left.rows(), count, right.values(),
+                           count);
 }
 
 /// Unit columns, so that "dependent" means the same for all; a column that is zero stays so.
@@ -58,23 +56,6 @@ void Basis::orthogonalise(BV block, PetscInt count) {
   }
 }
 
-/// Eigenvalues (ascending) and eigenvectors (columns, in place) of a symmetric matrix.
-std::vector<double> Basis::symmetricEigen(Mat matrix) {
-  PetscInt size = 0;
-  PetscScalar* values = nullptr;
-  check(MatGetSize(matrix, &size, nullptr));
-  check(MatDenseGetArray(matrix, &values));
-  std::vector<double> eigenvalues(static_cast<std::size_t>(size)), work(1);
-  PetscBLASInt n = static_cast<PetscBLASInt>(size), length = -1, info = 0;
-  LAPACKsyev_("V", "L", &n, values, &n, eigenvalues.data(), work.data(), &length, &info);
-  length = static_cast<PetscBLASInt>(work[0]);
-  work.resize(static_cast<std::size_t>(length));
-  LAPACKsyev_("V", "L", &n, values, &n, eigenvalues.data(), work.data(), &length, &info);
-  check(MatDenseRestoreArray(matrix, &values));
-  if (info != 0) check(PETSC_ERR_LIB);
-  return eigenvalues;
-}
-
 PetscInt Basis::add(BV block, PetscInt count, double dependent) {
   orthogonalise(block, count);
   normalise(block, count);
@@ -82,16 +63,16 @@ PetscInt Basis::add(BV block, PetscInt count, double dependent) {
   // Once more for what rounding left.
   for (int pass = 0; pass < 2 && count > 0; ++pass) {
     if (pass > 0) orthogonalise(block, count);
-    const OwnedMat products = gram(block, count);
-    const auto eigenvalues = symmetricEigen(products);
+    auto combinations = gram(block, count);
+    const auto eigenvalues = symmetricEigen(combinations, static_cast<int>(count));
     PetscInt first = 0;
     while (first < count && !(eigenvalues[static_cast<std::size_t>(first)] > dependent * dependent * eigenvalues.back())) ++first;
-    for (PetscInt j = 0; j < count; ++j) {
-      PetscScalar* column = nullptr;
-      check(MatDenseGetColumn(products, j, &column));
-      for (PetscInt i = 0; i < count; ++i) column[i] *= j < first ? 0 : 1 / std::sqrt(eigenvalues[static_cast<std::size_t>(j)]);
-      check(MatDenseRestoreColumn(products, &column));
+    for (std::size_t k = 0; k < combinations.size(); ++k) {
+      const auto j = k / static_cast<std::size_t>(count);
+      combinations[k] *= static_cast<PetscInt>(j) < first ? 0 : 1 / std::sqrt(eigenvalues[j]);
     }
+    OwnedMat products;
+    check(MatCreateSeqDense(PETSC_COMM_SELF, count, count, combinations.data(), products.out()));
     check(BVSetActiveColumns(block, 0, count));
     check(BVMultInPlace(block, products, 0, count));
     // The columns worth keeping are the last ones; move them to the front.

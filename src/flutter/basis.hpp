@@ -2,6 +2,7 @@
 /// A growing basis of the reduced problem, orthonormal in the mass M0.
 #include <vector>
 
+#include "flutter/dense.hpp"
 #include "petsc/owned.hpp"
 
 namespace squeal::flutter {
@@ -19,8 +20,7 @@ class Basis {
  private:
   void orthogonalise(BV block, PetscInt count);
   static void normalise(BV block, PetscInt count);
-  static std::vector<double> symmetricEigen(Mat matrix);
-  OwnedMat gram(BV block, PetscInt count) const;
+  DenseMatrix gram(BV block, PetscInt count) const;
   Mat mass_;
   PetscInt size_ = 0;
   OwnedBV columns_;

@@ -15,34 +15,32 @@ namespace {
 
 using Complex = std::complex<double>;
 
-struct Generalized {
-  std::vector<Complex> value;
-  std::vector<std::vector<Complex>> vector;
+struct EigenPair {
+  Complex value;
+  std::vector<Complex> vector;
 };
 
 /// LAPACK's real storage of conjugate pairs as complex numbers.
-Generalized unpacked(const std::vector<double>& real, const std::vector<double>& imaginary, const std::vector<double>& beta,
-                     const std::vector<double>& vectors) {
-  Generalized result;
+std::vector<EigenPair> unpacked(const std::vector<double>& real, const std::vector<double>& imaginary,
+                                const std::vector<double>& beta, const std::vector<double>& vectors) {
+  std::vector<EigenPair> pairs;
   const std::size_t n = real.size();
   for (std::size_t j = 0; j < n; ++j) {
     if (beta[j] == 0) throw Error("the reduced mass matrix is singular: an eigenvalue is infinite");
-    const bool pair = imaginary[j] != 0;
-    std::vector<Complex> x(n);
-    for (std::size_t i = 0; i < n; ++i) x[i] = {vectors[j * n + i], pair ? vectors[(j + 1) * n + i] : 0.0};
-    result.value.push_back(Complex(real[j], imaginary[j]) / beta[j]);
-    result.vector.push_back(x);
-    if (!pair) continue;
-    for (auto& entry : x) entry = std::conj(entry);
-    result.value.push_back(std::conj(result.value.back()));
-    result.vector.push_back(x);
+    const bool conjugates = imaginary[j] != 0;
+    EigenPair pair{Complex(real[j], imaginary[j]) / beta[j], std::vector<Complex>(n)};
+    for (std::size_t i = 0; i < n; ++i) pair.vector[i] = {vectors[j * n + i], conjugates ? vectors[(j + 1) * n + i] : 0.0};
+    pairs.push_back(std::move(pair));
+    if (!conjugates) continue;
+    pairs.push_back({std::conj(pairs.back().value), pairs.back().vector});
+    for (auto& entry : pairs.back().vector) entry = std::conj(entry);
     ++j;
   }
-  return result;
+  return pairs;
 }
 
 /// All eigenvalues and right eigenvectors of A x = μ B x.
-Generalized generalized(DenseMatrix a, DenseMatrix b, int size) {
+std::vector<EigenPair> generalized(DenseMatrix a, DenseMatrix b, int size) {
   const auto n = static_cast<std::size_t>(size);
   PetscBLASInt order = size, one = 1, query = -1, info = 0;
   std::vector<double> real(n), imaginary(n), beta(n), vectors(n * n), work(1);
@@ -57,7 +55,7 @@ Generalized generalized(DenseMatrix a, DenseMatrix b, int size) {
 }
 
 /// All eigenvalues and right eigenvectors of A x = μ x.
-Generalized standard(DenseMatrix a, int size) {
+std::vector<EigenPair> standard(DenseMatrix a, int size) {
   const auto n = static_cast<std::size_t>(size);
   PetscBLASInt order = size, one = 1, query = -1, info = 0;
   std::vector<double> real(n), imaginary(n), vectors(n * n), work(1);
@@ -71,29 +69,48 @@ Generalized standard(DenseMatrix a, int size) {
   return unpacked(real, imaginary, std::vector<double>(n, 1.0), vectors);
 }
 
-std::vector<DensePair> linearInSquare(const DenseMatrix& mass, const DenseMatrix& stiffness, int m) {
-  // K q = μ M q with μ = −s²; both roots ±s are eigenvalues, one of them (two, if real) has Im s ≥ 0. In an M0-orthonormal basis M
-  // is the identity but for friction: M⁻¹ K is formed safely, and QR takes a third of the time of QZ. Where M is far from that, QZ
-  // it is.
-  DenseMatrix factor = mass, product = stiffness;
-  PetscBLASInt n = m, info = 0;
+DenseMatrix sideBySide(const DenseMatrix& left, const DenseMatrix& right) {
+  DenseMatrix both = left;
+  both.insert(both.end(), right.begin(), right.end());
+  return both;
+}
+
+/// M⁻¹ B for B of any number of columns; empty if M is far from well conditioned. In an M0-orthonormal basis M is the identity but
+/// for friction: M⁻¹ is formed safely, and QR takes a small part of the time of QZ.
+DenseMatrix timesInverse(DenseMatrix mass, DenseMatrix b, int m) {
+  PetscBLASInt n = m, columns = static_cast<PetscBLASInt>(b.size()) / m, info = 0;
   std::vector<PetscBLASInt> pivots(static_cast<std::size_t>(m));
-  LAPACKgesv_(&n, &n, factor.data(), &n, pivots.data(), product.data(), &n, &info);
+  LAPACKgesv_(&n, &columns, mass.data(), &n, pivots.data(), b.data(), &n, &info);
   double smallest = INFINITY, largest = 0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(m); ++i) {
-    const double pivot = std::abs(factor[i * static_cast<std::size_t>(m) + i]);
-    smallest = std::min(smallest, pivot), largest = std::max(largest, pivot);
+  for (std::size_t i = 0; i < mass.size(); i += static_cast<std::size_t>(m) + 1) {
+    smallest = std::min(smallest, std::abs(mass[i]));
+    largest = std::max(largest, std::abs(mass[i]));
   }
-  const Generalized solved = info == 0 && smallest > 1e-4 * largest ? standard(product, m) : generalized(stiffness, mass, m);
+  return info == 0 && smallest > 1e-4 * largest ? b : DenseMatrix();
+}
+
+std::vector<DensePair> linearInSquare(const DenseMatrix& mass, const DenseMatrix& stiffness, int m) {
+  // K q = μ M q with μ = −s²; both roots ±s are eigenvalues, one of them (two, if real) has Im s ≥ 0.
+  const DenseMatrix product = timesInverse(mass, stiffness, m);
+  const auto solved = product.empty() ? generalized(stiffness, mass, m) : standard(product, m);
   std::vector<DensePair> pairs;
-  for (std::size_t j = 0; j < solved.value.size(); ++j) {
-    const Complex mu = solved.value[j];
+  for (const auto& [mu, q] : solved) {
     Complex s = mu.imag() == 0 && mu.real() >= 0 ? Complex(0, std::sqrt(mu.real())) : std::sqrt(-mu);
     if (s.imag() < 0) s = -s;
-    pairs.push_back({s, solved.vector[j]});
-    if (s.imag() == 0) pairs.push_back({-s, solved.vector[j]});
+    pairs.push_back({s, q});
+    if (s.imag() == 0) pairs.push_back({-s, q});
   }
   return pairs;
+}
+
+/// [I 0; 0 M].
+DenseMatrix padded(const DenseMatrix& mass, std::size_t m) {
+  DenseMatrix b(4 * m * m, 0.0);
+  for (std::size_t j = 0; j < m; ++j) {
+    b[j * 2 * m + j] = 1;
+    std::copy_n(mass.begin() + static_cast<std::ptrdiff_t>(j * m), m, b.begin() + static_cast<std::ptrdiff_t>((m + j) * 2 * m + m));
+  }
+  return b;
 }
 
 std::vector<DensePair> companion(const DenseMatrix& mass, const DenseMatrix& damping, const DenseMatrix& stiffness, int size) {
@@ -101,21 +118,22 @@ std::vector<DensePair> companion(const DenseMatrix& mass, const DenseMatrix& dam
   const auto norm = [](const DenseMatrix& x) { return std::sqrt(std::inner_product(x.begin(), x.end(), x.begin(), 0.0)); };
   const double unit = std::sqrt(norm(stiffness) / norm(mass));  // s = unit ŝ (Fan, Lin and Van Dooren 2004)
   // [0 I; −K −Z] (q, ŝq) = ŝ [I 0; 0 M] (q, ŝq), K and Z scaled
-  DenseMatrix a(4 * m * m, 0.0), b(4 * m * m, 0.0);
+  const DenseMatrix product = timesInverse(mass, sideBySide(stiffness, damping), size);
+  const DenseMatrix lower = product.empty() ? sideBySide(stiffness, damping) : product;
+  DenseMatrix a(4 * m * m, 0.0);
   for (std::size_t j = 0; j < m; ++j) {
     a[(m + j) * 2 * m + j] = 1;
-    b[j * 2 * m + j] = 1;
     for (std::size_t i = 0; i < m; ++i) {
-      a[j * 2 * m + m + i] = -stiffness[j * m + i] / (unit * unit);
-      a[(m + j) * 2 * m + m + i] = -damping[j * m + i] / unit;
-      b[(m + j) * 2 * m + m + i] = mass[j * m + i];
+      a[j * 2 * m + m + i] = -lower[j * m + i] / (unit * unit);
+      a[(m + j) * 2 * m + m + i] = -lower[(m + j) * m + i] / unit;
     }
   }
-  const Generalized solved = generalized(a, b, 2 * size);
   std::vector<DensePair> pairs;
-  for (std::size_t j = 0; j < solved.value.size(); ++j)
-    if (solved.value[j].imag() >= 0)
-      pairs.push_back({unit * solved.value[j], {solved.vector[j].begin(), solved.vector[j].begin() + size}});
+  for (const auto& [value, vector] : product.empty() ? generalized(a, padded(mass, m), 2 * size) : standard(a, 2 * size))
+    if (value.imag() >= 0) {
+      const auto half = vector.begin() + (std::abs(value) > 1 ? size : 0);  // the larger of q and ŝq
+      pairs.push_back({unit * value, {half, half + size}});
+    }
   return pairs;
 }
 
@@ -131,6 +149,29 @@ std::vector<DensePair> solveQuadratic(const DenseMatrix& mass, const DenseMatrix
   std::sort(pairs.begin(), pairs.end(), [](const DensePair& a, const DensePair& b) {
     return a.s.imag() != b.s.imag() ? a.s.imag() < b.s.imag() : a.s.real() < b.s.real();
   });
+  return pairs;
+}
+
+std::vector<DensePair> solveTogether(MPI_Comm comm, const DenseMatrix& mass, const DenseMatrix& damping,
+                                     const DenseMatrix& stiffness, int m) {
+  int rank = 0;
+  check(MPI_Comm_rank(comm, &rank));
+  std::vector<DensePair> pairs;
+  std::string failure;
+  if (rank == 0) try {
+      pairs = solveQuadratic(mass, damping, stiffness, m);
+    } catch (const Error& error) {
+      failure = error.what();
+    }
+  failTogether(comm, failure);
+  int count = static_cast<int>(pairs.size());
+  check(MPI_Bcast(&count, 1, MPI_INT, 0, comm));
+  pairs.resize(static_cast<std::size_t>(count));
+  for (auto& pair : pairs) {
+    pair.q.resize(static_cast<std::size_t>(m));
+    check(MPI_Bcast(&pair.s, 1, MPI_C_DOUBLE_COMPLEX, 0, comm));
+    check(MPI_Bcast(pair.q.data(), m, MPI_C_DOUBLE_COMPLEX, 0, comm));
+  }
   return pairs;
 }
 

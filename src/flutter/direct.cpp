@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flutter/nearest.hpp"
 #include "flutter/select.hpp"
 #include "petsc/options.hpp"
 #include "petsc/text.hpp"
@@ -9,91 +10,75 @@ namespace squeal::flutter {
 namespace {
 
 const IntegerOption countOption("flutter", "flutter_direct_count", 100, 1,
-                                "number of eigenvalues nearest to zero found by the direct method");
-const SolverPrefix epsPrefix("flutter", "flutter_eps_", "SLEPc EPS of the direct method");
-const SolverPrefix stPrefix("flutter", "flutter_st_", "SLEPc ST, KSP and PC of the direct method");
+                                "number of eigenvalues nearest to zero found by the direct method, conjugate pairs counted once");
+const RealListOption bandOption("flutter", "flutter_direct_band", "0,0", "Hz", nonNegative,
+                                "low,high: the direct method finds all eigenvalues with Im s / 2 pi between them and |s| up to "
+                                "2 pi high instead of a number of them; 0,0: off");
+const IntegerOption limitOption("flutter", "flutter_direct_limit", 2000, 1,
+                                "most eigenvalues found by the direct method to cover -flutter_direct_band");
 
-using Complex = std::complex<double>;
+const FlagOption confirmOption("flutter", "flutter_direct_confirm", true,
+                               "repeat the direct solve from another start until nothing new is found: one alone may miss "
+                               "multiple eigenvalues");
 
-OwnedEPS solver(Mat stiffness, Mat mass) {
-  PetscInt size = 0;
-  check(MatGetSize(stiffness, &size, nullptr));
-  const PetscInt count = std::min<PetscInt>(countOption.get(), size);
-  OwnedEPS eps;
-  check(EPSCreate(PetscObjectComm(reinterpret_cast<PetscObject>(stiffness)), eps.out()));
-  check(EPSSetOptionsPrefix(eps, "flutter_"));
-  check(EPSSetOperators(eps, stiffness, mass));
-  check(EPSSetProblemType(eps, EPS_GNHEP));
-  check(EPSSetDimensions(eps, count, std::min(size, 2 * count + 20), PETSC_DEFAULT));
-  check(EPSSetTolerances(eps, 1e-12, 500));
-  check(EPSSetWhichEigenpairs(eps, EPS_TARGET_MAGNITUDE));
-  check(EPSSetTarget(eps, 0));
-  ST st = nullptr;
-  KSP ksp = nullptr;
-  PC pc = nullptr;
-  check(EPSGetST(eps, &st));
-  check(STSetType(st, STSINVERT));
-  check(STGetKSP(st, &ksp));
-  check(KSPSetType(ksp, KSPPREONLY));
-  check(KSPGetPC(ksp, &pc));
-  check(PCSetType(pc, PCLU));
-  check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
-  check(EPSSetFromOptions(eps));
-  epsPrefix.rejectUnused();
-  check(EPSSetUp(eps));
-  stPrefix.rejectUnused();
-  return eps;
+struct Band {
+  double low = 0, high = 0;  // rad/s
+  bool wanted() const { return high > 0; }
+  bool holds(std::complex<double> s) const { return s.imag() >= low && s.imag() <= high && std::abs(s) <= high; }
+};
+
+Band readBand() {
+  const auto list = bandOption.get();
+  const bool off = list == std::vector<double>{0, 0};
+  if (list.size() != 2 || (!off && list[0] >= list[1]))
+    throw Error("option -" + bandOption.fullName() + ": two frequencies, the lower one first");
+  return {2 * M_PI * list[0], 2 * M_PI * list[1]};
+}
+
+/// Solves for more and more eigenvalues until the band is covered or the limit is reached.
+NearestPairs solveBand(NearestSolver& solver, const Band& band) {
+  const PetscInt limit = limitOption.get();
+  for (PetscInt count = std::min<PetscInt>(countOption.get(), limit);; count = std::min(2 * count, limit)) {
+    NearestPairs found = solver.solve(count);
+    if (found.reached <= band.high && count < limit) continue;
+    if (confirmOption.get()) addMissed(solver, count, found);
+    if (found.reached <= band.high && count < limit) continue;
+    std::erase_if(found.pairs, [&](const auto& pair) { return !band.holds(pair.s); });
+    return found;
+  }
+}
+
+/// The nearest `-flutter_direct_count`, and those as near as the last of them.
+NearestPairs solveCount(NearestSolver& solver) {
+  const auto count = static_cast<std::size_t>(countOption.get());
+  NearestPairs found = solver.solve(countOption.get());
+  if (confirmOption.get()) addMissed(solver, countOption.get(), found);
+  if (found.pairs.size() <= count) return found;
+  std::vector<double> sizes;
+  for (const auto& pair : found.pairs) sizes.push_back(std::abs(pair.s));
+  std::sort(sizes.begin(), sizes.end());
+  std::erase_if(found.pairs, [&](const auto& pair) { return std::abs(pair.s) > (1 + 1e-9) * sizes[count - 1]; });
+  return found;
 }
 
 }  // namespace
 
-void rejectIdleSolverOptions() {
-  for (const auto* prefix : {&epsPrefix, &stPrefix})
-    if (prefix->given() && !directWanted())
-      throw Error("options -" + prefix->prefix + "* (" + joined(prefix->names()) + ") are used by -flutter_method direct alone");
-}
-
-FrictionPoint solveDirect(const Pencil& pencil, double friction, Mat trial) {
-  if (pencil.hasPower(1)) throw Error("option -flutter_method direct: problems with damping need the quadratic solver");
-  const OwnedMat stiffness = pencil.assembled(0, friction), mass = pencil.assembled(2, friction);
-  const OwnedEPS eps = solver(stiffness, mass);  // K d = μ M d, μ = −s²
-  check(EPSSolve(eps));
-  PetscInt converged = 0, wanted = 0;
-  check(EPSGetConverged(eps, &converged));
-  check(EPSGetDimensions(eps, &wanted, nullptr, nullptr));
-  if (converged < wanted)
-    throw Error(formatted(
-        "direct method at friction %g: only %d of %d eigenvalues converged; raise -flutter_eps_max_it or -flutter_eps_ncv",
-        friction, static_cast<int>(converged), static_cast<int>(wanted)));
-  FrictionPoint point;
-  point.friction = friction;
-  OwnedVec real, imaginary;
-  check(MatCreateVecs(stiffness, real.out(), nullptr));
-  check(VecDuplicate(real, imaginary.out()));
-  struct Found {
-    Eigenvalue eigenvalue;
-    PetscInt pair;
-  };
-  std::vector<Found> found;
-  for (PetscInt i = 0; i < converged; ++i) {
-    PetscScalar re = 0, im = 0;
-    check(EPSGetEigenpair(eps, i, &re, &im, real, imaginary));
-    const Complex mu(re, im);
-    Complex s = im == 0 && re >= 0 ? Complex(0, std::sqrt(re)) : std::sqrt(-mu);
-    if (s.imag() < 0) s = -s;
-    const double error = backwardError(pencil, friction, s, real, im == 0 ? nullptr : imaginary.get());
-    found.push_back({{s, error, false}, i});
-    if (s.imag() == 0) found.push_back({{-s, error, false}, i});
-  }
-  std::sort(found.begin(), found.end(), [](const Found& a, const Found& b) {
-    const Complex s = a.eigenvalue.s, t = b.eigenvalue.s;
-    return s.imag() != t.imag() ? s.imag() < t.imag() : s.real() < t.real();
+FrictionPoint solveDirect(const Pencil& pencil, const Parameters& at, Mat trial) {
+  const Band band = readBand();
+  const auto solver = nearestSolver(pencil, at);
+  auto [pairs, reached] = band.wanted() ? solveBand(*solver, band) : solveCount(*solver);
+  std::sort(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) {
+    return a.s.imag() != b.s.imag() ? a.s.imag() < b.s.imag() : a.s.real() < b.s.real();
   });
-  for (const auto& item : found) point.eigenvalues.push_back(item.eigenvalue);
+  FrictionPoint point;
+  point.at = at;
+  if (band.wanted()) point.coveredTo = std::min(reached, band.high);
+  for (const auto& pair : pairs)
+    point.eigenvalues.push_back({pair.s, backwardError(pencil, at, pair.s, pair.real, pair.imaginary), false});
   judge(point.eigenvalues);
-  keepShapes(point, trial, [&](std::size_t index, Vec re, Vec im) {
-    PetscScalar a = 0, b = 0;
-    check(EPSGetEigenpair(eps, found[index].pair, &a, &b, re, im));
+  keepShapes(point, trial, [&](std::size_t index, Vec real, Vec imaginary) {
+    check(VecCopy(pairs[index].real, real));
+    check(VecCopy(pairs[index].imaginary, imaginary));
   });
   return point;
 }

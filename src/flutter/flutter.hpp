@@ -8,6 +8,7 @@
 #include "flutter/dense.hpp"
 #include "flutter/images.hpp"
 #include "flutter/pencil.hpp"
+#include "flutter/terms.hpp"
 #include "modes/modes.hpp"
 
 namespace squeal::flutter {
@@ -25,29 +26,28 @@ struct Shape {
   OwnedVec real, imaginary;
 };
 
-/// Everything found at one friction.
+/// Everything found at one friction and speed.
 struct FrictionPoint {
-  double friction = 0;
+  Parameters at;
   std::vector<Eigenvalue> eigenvalues;  ///< Im s ≥ 0, by ascending frequency
   std::vector<Shape> shapes;            ///< of the fastest growing ones
-  double bandTop = 0;                   ///< rad/s: eigenvalues up to here are corrected to `accuracy`; 0: none are
+  double bandTop = 0;                   ///< rad/s: eigenvalues with |s| up to here are corrected to `accuracy`; 0: none are
   double accuracy = 0;                  ///< backward error asked for in the band
-  int unstableCount() const;            ///< in the band
-  int unstableAbove() const;            ///< above it
+  double coveredTo = 0;       ///< rad/s: all eigenvalues of `-flutter_direct_band` with |s| below are listed; 0: no such band
+  int unstableCount() const;  ///< in the band
+  int unstableAbove() const;  ///< above it
   int bandCount() const;
   double worstBackwardError() const;  ///< in the band
 };
 
-/// Frictions asked for, ascending. Error: an empty list, a negative value, a value given twice.
-std::vector<double> frictions();
+/// Points of the sweep: for each speed (`-flutter_speed`) all frictions (`-flutter_friction`), both ascending. Error: an empty list, a
+/// value out of range or given twice.
+std::vector<Parameters> points();
 /// `-flutter_method`: true for the direct solve on all unknowns.
 bool directWanted();
 
-/// Collective. Error for -flutter_eps_* and -flutter_st_* options where the direct method, which alone uses them, is not asked for.
+/// Collective. Error for -flutter_eps_*, -flutter_pep_* and -flutter_st_* options where the direct method, which alone uses them, is not asked for.
 void rejectIdleSolverOptions();
-
-/// The terms of [4.15–4.16] under approximation A: K0 + f K1 + s² (M0 + f M1).
-Pencil approximationA(const contact::AssociatedSystem& system);
 
 /// Rayleigh–Ritz [4.19] on the free modes and, unless `-reduction_basis modal`, on corrections of its own residuals. The modes
 /// alone miss unstable eigenvalues and invent others; K0⁻¹ r for the residuals r of all pairs of the band, solved for together
@@ -56,37 +56,45 @@ Pencil approximationA(const contact::AssociatedSystem& system);
 /// reported.
 class ReducedProblem {
  public:
-  /// Collective. Borrows pencil and solver (of K0) for its life; `modes` are M0-orthonormal with ascending frequencies.
-  ReducedProblem(const Pencil& pencil, const contact::AssociatedSystem& system, const modes::Modes& modes);
-  /// Collective. Shapes are mapped to nodal displacements by `trial` (T).
-  FrictionPoint solve(double friction, Mat trial);
+  /// Collective. Borrows pencil, mass M0 and the solver of K0 for its life; `modes` are M0-orthonormal with ascending frequencies.
+  ReducedProblem(const Pencil& pencil, Mat mass, KSP solver, const modes::Modes& modes);
+  /// Collective. The point whose terms the pencil holds. Shapes are mapped to nodal displacements by `trial` (T).
+  FrictionPoint solve(const Parameters& at, Mat trial);
   PetscInt basisSize() const { return basis_.size(); }
-  int solves() const { return solves_; }       ///< right-hand sides solved for so far
-  double bandTop() const { return bandTop_; }  ///< rad/s
 
  private:
   struct Residuals;
+  struct ProjectedTerm {
+    Image image;             // A V
+    DenseMatrix projection;  // Vᵀ A V, column-major
+    PetscInt columns = 0;    // of V held so far
+  };
+  void enter();
   void extend();
-  Residuals residuals(double friction, const std::vector<DensePair>& pairs) const;
+  void project(Mat matrix, ProjectedTerm& term) const;
+  Residuals residuals(const Parameters& at, const std::vector<DensePair>& pairs) const;
   double length(const std::vector<std::complex<double>>& q) const;
+  void expand(const DensePair& pair, Vec real, Vec imaginary) const;
+  bool inBand(std::complex<double> s) const;
+  DenseMatrix directions(const Residuals& residuals, const std::vector<std::size_t>& bad) const;
   void correct(const Residuals& residuals, const std::vector<std::size_t>& bad);
-  std::vector<double> projected(int power, double friction, PetscInt columns) const;
-  std::vector<DensePair> dense(double friction, PetscInt columns) const;
+  std::vector<double> projected(int power, const Parameters& at, PetscInt columns) const;
+  std::vector<DensePair> dense(const Parameters& at, PetscInt columns) const;
 
   const Pencil& pencil_;
-  const contact::AssociatedSystem& system_;
+  KSP solver_;
+  PetscInt unknowns_ = 0;
   Basis basis_;
-  std::vector<Image> images_;                     // [term] A_t V
-  std::vector<std::vector<double>> projections_;  // [term] Vᵀ A_t V, column-major
-  std::vector<double> gram_;                      // VᵀV
-  PetscInt projected_ = 0;                        // columns of the basis that images and projections hold
+  std::vector<ProjectedTerm> images_;  // [term]
+  DenseMatrix gram_;                   // VᵀV
+  PetscInt gramSize_ = 0;
   std::size_t modeCount_ = 0;
   double bandTop_ = 0;
-  int solves_ = 0;
 };
 
-/// Collective. The lowest `-flutter_direct_count` eigenvalues of the problem on all unknowns, without reduction: SLEPc EPS in −s²,
-/// shift-and-invert (-flutter_eps_*, -flutter_st_*). Error: the pencil has damping; not converged.
-FrictionPoint solveDirect(const Pencil& pencil, double friction, Mat trial);
+/// Collective. Eigenvalues of the problem on all unknowns, without reduction, by SLEPc with shift-and-invert at zero: the
+/// `-flutter_direct_count` nearest to zero, or all of `-flutter_direct_band` (low ≤ Im s ≤ high, |s| ≤ high), as far as
+/// `-flutter_direct_limit` of them reach. Error: a band that is none; not converged.
+FrictionPoint solveDirect(const Pencil& pencil, const Parameters& at, Mat trial);
 
 }  // namespace squeal::flutter

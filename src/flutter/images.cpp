@@ -5,6 +5,7 @@
 #include <petscblaslapack.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace squeal::flutter {
 
@@ -35,7 +36,11 @@ Image::Image(Mat matrix) {
   PetscInt first = 0, end = 0;
   check(MatGetOwnershipRange(matrix, &first, &end));
   localRows_ = end - first;
-  for (PetscInt row = first; row < end; ++row) {
+  PetscBool readable = PETSC_FALSE;
+  check(MatHasOperation(matrix, MATOP_GET_ROW, &readable));
+  if (!readable) rows_.resize(static_cast<std::size_t>(localRows_));
+  if (!readable) std::iota(rows_.begin(), rows_.end(), 0);
+  for (PetscInt row = first; readable && row < end; ++row) {
     PetscInt entries = 0;
     check(MatGetRow(matrix, row, &entries, nullptr, nullptr));
     if (entries > 0) rows_.push_back(row - first);

@@ -2,10 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace squeal::flutter {
 
-double Term::coefficient(double friction) const { return factor * std::pow(friction, frictionExponent); }
+double Term::coefficient(const Parameters& at) const {
+  return factor * std::pow(at.friction, frictionExponent) * std::pow(at.speed, speedExponent);
+}
+
+void Pencil::add(std::vector<Term> terms) {
+  std::move(terms.begin(), terms.end(), std::back_inserter(terms_));
+  affineCount_ = terms_.size();
+}
+
+void Pencil::setPointTerms(std::vector<Term> terms) {
+  terms_.erase(terms_.begin() + static_cast<std::ptrdiff_t>(affineCount_), terms_.end());
+  std::move(terms.begin(), terms.end(), std::back_inserter(terms_));
+}
 
 bool Pencil::hasPower(int power) const {
   return std::any_of(terms_.begin(), terms_.end(), [&](const Term& term) { return term.power == power; });
@@ -13,33 +26,33 @@ bool Pencil::hasPower(int power) const {
 
 MPI_Comm Pencil::comm() const { return PetscObjectComm(reinterpret_cast<PetscObject>(terms_.at(0).matrix.get())); }
 
-OwnedMat Pencil::assembled(int power, double friction) const {
+OwnedMat Pencil::assembled(int power, const Parameters& at) const {
   OwnedMat sum;
   for (const auto& term : terms_) {
     if (term.power != power) continue;
     if (!sum) {
       check(MatDuplicate(term.matrix, MAT_COPY_VALUES, sum.out()));
-      check(MatScale(sum, term.coefficient(friction)));
+      check(MatScale(sum, term.coefficient(at)));
     } else {
-      check(MatAXPY(sum, term.coefficient(friction), term.matrix, DIFFERENT_NONZERO_PATTERN));
+      check(MatAXPY(sum, term.coefficient(at), term.matrix, DIFFERENT_NONZERO_PATTERN));
     }
     check(MatSetOption(sum, MAT_SYMMETRIC, PETSC_FALSE));
   }
   return sum;
 }
 
-void Pencil::apply(int power, double friction, Vec x, Vec y) const {
+void Pencil::apply(int power, const Parameters& at, Vec x, Vec y) const {
   check(VecZeroEntries(y));
   OwnedVec part;
   check(VecDuplicate(y, part.out()));
   for (const auto& term : terms_)
-    if (const double c = term.coefficient(friction); term.power == power && c != 0) {
+    if (const double c = term.coefficient(at); term.power == power && c != 0) {
       check(MatMult(term.matrix, x, part));
       check(VecAXPY(y, c, part));
     }
 }
 
-double Pencil::norm(int power, double friction) const {
+double Pencil::norm(int power, const Parameters& at) const {
   if (!hasPower(power)) return 0;
   OwnedVec& v = singular_[power];
   const bool fresh = !v;
@@ -58,13 +71,13 @@ double Pencil::norm(int power, double friction) const {
   for (int sweep = 0; sweep < (fresh ? 20 : 3); ++sweep) {
     PetscReal size = 0;
     check(VecNormalize(v, nullptr));
-    apply(power, friction, v, image);
+    apply(power, at, v, image);
     check(VecNorm(image, NORM_2, &size));
     estimate = std::max(estimate, static_cast<double>(size));
     if (size == 0) return estimate;  // a term that vanishes at this friction: v stays a start for the next
     check(VecZeroEntries(v));
     for (const auto& term : terms_)
-      if (const double c = term.coefficient(friction); term.power == power && c != 0) {
+      if (const double c = term.coefficient(at); term.power == power && c != 0) {
         check(MatMultTranspose(term.matrix, image, part));
         check(VecAXPY(v, c, part));
       }
@@ -72,7 +85,7 @@ double Pencil::norm(int power, double friction) const {
   return estimate;
 }
 
-double backwardError(const Pencil& pencil, double friction, std::complex<double> s, Vec real, Vec imaginary) {
+double backwardError(const Pencil& pencil, const Parameters& at, std::complex<double> s, Vec real, Vec imaginary) {
   OwnedVec residual[2], product;
   check(VecDuplicate(real, product.out()));
   double length = 0, scale = 0;
@@ -83,11 +96,11 @@ double backwardError(const Pencil& pencil, double friction, std::complex<double>
   for (int power = 0; power <= 2; ++power) {
     if (!pencil.hasPower(power)) continue;
     const std::complex<double> factor = std::pow(s, power);
-    scale += std::abs(factor) * pencil.norm(power, friction);
+    scale += std::abs(factor) * pencil.norm(power, at);
     for (Vec d : {real, imaginary}) {
       if (!d) continue;
       const std::complex<double> c = d == real ? factor : factor * std::complex<double>(0, 1);
-      pencil.apply(power, friction, d, product);
+      pencil.apply(power, at, d, product);
       check(VecAXPY(residual[0], c.real(), product));
       check(VecAXPY(residual[1], c.imag(), product));
     }

@@ -1,9 +1,11 @@
 #pragma once
-/// The friction-perturbed problem P(s; f) d = 0 as one affine object, P = Σ_t c_t(f) s^p_t A_t with c_t(f) = factor · f^a. It
-/// knows nothing of finite elements: [4.15–4.16] enter as terms.
+/// The friction-perturbed problem P(s; f, v) d = 0 as one object, P = Σ_t c_t s^p_t A_t with c_t = factor · f^a · v^b for the
+/// friction f and the speed v, a factor on the motion of the bodies. It knows nothing of finite elements: [4.15–4.16] enter as
+/// terms.
 #include <complex>
 #include <vector>
 
+#include "parameters.hpp"
 #include "petsc/owned.hpp"
 
 namespace squeal::flutter {
@@ -13,31 +15,40 @@ struct Term {
   int power = 0;             ///< of s: 0 stiffness, 1 damping, 2 mass
   int frictionExponent = 0;  ///< a
   double factor = 1;
+  int speedExponent = 0;  ///< b
 
-  double coefficient(double friction) const;
+  double coefficient(const Parameters& at) const;
 };
 
 class Pencil {
  public:
-  explicit Pencil(std::vector<Term> terms) : terms_(std::move(terms)) {}
+  explicit Pencil(std::vector<Term> terms) : terms_(std::move(terms)), affineCount_(terms_.size()) {}
+  /// All terms, those of the point last.
   const std::vector<Term>& terms() const { return terms_; }
+  /// Number of terms that hold for all parameters.
+  std::size_t affineCount() const { return affineCount_; }
+  /// Adds terms that hold for all parameters; before those of a point are set.
+  void add(std::vector<Term> terms);
+  /// Replaces the terms that hold at one point of the parameters alone, such as those made with its steady forces.
+  void setPointTerms(std::vector<Term> terms);
   bool hasPower(int power) const;
   MPI_Comm comm() const;
 
-  /// Collective. Sum of the terms with this power of s at this friction, as a new matrix.
-  OwnedMat assembled(int power, double friction) const;
+  /// Collective. Sum of the terms with this power of s, as a new matrix; empty if there are none.
+  OwnedMat assembled(int power, const Parameters& at) const;
   /// Collective. y = (sum of the terms with this power) x.
-  void apply(int power, double friction, Vec x, Vec y) const;
+  void apply(int power, const Parameters& at, Vec x, Vec y) const;
   /// Collective. Estimate from below of the 2-norm of the sum, by power iteration on AᵀA continued from the last call for this
   /// power: from below, so that a backward error made with it is never flattered.
-  double norm(int power, double friction) const;
+  double norm(int power, const Parameters& at) const;
 
  private:
   std::vector<Term> terms_;
+  std::size_t affineCount_;
   mutable OwnedVec singular_[3];
 };
 
 /// Collective. ‖P(s) d‖ / ((|s|² ‖M̄‖ + |s| ‖Z̄‖ + ‖K̄‖) ‖d‖) for d = real + i imaginary (imaginary may be null).
-double backwardError(const Pencil& pencil, double friction, std::complex<double> s, Vec real, Vec imaginary);
+double backwardError(const Pencil& pencil, const Parameters& at, std::complex<double> s, Vec real, Vec imaginary);
 
 }  // namespace squeal::flutter

@@ -9,6 +9,8 @@ namespace squeal::flutter {
 namespace {
 
 const RealListOption frictionOption("flutter", "flutter_friction", "0.4", "", nonNegative, "friction coefficients", true);
+const RealListOption speedOption("flutter", "flutter_speed", "1", "", positive,
+                                 "factors on all -motion_* and obstacle velocities, swept", true);
 const ChoiceOption methodOption("flutter", "flutter_method", {"reduced", "direct"}, "reduced",
                                 "reduced: dense problem on the free modes; direct: all unknowns, for checking");
 const RealOption toleranceOption("flutter", "flutter_unstable_tolerance", 1e-6, "", nonNegative,
@@ -20,12 +22,19 @@ const RealOption shapesBelowOption("flutter", "flutter_shapes_below", 20000, "Hz
 
 }  // namespace
 
-std::vector<double> frictions() {
-  auto list = frictionOption.get();
-  if (list.empty()) throw Error("option -flutter_friction: the list is empty");
-  std::sort(list.begin(), list.end());  // each steady solution starts from the one before
-  if (std::adjacent_find(list.begin(), list.end()) != list.end()) throw Error("option -flutter_friction: a value is given twice");
-  return list;
+std::vector<Parameters> points() {
+  const auto ascending = [](const RealListOption& option) {
+    auto list = option.get();
+    if (list.empty()) throw Error("option -" + option.fullName() + ": the list is empty");
+    std::sort(list.begin(), list.end());  // each steady solution starts from the one before
+    if (std::adjacent_find(list.begin(), list.end()) != list.end())
+      throw Error("option -" + option.fullName() + ": a value is given twice");
+    return list;
+  };
+  std::vector<Parameters> points;
+  for (double speed : ascending(speedOption))
+    for (double friction : ascending(frictionOption)) points.push_back({friction, speed});
+  return points;
 }
 
 bool directWanted() { return methodOption.get() == "direct"; }

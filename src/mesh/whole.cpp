@@ -164,7 +164,7 @@ NamedElements readNamed(const WholeMesh& mesh, const GmshModel& model, const Req
     if (!interface.disc.empty()) add(interface.disc, "option -contact_" + interface.name + "_disc", boundary);
   }
   for (const auto& surface : request.surfaces) add(surface, "option -load_" + surface + "_pressure", boundary);
-  for (const auto& group : request.nodeGroups) add(group, "a -constraint_" + group + "_* option", -1);
+  for (const auto& group : request.nodeGroups) add(group, "a -constraint_" + group + "_* or -ground_" + group + "_* option", -1);
   for (const auto& pair : request.periodic) {
     add(pair.image, "option -constraint_" + pair.image + "_image_of", -1);
     add(pair.of, "option -constraint_" + pair.image + "_image_of", -1);

@@ -6,7 +6,7 @@
 namespace squeal::modes {
 
 double floorSeconds(const contact::AssociatedSystem& system) {
-  const Mat k = system.matrices().k0;
+  const Mat k = system.k0();
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(k));
   Stage stage(comm, "floor");
   const double begin = MPI_Wtime();

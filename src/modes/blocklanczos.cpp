@@ -13,6 +13,8 @@
 #include <random>
 #include <vector>
 
+#include "petsc/symmetric.hpp"
+
 namespace squeal::modes {
 namespace {
 
@@ -89,8 +91,7 @@ class Lanczos {
     Small a(k * k);
     for (std::size_t j = 0; j < k; ++j)
       for (std::size_t i = 0; i < k; ++i) a[j * k + i] = t_[j * static_cast<std::size_t>(limit_) + i];
-    std::vector<PetscReal> ascending(k);
-    symmetricEigen(a, ascending);
+    const auto ascending = symmetricEigen(a, static_cast<int>(k));
     for (std::size_t j = 0; j < k; ++j) {
       const std::size_t from = k - 1 - j;
       ritz.value.push_back(ascending[from]);
@@ -144,16 +145,6 @@ class Lanczos {
 
  private:
   PetscScalar& t(PetscInt i, PetscInt j) { return t_[static_cast<std::size_t>(j * limit_ + i)]; }
-
-  static void symmetricEigen(Small& a, std::vector<PetscReal>& values) {
-    PetscBLASInt n = static_cast<PetscBLASInt>(values.size()), length = -1, info = 0;
-    Small work(1);
-    LAPACKsyev_("V", "L", &n, a.data(), &n, values.data(), work.data(), &length, &info);
-    length = static_cast<PetscBLASInt>(work[0]);
-    work.resize(static_cast<std::size_t>(length));
-    LAPACKsyev_("V", "L", &n, a.data(), &n, values.data(), work.data(), &length, &info);
-    if (info != 0) check(PETSC_ERR_LIB);
-  }
 
   PetscScalar* column(PetscInt j) { return v_.data() + j * rows_; }
 
@@ -224,8 +215,7 @@ class Lanczos {
       check(MatDenseGetArrayRead(w_, &read));
       Small gram = products(read, b_);
       check(MatDenseRestoreArrayRead(w_, &read));
-      std::vector<PetscReal> d(b);
-      symmetricEigen(gram, d);
+      const auto d = symmetricEigen(gram, static_cast<int>(b));
       largest = std::max(largest, d.back());
       std::vector<bool> lost(b);
       bool any = false;

@@ -31,7 +31,7 @@ PetscErrorCode report(EPS, PetscInt iteration, PetscInt converged, PetscScalar*,
 }
 
 OwnedEPS solver(const contact::AssociatedSystem& system, int count, Stage& stage) {
-  const Mat k = system.matrices().k0, m = system.matrices().m0;
+  const Mat k = system.k0(), m = system.m0();
   OwnedEPS eps;
   check(EPSCreate(PetscObjectComm(reinterpret_cast<PetscObject>(k)), eps.out()));
   check(EPSSetOptionsPrefix(eps, "modes_"));
@@ -86,7 +86,7 @@ void confirmCount(const contact::AssociatedSystem& system, Modes& modes) {
   for (std::size_t i = w.size() - 1; i >= 1 && i + 10 >= w.size(); --i)
     if (const double gap = w[i] / w[i - 1] - 1; gap > widest) widest = gap, below = i;
   modes.inertiaShift = 0.5 * (w[below] * w[below] + w[below - 1] * w[below - 1]);
-  modes.inertiaCount = inertia(system.matrices().k0, system.matrices().m0, modes.inertiaShift);
+  modes.inertiaCount = inertia(system.k0(), system.m0(), modes.inertiaShift);
   modes.countConfirmed = modes.inertiaCount == static_cast<int>(below);
 }
 
@@ -99,7 +99,7 @@ void requireConverged(int converged, int count) {
 
 /// Eigenvalues ascending and vectors, M-orthonormal, by SLEPc.
 void solveByEps(const contact::AssociatedSystem& system, int count, Stage& stage, Modes& modes) {
-  const Mat k = system.matrices().k0;
+  const Mat k = system.k0();
   const OwnedEPS eps = solver(system, count, stage);
   check(EPSSolve(eps));
   PetscInt converged = 0, iterations = 0;
@@ -127,8 +127,7 @@ void solveByEps(const contact::AssociatedSystem& system, int count, Stage& stage
 }
 
 void solveByLanczos(const contact::AssociatedSystem& system, int count, Stage& stage, Modes& modes) {
-  const auto& matrices = system.matrices();
-  auto result = blockLanczos(matrices.k0, matrices.m0, system.solver(), count, blockOption.get(), toleranceOption.get(), 20,
+  auto result = blockLanczos(system.k0(), system.m0(), system.solver(), count, blockOption.get(), toleranceOption.get(), 20,
                              [&](int restarts, int converged) {
                                stage.progress(formatted("%d restarts: %d of %d modes converged", restarts, converged, count));
                              });
@@ -139,7 +138,7 @@ void solveByLanczos(const contact::AssociatedSystem& system, int count, Stage& s
 }
 
 void measureResiduals(const contact::AssociatedSystem& system, Modes& modes) {
-  const Mat k = system.matrices().k0, m = system.matrices().m0;
+  const Mat k = system.k0(), m = system.m0();
   OwnedVec kd, md;
   check(MatCreateVecs(k, kd.out(), md.out()));
   for (std::size_t i = 0; i < modes.lambda.size(); ++i) {
@@ -175,7 +174,7 @@ Modes compute(const contact::AssociatedSystem& system) {
   const int count = countOption.get();
   if (count > system.size())
     throw Error(formatted("option -modes_count %d: the problem has only %d unknowns", count, static_cast<int>(system.size())));
-  Stage stage(PetscObjectComm(reinterpret_cast<PetscObject>(system.matrices().k0.get())), "modes");
+  Stage stage(PetscObjectComm(reinterpret_cast<PetscObject>(system.k0())), "modes");
   Modes modes;
   if (lanczosWanted(count, system.size()))
     solveByLanczos(system, count, stage, modes);

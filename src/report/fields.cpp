@@ -92,7 +92,7 @@ void animate(const Analysis& analysis, const Ghosts& ghosts, const Animated& ite
   const int frames = framesOption.get();
   const double period = 2 * M_PI / item.point->eigenvalues[item.shape->index].s.imag();
   if (!std::isfinite(period)) return;  // divergence does not oscillate
-  const std::string name = "squeal_friction_" + frictionText(item.point->friction) + "_" + shapeName(*item.point, *item.shape);
+  const std::string name = "squeal_friction_" + pointName(item.point->at) + "_" + shapeName(*item.point, *item.shape);
   std::vector<std::pair<double, std::filesystem::path>> files;
   OwnedVec u;
   check(VecDuplicate(item.shape->real, u.out()));
@@ -117,11 +117,11 @@ void writeFields(const Analysis& analysis, const std::filesystem::path& folder) 
   std::vector<std::pair<double, std::filesystem::path>> steadyFiles;
   for (const auto& solution : analysis.steady) {
     if (!solution.converged) continue;
-    const auto stem = vtk / ("steady_friction_" + frictionText(solution.friction));
+    const auto stem = vtk / ("steady_friction_" + pointName(solution.at));
     writeVtu(mesh, stem,
              {ghosts.vector("displacement", solution.displacement),
               ghosts.scalar("contact_pressure", contactField(analysis, solution))});
-    steadyFiles.emplace_back(solution.friction, stem.string() + ".pvtu");
+    steadyFiles.emplace_back(solution.at.friction, stem.string() + ".pvtu");
   }
   writePvd(mesh.comm, vtk / "steady.pvd", steadyFiles);
   for (const auto& segment : analysis.segments) {
@@ -129,14 +129,14 @@ void writeFields(const Analysis& analysis, const std::filesystem::path& folder) 
     for (std::size_t i = 0; i < segment.shapes.size(); ++i)
       fields.push_back(
           ghosts.vector(formatted("mode_%03zu_%.0f_Hz", i + 1, segment.modes.angularFrequency[i] / (2 * M_PI)), segment.shapes[i]));
-    if (!fields.empty()) writeVtu(mesh, vtk / ("modes_from_friction_" + frictionText(segment.points.front().friction)), fields);
+    if (!fields.empty()) writeVtu(mesh, vtk / ("modes_from_friction_" + pointName(segment.points.front().at)), fields);
     for (const auto& point : segment.points) {
       std::vector<Field> shapes;
       for (const auto& shape : point.shapes) {
         shapes.push_back(ghosts.vector(shapeName(point, shape) + "_real", shape.real));
         shapes.push_back(ghosts.vector(shapeName(point, shape) + "_imaginary", shape.imaginary));
       }
-      if (!shapes.empty()) writeVtu(mesh, vtk / ("complex_modes_friction_" + frictionText(point.friction)), shapes);
+      if (!shapes.empty()) writeVtu(mesh, vtk / ("complex_modes_friction_" + pointName(point.at)), shapes);
     }
   }
   for (const auto& item : fastest(analysis)) animate(analysis, ghosts, item, vtk);
@@ -149,10 +149,11 @@ void writeHdf5(const Analysis& analysis, const std::filesystem::path& folder) {
   file.writeMesh(*analysis.mesh);
   for (const auto& solution : analysis.steady) {
     if (!solution.converged) continue;
-    const std::string group = "/steady/friction_" + frictionText(solution.friction);
+    const std::string group = "/steady/friction_" + pointName(solution.at);
     file.writeNodeVector(group, "displacement", solution.displacement);
     file.writeNodeVector(group, "contact_pressure_gap", contactField(analysis, solution));
-    file.writeAttribute(group, "friction", solution.friction);
+    file.writeAttribute(group, "friction", solution.at.friction);
+    file.writeAttribute(group, "speed", solution.at.speed);
   }
   for (std::size_t s = 0; s < analysis.segments.size(); ++s) {
     const auto& segment = analysis.segments[s];
@@ -165,7 +166,7 @@ void writeHdf5(const Analysis& analysis, const std::filesystem::path& folder) {
     for (std::size_t i = 0; i < segment.shapes.size(); ++i)
       file.writeNodeVector(modesGroup, formatted("mode_%03zu", i + 1), segment.shapes[i]);
     for (const auto& point : segment.points) {
-      const std::string group = "/flutter/friction_" + frictionText(point.friction);
+      const std::string group = "/flutter/friction_" + pointName(point.at);
       std::vector<std::vector<double>> rows;
       for (const auto& e : point.eigenvalues) rows.push_back({e.s.real(), e.s.imag(), e.backwardError});
       file.writeTable(group, "eigenvalues", {"growth_rate_1_per_s", "angular_frequency_rad_per_s", "backward_error"},

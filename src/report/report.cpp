@@ -18,8 +18,9 @@ bool isResult(const std::filesystem::path& name) {
   const std::string text = name.filename().string();
   const auto begins = [&](const char* start) { return text.rfind(start, 0) == 0; };
   return text == "eigenvalues.csv" || text == "modes.csv" || text == "summary.json" || text == "results.h5" ||
-         text == "stability.png" || text == "options.txt" || text == "vtk" || text == ".partial" ||
-         (begins("steady_") && name.extension() == ".csv") || (begins("modes_") && name.extension() == ".csv");
+         text == "options.txt" || text == "vtk" || text == ".partial" || (begins("stability") && name.extension() == ".png") ||
+         text == "critical_friction.png" || (begins("steady_") && name.extension() == ".csv") ||
+         (begins("modes_") && name.extension() == ".csv");
 }
 
 void onRankZero(MPI_Comm comm, const std::string& option, const auto& action) {
@@ -62,7 +63,9 @@ void Directory::commit() const {
   });
 }
 
-std::string frictionText(double friction) { return shortest(friction); }
+std::string pointName(const Parameters& at) {
+  return shortest(at.friction) + (at.speed == 1 ? "" : "_speed_" + shortest(at.speed));
+}
 
 void write(const Analysis& analysis, const Directory& directory) {
   const MPI_Comm comm = analysis.mesh->comm;

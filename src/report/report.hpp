@@ -29,8 +29,8 @@ class Directory {
 /// Collective. Writes all reports and prints the stability table.
 void write(const Analysis& analysis, const Directory& directory);
 
-/// A friction as it stands in file names and tables: the shortest decimal text.
-std::string frictionText(double friction);
+/// A point of the sweep as it stands in file and group names: FRICTION, and _speed_SPEED where the speed factor is not 1.
+std::string pointName(const Parameters& at);
 
 /// The parts of write(), each collective, into `folder`.
 void writeTables(const Analysis& analysis, const std::filesystem::path& folder);

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -28,6 +29,20 @@ Json steadyEntry(const steady::Solution& solution) {
   return entry;
 }
 
+/// NaN and infinity have no place in JSON.
+Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json uniquenessEntry(double speed, const steady::Uniqueness& found) {
+  Json entry = {{"speed", speed},
+                {"positive_definite_up_to_friction", std::isinf(found.lostAt) ? Json("any") : finite(found.lostAt)}};
+  for (const auto& judgement : found.judgements)
+    entry["frictions"].push_back({{"friction", judgement.friction},
+                                  {"steady_state", judgement.verdict},
+                                  {"reason", judgement.reason},
+                                  {"smallest_eigenvalue_m_per_n", finite(judgement.smallest)}});
+  return entry;
+}
+
 Json unstableModes(const flutter::FrictionPoint& point) {
   Json list = Json::array();
   for (std::size_t i = 0; i < point.eigenvalues.size(); ++i) {
@@ -41,10 +56,10 @@ Json unstableModes(const flutter::FrictionPoint& point) {
   return list;
 }
 
-const flutter::FrictionPoint* pointAt(const Analysis& analysis, double friction) {
+const flutter::FrictionPoint* pointAt(const Analysis& analysis, const Parameters& at) {
   for (const auto& segment : analysis.segments)
     for (const auto& point : segment.points)
-      if (point.friction == friction) return &point;
+      if (point.at.friction == at.friction && point.at.speed == at.speed) return &point;
   return nullptr;
 }
 
@@ -67,8 +82,8 @@ void writeSummary(const Analysis& analysis, const std::filesystem::path& folder)
   summary["dofs"] = analysis.segments.empty() ? 0 : analysis.segments.front().unknowns;
   summary["frictions"] = Json::array();
   for (const auto& solution : analysis.steady) {
-    Json entry = {{"friction", solution.friction}, {"steady", steadyEntry(solution)}};
-    if (const auto* point = pointAt(analysis, solution.friction)) {
+    Json entry = {{"friction", solution.at.friction}, {"speed", solution.at.speed}, {"steady", steadyEntry(solution)}};
+    if (const auto* point = pointAt(analysis, solution.at)) {
       entry["eigenvalues"] = point->eigenvalues.size();
       entry["worst_backward_error"] = point->worstBackwardError();
       if (point->bandTop > 0) {
@@ -81,10 +96,13 @@ void writeSummary(const Analysis& analysis, const std::filesystem::path& folder)
     }
     summary["frictions"].push_back(entry);
   }
+  for (const auto& [speed, found] : analysis.uniqueness) summary["steady_uniqueness"].push_back(uniquenessEntry(speed, found));
   summary["active_sets"] = Json::array();
   for (const auto& segment : analysis.segments) {
-    Json entry = {{"first_friction", segment.points.front().friction},
-                  {"last_friction", segment.points.back().friction},
+    Json entry = {{"first_friction", segment.points.front().at.friction},
+                  {"first_speed", segment.points.front().at.speed},
+                  {"last_friction", segment.points.back().at.friction},
+                  {"last_speed", segment.points.back().at.speed},
                   {"open_nodes", segment.openNodes},
                   {"dofs", segment.unknowns},
                   {"modes", segment.modes.angularFrequency.size()}};

@@ -1,4 +1,5 @@
 /// The comma-separated tables and the terminal's stability table.
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 
@@ -11,14 +12,15 @@ namespace squeal::report {
 namespace {
 
 std::string eigenvalueTable(const Analysis& analysis) {
-  std::string table = "friction,mode,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,damping_ratio,backward_error\n";
+  std::string table =
+      "friction,speed,mode,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,damping_ratio,backward_error,in_band\n";
   for (const auto& segment : analysis.segments)
     for (const auto& point : segment.points)
       for (std::size_t i = 0; i < point.eigenvalues.size(); ++i) {
         const auto& e = point.eigenvalues[i];
-        table += frictionText(point.friction) + "," + std::to_string(i + 1) +
-                 formatted(",%.15e,%.15e,%.15e,%.15e,%.3e\n", e.s.real(), e.s.imag(), e.s.imag() / (2 * M_PI),
-                           -e.s.real() / std::abs(e.s), e.backwardError);
+        table += shortest(point.at.friction) + "," + shortest(point.at.speed) + "," + std::to_string(i + 1) +
+                 formatted(",%.15e,%.15e,%.15e,%.15e,%.3e,%d\n", e.s.real(), e.s.imag(), e.s.imag() / (2 * M_PI),
+                           -e.s.real() / std::abs(e.s), e.backwardError, e.inBand ? 1 : 0);
       }
   return table;
 }
@@ -44,9 +46,14 @@ std::string steadyRows(const Analysis& analysis, const steady::Solution& solutio
   return rows;
 }
 
-/// One line for one friction of a sweep: the lowest unstable modes.
-std::string sweepRow(const flutter::FrictionPoint& point) {
-  std::string row = formatted("\n%8g  ", point.friction);
+/// Head of a line of a sweep.
+std::string rowHead(const Parameters& at, bool speeds) {
+  return formatted("\n%8g  ", at.friction) + (speeds ? formatted("%8g  ", at.speed) : "");
+}
+
+/// One line for one point of a sweep: the lowest unstable modes.
+std::string sweepRow(const flutter::FrictionPoint& point, bool speeds) {
+  std::string row = rowHead(point.at, speeds);
   if (point.unstableCount() == 0) return row + "none: steady sliding is stable";
   int shown = 0;
   for (const auto& e : point.eigenvalues)
@@ -57,7 +64,7 @@ std::string sweepRow(const flutter::FrictionPoint& point) {
 
 /// The unstable modes of a single friction, a line each; modes are numbered by frequency.
 std::string modeRows(const flutter::FrictionPoint& point) {
-  if (point.unstableCount() == 0) return formatted("\nnone at friction %g: steady sliding is stable", point.friction);
+  if (point.unstableCount() == 0) return formatted("\nnone at friction %g: steady sliding is stable", point.at.friction);
   std::string rows;
   for (std::size_t i = 0; i < point.eigenvalues.size(); ++i) {
     const auto& e = point.eigenvalues[i];
@@ -110,14 +117,14 @@ void writeTables(const Analysis& analysis, const std::filesystem::path& folder) 
   writeFile(comm, folder / "eigenvalues.csv", eigenvalueTable(analysis));
   for (std::size_t s = 0; s < analysis.segments.size(); ++s) {
     if (analysis.segments[s].modes.angularFrequency.empty()) continue;
-    // modes.csv: the first active set; each later one has its own file, named by its first friction.
-    const std::string name = s == 0 ? "modes.csv" : "modes_" + frictionText(analysis.segments[s].points.at(0).friction) + ".csv";
+    // modes.csv: the first active set; each later one has its own file, named by its first point.
+    const std::string name = s == 0 ? "modes.csv" : "modes_" + pointName(analysis.segments[s].points.at(0).at) + ".csv";
     writeFile(comm, folder / name, modeTable(analysis.segments[s].modes));
   }
   for (const auto& solution : analysis.steady)
     if (solution.converged)
       writeFile(
-          comm, folder / ("steady_" + frictionText(solution.friction) + ".csv"),
+          comm, folder / ("steady_" + pointName(solution.at) + ".csv"),
           "x_m,y_m,z_m,gap_m,normal_force_n,pressure_pa,friction_force_x_n,friction_force_y_n,friction_force_z_n,interface\n" +
               gathered(comm, steadyRows(analysis, solution)));
 }
@@ -128,18 +135,21 @@ void writeRecipe(const Analysis& analysis, const std::filesystem::path& folder) 
 
 std::string stabilityTable(const Analysis& analysis) {
   const bool sweep = analysis.steady.size() > 1;
-  std::string table = sweep ? "\nfriction  unstable modes: frequency Hz (growth 1/s)" : "\nmode  frequency Hz   growth 1/s";
+  const bool speeds = std::any_of(analysis.steady.begin(), analysis.steady.end(), [](const auto& s) { return s.at.speed != 1; });
+  std::string table = !sweep   ? "\nmode  frequency Hz   growth 1/s"
+                      : speeds ? "\nfriction     speed  unstable modes: frequency Hz (growth 1/s)"
+                               : "\nfriction  unstable modes: frequency Hz (growth 1/s)";
   for (const auto& solution : analysis.steady)
     if (!solution.converged)
-      table += formatted("\n%8g  no steady sliding solution found (%s)", solution.friction, solution.reason.c_str());
+      table += rowHead(solution.at, speeds) + formatted("no steady sliding solution found (%s)", solution.reason.c_str());
   for (const auto& segment : analysis.segments)
-    for (const auto& point : segment.points) table += sweep ? sweepRow(point) : modeRows(point);
+    for (const auto& point : segment.points) table += sweep ? sweepRow(point, speeds) : modeRows(point);
   for (const auto& segment : analysis.segments)
     for (const auto& point : segment.points)
       if (point.bandTop > 0 && point.worstBackwardError() > point.accuracy)
         table += formatted(
             "\nfriction %g: backward errors in the band exceed %.0e, see eigenvalues.csv; raise -modes_count or -flutter_rounds",
-            point.friction, point.accuracy);
+            point.at.friction, point.accuracy);
   if (!analysis.segments.empty() && analysis.segments.front().points.front().bandTop > 0)
     table +=
         formatted("\nEigenvalues up to %.5g Hz are corrected to the full-order problem; those above in eigenvalues.csv are not.",

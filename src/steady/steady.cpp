@@ -15,20 +15,37 @@ const SolverPrefix solverPrefix("steady", "steady_", "PETSc SNES VI, KSP and PC 
 using OwnedSNES = Owned<SNES, SNESDestroy>;
 
 /// The problem in units of its own size, x = xUnit x̂ and F = forceUnit F̂, so that the tolerances of SNES, absolute ones among
-/// them (-steady_snes_vi_zero_tolerance is 1e-8), mean the same in metres and in millimetres.
+/// SNES sees F̂(x̂) = F(x)/forceUnit with x = xUnit x̂, so that its tolerances, absolute ones among them
+/// (-steady_snes_vi_zero_tolerance is 1e-8), mean the same in metres and in millimetres.
 struct Scaled {
-  Mat jacobian;  // n×n, F̂ = jacobian x̂ + constant
-  Vec constant;
+  const Problem& problem;
+  Parameters at;
+  double xUnit, forceUnit;
+  bool nonlinear;
+  Vec x;  // work
 };
 
 PetscErrorCode evaluate(SNES, Vec x, Vec f, void* context) {
-  const auto* scaled = static_cast<const Scaled*>(context);
+  const auto& scaled = *static_cast<const Scaled*>(context);
   PetscFunctionBegin;
-  PetscCall(MatMultAdd(scaled->jacobian, x, scaled->constant, f));
+  PetscCall(VecCopy(x, scaled.x));
+  PetscCall(VecScale(scaled.x, scaled.xUnit));
+  scaled.problem.residual(scaled.at, scaled.x, f);
+  PetscCall(VecScale(f, 1 / scaled.forceUnit));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode keepJacobian(SNES, Vec, Mat, Mat, void*) { return 0; }  // approximation A: F is affine
+PetscErrorCode differentiate(SNES, Vec x, Mat jacobian, Mat, void* context) {
+  const auto& scaled = *static_cast<const Scaled*>(context);
+  PetscFunctionBegin;
+  if (!scaled.nonlinear) PetscFunctionReturn(0);
+  PetscCall(VecCopy(x, scaled.x));
+  PetscCall(VecScale(scaled.x, scaled.xUnit));
+  const OwnedMat fresh = scaled.problem.jacobian(scaled.at, scaled.x);
+  PetscCall(MatCopy(fresh, jacobian, SAME_NONZERO_PATTERN));
+  PetscCall(MatScale(jacobian, scaled.xUnit / scaled.forceUnit));
+  PetscFunctionReturn(0);
+}
 
 PetscErrorCode applySolver(PC pc, Vec in, Vec out) {
   KSP solver = nullptr;
@@ -44,29 +61,107 @@ OwnedVec rightVector(Mat matrix) {
   return vector;
 }
 
-/// L(f)ᵀ r = Tᵀ r + f Eᵀ r.
-OwnedVec tested(const contact::Transformation& transformation, double friction, Vec r) {
-  OwnedVec result = rightVector(transformation.trial), part = rightVector(transformation.trial);
-  check(MatMultTranspose(transformation.friction, r, part));
-  check(MatMultTranspose(transformation.trial, r, result));
-  check(VecAXPY(result, friction, part));
-  return result;
-}
-
 }  // namespace
 
 Problem::Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, const contact::Contact& contact)
-    : mesh_(mesh), bodies_(bodies), contact_(contact), residual0_(elasticity::nodalVector(mesh)) {
-  const std::vector<unsigned char> all(contact.nodes.size(), 1);
-  matrices_ = contact::couple(bodies, contact, all, all, false);
-  check(MatMult(bodies.stiffness, contact.offset, residual0_));
-  check(VecAXPY(residual0_, -1, bodies.load));
+    : mesh_(mesh),
+      bodies_(bodies),
+      contact_(contact),
+      all_(contact.nodes.size(), 1),
+      transformation_(contact.transformation(all_)),
+      stiffness_(contact::project(contact, transformation_, bodies.stiffness)),
+      rotationStiffness_(contact::project(contact, transformation_, bodies.rotationStiffness)) {
+  if (!contact.convected) return;
+  check(MatMatMult(contact.jump, transformation_.trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, jumps_.out()));
+  check(MatMatMult(contact.convected, transformation_.trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, convected_.out()));
 }
 
-Solution Problem::solve(double friction, const contact::AssociatedSystem& system) const {
+/// b with the centrifugal part of this speed.
+OwnedVec Problem::load(double speed) const {
+  OwnedVec b = elasticity::nodalVector(mesh_);
+  check(VecCopy(bodies_.load, b));
+  check(VecAXPY(b, speed * speed - 1, bodies_.centrifugal));
+  return b;
+}
+
+/// r = (K + v² K^R) u − b: supports and contact.
+OwnedVec Problem::forces(const Parameters& at, Vec displacement) const {
+  OwnedVec r = elasticity::nodalVector(mesh_);
+  check(MatMult(bodies_.stiffness, displacement, r));
+  if (bodies_.rotationStiffness) {
+    const OwnedVec moving = elasticity::nodalVector(mesh_);
+    check(MatMult(bodies_.rotationStiffness, displacement, moving));
+    check(VecAXPY(r, at.speed * at.speed, moving));
+  }
+  check(VecAXPY(r, -1, load(at.speed)));
+  return r;
+}
+
+/// R_N = N r, [contact node].
+std::vector<double> Problem::normalForces(Vec forces) const {
+  const OwnedVec reactions = elasticity::nodalVector(mesh_);
+  check(MatMult(contact_.reaction, forces, reactions));
+  const PetscScalar* values = nullptr;
+  check(VecGetArrayRead(reactions, &values));
+  std::vector<double> normal;
+  for (const auto& node : contact_.nodes) normal.push_back(values[contact_.gapRow(node) - mesh_.dimension * mesh_.firstNode]);
+  check(VecRestoreArrayRead(reactions, &values));
+  return normal;
+}
+
+/// Tᵀ (r + Jᵀ f φ R_N τ): less the contact forces of the friction law, nodal forces do no work on tangential displacements.
+OwnedVec Problem::test(const Parameters& at, Vec forces, const std::vector<contact::Slip>& slip) const {
+  const OwnedVec friction = elasticity::nodalVector(mesh_), sum = elasticity::nodalVector(mesh_);
+  const auto normal = normalForces(forces);
+  PetscScalar* values = nullptr;
+  check(VecGetArray(friction, &values));
+  for (std::size_t i = 0; i < contact_.nodes.size(); ++i)
+    for (int d = 0; d < mesh_.dimension; ++d)
+      values[mesh_.dimension * contact_.nodes[i].node + d] =
+          at.friction * slip[i].law * normal[i] * slip[i].direction[static_cast<std::size_t>(d)];
+  check(VecRestoreArray(friction, &values));
+  check(MatMultTransposeAdd(contact_.jump, friction, forces, sum));
+  OwnedVec result = rightVector(transformation_.trial);
+  check(MatMultTranspose(transformation_.trial, sum, result));
+  return result;
+}
+
+OwnedVec Problem::displacement(Vec x) const {
+  OwnedVec u = elasticity::nodalVector(mesh_);
+  check(MatMultAdd(transformation_.trial, x, contact_.offset, u));
+  return u;
+}
+
+void Problem::residual(const Parameters& at, Vec x, Vec f) const {
+  const OwnedVec u = displacement(x);
+  check(VecCopy(test(at, forces(at, u), contact_.slip(at.speed, u)), f));
+}
+
+/// Tᵀ K T + f Sᵀ N K T, and with convective terms the turning of the slip: −v Tᵀ Jᵀ B D T with B of velocityResponse().
+OwnedMat Problem::jacobian(const Parameters& at, Vec x) const {
+  const OwnedVec u = displacement(x);
+  const auto slip = contact_.slip(at.speed, u);
+  const OwnedMat rows = contact_.slipRows(transformation_, slip, all_), friction = stiffness_.friction(rows);
+  OwnedMat sum = contact::affine(stiffness_.matrix, friction, at.friction);
+  if (rotationStiffness_) {
+    const OwnedMat moving = contact::affine(rotationStiffness_.matrix, rotationStiffness_.friction(rows), at.friction);
+    check(MatAXPY(sum, at.speed * at.speed, moving, DIFFERENT_NONZERO_PATTERN));
+  }
+  if (contact_.convected) {
+    const OwnedMat response = contact_.velocityResponse(slip, normalForces(forces(at, u)), at.friction);
+    OwnedMat change, turning;
+    check(MatMatMult(response, convected_, MAT_INITIAL_MATRIX, PETSC_DEFAULT, change.out()));
+    check(MatTransposeMatMult(jumps_, change, MAT_INITIAL_MATRIX, PETSC_DEFAULT, turning.out()));
+    check(MatAXPY(sum, -at.speed, turning, DIFFERENT_NONZERO_PATTERN));
+  }
+  return sum;
+}
+
+Solution Problem::solve(const Parameters& at, const contact::AssociatedSystem& system) const {
+  if (at.friction > 0) contact::requireSlip(contact_, contact_.slip(at.speed, nullptr), all_);
   Solution solution;
-  solution.friction = friction;
-  OwnedVec x = guess(friction, system);
+  solution.at = at;
+  OwnedVec x = guess(at, system);
   if (contact_.weightsPositive) {
     complementarity(x, solution);
   } else {
@@ -83,15 +178,22 @@ Solution Problem::solve(double friction, const contact::AssociatedSystem& system
   return solution;
 }
 
-/// Solves the linear problem with the gaps of the active set held at zero: GMRES on L(f)ᵀ K T, preconditioned by the factorised K0.
-OwnedVec Problem::guess(double friction, const contact::AssociatedSystem& system) const {
-  const auto& closed = system.matrices();
-  const OwnedMat jacobian = contact::CoupledMatrices::affine(closed.k0, closed.k1, friction);
-  const OwnedVec rhs = tested(closed.transformation, friction, residual0_), y = rightVector(closed.k0);
+/// Solves the linear problem with the gaps of the active set held at zero and w = −v V: GMRES, preconditioned by the factorised K0.
+OwnedVec Problem::guess(const Parameters& at, const contact::AssociatedSystem& system) const {
+  const auto& closed = system.transformation();
+  const auto slip = contact_.slip(at.speed, nullptr);
+  const OwnedMat rows = contact_.slipRows(closed, slip, system.closed());
+  const OwnedMat jacobian = contact::affine(system.k0(), system.stiffness().friction(rows), at.friction);
+  const OwnedVec rhs = rightVector(closed.trial), y = rightVector(closed.trial), r = forces(at, contact_.offset),
+                 reactions = elasticity::nodalVector(mesh_), friction = rightVector(closed.trial);
+  check(MatMult(contact_.reaction, r, reactions));
+  check(MatMultTranspose(rows, reactions, friction));
+  check(MatMultTranspose(closed.trial, r, rhs));
+  check(VecAXPY(rhs, at.friction, friction));
   check(VecScale(rhs, -1));
   OwnedKSP solver;
   check(KSPCreate(mesh_.comm, solver.out()));
-  check(KSPSetOperators(solver, jacobian, closed.k0));
+  check(KSPSetOperators(solver, jacobian, system.k0()));
   check(KSPSetType(solver, KSPGMRES));
   check(KSPSetTolerances(solver, 1e-13, PETSC_DEFAULT, PETSC_DEFAULT, 200));
   check(KSPGMRESSetRestart(solver, 200));
@@ -105,31 +207,34 @@ OwnedVec Problem::guess(double friction, const contact::AssociatedSystem& system
   check(KSPGetConvergedReason(solver, &reason));
   if (reason < 0) check(KSPSolve(system.solver(), rhs, y));  // near a friction without solution: the frictionless guess
   const OwnedVec z = elasticity::nodalVector(mesh_);
-  OwnedVec x = rightVector(matrices_.k0);
-  check(MatMult(closed.transformation.selection, y, z));
-  check(MatMultTranspose(matrices_.transformation.selection, z, x));
+  OwnedVec x = rightVector(transformation_.trial);
+  check(MatMult(closed.selection, y, z));
+  check(MatMultTranspose(transformation_.selection, z, x));
   return x;
 }
 
 void Problem::complementarity(OwnedVec& x, Solution& solution) const {
-  const double friction = solution.friction;
   PetscReal xUnit = 0, forceUnit = 0;
   check(VecNorm(x, NORM_INFINITY, &xUnit));
-  const OwnedVec constant = tested(matrices_.transformation, friction, residual0_);
-  check(VecNorm(constant, NORM_2, &forceUnit));
+  {
+    const OwnedVec zero = rightVector(transformation_.trial), start = rightVector(transformation_.trial);
+    residual(solution.at, zero, start);
+    check(VecNorm(start, NORM_2, &forceUnit));
+  }
   if (xUnit == 0) xUnit = 1;
   if (forceUnit == 0) forceUnit = 1;
-  OwnedMat jacobian = contact::CoupledMatrices::affine(matrices_.k0, matrices_.k1, friction), symmetric;
-  check(MatDuplicate(matrices_.k0, MAT_COPY_VALUES, symmetric.out()));
+  const OwnedMat jacobian = this->jacobian(solution.at, x);
+  OwnedMat symmetric;
+  check(MatDuplicate(stiffness_.matrix, MAT_COPY_VALUES, symmetric.out()));
   for (Mat matrix : {jacobian.get(), symmetric.get()}) check(MatScale(matrix, xUnit / forceUnit));
-  check(VecScale(constant, 1 / forceUnit));
   check(VecScale(x, 1 / xUnit));
-  Scaled scaled{jacobian, constant};
+  const OwnedVec work = rightVector(jacobian);
+  Scaled scaled{*this, solution.at, xUnit, forceUnit, static_cast<bool>(contact_.convected), work};
 
   const OwnedVec low = rightVector(jacobian), high = rightVector(jacobian);
   check(VecSet(low, PETSC_NINFINITY));
   check(VecSet(high, PETSC_INFINITY));
-  for (PetscInt column : matrices_.transformation.gapColumn) check(VecSetValue(low, column, 0, INSERT_VALUES));
+  for (PetscInt column : transformation_.gapColumn) check(VecSetValue(low, column, 0, INSERT_VALUES));
   check(VecAssemblyBegin(low));
   check(VecAssemblyEnd(low));
 
@@ -137,9 +242,9 @@ void Problem::complementarity(OwnedVec& x, Solution& solution) const {
   check(SNESCreate(mesh_.comm, snes.out()));
   check(SNESSetOptionsPrefix(snes, solverPrefix.prefix.c_str()));
   check(SNESSetType(snes, SNESVINEWTONRSLS));
-  const OwnedVec residual = rightVector(jacobian);
-  check(SNESSetFunction(snes, residual, evaluate, &scaled));
-  check(SNESSetJacobian(snes, jacobian, symmetric, keepJacobian, nullptr));
+  const OwnedVec value = rightVector(jacobian);
+  check(SNESSetFunction(snes, value, evaluate, &scaled));
+  check(SNESSetJacobian(snes, jacobian, symmetric, differentiate, &scaled));
   check(SNESVISetVariableBounds(snes, low, high));
   check(SNESSetTolerances(snes, 1e-11, 1e-14, 0, 30, 1000));
   KSP ksp = nullptr;
@@ -152,7 +257,7 @@ void Problem::complementarity(OwnedVec& x, Solution& solution) const {
   check(PCSetType(pc, PCCHOLESKY));
   check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
   check(SNESSetFromOptions(snes));
-  solverPrefix.rejectUnused({"mat_mumps_"});
+  solverPrefix.rejectUnused({"mat_mumps_", "uniqueness_"});
   check(SNESSolve(snes, nullptr, x));
   SNESConvergedReason reason;
   PetscInt iterations = 0;
@@ -165,33 +270,30 @@ void Problem::complementarity(OwnedVec& x, Solution& solution) const {
 }
 
 void Problem::recover(Vec x, Solution& solution) const {
-  solution.displacement = elasticity::nodalVector(mesh_);
-  const OwnedVec force = elasticity::nodalVector(mesh_);
-  check(MatMultAdd(matrices_.transformation.trial, x, contact_.offset, solution.displacement));
-  check(MatMult(bodies_.stiffness, solution.displacement, force));
-  check(VecAXPY(force, -1, bodies_.load));  // K u − b: supports and contact forces
-  const OwnedVec folded = elasticity::nodalVector(mesh_);
+  solution.displacement = displacement(x);
+  const OwnedVec force = forces(solution.at, solution.displacement), folded = elasticity::nodalVector(mesh_);
   check(MatMultTranspose(contact_.periodic, force, folded));  // a contact node on a periodic boundary is pressed on both sides
+  solution.slip = contact_.slip(solution.at.speed, solution.displacement);
+  const auto normal = normalForces(force);
 
   PetscInt first = 0;
   check(VecGetOwnershipRange(x, &first, nullptr));
-  const PetscScalar *values = nullptr, *forces = nullptr;
+  const PetscScalar* values = nullptr;
   check(VecGetArrayRead(x, &values));
-  check(VecGetArrayRead(folded, &forces));
   double largest = 0;
   for (std::size_t i = 0; i < contact_.nodes.size(); ++i) {
     const auto& node = contact_.nodes[i];
     ContactState state;
-    state.gap = values[matrices_.transformation.gapColumn[i] - first];
-    for (int d = 0; d < mesh_.dimension; ++d)
-      state.normalForce += forces[mesh_.dimension * node.node + d] * node.normal[static_cast<std::size_t>(d)];
-    for (std::size_t d = 0; d < 3; ++d) state.frictionForce[d] = -solution.friction * state.normalForce * node.slip[d];
+    state.gap = values[transformation_.gapColumn[i] - first];
+    state.normalForce = normal[i];
+    const auto& slip = solution.slip[i];
+    for (std::size_t d = 0; d < 3; ++d)
+      state.frictionForce[d] = -solution.at.friction * slip.law * state.normalForce * slip.direction[d];
     state.pressure = state.normalForce / node.area;
     largest = std::max(largest, std::abs(state.normalForce));
     solution.contact.push_back(state);
   }
   check(VecRestoreArrayRead(x, &values));
-  check(VecRestoreArrayRead(folded, &forces));
   check(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, mesh_.comm));
   if (!contact_.weightsPositive) {
     const auto pressure = consistentPressure(mesh_, contact_, solution.contact);
@@ -208,6 +310,7 @@ void Problem::recover(Vec x, Solution& solution) const {
   check(MPI_Allreduce(MPI_IN_PLACE, &solution.openNodes, 1, MPIU_INT, MPI_SUM, mesh_.comm));
   check(MPI_Allreduce(MPI_IN_PLACE, &smallest, 1, MPI_DOUBLE, MPI_MIN, mesh_.comm));
   solution.smallestPressure = contact_.totalNodes ? smallest : 0;
+  if (solution.at.friction > 0 && solution.converged) contact::requireSlip(contact_, solution.slip, solution.closed);
 
   for (std::size_t i = 0; i < contact_.interfaces.size(); ++i) {
     Resultant resultant{contact_.interfaces[i], {}, {}};
@@ -242,22 +345,27 @@ double Problem::imbalance(const Solution& solution, Vec nodalForces) const {
   // and at the end the sum of all magnitudes, the scale of what cancels: resultants may vanish on their own.
   std::vector<double> sums(static_cast<std::size_t>(mesh_.parts) * 9 + 1, 0.0);
   const auto at = [&](int part, int kind, int d) -> double& { return sums[static_cast<std::size_t>(part * 9 + kind * 3 + d)]; };
-  const PetscScalar *forces = nullptr, *loads = nullptr, *contacts = nullptr;
+  const OwnedVec load = this->load(solution.at.speed), springs = elasticity::nodalVector(mesh_);
+  if (bodies_.springs) check(VecPointwiseMult(springs, bodies_.springs, solution.displacement));
+  const PetscScalar *forces = nullptr, *loads = nullptr, *contacts = nullptr, *grounded = nullptr;
   check(VecGetArrayRead(nodalForces, &forces));
-  check(VecGetArrayRead(bodies_.load, &loads));
+  check(VecGetArrayRead(load, &loads));
+  check(VecGetArrayRead(springs, &grounded));
   check(VecGetArrayRead(contactForces, &contacts));
   for (PetscInt node = 0; node < mesh_.ownedNodes; ++node)
     for (int d = 0; d < dimension; ++d) {
       const int part = mesh_.nodePart[static_cast<std::size_t>(node)];
       const PetscInt row = dimension * node + d;
-      const double support = contact_.constraints.held[static_cast<std::size_t>(row)] ? forces[row] - contacts[row] : 0;
+      const double support =
+          (contact_.constraints.held[static_cast<std::size_t>(row)] ? forces[row] - contacts[row] : 0) - grounded[row];
       at(part, 0, d) += contacts[row];
       at(part, 1, d) += support;
       at(part, 2, d) += loads[row];
       sums.back() += std::abs(contacts[row]) + std::abs(support) + std::abs(loads[row]);
     }
   check(VecRestoreArrayRead(nodalForces, &forces));
-  check(VecRestoreArrayRead(bodies_.load, &loads));
+  check(VecRestoreArrayRead(load, &loads));
+  check(VecRestoreArrayRead(springs, &grounded));
   check(VecRestoreArrayRead(contactForces, &contacts));
   check(MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, mesh_.comm));
   double worst = 0;

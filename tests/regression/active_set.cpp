@@ -59,19 +59,22 @@ struct Condensed {
 /// From the program's own matrices, by other algebra than its solver's.
 Condensed condensed(const Analysis& analysis, double friction) {
   const std::vector<unsigned char> all(analysis.contact.nodes.size(), 1);
-  const auto coupled = contact::couple(analysis.bodies, analysis.contact, all, all, false);
-  const OwnedMat jacobian = contact::CoupledMatrices::affine(coupled.k0, coupled.k1, friction);
-  const OwnedVec residual = elasticity::nodalVector(*analysis.mesh);
+  const auto transformation = analysis.contact.transformation(all);
+  const auto stiffness = contact::project(analysis.contact, transformation, analysis.bodies.stiffness);
+  const OwnedMat rows = analysis.contact.slipRows(transformation, analysis.contact.slip(1, nullptr), all);
+  const OwnedMat jacobian = contact::affine(stiffness.matrix, stiffness.friction(rows), friction);
+  const OwnedVec residual = elasticity::nodalVector(*analysis.mesh), reactions = elasticity::nodalVector(*analysis.mesh);
   OwnedVec constant, slope;
-  check(MatCreateVecs(coupled.k0, constant.out(), slope.out()));
+  check(MatCreateVecs(jacobian, constant.out(), slope.out()));
   check(MatMult(analysis.bodies.stiffness, analysis.contact.offset, residual));
   check(VecAXPY(residual, -1, analysis.bodies.load));
-  check(MatMultTranspose(coupled.transformation.trial, residual, constant));
-  check(MatMultTranspose(coupled.transformation.friction, residual, slope));
+  check(MatMultTranspose(transformation.trial, residual, constant));
+  check(MatMult(analysis.contact.reaction, residual, reactions));
+  check(MatMultTranspose(rows, reactions, slope));
   check(VecAXPY(constant, friction, slope));
 
   // One more column for the constant: the Schur complement of both at once.
-  const auto n = static_cast<std::size_t>(coupled.transformation.columns);
+  const auto n = static_cast<std::size_t>(transformation.columns);
   Rows full(n, std::vector<double>(n + 1));
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j) {
@@ -82,8 +85,7 @@ Condensed condensed(const Analysis& analysis, double friction) {
   check(VecGetArrayRead(constant, &values));
   for (std::size_t i = 0; i < n; ++i) full[i][n] = values[i];
   check(VecRestoreArrayRead(constant, &values));
-  std::vector<std::size_t> gaps(coupled.transformation.gapColumn.begin(), coupled.transformation.gapColumn.end()), inner,
-      right = gaps;
+  std::vector<std::size_t> gaps(transformation.gapColumn.begin(), transformation.gapColumn.end()), inner, right = gaps;
   for (std::size_t i = 0; i < n; ++i)
     if (std::find(gaps.begin(), gaps.end(), i) == gaps.end()) inner.push_back(i);
   right.push_back(n);
@@ -133,9 +135,9 @@ TEST(ActiveSet, SteadyStateIsTheOneThatExists) {
   ASSERT_EQ(analysis.contact.nodes.size(), static_cast<std::size_t>(contactNodes));
   int without = 0, opening = 0;
   for (const auto& steady : analysis.steady) {
-    SCOPED_TRACE("friction " + std::to_string(steady.friction) + ": " + steady.reason);
-    const auto solutions = allSolutions(condensed(analysis, steady.friction));
-    std::printf("friction %.1f: %zu solutions among %d active sets; SNES: %s after %d iterations, %d open\n", steady.friction,
+    SCOPED_TRACE("friction " + std::to_string(steady.at.friction) + ": " + steady.reason);
+    const auto solutions = allSolutions(condensed(analysis, steady.at.friction));
+    std::printf("friction %.1f: %zu solutions among %d active sets; SNES: %s after %d iterations, %d open\n", steady.at.friction,
                 solutions.size(), 1 << contactNodes, steady.reason.c_str(), steady.iterations, static_cast<int>(steady.openNodes));
     EXPECT_EQ(steady.converged, !solutions.empty());
     without += solutions.empty();

@@ -56,7 +56,7 @@ inline Violations violations(const Analysis& analysis, const steady::Solution& s
     for (std::size_t d = 0; d < dimension; ++d) {
       const double disc = node.master < 0 ? 0 : u[dimension * static_cast<std::size_t>(node.master) + d];
       distance += node.normal[d] * (u[dimension * static_cast<std::size_t>(node.globalNode) + d] - disc);
-      slip += std::abs(state.frictionForce[d] - (d == 0 ? solution.friction * state.normalForce : 0));
+      slip += std::abs(state.frictionForce[d] - (d == 0 ? solution.at.friction * state.normalForce : 0));
       const double onPad = state.normalForce * node.normal[d] + state.frictionForce[d];
       check(VecSetValue(rest, mesh.dimension * node.globalNode + static_cast<PetscInt>(d), -onPad, ADD_VALUES));
       if (node.master >= 0) check(VecSetValue(rest, mesh.dimension * node.master + static_cast<PetscInt>(d), onPad, ADD_VALUES));

@@ -182,8 +182,8 @@ void expectChain(const flutter::FrictionPoint& point) {
   std::vector<Complex> wanted;
   int unstable = 0;
   for (PetscInt j = 0; j < pairCount; ++j) {
-    for (const auto& s : pairOf(j).exact(point.friction)) wanted.push_back(s);
-    unstable += point.friction > pairOf(j).critical();
+    for (const auto& s : pairOf(j).exact(point.at.friction)) wanted.push_back(s);
+    unstable += point.at.friction > pairOf(j).critical();
   }
   expectSpectrum(test::eigenvaluesOf(point), wanted, 1e-11);
   EXPECT_EQ(point.unstableCount(), unstable);
@@ -205,7 +205,7 @@ TEST(Sweep, DirectMethodIsExact) {
   test::setOptions("-flutter_direct_count 24");
   const auto pencil = chain();
   const auto trial = identity();
-  for (const double f : {0.0, 0.12, 0.2, 0.6}) expectChain(flutter::solveDirect(pencil, f, trial));
+  for (const double f : {0.0, 0.12, 0.2, 0.6}) expectChain(flutter::solveDirect(pencil, {f}, trial));
 }
 
 /// Of the layers sliding on each other: L(f)ᵀ K T and L(f)ᵀ M T.
@@ -230,18 +230,18 @@ double largestSingularValue(test::DenseCopy a) {
 
 /// The eigenvalues of all unknowns, by LAPACK.
 std::vector<DensePair> fullOrder(const flutter::Pencil& pencil, double friction) {
-  const auto stiffness = test::denseCopy(pencil.assembled(0, friction)), mass = test::denseCopy(pencil.assembled(2, friction));
+  const auto stiffness = test::denseCopy(pencil.assembled(0, {friction})), mass = test::denseCopy(pencil.assembled(2, {friction}));
   return flutter::solveQuadratic(mass.values, {}, stiffness.values, static_cast<int>(stiffness.rows));
 }
 
 // Sixty free modes of the layers' 156 unknowns, corrected by their residuals: the band holds the eigenvalues of the full order.
 TEST(Sweep, CorrectedReductionIsThatOfTheFullOrder) {
   const Layers layers("-modes_count 60");
-  const auto pencil = flutter::approximationA(*layers.system);
+  const auto pencil = flutter::affineTerms(layers.model.contact, *layers.system);
   const auto basis = modes::compute(*layers.system);
-  flutter::ReducedProblem reduced(pencil, *layers.system, basis);
+  flutter::ReducedProblem reduced(pencil, layers.system->m0(), layers.system->solver(), basis);
   for (const double f : {0.0, 0.2, 0.5}) {
-    const auto point = reduced.solve(f, layers.system->matrices().transformation.trial);
+    const auto point = reduced.solve({f}, layers.system->transformation().trial);
     const double top = (1 - 1e-6) * point.bandTop;  // the band ends at a free mode, where rounding would decide
     std::vector<Complex> wanted, found;
     for (const auto& pair : fullOrder(pencil, f))
@@ -267,11 +267,11 @@ TEST(Sweep, CorrectedReductionIsThatOfTheFullOrder) {
 // From below, so that no backward error is flattered, and not far below.
 TEST(Norm, IsJustBelowTheLargestSingularValue) {
   const Layers layers;
-  const auto pencil = flutter::approximationA(*layers.system);
-  EXPECT_EQ(pencil.norm(1, 0.3), 0);  // no damping
+  const auto pencil = flutter::affineTerms(layers.model.contact, *layers.system);
+  EXPECT_EQ(pencil.norm(1, {0.3}), 0);  // no damping
   for (const int power : {0, 2})
     for (const double f : {0.0, 0.3, 0.5, 2.0}) {
-      const double exact = largestSingularValue(test::denseCopy(pencil.assembled(power, f))), estimate = pencil.norm(power, f);
+      const double exact = largestSingularValue(test::denseCopy(pencil.assembled(power, {f}))), estimate = pencil.norm(power, {f});
       test::print("norm of the terms in s^%d at f = %g: estimate / exact = %.4f\n", power, f, estimate / exact);
       EXPECT_LE(estimate, (1 + 1e-12) * exact);
       EXPECT_GE(estimate, 0.95 * exact);
@@ -283,8 +283,8 @@ TEST(Norm, RecoversFromAVanishingTerm) {
   std::vector<flutter::Term> terms;
   terms.push_back({matrix(2, {{0, 0, 3}, {1, 1, -5}}), 1, 1, 1});
   const flutter::Pencil pencil(std::move(terms));
-  EXPECT_EQ(pencil.norm(1, 0), 0);
-  EXPECT_NEAR(pencil.norm(1, 0.5), 2.5, 0.05 * 2.5);
+  EXPECT_EQ(pencil.norm(1, {0}), 0);
+  EXPECT_NEAR(pencil.norm(1, {0.5}), 2.5, 0.05 * 2.5);
 }
 
 // Exact eigenpairs of the layers, from LAPACK on all their unknowns, and the same pairs with s moved by a known step:
@@ -292,15 +292,15 @@ TEST(Norm, RecoversFromAVanishingTerm) {
 TEST(BackwardError, OfExactAndOfPerturbedPairs) {
   constexpr double friction = 0.4;
   const Layers layers;
-  const auto pencil = flutter::approximationA(*layers.system);
-  const auto mass = test::denseCopy(pencil.assembled(2, friction));
-  const double stiffnessNorm = largestSingularValue(test::denseCopy(pencil.assembled(0, friction))),
+  const auto pencil = flutter::affineTerms(layers.model.contact, *layers.system);
+  const auto mass = test::denseCopy(pencil.assembled(2, {friction}));
+  const double stiffnessNorm = largestSingularValue(test::denseCopy(pencil.assembled(0, {friction}))),
                massNorm = largestSingularValue(mass);
   const auto pairs = fullOrder(pencil, friction);
   EXPECT_TRUE(
       std::any_of(pairs.begin(), pairs.end(), [](const auto& pair) { return pair.s.real() > 1e-3; }));  // complex ones among them
   OwnedVec real, imaginary;
-  check(MatCreateVecs(layers.system->matrices().k0, real.out(), imaginary.out()));
+  check(MatCreateVecs(layers.system->k0(), real.out(), imaginary.out()));
   double worst = 0;
   for (std::size_t k = 0; k < pairs.size(); k += 7) {
     const auto& [s, q] = pairs[k];
@@ -314,12 +314,12 @@ TEST(BackwardError, OfExactAndOfPerturbedPairs) {
       length += std::norm(moved);
     }
     for (Vec part : {real.get(), imaginary.get()}) check(VecAssemblyBegin(part)), check(VecAssemblyEnd(part));
-    worst = std::max(worst, flutter::backwardError(pencil, friction, s, real, imaginary));
+    worst = std::max(worst, flutter::backwardError(pencil, {friction}, s, real, imaginary));
     for (const Complex step : {Complex(1e-3, 0), Complex(0, -1e-6), Complex(2e-9, 1e-9)}) {
       const Complex delta = step * std::abs(s), there = s + delta;
       const double size = std::abs(there);
       const double exact = std::abs(2.0 * s * delta + delta * delta) * std::sqrt(length) / (size * size * massNorm + stiffnessNorm);
-      EXPECT_NEAR(flutter::backwardError(pencil, friction, there, real, imaginary), exact, 0.05 * exact);  // norms are estimates
+      EXPECT_NEAR(flutter::backwardError(pencil, {friction}, there, real, imaginary), exact, 0.05 * exact);  // norms are estimates
     }
   }
   test::print("backward error of LAPACK's pairs, %d unknowns: %.1e\n", static_cast<int>(mass.rows), worst);
@@ -341,10 +341,10 @@ TEST(BackwardError, OfARealVectorAndOfZero) {
     check(VecAssemblyEnd(d));
   };
   set(3, 0);
-  EXPECT_LT(flutter::backwardError(pencil, 0, {0, 2}, d, nullptr), 1e-15);
-  EXPECT_NEAR(flutter::backwardError(pencil, 0, {0, 1}, d, nullptr), (4 - 1) / (1.0 * 1 + 4), 1e-6);
+  EXPECT_LT(flutter::backwardError(pencil, {}, {0, 2}, d, nullptr), 1e-15);
+  EXPECT_NEAR(flutter::backwardError(pencil, {}, {0, 1}, d, nullptr), (4 - 1) / (1.0 * 1 + 4), 1e-6);
   set(0, 5);
-  EXPECT_LT(flutter::backwardError(pencil, 0, 0, d, nullptr), 1e-15);
+  EXPECT_LT(flutter::backwardError(pencil, {}, 0, d, nullptr), 1e-15);
 }
 
 }  // namespace

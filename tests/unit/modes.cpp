@@ -58,7 +58,7 @@ class Layer : public testing::Test {
 };
 
 TEST_F(Layer, RestartsFindTheSameModes) {
-  const Mat k = system_->matrices().k0, m = system_->matrices().m0;
+  const Mat k = system_->k0(), m = system_->m0();
   const auto silent = [](int, int) {};
   // Room for 3·4 + 8·1 = 20 vectors is too little for four modes to 1e-12 at once, and blocks of one cannot see both of a double mode
   // but through rounding and restarts: the hard way. Blocks of four have room for 44.

@@ -38,12 +38,12 @@ TEST(Layer, TablesSolveTheCharacteristicEquation) {
 /// 1 % in |s| and 0.01 in growth rates, which reach 0.3: bilinear cells, 7 to the shortest of these wavelengths, cannot do much
 /// better.
 void expectAccurate(const flutter::FrictionPoint& point, const char* method) {
-  const Errors found = errors(exactAt(point.friction), eigenvaluesOf(point));
-  print("f = %g, %s, worst of the first 30: |s| %.3f %%, growth rate %.4f\n", point.friction, method, 100 * worst(found.modulus),
+  const Errors found = errors(exactAt(point.at.friction), eigenvaluesOf(point));
+  print("f = %g, %s, worst of the first 30: |s| %.3f %%, growth rate %.4f\n", point.at.friction, method, 100 * worst(found.modulus),
         worst(found.growth));
-  EXPECT_LT(worst(found.modulus), 0.01) << method << ", f = " << point.friction;
-  EXPECT_LT(worst(found.growth), 0.01) << method << ", f = " << point.friction;
-  EXPECT_GT(point.unstableCount(), 0) << method << ", f = " << point.friction;
+  EXPECT_LT(worst(found.modulus), 0.01) << method << ", f = " << point.at.friction;
+  EXPECT_LT(worst(found.growth), 0.01) << method << ", f = " << point.at.friction;
+  EXPECT_GT(point.unstableCount(), 0) << method << ", f = " << point.at.friction;
 }
 
 // The program's own case, with nothing changed: 36 × 12 bilinear cells, higher-order mass, 200 modes.
@@ -60,7 +60,7 @@ TEST(Layer, CaseFile) {
   EXPECT_LT(worst(free.frequency, 30), 0.005);
   EXPECT_LT(worst(free.frequency, 70), 0.01);
   ASSERT_EQ(segment.points.size(), 4U);
-  EXPECT_EQ(segment.points[0].friction, 0);
+  EXPECT_EQ(segment.points[0].at.friction, 0);
   EXPECT_EQ(segment.points[0].unstableCount(), 0);
   for (std::size_t i = 1; i < 4; ++i) expectAccurate(segment.points[i], "200 modes");
 }
@@ -142,8 +142,8 @@ TEST(Layer, AllModesGiveTheFullOrderProblem) {
     ASSERT_EQ(wanted.size(), 84U);
     ASSERT_EQ(point.eigenvalues.size(), 84U);
     const Errors found = errors(wanted, eigenvaluesOf(point));
-    print("f = %g, all 84 modes against full order: %.1e; backward errors %.1e and %.1e\n", point.friction, worst(found.relative),
-          point.worstBackwardError(), direct.segments[0].points[i].worstBackwardError());
+    print("f = %g, all 84 modes against full order: %.1e; backward errors %.1e and %.1e\n", point.at.friction,
+          worst(found.relative), point.worstBackwardError(), direct.segments[0].points[i].worstBackwardError());
     EXPECT_LT(worst(found.relative), 1e-8);
   }
 }

@@ -24,7 +24,7 @@ void expectPlaneStrain(const std::string& mesh, const std::string& options) {
     wanted.resize(30);
     const auto& found = slab.segments[0].points.at(i);
     const double difference = worst(errors(wanted, eigenvaluesOf(found)).relative);
-    print("%s %s, f = %g: slab against plane %.1e\n", mesh.c_str(), options.c_str(), found.friction, difference);
+    print("%s %s, f = %g: slab against plane %.1e\n", mesh.c_str(), options.c_str(), found.at.friction, difference);
     EXPECT_LT(difference, 1e-8);
     // The same lowest ones, not only among more.
     EXPECT_NEAR(found.eigenvalues.at(29).s.imag(), wanted[29].imag(), 1e-8 * wanted[29].imag());

@@ -36,7 +36,7 @@ void expectUniformPressure(const Analysis& analysis, const steady::Solution& sol
   double error = 0;
   for (std::size_t i = 0; i < solution.contact.size(); ++i) {
     const auto& state = solution.contact[i];
-    const double friction = sense * solution.friction * state.normalForce;
+    const double friction = sense * solution.at.friction * state.normalForce;
     error = std::max(error, std::abs(state.pressure / pressure - 1));
     EXPECT_NEAR(state.gap, 0, 1e-10 * depth);
     EXPECT_NEAR(state.frictionForce[0], friction, 1e-12 * pressure * area);
@@ -48,7 +48,7 @@ void expectUniformPressure(const Analysis& analysis, const steady::Solution& sol
   EXPECT_LT(solution.imbalance, 1e-8);
   ASSERT_EQ(solution.resultants.size(), 1U);
   EXPECT_NEAR(solution.resultants[0].normalForce[1], normalY * pressure * area, 1e-10 * pressure * area);
-  EXPECT_NEAR(solution.resultants[0].frictionForce[0], sense * solution.friction * pressure * area, 1e-10 * pressure * area);
+  EXPECT_NEAR(solution.resultants[0].frictionForce[0], sense * solution.at.friction * pressure * area, 1e-10 * pressure * area);
   EXPECT_GT(analysis.contact.totalNodes, 0);
 }
 
@@ -62,11 +62,11 @@ void expectLayer(const std::string& changes, double sense) {
   const Analysis analysis = runCase("layer", changes + steadyOnly);
   ASSERT_EQ(analysis.steady.size(), 3U);
   for (const auto& solution : analysis.steady) {
-    const exact::one_layer::Steady exact{solution.friction, depth};
+    const exact::one_layer::Steady exact{solution.at.friction, depth};
     const double error = displacementError(analysis, solution, [&](const mesh::Point& x, const std::string&) {
       return std::array<double, 2>{sense * exact.u(x[1]), exact.v(x[1])};
     });
-    print("layer %s, f = %g: displacement %.1e, imbalance %.1e, %d iterations\n", changes.c_str(), solution.friction, error,
+    print("layer %s, f = %g: displacement %.1e, imbalance %.1e, %d iterations\n", changes.c_str(), solution.at.friction, error,
           solution.imbalance, solution.iterations);
     EXPECT_TRUE(solution.converged);
     EXPECT_LT(error, 1e-10);
@@ -84,11 +84,11 @@ void expectTwoLayers(const std::string& changes) {
   const Analysis analysis = runCase("two_layers", changes + steadyOnly);
   ASSERT_EQ(analysis.steady.size(), 3U);
   for (const auto& solution : analysis.steady) {
-    const exact::two_layers::Steady exact{solution.friction, depth};
+    const exact::two_layers::Steady exact{solution.at.friction, depth};
     const double error = displacementError(analysis, solution, [&](const mesh::Point& x, const std::string& part) {
       return std::array<double, 2>{exact.u(x[1], part == "pad"), exact.v(x[1], part == "pad")};
     });
-    print("two_layers %s, f = %g: displacement %.1e, imbalance %.1e, %d iterations\n", changes.c_str(), solution.friction, error,
+    print("two_layers %s, f = %g: displacement %.1e, imbalance %.1e, %d iterations\n", changes.c_str(), solution.at.friction, error,
           solution.imbalance, solution.iterations);
     EXPECT_TRUE(solution.converged);
     EXPECT_LT(error, 1e-10);
@@ -109,11 +109,11 @@ TEST(Steady, ClosedSerendipityFacesAreAccepted) {
   const Analysis analysis = runCase("layer", hex20 + steadyOnly);
   ASSERT_EQ(analysis.steady.size(), 3U);
   for (const auto& solution : analysis.steady) {
-    const exact::one_layer::Steady exact{solution.friction, depth};
+    const exact::one_layer::Steady exact{solution.at.friction, depth};
     const double error = displacementError(analysis, solution, [&](const mesh::Point& x, const std::string&) {
       return std::array<double, 3>{exact.u(x[1]), exact.v(x[1]), 0};
     });
-    print("hex20, f = %g: displacement %.1e, smallest pressure / exact - 1: %.1e\n", solution.friction, error,
+    print("hex20, f = %g: displacement %.1e, smallest pressure / exact - 1: %.1e\n", solution.at.friction, error,
           solution.smallestPressure / exact.pressure() - 1);
     EXPECT_TRUE(solution.converged) << solution.reason;
     EXPECT_LT(error, 1e-10);
@@ -154,8 +154,8 @@ void expectPartlyOpen(const Analysis& analysis, const steady::Solution& solution
   const Violations violation = violations(analysis, solution);
   const Transmitted sums = transmitted(analysis, solution);
   print("f = %g: %d iterations, %d of %d nodes open, centre of pressure %.9f, equilibrium %.1e, imbalance %.1e\n",
-        solution.friction, solution.iterations, static_cast<int>(solution.openNodes), static_cast<int>(analysis.contact.totalNodes),
-        sums.centre, violation.equilibrium, solution.imbalance);
+        solution.at.friction, solution.iterations, static_cast<int>(solution.openNodes),
+        static_cast<int>(analysis.contact.totalNodes), sums.centre, violation.equilibrium, solution.imbalance);
   EXPECT_LE(solution.iterations, 6);
   EXPECT_LT(violation.gap, 1e-12);
   EXPECT_LT(violation.penetration, 1e-12);
@@ -166,8 +166,8 @@ void expectPartlyOpen(const Analysis& analysis, const steady::Solution& solution
   EXPECT_LT(solution.imbalance, 1e-8);
   const double load = loadPressure * blockLength;
   EXPECT_NEAR(sums.normal / load, 1, 1e-9);
-  EXPECT_NEAR(sums.friction / load, solution.friction, 1e-9);
-  EXPECT_NEAR(sums.centre, blockLength / 2 - solution.friction * height, 1e-8);
+  EXPECT_NEAR(sums.friction / load, solution.at.friction, 1e-9);
+  EXPECT_NEAR(sums.centre, blockLength / 2 - solution.at.friction * height, 1e-8);
 
   double lastClosed = 0, firstOpen = blockLength;
   for (std::size_t i = 0; i < solution.contact.size(); ++i) {
@@ -207,7 +207,7 @@ TEST(Steady, TopplingBlockHasNoSolution) {
   EXPECT_FALSE(analysis.converged());
   std::vector<double> solved;
   for (const auto& segment : analysis.segments)
-    for (const auto& point : segment.points) solved.push_back(point.friction);
+    for (const auto& point : segment.points) solved.push_back(point.at.friction);
   EXPECT_EQ(solved, (std::vector<double>{0.3, 0.35}));
 }
 
@@ -251,8 +251,8 @@ TEST(Steady, TwoInterfacesOnOneBody) {
     // Mirror images about y = −1/2: equal and opposite normal forces, equal friction, f times as large.
     EXPECT_NEAR(lower.normalForce[1], 3 * pressure, 1e-10 * pressure);
     EXPECT_NEAR(upper.normalForce[1], -3 * pressure, 1e-10 * pressure);
-    EXPECT_NEAR(lower.frictionForce[0], solution.friction * 3 * pressure, 1e-10 * pressure);
-    EXPECT_NEAR(upper.frictionForce[0], solution.friction * 3 * pressure, 1e-10 * pressure);
+    EXPECT_NEAR(lower.frictionForce[0], solution.at.friction * 3 * pressure, 1e-10 * pressure);
+    EXPECT_NEAR(upper.frictionForce[0], solution.at.friction * 3 * pressure, 1e-10 * pressure);
   }
 }
 

@@ -83,7 +83,7 @@ Families families(const std::string& set, double poisson, const std::string& inc
     OwnedVec u = elasticity::nodalVector(mesh);
     Vec d = nullptr;
     check(BVGetColumn(modes.vectors, static_cast<PetscInt>(i), &d));
-    check(MatMult(system.matrices().transformation.trial, d, u));
+    check(MatMult(system.transformation().trial, d, u));
     check(BVRestoreColumn(modes.vectors, static_cast<PetscInt>(i), &d));
     const PetscScalar* values = nullptr;
     double part[4] = {0, 0, 0, 0};  // Σ u_x², Σ u_y², Σ u_z², all rotation: Σ (y u_z − z u_y)² / (y² + z²)

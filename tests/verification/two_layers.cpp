@@ -43,12 +43,12 @@ TEST(TwoLayers, CaseFile) {
   EXPECT_EQ(analysis.segments[0].openNodes, 0);
   ASSERT_EQ(analysis.segments[0].points.size(), 4U);
   for (const auto& point : analysis.segments[0].points) {
-    if (point.friction == 0) continue;
-    const Errors found = errors(exactAt(point.friction, 30), eigenvaluesOf(point));
-    print("f = %g, 200 modes: worst of the first 30: |s| %.3f %%, growth rate %.4f\n", point.friction, 100 * worst(found.modulus),
-          worst(found.growth));
-    EXPECT_LT(worst(found.modulus), 0.01) << "f = " << point.friction;
-    EXPECT_LT(worst(found.growth), 0.01) << "f = " << point.friction;
+    if (point.at.friction == 0) continue;
+    const Errors found = errors(exactAt(point.at.friction, 30), eigenvaluesOf(point));
+    print("f = %g, 200 modes: worst of the first 30: |s| %.3f %%, growth rate %.4f\n", point.at.friction,
+          100 * worst(found.modulus), worst(found.growth));
+    EXPECT_LT(worst(found.modulus), 0.01) << "f = " << point.at.friction;
+    EXPECT_LT(worst(found.growth), 0.01) << "f = " << point.at.friction;
   }
 }
 

@@ -1,0 +1,222 @@
+/// Sliding at the contact nodes: its velocity, and how friction follows it (paper, 2.15 and 4.7).
+#include "contact/sliding.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "elasticity/element.hpp"
+
+namespace squeal::contact {
+namespace {
+
+std::vector<double> identity(int dimension, double factor) {
+  std::vector<double> block(static_cast<std::size_t>(dimension * dimension), 0.0);
+  for (int d = 0; d < dimension; ++d) block[static_cast<std::size_t>(d * dimension + d)] = factor;
+  return block;
+}
+
+/// N: R_N,k = n_k · r, with the forces of periodic images added to those of their primaries.
+OwnedMat reactionRows(const Contact& contact) {
+  const auto& mesh = *contact.mesh;
+  const OwnedMat normals = nodalMatrix(mesh, 1);
+  for (const auto& node : contact.nodes)
+    for (int d = 0; d < mesh.dimension; ++d)
+      check(MatSetValue(normals, contact.gapRow(node), mesh.dimension * node.globalNode + d,
+                        node.normal[static_cast<std::size_t>(d)], INSERT_VALUES));
+  assembled(normals);
+  OwnedMat folded, result;
+  check(MatTranspose(contact.periodic, MAT_INITIAL_MATRIX, folded.out()));
+  check(MatMatMult(normals, folded, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.out()));
+  return result;
+}
+
+OwnedMat jumpRows(const Contact& contact) {
+  const auto& mesh = *contact.mesh;
+  OwnedMat jump = nodalMatrix(mesh, 2);
+  for (const auto& node : contact.nodes) {
+    setBlock(jump, mesh.dimension, node.globalNode, node.globalNode, identity(mesh.dimension, 1));
+    if (node.master >= 0) setBlock(jump, mesh.dimension, node.globalNode, node.master, identity(mesh.dimension, -1));
+  }
+  assembled(jump);
+  return jump;
+}
+
+/// u_D at the place of each pad node, in its rows; images of pad nodes like their primaries.
+OwnedMat masterRows(const Contact& contact) {
+  const auto& mesh = *contact.mesh;
+  OwnedMat primaries = nodalMatrix(mesh, 1), result;
+  for (const auto& node : contact.nodes)
+    if (node.master >= 0) setBlock(primaries, mesh.dimension, node.globalNode, node.master, identity(mesh.dimension, 1));
+  assembled(primaries);
+  check(MatMatMult(contact.periodic, primaries, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.out()));
+  return result;
+}
+
+/// Velocity of the disc's matter at the places of the pad nodes of each interface; empty: a rigid obstacle, which does not deform.
+std::vector<const elasticity::Motion*> discMotions(const elasticity::Bodies& bodies, const Contact& contact) {
+  const auto& mesh = *contact.mesh;
+  std::vector<int> body(contact.interfaces.size(), -1);
+  for (const auto& pair : mesh.pairs) body[static_cast<std::size_t>(pair.interface)] = pair.masterBody;
+  check(MPI_Allreduce(MPI_IN_PLACE, body.data(), static_cast<int>(body.size()), MPI_INT, MPI_MAX, mesh.comm));
+  std::vector<const elasticity::Motion*> motions;
+  for (int index : body) motions.push_back(index < 0 ? nullptr : &bodies.motions[static_cast<std::size_t>(index)]);
+  return motions;
+}
+
+/// D: the pad faces lie on faces of the disc, node on node, so the disc's displacement is differentiated along them with the pad's
+/// shape functions. At a node the faces around it are averaged by area, which weighs the derivative as the nodal forces R_N weigh
+/// it: on quadratic faces its leading errors at corners and in between cancel.
+OwnedMat convectedRows(const elasticity::Bodies& bodies, const Contact& contact) {
+  const auto& mesh = *contact.mesh;
+  const int dimension = mesh.dimension;
+  const auto motions = discMotions(bodies, contact);
+  const OwnedVec area = elasticity::nodalVector(mesh), folded = elasticity::nodalVector(mesh);
+  OwnedMat sums;
+  check(MatDuplicate(bodies.stiffness, MAT_DO_NOT_COPY_VALUES, sums.out()));  // nodes of a face share a cell
+  check(MatSetOption(sums, MAT_SYMMETRIC, PETSC_FALSE));
+  for (const auto& block : mesh.faces) {
+    const auto& table = elasticity::shapeTable(block.type);
+    for (std::size_t e = 0; e < block.surface.size(); ++e) {
+      const auto found = std::find(contact.padSurfaces.begin(), contact.padSurfaces.end(),
+                                   mesh.surfaces[static_cast<std::size_t>(block.surface[e])]);
+      if (found == contact.padSurfaces.end()) continue;
+      const auto* motion = motions[static_cast<std::size_t>(found - contact.padSurfaces.begin())];
+      if (!motion) continue;
+      std::vector<Point> points, velocity;
+      const PetscInt* nodes = block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerFace);
+      for (int i = 0; i < block.nodesPerFace; ++i) {
+        points.push_back(mesh.coordinates[static_cast<std::size_t>(nodes[i])]);
+        velocity.push_back(motion->velocity(points.back()));
+      }
+      double faceArea = 0;
+      for (double entry : elasticity::faceMass(table, points)) faceArea += entry;
+      const auto derivative = elasticity::faceDerivative(table, points, velocity);
+      for (int i = 0; i < block.nodesPerFace; ++i) {
+        const PetscInt row = dimension * mesh.globalNode[static_cast<std::size_t>(nodes[i])];
+        for (int d = 0; d < dimension; ++d) {
+          check(VecSetValue(area, row + d, faceArea, ADD_VALUES));
+          for (int j = 0; j < block.nodesPerFace; ++j)
+            check(MatSetValue(sums, row + d, dimension * mesh.globalNode[static_cast<std::size_t>(nodes[j])] + d,
+                              faceArea * derivative[static_cast<std::size_t>(i * block.nodesPerFace + j)], ADD_VALUES));
+        }
+      }
+    }
+  }
+  assembled(sums);
+  check(VecAssemblyBegin(area));
+  check(VecAssemblyEnd(area));
+  check(MatMultTranspose(contact.periodic, area, folded));
+  PetscScalar* values = nullptr;
+  PetscInt count = 0;
+  check(VecGetLocalSize(folded, &count));
+  check(VecGetArray(folded, &values));
+  for (PetscInt i = 0; i < count; ++i) values[i] = values[i] > 0 ? 1 / values[i] : 0;
+  check(VecRestoreArray(folded, &values));
+  const OwnedMat masters = masterRows(contact);
+  OwnedMat atFaces, result;
+  check(MatMatMult(sums, masters, MAT_INITIAL_MATRIX, PETSC_DEFAULT, atFaces.out()));
+  check(MatTransposeMatMult(contact.periodic, atFaces, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.out()));
+  check(MatDiagonalScale(result, folded, nullptr));
+  return result;
+}
+
+}  // namespace
+
+OwnedMat nodalMatrix(const mesh::Mesh& mesh, PetscInt blocksPerRow) {
+  OwnedMat matrix;
+  const PetscInt owned = mesh.dimension * mesh.ownedNodes, entries = blocksPerRow * mesh.dimension;
+  check(MatCreateAIJ(mesh.comm, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE, entries, nullptr, entries, nullptr, matrix.out()));
+  return matrix;
+}
+
+void assembled(Mat matrix) {
+  check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
+  check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
+}
+
+void setBlock(Mat matrix, int dimension, PetscInt rowNode, PetscInt columnNode, const std::vector<double>& block) {
+  std::vector<PetscInt> rows, columns;
+  for (int d = 0; d < dimension; ++d) rows.push_back(dimension * rowNode + d), columns.push_back(dimension * columnNode + d);
+  check(MatSetValues(matrix, dimension, rows.data(), dimension, columns.data(), block.data(), INSERT_VALUES));
+}
+
+std::vector<double> outer(const Point& a, const Point& b, int dimension, double factor) {
+  std::vector<double> block;
+  for (int i = 0; i < dimension; ++i)
+    for (int j = 0; j < dimension; ++j) block.push_back(factor * a[static_cast<std::size_t>(i)] * b[static_cast<std::size_t>(j)]);
+  return block;
+}
+
+void buildSliding(const elasticity::Bodies& bodies, Contact& contact) {
+  contact.reaction = reactionRows(contact);
+  contact.jump = jumpRows(contact);
+  if (elasticity::convectiveTerms()) contact.convected = convectedRows(bodies, contact);
+}
+
+PetscInt Contact::gapRow(const ContactNode& node) const { return mesh->dimension * (node.globalNode + 1) - 1; }
+
+std::vector<Slip> Contact::slip(double speed, Vec displacement) const {
+  std::vector<Slip> result;
+  OwnedVec carried;
+  const PetscScalar* values = nullptr;
+  if (convected && displacement) {
+    carried = elasticity::nodalVector(*mesh);
+    check(MatMult(convected, displacement, carried));
+    check(VecGetArrayRead(carried, &values));
+  }
+  for (const auto& node : nodes) {
+    Point w = scaled(node.slip, speed * node.slipSpeed);
+    if (values) {
+      Point change{};
+      for (int d = 0; d < mesh->dimension; ++d)
+        change[static_cast<std::size_t>(d)] = -speed * values[mesh->dimension * node.node + d];
+      const double along = dot(change, node.normal);
+      for (std::size_t d = 0; d < 3; ++d) w[d] += change[d] - along * node.normal[d];
+    }
+    Slip state;
+    state.speed = node.slipSpeed > 0 ? std::sqrt(dot(w, w)) : 0;
+    if (state.speed > 0) state.direction = scaled(w, 1 / state.speed);
+    state.law = law.value(state.speed);
+    state.slope = law.slope(state.speed);
+    result.push_back(state);
+  }
+  if (values) check(VecRestoreArrayRead(carried, &values));
+  return result;
+}
+
+OwnedMat Contact::slipRows(const Transformation& transformation, const std::vector<Slip>& slip,
+                           const std::vector<unsigned char>& slides) const {
+  const OwnedMat rows = nodalMatrix(*mesh, 2);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (!slides[i]) continue;
+    for (int d = 0; d < mesh->dimension; ++d) {
+      const double entry = slip[i].law * slip[i].direction[static_cast<std::size_t>(d)];
+      check(MatSetValue(rows, gapRow(nodes[i]), mesh->dimension * nodes[i].globalNode + d, entry, INSERT_VALUES));
+      if (nodes[i].master >= 0)
+        check(MatSetValue(rows, gapRow(nodes[i]), mesh->dimension * nodes[i].master + d, -entry, INSERT_VALUES));
+    }
+  }
+  assembled(rows);
+  OwnedMat result;
+  check(MatMatMult(rows, transformation.trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.out()));
+  return result;
+}
+
+OwnedMat Contact::velocityResponse(const std::vector<Slip>& slip, const std::vector<double>& normalForce, double friction) const {
+  const int dimension = mesh->dimension;
+  OwnedMat response = nodalMatrix(*mesh, 1);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const double force = friction * normalForce[i];
+    const double across =
+        slip[i].speed > 0 && dimension == 3 ? force * slip[i].law / slip[i].speed : 0;  // the plane has one tangent
+    std::vector<double> block = identity(dimension, across);
+    const auto along = outer(slip[i].direction, slip[i].direction, dimension, force * slip[i].slope - across),
+               normal = outer(nodes[i].normal, nodes[i].normal, dimension, -across);
+    for (std::size_t k = 0; k < block.size(); ++k) block[k] += along[k] + normal[k];
+    setBlock(response, dimension, nodes[i].globalNode, nodes[i].globalNode, block);
+  }
+  assembled(response);
+  return response;
+}
+
+}  // namespace squeal::contact

@@ -1,0 +1,53 @@
+#pragma once
+/// From element arrays to distributed matrices and vectors of nodal displacements.
+#include "elasticity/element.hpp"
+#include "elasticity/shape.hpp"
+#include "mesh/mesh.hpp"
+#include "petsc/owned.hpp"
+
+namespace squeal::elasticity {
+
+/// Entries of a matrix as (row, column, value) triples, the interface of MatSetPreallocationCOO.
+struct Triples {
+  std::vector<PetscInt> row, column;
+  std::vector<PetscScalar> value;
+  void reserve(std::size_t count) { row.reserve(count), column.reserve(count), value.reserve(count); }
+};
+
+/// What entries in transposed places have in common. Contributions are summed in any order, so that `rounded` is symmetric to
+/// rounding; `symmetric` and `skew` are made exactly so.
+enum class Symmetry { rounded, symmetric, skew };
+
+/// Collective. N×N from the triples of all ranks; spends them.
+OwnedMat toMatrix(const mesh::Mesh& mesh, Triples& triples, Symmetry symmetry);
+
+/// Adds the entries of one element: `components` copies of a scalar matrix, or one matrix on all components.
+void append(Triples& triples, const mesh::Mesh& mesh, const PetscInt* nodes, int count, const std::vector<double>& matrix,
+            bool scalar);
+
+/// Adds [node][3] values of one element, times `factor`; to be followed by VecAssemblyBegin and End.
+void addLoad(Vec load, const mesh::Mesh& mesh, const PetscInt* nodes, int count, const std::vector<double>& values, double factor);
+
+std::vector<Point> pointsOf(const mesh::Mesh& mesh, const PetscInt* nodes, int count);
+
+/// "inverted element: cell …" for messages.
+std::string invertedCell(const mesh::Mesh& mesh, const mesh::CellBlock& block, std::size_t e);
+
+/// Collective. Calls `visit(block, cell index, table, coordinates)` for each cell; where it throws InvertedElement all ranks get an
+/// Error.
+template <class Visit>
+void forEachCell(const mesh::Mesh& mesh, Visit visit) {
+  std::string failure;
+  for (const auto& block : mesh.cells) {
+    const ShapeTable& table = shapeTable(block.type);
+    for (std::size_t e = 0; e < block.tag.size(); ++e) try {
+        visit(block, e, table,
+              pointsOf(mesh, block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerCell), block.nodesPerCell));
+      } catch (const InvertedElement&) {
+        if (failure.empty()) failure = invertedCell(mesh, block, e);
+      }
+  }
+  failTogether(mesh.comm, failure);
+}
+
+}  // namespace squeal::elasticity

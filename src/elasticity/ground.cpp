@@ -1,0 +1,52 @@
+#include "elasticity/ground.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "elasticity/elasticity.hpp"
+#include "petsc/options.hpp"
+
+namespace squeal::elasticity {
+namespace {
+
+const RealListOption stiffnessOption(
+    "constraint", "ground_<group>_stiffness", "0,0,0", "N/m", nonNegative,
+    "springs along x, y, z to the ground, total of the group, shared equally by its nodes (per m of depth in the plane)");
+const RealListOption dampingOption("constraint", "ground_<group>_damping", "0,0,0", "N s/m", nonNegative,
+                                   "dashpots to the ground, shared in the same way");
+
+/// N entries, empty if all values are zero.
+OwnedVec shared(const mesh::Mesh& mesh, const RealListOption& option) {
+  const auto dimension = static_cast<std::size_t>(mesh.dimension);
+  OwnedVec vector;
+  for (const auto& group : option.subjects()) {
+    const auto total = option.get(group);
+    if (total.size() < dimension)
+      throw Error("option -" + option.fullName(group) + ": must have " + std::to_string(dimension) + " components");
+    const auto& nodes = mesh.nodeGroups.at(group);
+    auto count = static_cast<PetscInt>(nodes.size());
+    check(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPIU_INT, MPI_SUM, mesh.comm));
+    if (std::all_of(total.begin(), total.begin() + mesh.dimension, [](double x) { return x == 0; })) continue;
+    if (!vector) vector = nodalVector(mesh);
+    PetscScalar* values = nullptr;
+    check(VecGetArray(vector, &values));
+    for (PetscInt node : nodes)
+      for (std::size_t d = 0; d < dimension; ++d)
+        values[dimension * static_cast<std::size_t>(node) + d] += total[d] / static_cast<double>(count);
+    check(VecRestoreArray(vector, &values));
+  }
+  return vector;
+}
+
+}  // namespace
+
+std::vector<std::string> groundedGroups() {
+  std::set<std::string> groups;
+  for (const auto* option : {&stiffnessOption, &dampingOption})
+    for (const auto& group : option->subjects()) groups.insert(group);
+  return {groups.begin(), groups.end()};
+}
+
+Ground readGround(const mesh::Mesh& mesh) { return {shared(mesh, stiffnessOption), shared(mesh, dampingOption)}; }
+
+}  // namespace squeal::elasticity

@@ -1,0 +1,80 @@
+#include <cmath>
+
+#include "elasticity/element.hpp"
+#include "elasticity/jacobian.hpp"
+
+namespace squeal::elasticity {
+
+std::vector<double> mass(const ShapeTable& table, const std::vector<Point>& nodes, double density, MassKind kind) {
+  const auto n = static_cast<std::size_t>(table.nodes);
+  std::vector<double> m(n * n, 0.0);
+  for (int q = 0; q < table.points(); ++q) {
+    const Matrix3 j = jacobian(table.gradient.data() + 3 * q * table.nodes, nodes, table.dimension);
+    const double factor = density * table.weight[static_cast<std::size_t>(q)] * positiveDeterminant(j);
+    const double* value = table.value.data() + static_cast<std::size_t>(q) * n;
+    for (std::size_t a = 0; a < n; ++a)
+      for (std::size_t b = 0; b < n; ++b) m[a * n + b] += factor * value[a] * value[b];
+  }
+  if (kind == MassKind::higherOrder) {
+    double total = 0, trace = 0;
+    for (std::size_t a = 0; a < n; ++a) {
+      trace += m[a * n + a];
+      for (std::size_t b = 0; b < n; ++b) total += m[a * n + b];
+    }
+    std::vector<double> lumped(n);
+    for (std::size_t a = 0; a < n; ++a) lumped[a] = m[a * n + a] * total / trace;
+    for (auto& entry : m) entry *= 0.5;
+    for (std::size_t a = 0; a < n; ++a) m[a * n + a] += 0.5 * lumped[a];
+  }
+  return m;
+}
+
+std::vector<double> centrifugal(const ShapeTable& table, const std::vector<Point>& nodes, double density, double speed,
+                                const Point& axis, const Point& origin) {
+  const auto n = static_cast<std::size_t>(table.nodes);
+  std::vector<double> load(3 * n, 0.0);
+  for (int q = 0; q < table.points(); ++q) {
+    const Matrix3 j = jacobian(table.gradient.data() + 3 * q * table.nodes, nodes, table.dimension);
+    const double factor = density * speed * speed * table.weight[static_cast<std::size_t>(q)] * positiveDeterminant(j);
+    const double* value = table.value.data() + static_cast<std::size_t>(q) * n;
+    Point r{-origin[0], -origin[1], -origin[2]};
+    for (std::size_t a = 0; a < n; ++a)
+      for (std::size_t d = 0; d < 3; ++d) r[d] += value[a] * nodes[a][d];
+    const double along = r[0] * axis[0] + r[1] * axis[1] + r[2] * axis[2];
+    for (std::size_t a = 0; a < n; ++a)
+      for (std::size_t d = 0; d < 3; ++d) load[3 * a + d] += factor * value[a] * (r[d] - along * axis[d]);
+  }
+  return load;
+}
+
+Convection convection(const ShapeTable& table, const std::vector<Point>& nodes, const std::vector<Point>& velocity,
+                      double density) {
+  const auto n = static_cast<std::size_t>(table.nodes);
+  Convection result{std::vector<double>(n * n, 0.0), std::vector<double>(n * n, 0.0), std::vector<double>(n, 0.0),
+                    std::vector<double>(n, 0.0)};
+  std::vector<double> rate(n);
+  for (int q = 0; q < table.points(); ++q) {
+    const double* gradient = table.gradient.data() + 3 * q * table.nodes;
+    const double* value = table.value.data() + static_cast<std::size_t>(q) * n;
+    const Matrix3 j = jacobian(gradient, nodes, table.dimension);
+    const double det = positiveDeterminant(j), volume = table.weight[static_cast<std::size_t>(q)] * det;
+    const Matrix3 inv = inverse(j, det);
+    Point v{};
+    for (std::size_t a = 0; a < n; ++a)
+      for (std::size_t d = 0; d < 3; ++d) v[d] += value[a] * velocity[a][d];
+    for (std::size_t a = 0; a < n; ++a) {
+      const Point g = mapped(inv, {gradient[3 * a], gradient[3 * a + 1], gradient[3 * a + 2]});
+      rate[a] = v[0] * g[0] + v[1] * g[1] + v[2] * g[2];  // D φ_a; g has no z component in the plane
+      result.flux[a] += volume * rate[a];
+      result.fluxScale[a] += volume * std::abs(rate[a]);
+    }
+    for (std::size_t a = 0; a < n; ++a)
+      for (std::size_t b = 0; b < n; ++b) {
+        result.gyroscopic[a * n + b] += density * volume * (rate[b] * value[a] - rate[a] * value[b]);
+        result.rotationStiffness[a * n + b] -= density * volume * rate[b] * rate[a];
+      }
+  }
+  return result;
+}
+
+}  // namespace squeal::elasticity

@@ -1,0 +1,128 @@
+#include "flutter/terms.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "petsc/options.hpp"
+
+namespace squeal::flutter {
+namespace {
+
+const FlagOption dampingOption("flutter", "flutter_friction_damping", true,
+                               "the friction force turns with the relative velocity and follows the friction law: friction-induced "
+                               "damping and, with convective terms, stiffness");
+const RealListOption modalOption(
+    "flutter", "flutter_modal_damping", "0", "", nonNegative,
+    "damping ratios of the free modes in order, the last one for all that follow; reduced method alone");
+
+/// Power of s and of the speed that a matrix of the bodies comes with.
+struct Role {
+  const contact::Projection& projection;
+  int power, speedExponent;
+};
+
+std::vector<Role> roles(const contact::AssociatedSystem& system) {
+  return {{system.stiffness(), 0, 0},
+          {system.mass(), 2, 0},
+          {system.damping(), 1, 0},
+          {system.gyroscopic(), 1, 1},
+          {system.rotationStiffness(), 0, 2}};
+}
+
+/// f Sᵀ N X T for each matrix X.
+void addFriction(std::vector<Term>& terms, const contact::Contact& contact, const contact::AssociatedSystem& system,
+                 const std::vector<contact::Slip>& slip) {
+  const OwnedMat rows = contact.slipRows(system.transformation(), slip, system.closed());
+  for (const auto& role : roles(system))
+    if (role.projection) terms.push_back({role.projection.friction(rows), role.power, 1, 1.0, role.speedExponent});
+}
+
+/// [4.7]: −B w*.
+void addVelocityResponse(std::vector<Term>& terms, const contact::Contact& contact, const contact::AssociatedSystem& system,
+                         const steady::Solution& solution) {
+  // Nodal forces that are not positive under pressure (tri6, quad8) would make the damping negative: there the pressure on a
+  // positive share of the faces takes their place.
+  std::vector<double> normalForce;
+  for (std::size_t i = 0; i < solution.contact.size(); ++i) {
+    const auto& state = solution.contact[i];
+    const double force = contact.weightsPositive ? state.normalForce : state.pressure * contact.nodes[i].lumpedArea;
+    normalForce.push_back(solution.closed[i] ? force : 0);
+  }
+  const OwnedMat response = contact.velocityResponse(solution.slip, normalForce, solution.at.friction);
+  const Mat trial = system.transformation().trial;
+  OwnedMat jumps, answered, damping;
+  check(MatMatMult(contact.jump, trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, jumps.out()));
+  check(MatMatMult(response, jumps, MAT_INITIAL_MATRIX, PETSC_DEFAULT, answered.out()));
+  check(MatTransposeMatMult(jumps, answered, MAT_INITIAL_MATRIX, PETSC_DEFAULT, damping.out()));
+  // In the plane, and where motion across the sliding direction is held, a constant law leaves nothing but rounding.
+  PetscReal size = 0, scale = 0;
+  check(MatNorm(damping, NORM_FROBENIUS, &size));
+  check(MatNorm(response, NORM_FROBENIUS, &scale));
+  if (size <= 1e-14 * scale) return;
+  check(MatSetOption(damping, MAT_SYMMETRIC, PETSC_TRUE));
+  terms.push_back({std::move(damping), 1, 0, 1.0, 0});
+  if (!contact.convected) return;
+  OwnedMat convected, turned, stiffness;
+  check(MatMatMult(contact.convected, trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, convected.out()));
+  check(MatMatMult(response, convected, MAT_INITIAL_MATRIX, PETSC_DEFAULT, turned.out()));
+  check(MatTransposeMatMult(jumps, turned, MAT_INITIAL_MATRIX, PETSC_DEFAULT, stiffness.out()));
+  terms.push_back({std::move(stiffness), 0, 0, -solution.at.speed, 0});
+}
+
+}  // namespace
+
+Pencil affineTerms(const contact::Contact& contact, const contact::AssociatedSystem& system) {
+  std::vector<Term> terms;
+  for (const auto& role : roles(system))
+    if (role.projection) terms.push_back({role.projection.matrix.share(), role.power, 0, 1.0, role.speedExponent});
+  if (contact.slipIsGiven()) addFriction(terms, contact, system, contact.slip(1, nullptr));
+  return Pencil(std::move(terms));
+}
+
+std::vector<Term> pointTerms(const contact::Contact& contact, const contact::AssociatedSystem& system,
+                             const steady::Solution& solution, Mat prestressChange) {
+  std::vector<Term> terms;
+  const bool friction = solution.at.friction > 0;
+  if (friction && !contact.slipIsGiven()) addFriction(terms, contact, system, solution.slip);
+  if (friction && dampingOption.get()) addVelocityResponse(terms, contact, system, solution);
+  if (prestressChange) {
+    contact::Projection change = contact::project(contact, system.transformation(), prestressChange);
+    const OwnedMat rows = contact.slipRows(system.transformation(), solution.slip, system.closed());
+    terms.push_back({change.friction(rows), 0, 1, 1.0, 0});
+    terms.push_back({std::move(change.matrix), 0, 0, 1.0, 0});
+  }
+  return terms;
+}
+
+bool modalDampingWanted() {
+  const auto ratios = modalOption.get();
+  return std::any_of(ratios.begin(), ratios.end(), [](double ratio) { return ratio > 0; });
+}
+
+std::vector<Term> modalDamping(const modes::Modes& modes, Mat mass) {
+  std::vector<Term> terms;
+  if (!modalDampingWanted()) return terms;
+  const auto ratios = modalOption.get();
+  PetscInt local = 0, global = 0;
+  const auto count = static_cast<PetscInt>(modes.angularFrequency.size());
+  check(BVGetSizes(modes.vectors, &local, &global, nullptr));
+  OwnedMat factors, product;
+  check(MatCreateDense(PetscObjectComm(reinterpret_cast<PetscObject>(mass)), local, PETSC_DECIDE, global, count, nullptr,
+                       factors.out()));
+  for (PetscInt i = 0; i < count; ++i) {
+    const auto mode = static_cast<std::size_t>(i);
+    Vec d = nullptr, column = nullptr;
+    check(BVGetColumn(modes.vectors, i, &d));
+    check(MatDenseGetColumnVecWrite(factors, i, &column));
+    check(MatMult(mass, d, column));
+    check(VecScale(column, std::sqrt(2 * ratios[std::min(mode, ratios.size() - 1)] * modes.angularFrequency[mode])));
+    check(MatDenseRestoreColumnVecWrite(factors, i, &column));
+    check(BVRestoreColumn(modes.vectors, i, &d));
+  }
+  check(MatCreateLRC(nullptr, factors, nullptr, nullptr, product.out()));
+  check(MatSetOption(product, MAT_SYMMETRIC, PETSC_TRUE));
+  terms.push_back({std::move(product), 1, 0, 1.0, 0});
+  return terms;
+}
+
+}  // namespace squeal::flutter

@@ -1,0 +1,26 @@
+#include "petsc/symmetric.hpp"
+
+#include <petscsys.h>  // first: the next header needs it
+
+#include <petscblaslapack.h>
+
+#include <string>
+
+#include "petsc/check.hpp"
+
+namespace squeal {
+
+std::vector<double> symmetricEigen(std::vector<double>& a, int n) {
+  PetscBLASInt order = n, length = -1, info = 0;
+  std::vector<double> values(static_cast<std::size_t>(n)), work(1);
+  if (n == 0) return values;
+  LAPACKsyev_("V", "L", &order, a.data(), &order, values.data(), work.data(), &length, &info);
+  length = static_cast<PetscBLASInt>(work[0]);
+  work.resize(static_cast<std::size_t>(length));
+  LAPACKsyev_("V", "L", &order, a.data(), &order, values.data(), work.data(), &length, &info);
+  if (info != 0)
+    throw Error("LAPACK dsyev failed on a matrix of order " + std::to_string(n) + " (info " + std::to_string(info) + ")");
+  return values;
+}
+
+}  // namespace squeal

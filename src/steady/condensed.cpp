@@ -1,0 +1,222 @@
+#include "steady/condensed.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+#include <string>
+
+#include "petsc/options.hpp"
+
+namespace squeal::steady {
+namespace {
+
+const SolverPrefix solverPrefix("steady", "steady_uniqueness_",
+                                "KSP and PC of the open contact's stiffness (MUMPS LDLt), SLEPc EPS: ksp_*, pc_*, eps_*, …");
+
+/// Columns solved for at once: enough for the speed of dense kernels, few enough for memory.
+constexpr PetscInt blockColumns = 64;
+
+void assembled(Mat matrix) {
+  check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
+  check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
+}
+
+/// N×n_c: 1 in the row of the gap of contact node k, column k.
+OwnedMat gapRows(const contact::Contact& contact, PetscInt firstColumn) {
+  const mesh::Mesh& mesh = *contact.mesh;
+  OwnedMat matrix;
+  check(MatCreateAIJ(mesh.comm, mesh.dimension * mesh.ownedNodes, static_cast<PetscInt>(contact.nodes.size()), PETSC_DETERMINE,
+                     PETSC_DETERMINE, 1, nullptr, 0, nullptr, matrix.out()));
+  for (const auto& node : contact.nodes) check(MatSetValue(matrix, contact.gapRow(node), firstColumn++, 1, INSERT_VALUES));
+  assembled(matrix);
+  return matrix;
+}
+
+/// The factor if it is MUMPS' LDLᵀ, whose inertia is known; null otherwise.
+Mat mumpsFactor(KSP solver) {
+  PC pc = nullptr;
+  PetscBool cholesky = PETSC_FALSE;
+  MatSolverType package = nullptr;
+  Mat factor = nullptr;
+  check(KSPGetPC(solver, &pc));
+  check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(pc), PCCHOLESKY, &cholesky));
+  if (!cholesky) return nullptr;
+  check(PCFactorGetMatSolverType(pc, &package));
+  if (std::string(package) != MATSOLVERMUMPS) return nullptr;
+  check(PCFactorSetUpMatSolverType(pc));
+  check(PCFactorGetMatrix(pc, &factor));
+  return factor;
+}
+
+/// MUMPS LDLᵀ unless the options say otherwise.
+OwnedKSP factorisation(Mat matrix) {
+  OwnedKSP solver;
+  check(KSPCreate(PetscObjectComm(reinterpret_cast<PetscObject>(matrix)), solver.out()));
+  check(KSPSetOptionsPrefix(solver, solverPrefix.prefix.c_str()));
+  check(KSPSetOperators(solver, matrix, matrix));
+  check(KSPSetType(solver, KSPPREONLY));
+  PC pc = nullptr;
+  check(KSPGetPC(solver, &pc));
+  check(PCSetType(pc, PCCHOLESKY));
+  check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  check(KSPSetFromOptions(solver));
+  if (const Mat factor = mumpsFactor(solver)) check(MatMumpsSetIcntl(factor, 13, 1));  // the inertia is asked for
+  check(KSPSetUp(solver));
+  return solver;
+}
+
+}  // namespace
+
+std::vector<double> Compliance::at(double friction) const {
+  std::vector<double> a = a0;
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] += friction * a1[i];
+  return a;
+}
+
+Condensed::Condensed(const contact::Contact& contact, Mat stiffness, const std::vector<contact::Slip>& slip)
+    : contact_(contact), size_(contact.totalNodes), ownedSize_(static_cast<PetscInt>(contact.nodes.size())) {
+  const std::vector<unsigned char> all(contact.nodes.size(), 1);
+  transformation_ = contact.transformation(all);
+  check(MPI_Scan(&ownedSize_, &first_, 1, MPIU_INT, MPI_SUM, contact.mesh->comm));
+  first_ -= ownedSize_;
+
+  check(MatPtAP(stiffness, transformation_.trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, stiffness_.out()));
+  check(MatSetOption(stiffness_, MAT_SYMMETRIC, PETSC_TRUE));
+  check(MatCreateAIJ(contact.mesh->comm, transformation_.ownedColumns, ownedSize_, PETSC_DETERMINE, PETSC_DETERMINE, 1, nullptr, 0,
+                     nullptr, gaps_.out()));
+  for (PetscInt i = 0; i < ownedSize_; ++i)
+    check(MatSetValue(gaps_, transformation_.gapColumn[static_cast<std::size_t>(i)], first_ + i, 1, INSERT_VALUES));
+  assembled(gaps_);
+  const OwnedMat rows = contact.slipRows(transformation_, slip, all), gaps = gapRows(contact, first_);
+  check(MatTransposeMatMult(rows, gaps, MAT_INITIAL_MATRIX, PETSC_DEFAULT, friction_.out()));
+
+  solver_ = factorisation(stiffness_);
+  rhs_ = block(2), solution_ = block(2);
+  check(MatCreateVecs(gaps_, part_.out(), single_.out()));
+  check(VecDuplicate(single_, answer_.out()));
+}
+
+bool Condensed::factorised() const {
+  PC pc = nullptr;
+  PCFailedReason failed;
+  check(KSPGetPC(solver_, &pc));
+  check(PCGetFailedReason(pc, &failed));
+  return failed == PC_NOERROR;
+}
+
+bool Condensed::positiveDefinite() const {
+  const Mat factor = mumpsFactor(solver_);
+  PetscInt negative = 0;
+  if (factor) check(MatGetInertia(factor, &negative, nullptr, nullptr));
+  return negative == 0;
+}
+
+OwnedMat Condensed::block(PetscInt columns) const {
+  OwnedMat matrix;
+  check(
+      MatCreateDense(comm(), transformation_.ownedColumns, PETSC_DECIDE, transformation_.columns, columns, nullptr, matrix.out()));
+  check(MatZeroEntries(matrix));
+  assembled(matrix);
+  return matrix;
+}
+
+Compliance Condensed::dense() const {
+  const auto n = static_cast<std::size_t>(size_), first = static_cast<std::size_t>(first_);
+  Compliance compliance{static_cast<int>(size_), std::vector<double>(n * n, 0.0), std::vector<double>(n * n, 0.0)};
+  PetscInt firstRow = 0;
+  check(MatGetOwnershipRange(stiffness_, &firstRow, nullptr));
+  for (PetscInt begin = 0; begin < size_; begin += blockColumns) {
+    const PetscInt width = std::min(blockColumns, size_ - begin);
+    const OwnedMat rhs = block(width), x = block(width);
+    PetscScalar* values = nullptr;
+    check(MatDenseGetArray(rhs, &values));
+    for (PetscInt i = 0; i < ownedSize_; ++i)
+      if (const PetscInt column = first_ + i - begin; column >= 0 && column < width)
+        values[column * transformation_.ownedColumns + transformation_.gapColumn[static_cast<std::size_t>(i)] - firstRow] = 1;
+    check(MatDenseRestoreArray(rhs, &values));
+    check(KSPMatSolve(solver_, rhs, x));
+    for (PetscInt column = 0; column < width; ++column) {
+      const auto j = static_cast<std::size_t>(begin + column);
+      // A0 e_j = eᵀ x, and row j of A1 is −xᵀ U: K_o is symmetric.
+      for (Mat side : {gaps_.get(), friction_.get()}) {
+        Vec xj = nullptr;
+        check(MatDenseGetColumnVecRead(x, column, &xj));
+        check(MatMultTranspose(side, xj, part_));
+        check(MatDenseRestoreColumnVecRead(x, column, &xj));
+        const PetscScalar* entries = nullptr;
+        check(VecGetArrayRead(part_, &entries));
+        for (std::size_t i = 0; i < static_cast<std::size_t>(ownedSize_); ++i)
+          if (side == gaps_)
+            compliance.a0[j * n + first + i] = entries[i];
+          else
+            compliance.a1[(first + i) * n + j] = -entries[i];
+        check(VecRestoreArrayRead(part_, &entries));
+      }
+    }
+  }
+  // Every entry is on one rank, zero on the others: the sums are exact, and the same everywhere. By columns, since n² may exceed an
+  // int.
+  for (auto* a : {&compliance.a0, &compliance.a1})
+    for (std::size_t j = 0; j < n; ++j)
+      check(MPI_Allreduce(MPI_IN_PLACE, a->data() + j * n, static_cast<int>(n), MPI_DOUBLE, MPI_SUM, comm()));
+  return compliance;
+}
+
+void Condensed::multiplyA0(Vec v, Vec product) const {
+  check(MatMult(gaps_, v, single_));
+  check(KSPSolve(solver_, single_, answer_));
+  check(MatMultTranspose(gaps_, answer_, product));
+}
+
+void Condensed::multiplySymmetricA1(Vec v, Vec product) const {
+  const Mat sides[] = {gaps_, friction_};
+  Vec column = nullptr;
+  for (PetscInt j = 0; j < 2; ++j) {
+    check(MatDenseGetColumnVecWrite(rhs_, j, &column));
+    check(MatMult(sides[j], v, column));
+    check(MatDenseRestoreColumnVecWrite(rhs_, j, &column));
+  }
+  check(KSPMatSolve(solver_, rhs_, solution_));
+  // With y = K_o⁻¹ e v and z = K_o⁻¹ U v: A1ᵀ v = −Uᵀ y, A1 v = −eᵀ z.
+  check(MatDenseGetColumnVecRead(solution_, 0, &column));
+  check(MatMultTranspose(friction_, column, product));
+  check(MatDenseRestoreColumnVecRead(solution_, 0, &column));
+  check(MatDenseGetColumnVecRead(solution_, 1, &column));
+  check(MatMultTranspose(gaps_, column, part_));
+  check(MatDenseRestoreColumnVecRead(solution_, 1, &column));
+  check(VecAXPBY(product, -0.5, -0.5, part_));
+}
+
+void Condensed::close() {
+  if (closedSolver_) return;
+  PetscInt begin = 0, end = 0;
+  check(MatGetOwnershipRange(stiffness_, &begin, &end));
+  OwnedIS gaps, others;
+  check(ISCreateGeneral(comm(), ownedSize_, transformation_.gapColumn.data(), PETSC_COPY_VALUES, gaps.out()));
+  std::vector<PetscInt> rest(static_cast<std::size_t>(end - begin));
+  std::iota(rest.begin(), rest.end(), begin);
+  const std::set<PetscInt> isGap(transformation_.gapColumn.begin(), transformation_.gapColumn.end());
+  std::erase_if(rest, [&](PetscInt column) { return isGap.count(column) > 0; });
+  check(ISCreateGeneral(comm(), static_cast<PetscInt>(rest.size()), rest.data(), PETSC_COPY_VALUES, others.out()));
+  check(MatCreateSubMatrix(stiffness_, others, others, MAT_INITIAL_MATRIX, closedStiffness_.out()));
+  check(MatCreateSubMatrix(stiffness_, others, gaps, MAT_INITIAL_MATRIX, coupling_.out()));
+  check(MatCreateSubMatrix(stiffness_, gaps, gaps, MAT_INITIAL_MATRIX, gapStiffness_.out()));
+  check(MatSetOption(closedStiffness_, MAT_SYMMETRIC, PETSC_TRUE));
+  closedSolver_ = factorisation(closedStiffness_);
+  check(MatCreateVecs(closedStiffness_, inner_.out(), innerAnswer_.out()));
+}
+
+void Condensed::solveA0(Vec v, Vec solution) {
+  close();
+  check(MatMult(coupling_, v, inner_));
+  check(KSPSolve(closedSolver_, inner_, innerAnswer_));
+  check(MatMultTranspose(coupling_, innerAnswer_, part_));
+  check(MatMult(gapStiffness_, v, solution));
+  check(VecAXPY(solution, -1, part_));
+}
+
+void rejectUnusedUniquenessOptions(bool dense) {
+  solverPrefix.rejectUnused(dense ? std::vector<std::string>{"eps_", "st_"} : std::vector<std::string>{});
+}
+
+}  // namespace squeal::steady

@@ -1,0 +1,152 @@
+#include "steady/uniqueness.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "petsc/options.hpp"
+#include "steady/condensed.hpp"
+
+namespace squeal::steady {
+namespace {
+
+const FlagOption wantedOption("steady", "steady_uniqueness", true,
+                              "examine existence and uniqueness of the steady state: one more factorisation, a solve per contact "
+                              "node");
+const IntegerOption denseOption(
+    "steady", "steady_uniqueness_dense", 1000, 0,
+    "contact nodes up to which the condensed matrix is formed; beyond, the friction where it ceases to be "
+    "positive definite is found iteratively");
+const IntegerOption pMatrixOption("steady", "steady_uniqueness_pmatrix", 18, 0,
+                                  "contact nodes n up to which the P-matrix test is made, 2^n pivots");
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+Uniqueness undecided(const std::vector<double>& frictions, const std::string& reason) {
+  Uniqueness result{{}, unknown};
+  for (double friction : frictions) result.judgements.push_back({friction, unknown, "not decided", reason});
+  return result;
+}
+
+Uniqueness examineDense(const Compliance& compliance, const std::vector<double>& frictions, int pMatrixLimit) {
+  Uniqueness result{{}, lossOfPositivity(compliance.a0, compliance.a1, compliance.size)};
+  for (double friction : frictions)
+    result.judgements.push_back(judge(compliance.at(friction), compliance.size, friction, pMatrixLimit));
+  return result;
+}
+
+PetscErrorCode multiplyA0(Mat matrix, Vec v, Vec product) {
+  const Condensed* condensed = nullptr;
+  PetscFunctionBegin;
+  PetscCall(MatShellGetContext(matrix, &condensed));
+  condensed->multiplyA0(v, product);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode multiplySymmetricA1(Mat matrix, Vec v, Vec product) {
+  const Condensed* condensed = nullptr;
+  PetscFunctionBegin;
+  PetscCall(MatShellGetContext(matrix, &condensed));
+  condensed->multiplySymmetricA1(v, product);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode solveA0(PC pc, Vec v, Vec solution) {
+  Condensed* condensed = nullptr;
+  PetscFunctionBegin;
+  PetscCall(PCShellGetContext(pc, &condensed));
+  condensed->solveA0(v, solution);
+  PetscFunctionReturn(0);
+}
+
+OwnedMat shell(Condensed& condensed, PetscErrorCode (*multiply)(Mat, Vec, Vec)) {
+  OwnedMat matrix;
+  const PetscInt owned = condensed.ownedSize(), size = condensed.size();
+  check(MatCreateShell(condensed.comm(), owned, owned, size, size, &condensed, matrix.out()));
+  check(MatShellSetOperation(matrix, MATOP_MULT, reinterpret_cast<void (*)()>(multiply)));
+  check(MatSetOption(matrix, MAT_SYMMETRIC, PETSC_TRUE));
+  return matrix;
+}
+
+/// The smallest μ of sym(A1) v = μ A0 v; none if it has not converged. The smallest eigenvalues of sym(A(f)) itself belong to
+/// forces that alternate from node to node: they crowd, scale with the mesh size and hardly depend on friction. Relative to A0 the
+/// mesh hardly matters, and one number serves all frictions.
+std::optional<double> smallestRatio(Condensed& condensed) {
+  const OwnedMat a0 = shell(condensed, multiplyA0), a1 = shell(condensed, multiplySymmetricA1);
+  OwnedEPS eps;
+  check(EPSCreate(condensed.comm(), eps.out()));
+  check(EPSSetOptionsPrefix(eps, "steady_uniqueness_"));
+  check(EPSSetOperators(eps, a1, a0));
+  check(EPSSetProblemType(eps, EPS_GHEP));
+  check(EPSSetWhichEigenpairs(eps, EPS_SMALLEST_REAL));
+  check(EPSSetDimensions(eps, 1, std::min<PetscInt>(condensed.size(), 40), PETSC_DEFAULT));
+  // Not relative to an eigenvalue that vanishes where the structure and its mirror image are one.
+  check(EPSSetConvergenceTest(eps, EPS_CONV_ABS));
+  check(EPSSetTolerances(eps, 1e-8, 500));
+  ST st = nullptr;
+  KSP ksp = nullptr;
+  PC pc = nullptr;
+  check(EPSGetST(eps, &st));
+  check(STGetKSP(st, &ksp));
+  check(KSPSetType(ksp, KSPPREONLY));
+  check(KSPGetPC(ksp, &pc));
+  check(PCSetType(pc, PCSHELL));
+  check(PCShellSetContext(pc, &condensed));
+  check(PCShellSetApply(pc, solveA0));
+  check(EPSSetFromOptions(eps));
+  check(EPSSetUp(eps));
+  rejectUnusedUniquenessOptions(false);
+  check(EPSSolve(eps));
+  PetscInt converged = 0;
+  PetscScalar value = 0;
+  check(EPSGetConverged(eps, &converged));
+  if (converged == 0) return std::nullopt;
+  check(EPSGetEigenvalue(eps, 0, &value, nullptr));
+  return value;
+}
+
+/// A never formed. sym(A(f)) = A0 + f sym(A1) is positive definite below the friction of loss.
+Uniqueness examineMatrixFree(Condensed& condensed, const std::vector<double>& frictions) {
+  if (!condensed.positiveDefinite())
+    return undecided(frictions, "the stiffness of the open contact is not positive definite; raise -steady_uniqueness_dense");
+  const auto ratio = smallestRatio(condensed);
+  if (!ratio)
+    return undecided(frictions,
+                     "the eigenvalue that decides did not converge; raise -steady_uniqueness_eps_max_it or "
+                     "-steady_uniqueness_dense");
+  Uniqueness result{{}, lossOfPositivity(*ratio)};
+  for (double friction : frictions)
+    if (friction < result.lostAt)
+      result.judgements.push_back({friction, unknown, "one solution", "the condensed matrix is positive definite"});
+    else
+      result.judgements.push_back({friction, unknown, "not decided",
+                                   "the condensed matrix is not positive definite; other tests need it formed, up to "
+                                   "-steady_uniqueness_dense contact nodes"});
+  return result;
+}
+
+}  // namespace
+
+bool uniquenessWanted() { return wantedOption.get(); }
+
+Uniqueness examine(const elasticity::Bodies& bodies, const contact::Contact& contact, double speed,
+                   const std::vector<double>& frictions) {
+  const int denseLimit = denseOption.get(), pMatrixLimit = pMatrixOption.get();
+  if (contact.totalNodes == 0) return undecided(frictions, "there is no contact node");
+  if (!contact.weightsPositive) return undecided(frictions, "on tri6 or quad8 faces contact cannot be decided node by node");
+  if (const auto loose = contact::looseBody(*contact.mesh, contact, bodies.springs, false))
+    return undecided(frictions, "body '" + loose->body + "' is held by the contact alone, so the condensed matrix does not exist");
+  OwnedMat stiffness = bodies.stiffness.share();
+  if (bodies.rotationStiffness) {
+    check(MatDuplicate(bodies.stiffness, MAT_COPY_VALUES, stiffness.out()));
+    check(MatAXPY(stiffness, speed * speed, bodies.rotationStiffness, DIFFERENT_NONZERO_PATTERN));
+    check(MatSetOption(stiffness, MAT_SYMMETRIC, PETSC_TRUE));
+  }
+  Condensed condensed(contact, stiffness, contact.slip(speed, nullptr));
+  const bool dense = condensed.size() <= denseLimit;
+  if (dense) rejectUnusedUniquenessOptions(true);
+  if (!condensed.factorised()) return undecided(frictions, "the stiffness matrix of the open contact cannot be factorised");
+  return dense ? examineDense(condensed.dense(), frictions, pMatrixLimit) : examineMatrixFree(condensed, frictions);
+}
+
+}  // namespace squeal::steady
