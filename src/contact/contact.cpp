@@ -239,6 +239,28 @@ void requireFlatObstacles(const mesh::Mesh& mesh, const Contact& contact) {
   failTogether(mesh.comm, failure);
 }
 
+/// w = −V is the velocity of a resting pad over a moving disc.
+void requireRestingPads(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, const Contact& contact) {
+  std::vector<int> moving(static_cast<std::size_t>(mesh.localNodes()), -1);  // [local node] a moving body that it belongs to
+  for (const auto& block : mesh.cells)
+    for (std::size_t i = 0; i < block.nodes.size(); ++i)
+      if (const int body = block.body[i / static_cast<std::size_t>(block.nodesPerCell)];
+          bodies.motions[static_cast<std::size_t>(body)].moves())
+        moving[static_cast<std::size_t>(block.nodes[i])] = body;
+  std::string failure;
+  for (const auto& block : mesh.faces)
+    for (std::size_t i = 0; i < block.nodes.size(); ++i) {
+      const auto& surface =
+          mesh.surfaces[static_cast<std::size_t>(block.surface[i / static_cast<std::size_t>(block.nodesPerFace)])];
+      const int body = moving[static_cast<std::size_t>(block.nodes[i])];
+      if (body >= 0 && contact.isPadSurface(surface))
+        failure = "body '" + mesh.bodies[static_cast<std::size_t>(body)] + "' has a -motion_" +
+                  mesh.bodies[static_cast<std::size_t>(body)] + "_* but bears the pad surface '" + surface +
+                  "'; the side that moves is the disc, -contact_<interface>_disc";
+    }
+  failTogether(mesh.comm, failure);
+}
+
 }  // namespace
 
 std::vector<mesh::InterfaceRequest> readInterfaces() {
@@ -265,6 +287,7 @@ Contact build(const mesh::Mesh& mesh, const elasticity::Bodies& bodies) {
   contact.mesh = &mesh;
   for (const auto& request : requests) contact.interfaces.push_back(request.name), contact.padSurfaces.push_back(request.pad);
   contact.periodic = periodicity(mesh);
+  requireRestingPads(mesh, bodies, contact);
   contact.law = FrictionLaw::read();
   contact.nodes = contactNodes(mesh, bodies, requests, sumFaces(mesh, contact));
   PetscInt sums[2] = {static_cast<PetscInt>(contact.nodes.size()), 0};

@@ -72,7 +72,7 @@ FrictionPoint solveDirect(const Pencil& pencil, const Parameters& at, Mat trial)
   });
   FrictionPoint point;
   point.at = at;
-  if (band.wanted()) point.coveredTo = std::min(reached, band.high);
+  if (band.wanted()) point.askedTo = band.high, point.coveredTo = std::min(reached, band.high);
   for (const auto& pair : pairs)
     point.eigenvalues.push_back({pair.s, backwardError(pencil, at, pair.s, pair.real, pair.imaginary), false});
   judge(point.eigenvalues);

@@ -33,6 +33,7 @@ struct FrictionPoint {
   std::vector<Shape> shapes;            ///< of the fastest growing ones
   double bandTop = 0;                   ///< rad/s: eigenvalues with |s| up to here are corrected to `accuracy`; 0: none are
   double accuracy = 0;                  ///< backward error asked for in the band
+  double askedTo = 0;                   ///< rad/s: upper end of `-flutter_direct_band`; 0: no such band
   double coveredTo = 0;       ///< rad/s: all eigenvalues of `-flutter_direct_band` with |s| below are listed; 0: no such band
   int unstableCount() const;  ///< in the band
   int unstableAbove() const;  ///< above it
@@ -46,7 +47,8 @@ std::vector<Parameters> points();
 /// `-flutter_method`: true for the direct solve on all unknowns.
 bool directWanted();
 
-/// Collective. Error for -flutter_eps_*, -flutter_pep_* and -flutter_st_* options where the direct method, which alone uses them, is not asked for.
+/// Collective. Error for -flutter_eps_*, -flutter_pep_* and -flutter_st_* options where the direct method, which alone uses them, is
+/// not asked for, and for modal damping where it is.
 void rejectIdleSolverOptions();
 
 /// Rayleigh–Ritz [4.19] on the free modes and, unless `-reduction_basis modal`, on corrections of its own residuals. The modes

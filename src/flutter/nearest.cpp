@@ -299,6 +299,8 @@ void rejectIdleSolverOptions() {
   for (const auto* prefix : {&epsPrefix, &pepPrefix, &stPrefix})
     if (prefix->given() && !directWanted())
       throw Error("options -" + prefix->prefix + "* (" + joined(prefix->names()) + ") are used by -flutter_method direct alone");
+  if (directWanted() && modalDampingWanted())
+    throw Error("option -flutter_modal_damping: damping of the free modes needs the modes of -flutter_method reduced");
 }
 
 std::unique_ptr<NearestSolver> nearestSolver(const Pencil& pencil, const Parameters& at) {

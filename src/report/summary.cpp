@@ -86,6 +86,7 @@ void writeSummary(const Analysis& analysis, const std::filesystem::path& folder)
     if (const auto* point = pointAt(analysis, solution.at)) {
       entry["eigenvalues"] = point->eigenvalues.size();
       entry["worst_backward_error"] = point->worstBackwardError();
+      if (point->coveredTo > 0 && std::isfinite(point->coveredTo)) entry["covered_to_hz"] = point->coveredTo / (2 * M_PI);
       if (point->bandTop > 0) {
         entry["band_top_hz"] = point->bandTop / (2 * M_PI);
         entry["accuracy_asked"] = point->accuracy;

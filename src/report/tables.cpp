@@ -146,6 +146,11 @@ std::string stabilityTable(const Analysis& analysis) {
     for (const auto& point : segment.points) table += sweep ? sweepRow(point, speeds) : modeRows(point);
   for (const auto& segment : analysis.segments)
     for (const auto& point : segment.points)
+      if (point.coveredTo < point.askedTo)
+        table += formatted("\nfriction %g, speed %g: the band is covered up to %.5g Hz only; raise -flutter_direct_limit",
+                           point.at.friction, point.at.speed, point.coveredTo / (2 * M_PI));
+  for (const auto& segment : analysis.segments)
+    for (const auto& point : segment.points)
       if (point.bandTop > 0 && point.worstBackwardError() > point.accuracy)
         table += formatted(
             "\nfriction %g: backward errors in the band exceed %.0e, see eigenvalues.csv; raise -modes_count or -flutter_rounds",
