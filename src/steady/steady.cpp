@@ -110,7 +110,8 @@ std::vector<double> Problem::normalForces(Vec forces) const {
 }
 
 /// Tᵀ (r + Jᵀ f φ R_N τ): less the contact forces of the friction law, nodal forces do no work on tangential displacements.
-OwnedVec Problem::test(const Parameters& at, Vec forces, const std::vector<contact::Slip>& slip) const {
+OwnedVec Problem::test(const contact::Transformation& transformation, const std::vector<unsigned char>& slides,
+                       const Parameters& at, Vec forces, const std::vector<contact::Slip>& slip) const {
   const OwnedVec friction = elasticity::nodalVector(mesh_), sum = elasticity::nodalVector(mesh_);
   const auto normal = normalForces(forces);
   PetscScalar* values = nullptr;
@@ -118,11 +119,11 @@ OwnedVec Problem::test(const Parameters& at, Vec forces, const std::vector<conta
   for (std::size_t i = 0; i < contact_.nodes.size(); ++i)
     for (int d = 0; d < mesh_.dimension; ++d)
       values[mesh_.dimension * contact_.nodes[i].node + d] =
-          at.friction * slip[i].law * normal[i] * slip[i].direction[static_cast<std::size_t>(d)];
+          slides[i] ? at.friction * slip[i].law * normal[i] * slip[i].direction[static_cast<std::size_t>(d)] : 0;
   check(VecRestoreArray(friction, &values));
   check(MatMultTransposeAdd(contact_.jump, friction, forces, sum));
-  OwnedVec result = rightVector(transformation_.trial);
-  check(MatMultTranspose(transformation_.trial, sum, result));
+  OwnedVec result = rightVector(transformation.trial);
+  check(MatMultTranspose(transformation.trial, sum, result));
   return result;
 }
 
@@ -134,7 +135,7 @@ OwnedVec Problem::displacement(Vec x) const {
 
 void Problem::residual(const Parameters& at, Vec x, Vec f) const {
   const OwnedVec u = displacement(x);
-  check(VecCopy(test(at, forces(at, u), contact_.slip(at.speed, u)), f));
+  check(VecCopy(test(transformation_, all_, at, forces(at, u), contact_.slip(at.speed, u)), f));
 }
 
 /// Tᵀ K T + f Sᵀ N K T, and with convective terms the turning of the slip: −v Tᵀ Jᵀ B D T with B of velocityResponse().
@@ -161,12 +162,14 @@ Solution Problem::solve(const Parameters& at, const contact::AssociatedSystem& s
   if (at.friction > 0) contact::requireSlip(contact_, contact_.slip(at.speed, nullptr), all_);
   Solution solution;
   solution.at = at;
-  OwnedVec x = guess(at, system);
+  double rest = 1;
+  OwnedVec x = guess(at, system, rest);
   if (contact_.weightsPositive) {
     complementarity(x, solution);
   } else {
-    solution.converged = true;
-    solution.reason = "closed contact held (faces with non-positive nodal weights)";
+    solution.converged = rest < 1e-9;
+    solution.reason = solution.converged ? "closed contact held (faces with non-positive nodal weights)"
+                                         : "the solution with closed contact was not found";
   }
   recover(x, solution);
   if (!contact_.weightsPositive && solution.smallestPressure < 0) {
@@ -178,22 +181,16 @@ Solution Problem::solve(const Parameters& at, const contact::AssociatedSystem& s
   return solution;
 }
 
-/// Solves the linear problem with the gaps of the active set held at zero and w = −v V: GMRES, preconditioned by the factorised K0.
-OwnedVec Problem::guess(const Parameters& at, const contact::AssociatedSystem& system) const {
+/// Solves the problem with the gaps of the active set held at zero. Linear under approximation A: one step. With convective terms
+/// Newton's method, its matrix without K^R and without the turning of the slip, which are small: a few steps. GMRES, preconditioned
+/// by the factorised K0. `rest`: residual that is left, relative to that of no displacement.
+OwnedVec Problem::guess(const Parameters& at, const contact::AssociatedSystem& system, double& rest) const {
   const auto& closed = system.transformation();
-  const auto slip = contact_.slip(at.speed, nullptr);
-  const OwnedMat rows = contact_.slipRows(closed, slip, system.closed());
-  const OwnedMat jacobian = contact::affine(system.k0(), system.stiffness().friction(rows), at.friction);
-  const OwnedVec rhs = rightVector(closed.trial), y = rightVector(closed.trial), r = forces(at, contact_.offset),
-                 reactions = elasticity::nodalVector(mesh_), friction = rightVector(closed.trial);
-  check(MatMult(contact_.reaction, r, reactions));
-  check(MatMultTranspose(rows, reactions, friction));
-  check(MatMultTranspose(closed.trial, r, rhs));
-  check(VecAXPY(rhs, at.friction, friction));
-  check(VecScale(rhs, -1));
+  const OwnedMat rows = contact_.slipRows(closed, contact_.slip(at.speed, nullptr), system.closed());
+  const OwnedMat matrix = contact::affine(system.k0(), system.stiffness().friction(rows), at.friction);
   OwnedKSP solver;
   check(KSPCreate(mesh_.comm, solver.out()));
-  check(KSPSetOperators(solver, jacobian, system.k0()));
+  check(KSPSetOperators(solver, matrix, system.k0()));
   check(KSPSetType(solver, KSPGMRES));
   check(KSPSetTolerances(solver, 1e-13, PETSC_DEFAULT, PETSC_DEFAULT, 200));
   check(KSPGMRESSetRestart(solver, 200));
@@ -202,10 +199,32 @@ OwnedVec Problem::guess(const Parameters& at, const contact::AssociatedSystem& s
   check(PCSetType(pc, PCSHELL));
   check(PCShellSetContext(pc, system.solver()));
   check(PCShellSetApply(pc, applySolver));
-  check(KSPSolve(solver, rhs, y));
-  KSPConvergedReason reason;
-  check(KSPGetConvergedReason(solver, &reason));
-  if (reason < 0) check(KSPSolve(system.solver(), rhs, y));  // near a friction without solution: the frictionless guess
+
+  const OwnedVec y = rightVector(closed.trial), step = rightVector(closed.trial), u = elasticity::nodalVector(mesh_);
+  PetscReal first = 0, before = INFINITY;
+  rest = 1;
+  for (int iteration = 0; iteration < 20; ++iteration) {
+    check(MatMultAdd(closed.trial, y, contact_.offset, u));
+    const OwnedVec residual = test(closed, system.closed(), at, forces(at, u), contact_.slip(at.speed, u));
+    PetscReal size = 0;
+    check(VecNorm(residual, NORM_2, &size));
+    if (iteration == 0) first = size;
+    rest = first > 0 ? std::min(rest, size / first) : 0;
+    if (size <= 1e-14 * first || size > 0.5 * before) break;  // solved, or down to rounding
+    before = size;
+    check(KSPSolve(solver, residual, step));
+    KSPConvergedReason reason;
+    check(KSPGetConvergedReason(solver, &reason));
+    if (reason < 0) {  // near a friction without solution: the frictionless step
+      check(KSPSolve(system.solver(), residual, step));
+      check(VecAXPY(y, -1, step));
+      break;
+    }
+    check(VecAXPY(y, -1, step));
+    if (contact_.convected) continue;
+    rest = 0;  // to the tolerance of GMRES
+    break;
+  }
   const OwnedVec z = elasticity::nodalVector(mesh_);
   OwnedVec x = rightVector(transformation_.trial);
   check(MatMult(closed.selection, y, z));

@@ -61,8 +61,9 @@ class Problem {
   OwnedVec load(double speed) const;
   OwnedVec forces(const Parameters& at, Vec displacement) const;
   std::vector<double> normalForces(Vec forces) const;
-  OwnedVec test(const Parameters& at, Vec forces, const std::vector<contact::Slip>& slip) const;
-  OwnedVec guess(const Parameters& at, const contact::AssociatedSystem& system) const;
+  OwnedVec test(const contact::Transformation& transformation, const std::vector<unsigned char>& slides, const Parameters& at,
+                Vec forces, const std::vector<contact::Slip>& slip) const;
+  OwnedVec guess(const Parameters& at, const contact::AssociatedSystem& system, double& rest) const;
   void complementarity(OwnedVec& x, Solution& solution) const;
   void recover(Vec x, Solution& solution) const;
   double imbalance(const Solution& solution, Vec nodalForces) const;
