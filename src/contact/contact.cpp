@@ -112,8 +112,8 @@ std::vector<ContactNode> contactNodes(const mesh::Mesh& mesh, const elasticity::
     Point w{};
     for (std::size_t d = 0; d < 3; ++d) w[d] = -(velocity[d] - along * node.normal[d]);
     node.slipSpeed = std::sqrt(dot(w, w));
-    // On the axis of a rotation, and where the velocity is along the normal, only rounding is left.
-    if (node.slipSpeed > 1e-12 * fastest)
+    // On the axis of a rotation, and where the velocity is along the normal, only rounding is left; gmsh places nodes to 1e-11.
+    if (node.slipSpeed > 1e-9 * fastest)
       node.slip = scaled(w, 1 / node.slipSpeed);
     else
       node.slipSpeed = 0;

@@ -174,7 +174,8 @@ std::vector<Slip> Contact::slip(double speed, Vec displacement) const {
       for (std::size_t d = 0; d < 3; ++d) w[d] += change[d] - along * node.normal[d];
     }
     Slip state;
-    state.speed = node.slipSpeed > 0 ? std::sqrt(dot(w, w)) : 0;
+    state.speed = std::sqrt(dot(w, w));
+    if (state.speed <= 1e-9 * speed * node.slipSpeed) state.speed = 0;  // no direction but that of rounding
     if (state.speed > 0) state.direction = scaled(w, 1 / state.speed);
     state.law = law.value(state.speed);
     state.slope = law.slope(state.speed);

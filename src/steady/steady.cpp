@@ -14,7 +14,6 @@ const SolverPrefix solverPrefix("steady", "steady_", "PETSc SNES VI, KSP and PC 
 
 using OwnedSNES = Owned<SNES, SNESDestroy>;
 
-/// The problem in units of its own size, x = xUnit x̂ and F = forceUnit F̂, so that the tolerances of SNES, absolute ones among
 /// SNES sees F̂(x̂) = F(x)/forceUnit with x = xUnit x̂, so that its tolerances, absolute ones among them
 /// (-steady_snes_vi_zero_tolerance is 1e-8), mean the same in metres and in millimetres.
 struct Scaled {
@@ -276,7 +275,8 @@ void Problem::complementarity(OwnedVec& x, Solution& solution) const {
   check(PCSetType(pc, PCCHOLESKY));
   check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
   check(SNESSetFromOptions(snes));
-  solverPrefix.rejectUnused({"mat_mumps_", "uniqueness_"});
+  // SNES asks for these only while it solves.
+  solverPrefix.rejectUnused({"mat_mumps_", "uniqueness_", "snes_test_jacobian", "snes_converged_reason", "snes_view"});
   check(SNESSolve(snes, nullptr, x));
   SNESConvergedReason reason;
   PetscInt iterations = 0;

@@ -73,11 +73,11 @@ Complex determinant(Matrix<size> m) {
   return product;
 }
 
-/// How far Newton's method moves `s` in one step: the error of s as a root of `function`, to first order.
+/// The step back to a root of `function` by Newton's method: the error of s as a root, to first order.
 template <class Function>
-double newtonStep(const Function& function, Complex s) {
+Complex newtonStep(const Function& function, Complex s) {
   const double step = 1e-5;
-  return std::abs(2 * step * function(s) / (function(s + step) - function(s - step)));
+  return 2 * step * function(s) / (function(s + step) - function(s - step));
 }
 
 }  // namespace squeal::exact

@@ -143,7 +143,7 @@ inline double dot(const mesh::Point& a, const mesh::Point& b) { return a[0] * b[
 
 /// Collective. A file of the test, written by one rank before any reads it.
 inline std::string writeFile(const std::string& name, const std::string& text) {
-  const std::string path = std::string(SQUEAL_OUTPUT_DIR) + "/" + name;
+  const std::string path = SQUEAL_OUTPUT_DIR "/" + name;
   int rank = 0;
   check(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
   if (rank == 0) std::ofstream(path) << text;

@@ -1,0 +1,60 @@
+// The speed enters by the product of -flutter_speed and the motions in the options alone.
+#include <gtest/gtest.h>
+
+#include "petsc/text.hpp"
+#include "support/case.hpp"
+#include "support/spectrum.hpp"
+
+namespace squeal::test {
+namespace {
+
+/// The coarse disc brake at ω with all that depends on the speed: convective terms, a friction law, friction-induced damping and
+/// centrifugal load.
+Analysis at(double omega, double factor) {
+  return runCase(
+      "disc_brake",
+      "-mesh_set n_pad_theta=8,n_free_theta=12,n_mount=2,n_plate=1,n_inside=1,n_pad_r=4,n_hat=2,n_h_ring=2 "
+      "-motion_convective on -load_centrifugal on -friction_law exponential -friction_static_ratio 1.4 "
+      "-friction_decay_speed 5 -flutter_friction 0.2,0.5 -flutter_accuracy 1e-11 -modes_count 40 -steady_uniqueness off " +
+          formatted("-motion_disc_speed %.17g -motion_hat_speed %.17g -flutter_speed %.17g", omega, omega, factor));
+}
+
+/// Largest difference of an eigenvalue in the band from that of the other run, relative.
+double difference(const flutter::FrictionPoint& one, const flutter::FrictionPoint& other) {
+  std::vector<Complex> band;
+  for (const auto& eigenvalue : one.eigenvalues)
+    if (eigenvalue.inBand) band.push_back(eigenvalue.s);
+  EXPECT_GT(band.size(), 10u);
+  return worst(errors(band, eigenvaluesOf(other)).relative);
+}
+
+TEST(Speed, FactorScalesTheMotions) {
+  const Analysis slow = at(10, 1), scaled = at(10, 3), fast = at(30, 1);
+  for (const Analysis* analysis : {&slow, &scaled, &fast}) {
+    ASSERT_EQ(analysis->segments.size(), 1u);
+    ASSERT_EQ(analysis->segments[0].points.size(), 2u);
+  }
+  for (std::size_t i = 0; i < 2; ++i) {
+    double force = 0, forceSize = 0;
+    for (std::size_t k = 0; k < fast.contact.nodes.size(); ++k)
+      for (std::size_t d = 0; d < 3; ++d) {
+        const double wanted = fast.steady[i].contact[k].frictionForce[d];
+        force = std::max(force, std::abs(scaled.steady[i].contact[k].frictionForce[d] - wanted));
+        forceSize = std::max(forceSize, std::abs(wanted));
+      }
+    force = largest(force) / largest(forceSize);
+    const auto& wanted = fast.segments[0].points[i];
+    const double same = difference(wanted, scaled.segments[0].points[i]), other = difference(wanted, slow.segments[0].points[i]);
+    print(
+        "friction %g: %d unstable; friction forces differ by %.1e, eigenvalues by %.1e; from those at a third of the speed by "
+        "%.1e\n",
+        wanted.at.friction, wanted.unstableCount(), force, same, other);
+    EXPECT_LT(force, 1e-10);
+    EXPECT_LT(same, 1e-10);
+    EXPECT_GT(other, 1e-4);  // the speed matters
+    EXPECT_EQ(wanted.unstableCount(), scaled.segments[0].points[i].unstableCount());
+  }
+}
+
+}  // namespace
+}  // namespace squeal::test
