@@ -20,8 +20,8 @@ std::vector<Complex> eigenvalues(const ProgramRun& run) {
 TEST(RotatingDiscBrake, SeventyEigenvaluesByPep) {
   std::vector<Complex> one;
   for (int ranks = 1; ranks <= 3; ++ranks) {
-    const auto run = runProgram("rotating/pep" + std::to_string(ranks), ranks,
-                                at + "-flutter_method direct -flutter_direct_count 70", 900);
+    const auto run =
+        runProgram("rotating/pep" + std::to_string(ranks), ranks, at + "-flutter_method direct -flutter_direct_count 70", 900);
     ASSERT_EQ(run.exitCode, 0) << run.error;
     const auto errorsFound = readCsv(run.folder / "eigenvalues.csv").column("backward_error");
     const double worstError = *std::max_element(errorsFound.begin(), errorsFound.end());

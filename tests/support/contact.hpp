@@ -4,24 +4,9 @@
 
 #include "analysis.hpp"
 #include "support/case.hpp"
+#include "support/model.hpp"
 
 namespace squeal::test {
-
-/// Collective. All entries of a vector, on every rank; small problems only.
-inline std::vector<double> gathered(Vec vector) {
-  OwnedScatter scatter;
-  OwnedVec all;
-  check(VecScatterCreateToAll(vector, scatter.out(), all.out()));
-  check(VecScatterBegin(scatter, vector, all, INSERT_VALUES, SCATTER_FORWARD));
-  check(VecScatterEnd(scatter, vector, all, INSERT_VALUES, SCATTER_FORWARD));
-  PetscInt size = 0;
-  const PetscScalar* values = nullptr;
-  check(VecGetSize(all, &size));
-  check(VecGetArrayRead(all, &values));
-  const std::vector<double> result(values, values + size);
-  check(VecRestoreArrayRead(all, &values));
-  return result;
-}
 
 /// Violations of the laws of steady sliding over the whole contact, each relative to the largest gap, displacement or force.
 struct Violations {
@@ -38,7 +23,7 @@ inline Violations violations(const Analysis& analysis, const steady::Solution& s
   const auto& mesh = *analysis.mesh;
   const auto& contact = analysis.contact;
   const auto dimension = static_cast<std::size_t>(mesh.dimension);
-  const auto u = gathered(solution.displacement);
+  const auto u = allEntries(solution.displacement);
   const OwnedVec rest = elasticity::nodalVector(mesh);  // K u − b − contact forces
   check(MatMult(analysis.bodies.stiffness, solution.displacement, rest));
   check(VecAXPY(rest, -1, analysis.bodies.load));

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "support/case.hpp"
-#include "unit/model.hpp"
+#include "support/model.hpp"
 
 namespace squeal {
 namespace {

@@ -1,7 +1,7 @@
 // Cases that contact must refuse: bodies that nothing holds, constraints and interfaces that contradict each other.
 #include <gtest/gtest.h>
 
-#include "unit/model.hpp"
+#include "support/model.hpp"
 
 namespace squeal {
 namespace {

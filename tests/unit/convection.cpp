@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "petsc/text.hpp"
-#include "unit/model.hpp"
+#include "support/model.hpp"
 
 namespace squeal {
 namespace {

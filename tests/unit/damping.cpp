@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "support/case.hpp"
-#include "unit/model.hpp"
+#include "support/model.hpp"
 
 namespace squeal {
 namespace {
@@ -14,17 +14,6 @@ namespace {
 std::string layers(const std::string& more) {
   return "-mesh_file meshes/two_layers.geo -mesh_set nx=4,ny_disc=2,ny_pad=2,recombine=0" +
          test::material("disc", "2", "0.3", "1.5") + test::material("pad", "3", "0.2", "0.7") + more;
-}
-
-struct Built {
-  mesh::Mesh mesh;
-  elasticity::Bodies bodies;
-};
-Built build(const std::string& options) {
-  test::setOptions(options);
-  Built built{test::readMesh(), {}};
-  built.bodies = elasticity::assemble(built.mesh);
-  return built;
 }
 
 double largest(const test::DenseCopy& matrix) {
@@ -45,11 +34,11 @@ constexpr double rounding = 1e-14;
 
 TEST(Damping, RayleighPerBody) {
   const auto [mesh, bodies] =
-      build(layers("-material_disc_rayleigh_mass 0.7 -material_disc_rayleigh_stiffness 0.02 "
-                   "-material_pad_rayleigh_mass 0.7 -material_pad_rayleigh_stiffness 0.02"));
+      test::buildBodies(layers("-material_disc_rayleigh_mass 0.7 -material_disc_rayleigh_stiffness 0.02 "
+                               "-material_pad_rayleigh_mass 0.7 -material_pad_rayleigh_stiffness 0.02"));
   EXPECT_LT(deviation(bodies.damping, bodies.mass, 0.7, bodies.stiffness, 0.02), rounding);
   // One body alone: the other one moves without resistance.
-  const auto [sameMesh, one] = build(layers("-material_disc_rayleigh_mass 0.7 -material_disc_rayleigh_stiffness 0.02"));
+  const auto [sameMesh, one] = test::buildBodies(layers("-material_disc_rayleigh_mass 0.7 -material_disc_rayleigh_stiffness 0.02"));
   const auto stretch =
       [&](bool disc) {  // the layers do not share nodes: y < 0 is the disc, and a field linear in |y| vanishes at y = 0
         return test::nodalField(sameMesh, [&](const mesh::Point& x) { return mesh::Point{0, (x[1] < 0) == disc ? x[1] : 0.0, 0}; });
@@ -62,31 +51,33 @@ TEST(Damping, RayleighPerBody) {
 
 TEST(Damping, LossFactorIsExactAtItsFrequency) {
   const auto [mesh, bodies] =
-      build(layers("-material_disc_loss_factor 0.1 -material_disc_loss_frequency 50 "
-                   "-material_pad_loss_factor 0.2 -material_pad_loss_frequency 100"));
+      test::buildBodies(layers("-material_disc_loss_factor 0.1 -material_disc_loss_frequency 50 "
+                               "-material_pad_loss_factor 0.2 -material_pad_loss_frequency 100"));
   EXPECT_LT(deviation(bodies.damping, bodies.mass, 0, bodies.stiffness, 0.1 / (2 * M_PI * 50)), rounding);
 }
 
 TEST(Damping, IsEmptyIfNothingDamps) {
-  EXPECT_FALSE(build(layers("")).bodies.damping);
-  EXPECT_FALSE(build(layers("-material_pad_rayleigh_mass 0 -ground_pad_top_damping 0,0")).bodies.damping);
-  EXPECT_FALSE(build(layers("")).bodies.springs);
+  EXPECT_FALSE(test::buildBodies(layers("")).bodies.damping);
+  EXPECT_FALSE(test::buildBodies(layers("-material_pad_rayleigh_mass 0 -ground_pad_top_damping 0,0")).bodies.damping);
+  EXPECT_FALSE(test::buildBodies(layers("")).bodies.springs);
 }
 
 TEST(Damping, RejectsWhatIsIncomplete) {
+  EXPECT_TRUE(test::contains(test::errorOf([] { test::buildBodies(layers("-material_pad_loss_factor 0.1")); }),
+                             "-material_pad_loss_frequency"));
+  EXPECT_TRUE(test::contains(test::errorOf([] { test::buildBodies(layers("-material_pad_loss_frequency 10")); }),
+                             "-material_pad_loss_factor"));
   EXPECT_TRUE(
-      test::contains(test::errorOf([] { build(layers("-material_pad_loss_factor 0.1")); }), "-material_pad_loss_frequency"));
-  EXPECT_TRUE(test::contains(test::errorOf([] { build(layers("-material_pad_loss_frequency 10")); }), "-material_pad_loss_factor"));
-  EXPECT_TRUE(test::contains(test::errorOf([] { build(layers("-material_pas_rayleigh_mass 1")); }), "-material_pas_young"));
-  EXPECT_TRUE(test::contains(test::errorOf([] { build(layers("-material_pad_rayleigh_mass -1")); }), ">= 0"));
-  EXPECT_TRUE(test::contains(test::errorOf([] { build(layers("-ground_pad_top_stiffness 1,-1")); }), ">= 0"));
-  EXPECT_TRUE(test::contains(test::errorOf([] { build(layers("-ground_pad_top_damping 1")); }), "2 components"));
-  EXPECT_TRUE(test::contains(test::errorOf([] { build(layers("-ground_nowhere_stiffness 1,1")); }), "nowhere"));
+      test::contains(test::errorOf([] { test::buildBodies(layers("-material_pas_rayleigh_mass 1")); }), "-material_pas_young"));
+  EXPECT_TRUE(test::contains(test::errorOf([] { test::buildBodies(layers("-material_pad_rayleigh_mass -1")); }), ">= 0"));
+  EXPECT_TRUE(test::contains(test::errorOf([] { test::buildBodies(layers("-ground_pad_top_stiffness 1,-1")); }), ">= 0"));
+  EXPECT_TRUE(test::contains(test::errorOf([] { test::buildBodies(layers("-ground_pad_top_damping 1")); }), "2 components"));
+  EXPECT_TRUE(test::contains(test::errorOf([] { test::buildBodies(layers("-ground_nowhere_stiffness 1,1")); }), "nowhere"));
 }
 
 TEST(Ground, IsSharedByTheNodesOfTheGroup) {
-  const auto [mesh, bodies] = build(layers("-ground_pad_top_stiffness 5,7 -ground_pad_top_damping 0.5,0.25"));
-  const auto [sameMesh, free] = build(layers(""));
+  const auto [mesh, bodies] = test::buildBodies(layers("-ground_pad_top_stiffness 5,7 -ground_pad_top_damping 0.5,0.25"));
+  const auto [sameMesh, free] = test::buildBodies(layers(""));
   auto k = test::denseCopy(bodies.stiffness);
   const auto c = test::denseCopy(bodies.damping), k0 = test::denseCopy(free.stiffness);
   const auto springs = test::allEntries(bodies.springs);
@@ -104,7 +95,7 @@ TEST(Ground, IsSharedByTheNodesOfTheGroup) {
 
 // A periodic image is its primary: the total remains that of the options.
 TEST(Ground, CountsImagesOnce) {
-  const auto [mesh, bodies] = build(layers("-constraint_pad_right_image_of pad_left -ground_pad_top_stiffness 5,7"));
+  const auto [mesh, bodies] = test::buildBodies(layers("-constraint_pad_right_image_of pad_left -ground_pad_top_stiffness 5,7"));
   double sum = 0;
   for (double k : test::allEntries(bodies.springs)) sum += k;
   EXPECT_NEAR(sum, 12, 1e-14 * 12);
@@ -134,7 +125,7 @@ TEST(Ground, CarriesABlockOnSprings) {
   EXPECT_TRUE(test::contains(test::errorOf([] { test::buildModel(); }), "'beam' can move rigidly"));
   test::setOptions(block + springs);
   ASSERT_EQ(test::errorOf([] { test::buildModel(); }), "");
-  const auto found = frequencies(build(block + springs).bodies);
+  const auto found = frequencies(test::buildBodies(block + springs).bodies);
   for (std::size_t i = 0; i < 6; ++i) {
     const double expected = std::sqrt((i < 3 ? 1 : 3) * k / mass);
     EXPECT_NEAR(found[i], expected, 1e-6 * expected);

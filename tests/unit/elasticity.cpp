@@ -9,7 +9,7 @@
 
 #include "elasticity/shape.hpp"
 #include "support/case.hpp"
-#include "unit/model.hpp"
+#include "support/model.hpp"
 
 namespace squeal {
 namespace {
@@ -144,15 +144,7 @@ void solveInside(const mesh::Mesh& mesh, Mat stiffness, Vec u) {
   check(VecAssemblyBegin(boundary));
   check(VecAssemblyEnd(boundary));
   check(MatZeroRowsColumns(matrix, static_cast<PetscInt>(rows.size()), rows.data(), 1, boundary, rhs));
-  OwnedKSP solver;
-  PC pc = nullptr;
-  check(KSPCreate(mesh.comm, solver.out()));
-  check(KSPSetOperators(solver, matrix, matrix));
-  check(KSPSetType(solver, KSPPREONLY));
-  check(KSPGetPC(solver, &pc));
-  check(PCSetType(pc, PCLU));
-  check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
-  check(KSPSolve(solver, rhs, u));
+  test::solveDirectly(matrix, rhs, u);
 }
 
 /// u = H x with nothing special about H.

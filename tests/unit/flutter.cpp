@@ -11,8 +11,8 @@
 #include "flutter/dense.hpp"
 #include "modes/modes.hpp"
 #include "support/case.hpp"
+#include "support/model.hpp"
 #include "support/spectrum.hpp"
-#include "unit/model.hpp"
 
 namespace squeal {
 namespace {

@@ -5,24 +5,13 @@
 
 #include "petsc/text.hpp"
 #include "support/case.hpp"
-#include "unit/model.hpp"
+#include "support/model.hpp"
 
 namespace squeal {
 namespace {
 
 using mesh::Point;
 using test::form;
-
-struct Built {
-  mesh::Mesh mesh;
-  elasticity::Bodies bodies;
-};
-Built build(const std::string& options) {
-  test::setOptions(options);
-  Built built{test::readMesh(), {}};
-  built.bodies = elasticity::assemble(built.mesh);
-  return built;
-}
 
 std::string patch(int dimension, const std::string& set, const std::string& law) {
   return formatted("-mesh_file meshes/patch_%dd.geo -elasticity_incompatible_modes quad4,hex8 -material_body_density 1 ",
@@ -65,9 +54,9 @@ Matrix toMesh(const Matrix& e, const Matrix& q) {
 /// The energy of u = ε x on the unit square or cube is σ:ε.
 void expectEnergy(const std::string& options, const Matrix& stress, const Matrix& axes) {
   const auto [mesh, bodies] =
-      build(options + formatted("-material_body_orientation %.17g,%.17g,%.17g,%.17g,%.17g,%.17g ", 2 * axes[0][0], 2 * axes[0][1],
-                                2 * axes[0][2], axes[1][0] - 0.3 * axes[0][0], axes[1][1] - 0.3 * axes[0][1],
-                                axes[1][2] - 0.3 * axes[0][2]));
+      test::buildBodies(options + formatted("-material_body_orientation %.17g,%.17g,%.17g,%.17g,%.17g,%.17g ", 2 * axes[0][0],
+                                            2 * axes[0][1], 2 * axes[0][2], axes[1][0] - 0.3 * axes[0][0],
+                                            axes[1][1] - 0.3 * axes[0][1], axes[1][2] - 0.3 * axes[0][2]));
   const Matrix strain = strainOf(stress), e = toMesh(strain, axes);
   const auto u = test::nodalField(mesh, [&](const Point& x) {
     Point value{};
@@ -114,7 +103,8 @@ TEST(Orthotropy, EnergyOfAffineDisplacementsInThePlane) {
 }
 
 void expectSameStiffness(const std::string& one, const std::string& other) {
-  const auto a = test::denseCopy(build(one).bodies.stiffness), b = test::denseCopy(build(other).bodies.stiffness);
+  const auto a = test::denseCopy(test::buildBodies(one).bodies.stiffness),
+             b = test::denseCopy(test::buildBodies(other).bodies.stiffness);
   double largest = 0, difference = 0;
   for (std::size_t i = 0; i < a.values.size(); ++i)
     largest = std::max(largest, std::abs(a.values[i])), difference = std::max(difference, std::abs(a.values[i] - b.values[i]));
@@ -158,7 +148,7 @@ TEST(Orthotropy, CylindricalAxesOnARing) {
   };
   const std::string density = "-material_body_density 1 ", law = orthotropic + axes + density;
   const auto check = [&](const std::string& options, double volume) {
-    const auto [mesh, bodies] = build(options);
+    const auto [mesh, bodies] = test::buildBodies(options);
     const auto alongX = test::nodalField(mesh, [](const Point& x) { return Point{x[0], 0, 0}; });
     const auto outwards = test::nodalField(mesh, [](const Point& x) { return Point{x[0], x[1], 0}; });
     EXPECT_NEAR(form(alongX, bodies.stiffness, alongX), stretch * volume, 1e-12 * stretch * volume) << options;
@@ -174,7 +164,7 @@ TEST(Orthotropy, CylindricalAxesOnARing) {
 }
 
 TEST(Orthotropy, RejectsWhatIsNoLaw) {
-  const auto message = [](const std::string& law) { return test::errorOf([&] { build(patch(2, "", law)); }); };
+  const auto message = [](const std::string& law) { return test::errorOf([&] { test::buildBodies(patch(2, "", law)); }); };
   const auto expect = [&](const std::string& law, const std::string& part) {
     EXPECT_TRUE(test::contains(message(law), part)) << law << ": " << message(law);
   };

@@ -10,7 +10,7 @@
 #include "elasticity/element.hpp"
 #include "mesh/whole.hpp"
 #include "support/case.hpp"
-#include "unit/model.hpp"
+#include "support/model.hpp"
 
 namespace squeal {
 namespace {

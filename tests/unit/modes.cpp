@@ -3,7 +3,7 @@
 
 #include "modes/blocklanczos.hpp"
 #include "support/case.hpp"
-#include "unit/model.hpp"
+#include "support/model.hpp"
 
 namespace squeal::test {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "petsc/text.hpp"
 #include "support/case.hpp"
-#include "unit/model.hpp"
+#include "support/model.hpp"
 
 namespace squeal {
 namespace {
@@ -14,17 +14,6 @@ using mesh::Point;
 using test::form;
 
 constexpr double young = 2, poisson = 0.3;
-
-struct Built {
-  mesh::Mesh mesh;
-  elasticity::Bodies bodies;
-};
-Built build(const std::string& options) {
-  test::setOptions(options);
-  Built built{test::readMesh(), {}};
-  built.bodies = elasticity::assemble(built.mesh);
-  return built;
-}
 
 constexpr double h1[3][3] = {{0.31, -0.52, 0.17}, {0.23, -0.14, 0.45}, {-0.39, 0.28, 0.61}};
 constexpr double h2[3][3] = {{-0.44, 0.71, 0.32}, {0.65, 0.27, -0.18}, {0.11, -0.36, 0.53}};
@@ -57,8 +46,8 @@ TEST(Prestress, UniformStressOnDistortedCells) {
         if (set != "n=1" && incompatible != "none") continue;
         SCOPED_TRACE(formatted("%d dimensions, %s, incompatible %s", dimension, set.c_str(), incompatible.c_str()));
         const auto [mesh, bodies] =
-            build(formatted("-mesh_file meshes/patch_%dd.geo -mesh_set ", dimension) + set +
-                  test::material("body", "2", "0.3", "1") + "-elasticity_incompatible_modes " + incompatible);
+            test::buildBodies(formatted("-mesh_file meshes/patch_%dd.geo -mesh_set ", dimension) + set +
+                              test::material("body", "2", "0.3", "1") + "-elasticity_incompatible_modes " + incompatible);
         const OwnedMat k = elasticity::geometricStiffness(mesh, linearField(mesh, h1));
         const auto v = linearField(mesh, h2);
         const double expected = uniformForm(dimension);
@@ -79,8 +68,8 @@ TEST(Prestress, UniformStressOnDistortedCells) {
 TEST(Prestress, StretchedBar) {
   constexpr double stress = 0.01;
   for (const std::string set : {"recombine=1", "recombine=0", "order=2,serendipity=1"}) {
-    const auto [mesh, bodies] = build("-mesh_file meshes/beam.geo -mesh_set Lx=2,Ly=0.5,Lz=0.3,nx=4,ny=2,nz=1," + set +
-                                      test::material("beam", "2", "0.3", "1"));
+    const auto [mesh, bodies] = test::buildBodies("-mesh_file meshes/beam.geo -mesh_set Lx=2,Ly=0.5,Lz=0.3,nx=4,ny=2,nz=1," + set +
+                                                  test::material("beam", "2", "0.3", "1"));
     const auto u = test::nodalField(mesh, [](const Point& x) {
       return Point{stress / young * x[0], -poisson * stress / young * x[1], -poisson * stress / young * x[2]};
     });
@@ -97,8 +86,8 @@ TEST(Prestress, StretchedBar) {
 TEST(Prestress, IncompatibleModesBelongToTheStress) {
   constexpr double kappa = 0.01, height = 0.5, length = 3;
   const auto [mesh, bodies] =
-      build("-mesh_file meshes/layer.geo -mesh_set Lx=3,h=0.5,nx=6,ny=1" + test::material("layer", "2", "0.3", "1") +
-            "-elasticity_plane stress -elasticity_incompatible_modes quad4");
+      test::buildBodies("-mesh_file meshes/layer.geo -mesh_set Lx=3,h=0.5,nx=6,ny=1" + test::material("layer", "2", "0.3", "1") +
+                        "-elasticity_plane stress -elasticity_incompatible_modes quad4");
   const auto u = test::nodalField(mesh, [](const Point& x) {
     const double y = x[1] + height / 2;
     return Point{-kappa * x[0] * y, kappa / 2 * (x[0] * x[0] + poisson * y * y), 0};
@@ -121,15 +110,7 @@ OwnedVec statics(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, const
   check(VecDuplicate(u, load.out()));
   check(VecCopy(bodies.load, load));
   check(MatZeroRowsColumns(matrix, static_cast<PetscInt>(rows.size()), rows.data(), 1, u, load));
-  OwnedKSP solver;
-  PC pc = nullptr;
-  check(KSPCreate(mesh.comm, solver.out()));
-  check(KSPSetOperators(solver, matrix, matrix));
-  check(KSPSetType(solver, KSPPREONLY));
-  check(KSPGetPC(solver, &pc));
-  check(PCSetType(pc, PCLU));
-  check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
-  check(KSPSolve(solver, load, u));
+  test::solveDirectly(matrix, load, u);
   return u;
 }
 
@@ -150,7 +131,7 @@ const std::map<std::string, int> symmetry{{"sym_x", 0}, {"sym_y", 1}};
 TEST(Prestress, RigidRotationOfASpinningRingIsFree) {
   for (const std::string set : {"recombine=1", "recombine=0", "order=2", "order=2,serendipity=1"}) {
     for (const std::string incompatible : {"none", "quad4"}) {
-      const auto [mesh, bodies] = build(spinning(16, set) + "-elasticity_incompatible_modes " + incompatible);
+      const auto [mesh, bodies] = test::buildBodies(spinning(16, set) + "-elasticity_incompatible_modes " + incompatible);
       const OwnedMat k = elasticity::geometricStiffness(mesh, statics(mesh, bodies, symmetry));
       const auto u = test::nodalField(mesh, [](const Point& x) { return Point{-x[1], x[0], 0}; });
       const double stiffness = form(u, k, u), softening = form(u, bodies.rotationStiffness, u);
@@ -174,7 +155,7 @@ TEST(Prestress, StressOfASpinningRingConverges) {
   for (const std::string set : {"recombine=1", "recombine=0", "order=2"}) {
     double error[2];
     for (int level = 0; level < 2; ++level) {
-      const auto [mesh, bodies] = build(spinning(level ? 48 : 24, set));
+      const auto [mesh, bodies] = test::buildBodies(spinning(level ? 48 : 24, set));
       const OwnedMat k = elasticity::geometricStiffness(mesh, statics(mesh, bodies, symmetry));
       const auto v = test::nodalField(mesh, [](const Point& x) {
         return Point{std::hypot(x[0], x[1]) > 0.79 ? x[0] * x[0] : 0.0, 0, 0};

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "report/hdf5.hpp"
-#include "unit/report_files.hpp"
+#include "support/report_files.hpp"
 
 namespace squeal::report {
 namespace {

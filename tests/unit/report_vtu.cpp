@@ -15,7 +15,7 @@
 #include <sstream>
 
 #include "report/vtu.hpp"
-#include "unit/report_files.hpp"
+#include "support/report_files.hpp"
 
 namespace squeal::report {
 namespace {

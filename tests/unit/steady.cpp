@@ -10,8 +10,8 @@
 #include "petsc/text.hpp"
 #include "steady/steady.hpp"
 #include "support/case.hpp"
+#include "support/model.hpp"
 #include "support/program.hpp"
-#include "unit/model.hpp"
 
 namespace squeal {
 namespace {

@@ -12,7 +12,7 @@
 #include "steady/condensed.hpp"
 #include "steady/uniqueness.hpp"
 #include "support/case.hpp"
-#include "unit/model.hpp"
+#include "support/model.hpp"
 
 namespace squeal {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "steady/steady.hpp"
 #include "support/case.hpp"
-#include "unit/model.hpp"
+#include "support/model.hpp"
 
 namespace squeal {
 namespace {

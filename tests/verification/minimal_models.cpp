@@ -6,8 +6,8 @@
 
 #include "flutter/flutter.hpp"
 #include "support/case.hpp"
+#include "support/model.hpp"
 #include "support/spectrum.hpp"
-#include "unit/model.hpp"
 
 namespace squeal {
 namespace {

@@ -9,8 +9,8 @@
 #include "flutter/nearest.hpp"
 #include "petsc/text.hpp"
 #include "support/case.hpp"
+#include "support/model.hpp"
 #include "support/spectrum.hpp"
-#include "unit/model.hpp"
 
 namespace squeal {
 namespace {

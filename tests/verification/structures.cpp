@@ -7,7 +7,7 @@
 #include "modes/modes.hpp"
 #include "petsc/text.hpp"
 #include "support/case.hpp"
-#include "unit/model.hpp"
+#include "support/model.hpp"
 
 namespace squeal {
 namespace {

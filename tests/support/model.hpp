@@ -141,6 +141,33 @@ inline double dot(Vec x, Vec y) {
 
 inline double dot(const mesh::Point& a, const mesh::Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
+/// The bodies alone, without contact.
+struct Built {
+  mesh::Mesh mesh;
+  elasticity::Bodies bodies;
+};
+
+/// Collective. From these options alone.
+inline Built buildBodies(const std::string& options) {
+  setOptions(options);
+  Built built{readMesh(), {}};
+  built.bodies = elasticity::assemble(built.mesh);
+  return built;
+}
+
+/// Collective. u = A⁻¹ b by MUMPS.
+inline void solveDirectly(Mat matrix, Vec rhs, Vec u) {
+  OwnedKSP solver;
+  PC pc = nullptr;
+  check(KSPCreate(PetscObjectComm(reinterpret_cast<PetscObject>(matrix)), solver.out()));
+  check(KSPSetOperators(solver, matrix, matrix));
+  check(KSPSetType(solver, KSPPREONLY));
+  check(KSPGetPC(solver, &pc));
+  check(PCSetType(pc, PCLU));
+  check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  check(KSPSolve(solver, rhs, u));
+}
+
 /// Collective. A file of the test, written by one rank before any reads it.
 inline std::string writeFile(const std::string& name, const std::string& text) {
   const std::string path = SQUEAL_OUTPUT_DIR "/" + name;

@@ -7,8 +7,11 @@
 
 #include "mesh/mesh.hpp"
 #include "petsc/check.hpp"
+#include "support/model.hpp"
 
 namespace squeal::report {
+
+using test::errorOf;
 
 namespace fs = std::filesystem;
 using mesh::Mesh;
@@ -76,17 +79,6 @@ inline Mesh bar() {
   mesh.parts = 2;
   mesh.bodies = mesh.partName = {"disc", "pad"};
   return mesh;
-}
-
-/// The message of the Error that `action` throws; empty if none.
-template <class Action>
-std::string errorOf(const Action& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
 }
 
 }  // namespace squeal::report
