@@ -41,7 +41,7 @@ void addFriction(std::vector<Term>& terms, const contact::Contact& contact, cons
 void addVelocityResponse(std::vector<Term>& terms, const contact::Contact& contact, const contact::AssociatedSystem& system,
                          const steady::Solution& solution) {
   // Nodal forces that are not positive under pressure (tri6, quad8) would make the damping negative: there the pressure on a
-  // positive share of the faces takes their place.
+  // positive share of the faces takes their place, at the price of an error of first order in the mesh.
   std::vector<double> normalForce;
   for (std::size_t i = 0; i < solution.contact.size(); ++i) {
     const auto& state = solution.contact[i];
