@@ -36,10 +36,15 @@ def within_band(table):
     return {name: column[table["in_band"] == 1] for name, column in table.items()}
 
 
+def roundoff_of(table):
+    """Growth rates that mean nothing."""
+    return UNSTABLE * np.hypot(table["growth_rate_1_per_s"], table["angular_frequency_rad_per_s"])
+
+
 def draw(table):
     friction, growth = table["friction"], table["growth_rate_1_per_s"]
-    roundoff = UNSTABLE * np.hypot(growth, table["angular_frequency_rad_per_s"])
-    unstable = unstable_rows(table)
+    roundoff = roundoff_of(table)
+    unstable = growth > roundoff
     kilo = np.max(table["frequency_hz"], initial=0) >= 2000
     frequency = table["frequency_hz"] / (1000 if kilo else 1)
 
@@ -76,15 +81,10 @@ def summary(friction, unstable):
     return text + f"{np.count_nonzero(unstable)} unstable, from friction {np.min(friction[unstable]):g} on"
 
 
-def unstable_rows(table):
-    growth = table["growth_rate_1_per_s"]
-    return growth > UNSTABLE * np.hypot(growth, table["angular_frequency_rad_per_s"])
-
-
 def draw_critical(table):
     """The first unstable friction of the sweep at each speed; the bar reaches down to the last stable one below it."""
     figure, axes = plt.subplots(figsize=(9, 5), layout="constrained")
-    unstable = unstable_rows(table)
+    unstable = table["growth_rate_1_per_s"] > roundoff_of(table)
     frictions = np.unique(table["friction"])
     for speed in np.unique(table["speed"]):
         at_speed = table["speed"] == speed

@@ -131,11 +131,11 @@ std::vector<OwnedVec> nodalShapes(const modes::Modes& modes, const contact::Asso
   return shapes;
 }
 
-/// The terms of one point, and the change of its geometric stiffness from that in the modes of the segment.
+/// The terms of one point, and the change of its geometric stiffness from that of `reference`, which is in the modes of the segment.
 std::vector<flutter::Term> termsOf(const Analysis& analysis, const contact::AssociatedSystem& system,
-                                   const steady::Solution& solution, Mat prestress) {
+                                   const steady::Solution& solution, const steady::Solution& reference, Mat prestress) {
   OwnedMat change;
-  if (prestress) {
+  if (prestress && &solution != &reference) {
     change = elasticity::geometricStiffness(*analysis.mesh, solution.displacement);
     check(MatAXPY(change, -1, prestress, SAME_NONZERO_PATTERN));
   }
@@ -160,7 +160,6 @@ ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::si
   const bool direct = flutter::directWanted();
   if (direct) contact::rejectUnusedSolverOptions();
   std::unique_ptr<flutter::ReducedProblem> reduced;
-  std::vector<flutter::Term> modal;
   if (!direct) {
     segment.modes = modes::compute(system);
     if (benchmarkWanted.get()) floor = modes::floorSeconds(system);
@@ -179,7 +178,7 @@ ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::si
   for (std::size_t i : order) {
     const Parameters& at = analysis.steady[i].at;
     Stage stage(analysis.mesh->comm, "flutter");
-    pencil.setPointTerms(termsOf(analysis, system, analysis.steady[i], prestress));
+    pencil.setPointTerms(termsOf(analysis, system, analysis.steady[i], analysis.steady[first], prestress));
     auto& point = segment.points[i - first];
     point = direct ? flutter::solveDirect(pencil, at, trial) : reduced->solve(at, trial);
     stage.finish(formatted(

@@ -73,6 +73,7 @@ std::vector<double> squaredNorms(MPI_Comm comm, const std::vector<double>& value
 struct ReducedProblem::Residuals {
   std::size_t rows = 0;
   std::vector<double> residual;       // [pair][real, imaginary][local row]
+  std::vector<double> squaredNorm;    // [pair]
   std::vector<double> backwardError;  // [pair]
 };
 
@@ -154,11 +155,11 @@ ReducedProblem::Residuals ReducedProblem::residuals(const Parameters& at, const 
   for (std::size_t t = 0; t < images_.size(); ++t)
     images_[t].image.multiplyAdd(columns(pairs, pencil_.terms()[t].power, pencil_.terms()[t].coefficient(at)), basis_.size(),
                                  result.residual);
-  const auto norms = squaredNorms(pencil_.comm(), result.residual, result.rows, pairs.size());
+  result.squaredNorm = squaredNorms(pencil_.comm(), result.residual, result.rows, pairs.size());
   const double scales[3] = {pencil_.norm(0, at), pencil_.norm(1, at), pencil_.norm(2, at)};
   for (std::size_t j = 0; j < pairs.size(); ++j) {
     const double size = std::abs(pairs[j].s), scale = scales[0] + size * scales[1] + size * size * scales[2];
-    result.backwardError.push_back(std::sqrt(norms[j]) / (scale * length(pairs[j].q)));
+    result.backwardError.push_back(std::sqrt(result.squaredNorm[j]) / (scale * length(pairs[j].q)));
   }
   return result;
 }
@@ -179,12 +180,12 @@ double ReducedProblem::length(const std::vector<std::complex<double>>& q) const 
 /// decade, and what it need not resolve it need not solve for. Columns, [local row].
 DenseMatrix ReducedProblem::directions(const Residuals& residuals, const std::vector<std::size_t>& bad) const {
   constexpr double resolution = 0.03;
-  const auto norms = squaredNorms(pencil_.comm(), residuals.residual, residuals.rows, residuals.backwardError.size());
   const std::size_t count = 2 * bad.size(), rows = residuals.rows;
   DenseMatrix block;
   block.reserve(count * rows);
   for (std::size_t j : bad)
-    for (std::size_t i = 2 * j * rows; i < 2 * (j + 1) * rows; ++i) block.push_back(residuals.residual[i] / std::sqrt(norms[j]));
+    for (std::size_t i = 2 * j * rows; i < 2 * (j + 1) * rows; ++i)
+      block.push_back(residuals.residual[i] / std::sqrt(residuals.squaredNorm[j]));
   const auto height = static_cast<PetscInt>(rows), width = static_cast<PetscInt>(count);
   auto combinations = transposedProduct(pencil_.comm(), block.data(), height, width, block.data(), width);
   const auto sizes = symmetricEigen(combinations, static_cast<int>(count));

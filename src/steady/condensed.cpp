@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 
+#include "contact/sliding.hpp"
 #include "petsc/options.hpp"
 
 namespace squeal::steady {
@@ -15,22 +16,6 @@ const SolverPrefix solverPrefix("steady", "steady_uniqueness_",
 
 /// Columns solved for at once: enough for the speed of dense kernels, few enough for memory.
 constexpr PetscInt blockColumns = 64;
-
-void assembled(Mat matrix) {
-  check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
-  check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
-}
-
-/// N×n_c: 1 in the row of the gap of contact node k, column k.
-OwnedMat gapRows(const contact::Contact& contact, PetscInt firstColumn) {
-  const mesh::Mesh& mesh = *contact.mesh;
-  OwnedMat matrix;
-  check(MatCreateAIJ(mesh.comm, mesh.dimension * mesh.ownedNodes, static_cast<PetscInt>(contact.nodes.size()), PETSC_DETERMINE,
-                     PETSC_DETERMINE, 1, nullptr, 0, nullptr, matrix.out()));
-  for (const auto& node : contact.nodes) check(MatSetValue(matrix, contact.gapRow(node), firstColumn++, 1, INSERT_VALUES));
-  assembled(matrix);
-  return matrix;
-}
 
 /// The factor if it is MUMPS' LDLᵀ, whose inertia is known; null otherwise.
 Mat mumpsFactor(KSP solver) {
@@ -86,9 +71,12 @@ Condensed::Condensed(const contact::Contact& contact, Mat stiffness, const std::
                      nullptr, gaps_.out()));
   for (PetscInt i = 0; i < ownedSize_; ++i)
     check(MatSetValue(gaps_, transformation_.gapColumn[static_cast<std::size_t>(i)], first_ + i, 1, INSERT_VALUES));
-  assembled(gaps_);
-  const OwnedMat rows = contact.slipRows(transformation_, slip, all), gaps = gapRows(contact, first_);
-  check(MatTransposeMatMult(rows, gaps, MAT_INITIAL_MATRIX, PETSC_DEFAULT, friction_.out()));
+  contact::assembled(gaps_);
+  // The slip rows stand in the rows of the gaps, which B e selects.
+  const OwnedMat rows = contact.slipRows(transformation_, slip, all);
+  OwnedMat gapRows;
+  check(MatMatMult(transformation_.selection, gaps_, MAT_INITIAL_MATRIX, PETSC_DEFAULT, gapRows.out()));
+  check(MatTransposeMatMult(rows, gapRows, MAT_INITIAL_MATRIX, PETSC_DEFAULT, friction_.out()));
 
   solver_ = factorisation(stiffness_);
   rhs_ = block(2), solution_ = block(2);
@@ -116,7 +104,7 @@ OwnedMat Condensed::block(PetscInt columns) const {
   check(
       MatCreateDense(comm(), transformation_.ownedColumns, PETSC_DECIDE, transformation_.columns, columns, nullptr, matrix.out()));
   check(MatZeroEntries(matrix));
-  assembled(matrix);
+  contact::assembled(matrix);
   return matrix;
 }
 

@@ -35,19 +35,12 @@ Uniqueness examineDense(const Compliance& compliance, const std::vector<double>&
   return result;
 }
 
-PetscErrorCode multiplyA0(Mat matrix, Vec v, Vec product) {
+template <void (Condensed::*product)(Vec, Vec) const>
+PetscErrorCode multiply(Mat matrix, Vec v, Vec result) {
   const Condensed* condensed = nullptr;
   PetscFunctionBegin;
   PetscCall(MatShellGetContext(matrix, &condensed));
-  condensed->multiplyA0(v, product);
-  PetscFunctionReturn(0);
-}
-
-PetscErrorCode multiplySymmetricA1(Mat matrix, Vec v, Vec product) {
-  const Condensed* condensed = nullptr;
-  PetscFunctionBegin;
-  PetscCall(MatShellGetContext(matrix, &condensed));
-  condensed->multiplySymmetricA1(v, product);
+  (condensed->*product)(v, result);
   PetscFunctionReturn(0);
 }
 
@@ -72,7 +65,8 @@ OwnedMat shell(Condensed& condensed, PetscErrorCode (*multiply)(Mat, Vec, Vec)) 
 /// forces that alternate from node to node: they crowd, scale with the mesh size and hardly depend on friction. Relative to A0 the
 /// mesh hardly matters, and one number serves all frictions.
 std::optional<double> smallestRatio(Condensed& condensed) {
-  const OwnedMat a0 = shell(condensed, multiplyA0), a1 = shell(condensed, multiplySymmetricA1);
+  const OwnedMat a0 = shell(condensed, multiply<&Condensed::multiplyA0>),
+                 a1 = shell(condensed, multiply<&Condensed::multiplySymmetricA1>);
   OwnedEPS eps;
   check(EPSCreate(condensed.comm(), eps.out()));
   check(EPSSetOptionsPrefix(eps, "steady_uniqueness_"));
