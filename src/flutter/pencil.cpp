@@ -7,7 +7,8 @@
 namespace squeal::flutter {
 
 double Term::coefficient(const Parameters& at) const {
-  return factor * std::pow(at.friction, frictionExponent) * std::pow(at.speed, speedExponent);
+  return factor * std::pow(at.friction, frictionExponent) * std::pow(at.speed, speedExponent) *
+         std::pow(at.damping, dampingExponent);
 }
 
 void Pencil::add(std::vector<Term> terms) {
