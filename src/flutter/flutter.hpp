@@ -1,6 +1,7 @@
 #pragma once
 /// The friction-perturbed eigenproblem (paper, section 4): which modes flutter, at which friction, how fast they grow.
 #include <complex>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct Eigenvalue {
   double backwardError = 0;  ///< of the full-order problem
   bool unstable = false;     ///< Re s > -flutter_unstable_tolerance · |s|
   bool inBand = true;        ///< corrected; false: above the band, of the plain modal projection
+  double errorEstimate = std::numeric_limits<double>::quiet_NaN();  ///< of |δs|/|s|; NaN: not estimated
 };
 
 /// A complex mode d = real + i imaginary in nodal displacements, N entries, largest entry 1.
@@ -40,6 +42,9 @@ struct FrictionPoint {
   int unstableAbove() const;  ///< above it
   int bandCount() const;
   double worstBackwardError() const;  ///< in the band
+  double worstErrorEstimate() const;  ///< in the band; NaN: not estimated for all
+  /// The fastest growing eigenvalue of the band; null if it has none.
+  const Eigenvalue* fastestGrowing() const;
 };
 
 /// The sweep is the grid of `-flutter_friction` × `-flutter_speed` × `-flutter_pressure` × `-flutter_damping`. Damping leaves steady

@@ -92,6 +92,20 @@ double FrictionPoint::worstBackwardError() const {
   return worst;
 }
 
+double FrictionPoint::worstErrorEstimate() const {
+  double worst = 0;
+  for (const auto& eigenvalue : eigenvalues)
+    if (eigenvalue.inBand && !std::isnan(worst) && !(eigenvalue.errorEstimate <= worst)) worst = eigenvalue.errorEstimate;
+  return worst;
+}
+
+const Eigenvalue* FrictionPoint::fastestGrowing() const {
+  const Eigenvalue* fastest = nullptr;
+  for (const auto& eigenvalue : eigenvalues)
+    if (eigenvalue.inBand && (!fastest || eigenvalue.s.real() > fastest->s.real())) fastest = &eigenvalue;
+  return fastest;
+}
+
 void judge(std::vector<Eigenvalue>& eigenvalues) {
   const double tolerance = toleranceOption.get();
   for (auto& eigenvalue : eigenvalues) eigenvalue.unstable = eigenvalue.s.real() > tolerance * std::abs(eigenvalue.s);
