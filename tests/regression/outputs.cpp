@@ -46,6 +46,32 @@ TEST(Outputs, Eigenvalues) {
   }
 }
 
+// The map says of each point what can be read from the eigenvalues of its band.
+TEST(Outputs, StabilityMap) {
+  const CsvTable map = readCsv(layerRun().folder / "stability_map.csv"), all = readCsv(layerRun().folder / "eigenvalues.csv");
+  EXPECT_EQ(map.header,
+            "friction,speed,pressure,damping,unstable_modes,largest_growth_rate_1_per_s,frequency_hz,worst_backward_error,"
+            "worst_error_estimate");
+  EXPECT_EQ(map.column("friction"), (std::vector<double>{0, 0.2, 0.4}));
+  const auto friction = all.column("friction"), growth = all.column("growth_rate_1_per_s"),
+             angular = all.column("angular_frequency_rad_per_s"), error = all.column("backward_error"),
+             inBand = all.column("in_band");
+  for (std::size_t row = 0; row < map.rows.size(); ++row) {
+    double unstable = 0, largest = -INFINITY, frequency = 0, worst = 0;
+    for (std::size_t i = 0; i < friction.size(); ++i) {
+      if (friction[i] != map.column("friction")[row] || inBand[i] == 0) continue;
+      unstable += growth[i] > 1e-6 * std::hypot(growth[i], angular[i]);
+      if (growth[i] > largest) largest = growth[i], frequency = angular[i] / (2 * M_PI);
+      worst = std::max(worst, error[i]);
+    }
+    EXPECT_EQ(map.column("unstable_modes")[row], unstable);
+    EXPECT_EQ(map.column("largest_growth_rate_1_per_s")[row], largest);
+    EXPECT_NEAR(map.column("frequency_hz")[row], frequency, 1e-14 * frequency);
+    EXPECT_EQ(map.column("worst_backward_error")[row], worst);
+  }
+  EXPECT_GT(map.column("unstable_modes")[2], 0);
+}
+
 TEST(Outputs, Modes) {
   const CsvTable table = readCsv(layerRun().folder / "modes.csv");
   EXPECT_EQ(table.header, "mode,angular_frequency_rad_per_s,frequency_hz,relative_residual");
