@@ -26,8 +26,9 @@ def rows_where(table, selected):
 
 def read_eigenvalues(path):
     """eigenvalues.csv with a column `s` of complex eigenvalues; those above the band, which nobody vouches for, are left out."""
-    table = read_table(path, PARAMETERS + ("growth_rate_1_per_s", "angular_frequency_rad_per_s", "backward_error", "in_band"))
-    table = rows_where(table, table["in_band"] == 1)
+    table = read_table(path, PARAMETERS + ("growth_rate_1_per_s", "angular_frequency_rad_per_s", "backward_error"))
+    if "in_band" in table:
+        table = rows_where(table, table["in_band"] == 1)
     table["s"] = table["growth_rate_1_per_s"] + 1j * table["angular_frequency_rad_per_s"]
     return table
 

@@ -69,7 +69,7 @@ def draw_modes(table, name, title):
     lower.set_xlabel(LABELS[name])
     if np.ptp(abscissa) == 0:  # one value: give the axis a width
         lower.set_xlim(abscissa[0] - 0.05, abscissa[0] + 0.05)
-    scale_axis(lower.set_xscale, name, abscissa)
+    scale_axis(lower.xaxis, name, abscissa)
     if np.all(np.abs(growth) <= UNSTABLE * np.abs(table["s"])):
         lower.set_ylim(-1, 1)  # no axis in units of round-off
     upper.legend(loc="upper center", bbox_to_anchor=(0.5, 0), ncols=2, frameon=False)
@@ -89,9 +89,12 @@ def logarithmic(name, values):
     return name != "friction" and np.min(values) > 0 and np.max(values) >= 10 * np.min(values)
 
 
-def scale_axis(set_scale, name, values):
+def scale_axis(axis, name, values):
+    """Logarithmic where the values call for it, and then with ticks at them: few powers of ten lie within a sweep."""
     if logarithmic(name, values):
-        set_scale("log")
+        axis.axes.set(**{f"{axis.axis_name}scale": "log"})
+        axis.set_ticks(np.unique(values), [f"{value:g}" for value in np.unique(values)])
+        axis.set_ticks([], minor=True)
 
 
 def cell_borders(name, values):
@@ -153,8 +156,8 @@ def draw_map(table, across, up, title, largest):
             axes.errorbar(place, (low + high) / 2, (high - low) / 2, fmt="o-", color="black", markersize=4, linewidth=1, capsize=3,
                           label="critical friction: between the last stable and the first unstable one")  # fmt: skip
     axes.plot([], [], "s", color="#dcebdc", label="stable")
-    scale_axis(axes.set_xscale, across, x)
-    scale_axis(axes.set_yscale, up, y)
+    scale_axis(axes.xaxis, across, x)
+    scale_axis(axes.yaxis, up, y)
     axes.set_xlabel(LABELS[across])
     axes.set_ylabel(LABELS[up])
     axes.set_title((f"{title}: " if title else "") + "largest growth rate, and how many modes are unstable")
