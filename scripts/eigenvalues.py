@@ -38,8 +38,8 @@ def unstable(s, tolerance=UNSTABLE):
 
 
 def match(wanted, found, farthest=0.02):
-    """For each wanted eigenvalue the index of the found one that belongs to it, -1 if there is none, by the assignment with the least
-    sum of relative distances. Pairs further apart than `farthest` are none. Where two eigenvalues meet, their order in a sorted
+    """For each wanted eigenvalue the index of the found one that belongs to it, -1 if there is none, by the assignment with the
+    least sum of relative distances. Pairs further apart than `farthest` are none. Where two eigenvalues meet, their order in a sorted
     list says nothing; the assignment uses none twice, so that a double eigenvalue found once shows."""
     wanted, found = np.asarray(wanted), np.asarray(found)
     partner = np.full(len(wanted), -1)

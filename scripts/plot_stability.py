@@ -2,10 +2,10 @@
 """Plots what a sweep found.
 
 plot_stability.py REPORT_DIR reads eigenvalues.csv and stability_map.csv there and writes beside them
-  stability.png       frequency and growth rate of every mode against friction (or what was swept instead), one figure for each value
-                      of what else was swept: stability_speed_3.png, …
-  stability_map.png   where two or more parameters were swept: largest growth rate over two of them, the stable region, and the critical
-                      friction; one figure for each value of the remaining ones: stability_map_damping_2.png, …
+  stability.png       frequency and growth rate of every mode against friction (or what was swept instead), one figure for each
+                      value of what else was swept: stability_speed_3.png, …
+  stability_map.png   where two or more parameters were swept: largest growth rate over two of them, the stable region, and the
+                      critical friction; one figure for each value of the remaining ones: stability_map_damping_2.png, …
 Eigenvalues above the band, which nobody vouches for, are left out.
 """
 import sys
@@ -122,7 +122,7 @@ def grid_of(table, across, up, name):
 
 
 def critical(y, unstable_modes):
-    """Last stable and first unstable value of one column of the map; None if it is stable all the way or unstable from the start."""
+    """Last stable and first unstable value of one column of the map; None if it is stable all the way, or nowhere."""
     known = ~np.isnan(unstable_modes)
     grows = known & (np.nan_to_num(unstable_modes) > 0)
     if not grows.any():
@@ -144,8 +144,9 @@ def draw_map(table, across, up, title, largest):
         cells = axes.pcolormesh(*borders, grows, cmap="plasma_r", vmin=0, vmax=largest)
         figure.colorbar(cells, label="largest growth rate [1/s]", aspect=40, pad=0.02)
     for row, column in np.argwhere(modes > 0) if modes.size <= READABLE else ():
-        axes.annotate(f"{modes[row, column]:.0f}", (x[column], y[row]), (9, 0), textcoords="offset points", ha="center", va="center",
-                      fontsize=7, color="white" if growth[row, column] > 0.5 * largest else "black")  # fmt: skip
+        colour = "white" if growth[row, column] > 0.5 * largest else "black"
+        beside = dict(xytext=(9, 0), textcoords="offset points", ha="center", va="center")
+        axes.annotate(f"{modes[row, column]:.0f}", (x[column], y[row]), fontsize=7, color=colour, **beside)
     for row, column in np.argwhere(np.isnan(modes)):
         axes.annotate("no steady\nsliding", (x[column], y[row]), ha="center", va="center", fontsize=7, color="0.5")
     if up == "friction":
