@@ -219,6 +219,7 @@ ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::si
         formatted("%d points", static_cast<int>(batch.size())) +
         (reduced ? formatted(", basis of %d, %ld solves", static_cast<int>(reduced->basisSize()), reduced->basis().solves()) : ""));
   }
+  if (reduced) segment.solves = reduced->basis().solves();
   return segment;
 }
 

@@ -110,6 +110,7 @@ void writeSummary(const Analysis& analysis, const std::filesystem::path& folder)
     entry["open_nodes"] = segment.openNodes;
     entry["dofs"] = segment.unknowns;
     entry["modes"] = segment.modes.angularFrequency.size();
+    entry["solves"] = segment.solves;
     if (segment.modes.inertiaCount)
       entry["sturm_count"] = {{"shift_rad2_per_s2", segment.modes.inertiaShift},
                               {"eigenvalues_below", segment.modes.inertiaCount},
