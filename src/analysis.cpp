@@ -6,6 +6,7 @@
 #include "modes/benchmark.hpp"
 #include "petsc/options.hpp"
 #include "petsc/stages.hpp"
+#include "petsc/symmetric_solver.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal {
@@ -173,11 +174,11 @@ ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::si
   segment.unknowns = system.size();
   flutter::Pencil pencil = flutter::affineTerms(analysis.contact, system);
   const bool direct = flutter::directWanted();
-  if (direct) contact::rejectUnusedSolverOptions();
+  if (direct) rejectUnusedSolverOptions();
   std::unique_ptr<flutter::ReducedProblem> reduced;
   if (!direct) {
-    segment.modes = modes::compute(system);
-    if (benchmarkWanted.get()) floor = modes::floorSeconds(system);
+    segment.modes = modes::compute({system.k0(), system.m0(), system.solver()});
+    if (benchmarkWanted.get()) floor = modes::floorSeconds(system.k0());
     segment.shapes = nodalShapes(segment.modes, system);
     pencil.add(flutter::modalDamping(segment.modes, system.m0()));
     reduced = std::make_unique<flutter::ReducedProblem>(pencil, system.m0(), system.solver(), segment.modes);
