@@ -3,18 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "modes/benchmark.hpp"
+#include "matrices/matrices.hpp"
 #include "petsc/options.hpp"
 #include "petsc/stages.hpp"
-#include "petsc/symmetric_solver.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal {
 namespace {
-
-const IntegerOption modesShown("report", "report_modes", 10, 0, "number of free modes written as fields");
-const FlagOption benchmarkWanted("modes", "modes_benchmark", false,
-                                 "time one factorisation and 400 solves in blocks of 32, the floor of the stage");
 
 mesh::Mesh readMesh(MPI_Comm comm) {
   const mesh::Request request = meshRequest();
@@ -129,24 +124,6 @@ std::vector<SpeedUniqueness> examineUniqueness(const Analysis& analysis) {
   return result;
 }
 
-std::vector<OwnedVec> nodalShapes(const modes::Modes& modes, const contact::AssociatedSystem& system) {
-  std::vector<OwnedVec> shapes;
-  const int count = std::min(modesShown.get(), static_cast<int>(modes.angularFrequency.size()));
-  for (int i = 0; i < count; ++i) {
-    Vec d = nullptr;
-    OwnedVec u;
-    PetscReal largest = 0;
-    check(MatCreateVecs(system.transformation().trial, nullptr, u.out()));
-    check(BVGetColumn(modes.vectors, i, &d));
-    check(MatMult(system.transformation().trial, d, u));
-    check(BVRestoreColumn(modes.vectors, i, &d));
-    check(VecNorm(u, NORM_INFINITY, &largest));
-    check(VecScale(u, 1 / largest));
-    shapes.push_back(std::move(u));
-  }
-  return shapes;
-}
-
 /// The terms of one point, and the change of its geometric stiffness from that of `reference`, which is in the modes of the segment.
 std::vector<flutter::Term> termsOf(const Analysis& analysis, const contact::AssociatedSystem& system,
                                    const steady::Solution& solution, const steady::Solution& reference, Mat prestress) {
@@ -168,45 +145,66 @@ ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::si
     stressed = std::make_unique<contact::AssociatedSystem>(analysis.bodies, analysis.contact, closed, prestress);
   }
   const contact::AssociatedSystem& system = stressed ? *stressed : current.of(closed);
-  const Mat trial = system.transformation().trial;
-  ModalSegment segment;
-  segment.openNodes = system.openNodes();
-  segment.unknowns = system.size();
+  std::vector<Parameters> points;
+  for (std::size_t i = first; i < last; ++i) points.push_back(analysis.steady[i].at);
+  const auto termsAt = [&](std::size_t i) {
+    return termsOf(analysis, system, analysis.steady[first + i], analysis.steady[first], prestress);
+  };
   flutter::Pencil pencil = flutter::affineTerms(analysis.contact, system);
-  const bool direct = flutter::directWanted();
-  if (direct) rejectUnusedSolverOptions();
-  std::unique_ptr<flutter::ReducedProblem> reduced;
-  if (!direct) {
-    segment.modes = modes::compute({system.k0(), system.m0(), system.solver()});
-    if (benchmarkWanted.get()) floor = modes::floorSeconds(system.k0());
-    segment.shapes = nodalShapes(segment.modes, system);
-    pencil.add(flutter::modalDamping(segment.modes, system.m0()));
-    reduced = std::make_unique<flutter::ReducedProblem>(pencil, system.m0(), system.solver(), segment.modes);
+  if (matrices::exportWanted()) {
+    pencil.setPointTerms(termsAt(0));
+    matrices::exportPencil(pencil, analysis.sweep, last - first);
   }
-  // The largest friction first: its corrections nearly suffice for the others.
-  std::vector<std::size_t> order;
-  for (std::size_t i = first; i < last; ++i) order.push_back(i);
-  std::rotate(order.begin(),
-              std::max_element(order.begin(), order.end(),
-                               [&](auto a, auto b) { return analysis.steady[a].at.friction < analysis.steady[b].at.friction; }),
-              order.end());
-  const auto& dampings = analysis.sweep.dampings;
-  segment.points.resize(dampings.size() * (last - first));
-  for (std::size_t i : order) {
-    pencil.setPointTerms(termsOf(analysis, system, analysis.steady[i], analysis.steady[first], prestress));
-    for (std::size_t d = 0; d < dampings.size(); ++d) {
-      Parameters at = analysis.steady[i].at;
-      at.damping = dampings[d];
-      Stage stage(analysis.mesh->comm, "flutter");
-      auto& point = segment.points[d * (last - first) + i - first];
-      point = direct ? flutter::solveDirect(pencil, at, trial) : reduced->solve(at, trial);
-      stage.finish(formatted(
-          "%s: %d of %d eigenvalues unstable%s, worst backward error %.1e%s", parameterText(at).c_str(), point.unstableCount(),
-          point.bandCount(), point.bandTop > 0 ? formatted(" to %.4g Hz", point.bandTop / (2 * M_PI)).c_str() : "",
-          point.worstBackwardError(), direct ? "" : formatted(", basis of %d", static_cast<int>(reduced->basisSize())).c_str()));
-    }
-  }
+  ModalSegment segment =
+      solveSegment({system.k0(), system.m0(), [&] { return system.solver(); }, system.transformation().trial, modes::wantedCount()},
+                   std::move(pencil), points, analysis.sweep.dampings, termsAt, floor);
+  segment.openNodes = system.openNodes();
   return segment;
+}
+
+/// Collective. Error for a sweep over a parameter that no matrix comes with: all its points would be the same.
+void rejectIdleParameters(const std::vector<matrices::NamedTerm>& terms, const flutter::Sweep& sweep) {
+  const auto require = [&](const std::vector<double>& values, const std::string& name, auto exponent) {
+    if (values.size() > 1 && std::none_of(terms.begin(), terms.end(), [&](const auto& named) { return exponent(named.term) != 0; }))
+      throw Error("option -flutter_" + name + ": a sweep, but no matrix has -matrices_<name>_" + name + "_exponent");
+  };
+  require(sweep.frictions, "friction", [](const flutter::Term& term) { return term.frictionExponent; });
+  require(sweep.speeds, "speed", [](const flutter::Term& term) { return term.speedExponent; });
+  if (!flutter::modalDampingWanted())
+    require(sweep.dampings, "damping", [](const flutter::Term& term) { return term.dampingExponent; });
+  if (sweep.pressures != std::vector<double>{1})
+    throw Error("option -flutter_pressure: no matrix from a file depends on the pressure");
+}
+
+/// [4.15] with matrices from files: there is neither contact nor steady state.
+Analysis analyseMatrices(MPI_Comm comm) {
+  Analysis analysis;
+  analysis.comm = comm;
+  analysis.sweep = flutter::readSweep();
+  Stage stage(comm, "matrices");
+  auto named = matrices::readTerms(comm);
+  rejectIdleParameters(named, analysis.sweep);
+  const matrices::AssociatedSystem system(named);
+  stage.finish(formatted("%d matrices, %d unknowns%s", static_cast<int>(named.size()), static_cast<int>(system.size()),
+                         system.asymmetry() > 0 ? formatted("; stiffness without friction unsymmetric by %.1e: free modes of its "
+                                                            "symmetric part",
+                                                            system.asymmetry())
+                                                      .c_str()
+                                                : ""));
+  std::vector<flutter::Term> terms;
+  for (auto& item : named) terms.push_back(std::move(item.term));
+  flutter::Pencil pencil(std::move(terms));
+  const auto points = analysis.sweep.steadyPoints();
+  if (matrices::exportWanted()) matrices::exportPencil(pencil, analysis.sweep, points.size());
+  OwnedMat identity;
+  PetscInt local = 0;
+  check(MatGetLocalSize(system.k0(), &local, nullptr));
+  check(MatCreateConstantDiagonal(comm, local, local, PETSC_DETERMINE, PETSC_DETERMINE, 1, identity.out()));
+  const int modes = static_cast<int>(std::min<PetscInt>(modes::wantedCount(), system.size()));
+  analysis.segments.push_back(solveSegment(
+      {system.k0(), system.m0(), [&] { return system.solver(); }, identity, modes}, std::move(pencil), points,
+      analysis.sweep.dampings, [](std::size_t) { return std::vector<flutter::Term>{}; }, analysis.modesFloorSeconds));
+  return analysis;
 }
 
 }  // namespace
@@ -237,7 +235,9 @@ const flutter::FrictionPoint* Analysis::pointAt(const Parameters& at) const {
 Analysis analyse(MPI_Comm comm) {
   rejectUnknownOptions();
   flutter::rejectIdleSolverOptions();
+  if (matrices::wanted()) return analyseMatrices(comm);
   Analysis analysis;
+  analysis.comm = comm;
   analysis.sweep = flutter::readSweep();
   analysis.mesh = std::make_unique<mesh::Mesh>(readMesh(comm));
   analysis.bodies = assembleBodies(*analysis.mesh);

@@ -3,8 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "flutter/flutter.hpp"
-#include "modes/modes.hpp"
+#include "segment.hpp"
 #include "steady/steady.hpp"
 #include "steady/uniqueness.hpp"
 
@@ -16,18 +15,11 @@ struct SpeedUniqueness {
   steady::Uniqueness found;
 };
 
-/// Steady points of the sweep in a row with the same active set, and the modes of that set.
-struct ModalSegment {
-  PetscInt openNodes = 0;
-  PetscInt unknowns = 0;
-  modes::Modes modes;                          ///< empty with the direct method
-  std::vector<OwnedVec> shapes;                ///< the first `-report_modes` modes in nodal displacements, largest entry 1
-  std::vector<flutter::FrictionPoint> points;  ///< for each damping factor all steady points
-};
-
 struct Analysis {
+  MPI_Comm comm = MPI_COMM_NULL;
   flutter::Sweep sweep;
-  std::unique_ptr<mesh::Mesh> mesh;  ///< at a fixed address: contact and steady borrow it
+  std::unique_ptr<mesh::Mesh>
+      mesh;  ///< at a fixed address: contact and steady borrow it; null: matrices from files, no steady state
   elasticity::Bodies bodies;
   contact::Contact contact;
   std::vector<steady::Solution> steady;     ///< [steady point of the sweep]

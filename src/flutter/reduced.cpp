@@ -83,6 +83,7 @@ ReducedProblem::ReducedProblem(const Pencil& pencil, Mat mass, KSP solver, const
   modeCount_ = w.size();
   check(BVGetSizes(modes.vectors, nullptr, &unknowns_, nullptr));
   if (correctionsWanted()) bandTop_ = bandOption.get() > 0 ? 2 * M_PI * bandOption.get() : bandOfModes(w);
+  if (unknowns_ == static_cast<PetscInt>(modeCount_)) bandTop_ = INFINITY;  // the basis is the whole space
   extend();
 }
 

@@ -136,31 +136,20 @@ void solveByLanczos(const System& system, int count, Stage& stage, Modes& modes)
   modes.iterations = result.restarts;
 }
 
-/// λ and the vectors, column-major, on rank 0: M d = (1/λ) K d, whose largest eigenvalues, those of the lowest modes, LAPACK gets best.
-void solveHere(const System& system, int n, int count, std::vector<double>& lambda, std::vector<double>& vectors) {
-  std::vector<double> all = gathered(system.mass), stiffness = gathered(system.stiffness);
-  if (all.empty()) return;
-  const auto inverse = symmetricEigen(all, stiffness, n);
-  for (int j = 0; j < count; ++j) {
-    const auto last = static_cast<std::size_t>(n - 1 - j);
-    lambda.push_back(1 / inverse[last]);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i)
-      vectors.push_back(all[last * static_cast<std::size_t>(n) + i] / std::sqrt(inverse[last]));
-  }
-}
-
-/// By LAPACK on rank 0, so that the ranks agree.
+/// By LAPACK on rank 0, so that the ranks agree: M d = (1/λ) K d, whose largest eigenvalues, those of the lowest modes, it gets best.
 void solveDense(const System& system, int count, Modes& modes) {
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(system.stiffness));
   const int n = static_cast<int>(rowsOf(system.stiffness));
-  std::vector<double> vectors;
-  std::string failure;
-  try {
-    solveHere(system, n, count, modes.lambda, vectors);
-  } catch (const Error& error) {
-    failure = std::string("free vibration: ") + error.what();
-  }
-  failTogether(comm, failure);
+  std::vector<double> all = gathered(system.mass), stiffness = gathered(system.stiffness), vectors;
+  onFirstRank(comm, "free vibration: the stiffness is not positive definite; is a body loose? ", [&] {
+    const auto inverse = symmetricEigen(all, stiffness, n);
+    for (int j = 0; j < count; ++j) {
+      const auto last = static_cast<std::size_t>(n - 1 - j);
+      modes.lambda.push_back(1 / inverse[last]);
+      for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i)
+        vectors.push_back(all[last * static_cast<std::size_t>(n) + i] / std::sqrt(inverse[last]));
+    }
+  });
   modes.lambda.resize(static_cast<std::size_t>(count));
   vectors.resize(static_cast<std::size_t>(n * count));
   check(MPI_Bcast(modes.lambda.data(), count, MPI_DOUBLE, 0, comm));

@@ -15,7 +15,7 @@ namespace squeal {
 namespace {
 
 // Order in which the manual lists the stages: that of the method.
-const std::vector<std::string> stages = {"general", "mesh",   "elasticity", "constraint", "load",  "motion",
+const std::vector<std::string> stages = {"general", "mesh",   "matrices", "elasticity", "constraint", "load",  "motion",
                                          "contact", "steady", "modes",      "flutter",    "report"};
 
 std::vector<const Option*>& registry() {

@@ -1,5 +1,6 @@
 /// The comma-separated tables and the terminal's stability table.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 
@@ -126,7 +127,7 @@ std::string recipe(MPI_Comm comm) {
 }  // namespace
 
 void writeTables(const Analysis& analysis, const std::filesystem::path& folder) {
-  const MPI_Comm comm = analysis.mesh->comm;
+  const MPI_Comm comm = analysis.comm;
   writeFile(comm, folder / "eigenvalues.csv", eigenvalueTable(analysis));
   for (std::size_t s = 0; s < analysis.segments.size(); ++s) {
     if (analysis.segments[s].modes.angularFrequency.empty()) continue;
@@ -143,7 +144,7 @@ void writeTables(const Analysis& analysis, const std::filesystem::path& folder) 
 }
 
 void writeRecipe(const Analysis& analysis, const std::filesystem::path& folder) {
-  writeFile(analysis.mesh->comm, folder / "options.txt", recipe(analysis.mesh->comm));
+  writeFile(analysis.comm, folder / "options.txt", recipe(analysis.comm));
 }
 
 std::string stabilityTable(const Analysis& analysis) {
@@ -170,10 +171,11 @@ std::string stabilityTable(const Analysis& analysis) {
         table +=
             formatted("\n%s: backward errors in the band exceed %.0e, see eigenvalues.csv; raise -modes_count or -flutter_rounds",
                       parameterText(point.at).c_str(), point.accuracy);
-  if (!analysis.segments.empty() && analysis.segments.front().points.front().bandTop > 0)
+  const double top = analysis.segments.empty() ? 0 : analysis.segments.front().points.front().bandTop;
+  if (top > 0 && std::isfinite(top))
     table +=
         formatted("\nEigenvalues up to %.5g Hz are corrected to the full-order problem; those above in eigenvalues.csv are not.",
-                  analysis.segments.front().points.front().bandTop / (2 * M_PI));
+                  top / (2 * M_PI));
   return table;
 }
 
