@@ -65,7 +65,7 @@ std::string badDiagonal(Mat matrix) {
   check(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPIU_INT, MPI_SUM, comm));
   check(MPI_Allreduce(MPI_IN_PLACE, &lowest, 1, MPIU_INT, MPI_MIN, comm));
   if (count == 0) return "";
-  return formatted(" (%d entries of its diagonal are not positive, the first in row %d)", static_cast<int>(count),
+  return formatted(" (diagonal entries that are not positive: %d, the first in row %d)", static_cast<int>(count),
                    static_cast<int>(lowest) + 1);
 }
 

@@ -16,18 +16,20 @@ struct Closer {
 using File = std::unique_ptr<mat_t, Closer>;
 using Variable = std::unique_ptr<matvar_t, Closer>;
 
+/// A table of reals of two dimensions. (Those of a sparse matrix of version 4 are known when it has been read.)
 bool isMatrix(const matvar_t& variable) {
-  return variable.rank == 2 && variable.dims[0] == variable.dims[1] &&
-         (variable.class_type == MAT_C_SPARSE || variable.class_type == MAT_C_DOUBLE || variable.class_type == MAT_C_SINGLE);
+  const auto type = variable.class_type;
+  return variable.rank == 2 && (type == MAT_C_SPARSE || type == MAT_C_DOUBLE || type == MAT_C_SINGLE);
 }
 
-/// The only square matrix of more than one entry.
+/// The only square matrix of more than one row.
 std::string onlyMatrix(mat_t* file) {
   std::vector<std::string> names;
   for (;;) {
     const Variable variable(Mat_VarReadNextInfo(file));
     if (!variable) break;
-    if (isMatrix(*variable) && (variable->dims[0] > 1 || variable->class_type == MAT_C_SPARSE)) names.emplace_back(variable->name);
+    const bool isSquare = variable->rank == 2 && variable->dims[0] == variable->dims[1] && variable->dims[0] > 1;
+    if (isMatrix(*variable) && (isSquare || variable->class_type == MAT_C_SPARSE)) names.emplace_back(variable->name);
   }
   Mat_Rewind(file);
   if (names.empty()) throw Error("the MATLAB file holds no square matrix of real numbers");
@@ -64,7 +66,7 @@ Entries readMatlab(const std::filesystem::path& path, const std::string& name) {
   const std::string wanted = name.empty() ? onlyMatrix(file.get()) : name;
   const Variable variable(Mat_VarRead(file.get(), wanted.c_str()));
   if (!variable) throw Error("the MATLAB file holds no variable '" + wanted + "', or is damaged");
-  if (!isMatrix(*variable) || !variable->data) throw Error("variable '" + wanted + "' is not a square matrix of real numbers");
+  if (!isMatrix(*variable) || !variable->data) throw Error("variable '" + wanted + "' is not a matrix of real numbers");
   if (variable->isComplex) throw Error("variable '" + wanted + "' is complex");
   return variable->class_type == MAT_C_SPARSE ? sparseEntries(*variable) : fullEntries(*variable);
 }

@@ -227,7 +227,8 @@ Modes compute(const System& system, int count) {
   const PetscInt size = rowsOf(system.stiffness);
   if (count > size)
     throw Error(formatted("option -modes_count %d: the problem has only %d unknowns", count, static_cast<int>(size)));
-  Stage stage(PetscObjectComm(reinterpret_cast<PetscObject>(system.stiffness)), "modes");
+  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(system.stiffness));
+  Stage stage(comm, "modes");
   Modes modes;
   if (denseWanted(count, size))
     solveDense(system, count, modes);
@@ -236,6 +237,12 @@ Modes compute(const System& system, int count) {
   else
     solveByEps(system, count, stage, modes);
   measureResiduals(system, modes);
+  if (modes.rounding > 1e-6)
+    complain(
+        comm,
+        formatted("free vibration: rounding of the entries of the stiffness may change the lowest eigenvalues by %.0e of their "
+                  "size; is a body nearly loose, or a spring very stiff?",
+                  modes.rounding));
   if (sturmOption.get()) confirmCount(system.stiffness, system.mass, modes);
   stage.finish(formatted("%d modes to %.4g Hz, worst relative residual %.1e%s", count, modes.angularFrequency.back() / (2 * M_PI),
                          *std::max_element(modes.relativeResidual.begin(), modes.relativeResidual.end()),
