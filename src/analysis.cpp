@@ -154,6 +154,7 @@ ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::si
   if (matrices::exportWanted()) {
     pencil.setPointTerms(termsAt(0));
     matrices::exportPencil(pencil, analysis.sweep, last - first);
+    pencil.setPointTerms({});
   }
   ModalSegment segment =
       solveSegment({system.k0(), system.m0(), [&] { return system.solver(); }, system.transformation().trial, modes::wantedCount()},

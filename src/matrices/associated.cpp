@@ -72,6 +72,9 @@ std::string badDiagonal(Mat matrix) {
 /// A pivot of 1e-13 of the scaled matrix is what cancellation leaves of a zero one in a large model; stiff springs do not come near it,
 /// since the rows are scaled.
 void requirePositiveDefinite(Mat matrix, const std::string& what, const std::string& advice) {
+  PetscReal norm = 0;
+  check(MatNorm(matrix, NORM_FROBENIUS, &norm));
+  if (norm == 0) throw Error(what + " is zero");
   const std::string bad = badDiagonal(matrix);
   const auto [negative, zero] = inertia(matrix, 1e-13);
   if (negative == 0 && zero == 0) return;

@@ -28,8 +28,8 @@ enum class Format { matrixMarket, petscBinary, hdf5, matlab };
 /// What a file is, by its first bytes. Errors: no such file, an empty one, one of none of the formats.
 Format formatOf(const std::filesystem::path& path);
 
-/// Matrix Market (CHOLMOD): coordinate or array; general, symmetric or skew-symmetric; real, integer or pattern. Error: another
-/// content or damage.
+/// Matrix Market (CHOLMOD): coordinate or array; general, symmetric or skew-symmetric; real, integer or pattern (ones). Error: another content
+/// or damage.
 Entries readMatrixMarket(const std::filesystem::path& path);
 
 /// A MATLAB file of any version from 4 to 7.3 (matio): the variable `name`, sparse or full; empty: the only square matrix of the
@@ -44,7 +44,7 @@ Entries readHdf5(const std::filesystem::path& path, const std::string& name);
 /// Errors: a file that is not one real sparse matrix in PETSc's binary format with 32-bit indices, or is cut short.
 void requirePetscBinary(const std::filesystem::path& path);
 
-/// Writes Matrix Market (CHOLMOD), symmetric matrices by their lower triangle. Error: the file cannot be written.
+/// Writes Matrix Market, all entries. Error: the file cannot be written.
 void writeMatrixMarket(const std::filesystem::path& path, const Entries& entries);
 
 }  // namespace squeal::matrices

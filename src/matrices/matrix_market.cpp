@@ -1,6 +1,7 @@
 #include <suitesparse/cholmod.h>
 
 #include <cstdio>
+#include <fstream>
 #include <memory>
 
 #include "matrices/formats.hpp"
@@ -15,8 +16,8 @@ struct Closer {
 };
 using File = std::unique_ptr<std::FILE, Closer>;
 
-File opened(const std::filesystem::path& path, const char* mode) {
-  File file(std::fopen(path.c_str(), mode));
+File opened(const std::filesystem::path& path) {
+  File file(std::fopen(path.c_str(), "r"));
   if (!file) throw Error("the file cannot be opened");
   return file;
 }
@@ -55,10 +56,19 @@ cholmod_sparse* readSparse(std::FILE* file, cholmod_common* common) {
   return sparse;
 }
 
+/// Entries without values stand for ones; CHOLMOD makes up other values for a symmetric pattern.
+bool isPattern(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  return line.find("pattern") != std::string::npos;
+}
+
 }  // namespace
 
 Entries readMatrixMarket(const std::filesystem::path& path) {
-  const File file = opened(path, "r");
+  const bool pattern = isPattern(path);
+  const File file = opened(path);
   Cholmod cholmod;
   cholmod.sparse = readSparse(file.get(), cholmod);
   if (!cholmod.sparse) throw Error("CHOLMOD finds no sound Matrix Market content");
@@ -68,28 +78,20 @@ Entries readMatrixMarket(const std::filesystem::path& path) {
   if (t.xtype != CHOLMOD_REAL) throw Error("the matrix is not real");
   Entries entries{static_cast<PetscInt>(t.nrow), static_cast<PetscInt>(t.ncol), {}, {}, {}};
   for (std::size_t k = 0; k < t.nnz; ++k)
-    entries.add(static_cast<SuiteSparse_long*>(t.i)[k], static_cast<SuiteSparse_long*>(t.j)[k], static_cast<double*>(t.x)[k]);
+    entries.add(static_cast<SuiteSparse_long*>(t.i)[k], static_cast<SuiteSparse_long*>(t.j)[k],
+                pattern ? 1 : static_cast<double*>(t.x)[k]);
   return entries;
 }
 
 void writeMatrixMarket(const std::filesystem::path& path, const Entries& entries) {
-  const File file = opened(path, "w");
-  Cholmod cholmod;
-  const std::size_t count = entries.value.size();
-  cholmod.triplet = cholmod_l_allocate_triplet(static_cast<std::size_t>(entries.rows), static_cast<std::size_t>(entries.columns),
-                                               count, 0, CHOLMOD_REAL, cholmod);
-  if (!cholmod.triplet) throw Error("CHOLMOD lacks memory");
-  auto& t = *cholmod.triplet;
-  for (std::size_t k = 0; k < count; ++k) {
-    static_cast<SuiteSparse_long*>(t.i)[k] = entries.row[k];
-    static_cast<SuiteSparse_long*>(t.j)[k] = entries.column[k];
-    static_cast<double*>(t.x)[k] = entries.value[k];
-  }
-  t.nnz = count;
-  cholmod.sparse = cholmod_l_triplet_to_sparse(&t, count, cholmod);
-  if (!cholmod.sparse || cholmod_l_write_sparse(file.get(), cholmod.sparse, nullptr, nullptr, cholmod) < 0 ||
-      std::fflush(file.get()) != 0)
-    throw Error("the file cannot be written");
+  // By hand: CHOLMOD leaves out the values of a matrix of ones and reads another one from that.
+  std::ofstream file(path);
+  file << formatted("%%%%MatrixMarket matrix coordinate real general\n%d %d %zu\n", static_cast<int>(entries.rows),
+                    static_cast<int>(entries.columns), entries.value.size());
+  for (std::size_t k = 0; k < entries.value.size(); ++k)
+    file << formatted("%d %d %.17g\n", static_cast<int>(entries.row[k]) + 1, static_cast<int>(entries.column[k]) + 1,
+                      entries.value[k]);
+  if (!file.flush()) throw Error("cannot write " + path.string());
 }
 
 }  // namespace squeal::matrices

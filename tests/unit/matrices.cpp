@@ -9,6 +9,7 @@
 
 #include "matrices/formats.hpp"
 #include "matrices/matrices.hpp"
+#include "petsc/text.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
 #include "support/spectrum.hpp"
@@ -84,6 +85,9 @@ TEST(Matrices, MatrixMarketSymmetries) {
   const auto skew = denseCopy(matrices::read(
       PETSC_COMM_WORLD, writeFile("skew.mtx", "%%MatrixMarket matrix coordinate real skew-symmetric\n2 2 1\n2 1 4\n")));
   EXPECT_EQ(skew.values, (std::vector<double>{0, 4, -4, 0}));
+  const auto ones = denseCopy(matrices::read(
+      PETSC_COMM_WORLD, writeFile("ones.mtx", "%%MatrixMarket matrix coordinate pattern symmetric\n2 2 3\n1 1\n2 1\n2 2\n")));
+  EXPECT_EQ(ones.values, (std::vector<double>{1, 1, 1, 1}));
 }
 
 TEST(Matrices, PetscBinary) {
@@ -183,7 +187,7 @@ TEST(Matrices, DamagedAndForeignFiles) {
   const std::vector<std::array<std::string, 3>> cases{
       {"empty.mtx", "", "the file is empty"},
       {"short.mtx", head + "real general\n2 2 2\n1 1 1\n", "no sound Matrix Market"},
-      {"words.mtx", head + "real general\n1 1 1\n1 1 one\n", "no sound Matrix Market"},
+      {"words.mtx", head + "real general\n2 2 2\n1 1 1\n2 2 one\n", "no sound Matrix Market"},
       {"outside.mtx", head + "real general\n2 2 1\n3 1 1\n", "no sound Matrix Market"},
       {"nan.mtx", head + "real general\n2 2 2\n1 1 nan\n2 2 1\n", "not a finite number"},
       {"inf.mtx", head + "real general\n2 2 2\n1 1 inf\n2 2 1\n", "not a finite number"},
@@ -268,7 +272,7 @@ TEST(Matrices, WhatIsNoVibrationIsSaid) {
   const std::vector<std::tuple<std::string, Rows, Rows, std::string>> cases{
       {"loose", unit, {{1, -1}, {-1, 1}}, "the stiffness 'k' is not positive definite: 0 negative and 1 zero"},
       {"indefinite", unit, {{1, 2}, {2, 1}}, "the stiffness 'k' is not positive definite: 1 negative and 0 zero"},
-      {"none", unit, zero, "the stiffness 'k' is not positive definite: 0 negative and 2 zero"},
+      {"none", unit, zero, "the stiffness 'k' is zero"},
       {"massless", {{1, 0}, {0, 0}}, belt, "the mass 'm' is not positive definite: 0 negative and 1 zero"},
       {"negative", {{1, 0}, {0, -1}}, belt, "the mass 'm' is not positive definite: 1 negative and 0 zero"},
       {"unsymmetric", {{1, 0.1}, {0, 1}}, belt, "the mass 'm' is not symmetric"},
@@ -300,43 +304,55 @@ TEST(Matrices, OptionsThatMakeNoProblem) {
   }
 }
 
-/// A row of masses, each held by a spring of its own and joined to the next by one; friction couples neighbours. The spring behind mass
-/// `at` has the stiffness `stiff`.
+/// Masses in a row, each free to move along and across a belt and held by springs of its own, joined to the next in both directions.
+/// The spring behind mass `at` along the belt has the stiffness `stiff`, those to the ground are `ground` times the usual.
 struct Chain {
-  std::size_t n = 160;
+  std::size_t masses = 80;
   double ground = 1, stiff = 1;
-  std::size_t at = 70;
+  std::size_t at = 35;
 
   std::string options(const std::string& name) const {
+    const std::size_t n = 2 * masses;
     Rows mass(n, std::vector<double>(n, 0)), stiffness = mass, friction = mass;
-    for (std::size_t i = 0; i < n; ++i) {
-      mass[i][i] = 1 + 0.3 * std::sin(static_cast<double>(i));
-      stiffness[i][i] += ground;
-      if (i + 1 == n) break;
-      const double k = (i == at ? stiff : 1) / 3;
-      stiffness[i][i] += k, stiffness[i + 1][i + 1] += k, stiffness[i][i + 1] -= k, stiffness[i + 1][i] -= k;
-      friction[i][i + 1] = -0.4, friction[i + 1][i] = 0.4;
+    const auto spring = [&](std::size_t i, std::size_t j, double k) {
+      stiffness[i][i] += k, stiffness[j][j] += k, stiffness[i][j] -= k, stiffness[j][i] -= k;
+    };
+    for (std::size_t x = 0, y = 1; x < n; x += 2, y += 2) {
+      mass[x][x] = mass[y][y] = 1 + 0.3 * std::sin(static_cast<double>(x));
+      stiffness[x][x] += ground;
+      stiffness[y][y] += 1.1 * ground;
+      spring(x, y, 1. / 7);
+      friction[x][y] = -0.4;
+      if (x + 2 == n) break;
+      spring(x, x + 2, (x / 2 == at ? stiff : 1) / 3);
+      spring(y, y + 2, 1. / 3);
     }
     return problem(name, mass, stiffness, friction) + "-flutter_friction 0.3 ";
   }
 };
+
+std::vector<Complex> inBand(const flutter::FrictionPoint& point) {
+  std::vector<Complex> list;
+  for (const auto& eigenvalue : point.eigenvalues)
+    if (eigenvalue.inBand) list.push_back(eigenvalue.s);
+  return list;
+}
 
 // A spring 1e6 times the others leaves the low eigenvalues right. LAPACK on all unknowns errs by ε ‖M⁻¹K‖ = 1e-10 of eigenvalues of
 // size one; so far may the two be apart.
 TEST(Matrices, AStiffSpringDoesNotSpoilTheOthers) {
   Chain chain;
   chain.stiff = 1e6;
+  chain.ground = 0.1;  // frequencies apart from each other
   const std::string options = chain.options("stiff");
-  const Analysis reduced = runOptions(options + "-modes_count 12"),
-                 direct = runOptions(options + "-flutter_method direct -flutter_direct_count 80");
-  const auto& point = reduced.segments.at(0).points.at(0);
-  std::vector<Complex> band;
-  for (const auto& e : point.eigenvalues)
-    if (e.inBand) band.push_back(e.s);
+  // The backward error is one of ‖K‖, 1e6 here: it must be as small as rounding lets it be.
+  const Analysis reduced = runOptions(options + "-modes_count 20 -flutter_accuracy 1e-15 -flutter_rounds 30");
+  const Analysis direct = runOptions(options + "-flutter_method direct -flutter_direct_count 160");
+  const auto band = inBand(reduced.segments.at(0).points.at(0));
   EXPECT_GE(band.size(), 4U);
   EXPECT_LT(worst(errors(band, eigenvaluesOf(direct.segments.at(0).points.at(0))).relative), 1e-9);
   // All modes of a smaller one at once, by LAPACK, against block Lanczos or SLEPc.
-  chain.n = 60, chain.at = 30;
+  chain.masses = 30, chain.at = 15;
   const std::string smaller = chain.options("stiff_small") + "-flutter_friction 0 ";
   const auto all = runOptions(smaller + "-modes_count 60").segments.at(0).modes.angularFrequency;
   const auto some =
@@ -350,7 +366,7 @@ TEST(Matrices, ALooseChainIsFound) {
   chain.ground = 0;
   const std::string loose = errorOf([&] { runOptions(chain.options("chain_loose")); });
   EXPECT_TRUE(contains(loose, "not positive definite: 0 negative and 1 zero")) << loose;
-  chain.ground = 1e-12;  // a pivot that is not zero, an eigenvalue of which rounding leaves one digit
+  chain.ground = 2e-14;  // no zero pivot, but an eigenvalue of which rounding leaves one digit
   const std::string nearly = errorOf([&] { runOptions(chain.options("chain_nearly")); });
   EXPECT_TRUE(contains(nearly, "nothing but rounding")) << nearly;
 }
@@ -361,8 +377,9 @@ TEST(Matrices, ExportOfTheLayerComesBack) {
     const Analysis mesh = runCase("layer", changes + "-report_matrices " + folder + format + " -report_matrices_format " + format);
     const Analysis files = runOptions("-options_file " + folder + format + "/options.txt");
     for (std::size_t p = 0; p < 2; ++p) {
-      const auto wanted = eigenvaluesOf(mesh.segments.at(0).points.at(p)), found = eigenvaluesOf(files.segments.at(0).points.at(p));
+      const auto wanted = inBand(mesh.segments.at(0).points.at(p)), found = inBand(files.segments.at(0).points.at(p));
       ASSERT_EQ(wanted.size(), found.size());
+      EXPECT_GT(wanted.size(), 20U);
       // Both to a backward error of 1e-9 in the band; the sums of the pencil are the same to rounding.
       EXPECT_LT(worst(errors(wanted, found).relative), 1e-10) << format << " " << p;
     }
@@ -370,14 +387,18 @@ TEST(Matrices, ExportOfTheLayerComesBack) {
 }
 
 TEST(Matrices, ExportOfAPointAlone) {
-  // Friction damping belongs to the steady state of one point.
-  const std::string changes = "-mesh_set nx=4,ny_disc=2,ny_pad=2 -modes_count 20 -report_matrices " SQUEAL_OUTPUT_DIR "/antiplane ";
+  // Friction damping and, with convective terms, stiffness belong to the steady state of one point. The stiffness joins K0, so that the
+  // free modes are others, and with them the end of the band, unless it is given.
+  const std::string changes =
+      "-mesh_set nx=4,ny_disc=2,ny_pad=2 -modes_count 20 -flutter_band 0.3 -report_matrices " SQUEAL_OUTPUT_DIR "/antiplane ";
   const std::string error = errorOf([&] { runCase("two_layers_antiplane", changes + "-flutter_friction 0.2,0.4"); });
   EXPECT_TRUE(contains(error, "-report_matrices") && contains(error, "one -flutter_friction")) << error;
   const Analysis mesh = runCase("two_layers_antiplane", changes + "-flutter_friction 0.4");
   const Analysis files = runOptions("-options_file " SQUEAL_OUTPUT_DIR "/antiplane/options.txt");
-  const auto wanted = eigenvaluesOf(mesh.segments.at(0).points.at(0)), found = eigenvaluesOf(files.segments.at(0).points.at(0));
-  EXPECT_LT(worst(errors(wanted, found).relative), 1e-8);
+  const auto wanted = inBand(mesh.segments.at(0).points.at(0)), found = inBand(files.segments.at(0).points.at(0));
+  ASSERT_EQ(wanted.size(), found.size());
+  EXPECT_GT(wanted.size(), 4U);
+  EXPECT_LT(worst(errors(wanted, found).relative), 1e-10);
 }
 
 }  // namespace
