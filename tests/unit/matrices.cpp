@@ -387,8 +387,7 @@ TEST(Matrices, ExportOfTheLayerComesBack) {
 }
 
 TEST(Matrices, ExportOfAPointAlone) {
-  // Friction damping and, with convective terms, stiffness belong to the steady state of one point. The stiffness joins K0, so that the
-  // free modes are others, and with them the end of the band, unless it is given.
+  // Friction damping belongs to the steady state of one point.
   const std::string changes =
       "-mesh_set nx=4,ny_disc=2,ny_pad=2 -modes_count 20 -flutter_band 0.3 -report_matrices " SQUEAL_OUTPUT_DIR "/antiplane ";
   const std::string error = errorOf([&] { runCase("two_layers_antiplane", changes + "-flutter_friction 0.2,0.4"); });
