@@ -1,7 +1,6 @@
 #include <algorithm>
 
 #include "matrices/matrices.hpp"
-#include "petsc/stages.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal::matrices {

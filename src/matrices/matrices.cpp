@@ -1,10 +1,8 @@
 #include "matrices/matrices.hpp"
 
-#include <algorithm>
 #include <set>
 
 #include "petsc/options.hpp"
-#include "petsc/stages.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal::matrices {

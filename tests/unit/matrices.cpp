@@ -5,7 +5,8 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
+#include <filesystem>
+#include <tuple>
 
 #include "matrices/formats.hpp"
 #include "matrices/matrices.hpp"
