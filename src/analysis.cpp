@@ -151,11 +151,7 @@ ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::si
     return termsOf(analysis, system, analysis.steady[first + i], analysis.steady[first], prestress);
   };
   flutter::Pencil pencil = flutter::affineTerms(analysis.contact, system);
-  if (matrices::exportWanted()) {
-    pencil.setPointTerms(termsAt(0));
-    matrices::exportPencil(pencil, analysis.sweep, last - first);
-    pencil.setPointTerms({});
-  }
+  if (matrices::exportWanted()) matrices::exportPencil(pencil.with(termsAt(0)), analysis.sweep, last - first);
   ModalSegment segment =
       solveSegment({system.k0(), system.m0(), [&] { return system.solver(); }, system.transformation().trial, modes::wantedCount()},
                    std::move(pencil), points, analysis.sweep.dampings, termsAt, floor);

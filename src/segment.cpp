@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numeric>
 
+#include "flutter/reduced.hpp"
 #include "modes/benchmark.hpp"
 #include "petsc/options.hpp"
 #include "petsc/stages.hpp"
@@ -36,14 +36,13 @@ std::vector<OwnedVec> reportedShapes(const modes::Modes& modes, Mat trial) {
   return shapes;
 }
 
-/// The largest friction first: its corrections nearly suffice for the others.
-std::vector<std::size_t> orderOf(const std::vector<Parameters>& points) {
-  std::vector<std::size_t> order(points.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::rotate(order.begin(),
-              std::max_element(order.begin(), order.end(), [&](auto a, auto b) { return points[a].friction < points[b].friction; }),
-              order.end());
-  return order;
+std::string pointText(const flutter::FrictionPoint& point) {
+  std::string text = formatted("%s: %d of %d eigenvalues unstable", parameterText(point.at).c_str(), point.unstableCount(),
+                               static_cast<int>(point.eigenvalues.size()));
+  if (point.bandTop > 0 && std::isfinite(point.bandTop)) text += formatted(" to %.4g Hz", point.bandTop / (2 * M_PI));
+  text += formatted(", worst backward error %.1e", point.worstBackwardError());
+  if (point.tolerance > 0) text += formatted(", estimated error %.1e", point.worstErrorEstimate());
+  return text;
 }
 
 }  // namespace
@@ -61,23 +60,31 @@ ModalSegment solveSegment(const SegmentProblem& problem, flutter::Pencil pencil,
     if (benchmarkWanted.get()) floor = modes::floorSeconds(problem.k0);
     segment.shapes = reportedShapes(segment.modes, problem.trial);
     pencil.add(flutter::modalDamping(segment.modes, problem.m0));
-    reduced = std::make_unique<flutter::ReducedProblem>(pencil, problem.m0, problem.solver(), segment.modes);
+    Stage stage(pencil.comm(), "flutter");
+    reduced = std::make_unique<flutter::ReducedProblem>(pencil, problem.k0, problem.solver(), segment.modes);
+    stage.finish(formatted("basis of %d: free modes and static responses to friction", static_cast<int>(reduced->basisSize())));
   }
-  segment.points.resize(dampings.size() * steadyPoints.size());
-  for (std::size_t i : orderOf(steadyPoints)) {
-    pencil.setPointTerms(termsAt(i));
-    for (std::size_t d = 0; d < dampings.size(); ++d) {
-      Parameters at = steadyPoints[i];
-      at.damping = dampings[d];
-      Stage stage(pencil.comm(), "flutter");
-      auto& point = segment.points[d * steadyPoints.size() + i];
-      point = direct ? flutter::solveDirect(pencil, at, problem.trial) : reduced->solve(at, problem.trial);
-      const bool bounded = point.bandTop > 0 && std::isfinite(point.bandTop);
-      stage.finish(formatted(
-          "%s: %d of %d eigenvalues unstable%s, worst backward error %.1e%s", parameterText(at).c_str(), point.unstableCount(),
-          point.bandCount(), bounded ? formatted(" to %.4g Hz", point.bandTop / (2 * M_PI)).c_str() : "",
-          point.worstBackwardError(), direct ? "" : formatted(", basis of %d", static_cast<int>(reduced->basisSize())).c_str()));
+  std::vector<Parameters> points;
+  for (double damping : dampings)
+    for (Parameters at : steadyPoints) {
+      at.damping = damping;
+      points.push_back(at);
     }
+  segment.points.resize(points.size());
+  for (const auto& batch : flutter::batches(points)) {
+    Stage stage(pencil.comm(), "flutter");
+    std::vector<flutter::PointProblem> problems;
+    for (std::size_t i : batch) problems.push_back({points[i], pencil.with(termsAt(i % steadyPoints.size()))});
+    std::vector<flutter::FrictionPoint> solved;
+    if (reduced) solved = reduced->solve(problems, problem.trial);
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      auto& point = segment.points[batch[i]];
+      point = reduced ? std::move(solved[i]) : flutter::solveDirect(problems[i].pencil, problems[i].at, problem.trial);
+      stage.say(pointText(point));
+    }
+    stage.finish(
+        formatted("%d points", static_cast<int>(batch.size())) +
+        (reduced ? formatted(", basis of %d, %ld solves", static_cast<int>(reduced->basisSize()), reduced->basis().solves()) : ""));
   }
   return segment;
 }

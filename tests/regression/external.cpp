@@ -83,7 +83,7 @@ TEST(External, ExportRunsOnOtherRanks) {
   const ProgramRun files = runProgram("external/files", 3, "-options_file '" + (folder / "options.txt").string() + "'" + wanted);
   ASSERT_EQ(files.exitCode, 0) << files.error;
   const CsvTable a = readCsv(mesh.folder / "eigenvalues.csv"), b = readCsv(files.folder / "eigenvalues.csv");
-  const auto first = a.column("in_band"), growth = a.column("growth_rate_1_per_s"),
+  const auto first = a.column("certified"), growth = a.column("growth_rate_1_per_s"),
              frequency = a.column("angular_frequency_rad_per_s"), otherGrowth = b.column("growth_rate_1_per_s"),
              otherFrequency = b.column("angular_frequency_rad_per_s");
   ASSERT_EQ(a.rows.size(), b.rows.size());

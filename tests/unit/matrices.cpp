@@ -332,13 +332,6 @@ struct Chain {
   }
 };
 
-std::vector<Complex> inBand(const flutter::FrictionPoint& point) {
-  std::vector<Complex> list;
-  for (const auto& eigenvalue : point.eigenvalues)
-    if (eigenvalue.inBand) list.push_back(eigenvalue.s);
-  return list;
-}
-
 // A spring 1e6 times the others leaves the low eigenvalues right. LAPACK on all unknowns errs by ε ‖M⁻¹K‖ = 1e-10 of eigenvalues of
 // size one; so far may the two be apart.
 TEST(Matrices, AStiffSpringDoesNotSpoilTheOthers) {
@@ -349,7 +342,7 @@ TEST(Matrices, AStiffSpringDoesNotSpoilTheOthers) {
   // The backward error is one of ‖K‖, 1e6 here: it must be as small as rounding lets it be.
   const Analysis reduced = runOptions(options + "-modes_count 20 -flutter_accuracy 1e-15 -flutter_rounds 30");
   const Analysis direct = runOptions(options + "-flutter_method direct -flutter_direct_count 160");
-  const auto band = inBand(reduced.segments.at(0).points.at(0));
+  const auto band = eigenvaluesOf(reduced.segments.at(0).points.at(0));
   EXPECT_GE(band.size(), 4U);
   EXPECT_LT(worst(errors(band, eigenvaluesOf(direct.segments.at(0).points.at(0))).relative), 1e-9);
   // All modes of a smaller one at once, by LAPACK, against block Lanczos or SLEPc.
@@ -378,7 +371,7 @@ TEST(Matrices, ExportOfTheLayerComesBack) {
     const Analysis mesh = runCase("layer", changes + "-report_matrices " + folder + format + " -report_matrices_format " + format);
     const Analysis files = runOptions("-options_file " + folder + format + "/options.txt");
     for (std::size_t p = 0; p < 2; ++p) {
-      const auto wanted = inBand(mesh.segments.at(0).points.at(p)), found = inBand(files.segments.at(0).points.at(p));
+      const auto wanted = eigenvaluesOf(mesh.segments.at(0).points.at(p)), found = eigenvaluesOf(files.segments.at(0).points.at(p));
       ASSERT_EQ(wanted.size(), found.size());
       EXPECT_GT(wanted.size(), 20U);
       // Both to a backward error of 1e-9 in the band; the sums of the pencil are the same to rounding.
@@ -395,7 +388,7 @@ TEST(Matrices, ExportOfAPointAlone) {
   EXPECT_TRUE(contains(error, "-report_matrices") && contains(error, "one -flutter_friction")) << error;
   const Analysis mesh = runCase("two_layers_antiplane", changes + "-flutter_friction 0.4");
   const Analysis files = runOptions("-options_file " SQUEAL_OUTPUT_DIR "/antiplane/options.txt");
-  const auto wanted = inBand(mesh.segments.at(0).points.at(0)), found = inBand(files.segments.at(0).points.at(0));
+  const auto wanted = eigenvaluesOf(mesh.segments.at(0).points.at(0)), found = eigenvaluesOf(files.segments.at(0).points.at(0));
   ASSERT_EQ(wanted.size(), found.size());
   EXPECT_GT(wanted.size(), 4U);
   EXPECT_LT(worst(errors(wanted, found).relative), 1e-10);
