@@ -18,8 +18,7 @@ struct SpeedUniqueness {
 struct Analysis {
   MPI_Comm comm = MPI_COMM_NULL;
   flutter::Sweep sweep;
-  std::unique_ptr<mesh::Mesh>
-      mesh;  ///< at a fixed address: contact and steady borrow it; null: matrices from files, no steady state
+  std::unique_ptr<mesh::Mesh> mesh;  ///< at a fixed address: contact and steady borrow it; null: matrices from files
   elasticity::Bodies bodies;
   contact::Contact contact;
   std::vector<steady::Solution> steady;     ///< [steady point of the sweep]

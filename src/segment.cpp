@@ -86,6 +86,7 @@ ModalSegment solveSegment(const SegmentProblem& problem, flutter::Pencil pencil,
         formatted("%d points", static_cast<int>(batch.size())) +
         (reduced ? formatted(", basis of %d, %ld solves", static_cast<int>(reduced->basisSize()), reduced->basis().solves()) : ""));
   }
+  if (reduced) segment.solves = reduced->basis().solves();
   return segment;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// The friction-perturbed eigenproblem (paper, section 4): which modes flutter, at which friction, how fast they grow.
 #include <complex>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -43,6 +44,8 @@ struct FrictionPoint {
   int uncertifiedCount() const;
   double worstBackwardError() const;
   double worstErrorEstimate() const;
+  /// Null if there are no eigenvalues.
+  const Eigenvalue* fastestGrowing() const;
 };
 
 /// The sweep is the grid of `-flutter_friction` × `-flutter_speed` × `-flutter_pressure` × `-flutter_damping`. Damping leaves steady

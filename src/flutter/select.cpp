@@ -119,8 +119,15 @@ double FrictionPoint::worstBackwardError() const {
 double FrictionPoint::worstErrorEstimate() const {
   double worst = 0;
   for (const auto& eigenvalue : eigenvalues)
-    if (!(eigenvalue.errorEstimate <= worst)) worst = eigenvalue.errorEstimate;  // NaN stays
+    if (!std::isnan(worst) && !(eigenvalue.errorEstimate <= worst)) worst = eigenvalue.errorEstimate;
   return worst;
+}
+
+const Eigenvalue* FrictionPoint::fastestGrowing() const {
+  const Eigenvalue* fastest = nullptr;
+  for (const auto& eigenvalue : eigenvalues)
+    if (!fastest || eigenvalue.s.real() > fastest->s.real()) fastest = &eigenvalue;
+  return fastest;
 }
 
 void judge(std::vector<Eigenvalue>& eigenvalues) {

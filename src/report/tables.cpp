@@ -27,6 +27,26 @@ std::string eigenvalueTable(const Analysis& analysis) {
   return table;
 }
 
+/// A row for each point of the sweep; cells stay empty where there is nothing to say: no steady sliding, no eigenvalue, no estimate.
+std::string stabilityMap(const Analysis& analysis) {
+  const auto cell = [](const char* format, double value) {
+    char text[32] = "";
+    if (std::isfinite(value)) std::snprintf(text, sizeof text, format, value);
+    return "," + std::string(text);
+  };
+  std::string table =
+      parameterColumns() + ",unstable_modes,largest_growth_rate_1_per_s,frequency_hz,worst_backward_error,worst_error_estimate\n";
+  for (const auto& at : analysis.sweep.points()) {
+    const auto* point = analysis.pointAt(at);
+    const auto* fastest = point ? point->fastestGrowing() : nullptr;
+    table += parameterValues(at) + cell("%.0f", point ? point->unstableCount() : NAN) +
+             cell("%.15e", fastest ? fastest->s.real() : NAN) + cell("%.15e", fastest ? fastest->s.imag() / (2 * M_PI) : NAN) +
+             cell("%.3e", fastest ? point->worstBackwardError() : NAN) + cell("%.3e", fastest ? point->worstErrorEstimate() : NAN) +
+             "\n";
+  }
+  return table;
+}
+
 std::string modeTable(const modes::Modes& modes) {
   std::string table = "mode,angular_frequency_rad_per_s,frequency_hz,relative_residual\n";
   for (std::size_t i = 0; i < modes.angularFrequency.size(); ++i)
@@ -129,6 +149,7 @@ std::string recipe(MPI_Comm comm) {
 void writeTables(const Analysis& analysis, const std::filesystem::path& folder) {
   const MPI_Comm comm = analysis.comm;
   writeFile(comm, folder / "eigenvalues.csv", eigenvalueTable(analysis));
+  writeFile(comm, folder / "stability_map.csv", stabilityMap(analysis));
   for (std::size_t s = 0; s < analysis.segments.size(); ++s) {
     if (analysis.segments[s].modes.angularFrequency.empty()) continue;
     // modes.csv: the first active set; each later one has its own file, named by its first point.
