@@ -3,18 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flutter/reduced.hpp"
-#include "modes/benchmark.hpp"
+#include "matrices/matrices.hpp"
 #include "petsc/options.hpp"
 #include "petsc/stages.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal {
 namespace {
-
-const IntegerOption modesShown("report", "report_modes", 10, 0, "number of free modes written as fields");
-const FlagOption benchmarkWanted("modes", "modes_benchmark", false,
-                                 "time one factorisation and 400 solves in blocks of 32, the floor of the stage");
 
 mesh::Mesh readMesh(MPI_Comm comm) {
   const mesh::Request request = meshRequest();
@@ -129,24 +124,6 @@ std::vector<SpeedUniqueness> examineUniqueness(const Analysis& analysis) {
   return result;
 }
 
-std::vector<OwnedVec> nodalShapes(const modes::Modes& modes, const contact::AssociatedSystem& system) {
-  std::vector<OwnedVec> shapes;
-  const int count = std::min(modesShown.get(), static_cast<int>(modes.angularFrequency.size()));
-  for (int i = 0; i < count; ++i) {
-    Vec d = nullptr;
-    OwnedVec u;
-    PetscReal largest = 0;
-    check(MatCreateVecs(system.transformation().trial, nullptr, u.out()));
-    check(BVGetColumn(modes.vectors, i, &d));
-    check(MatMult(system.transformation().trial, d, u));
-    check(BVRestoreColumn(modes.vectors, i, &d));
-    check(VecNorm(u, NORM_INFINITY, &largest));
-    check(VecScale(u, 1 / largest));
-    shapes.push_back(std::move(u));
-  }
-  return shapes;
-}
-
 /// The terms of one point, and the change of its geometric stiffness from that of `reference`, which is in the modes of the segment.
 std::vector<flutter::Term> termsOf(const Analysis& analysis, const contact::AssociatedSystem& system,
                                    const steady::Solution& solution, const steady::Solution& reference, Mat prestress) {
@@ -156,15 +133,6 @@ std::vector<flutter::Term> termsOf(const Analysis& analysis, const contact::Asso
     check(MatAXPY(change, -1, prestress, SAME_NONZERO_PATTERN));
   }
   return flutter::pointTerms(analysis.contact, system, solution, change);
-}
-
-std::string pointText(const flutter::FrictionPoint& point) {
-  std::string text = formatted("%s: %d of %d eigenvalues unstable", parameterText(point.at).c_str(), point.unstableCount(),
-                               static_cast<int>(point.eigenvalues.size()));
-  if (point.bandTop > 0) text += formatted(" to %.4g Hz", point.bandTop / (2 * M_PI));
-  text += formatted(", worst backward error %.1e", point.worstBackwardError());
-  if (point.tolerance > 0) text += formatted(", estimated error %.1e", point.worstErrorEstimate());
-  return text;
 }
 
 /// Modes of one active set, then flutter at the points from `first` to `last` that share it.
@@ -177,50 +145,63 @@ ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::si
     stressed = std::make_unique<contact::AssociatedSystem>(analysis.bodies, analysis.contact, closed, prestress);
   }
   const contact::AssociatedSystem& system = stressed ? *stressed : current.of(closed);
-  const Mat trial = system.transformation().trial;
-  ModalSegment segment;
-  segment.openNodes = system.openNodes();
-  segment.unknowns = system.size();
-  flutter::Pencil pencil = flutter::affineTerms(analysis.contact, system);
-  const bool direct = flutter::directWanted();
-  if (direct) contact::rejectUnusedSolverOptions();
-  std::unique_ptr<flutter::ReducedProblem> reduced;
-  if (!direct) {
-    segment.modes = modes::compute(system);
-    if (benchmarkWanted.get()) floor = modes::floorSeconds(system);
-    segment.shapes = nodalShapes(segment.modes, system);
-    pencil.add(flutter::modalDamping(segment.modes, system.m0()));
-    Stage stage(analysis.mesh->comm, "flutter");
-    reduced = std::make_unique<flutter::ReducedProblem>(pencil, system.k0(), system.solver(), segment.modes);
-    stage.finish(formatted("basis of %d: free modes and static responses to friction", static_cast<int>(reduced->basisSize())));
-  }
   std::vector<Parameters> points;
-  for (double damping : analysis.sweep.dampings)
-    for (std::size_t i = first; i < last; ++i) {
-      points.push_back(analysis.steady[i].at);
-      points.back().damping = damping;
-    }
-  segment.points.resize(points.size());
-  for (const auto& batch : flutter::batches(points)) {
-    Stage stage(analysis.mesh->comm, "flutter");
-    std::vector<flutter::PointProblem> problems;
-    for (std::size_t i : batch) {
-      const auto& solution = analysis.steady[first + i % (last - first)];
-      problems.push_back({points[i], pencil.with(termsOf(analysis, system, solution, analysis.steady[first], prestress))});
-    }
-    std::vector<flutter::FrictionPoint> solved;
-    if (reduced) solved = reduced->solve(problems, trial);
-    for (std::size_t i = 0; i < batch.size(); ++i) {
-      auto& point = segment.points[batch[i]];
-      point = reduced ? std::move(solved[i]) : flutter::solveDirect(problems[i].pencil, problems[i].at, trial);
-      stage.say(pointText(point));
-    }
-    stage.finish(
-        formatted("%d points", static_cast<int>(batch.size())) +
-        (reduced ? formatted(", basis of %d, %ld solves", static_cast<int>(reduced->basisSize()), reduced->basis().solves()) : ""));
-  }
-  if (reduced) segment.solves = reduced->basis().solves();
+  for (std::size_t i = first; i < last; ++i) points.push_back(analysis.steady[i].at);
+  const auto termsAt = [&](std::size_t i) {
+    return termsOf(analysis, system, analysis.steady[first + i], analysis.steady[first], prestress);
+  };
+  flutter::Pencil pencil = flutter::affineTerms(analysis.contact, system);
+  if (matrices::exportWanted()) matrices::exportPencil(pencil.with(termsAt(0)), analysis.sweep, last - first);
+  ModalSegment segment =
+      solveSegment({system.k0(), system.m0(), [&] { return system.solver(); }, system.transformation().trial, modes::wantedCount()},
+                   std::move(pencil), points, analysis.sweep.dampings, termsAt, floor);
+  segment.openNodes = system.openNodes();
   return segment;
+}
+
+/// Collective. Error for a sweep over a parameter that no matrix comes with: all its points would be the same.
+void rejectIdleParameters(const std::vector<matrices::NamedTerm>& terms, const flutter::Sweep& sweep) {
+  const auto require = [&](const std::vector<double>& values, const std::string& name, auto exponent) {
+    if (values.size() > 1 && std::none_of(terms.begin(), terms.end(), [&](const auto& named) { return exponent(named.term) != 0; }))
+      throw Error("option -flutter_" + name + ": a sweep, but no matrix has -matrices_<name>_" + name + "_exponent");
+  };
+  require(sweep.frictions, "friction", [](const flutter::Term& term) { return term.frictionExponent; });
+  require(sweep.speeds, "speed", [](const flutter::Term& term) { return term.speedExponent; });
+  if (!flutter::modalDampingWanted())
+    require(sweep.dampings, "damping", [](const flutter::Term& term) { return term.dampingExponent; });
+  if (sweep.pressures != std::vector<double>{1})
+    throw Error("option -flutter_pressure: no matrix from a file depends on the pressure");
+}
+
+/// [4.15] with matrices from files: there is neither contact nor steady state.
+Analysis analyseMatrices(MPI_Comm comm) {
+  Analysis analysis;
+  analysis.comm = comm;
+  analysis.sweep = flutter::readSweep();
+  Stage stage(comm, "matrices");
+  auto named = matrices::readTerms(comm);
+  rejectIdleParameters(named, analysis.sweep);
+  const matrices::AssociatedSystem system(named);
+  stage.finish(formatted("%d matrices, %d unknowns%s", static_cast<int>(named.size()), static_cast<int>(system.size()),
+                         system.asymmetry() > 0 ? formatted("; stiffness without friction unsymmetric by %.1e: free modes of its "
+                                                            "symmetric part",
+                                                            system.asymmetry())
+                                                      .c_str()
+                                                : ""));
+  std::vector<flutter::Term> terms;
+  for (auto& item : named) terms.push_back(std::move(item.term));
+  flutter::Pencil pencil(std::move(terms));
+  const auto points = analysis.sweep.steadyPoints();
+  if (matrices::exportWanted()) matrices::exportPencil(pencil, analysis.sweep, points.size());
+  OwnedMat identity;
+  PetscInt local = 0;
+  check(MatGetLocalSize(system.k0(), &local, nullptr));
+  check(MatCreateConstantDiagonal(comm, local, local, PETSC_DETERMINE, PETSC_DETERMINE, 1, identity.out()));
+  const int modes = static_cast<int>(std::min<PetscInt>(modes::wantedCount(), system.size()));
+  analysis.segments.push_back(solveSegment(
+      {system.k0(), system.m0(), [&] { return system.solver(); }, identity, modes}, std::move(pencil), points,
+      analysis.sweep.dampings, [](std::size_t) { return std::vector<flutter::Term>{}; }, analysis.modesFloorSeconds));
+  return analysis;
 }
 
 }  // namespace
@@ -251,7 +232,9 @@ const flutter::FrictionPoint* Analysis::pointAt(const Parameters& at) const {
 Analysis analyse(MPI_Comm comm) {
   rejectUnknownOptions();
   flutter::rejectIdleSolverOptions();
+  if (matrices::wanted()) return analyseMatrices(comm);
   Analysis analysis;
+  analysis.comm = comm;
   analysis.sweep = flutter::readSweep();
   analysis.mesh = std::make_unique<mesh::Mesh>(readMesh(comm));
   analysis.bodies = assembleBodies(*analysis.mesh);

@@ -3,8 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "flutter/flutter.hpp"
-#include "modes/modes.hpp"
+#include "segment.hpp"
 #include "steady/steady.hpp"
 #include "steady/uniqueness.hpp"
 
@@ -16,19 +15,10 @@ struct SpeedUniqueness {
   steady::Uniqueness found;
 };
 
-/// Steady points of the sweep in a row with the same active set, and the modes of that set.
-struct ModalSegment {
-  PetscInt openNodes = 0;
-  PetscInt unknowns = 0;
-  modes::Modes modes;                          ///< empty with the direct method
-  std::vector<OwnedVec> shapes;                ///< the first `-report_modes` modes in nodal displacements, largest entry 1
-  std::vector<flutter::FrictionPoint> points;  ///< for each damping factor all steady points
-  long solves = 0;                             ///< right-hand sides solved for to correct the basis and to estimate errors
-};
-
 struct Analysis {
+  MPI_Comm comm = MPI_COMM_NULL;
   flutter::Sweep sweep;
-  std::unique_ptr<mesh::Mesh> mesh;  ///< at a fixed address: contact and steady borrow it
+  std::unique_ptr<mesh::Mesh> mesh;  ///< at a fixed address: contact and steady borrow it; null: matrices from files
   elasticity::Bodies bodies;
   contact::Contact contact;
   std::vector<steady::Solution> steady;     ///< [steady point of the sweep]

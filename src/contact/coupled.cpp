@@ -2,18 +2,7 @@
 
 #include <algorithm>
 
-#include "petsc/options.hpp"
-#include "petsc/stages.hpp"
-#include "petsc/text.hpp"
-
 namespace squeal::contact {
-namespace {
-
-const SolverPrefix factorisation("modes", "modes_st_",
-                                 "SLEPc ST, KSP and PC with the factorisation of K (MUMPS LDLt): st_type, ksp_*, pc_*, …");
-
-}  // namespace
-
 OwnedMat Projection::friction(Mat slipRows) const {
   OwnedMat result;
   check(MatTransposeMatMult(slipRows, reaction, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.out()));
@@ -62,42 +51,7 @@ AssociatedSystem::AssociatedSystem(const elasticity::Bodies& bodies, const Conta
   damping_ = project(contact, transformation_, bodies.damping);
   gyroscopic_ = project(contact, transformation_, bodies.gyroscopic);
   rotationStiffness_ = project(contact, transformation_, bodies.rotationStiffness);
+  solver_ = std::make_unique<SymmetricSolver>(stiffness_.matrix, "stiffness of the closed, frictionless contact");
 }
-
-KSP AssociatedSystem::solver() const {
-  if (solver_) {
-    factorise();
-    return solver_;
-  }
-  Stage stage(PetscObjectComm(reinterpret_cast<PetscObject>(stiffness_.matrix.get())), "factor");
-  check(KSPCreate(PetscObjectComm(reinterpret_cast<PetscObject>(stiffness_.matrix.get())), solver_.out()));
-  check(KSPSetOptionsPrefix(solver_, factorisation.prefix.c_str()));
-  check(KSPSetOperators(solver_, stiffness_.matrix, stiffness_.matrix));
-  check(KSPSetType(solver_, KSPPREONLY));
-  PC pc = nullptr;
-  check(KSPGetPC(solver_, &pc));
-  check(PCSetType(pc, PCCHOLESKY));
-  check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
-  check(KSPSetFromOptions(solver_));
-  factorise();
-  stage.finish(formatted("stiffness of the closed, frictionless contact: %d unknowns", static_cast<int>(size())));
-  return solver_;
-}
-
-/// Does nothing where the factorisation is at hand. (An EPS that has used the solver leaves it without.)
-void AssociatedSystem::factorise() const {
-  PC pc = nullptr;
-  check(KSPSetOperators(solver_, stiffness_.matrix, stiffness_.matrix));
-  check(KSPSetUp(solver_));
-  check(KSPGetPC(solver_, &pc));
-  PCFailedReason failed;
-  check(PCGetFailedReason(pc, &failed));
-  if (failed != PC_NOERROR)
-    throw Error(
-        "the stiffness matrix of the closed, frictionless contact cannot be factorised (options -modes_st_pc_*): is a body loose, "
-        "or is memory short?");
-}
-
-void rejectUnusedSolverOptions() { factorisation.rejectUnused(); }
 
 }  // namespace squeal::contact

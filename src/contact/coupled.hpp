@@ -1,6 +1,9 @@
 #pragma once
 /// The matrices of the coupled problem: L(f)ᵀ X T = Tᵀ X T + f Sᵀ N X T for every matrix X of the bodies.
+#include <memory>
+
 #include "contact/contact.hpp"
+#include "petsc/symmetric_solver.hpp"
 
 namespace squeal::contact {
 
@@ -40,18 +43,14 @@ class AssociatedSystem {
   PetscInt openNodes() const { return openNodes_; }  ///< of all ranks
   PetscInt size() const { return transformation_.columns; }
   /// Collective. Direct solver for K0 (prefix -modes_st_), factorised.
-  KSP solver() const;
+  KSP solver() const { return solver_->get(); }
 
  private:
-  void factorise() const;
   Transformation transformation_;
   Projection stiffness_, mass_, damping_, gyroscopic_, rotationStiffness_;
   std::vector<unsigned char> closed_;
   PetscInt openNodes_ = 0;
-  mutable OwnedKSP solver_;
+  std::unique_ptr<SymmetricSolver> solver_;
 };
-
-/// Unused -modes_st_* options are typing errors once this has been configured.
-void rejectUnusedSolverOptions();
 
 }  // namespace squeal::contact

@@ -7,6 +7,7 @@
 
 #include "flutter/dense.hpp"
 #include "flutter/flutter.hpp"
+#include "petsc/gathered.hpp"
 #include "petsc/options.hpp"
 #include "petsc/text.hpp"
 
@@ -236,32 +237,6 @@ class Damped : public NearestSolver {
  private:
   OwnedPEP pep_;
 };
-
-/// All entries on rank 0, column-major; empty elsewhere and for a matrix that is not there.
-DenseMatrix gathered(Mat matrix) {
-  if (!matrix) return {};
-  PetscInt n = 0;
-  int rank = 0;
-  OwnedIS all;
-  Mat* parts = nullptr;
-  check(MatGetSize(matrix, &n, nullptr));
-  check(MPI_Comm_rank(PetscObjectComm(reinterpret_cast<PetscObject>(matrix)), &rank));
-  const PetscInt here = rank == 0 ? n : 0;
-  check(ISCreateStride(PETSC_COMM_SELF, here, 0, 1, all.out()));
-  IS rows = all;
-  check(MatCreateSubMatrices(matrix, 1, &rows, &rows, MAT_INITIAL_MATRIX, &parts));
-  DenseMatrix values(static_cast<std::size_t>(here * here), 0.0);
-  for (PetscInt row = 0; row < here; ++row) {
-    PetscInt count = 0;
-    const PetscInt* columns = nullptr;
-    const PetscScalar* entries = nullptr;
-    check(MatGetRow(parts[0], row, &count, &columns, &entries));
-    for (PetscInt k = 0; k < count; ++k) values[static_cast<std::size_t>(columns[k] * n + row)] = entries[k];
-    check(MatRestoreRow(parts[0], row, &count, &columns, &entries));
-  }
-  check(MatDestroySubMatrices(1, &parts));
-  return values;
-}
 
 }  // namespace
 

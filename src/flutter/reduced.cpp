@@ -139,6 +139,10 @@ ReducedProblem::ReducedProblem(const Pencil& pencil, Mat stiffness, KSP solver, 
     : basis_(modes, stiffness, solver), terms_(basis_, pencil, 0, pencil.terms().size()) {
   check(BVGetSizes(modes.vectors, nullptr, &unknowns_, nullptr));
   highestMode_ = modes.angularFrequency.back();
+  if (basis_.size() == unknowns_) {  // the whole space: there is nothing to correct
+    bandTop_ = INFINITY;
+    return;
+  }
   if (!correctionsWanted()) return;
   bandTop_ = bandOption.get() > 0 ? 2 * M_PI * bandOption.get() : bandOfModes(modes.angularFrequency);
   addStaticResponses(pencil, modes);

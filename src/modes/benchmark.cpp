@@ -5,22 +5,21 @@
 
 namespace squeal::modes {
 
-double floorSeconds(const contact::AssociatedSystem& system) {
-  const Mat k = system.k0();
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(k));
+double floorSeconds(Mat stiffness) {
+  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(stiffness));
   Stage stage(comm, "floor");
   const double begin = MPI_Wtime();
   Mat factor = nullptr;
-  check(MatGetFactor(k, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &factor));
+  check(MatGetFactor(stiffness, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &factor));
   const OwnedMat owner(factor);
   check(MatMumpsSetIcntl(factor, 27, 32));  // right-hand sides MUMPS takes at once
   MatFactorInfo info;
   check(MatFactorInfoInitialize(&info));
-  check(MatCholeskyFactorSymbolic(factor, k, nullptr, &info));
-  check(MatCholeskyFactorNumeric(factor, k, &info));
+  check(MatCholeskyFactorSymbolic(factor, stiffness, nullptr, &info));
+  check(MatCholeskyFactorNumeric(factor, stiffness, &info));
   const double factored = MPI_Wtime();
   PetscInt local = 0;
-  check(MatGetLocalSize(k, &local, nullptr));
+  check(MatGetLocalSize(stiffness, &local, nullptr));
   for (int done = 0; done < 400; done += 32) {
     const PetscInt columns = std::min(32, 400 - done);
     OwnedMat rhs, solution;

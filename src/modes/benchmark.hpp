@@ -1,10 +1,10 @@
 #pragma once
 /// What the free-vibration stage could cost at best.
-#include "contact/coupled.hpp"
+#include "petsc/owned.hpp"
 
 namespace squeal::modes {
 
 /// Collective. Wall time of one factorisation of K0 and 400 solves in blocks of 32 with it, s.
-double floorSeconds(const contact::AssociatedSystem& system);
+double floorSeconds(Mat stiffness);
 
 }  // namespace squeal::modes

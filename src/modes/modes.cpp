@@ -4,8 +4,11 @@
 #include <cmath>
 
 #include "modes/blocklanczos.hpp"
+#include "petsc/gathered.hpp"
 #include "petsc/options.hpp"
 #include "petsc/stages.hpp"
+#include "petsc/symmetric.hpp"
+#include "petsc/symmetric_solver.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal::modes {
@@ -23,6 +26,12 @@ const FlagOption sturmOption("modes", "modes_sturm", true,
                              "confirm by the inertia of K - sigma M that no mode is missing (one more factorisation)");
 const SolverPrefix solverPrefix("modes", "modes_eps_", "SLEPc EPS of the free vibrations: tol, ncv, mpd, type, …");
 
+PetscInt rowsOf(Mat matrix) {
+  PetscInt rows = 0;
+  check(MatGetSize(matrix, &rows, nullptr));
+  return rows;
+}
+
 PetscErrorCode report(EPS, PetscInt iteration, PetscInt converged, PetscScalar*, PetscScalar*, PetscReal*, PetscInt,
                       void* context) {
   static_cast<Stage*>(context)->progress(
@@ -30,8 +39,8 @@ PetscErrorCode report(EPS, PetscInt iteration, PetscInt converged, PetscScalar*,
   return 0;
 }
 
-OwnedEPS solver(const contact::AssociatedSystem& system, int count, Stage& stage) {
-  const Mat k = system.k0(), m = system.m0();
+OwnedEPS solver(const System& system, int count, Stage& stage) {
+  const auto [k, m, factorised] = system;
   OwnedEPS eps;
   check(EPSCreate(PetscObjectComm(reinterpret_cast<PetscObject>(k)), eps.out()));
   check(EPSSetOptionsPrefix(eps, "modes_"));
@@ -41,8 +50,8 @@ OwnedEPS solver(const contact::AssociatedSystem& system, int count, Stage& stage
   check(EPSSetWhichEigenpairs(eps, EPS_TARGET_MAGNITUDE));
   check(EPSSetTarget(eps, 0));
   // Half as many vectors again as modes, enlarged in portions of 100, took the fewest solves.
-  const int size = static_cast<int>(system.size()),
-            vectors = std::min(size, count + std::clamp(count / 2, 50, 100));  // SLEPc wants vectors <= count + portion
+  const int vectors =
+      std::min(static_cast<int>(rowsOf(k)), count + std::clamp(count / 2, 50, 100));  // SLEPc wants <= count + portion
   check(EPSSetDimensions(eps, count, vectors, std::min(vectors, 100)));
   check(EPSSetTolerances(eps, toleranceOption.get(), PETSC_DEFAULT));
   check(EPSSetPurify(eps, PETSC_FALSE));
@@ -50,35 +59,25 @@ OwnedEPS solver(const contact::AssociatedSystem& system, int count, Stage& stage
   ST st = nullptr;
   check(EPSGetST(eps, &st));
   check(STSetType(st, STSINVERT));
-  check(STSetKSP(st, system.solver()));  // shift 0: K0 is factorised already
+  check(STSetKSP(st, factorised));  // shift 0: K0 is factorised already
   check(EPSSetFromOptions(eps));
   solverPrefix.rejectUnused();
   check(EPSSetUp(eps));
-  contact::rejectUnusedSolverOptions();
+  rejectUnusedSolverOptions();
   return eps;
 }
 
-/// Number of eigenvalues of (K, M) below sigma: the negative pivots of an LDLᵀ factorisation of K − σ M (Sylvester).
-int inertia(Mat k, Mat m, double sigma) {
+/// Number of eigenvalues of (K, M) below sigma.
+int countBelow(Mat k, Mat m, double sigma) {
   OwnedMat shifted;
   check(MatDuplicate(k, MAT_COPY_VALUES, shifted.out()));
-  check(MatAXPY(shifted, -sigma, m, SUBSET_NONZERO_PATTERN));
-  Mat factor = nullptr;
-  check(MatGetFactor(shifted, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &factor));
-  const OwnedMat owner(factor);
-  check(MatMumpsSetIcntl(factor, 13, 1));  // ScaLAPACK on the root would hide its pivots' signs
-  check(MatMumpsSetIcntl(factor, 24, 1));
-  MatFactorInfo info;
-  check(MatFactorInfoInitialize(&info));
-  check(MatCholeskyFactorSymbolic(factor, shifted, nullptr, &info));
-  check(MatCholeskyFactorNumeric(factor, shifted, &info));
-  PetscInt negative = 0;
-  check(MatGetInertia(factor, &negative, nullptr, nullptr));
-  return static_cast<int>(negative);
+  check(MatAXPY(shifted, -sigma, m, DIFFERENT_NONZERO_PATTERN));
+  check(MatSetOption(shifted, MAT_SYMMETRIC, PETSC_TRUE));
+  return static_cast<int>(inertia(shifted).negative);
 }
 
 /// A shift in the widest relative gap among the topmost modes, so that rounding cannot move an eigenvalue across it.
-void confirmCount(const contact::AssociatedSystem& system, Modes& modes) {
+void confirmCount(Mat k, Mat m, Modes& modes) {
   const auto& w = modes.angularFrequency;
   if (w.size() < 2) return;
   std::size_t below = w.size() - 1;  // number of modes below the shift
@@ -86,7 +85,7 @@ void confirmCount(const contact::AssociatedSystem& system, Modes& modes) {
   for (std::size_t i = w.size() - 1; i >= 1 && i + 10 >= w.size(); --i)
     if (const double gap = w[i] / w[i - 1] - 1; gap > widest) widest = gap, below = i;
   modes.inertiaShift = 0.5 * (w[below] * w[below] + w[below - 1] * w[below - 1]);
-  modes.inertiaCount = inertia(system.k0(), system.m0(), modes.inertiaShift);
+  modes.inertiaCount = countBelow(k, m, modes.inertiaShift);
   modes.countConfirmed = modes.inertiaCount == static_cast<int>(below);
 }
 
@@ -98,8 +97,8 @@ void requireConverged(int converged, int count) {
 }
 
 /// Eigenvalues ascending and vectors, M-orthonormal, by SLEPc.
-void solveByEps(const contact::AssociatedSystem& system, int count, Stage& stage, Modes& modes) {
-  const Mat k = system.k0();
+void solveByEps(const System& system, int count, Stage& stage, Modes& modes) {
+  const Mat k = system.stiffness;
   const OwnedEPS eps = solver(system, count, stage);
   check(EPSSolve(eps));
   PetscInt converged = 0, iterations = 0;
@@ -126,8 +125,8 @@ void solveByEps(const contact::AssociatedSystem& system, int count, Stage& stage
   modes.iterations = static_cast<int>(iterations);
 }
 
-void solveByLanczos(const contact::AssociatedSystem& system, int count, Stage& stage, Modes& modes) {
-  auto result = blockLanczos(system.k0(), system.m0(), system.solver(), count, blockOption.get(), toleranceOption.get(), 20,
+void solveByLanczos(const System& system, int count, Stage& stage, Modes& modes) {
+  auto result = blockLanczos(system.stiffness, system.mass, system.solver, count, blockOption.get(), toleranceOption.get(), 20,
                              [&](int restarts, int converged) {
                                stage.progress(formatted("%d restarts: %d of %d modes converged", restarts, converged, count));
                              });
@@ -137,18 +136,65 @@ void solveByLanczos(const contact::AssociatedSystem& system, int count, Stage& s
   modes.iterations = result.restarts;
 }
 
-void measureResiduals(const contact::AssociatedSystem& system, Modes& modes) {
-  const Mat k = system.k0(), m = system.m0();
-  OwnedVec kd, md;
-  check(MatCreateVecs(k, kd.out(), md.out()));
+/// By LAPACK on rank 0, so that the ranks agree: M d = (1/λ) K d, whose largest eigenvalues, those of the lowest modes, it gets best.
+void solveDense(const System& system, int count, Modes& modes) {
+  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(system.stiffness));
+  const int n = static_cast<int>(rowsOf(system.stiffness));
+  std::vector<double> all = gathered(system.mass), stiffness = gathered(system.stiffness), vectors;
+  onFirstRank(comm, "free vibration: the stiffness is not positive definite; is a body loose? ", [&] {
+    const auto inverse = symmetricEigen(all, stiffness, n);
+    for (int j = 0; j < count; ++j) {
+      const auto last = static_cast<std::size_t>(n - 1 - j);
+      modes.lambda.push_back(1 / inverse[last]);
+      for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i)
+        vectors.push_back(all[last * static_cast<std::size_t>(n) + i] / std::sqrt(inverse[last]));
+    }
+  });
+  modes.lambda.resize(static_cast<std::size_t>(count));
+  vectors.resize(static_cast<std::size_t>(n * count));
+  check(MPI_Bcast(modes.lambda.data(), count, MPI_DOUBLE, 0, comm));
+  check(MPI_Bcast(vectors.data(), n * count, MPI_DOUBLE, 0, comm));
+  OwnedVec d;
+  PetscInt first = 0, end = 0;
+  check(MatCreateVecs(system.stiffness, d.out(), nullptr));
+  check(VecGetOwnershipRange(d, &first, &end));
+  check(BVCreate(comm, modes.vectors.out()));
+  check(BVSetSizesFromVec(modes.vectors, d, count));
+  check(BVSetType(modes.vectors, BVSVEC));
+  PetscScalar* values = nullptr;
+  check(BVGetArray(modes.vectors, &values));
+  for (PetscInt j = 0; j < count; ++j)
+    std::copy(vectors.begin() + j * n + first, vectors.begin() + j * n + end, values + j * (end - first));
+  check(BVRestoreArray(modes.vectors, &values));
+}
+
+/// ε Σ K_jj d_j² / λ: what rounding in K, whose entries may cancel in d, makes of λ. Near one, λ says nothing.
+double roundingOf(Vec diagonal, Vec d, double lambda) {
+  OwnedVec weighted;
+  PetscScalar sum = 0;
+  check(VecDuplicate(d, weighted.out()));
+  check(VecPointwiseMult(weighted, diagonal, d));
+  check(VecDot(weighted, d, &sum));
+  return PETSC_MACHINE_EPSILON * sum / std::abs(lambda);
+}
+
+void measureResiduals(const System& system, Modes& modes) {
+  constexpr double noise = 1e-3;  // of λ: three digits are no frequency
+  OwnedVec kd, md, diagonal;
+  check(MatCreateVecs(system.stiffness, kd.out(), md.out()));
+  check(VecDuplicate(kd, diagonal.out()));
+  check(MatGetDiagonal(system.stiffness, diagonal));
   for (std::size_t i = 0; i < modes.lambda.size(); ++i) {
-    if (!(modes.lambda[i] > 0))
-      throw Error(formatted("free vibration: eigenvalue %g is not positive; a body is loose or nearly so", modes.lambda[i]));
     Vec d = nullptr;
     check(BVGetColumn(modes.vectors, static_cast<PetscInt>(i), &d));
-    check(MatMult(k, d, kd));
-    check(MatMult(m, d, md));
+    check(MatMult(system.stiffness, d, kd));
+    check(MatMult(system.mass, d, md));
+    modes.rounding = std::max(modes.rounding, roundingOf(diagonal, d, modes.lambda[i]));
     check(BVRestoreColumn(modes.vectors, static_cast<PetscInt>(i), &d));
+    if (!(modes.lambda[i] > 0) || modes.rounding > noise)
+      throw Error(
+          formatted("free vibration: eigenvalue %zu, %g, is not positive or nothing but rounding; a body is loose or nearly so",
+                    i + 1, modes.lambda[i]));
     PetscReal scale = 0, residual = 0;
     check(VecNorm(md, NORM_2, &scale));
     check(VecAXPY(kd, -modes.lambda[i], md));
@@ -168,20 +214,36 @@ bool lanczosWanted(int count, PetscInt size) {
   return solver == "block_lanczos" || (solver == "auto" && fits && !solverPrefix.given());
 }
 
+/// Krylov methods have no room where most of the modes are wanted.
+bool denseWanted(int count, PetscInt size) {
+  return solverOption.get() == "auto" && !solverPrefix.given() && size <= 400 && 2 * count > size;
+}
+
 }  // namespace
 
-Modes compute(const contact::AssociatedSystem& system) {
-  const int count = countOption.get();
-  if (count > system.size())
-    throw Error(formatted("option -modes_count %d: the problem has only %d unknowns", count, static_cast<int>(system.size())));
-  Stage stage(PetscObjectComm(reinterpret_cast<PetscObject>(system.k0())), "modes");
+int wantedCount() { return countOption.get(); }
+
+Modes compute(const System& system, int count) {
+  const PetscInt size = rowsOf(system.stiffness);
+  if (count > size)
+    throw Error(formatted("option -modes_count %d: the problem has only %d unknowns", count, static_cast<int>(size)));
+  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(system.stiffness));
+  Stage stage(comm, "modes");
   Modes modes;
-  if (lanczosWanted(count, system.size()))
+  if (denseWanted(count, size))
+    solveDense(system, count, modes);
+  else if (lanczosWanted(count, size))
     solveByLanczos(system, count, stage, modes);
   else
     solveByEps(system, count, stage, modes);
   measureResiduals(system, modes);
-  if (sturmOption.get()) confirmCount(system, modes);
+  if (modes.rounding > 1e-6)
+    complain(
+        comm,
+        formatted("free vibration: rounding of the entries of the stiffness may change the lowest eigenvalues by %.0e of their "
+                  "size; is a body nearly loose, or a spring very stiff?",
+                  modes.rounding));
+  if (sturmOption.get()) confirmCount(system.stiffness, system.mass, modes);
   stage.finish(formatted("%d modes to %.4g Hz, worst relative residual %.1e%s", count, modes.angularFrequency.back() / (2 * M_PI),
                          *std::max_element(modes.relativeResidual.begin(), modes.relativeResidual.end()),
                          !sturmOption.get()     ? ""

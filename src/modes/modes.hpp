@@ -2,9 +2,15 @@
 /// Free vibration of the ideal associated system [4.17]: (K0 − ω² M0) d = 0, symmetric: the basis of the reduced problem.
 #include <vector>
 
-#include "contact/coupled.hpp"
+#include "petsc/owned.hpp"
 
 namespace squeal::modes {
+
+/// The symmetric positive definite K0 and M0, and the factorised K0; borrowed.
+struct System {
+  Mat stiffness = nullptr, mass = nullptr;
+  KSP solver = nullptr;
+};
 
 struct Modes {
   std::vector<double> lambda;            ///< ω², ascending, rad²/s²
@@ -15,10 +21,15 @@ struct Modes {
   bool countConfirmed = false;           ///< the number below the highest mode agrees with the inertia of K − σ M (Sturm)
   int inertiaCount = 0;                  ///< eigenvalues of (K0, M0) below σ
   double inertiaShift = 0;               ///< σ, rad²/s²
+  double rounding = 0;                   ///< largest relative error that rounding of the entries of K0 may make in a λ
 };
 
-/// Collective. The lowest `-modes_count` modes by block Lanczos or SLEPc EPS (-modes_solver, -modes_eps_*, -modes_st_*). Error:
-/// more modes wanted than there are unknowns; not converged.
-Modes compute(const contact::AssociatedSystem& system);
+/// `-modes_count`.
+int wantedCount();
+
+/// Collective. The lowest `count` modes by block Lanczos or SLEPc EPS (-modes_solver, -modes_eps_*, -modes_st_*), or by LAPACK where
+/// most of the modes of a small problem are wanted. Error: more modes wanted than there are unknowns; not converged; an eigenvalue
+/// that is not positive, or that rounding could have made.
+Modes compute(const System& system, int count = wantedCount());
 
 }  // namespace squeal::modes

@@ -22,4 +22,18 @@ void check(PetscErrorCode code, std::source_location where = std::source_locatio
 /// Collective. Throws Error on all ranks with the message of the lowest rank whose `localMessage` is not empty; returns if all are.
 void failTogether(MPI_Comm comm, const std::string& localMessage);
 
+/// Collective. `action()` on rank 0 alone; what it throws becomes an Error of all ranks, with `head` before its text.
+template <class Action>
+void onFirstRank(MPI_Comm comm, const std::string& head, const Action& action) {
+  int rank = 0;
+  check(MPI_Comm_rank(comm, &rank));
+  std::string failure;
+  if (rank == 0) try {
+      action();
+    } catch (const std::exception& error) {
+      failure = head + error.what();
+    }
+  failTogether(comm, failure);
+}
+
 }  // namespace squeal

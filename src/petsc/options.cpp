@@ -15,8 +15,8 @@ namespace squeal {
 namespace {
 
 // Order in which the manual lists the stages: that of the method.
-const std::vector<std::string> stages = {"general", "mesh",   "elasticity", "constraint", "load",  "motion",
-                                         "contact", "steady", "modes",      "flutter",    "report"};
+const std::vector<std::string> stages = {"general", "mesh",    "matrices", "elasticity", "constraint", "load",
+                                         "motion",  "contact", "steady",   "modes",      "flutter",    "report"};
 
 std::vector<const Option*>& registry() {
   static std::vector<const Option*> options;

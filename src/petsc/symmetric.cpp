@@ -23,4 +23,17 @@ std::vector<double> symmetricEigen(std::vector<double>& a, int n) {
   return values;
 }
 
+std::vector<double> symmetricEigen(std::vector<double>& a, std::vector<double>& b, int n) {
+  PetscBLASInt type = 1, order = n, length = -1, info = 0;
+  std::vector<double> values(static_cast<std::size_t>(n)), work(1);
+  if (n == 0) return values;
+  LAPACKsygv_(&type, "V", "L", &order, a.data(), &order, b.data(), &order, values.data(), work.data(), &length, &info);
+  length = static_cast<PetscBLASInt>(work[0]);
+  work.resize(static_cast<std::size_t>(length));
+  LAPACKsygv_(&type, "V", "L", &order, a.data(), &order, b.data(), &order, values.data(), work.data(), &length, &info);
+  if (info != 0)
+    throw Error("LAPACK dsygv failed on matrices of order " + std::to_string(n) + " (info " + std::to_string(info) + ")");
+  return values;
+}
+
 }  // namespace squeal

@@ -150,10 +150,10 @@ void writeFields(const Analysis& analysis, const std::filesystem::path& folder) 
 }
 
 void writeHdf5(const Analysis& analysis, const std::filesystem::path& folder) {
-  Hdf5File file(analysis.mesh->comm, folder / "results.h5");
+  Hdf5File file(analysis.comm, folder / "results.h5");
   int rank = 0;
-  check(MPI_Comm_rank(analysis.mesh->comm, &rank));
-  file.writeMesh(*analysis.mesh);
+  check(MPI_Comm_rank(analysis.comm, &rank));
+  if (analysis.mesh) file.writeMesh(*analysis.mesh);
   for (const auto& solution : analysis.steady) {
     if (!solution.converged) continue;
     const std::string group = "/steady/friction_" + pointName(solution.at);

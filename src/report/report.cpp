@@ -23,22 +23,10 @@ bool isResult(const std::filesystem::path& name) {
          (begins("modes_") && name.extension() == ".csv");
 }
 
-void onRankZero(MPI_Comm comm, const std::string& option, const auto& action) {
-  int rank = 0;
-  check(MPI_Comm_rank(comm, &rank));
-  std::string failure;
-  if (rank == 0) try {
-      action();
-    } catch (const std::filesystem::filesystem_error& error) {
-      failure = option + ": " + error.what();
-    }
-  failTogether(comm, failure);
-}
-
 }  // namespace
 
 Directory::Directory(MPI_Comm comm) : comm_(comm), path_(directoryOption.get()), staging_(path_ / ".partial") {
-  onRankZero(comm, "option -report_dir", [&] {
+  onFirstRank(comm, "option -report_dir: ", [&] {
     std::filesystem::create_directories(path_);
     for (const auto& entry : std::filesystem::directory_iterator(path_))
       if (isResult(entry.path())) std::filesystem::remove_all(entry.path());
@@ -54,7 +42,7 @@ Directory::~Directory() {
 }
 
 void Directory::commit() const {
-  onRankZero(comm_, "option -report_dir", [&] {
+  onFirstRank(comm_, "option -report_dir: ", [&] {
     std::vector<std::filesystem::path> names;
     for (const auto& entry : std::filesystem::directory_iterator(staging_))
       if (entry.path().filename() != "summary.json") names.push_back(entry.path().filename());
@@ -72,13 +60,13 @@ std::string pointName(const Parameters& at) {
 }
 
 void write(const Analysis& analysis, const Directory& directory) {
-  const MPI_Comm comm = analysis.mesh->comm;
+  const MPI_Comm comm = analysis.comm;
   {
     Stage stage(comm, "report");
     writeTables(analysis, directory.staging());
     if (fieldsOption.get()) {
       writeHdf5(analysis, directory.staging());
-      writeFields(analysis, directory.staging());
+      if (analysis.mesh) writeFields(analysis, directory.staging());
     }
     stage.finish("results in " + directory.path().string());
   }

@@ -67,31 +67,32 @@ Json parametersEntry(const Parameters& at) {
 }  // namespace
 
 void writeSummary(const Analysis& analysis, const std::filesystem::path& folder) {
-  const auto& mesh = *analysis.mesh;
   int ranks = 1, rank = 0;
-  check(MPI_Comm_size(mesh.comm, &ranks));
-  check(MPI_Comm_rank(mesh.comm, &rank));
+  check(MPI_Comm_size(analysis.comm, &ranks));
+  check(MPI_Comm_rank(analysis.comm, &rank));
   Json summary;
   summary["version"] = version();
   const auto& options = resolvedOptions();
-  summary["case"] = std::filesystem::path(options.at("mesh_file")).stem().string();
+  summary["case"] = analysis.mesh ? std::filesystem::path(options.at("mesh_file")).stem().string() : "matrices";
   summary["ranks"] = ranks;
-  summary["nodes"] = mesh.totalNodes;
-  summary["cells"] = mesh.totalCells;
-  summary["contact_nodes"] = analysis.contact.totalNodes;
+  if (analysis.mesh) {
+    summary["nodes"] = analysis.mesh->totalNodes;
+    summary["cells"] = analysis.mesh->totalCells;
+    summary["contact_nodes"] = analysis.contact.totalNodes;
+  }
   summary["method"] = flutter::directWanted() ? "direct" : "reduced";
   summary["dofs"] = analysis.segments.empty() ? 0 : analysis.segments.front().unknowns;
   summary["frictions"] = Json::array();
   const auto points = analysis.sweep.points();
   for (std::size_t i = 0; i < points.size(); ++i) {
     Json entry = parametersEntry(points[i]);
-    entry["steady"] = steadyEntry(analysis.steady[i % analysis.steady.size()]);
+    if (analysis.mesh) entry["steady"] = steadyEntry(analysis.steady[i % analysis.steady.size()]);
     if (const auto* point = analysis.pointAt(points[i])) {
       entry["eigenvalues"] = point->eigenvalues.size();
       entry["worst_backward_error"] = point->worstBackwardError();
       if (point->coveredTo > 0 && std::isfinite(point->coveredTo)) entry["covered_to_hz"] = point->coveredTo / (2 * M_PI);
       if (point->bandTop > 0) {
-        entry["band_top_hz"] = point->bandTop / (2 * M_PI);
+        entry["band_top_hz"] = finite(point->bandTop / (2 * M_PI));  // null: all eigenvalues
         entry["accuracy_asked"] = point->accuracy;
         entry["tolerance_asked"] = point->tolerance;
         entry["worst_error_estimate"] = finite(point->worstErrorEstimate());
@@ -110,6 +111,7 @@ void writeSummary(const Analysis& analysis, const std::filesystem::path& folder)
     entry["open_nodes"] = segment.openNodes;
     entry["dofs"] = segment.unknowns;
     entry["modes"] = segment.modes.angularFrequency.size();
+    if (segment.modes.rounding > 0) entry["modes_rounding_error"] = segment.modes.rounding;
     entry["solves"] = segment.solves;
     if (segment.modes.inertiaCount)
       entry["sturm_count"] = {{"shift_rad2_per_s2", segment.modes.inertiaShift},
@@ -131,7 +133,7 @@ void writeSummary(const Analysis& analysis, const std::filesystem::path& folder)
     file << summary.dump(2) << "\n";
     if (!file.flush()) failure = "option -report_dir: cannot write " + (folder / "summary.json").string();
   }
-  failTogether(mesh.comm, failure);
+  failTogether(analysis.comm, failure);
 }
 
 }  // namespace squeal::report

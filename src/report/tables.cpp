@@ -147,7 +147,7 @@ std::string recipe(MPI_Comm comm) {
 }  // namespace
 
 void writeTables(const Analysis& analysis, const std::filesystem::path& folder) {
-  const MPI_Comm comm = analysis.mesh->comm;
+  const MPI_Comm comm = analysis.comm;
   writeFile(comm, folder / "eigenvalues.csv", eigenvalueTable(analysis));
   writeFile(comm, folder / "stability_map.csv", stabilityMap(analysis));
   for (std::size_t s = 0; s < analysis.segments.size(); ++s) {
@@ -165,7 +165,7 @@ void writeTables(const Analysis& analysis, const std::filesystem::path& folder) 
 }
 
 void writeRecipe(const Analysis& analysis, const std::filesystem::path& folder) {
-  writeFile(analysis.mesh->comm, folder / "options.txt", recipe(analysis.mesh->comm));
+  writeFile(analysis.comm, folder / "options.txt", recipe(analysis.comm));
 }
 
 std::string stabilityTable(const Analysis& analysis) {
@@ -199,9 +199,10 @@ std::string stabilityTable(const Analysis& analysis) {
         backward = std::max(backward, point.worstBackwardError());
         estimate = std::max(estimate, point.worstErrorEstimate());
       }
-    table += formatted(
-        "\nEigenvalues up to %.5g Hz, of the full-order problem: backward errors up to %.1e, estimated errors |ds|/|s| up to %.1e.",
-        analysis.segments.front().points.front().bandTop / (2 * M_PI), backward, estimate);
+    const double top = analysis.segments.front().points.front().bandTop;
+    table += (std::isfinite(top) ? formatted("\nEigenvalues up to %.5g Hz", top / (2 * M_PI)) : "\nAll eigenvalues") +
+             formatted(", of the full-order problem: backward errors up to %.1e, estimated errors |ds|/|s| up to %.1e.", backward,
+                       estimate);
   }
   return table;
 }

@@ -245,12 +245,13 @@ std::vector<DensePair> fullOrder(const flutter::Pencil& pencil, double friction)
 TEST(Sweep, CorrectedReductionIsThatOfTheFullOrder) {
   const Layers layers("-modes_count 60");
   const auto pencil = flutter::affineTerms(layers.model.contact, *layers.system);
-  const auto basis = modes::compute(*layers.system);
+  const auto basis = modes::compute({layers.system->k0(), layers.system->m0(), layers.system->solver()});
   flutter::ReducedProblem reduced(pencil, layers.system->k0(), layers.system->solver(), basis);
   for (const double f : {0.0, 0.2, 0.5}) {
-    std::vector<flutter::PointProblem> problems;
-    problems.push_back({{f}, pencil.with({})});
-    const auto point = std::move(reduced.solve(problems, layers.system->transformation().trial).at(0));
+    std::vector<flutter::PointProblem> problem;
+    problem.push_back({{f}, pencil.with({})});
+    const auto points = reduced.solve(problem, layers.system->transformation().trial);
+    const auto& point = points.at(0);
     const double top = (1 - 1e-6) * point.bandTop;  // the band ends at a free mode, where rounding would decide
     std::vector<Complex> wanted, found;
     for (const auto& pair : fullOrder(pencil, f))

@@ -1,0 +1,134 @@
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include "matrices/formats.hpp"
+#include "matrices/matrices.hpp"
+#include "petsc/gathered.hpp"
+#include "petsc/options.hpp"
+#include "petsc/stages.hpp"
+#include "petsc/text.hpp"
+
+namespace squeal::matrices {
+namespace {
+
+const TextOption folderOption("report", "report_matrices", "",
+                              "folder for the matrices of the problem and an options file that solves it from them; none: off");
+const ChoiceOption formatOption("report", "report_matrices_format", {"petsc", "matrix_market"}, "petsc",
+                                "format of these matrices");
+
+std::string blame() { return "option -report_matrices " + folderOption.get() + ": "; }
+
+std::string roleOf(const flutter::Term& term) { return term.power == 2 ? "mass" : term.power == 1 ? "damping" : "stiffness"; }
+
+/// "stiffness_friction1", and a number where several terms would have the same name.
+std::string nameOf(const flutter::Term& term, std::set<std::string>& taken) {
+  std::string name = roleOf(term);
+  for (const auto& [word, exponent] :
+       {std::pair{"friction", term.frictionExponent}, {"speed", term.speedExponent}, {"damping", term.dampingExponent}})
+    if (exponent != 0) name += formatted("_%s%d", word, exponent);
+  std::string unique = name;
+  for (int i = 2; !taken.insert(unique).second; ++i) unique = name + formatted("_%d", i);
+  return unique;
+}
+
+std::string optionsOf(const std::string& name, const flutter::Term& term, const std::string& file) {
+  std::string text =
+      formatted("-matrices_%s_file %s\n-matrices_%s_role %s\n", name.c_str(), file.c_str(), name.c_str(), roleOf(term).c_str());
+  if (term.factor != 1) text += "-matrices_" + name + "_factor " + shortest(term.factor) + "\n";
+  for (const auto& [word, exponent] :
+       {std::pair{"friction", term.frictionExponent}, {"speed", term.speedExponent}, {"damping", term.dampingExponent}})
+    if (exponent != 0) text += formatted("-matrices_%s_%s_exponent %d\n", name.c_str(), word, exponent);
+  return text;
+}
+
+Entries entriesOf(Mat matrix) {
+  Entries entries;
+  check(MatGetSize(matrix, &entries.rows, &entries.columns));
+  for (PetscInt i = 0; i < entries.rows; ++i) {
+    PetscInt count = 0;
+    const PetscInt* columns = nullptr;
+    const PetscScalar* values = nullptr;
+    check(MatGetRow(matrix, i, &count, &columns, &values));
+    for (PetscInt k = 0; k < count; ++k) entries.add(i, columns[k], values[k]);
+    check(MatRestoreRow(matrix, i, &count, &columns, &values));
+  }
+  return entries;
+}
+
+void writeMatrix(Mat matrix, const std::filesystem::path& path) {
+  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(matrix));
+  if (formatOption.get() == "matrix_market") {
+    const OwnedMat whole = onRankZero(matrix);
+    onFirstRank(comm, blame(), [&] { writeMatrixMarket(path, entriesOf(whole)); });
+    return;
+  }
+  onFirstRank(comm, blame(), [&] {  // PETSc would end the run with its own words
+    if (!std::ofstream(path)) throw Error("cannot write " + path.string());
+  });
+  OwnedViewer viewer;
+  check(PetscViewerCreate(comm, viewer.out()));
+  check(PetscViewerSetType(viewer, PETSCVIEWERBINARY));
+  check(PetscViewerFileSetMode(viewer, FILE_MODE_WRITE));
+  check(PetscViewerBinarySkipInfo(viewer));
+  check(PetscViewerFileSetName(viewer, path.c_str()));
+  check(MatView(matrix, viewer));
+}
+
+/// What was given to the stages that matrices go through.
+std::string carriedOptions() {
+  const std::set<std::string> stages{"modes", "flutter"}, ofMesh{"flutter_pressure", "flutter_friction_damping"};
+  std::string text;
+  for (const auto& [name, value] : givenOptions()) {
+    const auto matches = [&, &name = name](const auto* option) { return stages.count(option->stage) && option->matches(name); };
+    const auto begins = [&, &name = name](const auto* solver) {
+      return stages.count(solver->stage) && name.rfind(solver->prefix, 0) == 0;
+    };
+    const auto options = Option::all();
+    const auto solvers = SolverPrefix::all();
+    if (!ofMesh.count(name) &&
+        (std::any_of(options.begin(), options.end(), matches) || std::any_of(solvers.begin(), solvers.end(), begins)))
+      text += "-" + name + (value.empty() ? "" : " " + value) + "\n";
+  }
+  return text;
+}
+
+void requireOnePencil(const flutter::Pencil& pencil, const flutter::Sweep& sweep, std::size_t steadyPoints) {
+  if (steadyPoints != sweep.steadyPoints().size())
+    throw Error(
+        "option -report_matrices: the contact is not the same at all points of the sweep; export one -flutter_friction, "
+        "-flutter_speed and -flutter_pressure at a time");
+  if (pencil.terms().size() > pencil.affineCount() && steadyPoints > 1)
+    throw Error(
+        "option -report_matrices: some matrices depend on the steady state of each point of the sweep (friction damping, turning "
+        "slip); export one -flutter_friction, -flutter_speed and -flutter_pressure at a time");
+}
+
+}  // namespace
+
+bool exportWanted() { return !folderOption.get().empty(); }
+
+void exportPencil(const flutter::Pencil& pencil, const flutter::Sweep& sweep, std::size_t steadyPoints) {
+  requireOnePencil(pencil, sweep, steadyPoints);
+  Stage stage(pencil.comm(), "matrices");
+  const std::filesystem::path folder = folderOption.get();
+  onFirstRank(pencil.comm(), blame(), [&] { std::filesystem::create_directories(folder); });
+  std::set<std::string> taken;
+  std::string text = "# Matrices of one problem, for squeal -options_file; the rows are in the order of the run that wrote them\n";
+  for (const auto& term : pencil.terms()) {
+    const std::string name = nameOf(term, taken);
+    const auto path = folder / (name + (formatOption.get() == "petsc" ? ".petsc" : ".mtx"));
+    writeMatrix(term.matrix, path);
+    text += optionsOf(name, term, path.string());
+  }
+  text += carriedOptions();
+  onFirstRank(pencil.comm(), blame(), [&] {
+    std::ofstream file(folder / "options.txt");
+    file << text;
+    if (!file.flush()) throw Error("cannot write " + (folder / "options.txt").string());
+  });
+  stage.finish(formatted("%zu matrices in %s", pencil.terms().size(), folder.c_str()));
+}
+
+}  // namespace squeal::matrices

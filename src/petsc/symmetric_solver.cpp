@@ -1,0 +1,75 @@
+#include "petsc/symmetric_solver.hpp"
+
+#include "petsc/options.hpp"
+#include "petsc/stages.hpp"
+#include "petsc/text.hpp"
+
+namespace squeal {
+namespace {
+
+const SolverPrefix factorisation("modes", "modes_st_",
+                                 "SLEPc ST, KSP and PC with the factorisation of K (MUMPS LDLt): st_type, ksp_*, pc_*, …");
+
+}  // namespace
+
+KSP SymmetricSolver::get() const {
+  if (solver_) {
+    factorise();
+    return solver_;
+  }
+  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(matrix_));
+  Stage stage(comm, "factor");
+  create();
+  factorise();
+  PetscInt size = 0;
+  check(MatGetSize(matrix_, &size, nullptr));
+  stage.finish(formatted("%s: %d unknowns", name_.c_str(), static_cast<int>(size)));
+  return solver_;
+}
+
+void SymmetricSolver::create() const {
+  check(KSPCreate(PetscObjectComm(reinterpret_cast<PetscObject>(matrix_)), solver_.out()));
+  check(KSPSetOptionsPrefix(solver_, factorisation.prefix.c_str()));
+  check(KSPSetOperators(solver_, matrix_, matrix_));
+  check(KSPSetType(solver_, KSPPREONLY));
+  PC pc = nullptr;
+  check(KSPGetPC(solver_, &pc));
+  check(PCSetType(pc, PCCHOLESKY));
+  check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  check(KSPSetFromOptions(solver_));
+}
+
+/// Does nothing where the factorisation is at hand.
+void SymmetricSolver::factorise() const {
+  PC pc = nullptr;
+  check(KSPSetOperators(solver_, matrix_, matrix_));
+  check(KSPSetUp(solver_));
+  check(KSPGetPC(solver_, &pc));
+  PCFailedReason failed;
+  check(PCGetFailedReason(pc, &failed));
+  if (failed != PC_NOERROR)
+    throw Error("the " + name_ + " cannot be factorised (options -modes_st_pc_*): is a body loose, or is memory short?");
+}
+
+void rejectUnusedSolverOptions() { factorisation.rejectUnused(); }
+
+Inertia inertia(Mat matrix, double zero) {
+  Mat factor = nullptr;
+  check(MatGetFactor(matrix, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &factor));
+  const OwnedMat owner(factor);
+  check(MatMumpsSetIcntl(factor, 13, 1));  // ScaLAPACK on the root would hide its pivots' signs
+  check(MatMumpsSetIcntl(factor, 24, 1));
+  if (zero > 0) check(MatMumpsSetCntl(factor, 3, zero));
+  MatFactorInfo info;
+  check(MatFactorInfoInitialize(&info));
+  check(MatCholeskyFactorSymbolic(factor, matrix, nullptr, &info));
+  check(MatCholeskyFactorNumeric(factor, matrix, &info));
+  MatFactorError failed = MAT_FACTOR_NOERROR;
+  check(MatFactorGetError(factor, &failed));
+  if (failed != MAT_FACTOR_NOERROR) throw Error("the inertia of a symmetric matrix: MUMPS fails; is memory short?");
+  Inertia found;
+  check(MatGetInertia(factor, &found.negative, &found.zero, nullptr));
+  return found;
+}
+
+}  // namespace squeal

@@ -1,0 +1,37 @@
+#pragma once
+/// Symmetric matrices by MUMPS: solutions with one LDLᵀ factorisation, and inertia.
+#include <string>
+
+#include "petsc/owned.hpp"
+
+namespace squeal {
+
+/// The direct solver of a symmetric positive definite matrix (prefix -modes_st_), factorised on first use.
+class SymmetricSolver {
+ public:
+  /// Borrows the matrix for its life; `name` stands for it in messages.
+  SymmetricSolver(Mat matrix, std::string name) : matrix_(matrix), name_(std::move(name)) {}
+  /// Collective. The solver, factorised. (An EPS that has used it leaves it without: call again.) Error: the factorisation fails.
+  KSP get() const;
+
+ private:
+  void create() const;
+  void factorise() const;
+  Mat matrix_;
+  std::string name_;
+  mutable OwnedKSP solver_;
+};
+
+/// Unused -modes_st_* options are typing errors once a solver has been configured.
+void rejectUnusedSolverOptions();
+
+/// Numbers of eigenvalues of a symmetric matrix by sign (Sylvester).
+struct Inertia {
+  PetscInt negative = 0, zero = 0;
+};
+
+/// Collective. From the pivots of an LDLᵀ factorisation. Pivots below `zero` times the norm of the scaled matrix count as zero;
+/// 0: as MUMPS decides, some 1e-21. Error: the factorisation fails.
+Inertia inertia(Mat matrix, double zero = 0);
+
+}  // namespace squeal
