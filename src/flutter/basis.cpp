@@ -66,6 +66,16 @@ PetscInt Basis::localRows() const {
   return rows;
 }
 
+OwnedBV Basis::times(Mat matrix, PetscInt first, PetscInt last) const {
+  const OwnedBV some = columnsLike(columns_, last - first);
+  OwnedBV product = columnsLike(columns_, last - first);
+  check(BVSetActiveColumns(columns_, first, last));
+  check(BVCopy(columns_, some));
+  check(BVSetActiveColumns(columns_, 0, size_));
+  check(BVMatMult(some, matrix, product));
+  return product;
+}
+
 MPI_Comm Basis::comm() const { return PetscObjectComm(reinterpret_cast<PetscObject>(columns_.get())); }
 
 /// K0⁻¹ of all columns at once.
@@ -135,6 +145,7 @@ Block Basis::scaled(const Block& residuals) const {
 /// The largest ratio of the energy norm to that of the diagonal among all combinations of the columns.
 double Basis::ratio(const Block& residuals, const Block& solutions) const {
   const PetscInt n = residuals.columns;
+  if (n == 0) return 0;
   const DenseMatrix combinations = orthonormalising(transposedProduct(comm(), residuals, scaled(residuals)), n, 1e-8);
   const auto kept = static_cast<PetscInt>(combinations.size()) / n;
   if (kept == 0) return 0;
@@ -142,6 +153,18 @@ double Basis::ratio(const Block& residuals, const Block& solutions) const {
   return std::sqrt(symmetricEigen(energy, static_cast<int>(kept)).back());
 }
 
-double Basis::energyRatio(const Block& residuals) { return residuals.columns > 0 ? ratio(residuals, solve(residuals)) : 0; }
+std::vector<double> Basis::energyRatios(const std::vector<Block>& blocks) {
+  Block all(localRows());
+  for (const auto& block : blocks) append(all, block);
+  const Block solved = solve(all);
+  std::vector<double> ratios;
+  PetscInt first = 0;
+  for (const auto& block : blocks) {
+    Block solutions(block.rows);
+    for (PetscInt j = 0; j < block.columns; ++j) solutions.append(solved.column(first++));
+    ratios.push_back(ratio(block, solutions));
+  }
+  return ratios;
+}
 
 }  // namespace squeal::flutter

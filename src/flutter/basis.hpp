@@ -27,13 +27,16 @@ class Basis {
   /// V ← V · combinations (size() × count), which has orthonormal columns.
   void combine(const DenseMatrix& combinations, PetscInt count);
 
+  /// Collective. A times columns [first, last) of V.
+  OwnedBV times(Mat matrix, PetscInt first, PetscInt last) const;
   /// Of columns of length n; the weighted norm is √(rᵀ diag(K0)⁻¹ r).
   const Sketch& sketch() const { return *sketch_; }
   /// Sketch of V.
   const DenseMatrix& sketched() const { return sketched_; }
-  /// Collective. The largest ratio of the energy norm √(rᵀ K0⁻¹ r) to √(rᵀ diag(K0)⁻¹ r) among the combinations of columns, which are
-  /// solved for: it turns the second norm, which costs nothing, into an estimate of the first for columns like these. 0: no columns.
-  double energyRatio(const Block& residuals);
+  /// Collective. For each block of columns, all solved for together, the largest ratio of the energy norm √(rᵀ K0⁻¹ r) to
+  /// √(rᵀ diag(K0)⁻¹ r) among its combinations: it turns the second norm, which costs nothing, into an estimate of the first for columns
+  /// like these. 0: no columns.
+  std::vector<double> energyRatios(const std::vector<Block>& blocks);
   /// That of the columns last added.
   double lastEnergyRatio() const { return ratio_; }
   /// Columns solved for so far.

@@ -9,6 +9,11 @@
 
 namespace squeal::flutter {
 
+void append(Block& block, const Block& other) {
+  block.values.insert(block.values.end(), other.values.begin(), other.values.end());
+  block.columns += other.columns;
+}
+
 ReadColumns::ReadColumns(BV bv) : bv_(bv) {
   check(BVGetSizes(bv, &rows_, nullptr, &columns_));
   check(BVGetArrayRead(bv, &values_));

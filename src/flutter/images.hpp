@@ -23,6 +23,9 @@ struct Block {
   }
 };
 
+/// Adds the columns of another block.
+void append(Block& block, const Block& other);
+
 /// The local rows of a BV of type svec for the life of the object: column-major, contiguous.
 class ReadColumns {
  public:

@@ -75,17 +75,6 @@ void ProjectedTerms::extend() {
   for (auto& part : parts_) extend(part);
 }
 
-/// A times columns [first, last) of V.
-OwnedBV ProjectedTerms::times(Mat matrix, PetscInt first, PetscInt last) const {
-  const OwnedBV some = columnsLike(basis_.columns(), last - first);
-  OwnedBV product = columnsLike(basis_.columns(), last - first);
-  check(BVSetActiveColumns(basis_.columns(), first, last));
-  check(BVCopy(basis_.columns(), some));
-  check(BVSetActiveColumns(basis_.columns(), 0, basis_.size()));
-  check(BVMatMult(some, matrix, product));
-  return product;
-}
-
 void ProjectedTerms::extend(Part& part) const {
   const PetscInt old = part.columns, size = basis_.size();
   if (old == size) return;
@@ -94,11 +83,11 @@ void ProjectedTerms::extend(Part& part) const {
     sketch.insert(sketch.end(), fresh.begin(), fresh.end());
   };
   {
-    const OwnedBV product = times(part.term.matrix, old, size);
+    const OwnedBV product = basis_.times(part.term.matrix, old, size);
     part.image.append(ReadColumns(product).values(), size - old);
     sketchOf(product, part.sketch);
   }
-  if (part.transposed) sketchOf(times(part.transposed, old, size), part.leftSketch);
+  if (part.transposed) sketchOf(basis_.times(part.transposed, old, size), part.leftSketch);
   const ReadColumns all(basis_.columns());
   const auto right = part.image.transposedProduct(basis_.comm(), all, 0, size, old, size);  // Vᵀ (A V_new)
   const auto below =

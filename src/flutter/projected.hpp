@@ -53,7 +53,6 @@ class ProjectedTerms {
     PetscInt columns = 0;    // of V held so far
   };
   void extend(Part& part) const;
-  OwnedBV times(Mat matrix, PetscInt first, PetscInt last) const;
   const Basis& basis_;
   std::vector<Part> parts_;
 };

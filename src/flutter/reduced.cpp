@@ -1,9 +1,5 @@
 #include "flutter/reduced.hpp"
 
-#include <petscsys.h>  // first: the next header needs it
-
-#include <petscblaslapack.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -66,30 +62,6 @@ Block principal(MPI_Comm comm, const Block& columns, double small) {
   return kept;
 }
 
-/// Orthonormal vectors that hold the columns (m high) but for parts of length `small`.
-DenseMatrix principalDirections(DenseMatrix columns, int rows, double small) {
-  PetscBLASInt m = rows, n = static_cast<PetscBLASInt>(columns.size()) / m, few = std::min(m, n), one = 1, query = -1, info = 0;
-  std::vector<double> sizes(static_cast<std::size_t>(few)), left(static_cast<std::size_t>(m * few)), work(1);
-  const auto call = [&](PetscBLASInt length) {
-    LAPACKgesvd_("S", "N", &m, &n, columns.data(), &m, sizes.data(), left.data(), &m, nullptr, &one, work.data(), &length, &info);
-  };
-  call(query);
-  work.resize(static_cast<std::size_t>(work[0]));
-  call(static_cast<PetscBLASInt>(work.size()));
-  if (info != 0) throw Error("LAPACK dgesvd failed on the vectors of -reduction_basis pod (info " + std::to_string(info) + ")");
-  const auto kept = std::count_if(sizes.begin(), sizes.end(), [&](double size) { return size > small; });
-  left.resize(static_cast<std::size_t>(m * kept));
-  return left;
-}
-
-/// Coordinates of the same vector in a basis V · directions.
-std::vector<std::complex<double>> turned(const DenseMatrix& directions, std::size_t m, const std::vector<std::complex<double>>& q) {
-  std::vector<std::complex<double>> result(directions.size() / m);
-  for (std::size_t j = 0; j < result.size(); ++j)
-    for (std::size_t i = 0; i < q.size(); ++i) result[j] += directions[j * m + i] * q[i];
-  return result;
-}
-
 /// For an undamped problem, pairs that are −s̄ and the conjugate vectors of the pair before: their errors are the same.
 std::vector<bool> mirrorImages(const std::vector<DensePair>& pairs, bool damped) {
   std::vector<bool> mirrored(pairs.size(), false);
@@ -116,16 +88,13 @@ Block unitColumns(const Block& columns, const std::vector<double>& squares) {
   return units;
 }
 
-void append(Block& block, const Block& other) {
-  for (PetscInt j = 0; j < other.columns; ++j) block.append(other.column(j));
-}
-
 }  // namespace
 
 /// A point on its way.
 struct ReducedProblem::Work {
   const PointProblem* point;
   ProjectedTerms ownTerms;
+  bool damped;
   std::array<double, 3> norms;        // of K̄, Z̄, M̄
   std::vector<DensePair> pairs;       // of the band, with left vectors
   std::vector<double> backwardError;  // [pair]
@@ -151,30 +120,28 @@ ReducedProblem::ReducedProblem(const Pencil& pencil, Mat stiffness, KSP solver, 
 /// K0⁻¹ k φ_i and K0⁻¹ kᵀφ_i for the friction forces k on the free modes of the band at their own frequencies: the change of the right and
 /// left vectors with friction, to first order in it and to lowest order in the frequency.
 void ReducedProblem::addStaticResponses(const Pencil& pencil, const modes::Modes& modes) {
-  std::vector<DensePair> free;
-  for (std::size_t i = 0; i < modes.angularFrequency.size() && modes.angularFrequency[i] <= bandTop_; ++i) {
-    free.push_back(
-        {{0, modes.angularFrequency[i]}, std::vector<std::complex<double>>(static_cast<std::size_t>(basis_.size())), {}});
-    free.back().q[i] = 1;
-  }
-  for (const Side side : {Side::right, Side::left}) {
-    std::vector<Term> friction;
-    for (const auto& term : pencil.terms()) {
-      if (term.frictionExponent == 0) continue;
-      friction.push_back(term.share());
-      if (side == Side::left) check(MatTranspose(term.matrix, MAT_INITIAL_MATRIX, friction.back().matrix.out()));
+  const auto& w = modes.angularFrequency;
+  const auto count = static_cast<PetscInt>(std::upper_bound(w.begin(), w.end(), bandTop_) - w.begin());
+  Block forces(basis_.localRows());
+  for (const bool transposed : {false, true})
+    for (const bool imaginary : {false, true}) {  // (iω)^power
+      Block part(basis_.localRows(), count);
+      for (const auto& term : pencil.terms()) {
+        if (term.frictionExponent == 0 || (term.power == 1) != imaginary) continue;
+        OwnedMat matrix = term.matrix.share();
+        if (transposed) check(MatTranspose(term.matrix, MAT_INITIAL_MATRIX, matrix.out()));
+        const OwnedBV images = basis_.times(matrix, 0, count);
+        const ReadColumns columns(images);
+        for (PetscInt j = 0; j < count; ++j) {
+          const double omega = w[static_cast<std::size_t>(j)];
+          const double factor = term.factor * (term.power == 0 ? 1 : term.power == 1 ? omega : -omega * omega);
+          for (PetscInt i = 0; i < part.rows; ++i) part.column(j)[i] += factor * columns.values()[j * part.rows + i];
+        }
+      }
+      append(forces, unitColumns(part, squaredNorms(basis_.sketch().of(part.values.data(), count)).euclidean));
     }
-    if (friction.empty()) return;
-    for (auto& pair : free) pair.q.resize(static_cast<std::size_t>(basis_.size()));
-    const Pencil forces(std::move(friction));
-    const Coordinates pairs(pointers(free), forces.hasPower(1));
-    Block responses(basis_.localRows(), pairs.columns);
-    ProjectedTerms(basis_, forces, 0, forces.terms().size()).addTo({1, 1, 1, 1}, pairs, responses);
-    const auto squares = squaredNorms(basis_.sketch().of(responses.values.data(), responses.columns)).euclidean;
-    basis_.add(principal(basis_.comm(), unitColumns(responses, squares), resolution));
-    if (side == Side::right) rightRatio_ = basis_.lastEnergyRatio();
-  }
-  terms_.extend();
+  if (basis_.add(principal(basis_.comm(), forces, resolution)) > 0) terms_.extend();
+  rightRatio_ = basis_.lastEnergyRatio();
 }
 
 /// Brings what depends on the basis up to it.
@@ -191,29 +158,31 @@ Block ReducedProblem::residuals(const Work& work, const Coordinates& coordinates
   return result;
 }
 
-/// The residual P(s)ᴴ V y of one pair, real and imaginary part.
-Block ReducedProblem::leftResidual(const Work& work, const DensePair& pair) const {
-  Block result(basis_.localRows());
-  OwnedVec real, imaginary, sum[2], part;
-  check(MatCreateVecs(work.point->pencil.terms()[0].matrix, real.out(), nullptr));
-  for (auto* vec : {&imaginary, &sum[0], &sum[1], &part}) check(VecDuplicate(real, vec->out()));
-  expand(pair.left, real, imaginary);
-  check(VecZeroEntries(sum[0]));
-  check(VecZeroEntries(sum[1]));
+/// Columns of the residual P(s)ᴴ V y of one pair.
+Block ReducedProblem::leftResidual(const Work& work, const Coordinates& coordinates) const {
+  const auto& pair = *coordinates.pairs.at(0);
+  OwnedVec vectors[2], sums[2], part;
+  check(MatCreateVecs(work.point->pencil.terms()[0].matrix, part.out(), nullptr));
+  for (auto* list : {vectors, sums})
+    for (int i = 0; i < 2; ++i) {
+      check(VecDuplicate(part, list[i].out()));
+      check(VecZeroEntries(list[i]));
+    }
+  expand(pair.left, vectors[0], vectors[1]);
   for (const auto& term : work.point->pencil.terms()) {
-    const std::complex<double> c = term.coefficient(work.point->at) * std::pow(std::conj(pair.s), term.power);
-    for (const bool second : {false, true}) {
-      const std::complex<double> factor = second ? c * std::complex<double>(0, 1) : c;
-      check(MatMultTranspose(term.matrix, second ? imaginary : real, part));
-      check(VecAXPY(sum[0], factor.real(), part));
-      check(VecAXPY(sum[1], factor.imag(), part));
+    std::complex<double> c = term.coefficient(work.point->at) * std::pow(std::conj(pair.s), term.power);
+    for (PetscInt i = 0; i < coordinates.columns; ++i, c *= std::complex<double>(0, 1)) {
+      check(MatMultTranspose(term.matrix, vectors[i], part));
+      check(VecAXPY(sums[0], c.real(), part));
+      check(VecAXPY(sums[1], c.imag(), part));
     }
   }
-  for (const auto& vec : sum) {
+  Block result(basis_.localRows());
+  for (PetscInt i = 0; i < coordinates.columns; ++i) {
     const PetscScalar* entries = nullptr;
-    check(VecGetArrayRead(vec, &entries));
+    check(VecGetArrayRead(sums[i], &entries));
     result.append(entries);
-    check(VecRestoreArrayRead(vec, &entries));
+    check(VecRestoreArrayRead(sums[i], &entries));
   }
   return result;
 }
@@ -245,7 +214,7 @@ SquaredNorms ReducedProblem::residualNorms(const Work& work, const Coordinates& 
 /// Errors of the pairs of a point.
 void ReducedProblem::judge(Work& work, const DenseProblem& problem) const {
   const auto& pairs = work.pairs;
-  const Coordinates coordinates(pointers(pairs), !problem.damping.empty());
+  const Coordinates coordinates(pointers(pairs), work.damped);
   const auto right = residualNorms(work, coordinates, Side::right), left = residualNorms(work, coordinates, Side::left);
   DenseMatrix vectors(static_cast<std::size_t>(2 * Sketch::size * coordinates.columns));
   multiplyAdd(basis_.sketched().data(), 2 * Sketch::size, basis_.size(), coordinates.times(Side::right, 0, 1), vectors);
@@ -264,8 +233,8 @@ void ReducedProblem::judge(Work& work, const DenseProblem& problem) const {
 
 /// Directions that hold the residuals of the pairs that are not good enough, each but for `resolution` of it, or for what is good
 /// enough.
-Block ReducedProblem::directions(const Work& work, bool damped) const {
-  const auto mirrored = mirrorImages(work.pairs, damped);
+Block ReducedProblem::directions(const Work& work) const {
+  const auto mirrored = mirrorImages(work.pairs, work.damped);
   std::vector<const DensePair*> bad;
   std::vector<double> weights;
   for (std::size_t j = 0; j < work.pairs.size(); ++j)
@@ -273,7 +242,7 @@ Block ReducedProblem::directions(const Work& work, bool damped) const {
       bad.push_back(&work.pairs[j]);
       weights.push_back(std::min(1.0, 2 * resolution * tooLarge));
     }
-  const Coordinates coordinates(bad, damped);
+  const Coordinates coordinates(bad, work.damped);
   const Block columns = residuals(work, coordinates);
   const auto squares = perPair(coordinates, squaredNorms(basis_.sketch().of(columns.values.data(), columns.columns)).euclidean);
   Block weighted(columns.rows);
@@ -295,32 +264,31 @@ void ReducedProblem::solveDense(const std::vector<Work*>& open) {
   for (std::size_t i = 0; i < open.size(); ++i) {
     open[i]->pairs = std::move(solved[i]);
     judge(*open[i], problems[i]);
-    open[i]->wanted = directions(*open[i], !problems[i].damping.empty());
+    open[i]->wanted = directions(*open[i]);
   }
 }
 
-/// Solves for the worst residuals of all points. If that shows the estimates to be too small, those that are no longer good enough are
-/// left to do.
+/// Solves for the residuals of the pair with the largest estimate of all points. If that shows the estimates to be too small, those that are
+/// no longer good enough are left to do.
 std::vector<ReducedProblem::Work*> ReducedProblem::unconfirmed(std::vector<Work>& works) {
-  Block worst(basis_.localRows()), worstLeft(basis_.localRows());
-  for (auto& work : works) {
-    std::size_t j = 0;
-    for (std::size_t k = 0; k < work.pairs.size(); ++k)
-      if (errorOf(work, k) > errorOf(work, j)) j = k;
-    if (work.pairs.empty() || errorOf(work, j) < 1e-3 * toleranceOption.get()) continue;  // next to nothing, or rounding
-    work.ownTerms.extend();                                                               // the basis may have grown since
-    work.pairs[j].q.resize(static_cast<std::size_t>(basis_.size()));
-    work.pairs[j].left.resize(static_cast<std::size_t>(basis_.size()));
-    append(worst, residuals(work, Coordinates({&work.pairs[j]}, true)));
-    append(worstLeft, leftResidual(work, work.pairs[j]));
-  }
-  rightRatio_ = std::max(rightRatio_, basis_.energyRatio(worst));
-  leftRatio_ = std::max(leftRatio_, basis_.energyRatio(worstLeft));
   std::vector<Work*> open;
+  Work* worst = nullptr;
+  std::size_t pair = 0;
+  double largest = 1e-3 * toleranceOption.get();  // below: next to nothing, or rounding
+  for (auto& work : works)
+    for (std::size_t j = 0; j < work.pairs.size(); ++j)
+      if (const double error = errorOf(work, j); std::isfinite(error) && error > largest) worst = &work, pair = j, largest = error;
+  if (!worst) return open;
+  worst->ownTerms.extend();  // the basis may have grown since
+  for (auto* vector : {&worst->pairs[pair].q, &worst->pairs[pair].left}) vector->resize(static_cast<std::size_t>(basis_.size()));
+  const Coordinates coordinates({&worst->pairs[pair]}, worst->damped);
+  const auto ratios = basis_.energyRatios({residuals(*worst, coordinates), leftResidual(*worst, coordinates)});
+  rightRatio_ = std::max(rightRatio_, ratios[0]);
+  leftRatio_ = std::max(leftRatio_, ratios[1]);
   for (auto& work : works) {
-    double largest = 0;
-    for (std::size_t j = 0; j < work.pairs.size(); ++j) largest = std::max(largest, excess(work, j));
-    if (largest > 1) open.push_back(&work);
+    double tooLarge = 0;
+    for (std::size_t j = 0; j < work.pairs.size(); ++j) tooLarge = std::max(tooLarge, excess(work, j));
+    if (tooLarge > 1) open.push_back(&work);
   }
   return open;
 }
@@ -332,6 +300,7 @@ std::vector<FrictionPoint> ReducedProblem::solve(const std::vector<PointProblem>
     const auto& pencil = point.pencil;
     works.push_back({&point,
                      ProjectedTerms(basis_, pencil, pencil.affineCount(), pencil.terms().size()),
+                     pencil.hasPower(1),
                      {pencil.norm(0, point.at), pencil.norm(1, point.at), pencil.norm(2, point.at)},
                      {},
                      {},
@@ -388,32 +357,6 @@ DenseProblem ReducedProblem::project(const PointProblem& point) const {
 
 bool ReducedProblem::inBand(std::complex<double> s) const {
   return std::abs(s) <= bandTop_ && -s.real() <= bandDampingOption.get() * std::abs(s);
-}
-
-/// Turns the basis to the principal directions of all vectors found so far.
-void ReducedProblem::compress() {
-  constexpr double left = 1e-9;  // of a unit vector; what is lost, corrections bring back
-  const PetscInt old = basis_.size();
-  const auto m = static_cast<std::size_t>(old);
-  DenseMatrix vectors;
-  for (const auto& pairs : solved_)
-    for (const auto& pair : pairs)
-      for (const bool imaginary : {false, true}) {
-        for (std::size_t i = 0; i < m; ++i) {
-          const std::complex<double> entry = i < pair.q.size() ? pair.q[i] : 0;
-          vectors.push_back(imaginary ? entry.imag() : entry.real());
-        }
-      }
-  const DenseMatrix directions = principalDirections(vectors, static_cast<int>(old), left);
-  const auto count = static_cast<PetscInt>(directions.size() / m);
-  basis_.combine(directions, count);
-  terms_.combine(directions);
-  highestMode_ = 0;  // the modes are no longer in the basis
-  for (auto& pairs : solved_)
-    for (auto& pair : pairs) {
-      pair.q = turned(directions, m, pair.q);
-      pair.left = turned(directions, m, pair.left);
-    }
 }
 
 /// V q.

@@ -41,12 +41,12 @@ class ReducedProblem {
   void addStaticResponses(const Pencil& pencil, const modes::Modes& modes);
   void extend(const std::vector<Work*>& works);
   Block residuals(const Work& work, const Coordinates& coordinates) const;
-  Block leftResidual(const Work& work, const DensePair& pair) const;
+  Block leftResidual(const Work& work, const Coordinates& pair) const;
   SquaredNorms residualNorms(const Work& work, const Coordinates& coordinates, Side side) const;
   double errorOf(const Work& work, std::size_t pair) const;
   double excess(const Work& work, std::size_t pair) const;
   void judge(Work& work, const DenseProblem& problem) const;
-  Block directions(const Work& work, bool damped) const;
+  Block directions(const Work& work) const;
   void solveDense(const std::vector<Work*>& open);
   std::vector<Work*> unconfirmed(std::vector<Work>& works);
   FrictionPoint result(Work& work, Mat trial);
