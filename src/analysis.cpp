@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flutter/influence.hpp"
 #include "modes/benchmark.hpp"
 #include "petsc/options.hpp"
 #include "petsc/stages.hpp"
@@ -142,8 +143,22 @@ std::vector<flutter::Term> termsOf(const Analysis& analysis, const contact::Asso
   return flutter::pointTerms(analysis.contact, system, solution, change);
 }
 
+/// Friction work of the shapes and, if wanted, the sensitivities of their eigenvalues.
+void examineShapes(const Analysis& analysis, const contact::AssociatedSystem& system, const steady::Solution& solution,
+                   const flutter::Pencil& pencil, const flutter::StartSpace& start, flutter::Influences& influences,
+                   flutter::FrictionPoint& point) {
+  OwnedMat prestress;
+  if (elasticity::prestressWanted() && !point.shapes.empty())
+    prestress = elasticity::geometricStiffness(*analysis.mesh, solution.displacement);
+  for (auto& shape : point.shapes)
+    shape.frictionWork = flutter::frictionWork(analysis.contact, analysis.bodies, solution, point.eigenvalues[shape.index].s,
+                                               flutter::ComplexVector::copied(shape.real, shape.imaginary), prestress);
+  if (flutter::sensitivitiesWanted()) influences.derive(point, pencil, system, solution, start, prestress);
+}
+
 /// Modes of one active set, then flutter at the points from `first` to `last` that share it.
-ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::size_t last, CurrentSystem& current, double& floor) {
+ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::size_t last, CurrentSystem& current,
+                            flutter::Influences& influences, double& floor) {
   const auto& closed = analysis.steady[first].closed;
   OwnedMat prestress;
   std::unique_ptr<contact::AssociatedSystem> stressed;
@@ -160,6 +175,8 @@ ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::si
   const bool direct = flutter::directWanted();
   if (direct) contact::rejectUnusedSolverOptions();
   std::unique_ptr<flutter::ReducedProblem> reduced;
+  modes::Modes start;  // of the left vectors with the direct method
+  if (direct && flutter::sensitivitiesWanted()) start = modes::compute(system);
   if (!direct) {
     segment.modes = modes::compute(system);
     if (benchmarkWanted.get()) floor = modes::floorSeconds(system);
@@ -181,6 +198,8 @@ ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::si
     pencil.setPointTerms(termsOf(analysis, system, analysis.steady[i], analysis.steady[first], prestress));
     auto& point = segment.points[i - first];
     point = direct ? flutter::solveDirect(pencil, at, trial) : reduced->solve(at, trial);
+    examineShapes(analysis, system, analysis.steady[i], pencil,
+                  direct ? flutter::StartSpace{start.vectors, {}} : reduced->space(at), influences, point);
     stage.finish(formatted(
         "%s: %d of %d eigenvalues unstable%s, worst backward error %.1e%s", pointText(at).c_str(), point.unstableCount(),
         point.bandCount(), point.bandTop > 0 ? formatted(" to %.4g Hz", point.bandTop / (2 * M_PI)).c_str() : "",
@@ -218,6 +237,7 @@ Analysis analyse(MPI_Comm comm) {
   CurrentSystem system(analysis);
   analysis.steady = steadySweep(analysis, points, system);
   if (analysis.contact.totalNodes > 0 && steady::uniquenessWanted()) analysis.uniqueness = examineUniqueness(analysis, points);
+  flutter::Influences influences(*analysis.mesh, analysis.bodies, analysis.contact);
   for (std::size_t first = 0, last = 0; first < points.size(); first = last) {
     last = first + 1;
     const auto& start = analysis.steady[first];
@@ -225,7 +245,7 @@ Analysis analyse(MPI_Comm comm) {
     while (last < points.size() && analysis.steady[last].converged &&
            sameOnAllRanks(comm, analysis.steady[last].closed, start.closed))
       ++last;
-    analysis.segments.push_back(flutterSegment(analysis, first, last, system, analysis.modesFloorSeconds));
+    analysis.segments.push_back(flutterSegment(analysis, first, last, system, influences, analysis.modesFloorSeconds));
   }
   return analysis;
 }

@@ -7,7 +7,9 @@
 #include "flutter/basis.hpp"
 #include "flutter/dense.hpp"
 #include "flutter/images.hpp"
+#include "flutter/left.hpp"
 #include "flutter/pencil.hpp"
+#include "flutter/sensitivity.hpp"
 #include "flutter/terms.hpp"
 #include "modes/modes.hpp"
 
@@ -24,6 +26,8 @@ struct Eigenvalue {
 struct Shape {
   std::size_t index;  ///< into Point::eigenvalues
   OwnedVec real, imaginary;
+  ComplexVector unknowns;            ///< the same d in the unknowns x
+  std::vector<double> frictionWork;  ///< [owned contact node] what friction there adds to the growth rate, 1/s: frictionWork()
 };
 
 /// Everything found at one friction and speed.
@@ -31,6 +35,7 @@ struct FrictionPoint {
   Parameters at;
   std::vector<Eigenvalue> eigenvalues;  ///< Im s ≥ 0, by ascending frequency
   std::vector<Shape> shapes;            ///< of the fastest growing ones
+  std::vector<Sensitivity> sensitivities;  ///< [shape]; empty unless `-flutter_sensitivities`
   double bandTop = 0;                   ///< rad/s: eigenvalues with |s| up to here are corrected to `accuracy`; 0: none are
   double accuracy = 0;                  ///< backward error asked for in the band
   double askedTo = 0;                   ///< rad/s: upper end of `-flutter_direct_band`; 0: no such band
@@ -63,6 +68,8 @@ class ReducedProblem {
   /// Collective. The point whose terms the pencil holds. Shapes are mapped to nodal displacements by `trial` (T).
   FrictionPoint solve(const Parameters& at, Mat trial);
   PetscInt basisSize() const { return basis_.size(); }
+  /// The basis, and the problem of the point last solved on it. The columns are borrowed.
+  StartSpace space(const Parameters& at) const;
 
  private:
   struct Residuals;

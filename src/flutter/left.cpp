@@ -1,0 +1,265 @@
+#include "flutter/left.hpp"
+
+#include <petscsys.h>  // first: the next header needs it
+
+#include <petscblaslapack.h>
+
+#include <cmath>
+
+#include "flutter/basis.hpp"
+#include "flutter/images.hpp"
+
+namespace squeal::flutter {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double wanted = 1e-10;
+constexpr int mostRounds = 20;
+
+/// H = Σ s^p H_p as the real matrix [Re −Im; Im Re], so that real LAPACK solves with it, transposed for Hᴴ.
+class Factorised {
+ public:
+  Factorised(const std::array<DenseMatrix, 3>& h, std::size_t m, Complex s) : m_(m), a_(4 * m * m, 0.0), pivots_(2 * m) {
+    for (std::size_t p = 0; p < 3; ++p) {
+      const Complex c = std::pow(s, static_cast<int>(p));
+      for (std::size_t k = 0; k < h[p].size(); ++k) {
+        const std::size_t i = k % m, j = k / m;
+        at(i, j) += c.real() * h[p][k], at(m + i, m + j) += c.real() * h[p][k];
+        at(m + i, j) += c.imag() * h[p][k], at(i, m + j) -= c.imag() * h[p][k];
+      }
+    }
+    PetscBLASInt n = static_cast<PetscBLASInt>(2 * m), info = 0;
+    LAPACKgetrf_(&n, &n, a_.data(), &n, pivots_.data(), &info);
+    // s may be an eigenvalue to the last digit: a pivot of zero takes the size of rounding.
+    double largest = 0;
+    for (std::size_t i = 0; i < 2 * m; ++i) largest = std::max(largest, std::abs(at(i, i)));
+    for (std::size_t i = 0; i < 2 * m; ++i)
+      if (at(i, i) == 0) at(i, i) = 1e-16 * largest;
+  }
+  /// x ← H⁻¹ x, or H⁻ᴴ x, of length one; x holds real parts, then imaginary ones.
+  void solve(bool adjoint, std::vector<double>& x) const {
+    PetscBLASInt n = static_cast<PetscBLASInt>(2 * m_), one = 1, info = 0;
+    LAPACKgetrs_(adjoint ? "T" : "N", &n, &one, const_cast<double*>(a_.data()), &n, const_cast<PetscBLASInt*>(pivots_.data()),
+                 x.data(), &n, &info);
+    double sum = 0;
+    for (double entry : x) sum += entry * entry;
+    for (double& entry : x) entry /= std::sqrt(sum);
+  }
+
+ private:
+  double& at(std::size_t i, std::size_t j) { return a_[j * 2 * m_ + i]; }
+  std::size_t m_;
+  std::vector<double> a_;
+  std::vector<PetscBLASInt> pivots_;
+};
+
+/// cᴴ A q of vectors that hold real parts, then imaginary ones.
+Complex form(const std::vector<double>& c, const DenseMatrix& a, const std::vector<double>& q) {
+  const std::size_t m = q.size() / 2;
+  Complex sum = 0;
+  if (!a.empty())
+    for (std::size_t j = 0; j < m; ++j) {
+      Complex column = 0;
+      for (std::size_t i = 0; i < m; ++i) column += Complex(c[i], -c[m + i]) * a[j * m + i];
+      sum += column * Complex(q[j], q[m + j]);
+    }
+  return sum;
+}
+
+/// c with cᴴ H(s) = 0 by inverse iteration. s is known to some digits; where the space knows it better, the two-sided Rayleigh
+/// quotient δs = −cᴴ H q / cᴴ H′ q takes its own error out.
+std::vector<double> nullVector(const std::array<DenseMatrix, 3>& h, std::size_t m, Complex s) {
+  std::vector<double> c(2 * m);
+  for (std::size_t i = 0; i < 2 * m; ++i) c[i] = std::sin(12.9898 * static_cast<double>(i + 1));
+  for (int step = 0; step < 3; ++step) {
+    const Factorised factorised(h, m, s);
+    auto q = c;
+    for (int cycle = 0; cycle < 2; ++cycle) {
+      factorised.solve(false, q);
+      c = q;
+      factorised.solve(true, c);
+      if (cycle == 0) q = c;
+    }
+    const Complex value = form(c, h[0], q) + s * form(c, h[1], q) + s * s * form(c, h[2], q),
+                  slope = form(c, h[1], q) + 2.0 * s * form(c, h[2], q), change = -value / slope;
+    if (!(std::abs(change) > 1e-14 * std::abs(s) && std::abs(change) < 1e-6 * std::abs(s))) break;
+    s += change;
+  }
+  return c;
+}
+
+class Search {
+ public:
+  Search(const Pencil& pencil, const Parameters& at, StartSpace start, Mat mass, KSP solver)
+      : pencil_(pencil), at_(at), solver_(solver), basis_(start.columns, mass), projected_(std::move(start.projected)) {
+    columns_ = projected_[0].empty() ? 0 : basis_.size();
+  }
+
+  std::vector<LeftVector> vectors(const std::vector<RightPair>& pairs) {
+    add(partsOf(pairs));
+    std::vector<LeftVector> found;
+    for (int round = 0;; ++round) {
+      found.clear();
+      std::vector<ComplexVector> bad;
+      for (const auto& pair : pairs) {
+        found.push_back({expand(null(pair.s)), 0});
+        ComplexVector residual = this->residual(pair.s, found.back().y);
+        found.back().backwardError = length(residual) / (scale(pair.s) * length(found.back().y));
+        if (found.back().backwardError > wanted) bad.push_back(std::move(residual));
+      }
+      if (bad.empty() || round == mostRounds || !add(corrections(bad))) return found;
+    }
+  }
+
+ private:
+  static std::vector<Vec> partsOf(const std::vector<RightPair>& pairs) {
+    std::vector<Vec> parts;
+    for (const auto& pair : pairs) parts.insert(parts.end(), {pair.vector->real.get(), pair.vector->imaginary.get()});
+    return parts;
+  }
+
+  double scale(Complex s) const {
+    const double size = std::abs(s);
+    return pencil_.norm(0, at_) + size * pencil_.norm(1, at_) + size * size * pencil_.norm(2, at_);
+  }
+
+  /// P(s)ᴴ y = Σ conj(s)^p A_pᵀ y.
+  ComplexVector residual(Complex s, const ComplexVector& y) const {
+    ComplexVector sum = ComplexVector::like(y.real), part = ComplexVector::like(y.real);
+    for (int power = 0; power <= 2; ++power) {
+      if (!pencil_.hasPower(power)) continue;
+      pencil_.applyTranspose(power, at_, y.real, part.real);
+      pencil_.applyTranspose(power, at_, y.imaginary, part.imaginary);
+      flutter::add(sum, std::pow(std::conj(s), power), part);
+    }
+    return sum;
+  }
+
+  /// K0⁻¹ of the real and imaginary parts, scaled to one.
+  std::vector<Vec> corrections(const std::vector<ComplexVector>& residuals) {
+    const auto count = static_cast<PetscInt>(2 * residuals.size());
+    PetscInt local = 0, global = 0;
+    check(VecGetLocalSize(residuals[0].real, &local));
+    check(VecGetSize(residuals[0].real, &global));
+    OwnedMat rhs, solution;
+    check(MatCreateDense(pencil_.comm(), local, PETSC_DECIDE, global, count, nullptr, rhs.out()));
+    check(MatCreateDense(pencil_.comm(), local, PETSC_DECIDE, global, count, nullptr, solution.out()));
+    for (PetscInt j = 0; j < count; ++j) {
+      const auto& residual = residuals[static_cast<std::size_t>(j / 2)];
+      Vec column = nullptr;
+      check(MatDenseGetColumnVecWrite(rhs, j, &column));
+      check(VecCopy(j % 2 == 0 ? residual.real : residual.imaginary, column));
+      check(VecScale(column, 1 / length(residual)));
+      check(MatDenseRestoreColumnVecWrite(rhs, j, &column));
+    }
+    check(KSPMatSolve(solver_, rhs, solution));
+    solved_.clear();
+    std::vector<Vec> parts;
+    for (PetscInt j = 0; j < count; ++j) {
+      Vec column = nullptr;
+      OwnedVec part;
+      check(VecDuplicate(residuals[0].real, part.out()));
+      check(MatDenseGetColumnVecRead(solution, j, &column));
+      check(VecCopy(column, part));
+      check(MatDenseRestoreColumnVecRead(solution, j, &column));
+      parts.push_back(part);
+      solved_.push_back(std::move(part));
+    }
+    return parts;
+  }
+
+  /// True if the basis has grown; projects what is new.
+  bool add(const std::vector<Vec>& vectors) {
+    const auto count = static_cast<PetscInt>(vectors.size());
+    const OwnedBV block = columnsLike(basis_.columns(), count);
+    for (PetscInt j = 0; j < count; ++j) check(BVInsertVec(block, j, vectors[static_cast<std::size_t>(j)]));
+    const bool grown = basis_.add(block, count) > 0;
+    extend();
+    return grown;
+  }
+
+  /// Vᵀ A V of each power, with the columns that V has gained.
+  void extend() {
+    const PetscInt old = columns_, size = basis_.size(), added = size - old;
+    if (added == 0) return;
+    const ReadColumns all(basis_.columns());
+    for (int power = 0; power <= 2; ++power) {
+      if (!pencil_.hasPower(power)) continue;
+      const auto image = images(power, old, false), adjoint = images(power, old, true);
+      const auto right = transposedProduct(pencil_.comm(), all.values(), all.rows(), size, image.data(), added),
+                 left = transposedProduct(pencil_.comm(), all.values(), all.rows(), old, adjoint.data(), added);
+      DenseMatrix below(left.size());  // V_newᵀ A V_old
+      for (PetscInt j = 0; j < old; ++j)
+        for (PetscInt i = 0; i < added; ++i)
+          below[static_cast<std::size_t>(j * added + i)] = left[static_cast<std::size_t>(i * old + j)];
+      grow(projected_[static_cast<std::size_t>(power)], old, size, right, below);
+    }
+    columns_ = size;
+  }
+
+  /// Local rows of A V or Aᵀ V for the columns of V from `first` on.
+  DenseMatrix images(int power, PetscInt first, bool transposed) const {
+    DenseMatrix values;
+    for (PetscInt j = first; j < basis_.size(); ++j) {
+      Vec column = nullptr;
+      OwnedVec image;
+      check(BVGetColumn(basis_.columns(), j, &column));
+      check(VecDuplicate(column, image.out()));
+      if (transposed)
+        pencil_.applyTranspose(power, at_, column, image);
+      else
+        pencil_.apply(power, at_, column, image);
+      check(BVRestoreColumn(basis_.columns(), j, &column));
+      PetscInt rows = 0;
+      const PetscScalar* entries = nullptr;
+      check(VecGetLocalSize(image, &rows));
+      check(VecGetArrayRead(image, &entries));
+      values.insert(values.end(), entries, entries + rows);
+      check(VecRestoreArrayRead(image, &entries));
+    }
+    return values;
+  }
+
+  /// The left null vector in the basis, from rank 0, so that rounding cannot make the ranks disagree.
+  std::vector<double> null(Complex s) const {
+    const auto m = static_cast<std::size_t>(basis_.size());
+    int rank = 0;
+    check(MPI_Comm_rank(pencil_.comm(), &rank));
+    std::vector<double> c(2 * m);
+    if (rank == 0) c = nullVector(projected_, m, s);
+    check(MPI_Bcast(c.data(), static_cast<int>(c.size()), MPI_DOUBLE, 0, pencil_.comm()));
+    return c;
+  }
+
+  /// V c, of length one.
+  ComplexVector expand(const std::vector<double>& c) const {
+    ComplexVector y;
+    check(MatCreateVecs(pencil_.terms().at(0).matrix, y.real.out(), y.imaginary.out()));
+    const auto columns = static_cast<std::size_t>(basis_.size());
+    check(BVMultVec(basis_.columns(), 1, 0, y.real, const_cast<double*>(c.data())));
+    check(BVMultVec(basis_.columns(), 1, 0, y.imaginary, const_cast<double*>(c.data() + columns)));
+    const double size = length(y);
+    check(VecScale(y.real, 1 / size));
+    check(VecScale(y.imaginary, 1 / size));
+    return y;
+  }
+
+  const Pencil& pencil_;
+  const Parameters at_;
+  KSP solver_;
+  Basis basis_;
+  std::array<DenseMatrix, 3> projected_;
+  PetscInt columns_ = 0;  // of the basis that projected_ knows
+  std::vector<OwnedVec> solved_;
+};
+
+}  // namespace
+
+std::vector<LeftVector> leftVectors(const Pencil& pencil, const Parameters& at, StartSpace start, Mat mass, KSP solver,
+                                    const std::vector<RightPair>& pairs) {
+  if (pairs.empty()) return {};
+  return Search(pencil, at, std::move(start), mass, solver).vectors(pairs);
+}
+
+}  // namespace squeal::flutter
