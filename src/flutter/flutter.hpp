@@ -33,12 +33,12 @@ struct Shape {
 /// Everything found at one friction and speed.
 struct FrictionPoint {
   Parameters at;
-  std::vector<Eigenvalue> eigenvalues;  ///< Im s ≥ 0, by ascending frequency
-  std::vector<Shape> shapes;            ///< of the fastest growing ones
+  std::vector<Eigenvalue> eigenvalues;     ///< Im s ≥ 0, by ascending frequency
+  std::vector<Shape> shapes;               ///< of the fastest growing ones
   std::vector<Sensitivity> sensitivities;  ///< [shape]; empty unless `-flutter_sensitivities`
-  double bandTop = 0;                   ///< rad/s: eigenvalues with |s| up to here are corrected to `accuracy`; 0: none are
-  double accuracy = 0;                  ///< backward error asked for in the band
-  double askedTo = 0;                   ///< rad/s: upper end of `-flutter_direct_band`; 0: no such band
+  double bandTop = 0;                      ///< rad/s: eigenvalues with |s| up to here are corrected to `accuracy`; 0: none are
+  double accuracy = 0;                     ///< backward error asked for in the band
+  double askedTo = 0;                      ///< rad/s: upper end of `-flutter_direct_band`; 0: no such band
   double coveredTo = 0;       ///< rad/s: all eigenvalues of `-flutter_direct_band` with |s| below are listed; 0: no such band
   int unstableCount() const;  ///< in the band
   int unstableAbove() const;  ///< above it

@@ -58,9 +58,8 @@ void Influences::derive(FrictionPoint& point, const Pencil& pencil, const contac
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const EigenTriple triple{pairs[i].s, *pairs[i].vector, left[i].y};
     const Complex slope = slopeForm(pencil, point.at, triple);
-    Sensitivity result{condition(triple, slope, system.m0()), separation(point.eigenvalues, point.shapes[i].index),
-                       left[i].backwardError,
-                       {}};
+    Sensitivity result{
+        condition(triple, slope, system.m0()), separation(point.eigenvalues, point.shapes[i].index), left[i].backwardError, {}};
     if (result.regular()) {
       const Projected pair = project(system, solution, triple, prestress);
       for (const auto& parameter : parameters) {
@@ -73,8 +72,8 @@ void Influences::derive(FrictionPoint& point, const Pencil& pencil, const contac
   }
 }
 
-std::vector<Influences::Parameter> Influences::parameters(const contact::AssociatedSystem& system,
-                                                          const steady::Solution& solution, Mat prestress) {
+std::vector<Influences::Parameter> Influences::parameters(const contact::AssociatedSystem& system, const steady::Solution& solution,
+                                                          Mat prestress) {
   const Parameters& at = solution.at;
   const double v = at.speed;
   for (int body = static_cast<int>(parts_.size()); body < static_cast<int>(mesh_.bodies.size()); ++body)

@@ -20,8 +20,8 @@ class Influences {
   /// eigenvalues, of the terms that follow the steady state, too, while the active set stays. Modal damping is taken as given.
   /// `prestress`: K_σ of the steady state, may be null. Parameters: friction (f), speed (v), pressure (a factor on all pressures and
   /// held displacements), and factors young_BODY on all moduli of a body and density_BODY on its density, ds/d ln E and ds/d ln ρ.
-  void derive(FrictionPoint& point, const Pencil& pencil, const contact::AssociatedSystem& system,
-              const steady::Solution& solution, const StartSpace& start, Mat prestress);
+  void derive(FrictionPoint& point, const Pencil& pencil, const contact::AssociatedSystem& system, const steady::Solution& solution,
+              const StartSpace& start, Mat prestress);
 
  private:
   struct Parameter;

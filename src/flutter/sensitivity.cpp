@@ -7,14 +7,17 @@
 namespace squeal::flutter {
 namespace {
 
-const FlagOption wantedOption("flutter", "flutter_sensitivities", false,
-                              "derivatives of the eigenvalues of the complex modes kept (-flutter_shapes) with respect to friction, "
-                              "speed, pressure, moduli and densities: sensitivities.csv");
+const FlagOption wantedOption(
+    "flutter", "flutter_sensitivities", false,
+    "derivatives of the eigenvalues of the complex modes kept (-flutter_shapes) with respect to friction, "
+    "speed, pressure, moduli and densities: sensitivities.csv");
 
 using Complex = std::complex<double>;
 
 /// Beyond, errors of 1e-8 of the vectors are a thousandth of yᴴ P′ x, and soon after all of it.
 constexpr double worstCondition = 1e5;
+/// Left vectors that were not found leave no derivative either.
+constexpr double worstLeftError = 1e-7;
 /// Of a multiple eigenvalue as it is computed.
 constexpr double closest = 1e-7;
 
@@ -22,7 +25,9 @@ double massNorm(Mat mass, const ComplexVector& u) { return std::sqrt(std::abs(do
 
 }  // namespace
 
-bool Sensitivity::regular() const { return condition < worstCondition && separation > closest; }
+bool Sensitivity::regular() const {
+  return leftBackwardError < worstLeftError && condition < worstCondition && separation > closest;
+}
 
 bool sensitivitiesWanted() { return wantedOption.get(); }
 

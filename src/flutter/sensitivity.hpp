@@ -20,7 +20,8 @@ struct Sensitivity {
   double condition = 0;  ///< 2 |s| ‖x‖_M ‖y‖_M / |yᴴ P′(s) x|: 1 for a symmetric problem, infinite at an exceptional point
   double separation = 0;  ///< distance to the nearest of the other eigenvalues found, relative to |s|
   double leftBackwardError = 0;
-  std::vector<Derivative> derivatives;  ///< empty where eigenvalues meet: there they have no derivative
+  std::vector<Derivative> derivatives;  ///< empty if not regular()
+  /// False where eigenvalues meet, and so have no derivatives, and where the left vector was not found.
   bool regular() const;
 };
 

@@ -49,7 +49,8 @@ Change Problem::change(const Solution& solution, const contact::AssociatedSystem
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const auto& slip = solution.slip[i];
       const double causes =
-          direct ? (cause.friction * slip.law + at.friction * slip.slope * cause.speed * slip.speed / at.speed) * steadyForce[i] : 0;
+          direct ? (cause.friction * slip.law + at.friction * slip.slope * cause.speed * slip.speed / at.speed) * steadyForce[i]
+                 : 0;
       const double along = system.closed()[i] ? at.friction * slip.law * normal[i] + causes : 0;
       for (int d = 0; d < mesh_.dimension; ++d)
         values[mesh_.dimension * nodes[i].node + d] += along * slip.direction[static_cast<std::size_t>(d)];

@@ -41,10 +41,10 @@ struct Solution {
 
 /// What changes the steady state: per unit of a parameter.
 struct Cause {
-  Vec force = nullptr;        ///< dr of the nodal forces r = (K + v² K^R) u − b at fixed u, N entries; null: none
-  Vec held = nullptr;         ///< du0 of the held displacements; null: none
-  double friction = 0;        ///< df
-  double speed = 0;           ///< dv, as it enters the friction law
+  Vec force = nullptr;  ///< dr of the nodal forces r = (K + v² K^R) u − b at fixed u, N entries; null: none
+  Vec held = nullptr;   ///< du0 of the held displacements; null: none
+  double friction = 0;  ///< df
+  double speed = 0;     ///< dv, as it enters the friction law
 };
 
 /// First-order change of the steady state while the active set stays.
