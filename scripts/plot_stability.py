@@ -15,7 +15,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 HEADER = (
-    "friction,speed,mode,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,damping_ratio,backward_error,in_band"
+    "friction,speed,pressure,damping,mode,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,damping_ratio,backward_error,in_band"
 ).split(",")
 UNSTABLE = 1e-6  # a growth rate is taken for positive above this fraction of |s|; below it is round-off
 

@@ -68,46 +68,61 @@ class CurrentSystem {
   std::unique_ptr<contact::AssociatedSystem> system_;
 };
 
-std::string pointText(const Parameters& at) {
-  return formatted("friction %g", at.friction) + (at.speed == 1 ? "" : formatted(", speed %g", at.speed));
-}
-
-/// Steady sliding at every point, each started from the active set of the one before.
-std::vector<steady::Solution> steadySweep(const Analysis& analysis, const std::vector<Parameters>& points, CurrentSystem& system) {
+/// Steady sliding at every steady point, each started from the active set of a neighbour.
+std::vector<steady::Solution> steadySweep(const Analysis& analysis, CurrentSystem& system) {
   const steady::Problem problem(*analysis.mesh, analysis.bodies, analysis.contact);
-  std::vector<unsigned char> closed(analysis.contact.nodes.size(), 1);  // bonded
+  const std::vector<unsigned char> bonded(analysis.contact.nodes.size(), 1);
+  std::vector<std::vector<unsigned char>> closed;  // [steady point] its active set, or the one tried where there is no solution
   std::vector<steady::Solution> solutions;
-  for (const auto& at : points) {
-    const auto& current = system.of(closed);
+  for (const auto& at : analysis.sweep.steadyPoints()) {
+    const auto neighbour = analysis.sweep.earlierNeighbour(solutions.size());
+    closed.push_back(neighbour ? closed[*neighbour] : bonded);
+    const auto& current = system.of(closed.back());
     current.solver();
     Stage stage(analysis.mesh->comm, "steady");
     solutions.push_back(problem.solve(at, current));
     const auto& solution = solutions.back();
     stage.finish(formatted("%s: %s after %d iterations, %d of %d nodes open, smallest pressure %.4g, imbalance %.0e",
-                           pointText(at).c_str(), solution.reason.c_str(), solution.iterations,
+                           parameterText(at).c_str(), solution.reason.c_str(), solution.iterations,
                            static_cast<int>(solution.openNodes), static_cast<int>(analysis.contact.totalNodes),
                            solution.smallestPressure, solution.imbalance));
     if (solution.converged)
-      closed = solution.closed;
+      closed.back() = solution.closed;
     else
-      complain(analysis.mesh->comm, formatted("no steady sliding solution found at -flutter_friction %g, -flutter_speed %g: %s",
-                                              at.friction, at.speed, solution.reason.c_str()));
+      complain(analysis.mesh->comm,
+               formatted("no steady sliding solution found at %s: %s", parameterText(at).c_str(), solution.reason.c_str()));
   }
   return solutions;
 }
 
-/// At each speed, or once where K and the slip are the same at all.
-std::vector<SpeedUniqueness> examineUniqueness(const Analysis& analysis, const std::vector<Parameters>& points) {
-  std::vector<double> frictions, speeds;
-  for (const auto& at : points) {
-    if (speeds.empty() || speeds.back() != at.speed) speeds.push_back(at.speed);
-    if (speeds.size() == 1) frictions.push_back(at.friction);
-  }
+/// Collective. Error for a sweep over a factor of nothing: all its points would be the same.
+void rejectIdleFactors(const Analysis& analysis) {
+  const auto given = [](const std::vector<double>& factors) { return factors != std::vector<double>{1}; };
+  if (given(analysis.sweep.dampings) && !analysis.bodies.damping && !flutter::modalDampingWanted())
+    throw Error(
+        "option -flutter_damping scales the damping of the bodies, and there is none: give -material_<group>_rayleigh_*, "
+        "-material_<group>_loss_factor, -ground_<group>_damping or -flutter_modal_damping");
+  if (!given(analysis.sweep.pressures)) return;
+  OwnedVec pressures;
+  check(VecDuplicate(analysis.bodies.load, pressures.out()));
+  check(VecWAXPY(pressures, -1, analysis.bodies.centrifugal, analysis.bodies.load));
+  PetscReal load = 0, displacement = 0;
+  check(VecNorm(pressures, NORM_INFINITY, &load));
+  check(VecNorm(analysis.contact.offset, NORM_INFINITY, &displacement));
+  if (load == 0 && displacement == 0)
+    throw Error(
+        "option -flutter_pressure scales what presses, and nothing does: give -load_<group>_pressure, "
+        "-constraint_<group>_displacement or -contact_<interface>_obstacle_displacement");
+}
+
+/// At each speed, or once where K and the slip are the same at all; loads do not matter.
+std::vector<SpeedUniqueness> examineUniqueness(const Analysis& analysis) {
+  std::vector<double> speeds = analysis.sweep.speeds;
   if (analysis.contact.slipIsGiven()) speeds.resize(1);
   std::vector<SpeedUniqueness> result;
   for (double speed : speeds) {
     Stage stage(analysis.mesh->comm, "steady");
-    result.push_back({speed, steady::examine(analysis.bodies, analysis.contact, speed, frictions)});
+    result.push_back({speed, steady::examine(analysis.bodies, analysis.contact, speed, analysis.sweep.frictions)});
     const auto& last = result.back().found.judgements.back();
     stage.finish(formatted("uniqueness at friction %g: %s (%s)", last.friction, last.verdict.c_str(), last.reason.c_str()));
   }
@@ -147,13 +162,14 @@ std::vector<flutter::Term> termsOf(const Analysis& analysis, const contact::Asso
 void examineShapes(const Analysis& analysis, const contact::AssociatedSystem& system, const steady::Solution& solution,
                    const flutter::Pencil& pencil, const flutter::StartSpace& start, flutter::Influences& influences,
                    flutter::FrictionPoint& point) {
+  if (point.shapes.empty()) return;
   OwnedMat prestress;
-  if (elasticity::prestressWanted() && !point.shapes.empty())
-    prestress = elasticity::geometricStiffness(*analysis.mesh, solution.displacement);
+  if (elasticity::prestressWanted()) prestress = elasticity::geometricStiffness(*analysis.mesh, solution.displacement);
   for (auto& shape : point.shapes)
-    shape.frictionWork = flutter::frictionWork(analysis.contact, analysis.bodies, solution, point.eigenvalues[shape.index].s,
-                                               flutter::ComplexVector::copied(shape.real, shape.imaginary), prestress);
-  if (flutter::sensitivitiesWanted()) influences.derive(point, pencil, system, solution, start, prestress);
+    shape.frictionWork =
+        flutter::frictionWork(analysis.contact, analysis.bodies, solution, point.at, point.eigenvalues[shape.index].s,
+                              flutter::ComplexVector::copied(shape.real, shape.imaginary), prestress);
+  if (flutter::sensitivitiesWanted()) influences.derive(point, pencil, {point.at, system, solution, prestress}, start);
 }
 
 /// Modes of one active set, then flutter at the points from `first` to `last` that share it.
@@ -191,19 +207,23 @@ ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::si
               std::max_element(order.begin(), order.end(),
                                [&](auto a, auto b) { return analysis.steady[a].at.friction < analysis.steady[b].at.friction; }),
               order.end());
-  segment.points.resize(last - first);
+  const auto& dampings = analysis.sweep.dampings;
+  segment.points.resize(dampings.size() * (last - first));
   for (std::size_t i : order) {
-    const Parameters& at = analysis.steady[i].at;
-    Stage stage(analysis.mesh->comm, "flutter");
     pencil.setPointTerms(termsOf(analysis, system, analysis.steady[i], analysis.steady[first], prestress));
-    auto& point = segment.points[i - first];
-    point = direct ? flutter::solveDirect(pencil, at, trial) : reduced->solve(at, trial);
-    examineShapes(analysis, system, analysis.steady[i], pencil,
-                  direct ? flutter::StartSpace{start.vectors, {}} : reduced->space(at), influences, point);
-    stage.finish(formatted(
-        "%s: %d of %d eigenvalues unstable%s, worst backward error %.1e%s", pointText(at).c_str(), point.unstableCount(),
-        point.bandCount(), point.bandTop > 0 ? formatted(" to %.4g Hz", point.bandTop / (2 * M_PI)).c_str() : "",
-        point.worstBackwardError(), direct ? "" : formatted(", basis of %d", static_cast<int>(reduced->basisSize())).c_str()));
+    for (std::size_t d = 0; d < dampings.size(); ++d) {
+      Parameters at = analysis.steady[i].at;
+      at.damping = dampings[d];
+      Stage stage(analysis.mesh->comm, "flutter");
+      auto& point = segment.points[d * (last - first) + i - first];
+      point = direct ? flutter::solveDirect(pencil, at, trial) : reduced->solve(at, trial);
+      examineShapes(analysis, system, analysis.steady[i], pencil,
+                    direct ? flutter::StartSpace{start.vectors, system.m0(), {}} : reduced->space(at), influences, point);
+      stage.finish(formatted(
+          "%s: %d of %d eigenvalues unstable%s, worst backward error %.1e%s", parameterText(at).c_str(), point.unstableCount(),
+          point.bandCount(), point.bandTop > 0 ? formatted(" to %.4g Hz", point.bandTop / (2 * M_PI)).c_str() : "",
+          point.worstBackwardError(), direct ? "" : formatted(", basis of %d", static_cast<int>(reduced->basisSize())).c_str()));
+    }
   }
   return segment;
 }
@@ -226,23 +246,31 @@ bool Analysis::converged() const {
   return std::all_of(steady.begin(), steady.end(), [](const auto& solution) { return solution.converged; });
 }
 
+const flutter::FrictionPoint* Analysis::pointAt(const Parameters& at) const {
+  for (const auto& segment : segments)
+    for (const auto& point : segment.points)
+      if (point.at == at) return &point;
+  return nullptr;
+}
+
 Analysis analyse(MPI_Comm comm) {
   rejectUnknownOptions();
   flutter::rejectIdleSolverOptions();
-  const auto points = flutter::points();
   Analysis analysis;
+  analysis.sweep = flutter::readSweep();
   analysis.mesh = std::make_unique<mesh::Mesh>(readMesh(comm));
   analysis.bodies = assembleBodies(*analysis.mesh);
   analysis.contact = buildContact(*analysis.mesh, analysis.bodies);
+  rejectIdleFactors(analysis);
   CurrentSystem system(analysis);
-  analysis.steady = steadySweep(analysis, points, system);
-  if (analysis.contact.totalNodes > 0 && steady::uniquenessWanted()) analysis.uniqueness = examineUniqueness(analysis, points);
+  analysis.steady = steadySweep(analysis, system);
+  if (analysis.contact.totalNodes > 0 && steady::uniquenessWanted()) analysis.uniqueness = examineUniqueness(analysis);
   flutter::Influences influences(*analysis.mesh, analysis.bodies, analysis.contact);
-  for (std::size_t first = 0, last = 0; first < points.size(); first = last) {
+  for (std::size_t first = 0, last = 0; first < analysis.steady.size(); first = last) {
     last = first + 1;
     const auto& start = analysis.steady[first];
     if (!start.converged) continue;
-    while (last < points.size() && analysis.steady[last].converged &&
+    while (last < analysis.steady.size() && analysis.steady[last].converged &&
            sameOnAllRanks(comm, analysis.steady[last].closed, start.closed))
       ++last;
     analysis.segments.push_back(flutterSegment(analysis, first, last, system, influences, analysis.modesFloorSeconds));

@@ -16,26 +16,29 @@ struct SpeedUniqueness {
   steady::Uniqueness found;
 };
 
-/// Points of the sweep in a row with the same active set, and the modes of that set.
+/// Steady points of the sweep in a row with the same active set, and the modes of that set.
 struct ModalSegment {
   PetscInt openNodes = 0;
   PetscInt unknowns = 0;
-  modes::Modes modes;            ///< empty with the direct method
-  std::vector<OwnedVec> shapes;  ///< the first `-report_modes` modes in nodal displacements, largest entry 1
-  std::vector<flutter::FrictionPoint> points;
+  modes::Modes modes;                          ///< empty with the direct method
+  std::vector<OwnedVec> shapes;                ///< the first `-report_modes` modes in nodal displacements, largest entry 1
+  std::vector<flutter::FrictionPoint> points;  ///< for each damping factor all steady points
 };
 
 struct Analysis {
+  flutter::Sweep sweep;
   std::unique_ptr<mesh::Mesh> mesh;  ///< at a fixed address: contact and steady borrow it
   elasticity::Bodies bodies;
   contact::Contact contact;
-  std::vector<steady::Solution> steady;     ///< [point of the sweep]
+  std::vector<steady::Solution> steady;     ///< [steady point of the sweep]
   std::vector<SpeedUniqueness> uniqueness;  ///< one entry for all speeds where they share it; empty unless -steady_uniqueness
   std::vector<ModalSegment> segments;
   double modesFloorSeconds = 0;  ///< one factorisation and 400 blocked solves, if `-modes_benchmark`
 
   /// Every point has a steady solution.
   bool converged() const;
+  /// What was found at a point of the sweep; null where there is no steady solution.
+  const flutter::FrictionPoint* pointAt(const Parameters& at) const;
 };
 
 /// What the options of all stages ask of the mesh.

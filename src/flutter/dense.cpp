@@ -17,56 +17,77 @@ using Complex = std::complex<double>;
 
 struct EigenPair {
   Complex value;
-  std::vector<Complex> vector;
+  std::vector<Complex> right, left;  // left: empty unless asked for
 };
 
-/// LAPACK's real storage of conjugate pairs as complex numbers.
+/// Column j of LAPACK's real storage of conjugate pairs; empty of an empty matrix.
+std::vector<Complex> complexColumn(const std::vector<double>& vectors, std::size_t n, std::size_t j, bool conjugates) {
+  std::vector<Complex> column(vectors.empty() ? 0 : n);
+  for (std::size_t i = 0; i < column.size(); ++i) column[i] = {vectors[j * n + i], conjugates ? vectors[(j + 1) * n + i] : 0.0};
+  return column;
+}
+
+/// LAPACK's real storage of conjugate pairs as complex numbers, of each pair the one with Im ≥ 0 and its conjugate.
 std::vector<EigenPair> unpacked(const std::vector<double>& real, const std::vector<double>& imaginary,
-                                const std::vector<double>& beta, const std::vector<double>& vectors) {
+                                const std::vector<double>& beta, const std::vector<double>& right,
+                                const std::vector<double>& left) {
   std::vector<EigenPair> pairs;
   const std::size_t n = real.size();
   for (std::size_t j = 0; j < n; ++j) {
     if (beta[j] == 0) throw Error("the reduced mass matrix is singular: an eigenvalue is infinite");
     const bool conjugates = imaginary[j] != 0;
-    EigenPair pair{Complex(real[j], imaginary[j]) / beta[j], std::vector<Complex>(n)};
-    for (std::size_t i = 0; i < n; ++i) pair.vector[i] = {vectors[j * n + i], conjugates ? vectors[(j + 1) * n + i] : 0.0};
-    pairs.push_back(std::move(pair));
+    pairs.push_back(
+        {Complex(real[j], imaginary[j]) / beta[j], complexColumn(right, n, j, conjugates), complexColumn(left, n, j, conjugates)});
     if (!conjugates) continue;
-    pairs.push_back({std::conj(pairs.back().value), pairs.back().vector});
-    for (auto& entry : pairs.back().vector) entry = std::conj(entry);
+    EigenPair other = pairs.back();
+    other.value = std::conj(other.value);
+    for (auto* vector : {&other.right, &other.left})
+      for (auto& entry : *vector) entry = std::conj(entry);
+    pairs.push_back(std::move(other));
     ++j;
   }
   return pairs;
 }
 
-/// All eigenvalues and right eigenvectors of A x = μ B x.
-std::vector<EigenPair> generalized(DenseMatrix a, DenseMatrix b, int size) {
+/// What a call of LAPACK needs for its vectors.
+struct LapackVectors {
+  LapackVectors(std::size_t n, Vectors wanted) : right(n * n), left(wanted == Vectors::both ? n * n : 0) {}
+  const char* leftJob() const { return left.empty() ? "N" : "V"; }
+  std::vector<double> right, left;
+};
+
+/// All eigenvalues and eigenvectors of A x = μ B x.
+std::vector<EigenPair> generalized(DenseMatrix a, DenseMatrix b, int size, Vectors wanted) {
   const auto n = static_cast<std::size_t>(size);
-  PetscBLASInt order = size, one = 1, query = -1, info = 0;
-  std::vector<double> real(n), imaginary(n), beta(n), vectors(n * n), work(1);
-  LAPACKggev_("N", "V", &order, a.data(), &order, b.data(), &order, real.data(), imaginary.data(), beta.data(), nullptr, &one,
-              vectors.data(), &order, work.data(), &query, &info);
-  PetscBLASInt length = static_cast<PetscBLASInt>(work[0]);
-  work.resize(static_cast<std::size_t>(length));
-  LAPACKggev_("N", "V", &order, a.data(), &order, b.data(), &order, real.data(), imaginary.data(), beta.data(), nullptr, &one,
-              vectors.data(), &order, work.data(), &length, &info);
+  PetscBLASInt order = size, query = -1, info = 0;
+  std::vector<double> real(n), imaginary(n), beta(n), work(1);
+  LapackVectors vectors(n, wanted);
+  const auto call = [&](PetscBLASInt length) {
+    LAPACKggev_(vectors.leftJob(), "V", &order, a.data(), &order, b.data(), &order, real.data(), imaginary.data(), beta.data(),
+                vectors.left.data(), &order, vectors.right.data(), &order, work.data(), &length, &info);
+  };
+  call(query);
+  work.resize(static_cast<std::size_t>(work[0]));
+  call(static_cast<PetscBLASInt>(work.size()));
   if (info != 0) throw Error("LAPACK dggev failed on the reduced eigenproblem (info " + std::to_string(info) + ")");
-  return unpacked(real, imaginary, beta, vectors);
+  return unpacked(real, imaginary, beta, vectors.right, vectors.left);
 }
 
-/// All eigenvalues and right eigenvectors of A x = μ x.
-std::vector<EigenPair> standard(DenseMatrix a, int size) {
+/// All eigenvalues and eigenvectors of A x = μ x.
+std::vector<EigenPair> standard(DenseMatrix a, int size, Vectors wanted) {
   const auto n = static_cast<std::size_t>(size);
-  PetscBLASInt order = size, one = 1, query = -1, info = 0;
-  std::vector<double> real(n), imaginary(n), vectors(n * n), work(1);
-  LAPACKgeev_("N", "V", &order, a.data(), &order, real.data(), imaginary.data(), nullptr, &one, vectors.data(), &order, work.data(),
-              &query, &info);
-  PetscBLASInt length = static_cast<PetscBLASInt>(work[0]);
-  work.resize(static_cast<std::size_t>(length));
-  LAPACKgeev_("N", "V", &order, a.data(), &order, real.data(), imaginary.data(), nullptr, &one, vectors.data(), &order, work.data(),
-              &length, &info);
+  PetscBLASInt order = size, query = -1, info = 0;
+  std::vector<double> real(n), imaginary(n), work(1);
+  LapackVectors vectors(n, wanted);
+  const auto call = [&](PetscBLASInt length) {
+    LAPACKgeev_(vectors.leftJob(), "V", &order, a.data(), &order, real.data(), imaginary.data(), vectors.left.data(), &order,
+                vectors.right.data(), &order, work.data(), &length, &info);
+  };
+  call(query);
+  work.resize(static_cast<std::size_t>(work[0]));
+  call(static_cast<PetscBLASInt>(work.size()));
   if (info != 0) throw Error("LAPACK dgeev failed on the reduced eigenproblem (info " + std::to_string(info) + ")");
-  return unpacked(real, imaginary, std::vector<double>(n, 1.0), vectors);
+  return unpacked(real, imaginary, std::vector<double>(n, 1.0), vectors.right, vectors.left);
 }
 
 DenseMatrix sideBySide(const DenseMatrix& left, const DenseMatrix& right) {
@@ -75,31 +96,52 @@ DenseMatrix sideBySide(const DenseMatrix& left, const DenseMatrix& right) {
   return both;
 }
 
-/// M⁻¹ B for B of any number of columns; empty if M is far from well conditioned. In an M0-orthonormal basis M is the identity but
-/// for friction: M⁻¹ is formed safely, and QR takes a small part of the time of QZ.
-DenseMatrix timesInverse(DenseMatrix mass, DenseMatrix b, int m) {
+/// b ← A⁻¹ b for b of any number of columns. Returns the smallest pivot over the largest; 0: singular, b is lost.
+double solveInPlace(DenseMatrix a, DenseMatrix& b, int m) {
   PetscBLASInt n = m, columns = static_cast<PetscBLASInt>(b.size()) / m, info = 0;
   std::vector<PetscBLASInt> pivots(static_cast<std::size_t>(m));
-  LAPACKgesv_(&n, &columns, mass.data(), &n, pivots.data(), b.data(), &n, &info);
+  LAPACKgesv_(&n, &columns, a.data(), &n, pivots.data(), b.data(), &n, &info);
   double smallest = INFINITY, largest = 0;
-  for (std::size_t i = 0; i < mass.size(); i += static_cast<std::size_t>(m) + 1) {
-    smallest = std::min(smallest, std::abs(mass[i]));
-    largest = std::max(largest, std::abs(mass[i]));
+  for (std::size_t i = 0; i < a.size(); i += static_cast<std::size_t>(m) + 1) {
+    smallest = std::min(smallest, std::abs(a[i]));
+    largest = std::max(largest, std::abs(a[i]));
   }
-  return info == 0 && smallest > 1e-4 * largest ? b : DenseMatrix();
+  return info == 0 ? smallest / largest : 0;
 }
 
-std::vector<DensePair> linearInSquare(const DenseMatrix& mass, const DenseMatrix& stiffness, int m) {
+/// M⁻¹ B; empty if M is far from well conditioned. In an M0-orthonormal basis M is the identity but for friction: M⁻¹ is formed
+/// safely, and QR takes a small part of the time of QZ.
+DenseMatrix timesInverse(const DenseMatrix& mass, DenseMatrix b, int m) {
+  return solveInPlace(mass, b, m) > 1e-4 ? b : DenseMatrix();
+}
+
+/// uᴴ M⁻¹ A = μ uᴴ gives the left vectors y = M⁻ᵀ u of A y = μ M y.
+void undoInverse(const DenseMatrix& mass, int m, std::vector<DensePair>& pairs) {
+  const auto n = static_cast<std::size_t>(m);
+  DenseMatrix transposed(n * n), columns;
+  for (std::size_t j = 0; j < n; ++j)
+    for (std::size_t i = 0; i < n; ++i) transposed[i * n + j] = mass[j * n + i];
+  for (const auto& pair : pairs) {
+    for (const auto& entry : pair.left) columns.push_back(entry.real());
+    for (const auto& entry : pair.left) columns.push_back(entry.imag());
+  }
+  solveInPlace(std::move(transposed), columns, m);
+  for (std::size_t j = 0; j < pairs.size(); ++j)
+    for (std::size_t i = 0; i < n; ++i) pairs[j].left[i] = {columns[2 * j * n + i], columns[(2 * j + 1) * n + i]};
+}
+
+std::vector<DensePair> linearInSquare(const DenseMatrix& mass, const DenseMatrix& stiffness, int m, Vectors vectors) {
   // K q = μ M q with μ = −s²; both roots ±s are eigenvalues, one of them (two, if real) has Im s ≥ 0.
   const DenseMatrix product = timesInverse(mass, stiffness, m);
-  const auto solved = product.empty() ? generalized(stiffness, mass, m) : standard(product, m);
+  const auto solved = product.empty() ? generalized(stiffness, mass, m, vectors) : standard(product, m, vectors);
   std::vector<DensePair> pairs;
-  for (const auto& [mu, q] : solved) {
+  for (const auto& [mu, q, left] : solved) {
     Complex s = mu.imag() == 0 && mu.real() >= 0 ? Complex(0, std::sqrt(mu.real())) : std::sqrt(-mu);
     if (s.imag() < 0) s = -s;
-    pairs.push_back({s, q});
-    if (s.imag() == 0) pairs.push_back({-s, q});
+    pairs.push_back({s, q, left});
+    if (s.imag() == 0) pairs.push_back({-s, q, left});
   }
+  if (vectors == Vectors::both && !product.empty()) undoInverse(mass, m, pairs);
   return pairs;
 }
 
@@ -113,7 +155,8 @@ DenseMatrix padded(const DenseMatrix& mass, std::size_t m) {
   return b;
 }
 
-std::vector<DensePair> companion(const DenseMatrix& mass, const DenseMatrix& damping, const DenseMatrix& stiffness, int size) {
+std::vector<DensePair> companion(const DenseMatrix& mass, const DenseMatrix& damping, const DenseMatrix& stiffness, int size,
+                                 Vectors vectors) {
   const auto m = static_cast<std::size_t>(size);
   const auto norm = [](const DenseMatrix& x) { return std::sqrt(std::inner_product(x.begin(), x.end(), x.begin(), 0.0)); };
   const double unit = std::sqrt(norm(stiffness) / norm(mass));  // s = unit ŝ (Fan, Lin and Van Dooren 2004)
@@ -129,22 +172,31 @@ std::vector<DensePair> companion(const DenseMatrix& mass, const DenseMatrix& dam
     }
   }
   std::vector<DensePair> pairs;
-  for (const auto& [value, vector] : product.empty() ? generalized(a, padded(mass, m), 2 * size) : standard(a, 2 * size))
+  for (const auto& [value, right, left] :
+       product.empty() ? generalized(a, padded(mass, m), 2 * size, vectors) : standard(a, 2 * size, vectors))
     if (value.imag() >= 0) {
-      const auto half = vector.begin() + (std::abs(value) > 1 ? size : 0);  // the larger of q and ŝq
-      pairs.push_back({unit * value, {half, half + size}});
+      const auto half = right.begin() + (std::abs(value) > 1 ? size : 0);  // the larger of q and ŝq
+      // (u, y)ᴴ of the companion form: u = −K̂ᵀ y / conj ŝ, and yᴴ P = 0
+      pairs.push_back({unit * value, {half, half + size}, {left.begin() + (left.empty() ? 0 : size), left.end()}});
     }
+  if (vectors == Vectors::both && !product.empty()) undoInverse(mass, size, pairs);
   return pairs;
+}
+
+void normalise(std::vector<Complex>& vector) {
+  double sum = 0;
+  for (const auto& entry : vector) sum += std::norm(entry);
+  for (auto& entry : vector) entry /= std::sqrt(sum);
 }
 
 }  // namespace
 
-std::vector<DensePair> solveQuadratic(const DenseMatrix& mass, const DenseMatrix& damping, const DenseMatrix& stiffness, int m) {
-  auto pairs = damping.empty() ? linearInSquare(mass, stiffness, m) : companion(mass, damping, stiffness, m);
+std::vector<DensePair> solveQuadratic(const DenseMatrix& mass, const DenseMatrix& damping, const DenseMatrix& stiffness, int m,
+                                      Vectors vectors) {
+  auto pairs = damping.empty() ? linearInSquare(mass, stiffness, m, vectors) : companion(mass, damping, stiffness, m, vectors);
   for (auto& pair : pairs) {
-    double sum = 0;
-    for (const auto& entry : pair.q) sum += std::norm(entry);
-    for (auto& entry : pair.q) entry /= std::sqrt(sum);
+    normalise(pair.q);
+    normalise(pair.left);
   }
   std::sort(pairs.begin(), pairs.end(), [](const DensePair& a, const DensePair& b) {
     return a.s.imag() != b.s.imag() ? a.s.imag() < b.s.imag() : a.s.real() < b.s.real();
@@ -152,26 +204,44 @@ std::vector<DensePair> solveQuadratic(const DenseMatrix& mass, const DenseMatrix
   return pairs;
 }
 
+namespace {
+
+/// One message for all pairs.
+void shareFromRankZero(MPI_Comm comm, std::vector<DensePair>& pairs, int m, Vectors vectors) {
+  int count = static_cast<int>(pairs.size());
+  check(MPI_Bcast(&count, 1, MPI_INT, 0, comm));
+  const auto n = static_cast<std::size_t>(m), length = 1 + n * (vectors == Vectors::both ? 2 : 1);
+  std::vector<Complex> packed;
+  packed.reserve(length * static_cast<std::size_t>(count));
+  for (const auto& pair : pairs) {
+    packed.push_back(pair.s);
+    packed.insert(packed.end(), pair.q.begin(), pair.q.end());
+    packed.insert(packed.end(), pair.left.begin(), pair.left.end());
+  }
+  packed.resize(length * static_cast<std::size_t>(count));
+  check(MPI_Bcast(packed.data(), static_cast<int>(packed.size()), MPI_C_DOUBLE_COMPLEX, 0, comm));
+  pairs.clear();
+  for (auto entry = packed.begin(); entry != packed.end(); entry += static_cast<std::ptrdiff_t>(length)) {
+    const auto q = entry + 1, left = q + m, end = entry + static_cast<std::ptrdiff_t>(length);
+    pairs.push_back({*entry, {q, left}, {left, end}});
+  }
+}
+
+}  // namespace
+
 std::vector<DensePair> solveTogether(MPI_Comm comm, const DenseMatrix& mass, const DenseMatrix& damping,
-                                     const DenseMatrix& stiffness, int m) {
+                                     const DenseMatrix& stiffness, int m, Vectors vectors) {
   int rank = 0;
   check(MPI_Comm_rank(comm, &rank));
   std::vector<DensePair> pairs;
   std::string failure;
   if (rank == 0) try {
-      pairs = solveQuadratic(mass, damping, stiffness, m);
+      pairs = solveQuadratic(mass, damping, stiffness, m, vectors);
     } catch (const Error& error) {
       failure = error.what();
     }
   failTogether(comm, failure);
-  int count = static_cast<int>(pairs.size());
-  check(MPI_Bcast(&count, 1, MPI_INT, 0, comm));
-  pairs.resize(static_cast<std::size_t>(count));
-  for (auto& pair : pairs) {
-    pair.q.resize(static_cast<std::size_t>(m));
-    check(MPI_Bcast(&pair.s, 1, MPI_C_DOUBLE_COMPLEX, 0, comm));
-    check(MPI_Bcast(pair.q.data(), m, MPI_C_DOUBLE_COMPLEX, 0, comm));
-  }
+  shareFromRankZero(comm, pairs, m, vectors);
   return pairs;
 }
 

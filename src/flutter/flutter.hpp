@@ -1,6 +1,7 @@
 #pragma once
 /// The friction-perturbed eigenproblem (paper, section 4): which modes flutter, at which friction, how fast they grow.
 #include <complex>
+#include <optional>
 #include <vector>
 
 #include "contact/coupled.hpp"
@@ -30,7 +31,7 @@ struct Shape {
   std::vector<double> frictionWork;  ///< [owned contact node] what friction there adds to the growth rate, 1/s: frictionWork()
 };
 
-/// Everything found at one friction and speed.
+/// Everything found at one point of the sweep.
 struct FrictionPoint {
   Parameters at;
   std::vector<Eigenvalue> eigenvalues;     ///< Im s ≥ 0, by ascending frequency
@@ -46,9 +47,20 @@ struct FrictionPoint {
   double worstBackwardError() const;  ///< in the band
 };
 
-/// Points of the sweep: for each speed (`-flutter_speed`) all frictions (`-flutter_friction`), both ascending. Error: an empty list, a
-/// value out of range or given twice.
-std::vector<Parameters> points();
+/// The sweep is the grid of `-flutter_friction` × `-flutter_speed` × `-flutter_pressure` × `-flutter_damping`. Damping leaves steady
+/// sliding as it is, so that a steady state belongs to all its damping factors.
+struct Sweep {
+  std::vector<double> frictions, speeds, pressures, dampings;  ///< ascending
+  /// Steady states, damping 1: for each speed, each pressure, all frictions.
+  std::vector<Parameters> steadyPoints() const;
+  /// All points: for each damping, all steady states.
+  std::vector<Parameters> points() const;
+  /// Index of a steady state that differs in one parameter by one step, and comes earlier; none for the first.
+  std::optional<std::size_t> earlierNeighbour(std::size_t steadyPoint) const;
+};
+
+/// Error: an empty list, a value out of range or given twice.
+Sweep readSweep();
 /// `-flutter_method`: true for the direct solve on all unknowns.
 bool directWanted();
 
@@ -91,6 +103,7 @@ class ReducedProblem {
   std::vector<DensePair> dense(const Parameters& at, PetscInt columns) const;
 
   const Pencil& pencil_;
+  Mat mass_;
   KSP solver_;
   PetscInt unknowns_ = 0;
   Basis basis_;

@@ -32,17 +32,6 @@ DenseMatrix transposedProduct(MPI_Comm comm, const double* x, PetscInt rowCount,
   return product;
 }
 
-void grow(DenseMatrix& matrix, PetscInt old, PetscInt size, const DenseMatrix& right, const DenseMatrix& below) {
-  const auto n = static_cast<std::size_t>(size), o = static_cast<std::size_t>(old), added = n - o;
-  DenseMatrix grown(n * n);
-  for (std::size_t j = 0; j < o; ++j) {
-    std::copy_n(matrix.begin() + static_cast<std::ptrdiff_t>(j * o), o, grown.begin() + static_cast<std::ptrdiff_t>(j * n));
-    for (std::size_t i = 0; i < added; ++i) grown[j * n + o + i] = below.empty() ? right[i * n + j] : below[j * added + i];
-  }
-  std::copy(right.begin(), right.end(), grown.begin() + static_cast<std::ptrdiff_t>(o * n));
-  matrix = std::move(grown);
-}
-
 Image::Image(Mat matrix) {
   PetscInt first = 0, end = 0;
   check(MatGetOwnershipRange(matrix, &first, &end));

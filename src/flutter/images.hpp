@@ -32,9 +32,6 @@ void multiplyAdd(const double* x, PetscInt rows, PetscInt columns, const std::ve
 /// Collective. Xᵀ Y for X rows × m and Y rows × n, column-major m × n, the same on all ranks.
 DenseMatrix transposedProduct(MPI_Comm comm, const double* x, PetscInt rows, PetscInt m, const double* y, PetscInt n);
 
-/// A projection of `old` columns grown to `size`: the new columns, and the new rows below the old columns (empty: by symmetry).
-void grow(DenseMatrix& matrix, PetscInt old, PetscInt size, const DenseMatrix& right, const DenseMatrix& below);
-
 /// A V by this rank's rows, without the rows of A that are empty: a friction operator has rows at the contact nodes alone.
 class Image {
  public:

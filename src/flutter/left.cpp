@@ -4,6 +4,7 @@
 
 #include <petscblaslapack.h>
 
+#include <array>
 #include <cmath>
 
 #include "flutter/basis.hpp"
@@ -91,9 +92,16 @@ std::vector<double> nullVector(const std::array<DenseMatrix, 3>& h, std::size_t 
 
 class Search {
  public:
-  Search(const Pencil& pencil, const Parameters& at, StartSpace start, Mat mass, KSP solver)
-      : pencil_(pencil), at_(at), solver_(solver), basis_(start.columns, mass), projected_(std::move(start.projected)) {
-    columns_ = projected_[0].empty() ? 0 : basis_.size();
+  Search(const Pencil& pencil, const Parameters& at, const StartSpace& start, KSP solver)
+      : pencil_(pencil),
+        at_(at),
+        solver_(solver),
+        projected_{start.projected.stiffness, start.projected.damping, start.projected.mass},
+        known_(start.projected.m) {
+    check(BVGetSizes(start.columns, nullptr, nullptr, &size_));
+    basis_ = columnsLike(start.columns, size_);
+    check(BVCopy(start.columns, basis_));
+    check(BVSetMatrix(basis_, start.inner, PETSC_FALSE));
   }
 
   std::vector<LeftVector> vectors(const std::vector<RightPair>& pairs) {
@@ -171,46 +179,58 @@ class Search {
 
   /// True if the basis has grown; projects what is new.
   bool add(const std::vector<Vec>& vectors) {
-    const auto count = static_cast<PetscInt>(vectors.size());
-    const OwnedBV block = columnsLike(basis_.columns(), count);
-    for (PetscInt j = 0; j < count; ++j) check(BVInsertVec(block, j, vectors[static_cast<std::size_t>(j)]));
-    const bool grown = basis_.add(block, count) > 0;
+    constexpr double dependent = 1e-6;
+    const PetscInt before = size_;
+    check(BVResize(basis_, size_ + static_cast<PetscInt>(vectors.size()), PETSC_TRUE));
+    for (Vec vector : vectors) {
+      PetscReal length = 0, rest = 0;
+      PetscBool lost = PETSC_FALSE;
+      check(BVInsertVec(basis_, size_, vector));
+      check(BVNormColumn(basis_, size_, NORM_2, &length));
+      check(BVSetActiveColumns(basis_, 0, size_ + 1));
+      if (length > 0) check(BVOrthonormalizeColumn(basis_, size_, PETSC_FALSE, &rest, &lost));
+      if (!lost && rest > dependent * length) ++size_;
+    }
+    check(BVResize(basis_, size_, PETSC_TRUE));
+    check(BVSetActiveColumns(basis_, 0, size_));
     extend();
-    return grown;
+    return size_ > before;
   }
 
   /// Vᵀ A V of each power, with the columns that V has gained.
   void extend() {
-    const PetscInt old = columns_, size = basis_.size(), added = size - old;
+    const PetscInt old = known_, added = size_ - old;
     if (added == 0) return;
-    const ReadColumns all(basis_.columns());
+    const ReadColumns all(basis_);
+    const auto size = static_cast<std::size_t>(size_), o = static_cast<std::size_t>(old);
     for (int power = 0; power <= 2; ++power) {
       if (!pencil_.hasPower(power)) continue;
       const auto image = images(power, old, false), adjoint = images(power, old, true);
-      const auto right = transposedProduct(pencil_.comm(), all.values(), all.rows(), size, image.data(), added),
-                 left = transposedProduct(pencil_.comm(), all.values(), all.rows(), old, adjoint.data(), added);
-      DenseMatrix below(left.size());  // V_newᵀ A V_old
-      for (PetscInt j = 0; j < old; ++j)
-        for (PetscInt i = 0; i < added; ++i)
-          below[static_cast<std::size_t>(j * added + i)] = left[static_cast<std::size_t>(i * old + j)];
-      grow(projected_[static_cast<std::size_t>(power)], old, size, right, below);
+      const auto right = transposedProduct(pencil_.comm(), all.values(), all.rows(), size_, image.data(), added),
+                 below = transposedProduct(pencil_.comm(), adjoint.data(), all.rows(), added, all.values(), old);
+      auto& matrix = projected_[static_cast<std::size_t>(power)];
+      DenseMatrix grown(size * size);
+      for (std::size_t j = 0; j < size; ++j)
+        for (std::size_t i = 0; i < size; ++i)
+          grown[j * size + i] = j >= o ? right[(j - o) * size + i] : i >= o ? below[j * (size - o) + i - o] : matrix[j * o + i];
+      matrix = std::move(grown);
     }
-    columns_ = size;
+    known_ = size_;
   }
 
   /// Local rows of A V or Aᵀ V for the columns of V from `first` on.
   DenseMatrix images(int power, PetscInt first, bool transposed) const {
     DenseMatrix values;
-    for (PetscInt j = first; j < basis_.size(); ++j) {
+    for (PetscInt j = first; j < size_; ++j) {
       Vec column = nullptr;
       OwnedVec image;
-      check(BVGetColumn(basis_.columns(), j, &column));
+      check(BVGetColumn(basis_, j, &column));
       check(VecDuplicate(column, image.out()));
       if (transposed)
         pencil_.applyTranspose(power, at_, column, image);
       else
         pencil_.apply(power, at_, column, image);
-      check(BVRestoreColumn(basis_.columns(), j, &column));
+      check(BVRestoreColumn(basis_, j, &column));
       PetscInt rows = 0;
       const PetscScalar* entries = nullptr;
       check(VecGetLocalSize(image, &rows));
@@ -223,7 +243,7 @@ class Search {
 
   /// The left null vector in the basis, from rank 0, so that rounding cannot make the ranks disagree.
   std::vector<double> null(Complex s) const {
-    const auto m = static_cast<std::size_t>(basis_.size());
+    const auto m = static_cast<std::size_t>(size_);
     int rank = 0;
     check(MPI_Comm_rank(pencil_.comm(), &rank));
     std::vector<double> c(2 * m);
@@ -236,9 +256,9 @@ class Search {
   ComplexVector expand(const std::vector<double>& c) const {
     ComplexVector y;
     check(MatCreateVecs(pencil_.terms().at(0).matrix, y.real.out(), y.imaginary.out()));
-    const auto columns = static_cast<std::size_t>(basis_.size());
-    check(BVMultVec(basis_.columns(), 1, 0, y.real, const_cast<double*>(c.data())));
-    check(BVMultVec(basis_.columns(), 1, 0, y.imaginary, const_cast<double*>(c.data() + columns)));
+    const auto columns = static_cast<std::size_t>(size_);
+    check(BVMultVec(basis_, 1, 0, y.real, const_cast<double*>(c.data())));
+    check(BVMultVec(basis_, 1, 0, y.imaginary, const_cast<double*>(c.data() + columns)));
     const double size = length(y);
     check(VecScale(y.real, 1 / size));
     check(VecScale(y.imaginary, 1 / size));
@@ -248,18 +268,19 @@ class Search {
   const Pencil& pencil_;
   const Parameters at_;
   KSP solver_;
-  Basis basis_;
-  std::array<DenseMatrix, 3> projected_;
-  PetscInt columns_ = 0;  // of the basis that projected_ knows
+  OwnedBV basis_;
+  PetscInt size_ = 0;
+  std::array<DenseMatrix, 3> projected_;  // [power of s] Vᵀ A V
+  PetscInt known_ = 0;                    // columns of V in it
   std::vector<OwnedVec> solved_;
 };
 
 }  // namespace
 
-std::vector<LeftVector> leftVectors(const Pencil& pencil, const Parameters& at, StartSpace start, Mat mass, KSP solver,
+std::vector<LeftVector> leftVectors(const Pencil& pencil, const Parameters& at, const StartSpace& start, KSP solver,
                                     const std::vector<RightPair>& pairs) {
   if (pairs.empty()) return {};
-  return Search(pencil, at, std::move(start), mass, solver).vectors(pairs);
+  return Search(pencil, at, start, solver).vectors(pairs);
 }
 
 }  // namespace squeal::flutter

@@ -1,6 +1,5 @@
 #pragma once
 /// Left eigenvectors of the full-order problem, yᴴ P(s) = 0, for eigenvalues that are known.
-#include <array>
 #include <complex>
 #include <vector>
 
@@ -23,14 +22,15 @@ struct LeftVector {
 
 /// Where the search begins.
 struct StartSpace {
-  BV columns = nullptr;  ///< V, orthonormal in the mass: the free modes, or the basis of the reduced problem; borrowed
-  std::array<DenseMatrix, 3> projected;  ///< [power of s] Vᵀ A V at the point, column-major, if at hand; else empty
+  BV columns = nullptr;    ///< V: the free modes, or the basis of the reduced problem; borrowed
+  Mat inner = nullptr;     ///< the matrix in which V is orthonormal: M0 or K0; borrowed
+  DenseProblem projected;  ///< Vᵀ P V at the point, if at hand: it saves products of the size of V; otherwise m = 0
 };
 
 /// Collective. Rayleigh–Ritz on V, the right vectors, and K0⁻¹ (Re l, Im l) of the left residuals l = P(s)ᴴ y of all pairs, solved for
 /// together by `solver` (of K0): about a decade a round, until the backward error is below 1e-10 or corrections bring nothing new.
-/// The basis is orthonormal in `mass` (M0). The caller judges the error that is left.
-std::vector<LeftVector> leftVectors(const Pencil& pencil, const Parameters& at, StartSpace start, Mat mass, KSP solver,
+/// The caller judges the error that is left.
+std::vector<LeftVector> leftVectors(const Pencil& pencil, const Parameters& at, const StartSpace& start, KSP solver,
                                     const std::vector<RightPair>& pairs);
 
 }  // namespace squeal::flutter

@@ -282,7 +282,7 @@ NearestPairs NearestSolver::whole() const {
   NearestPairs found{{}, INFINITY};
   PetscInt first = 0, end = 0;
   check(MatGetOwnershipRange(terms_[0], &first, &end));
-  for (const auto& [s, q] :
+  for (const auto& [s, q, left] :
        solveTogether(comm, gathered(terms_[2]), gathered(terms_[1]), gathered(terms_[0]), static_cast<int>(size_))) {
     NearestPair pair = emptyPair(terms_[0], s);
     for (PetscInt i = first; i < end; ++i) {

@@ -7,11 +7,15 @@
 namespace squeal::flutter {
 
 double Term::coefficient(const Parameters& at) const {
-  return factor * std::pow(at.friction, frictionExponent) * std::pow(at.speed, speedExponent);
+  return factor * std::pow(at.friction, frictionExponent) * std::pow(at.speed, speedExponent) *
+         std::pow(at.damping, dampingExponent);
 }
 
 double Term::slope(const Parameters& at, double Parameters::*parameter) const {
-  const int exponent = parameter == &Parameters::friction ? frictionExponent : speedExponent;
+  const int exponent = parameter == &Parameters::friction  ? frictionExponent
+                       : parameter == &Parameters::speed   ? speedExponent
+                       : parameter == &Parameters::damping ? dampingExponent
+                                                           : 0;
   if (exponent == 0) return 0;
   Parameters unit = at;
   unit.*parameter = 1;  // leaves the other powers

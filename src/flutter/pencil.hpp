@@ -1,7 +1,7 @@
 #pragma once
-/// The friction-perturbed problem P(s; f, v) d = 0 as one object, P = Σ_t c_t s^p_t A_t with c_t = factor · f^a · v^b for the
-/// friction f and the speed v, a factor on the motion of the bodies. It knows nothing of finite elements: [4.15–4.16] enter as
-/// terms.
+/// The friction-perturbed problem P(s; f, v, …) d = 0 as one object, P = Σ_t c_t s^p_t A_t with c_t = factor · f^a · v^b · c^d for
+/// the friction f, the speed v, a factor on the motion of the bodies, and the factor c on their damping. It knows nothing of finite
+/// elements: [4.15–4.16] enter as terms.
 #include <complex>
 #include <vector>
 
@@ -15,7 +15,8 @@ struct Term {
   int power = 0;             ///< of s: 0 stiffness, 1 damping, 2 mass
   int frictionExponent = 0;  ///< a
   double factor = 1;
-  int speedExponent = 0;  ///< b
+  int speedExponent = 0;    ///< b
+  int dampingExponent = 0;  ///< d
 
   double coefficient(const Parameters& at) const;
   /// Derivative of the coefficient with respect to one parameter.

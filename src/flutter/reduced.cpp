@@ -30,6 +30,18 @@ double bandOfModes(const std::vector<double>& w) {
 
 bool correctionsWanted() { return basisOption.get() == "corrected"; }
 
+/// A projection of `old` columns grown to `size`: the new columns, and the new rows below the old columns (empty: by symmetry).
+void grow(DenseMatrix& matrix, PetscInt old, PetscInt size, const DenseMatrix& right, const DenseMatrix& below) {
+  const auto n = static_cast<std::size_t>(size), o = static_cast<std::size_t>(old), added = n - o;
+  DenseMatrix grown(n * n);
+  for (std::size_t j = 0; j < o; ++j) {
+    std::copy_n(matrix.begin() + static_cast<std::ptrdiff_t>(j * o), o, grown.begin() + static_cast<std::ptrdiff_t>(j * n));
+    for (std::size_t i = 0; i < added; ++i) grown[j * n + o + i] = below.empty() ? right[i * n + j] : below[j * added + i];
+  }
+  std::copy(right.begin(), right.end(), grown.begin() + static_cast<std::ptrdiff_t>(o * n));
+  matrix = std::move(grown);
+}
+
 /// Real and imaginary parts of c s_j^power q_j as columns 2j, 2j+1.
 std::vector<double> columns(const std::vector<DensePair>& pairs, int power, double c = 1) {
   std::vector<double> matrix;
@@ -66,7 +78,7 @@ struct ReducedProblem::Residuals {
 };
 
 ReducedProblem::ReducedProblem(const Pencil& pencil, Mat mass, KSP solver, const modes::Modes& modes)
-    : pencil_(pencil), solver_(solver), basis_(modes.vectors, mass) {
+    : pencil_(pencil), mass_(mass), solver_(solver), basis_(modes.vectors, mass) {
   const auto& w = modes.angularFrequency;
   modeCount_ = w.size();
   check(BVGetSizes(modes.vectors, nullptr, &unknowns_, nullptr));
@@ -249,7 +261,8 @@ FrictionPoint ReducedProblem::solve(const Parameters& at, Mat trial) {
 
 StartSpace ReducedProblem::space(const Parameters& at) const {
   const PetscInt size = basis_.size();
-  return {basis_.columns(), {projected(0, at, size), projected(1, at, size), projected(2, at, size)}};
+  return {
+      basis_.columns(), mass_, {projected(2, at, size), projected(1, at, size), projected(0, at, size), static_cast<int>(size)}};
 }
 
 bool ReducedProblem::inBand(std::complex<double> s) const {

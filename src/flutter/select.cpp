@@ -11,6 +11,15 @@ namespace {
 const RealListOption frictionOption("flutter", "flutter_friction", "0.4", "", nonNegative, "friction coefficients", true);
 const RealListOption speedOption("flutter", "flutter_speed", "1", "", positive,
                                  "factors on all -motion_* and obstacle velocities, swept", true);
+const RealListOption pressureOption(
+    "flutter", "flutter_pressure", "1", "", positive,
+    "factors on all that presses, swept: -load_<group>_pressure, -constraint_<group>_displacement and "
+    "-contact_<interface>_obstacle_displacement; not on centrifugal forces",
+    true);
+const RealListOption dampingOption("flutter", "flutter_damping", "1", "", nonNegative,
+                                   "factors on the damping of materials, of -ground_<group>_damping and of -flutter_modal_damping, "
+                                   "swept; not on that of friction",
+                                   true);
 const ChoiceOption methodOption("flutter", "flutter_method", {"reduced", "direct"}, "reduced",
                                 "reduced: dense problem on the free modes; direct: all unknowns, for checking");
 const RealOption toleranceOption("flutter", "flutter_unstable_tolerance", 1e-6, "", nonNegative,
@@ -22,19 +31,42 @@ const RealOption shapesBelowOption("flutter", "flutter_shapes_below", 20000, "Hz
 
 }  // namespace
 
-std::vector<Parameters> points() {
+Sweep readSweep() {
   const auto ascending = [](const RealListOption& option) {
     auto list = option.get();
     if (list.empty()) throw Error("option -" + option.fullName() + ": the list is empty");
-    std::sort(list.begin(), list.end());  // each steady solution starts from the one before
+    std::sort(list.begin(), list.end());  // each steady solution starts from a neighbour
     if (std::adjacent_find(list.begin(), list.end()) != list.end())
       throw Error("option -" + option.fullName() + ": a value is given twice");
     return list;
   };
+  return {ascending(frictionOption), ascending(speedOption), ascending(pressureOption), ascending(dampingOption)};
+}
+
+std::vector<Parameters> Sweep::steadyPoints() const {
   std::vector<Parameters> points;
-  for (double speed : ascending(speedOption))
-    for (double friction : ascending(frictionOption)) points.push_back({friction, speed});
+  for (double speed : speeds)
+    for (double pressure : pressures)
+      for (double friction : frictions) points.push_back({friction, speed, pressure, 1});
   return points;
+}
+
+std::vector<Parameters> Sweep::points() const {
+  std::vector<Parameters> points;
+  for (double damping : dampings)
+    for (Parameters at : steadyPoints()) {
+      at.damping = damping;
+      points.push_back(at);
+    }
+  return points;
+}
+
+std::optional<std::size_t> Sweep::earlierNeighbour(std::size_t steadyPoint) const {
+  const std::size_t row = frictions.size(), plane = row * pressures.size();
+  if (steadyPoint % row >= 1) return steadyPoint - 1;
+  if (steadyPoint % plane >= row) return steadyPoint - row;
+  if (steadyPoint >= plane) return steadyPoint - plane;
+  return std::nullopt;
 }
 
 bool directWanted() { return methodOption.get() == "direct"; }

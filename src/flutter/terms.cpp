@@ -15,18 +15,18 @@ const RealListOption modalOption(
     "flutter", "flutter_modal_damping", "0", "", nonNegative,
     "damping ratios of the free modes in order, the last one for all that follow; reduced method alone");
 
-/// Power of s and of the speed that a matrix of the bodies comes with.
+/// Powers of s, of the speed and of the damping factor that a matrix of the bodies comes with.
 struct Role {
   const contact::Projection& projection;
-  int power, speedExponent;
+  int power, speedExponent, dampingExponent;
 };
 
 std::vector<Role> roles(const contact::AssociatedSystem& system) {
-  return {{system.stiffness(), 0, 0},
-          {system.mass(), 2, 0},
-          {system.damping(), 1, 0},
-          {system.gyroscopic(), 1, 1},
-          {system.rotationStiffness(), 0, 2}};
+  return {{system.stiffness(), 0, 0, 0},
+          {system.mass(), 2, 0, 0},
+          {system.damping(), 1, 0, 1},
+          {system.gyroscopic(), 1, 1, 0},
+          {system.rotationStiffness(), 0, 2, 0}};
 }
 
 /// f Sᵀ N X T for each matrix X.
@@ -34,7 +34,8 @@ void addFriction(std::vector<Term>& terms, const contact::Contact& contact, cons
                  const std::vector<contact::Slip>& slip) {
   const OwnedMat rows = contact.slipRows(system.transformation(), slip, system.closed());
   for (const auto& role : roles(system))
-    if (role.projection) terms.push_back({role.projection.friction(rows), role.power, 1, 1.0, role.speedExponent});
+    if (role.projection)
+      terms.push_back({role.projection.friction(rows), role.power, 1, 1.0, role.speedExponent, role.dampingExponent});
 }
 
 /// [4.7]: −B w*.
@@ -69,7 +70,8 @@ void addVelocityResponse(std::vector<Term>& terms, const contact::Contact& conta
 Pencil affineTerms(const contact::Contact& contact, const contact::AssociatedSystem& system) {
   std::vector<Term> terms;
   for (const auto& role : roles(system))
-    if (role.projection) terms.push_back({role.projection.matrix.share(), role.power, 0, 1.0, role.speedExponent});
+    if (role.projection)
+      terms.push_back({role.projection.matrix.share(), role.power, 0, 1.0, role.speedExponent, role.dampingExponent});
   if (contact.slipIsGiven()) addFriction(terms, contact, system, contact.slip(1, nullptr));
   return Pencil(std::move(terms));
 }
@@ -132,7 +134,7 @@ std::vector<Term> modalDamping(const modes::Modes& modes, Mat mass) {
   }
   check(MatCreateLRC(nullptr, factors, nullptr, nullptr, product.out()));
   check(MatSetOption(product, MAT_SYMMETRIC, PETSC_TRUE));
-  terms.push_back({std::move(product), 1, 0, 1.0, 0});
+  terms.push_back({std::move(product), 1, 0, 1.0, 0, 1});
   return terms;
 }
 

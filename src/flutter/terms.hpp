@@ -6,7 +6,7 @@
 
 namespace squeal::flutter {
 
-/// Collective. What holds at every friction and speed: K0, M0, C0, v G0, v² K^R0, and, where all points slide alike, the friction of
+/// Collective. What holds at all parameters: K0, M0, c C0 with the damping factor c, v G0, v² K^R0, and, where all points slide alike, the friction of
 /// the normal forces that each of these matrices exerts. Borrows nothing.
 Pencil affineTerms(const contact::Contact& contact, const contact::AssociatedSystem& system);
 
@@ -24,7 +24,7 @@ bool frictionDampingWanted();
 std::vector<double> responseForces(const contact::Contact& contact, const std::vector<unsigned char>& closed,
                                    std::vector<double> normalForce);
 
-/// Collective. Modal damping [Caughey]: Σ 2 ζ_i ω_i (M0 φ_i)(M0 φ_i)ᵀ with the ratios of `-flutter_modal_damping`; empty if there
+/// Collective. Modal damping [Caughey]: c Σ 2 ζ_i ω_i (M0 φ_i)(M0 φ_i)ᵀ with the ratios of `-flutter_modal_damping`; empty if there
 /// are none. A matrix that can only be multiplied.
 std::vector<Term> modalDamping(const modes::Modes& modes, Mat mass);
 /// `-flutter_modal_damping` is given.

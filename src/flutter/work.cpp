@@ -40,7 +40,7 @@ MotionForces motionForces(const elasticity::Bodies& bodies, const Parameters& at
   const ComplexVector inertia = product(bodies.mass, u);
   result.energy = std::norm(s) * dot(u, inertia).real() + dot(u, r).real();
   add(r, s * s, inertia);
-  if (bodies.damping) add(r, s, product(bodies.damping, u));
+  if (bodies.damping) add(r, s * at.damping, product(bodies.damping, u));
   if (bodies.gyroscopic) add(r, s * at.speed, product(bodies.gyroscopic, u));
   return result;
 }
@@ -83,8 +83,9 @@ FrictionState frictionState(const contact::Contact& contact, const steady::Solut
 }
 
 std::vector<double> frictionWork(const contact::Contact& contact, const elasticity::Bodies& bodies,
-                                 const steady::Solution& solution, Complex s, const ComplexVector& u, Mat prestress) {
-  const MotionForces forces = motionForces(bodies, solution.at, s, u, prestress);
+                                 const steady::Solution& solution, const Parameters& at, Complex s, const ComplexVector& u,
+                                 Mat prestress) {
+  const MotionForces forces = motionForces(bodies, at, s, u, prestress);
   const ContactMotion motion = contactMotion(contact, u, forces.forces);
   const FrictionState state = frictionState(contact, solution);
   std::vector<double> work;

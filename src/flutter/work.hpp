@@ -14,7 +14,7 @@ namespace squeal::flutter {
 /// Complex amplitudes of a vector in space.
 using ComplexPoint = std::array<std::complex<double>, 3>;
 
-/// The nodal forces r* = (s² M + s (C + v G) + K + v² K^R + K_σ) u of a motion u e^{st}.
+/// The nodal forces r* = (s² M + s (c C + v G) + K + v² K^R + K_σ) u of a motion u e^{st}, c the damping factor.
 struct MotionForces {
   ComplexVector forces;
   double energy = 0;  ///< |s|² uᴴ M u + uᴴ (K + v² K^R + K_σ) u: four times its mean energy
@@ -55,7 +55,8 @@ FrictionForm frictionForm(const contact::Contact& contact, const FrictionState& 
 ///   the slip velocity: d/dt E = 2 σ E = power − dissipation. The value of node k is its part of the sum over the bracket, so that all
 ///   nodes together make σ + |s|² uᴴCu / bracket; the work over a cycle is W_k = (4π/Im s) E × the value.
 std::vector<double> frictionWork(const contact::Contact& contact, const elasticity::Bodies& bodies,
-                                 const steady::Solution& solution, std::complex<double> s, const ComplexVector& u, Mat prestress);
+                                 const steady::Solution& solution, const Parameters& at, std::complex<double> s,
+                                 const ComplexVector& u, Mat prestress);
 
 /// Collective. From the steady state.
 FrictionState frictionState(const contact::Contact& contact, const steady::Solution& solution);

@@ -108,6 +108,10 @@ void animate(const Analysis& analysis, const Ghosts& ghosts, const Animated& ite
   writePvd(analysis.mesh->comm, folder / (name + ".pvd"), files);
 }
 
+void writeParameters(Hdf5File& file, const std::string& group, const Parameters& at) {
+  for (const auto& parameter : allParameters) file.writeAttribute(group, parameter.name, at.*parameter.value);
+}
+
 }  // namespace
 
 void writeFields(const Analysis& analysis, const std::filesystem::path& folder) {
@@ -152,8 +156,7 @@ void writeHdf5(const Analysis& analysis, const std::filesystem::path& folder) {
     const std::string group = "/steady/friction_" + pointName(solution.at);
     file.writeNodeVector(group, "displacement", solution.displacement);
     file.writeNodeVector(group, "contact_pressure_gap", contactField(analysis, solution));
-    file.writeAttribute(group, "friction", solution.at.friction);
-    file.writeAttribute(group, "speed", solution.at.speed);
+    writeParameters(file, group, solution.at);
   }
   for (std::size_t s = 0; s < analysis.segments.size(); ++s) {
     const auto& segment = analysis.segments[s];
@@ -171,6 +174,7 @@ void writeHdf5(const Analysis& analysis, const std::filesystem::path& folder) {
       for (const auto& e : point.eigenvalues) rows.push_back({e.s.real(), e.s.imag(), e.backwardError});
       file.writeTable(group, "eigenvalues", {"growth_rate_1_per_s", "angular_frequency_rad_per_s", "backward_error"},
                       rank == 0 ? rows : std::vector<std::vector<double>>{});
+      writeParameters(file, group, point.at);
       for (const auto& shape : point.shapes) {
         file.writeNodeVector(group, formatted("mode_%03zu_real", shape.index + 1), shape.real);
         file.writeNodeVector(group, formatted("mode_%03zu_imaginary", shape.index + 1), shape.imaginary);

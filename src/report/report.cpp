@@ -18,9 +18,9 @@ bool isResult(const std::filesystem::path& name) {
   const std::string text = name.filename().string();
   const auto begins = [&](const char* start) { return text.rfind(start, 0) == 0; };
   return text == "eigenvalues.csv" || text == "modes.csv" || text == "summary.json" || text == "results.h5" ||
-         text == "options.txt" || text == "vtk" || text == ".partial" || (begins("stability") && name.extension() == ".png") ||
-         text == "critical_friction.png" || (begins("steady_") && name.extension() == ".csv") ||
-         (begins("modes_") && name.extension() == ".csv");
+         text == "options.txt" || text == "stability_map.csv" || text == "vtk" || text == ".partial" ||
+         (begins("stability") && name.extension() == ".png") || text == "critical_friction.png" ||
+         (begins("steady_") && name.extension() == ".csv") || (begins("modes_") && name.extension() == ".csv");
 }
 
 void onRankZero(MPI_Comm comm, const std::string& option, const auto& action) {
@@ -64,7 +64,11 @@ void Directory::commit() const {
 }
 
 std::string pointName(const Parameters& at) {
-  return shortest(at.friction) + (at.speed == 1 ? "" : "_speed_" + shortest(at.speed));
+  std::string name = shortest(at.friction);
+  for (const auto& parameter : allParameters)
+    if (parameter.value != &Parameters::friction && at.*parameter.value != 1)
+      name += "_" + std::string(parameter.name) + "_" + shortest(at.*parameter.value);
+  return name;
 }
 
 void write(const Analysis& analysis, const Directory& directory) {

@@ -29,7 +29,7 @@ class Directory {
 /// Collective. Writes all reports and prints the stability table.
 void write(const Analysis& analysis, const Directory& directory);
 
-/// A point of the sweep as it stands in file and group names: FRICTION, and _speed_SPEED where the speed factor is not 1.
+/// A point of the sweep as it stands in file and group names: FRICTION, and _speed_SPEED, _pressure_… of the factors that are not 1.
 std::string pointName(const Parameters& at);
 
 /// The parts of write(), each collective, into `folder`.

@@ -56,11 +56,10 @@ Json unstableModes(const flutter::FrictionPoint& point) {
   return list;
 }
 
-const flutter::FrictionPoint* pointAt(const Analysis& analysis, const Parameters& at) {
-  for (const auto& segment : analysis.segments)
-    for (const auto& point : segment.points)
-      if (point.at.friction == at.friction && point.at.speed == at.speed) return &point;
-  return nullptr;
+Json parametersEntry(const Parameters& at) {
+  Json entry;
+  for (const auto& parameter : allParameters) entry[parameter.name] = at.*parameter.value;
+  return entry;
 }
 
 }  // namespace
@@ -81,9 +80,11 @@ void writeSummary(const Analysis& analysis, const std::filesystem::path& folder)
   summary["method"] = flutter::directWanted() ? "direct" : "reduced";
   summary["dofs"] = analysis.segments.empty() ? 0 : analysis.segments.front().unknowns;
   summary["frictions"] = Json::array();
-  for (const auto& solution : analysis.steady) {
-    Json entry = {{"friction", solution.at.friction}, {"speed", solution.at.speed}, {"steady", steadyEntry(solution)}};
-    if (const auto* point = pointAt(analysis, solution.at)) {
+  const auto points = analysis.sweep.points();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    Json entry = parametersEntry(points[i]);
+    entry["steady"] = steadyEntry(analysis.steady[i % analysis.steady.size()]);
+    if (const auto* point = analysis.pointAt(points[i])) {
       entry["eigenvalues"] = point->eigenvalues.size();
       entry["worst_backward_error"] = point->worstBackwardError();
       if (point->coveredTo > 0 && std::isfinite(point->coveredTo)) entry["covered_to_hz"] = point->coveredTo / (2 * M_PI);
@@ -100,13 +101,12 @@ void writeSummary(const Analysis& analysis, const std::filesystem::path& folder)
   for (const auto& [speed, found] : analysis.uniqueness) summary["steady_uniqueness"].push_back(uniquenessEntry(speed, found));
   summary["active_sets"] = Json::array();
   for (const auto& segment : analysis.segments) {
-    Json entry = {{"first_friction", segment.points.front().at.friction},
-                  {"first_speed", segment.points.front().at.speed},
-                  {"last_friction", segment.points.back().at.friction},
-                  {"last_speed", segment.points.back().at.speed},
-                  {"open_nodes", segment.openNodes},
-                  {"dofs", segment.unknowns},
-                  {"modes", segment.modes.angularFrequency.size()}};
+    Json entry;
+    for (const auto& [word, point] : {std::pair{"first_", &segment.points.front()}, {"last_", &segment.points.back()}})
+      for (const auto& parameter : allParameters) entry[std::string(word) + parameter.name] = point->at.*parameter.value;
+    entry["open_nodes"] = segment.openNodes;
+    entry["dofs"] = segment.unknowns;
+    entry["modes"] = segment.modes.angularFrequency.size();
     if (segment.modes.inertiaCount)
       entry["sturm_count"] = {{"shift_rad2_per_s2", segment.modes.inertiaShift},
                               {"eigenvalues_below", segment.modes.inertiaCount},

@@ -12,13 +12,13 @@ namespace squeal::report {
 namespace {
 
 std::string eigenvalueTable(const Analysis& analysis) {
-  std::string table =
-      "friction,speed,mode,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,damping_ratio,backward_error,in_band\n";
+  std::string table = parameterColumns() +
+                      ",mode,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,damping_ratio,backward_error,in_band\n";
   for (const auto& segment : analysis.segments)
     for (const auto& point : segment.points)
       for (std::size_t i = 0; i < point.eigenvalues.size(); ++i) {
         const auto& e = point.eigenvalues[i];
-        table += shortest(point.at.friction) + "," + shortest(point.at.speed) + "," + std::to_string(i + 1) +
+        table += parameterValues(point.at) + "," + std::to_string(i + 1) +
                  formatted(",%.15e,%.15e,%.15e,%.15e,%.3e,%d\n", e.s.real(), e.s.imag(), e.s.imag() / (2 * M_PI),
                            -e.s.real() / std::abs(e.s), e.backwardError, e.inBand ? 1 : 0);
       }
@@ -46,20 +46,33 @@ std::string steadyRows(const Analysis& analysis, const steady::Solution& solutio
   return rows;
 }
 
+/// Friction, and the factors that are not 1 all over the sweep.
+std::vector<Parameter> shownParameters(const Analysis& analysis) {
+  const auto points = analysis.sweep.points();
+  std::vector<Parameter> shown;
+  std::copy_if(allParameters.begin(), allParameters.end(), std::back_inserter(shown), [&](const Parameter& parameter) {
+    return parameter.value == &Parameters::friction ||
+           std::any_of(points.begin(), points.end(), [&](const Parameters& at) { return at.*parameter.value != 1; });
+  });
+  return shown;
+}
+
 /// Head of a line of a sweep.
-std::string rowHead(const Parameters& at, bool speeds) {
-  return formatted("\n%8g  ", at.friction) + (speeds ? formatted("%8g  ", at.speed) : "");
+std::string rowHead(const Parameters& at, const std::vector<Parameter>& shown) {
+  std::string head = "\n";
+  for (const auto& parameter : shown) head += formatted("%8g  ", at.*parameter.value);
+  return head;
 }
 
 /// One line for one point of a sweep: the lowest unstable modes.
-std::string sweepRow(const flutter::FrictionPoint& point, bool speeds) {
-  std::string row = rowHead(point.at, speeds);
+std::string sweepRow(const flutter::FrictionPoint& point, const std::vector<Parameter>& shown) {
+  std::string row = rowHead(point.at, shown);
   if (point.unstableCount() == 0) return row + "none: steady sliding is stable";
-  int shown = 0;
+  int count = 0;
   for (const auto& e : point.eigenvalues)
-    if (e.unstable && e.inBand && ++shown <= 6)
-      row += formatted("%s%.6g (%.4g)", shown > 1 ? ", " : "", e.s.imag() / (2 * M_PI), e.s.real());
-  return row + (shown > 6 ? formatted(", and %d more in eigenvalues.csv", shown - 6) : "");
+    if (e.unstable && e.inBand && ++count <= 6)
+      row += formatted("%s%.6g (%.4g)", count > 1 ? ", " : "", e.s.imag() / (2 * M_PI), e.s.real());
+  return row + (count > 6 ? formatted(", and %d more in eigenvalues.csv", count - 6) : "");
 }
 
 /// The unstable modes of a single friction, a line each; modes are numbered by frequency.
@@ -134,27 +147,29 @@ void writeRecipe(const Analysis& analysis, const std::filesystem::path& folder) 
 }
 
 std::string stabilityTable(const Analysis& analysis) {
-  const bool sweep = analysis.steady.size() > 1;
-  const bool speeds = std::any_of(analysis.steady.begin(), analysis.steady.end(), [](const auto& s) { return s.at.speed != 1; });
-  std::string table = !sweep   ? "\nmode  frequency Hz   growth 1/s"
-                      : speeds ? "\nfriction     speed  unstable modes: frequency Hz (growth 1/s)"
-                               : "\nfriction  unstable modes: frequency Hz (growth 1/s)";
+  const bool sweep = analysis.sweep.points().size() > 1;
+  const auto shown = shownParameters(analysis);
+  std::string table = sweep ? "\n" : "\nmode  frequency Hz   growth 1/s";
+  if (sweep) {
+    for (const auto& parameter : shown) table += formatted("%8s  ", parameter.name);
+    table += "unstable modes: frequency Hz (growth 1/s)";
+  }
   for (const auto& solution : analysis.steady)
     if (!solution.converged)
-      table += rowHead(solution.at, speeds) + formatted("no steady sliding solution found (%s)", solution.reason.c_str());
+      table += rowHead(solution.at, shown) + formatted("no steady sliding solution found (%s)", solution.reason.c_str());
   for (const auto& segment : analysis.segments)
-    for (const auto& point : segment.points) table += sweep ? sweepRow(point, speeds) : modeRows(point);
+    for (const auto& point : segment.points) table += sweep ? sweepRow(point, shown) : modeRows(point);
   for (const auto& segment : analysis.segments)
     for (const auto& point : segment.points)
       if (point.coveredTo < point.askedTo)
-        table += formatted("\nfriction %g, speed %g: the band is covered up to %.5g Hz only; raise -flutter_direct_limit",
-                           point.at.friction, point.at.speed, point.coveredTo / (2 * M_PI));
+        table += formatted("\n%s: the band is covered up to %.5g Hz only; raise -flutter_direct_limit",
+                           parameterText(point.at).c_str(), point.coveredTo / (2 * M_PI));
   for (const auto& segment : analysis.segments)
     for (const auto& point : segment.points)
       if (point.bandTop > 0 && point.worstBackwardError() > point.accuracy)
-        table += formatted(
-            "\nfriction %g: backward errors in the band exceed %.0e, see eigenvalues.csv; raise -modes_count or -flutter_rounds",
-            point.at.friction, point.accuracy);
+        table +=
+            formatted("\n%s: backward errors in the band exceed %.0e, see eigenvalues.csv; raise -modes_count or -flutter_rounds",
+                      parameterText(point.at).c_str(), point.accuracy);
   if (!analysis.segments.empty() && analysis.segments.front().points.front().bandTop > 0)
     table +=
         formatted("\nEigenvalues up to %.5g Hz are corrected to the full-order problem; those above in eigenvalues.csv are not.",

@@ -68,11 +68,12 @@ Problem::Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, const
   check(MatMatMult(contact.convected, transformation_.trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, convected_.out()));
 }
 
-/// b with the centrifugal part of this speed.
-OwnedVec Problem::load(double speed) const {
+/// b with the pressures and the centrifugal forces of this point.
+OwnedVec Problem::load(const Parameters& at) const {
   OwnedVec b = elasticity::nodalVector(mesh_);
   check(VecCopy(bodies_.load, b));
-  check(VecAXPY(b, speed * speed - 1, bodies_.centrifugal));
+  check(VecScale(b, at.pressure));
+  check(VecAXPY(b, at.speed * at.speed - at.pressure, bodies_.centrifugal));
   return b;
 }
 
@@ -91,7 +92,7 @@ OwnedVec Problem::springForces(double speed, Vec displacement) const {
 /// r = (K + v² K^R) u − b: supports and contact.
 OwnedVec Problem::forces(const Parameters& at, Vec displacement) const {
   OwnedVec r = springForces(at.speed, displacement);
-  check(VecAXPY(r, -1, load(at.speed)));
+  check(VecAXPY(r, -1, load(at)));
   return r;
 }
 
@@ -125,20 +126,23 @@ OwnedVec Problem::test(const contact::Transformation& transformation, const std:
   return result;
 }
 
-OwnedVec Problem::displacement(Vec x) const {
+OwnedVec Problem::displacement(const contact::Transformation& transformation, const Parameters& at, Vec x) const {
   OwnedVec u = elasticity::nodalVector(mesh_);
-  check(MatMultAdd(transformation_.trial, x, contact_.offset, u));
+  check(MatMult(transformation.trial, x, u));
+  check(VecAXPY(u, at.pressure, contact_.offset));
   return u;
 }
 
+OwnedVec Problem::displacement(const Parameters& at, Vec x) const { return displacement(transformation_, at, x); }
+
 void Problem::residual(const Parameters& at, Vec x, Vec f) const {
-  const OwnedVec u = displacement(x);
+  const OwnedVec u = displacement(at, x);
   check(VecCopy(test(transformation_, all_, at, forces(at, u), contact_.slip(at.speed, u)), f));
 }
 
 /// Tᵀ K T + f Sᵀ N K T, and with convective terms the turning of the slip: −v Tᵀ Jᵀ B D T with B of velocityResponse().
 OwnedMat Problem::jacobian(const Parameters& at, Vec x) const {
-  const OwnedVec u = displacement(x);
+  const OwnedVec u = displacement(at, x);
   const auto slip = contact_.slip(at.speed, u);
   const OwnedMat rows = contact_.slipRows(transformation_, slip, all_), friction = stiffness_.friction(rows);
   OwnedMat sum = contact::affine(stiffness_.matrix, friction, at.friction);
@@ -194,11 +198,11 @@ OwnedVec Problem::guess(const Parameters& at, const contact::AssociatedSystem& s
   check(KSPGMRESSetRestart(solver, 200));
   preconditionBy(solver, system.solver());
 
-  const OwnedVec y = rightVector(closed.trial), step = rightVector(closed.trial), u = elasticity::nodalVector(mesh_);
+  const OwnedVec y = rightVector(closed.trial), step = rightVector(closed.trial);
   PetscReal first = 0, before = INFINITY;
   rest = 1;
   for (int iteration = 0; iteration < 20; ++iteration) {
-    check(MatMultAdd(closed.trial, y, contact_.offset, u));
+    const OwnedVec u = displacement(closed, at, y);
     const OwnedVec residual = test(closed, system.closed(), at, forces(at, u), contact_.slip(at.speed, u));
     PetscReal size = 0;
     check(VecNorm(residual, NORM_2, &size));
@@ -284,7 +288,7 @@ void Problem::complementarity(OwnedVec& x, Solution& solution) const {
 }
 
 void Problem::recover(Vec x, Solution& solution) const {
-  solution.displacement = displacement(x);
+  solution.displacement = displacement(solution.at, x);
   const OwnedVec force = forces(solution.at, solution.displacement), folded = elasticity::nodalVector(mesh_);
   check(MatMultTranspose(contact_.periodic, force, folded));  // a contact node on a periodic boundary is pressed on both sides
   solution.slip = contact_.slip(solution.at.speed, solution.displacement);
@@ -359,7 +363,7 @@ double Problem::imbalance(const Solution& solution, Vec nodalForces) const {
   // and at the end the sum of all magnitudes, the scale of what cancels: resultants may vanish on their own.
   std::vector<double> sums(static_cast<std::size_t>(mesh_.parts) * 9 + 1, 0.0);
   const auto at = [&](int part, int kind, int d) -> double& { return sums[static_cast<std::size_t>(part * 9 + kind * 3 + d)]; };
-  const OwnedVec load = this->load(solution.at.speed), springs = elasticity::nodalVector(mesh_);
+  const OwnedVec load = this->load(solution.at), springs = elasticity::nodalVector(mesh_);
   if (bodies_.springs) check(VecPointwiseMult(springs, bodies_.springs, solution.displacement));
   const PetscScalar *forces = nullptr, *loads = nullptr, *contacts = nullptr, *grounded = nullptr;
   check(VecGetArrayRead(nodalForces, &forces));

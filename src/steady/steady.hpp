@@ -53,7 +53,8 @@ struct Change {
   std::vector<double> normalForce;  ///< dR_N, [owned contact node]
 };
 
-/// The complementarity problem [3.3–3.4]: with u = T x + u0 and the nodal forces r = (K + v² K^R) u − b,
+/// The complementarity problem [3.3–3.4]: with u = T x + p u0 and the nodal forces r = (K + v² K^R) u − b, b = p × pressures + v² ×
+/// centrifugal forces,
 ///   F(x) = Tᵀ r + f Sᵀ N r, gaps g ≥ 0 ⟂ F_g = R_N ≥ 0, F = 0 elsewhere.
 /// Linear under approximation A; with convective terms the slip rows S follow w = −v (V + D u_D).
 class Problem {
@@ -72,12 +73,13 @@ class Problem {
   void residual(const Parameters& at, Vec x, Vec f) const;
   /// Collective. dF/dx, exact, n×n, as a new matrix with the same pattern at every x.
   OwnedMat jacobian(const Parameters& at, Vec x) const;
-  /// Collective. u = T x + u0.
-  OwnedVec displacement(Vec x) const;
+  /// Collective. u = T x + p u0.
+  OwnedVec displacement(const Parameters& at, Vec x) const;
 
  private:
   OwnedVec springForces(double speed, Vec displacement) const;
-  OwnedVec load(double speed) const;
+  OwnedVec load(const Parameters& at) const;
+  OwnedVec displacement(const contact::Transformation& transformation, const Parameters& at, Vec x) const;
   OwnedVec forces(const Parameters& at, Vec displacement) const;
   std::vector<double> normalForces(Vec forces) const;
   OwnedVec test(const contact::Transformation& transformation, const std::vector<unsigned char>& slides, const Parameters& at,

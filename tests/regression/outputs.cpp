@@ -28,7 +28,7 @@ TEST(Outputs, Eigenvalues) {
   const CsvTable table = readCsv(layerRun().folder / "eigenvalues.csv");
   EXPECT_EQ(
       table.header,
-      "friction,speed,mode,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,damping_ratio,backward_error,in_band");
+      "friction,speed,pressure,damping,mode,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,damping_ratio,backward_error,in_band");
   const auto friction = table.column("friction"), mode = table.column("mode"), growth = table.column("growth_rate_1_per_s"),
              angular = table.column("angular_frequency_rad_per_s"), frequency = table.column("frequency_hz"),
              damping = table.column("damping_ratio"), error = table.column("backward_error");

@@ -191,6 +191,49 @@ TEST(Dense, NoEigenvalueIsMissed) {
   }
 }
 
+/// P with each matrix transposed, and the left vectors, conjugate, as its right ones: yᴴ P(s) = 0 is P(s)ᵀ ȳ = 0.
+double worstLeftResidual(const DenseMatrix& mass, const DenseMatrix& damping, const DenseMatrix& stiffness,
+                         const std::vector<DensePair>& pairs) {
+  const std::size_t m = pairs.front().q.size();
+  const auto transposed = [m](const DenseMatrix& a) {
+    DenseMatrix result(m * m, 0.0);
+    for (std::size_t k = 0; k < a.size(); ++k) result[(k % m) * m + k / m] = a[k];
+    return result;
+  };
+  std::vector<DensePair> flipped;
+  for (const auto& pair : pairs) {
+    flipped.push_back({pair.s, pair.left});
+    double square = 0;
+    for (auto& entry : flipped.back().q) {
+      square += std::norm(entry);
+      entry = std::conj(entry);
+    }
+    EXPECT_NEAR(square, 1, 1e-12);
+  }
+  return worstResidual(transposed(mass), transposed(damping), transposed(stiffness), flipped);
+}
+
+// By QR and by QZ, with damping and without, from rank 0 to all.
+TEST(Dense, LeftVectors) {
+  constexpr int m = 40;
+  std::mt19937 generator(11);
+  const DenseMatrix damping = randomMatrix(m, 0.3, generator), stiffness = randomMatrix(m, 4.0 * m, generator);
+  const DenseMatrix plain = randomMatrix(m, 3.0 * m, generator);
+  for (const double spread : {1.0, 1e6}) {
+    DenseMatrix mass = plain;
+    for (std::size_t k = 0; k < mass.size(); ++k) mass[k] *= std::pow(spread, -static_cast<double>(k % m) / m);
+    for (const auto& z : {damping, DenseMatrix()}) {
+      const auto pairs = flutter::solveTogether(PETSC_COMM_WORLD, mass, z, stiffness, m, flutter::Vectors::both);
+      const auto right = flutter::solveTogether(PETSC_COMM_WORLD, mass, z, stiffness, m);
+      const DenseMatrix known = z.empty() ? DenseMatrix(mass.size(), 0.0) : z;
+      EXPECT_EQ(pairs.size(), right.size());
+      EXPECT_TRUE(right.front().left.empty());
+      EXPECT_LT(worstResidual(mass, known, stiffness, pairs), 1e-13);
+      EXPECT_LT(worstLeftResidual(mass, known, stiffness, pairs), 1e-13);
+    }
+  }
+}
+
 // Without damping forces gyroscopic ones do no work: all eigenvalues stay on the imaginary axis.
 TEST(Dense, GyroscopicForcesDoNoWork) {
   constexpr int m = 80;

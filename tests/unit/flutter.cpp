@@ -303,7 +303,8 @@ TEST(BackwardError, OfExactAndOfPerturbedPairs) {
   check(MatCreateVecs(layers.system->k0(), real.out(), imaginary.out()));
   double worst = 0;
   for (std::size_t k = 0; k < pairs.size(); k += 7) {
-    const auto& [s, q] = pairs[k];
+    const auto& s = pairs[k].s;
+    const auto& q = pairs[k].q;
     Complex moved = 0;
     double length = 0;
     for (std::size_t i = 0; i < q.size(); ++i) {
