@@ -121,5 +121,26 @@ TEST(Sensitivity, OfFrictionDamping) {
                      "-motion_disc_velocity 0.05,0,0.03"});
 }
 
+// All moduli by a factor and all densities by another multiply all eigenvalues of undamped bodies under approximation A by the root
+// of their quotient: Σ ds/d ln E = s/2, Σ ds/d ln ρ = −s/2. Any left vector would say so: this is a test of the matrices of the bodies.
+TEST(Sensitivity, OfAllBodiesTogether) {
+  const Analysis analysis = run({"two_layers", "-mesh_set nx=12,ny_disc=4,ny_pad=3 -modes_count 60"}, "", 1);
+  const auto& point = analysis.segments.at(0).points.at(0);
+  EXPECT_EQ(point.sensitivities.size(), 3u);
+  expectBalance(analysis, point);
+  for (std::size_t i = 0; i < point.sensitivities.size(); ++i) {
+    const Complex s = point.eigenvalues[point.shapes[i].index].s;
+    Complex moduli = 0, densities = 0;
+    for (const auto& [name, value] : point.sensitivities[i].derivatives) {
+      if (name.starts_with("young_")) moduli += value;
+      if (name.starts_with("density_")) densities += value;
+    }
+    test::print("reduced: left backward error %.0e, errors of the sums %.0e and %.0e\n", point.sensitivities[i].leftBackwardError,
+                std::abs(moduli - 0.5 * s) / std::abs(s), std::abs(densities + 0.5 * s) / std::abs(s));
+    EXPECT_LT(std::abs(moduli - 0.5 * s), 1e-7 * std::abs(s));
+    EXPECT_LT(std::abs(densities + 0.5 * s), 1e-7 * std::abs(s));
+  }
+}
+
 }  // namespace
 }  // namespace squeal
