@@ -169,7 +169,13 @@ void examineShapes(const Analysis& analysis, const contact::AssociatedSystem& sy
     shape.frictionWork =
         flutter::frictionWork(analysis.contact, analysis.bodies, solution, point.at, point.eigenvalues[shape.index].s,
                               flutter::ComplexVector::copied(shape.real, shape.imaginary), prestress);
-  if (flutter::sensitivitiesWanted()) influences.derive(point, pencil, {point.at, system, solution, prestress}, start);
+  if (!flutter::sensitivitiesWanted()) return;
+  Stage stage(analysis.mesh->comm, "flutter");
+  influences.derive(point, pencil, {point.at, system, solution, prestress}, start);
+  double error = 0;
+  for (const auto& sensitivity : point.sensitivities) error = std::max(error, sensitivity.leftBackwardError);
+  stage.finish(formatted("%s: sensitivities of %d eigenvalues, worst left backward error %.1e", parameterText(point.at).c_str(),
+                         static_cast<int>(point.sensitivities.size()), error));
 }
 
 /// Modes of one active set, then flutter at the points from `first` to `last` that share it.
@@ -217,12 +223,13 @@ ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::si
       Stage stage(analysis.mesh->comm, "flutter");
       auto& point = segment.points[d * (last - first) + i - first];
       point = direct ? flutter::solveDirect(pencil, at, trial) : reduced->solve(at, trial);
-      examineShapes(analysis, system, analysis.steady[i], pencil,
-                    direct ? flutter::StartSpace{start.vectors, system.m0(), {}} : reduced->space(at), influences, point);
       stage.finish(formatted(
           "%s: %d of %d eigenvalues unstable%s, worst backward error %.1e%s", parameterText(at).c_str(), point.unstableCount(),
           point.bandCount(), point.bandTop > 0 ? formatted(" to %.4g Hz", point.bandTop / (2 * M_PI)).c_str() : "",
           point.worstBackwardError(), direct ? "" : formatted(", basis of %d", static_cast<int>(reduced->basisSize())).c_str()));
+      flutter::StartSpace space;
+      if (flutter::sensitivitiesWanted()) space = direct ? flutter::StartSpace{start.vectors, system.m0(), {}} : reduced->space(at);
+      examineShapes(analysis, system, analysis.steady[i], pencil, space, influences, point);
     }
   }
   return segment;

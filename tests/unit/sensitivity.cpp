@@ -4,11 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <map>
+#include <sstream>
 
 #include "flutter/left.hpp"
 #include "petsc/text.hpp"
+#include "report/report.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
 #include "support/spectrum.hpp"
@@ -140,6 +141,35 @@ TEST(Sensitivity, OfAllBodiesTogether) {
     EXPECT_LT(std::abs(moduli - 0.5 * s), 1e-7 * std::abs(s));
     EXPECT_LT(std::abs(densities + 0.5 * s), 1e-7 * std::abs(s));
   }
+}
+
+std::vector<std::string> lines(const std::string& text) {
+  std::vector<std::string> list;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) list.push_back(line);
+  return list;
+}
+
+// A row for each mode and parameter, and one without numbers for a mode without derivatives.
+TEST(Sensitivity, InTables) {
+  Analysis analysis = run({"two_layers", "-mesh_set nx=8,ny_disc=3,ny_pad=2 -modes_count 60"}, "", 1);
+  auto& point = analysis.segments.at(0).points.at(0);
+  EXPECT_EQ(point.sensitivities.size(), 3u);
+  auto& first = point.sensitivities.at(0);
+  const auto full = lines(report::sensitivityTable(analysis)), work = lines(report::frictionWorkTable(analysis));
+  EXPECT_EQ(full.size(), 1 + 3 * first.derivatives.size());
+  EXPECT_EQ(work.size(), 1 + 3 * analysis.contact.interfaces.size());
+  for (const auto* table : {&full, &work})
+    for (const auto& line : *table)
+      EXPECT_EQ(std::count(line.begin(), line.end(), ','), std::count(table->front().begin(), table->front().end(), ',')) << line;
+  EXPECT_TRUE(first.regular());
+  first.condition = 1e6;
+  EXPECT_FALSE(first.regular());
+  const auto count = first.derivatives.size();
+  first.derivatives.clear();
+  const auto rest = lines(report::sensitivityTable(analysis));
+  EXPECT_EQ(rest.size(), full.size() - count + 1);
+  EXPECT_TRUE(rest.at(1).ends_with(",none,,"));
 }
 
 }  // namespace
