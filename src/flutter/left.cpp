@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "flutter/basis.hpp"
 #include "flutter/images.hpp"
@@ -106,17 +107,26 @@ class Search {
 
   std::vector<LeftVector> vectors(const std::vector<RightPair>& pairs) {
     add(partsOf(pairs));
-    std::vector<LeftVector> found;
+    std::vector<LeftVector> found(pairs.size());
+    std::vector<std::size_t> open(pairs.size());
+    std::iota(open.begin(), open.end(), 0);
     for (int round = 0;; ++round) {
-      found.clear();
-      std::vector<ComplexVector> bad;
-      for (const auto& pair : pairs) {
-        found.push_back({expand(null(pair.s)), 0});
-        ComplexVector residual = this->residual(pair.s, found.back().y);
-        found.back().backwardError = length(residual) / (scale(pair.s) * length(found.back().y));
-        if (found.back().backwardError > wanted) bad.push_back(std::move(residual));
+      std::vector<Complex> values;
+      for (std::size_t i : open) values.push_back(pairs[i].s);
+      const auto coordinates = nullVectors(values);
+      std::vector<std::size_t> bad;
+      std::vector<ComplexVector> residuals;
+      for (std::size_t k = 0; k < open.size(); ++k) {
+        auto& left = found[open[k]];
+        left.y = expand(coordinates[k]);
+        ComplexVector residual = this->residual(values[k], left.y);
+        left.backwardError = length(residual) / (scale(values[k]) * length(left.y));
+        if (left.backwardError > wanted) bad.push_back(open[k]), residuals.push_back(std::move(residual));
       }
-      if (bad.empty() || round == mostRounds || !add(corrections(bad))) return found;
+      if (bad.empty() || round == mostRounds) return found;
+      const auto solved = corrections(residuals);
+      if (!add({solved.begin(), solved.end()})) return found;
+      open = std::move(bad);
     }
   }
 
@@ -145,7 +155,7 @@ class Search {
   }
 
   /// K0⁻¹ of the real and imaginary parts, scaled to one.
-  std::vector<Vec> corrections(const std::vector<ComplexVector>& residuals) {
+  std::vector<OwnedVec> corrections(const std::vector<ComplexVector>& residuals) {
     const auto count = static_cast<PetscInt>(2 * residuals.size());
     PetscInt local = 0, global = 0;
     check(VecGetLocalSize(residuals[0].real, &local));
@@ -162,8 +172,7 @@ class Search {
       check(MatDenseRestoreColumnVecWrite(rhs, j, &column));
     }
     check(KSPMatSolve(solver_, rhs, solution));
-    solved_.clear();
-    std::vector<Vec> parts;
+    std::vector<OwnedVec> parts;
     for (PetscInt j = 0; j < count; ++j) {
       Vec column = nullptr;
       OwnedVec part;
@@ -171,8 +180,7 @@ class Search {
       check(MatDenseGetColumnVecRead(solution, j, &column));
       check(VecCopy(column, part));
       check(MatDenseRestoreColumnVecRead(solution, j, &column));
-      parts.push_back(part);
-      solved_.push_back(std::move(part));
+      parts.push_back(std::move(part));
     }
     return parts;
   }
@@ -241,15 +249,18 @@ class Search {
     return values;
   }
 
-  /// The left null vector in the basis, from rank 0, so that rounding cannot make the ranks disagree.
-  std::vector<double> null(Complex s) const {
+  /// Left null vectors in the basis, spread over the ranks; the same on all, so that rounding cannot make them disagree.
+  std::vector<std::vector<double>> nullVectors(const std::vector<Complex>& values) const {
     const auto m = static_cast<std::size_t>(size_);
-    int rank = 0;
+    int rank = 0, ranks = 1;
     check(MPI_Comm_rank(pencil_.comm(), &rank));
-    std::vector<double> c(2 * m);
-    if (rank == 0) c = nullVector(projected_, m, s);
-    check(MPI_Bcast(c.data(), static_cast<int>(c.size()), MPI_DOUBLE, 0, pencil_.comm()));
-    return c;
+    check(MPI_Comm_size(pencil_.comm(), &ranks));
+    std::vector<std::vector<double>> vectors(values.size(), std::vector<double>(2 * m));
+    for (std::size_t i = static_cast<std::size_t>(rank); i < values.size(); i += static_cast<std::size_t>(ranks))
+      vectors[i] = nullVector(projected_, m, values[i]);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      check(MPI_Bcast(vectors[i].data(), static_cast<int>(2 * m), MPI_DOUBLE, static_cast<int>(i) % ranks, pencil_.comm()));
+    return vectors;
   }
 
   /// V c, of length one.
@@ -272,7 +283,6 @@ class Search {
   PetscInt size_ = 0;
   std::array<DenseMatrix, 3> projected_;  // [power of s] Vᵀ A V
   PetscInt known_ = 0;                    // columns of V in it
-  std::vector<OwnedVec> solved_;
 };
 
 }  // namespace
