@@ -96,6 +96,7 @@ class Search {
   Search(const Pencil& pencil, const Parameters& at, const StartSpace& start, KSP solver)
       : pencil_(pencil),
         at_(at),
+        norms_{pencil.norm(0, at), pencil.norm(1, at), pencil.norm(2, at)},
         solver_(solver),
         projected_{start.projected.stiffness, start.projected.damping, start.projected.mass},
         known_(start.projected.m) {
@@ -139,7 +140,7 @@ class Search {
 
   double scale(Complex s) const {
     const double size = std::abs(s);
-    return pencil_.norm(0, at_) + size * pencil_.norm(1, at_) + size * size * pencil_.norm(2, at_);
+    return norms_[0] + size * norms_[1] + size * size * norms_[2];
   }
 
   /// P(s)ᴴ y = Σ conj(s)^p A_pᵀ y.
@@ -278,6 +279,7 @@ class Search {
 
   const Pencil& pencil_;
   const Parameters at_;
+  const std::array<double, 3> norms_;  // [power of s] of the full matrices
   KSP solver_;
   OwnedBV basis_;
   PetscInt size_ = 0;
