@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "flutter/influence.hpp"
+#include "flutter/reduced.hpp"
 #include "modes/benchmark.hpp"
 #include "petsc/options.hpp"
 #include "petsc/stages.hpp"
@@ -178,6 +179,15 @@ void examineShapes(const Analysis& analysis, const contact::AssociatedSystem& sy
                          static_cast<int>(point.sensitivities.size()), error));
 }
 
+std::string pointText(const flutter::FrictionPoint& point) {
+  std::string text = formatted("%s: %d of %d eigenvalues unstable", parameterText(point.at).c_str(), point.unstableCount(),
+                               static_cast<int>(point.eigenvalues.size()));
+  if (point.bandTop > 0) text += formatted(" to %.4g Hz", point.bandTop / (2 * M_PI));
+  text += formatted(", worst backward error %.1e", point.worstBackwardError());
+  if (point.tolerance > 0) text += formatted(", estimated error %.1e", point.worstErrorEstimate());
+  return text;
+}
+
 /// Modes of one active set, then flutter at the points from `first` to `last` that share it.
 ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::size_t last, CurrentSystem& current,
                             flutter::Influences& influences, double& floor) {
@@ -204,34 +214,43 @@ ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::si
     if (benchmarkWanted.get()) floor = modes::floorSeconds(system);
     segment.shapes = nodalShapes(segment.modes, system);
     pencil.add(flutter::modalDamping(segment.modes, system.m0()));
-    reduced = std::make_unique<flutter::ReducedProblem>(pencil, system.m0(), system.solver(), segment.modes);
+    Stage stage(analysis.mesh->comm, "flutter");
+    reduced = std::make_unique<flutter::ReducedProblem>(pencil, system.k0(), system.solver(), segment.modes);
+    stage.finish(formatted("basis of %d: free modes and static responses to friction", static_cast<int>(reduced->basisSize())));
   }
-  // The largest friction first: its corrections nearly suffice for the others.
-  std::vector<std::size_t> order;
-  for (std::size_t i = first; i < last; ++i) order.push_back(i);
-  std::rotate(order.begin(),
-              std::max_element(order.begin(), order.end(),
-                               [&](auto a, auto b) { return analysis.steady[a].at.friction < analysis.steady[b].at.friction; }),
-              order.end());
-  const auto& dampings = analysis.sweep.dampings;
-  segment.points.resize(dampings.size() * (last - first));
-  for (std::size_t i : order) {
-    pencil.setPointTerms(termsOf(analysis, system, analysis.steady[i], analysis.steady[first], prestress));
-    for (std::size_t d = 0; d < dampings.size(); ++d) {
-      Parameters at = analysis.steady[i].at;
-      at.damping = dampings[d];
-      Stage stage(analysis.mesh->comm, "flutter");
-      auto& point = segment.points[d * (last - first) + i - first];
-      point = direct ? flutter::solveDirect(pencil, at, trial) : reduced->solve(at, trial);
-      stage.finish(formatted(
-          "%s: %d of %d eigenvalues unstable%s, worst backward error %.1e%s", parameterText(at).c_str(), point.unstableCount(),
-          point.bandCount(), point.bandTop > 0 ? formatted(" to %.4g Hz", point.bandTop / (2 * M_PI)).c_str() : "",
-          point.worstBackwardError(), direct ? "" : formatted(", basis of %d", static_cast<int>(reduced->basisSize())).c_str()));
-      flutter::StartSpace space;
-      if (flutter::sensitivitiesWanted()) space = direct ? flutter::StartSpace{start.vectors, system.m0(), {}} : reduced->space(at);
-      examineShapes(analysis, system, analysis.steady[i], pencil, space, influences, point);
+  std::vector<Parameters> points;
+  for (double damping : analysis.sweep.dampings)
+    for (std::size_t i = first; i < last; ++i) {
+      points.push_back(analysis.steady[i].at);
+      points.back().damping = damping;
+    }
+  segment.points.resize(points.size());
+  for (const auto& batch : flutter::batches(points)) {
+    Stage stage(analysis.mesh->comm, "flutter");
+    std::vector<flutter::PointProblem> problems;
+    for (std::size_t i : batch) {
+      const auto& solution = analysis.steady[first + i % (last - first)];
+      problems.push_back({points[i], pencil.with(termsOf(analysis, system, solution, analysis.steady[first], prestress))});
+    }
+    std::vector<flutter::FrictionPoint> solved;
+    if (reduced) solved = reduced->solve(problems, trial);
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      auto& point = segment.points[batch[i]];
+      point = reduced ? std::move(solved[i]) : flutter::solveDirect(problems[i].pencil, problems[i].at, trial);
+      stage.say(pointText(point));
+    }
+    stage.finish(
+        formatted("%d points", static_cast<int>(batch.size())) +
+        (reduced ? formatted(", basis of %d, %ld solves", static_cast<int>(reduced->basisSize()), reduced->basis().solves()) : ""));
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      flutter::StartSpace space{start.vectors, system.m0(), {}};
+      if (reduced && flutter::sensitivitiesWanted())
+        space = {reduced->basis().columns(), system.k0(), reduced->project(problems[i])};
+      examineShapes(analysis, system, analysis.steady[first + batch[i] % (last - first)], problems[i].pencil, space, influences,
+                    segment.points[batch[i]]);
     }
   }
+  if (reduced) segment.solves = reduced->basis().solves();
   return segment;
 }
 

@@ -23,6 +23,7 @@ struct ModalSegment {
   modes::Modes modes;                          ///< empty with the direct method
   std::vector<OwnedVec> shapes;                ///< the first `-report_modes` modes in nodal displacements, largest entry 1
   std::vector<flutter::FrictionPoint> points;  ///< for each damping factor all steady points
+  long solves = 0;                             ///< right-hand sides solved for to correct the basis and to estimate errors
 };
 
 struct Analysis {

@@ -20,8 +20,7 @@ bool isResult(const std::filesystem::path& name) {
   return text == "eigenvalues.csv" || text == "modes.csv" || text == "summary.json" || text == "results.h5" ||
          text == "options.txt" || text == "sensitivities.csv" || text == "friction_work.csv" || text == "stability_map.csv" ||
          text == "vtk" || text == ".partial" || (begins("stability") && name.extension() == ".png") ||
-         text == "critical_friction.png" || (begins("steady_") && name.extension() == ".csv") ||
-         (begins("modes_") && name.extension() == ".csv");
+         (begins("steady_") && name.extension() == ".csv") || (begins("modes_") && name.extension() == ".csv");
 }
 
 void onRankZero(MPI_Comm comm, const std::string& option, const auto& action) {

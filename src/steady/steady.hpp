@@ -74,7 +74,7 @@ class Problem {
   /// Collective. dF/dx, exact, n×n, as a new matrix with the same pattern at every x.
   OwnedMat jacobian(const Parameters& at, Vec x) const;
   /// Collective. u = T x + p u0.
-  OwnedVec displacement(const Parameters& at, Vec x) const;
+  OwnedVec displacement(const Parameters& at, Vec x) const { return displacement(transformation_, at, x); }
 
  private:
   OwnedVec springForces(double speed, Vec displacement) const;

@@ -152,7 +152,7 @@ std::vector<std::string> lines(const std::string& text) {
 
 // A row for each mode and parameter, and one without numbers for a mode without derivatives.
 TEST(Sensitivity, InTables) {
-  Analysis analysis = run({"two_layers", "-mesh_set nx=8,ny_disc=3,ny_pad=2 -modes_count 60"}, "", 1);
+  Analysis analysis = run({"two_layers", "-mesh_set nx=12,ny_disc=4,ny_pad=3 -modes_count 60"}, "", 1);
   auto& point = analysis.segments.at(0).points.at(0);
   EXPECT_EQ(point.sensitivities.size(), 3u);
   auto& first = point.sensitivities.at(0);
