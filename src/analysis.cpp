@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flutter/influence.hpp"
 #include "matrices/matrices.hpp"
 #include "petsc/options.hpp"
 #include "petsc/stages.hpp"
@@ -135,8 +136,29 @@ std::vector<flutter::Term> termsOf(const Analysis& analysis, const contact::Asso
   return flutter::pointTerms(analysis.contact, system, solution, change);
 }
 
+/// Friction work of the shapes and, if wanted, the sensitivities of their eigenvalues.
+void examineShapes(const Analysis& analysis, const contact::AssociatedSystem& system, const steady::Solution& solution,
+                   const flutter::Pencil& pencil, const flutter::StartSpace& start, flutter::Influences& influences,
+                   flutter::FrictionPoint& point) {
+  if (point.shapes.empty()) return;
+  OwnedMat prestress;
+  if (elasticity::prestressWanted()) prestress = elasticity::geometricStiffness(*analysis.mesh, solution.displacement);
+  for (auto& shape : point.shapes)
+    shape.frictionWork =
+        flutter::frictionWork(analysis.contact, analysis.bodies, solution, point.at, point.eigenvalues[shape.index].s,
+                              flutter::ComplexVector::copied(shape.real, shape.imaginary), prestress);
+  if (!flutter::sensitivitiesWanted()) return;
+  Stage stage(analysis.mesh->comm, "flutter");
+  influences.derive(point, pencil, {point.at, system, solution, prestress}, start);
+  double error = 0;
+  for (const auto& sensitivity : point.sensitivities) error = std::max(error, sensitivity.leftBackwardError);
+  stage.finish(formatted("%s: sensitivities of %d eigenvalues, worst left backward error %.1e", parameterText(point.at).c_str(),
+                         static_cast<int>(point.sensitivities.size()), error));
+}
+
 /// Modes of one active set, then flutter at the points from `first` to `last` that share it.
-ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::size_t last, CurrentSystem& current, double& floor) {
+ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::size_t last, CurrentSystem& current,
+                            flutter::Influences& influences, double& floor) {
   const auto& closed = analysis.steady[first].closed;
   OwnedMat prestress;
   std::unique_ptr<contact::AssociatedSystem> stressed;
@@ -145,16 +167,19 @@ ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::si
     stressed = std::make_unique<contact::AssociatedSystem>(analysis.bodies, analysis.contact, closed, prestress);
   }
   const contact::AssociatedSystem& system = stressed ? *stressed : current.of(closed);
-  std::vector<Parameters> points;
-  for (std::size_t i = first; i < last; ++i) points.push_back(analysis.steady[i].at);
-  const auto termsAt = [&](std::size_t i) {
+  SegmentProblem problem{
+      system.k0(), system.m0(), [&] { return system.solver(); }, system.transformation().trial, modes::wantedCount(), {}, {}, {}};
+  for (std::size_t i = first; i < last; ++i) problem.steadyPoints.push_back(analysis.steady[i].at);
+  problem.termsAt = [&](std::size_t i) {
     return termsOf(analysis, system, analysis.steady[first + i], analysis.steady[first], prestress);
   };
+  problem.examine = [&](std::size_t i, const flutter::Pencil& pencil, const flutter::StartSpace& start,
+                        flutter::FrictionPoint& point) {
+    examineShapes(analysis, system, analysis.steady[first + i], pencil, start, influences, point);
+  };
   flutter::Pencil pencil = flutter::affineTerms(analysis.contact, system);
-  if (matrices::exportWanted()) matrices::exportPencil(pencil.with(termsAt(0)), analysis.sweep, last - first);
-  ModalSegment segment =
-      solveSegment({system.k0(), system.m0(), [&] { return system.solver(); }, system.transformation().trial, modes::wantedCount()},
-                   std::move(pencil), points, analysis.sweep.dampings, termsAt, floor);
+  if (matrices::exportWanted()) matrices::exportPencil(pencil.with(problem.termsAt(0)), analysis.sweep, last - first);
+  ModalSegment segment = solveSegment(problem, std::move(pencil), analysis.sweep.dampings, floor);
   segment.openNodes = system.openNodes();
   return segment;
 }
@@ -198,9 +223,8 @@ Analysis analyseMatrices(MPI_Comm comm) {
   check(MatGetLocalSize(system.k0(), &local, nullptr));
   check(MatCreateConstantDiagonal(comm, local, local, PETSC_DETERMINE, PETSC_DETERMINE, 1, identity.out()));
   const int modes = static_cast<int>(std::min<PetscInt>(modes::wantedCount(), system.size()));
-  analysis.segments.push_back(solveSegment(
-      {system.k0(), system.m0(), [&] { return system.solver(); }, identity, modes}, std::move(pencil), points,
-      analysis.sweep.dampings, [](std::size_t) { return std::vector<flutter::Term>{}; }, analysis.modesFloorSeconds));
+  const SegmentProblem problem{system.k0(), system.m0(), [&] { return system.solver(); }, identity, modes, points, {}, {}};
+  analysis.segments.push_back(solveSegment(problem, std::move(pencil), analysis.sweep.dampings, analysis.modesFloorSeconds));
   return analysis;
 }
 
@@ -243,6 +267,7 @@ Analysis analyse(MPI_Comm comm) {
   CurrentSystem system(analysis);
   analysis.steady = steadySweep(analysis, system);
   if (analysis.contact.totalNodes > 0 && steady::uniquenessWanted()) analysis.uniqueness = examineUniqueness(analysis);
+  flutter::Influences influences(*analysis.mesh, analysis.bodies, analysis.contact);
   for (std::size_t first = 0, last = 0; first < analysis.steady.size(); first = last) {
     last = first + 1;
     const auto& start = analysis.steady[first];
@@ -250,7 +275,7 @@ Analysis analyse(MPI_Comm comm) {
     while (last < analysis.steady.size() && analysis.steady[last].converged &&
            sameOnAllRanks(comm, analysis.steady[last].closed, start.closed))
       ++last;
-    analysis.segments.push_back(flutterSegment(analysis, first, last, system, analysis.modesFloorSeconds));
+    analysis.segments.push_back(flutterSegment(analysis, first, last, system, influences, analysis.modesFloorSeconds));
   }
   return analysis;
 }

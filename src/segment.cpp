@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "flutter/reduced.hpp"
+#include "flutter/sensitivity.hpp"
 #include "modes/benchmark.hpp"
 #include "petsc/options.hpp"
 #include "petsc/stages.hpp"
@@ -45,48 +46,91 @@ std::string pointText(const flutter::FrictionPoint& point) {
   return text;
 }
 
-}  // namespace
-
-ModalSegment solveSegment(const SegmentProblem& problem, flutter::Pencil pencil, const std::vector<Parameters>& steadyPoints,
-                          const std::vector<double>& dampings,
-                          const std::function<std::vector<flutter::Term>(std::size_t)>& termsAt, double& floor) {
-  ModalSegment segment;
-  check(MatGetSize(problem.k0, &segment.unknowns, nullptr));
-  const bool direct = flutter::directWanted();
-  if (direct) rejectUnusedSolverOptions();
-  std::unique_ptr<flutter::ReducedProblem> reduced;
-  if (!direct) {
-    segment.modes = modes::compute({problem.k0, problem.m0, problem.solver()}, problem.modes);
-    if (benchmarkWanted.get()) floor = modes::floorSeconds(problem.k0);
-    segment.shapes = reportedShapes(segment.modes, problem.trial);
-    pencil.add(flutter::modalDamping(segment.modes, problem.m0));
-    Stage stage(pencil.comm(), "flutter");
-    reduced = std::make_unique<flutter::ReducedProblem>(pencil, problem.k0, problem.solver(), segment.modes);
-    stage.finish(formatted("basis of %d: free modes and static responses to friction", static_cast<int>(reduced->basisSize())));
+/// Flutter at the points of a segment, batch by batch.
+class SegmentSweep {
+ public:
+  SegmentSweep(const SegmentProblem& problem, flutter::Pencil pencil, const std::vector<double>& dampings)
+      : problem_(problem), pencil_(std::move(pencil)) {
+    for (double damping : dampings)
+      for (Parameters at : problem.steadyPoints) {
+        at.damping = damping;
+        points_.push_back(at);
+      }
   }
-  std::vector<Parameters> points;
-  for (double damping : dampings)
-    for (Parameters at : steadyPoints) {
-      at.damping = damping;
-      points.push_back(at);
+
+  void computeModes(ModalSegment& segment, double& floor) {
+    const bool direct = flutter::directWanted();
+    if (direct) rejectUnusedSolverOptions();
+    if (direct && !flutter::sensitivitiesWanted()) return;
+    modes::Modes modes = modes::compute({problem_.k0, problem_.m0, problem_.solver()}, problem_.modes);
+    if (direct) {
+      forLeftVectors_ = std::move(modes);
+      return;
     }
-  segment.points.resize(points.size());
-  for (const auto& batch : flutter::batches(points)) {
-    Stage stage(pencil.comm(), "flutter");
-    std::vector<flutter::PointProblem> problems;
-    for (std::size_t i : batch) problems.push_back({points[i], pencil.with(termsAt(i % steadyPoints.size()))});
+    segment.modes = std::move(modes);
+    if (benchmarkWanted.get()) floor = modes::floorSeconds(problem_.k0);
+    segment.shapes = reportedShapes(segment.modes, problem_.trial);
+    pencil_.add(flutter::modalDamping(segment.modes, problem_.m0));
+    Stage stage(pencil_.comm(), "flutter");
+    reduced_ = std::make_unique<flutter::ReducedProblem>(pencil_, problem_.k0, problem_.solver(), segment.modes);
+    stage.finish(formatted("basis of %d: free modes and static responses to friction", static_cast<int>(reduced_->basisSize())));
+  }
+
+  void solvePoints(ModalSegment& segment) {
+    segment.points.resize(points_.size());
+    for (const auto& batch : flutter::batches(points_)) {
+      std::vector<flutter::PointProblem> problems;
+      for (std::size_t i : batch) {
+        const std::size_t steady = i % problem_.steadyPoints.size();
+        problems.push_back({points_[i], pencil_.with(problem_.termsAt ? problem_.termsAt(steady) : std::vector<flutter::Term>())});
+      }
+      solveBatch(batch, problems, segment);
+      for (std::size_t i = 0; i < batch.size() && problem_.examine; ++i)
+        problem_.examine(batch[i] % problem_.steadyPoints.size(), problems[i].pencil, startSpace(problems[i]),
+                         segment.points[batch[i]]);
+    }
+    if (reduced_) segment.solves = reduced_->basis().solves();
+  }
+
+ private:
+  void solveBatch(const std::vector<std::size_t>& batch, const std::vector<flutter::PointProblem>& problems,
+                  ModalSegment& segment) {
+    Stage stage(pencil_.comm(), "flutter");
     std::vector<flutter::FrictionPoint> solved;
-    if (reduced) solved = reduced->solve(problems, problem.trial);
+    if (reduced_) solved = reduced_->solve(problems, problem_.trial);
     for (std::size_t i = 0; i < batch.size(); ++i) {
       auto& point = segment.points[batch[i]];
-      point = reduced ? std::move(solved[i]) : flutter::solveDirect(problems[i].pencil, problems[i].at, problem.trial);
+      point = reduced_ ? std::move(solved[i]) : flutter::solveDirect(problems[i].pencil, problems[i].at, problem_.trial);
       stage.say(pointText(point));
     }
-    stage.finish(
-        formatted("%d points", static_cast<int>(batch.size())) +
-        (reduced ? formatted(", basis of %d, %ld solves", static_cast<int>(reduced->basisSize()), reduced->basis().solves()) : ""));
+    std::string text = formatted("%d points", static_cast<int>(batch.size()));
+    if (reduced_)
+      text += formatted(", basis of %d, %ld solves", static_cast<int>(reduced_->basisSize()), reduced_->basis().solves());
+    stage.finish(text);
   }
-  if (reduced) segment.solves = reduced->basis().solves();
+
+  flutter::StartSpace startSpace(const flutter::PointProblem& point) const {
+    if (!flutter::sensitivitiesWanted()) return {};
+    if (!reduced_) return {forLeftVectors_.vectors, problem_.m0, {}};
+    return {reduced_->basis().columns(), problem_.k0, reduced_->project(point)};
+  }
+
+  const SegmentProblem& problem_;
+  flutter::Pencil pencil_;
+  std::vector<Parameters> points_;
+  modes::Modes forLeftVectors_;  // with the direct method, which has no modes of its own
+  std::unique_ptr<flutter::ReducedProblem> reduced_;
+};
+
+}  // namespace
+
+ModalSegment solveSegment(const SegmentProblem& problem, flutter::Pencil pencil, const std::vector<double>& dampings,
+                          double& floor) {
+  ModalSegment segment;
+  check(MatGetSize(problem.k0, &segment.unknowns, nullptr));
+  SegmentSweep sweep(problem, std::move(pencil), dampings);
+  sweep.computeModes(segment, floor);
+  sweep.solvePoints(segment);
   return segment;
 }
 

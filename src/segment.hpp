@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "flutter/flutter.hpp"
+#include "flutter/left.hpp"
 #include "modes/modes.hpp"
 
 namespace squeal {
@@ -19,18 +20,22 @@ struct ModalSegment {
   long solves = 0;                             ///< right-hand sides solved for to correct the basis and to estimate errors
 };
 
-/// What a segment is solved from; borrowed.
+/// What a segment is solved from; matrices are borrowed.
 struct SegmentProblem {
   Mat k0 = nullptr, m0 = nullptr;
-  std::function<KSP()> solver;  ///< of K0; asked for by the reduced method alone
-  Mat trial = nullptr;          ///< from the unknowns to what is reported
-  int modes = 0;                ///< their number
+  std::function<KSP()> solver;           ///< of K0
+  Mat trial = nullptr;                   ///< from the unknowns to what is reported
+  int modes = 0;                         ///< their number
+  std::vector<Parameters> steadyPoints;  ///< for all damping factors
+  /// The terms that belong to steadyPoints[i] alone; none: there are none.
+  std::function<std::vector<flutter::Term>(std::size_t)> termsAt;
+  /// What else is to be found of steadyPoints[i], given its pencil and a space for left vectors to start from; none: nothing.
+  std::function<void(std::size_t, const flutter::Pencil&, const flutter::StartSpace&, flutter::FrictionPoint&)> examine;
 };
 
-/// Collective. The modes, and flutter at all `steadyPoints` with all `dampings`; `termsAt(i)` makes the terms that belong to
-/// steadyPoints[i] alone. `floor` is set by -modes_benchmark. Errors: of the stages modes and flutter.
-ModalSegment solveSegment(const SegmentProblem& problem, flutter::Pencil pencil, const std::vector<Parameters>& steadyPoints,
-                          const std::vector<double>& dampings,
-                          const std::function<std::vector<flutter::Term>(std::size_t)>& termsAt, double& floor);
+/// Collective. The modes, and flutter at all steady points with all `dampings`. `floor` is set by -modes_benchmark. Errors: of the stages
+/// modes and flutter.
+ModalSegment solveSegment(const SegmentProblem& problem, flutter::Pencil pencil, const std::vector<double>& dampings,
+                          double& floor);
 
 }  // namespace squeal

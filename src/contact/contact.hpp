@@ -41,6 +41,14 @@ struct Slip {
   double slope = 0;   ///< dφ/d|w|, s/m
 };
 
+/// Answer of the friction force of one contact node to a change w* of its relative velocity, −B w* [4.7]:
+/// B = across (1 − ττᵀ − nnᵀ) + along ττᵀ.
+struct VelocityResponse {
+  double across = 0;  ///< f R_N φ / |w|, N·s/m; zero in the plane, which has one tangent
+  double along = 0;   ///< f R_N dφ/d|w|, N·s/m
+};
+VelocityResponse velocityResponse(const Slip& slip, double normalForce, double friction, int dimension);
+
 /// T for one choice of the gaps that are unknowns.
 struct Transformation {
   OwnedMat selection;               ///< B, N×n

@@ -203,17 +203,20 @@ OwnedMat Contact::slipRows(const Transformation& transformation, const std::vect
   return result;
 }
 
+VelocityResponse velocityResponse(const Slip& slip, double normalForce, double friction, int dimension) {
+  const double force = friction * normalForce;
+  return {slip.speed > 0 && dimension == 3 ? force * slip.law / slip.speed : 0, force * slip.slope};
+}
+
 OwnedMat Contact::velocityResponse(const std::vector<Slip>& slip, const std::vector<double>& normalForce, double friction) const {
   const int dimension = mesh->dimension;
   OwnedMat response = nodalMatrix(*mesh, 1);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const double force = friction * normalForce[i];
-    const double across =
-        slip[i].speed > 0 && dimension == 3 ? force * slip[i].law / slip[i].speed : 0;  // the plane has one tangent
+    const auto [across, along] = contact::velocityResponse(slip[i], normalForce[i], friction, dimension);
     std::vector<double> block = identity(dimension, across);
-    const auto along = outer(slip[i].direction, slip[i].direction, dimension, force * slip[i].slope - across),
+    const auto alongBlock = outer(slip[i].direction, slip[i].direction, dimension, along - across),
                normal = outer(nodes[i].normal, nodes[i].normal, dimension, -across);
-    for (std::size_t k = 0; k < block.size(); ++k) block[k] += along[k] + normal[k];
+    for (std::size_t k = 0; k < block.size(); ++k) block[k] += alongBlock[k] + normal[k];
     setBlock(response, dimension, nodes[i].globalNode, nodes[i].globalNode, block);
   }
   assembled(response);

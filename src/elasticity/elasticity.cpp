@@ -86,13 +86,22 @@ std::size_t denseEntries(const mesh::Mesh& mesh) {
   return entries;
 }
 
-void assembleMatrices(const mesh::Mesh& mesh, const std::vector<Material>& materials, Bodies& bodies) {
+struct CellTriples {
+  Triples stiffness, mass, damping;
+};
+
+/// Of all cells, or of those of one body.
+CellTriples cellTriples(const mesh::Mesh& mesh, const std::vector<Material>& materials, std::optional<int> body) {
   const auto incompatible = incompatibleElements();
   const MassKind kind = massOption.get() == "consistent" ? MassKind::consistent : MassKind::higherOrder;
-  Triples k, m, c;
-  k.reserve(denseEntries(mesh));
-  m.reserve(denseEntries(mesh) / static_cast<std::size_t>(mesh.dimension));
+  CellTriples triples;
+  auto& [k, m, c] = triples;
+  if (!body) {
+    k.reserve(denseEntries(mesh));
+    m.reserve(denseEntries(mesh) / static_cast<std::size_t>(mesh.dimension));
+  }
   forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table, const std::vector<Point>& points) {
+    if (body && block.body[e] != *body) return;
     const Material& material = materials[static_cast<std::size_t>(block.body[e])];
     const PetscInt* nodes = block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerCell);
     const bool bubbles = std::find(incompatible.begin(), incompatible.end(), table.name) != incompatible.end();
@@ -104,6 +113,11 @@ void assembleMatrices(const mesh::Mesh& mesh, const std::vector<Material>& mater
     if (material.stiffnessDamping > 0)
       append(c, mesh, nodes, block.nodesPerCell, scaled(cellStiffness, material.stiffnessDamping), false);
   });
+  return triples;
+}
+
+void assembleMatrices(const mesh::Mesh& mesh, const std::vector<Material>& materials, Bodies& bodies) {
+  auto [k, m, c] = cellTriples(mesh, materials, {});
   Ground ground = readGround(mesh);
   appendDiagonal(k, mesh, ground.springs);
   appendDiagonal(c, mesh, ground.dashpots);
@@ -174,13 +188,33 @@ Bodies assemble(const mesh::Mesh& mesh) {
   return bodies;
 }
 
-OwnedMat geometricStiffness(const mesh::Mesh& mesh, Vec displacement) {
+BodyPart bodyPart(const mesh::Mesh& mesh, int body) {
+  Bodies alone;
+  alone.motions = readMotions(mesh.bodies);
+  for (std::size_t i = 0; i < alone.motions.size(); ++i)
+    if (static_cast<int>(i) != body) alone.motions[i] = {};
+  const auto materials = readMaterials(mesh);
+  auto triples = cellTriples(mesh, materials, body);
+  if (convectiveTerms()) assembleConvection(mesh, materials, alone);
+  assembleCentrifugal(mesh, materials, alone);
+  const Material& material = materials[static_cast<std::size_t>(body)];
+  return {toMatrix(mesh, triples.stiffness, Symmetry::rounded),
+          toMatrix(mesh, triples.mass, Symmetry::rounded),
+          std::move(alone.gyroscopic),
+          std::move(alone.rotationStiffness),
+          std::move(alone.centrifugal),
+          material.massDamping,
+          material.stiffnessDamping};
+}
+
+OwnedMat geometricStiffness(const mesh::Mesh& mesh, Vec displacement, std::optional<int> body) {
   const auto materials = readMaterials(mesh);
   const auto incompatible = incompatibleElements();
   const auto values = localValues(mesh, displacement);
   Triples k;
-  k.reserve(denseEntries(mesh));
+  if (!body) k.reserve(denseEntries(mesh));
   forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table, const std::vector<Point>& points) {
+    if (body && block.body[e] != *body) return;
     const PetscInt* nodes = block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerCell);
     std::vector<double> u;
     for (int i = 0; i < block.nodesPerCell; ++i)

@@ -1,6 +1,8 @@
 #pragma once
 /// The elastic bodies, uncoupled: their matrices and the loads on all nodal displacements u. N = dimension × nodes, row
 /// dimension·node + component.
+#include <optional>
+
 #include "elasticity/motion.hpp"
 #include "mesh/mesh.hpp"
 #include "petsc/owned.hpp"
@@ -31,11 +33,23 @@ std::vector<std::string> groundedGroups();
 /// keep its place as its matter moves.
 Bodies assemble(const mesh::Mesh& mesh);
 
+/// What one body contributes to the matrices of Bodies, on all nodal displacements: the derivatives with respect to factors on its
+/// moduli (K, and the stiffness damping K/s) and on its density (the others).
+struct BodyPart {
+  OwnedMat stiffness, mass;                ///< without grounded springs
+  OwnedMat gyroscopic, rotationStiffness;  ///< empty unless the body moves and there are convective terms
+  OwnedVec centrifugal;
+  double massDamping = 0;       ///< α, 1/s: C = α M + …
+  double stiffnessDamping = 0;  ///< β + η / (2π f), s: C = … + (β + η / 2πf) K
+};
+/// Collective. Of the body with this index.
+BodyPart bodyPart(const mesh::Mesh& mesh, int body);
+
 /// `-elasticity_prestress`: the geometric stiffness of steady sliding joins K.
 bool prestressWanted();
-/// Collective. K_σ,ij = ∫ ∇φᵢ·σ∇φⱼ on each component, σ = D ε of the nodal displacements given (of their incompatible modes, too):
+/// Collective. `body` alone, if given. K_σ,ij = ∫ ∇φᵢ·σ∇φⱼ on each component, σ = D ε of the nodal displacements given (of their incompatible modes, too):
 /// N×N, exactly symmetric, with the pattern of K, N/m.
-OwnedMat geometricStiffness(const mesh::Mesh& mesh, Vec displacement);
+OwnedMat geometricStiffness(const mesh::Mesh& mesh, Vec displacement, std::optional<int> body = {});
 
 /// Collective. A vector of nodal displacements, N entries, block size = dimension.
 OwnedVec nodalVector(const mesh::Mesh& mesh);

@@ -34,7 +34,8 @@ std::vector<EigenPair> unpacked(const std::vector<double>& real, const std::vect
   std::vector<EigenPair> pairs;
   const std::size_t n = real.size();
   for (std::size_t j = 0; j < n; ++j) {
-    if (beta[j] == 0) throw Error("the reduced mass matrix is singular: an eigenvalue is infinite");
+    if (beta[j] == 0 && real[j] == 0) throw Error("the reduced eigenproblem is singular: mass and stiffness have a common null vector");
+    if (beta[j] == 0) continue;  // infinite: a motion without mass
     const bool conjugates = imaginary[j] != 0;
     pairs.push_back(
         {Complex(real[j], imaginary[j]) / beta[j], complexColumn(right, n, j, conjugates), complexColumn(left, n, j, conjugates)});
@@ -109,10 +110,13 @@ double solveInPlace(DenseMatrix a, DenseMatrix& b, int m) {
   return info == 0 ? smallest / largest : 0;
 }
 
+/// Ratio of pivots from which on an inverse is formed: eigenvalues then lose half of the digits at worst, the largest ones none.
+constexpr double wellConditioned = 1e-8;
+
 /// M⁻¹ B; empty if M is far from well conditioned. In an M0-orthonormal basis M is the identity but for friction: M⁻¹ is formed
 /// safely, and QR takes a small part of the time of QZ.
 DenseMatrix timesInverse(const DenseMatrix& mass, DenseMatrix b, int m) {
-  return solveInPlace(mass, b, m) > 1e-4 ? b : DenseMatrix();
+  return solveInPlace(mass, b, m) > wellConditioned ? b : DenseMatrix();
 }
 
 /// uᴴ M⁻¹ A = μ uᴴ gives the left vectors y = M⁻ᵀ u of A y = μ M y.
@@ -202,7 +206,8 @@ std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vecto
   // The roots of the reversed polynomial, K + t Z + t² M read as t² K + t Z + M with t = 1/s, where K is the better matrix to invert:
   // so it is in a basis that is orthonormal in energy.
   DenseMatrix none;
-  const bool reversed = solveInPlace(problem.stiffness, none, problem.m) > solveInPlace(problem.mass, none, problem.m);
+  const double pivots = solveInPlace(problem.stiffness, none, problem.m);
+  const bool reversed = pivots > wellConditioned && pivots > solveInPlace(problem.mass, none, problem.m);
   const auto &leading = reversed ? problem.stiffness : problem.mass, &last = reversed ? problem.mass : problem.stiffness;
   auto pairs = problem.damping.empty() ? linearInSquare(leading, last, problem.m, vectors)
                                        : companion(leading, problem.damping, last, problem.m, vectors);

@@ -9,7 +9,9 @@
 #include "flutter/basis.hpp"
 #include "flutter/dense.hpp"
 #include "flutter/images.hpp"
+#include "flutter/left.hpp"
 #include "flutter/pencil.hpp"
+#include "flutter/sensitivity.hpp"
 #include "flutter/terms.hpp"
 #include "modes/modes.hpp"
 
@@ -27,18 +29,21 @@ struct Eigenvalue {
 struct Shape {
   std::size_t index;  ///< into Point::eigenvalues
   OwnedVec real, imaginary;
+  ComplexVector unknowns;            ///< the same d in the unknowns x
+  std::vector<double> frictionWork;  ///< [owned contact node] what friction there adds to the growth rate, 1/s: frictionWork()
 };
 
 /// Everything found at one point of the sweep.
 struct FrictionPoint {
   Parameters at;
-  std::vector<Eigenvalue> eigenvalues;  ///< Im s ≥ 0, by ascending frequency
-  std::vector<Shape> shapes;            ///< of the fastest growing ones
-  double bandTop = 0;                   ///< rad/s: eigenvalues with |s| up to here are listed, and corrected; 0: none are
-  double accuracy = 0;                  ///< backward error asked for
-  double tolerance = 0;                 ///< estimate of |δs|/|s| asked for
-  std::size_t solvedIndex = 0;          ///< of ReducedProblem::pairs
-  double askedTo = 0;                   ///< rad/s: upper end of `-flutter_direct_band`; 0: no such band
+  std::vector<Eigenvalue> eigenvalues;     ///< Im s ≥ 0, by ascending frequency
+  std::vector<Shape> shapes;               ///< of the fastest growing ones
+  std::vector<Sensitivity> sensitivities;  ///< [shape]; empty unless `-flutter_sensitivities`
+  double bandTop = 0;                      ///< rad/s: eigenvalues with |s| up to here are listed, and corrected; 0: none are
+  double accuracy = 0;                     ///< backward error asked for
+  double tolerance = 0;                    ///< estimate of |δs|/|s| asked for
+  std::size_t solvedIndex = 0;             ///< of ReducedProblem::pairs
+  double askedTo = 0;                      ///< rad/s: upper end of `-flutter_direct_band`; 0: no such band
   double coveredTo = 0;  ///< rad/s: all eigenvalues of `-flutter_direct_band` with |s| below are listed; 0: no such band
   int unstableCount() const;
   int uncertifiedCount() const;

@@ -49,49 +49,24 @@ OwnedVec startVector(Mat matrix, int run) {
 }
 
 NearestPair emptyPair(Mat matrix, Complex s) {
-  NearestPair pair{s, {}, {}};
+  NearestPair pair{{}, s};
   check(MatCreateVecs(matrix, pair.real.out(), pair.imaginary.out()));
   return pair;
 }
 
-/// u^H v
-Complex dot(const NearestPair& u, const NearestPair& v) {
-  PetscScalar rr = 0, ii = 0, ri = 0, ir = 0;
-  check(VecDot(u.real, v.real, &rr));
-  check(VecDot(u.imaginary, v.imaginary, &ii));
-  check(VecDot(u.real, v.imaginary, &ri));
-  check(VecDot(u.imaginary, v.real, &ir));
-  return {rr + ii, ri - ir};
-}
-
-/// v += a u
-void add(NearestPair& v, Complex a, const NearestPair& u) {
-  check(VecAXPY(v.real, a.real(), u.real));
-  check(VecAXPY(v.real, -a.imag(), u.imaginary));
-  check(VecAXPY(v.imaginary, a.real(), u.imaginary));
-  check(VecAXPY(v.imaginary, a.imag(), u.real));
-}
-
 void normalise(NearestPair& v) {
-  const double length = std::sqrt(dot(v, v).real());
-  check(VecScale(v.real, 1 / length));
-  check(VecScale(v.imaginary, 1 / length));
+  const double size = length(v);
+  check(VecScale(v.real, 1 / size));
+  check(VecScale(v.imaginary, 1 / size));
 }
 
-NearestPair copied(const NearestPair& pair) {
-  NearestPair copy{pair.s, {}, {}};
-  check(VecDuplicate(pair.real, copy.real.out()));
-  check(VecDuplicate(pair.imaginary, copy.imaginary.out()));
-  check(VecCopy(pair.real, copy.real));
-  check(VecCopy(pair.imaginary, copy.imaginary));
-  return copy;
-}
+NearestPair copied(const NearestPair& pair) { return {ComplexVector::copied(pair.real, pair.imaginary), pair.s}; }
 
 /// Removes from v its part in the span of the orthonormal `basis`, twice for rounding; returns the length that is left.
 double project(NearestPair& v, const std::vector<NearestPair>& basis) {
   for (int pass = 0; pass < 2; ++pass)
     for (const auto& u : basis) add(v, -dot(u, v), u);
-  return std::sqrt(dot(v, v).real());
+  return length(v);
 }
 
 /// Eigenvalues this close, relative to their size, count as one for which vectors may mix.

@@ -4,13 +4,14 @@
 #include <memory>
 #include <vector>
 
+#include "flutter/complexvector.hpp"
 #include "flutter/pencil.hpp"
 
 namespace squeal::flutter {
 
-struct NearestPair {
+/// The vector has 2-norm 1; its imaginary part is zero for a real one.
+struct NearestPair : ComplexVector {
   std::complex<double> s;
-  OwnedVec real, imaginary;  ///< of the vector, of 2-norm 1; imaginary is zero for a real one
 };
 
 struct NearestPairs {

@@ -11,6 +11,17 @@ double Term::coefficient(const Parameters& at) const {
          std::pow(at.damping, dampingExponent);
 }
 
+double Term::slope(const Parameters& at, double Parameters::*parameter) const {
+  const int exponent = parameter == &Parameters::friction  ? frictionExponent
+                       : parameter == &Parameters::speed   ? speedExponent
+                       : parameter == &Parameters::damping ? dampingExponent
+                                                           : 0;
+  if (exponent == 0) return 0;
+  Parameters unit = at;
+  unit.*parameter = 1;  // leaves the other powers
+  return exponent * coefficient(unit) * std::pow(at.*parameter, exponent - 1);
+}
+
 Term Term::share() const { return {matrix.share(), power, frictionExponent, factor, speedExponent, dampingExponent}; }
 
 Pencil::Pencil(std::vector<Term> terms)
@@ -63,12 +74,23 @@ void Pencil::apply(int power, const Parameters& at, Vec x, Vec y) const {
     }
 }
 
+void Pencil::applyTranspose(int power, const Parameters& at, Vec x, Vec y) const {
+  check(VecZeroEntries(y));
+  OwnedVec part;
+  check(VecDuplicate(y, part.out()));
+  for (const auto& term : terms_)
+    if (const double c = term.coefficient(at); term.power == power && c != 0) {
+      check(MatMultTranspose(term.matrix, x, part));
+      check(VecAXPY(y, c, part));
+    }
+}
+
 double Pencil::norm(int power, const Parameters& at) const {
   if (!hasPower(power)) return 0;
   OwnedVec& v = (*singular_)[static_cast<std::size_t>(power)];
   const bool fresh = !v;
-  OwnedVec image, part;
-  check(MatCreateVecs(terms_[0].matrix, image.out(), part.out()));
+  OwnedVec image;
+  check(MatCreateVecs(terms_[0].matrix, image.out(), nullptr));
   if (fresh) {
     // Largest eigenvalues belong to rough vectors; a fixed pseudo-random start has them all.
     PetscInt first = 0, end = 0;
@@ -86,12 +108,7 @@ double Pencil::norm(int power, const Parameters& at) const {
     check(VecNorm(image, NORM_2, &size));
     estimate = std::max(estimate, static_cast<double>(size));
     if (size == 0) return estimate;  // a term that vanishes at this friction: v stays a start for the next
-    check(VecZeroEntries(v));
-    for (const auto& term : terms_)
-      if (const double c = term.coefficient(at); term.power == power && c != 0) {
-        check(MatMultTranspose(term.matrix, image, part));
-        check(VecAXPY(v, c, part));
-      }
+    applyTranspose(power, at, image, v);
   }
   return estimate;
 }

@@ -21,6 +21,8 @@ struct Term {
   int dampingExponent = 0;  ///< d
 
   double coefficient(const Parameters& at) const;
+  /// Derivative of the coefficient with respect to one parameter.
+  double slope(const Parameters& at, double Parameters::*parameter) const;
   /// The same term, its matrix shared.
   Term share() const;
 };
@@ -44,6 +46,8 @@ class Pencil {
   OwnedMat assembled(int power, const Parameters& at) const;
   /// Collective. y = (sum of the terms with this power) x.
   void apply(int power, const Parameters& at, Vec x, Vec y) const;
+  /// Collective. y = (sum of the terms with this power)ᵀ x.
+  void applyTranspose(int power, const Parameters& at, Vec x, Vec y) const;
   /// Collective. Estimate from below of the 2-norm of the sum, by power iteration on AᵀA continued from the last call for this
   /// power, be it at another point of the sweep: from below, so that a backward error made with it is never flattered.
   double norm(int power, const Parameters& at) const;

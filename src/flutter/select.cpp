@@ -147,7 +147,7 @@ void keepShapes(FrictionPoint& point, Mat trial, const std::function<void(std::s
   check(VecDuplicate(real, imaginary.out()));
   for (std::size_t index : order) {
     unknowns(index, real, imaginary);
-    Shape shape{index, {}, {}};
+    Shape shape{index, {}, {}, {}, {}};
     check(MatCreateVecs(trial, nullptr, shape.real.out()));
     check(VecDuplicate(shape.real, shape.imaginary.out()));
     check(MatMult(trial, real, shape.real));
@@ -155,8 +155,9 @@ void keepShapes(FrictionPoint& point, Mat trial, const std::function<void(std::s
     PetscReal a = 0, b = 0;
     check(VecNorm(shape.real, NORM_INFINITY, &a));
     check(VecNorm(shape.imaginary, NORM_INFINITY, &b));
-    check(VecScale(shape.real, 1 / std::max(a, b)));
-    check(VecScale(shape.imaginary, 1 / std::max(a, b)));
+    for (Vec part : {shape.real.get(), shape.imaginary.get(), real.get(), imaginary.get()})
+      check(VecScale(part, 1 / std::max(a, b)));
+    shape.unknowns = ComplexVector::copied(real, imaginary);
     point.shapes.push_back(std::move(shape));
   }
 }

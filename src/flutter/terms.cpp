@@ -41,15 +41,10 @@ void addFriction(std::vector<Term>& terms, const contact::Contact& contact, cons
 /// [4.7]: −B w*.
 void addVelocityResponse(std::vector<Term>& terms, const contact::Contact& contact, const contact::AssociatedSystem& system,
                          const steady::Solution& solution) {
-  // Nodal forces that are not positive under pressure (tri6, quad8) would make the damping negative: there the pressure on a
-  // positive share of the faces takes their place, at the price of an error of first order in the mesh.
   std::vector<double> normalForce;
-  for (std::size_t i = 0; i < solution.contact.size(); ++i) {
-    const auto& state = solution.contact[i];
-    const double force = contact.weightsPositive ? state.normalForce : state.pressure * contact.nodes[i].lumpedArea;
-    normalForce.push_back(solution.closed[i] ? force : 0);
-  }
-  const OwnedMat response = contact.velocityResponse(solution.slip, normalForce, solution.at.friction);
+  for (const auto& state : solution.contact) normalForce.push_back(state.normalForce);
+  const OwnedMat response = contact.velocityResponse(
+      solution.slip, responseForces(contact, solution.closed, std::move(normalForce)), solution.at.friction);
   const Mat trial = system.transformation().trial;
   OwnedMat jumps, answered, damping;
   check(MatMatMult(contact.jump, trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, jumps.out()));
@@ -94,6 +89,22 @@ std::vector<Term> pointTerms(const contact::Contact& contact, const contact::Ass
     terms.push_back({std::move(change.matrix), 0, 0, 1.0, 0});
   }
   return terms;
+}
+
+bool frictionDampingWanted() { return dampingOption.get(); }
+
+std::vector<double> responseForces(const contact::Contact& contact, const std::vector<unsigned char>& closed,
+                                   std::vector<double> normalForce) {
+  if (!dampingOption.get()) return std::vector<double>(normalForce.size(), 0.0);
+  // Nodal forces that are not positive under pressure (tri6, quad8) would make the damping negative: there the pressure on a
+  // positive share of the faces takes their place, at the price of an error of first order in the mesh.
+  if (!contact.weightsPositive) {
+    normalForce = steady::consistentPressure(*contact.mesh, contact, normalForce);
+    for (std::size_t i = 0; i < normalForce.size(); ++i) normalForce[i] *= contact.nodes[i].lumpedArea;
+  }
+  for (std::size_t i = 0; i < normalForce.size(); ++i)
+    if (!closed[i]) normalForce[i] = 0;
+  return normalForce;
 }
 
 bool modalDampingWanted() {

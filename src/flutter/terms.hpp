@@ -17,6 +17,13 @@ Pencil affineTerms(const contact::Contact& contact, const contact::AssociatedSys
 std::vector<Term> pointTerms(const contact::Contact& contact, const contact::AssociatedSystem& system,
                              const steady::Solution& solution, Mat prestressChange);
 
+/// `-flutter_friction_damping`.
+bool frictionDampingWanted();
+/// Collective. The normal forces that enter the answer to the relative velocity, [owned contact node]: R_N of the `closed` nodes, on
+/// tri6 and quad8 faces the pressure on a positive share of the faces; zero without `-flutter_friction_damping`. Linear in R_N.
+std::vector<double> responseForces(const contact::Contact& contact, const std::vector<unsigned char>& closed,
+                                   std::vector<double> normalForce);
+
 /// Collective. Modal damping [Caughey]: c Σ 2 ζ_i ω_i (M0 φ_i)(M0 φ_i)ᵀ with the ratios of `-flutter_modal_damping`; empty if there
 /// are none. A matrix that can only be multiplied.
 std::vector<Term> modalDamping(const modes::Modes& modes, Mat mass);

@@ -39,11 +39,11 @@ class Ghosts {
     check(VecRestoreArrayRead(local_, &values));
     return field;
   }
-  /// The first component alone.
-  Field scalar(const std::string& name, Vec u) const {
+  /// One component alone.
+  Field scalar(const std::string& name, Vec u, std::size_t component = 0) const {
     const Field all = vector(name, u);
     Field field{name, 1, {}};
-    for (std::size_t i = 0; i < all.values.size(); i += 3) field.values.push_back(all.values[i]);
+    for (std::size_t i = component; i < all.values.size(); i += 3) field.values.push_back(all.values[i]);
     return field;
   }
 
@@ -61,6 +61,21 @@ OwnedVec contactField(const Analysis& analysis, const steady::Solution& solution
     const PetscInt row = mesh.dimension * analysis.contact.nodes[i].globalNode;
     check(VecSetValue(field, row, solution.contact[i].pressure, INSERT_VALUES));
     check(VecSetValue(field, row + 1, solution.contact[i].gap, INSERT_VALUES));
+  }
+  check(VecAssemblyBegin(field));
+  check(VecAssemblyEnd(field));
+  return field;
+}
+
+/// What friction adds to the growth rate of a mode at the pad nodes, 1/s, in component 0 of a nodal vector; per area in component 1.
+OwnedVec workField(const Analysis& analysis, const flutter::Shape& shape) {
+  const auto& mesh = *analysis.mesh;
+  OwnedVec field = elasticity::nodalVector(mesh);
+  for (std::size_t i = 0; i < shape.frictionWork.size(); ++i) {
+    const auto& node = analysis.contact.nodes[i];
+    const PetscInt row = mesh.dimension * node.globalNode;
+    check(VecSetValue(field, row, shape.frictionWork[i], INSERT_VALUES));
+    check(VecSetValue(field, row + 1, shape.frictionWork[i] / node.lumpedArea, INSERT_VALUES));
   }
   check(VecAssemblyBegin(field));
   check(VecAssemblyEnd(field));
@@ -142,6 +157,7 @@ void writeFields(const Analysis& analysis, const std::filesystem::path& folder) 
       for (const auto& shape : point.shapes) {
         shapes.push_back(ghosts.vector(shapeName(point, shape) + "_real", shape.real));
         shapes.push_back(ghosts.vector(shapeName(point, shape) + "_imaginary", shape.imaginary));
+        shapes.push_back(ghosts.scalar(shapeName(point, shape) + "_friction_work_per_area", workField(analysis, shape), 1));
       }
       if (!shapes.empty()) writeVtu(mesh, vtk / ("complex_modes_friction_" + pointName(point.at)), shapes);
     }
@@ -181,6 +197,7 @@ void writeHdf5(const Analysis& analysis, const std::filesystem::path& folder) {
       for (const auto& shape : point.shapes) {
         file.writeNodeVector(group, formatted("mode_%03zu_real", shape.index + 1), shape.real);
         file.writeNodeVector(group, formatted("mode_%03zu_imaginary", shape.index + 1), shape.imaginary);
+        file.writeNodeVector(group, formatted("mode_%03zu_friction_work", shape.index + 1), workField(analysis, shape));
       }
     }
   }

@@ -39,6 +39,10 @@ void writeRecipe(const Analysis& analysis, const std::filesystem::path& folder);
 void writeSummary(const Analysis& analysis, const std::filesystem::path& folder);
 void writeHdf5(const Analysis& analysis, const std::filesystem::path& folder);
 void writeFields(const Analysis& analysis, const std::filesystem::path& folder);
+/// Derivatives of the eigenvalues of the complex modes kept: a row per mode and parameter; a mode without any has one row, "none".
+std::string sensitivityTable(const Analysis& analysis);
+/// Collective. What friction on each interface adds to the growth rates of the complex modes kept (flutter::frictionWork).
+std::string frictionWorkTable(const Analysis& analysis);
 /// Frequencies and growth rates of the unstable modes at each friction.
 std::string stabilityTable(const Analysis& analysis);
 

@@ -149,6 +149,8 @@ std::string recipe(MPI_Comm comm) {
 void writeTables(const Analysis& analysis, const std::filesystem::path& folder) {
   const MPI_Comm comm = analysis.comm;
   writeFile(comm, folder / "eigenvalues.csv", eigenvalueTable(analysis));
+  if (flutter::sensitivitiesWanted()) writeFile(comm, folder / "sensitivities.csv", sensitivityTable(analysis));
+  writeFile(comm, folder / "friction_work.csv", frictionWorkTable(analysis));
   writeFile(comm, folder / "stability_map.csv", stabilityMap(analysis));
   for (std::size_t s = 0; s < analysis.segments.size(); ++s) {
     if (analysis.segments[s].modes.angularFrequency.empty()) continue;

@@ -4,7 +4,7 @@
 namespace squeal::steady {
 
 std::vector<double> consistentPressure(const mesh::Mesh& mesh, const contact::Contact& contact,
-                                       const std::vector<ContactState>& states) {
+                                       const std::vector<double>& normalForce) {
   // One scalar per node, kept in the first component of a nodal vector, so that the periodic matrix folds images as it does for u.
   const PetscInt owned = mesh.dimension * mesh.ownedNodes;
   OwnedMat faces, folded;
@@ -38,7 +38,7 @@ std::vector<double> consistentPressure(const mesh::Mesh& mesh, const contact::Co
   check(MatCreateVecs(mass, force.out(), pressure.out()));
   PetscScalar* array = nullptr;
   check(VecGetArray(force, &array));
-  for (std::size_t i = 0; i < states.size(); ++i) array[i] = states[i].normalForce;
+  std::copy(normalForce.begin(), normalForce.end(), array);
   check(VecRestoreArray(force, &array));
   OwnedKSP solver;
   check(KSPCreate(mesh.comm, solver.out()));
@@ -49,9 +49,9 @@ std::vector<double> consistentPressure(const mesh::Mesh& mesh, const contact::Co
   check(PCSetType(pc, PCJACOBI));  // face mass matrices are well conditioned
   check(KSPSetTolerances(solver, 1e-12, PETSC_DEFAULT, PETSC_DEFAULT, 1000));
   check(KSPSolve(solver, force, pressure));
-  std::vector<double> result(states.size());
+  std::vector<double> result(normalForce.size());
   check(VecGetArray(pressure, &array));
-  std::copy(array, array + states.size(), result.begin());
+  std::copy(array, array + normalForce.size(), result.begin());
   check(VecRestoreArray(pressure, &array));
   return result;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "petsc/inner.hpp"
 #include "petsc/options.hpp"
 
 namespace squeal::steady {
@@ -46,14 +47,6 @@ PetscErrorCode differentiate(SNES, Vec x, Mat jacobian, Mat, void* context) {
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode applySolver(PC pc, Vec in, Vec out) {
-  KSP solver = nullptr;
-  PetscFunctionBegin;
-  PetscCall(PCShellGetContext(pc, &solver));
-  PetscCall(KSPSolve(solver, in, out));
-  PetscFunctionReturn(0);
-}
-
 OwnedVec rightVector(Mat matrix) {
   OwnedVec vector;
   check(MatCreateVecs(matrix, vector.out(), nullptr));
@@ -82,15 +75,21 @@ OwnedVec Problem::load(const Parameters& at) const {
   return b;
 }
 
-/// r = (K + v² K^R) u − b: supports and contact.
-OwnedVec Problem::forces(const Parameters& at, Vec displacement) const {
+/// (K + v² K^R) u.
+OwnedVec Problem::springForces(double speed, Vec displacement) const {
   OwnedVec r = elasticity::nodalVector(mesh_);
   check(MatMult(bodies_.stiffness, displacement, r));
   if (bodies_.rotationStiffness) {
     const OwnedVec moving = elasticity::nodalVector(mesh_);
     check(MatMult(bodies_.rotationStiffness, displacement, moving));
-    check(VecAXPY(r, at.speed * at.speed, moving));
+    check(VecAXPY(r, speed * speed, moving));
   }
+  return r;
+}
+
+/// r = (K + v² K^R) u − b: supports and contact.
+OwnedVec Problem::forces(const Parameters& at, Vec displacement) const {
+  OwnedVec r = springForces(at.speed, displacement);
   check(VecAXPY(r, -1, load(at)));
   return r;
 }
@@ -193,11 +192,7 @@ OwnedVec Problem::guess(const Parameters& at, const contact::AssociatedSystem& s
   check(KSPSetType(solver, KSPGMRES));
   check(KSPSetTolerances(solver, 1e-13, PETSC_DEFAULT, PETSC_DEFAULT, 200));
   check(KSPGMRESSetRestart(solver, 200));
-  PC pc = nullptr;
-  check(KSPGetPC(solver, &pc));
-  check(PCSetType(pc, PCSHELL));
-  check(PCShellSetContext(pc, system.solver()));
-  check(PCShellSetApply(pc, applySolver));
+  preconditionBy(solver, system.solver());
 
   const OwnedVec y = rightVector(closed.trial), step = rightVector(closed.trial);
   PetscReal first = 0, before = INFINITY;
@@ -315,7 +310,7 @@ void Problem::recover(Vec x, Solution& solution) const {
   check(VecRestoreArrayRead(x, &values));
   check(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, mesh_.comm));
   if (!contact_.weightsPositive) {
-    const auto pressure = consistentPressure(mesh_, contact_, solution.contact);
+    const auto pressure = consistentPressure(mesh_, contact_, normal);
     for (std::size_t i = 0; i < pressure.size(); ++i) solution.contact[i].pressure = pressure[i];
   }
   double smallest = INFINITY;

@@ -39,6 +39,20 @@ struct Solution {
       0;  ///< worst |contact + supports + load| of a connected part over the sum of the magnitudes of all nodal forces
 };
 
+/// What changes the steady state: per unit of a parameter.
+struct Cause {
+  Vec force = nullptr;  ///< dr of the nodal forces r = (K + v² K^R) u − b at fixed u, N entries; null: none
+  Vec held = nullptr;   ///< du0 of the held displacements; null: none
+  double friction = 0;  ///< df
+  double speed = 0;     ///< dv, as it enters the friction law
+};
+
+/// First-order change of the steady state while the active set stays.
+struct Change {
+  OwnedVec displacement;            ///< du, N entries
+  std::vector<double> normalForce;  ///< dR_N, [owned contact node]
+};
+
 /// The complementarity problem [3.3–3.4]: with u = T x + p u0 and the nodal forces r = (K + v² K^R) u − b, b = p × pressures + v² ×
 /// centrifugal forces,
 ///   F(x) = Tᵀ r + f Sᵀ N r, gaps g ≥ 0 ⟂ F_g = R_N ≥ 0, F = 0 elsewhere.
@@ -51,6 +65,10 @@ class Problem {
   /// (-steady_snes_*). Error: |w| = 0 at a node that carries friction.
   Solution solve(const Parameters& at, const contact::AssociatedSystem& system) const;
 
+  /// Collective. The change dx of the converged `solution` with dF = 0 on the active set of `system`: GMRES, preconditioned by the
+  /// factorised K0. Error: not converged.
+  Change change(const Solution& solution, const contact::AssociatedSystem& system, const Cause& cause) const;
+
   /// Collective. F(x), n entries.
   void residual(const Parameters& at, Vec x, Vec f) const;
   /// Collective. dF/dx, exact, n×n, as a new matrix with the same pattern at every x.
@@ -59,6 +77,7 @@ class Problem {
   OwnedVec displacement(const Parameters& at, Vec x) const { return displacement(transformation_, at, x); }
 
  private:
+  OwnedVec springForces(double speed, Vec displacement) const;
   OwnedVec load(const Parameters& at) const;
   OwnedVec displacement(const contact::Transformation& transformation, const Parameters& at, Vec x) const;
   OwnedVec forces(const Parameters& at, Vec displacement) const;
@@ -81,6 +100,6 @@ class Problem {
 
 /// Collective. Pressure p with ∫ φ_i p dA = R_N,i (the consistent mass of the pad faces), [owned contact node], Pa.
 std::vector<double> consistentPressure(const mesh::Mesh& mesh, const contact::Contact& contact,
-                                       const std::vector<ContactState>& states);
+                                       const std::vector<double>& normalForce);
 
 }  // namespace squeal::steady

@@ -1,0 +1,200 @@
+#include "flutter/influence.hpp"
+
+#include <cmath>
+
+namespace squeal::flutter {
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Central differences of what follows the steady state: errors of its square beside rounding over it.
+constexpr double step = 1e-4;
+
+/// The steady state enters the terms of the point: the direction and law of slip, friction damping, prestress.
+bool followsSteadyState(const contact::Contact& contact, const Parameters& at, Mat prestress) {
+  const bool damping = frictionDampingWanted() && (contact.mesh->dimension == 3 || !contact.law.constant());
+  return prestress || (at.friction > 0 && (damping || !contact.slipIsGiven()));
+}
+
+double separation(const std::vector<Eigenvalue>& eigenvalues, std::size_t index) {
+  double smallest = INFINITY;
+  const Complex s = eigenvalues[index].s;
+  for (std::size_t i = 0; i < eigenvalues.size(); ++i)
+    if (i != index) smallest = std::min(smallest, std::abs(eigenvalues[i].s - s));
+  return smallest / std::abs(s);
+}
+
+}  // namespace
+
+/// One parameter θ, and how the steady state follows it.
+struct Influences::Influence {
+  std::string name;
+  double Parameters::*member = nullptr;  // of the point; null: one of a body
+  int body = -1;
+  bool density = false;  // of the body; otherwise its moduli
+  double size = 1;       // θ, for the step of differences
+  steady::Change change;
+  std::vector<double> responseForce;  // its change
+  OwnedMat prestress;                 // its change
+};
+
+/// A triple on all nodal displacements: yᴴ L(f)ᵀ X T x = zᴴ X u.
+struct Influences::Projected {
+  Complex s;
+  ComplexVector u, z;  // T x, L(f) y
+  ContactMotion motion;
+  std::vector<ComplexPoint> test;  // [T y]
+};
+
+void Influences::derive(FrictionPoint& point, const Pencil& pencil, const BodyPoint& state, const StartSpace& start) {
+  if (point.shapes.empty()) return;
+  std::vector<RightPair> pairs;
+  for (const auto& shape : point.shapes) pairs.push_back({point.eigenvalues[shape.index].s, &shape.unknowns});
+  const auto left = leftVectors(pencil, state.at, start, state.system.solver(), pairs);
+  const auto list = influences(state);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const EigenTriple triple{pairs[i].s, *pairs[i].vector, left[i].y};
+    const Complex slope = slopeForm(pencil, state.at, triple);
+    Sensitivity result{condition(triple, slope, state.system.m0()),
+                       separation(point.eigenvalues, point.shapes[i].index),
+                       left[i].backwardError,
+                       {}};
+    if (result.regular()) {
+      const Projected pair = project(state, triple);
+      for (const auto& influence : list) {
+        Complex form = influence.member ? parameterForm(pencil, state.at, triple, influence.member) : 0;
+        form += materialForm(influence, state, pair) + steadyForm(influence, state, pair);
+        result.derivatives.push_back({influence.name, -form / slope});
+      }
+    }
+    point.sensitivities.push_back(std::move(result));
+  }
+}
+
+std::vector<Influences::Influence> Influences::influences(const BodyPoint& state) {
+  for (int body = static_cast<int>(parts_.size()); body < static_cast<int>(mesh_.bodies.size()); ++body)
+    parts_.push_back(elasticity::bodyPart(mesh_, body));
+  std::vector<Influence> list;
+  for (const auto& parameter : allParameters) {
+    list.emplace_back();
+    list.back().name = parameter.name, list.back().member = parameter.value;
+    if (parameter.value != &Parameters::friction) list.back().size = state.at.*parameter.value;
+  }
+  for (std::size_t body = 0; body < mesh_.bodies.size(); ++body)
+    for (const bool density : {false, true}) {
+      list.emplace_back();
+      list.back().name = (density ? "density_" : "young_") + mesh_.bodies[body];
+      list.back().body = static_cast<int>(body), list.back().density = density;
+    }
+  if (!followsSteadyState(contact_, state.at, state.prestress)) return list;
+  const steady::Problem problem(mesh_, bodies_, contact_);
+  for (auto& influence : list)
+    if (influence.member != &Parameters::damping) followSteadyState(state, problem, influence);
+  return list;
+}
+
+void Influences::followSteadyState(const BodyPoint& state, const steady::Problem& problem, Influence& influence) const {
+  const double v = state.at.speed;
+  const OwnedVec force = elasticity::nodalVector(mesh_);
+  steady::Cause cause;
+  cause.force = force;
+  // dr = factor (K^R u − centrifugal forces), of one body or of all.
+  const auto inertia = [&](Mat rotationStiffness, Vec centrifugal, double factor) {
+    if (rotationStiffness) check(MatMult(rotationStiffness, state.solution.displacement, force));
+    check(VecAXPY(force, -1, centrifugal));
+    check(VecScale(force, factor));
+  };
+  if (influence.member == &Parameters::friction) cause.friction = 1;
+  if (influence.member == &Parameters::speed) {
+    inertia(bodies_.rotationStiffness, bodies_.centrifugal, 2 * v);
+    cause.speed = 1;
+  }
+  if (influence.member == &Parameters::pressure) {
+    check(VecAXPY(force, -1, bodies_.load));
+    check(VecAXPY(force, 1, bodies_.centrifugal));
+    cause.held = contact_.offset;
+  }
+  if (!influence.member) {
+    const auto& part = parts_[static_cast<std::size_t>(influence.body)];
+    if (influence.density)
+      inertia(part.rotationStiffness, part.centrifugal, v * v);
+    else
+      check(MatMult(part.stiffness, state.solution.displacement, force));
+  }
+  influence.change = problem.change(state.solution, state.system, cause);
+  influence.responseForce = responseForces(contact_, state.solution.closed, influence.change.normalForce);
+  if (state.prestress) influence.prestress = elasticity::geometricStiffness(mesh_, influence.change.displacement);
+}
+
+Influences::Projected Influences::project(const BodyPoint& state, const EigenTriple& triple) const {
+  const Mat trial = state.system.transformation().trial;
+  Projected pair{triple.s, product(trial, triple.x), product(trial, triple.y), {}, {}};
+  pair.motion = contactMotion(contact_, pair.u, motionForces(bodies_, state.at, triple.s, pair.u, state.prestress).forces);
+  pair.test = contactJump(contact_, pair.z);
+  // L(f) y = T y + Nᵀ f S y
+  ComplexVector slips = ComplexVector::like(pair.z.real);
+  PetscScalar *real = nullptr, *imaginary = nullptr;
+  check(VecGetArray(slips.real, &real));
+  check(VecGetArray(slips.imaginary, &imaginary));
+  for (std::size_t k = 0; k < contact_.nodes.size(); ++k) {
+    if (!state.solution.closed[k]) continue;
+    const auto& slip = state.solution.slip[k];
+    Complex along = 0;
+    for (std::size_t d = 0; d < 3; ++d) along += slip.direction[d] * pair.test[k][d];
+    along *= state.at.friction * slip.law;
+    const PetscInt row = contact_.gapRow(contact_.nodes[k]) - mesh_.dimension * mesh_.firstNode;
+    real[row] = along.real(), imaginary[row] = along.imag();
+  }
+  check(VecRestoreArray(slips.real, &real));
+  check(VecRestoreArray(slips.imaginary, &imaginary));
+  add(pair.z, 1, product(contact_.reaction, slips, true));
+  return pair;
+}
+
+/// zᴴ (∂X/∂θ) u of the matrices of one body: K, C, K_σ with its moduli, M, C, G, K^R with its density.
+Complex Influences::materialForm(const Influence& influence, const BodyPoint& state, const Projected& pair) const {
+  if (influence.member) return 0;
+  const auto& part = parts_[static_cast<std::size_t>(influence.body)];
+  const auto form = [&](Mat matrix) { return matrix ? dot(pair.z, product(matrix, pair.u)) : 0; };
+  const Complex s = pair.s;
+  const double v = state.at.speed, c = state.at.damping;
+  if (influence.density)
+    return (s * s + s * c * part.massDamping) * form(part.mass) + s * v * form(part.gyroscopic) +
+           v * v * form(part.rotationStiffness);
+  Complex sum = (1.0 + s * c * part.stiffnessDamping) * form(part.stiffness);
+  if (state.prestress) sum += form(elasticity::geometricStiffness(mesh_, state.solution.displacement, influence.body));
+  return sum;
+}
+
+/// The part by the steady state: of K_σ, linear in its displacement, exactly; of friction by central differences along its change.
+Complex Influences::steadyForm(const Influence& influence, const BodyPoint& state, const Projected& pair) const {
+  if (!influence.change.displacement) return 0;
+  Complex sum = 0;
+  if (state.prestress) sum += dot(pair.z, product(influence.prestress, pair.u));
+  const double h = step * influence.size;
+  const OwnedVec u = elasticity::nodalVector(mesh_);
+  for (const double sign : {-1.0, 1.0}) {
+    FrictionState moved = frictionState(contact_, state.solution);
+    if (influence.member) moved.at.*influence.member += sign * h;
+    check(VecWAXPY(u, sign * h, influence.change.displacement, state.solution.displacement));
+    moved.slip = contact_.slip(moved.at.speed, u);
+    for (std::size_t k = 0; k < moved.responseForce.size(); ++k) moved.responseForce[k] += sign * h * influence.responseForce[k];
+    sum += sign / (2 * h) * frictionSum(moved, state, pair);
+  }
+  return sum;
+}
+
+/// Σ_k of frictionForm(); f itself, where it multiplies the change of the normal force, is a coefficient of the pencil, and is held.
+Complex Influences::frictionSum(const FrictionState& friction, const BodyPoint& state, const Projected& pair) const {
+  Complex sum = 0;
+  const double held = friction.at.friction > 0 ? state.at.friction / friction.at.friction : 0;
+  for (std::size_t k = 0; k < contact_.nodes.size(); ++k) {
+    if (!state.solution.closed[k]) continue;
+    const auto form = frictionForm(contact_, friction, pair.s, pair.test[k], pair.motion, k);
+    sum += held * form.pressing + form.turning;
+  }
+  check(MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_C_DOUBLE_COMPLEX, MPI_SUM, mesh_.comm));
+  return sum;
+}
+
+}  // namespace squeal::flutter

@@ -1,0 +1,56 @@
+/// Tables of what the complex modes kept depend on, and of what feeds them.
+#include <cmath>
+
+#include "petsc/text.hpp"
+#include "report/report.hpp"
+
+namespace squeal::report {
+namespace {
+
+/// Parameters, number, growth rate and frequency of the mode.
+std::string modeHead(const flutter::FrictionPoint& point, const flutter::Shape& shape) {
+  const auto s = point.eigenvalues[shape.index].s;
+  return parameterValues(point.at) + formatted(",%zu,%.15e,%.15e,", shape.index + 1, s.real(), s.imag() / (2 * M_PI));
+}
+
+/// Sums over the nodes of each interface.
+std::vector<double> byInterface(const Analysis& analysis, const std::vector<double>& nodes) {
+  std::vector<double> sums(analysis.contact.interfaces.size(), 0.0);
+  for (std::size_t k = 0; k < nodes.size(); ++k) sums[static_cast<std::size_t>(analysis.contact.nodes[k].interface)] += nodes[k];
+  check(MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, analysis.mesh->comm));
+  return sums;
+}
+
+}  // namespace
+
+std::string sensitivityTable(const Analysis& analysis) {
+  std::string table = parameterColumns() +
+                      ",mode,growth_rate_1_per_s,frequency_hz,condition,separation,left_backward_error,parameter,"
+                      "growth_rate_derivative_1_per_s,frequency_derivative_hz\n";
+  for (const auto& segment : analysis.segments)
+    for (const auto& point : segment.points)
+      for (std::size_t i = 0; i < point.sensitivities.size(); ++i) {
+        const auto& sensitivity = point.sensitivities[i];
+        const std::string head =
+            modeHead(point, point.shapes[i]) +
+            formatted("%.3e,%.3e,%.3e,", sensitivity.condition, sensitivity.separation, sensitivity.leftBackwardError);
+        if (sensitivity.derivatives.empty()) table += head + "none,,\n";
+        for (const auto& [parameter, value] : sensitivity.derivatives)
+          table += head + parameter + formatted(",%.9e,%.9e\n", value.real(), value.imag() / (2 * M_PI));
+      }
+  return table;
+}
+
+std::string frictionWorkTable(const Analysis& analysis) {
+  std::string table = parameterColumns() + ",mode,growth_rate_1_per_s,frequency_hz,interface,friction_work_1_per_s\n";
+  for (const auto& segment : analysis.segments)
+    for (const auto& point : segment.points)
+      for (const auto& shape : point.shapes) {
+        const auto sums = byInterface(analysis, shape.frictionWork);
+        for (std::size_t i = 0; i < sums.size(); ++i)
+          table += modeHead(point, shape) + analysis.contact.interfaces[i] + formatted(",%.9e\n", sums[i]);
+      }
+  return table;
+}
+
+}  // namespace squeal::report

@@ -1,0 +1,105 @@
+/// How the steady state changes with its data, to first order: the equations of steady.hpp differentiated on one active set.
+#include <functional>
+
+#include "petsc/inner.hpp"
+#include "petsc/text.hpp"
+#include "steady/steady.hpp"
+
+namespace squeal::steady {
+namespace {
+
+/// dF of a change y of the unknowns of closed contact and of `cause`, for MatShell.
+struct Linearised {
+  std::function<void(Vec, Vec)> apply;
+};
+
+PetscErrorCode multiply(Mat matrix, Vec y, Vec result) {
+  Linearised* linearised = nullptr;
+  PetscFunctionBegin;
+  PetscCall(MatShellGetContext(matrix, &linearised));
+  linearised->apply(y, result);
+  PetscFunctionReturn(0);
+}
+
+}  // namespace
+
+/// With T of closed contact, u = T y + u0 and the friction t = f φ R_N τ(w) at the pad nodes, F = Tᵀ (r + Jᵀ t):
+///   dr = (K + v² K^R) du + cause,   dt = f φ τ N dr − v B D du + (df φ + f φ' dv |w|/v) R_N τ,   B of velocityResponse().
+Change Problem::change(const Solution& solution, const contact::AssociatedSystem& system, const Cause& cause) const {
+  const Parameters& at = solution.at;
+  const Mat trial = system.transformation().trial;
+  const auto& nodes = contact_.nodes;
+  std::vector<double> steadyForce;
+  for (const auto& state : solution.contact) steadyForce.push_back(state.normalForce);
+  OwnedMat turning;  // B D
+  if (contact_.convected) {
+    const OwnedMat response = contact_.velocityResponse(solution.slip, steadyForce, at.friction);
+    check(MatMatMult(response, contact_.convected, MAT_INITIAL_MATRIX, PETSC_DEFAULT, turning.out()));
+  }
+  // Tᵀ (dr + Jᵀ dt) for given du and dr; with the explicit part of dt where `direct`.
+  const auto test = [&](Vec du, Vec dr, bool direct, Vec result) {
+    const OwnedVec friction = elasticity::nodalVector(mesh_), sum = elasticity::nodalVector(mesh_);
+    const auto normal = normalForces(dr);
+    if (turning) {
+      check(MatMult(turning, du, friction));
+      check(VecScale(friction, -at.speed));
+    }
+    PetscScalar* values = nullptr;
+    check(VecGetArray(friction, &values));
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const auto& slip = solution.slip[i];
+      const double causes =
+          direct ? (cause.friction * slip.law + at.friction * slip.slope * cause.speed * slip.speed / at.speed) * steadyForce[i]
+                 : 0;
+      const double along = system.closed()[i] ? at.friction * slip.law * normal[i] + causes : 0;
+      for (int d = 0; d < mesh_.dimension; ++d)
+        values[mesh_.dimension * nodes[i].node + d] += along * slip.direction[static_cast<std::size_t>(d)];
+    }
+    check(VecRestoreArray(friction, &values));
+    check(MatMultTransposeAdd(contact_.jump, friction, dr, sum));
+    check(MatMultTranspose(trial, sum, result));
+  };
+
+  const OwnedVec work = elasticity::nodalVector(mesh_), explicitU = elasticity::nodalVector(mesh_);
+  OwnedVec rhs, y;
+  check(MatCreateVecs(trial, rhs.out(), nullptr));
+  check(VecDuplicate(rhs, y.out()));
+  if (cause.held) check(VecCopy(cause.held, explicitU));
+  OwnedVec explicitForces = springForces(at.speed, explicitU);
+  if (cause.force) check(VecAXPY(explicitForces, 1, cause.force));
+  test(explicitU, explicitForces, true, rhs);
+  check(VecScale(rhs, -1));
+
+  Linearised linearised{[&](Vec in, Vec out) {
+    check(MatMult(trial, in, work));
+    test(work, springForces(at.speed, work), false, out);
+  }};
+  PetscInt local = 0, global = 0;
+  check(VecGetLocalSize(rhs, &local));
+  check(VecGetSize(rhs, &global));
+  OwnedMat matrix;
+  check(MatCreateShell(mesh_.comm, local, local, global, global, &linearised, matrix.out()));
+  check(MatShellSetOperation(matrix, MATOP_MULT, reinterpret_cast<void (*)()>(multiply)));
+  OwnedKSP solver;
+  check(KSPCreate(mesh_.comm, solver.out()));
+  check(KSPSetOperators(solver, matrix, matrix));
+  check(KSPSetType(solver, KSPGMRES));
+  check(KSPGMRESSetRestart(solver, 200));
+  check(KSPSetTolerances(solver, 1e-12, PETSC_DEFAULT, PETSC_DEFAULT, 200));
+  preconditionBy(solver, system.solver());
+  check(KSPSolve(solver, rhs, y));
+  KSPConvergedReason reason;
+  check(KSPGetConvergedReason(solver, &reason));
+  if (reason < 0)
+    throw Error(formatted("the change of the steady state with its data was not found at -flutter_friction %g (%s)", at.friction,
+                          KSPConvergedReasons[reason]));
+
+  Change change{elasticity::nodalVector(mesh_), {}};
+  check(MatMultAdd(trial, y, explicitU, change.displacement));
+  const OwnedVec forces = springForces(at.speed, change.displacement);
+  if (cause.force) check(VecAXPY(forces, 1, cause.force));
+  change.normalForce = normalForces(forces);
+  return change;
+}
+
+}  // namespace squeal::steady

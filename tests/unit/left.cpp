@@ -1,0 +1,136 @@
+// Left eigenvectors of full problems against LAPACK, and derivatives of two coupled oscillators in closed form.
+#include "flutter/left.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "contact/coupled.hpp"
+#include "flutter/basis.hpp"
+#include "flutter/sensitivity.hpp"
+#include "flutter/terms.hpp"
+#include "support/case.hpp"
+#include "support/model.hpp"
+
+namespace squeal {
+namespace {
+
+using Complex = std::complex<double>;
+using flutter::ComplexVector;
+
+ComplexVector vectorOf(Mat layout, const std::vector<Complex>& entries) {
+  ComplexVector vector;
+  check(MatCreateVecs(layout, vector.real.out(), vector.imaginary.out()));
+  PetscInt first = 0, end = 0;
+  check(VecGetOwnershipRange(vector.real, &first, &end));
+  for (PetscInt i = first; i < end; ++i) {
+    check(VecSetValue(vector.real, i, entries[static_cast<std::size_t>(i)].real(), INSERT_VALUES));
+    check(VecSetValue(vector.imaginary, i, entries[static_cast<std::size_t>(i)].imag(), INSERT_VALUES));
+  }
+  for (Vec part : {vector.real.get(), vector.imaginary.get()}) check(VecAssemblyBegin(part)), check(VecAssemblyEnd(part));
+  return vector;
+}
+
+// Sixty free modes of the layers' 156 unknowns; pairs of the lower two fifths, as in the band of the reduced problem. The left
+// vectors of LAPACK on all unknowns span the same lines: with backward errors of 1e-10 and eigenvalues apart by some hundredths they
+// turn by 1e-7 at most, which changes the cosine by the square.
+TEST(Left, VectorsAreThoseOfAllUnknowns) {
+  for (const std::string damping : {"", " -material_pad_rayleigh_stiffness 0.01"}) {
+    test::setCase("two_layers", "-mesh_set nx=12,ny_disc=4,ny_pad=3 -modes_count 60" + damping);
+    const auto model = test::buildModel();
+    const contact::AssociatedSystem system(model.bodies, model.contact, std::vector<unsigned char>(model.contact.nodes.size(), 1));
+    const auto pencil = flutter::affineTerms(model.contact, system);
+    const auto modes = modes::compute(system);
+    const Parameters at{0.4};
+    const auto full = flutter::solveQuadratic(
+        test::denseCopy(pencil.assembled(2, at)).values,
+        damping.empty() ? flutter::DenseMatrix() : test::denseCopy(pencil.assembled(1, at)).values,
+        test::denseCopy(pencil.assembled(0, at)).values, static_cast<int>(system.size()), flutter::Vectors::both);
+    std::vector<ComplexVector> right, left;
+    std::vector<flutter::RightPair> pairs;
+    for (std::size_t i = 0; i < 24; i += 4) {
+      right.push_back(vectorOf(system.k0(), full[i].q));
+      left.push_back(vectorOf(system.k0(), full[i].left));
+    }
+    for (std::size_t i = 0; i < right.size(); ++i) pairs.push_back({full[4 * i].s, &right[i]});
+    const auto found = flutter::leftVectors(pencil, at, {modes.vectors, system.m0(), {}}, system.solver(), pairs);
+    EXPECT_EQ(found.size(), pairs.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const double cosine = std::abs(flutter::dot(found[i].y, left[i])) / (flutter::length(found[i].y) * flutter::length(left[i]));
+      test::print("s = %.4f%+.4fi: backward error %.0e, cosine less 1: %.0e\n", pairs[i].s.real(), pairs[i].s.imag(),
+                  found[i].backwardError, cosine - 1);
+      EXPECT_LT(found[i].backwardError, 1e-10);
+      EXPECT_NEAR(cosine, 1, 1e-11);
+    }
+  }
+}
+
+OwnedMat matrix2(double a, double b, double c, double d) {
+  OwnedMat result;
+  check(MatCreateAIJ(PETSC_COMM_WORLD, PETSC_DECIDE, PETSC_DECIDE, 2, 2, 2, nullptr, 2, nullptr, result.out()));
+  const double entries[2][2] = {{a, b}, {c, d}};
+  PetscInt first = 0, end = 0;
+  check(MatGetOwnershipRange(result, &first, &end));
+  for (PetscInt i = first; i < end; ++i)
+    for (PetscInt j = 0; j < 2; ++j) check(MatSetValue(result, i, j, entries[i][j], INSERT_VALUES));
+  check(MatAssemblyBegin(result, MAT_FINAL_ASSEMBLY));
+  check(MatAssemblyEnd(result, MAT_FINAL_ASSEMBLY));
+  return result;
+}
+
+// M = I, K = diag(k1, k2) + f k3 [0 1; −1 0]: s² = −μ, μ = (k1 + k2)/2 ± √(((k1 − k2)/2)² − f² k3²), so that
+//   2 s ds/df = ± f k3² / √(…),   and the condition number is |k1 − k2|/2 over |√(…)| below the critical friction, f k3 over it beyond.
+TEST(Left, DerivativesOfCoupledOscillators) {
+  const double k1 = 1.0, k2 = 1.5, k3 = 0.8, critical = (k2 - k1) / (2 * k3);
+  std::vector<flutter::Term> terms;
+  terms.push_back({matrix2(k1, 0, 0, k2), 0, 0, 1});
+  terms.push_back({matrix2(0, k3, -k3, 0), 0, 1, 1});
+  terms.push_back({matrix2(1, 0, 0, 1), 2, 0, 1});
+  const flutter::Pencil pencil(std::move(terms));
+  const Mat stiffness = pencil.terms()[0].matrix, mass = pencil.terms()[2].matrix;
+  OwnedKSP solver;
+  PC pc = nullptr;
+  check(KSPCreate(PETSC_COMM_WORLD, solver.out()));
+  check(KSPSetOperators(solver, stiffness, stiffness));
+  check(KSPSetType(solver, KSPPREONLY));
+  check(KSPGetPC(solver, &pc));
+  check(PCSetType(pc, PCCHOLESKY));
+  check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  OwnedBV whole;
+  check(BVCreate(PETSC_COMM_WORLD, whole.out()));
+  check(BVSetSizes(whole, PETSC_DECIDE, 2, 2));
+  check(BVSetType(whole, BVSVEC));
+  for (PetscInt j = 0; j < 2; ++j) {
+    Vec column = nullptr;
+    check(BVGetColumn(whole, j, &column));
+    check(VecZeroEntries(column));
+    check(VecSetValue(column, j, 1, INSERT_VALUES));
+    check(VecAssemblyBegin(column));
+    check(VecAssemblyEnd(column));
+    check(BVRestoreColumn(whole, j, &column));
+  }
+  for (const double f : {0.5 * critical, 0.99 * critical, critical, 1.01 * critical, 2 * critical})
+    for (const double sign : {-1.0, 1.0}) {
+      const Complex root = std::sqrt(Complex((k2 - k1) * (k2 - k1) / 4 - f * f * k3 * k3)),
+                    s = std::sqrt(-((k1 + k2) / 2 + sign * root));
+      const auto right = vectorOf(stiffness, {f * k3, -(k1 + s * s)});
+      const Parameters at{f};
+      const auto left = flutter::leftVectors(pencil, at, {whole, mass, {}}, solver, {{s, &right}});
+      const flutter::EigenTriple triple{s, right, left[0].y};
+      const Complex slope = flutter::slopeForm(pencil, at, triple);
+      const double condition = flutter::condition(triple, slope, mass);
+      const flutter::Sensitivity sensitivity{condition, 1, left[0].backwardError, {}};
+      test::print("f = %.4f: condition %.6g, left backward error %.0e\n", f, condition, left[0].backwardError);
+      EXPECT_EQ(sensitivity.regular(), f != critical);
+      if (f == critical) continue;
+      const Complex found = -flutter::parameterForm(pencil, at, triple, &Parameters::friction) / slope,
+                    wanted = sign * f * k3 * k3 / root / (2.0 * s);
+      // Rounding of s and of the vectors, times the square of the condition number at most.
+      const double tolerance = 1e-14 * condition * condition;
+      EXPECT_LT(std::abs(found - wanted), tolerance * std::abs(wanted));
+      EXPECT_NEAR(condition, std::max((k2 - k1) / 2, f * k3) / std::abs(root), tolerance * condition);
+    }
+}
+
+}  // namespace
+}  // namespace squeal

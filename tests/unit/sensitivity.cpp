@@ -1,0 +1,176 @@
+// Derivatives of eigenvalues against finite differences of whole runs, and the balance of friction work.
+#include "flutter/sensitivity.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <sstream>
+
+#include "flutter/left.hpp"
+#include "petsc/text.hpp"
+#include "report/report.hpp"
+#include "support/case.hpp"
+#include "support/model.hpp"
+#include "support/spectrum.hpp"
+
+namespace squeal {
+namespace {
+
+using test::Complex;
+
+/// A case and what its parameters are without factors.
+struct Configuration {
+  std::string name, options;
+  double friction = 0.4;
+  std::map<std::string, std::array<double, 2>> materials{{"disc", {1.0, 1.0}}, {"pad", {0.4, 0.6}}};  // modulus, density
+};
+
+/// Collective. The run with one parameter changed to `value`, a factor except for friction.
+Analysis run(const Configuration& model, const std::string& parameter, double value) {
+  std::string options = model.options + formatted(" -flutter_sensitivities -flutter_friction %.17g",
+                                                  parameter == "friction" ? value : model.friction);
+  for (const auto* factor : {"speed", "pressure", "damping"})
+    if (parameter == factor) options += formatted(" -flutter_%s %.17g", factor, value);
+  for (const auto& [body, constants] : model.materials)
+    options += formatted(" -material_%s_young %.17g -material_%s_density %.17g", body.c_str(),
+                         (parameter == "young_" + body ? value : 1) * constants[0], body.c_str(),
+                         (parameter == "density_" + body ? value : 1) * constants[1]);
+  test::setCase(model.name, options);
+  return analyse(PETSC_COMM_WORLD);
+}
+
+Complex nearest(const Analysis& analysis, Complex s) {
+  return test::matched({s}, test::eigenvaluesOf(analysis.segments.at(0).points.at(0)))[0];
+}
+
+/// uᴴ A u of a symmetric A; zero for none.
+double hermitian(Mat a, const flutter::Shape& shape) {
+  return a ? test::form(shape.real, a, shape.real) + test::form(shape.imaginary, a, shape.imaginary) : 0;
+}
+
+/// The energy that friction feeds goes into growth and dissipation:
+///   Σ_k work_k = σ + |s|² uᴴCu / (|s|² uᴴMu + uᴴ(K + v² K^R + K_σ)u).
+/// Exact for an eigenpair: errors are those of the eigenvector, backward errors of 1e-9 and less times a power of the condition.
+void expectBalance(const Analysis& analysis, const flutter::FrictionPoint& point) {
+  const auto& bodies = analysis.bodies;
+  OwnedMat prestress;
+  if (elasticity::prestressWanted()) prestress = elasticity::geometricStiffness(*analysis.mesh, analysis.steady.at(0).displacement);
+  for (const auto& shape : point.shapes) {
+    const Complex s = point.eigenvalues[shape.index].s;
+    const double energy = std::norm(s) * hermitian(bodies.mass, shape) + hermitian(bodies.stiffness, shape) +
+                          point.at.speed * point.at.speed * hermitian(bodies.rotationStiffness, shape) +
+                          hermitian(prestress, shape);
+    const double wanted = s.real() + std::norm(s) * point.at.damping * hermitian(bodies.damping, shape) / energy;
+    double sums[2] = {0, 0};
+    for (double work : shape.frictionWork) sums[0] += work, sums[1] += std::abs(work);
+    check(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD));
+    test::print("friction adds %.12g to the growth rate, growth and damping take %.12g, magnitudes %.4g\n", sums[0], wanted,
+                sums[1]);
+    EXPECT_NEAR(sums[0], wanted, 1e-8 * std::abs(s));
+    EXPECT_GT(sums[0], 0);
+  }
+}
+
+/// Central differences with a relative step of 1e-4: truncation of 1e-8 times a third derivative, which for eigenvalues of condition
+/// numbers near 1 is of the order of |s|; rounding of the eigenvalues, 1e-13 |s|, over the step.
+void expectDerivatives(const Configuration& model) {
+  const Analysis analysis = run(model, "", 1);
+  const auto& point = analysis.segments.at(0).points.at(0);
+  EXPECT_GE(point.shapes.size(), 1u);
+  EXPECT_EQ(point.sensitivities.size(), point.shapes.size());
+  expectBalance(analysis, point);
+  if (point.sensitivities.empty()) return;
+  EXPECT_EQ(point.sensitivities[0].derivatives.size(), 8u);
+  for (std::size_t p = 0; p < point.sensitivities[0].derivatives.size(); ++p) {
+    const std::string name = point.sensitivities[0].derivatives[p].parameter;
+    const bool idle = name == "damping" && !analysis.bodies.damping;
+    const double value = name == "friction" ? model.friction : 1, h = 1e-4 * value;
+    std::vector<Analysis> runs;
+    for (const double sign : {-1.0, 1.0})
+      if (!idle) runs.push_back(run(model, name, value + sign * h));
+    for (std::size_t i = 0; i < point.shapes.size(); ++i) {
+      const Complex s = point.eigenvalues[point.shapes[i].index].s, found = point.sensitivities[i].derivatives.at(p).value;
+      const Complex wanted = idle ? 0 : (nearest(runs[1], s) - nearest(runs[0], s)) / (2 * h);
+      test::print("%s, s = %.4f%+.4fi, condition %.1f, left backward error %.0e, %s: %.8g%+.8gi, differences less this %.0e\n",
+                  model.name.c_str(), s.real(), s.imag(), point.sensitivities[i].condition,
+                  point.sensitivities[i].leftBackwardError, name.c_str(), found.real(), found.imag(), std::abs(wanted - found));
+      EXPECT_LT(std::abs(found - wanted), 1e-7 * std::abs(s)) << name;
+    }
+  }
+}
+
+TEST(Sensitivity, OfApproximationAWithDampedBodies) {
+  expectDerivatives({"two_layers",
+                     "-mesh_set nx=8,ny_disc=3,ny_pad=2 -modes_count 40 -flutter_method direct -flutter_direct_count 400 "
+                     "-material_disc_rayleigh_mass 0.01 -material_pad_rayleigh_stiffness 0.002"});
+}
+
+// The full terms of moving matter, a friction law that falls with speed, and prestress: every term of the point follows the steady
+// state.
+TEST(Sensitivity, OfMovingMatterWithAFrictionLaw) {
+  expectDerivatives({"two_layers_moving",
+                     "-mesh_set nx=4,ny_disc=2,ny_pad=2,order=2 -modes_count 80 -flutter_method direct -flutter_direct_count 400 "
+                     "-friction_law exponential -friction_static_ratio 1.5 -friction_decay_speed 0.05 -elasticity_prestress on "
+                     "-flutter_shapes_below 2.2"});
+}
+
+// Friction damping in a solid that slides at an angle to its waves: it grows with the pressure and falls with speed.
+TEST(Sensitivity, OfFrictionDamping) {
+  expectDerivatives({"two_layers_antiplane",
+                     "-mesh_set nx=6,ny_disc=2,ny_pad=1,order=1 -modes_count 40 -motion_convective on "
+                     "-motion_disc_velocity 0.05,0,0.03"});
+}
+
+// All moduli by a factor and all densities by another multiply all eigenvalues of undamped bodies under approximation A by the root
+// of their quotient: Σ ds/d ln E = s/2, Σ ds/d ln ρ = −s/2. Any left vector would say so: this is a test of the matrices of the bodies.
+TEST(Sensitivity, OfAllBodiesTogether) {
+  const Analysis analysis = run({"two_layers", "-mesh_set nx=12,ny_disc=4,ny_pad=3 -modes_count 60"}, "", 1);
+  const auto& point = analysis.segments.at(0).points.at(0);
+  EXPECT_EQ(point.sensitivities.size(), 3u);
+  expectBalance(analysis, point);
+  for (std::size_t i = 0; i < point.sensitivities.size(); ++i) {
+    const Complex s = point.eigenvalues[point.shapes[i].index].s;
+    Complex moduli = 0, densities = 0;
+    for (const auto& [name, value] : point.sensitivities[i].derivatives) {
+      if (name.starts_with("young_")) moduli += value;
+      if (name.starts_with("density_")) densities += value;
+    }
+    test::print("reduced: left backward error %.0e, errors of the sums %.0e and %.0e\n", point.sensitivities[i].leftBackwardError,
+                std::abs(moduli - 0.5 * s) / std::abs(s), std::abs(densities + 0.5 * s) / std::abs(s));
+    EXPECT_LT(std::abs(moduli - 0.5 * s), 1e-7 * std::abs(s));
+    EXPECT_LT(std::abs(densities + 0.5 * s), 1e-7 * std::abs(s));
+  }
+}
+
+std::vector<std::string> lines(const std::string& text) {
+  std::vector<std::string> list;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) list.push_back(line);
+  return list;
+}
+
+// A row for each mode and parameter, and one without numbers for a mode without derivatives.
+TEST(Sensitivity, InTables) {
+  Analysis analysis = run({"two_layers", "-mesh_set nx=12,ny_disc=4,ny_pad=3 -modes_count 60"}, "", 1);
+  auto& point = analysis.segments.at(0).points.at(0);
+  EXPECT_EQ(point.sensitivities.size(), 3u);
+  auto& first = point.sensitivities.at(0);
+  const auto full = lines(report::sensitivityTable(analysis)), work = lines(report::frictionWorkTable(analysis));
+  EXPECT_EQ(full.size(), 1 + 3 * first.derivatives.size());
+  EXPECT_EQ(work.size(), 1 + 3 * analysis.contact.interfaces.size());
+  for (const auto* table : {&full, &work})
+    for (const auto& line : *table)
+      EXPECT_EQ(std::count(line.begin(), line.end(), ','), std::count(table->front().begin(), table->front().end(), ',')) << line;
+  EXPECT_TRUE(first.regular());
+  first.condition = 1e6;
+  EXPECT_FALSE(first.regular());
+  const auto count = first.derivatives.size();
+  first.derivatives.clear();
+  const auto rest = lines(report::sensitivityTable(analysis));
+  EXPECT_EQ(rest.size(), full.size() - count + 1);
+  EXPECT_TRUE(rest.at(1).ends_with(",none,,"));
+}
+
+}  // namespace
+}  // namespace squeal
