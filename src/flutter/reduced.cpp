@@ -101,12 +101,14 @@ struct ReducedProblem::Work {
   // |δs|/|s| is at most the product of the two, each with the norm of diag(K0)⁻¹ for that of K0⁻¹
   std::vector<double> rightError;  // [pair] of the right vector, times the condition number of s
   std::vector<double> leftError;   // [pair] of the left vector, 1 at most
+  std::vector<double> rounding;    // [pair] error of the dense solve
   Block wanted;                    // what the basis lacks; no columns: the point is done
 };
 
 ReducedProblem::ReducedProblem(const Pencil& pencil, Mat stiffness, KSP solver, const modes::Modes& modes)
     : basis_(modes, stiffness, solver), terms_(basis_, pencil, 0, pencil.terms().size()) {
   check(BVGetSizes(modes.vectors, nullptr, &unknowns_, nullptr));
+  lowestMode_ = modes.angularFrequency.front();
   highestMode_ = modes.angularFrequency.back();
   if (basis_.size() == unknowns_) {  // the whole space: there is nothing to correct
     bandTop_ = INFINITY;
@@ -187,7 +189,7 @@ Block ReducedProblem::leftResidual(const Work& work, const Coordinates& coordina
   return result;
 }
 
-/// Estimate of |δs|/|s|.
+/// Estimate of |δs|/|s| by what the basis lacks.
 double ReducedProblem::errorOf(const Work& work, std::size_t pair) const {
   return rightRatio_ * work.rightError[pair] * std::min(1.0, leftRatio_ * work.leftError[pair]);
 }
@@ -223,9 +225,12 @@ void ReducedProblem::judge(Work& work, const DenseProblem& problem) const {
   work.backwardError.clear();
   work.rightError.clear();
   work.leftError.clear();
+  work.rounding.clear();
   for (std::size_t j = 0; j < pairs.size(); ++j) {
     const double size = std::abs(pairs[j].s), scale = work.norms[0] + size * work.norms[1] + size * size * work.norms[2];
     work.backwardError.push_back(std::sqrt(right.euclidean[j] / lengths[j]) / scale);
+    // Backward errors ε of the dense matrices, in norm: VᵀK̄V is of the order of 1, VᵀM̄V of the lowest 1/ω².
+    work.rounding.push_back(PETSC_MACHINE_EPSILON * conditions[j] * (1 + std::pow(size / lowestMode_, 2)));
     work.rightError.push_back(conditions[j] * std::sqrt(right.weighted[j]));
     work.leftError.push_back(size < highestMode_ ? std::sqrt(left.weighted[j]) / (1 - std::pow(size / highestMode_, 2)) : INFINITY);
   }
@@ -306,6 +311,7 @@ std::vector<FrictionPoint> ReducedProblem::solve(const std::vector<PointProblem>
                      {},
                      {},
                      {},
+                     {},
                      Block(0)});
   }
   for (auto& work : works) open.push_back(&work);
@@ -337,7 +343,7 @@ FrictionPoint ReducedProblem::result(Work& work, Mat trial) {
   point.accuracy = accuracyAsked();
   point.tolerance = toleranceOption.get();
   for (std::size_t j = 0; j < work.pairs.size(); ++j) {
-    const double estimate = errorOf(work, j);
+    const double estimate = errorOf(work, j) + work.rounding[j];
     point.eigenvalues.push_back(
         {work.pairs[j].s, work.backwardError[j], estimate, work.backwardError[j] <= point.accuracy && estimate <= point.tolerance});
   }
