@@ -34,7 +34,8 @@ std::vector<EigenPair> unpacked(const std::vector<double>& real, const std::vect
   std::vector<EigenPair> pairs;
   const std::size_t n = real.size();
   for (std::size_t j = 0; j < n; ++j) {
-    if (beta[j] == 0 && real[j] == 0) throw Error("the reduced eigenproblem is singular: mass and stiffness have a common null vector");
+    if (beta[j] == 0 && real[j] == 0)
+      throw Error("the reduced eigenproblem is singular: mass and stiffness have a common null vector");
     if (beta[j] == 0) continue;  // infinite: a motion without mass
     const bool conjugates = imaginary[j] != 0;
     pairs.push_back(

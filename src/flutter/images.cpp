@@ -41,7 +41,7 @@ DenseMatrix transposedProduct(MPI_Comm comm, const Block& x, const Block& y) {
   return transposedProduct(comm, x.values.data(), x.rows, x.columns, y.values.data(), y.columns);
 }
 
-Image::Image(Mat matrix) {
+RowSet::RowSet(Mat matrix) {
   PetscInt first = 0, end = 0;
   check(MatGetOwnershipRange(matrix, &first, &end));
   localRows_ = end - first;
@@ -57,40 +57,46 @@ Image::Image(Mat matrix) {
   }
 }
 
+std::vector<double> RowSet::of(const double* columns, PetscInt count) const {
+  std::vector<double> values;
+  values.reserve(rows_.size() * static_cast<std::size_t>(count));
+  for (PetscInt j = 0; j < count; ++j)
+    for (PetscInt row : rows_) values.push_back(columns[j * localRows_ + row]);
+  return values;
+}
+
+DenseMatrix transposedProduct(MPI_Comm comm, const RowSet& rows, const double* x, PetscInt m, const double* y, PetscInt n) {
+  if (rows.all()) return transposedProduct(comm, x, rows.size(), m, y, n);
+  return transposedProduct(comm, rows.of(x, m).data(), rows.size(), m, rows.of(y, n).data(), n);
+}
+
 void Image::append(const double* values, PetscInt columns) {
-  values_.reserve(values_.size() + rows_.size() * static_cast<std::size_t>(columns));
-  for (PetscInt j = 0; j < columns; ++j)
-    for (PetscInt row : rows_) values_.push_back(values[j * localRows_ + row]);
+  const auto kept = rows_.of(values, columns);
+  values_.insert(values_.end(), kept.begin(), kept.end());
 }
 
 void Image::combine(const DenseMatrix& combinations, PetscInt columns) {
-  std::vector<double> combined(rows_.size() * combinations.size() / static_cast<std::size_t>(columns), 0.0);
-  flutter::multiplyAdd(values_.data(), static_cast<PetscInt>(rows_.size()), columns, combinations, combined);
+  std::vector<double> combined(static_cast<std::size_t>(rows_.size()) * combinations.size() / static_cast<std::size_t>(columns),
+                               0.0);
+  flutter::multiplyAdd(values_.data(), rows_.size(), columns, combinations, combined);
   values_ = std::move(combined);
 }
 
 void Image::multiplyAdd(const std::vector<double>& coefficients, PetscInt columns, std::vector<double>& result) const {
-  const auto kept = static_cast<PetscInt>(rows_.size());
-  if (kept == localRows_) return flutter::multiplyAdd(values_.data(), kept, columns, coefficients, result);
-  const std::size_t count = coefficients.size() / static_cast<std::size_t>(columns);
-  std::vector<double> part(rows_.size() * count, 0.0);
-  flutter::multiplyAdd(values_.data(), kept, columns, coefficients, part);
-  for (std::size_t j = 0; j < count; ++j)
-    for (std::size_t i = 0; i < rows_.size(); ++i)
-      result[j * static_cast<std::size_t>(localRows_) + static_cast<std::size_t>(rows_[i])] += part[j * rows_.size() + i];
+  if (rows_.all()) return flutter::multiplyAdd(values_.data(), rows_.size(), columns, coefficients, result);
+  const PetscInt count = static_cast<PetscInt>(coefficients.size()) / columns;
+  std::vector<double> part(static_cast<std::size_t>(rows_.size() * count), 0.0);
+  flutter::multiplyAdd(values_.data(), rows_.size(), columns, coefficients, part);
+  for (PetscInt j = 0; j < count; ++j)
+    for (PetscInt i = 0; i < rows_.size(); ++i)
+      result[static_cast<std::size_t>(j * rows_.localRows() + rows_[i])] += part[static_cast<std::size_t>(j * rows_.size() + i)];
 }
 
 DenseMatrix Image::transposedProduct(MPI_Comm comm, const ReadColumns& v, PetscInt xBegin, PetscInt xEnd, PetscInt begin,
                                      PetscInt end) const {
-  const auto kept = static_cast<PetscInt>(rows_.size());
-  const double* image = values_.data() + begin * kept;
-  if (kept == localRows_)
-    return flutter::transposedProduct(comm, v.values() + xBegin * v.rows(), kept, xEnd - xBegin, image, end - begin);
-  std::vector<double> x;
-  x.reserve(rows_.size() * static_cast<std::size_t>(xEnd - xBegin));
-  for (PetscInt j = xBegin; j < xEnd; ++j)
-    for (PetscInt row : rows_) x.push_back(v.values()[j * v.rows() + row]);
-  return flutter::transposedProduct(comm, x.data(), kept, xEnd - xBegin, image, end - begin);
+  const double *x = v.values() + xBegin * v.rows(), *image = values_.data() + begin * rows_.size();
+  if (rows_.all()) return flutter::transposedProduct(comm, x, rows_.size(), xEnd - xBegin, image, end - begin);
+  return flutter::transposedProduct(comm, rows_.of(x, xEnd - xBegin).data(), rows_.size(), xEnd - xBegin, image, end - begin);
 }
 
 }  // namespace squeal::flutter

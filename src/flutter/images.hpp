@@ -51,10 +51,29 @@ void multiplyAdd(const double* x, PetscInt rows, PetscInt columns, const std::ve
 DenseMatrix transposedProduct(MPI_Comm comm, const double* x, PetscInt rows, PetscInt m, const double* y, PetscInt n);
 DenseMatrix transposedProduct(MPI_Comm comm, const Block& x, const Block& y);
 
-/// A V by this rank's rows, without the rows of A that are empty: a friction operator has rows at the contact nodes alone.
+/// The rows of a matrix on this rank that are not empty: a friction operator has rows at the contact nodes alone.
+class RowSet {
+ public:
+  explicit RowSet(Mat matrix);
+  PetscInt size() const { return static_cast<PetscInt>(rows_.size()); }
+  bool all() const { return size() == localRows_; }
+  PetscInt localRows() const { return localRows_; }
+  PetscInt operator[](PetscInt i) const { return rows_[static_cast<std::size_t>(i)]; }
+  /// These rows of columns given by all local rows, column-major.
+  std::vector<double> of(const double* columns, PetscInt count) const;
+
+ private:
+  PetscInt localRows_ = 0;
+  std::vector<PetscInt> rows_;  // ascending
+};
+
+/// Collective. Xᵀ Y for columns given by all local rows, of which those of Y are zero outside of `rows`.
+DenseMatrix transposedProduct(MPI_Comm comm, const RowSet& rows, const double* x, PetscInt m, const double* y, PetscInt n);
+
+/// A V by the rows of A that are not empty.
 class Image {
  public:
-  explicit Image(Mat matrix);
+  explicit Image(RowSet rows) : rows_(std::move(rows)) {}
   /// Adds columns given by all local rows.
   void append(const double* values, PetscInt columns);
   /// A V ← A V · combinations (columns × k).
@@ -66,8 +85,7 @@ class Image {
                                 PetscInt end) const;
 
  private:
-  PetscInt localRows_ = 0;
-  std::vector<PetscInt> rows_;  // local rows kept, ascending
+  RowSet rows_;
   std::vector<double> values_;  // column-major, rows_.size() high
 };
 

@@ -64,9 +64,11 @@ std::vector<double> Coordinates::times(Side side, int power, double c) const {
 
 ProjectedTerms::ProjectedTerms(const Basis& basis, const Pencil& pencil, std::size_t first, std::size_t last) : basis_(basis) {
   for (std::size_t t = first; t < last; ++t) {
-    const Term& term = pencil.terms()[t];
-    parts_.push_back({term.share(), Image(term.matrix), {}, {}, {}, {}, 0});
-    if (!isSymmetric(term.matrix)) check(MatTranspose(term.matrix, MAT_INITIAL_MATRIX, parts_.back().transposed.out()));
+    Term term = pencil.terms()[t].share();
+    OwnedMat transposed;
+    if (!isSymmetric(term.matrix)) check(MatTranspose(term.matrix, MAT_INITIAL_MATRIX, transposed.out()));
+    const RowSet rows(term.matrix), leftRows = transposed ? RowSet(transposed) : rows;
+    parts_.push_back({std::move(term), std::move(transposed), rows, leftRows, Image(rows), {}, {}, {}, 0});
   }
   extend();
 }
@@ -78,16 +80,16 @@ void ProjectedTerms::extend() {
 void ProjectedTerms::extend(Part& part) const {
   const PetscInt old = part.columns, size = basis_.size();
   if (old == size) return;
-  const auto sketchOf = [&](BV columns, DenseMatrix& sketch) {
-    const auto fresh = basis_.sketch().of(ReadColumns(columns).values(), size - old);
+  const auto sketchOf = [&](BV columns, const RowSet& rows, DenseMatrix& sketch) {
+    const auto fresh = basis_.sketch().of(rows, ReadColumns(columns).values(), size - old);
     sketch.insert(sketch.end(), fresh.begin(), fresh.end());
   };
   {
     const OwnedBV product = basis_.times(part.term.matrix, old, size);
     part.image.append(ReadColumns(product).values(), size - old);
-    sketchOf(product, part.sketch);
+    sketchOf(product, part.rows, part.sketch);
   }
-  if (part.transposed) sketchOf(basis_.times(part.transposed, old, size), part.leftSketch);
+  if (part.transposed) sketchOf(basis_.times(part.transposed, old, size), part.leftRows, part.leftSketch);
   const ReadColumns all(basis_.columns());
   const auto right = part.image.transposedProduct(basis_.comm(), all, 0, size, old, size);  // Vᵀ (A V_new)
   const auto below =

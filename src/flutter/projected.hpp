@@ -45,8 +45,9 @@ class ProjectedTerms {
  private:
   struct Part {
     Term term;
-    Image image;             // A V
     OwnedMat transposed;     // Aᵀ; empty where A is symmetric
+    RowSet rows, leftRows;   // of A and Aᵀ
+    Image image;             // A V
     DenseMatrix sketch;      // of A V
     DenseMatrix leftSketch;  // of AᵀV; empty where A is symmetric
     DenseMatrix projection;  // VᵀAV, column-major

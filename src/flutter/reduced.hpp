@@ -54,8 +54,8 @@ class ReducedProblem {
   bool inBand(std::complex<double> s) const;
 
   PetscInt unknowns_ = 0;
-  double bandTop_ = 0, lowestMode_ = 0, highestMode_ = 0;   // rad/s
-  double rightRatio_ = 1, leftRatio_ = 1;  // Basis::energyRatio of the residuals
+  double bandTop_ = 0, lowestMode_ = 0, highestMode_ = 0;  // rad/s
+  double rightRatio_ = 1, leftRatio_ = 1;                  // Basis::energyRatio of the residuals
   Basis basis_;
   ProjectedTerms terms_;
   std::vector<std::vector<DensePair>> solved_;

@@ -37,6 +37,10 @@ DenseMatrix Sketch::of(const double* x, PetscInt columns) const {
   return transposedProduct(comm_, signs_.values.data(), signs_.rows, 2 * size, x, columns);
 }
 
+DenseMatrix Sketch::of(const RowSet& rows, const double* x, PetscInt columns) const {
+  return transposedProduct(comm_, rows, signs_.values.data(), 2 * size, x, columns);
+}
+
 SquaredNorms squaredNorms(const DenseMatrix& sketch) {
   constexpr auto k = static_cast<std::size_t>(Sketch::size);
   SquaredNorms norms;

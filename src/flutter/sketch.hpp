@@ -21,6 +21,8 @@ class Sketch {
   Sketch(BV like, const std::vector<double>& diagonal);
   /// Collective. Ωᵀ X and Ωᵀ D^½ X, one above the other, 2k × columns, divided by √k: the same on all ranks.
   DenseMatrix of(const double* x, PetscInt columns) const;
+  /// That of columns that are zero outside of some rows.
+  DenseMatrix of(const RowSet& rows, const double* x, PetscInt columns) const;
 
  private:
   MPI_Comm comm_;
