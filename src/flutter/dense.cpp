@@ -204,9 +204,6 @@ std::vector<DensePair> solveQuadratic(const DenseMatrix& mass, const DenseMatrix
   return pairs;
 }
 
-namespace {
-
-/// One message for all pairs.
 void shareFromRankZero(MPI_Comm comm, std::vector<DensePair>& pairs, int m, Vectors vectors) {
   int count = static_cast<int>(pairs.size());
   check(MPI_Bcast(&count, 1, MPI_INT, 0, comm));
@@ -226,8 +223,6 @@ void shareFromRankZero(MPI_Comm comm, std::vector<DensePair>& pairs, int m, Vect
     pairs.push_back({*entry, {q, left}, {left, end}});
   }
 }
-
-}  // namespace
 
 std::vector<DensePair> solveTogether(MPI_Comm comm, const DenseMatrix& mass, const DenseMatrix& damping,
                                      const DenseMatrix& stiffness, int m, Vectors vectors) {

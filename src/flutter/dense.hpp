@@ -36,4 +36,7 @@ std::vector<DensePair> solveQuadratic(const DenseMatrix& mass, const DenseMatrix
 std::vector<DensePair> solveTogether(MPI_Comm comm, const DenseMatrix& mass, const DenseMatrix& damping,
                                      const DenseMatrix& stiffness, int m, Vectors vectors = Vectors::right);
 
+/// Collective. The pairs of rank 0, vectors of m entries, to all; one message.
+void shareFromRankZero(MPI_Comm comm, std::vector<DensePair>& pairs, int m, Vectors vectors);
+
 }  // namespace squeal::flutter
