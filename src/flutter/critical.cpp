@@ -38,49 +38,75 @@ double rootBetween(double a, double fa, double b, double fb, double tolerance, c
 
 class Root {
  public:
-  Root(Family& family, const Event& event, double tolerance) : family_(family), event_(event), tolerance_(tolerance) {
-    known_ = {{event.low, measure(event.below), event.below}, {event.high, measure(event.above), event.above}};
-  }
+  Root(Family& family, const Event& event, double tolerance)
+      : family_(family), event_(event), tolerance_(tolerance), real_(real(event.below[0].s) && real(event.above[0].s)) {}
 
-  Critical solve() {
-    Critical result;
-    result.kind = event_.kind;
-    result.branch = event_.branch;
-    result.partner = event_.partner;
-    result.loss = event_.loss;
+  /// In the basis in force.
+  void locate() {
     if (event_.low == event_.high) {  // at an end of a step, where equal eigenvalues part
-      result.friction = event_.low;
+      friction_ = event_.low;
+      settled_ = true;
+      return;
+    }
+    if (known_.empty() && (!addEnd(event_.low, event_.below) || !addEnd(event_.high, event_.above))) {
+      settled_ = true;
+      return;
+    }
+    const double before = friction_;
+    friction_ = std::isnan(before) ? between(event_.low, known_[0].value, event_.high, known_[1].value) : again(before);
+    moved_ = std::isnan(before) ? 0 : std::abs(friction_ - before);
+    settled_ = std::isnan(friction_) || (!std::isnan(before) && moved_ <= tolerance_ * friction_);
+  }
+  bool settled() const { return settled_; }
+
+  /// Where two eigenvalues are one, so is their vector.
+  Located located() const {
+    std::vector<DensePair> pairs = nearest(friction_).pairs();
+    const Complex s = mean(pairs);
+    pairs.resize(1);
+    pairs[0].s = s;
+    return {friction_, pairs};
+  }
+  void setBackwardError(double error) { backwardError_ = error; }
+
+  Critical result() {
+    Critical result{event_.kind, event_.branch, event_.partner, friction_, 0, 0, event_.loss, 0, backwardError_, true};
+    if (event_.low == event_.high) {
       result.angularFrequency = mean(event_.below).imag();
-      return result;
+    } else if (std::isnan(friction_)) {
+      result.converged = false;
+      result.friction = 0.5 * (event_.low + event_.high);
+      result.errorEstimate = 0.5 * (event_.high - event_.low);
+      result.angularFrequency = 0.5 * (mean(event_.below) + mean(event_.above)).imag();
+    } else {
+      result.converged = moved_ <= tolerance_ * friction_;
+      result.errorEstimate = moved_ + rootTolerance();
+      result.angularFrequency = mean(nearest(friction_).pairs()).imag();
+      result.slope = slope(friction_);
     }
-    double friction = between(event_.low, known_[0].value, event_.high, known_[1].value);
-    for (int round = 0; round < 10 && std::isfinite(friction); ++round) {
-      const Improvement improvement = family_.improve(friction, concerned(friction));
-      result.backwardError = improvement.backwardError;
-      if (!improvement.changed) break;
-      const double before = friction;
-      friction = again(before);
-      result.errorEstimate = std::abs(friction - before);
-      if (result.errorEstimate <= tolerance_ * friction) break;
-    }
-    result.converged = std::isfinite(friction) && result.errorEstimate <= tolerance_ * friction;
-    result.friction = std::isfinite(friction) ? friction : 0.5 * (event_.low + event_.high);
-    result.errorEstimate = std::isfinite(friction) ? result.errorEstimate + rootTolerance() : 0.5 * (event_.high - event_.low);
-    result.angularFrequency = mean(nearest(result.friction).pairs).imag();
-    if (result.converged) result.slope = slope(friction);
     return result;
   }
 
  private:
   struct Sample {
     double friction, value;
-    std::vector<DensePair> pairs;
+    Spectrum spectrum;
+    const std::vector<DensePair>& pairs() const { return spectrum.pairs(); }
   };
 
-  double measure(const std::vector<DensePair>& pairs) const {
+  bool addEnd(double friction, const std::vector<DensePair>& pairs) {
+    const auto problem = family_.at(friction);
+    if (!problem) return false;
+    Spectrum spectrum(*problem, pairs);
+    known_.push_back({friction, measure(spectrum), std::move(spectrum)});
+    return true;
+  }
+
+  double measure(const Spectrum& spectrum) const {
+    const auto& pairs = spectrum.pairs();
     switch (event_.kind) {
       case Event::Kind::coalescence:
-        return discriminant(pairs);
+        return discriminant(pairs, spectrum.damped());
       case Event::Kind::divergence:
         return (pairs[0].s * pairs[0].s).real();
       case Event::Kind::crossing:
@@ -103,18 +129,14 @@ class Root {
       if (sample.friction >= friction && sample.friction < above->friction) above = &sample;
     }
     const double width = above->friction - below->friction, t = width > 0 ? (friction - below->friction) / width : 0;
-    return (1 - t) * mean(below->pairs) + t * mean(above->pairs);
+    return (1 - t) * mean(below->pairs()) + t * mean(above->pairs());
   }
 
   double value(double friction) {
-    const auto problem = family_.at(friction);
-    if (!problem) return NAN;
-    const Cluster cluster =
-        clusterTogether(family_.comm(), *problem, nearest(friction).pairs, expected(friction), event_.isolation);
-    if (!cluster.converged) return NAN;
-    const double value = event_.kind == Event::Kind::coalescence ? cluster.discriminant : measure(cluster.pairs);
-    known_.push_back({friction, value, cluster.pairs});
-    return value;
+    auto found = pursued(family_, friction, nearest(friction).spectrum, expected(friction), event_.isolation);
+    if (!found) return NAN;
+    known_.push_back({friction, measure(*found), std::move(*found)});
+    return known_.back().value;
   }
 
   double rootTolerance() const { return 1e-13 * std::max(std::abs(event_.high), std::abs(event_.low)); }
@@ -126,21 +148,12 @@ class Root {
   /// The same root in the grown basis: it has moved little.
   double again(double before) {
     const double reach = 1e-3 * (event_.high - event_.low);
-    known_.resize(2);
+    known_.erase(known_.begin() + 2, known_.end());
     const double a = std::max(event_.low, before - reach), b = std::min(event_.high, before + reach);
     const double fa = value(a), fb = value(b);
     if (std::isnan(fa) || std::isnan(fb)) return NAN;
-    if ((fa > 0) != (fb > 0)) return between(a, fa, b, fb);
-    return between(event_.low, known_[0].value, event_.high, known_[1].value);
-  }
-
-  /// Where two eigenvalues are one, so is their vector.
-  std::vector<DensePair> concerned(double friction) const {
-    std::vector<DensePair> pairs = nearest(friction).pairs;
-    const Complex s = mean(pairs);
-    pairs.resize(1);
-    pairs[0].s = s;
-    return pairs;
+    if ((fa > 0) == (fb > 0)) return between(event_.low, known_[0].value, event_.high, known_[1].value);
+    return between(a, fa, b, fb);
   }
 
   /// By a central difference.
@@ -152,15 +165,37 @@ class Root {
 
   Family& family_;
   const Event& event_;
-  double tolerance_;
+  double tolerance_, friction_ = NAN, moved_ = 0, backwardError_ = 0;
+  bool settled_ = false;
+  bool real_;                  // divergence of a real eigenvalue, in a damped problem
   std::vector<Sample> known_;  // the two ends first
 };
 
 }  // namespace
 
 std::vector<Critical> criticalFrictions(Family& family, const Branches& branches, double tolerance) {
+  constexpr int rounds = 10;
+  std::vector<Root> roots;
+  for (const auto& event : branches.events) {
+    roots.emplace_back(family, event, tolerance);
+    roots.back().locate();
+  }
+  for (int round = 0; round < rounds; ++round) {
+    std::vector<Root*> open;
+    std::vector<Located> located;
+    for (auto& root : roots)
+      if (!root.settled()) {
+        open.push_back(&root);
+        located.push_back(root.located());
+      }
+    if (open.empty()) break;
+    const Improvement improvement = family.improve(located);
+    for (std::size_t k = 0; k < improvement.backwardError.size(); ++k) open[k]->setBackwardError(improvement.backwardError[k]);
+    if (!improvement.changed) break;
+    for (auto* root : open) root->locate();
+  }
   std::vector<Critical> list;
-  for (const auto& event : branches.events) list.push_back(Root(family, event, tolerance).solve());
+  for (auto& root : roots) list.push_back(root.result());
   std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.friction < b.friction; });
   return list;
 }

@@ -21,7 +21,7 @@ struct Critical {
 /// Collective. Each event as the zero of a function that is analytic in f, inside its bracket:
 /// - crossing: Re s(f) of one eigenvalue (Hopf);
 /// - coalescence: −((s1 − s2)/2)² of the two-dimensional invariant subspace, which is simple where s1 and s2 are square roots;
-/// - divergence: Re s².
+/// - divergence: Re s², or s where it is real at both ends.
 /// After each root the family improves its basis for the pairs concerned, until the friction moves by less than `tolerance` of itself.
 std::vector<Critical> criticalFrictions(Family& family, const Branches& branches, double tolerance);
 

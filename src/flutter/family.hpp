@@ -6,10 +6,16 @@
 
 namespace squeal::flutter {
 
+/// Pairs found at one friction.
+struct Located {
+  double friction = 0;
+  std::vector<DensePair> pairs;
+};
+
 /// What a large problem says of pairs of its reduced one.
 struct Improvement {
-  bool changed = false;      ///< the basis has grown: the pairs are to be solved for again
-  double backwardError = 0;  ///< the largest, of the large problem
+  bool changed = false;               ///< the basis has grown: the pairs are to be solved for again
+  std::vector<double> backwardError;  ///< [located] the largest, of the large problem; empty: there is no larger problem
 };
 
 class Family {
@@ -19,8 +25,8 @@ class Family {
   /// Collective. The problem at one friction in the basis in force, the same on all ranks; none where it cannot be had, for example
   /// because the contact opens.
   virtual std::optional<DenseProblem> at(double friction) = 0;
-  /// Collective. Adds to the basis what the residuals of these pairs ask for.
-  virtual Improvement improve(double, const std::vector<DensePair>&) { return {}; }
+  /// Collective. Adds to the basis what the residuals of these pairs ask for, all together.
+  virtual Improvement improve(const std::vector<Located>&) { return {}; }
 };
 
 /// The eigenvalues that a run is about, and those watched beside them.
@@ -29,9 +35,7 @@ struct Band {
   double guard = 1.3;    ///< eigenvalues are watched up to this multiple of `top`
   double damping = 0.5;  ///< largest damping ratio
   bool contains(std::complex<double> s) const { return std::abs(s) <= top && -s.real() <= damping * std::abs(s); }
-  bool watches(std::complex<double> s) const {
-    return std::abs(s) <= guard * top && -s.real() <= 0.5 * (1 + damping) * std::abs(s);
-  }
+  bool watches(std::complex<double> s) const { return std::abs(s) <= guard * top; }
 };
 
 }  // namespace squeal::flutter

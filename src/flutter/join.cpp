@@ -28,15 +28,77 @@ std::vector<std::size_t> byFrequency(const std::vector<DensePair>& pairs) {
   return order;
 }
 
+/// |Σ tr(Π_i Π_j) − number| for all pairs of both.
+double unshared(const Spectrum& a, const Spectrum& b) {
+  Complex sum = 0;
+  for (std::size_t i = 0; i < a.pairs().size(); ++i)
+    for (std::size_t j = 0; j < b.pairs().size(); ++j) sum += a.overlap(i, b, j);
+  return std::abs(sum - static_cast<double>(a.pairs().size()));
+}
+
+std::optional<Spectrum> locally(Family& family, const DenseProblem& problem, const Spectrum& from,
+                                const std::vector<DensePair>& start, Complex expected, double isolation) {
+  const Cluster cluster = clusterTogether(family.comm(), problem, start, expected, isolation);
+  if (!cluster.converged) return {};
+  auto pairs = cluster.pairs;
+  if (problem.damping.empty())  // s and −s have the same vectors
+    for (auto& pair : pairs)
+      if (pair.s.imag() < -1e-9 * std::abs(pair.s) || (real(pair.s) && pair.s.real() < 0)) pair.s = -pair.s;
+  Spectrum found(problem, std::move(pairs));
+  if (unshared(from, found) > 0.5) return {};
+  return found;
+}
+
+/// Of all pairs those that share most with `from`.
+std::vector<std::size_t> closest(const Spectrum& from, const Spectrum& all) {
+  std::vector<std::pair<double, std::size_t>> shares;
+  for (std::size_t j = 0; j < all.pairs().size(); ++j) {
+    Complex sum = 0;
+    for (std::size_t i = 0; i < from.pairs().size(); ++i) sum += from.overlap(i, all, j);
+    shares.emplace_back(-sum.real(), j);
+  }
+  std::sort(shares.begin(), shares.end());
+  std::vector<std::size_t> indices;
+  for (std::size_t k = 0; k < from.pairs().size() && k < shares.size(); ++k) indices.push_back(shares[k].second);
+  return indices;
+}
+
 }  // namespace
+
+std::vector<DensePair> allPairs(MPI_Comm comm, const DenseProblem& problem) {
+  auto pairs = solveTogether(comm, problem.mass, problem.damping, problem.stiffness, problem.m, Vectors::both);
+  if (problem.damping.empty()) std::erase_if(pairs, [](const auto& pair) { return pair.s.imag() == 0 && pair.s.real() < 0; });
+  return pairs;
+}
+
+std::optional<Spectrum> pursued(Family& family, double friction, const Spectrum& from, Complex expected, double isolation) {
+  const auto problem = family.at(friction);
+  if (!problem) return {};
+  if (auto found = locally(family, *problem, from, from.pairs(), expected, isolation)) return found;
+  const Spectrum all(*problem, allPairs(family.comm(), *problem));
+  const auto indices = closest(from, all);
+  const Spectrum whole(*problem, chosen(all.pairs(), indices));
+  if (unshared(from, whole) > 0.5) return {};
+  const Complex middle = mean(whole.pairs());
+  double free = std::abs(middle);
+  for (std::size_t j = 0; j < all.pairs().size(); ++j)
+    if (std::find(indices.begin(), indices.end(), j) == indices.end()) free = std::min(free, std::abs(all.pairs()[j].s - middle));
+  // Where the eigenvalues are closer to each other than to the rest, their subspace has more digits than they have.
+  if (auto found = locally(family, *problem, whole, whole.pairs(), middle, free)) return found;
+  return whole;
+}
 
 bool neutral(Complex s, bool damped) { return std::abs(s.real()) <= (damped ? 1e-10 : 1e-6) * std::abs(s); }
 
-bool neutralPair(const std::vector<DensePair>& two, bool damped) { return neutral(two[0].s, damped) && neutral(two[1].s, damped); }
+bool real(Complex s) { return std::abs(s.imag()) <= 1e-6 * std::abs(s); }
+
+bool neutralPair(const std::vector<DensePair>& two, bool damped) {
+  return std::all_of(two.begin(), two.end(), [&](const auto& p) { return neutral(p.s, damped) || (!damped && real(p.s)); });
+}
 
 bool splitPair(const std::vector<DensePair>& two, bool damped) {
   const Complex a = two[0].s, b = two[1].s;
-  return !neutral(a, damped) && std::abs(a + std::conj(b)) <= (damped ? 1e-8 : 1e-5) * std::abs(a.real());
+  return !neutral(a, damped) && !real(a) && std::abs(a + std::conj(b)) <= (damped ? 1e-8 : 1e-5) * std::abs(a.real());
 }
 
 bool coincide(const std::vector<DensePair>& pairs) {
@@ -98,9 +160,10 @@ std::vector<DensePair> chosen(const std::vector<DensePair>& all, const std::vect
   return list;
 }
 
-double discriminant(const std::vector<DensePair>& two) {
-  const Complex half = 0.5 * (two[0].s - two[1].s);
-  return -(half * half).real();
+double discriminant(const std::vector<DensePair>& two, bool damped) {
+  const Complex half = 0.5 * (two[0].s - two[1].s), middle = mean(two);
+  if (damped) return -(half * half).real();
+  return (half * half * middle * middle).real() / std::norm(middle);
 }
 
 Complex mean(const std::vector<DensePair>& pairs) {

@@ -7,9 +7,11 @@ namespace squeal::flutter {
 
 /// |Re s| of no account: rounding at multiple eigenvalues where all are neutral or come in pairs ±σ, less where there is damping.
 bool neutral(std::complex<double> s, bool damped);
-/// Two neutral eigenvalues.
+/// Im s of no account.
+bool real(std::complex<double> s);
+/// Two neutral eigenvalues; of a problem in s², two real s².
 bool neutralPair(const std::vector<DensePair>& two, bool damped);
-/// s and −conj s, not neutral.
+/// s and −conj s, neither neutral nor real.
 bool splitPair(const std::vector<DensePair>& two, bool damped);
 /// All the same but for rounding.
 bool coincide(const std::vector<DensePair>& pairs);
@@ -29,11 +31,22 @@ std::vector<std::size_t> assigned(const Spectrum& here, const Spectrum& there, c
 /// The same by order: frequency, then growth; at a change between neutral and split, the convention of follow().
 std::vector<std::size_t> ordered(const std::vector<DensePair>& here, const std::vector<DensePair>& there);
 
+/// Collective. All eigenvalues with Im s ≥ 0 and both vectors; of a problem in s², of which −s is one with every s, without negative
+/// real ones.
+std::vector<DensePair> allPairs(MPI_Comm comm, const DenseProblem& problem);
+
+/// Collective. The eigenvalues of `from`, one or two of a neighbouring friction, at this one: by their own subspace begun with
+/// `expected` and `isolation` (see clusterNear), or, where that fails or ends elsewhere, out of all eigenvalues. Nothing: there is no
+/// problem at this friction, or none of its eigenvalues continue these.
+std::optional<Spectrum> pursued(Family& family, double friction, const Spectrum& from, std::complex<double> expected,
+                                double isolation);
+
 /// The entries of `all` with these indices.
 std::vector<DensePair> chosen(const std::vector<DensePair>& all, const std::vector<std::size_t>& indices);
 
-/// −((s1 − s2)/2)², real part: positive for two different neutral eigenvalues, negative for a split pair.
-double discriminant(const std::vector<DensePair>& two);
+/// Positive for two different neutral eigenvalues, negative for a split pair: −((s1 − s2)/2)², real part; of a problem in s²
+/// ((s1² − s2²)/4)² / |(s1 + s2)/2|², the same where they meet, and the more analytic.
+double discriminant(const std::vector<DensePair>& two, bool damped);
 std::complex<double> mean(const std::vector<DensePair>& pairs);
 
 }  // namespace squeal::flutter

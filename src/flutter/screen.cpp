@@ -57,51 +57,46 @@ struct Cubic {
   }
 };
 
-/// A function over a step that is positive at both ends; where is it negative?
+/// A function over a step, t from 0 to 1, that is positive at both ends: is it negative somewhere?
 class Dip {
  public:
-  Dip(double value0, double value1) : low_{0, value0}, high_{1, value1}, stop_(1e-10 * std::max(value0, value1)) {}
-
   enum class Result { negative, positive, unknown };
-  /// From t: the least of the parabolas through three points, until negative, or clearly positive or next to nothing. `value(t)` is
-  /// NaN where it is not known.
+  /// `scale`: of the values at the ends; next to nothing of it counts as zero, not negative.
+  explicit Dip(double scale) : nothing_(1e-10 * scale) {}
+
+  /// From t by parabolas through three points as close as the zero of the last one seems to be. `value(t)` is NaN where it is not
+  /// known.
   template <class Function>
   Result search(double t, const Function& value) {
-    constexpr int most = 12;
-    point_ = {t, value(t)};
+    constexpr int most = 6;
+    double reach = 0.05;
+    at_ = t;
+    double middle = value(t);
     for (int k = 0; k < most; ++k) {
-      if (!std::isfinite(point_.value)) return Result::unknown;
-      if (point_.value < 0) return Result::negative;
-      if (point_.value < stop_ || point_.value >= std::min(low_.value, high_.value)) return Result::positive;
-      const double next = vertex();
-      if (std::abs(next - point_.t) < 1e-6) return Result::positive;
-      const Sample tried{next, value(next)};
-      if (!std::isfinite(tried.value)) return Result::unknown;
-      const bool better = tried.value < point_.value;
-      (next < point_.t ? (better ? high_ : low_) : (better ? low_ : high_)) = better ? point_ : tried;
-      const double gain = std::abs(tried.value - point_.value);
-      if (better) point_ = tried;
-      if (point_.value > 0 && gain < 0.01 * point_.value) return Result::positive;
+      if (!std::isfinite(middle)) return Result::unknown;
+      if (middle < 0) return Result::negative;
+      if (middle < nothing_) return Result::positive;
+      const double centre = at_, low = std::max(centre - reach, 0.5 * centre), high = std::min(centre + reach, 0.5 * (1 + centre));
+      const double below = value(low);
+      if (below < 0) return at_ = low, Result::negative;
+      const double above = value(high);
+      if (above < 0) return at_ = high, Result::negative;
+      if (!std::isfinite(below) || !std::isfinite(above)) return Result::unknown;
+      const double left = (middle - below) / (centre - low), right = (above - middle) / (high - centre);
+      const double curvature = (right - left) / (high - low);
+      const double vertex = 0.5 * (low + centre) - left / (2 * curvature);
+      const double least = middle - curvature * (vertex - centre) * (vertex - centre);
+      if (curvature > 0 && vertex > low && vertex < high && least > 0.1 * middle) return Result::positive;
+      at_ = curvature > 0 ? std::clamp(vertex, low, high) : below < above ? low : high;
+      middle = value(at_);
+      reach = std::clamp(curvature > 0 ? std::sqrt(std::abs(middle) / curvature) : reach, 1e-6, reach);
     }
     return Result::positive;
   }
-  double at() const { return point_.t; }
+  double at() const { return at_; }
 
  private:
-  struct Sample {
-    double t, value;
-  };
-  double vertex() const {
-    const auto& [a, fa] = low_;
-    const auto& [b, fb] = point_;
-    const auto& [c, fc] = high_;
-    const double left = (fb - fa) / (b - a), right = (fc - fb) / (c - b), curvature = (right - left) / (c - a);
-    const double next = 0.5 * (a + b) - left / (2 * curvature);
-    const double margin = 1e-3;  // into the bracket
-    return std::isfinite(next) ? std::clamp(next, a + margin * (c - a), c - margin * (c - a)) : 0.5 * (a + c);
-  }
-  Sample low_, high_, point_{};
-  double stop_;
+  double nothing_, at_ = 0;
 };
 
 /// A step and what is examined in it.
@@ -129,12 +124,11 @@ class Screening {
 
   /// NaN if the subspace is not found.
   double examine(double t, const std::vector<DensePair>& below, const std::vector<DensePair>& above, double isolation) {
-    const auto problem = family_.at(low_.friction + t * width());
-    if (!problem) return NAN;
-    const Complex guess = (1 - t) * mean(below) + t * mean(above);
-    found_ = clusterTogether(family_.comm(), *problem, t < 0.5 ? below : above, guess, isolation);
-    if (!found_.converged) return NAN;
-    return below.size() == 2 ? found_.discriminant : found_.mean.real();
+    const Spectrum from(t < 0.5 ? low_.problem : high_.problem, t < 0.5 ? below : above);
+    const auto found = pursued(family_, low_.friction + t * width(), from, (1 - t) * mean(below) + t * mean(above), isolation);
+    if (!found) return NAN;
+    found_ = found->pairs();
+    return found_.size() == 2 ? discriminant(found_, from.damped()) : found_[0].s.real();
   }
 
   /// Both ends of a search with its result.
@@ -150,7 +144,7 @@ class Screening {
     event.low = low_.friction;
     second.high = high_.friction;
     event.high = second.low = low_.friction + dip.at() * width();
-    event.above = second.below = found_.pairs;
+    event.above = second.below = found_;
     second.loss = !event.loss;
     events_.push_back(std::move(event));
     events_.push_back(std::move(second));
@@ -169,7 +163,7 @@ class Screening {
     if (crossing) t = d0 / (d0 - d1);
     const std::vector<DensePair> below{a.below, b.below}, above{a.above, b.above};
     const double isolation = isolationOf(i, j);
-    Dip dip(d0 * d0, d1 * d1);
+    Dip dip(std::max(d0 * d0, d1 * d1));
     const auto result = dip.search(t, [&](double at) { return examine(at, below, above, isolation); });
     const bool lower = d0 < 0;  // a is: it becomes the growing one
     record(
@@ -197,7 +191,7 @@ class Screening {
     const double t = growth.lowest();
     if (growth(t) > 0.1 * std::min(sign * g0, sign * g1)) return;
     const std::vector<DensePair> below{a.below}, above{a.above};
-    Dip dip(sign * g0, sign * g1);
+    Dip dip(std::max(sign * g0, sign * g1));
     const auto result = dip.search(t, [&](double at) { return sign * examine(at, below, above, a.isolation); });
     record(result, dip, {Event::Kind::crossing, a.branch, -1, sign < 0, 0, 0, below, above, a.isolation});
   }
@@ -208,7 +202,7 @@ class Screening {
   std::vector<Event>& events_;
   std::vector<Gap>& gaps_;
   std::vector<std::array<Complex, 2>> slopes_;
-  Cluster found_;
+  std::vector<DensePair> found_;
 };
 
 }  // namespace

@@ -221,7 +221,6 @@ Cluster clusterNear(const DenseProblem& problem, const std::vector<DensePair>& s
     }
     cluster.pairs = iteration.pairs(shift);
   }
-  cluster.discriminant = -square.real();
   return cluster;
 }
 
@@ -231,11 +230,10 @@ Cluster clusterTogether(MPI_Comm comm, const DenseProblem& problem, const std::v
   check(MPI_Comm_rank(comm, &rank));
   Cluster cluster;
   if (rank == 0) cluster = clusterNear(problem, start, guess, isolation);
-  double numbers[] = {cluster.mean.real(), cluster.mean.imag(), cluster.discriminant, cluster.converged ? 1.0 : 0.0};
-  check(MPI_Bcast(numbers, 4, MPI_DOUBLE, 0, comm));
+  double numbers[] = {cluster.mean.real(), cluster.mean.imag(), cluster.converged ? 1.0 : 0.0};
+  check(MPI_Bcast(numbers, 3, MPI_DOUBLE, 0, comm));
   cluster.mean = {numbers[0], numbers[1]};
-  cluster.discriminant = numbers[2];
-  cluster.converged = numbers[3] > 0;
+  cluster.converged = numbers[2] > 0;
   shareFromRankZero(comm, cluster.pairs, problem.m, Vectors::both);
   return cluster;
 }

@@ -6,8 +6,7 @@
 namespace squeal::flutter {
 
 struct Cluster {
-  std::complex<double> mean;     ///< of the eigenvalues
-  double discriminant = 0;       ///< Re −((s1 − s2)/2)²: analytic in the parameters although s1 and s2 are not where they meet
+  std::complex<double> mean;
   std::vector<DensePair> pairs;  ///< with left vectors; nearly parallel where they meet
   bool converged = false;
 };

@@ -69,7 +69,7 @@ class Follower {
   std::optional<Solved> solve(double friction, bool swept) {
     auto problem = family_.at(friction);
     if (!problem) return {};
-    auto pairs = solveTogether(family_.comm(), problem->mass, problem->damping, problem->stiffness, problem->m, Vectors::both);
+    auto pairs = allPairs(family_.comm(), *problem);
     std::erase_if(pairs, [&](const auto& pair) { return !result_.band.watches(pair.s); });
     Spectrum spectrum(*problem, pairs);
     Solved solved{{}, std::move(*problem), std::move(spectrum)};
@@ -147,13 +147,11 @@ class Follower {
     const int before = sign(p.s, damped), after = sign(q.s, damped);
     if (before == after) return;
     Event event{Event::Kind::crossing, branch, -1, after > before, low, high, {p}, {q}, isolation};
-    if (before * after == 0) {
-      if (q.s.imag() == 0 || p.s.imag() == 0) {
-        event.kind = Event::Kind::divergence;
-      } else {
-        if (before + after < 0) return;  // between neutral and decaying: stable on both sides
-        (before == 0 ? event.high : event.low) = before == 0 ? event.low : event.high;
-      }
+    if (real(p.s) || real(q.s)) {
+      event.kind = Event::Kind::divergence;
+    } else if (before * after == 0) {
+      if (before + after < 0) return;  // between neutral and decaying: stable on both sides
+      (before == 0 ? event.high : event.low) = before == 0 ? event.low : event.high;
     }
     step.events.push_back(std::move(event));
   }
@@ -210,9 +208,13 @@ class Follower {
     if (merging || parting) {
       mate = ordered(a, b);
       const auto& split = merging ? b : a;
-      const std::size_t grown = split[0].s.real() > 0 ? 0 : 1, own = merging ? (mate[0] == grown ? 0 : 1) : grown;
+      const auto& whole = merging ? a : b;
+      const std::size_t grown = split[0].s.real() > 0 ? 0 : 1, grownLow = merging ? (mate[0] == grown ? 0 : 1) : grown;
+      // Of two neutral ones the growing one loses its stability, of two divergent ones the decaying one regains it.
+      const bool divergent = real(whole[0].s);
+      const std::size_t own = divergent ? 1 - grownLow : grownLow;
       step.events.push_back(
-          {Event::Kind::coalescence, ids[own], ids[1 - own], merging, low.friction, high.friction, a, b, isolation});
+          {Event::Kind::coalescence, ids[own], ids[1 - own], merging != divergent, low.friction, high.friction, a, b, isolation});
       return true;
     }
     if (coincide(a) || coincide(b)) {
@@ -236,18 +238,14 @@ class Follower {
       step.gaps.push_back({low.friction, high.friction,
                            formatted("two eigenvalues near %.6g Hz too close to tell apart: both are "
                                      "there, which is which is not certain",
-                                     mean(a).imag() / (2 * M_PI))});
+                                     mean(a).imag() / (2 * M_PI)),
+                           true});
       return true;
     }
     const double middle = 0.5 * (low.friction + high.friction);
-    const auto problem = family_.at(middle);
-    if (!problem) return false;
-    const Cluster cluster = clusterTogether(family_.comm(), *problem, a, 0.5 * (mean(a) + mean(b)), isolation);
-    if (!cluster.converged) return false;
-    const PairAt between{middle, Spectrum(*problem, cluster.pairs)};
-    const auto shared = groups(low.spectrum, between.spectrum);
-    for (const auto& group : shared)
-      if (!group.joined()) return false;
+    const auto found = pursued(family_, middle, low.spectrum, 0.5 * (mean(a) + mean(b)), isolation);
+    if (!found) return false;
+    const PairAt between{middle, *found};
     std::vector<std::size_t> first, second;
     if (!trace(low, between, ids, isolation, smallest, first, step)) return false;
     std::vector<int> idsBetween(2);

@@ -33,6 +33,7 @@ struct Event {
 struct Gap {
   double from = 0, to = 0;
   std::string what;
+  bool identityOnly = false;  ///< all eigenvalues are accounted for; which is which is not
 };
 
 struct Branches {

