@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "modes/benchmark.hpp"
 #include "petsc/options.hpp"
@@ -157,6 +158,66 @@ std::vector<flutter::Term> termsOf(const Analysis& analysis, const contact::Asso
   return flutter::pointTerms(analysis.contact, system, solution, change);
 }
 
+/// Sets and enters the terms of any point with the active set of `reference`; false: it has another one, or no steady state.
+class PointTerms {
+ public:
+  PointTerms(const Analysis& analysis, const contact::AssociatedSystem& system, const steady::Solution& reference, Mat prestress,
+             flutter::Pencil& pencil, flutter::ReducedProblem& reduced, CurrentSystem& current, bool affine)
+      : analysis_(analysis),
+        system_(system),
+        reference_(reference),
+        prestress_(prestress),
+        pencil_(pencil),
+        reduced_(reduced),
+        current_(current),
+        affine_(affine) {}
+
+  bool operator()(Parameters at) {
+    at.damping = 1;
+    if (affine_ || entered_ == at) return true;
+    const auto known =
+        std::find_if(analysis_.steady.begin(), analysis_.steady.end(), [&](const auto& solution) { return solution.at == at; });
+    if (known != analysis_.steady.end()) return enter(*known);
+    if (!problem_) problem_ = std::make_unique<steady::Problem>(*analysis_.mesh, analysis_.bodies, analysis_.contact);
+    return enter(problem_->solve(at, current_.of(reference_.closed)));
+  }
+
+ private:
+  bool enter(const steady::Solution& solution) {
+    if (!solution.converged || !sameOnAllRanks(analysis_.mesh->comm, solution.closed, reference_.closed)) return false;
+    pencil_.setPointTerms(termsOf(analysis_, system_, solution, reference_, prestress_));
+    reduced_.enter();
+    entered_ = solution.at;
+    return true;
+  }
+  const Analysis& analysis_;
+  const contact::AssociatedSystem& system_;
+  const steady::Solution& reference_;
+  Mat prestress_;
+  flutter::Pencil& pencil_;
+  flutter::ReducedProblem& reduced_;
+  CurrentSystem& current_;
+  bool affine_;  // no point has terms of its own
+  std::optional<Parameters> entered_;
+  std::unique_ptr<steady::Problem> problem_;
+};
+
+/// Followed eigenvalues and critical frictions of the points of a segment.
+void followPoints(const Analysis& analysis, ModalSegment& segment, flutter::ReducedProblem& reduced, PointTerms terms) {
+  const MPI_Comm comm = analysis.mesh->comm;
+  Stage stage(comm, "track");
+  segment.followed =
+      flutter::followSweep(reduced, segment.points, segment.modes, comm, [&](const Parameters& at) { return terms(at); });
+  std::size_t branches = 0, stations = 0, criticals = 0;
+  for (const auto& followed : segment.followed) {
+    branches += static_cast<std::size_t>(followed.branches.count);
+    stations += followed.branches.stations.size();
+    criticals += followed.criticals.size();
+  }
+  stage.finish(formatted("%zu branches followed over %zu frictions, %zu critical frictions, basis of %d", branches, stations,
+                         criticals, static_cast<int>(reduced.basisSize())));
+}
+
 /// Modes of one active set, then flutter at the points from `first` to `last` that share it.
 ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::size_t last, CurrentSystem& current, double& floor) {
   const auto& closed = analysis.steady[first].closed;
@@ -190,9 +251,11 @@ ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::si
                                [&](auto a, auto b) { return analysis.steady[a].at.friction < analysis.steady[b].at.friction; }),
               order.end());
   const auto& dampings = analysis.sweep.dampings;
+  bool affine = true;
   segment.points.resize(dampings.size() * (last - first));
   for (std::size_t i : order) {
     pencil.setPointTerms(termsOf(analysis, system, analysis.steady[i], analysis.steady[first], prestress));
+    affine = affine && pencil.terms().size() == pencil.affineCount();
     for (std::size_t d = 0; d < dampings.size(); ++d) {
       Parameters at = analysis.steady[i].at;
       at.damping = dampings[d];
@@ -205,6 +268,9 @@ ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::si
           point.worstBackwardError(), direct ? "" : formatted(", basis of %d", static_cast<int>(reduced->basisSize())).c_str()));
     }
   }
+  if (reduced && flutter::trackWanted())
+    followPoints(analysis, segment, *reduced,
+                 {analysis, system, analysis.steady[first], prestress, pencil, *reduced, current, affine});
   return segment;
 }
 

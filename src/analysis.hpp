@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "flutter/flutter.hpp"
+#include "flutter/followed.hpp"
 #include "modes/modes.hpp"
 #include "steady/steady.hpp"
 #include "steady/uniqueness.hpp"
@@ -23,6 +24,7 @@ struct ModalSegment {
   modes::Modes modes;                          ///< empty with the direct method
   std::vector<OwnedVec> shapes;                ///< the first `-report_modes` modes in nodal displacements, largest entry 1
   std::vector<flutter::FrictionPoint> points;  ///< for each damping factor all steady points
+  std::vector<flutter::Followed> followed;     ///< for each speed, pressure and damping
 };
 
 struct Analysis {

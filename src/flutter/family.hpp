@@ -30,7 +30,7 @@ class Family {
 };
 
 /// The eigenvalues that a run is about, and those watched beside them.
-struct Band {
+struct WatchedBand {
   double top = 1e300;    ///< rad/s, of |s|
   double guard = 1.3;    ///< eigenvalues are watched up to this multiple of `top`
   double damping = 0.5;  ///< largest damping ratio

@@ -1,12 +1,14 @@
 #pragma once
 /// The friction-perturbed eigenproblem (paper, section 4): which modes flutter, at which friction, how fast they grow.
 #include <complex>
+#include <functional>
 #include <optional>
 #include <vector>
 
 #include "contact/coupled.hpp"
 #include "flutter/basis.hpp"
 #include "flutter/dense.hpp"
+#include "flutter/family.hpp"
 #include "flutter/images.hpp"
 #include "flutter/pencil.hpp"
 #include "flutter/terms.hpp"
@@ -75,6 +77,15 @@ class ReducedProblem {
   /// Collective. The point whose terms the pencil holds. Shapes are mapped to nodal displacements by `trial` (T).
   FrictionPoint solve(const Parameters& at, Mat trial);
   PetscInt basisSize() const { return basis_.size(); }
+  WatchedBand band() const;  ///< top 0: none
+  /// Collective. Enters the terms that the pencil holds for a point.
+  void enter();
+  /// Collective. The problem at a point whose terms are entered, in the whole basis.
+  DenseProblem projected(const Parameters& at) const;
+  /// Collective. Adds corrections of the residuals of these pairs, of any points, all solved for together; `enterTerms(at)` sets and
+  /// enters the terms of a point.
+  Improvement improve(const std::vector<std::pair<Parameters, std::vector<DensePair>>>& located,
+                      const std::function<void(const Parameters&)>& enterTerms);
 
  private:
   struct Residuals;
@@ -83,7 +94,6 @@ class ReducedProblem {
     DenseMatrix projection;  // Vᵀ A V, column-major
     PetscInt columns = 0;    // of V held so far
   };
-  void enter();
   void extend();
   void project(Mat matrix, ProjectedTerm& term) const;
   Residuals residuals(const Parameters& at, const std::vector<DensePair>& pairs) const;

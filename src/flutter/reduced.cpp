@@ -259,6 +259,35 @@ FrictionPoint ReducedProblem::solve(const Parameters& at, Mat trial) {
   return point;
 }
 
+DenseProblem ReducedProblem::projected(const Parameters& at) const {
+  const PetscInt m = basis_.size();
+  return {projected(2, at, m), projected(1, at, m), projected(0, at, m), static_cast<int>(m)};
+}
+
+Improvement ReducedProblem::improve(const std::vector<std::pair<Parameters, std::vector<DensePair>>>& located,
+                                    const std::function<void(const Parameters&)>& enterTerms) {
+  constexpr double rounding = 1e-14;
+  Improvement result;
+  Residuals all;
+  std::vector<std::size_t> bad;
+  for (const auto& [at, pairs] : located) {
+    enterTerms(at);
+    const Residuals found = residuals(at, pairs);
+    result.backwardError.push_back(*std::max_element(found.backwardError.begin(), found.backwardError.end()));
+    for (std::size_t j = 0; j < pairs.size(); ++j)
+      if (found.backwardError[j] > rounding) bad.push_back(all.squaredNorm.size() + j);
+    all.rows = found.rows;
+    all.residual.insert(all.residual.end(), found.residual.begin(), found.residual.end());
+    all.squaredNorm.insert(all.squaredNorm.end(), found.squaredNorm.begin(), found.squaredNorm.end());
+  }
+  const PetscInt before = basis_.size();
+  if (!bad.empty()) correct(all, bad);
+  result.changed = basis_.size() > before;
+  return result;
+}
+
+WatchedBand ReducedProblem::band() const { return {bandTop_, 1.3, bandDampingOption.get()}; }
+
 bool ReducedProblem::inBand(std::complex<double> s) const {
   return std::abs(s) <= bandTop_ && -s.real() <= bandDampingOption.get() * std::abs(s);
 }

@@ -46,7 +46,9 @@ int sign(Complex s, bool damped) { return neutral(s, damped) ? 0 : s.real() > 0 
 
 class Follower {
  public:
-  Follower(Family& family, const Band& band, const TrackLimits& limits) : family_(family), limits_(limits) { result_.band = band; }
+  Follower(Family& family, const WatchedBand& band, const TrackLimits& limits) : family_(family), limits_(limits) {
+    result_.band = band;
+  }
 
   Branches run(const std::vector<double>& frictions) {
     std::optional<Solved> last;
@@ -295,7 +297,7 @@ int Branches::inBandAt(const Station& station) const {
   return static_cast<int>(std::count(station.inBand.begin(), station.inBand.end(), 1));
 }
 
-Branches follow(Family& family, const std::vector<double>& frictions, const Band& band, const TrackLimits& limits) {
+Branches follow(Family& family, const std::vector<double>& frictions, const WatchedBand& band, const TrackLimits& limits) {
   return Follower(family, band, limits).run(frictions);
 }
 

@@ -37,7 +37,7 @@ struct Gap {
 };
 
 struct Branches {
-  Band band;
+  WatchedBand band;
   std::vector<Station> stations;  ///< ascending friction
   std::vector<Event> events;
   std::vector<Gap> gaps;
@@ -56,6 +56,6 @@ struct TrackLimits {
 ///
 /// Where two neutral branches merge, the one of lower frequency becomes the growing one; where a growing and a decaying one part, the
 /// growing one becomes the one of lower frequency: a convention. Equal eigenvalues are numbered by frequency, then growth.
-Branches follow(Family& family, const std::vector<double>& frictions, const Band& band, const TrackLimits& limits = {});
+Branches follow(Family& family, const std::vector<double>& frictions, const WatchedBand& band, const TrackLimits& limits = {});
 
 }  // namespace squeal::flutter

@@ -39,6 +39,10 @@ void writeRecipe(const Analysis& analysis, const std::filesystem::path& folder);
 void writeSummary(const Analysis& analysis, const std::filesystem::path& folder);
 void writeHdf5(const Analysis& analysis, const std::filesystem::path& folder);
 void writeFields(const Analysis& analysis, const std::filesystem::path& folder);
+/// branches.csv, critical.csv, and what the terminal says of both.
+std::string branchTable(const Analysis& analysis);
+std::string criticalTable(const Analysis& analysis);
+std::string followedText(const Analysis& analysis);
 /// Frequencies and growth rates of the unstable modes at each friction.
 std::string stabilityTable(const Analysis& analysis);
 

@@ -128,6 +128,10 @@ std::string recipe(MPI_Comm comm) {
 void writeTables(const Analysis& analysis, const std::filesystem::path& folder) {
   const MPI_Comm comm = analysis.mesh->comm;
   writeFile(comm, folder / "eigenvalues.csv", eigenvalueTable(analysis));
+  if (flutter::trackWanted()) {
+    writeFile(comm, folder / "branches.csv", branchTable(analysis));
+    writeFile(comm, folder / "critical.csv", criticalTable(analysis));
+  }
   for (std::size_t s = 0; s < analysis.segments.size(); ++s) {
     if (analysis.segments[s].modes.angularFrequency.empty()) continue;
     // modes.csv: the first active set; each later one has its own file, named by its first point.
@@ -174,7 +178,7 @@ std::string stabilityTable(const Analysis& analysis) {
     table +=
         formatted("\nEigenvalues up to %.5g Hz are corrected to the full-order problem; those above in eigenvalues.csv are not.",
                   analysis.segments.front().points.front().bandTop / (2 * M_PI));
-  return table;
+  return table + followedText(analysis);
 }
 
 }  // namespace squeal::report

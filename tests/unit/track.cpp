@@ -231,7 +231,7 @@ TEST(Critical, RandomFamiliesAgainstAFineGrid) {
 // Eigenvalues enter and leave by the edge of the band alone.
 TEST(Track, TheEdgeOfTheBand) {
   Linear family = randomFamily(30, 7, false);
-  flutter::Band band;
+  flutter::WatchedBand band;
   band.top = 1540;
   const auto branches = follow(family, grid(1, 8), band);
   expectNoGaps(branches);
