@@ -41,8 +41,8 @@ class Root {
   Root(Family& family, const Event& event, double tolerance)
       : family_(family), event_(event), tolerance_(tolerance), real_(real(event.below[0].s) && real(event.above[0].s)) {}
 
-  /// In the basis in force.
-  void locate() {
+  /// In the basis in force, which has `changed` since the last time.
+  void locate(bool changed) {
     if (event_.low == event_.high) {  // at an end of a step, where equal eigenvalues part
       friction_ = event_.low;
       settled_ = true;
@@ -53,9 +53,9 @@ class Root {
       return;
     }
     const double before = friction_;
-    friction_ = std::isnan(before) ? between(event_.low, known_[0].value, event_.high, known_[1].value) : again(before);
-    moved_ = std::isnan(before) ? 0 : std::abs(friction_ - before);
-    settled_ = std::isnan(friction_) || (!std::isnan(before) && moved_ <= tolerance_ * friction_);
+    friction_ = std::isnan(before) ? between(event_.low, known_[0].value, event_.high, known_[1].value, roughly()) : again(before);
+    moved_ = std::isnan(before) ? roughly() : changed ? std::abs(friction_ - before) : 0;
+    settled_ = std::isnan(friction_) || moved_ <= tolerance_ * friction_;
   }
   bool settled() const { return settled_; }
 
@@ -82,7 +82,7 @@ class Root {
       result.converged = moved_ <= tolerance_ * friction_;
       result.errorEstimate = moved_ + rootTolerance();
       result.angularFrequency = mean(nearest(friction_).pairs()).imag();
-      result.slope = slope(friction_);
+      result.slope = slope_;
     }
     return result;
   }
@@ -141,31 +141,29 @@ class Root {
 
   double rootTolerance() const { return 1e-13 * std::max(std::abs(event_.high), std::abs(event_.low)); }
 
-  double between(double a, double fa, double b, double fb) {
-    return rootBetween(a, fa, b, fb, rootTolerance(), [&](double f) { return value(f); });
+  double width() const { return event_.high - event_.low; }
+  /// Good enough for a basis that is still to be improved.
+  double roughly() const { return 1e-7 * width(); }
+
+  double between(double a, double fa, double b, double fb, double tolerance) {
+    return rootBetween(a, fa, b, fb, tolerance, [&](double f) { return value(f); });
   }
 
-  /// The same root in the grown basis: it has moved little.
+  /// The same root in the basis in force: it has moved little.
   double again(double before) {
-    const double reach = 1e-3 * (event_.high - event_.low);
     known_.erase(known_.begin() + 2, known_.end());
+    const double reach = std::clamp(10 * moved_, 1e-6 * width(), 1e-3 * width());
     const double a = std::max(event_.low, before - reach), b = std::min(event_.high, before + reach);
     const double fa = value(a), fb = value(b);
     if (std::isnan(fa) || std::isnan(fb)) return NAN;
-    if ((fa > 0) == (fb > 0)) return between(event_.low, known_[0].value, event_.high, known_[1].value);
-    return between(a, fa, b, fb);
-  }
-
-  /// By a central difference.
-  double slope(double friction) {
-    const double reach = 1e-4 * (event_.high - event_.low);
-    const double low = std::max(friction - reach, event_.low), high = std::min(friction + reach, event_.high);
-    return (event_.kind == Event::Kind::coalescence ? -1 : 1) * (value(high) - value(low)) / (high - low);
+    slope_ = (event_.kind == Event::Kind::coalescence ? -1 : 1) * (fb - fa) / (b - a);
+    if ((fa > 0) != (fb > 0)) return between(a, fa, b, fb, rootTolerance());
+    return between(event_.low, known_[0].value, event_.high, known_[1].value, rootTolerance());
   }
 
   Family& family_;
   const Event& event_;
-  double tolerance_, friction_ = NAN, moved_ = 0, backwardError_ = 0;
+  double tolerance_, friction_ = NAN, moved_ = 0, backwardError_ = 0, slope_ = 0;
   bool settled_ = false;
   bool real_;                  // divergence of a real eigenvalue, in a damped problem
   std::vector<Sample> known_;  // the two ends first
@@ -178,7 +176,7 @@ std::vector<Critical> criticalFrictions(Family& family, const Branches& branches
   std::vector<Root> roots;
   for (const auto& event : branches.events) {
     roots.emplace_back(family, event, tolerance);
-    roots.back().locate();
+    roots.back().locate(true);
   }
   for (int round = 0; round < rounds; ++round) {
     std::vector<Root*> open;
@@ -191,8 +189,8 @@ std::vector<Critical> criticalFrictions(Family& family, const Branches& branches
     if (open.empty()) break;
     const Improvement improvement = family.improve(located);
     for (std::size_t k = 0; k < improvement.backwardError.size(); ++k) open[k]->setBackwardError(improvement.backwardError[k]);
+    for (auto* root : open) root->locate(improvement.changed);
     if (!improvement.changed) break;
-    for (auto* root : open) root->locate();
   }
   std::vector<Critical> list;
   for (auto& root : roots) list.push_back(root.result());

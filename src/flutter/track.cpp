@@ -181,22 +181,47 @@ class Follower {
     return true;
   }
 
-  /// Equal eigenvalues at one end that change their stability at once.
+  /// Equal eigenvalues at one end that change their stability.
   void atEnd(StepResult& step, const Solved& a, const Solved& b, const std::vector<DensePair>& here,
              const std::vector<DensePair>& there, const std::vector<int>& ids, const std::vector<std::size_t>& mate) {
-    const bool damped = b.spectrum.damped();
+    const bool damped = b.spectrum.damped(), equalBelow = coincide(here);
+    const Solved& apart = equalBelow ? b : a;
+    const double equalAt = equalBelow ? a.station.friction : b.station.friction;
     for (std::size_t k = 0; k < here.size(); ++k) {
       const int before = sign(here[k].s, damped), after = sign(there[mate[k]].s, damped);
       if (std::max(before, after) < 1 || before == after) continue;  // stable or unstable on both sides
-      const double at = coincide(here) ? a.station.friction : b.station.friction;
-      Event event{Event::Kind::coalescence, ids[k], -1, after > before, at, at, {here[k]}, {there[mate[k]]}, 0};
-      if (before * after != 0) {  // equal damped eigenvalues that part, one of them across the axis on its way
+      Event event{Event::Kind::coalescence, ids[k], -1, after > before, equalAt, equalAt, {here[k]}, {there[mate[k]]}, 0};
+      if (before * after != 0) {
+        // Damped ones part, and one of them crosses the axis on its way: back to where they are equal, until it has not yet.
         event.kind = Event::Kind::crossing;
-        event.low = a.station.friction;
-        event.high = b.station.friction;
-        event.isolation = std::abs(there[0].s - there[1].s);
+        approach(event, apart, equalAt, equalBelow ? event.above[0] : event.below[0], mean(equalBelow ? here : there));
       }
       step.events.push_back(std::move(event));
+    }
+  }
+
+  /// Brackets the crossing of one of several eigenvalues that are equal at `equalAt`, where their vectors say nothing, from `pair`.
+  void approach(Event& event, const Solved& apart, double equalAt, const DensePair& pair, Complex equal) {
+    constexpr int halvings = 16;
+    double friction = apart.station.friction;
+    Spectrum last(apart.problem, {pair});
+    for (int k = 0; k < halvings; ++k) {
+      const double next = 0.5 * (friction + equalAt);
+      const Complex expected = 0.5 * (last.pairs()[0].s + equal);
+      event.isolation = std::abs(expected - equal);  // from the others, which lie about their mean
+      const auto found = pursued(family_, next, last, expected, event.isolation);
+      if (!found) return;
+      const bool crossed = (found->pairs()[0].s.real() > 0) != (last.pairs()[0].s.real() > 0);
+      if (crossed) {
+        const bool rising = next < friction;
+        event.low = rising ? next : friction;
+        event.high = rising ? friction : next;
+        event.below = (rising ? *found : last).pairs();
+        event.above = (rising ? last : *found).pairs();
+        return;
+      }
+      friction = next;
+      last = *found;
     }
   }
 
