@@ -55,7 +55,7 @@ class Root {
     const double before = friction_;
     friction_ = std::isnan(before) ? between(event_.low, known_[0].value, event_.high, known_[1].value, roughly()) : again(before);
     moved_ = std::isnan(before) ? roughly() : changed ? std::abs(friction_ - before) : 0;
-    settled_ = std::isnan(friction_) || moved_ <= tolerance_ * friction_;
+    settled_ = std::isnan(friction_) || (!std::isnan(before) && moved_ <= tolerance_ * friction_);
   }
   bool settled() const { return settled_; }
 

@@ -47,7 +47,7 @@ struct Branches {
 };
 
 struct TrackLimits {
-  double smallest = 1. / 256;  ///< of a step of the sweep: steps with all eigenvalues are not halved further
+  double smallest = 1. / 1024;  ///< of a step of the sweep: steps with all eigenvalues are not halved further
 };
 
 /// Collective. Follows all eigenvalues of the band over ascending frictions. A continuation is certain where the spectral projectors
