@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
-"""Plots frequency and growth rate of every mode against friction, and the critical friction against speed.
+"""Plots what a sweep found.
 
-plot_stability.py REPORT_DIR reads REPORT_DIR/eigenvalues.csv and writes REPORT_DIR/stability.png; for a sweep over speeds one
-stability_speed_SPEED.png each, and critical_friction.png. Eigenvalues above the band, which nobody vouches for, are left out.
+plot_stability.py REPORT_DIR reads eigenvalues.csv and stability_map.csv there and writes beside them
+  stability.png       frequency and growth rate of every mode against friction (or what was swept instead), one figure for each
+                      value of what else was swept: stability_speed_3.png, …
+  stability_map.png   where two or more parameters were swept: largest growth rate over two of them, the stable region, and the
+                      critical friction; one figure for each value of the remaining ones: stability_map_damping_2.png, …
+Eigenvalues above the band, which nobody vouches for, are left out.
 """
-import csv
 import sys
 from pathlib import Path
 
@@ -14,95 +17,152 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-HEADER = (
-    "friction,speed,pressure,damping,mode,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,damping_ratio,backward_error,in_band"
-).split(",")
-UNSTABLE = 1e-6  # a growth rate is taken for positive above this fraction of |s|; below it is round-off
+from eigenvalues import PARAMETERS, UNSTABLE, read_eigenvalues, read_table, rows_where, unstable
+
+READABLE = 300  # cells of a map that have room for a number
+LABELS = {
+    "friction": "friction coefficient [-]",
+    "speed": "speed factor [-]",
+    "pressure": "pressure factor [-]",
+    "damping": "damping factor [-]",
+}
 
 
-def read_eigenvalues(path):
-    """Columns of the table by name."""
-    with open(path, newline="") as file:
-        rows = csv.reader(file)
-        header = next(rows, [])
-        if header != HEADER:
-            raise ValueError(f"{path}: the header must be\n{','.join(HEADER)}\nnot\n{','.join(header)}")
-        values = np.array([[float(x) for x in row] for row in rows if row]).reshape(-1, len(HEADER))
-    return dict(zip(HEADER, values.T))
+def slices(table, names):
+    """For each combination of values of the parameters `names`: a suffix for file names, a title, the selected rows."""
+    if not names:
+        return [("", "", np.ones(len(table["friction"]), bool))]
+    columns = np.stack([table[name] for name in names], axis=1)
+    return [
+        (
+            "".join(f"_{name}_{value:g}" for name, value in zip(names, values)),
+            ", ".join(f"{name} {value:g}" for name, value in zip(names, values)),
+            np.all(columns == values, axis=1),
+        )
+        for values in np.unique(columns, axis=0)
+    ]
 
 
-def within_band(table):
-    """The rows that the program vouches for."""
-    return {name: column[table["in_band"] == 1] for name, column in table.items()}
-
-
-def roundoff_of(table):
-    """Growth rates that mean nothing."""
-    return UNSTABLE * np.hypot(table["growth_rate_1_per_s"], table["angular_frequency_rad_per_s"])
-
-
-def draw(table):
-    friction, growth = table["friction"], table["growth_rate_1_per_s"]
-    roundoff = roundoff_of(table)
-    unstable = growth > roundoff
+def draw_modes(table, name, title):
+    """Frequency and growth of every mode against the parameter `name`."""
+    abscissa, growth = table[name], table["growth_rate_1_per_s"]
+    grows = unstable(table["s"])
     kilo = np.max(table["frequency_hz"], initial=0) >= 2000
     frequency = table["frequency_hz"] / (1000 if kilo else 1)
 
     figure, (upper, lower) = plt.subplots(2, 1, sharex=True, figsize=(9, 9), height_ratios=(2, 1), layout="constrained")
-    colours = dict(c=growth[unstable], cmap="plasma_r", vmin=0, zorder=3, edgecolors="black", linewidths=0.3)
+    colours = dict(c=growth[grows], cmap="plasma_r", vmin=0, zorder=3, edgecolors="black", linewidths=0.3)
     for axes, value in ((upper, frequency), (lower, growth)):
-        axes.scatter(friction[~unstable], value[~unstable], s=5, color="0.55", linewidths=0, label="stable")
-        if unstable.any():
-            marks = axes.scatter(friction[unstable], value[unstable], s=30, label="unstable", **colours)
+        axes.scatter(abscissa[~grows], value[~grows], s=5, color="0.55", linewidths=0, label="stable")
+        if grows.any():
+            marks = axes.scatter(abscissa[grows], value[grows], s=30, label="unstable", **colours)
         axes.grid(color="0.92")
         axes.set_axisbelow(True)
-    if unstable.any():
+    if grows.any():
         figure.colorbar(marks, ax=[upper, lower], label="growth rate of the unstable modes [1/s]", aspect=50, pad=0.02)
 
-    upper.set_title(summary(friction, unstable))
+    upper.set_title((f"{title}: " if title else "") + summary(abscissa, grows, name))
     upper.set_ylabel(f"frequency [{'kHz' if kilo else 'Hz'}]")
     upper.set_ylim(bottom=0)
     lower.set_ylabel("growth rate [1/s]")
     lower.axhline(0, color="black", linewidth=0.6)
-    lower.set_xlabel("friction coefficient [-]")
-    if np.ptp(friction) == 0:  # one value: give the axis a width
-        lower.set_xlim(friction[0] - 0.05, friction[0] + 0.05)
-    if np.all(np.abs(growth) <= roundoff):
+    lower.set_xlabel(LABELS[name])
+    if np.ptp(abscissa) == 0:  # one value: give the axis a width
+        lower.set_xlim(abscissa[0] - 0.05, abscissa[0] + 0.05)
+    scale_axis(lower.xaxis, name, abscissa)
+    if np.all(np.abs(growth) <= UNSTABLE * np.abs(table["s"])):
         lower.set_ylim(-1, 1)  # no axis in units of round-off
     upper.legend(loc="upper center", bbox_to_anchor=(0.5, 0), ncols=2, frameon=False)
     return figure
 
 
-def summary(friction, unstable):
-    modes, values = len(friction), len(np.unique(friction))
-    text = f"{modes} eigenvalues at {values} friction value{'s' if values != 1 else ''}: "
-    if not unstable.any():
+def summary(abscissa, grows, name):
+    modes, values = len(abscissa), len(np.unique(abscissa))
+    text = f"{modes} eigenvalues at {values} {name} value{'s' if values != 1 else ''}: "
+    if not grows.any():
         return text + "all stable"
-    return text + f"{np.count_nonzero(unstable)} unstable, from friction {np.min(friction[unstable]):g} on"
+    text += f"{np.count_nonzero(grows)} unstable"
+    return text + (f", from friction {np.min(abscissa[grows]):g} on" if name == "friction" else "")
 
 
-def draw_critical(table):
-    """The first unstable friction of the sweep at each speed; the bar reaches down to the last stable one below it."""
-    figure, axes = plt.subplots(figsize=(9, 5), layout="constrained")
-    unstable = table["growth_rate_1_per_s"] > roundoff_of(table)
-    frictions = np.unique(table["friction"])
-    for speed in np.unique(table["speed"]):
-        at_speed = table["speed"] == speed
-        critical = table["friction"][at_speed & unstable]
-        if len(critical):
-            first = np.min(critical)
-            below = np.max(frictions[frictions < first], initial=0)
-            axes.errorbar(speed, first, [[first - below], [0]], fmt="o", color="C3", capsize=3)
-        else:
-            axes.plot(speed, np.max(frictions), "^", color="C0")
-    axes.plot([], [], "o", color="C3", label="first unstable friction of the sweep, down to the last stable one")
-    axes.plot([], [], "^", color="C0", label="stable up to this friction")
-    axes.set_xscale("log")
-    axes.set_ylim(0, 1.1 * np.max(frictions))
-    axes.set_xlabel("speed factor [-]")
-    axes.set_ylabel("critical friction [-]")
-    axes.grid(color="0.92")
-    axes.legend(frameon=False)
+def logarithmic(name, values):
+    return name != "friction" and np.min(values) > 0 and np.max(values) >= 10 * np.min(values)
+
+
+def scale_axis(axis, name, values):
+    """Logarithmic where the values call for it, and then with ticks at them: few powers of ten lie within a sweep."""
+    if logarithmic(name, values):
+        axis.axes.set(**{f"{axis.axis_name}scale": "log"})
+        axis.set_ticks(np.unique(values), [f"{value:g}" for value in np.unique(values)])
+        axis.set_ticks([], minor=True)
+
+
+def cell_borders(name, values):
+    """Of the cells about the values of an axis, half-way between them."""
+    places = np.log(values) if logarithmic(name, values) else values
+    middle = (places[1:] + places[:-1]) / 2
+    borders = np.concatenate(([2 * places[0] - middle[0]], middle, [2 * places[-1] - middle[-1]]))
+    return np.exp(borders) if logarithmic(name, values) else borders
+
+
+def axes_of_map(table, swept):
+    """The two swept parameters that make the map, across and up: friction goes up, the one with most values across."""
+    up = swept[0]
+    across = max(swept[1:], key=lambda name: len(np.unique(table[name])))
+    return across, up
+
+
+def grid_of(table, across, up, name):
+    """Values of column `name`, [up][across]; NaN where there are none."""
+    x, x_index = np.unique(table[across], return_inverse=True)
+    y, y_index = np.unique(table[up], return_inverse=True)
+    grid = np.full((len(y), len(x)), np.nan)
+    grid[y_index, x_index] = table[name]
+    return x, y, grid
+
+
+def critical(y, unstable_modes):
+    """Last stable and first unstable value of one column of the map; None if it is stable all the way, or nowhere."""
+    known = ~np.isnan(unstable_modes)
+    grows = known & (np.nan_to_num(unstable_modes) > 0)
+    if not grows.any():
+        return None
+    first = np.argmax(grows)
+    below = np.flatnonzero(known[:first])
+    return (y[below[-1]], y[first]) if len(below) else None
+
+
+def draw_map(table, across, up, title, largest):
+    x, y, growth = grid_of(table, across, up, "largest_growth_rate_1_per_s")
+    _, _, modes = grid_of(table, across, up, "unstable_modes")
+    figure, axes = plt.subplots(figsize=(9, 6), layout="constrained")
+    borders = cell_borders(across, x), cell_borders(up, y)
+    axes.set_facecolor("white")
+    axes.pcolormesh(*borders, np.where(modes == 0, 0.0, np.nan), cmap=matplotlib.colors.ListedColormap(["#dcebdc"]))
+    grows = np.where(modes > 0, growth, np.nan)
+    if np.any(modes > 0):
+        cells = axes.pcolormesh(*borders, grows, cmap="plasma_r", vmin=0, vmax=largest)
+        figure.colorbar(cells, label="largest growth rate [1/s]", aspect=40, pad=0.02)
+    for row, column in np.argwhere(modes > 0) if modes.size <= READABLE else ():
+        colour = "white" if growth[row, column] > 0.5 * largest else "black"
+        beside = dict(xytext=(9, 0), textcoords="offset points", ha="center", va="center")
+        axes.annotate(f"{modes[row, column]:.0f}", (x[column], y[row]), fontsize=7, color=colour, **beside)
+    for row, column in np.argwhere(np.isnan(modes)):
+        axes.annotate("no steady\nsliding", (x[column], y[row]), ha="center", va="center", fontsize=7, color="0.5")
+    if up == "friction":
+        marks = [(value, critical(y, modes[:, column])) for column, value in enumerate(x)]
+        marks = [(value, *limits) for value, limits in marks if limits]
+        if marks:
+            place, low, high = np.array(marks).T
+            axes.errorbar(place, (low + high) / 2, (high - low) / 2, fmt="o-", color="black", markersize=4, linewidth=1, capsize=3,
+                          label="critical friction: between the last stable and the first unstable one")  # fmt: skip
+    axes.plot([], [], "s", color="#dcebdc", label="stable")
+    scale_axis(axes.xaxis, across, x)
+    scale_axis(axes.yaxis, up, y)
+    axes.set_xlabel(LABELS[across])
+    axes.set_ylabel(LABELS[up])
+    axes.set_title((f"{title}: " if title else "") + "largest growth rate, and how many modes are unstable")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1), ncols=2, frameon=False)
     return figure
 
 
@@ -111,17 +171,24 @@ def main():
         sys.exit("usage: plot_stability.py REPORT_DIR")
     folder = Path(sys.argv[1])
     try:
-        table = within_band(read_eigenvalues(folder / "eigenvalues.csv"))
+        table = read_eigenvalues(folder / "eigenvalues.csv")
+        stability = read_table(folder / "stability_map.csv", PARAMETERS + ("unstable_modes", "largest_growth_rate_1_per_s"))
     except (OSError, ValueError) as error:
         sys.exit(f"plot_stability: {error}")
     if len(table["friction"]) == 0:
         sys.exit(f"plot_stability: {folder / 'eigenvalues.csv'} holds no eigenvalue")
-    speeds = np.unique(table["speed"])
-    for speed in speeds:
-        name = "stability.png" if len(speeds) == 1 else f"stability_speed_{speed:g}.png"
-        draw({key: column[table["speed"] == speed] for key, column in table.items()}).savefig(folder / name, dpi=150)
-    if len(speeds) > 1:
-        draw_critical(table).savefig(folder / "critical_friction.png", dpi=150)
+    swept = [name for name in PARAMETERS if len(np.unique(stability[name])) > 1]
+    abscissa = swept[0] if swept else "friction"
+    for suffix, title, chosen in slices(table, swept[1:]):
+        draw_modes(rows_where(table, chosen), abscissa, title).savefig(folder / f"stability{suffix}.png", dpi=150)
+        plt.close()
+    if len(swept) < 2:
+        return
+    across, up = axes_of_map(stability, swept)
+    largest = np.nanmax(stability["largest_growth_rate_1_per_s"], initial=0)
+    for suffix, title, chosen in slices(stability, [name for name in swept if name not in (across, up)]):
+        draw_map(rows_where(stability, chosen), across, up, title, largest).savefig(folder / f"stability_map{suffix}.png", dpi=150)
+        plt.close()
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "flutter/reduced.hpp"
 #include "modes/benchmark.hpp"
 #include "petsc/options.hpp"
 #include "petsc/stages.hpp"
@@ -158,56 +159,60 @@ std::vector<flutter::Term> termsOf(const Analysis& analysis, const contact::Asso
   return flutter::pointTerms(analysis.contact, system, solution, change);
 }
 
-/// Sets and enters the terms of any point with the active set of `reference`; false: it has another one, or no steady state.
-class PointTerms {
+std::string pointText(const flutter::FrictionPoint& point) {
+  std::string text = formatted("%s: %d of %d eigenvalues unstable", parameterText(point.at).c_str(), point.unstableCount(),
+                               static_cast<int>(point.eigenvalues.size()));
+  if (point.bandTop > 0) text += formatted(" to %.4g Hz", point.bandTop / (2 * M_PI));
+  text += formatted(", worst backward error %.1e", point.worstBackwardError());
+  if (point.tolerance > 0) text += formatted(", estimated error %.1e", point.worstErrorEstimate());
+  return text;
+}
+
+/// The problem of any point with the active set of `reference`; none: it has another one, or no steady state.
+class PointSource {
  public:
-  PointTerms(const Analysis& analysis, const contact::AssociatedSystem& system, const steady::Solution& reference, Mat prestress,
-             flutter::Pencil& pencil, flutter::ReducedProblem& reduced, CurrentSystem& current, bool affine)
+  PointSource(const Analysis& analysis, const contact::AssociatedSystem& system, const steady::Solution& reference, Mat prestress,
+              const flutter::Pencil& pencil, CurrentSystem& current, bool affine)
       : analysis_(analysis),
         system_(system),
         reference_(reference),
         prestress_(prestress),
         pencil_(pencil),
-        reduced_(reduced),
         current_(current),
         affine_(affine) {}
 
-  bool operator()(Parameters at) {
-    at.damping = 1;
-    if (affine_ || entered_ == at) return true;
-    const auto known =
-        std::find_if(analysis_.steady.begin(), analysis_.steady.end(), [&](const auto& solution) { return solution.at == at; });
-    if (known != analysis_.steady.end()) return enter(*known);
+  std::optional<flutter::PointProblem> operator()(const Parameters& at) {
+    if (affine_) return flutter::PointProblem{at, pencil_.with({})};
+    Parameters steadyAt = at;
+    steadyAt.damping = 1;
+    const auto known = std::find_if(analysis_.steady.begin(), analysis_.steady.end(),
+                                    [&](const auto& solution) { return solution.at == steadyAt; });
+    if (known != analysis_.steady.end()) return of(*known, at);
     if (!problem_) problem_ = std::make_unique<steady::Problem>(*analysis_.mesh, analysis_.bodies, analysis_.contact);
-    return enter(problem_->solve(at, current_.of(reference_.closed)));
+    return of(problem_->solve(steadyAt, current_.of(reference_.closed)), at);
   }
 
  private:
-  bool enter(const steady::Solution& solution) {
-    if (!solution.converged || !sameOnAllRanks(analysis_.mesh->comm, solution.closed, reference_.closed)) return false;
-    pencil_.setPointTerms(termsOf(analysis_, system_, solution, reference_, prestress_));
-    reduced_.enter();
-    entered_ = solution.at;
-    return true;
+  std::optional<flutter::PointProblem> of(const steady::Solution& solution, const Parameters& at) const {
+    if (!solution.converged || !sameOnAllRanks(analysis_.mesh->comm, solution.closed, reference_.closed)) return {};
+    return flutter::PointProblem{at, pencil_.with(termsOf(analysis_, system_, solution, reference_, prestress_))};
   }
   const Analysis& analysis_;
   const contact::AssociatedSystem& system_;
   const steady::Solution& reference_;
   Mat prestress_;
-  flutter::Pencil& pencil_;
-  flutter::ReducedProblem& reduced_;
+  const flutter::Pencil& pencil_;
   CurrentSystem& current_;
   bool affine_;  // no point has terms of its own
-  std::optional<Parameters> entered_;
   std::unique_ptr<steady::Problem> problem_;
 };
 
 /// Followed eigenvalues and critical frictions of the points of a segment.
-void followPoints(const Analysis& analysis, ModalSegment& segment, flutter::ReducedProblem& reduced, PointTerms terms) {
+void followPoints(const Analysis& analysis, ModalSegment& segment, flutter::ReducedProblem& reduced,
+                  const flutter::ProblemSource& problemAt) {
   const MPI_Comm comm = analysis.mesh->comm;
   Stage stage(comm, "track");
-  segment.followed =
-      flutter::followSweep(reduced, segment.points, segment.modes, comm, [&](const Parameters& at) { return terms(at); });
+  segment.followed = flutter::followSweep(reduced, segment.points, segment.modes, comm, problemAt);
   std::size_t branches = 0, stations = 0, criticals = 0;
   for (const auto& followed : segment.followed) {
     branches += static_cast<std::size_t>(followed.branches.count);
@@ -241,36 +246,42 @@ ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::si
     if (benchmarkWanted.get()) floor = modes::floorSeconds(system);
     segment.shapes = nodalShapes(segment.modes, system);
     pencil.add(flutter::modalDamping(segment.modes, system.m0()));
-    reduced = std::make_unique<flutter::ReducedProblem>(pencil, system.m0(), system.solver(), segment.modes);
+    Stage stage(analysis.mesh->comm, "flutter");
+    reduced = std::make_unique<flutter::ReducedProblem>(pencil, system.k0(), system.solver(), segment.modes);
+    stage.finish(formatted("basis of %d: free modes and static responses to friction", static_cast<int>(reduced->basisSize())));
   }
-  // The largest friction first: its corrections nearly suffice for the others.
-  std::vector<std::size_t> order;
-  for (std::size_t i = first; i < last; ++i) order.push_back(i);
-  std::rotate(order.begin(),
-              std::max_element(order.begin(), order.end(),
-                               [&](auto a, auto b) { return analysis.steady[a].at.friction < analysis.steady[b].at.friction; }),
-              order.end());
-  const auto& dampings = analysis.sweep.dampings;
-  bool affine = true;
-  segment.points.resize(dampings.size() * (last - first));
-  for (std::size_t i : order) {
-    pencil.setPointTerms(termsOf(analysis, system, analysis.steady[i], analysis.steady[first], prestress));
-    affine = affine && pencil.terms().size() == pencil.affineCount();
-    for (std::size_t d = 0; d < dampings.size(); ++d) {
-      Parameters at = analysis.steady[i].at;
-      at.damping = dampings[d];
-      Stage stage(analysis.mesh->comm, "flutter");
-      auto& point = segment.points[d * (last - first) + i - first];
-      point = direct ? flutter::solveDirect(pencil, at, trial) : reduced->solve(at, trial);
-      stage.finish(formatted(
-          "%s: %d of %d eigenvalues unstable%s, worst backward error %.1e%s", parameterText(at).c_str(), point.unstableCount(),
-          point.bandCount(), point.bandTop > 0 ? formatted(" to %.4g Hz", point.bandTop / (2 * M_PI)).c_str() : "",
-          point.worstBackwardError(), direct ? "" : formatted(", basis of %d", static_cast<int>(reduced->basisSize())).c_str()));
+  std::vector<Parameters> points;
+  for (double damping : analysis.sweep.dampings)
+    for (std::size_t i = first; i < last; ++i) {
+      points.push_back(analysis.steady[i].at);
+      points.back().damping = damping;
     }
+  segment.points.resize(points.size());
+  bool affine = true;
+  for (const auto& batch : flutter::batches(points)) {
+    Stage stage(analysis.mesh->comm, "flutter");
+    std::vector<flutter::PointProblem> problems;
+    for (std::size_t i : batch) {
+      const auto& solution = analysis.steady[first + i % (last - first)];
+      problems.push_back({points[i], pencil.with(termsOf(analysis, system, solution, analysis.steady[first], prestress))});
+      affine = affine && problems.back().pencil.terms().size() == pencil.terms().size();
+    }
+    std::vector<flutter::FrictionPoint> solved;
+    if (reduced) solved = reduced->solve(problems, trial);
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      auto& point = segment.points[batch[i]];
+      point = reduced ? std::move(solved[i]) : flutter::solveDirect(problems[i].pencil, problems[i].at, trial);
+      stage.say(pointText(point));
+    }
+    stage.finish(
+        formatted("%d points", static_cast<int>(batch.size())) +
+        (reduced ? formatted(", basis of %d, %ld solves", static_cast<int>(reduced->basisSize()), reduced->basis().solves()) : ""));
   }
-  if (reduced && flutter::trackWanted())
-    followPoints(analysis, segment, *reduced,
-                 {analysis, system, analysis.steady[first], prestress, pencil, *reduced, current, affine});
+  if (reduced && flutter::trackWanted()) {
+    PointSource source(analysis, system, analysis.steady[first], prestress, pencil, current, affine);
+    followPoints(analysis, segment, *reduced, [&](const Parameters& at) { return source(at); });
+  }
+  if (reduced) segment.solves = reduced->basis().solves();
   return segment;
 }
 

@@ -25,6 +25,7 @@ struct ModalSegment {
   std::vector<OwnedVec> shapes;                ///< the first `-report_modes` modes in nodal displacements, largest entry 1
   std::vector<flutter::FrictionPoint> points;  ///< for each damping factor all steady points
   std::vector<flutter::Followed> followed;     ///< for each speed, pressure and damping
+  long solves = 0;                             ///< right-hand sides solved for to correct the basis and to estimate errors
 };
 
 struct Analysis {

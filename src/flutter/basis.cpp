@@ -1,12 +1,37 @@
 #include "flutter/basis.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <vector>
 
-#include "flutter/images.hpp"
 #include "petsc/symmetric.hpp"
 
 namespace squeal::flutter {
+namespace {
+
+/// X · combinations (x.columns × count).
+Block combined(const Block& x, const DenseMatrix& combinations, PetscInt count) {
+  Block result(x.rows, count);
+  multiplyAdd(x.values.data(), x.rows, x.columns, combinations, result.values);
+  return result;
+}
+
+/// Combinations orthonormal in the positive semi-definite matrix `gram` (n×n), without those whose eigenvalue is `small` times the
+/// largest or less, each column of the matrix taken as of unit size.
+DenseMatrix orthonormalising(DenseMatrix gram, PetscInt size, double small) {
+  const auto n = static_cast<std::size_t>(size);
+  std::vector<double> scale(n);
+  for (std::size_t j = 0; j < n; ++j) scale[j] = gram[j * n + j] > 0 ? 1 / std::sqrt(gram[j * n + j]) : 0;
+  for (std::size_t j = 0; j < n; ++j)
+    for (std::size_t i = 0; i < n; ++i) gram[j * n + i] *= scale[i] * scale[j];
+  const auto eigenvalues = symmetricEigen(gram, static_cast<int>(n));
+  DenseMatrix kept;
+  for (std::size_t j = 0; j < n; ++j)
+    if (eigenvalues[j] > small * eigenvalues.back())
+      for (std::size_t i = 0; i < n; ++i) kept.push_back(gram[j * n + i] * scale[i] / std::sqrt(eigenvalues[j]));
+  return kept;
+}
+
+}  // namespace
 
 OwnedBV columnsLike(BV like, PetscInt columns) {
   OwnedBV bv;
@@ -18,76 +43,105 @@ OwnedBV columnsLike(BV like, PetscInt columns) {
   return bv;
 }
 
-Basis::Basis(BV start, Mat mass) : mass_(mass) {
-  check(BVGetSizes(start, nullptr, nullptr, &size_));
-  columns_ = columnsLike(start, size_);
-  check(BVCopy(start, columns_));
+Basis::Basis(const modes::Modes& modes, Mat stiffness, KSP solver) : solver_(solver) {
+  check(BVGetSizes(modes.vectors, nullptr, nullptr, &size_));
+  columns_ = columnsLike(modes.vectors, size_);
+  check(BVCopy(modes.vectors, columns_));
+  for (PetscInt i = 0; i < size_; ++i) check(BVScaleColumn(columns_, i, 1 / modes.angularFrequency[static_cast<std::size_t>(i)]));
+  OwnedVec diagonal;
+  check(MatCreateVecs(stiffness, diagonal.out(), nullptr));
+  check(MatGetDiagonal(stiffness, diagonal));
+  check(VecReciprocal(diagonal));
+  const PetscScalar* values = nullptr;
+  check(VecGetArrayRead(diagonal, &values));
+  inverseDiagonal_.assign(values, values + localRows());
+  check(VecRestoreArrayRead(diagonal, &values));
+  sketch_.emplace(columns_, inverseDiagonal_);
+  sketched_ = sketch_->of(ReadColumns(columns_).values(), size_);
 }
 
-DenseMatrix Basis::gram(BV block, PetscInt count) const {
-  const OwnedBV image = columnsLike(block, count);
-  check(BVSetActiveColumns(block, 0, count));
-  check(BVMatMult(block, mass_, image));
-  const ReadColumns left(block), right(image);
-  return transposedProduct(PetscObjectComm(reinterpret_cast<PetscObject>(block)), left.values(), left.rows(), count, right.values(),
-                           count);
+PetscInt Basis::localRows() const {
+  PetscInt rows = 0;
+  check(BVGetSizes(columns_, &rows, nullptr, nullptr));
+  return rows;
 }
 
-/// Unit columns, so that "dependent" means the same for all; a column that is zero stays so.
-void Basis::normalise(BV block, PetscInt count) {
-  for (PetscInt j = 0; j < count; ++j) {
-    Vec column = nullptr;
-    check(BVGetColumn(block, j, &column));
-    check(VecNormalize(column, nullptr));
-    check(BVRestoreColumn(block, j, &column));
+MPI_Comm Basis::comm() const { return PetscObjectComm(reinterpret_cast<PetscObject>(columns_.get())); }
+
+/// K0⁻¹ of all columns at once.
+Block Basis::solve(const Block& right) {
+  PetscInt global = 0;
+  check(BVGetSizes(columns_, nullptr, &global, nullptr));
+  Block solved(right.rows, right.columns);
+  std::vector<double> given = right.values;
+  OwnedMat from, to;
+  check(MatCreateDense(comm(), right.rows, PETSC_DECIDE, global, right.columns, given.data(), from.out()));
+  check(MatCreateDense(comm(), right.rows, PETSC_DECIDE, global, right.columns, solved.values.data(), to.out()));
+  check(KSPMatSolve(solver_, from, to));
+  solves_ += right.columns;
+  return solved;
+}
+
+PetscInt Basis::add(const Block& residuals) {
+  if (residuals.columns == 0) return 0;
+  Block z = solve(residuals);
+  ratio_ = ratio(residuals, z);
+  {
+    const ReadColumns v(columns_);
+    const DenseMatrix parts = transposedProduct(comm(), v.values(), v.rows(), size_, residuals.values.data(), residuals.columns);
+    multiplyAdd(v.values(), v.rows(), size_, parts, z.values, -1);
   }
-}
-
-/// block ← block − V (Vᵀ M block), twice.
-void Basis::orthogonalise(BV block, PetscInt count) {
-  const OwnedBV image = columnsLike(block, count);
-  OwnedMat coefficients;
-  check(MatCreateSeqDense(PETSC_COMM_SELF, size_, count, nullptr, coefficients.out()));
-  check(BVSetActiveColumns(block, 0, count));
-  for (int pass = 0; pass < 2; ++pass) {
-    check(BVMatMult(block, mass_, image));
-    check(BVDot(image, columns_, coefficients));
-    check(BVMult(block, -1, 1, columns_, coefficients));
-  }
-}
-
-PetscInt Basis::add(BV block, PetscInt count, double dependent) {
-  orthogonalise(block, count);
-  normalise(block, count);
-  // Eigenvectors of the Gram matrix give orthonormal combinations; small eigenvalues are combinations that depend on the others.
-  // Once more for what rounding left.
-  for (int pass = 0; pass < 2 && count > 0; ++pass) {
-    if (pass > 0) orthogonalise(block, count);
-    auto combinations = gram(block, count);
-    const auto eigenvalues = symmetricEigen(combinations, static_cast<int>(count));
-    PetscInt first = 0;
-    while (first < count && !(eigenvalues[static_cast<std::size_t>(first)] > dependent * dependent * eigenvalues.back())) ++first;
-    for (std::size_t k = 0; k < combinations.size(); ++k) {
-      const auto j = k / static_cast<std::size_t>(count);
-      combinations[k] *= static_cast<PetscInt>(j) < first ? 0 : 1 / std::sqrt(eigenvalues[j]);
-    }
-    OwnedMat products;
-    check(MatCreateSeqDense(PETSC_COMM_SELF, count, count, combinations.data(), products.out()));
-    check(BVSetActiveColumns(block, 0, count));
-    check(BVMultInPlace(block, products, 0, count));
-    // The columns worth keeping are the last ones; move them to the front.
-    for (PetscInt j = first; j < count && first > 0; ++j) check(BVCopyColumn(block, j, j - first));
-    count -= first;
-  }
-  if (count == 0) return 0;
-  const PetscInt kept = count;
-  check(BVResize(columns_, size_ + kept, PETSC_TRUE));
-  check(BVSetActiveColumns(block, 0, kept));
-  check(BVSetActiveColumns(columns_, size_, size_ + kept));
-  check(BVCopy(block, columns_));
-  size_ += kept;
+  // zᵀ K0 z = zᵀ r now that z is orthogonal to V. What depends on others to within 1e-6 would only add noise.
+  const DenseMatrix combinations = orthonormalising(transposedProduct(comm(), z, residuals), z.columns, 1e-12);
+  const auto added = static_cast<PetscInt>(combinations.size()) / z.columns;
+  if (added == 0) return 0;
+  const Block fresh = combined(z, combinations, added);
+  check(BVResize(columns_, size_ + added, PETSC_TRUE));
+  PetscScalar* values = nullptr;
+  check(BVGetArray(columns_, &values));
+  std::copy(fresh.values.begin(), fresh.values.end(), values + size_ * fresh.rows);
+  check(BVRestoreArray(columns_, &values));
+  size_ += added;
+  const DenseMatrix sketch = sketch_->of(fresh.values.data(), added);
+  sketched_.insert(sketched_.end(), sketch.begin(), sketch.end());
   check(BVSetActiveColumns(columns_, 0, size_));
-  return kept;
+  return added;
 }
+
+void Basis::combine(const DenseMatrix& combinations, PetscInt count) {
+  Block combinedColumns(localRows(), count);
+  {
+    const ReadColumns v(columns_);
+    multiplyAdd(v.values(), v.rows(), size_, combinations, combinedColumns.values);
+  }
+  sketched_ = sketch_->of(combinedColumns.values.data(), count);
+  check(BVResize(columns_, count, PETSC_FALSE));
+  PetscScalar* values = nullptr;
+  check(BVGetArray(columns_, &values));
+  std::copy(combinedColumns.values.begin(), combinedColumns.values.end(), values);
+  check(BVRestoreArray(columns_, &values));
+  size_ = count;
+  check(BVSetActiveColumns(columns_, 0, size_));
+}
+
+/// diag(K0)⁻¹ times the columns.
+Block Basis::scaled(const Block& residuals) const {
+  Block result = residuals;
+  for (PetscInt j = 0; j < result.columns; ++j)
+    for (PetscInt i = 0; i < result.rows; ++i) result.column(j)[i] *= inverseDiagonal_[static_cast<std::size_t>(i)];
+  return result;
+}
+
+/// The largest ratio of the energy norm to that of the diagonal among all combinations of the columns.
+double Basis::ratio(const Block& residuals, const Block& solutions) const {
+  const PetscInt n = residuals.columns;
+  const DenseMatrix combinations = orthonormalising(transposedProduct(comm(), residuals, scaled(residuals)), n, 1e-8);
+  const auto kept = static_cast<PetscInt>(combinations.size()) / n;
+  if (kept == 0) return 0;
+  DenseMatrix energy = transposedProduct(comm(), combined(residuals, combinations, kept), combined(solutions, combinations, kept));
+  return std::sqrt(symmetricEigen(energy, static_cast<int>(kept)).back());
+}
+
+double Basis::energyRatio(const Block& residuals) { return residuals.columns > 0 ? ratio(residuals, solve(residuals)) : 0; }
 
 }  // namespace squeal::flutter

@@ -189,11 +189,27 @@ void normalise(std::vector<Complex>& vector) {
   for (auto& entry : vector) entry /= std::sqrt(sum);
 }
 
+/// From a root t of the reversed polynomial to s = 1/t, or to its conjugate, whose imaginary part is not negative.
+void turnRound(DensePair& pair) {
+  pair.s = 1.0 / std::conj(pair.s);
+  for (auto* vector : {&pair.q, &pair.left})
+    for (auto& entry : *vector) entry = std::conj(entry);
+}
+
 }  // namespace
 
-std::vector<DensePair> solveQuadratic(const DenseMatrix& mass, const DenseMatrix& damping, const DenseMatrix& stiffness, int m,
-                                      Vectors vectors) {
-  auto pairs = damping.empty() ? linearInSquare(mass, stiffness, m, vectors) : companion(mass, damping, stiffness, m, vectors);
+std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vectors) {
+  // The roots of the reversed polynomial, K + t Z + t² M read as t² K + t Z + M with t = 1/s, where K is the better matrix to invert:
+  // so it is in a basis that is orthonormal in energy.
+  DenseMatrix none;
+  const bool reversed = solveInPlace(problem.stiffness, none, problem.m) > solveInPlace(problem.mass, none, problem.m);
+  const auto &leading = reversed ? problem.stiffness : problem.mass, &last = reversed ? problem.mass : problem.stiffness;
+  auto pairs = problem.damping.empty() ? linearInSquare(leading, last, problem.m, vectors)
+                                       : companion(leading, problem.damping, last, problem.m, vectors);
+  if (reversed) {
+    std::erase_if(pairs, [](const DensePair& pair) { return pair.s == 0.0; });  // s is infinite: a motion without mass
+    for (auto& pair : pairs) turnRound(pair);
+  }
   for (auto& pair : pairs) {
     normalise(pair.q);
     normalise(pair.left);
@@ -204,9 +220,14 @@ std::vector<DensePair> solveQuadratic(const DenseMatrix& mass, const DenseMatrix
   return pairs;
 }
 
-void shareFromRankZero(MPI_Comm comm, std::vector<DensePair>& pairs, int m, Vectors vectors) {
+std::vector<DensePair> solveQuadratic(const DenseMatrix& mass, const DenseMatrix& damping, const DenseMatrix& stiffness, int m,
+                                      Vectors vectors) {
+  return solveQuadratic({mass, damping, stiffness, m}, vectors);
+}
+
+void shareFrom(int root, MPI_Comm comm, std::vector<DensePair>& pairs, int m, Vectors vectors) {
   int count = static_cast<int>(pairs.size());
-  check(MPI_Bcast(&count, 1, MPI_INT, 0, comm));
+  check(MPI_Bcast(&count, 1, MPI_INT, root, comm));
   const auto n = static_cast<std::size_t>(m), length = 1 + n * (vectors == Vectors::both ? 2 : 1);
   std::vector<Complex> packed;
   packed.reserve(length * static_cast<std::size_t>(count));
@@ -216,7 +237,7 @@ void shareFromRankZero(MPI_Comm comm, std::vector<DensePair>& pairs, int m, Vect
     packed.insert(packed.end(), pair.left.begin(), pair.left.end());
   }
   packed.resize(length * static_cast<std::size_t>(count));
-  check(MPI_Bcast(packed.data(), static_cast<int>(packed.size()), MPI_C_DOUBLE_COMPLEX, 0, comm));
+  check(MPI_Bcast(packed.data(), static_cast<int>(packed.size()), MPI_C_DOUBLE_COMPLEX, root, comm));
   pairs.clear();
   for (auto entry = packed.begin(); entry != packed.end(); entry += static_cast<std::ptrdiff_t>(length)) {
     const auto q = entry + 1, left = q + m, end = entry + static_cast<std::ptrdiff_t>(length);
@@ -224,20 +245,27 @@ void shareFromRankZero(MPI_Comm comm, std::vector<DensePair>& pairs, int m, Vect
   }
 }
 
-std::vector<DensePair> solveTogether(MPI_Comm comm, const DenseMatrix& mass, const DenseMatrix& damping,
-                                     const DenseMatrix& stiffness, int m, Vectors vectors) {
-  int rank = 0;
+std::vector<std::vector<DensePair>> solveSpread(MPI_Comm comm, const std::vector<DenseProblem>& problems, Vectors vectors,
+                                                const std::function<bool(Complex)>& wanted) {
+  int rank = 0, ranks = 1;
   check(MPI_Comm_rank(comm, &rank));
-  std::vector<DensePair> pairs;
+  check(MPI_Comm_size(comm, &ranks));
+  std::vector<std::vector<DensePair>> solved(problems.size());
   std::string failure;
-  if (rank == 0) try {
-      pairs = solveQuadratic(mass, damping, stiffness, m, vectors);
+  for (auto i = static_cast<std::size_t>(rank); i < problems.size() && failure.empty(); i += static_cast<std::size_t>(ranks)) try {
+      solved[i] = solveQuadratic(problems[i], vectors);
+      if (wanted) std::erase_if(solved[i], [&](const DensePair& pair) { return !wanted(pair.s); });
     } catch (const Error& error) {
       failure = error.what();
     }
   failTogether(comm, failure);
-  shareFromRankZero(comm, pairs, m, vectors);
-  return pairs;
+  for (std::size_t i = 0; i < problems.size(); ++i) shareFrom(static_cast<int>(i) % ranks, comm, solved[i], problems[i].m, vectors);
+  return solved;
+}
+
+std::vector<DensePair> solveTogether(MPI_Comm comm, const DenseMatrix& mass, const DenseMatrix& damping,
+                                     const DenseMatrix& stiffness, int m, Vectors vectors) {
+  return solveSpread(comm, {{mass, damping, stiffness, m}}, vectors)[0];
 }
 
 }  // namespace squeal::flutter

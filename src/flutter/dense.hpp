@@ -3,6 +3,7 @@
 #include <mpi.h>
 
 #include <complex>
+#include <functional>
 #include <vector>
 
 namespace squeal::flutter {
@@ -25,18 +26,24 @@ struct DensePair {
 /// What a solve gives beside the eigenvalues.
 enum class Vectors { right, both };
 
-/// Not collective. All eigenvalues with Im s ≥ 0, by ascending Im s, then Re s. An empty Z: the problem is linear in s², solved at size m;
-/// otherwise its companion form of size 2m is scaled and solved. QR on M⁻¹ K, M⁻¹ Z finds them where M is well conditioned, QZ
-/// elsewhere, in ten times as long. Error: LAPACK fails, or M is singular (an eigenvalue is infinite).
+/// Not collective. All finite eigenvalues with Im s ≥ 0, by ascending Im s, then Re s. An empty Z: the problem is linear in s², solved at
+/// size m; otherwise its companion form of size 2m is scaled and solved. QR with the inverse of M or K, whichever is better
+/// conditioned, finds them; QZ, in ten times as long, where neither is. Error: LAPACK fails, or M and K are singular.
+std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vectors = Vectors::right);
 std::vector<DensePair> solveQuadratic(const DenseMatrix& mass, const DenseMatrix& damping, const DenseMatrix& stiffness, int m,
                                       Vectors vectors = Vectors::right);
 
-/// Collective. The same on all ranks: solved on rank 0 alone, which alone needs the matrices, so that rounding cannot make the ranks
-/// disagree on the order or number of eigenvalues.
+/// Collective. Solves several problems, each on one rank, which alone needs its matrices: problem i on rank i modulo their number. The
+/// same results on all ranks, so that rounding cannot make the ranks disagree on the order or number of eigenvalues. Those that are
+/// not `wanted` (none given: all are) are left out.
+std::vector<std::vector<DensePair>> solveSpread(MPI_Comm comm, const std::vector<DenseProblem>& problems, Vectors vectors,
+                                                const std::function<bool(std::complex<double>)>& wanted = {});
+
+/// Collective. One problem, on rank 0.
 std::vector<DensePair> solveTogether(MPI_Comm comm, const DenseMatrix& mass, const DenseMatrix& damping,
                                      const DenseMatrix& stiffness, int m, Vectors vectors = Vectors::right);
 
-/// Collective. The pairs of rank 0, vectors of m entries, to all; one message.
-void shareFromRankZero(MPI_Comm comm, std::vector<DensePair>& pairs, int m, Vectors vectors);
+/// Collective. The pairs of rank `root`, vectors of m entries, to all; one message.
+void shareFrom(int root, MPI_Comm comm, std::vector<DensePair>& pairs, int m, Vectors vectors);
 
 }  // namespace squeal::flutter

@@ -73,8 +73,11 @@ FrictionPoint solveDirect(const Pencil& pencil, const Parameters& at, Mat trial)
   FrictionPoint point;
   point.at = at;
   if (band.wanted()) point.askedTo = band.high, point.coveredTo = std::min(reached, band.high);
-  for (const auto& pair : pairs)
-    point.eigenvalues.push_back({pair.s, backwardError(pencil, at, pair.s, pair.real, pair.imaginary), false});
+  point.accuracy = accuracyAsked();
+  for (const auto& pair : pairs) {
+    const double error = backwardError(pencil, at, pair.s, pair.real, pair.imaginary);
+    point.eigenvalues.push_back({pair.s, error, NAN, error <= point.accuracy});
+  }
   judge(point.eigenvalues);
   keepShapes(point, trial, [&](std::size_t index, Vec real, Vec imaginary) {
     check(VecCopy(pairs[index].real, real));

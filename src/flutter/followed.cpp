@@ -24,14 +24,14 @@ const IntegerOption halvingsOption("flutter", "flutter_track_halvings", 10, 0,
 /// One line of the sweep in the reduced basis.
 class ReducedFamily : public Family {
  public:
-  ReducedFamily(ReducedProblem& reduced, MPI_Comm comm, const Parameters& line,
-                const std::function<bool(const Parameters&)>& setTerms)
-      : reduced_(reduced), comm_(comm), line_(line), setTerms_(setTerms) {}
+  ReducedFamily(ReducedProblem& reduced, MPI_Comm comm, const Parameters& line, const ProblemSource& problemAt)
+      : reduced_(reduced), comm_(comm), line_(line), problemAt_(problemAt) {}
   MPI_Comm comm() const override { return comm_; }
 
   std::optional<DenseProblem> at(double friction) override {
-    if (!setTerms_(point(friction))) return {};
-    DenseProblem problem = reduced_.projected(point(friction));
+    const auto terms = problemAt_(point(friction));
+    if (!terms) return {};
+    DenseProblem problem = reduced_.project(*terms);
     // Sums over the ranks, whose rounding may depend on the rank; what follows from them must not.
     for (auto* matrix : {&problem.mass, &problem.damping, &problem.stiffness})
       check(MPI_Bcast(matrix->data(), static_cast<int>(matrix->size()), MPI_DOUBLE, 0, comm_));
@@ -39,9 +39,9 @@ class ReducedFamily : public Family {
   }
 
   Improvement improve(const std::vector<Located>& located) override {
-    std::vector<std::pair<Parameters, std::vector<DensePair>>> list;
-    for (const auto& item : located) list.emplace_back(point(item.friction), item.pairs);
-    return reduced_.improve(list, [&](const Parameters& at) { setTerms_(at); });
+    std::vector<std::pair<PointProblem, std::vector<DensePair>>> list;
+    for (const auto& item : located) list.emplace_back(problemAt_(point(item.friction)).value(), item.pairs);
+    return reduced_.improve(list);
   }
 
  private:
@@ -53,7 +53,7 @@ class ReducedFamily : public Family {
   ReducedProblem& reduced_;
   MPI_Comm comm_;
   Parameters line_;
-  const std::function<bool(const Parameters&)>& setTerms_;
+  const ProblemSource& problemAt_;
 };
 
 /// Drops what is watched beside the band alone, and numbers the rest.
@@ -129,14 +129,14 @@ std::string Followed::statement() const {
 }
 
 std::vector<Followed> followSweep(ReducedProblem& reduced, const std::vector<FrictionPoint>& points, const modes::Modes& modes,
-                                  MPI_Comm comm, const std::function<bool(const Parameters&)>& setTerms) {
+                                  MPI_Comm comm, const ProblemSource& problemAt) {
   std::vector<Followed> result;
   if (reduced.band().top == 0) return result;
   for (auto [line, frictions] : lines(points)) {
     const bool swept = frictions.front() == 0;
     if (!swept) frictions.insert(frictions.begin(), 0);
     if (frictions.size() < 2) continue;
-    ReducedFamily family(reduced, comm, line, setTerms);
+    ReducedFamily family(reduced, comm, line, problemAt);
     Followed followed;
     followed.line = line;
     TrackLimits limits;

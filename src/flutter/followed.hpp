@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "flutter/critical.hpp"
-#include "flutter/flutter.hpp"
+#include "flutter/reduced.hpp"
 
 namespace squeal::flutter {
 
@@ -23,13 +23,15 @@ struct Followed {
   std::string statement() const;
 };
 
+using ProblemSource = std::function<std::optional<PointProblem>(const Parameters&)>;
+
 /// `-flutter_track`, for the reduced method with a band.
 bool trackWanted();
 
 /// Collective. Follows the eigenvalues of `points`, from friction 0 on, in the basis in force, and solves for the critical frictions
-/// (`-flutter_critical`), for which the basis may grow. `setTerms(at)` gives the pencil the terms of a point and enters them into
-/// `reduced`; false: there is no steady state with this active set.
+/// (`-flutter_critical`), for which the basis may grow. `problemAt(at)`: the terms of a point; none: there is no steady state with this
+/// active set.
 std::vector<Followed> followSweep(ReducedProblem& reduced, const std::vector<FrictionPoint>& points, const modes::Modes& modes,
-                                  MPI_Comm comm, const std::function<bool(const Parameters&)>& setTerms);
+                                  MPI_Comm comm, const ProblemSource& problemAt);
 
 }  // namespace squeal::flutter

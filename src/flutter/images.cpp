@@ -15,12 +15,12 @@ ReadColumns::ReadColumns(BV bv) : bv_(bv) {
 }
 
 void multiplyAdd(const double* x, PetscInt rowCount, PetscInt columnCount, const std::vector<double>& coefficients,
-                 std::vector<double>& result) {
+                 std::vector<double>& result, double factor) {
   PetscBLASInt rows = rowCount, inner = columnCount,
                columns = static_cast<PetscBLASInt>(coefficients.size() / static_cast<std::size_t>(columnCount));
   const PetscScalar one = 1;
   if (rows > 0 && columns > 0)
-    BLASgemm_("N", "N", &rows, &columns, &inner, &one, x, &rows, coefficients.data(), &inner, &one, result.data(), &rows);
+    BLASgemm_("N", "N", &rows, &columns, &inner, &factor, x, &rows, coefficients.data(), &inner, &one, result.data(), &rows);
 }
 
 DenseMatrix transposedProduct(MPI_Comm comm, const double* x, PetscInt rowCount, PetscInt m, const double* y, PetscInt n) {
@@ -30,6 +30,10 @@ DenseMatrix transposedProduct(MPI_Comm comm, const double* x, PetscInt rowCount,
   if (rows > 0 && m > 0 && n > 0) BLASgemm_("T", "N", &left, &right, &rows, &one, x, &rows, y, &rows, &zero, product.data(), &left);
   check(MPI_Allreduce(MPI_IN_PLACE, product.data(), static_cast<int>(product.size()), MPI_DOUBLE, MPI_SUM, comm));
   return product;
+}
+
+DenseMatrix transposedProduct(MPI_Comm comm, const Block& x, const Block& y) {
+  return transposedProduct(comm, x.values.data(), x.rows, x.columns, y.values.data(), y.columns);
 }
 
 Image::Image(Mat matrix) {
@@ -52,6 +56,12 @@ void Image::append(const double* values, PetscInt columns) {
   values_.reserve(values_.size() + rows_.size() * static_cast<std::size_t>(columns));
   for (PetscInt j = 0; j < columns; ++j)
     for (PetscInt row : rows_) values_.push_back(values[j * localRows_ + row]);
+}
+
+void Image::combine(const DenseMatrix& combinations, PetscInt columns) {
+  std::vector<double> combined(rows_.size() * combinations.size() / static_cast<std::size_t>(columns), 0.0);
+  flutter::multiplyAdd(values_.data(), static_cast<PetscInt>(rows_.size()), columns, combinations, combined);
+  values_ = std::move(combined);
 }
 
 void Image::multiplyAdd(const std::vector<double>& coefficients, PetscInt columns, std::vector<double>& result) const {

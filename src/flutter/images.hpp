@@ -8,6 +8,21 @@
 
 namespace squeal::flutter {
 
+/// Columns of length n, this rank's rows of them.
+struct Block {
+  PetscInt rows = 0, columns = 0;
+  std::vector<double> values;  ///< column-major
+
+  explicit Block(PetscInt rowCount, PetscInt columnCount = 0)
+      : rows(rowCount), columns(columnCount), values(static_cast<std::size_t>(rowCount * columnCount)) {}
+  const double* column(PetscInt j) const { return values.data() + j * rows; }
+  double* column(PetscInt j) { return values.data() + j * rows; }
+  void append(const double* column, double factor = 1) {
+    for (PetscInt i = 0; i < rows; ++i) values.push_back(factor * column[i]);
+    ++columns;
+  }
+};
+
 /// The local rows of a BV of type svec for the life of the object: column-major, contiguous.
 class ReadColumns {
  public:
@@ -25,12 +40,13 @@ class ReadColumns {
   const PetscScalar* values_ = nullptr;
 };
 
-/// result (rows × k) += X (rows × columns) · coefficients (columns × k), local, all column-major.
+/// result (rows × k) += factor · X (rows × columns) · coefficients (columns × k), local, all column-major.
 void multiplyAdd(const double* x, PetscInt rows, PetscInt columns, const std::vector<double>& coefficients,
-                 std::vector<double>& result);
+                 std::vector<double>& result, double factor = 1);
 
 /// Collective. Xᵀ Y for X rows × m and Y rows × n, column-major m × n, the same on all ranks.
 DenseMatrix transposedProduct(MPI_Comm comm, const double* x, PetscInt rows, PetscInt m, const double* y, PetscInt n);
+DenseMatrix transposedProduct(MPI_Comm comm, const Block& x, const Block& y);
 
 /// A V by this rank's rows, without the rows of A that are empty: a friction operator has rows at the contact nodes alone.
 class Image {
@@ -38,6 +54,8 @@ class Image {
   explicit Image(Mat matrix);
   /// Adds columns given by all local rows.
   void append(const double* values, PetscInt columns);
+  /// A V ← A V · combinations (columns × k).
+  void combine(const DenseMatrix& combinations, PetscInt columns);
   /// result (all local rows × k) += (A V) · coefficients.
   void multiplyAdd(const std::vector<double>& coefficients, PetscInt columns, std::vector<double>& result) const;
   /// Collective. Columns [xBegin, xEnd) of V, transposed, times columns [begin, end) of A V.

@@ -66,7 +66,7 @@ std::vector<std::size_t> closest(const Spectrum& from, const Spectrum& all) {
 }  // namespace
 
 std::vector<DensePair> allPairs(MPI_Comm comm, const DenseProblem& problem) {
-  auto pairs = solveTogether(comm, problem.mass, problem.damping, problem.stiffness, problem.m, Vectors::both);
+  auto pairs = solveSpread(comm, {problem}, Vectors::both)[0];
   if (problem.damping.empty()) std::erase_if(pairs, [](const auto& pair) { return pair.s.imag() == 0 && pair.s.real() < 0; });
   return pairs;
 }

@@ -11,14 +11,24 @@ double Term::coefficient(const Parameters& at) const {
          std::pow(at.damping, dampingExponent);
 }
 
+Term Term::share() const { return {matrix.share(), power, frictionExponent, factor, speedExponent, dampingExponent}; }
+
+Pencil::Pencil(std::vector<Term> terms)
+    : terms_(std::move(terms)), affineCount_(terms_.size()), singular_(std::make_shared<std::array<OwnedVec, 3>>()) {}
+
 void Pencil::add(std::vector<Term> terms) {
   std::move(terms.begin(), terms.end(), std::back_inserter(terms_));
   affineCount_ = terms_.size();
 }
 
-void Pencil::setPointTerms(std::vector<Term> terms) {
-  terms_.erase(terms_.begin() + static_cast<std::ptrdiff_t>(affineCount_), terms_.end());
-  std::move(terms.begin(), terms.end(), std::back_inserter(terms_));
+Pencil Pencil::with(std::vector<Term> pointTerms) const {
+  std::vector<Term> all;
+  for (const auto& term : terms_) all.push_back(term.share());
+  std::move(pointTerms.begin(), pointTerms.end(), std::back_inserter(all));
+  Pencil pencil(std::move(all));
+  pencil.affineCount_ = affineCount_;
+  pencil.singular_ = singular_;
+  return pencil;
 }
 
 bool Pencil::hasPower(int power) const {
@@ -55,7 +65,7 @@ void Pencil::apply(int power, const Parameters& at, Vec x, Vec y) const {
 
 double Pencil::norm(int power, const Parameters& at) const {
   if (!hasPower(power)) return 0;
-  OwnedVec& v = singular_[power];
+  OwnedVec& v = (*singular_)[static_cast<std::size_t>(power)];
   const bool fresh = !v;
   OwnedVec image, part;
   check(MatCreateVecs(terms_[0].matrix, image.out(), part.out()));
@@ -69,7 +79,7 @@ double Pencil::norm(int power, const Parameters& at) const {
     check(VecAssemblyEnd(v));
   }
   double estimate = 0;
-  for (int sweep = 0; sweep < (fresh ? 20 : 3); ++sweep) {
+  for (int sweep = 0; sweep < (fresh ? 20 : 2); ++sweep) {
     PetscReal size = 0;
     check(VecNormalize(v, nullptr));
     apply(power, at, v, image);

@@ -2,7 +2,9 @@
 /// The friction-perturbed problem P(s; f, v, …) d = 0 as one object, P = Σ_t c_t s^p_t A_t with c_t = factor · f^a · v^b · c^d for
 /// the friction f, the speed v, a factor on the motion of the bodies, and the factor c on their damping. It knows nothing of finite
 /// elements: [4.15–4.16] enter as terms.
+#include <array>
 #include <complex>
+#include <memory>
 #include <vector>
 
 #include "parameters.hpp"
@@ -19,19 +21,22 @@ struct Term {
   int dampingExponent = 0;  ///< d
 
   double coefficient(const Parameters& at) const;
+  /// The same term, its matrix shared.
+  Term share() const;
 };
 
 class Pencil {
  public:
-  explicit Pencil(std::vector<Term> terms) : terms_(std::move(terms)), affineCount_(terms_.size()) {}
+  explicit Pencil(std::vector<Term> terms);
   /// All terms, those of the point last.
   const std::vector<Term>& terms() const { return terms_; }
   /// Number of terms that hold for all parameters.
   std::size_t affineCount() const { return affineCount_; }
-  /// Adds terms that hold for all parameters; before those of a point are set.
+  /// Adds terms that hold for all parameters.
   void add(std::vector<Term> terms);
-  /// Replaces the terms that hold at one point of the parameters alone, such as those made with its steady forces.
-  void setPointTerms(std::vector<Term> terms);
+  /// Collective. These terms, whose matrices are shared, and some that hold at one point of the parameters alone, such as those made
+  /// with its steady forces.
+  Pencil with(std::vector<Term> pointTerms) const;
   bool hasPower(int power) const;
   MPI_Comm comm() const;
 
@@ -40,13 +45,13 @@ class Pencil {
   /// Collective. y = (sum of the terms with this power) x.
   void apply(int power, const Parameters& at, Vec x, Vec y) const;
   /// Collective. Estimate from below of the 2-norm of the sum, by power iteration on AᵀA continued from the last call for this
-  /// power: from below, so that a backward error made with it is never flattered.
+  /// power, be it at another point of the sweep: from below, so that a backward error made with it is never flattered.
   double norm(int power, const Parameters& at) const;
 
  private:
   std::vector<Term> terms_;
   std::size_t affineCount_;
-  mutable OwnedVec singular_[3];
+  std::shared_ptr<std::array<OwnedVec, 3>> singular_;  // [power] where the next power iteration begins, shared by `with`
 };
 
 /// Collective. ‖P(s) d‖ / ((|s|² ‖M̄‖ + |s| ‖Z̄‖ + ‖K̄‖) ‖d‖) for d = real + i imaginary (imaginary may be null).

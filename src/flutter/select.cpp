@@ -22,6 +22,8 @@ const RealListOption dampingOption("flutter", "flutter_damping", "1", "", nonNeg
                                    true);
 const ChoiceOption methodOption("flutter", "flutter_method", {"reduced", "direct"}, "reduced",
                                 "reduced: dense problem on the free modes; direct: all unknowns, for checking");
+const RealOption accuracyOption("flutter", "flutter_accuracy", 1e-9, "", positive,
+                                "full-order backward error up to which an eigenvalue is certified, and to which it is corrected");
 const RealOption toleranceOption("flutter", "flutter_unstable_tolerance", 1e-6, "", nonNegative,
                                  "unstable if the growth rate exceeds this fraction of |s|");
 const IntegerOption shapesOption("flutter", "flutter_shapes", 3, 0,
@@ -69,27 +71,63 @@ std::optional<std::size_t> Sweep::earlierNeighbour(std::size_t steadyPoint) cons
   return std::nullopt;
 }
 
+double accuracyAsked() { return accuracyOption.get(); }
+
+std::vector<std::vector<std::size_t>> batches(const std::vector<Parameters>& points) {
+  constexpr std::size_t largest = 16;
+  const auto apart = [&](std::size_t a, std::size_t b) {
+    double sum = 0;
+    for (const auto& parameter : allParameters) {
+      const auto less = [&](const auto& p, const auto& q) { return p.*parameter.value < q.*parameter.value; };
+      const auto [low, high] = std::minmax_element(points.begin(), points.end(), less);
+      const double range = (*high).*parameter.value - (*low).*parameter.value;
+      if (range > 0) sum += std::pow((points[a].*parameter.value - points[b].*parameter.value) / range, 2);
+    }
+    return sum;
+  };
+  std::vector<double> distance(points.size(), INFINITY);  // to the nearest point already chosen
+  std::vector<std::vector<std::size_t>> result;
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (points[i].friction > points[next].friction) next = i;
+  for (std::size_t chosen = 0; chosen < points.size(); ++chosen) {
+    if (result.empty() || result.back().size() == std::min(largest, std::size_t{1} << (result.size() - 1))) result.emplace_back();
+    result.back().push_back(next);
+    for (std::size_t i = 0; i < points.size(); ++i) distance[i] = std::min(distance[i], apart(i, next));
+    distance[next] = -1;
+    next = static_cast<std::size_t>(std::max_element(distance.begin(), distance.end()) - distance.begin());
+  }
+  return result;
+}
+
 bool directWanted() { return methodOption.get() == "direct"; }
 
 int FrictionPoint::unstableCount() const {
-  return static_cast<int>(
-      std::count_if(eigenvalues.begin(), eigenvalues.end(), [&](const auto& e) { return e.unstable && e.inBand; }));
+  return static_cast<int>(std::count_if(eigenvalues.begin(), eigenvalues.end(), [](const auto& e) { return e.unstable; }));
 }
 
-int FrictionPoint::unstableAbove() const {
-  return static_cast<int>(
-      std::count_if(eigenvalues.begin(), eigenvalues.end(), [&](const auto& e) { return e.unstable && !e.inBand; }));
-}
-
-int FrictionPoint::bandCount() const {
-  return static_cast<int>(std::count_if(eigenvalues.begin(), eigenvalues.end(), [&](const auto& e) { return e.inBand; }));
+int FrictionPoint::uncertifiedCount() const {
+  return static_cast<int>(std::count_if(eigenvalues.begin(), eigenvalues.end(), [](const auto& e) { return !e.certified; }));
 }
 
 double FrictionPoint::worstBackwardError() const {
   double worst = 0;
-  for (const auto& eigenvalue : eigenvalues)
-    if (eigenvalue.inBand) worst = std::max(worst, eigenvalue.backwardError);
+  for (const auto& eigenvalue : eigenvalues) worst = std::max(worst, eigenvalue.backwardError);
   return worst;
+}
+
+double FrictionPoint::worstErrorEstimate() const {
+  double worst = 0;
+  for (const auto& eigenvalue : eigenvalues)
+    if (!std::isnan(worst) && !(eigenvalue.errorEstimate <= worst)) worst = eigenvalue.errorEstimate;
+  return worst;
+}
+
+const Eigenvalue* FrictionPoint::fastestGrowing() const {
+  const Eigenvalue* fastest = nullptr;
+  for (const auto& eigenvalue : eigenvalues)
+    if (!fastest || eigenvalue.s.real() > fastest->s.real()) fastest = &eigenvalue;
+  return fastest;
 }
 
 void judge(std::vector<Eigenvalue>& eigenvalues) {
@@ -100,9 +138,7 @@ void judge(std::vector<Eigenvalue>& eigenvalues) {
 void keepShapes(FrictionPoint& point, Mat trial, const std::function<void(std::size_t, Vec, Vec)>& unknowns) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < point.eigenvalues.size(); ++i)
-    if (point.eigenvalues[i].unstable && point.eigenvalues[i].inBand &&
-        point.eigenvalues[i].s.imag() < 2 * M_PI * shapesBelowOption.get())
-      order.push_back(i);
+    if (point.eigenvalues[i].unstable && point.eigenvalues[i].s.imag() < 2 * M_PI * shapesBelowOption.get()) order.push_back(i);
   std::sort(order.begin(), order.end(),
             [&](std::size_t a, std::size_t b) { return point.eigenvalues[a].s.real() > point.eigenvalues[b].s.real(); });
   order.resize(std::min(order.size(), static_cast<std::size_t>(shapesOption.get())));

@@ -6,6 +6,9 @@
 
 namespace squeal::flutter {
 
+/// `-flutter_accuracy`: backward error up to which an eigenvalue is certified.
+double accuracyAsked();
+
 /// Marks unstable eigenvalues.
 void judge(std::vector<Eigenvalue>& eigenvalues);
 

@@ -260,7 +260,7 @@ Cluster clusterTogether(MPI_Comm comm, const DenseProblem& problem, const std::v
   check(MPI_Bcast(numbers, 3, MPI_DOUBLE, 0, comm));
   cluster.mean = {numbers[0], numbers[1]};
   cluster.converged = numbers[2] > 0;
-  shareFromRankZero(comm, cluster.pairs, problem.m, Vectors::both);
+  shareFrom(0, comm, cluster.pairs, problem.m, Vectors::both);
   return cluster;
 }
 

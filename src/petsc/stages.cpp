@@ -30,10 +30,13 @@ bool speaks(MPI_Comm comm) {
 Stage::Stage(MPI_Comm comm, std::string name) : comm_(comm), name_(std::move(name)), begin_(MPI_Wtime()), lastProgress_(begin_) {}
 
 void Stage::progress(const std::string& text) {
-  const double now = MPI_Wtime();
-  if (now - lastProgress_ < 2 || !speaks(comm_)) return;
-  lastProgress_ = now;
-  std::printf("%-10s %8.2f s … %s\n", name_.c_str(), now - begin_, text.c_str());
+  if (MPI_Wtime() - lastProgress_ >= 2) say(text);
+}
+
+void Stage::say(const std::string& text) {
+  lastProgress_ = MPI_Wtime();
+  if (!speaks(comm_)) return;
+  std::printf("%-10s %8.2f s … %s\n", name_.c_str(), lastProgress_ - begin_, text.c_str());
   std::fflush(stdout);
 }
 

@@ -22,6 +22,8 @@ class Stage {
   /// Progress of long work, a line every two seconds at most: plain lines, since output of parallel jobs goes through pipes and
   /// files.
   void progress(const std::string& text);
+  /// Says at once what one of several tasks of the stage found.
+  void say(const std::string& text);
 
  private:
   MPI_Comm comm_;

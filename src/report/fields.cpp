@@ -125,7 +125,10 @@ void writeFields(const Analysis& analysis, const std::filesystem::path& folder) 
     writeVtu(mesh, stem,
              {ghosts.vector("displacement", solution.displacement),
               ghosts.scalar("contact_pressure", contactField(analysis, solution))});
-    steadyFiles.emplace_back(solution.at.friction, stem.string() + ".pvtu");
+    // ParaView's time is the friction; where more is swept, several states would share it, and the file's place in the list is the time.
+    const bool frictionAlone = analysis.sweep.frictions.size() == analysis.steady.size();
+    steadyFiles.emplace_back(frictionAlone ? solution.at.friction : static_cast<double>(steadyFiles.size()),
+                             stem.string() + ".pvtu");
   }
   writePvd(mesh.comm, vtk / "steady.pvd", steadyFiles);
   for (const auto& segment : analysis.segments) {

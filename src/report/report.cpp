@@ -19,7 +19,7 @@ bool isResult(const std::filesystem::path& name) {
   const auto begins = [&](const char* start) { return text.rfind(start, 0) == 0; };
   return text == "eigenvalues.csv" || text == "branches.csv" || text == "critical.csv" || text == "modes.csv" ||
          text == "summary.json" || text == "results.h5" || text == "options.txt" || text == "stability_map.csv" || text == "vtk" ||
-         text == ".partial" || (begins("stability") && name.extension() == ".png") || text == "critical_friction.png" ||
+         text == ".partial" || (begins("stability") && name.extension() == ".png") ||
          (begins("steady_") && name.extension() == ".csv") || (begins("modes_") && name.extension() == ".csv");
 }
 

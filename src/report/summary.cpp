@@ -47,11 +47,13 @@ Json unstableModes(const flutter::FrictionPoint& point) {
   Json list = Json::array();
   for (std::size_t i = 0; i < point.eigenvalues.size(); ++i) {
     const auto& e = point.eigenvalues[i];
-    if (e.unstable && e.inBand)
+    if (e.unstable)
       list.push_back({{"mode", i + 1},
                       {"frequency_hz", e.s.imag() / (2 * M_PI)},
                       {"growth_rate_1_per_s", e.s.real()},
-                      {"backward_error", e.backwardError}});
+                      {"backward_error", e.backwardError},
+                      {"error_estimate", finite(e.errorEstimate)},
+                      {"certified", e.certified}});
   }
   return list;
 }
@@ -105,8 +107,9 @@ void writeSummary(const Analysis& analysis, const std::filesystem::path& folder)
       if (point->bandTop > 0) {
         entry["band_top_hz"] = point->bandTop / (2 * M_PI);
         entry["accuracy_asked"] = point->accuracy;
-        entry["accuracy_met"] = point->worstBackwardError() <= point->accuracy;
-        entry["unstable_above_band_uncertified"] = point->unstableAbove();
+        entry["tolerance_asked"] = point->tolerance;
+        entry["worst_error_estimate"] = finite(point->worstErrorEstimate());
+        entry["uncertified"] = point->uncertifiedCount();
       }
       entry["unstable_modes"] = unstableModes(*point);
     }
@@ -121,6 +124,7 @@ void writeSummary(const Analysis& analysis, const std::filesystem::path& folder)
     entry["open_nodes"] = segment.openNodes;
     entry["dofs"] = segment.unknowns;
     entry["modes"] = segment.modes.angularFrequency.size();
+    entry["solves"] = segment.solves;
     if (segment.modes.inertiaCount)
       entry["sturm_count"] = {{"shift_rad2_per_s2", segment.modes.inertiaShift},
                               {"eigenvalues_below", segment.modes.inertiaCount},

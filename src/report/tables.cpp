@@ -1,5 +1,6 @@
 /// The comma-separated tables and the terminal's stability table.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 
@@ -12,16 +13,37 @@ namespace squeal::report {
 namespace {
 
 std::string eigenvalueTable(const Analysis& analysis) {
-  std::string table = parameterColumns() +
-                      ",mode,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,damping_ratio,backward_error,in_band\n";
+  std::string table =
+      parameterColumns() +
+      ",mode,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,damping_ratio,backward_error,error_estimate,certified\n";
   for (const auto& segment : analysis.segments)
     for (const auto& point : segment.points)
       for (std::size_t i = 0; i < point.eigenvalues.size(); ++i) {
         const auto& e = point.eigenvalues[i];
         table += parameterValues(point.at) + "," + std::to_string(i + 1) +
-                 formatted(",%.15e,%.15e,%.15e,%.15e,%.3e,%d\n", e.s.real(), e.s.imag(), e.s.imag() / (2 * M_PI),
-                           -e.s.real() / std::abs(e.s), e.backwardError, e.inBand ? 1 : 0);
+                 formatted(",%.15e,%.15e,%.15e,%.15e,%.3e,%.3e,%d\n", e.s.real(), e.s.imag(), e.s.imag() / (2 * M_PI),
+                           -e.s.real() / std::abs(e.s), e.backwardError, e.errorEstimate, e.certified ? 1 : 0);
       }
+  return table;
+}
+
+/// A row for each point of the sweep; cells stay empty where there is nothing to say: no steady sliding, no eigenvalue, no estimate.
+std::string stabilityMap(const Analysis& analysis) {
+  const auto cell = [](const char* format, double value) {
+    char text[32] = "";
+    if (std::isfinite(value)) std::snprintf(text, sizeof text, format, value);
+    return "," + std::string(text);
+  };
+  std::string table =
+      parameterColumns() + ",unstable_modes,largest_growth_rate_1_per_s,frequency_hz,worst_backward_error,worst_error_estimate\n";
+  for (const auto& at : analysis.sweep.points()) {
+    const auto* point = analysis.pointAt(at);
+    const auto* fastest = point ? point->fastestGrowing() : nullptr;
+    table += parameterValues(at) + cell("%.0f", point ? point->unstableCount() : NAN) +
+             cell("%.15e", fastest ? fastest->s.real() : NAN) + cell("%.15e", fastest ? fastest->s.imag() / (2 * M_PI) : NAN) +
+             cell("%.3e", fastest ? point->worstBackwardError() : NAN) + cell("%.3e", fastest ? point->worstErrorEstimate() : NAN) +
+             "\n";
+  }
   return table;
 }
 
@@ -70,8 +92,7 @@ std::string sweepRow(const flutter::FrictionPoint& point, const std::vector<Para
   if (point.unstableCount() == 0) return row + "none: steady sliding is stable";
   int count = 0;
   for (const auto& e : point.eigenvalues)
-    if (e.unstable && e.inBand && ++count <= 6)
-      row += formatted("%s%.6g (%.4g)", count > 1 ? ", " : "", e.s.imag() / (2 * M_PI), e.s.real());
+    if (e.unstable && ++count <= 6) row += formatted("%s%.6g (%.4g)", count > 1 ? ", " : "", e.s.imag() / (2 * M_PI), e.s.real());
   return row + (count > 6 ? formatted(", and %d more in eigenvalues.csv", count - 6) : "");
 }
 
@@ -81,7 +102,7 @@ std::string modeRows(const flutter::FrictionPoint& point) {
   std::string rows;
   for (std::size_t i = 0; i < point.eigenvalues.size(); ++i) {
     const auto& e = point.eigenvalues[i];
-    if (e.unstable && e.inBand) rows += formatted("\n%4zu  %12.6g %12.5g", i + 1, e.s.imag() / (2 * M_PI), e.s.real());
+    if (e.unstable) rows += formatted("\n%4zu  %12.6g %12.5g", i + 1, e.s.imag() / (2 * M_PI), e.s.real());
   }
   return rows;
 }
@@ -128,6 +149,7 @@ std::string recipe(MPI_Comm comm) {
 void writeTables(const Analysis& analysis, const std::filesystem::path& folder) {
   const MPI_Comm comm = analysis.mesh->comm;
   writeFile(comm, folder / "eigenvalues.csv", eigenvalueTable(analysis));
+  writeFile(comm, folder / "stability_map.csv", stabilityMap(analysis));
   if (flutter::trackWanted()) {
     writeFile(comm, folder / "branches.csv", branchTable(analysis));
     writeFile(comm, folder / "critical.csv", criticalTable(analysis));
@@ -170,14 +192,21 @@ std::string stabilityTable(const Analysis& analysis) {
                            parameterText(point.at).c_str(), point.coveredTo / (2 * M_PI));
   for (const auto& segment : analysis.segments)
     for (const auto& point : segment.points)
-      if (point.bandTop > 0 && point.worstBackwardError() > point.accuracy)
+      if (point.bandTop > 0 && point.uncertifiedCount() > 0)
         table +=
-            formatted("\n%s: backward errors in the band exceed %.0e, see eigenvalues.csv; raise -modes_count or -flutter_rounds",
-                      parameterText(point.at).c_str(), point.accuracy);
-  if (!analysis.segments.empty() && analysis.segments.front().points.front().bandTop > 0)
-    table +=
-        formatted("\nEigenvalues up to %.5g Hz are corrected to the full-order problem; those above in eigenvalues.csv are not.",
-                  analysis.segments.front().points.front().bandTop / (2 * M_PI));
+            formatted("\n%s: %d eigenvalues could not be certified, see eigenvalues.csv; raise -modes_count or -flutter_rounds",
+                      parameterText(point.at).c_str(), point.uncertifiedCount());
+  if (!analysis.segments.empty() && analysis.segments.front().points.front().bandTop > 0) {
+    double backward = 0, estimate = 0;
+    for (const auto& segment : analysis.segments)
+      for (const auto& point : segment.points) {
+        backward = std::max(backward, point.worstBackwardError());
+        estimate = std::max(estimate, point.worstErrorEstimate());
+      }
+    table += formatted(
+        "\nEigenvalues up to %.5g Hz, of the full-order problem: backward errors up to %.1e, estimated errors |ds|/|s| up to %.1e.",
+        analysis.segments.front().points.front().bandTop / (2 * M_PI), backward, estimate);
+  }
   return table + followedText(analysis);
 }
 

@@ -78,9 +78,7 @@ Problem::Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, const
 /// b with the pressures and the centrifugal forces of this point.
 OwnedVec Problem::load(const Parameters& at) const {
   OwnedVec b = elasticity::nodalVector(mesh_);
-  check(VecCopy(bodies_.load, b));
-  check(VecScale(b, at.pressure));
-  check(VecAXPY(b, at.speed * at.speed - at.pressure, bodies_.centrifugal));
+  check(VecAXPBYPCZ(b, at.pressure, at.speed * at.speed - at.pressure, 0, bodies_.load, bodies_.centrifugal));
   return b;
 }
 
@@ -133,8 +131,6 @@ OwnedVec Problem::displacement(const contact::Transformation& transformation, co
   check(VecAXPY(u, at.pressure, contact_.offset));
   return u;
 }
-
-OwnedVec Problem::displacement(const Parameters& at, Vec x) const { return displacement(transformation_, at, x); }
 
 void Problem::residual(const Parameters& at, Vec x, Vec f) const {
   const OwnedVec u = displacement(at, x);

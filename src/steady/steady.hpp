@@ -56,7 +56,7 @@ class Problem {
   /// Collective. dF/dx, exact, n×n, as a new matrix with the same pattern at every x.
   OwnedMat jacobian(const Parameters& at, Vec x) const;
   /// Collective. u = T x + p u0.
-  OwnedVec displacement(const Parameters& at, Vec x) const;
+  OwnedVec displacement(const Parameters& at, Vec x) const { return displacement(transformation_, at, x); }
 
  private:
   OwnedVec load(const Parameters& at) const;

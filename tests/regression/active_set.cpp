@@ -284,6 +284,7 @@ TEST(ActiveSet, FrictionWithoutSteadyState) {
     EXPECT_EQ(std::count(friction.begin(), friction.end(), 0.5), 21);
     EXPECT_EQ(friction.size(), 42U);
     EXPECT_FALSE(fs::exists(run.folder / "steady_0.9.csv"));
+    EXPECT_NE(contentOf(run.folder / "stability_map.csv").find("\n0.9,1,1,1,,,,,\n"), std::string::npos);
     const auto summary = nlohmann::json::parse(contentOf(run.folder / "summary.json"));
     for (const auto& entry : summary.at("frictions")) {
       const bool exists = entry.at("friction") != 0.9;

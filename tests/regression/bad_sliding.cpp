@@ -34,6 +34,17 @@ TEST(BadSliding, Speed) {
   });
 }
 
+TEST(BadSliding, FactorOfNothing) {
+  const Options unpressed = with(layer, {{"contact_plate_obstacle_displacement", "0,0,0"}});
+  expectExplained({
+      {"damping_of_none", with(layer, {{"flutter_damping", "1,2"}}), {"-flutter_damping", "there is none", "rayleigh"}},
+      {"damping_negative", with(layer, {{"flutter_damping", "-1"}}), {"-flutter_damping", "-1", "a number >= 0"}},
+      {"pressure_of_nothing", with(unpressed, {{"flutter_pressure", "2"}}), {"-flutter_pressure", "nothing does", "-load_<group>"}},
+      {"pressure_zero", with(layer, {{"flutter_pressure", "0,1"}}), {"-flutter_pressure", "0", "a number > 0"}},
+      {"pressure_twice", with(layer, {{"flutter_pressure", "1,1"}}), {"-flutter_pressure", "given twice"}},
+  });
+}
+
 TEST(BadSliding, Motion) {
   const fs::path place = placeFor("bad_sliding");
   writeText(place / "matching.geo", squares("4", "4"));

@@ -26,9 +26,9 @@ const ProgramRun& layerRun() {
 TEST(Outputs, Eigenvalues) {
   ASSERT_EQ(layerRun().exitCode, 0) << layerRun().error;
   const CsvTable table = readCsv(layerRun().folder / "eigenvalues.csv");
-  EXPECT_EQ(
-      table.header,
-      "friction,speed,pressure,damping,mode,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,damping_ratio,backward_error,in_band");
+  EXPECT_EQ(table.header,
+            "friction,speed,pressure,damping,mode,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,damping_ratio,"
+            "backward_error,error_estimate,certified");
   const auto friction = table.column("friction"), mode = table.column("mode"), growth = table.column("growth_rate_1_per_s"),
              angular = table.column("angular_frequency_rad_per_s"), frequency = table.column("frequency_hz"),
              damping = table.column("damping_ratio"), error = table.column("backward_error");
@@ -44,6 +44,31 @@ TEST(Outputs, Eigenvalues) {
     EXPECT_GT(error[i], 0);
     EXPECT_LT(error[i], angular[i] <= band.at(friction[i]) ? 1e-9 : 0.1);  // -flutter_accuracy in the band
   }
+}
+
+// The map says of each point what can be read from the eigenvalues of its band.
+TEST(Outputs, StabilityMap) {
+  const CsvTable map = readCsv(layerRun().folder / "stability_map.csv"), all = readCsv(layerRun().folder / "eigenvalues.csv");
+  EXPECT_EQ(map.header,
+            "friction,speed,pressure,damping,unstable_modes,largest_growth_rate_1_per_s,frequency_hz,worst_backward_error,"
+            "worst_error_estimate");
+  EXPECT_EQ(map.column("friction"), (std::vector<double>{0, 0.2, 0.4}));
+  const auto friction = all.column("friction"), growth = all.column("growth_rate_1_per_s"),
+             angular = all.column("angular_frequency_rad_per_s"), error = all.column("backward_error");
+  for (std::size_t row = 0; row < map.rows.size(); ++row) {
+    double unstable = 0, largest = -INFINITY, frequency = 0, worst = 0;
+    for (std::size_t i = 0; i < friction.size(); ++i) {
+      if (friction[i] != map.column("friction")[row]) continue;
+      unstable += growth[i] > 1e-6 * std::hypot(growth[i], angular[i]);
+      if (growth[i] > largest) largest = growth[i], frequency = angular[i] / (2 * M_PI);
+      worst = std::max(worst, error[i]);
+    }
+    EXPECT_EQ(map.column("unstable_modes")[row], unstable);
+    EXPECT_EQ(map.column("largest_growth_rate_1_per_s")[row], largest);
+    EXPECT_NEAR(map.column("frequency_hz")[row], frequency, 1e-14 * frequency);
+    EXPECT_EQ(map.column("worst_backward_error")[row], worst);
+  }
+  EXPECT_GT(map.column("unstable_modes")[2], 0);
 }
 
 TEST(Outputs, Modes) {

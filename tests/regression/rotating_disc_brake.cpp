@@ -9,11 +9,9 @@ const std::string at = "-options_file options/disc_brake_rotating.yaml -flutter_
 
 std::vector<Complex> eigenvalues(const ProgramRun& run) {
   const CsvTable table = readCsv(run.folder / "eigenvalues.csv");
-  const auto growth = table.column("growth_rate_1_per_s"), frequency = table.column("angular_frequency_rad_per_s"),
-             inBand = table.column("in_band");
+  const auto growth = table.column("growth_rate_1_per_s"), frequency = table.column("angular_frequency_rad_per_s");
   std::vector<Complex> list;
-  for (std::size_t i = 0; i < growth.size(); ++i)
-    if (inBand[i] == 1) list.emplace_back(growth[i], frequency[i]);
+  for (std::size_t i = 0; i < growth.size(); ++i) list.emplace_back(growth[i], frequency[i]);
   return list;
 }
 

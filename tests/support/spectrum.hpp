@@ -78,7 +78,7 @@ inline Errors errors(const std::vector<Complex>& wanted, const std::vector<Compl
 inline double worst(const std::vector<double>& values, std::size_t count) {
   double result = 0;
   for (std::size_t i = 0; i < count; ++i)
-    if (!(values.at(i) <= result)) result = values[i];
+    if (!std::isnan(result) && !(values.at(i) <= result)) result = values[i];
   return result;
 }
 inline double worst(const std::vector<double>& values) { return worst(values, values.size()); }

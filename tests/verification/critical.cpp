@@ -100,8 +100,7 @@ TEST(Track, HoldsTheEigenvaluesOfTheSweep) {
     EXPECT_EQ(inBand(stations.back()), inBand(stations.front()) + followed.branches.entered - followed.branches.left);
     for (const auto& point : segment.points) {
       std::vector<Complex> wanted, found;
-      for (const auto& eigenvalue : point.eigenvalues)
-        if (eigenvalue.inBand) wanted.push_back(eigenvalue.s);
+      for (const auto& eigenvalue : point.eigenvalues) wanted.push_back(eigenvalue.s);
       for (const auto& station : stations)
         for (std::size_t i = 0; station.friction == point.at.friction && i < station.pairs.size(); ++i)
           if (station.inBand[i]) found.push_back(station.pairs[i].s);

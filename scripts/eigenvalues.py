@@ -1,0 +1,74 @@
+"""Tables of eigenvalues: reading them, and telling which eigenvalue of one run is which of another."""
+import csv
+
+import numpy as np
+from scipy.optimize import linear_sum_assignment
+
+PARAMETERS = ("friction", "speed", "pressure", "damping")
+UNSTABLE = 1e-6  # default of -flutter_unstable_tolerance: below this fraction of |s| a growth rate is round-off
+
+
+def read_table(path, needed):
+    """Columns of a table by name; an empty cell is NaN. `needed`: names that must be there."""
+    with open(path, newline="") as file:
+        rows = csv.reader(file)
+        header = next(rows, [])
+        missing = [name for name in needed if name not in header]
+        if missing:
+            raise ValueError(f"{path}: there is no column {', '.join(missing)}")
+        values = np.array([[float(cell or "nan") for cell in row] for row in rows if row]).reshape(-1, len(header))
+    return dict(zip(header, values.T))
+
+
+def rows_where(table, selected):
+    return {name: column[selected] for name, column in table.items()}
+
+
+def read_eigenvalues(path):
+    """eigenvalues.csv with a column `s` of complex eigenvalues."""
+    table = read_table(path, PARAMETERS + ("growth_rate_1_per_s", "angular_frequency_rad_per_s", "backward_error"))
+    table["s"] = table["growth_rate_1_per_s"] + 1j * table["angular_frequency_rad_per_s"]
+    return table
+
+
+def unstable(s, tolerance=UNSTABLE):
+    return s.real > tolerance * np.abs(s)
+
+
+def match(wanted, found, farthest=0.02):
+    """For each wanted eigenvalue the index of the found one that belongs to it, -1 if there is none, by the assignment with the
+    least sum of relative distances. Pairs further apart than `farthest` are none. Where two eigenvalues meet, their order in a sorted
+    list says nothing; the assignment uses none twice, so that a double eigenvalue found once shows."""
+    wanted, found = np.asarray(wanted), np.asarray(found)
+    partner = np.full(len(wanted), -1)
+    if len(wanted) == 0 or len(found) == 0:
+        return partner
+    distance = np.abs(wanted[:, None] - found[None, :]) / np.abs(wanted)[:, None]
+    # Beyond `farthest` all are equally bad: one without partner takes none from the others.
+    rows, columns = linear_sum_assignment(np.minimum(distance, farthest))
+    close = distance[rows, columns] < farthest
+    partner[rows[close]] = columns[close]
+    return partner
+
+
+def compare(exact, found, top, tolerance=UNSTABLE):
+    """How far `found` is from `exact` up to |s| = top. Both lists should reach a little further, for partners at the edge."""
+    exact, found = np.asarray(exact), np.asarray(found)
+    low, mine = exact[np.abs(exact) <= top], found[np.abs(found) <= top]
+    forward, backward = match(low, found), match(mine, exact)
+    paired, s, partner = forward >= 0, low[forward >= 0], found[forward[forward >= 0]]
+    stays_unstable = np.zeros(len(low), bool)
+    stays_unstable[paired] = unstable(partner, tolerance)
+    is_unstable = np.zeros(len(mine), bool)
+    is_unstable[backward >= 0] = unstable(exact[backward[backward >= 0]], tolerance)
+    return {
+        "exact": len(low),
+        "found": len(mine),
+        "without_partner": int(np.sum(~paired) + np.sum(backward < 0)),
+        "exact_unstable": int(np.sum(unstable(low, tolerance))),
+        "found_unstable": int(np.sum(unstable(mine, tolerance))),
+        "missed": int(np.sum(unstable(low, tolerance) & ~stays_unstable)),
+        "invented": int(np.sum(unstable(mine, tolerance) & ~is_unstable)),
+        "relative_error": float(np.max(np.abs(partner - s) / np.abs(s), initial=0)),
+        "growth_error": float(np.max(np.abs(partner.real - s.real), initial=0)),
+    }

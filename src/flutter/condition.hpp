@@ -1,0 +1,15 @@
+#pragma once
+/// How far residuals move eigenvalues: condition numbers by left eigenvectors.
+#include <vector>
+
+#include "flutter/dense.hpp"
+
+namespace squeal::flutter {
+
+/// For each pair (with left vectors) the number κ of |δs|/|s| ≤ κ ‖e‖ ‖r‖, to first order, for a residual r = P(s) d of the full problem
+/// and an error e of the left vector in energy: δs = −yᴴr / (yᴴP'(s)d), P' = 2sM + Z, and where Vᵀr = 0 only the part e of y outside
+/// of the basis counts. So κ = 1 / |s yᴴP'd|. Eigenvalues within 1e-6 of each other are taken as one cluster: there yᴴP'd may vanish for
+/// single pairs of a multiple eigenvalue that is well conditioned as a whole. Infinite for a defective eigenvalue.
+std::vector<double> conditionNumbers(const DenseProblem& problem, const std::vector<DensePair>& pairs);
+
+}  // namespace squeal::flutter

@@ -1,0 +1,61 @@
+#pragma once
+/// Terms of a pencil on a growing basis V: their images A V, by this rank's rows, their projections VᵀAV,
+/// and sketches of A V and AᵀV for the norms of residuals.
+#include <complex>
+#include <vector>
+
+#include "flutter/basis.hpp"
+#include "flutter/dense.hpp"
+#include "flutter/images.hpp"
+#include "flutter/pencil.hpp"
+
+namespace squeal::flutter {
+
+/// Which vectors of eigenpairs: V q with P(s) d = 0, or the left ones V y with P(s)ᴴ d = 0.
+enum class Side { right, left };
+
+/// Vectors of some eigenpairs on a basis. A pair that has real vectors and a real s², in a problem without damping, takes one column,
+/// others two.
+struct Coordinates {
+  std::vector<const DensePair*> pairs;
+  std::vector<PetscInt> firstColumn;  ///< [pair], and the end
+  PetscInt columns = 0;
+
+  Coordinates(std::vector<const DensePair*> pairs, bool damped);
+  bool isReal(std::size_t pair) const;
+  /// Real (and imaginary) parts of c s^power q, or c conj(s)^power y, column-major.
+  std::vector<double> times(Side side, int power, double c) const;
+};
+
+class ProjectedTerms {
+ public:
+  /// Collective. Terms [first, last) of the pencil; their matrices are shared. Borrows the basis and its sketch.
+  ProjectedTerms(const Basis& basis, const Pencil& pencil, std::size_t first, std::size_t last);
+  /// Collective. Takes in what the basis has gained.
+  void extend();
+  /// The basis has become V · combinations (its former size × its size).
+  void combine(const DenseMatrix& combinations);
+  /// Adds Σ c_t VᵀA_tV to the matrices of the problem, which are empty or of the size of the basis.
+  void addTo(const Parameters& at, DenseProblem& sum) const;
+  /// Adds P(s) V q to the columns of `result`.
+  void addTo(const Parameters& at, const Coordinates& pairs, Block& result) const;
+  /// Adds the sketch of P(s) V q or P(s)ᴴ V y.
+  void addTo(const Parameters& at, const Coordinates& pairs, Side side, DenseMatrix& sketch) const;
+
+ private:
+  struct Part {
+    Term term;
+    Image image;             // A V
+    OwnedMat transposed;     // Aᵀ; empty where A is symmetric
+    DenseMatrix sketch;      // of A V
+    DenseMatrix leftSketch;  // of AᵀV; empty where A is symmetric
+    DenseMatrix projection;  // VᵀAV, column-major
+    PetscInt columns = 0;    // of V held so far
+  };
+  void extend(Part& part) const;
+  OwnedBV times(Mat matrix, PetscInt first, PetscInt last) const;
+  const Basis& basis_;
+  std::vector<Part> parts_;
+};
+
+}  // namespace squeal::flutter

@@ -1,0 +1,68 @@
+#pragma once
+/// The reduced problem [4.19], corrected until its eigenvalues are those of the full one.
+#include <vector>
+
+#include "flutter/family.hpp"
+#include "flutter/flutter.hpp"
+#include "flutter/projected.hpp"
+
+namespace squeal::flutter {
+
+/// One point of a sweep: the terms that all points share and those of this one.
+struct PointProblem {
+  Parameters at;
+  Pencil pencil;
+};
+
+/// Rayleigh–Ritz on the free modes and, unless `-reduction_basis modal`, on static responses to friction forces and to its own
+/// residuals. The modes alone miss unstable eigenvalues and invent others; K0⁻¹ r for the residuals r of all bad pairs, solved for
+/// together with the real symmetric factorisation that the modes used, gains about a decade a round. A pair is certified once its
+/// full-order backward error is below `-flutter_accuracy` and the estimate of |δs|/|s| below `-flutter_tolerance`. The basis is kept over a
+/// sweep.
+class ReducedProblem {
+ public:
+  /// Collective. Borrows K0 and its solver; shares the terms of `pencil`, which hold at all points. `modes` are M0-orthonormal with ascending
+  /// frequencies.
+  ReducedProblem(const Pencil& pencil, Mat stiffness, KSP solver, const modes::Modes& modes);
+  /// Collective. All points at once: their dense problems are spread over the ranks, their corrections solved for together. Shapes are
+  /// mapped to nodal displacements by `trial` (T).
+  std::vector<FrictionPoint> solve(const std::vector<PointProblem>& batch, Mat trial);
+  /// Collective. The projection on the basis as it is.
+  DenseProblem project(const PointProblem& point) const;
+  /// Collective. Fills the vectors with V q.
+  void expand(const std::vector<std::complex<double>>& q, Vec real, Vec imaginary) const;
+  PetscInt basisSize() const { return basis_.size(); }
+  const Basis& basis() const { return basis_; }
+  WatchedBand band() const;  ///< top 0: no eigenvalue is corrected
+  /// Collective. Adds corrections of the residuals of these pairs, of any points, all solved for together.
+  Improvement improve(const std::vector<std::pair<PointProblem, std::vector<DensePair>>>& located);
+  double bandTop() const { return bandTop_; }  ///< rad/s; 0: no eigenvalue is corrected
+  /// Eigenvalues of a point solved, with right and left vectors in the coordinates of the basis as it is (shorter ones: zero beyond).
+  const std::vector<DensePair>& pairs(const FrictionPoint& point) const { return solved_[point.solvedIndex]; }
+
+ private:
+  struct Work;
+  void addStaticResponses(const Pencil& pencil, const modes::Modes& modes);
+  void extend(const std::vector<Work*>& works);
+  Block residuals(const Work& work, const Coordinates& coordinates) const;
+  Block leftResidual(const Work& work, const DensePair& pair) const;
+  SquaredNorms residualNorms(const Work& work, const Coordinates& coordinates, Side side) const;
+  double errorOf(const Work& work, std::size_t pair) const;
+  double excess(const Work& work, std::size_t pair) const;
+  void judge(Work& work, const DenseProblem& problem) const;
+  Block directions(const Work& work, bool damped) const;
+  void solveDense(const std::vector<Work*>& open);
+  std::vector<Work*> unconfirmed(std::vector<Work>& works);
+  FrictionPoint result(Work& work, Mat trial);
+  void compress();
+  bool inBand(std::complex<double> s) const;
+
+  PetscInt unknowns_ = 0;
+  double bandTop_ = 0, highestMode_ = 0;   // rad/s
+  double rightRatio_ = 1, leftRatio_ = 1;  // Basis::energyRatio of the residuals
+  Basis basis_;
+  ProjectedTerms terms_;
+  std::vector<std::vector<DensePair>> solved_;
+};
+
+}  // namespace squeal::flutter

@@ -1,0 +1,55 @@
+#include "flutter/sketch.hpp"
+
+#include <cmath>
+#include <cstdint>
+
+namespace squeal::flutter {
+namespace {
+
+/// Splitmix64 (Steele, Lea and Flood 2014): 64 random bits from a counter.
+std::uint64_t bits(std::uint64_t counter) {
+  std::uint64_t z = (counter + 1) * 0x9e3779b97f4a7c15u;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return z ^ (z >> 31);
+}
+
+}  // namespace
+
+Sketch::Sketch(BV like, const std::vector<double>& diagonal)
+    : comm_(PetscObjectComm(reinterpret_cast<PetscObject>(like))), signs_(static_cast<PetscInt>(diagonal.size()), 2 * size) {
+  static_assert(size == 64, "one random word a row");
+  PetscInt first = 0;
+  const PetscInt rows = signs_.rows;
+  check(MPI_Exscan(&rows, &first, 1, MPIU_INT, MPI_SUM, comm_));
+  const double unit = 1 / std::sqrt(static_cast<double>(size));
+  for (PetscInt i = 0; i < rows; ++i) {
+    std::uint64_t word = bits(static_cast<std::uint64_t>(first + i));
+    const double weight = std::sqrt(diagonal[static_cast<std::size_t>(i)]);
+    for (PetscInt j = 0; j < size; ++j, word >>= 1) {
+      signs_.column(j)[i] = (word & 1) != 0 ? unit : -unit;
+      signs_.column(size + j)[i] = weight * signs_.column(j)[i];
+    }
+  }
+}
+
+DenseMatrix Sketch::of(const double* x, PetscInt columns) const {
+  return transposedProduct(comm_, signs_.values.data(), signs_.rows, 2 * size, x, columns);
+}
+
+SquaredNorms squaredNorms(const DenseMatrix& sketch) {
+  constexpr auto k = static_cast<std::size_t>(Sketch::size);
+  SquaredNorms norms;
+  for (auto column = sketch.begin(); column != sketch.end(); column += 2 * k) {
+    double euclidean = 0, weighted = 0;
+    for (std::size_t i = 0; i < k; ++i) {
+      euclidean += column[static_cast<std::ptrdiff_t>(i)] * column[static_cast<std::ptrdiff_t>(i)];
+      weighted += column[static_cast<std::ptrdiff_t>(k + i)] * column[static_cast<std::ptrdiff_t>(k + i)];
+    }
+    norms.euclidean.push_back(euclidean);
+    norms.weighted.push_back(weighted);
+  }
+  return norms;
+}
+
+}  // namespace squeal::flutter
