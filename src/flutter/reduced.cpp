@@ -398,8 +398,13 @@ Improvement ReducedProblem::improve(const std::vector<std::pair<PointProblem, st
     judge(work, project(point));
     result.backwardError.push_back(*std::max_element(work.backwardError.begin(), work.backwardError.end()));
     if (result.backwardError.back() < rounding) continue;
-    const Block columns = residuals(work, Coordinates(pointers(pairs), true));
-    append(wanted, unitColumns(columns, squaredNorms(basis_.sketch().of(columns.values.data(), columns.columns)).euclidean));
+    // Both parts of a residual in units of the whole: one of them may be rounding.
+    const Coordinates coordinates(pointers(pairs), true);
+    const Block columns = residuals(work, coordinates);
+    const auto squares = perPair(coordinates, squaredNorms(basis_.sketch().of(columns.values.data(), columns.columns)).euclidean);
+    for (std::size_t j = 0; j < pairs.size(); ++j)
+      for (auto c = coordinates.firstColumn[j]; c < coordinates.firstColumn[j + 1]; ++c)
+        wanted.append(columns.column(c), 1 / std::sqrt(squares[j]));
   }
   result.changed = wanted.columns > 0 && basis_.add(principal(basis_.comm(), wanted, resolution)) > 0;
   terms_.extend();
