@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "flutter/influence.hpp"
 #include "matrices/matrices.hpp"
@@ -156,6 +157,35 @@ void examineShapes(const Analysis& analysis, const contact::AssociatedSystem& sy
                          static_cast<int>(point.sensitivities.size()), error));
 }
 
+/// The terms of any point with the active set of `reference`; none: it has another one, or no steady state.
+class PointSource {
+ public:
+  PointSource(const Analysis& analysis, const contact::AssociatedSystem& system, const steady::Solution& reference, Mat prestress,
+              CurrentSystem& current)
+      : analysis_(analysis), system_(system), reference_(reference), prestress_(prestress), current_(current) {}
+
+  std::optional<std::vector<flutter::Term>> operator()(Parameters at) {
+    at.damping = 1;
+    const auto known =
+        std::find_if(analysis_.steady.begin(), analysis_.steady.end(), [&](const auto& solution) { return solution.at == at; });
+    if (known != analysis_.steady.end()) return of(*known);
+    if (!problem_) problem_ = std::make_unique<steady::Problem>(*analysis_.mesh, analysis_.bodies, analysis_.contact);
+    return of(problem_->solve(at, current_.of(reference_.closed)));
+  }
+
+ private:
+  std::optional<std::vector<flutter::Term>> of(const steady::Solution& solution) const {
+    if (!solution.converged || !sameOnAllRanks(analysis_.mesh->comm, solution.closed, reference_.closed)) return {};
+    return termsOf(analysis_, system_, solution, reference_, prestress_);
+  }
+  const Analysis& analysis_;
+  const contact::AssociatedSystem& system_;
+  const steady::Solution& reference_;
+  Mat prestress_;
+  CurrentSystem& current_;
+  std::unique_ptr<steady::Problem> problem_;
+};
+
 /// Modes of one active set, then flutter at the points from `first` to `last` that share it.
 ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::size_t last, CurrentSystem& current,
                             flutter::Influences& influences, double& floor) {
@@ -168,7 +198,8 @@ ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::si
   }
   const contact::AssociatedSystem& system = stressed ? *stressed : current.of(closed);
   SegmentProblem problem{
-      system.k0(), system.m0(), [&] { return system.solver(); }, system.transformation().trial, modes::wantedCount(), {}, {}, {}};
+      system.k0(), system.m0(), [&] { return system.solver(); }, system.transformation().trial, modes::wantedCount(), {}, {},
+      {},          {}};
   for (std::size_t i = first; i < last; ++i) problem.steadyPoints.push_back(analysis.steady[i].at);
   problem.termsAt = [&](std::size_t i) {
     return termsOf(analysis, system, analysis.steady[first + i], analysis.steady[first], prestress);
@@ -179,6 +210,8 @@ ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::si
   };
   flutter::Pencil pencil = flutter::affineTerms(analysis.contact, system);
   if (matrices::exportWanted()) matrices::exportPencil(pencil.with(problem.termsAt(0)), analysis.sweep, last - first);
+  PointSource source(analysis, system, analysis.steady[first], prestress, current);
+  problem.termsOf = [&](const Parameters& at) { return source(at); };
   ModalSegment segment = solveSegment(problem, std::move(pencil), analysis.sweep.dampings, floor);
   segment.openNodes = system.openNodes();
   return segment;
@@ -223,7 +256,7 @@ Analysis analyseMatrices(MPI_Comm comm) {
   check(MatGetLocalSize(system.k0(), &local, nullptr));
   check(MatCreateConstantDiagonal(comm, local, local, PETSC_DETERMINE, PETSC_DETERMINE, 1, identity.out()));
   const int modes = static_cast<int>(std::min<PetscInt>(modes::wantedCount(), system.size()));
-  const SegmentProblem problem{system.k0(), system.m0(), [&] { return system.solver(); }, identity, modes, points, {}, {}};
+  const SegmentProblem problem{system.k0(), system.m0(), [&] { return system.solver(); }, identity, modes, points, {}, {}, {}};
   analysis.segments.push_back(solveSegment(problem, std::move(pencil), analysis.sweep.dampings, analysis.modesFloorSeconds));
   return analysis;
 }

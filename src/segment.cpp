@@ -82,7 +82,9 @@ class SegmentSweep {
       std::vector<flutter::PointProblem> problems;
       for (std::size_t i : batch) {
         const std::size_t steady = i % problem_.steadyPoints.size();
-        problems.push_back({points_[i], pencil_.with(problem_.termsAt ? problem_.termsAt(steady) : std::vector<flutter::Term>())});
+        auto terms = problem_.termsAt ? problem_.termsAt(steady) : std::vector<flutter::Term>();
+        affine_ = affine_ && terms.empty();
+        problems.push_back({points_[i], pencil_.with(std::move(terms))});
       }
       solveBatch(batch, problems, segment);
       for (std::size_t i = 0; i < batch.size() && problem_.examine; ++i)
@@ -90,6 +92,29 @@ class SegmentSweep {
                          segment.points[batch[i]]);
     }
     if (reduced_) segment.solves = reduced_->basis().solves();
+  }
+
+  /// Eigenvalues followed from point to point, and critical frictions.
+  void followPoints(ModalSegment& segment) {
+    if (!reduced_ || !flutter::trackWanted()) return;
+    Stage stage(pencil_.comm(), "track");
+    segment.followed = flutter::followSweep(*reduced_, segment.points, segment.modes, pencil_.comm(), [&](const Parameters& at) {
+      std::optional<flutter::PointProblem> problem;
+      if (affine_) {
+        problem.emplace(flutter::PointProblem{at, pencil_.with({})});
+      } else if (auto terms = problem_.termsOf(at)) {
+        problem.emplace(flutter::PointProblem{at, pencil_.with(std::move(*terms))});
+      }
+      return problem;
+    });
+    std::size_t branches = 0, stations = 0, criticals = 0;
+    for (const auto& followed : segment.followed) {
+      branches += static_cast<std::size_t>(followed.branches.count);
+      stations += followed.branches.stations.size();
+      criticals += followed.criticals.size();
+    }
+    stage.finish(formatted("%zu branches followed over %zu frictions, %zu critical frictions, basis of %d", branches, stations,
+                           criticals, static_cast<int>(reduced_->basisSize())));
   }
 
  private:
@@ -120,6 +145,7 @@ class SegmentSweep {
   std::vector<Parameters> points_;
   modes::Modes forLeftVectors_;  // with the direct method, which has no modes of its own
   std::unique_ptr<flutter::ReducedProblem> reduced_;
+  bool affine_ = true;  // no point has terms of its own
 };
 
 }  // namespace
@@ -131,6 +157,7 @@ ModalSegment solveSegment(const SegmentProblem& problem, flutter::Pencil pencil,
   SegmentSweep sweep(problem, std::move(pencil), dampings);
   sweep.computeModes(segment, floor);
   sweep.solvePoints(segment);
+  sweep.followPoints(segment);
   return segment;
 }
 

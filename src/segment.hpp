@@ -2,9 +2,11 @@
 /// The algebraic part of the method, from K0, M0 and the terms of the pencil to the eigenvalues of a sweep: the same for a mesh and for
 /// matrices from files.
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "flutter/flutter.hpp"
+#include "flutter/followed.hpp"
 #include "flutter/left.hpp"
 #include "modes/modes.hpp"
 
@@ -17,6 +19,7 @@ struct ModalSegment {
   modes::Modes modes;                          ///< empty with the direct method
   std::vector<OwnedVec> shapes;                ///< the first `-report_modes` modes in nodal displacements, largest entry 1
   std::vector<flutter::FrictionPoint> points;  ///< for each damping factor all steady points
+  std::vector<flutter::Followed> followed;     ///< for each speed, pressure and damping
   long solves = 0;                             ///< right-hand sides solved for to correct the basis and to estimate errors
 };
 
@@ -29,6 +32,8 @@ struct SegmentProblem {
   std::vector<Parameters> steadyPoints;  ///< for all damping factors
   /// The terms that belong to steadyPoints[i] alone; none: there are none.
   std::function<std::vector<flutter::Term>(std::size_t)> termsAt;
+  /// The terms that belong to any point alone, between those of the sweep, where termsAt gives any; none: it cannot be had.
+  std::function<std::optional<std::vector<flutter::Term>>(const Parameters&)> termsOf;
   /// What else is to be found of steadyPoints[i], given its pencil and a space for left vectors to start from; none: nothing.
   std::function<void(std::size_t, const flutter::Pencil&, const flutter::StartSpace&, flutter::FrictionPoint&)> examine;
 };

@@ -231,9 +231,6 @@ std::vector<DensePair> solveQuadratic(const DenseMatrix& mass, const DenseMatrix
   return solveQuadratic({mass, damping, stiffness, m}, vectors);
 }
 
-namespace {
-
-/// One message for all pairs.
 void shareFrom(int root, MPI_Comm comm, std::vector<DensePair>& pairs, int m, Vectors vectors) {
   int count = static_cast<int>(pairs.size());
   check(MPI_Bcast(&count, 1, MPI_INT, root, comm));
@@ -253,8 +250,6 @@ void shareFrom(int root, MPI_Comm comm, std::vector<DensePair>& pairs, int m, Ve
     pairs.push_back({*entry, {q, left}, {left, end}});
   }
 }
-
-}  // namespace
 
 std::vector<std::vector<DensePair>> solveSpread(MPI_Comm comm, const std::vector<DenseProblem>& problems, Vectors vectors,
                                                 const std::function<bool(Complex)>& wanted) {

@@ -43,4 +43,7 @@ std::vector<std::vector<DensePair>> solveSpread(MPI_Comm comm, const std::vector
 std::vector<DensePair> solveTogether(MPI_Comm comm, const DenseMatrix& mass, const DenseMatrix& damping,
                                      const DenseMatrix& stiffness, int m, Vectors vectors = Vectors::right);
 
+/// Collective. The pairs of rank `root`, vectors of m entries, to all; one message.
+void shareFrom(int root, MPI_Comm comm, std::vector<DensePair>& pairs, int m, Vectors vectors);
+
 }  // namespace squeal::flutter

@@ -5,7 +5,10 @@
 #include <petscblaslapack.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+
+#include "petsc/symmetric.hpp"
 
 namespace squeal::flutter {
 
@@ -39,6 +42,29 @@ DenseMatrix transposedProduct(MPI_Comm comm, const double* x, PetscInt rowCount,
 
 DenseMatrix transposedProduct(MPI_Comm comm, const Block& x, const Block& y) {
   return transposedProduct(comm, x.values.data(), x.rows, x.columns, y.values.data(), y.columns);
+}
+
+/// Orthogonal combinations of columns that hold them but for parts of length `small`.
+Block principal(MPI_Comm comm, const Block& columns, double small) {
+  if (columns.columns == 0) return columns;
+  DenseMatrix combinations = transposedProduct(comm, columns, columns);
+  const auto sizes = symmetricEigen(combinations, static_cast<int>(columns.columns));
+  const auto n = static_cast<std::size_t>(columns.columns);
+  std::size_t first = 0;
+  while (first < n && !(sizes[first] > small * small)) ++first;
+  combinations.erase(combinations.begin(), combinations.begin() + static_cast<std::ptrdiff_t>(first * n));
+  Block kept(columns.rows, static_cast<PetscInt>(n - first));
+  multiplyAdd(columns.values.data(), columns.rows, columns.columns, combinations, kept.values);
+  return kept;
+}
+
+/// The columns that have a length, of unit length.
+Block unitColumns(const Block& columns, const std::vector<double>& squares) {
+  Block units(columns.rows);
+  for (PetscInt j = 0; j < columns.columns; ++j)
+    if (const double square = squares[static_cast<std::size_t>(j)]; square > 0)
+      units.append(columns.column(j), 1 / std::sqrt(square));
+  return units;
 }
 
 RowSet::RowSet(Mat matrix) {

@@ -51,6 +51,11 @@ void multiplyAdd(const double* x, PetscInt rows, PetscInt columns, const std::ve
 DenseMatrix transposedProduct(MPI_Comm comm, const double* x, PetscInt rows, PetscInt m, const double* y, PetscInt n);
 DenseMatrix transposedProduct(MPI_Comm comm, const Block& x, const Block& y);
 
+/// Collective. Orthogonal combinations of columns that hold them but for parts of length `small`.
+Block principal(MPI_Comm comm, const Block& columns, double small);
+/// The columns that have a length, of unit length; `squares`: of their lengths.
+Block unitColumns(const Block& columns, const std::vector<double>& squares);
+
 /// The rows of a matrix on this rank that are not empty: a friction operator has rows at the contact nodes alone.
 class RowSet {
  public:

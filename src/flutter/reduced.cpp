@@ -48,20 +48,6 @@ std::vector<const DensePair*> pointers(const std::vector<DensePair>& pairs) {
   return list;
 }
 
-/// Orthogonal combinations of columns that hold them but for parts of length `small`.
-Block principal(MPI_Comm comm, const Block& columns, double small) {
-  if (columns.columns == 0) return columns;
-  DenseMatrix combinations = transposedProduct(comm, columns, columns);
-  const auto sizes = symmetricEigen(combinations, static_cast<int>(columns.columns));
-  const auto n = static_cast<std::size_t>(columns.columns);
-  std::size_t first = 0;
-  while (first < n && !(sizes[first] > small * small)) ++first;
-  combinations.erase(combinations.begin(), combinations.begin() + static_cast<std::ptrdiff_t>(first * n));
-  Block kept(columns.rows, static_cast<PetscInt>(n - first));
-  multiplyAdd(columns.values.data(), columns.rows, columns.columns, combinations, kept.values);
-  return kept;
-}
-
 /// For an undamped problem, pairs that are −s̄ and the conjugate vectors of the pair before: their errors are the same.
 std::vector<bool> mirrorImages(const std::vector<DensePair>& pairs, bool damped) {
   std::vector<bool> mirrored(pairs.size(), false);
@@ -77,15 +63,6 @@ std::vector<double> perPair(const Coordinates& coordinates, const std::vector<do
     for (auto c = coordinates.firstColumn[j]; c < coordinates.firstColumn[j + 1]; ++c)
       sums[j] += squares[static_cast<std::size_t>(c)];
   return sums;
-}
-
-/// The columns that have a length, of unit length.
-Block unitColumns(const Block& columns, const std::vector<double>& squares) {
-  Block units(columns.rows);
-  for (PetscInt j = 0; j < columns.columns; ++j)
-    if (const double square = squares[static_cast<std::size_t>(j)]; square > 0)
-      units.append(columns.column(j), 1 / std::sqrt(square));
-  return units;
 }
 
 }  // namespace
@@ -298,22 +275,24 @@ std::vector<ReducedProblem::Work*> ReducedProblem::unconfirmed(std::vector<Work>
   return open;
 }
 
+ReducedProblem::Work ReducedProblem::begun(const PointProblem& point) const {
+  const auto& pencil = point.pencil;
+  return {&point,
+          ProjectedTerms(basis_, pencil, pencil.affineCount(), pencil.terms().size()),
+          pencil.hasPower(1),
+          {pencil.norm(0, point.at), pencil.norm(1, point.at), pencil.norm(2, point.at)},
+          {},
+          {},
+          {},
+          {},
+          {},
+          Block(0)};
+}
+
 std::vector<FrictionPoint> ReducedProblem::solve(const std::vector<PointProblem>& batch, Mat trial) {
   std::vector<Work> works;
   std::vector<Work*> open;
-  for (const auto& point : batch) {
-    const auto& pencil = point.pencil;
-    works.push_back({&point,
-                     ProjectedTerms(basis_, pencil, pencil.affineCount(), pencil.terms().size()),
-                     pencil.hasPower(1),
-                     {pencil.norm(0, point.at), pencil.norm(1, point.at), pencil.norm(2, point.at)},
-                     {},
-                     {},
-                     {},
-                     {},
-                     {},
-                     Block(0)});
-  }
+  for (const auto& point : batch) works.push_back(begun(point));
   for (auto& work : works) open.push_back(&work);
   const PetscInt largest = std::min(basis_.size() + static_cast<PetscInt>(growthOption.get()), unknowns_);
   for (int round = 0; !open.empty(); ++round) {
@@ -360,6 +339,30 @@ DenseProblem ReducedProblem::project(const PointProblem& point) const {
   ProjectedTerms(basis_, point.pencil, point.pencil.affineCount(), point.pencil.terms().size()).addTo(point.at, problem);
   return problem;
 }
+
+Improvement ReducedProblem::improve(const std::vector<std::pair<PointProblem, std::vector<DensePair>>>& located) {
+  Improvement result;
+  Block wanted(basis_.localRows());
+  for (const auto& [point, pairs] : located) {
+    Work work = begun(point);
+    work.pairs = pairs;
+    judge(work, project(point));
+    result.backwardError.push_back(*std::max_element(work.backwardError.begin(), work.backwardError.end()));
+    if (result.backwardError.back() < rounding) continue;
+    // Both parts of a residual in units of the whole: one of them may be rounding.
+    const Coordinates coordinates(pointers(pairs), true);
+    const Block columns = residuals(work, coordinates);
+    const auto squares = perPair(coordinates, squaredNorms(basis_.sketch().of(columns.values.data(), columns.columns)).euclidean);
+    for (std::size_t j = 0; j < pairs.size(); ++j)
+      for (auto c = coordinates.firstColumn[j]; c < coordinates.firstColumn[j + 1]; ++c)
+        wanted.append(columns.column(c), 1 / std::sqrt(squares[j]));
+  }
+  result.changed = wanted.columns > 0 && basis_.add(principal(basis_.comm(), wanted, resolution)) > 0;
+  terms_.extend();
+  return result;
+}
+
+WatchedBand ReducedProblem::band() const { return {bandTop_, 1.3, bandDampingOption.get()}; }
 
 bool ReducedProblem::inBand(std::complex<double> s) const {
   return std::abs(s) <= bandTop_ && -s.real() <= bandDampingOption.get() * std::abs(s);

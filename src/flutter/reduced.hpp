@@ -2,6 +2,7 @@
 /// The reduced problem [4.19], corrected until its eigenvalues are those of the full one.
 #include <vector>
 
+#include "flutter/family.hpp"
 #include "flutter/flutter.hpp"
 #include "flutter/projected.hpp"
 
@@ -32,6 +33,9 @@ class ReducedProblem {
   void expand(const std::vector<std::complex<double>>& q, Vec real, Vec imaginary) const;
   PetscInt basisSize() const { return basis_.size(); }
   const Basis& basis() const { return basis_; }
+  WatchedBand band() const;  ///< top 0: no eigenvalue is corrected
+  /// Collective. Adds corrections of the residuals of these pairs, of any points, all solved for together.
+  Improvement improve(const std::vector<std::pair<PointProblem, std::vector<DensePair>>>& located);
   double bandTop() const { return bandTop_; }  ///< rad/s; 0: no eigenvalue is corrected
   /// Eigenvalues of a point solved, with right and left vectors in the coordinates of the basis as it is (shorter ones: zero beyond).
   const std::vector<DensePair>& pairs(const FrictionPoint& point) const { return solved_[point.solvedIndex]; }
@@ -39,6 +43,7 @@ class ReducedProblem {
  private:
   struct Work;
   void addStaticResponses(const Pencil& pencil, const modes::Modes& modes);
+  Work begun(const PointProblem& point) const;
   void extend(const std::vector<Work*>& works);
   Block residuals(const Work& work, const Coordinates& coordinates) const;
   Block leftResidual(const Work& work, const Coordinates& pair) const;

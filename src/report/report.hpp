@@ -43,6 +43,10 @@ void writeFields(const Analysis& analysis, const std::filesystem::path& folder);
 std::string sensitivityTable(const Analysis& analysis);
 /// Collective. What friction on each interface adds to the growth rates of the complex modes kept (flutter::frictionWork).
 std::string frictionWorkTable(const Analysis& analysis);
+/// branches.csv, critical.csv, and what the terminal says of both.
+std::string branchTable(const Analysis& analysis);
+std::string criticalTable(const Analysis& analysis);
+std::string followedText(const Analysis& analysis);
 /// Frequencies and growth rates of the unstable modes at each friction.
 std::string stabilityTable(const Analysis& analysis);
 

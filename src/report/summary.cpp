@@ -58,6 +58,20 @@ Json unstableModes(const flutter::FrictionPoint& point) {
   return list;
 }
 
+Json followedEntry(const flutter::Followed& followed) {
+  Json entry = {
+      {"speed", followed.line.speed},         {"pressure", followed.line.pressure}, {"damping", followed.line.damping},
+      {"branches", followed.branches.count},  {"complete", followed.complete()},    {"sturm_count_exact", followed.countExact},
+      {"entered", followed.branches.entered}, {"left", followed.branches.left},     {"statement", followed.statement()}};
+  entry["uncertain"] = Json::array();
+  for (const auto& gap : followed.branches.gaps)
+    entry["uncertain"].push_back(
+        {{"from_friction", gap.from}, {"to_friction", gap.to}, {"what", gap.what}, {"identity_only", gap.identityOnly}});
+  entry["critical_frictions"] = Json::array();
+  for (const auto& critical : followed.criticals) entry["critical_frictions"].push_back(critical.friction);
+  return entry;
+}
+
 Json parametersEntry(const Parameters& at) {
   Json entry;
   for (const auto& parameter : allParameters) entry[parameter.name] = at.*parameter.value;
@@ -117,6 +131,7 @@ void writeSummary(const Analysis& analysis, const std::filesystem::path& folder)
       entry["sturm_count"] = {{"shift_rad2_per_s2", segment.modes.inertiaShift},
                               {"eigenvalues_below", segment.modes.inertiaCount},
                               {"confirmed", segment.modes.countConfirmed}};
+    for (const auto& followed : segment.followed) entry["followed"].push_back(followedEntry(followed));
     summary["active_sets"].push_back(entry);
   }
   double total = 0;

@@ -152,6 +152,10 @@ void writeTables(const Analysis& analysis, const std::filesystem::path& folder) 
   if (flutter::sensitivitiesWanted()) writeFile(comm, folder / "sensitivities.csv", sensitivityTable(analysis));
   writeFile(comm, folder / "friction_work.csv", frictionWorkTable(analysis));
   writeFile(comm, folder / "stability_map.csv", stabilityMap(analysis));
+  if (flutter::trackWanted()) {
+    writeFile(comm, folder / "branches.csv", branchTable(analysis));
+    writeFile(comm, folder / "critical.csv", criticalTable(analysis));
+  }
   for (std::size_t s = 0; s < analysis.segments.size(); ++s) {
     if (analysis.segments[s].modes.angularFrequency.empty()) continue;
     // modes.csv: the first active set; each later one has its own file, named by its first point.
@@ -206,7 +210,7 @@ std::string stabilityTable(const Analysis& analysis) {
              formatted(", of the full-order problem: backward errors up to %.1e, estimated errors |ds|/|s| up to %.1e.", backward,
                        estimate);
   }
-  return table;
+  return table + followedText(analysis);
 }
 
 }  // namespace squeal::report

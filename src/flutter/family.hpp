@@ -1,0 +1,41 @@
+#pragma once
+/// Dense problems that depend on the friction: small models, or a large pencil in a reduced basis that may grow.
+#include <optional>
+
+#include "flutter/dense.hpp"
+
+namespace squeal::flutter {
+
+/// Pairs found at one friction.
+struct Located {
+  double friction = 0;
+  std::vector<DensePair> pairs;
+};
+
+/// What a large problem says of pairs of its reduced one.
+struct Improvement {
+  bool changed = false;               ///< the basis has grown: the pairs are to be solved for again
+  std::vector<double> backwardError;  ///< [located] the largest, of the large problem; empty: there is no larger problem
+};
+
+class Family {
+ public:
+  virtual ~Family() = default;
+  virtual MPI_Comm comm() const = 0;
+  /// Collective. The problem at one friction in the basis in force, the same on all ranks; none where it cannot be had, for example
+  /// because the contact opens.
+  virtual std::optional<DenseProblem> at(double friction) = 0;
+  /// Collective. Adds to the basis what the residuals of these pairs ask for, all together.
+  virtual Improvement improve(const std::vector<Located>&) { return {}; }
+};
+
+/// The eigenvalues that a run is about, and those watched beside them.
+struct WatchedBand {
+  double top = 1e300;    ///< rad/s, of |s|
+  double guard = 1.3;    ///< eigenvalues are watched up to this multiple of `top`
+  double damping = 0.5;  ///< largest damping ratio
+  bool contains(std::complex<double> s) const { return std::abs(s) <= top && -s.real() <= damping * std::abs(s); }
+  bool watches(std::complex<double> s) const { return std::abs(s) <= guard * top; }
+};
+
+}  // namespace squeal::flutter

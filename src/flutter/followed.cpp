@@ -1,0 +1,162 @@
+#include "flutter/followed.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "petsc/options.hpp"
+#include "petsc/text.hpp"
+
+namespace squeal::flutter {
+namespace {
+
+const FlagOption trackOption(
+    "flutter", "flutter_track", true,
+    "follow the eigenvalues of the band over the friction by left and right vectors, through crossings and "
+    "mergers: branches.csv; reduced method alone");
+const FlagOption criticalOption("flutter", "flutter_critical", true,
+                                "solve for the frictions at which stability changes: critical.csv; needs -flutter_track");
+const RealOption toleranceOption("flutter", "flutter_critical_tolerance", 1e-8, "", positive,
+                                 "the basis is improved for a critical friction until it moves by less than this part of itself");
+const IntegerOption halvingsOption("flutter", "flutter_track_halvings", 10, 0,
+                                   "how often a step of the sweep may be halved where a continuation is not certain");
+
+/// One line of the sweep in the reduced basis.
+class ReducedFamily : public Family {
+ public:
+  ReducedFamily(ReducedProblem& reduced, MPI_Comm comm, const Parameters& line, const ProblemSource& problemAt)
+      : reduced_(reduced), comm_(comm), line_(line), problemAt_(problemAt) {}
+  MPI_Comm comm() const override { return comm_; }
+
+  std::optional<DenseProblem> at(double friction) override {
+    const auto terms = problemAt_(point(friction));
+    if (!terms) return {};
+    DenseProblem problem = reduced_.project(*terms);
+    // Sums over the ranks, whose rounding may depend on the rank; what follows from them must not.
+    for (auto* matrix : {&problem.mass, &problem.damping, &problem.stiffness})
+      check(MPI_Bcast(matrix->data(), static_cast<int>(matrix->size()), MPI_DOUBLE, 0, comm_));
+    return problem;
+  }
+
+  Improvement improve(const std::vector<Located>& located) override {
+    std::vector<std::pair<PointProblem, std::vector<DensePair>>> list;
+    for (const auto& item : located) list.emplace_back(problemAt_(point(item.friction)).value(), item.pairs);
+    return reduced_.improve(list);
+  }
+
+ private:
+  Parameters point(double friction) const {
+    Parameters at = line_;
+    at.friction = friction;
+    return at;
+  }
+  ReducedProblem& reduced_;
+  MPI_Comm comm_;
+  Parameters line_;
+  const ProblemSource& problemAt_;
+};
+
+/// Drops what is watched beside the band alone, and numbers the rest.
+void renumber(Followed& followed) {
+  auto& [band, stations, events, gaps, count, entered, left] = followed.branches;
+  std::map<int, int> number;
+  for (const auto& station : stations)
+    for (std::size_t i = 0; i < station.pairs.size(); ++i)
+      if (station.inBand[i]) number.emplace(station.branch[i], 0);
+  int next = 0;
+  for (const auto& station : stations)
+    for (int branch : station.branch) {
+      const auto entry = number.find(branch);
+      if (entry != number.end() && entry->second == 0) entry->second = ++next;
+    }
+  count = next;
+  const auto of = [&](int branch) {
+    const auto entry = number.find(branch);
+    return entry == number.end() ? 0 : entry->second;
+  };
+  for (auto& station : stations)
+    for (int& branch : station.branch) branch = of(branch);
+  for (auto& critical : followed.criticals) {
+    critical.branch = of(critical.branch);
+    critical.partner = critical.partner < 0 ? 0 : of(critical.partner);
+  }
+  std::erase_if(followed.criticals, [](const Critical& critical) { return critical.branch == 0; });
+}
+
+/// Vectors have done their service, and there are many.
+void dropVectors(Branches& branches) {
+  for (auto& station : branches.stations)
+    for (auto& pair : station.pairs) pair = {pair.s, {}};
+  branches.events.clear();
+}
+
+/// The frictions of points that differ in nothing else, ascending; [line].
+std::vector<std::pair<Parameters, std::vector<double>>> lines(const std::vector<FrictionPoint>& points) {
+  std::vector<std::pair<Parameters, std::vector<double>>> found;
+  for (const auto& point : points) {
+    Parameters line = point.at;
+    line.friction = 0;
+    if (found.empty() || !(found.back().first == line)) found.push_back({line, {}});
+    found.back().second.push_back(point.at.friction);
+  }
+  return found;
+}
+
+}  // namespace
+
+bool trackWanted() { return trackOption.get() && !directWanted(); }
+
+bool Followed::complete() const {
+  return std::all_of(branches.gaps.begin(), branches.gaps.end(), [](const Gap& gap) { return gap.identityOnly; });
+}
+
+std::string Followed::statement() const {
+  const auto& stations = branches.stations;
+  if (stations.empty()) return "completeness not shown: no reduced problem";
+  const auto& first = stations.front();
+  const auto& last = stations.back();
+  std::string text = formatted("%d eigenvalues in the band at friction %g (%s); ", branches.inBandAt(first), first.friction,
+                               countExact ? "Sturm count, exact" : "of the reduced problem, not confirmed by a Sturm count");
+  if (complete()) {
+    text += formatted("all followed to friction %g, where there are %d: %d entered and %d left across the edge", last.friction,
+                      branches.inBandAt(last), branches.entered, branches.left);
+  } else {
+    text += "not all followed:";
+    for (const auto& gap : branches.gaps)
+      if (!gap.identityOnly) text += formatted(" [%g to %g: %s]", gap.from, gap.to, gap.what.c_str());
+  }
+  return text + "; assumed: the basis holds every eigenvalue of the full problem that crosses the edge of the band";
+}
+
+std::vector<Followed> followSweep(ReducedProblem& reduced, const std::vector<FrictionPoint>& points, const modes::Modes& modes,
+                                  MPI_Comm comm, const ProblemSource& problemAt) {
+  std::vector<Followed> result;
+  if (reduced.band().top == 0) return result;
+  for (auto [line, frictions] : lines(points)) {
+    const bool swept = frictions.front() == 0;
+    if (!swept) frictions.insert(frictions.begin(), 0);
+    if (frictions.size() < 2) continue;
+    ReducedFamily family(reduced, comm, line, problemAt);
+    Followed followed;
+    followed.line = line;
+    TrackLimits limits;
+    limits.smallest = std::ldexp(1.0, -halvingsOption.get());
+    followed.branches = follow(family, frictions, reduced.band(), limits);
+    auto& stations = followed.branches.stations;
+    if (!stations.empty() && stations.front().friction == 0) {
+      stations.front().swept = swept;
+      const auto& w = modes.angularFrequency;
+      const auto below = std::count_if(w.begin(), w.end(), [&](double omega) { return omega <= followed.branches.band.top; });
+      const auto problem = family.at(0);
+      followed.countExact = problem && problem->damping.empty() && modes.countConfirmed &&
+                            below < static_cast<std::ptrdiff_t>(w.size()) && below == followed.branches.inBandAt(stations.front());
+    }
+    if (criticalOption.get()) followed.criticals = criticalFrictions(family, followed.branches, toleranceOption.get());
+    renumber(followed);
+    dropVectors(followed.branches);
+    result.push_back(std::move(followed));
+  }
+  return result;
+}
+
+}  // namespace squeal::flutter

@@ -1,0 +1,37 @@
+#pragma once
+/// The sweep over friction as a whole: its eigenvalues followed from point to point, their critical frictions, and what can be said
+/// of their number.
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "flutter/critical.hpp"
+#include "flutter/reduced.hpp"
+
+namespace squeal::flutter {
+
+/// All frictions of one speed, pressure and damping with one active set.
+struct Followed {
+  Parameters line;                  ///< but for the friction
+  Branches branches;                ///< those in the band at some friction, numbered from 1 by their first frequency
+  std::vector<Critical> criticals;  ///< of these, by friction
+  bool countExact = false;          ///< the number at the first friction, 0, is that of the Sturm count
+
+  /// Every eigenvalue of the band is accounted for at every friction.
+  bool complete() const;
+  /// What is shown of the number of eigenvalues, and what is assumed; one sentence.
+  std::string statement() const;
+};
+
+using ProblemSource = std::function<std::optional<PointProblem>(const Parameters&)>;
+
+/// `-flutter_track`, for the reduced method with a band.
+bool trackWanted();
+
+/// Collective. Follows the eigenvalues of `points`, from friction 0 on, in the basis in force, and solves for the critical frictions
+/// (`-flutter_critical`), for which the basis may grow. `problemAt(at)`: the terms of a point; none: there is no steady state with this
+/// active set.
+std::vector<Followed> followSweep(ReducedProblem& reduced, const std::vector<FrictionPoint>& points, const modes::Modes& modes,
+                                  MPI_Comm comm, const ProblemSource& problemAt);
+
+}  // namespace squeal::flutter

@@ -1,0 +1,86 @@
+/// Tables of the followed eigenvalues and of the critical frictions.
+#include <cmath>
+
+#include "petsc/text.hpp"
+#include "report/report.hpp"
+
+namespace squeal::report {
+namespace {
+
+const char* kindName(flutter::Event::Kind kind) {
+  switch (kind) {
+    case flutter::Event::Kind::coalescence:
+      return "coalescence";
+    case flutter::Event::Kind::crossing:
+      return "hopf";
+    case flutter::Event::Kind::divergence:
+      return "divergence";
+  }
+  return "";
+}
+
+/// action(number of the active set from 1, what was followed there).
+template <class Action>
+void forAllFollowed(const Analysis& analysis, const Action& action) {
+  for (std::size_t s = 0; s < analysis.segments.size(); ++s)
+    for (const auto& followed : analysis.segments[s].followed) action(s + 1, followed);
+}
+
+std::string parametersAt(Parameters at, double friction) {
+  at.friction = friction;
+  return parameterValues(at);
+}
+
+}  // namespace
+
+std::string branchTable(const Analysis& analysis) {
+  std::string table = "active_set,branch," + parameterColumns() +
+                      ",growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,overlap,in_band,swept\n";
+  forAllFollowed(analysis, [&](std::size_t set, const flutter::Followed& followed) {
+    for (int branch = 1; branch <= followed.branches.count; ++branch)
+      for (const auto& station : followed.branches.stations)
+        for (std::size_t i = 0; i < station.pairs.size(); ++i) {
+          if (station.branch[i] != branch) continue;
+          const auto s = station.pairs[i].s;
+          table += formatted("%zu,%d,", set, branch) + parametersAt(followed.line, station.friction) +
+                   formatted(",%.15e,%.15e,%.15e,%.4f,%d,%d\n", s.real(), s.imag(), s.imag() / (2 * M_PI), station.overlap[i],
+                             station.inBand[i], station.swept ? 1 : 0);
+        }
+  });
+  return table;
+}
+
+std::string criticalTable(const Analysis& analysis) {
+  std::string table = "active_set,branch,partner,kind,direction," + parameterColumns() +
+                      ",frequency_hz,slope,friction_error_estimate,backward_error,converged\n";
+  forAllFollowed(analysis, [&](std::size_t set, const flutter::Followed& followed) {
+    for (const auto& c : followed.criticals)
+      table += formatted("%zu,%d,%d,%s,%s,", set, c.branch, c.partner, kindName(c.kind), c.loss ? "loss" : "regain") +
+               parametersAt(followed.line, c.friction) +
+               formatted(",%.15e,%.6e,%.1e,%.1e,%d\n", c.angularFrequency / (2 * M_PI), c.slope, c.errorEstimate, c.backwardError,
+                         c.converged ? 1 : 0);
+  });
+  return table;
+}
+
+std::string followedText(const Analysis& analysis) {
+  constexpr int shown = 8;
+  std::string text;
+  forAllFollowed(analysis, [&](std::size_t, const flutter::Followed& followed) {
+    int count = 0;
+    for (const auto& c : followed.criticals)
+      if (++count <= shown)
+        text += (count > 1 ? ", " : "\nStability changes at friction ") +
+                formatted("%.8g (%s, %.6g Hz%s)", c.friction, kindName(c.kind), c.angularFrequency / (2 * M_PI),
+                          c.loss ? "" : ", regained");
+    if (count > shown) text += formatted(", and at %d more in critical.csv", count - shown);
+    text += "\nCompleteness";
+    for (const auto& parameter : allParameters)
+      if (parameter.value != &Parameters::friction && followed.line.*parameter.value != 1)
+        text += formatted(", %s %g", parameter.name, followed.line.*parameter.value);
+    text += ": " + followed.statement() + ".";
+  });
+  return text;
+}
+
+}  // namespace squeal::report
