@@ -27,26 +27,29 @@ std::vector<Complex> complexColumn(const std::vector<double>& vectors, std::size
   return column;
 }
 
+std::vector<Complex> conjugated(std::vector<Complex> vector) {
+  for (auto& entry : vector) entry = std::conj(entry);
+  return vector;
+}
+
 /// LAPACK's real storage of conjugate pairs as complex numbers, of each pair the one with Im ≥ 0 and its conjugate.
 std::vector<EigenPair> unpacked(const std::vector<double>& real, const std::vector<double>& imaginary,
-                                const std::vector<double>& beta, const std::vector<double>& right,
-                                const std::vector<double>& left) {
+                                const std::vector<double>& beta, const std::vector<double>& right, const std::vector<double>& left,
+                                const Wanted& wanted) {
   std::vector<EigenPair> pairs;
   const std::size_t n = real.size();
   for (std::size_t j = 0; j < n; ++j) {
     if (beta[j] == 0 && real[j] == 0)
       throw Error("the reduced eigenproblem is singular: mass and stiffness have a common null vector");
     if (beta[j] == 0) continue;  // infinite: a motion without mass
-    const bool conjugates = imaginary[j] != 0;
-    pairs.push_back(
-        {Complex(real[j], imaginary[j]) / beta[j], complexColumn(right, n, j, conjugates), complexColumn(left, n, j, conjugates)});
-    if (!conjugates) continue;
-    EigenPair other = pairs.back();
-    other.value = std::conj(other.value);
-    for (auto* vector : {&other.right, &other.left})
-      for (auto& entry : *vector) entry = std::conj(entry);
-    pairs.push_back(std::move(other));
-    ++j;
+    const Complex value = Complex(real[j], imaginary[j]) / beta[j];
+    const bool conjugates = imaginary[j] != 0, first = wanted(value), second = conjugates && wanted(std::conj(value));
+    if (first || second) {
+      EigenPair pair{value, complexColumn(right, n, j, conjugates), complexColumn(left, n, j, conjugates)};
+      if (second) pairs.push_back({std::conj(value), conjugated(pair.right), conjugated(pair.left)});
+      if (first) pairs.push_back(std::move(pair));
+    }
+    if (conjugates) ++j;
   }
   return pairs;
 }
@@ -59,11 +62,11 @@ struct LapackVectors {
 };
 
 /// All eigenvalues and eigenvectors of A x = μ B x.
-std::vector<EigenPair> generalized(DenseMatrix a, DenseMatrix b, int size, Vectors wanted) {
+std::vector<EigenPair> generalized(DenseMatrix a, DenseMatrix b, int size, Vectors sides, const Wanted& wanted) {
   const auto n = static_cast<std::size_t>(size);
   PetscBLASInt order = size, query = -1, info = 0;
   std::vector<double> real(n), imaginary(n), beta(n), work(1);
-  LapackVectors vectors(n, wanted);
+  LapackVectors vectors(n, sides);
   const auto call = [&](PetscBLASInt length) {
     LAPACKggev_(vectors.leftJob(), "V", &order, a.data(), &order, b.data(), &order, real.data(), imaginary.data(), beta.data(),
                 vectors.left.data(), &order, vectors.right.data(), &order, work.data(), &length, &info);
@@ -72,15 +75,15 @@ std::vector<EigenPair> generalized(DenseMatrix a, DenseMatrix b, int size, Vecto
   work.resize(static_cast<std::size_t>(work[0]));
   call(static_cast<PetscBLASInt>(work.size()));
   if (info != 0) throw Error("LAPACK dggev failed on the reduced eigenproblem (info " + std::to_string(info) + ")");
-  return unpacked(real, imaginary, beta, vectors.right, vectors.left);
+  return unpacked(real, imaginary, beta, vectors.right, vectors.left, wanted);
 }
 
 /// All eigenvalues and eigenvectors of A x = μ x.
-std::vector<EigenPair> standard(DenseMatrix a, int size, Vectors wanted) {
+std::vector<EigenPair> standard(DenseMatrix a, int size, Vectors sides, const Wanted& wanted) {
   const auto n = static_cast<std::size_t>(size);
   PetscBLASInt order = size, query = -1, info = 0;
   std::vector<double> real(n), imaginary(n), work(1);
-  LapackVectors vectors(n, wanted);
+  LapackVectors vectors(n, sides);
   const auto call = [&](PetscBLASInt length) {
     LAPACKgeev_(vectors.leftJob(), "V", &order, a.data(), &order, real.data(), imaginary.data(), vectors.left.data(), &order,
                 vectors.right.data(), &order, work.data(), &length, &info);
@@ -89,7 +92,7 @@ std::vector<EigenPair> standard(DenseMatrix a, int size, Vectors wanted) {
   work.resize(static_cast<std::size_t>(work[0]));
   call(static_cast<PetscBLASInt>(work.size()));
   if (info != 0) throw Error("LAPACK dgeev failed on the reduced eigenproblem (info " + std::to_string(info) + ")");
-  return unpacked(real, imaginary, std::vector<double>(n, 1.0), vectors.right, vectors.left);
+  return unpacked(real, imaginary, std::vector<double>(n, 1.0), vectors.right, vectors.left, wanted);
 }
 
 DenseMatrix sideBySide(const DenseMatrix& left, const DenseMatrix& right) {
@@ -135,16 +138,26 @@ void undoInverse(const DenseMatrix& mass, int m, std::vector<DensePair>& pairs) 
     for (std::size_t i = 0; i < n; ++i) pairs[j].left[i] = {columns[2 * j * n + i], columns[(2 * j + 1) * n + i]};
 }
 
-std::vector<DensePair> linearInSquare(const DenseMatrix& mass, const DenseMatrix& stiffness, int m, Vectors vectors) {
+/// The root of s² = −μ with Im s ≥ 0.
+Complex rootOf(Complex mu) {
+  const Complex s = mu.imag() == 0 && mu.real() >= 0 ? Complex(0, std::sqrt(mu.real())) : std::sqrt(-mu);
+  return s.imag() < 0 ? -s : s;
+}
+
+std::vector<DensePair> linearInSquare(const DenseMatrix& mass, const DenseMatrix& stiffness, int m, Vectors vectors,
+                                      const Wanted& wanted) {
   // K q = μ M q with μ = −s²; both roots ±s are eigenvalues, one of them (two, if real) has Im s ≥ 0.
   const DenseMatrix product = timesInverse(mass, stiffness, m);
-  const auto solved = product.empty() ? generalized(stiffness, mass, m, vectors) : standard(product, m, vectors);
+  const Wanted either = [&](Complex mu) {
+    const Complex s = rootOf(mu);
+    return wanted(s) || (s.imag() == 0 && wanted(-s));
+  };
+  const auto solved = product.empty() ? generalized(stiffness, mass, m, vectors, either) : standard(product, m, vectors, either);
   std::vector<DensePair> pairs;
   for (const auto& [mu, q, left] : solved) {
-    Complex s = mu.imag() == 0 && mu.real() >= 0 ? Complex(0, std::sqrt(mu.real())) : std::sqrt(-mu);
-    if (s.imag() < 0) s = -s;
-    pairs.push_back({s, q, left});
-    if (s.imag() == 0) pairs.push_back({-s, q, left});
+    const Complex s = rootOf(mu);
+    if (wanted(s)) pairs.push_back({s, q, left});
+    if (s.imag() == 0 && wanted(-s)) pairs.push_back({-s, q, left});
   }
   if (vectors == Vectors::both && !product.empty()) undoInverse(mass, m, pairs);
   return pairs;
@@ -161,7 +174,7 @@ DenseMatrix padded(const DenseMatrix& mass, std::size_t m) {
 }
 
 std::vector<DensePair> companion(const DenseMatrix& mass, const DenseMatrix& damping, const DenseMatrix& stiffness, int size,
-                                 Vectors vectors) {
+                                 Vectors vectors, const Wanted& wanted) {
   const auto m = static_cast<std::size_t>(size);
   const auto norm = [](const DenseMatrix& x) { return std::sqrt(std::inner_product(x.begin(), x.end(), x.begin(), 0.0)); };
   const double unit = std::sqrt(norm(stiffness) / norm(mass));  // s = unit ŝ (Fan, Lin and Van Dooren 2004)
@@ -177,13 +190,13 @@ std::vector<DensePair> companion(const DenseMatrix& mass, const DenseMatrix& dam
     }
   }
   std::vector<DensePair> pairs;
+  const Wanted upper = [&](Complex value) { return value.imag() >= 0 && wanted(unit * value); };
   for (const auto& [value, right, left] :
-       product.empty() ? generalized(a, padded(mass, m), 2 * size, vectors) : standard(a, 2 * size, vectors))
-    if (value.imag() >= 0) {
-      const auto half = right.begin() + (std::abs(value) > 1 ? size : 0);  // the larger of q and ŝq
-      // (u, y)ᴴ of the companion form: u = −K̂ᵀ y / conj ŝ, and yᴴ P = 0
-      pairs.push_back({unit * value, {half, half + size}, {left.begin() + (left.empty() ? 0 : size), left.end()}});
-    }
+       product.empty() ? generalized(a, padded(mass, m), 2 * size, vectors, upper) : standard(a, 2 * size, vectors, upper)) {
+    const auto half = right.begin() + (std::abs(value) > 1 ? size : 0);  // the larger of q and ŝq
+    // (u, y)ᴴ of the companion form: u = −K̂ᵀ y / conj ŝ, and yᴴ P = 0
+    pairs.push_back({unit * value, {half, half + size}, {left.begin() + (left.empty() ? 0 : size), left.end()}});
+  }
   if (vectors == Vectors::both && !product.empty()) undoInverse(mass, size, pairs);
   return pairs;
 }
@@ -195,26 +208,26 @@ void normalise(std::vector<Complex>& vector) {
 }
 
 /// From a root t of the reversed polynomial to s = 1/t, or to its conjugate, whose imaginary part is not negative.
-void turnRound(DensePair& pair) {
-  pair.s = 1.0 / std::conj(pair.s);
-  for (auto* vector : {&pair.q, &pair.left})
-    for (auto& entry : *vector) entry = std::conj(entry);
-}
+Complex turnedRound(Complex t) { return 1.0 / std::conj(t); }
 
 }  // namespace
 
-std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vectors) {
+std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vectors, const Wanted& wanted) {
   // The roots of the reversed polynomial, K + t Z + t² M read as t² K + t Z + M with t = 1/s, where K is the better matrix to invert:
   // so it is in a basis that is orthonormal in energy.
   DenseMatrix none;
   const double pivots = solveInPlace(problem.stiffness, none, problem.m);
   const bool reversed = pivots > wellConditioned && pivots > solveInPlace(problem.mass, none, problem.m);
   const auto &leading = reversed ? problem.stiffness : problem.mass, &last = reversed ? problem.mass : problem.stiffness;
-  auto pairs = problem.damping.empty() ? linearInSquare(leading, last, problem.m, vectors)
-                                       : companion(leading, problem.damping, last, problem.m, vectors);
-  if (reversed) {
-    std::erase_if(pairs, [](const DensePair& pair) { return pair.s == 0.0; });  // s is infinite: a motion without mass
-    for (auto& pair : pairs) turnRound(pair);
+  const Wanted root = [&](Complex t) {
+    if (reversed && t == 0.0) return false;  // s is infinite: a motion without mass
+    return !wanted || wanted(reversed ? turnedRound(t) : t);
+  };
+  auto pairs = problem.damping.empty() ? linearInSquare(leading, last, problem.m, vectors, root)
+                                       : companion(leading, problem.damping, last, problem.m, vectors, root);
+  for (auto& pair : pairs) {
+    if (!reversed) break;
+    pair = {turnedRound(pair.s), conjugated(std::move(pair.q)), conjugated(std::move(pair.left))};
   }
   for (auto& pair : pairs) {
     normalise(pair.q);
@@ -252,15 +265,14 @@ void shareFrom(int root, MPI_Comm comm, std::vector<DensePair>& pairs, int m, Ve
 }
 
 std::vector<std::vector<DensePair>> solveSpread(MPI_Comm comm, const std::vector<DenseProblem>& problems, Vectors vectors,
-                                                const std::function<bool(Complex)>& wanted) {
+                                                const Wanted& wanted) {
   int rank = 0, ranks = 1;
   check(MPI_Comm_rank(comm, &rank));
   check(MPI_Comm_size(comm, &ranks));
   std::vector<std::vector<DensePair>> solved(problems.size());
   std::string failure;
   for (auto i = static_cast<std::size_t>(rank); i < problems.size() && failure.empty(); i += static_cast<std::size_t>(ranks)) try {
-      solved[i] = solveQuadratic(problems[i], vectors);
-      if (wanted) std::erase_if(solved[i], [&](const DensePair& pair) { return !wanted(pair.s); });
+      solved[i] = solveQuadratic(problems[i], vectors, wanted);
     } catch (const Error& error) {
       failure = error.what();
     }

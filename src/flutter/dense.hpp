@@ -26,18 +26,21 @@ struct DensePair {
 /// What a solve gives beside the eigenvalues.
 enum class Vectors { right, both };
 
+/// Which eigenvalues; empty: all.
+using Wanted = std::function<bool(std::complex<double>)>;
+
 /// Not collective. All finite eigenvalues with Im s ≥ 0, by ascending Im s, then Re s. An empty Z: the problem is linear in s², solved at
 /// size m; otherwise its companion form of size 2m is scaled and solved. QR with the inverse of M or K, whichever is better
 /// conditioned, finds them; QZ, in ten times as long, where neither is. Error: LAPACK fails, or M and K are singular.
-std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vectors = Vectors::right);
+/// Those that are not `wanted` (none given: all are) are left out.
+std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vectors = Vectors::right, const Wanted& wanted = {});
 std::vector<DensePair> solveQuadratic(const DenseMatrix& mass, const DenseMatrix& damping, const DenseMatrix& stiffness, int m,
                                       Vectors vectors = Vectors::right);
 
 /// Collective. Solves several problems, each on one rank, which alone needs its matrices: problem i on rank i modulo their number. The
-/// same results on all ranks, so that rounding cannot make the ranks disagree on the order or number of eigenvalues. Those that are
-/// not `wanted` (none given: all are) are left out.
+/// same results on all ranks, so that rounding cannot make the ranks disagree on the order or number of eigenvalues.
 std::vector<std::vector<DensePair>> solveSpread(MPI_Comm comm, const std::vector<DenseProblem>& problems, Vectors vectors,
-                                                const std::function<bool(std::complex<double>)>& wanted = {});
+                                                const Wanted& wanted = {});
 
 /// Collective. One problem, on rank 0.
 std::vector<DensePair> solveTogether(MPI_Comm comm, const DenseMatrix& mass, const DenseMatrix& damping,

@@ -101,7 +101,7 @@ double Pencil::norm(int power, const Parameters& at) const {
     check(VecAssemblyEnd(v));
   }
   double estimate = 0;
-  for (int sweep = 0; sweep < (fresh ? 20 : 2); ++sweep) {
+  for (int sweep = 0; sweep < (fresh ? 20 : 1); ++sweep) {
     PetscReal size = 0;
     check(VecNormalize(v, nullptr));
     apply(power, at, v, image);

@@ -91,7 +91,8 @@ std::vector<std::vector<std::size_t>> batches(const std::vector<Parameters>& poi
   for (std::size_t i = 0; i < points.size(); ++i)
     if (points[i].friction > points[next].friction) next = i;
   for (std::size_t chosen = 0; chosen < points.size(); ++chosen) {
-    if (result.empty() || result.back().size() == std::min(largest, std::size_t{1} << (result.size() - 1))) result.emplace_back();
+    if (result.empty() || result.back().size() == std::min(largest, std::size_t{1} << (2 * (result.size() - 1))))
+      result.emplace_back();
     result.back().push_back(next);
     for (std::size_t i = 0; i < points.size(); ++i) distance[i] = std::min(distance[i], apart(i, next));
     distance[next] = -1;
