@@ -26,7 +26,8 @@ struct Fixture {
     model = test::buildModel();
     system = std::make_unique<contact::AssociatedSystem>(model.bodies, model.contact,
                                                          std::vector<unsigned char>(model.contact.nodes.size(), 1));
-    basis = std::make_unique<Basis>(modes::compute({system->k0(), system->m0(), system->solver()}), system->k0(), system->solver());
+    const auto modes = modes::compute({system->k0(), system->m0(), system->solver()});
+    basis = std::make_unique<Basis>(modes, system->k0(), system->solver());
   }
 
   /// A X.
@@ -98,7 +99,7 @@ TEST(Basis, StaysOrthonormalInEnergy) {
   for (std::size_t k = 0; k < sketch.size(); ++k) EXPECT_NEAR(f.basis->sketched()[k], sketch[k], 1e-12) << k;
 }
 
-// The basis gains K0⁻¹ R: K0 V V^T r = r for a residual that has gone in.
+// The basis gains K0⁻¹ R: K0 V Vᵀr = r for a residual that has gone in.
 TEST(Basis, HoldsWhatIsAdded) {
   const Fixture f;
   const Block residuals = f.random(5, 1);

@@ -32,9 +32,9 @@ Complex nearest(const std::vector<DensePair>& pairs, Complex s) {
   return best;
 }
 
-// P + ε Re(y dᴴ) moves s by ε yᴴ Re(y dᴴ) d / (yᴴP'd) = ε (1 + conj(yᵀy) dᵀd)/2 / (yᴴP'd): for real vectors that is the largest change a
-// perturbation of this norm can make, κ ε |s|. Differences with ε = 1e-6: 1e-12 times a third derivative from truncation, 1e-15 / 1e-6
-// from rounding, both times powers of condition numbers that are below 10 here.
+// P + ε Re(y dᴴ) moves s by ε yᴴ Re(y dᴴ) d / (yᴴP'd) = ε (1 + conj(yᵀy) dᵀd)/2 / (yᴴP'd): for real vectors that is the largest
+// change a perturbation of this norm can make, κ ε |s|. Differences with ε = 1e-5: ε² from truncation; from rounding of s, 1e-15 |s|,
+// over 2 ε κ |s| with κ = 0.01 at least, 1e-8.
 TEST(Condition, AgainstPerturbedMatrices) {
   constexpr int m = 9;
   std::mt19937 generator(11);
@@ -52,7 +52,7 @@ TEST(Condition, AgainstPerturbedMatrices) {
       Complex yy = 0, dd = 0;
       for (int i = 0; i < m; ++i) yy += y[static_cast<std::size_t>(i)] * y[static_cast<std::size_t>(i)];
       for (int i = 0; i < m; ++i) dd += d[static_cast<std::size_t>(i)] * d[static_cast<std::size_t>(i)];
-      const double part = std::abs(1.0 + std::conj(yy) * dd) / 2, step = 1e-6;
+      const double part = std::abs(1.0 + std::conj(yy) * dd) / 2, step = 1e-5;
       complex += part < 0.99;
       Complex moved[2];
       for (const int side : {0, 1}) {
@@ -68,7 +68,8 @@ TEST(Condition, AgainstPerturbedMatrices) {
     }
     test::print("%s: condition numbers off by %.1e, %d of %d with complex vectors\n", damped ? "damped" : "undamped", worst,
                 complex, m);
-    EXPECT_EQ(complex > 0, damped);  // real vectors without damping: no pair of this matrix has merged
+    EXPECT_GT(complex, 0);  // both kinds are there
+    EXPECT_LT(complex, m);
   }
 }
 
@@ -78,20 +79,19 @@ std::vector<Complex> unitVector(std::size_t m, std::size_t i) {
   return e;
 }
 
-// M = I, K = diag(4, 4, 9). The vectors of s = 2i, twice, may be any: also e1 with e2 on the left, where yᴴP'd = 0 but the matrix
-// [0 4i; 4i 0] of all four products has the singular value 4: 2/4/|s|, within a factor of the number 2 of the cluster of what e1 with e1
-// gives, 1/4/|s|. The other eigenvalue has 1/6/3.
+// M = I, K = diag(4, 4, 9). The vectors of s = 2i, twice, may be any: also e1 with e2 on the left, where yᴴP'd = 0. The matrix of all four
+// products, 4i times [1 0; 0 1] or [0 1; 1 0], has the singular value 4 either way: 2/4/|s|. The other eigenvalue has 1/6/3.
 TEST(Condition, OfADoubleEigenvalue) {
   const DenseProblem problem{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {}, {4, 0, 0, 0, 4, 0, 0, 0, 9}, 3};
   const auto pair = [](double w, std::size_t right, std::size_t left) {
     return DensePair{{0, w}, unitVector(3, right), unitVector(3, left)};
   };
-  const auto straight = flutter::conditionNumbers(problem, {pair(2, 0, 0), pair(2, 1, 1), pair(3, 2, 2)});
-  const auto crossed = flutter::conditionNumbers(problem, {pair(2, 0, 1), pair(2, 1, 0), pair(3, 2, 2)});
-  const double exact[] = {1. / 8, 1. / 8, 1. / 18}, allowed[] = {1. / 4, 1. / 4, 1. / 18};
-  for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_NEAR(straight[i], exact[i], 1e-15);
-    EXPECT_NEAR(crossed[i], allowed[i], 1e-15);
+  for (const bool crossed : {false, true}) {
+    const auto numbers = flutter::conditionNumbers(problem, {pair(2, 0, crossed), pair(2, 1, !crossed), pair(3, 2, 2)});
+    ASSERT_EQ(numbers.size(), 3U);
+    EXPECT_NEAR(numbers[0], 1. / 4, 1e-15);
+    EXPECT_NEAR(numbers[1], 1. / 4, 1e-15);
+    EXPECT_NEAR(numbers[2], 1. / 18, 1e-15);
   }
 }
 
