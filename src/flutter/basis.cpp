@@ -31,6 +31,16 @@ DenseMatrix orthonormalising(DenseMatrix gram, PetscInt size, double small) {
   return kept;
 }
 
+/// Sets the diagonal entries to zero (n×n) that are `small` times the whole energy of the column, with its parts along V, or less.
+void clearWhatVHolds(DenseMatrix& energy, const DenseMatrix& parts, PetscInt columns, double small) {
+  const auto n = static_cast<std::size_t>(columns), rows = parts.size() / n;
+  for (std::size_t j = 0; j < n; ++j) {
+    double held = 0;
+    for (std::size_t i = 0; i < rows; ++i) held += parts[j * rows + i] * parts[j * rows + i];
+    if (energy[j * n + j] <= small * held) energy[j * n + j] = 0;
+  }
+}
+
 }  // namespace
 
 OwnedBV columnsLike(BV like, PetscInt columns) {
@@ -96,13 +106,17 @@ PetscInt Basis::add(const Block& residuals) {
   if (residuals.columns == 0) return 0;
   Block z = solve(residuals);
   ratio_ = ratio(residuals, z);
+  DenseMatrix parts;
   {
     const ReadColumns v(columns_);
-    const DenseMatrix parts = transposedProduct(comm(), v.values(), v.rows(), size_, residuals.values.data(), residuals.columns);
+    parts = transposedProduct(comm(), v.values(), v.rows(), size_, residuals.values.data(), residuals.columns);
     multiplyAdd(v.values(), v.rows(), size_, parts, z.values, -1);
   }
-  // zᵀ K0 z = zᵀ r now that z is orthogonal to V. What depends on others to within 1e-6 would only add noise.
-  const DenseMatrix combinations = orthonormalising(transposedProduct(comm(), z, residuals), z.columns, 1e-12);
+  // zᵀ K0 z = zᵀ r now that z is orthogonal to V. What depends on others or on V to within 1e-6 would only add noise.
+  constexpr double small = 1e-12;
+  DenseMatrix energy = transposedProduct(comm(), z, residuals);
+  clearWhatVHolds(energy, parts, z.columns, small);
+  const DenseMatrix combinations = orthonormalising(energy, z.columns, small);
   const auto added = static_cast<PetscInt>(combinations.size()) / z.columns;
   if (added == 0) return 0;
   const Block fresh = combined(z, combinations, added);

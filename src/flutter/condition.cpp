@@ -61,15 +61,16 @@ std::vector<double> conditionNumbers(const DenseProblem& problem, const std::vec
     std::vector<std::size_t> cluster;
     for (std::size_t k = 0; k < pairs.size(); ++k)
       if (std::abs(pairs[k].s - s) <= oneCluster * std::abs(s)) cluster.push_back(k);
-    double together = alone;
+    double number = alone;
     if (cluster.size() > 1) {
       std::vector<Complex> g;
       for (auto b : cluster)
         for (auto a : cluster) g.push_back(pairing(pairs[a].left, s, massTimes, dampingTimes, b));
-      // The change of the cluster is G⁻¹YᴴR: p unit vectors on either side.
-      together = static_cast<double>(cluster.size()) / smallestSingularValue(g, cluster.size());
+      // The change of the cluster is G⁻¹YᴴR: p unit vectors on either side. One pair alone says nothing of it: of a multiple eigenvalue
+      // its vectors are any of many.
+      number = static_cast<double>(cluster.size()) / smallestSingularValue(g, cluster.size());
     }
-    const double number = std::min(alone, together) / std::abs(s);
+    number /= std::abs(s);
     numbers.push_back(std::isfinite(number) ? number : INFINITY);
   }
   return numbers;

@@ -17,10 +17,11 @@ const FlagOption fieldsOption("report", "report_fields", true, "write fields: re
 bool isResult(const std::filesystem::path& name) {
   const std::string text = name.filename().string();
   const auto begins = [&](const char* start) { return text.rfind(start, 0) == 0; };
-  return text == "eigenvalues.csv" || text == "branches.csv" || text == "critical.csv" || text == "modes.csv" || text == "summary.json" || text == "results.h5" ||
-         text == "options.txt" || text == "sensitivities.csv" || text == "friction_work.csv" || text == "stability_map.csv" ||
-         text == "vtk" || text == ".partial" || (begins("stability") && name.extension() == ".png") ||
-         (begins("steady_") && name.extension() == ".csv") || (begins("modes_") && name.extension() == ".csv");
+  return text == "eigenvalues.csv" || text == "branches.csv" || text == "critical.csv" || text == "modes.csv" ||
+         text == "summary.json" || text == "results.h5" || text == "options.txt" || text == "sensitivities.csv" ||
+         text == "friction_work.csv" || text == "stability_map.csv" || text == "vtk" || text == ".partial" ||
+         (begins("stability") && name.extension() == ".png") || (begins("steady_") && name.extension() == ".csv") ||
+         (begins("modes_") && name.extension() == ".csv");
 }
 
 }  // namespace

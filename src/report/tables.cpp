@@ -150,7 +150,7 @@ void writeTables(const Analysis& analysis, const std::filesystem::path& folder) 
   const MPI_Comm comm = analysis.comm;
   writeFile(comm, folder / "eigenvalues.csv", eigenvalueTable(analysis));
   if (flutter::sensitivitiesWanted()) writeFile(comm, folder / "sensitivities.csv", sensitivityTable(analysis));
-  writeFile(comm, folder / "friction_work.csv", frictionWorkTable(analysis));
+  if (analysis.mesh) writeFile(comm, folder / "friction_work.csv", frictionWorkTable(analysis));
   writeFile(comm, folder / "stability_map.csv", stabilityMap(analysis));
   if (flutter::trackWanted()) {
     writeFile(comm, folder / "branches.csv", branchTable(analysis));

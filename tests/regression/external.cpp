@@ -72,6 +72,98 @@ TEST(External, DampedChainAtItsCriticalFriction) {
   EXPECT_EQ(summary.at("frictions").at(1).at("unstable_modes").size(), 1U);
 }
 
+// Both modes of the belt merge at 3/4, and the chain has the critical friction above: solved for, from a grid with steps of 0.1.
+TEST(External, CriticalFrictionsAreSolvedFor) {
+  for (const int ranks : {1, 2})
+    for (const auto& [name, kind, exact] :
+         {std::tuple{"external", "coalescence", 0.75}, {"external_chain", "hopf", 0.80124204937}}) {
+      const ProgramRun run =
+          runProgram("external/critical", ranks, "-options_file options/" + std::string(name) + ".yaml -quiet -report_fields off");
+      ASSERT_EQ(run.exitCode, 0) << run.error;
+      const CsvTable table = readCsv(run.folder / "critical.csv");
+      ASSERT_GE(table.rows.size(), 1U) << name;
+      EXPECT_EQ(table.rows[0][3], kind);
+      EXPECT_EQ(table.rows[0][4], "loss");
+      EXPECT_NEAR(table.column("friction")[0], exact, 1e-8) << name;
+      EXPECT_LT(table.column("friction_error_estimate")[0], 1e-8) << name;
+      EXPECT_EQ(table.column("converged")[0], 1) << name;
+    }
+}
+
+/// Options for a row of masses on springs as matrices, `bodies` times: eigenvalues of as many bodies are the same. Those of the last one
+/// stand on springs to the ground of `ground` times the others.
+std::string rowsOfMasses(const std::string& name, int bodies, double ground) {
+  constexpr int masses = 40, n = 2 * masses;
+  std::map<std::string, std::map<std::pair<int, int>, double>> entries;
+  for (int body = 0; body < bodies; ++body) {
+    const auto spring = [&](int i, int j, double k) {
+      auto& stiffness = entries["stiffness"];
+      stiffness[{i, i}] += k, stiffness[{j, j}] += k, stiffness[{i, j}] -= k, stiffness[{j, i}] -= k;
+    };
+    const double held = body + 1 == bodies ? ground : 1;
+    for (int k = 0; k < masses; ++k) {
+      const int x = body * n + 2 * k, y = x + 1;
+      entries["mass"][{x, x}] = entries["mass"][{y, y}] = 1 + 0.3 * std::sin(k);
+      entries["stiffness"][{x, x}] += held;
+      entries["stiffness"][{y, y}] += 1.1 * held;
+      spring(x, y, 1. / 7);
+      entries["friction"][{x, y}] = -0.4;
+      if (k + 1 < masses) spring(x, x + 2, 1. / 3), spring(y, y + 2, 1. / 3);
+    }
+  }
+  std::string options = "-matrices_friction_friction_exponent 1 -flutter_friction 0,0.3 -quiet -report_fields off ";
+  for (const auto& [matrix, list] : entries) {
+    std::string text =
+        formatted("%%%%MatrixMarket matrix coordinate real general\n%d %d %zu\n", bodies * n, bodies * n, list.size());
+    for (const auto& [place, value] : list) text += formatted("%d %d %.17g\n", place.first + 1, place.second + 1, value);
+    const fs::path path = placeFor("external") / name / (matrix + ".mtx");
+    writeText(path, text);
+    options += "-matrices_" + matrix + "_file '" + path.string() + "' -matrices_" + matrix + "_role " +
+               (matrix == "mass" ? "mass " : "stiffness ");
+  }
+  return options;
+}
+
+// Two equal bodies that do not touch: each eigenvalue of one, twice.
+TEST(External, TwoEqualBodies) {
+  const ProgramRun one = runProgram("external/one_body", 1, rowsOfMasses("one", 1, 1) + "-modes_count 30");
+  const ProgramRun two =
+      runProgram("external/two_bodies", 2, rowsOfMasses("two", 2, 1) + "-modes_count 60 -flutter_tolerance 1e-9");
+  ASSERT_EQ(one.exitCode, 0) << one.error;
+  ASSERT_EQ(two.exitCode, 0) << two.error;
+  const CsvTable single = readCsv(one.folder / "eigenvalues.csv"), both = readCsv(two.folder / "eigenvalues.csv");
+  const auto certified = both.column("certified");
+  EXPECT_EQ(std::count(certified.begin(), certified.end(), 1), static_cast<long>(certified.size()));
+  for (const double friction : {0.0, 0.3}) {
+    const auto at = [&](const CsvTable& table) {
+      const auto f = table.column("friction"), growth = table.column("growth_rate_1_per_s"),
+                 angular = table.column("angular_frequency_rad_per_s");
+      std::vector<Complex> list;
+      for (std::size_t i = 0; i < f.size(); ++i)
+        if (f[i] == friction) list.emplace_back(growth[i], angular[i]);
+      return list;
+    };
+    const auto wanted = at(single), found = at(both);
+    ASSERT_GE(wanted.size(), 12U);
+    EXPECT_GE(found.size(), 24U);
+    for (std::size_t i = 0; i < 12; ++i)  // well inside both bands
+      EXPECT_EQ(std::count_if(found.begin(), found.end(),
+                              [&](Complex s) { return std::abs(s - wanted[i]) < 2e-8 * std::abs(wanted[i]); }),
+                2)
+          << wanted[i] << " at friction " << friction;
+  }
+}
+
+TEST(External, ALooseBodyIsSaid) {
+  for (const int ranks : {1, 2}) {
+    const ProgramRun run = runProgram("external/loose", ranks, rowsOfMasses("loose", 2, 0), 60);
+    EXPECT_NE(run.exitCode, 0);
+    EXPECT_NE(run.exitCode, 124) << "still running";
+    EXPECT_NE(run.error.find("not positive definite: 0 negative and 1 zero"), std::string::npos) << run.error;
+    EXPECT_FALSE(fs::exists(run.folder / "eigenvalues.csv"));
+  }
+}
+
 TEST(External, ExportRunsOnOtherRanks) {
   const fs::path folder = placeFor("external") / "exported";
   const std::string wanted = " -report_fields off -quiet";

@@ -40,7 +40,7 @@ TEST(Left, VectorsAreThoseOfAllUnknowns) {
     const auto model = test::buildModel();
     const contact::AssociatedSystem system(model.bodies, model.contact, std::vector<unsigned char>(model.contact.nodes.size(), 1));
     const auto pencil = flutter::affineTerms(model.contact, system);
-    const auto modes = modes::compute(system);
+    const auto modes = modes::compute({system.k0(), system.m0(), system.solver()});
     const Parameters at{0.4};
     const auto full = flutter::solveQuadratic(
         test::denseCopy(pencil.assembled(2, at)).values,

@@ -101,12 +101,13 @@ Waves computed(int cells, double omega) {
   const auto found = solver->solve(40);
   EXPECT_GT(found.reached, top);
   Waves waves;
-  for (const auto& [s, real, imaginary] : found.pairs) {
+  for (const auto& pair : found.pairs) {
+    const auto s = pair.s;
     if (s.imag() > top) continue;
     EXPECT_LT(std::abs(s.real()), 1e-9) << s;
     const OwnedVec u = elasticity::nodalVector(*model.mesh), v = elasticity::nodalVector(*model.mesh);
-    check(MatMult(system.transformation().trial, real, u));
-    check(MatMult(system.transformation().trial, imaginary, v));
+    check(MatMult(system.transformation().trial, pair.real, u));
+    check(MatMult(system.transformation().trial, pair.imaginary, v));
     waves[orderOf(*model.mesh, u, v)].push_back(s.imag());
   }
   for (auto& [n, list] : waves) std::sort(list.begin(), list.end());

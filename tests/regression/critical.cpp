@@ -1,0 +1,120 @@
+// The tables of followed eigenvalues and of critical frictions, as a run leaves them behind.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "support/program.hpp"
+#include "support/spectrum.hpp"
+
+namespace squeal::test {
+namespace {
+
+// Damping on either side of the contact parts the critical frictions of the layers, which without it are all zero.
+const std::string layers =
+    "-options_file options/two_layers.yaml -mesh_set nx=12,ny_disc=4,ny_pad=3 -modes_count 60 -quiet -report_fields off"
+    " -material_pad_rayleigh_stiffness 0.005 -material_disc_rayleigh_mass 0.005 ";
+
+/// The same run on 1 and on 2 ranks, which several tests read.
+const ProgramRun& layersOn(int ranks) {
+  static std::map<int, ProgramRun> runs;
+  if (runs.empty())
+    for (int count : {1, 2})
+      runs[count] = runProgram("critical/np" + std::to_string(count), count, layers + "-flutter_friction 0:0.4:0.1");
+  return runs.at(ranks);
+}
+
+std::vector<Complex> eigenvalues(const CsvTable& table) {
+  const auto growth = table.column("growth_rate_1_per_s"), angular = table.column("angular_frequency_rad_per_s");
+  std::vector<Complex> list;
+  for (std::size_t i = 0; i < growth.size(); ++i) list.emplace_back(growth[i], angular[i]);
+  return list;
+}
+
+TEST(Critical, SameFrictionsOnOneAndTwoRanks) {
+  std::vector<double> one;
+  for (int ranks : {1, 2}) {
+    ASSERT_EQ(layersOn(ranks).exitCode, 0) << layersOn(ranks).error;
+    const CsvTable table = readCsv(layersOn(ranks).folder / "critical.csv");
+    EXPECT_EQ(table.header,
+              "active_set,branch,partner,kind,direction,friction,speed,pressure,damping,frequency_hz,slope,"
+              "friction_error_estimate,backward_error,converged");
+    const auto friction = table.column("friction"), estimate = table.column("friction_error_estimate"),
+               error = table.column("backward_error"), converged = table.column("converged");
+    ASSERT_GE(friction.size(), 8U);
+    EXPECT_TRUE(std::is_sorted(friction.begin(), friction.end()));
+    for (std::size_t i = 0; i < friction.size(); ++i) {
+      EXPECT_EQ(table.rows[i][3], "hopf");
+      EXPECT_EQ(table.rows[i][4], "loss");
+      EXPECT_EQ(converged[i], 1);
+      EXPECT_LT(estimate[i], 1e-9);
+      EXPECT_LT(error[i], 1e-9);
+    }
+    if (ranks == 1) one = friction;
+    ASSERT_EQ(friction.size(), one.size());
+    for (std::size_t i = 0; i < one.size(); ++i) EXPECT_NEAR(friction[i], one[i], 1e-9) << i;
+  }
+}
+
+// At each critical friction the problem on all unknowns has an eigenvalue iω of the frequency listed. Growth rates err by the slope, 0.6 at
+// most, times the tolerance of the friction, 1e-9.
+TEST(Critical, GrowthRatesOfAllUnknownsAreZero) {
+  ASSERT_EQ(layersOn(2).exitCode, 0);
+  const CsvTable table = readCsv(layersOn(2).folder / "critical.csv");
+  const auto friction = table.column("friction"), hertz = table.column("frequency_hz");
+  std::string list;
+  for (double f : friction) list += formatted("%s%.17g", list.empty() ? "" : ",", f);
+  const ProgramRun run =
+      runProgram("critical/direct", 1, layers + "-flutter_method direct -flutter_direct_count 60 -flutter_friction " + list);
+  ASSERT_EQ(run.exitCode, 0) << run.error;
+  const CsvTable full = readCsv(run.folder / "eigenvalues.csv");
+  const auto at = full.column("friction");
+  const auto all = eigenvalues(full);
+  double worst = 0;
+  for (std::size_t i = 0; i < friction.size(); ++i) {
+    const Complex wanted(0, 2 * M_PI * hertz[i]);
+    double nearest = INFINITY;
+    for (std::size_t k = 0; k < all.size(); ++k)
+      if (at[k] == friction[i]) nearest = std::min(nearest, std::abs(all[k] - wanted));
+    EXPECT_LT(nearest, 1e-9 * std::abs(wanted)) << "friction " << friction[i];
+    worst = std::max(worst, nearest / std::abs(wanted));
+  }
+  std::printf("%zu critical frictions: full-order eigenvalues off i omega by %.1e at most\n", friction.size(), worst);
+}
+
+// Each branch is there once at each friction, the swept ones are the eigenvalues of the band, and the number of unstable ones is that of
+// the critical frictions below.
+TEST(Critical, BranchesHoldTheSweep) {
+  for (int ranks : {1, 2}) {
+    ASSERT_EQ(layersOn(ranks).exitCode, 0);
+    const fs::path folder = layersOn(ranks).folder;
+    const CsvTable table = readCsv(folder / "branches.csv"), listed = readCsv(folder / "eigenvalues.csv");
+    EXPECT_EQ(table.header,
+              "active_set,branch,friction,speed,pressure,damping,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,"
+              "overlap,in_band,swept");
+    const auto branch = table.column("branch"), friction = table.column("friction"), inBand = table.column("in_band"),
+               swept = table.column("swept"), overlap = table.column("overlap"), at = listed.column("friction"),
+               critical = readCsv(folder / "critical.csv").column("friction");
+    const auto followed = eigenvalues(table), wanted = eigenvalues(listed);
+    std::map<double, std::vector<Complex>> bands, rows;
+    for (std::size_t i = 0; i < followed.size(); ++i) {
+      if (i > 0 && branch[i] == branch[i - 1])
+        EXPECT_GT(friction[i], friction[i - 1]);
+      else
+        EXPECT_EQ(branch[i], i == 0 ? 1 : branch[i - 1] + 1);
+      EXPECT_TRUE(overlap[i] >= 0 && overlap[i] <= 1);
+      if (swept[i] == 1 && inBand[i] == 1) bands[friction[i]].push_back(followed[i]);
+    }
+    for (std::size_t i = 0; i < wanted.size(); ++i) rows[at[i]].push_back(wanted[i]);
+    EXPECT_EQ(rows.size(), 5U);
+    ASSERT_EQ(bands.size(), rows.size());
+    for (const auto& [f, values] : rows) {
+      EXPECT_EQ(bands[f].size(), values.size()) << f;
+      EXPECT_LT(worst(errors(values, bands[f]).relative), 1e-8) << f;  // both to -flutter_tolerance
+      const auto unstable = std::count_if(values.begin(), values.end(), [](Complex s) { return s.real() > 1e-6 * std::abs(s); });
+      EXPECT_EQ(unstable, std::count_if(critical.begin(), critical.end(), [&, f = f](double c) { return c < f; })) << f;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace squeal::test

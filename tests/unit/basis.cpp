@@ -1,0 +1,190 @@
+// The growing basis of the reduced problem: orthonormal in the energy of K0, whatever is added.
+#include "flutter/basis.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "petsc/symmetric.hpp"
+#include "support/case.hpp"
+#include "support/model.hpp"
+
+namespace squeal {
+namespace {
+
+using flutter::Basis;
+using flutter::Block;
+
+/// The layers sliding on each other on a coarse mesh: 156 unknowns, of which 20 modes are the basis to begin with.
+struct Fixture {
+  test::Model model;
+  std::unique_ptr<contact::AssociatedSystem> system;
+  std::unique_ptr<Basis> basis;
+  Fixture() {
+    test::setCase("two_layers", "-mesh_set nx=12,ny_disc=4,ny_pad=3 -modes_count 20");
+    model = test::buildModel();
+    system = std::make_unique<contact::AssociatedSystem>(model.bodies, model.contact,
+                                                         std::vector<unsigned char>(model.contact.nodes.size(), 1));
+    const auto modes = modes::compute({system->k0(), system->m0(), system->solver()});
+    basis = std::make_unique<Basis>(modes, system->k0(), system->solver());
+  }
+
+  /// A X.
+  Block times(Mat matrix, const Block& x) const {
+    OwnedVec from, to;
+    check(MatCreateVecs(matrix, from.out(), to.out()));
+    Block result(x.rows);
+    for (PetscInt j = 0; j < x.columns; ++j) {
+      PetscScalar* entries = nullptr;
+      check(VecGetArray(from, &entries));
+      std::copy_n(x.column(j), x.rows, entries);
+      check(VecRestoreArray(from, &entries));
+      check(MatMult(matrix, from, to));
+      const PetscScalar* product = nullptr;
+      check(VecGetArrayRead(to, &product));
+      result.append(product);
+      check(VecRestoreArrayRead(to, &product));
+    }
+    return result;
+  }
+
+  /// V.
+  Block columns() const {
+    const flutter::ReadColumns v(basis->columns());
+    Block result(v.rows());
+    for (PetscInt j = 0; j < v.columns(); ++j) result.append(v.values() + j * v.rows());
+    return result;
+  }
+
+  /// The largest entry of VᵀK0V − I.
+  double departure() const {
+    const Block v = columns();
+    EXPECT_EQ(v.columns, basis->size());
+    const auto gram = flutter::transposedProduct(basis->comm(), v, times(system->k0(), v));
+    double worst = 0;
+    for (std::size_t k = 0; k < gram.size(); ++k) {
+      const bool diagonal = k % (static_cast<std::size_t>(v.columns) + 1) == 0;
+      worst = std::max(worst, std::abs(gram[k] - (diagonal ? 1 : 0)));
+    }
+    return worst;
+  }
+
+  Block random(PetscInt count, unsigned seed) const {
+    Block block(basis->localRows(), count);
+    int rank = 0;
+    check(MPI_Comm_rank(basis->comm(), &rank));
+    std::mt19937 generator(seed + 100 * static_cast<unsigned>(rank));
+    for (auto& value : block.values) value = 2.0 * static_cast<double>(generator()) / 4294967295.0 - 1;
+    return block;
+  }
+};
+
+// Rounding of a few sums, times the square root of the condition number of K0, some hundreds.
+TEST(Basis, StaysOrthonormalInEnergy) {
+  const Fixture f;
+  EXPECT_EQ(f.basis->size(), 20);
+  EXPECT_LT(f.departure(), 1e-10);
+  for (const PetscInt count : {7, 1, 30, 12}) {
+    const PetscInt before = f.basis->size();
+    EXPECT_EQ(f.basis->add(f.random(count, static_cast<unsigned>(count))), count);
+    EXPECT_EQ(f.basis->size(), before + count);
+  }
+  test::print("basis of %d: departure from orthonormality %.1e\n", static_cast<int>(f.basis->size()), f.departure());
+  EXPECT_LT(f.departure(), 1e-10);
+  EXPECT_EQ(f.basis->solves(), 50);
+  const Block v = f.columns();
+  const auto sketch = f.basis->sketch().of(v.values.data(), v.columns);
+  ASSERT_EQ(sketch.size(), f.basis->sketched().size());
+  for (std::size_t k = 0; k < sketch.size(); ++k) EXPECT_NEAR(f.basis->sketched()[k], sketch[k], 1e-12) << k;
+}
+
+// The basis gains K0⁻¹ R: K0 V Vᵀr = r for a residual that has gone in.
+TEST(Basis, HoldsWhatIsAdded) {
+  const Fixture f;
+  const Block residuals = f.random(5, 1);
+  f.basis->add(residuals);
+  const Block v = f.columns(), forces = f.times(f.system->k0(), v);
+  const auto parts = flutter::transposedProduct(f.basis->comm(), v, residuals);
+  Block left = residuals;
+  flutter::multiplyAdd(forces.values.data(), forces.rows, forces.columns, parts, left.values, -1);
+  double worst = 0;
+  for (const double value : left.values) worst = std::max(worst, std::abs(value));
+  EXPECT_LT(test::largest(worst), 1e-10);  // of entries up to 1
+}
+
+TEST(Basis, DropsWhatItHasAndWhatDependsOnOthers) {
+  const Fixture f;
+  Block twice = f.random(3, 2);
+  const Block copy = twice;
+  append(twice, copy);
+  for (PetscInt i = 0; i < twice.rows; ++i) twice.column(4)[i] = 2 * twice.column(0)[i] - 3 * twice.column(2)[i];
+  EXPECT_EQ(f.basis->add(twice), 3);
+  EXPECT_EQ(f.basis->add(copy), 0);                                  // they are in the basis
+  EXPECT_EQ(f.basis->add(f.times(f.system->k0(), f.columns())), 0);  // K0 V
+  EXPECT_EQ(f.basis->add(Block(f.basis->localRows())), 0);
+  EXPECT_EQ(f.basis->size(), 23);
+  EXPECT_LT(f.departure(), 1e-10);
+}
+
+TEST(Basis, CombinationsStayOrthonormal) {
+  const Fixture f;
+  f.basis->add(f.random(10, 3));
+  // Eigenvectors of a symmetric matrix: orthonormal. Twelve of them.
+  flutter::DenseMatrix turned(30 * 30);
+  for (std::size_t k = 0; k < turned.size(); ++k) turned[k] = std::cos(static_cast<double>((k / 30 + 1) * (k % 30 + 1)));
+  symmetricEigen(turned, 30);
+  turned.resize(30 * 12);
+  f.basis->combine(turned, 12);
+  EXPECT_EQ(f.basis->size(), 12);
+  EXPECT_LT(f.departure(), 1e-10);
+}
+
+// One column: √(rᵀK0⁻¹r) / √(rᵀ diag(K0)⁻¹ r). Two: the root of the largest eigenvalue of the pencil of both products. The solution of the
+// first one is another solver's.
+TEST(Basis, EnergyRatiosAreWhatTheySay) {
+  const Fixture f;
+  const Block one = f.random(1, 4), two = f.random(2, 5);
+  OwnedVec diagonal;
+  check(MatCreateVecs(f.system->k0(), diagonal.out(), nullptr));
+  check(MatGetDiagonal(f.system->k0(), diagonal));
+  const auto products = [&](const Block& x) {  // XᵀK0⁻¹X and XᵀD⁻¹X
+    OwnedVec from, to;
+    check(MatCreateVecs(f.system->k0(), from.out(), to.out()));
+    Block solved(x.rows), divided(x.rows);
+    for (PetscInt j = 0; j < x.columns; ++j) {
+      for (Block* result : {&solved, &divided}) {
+        PetscScalar* entries = nullptr;
+        check(VecGetArray(from, &entries));
+        std::copy_n(x.column(j), x.rows, entries);
+        check(VecRestoreArray(from, &entries));
+        if (result == &solved)
+          test::solveDirectly(f.system->k0(), from, to);
+        else
+          check(VecPointwiseDivide(to, from, diagonal));
+        const PetscScalar* values = nullptr;
+        check(VecGetArrayRead(to, &values));
+        result->append(values);
+        check(VecRestoreArrayRead(to, &values));
+      }
+    }
+    return std::pair{flutter::transposedProduct(f.basis->comm(), x, solved),
+                     flutter::transposedProduct(f.basis->comm(), x, divided)};
+  };
+  const auto found = f.basis->energyRatios({one, two, Block(one.rows)});
+  ASSERT_EQ(found.size(), 3U);
+  const auto [energy, weighted] = products(one);
+  EXPECT_NEAR(found[0], std::sqrt(energy[0] / weighted[0]), 1e-10 * found[0]);
+  auto [energies, weights] = products(two);
+  const double largest = std::sqrt(symmetricEigen(energies, weights, 2).back());
+  EXPECT_NEAR(found[1], largest, 1e-10 * largest);
+  EXPECT_EQ(found[2], 0);
+  EXPECT_EQ(f.basis->size(), 20);  // nothing is added
+  EXPECT_EQ(f.basis->solves(), 3);
+  f.basis->add(two);
+  EXPECT_NEAR(f.basis->lastEnergyRatio(), largest, 1e-10 * largest);
+  test::print("energy ratios %.4f and %.4f\n", found[0], found[1]);
+}
+
+}  // namespace
+}  // namespace squeal
