@@ -128,6 +128,21 @@ void ProjectedTerms::addTo(const Parameters& at, const Coordinates& pairs, Block
       part.image.multiplyAdd(pairs.times(Side::right, part.term.power, c), part.columns, result.values);
 }
 
+Block ProjectedTerms::residuals(const std::vector<PointPairs>& points) const {
+  PetscInt columns = 0;
+  for (const auto& point : points) columns += point.pairs.columns;
+  Block result(basis_.localRows(), columns);
+  for (const auto& part : parts_) {
+    std::vector<double> coefficients;
+    for (const auto& [at, pairs] : points) {
+      const auto own = pairs.times(Side::right, part.term.power, part.term.coefficient(at));
+      coefficients.insert(coefficients.end(), own.begin(), own.end());
+    }
+    part.image.multiplyAdd(coefficients, part.columns, result.values);
+  }
+  return result;
+}
+
 void ProjectedTerms::addTo(const Parameters& at, const Coordinates& pairs, Side side, DenseMatrix& sketch) const {
   for (const auto& part : parts_) {
     const double c = part.term.coefficient(at);

@@ -25,21 +25,21 @@ namespace {
 using Complex = std::complex<double>;
 using ComplexVector = std::vector<Complex>;
 
-ComplexVector times(const DenseMatrix& a, const ComplexVector& x) {
+/// A x, or Aᵀ x with `transposed` "T"; zero for an empty A.
+ComplexVector product(const char* transposed, const DenseMatrix& a, const ComplexVector& x) {
   const std::size_t m = x.size();
+  if (a.empty()) return ComplexVector(m);
+  const PetscBLASInt n = static_cast<PetscBLASInt>(m), two = 2;
+  const PetscScalar one = 1, zero = 0;
   ComplexVector y(m);
-  for (std::size_t j = 0; j < m && !a.empty(); ++j)
-    for (std::size_t i = 0; i < m; ++i) y[i] += a[j * m + i] * x[j];
+  for (std::ptrdiff_t part : {0, 1})  // real and imaginary entries alternate
+    BLASgemv_(transposed, &n, &n, &one, a.data(), &n, reinterpret_cast<const double*>(x.data()) + part, &two, &zero,
+              reinterpret_cast<double*>(y.data()) + part, &two);
   return y;
 }
 
-ComplexVector timesTransposed(const DenseMatrix& a, const ComplexVector& x) {
-  const std::size_t m = x.size();
-  ComplexVector y(m);
-  for (std::size_t j = 0; j < m && !a.empty(); ++j)
-    for (std::size_t i = 0; i < m; ++i) y[j] += a[j * m + i] * x[i];
-  return y;
-}
+ComplexVector times(const DenseMatrix& a, const ComplexVector& x) { return product("N", a, x); }
+ComplexVector timesTransposed(const DenseMatrix& a, const ComplexVector& x) { return product("T", a, x); }
 
 Complex dot(const ComplexVector& x, const ComplexVector& y) {
   Complex sum = 0;

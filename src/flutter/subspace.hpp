@@ -26,6 +26,8 @@ class Spectrum {
   /// Borrows nothing.
   Spectrum(const DenseProblem& problem, std::vector<DensePair> pairs);
   const std::vector<DensePair>& pairs() const { return pairs_; }
+  /// yᴴ P′(s) x of pair i.
+  std::complex<double> derivative(std::size_t i) const { return linear_ ? 2.0 * pairs_[i].s * own_[i] : own_[i]; }
   bool damped() const { return !linear_; }  ///< the problem has a term in s
   /// tr(Π_i Π_j) of the spectral projectors of pair i here and pair j there: independent of the scaling of vectors, 1 for the same
   /// pair, 0 for another. Over all j it sums to 1; for groups of pairs the sum of all is the dimension that they share.
