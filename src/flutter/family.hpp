@@ -22,9 +22,11 @@ class Family {
  public:
   virtual ~Family() = default;
   virtual MPI_Comm comm() const = 0;
-  /// Collective. The problem at one friction in the basis in force, the same on all ranks; none where it cannot be had, for example
+  /// Collective, unless local(). The problem at one friction in the basis in force, the same on all ranks; none where it cannot be had, for example
   /// because the contact opens.
   virtual std::optional<DenseProblem> at(double friction) = 0;
+  /// at() needs no other rank.
+  virtual bool local() const { return false; }
   /// Collective. Adds to the basis what the residuals of these pairs ask for, all together.
   virtual Improvement improve(const std::vector<Located>&) { return {}; }
 };

@@ -29,14 +29,12 @@ class ReducedFamily : public Family {
   MPI_Comm comm() const override { return comm_; }
 
   std::optional<DenseProblem> at(double friction) override {
-    const auto terms = problemAt_(point(friction));
-    if (!terms) return {};
-    DenseProblem problem = reduced_.project(*terms);
-    // Sums over the ranks, whose rounding may depend on the rank; what follows from them must not.
-    for (auto* matrix : {&problem.mass, &problem.damping, &problem.stiffness})
-      check(MPI_Bcast(matrix->data(), static_cast<int>(matrix->size()), MPI_DOUBLE, 0, comm_));
-    return problem;
+    const auto problem = problemAt_(point(friction));
+    if (!problem) return {};
+    local_ = problem->pencil.affineCount() == problem->pencil.terms().size();
+    return reduced_.project(*problem);
   }
+  bool local() const override { return local_; }
 
   Improvement improve(const std::vector<Located>& located) override {
     std::vector<std::pair<PointProblem, std::vector<DensePair>>> list;
@@ -54,6 +52,7 @@ class ReducedFamily : public Family {
   MPI_Comm comm_;
   Parameters line_;
   const ProblemSource& problemAt_;
+  bool local_ = false;  // no point has terms of its own, as far as known
 };
 
 /// Drops what is watched beside the band alone, and numbers the rest.

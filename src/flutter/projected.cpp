@@ -91,9 +91,12 @@ void ProjectedTerms::extend(Part& part) const {
   }
   if (part.transposed) sketchOf(basis_.times(part.transposed, old, size), part.leftRows, part.leftSketch);
   const ReadColumns all(basis_.columns());
-  const auto right = part.image.transposedProduct(basis_.comm(), all, 0, size, old, size);  // Vᵀ (A V_new)
-  const auto below =
+  auto right = part.image.transposedProduct(basis_.comm(), all, 0, size, old, size);  // Vᵀ (A V_new)
+  auto below =
       part.transposed ? part.image.transposedProduct(basis_.comm(), all, old, size, 0, old) : DenseMatrix{};  // V_newᵀ (A V_old)
+  // Sums over the ranks, whose rounding may depend on the rank; what follows from them must not.
+  for (auto* block : {&right, &below})
+    check(MPI_Bcast(block->data(), static_cast<int>(block->size()), MPI_DOUBLE, 0, basis_.comm()));
   grow(part.projection, old, size, right, below);
   part.columns = size;
 }

@@ -374,12 +374,10 @@ Improvement ReducedProblem::improve(const std::vector<std::pair<PointProblem, st
     ownTerms.push_back(&work.ownTerms);
   }
   Block columns = terms_.residuals(open);
-  PetscInt first = 0;
-  for (std::size_t k = 0; k < open.size(); ++k) {
+  for (std::size_t k = 0, first = 0; k < open.size(); ++k) {
     Block own(columns.rows, open[k].pairs.columns);
     ownTerms[k]->addTo(open[k].at, open[k].pairs, own);
-    for (std::size_t i = 0; i < own.values.size(); ++i) columns.column(first)[i] += own.values[i];
-    first += own.columns;
+    for (double value : own.values) columns.values[first++] += value;
   }
   const auto squares = squaredNorms(basis_.sketch().of(columns.values.data(), columns.columns)).euclidean;
   Block wanted(columns.rows);

@@ -250,20 +250,6 @@ Cluster clusterNear(const DenseProblem& problem, const std::vector<DensePair>& s
   return cluster;
 }
 
-Cluster clusterTogether(MPI_Comm comm, const DenseProblem& problem, const std::vector<DensePair>& start, Complex guess,
-                        double isolation) {
-  int rank = 0;
-  check(MPI_Comm_rank(comm, &rank));
-  Cluster cluster;
-  if (rank == 0) cluster = clusterNear(problem, start, guess, isolation);
-  double numbers[] = {cluster.mean.real(), cluster.mean.imag(), cluster.converged ? 1.0 : 0.0};
-  check(MPI_Bcast(numbers, 3, MPI_DOUBLE, 0, comm));
-  cluster.mean = {numbers[0], numbers[1]};
-  cluster.converged = numbers[2] > 0;
-  shareFrom(0, comm, cluster.pairs, problem.m, Vectors::both);
-  return cluster;
-}
-
 Spectrum::Spectrum(const DenseProblem& problem, std::vector<DensePair> pairs)
     : pairs_(std::move(pairs)), linear_(problem.damping.empty()) {
   for (std::size_t i = 0; i < pairs_.size(); ++i) {

@@ -16,10 +16,6 @@ struct Cluster {
 /// the next eigenvalue, to be known to within a factor of ten. Vectors of a smaller basis are continued by zeros.
 Cluster clusterNear(const DenseProblem& problem, const std::vector<DensePair>& start, std::complex<double> guess, double isolation);
 
-/// Collective. The same from rank 0, so that rounding cannot make the ranks disagree.
-Cluster clusterTogether(MPI_Comm comm, const DenseProblem& problem, const std::vector<DensePair>& start, std::complex<double> guess,
-                        double isolation);
-
 /// Not collective. Eigenvalues and vectors of one problem, prepared for comparison with those of a neighbouring one.
 class Spectrum {
  public:
