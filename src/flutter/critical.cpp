@@ -8,6 +8,7 @@
 
 #include "flutter/join.hpp"
 #include "petsc/check.hpp"
+#include "petsc/text.hpp"
 
 namespace squeal::flutter {
 namespace {
@@ -311,6 +312,7 @@ std::vector<Critical> criticalFrictions(Family& family, const Branches& branches
   Roots roots(family, branches.events, tolerance);
   for (int round = 0; round < rounds; ++round) {
     const auto open = roots.open();
+    family.progress(formatted("%zu of %zu critical frictions to be improved", open.size(), branches.events.size()));
     if (open.empty() || !roots.improve(open)) break;
   }
   auto list = roots.results();

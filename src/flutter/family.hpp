@@ -1,6 +1,7 @@
 #pragma once
 /// Dense problems that depend on the friction: small models, or a large pencil in a reduced basis that may grow.
 #include <optional>
+#include <string>
 
 #include "flutter/dense.hpp"
 
@@ -27,6 +28,8 @@ class Family {
   virtual std::optional<DenseProblem> at(double friction) = 0;
   /// at() needs no other rank.
   virtual bool local() const { return false; }
+  /// Told on all ranks how far the work is.
+  virtual void progress(const std::string&) {}
   /// Collective. Adds to the basis what the residuals of these pairs ask for, all together.
   virtual Improvement improve(const std::vector<Located>&) { return {}; }
 };

@@ -78,7 +78,8 @@ class Follower {
         if (last || result_.stations.empty()) finish(last, next);
         last = &next;
       }
-      if (limits_.progress && !row.empty()) limits_.progress(row.back().station.friction);
+      if (!row.empty())
+        family_.progress(formatted("%d branches followed to friction %g", result_.count, row.back().station.friction));
       if (!row.empty()) row.erase(row.begin(), std::prev(row.end()));
     }
     return std::move(result_);

@@ -1,6 +1,5 @@
 #pragma once
 /// Eigenvalues followed over the friction by left and right vectors, through crossings and mergers, rather than by sorting.
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -49,7 +48,6 @@ struct Branches {
 
 struct TrackLimits {
   double smallest = 1. / 1024;  ///< of a step of the sweep: steps with all eigenvalues are not halved further
-  std::function<void(double friction)> progress = {};  ///< told, on all ranks, how far it is
 };
 
 /// Collective. Follows all eigenvalues of the band over ascending frictions. A continuation is certain where the spectral projectors
