@@ -96,9 +96,14 @@ class SegmentSweep {
 
   /// Eigenvalues followed from point to point, and critical frictions.
   void followPoints(ModalSegment& segment) {
-    if (!reduced_ || !flutter::trackWanted()) return;
+    if (!flutter::trackWanted()) return;
+    const std::string nothing = reduced_ ? flutter::nothingToFollow(*reduced_, segment.points) : "-flutter_method direct";
+    if (!nothing.empty()) {
+      if (flutter::trackAsked()) say(pencil_.comm(), "track: nothing to follow (" + nothing + ")");
+      return;
+    }
     Stage stage(pencil_.comm(), "track");
-    segment.followed = flutter::followSweep(*reduced_, segment.points, segment.modes, pencil_.comm(), [&](const Parameters& at) {
+    const auto problemAt = [&](const Parameters& at) {
       std::optional<flutter::PointProblem> problem;
       if (affine_) {
         problem.emplace(flutter::PointProblem{at, pencil_.with({})});
@@ -106,7 +111,9 @@ class SegmentSweep {
         problem.emplace(flutter::PointProblem{at, pencil_.with(std::move(*terms))});
       }
       return problem;
-    });
+    };
+    segment.followed = flutter::followSweep(*reduced_, segment.points, segment.modes, pencil_.comm(), problemAt,
+                                            [&](const std::string& text) { stage.progress(text); });
     std::size_t branches = 0, stations = 0, criticals = 0;
     for (const auto& followed : segment.followed) {
       branches += static_cast<std::size_t>(followed.branches.count);

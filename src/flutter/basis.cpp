@@ -181,4 +181,21 @@ std::vector<double> Basis::energyRatios(const std::vector<Block>& blocks) {
   return ratios;
 }
 
+void Basis::expand(const std::vector<std::complex<double>>& q, Vec real, Vec imaginary) const {
+  const ReadColumns v(columns_);
+  std::vector<double> coordinates(2 * static_cast<std::size_t>(v.columns()), 0.0),
+      shape(2 * static_cast<std::size_t>(v.rows()), 0.0);
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    coordinates[i] = q[i].real();
+    coordinates[static_cast<std::size_t>(v.columns()) + i] = q[i].imag();
+  }
+  multiplyAdd(v.values(), v.rows(), v.columns(), coordinates, shape);
+  for (Vec part : {real, imaginary}) {
+    PetscScalar* entries = nullptr;
+    check(VecGetArray(part, &entries));
+    std::copy_n(shape.begin() + (part == imaginary ? v.rows() : 0), v.rows(), entries);
+    check(VecRestoreArray(part, &entries));
+  }
+}
+
 }  // namespace squeal::flutter

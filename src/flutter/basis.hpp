@@ -29,6 +29,8 @@ class Basis {
 
   /// Collective. A times columns [first, last) of V.
   OwnedBV times(Mat matrix, PetscInt first, PetscInt last) const;
+  /// Fills the vectors with V q; entries that q lacks are zero.
+  void expand(const std::vector<std::complex<double>>& q, Vec real, Vec imaginary) const;
   /// Of columns of length n; the weighted norm is √(rᵀ diag(K0)⁻¹ r).
   const Sketch& sketch() const { return *sketch_; }
   /// Sketch of V.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flutter/images.hpp"
 #include "petsc/symmetric.hpp"
 
 namespace squeal::flutter {
@@ -12,18 +11,6 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr double oneCluster = 1e-6;
-
-/// Real and imaginary parts of all right vectors as columns 2j, 2j+1, times A.
-std::vector<double> product(const DenseMatrix& a, int m, const std::vector<DensePair>& pairs) {
-  std::vector<double> q, result(2 * pairs.size() * static_cast<std::size_t>(m), 0.0);
-  if (a.empty()) return result;
-  for (const auto& pair : pairs) {
-    for (const auto& entry : pair.q) q.push_back(entry.real());
-    for (const auto& entry : pair.q) q.push_back(entry.imag());
-  }
-  multiplyAdd(a.data(), m, m, q, result);
-  return result;
-}
 
 /// yᴴ P'(s) d for one left vector and the right vector of pair b.
 Complex pairing(const std::vector<Complex>& left, Complex s, const std::vector<double>& massTimes,
@@ -53,7 +40,8 @@ double smallestSingularValue(const std::vector<Complex>& g, std::size_t p) {
 }  // namespace
 
 std::vector<double> conditionNumbers(const DenseProblem& problem, const std::vector<DensePair>& pairs) {
-  const auto massTimes = product(problem.mass, problem.m, pairs), dampingTimes = product(problem.damping, problem.m, pairs);
+  const auto massTimes = timesVectors(problem.mass, problem.m, pairs),
+             dampingTimes = timesVectors(problem.damping, problem.m, pairs);
   std::vector<double> numbers;
   for (std::size_t j = 0; j < pairs.size(); ++j) {
     const Complex s = pairs[j].s;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "flutter/images.hpp"
 #include "petsc/check.hpp"
 
 namespace squeal::flutter {
@@ -242,6 +243,17 @@ std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vecto
 std::vector<DensePair> solveQuadratic(const DenseMatrix& mass, const DenseMatrix& damping, const DenseMatrix& stiffness, int m,
                                       Vectors vectors) {
   return solveQuadratic({mass, damping, stiffness, m}, vectors);
+}
+
+std::vector<double> timesVectors(const DenseMatrix& a, int m, const std::vector<DensePair>& pairs) {
+  std::vector<double> q, result(2 * pairs.size() * static_cast<std::size_t>(m), 0.0);
+  if (a.empty()) return result;
+  for (const auto& pair : pairs) {
+    for (const auto& entry : pair.q) q.push_back(entry.real());
+    for (const auto& entry : pair.q) q.push_back(entry.imag());
+  }
+  multiplyAdd(a.data(), m, m, q, result);
+  return result;
 }
 
 void shareFrom(int root, MPI_Comm comm, std::vector<DensePair>& pairs, int m, Vectors vectors) {

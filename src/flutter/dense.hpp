@@ -37,6 +37,9 @@ std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vecto
 std::vector<DensePair> solveQuadratic(const DenseMatrix& mass, const DenseMatrix& damping, const DenseMatrix& stiffness, int m,
                                       Vectors vectors = Vectors::right);
 
+/// Not collective. A times the right vectors, their real and imaginary parts as columns 2j and 2j + 1; zero for an empty A.
+std::vector<double> timesVectors(const DenseMatrix& a, int m, const std::vector<DensePair>& pairs);
+
 /// Collective. Solves several problems, each on one rank, which alone needs its matrices: problem i on rank i modulo their number. The
 /// same results on all ranks, so that rounding cannot make the ranks disagree on the order or number of eigenvalues.
 std::vector<std::vector<DensePair>> solveSpread(MPI_Comm comm, const std::vector<DenseProblem>& problems, Vectors vectors,

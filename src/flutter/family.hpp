@@ -1,6 +1,7 @@
 #pragma once
 /// Dense problems that depend on the friction: small models, or a large pencil in a reduced basis that may grow.
 #include <optional>
+#include <string>
 
 #include "flutter/dense.hpp"
 
@@ -22,9 +23,13 @@ class Family {
  public:
   virtual ~Family() = default;
   virtual MPI_Comm comm() const = 0;
-  /// Collective. The problem at one friction in the basis in force, the same on all ranks; none where it cannot be had, for example
+  /// Collective, unless local(). The problem at one friction in the basis in force, the same on all ranks; none where it cannot be had, for example
   /// because the contact opens.
   virtual std::optional<DenseProblem> at(double friction) = 0;
+  /// at() needs no other rank.
+  virtual bool local() const { return false; }
+  /// Told on all ranks how far the work is.
+  virtual void progress(const std::string&) {}
   /// Collective. Adds to the basis what the residuals of these pairs ask for, all together.
   virtual Improvement improve(const std::vector<Located>&) { return {}; }
 };

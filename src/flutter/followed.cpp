@@ -13,7 +13,9 @@ namespace {
 const FlagOption trackOption(
     "flutter", "flutter_track", true,
     "follow the eigenvalues of the band over the friction by left and right vectors, through crossings and "
-    "mergers: branches.csv; reduced method alone");
+    "mergers: branches.csv; reduced method alone; a single friction is followed from friction 0 only if this or -flutter_critical "
+    "is "
+    "given");
 const FlagOption criticalOption("flutter", "flutter_critical", true,
                                 "solve for the frictions at which stability changes: critical.csv; needs -flutter_track");
 const RealOption toleranceOption("flutter", "flutter_critical_tolerance", 1e-8, "", positive,
@@ -24,19 +26,19 @@ const IntegerOption halvingsOption("flutter", "flutter_track_halvings", 10, 0,
 /// One line of the sweep in the reduced basis.
 class ReducedFamily : public Family {
  public:
-  ReducedFamily(ReducedProblem& reduced, MPI_Comm comm, const Parameters& line, const ProblemSource& problemAt)
-      : reduced_(reduced), comm_(comm), line_(line), problemAt_(problemAt) {}
+  ReducedFamily(ReducedProblem& reduced, MPI_Comm comm, const Parameters& line, const ProblemSource& problemAt,
+                const std::function<void(const std::string&)>& progress)
+      : reduced_(reduced), comm_(comm), line_(line), problemAt_(problemAt), progress_(progress) {}
   MPI_Comm comm() const override { return comm_; }
 
   std::optional<DenseProblem> at(double friction) override {
-    const auto terms = problemAt_(point(friction));
-    if (!terms) return {};
-    DenseProblem problem = reduced_.project(*terms);
-    // Sums over the ranks, whose rounding may depend on the rank; what follows from them must not.
-    for (auto* matrix : {&problem.mass, &problem.damping, &problem.stiffness})
-      check(MPI_Bcast(matrix->data(), static_cast<int>(matrix->size()), MPI_DOUBLE, 0, comm_));
-    return problem;
+    const auto problem = problemAt_(point(friction));
+    if (!problem) return {};
+    local_ = problem->pencil.affineCount() == problem->pencil.terms().size();
+    return reduced_.project(*problem);
   }
+  bool local() const override { return local_; }
+  void progress(const std::string& text) override { progress_(text); }
 
   Improvement improve(const std::vector<Located>& located) override {
     std::vector<std::pair<PointProblem, std::vector<DensePair>>> list;
@@ -54,11 +56,13 @@ class ReducedFamily : public Family {
   MPI_Comm comm_;
   Parameters line_;
   const ProblemSource& problemAt_;
+  const std::function<void(const std::string&)>& progress_;
+  bool local_ = false;  // no point has terms of its own, as far as known
 };
 
-/// Drops what is watched beside the band alone, and numbers the rest.
-void renumber(Followed& followed) {
-  auto& [band, stations, events, gaps, count, entered, left] = followed.branches;
+/// Drops what is watched beside the band alone, and numbers the rest from 1; a partner that is none or outside is 0.
+void renumber(Branches& branches) {
+  auto& [band, stations, events, gaps, count, entered, left] = branches;
   std::map<int, int> number;
   for (const auto& station : stations)
     for (std::size_t i = 0; i < station.pairs.size(); ++i)
@@ -76,11 +80,11 @@ void renumber(Followed& followed) {
   };
   for (auto& station : stations)
     for (int& branch : station.branch) branch = of(branch);
-  for (auto& critical : followed.criticals) {
-    critical.branch = of(critical.branch);
-    critical.partner = critical.partner < 0 ? 0 : of(critical.partner);
+  for (auto& event : events) {
+    event.branch = of(event.branch);
+    event.partner = event.partner < 0 ? 0 : of(event.partner);
   }
-  std::erase_if(followed.criticals, [](const Critical& critical) { return critical.branch == 0; });
+  std::erase_if(events, [](const Event& event) { return event.branch == 0; });
 }
 
 /// Vectors have done their service, and there are many.
@@ -90,7 +94,7 @@ void dropVectors(Branches& branches) {
   branches.events.clear();
 }
 
-/// The frictions of points that differ in nothing else, ascending; [line].
+/// The frictions to follow of points that differ in nothing else, ascending; [line].
 std::vector<std::pair<Parameters, std::vector<double>>> lines(const std::vector<FrictionPoint>& points) {
   std::vector<std::pair<Parameters, std::vector<double>>> found;
   for (const auto& point : points) {
@@ -99,12 +103,20 @@ std::vector<std::pair<Parameters, std::vector<double>>> lines(const std::vector<
     if (found.empty() || !(found.back().first == line)) found.push_back({line, {}});
     found.back().second.push_back(point.at.friction);
   }
+  std::erase_if(found, [](const auto& line) { return line.second.size() == 1 && (line.second[0] == 0 || !trackAsked()); });
   return found;
 }
 
 }  // namespace
 
-bool trackWanted() { return trackOption.get() && !directWanted(); }
+bool trackWanted() { return trackOption.get(); }
+
+bool trackAsked() { return trackOption.given() || criticalOption.given(); }
+
+std::string nothingToFollow(const ReducedProblem& reduced, const std::vector<FrictionPoint>& points) {
+  if (reduced.band().top == 0) return "-reduction_basis modal corrects no eigenvalue";
+  return lines(points).empty() ? "single frictions" : "";
+}
 
 bool Followed::complete() const {
   return std::all_of(branches.gaps.begin(), branches.gaps.end(), [](const Gap& gap) { return gap.identityOnly; });
@@ -129,14 +141,13 @@ std::string Followed::statement() const {
 }
 
 std::vector<Followed> followSweep(ReducedProblem& reduced, const std::vector<FrictionPoint>& points, const modes::Modes& modes,
-                                  MPI_Comm comm, const ProblemSource& problemAt) {
+                                  MPI_Comm comm, const ProblemSource& problemAt,
+                                  const std::function<void(const std::string&)>& progress) {
   std::vector<Followed> result;
-  if (reduced.band().top == 0) return result;
   for (auto [line, frictions] : lines(points)) {
     const bool swept = frictions.front() == 0;
     if (!swept) frictions.insert(frictions.begin(), 0);
-    if (frictions.size() < 2) continue;
-    ReducedFamily family(reduced, comm, line, problemAt);
+    ReducedFamily family(reduced, comm, line, problemAt, progress);
     Followed followed;
     followed.line = line;
     TrackLimits limits;
@@ -151,8 +162,8 @@ std::vector<Followed> followSweep(ReducedProblem& reduced, const std::vector<Fri
       followed.countExact = problem && problem->damping.empty() && modes.countConfirmed &&
                             below < static_cast<std::ptrdiff_t>(w.size()) && below == followed.branches.inBandAt(stations.front());
     }
+    renumber(followed.branches);
     if (criticalOption.get()) followed.criticals = criticalFrictions(family, followed.branches, toleranceOption.get());
-    renumber(followed);
     dropVectors(followed.branches);
     result.push_back(std::move(followed));
   }

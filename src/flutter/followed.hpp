@@ -25,13 +25,18 @@ struct Followed {
 
 using ProblemSource = std::function<std::optional<PointProblem>(const Parameters&)>;
 
-/// `-flutter_track`, for the reduced method with a band.
+/// `-flutter_track`.
 bool trackWanted();
+/// `-flutter_track` or `-flutter_critical` is given: the user is to be told if there is nothing to follow.
+bool trackAsked();
+/// Why there is nothing to follow: eigenvalues of the free modes alone, or single frictions unless trackAsked(). Empty: there is.
+std::string nothingToFollow(const ReducedProblem& reduced, const std::vector<FrictionPoint>& points);
 
 /// Collective. Follows the eigenvalues of `points`, from friction 0 on, in the basis in force, and solves for the critical frictions
-/// (`-flutter_critical`), for which the basis may grow. `problemAt(at)`: the terms of a point; none: there is no steady state with this
+/// (`-flutter_critical`), for which the basis may grow. Single frictions are left out unless trackAsked(). `problemAt(at)`: the terms of a point; none: there is no steady state with this
 /// active set.
 std::vector<Followed> followSweep(ReducedProblem& reduced, const std::vector<FrictionPoint>& points, const modes::Modes& modes,
-                                  MPI_Comm comm, const ProblemSource& problemAt);
+                                  MPI_Comm comm, const ProblemSource& problemAt,
+                                  const std::function<void(const std::string&)>& progress);
 
 }  // namespace squeal::flutter

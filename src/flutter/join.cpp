@@ -5,6 +5,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "petsc/check.hpp"
+
 namespace squeal::flutter {
 namespace {
 
@@ -28,6 +30,9 @@ std::vector<std::size_t> byFrequency(const std::vector<DensePair>& pairs) {
   return order;
 }
 
+/// Of a problem in s², of which −s is one with every s, without negative real ones.
+bool counted(const DenseProblem& problem, Complex s) { return !problem.damping.empty() || s.imag() != 0 || s.real() >= 0; }
+
 /// |Σ tr(Π_i Π_j) − number| for all pairs of both.
 double unshared(const Spectrum& a, const Spectrum& b) {
   Complex sum = 0;
@@ -36,15 +41,14 @@ double unshared(const Spectrum& a, const Spectrum& b) {
   return std::abs(sum - static_cast<double>(a.pairs().size()));
 }
 
-std::optional<Spectrum> locally(Family& family, const DenseProblem& problem, const Spectrum& from,
-                                const std::vector<DensePair>& start, Complex expected, double isolation) {
-  const Cluster cluster = clusterTogether(family.comm(), problem, start, expected, isolation);
+std::optional<Spectrum> locally(const DenseProblem& problem, const Spectrum& from, const std::vector<DensePair>& start,
+                                Complex expected, double isolation) {
+  Cluster cluster = clusterNear(problem, start, expected, isolation);
   if (!cluster.converged) return {};
-  auto pairs = cluster.pairs;
   if (problem.damping.empty())  // s and −s have the same vectors
-    for (auto& pair : pairs)
+    for (auto& pair : cluster.pairs)
       if (pair.s.imag() < -1e-9 * std::abs(pair.s) || (real(pair.s) && pair.s.real() < 0)) pair.s = -pair.s;
-  Spectrum found(problem, std::move(pairs));
+  Spectrum found(problem, std::move(cluster.pairs));
   if (unshared(from, found) > 0.5) return {};
   return found;
 }
@@ -65,27 +69,47 @@ std::vector<std::size_t> closest(const Spectrum& from, const Spectrum& all) {
 
 }  // namespace
 
-std::vector<DensePair> allPairs(MPI_Comm comm, const DenseProblem& problem) {
-  auto pairs = solveSpread(comm, {problem}, Vectors::both)[0];
-  if (problem.damping.empty()) std::erase_if(pairs, [](const auto& pair) { return pair.s.imag() == 0 && pair.s.real() < 0; });
-  return pairs;
-}
-
-std::optional<Spectrum> pursued(Family& family, double friction, const Spectrum& from, Complex expected, double isolation) {
-  const auto problem = family.at(friction);
-  if (!problem) return {};
-  if (auto found = locally(family, *problem, from, from.pairs(), expected, isolation)) return found;
-  const Spectrum all(*problem, allPairs(family.comm(), *problem));
+std::optional<Spectrum> continuedIn(const DenseProblem& problem, const Spectrum& from, Complex expected, double isolation) {
+  if (auto found = locally(problem, from, from.pairs(), expected, isolation)) return found;
+  auto pairs = solveQuadratic(problem, Vectors::both);
+  std::erase_if(pairs, [&](const auto& pair) { return !counted(problem, pair.s); });
+  const Spectrum all(problem, std::move(pairs));
   const auto indices = closest(from, all);
-  const Spectrum whole(*problem, chosen(all.pairs(), indices));
+  const Spectrum whole(problem, chosen(all.pairs(), indices));
   if (unshared(from, whole) > 0.5) return {};
   const Complex middle = mean(whole.pairs());
   double free = std::abs(middle);
   for (std::size_t j = 0; j < all.pairs().size(); ++j)
     if (std::find(indices.begin(), indices.end(), j) == indices.end()) free = std::min(free, std::abs(all.pairs()[j].s - middle));
   // Where the eigenvalues are closer to each other than to the rest, their subspace has more digits than they have.
-  if (auto found = locally(family, *problem, whole, whole.pairs(), middle, free)) return found;
+  if (auto found = locally(problem, whole, whole.pairs(), middle, free)) return found;
   return whole;
+}
+
+std::vector<std::vector<DensePair>> watchedPairs(MPI_Comm comm, const std::vector<DenseProblem>& problems,
+                                                 const WatchedBand& band) {
+  auto solved = solveSpread(comm, problems, Vectors::both, [&](Complex s) { return band.watches(s); });
+  for (std::size_t i = 0; i < problems.size(); ++i)
+    std::erase_if(solved[i], [&](const auto& pair) { return !counted(problems[i], pair.s); });
+  return solved;
+}
+
+std::optional<Spectrum> pursued(Family& family, double friction, const Spectrum& from, Complex expected, double isolation) {
+  const auto problem = family.at(friction);
+  if (!problem) return {};
+  int rank = 0;
+  check(MPI_Comm_rank(family.comm(), &rank));
+  std::vector<DensePair> pairs;
+  std::string failure;
+  if (rank == 0) try {
+      if (auto found = continuedIn(*problem, from, expected, isolation)) pairs = found->pairs();
+    } catch (const Error& error) {
+      failure = error.what();
+    }
+  failTogether(family.comm(), failure);
+  shareFrom(0, family.comm(), pairs, problem->m, Vectors::both);
+  if (pairs.empty()) return {};
+  return Spectrum(*problem, std::move(pairs));
 }
 
 bool neutral(Complex s, bool damped) { return std::abs(s.real()) <= (damped ? 1e-10 : 1e-6) * std::abs(s); }

@@ -31,13 +31,18 @@ std::vector<std::size_t> assigned(const Spectrum& here, const Spectrum& there, c
 /// The same by order: frequency, then growth; at a change between neutral and split, the convention of follow().
 std::vector<std::size_t> ordered(const std::vector<DensePair>& here, const std::vector<DensePair>& there);
 
-/// Collective. All eigenvalues with Im s ≥ 0 and both vectors; of a problem in s², of which −s is one with every s, without negative
-/// real ones.
-std::vector<DensePair> allPairs(MPI_Comm comm, const DenseProblem& problem);
+/// Collective. The eigenvalues of several problems that the band watches, Im s ≥ 0, with both vectors, by solveSpread; of a problem in
+/// s², of which −s is one with every s, without negative real ones.
+std::vector<std::vector<DensePair>> watchedPairs(MPI_Comm comm, const std::vector<DenseProblem>& problems, const WatchedBand& band);
 
-/// Collective. The eigenvalues of `from`, one or two of a neighbouring friction, at this one: by their own subspace begun with
-/// `expected` and `isolation` (see clusterNear), or, where that fails or ends elsewhere, out of all eigenvalues. Nothing: there is no
-/// problem at this friction, or none of its eigenvalues continue these.
+/// Not collective. The eigenvalues of `from`, one or two of a neighbouring friction, in this problem: by their own subspace begun with
+/// `expected` and `isolation` (see clusterNear), or, where that fails or ends elsewhere, out of all eigenvalues. Nothing: none of its
+/// eigenvalues continue these. Error: LAPACK fails.
+std::optional<Spectrum> continuedIn(const DenseProblem& problem, const Spectrum& from, std::complex<double> expected,
+                                    double isolation);
+
+/// Collective. The same at a friction of the family, on rank 0, so that rounding cannot make the ranks disagree. Nothing also: there is
+/// no problem at this friction.
 std::optional<Spectrum> pursued(Family& family, double friction, const Spectrum& from, std::complex<double> expected,
                                 double isolation);
 

@@ -91,9 +91,12 @@ void ProjectedTerms::extend(Part& part) const {
   }
   if (part.transposed) sketchOf(basis_.times(part.transposed, old, size), part.leftRows, part.leftSketch);
   const ReadColumns all(basis_.columns());
-  const auto right = part.image.transposedProduct(basis_.comm(), all, 0, size, old, size);  // Vᵀ (A V_new)
-  const auto below =
+  auto right = part.image.transposedProduct(basis_.comm(), all, 0, size, old, size);  // Vᵀ (A V_new)
+  auto below =
       part.transposed ? part.image.transposedProduct(basis_.comm(), all, old, size, 0, old) : DenseMatrix{};  // V_newᵀ (A V_old)
+  // Sums over the ranks, whose rounding may depend on the rank; what follows from them must not.
+  for (auto* block : {&right, &below})
+    check(MPI_Bcast(block->data(), static_cast<int>(block->size()), MPI_DOUBLE, 0, basis_.comm()));
   grow(part.projection, old, size, right, below);
   part.columns = size;
 }
@@ -126,6 +129,21 @@ void ProjectedTerms::addTo(const Parameters& at, const Coordinates& pairs, Block
   for (const auto& part : parts_)
     if (const double c = part.term.coefficient(at); c != 0)
       part.image.multiplyAdd(pairs.times(Side::right, part.term.power, c), part.columns, result.values);
+}
+
+Block ProjectedTerms::residuals(const std::vector<PointPairs>& points) const {
+  PetscInt columns = 0;
+  for (const auto& point : points) columns += point.pairs.columns;
+  Block result(basis_.localRows(), columns);
+  for (const auto& part : parts_) {
+    std::vector<double> coefficients;
+    for (const auto& [at, pairs] : points) {
+      const auto own = pairs.times(Side::right, part.term.power, part.term.coefficient(at));
+      coefficients.insert(coefficients.end(), own.begin(), own.end());
+    }
+    part.image.multiplyAdd(coefficients, part.columns, result.values);
+  }
+  return result;
 }
 
 void ProjectedTerms::addTo(const Parameters& at, const Coordinates& pairs, Side side, DenseMatrix& sketch) const {

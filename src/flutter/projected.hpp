@@ -27,6 +27,12 @@ struct Coordinates {
   std::vector<double> times(Side side, int power, double c) const;
 };
 
+/// Pairs found at one point.
+struct PointPairs {
+  Parameters at;
+  Coordinates pairs;
+};
+
 class ProjectedTerms {
  public:
   /// Collective. Terms [first, last) of the pencil; their matrices are shared. Borrows the basis and its sketch.
@@ -39,6 +45,8 @@ class ProjectedTerms {
   void addTo(const Parameters& at, DenseProblem& sum) const;
   /// Adds P(s) V q to the columns of `result`.
   void addTo(const Parameters& at, const Coordinates& pairs, Block& result) const;
+  /// P(s) V q of the pairs of several points, in one product per term.
+  Block residuals(const std::vector<PointPairs>& points) const;
   /// Adds the sketch of P(s) V q or P(s)ᴴ V y.
   void addTo(const Parameters& at, const Coordinates& pairs, Side side, DenseMatrix& sketch) const;
 

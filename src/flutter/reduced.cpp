@@ -72,7 +72,7 @@ struct ReducedProblem::Work {
   const PointProblem* point;
   ProjectedTerms ownTerms;
   bool damped;
-  std::array<double, 3> norms;        // of K̄, Z̄, M̄
+  Norms norms;                        // of K̄, Z̄, M̄
   std::vector<DensePair> pairs;       // of the band, with left vectors
   std::vector<double> backwardError;  // [pair]
   // |δs|/|s| is at most the product of the two, each with the norm of diag(K0)⁻¹ for that of K0⁻¹
@@ -147,7 +147,7 @@ Block ReducedProblem::leftResidual(const Work& work, const Coordinates& coordina
       check(VecDuplicate(part, list[i].out()));
       check(VecZeroEntries(list[i]));
     }
-  expand(pair.left, vectors[0], vectors[1]);
+  basis_.expand(pair.left, vectors[0], vectors[1]);
   for (const auto& term : work.point->pencil.terms()) {
     std::complex<double> c = term.coefficient(work.point->at) * std::pow(std::conj(pair.s), term.power);
     for (PetscInt i = 0; i < coordinates.columns; ++i, c *= std::complex<double>(0, 1)) {
@@ -237,11 +237,7 @@ Block ReducedProblem::directions(const Work& work) const {
 /// Dense problems of the points that are not done, and their errors.
 void ReducedProblem::solveDense(const std::vector<Work*>& open) {
   std::vector<DenseProblem> problems;
-  for (const auto* work : open) {
-    problems.emplace_back();
-    terms_.addTo(work->point->at, problems.back());
-    work->ownTerms.addTo(work->point->at, problems.back());
-  }
+  for (const auto* work : open) problems.push_back(project(*work));
   auto solved = solveSpread(basis_.comm(), problems, Vectors::both, [&](auto s) { return bandTop_ == 0 || inBand(s); });
   for (std::size_t i = 0; i < open.size(); ++i) {
     open[i]->pairs = std::move(solved[i]);
@@ -275,12 +271,12 @@ std::vector<ReducedProblem::Work*> ReducedProblem::unconfirmed(std::vector<Work>
   return open;
 }
 
-ReducedProblem::Work ReducedProblem::begun(const PointProblem& point) const {
+ReducedProblem::Work ReducedProblem::begun(const PointProblem& point, const Norms& norms) const {
   const auto& pencil = point.pencil;
   return {&point,
           ProjectedTerms(basis_, pencil, pencil.affineCount(), pencil.terms().size()),
           pencil.hasPower(1),
-          {pencil.norm(0, point.at), pencil.norm(1, point.at), pencil.norm(2, point.at)},
+          norms,
           {},
           {},
           {},
@@ -289,10 +285,28 @@ ReducedProblem::Work ReducedProblem::begun(const PointProblem& point) const {
           Block(0)};
 }
 
+ReducedProblem::Norms ReducedProblem::normsOf(const PointProblem& point) {
+  const auto& pencil = point.pencil;
+  norms_.emplace_back(point.at, Norms{pencil.norm(0, point.at), pencil.norm(1, point.at), pencil.norm(2, point.at)});
+  return norms_.back().second;
+}
+
+/// Those of the point solved that is nearest in friction: they take many products with large matrices.
+ReducedProblem::Norms ReducedProblem::nearbyNorms(const PointProblem& point) {
+  const std::pair<Parameters, Norms>* nearest = nullptr;
+  for (const auto& known : norms_) {
+    Parameters at = known.first;
+    at.friction = point.at.friction;
+    const auto distance = [&](const auto* other) { return std::abs(other->first.friction - point.at.friction); };
+    if (at == point.at && (!nearest || distance(&known) < distance(nearest))) nearest = &known;
+  }
+  return nearest ? nearest->second : normsOf(point);
+}
+
 std::vector<FrictionPoint> ReducedProblem::solve(const std::vector<PointProblem>& batch, Mat trial) {
   std::vector<Work> works;
   std::vector<Work*> open;
-  for (const auto& point : batch) works.push_back(begun(point));
+  for (const auto& point : batch) works.push_back(begun(point, normsOf(point)));
   for (auto& work : works) open.push_back(&work);
   const PetscInt largest = std::min(basis_.size() + static_cast<PetscInt>(growthOption.get()), unknowns_);
   for (int round = 0; !open.empty(); ++round) {
@@ -327,35 +341,49 @@ FrictionPoint ReducedProblem::result(Work& work, Mat trial) {
         {work.pairs[j].s, work.backwardError[j], estimate, work.backwardError[j] <= point.accuracy && estimate <= point.tolerance});
   }
   flutter::judge(point.eigenvalues);
-  keepShapes(point, trial, [&](std::size_t index, Vec real, Vec imaginary) { expand(work.pairs[index].q, real, imaginary); });
+  keepShapes(point, trial,
+             [&](std::size_t index, Vec real, Vec imaginary) { basis_.expand(work.pairs[index].q, real, imaginary); });
   point.solvedIndex = solved_.size();
   solved_.push_back(std::move(work.pairs));
   return point;
 }
 
-DenseProblem ReducedProblem::project(const PointProblem& point) const {
+DenseProblem ReducedProblem::project(const PointProblem& point) const { return project(begun(point, {})); }
+
+DenseProblem ReducedProblem::project(const Work& work) const {
   DenseProblem problem;
-  terms_.addTo(point.at, problem);
-  ProjectedTerms(basis_, point.pencil, point.pencil.affineCount(), point.pencil.terms().size()).addTo(point.at, problem);
+  terms_.addTo(work.point->at, problem);
+  work.ownTerms.addTo(work.point->at, problem);
   return problem;
 }
 
 Improvement ReducedProblem::improve(const std::vector<std::pair<PointProblem, std::vector<DensePair>>>& located) {
   Improvement result;
-  Block wanted(basis_.localRows());
+  std::vector<Work> works;
+  works.reserve(located.size());
+  std::vector<PointPairs> open;
+  std::vector<const ProjectedTerms*> ownTerms;
   for (const auto& [point, pairs] : located) {
-    Work work = begun(point);
+    Work& work = works.emplace_back(begun(point, nearbyNorms(point)));
     work.pairs = pairs;
-    judge(work, project(point));
+    judge(work, project(work));
     result.backwardError.push_back(*std::max_element(work.backwardError.begin(), work.backwardError.end()));
     if (result.backwardError.back() < rounding) continue;
     // Both parts of a residual in units of the whole: one of them may be rounding.
-    const Coordinates coordinates(pointers(pairs), true);
-    const Block columns = residuals(work, coordinates);
-    const auto squares = perPair(coordinates, squaredNorms(basis_.sketch().of(columns.values.data(), columns.columns)).euclidean);
-    for (std::size_t j = 0; j < pairs.size(); ++j)
-      for (auto c = coordinates.firstColumn[j]; c < coordinates.firstColumn[j + 1]; ++c)
-        wanted.append(columns.column(c), 1 / std::sqrt(squares[j]));
+    open.push_back({point.at, Coordinates(pointers(pairs), true)});
+    ownTerms.push_back(&work.ownTerms);
+  }
+  Block columns = terms_.residuals(open);
+  for (std::size_t k = 0, first = 0; k < open.size(); ++k) {
+    Block own(columns.rows, open[k].pairs.columns);
+    ownTerms[k]->addTo(open[k].at, open[k].pairs, own);
+    for (double value : own.values) columns.values[first++] += value;
+  }
+  const auto squares = squaredNorms(basis_.sketch().of(columns.values.data(), columns.columns)).euclidean;
+  Block wanted(columns.rows);
+  for (PetscInt c = 0; c < columns.columns; ++c) {
+    const auto pair = static_cast<std::size_t>(c / 2 * 2);
+    wanted.append(columns.column(c), 1 / std::sqrt(squares[pair] + squares[pair + 1]));
   }
   result.changed = wanted.columns > 0 && basis_.add(principal(basis_.comm(), wanted, resolution)) > 0;
   terms_.extend();
@@ -366,24 +394,6 @@ WatchedBand ReducedProblem::band() const { return {bandTop_, 1.3, bandDampingOpt
 
 bool ReducedProblem::inBand(std::complex<double> s) const {
   return std::abs(s) <= bandTop_ && -s.real() <= bandDampingOption.get() * std::abs(s);
-}
-
-/// V q.
-void ReducedProblem::expand(const std::vector<std::complex<double>>& q, Vec real, Vec imaginary) const {
-  const ReadColumns v(basis_.columns());
-  std::vector<double> coordinates(2 * static_cast<std::size_t>(v.columns()), 0.0),
-      shape(2 * static_cast<std::size_t>(v.rows()), 0.0);
-  for (std::size_t i = 0; i < q.size(); ++i) {
-    coordinates[i] = q[i].real();
-    coordinates[static_cast<std::size_t>(v.columns()) + i] = q[i].imag();
-  }
-  multiplyAdd(v.values(), v.rows(), v.columns(), coordinates, shape);
-  for (Vec part : {real, imaginary}) {
-    PetscScalar* entries = nullptr;
-    check(VecGetArray(part, &entries));
-    std::copy_n(shape.begin() + (part == imaginary ? v.rows() : 0), v.rows(), entries);
-    check(VecRestoreArray(part, &entries));
-  }
 }
 
 }  // namespace squeal::flutter

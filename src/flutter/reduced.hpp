@@ -1,5 +1,7 @@
 #pragma once
 /// The reduced problem [4.19], corrected until its eigenvalues are those of the full one.
+#include <array>
+#include <utility>
 #include <vector>
 
 #include "flutter/family.hpp"
@@ -29,8 +31,6 @@ class ReducedProblem {
   std::vector<FrictionPoint> solve(const std::vector<PointProblem>& batch, Mat trial);
   /// Collective. The projection on the basis as it is.
   DenseProblem project(const PointProblem& point) const;
-  /// Collective. Fills the vectors with V q.
-  void expand(const std::vector<std::complex<double>>& q, Vec real, Vec imaginary) const;
   PetscInt basisSize() const { return basis_.size(); }
   const Basis& basis() const { return basis_; }
   WatchedBand band() const;  ///< top 0: no eigenvalue is corrected
@@ -42,8 +42,12 @@ class ReducedProblem {
 
  private:
   struct Work;
+  using Norms = std::array<double, 3>;  // of K̄, Z̄, M̄
   void addStaticResponses(const Pencil& pencil, const modes::Modes& modes);
-  Work begun(const PointProblem& point) const;
+  Norms normsOf(const PointProblem& point);
+  Norms nearbyNorms(const PointProblem& point);
+  Work begun(const PointProblem& point, const Norms& norms) const;
+  DenseProblem project(const Work& work) const;
   void extend(const std::vector<Work*>& works);
   Block residuals(const Work& work, const Coordinates& coordinates) const;
   Block leftResidual(const Work& work, const Coordinates& pair) const;
@@ -64,6 +68,7 @@ class ReducedProblem {
   Basis basis_;
   ProjectedTerms terms_;
   std::vector<std::vector<DensePair>> solved_;
+  std::vector<std::pair<Parameters, Norms>> norms_;  // of the points solved
 };
 
 }  // namespace squeal::flutter

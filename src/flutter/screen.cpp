@@ -1,7 +1,6 @@
 #include "flutter/screen.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "flutter/join.hpp"
@@ -12,30 +11,29 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// yᴴ A x.
-Complex form(const std::vector<Complex>& y, const DenseMatrix& a, const std::vector<Complex>& x) {
-  const std::size_t m = x.size();
-  Complex sum = 0;
-  for (std::size_t j = 0; j < m && !a.empty(); ++j) {
-    Complex column = 0;
-    for (std::size_t i = 0; i < m; ++i) column += std::conj(y[i]) * a[j * m + i];
-    sum += column * x[j];
-  }
-  return sum;
-}
-
-/// ds/df = −yᴴ P_f x / (yᴴ P_s x), P_f by the difference over the step: exact where P is linear in f, good enough to look for
-/// candidates elsewhere.
-Complex slope(const DensePair& pair, const DenseProblem& at, const StepEnd& low, const StepEnd& high) {
+/// ds/df = −yᴴ P_f x / (yᴴ P_s x) of pairs at one end, P_f by the difference over the step: exact where P is linear in f, good enough
+/// to look for candidates elsewhere.
+std::vector<Complex> slopes(const Spectrum& spectrum, const StepEnd& low, const StepEnd& high) {
+  const auto& pairs = spectrum.pairs();
+  const int m = low.problem.m;
   const auto change = [&](const DenseMatrix& a, const DenseMatrix& b) {
-    return a.empty() || b.empty() ? Complex(0) : form(pair.left, b, pair.q) - form(pair.left, a, pair.q);
+    DenseMatrix difference(a.empty() ? b.size() : a.size());
+    for (std::size_t k = 0; k < difference.size(); ++k) difference[k] = (b.empty() ? 0 : b[k]) - (a.empty() ? 0 : a[k]);
+    return timesVectors(difference, m, pairs);
   };
-  const Complex s = pair.s;
-  const Complex difference = change(low.problem.stiffness, high.problem.stiffness) +
-                             s * change(low.problem.damping, high.problem.damping) +
-                             s * s * change(low.problem.mass, high.problem.mass);
-  const Complex derivative = 2.0 * s * form(pair.left, at.mass, pair.q) + form(pair.left, at.damping, pair.q);
-  return -difference / (high.friction - low.friction) / derivative;
+  const auto stiffness = change(low.problem.stiffness, high.problem.stiffness),
+             damping = change(low.problem.damping, high.problem.damping), mass = change(low.problem.mass, high.problem.mass);
+  std::vector<Complex> list;
+  for (std::size_t j = 0; j < pairs.size(); ++j) {
+    const auto& [s, x, y] = pairs[j];
+    Complex sum = 0;
+    const std::size_t n = y.size(), re = 2 * j * n, im = re + n;
+    for (std::size_t i = 0; i < n; ++i)
+      sum += std::conj(y[i]) * (Complex(stiffness[re + i], stiffness[im + i]) + s * Complex(damping[re + i], damping[im + i]) +
+                                s * s * Complex(mass[re + i], mass[im + i]));
+    list.push_back(-sum / (high.friction - low.friction) / spectrum.derivative(j));
+  }
+  return list;
 }
 
 /// Cubic of given values and slopes at 0 and 1.
@@ -105,8 +103,13 @@ class Screening {
   Screening(Family& family, const StepEnd& low, const StepEnd& high, const std::vector<Pursued>& singles,
             std::vector<Event>& events, std::vector<Gap>& gaps)
       : family_(family), low_(low), high_(high), singles_(singles), events_(events), gaps_(gaps) {
-    for (const auto& single : singles)
-      slopes_.push_back({slope(single.below, low.problem, low, high), slope(single.above, high.problem, low, high)});
+    std::vector<DensePair> below, above;
+    for (const auto& single : singles) {
+      below.push_back(single.below);
+      above.push_back(single.above);
+    }
+    below_ = slopes(Spectrum(low.problem, below), low, high);
+    above_ = slopes(Spectrum(high.problem, above), low, high);
   }
 
   void run() {
@@ -154,8 +157,7 @@ class Screening {
   void merger(std::size_t i, std::size_t j) {
     const Pursued &a = singles_[i], &b = singles_[j];
     const double d0 = 0.5 * (a.below.s - b.below.s).imag(), d1 = 0.5 * (a.above.s - b.above.s).imag();
-    const double slope0 = 0.5 * (slopes_[i][0] - slopes_[j][0]).imag() * width(),
-                 slope1 = 0.5 * (slopes_[i][1] - slopes_[j][1]).imag() * width();
+    const double slope0 = 0.5 * (below_[i] - below_[j]).imag() * width(), slope1 = 0.5 * (above_[i] - above_[j]).imag() * width();
     const Cubic square{d0 * d0, 2 * d0 * slope0, d1 * d1, 2 * d1 * slope1};
     double t = square.lowest();
     const bool crossing = d0 * d1 < 0;
@@ -187,7 +189,7 @@ class Screening {
     const double g0 = a.below.s.real(), g1 = a.above.s.real();
     if (g0 * g1 <= 0) return;
     const double sign = g0 > 0 ? 1 : -1;
-    const Cubic growth{sign * g0, sign * slopes_[i][0].real() * width(), sign * g1, sign * slopes_[i][1].real() * width()};
+    const Cubic growth{sign * g0, sign * below_[i].real() * width(), sign * g1, sign * above_[i].real() * width()};
     const double t = growth.lowest();
     if (growth(t) > 0.1 * std::min(sign * g0, sign * g1)) return;
     const std::vector<DensePair> below{a.below}, above{a.above};
@@ -201,7 +203,7 @@ class Screening {
   const std::vector<Pursued>& singles_;
   std::vector<Event>& events_;
   std::vector<Gap>& gaps_;
-  std::vector<std::array<Complex, 2>> slopes_;
+  std::vector<Complex> below_, above_;  // slopes at both ends
   std::vector<DensePair> found_;
 };
 

@@ -25,21 +25,21 @@ namespace {
 using Complex = std::complex<double>;
 using ComplexVector = std::vector<Complex>;
 
-ComplexVector times(const DenseMatrix& a, const ComplexVector& x) {
+/// A x, or Aᵀ x with `transposed` "T"; zero for an empty A.
+ComplexVector product(const char* transposed, const DenseMatrix& a, const ComplexVector& x) {
   const std::size_t m = x.size();
+  if (a.empty()) return ComplexVector(m);
+  const PetscBLASInt n = static_cast<PetscBLASInt>(m), two = 2;
+  const PetscScalar one = 1, zero = 0;
   ComplexVector y(m);
-  for (std::size_t j = 0; j < m && !a.empty(); ++j)
-    for (std::size_t i = 0; i < m; ++i) y[i] += a[j * m + i] * x[j];
+  for (std::ptrdiff_t part : {0, 1})  // real and imaginary entries alternate
+    BLASgemv_(transposed, &n, &n, &one, a.data(), &n, reinterpret_cast<const double*>(x.data()) + part, &two, &zero,
+              reinterpret_cast<double*>(y.data()) + part, &two);
   return y;
 }
 
-ComplexVector timesTransposed(const DenseMatrix& a, const ComplexVector& x) {
-  const std::size_t m = x.size();
-  ComplexVector y(m);
-  for (std::size_t j = 0; j < m && !a.empty(); ++j)
-    for (std::size_t i = 0; i < m; ++i) y[j] += a[j * m + i] * x[i];
-  return y;
-}
+ComplexVector times(const DenseMatrix& a, const ComplexVector& x) { return product("N", a, x); }
+ComplexVector timesTransposed(const DenseMatrix& a, const ComplexVector& x) { return product("T", a, x); }
 
 Complex dot(const ComplexVector& x, const ComplexVector& y) {
   Complex sum = 0;
@@ -247,20 +247,6 @@ Cluster clusterNear(const DenseProblem& problem, const std::vector<DensePair>& s
     }
     cluster.pairs = iteration.pairs(shift);
   }
-  return cluster;
-}
-
-Cluster clusterTogether(MPI_Comm comm, const DenseProblem& problem, const std::vector<DensePair>& start, Complex guess,
-                        double isolation) {
-  int rank = 0;
-  check(MPI_Comm_rank(comm, &rank));
-  Cluster cluster;
-  if (rank == 0) cluster = clusterNear(problem, start, guess, isolation);
-  double numbers[] = {cluster.mean.real(), cluster.mean.imag(), cluster.converged ? 1.0 : 0.0};
-  check(MPI_Bcast(numbers, 3, MPI_DOUBLE, 0, comm));
-  cluster.mean = {numbers[0], numbers[1]};
-  cluster.converged = numbers[2] > 0;
-  shareFrom(0, comm, cluster.pairs, problem.m, Vectors::both);
   return cluster;
 }
 

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <list>
 
 #include "flutter/join.hpp"
 #include "flutter/screen.hpp"
+#include "petsc/check.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal::flutter {
@@ -13,26 +14,30 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// A station while it is worked on.
-struct Solved {
-  Station station;
-  DenseProblem problem;
-  Spectrum spectrum;
-};
-
 /// Joined eigenvalues: index at one end, at the other, and how much of a projector they share.
 struct Link {
   std::size_t here, there;
   double overlap;
 };
 
-/// What one step brings; kept only if the step is not halved.
+/// What one step brings; kept only if the step is not halved. Branches are indices of pairs at its lower end until all before are
+/// numbered.
 struct StepResult {
   std::vector<Link> links;
   std::vector<Event> events;
   std::vector<Gap> gaps;
   std::vector<Pursued> singles;  // to be screened
   bool sure = true;
+};
+
+/// A station while it is worked on.
+struct Solved {
+  Station station;
+  DenseProblem problem;
+  Spectrum spectrum;
+  std::optional<StepResult> step = {};  // from the station before
+  bool whole = false;                   // the step from the station before is not to be halved
+  double smallest = 0;                  // of such steps
 };
 
 /// Two eigenvalues at one friction.
@@ -51,66 +56,110 @@ class Follower {
   }
 
   Branches run(const std::vector<double>& frictions) {
-    std::optional<Solved> last;
-    for (double friction : frictions) {
-      auto next = solve(friction, true);
-      if (!next) {
-        result_.gaps.push_back({friction, friction, "no reduced problem"});
-        continue;
+    int ranks = 1;
+    check(MPI_Comm_size(family_.comm(), &ranks));
+    const std::size_t together = std::min<std::size_t>(static_cast<std::size_t>(ranks), mostTogether);
+    std::list<Solved> row;  // the last station of those before, and the next ones
+    for (std::size_t first = 0; first < frictions.size(); first += together) {
+      const std::vector<double> some(frictions.begin() + static_cast<std::ptrdiff_t>(first),
+                                     frictions.begin() + static_cast<std::ptrdiff_t>(std::min(first + together, frictions.size())));
+      auto found = solve(some, true);
+      for (std::size_t k = 0; k < some.size(); ++k) {
+        if (!found[k]) {
+          result_.gaps.push_back({some[k], some[k], "no reduced problem"});
+          continue;
+        }
+        if (!row.empty()) found[k]->smallest = limits_.smallest * (some[k] - row.back().station.friction);
+        row.push_back(std::move(*found[k]));
       }
-      if (last)
-        advance(*last, *next, limits_.smallest * (friction - last->station.friction));
-      else
-        finish(*next);
-      last = std::move(next);
+      refine(row);
+      const Solved* last = nullptr;
+      for (auto& next : row) {
+        if (last || result_.stations.empty()) finish(last, next);
+        last = &next;
+      }
+      if (!row.empty())
+        family_.progress(formatted("%d branches followed to friction %g", result_.count, row.back().station.friction));
+      if (!row.empty()) row.erase(row.begin(), std::prev(row.end()));
     }
     return std::move(result_);
   }
 
  private:
-  std::optional<Solved> solve(double friction, bool swept) {
-    auto problem = family_.at(friction);
-    if (!problem) return {};
-    auto pairs = allPairs(family_.comm(), *problem);
-    std::erase_if(pairs, [&](const auto& pair) { return !result_.band.watches(pair.s); });
-    Spectrum spectrum(*problem, pairs);
-    Solved solved{{}, std::move(*problem), std::move(spectrum)};
-    solved.station.friction = friction;
-    solved.station.swept = swept;
-    solved.station.branch.assign(pairs.size(), -1);
-    solved.station.overlap.assign(pairs.size(), 0);
-    for (const auto& pair : pairs) solved.station.inBand.push_back(result_.band.contains(pair.s));
-    solved.station.pairs = std::move(pairs);
-    return solved;
-  }
+  static constexpr std::size_t mostTogether = 4;  // stations whose matrices are held at a time
 
-  /// Numbers what begins here.
-  void finish(Solved& solved) {
-    for (int& branch : solved.station.branch)
-      if (branch < 0) branch = result_.count++;
-    result_.stations.push_back(solved.station);
-  }
-
-  void advance(const Solved& a, Solved& b, double smallest) {
-    StepResult step = join(a, b);
-    if (!step.sure && b.station.friction - a.station.friction > smallest) {
-      if (auto middle = solve(0.5 * (a.station.friction + b.station.friction), false)) {
-        advance(a, *middle, smallest);
-        advance(*middle, b, smallest);
-        return;
+  /// Those of which there is a problem, solved together.
+  std::vector<std::optional<Solved>> solve(const std::vector<double>& frictions, bool swept) {
+    std::vector<DenseProblem> problems;
+    std::vector<std::size_t> places;
+    for (std::size_t k = 0; k < frictions.size(); ++k)
+      if (auto problem = family_.at(frictions[k])) {
+        problems.push_back(std::move(*problem));
+        places.push_back(k);
       }
-      step.gaps.push_back({a.station.friction, b.station.friction, "no reduced problem in between"});
+    auto pairs = watchedPairs(family_.comm(), problems, result_.band);
+    std::vector<std::optional<Solved>> list(frictions.size());
+    for (std::size_t i = 0; i < problems.size(); ++i) {
+      Station station{frictions[places[i]], swept, std::move(pairs[i]), {}, {}, {}};
+      station.branch.assign(station.pairs.size(), -1);
+      station.overlap.assign(station.pairs.size(), 0);
+      for (const auto& pair : station.pairs) station.inBand.push_back(result_.band.contains(pair.s));
+      Spectrum spectrum(problems[i], station.pairs);
+      list[places[i]].emplace(Solved{std::move(station), std::move(problems[i]), std::move(spectrum)});
     }
-    for (const auto& link : step.links) {
-      b.station.branch[link.there] = a.station.branch[link.here];
-      b.station.overlap[link.there] = link.overlap;
-      result_.entered += !a.station.inBand[link.here] && b.station.inBand[link.there];
-      result_.left += a.station.inBand[link.here] && !b.station.inBand[link.there];
+    return list;
+  }
+
+  /// Puts frictions in between until all continuations are certain, those of a round solved together.
+  void refine(std::list<Solved>& row) {
+    for (bool open = true; open;) {
+      std::vector<std::list<Solved>::iterator> places;
+      std::vector<double> middles;
+      for (auto a = row.begin(), b = row.begin(); a != row.end() && ++b != row.end(); a = b) {
+        if (!b->step) b->step = join(*a, *b);
+        if (b->step->sure || b->whole || b->station.friction - a->station.friction <= b->smallest) continue;
+        places.push_back(b);
+        middles.push_back(0.5 * (a->station.friction + b->station.friction));
+      }
+      auto found = solve(middles, false);
+      for (std::size_t k = 0; k < places.size(); ++k) {
+        Solved& end = *places[k];
+        if (found[k]) {
+          found[k]->smallest = end.smallest;
+          end.step.reset();
+          row.insert(places[k], std::move(*found[k]));
+        } else {
+          end.whole = true;
+          end.step->gaps.push_back({std::prev(places[k])->station.friction, end.station.friction, "no reduced problem in between"});
+        }
+      }
+      open = !places.empty();
     }
-    screen(family_, {a.station.friction, a.problem}, {b.station.friction, b.problem}, step.singles, step.events, step.gaps);
-    for (auto& event : step.events) result_.events.push_back(std::move(event));
-    for (auto& gap : step.gaps) result_.gaps.push_back(std::move(gap));
-    finish(b);
+  }
+
+  /// Takes in what the step from `a` (null: none) brings, and numbers what begins at `b`.
+  void finish(const Solved* a, Solved& b) {
+    if (a) {
+      StepResult& step = *b.step;
+      for (const auto& link : step.links) {
+        b.station.branch[link.there] = a->station.branch[link.here];
+        b.station.overlap[link.there] = link.overlap;
+        result_.entered += !a->station.inBand[link.here] && b.station.inBand[link.there];
+        result_.left += a->station.inBand[link.here] && !b.station.inBand[link.there];
+      }
+      screen(family_, {a->station.friction, a->problem}, {b.station.friction, b.problem}, step.singles, step.events, step.gaps);
+      const auto number = [&](int index) { return index < 0 ? index : a->station.branch[static_cast<std::size_t>(index)]; };
+      for (auto& event : step.events) {
+        event.branch = number(event.branch);
+        event.partner = number(event.partner);
+        result_.events.push_back(std::move(event));
+      }
+      for (auto& gap : step.gaps) result_.gaps.push_back(std::move(gap));
+      b.step.reset();
+    }
+    for (int& branch : b.station.branch)
+      if (branch < 0) branch = result_.count++;
+    result_.stations.push_back(b.station);
   }
 
   bool matters(const Solved& a, const Solved& b, const Group& group) const {
@@ -138,8 +187,8 @@ class Follower {
     step.links.push_back({i, j, std::abs(a.spectrum.overlap(i, b.spectrum, j))});
     if (!matters(a, b, group)) return;
     const DensePair &p = a.spectrum.pairs()[i], &q = b.spectrum.pairs()[j];
-    step.singles.push_back({a.station.branch[i], p, q, isolation(a, b, group)});
-    crossed(step, a.station.friction, b.station.friction, p, q, a.station.branch[i], step.singles.back().isolation,
+    step.singles.push_back({static_cast<int>(i), p, q, isolation(a, b, group)});
+    crossed(step, a.station.friction, b.station.friction, p, q, static_cast<int>(i), step.singles.back().isolation,
             a.spectrum.damped());
   }
 
@@ -163,7 +212,7 @@ class Follower {
     const auto here = chosen(a.spectrum.pairs(), group.here), there = chosen(b.spectrum.pairs(), group.there);
     std::vector<std::size_t> mate;
     std::vector<int> ids;
-    for (const auto i : group.here) ids.push_back(a.station.branch[i]);
+    for (const auto i : group.here) ids.push_back(static_cast<int>(i));
     if (coincide(here) || coincide(there)) {
       mate = ordered(here, there);
       atEnd(step, a, b, here, there, ids, mate);

@@ -152,7 +152,8 @@ void writeTables(const Analysis& analysis, const std::filesystem::path& folder) 
   if (flutter::sensitivitiesWanted()) writeFile(comm, folder / "sensitivities.csv", sensitivityTable(analysis));
   if (analysis.mesh) writeFile(comm, folder / "friction_work.csv", frictionWorkTable(analysis));
   writeFile(comm, folder / "stability_map.csv", stabilityMap(analysis));
-  if (flutter::trackWanted()) {
+  if (std::any_of(analysis.segments.begin(), analysis.segments.end(),
+                  [](const auto& segment) { return !segment.followed.empty(); })) {
     writeFile(comm, folder / "branches.csv", branchTable(analysis));
     writeFile(comm, folder / "critical.csv", criticalTable(analysis));
   }
