@@ -256,7 +256,10 @@ Analysis analyseMatrices(MPI_Comm comm) {
   check(MatGetLocalSize(system.k0(), &local, nullptr));
   check(MatCreateConstantDiagonal(comm, local, local, PETSC_DETERMINE, PETSC_DETERMINE, 1, identity.out()));
   const int modes = static_cast<int>(std::min<PetscInt>(modes::wantedCount(), system.size()));
-  const SegmentProblem problem{system.k0(), system.m0(), [&] { return system.solver(); }, identity, modes, points, {}, {}, {}};
+  SegmentProblem problem{system.k0(), system.m0(), [&] { return system.solver(); }, identity, modes, points, {}, {}, {}};
+  problem.examine = [&](std::size_t, const flutter::Pencil& at, const flutter::StartSpace& start, flutter::FrictionPoint& point) {
+    if (flutter::sensitivitiesWanted()) flutter::deriveParameters(point, at, start, system.solver(), system.m0());
+  };
   analysis.segments.push_back(solveSegment(problem, std::move(pencil), analysis.sweep.dampings, analysis.modesFloorSeconds));
   return analysis;
 }

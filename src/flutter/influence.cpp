@@ -16,14 +16,6 @@ bool followsSteadyState(const contact::Contact& contact, const Parameters& at, M
   return prestress || (at.friction > 0 && (damping || !contact.slipIsGiven()));
 }
 
-double separation(const std::vector<Eigenvalue>& eigenvalues, std::size_t index) {
-  double smallest = INFINITY;
-  const Complex s = eigenvalues[index].s;
-  for (std::size_t i = 0; i < eigenvalues.size(); ++i)
-    if (i != index) smallest = std::min(smallest, std::abs(eigenvalues[i].s - s));
-  return smallest / std::abs(s);
-}
-
 }  // namespace
 
 /// One parameter θ, and how the steady state follows it.
@@ -48,27 +40,17 @@ struct Influences::Projected {
 
 void Influences::derive(FrictionPoint& point, const Pencil& pencil, const BodyPoint& state, const StartSpace& start) {
   if (point.shapes.empty()) return;
-  std::vector<RightPair> pairs;
-  for (const auto& shape : point.shapes) pairs.push_back({point.eigenvalues[shape.index].s, &shape.unknowns});
-  const auto left = leftVectors(pencil, state.at, start, state.system.solver(), pairs);
   const auto list = influences(state);
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const EigenTriple triple{pairs[i].s, *pairs[i].vector, left[i].y};
-    const Complex slope = slopeForm(pencil, state.at, triple);
-    Sensitivity result{condition(triple, slope, state.system.m0()),
-                       separation(point.eigenvalues, point.shapes[i].index),
-                       left[i].backwardError,
-                       {}};
-    if (result.regular()) {
-      const Projected pair = project(state, triple);
-      for (const auto& influence : list) {
-        Complex form = influence.member ? parameterForm(pencil, state.at, triple, influence.member) : 0;
-        form += materialForm(influence, state, pair) + steadyForm(influence, state, pair);
-        result.derivatives.push_back({influence.name, -form / slope});
-      }
+  const Forms forms = [&](const EigenTriple& triple) {
+    const Projected pair = project(state, triple);
+    std::vector<Derivative> found;
+    for (const auto& influence : list) {
+      const Complex form = influence.member ? parameterForm(pencil, state.at, triple, influence.member) : 0;
+      found.push_back({influence.name, form + materialForm(influence, state, pair) + steadyForm(influence, state, pair)});
     }
-    point.sensitivities.push_back(std::move(result));
-  }
+    return found;
+  };
+  deriveShapes(point, pencil, start, state.system.solver(), state.system.m0(), forms);
 }
 
 std::vector<Influences::Influence> Influences::influences(const BodyPoint& state) {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "contact/coupled.hpp"
+#include "flutter/derive.hpp"
 #include "flutter/flutter.hpp"
-#include "flutter/left.hpp"
 #include "flutter/work.hpp"
 
 namespace squeal::flutter {
