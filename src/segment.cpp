@@ -102,6 +102,8 @@ class SegmentSweep {
       if (flutter::trackAsked()) say(pencil_.comm(), "track: nothing to follow (" + nothing + ")");
       return;
     }
+    if (!affine_ && !flutter::trackAsked())  // each friction put in between costs a steady state and terms of its own
+      return say(pencil_.comm(), "track: not done where terms follow the steady state, unless -flutter_track is given");
     Stage stage(pencil_.comm(), "track");
     const auto problemAt = [&](const Parameters& at) {
       std::optional<flutter::PointProblem> problem;
