@@ -197,7 +197,8 @@ void writeHdf5(const Analysis& analysis, const std::filesystem::path& folder) {
       for (const auto& shape : point.shapes) {
         file.writeNodeVector(group, formatted("mode_%03zu_real", shape.index + 1), shape.real);
         file.writeNodeVector(group, formatted("mode_%03zu_imaginary", shape.index + 1), shape.imaginary);
-        file.writeNodeVector(group, formatted("mode_%03zu_friction_work", shape.index + 1), workField(analysis, shape));
+        if (analysis.mesh)
+          file.writeNodeVector(group, formatted("mode_%03zu_friction_work", shape.index + 1), workField(analysis, shape));
       }
     }
   }
