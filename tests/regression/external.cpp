@@ -156,7 +156,7 @@ TEST(External, TwoEqualBodies) {
 
 TEST(External, ALooseBodyIsSaid) {
   for (const int ranks : {1, 2}) {
-    const ProgramRun run = runProgram("external/loose", ranks, rowsOfMasses("loose", 2, 0), 60);
+    const ProgramRun run = runProgram("external/loose", ranks, rowsOfMasses("loose_body", 2, 0), 60);
     EXPECT_NE(run.exitCode, 0);
     EXPECT_NE(run.exitCode, 124) << "still running";
     EXPECT_NE(run.error.find("not positive definite: 0 negative and 1 zero"), std::string::npos) << run.error;
