@@ -176,8 +176,8 @@ TEST(Outputs, Summary) {
     EXPECT_EQ(unstable, entry.at("unstable_modes").size());
     EXPECT_EQ(entry.at("uncertified"), 0);
     EXPECT_EQ(entry.at("tolerance_asked"), 1e-8);
-    EXPECT_NEAR(entry.at("worst_error_estimate").get<double>(), worst, 1e-12 * worst);
-    EXPECT_EQ(unstable > 0, entry.at("friction") != 0.0);  // the layer flutters at every friction
+    EXPECT_NEAR(entry.at("worst_error_estimate").get<double>(), worst, 1e-3 * worst);  // four digits in the table
+    EXPECT_EQ(unstable > 0, entry.at("friction") != 0.0);                              // the layer flutters at every friction
   }
   for (const char* stage : {"mesh", "elasticity", "contact", "steady", "modes", "flutter", "report"}) {
     EXPECT_GE(summary.at("stages").at(stage).at("wall_s"), 0) << stage;

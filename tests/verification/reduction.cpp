@@ -28,8 +28,8 @@ std::vector<Complex> nearestToZero(std::vector<Complex> list, std::size_t count)
   return list;
 }
 
-/// By which the direct solve may err, relative to |s|: rounding.
-constexpr double directError = 1e-13;
+/// By which the direct solve may err, relative to |s|: where two reduced bases agree to 1e-15, TOAR was 1.2e-13 from both.
+constexpr double directError = 3e-13;
 
 struct Comparison {
   double worst = 0;       ///< |s − s*| / |s*|
@@ -96,7 +96,7 @@ void expectEstimated(const std::string& name, const std::string& changes) {
       EXPECT_LT(all.relative[k], 2 * estimates[k] + directError) << found[k] << " at friction " << points[i].at.friction;
       ratio = std::max(ratio, (all.relative[k] - directError) / estimates[k]);
     }
-    print("%s%s, free modes, friction %g: %zu of %zu estimated below 1 %%, worst error %.1e, error / estimate up to %.2f\n",
+    print("%s %s, free modes, friction %g: %zu of %zu estimated below 1 %%, worst error %.1e, error / estimate up to %.2f\n",
           name.c_str(), changes.c_str(), points[i].at.friction, found.size(), points[i].eigenvalues.size(), worst(all.relative),
           ratio);
     EXPECT_GE(found.size(), 10U);
