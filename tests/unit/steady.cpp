@@ -283,16 +283,14 @@ std::vector<double> numbersAfter(const std::string& text, const std::string& lab
   return numbers;
 }
 
-// PETSc's own difference quotients of every column, and Newton's convergence, as a user sees them. Eigenvalues followed from friction 0
-// would ask for the steady state there as well.
+// PETSc's own difference quotients of every column, and Newton's convergence, as a user sees them.
 TEST(Steady, NewtonConvergesQuadratically) {
   const std::string options = sliding(1, 0.6);
   int size = 0;
   check(MPI_Comm_size(PETSC_COMM_WORLD, &size));
   if (size > 1) GTEST_SKIP() << "starts the program itself";
   const auto run = test::runProgram(
-      "steady", 2,
-      options + "-flutter_friction 0.4 -flutter_track off -modes_count 2 -steady_snes_test_jacobian -steady_snes_monitor");
+      "steady", 2, options + "-flutter_friction 0.4 -modes_count 2 -steady_snes_test_jacobian -steady_snes_monitor");
   ASSERT_EQ(run.exitCode, 0) << run.error;
   // The preconditioner, which is tested in between, is the frictionless stiffness.
   const std::string own = std::regex_replace(run.out, std::regex("Jacobian for preconditioner[^=]*= "), "");
