@@ -107,7 +107,10 @@ double Pencil::norm(int power, const Parameters& at) const {
     apply(power, at, v, image);
     check(VecNorm(image, NORM_2, &size));
     estimate = std::max(estimate, static_cast<double>(size));
-    if (size == 0) return estimate;  // a term that vanishes at this friction: v stays a start for the next
+    if (size == 0) {  // a term that vanishes at this friction: the next begins afresh
+      v = OwnedVec();
+      return 0;
+    }
     applyTranspose(power, at, image, v);
   }
   return estimate;
