@@ -120,7 +120,7 @@ class Search {
       for (std::size_t k = 0; k < open.size(); ++k) {
         auto& left = found[open[k]];
         left.y = expand(coordinates[k]);
-        ComplexVector residual = this->residual(values[k], left.y);
+        ComplexVector residual = leftResidual(pencil_, at_, values[k], left.y);
         left.backwardError = length(residual) / (scale(values[k]) * length(left.y));
         if (left.backwardError > wanted) bad.push_back(open[k]), residuals.push_back(std::move(residual));
       }
@@ -141,18 +141,6 @@ class Search {
   double scale(Complex s) const {
     const double size = std::abs(s);
     return norms_[0] + size * norms_[1] + size * size * norms_[2];
-  }
-
-  /// P(s)ᴴ y = Σ conj(s)^p A_pᵀ y.
-  ComplexVector residual(Complex s, const ComplexVector& y) const {
-    ComplexVector sum = ComplexVector::like(y.real), part = ComplexVector::like(y.real);
-    for (int power = 0; power <= 2; ++power) {
-      if (!pencil_.hasPower(power)) continue;
-      pencil_.applyTranspose(power, at_, y.real, part.real);
-      pencil_.applyTranspose(power, at_, y.imaginary, part.imaginary);
-      flutter::add(sum, std::pow(std::conj(s), power), part);
-    }
-    return sum;
   }
 
   /// K0⁻¹ of the real and imaginary parts, scaled to one.
@@ -288,6 +276,17 @@ class Search {
 };
 
 }  // namespace
+
+ComplexVector leftResidual(const Pencil& pencil, const Parameters& at, Complex s, const ComplexVector& y) {
+  ComplexVector sum = ComplexVector::like(y.real), part = ComplexVector::like(y.real);
+  for (int power = 0; power <= 2; ++power) {
+    if (!pencil.hasPower(power)) continue;
+    pencil.applyTranspose(power, at, y.real, part.real);
+    pencil.applyTranspose(power, at, y.imaginary, part.imaginary);
+    add(sum, std::pow(std::conj(s), power), part);
+  }
+  return sum;
+}
 
 std::vector<LeftVector> leftVectors(const Pencil& pencil, const Parameters& at, const StartSpace& start, KSP solver,
                                     const std::vector<RightPair>& pairs) {

@@ -27,6 +27,9 @@ struct StartSpace {
   DenseProblem projected;  ///< Vᵀ P V at the point, if at hand: it saves products of the size of V; otherwise m = 0
 };
 
+/// Collective. P(s)ᴴ y.
+ComplexVector leftResidual(const Pencil& pencil, const Parameters& at, std::complex<double> s, const ComplexVector& y);
+
 /// Collective. Rayleigh–Ritz on V, the right vectors, and K0⁻¹ (Re l, Im l) of the left residuals l = P(s)ᴴ y of all pairs, solved for
 /// together by `solver` (of K0): about a decade a round, until the backward error is below 1e-10 or corrections bring nothing new.
 /// The caller judges the error that is left.

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "flutter/condition.hpp"
+#include "flutter/left.hpp"
 #include "flutter/select.hpp"
 #include "petsc/options.hpp"
-#include "petsc/symmetric.hpp"
 
 namespace squeal::flutter {
 namespace {
@@ -139,29 +139,19 @@ Block ReducedProblem::residuals(const Work& work, const Coordinates& coordinates
 
 /// Columns of the residual P(s)ᴴ V y of one pair.
 Block ReducedProblem::leftResidual(const Work& work, const Coordinates& coordinates) const {
-  const auto& pair = *coordinates.pairs.at(0);
-  OwnedVec vectors[2], sums[2], part;
-  check(MatCreateVecs(work.point->pencil.terms()[0].matrix, part.out(), nullptr));
-  for (auto* list : {vectors, sums})
-    for (int i = 0; i < 2; ++i) {
-      check(VecDuplicate(part, list[i].out()));
-      check(VecZeroEntries(list[i]));
-    }
-  basis_.expand(pair.left, vectors[0], vectors[1]);
-  for (const auto& term : work.point->pencil.terms()) {
-    std::complex<double> c = term.coefficient(work.point->at) * std::pow(std::conj(pair.s), term.power);
-    for (PetscInt i = 0; i < coordinates.columns; ++i, c *= std::complex<double>(0, 1)) {
-      check(MatMultTranspose(term.matrix, vectors[i], part));
-      check(VecAXPY(sums[0], c.real(), part));
-      check(VecAXPY(sums[1], c.imag(), part));
-    }
-  }
+  const auto& [at, pencil] = *work.point;
+  const DensePair& pair = *coordinates.pairs.at(0);
+  ComplexVector y;
+  check(MatCreateVecs(pencil.terms()[0].matrix, y.real.out(), y.imaginary.out()));
+  basis_.expand(pair.left, y.real, y.imaginary);
+  const ComplexVector residual = flutter::leftResidual(pencil, at, pair.s, y);
   Block result(basis_.localRows());
   for (PetscInt i = 0; i < coordinates.columns; ++i) {
+    const Vec part = i == 0 ? residual.real : residual.imaginary;
     const PetscScalar* entries = nullptr;
-    check(VecGetArrayRead(sums[i], &entries));
+    check(VecGetArrayRead(part, &entries));
     result.append(entries);
-    check(VecRestoreArrayRead(sums[i], &entries));
+    check(VecRestoreArrayRead(part, &entries));
   }
   return result;
 }

@@ -1,6 +1,7 @@
 #include "flutter/select.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "petsc/options.hpp"
@@ -75,24 +76,32 @@ double accuracyAsked() { return accuracyOption.get(); }
 
 std::vector<std::vector<std::size_t>> batches(const std::vector<Parameters>& points) {
   constexpr std::size_t largest = 16;
+  std::array<double, allParameters.size()> ranges{};
+  for (std::size_t k = 0; k < ranges.size() && !points.empty(); ++k) {
+    const auto value = allParameters[k].value;
+    const auto [low, high] =
+        std::minmax_element(points.begin(), points.end(), [&](const auto& p, const auto& q) { return p.*value < q.*value; });
+    ranges[k] = (*high).*value - (*low).*value;
+  }
   const auto apart = [&](std::size_t a, std::size_t b) {
     double sum = 0;
-    for (const auto& parameter : allParameters) {
-      const auto less = [&](const auto& p, const auto& q) { return p.*parameter.value < q.*parameter.value; };
-      const auto [low, high] = std::minmax_element(points.begin(), points.end(), less);
-      const double range = (*high).*parameter.value - (*low).*parameter.value;
-      if (range > 0) sum += std::pow((points[a].*parameter.value - points[b].*parameter.value) / range, 2);
+    for (std::size_t k = 0; k < ranges.size(); ++k) {
+      const auto value = allParameters[k].value;
+      if (ranges[k] > 0) sum += std::pow((points[a].*value - points[b].*value) / ranges[k], 2);
     }
     return sum;
   };
   std::vector<double> distance(points.size(), INFINITY);  // to the nearest point already chosen
   std::vector<std::vector<std::size_t>> result;
-  std::size_t next = 0;
+  std::size_t next = 0, size = 1, full = 0;  // the batch that ends at `full` holds `size` points
   for (std::size_t i = 0; i < points.size(); ++i)
     if (points[i].friction > points[next].friction) next = i;
   for (std::size_t chosen = 0; chosen < points.size(); ++chosen) {
-    if (result.empty() || result.back().size() == std::min(largest, std::size_t{1} << (2 * (result.size() - 1))))
+    if (chosen == full) {
+      if (chosen > 0) size = std::min(largest, 4 * size);
+      full += size;
       result.emplace_back();
+    }
     result.back().push_back(next);
     for (std::size_t i = 0; i < points.size(); ++i) distance[i] = std::min(distance[i], apart(i, next));
     distance[next] = -1;

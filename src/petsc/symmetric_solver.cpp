@@ -1,6 +1,5 @@
 #include "petsc/symmetric_solver.hpp"
 
-#include "petsc/options.hpp"
 #include "petsc/stages.hpp"
 #include "petsc/text.hpp"
 
@@ -12,6 +11,20 @@ const SolverPrefix factorisation("modes", "modes_st_",
 
 }  // namespace
 
+OwnedKSP directSolver(Mat matrix, const SolverPrefix& prefix) {
+  OwnedKSP solver;
+  check(KSPCreate(PetscObjectComm(reinterpret_cast<PetscObject>(matrix)), solver.out()));
+  check(KSPSetOptionsPrefix(solver, prefix.prefix.c_str()));
+  check(KSPSetOperators(solver, matrix, matrix));
+  check(KSPSetType(solver, KSPPREONLY));
+  PC pc = nullptr;
+  check(KSPGetPC(solver, &pc));
+  check(PCSetType(pc, PCCHOLESKY));
+  check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  check(KSPSetFromOptions(solver));
+  return solver;
+}
+
 KSP SymmetricSolver::get() const {
   if (solver_) {
     factorise();
@@ -19,24 +32,12 @@ KSP SymmetricSolver::get() const {
   }
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(matrix_));
   Stage stage(comm, "factor");
-  create();
+  solver_ = directSolver(matrix_, factorisation);
   factorise();
   PetscInt size = 0;
   check(MatGetSize(matrix_, &size, nullptr));
   stage.finish(formatted("%s: %d unknowns", name_.c_str(), static_cast<int>(size)));
   return solver_;
-}
-
-void SymmetricSolver::create() const {
-  check(KSPCreate(PetscObjectComm(reinterpret_cast<PetscObject>(matrix_)), solver_.out()));
-  check(KSPSetOptionsPrefix(solver_, factorisation.prefix.c_str()));
-  check(KSPSetOperators(solver_, matrix_, matrix_));
-  check(KSPSetType(solver_, KSPPREONLY));
-  PC pc = nullptr;
-  check(KSPGetPC(solver_, &pc));
-  check(PCSetType(pc, PCCHOLESKY));
-  check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
-  check(KSPSetFromOptions(solver_));
 }
 
 /// Does nothing where the factorisation is at hand.

@@ -2,9 +2,13 @@
 /// Symmetric matrices by MUMPS: solutions with one LDLᵀ factorisation, and inertia.
 #include <string>
 
+#include "petsc/options.hpp"
 #include "petsc/owned.hpp"
 
 namespace squeal {
+
+/// Collective. One application of MUMPS' LDLᵀ unless the options with this prefix say otherwise; not yet factorised.
+OwnedKSP directSolver(Mat matrix, const SolverPrefix& prefix);
 
 /// The direct solver of a symmetric positive definite matrix (prefix -modes_st_), factorised on first use.
 class SymmetricSolver {
@@ -15,7 +19,6 @@ class SymmetricSolver {
   KSP get() const;
 
  private:
-  void create() const;
   void factorise() const;
   Mat matrix_;
   std::string name_;

@@ -7,6 +7,7 @@
 
 #include "contact/sliding.hpp"
 #include "petsc/options.hpp"
+#include "petsc/symmetric_solver.hpp"
 
 namespace squeal::steady {
 namespace {
@@ -33,18 +34,8 @@ Mat mumpsFactor(KSP solver) {
   return factor;
 }
 
-/// MUMPS LDLᵀ unless the options say otherwise.
 OwnedKSP factorisation(Mat matrix) {
-  OwnedKSP solver;
-  check(KSPCreate(PetscObjectComm(reinterpret_cast<PetscObject>(matrix)), solver.out()));
-  check(KSPSetOptionsPrefix(solver, solverPrefix.prefix.c_str()));
-  check(KSPSetOperators(solver, matrix, matrix));
-  check(KSPSetType(solver, KSPPREONLY));
-  PC pc = nullptr;
-  check(KSPGetPC(solver, &pc));
-  check(PCSetType(pc, PCCHOLESKY));
-  check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
-  check(KSPSetFromOptions(solver));
+  OwnedKSP solver = directSolver(matrix, solverPrefix);
   if (const Mat factor = mumpsFactor(solver)) check(MatMumpsSetIcntl(factor, 13, 1));  // the inertia is asked for
   check(KSPSetUp(solver));
   return solver;

@@ -3,8 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "support/program.hpp"
-#include "support/spectrum.hpp"
+#include "support/ranks.hpp"
 
 namespace squeal::test {
 namespace {
@@ -21,13 +20,6 @@ const ProgramRun& layersOn(int ranks) {
     for (int count : {1, 2})
       runs[count] = runProgram("critical/np" + std::to_string(count), count, layers + "-flutter_friction 0:0.4:0.1");
   return runs.at(ranks);
-}
-
-std::vector<Complex> eigenvalues(const CsvTable& table) {
-  const auto growth = table.column("growth_rate_1_per_s"), angular = table.column("angular_frequency_rad_per_s");
-  std::vector<Complex> list;
-  for (std::size_t i = 0; i < growth.size(); ++i) list.emplace_back(growth[i], angular[i]);
-  return list;
 }
 
 TEST(Critical, SameFrictionsOnOneAndTwoRanks) {
@@ -68,7 +60,7 @@ TEST(Critical, GrowthRatesOfAllUnknownsAreZero) {
   ASSERT_EQ(run.exitCode, 0) << run.error;
   const CsvTable full = readCsv(run.folder / "eigenvalues.csv");
   const auto at = full.column("friction");
-  const auto all = eigenvalues(full);
+  const auto all = eigenvaluesOf(full);
   double worst = 0;
   for (std::size_t i = 0; i < friction.size(); ++i) {
     const Complex wanted(0, 2 * M_PI * hertz[i]);
@@ -94,7 +86,7 @@ TEST(Critical, BranchesHoldTheSweep) {
     const auto branch = table.column("branch"), friction = table.column("friction"), inBand = table.column("in_band"),
                swept = table.column("swept"), overlap = table.column("overlap"), at = listed.column("friction"),
                critical = readCsv(folder / "critical.csv").column("friction");
-    const auto followed = eigenvalues(table), wanted = eigenvalues(listed);
+    const auto followed = eigenvaluesOf(table), wanted = eigenvaluesOf(listed);
     std::map<double, std::vector<Complex>> bands, rows;
     for (std::size_t i = 0; i < followed.size(); ++i) {
       if (i > 0 && branch[i] == branch[i - 1])

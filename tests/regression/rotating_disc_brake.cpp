@@ -7,13 +7,7 @@ namespace {
 
 const std::string at = "-options_file options/disc_brake_rotating.yaml -flutter_friction 0.4 -flutter_speed 10 -report_fields off ";
 
-std::vector<Complex> eigenvalues(const ProgramRun& run) {
-  const CsvTable table = readCsv(run.folder / "eigenvalues.csv");
-  const auto growth = table.column("growth_rate_1_per_s"), frequency = table.column("angular_frequency_rad_per_s");
-  std::vector<Complex> list;
-  for (std::size_t i = 0; i < growth.size(); ++i) list.emplace_back(growth[i], frequency[i]);
-  return list;
-}
+std::vector<Complex> eigenvalues(const ProgramRun& run) { return eigenvaluesOf(readCsv(run.folder / "eigenvalues.csv")); }
 
 TEST(RotatingDiscBrake, SeventyEigenvaluesByPep) {
   std::vector<Complex> one;

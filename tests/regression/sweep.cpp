@@ -25,8 +25,7 @@ Analysis run(double speed, double pressure, double damping, const std::string& s
 
 /// Largest difference of an eigenvalue in the band from that of the other run, relative.
 double difference(const flutter::FrictionPoint& one, const flutter::FrictionPoint& other) {
-  std::vector<Complex> band;
-  for (const auto& eigenvalue : one.eigenvalues) band.push_back(eigenvalue.s);
+  const auto band = eigenvaluesOf(one);
   EXPECT_GT(band.size(), 4U);
   return worst(errors(band, eigenvaluesOf(other)).relative);
 }
