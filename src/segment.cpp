@@ -73,7 +73,7 @@ class SegmentSweep {
     pencil_.add(flutter::modalDamping(segment.modes, problem_.m0));
     Stage stage(pencil_.comm(), "flutter");
     reduced_ = std::make_unique<flutter::ReducedProblem>(pencil_, problem_.k0, problem_.solver(), segment.modes);
-    stage.finish(formatted("basis of %d: free modes and static responses to friction", static_cast<int>(reduced_->basisSize())));
+    stage.finish(formatted("basis of %d free modes", static_cast<int>(reduced_->basisSize())));
   }
 
   void solvePoints(ModalSegment& segment) {
@@ -88,8 +88,8 @@ class SegmentSweep {
       }
       solveBatch(batch, problems, segment);
       for (std::size_t i = 0; i < batch.size() && problem_.examine; ++i)
-        problem_.examine(batch[i] % problem_.steadyPoints.size(), problems[i].pencil, startSpace(problems[i]),
-                         segment.points[batch[i]]);
+        problem_.examine(batch[i] % problem_.steadyPoints.size(), problems[i].pencil,
+                         startSpace(problems[i], segment.points[batch[i]]), segment.points[batch[i]]);
     }
     if (reduced_) segment.solves = reduced_->basis().solves();
   }
@@ -143,10 +143,11 @@ class SegmentSweep {
     stage.finish(text);
   }
 
-  flutter::StartSpace startSpace(const flutter::PointProblem& point) const {
-    if (!flutter::sensitivitiesWanted()) return {};
-    if (!reduced_) return {forLeftVectors_.vectors, problem_.m0, {}};
-    return {reduced_->basis().columns(), problem_.k0, reduced_->project(point)};
+  /// Of the left vectors of the shapes kept.
+  flutter::StartSpace startSpace(const flutter::PointProblem& problem, const flutter::FrictionPoint& point) const {
+    if (!flutter::sensitivitiesWanted() || point.shapes.empty()) return {};
+    if (!reduced_) return {forLeftVectors_.vectors.share(), problem_.m0, {}};
+    return {reduced_->basis().vectors(), problem_.k0, reduced_->project(problem)};
   }
 
   const SegmentProblem& problem_;

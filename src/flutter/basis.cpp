@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "petsc/symmetric.hpp"
 
@@ -13,6 +14,29 @@ Block combined(const Block& x, const DenseMatrix& combinations, PetscInt count) 
   Block result(x.rows, count);
   multiplyAdd(x.values.data(), x.rows, x.columns, combinations, result.values);
   return result;
+}
+
+/// Cᵀ A C for the symmetric A (size × size).
+DenseMatrix congruent(const DenseMatrix& a, PetscInt size, const DenseMatrix& c) {
+  const auto n = static_cast<std::size_t>(size), count = c.size() / n;
+  DenseMatrix image(c.size()), result(count * count);
+  multiplyAdd(a.data(), size, size, c, image);
+  for (std::size_t j = 0; j < count; ++j)
+    for (std::size_t i = 0; i < count; ++i)
+      result[j * count + i] =
+          std::inner_product(c.begin() + static_cast<std::ptrdiff_t>(i * n), c.begin() + static_cast<std::ptrdiff_t>((i + 1) * n),
+                             image.begin() + static_cast<std::ptrdiff_t>(j * n), 0.0);
+  return result;
+}
+
+/// energy ← energy − partsᵀ parts.
+void subtractSquare(DenseMatrix& energy, const DenseMatrix& parts, PetscInt columns) {
+  const auto n = static_cast<std::size_t>(columns), rows = parts.size() / n;
+  for (std::size_t j = 0; j < n; ++j)
+    for (std::size_t i = 0; i < n; ++i)
+      energy[j * n + i] -= std::inner_product(parts.begin() + static_cast<std::ptrdiff_t>(i * rows),
+                                              parts.begin() + static_cast<std::ptrdiff_t>((i + 1) * rows),
+                                              parts.begin() + static_cast<std::ptrdiff_t>(j * rows), 0.0);
 }
 
 /// Combinations orthonormal in the positive semi-definite matrix `gram` (n×n), without those whose eigenvalue is `small` times the
@@ -43,21 +67,13 @@ void clearWhatVHolds(DenseMatrix& energy, const DenseMatrix& parts, PetscInt col
 
 }  // namespace
 
-OwnedBV columnsLike(BV like, PetscInt columns) {
-  OwnedBV bv;
-  PetscInt local = 0, global = 0;
-  check(BVGetSizes(like, &local, &global, nullptr));
-  check(BVCreate(PetscObjectComm(reinterpret_cast<PetscObject>(like)), bv.out()));
-  check(BVSetSizes(bv, local, global, columns));
-  check(BVSetType(bv, BVSVEC));
-  return bv;
-}
-
-Basis::Basis(const modes::Modes& modes, Mat stiffness, KSP solver) : solver_(solver) {
-  check(BVGetSizes(modes.vectors, nullptr, nullptr, &size_));
-  columns_ = columnsLike(modes.vectors, size_);
-  check(BVCopy(modes.vectors, columns_));
-  for (PetscInt i = 0; i < size_; ++i) check(BVScaleColumn(columns_, i, 1 / modes.angularFrequency[static_cast<std::size_t>(i)]));
+Basis::Basis(const modes::Modes& modes, Mat stiffness, KSP solver)
+    : comm_(PetscObjectComm(reinterpret_cast<PetscObject>(stiffness))), stiffness_(stiffness), solver_(solver), columns_(0) {
+  const ReadColumns shapes(modes.vectors);
+  columns_ = Block(shapes.rows());
+  for (PetscInt j = 0; j < shapes.columns(); ++j)
+    columns_.append(shapes.values() + j * shapes.rows(), 1 / modes.angularFrequency[static_cast<std::size_t>(j)]);
+  modes_ = columns_.columns;
   OwnedVec diagonal;
   check(MatCreateVecs(stiffness, diagonal.out(), nullptr));
   check(MatGetDiagonal(stiffness, diagonal));
@@ -66,37 +82,37 @@ Basis::Basis(const modes::Modes& modes, Mat stiffness, KSP solver) : solver_(sol
   check(VecGetArrayRead(diagonal, &values));
   inverseDiagonal_.assign(values, values + localRows());
   check(VecRestoreArrayRead(diagonal, &values));
-  sketch_.emplace(columns_, inverseDiagonal_);
-  sketched_ = sketch_->of(ReadColumns(columns_).values(), size_);
+  sketch_.emplace(comm_, inverseDiagonal_);
+  sketched_ = sketch_->of(columns_.values.data(), size());
 }
 
-PetscInt Basis::localRows() const {
-  PetscInt rows = 0;
-  check(BVGetSizes(columns_, &rows, nullptr, nullptr));
-  return rows;
+OwnedBV Basis::vectors() const {
+  OwnedVec layout;
+  OwnedBV bv;
+  check(MatCreateVecs(stiffness_, layout.out(), nullptr));
+  check(BVCreate(comm_, bv.out()));
+  check(BVSetSizesFromVec(bv, layout, size()));
+  check(BVSetType(bv, BVSVEC));
+  PetscScalar* values = nullptr;
+  check(BVGetArray(bv, &values));
+  std::copy(columns_.values.begin(), columns_.values.end(), values);
+  check(BVRestoreArray(bv, &values));
+  return bv;
 }
 
-OwnedBV Basis::times(Mat matrix, PetscInt first, PetscInt last) const {
-  const OwnedBV some = columnsLike(columns_, last - first);
-  OwnedBV product = columnsLike(columns_, last - first);
-  check(BVSetActiveColumns(columns_, first, last));
-  check(BVCopy(columns_, some));
-  check(BVSetActiveColumns(columns_, 0, size_));
-  check(BVMatMult(some, matrix, product));
-  return product;
+Block Basis::times(Mat matrix, PetscInt first, PetscInt last) const {
+  return product(matrix, columns_.column(first), last - first);
 }
-
-MPI_Comm Basis::comm() const { return PetscObjectComm(reinterpret_cast<PetscObject>(columns_.get())); }
 
 /// K0⁻¹ of all columns at once.
 Block Basis::solve(const Block& right) {
   PetscInt global = 0;
-  check(BVGetSizes(columns_, nullptr, &global, nullptr));
+  check(MatGetSize(stiffness_, &global, nullptr));
   Block solved(right.rows, right.columns);
-  std::vector<double> given = right.values;
   OwnedMat from, to;
-  check(MatCreateDense(comm(), right.rows, PETSC_DECIDE, global, right.columns, given.data(), from.out()));
-  check(MatCreateDense(comm(), right.rows, PETSC_DECIDE, global, right.columns, solved.values.data(), to.out()));
+  auto* given = const_cast<double*>(right.values.data());
+  check(MatCreateDense(comm_, right.rows, PETSC_DECIDE, global, right.columns, given, from.out()));
+  check(MatCreateDense(comm_, right.rows, PETSC_DECIDE, global, right.columns, solved.values.data(), to.out()));
   check(KSPMatSolve(solver_, from, to));
   solves_ += right.columns;
   return solved;
@@ -105,66 +121,42 @@ Block Basis::solve(const Block& right) {
 PetscInt Basis::add(const Block& residuals) {
   if (residuals.columns == 0) return 0;
   Block z = solve(residuals);
-  ratio_ = ratio(residuals, z);
-  DenseMatrix parts;
-  {
-    const ReadColumns v(columns_);
-    parts = transposedProduct(comm(), v.values(), v.rows(), size_, residuals.values.data(), residuals.columns);
-    multiplyAdd(v.values(), v.rows(), size_, parts, z.values, -1);
-  }
-  // zᵀ K0 z = zᵀ r now that z is orthogonal to V. What depends on others or on V to within 1e-6 would only add noise.
+  DenseMatrix energy = transposedProduct(comm_, z, residuals);
+  ratio_ = ratio(residuals, energy);
+  const DenseMatrix parts = transposedProduct(comm_, columns_, residuals);
+  multiplyAdd(columns_.values.data(), columns_.rows, size(), parts, z.values, -1);
+  // zᵀ K0 z of what is now orthogonal to V. What depends on others or on V to within 1e-6 would only add noise.
   constexpr double small = 1e-12;
-  DenseMatrix energy = transposedProduct(comm(), z, residuals);
+  subtractSquare(energy, parts, z.columns);
   clearWhatVHolds(energy, parts, z.columns, small);
   const DenseMatrix combinations = orthonormalising(energy, z.columns, small);
   const auto added = static_cast<PetscInt>(combinations.size()) / z.columns;
   if (added == 0) return 0;
   const Block fresh = combined(z, combinations, added);
-  check(BVResize(columns_, size_ + added, PETSC_TRUE));
-  PetscScalar* values = nullptr;
-  check(BVGetArray(columns_, &values));
-  std::copy(fresh.values.begin(), fresh.values.end(), values + size_ * fresh.rows);
-  check(BVRestoreArray(columns_, &values));
-  size_ += added;
+  append(columns_, fresh);
   const DenseMatrix sketch = sketch_->of(fresh.values.data(), added);
   sketched_.insert(sketched_.end(), sketch.begin(), sketch.end());
-  check(BVSetActiveColumns(columns_, 0, size_));
   return added;
 }
 
 void Basis::combine(const DenseMatrix& combinations, PetscInt count) {
-  Block combinedColumns(localRows(), count);
-  {
-    const ReadColumns v(columns_);
-    multiplyAdd(v.values(), v.rows(), size_, combinations, combinedColumns.values);
-  }
-  sketched_ = sketch_->of(combinedColumns.values.data(), count);
-  check(BVResize(columns_, count, PETSC_FALSE));
-  PetscScalar* values = nullptr;
-  check(BVGetArray(columns_, &values));
-  std::copy(combinedColumns.values.begin(), combinedColumns.values.end(), values);
-  check(BVRestoreArray(columns_, &values));
-  size_ = count;
-  check(BVSetActiveColumns(columns_, 0, size_));
+  columns_ = combined(columns_, combinations, count);
+  sketched_ = sketch_->of(columns_.values.data(), count);
+  modes_ = 0;
 }
 
-/// diag(K0)⁻¹ times the columns.
-Block Basis::scaled(const Block& residuals) const {
-  Block result = residuals;
-  for (PetscInt j = 0; j < result.columns; ++j)
-    for (PetscInt i = 0; i < result.rows; ++i) result.column(j)[i] *= inverseDiagonal_[static_cast<std::size_t>(i)];
-  return result;
-}
-
-/// The largest ratio of the energy norm to that of the diagonal among all combinations of the columns.
-double Basis::ratio(const Block& residuals, const Block& solutions) const {
+/// The largest ratio of the energy norm to that of the diagonal among all combinations of the columns; `energy`: RᵀK0⁻¹R.
+double Basis::ratio(const Block& residuals, const DenseMatrix& energy) const {
   const PetscInt n = residuals.columns;
   if (n == 0) return 0;
-  const DenseMatrix combinations = orthonormalising(transposedProduct(comm(), residuals, scaled(residuals)), n, 1e-8);
-  const auto kept = static_cast<PetscInt>(combinations.size()) / n;
+  Block scaled = residuals;
+  for (PetscInt j = 0; j < n; ++j)
+    for (PetscInt i = 0; i < scaled.rows; ++i) scaled.column(j)[i] *= inverseDiagonal_[static_cast<std::size_t>(i)];
+  const DenseMatrix combinations = orthonormalising(transposedProduct(comm_, residuals, scaled), n, 1e-8);
+  const auto kept = static_cast<int>(combinations.size()) / n;
   if (kept == 0) return 0;
-  DenseMatrix energy = transposedProduct(comm(), combined(residuals, combinations, kept), combined(solutions, combinations, kept));
-  return std::sqrt(symmetricEigen(energy, static_cast<int>(kept)).back());
+  DenseMatrix projected = congruent(energy, n, combinations);
+  return std::sqrt(symmetricEigen(projected, kept).back());
 }
 
 std::vector<double> Basis::energyRatios(const std::vector<Block>& blocks) {
@@ -174,28 +166,35 @@ std::vector<double> Basis::energyRatios(const std::vector<Block>& blocks) {
   std::vector<double> ratios;
   PetscInt first = 0;
   for (const auto& block : blocks) {
-    Block solutions(block.rows);
-    for (PetscInt j = 0; j < block.columns; ++j) solutions.append(solved.column(first++));
-    ratios.push_back(ratio(block, solutions));
+    const double* solutions = solved.values.data() + first * solved.rows;
+    first += block.columns;
+    const DenseMatrix energy = transposedProduct(comm_, solutions, block.rows, block.columns, block.values.data(), block.columns);
+    ratios.push_back(ratio(block, energy));
   }
   return ratios;
 }
 
-void Basis::expand(const std::vector<std::complex<double>>& q, Vec real, Vec imaginary) const {
-  const ReadColumns v(columns_);
-  std::vector<double> coordinates(2 * static_cast<std::size_t>(v.columns()), 0.0),
-      shape(2 * static_cast<std::size_t>(v.rows()), 0.0);
-  for (std::size_t i = 0; i < q.size(); ++i) {
-    coordinates[i] = q[i].real();
-    coordinates[static_cast<std::size_t>(v.columns()) + i] = q[i].imag();
+std::vector<ComplexVector> Basis::expand(const std::vector<const std::vector<std::complex<double>>*>& list) const {
+  const auto m = static_cast<std::size_t>(size());
+  std::vector<double> coordinates(2 * list.size() * m, 0.0);
+  for (std::size_t j = 0; j < list.size(); ++j)
+    for (std::size_t i = 0; i < list[j]->size(); ++i) {
+      coordinates[2 * j * m + i] = (*list[j])[i].real();
+      coordinates[(2 * j + 1) * m + i] = (*list[j])[i].imag();
+    }
+  const Block parts = combined(columns_, coordinates, static_cast<PetscInt>(2 * list.size()));
+  std::vector<ComplexVector> vectors(list.size());
+  for (std::size_t j = 0; j < list.size(); ++j) {
+    check(MatCreateVecs(stiffness_, vectors[j].real.out(), vectors[j].imaginary.out()));
+    for (const bool imaginary : {false, true}) {
+      const Vec part = imaginary ? vectors[j].imaginary : vectors[j].real;
+      PetscScalar* entries = nullptr;
+      check(VecGetArrayWrite(part, &entries));
+      std::copy_n(parts.column(static_cast<PetscInt>(2 * j) + (imaginary ? 1 : 0)), parts.rows, entries);
+      check(VecRestoreArrayWrite(part, &entries));
+    }
   }
-  multiplyAdd(v.values(), v.rows(), v.columns(), coordinates, shape);
-  for (Vec part : {real, imaginary}) {
-    PetscScalar* entries = nullptr;
-    check(VecGetArray(part, &entries));
-    std::copy_n(shape.begin() + (part == imaginary ? v.rows() : 0), v.rows(), entries);
-    check(VecRestoreArray(part, &entries));
-  }
+  return vectors;
 }
 
 }  // namespace squeal::flutter

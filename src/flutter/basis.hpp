@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "flutter/complexvector.hpp"
 #include "flutter/sketch.hpp"
 #include "modes/modes.hpp"
 #include "petsc/owned.hpp"
@@ -16,10 +17,14 @@ class Basis {
  public:
   /// Collective. Begins with the modes. Borrows the solver of K0 and K0.
   Basis(const modes::Modes& modes, Mat stiffness, KSP solver);
-  BV columns() const { return columns_; }  ///< n × size(), type svec
-  PetscInt size() const { return size_; }
-  PetscInt localRows() const;
-  MPI_Comm comm() const;
+  const Block& columns() const { return columns_; }
+  PetscInt size() const { return columns_.columns; }
+  PetscInt localRows() const { return columns_.rows; }
+  MPI_Comm comm() const { return comm_; }
+  Mat stiffness() const { return stiffness_; }  ///< K0
+  PetscInt modes() const { return modes_; }     ///< the first columns are free modes; none after combine()
+  /// Collective. A copy of V.
+  OwnedBV vectors() const;
 
   /// Collective. Adds K0⁻¹ of the columns of `residuals`, solved for together; combinations that depend on others or on V are dropped.
   /// Returns the number of columns added.
@@ -28,9 +33,9 @@ class Basis {
   void combine(const DenseMatrix& combinations, PetscInt count);
 
   /// Collective. A times columns [first, last) of V.
-  OwnedBV times(Mat matrix, PetscInt first, PetscInt last) const;
-  /// Fills the vectors with V q; entries that q lacks are zero.
-  void expand(const std::vector<std::complex<double>>& q, Vec real, Vec imaginary) const;
+  Block times(Mat matrix, PetscInt first, PetscInt last) const;
+  /// Collective. V q of several q; entries that one lacks are zero.
+  std::vector<ComplexVector> expand(const std::vector<const std::vector<std::complex<double>>*>& list) const;
   /// Of columns of length n; the weighted norm is √(rᵀ diag(K0)⁻¹ r).
   const Sketch& sketch() const { return *sketch_; }
   /// Sketch of V.
@@ -46,20 +51,18 @@ class Basis {
 
  private:
   Block solve(const Block& right);
-  double ratio(const Block& residuals, const Block& solutions) const;
-  Block scaled(const Block& residuals) const;
+  double ratio(const Block& residuals, const DenseMatrix& energy) const;
 
+  MPI_Comm comm_;
+  Mat stiffness_;
   KSP solver_;
-  PetscInt size_ = 0;
-  OwnedBV columns_;
+  PetscInt modes_ = 0;
+  Block columns_;
   std::vector<double> inverseDiagonal_;
   std::optional<Sketch> sketch_;
   DenseMatrix sketched_;
   double ratio_ = 1;
   long solves_ = 0;
 };
-
-/// Collective. A BV of `columns` columns laid out like `like`, type svec.
-OwnedBV columnsLike(BV like, PetscInt columns);
 
 }  // namespace squeal::flutter

@@ -33,13 +33,12 @@ std::vector<Complex> conjugated(std::vector<Complex> vector) {
   return vector;
 }
 
-/// LAPACK's real storage of conjugate pairs as complex numbers, of each pair the one with Im ≥ 0 and its conjugate.
-std::vector<EigenPair> unpacked(const std::vector<double>& real, const std::vector<double>& imaginary,
+/// LAPACK's real storage of conjugate pairs (n high) as complex numbers, of each pair the one with Im ≥ 0 and its conjugate.
+std::vector<EigenPair> unpacked(std::size_t n, const std::vector<double>& real, const std::vector<double>& imaginary,
                                 const std::vector<double>& beta, const std::vector<double>& right, const std::vector<double>& left,
                                 const Wanted& wanted) {
   std::vector<EigenPair> pairs;
-  const std::size_t n = real.size();
-  for (std::size_t j = 0; j < n; ++j) {
+  for (std::size_t j = 0; j < real.size(); ++j) {
     if (beta[j] == 0 && real[j] == 0)
       throw Error("the reduced eigenproblem is singular: mass and stiffness have a common null vector");
     if (beta[j] == 0) continue;  // infinite: a motion without mass
@@ -76,24 +75,50 @@ std::vector<EigenPair> generalized(DenseMatrix a, DenseMatrix b, int size, Vecto
   work.resize(static_cast<std::size_t>(work[0]));
   call(static_cast<PetscBLASInt>(work.size()));
   if (info != 0) throw Error("LAPACK dggev failed on the reduced eigenproblem (info " + std::to_string(info) + ")");
-  return unpacked(real, imaginary, beta, vectors.right, vectors.left, wanted);
+  return unpacked(n, real, imaginary, beta, vectors.right, vectors.left, wanted);
 }
 
-/// All eigenvalues and eigenvectors of A x = μ x.
+/// Eigenvalues and eigenvectors of A x = μ x: its Schur form, and the vectors of the wanted ones alone, of which the calls that give all would
+/// make the most of their work.
 std::vector<EigenPair> standard(DenseMatrix a, int size, Vectors sides, const Wanted& wanted) {
   const auto n = static_cast<std::size_t>(size);
-  PetscBLASInt order = size, query = -1, info = 0;
-  std::vector<double> real(n), imaginary(n), work(1);
-  LapackVectors vectors(n, sides);
+  PetscBLASInt order = size, query = -1, info = 0, sorted = 0;
+  std::vector<double> real(n), imaginary(n), schur(n * n), work(1);
   const auto call = [&](PetscBLASInt length) {
-    LAPACKgeev_(vectors.leftJob(), "V", &order, a.data(), &order, real.data(), imaginary.data(), vectors.left.data(), &order,
-                vectors.right.data(), &order, work.data(), &length, &info);
+    LAPACKgees_("V", "N", nullptr, &order, a.data(), &order, &sorted, real.data(), imaginary.data(), schur.data(), &order,
+                work.data(), &length, nullptr, &info);
   };
   call(query);
   work.resize(static_cast<std::size_t>(work[0]));
   call(static_cast<PetscBLASInt>(work.size()));
-  if (info != 0) throw Error("LAPACK dgeev failed on the reduced eigenproblem (info " + std::to_string(info) + ")");
-  return unpacked(real, imaginary, std::vector<double>(n, 1.0), vectors.right, vectors.left, wanted);
+  if (info != 0) throw Error("LAPACK dgees failed on the reduced eigenproblem (info " + std::to_string(info) + ")");
+  std::vector<PetscBLASInt> chosen(n, 0);
+  std::vector<double> realParts, imaginaryParts;  // of the chosen
+  for (std::size_t j = 0; j < n; ++j) {
+    const std::size_t width = imaginary[j] != 0 ? 2 : 1;
+    const Complex value(real[j], imaginary[j]);
+    for (std::size_t k = j; k < j + width && (wanted(value) || wanted(std::conj(value))); ++k) {
+      chosen[k] = 1;
+      realParts.push_back(real[k]);
+      imaginaryParts.push_back(imaginary[k]);
+    }
+    j += width - 1;
+  }
+  const std::size_t count = realParts.size();
+  if (count == 0) return {};
+  PetscBLASInt columns = static_cast<PetscBLASInt>(count), found = 0;
+  std::vector<double> right(n * count), left(sides == Vectors::both ? n * count : 1);
+  work.resize(3 * n);
+  LAPACKtrevc_(sides == Vectors::both ? "B" : "R", "S", chosen.data(), &order, a.data(), &order, left.data(), &order, right.data(),
+               &order, &columns, &found, work.data(), &info);
+  if (info != 0) throw Error("LAPACK dtrevc failed on the reduced eigenproblem (info " + std::to_string(info) + ")");
+  const auto turned = [&](const std::vector<double>& vectors) {
+    std::vector<double> result(n * count);
+    multiplyAdd(schur.data(), size, size, vectors, result);
+    return result;
+  };
+  return unpacked(n, realParts, imaginaryParts, std::vector<double>(count, 1.0), turned(right),
+                  sides == Vectors::both ? turned(left) : std::vector<double>(), wanted);
 }
 
 DenseMatrix sideBySide(const DenseMatrix& left, const DenseMatrix& right) {

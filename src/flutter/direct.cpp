@@ -79,9 +79,10 @@ FrictionPoint solveDirect(const Pencil& pencil, const Parameters& at, Mat trial)
     point.eigenvalues.push_back({pair.s, error, NAN, error <= point.accuracy});
   }
   judge(point.eigenvalues);
-  keepShapes(point, trial, [&](std::size_t index, Vec real, Vec imaginary) {
-    check(VecCopy(pairs[index].real, real));
-    check(VecCopy(pairs[index].imaginary, imaginary));
+  keepShapes(point, trial, [&](const std::vector<std::size_t>& indices) {
+    std::vector<ComplexVector> modes;
+    for (std::size_t index : indices) modes.push_back(ComplexVector::copied(pairs[index].real, pairs[index].imaginary));
+    return modes;
   });
   return point;
 }

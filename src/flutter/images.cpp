@@ -67,23 +67,69 @@ Block unitColumns(const Block& columns, const std::vector<double>& squares) {
   return units;
 }
 
-RowSet::RowSet(Mat matrix) {
-  PetscInt first = 0, end = 0;
-  check(MatGetOwnershipRange(matrix, &first, &end));
-  localRows_ = end - first;
-  PetscBool readable = PETSC_FALSE;
-  check(MatHasOperation(matrix, MATOP_GET_ROW, &readable));
-  if (!readable) rows_.resize(static_cast<std::size_t>(localRows_));
-  if (!readable) std::iota(rows_.begin(), rows_.end(), 0);
-  for (PetscInt row = first; readable && row < end; ++row) {
-    PetscInt entries = 0;
-    check(MatGetRow(matrix, row, &entries, nullptr, nullptr));
-    if (entries > 0) rows_.push_back(row - first);
-    check(MatRestoreRow(matrix, row, &entries, nullptr, nullptr));
+namespace {
+
+/// Columns by this rank's rows as a dense matrix that borrows them.
+OwnedMat dense(MPI_Comm comm, PetscInt localRows, PetscInt rows, PetscInt columns, const double* values) {
+  OwnedMat matrix;
+  check(MatCreateDense(comm, localRows, PETSC_DECIDE, rows, columns, const_cast<double*>(values), matrix.out()));
+  return matrix;
+}
+
+}  // namespace
+
+Block product(Mat matrix, const double* columns, PetscInt count) {
+  PetscInt localRows = 0, localColumns = 0, rows = 0, length = 0;
+  check(MatGetLocalSize(matrix, &localRows, &localColumns));
+  check(MatGetSize(matrix, &rows, &length));
+  Block result(localRows, count);
+  if (count == 0) return result;
+  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(matrix));
+  const OwnedMat from = dense(comm, localColumns, length, count, columns),
+                 to = dense(comm, localRows, rows, count, result.values.data());
+  PetscBool assembled = PETSC_FALSE;
+  check(MatHasOperation(matrix, MATOP_GET_ROW, &assembled));
+  if (assembled) {
+    check(MatProductCreateWithMat(matrix, from, nullptr, to));
+    check(MatProductSetType(to, MATPRODUCT_AB));
+    check(MatProductSetFromOptions(to));
+    check(MatProductSymbolic(to));
+    check(MatProductNumeric(to));
+    return result;
   }
+  for (PetscInt j = 0; j < count; ++j) {
+    Vec column = nullptr, image = nullptr;
+    check(MatDenseGetColumnVecRead(from, j, &column));
+    check(MatDenseGetColumnVecWrite(to, j, &image));
+    check(MatMult(matrix, column, image));
+    check(MatDenseRestoreColumnVecWrite(to, j, &image));
+    check(MatDenseRestoreColumnVecRead(from, j, &column));
+  }
+  return result;
+}
+
+RowSet::RowSet(Mat matrix) {
+  PetscInt end = 0;
+  check(MatGetOwnershipRange(matrix, &firstRow_, &end));
+  localRows_ = end - firstRow_;
+  PetscBool known = PETSC_FALSE;
+  check(MatHasOperation(matrix, MATOP_FIND_NONZERO_ROWS, &known));
+  if (!known) return;
+  IS kept = nullptr;
+  check(MatFindNonzeroRows(matrix, &kept));
+  if (!kept) return;
+  const OwnedIS owner(kept);
+  all_ = false;
+  PetscInt count = 0;
+  const PetscInt* rows = nullptr;
+  check(ISGetLocalSize(kept, &count));
+  check(ISGetIndices(kept, &rows));
+  for (PetscInt i = 0; i < count; ++i) rows_.push_back(rows[i] - firstRow_);
+  check(ISRestoreIndices(kept, &rows));
 }
 
 std::vector<double> RowSet::of(const double* columns, PetscInt count) const {
+  if (all_) return {columns, columns + count * localRows_};
   std::vector<double> values;
   values.reserve(rows_.size() * static_cast<std::size_t>(count));
   for (PetscInt j = 0; j < count; ++j)
@@ -91,38 +137,37 @@ std::vector<double> RowSet::of(const double* columns, PetscInt count) const {
   return values;
 }
 
+OwnedMat RowSet::of(Mat matrix) const {
+  if (all_) {
+    check(PetscObjectReference(reinterpret_cast<PetscObject>(matrix)));
+    return OwnedMat(matrix);
+  }
+  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(matrix));
+  std::vector<PetscInt> global;
+  for (PetscInt row : rows_) global.push_back(firstRow_ + row);
+  PetscInt begin = 0, end = 0;
+  check(MatGetOwnershipRangeColumn(matrix, &begin, &end));
+  OwnedIS rows, columns;
+  OwnedMat part;
+  check(ISCreateGeneral(comm, static_cast<PetscInt>(global.size()), global.data(), PETSC_COPY_VALUES, rows.out()));
+  check(ISCreateStride(comm, end - begin, begin, 1, columns.out()));
+  check(MatCreateSubMatrix(matrix, rows, columns, MAT_INITIAL_MATRIX, part.out()));
+  return part;
+}
+
 DenseMatrix transposedProduct(MPI_Comm comm, const RowSet& rows, const double* x, PetscInt m, const double* y, PetscInt n) {
   if (rows.all()) return transposedProduct(comm, x, rows.size(), m, y, n);
-  return transposedProduct(comm, rows.of(x, m).data(), rows.size(), m, rows.of(y, n).data(), n);
+  return transposedProduct(comm, rows.of(x, m).data(), rows.size(), m, y, n);
 }
 
-void Image::append(const double* values, PetscInt columns) {
-  const auto kept = rows_.of(values, columns);
-  values_.insert(values_.end(), kept.begin(), kept.end());
-}
-
-void Image::combine(const DenseMatrix& combinations, PetscInt columns) {
-  std::vector<double> combined(static_cast<std::size_t>(rows_.size()) * combinations.size() / static_cast<std::size_t>(columns),
-                               0.0);
-  flutter::multiplyAdd(values_.data(), rows_.size(), columns, combinations, combined);
-  values_ = std::move(combined);
-}
-
-void Image::multiplyAdd(const std::vector<double>& coefficients, PetscInt columns, std::vector<double>& result) const {
-  if (rows_.all()) return flutter::multiplyAdd(values_.data(), rows_.size(), columns, coefficients, result);
-  const PetscInt count = static_cast<PetscInt>(coefficients.size()) / columns;
-  std::vector<double> part(static_cast<std::size_t>(rows_.size() * count), 0.0);
-  flutter::multiplyAdd(values_.data(), rows_.size(), columns, coefficients, part);
+void multiplyAdd(const RowSet& rows, const Block& x, const std::vector<double>& coefficients, std::vector<double>& y) {
+  if (rows.all()) return multiplyAdd(x.values.data(), x.rows, x.columns, coefficients, y);
+  const auto count = static_cast<PetscInt>(coefficients.size()) / x.columns;
+  std::vector<double> part(static_cast<std::size_t>(x.rows * count), 0.0);
+  multiplyAdd(x.values.data(), x.rows, x.columns, coefficients, part);
   for (PetscInt j = 0; j < count; ++j)
-    for (PetscInt i = 0; i < rows_.size(); ++i)
-      result[static_cast<std::size_t>(j * rows_.localRows() + rows_[i])] += part[static_cast<std::size_t>(j * rows_.size() + i)];
-}
-
-DenseMatrix Image::transposedProduct(MPI_Comm comm, const ReadColumns& v, PetscInt xBegin, PetscInt xEnd, PetscInt begin,
-                                     PetscInt end) const {
-  const double *x = v.values() + xBegin * v.rows(), *image = values_.data() + begin * rows_.size();
-  if (rows_.all()) return flutter::transposedProduct(comm, x, rows_.size(), xEnd - xBegin, image, end - begin);
-  return flutter::transposedProduct(comm, rows_.of(x, xEnd - xBegin).data(), rows_.size(), xEnd - xBegin, image, end - begin);
+    for (PetscInt i = 0; i < x.rows; ++i)
+      y[static_cast<std::size_t>(j * rows.localRows() + rows[i])] += part[static_cast<std::size_t>(j * x.rows + i)];
 }
 
 }  // namespace squeal::flutter

@@ -43,6 +43,9 @@ class ReadColumns {
   const PetscScalar* values_ = nullptr;
 };
 
+/// Collective. A times columns of length n, given by this rank's rows.
+Block product(Mat matrix, const double* columns, PetscInt count);
+
 /// result (rows × k) += factor · X (rows × columns) · coefficients (columns × k), local, all column-major.
 void multiplyAdd(const double* x, PetscInt rows, PetscInt columns, const std::vector<double>& coefficients,
                  std::vector<double>& result, double factor = 1);
@@ -56,42 +59,30 @@ Block principal(MPI_Comm comm, const Block& columns, double small);
 /// The columns that have a length, of unit length; `squares`: of their lengths.
 Block unitColumns(const Block& columns, const std::vector<double>& squares);
 
-/// The rows of a matrix on this rank that are not empty: a friction operator has rows at the contact nodes alone.
+/// The rows of a matrix on this rank that hold anything but zeros: a friction operator has some at the contact nodes alone.
 class RowSet {
  public:
+  /// Collective.
   explicit RowSet(Mat matrix);
-  PetscInt size() const { return static_cast<PetscInt>(rows_.size()); }
-  bool all() const { return size() == localRows_; }
+  PetscInt size() const { return all_ ? localRows_ : static_cast<PetscInt>(rows_.size()); }
+  /// Of every rank.
+  bool all() const { return all_; }
   PetscInt localRows() const { return localRows_; }
-  PetscInt operator[](PetscInt i) const { return rows_[static_cast<std::size_t>(i)]; }
+  PetscInt operator[](PetscInt i) const { return all_ ? i : rows_[static_cast<std::size_t>(i)]; }
   /// These rows of columns given by all local rows, column-major.
   std::vector<double> of(const double* columns, PetscInt count) const;
+  /// Collective. These rows of the matrix, all columns; the matrix itself where there are no others.
+  OwnedMat of(Mat matrix) const;
 
  private:
-  PetscInt localRows_ = 0;
-  std::vector<PetscInt> rows_;  // ascending
+  PetscInt localRows_ = 0, firstRow_ = 0;
+  bool all_ = true;
+  std::vector<PetscInt> rows_;  // ascending; empty if all
 };
 
-/// Collective. Xᵀ Y for columns given by all local rows, of which those of Y are zero outside of `rows`.
+/// Collective. Xᵀ Y for columns X given by all local rows, and columns Y by `rows`, zero elsewhere.
 DenseMatrix transposedProduct(MPI_Comm comm, const RowSet& rows, const double* x, PetscInt m, const double* y, PetscInt n);
-
-/// A V by the rows of A that are not empty.
-class Image {
- public:
-  explicit Image(RowSet rows) : rows_(std::move(rows)) {}
-  /// Adds columns given by all local rows.
-  void append(const double* values, PetscInt columns);
-  /// A V ← A V · combinations (columns × k).
-  void combine(const DenseMatrix& combinations, PetscInt columns);
-  /// result (all local rows × k) += (A V) · coefficients.
-  void multiplyAdd(const std::vector<double>& coefficients, PetscInt columns, std::vector<double>& result) const;
-  /// Collective. Columns [xBegin, xEnd) of V, transposed, times columns [begin, end) of A V.
-  DenseMatrix transposedProduct(MPI_Comm comm, const ReadColumns& v, PetscInt xBegin, PetscInt xEnd, PetscInt begin,
-                                PetscInt end) const;
-
- private:
-  RowSet rows_;
-  std::vector<double> values_;  // column-major, rows_.size() high
-};
+/// y (all local rows × k) += X · coefficients (columns × k) for columns X given by `rows`, zero elsewhere.
+void multiplyAdd(const RowSet& rows, const Block& x, const std::vector<double>& coefficients, std::vector<double>& y);
 
 }  // namespace squeal::flutter

@@ -101,7 +101,7 @@ class Search {
         projected_{start.projected.stiffness, start.projected.damping, start.projected.mass},
         known_(start.projected.m) {
     check(BVGetSizes(start.columns, nullptr, nullptr, &size_));
-    basis_ = columnsLike(start.columns, size_);
+    check(BVDuplicateResize(start.columns, size_, basis_.out()));
     check(BVCopy(start.columns, basis_));
     check(BVSetMatrix(basis_, start.inner, PETSC_FALSE));
   }

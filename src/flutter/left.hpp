@@ -22,7 +22,7 @@ struct LeftVector {
 
 /// Where the search begins.
 struct StartSpace {
-  BV columns = nullptr;    ///< V: the free modes, or the basis of the reduced problem; borrowed
+  OwnedBV columns;         ///< V: the free modes, or the basis of the reduced problem
   Mat inner = nullptr;     ///< the matrix in which V is orthonormal: M0 or K0; borrowed
   DenseProblem projected;  ///< Vᵀ P V at the point, if at hand: it saves products of the size of V; otherwise m = 0
 };

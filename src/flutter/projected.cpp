@@ -6,7 +6,7 @@ namespace squeal::flutter {
 namespace {
 
 /// A projection of `old` columns grown to `size`: the new columns, and the new rows below the old columns (empty: by symmetry).
-void grow(DenseMatrix& matrix, PetscInt old, PetscInt size, const DenseMatrix& right, const DenseMatrix& below) {
+void append(DenseMatrix& matrix, PetscInt old, PetscInt size, const DenseMatrix& right, const DenseMatrix& below) {
   const auto n = static_cast<std::size_t>(size), o = static_cast<std::size_t>(old), added = n - o;
   DenseMatrix grown(n * n);
   for (std::size_t j = 0; j < o; ++j) {
@@ -63,14 +63,20 @@ std::vector<double> Coordinates::times(Side side, int power, double c) const {
 }
 
 ProjectedTerms::ProjectedTerms(const Basis& basis, const Pencil& pencil, std::size_t first, std::size_t last) : basis_(basis) {
-  for (std::size_t t = first; t < last; ++t) {
-    Term term = pencil.terms()[t].share();
-    OwnedMat transposed;
-    if (!isSymmetric(term.matrix)) check(MatTranspose(term.matrix, MAT_INITIAL_MATRIX, transposed.out()));
-    const RowSet rows(term.matrix), leftRows = transposed ? RowSet(transposed) : rows;
-    parts_.push_back({std::move(term), std::move(transposed), rows, leftRows, Image(rows), {}, {}, {}, 0});
-  }
+  for (std::size_t t = first; t < last; ++t) parts_.push_back(begun(pencil.terms()[t].share()));
   extend();
+}
+
+ProjectedTerms::Part ProjectedTerms::begun(Term term) const {
+  const RowSet rows(term.matrix);
+  OwnedMat matrix = rows.of(term.matrix);
+  Block image(rows.size());
+  if (isSymmetric(term.matrix)) return {std::move(term), rows, rows, std::move(matrix), {}, std::move(image), {}, {}, {}};
+  OwnedMat transposed;
+  check(MatTranspose(term.matrix, MAT_INITIAL_MATRIX, transposed.out()));
+  const RowSet leftRows(transposed);
+  OwnedMat adjoint = leftRows.of(transposed);
+  return {std::move(term), rows, leftRows, std::move(matrix), std::move(adjoint), std::move(image), {}, {}, {}};
 }
 
 void ProjectedTerms::extend() {
@@ -78,40 +84,55 @@ void ProjectedTerms::extend() {
 }
 
 void ProjectedTerms::extend(Part& part) const {
-  const PetscInt old = part.columns, size = basis_.size();
+  const PetscInt old = part.image.columns, size = basis_.size();
   if (old == size) return;
-  const auto sketchOf = [&](BV columns, const RowSet& rows, DenseMatrix& sketch) {
-    const auto fresh = basis_.sketch().of(rows, ReadColumns(columns).values(), size - old);
-    sketch.insert(sketch.end(), fresh.begin(), fresh.end());
+  const auto sketch = [&](const Block& columns, const RowSet& rows, DenseMatrix& sketches) {
+    const auto fresh = basis_.sketch().of(rows, columns.values.data(), columns.columns);
+    sketches.insert(sketches.end(), fresh.begin(), fresh.end());
   };
   {
-    const OwnedBV product = basis_.times(part.term.matrix, old, size);
-    part.image.append(ReadColumns(product).values(), size - old);
-    sketchOf(product, part.rows, part.sketch);
+    const Block image = basis_.times(part.matrix, old, size);
+    sketch(image, part.rows, part.sketch);
+    flutter::append(part.image, image);
   }
-  if (part.transposed) sketchOf(basis_.times(part.transposed, old, size), part.leftRows, part.leftSketch);
-  const ReadColumns all(basis_.columns());
-  auto right = part.image.transposedProduct(basis_.comm(), all, 0, size, old, size);  // Vᵀ (A V_new)
-  auto below =
-      part.transposed ? part.image.transposedProduct(basis_.comm(), all, old, size, 0, old) : DenseMatrix{};  // V_newᵀ (A V_old)
+  if (part.adjoint) sketch(basis_.times(part.adjoint, old, size), part.leftRows, part.leftSketch);
+  project(part, old);
+}
+
+/// VᵀAV with the columns of V from `old` on.
+void ProjectedTerms::project(Part& part, PetscInt old) const {
+  const PetscInt size = basis_.size(), added = size - old;
+  const auto product = [&](PetscInt xBegin, PetscInt xEnd, PetscInt begin, PetscInt end) {  // X of V, transposed, times some of A V
+    return transposedProduct(basis_.comm(), part.rows, basis_.columns().column(xBegin), xEnd - xBegin, part.image.column(begin),
+                             end - begin);
+  };
+  DenseMatrix right, below;
+  if (part.term.matrix == basis_.stiffness() && basis_.modes() > 0 && old >= basis_.modes()) {
+    // What is added is orthonormal in the energy of K0, as closely as K0⁻¹ is known: that of products with K0.
+    right.resize(static_cast<std::size_t>(size * added), 0.0);
+    for (PetscInt j = 0; j < added; ++j) right[static_cast<std::size_t>(j * size + old + j)] = 1;
+  } else {
+    right = product(0, size, old, size);
+    if (part.adjoint) below = product(old, size, 0, old);
+  }
   // Sums over the ranks, whose rounding may depend on the rank; what follows from them must not.
   for (auto* block : {&right, &below})
     check(MPI_Bcast(block->data(), static_cast<int>(block->size()), MPI_DOUBLE, 0, basis_.comm()));
-  grow(part.projection, old, size, right, below);
-  part.columns = size;
+  append(part.projection, old, size, right, below);
 }
 
 void ProjectedTerms::combine(const DenseMatrix& combinations) {
   for (auto& part : parts_) {
-    const auto old = static_cast<std::size_t>(part.columns), size = combinations.size() / old;
-    part.image.combine(combinations, part.columns);
+    const auto old = static_cast<std::size_t>(part.image.columns), size = combinations.size() / old;
+    Block image(part.image.rows, static_cast<PetscInt>(size));
+    multiplyAdd(part.image.values.data(), image.rows, part.image.columns, combinations, image.values);
+    part.image = std::move(image);
     part.sketch = product(part.sketch, old, combinations);
-    if (part.transposed) part.leftSketch = product(part.leftSketch, old, combinations);
+    if (part.adjoint) part.leftSketch = product(part.leftSketch, old, combinations);
     DenseMatrix transposed(size * old);
     for (std::size_t j = 0; j < size; ++j)
       for (std::size_t i = 0; i < old; ++i) transposed[i * size + j] = combinations[j * old + i];
     part.projection = product(transposed, old, product(part.projection, old, combinations));
-    part.columns = static_cast<PetscInt>(size);
   }
 }
 
@@ -125,32 +146,31 @@ void ProjectedTerms::addTo(const Parameters& at, DenseProblem& sum) const {
   }
 }
 
-void ProjectedTerms::addTo(const Parameters& at, const Coordinates& pairs, Block& result) const {
-  for (const auto& part : parts_)
-    if (const double c = part.term.coefficient(at); c != 0)
-      part.image.multiplyAdd(pairs.times(Side::right, part.term.power, c), part.columns, result.values);
-}
-
-Block ProjectedTerms::residuals(const std::vector<PointPairs>& points) const {
-  PetscInt columns = 0;
-  for (const auto& point : points) columns += point.pairs.columns;
-  Block result(basis_.localRows(), columns);
+void ProjectedTerms::addTo(const std::vector<const PointPairs*>& points, const DenseMatrix& combinations, Block& result) const {
+  const auto count = static_cast<std::size_t>(result.columns), all = combinations.size() / count;
   for (const auto& part : parts_) {
-    std::vector<double> coefficients;
-    for (const auto& [at, pairs] : points) {
-      const auto own = pairs.times(Side::right, part.term.power, part.term.coefficient(at));
-      coefficients.insert(coefficients.end(), own.begin(), own.end());
+    DenseMatrix coefficients(static_cast<std::size_t>(part.image.columns) * count);
+    std::size_t first = 0;
+    for (const auto* point : points) {
+      const auto columns = static_cast<std::size_t>(point->pairs.columns);
+      DenseMatrix own(columns * count);  // rows of the combinations
+      for (std::size_t k = 0; k < count; ++k)
+        std::copy_n(combinations.begin() + static_cast<std::ptrdiff_t>(k * all + first), columns,
+                    own.begin() + static_cast<std::ptrdiff_t>(k * columns));
+      first += columns;
+      const auto vectors = point->pairs.times(Side::right, part.term.power, part.term.coefficient(point->at));
+      if (columns > 0) multiplyAdd(vectors.data(), part.image.columns, point->pairs.columns, own, coefficients);
     }
-    part.image.multiplyAdd(coefficients, part.columns, result.values);
+    multiplyAdd(part.rows, part.image, coefficients, result.values);
   }
-  return result;
 }
 
-void ProjectedTerms::addTo(const Parameters& at, const Coordinates& pairs, Side side, DenseMatrix& sketch) const {
+void ProjectedTerms::addTo(const PointPairs& point, Side side, DenseMatrix& sketch) const {
   for (const auto& part : parts_) {
-    const double c = part.term.coefficient(at);
-    const auto& known = side == Side::left && part.transposed ? part.leftSketch : part.sketch;
-    if (c != 0) multiplyAdd(known.data(), 2 * Sketch::size, part.columns, pairs.times(side, part.term.power, c), sketch);
+    const double c = part.term.coefficient(point.at);
+    const auto& known = side == Side::left && part.adjoint ? part.leftSketch : part.sketch;
+    if (c != 0)
+      multiplyAdd(known.data(), 2 * Sketch::size, part.image.columns, point.pairs.times(side, part.term.power, c), sketch);
   }
 }
 

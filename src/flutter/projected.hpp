@@ -27,7 +27,7 @@ struct Coordinates {
   std::vector<double> times(Side side, int power, double c) const;
 };
 
-/// Pairs found at one point.
+/// Pairs found at one point, borrowed.
 struct PointPairs {
   Parameters at;
   Coordinates pairs;
@@ -43,25 +43,24 @@ class ProjectedTerms {
   void combine(const DenseMatrix& combinations);
   /// Adds Σ c_t VᵀA_tV to the matrices of the problem, which are empty or of the size of the basis.
   void addTo(const Parameters& at, DenseProblem& sum) const;
-  /// Adds P(s) V q to the columns of `result`.
-  void addTo(const Parameters& at, const Coordinates& pairs, Block& result) const;
-  /// P(s) V q of the pairs of several points, in one product per term.
-  Block residuals(const std::vector<PointPairs>& points) const;
+  /// Adds combinations of the columns P(s) V q of all points in turn (their columns × result.columns), in one product per term.
+  void addTo(const std::vector<const PointPairs*>& points, const DenseMatrix& combinations, Block& result) const;
   /// Adds the sketch of P(s) V q or P(s)ᴴ V y.
-  void addTo(const Parameters& at, const Coordinates& pairs, Side side, DenseMatrix& sketch) const;
+  void addTo(const PointPairs& point, Side side, DenseMatrix& sketch) const;
 
  private:
   struct Part {
     Term term;
-    OwnedMat transposed;     // Aᵀ; empty where A is symmetric
-    RowSet rows, leftRows;   // of A and Aᵀ
-    Image image;             // A V
-    DenseMatrix sketch;      // of A V
-    DenseMatrix leftSketch;  // of AᵀV; empty where A is symmetric
-    DenseMatrix projection;  // VᵀAV, column-major
-    PetscInt columns = 0;    // of V held so far
+    RowSet rows, leftRows;     // of A and Aᵀ
+    OwnedMat matrix, adjoint;  // these rows; no adjoint where A is symmetric
+    Block image;               // A V, by `rows`
+    DenseMatrix sketch;        // of A V
+    DenseMatrix leftSketch;    // of AᵀV; empty where A is symmetric
+    DenseMatrix projection;    // VᵀAV, column-major
   };
+  Part begun(Term term) const;
   void extend(Part& part) const;
+  void project(Part& part, PetscInt old) const;
   const Basis& basis_;
   std::vector<Part> parts_;
 };

@@ -79,11 +79,10 @@ struct ReducedProblem::Work {
   std::vector<double> rightError;  // [pair] of the right vector, times the condition number of s
   std::vector<double> leftError;   // [pair] of the left vector, 1 at most
   std::vector<double> rounding;    // [pair] error of the dense solve
-  Block wanted;                    // what the basis lacks; no columns: the point is done
 };
 
 ReducedProblem::ReducedProblem(const Pencil& pencil, Mat stiffness, KSP solver, const modes::Modes& modes)
-    : basis_(modes, stiffness, solver), terms_(basis_, pencil, 0, pencil.terms().size()) {
+    : modes_(modes.angularFrequency), basis_(modes, stiffness, solver), terms_(basis_, pencil, 0, pencil.terms().size()) {
   check(BVGetSizes(modes.vectors, nullptr, &unknowns_, nullptr));
   lowestMode_ = modes.angularFrequency.front();
   highestMode_ = modes.angularFrequency.back();
@@ -93,33 +92,34 @@ ReducedProblem::ReducedProblem(const Pencil& pencil, Mat stiffness, KSP solver, 
   }
   if (!correctionsWanted()) return;
   bandTop_ = bandOption.get() > 0 ? 2 * M_PI * bandOption.get() : bandOfModes(modes.angularFrequency);
-  addStaticResponses(pencil, modes);
 }
 
-/// K0⁻¹ k φ_i and K0⁻¹ kᵀφ_i for the friction forces k on the free modes of the band at their own frequencies: the change of the right and
-/// left vectors with friction, to first order in it and to lowest order in the frequency.
-void ReducedProblem::addStaticResponses(const Pencil& pencil, const modes::Modes& modes) {
-  const auto& w = modes.angularFrequency;
-  const auto count = static_cast<PetscInt>(std::upper_bound(w.begin(), w.end(), bandTop_) - w.begin());
+/// K0⁻¹ k φ_i and K0⁻¹ kᵀφ_i for the free modes of the band at their own frequencies, where k are the forces of friction and of all else
+/// that belongs to this point: the change of the right and left vectors with them, to first order in them and to lowest order in the
+/// frequency.
+void ReducedProblem::addStaticResponses(const PointProblem& point) {
+  const auto count = static_cast<PetscInt>(std::upper_bound(modes_.begin(), modes_.end(), bandTop_) - modes_.begin());
+  const auto& terms = point.pencil.terms();
   Block forces(basis_.localRows());
   for (const bool transposed : {false, true})
     for (const bool imaginary : {false, true}) {  // (iω)^power
       Block part(basis_.localRows(), count);
-      for (const auto& term : pencil.terms()) {
-        if (term.frictionExponent == 0 || (term.power == 1) != imaginary) continue;
+      for (std::size_t t = 0; t < terms.size(); ++t) {
+        const Term& term = terms[t];
+        const bool perturbs = term.frictionExponent != 0 || t >= point.pencil.affineCount();
+        if (!perturbs || (term.power == 1) != imaginary) continue;
         OwnedMat matrix = term.matrix.share();
         if (transposed) check(MatTranspose(term.matrix, MAT_INITIAL_MATRIX, matrix.out()));
-        const OwnedBV images = basis_.times(matrix, 0, count);
-        const ReadColumns columns(images);
+        const Block images = basis_.times(matrix, 0, count);
         for (PetscInt j = 0; j < count; ++j) {
-          const double omega = w[static_cast<std::size_t>(j)];
-          const double factor = term.factor * (term.power == 0 ? 1 : term.power == 1 ? omega : -omega * omega);
-          for (PetscInt i = 0; i < part.rows; ++i) part.column(j)[i] += factor * columns.values()[j * part.rows + i];
+          const double omega = modes_[static_cast<std::size_t>(j)];
+          const double factor = term.coefficient(point.at) * (term.power == 0 ? 1 : term.power == 1 ? omega : -omega * omega);
+          for (PetscInt i = 0; i < part.rows; ++i) part.column(j)[i] += factor * images.column(j)[i];
         }
       }
       append(forces, unitColumns(part, squaredNorms(basis_.sketch().of(part.values.data(), count)).euclidean));
     }
-  if (basis_.add(principal(basis_.comm(), forces, resolution)) > 0) terms_.extend();
+  basis_.add(principal(basis_.comm(), forces, resolution));
   rightRatio_ = basis_.lastEnergyRatio();
 }
 
@@ -129,25 +129,23 @@ void ReducedProblem::extend(const std::vector<Work*>& works) {
   for (auto* work : works) work->ownTerms.extend();
 }
 
-/// Columns of the residuals P(s) V q.
-Block ReducedProblem::residuals(const Work& work, const Coordinates& coordinates) const {
-  Block result(basis_.localRows(), coordinates.columns);
-  terms_.addTo(work.point->at, coordinates, result);
-  work.ownTerms.addTo(work.point->at, coordinates, result);
+/// The columns of the residual P(s) V q of one pair.
+Block ReducedProblem::rightResidual(const Work& work, const DensePair& pair) const {
+  const PointPairs alone{work.point->at, Coordinates({&pair}, work.damped)};
+  const auto columns = static_cast<std::size_t>(alone.pairs.columns);
+  Block result(basis_.localRows(), alone.pairs.columns);
+  const DenseMatrix identity = columns == 1 ? DenseMatrix{1} : DenseMatrix{1, 0, 0, 1};
+  for (const auto* terms : {&terms_, &work.ownTerms}) terms->addTo({&alone}, identity, result);
   return result;
 }
 
-/// Columns of the residual P(s)ᴴ V y of one pair.
-Block ReducedProblem::leftResidual(const Work& work, const Coordinates& coordinates) const {
+/// The columns of the residual P(s)ᴴ V y of one pair.
+Block ReducedProblem::leftResidual(const Work& work, const DensePair& pair) const {
   const auto& [at, pencil] = *work.point;
-  const DensePair& pair = *coordinates.pairs.at(0);
-  ComplexVector y;
-  check(MatCreateVecs(pencil.terms()[0].matrix, y.real.out(), y.imaginary.out()));
-  basis_.expand(pair.left, y.real, y.imaginary);
-  const ComplexVector residual = flutter::leftResidual(pencil, at, pair.s, y);
+  const ComplexVector residual = flutter::leftResidual(pencil, at, pair.s, basis_.expand({&pair.left})[0]);
   Block result(basis_.localRows());
-  for (PetscInt i = 0; i < coordinates.columns; ++i) {
-    const Vec part = i == 0 ? residual.real : residual.imaginary;
+  for (const Vec part : {residual.real.get(), residual.imaginary.get()}) {
+    if (part == residual.imaginary.get() && Coordinates({&pair}, work.damped).isReal(0)) continue;
     const PetscScalar* entries = nullptr;
     check(VecGetArrayRead(part, &entries));
     result.append(entries);
@@ -167,24 +165,33 @@ double ReducedProblem::excess(const Work& work, std::size_t pair) const {
   return std::max(work.backwardError[pair] / accuracyAsked(), errorOf(work, pair) / toleranceOption.get());
 }
 
-/// Norms of the residuals of one side, raised by what their sketch may miss.
-SquaredNorms ReducedProblem::residualNorms(const Work& work, const Coordinates& coordinates, Side side) const {
-  DenseMatrix sketch(static_cast<std::size_t>(2 * Sketch::size * coordinates.columns));
-  terms_.addTo(work.point->at, coordinates, side, sketch);
-  work.ownTerms.addTo(work.point->at, coordinates, side, sketch);
-  SquaredNorms norms = squaredNorms(sketch);
-  for (auto* list : {&norms.euclidean, &norms.weighted}) {
-    *list = perPair(coordinates, *list);
-    for (auto& square : *list) square *= Sketch::safety * Sketch::safety;
-  }
-  return norms;
+bool ReducedProblem::good(const Work& work) const {
+  for (std::size_t j = 0; j < work.pairs.size(); ++j)
+    if (excess(work, j) > 1) return false;
+  return true;
+}
+
+/// Sketches of the residuals of one side.
+DenseMatrix ReducedProblem::residualSketch(const Work& work, const PointPairs& pairs, Side side) const {
+  DenseMatrix sketch(static_cast<std::size_t>(2 * Sketch::size * pairs.pairs.columns));
+  for (const auto* terms : {&terms_, &work.ownTerms}) terms->addTo(pairs, side, sketch);
+  return sketch;
 }
 
 /// Errors of the pairs of a point.
 void ReducedProblem::judge(Work& work, const DenseProblem& problem) const {
   const auto& pairs = work.pairs;
-  const Coordinates coordinates(pointers(pairs), work.damped);
-  const auto right = residualNorms(work, coordinates, Side::right), left = residualNorms(work, coordinates, Side::left);
+  const PointPairs all{work.point->at, Coordinates(pointers(pairs), work.damped)};
+  const auto& coordinates = all.pairs;
+  const auto norms = [&](Side side) {  // raised by what a sketch may miss
+    SquaredNorms squares = squaredNorms(residualSketch(work, all, side));
+    for (auto* list : {&squares.euclidean, &squares.weighted}) {
+      *list = perPair(coordinates, *list);
+      for (auto& square : *list) square *= Sketch::safety * Sketch::safety;
+    }
+    return squares;
+  };
+  const auto right = norms(Side::right), left = norms(Side::left);
   DenseMatrix vectors(static_cast<std::size_t>(2 * Sketch::size * coordinates.columns));
   multiplyAdd(basis_.sketched().data(), 2 * Sketch::size, basis_.size(), coordinates.times(Side::right, 0, 1), vectors);
   const auto lengths = perPair(coordinates, squaredNorms(vectors).euclidean);
@@ -203,9 +210,8 @@ void ReducedProblem::judge(Work& work, const DenseProblem& problem) const {
   }
 }
 
-/// Directions that hold the residuals of the pairs that are not good enough, each but for `resolution` of it, or for what is good
-/// enough.
-Block ReducedProblem::directions(const Work& work) const {
+/// The pairs of a point that are not good enough, each to be resolved but for `resolution` of its residual, or for what is good enough.
+ReducedProblem::Wish ReducedProblem::wishOf(const Work& work) const {
   const auto mirrored = mirrorImages(work.pairs, work.damped);
   std::vector<const DensePair*> bad;
   std::vector<double> weights;
@@ -214,14 +220,40 @@ Block ReducedProblem::directions(const Work& work) const {
       bad.push_back(&work.pairs[j]);
       weights.push_back(std::min(1.0, 2 * resolution * tooLarge));
     }
-  const Coordinates coordinates(bad, work.damped);
-  const Block columns = residuals(work, coordinates);
-  const auto squares = perPair(coordinates, squaredNorms(basis_.sketch().of(columns.values.data(), columns.columns)).euclidean);
-  Block weighted(columns.rows);
-  for (std::size_t j = 0; j < bad.size(); ++j)
-    for (auto c = coordinates.firstColumn[j]; c < coordinates.firstColumn[j + 1]; ++c)
-      weighted.append(columns.column(c), weights[j] / std::sqrt(squares[j]));
-  return principal(basis_.comm(), weighted, resolution);
+  return {&work, {work.point->at, Coordinates(bad, work.damped)}, weights};
+}
+
+/// Directions that hold the residuals of all these pairs, of length one times their weights, but for parts of length `resolution`.
+Block ReducedProblem::directions(const std::vector<Wish>& wishes) const {
+  DenseMatrix sketches, factors;
+  std::vector<const PointPairs*> points;
+  for (const auto& wish : wishes) {
+    const auto& pairs = wish.pairs.pairs;
+    const DenseMatrix sketch = residualSketch(*wish.work, wish.pairs, Side::right);
+    sketches.insert(sketches.end(), sketch.begin(), sketch.end());
+    const auto squares = perPair(pairs, squaredNorms(sketch).euclidean);
+    for (std::size_t j = 0; j < squares.size(); ++j)
+      factors.insert(factors.end(), static_cast<std::size_t>(pairs.firstColumn[j + 1] - pairs.firstColumn[j]),
+                     squares[j] > 0 ? wish.weights[j] / std::sqrt(squares[j]) : 0);
+    points.push_back(&wish.pairs);
+  }
+  if (factors.empty()) return Block(basis_.localRows());
+  // Fewer columns than residuals: those of several points are much alike. What is too small to tell here is cut off below.
+  const DenseMatrix combinations = leadingCombinations(sketches, factors, 0.2 * resolution);
+  const std::size_t all = factors.size(), count = combinations.size() / all;
+  Block columns(basis_.localRows(), static_cast<PetscInt>(count));
+  terms_.addTo(points, combinations, columns);
+  std::size_t first = 0;
+  for (const auto& wish : wishes) {
+    const auto own = static_cast<std::size_t>(wish.pairs.pairs.columns);
+    DenseMatrix rows(own * count);
+    for (std::size_t k = 0; k < count; ++k)
+      std::copy_n(combinations.begin() + static_cast<std::ptrdiff_t>(k * all + first), own,
+                  rows.begin() + static_cast<std::ptrdiff_t>(k * own));
+    wish.work->ownTerms.addTo({&wish.pairs}, rows, columns);
+    first += own;
+  }
+  return principal(basis_.comm(), columns, resolution);
 }
 
 /// Dense problems of the points that are not done, and their errors.
@@ -232,7 +264,6 @@ void ReducedProblem::solveDense(const std::vector<Work*>& open) {
   for (std::size_t i = 0; i < open.size(); ++i) {
     open[i]->pairs = std::move(solved[i]);
     judge(*open[i], problems[i]);
-    open[i]->wanted = directions(*open[i]);
   }
 }
 
@@ -249,15 +280,11 @@ std::vector<ReducedProblem::Work*> ReducedProblem::unconfirmed(std::vector<Work>
   if (!worst) return open;
   worst->ownTerms.extend();  // the basis may have grown since
   for (auto* vector : {&worst->pairs[pair].q, &worst->pairs[pair].left}) vector->resize(static_cast<std::size_t>(basis_.size()));
-  const Coordinates coordinates({&worst->pairs[pair]}, worst->damped);
-  const auto ratios = basis_.energyRatios({residuals(*worst, coordinates), leftResidual(*worst, coordinates)});
+  const auto ratios = basis_.energyRatios({rightResidual(*worst, worst->pairs[pair]), leftResidual(*worst, worst->pairs[pair])});
   rightRatio_ = std::max(rightRatio_, ratios[0]);
   leftRatio_ = std::max(leftRatio_, ratios[1]);
-  for (auto& work : works) {
-    double tooLarge = 0;
-    for (std::size_t j = 0; j < work.pairs.size(); ++j) tooLarge = std::max(tooLarge, excess(work, j));
-    if (tooLarge > 1) open.push_back(&work);
-  }
+  for (auto& work : works)
+    if (!good(work)) open.push_back(&work);
   return open;
 }
 
@@ -271,8 +298,7 @@ ReducedProblem::Work ReducedProblem::begun(const PointProblem& point, const Norm
           {},
           {},
           {},
-          {},
-          Block(0)};
+          {}};
 }
 
 ReducedProblem::Norms ReducedProblem::normsOf(const PointProblem& point) {
@@ -296,21 +322,23 @@ ReducedProblem::Norms ReducedProblem::nearbyNorms(const PointProblem& point) {
 std::vector<FrictionPoint> ReducedProblem::solve(const std::vector<PointProblem>& batch, Mat trial) {
   std::vector<Work> works;
   std::vector<Work*> open;
+  if (!responded_ && correctionsWanted() && basis_.size() < unknowns_) addStaticResponses(batch.front());
+  responded_ = true;
   for (const auto& point : batch) works.push_back(begun(point, normsOf(point)));
   for (auto& work : works) open.push_back(&work);
   const PetscInt largest = std::min(basis_.size() + static_cast<PetscInt>(growthOption.get()), unknowns_);
   for (int round = 0; !open.empty(); ++round) {
     extend(open);
     solveDense(open);
-    std::erase_if(open, [](const Work* work) { return work->wanted.columns == 0; });
+    std::erase_if(open, [&](const Work* work) { return good(*work); });
     if (open.empty()) {
       open = unconfirmed(works);
       continue;
     }
     if (round >= roundsOption.get() || basis_.size() >= largest) break;
-    Block wanted(basis_.localRows());
-    for (const auto* work : open) append(wanted, work->wanted);
-    if (basis_.add(open.size() > 1 ? principal(basis_.comm(), wanted, resolution) : wanted) == 0) break;  // residuals are rounding
+    std::vector<Wish> wishes;
+    for (const auto* work : open) wishes.push_back(wishOf(*work));
+    if (basis_.add(directions(wishes)) == 0) break;  // residuals are rounding
     rightRatio_ = basis_.lastEnergyRatio();
   }
   std::vector<FrictionPoint> points;
@@ -331,8 +359,11 @@ FrictionPoint ReducedProblem::result(Work& work, Mat trial) {
         {work.pairs[j].s, work.backwardError[j], estimate, work.backwardError[j] <= point.accuracy && estimate <= point.tolerance});
   }
   flutter::judge(point.eigenvalues);
-  keepShapes(point, trial,
-             [&](std::size_t index, Vec real, Vec imaginary) { basis_.expand(work.pairs[index].q, real, imaginary); });
+  keepShapes(point, trial, [&](const std::vector<std::size_t>& indices) {
+    std::vector<const std::vector<std::complex<double>>*> list;
+    for (std::size_t index : indices) list.push_back(&work.pairs[index].q);
+    return basis_.expand(list);
+  });
   point.solvedIndex = solved_.size();
   solved_.push_back(std::move(work.pairs));
   return point;
@@ -351,8 +382,7 @@ Improvement ReducedProblem::improve(const std::vector<std::pair<PointProblem, st
   Improvement result;
   std::vector<Work> works;
   works.reserve(located.size());
-  std::vector<PointPairs> open;
-  std::vector<const ProjectedTerms*> ownTerms;
+  std::vector<Wish> wishes;
   for (const auto& [point, pairs] : located) {
     Work& work = works.emplace_back(begun(point, nearbyNorms(point)));
     work.pairs = pairs;
@@ -360,22 +390,9 @@ Improvement ReducedProblem::improve(const std::vector<std::pair<PointProblem, st
     result.backwardError.push_back(*std::max_element(work.backwardError.begin(), work.backwardError.end()));
     if (result.backwardError.back() < rounding) continue;
     // Both parts of a residual in units of the whole: one of them may be rounding.
-    open.push_back({point.at, Coordinates(pointers(pairs), true)});
-    ownTerms.push_back(&work.ownTerms);
+    wishes.push_back({&work, {point.at, Coordinates(pointers(pairs), true)}, std::vector<double>(pairs.size(), 1.0)});
   }
-  Block columns = terms_.residuals(open);
-  for (std::size_t k = 0, first = 0; k < open.size(); ++k) {
-    Block own(columns.rows, open[k].pairs.columns);
-    ownTerms[k]->addTo(open[k].at, open[k].pairs, own);
-    for (double value : own.values) columns.values[first++] += value;
-  }
-  const auto squares = squaredNorms(basis_.sketch().of(columns.values.data(), columns.columns)).euclidean;
-  Block wanted(columns.rows);
-  for (PetscInt c = 0; c < columns.columns; ++c) {
-    const auto pair = static_cast<std::size_t>(c / 2 * 2);
-    wanted.append(columns.column(c), 1 / std::sqrt(squares[pair] + squares[pair + 1]));
-  }
-  result.changed = wanted.columns > 0 && basis_.add(principal(basis_.comm(), wanted, resolution)) > 0;
+  result.changed = basis_.add(directions(wishes)) > 0;
   terms_.extend();
   return result;
 }

@@ -42,20 +42,28 @@ class ReducedProblem {
 
  private:
   struct Work;
+  /// Pairs of a point whose residuals are to be corrected.
+  struct Wish {
+    const Work* work;
+    PointPairs pairs;
+    std::vector<double> weights;  // [pair]
+  };
   using Norms = std::array<double, 3>;  // of K̄, Z̄, M̄
-  void addStaticResponses(const Pencil& pencil, const modes::Modes& modes);
+  void addStaticResponses(const PointProblem& point);
   Norms normsOf(const PointProblem& point);
   Norms nearbyNorms(const PointProblem& point);
   Work begun(const PointProblem& point, const Norms& norms) const;
   DenseProblem project(const Work& work) const;
   void extend(const std::vector<Work*>& works);
-  Block residuals(const Work& work, const Coordinates& coordinates) const;
-  Block leftResidual(const Work& work, const Coordinates& pair) const;
-  SquaredNorms residualNorms(const Work& work, const Coordinates& coordinates, Side side) const;
+  Block rightResidual(const Work& work, const DensePair& pair) const;
+  Block leftResidual(const Work& work, const DensePair& pair) const;
+  DenseMatrix residualSketch(const Work& work, const PointPairs& pairs, Side side) const;
   double errorOf(const Work& work, std::size_t pair) const;
   double excess(const Work& work, std::size_t pair) const;
   void judge(Work& work, const DenseProblem& problem) const;
-  Block directions(const Work& work) const;
+  bool good(const Work& work) const;
+  Wish wishOf(const Work& work) const;
+  Block directions(const std::vector<Wish>& wishes) const;
   void solveDense(const std::vector<Work*>& open);
   std::vector<Work*> unconfirmed(std::vector<Work>& works);
   FrictionPoint result(Work& work, Mat trial);
@@ -65,6 +73,8 @@ class ReducedProblem {
   PetscInt unknowns_ = 0;
   double bandTop_ = 0, lowestMode_ = 0, highestMode_ = 0;  // rad/s
   double rightRatio_ = 1, leftRatio_ = 1;                  // Basis::energyRatio of the residuals
+  bool responded_ = false;                                 // static responses are in the basis
+  std::vector<double> modes_;                              // rad/s
   Basis basis_;
   ProjectedTerms terms_;
   std::vector<std::vector<DensePair>> solved_;

@@ -145,29 +145,29 @@ void judge(std::vector<Eigenvalue>& eigenvalues) {
   for (auto& eigenvalue : eigenvalues) eigenvalue.unstable = eigenvalue.s.real() > tolerance * std::abs(eigenvalue.s);
 }
 
-void keepShapes(FrictionPoint& point, Mat trial, const std::function<void(std::size_t, Vec, Vec)>& unknowns) {
+void keepShapes(FrictionPoint& point, Mat trial,
+                const std::function<std::vector<ComplexVector>(const std::vector<std::size_t>&)>& unknowns) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < point.eigenvalues.size(); ++i)
     if (point.eigenvalues[i].unstable && point.eigenvalues[i].s.imag() < 2 * M_PI * shapesBelowOption.get()) order.push_back(i);
   std::sort(order.begin(), order.end(),
             [&](std::size_t a, std::size_t b) { return point.eigenvalues[a].s.real() > point.eigenvalues[b].s.real(); });
   order.resize(std::min(order.size(), static_cast<std::size_t>(shapesOption.get())));
-  OwnedVec real, imaginary;
-  check(MatCreateVecs(trial, real.out(), nullptr));
-  check(VecDuplicate(real, imaginary.out()));
-  for (std::size_t index : order) {
-    unknowns(index, real, imaginary);
-    Shape shape{index, {}, {}, {}, {}};
+  if (order.empty()) return;
+  auto modes = unknowns(order);
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    Shape shape{};
+    shape.index = order[k];
+    shape.unknowns = std::move(modes[k]);
     check(MatCreateVecs(trial, nullptr, shape.real.out()));
     check(VecDuplicate(shape.real, shape.imaginary.out()));
-    check(MatMult(trial, real, shape.real));
-    check(MatMult(trial, imaginary, shape.imaginary));
+    check(MatMult(trial, shape.unknowns.real, shape.real));
+    check(MatMult(trial, shape.unknowns.imaginary, shape.imaginary));
     PetscReal a = 0, b = 0;
     check(VecNorm(shape.real, NORM_INFINITY, &a));
     check(VecNorm(shape.imaginary, NORM_INFINITY, &b));
-    for (Vec part : {shape.real.get(), shape.imaginary.get(), real.get(), imaginary.get()})
+    for (Vec part : {shape.real.get(), shape.imaginary.get(), shape.unknowns.real.get(), shape.unknowns.imaginary.get()})
       check(VecScale(part, 1 / std::max(a, b)));
-    shape.unknowns = ComplexVector::copied(real, imaginary);
     point.shapes.push_back(std::move(shape));
   }
 }

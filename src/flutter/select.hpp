@@ -12,8 +12,9 @@ double accuracyAsked();
 /// Marks unstable eigenvalues.
 void judge(std::vector<Eigenvalue>& eigenvalues);
 
-/// Collective. Keeps the `-flutter_shapes` fastest growing shapes of `point`; `unknowns(index, real, imaginary)` fills the mode in
-/// the unknowns x.
-void keepShapes(FrictionPoint& point, Mat trial, const std::function<void(std::size_t, Vec, Vec)>& unknowns);
+/// Collective. Keeps the `-flutter_shapes` fastest growing shapes of `point`; `unknowns` gives the modes of these eigenvalues in the
+/// unknowns x, of any length.
+void keepShapes(FrictionPoint& point, Mat trial,
+                const std::function<std::vector<ComplexVector>(const std::vector<std::size_t>&)>& unknowns);
 
 }  // namespace squeal::flutter

@@ -1,7 +1,11 @@
 #include "flutter/sketch.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
+
+#include "petsc/symmetric.hpp"
 
 namespace squeal::flutter {
 namespace {
@@ -16,8 +20,8 @@ std::uint64_t bits(std::uint64_t counter) {
 
 }  // namespace
 
-Sketch::Sketch(BV like, const std::vector<double>& diagonal)
-    : comm_(PetscObjectComm(reinterpret_cast<PetscObject>(like))), signs_(static_cast<PetscInt>(diagonal.size()), 2 * size) {
+Sketch::Sketch(MPI_Comm comm, const std::vector<double>& diagonal)
+    : comm_(comm), signs_(static_cast<PetscInt>(diagonal.size()), 2 * size) {
   static_assert(size == 64, "one random word a row");
   PetscInt first = 0;
   const PetscInt rows = signs_.rows;
@@ -54,6 +58,32 @@ SquaredNorms squaredNorms(const DenseMatrix& sketch) {
     norms.weighted.push_back(weighted);
   }
   return norms;
+}
+
+DenseMatrix leadingCombinations(const DenseMatrix& sketches, const std::vector<double>& factors, double small) {
+  constexpr auto k = static_cast<std::size_t>(Sketch::size);
+  const std::size_t all = factors.size();
+  DenseMatrix sketch(k * all), gram(k * k);
+  for (std::size_t j = 0; j < all; ++j)
+    for (std::size_t i = 0; i < k; ++i) sketch[j * k + i] = factors[j] * sketches[2 * j * k + i];
+  for (std::size_t j = 0; j < all; ++j)
+    for (std::size_t a = 0; a < k; ++a)
+      for (std::size_t b = 0; b < k; ++b) gram[a * k + b] += sketch[j * k + a] * sketch[j * k + b];
+  const auto squares = symmetricEigen(gram, static_cast<int>(k));
+  const auto count = static_cast<std::size_t>(
+      std::count_if(squares.begin(), squares.end(), [&](double square) { return square > small * small; }));
+  if (8 * count > 7 * k || count >= all) {
+    DenseMatrix diagonal(all * all);
+    for (std::size_t j = 0; j < all; ++j) diagonal[j * all + j] = factors[j];
+    return diagonal;
+  }
+  DenseMatrix combinations(all * count);
+  for (std::size_t c = 0; c < count; ++c) {
+    const double *direction = gram.data() + (k - 1 - c) * k, size = std::sqrt(squares[k - 1 - c]);
+    for (std::size_t j = 0; j < all; ++j)
+      combinations[c * all + j] = factors[j] / size * std::inner_product(direction, direction + k, sketch.data() + j * k, 0.0);
+  }
+  return combinations;
 }
 
 }  // namespace squeal::flutter

@@ -16,12 +16,12 @@ class Sketch {
   /// Three deviations.
   static constexpr double safety = 1.27;
 
-  /// Collective. For columns laid out like those of `like`; signs belong to global rows, whatever the ranks. Weighted norms are √(rᵀ D r)
-  /// for the diagonal D, [local row].
-  Sketch(BV like, const std::vector<double>& diagonal);
+  /// Collective. For columns whose local rows are as many as those of the diagonal D, [local row]; signs belong to global rows, whatever the
+  /// ranks. Weighted norms are √(rᵀ D r).
+  Sketch(MPI_Comm comm, const std::vector<double>& diagonal);
   /// Collective. Ωᵀ X and Ωᵀ D^½ X, one above the other, 2k × columns, divided by √k: the same on all ranks.
   DenseMatrix of(const double* x, PetscInt columns) const;
-  /// That of columns that are zero outside of some rows.
+  /// That of columns given by some rows, zero elsewhere.
   DenseMatrix of(const RowSet& rows, const double* x, PetscInt columns) const;
 
  private:
@@ -34,5 +34,10 @@ struct SquaredNorms {
   std::vector<double> euclidean, weighted;
 };
 SquaredNorms squaredNorms(const DenseMatrix& sketch);
+
+/// Orthogonal combinations of columns, each first multiplied by its factor, that hold them but for parts of length `small`, as far as their
+/// sketches can tell (all × count, the factors included): right singular vectors of the sketch. `count` is a fraction of `all` where
+/// the columns are much alike; where there are too many directions for a sketch to tell, the columns themselves.
+DenseMatrix leadingCombinations(const DenseMatrix& sketches, const std::vector<double>& factors, double small);
 
 }  // namespace squeal::flutter

@@ -50,12 +50,7 @@ struct Fixture {
   }
 
   /// V.
-  Block columns() const {
-    const flutter::ReadColumns v(basis->columns());
-    Block result(v.rows());
-    for (PetscInt j = 0; j < v.columns(); ++j) result.append(v.values() + j * v.rows());
-    return result;
-  }
+  const Block& columns() const { return basis->columns(); }
 
   /// The largest entry of VᵀK0V − I.
   double departure() const {

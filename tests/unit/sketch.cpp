@@ -18,17 +18,14 @@ constexpr int vectors = 400;
 
 /// Rows of uneven numbers: the last rank has most of them.
 struct Layout {
-  OwnedBV bv;
+  MPI_Comm comm;
   PetscInt first = 0, end = 0;
-  explicit Layout(MPI_Comm comm) {
+  explicit Layout(MPI_Comm ranks) : comm(ranks) {
     int rank = 0, size = 1;
     check(MPI_Comm_rank(comm, &rank));
     check(MPI_Comm_size(comm, &size));
     first = rank * (length / (3 * size));
     end = rank + 1 < size ? (rank + 1) * (length / (3 * size)) : length;
-    check(BVCreate(comm, bv.out()));
-    check(BVSetSizes(bv, end - first, length, 1));
-    check(BVSetType(bv, BVSVEC));
   }
   /// This rank's rows of columns given by all rows.
   std::vector<double> local(const std::vector<double>& columns) const {
@@ -44,7 +41,7 @@ double weight(PetscInt row) { return row % 7 == 0 ? 1e3 : 1.0 / (1 + static_cast
 Sketch sketchOn(const Layout& layout) {
   std::vector<double> diagonal;
   for (auto row = layout.first; row < layout.end; ++row) diagonal.push_back(weight(row));
-  return {layout.bv, diagonal};
+  return {layout.comm, diagonal};
 }
 
 /// The same on all ranks.
@@ -140,6 +137,54 @@ TEST(Sketch, DoesNotDependOnTheRanks) {
   EXPECT_LT(difference, 1e-13 * size);
 }
 
+// Columns that are combinations of few directions but for a small rest: as many combinations as directions, and they hold the columns.
+TEST(Sketch, LeadingCombinationsHoldTheColumns) {
+  const Layout layout(PETSC_COMM_WORLD);
+  const Sketch sketch = sketchOn(layout);
+  constexpr PetscInt directions = 9, count = 150;
+  constexpr double rest = 1e-4;
+  auto columns = randomColumns(count);
+  const auto leading = randomColumns(directions);
+  std::vector<double> factors;
+  for (PetscInt j = 0; j < count; ++j) {
+    for (PetscInt i = 0; i < length; ++i) {
+      auto& entry = columns[static_cast<std::size_t>(j * length + i)];
+      entry *= rest;
+      for (PetscInt k = 0; k < directions; ++k) entry += std::sin(1 + j * k) * leading[static_cast<std::size_t>(k * length + i)];
+    }
+    factors.push_back((j % 3 == 0 ? 0.5 : 1) / std::sqrt(length / 3.0));
+  }
+  const auto values = layout.local(columns);
+  const auto combinations = flutter::leadingCombinations(sketch.of(values.data(), count), factors, 0.03);
+  ASSERT_EQ(combinations.size(), static_cast<std::size_t>(count * directions));
+  // The combinations are C F V for the columns C, their factors F and orthonormal V: they hold C F V Vᵀ.
+  double worst = 0;
+  for (PetscInt j = 0; j < count; ++j) {
+    double sum = 0;
+    std::vector<double> left(static_cast<std::size_t>(length), 0.0);
+    for (PetscInt l = 0; l < count; ++l) {
+      double kept = 0;  // (V Vᵀ) of l and j
+      for (PetscInt k = 0; k < directions; ++k)
+        kept += combinations[static_cast<std::size_t>(k * count + l)] / factors[static_cast<std::size_t>(l)] *
+                combinations[static_cast<std::size_t>(k * count + j)] / factors[static_cast<std::size_t>(j)];
+      const double part = factors[static_cast<std::size_t>(l)] * ((l == j ? 1 : 0) - kept);
+      for (PetscInt i = 0; i < length; ++i)
+        left[static_cast<std::size_t>(i)] += part * columns[static_cast<std::size_t>(l * length + i)];
+    }
+    for (const double value : left) sum += value * value;
+    worst = std::max(worst, std::sqrt(sum));
+  }
+  test::print("left of columns of length up to 3: %.1e\n", worst);
+  // The rest of each column, 1e-4 of a length of one, and that of all 150 in the rows of V, weighed by the condition of the sketch.
+  EXPECT_LT(worst, 5 * rest);
+  // All directions different: too many for 64 numbers to tell apart.
+  const auto all = flutter::leadingCombinations(sketch.of(layout.local(randomColumns(count)).data(), count), factors, 0.03);
+  ASSERT_EQ(all.size(), static_cast<std::size_t>(count * count));
+  for (PetscInt j = 0; j < count; ++j)
+    for (PetscInt i = 0; i < count; ++i)
+      EXPECT_EQ(all[static_cast<std::size_t>(j * count + i)], i == j ? factors[static_cast<std::size_t>(j)] : 0);
+}
+
 // Rows that are zero may be left out.
 TEST(Sketch, OfSomeRows) {
   const Layout layout(PETSC_COMM_WORLD);
@@ -158,7 +203,7 @@ TEST(Sketch, OfSomeRows) {
   EXPECT_EQ(test::total(rows.size()), 600);  // 2, 7, … 2997
   const Sketch sketch = sketchOn(layout);
   const auto values = layout.local(columns);
-  const auto all = sketch.of(values.data(), 2), some = sketch.of(rows, values.data(), 2);
+  const auto all = sketch.of(values.data(), 2), some = sketch.of(rows, rows.of(values.data(), 2).data(), 2);
   ASSERT_EQ(all.size(), some.size());
   for (std::size_t i = 0; i < all.size(); ++i) EXPECT_NEAR(all[i], some[i], 1e-12 * std::sqrt(exactSquares(columns, true)[0])) << i;
 }
