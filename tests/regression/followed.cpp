@@ -1,7 +1,9 @@
 // Which sweeps are followed without being asked to, and over which frictions.
 #include <gtest/gtest.h>
 
-#include "petsc/text.hpp"
+#include <string>
+#include <vector>
+
 #include "support/case.hpp"
 
 namespace squeal::test {

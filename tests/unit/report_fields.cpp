@@ -4,6 +4,10 @@
 #include <vtkPointData.h>
 
 #include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "petsc/text.hpp"
 #include "report/report.hpp"
