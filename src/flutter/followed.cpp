@@ -127,7 +127,9 @@ std::string Followed::statement() const {
   const auto& first = stations.front();
   const auto& last = stations.back();
   std::string text = formatted("%d eigenvalues in the band at friction %g (%s); ", branches.inBandAt(first), first.friction,
-                               countExact ? "Sturm count, exact" : "of the reduced problem, not confirmed by a Sturm count");
+                               wholeSpace   ? "of the full problem: the basis is the whole space"
+                               : countExact ? "Sturm count, exact"
+                                            : "of the reduced problem, not confirmed by a Sturm count");
   if (complete()) {
     text += formatted("all followed to friction %g, where there are %d: %d entered and %d left across the edge", last.friction,
                       branches.inBandAt(last), branches.entered, branches.left);
@@ -136,19 +138,23 @@ std::string Followed::statement() const {
     for (const auto& gap : branches.gaps)
       if (!gap.identityOnly) text += formatted(" [%g to %g: %s]", gap.from, gap.to, gap.what.c_str());
   }
-  return text + "; assumed: the basis holds every eigenvalue of the full problem that crosses the edge of the band";
+  return wholeSpace ? text
+                    : text + "; assumed: the basis holds every eigenvalue of the full problem that crosses the edge of the band";
 }
 
 std::vector<Followed> followSweep(ReducedProblem& reduced, const std::vector<FrictionPoint>& points, const modes::Modes& modes,
                                   MPI_Comm comm, const ProblemSource& problemAt,
                                   const std::function<void(const std::string&)>& progress) {
   std::vector<Followed> result;
+  PetscInt unknowns = 0;
+  check(BVGetSizes(modes.vectors, nullptr, &unknowns, nullptr));
   for (auto [line, frictions] : lines(points)) {
     const bool swept = frictions.front() == 0;
     if (!swept) frictions.insert(frictions.begin(), 0);
     ReducedFamily family(reduced, comm, line, problemAt, progress);
     Followed followed;
     followed.line = line;
+    followed.wholeSpace = reduced.basisSize() == unknowns;
     TrackLimits limits;
     limits.smallest = std::ldexp(1.0, -halvingsOption.get());
     followed.branches = follow(family, frictions, reduced.band(), limits);

@@ -16,6 +16,7 @@ struct Followed {
   Branches branches;                ///< those in the band at some friction, numbered from 1 by their first frequency
   std::vector<Critical> criticals;  ///< of these, by friction
   bool countExact = false;          ///< the number at the first friction, 0, is that of the Sturm count
+  bool wholeSpace = false;          ///< the basis is all of it: the reduced problem is the full one
 
   /// Every eigenvalue of the band is accounted for at every friction.
   bool complete() const;

@@ -190,8 +190,10 @@ void writeHdf5(const Analysis& analysis, const std::filesystem::path& folder) {
     for (const auto& point : segment.points) {
       const std::string group = "/flutter/friction_" + pointName(point.at);
       std::vector<std::vector<double>> rows;
-      for (const auto& e : point.eigenvalues) rows.push_back({e.s.real(), e.s.imag(), e.backwardError});
-      file.writeTable(group, "eigenvalues", {"growth_rate_1_per_s", "angular_frequency_rad_per_s", "backward_error"},
+      for (const auto& e : point.eigenvalues)
+        rows.push_back({e.s.real(), e.s.imag(), e.backwardError, e.errorEstimate, e.certified ? 1.0 : 0.0});
+      file.writeTable(group, "eigenvalues",
+                      {"growth_rate_1_per_s", "angular_frequency_rad_per_s", "backward_error", "error_estimate", "certified"},
                       rank == 0 ? rows : std::vector<std::vector<double>>{});
       writeParameters(file, group, point.at);
       for (const auto& shape : point.shapes) {

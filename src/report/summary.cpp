@@ -59,10 +59,11 @@ Json unstableModes(const flutter::FrictionPoint& point) {
 }
 
 Json followedEntry(const flutter::Followed& followed) {
-  Json entry = {
-      {"speed", followed.line.speed},         {"pressure", followed.line.pressure}, {"damping", followed.line.damping},
-      {"branches", followed.branches.count},  {"complete", followed.complete()},    {"sturm_count_exact", followed.countExact},
-      {"entered", followed.branches.entered}, {"left", followed.branches.left},     {"statement", followed.statement()}};
+  Json entry = {{"speed", followed.line.speed},       {"pressure", followed.line.pressure},
+                {"damping", followed.line.damping},   {"branches", followed.branches.count},
+                {"complete", followed.complete()},    {"sturm_count_exact", followed.countExact},
+                {"whole_space", followed.wholeSpace}, {"entered", followed.branches.entered},
+                {"left", followed.branches.left},     {"statement", followed.statement()}};
   entry["uncertain"] = Json::array();
   for (const auto& gap : followed.branches.gaps)
     entry["uncertain"].push_back(

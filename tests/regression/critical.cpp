@@ -13,18 +13,18 @@ const std::string layers =
     "-options_file options/two_layers.yaml -mesh_set nx=12,ny_disc=4,ny_pad=3 -modes_count 60 -quiet -report_fields off"
     " -material_pad_rayleigh_stiffness 0.005 -material_disc_rayleigh_mass 0.005 ";
 
-/// The same run on 1 and on 2 ranks, which several tests read.
+/// The same run on 1 to 3 ranks, which several tests read.
 const ProgramRun& layersOn(int ranks) {
   static std::map<int, ProgramRun> runs;
   if (runs.empty())
-    for (int count : {1, 2})
+    for (int count : {1, 2, 3})
       runs[count] = runProgram("critical/np" + std::to_string(count), count, layers + "-flutter_friction 0:0.4:0.1");
   return runs.at(ranks);
 }
 
-TEST(Critical, SameFrictionsOnOneAndTwoRanks) {
+TEST(Critical, SameFrictionsOnAllRanks) {
   std::vector<double> one;
-  for (int ranks : {1, 2}) {
+  for (int ranks : {1, 2, 3}) {
     ASSERT_EQ(layersOn(ranks).exitCode, 0) << layersOn(ranks).error;
     const CsvTable table = readCsv(layersOn(ranks).folder / "critical.csv");
     EXPECT_EQ(table.header,
@@ -71,6 +71,19 @@ TEST(Critical, GrowthRatesOfAllUnknownsAreZero) {
     worst = std::max(worst, nearest / std::abs(wanted));
   }
   std::printf("%zu critical frictions: full-order eigenvalues off i omega by %.1e at most\n", friction.size(), worst);
+}
+
+// Damping at friction 0, and a basis of a part of the unknowns: what is said of completeness is what can be said of that.
+TEST(Critical, CompletenessOfAPartOfTheSpace) {
+  ASSERT_EQ(layersOn(2).exitCode, 0);
+  const auto summary = nlohmann::json::parse(contentOf(layersOn(2).folder / "summary.json"));
+  const auto followed = summary.at("active_sets").at(0).at("followed").at(0);
+  EXPECT_EQ(followed.at("complete"), true);
+  EXPECT_EQ(followed.at("sturm_count_exact"), false);
+  EXPECT_EQ(followed.at("whole_space"), false);
+  const std::string statement = followed.at("statement");
+  EXPECT_NE(statement.find("not confirmed by a Sturm count"), std::string::npos) << statement;
+  EXPECT_NE(statement.find("; assumed: the basis holds"), std::string::npos) << statement;
 }
 
 // Each branch is there once at each friction, the swept ones are the eigenvalues of the band, and the number of unstable ones is that of

@@ -1,29 +1,18 @@
 // The program on the committed matrices, as users start it: exact eigenvalues, vectors in the order of the file's rows, exports and the
 // converter.
 #include <gtest/gtest.h>
-#include <hdf5.h>
 
 #include <cmath>
 #include <complex>
 #include <nlohmann/json.hpp>
 
+#include "support/hdf5.hpp"
 #include "support/program.hpp"
 
 namespace squeal::test {
 namespace {
 
 using Complex = std::complex<double>;
-
-std::vector<double> dataset(const fs::path& path, const std::string& name) {
-  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), set = H5Dopen2(file, name.c_str(), H5P_DEFAULT);
-  const hid_t space = H5Dget_space(set);
-  std::vector<double> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
-  H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
-  H5Sclose(space);
-  H5Dclose(set);
-  H5Fclose(file);
-  return values;
-}
 
 // s² = −2 ± √(1 − 4f/3): both modes merge at friction 3/4.
 TEST(External, MassOnABelt) {
@@ -48,13 +37,14 @@ TEST(External, MassOnABelt) {
   EXPECT_FALSE(summary.contains("nodes"));
   EXPECT_FALSE(fs::exists(run.folder / "vtk"));
   // The free modes are (1, −1) and (1, 1). With friction 1 the unstable one has (s² + 2) y = −x.
-  const auto low = dataset(run.folder / "results.h5", "/modes/active_set_1/mode_001"),
-             high = dataset(run.folder / "results.h5", "/modes/active_set_1/mode_002");
+  Reader results(run.folder / "results.h5");
+  const auto low = results.reals("/modes/active_set_1", "mode_001").first,
+             high = results.reals("/modes/active_set_1", "mode_002").first;
   ASSERT_EQ(low.size(), 2U);
   EXPECT_NEAR(low[0], -low[1], 1e-14);
   EXPECT_NEAR(high[0], high[1], 1e-14);
-  const auto real = dataset(run.folder / "results.h5", "/flutter/friction_1/mode_002_real"),
-             imaginary = dataset(run.folder / "results.h5", "/flutter/friction_1/mode_002_imaginary");
+  const auto real = results.reals("/flutter/friction_1", "mode_002_real").first,
+             imaginary = results.reals("/flutter/friction_1", "mode_002_imaginary").first;
   const Complex x(real[0], imaginary[0]), y(real[1], imaginary[1]);
   EXPECT_LT(std::abs((-2.0 + Complex(0, std::sqrt(1. / 3)) + 2.0) * y + x), 1e-13);
 }
@@ -75,8 +65,8 @@ TEST(External, DampedChainAtItsCriticalFriction) {
 // Both modes of the belt merge at 3/4, and the chain has the critical friction above: solved for, from a grid with steps of 0.1.
 TEST(External, CriticalFrictionsAreSolvedFor) {
   for (const int ranks : {1, 2})
-    for (const auto& [name, kind, exact] :
-         {std::tuple{"external", "coalescence", 0.75}, {"external_chain", "hopf", 0.80124204937}}) {
+    for (const auto& [name, kind, exact, unknowns] :
+         {std::tuple{"external", "coalescence", 0.75, 2}, {"external_chain", "hopf", 0.80124204937, 10}}) {
       const ProgramRun run =
           runProgram("external/critical", ranks, "-options_file options/" + std::string(name) + ".yaml -quiet -report_fields off");
       ASSERT_EQ(run.exitCode, 0) << run.error;
@@ -87,6 +77,16 @@ TEST(External, CriticalFrictionsAreSolvedFor) {
       EXPECT_NEAR(table.column("friction")[0], exact, 1e-8) << name;
       EXPECT_LT(table.column("friction_error_estimate")[0], 1e-8) << name;
       EXPECT_EQ(table.column("converged")[0], 1) << name;
+      // All free modes span the whole space: of so few eigenvalues none is heavily damped, and nothing is left to assume.
+      const auto followed =
+          nlohmann::json::parse(contentOf(run.folder / "summary.json")).at("active_sets").at(0).at("followed").at(0);
+      EXPECT_EQ(followed.at("whole_space"), true);
+      EXPECT_EQ(followed.at("branches"), unknowns);
+      const std::string statement = followed.at("statement");
+      EXPECT_EQ(statement.find(std::to_string(unknowns) + " eigenvalues in the band at friction 0 (of the full problem"), 0U)
+          << statement;
+      EXPECT_EQ(statement.find("not confirmed"), std::string::npos) << statement;
+      EXPECT_EQ(statement.find("assumed"), std::string::npos) << statement;
     }
 }
 

@@ -1,80 +1,16 @@
 // results.h5: what PETSc's own reader finds in it is what was given.
 #include <gtest/gtest.h>
-#include <petscviewerhdf5.h>
 
 #include <fstream>
 
 #include "report/hdf5.hpp"
+#include "support/hdf5.hpp"
 #include "support/report_files.hpp"
 
 namespace squeal::report {
 namespace {
 
-/// Every rank reads the whole of what all wrote.
-class Reader {
- public:
-  explicit Reader(const fs::path& path) {
-    check(PetscViewerHDF5Open(PETSC_COMM_SELF, path.c_str(), FILE_MODE_READ, viewer_.out()));
-  }
-
-  /// Values and number of columns.
-  std::pair<std::vector<double>, PetscInt> reals(const char* group, const char* name) {
-    OwnedVec vector;
-    check(VecCreate(PETSC_COMM_SELF, vector.out()));
-    check(PetscObjectSetName(reinterpret_cast<PetscObject>(vector.get()), name));
-    check(PetscViewerHDF5PushGroup(viewer_, group));
-    check(VecLoad(vector, viewer_));
-    check(PetscViewerHDF5PopGroup(viewer_));
-    PetscInt size = 0, columns = 0;
-    const double* values = nullptr;
-    check(VecGetSize(vector, &size));
-    check(VecGetBlockSize(vector, &columns));
-    check(VecGetArrayRead(vector, &values));
-    std::vector<double> copy(values, values + size);
-    check(VecRestoreArrayRead(vector, &values));
-    return {copy, columns};
-  }
-
-  std::pair<std::vector<PetscInt>, PetscInt> integers(const std::string& group, const char* name) {
-    OwnedIS set;
-    check(ISCreate(PETSC_COMM_SELF, set.out()));
-    check(PetscObjectSetName(reinterpret_cast<PetscObject>(set.get()), name));
-    check(PetscViewerHDF5PushGroup(viewer_, group.c_str()));
-    check(ISLoad(set, viewer_));
-    check(PetscViewerHDF5PopGroup(viewer_));
-    PetscInt size = 0, columns = 0;
-    const PetscInt* values = nullptr;
-    check(ISGetSize(set, &size));
-    check(ISGetBlockSize(set, &columns));
-    check(ISGetIndices(set, &values));
-    std::vector<PetscInt> copy(values, values + size);
-    check(ISRestoreIndices(set, &values));
-    return {copy, columns};
-  }
-
-  template <class Value>
-  Value attribute(const char* object, const char* name, PetscDataType type) {
-    Value value{};
-    check(PetscViewerHDF5ReadAttribute(viewer_, object, name, type, nullptr, &value));
-    return value;
-  }
-
-  std::string text(const char* object, const char* name) {
-    char* characters = attribute<char*>(object, name, PETSC_STRING);
-    const std::string copy = characters;
-    check(PetscFree(characters));
-    return copy;
-  }
-
-  bool hasGroup(const char* group) {
-    PetscBool has = PETSC_FALSE;
-    check(PetscViewerHDF5HasGroup(viewer_, group, &has));
-    return has;
-  }
-
- private:
-  OwnedViewer viewer_;
-};
+using test::Reader;
 
 TEST(Hdf5, HoldsTheMeshInGlobalOrder) {
   const Folder folder;

@@ -7,7 +7,6 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkUnstructuredGrid.h>
-#include <vtkXMLPUnstructuredGridReader.h>
 
 #include <algorithm>
 #include <fstream>
@@ -16,6 +15,7 @@
 
 #include "report/vtu.hpp"
 #include "support/report_files.hpp"
+#include "support/vtu.hpp"
 
 namespace squeal::report {
 namespace {
@@ -78,15 +78,6 @@ Mesh curvedCells(int type) {
 }
 
 double fieldValue(const Point& x, int component) { return (component + 1) * (x[0] + 2 * x[1] + 4 * x[2]); }
-
-vtkNew<vtkUnstructuredGrid> readVtu(const fs::path& file) {
-  vtkNew<vtkXMLPUnstructuredGridReader> reader;
-  reader->SetFileName(file.c_str());
-  reader->Update();
-  vtkNew<vtkUnstructuredGrid> grid;
-  grid->ShallowCopy(reader->GetOutput());
-  return grid;
-}
 
 class VtuElement : public testing::TestWithParam<int> {};
 
