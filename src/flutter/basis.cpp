@@ -71,6 +71,7 @@ Basis::Basis(const modes::Modes& modes, Mat stiffness, KSP solver)
     : comm_(PetscObjectComm(reinterpret_cast<PetscObject>(stiffness))), stiffness_(stiffness), solver_(solver), columns_(0) {
   const ReadColumns shapes(modes.vectors);
   columns_ = Block(shapes.rows());
+  columns_.reserve(3 * shapes.columns());  // untouched memory costs nothing, moving a grown basis does
   for (PetscInt j = 0; j < shapes.columns(); ++j)
     columns_.append(shapes.values() + j * shapes.rows(), 1 / modes.angularFrequency[static_cast<std::size_t>(j)]);
   modes_ = columns_.columns;

@@ -17,6 +17,7 @@ struct Block {
       : rows(rowCount), columns(columnCount), values(static_cast<std::size_t>(rowCount * columnCount)) {}
   const double* column(PetscInt j) const { return values.data() + j * rows; }
   double* column(PetscInt j) { return values.data() + j * rows; }
+  void reserve(PetscInt columnCount) { values.reserve(static_cast<std::size_t>(rows * columnCount)); }
   void append(const double* column, double factor = 1) {
     for (PetscInt i = 0; i < rows; ++i) values.push_back(factor * column[i]);
     ++columns;

@@ -71,6 +71,7 @@ ProjectedTerms::Part ProjectedTerms::begun(Term term) const {
   const RowSet rows(term.matrix);
   OwnedMat matrix = rows.of(term.matrix);
   Block image(rows.size());
+  image.reserve(3 * basis_.size());
   if (isSymmetric(term.matrix)) return {std::move(term), rows, rows, std::move(matrix), {}, std::move(image), {}, {}, {}};
   OwnedMat transposed;
   check(MatTranspose(term.matrix, MAT_INITIAL_MATRIX, transposed.out()));

@@ -53,7 +53,7 @@ TEST(Left, VectorsAreThoseOfAllUnknowns) {
       left.push_back(vectorOf(system.k0(), full[i].left));
     }
     for (std::size_t i = 0; i < right.size(); ++i) pairs.push_back({full[4 * i].s, &right[i]});
-    const auto found = flutter::leftVectors(pencil, at, {modes.vectors, system.m0(), {}}, system.solver(), pairs);
+    const auto found = flutter::leftVectors(pencil, at, {modes.vectors.share(), system.m0(), {}}, system.solver(), pairs);
     EXPECT_EQ(found.size(), pairs.size());
     for (std::size_t i = 0; i < found.size(); ++i) {
       const double cosine = std::abs(flutter::dot(found[i].y, left[i])) / (flutter::length(found[i].y) * flutter::length(left[i]));
@@ -115,7 +115,7 @@ TEST(Left, DerivativesOfCoupledOscillators) {
                     s = std::sqrt(-((k1 + k2) / 2 + sign * root));
       const auto right = vectorOf(stiffness, {f * k3, -(k1 + s * s)});
       const Parameters at{f};
-      const auto left = flutter::leftVectors(pencil, at, {whole, mass, {}}, solver, {{s, &right}});
+      const auto left = flutter::leftVectors(pencil, at, {whole.share(), mass, {}}, solver, {{s, &right}});
       const flutter::EigenTriple triple{s, right, left[0].y};
       const Complex slope = flutter::slopeForm(pencil, at, triple);
       const double condition = flutter::condition(triple, slope, mass);
