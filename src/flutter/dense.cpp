@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "flutter/images.hpp"
 #include "petsc/check.hpp"
@@ -127,41 +128,52 @@ DenseMatrix sideBySide(const DenseMatrix& left, const DenseMatrix& right) {
   return both;
 }
 
-/// b ← A⁻¹ b for b of any number of columns. Returns the smallest pivot over the largest; 0: singular, b is lost.
-double solveInPlace(DenseMatrix a, DenseMatrix& b, int m) {
-  PetscBLASInt n = m, columns = static_cast<PetscBLASInt>(b.size()) / m, info = 0;
-  std::vector<PetscBLASInt> pivots(static_cast<std::size_t>(m));
-  LAPACKgesv_(&n, &columns, a.data(), &n, pivots.data(), b.data(), &n, &info);
-  double smallest = INFINITY, largest = 0;
-  for (std::size_t i = 0; i < a.size(); i += static_cast<std::size_t>(m) + 1) {
-    smallest = std::min(smallest, std::abs(a[i]));
-    largest = std::max(largest, std::abs(a[i]));
+/// A⁻¹ as factors of A.
+class Inverse {
+ public:
+  Inverse(DenseMatrix a, int m) : m_(m), factors_(std::move(a)), pivots_(static_cast<std::size_t>(m)) {
+    PetscBLASInt info = 0;
+    LAPACKgetrf_(&m_, &m_, factors_.data(), &m_, pivots_.data(), &info);
+    double smallest = INFINITY, largest = 0;
+    for (std::size_t i = 0; i < factors_.size(); i += static_cast<std::size_t>(m) + 1) {
+      smallest = std::min(smallest, std::abs(factors_[i]));
+      largest = std::max(largest, std::abs(factors_[i]));
+    }
+    condition_ = info == 0 ? smallest / largest : 0;
   }
-  return info == 0 ? smallest / largest : 0;
-}
+  /// Smallest pivot over the largest; 0: A is singular.
+  double pivotRatio() const { return condition_; }
+  /// From here on an inverse is formed: eigenvalues then lose half of the digits at worst, the largest ones none.
+  bool exists() const { return condition_ > 1e-8; }
+  /// b ← A⁻¹ b, or A⁻ᵀ b, for b of any number of columns.
+  void solve(DenseMatrix& b, bool transposed = false) const {
+    PetscBLASInt columns = static_cast<PetscBLASInt>(b.size()) / m_, info = 0;
+    LAPACKgetrs_(transposed ? "T" : "N", &m_, &columns, const_cast<double*>(factors_.data()), &m_,
+                 const_cast<PetscBLASInt*>(pivots_.data()), b.data(), &m_, &info);
+  }
 
-/// Ratio of pivots from which on an inverse is formed: eigenvalues then lose half of the digits at worst, the largest ones none.
-constexpr double wellConditioned = 1e-8;
-
-/// M⁻¹ B; empty if M is far from well conditioned. In an M0-orthonormal basis M is the identity but for friction: M⁻¹ is formed
-/// safely, and QR takes a small part of the time of QZ.
-DenseMatrix timesInverse(const DenseMatrix& mass, DenseMatrix b, int m) {
-  return solveInPlace(mass, b, m) > wellConditioned ? b : DenseMatrix();
-}
+ private:
+  PetscBLASInt m_;
+  DenseMatrix factors_;
+  std::vector<PetscBLASInt> pivots_;
+  double condition_ = 0;
+};
 
 /// uᴴ M⁻¹ A = μ uᴴ gives the left vectors y = M⁻ᵀ u of A y = μ M y.
-void undoInverse(const DenseMatrix& mass, int m, std::vector<DensePair>& pairs) {
-  const auto n = static_cast<std::size_t>(m);
-  DenseMatrix transposed(n * n), columns;
-  for (std::size_t j = 0; j < n; ++j)
-    for (std::size_t i = 0; i < n; ++i) transposed[i * n + j] = mass[j * n + i];
+void undoInverse(const Inverse& mass, std::vector<DensePair>& pairs) {
+  DenseMatrix columns;
   for (const auto& pair : pairs) {
     for (const auto& entry : pair.left) columns.push_back(entry.real());
     for (const auto& entry : pair.left) columns.push_back(entry.imag());
   }
-  solveInPlace(std::move(transposed), columns, m);
-  for (std::size_t j = 0; j < pairs.size(); ++j)
-    for (std::size_t i = 0; i < n; ++i) pairs[j].left[i] = {columns[2 * j * n + i], columns[(2 * j + 1) * n + i]};
+  mass.solve(columns, true);
+  auto part = columns.begin();
+  for (auto& pair : pairs) {
+    const auto imaginary = part + static_cast<std::ptrdiff_t>(pair.left.size());
+    for (std::size_t i = 0; i < pair.left.size(); ++i)
+      pair.left[i] = {part[static_cast<std::ptrdiff_t>(i)], imaginary[static_cast<std::ptrdiff_t>(i)]};
+    part = imaginary + static_cast<std::ptrdiff_t>(pair.left.size());
+  }
 }
 
 /// The root of s² = −μ with Im s ≥ 0.
@@ -170,22 +182,30 @@ Complex rootOf(Complex mu) {
   return s.imag() < 0 ? -s : s;
 }
 
-std::vector<DensePair> linearInSquare(const DenseMatrix& mass, const DenseMatrix& stiffness, int m, Vectors vectors,
+/// The leading matrix M of a quadratic problem, and its inverse: M⁻¹ is formed where it exists, as QR takes a small part of the time of QZ.
+struct Leading {
+  const DenseMatrix& matrix;
+  const Inverse& inverse;
+};
+
+std::vector<DensePair> linearInSquare(const Leading& mass, const DenseMatrix& stiffness, int m, Vectors vectors,
                                       const Wanted& wanted) {
   // K q = μ M q with μ = −s²; both roots ±s are eigenvalues, one of them (two, if real) has Im s ≥ 0.
-  const DenseMatrix product = timesInverse(mass, stiffness, m);
   const Wanted either = [&](Complex mu) {
     const Complex s = rootOf(mu);
     return wanted(s) || (s.imag() == 0 && wanted(-s));
   };
-  const auto solved = product.empty() ? generalized(stiffness, mass, m, vectors, either) : standard(product, m, vectors, either);
+  DenseMatrix product = stiffness;
+  if (mass.inverse.exists()) mass.inverse.solve(product);
+  const auto solved = mass.inverse.exists() ? standard(std::move(product), m, vectors, either)
+                                            : generalized(stiffness, mass.matrix, m, vectors, either);
   std::vector<DensePair> pairs;
   for (const auto& [mu, q, left] : solved) {
     const Complex s = rootOf(mu);
     if (wanted(s)) pairs.push_back({s, q, left});
     if (s.imag() == 0 && wanted(-s)) pairs.push_back({-s, q, left});
   }
-  if (vectors == Vectors::both && !product.empty()) undoInverse(mass, m, pairs);
+  if (vectors == Vectors::both && mass.inverse.exists()) undoInverse(mass.inverse, pairs);
   return pairs;
 }
 
@@ -199,14 +219,14 @@ DenseMatrix padded(const DenseMatrix& mass, std::size_t m) {
   return b;
 }
 
-std::vector<DensePair> companion(const DenseMatrix& mass, const DenseMatrix& damping, const DenseMatrix& stiffness, int size,
+std::vector<DensePair> companion(const Leading& mass, const DenseMatrix& damping, const DenseMatrix& stiffness, int size,
                                  Vectors vectors, const Wanted& wanted) {
   const auto m = static_cast<std::size_t>(size);
   const auto norm = [](const DenseMatrix& x) { return std::sqrt(std::inner_product(x.begin(), x.end(), x.begin(), 0.0)); };
-  const double unit = std::sqrt(norm(stiffness) / norm(mass));  // s = unit ŝ (Fan, Lin and Van Dooren 2004)
+  const double unit = std::sqrt(norm(stiffness) / norm(mass.matrix));  // s = unit ŝ (Fan, Lin and Van Dooren 2004)
   // [0 I; −K −Z] (q, ŝq) = ŝ [I 0; 0 M] (q, ŝq), K and Z scaled
-  const DenseMatrix product = timesInverse(mass, sideBySide(stiffness, damping), size);
-  const DenseMatrix lower = product.empty() ? sideBySide(stiffness, damping) : product;
+  DenseMatrix lower = sideBySide(stiffness, damping);
+  if (mass.inverse.exists()) mass.inverse.solve(lower);
   DenseMatrix a(4 * m * m, 0.0);
   for (std::size_t j = 0; j < m; ++j) {
     a[(m + j) * 2 * m + j] = 1;
@@ -217,20 +237,29 @@ std::vector<DensePair> companion(const DenseMatrix& mass, const DenseMatrix& dam
   }
   std::vector<DensePair> pairs;
   const Wanted upper = [&](Complex value) { return value.imag() >= 0 && wanted(unit * value); };
-  for (const auto& [value, right, left] :
-       product.empty() ? generalized(a, padded(mass, m), 2 * size, vectors, upper) : standard(a, 2 * size, vectors, upper)) {
+  for (const auto& [value, right, left] : mass.inverse.exists()
+                                              ? standard(a, 2 * size, vectors, upper)
+                                              : generalized(a, padded(mass.matrix, m), 2 * size, vectors, upper)) {
     const auto half = right.begin() + (std::abs(value) > 1 ? size : 0);  // the larger of q and ŝq
     // (u, y)ᴴ of the companion form: u = −K̂ᵀ y / conj ŝ, and yᴴ P = 0
     pairs.push_back({unit * value, {half, half + size}, {left.begin() + (left.empty() ? 0 : size), left.end()}});
   }
-  if (vectors == Vectors::both && !product.empty()) undoInverse(mass, size, pairs);
+  if (vectors == Vectors::both && mass.inverse.exists()) undoInverse(mass.inverse, pairs);
   return pairs;
 }
 
+/// To 2-norm 1, the largest entry real.
 void normalise(std::vector<Complex>& vector) {
   double sum = 0;
-  for (const auto& entry : vector) sum += std::norm(entry);
-  for (auto& entry : vector) entry /= std::sqrt(sum);
+  std::size_t largest = 0;
+  for (std::size_t i = 0; i < vector.size(); ++i) {
+    sum += std::norm(vector[i]);
+    if (std::norm(vector[i]) > std::norm(vector[largest])) largest = i;
+  }
+  if (sum == 0) return;
+  const Complex entry = vector[largest], factor = (entry.imag() == 0 ? 1 : std::conj(entry) / std::abs(entry)) / std::sqrt(sum);
+  for (auto& value : vector) value *= factor;
+  vector[largest] = vector[largest].real();
 }
 
 /// From a root t of the reversed polynomial to s = 1/t, or to its conjugate, whose imaginary part is not negative.
@@ -241,10 +270,13 @@ Complex turnedRound(Complex t) { return 1.0 / std::conj(t); }
 std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vectors, const Wanted& wanted) {
   // The roots of the reversed polynomial, K + t Z + t² M read as t² K + t Z + M with t = 1/s, where K is the better matrix to invert:
   // so it is in a basis that is orthonormal in energy.
-  DenseMatrix none;
-  const double pivots = solveInPlace(problem.stiffness, none, problem.m);
-  const bool reversed = pivots > wellConditioned && pivots > solveInPlace(problem.mass, none, problem.m);
-  const auto &leading = reversed ? problem.stiffness : problem.mass, &last = reversed ? problem.mass : problem.stiffness;
+  constexpr double beyondDoubt = 0.01;
+  const Inverse ofStiffness(problem.stiffness, problem.m);
+  std::optional<Inverse> ofMass;
+  if (ofStiffness.pivotRatio() < beyondDoubt) ofMass.emplace(problem.mass, problem.m);
+  const bool reversed = !ofMass || (ofStiffness.exists() && ofStiffness.pivotRatio() > ofMass->pivotRatio());
+  const Leading leading = reversed ? Leading{problem.stiffness, ofStiffness} : Leading{problem.mass, *ofMass};
+  const auto& last = reversed ? problem.mass : problem.stiffness;
   const Wanted root = [&](Complex t) {
     if (reversed && t == 0.0) return false;  // s is infinite: a motion without mass
     return !wanted || wanted(reversed ? turnedRound(t) : t);
