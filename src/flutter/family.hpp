@@ -37,10 +37,15 @@ class Family {
 /// The eigenvalues that a run is about, and those watched beside them.
 struct WatchedBand {
   double top = 1e300;    ///< rad/s, of |s|
-  double guard = 1.3;    ///< eigenvalues are watched up to this multiple of `top`
+  double guard = 1.3;    ///< eigenvalues are watched up to this multiple of `top` and of `damping`
   double damping = 0.5;  ///< largest damping ratio
-  bool contains(std::complex<double> s) const { return std::abs(s) <= top && -s.real() <= damping * std::abs(s); }
-  bool watches(std::complex<double> s) const { return std::abs(s) <= guard * top; }
+  double origin = 0.1;   ///< all are watched up to this multiple of `top`: a real eigenvalue may pass through zero
+  bool contains(std::complex<double> s) const { return std::abs(s) <= top && lasts(s); }
+  bool watches(std::complex<double> s) const {
+    return std::abs(s) <= guard * top && (-s.real() <= guard * damping * std::abs(s) || std::abs(s) <= origin * top);
+  }
+  /// Does not die away at once.
+  bool lasts(std::complex<double> s) const { return -s.real() <= damping * std::abs(s); }
 };
 
 }  // namespace squeal::flutter
