@@ -25,23 +25,22 @@ const IntegerOption halvingsOption("flutter", "flutter_track_halvings", 10, 0,
 /// One line of the sweep in the reduced basis.
 class ReducedFamily : public Family {
  public:
-  ReducedFamily(ReducedProblem& reduced, MPI_Comm comm, const Parameters& line, const ProblemSource& problemAt,
+  ReducedFamily(ReducedProblem& reduced, MPI_Comm comm, const Parameters& line, const ProblemSource& source,
                 const std::function<void(const std::string&)>& progress)
-      : reduced_(reduced), comm_(comm), line_(line), problemAt_(problemAt), progress_(progress) {}
+      : reduced_(reduced), comm_(comm), line_(line), source_(source), progress_(progress) {}
   MPI_Comm comm() const override { return comm_; }
 
   std::optional<DenseProblem> at(double friction) override {
-    const auto problem = problemAt_(point(friction));
+    const auto problem = source_.at(point(friction));
     if (!problem) return {};
-    local_ = problem->pencil.affineCount() == problem->pencil.terms().size();
     return reduced_.project(*problem);
   }
-  bool local() const override { return local_; }
+  bool local() const override { return source_.local; }
   void progress(const std::string& text) override { progress_(text); }
 
   Improvement improve(const std::vector<Located>& located) override {
     std::vector<std::pair<PointProblem, std::vector<DensePair>>> list;
-    for (const auto& item : located) list.emplace_back(problemAt_(point(item.friction)).value(), item.pairs);
+    for (const auto& item : located) list.emplace_back(source_.at(point(item.friction)).value(), item.pairs);
     return reduced_.improve(list);
   }
 
@@ -54,9 +53,8 @@ class ReducedFamily : public Family {
   ReducedProblem& reduced_;
   MPI_Comm comm_;
   Parameters line_;
-  const ProblemSource& problemAt_;
+  const ProblemSource& source_;
   const std::function<void(const std::string&)>& progress_;
-  bool local_ = false;  // no point has terms of its own, as far as known
 };
 
 /// Drops what is watched beside the band alone, and numbers the rest from 1; a partner that is none or outside is 0.
@@ -140,13 +138,13 @@ std::string Followed::statement() const {
 }
 
 std::vector<Followed> followSweep(ReducedProblem& reduced, const std::vector<FrictionPoint>& points, const modes::Modes& modes,
-                                  MPI_Comm comm, const ProblemSource& problemAt,
+                                  MPI_Comm comm, const ProblemSource& source,
                                   const std::function<void(const std::string&)>& progress) {
   std::vector<Followed> result;
   for (auto [line, frictions] : lines(points)) {
     const bool swept = frictions.front() == 0;
     if (!swept) frictions.insert(frictions.begin(), 0);
-    ReducedFamily family(reduced, comm, line, problemAt, progress);
+    ReducedFamily family(reduced, comm, line, source, progress);
     Followed followed;
     followed.line = line;
     TrackLimits limits;

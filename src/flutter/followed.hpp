@@ -23,7 +23,12 @@ struct Followed {
   std::string statement() const;
 };
 
-using ProblemSource = std::function<std::optional<PointProblem>(const Parameters&)>;
+/// The terms of any point.
+struct ProblemSource {
+  /// Collective, unless local. None: there is no steady state with this active set.
+  std::function<std::optional<PointProblem>(const Parameters&)> at;
+  bool local = false;  ///< no point has terms of its own
+};
 
 /// `-flutter_track`.
 bool trackWanted();
@@ -33,10 +38,9 @@ bool trackAsked();
 std::string nothingToFollow(const ReducedProblem& reduced, const std::vector<FrictionPoint>& points);
 
 /// Collective. Follows the eigenvalues of `points`, from friction 0 on, in the basis in force, and solves for the critical frictions
-/// (`-flutter_critical`), for which the basis may grow. Single frictions are left out unless trackAsked(). `problemAt(at)`: the terms of a point; none: there is no steady state with this
-/// active set.
+/// (`-flutter_critical`), for which the basis may grow. Single frictions are left out unless trackAsked().
 std::vector<Followed> followSweep(ReducedProblem& reduced, const std::vector<FrictionPoint>& points, const modes::Modes& modes,
-                                  MPI_Comm comm, const ProblemSource& problemAt,
+                                  MPI_Comm comm, const ProblemSource& source,
                                   const std::function<void(const std::string&)>& progress);
 
 }  // namespace squeal::flutter

@@ -13,20 +13,28 @@ const std::string layers =
     "-options_file options/two_layers.yaml -mesh_set nx=12,ny_disc=4,ny_pad=3 -modes_count 60 -quiet -report_fields off"
     " -material_pad_rayleigh_stiffness 0.005 -material_disc_rayleigh_mass 0.005 ";
 
+struct Law {
+  std::string name, options;
+};
+/// A coefficient that falls with the speed gives each friction terms of its own.
+const Law constant{"constant", ""},
+    falling{"falling", "-friction_law exponential -friction_static_ratio 1.05 -friction_decay_speed 1 -flutter_track "};
+
 /// The same run on 1 and on 2 ranks, which several tests read.
-const ProgramRun& layersOn(int ranks) {
-  static std::map<int, ProgramRun> runs;
-  if (runs.empty())
+const ProgramRun& layersOn(int ranks, const Law& law = constant) {
+  static std::map<std::string, std::map<int, ProgramRun>> runs;
+  if (runs[law.name].empty())
     for (int count : {1, 2})
-      runs[count] = runProgram("critical/np" + std::to_string(count), count, layers + "-flutter_friction 0:0.4:0.1");
-  return runs.at(ranks);
+      runs[law.name][count] =
+          runProgram("critical/" + law.name + std::to_string(count), count, layers + law.options + "-flutter_friction 0:0.4:0.1");
+  return runs[law.name].at(ranks);
 }
 
-TEST(Critical, SameFrictionsOnOneAndTwoRanks) {
+void expectSameOnOneAndTwoRanks(const Law& law) {
   std::vector<double> one;
   for (int ranks : {1, 2}) {
-    ASSERT_EQ(layersOn(ranks).exitCode, 0) << layersOn(ranks).error;
-    const CsvTable table = readCsv(layersOn(ranks).folder / "critical.csv");
+    ASSERT_EQ(layersOn(ranks, law).exitCode, 0) << layersOn(ranks, law).error;
+    const CsvTable table = readCsv(layersOn(ranks, law).folder / "critical.csv");
     EXPECT_EQ(table.header,
               "active_set,branch,partner,kind,direction,friction,speed,pressure,damping,frequency_hz,slope,"
               "friction_error_estimate,backward_error,converged");
@@ -47,16 +55,19 @@ TEST(Critical, SameFrictionsOnOneAndTwoRanks) {
   }
 }
 
+TEST(Critical, SameFrictionsOnOneAndTwoRanks) { expectSameOnOneAndTwoRanks(constant); }
+TEST(Critical, SameFrictionsWhereTermsBelongToPoints) { expectSameOnOneAndTwoRanks(falling); }
+
 // At each critical friction the problem on all unknowns has an eigenvalue iω of the frequency listed. Growth rates err by the slope, 0.6 at
 // most, times the tolerance of the friction, 1e-9.
-TEST(Critical, GrowthRatesOfAllUnknownsAreZero) {
-  ASSERT_EQ(layersOn(2).exitCode, 0);
-  const CsvTable table = readCsv(layersOn(2).folder / "critical.csv");
+void expectZeroGrowthOfAllUnknowns(const Law& law) {
+  ASSERT_EQ(layersOn(2, law).exitCode, 0);
+  const CsvTable table = readCsv(layersOn(2, law).folder / "critical.csv");
   const auto friction = table.column("friction"), hertz = table.column("frequency_hz");
   std::string list;
   for (double f : friction) list += formatted("%s%.17g", list.empty() ? "" : ",", f);
-  const ProgramRun run =
-      runProgram("critical/direct", 1, layers + "-flutter_method direct -flutter_direct_count 60 -flutter_friction " + list);
+  const ProgramRun run = runProgram(
+      "critical/direct", 1, layers + law.options + "-flutter_method direct -flutter_direct_count 60 -flutter_friction " + list);
   ASSERT_EQ(run.exitCode, 0) << run.error;
   const CsvTable full = readCsv(run.folder / "eigenvalues.csv");
   const auto at = full.column("friction");
@@ -72,6 +83,9 @@ TEST(Critical, GrowthRatesOfAllUnknownsAreZero) {
   }
   std::printf("%zu critical frictions: full-order eigenvalues off i omega by %.1e at most\n", friction.size(), worst);
 }
+
+TEST(Critical, GrowthRatesOfAllUnknownsAreZero) { expectZeroGrowthOfAllUnknowns(constant); }
+TEST(Critical, GrowthRatesAreZeroWhereTermsBelongToPoints) { expectZeroGrowthOfAllUnknowns(falling); }
 
 // Each branch is there once at each friction, the swept ones are the eigenvalues of the band, and the number of unstable ones is that of
 // the critical frictions below.
