@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
+#include "flutter/renumber.hpp"
 #include "petsc/options.hpp"
 #include "petsc/text.hpp"
 
@@ -56,33 +56,6 @@ class ReducedFamily : public Family {
   const ProblemSource& source_;
   const std::function<void(const std::string&)>& progress_;
 };
-
-/// Drops what is watched beside the band alone, and numbers the rest from 1; a partner that is none or outside is 0.
-void renumber(Branches& branches) {
-  auto& [band, stations, events, gaps, count, entered, left] = branches;
-  std::map<int, int> number;
-  for (const auto& station : stations)
-    for (std::size_t i = 0; i < station.pairs.size(); ++i)
-      if (station.inBand[i]) number.emplace(station.branch[i], 0);
-  int next = 0;
-  for (const auto& station : stations)
-    for (int branch : station.branch) {
-      const auto entry = number.find(branch);
-      if (entry != number.end() && entry->second == 0) entry->second = ++next;
-    }
-  count = next;
-  const auto of = [&](int branch) {
-    const auto entry = number.find(branch);
-    return entry == number.end() ? 0 : entry->second;
-  };
-  for (auto& station : stations)
-    for (int& branch : station.branch) branch = of(branch);
-  for (auto& event : events) {
-    event.branch = of(event.branch);
-    event.partner = event.partner < 0 ? 0 : of(event.partner);
-  }
-  std::erase_if(events, [](const Event& event) { return event.branch == 0; });
-}
 
 /// Vectors have done their service, and there are many.
 void dropVectors(Branches& branches) {

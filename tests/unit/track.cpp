@@ -5,8 +5,10 @@
 
 #include <cmath>
 #include <random>
+#include <tuple>
 
 #include "flutter/critical.hpp"
+#include "flutter/renumber.hpp"
 #include "support/case.hpp"
 
 namespace squeal {
@@ -162,6 +164,32 @@ TEST(Critical, VeeringIsNoMerger) {
     expectNoGaps(branches);
     EXPECT_TRUE(branches.events.empty());
   }
+}
+
+// Two modes are equal at f = 0, but for what stands for rounding: it makes them a split pair, or puts one of them or the other first.
+// Their frequencies part from there, and so number 1 is the one that falls, whatever rounding says.
+TEST(Track, EqualEigenvaluesAreNumberedByWhereTheyPart) {
+  const double square = 100, rounding = 1e-10;
+  for (const auto& [first, second, skew] : {std::tuple{rounding, -rounding, 0.0},
+                                            {-rounding, rounding, 0.0},
+                                            {0.0, 0.0, rounding},
+                                            {0.0, 0.0, -rounding},
+                                            {0.0, 0.0, 0.0}})
+    for (const bool falls : {false, true}) {
+      Linear family = crossingModes({square + first, square + second, 400}, {falls ? -10.0 : 20.0, falls ? 20.0 : -10.0, 0}, {});
+      family.base.stiffness[1] = skew;
+      family.base.stiffness[3] = -skew;
+      auto branches = follow(family, grid(1, 4), {});
+      renumber(branches);
+      EXPECT_EQ(branches.count, 3);
+      for (const auto& station : branches.stations)
+        for (std::size_t i = 0; i < 3; ++i) {
+          const double exact = std::vector{square - 10 * station.friction, square + 20 * station.friction,
+                                           400.0}[static_cast<std::size_t>(station.branch[i] - 1)];
+          EXPECT_NEAR(std::norm(station.pairs[i].s), exact, 10 * rounding)
+              << "friction " << station.friction << ", rounding " << first << " " << second << " " << skew;
+        }
+    }
 }
 
 /// Unstable eigenvalues at one friction.
