@@ -22,41 +22,6 @@ const RealOption toleranceOption("flutter", "flutter_critical_tolerance", 1e-8, 
 const IntegerOption halvingsOption("flutter", "flutter_track_halvings", 10, 0,
                                    "how often a step of the sweep may be halved where a continuation is not certain");
 
-/// One line of the sweep in the reduced basis.
-class ReducedFamily : public Family {
- public:
-  ReducedFamily(ReducedProblem& reduced, MPI_Comm comm, const Parameters& line, const ProblemSource& source,
-                const std::function<void(const std::string&)>& progress)
-      : reduced_(reduced), comm_(comm), line_(line), source_(source), progress_(progress) {}
-  MPI_Comm comm() const override { return comm_; }
-
-  std::optional<DenseProblem> at(double friction) override {
-    const auto problem = source_.at(point(friction));
-    if (!problem) return {};
-    return reduced_.project(*problem);
-  }
-  bool local() const override { return source_.local; }
-  void progress(const std::string& text) override { progress_(text); }
-
-  Improvement improve(const std::vector<Located>& located) override {
-    std::vector<std::pair<PointProblem, std::vector<DensePair>>> list;
-    for (const auto& item : located) list.emplace_back(source_.at(point(item.friction)).value(), item.pairs);
-    return reduced_.improve(list);
-  }
-
- private:
-  Parameters point(double friction) const {
-    Parameters at = line_;
-    at.friction = friction;
-    return at;
-  }
-  ReducedProblem& reduced_;
-  MPI_Comm comm_;
-  Parameters line_;
-  const ProblemSource& source_;
-  const std::function<void(const std::string&)>& progress_;
-};
-
 /// Vectors have done their service, and there are many.
 void dropVectors(Branches& branches) {
   for (auto& station : branches.stations)

@@ -1,12 +1,11 @@
 #pragma once
 /// The sweep over friction as a whole: its eigenvalues followed from point to point, their critical frictions, and what can be said
 /// of their number.
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "flutter/critical.hpp"
-#include "flutter/reduced.hpp"
+#include "flutter/reducedfamily.hpp"
 
 namespace squeal::flutter {
 
@@ -21,13 +20,6 @@ struct Followed {
   bool complete() const;
   /// What is shown of the number of eigenvalues, and what is assumed; one sentence.
   std::string statement() const;
-};
-
-/// The terms of any point.
-struct ProblemSource {
-  /// Collective, unless local. None: there is no steady state with this active set.
-  std::function<std::optional<PointProblem>(const Parameters&)> at;
-  bool local = false;  ///< no point has terms of its own
 };
 
 /// `-flutter_track`.
