@@ -52,7 +52,8 @@ class Search {
 /// One event, on one rank.
 class Root {
  public:
-  Root(const Event& event, double tolerance) : event_(event), tolerance_(tolerance) {}
+  Root(const Event& event, double tolerance)
+      : event_(event), tolerance_(tolerance), throughZero_(real(event.below[0].s) && real(event.above[0].s)) {}
 
   /// Locates it in the basis in force, which has `changed` since the last time.
   void locate(Family& family, bool changed) {
@@ -114,7 +115,7 @@ class Root {
       case Event::Kind::coalescence:
         return discriminant(pairs, spectrum.damped());
       case Event::Kind::divergence:
-        return (pairs[0].s * pairs[0].s).real();
+        return throughZero_ ? pairs[0].s.real() : (pairs[0].s * pairs[0].s).real();
       case Event::Kind::crossing:
         return pairs[0].s.real();
     }
@@ -199,7 +200,9 @@ class Root {
   }
 
   const Event& event_;
-  double tolerance_, friction_ = NAN, moved_ = 0, backwardError_ = 0, slope_ = 0;
+  double tolerance_;
+  bool throughZero_;  // the eigenvalue is real at both ends
+  double friction_ = NAN, moved_ = 0, backwardError_ = 0, slope_ = 0;
   bool settled_ = false, lost_ = false;
   std::vector<Sample> known_;  // the two ends first, then what the last basis left
 };
