@@ -69,7 +69,7 @@ double ReducedFamily::closest() const {
 
 /// The nearest ones, not too close to each other.
 std::vector<const ReducedFamily::Node*> ReducedFamily::nodesFor(double friction) const {
-  constexpr std::size_t most = 4;
+  constexpr std::size_t most = 6;
   std::vector<const Node*> all, chosen;
   for (const auto& node : nodes_) all.push_back(&node);
   std::stable_sort(all.begin(), all.end(), [&](const Node* a, const Node* b) {

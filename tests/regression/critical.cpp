@@ -89,10 +89,10 @@ TEST(Critical, GrowthRatesAreZeroWhereTermsBelongToPoints) { expectZeroGrowthOfA
 
 // Each branch is there once at each friction, the swept ones are the eigenvalues of the band, and the number of unstable ones is that of
 // the critical frictions below.
-TEST(Critical, BranchesHoldTheSweep) {
+void expectBranchesToHoldTheSweep(const Law& law) {
   for (int ranks : {1, 2}) {
-    ASSERT_EQ(layersOn(ranks).exitCode, 0);
-    const fs::path folder = layersOn(ranks).folder;
+    ASSERT_EQ(layersOn(ranks, law).exitCode, 0);
+    const fs::path folder = layersOn(ranks, law).folder;
     const CsvTable table = readCsv(folder / "branches.csv"), listed = readCsv(folder / "eigenvalues.csv");
     EXPECT_EQ(table.header,
               "active_set,branch,friction,speed,pressure,damping,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,"
@@ -125,6 +125,9 @@ TEST(Critical, BranchesHoldTheSweep) {
     }
   }
 }
+
+TEST(Critical, BranchesHoldTheSweep) { expectBranchesToHoldTheSweep(constant); }
+TEST(Critical, BranchesHoldTheSweepWhereTermsBelongToPoints) { expectBranchesToHoldTheSweep(falling); }
 
 }  // namespace
 }  // namespace squeal::test
