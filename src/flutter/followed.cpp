@@ -14,7 +14,7 @@ const FlagOption trackOption(
     "flutter", "flutter_track", true,
     "follow the eigenvalues of the band over the friction by left and right vectors, through crossings and "
     "mergers: branches.csv; reduced method alone; a single friction, from friction 0 on, and sweeps with terms that follow the "
-    "steady state (friction damping, prestress), which cost most, only if this or -flutter_critical is given");
+    "steady state (friction damping, prestress) only if this or -flutter_critical is given");
 const FlagOption criticalOption("flutter", "flutter_critical", true,
                                 "solve for the frictions at which stability changes: critical.csv; needs -flutter_track");
 const RealOption toleranceOption("flutter", "flutter_critical_tolerance", 1e-8, "", positive,

@@ -39,25 +39,33 @@ DenseProblem ReducedFamily::own(const PointProblem& problem) const {
 
 std::optional<DenseProblem> ReducedFamily::at(double friction) {
   constexpr std::size_t most = 32;  // a node is two or three dense matrices
-  if (source_.local) return shared(friction);
+  if (source_.local || known(friction)) return near(friction);
   const auto problem = source_.at(point(friction));
   if (!problem) return {};
   Node node{friction, own(*problem)};
   DenseProblem sum = shared(friction);
   add(sum, 1, node.own);
-  if (nodes_.size() < most && !known(friction)) nodes_.push_back(std::move(node));
+  if (nodes_.size() < most) keep(std::move(node), 0);
   return sum;
 }
 
+/// In the basis in force.
 bool ReducedFamily::known(double friction) const {
-  return std::any_of(nodes_.begin(), nodes_.end(), [&](const Node& node) { return node.friction == friction; });
+  return std::any_of(nodes_.begin(), nodes_.end(),
+                     [&](const Node& node) { return node.friction == friction && node.own.m == reduced_.basisSize(); });
 }
 
 void ReducedFamily::know(const std::vector<double>& frictions) {
   if (source_.local) return;
   for (double friction : frictions)
     if (!known(friction))
-      if (const auto problem = source_.at(point(friction))) nodes_.push_back({friction, own(*problem)});
+      if (const auto problem = source_.at(point(friction))) keep({friction, own(*problem)}, 0);
+}
+
+/// In the place of those that are not farther than `apart`.
+void ReducedFamily::keep(Node node, double apart) {
+  std::erase_if(nodes_, [&](const Node& other) { return std::abs(other.friction - node.friction) <= apart; });
+  nodes_.push_back(std::move(node));
 }
 
 /// Nodes closer than this would give a slope of rounding.
@@ -108,11 +116,8 @@ Improvement ReducedFamily::improve(const std::vector<Located>& located) {
   const Improvement found = reduced_.improve(list);
   Improvement result{found.changed || !source_.local, std::vector<double>(located.size(), NAN)};
   for (std::size_t i = 0; i < places.size(); ++i) result.backwardError[places[i]] = found.backwardError[i];
-  for (std::size_t i = 0; i < places.size() && !source_.local; ++i) {
-    const double friction = located[places[i]].friction, apart = closest();
-    std::erase_if(nodes_, [&](const Node& node) { return std::abs(node.friction - friction) <= apart; });
-    nodes_.push_back({friction, own(list[i].first)});
-  }
+  for (std::size_t i = 0; i < places.size() && !source_.local; ++i)
+    keep({located[places[i]].friction, own(list[i].first)}, closest());
   return result;
 }
 
