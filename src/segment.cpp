@@ -114,7 +114,7 @@ class SegmentSweep {
       }
       return problem;
     };
-    segment.followed = flutter::followSweep(*reduced_, segment.points, segment.modes, pencil_.comm(), problemAt,
+    segment.followed = flutter::followSweep(*reduced_, segment.points, segment.modes, pencil_.comm(), {pencil_, problemAt, affine_},
                                             [&](const std::string& text) { stage.progress(text); });
     std::size_t branches = 0, stations = 0, criticals = 0;
     for (const auto& followed : segment.followed) {

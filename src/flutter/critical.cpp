@@ -49,52 +49,25 @@ class Search {
   bool done_ = false;
 };
 
-/// One event, on one rank. It asks for the problem at one friction after the other.
+/// One event, on one rank.
 class Root {
  public:
-  Root(const Event& event, double tolerance) : event_(event), tolerance_(tolerance) {}
+  Root(const Event& event, double tolerance)
+      : event_(event), tolerance_(tolerance), throughZero_(real(event.below[0].s) && real(event.above[0].s)) {}
 
-  /// To be located in the basis in force, which has `changed` since the last time.
-  void begin(bool changed) {
-    before_ = friction_;
-    changed_ = changed;
-    steps_ = 0;
+  /// Locates it in the basis in force, which has `changed` since the last time.
+  void locate(Family& family, bool changed) {
+    const double before = friction_;
     if (event_.low == event_.high) {  // at an end of a step, where equal eigenvalues part
       friction_ = event_.low;
       settled_ = true;
-    } else if (known_.empty()) {
-      ask(Phase::low, event_.low);
-    } else {
-      const Sample last = nearest(friction_);  // a start, though of the basis before
-      known_.erase(known_.begin() + 2, known_.end());
-      known_.push_back(last);
-      ask(Phase::left, std::max(event_.low, friction_ - 1e-5 * width()));
+      return;
     }
+    const bool first = known_.empty();
+    friction_ = first ? searchFromEnds(family) : refined(family);
+    moved_ = first ? roughly() : changed ? std::abs(friction_ - before) : 0;
+    settled_ = std::isnan(friction_) || (!first && moved_ <= tolerance_ * friction_);
   }
-  /// The friction of which the problem is needed; none: it is located, or cannot be.
-  std::optional<double> asks() const { return asked_; }
-  /// The problem asked for; null: there is none.
-  void take(const DenseProblem* problem) {
-    const double at = *asked_, value = problem ? valueIn(*problem, at) : NAN;
-    if (std::isnan(value)) return finish(NAN);
-    switch (phase_) {
-      case Phase::low:
-        return ask(Phase::high, event_.high);
-      case Phase::high:
-        return searchAll(roughly());
-      case Phase::left:
-        return ask(Phase::right, std::min(event_.high, friction_ + 1e-5 * width()));
-      case Phase::right:
-        slope_ = (value - known_[3].value) / (at - known_[3].friction);
-        return step(at, value);
-      case Phase::step:
-        return step(at, value);
-      case Phase::search:
-        search_->take(value);
-        return search_->done() ? finish(search_->root()) : ask(Phase::search, search_->next());
-    }
-  }
-
   bool settled() const { return settled_; }
 
   /// Where two eigenvalues are one, so is their vector.
@@ -105,7 +78,11 @@ class Root {
     pairs[0].s = s;
     return {friction_, pairs};
   }
-  void setBackwardError(double error) { backwardError_ = error; }
+  /// NaN: there is no problem where it was located.
+  void setBackwardError(double error) {
+    lost_ = std::isnan(error);
+    if (!lost_) backwardError_ = error;
+  }
 
   Critical result() const {
     Critical result{event_.kind, event_.branch, event_.partner, friction_, 0, 0, event_.loss, 0, backwardError_, true};
@@ -138,7 +115,7 @@ class Root {
       case Event::Kind::coalescence:
         return discriminant(pairs, spectrum.damped());
       case Event::Kind::divergence:
-        return (pairs[0].s * pairs[0].s).real();
+        return throughZero_ ? pairs[0].s.real() : (pairs[0].s * pairs[0].s).real();
       case Event::Kind::crossing:
         return pairs[0].s.real();
     }
@@ -162,12 +139,10 @@ class Root {
     return (1 - t) * mean(below->pairs()) + t * mean(above->pairs());
   }
 
-  double valueIn(const DenseProblem& problem, double friction) {
-    std::optional<Spectrum> found;
-    if (phase_ == Phase::low || phase_ == Phase::high)
-      found.emplace(problem, phase_ == Phase::low ? event_.below : event_.above);
-    else
-      found = continuedIn(problem, nearest(friction).spectrum, expected(friction), event_.isolation);
+  /// NaN: there is no such problem, or the eigenvalues are not found in it.
+  double valueAt(Family& family, double friction) {
+    const auto problem = family.near(friction);
+    auto found = problem ? continuedIn(*problem, nearest(friction).spectrum, expected(friction), event_.isolation) : std::nullopt;
     if (!found) return NAN;
     known_.push_back({friction, measure(*found), std::move(*found)});
     return known_.back().value;
@@ -179,44 +154,57 @@ class Root {
   /// Good enough for a basis that is still to be improved; less would hide by how much it moves with the basis.
   double roughly() const { return 1e-7 * width(); }
 
-  enum class Phase { low, high, search, left, right, step };
-  void ask(Phase phase, double friction) {
-    phase_ = phase;
-    asked_ = friction;
+  double searchFromEnds(Family& family) {
+    for (const bool low : {true, false}) {
+      const double friction = low ? event_.low : event_.high;
+      const auto problem = family.near(friction);
+      if (!problem) return NAN;
+      Spectrum spectrum(*problem, low ? event_.below : event_.above);
+      known_.push_back({friction, measure(spectrum), std::move(spectrum)});
+    }
+    return searched(family, roughly());
   }
 
-  void searchAll(double tolerance) {
-    search_.emplace(event_.low, known_[0].value, event_.high, known_[1].value, tolerance);
-    ask(Phase::search, search_->next());
+  double searched(Family& family, double tolerance) {
+    Search search(event_.low, known_[0].value, event_.high, known_[1].value, tolerance);
+    while (!search.done()) {
+      const double value = valueAt(family, search.next());
+      if (std::isnan(value)) return NAN;
+      search.take(value);
+    }
+    return search.root();
   }
 
-  /// From a value near the root by the slope there, which is of two frictions 2e-5 of the bracket apart.
-  void step(double at, double value) {
-    const double change = -value / slope_, next = at + change;
-    const bool inside = next >= event_.low && next <= event_.high, closer = steps_ < 2 || std::abs(change) < 0.1 * lastChange_;
-    if (!inside || !closer) return searchAll(rootTolerance());
-    lastChange_ = std::abs(change);
-    // A step is wrong by some 1e-4 of itself.
-    if (++steps_ > 1 && lastChange_ <= 1e3 * rootTolerance()) return finish(next);
-    ask(Phase::step, next);
-  }
-
-  void finish(double friction) {
-    asked_.reset();
-    friction_ = friction;
-    const bool first = std::isnan(before_);
-    moved_ = first ? roughly() : changed_ ? std::abs(friction_ - before_) : 0;
-    settled_ = std::isnan(friction_) || (!first && moved_ <= tolerance_ * friction_);
+  /// From where it was in the basis before, by the slope there, which is of two frictions 2e-5 of the bracket apart.
+  double refined(Family& family) {
+    if (lost_) return NAN;
+    const Sample start = nearest(friction_);
+    known_.erase(known_.begin() + 2, known_.end());
+    known_.push_back(start);
+    const double left = std::max(event_.low, friction_ - 1e-5 * width());
+    double at = std::min(event_.high, friction_ + 1e-5 * width()), last = INFINITY;
+    const double before = valueAt(family, left);
+    double value = valueAt(family, at);
+    slope_ = (value - before) / (at - left);
+    for (int step = 1; std::isfinite(value) && std::isfinite(slope_); ++step) {
+      const double change = -value / slope_, next = at + change;
+      const bool inside = next >= event_.low && next <= event_.high, closer = step <= 2 || std::abs(change) < 0.1 * last;
+      if (!inside || !closer) return searched(family, rootTolerance());
+      last = std::abs(change);
+      // A step is wrong by some 1e-4 of itself.
+      if (step > 1 && last <= 1e3 * rootTolerance()) return next;
+      at = next;
+      value = valueAt(family, at);
+    }
+    return NAN;
   }
 
   const Event& event_;
-  double tolerance_, friction_ = NAN, before_ = NAN, moved_ = 0, backwardError_ = 0, slope_ = 0, lastChange_ = 0;
-  bool settled_ = false, changed_ = false;
+  double tolerance_;
+  bool throughZero_;  // the eigenvalue is real at both ends
+  double friction_ = NAN, moved_ = 0, backwardError_ = 0, slope_ = 0;
+  bool settled_ = false, lost_ = false;
   std::vector<Sample> known_;  // the two ends first, then what the last basis left
-  Phase phase_ = Phase::low;
-  int steps_ = 0;
-  std::optional<double> asked_;
-  std::optional<Search> search_;
 };
 
 /// All events, spread over the ranks.
@@ -225,7 +213,12 @@ class Roots {
   Roots(Family& family, const std::vector<Event>& events, double tolerance) : family_(family) {
     check(MPI_Comm_rank(family.comm(), &rank_));
     check(MPI_Comm_size(family.comm(), &ranks_));
-    for (const auto& event : events) roots_.emplace_back(event, tolerance);
+    std::vector<double> ends;
+    for (const auto& event : events) {
+      roots_.emplace_back(event, tolerance);
+      if (event.low < event.high) ends.insert(ends.end(), {event.low, event.high});
+    }
+    family.know(ends);
     locate(indices(events.size()), true);
   }
 
@@ -276,28 +269,15 @@ class Roots {
   int owner(std::size_t i) const { return static_cast<int>(i % static_cast<std::size_t>(ranks_)); }
   bool mine(std::size_t i) const { return owner(i) == rank_; }
 
-  /// In step, since the problem at a friction may take all ranks.
   void locate(const std::vector<std::size_t>& open, bool changed) {
+    std::string failure;
     for (const auto i : open)
-      if (mine(i)) roots_[i].begin(changed);
-    for (;;) {
-      std::vector<double> asked(open.size(), -INFINITY);
-      for (std::size_t k = 0; k < open.size(); ++k)
-        if (mine(open[k])) asked[k] = roots_[open[k]].asks().value_or(-INFINITY);
-      check(MPI_Allreduce(MPI_IN_PLACE, asked.data(), static_cast<int>(asked.size()), MPI_DOUBLE, MPI_MAX, family_.comm()));
-      if (std::none_of(asked.begin(), asked.end(), [](double f) { return std::isfinite(f); })) return;
-      std::string failure;
-      for (std::size_t k = 0; k < open.size(); ++k) {
-        if (!std::isfinite(asked[k]) || (family_.local() && !mine(open[k]))) continue;
-        const auto problem = family_.at(asked[k]);
-        if (mine(open[k]) && failure.empty()) try {
-            roots_[open[k]].take(problem ? &*problem : nullptr);
-          } catch (const Error& error) {
-            failure = error.what();
-          }
-      }
-      failTogether(family_.comm(), failure);
-    }
+      if (mine(i) && failure.empty()) try {
+          roots_[i].locate(family_, changed);
+        } catch (const Error& error) {
+          failure = error.what();
+        }
+    failTogether(family_.comm(), failure);
   }
 
   Family& family_;

@@ -11,8 +11,9 @@ struct Critical {
   int branch = 0, partner = -1;
   double friction = 0;
   double angularFrequency = 0;  ///< rad/s
-  double slope = 0;             ///< crossing: d Re s/df, 1/s; coalescence: d (Re s)²/df, and divergence: d Re s²/df, 1/s²
-  bool loss = true;             ///< of stability with rising friction; false: it is regained
+  /// crossing: d Re s/df, 1/s; coalescence: d (Re s)²/df, 1/s²; divergence: d Re s²/df, 1/s², or of a real s ds/df, 1/s
+  double slope = 0;
+  bool loss = true;          ///< of stability with rising friction; false: it is regained
   double errorEstimate = 0;  ///< of the friction: its change with the last improvement of the basis, and the tolerance of the root
   double backwardError = 0;  ///< of the large problem at this friction; 0: there is none
   bool converged = true;

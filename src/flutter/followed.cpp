@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
+#include "flutter/renumber.hpp"
 #include "petsc/options.hpp"
 #include "petsc/text.hpp"
 
@@ -14,77 +14,13 @@ const FlagOption trackOption(
     "flutter", "flutter_track", true,
     "follow the eigenvalues of the band over the friction by left and right vectors, through crossings and "
     "mergers: branches.csv; reduced method alone; a single friction, from friction 0 on, and sweeps with terms that follow the "
-    "steady state (friction damping, prestress), which cost most, only if this or -flutter_critical is given");
+    "steady state (friction damping, prestress) only if this or -flutter_critical is given");
 const FlagOption criticalOption("flutter", "flutter_critical", true,
                                 "solve for the frictions at which stability changes: critical.csv; needs -flutter_track");
 const RealOption toleranceOption("flutter", "flutter_critical_tolerance", 1e-8, "", positive,
                                  "the basis is improved for a critical friction until it moves by less than this part of itself");
 const IntegerOption halvingsOption("flutter", "flutter_track_halvings", 10, 0,
                                    "how often a step of the sweep may be halved where a continuation is not certain");
-
-/// One line of the sweep in the reduced basis.
-class ReducedFamily : public Family {
- public:
-  ReducedFamily(ReducedProblem& reduced, MPI_Comm comm, const Parameters& line, const ProblemSource& problemAt,
-                const std::function<void(const std::string&)>& progress)
-      : reduced_(reduced), comm_(comm), line_(line), problemAt_(problemAt), progress_(progress) {}
-  MPI_Comm comm() const override { return comm_; }
-
-  std::optional<DenseProblem> at(double friction) override {
-    const auto problem = problemAt_(point(friction));
-    if (!problem) return {};
-    local_ = problem->pencil.affineCount() == problem->pencil.terms().size();
-    return reduced_.project(*problem);
-  }
-  bool local() const override { return local_; }
-  void progress(const std::string& text) override { progress_(text); }
-
-  Improvement improve(const std::vector<Located>& located) override {
-    std::vector<std::pair<PointProblem, std::vector<DensePair>>> list;
-    for (const auto& item : located) list.emplace_back(problemAt_(point(item.friction)).value(), item.pairs);
-    return reduced_.improve(list);
-  }
-
- private:
-  Parameters point(double friction) const {
-    Parameters at = line_;
-    at.friction = friction;
-    return at;
-  }
-  ReducedProblem& reduced_;
-  MPI_Comm comm_;
-  Parameters line_;
-  const ProblemSource& problemAt_;
-  const std::function<void(const std::string&)>& progress_;
-  bool local_ = false;  // no point has terms of its own, as far as known
-};
-
-/// Drops what is watched beside the band alone, and numbers the rest from 1; a partner that is none or outside is 0.
-void renumber(Branches& branches) {
-  auto& [band, stations, events, gaps, count, entered, left] = branches;
-  std::map<int, int> number;
-  for (const auto& station : stations)
-    for (std::size_t i = 0; i < station.pairs.size(); ++i)
-      if (station.inBand[i]) number.emplace(station.branch[i], 0);
-  int next = 0;
-  for (const auto& station : stations)
-    for (int branch : station.branch) {
-      const auto entry = number.find(branch);
-      if (entry != number.end() && entry->second == 0) entry->second = ++next;
-    }
-  count = next;
-  const auto of = [&](int branch) {
-    const auto entry = number.find(branch);
-    return entry == number.end() ? 0 : entry->second;
-  };
-  for (auto& station : stations)
-    for (int& branch : station.branch) branch = of(branch);
-  for (auto& event : events) {
-    event.branch = of(event.branch);
-    event.partner = event.partner < 0 ? 0 : of(event.partner);
-  }
-  std::erase_if(events, [](const Event& event) { return event.branch == 0; });
-}
 
 /// Vectors have done their service, and there are many.
 void dropVectors(Branches& branches) {
@@ -110,7 +46,7 @@ std::vector<std::pair<Parameters, std::vector<double>>> lines(const std::vector<
 
 bool trackWanted() { return trackOption.get(); }
 
-bool trackAsked() { return trackOption.given() || criticalOption.given(); }
+bool trackAsked() { return trackOption.given() || (criticalOption.given() && criticalOption.get()); }
 
 std::string nothingToFollow(const ReducedProblem& reduced, const std::vector<FrictionPoint>& points) {
   if (reduced.band().top == 0) return "-reduction_basis modal corrects no eigenvalue";
@@ -143,7 +79,7 @@ std::string Followed::statement() const {
 }
 
 std::vector<Followed> followSweep(ReducedProblem& reduced, const std::vector<FrictionPoint>& points, const modes::Modes& modes,
-                                  MPI_Comm comm, const ProblemSource& problemAt,
+                                  MPI_Comm comm, const ProblemSource& source,
                                   const std::function<void(const std::string&)>& progress) {
   std::vector<Followed> result;
   PetscInt unknowns = 0;
@@ -151,7 +87,7 @@ std::vector<Followed> followSweep(ReducedProblem& reduced, const std::vector<Fri
   for (auto [line, frictions] : lines(points)) {
     const bool swept = frictions.front() == 0;
     if (!swept) frictions.insert(frictions.begin(), 0);
-    ReducedFamily family(reduced, comm, line, problemAt, progress);
+    ReducedFamily family(reduced, comm, line, source, progress);
     Followed followed;
     followed.line = line;
     followed.wholeSpace = reduced.basisSize() == unknowns;

@@ -1,12 +1,11 @@
 #pragma once
 /// The sweep over friction as a whole: its eigenvalues followed from point to point, their critical frictions, and what can be said
 /// of their number.
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "flutter/critical.hpp"
-#include "flutter/reduced.hpp"
+#include "flutter/reducedfamily.hpp"
 
 namespace squeal::flutter {
 
@@ -24,8 +23,6 @@ struct Followed {
   std::string statement() const;
 };
 
-using ProblemSource = std::function<std::optional<PointProblem>(const Parameters&)>;
-
 /// `-flutter_track`.
 bool trackWanted();
 /// `-flutter_track` or `-flutter_critical` is given: the user is to be told if there is nothing to follow.
@@ -34,10 +31,9 @@ bool trackAsked();
 std::string nothingToFollow(const ReducedProblem& reduced, const std::vector<FrictionPoint>& points);
 
 /// Collective. Follows the eigenvalues of `points`, from friction 0 on, in the basis in force, and solves for the critical frictions
-/// (`-flutter_critical`), for which the basis may grow. Single frictions are left out unless trackAsked(). `problemAt(at)`: the terms of a point; none: there is no steady state with this
-/// active set.
+/// (`-flutter_critical`), for which the basis may grow. Single frictions are left out unless trackAsked().
 std::vector<Followed> followSweep(ReducedProblem& reduced, const std::vector<FrictionPoint>& points, const modes::Modes& modes,
-                                  MPI_Comm comm, const ProblemSource& problemAt,
+                                  MPI_Comm comm, const ProblemSource& source,
                                   const std::function<void(const std::string&)>& progress);
 
 }  // namespace squeal::flutter

@@ -167,13 +167,20 @@ class Follower {
            std::any_of(group.there.begin(), group.there.end(), [&](auto j) { return b.station.inBand[j]; });
   }
 
+  /// Whether it is of use to tell them apart.
+  bool lasts(const Solved& a, const Solved& b, const Group& group) const {
+    const auto one = [&](const Solved& end, std::size_t i) { return result_.band.lasts(end.station.pairs[i].s); };
+    return std::any_of(group.here.begin(), group.here.end(), [&](auto i) { return one(a, i); }) ||
+           std::any_of(group.there.begin(), group.there.end(), [&](auto j) { return one(b, j); });
+  }
+
   StepResult join(const Solved& a, const Solved& b) {
     StepResult step;
     for (const auto& group : groups(a.spectrum, b.spectrum)) {
       const bool known = group.joined() && group.here.size() == 1;
       if (known) {
         single(step, a, b, group);
-      } else if (!group.joined() || !several(step, a, b, group)) {
+      } else if (!group.joined() || !lasts(a, b, group) || !several(step, a, b, group)) {
         const bool counts = matters(a, b, group);
         unsure(step, a, b, group, counts);
         step.sure = step.sure && !counts;

@@ -13,20 +13,28 @@ const std::string layers =
     "-options_file options/two_layers.yaml -mesh_set nx=12,ny_disc=4,ny_pad=3 -modes_count 60 -quiet -report_fields off"
     " -material_pad_rayleigh_stiffness 0.005 -material_disc_rayleigh_mass 0.005 ";
 
+struct Law {
+  std::string name, options;
+};
+/// A coefficient that falls with the speed gives each friction terms of its own.
+const Law constant{"constant", ""},
+    falling{"falling", "-friction_law exponential -friction_static_ratio 1.05 -friction_decay_speed 1 -flutter_track "};
+
 /// The same run on 1 to 3 ranks, which several tests read.
-const ProgramRun& layersOn(int ranks) {
-  static std::map<int, ProgramRun> runs;
-  if (runs.empty())
+const ProgramRun& layersOn(int ranks, const Law& law = constant) {
+  static std::map<std::string, std::map<int, ProgramRun>> runs;
+  if (runs[law.name].empty())
     for (int count : {1, 2, 3})
-      runs[count] = runProgram("critical/np" + std::to_string(count), count, layers + "-flutter_friction 0:0.4:0.1");
-  return runs.at(ranks);
+      runs[law.name][count] =
+          runProgram("critical/" + law.name + std::to_string(count), count, layers + law.options + "-flutter_friction 0:0.4:0.1");
+  return runs[law.name].at(ranks);
 }
 
-TEST(Critical, SameFrictionsOnAllRanks) {
+void expectSameOnAllRanks(const Law& law) {
   std::vector<double> one;
   for (int ranks : {1, 2, 3}) {
-    ASSERT_EQ(layersOn(ranks).exitCode, 0) << layersOn(ranks).error;
-    const CsvTable table = readCsv(layersOn(ranks).folder / "critical.csv");
+    ASSERT_EQ(layersOn(ranks, law).exitCode, 0) << layersOn(ranks, law).error;
+    const CsvTable table = readCsv(layersOn(ranks, law).folder / "critical.csv");
     EXPECT_EQ(table.header,
               "active_set,branch,partner,kind,direction,friction,speed,pressure,damping,frequency_hz,slope,"
               "friction_error_estimate,backward_error,converged");
@@ -47,16 +55,19 @@ TEST(Critical, SameFrictionsOnAllRanks) {
   }
 }
 
+TEST(Critical, SameFrictionsOnAllRanks) { expectSameOnAllRanks(constant); }
+TEST(Critical, SameFrictionsWhereTermsBelongToPoints) { expectSameOnAllRanks(falling); }
+
 // At each critical friction the problem on all unknowns has an eigenvalue iω of the frequency listed. Growth rates err by the slope, 0.6 at
 // most, times the tolerance of the friction, 1e-9.
-TEST(Critical, GrowthRatesOfAllUnknownsAreZero) {
-  ASSERT_EQ(layersOn(2).exitCode, 0);
-  const CsvTable table = readCsv(layersOn(2).folder / "critical.csv");
+void expectZeroGrowthOfAllUnknowns(const Law& law) {
+  ASSERT_EQ(layersOn(2, law).exitCode, 0);
+  const CsvTable table = readCsv(layersOn(2, law).folder / "critical.csv");
   const auto friction = table.column("friction"), hertz = table.column("frequency_hz");
   std::string list;
   for (double f : friction) list += formatted("%s%.17g", list.empty() ? "" : ",", f);
-  const ProgramRun run =
-      runProgram("critical/direct", 1, layers + "-flutter_method direct -flutter_direct_count 60 -flutter_friction " + list);
+  const ProgramRun run = runProgram(
+      "critical/direct", 1, layers + law.options + "-flutter_method direct -flutter_direct_count 60 -flutter_friction " + list);
   ASSERT_EQ(run.exitCode, 0) << run.error;
   const CsvTable full = readCsv(run.folder / "eigenvalues.csv");
   const auto at = full.column("friction");
@@ -73,6 +84,9 @@ TEST(Critical, GrowthRatesOfAllUnknownsAreZero) {
   std::printf("%zu critical frictions: full-order eigenvalues off i omega by %.1e at most\n", friction.size(), worst);
 }
 
+TEST(Critical, GrowthRatesOfAllUnknownsAreZero) { expectZeroGrowthOfAllUnknowns(constant); }
+TEST(Critical, GrowthRatesAreZeroWhereTermsBelongToPoints) { expectZeroGrowthOfAllUnknowns(falling); }
+
 // Damping at friction 0, and a basis of a part of the unknowns: what is said of completeness is what can be said of that.
 TEST(Critical, CompletenessOfAPartOfTheSpace) {
   ASSERT_EQ(layersOn(2).exitCode, 0);
@@ -88,10 +102,10 @@ TEST(Critical, CompletenessOfAPartOfTheSpace) {
 
 // Each branch is there once at each friction, the swept ones are the eigenvalues of the band, and the number of unstable ones is that of
 // the critical frictions below.
-TEST(Critical, BranchesHoldTheSweep) {
+void expectBranchesToHoldTheSweep(const Law& law) {
   for (int ranks : {1, 2}) {
-    ASSERT_EQ(layersOn(ranks).exitCode, 0);
-    const fs::path folder = layersOn(ranks).folder;
+    ASSERT_EQ(layersOn(ranks, law).exitCode, 0);
+    const fs::path folder = layersOn(ranks, law).folder;
     const CsvTable table = readCsv(folder / "branches.csv"), listed = readCsv(folder / "eigenvalues.csv");
     EXPECT_EQ(table.header,
               "active_set,branch,friction,speed,pressure,damping,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,"
@@ -124,6 +138,9 @@ TEST(Critical, BranchesHoldTheSweep) {
     }
   }
 }
+
+TEST(Critical, BranchesHoldTheSweep) { expectBranchesToHoldTheSweep(constant); }
+TEST(Critical, BranchesHoldTheSweepWhereTermsBelongToPoints) { expectBranchesToHoldTheSweep(falling); }
 
 }  // namespace
 }  // namespace squeal::test

@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <tuple>
 
 #include "flutter/critical.hpp"
+#include "flutter/renumber.hpp"
 #include "support/case.hpp"
 
 namespace squeal {
@@ -114,6 +117,49 @@ TEST(Critical, HopfOfDampedModes) {
   }
 }
 
+/// Coupling f (1 + f²) where f stands elsewhere, and near() by straight lines between the frictions known.
+struct Interpolated : Linear {
+  std::vector<double> frictions;
+  int solved = 0;
+  explicit Interpolated(Linear linear) : Linear(std::move(linear)) {}
+  std::optional<DenseProblem> at(double f) override {
+    ++solved;
+    return Linear::at(f * (1 + f * f));
+  }
+  std::optional<DenseProblem> near(double f) override {
+    const auto above = std::upper_bound(frictions.begin() + 1, frictions.end() - 1, f), below = above - 1;
+    const double t = (f - *below) / (*above - *below);
+    return Linear::at((1 - t) * (*below) * (1 + *below * *below) + t * (*above) * (1 + *above * *above));
+  }
+  void know(const std::vector<double>& list) override {
+    frictions.insert(frictions.end(), list.begin(), list.end());
+    std::sort(frictions.begin(), frictions.end());
+    frictions.erase(std::unique(frictions.begin(), frictions.end()), frictions.end());
+  }
+  flutter::Improvement improve(const std::vector<flutter::Located>& located) override {
+    for (const auto& item : located) know({item.friction});
+    return {true, std::vector<double>(located.size(), 0.0)};
+  }
+};
+
+// What near() gets wrong is set right where a root is found: the coalescence of CoalescenceOfTwo at f (1 + f²) = 0.1512. No problem is
+// solved for beyond those of the stations.
+TEST(Critical, RootOfAnInterpolatedFamily) {
+  const double w1 = 600, w2 = 660, w0 = 500, coupling = (w2 * w2 - w1 * w1) / (2 * w0 * w0);
+  double exact = coupling;
+  for (int k = 0; k < 60; ++k) exact = coupling / (1 + exact * exact);
+  Interpolated family(modal({w1 * w1, 630 * 630, w2 * w2}, {{0, 2, w0 * w0}}));
+  const auto branches = follow(family, grid(0.5, 1), {});
+  const int before = family.solved;
+  const double tolerance = 1e-6;
+  const auto found = criticalFrictions(family, branches, tolerance);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_TRUE(found[0].converged);
+  EXPECT_EQ(family.solved, before);
+  print("critical friction wrong by %.1e\n", found[0].friction / exact - 1);
+  EXPECT_NEAR(found[0].friction, exact, tolerance * exact);
+}
+
 /// Friction that changes the eigenvalues of modes: ω² = square + f · rate, so that they cross and merge where wanted.
 Linear crossingModes(const std::vector<double>& squares, const std::vector<double>& rates, const std::vector<Coupling>& couplings) {
   Linear family = modal(squares, couplings);
@@ -162,6 +208,32 @@ TEST(Critical, VeeringIsNoMerger) {
     expectNoGaps(branches);
     EXPECT_TRUE(branches.events.empty());
   }
+}
+
+// Two modes are equal at f = 0, but for what stands for rounding: it makes them a split pair, or puts one of them or the other first.
+// Their frequencies part from there, and so number 1 is the one that falls, whatever rounding says.
+TEST(Track, EqualEigenvaluesAreNumberedByWhereTheyPart) {
+  const double square = 100, rounding = 1e-10;
+  for (const auto& [first, second, skew] : {std::tuple{rounding, -rounding, 0.0},
+                                            {-rounding, rounding, 0.0},
+                                            {0.0, 0.0, rounding},
+                                            {0.0, 0.0, -rounding},
+                                            {0.0, 0.0, 0.0}})
+    for (const bool falls : {false, true}) {
+      Linear family = crossingModes({square + first, square + second, 400}, {falls ? -10.0 : 20.0, falls ? 20.0 : -10.0, 0}, {});
+      family.base.stiffness[1] = skew;
+      family.base.stiffness[3] = -skew;
+      auto branches = follow(family, grid(1, 4), {});
+      renumber(branches);
+      EXPECT_EQ(branches.count, 3);
+      for (const auto& station : branches.stations)
+        for (std::size_t i = 0; i < 3; ++i) {
+          const double exact = std::vector{square - 10 * station.friction, square + 20 * station.friction,
+                                           400.0}[static_cast<std::size_t>(station.branch[i] - 1)];
+          EXPECT_NEAR(std::norm(station.pairs[i].s), exact, 10 * rounding)
+              << "friction " << station.friction << ", rounding " << first << " " << second << " " << skew;
+        }
+    }
 }
 
 /// Unstable eigenvalues at one friction.
@@ -226,6 +298,25 @@ TEST(Critical, RandomFamiliesAgainstAFineGrid) {
       for (const auto& critical : found) EXPECT_TRUE(critical.converged);
       expectCounts(family, found, top);
     }
+}
+
+// s² + 20 s + 36 − 40 f has the roots −10 ± √(64 + 40 f): −2 passes through zero at f = 0.9 and into the band, −18 stays out of it, and so do
+// the modes beside them of damping ratio 0.9. Not followed from the start, the first is found where it comes near zero.
+TEST(Track, StronglyDampedOnesAreLeftAloneUntilTheyMatter) {
+  Linear family = modal({100, 36, 49, 64}, {{1, 1, -40}}, {0.2, 20, 12.6, 14.4});
+  flutter::WatchedBand band;
+  band.top = 15;
+  const auto branches = follow(family, grid(1, 5), band);
+  const auto found = criticalFrictions(family, branches, 1e-9);
+  expectNoGaps(branches);
+  EXPECT_EQ(branches.stations.front().pairs.size(), 1u);  // −2 is farther from zero than 1.5
+  EXPECT_EQ(branches.stations.back().pairs.size(), 2u);
+  EXPECT_EQ(branches.count, 2);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].kind, Event::Kind::divergence);
+  EXPECT_TRUE(found[0].loss);
+  EXPECT_NEAR(found[0].friction, 0.9, 1e-10);
+  EXPECT_NEAR(found[0].slope, 2, 1e-5);  // ds/df = 20 / √(64 + 40 f), by a difference
 }
 
 // Eigenvalues enter and leave by the edge of the band alone.
