@@ -9,6 +9,9 @@
 namespace squeal::flutter {
 namespace {
 
+/// Eigenvalue of a Gram matrix, of its largest, from which on a direction counts as independent of the others: to within 1e-6.
+constexpr double independent = 1e-12;
+
 /// X · combinations (x.columns × count).
 Block combined(const Block& x, const DenseMatrix& combinations, PetscInt count) {
   Block result(x.rows, count);
@@ -68,13 +71,16 @@ void clearWhatVHolds(DenseMatrix& energy, const DenseMatrix& parts, PetscInt col
 }  // namespace
 
 Basis::Basis(const modes::Modes& modes, Mat stiffness, KSP solver)
-    : comm_(PetscObjectComm(reinterpret_cast<PetscObject>(stiffness))), stiffness_(stiffness), solver_(solver), columns_(0) {
+    : comm_(PetscObjectComm(reinterpret_cast<PetscObject>(stiffness))),
+      stiffness_(stiffness),
+      solver_(solver),
+      columns_(0),
+      forces_(0) {
   const ReadColumns shapes(modes.vectors);
   columns_ = Block(shapes.rows());
   columns_.reserve(3 * shapes.columns());  // untouched memory costs nothing, moving a grown basis does
   for (PetscInt j = 0; j < shapes.columns(); ++j)
     columns_.append(shapes.values() + j * shapes.rows(), 1 / modes.angularFrequency[static_cast<std::size_t>(j)]);
-  modes_ = columns_.columns;
   OwnedVec diagonal;
   check(MatCreateVecs(stiffness, diagonal.out(), nullptr));
   check(MatGetDiagonal(stiffness, diagonal));
@@ -101,8 +107,8 @@ OwnedBV Basis::vectors() const {
   return bv;
 }
 
-Block Basis::times(Mat matrix, PetscInt first, PetscInt last) const {
-  return product(matrix, columns_.column(first), last - first);
+void Basis::appendImages(Mat matrix, PetscInt first, PetscInt last, Block& result) const {
+  appendProduct(matrix, columns_.column(first), last - first, result);
 }
 
 /// K0⁻¹ of all columns at once.
@@ -120,30 +126,86 @@ Block Basis::solve(const Block& right) {
 }
 
 PetscInt Basis::add(const Block& residuals) {
+  forces_ = Block(localRows());
+  energies_.clear();
   if (residuals.columns == 0) return 0;
   Block z = solve(residuals);
-  DenseMatrix energy = transposedProduct(comm_, z, residuals);
+  const DenseMatrix energy = transposedProduct(comm_, z, residuals);
   ratio_ = ratio(residuals, energy);
-  const DenseMatrix parts = transposedProduct(comm_, columns_, residuals);
-  multiplyAdd(columns_.values.data(), columns_.rows, size(), parts, z.values, -1);
-  // zᵀ K0 z of what is now orthogonal to V. What depends on others or on V to within 1e-6 would only add noise.
-  constexpr double small = 1e-12;
-  subtractSquare(energy, parts, z.columns);
-  clearWhatVHolds(energy, parts, z.columns, small);
-  const DenseMatrix combinations = orthonormalising(energy, z.columns, small);
-  const auto added = static_cast<PetscInt>(combinations.size()) / z.columns;
-  if (added == 0) return 0;
-  const Block fresh = combined(z, combinations, added);
-  append(columns_, fresh);
-  const DenseMatrix sketch = sketch_->of(fresh.values.data(), added);
+  const DenseMatrix parts = transposedProduct(comm_, columns_, residuals);  // VᵀK0 z
+  const PetscInt before = size();
+  if (!addAcross(z, residuals, energy, parts)) addOrthogonalised(z, parts);
+  const PetscInt added = size() - before;
+  const DenseMatrix sketch = sketch_->of(columns_.column(before), added);
   sketched_.insert(sketched_.end(), sketch.begin(), sketch.end());
   return added;
 }
 
+/// Adds z = K0⁻¹ R where that is all but orthogonal to V: K0 z, VᵀK0z and zᵀK0z are then R, VᵀR and zᵀR. False: it is not, or
+/// K0⁻¹ is not good enough for that.
+bool Basis::addAcross(const Block& z, const Block& residuals, const DenseMatrix& energy, const DenseMatrix& parts) {
+  constexpr double little = 1e-6;
+  const DenseMatrix combinations = orthonormalising(energy, z.columns, independent);
+  const auto old = static_cast<std::size_t>(size()), added = combinations.size() / static_cast<std::size_t>(z.columns);
+  DenseMatrix along(old * added);
+  if (added > 0) multiplyAdd(parts.data(), size(), z.columns, combinations, along);
+  for (std::size_t j = 0; j < added; ++j) {
+    const auto begin = along.begin() + static_cast<std::ptrdiff_t>(j * old), end = begin + static_cast<std::ptrdiff_t>(old);
+    if (!(std::inner_product(begin, end, begin, 0.0) < little)) return false;
+  }
+  if (added == 0 || solutionError(z, residuals) > 1e-12) return false;
+  const Block fresh = combined(z, combinations, static_cast<PetscInt>(added));
+  forces_ = combined(residuals, combinations, fresh.columns);
+  const DenseMatrix own = transposedProduct(comm_, fresh, forces_);
+  for (std::size_t j = 0; j < added; ++j) {
+    energies_.insert(energies_.end(), along.begin() + static_cast<std::ptrdiff_t>(j * old),
+                     along.begin() + static_cast<std::ptrdiff_t>((j + 1) * old));
+    energies_.insert(energies_.end(), own.begin() + static_cast<std::ptrdiff_t>(j * added),
+                     own.begin() + static_cast<std::ptrdiff_t>((j + 1) * added));
+  }
+  append(columns_, fresh);
+  return true;
+}
+
+/// Adds what z has orthogonal to V, `parts` being VᵀK0z: twice, since V is orthonormal to some digits alone.
+void Basis::addOrthogonalised(Block& z, const DenseMatrix& parts) {
+  multiplyAdd(columns_.values.data(), columns_.rows, size(), parts, z.values, -1);
+  Block images(z.rows);
+  appendProduct(stiffness_, z.values.data(), z.columns, images);
+  const DenseMatrix rest = transposedProduct(comm_, columns_, images);
+  DenseMatrix energy = transposedProduct(comm_, z, images);
+  multiplyAdd(columns_.values.data(), columns_.rows, size(), rest, z.values, -1);
+  subtractSquare(energy, rest, z.columns);
+  // What depends on others or on V would only add noise.
+  clearWhatVHolds(energy, parts, z.columns, independent);
+  const DenseMatrix combinations = orthonormalising(energy, z.columns, independent);
+  const auto added = static_cast<PetscInt>(combinations.size()) / z.columns;
+  if (added > 0) append(columns_, combined(z, combinations, added));
+}
+
+/// ‖K0 z w − R w‖ / ‖R w‖ for a vector w of signs, in the norm of diag(K0)⁻¹.
+double Basis::solutionError(const Block& z, const Block& residuals) const {
+  DenseMatrix signs;
+  for (PetscInt j = 0; j < z.columns; ++j) signs.push_back(j % 3 == 1 ? -1 : 1);
+  Block image(z.rows);
+  const Block solution = combined(z, signs, 1), wanted = combined(residuals, signs, 1);
+  appendProduct(stiffness_, solution.values.data(), 1, image);
+  double squares[2] = {0, 0};
+  for (PetscInt i = 0; i < z.rows; ++i) {
+    const double error = image.column(0)[i] - wanted.column(0)[i], weight = inverseDiagonal_[static_cast<std::size_t>(i)];
+    squares[0] += weight * error * error;
+    squares[1] += weight * wanted.column(0)[i] * wanted.column(0)[i];
+  }
+  check(MPI_Allreduce(MPI_IN_PLACE, squares, 2, MPI_DOUBLE, MPI_SUM, comm_));
+  check(MPI_Bcast(squares, 2, MPI_DOUBLE, 0, comm_));
+  return std::sqrt(squares[0] / squares[1]);
+}
+
 void Basis::combine(const DenseMatrix& combinations, PetscInt count) {
   columns_ = combined(columns_, combinations, count);
+  forces_ = Block(0);
   sketched_ = sketch_->of(columns_.values.data(), count);
-  modes_ = 0;
+  energies_.clear();
 }
 
 /// The largest ratio of the energy norm to that of the diagonal among all combinations of the columns; `energy`: RᵀK0⁻¹R.

@@ -1,8 +1,8 @@
 #pragma once
-/// A growing basis of the reduced problem, orthonormal in the energy of the stiffness K0: VᵀK0V = I.
+/// A growing basis of the reduced problem, orthonormal in the energy of the stiffness K0 to a part in a thousand: VᵀK0V ≈ I.
 ///
-/// Free modes enter as φ/ω, corrections as K0⁻¹ r. The residuals r of a Galerkin solution on V have Vᵀr = 0, so that their
-/// corrections come out orthogonal to V, and the energy of the corrections is zᵀr: neither needs a product with K0.
+/// Free modes enter as φ/ω, corrections as z = K0⁻¹ r. The residuals r of a Galerkin solution on V have Vᵀr = 0, so that their
+/// corrections come out orthogonal to V. VᵀK0z = Vᵀr, zᵀK0z = zᵀr and K0z = r, as closely as K0⁻¹ is known, take no product with K0.
 #include <optional>
 #include <vector>
 
@@ -22,7 +22,6 @@ class Basis {
   PetscInt localRows() const { return columns_.rows; }
   MPI_Comm comm() const { return comm_; }
   Mat stiffness() const { return stiffness_; }  ///< K0
-  PetscInt modes() const { return modes_; }     ///< the first columns are free modes; none after combine()
   /// Collective. A copy of V.
   OwnedBV vectors() const;
 
@@ -32,8 +31,11 @@ class Basis {
   /// V ← V · combinations (size() × count), which has orthonormal columns.
   void combine(const DenseMatrix& combinations, PetscInt count);
 
-  /// Collective. A times columns [first, last) of V.
-  Block times(Mat matrix, PetscInt first, PetscInt last) const;
+  /// Collective. Adds A times columns [first, last) of V to the columns of `result`.
+  void appendImages(Mat matrix, PetscInt first, PetscInt last, Block& result) const;
+  /// K0 times the columns last added, and VᵀK0 times them (size() × columns), where they are known without products: no columns otherwise.
+  const Block& forces() const { return forces_; }
+  const DenseMatrix& energies() const { return energies_; }
   /// Collective. V q of several q; entries that one lacks are zero.
   std::vector<ComplexVector> expand(const std::vector<const std::vector<std::complex<double>>*>& list) const;
   /// Of columns of length n; the weighted norm is √(rᵀ diag(K0)⁻¹ r).
@@ -52,12 +54,16 @@ class Basis {
  private:
   Block solve(const Block& right);
   double ratio(const Block& residuals, const DenseMatrix& energy) const;
+  bool addAcross(const Block& z, const Block& residuals, const DenseMatrix& energy, const DenseMatrix& parts);
+  void addOrthogonalised(Block& z, const DenseMatrix& parts);
+  double solutionError(const Block& z, const Block& residuals) const;
 
   MPI_Comm comm_;
   Mat stiffness_;
   KSP solver_;
-  PetscInt modes_ = 0;
   Block columns_;
+  Block forces_;
+  DenseMatrix energies_;
   std::vector<double> inverseDiagonal_;
   std::optional<Sketch> sketch_;
   DenseMatrix sketched_;

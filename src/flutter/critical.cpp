@@ -139,11 +139,13 @@ class Root {
     return (1 - t) * mean(below->pairs()) + t * mean(above->pairs());
   }
 
-  /// NaN: there is no such problem, or the eigenvalues are not found in it.
+  /// NaN: there is no such problem, or the eigenvalues are not found in it. Zero without a sample: there they meet.
   double valueAt(Family& family, double friction) {
     const auto problem = family.near(friction);
     auto found = problem ? continuedIn(*problem, nearest(friction).spectrum, expected(friction), event_.isolation) : std::nullopt;
-    if (!found) return NAN;
+    // Two that have all but met cannot be told from each other.
+    const bool met = event_.kind == Event::Kind::coalescence && std::abs(friction - nearest(friction).friction) <= 1e-9 * width();
+    if (!found) return problem && met ? 0 : NAN;
     known_.push_back({friction, measure(*found), std::move(*found)});
     return known_.back().value;
   }
@@ -162,11 +164,20 @@ class Root {
       Spectrum spectrum(*problem, low ? event_.below : event_.above);
       known_.push_back({friction, measure(spectrum), std::move(spectrum)});
     }
-    return searched(family, roughly());
+    return searched(family, known_[0].value, known_[1].value, roughly());
   }
 
-  double searched(Family& family, double tolerance) {
-    Search search(event_.low, known_[0].value, event_.high, known_[1].value, tolerance);
+  /// Of the basis in force, whose root may have left the bracket; ends where it is not known, such as those where equal eigenvalues part,
+  /// keep their values.
+  double searchedAnew(Family& family) {
+    double low = valueAt(family, event_.low), high = valueAt(family, event_.high);
+    if (std::isnan(low)) low = known_[0].value;
+    if (std::isnan(high)) high = known_[1].value;
+    return (low > 0) == (high > 0) ? NAN : searched(family, low, high, rootTolerance());
+  }
+
+  double searched(Family& family, double low, double high, double tolerance) {
+    Search search(event_.low, low, event_.high, high, tolerance);
     while (!search.done()) {
       const double value = valueAt(family, search.next());
       if (std::isnan(value)) return NAN;
@@ -189,7 +200,7 @@ class Root {
     for (int step = 1; std::isfinite(value) && std::isfinite(slope_); ++step) {
       const double change = -value / slope_, next = at + change;
       const bool inside = next >= event_.low && next <= event_.high, closer = step <= 2 || std::abs(change) < 0.1 * last;
-      if (!inside || !closer) return searched(family, rootTolerance());
+      if (!inside || !closer) return searchedAnew(family);
       last = std::abs(change);
       // A step is wrong by some 1e-4 of itself.
       if (step > 1 && last <= 1e3 * rootTolerance()) return next;

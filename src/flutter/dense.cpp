@@ -12,6 +12,9 @@
 #include "flutter/images.hpp"
 #include "petsc/check.hpp"
 
+extern "C" void dgebal_(const char* job, const PetscBLASInt* n, double* a, const PetscBLASInt* lda, PetscBLASInt* low,
+                        PetscBLASInt* high, double* scale, PetscBLASInt* info);
+
 namespace squeal::flutter {
 namespace {
 
@@ -83,8 +86,9 @@ std::vector<EigenPair> generalized(DenseMatrix a, DenseMatrix b, int size, Vecto
 /// make the most of their work.
 std::vector<EigenPair> standard(DenseMatrix a, int size, Vectors sides, const Wanted& wanted) {
   const auto n = static_cast<std::size_t>(size);
-  PetscBLASInt order = size, query = -1, info = 0, sorted = 0;
-  std::vector<double> real(n), imaginary(n), schur(n * n), work(1);
+  PetscBLASInt order = size, query = -1, info = 0, sorted = 0, low = 0, high = 0;
+  std::vector<double> real(n), imaginary(n), schur(n * n), scale(n), work(1);
+  dgebal_("S", &order, a.data(), &order, &low, &high, scale.data(), &info);  // D⁻¹ A D: matrices of mixed units
   const auto call = [&](PetscBLASInt length) {
     LAPACKgees_("V", "N", nullptr, &order, a.data(), &order, &sorted, real.data(), imaginary.data(), schur.data(), &order,
                 work.data(), &length, nullptr, &info);
@@ -113,13 +117,14 @@ std::vector<EigenPair> standard(DenseMatrix a, int size, Vectors sides, const Wa
   LAPACKtrevc_(sides == Vectors::both ? "B" : "R", "S", chosen.data(), &order, a.data(), &order, left.data(), &order, right.data(),
                &order, &columns, &found, work.data(), &info);
   if (info != 0) throw Error("LAPACK dtrevc failed on the reduced eigenproblem (info " + std::to_string(info) + ")");
-  const auto turned = [&](const std::vector<double>& vectors) {
+  const auto turned = [&](const std::vector<double>& vectors, bool inverse) {
     std::vector<double> result(n * count);
     multiplyAdd(schur.data(), size, size, vectors, result);
+    for (std::size_t k = 0; k < result.size(); ++k) result[k] *= inverse ? 1 / scale[k % n] : scale[k % n];
     return result;
   };
-  return unpacked(n, realParts, imaginaryParts, std::vector<double>(count, 1.0), turned(right),
-                  sides == Vectors::both ? turned(left) : std::vector<double>(), wanted);
+  return unpacked(n, realParts, imaginaryParts, std::vector<double>(count, 1.0), turned(right, false),
+                  sides == Vectors::both ? turned(left, true) : std::vector<double>(), wanted);
 }
 
 DenseMatrix sideBySide(const DenseMatrix& left, const DenseMatrix& right) {

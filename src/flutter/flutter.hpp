@@ -42,7 +42,6 @@ struct FrictionPoint {
   double bandTop = 0;                      ///< rad/s: eigenvalues with |s| up to here are listed, and corrected; 0: none are
   double accuracy = 0;                     ///< backward error asked for
   double tolerance = 0;                    ///< estimate of |δs|/|s| asked for
-  std::size_t solvedIndex = 0;             ///< of ReducedProblem::pairs
   double askedTo = 0;                      ///< rad/s: upper end of `-flutter_direct_band`; 0: no such band
   double coveredTo = 0;  ///< rad/s: all eigenvalues of `-flutter_direct_band` with |s| below are listed; 0: no such band
   int unstableCount() const;

@@ -36,7 +36,10 @@ DenseMatrix transposedProduct(MPI_Comm comm, const double* x, PetscInt rowCount,
   PetscBLASInt rows = rowCount, left = m, right = n;
   const PetscScalar one = 1, zero = 0;
   if (rows > 0 && m > 0 && n > 0) BLASgemm_("T", "N", &left, &right, &rows, &one, x, &rows, y, &rows, &zero, product.data(), &left);
-  check(MPI_Allreduce(MPI_IN_PLACE, product.data(), static_cast<int>(product.size()), MPI_DOUBLE, MPI_SUM, comm));
+  const auto count = static_cast<int>(product.size());
+  check(MPI_Allreduce(MPI_IN_PLACE, product.data(), count, MPI_DOUBLE, MPI_SUM, comm));
+  // The rounding of sums over the ranks may depend on the rank; what follows from them must not.
+  check(MPI_Bcast(product.data(), count, MPI_DOUBLE, 0, comm));
   return product;
 }
 
@@ -58,8 +61,12 @@ Block principal(MPI_Comm comm, const Block& columns, double small) {
   return kept;
 }
 
-/// The columns that have a length, of unit length.
-Block unitColumns(const Block& columns, const std::vector<double>& squares) {
+Block unitColumns(MPI_Comm comm, const Block& columns) {
+  std::vector<double> squares;
+  for (PetscInt j = 0; j < columns.columns; ++j)
+    squares.push_back(std::inner_product(columns.column(j), columns.column(j) + columns.rows, columns.column(j), 0.0));
+  check(MPI_Allreduce(MPI_IN_PLACE, squares.data(), static_cast<int>(squares.size()), MPI_DOUBLE, MPI_SUM, comm));
+  check(MPI_Bcast(squares.data(), static_cast<int>(squares.size()), MPI_DOUBLE, 0, comm));
   Block units(columns.rows);
   for (PetscInt j = 0; j < columns.columns; ++j)
     if (const double square = squares[static_cast<std::size_t>(j)]; square > 0)
@@ -78,15 +85,18 @@ OwnedMat dense(MPI_Comm comm, PetscInt localRows, PetscInt rows, PetscInt column
 
 }  // namespace
 
-Block product(Mat matrix, const double* columns, PetscInt count) {
+void appendProduct(Mat matrix, const double* columns, PetscInt count, Block& result) {
   PetscInt localRows = 0, localColumns = 0, rows = 0, length = 0;
   check(MatGetLocalSize(matrix, &localRows, &localColumns));
   check(MatGetSize(matrix, &rows, &length));
-  Block result(localRows, count);
-  if (count == 0) return result;
+  if (count == 0) return;
+  result.values.resize(result.values.size() + static_cast<std::size_t>(localRows) * static_cast<std::size_t>(count));
+  const PetscInt first = result.columns;
+  result.columns += count;
+  if (rows == 0) return;
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(matrix));
   const OwnedMat from = dense(comm, localColumns, length, count, columns),
-                 to = dense(comm, localRows, rows, count, result.values.data());
+                 to = dense(comm, localRows, rows, count, result.column(first));
   PetscBool assembled = PETSC_FALSE;
   check(MatHasOperation(matrix, MATOP_GET_ROW, &assembled));
   if (assembled) {
@@ -95,7 +105,7 @@ Block product(Mat matrix, const double* columns, PetscInt count) {
     check(MatProductSetFromOptions(to));
     check(MatProductSymbolic(to));
     check(MatProductNumeric(to));
-    return result;
+    return;
   }
   for (PetscInt j = 0; j < count; ++j) {
     Vec column = nullptr, image = nullptr;
@@ -105,7 +115,6 @@ Block product(Mat matrix, const double* columns, PetscInt count) {
     check(MatDenseRestoreColumnVecWrite(to, j, &image));
     check(MatDenseRestoreColumnVecRead(from, j, &column));
   }
-  return result;
 }
 
 RowSet::RowSet(Mat matrix) {
@@ -129,12 +138,19 @@ RowSet::RowSet(Mat matrix) {
 }
 
 std::vector<double> RowSet::of(const double* columns, PetscInt count) const {
-  if (all_) return {columns, columns + count * localRows_};
+  if (all_) return {columns, columns + static_cast<std::ptrdiff_t>(count) * localRows_};
   std::vector<double> values;
   values.reserve(rows_.size() * static_cast<std::size_t>(count));
   for (PetscInt j = 0; j < count; ++j)
-    for (PetscInt row : rows_) values.push_back(columns[j * localRows_ + row]);
+    for (PetscInt row : rows_) values.push_back(columns[static_cast<std::ptrdiff_t>(j) * localRows_ + row]);
   return values;
+}
+
+Block RowSet::of(const Block& columns, PetscInt first, PetscInt last) const {
+  Block some(size());
+  some.values = of(columns.column(first), last - first);
+  some.columns = last - first;
+  return some;
 }
 
 OwnedMat RowSet::of(Mat matrix) const {
@@ -163,11 +179,12 @@ DenseMatrix transposedProduct(MPI_Comm comm, const RowSet& rows, const double* x
 void multiplyAdd(const RowSet& rows, const Block& x, const std::vector<double>& coefficients, std::vector<double>& y) {
   if (rows.all()) return multiplyAdd(x.values.data(), x.rows, x.columns, coefficients, y);
   const auto count = static_cast<PetscInt>(coefficients.size()) / x.columns;
-  std::vector<double> part(static_cast<std::size_t>(x.rows * count), 0.0);
-  multiplyAdd(x.values.data(), x.rows, x.columns, coefficients, part);
-  for (PetscInt j = 0; j < count; ++j)
-    for (PetscInt i = 0; i < x.rows; ++i)
-      y[static_cast<std::size_t>(j * rows.localRows() + rows[i])] += part[static_cast<std::size_t>(j * x.rows + i)];
+  Block part(x.rows, count);
+  multiplyAdd(x.values.data(), x.rows, x.columns, coefficients, part.values);
+  for (PetscInt j = 0; j < count; ++j) {
+    double* column = y.data() + static_cast<std::ptrdiff_t>(j) * rows.localRows();
+    for (PetscInt i = 0; i < x.rows; ++i) column[rows[i]] += part.column(j)[i];
+  }
 }
 
 }  // namespace squeal::flutter

@@ -14,13 +14,14 @@ struct Block {
   std::vector<double> values;  ///< column-major
 
   explicit Block(PetscInt rowCount, PetscInt columnCount = 0)
-      : rows(rowCount), columns(columnCount), values(static_cast<std::size_t>(rowCount * columnCount)) {}
-  const double* column(PetscInt j) const { return values.data() + j * rows; }
-  double* column(PetscInt j) { return values.data() + j * rows; }
-  void reserve(PetscInt columnCount) { values.reserve(static_cast<std::size_t>(rows * columnCount)); }
+      : rows(rowCount), columns(columnCount), values(static_cast<std::size_t>(rowCount) * static_cast<std::size_t>(columnCount)) {}
+  const double* column(PetscInt j) const { return values.data() + static_cast<std::ptrdiff_t>(j) * rows; }
+  double* column(PetscInt j) { return values.data() + static_cast<std::ptrdiff_t>(j) * rows; }
+  void reserve(PetscInt columnCount) { values.reserve(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columnCount)); }
   void append(const double* column, double factor = 1) {
-    for (PetscInt i = 0; i < rows; ++i) values.push_back(factor * column[i]);
-    ++columns;
+    values.resize(values.size() + static_cast<std::size_t>(rows));
+    double* to = this->column(columns++);
+    for (PetscInt i = 0; i < rows; ++i) to[i] = factor * column[i];
   }
 };
 
@@ -44,8 +45,8 @@ class ReadColumns {
   const PetscScalar* values_ = nullptr;
 };
 
-/// Collective. A times columns of length n, given by this rank's rows.
-Block product(Mat matrix, const double* columns, PetscInt count);
+/// Collective. Adds A times columns of length n, given by this rank's rows, to the columns of `result`.
+void appendProduct(Mat matrix, const double* columns, PetscInt count, Block& result);
 
 /// result (rows × k) += factor · X (rows × columns) · coefficients (columns × k), local, all column-major.
 void multiplyAdd(const double* x, PetscInt rows, PetscInt columns, const std::vector<double>& coefficients,
@@ -57,8 +58,8 @@ DenseMatrix transposedProduct(MPI_Comm comm, const Block& x, const Block& y);
 
 /// Collective. Orthogonal combinations of columns that hold them but for parts of length `small`.
 Block principal(MPI_Comm comm, const Block& columns, double small);
-/// The columns that have a length, of unit length; `squares`: of their lengths.
-Block unitColumns(const Block& columns, const std::vector<double>& squares);
+/// Collective. The columns that have a length, of unit length.
+Block unitColumns(MPI_Comm comm, const Block& columns);
 
 /// The rows of a matrix on this rank that hold anything but zeros: a friction operator has some at the contact nodes alone.
 class RowSet {
@@ -72,6 +73,7 @@ class RowSet {
   PetscInt operator[](PetscInt i) const { return all_ ? i : rows_[static_cast<std::size_t>(i)]; }
   /// These rows of columns given by all local rows, column-major.
   std::vector<double> of(const double* columns, PetscInt count) const;
+  Block of(const Block& columns, PetscInt first, PetscInt last) const;
   /// Collective. These rows of the matrix, all columns; the matrix itself where there are no others.
   OwnedMat of(Mat matrix) const;
 

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "flutter/basis.hpp"
 #include "flutter/images.hpp"
 
 namespace squeal::flutter {
@@ -120,7 +119,7 @@ class Search {
       for (std::size_t k = 0; k < open.size(); ++k) {
         auto& left = found[open[k]];
         left.y = expand(coordinates[k]);
-        ComplexVector residual = leftResidual(pencil_, at_, values[k], left.y);
+        ComplexVector residual = flutter::residual(pencil_, at_, values[k], left.y, Side::left);
         left.backwardError = length(residual) / (scale(values[k]) * length(left.y));
         if (left.backwardError > wanted) bad.push_back(open[k]), residuals.push_back(std::move(residual));
       }
@@ -276,17 +275,6 @@ class Search {
 };
 
 }  // namespace
-
-ComplexVector leftResidual(const Pencil& pencil, const Parameters& at, Complex s, const ComplexVector& y) {
-  ComplexVector sum = ComplexVector::like(y.real), part = ComplexVector::like(y.real);
-  for (int power = 0; power <= 2; ++power) {
-    if (!pencil.hasPower(power)) continue;
-    pencil.applyTranspose(power, at, y.real, part.real);
-    pencil.applyTranspose(power, at, y.imaginary, part.imaginary);
-    add(sum, std::pow(std::conj(s), power), part);
-  }
-  return sum;
-}
 
 std::vector<LeftVector> leftVectors(const Pencil& pencil, const Parameters& at, const StartSpace& start, KSP solver,
                                     const std::vector<RightPair>& pairs) {

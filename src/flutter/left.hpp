@@ -23,12 +23,9 @@ struct LeftVector {
 /// Where the search begins.
 struct StartSpace {
   OwnedBV columns;         ///< V: the free modes, or the basis of the reduced problem
-  Mat inner = nullptr;     ///< the matrix in which V is orthonormal: M0 or K0; borrowed
+  Mat inner = nullptr;     ///< the matrix in which V is (all but) orthonormal: M0 or K0; borrowed
   DenseProblem projected;  ///< Vᵀ P V at the point, if at hand: it saves products of the size of V; otherwise m = 0
 };
-
-/// Collective. P(s)ᴴ y.
-ComplexVector leftResidual(const Pencil& pencil, const Parameters& at, std::complex<double> s, const ComplexVector& y);
 
 /// Collective. Rayleigh–Ritz on V, the right vectors, and K0⁻¹ (Re l, Im l) of the left residuals l = P(s)ᴴ y of all pairs, solved for
 /// together by `solver` (of K0): about a decade a round, until the backward error is below 1e-10 or corrections bring nothing new.

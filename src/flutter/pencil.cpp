@@ -116,6 +116,19 @@ double Pencil::norm(int power, const Parameters& at) const {
   return estimate;
 }
 
+ComplexVector residual(const Pencil& pencil, const Parameters& at, std::complex<double> s, const ComplexVector& d, Side side) {
+  ComplexVector sum = ComplexVector::like(d.real), part = ComplexVector::like(d.real);
+  for (int power = 0; power <= 2; ++power) {
+    if (!pencil.hasPower(power)) continue;
+    for (const bool imaginary : {false, true}) {
+      const Vec from = imaginary ? d.imaginary : d.real, to = imaginary ? part.imaginary : part.real;
+      side == Side::left ? pencil.applyTranspose(power, at, from, to) : pencil.apply(power, at, from, to);
+    }
+    add(sum, std::pow(side == Side::left ? std::conj(s) : s, power), part);
+  }
+  return sum;
+}
+
 double backwardError(const Pencil& pencil, const Parameters& at, std::complex<double> s, Vec real, Vec imaginary) {
   OwnedVec residual[2], product;
   check(VecDuplicate(real, product.out()));

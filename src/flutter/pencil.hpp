@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "flutter/complexvector.hpp"
 #include "parameters.hpp"
 #include "petsc/owned.hpp"
 
@@ -57,6 +58,12 @@ class Pencil {
   std::size_t affineCount_;
   std::shared_ptr<std::array<OwnedVec, 3>> singular_;  // [power] where the next power iteration begins, shared by `with`
 };
+
+/// Which vectors of eigenpairs: right ones with P(s) d = 0, or left ones with P(s)ᴴ d = 0.
+enum class Side { right, left };
+
+/// Collective. P(s) d, or P(s)ᴴ d of the left side.
+ComplexVector residual(const Pencil& pencil, const Parameters& at, std::complex<double> s, const ComplexVector& d, Side side);
 
 /// Collective. ‖P(s) d‖ / ((|s|² ‖M̄‖ + |s| ‖Z̄‖ + ‖K̄‖) ‖d‖) for d = real + i imaginary (imaginary may be null).
 double backwardError(const Pencil& pencil, const Parameters& at, std::complex<double> s, Vec real, Vec imaginary);

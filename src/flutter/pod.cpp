@@ -50,6 +50,7 @@ void ReducedProblem::compress() {
           vectors.push_back(imaginary ? entry.imag() : entry.real());
         }
       }
+  if (vectors.empty()) return;
   const DenseMatrix directions = principalDirections(vectors, static_cast<int>(old), left);
   const auto count = static_cast<PetscInt>(directions.size() / m);
   basis_.combine(directions, count);

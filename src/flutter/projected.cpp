@@ -72,12 +72,13 @@ ProjectedTerms::Part ProjectedTerms::begun(Term term) const {
   OwnedMat matrix = rows.of(term.matrix);
   Block image(rows.size());
   image.reserve(3 * basis_.size());
-  if (isSymmetric(term.matrix)) return {std::move(term), rows, rows, std::move(matrix), {}, std::move(image), {}, {}, {}};
+  if (isSymmetric(term.matrix))
+    return {std::move(term), rows, rows, std::move(matrix), {}, std::move(image), Block(rows.size()), {}, {}, {}};
   OwnedMat transposed;
   check(MatTranspose(term.matrix, MAT_INITIAL_MATRIX, transposed.out()));
   const RowSet leftRows(transposed);
   OwnedMat adjoint = leftRows.of(transposed);
-  return {std::move(term), rows, leftRows, std::move(matrix), std::move(adjoint), std::move(image), {}, {}, {}};
+  return {std::move(term), rows, leftRows, std::move(matrix), std::move(adjoint), std::move(image), Block(rows.size()), {}, {}, {}};
 }
 
 void ProjectedTerms::extend() {
@@ -87,38 +88,43 @@ void ProjectedTerms::extend() {
 void ProjectedTerms::extend(Part& part) const {
   const PetscInt old = part.image.columns, size = basis_.size();
   if (old == size) return;
-  const auto sketch = [&](const Block& columns, const RowSet& rows, DenseMatrix& sketches) {
-    const auto fresh = basis_.sketch().of(rows, columns.values.data(), columns.columns);
+  const auto sketch = [&](const double* columns, const RowSet& rows, DenseMatrix& sketches) {
+    const auto fresh = basis_.sketch().of(rows, columns, size - old);
     sketches.insert(sketches.end(), fresh.begin(), fresh.end());
   };
-  {
-    const Block image = basis_.times(part.matrix, old, size);
-    sketch(image, part.rows, part.sketch);
-    flutter::append(part.image, image);
+  if (knownFrom(part, old))
+    append(part.image, basis_.forces());
+  else
+    basis_.appendImages(part.matrix, old, size, part.image);
+  sketch(part.image.column(old), part.rows, part.sketch);
+  if (part.adjoint) {
+    Block images(part.leftRows.size());
+    basis_.appendImages(part.adjoint, old, size, images);
+    sketch(images.values.data(), part.leftRows, part.leftSketch);
   }
-  if (part.adjoint) sketch(basis_.times(part.adjoint, old, size), part.leftRows, part.leftSketch);
   project(part, old);
+}
+
+/// The basis knows K0 times the columns from `old` on.
+bool ProjectedTerms::knownFrom(const Part& part, PetscInt old) const {
+  return part.term.matrix == basis_.stiffness() && basis_.forces().columns == basis_.size() - old;
 }
 
 /// VᵀAV with the columns of V from `old` on.
 void ProjectedTerms::project(Part& part, PetscInt old) const {
-  const PetscInt size = basis_.size(), added = size - old;
+  const PetscInt size = basis_.size();
+  if (!part.rows.all()) append(part.rowsOfV, part.rows.of(basis_.columns(), old, size));
   const auto product = [&](PetscInt xBegin, PetscInt xEnd, PetscInt begin, PetscInt end) {  // X of V, transposed, times some of A V
-    return transposedProduct(basis_.comm(), part.rows, basis_.columns().column(xBegin), xEnd - xBegin, part.image.column(begin),
-                             end - begin);
+    const double* x = (part.rows.all() ? basis_.columns() : part.rowsOfV).column(xBegin);
+    return transposedProduct(basis_.comm(), x, part.rows.size(), xEnd - xBegin, part.image.column(begin), end - begin);
   };
   DenseMatrix right, below;
-  if (part.term.matrix == basis_.stiffness() && basis_.modes() > 0 && old >= basis_.modes()) {
-    // What is added is orthonormal in the energy of K0, as closely as K0⁻¹ is known: that of products with K0.
-    right.resize(static_cast<std::size_t>(size * added), 0.0);
-    for (PetscInt j = 0; j < added; ++j) right[static_cast<std::size_t>(j * size + old + j)] = 1;
+  if (knownFrom(part, old)) {
+    right = basis_.energies();
   } else {
     right = product(0, size, old, size);
     if (part.adjoint) below = product(old, size, 0, old);
   }
-  // Sums over the ranks, whose rounding may depend on the rank; what follows from them must not.
-  for (auto* block : {&right, &below})
-    check(MPI_Bcast(block->data(), static_cast<int>(block->size()), MPI_DOUBLE, 0, basis_.comm()));
   append(part.projection, old, size, right, below);
 }
 
@@ -128,6 +134,11 @@ void ProjectedTerms::combine(const DenseMatrix& combinations) {
     Block image(part.image.rows, static_cast<PetscInt>(size));
     multiplyAdd(part.image.values.data(), image.rows, part.image.columns, combinations, image.values);
     part.image = std::move(image);
+    if (!part.rows.all()) {
+      Block rowsOfV(part.rowsOfV.rows, static_cast<PetscInt>(size));
+      multiplyAdd(part.rowsOfV.values.data(), rowsOfV.rows, part.rowsOfV.columns, combinations, rowsOfV.values);
+      part.rowsOfV = std::move(rowsOfV);
+    }
     part.sketch = product(part.sketch, old, combinations);
     if (part.adjoint) part.leftSketch = product(part.leftSketch, old, combinations);
     DenseMatrix transposed(size * old);

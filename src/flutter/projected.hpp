@@ -11,9 +11,6 @@
 
 namespace squeal::flutter {
 
-/// Which vectors of eigenpairs: V q with P(s) d = 0, or the left ones V y with P(s)ᴴ d = 0.
-enum class Side { right, left };
-
 /// Vectors of some eigenpairs on a basis. A pair that has real vectors and a real s², in a problem without damping, takes one column,
 /// others two.
 struct Coordinates {
@@ -54,12 +51,14 @@ class ProjectedTerms {
     RowSet rows, leftRows;     // of A and Aᵀ
     OwnedMat matrix, adjoint;  // these rows; no adjoint where A is symmetric
     Block image;               // A V, by `rows`
+    Block rowsOfV;             // these rows of V; none if they are all
     DenseMatrix sketch;        // of A V
     DenseMatrix leftSketch;    // of AᵀV; empty where A is symmetric
     DenseMatrix projection;    // VᵀAV, column-major
   };
   Part begun(Term term) const;
   void extend(Part& part) const;
+  bool knownFrom(const Part& part, PetscInt old) const;
   void project(Part& part, PetscInt old) const;
   const Basis& basis_;
   std::vector<Part> parts_;

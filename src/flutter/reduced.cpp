@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "flutter/condition.hpp"
-#include "flutter/left.hpp"
 #include "flutter/select.hpp"
 #include "petsc/options.hpp"
 
@@ -36,9 +36,6 @@ double bandOfModes(const std::vector<double>& w) {
 
 bool correctionsWanted() { return basisOption.get() != "modal"; }
 
-/// What a direction of the residuals leaves unresolved of them, as a part of their size: a round gains a decade, and what it need not
-/// resolve it need not solve for.
-constexpr double resolution = 0.03;
 /// Backward errors below have nothing to correct.
 constexpr double rounding = 1e-14;
 
@@ -94,58 +91,20 @@ ReducedProblem::ReducedProblem(const Pencil& pencil, Mat stiffness, KSP solver, 
   bandTop_ = bandOption.get() > 0 ? 2 * M_PI * bandOption.get() : bandOfModes(modes.angularFrequency);
 }
 
-/// K0⁻¹ k φ_i and K0⁻¹ kᵀφ_i for the free modes of the band at their own frequencies, where k are the forces of friction and of all else
-/// that belongs to this point: the change of the right and left vectors with them, to first order in them and to lowest order in the
-/// frequency.
-void ReducedProblem::addStaticResponses(const PointProblem& point) {
-  const auto count = static_cast<PetscInt>(std::upper_bound(modes_.begin(), modes_.end(), bandTop_) - modes_.begin());
-  const auto& terms = point.pencil.terms();
-  Block forces(basis_.localRows());
-  for (const bool transposed : {false, true})
-    for (const bool imaginary : {false, true}) {  // (iω)^power
-      Block part(basis_.localRows(), count);
-      for (std::size_t t = 0; t < terms.size(); ++t) {
-        const Term& term = terms[t];
-        const bool perturbs = term.frictionExponent != 0 || t >= point.pencil.affineCount();
-        if (!perturbs || (term.power == 1) != imaginary) continue;
-        OwnedMat matrix = term.matrix.share();
-        if (transposed) check(MatTranspose(term.matrix, MAT_INITIAL_MATRIX, matrix.out()));
-        const Block images = basis_.times(matrix, 0, count);
-        for (PetscInt j = 0; j < count; ++j) {
-          const double omega = modes_[static_cast<std::size_t>(j)];
-          const double factor = term.coefficient(point.at) * (term.power == 0 ? 1 : term.power == 1 ? omega : -omega * omega);
-          for (PetscInt i = 0; i < part.rows; ++i) part.column(j)[i] += factor * images.column(j)[i];
-        }
-      }
-      append(forces, unitColumns(part, squaredNorms(basis_.sketch().of(part.values.data(), count)).euclidean));
-    }
-  basis_.add(principal(basis_.comm(), forces, resolution));
-  rightRatio_ = basis_.lastEnergyRatio();
-}
-
 /// Brings what depends on the basis up to it.
 void ReducedProblem::extend(const std::vector<Work*>& works) {
   terms_.extend();
   for (auto* work : works) work->ownTerms.extend();
 }
 
-/// The columns of the residual P(s) V q of one pair.
-Block ReducedProblem::rightResidual(const Work& work, const DensePair& pair) const {
-  const PointPairs alone{work.point->at, Coordinates({&pair}, work.damped)};
-  const auto columns = static_cast<std::size_t>(alone.pairs.columns);
-  Block result(basis_.localRows(), alone.pairs.columns);
-  const DenseMatrix identity = columns == 1 ? DenseMatrix{1} : DenseMatrix{1, 0, 0, 1};
-  for (const auto* terms : {&terms_, &work.ownTerms}) terms->addTo({&alone}, identity, result);
-  return result;
-}
-
-/// The columns of the residual P(s)ᴴ V y of one pair.
-Block ReducedProblem::leftResidual(const Work& work, const DensePair& pair) const {
+/// The columns of a residual, without images of the basis.
+Block ReducedProblem::residualColumns(const Work& work, const DensePair& pair, const ComplexVector& vector, Side side) const {
   const auto& [at, pencil] = *work.point;
-  const ComplexVector residual = flutter::leftResidual(pencil, at, pair.s, basis_.expand({&pair.left})[0]);
+  const ComplexVector residual = flutter::residual(pencil, at, pair.s, vector, side);
+  const bool real = Coordinates({&pair}, work.damped).isReal(0);
   Block result(basis_.localRows());
   for (const Vec part : {residual.real.get(), residual.imaginary.get()}) {
-    if (part == residual.imaginary.get() && Coordinates({&pair}, work.damped).isReal(0)) continue;
+    if (real && result.columns == 1) break;
     const PetscScalar* entries = nullptr;
     check(VecGetArrayRead(part, &entries));
     result.append(entries);
@@ -238,9 +197,10 @@ Block ReducedProblem::directions(const std::vector<Wish>& wishes) const {
     points.push_back(&wish.pairs);
   }
   if (factors.empty()) return Block(basis_.localRows());
-  // Fewer columns than residuals: those of several points are much alike. What is too small to tell here is cut off below.
-  const DenseMatrix combinations = leadingCombinations(sketches, factors, 0.2 * resolution);
+  // Fewer columns than residuals: those of several points are much alike.
+  const DenseMatrix combinations = leadingCombinations(sketches, factors, 0.8 * resolution);
   const std::size_t all = factors.size(), count = combinations.size() / all;
+  if (count == 0) return Block(basis_.localRows());
   Block columns(basis_.localRows(), static_cast<PetscInt>(count));
   terms_.addTo(points, combinations, columns);
   std::size_t first = 0;
@@ -267,22 +227,37 @@ void ReducedProblem::solveDense(const std::vector<Work*>& open) {
   }
 }
 
-/// Solves for the residuals of the pair with the largest estimate of all points. If that shows the estimates to be too small, those that are
-/// no longer good enough are left to do.
+/// By how much a residual made with the matrices exceeds that made with the images of the basis.
+double ReducedProblem::drift(const Work& work, const DensePair& pair, const Block& columns, Side side) const {
+  const PointPairs alone{work.point->at, Coordinates({&pair}, work.damped)};
+  const auto sum = [](const std::vector<double>& squares) { return std::accumulate(squares.begin(), squares.end(), 0.0); };
+  const double known = sum(squaredNorms(residualSketch(work, alone, side)).weighted),
+               exact = sum(squaredNorms(basis_.sketch().of(columns.values.data(), columns.columns)).weighted);
+  return std::max(1.0, std::sqrt(exact / known));
+}
+
+/// Solves for the residuals of the pair with the largest estimate of all points so far. If that shows the estimates to be too small, those
+/// that are no longer good enough are left to do.
 std::vector<ReducedProblem::Work*> ReducedProblem::unconfirmed(std::vector<Work>& works) {
   std::vector<Work*> open;
   Work* worst = nullptr;
   std::size_t pair = 0;
-  double largest = 1e-3 * toleranceOption.get();  // below: next to nothing, or rounding
+  double largest = std::max(confirmed_, 1e-3 * toleranceOption.get());  // below: next to nothing, or rounding
   for (auto& work : works)
     for (std::size_t j = 0; j < work.pairs.size(); ++j)
       if (const double error = errorOf(work, j); std::isfinite(error) && error > largest) worst = &work, pair = j, largest = error;
   if (!worst) return open;
+  confirmed_ = largest;
   worst->ownTerms.extend();  // the basis may have grown since
-  for (auto* vector : {&worst->pairs[pair].q, &worst->pairs[pair].left}) vector->resize(static_cast<std::size_t>(basis_.size()));
-  const auto ratios = basis_.energyRatios({rightResidual(*worst, worst->pairs[pair]), leftResidual(*worst, worst->pairs[pair])});
-  rightRatio_ = std::max(rightRatio_, ratios[0]);
-  leftRatio_ = std::max(leftRatio_, ratios[1]);
+  DensePair& known = worst->pairs[pair];
+  for (auto* vector : {&known.q, &known.left}) vector->resize(static_cast<std::size_t>(basis_.size()));
+  const auto vectors = basis_.expand({&known.q, &known.left});
+  const Block right = residualColumns(*worst, known, vectors[0], Side::right),
+              left = residualColumns(*worst, known, vectors[1], Side::left);
+  const auto ratios = basis_.energyRatios({right, left});
+  measuredRatio_ = std::max(measuredRatio_, ratios[0] * drift(*worst, known, right, Side::right));
+  rightRatio_ = std::max(rightRatio_, measuredRatio_);
+  leftRatio_ = std::max(leftRatio_, ratios[1] * drift(*worst, known, left, Side::left));
   for (auto& work : works)
     if (!good(work)) open.push_back(&work);
   return open;
@@ -339,7 +314,7 @@ std::vector<FrictionPoint> ReducedProblem::solve(const std::vector<PointProblem>
     std::vector<Wish> wishes;
     for (const auto* work : open) wishes.push_back(wishOf(*work));
     if (basis_.add(directions(wishes)) == 0) break;  // residuals are rounding
-    rightRatio_ = basis_.lastEnergyRatio();
+    rightRatio_ = std::max(measuredRatio_, basis_.lastEnergyRatio());
   }
   std::vector<FrictionPoint> points;
   for (auto& work : works) points.push_back(result(work, trial));
@@ -364,7 +339,6 @@ FrictionPoint ReducedProblem::result(Work& work, Mat trial) {
     for (std::size_t index : indices) list.push_back(&work.pairs[index].q);
     return basis_.expand(list);
   });
-  point.solvedIndex = solved_.size();
   solved_.push_back(std::move(work.pairs));
   return point;
 }
@@ -386,11 +360,13 @@ Improvement ReducedProblem::improve(const std::vector<std::pair<PointProblem, st
   for (const auto& [point, pairs] : located) {
     Work& work = works.emplace_back(begun(point, nearbyNorms(point)));
     work.pairs = pairs;
+    for (auto& pair : work.pairs)  // they may be of a smaller basis
+      for (auto* vector : {&pair.q, &pair.left}) vector->resize(static_cast<std::size_t>(basis_.size()));
     judge(work, project(work));
     result.backwardError.push_back(*std::max_element(work.backwardError.begin(), work.backwardError.end()));
     if (result.backwardError.back() < rounding) continue;
     // Both parts of a residual in units of the whole: one of them may be rounding.
-    wishes.push_back({&work, {point.at, Coordinates(pointers(pairs), true)}, std::vector<double>(pairs.size(), 1.0)});
+    wishes.push_back({&work, {point.at, Coordinates(pointers(work.pairs), true)}, std::vector<double>(pairs.size(), 1.0)});
   }
   result.changed = basis_.add(directions(wishes)) > 0;
   terms_.extend();

@@ -36,9 +36,6 @@ class ReducedProblem {
   WatchedBand band() const;  ///< top 0: no eigenvalue is corrected
   /// Collective. Adds corrections of the residuals of these pairs, of any points, all solved for together.
   Improvement improve(const std::vector<std::pair<PointProblem, std::vector<DensePair>>>& located);
-  double bandTop() const { return bandTop_; }  ///< rad/s; 0: no eigenvalue is corrected
-  /// Eigenvalues of a point solved, with right and left vectors in the coordinates of the basis as it is (shorter ones: zero beyond).
-  const std::vector<DensePair>& pairs(const FrictionPoint& point) const { return solved_[point.solvedIndex]; }
 
  private:
   struct Work;
@@ -49,14 +46,17 @@ class ReducedProblem {
     std::vector<double> weights;  // [pair]
   };
   using Norms = std::array<double, 3>;  // of K̄, Z̄, M̄
+  /// What a direction of the residuals leaves unresolved of them, as a part of their size: a round gains a decade, and what it need not
+  /// resolve it need not solve for.
+  static constexpr double resolution = 0.03;
   void addStaticResponses(const PointProblem& point);
   Norms normsOf(const PointProblem& point);
   Norms nearbyNorms(const PointProblem& point);
   Work begun(const PointProblem& point, const Norms& norms) const;
   DenseProblem project(const Work& work) const;
   void extend(const std::vector<Work*>& works);
-  Block rightResidual(const Work& work, const DensePair& pair) const;
-  Block leftResidual(const Work& work, const DensePair& pair) const;
+  Block residualColumns(const Work& work, const DensePair& pair, const ComplexVector& vector, Side side) const;
+  double drift(const Work& work, const DensePair& pair, const Block& columns, Side side) const;
   DenseMatrix residualSketch(const Work& work, const PointPairs& pairs, Side side) const;
   double errorOf(const Work& work, std::size_t pair) const;
   double excess(const Work& work, std::size_t pair) const;
@@ -72,7 +72,9 @@ class ReducedProblem {
 
   PetscInt unknowns_ = 0;
   double bandTop_ = 0, lowestMode_ = 0, highestMode_ = 0;  // rad/s
-  double rightRatio_ = 1, leftRatio_ = 1;                  // Basis::energyRatio of the residuals
+  double rightRatio_ = 1, leftRatio_ = 1;                  // Basis::energyRatios of the residuals
+  double measuredRatio_ = 0;                               // that of right residuals of pairs solved for
+  double confirmed_ = 0;                                   // the largest estimate that a solve has been made for
   bool responded_ = false;                                 // static responses are in the basis
   std::vector<double> modes_;                              // rad/s
   Basis basis_;

@@ -45,7 +45,7 @@ std::optional<DenseProblem> ReducedFamily::at(double friction) {
   Node node{friction, own(*problem)};
   DenseProblem sum = shared(friction);
   add(sum, 1, node.own);
-  if (nodes_.size() < most) keep(std::move(node), 0);
+  if (nodes_.size() < most) keep(std::move(node));
   return sum;
 }
 
@@ -59,12 +59,12 @@ void ReducedFamily::know(const std::vector<double>& frictions) {
   if (source_.local) return;
   for (double friction : frictions)
     if (!known(friction))
-      if (const auto problem = source_.at(point(friction))) keep({friction, own(*problem)}, 0);
+      if (const auto problem = source_.at(point(friction))) keep({friction, own(*problem)});
 }
 
-/// In the place of those that are not farther than `apart`.
-void ReducedFamily::keep(Node node, double apart) {
-  std::erase_if(nodes_, [&](const Node& other) { return std::abs(other.friction - node.friction) <= apart; });
+/// In the place of one in a smaller basis.
+void ReducedFamily::keep(Node node) {
+  std::erase_if(nodes_, [&](const Node& other) { return other.friction == node.friction; });
   nodes_.push_back(std::move(node));
 }
 
@@ -116,8 +116,11 @@ Improvement ReducedFamily::improve(const std::vector<Located>& located) {
   const Improvement found = reduced_.improve(list);
   Improvement result{found.changed || !source_.local, std::vector<double>(located.size(), NAN)};
   for (std::size_t i = 0; i < places.size(); ++i) result.backwardError[places[i]] = found.backwardError[i];
-  for (std::size_t i = 0; i < places.size() && !source_.local; ++i)
-    keep({located[places[i]].friction, own(list[i].first)}, closest());
+  if (source_.local) return result;
+  const double apart = closest();  // older nodes must not stand beside these; these may stand beside each other
+  for (std::size_t place : places)
+    std::erase_if(nodes_, [&](const Node& node) { return std::abs(node.friction - located[place].friction) <= apart; });
+  for (std::size_t i = 0; i < places.size(); ++i) nodes_.push_back({located[places[i]].friction, own(list[i].first)});
   return result;
 }
 

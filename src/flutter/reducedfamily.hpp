@@ -44,7 +44,7 @@ class ReducedFamily : public Family {
   bool known(double friction) const;
   DenseProblem shared(double friction) const;
   DenseProblem own(const PointProblem& problem) const;
-  void keep(Node node, double apart);
+  void keep(Node node);
   std::vector<const Node*> nodesFor(double friction) const;
   double closest() const;
 

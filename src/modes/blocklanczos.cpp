@@ -28,8 +28,6 @@ class Lanczos {
     PC pc = nullptr;
     check(KSPGetPC(solver, &pc));
     check(PCFactorGetMatrix(pc, &factor_));
-    // Right-hand sides that MUMPS takes at once: 32 by itself, for whatever follows on the same factorisation too.
-    if (b_ > 32) check(MatMumpsSetIcntl(factor_, 27, b_));
     comm_ = PetscObjectComm(reinterpret_cast<PetscObject>(k));
     PetscInt n = 0;
     check(MatGetLocalSize(k, &rows_, nullptr));

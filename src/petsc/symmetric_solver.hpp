@@ -9,6 +9,8 @@ namespace squeal {
 
 /// Collective. One application of MUMPS' LDLᵀ unless the options with this prefix say otherwise; not yet factorised.
 OwnedKSP directSolver(Mat matrix, const SolverPrefix& prefix);
+/// The factor if it is MUMPS' LDLᵀ, set up or not; null otherwise. Borrowed from the solver.
+Mat mumpsFactor(KSP solver);
 
 /// The direct solver of a symmetric positive definite matrix (prefix -modes_st_), factorised on first use.
 class SymmetricSolver {

@@ -18,22 +18,6 @@ const SolverPrefix solverPrefix("steady", "steady_uniqueness_",
 /// Columns solved for at once: enough for the speed of dense kernels, few enough for memory.
 constexpr PetscInt blockColumns = 64;
 
-/// The factor if it is MUMPS' LDLᵀ, whose inertia is known; null otherwise.
-Mat mumpsFactor(KSP solver) {
-  PC pc = nullptr;
-  PetscBool cholesky = PETSC_FALSE;
-  MatSolverType package = nullptr;
-  Mat factor = nullptr;
-  check(KSPGetPC(solver, &pc));
-  check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(pc), PCCHOLESKY, &cholesky));
-  if (!cholesky) return nullptr;
-  check(PCFactorGetMatSolverType(pc, &package));
-  if (std::string(package) != MATSOLVERMUMPS) return nullptr;
-  check(PCFactorSetUpMatSolverType(pc));
-  check(PCFactorGetMatrix(pc, &factor));
-  return factor;
-}
-
 OwnedKSP factorisation(Mat matrix) {
   OwnedKSP solver = directSolver(matrix, solverPrefix);
   if (const Mat factor = mumpsFactor(solver)) check(MatMumpsSetIcntl(factor, 13, 1));  // the inertia is asked for

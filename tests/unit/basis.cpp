@@ -108,6 +108,46 @@ TEST(Basis, HoldsWhatIsAdded) {
   EXPECT_LT(test::largest(worst), 1e-10);  // of entries up to 1
 }
 
+// VᵀK0V and K0 V of what is added, known without products with K0: those of the products, to the rounding of StaysOrthonormalInEnergy. Residuals
+// of a Galerkin solution have Vᵀr = 0 to some digits; others are made orthogonal first, and their K0 z is not kept.
+TEST(Basis, KnowsEnergiesAndForcesOfWhatIsAdded) {
+  const Fixture f;
+  const auto check = [&](bool kept, PetscInt count, double departure) {
+    const PetscInt size = f.basis->size();
+    const Block forces = f.times(f.system->k0(), f.columns());
+    ASSERT_EQ(f.basis->forces().columns, kept ? count : 0);
+    double worst = 0;
+    for (PetscInt j = 0; j < f.basis->forces().columns; ++j)
+      for (PetscInt i = 0; i < forces.rows; ++i)
+        worst = std::max(worst, std::abs(f.basis->forces().column(j)[i] - forces.column(size - count + j)[i]));
+    double scale = 0;
+    for (const double value : forces.values) scale = std::max(scale, std::abs(value));
+    EXPECT_LT(test::largest(worst), 1e-10 * test::largest(scale));
+    const auto gram = flutter::transposedProduct(f.basis->comm(), f.columns(), forces);
+    const auto& energies = f.basis->energies();
+    ASSERT_EQ(energies.size(), static_cast<std::size_t>(kept ? size * count : 0));
+    double known = 0, off = 0;
+    for (PetscInt j = size - count; j < size; ++j)
+      for (PetscInt i = 0; i < size; ++i) {
+        const double entry = gram[static_cast<std::size_t>(j * size + i)];
+        if (kept) known = std::max(known, std::abs(energies[static_cast<std::size_t>((j - size + count) * size + i)] - entry));
+        off = std::max(off, std::abs(entry - (i == j ? 1 : 0)));
+      }
+    EXPECT_LT(known, 1e-10);
+    EXPECT_LT(off, 1e-3);
+    EXPECT_GT(off, departure);
+  };
+  Block residuals = f.random(6, 8);
+  const auto parts = flutter::transposedProduct(f.basis->comm(), f.columns(), residuals);
+  const Block forces = f.times(f.system->k0(), f.columns());
+  // R − (1 − 1e-5) K0 V VᵀR: a hundred-thousandth of the part along V is left, and stays in the basis.
+  flutter::multiplyAdd(forces.values.data(), forces.rows, forces.columns, parts, residuals.values, -1 + 1e-5);
+  EXPECT_EQ(f.basis->add(residuals), 6);
+  check(true, 6, 1e-8);
+  EXPECT_EQ(f.basis->add(f.random(4, 9)), 4);
+  check(false, 4, 0);
+}
+
 TEST(Basis, DropsWhatItHasAndWhatDependsOnOthers) {
   const Fixture f;
   Block twice = f.random(3, 2);
