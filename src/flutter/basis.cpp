@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "petsc/columns.hpp"
 #include "petsc/symmetric.hpp"
 
 namespace squeal::flutter {
@@ -11,36 +12,6 @@ namespace {
 
 /// Eigenvalue of a Gram matrix, of its largest, from which on a direction counts as independent of the others: to within 1e-6.
 constexpr double independent = 1e-12;
-
-/// X · combinations (x.columns × count).
-Block combined(const Block& x, const DenseMatrix& combinations, PetscInt count) {
-  Block result(x.rows, count);
-  multiplyAdd(x.values.data(), x.rows, x.columns, combinations, result.values);
-  return result;
-}
-
-/// Cᵀ A C for the symmetric A (size × size).
-DenseMatrix congruent(const DenseMatrix& a, PetscInt size, const DenseMatrix& c) {
-  const auto n = static_cast<std::size_t>(size), count = c.size() / n;
-  DenseMatrix image(c.size()), result(count * count);
-  multiplyAdd(a.data(), size, size, c, image);
-  for (std::size_t j = 0; j < count; ++j)
-    for (std::size_t i = 0; i < count; ++i)
-      result[j * count + i] =
-          std::inner_product(c.begin() + static_cast<std::ptrdiff_t>(i * n), c.begin() + static_cast<std::ptrdiff_t>((i + 1) * n),
-                             image.begin() + static_cast<std::ptrdiff_t>(j * n), 0.0);
-  return result;
-}
-
-/// energy ← energy − partsᵀ parts.
-void subtractSquare(DenseMatrix& energy, const DenseMatrix& parts, PetscInt columns) {
-  const auto n = static_cast<std::size_t>(columns), rows = parts.size() / n;
-  for (std::size_t j = 0; j < n; ++j)
-    for (std::size_t i = 0; i < n; ++i)
-      energy[j * n + i] -= std::inner_product(parts.begin() + static_cast<std::ptrdiff_t>(i * rows),
-                                              parts.begin() + static_cast<std::ptrdiff_t>((i + 1) * rows),
-                                              parts.begin() + static_cast<std::ptrdiff_t>(j * rows), 0.0);
-}
 
 /// Combinations orthonormal in the positive semi-definite matrix `gram` (n×n), without those whose eigenvalue is `small` times the
 /// largest or less, each column of the matrix taken as of unit size.
@@ -93,19 +64,7 @@ Basis::Basis(const modes::Modes& modes, Mat stiffness, KSP solver)
   sketched_ = sketch_->of(columns_.values.data(), size());
 }
 
-OwnedBV Basis::vectors() const {
-  OwnedVec layout;
-  OwnedBV bv;
-  check(MatCreateVecs(stiffness_, layout.out(), nullptr));
-  check(BVCreate(comm_, bv.out()));
-  check(BVSetSizesFromVec(bv, layout, size()));
-  check(BVSetType(bv, BVSVEC));
-  PetscScalar* values = nullptr;
-  check(BVGetArray(bv, &values));
-  std::copy(columns_.values.begin(), columns_.values.end(), values);
-  check(BVRestoreArray(bv, &values));
-  return bv;
-}
+OwnedBV Basis::vectors() const { return copiedColumns(stiffness_, columns_.values.data(), size()); }
 
 void Basis::appendImages(Mat matrix, PetscInt first, PetscInt last, Block& result) const {
   appendProduct(matrix, columns_.column(first), last - first, result);
@@ -116,10 +75,8 @@ Block Basis::solve(const Block& right) {
   PetscInt global = 0;
   check(MatGetSize(stiffness_, &global, nullptr));
   Block solved(right.rows, right.columns);
-  OwnedMat from, to;
-  auto* given = const_cast<double*>(right.values.data());
-  check(MatCreateDense(comm_, right.rows, PETSC_DECIDE, global, right.columns, given, from.out()));
-  check(MatCreateDense(comm_, right.rows, PETSC_DECIDE, global, right.columns, solved.values.data(), to.out()));
+  const OwnedMat from = borrowed(comm_, right.rows, global, right.columns, right.values.data()),
+                 to = borrowed(comm_, right.rows, global, right.columns, solved.values.data());
   check(KSPMatSolve(solver_, from, to));
   solves_ += right.columns;
   return solved;
@@ -175,7 +132,8 @@ void Basis::addOrthogonalised(Block& z, const DenseMatrix& parts) {
   const DenseMatrix rest = transposedProduct(comm_, columns_, images);
   DenseMatrix energy = transposedProduct(comm_, z, images);
   multiplyAdd(columns_.values.data(), columns_.rows, size(), rest, z.values, -1);
-  subtractSquare(energy, rest, z.columns);
+  const DenseMatrix square = transposedProduct(MPI_COMM_SELF, rest.data(), size(), z.columns, rest.data(), z.columns);
+  for (std::size_t k = 0; k < energy.size(); ++k) energy[k] -= square[k];
   // What depends on others or on V would only add noise.
   clearWhatVHolds(energy, parts, z.columns, independent);
   const DenseMatrix combinations = orthonormalising(energy, z.columns, independent);

@@ -17,11 +17,6 @@ void append(Block& block, const Block& other) {
   block.columns += other.columns;
 }
 
-ReadColumns::ReadColumns(BV bv) : bv_(bv) {
-  check(BVGetSizes(bv, &rows_, nullptr, &columns_));
-  check(BVGetArrayRead(bv, &values_));
-}
-
 void multiplyAdd(const double* x, PetscInt rowCount, PetscInt columnCount, const std::vector<double>& coefficients,
                  std::vector<double>& result, double factor) {
   PetscBLASInt rows = rowCount, inner = columnCount,
@@ -47,6 +42,29 @@ DenseMatrix transposedProduct(MPI_Comm comm, const Block& x, const Block& y) {
   return transposedProduct(comm, x.values.data(), x.rows, x.columns, y.values.data(), y.columns);
 }
 
+Block combined(const Block& x, const DenseMatrix& combinations, PetscInt count) {
+  Block result(x.rows, count);
+  multiplyAdd(x.values.data(), x.rows, x.columns, combinations, result.values);
+  return result;
+}
+
+DenseMatrix congruent(const DenseMatrix& a, PetscInt size, const DenseMatrix& c) {
+  const auto count = static_cast<PetscInt>(c.size()) / size;
+  DenseMatrix image(c.size());
+  multiplyAdd(a.data(), size, size, c, image);
+  return transposedProduct(MPI_COMM_SELF, c.data(), size, count, image.data(), count);
+}
+
+DenseMatrix rowsOf(const DenseMatrix& matrix, std::size_t height, std::size_t first, std::size_t count) {
+  DenseMatrix rows;
+  rows.reserve(matrix.size() / height * count);
+  for (auto column = matrix.begin(); column != matrix.end(); column += static_cast<std::ptrdiff_t>(height)) {
+    const auto begin = column + static_cast<std::ptrdiff_t>(first);
+    rows.insert(rows.end(), begin, begin + static_cast<std::ptrdiff_t>(count));
+  }
+  return rows;
+}
+
 /// Orthogonal combinations of columns that hold them but for parts of length `small`.
 Block principal(MPI_Comm comm, const Block& columns, double small) {
   if (columns.columns == 0) return columns;
@@ -56,9 +74,7 @@ Block principal(MPI_Comm comm, const Block& columns, double small) {
   std::size_t first = 0;
   while (first < n && !(sizes[first] > small * small)) ++first;
   combinations.erase(combinations.begin(), combinations.begin() + static_cast<std::ptrdiff_t>(first * n));
-  Block kept(columns.rows, static_cast<PetscInt>(n - first));
-  multiplyAdd(columns.values.data(), columns.rows, columns.columns, combinations, kept.values);
-  return kept;
+  return combined(columns, combinations, static_cast<PetscInt>(n - first));
 }
 
 Block unitColumns(MPI_Comm comm, const Block& columns) {
@@ -74,16 +90,11 @@ Block unitColumns(MPI_Comm comm, const Block& columns) {
   return units;
 }
 
-namespace {
-
-/// Columns by this rank's rows as a dense matrix that borrows them.
-OwnedMat dense(MPI_Comm comm, PetscInt localRows, PetscInt rows, PetscInt columns, const double* values) {
+OwnedMat borrowed(MPI_Comm comm, PetscInt localRows, PetscInt rows, PetscInt columns, const double* values) {
   OwnedMat matrix;
   check(MatCreateDense(comm, localRows, PETSC_DECIDE, rows, columns, const_cast<double*>(values), matrix.out()));
   return matrix;
 }
-
-}  // namespace
 
 void appendProduct(Mat matrix, const double* columns, PetscInt count, Block& result) {
   PetscInt localRows = 0, localColumns = 0, rows = 0, length = 0;
@@ -95,8 +106,8 @@ void appendProduct(Mat matrix, const double* columns, PetscInt count, Block& res
   result.columns += count;
   if (rows == 0) return;
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(matrix));
-  const OwnedMat from = dense(comm, localColumns, length, count, columns),
-                 to = dense(comm, localRows, rows, count, result.column(first));
+  const OwnedMat from = borrowed(comm, localColumns, length, count, columns),
+                 to = borrowed(comm, localRows, rows, count, result.column(first));
   PetscBool assembled = PETSC_FALSE;
   check(MatHasOperation(matrix, MATOP_GET_ROW, &assembled));
   if (assembled) {

@@ -28,29 +28,24 @@ struct Block {
 /// Adds the columns of another block.
 void append(Block& block, const Block& other);
 
-/// The local rows of a BV of type svec for the life of the object: column-major, contiguous.
-class ReadColumns {
- public:
-  explicit ReadColumns(BV bv);
-  ~ReadColumns() { BVRestoreArrayRead(bv_, &values_); }
-  ReadColumns(const ReadColumns&) = delete;
-  ReadColumns& operator=(const ReadColumns&) = delete;
-  const PetscScalar* values() const { return values_; }
-  PetscInt rows() const { return rows_; }
-  PetscInt columns() const { return columns_; }
-
- private:
-  BV bv_;
-  PetscInt rows_ = 0, columns_ = 0;
-  const PetscScalar* values_ = nullptr;
-};
-
 /// Collective. Adds A times columns of length n, given by this rank's rows, to the columns of `result`.
 void appendProduct(Mat matrix, const double* columns, PetscInt count, Block& result);
 
 /// result (rows × k) += factor · X (rows × columns) · coefficients (columns × k), local, all column-major.
 void multiplyAdd(const double* x, PetscInt rows, PetscInt columns, const std::vector<double>& coefficients,
                  std::vector<double>& result, double factor = 1);
+
+/// X · combinations (x.columns × count), local.
+Block combined(const Block& x, const DenseMatrix& combinations, PetscInt count);
+
+/// Cᵀ A C of small matrices, A size × size. Not collective.
+DenseMatrix congruent(const DenseMatrix& a, PetscInt size, const DenseMatrix& c);
+
+/// Rows [first, first + count) of a matrix of this height.
+DenseMatrix rowsOf(const DenseMatrix& matrix, std::size_t height, std::size_t first, std::size_t count);
+
+/// Columns by this rank's rows as a dense matrix that borrows them.
+OwnedMat borrowed(MPI_Comm comm, PetscInt localRows, PetscInt rows, PetscInt columns, const double* values);
 
 /// Collective. Xᵀ Y for X rows × m and Y rows × n, column-major m × n, the same on all ranks.
 DenseMatrix transposedProduct(MPI_Comm comm, const double* x, PetscInt rows, PetscInt m, const double* y, PetscInt n);

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "flutter/images.hpp"
+#include "petsc/columns.hpp"
 
 namespace squeal::flutter {
 namespace {

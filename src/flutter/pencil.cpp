@@ -130,38 +130,12 @@ ComplexVector residual(const Pencil& pencil, const Parameters& at, std::complex<
 }
 
 double backwardError(const Pencil& pencil, const Parameters& at, std::complex<double> s, Vec real, Vec imaginary) {
-  OwnedVec residual[2], product;
-  check(VecDuplicate(real, product.out()));
-  double length = 0, scale = 0;
-  for (auto& part : residual) {
-    check(VecDuplicate(real, part.out()));
-    check(VecZeroEntries(part));
-  }
-  for (int power = 0; power <= 2; ++power) {
-    if (!pencil.hasPower(power)) continue;
-    const std::complex<double> factor = std::pow(s, power);
-    scale += std::abs(factor) * pencil.norm(power, at);
-    for (Vec d : {real, imaginary}) {
-      if (!d) continue;
-      const std::complex<double> c = d == real ? factor : factor * std::complex<double>(0, 1);
-      pencil.apply(power, at, d, product);
-      check(VecAXPY(residual[0], c.real(), product));
-      check(VecAXPY(residual[1], c.imag(), product));
-    }
-  }
-  double sum = 0;
-  for (Vec part : {residual[0].get(), residual[1].get()}) {
-    PetscReal size = 0;
-    check(VecNorm(part, NORM_2, &size));
-    sum += size * size;
-  }
-  for (Vec d : {real, imaginary}) {
-    if (!d) continue;
-    PetscReal size = 0;
-    check(VecNorm(d, NORM_2, &size));
-    length += size * size;
-  }
-  return std::sqrt(sum / length) / scale;
+  ComplexVector d = ComplexVector::like(real);
+  check(VecCopy(real, d.real));
+  if (imaginary) check(VecCopy(imaginary, d.imaginary));
+  double scale = 0;
+  for (int power = 0; power <= 2; ++power) scale += std::pow(std::abs(s), power) * pencil.norm(power, at);
+  return length(residual(pencil, at, s, d, Side::right)) / (scale * length(d));
 }
 
 }  // namespace squeal::flutter

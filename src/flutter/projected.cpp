@@ -6,7 +6,7 @@ namespace squeal::flutter {
 namespace {
 
 /// A projection of `old` columns grown to `size`: the new columns, and the new rows below the old columns (empty: by symmetry).
-void append(DenseMatrix& matrix, PetscInt old, PetscInt size, const DenseMatrix& right, const DenseMatrix& below) {
+void grow(DenseMatrix& matrix, PetscInt old, PetscInt size, const DenseMatrix& right, const DenseMatrix& below) {
   const auto n = static_cast<std::size_t>(size), o = static_cast<std::size_t>(old), added = n - o;
   DenseMatrix grown(n * n);
   for (std::size_t j = 0; j < o; ++j) {
@@ -25,10 +25,10 @@ bool isReal(const std::vector<std::complex<double>>& vector) {
 }
 
 /// a (rows × inner) times b (inner × columns).
-DenseMatrix product(const DenseMatrix& a, std::size_t inner, const DenseMatrix& b) {
-  const std::size_t rows = a.size() / inner;
-  DenseMatrix result(rows * b.size() / inner);
-  multiplyAdd(a.data(), static_cast<PetscInt>(rows), static_cast<PetscInt>(inner), b, result);
+DenseMatrix product(const DenseMatrix& a, PetscInt inner, const DenseMatrix& b) {
+  const auto n = static_cast<std::size_t>(inner), rows = a.size() / n;
+  DenseMatrix result(rows * b.size() / n);
+  multiplyAdd(a.data(), static_cast<PetscInt>(rows), inner, b, result);
   return result;
 }
 
@@ -125,26 +125,17 @@ void ProjectedTerms::project(Part& part, PetscInt old) const {
     right = product(0, size, old, size);
     if (part.adjoint) below = product(old, size, 0, old);
   }
-  append(part.projection, old, size, right, below);
+  grow(part.projection, old, size, right, below);
 }
 
 void ProjectedTerms::combine(const DenseMatrix& combinations) {
   for (auto& part : parts_) {
-    const auto old = static_cast<std::size_t>(part.image.columns), size = combinations.size() / old;
-    Block image(part.image.rows, static_cast<PetscInt>(size));
-    multiplyAdd(part.image.values.data(), image.rows, part.image.columns, combinations, image.values);
-    part.image = std::move(image);
-    if (!part.rows.all()) {
-      Block rowsOfV(part.rowsOfV.rows, static_cast<PetscInt>(size));
-      multiplyAdd(part.rowsOfV.values.data(), rowsOfV.rows, part.rowsOfV.columns, combinations, rowsOfV.values);
-      part.rowsOfV = std::move(rowsOfV);
-    }
+    const PetscInt old = part.image.columns, size = static_cast<PetscInt>(combinations.size()) / old;
+    part.image = combined(part.image, combinations, size);
+    if (!part.rows.all()) part.rowsOfV = combined(part.rowsOfV, combinations, size);
     part.sketch = product(part.sketch, old, combinations);
     if (part.adjoint) part.leftSketch = product(part.leftSketch, old, combinations);
-    DenseMatrix transposed(size * old);
-    for (std::size_t j = 0; j < size; ++j)
-      for (std::size_t i = 0; i < old; ++i) transposed[i * size + j] = combinations[j * old + i];
-    part.projection = product(transposed, old, product(part.projection, old, combinations));
+    part.projection = congruent(part.projection, old, combinations);
   }
 }
 
@@ -165,10 +156,7 @@ void ProjectedTerms::addTo(const std::vector<const PointPairs*>& points, const D
     std::size_t first = 0;
     for (const auto* point : points) {
       const auto columns = static_cast<std::size_t>(point->pairs.columns);
-      DenseMatrix own(columns * count);  // rows of the combinations
-      for (std::size_t k = 0; k < count; ++k)
-        std::copy_n(combinations.begin() + static_cast<std::ptrdiff_t>(k * all + first), columns,
-                    own.begin() + static_cast<std::ptrdiff_t>(k * columns));
+      const DenseMatrix own = rowsOf(combinations, all, first, columns);
       first += columns;
       const auto vectors = point->pairs.times(Side::right, part.term.power, part.term.coefficient(point->at));
       if (columns > 0) multiplyAdd(vectors.data(), part.image.columns, point->pairs.columns, own, coefficients);

@@ -206,11 +206,7 @@ Block ReducedProblem::directions(const std::vector<Wish>& wishes) const {
   std::size_t first = 0;
   for (const auto& wish : wishes) {
     const auto own = static_cast<std::size_t>(wish.pairs.pairs.columns);
-    DenseMatrix rows(own * count);
-    for (std::size_t k = 0; k < count; ++k)
-      std::copy_n(combinations.begin() + static_cast<std::ptrdiff_t>(k * all + first), own,
-                  rows.begin() + static_cast<std::ptrdiff_t>(k * own));
-    wish.work->ownTerms.addTo({&wish.pairs}, rows, columns);
+    wish.work->ownTerms.addTo({&wish.pairs}, rowsOf(combinations, all, first, own), columns);
     first += own;
   }
   return principal(basis_.comm(), columns, resolution);

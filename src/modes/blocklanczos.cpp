@@ -13,6 +13,7 @@
 #include <random>
 #include <vector>
 
+#include "petsc/columns.hpp"
 #include "petsc/symmetric.hpp"
 
 namespace squeal::modes {
@@ -128,19 +129,7 @@ class Lanczos {
   }
 
   /// The k columns of V as a BV for vectors like those of `like`.
-  OwnedBV vectors(Mat like) {
-    OwnedBV bv;
-    OwnedVec layout;
-    check(MatCreateVecs(like, layout.out(), nullptr));
-    check(BVCreate(comm_, bv.out()));
-    check(BVSetSizesFromVec(bv, layout, k_));
-    check(BVSetType(bv, BVSVEC));
-    PetscScalar* values = nullptr;
-    check(BVGetArray(bv, &values));
-    std::copy_n(column(0), k_ * rows_, values);
-    check(BVRestoreArray(bv, &values));
-    return bv;
-  }
+  OwnedBV vectors(Mat like) { return copiedColumns(like, column(0), k_); }
 
  private:
   PetscScalar& t(PetscInt i, PetscInt j) { return t_[static_cast<std::size_t>(j * limit_ + i)]; }
