@@ -61,7 +61,7 @@ Basis::Basis(const modes::Modes& modes, Mat stiffness, KSP solver)
   inverseDiagonal_.assign(values, values + localRows());
   check(VecRestoreArrayRead(diagonal, &values));
   sketch_.emplace(comm_, inverseDiagonal_);
-  sketched_ = sketch_->of(columns_.values.data(), size());
+  sketched_ = sketch_->unweighted(columns_.values.data(), size());
 }
 
 OwnedBV Basis::vectors() const { return copiedColumns(stiffness_, columns_.values.data(), size()); }
@@ -93,7 +93,7 @@ PetscInt Basis::add(const Block& residuals) {
   const PetscInt before = size();
   if (!addAcross(z, residuals, energy, parts)) addOrthogonalised(z, parts);
   const PetscInt added = size() - before;
-  const DenseMatrix sketch = sketch_->of(columns_.column(before), added);
+  const DenseMatrix sketch = sketch_->unweighted(columns_.column(before), added);
   sketched_.insert(sketched_.end(), sketch.begin(), sketch.end());
   return added;
 }
@@ -162,7 +162,7 @@ double Basis::solutionError(const Block& z, const Block& residuals) const {
 void Basis::combine(const DenseMatrix& combinations, PetscInt count) {
   columns_ = combined(columns_, combinations, count);
   forces_ = Block(0);
-  sketched_ = sketch_->of(columns_.values.data(), count);
+  sketched_ = sketch_->unweighted(columns_.values.data(), count);
   energies_.clear();
 }
 

@@ -40,7 +40,7 @@ class Basis {
   std::vector<ComplexVector> expand(const std::vector<const std::vector<std::complex<double>>*>& list) const;
   /// Of columns of length n; the weighted norm is √(rᵀ diag(K0)⁻¹ r).
   const Sketch& sketch() const { return *sketch_; }
-  /// Sketch of V.
+  /// Unweighted sketch of V.
   const DenseMatrix& sketched() const { return sketched_; }
   /// Collective. For each block of columns, all solved for together, the largest ratio of the energy norm √(rᵀ K0⁻¹ r) to
   /// √(rᵀ diag(K0)⁻¹ r) among its combinations: it turns the second norm, which costs nothing, into an estimate of the first for columns

@@ -79,11 +79,10 @@ FrictionPoint solveDirect(const Pencil& pencil, const Parameters& at, Mat trial)
     point.eigenvalues.push_back({pair.s, error, NAN, error <= point.accuracy});
   }
   judge(point.eigenvalues);
-  keepShapes(point, trial, [&](const std::vector<std::size_t>& indices) {
-    std::vector<ComplexVector> modes;
-    for (std::size_t index : indices) modes.push_back(ComplexVector::copied(pairs[index].real, pairs[index].imaginary));
-    return modes;
-  });
+  const auto wanted = shapesWanted(point);
+  std::vector<ComplexVector> modes;
+  for (std::size_t index : wanted) modes.push_back(ComplexVector::copied(pairs[index].real, pairs[index].imaginary));
+  keepShapes(point, trial, wanted, std::move(modes));
   return point;
 }
 

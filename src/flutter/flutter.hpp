@@ -66,7 +66,7 @@ struct Sweep {
 
 /// Error: an empty list, a value out of range or given twice.
 Sweep readSweep();
-/// Indices of points in the order in which one basis serves them best, in batches of 1, 4, 16, 16, … points: the largest friction
+/// Indices of points in the order in which one basis serves them best, in batches of 5, 16, 16, … points: the largest friction
 /// first, then whatever lies farthest from the points before. The same on any number of ranks.
 std::vector<std::vector<std::size_t>> batches(const std::vector<Parameters>& points);
 /// `-flutter_method`: true for the direct solve on all unknowns.

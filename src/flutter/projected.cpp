@@ -32,6 +32,25 @@ DenseMatrix product(const DenseMatrix& a, PetscInt inner, const DenseMatrix& b) 
   return result;
 }
 
+/// Columns [old, size) of a symmetric matrix of order `size`, of which product(0, e, b, e) gives columns [b, e) as far as their first e
+/// rows: what lies below is known from the columns that follow.
+template <class Product>
+DenseMatrix upperColumns(PetscInt old, PetscInt size, const Product& product) {
+  constexpr PetscInt atOnce = 64;  // enough for matrix products to be fast
+  const auto n = static_cast<std::ptrdiff_t>(size);
+  DenseMatrix columns(static_cast<std::size_t>(n * (size - old)));
+  for (PetscInt begin = old, end = old; begin < size; begin = end) {
+    end = std::min(begin + atOnce, size);
+    const DenseMatrix some = product(0, end, begin, end);
+    for (PetscInt j = begin; j < end; ++j)
+      std::copy_n(some.begin() + static_cast<std::ptrdiff_t>(j - begin) * end, end, columns.begin() + (j - old) * n);
+  }
+  for (PetscInt j = old; j < size; ++j)
+    for (PetscInt i = j + 1; i < size; ++i)
+      columns[static_cast<std::size_t>((j - old) * n + i)] = columns[static_cast<std::size_t>((i - old) * n + j)];
+  return columns;
+}
+
 bool isSymmetric(Mat matrix) {
   PetscBool known = PETSC_FALSE, symmetric = PETSC_FALSE;
   check(MatIsSymmetricKnown(matrix, &known, &symmetric));
@@ -121,9 +140,11 @@ void ProjectedTerms::project(Part& part, PetscInt old) const {
   DenseMatrix right, below;
   if (knownFrom(part, old)) {
     right = basis_.energies();
-  } else {
+  } else if (part.adjoint) {
     right = product(0, size, old, size);
-    if (part.adjoint) below = product(old, size, 0, old);
+    below = product(old, size, 0, old);
+  } else {
+    right = upperColumns(old, size, product);
   }
   grow(part.projection, old, size, right, below);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include "flutter/condition.hpp"
@@ -151,9 +152,9 @@ void ReducedProblem::judge(Work& work, const DenseProblem& problem) const {
     return squares;
   };
   const auto right = norms(Side::right), left = norms(Side::left);
-  DenseMatrix vectors(static_cast<std::size_t>(2 * Sketch::size * coordinates.columns));
-  multiplyAdd(basis_.sketched().data(), 2 * Sketch::size, basis_.size(), coordinates.times(Side::right, 0, 1), vectors);
-  const auto lengths = perPair(coordinates, squaredNorms(vectors).euclidean);
+  DenseMatrix vectors(static_cast<std::size_t>(Sketch::size * coordinates.columns));
+  multiplyAdd(basis_.sketched().data(), Sketch::size, basis_.size(), coordinates.times(Side::right, 0, 1), vectors);
+  const auto lengths = perPair(coordinates, squaredLengths(vectors));
   const auto conditions = conditionNumbers(problem, pairs);
   work.backwardError.clear();
   work.rightError.clear();
@@ -313,12 +314,14 @@ std::vector<FrictionPoint> ReducedProblem::solve(const std::vector<PointProblem>
     rightRatio_ = std::max(measuredRatio_, basis_.lastEnergyRatio());
   }
   std::vector<FrictionPoint> points;
-  for (auto& work : works) points.push_back(result(work, trial));
+  for (const auto& work : works) points.push_back(result(work));
+  keepShapes(points, works, trial);
+  for (auto& work : works) solved_.push_back(std::move(work.pairs));
   if (basisOption.get() == "pod") compress();
   return points;
 }
 
-FrictionPoint ReducedProblem::result(Work& work, Mat trial) {
+FrictionPoint ReducedProblem::result(const Work& work) const {
   FrictionPoint point;
   point.at = work.point->at;
   point.bandTop = bandTop_;
@@ -330,13 +333,25 @@ FrictionPoint ReducedProblem::result(Work& work, Mat trial) {
         {work.pairs[j].s, work.backwardError[j], estimate, work.backwardError[j] <= point.accuracy && estimate <= point.tolerance});
   }
   flutter::judge(point.eigenvalues);
-  keepShapes(point, trial, [&](const std::vector<std::size_t>& indices) {
-    std::vector<const std::vector<std::complex<double>>*> list;
-    for (std::size_t index : indices) list.push_back(&work.pairs[index].q);
-    return basis_.expand(list);
-  });
-  solved_.push_back(std::move(work.pairs));
   return point;
+}
+
+/// Shapes of all points, made together: each product with the basis reads the whole of it.
+void ReducedProblem::keepShapes(std::vector<FrictionPoint>& points, const std::vector<Work>& works, Mat trial) const {
+  std::vector<std::vector<std::size_t>> wanted;
+  std::vector<const std::vector<std::complex<double>>*> list;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    wanted.push_back(shapesWanted(points[i]));
+    for (std::size_t index : wanted.back()) list.push_back(&works[i].pairs[index].q);
+  }
+  if (list.empty()) return;
+  auto all = basis_.expand(list);
+  auto next = std::make_move_iterator(all.begin());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto count = static_cast<std::ptrdiff_t>(wanted[i].size());
+    flutter::keepShapes(points[i], trial, wanted[i], {next, next + count});
+    next += count;
+  }
 }
 
 DenseProblem ReducedProblem::project(const PointProblem& point) const { return project(begun(point, {})); }

@@ -66,7 +66,8 @@ class ReducedProblem {
   Block directions(const std::vector<Wish>& wishes) const;
   void solveDense(const std::vector<Work*>& open);
   std::vector<Work*> unconfirmed(std::vector<Work>& works);
-  FrictionPoint result(Work& work, Mat trial);
+  FrictionPoint result(const Work& work) const;
+  void keepShapes(std::vector<FrictionPoint>& points, const std::vector<Work>& works, Mat trial) const;
   void compress();
   bool inBand(std::complex<double> s) const;
 

@@ -4,6 +4,35 @@
 #include "flutter/reduced.hpp"
 
 namespace squeal::flutter {
+namespace {
+
+/// coefficient · matrix · s^power, or its transpose, by the rows that hold anything.
+struct Forces {
+  RowSet rows;
+  OwnedMat matrix;
+  int power;
+  double coefficient;
+};
+
+Forces forcesOf(const Term& term, const Parameters& at, bool transposed) {
+  OwnedMat matrix = term.matrix.share();
+  if (transposed) check(MatTranspose(term.matrix, MAT_INITIAL_MATRIX, matrix.out()));
+  const RowSet rows(matrix);
+  return {rows, rows.of(matrix), term.power, term.coefficient(at)};
+}
+
+/// This rank's rows that any of the forces have, ascending.
+std::vector<PetscInt> rowsOfAny(const std::vector<Forces>& list, PetscInt localRows) {
+  std::vector<bool> any(static_cast<std::size_t>(localRows), false);
+  for (const auto& forces : list)
+    for (PetscInt i = 0; i < forces.rows.size(); ++i) any[static_cast<std::size_t>(forces.rows[i])] = true;
+  std::vector<PetscInt> rows;
+  for (PetscInt i = 0; i < localRows; ++i)
+    if (any[static_cast<std::size_t>(i)]) rows.push_back(i);
+  return rows;
+}
+
+}  // namespace
 
 /// K0⁻¹ k φ_i and K0⁻¹ kᵀφ_i for the free modes of the band at their own frequencies, where k are the forces of friction and of all
 /// else that belongs to this point: the change of the right and left vectors with them, to first order in them and to lowest order
@@ -11,28 +40,39 @@ namespace squeal::flutter {
 void ReducedProblem::addStaticResponses(const PointProblem& point) {
   const auto count = static_cast<PetscInt>(std::upper_bound(modes_.begin(), modes_.end(), bandTop_) - modes_.begin());
   const auto& terms = point.pencil.terms();
-  Block forces(basis_.localRows());
+  std::vector<Forces> list;  // the right ones, then as many left ones
+  for (const bool transposed : {false, true})
+    for (std::size_t t = 0; t < terms.size(); ++t)
+      if (terms[t].frictionExponent != 0 || t >= point.pencil.affineCount())
+        list.push_back(forcesOf(terms[t], point.at, transposed));
+  // Forces of friction are zero but at the contact.
+  const auto rows = rowsOfAny(list, basis_.localRows());
+  const auto place = [&](PetscInt row) { return std::lower_bound(rows.begin(), rows.end(), row) - rows.begin(); };
+  Block all(static_cast<PetscInt>(rows.size()));
   for (const bool transposed : {false, true})
     for (const bool imaginary : {false, true}) {  // (iω)^power
-      Block part(basis_.localRows(), count);
-      for (std::size_t t = 0; t < terms.size(); ++t) {
-        const Term& term = terms[t];
-        const bool perturbs = term.frictionExponent != 0 || t >= point.pencil.affineCount();
-        if (!perturbs || (term.power == 1) != imaginary) continue;
-        OwnedMat matrix = term.matrix.share();
-        if (transposed) check(MatTranspose(term.matrix, MAT_INITIAL_MATRIX, matrix.out()));
-        const RowSet rows(matrix);
-        Block images(rows.size());
-        basis_.appendImages(rows.of(matrix), 0, count, images);
+      Block part(all.rows, count);
+      for (std::size_t k = transposed ? list.size() / 2 : 0; k < (transposed ? list.size() : list.size() / 2); ++k) {
+        const auto& forces = list[k];
+        if ((forces.power == 1) != imaginary) continue;
+        Block images(forces.rows.size());
+        basis_.appendImages(forces.matrix, 0, count, images);
+        std::vector<std::ptrdiff_t> places;
+        for (PetscInt i = 0; i < images.rows; ++i) places.push_back(place(forces.rows[i]));
         for (PetscInt j = 0; j < count; ++j) {
           const double omega = modes_[static_cast<std::size_t>(j)];
-          const double factor = term.coefficient(point.at) * (term.power == 0 ? 1 : term.power == 1 ? omega : -omega * omega);
-          for (PetscInt i = 0; i < images.rows; ++i) part.column(j)[rows[i]] += factor * images.column(j)[i];
+          const double factor = forces.coefficient * (forces.power == 0 ? 1 : forces.power == 1 ? omega : -omega * omega);
+          for (PetscInt i = 0; i < images.rows; ++i)
+            part.column(j)[places[static_cast<std::size_t>(i)]] += factor * images.column(j)[i];
         }
       }
-      append(forces, unitColumns(basis_.comm(), part));
+      append(all, unitColumns(basis_.comm(), part));
     }
-  basis_.add(principal(basis_.comm(), forces, resolution));
+  const Block leading = principal(basis_.comm(), all, resolution);
+  Block whole(basis_.localRows(), leading.columns);
+  for (PetscInt j = 0; j < leading.columns; ++j)
+    for (PetscInt i = 0; i < leading.rows; ++i) whole.column(j)[rows[static_cast<std::size_t>(i)]] = leading.column(j)[i];
+  basis_.add(whole);
   rightRatio_ = std::max(measuredRatio_, basis_.lastEnergyRatio());
 }
 

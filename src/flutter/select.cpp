@@ -75,7 +75,8 @@ std::optional<std::size_t> Sweep::earlierNeighbour(std::size_t steadyPoint) cons
 double accuracyAsked() { return accuracyOption.get(); }
 
 std::vector<std::vector<std::size_t>> batches(const std::vector<Parameters>& points) {
-  constexpr std::size_t largest = 16;
+  // The ends of a range, its middle and its quarters build most of the basis; later points find it ready, and cost a round or two.
+  constexpr std::size_t first = 5, later = 16;
   std::array<double, allParameters.size()> ranges{};
   for (std::size_t k = 0; k < ranges.size() && !points.empty(); ++k) {
     const auto value = allParameters[k].value;
@@ -93,15 +94,11 @@ std::vector<std::vector<std::size_t>> batches(const std::vector<Parameters>& poi
   };
   std::vector<double> distance(points.size(), INFINITY);  // to the nearest point already chosen
   std::vector<std::vector<std::size_t>> result;
-  std::size_t next = 0, size = 1, full = 0;  // the batch that ends at `full` holds `size` points
+  std::size_t next = 0;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (points[i].friction > points[next].friction) next = i;
   for (std::size_t chosen = 0; chosen < points.size(); ++chosen) {
-    if (chosen == full) {
-      if (chosen > 0) size = std::min(largest, 4 * size);
-      full += size;
-      result.emplace_back();
-    }
+    if (chosen == 0 || (chosen >= first && (chosen - first) % later == 0)) result.emplace_back();
     result.back().push_back(next);
     for (std::size_t i = 0; i < points.size(); ++i) distance[i] = std::min(distance[i], apart(i, next));
     distance[next] = -1;
@@ -145,19 +142,20 @@ void judge(std::vector<Eigenvalue>& eigenvalues) {
   for (auto& eigenvalue : eigenvalues) eigenvalue.unstable = eigenvalue.s.real() > tolerance * std::abs(eigenvalue.s);
 }
 
-void keepShapes(FrictionPoint& point, Mat trial,
-                const std::function<std::vector<ComplexVector>(const std::vector<std::size_t>&)>& unknowns) {
+std::vector<std::size_t> shapesWanted(const FrictionPoint& point) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < point.eigenvalues.size(); ++i)
     if (point.eigenvalues[i].unstable && point.eigenvalues[i].s.imag() < 2 * M_PI * shapesBelowOption.get()) order.push_back(i);
   std::sort(order.begin(), order.end(),
             [&](std::size_t a, std::size_t b) { return point.eigenvalues[a].s.real() > point.eigenvalues[b].s.real(); });
   order.resize(std::min(order.size(), static_cast<std::size_t>(shapesOption.get())));
-  if (order.empty()) return;
-  auto modes = unknowns(order);
-  for (std::size_t k = 0; k < order.size(); ++k) {
+  return order;
+}
+
+void keepShapes(FrictionPoint& point, Mat trial, const std::vector<std::size_t>& indices, std::vector<ComplexVector> modes) {
+  for (std::size_t k = 0; k < indices.size(); ++k) {
     Shape shape{};
-    shape.index = order[k];
+    shape.index = indices[k];
     shape.unknowns = std::move(modes[k]);
     check(MatCreateVecs(trial, nullptr, shape.real.out()));
     check(VecDuplicate(shape.real, shape.imaginary.out()));

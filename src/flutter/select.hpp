@@ -12,9 +12,9 @@ double accuracyAsked();
 /// Marks unstable eigenvalues.
 void judge(std::vector<Eigenvalue>& eigenvalues);
 
-/// Collective. Keeps the `-flutter_shapes` fastest growing shapes of `point`; `unknowns` gives the modes of these eigenvalues in the
-/// unknowns x, of any length.
-void keepShapes(FrictionPoint& point, Mat trial,
-                const std::function<std::vector<ComplexVector>(const std::vector<std::size_t>&)>& unknowns);
+/// Indices of the `-flutter_shapes` fastest growing eigenvalues below `-flutter_shapes_below`, the fastest first.
+std::vector<std::size_t> shapesWanted(const FrictionPoint& point);
+/// Collective. Keeps the shapes of these eigenvalues; `modes` are theirs in the unknowns x, of any length.
+void keepShapes(FrictionPoint& point, Mat trial, const std::vector<std::size_t>& indices, std::vector<ComplexVector> modes);
 
 }  // namespace squeal::flutter

@@ -41,21 +41,27 @@ DenseMatrix Sketch::of(const double* x, PetscInt columns) const {
   return transposedProduct(comm_, signs_.values.data(), signs_.rows, 2 * size, x, columns);
 }
 
+DenseMatrix Sketch::unweighted(const double* x, PetscInt columns) const {
+  return transposedProduct(comm_, signs_.values.data(), signs_.rows, size, x, columns);
+}
+
 DenseMatrix Sketch::of(const RowSet& rows, const double* x, PetscInt columns) const {
   return transposedProduct(comm_, rows, signs_.values.data(), 2 * size, x, columns);
 }
 
+std::vector<double> squaredLengths(const DenseMatrix& unweighted) {
+  std::vector<double> squares;
+  for (auto column = unweighted.begin(); column != unweighted.end(); column += Sketch::size)
+    squares.push_back(std::inner_product(column, column + Sketch::size, column, 0.0));
+  return squares;
+}
+
 SquaredNorms squaredNorms(const DenseMatrix& sketch) {
-  constexpr auto k = static_cast<std::size_t>(Sketch::size);
   SquaredNorms norms;
-  for (auto column = sketch.begin(); column != sketch.end(); column += 2 * k) {
-    double euclidean = 0, weighted = 0;
-    for (std::size_t i = 0; i < k; ++i) {
-      euclidean += column[static_cast<std::ptrdiff_t>(i)] * column[static_cast<std::ptrdiff_t>(i)];
-      weighted += column[static_cast<std::ptrdiff_t>(k + i)] * column[static_cast<std::ptrdiff_t>(k + i)];
-    }
-    norms.euclidean.push_back(euclidean);
-    norms.weighted.push_back(weighted);
+  const auto halves = squaredLengths(sketch);  // of the two halves of each column
+  for (std::size_t j = 0; j < halves.size(); j += 2) {
+    norms.euclidean.push_back(halves[j]);
+    norms.weighted.push_back(halves[j + 1]);
   }
   return norms;
 }

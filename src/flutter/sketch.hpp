@@ -21,7 +21,9 @@ class Sketch {
   Sketch(MPI_Comm comm, const std::vector<double>& diagonal);
   /// Collective. Ωᵀ X and Ωᵀ D^½ X, one above the other, 2k × columns, divided by √k: the same on all ranks.
   DenseMatrix of(const double* x, PetscInt columns) const;
-  /// That of columns given by some rows, zero elsewhere.
+  /// Collective. Ωᵀ X alone, k × columns.
+  DenseMatrix unweighted(const double* x, PetscInt columns) const;
+  /// `of` for columns given by some rows, zero elsewhere.
   DenseMatrix of(const RowSet& rows, const double* x, PetscInt columns) const;
 
  private:
@@ -34,6 +36,8 @@ struct SquaredNorms {
   std::vector<double> euclidean, weighted;
 };
 SquaredNorms squaredNorms(const DenseMatrix& sketch);
+/// Squared Euclidean norms from an unweighted sketch (k × columns).
+std::vector<double> squaredLengths(const DenseMatrix& unweighted);
 
 /// Orthogonal combinations of columns, each first multiplied by its factor, that hold them but for parts of length `small`, as far as their
 /// sketches can tell (all × count, the factors included): right singular vectors of the sketch. `count` is a fraction of `all` where

@@ -2,7 +2,7 @@
 
 #include <petscsys.h>  // first: the next header needs it
 
-#include <petscblaslapack.h>
+#include <slepcblaslapack.h>
 
 #include <string>
 
@@ -11,15 +11,19 @@
 namespace squeal {
 
 std::vector<double> symmetricEigen(std::vector<double>& a, int n) {
-  PetscBLASInt order = n, length = -1, info = 0;
-  std::vector<double> values(static_cast<std::size_t>(n)), work(1);
+  PetscBLASInt order = n, length = -1, integers = -1, info = 0, integerLength = 0;
+  std::vector<double> values(static_cast<std::size_t>(n));
   if (n == 0) return values;
-  LAPACKsyev_("V", "L", &order, a.data(), &order, values.data(), work.data(), &length, &info);
-  length = static_cast<PetscBLASInt>(work[0]);
-  work.resize(static_cast<std::size_t>(length));
-  LAPACKsyev_("V", "L", &order, a.data(), &order, values.data(), work.data(), &length, &info);
+  double workLength = 0;
+  // Divide and conquer: on some hundred columns several times faster than dsyev, whose rotations (dlasr) are not blocked.
+  LAPACKsyevd_("V", "L", &order, a.data(), &order, values.data(), &workLength, &length, &integerLength, &integers, &info);
+  length = static_cast<PetscBLASInt>(workLength);
+  integers = integerLength;
+  std::vector<double> work(static_cast<std::size_t>(length));
+  std::vector<PetscBLASInt> integerWork(static_cast<std::size_t>(integers));
+  LAPACKsyevd_("V", "L", &order, a.data(), &order, values.data(), work.data(), &length, integerWork.data(), &integers, &info);
   if (info != 0)
-    throw Error("LAPACK dsyev failed on a matrix of order " + std::to_string(n) + " (info " + std::to_string(info) + ")");
+    throw Error("LAPACK dsyevd failed on a matrix of order " + std::to_string(n) + " (info " + std::to_string(info) + ")");
   return values;
 }
 

@@ -89,7 +89,7 @@ TEST(Basis, StaysOrthonormalInEnergy) {
   EXPECT_LT(f.departure(), 1e-10);
   EXPECT_EQ(f.basis->solves(), 50);
   const Block v = f.columns();
-  const auto sketch = f.basis->sketch().of(v.values.data(), v.columns);
+  const auto sketch = f.basis->sketch().unweighted(v.values.data(), v.columns);
   ASSERT_EQ(sketch.size(), f.basis->sketched().size());
   for (std::size_t k = 0; k < sketch.size(); ++k) EXPECT_NEAR(f.basis->sketched()[k], sketch[k], 1e-12) << k;
 }

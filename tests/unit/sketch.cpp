@@ -85,6 +85,7 @@ TEST(Sketch, NormsOfManyRandomVectors) {
   const Sketch sketch = sketchOn(layout);
   const auto columns = randomColumns(vectors);
   const auto norms = flutter::squaredNorms(sketch.of(layout.local(columns).data(), vectors));
+  EXPECT_EQ(norms.euclidean, flutter::squaredLengths(sketch.unweighted(layout.local(columns).data(), vectors)));
   const double expected = std::sqrt(2.0 / Sketch::size);
   for (const bool weighted : {false, true}) {
     const auto& found = weighted ? norms.weighted : norms.euclidean;

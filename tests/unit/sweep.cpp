@@ -1,6 +1,8 @@
 // The grid of a sweep, its order and what each parameter scales.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "flutter/flutter.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
@@ -52,6 +54,24 @@ TEST(Sweep, EverySteadyStateStartsFromANeighbour) {
       EXPECT_EQ(differences(points[*neighbour], points[i]), 1) << i;
     }
   }
+}
+
+TEST(Sweep, BatchesBeginWithEndsMiddleAndQuartersOfTheRange) {
+  std::vector<Parameters> points;
+  for (int i = 0; i <= 37; ++i) points.push_back({i / 37.0, 1, 1, 1});
+  const auto batches = flutter::batches(points);
+  std::vector<std::size_t> sizes, order;
+  for (const auto& batch : batches) {
+    sizes.push_back(batch.size());
+    order.insert(order.end(), batch.begin(), batch.end());
+  }
+  EXPECT_EQ(sizes, (std::vector<std::size_t>{5, 16, 16, 1}));
+  EXPECT_EQ(batches.front(), (std::vector<std::size_t>{37, 0, 18, 9, 27}));  // largest friction, then farthest from those before
+  std::sort(order.begin(), order.end());
+  for (std::size_t i = 0; i < points.size(); ++i) EXPECT_EQ(order.at(i), i);
+
+  EXPECT_EQ(flutter::batches({Parameters{0.4, 1, 1, 1}}), (std::vector<std::vector<std::size_t>>{{0}}));
+  EXPECT_TRUE(flutter::batches({}).empty());
 }
 
 TEST(Sweep, NamesAndTables) {
