@@ -42,8 +42,8 @@ struct FrictionPoint {
   double bandTop = 0;                      ///< rad/s: eigenvalues with |s| up to here are listed, and corrected; 0: none are
   double accuracy = 0;                     ///< backward error asked for
   double tolerance = 0;                    ///< estimate of |δs|/|s| asked for
-  double askedTo = 0;                      ///< rad/s: upper end of `-flutter_direct_band`; 0: no such band
-  double coveredTo = 0;  ///< rad/s: all eigenvalues of `-flutter_direct_band` with |s| below are listed; 0: no such band
+  double askedTo = 0;    ///< rad/s: upper end of `-flutter_band` or, of the direct method, `-flutter_direct_band`; 0: no such band
+  double coveredTo = 0;  ///< rad/s: all eigenvalues of that band with |s| below are listed; 0: no such band
   int unstableCount() const;
   int uncertifiedCount() const;
   double worstBackwardError() const;

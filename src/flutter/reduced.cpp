@@ -19,21 +19,9 @@ const ChoiceOption basisOption(
     "the principal directions of the vectors found so far; modal: free modes alone");
 const RealOption toleranceOption("flutter", "flutter_tolerance", 1e-8, "", positive,
                                  "estimated relative error |ds|/|s| to which the eigenvalues of the band are corrected");
-const RealOption bandOption("flutter", "flutter_band", 0, "Hz", nonNegative,
-                            "frequency up to which eigenvalues are corrected and listed; 0: that of mode 0.55 x -modes_count");
-const RealOption bandDampingOption("flutter", "flutter_band_damping", 0.5, "", positive,
-                                   "eigenvalues of a larger damping ratio, which die away within a cycle, are not listed");
 const IntegerOption roundsOption("flutter", "flutter_rounds", 15, 0, "most rounds of corrections at one batch of points");
 const IntegerOption growthOption("flutter", "flutter_growth", 1000, 0,
                                  "most vectors that corrections may add to the basis at one batch of points");
-
-/// Between two free modes, a little more than half up the list, that are not a double one: no eigenvalue sits on the edge for rounding
-/// to decide.
-double bandOfModes(const std::vector<double>& w) {
-  std::size_t k = w.size() * 11 / 20;
-  while (k + 1 < w.size() && w[k + 1] < (1 + 1e-4) * w[k]) ++k;
-  return k + 1 < w.size() ? 0.5 * (w[k] + w[k + 1]) : w.back();
-}
 
 bool correctionsWanted() { return basisOption.get() != "modal"; }
 
@@ -89,7 +77,7 @@ ReducedProblem::ReducedProblem(const Pencil& pencil, Mat stiffness, KSP solver, 
     return;
   }
   if (!correctionsWanted()) return;
-  bandTop_ = bandOption.get() > 0 ? 2 * M_PI * bandOption.get() : bandOfModes(modes.angularFrequency);
+  bandTop_ = bandBelow(modes.angularFrequency);
 }
 
 /// Brings what depends on the basis up to it.
@@ -325,6 +313,8 @@ FrictionPoint ReducedProblem::result(const Work& work) const {
   FrictionPoint point;
   point.at = work.point->at;
   point.bandTop = bandTop_;
+  if (bandTop_ > 0) point.askedTo = bandAsked();
+  point.coveredTo = std::min(point.askedTo, bandTop_);
   point.accuracy = accuracyAsked();
   point.tolerance = toleranceOption.get();
   for (std::size_t j = 0; j < work.pairs.size(); ++j) {
@@ -384,10 +374,10 @@ Improvement ReducedProblem::improve(const std::vector<std::pair<PointProblem, st
   return result;
 }
 
-WatchedBand ReducedProblem::band() const { return {bandTop_, 1.3, bandDampingOption.get()}; }
+WatchedBand ReducedProblem::band() const { return {bandTop_, 1.3, bandDamping()}; }
 
 bool ReducedProblem::inBand(std::complex<double> s) const {
-  return std::abs(s) <= bandTop_ && -s.real() <= bandDampingOption.get() * std::abs(s);
+  return std::abs(s) <= bandTop_ && -s.real() <= bandDamping() * std::abs(s);
 }
 
 }  // namespace squeal::flutter

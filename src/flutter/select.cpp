@@ -23,6 +23,11 @@ const RealListOption dampingOption("flutter", "flutter_damping", "1", "", nonNeg
                                    true);
 const ChoiceOption methodOption("flutter", "flutter_method", {"reduced", "direct"}, "reduced",
                                 "reduced: dense problem on the free modes; direct: all unknowns, for checking");
+const RealOption bandOption("flutter", "flutter_band", 0, "Hz", nonNegative,
+                            "frequency up to which eigenvalues are corrected and listed, as far as the free modes reach; "
+                            "0: that of mode 0.55 x -modes_count");
+const RealOption bandDampingOption("flutter", "flutter_band_damping", 0.5, "", positive,
+                                   "eigenvalues of a larger damping ratio, which die away within a cycle, are not listed");
 const RealOption accuracyOption("flutter", "flutter_accuracy", 1e-9, "", positive,
                                 "full-order backward error up to which an eigenvalue is certified, and to which it is corrected");
 const RealOption toleranceOption("flutter", "flutter_unstable_tolerance", 1e-6, "", nonNegative,
@@ -70,6 +75,23 @@ std::optional<std::size_t> Sweep::earlierNeighbour(std::size_t steadyPoint) cons
   if (steadyPoint % plane >= row) return steadyPoint - row;
   if (steadyPoint >= plane) return steadyPoint - plane;
   return std::nullopt;
+}
+
+double bandAsked() { return 2 * M_PI * bandOption.get(); }
+
+double bandDamping() { return bandDampingOption.get(); }
+
+double bandBelow(const std::vector<double>& w) {
+  const double asked = bandAsked();
+  if (asked > 0 && asked < w.back()) return asked;
+  // Between two modes that are not a double one: no eigenvalue sits on the edge for rounding to decide. The last may lack its double.
+  const auto apart = [&](std::size_t k) { return w[k] >= (1 + 1e-4) * w[k - 1]; };
+  std::size_t k = asked > 0 ? w.size() - 1 : w.size() * 11 / 20 + 1;
+  if (asked > 0)
+    while (k > 0 && !apart(k)) --k;
+  else
+    while (k < w.size() && !apart(k)) ++k;
+  return k > 0 && k < w.size() ? 0.5 * (w[k - 1] + w[k]) : w.back();
 }
 
 double accuracyAsked() { return accuracyOption.get(); }

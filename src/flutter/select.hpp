@@ -1,10 +1,18 @@
 #pragma once
-/// What the reduced and the direct solve have in common: the verdict and the choice of shapes to keep.
-#include <functional>
+/// What the reduced and the direct solve have in common: the band, the verdict and the choice of shapes to keep.
+#include <vector>
 
 #include "flutter/flutter.hpp"
 
 namespace squeal::flutter {
+
+/// `-flutter_band`, rad/s; 0: not given.
+double bandAsked();
+/// Its end for free modes of these angular frequencies, ascending: by itself a little more than half up the list. It ends before they do:
+/// nothing would tell of an eigenvalue above that is missing, as corrections are those of eigenvalues found.
+double bandBelow(const std::vector<double>& frequencies);
+/// `-flutter_band_damping`: largest damping ratio.
+double bandDamping();
 
 /// `-flutter_accuracy`: backward error up to which an eigenvalue is certified.
 double accuracyAsked();

@@ -190,7 +190,7 @@ std::string stabilityTable(const Analysis& analysis) {
     for (const auto& point : segment.points) table += sweep ? sweepRow(point, shown) : modeRows(point);
   for (const auto& segment : analysis.segments)
     for (const auto& point : segment.points)
-      if (point.coveredTo < point.askedTo)
+      if (point.bandTop == 0 && point.coveredTo < point.askedTo)
         table += formatted("\n%s: the band is covered up to %.5g Hz only; raise -flutter_direct_limit",
                            parameterText(point.at).c_str(), point.coveredTo / (2 * M_PI));
   for (const auto& segment : analysis.segments)
@@ -206,7 +206,11 @@ std::string stabilityTable(const Analysis& analysis) {
         backward = std::max(backward, point.worstBackwardError());
         estimate = std::max(estimate, point.worstErrorEstimate());
       }
-    const double top = analysis.segments.front().points.front().bandTop;
+    const auto& first = analysis.segments.front().points.front();
+    if (first.coveredTo < first.askedTo)
+      table += formatted("\nThe free modes end below the %.5g Hz of -flutter_band, and so do the eigenvalues: raise -modes_count.",
+                         first.askedTo / (2 * M_PI));
+    const double top = first.bandTop;
     table += (std::isfinite(top) ? formatted("\nEigenvalues up to %.5g Hz", top / (2 * M_PI)) : "\nAll eigenvalues") +
              formatted(", of the full-order problem: backward errors up to %.1e, estimated errors |ds|/|s| up to %.1e.", backward,
                        estimate);

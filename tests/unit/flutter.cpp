@@ -274,6 +274,31 @@ TEST(Sweep, CorrectedReductionIsThatOfTheFullOrder) {
   }
 }
 
+// A band asked for above the free modes ends between the last two: corrections are those of eigenvalues found, and at friction 0, where
+// the free modes are exact, none would lead to one above them. Each point on a basis of its own: none helps the next.
+TEST(Sweep, BandEndsWithTheFreeModes) {
+  const Layers layers("-modes_count 60 -flutter_band 1000");
+  const auto pencil = flutter::affineTerms(layers.model.contact, *layers.system);
+  const auto basis = modes::compute({layers.system->k0(), layers.system->m0(), layers.system->solver()});
+  const auto& w = basis.angularFrequency;
+  for (const double f : {0.0, 0.05, 0.5}) {
+    flutter::ReducedProblem reduced(pencil, layers.system->k0(), layers.system->solver(), basis);
+    std::vector<flutter::PointProblem> problem;
+    problem.push_back({{f}, pencil.with({})});
+    const auto points = reduced.solve(problem, layers.system->transformation().trial);
+    const auto& point = points.at(0);
+    EXPECT_GT(point.bandTop, w.at(w.size() - 3));  // the last two may be a double mode
+    EXPECT_LT(point.bandTop, w.back());
+    EXPECT_DOUBLE_EQ(point.askedTo, 2 * M_PI * 1000);
+    EXPECT_EQ(point.coveredTo, point.bandTop);
+    const auto exact = fullOrder(pencil, f);
+    const auto wanted =
+        std::count_if(exact.begin(), exact.end(), [&](const auto& pair) { return std::abs(pair.s) <= point.bandTop; });
+    EXPECT_EQ(static_cast<std::ptrdiff_t>(point.eigenvalues.size()), wanted) << "friction " << f;
+    EXPECT_EQ(point.uncertifiedCount(), 0);
+  }
+}
+
 // From below, so that no backward error is flattered, and not far below.
 TEST(Norm, IsJustBelowTheLargestSingularValue) {
   const Layers layers;
