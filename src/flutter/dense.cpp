@@ -11,6 +11,7 @@
 
 #include "flutter/images.hpp"
 #include "petsc/check.hpp"
+#include "petsc/lu.hpp"
 
 extern "C" void dgebal_(const char* job, const PetscBLASInt* n, double* a, const PetscBLASInt* lda, PetscBLASInt* low,
                         PetscBLASInt* high, double* scale, PetscBLASInt* info);
@@ -133,39 +134,11 @@ DenseMatrix sideBySide(const DenseMatrix& left, const DenseMatrix& right) {
   return both;
 }
 
-/// A⁻¹ as factors of A.
-class Inverse {
- public:
-  Inverse(DenseMatrix a, int m) : m_(m), factors_(std::move(a)), pivots_(static_cast<std::size_t>(m)) {
-    PetscBLASInt info = 0;
-    LAPACKgetrf_(&m_, &m_, factors_.data(), &m_, pivots_.data(), &info);
-    double smallest = INFINITY, largest = 0;
-    for (std::size_t i = 0; i < factors_.size(); i += static_cast<std::size_t>(m) + 1) {
-      smallest = std::min(smallest, std::abs(factors_[i]));
-      largest = std::max(largest, std::abs(factors_[i]));
-    }
-    condition_ = info == 0 ? smallest / largest : 0;
-  }
-  /// Smallest pivot over the largest; 0: A is singular.
-  double pivotRatio() const { return condition_; }
-  /// From here on an inverse is formed: eigenvalues then lose half of the digits at worst, the largest ones none.
-  bool exists() const { return condition_ > 1e-8; }
-  /// b ← A⁻¹ b, or A⁻ᵀ b, for b of any number of columns.
-  void solve(DenseMatrix& b, bool transposed = false) const {
-    PetscBLASInt columns = static_cast<PetscBLASInt>(b.size()) / m_, info = 0;
-    LAPACKgetrs_(transposed ? "T" : "N", &m_, &columns, const_cast<double*>(factors_.data()), &m_,
-                 const_cast<PetscBLASInt*>(pivots_.data()), b.data(), &m_, &info);
-  }
-
- private:
-  PetscBLASInt m_;
-  DenseMatrix factors_;
-  std::vector<PetscBLASInt> pivots_;
-  double condition_ = 0;
-};
+/// From here on an inverse is formed: eigenvalues then lose half of the digits at worst, the largest ones none.
+bool invertible(const Lu<double>& matrix) { return matrix.pivotRatio() > 1e-8; }
 
 /// uᴴ M⁻¹ A = μ uᴴ gives the left vectors y = M⁻ᵀ u of A y = μ M y.
-void undoInverse(const Inverse& mass, std::vector<DensePair>& pairs) {
+void undoInverse(const Lu<double>& mass, std::vector<DensePair>& pairs) {
   DenseMatrix columns;
   for (const auto& pair : pairs) {
     for (const auto& entry : pair.left) columns.push_back(entry.real());
@@ -187,10 +160,10 @@ Complex rootOf(Complex mu) {
   return s.imag() < 0 ? -s : s;
 }
 
-/// The leading matrix M of a quadratic problem, and its inverse: M⁻¹ is formed where it exists, as QR takes a small part of the time of QZ.
+/// The leading matrix M of a quadratic problem, and its factors: M⁻¹ A is formed where it can be, as QR takes a small part of the time of QZ.
 struct Leading {
   const DenseMatrix& matrix;
-  const Inverse& inverse;
+  const Lu<double>& factors;
 };
 
 std::vector<DensePair> linearInSquare(const Leading& mass, const DenseMatrix& stiffness, int m, Vectors vectors,
@@ -201,16 +174,16 @@ std::vector<DensePair> linearInSquare(const Leading& mass, const DenseMatrix& st
     return wanted(s) || (s.imag() == 0 && wanted(-s));
   };
   DenseMatrix product = stiffness;
-  if (mass.inverse.exists()) mass.inverse.solve(product);
-  const auto solved = mass.inverse.exists() ? standard(std::move(product), m, vectors, either)
-                                            : generalized(stiffness, mass.matrix, m, vectors, either);
+  if (invertible(mass.factors)) mass.factors.solve(product);
+  const auto solved = invertible(mass.factors) ? standard(std::move(product), m, vectors, either)
+                                               : generalized(stiffness, mass.matrix, m, vectors, either);
   std::vector<DensePair> pairs;
   for (const auto& [mu, q, left] : solved) {
     const Complex s = rootOf(mu);
     if (wanted(s)) pairs.push_back({s, q, left});
     if (s.imag() == 0 && wanted(-s)) pairs.push_back({-s, q, left});
   }
-  if (vectors == Vectors::both && mass.inverse.exists()) undoInverse(mass.inverse, pairs);
+  if (vectors == Vectors::both && invertible(mass.factors)) undoInverse(mass.factors, pairs);
   return pairs;
 }
 
@@ -231,7 +204,7 @@ std::vector<DensePair> companion(const Leading& mass, const DenseMatrix& damping
   const double unit = std::sqrt(norm(stiffness) / norm(mass.matrix));  // s = unit ŝ (Fan, Lin and Van Dooren 2004)
   // [0 I; −K −Z] (q, ŝq) = ŝ [I 0; 0 M] (q, ŝq), K and Z scaled
   DenseMatrix lower = sideBySide(stiffness, damping);
-  if (mass.inverse.exists()) mass.inverse.solve(lower);
+  if (invertible(mass.factors)) mass.factors.solve(lower);
   DenseMatrix a(4 * m * m, 0.0);
   for (std::size_t j = 0; j < m; ++j) {
     a[(m + j) * 2 * m + j] = 1;
@@ -242,14 +215,14 @@ std::vector<DensePair> companion(const Leading& mass, const DenseMatrix& damping
   }
   std::vector<DensePair> pairs;
   const Wanted upper = [&](Complex value) { return value.imag() >= 0 && wanted(unit * value); };
-  for (const auto& [value, right, left] : mass.inverse.exists()
+  for (const auto& [value, right, left] : invertible(mass.factors)
                                               ? standard(a, 2 * size, vectors, upper)
                                               : generalized(a, padded(mass.matrix, m), 2 * size, vectors, upper)) {
     const auto half = right.begin() + (std::abs(value) > 1 ? size : 0);  // the larger of q and ŝq
     // (u, y)ᴴ of the companion form: u = −K̂ᵀ y / conj ŝ, and yᴴ P = 0
     pairs.push_back({unit * value, {half, half + size}, {left.begin() + (left.empty() ? 0 : size), left.end()}});
   }
-  if (vectors == Vectors::both && mass.inverse.exists()) undoInverse(mass.inverse, pairs);
+  if (vectors == Vectors::both && invertible(mass.factors)) undoInverse(mass.factors, pairs);
   return pairs;
 }
 
@@ -276,10 +249,10 @@ std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vecto
   // The roots of the reversed polynomial, K + t Z + t² M read as t² K + t Z + M with t = 1/s, where K is the better matrix to invert:
   // so it is in a basis that is orthonormal in energy.
   constexpr double beyondDoubt = 0.01;
-  const Inverse ofStiffness(problem.stiffness, problem.m);
-  std::optional<Inverse> ofMass;
+  const Lu<double> ofStiffness(problem.stiffness, problem.m);
+  std::optional<Lu<double>> ofMass;
   if (ofStiffness.pivotRatio() < beyondDoubt) ofMass.emplace(problem.mass, problem.m);
-  const bool reversed = !ofMass || (ofStiffness.exists() && ofStiffness.pivotRatio() > ofMass->pivotRatio());
+  const bool reversed = !ofMass || (invertible(ofStiffness) && ofStiffness.pivotRatio() > ofMass->pivotRatio());
   const Leading leading = reversed ? Leading{problem.stiffness, ofStiffness} : Leading{problem.mass, *ofMass};
   const auto& last = reversed ? problem.mass : problem.stiffness;
   const Wanted root = [&](Complex t) {

@@ -1,15 +1,12 @@
 #include "flutter/left.hpp"
 
-#include <petscsys.h>  // first: the next header needs it
-
-#include <petscblaslapack.h>
-
 #include <array>
 #include <cmath>
 #include <numeric>
 
 #include "flutter/images.hpp"
 #include "petsc/columns.hpp"
+#include "petsc/lu.hpp"
 
 namespace squeal::flutter {
 namespace {
@@ -19,68 +16,45 @@ using Complex = std::complex<double>;
 constexpr double wanted = 1e-10;
 constexpr int mostRounds = 20;
 
-/// H = Σ s^p H_p as the real matrix [Re −Im; Im Re], so that real LAPACK solves with it, transposed for Hᴴ.
-class Factorised {
- public:
-  Factorised(const std::array<DenseMatrix, 3>& h, std::size_t m, Complex s) : m_(m), a_(4 * m * m, 0.0), pivots_(2 * m) {
-    for (std::size_t p = 0; p < 3; ++p) {
-      const Complex c = std::pow(s, static_cast<int>(p));
-      for (std::size_t k = 0; k < h[p].size(); ++k) {
-        const std::size_t i = k % m, j = k / m;
-        at(i, j) += c.real() * h[p][k], at(m + i, m + j) += c.real() * h[p][k];
-        at(m + i, j) += c.imag() * h[p][k], at(i, m + j) -= c.imag() * h[p][k];
-      }
-    }
-    PetscBLASInt n = static_cast<PetscBLASInt>(2 * m), info = 0;
-    LAPACKgetrf_(&n, &n, a_.data(), &n, pivots_.data(), &info);
-    // s may be an eigenvalue to the last digit: a pivot of zero takes the size of rounding.
-    double largest = 0;
-    for (std::size_t i = 0; i < 2 * m; ++i) largest = std::max(largest, std::abs(at(i, i)));
-    for (std::size_t i = 0; i < 2 * m; ++i)
-      if (at(i, i) == 0) at(i, i) = 1e-16 * largest;
-  }
-  /// x ← H⁻¹ x, or H⁻ᴴ x, of length one; x holds real parts, then imaginary ones.
-  void solve(bool adjoint, std::vector<double>& x) const {
-    PetscBLASInt n = static_cast<PetscBLASInt>(2 * m_), one = 1, info = 0;
-    LAPACKgetrs_(adjoint ? "T" : "N", &n, &one, const_cast<double*>(a_.data()), &n, const_cast<PetscBLASInt*>(pivots_.data()),
-                 x.data(), &n, &info);
-    double sum = 0;
-    for (double entry : x) sum += entry * entry;
-    for (double& entry : x) entry /= std::sqrt(sum);
-  }
-
- private:
-  double& at(std::size_t i, std::size_t j) { return a_[j * 2 * m_ + i]; }
-  std::size_t m_;
-  std::vector<double> a_;
-  std::vector<PetscBLASInt> pivots_;
-};
-
-/// cᴴ A q of vectors that hold real parts, then imaginary ones.
-Complex form(const std::vector<double>& c, const DenseMatrix& a, const std::vector<double>& q) {
-  const std::size_t m = q.size() / 2;
+/// cᴴ A q; zero for an empty A.
+Complex form(const std::vector<Complex>& c, const DenseMatrix& a, const std::vector<Complex>& q) {
   Complex sum = 0;
-  if (!a.empty())
-    for (std::size_t j = 0; j < m; ++j) {
-      Complex column = 0;
-      for (std::size_t i = 0; i < m; ++i) column += Complex(c[i], -c[m + i]) * a[j * m + i];
-      sum += column * Complex(q[j], q[m + j]);
-    }
+  for (std::size_t j = 0; j < q.size() && !a.empty(); ++j) {
+    Complex column = 0;
+    for (std::size_t i = 0; i < q.size(); ++i) column += std::conj(c[i]) * a[j * q.size() + i];
+    sum += column * q[j];
+  }
   return sum;
 }
 
-/// c with cᴴ H(s) = 0 by inverse iteration. s is known to some digits; where the space knows it better, the two-sided Rayleigh
-/// quotient δs = −cᴴ H q / cᴴ H′ q takes its own error out.
-std::vector<double> nullVector(const std::array<DenseMatrix, 3>& h, std::size_t m, Complex s) {
-  std::vector<double> c(2 * m);
-  for (std::size_t i = 0; i < 2 * m; ++i) c[i] = std::sin(12.9898 * static_cast<double>(i + 1));
+/// c with cᴴ H(s) = 0, H = Σ s^p h_p, by inverse iteration. s is known to some digits; where the space knows it better, the two-sided
+/// Rayleigh quotient δs = −cᴴ H q / cᴴ H′ q takes its own error out.
+std::vector<Complex> nullVector(const std::array<DenseMatrix, 3>& h, std::size_t m, Complex s) {
+  std::vector<Complex> c(m);
+  for (std::size_t i = 0; i < m; ++i) {
+    const auto at = static_cast<double>(i);
+    c[i] = {std::sin(12.9898 * (at + 1)), std::cos(78.233 * (at + 1))};
+  }
+  const auto solve = [](const Lu<Complex>& factors, std::vector<Complex> x, bool adjoint) {
+    factors.solve(x, adjoint);
+    double sum = 0;
+    for (const auto& entry : x) sum += std::norm(entry);
+    for (auto& entry : x) entry /= std::sqrt(sum);
+    return x;
+  };
   for (int step = 0; step < 3; ++step) {
-    const Factorised factorised(h, m, s);
+    std::vector<Complex> sum(m * m, 0.0);
+    Complex power = 1;
+    for (const auto& matrix : h) {
+      for (std::size_t k = 0; k < matrix.size(); ++k) sum[k] += power * matrix[k];
+      power *= s;
+    }
+    Lu<Complex> factors(std::move(sum), static_cast<int>(m));
+    factors.raiseZeroPivots();  // s may be an eigenvalue to the last digit
     auto q = c;
     for (int cycle = 0; cycle < 2; ++cycle) {
-      factorised.solve(false, q);
-      c = q;
-      factorised.solve(true, c);
+      q = solve(factors, std::move(q), false);
+      c = solve(factors, q, true);
       if (cycle == 0) q = c;
     }
     const Complex value = form(c, h[0], q) + s * form(c, h[1], q) + s * s * form(c, h[2], q),
@@ -239,26 +213,27 @@ class Search {
   }
 
   /// Left null vectors in the basis, spread over the ranks; the same on all, so that rounding cannot make them disagree.
-  std::vector<std::vector<double>> nullVectors(const std::vector<Complex>& values) const {
+  std::vector<std::vector<Complex>> nullVectors(const std::vector<Complex>& values) const {
     const auto m = static_cast<std::size_t>(size_);
     int rank = 0, ranks = 1;
     check(MPI_Comm_rank(pencil_.comm(), &rank));
     check(MPI_Comm_size(pencil_.comm(), &ranks));
-    std::vector<std::vector<double>> vectors(values.size(), std::vector<double>(2 * m));
+    std::vector<std::vector<Complex>> vectors(values.size(), std::vector<Complex>(m));
     for (std::size_t i = static_cast<std::size_t>(rank); i < values.size(); i += static_cast<std::size_t>(ranks))
       vectors[i] = nullVector(projected_, m, values[i]);
     for (std::size_t i = 0; i < values.size(); ++i)
-      check(MPI_Bcast(vectors[i].data(), static_cast<int>(2 * m), MPI_DOUBLE, static_cast<int>(i) % ranks, pencil_.comm()));
+      check(MPI_Bcast(vectors[i].data(), static_cast<int>(m), MPI_C_DOUBLE_COMPLEX, static_cast<int>(i) % ranks, pencil_.comm()));
     return vectors;
   }
 
   /// V c, of length one.
-  ComplexVector expand(const std::vector<double>& c) const {
+  ComplexVector expand(const std::vector<Complex>& c) const {
     ComplexVector y;
     check(MatCreateVecs(pencil_.terms().at(0).matrix, y.real.out(), y.imaginary.out()));
-    const auto columns = static_cast<std::size_t>(size_);
-    check(BVMultVec(basis_, 1, 0, y.real, const_cast<double*>(c.data())));
-    check(BVMultVec(basis_, 1, 0, y.imaginary, const_cast<double*>(c.data() + columns)));
+    std::vector<double> real, imaginary;
+    for (const auto& entry : c) real.push_back(entry.real()), imaginary.push_back(entry.imag());
+    check(BVMultVec(basis_, 1, 0, y.real, real.data()));
+    check(BVMultVec(basis_, 1, 0, y.imaginary, imaginary.data()));
     const double size = length(y);
     check(VecScale(y.real, 1 / size));
     check(VecScale(y.imaginary, 1 / size));

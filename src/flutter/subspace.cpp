@@ -7,17 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
-#include "petsc/check.hpp"
-
-// PETSc of real scalars declares the real routines alone.
-extern "C" {
-void zgetrf_(const PetscBLASInt* m, const PetscBLASInt* n, std::complex<double>* a, const PetscBLASInt* lda, PetscBLASInt* pivots,
-             PetscBLASInt* info);
-void zgetrs_(const char* trans, const PetscBLASInt* n, const PetscBLASInt* columns, const std::complex<double>* a,
-             const PetscBLASInt* lda, const PetscBLASInt* pivots, std::complex<double>* b, const PetscBLASInt* ldb,
-             PetscBLASInt* info);
-}
+#include "petsc/lu.hpp"
 
 namespace squeal::flutter {
 namespace {
@@ -56,49 +48,38 @@ ComplexVector combined(Complex a, const ComplexVector& x, Complex b, const Compl
 /// LU of P(σ): real, at a quarter of the cost, where P(σ) is.
 class Factors {
  public:
-  Factors(const DenseProblem& problem, Complex shift) : order_(problem.m), pivots_(static_cast<std::size_t>(problem.m)) {
+  Factors(const DenseProblem& problem, Complex shift) {
     const std::size_t size = problem.stiffness.size();
     const Complex square = shift * shift;
-    PetscBLASInt info = 0;
     if (problem.damping.empty() && shift.real() == 0) {
-      real_.resize(size);
-      for (std::size_t k = 0; k < size; ++k) real_[k] = square.real() * problem.mass[k] + problem.stiffness[k];
-      LAPACKgetrf_(&order_, &order_, real_.data(), &order_, pivots_.data(), &info);
+      DenseMatrix sum(size);
+      for (std::size_t k = 0; k < size; ++k) sum[k] = square.real() * problem.mass[k] + problem.stiffness[k];
+      real_.emplace(std::move(sum), problem.m);
     } else {
-      complex_.resize(size);
+      ComplexVector sum(size);
       for (std::size_t k = 0; k < size; ++k)
-        complex_[k] = square * problem.mass[k] + (problem.damping.empty() ? 0 : shift * problem.damping[k]) + problem.stiffness[k];
-      zgetrf_(&order_, &order_, complex_.data(), &order_, pivots_.data(), &info);
+        sum[k] = square * problem.mass[k] + (problem.damping.empty() ? 0 : shift * problem.damping[k]) + problem.stiffness[k];
+      complex_.emplace(std::move(sum), problem.m);
     }
-    regular_ = info == 0;
   }
-  bool regular() const { return regular_; }
-  /// P(σ)⁻¹ b; `transposed` "C": P(σ)⁻ᴴ b.
-  ComplexVector solve(ComplexVector b, const char* transposed = "N") const {
-    const PetscBLASInt one = 1, two = 2;
-    PetscBLASInt info = 0;
-    if (real_.empty()) {
-      zgetrs_(transposed, &order_, &one, complex_.data(), &order_, pivots_.data(), b.data(), &order_, &info);
+  bool regular() const { return (real_ ? real_->pivotRatio() : complex_->pivotRatio()) > 0; }
+  /// P(σ)⁻¹ b, or P(σ)⁻ᴴ b.
+  ComplexVector solve(ComplexVector b, bool adjoint = false) const {
+    if (!real_) {
+      complex_->solve(b, adjoint);
       return b;
     }
-    const std::size_t m = b.size();
-    std::vector<double> parts(2 * m);
-    for (std::size_t i = 0; i < m; ++i) {
-      parts[i] = b[i].real();
-      parts[m + i] = b[i].imag();
-    }
-    LAPACKgetrs_(transposed, &order_, &two, const_cast<double*>(real_.data()), &order_, const_cast<PetscBLASInt*>(pivots_.data()),
-                 parts.data(), &order_, &info);
-    for (std::size_t i = 0; i < m; ++i) b[i] = {parts[i], parts[m + i]};
+    std::vector<double> parts;
+    for (const auto& entry : b) parts.push_back(entry.real());
+    for (const auto& entry : b) parts.push_back(entry.imag());
+    real_->solve(parts, adjoint);
+    for (std::size_t i = 0; i < b.size(); ++i) b[i] = {parts[i], parts[b.size() + i]};
     return b;
   }
 
  private:
-  PetscBLASInt order_;
-  std::vector<double> real_;
-  ComplexVector complex_;
-  std::vector<PetscBLASInt> pivots_;
-  bool regular_ = false;
+  std::optional<Lu<double>> real_;
+  std::optional<Lu<Complex>> complex_;
 };
 
 /// A vector of the companion form [0 I; −K −Z] z = s [I 0; 0 M] z: right (x, s x), left ((s M + Z)ᴴ y, y).
@@ -151,7 +132,7 @@ class TwoSidedIteration {
     for (auto& u : left_) {
       // wᴴ (A − σB) = uᴴ B: w2ᴴ P(σ) = −(u1ᴴ + σ u2ᴴ M), w1ᴴ = u2ᴴ M + w2ᴴ (Z + σM)
       const ComplexVector carried = timesTransposed(problem_.mass, u.bottom);
-      u.bottom = factors.solve(combined(-1, u.top, -std::conj(shift), carried), "C");
+      u.bottom = factors.solve(combined(-1, u.top, -std::conj(shift), carried), true);
       u.top = combined(1, carried, std::conj(shift), timesTransposed(problem_.mass, u.bottom));
       u.top = combined(1, u.top, 1, timesTransposed(problem_.damping, u.bottom));
     }
