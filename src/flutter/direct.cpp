@@ -75,7 +75,7 @@ FrictionPoint solveDirect(const Pencil& pencil, const Parameters& at, Mat trial)
   if (band.wanted()) point.askedTo = band.high, point.coveredTo = std::min(reached, band.high);
   point.accuracy = accuracyAsked();
   for (const auto& pair : pairs) {
-    const double error = backwardError(pencil, at, pair.s, pair.real, pair.imaginary);
+    const double error = backwardError(pencil, at, pair.s, pair);
     point.eigenvalues.push_back({pair.s, error, NAN, error <= point.accuracy});
   }
   judge(point.eigenvalues);

@@ -42,8 +42,8 @@ struct FrictionPoint {
   double bandTop = 0;                      ///< rad/s: eigenvalues with |s| up to here are listed, and corrected; 0: none are
   double accuracy = 0;                     ///< backward error asked for
   double tolerance = 0;                    ///< estimate of |δs|/|s| asked for
-  double askedTo = 0;    ///< rad/s: upper end of `-flutter_band` or, of the direct method, `-flutter_direct_band`; 0: no such band
-  double coveredTo = 0;  ///< rad/s: all eigenvalues of that band with |s| below are listed; 0: no such band
+  double askedTo = 0;                      ///< rad/s: upper end of `-flutter_direct_band`; 0: no such band
+  double coveredTo = 0;  ///< rad/s: all eigenvalues of `-flutter_direct_band` with |s| below are listed; 0: no such band
   int unstableCount() const;
   int uncertifiedCount() const;
   double worstBackwardError() const;
@@ -67,7 +67,8 @@ struct Sweep {
 /// Error: an empty list, a value out of range or given twice.
 Sweep readSweep();
 /// Indices of points in the order in which one basis serves them best, in batches of 5, 16, 16, … points: the largest friction
-/// first, then whatever lies farthest from the points before. The same on any number of ranks.
+/// first, then whatever lies farthest from the points before: of a sweep over friction alone the ends, the middle and the quarters. The
+/// same on any number of ranks.
 std::vector<std::vector<std::size_t>> batches(const std::vector<Parameters>& points);
 /// `-flutter_method`: true for the direct solve on all unknowns.
 bool directWanted();

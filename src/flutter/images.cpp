@@ -57,6 +57,7 @@ DenseMatrix congruent(const DenseMatrix& a, PetscInt size, const DenseMatrix& c)
 
 DenseMatrix rowsOf(const DenseMatrix& matrix, std::size_t height, std::size_t first, std::size_t count) {
   DenseMatrix rows;
+  if (matrix.empty()) return rows;
   rows.reserve(matrix.size() / height * count);
   for (auto column = matrix.begin(); column != matrix.end(); column += static_cast<std::ptrdiff_t>(height)) {
     const auto begin = column + static_cast<std::ptrdiff_t>(first);

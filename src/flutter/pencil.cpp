@@ -129,10 +129,7 @@ ComplexVector residual(const Pencil& pencil, const Parameters& at, std::complex<
   return sum;
 }
 
-double backwardError(const Pencil& pencil, const Parameters& at, std::complex<double> s, Vec real, Vec imaginary) {
-  ComplexVector d = ComplexVector::like(real);
-  check(VecCopy(real, d.real));
-  if (imaginary) check(VecCopy(imaginary, d.imaginary));
+double backwardError(const Pencil& pencil, const Parameters& at, std::complex<double> s, const ComplexVector& d) {
   double scale = 0;
   for (int power = 0; power <= 2; ++power) scale += std::pow(std::abs(s), power) * pencil.norm(power, at);
   return length(residual(pencil, at, s, d, Side::right)) / (scale * length(d));

@@ -65,7 +65,7 @@ enum class Side { right, left };
 /// Collective. P(s) d, or P(s)ᴴ d of the left side.
 ComplexVector residual(const Pencil& pencil, const Parameters& at, std::complex<double> s, const ComplexVector& d, Side side);
 
-/// Collective. ‖P(s) d‖ / ((|s|² ‖M̄‖ + |s| ‖Z̄‖ + ‖K̄‖) ‖d‖) for d = real + i imaginary (imaginary may be null).
-double backwardError(const Pencil& pencil, const Parameters& at, std::complex<double> s, Vec real, Vec imaginary);
+/// Collective. ‖P(s) d‖ / ((|s|² ‖M̄‖ + |s| ‖Z̄‖ + ‖K̄‖) ‖d‖).
+double backwardError(const Pencil& pencil, const Parameters& at, std::complex<double> s, const ComplexVector& d);
 
 }  // namespace squeal::flutter

@@ -313,8 +313,6 @@ FrictionPoint ReducedProblem::result(const Work& work) const {
   FrictionPoint point;
   point.at = work.point->at;
   point.bandTop = bandTop_;
-  if (bandTop_ > 0) point.askedTo = bandAsked();
-  point.coveredTo = std::min(point.askedTo, bandTop_);
   point.accuracy = accuracyAsked();
   point.tolerance = toleranceOption.get();
   for (std::size_t j = 0; j < work.pairs.size(); ++j) {

@@ -8,6 +8,7 @@ namespace {
 
 /// coefficient · matrix · s^power, or its transpose, by the rows that hold anything.
 struct Forces {
+  bool transposed;
   RowSet rows;
   OwnedMat matrix;
   int power;
@@ -18,18 +19,7 @@ Forces forcesOf(const Term& term, const Parameters& at, bool transposed) {
   OwnedMat matrix = term.matrix.share();
   if (transposed) check(MatTranspose(term.matrix, MAT_INITIAL_MATRIX, matrix.out()));
   const RowSet rows(matrix);
-  return {rows, rows.of(matrix), term.power, term.coefficient(at)};
-}
-
-/// This rank's rows that any of the forces have, ascending.
-std::vector<PetscInt> rowsOfAny(const std::vector<Forces>& list, PetscInt localRows) {
-  std::vector<bool> any(static_cast<std::size_t>(localRows), false);
-  for (const auto& forces : list)
-    for (PetscInt i = 0; i < forces.rows.size(); ++i) any[static_cast<std::size_t>(forces.rows[i])] = true;
-  std::vector<PetscInt> rows;
-  for (PetscInt i = 0; i < localRows; ++i)
-    if (any[static_cast<std::size_t>(i)]) rows.push_back(i);
-  return rows;
+  return {transposed, rows, rows.of(matrix), term.power, term.coefficient(at)};
 }
 
 }  // namespace
@@ -40,30 +30,32 @@ std::vector<PetscInt> rowsOfAny(const std::vector<Forces>& list, PetscInt localR
 void ReducedProblem::addStaticResponses(const PointProblem& point) {
   const auto count = static_cast<PetscInt>(std::upper_bound(modes_.begin(), modes_.end(), bandTop_) - modes_.begin());
   const auto& terms = point.pencil.terms();
-  std::vector<Forces> list;  // the right ones, then as many left ones
+  std::vector<Forces> list;
   for (const bool transposed : {false, true})
     for (std::size_t t = 0; t < terms.size(); ++t)
       if (terms[t].frictionExponent != 0 || t >= point.pencil.affineCount())
         list.push_back(forcesOf(terms[t], point.at, transposed));
-  // Forces of friction are zero but at the contact.
-  const auto rows = rowsOfAny(list, basis_.localRows());
-  const auto place = [&](PetscInt row) { return std::lower_bound(rows.begin(), rows.end(), row) - rows.begin(); };
+  // Forces of friction are zero but at the contact: the columns are kept by the rows that any of them has.
+  std::vector<PetscInt> rows, place(static_cast<std::size_t>(basis_.localRows()), -1);
+  for (const auto& forces : list)
+    for (PetscInt i = 0; i < forces.rows.size(); ++i)
+      if (auto& known = place[static_cast<std::size_t>(forces.rows[i])]; known < 0) {
+        known = static_cast<PetscInt>(rows.size());
+        rows.push_back(forces.rows[i]);
+      }
   Block all(static_cast<PetscInt>(rows.size()));
   for (const bool transposed : {false, true})
     for (const bool imaginary : {false, true}) {  // (iω)^power
       Block part(all.rows, count);
-      for (std::size_t k = transposed ? list.size() / 2 : 0; k < (transposed ? list.size() : list.size() / 2); ++k) {
-        const auto& forces = list[k];
-        if ((forces.power == 1) != imaginary) continue;
+      for (const auto& forces : list) {
+        if (forces.transposed != transposed || (forces.power == 1) != imaginary) continue;
         Block images(forces.rows.size());
         basis_.appendImages(forces.matrix, 0, count, images);
-        std::vector<std::ptrdiff_t> places;
-        for (PetscInt i = 0; i < images.rows; ++i) places.push_back(place(forces.rows[i]));
         for (PetscInt j = 0; j < count; ++j) {
           const double omega = modes_[static_cast<std::size_t>(j)];
           const double factor = forces.coefficient * (forces.power == 0 ? 1 : forces.power == 1 ? omega : -omega * omega);
           for (PetscInt i = 0; i < images.rows; ++i)
-            part.column(j)[places[static_cast<std::size_t>(i)]] += factor * images.column(j)[i];
+            part.column(j)[place[static_cast<std::size_t>(forces.rows[i])]] += factor * images.column(j)[i];
         }
       }
       append(all, unitColumns(basis_.comm(), part));

@@ -82,16 +82,16 @@ double bandAsked() { return 2 * M_PI * bandOption.get(); }
 double bandDamping() { return bandDampingOption.get(); }
 
 double bandBelow(const std::vector<double>& w) {
-  const double asked = bandAsked();
-  if (asked > 0 && asked < w.back()) return asked;
-  // Between two modes that are not a double one: no eigenvalue sits on the edge for rounding to decide. The last may lack its double.
-  const auto apart = [&](std::size_t k) { return w[k] >= (1 + 1e-4) * w[k - 1]; };
-  std::size_t k = asked > 0 ? w.size() - 1 : w.size() * 11 / 20 + 1;
-  if (asked > 0)
-    while (k > 0 && !apart(k)) --k;
-  else
-    while (k < w.size() && !apart(k)) ++k;
-  return k > 0 && k < w.size() ? 0.5 * (w[k - 1] + w[k]) : w.back();
+  constexpr double apart = 1 + 1e-4;
+  // Between two modes that are not a double one no eigenvalue sits on the edge for rounding to decide; the last may lack its double.
+  const auto edge = [&](std::size_t k) { return k > 0 && w[k] >= apart * w[k - 1]; };  // below mode k
+  const auto middle = [&](std::size_t k) { return k > 0 ? 0.5 * (w[k - 1] + w[k]) : apart * w.back(); };
+  std::size_t last = w.size() - 1;
+  while (last > 0 && !edge(last)) --last;
+  if (bandAsked() > 0) return std::min(bandAsked(), middle(last));
+  std::size_t k = std::min(w.size() * 11 / 20 + 1, last);
+  while (k < last && !edge(k)) ++k;
+  return middle(k);
 }
 
 double accuracyAsked() { return accuracyOption.get(); }

@@ -8,8 +8,9 @@ namespace squeal::flutter {
 
 /// `-flutter_band`, rad/s; 0: not given.
 double bandAsked();
-/// Its end for free modes of these angular frequencies, ascending: by itself a little more than half up the list. It ends before they do:
-/// nothing would tell of an eigenvalue above that is missing, as corrections are those of eigenvalues found.
+/// Its end for free modes of these angular frequencies, ascending: by itself a little more than half up the list. It ends below the last
+/// mode (unless all are the same): nothing would tell of an eigenvalue above that is missing, as corrections are those of eigenvalues
+/// found.
 double bandBelow(const std::vector<double>& frequencies);
 /// `-flutter_band_damping`: largest damping ratio.
 double bandDamping();

@@ -56,8 +56,10 @@ Lu<Scalar>::Lu(std::vector<Scalar> matrix, int n) : n_(n), factors_(std::move(ma
 
 template <class Scalar>
 void Lu<Scalar>::raiseZeroPivots() {
+  if (pivotRatio_ > 0) return;
+  pivotRatio_ = std::numeric_limits<double>::epsilon();
   for (std::size_t i = 0; i < factors_.size(); i += static_cast<std::size_t>(n_) + 1)
-    if (factors_[i] == 0.0) factors_[i] = std::numeric_limits<double>::epsilon() * largest_;
+    if (factors_[i] == 0.0) factors_[i] = pivotRatio_ * largest_;
 }
 
 template <class Scalar>

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <fstream>
 
+#include "flutter/select.hpp"
 #include "petsc/options.hpp"
 #include "petsc/session.hpp"
 #include "petsc/text.hpp"
@@ -190,7 +191,7 @@ std::string stabilityTable(const Analysis& analysis) {
     for (const auto& point : segment.points) table += sweep ? sweepRow(point, shown) : modeRows(point);
   for (const auto& segment : analysis.segments)
     for (const auto& point : segment.points)
-      if (point.bandTop == 0 && point.coveredTo < point.askedTo)
+      if (point.coveredTo < point.askedTo)
         table += formatted("\n%s: the band is covered up to %.5g Hz only; raise -flutter_direct_limit",
                            parameterText(point.at).c_str(), point.coveredTo / (2 * M_PI));
   for (const auto& segment : analysis.segments)
@@ -200,17 +201,16 @@ std::string stabilityTable(const Analysis& analysis) {
             formatted("\n%s: %d eigenvalues could not be certified, see eigenvalues.csv; raise -modes_count or -flutter_rounds",
                       parameterText(point.at).c_str(), point.uncertifiedCount());
   if (!analysis.segments.empty() && analysis.segments.front().points.front().bandTop > 0) {
-    double backward = 0, estimate = 0;
+    double backward = 0, estimate = 0, top = INFINITY;
     for (const auto& segment : analysis.segments)
       for (const auto& point : segment.points) {
+        top = std::min(top, point.bandTop);
         backward = std::max(backward, point.worstBackwardError());
         estimate = std::max(estimate, point.worstErrorEstimate());
       }
-    const auto& first = analysis.segments.front().points.front();
-    if (first.coveredTo < first.askedTo)
+    if (top < flutter::bandAsked())
       table += formatted("\nThe free modes end below the %.5g Hz of -flutter_band, and so do the eigenvalues: raise -modes_count.",
-                         first.askedTo / (2 * M_PI));
-    const double top = first.bandTop;
+                         flutter::bandAsked() / (2 * M_PI));
     table += (std::isfinite(top) ? formatted("\nEigenvalues up to %.5g Hz", top / (2 * M_PI)) : "\nAll eigenvalues") +
              formatted(", of the full-order problem: backward errors up to %.1e, estimated errors |ds|/|s| up to %.1e.", backward,
                        estimate);

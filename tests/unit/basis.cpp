@@ -7,8 +7,7 @@
 #include <random>
 
 #include "petsc/symmetric.hpp"
-#include "support/case.hpp"
-#include "support/model.hpp"
+#include "support/layers.hpp"
 
 namespace squeal {
 namespace {
@@ -16,18 +15,12 @@ namespace {
 using flutter::Basis;
 using flutter::Block;
 
-/// The layers sliding on each other on a coarse mesh: 156 unknowns, of which 20 modes are the basis to begin with.
-struct Fixture {
-  test::Model model;
-  std::unique_ptr<contact::AssociatedSystem> system;
+/// Twenty modes of the layers are the basis to begin with.
+struct Fixture : test::Layers {
   std::unique_ptr<Basis> basis;
-  Fixture() {
-    test::setCase("two_layers", "-mesh_set nx=12,ny_disc=4,ny_pad=3 -modes_count 20");
-    model = test::buildModel();
-    system = std::make_unique<contact::AssociatedSystem>(model.bodies, model.contact,
-                                                         std::vector<unsigned char>(model.contact.nodes.size(), 1));
-    const auto modes = modes::compute({system->k0(), system->m0(), system->solver()});
-    basis = std::make_unique<Basis>(modes, system->k0(), system->solver());
+  Fixture() : Layers("-modes_count 20") {
+    const auto free = modes();  // before the solver is asked for: they leave it with other matrices
+    basis = std::make_unique<Basis>(free, system->k0(), system->solver());
   }
 
   /// A X.

@@ -9,9 +9,7 @@
 #include <random>
 
 #include "flutter/dense.hpp"
-#include "modes/modes.hpp"
-#include "support/case.hpp"
-#include "support/model.hpp"
+#include "support/layers.hpp"
 #include "support/spectrum.hpp"
 
 namespace squeal {
@@ -20,6 +18,7 @@ namespace {
 using flutter::DenseMatrix;
 using flutter::DensePair;
 using test::Complex;
+using test::Layers;
 
 // Mode coupling (Hoffmann, Fischer, Allgaier and Gaul 2002, in normal form): M = I, K = [k1, f k3; −f k3, k2].
 //   μ = −s²:  (k1 − μ)(k2 − μ) + f² k3² = 0,  μ = (k1 + k2)/2 ± √((k1 − k2)²/4 − f² k3²)
@@ -215,18 +214,6 @@ TEST(Sweep, DirectMethodIsExact) {
   for (const double f : {0.0, 0.12, 0.2, 0.6}) expectChain(flutter::solveDirect(pencil, {f}, trial));
 }
 
-/// Of the layers sliding on each other: L(f)ᵀ K T and L(f)ᵀ M T.
-struct Layers {
-  test::Model model;
-  std::unique_ptr<contact::AssociatedSystem> system;
-  explicit Layers(const std::string& options = {}) {
-    test::setCase("two_layers", "-mesh_set nx=12,ny_disc=4,ny_pad=3 " + options);
-    model = test::buildModel();
-    system = std::make_unique<contact::AssociatedSystem>(model.bodies, model.contact,
-                                                         std::vector<unsigned char>(model.contact.nodes.size(), 1));
-  }
-};
-
 double largestSingularValue(test::DenseCopy a) {
   PetscBLASInt n = a.rows, one = 1, length = 40 * n, info = 0;
   std::vector<double> values(static_cast<std::size_t>(n)), work(static_cast<std::size_t>(length));
@@ -245,14 +232,14 @@ std::vector<DensePair> fullOrder(const flutter::Pencil& pencil, double friction)
 TEST(Sweep, CorrectedReductionIsThatOfTheFullOrder) {
   const Layers layers("-modes_count 60");
   const auto pencil = flutter::affineTerms(layers.model.contact, *layers.system);
-  const auto basis = modes::compute({layers.system->k0(), layers.system->m0(), layers.system->solver()});
+  const auto basis = layers.modes();
   flutter::ReducedProblem reduced(pencil, layers.system->k0(), layers.system->solver(), basis);
   for (const double f : {0.0, 0.2, 0.5}) {
     std::vector<flutter::PointProblem> problem;
     problem.push_back({{f}, pencil.with({})});
     const auto points = reduced.solve(problem, layers.system->transformation().trial);
     const auto& point = points.at(0);
-    const double top = (1 - 1e-6) * point.bandTop;  // the band ends at a free mode, where rounding would decide
+    const double top = (1 - 1e-6) * point.bandTop;  // rounding decides what is on the edge
     std::vector<Complex> wanted, found;
     for (const auto& pair : fullOrder(pencil, f))
       if (std::abs(pair.s) <= top) wanted.push_back(pair.s);
@@ -279,7 +266,7 @@ TEST(Sweep, CorrectedReductionIsThatOfTheFullOrder) {
 TEST(Sweep, BandEndsWithTheFreeModes) {
   const Layers layers("-modes_count 60 -flutter_band 1000");
   const auto pencil = flutter::affineTerms(layers.model.contact, *layers.system);
-  const auto basis = modes::compute({layers.system->k0(), layers.system->m0(), layers.system->solver()});
+  const auto basis = layers.modes();
   const auto& w = basis.angularFrequency;
   for (const double f : {0.0, 0.05, 0.5}) {
     flutter::ReducedProblem reduced(pencil, layers.system->k0(), layers.system->solver(), basis);
@@ -289,8 +276,6 @@ TEST(Sweep, BandEndsWithTheFreeModes) {
     const auto& point = points.at(0);
     EXPECT_GT(point.bandTop, w.at(w.size() - 3));  // the last two may be a double mode
     EXPECT_LT(point.bandTop, w.back());
-    EXPECT_DOUBLE_EQ(point.askedTo, 2 * M_PI * 1000);
-    EXPECT_EQ(point.coveredTo, point.bandTop);
     const auto exact = fullOrder(pencil, f);
     const auto wanted =
         std::count_if(exact.begin(), exact.end(), [&](const auto& pair) { return std::abs(pair.s) <= point.bandTop; });
@@ -334,8 +319,8 @@ TEST(BackwardError, OfExactAndOfPerturbedPairs) {
   const auto pairs = fullOrder(pencil, friction);
   EXPECT_TRUE(
       std::any_of(pairs.begin(), pairs.end(), [](const auto& pair) { return pair.s.real() > 1e-3; }));  // complex ones among them
-  OwnedVec real, imaginary;
-  check(MatCreateVecs(layers.system->k0(), real.out(), imaginary.out()));
+  flutter::ComplexVector d;
+  check(MatCreateVecs(layers.system->k0(), d.real.out(), d.imaginary.out()));
   double worst = 0;
   for (std::size_t k = 0; k < pairs.size(); k += 7) {
     const auto& s = pairs[k].s;
@@ -343,44 +328,45 @@ TEST(BackwardError, OfExactAndOfPerturbedPairs) {
     Complex moved = 0;
     double length = 0;
     for (std::size_t i = 0; i < q.size(); ++i) {
-      check(VecSetValue(real, static_cast<PetscInt>(i), q[i].real(), INSERT_VALUES));
-      check(VecSetValue(imaginary, static_cast<PetscInt>(i), q[i].imag(), INSERT_VALUES));
+      check(VecSetValue(d.real, static_cast<PetscInt>(i), q[i].real(), INSERT_VALUES));
+      check(VecSetValue(d.imaginary, static_cast<PetscInt>(i), q[i].imag(), INSERT_VALUES));
       moved = 0;
       for (std::size_t j = 0; j < q.size(); ++j) moved += mass(static_cast<PetscInt>(i), static_cast<PetscInt>(j)) * q[j];
       length += std::norm(moved);
     }
-    for (Vec part : {real.get(), imaginary.get()}) check(VecAssemblyBegin(part)), check(VecAssemblyEnd(part));
-    worst = std::max(worst, flutter::backwardError(pencil, {friction}, s, real, imaginary));
+    for (Vec part : {d.real.get(), d.imaginary.get()}) check(VecAssemblyBegin(part)), check(VecAssemblyEnd(part));
+    worst = std::max(worst, flutter::backwardError(pencil, {friction}, s, d));
     for (const Complex step : {Complex(1e-3, 0), Complex(0, -1e-6), Complex(2e-9, 1e-9)}) {
       const Complex delta = step * std::abs(s), there = s + delta;
       const double size = std::abs(there);
       const double exact = std::abs(2.0 * s * delta + delta * delta) * std::sqrt(length) / (size * size * massNorm + stiffnessNorm);
-      EXPECT_NEAR(flutter::backwardError(pencil, {friction}, there, real, imaginary), exact, 0.05 * exact);  // norms are estimates
+      EXPECT_NEAR(flutter::backwardError(pencil, {friction}, there, d), exact, 0.05 * exact);  // norms are estimates
     }
   }
   test::print("backward error of LAPACK's pairs, %d unknowns: %.1e\n", static_cast<int>(mass.rows), worst);
   EXPECT_LT(worst, 1e-14);  // rounding of a backward stable method, a few units times a power of the size
 }
 
-// A real vector may come without an imaginary part; s = 0 is an eigenvalue like any other.
+// s = 0 is an eigenvalue like any other.
 TEST(BackwardError, OfARealVectorAndOfZero) {
   std::vector<flutter::Term> terms;
   terms.push_back({matrix(2, {{0, 0, 4}}), 0, 0, 1});
   terms.push_back({matrix(2, {{0, 0, 1}, {1, 1, 1}}), 2, 0, 1});
   const flutter::Pencil pencil(std::move(terms));
-  OwnedVec d;
-  check(MatCreateVecs(pencil.terms()[0].matrix, d.out(), nullptr));
+  flutter::ComplexVector d;
+  check(MatCreateVecs(pencil.terms()[0].matrix, d.real.out(), d.imaginary.out()));
+  check(VecZeroEntries(d.imaginary));
   const auto set = [&](double a, double b) {
-    check(VecSetValue(d, 0, a, INSERT_VALUES));
-    check(VecSetValue(d, 1, b, INSERT_VALUES));
-    check(VecAssemblyBegin(d));
-    check(VecAssemblyEnd(d));
+    check(VecSetValue(d.real, 0, a, INSERT_VALUES));
+    check(VecSetValue(d.real, 1, b, INSERT_VALUES));
+    check(VecAssemblyBegin(d.real));
+    check(VecAssemblyEnd(d.real));
   };
   set(3, 0);
-  EXPECT_LT(flutter::backwardError(pencil, {}, {0, 2}, d, nullptr), 1e-15);
-  EXPECT_NEAR(flutter::backwardError(pencil, {}, {0, 1}, d, nullptr), (4 - 1) / (1.0 * 1 + 4), 1e-6);
+  EXPECT_LT(flutter::backwardError(pencil, {}, {0, 2}, d), 1e-15);
+  EXPECT_NEAR(flutter::backwardError(pencil, {}, {0, 1}, d), (4 - 1) / (1.0 * 1 + 4), 1e-6);
   set(0, 5);
-  EXPECT_LT(flutter::backwardError(pencil, {}, 0, d, nullptr), 1e-15);
+  EXPECT_LT(flutter::backwardError(pencil, {}, 0, d), 1e-15);
 }
 
 }  // namespace

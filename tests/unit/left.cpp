@@ -9,8 +9,7 @@
 #include "flutter/basis.hpp"
 #include "flutter/sensitivity.hpp"
 #include "flutter/terms.hpp"
-#include "support/case.hpp"
-#include "support/model.hpp"
+#include "support/layers.hpp"
 
 namespace squeal {
 namespace {
@@ -36,11 +35,10 @@ ComplexVector vectorOf(Mat layout, const std::vector<Complex>& entries) {
 // turn by 1e-7 at most, which changes the cosine by the square.
 TEST(Left, VectorsAreThoseOfAllUnknowns) {
   for (const std::string damping : {"", " -material_pad_rayleigh_stiffness 0.01"}) {
-    test::setCase("two_layers", "-mesh_set nx=12,ny_disc=4,ny_pad=3 -modes_count 60" + damping);
-    const auto model = test::buildModel();
-    const contact::AssociatedSystem system(model.bodies, model.contact, std::vector<unsigned char>(model.contact.nodes.size(), 1));
-    const auto pencil = flutter::affineTerms(model.contact, system);
-    const auto modes = modes::compute({system.k0(), system.m0(), system.solver()});
+    const test::Layers layers("-modes_count 60" + damping);
+    const auto& system = *layers.system;
+    const auto pencil = flutter::affineTerms(layers.model.contact, system);
+    const auto modes = layers.modes();
     const Parameters at{0.4};
     const auto full = flutter::solveQuadratic(
         test::denseCopy(pencil.assembled(2, at)).values,

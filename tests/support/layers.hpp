@@ -1,0 +1,25 @@
+#pragma once
+/// Two layers that slide on each other, on a coarse mesh: 156 unknowns, few enough for dense matrices of the full order.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "modes/modes.hpp"
+#include "support/case.hpp"
+#include "support/model.hpp"
+
+namespace squeal::test {
+
+struct Layers {
+  Model model;
+  std::unique_ptr<contact::AssociatedSystem> system;
+  explicit Layers(const std::string& options = {}) {
+    setCase("two_layers", "-mesh_set nx=12,ny_disc=4,ny_pad=3 " + options);
+    model = buildModel();
+    system = std::make_unique<contact::AssociatedSystem>(model.bodies, model.contact,
+                                                         std::vector<unsigned char>(model.contact.nodes.size(), 1));
+  }
+  modes::Modes modes() const { return modes::compute({system->k0(), system->m0(), system->solver()}); }
+};
+
+}  // namespace squeal::test
