@@ -158,7 +158,8 @@ void ReducedProblem::judge(Work& work, const DenseProblem& problem) const {
   }
 }
 
-/// The pairs of a point that are not good enough, each to be resolved but for `resolution` of its residual, or for what is good enough.
+/// The pairs of a point that are not good enough, each to be resolved but for `resolution` of its residual, or for what is good enough:
+/// half of its square for what stays unresolved, half for what the correction leaves.
 ReducedProblem::Wish ReducedProblem::wishOf(const Work& work) const {
   const auto mirrored = mirrorImages(work.pairs, work.damped);
   std::vector<const DensePair*> bad;
@@ -166,7 +167,7 @@ ReducedProblem::Wish ReducedProblem::wishOf(const Work& work) const {
   for (std::size_t j = 0; j < work.pairs.size(); ++j)
     if (const double tooLarge = excess(work, j); tooLarge > 1 && !mirrored[j]) {
       bad.push_back(&work.pairs[j]);
-      weights.push_back(std::min(1.0, 2 * resolution * tooLarge));
+      weights.push_back(std::min(1.0, std::sqrt(2) * resolution * tooLarge));
     }
   return {&work, {work.point->at, Coordinates(bad, work.damped)}, weights};
 }
