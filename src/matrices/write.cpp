@@ -7,6 +7,7 @@
 #include "matrices/matrices.hpp"
 #include "petsc/gathered.hpp"
 #include "petsc/options.hpp"
+#include "petsc/settings.hpp"
 #include "petsc/stages.hpp"
 #include "petsc/text.hpp"
 
@@ -34,8 +35,7 @@ std::string nameOf(const flutter::Term& term, std::set<std::string>& taken) {
 }
 
 std::string optionsOf(const std::string& name, const flutter::Term& term, const std::string& file) {
-  std::string text =
-      formatted("-matrices_%s_file %s\n-matrices_%s_role %s\n", name.c_str(), file.c_str(), name.c_str(), roleOf(term).c_str());
+  std::string text = optionLine("matrices_" + name + "_file", file) + optionLine("matrices_" + name + "_role", roleOf(term));
   if (term.factor != 1) text += "-matrices_" + name + "_factor " + shortest(term.factor) + "\n";
   for (const auto& [word, exponent] :
        {std::pair{"friction", term.frictionExponent}, {"speed", term.speedExponent}, {"damping", term.dampingExponent}})
@@ -89,7 +89,7 @@ std::string carriedOptions() {
     const auto solvers = SolverPrefix::all();
     if (!ofMesh.count(name) &&
         (std::any_of(options.begin(), options.end(), matches) || std::any_of(solvers.begin(), solvers.end(), begins)))
-      text += "-" + name + (value.empty() ? "" : " " + value) + "\n";
+      text += optionLine(name, value);
   }
   return text;
 }

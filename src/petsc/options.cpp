@@ -5,10 +5,15 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <regex>
 #include <set>
 #include <sstream>
 
 #include "petsc/check.hpp"
+#include "petsc/owned.hpp"
+#include "petsc/settings.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal {
@@ -47,6 +52,23 @@ std::vector<std::string> namesGiven() {
   std::vector<std::string> names;
   for (const auto& [name, value] : givenOptions()) names.push_back(name);
   return names;
+}
+
+/// The value of an option that was given; none: it was not.
+std::optional<std::string> valueGiven(const std::string& name) {
+  const char* value = nullptr;
+  PetscBool set = PETSC_FALSE;
+  check(PetscOptionsFindPair(nullptr, nullptr, ("-" + name).c_str(), &value, &set));
+  // Asked for a_1_b, PETSc also takes a_b.
+  static const std::regex numbered("_[0-9]+_");
+  if (!set || (std::regex_search(name, numbered) && !givenOptions().count(name))) return {};
+  return value ? value : "";
+}
+
+/// "option -material_disc_young -1 (disc.yaml, line 3)"
+std::string named(const std::string& name, const std::string& value) {
+  const std::string place = origin(name, value).place();
+  return "option -" + name + (value.empty() ? "" : " " + value) + (place.empty() ? "" : " (" + place + ")");
 }
 
 std::vector<std::string> namesLeft() {
@@ -114,11 +136,7 @@ std::string Option::fullName(const std::string& subject) const {
   return name.substr(0, open) + subject + name.substr(name.find('>') + 1);
 }
 
-bool Option::given(const std::string& subject) const {
-  PetscBool has = PETSC_FALSE;
-  check(PetscOptionsHasName(nullptr, nullptr, ("-" + fullName(subject)).c_str(), &has));
-  return has;
-}
+bool Option::given(const std::string& subject) const { return valueGiven(fullName(subject)).has_value(); }
 
 bool Option::matches(const std::string& full) const {
   const auto open = name.find('<');
@@ -139,18 +157,15 @@ std::vector<std::string> Option::subjects() const {
 
 std::string Option::text(const std::string& subject) const {
   const std::string full = fullName(subject);
-  char buffer[4096] = "";
-  PetscBool set = PETSC_FALSE;
-  check(PetscOptionsGetString(nullptr, nullptr, ("-" + full).c_str(), buffer, sizeof buffer, &set));
-  if (!set && required) throw Error("option -" + full + " is missing: " + meaning);
-  const std::string value = set ? buffer : defaultText;
+  const auto given = valueGiven(full);
+  if (!given && required) throw Error("option -" + full + " is missing: " + meaning);
+  const std::string value = given.value_or(defaultText);
   recipe()[full] = value;
   return value;
 }
 
 void Option::reject(const std::string& subject, const std::string& value) const {
-  throw Error("option -" + fullName(subject) + " " + value + ": " + meaning + (unit.empty() ? "" : " [" + unit + "]") +
-              "; must be " + rule);
+  throw Error(named(fullName(subject), value) + ": " + meaning + (unit.empty() ? "" : " [" + unit + "]") + "; must be " + rule);
 }
 
 double Option::number(const std::string& subject, const std::string& value) const {
@@ -180,7 +195,7 @@ RealOption::RealOption(std::string stage, std::string name, std::optional<double
 double RealOption::get(const std::string& subject) const {
   const std::string value = text(subject);
   const double x = number(subject, value);
-  if (!range_.holds(x)) throw Error("option -" + fullName(subject) + " " + value + ": " + meaning + "; must be " + range_.text());
+  if (!range_.holds(x)) reject(subject, value);
   return x;
 }
 
@@ -281,8 +296,10 @@ void rejectUnknownOptions() {
     const auto solvers = SolverPrefix::all();
     if (std::any_of(solvers.begin(), solvers.end(), [&](auto* solver) { return startsWith(name, solver->prefix); })) continue;
     const std::string nearest = nearestName(name);
-    throw Error("unknown option -" + name + (nearest.empty() ? "" : "; did you mean -" + nearest + "?") +
-                " (squeal -help lists all options)");
+    const auto given = givenOptions();
+    const std::string place = origin(name, given.count(name) ? given.at(name) : "").place();
+    throw Error("unknown option -" + name + (place.empty() ? "" : " (" + place + ")") +
+                (nearest.empty() ? "" : "; did you mean -" + nearest + "?") + " (squeal -help lists all options)");
   }
   for (const auto* option : Option::all())
     for (const auto& subject : option->name.find('<') == std::string::npos ? std::vector<std::string>{""} : option->subjects())
@@ -314,20 +331,24 @@ std::string manual() {
 const std::map<std::string, std::string>& resolvedOptions() { return recipe(); }
 
 std::map<std::string, std::string> givenOptions() {
-  // PetscOptionsLeftGet hides the used ones, so the text form is read: a word that begins with a dash and a letter is a name, what
-  // follows up to the next name is its value.
-  char* all = nullptr;
-  check(PetscOptionsGetAll(nullptr, &all));
+  // PETSc offers no list of names and values; its viewer prints one to a line, and neither holds a line break.
+  char* text = nullptr;
+  std::size_t size = 0;
+  std::FILE* stream = open_memstream(&text, &size);
+  if (!stream) throw std::bad_alloc();
+  OwnedViewer viewer;
+  check(PetscViewerASCIIOpenWithFILE(PETSC_COMM_SELF, stream, viewer.out()));
+  check(PetscOptionsView(nullptr, viewer));
+  viewer = {};
+  std::fclose(stream);
+  std::istringstream lines(std::string(text, size));
+  std::free(text);
   std::map<std::string, std::string> given;
-  std::istringstream words(all);
-  std::string name;
-  for (std::string word; words >> word;) {
-    if (word.size() > 1 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1])))
-      given[name = word.substr(1)];
-    else if (!name.empty())
-      given[name] += (given[name].empty() ? "" : " ") + word;
+  for (std::string line; std::getline(lines, line);) {
+    if (line[0] != '-') continue;  // head and foot
+    const auto blank = std::min(line.find(' '), line.size());
+    given[line.substr(1, blank - 1)] = blank < line.size() ? line.substr(blank + 1) : "";
   }
-  check(PetscFree(all));
   return given;
 }
 

@@ -3,50 +3,63 @@
 #include <gmsh.h>
 #include <slepcsys.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include "petsc/check.hpp"
+#include "petsc/settings.hpp"
 
 namespace squeal {
 
 namespace {
 
-/// Collective. Ends the program if rank 0 cannot read an options file.
-void requireReadable(const char* file) {
-  int rank = 0, readable = 1;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  if (rank == 0) readable = std::ifstream(file).good() && !std::filesystem::is_directory(file);
-  MPI_Bcast(&readable, 1, MPI_INT, 0, MPI_COMM_WORLD);
-  if (readable) return;
-  if (rank == 0) std::fprintf(stderr, "squeal: error: option -options_file %s: there is no such file\n", file);
-  MPI_Finalize();
-  std::exit(1);
+/// Collective. The options of the call on all ranks; an error ends the program here, in one line.
+std::vector<Setting> readSettings(const std::vector<std::string>& words) {
+  std::vector<Setting> settings;
+  try {
+    onFirstRank(MPI_COMM_WORLD, "", [&] { settings = settingsOfCall(words); });
+    return onAllRanks(MPI_COMM_WORLD, settings);
+  } catch (const Error& error) {
+    int rank = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    if (rank == 0) std::fprintf(stderr, "squeal: error: %s\n", error.what());
+    MPI_Finalize();
+    std::exit(1);
+  }
+}
+
+/// PETSc looks at options of its own when it starts: it gets them all. What looks like a name is not passed as a value; insert() follows.
+void startSlepc(char* program, const std::vector<Setting>& settings) {
+  static std::vector<std::string> words;  // PETSc keeps pointers to them
+  static std::vector<char*> pointers;
+  words = {program, "-skip_petscrc"};  // read already, as are the variables
+  unsetenv("PETSC_OPTIONS");
+  unsetenv("PETSC_OPTIONS_YAML");
+  for (const auto& setting : settings) {
+    words.push_back("-" + setting.name);
+    if (!setting.value.empty() && setting.value[0] != '-') words.push_back(setting.value);
+  }
+  for (auto& word : words) pointers.push_back(word.data());
+  int count = static_cast<int>(pointers.size());
+  pointers.push_back(nullptr);
+  char** arguments = pointers.data();
+  if (SlepcInitialize(&count, &arguments, nullptr, nullptr) != 0) MPI_Abort(MPI_COMM_WORLD, 70);
+  check(PetscOptionsClearValue(nullptr, "-skip_petscrc"));
+  insert(settings);
 }
 
 }  // namespace
 
 Session::Session(int argc, char** argv) {
   // PETSc's own -help lists several hundred options of its parts; ours is the manual of this program and replaces it.
-  std::vector<char*> kept;
-  for (int i = 0; i < argc; ++i) {
-    const std::string word = argv[i];
-    if (i > 0 && (word == "-help" || word == "--help" || word == "-h"))
-      helpWanted_ = true;
-    else
-      kept.push_back(argv[i]);
-  }
-  check(MPI_Init(&argc, &argv));  // before PETSc's, so that a missing file is told in one line instead of a traceback
-  for (int i = 1; i + 1 < argc; ++i)
-    if (std::string(argv[i]) == "-options_file") requireReadable(argv[i + 1]);
-  int count = static_cast<int>(kept.size());
-  kept.push_back(nullptr);
-  char** arguments = kept.data();
-  if (SlepcInitialize(&count, &arguments, nullptr, nullptr) != 0) MPI_Abort(MPI_COMM_WORLD, 70);
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  helpWanted_ =
+      std::any_of(words.begin(), words.end(), [](const auto& word) { return word == "-help" || word == "--help" || word == "-h"; });
+  check(MPI_Init(&argc, &argv));  // before PETSc's, so that a mistake in the options is told in one line instead of a traceback
+  startSlepc(argv[0], helpWanted_ ? std::vector<Setting>{} : readSettings(words));
   gmsh::initialize(0, nullptr, false);
   gmsh::option::setNumber("General.Terminal", 0);  // messages reach the user through our errors
 }

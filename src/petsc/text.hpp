@@ -9,6 +9,8 @@ namespace squeal {
 [[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...);
 std::string joined(const std::vector<std::string>& words, const std::string& separator = ", ");
 std::vector<std::string> split(const std::string& text, char separator);
+/// Without blanks, tabs and line ends around it.
+std::string trimmed(const std::string& text);
 /// The shortest decimal text that reads back as the same double.
 std::string shortest(double value);
 

@@ -7,6 +7,7 @@
 #include "flutter/select.hpp"
 #include "petsc/options.hpp"
 #include "petsc/session.hpp"
+#include "petsc/settings.hpp"
 #include "petsc/text.hpp"
 #include "report/report.hpp"
 
@@ -139,9 +140,9 @@ std::string recipe(MPI_Comm comm) {
   std::string text = formatted("# squeal %s, %d ranks: the options of this run; defaults in comments\n", version(), size);
   const auto given = givenOptions();
   for (const auto& [name, value] : given)
-    if (name != "report_dir" && name != "options_file") text += "-" + name + (value.empty() ? "" : " " + value) + "\n";
+    if (name != "report_dir") text += optionLine(name, value);
   for (const auto& [name, value] : resolvedOptions())
-    if (!given.count(name) && name != "report_dir") text += "# -" + name + " " + value + "\n";
+    if (!given.count(name) && name != "report_dir") text += "# " + optionLine(name, value);
   return text;
 }
 

@@ -8,6 +8,7 @@
 
 #include "analysis.hpp"
 #include "petsc/check.hpp"
+#include "petsc/settings.hpp"
 
 namespace squeal::test {
 
@@ -21,7 +22,7 @@ inline Analysis runOptions(const std::string& options) {
 /// Collective. Runs a case file with a few options changed.
 inline Analysis runCase(const std::string& name, const std::string& changes = {}) {
   check(PetscOptionsClear(nullptr));
-  check(PetscOptionsInsertFileYAML(PETSC_COMM_WORLD, nullptr, ("options/" + name + ".yaml").c_str(), PETSC_TRUE));
+  insertFile(PETSC_COMM_WORLD, "options/" + name + ".yaml");
   check(PetscOptionsInsertString(nullptr, ("-quiet " + changes).c_str()));
   return analyse(PETSC_COMM_WORLD);
 }

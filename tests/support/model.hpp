@@ -13,6 +13,7 @@
 #include "mesh/mesh.hpp"
 #include "petsc/check.hpp"
 #include "petsc/owned.hpp"
+#include "petsc/settings.hpp"
 
 namespace squeal::test {
 
@@ -25,7 +26,7 @@ inline void setOptions(const std::string& options) {
 /// The same for a case file with changes.
 inline void setCase(const std::string& name, const std::string& changes = {}) {
   check(PetscOptionsClear(nullptr));
-  check(PetscOptionsInsertFileYAML(PETSC_COMM_WORLD, nullptr, ("options/" + name + ".yaml").c_str(), PETSC_TRUE));
+  insertFile(PETSC_COMM_WORLD, "options/" + name + ".yaml");
   check(PetscOptionsInsertString(nullptr, ("-quiet " + changes).c_str()));
 }
 

@@ -47,7 +47,7 @@ class Layer : public testing::Test {
  protected:
   void SetUp() override {
     check(PetscOptionsClear(nullptr));
-    check(PetscOptionsInsertFileYAML(PETSC_COMM_WORLD, nullptr, "options/layer.yaml", PETSC_TRUE));
+    insertFile(PETSC_COMM_WORLD, "options/layer.yaml");
     check(PetscOptionsInsertString(nullptr, "-quiet"));
     model_ = buildModel();
     system_ = std::make_unique<contact::AssociatedSystem>(model_.bodies, model_.contact,

@@ -1,5 +1,6 @@
 // The options database as the user interface: parsing, checks, names with a placeholder, and the messages for mistakes.
 #include "petsc/options.hpp"
+#include "petsc/settings.hpp"
 
 #include <gtest/gtest.h>
 
@@ -153,7 +154,7 @@ probe:
   flag: true
 )");
   check(PetscOptionsClear(nullptr));
-  check(PetscOptionsInsertFileYAML(PETSC_COMM_WORLD, nullptr, file.c_str(), PETSC_TRUE));
+  insertFile(PETSC_COMM_WORLD, file);
   check(PetscOptionsInsertString(nullptr, "-probe_disc_length 8"));
   EXPECT_EQ(length.subjects(), (std::vector<std::string>{"back_plate", "disc"}));
   EXPECT_EQ(length.get("back_plate"), 2.5);
@@ -164,6 +165,23 @@ probe:
   EXPECT_TRUE(flag.get());
   EXPECT_EQ(errorOf([] { rejectUnknownOptions(); }), "");
   EXPECT_EQ(resolvedOptions().at("probe_disc_length"), "8");  // what the recipe of the run will say
+}
+
+// Asked for a name with a number, PETSc takes one without it.
+TEST(Subjects, WithNumbersAreNotTakenForOthers) {
+  test::setOptions("-probe_length 2 -probe_offset 3");
+  EXPECT_FALSE(length.given("1"));
+  EXPECT_EQ(offset.get("1"), 0);
+  EXPECT_TRUE(contains(errorOf([] { length.get("1"); }), "-probe_1_length is missing"));
+  test::setOptions("-probe_1_offset 4");
+  EXPECT_EQ(offset.get("1"), 4);
+}
+
+// A buffer of fixed length would cut the list, and the sweep with it.
+TEST(Lists, MayBeLong) {
+  std::string value = "0";
+  for (int i = 1; i < 3000; ++i) value += "," + std::to_string(i);
+  EXPECT_EQ(swept(value).size(), 3000U);
 }
 
 TEST(Unknown, TypingErrorsStopTheRunWithTheNearestName) {
