@@ -17,8 +17,9 @@ mesh::Mesh readMesh(MPI_Comm comm) {
   const mesh::Request request = meshRequest();
   Stage stage(comm, "mesh");
   mesh::Mesh mesh = mesh::read(comm, request);
-  stage.finish(formatted("%d nodes, %d cells, %d bodies in %d connected parts", static_cast<int>(mesh.totalNodes),
-                         static_cast<int>(mesh.totalCells), static_cast<int>(mesh.bodies.size()), mesh.parts));
+  stage.finish(formatted("%s: %d nodes, %d cells, %d bodies in %d connected parts", resolvedOptions().at("mesh_file").c_str(),
+                         static_cast<int>(mesh.totalNodes), static_cast<int>(mesh.totalCells), static_cast<int>(mesh.bodies.size()),
+                         mesh.parts));
   return mesh;
 }
 
@@ -240,7 +241,10 @@ Analysis analyseMatrices(MPI_Comm comm) {
   auto named = matrices::readTerms(comm);
   rejectIdleParameters(named, analysis.sweep);
   const matrices::AssociatedSystem system(named);
-  stage.finish(formatted("%d matrices, %d unknowns%s", static_cast<int>(named.size()), static_cast<int>(system.size()),
+  std::vector<std::string> files;
+  for (const auto& item : named) files.push_back(resolvedOptions().at("matrices_" + item.name + "_file"));
+  stage.finish(formatted("%s: %d matrices, %d unknowns%s", joined(files).c_str(), static_cast<int>(named.size()),
+                         static_cast<int>(system.size()),
                          system.asymmetry() > 0 ? formatted("; stiffness without friction unsymmetric by %.1e: free modes of its "
                                                             "symmetric part",
                                                             system.asymmetry())

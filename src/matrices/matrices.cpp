@@ -8,7 +8,7 @@
 namespace squeal::matrices {
 namespace {
 
-const TextOption fileOption("matrices", "matrices_<name>_file", std::nullopt,
+const FileOption fileOption("matrices", "matrices_<name>_file",
                             "a matrix of the problem: Matrix Market, PETSc binary, HDF5 or MATLAB file; instead of a mesh");
 const ChoiceOption roleOption("matrices", "matrices_<name>_role", {"mass", "damping", "stiffness"}, "",
                               "the power of s that the matrix comes with: 2, 1, 0");

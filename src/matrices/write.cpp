@@ -120,7 +120,7 @@ void exportPencil(const flutter::Pencil& pencil, const flutter::Sweep& sweep, st
     const std::string name = nameOf(term, taken);
     const auto path = folder / (name + (formatOption.get() == "petsc" ? ".petsc" : ".mtx"));
     writeMatrix(term.matrix, path);
-    text += optionsOf(name, term, path.string());
+    text += optionsOf(name, term, path.filename());
   }
   text += carriedOptions();
   onFirstRank(pencil.comm(), blame(), [&] {

@@ -13,8 +13,7 @@
 namespace squeal::mesh {
 namespace {
 
-const TextOption fileOption("mesh", "mesh_file", std::nullopt,
-                            "mesh or geometry, any format the gmsh library reads; a .geo is meshed in memory");
+const FileOption fileOption("mesh", "mesh_file", "mesh or geometry, any format the gmsh library reads; a .geo is meshed in memory");
 const TextOption setOption("mesh", "mesh_set", "", "parameters of a .geo file by their DefineConstant names: name=number,…");
 
 /// Flat message: numbers and texts in the order they are written, read back in the same order.

@@ -3,8 +3,6 @@
 #include <petscsys.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <regex>
@@ -65,12 +63,6 @@ std::optional<std::string> valueGiven(const std::string& name) {
   return value ? value : "";
 }
 
-/// "option -material_disc_young -1 (disc.yaml, line 3)"
-std::string named(const std::string& name, const std::string& value) {
-  const std::string place = origin(name, value).place();
-  return "option -" + name + (value.empty() ? "" : " " + value) + (place.empty() ? "" : " (" + place + ")");
-}
-
 std::vector<std::string> namesLeft() {
   PetscInt count = 0;
   char **names = nullptr, **values = nullptr;
@@ -100,8 +92,10 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
 /// The option nearest to a mistyped name, its placeholder filled with the part of the name that fits best; empty if none is near.
 std::string nearestName(const std::string& name) {
   std::string nearest;
-  std::size_t least = 4;  // more than three wrong letters are another word
+  if (name.size() > 100) return nearest;  // not a slip of the finger, and long to compare
+  std::size_t least = 4;                  // more than three wrong letters are another word
   const auto consider = [&](const std::string& candidate) {
+    if (candidate.size() >= name.size() + least || name.size() >= candidate.size() + least) return;
     if (const auto distance = editDistance(name, candidate); distance < least) least = distance, nearest = candidate;
   };
   for (const auto* option : Option::all()) {
@@ -159,112 +153,19 @@ std::string Option::text(const std::string& subject) const {
   const std::string full = fullName(subject);
   const auto given = valueGiven(full);
   if (!given && required) throw Error("option -" + full + " is missing: " + meaning);
-  const std::string value = given.value_or(defaultText);
+  const std::string value = trimmed(given.value_or(defaultText));
   recipe()[full] = value;
   return value;
 }
 
+std::string Option::named(const std::string& subject, const std::string& value) const {
+  const std::string place = origin(fullName(subject), valueGiven(fullName(subject)).value_or("")).place();
+  return "option -" + fullName(subject) + (value.empty() ? "" : " " + value) + (place.empty() ? "" : " (" + place + ")");
+}
+
 void Option::reject(const std::string& subject, const std::string& value) const {
-  throw Error(named(fullName(subject), value) + ": " + meaning + (unit.empty() ? "" : " [" + unit + "]") + "; must be " + rule);
+  throw Error(named(subject, value) + ": " + meaning + (unit.empty() ? "" : " [" + unit + "]") + "; must be " + rule);
 }
-
-double Option::number(const std::string& subject, const std::string& value) const {
-  double x = 0;
-  const char* begin = value.c_str() + (value[0] == '+' ? 1 : 0);
-  const char* end = value.c_str() + value.size();
-  const auto [stop, error] = std::from_chars(begin, end, x);
-  if (error != std::errc() || stop != end || !std::isfinite(x)) reject(subject, "'" + value + "'");
-  return x;
-}
-
-bool Range::holds(double x) const { return (openLow ? x > low : x >= low) && (openHigh ? x < high : x <= high); }
-
-std::string Range::text() const {
-  std::string words;
-  if (std::isfinite(low)) words += (openLow ? "> " : ">= ") + shortest(low);
-  if (std::isfinite(high)) words += (words.empty() ? "" : " and ") + std::string(openHigh ? "< " : "<= ") + shortest(high);
-  return words.empty() ? "a number" : "a number " + words;
-}
-
-RealOption::RealOption(std::string stage, std::string name, std::optional<double> byDefault, std::string unit, Range range,
-                       std::string meaning)
-    : Option(std::move(stage), std::move(name), byDefault ? shortest(*byDefault) : "", std::move(unit), std::move(meaning),
-             range.text(), !byDefault),
-      range_(range) {}
-
-double RealOption::get(const std::string& subject) const {
-  const std::string value = text(subject);
-  const double x = number(subject, value);
-  if (!range_.holds(x)) reject(subject, value);
-  return x;
-}
-
-IntegerOption::IntegerOption(std::string stage, std::string name, int byDefault, int lowest, std::string meaning)
-    : Option(std::move(stage), std::move(name), std::to_string(byDefault), "", std::move(meaning),
-             "an integer >= " + std::to_string(lowest)),
-      lowest_(lowest) {}
-
-int IntegerOption::get(const std::string& subject) const {
-  const std::string value = text(subject);
-  int x = 0;
-  const auto [stop, error] = std::from_chars(value.data(), value.data() + value.size(), x);
-  if (error != std::errc() || stop != value.data() + value.size() || x < lowest_) reject(subject, value);
-  return x;
-}
-
-RealListOption::RealListOption(std::string stage, std::string name, std::string byDefault, std::string unit, Range range,
-                               std::string meaning, bool ranges)
-    : Option(std::move(stage), std::move(name), std::move(byDefault), std::move(unit), std::move(meaning),
-             std::string(ranges ? "first:last:step or " : "") + "a comma-separated list, each " + range.text()),
-      range_(range),
-      ranges_(ranges) {}
-
-std::vector<double> RealListOption::get(const std::string& subject) const {
-  const std::string value = text(subject);
-  std::vector<double> list;
-  const auto parts = split(value, ':');
-  if (ranges_ && parts.size() > 1) {
-    if (parts.size() != 3) reject(subject, value);
-    const double first = number(subject, parts[0]), last = number(subject, parts[1]), step = number(subject, parts[2]);
-    if (!(step > 0) || last < first || (last - first) / step > 1e6) reject(subject, value);
-    // A little slack: 0:0.6:0.05 ends at 0.6 although 12 × 0.05 is not the double nearest to it.
-    const auto steps = static_cast<int>(std::floor((last - first) / step + 1e-9));
-    for (int i = 0; i <= steps; ++i) list.push_back(std::stod(formatted("%.12g", first + i * step)));
-  } else {
-    for (const auto& part : split(value, ',')) list.push_back(number(subject, part));
-  }
-  for (double x : list)
-    if (!range_.holds(x)) reject(subject, value);
-  return list;
-}
-
-FlagOption::FlagOption(std::string stage, std::string name, bool byDefault, std::string meaning)
-    : Option(std::move(stage), std::move(name), byDefault ? "on" : "off", "", std::move(meaning), "on or off") {}
-
-bool FlagOption::get(const std::string& subject) const {
-  const std::string value = text(subject);
-  if (value.empty() || value == "on" || value == "true" || value == "yes" || value == "1") return true;
-  if (value == "off" || value == "false" || value == "no" || value == "0") return false;
-  reject(subject, value);
-}
-
-ChoiceOption::ChoiceOption(std::string stage, std::string name, std::vector<std::string> choices, std::string byDefault,
-                           std::string meaning)
-    : Option(std::move(stage), std::move(name), std::move(byDefault), "", std::move(meaning), joined(choices, " or ")),
-      choices_(std::move(choices)) {}
-
-std::string ChoiceOption::get(const std::string& subject) const {
-  const std::string value = text(subject);
-  if (std::find(choices_.begin(), choices_.end(), value) == choices_.end()) reject(subject, value);
-  return value;
-}
-
-TextOption::TextOption(std::string stage, std::string name, std::optional<std::string> byDefault, std::string meaning)
-    : Option(std::move(stage), std::move(name), byDefault.value_or(""), "", std::move(meaning), "text", !byDefault) {}
-
-std::string TextOption::get(const std::string& subject) const { return text(subject); }
-
-std::vector<std::string> TextOption::list(const std::string& subject) const { return split(text(subject), ','); }
 
 SolverPrefix::SolverPrefix(std::string stage_, std::string prefix_, std::string meaning_)
     : stage(std::move(stage_)), prefix(std::move(prefix_)), meaning(std::move(meaning_)) {

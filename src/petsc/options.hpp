@@ -33,8 +33,11 @@ class Option {
          bool required = false);
   ~Option() = default;
   Option(const Option&) = delete;
-  /// Text given by the user or the default; an option without default that is not given is an Error. Recorded for the recipe.
+  /// Text given by the user, without blanks around it, or the default; an option without default that is not given is an Error. Recorded
+  /// for the recipe.
   std::string text(const std::string& subject) const;
+  /// "option -material_disc_density -1 (disc.yaml, line 3)"
+  std::string named(const std::string& subject, const std::string& value) const;
   [[noreturn]] void reject(const std::string& subject, const std::string& value) const;
   double number(const std::string& subject, const std::string& value) const;
 };
@@ -71,7 +74,7 @@ class IntegerOption : public Option {
   int lowest_;
 };
 
-/// Comma-separated reals; with `ranges`, `first:last:step` stands for an arithmetic sequence (last included).
+/// Reals separated by commas, blanks beside them allowed; with `ranges`, `first:last:step` stands for an arithmetic sequence (last included).
 class RealListOption : public Option {
  public:
   RealListOption(std::string stage, std::string name, std::string byDefault, std::string unit, Range range, std::string meaning,
@@ -107,8 +110,22 @@ class TextOption : public Option {
   TextOption(std::string stage, std::string name, std::optional<std::string> byDefault, std::string meaning);
   std::string get(const std::string& subject = {}) const;
   void validate(const std::string& subject) const override { get(subject); }
-  /// Split at commas; an empty text is an empty list.
+  /// Split at commas, without the blanks beside them; empty if the option is not given and its default is empty. Error for an empty item.
   std::vector<std::string> list(const std::string& subject = {}) const;
+};
+
+/// A file to be read. Named in an options file, it is looked for beside that file, then in the working folder; named on the command
+/// line, in the working folder.
+class FileOption : public Option {
+ public:
+  /// No default: required wherever it is asked for.
+  FileOption(std::string stage, std::string name, std::string meaning);
+  /// The path to read.
+  std::string get(const std::string& subject = {}) const { return text(subject); }
+  /// Collective. Error if rank 0 finds no such file.
+  void validate(const std::string& subject) const override;
+  /// True if the full name (no dash) is that of an option for a file.
+  static bool isOne(const std::string& fullName);
 };
 
 /// Prefix handed to a PETSc or SLEPc solver: options that begin with it belong to that solver.

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "petsc/check.hpp"
+#include "petsc/options.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal {
@@ -70,6 +71,12 @@ std::vector<Word> wordsOf(const std::string& text, const std::string& name, bool
       i = end;
     }
   }
+  return words;
+}
+
+/// Line breaks mean no more than blanks.
+std::vector<Word> onOneLine(std::vector<Word> words) {
+  for (auto& word : words) word.line = 0;
   return words;
 }
 
@@ -165,6 +172,7 @@ class Reader {
     } else {
       settings.push_back(setting);
       settings.back().name = joined(prefixes_, "") + name;
+      if (FileOption::isOne(settings.back().name)) settings.back().value = located(setting.value, setting.file);
     }
   }
 
@@ -243,13 +251,16 @@ std::vector<Setting> settingsOfCall(const std::vector<std::string>& arguments) {
     reader.readFile(".petscrc", false);
     reader.readFile("petscrc", false);
   }
-  if (const auto text = environment("PETSC_OPTIONS")) {
-    auto given = wordsOf(*text, "PETSC_OPTIONS", false);
-    for (auto& word : given) word.line = 0;
-    reader.readWords(given, "");
-  }
+  if (const auto text = environment("PETSC_OPTIONS")) reader.readWords(onOneLine(wordsOf(*text, "PETSC_OPTIONS", false)), "");
   if (const auto text = environment("PETSC_OPTIONS_YAML")) reader.readYaml(*text, "PETSC_OPTIONS_YAML");
   reader.readWords(words, "");
+  requireRoom(reader.settings);
+  return reader.settings;
+}
+
+std::vector<Setting> settingsOfText(const std::string& text) {
+  Reader reader;
+  reader.readWords(onOneLine(wordsOf(text, "'" + text + "'", false)), "");
   requireRoom(reader.settings);
   return reader.settings;
 }

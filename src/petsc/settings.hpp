@@ -25,6 +25,9 @@ struct Setting {
 /// file and line for what cannot be understood.
 std::vector<Setting> settingsOfCall(const std::vector<std::string>& words);
 
+/// The words of a command line in one text, values with blanks in quotes.
+std::vector<Setting> settingsOfText(const std::string& text);
+
 /// The options of one file: YAML by its name (.yaml, .yml, .json, or `:yaml` at the end of it) or first line (--- or %YAML), otherwise lines
 /// `-name value`. Error with file and line for what cannot be understood, and for a file without an option.
 std::vector<Setting> settingsOfFile(const std::string& file);

@@ -139,8 +139,10 @@ std::string recipe(MPI_Comm comm) {
   check(MPI_Comm_size(comm, &size));
   std::string text = formatted("# squeal %s, %d ranks: the options of this run; defaults in comments\n", version(), size);
   const auto given = givenOptions();
-  for (const auto& [name, value] : given)
-    if (name != "report_dir") text += optionLine(name, value);
+  for (const auto& [name, value] : given) {
+    if (name == "report_dir") continue;
+    text += optionLine(name, FileOption::isOne(name) ? std::filesystem::absolute(value).lexically_normal().string() : value);
+  }
   for (const auto& [name, value] : resolvedOptions())
     if (!given.count(name) && name != "report_dir") text += "# " + optionLine(name, value);
   return text;

@@ -46,5 +46,90 @@ TEST(CommandLine, StrayWords) {
   });
 }
 
+/// A folder with a blank in its name, with a case and its mesh in it: "my case.yaml".
+fs::path ownCase(const std::string& name) {
+  const fs::path place = placeFor(name) / "my cases";
+  fs::remove_all(placeFor(name));
+  fs::create_directories(place);
+  for (const char* file : {"layer.geo", "grid.inc"}) fs::copy_file(fs::path(SQUEAL_SOURCE_DIR) / "meshes" / file, place / file);
+  fs::rename(place / "layer.geo", place / "my layer.geo");
+  std::string text = contentOf(fs::path(SQUEAL_SOURCE_DIR) / "options/layer.yaml");
+  const std::string shipped = "../meshes/layer.geo";
+  text.replace(text.find(shipped), shipped.size(), "my layer.geo");
+  writeText(place / "my case.yaml", text);
+  return place;
+}
+
+/// The exit code of a shell command in a folder, in an environment without the mpirun that started this test.
+int shell(const fs::path& folder, const std::string& command) {
+  const int status = std::system(("cd '" + folder.string() + "' && " + command).c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+}
+
+const std::string small = " -mesh_set 'nx=6, ny=3' -modes_count 5 -flutter_friction '0, 0.2' -report_fields off";
+const std::string program = "'" SQUEAL_MPIEXEC "' 2 '" SQUEAL_EXECUTABLE "' ";
+
+// Files named in a case are found beside it, and options.txt repeats the run, both from any working folder.
+TEST(CommandLine, CasesRunFromAnywhere) {
+  const fs::path place = ownCase("command_line/anywhere"), results = place / "results";
+  ASSERT_EQ(shell(place.parent_path(),
+                  program + "-options_file 'my cases/my case.yaml' -report_dir 'my cases/results'" + small + " >out"),
+            0);
+  EXPECT_NE(contentOf(place.parent_path() / "out").find("my cases/my layer.geo: 28 nodes"),
+            std::string::npos);  // (6 + 1) x (3 + 1)
+  EXPECT_NE(contentOf(results / "summary.json").find("my cases/my layer.geo"), std::string::npos);
+  EXPECT_EQ(readCsv(results / "stability_map.csv").column("friction"), (std::vector<double>{0, 0.2}));
+  ASSERT_EQ(shell("/", program + "-options_file '" + (results / "options.txt").string() + "' -quiet -report_dir '" +
+                           (place / "again").string() + "'"),
+            0);
+  const CsvTable first = readCsv(results / "eigenvalues.csv"), again = readCsv(place / "again/eigenvalues.csv");
+  EXPECT_EQ(again.column("friction"), first.column("friction"));
+  for (std::size_t i = 0; i < first.rows.size(); ++i)  // sums over two ranks differ by rounding
+    EXPECT_NEAR(again.column("frequency_hz").at(i), first.column("frequency_hz").at(i), 1e-10);
+  EXPECT_EQ(shell("/", program + "-options_file '" SQUEAL_SOURCE_DIR "/options/external.yaml' -quiet -report_dir '" +
+                           (place / "external").string() + "'"),
+            0);
+}
+
+/// scripts/run in a folder where there is nothing to build: a setup that installs and builds nothing, and the program of these tests.
+fs::path scriptsIn(const fs::path& place) {
+  fs::create_directories(place / "scripts");
+  fs::create_directories(place / "build");
+  fs::copy_file(SQUEAL_SOURCE_DIR "/scripts/run", place / "scripts/run");
+  fs::create_symlink(SQUEAL_EXECUTABLE, place / "build/squeal");
+  writeText(place / "scripts/setup",
+            "cd \"$(dirname \"${BASH_SOURCE[0]}\")/..\"\n"
+            "mpirun() { shift; '" SQUEAL_MPIEXEC "' \"$@\"; }\n");
+  writeText(place / "scripts/plot_stability.py", "print('plotted')\n");
+  return place / "scripts/run";
+}
+
+TEST(CommandLine, ScriptRunsAnOptionsFileOfAnyFolder) {
+  const fs::path place = ownCase("command_line/script"), run = scriptsIn(placeFor("command_line/script") / "a clone");
+  ASSERT_EQ(shell(place, "NP=1 '" + run.string() + "' './my case.yaml'" + small + " >out"), 0);
+  EXPECT_TRUE(fs::exists(place / "results/my case/eigenvalues.csv"));
+  EXPECT_NE(contentOf(place / "out").find("plotted"), std::string::npos);
+  // Paths on the command line are those of the caller, not of the clone.
+  fs::rename(place / "my layer.geo", place / "elsewhere.geo");
+  EXPECT_EQ(shell(place,
+                  "NP=2 '" + run.string() + "' 'my case.yaml' -mesh_file elsewhere.geo -report_dir 'my results'" + small + " >out"),
+            0);
+  EXPECT_TRUE(fs::exists(place / "my results/eigenvalues.csv"));
+  EXPECT_EQ(shell(place, "'" + run.string() + "' nosuch.yaml 2>err"), 2);
+  EXPECT_NE(contentOf(place / "err").find("no options file 'nosuch.yaml'"), std::string::npos);
+}
+
+// Without scripts/setup beside it, the script can neither install nor build.
+TEST(CommandLine, ScriptHelpBuildsNothing) {
+  const fs::path place = placeFor("command_line/help");
+  fs::remove_all(place);
+  fs::create_directories(place / "scripts");
+  fs::copy_file(SQUEAL_SOURCE_DIR "/scripts/run", place / "scripts/run");
+  for (const char* call : {"scripts/run --help >out", "scripts/run disc_brake -h >out"}) {
+    EXPECT_EQ(shell(place, call), 0) << call;
+    EXPECT_NE(contentOf(place / "out").find("scripts/run [CASE]"), std::string::npos) << call;
+  }
+}
+
 }  // namespace
 }  // namespace squeal::test

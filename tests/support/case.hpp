@@ -15,7 +15,7 @@ namespace squeal::test {
 /// Collective. Runs with these options alone.
 inline Analysis runOptions(const std::string& options) {
   check(PetscOptionsClear(nullptr));
-  check(PetscOptionsInsertString(nullptr, ("-quiet " + options).c_str()));
+  insert(settingsOfText("-quiet " + options));
   return analyse(PETSC_COMM_WORLD);
 }
 
@@ -23,7 +23,7 @@ inline Analysis runOptions(const std::string& options) {
 inline Analysis runCase(const std::string& name, const std::string& changes = {}) {
   check(PetscOptionsClear(nullptr));
   insertFile(PETSC_COMM_WORLD, "options/" + name + ".yaml");
-  check(PetscOptionsInsertString(nullptr, ("-quiet " + changes).c_str()));
+  insert(settingsOfText("-quiet " + changes));
   return analyse(PETSC_COMM_WORLD);
 }
 

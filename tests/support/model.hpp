@@ -20,14 +20,14 @@ namespace squeal::test {
 /// The options database holds these alone.
 inline void setOptions(const std::string& options) {
   check(PetscOptionsClear(nullptr));
-  check(PetscOptionsInsertString(nullptr, ("-quiet " + options).c_str()));
+  insert(settingsOfText("-quiet " + options));
 }
 
 /// The same for a case file with changes.
 inline void setCase(const std::string& name, const std::string& changes = {}) {
   check(PetscOptionsClear(nullptr));
   insertFile(PETSC_COMM_WORLD, "options/" + name + ".yaml");
-  check(PetscOptionsInsertString(nullptr, ("-quiet " + changes).c_str()));
+  insert(settingsOfText("-quiet " + changes));
 }
 
 inline std::string material(const std::string& body, const std::string& young, const std::string& poisson,

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 
+#include "petsc/text.hpp"
 #include "support/model.hpp"
 
 namespace squeal {
@@ -25,6 +27,7 @@ const FlagOption flag("general", "probe_flag", false, "a flag");
 const ChoiceOption choice("general", "probe_choice", {"fast", "exact"}, "exact", "a choice");
 const TextOption text("general", "probe_text", std::nullopt, "a text");
 const TextOption list("general", "probe_list", "", "a list");
+const FileOption file("general", "probe_<part>_file", "a file");
 const SolverPrefix solver("general", "probe_solver_", "a solver");
 
 /// The value of the sweep given as `value`.
@@ -53,6 +56,64 @@ TEST(Lists, ValuesAreReadToTheLastDigit) {
   EXPECT_EQ(vector.get(), (std::vector<double>{-1, 2, 3}));
   test::setOptions("");
   EXPECT_EQ(vector.get(), (std::vector<double>{0, 0, 1}));
+}
+
+TEST(Lists, MayHoldBlanks) {
+  EXPECT_EQ(swept("'0, 0.2 ,\t0.4'"), (std::vector<double>{0, 0.2, 0.4}));
+  EXPECT_EQ(swept("' 0 : 0.2 : 0.1 '"), (std::vector<double>{0, 0.1, 0.2}));
+  test::setOptions("-probe_vector ' 0, -0.01 , 1e3' -probe_list 'a, b_c ,d' -probe_count ' 3 ' -probe_flag 'off '");
+  EXPECT_EQ(vector.get(), (std::vector<double>{0, -0.01, 1000}));
+  EXPECT_EQ(list.list(), (std::vector<std::string>{"a", "b_c", "d"}));
+  EXPECT_EQ(count.get(), 3);
+  EXPECT_FALSE(flag.get());
+  const auto file =
+      test::writeFile("lists.yaml", "probe:\n  vector: [0, -0.01, 1e3]\n  list:\n    - a\n    - b_c\n    - d\n  sweep: [0, 0.2]\n");
+  check(PetscOptionsClear(nullptr));
+  insertFile(PETSC_COMM_WORLD, file);
+  EXPECT_EQ(vector.get(), (std::vector<double>{0, -0.01, 1000}));
+  EXPECT_EQ(list.list(), (std::vector<std::string>{"a", "b_c", "d"}));
+  EXPECT_EQ(sweep.get(), (std::vector<double>{0, 0.2}));
+}
+
+TEST(Lists, EmptyItemsAreRefused) {
+  for (const std::string value : {"a,,b", "a,", ",a", "'a, ,b'"}) {
+    test::setOptions("-probe_list " + value);
+    EXPECT_TRUE(contains(errorOf([] { list.list(); }), "an item of the list is empty")) << value;
+  }
+  test::setOptions("-probe_list");
+  EXPECT_TRUE(contains(errorOf([] { list.list(); }), "-probe_list without a value"));
+}
+
+// Beside the options file that names it, then in the working folder; on the command line in the working folder.
+TEST(Files, AreLookedForBesideTheOptionsFile) {
+  const std::string folder = SQUEAL_OUTPUT_DIR "/beside here";
+  std::filesystem::create_directories(folder);
+  test::writeFile("beside here/probe.msh", "");
+  const auto named = [&](const std::string& path) {
+    static int number = 0;
+    const auto options =
+        test::writeFile(formatted("beside here/options_%d.yaml", number++), "probe:\n  disc:\n    file: " + path + "\n");
+    check(PetscOptionsClear(nullptr));
+    insertFile(PETSC_COMM_WORLD, options);
+  };
+  named("probe.msh");
+  EXPECT_TRUE(std::filesystem::equivalent(file.get("disc"), folder + "/probe.msh")) << file.get("disc");
+  EXPECT_EQ(errorOf([] { rejectUnknownOptions(); }), "");
+  EXPECT_EQ(givenOptions().at("probe_disc_file"), file.get("disc"));  // which the record of the run repeats
+  named("../beside here/probe.msh");
+  EXPECT_TRUE(std::filesystem::equivalent(file.get("disc"), folder + "/probe.msh"));
+  named("meshes/layer.geo");  // the tests run in the root of the repository
+  EXPECT_EQ(file.get("disc"), "meshes/layer.geo");
+  named("nosuch.msh");
+  const auto missing = errorOf([] { rejectUnknownOptions(); });
+  EXPECT_TRUE(contains(missing, "-probe_disc_file nosuch.msh") && contains(missing, "line 3") &&
+              contains(missing, "no such file") && contains(missing, "neither beside"))
+      << missing;
+  test::setOptions("-probe_disc_file probe.msh");
+  const auto working = errorOf([] { rejectUnknownOptions(); });
+  EXPECT_TRUE(contains(working, "-probe_disc_file probe.msh: there is no such file") && !contains(working, "beside")) << working;
+  test::setOptions("-probe_disc_file meshes");
+  EXPECT_TRUE(contains(errorOf([] { rejectUnknownOptions(); }), "this is a folder"));
 }
 
 TEST(Lists, BadOnesAreRejectedByName) {

@@ -198,6 +198,12 @@ TEST(Files, CountInTheOrderInWhichTheyStand) {
   EXPECT_TRUE(contains(errorOf([&] { settingsOfFile(loop); }), "reads itself"));
 }
 
+TEST(Text, IsACommandLine) {
+  EXPECT_EQ(pairs(settingsOfText("-a '0, 1'\n -b \"x\" -c")), (Pairs{{"a", "0, 1"}, {"b", "x"}, {"c", ""}}));
+  EXPECT_EQ(pairs(settingsOfText("")), Pairs{});
+  EXPECT_TRUE(contains(errorOf([] { settingsOfText("-a 1 2"); }), "'2' follows option -a 1"));
+}
+
 TEST(Environment, ComesBeforeTheCommandLine) {
   setenv("PETSC_OPTIONS", "-a 1 -b \"0, 1\"", 1);
   setenv("PETSC_OPTIONS_YAML", "{c: [1, 2]}", 1);
