@@ -80,10 +80,10 @@ std::vector<steady::Solution> steadySweep(const Analysis& analysis, CurrentSyste
     Stage stage(analysis.mesh->comm, "steady");
     solutions.push_back(problem.solve(at, current));
     const auto& solution = solutions.back();
-    stage.finish(formatted("%s: %s after %d iterations, %d of %d nodes open, smallest pressure %.4g, imbalance %.0e",
+    stage.finish(formatted("%s: %s after %d iterations, %d of %d nodes open, smallest pressure %.4g, residual %.0e, imbalance %.0e",
                            parameterText(at).c_str(), solution.reason.c_str(), solution.iterations,
                            static_cast<int>(solution.openNodes), static_cast<int>(analysis.contact.totalNodes),
-                           solution.smallestPressure, solution.imbalance));
+                           solution.smallestPressure, solution.residual, solution.imbalance));
     if (solution.converged)
       closed.back() = solution.closed;
     else

@@ -288,7 +288,7 @@ LanczosResult blockLanczos(Mat k, Mat m, KSP solver, int count, int blockSize, d
       result.converged = converged;
       lanczos.contract(ritz, converged);
       for (int i = 0; i < converged; ++i) result.lambda.push_back(1 / ritz.value[static_cast<std::size_t>(i)]);
-      result.vectors = lanczos.vectors(k);
+      if (converged > 0) result.vectors = lanczos.vectors(k);  // SLEPc knows no BV without columns
       return result;
     }
     next = lanczos.size() + every;

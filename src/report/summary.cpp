@@ -22,6 +22,7 @@ Json steadyEntry(const steady::Solution& solution) {
   if (!solution.converged) return entry;  // where SNES stopped means nothing
   entry["open_nodes"] = solution.openNodes;
   entry["smallest_pressure_pa"] = solution.smallestPressure;
+  entry["relative_residual"] = solution.residual;
   entry["relative_imbalance"] = solution.imbalance;
   for (const auto& resultant : solution.resultants)
     entry["interfaces"][resultant.interface] = {{"normal_force_n", point3(resultant.normalForce)},

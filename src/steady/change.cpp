@@ -1,7 +1,6 @@
 /// How the steady state changes with its data, to first order: the equations of steady.hpp differentiated on one active set.
 #include <functional>
 
-#include "petsc/inner.hpp"
 #include "petsc/text.hpp"
 #include "steady/steady.hpp"
 
@@ -61,38 +60,34 @@ Change Problem::change(const Solution& solution, const contact::AssociatedSystem
   };
 
   const OwnedVec work = elasticity::nodalVector(mesh_), explicitU = elasticity::nodalVector(mesh_);
-  OwnedVec rhs, y;
-  check(MatCreateVecs(trial, rhs.out(), nullptr));
-  check(VecDuplicate(rhs, y.out()));
+  OwnedVec y;
+  check(MatCreateVecs(trial, y.out(), nullptr));
   if (cause.held) check(VecCopy(cause.held, explicitU));
-  OwnedVec explicitForces = springForces(at.speed, explicitU);
-  if (cause.force) check(VecAXPY(explicitForces, 1, cause.force));
-  test(explicitU, explicitForces, true, rhs);
-  check(VecScale(rhs, -1));
+  const OwnedVec du = elasticity::nodalVector(mesh_);
+  const auto residual = [&](Vec changes) {
+    check(MatMultAdd(trial, changes, explicitU, du));
+    const OwnedVec dr = springForces(at.speed, du);
+    if (cause.force) check(VecAXPY(dr, 1, cause.force));
+    Residual left{{}, rounding(du, cause.force)};
+    check(MatCreateVecs(trial, left.vector.out(), nullptr));
+    test(du, dr, true, left.vector);
+    return left;
+  };
 
   Linearised linearised{[&](Vec in, Vec out) {
     check(MatMult(trial, in, work));
     test(work, springForces(at.speed, work), false, out);
   }};
   PetscInt local = 0, global = 0;
-  check(VecGetLocalSize(rhs, &local));
-  check(VecGetSize(rhs, &global));
+  check(VecGetLocalSize(y, &local));
+  check(VecGetSize(y, &global));
   OwnedMat matrix;
   check(MatCreateShell(mesh_.comm, local, local, global, global, &linearised, matrix.out()));
   check(MatShellSetOperation(matrix, MATOP_MULT, reinterpret_cast<void (*)()>(multiply)));
-  OwnedKSP solver;
-  check(KSPCreate(mesh_.comm, solver.out()));
-  check(KSPSetOperators(solver, matrix, matrix));
-  check(KSPSetType(solver, KSPGMRES));
-  check(KSPGMRESSetRestart(solver, 200));
-  check(KSPSetTolerances(solver, 1e-12, PETSC_DEFAULT, PETSC_DEFAULT, 200));
-  preconditionBy(solver, system.solver());
-  check(KSPSolve(solver, rhs, y));
-  KSPConvergedReason reason;
-  check(KSPGetConvergedReason(solver, &reason));
-  if (reason < 0)
-    throw Error(formatted("the change of the steady state with its data was not found at -flutter_friction %g (%s)", at.friction,
-                          KSPConvergedReasons[reason]));
+  if (const auto refinement = refine(innerSolver(matrix, system.solver()), residual, y); !refinement.solved())
+    throw Error(
+        formatted("the change of the steady state with its data was not found at -flutter_friction %g: a residual of %.1e is left",
+                  at.friction, refinement.relative()));
 
   Change change{elasticity::nodalVector(mesh_), {}};
   check(MatMultAdd(trial, y, explicitU, change.displacement));

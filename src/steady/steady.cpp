@@ -5,15 +5,39 @@
 #include <algorithm>
 #include <cmath>
 
-#include "petsc/inner.hpp"
 #include "petsc/options.hpp"
+#include "petsc/text.hpp"
 
 namespace squeal::steady {
 namespace {
 
 const SolverPrefix solverPrefix("steady", "steady_", "PETSc SNES VI, KSP and PC of steady sliding: snes_*, ksp_*, pc_*, …");
 
+/// The largest residual, relative to that without displacements, with which forces mean anything.
+constexpr double meaningful = 1e-6;
+
 using OwnedSNES = Owned<SNES, SNESDestroy>;
+
+/// Gives an option a value while SNES reads its options, unless the user has: SNES has no function that sets this one.
+class DefaultOption {
+ public:
+  DefaultOption(std::string name, const char* value) : name_(std::move(name)) {
+    PetscBool given = PETSC_FALSE;
+    check(PetscOptionsHasName(nullptr, nullptr, name_.c_str(), &given));
+    if (given)
+      name_.clear();
+    else
+      check(PetscOptionsSetValue(nullptr, name_.c_str(), value));
+  }
+  ~DefaultOption() {
+    if (!name_.empty()) check(PetscOptionsClearValue(nullptr, name_.c_str()));
+  }
+  DefaultOption(const DefaultOption&) = delete;
+  DefaultOption& operator=(const DefaultOption&) = delete;
+
+ private:
+  std::string name_;
+};
 
 /// SNES sees F̂(x̂) = F(x)/forceUnit with x = xUnit x̂, so that its tolerances, absolute ones among them
 /// (-steady_snes_vi_zero_tolerance is 1e-8), mean the same in metres and in millimetres.
@@ -62,7 +86,9 @@ Problem::Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, const
       all_(contact.nodes.size(), 1),
       transformation_(contact.transformation(all_)),
       stiffness_(contact::project(contact, transformation_, bodies.stiffness)),
-      rotationStiffness_(contact::project(contact, transformation_, bodies.rotationStiffness)) {
+      rotationStiffness_(contact::project(contact, transformation_, bodies.rotationStiffness)),
+      diagonal_(elasticity::nodalVector(mesh)) {
+  check(MatGetDiagonal(bodies.stiffness, diagonal_));
   if (!contact.convected) return;
   check(MatMatMult(contact.jump, transformation_.trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, jumps_.out()));
   check(MatMatMult(contact.convected, transformation_.trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, convected_.out()));
@@ -156,21 +182,43 @@ OwnedMat Problem::jacobian(const Parameters& at, Vec x) const {
   return sum;
 }
 
+/// What rounding leaves of F: ε times what cancels in K u − b, the diagonal standing for the rows of K. `loads` may be null.
+double Problem::rounding(Vec displacement, Vec loads) const {
+  const OwnedVec magnitude = elasticity::nodalVector(mesh_);
+  PetscReal springs = 0, forces = 0;
+  check(VecPointwiseMult(magnitude, diagonal_, displacement));
+  check(VecNorm(magnitude, NORM_2, &springs));
+  if (loads) check(VecNorm(loads, NORM_2, &forces));
+  return PETSC_MACHINE_EPSILON * (springs + forces);
+}
+
 Solution Problem::solve(const Parameters& at, const contact::AssociatedSystem& system) const {
   if (at.friction > 0) contact::requireSlip(contact_, contact_.slip(at.speed, nullptr), all_);
   Solution solution;
   solution.at = at;
-  double rest = 1;
-  OwnedVec x = guess(at, system, rest);
+  Refinement refinement;
+  double noise = 0;
+  OwnedVec x = closedContact(at, system, refinement);
   if (contact_.weightsPositive) {
-    complementarity(x, solution);
+    noise = complementarity(x, solution);
   } else {
-    solution.converged = rest < 1e-9;
+    noise = refinement.least;
+    solution.residual = refinement.relative();
+    solution.converged = refinement.solved();
     solution.reason = solution.converged ? "closed contact held (faces with non-positive nodal weights)"
-                                         : "the solution with closed contact was not found";
+                                         : formatted("the solution with closed contact was not found: a residual of %.1e is left",
+                                                     solution.residual);
   }
-  recover(x, solution);
-  if (!contact_.weightsPositive && solution.smallestPressure < 0) {
+  if (solution.converged && solution.residual > meaningful) {
+    solution.converged = false;
+    solution.reason = formatted(
+        "rounding of the stiffness alone leaves %.1e of the forces out of balance, for displacements reach %.3g m: a body is held "
+        "too "
+        "weakly for these loads; hold it by stiffer springs",
+        solution.residual, largestDisplacement(at, x));
+  }
+  recover(x, noise, solution);
+  if (!contact_.weightsPositive && solution.converged && solution.smallestPressure < 0) {
     solution.converged = false;
     solution.reason =
         "contact opens, which cannot be decided node by node on tri6 or quad8 faces; mesh the contact faces with linear or 9-node "
@@ -179,45 +227,28 @@ Solution Problem::solve(const Parameters& at, const contact::AssociatedSystem& s
   return solution;
 }
 
-/// Solves the problem with the gaps of the active set held at zero. Linear under approximation A: one step. With convective terms
-/// Newton's method, its matrix without K^R and without the turning of the slip, which are small: a few steps. GMRES, preconditioned
-/// by the factorised K0. `rest`: residual that is left, relative to that of no displacement.
-OwnedVec Problem::guess(const Parameters& at, const contact::AssociatedSystem& system, double& rest) const {
+double Problem::largestDisplacement(const Parameters& at, Vec x) const {
+  PetscReal largest = 0;
+  check(VecNorm(displacement(at, x), NORM_INFINITY, &largest));
+  return largest;
+}
+
+/// Solves the problem with the gaps of the active set held at zero. Linear under approximation A. With convective terms Newton's
+/// method, its matrix without K^R and without the turning of the slip, which are small: a few more steps of refinement.
+OwnedVec Problem::closedContact(const Parameters& at, const contact::AssociatedSystem& system, Refinement& refinement) const {
   const auto& closed = system.transformation();
   const OwnedMat rows = contact_.slipRows(closed, contact_.slip(at.speed, nullptr), system.closed());
   const OwnedMat matrix = contact::affine(system.k0(), system.stiffness().friction(rows), at.friction);
-  OwnedKSP solver;
-  check(KSPCreate(mesh_.comm, solver.out()));
-  check(KSPSetOperators(solver, matrix, system.k0()));
-  check(KSPSetType(solver, KSPGMRES));
-  check(KSPSetTolerances(solver, 1e-13, PETSC_DEFAULT, PETSC_DEFAULT, 200));
-  check(KSPGMRESSetRestart(solver, 200));
-  preconditionBy(solver, system.solver());
-
-  const OwnedVec y = rightVector(closed.trial), step = rightVector(closed.trial);
-  PetscReal first = 0, before = INFINITY;
-  rest = 1;
-  for (int iteration = 0; iteration < 20; ++iteration) {
+  const auto residual = [&](Vec y) {
     const OwnedVec u = displacement(closed, at, y);
-    const OwnedVec residual = test(closed, system.closed(), at, forces(at, u), contact_.slip(at.speed, u));
-    PetscReal size = 0;
-    check(VecNorm(residual, NORM_2, &size));
-    if (iteration == 0) first = size;
-    rest = first > 0 ? std::min(rest, size / first) : 0;
-    if (size <= 1e-14 * first || size > 0.5 * before) break;  // solved, or down to rounding
-    before = size;
-    check(KSPSolve(solver, residual, step));
-    KSPConvergedReason reason;
-    check(KSPGetConvergedReason(solver, &reason));
-    if (reason < 0) {  // near a friction without solution: the frictionless step
-      check(KSPSolve(system.solver(), residual, step));
-      check(VecAXPY(y, -1, step));
-      break;
-    }
-    check(VecAXPY(y, -1, step));
-    if (contact_.convected) continue;
-    rest = 0;  // to the tolerance of GMRES
-    break;
+    return Residual{test(closed, system.closed(), at, forces(at, u), contact_.slip(at.speed, u)), rounding(u, load(at))};
+  };
+  const OwnedVec y = rightVector(closed.trial);
+  refinement = refine(innerSolver(matrix, system.solver()), residual, y);
+  if (refinement.relative() > 0.5) {  // near a friction without solution: the frictionless one to start from
+    check(VecSet(y, 0));
+    check(KSPSolve(system.solver(), residual(y).vector, y));
+    check(VecScale(y, -1));
   }
   const OwnedVec z = elasticity::nodalVector(mesh_);
   OwnedVec x = rightVector(transformation_.trial);
@@ -226,7 +257,27 @@ OwnedVec Problem::guess(const Parameters& at, const contact::AssociatedSystem& s
   return x;
 }
 
-void Problem::complementarity(OwnedVec& x, Solution& solution) const {
+/// The 2-norm of what is left of the complementarity problem: of F_g at a closed gap only what pulls.
+double Problem::naturalResidual(const Parameters& at, Vec x) const {
+  const OwnedVec f = rightVector(transformation_.trial);
+  residual(at, x, f);
+  PetscInt first = 0;
+  check(VecGetOwnershipRange(x, &first, nullptr));
+  const PetscScalar* gaps = nullptr;
+  PetscScalar* values = nullptr;
+  check(VecGetArrayRead(x, &gaps));
+  check(VecGetArray(f, &values));
+  for (PetscInt column : transformation_.gapColumn)
+    if (gaps[column - first] <= 0) values[column - first] = std::min(values[column - first], 0.0);
+  check(VecRestoreArray(f, &values));
+  check(VecRestoreArrayRead(x, &gaps));
+  PetscReal size = 0;
+  check(VecNorm(f, NORM_2, &size));
+  return size;
+}
+
+/// Returns the 2-norm of the forces left, N.
+double Problem::complementarity(OwnedVec& x, Solution& solution) const {
   PetscReal xUnit = 0, forceUnit = 0;
   check(VecNorm(x, NORM_INFINITY, &xUnit));
   {
@@ -240,6 +291,8 @@ void Problem::complementarity(OwnedVec& x, Solution& solution) const {
   OwnedMat symmetric;
   check(MatDuplicate(stiffness_.matrix, MAT_COPY_VALUES, symmetric.out()));
   for (Mat matrix : {jacobian.get(), symmetric.get()}) check(MatScale(matrix, xUnit / forceUnit));
+  // The residual cannot become smaller than rounding, which grows with the displacements and with the number of unknowns.
+  const double asked = std::max(1e-11, 10 * rounding(displacement(solution.at, x), load(solution.at)) / forceUnit);
   check(VecScale(x, 1 / xUnit));
   const OwnedVec work = rightVector(jacobian);
   Scaled scaled{*this, solution.at, xUnit, forceUnit, static_cast<bool>(contact_.convected), work};
@@ -259,17 +312,24 @@ void Problem::complementarity(OwnedVec& x, Solution& solution) const {
   check(SNESSetFunction(snes, value, evaluate, &scaled));
   check(SNESSetJacobian(snes, jacobian, symmetric, differentiate, &scaled));
   check(SNESVISetVariableBounds(snes, low, high));
-  check(SNESSetTolerances(snes, 1e-11, 1e-14, 0, 30, 1000));
+  check(SNESSetTolerances(snes, asked, 1e-14, 0, 30, 1000));
+  // Newton's method corrects what a linear solve that stagnates has left; the residual decides.
+  check(SNESSetMaxLinearSolveFailures(snes, 1000));
   KSP ksp = nullptr;
   PC pc = nullptr;
   check(SNESGetKSP(snes, &ksp));
   check(KSPSetType(ksp, KSPGMRES));
-  check(KSPSetTolerances(ksp, 1e-12, PETSC_DEFAULT, PETSC_DEFAULT, 200));
-  check(KSPGMRESSetRestart(ksp, 200));
+  check(KSPSetTolerances(ksp, 1e-10, PETSC_DEFAULT, PETSC_DEFAULT, 100));
+  check(KSPGMRESSetRestart(ksp, 100));
   check(KSPGetPC(ksp, &pc));
   check(PCSetType(pc, PCCHOLESKY));
   check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
-  check(SNESSetFromOptions(snes));
+  check(KSPSetPCSide(ksp, PC_RIGHT));
+  {
+    // A gap is open however small: the default, 1e-8 of the largest displacement, is too much where a body moves far as a whole.
+    const DefaultOption exact("-" + solverPrefix.prefix + "snes_vi_zero_tolerance", "1e-14");
+    check(SNESSetFromOptions(snes));
+  }
   // SNES asks for these only while it solves.
   solverPrefix.rejectUnused({"mat_mumps_", "uniqueness_", "snes_test_jacobian", "snes_converged_reason", "snes_view"});
   check(SNESSolve(snes, nullptr, x));
@@ -277,13 +337,19 @@ void Problem::complementarity(OwnedVec& x, Solution& solution) const {
   PetscInt iterations = 0;
   check(SNESGetConvergedReason(snes, &reason));
   check(SNESGetIterationNumber(snes, &iterations));
-  solution.reason = SNESConvergedReasons[reason];
-  solution.converged = reason > 0;
-  solution.iterations = static_cast<int>(iterations);
   check(VecScale(x, xUnit));
+  const double left = naturalResidual(solution.at, x);
+  solution.residual = left / forceUnit;
+  PetscReal tolerance = 0;
+  check(SNESGetTolerances(snes, &tolerance, nullptr, nullptr, nullptr, nullptr));
+  solution.reason = SNESConvergedReasons[reason];
+  solution.iterations = static_cast<int>(iterations);
+  // A step that no longer changes anything (the line search, SNORM) is an end only where the residual says so.
+  solution.converged = solution.residual <= std::max<PetscReal>(tolerance, 10 * asked);
+  return left;
 }
 
-void Problem::recover(Vec x, Solution& solution) const {
+void Problem::recover(Vec x, double noise, Solution& solution) const {
   solution.displacement = displacement(solution.at, x);
   const OwnedVec force = forces(solution.at, solution.displacement), folded = elasticity::nodalVector(mesh_);
   check(MatMultTranspose(contact_.periodic, force, folded));  // a contact node on a periodic boundary is pressed on both sides
@@ -314,9 +380,10 @@ void Problem::recover(Vec x, Solution& solution) const {
     for (std::size_t i = 0; i < pressure.size(); ++i) solution.contact[i].pressure = pressure[i];
   }
   double smallest = INFINITY;
+  // SNES leaves an open gap with a force of the order of its tolerance.
+  const double nothing = std::max(1e-8 * largest, 10 * noise);
   for (const auto& state : solution.contact) {
-    // SNES leaves an inactive gap with a force of the order of its tolerance.
-    const bool closed = !contact_.weightsPositive || state.normalForce > 1e-8 * largest;
+    const bool closed = !contact_.weightsPositive || state.normalForce > nothing;
     solution.closed.push_back(closed);
     solution.openNodes += !closed;
     smallest = std::min(smallest, state.pressure);

@@ -6,6 +6,7 @@
 
 #include "contact/coupled.hpp"
 #include "parameters.hpp"
+#include "steady/refinement.hpp"
 
 namespace squeal::steady {
 
@@ -28,6 +29,7 @@ struct Solution {
   bool converged = false;
   std::string reason;  ///< SNES converged reason, or why there is no solution
   int iterations = 0;
+  double residual = 0;                ///< 2-norm of what is left of the equations, over that without displacements
   OwnedVec displacement;              ///< u, N entries, m
   std::vector<ContactState> contact;  ///< [owned contact node]
   std::vector<contact::Slip> slip;    ///< [owned contact node] sliding in this state
@@ -84,9 +86,12 @@ class Problem {
   std::vector<double> normalForces(Vec forces) const;
   OwnedVec test(const contact::Transformation& transformation, const std::vector<unsigned char>& slides, const Parameters& at,
                 Vec forces, const std::vector<contact::Slip>& slip) const;
-  OwnedVec guess(const Parameters& at, const contact::AssociatedSystem& system, double& rest) const;
-  void complementarity(OwnedVec& x, Solution& solution) const;
-  void recover(Vec x, Solution& solution) const;
+  double rounding(Vec displacement, Vec loads) const;
+  double naturalResidual(const Parameters& at, Vec x) const;
+  double largestDisplacement(const Parameters& at, Vec x) const;
+  OwnedVec closedContact(const Parameters& at, const contact::AssociatedSystem& system, Refinement& refinement) const;
+  double complementarity(OwnedVec& x, Solution& solution) const;
+  void recover(Vec x, double noise, Solution& solution) const;
   double imbalance(const Solution& solution, Vec nodalForces) const;
 
   const mesh::Mesh& mesh_;
@@ -95,6 +100,7 @@ class Problem {
   std::vector<unsigned char> all_;          // [contact node] 1
   contact::Transformation transformation_;  // all gaps unknown
   contact::Projection stiffness_, rotationStiffness_;
+  OwnedVec diagonal_;           // of K, N entries
   OwnedMat jumps_, convected_;  // J T and D T, N×n; empty without convective terms
 };
 

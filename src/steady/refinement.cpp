@@ -1,0 +1,66 @@
+#include "steady/refinement.hpp"
+
+#include <algorithm>
+
+#include "petsc/inner.hpp"
+
+namespace squeal::steady {
+namespace {
+
+/// A residual below this multiple of its estimated rounding is nothing but rounding.
+constexpr double roundings = 10;
+/// A residual this small beside that of the start is that of a solution, whatever made it.
+constexpr double small = 1e-9;
+/// Convective terms, whose change the inner solver does not know, take some ten steps.
+constexpr int mostSteps = 20;
+
+PetscReal norm(Vec vector) {
+  PetscReal value = 0;
+  check(VecNorm(vector, NORM_2, &value));
+  return value;
+}
+
+}  // namespace
+
+bool Refinement::solved() const { return least <= std::max(roundings * rounding, small * first); }
+
+Refinement refine(KSP inner, const std::function<Residual(Vec)>& residual, Vec y) {
+  Residual current = residual(y);
+  Refinement result;
+  result.first = result.least = norm(current.vector);
+  result.rounding = current.rounding;
+  OwnedVec step;
+  check(VecDuplicate(y, step.out()));
+  while (result.steps < mostSteps && result.least > result.rounding) {
+    check(KSPSolve(inner, current.vector, step));  // judged by the residual below, not by its reason
+    ++result.steps;
+    check(VecAXPY(y, -1, step));
+    Residual next = residual(y);
+    const PetscReal before = result.least, now = norm(next.vector);
+    if (!(now < before)) {
+      check(VecAXPY(y, 1, step));
+      break;
+    }
+    result.least = now;
+    result.rounding = next.rounding;
+    current = std::move(next);
+    if (now > 0.5 * before) break;
+  }
+  return result;
+}
+
+OwnedKSP innerSolver(Mat matrix, KSP factorised) {
+  OwnedKSP solver;
+  check(KSPCreate(PetscObjectComm(reinterpret_cast<PetscObject>(matrix)), solver.out()));
+  check(KSPSetOperators(solver, matrix, matrix));
+  check(KSPSetType(solver, KSPGMRES));
+  // Eight digits a step: GMRES stagnates some digits above rounding, refinement does not.
+  check(KSPSetTolerances(solver, 1e-8, PETSC_DEFAULT, PETSC_DEFAULT, 100));
+  check(KSPGMRESSetRestart(solver, 100));
+  // Right preconditioning: the tolerance is of forces. Where a weakly held body moves far, that of displacements hides all the rest.
+  check(KSPSetPCSide(solver, PC_RIGHT));
+  preconditionBy(solver, factorised);
+  return solver;
+}
+
+}  // namespace squeal::steady
