@@ -1,5 +1,10 @@
 #include "elasticity/assembly.hpp"
 
+#include <algorithm>
+
+#include "petsc/stages.hpp"
+#include "petsc/text.hpp"
+
 namespace squeal::elasticity {
 
 OwnedMat toMatrix(const mesh::Mesh& mesh, Triples& triples, Symmetry symmetry) {
@@ -51,9 +56,55 @@ std::vector<Point> pointsOf(const mesh::Mesh& mesh, const PetscInt* nodes, int c
   return points;
 }
 
-std::string invertedCell(const mesh::Mesh& mesh, const mesh::CellBlock& block, std::size_t e) {
-  return "inverted element: cell " + std::to_string(block.tag[e]) + " (" + shapeTable(block.type).name + ") of group '" +
-         mesh.bodies[static_cast<std::size_t>(block.body[e])] + "' has a Jacobian that is not positive";
+namespace {
+
+/// Collective. Of the cells of all ranks: how many, and the first three by their tags in words.
+struct CellsNamed {
+  PetscInt count = 0;
+  std::string words;
+};
+
+CellsNamed named(const mesh::Mesh& mesh, std::vector<CellName> cells) {
+  constexpr std::size_t most = 3;
+  CellsNamed result{static_cast<PetscInt>(cells.size()), ""};
+  check(MPI_Allreduce(MPI_IN_PLACE, &result.count, 1, MPIU_INT, MPI_SUM, mesh.comm));
+  if (result.count == 0) return result;
+  int ranks = 1;
+  check(MPI_Comm_size(mesh.comm, &ranks));
+  std::sort(cells.begin(), cells.end());
+  cells.resize(most, CellName{PETSC_MAX_INT, 0, 0});
+  std::vector<CellName> all(most * static_cast<std::size_t>(ranks));
+  check(MPI_Allgather(cells.data(), 3 * most, MPIU_INT, all.data(), 3 * most, MPIU_INT, mesh.comm));
+  std::sort(all.begin(), all.end());
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < std::min(most, static_cast<std::size_t>(result.count)); ++i) {
+    const auto [tag, type, body] = all[i];
+    words.push_back("cell " + std::to_string(tag) + " (" + shapeTable(static_cast<int>(type)).name + ") of group '" +
+                    mesh.bodies[static_cast<std::size_t>(body)] + "'");
+  }
+  result.words = joined(words) + (static_cast<std::size_t>(result.count) > most ? ", …" : "");
+  return result;
+}
+
+}  // namespace
+
+void failOnInverted(const mesh::Mesh& mesh, const std::vector<CellName>& inverted) {
+  const auto [count, words] = named(mesh, inverted);
+  if (count == 1) throw Error("inverted element: " + words + " has a Jacobian that is not positive");
+  if (count > 1)
+    throw Error("inverted elements: " + std::to_string(count) + " cells have a Jacobian that is not positive: " + words);
+}
+
+void warnOfFoldedCells(const mesh::Mesh& mesh) {
+  std::vector<CellName> cells;
+  forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table, const std::vector<Point>& points) {
+    if (folded(table, points)) cells.push_back(nameOf(block, e));
+  });
+  const auto [count, words] = named(mesh, cells);
+  if (count > 0)
+    complain(mesh.comm,
+             "warning: " + std::to_string(count) + (count == 1 ? " curved cell has" : " curved cells have") +
+                 " a Jacobian that is not positive near an edge; stiffness is integrated at fewer points there: " + words);
 }
 
 }  // namespace squeal::elasticity

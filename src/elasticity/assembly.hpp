@@ -1,5 +1,7 @@
 #pragma once
 /// From element arrays to distributed matrices and vectors of nodal displacements.
+#include <compare>
+
 #include "elasticity/element.hpp"
 #include "elasticity/shape.hpp"
 #include "mesh/mesh.hpp"
@@ -30,24 +32,34 @@ void addLoad(Vec load, const mesh::Mesh& mesh, const PetscInt* nodes, int count,
 
 std::vector<Point> pointsOf(const mesh::Mesh& mesh, const PetscInt* nodes, int count);
 
-/// "inverted element: cell …" for messages.
-std::string invertedCell(const mesh::Mesh& mesh, const mesh::CellBlock& block, std::size_t e);
+/// A cell for messages; only integers, so that ranks can tell each other.
+struct CellName {
+  PetscInt tag, type, body;
+  auto operator<=>(const CellName&) const = default;
+};
+inline CellName nameOf(const mesh::CellBlock& block, std::size_t e) { return {block.tag[e], block.type, block.body[e]}; }
+
+/// Collective. Error on all ranks if a rank has inverted cells: how many there are, and the first of them.
+void failOnInverted(const mesh::Mesh& mesh, const std::vector<CellName>& inverted);
+
+/// Collective. One line on the cells that are of use although folded(): how many, and the first of them.
+void warnOfFoldedCells(const mesh::Mesh& mesh);
 
 /// Collective. Calls `visit(block, cell index, table, coordinates)` for each cell; where it throws InvertedElement all ranks get an
 /// Error.
 template <class Visit>
 void forEachCell(const mesh::Mesh& mesh, Visit visit) {
-  std::string failure;
+  std::vector<CellName> inverted;
   for (const auto& block : mesh.cells) {
     const ShapeTable& table = shapeTable(block.type);
     for (std::size_t e = 0; e < block.tag.size(); ++e) try {
         visit(block, e, table,
               pointsOf(mesh, block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerCell), block.nodesPerCell));
       } catch (const InvertedElement&) {
-        if (failure.empty()) failure = invertedCell(mesh, block, e);
+        inverted.push_back(nameOf(block, e));
       }
   }
-  failTogether(mesh.comm, failure);
+  failOnInverted(mesh, inverted);
 }
 
 }  // namespace squeal::elasticity

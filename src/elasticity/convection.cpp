@@ -78,7 +78,7 @@ void assembleConvection(const mesh::Mesh& mesh, const std::vector<Material>& mat
     if (!motion.moves()) return;
     std::vector<Point> velocity;
     for (const auto& x : points) velocity.push_back(motion.velocity(x));
-    const Convection cell = convection(table, points, velocity, materials[body].density);
+    const Convection cell = convection(gradientTable(table, points), points, velocity, materials[body].density);
     const PetscInt* nodes = block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerCell);
     append(g, mesh, nodes, block.nodesPerCell, cell.gyroscopic, true);
     append(k, mesh, nodes, block.nodesPerCell, cell.rotationStiffness, true);

@@ -105,7 +105,7 @@ CellTriples cellTriples(const mesh::Mesh& mesh, const std::vector<Material>& mat
     const Material& material = materials[static_cast<std::size_t>(block.body[e])];
     const PetscInt* nodes = block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerCell);
     const bool bubbles = std::find(incompatible.begin(), incompatible.end(), table.name) != incompatible.end();
-    const auto cellStiffness = stiffness(table, points, material.law, bubbles);
+    const auto cellStiffness = stiffness(gradientTable(table, points), points, material.law, bubbles);
     const auto cellMass = mass(table, points, material.density, kind);
     append(k, mesh, nodes, block.nodesPerCell, cellStiffness, false);
     append(m, mesh, nodes, block.nodesPerCell, cellMass, true);
@@ -182,6 +182,7 @@ Bodies assemble(const mesh::Mesh& mesh) {
   bodies.motions = readMotions(mesh.bodies);
   const auto materials = readMaterials(mesh);
   assembleMatrices(mesh, materials, bodies);
+  warnOfFoldedCells(mesh);
   if (convectiveTerms()) assembleConvection(mesh, materials, bodies);
   assembleCentrifugal(mesh, materials, bodies);
   assembleLoad(mesh, bodies);
@@ -220,7 +221,8 @@ OwnedMat geometricStiffness(const mesh::Mesh& mesh, Vec displacement, std::optio
     for (int i = 0; i < block.nodesPerCell; ++i)
       for (int d = 0; d < mesh.dimension; ++d) u.push_back(values[static_cast<std::size_t>(mesh.dimension * nodes[i] + d)]);
     const bool bubbles = std::find(incompatible.begin(), incompatible.end(), table.name) != incompatible.end();
-    const auto cell = geometricStiffness(table, points, materials[static_cast<std::size_t>(block.body[e])].law, bubbles, u);
+    const auto cell = geometricStiffness(gradientTable(table, points), points,
+                                         materials[static_cast<std::size_t>(block.body[e])].law, bubbles, u);
     append(k, mesh, nodes, block.nodesPerCell, onAllComponents(cell, block.nodesPerCell, mesh.dimension), false);  // pattern of K
   });
   return toMatrix(mesh, k, Symmetry::symmetric);

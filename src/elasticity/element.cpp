@@ -134,6 +134,16 @@ Matrix3 stressAt(const StrainMatrix& strain, int q, const Hooke& hooke, const st
 
 }  // namespace
 
+bool folded(const ShapeTable& table, const std::vector<Point>& nodes) {
+  for (int q = 0; q < table.points(); ++q)
+    if (!(determinant(jacobian(table.gradient.data() + 3 * q * table.nodes, nodes, table.dimension)) > 0)) return true;
+  return false;
+}
+
+const ShapeTable& gradientTable(const ShapeTable& table, const std::vector<Point>& nodes) {
+  return folded(table, nodes) ? stiffnessTable(table.type) : table;
+}
+
 std::vector<double> stiffness(const ShapeTable& table, const std::vector<Point>& nodes, const Law& law, bool incompatible) {
   const StrainMatrix strain = strainMatrix(table, nodes, incompatible);
   auto k = fullStiffness(strain, law);

@@ -8,8 +8,14 @@
 
 namespace squeal::elasticity {
 
-/// Thrown by the routines below where det J ≤ 0 at a quadrature point.
+/// Thrown by the routines below where det J ≤ 0 at a point of their rule; by mass() where the matrix is not positive definite.
 struct InvertedElement {};
+
+/// True if det J ≤ 0 at a point of the rule. Such a cell is still of use where the least rule for the stiffness has no such point: terms
+/// with J⁻¹ take that rule, loads are polynomials and integrated as they are, and the mass has the true volume.
+bool folded(const ShapeTable& table, const std::vector<Point>& nodes);
+/// The table of a cell for terms with J⁻¹: the given one, or that for stiffness if the cell is folded.
+const ShapeTable& gradientTable(const ShapeTable& table, const std::vector<Point>& nodes);
 
 /// K_ij = ∫ Bᵢᵀ D Bⱼ, row-major, rows and columns [node][component], N/m (per unit thickness in the plane).
 /// `incompatible` (quad4, hex8): quadratic bubble modes of Taylor, Beresford and Wilson (1976), condensed; they pass the patch
@@ -22,7 +28,7 @@ std::vector<double> geometricStiffness(const ShapeTable& table, const std::vecto
                                        std::vector<double> displacement);
 
 enum class MassKind { consistent, higherOrder };
-/// m_ij = ∫ ρ φᵢ φⱼ, row-major [node][node], kg, one copy for all components. Higher order: the mean of the consistent matrix and
+/// m_ij = ∫ ρ φᵢ φⱼ, positive definite, row-major [node][node], kg, one copy for all components. Higher order: the mean of the consistent matrix and
 /// the diagonal one with the same total (diagonal scaling of Hinton, Rock and Zienkiewicz 1976, row sums on linear elements).
 std::vector<double> mass(const ShapeTable& table, const std::vector<Point>& nodes, double density, MassKind kind);
 

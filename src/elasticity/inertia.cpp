@@ -1,20 +1,52 @@
+#include <petscsys.h>  // first: the next header needs it
+
+#include <petscblaslapack.h>
+
+#include <algorithm>
 #include <cmath>
 
 #include "elasticity/element.hpp"
 #include "elasticity/jacobian.hpp"
 
 namespace squeal::elasticity {
+namespace {
+
+bool positiveDefinite(std::vector<double> matrix, std::size_t size) {
+  PetscBLASInt n = static_cast<PetscBLASInt>(size), info = 0;
+  LAPACKpotrf_("L", &n, matrix.data(), &n, &info);
+  return info == 0;
+}
+
+/// Volume that each point of the rule stands for. Where det J changes its sign the mass of ∫ ρ φᵢ φⱼ det J dξ would be indefinite: the points
+/// with a negative one have none, and the others share the volume of the cell.
+std::vector<double> massVolumes(const ShapeTable& table, const std::vector<Point>& nodes) {
+  std::vector<double> volumes;
+  double total = 0, positive = 0;
+  for (int q = 0; q < table.points(); ++q) {
+    const double det = determinant(jacobian(table.gradient.data() + 3 * q * table.nodes, nodes, table.dimension));
+    volumes.push_back(table.weight[static_cast<std::size_t>(q)] * det);
+    total += volumes.back();
+    positive += std::max(volumes.back(), 0.0);
+  }
+  if (!(total > 0)) throw InvertedElement{};
+  if (positive != total)
+    for (auto& volume : volumes) volume = std::max(volume, 0.0) * total / positive;
+  return volumes;
+}
+
+}  // namespace
 
 std::vector<double> mass(const ShapeTable& table, const std::vector<Point>& nodes, double density, MassKind kind) {
   const auto n = static_cast<std::size_t>(table.nodes);
+  const std::vector<double> volumes = massVolumes(table, nodes);
   std::vector<double> m(n * n, 0.0);
-  for (int q = 0; q < table.points(); ++q) {
-    const Matrix3 j = jacobian(table.gradient.data() + 3 * q * table.nodes, nodes, table.dimension);
-    const double factor = density * table.weight[static_cast<std::size_t>(q)] * positiveDeterminant(j);
-    const double* value = table.value.data() + static_cast<std::size_t>(q) * n;
+  for (std::size_t q = 0; q < volumes.size(); ++q) {
+    const double factor = density * volumes[q];
+    const double* value = table.value.data() + q * n;
     for (std::size_t a = 0; a < n; ++a)
       for (std::size_t b = 0; b < n; ++b) m[a * n + b] += factor * value[a] * value[b];
   }
+  if (folded(table, nodes) && !positiveDefinite(m, n)) throw InvertedElement{};
   if (kind == MassKind::higherOrder) {
     double total = 0, trace = 0;
     for (std::size_t a = 0; a < n; ++a) {
@@ -34,8 +66,8 @@ std::vector<double> centrifugal(const ShapeTable& table, const std::vector<Point
   const auto n = static_cast<std::size_t>(table.nodes);
   std::vector<double> load(3 * n, 0.0);
   for (int q = 0; q < table.points(); ++q) {
-    const Matrix3 j = jacobian(table.gradient.data() + 3 * q * table.nodes, nodes, table.dimension);
-    const double factor = density * speed * speed * table.weight[static_cast<std::size_t>(q)] * positiveDeterminant(j);
+    const double det = determinant(jacobian(table.gradient.data() + 3 * q * table.nodes, nodes, table.dimension));
+    const double factor = density * speed * speed * table.weight[static_cast<std::size_t>(q)] * det;
     const double* value = table.value.data() + static_cast<std::size_t>(q) * n;
     Point r{-origin[0], -origin[1], -origin[2]};
     for (std::size_t a = 0; a < n; ++a)

@@ -23,7 +23,8 @@ std::string elementName(int dimension, int corners, int nodes) {
   return shape + std::to_string(nodes);
 }
 
-ShapeTable tabulate(int type) {
+/// `degree` 0: 2·order + 1.
+ShapeTable tabulate(int type, int degree) {
   ShapeTable table;
   std::string gmshName;
   std::vector<double> local;
@@ -31,7 +32,8 @@ ShapeTable tabulate(int type) {
   table.type = type;
   table.name = elementName(table.dimension, table.corners, table.nodes);
   // gmsh's odd-degree rules are the tensor-product ones on quadrilaterals and hexahedra.
-  gmsh::model::mesh::getIntegrationPoints(type, "Gauss" + std::to_string(2 * table.order + 1), table.point, table.weight);
+  gmsh::model::mesh::getIntegrationPoints(type, "Gauss" + std::to_string(degree > 0 ? degree : 2 * table.order + 1), table.point,
+                                          table.weight);
   table.value = basis(type, table.point, "Lagrange");
   table.gradient = basis(type, table.point, "GradLagrange");
   std::vector<double> nodes;
@@ -48,7 +50,15 @@ ShapeTable tabulate(int type) {
 const ShapeTable& shapeTable(int gmshType) {
   static std::map<int, ShapeTable> tables;
   const auto found = tables.find(gmshType);
-  return found != tables.end() ? found->second : tables.emplace(gmshType, tabulate(gmshType)).first->second;
+  return found != tables.end() ? found->second : tables.emplace(gmshType, tabulate(gmshType, 0)).first->second;
+}
+
+const ShapeTable& stiffnessTable(int gmshType) {
+  static std::map<int, ShapeTable> tables;
+  const ShapeTable& full = shapeTable(gmshType);
+  if (full.name != "tri6" && full.name != "tet10") return full;
+  const auto found = tables.find(gmshType);
+  return found != tables.end() ? found->second : tables.emplace(gmshType, tabulate(gmshType, 2)).first->second;
 }
 
 }  // namespace squeal::elasticity

@@ -21,5 +21,9 @@ struct ShapeTable {
 
 /// Tabulated on first use; the rule integrates polynomials of degree 2·order + 1. Not collective.
 const ShapeTable& shapeTable(int gmshType);
+/// The same with the least rule that the stiffness needs. On tri6 and tet10 three and four points, exact where the cell is straight (degree
+/// 2 keeps the order of convergence, Ciarlet and Raviart 1972). They lie further inside, where many a curved cell is sound although its
+/// det J changes sign near an edge. All other cells: the rule of shapeTable.
+const ShapeTable& stiffnessTable(int gmshType);
 
 }  // namespace squeal::elasticity

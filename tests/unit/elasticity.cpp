@@ -1,12 +1,14 @@
 // K, M and loads of every element on distorted cells: what holds exactly whatever the shape.
 #include <gtest/gtest.h>
-#include <petscblaslapack.h>
 #include <petscsys.h>  // before the next header, which needs it
+
+#include <petscblaslapack.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "elasticity/element.hpp"
 #include "elasticity/shape.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
@@ -283,6 +285,111 @@ TEST(Elasticity, NamesAnInvertedElementOnAllRanks) {
     EXPECT_TRUE(test::contains(message, "'lining'")) << message;
     EXPECT_TRUE(test::contains(message, "cell 104")) << message;
   }
+}
+
+/// Quadratic tetrahedra of corners 0, x, y, z, each 10 m from the last, tags 7 and 9. The node in the middle of the edge along x is moved by
+/// `inwards` along y and along z: det J falls near that edge, and the volume is (1 − 2 inwards) / 6 m³.
+std::string curvedTetrahedra(double inwards) {
+  const double x[10][3] = {{0, 0, 0},     {1, 0, 0},   {0, 1, 0},   {0, 0, 1},     {0.5, inwards, inwards},
+                           {0.5, 0.5, 0}, {0, 0.5, 0}, {0, 0, 0.5}, {0, 0.5, 0.5}, {0.5, 0, 0.5}};
+  std::string text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 1 \"body\"\n$EndPhysicalNames\n$Nodes\n20\n";
+  for (int cell = 0; cell < 2; ++cell)
+    for (int i = 0; i < 10; ++i) {
+      text += std::to_string(10 * cell + i + 1) + " " + std::to_string(x[i][0] + 10 * cell);
+      text += " " + std::to_string(x[i][1]) + " " + std::to_string(x[i][2]) + "\n";
+    }
+  text += "$EndNodes\n$Elements\n2\n";
+  for (int cell = 0; cell < 2; ++cell) {
+    text += std::to_string(7 + 2 * cell) + " 11 2 1 1";
+    for (int i = 0; i < 10; ++i) text += " " + std::to_string(10 * cell + i + 1);
+    text += "\n";
+  }
+  return text + "$EndElements\n";
+}
+
+struct CurvedCells {
+  std::string message, warning;
+  mesh::Mesh mesh;
+  elasticity::Bodies bodies;
+};
+
+/// Collective. The warning on rank 0 alone.
+CurvedCells assembleCurved(double inwards) {
+  CurvedCells cells;
+  test::setOptions("-mesh_file " + test::writeFile("curved.msh", curvedTetrahedra(inwards)) +
+                   test::material("body", std::to_string(young), std::to_string(poisson), std::to_string(density)));
+  cells.mesh = test::readMesh();
+  testing::internal::CaptureStderr();
+  cells.message = test::errorOf([&] { cells.bodies = elasticity::assemble(cells.mesh); });
+  cells.warning = testing::internal::GetCapturedStderr();
+  return cells;
+}
+
+// det J is negative at one of the 14 points of degree 5 from 0.174 on, at one of the 4 points of the stiffness from 0.214 on.
+TEST(CurvedTetrahedra, AreOfUseWhereTheStiffnessHasNoNegativePoint) {
+  int rank = 0;
+  check(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
+  for (const double inwards : {0.0, 0.16, 0.19, 0.21}) {
+    const CurvedCells cells = assembleCurved(inwards);
+    ASSERT_EQ(cells.message, "") << inwards;
+    const std::string expected =
+        "squeal: warning: 2 curved cells have a Jacobian that is not positive near an edge; stiffness is integrated at fewer "
+        "points there: "
+        "cell 7 (tet10) of group 'body', cell 9 (tet10) of group 'body'\n";
+    EXPECT_EQ(cells.warning, rank == 0 && inwards > 0.174 ? expected : "") << inwards;
+    // The mass is that of the true volume, and positive definite, which the integral with a negative det J is not from 0.18 on.
+    const auto along = test::nodalField(cells.mesh, [](const Point&) { return Point{1, 0, 0}; });
+    EXPECT_NEAR(form(along, cells.bodies.mass, along), 2 * density * (1 - 2 * inwards) / 6, 1e-12) << inwards;
+    EXPECT_GT(symmetricEigenvalues(test::denseCopy(cells.bodies.mass)).front(), 0) << inwards;
+    const auto stiffness = symmetricEigenvalues(test::denseCopy(cells.bodies.stiffness));
+    EXPECT_LT(std::abs(stiffness[11]), 1e-12 * stiffness.back()) << inwards;  // six rigid motions of each cell
+    EXPECT_GT(stiffness[12], 1e-7 * stiffness.back()) << inwards;             // and no other
+  }
+  EXPECT_EQ(
+      assembleCurved(0.24).message,
+      "inverted elements: 2 cells have a Jacobian that is not positive: cell 7 (tet10) of group 'body', cell 9 (tet10) of group "
+      "'body'");
+}
+
+// Terms with J⁻¹ take the points of the stiffness there, and G stays skew.
+TEST(CurvedTetrahedra, ConvectionAndStressTakeTheSamePoints) {
+  const auto nodes = [](double inwards) {
+    return std::vector<Point>{{0, 0, 0},     {1, 0, 0},   {0, 1, 0},   {0, 0, 1},     {0.5, inwards, inwards},
+                              {0.5, 0.5, 0}, {0, 0.5, 0}, {0, 0, 0.5}, {0, 0.5, 0.5}, {0.5, 0, 0.5}};
+  };
+  const auto& table = elasticity::shapeTable(11);
+  EXPECT_EQ(elasticity::gradientTable(table, nodes(0.16)).points(), 14);
+  EXPECT_EQ(elasticity::gradientTable(table, nodes(0.19)).points(), 4);
+  const std::vector<Point> velocity(10, Point{1, 2, 3});
+  EXPECT_THROW(elasticity::convection(table, nodes(0.19), velocity, density), elasticity::InvertedElement);
+  const auto convection = elasticity::convection(elasticity::gradientTable(table, nodes(0.19)), nodes(0.19), velocity, density);
+  for (std::size_t i = 0; i < 10; ++i)
+    for (std::size_t j = 0; j < 10; ++j) EXPECT_NEAR(convection.gyroscopic[10 * i + j], -convection.gyroscopic[10 * j + i], 1e-14);
+  EXPECT_THROW(elasticity::mass(table, nodes(0.6), density, elasticity::MassKind::consistent), elasticity::InvertedElement);
+}
+
+// On straight cells both rules are exact: the integrand is of degree 2.
+TEST(StiffnessRule, IsExactOnStraightCells) {
+  const std::vector<Point> tetrahedron{{0, 0, 0}, {1.1, 0.2, 0}, {0.1, 0.9, -0.2}, {0.3, -0.1, 1.3}},
+      triangle{{0, 0, 0}, {1.2, 0.1, 0}, {0.2, 0.8, 0}};
+  const auto middle = [](const Point& a, const Point& b) { return Point{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2}; };
+  auto tet10 = tetrahedron, tri6 = triangle;
+  for (const auto& [i, j] : {std::pair{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}})  // gmsh's order of the edges
+    tet10.push_back(middle(tetrahedron[static_cast<std::size_t>(i)], tetrahedron[static_cast<std::size_t>(j)]));
+  for (const auto& [i, j] : {std::pair{0, 1}, {1, 2}, {2, 0}})
+    tri6.push_back(middle(triangle[static_cast<std::size_t>(i)], triangle[static_cast<std::size_t>(j)]));
+  for (const auto& [type, nodes, points] : {std::tuple{11, tet10, 4}, {9, tri6, 3}}) {
+    const auto& rule = elasticity::stiffnessTable(type);
+    EXPECT_EQ(rule.points(), points);
+    const elasticity::Law law{elasticity::isotropic(young, poisson, rule.dimension, false), {}};
+    const auto few = elasticity::stiffness(rule, nodes, law, false),
+               many = elasticity::stiffness(elasticity::shapeTable(type), nodes, law, false);
+    const double largest = *std::max_element(many.begin(), many.end());
+    for (std::size_t i = 0; i < many.size(); ++i)
+      EXPECT_NEAR(few[i], many[i], 1e-11 * largest);  // gmsh's points for tetrahedra have 13 digits
+  }
+  for (int type : {2, 3, 4, 5, 6, 10, 12, 13, 16, 17, 18})
+    EXPECT_EQ(&elasticity::stiffnessTable(type), &elasticity::shapeTable(type)) << type;
 }
 
 }  // namespace
