@@ -1,14 +1,14 @@
 // Cantilever along x with a rectangular section, also a plain box for other checks. Lengths in m.
 DefineConstant[
-  order = {1, Name "order"},              // 1 linear, 2 quadratic cells
-  recombine = {1, Name "recombine"},      // 1 hexahedra, 0 tetrahedra
-  serendipity = {0, Name "serendipity"},  // 1: quadratic cells without nodes in the middle of faces and cells (hex20)
-  Lx = {1, Name "Lx"},                    // length
-  Ly = {0.04, Name "Ly"},                 // width
-  Lz = {0.02, Name "Lz"},                 // height; unlike the width, so that no two bending modes coincide
-  nx = {40, Name "nx"},                   // cells along the length
-  ny = {2, Name "ny"},                    // cells across the width
-  nz = {2, Name "nz"}                     // cells across the height
+  order = {1, Name "order", Choices {1, 2}},              // 1 linear, 2 quadratic cells
+  recombine = {1, Name "recombine", Choices {0, 1}},      // 1 hexahedra, 0 tetrahedra
+  serendipity = {0, Name "serendipity", Choices {0, 1}},  // 1: quadratic cells without nodes inside faces and cells (hex20)
+  Lx = {1, Name "Lx"},                                    // length
+  Ly = {0.04, Name "Ly"},                                 // width
+  Lz = {0.02, Name "Lz"},                                 // height; unlike the width, so that no two bending modes coincide
+  nx = {40, Name "nx", Min 1, Max 100000, Step 1},        // cells along the length
+  ny = {2, Name "ny", Min 1, Max 100000, Step 1},         // cells across the width
+  nz = {2, Name "nz", Min 1, Max 100000, Step 1}          // cells across the height
 ];
 Include "grid.inc";
 

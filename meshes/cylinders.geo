@@ -2,16 +2,19 @@
 // outer one (Lamé's solution). Matching meshes, each cylinder with its own interface nodes. Lengths in m.
 // The whole circle is meshed: at the ends of a quarter the normals of a faceted circle would lean out of the symmetry planes.
 DefineConstant[
-  order = {1, Name "order"},              // 1 linear, 2 quadratic cells
-  recombine = {1, Name "recombine"},      // 1 quadrangles, 0 triangles
-  serendipity = {0, Name "serendipity"},  // 1: quadratic cells without the node in the middle (quad8)
-  a = {0.05, Name "a"},                   // radius of the bore
-  b = {0.08, Name "b"},                   // radius of the interface
-  c = {0.12, Name "c"},                   // radius of the rim
-  n_inner = {6 / order, Name "n_inner"},  // cells through the inner cylinder
-  n_outer = {8 / order, Name "n_outer"},  // cells through the outer cylinder
-  n_theta = {64 / order, Name "n_theta"}  // cells along the circle, a multiple of 4
+  order = {1, Name "order", Choices {1, 2}},                         // 1 linear, 2 quadratic cells
+  recombine = {1, Name "recombine", Choices {0, 1}},                 // 1 quadrangles, 0 triangles
+  serendipity = {0, Name "serendipity", Choices {0, 1}},             // 1: quadratic cells without the node in the middle (quad8)
+  a = {0.05, Name "a"},                                              // radius of the bore
+  b = {0.08, Name "b"},                                              // radius of the interface
+  c = {0.12, Name "c"},                                              // radius of the rim
+  n_inner = {6 / order, Name "n_inner", Min 1, Max 100000, Step 1},  // cells through the inner cylinder
+  n_outer = {8 / order, Name "n_outer", Min 1, Max 100000, Step 1},  // cells through the outer cylinder
+  n_theta = {64 / order, Name "n_theta", Min 4, Max 100000, Step 4}  // cells along the circle, a multiple of 4
 ];
+If (n_theta != 4 * Floor(n_theta / 4))
+  Error("n_theta = %g: must be a multiple of 4", n_theta);
+EndIf
 
 Point(1) = {0, 0, 0};
 radii[] = {a, b, b, c};

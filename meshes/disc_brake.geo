@@ -2,39 +2,39 @@
 // of the ring, its middle on the x axis. The disc turns about +z, so the matter under the pad moves along +y. Disc and lining share
 // the nodes of the contact surface; the program gives each its own. Lengths in m, angles in degrees. Sources: README.md.
 DefineConstant[
-  order = {1, Name "order"},                // 1 linear; 2 quadratic cells, half as many along each edge
-  serendipity = {0, Name "serendipity"},    // 1: quadratic cells without nodes in the middle of faces and cells (hex20)
+  order = {1, Name "order", Choices {1, 2}},              // 1 linear; 2 quadratic cells, half as many along each edge
+  serendipity = {0, Name "serendipity", Choices {0, 1}},  // 1: quadratic cells without nodes inside faces and cells (hex20)
   // The disc: a ring with a hat below it, whose bottom plate is bolted to the hub.
-  r_bore = {0.034, Name "r_bore"},          // hole of the hat's plate
-  r_mount = {0.055, Name "r_mount"},        // outer radius of the mounting face
-  r_hat = {0.070, Name "r_hat"},            // inside of the hat's wall
-  r_ring = {0.080, Name "r_ring"},          // outside of the hat's wall
-  r_out = {0.144, Name "r_out"},            // rim
-  h_ring = {0.015, Name "h_ring"},          // thickness of the friction ring
-  h_plate = {0.010, Name "h_plate"},        // thickness of the hat's plate
-  hat = {0.030, Name "hat"},                // from the lower face of the ring down to the mounting face
+  r_bore = {0.034, Name "r_bore"},    // hole of the hat's plate
+  r_mount = {0.055, Name "r_mount"},  // outer radius of the mounting face
+  r_hat = {0.070, Name "r_hat"},      // inside of the hat's wall
+  r_ring = {0.080, Name "r_ring"},    // outside of the hat's wall
+  r_out = {0.144, Name "r_out"},      // rim
+  h_ring = {0.015, Name "h_ring"},    // thickness of the friction ring
+  h_plate = {0.010, Name "h_plate"},  // thickness of the hat's plate
+  hat = {0.030, Name "hat"},          // from the lower face of the ring down to the mounting face
   // The pad: its rubbing face is a sector of a ring; from there its four sides slope outwards, chamfered as linings are, to the
   // larger back plate. Without the slope the trailing corners of the lining lift off as soon as there is friction.
   r_pad_in = {0.090, Name "r_pad_in"},
   r_pad_out = {0.140, Name "r_pad_out"},
   pad_angle = {45, Name "pad_angle"},
-  slope = {0.005, Name "slope"},            // by which the back plate juts out over the rubbing face, all round
+  slope = {0.005, Name "slope"},  // by which the back plate juts out over the rubbing face, all round
   h_lining = {0.006, Name "h_lining"},
   h_back = {0.005, Name "h_back"},
   // Cells.
-  n_pad_theta = {Ceil(24 / order), Name "n_pad_theta"},    // along the pad
-  n_free_theta = {Ceil(41 / order), Name "n_free_theta"},  // along each third of the disc's rest
-  n_mount = {Ceil(3 / order), Name "n_mount"},             // radially: bore to r_mount
-  n_plate = {Ceil(3 / order), Name "n_plate"},             // r_mount to r_hat
-  n_wall = {Ceil(2 / order), Name "n_wall"},               // through the hat's wall
-  n_inside = {Ceil(2 / order), Name "n_inside"},           // r_ring to r_pad_in
-  n_pad_r = {Ceil(10 / order), Name "n_pad_r"},            // across the pad
-  n_outside = {1, Name "n_outside"},                       // r_pad_out to r_out
-  n_h_plate = {Ceil(2 / order), Name "n_h_plate"},         // axially: hat's plate
-  n_hat = {Ceil(4 / order), Name "n_hat"},                 // hat's wall
-  n_h_ring = {Ceil(4 / order), Name "n_h_ring"},           // friction ring
-  n_h_lining = {Ceil(2 / order), Name "n_h_lining"},       // lining
-  n_h_back = {1, Name "n_h_back"}                          // each half of the back plate
+  n_pad_theta = {Ceil(24 / order), Name "n_pad_theta", Min 1, Max 100000, Step 1},    // along the pad
+  n_free_theta = {Ceil(41 / order), Name "n_free_theta", Min 1, Max 100000, Step 1},  // along each third of the disc's rest
+  n_mount = {Ceil(3 / order), Name "n_mount", Min 1, Max 100000, Step 1},             // radially: bore to r_mount
+  n_plate = {Ceil(3 / order), Name "n_plate", Min 1, Max 100000, Step 1},             // r_mount to r_hat
+  n_wall = {Ceil(2 / order), Name "n_wall", Min 1, Max 100000, Step 1},               // through the hat's wall
+  n_inside = {Ceil(2 / order), Name "n_inside", Min 1, Max 100000, Step 1},           // r_ring to r_pad_in
+  n_pad_r = {Ceil(10 / order), Name "n_pad_r", Min 1, Max 100000, Step 1},            // across the pad
+  n_outside = {1, Name "n_outside", Min 1, Max 100000, Step 1},                       // r_pad_out to r_out
+  n_h_plate = {Ceil(2 / order), Name "n_h_plate", Min 1, Max 100000, Step 1},         // axially: hat's plate
+  n_hat = {Ceil(4 / order), Name "n_hat", Min 1, Max 100000, Step 1},                 // hat's wall
+  n_h_ring = {Ceil(4 / order), Name "n_h_ring", Min 1, Max 100000, Step 1},           // friction ring
+  n_h_lining = {Ceil(2 / order), Name "n_h_lining", Min 1, Max 100000, Step 1},       // lining
+  n_h_back = {1, Name "n_h_back", Min 1, Max 100000, Step 1}                          // each half of the back plate
 ];
 Include "grid.inc";
 

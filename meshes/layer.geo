@@ -1,12 +1,12 @@
 // One elastic layer, a cell of length Lx of a strip periodic in x; plane mesh, y = 0 is the sliding surface. Lengths in m.
 DefineConstant[
-  order = {1, Name "order"},              // 1 linear, 2 quadratic cells
-  recombine = {1, Name "recombine"},      // 1 quadrangles, 0 triangles
-  serendipity = {0, Name "serendipity"},  // 1: quadratic cells without the node in the middle (quad8)
-  nx = {36, Name "nx"},                   // cells along x
-  ny = {12, Name "ny"},                   // cells across the thickness
-  Lx = {3, Name "Lx"},                    // period
-  h = {1, Name "h"}                       // thickness
+  order = {1, Name "order", Choices {1, 2}},              // 1 linear, 2 quadratic cells
+  recombine = {1, Name "recombine", Choices {0, 1}},      // 1 quadrangles, 0 triangles
+  serendipity = {0, Name "serendipity", Choices {0, 1}},  // 1: quadratic cells without the node in the middle (quad8)
+  nx = {36, Name "nx", Min 1, Max 100000, Step 1},        // cells along x
+  ny = {12, Name "ny", Min 1, Max 100000, Step 1},        // cells across the thickness
+  Lx = {3, Name "Lx"},                                    // period
+  h = {1, Name "h"}                                       // thickness
 ];
 
 Point(1) = {0, -h, 0};

@@ -1,14 +1,14 @@
 // The layer of layer.geo as a solid slab one cell thick in z. Clamp z on the group `layer` for plane strain. Lengths in m.
 DefineConstant[
-  order = {1, Name "order"},              // 1 linear, 2 quadratic cells
-  recombine = {1, Name "recombine"},      // 1 hexahedra, 0 wedges whose triangles lie in planes z = constant
-  serendipity = {0, Name "serendipity"},  // 1: quadratic cells without nodes in the middle of faces and cells (hex20)
-  nx = {36, Name "nx"},                   // cells along x
-  ny = {12, Name "ny"},                   // cells across the thickness
-  nz = {1, Name "nz"},                    // cells along z
-  Lx = {3, Name "Lx"},                    // period
-  h = {1, Name "h"},                      // thickness
-  depth = {Lx / nx, Name "depth"}         // length along z
+  order = {1, Name "order", Choices {1, 2}},              // 1 linear, 2 quadratic cells
+  recombine = {1, Name "recombine", Choices {0, 1}},      // 1 hexahedra, 0 wedges whose triangles lie in planes z = constant
+  serendipity = {0, Name "serendipity", Choices {0, 1}},  // 1: quadratic cells without nodes inside faces and cells (hex20)
+  nx = {36, Name "nx", Min 1, Max 100000, Step 1},        // cells along x
+  ny = {12, Name "ny", Min 1, Max 100000, Step 1},        // cells across the thickness
+  nz = {1, Name "nz", Min 1, Max 100000, Step 1},         // cells along z
+  Lx = {3, Name "Lx"},                                    // period
+  h = {1, Name "h"},                                      // thickness
+  depth = {Lx / nx, Name "depth"}                         // length along z
 ];
 Include "grid.inc";
 

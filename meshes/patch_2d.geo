@@ -1,10 +1,10 @@
 // Patch test in the plane: the unit square of 2 x 2 blocks whose corners are moved off the regular grid, so that every cell is
 // distorted. Lengths in m.
 DefineConstant[
-  order = {1, Name "order"},              // 1 linear, 2 quadratic cells
-  recombine = {1, Name "recombine"},      // 1 quadrangles, 0 triangles
-  serendipity = {0, Name "serendipity"},  // 1: quadratic cells without the node in the middle (quad8)
-  n = {1, Name "n"}                       // cells along each side of a block
+  order = {1, Name "order", Choices {1, 2}},              // 1 linear, 2 quadratic cells
+  recombine = {1, Name "recombine", Choices {0, 1}},      // 1 quadrangles, 0 triangles
+  serendipity = {0, Name "serendipity", Choices {0, 1}},  // 1: quadratic cells without the node in the middle (quad8)
+  n = {1, Name "n", Min 1, Max 100000, Step 1}            // cells along each side of a block
 ];
 
 // Points 1 + i + 3 j: the ends of the sides stay, points on a side move along it, the one inside moves freely.

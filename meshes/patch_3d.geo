@@ -1,11 +1,11 @@
 // Patch test in space: the unit cube of 2 x 2 x 2 blocks whose corners are moved off the regular grid, so that every cell is
 // distorted. The faces of the cube stay plane, those inside are warped. Lengths in m.
 DefineConstant[
-  order = {1, Name "order"},              // 1 linear, 2 quadratic cells
-  recombine = {1, Name "recombine"},      // 1 hexahedra, 0 tetrahedra, or wedges:
-  wedge = {0, Name "wedge"},              // 1, with recombine = 0: wedges
-  serendipity = {0, Name "serendipity"},  // 1: quadratic cells without nodes in the middle of faces and cells (hex20)
-  n = {1, Name "n"}                       // cells along each edge of a block
+  order = {1, Name "order", Choices {1, 2}},              // 1 linear, 2 quadratic cells
+  recombine = {1, Name "recombine", Choices {0, 1}},      // 1 hexahedra, 0 tetrahedra, or wedges:
+  wedge = {0, Name "wedge", Choices {0, 1}},              // 1, with recombine = 0: wedges
+  serendipity = {0, Name "serendipity", Choices {0, 1}},  // 1: quadratic cells without nodes inside faces and cells (hex20)
+  n = {1, Name "n", Min 1, Max 100000, Step 1}            // cells along each edge of a block
 ];
 Include "grid.inc";
 

@@ -1,14 +1,17 @@
 // Free circular ring of rectangular section about the z axis, for comparison with the theory of thin rings. Lengths in m.
 DefineConstant[
-  order = {1, Name "order"},              // 1 linear, 2 quadratic cells
-  serendipity = {0, Name "serendipity"},  // 1: quadratic cells without nodes in the middle of faces and cells (hex20)
-  R = {0.1, Name "R"},                    // radius of the middle line
-  thickness = {0.002, Name "thickness"},  // radial
-  width = {0.003, Name "width"},          // axial
-  n_theta = {96 / order, Name "n_theta"}, // cells around, a multiple of 4
-  n_r = {1, Name "n_r"},                  // cells through the thickness
-  n_z = {1, Name "n_z"}                   // cells across the width
+  order = {1, Name "order", Choices {1, 2}},                          // 1 linear, 2 quadratic cells
+  serendipity = {0, Name "serendipity", Choices {0, 1}},              // 1: quadratic cells without nodes inside faces and cells (hex20)
+  R = {0.1, Name "R"},                                                // radius of the middle line
+  thickness = {0.002, Name "thickness"},                              // radial
+  width = {0.003, Name "width"},                                      // axial
+  n_theta = {96 / order, Name "n_theta", Min 4, Max 100000, Step 4},  // cells around, a multiple of 4
+  n_r = {1, Name "n_r", Min 1, Max 100000, Step 1},                   // cells through the thickness
+  n_z = {1, Name "n_z", Min 1, Max 100000, Step 1}                    // cells across the width
 ];
+If (n_theta != 4 * Floor(n_theta / 4))
+  Error("n_theta = %g: must be a multiple of 4", n_theta);
+EndIf
 Include "grid.inc";
 
 base = 0;

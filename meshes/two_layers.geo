@@ -1,16 +1,16 @@
 // Two elastic layers on each other, a cell of length Lx of strips periodic in x; plane mesh, y = 0 is the sliding surface.
 // The meshes match on it. Lengths in m.
 DefineConstant[
-  order = {1, Name "order"},              // 1 linear, 2 quadratic cells
-  recombine = {1, Name "recombine"},      // 1 quadrangles, 0 triangles
-  serendipity = {0, Name "serendipity"},  // 1: quadratic cells without the node in the middle (quad8)
-  shared = {0, Name "shared"},            // 1: both layers own the same interface nodes, 0: each has its own, at the same places
-  nx = {36, Name "nx"},                   // cells along x
-  ny_disc = {12, Name "ny_disc"},         // cells across the disc layer
-  ny_pad = {7, Name "ny_pad"},            // cells across the pad layer
-  Lx = {3, Name "Lx"},                    // period
-  h_disc = {1, Name "h_disc"},            // thickness of the disc layer
-  h_pad = {0.6, Name "h_pad"}             // thickness of the pad layer
+  order = {1, Name "order", Choices {1, 2}},                  // 1 linear, 2 quadratic cells
+  recombine = {1, Name "recombine", Choices {0, 1}},          // 1 quadrangles, 0 triangles
+  serendipity = {0, Name "serendipity", Choices {0, 1}},      // 1: quadratic cells without the node in the middle (quad8)
+  shared = {0, Name "shared", Choices {0, 1}},                // 1: both layers own the interface nodes, 0: each has its own there
+  nx = {36, Name "nx", Min 1, Max 100000, Step 1},            // cells along x
+  ny_disc = {12, Name "ny_disc", Min 1, Max 100000, Step 1},  // cells across the disc layer
+  ny_pad = {7, Name "ny_pad", Min 1, Max 100000, Step 1},     // cells across the pad layer
+  Lx = {3, Name "Lx"},                                        // period
+  h_disc = {1, Name "h_disc"},                                // thickness of the disc layer
+  h_pad = {0.6, Name "h_pad"}                                 // thickness of the pad layer
 ];
 
 // Disc layer: curves 1 bottom, 2 right, 3 face, 4 left.

@@ -1,18 +1,18 @@
 // The two layers of two_layers.geo as solid slabs one cell thick in z: clamp z on both bodies for plane strain, or x and y, with
 // front an image of back, for anti-plane motion. Lengths in m.
 DefineConstant[
-  order = {1, Name "order"},              // 1 linear, 2 quadratic cells
-  recombine = {1, Name "recombine"},      // 1 hexahedra, 0 wedges whose triangles lie in planes z = constant
-  serendipity = {0, Name "serendipity"},  // 1: quadratic cells without nodes in the middle of faces and cells (hex20)
-  shared = {0, Name "shared"},            // 1: both slabs own the same interface nodes, 0: each has its own, at the same places
-  nx = {36, Name "nx"},                   // cells along x
-  ny_disc = {12, Name "ny_disc"},         // cells across the disc layer
-  ny_pad = {7, Name "ny_pad"},            // cells across the pad layer
-  nz = {1, Name "nz"},                    // cells along z
-  Lx = {3, Name "Lx"},                    // period
-  h_disc = {1, Name "h_disc"},            // thickness of the disc layer
-  h_pad = {0.6, Name "h_pad"},            // thickness of the pad layer
-  depth = {Lx / nx, Name "depth"}         // length along z
+  order = {1, Name "order", Choices {1, 2}},                  // 1 linear, 2 quadratic cells
+  recombine = {1, Name "recombine", Choices {0, 1}},          // 1 hexahedra, 0 wedges whose triangles lie in planes z = constant
+  serendipity = {0, Name "serendipity", Choices {0, 1}},      // 1: quadratic cells without nodes inside faces and cells (hex20)
+  shared = {0, Name "shared", Choices {0, 1}},                // 1: both slabs own the interface nodes, 0: each has its own there
+  nx = {36, Name "nx", Min 1, Max 100000, Step 1},            // cells along x
+  ny_disc = {12, Name "ny_disc", Min 1, Max 100000, Step 1},  // cells across the disc layer
+  ny_pad = {7, Name "ny_pad", Min 1, Max 100000, Step 1},     // cells across the pad layer
+  nz = {1, Name "nz", Min 1, Max 100000, Step 1},             // cells along z
+  Lx = {3, Name "Lx"},                                        // period
+  h_disc = {1, Name "h_disc"},                                // thickness of the disc layer
+  h_pad = {0.6, Name "h_pad"},                                // thickness of the pad layer
+  depth = {Lx / nx, Name "depth"}                             // length along z
 ];
 Include "grid.inc";
 

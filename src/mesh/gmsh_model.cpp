@@ -3,62 +3,114 @@
 #include <gmsh.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <functional>
+#include <set>
 
+#include "mesh/child.hpp"
+#include "mesh/format.hpp"
+#include "mesh/geometry.hpp"
+#include "mesh/msh.hpp"
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal::mesh {
 namespace {
 
-void setParameters(const std::vector<std::string>& parameters) {
-  std::vector<std::string> known;
-  gmsh::onelab::getNames(known);
-  gmsh::onelab::clear();  // a default computed from other parameters must follow the values given here
-  for (const auto& parameter : parameters) {
-    const auto parts = split(parameter, '=');
-    char* end = nullptr;
-    const double value = parts.size() == 2 ? std::strtod(parts[1].c_str(), &end) : 0;
-    if (parts.size() != 2 || parts[1].empty() || *end)
-      throw Error("option -mesh_set " + parameter + ": must be a list of name=number");
-    if (std::find(known.begin(), known.end(), parts[0]) == known.end())
-      throw Error("option -mesh_set " + parameter + ": the geometry has no parameter '" + parts[0] + "'; it has: " + joined(known));
-    gmsh::onelab::setNumber(parts[0], {value});
-  }
+struct Job {
+  std::string file, option;  ///< the option as messages begin with it
+  FileKind kind;
+  std::vector<Setting> settings;
+  MshContents contents;  ///< of a .msh
+  /// Version 2 of .msh gives each element one group and one entity. gmsh would put all elements of an entity into all of its groups: with
+  /// this it takes the groups for the entities.
+  bool groupsAreEntities() const { return kind == FileKind::msh && contents.version < 4; }
+};
+
+/// gmsh's lists by type, and the tags of its nodes.
+struct Elements {
+  std::vector<int> types;
+  std::vector<std::vector<std::size_t>> tags, nodes;
+};
+
+Elements elementsOf(int dimension, int entity) {
+  Elements elements;
+  gmsh::model::mesh::getElements(elements.types, elements.tags, elements.nodes, dimension, entity);
+  return elements;
 }
 
-}  // namespace
+/// A tag that fits the numbers of this program.
+PetscInt checkedTag(const Job& job, std::size_t tag, const char* what) {
+  if (tag < 1 || tag > static_cast<std::size_t>(PETSC_MAX_INT))
+    throw Error(job.option + what + " tag " + std::to_string(static_cast<long long>(tag)) + ": must be from 1 to " +
+                std::to_string(PETSC_MAX_INT));
+  return static_cast<PetscInt>(tag);
+}
 
-GmshModel::GmshModel(const std::string& file, const std::vector<std::string>& parameters) {
-  if (!std::filesystem::is_regular_file(file)) throw Error("option -mesh_file " + file + ": there is no such file");
+/// The nodes in gmsh's order, and where in it a tag is.
+class Nodes {
+ public:
+  explicit Nodes(const Job& job) : job_(job) {
+    std::vector<std::size_t> all;
+    std::vector<double> coordinates, parametric;
+    gmsh::model::mesh::getNodes(all, coordinates, parametric);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      tags.push_back(checkedTag(job, all[i], "node"));
+      points.push_back({coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]});
+      for (double x : points.back())
+        if (!(std::abs(x) < 1e100))  // the volume of a cell is a product of three
+          throw Error(job.option + "node " + std::to_string(all[i]) + " has the coordinate " + shortest(x) +
+                      "; must be finite, below 1e100");
+      order_.emplace_back(tags.back(), static_cast<PetscInt>(i));
+    }
+    std::sort(order_.begin(), order_.end());
+    for (std::size_t i = 1; i < order_.size(); ++i)
+      if (order_[i].first == order_[i - 1].first)
+        throw Error(job.option + "there are two nodes with the tag " + std::to_string(order_[i].first));
+  }
+  PetscInt index(std::size_t tag) const {
+    const auto wanted = static_cast<PetscInt>(tag);
+    if (tag >= 1 && tag <= order_.size() && order_[tag - 1].first == wanted) return order_[tag - 1].second;  // 1, 2, 3, …
+    const auto found = std::lower_bound(order_.begin(), order_.end(), std::pair<PetscInt, PetscInt>{wanted, -1});
+    if (found == order_.end() || found->first != wanted)
+      throw Error(job_.option + "an element refers to node " + std::to_string(static_cast<long long>(tag)) +
+                  ", which is not in the mesh");
+    return found->second;
+  }
+
+  std::vector<PetscInt> tags;
+  std::vector<Point> points;
+
+ private:
+  const Job& job_;
+  std::vector<std::pair<PetscInt, PetscInt>> order_;  // tag, index
+};
+
+/// gmsh's own errors, and what it has to say that is none.
+void openWith(const Job& job, const Warn& warn) {
   gmsh::clear();
+  gmsh::onelab::clear();  // gmsh keeps parameters from one file to the next
+  gmsh::option::setNumber("Mesh.SwitchElementTags", job.groupsAreEntities());
   gmsh::logger::start();
   std::string failure;
   try {
-    gmsh::onelab::clear();  // gmsh keeps parameters from one file to the next
-    if (!parameters.empty()) {
-      gmsh::open(file);  // once with its own values, to learn the names it knows
-      setParameters(parameters);
+    if (!job.settings.empty()) {
+      gmsh::open(job.file);  // once with its own values, to learn the names it knows
+      applySettings(job.settings);
       gmsh::clear();
     }
-    gmsh::open(file);
+    gmsh::open(job.file);
+    requireSettingsUsed(job.settings);
     std::vector<std::size_t> tags;
     std::vector<double> coordinates, parametric;
     gmsh::model::mesh::getNodes(tags, coordinates, parametric);
-    if (tags.empty()) {  // a geometry: mesh it in memory
-      gmsh::model::mesh::generate(std::max(2, gmsh::model::getDimension()));
-      gmsh::model::mesh::getNodes(tags, coordinates, parametric);
-    }
-    for (std::size_t i = 0; i < tags.size(); ++i)
-      points_[tags[i]] = {coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]};
-    gmsh::vectorpair physical;
-    gmsh::model::getPhysicalGroups(physical);
-    for (auto [dimension, tag] : physical) {
-      std::string name;
-      gmsh::model::getPhysicalName(dimension, tag, name);
-      groups_[name.empty() ? std::to_string(tag) : name].emplace_back(dimension, tag);
-    }
+    if (tags.empty() && job.kind == FileKind::geometry) meshGeometry(job.file, warn);
   } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::length_error&) {
     throw;
   } catch (const std::exception& error) {
     failure = error.what();
@@ -68,70 +120,179 @@ GmshModel::GmshModel(const std::string& file, const std::vector<std::string>& pa
   std::vector<std::string> log;
   gmsh::logger::get(log);
   gmsh::logger::stop();
-  for (const auto& line : log)
+  std::set<std::string> warnings;
+  for (const auto& line : log) {
     if (failure.empty() && line.rfind("Error", 0) == 0) failure = line;
-  if (!failure.empty()) throw Error("option -mesh_file " + file + ": gmsh says: " + failure);
-  if (points_.empty()) throw Error("option -mesh_file " + file + ": the mesh is empty");
+    if (line.rfind("Warning", 0) == 0) warnings.insert(line.substr(line.find(' ') + 1));
+  }
+  if (!failure.empty()) throw Error(job.option + "gmsh says: " + failure.substr(0, failure.find('\n')));
+  std::size_t said = 0;
+  for (const auto& line : warnings)
+    if (++said <= 5) warn(job.option + "gmsh says: " + line.substr(0, line.find('\n')));
+  if (said > 5) warn(job.option + std::to_string(said - 5) + " more warnings of gmsh");
 }
 
-GmshModel::~GmshModel() { gmsh::clear(); }
-
-GroupElements GmshModel::group(const std::string& name, const std::string& wantedBy) const {
-  const auto found = groups_.find(name);
-  if (found == groups_.end()) {
-    std::vector<std::string> names;
-    for (const auto& [known, where] : groups_) names.push_back(known);
-    throw Error(wantedBy + " names group '" + name + "', which is not in the mesh; its groups are: " + joined(names));
+/// Tags of groups by the names that options use.
+std::map<std::string, gmsh::vectorpair> namedGroups(const Job& job) {
+  std::map<std::string, gmsh::vectorpair> groups;
+  std::map<std::string, std::string> original;
+  gmsh::vectorpair physical;
+  if (job.groupsAreEntities())
+    gmsh::model::getEntities(physical);
+  else
+    gmsh::model::getPhysicalGroups(physical);
+  for (auto [dimension, tag] : physical) {
+    if (tag == 0) continue;  // elements in no group
+    std::string name;
+    gmsh::model::getPhysicalName(dimension, tag, name);
+    if (name.empty()) name = std::to_string(tag);
+    const std::string usable = groupName(name);
+    const auto [known, isNew] = original.emplace(usable, name);
+    if (!isNew && known->second != name)
+      throw Error(job.option + "the groups '" + known->second + "' and '" + name + "' have the same name '" + usable +
+                  "' in options, where underscores stand for blanks");
+    groups[usable].emplace_back(dimension, tag);
   }
+  return groups;
+}
+
+GroupElements elementsOfGroup(const Job& job, const gmsh::vectorpair& group, const Nodes& nodes) {
   GroupElements elements;
-  for (auto [dimension, tag] : found->second) elements.dimension = std::max(elements.dimension, dimension);
-  for (auto [dimension, physical] : found->second) {
+  for (auto [dimension, tag] : group) elements.dimension = std::max(elements.dimension, dimension);
+  for (auto [dimension, physical] : group) {
     if (dimension != elements.dimension) continue;
-    std::vector<int> entities;
-    gmsh::model::getEntitiesForPhysicalGroup(dimension, physical, entities);
+    std::vector<int> entities{physical};
+    if (!job.groupsAreEntities()) gmsh::model::getEntitiesForPhysicalGroup(dimension, physical, entities);
     for (int entity : entities) {
-      std::vector<int> types;
-      std::vector<std::vector<std::size_t>> tags, nodes;
-      gmsh::model::mesh::getElements(types, tags, nodes, dimension, entity);
-      for (std::size_t t = 0; t < types.size(); ++t) {
+      const Elements found = elementsOf(dimension, entity);
+      for (std::size_t t = 0; t < found.types.size(); ++t) {
         auto block =
-            std::find_if(elements.blocks.begin(), elements.blocks.end(), [&](const auto& b) { return b.type == types[t]; });
+            std::find_if(elements.blocks.begin(), elements.blocks.end(), [&](const auto& b) { return b.type == found.types[t]; });
         if (block == elements.blocks.end()) {
           block = elements.blocks.insert(block, WholeBlock{});
           std::string typeName;
           int typeDimension = 0, order = 0;
           std::vector<double> local;
-          block->type = types[t];
-          gmsh::model::mesh::getElementProperties(types[t], typeName, typeDimension, order, block->nodesPerElement, local,
+          block->type = found.types[t];
+          gmsh::model::mesh::getElementProperties(found.types[t], typeName, typeDimension, order, block->nodesPerElement, local,
                                                   block->corners);
         }
-        block->tag.insert(block->tag.end(), tags[t].begin(), tags[t].end());
-        block->nodes.insert(block->nodes.end(), nodes[t].begin(), nodes[t].end());  // gmsh tags for now
+        for (auto tag : found.tags[t]) block->tag.push_back(checkedTag(job, tag, "element"));
+        for (auto tag : found.nodes[t]) block->nodes.push_back(nodes.index(tag));
       }
     }
   }
   return elements;
 }
 
-int GmshModel::largestDimension() const { return gmsh::model::getDimension(); }
-
-std::map<std::size_t, std::string> GmshModel::allCells(int dimension) const {
-  std::map<std::size_t, std::string> cells;
+std::vector<PetscInt> ungroupedElements(const Job& job, int dimension) {
+  std::vector<PetscInt> tags;
   gmsh::vectorpair entities;
   gmsh::model::getEntities(entities, dimension);
   for (auto [d, entity] : entities) {
-    std::vector<int> physical, types;
+    std::vector<int> physical;
     gmsh::model::getPhysicalGroupsForEntity(d, entity, physical);
-    std::vector<std::string> names;
-    for (const auto& [name, where] : groups_)
-      for (auto [gd, tag] : where)
-        if (gd == d && std::find(physical.begin(), physical.end(), tag) != physical.end()) names.push_back(name);
-    std::vector<std::vector<std::size_t>> tags, nodes;
-    gmsh::model::mesh::getElements(types, tags, nodes, d, entity);
-    for (const auto& list : tags)
-      for (auto tag : list) cells[tag] = names.empty() ? "(no group)" : joined(names);
+    if (job.groupsAreEntities() ? entity != 0 : !physical.empty()) continue;
+    for (const auto& list : elementsOf(d, entity).tags)
+      for (auto tag : list) tags.push_back(checkedTag(job, tag, "element"));
   }
-  return cells;
+  return tags;
+}
+
+/// gmsh drops elements that it cannot place without a word.
+void requireAllElements(const Job& job) {
+  if (job.kind != FileKind::msh) return;
+  std::int64_t kept = 0;
+  for (const auto& list : elementsOf(-1, -1).tags) kept += static_cast<std::int64_t>(list.size());
+  if (kept != job.contents.elements)
+    throw Error(job.option + "gmsh keeps " + std::to_string(kept) + " of the " + std::to_string(job.contents.elements) +
+                " elements in the file");
+}
+
+/// In the child.
+Buffer readWithGmsh(const Job& job, const Warn& warn) {
+  openWith(job, warn);
+  requireAllElements(job);
+  const Nodes nodes(job);
+  if (nodes.points.empty()) throw Error(job.option + "the mesh is empty");
+  Buffer buffer;
+  buffer.put(nodes.points);
+  buffer.put(nodes.tags);
+  buffer.put(std::vector<int>{gmsh::model::getDimension()});
+  buffer.put(ungroupedElements(job, gmsh::model::getDimension()));
+  const auto groups = namedGroups(job);
+  std::vector<std::string> names;
+  for (const auto& [name, group] : groups) names.push_back(name);
+  buffer.put(names);
+  for (const auto& [name, group] : groups) {
+    const GroupElements elements = elementsOfGroup(job, group, nodes);
+    buffer.put(std::vector<int>{elements.dimension, static_cast<int>(elements.blocks.size())});
+    for (const auto& block : elements.blocks) {
+      buffer.put(std::vector<int>{block.type, block.nodesPerElement, block.corners});
+      buffer.put(block.nodes);
+      buffer.put(block.tag);
+    }
+  }
+  return buffer;
+}
+
+/// A geometry may take its time and what memory there is. What a mesh file needs is known from its size; it may be damaged where the checks
+/// do not look.
+ChildLimits limitsFor(const Job& job) {
+  const std::string subject = "option -mesh_file " + job.file;
+  const double free = availableMemory();
+  const std::string tooLarge = formatted("its mesh needs more than the %.3g GB of memory that are free", free / 1e9);
+  if (job.kind == FileKind::geometry) return {subject, {}, free, tooLarge};
+  const auto size = static_cast<double>(std::filesystem::file_size(job.file));
+  const double seconds = 5 + 5e-6 * size, enough = 5e8 + 100 * size;  // it takes some 15 bytes for a byte of the file
+  if (enough > free) return {subject, seconds, free, tooLarge};
+  return {subject, seconds, enough, "it asks for more room than a file of its size can fill: it is damaged"};
+}
+
+}  // namespace
+
+std::string groupName(std::string name) {
+  for (auto& c : name)
+    if (std::isspace(static_cast<unsigned char>(c))) c = '_';
+  return name;
+}
+
+GmshModel::GmshModel(const std::string& file, const std::vector<std::string>& parameters) {
+  Job job{file, "option -mesh_file " + file + ": ", requireSound(file), readSettings(parameters), {}};
+  if (!job.settings.empty() && job.kind != FileKind::geometry)
+    throw Error("option -mesh_set: only a geometry, a .geo file, has parameters; -mesh_file " + file + " is a mesh");
+  if (job.kind == FileKind::msh) job.contents = requireSoundMsh(file);
+  Buffer buffer = inChild(limitsFor(job), [&](const Warn& warn) { return readWithGmsh(job, warn); });
+  take(buffer);
+}
+
+void GmshModel::take(Buffer& buffer) {
+  points_ = buffer.take<Point>();
+  tags_ = buffer.take<PetscInt>();
+  dimension_ = buffer.take<int>().at(0);
+  ungrouped_ = buffer.take<PetscInt>();
+  for (const auto& name : buffer.takeTexts()) {
+    const auto sizes = buffer.take<int>();
+    GroupElements& group = groups_[name];
+    group.dimension = sizes.at(0);
+    group.blocks.resize(static_cast<std::size_t>(sizes.at(1)));
+    for (auto& block : group.blocks) {
+      const auto kind = buffer.take<int>();
+      block.type = kind.at(0), block.nodesPerElement = kind.at(1), block.corners = kind.at(2);
+      block.nodes = buffer.take<PetscInt>();
+      block.tag = buffer.take<PetscInt>();
+    }
+  }
+}
+
+const GroupElements& GmshModel::group(const std::string& name, const std::string& wantedBy) const {
+  const auto found = groups_.find(groupName(name));
+  if (found != groups_.end()) return found->second;
+  std::vector<std::string> names;
+  for (const auto& [known, where] : groups_) names.push_back(known);
+  throw Error(wantedBy + " names group '" + name + "', which is not in the mesh; " +
+              (names.empty() ? "it has no physical groups at all: name its bodies and surfaces (Physical Volume, Physical Surface)"
+                             : "its groups are: " + joined(names)));
 }
 
 }  // namespace squeal::mesh

@@ -1,32 +1,45 @@
 #pragma once
-/// The gmsh library behind a small door: a file read or meshed in memory, and its physical groups. Not collective: rank 0 only.
+/// The gmsh library behind a small door: a file read or meshed, and its physical groups. Not collective: rank 0 only.
+#include "mesh/buffer.hpp"
 #include "mesh/whole.hpp"
 
 namespace squeal::mesh {
 
-/// Elements of one physical group as gmsh gives them, nodes by index into WholeMesh::points.
+/// Elements of one physical group, nodes by index into GmshModel::points.
 struct GroupElements {
   int dimension = 0;
   std::vector<WholeBlock> blocks;
 };
 
+/// A group by the name that options use, which cannot hold blanks: underscores stand for them.
+std::string groupName(std::string name);
+
+/// What gmsh makes of a file. gmsh itself works in a child process: a crash there is an Error here, and its memory goes with it.
 class GmshModel {
  public:
+  /// `parameters`: "name=value" settings of a geometry. Errors: a file that is not what its name says, or that gmsh cannot read or
+  /// mesh; parameters that the geometry does not have or whose range they leave.
   GmshModel(const std::string& file, const std::vector<std::string>& parameters);
-  ~GmshModel();
-  GmshModel(const GmshModel&) = delete;
-  GmshModel& operator=(const GmshModel&) = delete;
 
   /// Error naming the group, the option that wants it and the groups there are, if the mesh has none of this name.
-  GroupElements group(const std::string& name, const std::string& wantedBy) const;
-  Point point(std::size_t tag) const { return points_.at(tag); }
-  int largestDimension() const;
-  /// Tags of all elements of the largest dimension (to find cells without a body), with the names of their groups.
-  std::map<std::size_t, std::string> allCells(int dimension) const;
+  const GroupElements& group(const std::string& name, const std::string& wantedBy) const;
+  const Point& point(PetscInt index) const { return points_[static_cast<std::size_t>(index)]; }
+  PetscInt tag(PetscInt index) const { return tags_[static_cast<std::size_t>(index)]; }
+  PetscInt nodeCount() const { return static_cast<PetscInt>(points_.size()); }
+  int largestDimension() const { return dimension_; }
+  /// Tags of the elements of the largest dimension that are in no group.
+  const std::vector<PetscInt>& ungrouped() const { return ungrouped_; }
+  /// By the names that options use: blanks in a name are underscores there.
+  const std::map<std::string, GroupElements>& groups() const { return groups_; }
 
  private:
-  std::map<std::string, std::vector<std::pair<int, int>>> groups_;  // name -> (dimension, physical tag)
-  std::map<std::size_t, Point> points_;
+  void take(Buffer& buffer);
+
+  std::vector<Point> points_;
+  std::vector<PetscInt> tags_;
+  std::map<std::string, GroupElements> groups_;
+  int dimension_ = 0;
+  std::vector<PetscInt> ungrouped_;
 };
 
 }  // namespace squeal::mesh

@@ -1,11 +1,11 @@
 /// From the whole mesh on rank 0 to each rank's part.
 #include <algorithm>
-#include <cstring>
 #include <limits>
 #include <numeric>
 #include <optional>
 #include <set>
 
+#include "mesh/buffer.hpp"
 #include "mesh/whole.hpp"
 #include "petsc/check.hpp"
 #include "petsc/options.hpp"
@@ -13,47 +13,9 @@
 namespace squeal::mesh {
 namespace {
 
-const FileOption fileOption("mesh", "mesh_file", "mesh or geometry, any format the gmsh library reads; a .geo is meshed in memory");
+const FileOption fileOption("mesh", "mesh_file",
+                            "mesh (.msh, .unv) or geometry: a .geo, which is code, is run and meshed in memory");
 const TextOption setOption("mesh", "mesh_set", "", "parameters of a .geo file by their DefineConstant names: name=number,…");
-
-/// Flat message: numbers and texts in the order they are written, read back in the same order.
-class Buffer {
- public:
-  template <class Number>
-  void put(const std::vector<Number>& values) {
-    static_assert(std::is_trivially_copyable_v<Number>);
-    const std::size_t count = values.size(), begin = bytes_.size();
-    bytes_.resize(begin + sizeof count + count * sizeof(Number));
-    std::memcpy(bytes_.data() + begin, &count, sizeof count);
-    if (count) std::memcpy(bytes_.data() + begin + sizeof count, values.data(), count * sizeof(Number));
-  }
-  void put(const std::vector<std::string>& texts) {
-    put(std::vector<std::size_t>{texts.size()});
-    for (const auto& text : texts) put(std::vector<char>(text.begin(), text.end()));
-  }
-  template <class Number>
-  std::vector<Number> take() {
-    std::size_t count = 0;
-    std::memcpy(&count, bytes_.data() + at_, sizeof count);
-    std::vector<Number> values(count);
-    if (count) std::memcpy(values.data(), bytes_.data() + at_ + sizeof count, count * sizeof(Number));
-    at_ += sizeof count + count * sizeof(Number);
-    return values;
-  }
-  std::vector<std::string> takeTexts() {
-    std::vector<std::string> texts(take<std::size_t>().at(0));
-    for (auto& text : texts) {
-      const auto characters = take<char>();
-      text.assign(characters.begin(), characters.end());
-    }
-    return texts;
-  }
-  std::vector<char>& bytes() { return bytes_; }
-
- private:
-  std::vector<char> bytes_;
-  std::size_t at_ = 0;
-};
 
 /// Who owns which node, and the numbers under which all ranks know them: owned nodes of a rank are contiguous.
 struct Numbering {

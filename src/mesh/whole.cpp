@@ -1,98 +1,15 @@
 #include "mesh/whole.hpp"
 
-#include <gmsh.h>
-
 #include <algorithm>
-#include <cmath>
-#include <filesystem>
 #include <numeric>
 #include <set>
 
-#include "mesh/gmsh_model.hpp"
+#include "mesh/bodies.hpp"
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal::mesh {
 namespace {
-
-/// gmsh node tags -> indices into mesh.points, which grows when `adding`.
-class NodeIndex {
- public:
-  NodeIndex(WholeMesh& mesh, const GmshModel& model) : mesh_(mesh), model_(model) {}
-  void add(std::vector<PetscInt>& tags) {
-    for (auto& tag : tags) {
-      const auto [entry, isNew] = index_.emplace(tag, mesh_.nodeCount());
-      if (isNew) {
-        mesh_.points.push_back(model_.point(static_cast<std::size_t>(tag)));
-        mesh_.tags.push_back(tag);
-      }
-      tag = entry->second;
-    }
-  }
-  /// False if a node belongs to no cell.
-  bool translate(std::vector<PetscInt>& tags) const {
-    for (auto& tag : tags) {
-      const auto entry = index_.find(tag);
-      if (entry == index_.end()) return false;
-      tag = entry->second;
-    }
-    return true;
-  }
-
- private:
-  WholeMesh& mesh_;
-  const GmshModel& model_;
-  std::map<PetscInt, PetscInt> index_;
-};
-
-/// First- and second-order cells; reports and contact know no others.
-void requireSupported(const WholeBlock& block, const std::string& body) {
-  static const std::set<int> supported = {2, 3, 4, 5, 6, 9, 10, 11, 12, 13, 16, 17, 18};
-  if (supported.count(block.type)) return;
-  std::string name;
-  int dimension = 0, order = 0, nodes = 0, corners = 0;
-  std::vector<double> local;
-  gmsh::model::mesh::getElementProperties(block.type, name, dimension, order, nodes, local, corners);
-  throw Error("option -mesh_file: group '" + body + "' has cells '" + name +
-              "'; supported are tri3, tri6, quad4, quad8, quad9, tet4, tet10, hex8, hex20, hex27, wedge6, wedge15, wedge18");
-}
-
-void readBodies(WholeMesh& mesh, const GmshModel& model, const Request& request, NodeIndex& index) {
-  mesh.bodies = request.bodies;
-  std::map<PetscInt, int> bodyOf;
-  for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
-    const std::string option = "option -material_" + mesh.bodies[b] + "_young";
-    auto group = model.group(mesh.bodies[b], option);
-    if (b == 0) mesh.dimension = group.dimension;
-    if (group.dimension != mesh.dimension || group.dimension < 2)
-      throw Error(option + ": group '" + mesh.bodies[b] + "' has dimension " + std::to_string(group.dimension) +
-                  "; bodies are all volumes, or all surfaces of a plane mesh");
-    for (auto& block : group.blocks) {
-      requireSupported(block, mesh.bodies[b]);
-      index.add(block.nodes);
-      auto known = std::find_if(mesh.cells.begin(), mesh.cells.end(), [&](const auto& c) { return c.type == block.type; });
-      if (known == mesh.cells.end())
-        known = mesh.cells.insert(known, WholeBlock{block.type, block.nodesPerElement, block.corners, {}, {}, {}});
-      for (auto tag : block.tag) {
-        const auto [entry, isNew] = bodyOf.emplace(tag, static_cast<int>(b));
-        if (!isNew)
-          throw Error("cell " + std::to_string(tag) + " is in the groups '" + mesh.bodies[static_cast<std::size_t>(entry->second)] +
-                      "' and '" + mesh.bodies[b] + "', which both have a material; a cell has one");
-      }
-      known->nodes.insert(known->nodes.end(), block.nodes.begin(), block.nodes.end());
-      known->tag.insert(known->tag.end(), block.tag.begin(), block.tag.end());
-      known->label.insert(known->label.end(), block.tag.size(), static_cast<int>(b));
-    }
-  }
-  for (const auto& [tag, groups] : model.allCells(model.largestDimension()))
-    if (model.largestDimension() == mesh.dimension && !bodyOf.count(static_cast<PetscInt>(tag)))
-      throw Error("group '" + groups + "' has no material: give -material_<group>_young, _poisson and _density (cell " +
-                  std::to_string(tag) + ")");
-  if (mesh.dimension == 2)
-    for (const auto& point : mesh.points)
-      if (std::abs(point[2] - mesh.points[0][2]) > 0)
-        throw Error("option -mesh_file: a plane mesh must lie in a plane z = constant");
-}
 
 /// Which cells stand at the nodes of interest, and in which all of an element's corners lie.
 class Adjacency {

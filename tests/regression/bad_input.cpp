@@ -1,5 +1,6 @@
 // Mistakes in the input: the program says what is wrong, ends on all ranks with exit code 1, and leaves no results behind.
 #include "support/bad_input.hpp"
+#include "support/mesh_text.hpp"
 
 namespace squeal::test {
 namespace {
@@ -112,10 +113,15 @@ TEST(BadInput, Material) {
 
 TEST(BadInput, Mesh) {
   const fs::path place = placeFor("bad_input/meshes");
+  const auto file = [&](const std::string& name) { return (place / name).string(); };
   writeText(place / "syntax.geo", "Point(1) = {0, 0, 0;\nLine(1) = {1, 2};\n");
   writeText(place / "inverted.msh", twoQuadrangles(true));
   writeText(place / "not_a_mesh.msh", "hello\n");
-  const auto file = [&](const std::string& name) { return (place / name).string(); };
+  writeText(place / "cubic.geo",
+            "SetFactory(\"OpenCASCADE\"); Rectangle(1) = {0, 0, 0, 1, 1}; Physical Surface(\"layer\") = {1};\n"
+            "Transfinite Surface {1}; Recombine Surface {1}; Mesh.ElementOrder = 3;\n");
+  writeText(place / "script.msh", "SystemCall \"touch '" + file("script_ran") + "'\";\n");
+  writeText(place / "crash.msh", changed(quadranglesMsh4(), "1 1 \"bottom\"", "900000000 1 \"bottom\""));
   expectExplained({
       {"mesh_file", with(layer, {{"mesh_file", "meshes/nosuch.geo"}}), {"-mesh_file meshes/nosuch.geo", "no such file"}},
       {"mesh_file_missing", without(layer, {"mesh_file"}), {"-mesh_file is missing"}},
@@ -128,7 +134,14 @@ TEST(BadInput, Mesh) {
       {"not_a_mesh", without(with(layer, {{"mesh_file", file("not_a_mesh.msh")}}), {"mesh_set"}), {"-mesh_file", "not_a_mesh.msh"}},
       {"mesh_set_value", with(layer, {{"mesh_set", "nx=many"}}), {"-mesh_set nx=many", "name=number"}},
       {"mesh_set_name", with(layer, {{"mesh_set", "mx=6"}}), {"-mesh_set mx=6", "no parameter 'mx'", "nx"}},
-      {"cubic_cells", with(layer, {{"mesh_set", "nx=6,ny=3,order=3"}}), {"cell", "quad"}},
+      {"mesh_set_range", with(layer, {{"mesh_set", "nx=0,ny=3"}}), {"-mesh_set nx=0", "must be a whole number >= 1"}},
+      {"cubic_cells",
+       without(with(layer, {{"mesh_file", file("cubic.geo")}}), {"mesh_set"}),
+       {"has cells 'Quadrilateral 16'", "quad9"}},
+      {"script",
+       without(with(layer, {{"mesh_file", file("script.msh")}}), {"mesh_set"}),
+       {"-mesh_file", "does not begin with '$MeshFormat'"}},
+      {"crash", without(with(layer, {{"mesh_file", file("crash.msh")}}), {"mesh_set"}), {"-mesh_file", "gmsh crashes on it"}},
       {"inverted",
        with(without(layer, {"mesh_set", "constraint_right_image_of"}), {{"mesh_file", file("inverted.msh")}, {"modes_count", "2"}}),
        {"inverted element", "cell 6", "'layer'"}},
@@ -144,6 +157,7 @@ TEST(BadInput, Mesh) {
       {"load_group", with(layer, {{"load_roof_pressure", "1"}}), {"-load_roof_pressure", "'roof', which is not in the mesh"}},
       {"load_on_body", with(layer, {{"load_layer_pressure", "1"}}), {"-load_layer_pressure", "dimension 2"}},
   });
+  EXPECT_FALSE(fs::exists(place / "script_ran"));
 }
 
 TEST(BadInput, Constraints) {

@@ -1,0 +1,42 @@
+#pragma once
+/// The cells of the bodies, and the nodes that they bring with them. Not collective: rank 0 only.
+#include "mesh/gmsh_model.hpp"
+
+namespace squeal::mesh {
+
+/// Nodes of the gmsh model -> indices into mesh.points, which grows when `adding`.
+class NodeIndex {
+ public:
+  NodeIndex(WholeMesh& mesh, const GmshModel& model)
+      : mesh_(mesh), model_(model), index_(static_cast<std::size_t>(model.nodeCount()), -1) {}
+  void add(std::vector<PetscInt>& nodes) {
+    for (auto& node : nodes) {
+      auto& index = index_[static_cast<std::size_t>(node)];
+      if (index < 0) {
+        index = mesh_.nodeCount();
+        mesh_.points.push_back(model_.point(node));
+        mesh_.tags.push_back(model_.tag(node));
+      }
+      node = index;
+    }
+  }
+  /// False if a node belongs to no cell.
+  bool translate(std::vector<PetscInt>& nodes) const {
+    for (auto& node : nodes) {
+      node = index_[static_cast<std::size_t>(node)];
+      if (node < 0) return false;
+    }
+    return true;
+  }
+
+ private:
+  WholeMesh& mesh_;
+  const GmshModel& model_;
+  std::vector<PetscInt> index_;
+};
+
+/// Fills bodies, dimension, cells, points and tags of the mesh. Errors: body that is no volume (no surface of a plane mesh), cells of an
+/// unknown kind, cell without a body or with two.
+void readBodies(WholeMesh& mesh, const GmshModel& model, const Request& request, NodeIndex& index);
+
+}  // namespace squeal::mesh

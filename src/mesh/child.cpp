@@ -1,0 +1,188 @@
+#include "mesh/child.hpp"
+
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <fstream>
+#include <new>
+#include <sstream>
+
+#include "petsc/check.hpp"
+#include "petsc/text.hpp"
+
+namespace squeal::mesh {
+namespace {
+
+constexpr unsigned patience = 30;  // s, until the user is told that nothing hangs
+
+enum class Outcome : char { result, failure, noMemory };
+
+/// The first number in a file of /proc or /sys; none if there is no such file, or it says "max".
+std::optional<double> numberIn(const std::string& path) {
+  double value = 0;
+  if (std::ifstream file(path); file >> value) return value;
+  return {};
+}
+
+/// The number behind `name` in a table of /proc or /sys.
+std::optional<double> entryOf(const std::string& path, const std::string& name) {
+  std::ifstream file(path);
+  for (std::string line, word; std::getline(file, line);)
+    if (double value = 0; std::istringstream(line) >> word >> value && word == name) return value;
+  return {};
+}
+
+double addressSpace() {
+  return numberIn("/proc/self/statm").value_or(0) * static_cast<double>(sysconf(_SC_PAGESIZE));  // its first number: pages in all
+}
+
+void limit(decltype(RLIMIT_AS) resource, double value) {
+  rlimit now{};
+  if (getrlimit(resource, &now) != 0) return;
+  const auto wanted = static_cast<rlim_t>(value);
+  now.rlim_cur = std::min(now.rlim_cur, wanted);
+  setrlimit(resource, &now);
+}
+
+void writeAll(int file, const char* bytes, std::size_t count) {
+  while (count > 0) {
+    const ssize_t written = write(file, bytes, count);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return;  // the parent is gone, or will see that bytes are missing
+    bytes += written, count -= static_cast<std::size_t>(written);
+  }
+}
+
+void answer(int pipe, Outcome outcome, const char* bytes, std::size_t count) {
+  writeAll(pipe, reinterpret_cast<const char*>(&outcome), 1);
+  writeAll(pipe, reinterpret_cast<const char*>(&count), sizeof count);
+  writeAll(pipe, bytes, count);
+}
+
+char stillAtWork[512];  // a signal's handler can only write what is ready
+int voice = 2;
+
+void sayStillAtWork(int) {
+  const ssize_t ignored = write(voice, stillAtWork, std::strlen(stillAtWork));
+  static_cast<void>(ignored);
+}
+
+/// The child: nothing of the parent's is flushed, finalised or handled here.
+[[noreturn]] void serve(int pipe, pid_t parent, const ChildLimits& limits, const std::function<Buffer(const Warn&)>& work) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(1);
+  for (int number = 1; number < NSIG; ++number) signal(number, SIG_DFL);  // PETSc's handlers would print a traceback
+  limit(RLIMIT_CORE, 0);
+  limit(RLIMIT_AS, addressSpace() + limits.memoryBytes);
+  if (limits.processorSeconds) limit(RLIMIT_CPU, std::ceil(*limits.processorSeconds));
+  const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
+  voice = fcntl(2, F_DUPFD_CLOEXEC, 3);
+  for (int file : {0, 1, 2}) dup2(nowhere, file);  // what the C library says of a crash is no message of ours
+  std::snprintf(stillAtWork, sizeof stillAtWork, "squeal: %s: gmsh is at work for %u s now\n", limits.subject.c_str(), patience);
+  signal(SIGALRM, sayStillAtWork);
+  alarm(patience);
+  try {
+    Buffer result = work([&](const std::string& text) { dprintf(voice, "squeal: warning: %s\n", text.c_str()); });
+    answer(pipe, Outcome::result, result.bytes().data(), result.bytes().size());
+  } catch (const std::bad_alloc&) {
+    answer(pipe, Outcome::noMemory, "", 0);
+  } catch (const std::length_error&) {  // a vector of more elements than there are addresses
+    answer(pipe, Outcome::noMemory, "", 0);
+  } catch (const std::exception& error) {
+    const std::string text = error.what();
+    answer(pipe, Outcome::failure, text.data(), text.size());
+  }
+  _exit(0);
+}
+
+/// The reading end; the child is ended with it.
+struct Child {
+  pid_t id;
+  int pipe;
+  ~Child() {
+    if (id > 0) kill(id, SIGKILL), wait();
+    close(pipe);
+  }
+  int wait() {
+    int status = 0;
+    while (waitpid(id, &status, 0) < 0 && errno == EINTR) continue;
+    id = 0;
+    return status;
+  }
+  /// False if there is less.
+  bool take(void* to, std::size_t count) const {
+    for (char* at = static_cast<char*>(to); count > 0;) {
+      const ssize_t got = read(pipe, at, count);
+      if (got < 0 && errno == EINTR) continue;
+      if (got <= 0) return false;
+      at += got, count -= static_cast<std::size_t>(got);
+    }
+    return true;
+  }
+};
+
+Child start(const ChildLimits& limits, const std::function<Buffer(const Warn&)>& work) {
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) throw Error(limits.subject + ": no pipe to a child process: " + std::strerror(errno));
+  const pid_t parent = getpid(), id = fork();
+  if (id == 0) serve(ends[1], parent, limits, work);
+  close(ends[1]);
+  if (id < 0) {
+    close(ends[0]);
+    throw Error(limits.subject + ": no child process can be started: " + std::strerror(errno));
+  }
+  return {id, ends[0]};
+}
+
+std::string endOf(int status, const ChildLimits& limits) {
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
+    return formatted("gmsh has not finished after %.0f s of processor time", std::ceil(limits.processorSeconds.value_or(0)));
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) return "gmsh was killed; is memory short?";
+  if (WIFSIGNALED(status))  // gmsh does not always survive that it is given no memory
+    return "gmsh crashes on it (" + std::string(strsignal(WTERMSIG(status))) + "), or " + limits.noMemory;
+  return "gmsh ends the process with exit code " + std::to_string(WEXITSTATUS(status));
+}
+
+}  // namespace
+
+Buffer inChild(const ChildLimits& limits, const std::function<Buffer(const Warn&)>& work) {
+  Child child = start(limits, work);
+  Outcome outcome{};
+  std::size_t count = 0;
+  Buffer result;
+  bool whole = child.take(&outcome, 1) && child.take(&count, sizeof count);
+  if (whole) {
+    result.bytes().resize(count);
+    whole = child.take(result.bytes().data(), count);
+  }
+  const int status = child.wait();
+  if (!whole) throw Error(limits.subject + ": " + endOf(status, limits));
+  if (outcome == Outcome::noMemory) throw Error(limits.subject + ": " + limits.noMemory);
+  if (outcome == Outcome::failure) throw Error(std::string(result.bytes().begin(), result.bytes().end()));
+  return result;
+}
+
+double availableMemory() {
+  double bytes = 1024 * entryOf("/proc/meminfo", "MemAvailable:").value_or(1e15);
+  // A batch job's own limit, in version 2 of the control groups and in version 1. What the kernel caches of files it gives back.
+  struct Group {
+    const char *most, *used, *details, *cached;
+  };
+  for (const auto& [most, used, details, cached] :
+       {Group{"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory.current", "/sys/fs/cgroup/memory.stat", "file"},
+        Group{"/sys/fs/cgroup/memory/memory.limit_in_bytes", "/sys/fs/cgroup/memory/memory.usage_in_bytes",
+              "/sys/fs/cgroup/memory/memory.stat", "cache"}})
+    if (const auto all = numberIn(most), now = numberIn(used); all && now)
+      bytes = std::min(bytes, std::max(0.0, *all - *now + entryOf(details, cached).value_or(0)));
+  return bytes;
+}
+
+}  // namespace squeal::mesh

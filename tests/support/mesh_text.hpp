@@ -1,0 +1,46 @@
+#pragma once
+/// Small meshes as texts of gmsh's format, sound as they stand.
+#include <gmsh.h>
+
+#include <stdexcept>
+#include <string>
+
+namespace squeal::test {
+
+/// The rectangle [0, 2] × [0, 1] of two quadrangles, tags 5 and 6, in the group `layer`; lines 1 and 2 below, `bottom`, 3 and 4 above,
+/// `top`. Version 2.2.
+inline std::string quadranglesMsh2() {
+  return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
+         "$PhysicalNames\n3\n1 1 \"bottom\"\n1 2 \"top\"\n2 3 \"layer\"\n$EndPhysicalNames\n"
+         "$Nodes\n6\n1 0 0 0\n2 1 0 0\n3 2 0 0\n4 0 1 0\n5 1 1 0\n6 2 1 0\n$EndNodes\n"
+         "$Elements\n6\n1 1 2 1 1 1 2\n2 1 2 1 1 2 3\n3 1 2 2 2 4 5\n4 1 2 2 2 5 6\n5 3 2 3 1 1 2 5 4\n6 3 2 3 1 2 3 6 "
+         "5\n$EndElements\n";
+}
+
+/// The same in version 4.1.
+inline std::string quadranglesMsh4() {
+  return "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"
+         "$PhysicalNames\n3\n1 1 \"bottom\"\n1 2 \"top\"\n2 3 \"layer\"\n$EndPhysicalNames\n"
+         "$Entities\n0 2 1 0\n1 0 0 0 2 0 0 1 1 0\n2 0 1 0 2 1 0 1 2 0\n1 0 0 0 2 1 0 1 3 2 1 -2\n$EndEntities\n"
+         "$Nodes\n1 6 1 6\n2 1 0 6\n1\n2\n3\n4\n5\n6\n0 0 0\n1 0 0\n2 0 0\n0 1 0\n1 1 0\n2 1 0\n$EndNodes\n"
+         "$Elements\n3 6 1 6\n1 1 1 2\n1 1 2\n2 2 3\n1 2 1 2\n3 4 5\n4 5 6\n2 1 3 2\n5 1 2 5 4\n6 2 3 6 5\n$EndElements\n";
+}
+
+/// `text` with `was`, which must be there, replaced once.
+inline std::string changed(std::string text, const std::string& was, const std::string& is) {
+  const auto at = text.find(was);
+  if (at == std::string::npos) throw std::logic_error("no '" + was + "' to change");
+  return text.replace(at, was.size(), is);
+}
+
+/// Writes a mesh file that gmsh can read anew, binary. Not collective.
+inline void writeBinaryMsh(const std::string& from, const std::string& to, double version) {
+  gmsh::clear();
+  gmsh::open(from);
+  gmsh::option::setNumber("Mesh.MshFileVersion", version);
+  gmsh::option::setNumber("Mesh.Binary", 1);
+  gmsh::write(to);
+  gmsh::clear();
+}
+
+}  // namespace squeal::test
