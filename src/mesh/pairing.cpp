@@ -141,6 +141,9 @@ void pairContact(WholeMesh& mesh, const InterfaceRequest& request, int interface
   std::vector<PetscInt> disc;  // shared nodes: the group holds the twins of both sides
   for (PetscInt node : mesh.nodeGroups.at(request.disc))
     if (!pad.count(node)) disc.push_back(node);
+  if (disc.empty())
+    throw Error("options -contact_" + request.name + "_pad " + request.pad + ", -contact_" + request.name + "_disc " +
+                request.disc + ": pad and disc are the same surface, of one body; contact is between the surfaces of two");
   const Locator locator(mesh, disc, near);
   for (PetscInt node : pad) {
     const auto found = locator.at(mesh.points[static_cast<std::size_t>(node)]);

@@ -118,6 +118,10 @@ class Splitter {
           const PetscInt* nodes = block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerElement);
           const auto neighbours = adjacency_.cellsHolding(nodes, block.corners);
           if (neighbours.size() < 2) continue;
+          if (bodyName(neighbours[0]) == bodyName(neighbours[1]))
+            throw Error("option -contact_" + interface.name + "_pad: '" + interface.pad + "' lies inside the body '" +
+                        bodyName(neighbours[0]) +
+                        "', whose cells are on both sides of it; contact is between two bodies, groups with a material each");
           if (side(neighbours[0]) == side(neighbours[1]))
             throw Error("option -contact_" + interface.name + "_pad: the bodies '" + bodyName(neighbours[0]) + "' and '" +
                         bodyName(neighbours[1]) + "' share the nodes of '" + interface.pad +

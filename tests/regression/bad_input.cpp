@@ -196,6 +196,14 @@ TEST(BadInput, Contact) {
   const fs::path place = placeFor("bad_input/meshes");
   writeText(place / "faces_4_5.geo", squares("4", "5"));
   writeText(place / "faces_4_2.geo", squares("4", "2"));
+  writeText(place / "inside.geo",
+            "Point(1) = {0, -1, 0}; Point(2) = {1, -1, 0}; Point(3) = {1, 0, 0}; Point(4) = {0, 0, 0}; Point(5) = {1, 1, 0}; "
+            "Point(6) = {0, 1, 0};\n"
+            "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1}; Line(5) = {3, 5}; Line(6) = {5, 6}; Line(7) = "
+            "{6, 4};\n"
+            "Curve Loop(1) = {1, 2, 3, 4}; Curve Loop(2) = {-3, 5, 6, 7}; Plane Surface(1) = {1}; Plane Surface(2) = {2};\n"
+            "Physical Curve(\"bottom\") = {1}; Physical Curve(\"inside\") = {3}; Physical Curve(\"disc_face\") = {6};\n"
+            "Physical Surface(\"disc\") = {1, 2};\n");
   writeText(place / "matching.geo", squares("4", "4"));
   expectExplained({
       {"no_slip_obstacle",
@@ -219,6 +227,14 @@ TEST(BadInput, Contact) {
        {"-contact_plate_pad", "-contact_plate_disc", "-contact_plate_obstacle_velocity"}},
       {"both", with(layer, {{"contact_plate_disc", "bottom"}}), {"-contact_plate_pad", "-contact_plate_disc"}},
       {"no_pad", with(layer, {{"contact_other_disc", "bottom"}}), {"-contact_other_disc needs -contact_other_pad"}},
+      {"pad_is_disc",
+       with(onSquares(place / "matching.geo"), {{"contact_face_pad", "disc_face"}}),
+       {"-contact_face_pad disc_face", "pad and disc are the same surface", "two"}},
+      {"pad_inside",
+       with(without(onSquares(place / "inside.geo"), {"material_pad_young", "material_pad_poisson", "material_pad_density",
+                                                      "constraint_top_clamped", "constraint_top_displacement"}),
+            {{"contact_face_pad", "inside"}}),
+       {"-contact_face_pad", "'inside' lies inside the body 'disc'"}},
       {"pad_twice",
        with(layer, {{"contact_other_pad", "top"}, {"contact_other_obstacle_velocity", "1,0,0"}}),
        {"already a pad node of another interface"}},
