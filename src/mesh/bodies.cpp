@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "mesh/twins.hpp"
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
 
@@ -22,6 +23,22 @@ void requireSupported(const WholeBlock& block, const std::string& body) {
   gmsh::model::mesh::getElementProperties(block.type, name, dimension, order, nodes, local, corners);
   throw Error("option -mesh_file: group '" + body + "' has cells '" + name +
               "'; supported are tri3, tri6, quad4, quad8, quad9, tet4, tet10, hex8, hex20, hex27, wedge6, wedge15, wedge18");
+}
+
+std::string cellText(const WholeMesh& mesh, const ElementPlace& place) {
+  const auto& block = mesh.cells[place.block];
+  return std::to_string(block.tag[place.element]) + " of group '" +
+         mesh.bodies[static_cast<std::size_t>(block.label[place.element])] + "'";
+}
+
+/// Stiffness and mass of a cell that is there twice would be doubled.
+void requireDistinctCells(const WholeMesh& mesh) {
+  if (const auto place = findRepeatedNode(mesh.cells))
+    throw Error("option -mesh_file: cell " + cellText(mesh, *place) +
+                " has a node twice; write it as the cell with fewer nodes that it is");
+  if (const auto twins = findTwins(mesh.cells))
+    throw Error("option -mesh_file: the cells " + cellText(mesh, twins->first) + " and " + cellText(mesh, twins->second) +
+                " have the same nodes: one cell, written twice");
 }
 
 /// Every cell of the largest dimension has a body.
@@ -73,6 +90,7 @@ void readBodies(WholeMesh& mesh, const GmshModel& model, const Request& request,
     }
   }
   requireMaterials(mesh, model, bodyOf);
+  requireDistinctCells(mesh);
   if (mesh.dimension == 2)
     for (const auto& point : mesh.points)
       if (std::abs(point[2] - mesh.points[0][2]) > 0)

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "mesh/bodies.hpp"
+#include "mesh/twins.hpp"
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
 
@@ -201,6 +202,16 @@ int outwardSign(const WholeMesh& mesh, const PetscInt* nodes, int corners, const
   return dot > 0 ? 1 : -1;
 }
 
+/// Pressure and contact area of a face that is there twice would be doubled.
+void requireDistinctFaces(const std::string& surface, const GroupElements& group) {
+  const auto tag = [&](const ElementPlace& place) { return std::to_string(group.blocks[place.block].tag[place.element]); };
+  if (const auto place = findRepeatedNode(group.blocks))
+    throw Error("option -mesh_file: face " + tag(*place) + " of group '" + surface + "' has a node twice");
+  if (const auto twins = findTwins(group.blocks))
+    throw Error("option -mesh_file: the faces " + tag(twins->first) + " and " + tag(twins->second) + " of group '" + surface +
+                "' have the same nodes: one face, written twice");
+}
+
 void readFaces(WholeMesh& mesh, const Request& request, const NamedElements& named, const Splitter& splitter) {
   std::set<std::string> pads, wanted(request.surfaces.begin(), request.surfaces.end());
   for (const auto& interface : request.interfaces) pads.insert(interface.pad);
@@ -208,6 +219,7 @@ void readFaces(WholeMesh& mesh, const Request& request, const NamedElements& nam
   mesh.surfaces.assign(wanted.begin(), wanted.end());
   for (std::size_t s = 0; s < mesh.surfaces.size(); ++s) {
     const std::string& name = mesh.surfaces[s];
+    requireDistinctFaces(name, named.groups.at(name));
     for (const auto& block : named.groups.at(name).blocks) {
       auto known = std::find_if(mesh.faces.begin(), mesh.faces.end(), [&](const auto& f) { return f.type == block.type; });
       if (known == mesh.faces.end()) {
