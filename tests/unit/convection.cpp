@@ -1,5 +1,7 @@
 // G and K^R of moving bodies: D u = (V·∇)u of linear fields is exact, and so are its integrals on regular polygons and rectangles.
 #include <gtest/gtest.h>
+#include <petscsys.h>  // before the next header, which needs it
+
 #include <petscblaslapack.h>
 
 #include <cmath>
