@@ -44,15 +44,6 @@ bool beginsWith(const std::string& file, const std::string& start) {
   return stream.read(begin.data(), static_cast<std::streamsize>(begin.size())) && begin == start;
 }
 
-/// The last word of the file.
-std::string lastWord(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  stream.seekg(-std::min<std::streamoff>(200, static_cast<std::streamoff>(std::filesystem::file_size(file))), std::ios::end);
-  std::string last;
-  for (std::string word; stream >> word;) last = word;
-  return last;
-}
-
 bool isBuiltIn(const std::string& part) {
   std::string parts;
   gmsh::option::getString("General.BuildOptions", parts);
@@ -90,8 +81,7 @@ FileKind requireSound(const std::string& file) {
     if (std::none_of(format.starts.begin(), format.starts.end(), [&](const char* start) { return beginsWith(file, start); }))
       throw Error(option + "not a " + ending + " file: it does not begin with '" +
                   (ending == ".unv" || ending == ".msh" ? format.starts[0] : "HDF") + "'");
-    if (ending == ".unv" && lastWord(file) != "-1") throw Error(option + "cut short: the last line is not -1");
-    return ending == ".msh" ? FileKind::msh : FileKind::mesh;
+    return ending == ".msh" ? FileKind::msh : ending == ".unv" ? FileKind::unv : FileKind::mesh;
   }
   refuse(file, ending);
 }

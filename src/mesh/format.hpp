@@ -7,6 +7,7 @@ namespace squeal::mesh {
 enum class FileKind {
   geometry,  ///< a script: it may read other files and start programs
   msh,       ///< gmsh's own mesh format
+  unv,       ///< I-deas universal
   mesh       ///< another mesh format
 };
 

@@ -12,6 +12,7 @@
 #include "mesh/format.hpp"
 #include "mesh/geometry.hpp"
 #include "mesh/msh.hpp"
+#include "mesh/unv.hpp"
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
 
@@ -22,7 +23,7 @@ struct Job {
   std::string file, option;  ///< the option as messages begin with it
   FileKind kind;
   std::vector<Setting> settings;
-  MshContents contents;  ///< of a .msh
+  MshContents contents;  ///< of a .msh; of a .unv the number of elements
   /// Version 2 of .msh gives each element one group and one entity. gmsh would put all elements of an entity into all of its groups: with
   /// this it takes the groups for the entities.
   bool groupsAreEntities() const { return kind == FileKind::msh && contents.version < 4; }
@@ -201,7 +202,7 @@ std::vector<PetscInt> ungroupedElements(const Job& job, int dimension) {
 
 /// gmsh drops elements that it cannot place without a word.
 void requireAllElements(const Job& job) {
-  if (job.kind != FileKind::msh) return;
+  if (job.contents.elements == 0) return;
   std::int64_t kept = 0;
   for (const auto& list : elementsOf(-1, -1).tags) kept += static_cast<std::int64_t>(list.size());
   if (kept != job.contents.elements)
@@ -262,6 +263,7 @@ GmshModel::GmshModel(const std::string& file, const std::vector<std::string>& pa
   if (!job.settings.empty() && job.kind != FileKind::geometry)
     throw Error("option -mesh_set: only a geometry, a .geo file, has parameters; -mesh_file " + file + " is a mesh");
   if (job.kind == FileKind::msh) job.contents = requireSoundMsh(file);
+  if (job.kind == FileKind::unv) job.contents.elements = requireSoundUnv(file);
   Buffer buffer = inChild(limitsFor(job), [&](const Warn& warn) { return readWithGmsh(job, warn); });
   take(buffer);
 }
