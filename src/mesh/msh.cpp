@@ -1,18 +1,16 @@
 #include "mesh/msh.hpp"
 
 #include <fcntl.h>
-#include <gmsh.h>
 #include <petscsys.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
-#include <map>
 #include <string_view>
 #include <vector>
 
@@ -125,21 +123,10 @@ class Reader {
   std::size_t at_ = 0, begin_ = 0;  // behind the last number read, and where it began
 };
 
-/// Nodes of an element of a type; polygons have none of their own.
-int nodesOf(int type) {
-  static std::map<int, int> known;
-  if (const auto found = known.find(type); found != known.end()) return found->second;
-  int dimension = 0, order = 0, nodes = 0, corners = 0;
-  if (type >= 1 && type <= 140) try {
-      std::string name;
-      std::vector<double> local;
-      gmsh::model::mesh::getElementProperties(type, name, dimension, order, nodes, local, corners);
-    } catch (const std::exception&) {
-      nodes = 0;
-    } catch (const std::string&) {  // gmsh before 4.9
-      nodes = 0;
-    }
-  return known[type] = nodes;
+/// Nodes of an element of a type of first or second order, 1 to 19; 0 for others.
+int nodesOf(Integer type) {
+  constexpr std::array<int, 20> nodes{0, 2, 3, 4, 4, 8, 6, 5, 3, 6, 9, 10, 27, 18, 14, 1, 8, 20, 15, 13};
+  return type > 0 && type < static_cast<Integer>(nodes.size()) ? nodes[static_cast<std::size_t>(type)] : 0;
 }
 
 class Msh {
@@ -209,9 +196,8 @@ class Msh {
     }
   }
   int knownType(Integer type) {
-    const int nodes = type > 0 && type < 1000 ? nodesOf(static_cast<int>(type)) : 0;
-    if (nodes == 0) in_.fail("element type " + std::to_string(type) + " is unknown");
-    return nodes;
+    if (nodesOf(type) == 0) in_.fail("element type " + std::to_string(type) + ": must be of first or second order, 1 to 19");
+    return nodesOf(type);
   }
 
   /// Version 2: the number of nodes as text, then tag and coordinates of each.
