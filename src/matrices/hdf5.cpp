@@ -1,174 +1,163 @@
-#include <hdf5.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "matrices/formats.hpp"
+#include "matrices/hdf5_file.hpp"
+#include "matrices/own_process.hpp"
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal::matrices {
 namespace {
 
-/// An HDF5 identifier with its close function.
-template <herr_t (*close)(hid_t)>
-class Id {
- public:
-  explicit Id(hid_t id) : id_(id) {}
-  ~Id() {
-    if (id_ >= 0) close(id_);
-  }
-  Id(const Id&) = delete;
-  Id& operator=(const Id&) = delete;
-  operator hid_t() const { return id_; }  // NOLINT
-  bool valid() const { return id_ >= 0; }
-
- private:
-  hid_t id_;
-};
-using FileId = Id<H5Fclose>;
-using ObjectId = Id<H5Oclose>;
-using DatasetId = Id<H5Dclose>;
-using SpaceId = Id<H5Sclose>;
-using AttributeId = Id<H5Aclose>;
-using TypeId = Id<H5Tclose>;
-
-/// HDF5 prints its errors itself unless told not to; they reach the user through ours.
-class Silence {
- public:
-  Silence() {
-    H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  }
-  ~Silence() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
-  Silence(const Silence&) = delete;
-  Silence& operator=(const Silence&) = delete;
-
- private:
-  H5E_auto2_t function_ = nullptr;
-  void* data_ = nullptr;
-};
-
-bool has(hid_t group, const std::string& name) { return H5Lexists(group, name.c_str(), H5P_DEFAULT) > 0; }
+bool isGroup(hid_t object) { return H5Iget_type(object) == H5I_GROUP; }
 
 bool isCompressed(hid_t object) {
-  return H5Iget_type(object) == H5I_GROUP && has(object, "data") && has(object, "indices") && has(object, "indptr");
+  return isGroup(object) && has(object, "data") && has(object, "indices") && has(object, "indptr");
 }
 
-std::vector<hsize_t> shapeOf(hid_t dataset) {
-  const SpaceId space(H5Dget_space(dataset));
-  const int rank = H5Sget_simple_extent_ndims(space);
-  std::vector<hsize_t> shape(static_cast<std::size_t>(std::max(rank, 0)));
-  if (rank > 0) H5Sget_simple_extent_dims(space, shape.data(), nullptr);
-  return shape;
-}
+/// MATLAB 7.3 marks every variable with its class, a sparse one with its number of rows.
+std::string matlabClass(hid_t object) { return textOfAttribute(object, "MATLAB_class"); }
+bool isMatlabSparse(hid_t object) { return isGroup(object) && has(object, "jc") && hasAttribute(object, "MATLAB_sparse"); }
 
 bool isTable(hid_t object) {
   if (H5Iget_type(object) != H5I_DATASET || shapeOf(object).size() != 2) return false;
   const TypeId type(H5Dget_type(object));
   const auto kind = H5Tget_class(type);
-  return kind == H5T_FLOAT || kind == H5T_INTEGER;
+  const std::string matlab = matlabClass(object);
+  return (kind == H5T_FLOAT || kind == H5T_INTEGER) && !hasAttribute(object, "MATLAB_empty") &&
+         (matlab.empty() || matlab == "double" || matlab == "single");
 }
 
-template <class Number>
-std::vector<Number> numbers(hid_t dataset, const std::string& name, hid_t type) {
-  std::size_t size = 1;
-  for (const auto extent : shapeOf(dataset)) size *= extent;
-  std::vector<Number> values(size);
-  if (H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
-    throw Error("dataset '" + name + "' cannot be read");
-  return values;
-}
+bool isMatrix(hid_t object) { return isCompressed(object) || isMatlabSparse(object) || isTable(object); }
 
-template <class Number>
-std::vector<Number> numbersIn(hid_t group, const std::string& name, hid_t type) {
-  const DatasetId dataset(H5Dopen2(group, name.c_str(), H5P_DEFAULT));
-  if (!dataset.valid()) throw Error("there is no dataset '" + name + "'");
-  return numbers<Number>(dataset, name, type);
-}
-
-/// Text of an attribute, of fixed or variable length; empty if there is none.
-std::string attribute(hid_t object, const char* name) {
-  if (H5Aexists(object, name) <= 0) return "";
-  const AttributeId id(H5Aopen(object, name, H5P_DEFAULT));
-  const TypeId type(H5Aget_type(id));
-  if (H5Tget_class(type) != H5T_STRING) return "";
-  if (H5Tis_variable_str(type) > 0) {
-    char* text = nullptr;
-    if (H5Aread(id, type, &text) < 0 || !text) return "";
-    const std::string copy = text;
-    H5free_memory(text);
-    return copy;
-  }
-  std::string text(H5Tget_size(type), '\0');
-  H5Aread(id, type, text.data());
-  return text;
-}
+/// A number alone, as MATLAB saves every one, is no matrix that could be meant, if another is there.
+bool isNumber(hid_t object) { return isTable(object) && shapeOf(object) == std::vector<hsize_t>{1, 1}; }
 
 /// scipy.sparse.save_npz keeps the format as a dataset; a copy of it in HDF5 does too.
-std::string formatDataset(hid_t group) {
-  if (!has(group, "format")) return "";
-  const DatasetId dataset(H5Dopen2(group, "format", H5P_DEFAULT));
-  const TypeId type(H5Dget_type(dataset));
-  if (!dataset.valid() || H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0) return "";
-  std::string text(H5Tget_size(type), '\0');
-  H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data());
-  return text;
+bool byColumns(hid_t group) {
+  std::string found;
+  for (const std::string& text : {textOfAttribute(group, "format"), textOfAttribute(group, "h5sparse_format"),
+                                  textOfAttribute(group, "encoding-type"), textOfDataset(group, "format")}) {
+    if (text.empty()) continue;
+    const std::string format = text.substr(0, 3);
+    if (format != "csr" && format != "csc") throw Error("the format '" + text + "', where csr and csc are read");
+    if (!found.empty() && found != format) throw Error("the group calls itself csr as well as csc");
+    found = format;
+  }
+  return found == "csc";
 }
 
-bool byColumns(hid_t group) {
-  for (const std::string& text :
-       {attribute(group, "format"), attribute(group, "h5sparse_format"), attribute(group, "encoding-type"), formatDataset(group)})
-    if (text.compare(0, 3, "csc") == 0) return true;
-  return false;
+/// Rows and columns, where they are written: in the attribute of anndata or h5sparse, or as scipy.sparse.save_npz names it.
+void checkShape(hid_t group, long long size) {
+  std::vector<long long> shape;
+  for (const char* name : {"shape", "h5sparse_shape"})
+    if (shape.empty()) shape = integersOfAttribute(group, name);
+  if (shape.empty() && has(group, "shape")) shape = integers(group, "shape");
+  if (shape.empty()) return;
+  if (shape.size() != 2) throw Error(formatted("a shape of %zu numbers", shape.size()));
+  requireSquare(shape[0], shape[1]);
+  if (shape[0] != size)
+    throw Error(formatted("indptr has %lld numbers where a matrix of %lld rows takes %lld", size + 1, shape[0], shape[0] + 1));
 }
 
 Entries compressedGroup(hid_t group) {
-  const auto begin = numbersIn<long long>(group, "indptr", H5T_NATIVE_LLONG);
-  const auto size = static_cast<long long>(begin.size()) - 1;  // of rows and columns: a square matrix
-  return compressed(size, size, byColumns(group), begin, numbersIn<long long>(group, "indices", H5T_NATIVE_LLONG),
-                    numbersIn<double>(group, "data", H5T_NATIVE_DOUBLE));
+  Compressed matrix;
+  matrix.byColumns = byColumns(group);
+  matrix.begin = integers(group, "indptr");
+  if (matrix.begin.empty()) throw Error("indptr is empty");
+  matrix.rows = matrix.columns = static_cast<long long>(matrix.begin.size()) - 1;  // a square matrix
+  checkShape(group, matrix.rows);
+  matrix.index = integers(group, "indices");
+  matrix.value = reals(group, "data");
+  return matrix.entries();
 }
 
-Entries table(hid_t dataset, const std::string& name) {
+/// Without entries there are no lists of them; with some, the lists may be longer than they.
+Entries matlabSparse(hid_t group) {
+  Compressed matrix{0, 0, true, {}, {}, {}, "jc", "ir"};
+  const auto rows = integersOfAttribute(group, "MATLAB_sparse");
+  if (rows.size() != 1) throw Error("the attribute MATLAB_sparse is damaged");
+  if (const std::string type = matlabClass(group); type != "double")
+    throw Error("a sparse matrix of class '" + type + "', not double");
+  matrix.begin = integers(group, "jc");
+  if (matrix.begin.empty()) throw Error("jc is empty");
+  matrix.rows = rows[0];
+  matrix.columns = static_cast<long long>(matrix.begin.size()) - 1;
+  requireSquare(matrix.rows, matrix.columns);
+  if (matrix.begin.back() > 0) {
+    matrix.index = integers(group, "ir");
+    matrix.value = reals(group, "data");
+    const auto count = static_cast<std::size_t>(matrix.begin.back());
+    if (matrix.index.size() > count) matrix.index.resize(count);
+    if (matrix.value.size() > count) matrix.value.resize(count);
+  }
+  return matrix.entries();
+}
+
+/// By rows; MATLAB's by columns.
+Entries table(hid_t file, hid_t dataset, const std::string& name) {
   const auto shape = shapeOf(dataset);
-  const auto values = numbers<double>(dataset, name, H5T_NATIVE_DOUBLE);
-  Entries entries{static_cast<PetscInt>(shape[0]), static_cast<PetscInt>(shape[1]), {}, {}, {}};
-  for (std::size_t i = 0, k = 0; i < shape[0]; ++i)
-    for (std::size_t j = 0; j < shape[1]; ++j, ++k) entries.add(static_cast<long long>(i), static_cast<long long>(j), values[k]);
+  if (shape[0] > LLONG_MAX || shape[1] > LLONG_MAX) throw Error("its sizes are beyond what 64 bits count");
+  requireSquare(static_cast<long long>(shape[0]), static_cast<long long>(shape[1]));
+  const bool transposed = !matlabClass(dataset).empty();
+  const auto values = reals(file, name, 2);
+  const auto size = static_cast<long long>(shape[0]);
+  Entries entries(size, size);
+  for (long long i = 0, k = 0; i < size; ++i)
+    for (long long j = 0; j < size; ++j, ++k)
+      entries.add(transposed ? j : i, transposed ? i : j, values[static_cast<std::size_t>(k)]);
   return entries;
+}
+
+std::vector<std::string> namesIn(hid_t group) {
+  std::vector<std::string> names;
+  const auto collect = [](hid_t, const char* name, const H5L_info_t*, void* list) -> herr_t {
+    static_cast<std::vector<std::string>*>(list)->emplace_back(name);
+    return 0;
+  };
+  if (H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names) < 0)
+    throw Error("HDF5 finds the file damaged" + cause());
+  return names;
 }
 
 std::string onlyMatrix(hid_t file) {
   const ObjectId root(H5Oopen(file, "/", H5P_DEFAULT));
   if (isCompressed(root)) return "/";
-  std::vector<std::string> all, matrices;
-  const auto collect = [](hid_t, const char* name, const H5L_info_t*, void* list) -> herr_t {
-    static_cast<std::vector<std::string>*>(list)->emplace_back(name);
-    return 0;
-  };
-  H5Literate(root, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &all);
-  for (const auto& name : all)
-    if (const ObjectId object(H5Oopen(root, name.c_str(), H5P_DEFAULT)); isCompressed(object) || isTable(object))
-      matrices.push_back(name);
+  std::vector<std::string> matrices, numbers;
+  for (const auto& name : namesIn(root))
+    if (const ObjectId object(H5Oopen(root, name.c_str(), H5P_DEFAULT)); object.valid() && isMatrix(object))
+      (isNumber(object) ? numbers : matrices).push_back(name);
+  if (matrices.empty()) matrices = numbers;
   if (matrices.empty())
-    throw Error("the HDF5 file holds no matrix: no group with data, indices and indptr, no dataset of two dimensions");
+    throw Error(
+        "the HDF5 file holds no matrix: no group with data, indices and indptr (MATLAB: data, ir and jc), no dataset of real "
+        "numbers of two "
+        "dimensions");
   if (matrices.size() > 1) throw Error("the HDF5 file holds several matrices, " + joined(matrices) + ": name one");
   return matrices[0];
+}
+
+Entries readHere(const std::filesystem::path& path, const std::string& name) {
+  const Silence silence;
+  const FileId file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
+  if (!file.valid()) throw Error("HDF5 finds the file damaged" + cause());
+  const std::string wanted = name.empty() ? onlyMatrix(file) : name;
+  const ObjectId object(H5Oopen(file, wanted.c_str(), H5P_DEFAULT));
+  if (!object.valid()) throw Error("the HDF5 file holds no object '" + wanted + "'" + cause());
+  try {
+    if (isCompressed(object)) return compressedGroup(object);
+    if (isMatlabSparse(object)) return matlabSparse(object);
+    if (isTable(object)) return table(file, object, wanted);
+  } catch (const Error& error) {
+    throw Error("'" + wanted + "': " + error.what());
+  }
+  throw Error("'" + wanted +
+              "' is neither a group with data, indices and indptr (MATLAB: data, ir and jc) nor a dataset of real numbers "
+              "of two dimensions");
 }
 
 }  // namespace
 
 Entries readHdf5(const std::filesystem::path& path, const std::string& name) {
-  const Silence silence;
-  const FileId file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
-  if (!file.valid()) throw Error("HDF5 finds the file damaged");
-  const std::string wanted = name.empty() ? onlyMatrix(file) : name;
-  const ObjectId object(H5Oopen(file, wanted.c_str(), H5P_DEFAULT));
-  if (!object.valid()) throw Error("the HDF5 file holds no object '" + wanted + "'");
-  if (isCompressed(object)) return compressedGroup(object);
-  if (isTable(object)) return table(object, wanted);
-  throw Error("'" + wanted + "' is neither a group with data, indices and indptr nor a dataset of two dimensions");
+  return inOwnProcess("the HDF5 library", [&] { return readHere(path, name); });
 }
 
 }  // namespace squeal::matrices

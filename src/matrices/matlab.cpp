@@ -1,74 +1,87 @@
-#include <matio.h>
+// By hand: matio 1.5 fills up with zeros what a file cut short no longer holds, and leaves out what follows.
+#include "matrices/matlab.hpp"
 
-#include <memory>
-
-#include "matrices/formats.hpp"
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal::matrices {
 namespace {
 
-struct Closer {
-  void operator()(mat_t* file) const { Mat_Close(file); }
-  void operator()(matvar_t* variable) const { Mat_VarFree(variable); }
-};
-using File = std::unique_ptr<mat_t, Closer>;
-using Variable = std::unique_ptr<matvar_t, Closer>;
+bool isMatrix(const Variable& variable) { return variable.real && variable.shape.size() == 2; }
 
-/// A table of reals of two dimensions. (Those of a sparse matrix of version 4 are known when it has been read.)
-bool isMatrix(const matvar_t& variable) {
-  const auto type = variable.class_type;
-  return variable.rank == 2 && (type == MAT_C_SPARSE || type == MAT_C_DOUBLE || type == MAT_C_SINGLE);
+bool isSquareMatrix(const Variable& variable) {
+  return isMatrix(variable) && variable.shape[0] == variable.shape[1] && variable.shape[0] > 1;
 }
 
-/// The only square matrix of more than one row.
-std::string onlyMatrix(mat_t* file) {
+/// "k (2 x 2 sparse)"
+std::string described(const Variable& variable) {
+  std::vector<std::string> sizes;
+  for (const auto size : variable.shape) sizes.push_back(std::to_string(size));
+  return variable.name + " (" + joined(sizes, " x ") + (sizes.empty() ? "" : " ") + variable.kind + ")";
+}
+
+std::string describedAll(const std::vector<Variable>& variables) {
+  constexpr std::size_t most = 20;
+  std::vector<std::string> texts;
+  for (const auto& variable : variables)
+    if (texts.size() < most) texts.push_back(described(variable));
+  if (variables.size() > most) texts.emplace_back("...");
+  return texts.empty() ? "no variable" : joined(texts);
+}
+
+const Variable& chosen(const std::vector<Variable>& variables, const std::string& name) {
+  std::vector<const Variable*> found;
   std::vector<std::string> names;
-  for (;;) {
-    const Variable variable(Mat_VarReadNextInfo(file));
-    if (!variable) break;
-    const bool isSquare = variable->rank == 2 && variable->dims[0] == variable->dims[1] && variable->dims[0] > 1;
-    if (isMatrix(*variable) && (isSquare || variable->class_type == MAT_C_SPARSE)) names.emplace_back(variable->name);
-  }
-  Mat_Rewind(file);
-  if (names.empty()) throw Error("the MATLAB file holds no square matrix of real numbers");
-  if (names.size() > 1) throw Error("the MATLAB file holds several matrices, " + joined(names) + ": name one");
-  return names[0];
+  for (const auto& variable : variables)
+    if (name.empty() ? isSquareMatrix(variable) : variable.name == name) found.push_back(&variable), names.push_back(variable.name);
+  if (found.empty())
+    throw Error((name.empty() ? std::string("the MATLAB file holds no square matrix of real numbers")
+                              : "the MATLAB file holds no variable '" + name + "'") +
+                ", but " + describedAll(variables));
+  if (found.size() > 1)
+    throw Error("the MATLAB file holds several " +
+                (name.empty() ? "matrices, " + joined(names) + ": name one" : "variables " + name));
+  if (!isMatrix(*found[0])) throw Error("variable " + described(*found[0]) + " is not a matrix of real numbers");
+  return *found[0];
 }
 
-Entries sparseEntries(const matvar_t& variable) {
-  const auto& s = *static_cast<const mat_sparse_t*>(variable.data);
-  if (variable.data_type != MAT_T_DOUBLE) throw Error("the sparse matrix does not hold doubles");
-  const auto* values = static_cast<const double*>(s.data);
-  return compressed(static_cast<long long>(variable.dims[0]), static_cast<long long>(variable.dims[1]), true, {s.jc, s.jc + s.njc},
-                    {s.ir, s.ir + s.nir}, {values, values + s.ndata});
+bool isVersion5(BinaryFile& file) {
+  if (file.size() < 128) return false;
+  char mark[2];
+  file.seek(126);
+  file.read(mark, 2);
+  return (mark[0] == 'I' && mark[1] == 'M') || (mark[0] == 'M' && mark[1] == 'I');
 }
 
-Entries fullEntries(const matvar_t& variable) {
-  Entries entries{static_cast<PetscInt>(variable.dims[0]), static_cast<PetscInt>(variable.dims[1]), {}, {}, {}};
-  const bool isDouble = variable.data_type == MAT_T_DOUBLE;
-  if (!isDouble && variable.data_type != MAT_T_SINGLE) throw Error("the matrix does not hold reals");
-  for (std::size_t j = 0, k = 0; j < variable.dims[1]; ++j)
-    for (std::size_t i = 0; i < variable.dims[0]; ++i, ++k)
-      entries.add(static_cast<long long>(i), static_cast<long long>(j),
-                  isDouble ? static_cast<const double*>(variable.data)[k]
-                           : static_cast<double>(static_cast<const float*>(variable.data)[k]));
-  return entries;
+/// The text at the beginning tells where the mark of the byte order is missing.
+bool claimsVersion5(BinaryFile& file) {
+  char text[6] = {};
+  file.seek(0);
+  file.read(text, std::min<std::size_t>(sizeof text, file.size()));
+  return std::string(text, sizeof text) == "MATLAB";
 }
 
 }  // namespace
 
+Entries full(const Variable& variable, const std::vector<double>& values) {
+  Entries entries(variable.shape.at(0), variable.shape.at(1));
+  for (long long j = 0, k = 0; j < variable.shape[1]; ++j)
+    for (long long i = 0; i < variable.shape[0]; ++i, ++k) entries.add(i, j, values[static_cast<std::size_t>(k)]);
+  return entries;
+}
+
 Entries readMatlab(const std::filesystem::path& path, const std::string& name) {
-  Mat_LogInitFunc("squeal", [](int, char*) {});  // what it says reaches the user through our errors
-  const File file(Mat_Open(path.c_str(), MAT_ACC_RDONLY));
-  if (!file) throw Error("matio finds no sound MATLAB content");
-  const std::string wanted = name.empty() ? onlyMatrix(file.get()) : name;
-  const Variable variable(Mat_VarRead(file.get(), wanted.c_str()));
-  if (!variable) throw Error("the MATLAB file holds no variable '" + wanted + "', or is damaged");
-  if (!isMatrix(*variable) || !variable->data) throw Error("variable '" + wanted + "' is not a matrix of real numbers");
-  if (variable->isComplex) throw Error("variable '" + wanted + "' is complex");
-  return variable->class_type == MAT_C_SPARSE ? sparseEntries(*variable) : fullEntries(*variable);
+  BinaryFile file(path);
+  const bool version5 = isVersion5(file);
+  if (!version5 && claimsVersion5(file)) throw Error("the header of the MATLAB file is cut short or damaged");
+  const auto variables = version5 ? variablesOfVersion5(file) : variablesOfVersion4(file);
+  const Variable& variable = chosen(variables, name);
+  if (!variable.sparse || version5) requireSquare(variable.shape[0], variable.shape[1]);
+  try {
+    return version5 ? readVersion5(file, variable) : readVersion4(file, variable);
+  } catch (const Error& error) {
+    throw Error("variable '" + variable.name + "': " + error.what());
+  }
 }
 
 }  // namespace squeal::matrices

@@ -7,18 +7,23 @@
 namespace squeal::matrices {
 namespace {
 
-/// Each rank reads its rows.
+/// Each rank reads its rows. PETSc would take options from a file NAME.info beside it.
 OwnedMat load(MPI_Comm comm, const std::filesystem::path& path) {
   OwnedViewer viewer;
   OwnedMat matrix;
-  check(PetscViewerBinaryOpen(comm, path.c_str(), FILE_MODE_READ, viewer.out()));
+  check(PetscViewerCreate(comm, viewer.out()));
+  check(PetscViewerSetType(viewer, PETSCVIEWERBINARY));
+  check(PetscViewerFileSetMode(viewer, FILE_MODE_READ));
+  check(PetscViewerBinarySkipInfo(viewer));
+  check(PetscViewerFileSetName(viewer, path.c_str()));
   check(MatCreate(comm, matrix.out()));
   check(MatSetType(matrix, MATAIJ));
   check(MatLoad(matrix, viewer));
   return matrix;
 }
 
-/// From the entries that rank 0 has.
+/// From the entries that rank 0 has. PETSc sums those of equal row and column, whatever the insert mode: it adds or replaces what the
+/// matrix had before.
 OwnedMat distribute(MPI_Comm comm, Entries& entries) {
   PetscInt sizes[2] = {entries.rows, entries.columns};
   check(MPI_Bcast(sizes, 2, MPIU_INT, 0, comm));
@@ -31,7 +36,18 @@ OwnedMat distribute(MPI_Comm comm, Entries& entries) {
   return matrix;
 }
 
+/// The memory for empty rows is asked for by the header alone. Up to ten million, that of a gigabyte, it may; beyond, one row in a
+/// thousand at the least has an entry, or the header is damaged.
+void requireFilled(const Entries& entries) {
+  const auto count = static_cast<double>(entries.value.size());
+  if (entries.rows > 1e7 + 1e3 * count)
+    throw Error(
+        formatted("%lld rows with %.0f entries: is the number of rows right?", static_cast<long long>(entries.rows), count));
+}
+
 Entries readHere(Format format, const std::filesystem::path& path, const std::string& dataset) {
+  if (!dataset.empty() && (format == Format::matrixMarket || format == Format::petscBinary))
+    throw Error("the file is a single matrix, it holds no '" + dataset + "' by name");
   Entries entries;
   switch (format) {
     case Format::matrixMarket:
@@ -45,11 +61,10 @@ Entries readHere(Format format, const std::filesystem::path& path, const std::st
       break;
     case Format::petscBinary:
       requirePetscBinary(path);
-      break;
+      return entries;
   }
-  if (entries.rows != entries.columns)
-    throw Error(formatted("%d rows and %d columns, not square", static_cast<int>(entries.rows), static_cast<int>(entries.columns)));
-  if (entries.rows == 0 && format != Format::petscBinary) throw Error("a matrix without rows");
+  requireSquare(entries.rows, entries.columns);
+  requireFilled(entries);
   return entries;
 }
 
@@ -65,14 +80,9 @@ OwnedMat read(MPI_Comm comm, const std::filesystem::path& path, const std::strin
   });
   check(MPI_Bcast(&isBinary, 1, MPI_INT, 0, comm));
   OwnedMat matrix = isBinary ? load(comm, path) : distribute(comm, entries);
-  PetscInt rows = 0, columns = 0;
   PetscReal norm = 0;
-  check(MatGetSize(matrix, &rows, &columns));
-  if (rows != columns)
-    throw Error(
-        formatted("%s: %d rows and %d columns, not square", path.c_str(), static_cast<int>(rows), static_cast<int>(columns)));
   check(MatNorm(matrix, NORM_FROBENIUS, &norm));
-  if (!std::isfinite(norm)) throw Error(path.string() + ": an entry is not a finite number");
+  if (!std::isfinite(norm)) throw Error(path.string() + ": the numbers are too large, their squares overflow");
   return matrix;
 }
 

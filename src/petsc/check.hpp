@@ -2,6 +2,7 @@
 /// Errors: who reports them, and how all ranks learn of them.
 #include <petscsys.h>
 
+#include <new>
 #include <source_location>
 #include <stdexcept>
 #include <string>
@@ -30,6 +31,8 @@ void onFirstRank(MPI_Comm comm, const std::string& head, const Action& action) {
   std::string failure;
   if (rank == 0) try {
       action();
+    } catch (const std::bad_alloc&) {
+      failure = head + "not enough memory";
     } catch (const std::exception& error) {
       failure = head + error.what();
     }

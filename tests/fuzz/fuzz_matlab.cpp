@@ -2,6 +2,7 @@
 
 #include "fuzz/fuzz.hpp"
 #include "matrices/matrices.hpp"
+#include "support/matlab_bytes.hpp"
 
 namespace squeal::fuzz {
 namespace {
@@ -23,28 +24,21 @@ void write(const std::string& path, mat_ft version, matio_compression compressio
   Mat_Close(file);
 }
 
-/// Version 4, as MATLAB writes it: headers of type (1000 M + 100 O + 10 P + T), rows, columns, imaginary flag and length of the name,
-/// in the byte order of the machine that wrote it. A sparse matrix has a row (i, j, x) for each entry, and one with its size.
-std::string version4(bool sparse) {
-  const std::int32_t head[] = {sparse ? 2 : 0, sparse ? 4 : 2, sparse ? 3 : 2, 0, 2};
-  const std::vector<double> values =
-      sparse ? std::vector<double>{1, 2, 2, 2, 1, 1, 2, 2, 2, 1, 3, 0} : std::vector<double>{2, 1, 0, 3};
-  return std::string(reinterpret_cast<const char*>(head), sizeof head) + std::string("k\0", 2) +
-         std::string(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double));
-}
-
 }  // namespace
 
 Target target() {
   const auto seed = [](mat_ft version, matio_compression compression, bool full) {
     return bytesWritten([&](const std::string& path) { write(path, version, compression, full); });
   };
-  return {"matlab",
-          ".mat",
-          {seed(MAT_FT_MAT5, MAT_COMPRESSION_NONE, false), seed(MAT_FT_MAT5, MAT_COMPRESSION_NONE, true),
-           seed(MAT_FT_MAT5, MAT_COMPRESSION_ZLIB, false), seed(MAT_FT_MAT73, MAT_COMPRESSION_NONE, false),
-           seed(MAT_FT_MAT73, MAT_COMPRESSION_NONE, true), version4(true), version4(false)},
-          [](const std::string& path) { matrices::read(PETSC_COMM_WORLD, path); }};
+  return {
+      "matlab",
+      ".mat",
+      {seed(MAT_FT_MAT5, MAT_COMPRESSION_NONE, false), seed(MAT_FT_MAT5, MAT_COMPRESSION_NONE, true),
+       seed(MAT_FT_MAT5, MAT_COMPRESSION_ZLIB, false), seed(MAT_FT_MAT73, MAT_COMPRESSION_NONE, false),
+       seed(MAT_FT_MAT73, MAT_COMPRESSION_NONE, true), test::version4(false, 2, 4, 3, "k", {1, 2, 2, 2, 1, 1, 2, 2, 2, 1, 3, 0}),
+       test::version4(true, 0, 2, 2, "k", {2, 1, 0, 3}), test::header5(false) + test::sparse5(false, "k"),
+       test::header5(true) + test::full5(true, "k")},
+      [](const std::string& path) { matrices::read(PETSC_COMM_WORLD, path); }};
 }
 
 }  // namespace squeal::fuzz

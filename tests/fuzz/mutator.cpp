@@ -66,9 +66,14 @@ void changeByte(Random& random, std::string& bytes) {
 
 void cut(Random& random, std::string& bytes) { bytes.resize(random.below(bytes.size())); }
 
+/// Text has no zeros; binary formats have them everywhere.
+bool isText(const std::string& bytes) { return bytes.find('\0') == std::string::npos; }
+
 void insert(Random& random, std::string& bytes) {
+  const std::string characters = " \n\t0123456789.,-+eEdD%#:'\"[]{}";
   std::string chunk(1 + random.below(8), '\0');
-  for (auto& byte : chunk) byte = static_cast<char>(random.below(256));
+  for (auto& byte : chunk)
+    byte = isText(bytes) ? characters[random.below(characters.size())] : static_cast<char>(random.below(256));
   bytes.insert(random.below(bytes.size() + 1), chunk);
 }
 
@@ -134,7 +139,7 @@ void change(Random& random, std::string& bytes, const std::string& other) {
     case 7:
       return replaceNumber(random, bytes);
     default:
-      return replaceWord(random, bytes);
+      return isText(bytes) ? replaceNumber(random, bytes) : replaceWord(random, bytes);
   }
 }
 

@@ -1,217 +1,22 @@
-// Matrices from files: every format gives the same matrix on every number of ranks, and what cannot be a problem of vibration is said.
+// Problems of matrices from files: what they mean, and what cannot be a problem of vibration is said. The formats: matrices_*.cpp.
 #include <gtest/gtest.h>
-#include <hdf5.h>
-#include <matio.h>
 
-#include <array>
 #include <cmath>
-#include <filesystem>
 #include <tuple>
 
-#include "matrices/formats.hpp"
-#include "matrices/matrices.hpp"
 #include "petsc/text.hpp"
 #include "support/case.hpp"
-#include "support/model.hpp"
+#include "support/matrix_files.hpp"
 #include "support/spectrum.hpp"
 
 namespace squeal::test {
 namespace {
 
-// Unsymmetric, with an empty row, a full one, and a number that needs all its digits.
-const std::array<std::array<double, 4>, 4> sample{{{1. / 3, 0, -2, 0}, {0, 0, 0, 0}, {5, 1e-300, 7, 8}, {0, 0, 0, -1e10 / 3}}};
-
-matrices::Entries sampleEntries() {
-  matrices::Entries entries{4, 4, {}, {}, {}};
-  for (long long i = 0; i < 4; ++i)
-    for (long long j = 0; j < 4; ++j) entries.add(i, j, sample[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)]);
-  return entries;
-}
-
-/// By rows, or by columns.
-struct Lists {
-  std::vector<double> data;
-  std::vector<unsigned> indices, begin{0};
-  explicit Lists(bool byColumns) {
-    for (unsigned k = 0; k < 4; ++k) {
-      for (unsigned l = 0; l < 4; ++l)
-        if (const double x = byColumns ? sample[l][k] : sample[k][l]; x != 0) data.push_back(x), indices.push_back(l);
-      begin.push_back(static_cast<unsigned>(data.size()));
-    }
-  }
-};
-
-bool firstRank() {
-  int rank = 0;
-  check(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
-  return rank == 0;
-}
-
-/// Collective. `write(path)` on one rank before any reads.
-template <class Write>
-std::string written(const std::string& name, const Write& write) {
-  const std::string path = SQUEAL_OUTPUT_DIR "/" + name;
-  if (firstRank()) write(path);
-  check(MPI_Barrier(PETSC_COMM_WORLD));
-  return path;
-}
-
-void expectSample(const std::string& path, const std::string& dataset = {}) {
-  const OwnedMat matrix = matrices::read(PETSC_COMM_WORLD, path, dataset);
-  const auto all = denseCopy(matrix);
-  ASSERT_EQ(all.rows, 4) << path;
-  ASSERT_EQ(all.columns, 4) << path;
-  for (PetscInt i = 0; i < 4; ++i)
-    for (PetscInt j = 0; j < 4; ++j)
-      EXPECT_EQ(all(i, j), sample[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)]) << path << " " << i << " " << j;
-}
-
-std::string errorReading(const std::string& path, const std::string& dataset = {}) {
-  return errorOf([&] { matrices::read(PETSC_COMM_WORLD, path, dataset); });
-}
-
-TEST(Matrices, MatrixMarket) {
-  expectSample(written("sample.mtx", [](const auto& path) { matrices::writeMatrixMarket(path, sampleEntries()); }));
-  expectSample(writeFile(
-      "array.mtx",
-      "%%MatrixMarket matrix array real general\n4 4\n.33333333333333331\n0\n5\n0\n0\n0\n1e-300\n0\n-2\n0\n7\n0\n0\n0\n8\n"
-      "-3333333333.3333335\n"));
-}
-
-TEST(Matrices, MatrixMarketSymmetries) {
-  const auto symmetric = denseCopy(matrices::read(
-      PETSC_COMM_WORLD,
-      writeFile("symmetric.mtx", "%%MatrixMarket matrix coordinate real symmetric\n% comment\n2 2 2\n1 1 3\n2 1 4\n")));
-  EXPECT_EQ(symmetric.values, (std::vector<double>{3, 4, 4, 0}));
-  const auto skew = denseCopy(matrices::read(
-      PETSC_COMM_WORLD, writeFile("skew.mtx", "%%MatrixMarket matrix coordinate real skew-symmetric\n2 2 1\n2 1 4\n")));
-  EXPECT_EQ(skew.values, (std::vector<double>{0, 4, -4, 0}));
-  const auto ones = denseCopy(matrices::read(
-      PETSC_COMM_WORLD, writeFile("ones.mtx", "%%MatrixMarket matrix coordinate pattern symmetric\n2 2 3\n1 1\n2 1\n2 2\n")));
-  EXPECT_EQ(ones.values, (std::vector<double>{1, 1, 1, 1}));
-}
-
-TEST(Matrices, PetscBinary) {
-  const OwnedMat matrix = matrices::read(
-      PETSC_COMM_WORLD, written("from.mtx", [](const auto& path) { matrices::writeMatrixMarket(path, sampleEntries()); }));
-  const std::string path = SQUEAL_OUTPUT_DIR "/sample.petsc";
-  OwnedViewer viewer;
-  check(PetscViewerBinaryOpen(PETSC_COMM_WORLD, path.c_str(), FILE_MODE_WRITE, viewer.out()));
-  check(MatView(matrix, viewer));
-  viewer = {};
-  check(MPI_Barrier(PETSC_COMM_WORLD));
-  expectSample(path);
-  const std::string cut = written("cut.petsc", [&](const auto& to) {
-    std::filesystem::copy_file(path, to, std::filesystem::copy_options::overwrite_existing);
-    std::filesystem::resize_file(to, 60);
-  });
-  EXPECT_TRUE(contains(errorReading(cut), "cut.petsc: 60 bytes where")) << errorReading(cut);
-}
-
-/// A sparse and a full matrix, the full one by columns.
-void writeMatlab(const std::string& path, mat_ft version) {
-  mat_t* file = Mat_CreateVer(path.c_str(), "test", version);
-  Lists lists(true);
-  const auto count = static_cast<mat_uint32_t>(lists.data.size());
-  mat_sparse_t sparse{count, lists.indices.data(), count, lists.begin.data(), 5, count, lists.data.data()};
-  std::vector<double> full;
-  for (std::size_t j = 0; j < 4; ++j)
-    for (const auto& row : sample) full.push_back(row[j]);
-  std::size_t dims[2] = {4, 4};
-  matvar_t* variables[] = {Mat_VarCreate("sparse", MAT_C_SPARSE, MAT_T_DOUBLE, 2, dims, &sparse, 0),
-                           Mat_VarCreate("full", MAT_C_DOUBLE, MAT_T_DOUBLE, 2, dims, full.data(), 0)};
-  for (matvar_t* variable : variables) {
-    Mat_VarWrite(file, variable, MAT_COMPRESSION_NONE);
-    Mat_VarFree(variable);
-  }
-  Mat_Close(file);
-}
-
-TEST(Matrices, Matlab) {
-  for (const mat_ft version : {MAT_FT_MAT5, MAT_FT_MAT73}) {
-    const auto path = written(version == MAT_FT_MAT5 ? "v5.mat" : "v73.mat", [&](const auto& to) { writeMatlab(to, version); });
-    expectSample(path, "sparse");
-    expectSample(path, "full");
-    EXPECT_TRUE(contains(errorReading(path), "several matrices, "));
-    EXPECT_TRUE(contains(errorReading(path, "other"), "'other'"));
-  }
-}
-
-void writeDataset(hid_t place, const char* name, hid_t type, const void* values, std::vector<hsize_t> shape) {
-  const hid_t space = H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr);
-  const hid_t set = H5Dcreate2(place, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-  H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values);
-  H5Dclose(set);
-  H5Sclose(space);
-}
-
-void writeGroup(hid_t file, const char* name, bool byColumns) {
-  const Lists lists(byColumns);
-  const hid_t group = H5Gcreate2(file, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-  writeDataset(group, "data", H5T_NATIVE_DOUBLE, lists.data.data(), {lists.data.size()});
-  writeDataset(group, "indices", H5T_NATIVE_UINT, lists.indices.data(), {lists.indices.size()});
-  writeDataset(group, "indptr", H5T_NATIVE_UINT, lists.begin.data(), {lists.begin.size()});
-  const hid_t scalar = H5Screate(H5S_SCALAR), text = H5Tcopy(H5T_C_S1);
-  H5Tset_size(text, 10);
-  const hid_t attribute = H5Acreate2(group, "encoding-type", text, scalar, H5P_DEFAULT, H5P_DEFAULT);  // as anndata does
-  H5Awrite(attribute, text, byColumns ? "csc_matrix" : "csr_matrix");
-  H5Aclose(attribute);
-  H5Tclose(text);
-  H5Sclose(scalar);
-  H5Gclose(group);
-}
-
-TEST(Matrices, Hdf5) {
-  const auto path = written("sample.h5", [](const auto& to) {
-    const hid_t file = H5Fcreate(to.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-    writeGroup(file, "rows", false);
-    writeGroup(file, "columns", true);
-    writeDataset(file, "full", H5T_NATIVE_DOUBLE, sample.data(), {4, 4});
-    H5Fclose(file);
-  });
-  expectSample(path, "rows");
-  expectSample(path, "columns");
-  expectSample(path, "/full");
-  EXPECT_TRUE(contains(errorReading(path), "several matrices, columns, full, rows"));
-  EXPECT_TRUE(contains(errorReading(path, "other"), "no object 'other'"));
-  EXPECT_TRUE(contains(errorReading(path, "rows/data"), "neither"));
-  const auto one = written("one.h5", [](const auto& to) {
-    const hid_t file = H5Fcreate(to.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-    writeGroup(file, "it", true);
-    H5Fclose(file);
-  });
-  expectSample(one);
-}
-
-TEST(Matrices, DamagedAndForeignFiles) {
-  const std::string head = "%%MatrixMarket matrix coordinate ";
-  const std::vector<std::array<std::string, 3>> cases{
-      {"empty.mtx", "", "the file is empty"},
-      {"short.mtx", head + "real general\n2 2 2\n1 1 1\n", "no sound Matrix Market"},
-      {"words.mtx", head + "real general\n2 2 2\n1 1 1\n2 2 one\n", "no sound Matrix Market"},
-      {"outside.mtx", head + "real general\n2 2 1\n3 1 1\n", "no sound Matrix Market"},
-      {"nan.mtx", head + "real general\n2 2 2\n1 1 nan\n2 2 1\n", "not a finite number"},
-      {"inf.mtx", head + "real general\n2 2 2\n1 1 inf\n2 2 1\n", "not a finite number"},
-      {"complex.mtx", head + "complex general\n1 1 1\n1 1 1 1\n", "not real"},
-      {"wide.mtx", head + "real general\n1 2 1\n1 1 1\n", "1 rows and 2 columns, not square"},
-      {"text.dat", "1 2 3\n", "none of Matrix Market"},
-      {"damaged.h5", "\x89HDF\r\n\x1a\n nothing", "damaged"},
-      {"damaged.mat", "MATLAB 5.0 MAT-file", "MATLAB"},
-      {"scipy.npz", "PK\x03\x04", "scripts/convert_matrix"},
-  };
-  for (const auto& [name, text, message] : cases) {
-    const std::string error = errorReading(writeFile(name, text));
-    EXPECT_TRUE(contains(error, name) && contains(error, message)) << name << ": " << error;
-  }
-  EXPECT_TRUE(contains(errorReading(SQUEAL_OUTPUT_DIR "/none.mtx"), "there is no such file"));
-  EXPECT_TRUE(contains(errorReading(SQUEAL_OUTPUT_DIR), "there is no such file"));  // a folder
-}
-
 /// A matrix given by its rows.
 using Rows = std::vector<std::vector<double>>;
 
 std::string writeRows(const std::string& name, const Rows& rows) {
-  matrices::Entries entries{static_cast<PetscInt>(rows.size()), static_cast<PetscInt>(rows.size()), {}, {}, {}};
+  matrices::Entries entries(static_cast<long long>(rows.size()), static_cast<long long>(rows.size()));
   for (std::size_t i = 0; i < rows.size(); ++i)
     for (std::size_t j = 0; j < rows.size(); ++j) entries.add(static_cast<long long>(i), static_cast<long long>(j), rows[i][j]);
   return written(name, [&](const auto& path) { matrices::writeMatrixMarket(path, entries); });

@@ -1,0 +1,46 @@
+#pragma once
+/// Numbers in binary files, of either byte order.
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+namespace squeal::matrices {
+
+constexpr bool littleEndian = std::endian::native == std::endian::little;
+
+/// The number at `bytes`, from the other byte order if `swapped`.
+template <class Number>
+Number numberAt(const char* bytes, bool swapped) {
+  char copy[sizeof(Number)];
+  std::memcpy(copy, bytes, sizeof copy);
+  if (swapped) std::reverse(copy, copy + sizeof copy);
+  Number number;
+  std::memcpy(&number, copy, sizeof copy);
+  return number;
+}
+
+/// A file that is read in pieces.
+class BinaryFile {
+ public:
+  /// Error: the file cannot be opened.
+  explicit BinaryFile(const std::filesystem::path& path);
+  std::uint64_t size() const { return size_; }
+  void seek(std::uint64_t position);
+  /// Error: the file ends before.
+  void read(void* to, std::size_t count);
+  template <class Number>
+  Number number(bool swapped) {
+    char bytes[sizeof(Number)];
+    read(bytes, sizeof bytes);
+    return numberAt<Number>(bytes, swapped);
+  }
+
+ private:
+  std::ifstream file_;
+  std::uint64_t size_ = 0;
+};
+
+}  // namespace squeal::matrices

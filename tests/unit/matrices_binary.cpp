@@ -1,0 +1,273 @@
+// PETSc's binary format and HDF5: whole files, and those whose parts do not fit together.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+
+#include "support/hdf5_files.hpp"
+#include "support/matrix_files.hpp"
+
+namespace squeal::test {
+namespace {
+
+// --- PETSc ---
+
+std::string bigEndian(std::int32_t number) {
+  std::string bytes;
+  for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(static_cast<std::uint32_t>(number) >> shift & 0xff);
+  return bytes;
+}
+
+std::string bigEndian(double number) {
+  const auto bits = std::bit_cast<std::uint64_t>(number);
+  return bigEndian(static_cast<std::int32_t>(bits >> 32)) + bigEndian(static_cast<std::int32_t>(bits & 0xffffffff));
+}
+
+struct Petsc {
+  std::int32_t rows = 2, columns = 2, entries = 3;
+  std::vector<std::int32_t> lengths{1, 2}, index{0, 0, 1};
+  std::vector<double> values{2, 1, 3};
+
+  std::string bytes() const {
+    std::string text = bigEndian(1211216) + bigEndian(rows) + bigEndian(columns) + bigEndian(entries);
+    for (const auto& list : {lengths, index})
+      for (const auto number : list) text += bigEndian(number);
+    for (const double value : values) text += bigEndian(value);
+    return text;
+  }
+};
+
+TEST(PetscBinary, Sample) {
+  const OwnedMat matrix = matrices::read(
+      PETSC_COMM_WORLD, written("from.mtx", [](const auto& path) { matrices::writeMatrixMarket(path, sampleEntries()); }));
+  const std::string path = SQUEAL_OUTPUT_DIR "/sample.petsc";
+  OwnedViewer viewer;
+  check(PetscViewerBinaryOpen(PETSC_COMM_WORLD, path.c_str(), FILE_MODE_WRITE, viewer.out()));
+  check(MatView(matrix, viewer));
+  viewer = {};
+  check(MPI_Barrier(PETSC_COMM_WORLD));
+  expectSample(path);
+  const auto read = [](const auto& from) { matrices::requirePetscBinary(from); };
+  EXPECT_EQ(cutsThatPass("cut.petsc", bytesOf(path), read), std::vector<std::size_t>{});
+}
+
+TEST(PetscBinary, ColumnsInAnyOrder) {
+  const std::vector<double> byColumns{2, 1, 0, 3};
+  EXPECT_EQ(valuesRead(writeFile("sorted.petsc", Petsc{}.bytes())), byColumns);
+  EXPECT_EQ(valuesRead(writeFile("unsorted.petsc", Petsc{2, 2, 3, {1, 2}, {0, 1, 0}, {2, 3, 1}}.bytes())), byColumns);
+}
+
+TEST(PetscBinary, WhatMatLoadWouldMisreadIsNamed) {
+  const std::string sound = Petsc{}.bytes();
+  const std::vector<std::array<std::string, 3>> cases{
+      {"negative", Petsc{2, 2, 3, {1, 2}, {0, -5, 1}, {2, 1, 3}}.bytes(), "row 1 (counted from 0) has an entry in column -5 of 2"},
+      {"beyond", Petsc{2, 2, 3, {1, 2}, {7, 0, 1}, {2, 1, 3}}.bytes(), "row 0 (counted from 0) has an entry in column 7 of 2"},
+      {"last", Petsc{2, 2, 3, {1, 2}, {0, 0, 2}, {2, 1, 3}}.bytes(), "row 1 (counted from 0) has an entry in column 2 of 2"},
+      {"lengths", Petsc{2, 2, 2, {3, -1}, {0, 1}, {1, 1}}.bytes(), "row 0 (counted from 0) has 3 entries in 2 columns"},
+      {"length", Petsc{2, 2, 1, {2, -1}, {0}, {1}}.bytes(), "row 0 (counted from 0) has more entries than the header announces"},
+      {"minus", Petsc{2, 2, 1, {-1, 2}, {0}, {1}}.bytes(), "row 0 (counted from 0) has -1 entries"},
+      {"sum", Petsc{2, 2, 3, {1, 1}, {0, 0, 1}, {2, 1, 3}}.bytes(), "the rows have 2 entries, the header announces 3"},
+      {"twice", Petsc{2, 2, 3, {1, 2}, {0, 1, 1}, {2, 1, 3}}.bytes(), "row 1 (counted from 0) has two entries in column 1"},
+      {"nan", Petsc{2, 2, 3, {1, 2}, {0, 0, 1}, {2, std::nan(""), 3}}.bytes(), "entry 2 of 3 is not a finite number"},
+      {"wide", Petsc{2, 3, 3, {1, 2}, {0, 0, 1}, {2, 1, 3}}.bytes(), "2 rows and 3 columns, not square"},
+      {"dense", Petsc{2, 2, -1, {}, {}, {1, 2, 3, 4}}.bytes(), "a dense matrix"},
+      {"rows", Petsc{-2, 2, 0, {}, {}, {}}.bytes(), "the header announces -2 rows"},
+      {"huge", Petsc{2000000000, 2000000000, 2000000000, {}, {}, {}}.bytes(), "16 bytes where a real matrix of 2000000000 rows"},
+      {"long", sound + "1234", "cut short, or of another PETSc configuration"},
+      {"head", sound.substr(0, 12), "cut short"},
+  };
+  for (const auto& [name, bytes, message] : cases) {
+    const std::string error = errorReading(writeFile(name + ".petsc", bytes));
+    EXPECT_TRUE(contains(error, name + ".petsc: ") && contains(error, message)) << name << ": " << error;
+  }
+}
+
+// PETSc takes options from a file beside the one it reads: nobody gave them.
+TEST(PetscBinary, OptionsBesideTheFileAreNotTaken) {
+  check(PetscOptionsClear(nullptr));
+  const std::string path = writeFile("beside.petsc", Petsc{}.bytes());
+  writeFile("beside.petsc.info", "-flutter_friction 7\n");
+  valuesRead(path);
+  PetscBool taken = PETSC_FALSE;
+  check(PetscOptionsHasName(nullptr, nullptr, "-flutter_friction", &taken));
+  EXPECT_FALSE(taken);
+}
+
+// --- HDF5 ---
+
+/// A compressed matrix as SciPy's users write it, [[2, 0], [1, 3]] by rows.
+struct Group {
+  std::vector<long long> begin{0, 1, 3}, index{0, 0, 1};
+  std::vector<double> data{2, 1, 3};
+
+  void operator()(const Hdf5File& file) const {
+    file.group("k");
+    file.dataset("k/indptr", H5T_NATIVE_LLONG, begin.data(), {begin.size()});
+    file.dataset("k/indices", H5T_NATIVE_LLONG, index.data(), {index.size()});
+    file.dataset("k/data", H5T_NATIVE_DOUBLE, data.data(), {data.size()});
+  }
+};
+
+void writeGroup(const Hdf5File& file, const std::string& name, bool byColumns) {
+  const Lists lists(byColumns);
+  file.group(name);
+  file.dataset(name + "/data", H5T_NATIVE_DOUBLE, lists.data.data(), {lists.data.size()});
+  file.dataset(name + "/indices", H5T_NATIVE_UINT, lists.indices.data(), {lists.indices.size()});
+  file.dataset(name + "/indptr", H5T_NATIVE_UINT, lists.begin.data(), {lists.begin.size()}, {2});
+  file.text(name, "encoding-type", byColumns ? "csc_matrix" : "csr_matrix");  // as anndata does
+}
+
+TEST(Hdf5, Sample) {
+  const auto path = written("sample.h5", [](const auto& to) {
+    const Hdf5File file(to);
+    writeGroup(file, "rows", false);
+    writeGroup(file, "columns", true);
+    file.dataset("full", H5T_NATIVE_DOUBLE, sample.data(), {4, 4});
+    file.dataset("chunks", H5T_NATIVE_DOUBLE, sample.data(), {4, 4}, {3, 3});
+  });
+  expectSample(path, "rows");
+  expectSample(path, "columns");
+  expectSample(path, "/full");
+  expectSample(path, "chunks");
+  EXPECT_TRUE(contains(errorReading(path), "several matrices, chunks, columns, full, rows"));
+  EXPECT_TRUE(contains(errorReading(path, "other"), "no object 'other'"));
+  EXPECT_TRUE(contains(errorReading(path, "rows/data"), "neither"));
+  const auto one = written("one.h5", [](const auto& to) { writeGroup(Hdf5File(to), "it", true); });
+  expectSample(one);
+  const auto read = [](const auto& from) { matrices::readHdf5(from, ""); };
+  EXPECT_EQ(cutsThatPass("cut.h5", bytesOf(one), read, 97), std::vector<std::size_t>{});
+}
+
+TEST(Hdf5, EntriesOfEqualPlaceAreSummed) {
+  const auto path = written("twice.h5", [](const auto& to) { Group{{0, 2, 4}, {0, 0, 1, 0}, {0.5, 1.5, 3, 1}}(Hdf5File(to)); });
+  EXPECT_EQ(valuesRead(path), (std::vector<double>{2, 1, 0, 3}));
+}
+
+struct Damaged {
+  std::string name;
+  std::function<void(const Hdf5File&)> write;
+  std::string message;
+};
+
+void expectNamed(const std::vector<Damaged>& cases) {
+  for (const auto& [name, write, message] : cases) {
+    const auto path = written(name + ".h5", [&, &write = write](const auto& to) { write(Hdf5File(to)); });
+    const std::string error = errorReading(path);
+    EXPECT_TRUE(contains(error, name + ".h5: ") && contains(error, message)) << name << ": " << error;
+  }
+}
+
+TEST(Hdf5, ListsThatDoNotFitTogether) {
+  expectNamed({
+      {"empty", Group{{}, {}, {}}, "indptr is empty"},
+      {"no_rows", Group{{0}, {}, {}}, "a matrix without rows"},
+      {"first", Group{{1, 1, 3}, {0, 0, 1}, {2, 1, 3}}, "indptr begins with 1, not with 0"},
+      {"falls", Group{{0, 4, 3}, {0, 0, 1}, {2, 1, 3}}, "indptr falls from 4 to 3"},
+      {"below", Group{{0, -1, 3}, {0, 0, 1}, {2, 1, 3}}, "indptr falls from 0 to -1"},
+      {"last", Group{{0, 1, 2}, {0, 0, 1}, {2, 1, 3}}, "indptr ends with 2, but indices has 3 numbers and data has 3"},
+      {"beyond", Group{{0, 1, 4000000000}, {0, 0, 1}, {2, 1, 3}}, "indptr ends with 4000000000"},
+      {"indices", Group{{0, 1, 3}, {0, 0}, {2, 1, 3}}, "indices has 2 numbers and data has 3"},
+      {"data", Group{{0, 1, 3}, {0, 0, 1}, {2, 1}}, "indices has 3 numbers and data has 2"},
+      {"negative", Group{{0, 1, 3}, {0, -5, 1}, {2, 1, 3}}, "row 1 and column -5 of a matrix of 2 x 2"},
+      {"outside", Group{{0, 1, 3}, {0, 4294967296, 1}, {2, 1, 3}}, "row 1 and column 4294967296 of a matrix of 2 x 2"},
+      {"infinite", Group{{0, 1, 3}, {0, 0, 1}, {2, HUGE_VAL, 3}}, "row 1 and column 0 (counted from 0) is not a finite number"},
+  });
+}
+
+TEST(Hdf5, OtherTypesAndKinds) {
+  const std::vector<double> numbers{0, 1, 3};
+  const hid_t pair = H5Tcreate(H5T_COMPOUND, 16);
+  H5Tinsert(pair, "r", 0, H5T_NATIVE_DOUBLE);
+  H5Tinsert(pair, "i", 8, H5T_NATIVE_DOUBLE);
+  const std::vector<double> pairs(8, 1);
+  const long long three = 3;
+  expectNamed({
+      {"real_indices",
+       [&](const Hdf5File& file) {
+         file.group("k");
+         for (const std::string name : {"indptr", "indices", "data"})
+           file.dataset("k/" + name, H5T_NATIVE_DOUBLE, numbers.data(), {3});
+       },
+       "dataset 'indptr': integers are expected, it holds reals"},
+      {"complex",
+       [&](const Hdf5File& file) {
+         file.group("k");
+         file.dataset("k/indptr", H5T_NATIVE_LLONG, Group{}.begin.data(), {3});
+         file.dataset("k/indices", H5T_NATIVE_LLONG, Group{}.index.data(), {3});
+         file.dataset("k/data", pair, pairs.data(), {3});
+       },
+       "dataset 'data': real numbers are expected, it holds a compound type, as complex numbers are"},
+      {"complex_table",
+       [&](const Hdf5File& file) {
+         file.dataset("k", pair, pairs.data(), {2, 2});
+       },
+       "holds no matrix"},
+      {"two_dimensions",
+       [&](const Hdf5File& file) {
+         file.group("k");
+         for (const std::string name : {"indptr", "indices", "data"})
+           file.dataset("k/" + name, H5T_NATIVE_LLONG, pairs.data(), {3, 1});
+       },
+       "dataset 'indptr': 1 dimensions are expected, it has 2"},
+      {"blocks", [&](const Hdf5File& file) { Group{}(file), file.text("k", "format", "bsr"); },
+       "the format 'bsr', where csr and csc are read"},
+      {"contradiction",
+       [&](const Hdf5File& file) { Group{}(file), file.text("k", "format", "csr"), file.text("k", "encoding-type", "csc_matrix"); },
+       "csr as well as csc"},
+      {"shape",
+       [&](const Hdf5File& file) {
+         Group{}(file);
+         const long long shape[] = {three, three};
+         file.dataset("k/shape", H5T_NATIVE_LLONG, shape, {2});
+       },
+       "indptr has 3 numbers where a matrix of 3 rows takes 4"},
+      {"wide",
+       [&](const Hdf5File& file) {
+         file.dataset("k", H5T_NATIVE_DOUBLE, pairs.data(), {2, 4});
+       },
+       "2 rows and 4 columns, not square"},
+  });
+  H5Tclose(pair);
+}
+
+// HDF5 reads zeros where nothing was written.
+TEST(Hdf5, WhatWasNeverWritten) {
+  const double one = 1;
+  const auto around = [](const std::function<void(const Hdf5File&)>& data) {
+    return [data](const Hdf5File& file) {
+      file.group("k");
+      file.dataset("k/indptr", H5T_NATIVE_LLONG, Group{}.begin.data(), {3});
+      file.dataset("k/indices", H5T_NATIVE_LLONG, Group{}.index.data(), {3});
+      data(file);
+    };
+  };
+  expectNamed({
+      {"unwritten", around([](const auto& file) { file.dataset("k/data", H5T_NATIVE_DOUBLE, nullptr, {3}); }),
+       "dataset 'data': the file holds 0 bytes of it, where its size takes 24"},
+      {"unwritten_chunk", around([&](const auto& file) {
+         file.dataset("k/data", H5T_NATIVE_DOUBLE, nullptr, {3}, {1});
+         file.writeFirst("k/data", H5T_NATIVE_DOUBLE, &one, 1);
+       }),
+       "dataset 'data': 1 of its 3 chunks were written"},
+      {"huge", around([](const auto& file) { file.dataset("k/data", H5T_NATIVE_DOUBLE, nullptr, {2000000000}); }),
+       "the file holds 0 bytes of it, where its size takes 16000000000"},
+      {"huge_chunks", around([&](const auto& file) {
+         file.dataset("k/data", H5T_NATIVE_DOUBLE, nullptr, {2000000000}, {1000});
+         file.writeFirst("k/data", H5T_NATIVE_DOUBLE, &one, 1);
+       }),
+       "1 of its 2000000 chunks were written"},
+      {"large_table",
+       [](const auto& file) {
+         file.dataset("k", H5T_NATIVE_DOUBLE, nullptr, {100000, 100000});
+       },
+       "the file holds 0 bytes of it, where its size takes 80000000000"},
+      {"elsewhere", around([](const auto& file) { file.dataset("k/data", H5T_NATIVE_DOUBLE, nullptr, {3}, {}, "/dev/null"); }),
+       "its values lie in other files"},
+  });
+}
+
+}  // namespace
+}  // namespace squeal::test
