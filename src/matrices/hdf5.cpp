@@ -1,7 +1,7 @@
 #include "matrices/formats.hpp"
 #include "matrices/hdf5_file.hpp"
-#include "matrices/own_process.hpp"
 #include "petsc/check.hpp"
+#include "petsc/child.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal::matrices {
@@ -156,8 +156,26 @@ Entries readHere(const std::filesystem::path& path, const std::string& name) {
 
 }  // namespace
 
+/// The HDF5 library crashes on damaged files.
 Entries readHdf5(const std::filesystem::path& path, const std::string& name) {
-  return inOwnProcess("the HDF5 library", [&] { return readHere(path, name); });
+  const auto size = static_cast<double>(std::filesystem::file_size(path));
+  const ChildLimits limits{"the HDF5 file", 5 + 1e-6 * size, availableMemory(), "it asks for more memory than is free",
+                           "the HDF5 library"};
+  Buffer buffer = inChild(limits, [&](const Warn&) {
+    const Entries entries = readHere(path, name);
+    Buffer packed;
+    packed.put(std::vector<PetscInt>{entries.rows, entries.columns});
+    packed.put(entries.row);
+    packed.put(entries.column);
+    packed.put(entries.value);
+    return packed;
+  });
+  const auto sizes = buffer.take<PetscInt>();
+  Entries entries(sizes.at(0), sizes.at(1));
+  entries.row = buffer.take<PetscInt>();
+  entries.column = buffer.take<PetscInt>();
+  entries.value = buffer.take<double>();
+  return entries;
 }
 
 }  // namespace squeal::matrices

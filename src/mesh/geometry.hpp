@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh/child.hpp"
+#include "petsc/child.hpp"
 
 namespace squeal::mesh {
 

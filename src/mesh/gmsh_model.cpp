@@ -8,12 +8,12 @@
 #include <functional>
 #include <set>
 
-#include "mesh/child.hpp"
 #include "mesh/format.hpp"
 #include "mesh/geometry.hpp"
 #include "mesh/msh.hpp"
 #include "mesh/unv.hpp"
 #include "petsc/check.hpp"
+#include "petsc/child.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal::mesh {
@@ -243,11 +243,11 @@ ChildLimits limitsFor(const Job& job) {
   const std::string subject = "option -mesh_file " + job.file;
   const double free = availableMemory();
   const std::string tooLarge = formatted("its mesh needs more than the %.3g GB of memory that are free", free / 1e9);
-  if (job.kind == FileKind::geometry) return {subject, {}, free, tooLarge};
+  if (job.kind == FileKind::geometry) return {subject, {}, free, tooLarge, "gmsh"};
   const auto size = static_cast<double>(std::filesystem::file_size(job.file));
   const double seconds = 5 + 5e-6 * size, enough = 5e8 + 100 * size;  // it takes some 15 bytes for a byte of the file
-  if (enough > free) return {subject, seconds, free, tooLarge};
-  return {subject, seconds, enough, "it asks for more room than a file of its size can fill: it is damaged"};
+  if (enough > free) return {subject, seconds, free, tooLarge, "gmsh"};
+  return {subject, seconds, enough, "it asks for more room than a file of its size can fill: it is damaged", "gmsh"};
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
 /// The gmsh library behind a small door: a file read or meshed, and its physical groups. Not collective: rank 0 only.
-#include "mesh/buffer.hpp"
+#include "petsc/buffer.hpp"
 #include "mesh/whole.hpp"
 
 namespace squeal::mesh {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <set>
 
-#include "mesh/buffer.hpp"
+#include "petsc/buffer.hpp"
 #include "mesh/whole.hpp"
 #include "petsc/check.hpp"
 #include "petsc/options.hpp"

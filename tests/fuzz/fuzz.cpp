@@ -27,7 +27,11 @@
 #if defined(__SANITIZE_ADDRESS__)
 // An allocation of more than this is by a header's word alone: no input is longer than some kilobytes.
 extern "C" const char* __asan_default_options();
-extern "C" const char* __asan_default_options() { return "detect_leaks=0:allocator_may_return_null=1:max_allocation_size_mb=256"; }
+extern "C" const char* __asan_default_options() {
+  // Into files, since readers that work in a process of their own close its standard error output.
+  return "detect_leaks=0:allocator_may_return_null=1:max_allocation_size_mb=256:log_exe_name=1:log_path=" SQUEAL_OUTPUT_DIR
+         "/sanitizer";
+}
 extern "C" const char* __ubsan_default_options();
 extern "C" const char* __ubsan_default_options() { return "print_stacktrace=1"; }
 constexpr bool sanitized = true;
@@ -86,7 +90,8 @@ void limitMemory() {
 
 /// A refusal is one line in our words. onFirstRank makes an Error of every exception: what the standard library says shows through.
 std::string faultOf(const std::string& message) {
-  for (const char* foreign : {"std::", "vector::", "basic_string", "stoi", "stod", "not enough memory", "\n"})
+  for (const char* foreign :
+       {"std::", "vector::", "basic_string", "stoi", "stod", "not enough memory", "more memory than is free", "\n"})
     if (message.find(foreign) != std::string::npos) return "the message is: " + message;
   return message.empty() ? "an empty message" : "";
 }
@@ -116,6 +121,33 @@ std::string said(const fs::path& path) {
   return text.empty() ? "" : "the reader prints:\n" + text.substr(0, 1500);
 }
 
+/// A library that is known to err on damaged files, and is called in a process of its own, is at fault; the first lines of a report tell.
+bool isOfLibrary(const std::string& report) {
+  std::istringstream lines(report);
+  std::string line;
+  for (int frames = 0; frames < 4 && std::getline(lines, line);) {
+    frames += line.find("    #") == 0;
+    for (const char* library : {"libhdf5", "libgmsh", "failed to allocate"})
+      if (line.find(library) != std::string::npos) return true;
+  }
+  return false;
+}
+
+/// What the sanitizers report of the process `reader` and of those that it has started. The reports are removed.
+std::string reported(pid_t reader) {
+  if (!sanitized) return "";
+  const std::string name = "sanitizer." + fs::read_symlink("/proc/self/exe").filename().string() + ".";
+  std::string text;
+  for (const auto& entry : fs::directory_iterator(SQUEAL_OUTPUT_DIR)) {
+    const std::string found = entry.path().filename();
+    if (found.rfind(name, 0) != 0) continue;
+    const std::string report = contentOf(entry.path());
+    if (found == name + std::to_string(reader) || !isOfLibrary(report)) text += report;
+    fs::remove(entry.path());
+  }
+  return text.empty() ? "" : "a sanitizer reports:\n" + text.substr(0, 1500);
+}
+
 /// The child. What it prints goes into a file.
 int readAll(std::uint64_t first, std::uint64_t count, Progress& progress) {
   const fs::path printed = pathOf(getpid(), ".printed");
@@ -139,6 +171,7 @@ int readAll(std::uint64_t first, std::uint64_t count, Progress& progress) {
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
     if (seconds > progress.slowestSeconds) progress.slowestSeconds = seconds, progress.slowest = number;
     if (failure.empty()) failure = said(printed);
+    if (failure.empty()) failure = reported(getpid());
     if (failure.empty()) continue;
     std::snprintf(progress.failure, sizeof progress.failure, "%s", failure.c_str());
     _exit(1);
@@ -158,7 +191,7 @@ std::string watch(pid_t child, const Progress& progress) {
       if (progress.failure[0]) return progress.failure;
       const std::string end = WIFSIGNALED(status) ? std::string("ends by signal ") + strsignal(WTERMSIG(status))
                                                   : "ends with exit code " + std::to_string(WEXITSTATUS(status));
-      return "the reader " + end + "\n" + said(pathOf(child, ".printed"));
+      return "the reader " + end + "\n" + said(pathOf(child, ".printed")) + reported(child);
     }
     if (!progress.reading || progress.current != current || !reading)
       since = Clock::now(), current = progress.current, reading = progress.reading;

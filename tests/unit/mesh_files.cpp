@@ -10,8 +10,8 @@
 #include <limits>
 
 #include "elasticity/element.hpp"
-#include "mesh/child.hpp"
 #include "mesh/gmsh_model.hpp"
+#include "petsc/child.hpp"
 #include "support/case.hpp"
 #include "support/mesh_message.hpp"
 #include "support/mesh_text.hpp"
@@ -274,12 +274,12 @@ TEST(MeshParameters, AMeshTooLargeIsToldBeforeItIsMade) {
 
 TEST(Child, ItsEndIsAnErrorHere) {
   if (rank() != 0) return;
-  const mesh::ChildLimits limits{"the work", 1.0, 1e9, "it is too large"};
+  const ChildLimits limits{"the work", 1.0, 1e9, "it is too large", "the worker"};
   const auto end = [&](const std::function<void()>& work) {
     return test::errorOf([&] {
-      mesh::inChild(limits, [&](const mesh::Warn&) {
+      inChild(limits, [&](const Warn&) {
         work();
-        return mesh::Buffer();
+        return Buffer();
       });
     });
   };
@@ -299,21 +299,21 @@ TEST(Child, ItsEndIsAnErrorHere) {
 TEST(Child, ItsMemoryIsLimitedAndItsResultWhole) {
   if (rank() != 0) return;
   const auto numbers = [](std::size_t count) {
-    return [count](const mesh::Warn&) {
+    return [count](const Warn&) {
       std::vector<double> values(count);
       for (std::size_t i = 0; i < count; ++i) values[i] = static_cast<double>(i);
-      mesh::Buffer buffer;
+      Buffer buffer;
       buffer.put(values);
       return buffer;
     };
   };
-  const mesh::ChildLimits limits{"the work", {}, 1e8, "it is too large"};
-  auto buffer = mesh::inChild(limits, numbers(1000000));  // 8 MB, many times what a pipe holds
+  const ChildLimits limits{"the work", {}, 1e8, "it is too large", "the worker"};
+  auto buffer = inChild(limits, numbers(1000000));  // 8 MB, many times what a pipe holds
   const auto values = buffer.take<double>();
   ASSERT_EQ(values.size(), 1000000u);
   EXPECT_EQ(values[999999], 999999);
 #if !defined(__SANITIZE_ADDRESS__)  // which has an end of its own for this
-  expectMessage(test::errorOf([&] { mesh::inChild(limits, numbers(100000000)); }), {"the work", "it is too large"});
+  expectMessage(test::errorOf([&] { inChild(limits, numbers(100000000)); }), {"the work", "it is too large"});
 #endif
 }
 

@@ -4,9 +4,9 @@
 #include <optional>
 #include <string>
 
-#include "mesh/buffer.hpp"
+#include "petsc/buffer.hpp"
 
-namespace squeal::mesh {
+namespace squeal {
 
 /// Tells the user at once, on the standard error output.
 using Warn = std::function<void(const std::string&)>;
@@ -16,6 +16,7 @@ struct ChildLimits {
   std::optional<double> processorSeconds;  ///< none: as long as it takes
   double memoryBytes = 0;                  ///< addresses that the work may ask for
   std::string noMemory;                    ///< what it means if that is too little
+  std::string program;                     ///< who works, for messages: "gmsh"
 };
 
 /// What `work` returns, from a child process: a crash there is an Error here, and its memory goes with it. The child inherits all that
@@ -25,4 +26,4 @@ Buffer inChild(const ChildLimits& limits, const std::function<Buffer(const Warn&
 /// What is free for this process, in bytes: of the machine, or of its control group where that has less.
 double availableMemory();
 
-}  // namespace squeal::mesh
+}  // namespace squeal

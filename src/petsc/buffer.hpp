@@ -1,11 +1,11 @@
 #pragma once
-/// How meshes travel between processes.
+/// How meshes and matrices travel between processes.
 #include <cstring>
 #include <string>
 #include <type_traits>
 #include <vector>
 
-namespace squeal::mesh {
+namespace squeal {
 
 /// Flat message: numbers and texts in the order they are written, read back in the same order.
 class Buffer {
@@ -46,4 +46,4 @@ class Buffer {
   std::size_t at_ = 0;
 };
 
-}  // namespace squeal::mesh
+}  // namespace squeal

@@ -1,4 +1,4 @@
-#include "mesh/child.hpp"
+#include "petsc/child.hpp"
 
 #include <fcntl.h>
 #include <sys/prctl.h>
@@ -18,7 +18,7 @@
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
 
-namespace squeal::mesh {
+namespace squeal {
 namespace {
 
 constexpr unsigned patience = 30;  // s, until the user is told that nothing hangs
@@ -86,7 +86,8 @@ void sayStillAtWork(int) {
   const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
   voice = fcntl(2, F_DUPFD_CLOEXEC, 3);
   for (int file : {0, 1, 2}) dup2(nowhere, file);  // what the C library says of a crash is no message of ours
-  std::snprintf(stillAtWork, sizeof stillAtWork, "squeal: %s: gmsh is at work for %u s now\n", limits.subject.c_str(), patience);
+  std::snprintf(stillAtWork, sizeof stillAtWork, "squeal: %s: %s is at work for %u s now\n", limits.subject.c_str(),
+                limits.program.c_str(), patience);
   signal(SIGALRM, sayStillAtWork);
   alarm(patience);
   try {
@@ -144,11 +145,12 @@ Child start(const ChildLimits& limits, const std::function<Buffer(const Warn&)>&
 
 std::string endOf(int status, const ChildLimits& limits) {
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
-    return formatted("gmsh has not finished after %.0f s of processor time", std::ceil(limits.processorSeconds.value_or(0)));
-  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) return "gmsh was killed; is memory short?";
-  if (WIFSIGNALED(status))  // gmsh does not always survive that it is given no memory
-    return "gmsh crashes on it (" + std::string(strsignal(WTERMSIG(status))) + "), or " + limits.noMemory;
-  return "gmsh ends the process with exit code " + std::to_string(WEXITSTATUS(status));
+    return formatted("%s has not finished after %.0f s of processor time", limits.program.c_str(),
+                     std::ceil(limits.processorSeconds.value_or(0)));
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) return limits.program + " was killed; is memory short?";
+  if (WIFSIGNALED(status))  // a library does not always survive that it is given no memory
+    return limits.program + " crashes on it (" + std::string(strsignal(WTERMSIG(status))) + "), or " + limits.noMemory;
+  return limits.program + " ends the process with exit code " + std::to_string(WEXITSTATUS(status));
 }
 
 }  // namespace
@@ -185,4 +187,4 @@ double availableMemory() {
   return bytes;
 }
 
-}  // namespace squeal::mesh
+}  // namespace squeal
