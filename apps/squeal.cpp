@@ -13,7 +13,8 @@ int main(int argc, char** argv) {
     return 0;
   }
   try {
-    const squeal::report::Directory directory(session.comm());
+    squeal::checkOptions();  // first of all: a mistake in them touches no folder
+    squeal::report::Directory directory(session.comm());
     const squeal::Analysis analysis = squeal::analyse(session.comm());
     squeal::report::write(analysis, directory);
     return analysis.converged() ? 0 : 2;  // instability is a result; a friction without steady state is not

@@ -293,9 +293,14 @@ const flutter::FrictionPoint* Analysis::pointAt(const Parameters& at) const {
   return nullptr;
 }
 
-Analysis analyse(MPI_Comm comm) {
+void checkOptions() {
   rejectUnknownOptions();
   flutter::rejectIdleSolverOptions();
+  flutter::readSweep();
+  if (!matrices::wanted()) meshRequest();
+}
+
+Analysis analyse(MPI_Comm comm) {
   if (matrices::wanted()) return analyseMatrices(comm);
   Analysis analysis;
   analysis.comm = comm;

@@ -35,7 +35,10 @@ struct Analysis {
 /// What the options of all stages ask of the mesh.
 mesh::Request meshRequest();
 
-/// Collective. Runs all stages that the options ask for. Errors as the stages document them.
+/// Collective. Error for options that are unknown, out of range or idle: all that can be told before a file is read or written.
+void checkOptions();
+
+/// Collective. Runs all stages that the options, which have been checked, ask for. Errors as the stages document them.
 Analysis analyse(MPI_Comm comm);
 
 }  // namespace squeal

@@ -1,11 +1,14 @@
 #include "petsc/check.hpp"
 
+#include "petsc/termination.hpp"
+
 namespace squeal {
 
 void check(PetscErrorCode code, std::source_location where) {
   if (code == 0) return;
   PetscError(PETSC_COMM_SELF, static_cast<int>(where.line()), where.function_name(), where.file_name(), code, PETSC_ERROR_REPEAT,
              " ");
+  performLastActs();
   MPI_Abort(PETSC_COMM_WORLD, 70);
 }
 

@@ -11,6 +11,7 @@
 
 #include "petsc/check.hpp"
 #include "petsc/settings.hpp"
+#include "petsc/termination.hpp"
 
 namespace squeal {
 
@@ -54,12 +55,14 @@ void startSlepc(char* program, const std::vector<Setting>& settings) {
 }  // namespace
 
 Session::Session(int argc, char** argv) {
+  SignalWatch signals;
   // PETSc's own -help lists several hundred options of its parts; ours is the manual of this program and replaces it.
   const std::vector<std::string> words(argv + 1, argv + argc);
   helpWanted_ =
       std::any_of(words.begin(), words.end(), [](const auto& word) { return word == "-help" || word == "--help" || word == "-h"; });
   check(MPI_Init(&argc, &argv));  // before PETSc's, so that a mistake in the options is told in one line instead of a traceback
   startSlepc(argv[0], helpWanted_ ? std::vector<Setting>{} : readSettings(words));
+  signals.begin(rank());
   gmsh::initialize(0, nullptr, false);
   gmsh::option::setNumber("General.Terminal", 0);  // messages reach the user through our errors
 }

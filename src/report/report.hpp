@@ -3,34 +3,23 @@
 #include <filesystem>
 
 #include "analysis.hpp"
+#include "output/folder.hpp"
+#include "report/names.hpp"
 
 namespace squeal::report {
 
-/// The folder of a run (`-report_dir`). Results of an earlier run are removed when it is opened; new ones appear under their names
-/// only when all are complete, so that what lies there is always one whole run.
-class Directory {
+/// The folder of a run (`-report_dir`), where new results replace those of an earlier run when all are complete.
+class Directory : public output::Folder {
  public:
-  /// Collective. Makes the folder. Error: it cannot be made or written.
+  /// Collective, when all options have been checked. Errors as of output::Folder.
   explicit Directory(MPI_Comm comm);
-  ~Directory();
-  Directory(const Directory&) = delete;
-  Directory& operator=(const Directory&) = delete;
-  /// Where files are written until commit().
-  const std::filesystem::path& staging() const { return staging_; }
-  /// Collective. Moves everything into the folder, summary.json last.
-  void commit() const;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  MPI_Comm comm_;
-  std::filesystem::path path_, staging_;
 };
 
 /// Collective. Writes all reports and prints the stability table.
-void write(const Analysis& analysis, const Directory& directory);
+void write(const Analysis& analysis, Directory& directory);
 
-/// A point of the sweep as it stands in file and group names: FRICTION, and _speed_SPEED, _pressure_… of the factors that are not 1.
-std::string pointName(const Parameters& at);
+/// Collective. Rank 0 writes the file; Error (all ranks), naming -report_dir: it cannot.
+void writeText(MPI_Comm comm, const std::filesystem::path& path, const std::string& text);
 
 /// The parts of write(), each collective, into `folder`.
 void writeTables(const Analysis& analysis, const std::filesystem::path& folder);

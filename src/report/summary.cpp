@@ -1,5 +1,4 @@
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "petsc/options.hpp"
@@ -83,9 +82,8 @@ Json parametersEntry(const Parameters& at) {
 }  // namespace
 
 void writeSummary(const Analysis& analysis, const std::filesystem::path& folder) {
-  int ranks = 1, rank = 0;
+  int ranks = 1;
   check(MPI_Comm_size(analysis.comm, &ranks));
-  check(MPI_Comm_rank(analysis.comm, &rank));
   Json summary;
   summary["version"] = version();
   const auto& options = resolvedOptions();
@@ -144,13 +142,7 @@ void writeSummary(const Analysis& analysis, const std::filesystem::path& folder)
   summary["wall_s"] = total;
   if (analysis.modesFloorSeconds > 0) summary["modes_floor_s"] = analysis.modesFloorSeconds;
   summary["options"] = options;
-  std::string failure;
-  if (rank == 0) {
-    std::ofstream file(folder / "summary.json");
-    file << summary.dump(2) << "\n";
-    if (!file.flush()) failure = "option -report_dir: cannot write " + (folder / "summary.json").string();
-  }
-  failTogether(analysis.comm, failure);
+  writeText(analysis.comm, folder / "summary.json", summary.dump(2) + "\n");
 }
 
 }  // namespace squeal::report

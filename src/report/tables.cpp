@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 
 #include "flutter/select.hpp"
 #include "petsc/options.hpp"
@@ -121,18 +120,6 @@ std::string gathered(MPI_Comm comm, const std::string& text) {
   return all;
 }
 
-void writeFile(MPI_Comm comm, const std::filesystem::path& path, const std::string& text) {
-  int rank = 0;
-  check(MPI_Comm_rank(comm, &rank));
-  std::string failure;
-  if (rank == 0) {
-    std::ofstream file(path, std::ios::binary);
-    file << text;
-    if (!file.flush()) failure = "option -report_dir: cannot write " + path.string();
-  }
-  failTogether(comm, failure);
-}
-
 /// An -options_file that repeats the run; defaults that were in force stand in comments.
 std::string recipe(MPI_Comm comm) {
   int size = 1;
@@ -152,31 +139,31 @@ std::string recipe(MPI_Comm comm) {
 
 void writeTables(const Analysis& analysis, const std::filesystem::path& folder) {
   const MPI_Comm comm = analysis.comm;
-  writeFile(comm, folder / "eigenvalues.csv", eigenvalueTable(analysis));
-  if (flutter::sensitivitiesWanted()) writeFile(comm, folder / "sensitivities.csv", sensitivityTable(analysis));
-  if (analysis.mesh) writeFile(comm, folder / "friction_work.csv", frictionWorkTable(analysis));
-  writeFile(comm, folder / "stability_map.csv", stabilityMap(analysis));
+  writeText(comm, folder / "eigenvalues.csv", eigenvalueTable(analysis));
+  if (flutter::sensitivitiesWanted()) writeText(comm, folder / "sensitivities.csv", sensitivityTable(analysis));
+  if (analysis.mesh) writeText(comm, folder / "friction_work.csv", frictionWorkTable(analysis));
+  writeText(comm, folder / "stability_map.csv", stabilityMap(analysis));
   if (std::any_of(analysis.segments.begin(), analysis.segments.end(),
                   [](const auto& segment) { return !segment.followed.empty(); })) {
-    writeFile(comm, folder / "branches.csv", branchTable(analysis));
-    writeFile(comm, folder / "critical.csv", criticalTable(analysis));
+    writeText(comm, folder / "branches.csv", branchTable(analysis));
+    writeText(comm, folder / "critical.csv", criticalTable(analysis));
   }
   for (std::size_t s = 0; s < analysis.segments.size(); ++s) {
     if (analysis.segments[s].modes.angularFrequency.empty()) continue;
     // modes.csv: the first active set; each later one has its own file, named by its first point.
     const std::string name = s == 0 ? "modes.csv" : "modes_" + pointName(analysis.segments[s].points.at(0).at) + ".csv";
-    writeFile(comm, folder / name, modeTable(analysis.segments[s].modes));
+    writeText(comm, folder / name, modeTable(analysis.segments[s].modes));
   }
   for (const auto& solution : analysis.steady)
     if (solution.converged)
-      writeFile(
+      writeText(
           comm, folder / ("steady_" + pointName(solution.at) + ".csv"),
           "x_m,y_m,z_m,gap_m,normal_force_n,pressure_pa,friction_force_x_n,friction_force_y_n,friction_force_z_n,interface\n" +
               gathered(comm, steadyRows(analysis, solution)));
 }
 
 void writeRecipe(const Analysis& analysis, const std::filesystem::path& folder) {
-  writeFile(analysis.comm, folder / "options.txt", recipe(analysis.comm));
+  writeText(analysis.comm, folder / "options.txt", recipe(analysis.comm));
 }
 
 std::string stabilityTable(const Analysis& analysis) {

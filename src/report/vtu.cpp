@@ -12,12 +12,11 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
-#include <cerrno>
-#include <fstream>
 #include <map>
 #include <numeric>
 #include <system_error>
 
+#include "output/file.hpp"
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
 
@@ -99,24 +98,15 @@ void addCells(vtkUnstructuredGrid* grid, const mesh::Mesh& mesh, int rank) {
   grid->GetCellData()->AddArray(filledArray<vtkIntArray>("rank", 1, std::vector<int>(bodies.size(), rank)));
 }
 
-std::string cannotWrite(const fs::path& path, const std::string& reason) {
-  return "option -report_dir: cannot write " + path.string() + ": " + reason;
-}
+const std::string blame = "option -report_dir: ";
 
 /// Collective. Rank 0 makes the folder; the others wait for it.
-void makeFolder(MPI_Comm comm, int rank, const fs::path& folder) {
-  std::error_code error;
-  if (rank == 0 && !folder.empty()) fs::create_directories(folder, error);
-  failTogether(comm, error ? cannotWrite(folder, error.message()) : "");
-}
-
-/// Returns what went wrong, empty if nothing did.
-std::string writeText(const fs::path& path, const std::string& text) {
-  errno = 0;
-  std::ofstream out(path);
-  out << text;
-  out.close();
-  return out ? "" : cannotWrite(path, std::generic_category().message(errno));
+void makeFolder(MPI_Comm comm, const fs::path& folder) {
+  onFirstRank(comm, blame, [&] {
+    std::error_code error;
+    if (!folder.empty()) fs::create_directories(folder, error);
+    if (error) throw output::WriteError(output::cannotWrite(folder, error.value()));
+  });
 }
 
 void requireWritable(const mesh::Mesh& mesh, const std::vector<Field>& fields) {
@@ -145,7 +135,7 @@ std::string writePiece(vtkUnstructuredGrid* grid, const fs::path& path) {
   vtkObject::SetGlobalWarningDisplay(0);  // our message replaces VTK's text on stderr
   const bool written = writer->Write() == 1 && writer->GetErrorCode() == vtkErrorCode::NoError;
   vtkObject::SetGlobalWarningDisplay(warnings);
-  return written ? "" : cannotWrite(path, vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()));
+  return written ? "" : blame + output::cannotWrite(path, 0) + ": " + vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode());
 }
 
 std::string xmlText(const std::string& text) {
@@ -201,23 +191,20 @@ void writeVtu(const mesh::Mesh& mesh, const fs::path& stem, const std::vector<Fi
   const auto piece = [&stem](int index) { return stem / (stem.filename().string() + "_" + std::to_string(index) + ".vtu"); };
   // not replace_extension: a stem such as steady_0.4 has a dot that begins no extension
   const fs::path summary = stem.string() + ".pvtu";
-  makeFolder(mesh.comm, rank, stem);
-  std::string message = writePiece(grid, piece(rank));
-  if (rank == 0 && message.empty()) message = writeText(summary, summaryText(pointFields, stem.filename(), piece, size));
-  failTogether(mesh.comm, message);
+  makeFolder(mesh.comm, stem);
+  failTogether(mesh.comm, writePiece(grid, piece(rank)));
+  onFirstRank(mesh.comm, blame, [&] { output::writeFile(summary, summaryText(pointFields, stem.filename(), piece, size)); });
 }
 
 void writePvd(MPI_Comm comm, const fs::path& path, const std::vector<std::pair<double, fs::path>>& frames) {
-  int rank = 0;
-  check(MPI_Comm_rank(comm, &rank));
   const fs::path folder = path.parent_path();
-  makeFolder(comm, rank, folder);
+  makeFolder(comm, folder);
   std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n";
   for (const auto& [time, file] : frames)
     text += "    <DataSet timestep=\"" + shortest(time) + "\" part=\"0\" file=\"" +
             xmlText(file.lexically_proximate(folder).generic_string()) + "\"/>\n";
   text += "  </Collection>\n</VTKFile>\n";
-  failTogether(comm, rank == 0 ? writeText(path, text) : "");
+  onFirstRank(comm, blame, [&] { output::writeFile(path, text); });
 }
 
 }  // namespace squeal::report

@@ -261,17 +261,5 @@ TEST(BadInput, FileInTheWayOfTheResults) {
   }
 }
 
-// Results of an earlier run would be taken for those of the failed one.
-TEST(BadInput, LeavesNoStaleResults) {
-  const std::string name = "bad_input/stale";
-  ASSERT_EQ(runProgram(name, 1, commandLine(layer), 60).exitCode, 0);
-  writeText(placeFor(name) / "results" / "notes.txt", "mine\n");
-  const ProgramRun run = runAgain(name, 1, commandLine(with(layer, {{"material_layer_density", "-1"}})), 60);
-  EXPECT_EQ(run.exitCode, 1);
-  std::vector<std::string> left;
-  for (const auto& entry : fs::directory_iterator(run.folder)) left.push_back(entry.path().filename());
-  EXPECT_EQ(left, std::vector<std::string>{"notes.txt"});
-}
-
 }  // namespace
 }  // namespace squeal::test

@@ -298,28 +298,6 @@ TEST(Outputs, CommandLineOverridesTheFile) {
   EXPECT_EQ(std::count(friction.begin(), friction.end(), 0.1), static_cast<long>(friction.size()));
 }
 
-// --- the folder ---
-
-TEST(Outputs, ReplacesResultsAndKeepsTheRest) {
-  const std::string name = "outputs/folder";
-  ASSERT_EQ(runProgram(name, 2, layer + "-flutter_friction 0.6 -quiet").exitCode, 0);
-  const fs::path folder = placeFor(name) / "results";
-  writeText(folder / "notes.txt", "mine\n");
-  writeText(folder / "pictures" / "squeal.txt", "mine\n");
-  writeText(folder / "vtk" / "steady_friction_0.9.pvtu", "of an earlier run\n");
-  ASSERT_TRUE(fs::exists(folder / "steady_0.6.csv"));
-  const ProgramRun run = runAgain(name, 1, layer + "-flutter_friction 0.1 -quiet");
-  ASSERT_EQ(run.exitCode, 0) << run.error;
-  EXPECT_EQ(contentOf(folder / "notes.txt"), "mine\n");
-  EXPECT_EQ(contentOf(folder / "pictures" / "squeal.txt"), "mine\n");
-  EXPECT_TRUE(fs::exists(folder / "steady_0.1.csv"));
-  EXPECT_FALSE(fs::exists(folder / "steady_0.6.csv"));
-  EXPECT_FALSE(fs::exists(folder / "vtk" / "steady_friction_0.9.pvtu"));
-  EXPECT_FALSE(fs::exists(folder / "vtk" / "steady_friction_0.6.pvtu"));
-  EXPECT_FALSE(fs::exists(folder / ".partial"));
-  EXPECT_EQ(nlohmann::json::parse(contentOf(folder / "summary.json")).at("ranks"), 1);
-}
-
 // --- the terminal ---
 
 TEST(Outputs, Help) {

@@ -16,6 +16,7 @@ namespace squeal::test {
 inline Analysis runOptions(const std::string& options) {
   check(PetscOptionsClear(nullptr));
   insert(settingsOfText("-quiet " + options));
+  checkOptions();
   return analyse(PETSC_COMM_WORLD);
 }
 
@@ -24,6 +25,7 @@ inline Analysis runCase(const std::string& name, const std::string& changes = {}
   check(PetscOptionsClear(nullptr));
   insertFile(PETSC_COMM_WORLD, "options/" + name + ".yaml");
   insert(settingsOfText("-quiet " + changes));
+  checkOptions();
   return analyse(PETSC_COMM_WORLD);
 }
 

@@ -1,0 +1,33 @@
+#include "output/file.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+namespace squeal::output {
+
+std::string cannotWrite(const std::filesystem::path& path, int error) {
+  return "cannot write " + path.string() + (error ? std::string(": ") + std::strerror(error) : "");
+}
+
+void writeFile(const std::filesystem::path& path, const std::string& text) {
+  std::FILE* file = std::fopen(path.c_str(), "wb");
+  if (!file) throw WriteError(cannotWrite(path, errno));
+  int error = std::fwrite(text.data(), 1, text.size(), file) == text.size() && std::fflush(file) == 0 ? 0 : errno;
+  if (std::fclose(file) != 0 && error == 0) error = errno;
+  if (error != 0) throw WriteError(cannotWrite(path, error));
+}
+
+void sync(const std::filesystem::path& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) throw WriteError(cannotWrite(path, errno));
+  const int error = fsync(file) == 0 ? 0 : errno;
+  close(file);
+  // some file systems know no fsync of a folder
+  if (error != 0 && error != EINVAL) throw WriteError(cannotWrite(path, error));
+}
+
+}  // namespace squeal::output

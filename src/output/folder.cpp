@@ -1,0 +1,223 @@
+#include "output/folder.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <vector>
+
+#include "output/file.hpp"
+#include "petsc/check.hpp"
+
+namespace squeal::output {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A folder itself, not a link to one.
+bool isFolder(const fs::path& path) { return fs::is_directory(fs::symlink_status(path)); }
+
+std::vector<fs::path> entriesOf(const fs::path& folder) {
+  std::vector<fs::path> names;
+  for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename());
+  return names;
+}
+
+/// mpirun ends all ranks as soon as one has ended: the first ones stay until the last one has cleared up. Then it loses patience itself.
+constexpr std::chrono::milliseconds patience(1000);
+
+std::string inTheWay(const fs::path& path) {
+  return path.string() + " is in the way: it is not of an earlier run (" + Manifest::name +
+         " lists what is); move it, or name another folder";
+}
+
+/// Never onto something that exists.
+void moveTo(const fs::path& from, const fs::path& to) {
+  if (renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return;
+  if (errno == EINVAL || errno == ENOSYS) {  // a file system without that flag, such as NFS
+    if (fs::exists(fs::symlink_status(to)))
+      errno = EEXIST;
+    else if (std::rename(from.c_str(), to.c_str()) == 0)
+      return;
+  }
+  const std::string reason = errno == EEXIST ? inTheWay(to) : cannotWrite(to, errno);
+  throw WriteError(reason + "; the new results are complete in " + from.parent_path().string() +
+                   ", and the next run puts them into their place");
+}
+
+void moveAll(const fs::path& from, const fs::path& to, const std::function<bool(const fs::path&)>& later) {
+  for (const auto& name : entriesOf(from)) {
+    if (later(name)) continue;
+    if (isFolder(from / name) && isFolder(to / name)) {
+      moveAll(from / name, to / name, [](const auto&) { return false; });
+      fs::remove(from / name);
+    } else
+      moveTo(from / name, to / name);
+  }
+}
+
+/// Removes the files listed, `first` before all and the manifest after all, and the folders that are empty then. A folder of ours that has
+/// become a link leads elsewhere: nothing is removed behind it.
+void removeListed(const fs::path& folder, const Manifest& manifest, const fs::path& first) {
+  std::set<fs::path> real{""};
+  for (const auto& inside : manifest.folders())  // parents come before what is in them
+    if (real.contains(inside.parent_path()) && isFolder(folder / inside)) real.insert(inside);
+  const auto removeFile = [&](const fs::path& file) {
+    // what has become a folder is the user's
+    if (unlink((folder / file).c_str()) != 0 && errno != ENOENT && errno != EISDIR && errno != EPERM)
+      throw WriteError(cannotWrite(folder / file, errno));
+  };
+  if (manifest.files().contains(first)) removeFile(first);
+  for (const auto& file : manifest.files())
+    if (real.contains(file.parent_path()) && file != Manifest::name) removeFile(file);
+  for (auto inside = real.rbegin(); inside != real.rend(); ++inside)
+    if (!inside->empty()) rmdir((folder / *inside).c_str());  // unless something of the user's is in it
+  sync(folder);
+  removeFile(Manifest::name);
+}
+
+/// Whether a folder of ours holds something that is not.
+bool holdsMore(const fs::path& folder, const fs::path& inside, const Manifest& ours) {
+  for (const auto& name : entriesOf(folder / inside)) {
+    const fs::path path = inside / name;
+    const bool listed =
+        isFolder(folder / path) ? ours.folders().contains(path) && !holdsMore(folder, path, ours) : ours.files().contains(path);
+    if (!listed) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+template <class Action>
+void Folder::onFirst(const Action& action) const {
+  onFirstRank(comm_, head_, [&] {
+    try {
+      action();
+    } catch (const fs::filesystem_error& error) {
+      throw WriteError(cannotWrite(error.path1(), error.code().value()));
+    }
+  });
+}
+
+Folder::Folder(MPI_Comm comm, Naming naming, fs::path path)
+    : comm_(comm),
+      naming_(std::move(naming)),
+      head_("option " + naming_.option + ": "),
+      path_(path.has_filename() ? std::move(path) : path.parent_path()),
+      staging_(path_ / ".partial"),
+      complete_(path_ / ".complete") {
+  lastAct_ = std::make_unique<LastAct>([this] { tidy(patience); });
+  try {
+    onFirst([&] { make(); });
+    check(MPI_Bcast(&made_, 1, MPI_INT, 0, comm_));
+    lock_.take(comm_, path_, head_);
+    onFirst([&] {
+      const EndingWaits whole;
+      clear();
+      requireFree(naming_.mayWrite, earlier());
+    });
+  } catch (...) {
+    tidy();
+    throw;
+  }
+}
+
+Folder::~Folder() {
+  const EndingWaits whole;
+  lastAct_.reset();
+  tidy();
+}
+
+void Folder::make() {
+  const EndingWaits whole;
+  std::vector<fs::path> missing;
+  for (fs::path folder = path_; !folder.empty() && !fs::exists(folder); folder = folder.parent_path()) missing.push_back(folder);
+  for (auto folder = missing.rbegin(); folder != missing.rend(); ++folder) made_ += fs::create_directory(*folder);
+  if (!fs::is_directory(path_)) throw WriteError(cannotWrite(path_, ENOTDIR));
+}
+
+/// What a run that was killed has left.
+void Folder::clear() {
+  if (fs::exists(fs::symlink_status(staging_)) && !isFolder(staging_)) throw WriteError(inTheWay(staging_));
+  fs::remove_all(staging_);
+  if (fs::exists(fs::symlink_status(complete_))) replace();
+}
+
+/// The last rank alone, so that nothing is taken from under the hands of another one.
+void Folder::tidy(std::chrono::milliseconds patience) {
+  const EndingWaits whole;
+  const auto asLast = [&] {
+    std::error_code ignored;
+    fs::remove_all(staging_, ignored);
+  };
+  lock_.release(asLast, patience);
+  // only what has stayed empty
+  for (fs::path folder = path_; made_ > 0 && rmdir(folder.c_str()) == 0; --made_) folder = folder.parent_path();
+}
+
+/// The files of the earlier run.
+Manifest Folder::earlier() const {
+  if (const auto manifest = Manifest::read(path_)) return *manifest;
+  return naming_.former(path_);
+}
+
+void Folder::requireFree(const std::function<bool(const fs::path&)>& writes, const Manifest& ours, const fs::path& inside) const {
+  for (const auto& name : entriesOf(path_ / inside)) {
+    const fs::path path = inside / name;
+    if (!writes(path)) continue;
+    const bool folder = isFolder(path_ / path);
+    if (!(folder ? ours.folders() : ours.files()).contains(path)) throw WriteError(inTheWay(path_ / path));
+    if (folder) requireFree(writes, ours, path);
+  }
+}
+
+void Folder::stage() {
+  onFirst([&] {
+    const EndingWaits whole;
+    fs::create_directory(staging_);
+  });
+}
+
+void Folder::commit() {
+  onFirst([&] {
+    Manifest fresh = Manifest::of(staging_);
+    const Manifest old = earlier();
+    for (const auto& folder : old.folders())
+      if (isFolder(path_ / folder) && holdsMore(path_, folder, old)) fresh.keep(folder);
+    writeFile(staging_ / Manifest::name, fresh.text());
+    for (const auto& file : fresh.files()) sync(staging_ / file);
+    sync(staging_);
+    const EndingWaits whole;
+    requireFree([&](const fs::path& path) { return fresh.lists(path); }, old);
+    if (!old.files().empty() && !fs::exists(path_ / Manifest::name)) {
+      // What a version without manifests left is listed, so that its removal can be taken up again.
+      const fs::path list = staging_ / "former";
+      writeFile(list, old.text());
+      fs::rename(list, path_ / Manifest::name);
+    }
+    fs::rename(staging_, complete_);
+    sync(path_);
+    replace();
+  });
+}
+
+/// Puts what is in .complete into its place; each step, once done, is not found to be done again.
+void Folder::replace() const {
+  const fs::path manifest = complete_ / Manifest::name, last = complete_ / naming_.last;
+  if (!isFolder(complete_) || (!Manifest::read(complete_) && !fs::exists(last) && !fs::is_empty(complete_)))
+    throw WriteError(inTheWay(complete_));
+  if (fs::exists(manifest)) {
+    if (const auto old = Manifest::read(path_)) removeListed(path_, *old, naming_.last);
+    moveAll(complete_, path_, [&](const fs::path& name) { return name == Manifest::name || name == naming_.last; });
+    sync(path_);
+    moveTo(manifest, path_ / Manifest::name);
+  }
+  if (fs::exists(last)) moveTo(last, path_ / naming_.last);
+  fs::remove(complete_);
+  sync(path_);
+}
+
+}  // namespace squeal::output

@@ -1,0 +1,96 @@
+#include "petsc/termination.hpp"
+
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include "petsc/check.hpp"
+
+namespace squeal {
+namespace {
+
+constexpr int endings[] = {SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGXCPU, SIGUSR1, SIGUSR2};
+
+/// Held while last acts are registered or done, and while an ending has to wait. Recursive: such work may fail and abort.
+std::recursive_mutex& gate() {
+  static std::recursive_mutex mutex;
+  return mutex;
+}
+
+std::vector<const std::function<void()>*>& acts() {
+  static std::vector<const std::function<void()>*> list;
+  return list;
+}
+
+int signalPipe[2] = {-1, -1};
+
+/// All that a handler may do: memory or a lock in use by the interrupted code must not be touched here.
+extern "C" void passOn(int signal) {
+  const auto byte = static_cast<unsigned char>(signal);
+  [[maybe_unused]] const auto written = write(signalPipe[1], &byte, 1);
+}
+
+void awaitSignal(int rank) {
+  unsigned char byte = 0;
+  while (read(signalPipe[0], &byte, 1) != 1)
+    if (errno != EINTR) return;
+  const int signal = byte;
+  const std::lock_guard lock(gate());
+  performLastActs();
+  if (rank == 0) std::fprintf(stderr, "squeal: error: ended by signal %d (%s)\n", signal, strsignal(signal));
+  std::signal(signal, SIG_DFL);
+  raise(signal);
+}
+
+}  // namespace
+
+LastAct::LastAct(std::function<void()> act) : act_(std::move(act)) {
+  const std::lock_guard lock(gate());
+  acts().push_back(&act_);
+}
+
+LastAct::~LastAct() {
+  const std::lock_guard lock(gate());
+  std::erase(acts(), &act_);
+}
+
+EndingWaits::EndingWaits() { gate().lock(); }
+EndingWaits::~EndingWaits() { gate().unlock(); }
+
+void performLastActs() noexcept {
+  const std::lock_guard lock(gate());
+  for (const auto* act : acts()) try {
+      (*act)();
+    } catch (...) {  // the run is over; what is left behind is put away by the next one
+    }
+}
+
+SignalWatch::SignalWatch() {
+  for (int signal : endings) {
+    struct sigaction now {};
+    sigaction(signal, nullptr, &now);
+    if (now.sa_handler == SIG_IGN) ignored_ |= 1UL << signal;
+  }
+}
+
+void SignalWatch::begin(int rank) {
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  if (pipe2(signalPipe, O_CLOEXEC) != 0) throw Error("no pipe for signals can be made: " + std::string(std::strerror(errno)));
+  std::thread(awaitSignal, rank).detach();
+  struct sigaction action {};
+  action.sa_flags = SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  for (int signal : endings) {
+    action.sa_handler = ignored_ & (1UL << signal) ? SIG_IGN : passOn;
+    sigaction(signal, &action, nullptr);
+  }
+}
+
+}  // namespace squeal

@@ -1,0 +1,210 @@
+// Results of an earlier run, and files of the user, against everything that can happen to a run.
+#include <sys/resource.h>
+
+#include <future>
+#include <nlohmann/json.hpp>
+
+#include "support/bad_input.hpp"
+#include "support/started.hpp"
+
+namespace squeal::test {
+namespace {
+
+const Files mine{{"vtk/mine.vtu", "mine"},
+                 {"options_copy.txt", "mine"},
+                 {"stability_mine.png", "mine"},
+                 {"steady_notes.csv", "mine"},
+                 {"pictures/squeal.txt", "mine"}};
+
+void put(const fs::path& folder, const Files& files) {
+  for (const auto& [name, content] : files) writeText(folder / name, content);
+}
+
+/// A folder of results with files of the user among them, made once and copied.
+const fs::path& earlierResults() {
+  static const fs::path folder = [] {
+    const ProgramRun run = runProgram("results_kept/earlier", 2, commandLine(layer), 60);
+    if (run.exitCode != 0) throw std::runtime_error(run.error);
+    put(run.folder, mine);
+    return run.folder;
+  }();
+  return folder;
+}
+
+/// The same in a place of its own.
+fs::path copyOfEarlier(const std::string& name) {
+  const fs::path from = earlierResults();
+  fs::remove_all(placeFor(name));
+  fs::create_directories(placeFor(name));
+  fs::copy(from, placeFor(name) / "results", fs::copy_options::recursive);
+  return placeFor(name) / "results";
+}
+
+/// The files that a manifest lists, itself among them.
+std::vector<std::string> listed(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::istringstream text(contentOf(folder / "manifest.txt"));
+  std::string line;
+  std::getline(text, line);
+  while (std::getline(text, line))
+    if (line.back() != '/') names.push_back(line);
+  return names;
+}
+
+void expectOnly(const fs::path& folder, const std::vector<std::string>& results, const Files& ofTheUser) {
+  Files files = filesIn(folder);
+  for (const auto& [name, content] : ofTheUser) {
+    EXPECT_EQ(files.count(name) ? files[name] : "gone", content) << name;
+    files.erase(name);
+  }
+  std::vector<std::string> expected = results;
+  std::sort(expected.begin(), expected.end());
+  EXPECT_EQ(namesOf(files), expected);
+}
+
+// --- what goes and what stays ---
+
+// It was emptied before the options were even read.
+TEST(ResultsKept, WhenARunFails) {
+  const std::vector<std::pair<std::string, Options>> failing{
+      {"mistyped", with(layer, {{"flutter_frictions", "0.2"}})},
+      {"value", with(layer, {{"material_layer_density", "-1"}})},
+      {"no_mesh", with(layer, {{"mesh_file", "meshes/nosuch.geo"}})},
+      {"late", with(layer, {{"modes_count", "100000"}})}};  // known when the mesh is read and assembled
+  std::vector<std::future<void>> runs;
+  const Files before = filesIn(earlierResults());
+  for (const auto& [name, options] : failing)
+    runs.push_back(std::async(std::launch::async, [&, name = "results_kept/failing_" + name, options = options] {
+      const fs::path folder = copyOfEarlier(name);
+      const ProgramRun run = runAgain(name, 2, commandLine(options), 60);
+      EXPECT_EQ(run.exitCode, 1) << name << run.error;
+      EXPECT_EQ(filesIn(folder), before) << name;
+    }));
+  for (auto& run : runs) run.get();
+}
+
+TEST(ResultsKept, NoFolderIsMadeForARunThatFails) {
+  const std::string name = "results_kept/none";
+  const ProgramRun run = runProgram(name, 2, commandLine(with(layer, {{"modes_count", "100000"}})), 60);
+  EXPECT_EQ(run.exitCode, 1);
+  EXPECT_FALSE(fs::exists(run.folder));
+}
+
+TEST(ResultsKept, ReplacedByExactlyThoseOfTheNewRun) {
+  const std::string name = "results_kept/replaced";
+  const fs::path folder = copyOfEarlier(name);
+  ProgramRun run = runAgain(name, 1, commandLine(with(layer, {{"flutter_friction", "0.1"}})), 60);
+  ASSERT_EQ(run.exitCode, 0) << run.error;
+  expectOnly(folder, listed(folder), mine);
+  EXPECT_TRUE(fs::exists(folder / "steady_0.1.csv"));
+  EXPECT_FALSE(fs::exists(folder / "steady_0.2.csv"));
+  EXPECT_FALSE(fs::exists(folder / "vtk" / "steady_friction_0.2.pvtu"));
+  EXPECT_EQ(nlohmann::json::parse(contentOf(folder / "summary.json")).at("ranks"), 1);
+  // Without fields vtk/ holds nothing but the user's file, and takes fields again later.
+  run = runAgain(name, 1, commandLine(with(layer, {{"report_fields", "off"}})), 60);
+  ASSERT_EQ(run.exitCode, 0) << run.error;
+  expectOnly(folder, listed(folder), mine);
+  EXPECT_FALSE(fs::exists(folder / "results.h5"));
+  run = runAgain(name, 1, commandLine(layer), 60);
+  ASSERT_EQ(run.exitCode, 0) << run.error;
+  expectOnly(folder, listed(folder), mine);
+  EXPECT_EQ(listed(folder).size(), filesIn(folder).size() - mine.size());
+}
+
+// Version 0.1.0 kept no manifest. Its results are known by summary.json and options.txt, its files by the names it documents.
+TEST(ResultsKept, OfTheVersionWithoutManifest) {
+  const std::string name = "results_kept/former";
+  const fs::path folder = copyOfEarlier(name);
+  fs::remove(folder / "manifest.txt");
+  put(folder, {{"stability.png", "plot"}, {"stability_map.png", "plot"}});
+  const Files more{{"steady_0.25.csv", "mine"}, {"vtk/steady_friction_0.25.pvtu", "mine"}};  // no point of that run
+  put(folder, more);
+  const ProgramRun run = runAgain(name, 1, commandLine(with(layer, {{"flutter_friction", "0.1"}})), 60);
+  ASSERT_EQ(run.exitCode, 0) << run.error;
+  Files all = mine;
+  all.insert(more.begin(), more.end());
+  expectOnly(folder, listed(folder), all);
+  EXPECT_FALSE(fs::exists(folder / "steady_0.2.csv"));
+  EXPECT_FALSE(fs::exists(folder / "stability.png"));
+}
+
+// What has the name of a result and is of no run: an error before work begins, which a line of the stage would show.
+TEST(ResultsKept, NothingOfTheUserIsOverwritten) {
+  std::vector<std::future<void>> runs;
+  for (const std::string file : {"options.txt", "vtk/mine.vtu", "steady_0.2.csv", "results.h5/mine", "summary.json"})
+    runs.push_back(std::async(std::launch::async, [file] {
+      const std::string name = "results_kept/in_the_way_" + fs::path(file).begin()->string();
+      fs::remove_all(placeFor(name));
+      put(placeFor(name) / "results", {{file, "mine"}});
+      const ProgramRun run = runAgain(name, 2, commandLine(without(layer, {"quiet"})), 60);
+      EXPECT_EQ(run.exitCode, 1) << file;
+      const std::string message = messageOf(run);
+      EXPECT_NE(message.find("option -report_dir: "), std::string::npos) << run.error;
+      EXPECT_NE(message.find((run.folder / *fs::path(file).begin()).string() + " is in the way"), std::string::npos) << run.error;
+      EXPECT_EQ(run.out, "") << file;
+      EXPECT_EQ(filesIn(run.folder), (Files{{file, "mine"}}));
+    }));
+  for (auto& run : runs) run.get();
+}
+
+// --- two at a time ---
+
+const Options slow = with(without(layer, {"quiet"}), {{"mesh_set", "nx=48,ny=12"}, {"modes_count", "40"}, {"report_frames", "60"}});
+
+TEST(ResultsKept, OneRunAtATimeInAFolder) {
+  const std::string name = "results_kept/two";
+  const fs::path folder = copyOfEarlier(name);
+  Started one(name, 2, commandLine(slow));
+  ASSERT_TRUE(one.printed("elasticity"));
+  fs::create_directories(placeFor("results_kept/second"));
+  const fs::path error = placeFor("results_kept/second") / "stderr.txt";
+  const std::string command = "cd '" SQUEAL_SOURCE_DIR "' && '" SQUEAL_MPIEXEC "' 2 '" SQUEAL_EXECUTABLE "' " + commandLine(layer) +
+                              " -report_dir '" + folder.string() + "/../results' 2>'" + error.string() + "'";
+  const int status = std::system(command.c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 1);
+  EXPECT_NE(contentOf(error).find("squeal: error: option -report_dir: another run is writing to "), std::string::npos)
+      << contentOf(error);
+  const ProgramRun run = one.finished();
+  EXPECT_EQ(run.exitCode, 0) << run.error;
+  expectOnly(folder, listed(folder), mine);
+}
+
+// --- a run that is ended ---
+
+struct Ending {
+  const char* name;
+  int signal, rank;  ///< -1: mpirun
+  const char* stage;
+};
+
+/// Ends a run after the first line of a stage, and expects the earlier results as they were; then the next run works.
+void expectKept(const Ending& ending) {
+  const std::string name = std::string("results_kept/") + ending.name;
+  SCOPED_TRACE(name);
+  const fs::path folder = copyOfEarlier(name);
+  const Files before = filesIn(folder);
+  Started run(name, 2, commandLine(slow));
+  const bool writing = std::string(ending.stage) == "report";  // its line stands at its end
+  ASSERT_TRUE(writing ? waitUntil([&] { return fs::exists(folder / ".partial/vtk"); }) : run.printed(ending.stage));
+  ASSERT_EQ(kill(ending.rank < 0 ? run.mpirun() : run.rank(ending.rank), ending.signal), 0);
+  const ProgramRun ended = run.finished();
+  EXPECT_NE(ended.exitCode, 0);
+  EXPECT_NE(ended.exitCode, 124) << "it hangs";
+  EXPECT_EQ(ended.error.find("PETSC ERROR"), std::string::npos) << ended.error;
+  EXPECT_EQ(filesIn(folder), before);
+  const ProgramRun again = runAgain(name, 1, commandLine(layer), 60);
+  EXPECT_EQ(again.exitCode, 0) << again.error;
+  expectOnly(folder, listed(folder), mine);
+}
+
+TEST(ResultsKept, WhenARunIsEnded) {
+  earlierResults();
+  std::vector<std::future<void>> runs;
+  for (const Ending& ending : {Ending{"kill_rank_0", SIGKILL, 0, "report"}, Ending{"kill_rank_1", SIGKILL, 1, "elasticity"},
+                               Ending{"terminate", SIGTERM, -1, "modes"}, Ending{"interrupt", SIGINT, -1, "report"}})
+    runs.push_back(std::async(std::launch::async, expectKept, ending));
+  for (auto& run : runs) run.get();
+}
+
+}  // namespace
+}  // namespace squeal::test

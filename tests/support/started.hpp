@@ -1,0 +1,137 @@
+#pragma once
+/// A run of the program that a test does something to while it runs.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <functional>
+#include <thread>
+
+#include "support/program.hpp"
+
+namespace squeal::test {
+
+/// Files below a folder with their content; the content of a link is where it leads.
+using Files = std::map<std::string, std::string>;
+
+inline Files filesIn(const fs::path& folder) {
+  Files files;
+  if (!fs::exists(folder)) return files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string name = entry.path().lexically_relative(folder);
+    if (entry.is_symlink())
+      files[name] = "-> " + fs::read_symlink(entry.path()).string();
+    else if (!entry.is_directory())
+      files[name] = contentOf(entry.path());
+  }
+  return files;
+}
+
+inline std::vector<std::string> namesOf(const Files& files) {
+  std::vector<std::string> names;
+  for (const auto& [name, content] : files) names.push_back(name);
+  return names;
+}
+
+/// True as soon as the condition holds, false after the time limit.
+inline bool waitUntil(const std::function<bool()>& condition, double seconds = 60) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return true;
+}
+
+/// mpirun with the program, its results in `name`/results, where what lies there stays.
+class Started {
+ public:
+  Started(const std::string& name, int ranks, const std::string& options) : place_(placeFor(name)) {
+    fs::create_directories(place_);
+    for (const auto& file : {out(), error()}) writeText(file, "");
+    const std::string command = "cd '" SQUEAL_SOURCE_DIR "' && exec '" SQUEAL_MPIEXEC "' " + std::to_string(ranks) +
+                                " '" SQUEAL_EXECUTABLE "' " + options + " -report_dir '" + folder().string() + "' >'" +
+                                out().string() + "' 2>'" + error().string() + "'";
+    process_ = fork();
+    if (process_ == 0) {
+      setpgid(0, 0);  // as a shell does: a signal for the test is none for the run
+      execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+      _exit(127);
+    }
+  }
+  ~Started() {
+    if (!ended_) kill(process_, SIGKILL);
+    if (!ended_) waitpid(process_, nullptr, 0);
+  }
+  Started(const Started&) = delete;
+  Started& operator=(const Started&) = delete;
+
+  fs::path folder() const { return place_ / "results"; }
+  pid_t mpirun() const { return process_; }
+  /// The process of a rank; 0: there is none (yet).
+  pid_t rank(int wanted) const {
+    for (const auto& [process, rank] : ranks())
+      if (rank == wanted) return process;
+    return 0;
+  }
+  /// Waits until the program has printed a line that begins so.
+  bool printed(const std::string& begin) const {
+    return waitUntil([&] { return ended() || ("\n" + contentOf(out())).find("\n" + begin) != std::string::npos; }) && !ended();
+  }
+  bool ended() const {
+    int status = 0;
+    if (!ended_ && waitpid(process_, &status, WNOHANG) == process_) {
+      ended_ = true;
+      exitCode_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    }
+    return ended_;
+  }
+  /// Waits for the end of mpirun and of the ranks, for which mpirun does not wait when it is ended by a signal.
+  ProgramRun finished(double seconds = 60) {
+    const auto all = ranks();
+    ProgramRun run;
+    run.folder = folder();
+    run.exitCode = waitUntil([&] { return ended(); }, seconds) ? exitCode_ : 124;
+    const bool gone =
+        waitUntil([&] { return std::none_of(all.begin(), all.end(), [](const auto& item) { return isProgram(item.first); }); }, 20);
+    EXPECT_TRUE(gone) << "a rank is left running";
+    run.out = contentOf(out());
+    run.error = contentOf(error());
+    return run;
+  }
+
+ private:
+  fs::path out() const { return place_ / "stdout.txt"; }
+  fs::path error() const { return place_ / "stderr.txt"; }
+  static std::string procFile(pid_t process, const char* name) {
+    std::ifstream file("/proc/" + std::to_string(process) + "/" + name, std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+  static bool isProgram(pid_t process) { return procFile(process, "cmdline").rfind(SQUEAL_EXECUTABLE, 0) == 0; }
+  std::vector<std::pair<pid_t, int>> ranks() const {
+    std::vector<std::pair<pid_t, int>> found;
+    for (const auto& entry : fs::directory_iterator("/proc")) {
+      const std::string name = entry.path().filename();
+      if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+      const auto process = static_cast<pid_t>(std::stol(name));
+      if (procFile(process, "status").find("\nPPid:\t" + std::to_string(process_) + "\n") == std::string::npos ||
+          !isProgram(process))
+        continue;
+      const std::string environment = procFile(process, "environ"), key = "OMPI_COMM_WORLD_RANK=";
+      if (const auto begin = environment.find(key); begin != std::string::npos)
+        found.emplace_back(process, std::stoi(environment.substr(begin + key.size())));
+    }
+    return found;
+  }
+
+  fs::path place_;
+  pid_t process_ = 0;
+  mutable bool ended_ = false;
+  mutable int exitCode_ = -1;
+};
+
+}  // namespace squeal::test
