@@ -204,6 +204,7 @@ void writeHdf5(const Analysis& analysis, const std::filesystem::path& folder) {
       }
     }
   }
+  file.close();
 }
 
 }  // namespace squeal::report

@@ -1,43 +1,101 @@
 #include "report/hdf5.hpp"
 
 #include <gmsh.h>
-#include <petscviewerhdf5.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <fstream>
-#include <system_error>
+#include <array>
+#include <optional>
+#include <utility>
 
+#include "output/file.hpp"
 #include "petsc/check.hpp"
+#include "petsc/hdf5.hpp"
 #include "petsc/text.hpp"
+#include "report/hdf5_driver.hpp"
 
 namespace squeal::report {
 namespace {
 
-/// Collective. HDF5 would end the run with its own error stack: rank 0 tries first whether the file can be made.
-void requireWritable(MPI_Comm comm, const std::filesystem::path& path) {
-  int rank = 0;
-  check(MPI_Comm_rank(comm, &rank));
-  std::string message;
-  errno = 0;
-  if (rank == 0 && !std::ofstream(path, std::ios::trunc))
-    message = "option -report_dir: cannot write " + path.string() + ": " + std::generic_category().message(errno);
-  failTogether(comm, message);
+const std::string blame = "option -report_dir: ";
+
+template <class Number>
+hid_t typeOf() {
+  if (std::is_floating_point_v<Number>) return H5T_NATIVE_DOUBLE;
+  return sizeof(Number) == 4 ? H5T_NATIVE_INT32 : H5T_NATIVE_INT64;
 }
 
-/// Datasets written while it lives go into `group`.
-class InGroup {
- public:
-  InGroup(PetscViewer viewer, const std::string& group) : viewer_(viewer) {
-    check(PetscViewerHDF5PushGroup(viewer, group.c_str()));
+/// The object of this name, a group made if there is none.
+hid_t openOrMake(hid_t file, const std::string& object) {
+  for (std::size_t end = object.find('/', 1);; end = object.find('/', end + 1)) {
+    const std::string path = object.substr(0, end);
+    const auto exists = H5Lexists(file, path.c_str(), H5P_DEFAULT);
+    if (exists < 0) return -1;
+    if (!exists && !hdf5::GroupId(H5Gcreate2(file, path.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT)).valid()) return -1;
+    if (end == std::string::npos) return H5Oopen(file, path.c_str(), H5P_DEFAULT);
   }
-  ~InGroup() { check(PetscViewerHDF5PopGroup(viewer_)); }
-  InGroup(const InGroup&) = delete;
-  InGroup& operator=(const InGroup&) = delete;
+}
+
+/// On rank 0, after a call of the library. Error: output::WriteError.
+void require(bool done, const std::filesystem::path& path) {
+  if (!done || keptError() != 0) throw output::WriteError(output::cannotWrite(path, keptError()));
+}
+
+/// A table [row][column] of which rows are written in turn, on one rank. Error: output::WriteError.
+class Rows {
+ public:
+  Rows(hid_t file, const std::filesystem::path& path, const std::string& name, hid_t type, hsize_t rows, hsize_t columns)
+      : path_(path), type_(type), columns_(columns), dataset_(create(file, name, rows)) {
+    require(dataset_.valid(), path_);
+  }
+  void write(const void* values, hsize_t rows) {
+    if (rows == 0) return;
+    const std::array<hsize_t, 2> begin{done_, 0}, count{rows, columns_};
+    const hdf5::SpaceId here(H5Screate_simple(2, count.data(), nullptr)), there(H5Dget_space(dataset_));
+    H5Sselect_hyperslab(there, H5S_SELECT_SET, begin.data(), nullptr, count.data(), nullptr);
+    require(H5Dwrite(dataset_, type_, here, there, H5P_DEFAULT, values) >= 0, path_);
+    done_ += rows;
+  }
 
  private:
-  PetscViewer viewer_;
+  hid_t create(hid_t file, const std::string& name, hsize_t rows) const {
+    const std::array<hsize_t, 2> shape{rows, columns_};
+    const hdf5::SpaceId space(H5Screate_simple(2, shape.data(), nullptr));
+    const hdf5::PropertiesId groups(H5Pcreate(H5P_LINK_CREATE));
+    H5Pset_create_intermediate_group(groups, 1);
+    return H5Dcreate2(file, name.c_str(), type_, space, groups, H5P_DEFAULT, H5P_DEFAULT);
+  }
+  const std::filesystem::path& path_;
+  hid_t type_;
+  hsize_t columns_, done_ = 0;
+  hdf5::DatasetId dataset_;
 };
+
+/// Collective. Hands the rows of all ranks, in their order and in pieces, to `take(values, entries)` on rank 0.
+template <class Number, class Take>
+void inTurn(MPI_Comm comm, std::span<const Number> mine, std::size_t columns, const Take& take) {
+  const std::size_t most = std::max<std::size_t>(1, (1 << 20) / columns) * columns;  // entries of a piece: some megabytes
+  const auto bytes = [](std::size_t entries) { return static_cast<int>(entries * sizeof(Number)); };
+  constexpr int tag = 0;
+  int rank = 0, size = 1;
+  check(MPI_Comm_rank(comm, &rank));
+  check(MPI_Comm_size(comm, &size));
+  const unsigned long long count = mine.size();
+  std::vector<unsigned long long> counts(static_cast<std::size_t>(size));
+  check(MPI_Gather(&count, 1, MPI_UNSIGNED_LONG_LONG, counts.data(), 1, MPI_UNSIGNED_LONG_LONG, 0, comm));
+  if (rank != 0) {
+    for (; !mine.empty(); mine = mine.subspan(std::min(most, mine.size())))
+      check(MPI_Send(mine.data(), bytes(std::min(most, mine.size())), MPI_BYTE, 0, tag, comm));
+    return;
+  }
+  take(mine.data(), mine.size());
+  std::vector<Number> piece(most);
+  for (int other = 1; other < size; ++other)
+    for (std::size_t left = counts[static_cast<std::size_t>(other)]; left > 0; left -= std::min(most, left)) {
+      const std::size_t entries = std::min(most, left);
+      check(MPI_Recv(piece.data(), bytes(entries), MPI_BYTE, other, tag, comm, MPI_STATUS_IGNORE));
+      take(piece.data(), entries);
+    }
+}
 
 /// Collective. The gmsh element types of the whole mesh, ascending: a rank may lack cells of a type that others have.
 std::vector<int> elementTypes(const mesh::Mesh& mesh) {
@@ -54,12 +112,29 @@ std::vector<int> elementTypes(const mesh::Mesh& mesh) {
 
 }  // namespace
 
-Hdf5File::Hdf5File(MPI_Comm comm, const std::filesystem::path& path) : comm_(comm) {
-  requireWritable(comm, path);
-  check(PetscViewerHDF5Open(comm, path.c_str(), FILE_MODE_WRITE, viewer_.out()));
-  // a dataset keeps its two dimensions where there is one component or column
-  check(PetscViewerHDF5SetBaseDimension2(viewer_, PETSC_TRUE));
-  check(PetscViewerHDF5SetCollective(viewer_, PETSC_TRUE));
+/// `action()` on rank 0 without a word of the library's own; false: it could not be done.
+template <class Action>
+void Hdf5File::onFirst(const Action& action) {
+  onFirstRank(comm_, blame, [&] {
+    const hdf5::Silence silence;
+    require(action(), path_);
+  });
+}
+
+Hdf5File::Hdf5File(MPI_Comm comm, const std::filesystem::path& path) : comm_(comm), path_(path) {
+  onFirst([&] {
+    const hdf5::PropertiesId access(keepingErrorsProperties());
+    return (file_ = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access)) >= 0;
+  });
+}
+
+Hdf5File::~Hdf5File() {
+  const hdf5::Silence silence;
+  if (file_ >= 0) H5Fclose(file_);
+}
+
+void Hdf5File::close() {
+  onFirst([&] { return H5Fflush(file_, H5F_SCOPE_LOCAL) >= 0 && H5Fclose(std::exchange(file_, -1)) >= 0; });
 }
 
 void Hdf5File::writeMesh(const mesh::Mesh& mesh) {
@@ -67,10 +142,10 @@ void Hdf5File::writeMesh(const mesh::Mesh& mesh) {
   std::vector<double> coordinates;
   for (std::size_t node = 0; node < owned; ++node)
     coordinates.insert(coordinates.end(), mesh.coordinates[node].begin(), mesh.coordinates[node].end());
-  writeReals("/mesh", "coordinates", 3, coordinates);
-  writeIntegers("/mesh", "node_tag", 1, {mesh.nodeTag.begin(), mesh.nodeTag.begin() + mesh.ownedNodes});
-  writeIntegers("/mesh", "node_part", 1, {mesh.nodePart.begin(), mesh.nodePart.begin() + mesh.ownedNodes});
-  writeInteger("/mesh", "dimension", mesh.dimension);
+  writeRows<double>("/mesh", "coordinates", 3, coordinates);
+  writeRows<PetscInt>("/mesh", "node_tag", 1, std::span(mesh.nodeTag).first(owned));
+  writeRows<int>("/mesh", "node_part", 1, std::span(mesh.nodePart).first(owned));
+  writeAttribute("/mesh", "dimension", mesh.dimension);
   writeAttribute("/mesh", "bodies", joined(mesh.bodies, ","));
   writeAttribute("/mesh", "parts", joined(mesh.partName, ","));
   for (int type : elementTypes(mesh)) writeCells(mesh, type);
@@ -90,10 +165,10 @@ void Hdf5File::writeCells(const mesh::Mesh& mesh, int type) {
     tags.insert(tags.end(), block.tag.begin(), block.tag.end());
   }
   const std::string group = "/mesh/cells_" + std::to_string(type);
-  writeIntegers(group, "nodes", nodesPerCell, nodes);
-  writeIntegers(group, "body", 1, bodies);
-  writeIntegers(group, "tag", 1, tags);
-  writeInteger(group, "gmsh_element_type", type);
+  writeRows<PetscInt>(group, "nodes", nodesPerCell, nodes);
+  writeRows<PetscInt>(group, "body", 1, bodies);
+  writeRows<PetscInt>(group, "tag", 1, tags);
+  writeAttribute(group, "gmsh_element_type", type);
   writeAttribute(group, "gmsh_element_name", name);
 }
 
@@ -103,15 +178,9 @@ void Hdf5File::writeNodeVector(const std::string& group, const std::string& name
   check(VecGetLocalSize(values, &localSize));
   const PetscScalar* array = nullptr;
   check(VecGetArrayRead(values, &array));
-  {
-    // The dataset takes its name from the vector: a view of the same array is named, so that the caller's keeps its own.
-    OwnedVec view;
-    check(VecCreateMPIWithArray(comm_, components, localSize, PETSC_DETERMINE, array, view.out()));
-    check(PetscObjectSetName(reinterpret_cast<PetscObject>(view.get()), name.c_str()));
-    const InGroup inside(viewer_, group);
-    check(VecView(view, viewer_));
-  }
+  const std::vector<double> copy(array, array + localSize);
   check(VecRestoreArrayRead(values, &array));
+  writeRows<double>(group, name, components, copy);
 }
 
 void Hdf5File::writeTable(const std::string& group, const std::string& name, const std::vector<std::string>& columns,
@@ -124,37 +193,51 @@ void Hdf5File::writeTable(const std::string& group, const std::string& name, con
     values.insert(values.end(), row.begin(), row.end());
   }
   failTogether(comm_, message);
-  writeReals(group, name, static_cast<int>(columns.size()), values);
+  writeRows<double>(group, name, static_cast<int>(columns.size()), values);
   writeAttribute(group + "/" + name, "columns", joined(columns, ","));
 }
 
+template <class Value>
+void Hdf5File::writeValue(const std::string& object, const std::string& name, hid_t type, const Value* value) {
+  onFirst([&] {
+    const hdf5::ObjectId owner(openOrMake(file_, object));
+    const hdf5::SpaceId single(H5Screate(H5S_SCALAR));
+    const hdf5::AttributeId attribute(owner.valid() ? H5Acreate2(owner, name.c_str(), type, single, H5P_DEFAULT, H5P_DEFAULT) : -1);
+    return attribute.valid() && H5Awrite(attribute, type, value) >= 0;
+  });
+}
+
 void Hdf5File::writeAttribute(const std::string& object, const std::string& name, double value) {
-  check(PetscViewerHDF5WriteAttribute(viewer_, object.c_str(), name.c_str(), PETSC_DOUBLE, &value));
+  writeValue(object, name, H5T_NATIVE_DOUBLE, &value);
 }
 
 void Hdf5File::writeAttribute(const std::string& object, const std::string& name, const std::string& text) {
-  check(PetscViewerHDF5WriteAttribute(viewer_, object.c_str(), name.c_str(), PETSC_STRING, text.c_str()));
+  const hdf5::TypeId type(H5Tcopy(H5T_C_S1));
+  H5Tset_size(type, text.size() + 1);
+  writeValue(object, name, type, text.c_str());
 }
 
-void Hdf5File::writeInteger(const std::string& object, const std::string& name, PetscInt value) {
-  check(PetscViewerHDF5WriteAttribute(viewer_, object.c_str(), name.c_str(), PETSC_INT, &value));
+void Hdf5File::writeAttribute(const std::string& object, const std::string& name, PetscInt value) {
+  writeValue(object, name, typeOf<PetscInt>(), &value);
 }
 
-void Hdf5File::writeReals(const std::string& group, const std::string& name, int components, const std::vector<double>& values) {
-  OwnedVec vector;
-  check(
-      VecCreateMPIWithArray(comm_, components, static_cast<PetscInt>(values.size()), PETSC_DETERMINE, values.data(), vector.out()));
-  writeNodeVector(group, name, vector);
-}
-
-void Hdf5File::writeIntegers(const std::string& group, const std::string& name, int components,
-                             const std::vector<PetscInt>& values) {
-  OwnedIS set;
-  check(ISCreateGeneral(comm_, static_cast<PetscInt>(values.size()), values.data(), PETSC_USE_POINTER, set.out()));
-  check(ISSetBlockSize(set, components));
-  check(PetscObjectSetName(reinterpret_cast<PetscObject>(set.get()), name.c_str()));
-  const InGroup inside(viewer_, group);
-  check(ISView(set, viewer_));
+template <class Number>
+void Hdf5File::writeRows(const std::string& group, const std::string& name, int columns, std::span<const Number> values) {
+  unsigned long long total = values.size();
+  check(MPI_Allreduce(MPI_IN_PLACE, &total, 1, MPI_UNSIGNED_LONG_LONG, MPI_SUM, comm_));
+  const auto width = static_cast<hsize_t>(columns);
+  const hdf5::Silence silence;
+  std::optional<Rows> rows;
+  onFirstRank(comm_, blame, [&] { rows.emplace(file_, path_, group + "/" + name, typeOf<Number>(), total / width, width); });
+  std::string failure;  // the other ranks send all the same
+  inTurn(comm_, values, width, [&](const Number* piece, std::size_t entries) {
+    if (failure.empty()) try {
+        rows->write(piece, entries / width);
+      } catch (const output::WriteError& error) {
+        failure = blame + error.what();
+      }
+  });
+  failTogether(comm_, failure);
 }
 
 }  // namespace squeal::report

@@ -1,22 +1,32 @@
 #pragma once
-/// The results file: mesh, fields and tables in one HDF5 file, each rank writing its part.
+/// The results file: mesh, fields and tables in one HDF5 file.
+#include <hdf5.h>
 #include <petscvec.h>
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "mesh/mesh.hpp"
-#include "petsc/owned.hpp"
 
 namespace squeal::report {
 
-/// An HDF5 file open for writing; closed by the destructor. All methods are collective. Groups are absolute ("/modes") and made
-/// when first written to.
+/// An HDF5 file open for writing. All methods are collective. Groups are absolute ("/modes") and made when first written to.
+///
+/// Rank 0 alone writes; the others send it their parts, a piece at a time, so that it never holds more than its own part and a piece. Were
+/// each to write its part, a disc that is full for one of them would leave the others waiting inside the library.
 class Hdf5File {
  public:
-  /// Replaces the file if there is one; the folder must exist. Errors (all ranks): a file that cannot be made, naming -report_dir.
+  /// Replaces the file if there is one; the folder must exist. Errors of all methods (all ranks): what cannot be written, naming
+  /// -report_dir.
   Hdf5File(MPI_Comm comm, const std::filesystem::path& path);
+  /// Closes the file if close() has not, whether or not all of it could be written.
+  ~Hdf5File();
+  Hdf5File(const Hdf5File&) = delete;
+  Hdf5File& operator=(const Hdf5File&) = delete;
+  /// Writes what the library still keeps in memory.
+  void close();
 
   /// /mesh: `coordinates` [global node][3], `node_tag` and `node_part` [global node], attributes `dimension`, `bodies` and `parts`
   /// (names joined by commas). For each gmsh element type T of the mesh a group cells_T: `nodes` [cell][node] global nodes in
@@ -31,15 +41,20 @@ class Hdf5File {
   /// An attribute of the group or dataset `object`; the same value on all ranks.
   void writeAttribute(const std::string& object, const std::string& name, double value);
   void writeAttribute(const std::string& object, const std::string& name, const std::string& text);
+  void writeAttribute(const std::string& object, const std::string& name, PetscInt value);
 
  private:
-  void writeReals(const std::string& group, const std::string& name, int components, const std::vector<double>& values);
-  void writeIntegers(const std::string& group, const std::string& name, int components, const std::vector<PetscInt>& values);
-  void writeInteger(const std::string& object, const std::string& name, PetscInt value);
+  template <class Action>
+  void onFirst(const Action& action);
+  template <class Number>
+  void writeRows(const std::string& group, const std::string& name, int columns, std::span<const Number> values);
+  template <class Value>
+  void writeValue(const std::string& object, const std::string& name, hid_t type, const Value* value);
   void writeCells(const mesh::Mesh& mesh, int type);
 
   MPI_Comm comm_;
-  OwnedViewer viewer_;
+  std::filesystem::path path_;
+  hid_t file_ = -1;  ///< on rank 0
 };
 
 }  // namespace squeal::report
