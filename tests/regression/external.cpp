@@ -6,6 +6,7 @@
 #include <complex>
 #include <nlohmann/json.hpp>
 
+#include "support/bad_input.hpp"
 #include "support/hdf5.hpp"
 #include "support/program.hpp"
 
@@ -207,6 +208,50 @@ TEST(External, ConverterOfSciPyFiles) {
     const Complex s(table.column("growth_rate_1_per_s").at(1), table.column("angular_frequency_rad_per_s").at(1));
     EXPECT_LT(std::abs(s * s + 2.0 - Complex(0, std::sqrt(1. / 3))), 1e-13) << target;
   }
+}
+
+/// The mass on a belt with its matrix of friction from `path`.
+Options beltWith(const fs::path& path) {
+  return {{"options_file", "options/external.yaml"}, {"matrices_friction_file", path.string()}, {"quiet", ""}};
+}
+
+// Each of them ran with other numbers, ended in a trace, or asked for the memory that a header names.
+TEST(External, DamagedFilesAreSaid) {
+  const fs::path place = placeFor("external/damaged");
+  const std::string head = "%%MatrixMarket matrix coordinate real general\n2 2 1\n";
+  const auto market = [&](const std::string& name, const std::string& text) {
+    writeText(place / name, text);
+    return beltWith(place / name);
+  };
+  // MATLAB's version 4: [[0, -4/3], [0, 0]] by columns, after a header of five integers and the name.
+  const std::int32_t words[] = {0, 2, 2, 0, 2};
+  const double values[] = {0, 0, -4. / 3, 0};
+  const std::string matlab = std::string(reinterpret_cast<const char*>(words), sizeof words) + std::string("f\0", 2) +
+                             std::string(reinterpret_cast<const char*>(values), sizeof values);
+  // PETSc: class, rows, columns, entries, the length of each row, columns, values; big-endian.
+  const auto petsc = [](const std::string& lengthsAndColumns) {
+    return std::string("\0\x12\x7b\x50\0\0\0\2\0\0\0\2\0\0\0\1", 16) + lengthsAndColumns + std::string(8, '\0');
+  };
+  const Options sound = market("sound.mat", matlab);
+  const std::vector<BadInput> inputs{
+      {"cut_mat",
+       market("cut.mat", matlab.substr(0, matlab.size() - 9)),
+       {"-matrices_friction_file", "cut.mat", "the file is cut short"}},
+      {"comma", market("comma.mtx", head + "1 2 4,9\n"), {"comma.mtx", "line 3: the value '4,9' is not a number"}},
+      {"petsc_column",
+       market("column.petsc", petsc(std::string("\0\0\0\1\0\0\0\0\0\0\0\7", 12))),
+       {"column.petsc", "row 0 (counted from 0) has an entry in column 7 of 2"}},
+      {"petsc_lengths",
+       market("lengths.petsc", petsc(std::string("\0\0\0\2\xff\xff\xff\xff\0\0\0\0", 12))),
+       {"lengths.petsc", "row 0 (counted from 0) has more entries than the header announces"}},
+      {"huge",
+       market("huge.mtx", "%%MatrixMarket matrix coordinate real general\n2000000000 2000000000 1\n1 2 4\n"),
+       {"huge.mtx", "2000000000 rows with 1 entries"}},
+      {"none", beltWith(place / "none.mtx"), {"none.mtx", "o such file"}},
+  };
+  for (const int ranks : {1, 2}) expectExplained(inputs, ranks);
+  const ProgramRun run = runProgram("external/version4", 2, commandLine(with(sound, {{"report_fields", "off"}})));
+  EXPECT_EQ(run.exitCode, 0) << run.error;
 }
 
 }  // namespace

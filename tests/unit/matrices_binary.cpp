@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <tuple>
 
 #include "support/hdf5_files.hpp"
 #include "support/matrix_files.hpp"
@@ -267,6 +268,24 @@ TEST(Hdf5, WhatWasNeverWritten) {
       {"elsewhere", around([](const auto& file) { file.dataset("k/data", H5T_NATIVE_DOUBLE, nullptr, {3}, {}, "/dev/null"); }),
        "its values lie in other files"},
   });
+}
+
+// The heap that holds the names of the root's objects, without an address or of another size: the HDF5 library reads beyond its arrays, or
+// asks for the memory that the word says.
+TEST(Hdf5, DamageThatTheLibraryDoesNotSurvive) {
+  const auto path = written("heap.h5", [](const auto& to) { Group{}(Hdf5File(to)); });
+  const std::string bytes = bytesOf(path);
+  const std::size_t heap = bytes.find("HEAP");
+  ASSERT_NE(heap, std::string::npos);
+  for (const auto& [name, at, word] : {std::tuple{"no_address.h5", 24, std::string(8, '\xff')},
+                                       {"size.h5", 8, std::string("\x58\0\0\0\0\0\0\x5a", 8)},
+                                       {"size_32.h5", 8, std::string("\xfb\xff\xff\xff\0\0\0\0", 8)}}) {
+    std::string damaged = bytes;
+    damaged.replace(heap + static_cast<std::size_t>(at), 8, word);
+    const std::string error = errorReading(writeFile(name, damaged));
+    EXPECT_TRUE(contains(error, std::string(name) + ": ")) << name << ": " << error;
+    EXPECT_FALSE(contains(error, "std::") || contains(error, "\n")) << error;
+  }
 }
 
 }  // namespace
