@@ -54,7 +54,7 @@ class Lanczos {
     check(MatDenseRestoreArray(w_, &w));
     apply();
     r_.assign(static_cast<std::size_t>(b_ * b_), 0.0);
-    orthonormalise();
+    orthonormalise(0);
     append();
   }
 
@@ -67,9 +67,15 @@ class Lanczos {
     apply();
     const Small h = orthogonalise(!restarted_);
     restarted_ = false;
+    double size = 0;  // of W before V was taken out of it, squared
+    for (PetscInt j = 0; j < b_; ++j) {
+      double sum = 0;
+      for (PetscInt i = 0; i < k_; ++i) sum += std::pow(h[static_cast<std::size_t>(j * k_ + i)], 2);
+      size = std::max(size, sum);
+    }
     for (PetscInt j = 0; j < b_; ++j)
       for (PetscInt i = 0; i < k_; ++i) t(i, k_ - b_ + j) = t(k_ - b_ + j, i) = h[static_cast<std::size_t>(j * k_ + i)];
-    orthonormalise();
+    orthonormalise(size);
   }
 
   void append() {
@@ -126,6 +132,15 @@ class Lanczos {
     restarted_ = true;
     std::fill(t_.begin(), t_.end(), 0.0);
     for (PetscInt j = 0; j < kept; ++j) t(j, j) = ritz.value[static_cast<std::size_t>(j)];
+  }
+
+  /// Room for `limit` vectors, at a restart: T is diagonal then.
+  void enlarge(PetscInt limit) {
+    Small larger(static_cast<std::size_t>(limit * limit), 0.0);
+    for (PetscInt j = 0; j < k_; ++j) larger[static_cast<std::size_t>(j * limit + j)] = t(j, j);
+    t_ = std::move(larger);
+    limit_ = limit;
+    v_.resize(static_cast<std::size_t>(rows_ * limit));
   }
 
   /// The k columns of V as a BV for vectors like those of `like`.
@@ -190,12 +205,12 @@ class Lanczos {
   }
 
   /// W = Q R with Qᵀ M Q = I by the eigenvectors of WᵀMW (Stathopoulos and Wu 2002), twice; Q replaces W. Directions that have
-  /// vanished (an invariant subspace is complete) are replaced by random ones orthogonal to V, with zero rows in R.
-  void orthonormalise() {
+  /// vanished beside `size`, the square of what W was before V was taken out of it (an invariant subspace is complete), are replaced
+  /// by random ones orthogonal to V, with zero rows in R.
+  void orthonormalise(double size) {
     const auto b = static_cast<std::size_t>(b_);
     r_.assign(b * b, 0.0);
     for (std::size_t i = 0; i < b; ++i) r_[i * b + i] = 1;
-    double largest = 0;
     int refills = 0;
     for (int pass = 0; pass < 3; ++pass) {
       massTimesW();
@@ -204,10 +219,10 @@ class Lanczos {
       Small gram = products(read, b_);
       check(MatDenseRestoreArrayRead(w_, &read));
       const auto d = symmetricEigen(gram, static_cast<int>(b));
-      largest = std::max(largest, d.back());
+      const double largest = std::max(d.back(), refills == 0 && pass == 0 ? size : 0);  // later W is scaled
       std::vector<bool> lost(b);
       bool any = false;
-      for (std::size_t j = 0; j < b; ++j) any |= lost[j] = !(d[j] > 1e-28 * largest) || !(d[j] > 0);
+      for (std::size_t j = 0; j < b; ++j) any |= lost[j] = !(d[j] > 1e-28 * largest);
       // W ← W U D^(−1/2), R ← D^(1/2) Uᵀ R
       Small transform(b * b), product(b * b, 0.0);
       for (std::size_t j = 0; j < b; ++j)
@@ -261,11 +276,15 @@ class Lanczos {
   std::uniform_real_distribution<double> uniform_{-1, 1};
 };
 
+/// Where a basis of the usual size converges at all, it does within this many restarts.
+constexpr int restartsBeforeGrowth = 4;
+
 }  // namespace
 
 LanczosResult blockLanczos(Mat k, Mat m, KSP solver, int count, int blockSize, double tolerance, int maxRestarts,
                            const std::function<void(int, int)>& progress) {
-  const PetscInt limit = lanczosVectors(count, blockSize);
+  PetscInt limit = lanczosVectors(count, blockSize), size = 0;
+  check(MatGetSize(k, &size, nullptr));
   Lanczos lanczos(k, m, solver, blockSize, limit);
   LanczosResult result;
   lanczos.start();
@@ -294,7 +313,8 @@ LanczosResult blockLanczos(Mat k, Mat m, KSP solver, int count, int blockSize, d
     next = lanczos.size() + every;
     if (lanczos.full()) {
       lanczos.contract(ritz, count + (limit - count) / 3);
-      ++result.restarts;
+      // Eigenvalues that lie close together, as those of a thin ring held at its hub, need a larger basis: more restarts do not help.
+      if (++result.restarts % restartsBeforeGrowth == 0 && 4 * limit <= size) lanczos.enlarge(limit *= 2);
       next = lanczos.size() + every;
     }
     lanczos.append();

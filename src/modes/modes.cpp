@@ -76,24 +76,31 @@ int countBelow(Mat k, Mat m, double sigma) {
   return static_cast<int>(inertia(shifted).negative);
 }
 
-/// A shift in the widest relative gap among the topmost modes, so that rounding cannot move an eigenvalue across it.
+/// Number of modes, at most all but one, above which the widest relative gap of the topmost ten begins, so that rounding cannot move an
+/// eigenvalue across it; below a multiple eigenvalue if these are all copies of it.
+std::size_t modesBelowGap(const std::vector<double>& w) {
+  constexpr double distinct = 1e-6;
+  std::size_t below = 0;
+  double widest = 0;
+  for (std::size_t i = w.size() - 1; i >= 1 && (i + 10 >= w.size() || widest < distinct); --i)
+    if (const double gap = w[i] / w[i - 1] - 1; gap > widest) widest = gap, below = i;
+  return widest < distinct ? 0 : below;
+}
+
+/// Counts the eigenvalues below a shift in that gap.
 void confirmCount(Mat k, Mat m, Modes& modes) {
   const auto& w = modes.angularFrequency;
   if (w.size() < 2) return;
-  std::size_t below = w.size() - 1;  // number of modes below the shift
-  double widest = 0;
-  for (std::size_t i = w.size() - 1; i >= 1 && i + 10 >= w.size(); --i)
-    if (const double gap = w[i] / w[i - 1] - 1; gap > widest) widest = gap, below = i;
-  modes.inertiaShift = 0.5 * (w[below] * w[below] + w[below - 1] * w[below - 1]);
+  const std::size_t below = modesBelowGap(w);
+  modes.inertiaShift = below > 0 ? 0.5 * (w[below] * w[below] + w[below - 1] * w[below - 1]) : 0.5 * w[0] * w[0];
   modes.inertiaCount = countBelow(k, m, modes.inertiaShift);
   modes.countConfirmed = modes.inertiaCount == static_cast<int>(below);
 }
 
-void requireConverged(int converged, int count) {
+void requireConverged(int converged, int count, const char* options) {
   if (converged < count)
-    throw Error(formatted(
-        "free vibration: only %d of %d modes converged; raise -modes_eps_max_it or -modes_eps_ncv, or loosen -modes_tolerance",
-        converged, count));
+    throw Error(
+        formatted("free vibration: only %d of %d modes converged; try %s, or loosen -modes_tolerance", converged, count, options));
 }
 
 /// Eigenvalues ascending and vectors, M-orthonormal, by SLEPc.
@@ -104,7 +111,7 @@ void solveByEps(const System& system, int count, Stage& stage, Modes& modes) {
   PetscInt converged = 0, iterations = 0;
   check(EPSGetConverged(eps, &converged));
   check(EPSGetIterationNumber(eps, &iterations));
-  requireConverged(static_cast<int>(converged), count);
+  requireConverged(static_cast<int>(converged), count, "a larger -modes_eps_max_it or -modes_eps_ncv");
   OwnedVec d;
   check(MatCreateVecs(k, d.out(), nullptr));
   check(BVCreate(PetscObjectComm(reinterpret_cast<PetscObject>(k)), modes.vectors.out()));
@@ -125,15 +132,17 @@ void solveByEps(const System& system, int count, Stage& stage, Modes& modes) {
   modes.iterations = static_cast<int>(iterations);
 }
 
-void solveByLanczos(const System& system, int count, Stage& stage, Modes& modes) {
-  auto result = blockLanczos(system.stiffness, system.mass, system.solver, count, blockOption.get(), toleranceOption.get(), 20,
+/// False if fewer have converged; `modes` is then as it was.
+bool solveByLanczos(const System& system, int count, int blockSize, Stage& stage, Modes& modes) {
+  auto result = blockLanczos(system.stiffness, system.mass, system.solver, count, blockSize, toleranceOption.get(), 20,
                              [&](int restarts, int converged) {
                                stage.progress(formatted("%d restarts: %d of %d modes converged", restarts, converged, count));
                              });
-  requireConverged(result.converged, count);
+  if (result.converged < count) return false;
   modes.lambda = result.lambda;
   modes.vectors = std::move(result.vectors);
   modes.iterations = result.restarts;
+  return true;
 }
 
 /// By LAPACK on rank 0, so that the ranks agree: M d = (1/λ) K d, whose largest eigenvalues, those of the lowest modes, it gets best.
@@ -205,9 +214,11 @@ void measureResiduals(const System& system, Modes& modes) {
 }
 
 /// The method keeps up to lanczosVectors() vectors; it must not run out of directions.
+bool lanczosFits(int count, int blockSize, PetscInt size) { return 2 * lanczosVectors(count, blockSize) <= size; }
+
 bool lanczosWanted(int count, PetscInt size) {
   const std::string solver = solverOption.get();
-  const bool fits = 2 * lanczosVectors(count, blockOption.get()) <= size;
+  const bool fits = lanczosFits(count, blockOption.get(), size);
   if (solver == "block_lanczos" && !fits)
     throw Error(formatted("option -modes_solver block_lanczos: %d modes of %d unknowns are too many for it; use eps", count,
                           static_cast<int>(size)));
@@ -217,6 +228,55 @@ bool lanczosWanted(int count, PetscInt size) {
 /// Krylov methods have no room where most of the modes are wanted.
 bool denseWanted(int count, PetscInt size) {
   return solverOption.get() == "auto" && !solverPrefix.given() && size <= 400 && 2 * count > size;
+}
+
+/// Residuals and, if wanted, the count by inertia. False if modes are missing.
+bool examine(const System& system, Modes& modes) {
+  measureResiduals(system, modes);
+  if (!sturmOption.get()) return true;
+  confirmCount(system.stiffness, system.mass, modes);
+  return modes.countConfirmed;
+}
+
+/// A block of b vectors meets b copies of a multiple eigenvalue: where some are missing, a block twice as large is taken. False: no
+/// modes, or modes of which some are missing still.
+bool computeByLanczos(const System& system, int count, Stage& stage, Modes& modes) {
+  const PetscInt size = rowsOf(system.stiffness);
+  for (int block = blockOption.get(); lanczosFits(count, block, size); block *= 2) {
+    Modes found;
+    if (!solveByLanczos(system, count, block, stage, found)) return false;
+    const bool complete = examine(system, found);
+    modes = std::move(found);
+    if (complete) return true;
+    stage.progress(formatted("the inertia counts more modes than blocks of %d have found", block));
+  }
+  return false;
+}
+
+Modes computeBy(const System& system, int count, Stage& stage) {
+  constexpr PetscInt denseAtMost = 2000;
+  const PetscInt size = rowsOf(system.stiffness);
+  const bool chosen = solverOption.get() != "auto" || solverPrefix.given();
+  Modes modes;
+  if (denseWanted(count, size)) {
+    solveDense(system, count, modes);
+    examine(system, modes);
+    return modes;
+  }
+  if (lanczosWanted(count, size)) {
+    if (computeByLanczos(system, count, stage, modes)) return modes;
+    if (chosen) {
+      requireConverged(static_cast<int>(modes.lambda.size()), count, "-modes_solver eps or another -modes_block_size");
+      return modes;
+    }
+  }
+  modes = {};
+  solveByEps(system, count, stage, modes);
+  if (examine(system, modes) || chosen || size > denseAtMost) return modes;
+  modes = {};
+  solveDense(system, count, modes);
+  examine(system, modes);
+  return modes;
 }
 
 }  // namespace
@@ -229,21 +289,13 @@ Modes compute(const System& system, int count) {
     throw Error(formatted("option -modes_count %d: the problem has only %d unknowns", count, static_cast<int>(size)));
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(system.stiffness));
   Stage stage(comm, "modes");
-  Modes modes;
-  if (denseWanted(count, size))
-    solveDense(system, count, modes);
-  else if (lanczosWanted(count, size))
-    solveByLanczos(system, count, stage, modes);
-  else
-    solveByEps(system, count, stage, modes);
-  measureResiduals(system, modes);
+  Modes modes = computeBy(system, count, stage);
   if (modes.rounding > 1e-6)
     complain(
         comm,
         formatted("free vibration: rounding of the entries of the stiffness may change the lowest eigenvalues by %.0e of their "
                   "size; is a body nearly loose, or a spring very stiff?",
                   modes.rounding));
-  if (sturmOption.get()) confirmCount(system.stiffness, system.mass, modes);
   stage.finish(formatted("%d modes to %.4g Hz, worst relative residual %.1e%s", count, modes.angularFrequency.back() / (2 * M_PI),
                          *std::max_element(modes.relativeResidual.begin(), modes.relativeResidual.end()),
                          !sturmOption.get()     ? ""

@@ -127,7 +127,7 @@ void writeSummary(const Analysis& analysis, const std::filesystem::path& folder)
     entry["modes"] = segment.modes.angularFrequency.size();
     if (segment.modes.rounding > 0) entry["modes_rounding_error"] = segment.modes.rounding;
     entry["solves"] = segment.solves;
-    if (segment.modes.inertiaCount)
+    if (segment.modes.inertiaShift > 0)
       entry["sturm_count"] = {{"shift_rad2_per_s2", segment.modes.inertiaShift},
                               {"eigenvalues_below", segment.modes.inertiaCount},
                               {"confirmed", segment.modes.countConfirmed}};

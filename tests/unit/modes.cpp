@@ -88,6 +88,60 @@ TEST_F(Layer, SturmCountSeesAMissingMode) {
   EXPECT_GT(modes.inertiaCount, 45);
 }
 
+/// A ring of one cell held at its inner side: double modes, and clusters of them where the ring is thin.
+Model heldRing(const std::string& shape) {
+  setOptions("-mesh_file meshes/ring.geo -mesh_set " + shape + material("ring", "2.1e11", "0.3", "7850") +
+             "-constraint_inner_clamped xyz -flutter_friction 0");
+  return buildModel();
+}
+
+modes::Modes modesOf(const Model& model, const std::string& options, int count) {
+  check(PetscOptionsInsertString(nullptr, options.c_str()));
+  const contact::AssociatedSystem system(model.bodies, model.contact, {});
+  return modes::compute({system.k0(), system.m0(), system.solver()}, count);
+}
+
+// Krylov vectors of one start vector meet one vector of each eigenspace: blocks of one miss half of the modes of a ring. The inertia
+// tells, and larger blocks find them; LAPACK gives the frequencies.
+TEST(HeldRing, DoubleModesAreCounted) {
+  const Model model = heldRing("n_theta=64,n_r=2,thickness=0.04,width=0.01");
+  const auto wanted = modesOf(model, "-modes_solver auto", 300),
+             found = modesOf(model, "-modes_solver block_lanczos -modes_block_size 1", 4);
+  EXPECT_TRUE(found.countConfirmed);
+  for (std::size_t i = 0; i < found.lambda.size(); ++i) EXPECT_NEAR(found.lambda[i] / wanted.lambda[i], 1, 1e-8) << i;
+  EXPECT_NEAR(found.lambda[2] / found.lambda[1], 1, 1e-8);
+}
+
+// The lowest frequencies of a thin ring, shear of its width, differ by parts of a thousand: few vectors and many restarts do not part
+// them, more vectors do.
+TEST(HeldRing, ClustersOfModesConverge) {
+  const auto found = modesOf(heldRing("n_theta=192"), "-modes_solver block_lanczos", 3);
+  EXPECT_TRUE(found.countConfirmed);
+  EXPECT_LT(*std::max_element(found.relativeResidual.begin(), found.relativeResidual.end()), 1e-6);
+}
+
+// Three eigenvalues of multiplicity 100: the first three blocks are an invariant subspace, beyond which the residual is rounding.
+TEST(Modes, EigenvaluesOfHighMultiplicity) {
+  setOptions("");
+  OwnedMat k, m;
+  for (auto [matrix, isMass] : {std::pair{&k, false}, {&m, true}}) {
+    check(MatCreateConstantDiagonal(PETSC_COMM_WORLD, PETSC_DECIDE, PETSC_DECIDE, 300, 300, 1, matrix->out()));
+    OwnedMat sparse;
+    check(MatConvert(*matrix, MATAIJ, MAT_INITIAL_MATRIX, sparse.out()));
+    PetscInt first = 0, end = 0;
+    check(MatGetOwnershipRange(sparse, &first, &end));
+    for (PetscInt i = first; i < end; ++i) check(MatSetValue(sparse, i, i, isMass ? 1 : 1 + i / 100, INSERT_VALUES));
+    check(MatAssemblyBegin(sparse, MAT_FINAL_ASSEMBLY));
+    check(MatAssemblyEnd(sparse, MAT_FINAL_ASSEMBLY));
+    check(MatSetOption(sparse, MAT_SYMMETRIC, PETSC_TRUE));
+    *matrix = std::move(sparse);
+  }
+  const SymmetricSolver solver(k, "stiffness");
+  const auto modes = modes::compute({k, m, solver.get()}, 40);
+  for (double lambda : modes.lambda) EXPECT_NEAR(lambda, 1, 1e-12);
+  EXPECT_LT(departureFromOrthonormal(modes.vectors, m), 1e-12);
+}
+
 TEST(Modes, TooManyForTheUnknowns) {
   const std::string message = errorOf([] { runCase("layer", "-modes_count 829"); });
   EXPECT_NE(message.find("-modes_count 829"), std::string::npos) << message;
