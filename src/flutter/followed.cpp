@@ -101,6 +101,7 @@ std::vector<Followed> followSweep(ReducedProblem& reduced, const std::vector<Fri
       const auto below = std::count_if(w.begin(), w.end(), [&](double omega) { return omega <= followed.branches.band.top; });
       const auto problem = family.at(0);
       followed.countExact = problem && problem->damping.empty() && modes.countConfirmed &&
+                            followed.branches.band.top * followed.branches.band.top <= modes.inertiaShift &&
                             below < static_cast<std::ptrdiff_t>(w.size()) && below == followed.branches.inBandAt(stations.front());
     }
     renumber(followed.branches);
