@@ -16,6 +16,8 @@ matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection  # noqa: E402
 
+from results import Results  # noqa: E402
+
 # Corner nodes of the faces of the cell types, in gmsh's order; a plane cell is its own face.
 TETRAHEDRON = [[0, 1, 2], [0, 1, 3], [1, 2, 3], [0, 2, 3]]
 HEXAHEDRON = [[0, 1, 2, 3], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]]
@@ -63,6 +65,7 @@ def main():
     parser.add_argument("friction", nargs="?", type=float)
     parser.add_argument("-o", "--output")
     arguments = parser.parse_args()
+    added = Results(arguments.report_dir)
     with h5py.File(os.path.join(arguments.report_dir, "results.h5")) as results:
         best = fastest(results["flutter"], arguments.friction)
         if best is None:
@@ -91,7 +94,11 @@ def main():
     figure.colorbar(matplotlib.cm.ScalarMappable(cmap="viridis"), ax=axes, shrink=0.55, label="amplitude, relative")
     axes.set_title(f"{eigenvalue[1] / (2 * numpy.pi):.0f} Hz, growth {eigenvalue[0]:.0f} 1/s at friction {group.split('_')[1]}", y=0.95)
     output = arguments.output or os.path.join(arguments.report_dir, "mode.png")
-    figure.savefig(output, dpi=80, bbox_inches="tight")
+    where, name = os.path.split(output)
+    if os.path.realpath(where) == os.path.realpath(arguments.report_dir):
+        added.save(name, figure, dpi=80, bbox_inches="tight")
+    else:
+        figure.savefig(output, dpi=80, bbox_inches="tight")
     print(output)
 
 

@@ -18,6 +18,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from eigenvalues import PARAMETERS, UNSTABLE, read_eigenvalues, read_table, rows_where, unstable
+from results import Results
 
 READABLE = 300  # cells of a map that have room for a number
 LABELS = {
@@ -170,6 +171,7 @@ def main():
     if len(sys.argv) != 2:
         sys.exit("usage: plot_stability.py REPORT_DIR")
     folder = Path(sys.argv[1])
+    results = Results(folder)
     try:
         table = read_eigenvalues(folder / "eigenvalues.csv")
         stability = read_table(folder / "stability_map.csv", PARAMETERS + ("unstable_modes", "largest_growth_rate_1_per_s"))
@@ -180,14 +182,14 @@ def main():
     swept = [name for name in PARAMETERS if len(np.unique(stability[name])) > 1]
     abscissa = swept[0] if swept else "friction"
     for suffix, title, chosen in slices(table, swept[1:]):
-        draw_modes(rows_where(table, chosen), abscissa, title).savefig(folder / f"stability{suffix}.png", dpi=150)
+        results.save(f"stability{suffix}.png", draw_modes(rows_where(table, chosen), abscissa, title), dpi=150)
         plt.close()
     if len(swept) < 2:
         return
     across, up = axes_of_map(stability, swept)
     largest = np.nanmax(stability["largest_growth_rate_1_per_s"], initial=0)
     for suffix, title, chosen in slices(stability, [name for name in swept if name not in (across, up)]):
-        draw_map(rows_where(stability, chosen), across, up, title, largest).savefig(folder / f"stability_map{suffix}.png", dpi=150)
+        results.save(f"stability_map{suffix}.png", draw_map(rows_where(stability, chosen), across, up, title, largest), dpi=150)
         plt.close()
 
 

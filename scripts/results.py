@@ -1,0 +1,87 @@
+"""Files that a script adds to the folder of a run."""
+import contextlib
+import errno
+import fcntl
+import os
+import re
+import sys
+from pathlib import Path
+
+MANIFEST, LOCK, LAST = "manifest.txt", ".squeal.lock", "summary.json"
+
+
+class Results:
+    """The results of a run. What save() adds to them is listed in their manifest, so that a later run removes it with them."""
+
+    def __init__(self, folder):
+        self.folder = Path(folder)
+        if not (self.folder / LAST).exists():
+            sys.exit(f"{program()}: {self.folder} holds no complete results: there is no {LAST}")
+        self.manifest = self._manifest()
+
+    def save(self, name, figure, **how):
+        """Writes a figure, which appears under its name when it is whole. Nothing that is not listed is overwritten."""
+        waiting = self.folder / f".{name}.{os.getpid()}"
+        try:
+            figure.savefig(waiting, format=name.rpartition(".")[2], **how)
+            with waiting.open("rb") as file:
+                os.fsync(file.fileno())
+            with self._lock():
+                self._add(name)
+                os.replace(waiting, self.folder / name)
+        except OSError as error:
+            sys.exit(f"{program()}: cannot write {self.folder / name}: {error.strerror}")
+        finally:
+            waiting.unlink(missing_ok=True)
+
+    def _manifest(self):
+        """Its lines; none in results of version 0.1.0, which kept none."""
+        try:
+            lines = (self.folder / MANIFEST).read_text().splitlines()
+        except FileNotFoundError:
+            return None
+        return lines if lines and lines[0].startswith("# squeal ") else None
+
+    def _add(self, name):
+        if self._manifest() != self.manifest:
+            sys.exit(f"{program()}: the results in {self.folder} have been replaced meanwhile")
+        if self.manifest is None or name in self.manifest:
+            return
+        if os.path.lexists(self.folder / name):
+            sys.exit(f"{program()}: {self.folder / name} is in the way: no run lists it in {MANIFEST}; move it")
+        head, *paths = self.manifest
+        paths = sorted([*paths, name])
+        count = sum(not path.endswith("/") for path in paths)
+        lines = [re.sub(r"the \d+ files", f"the {count} files", head), *paths]
+        waiting = self.folder / f".{MANIFEST}.{os.getpid()}"
+        try:
+            with waiting.open("w") as file:
+                file.write("\n".join(lines) + "\n")
+                file.flush()
+                os.fsync(file.fileno())
+            os.replace(waiting, self.folder / MANIFEST)
+        finally:
+            waiting.unlink(missing_ok=True)
+        self.manifest = lines
+
+    @contextlib.contextmanager
+    def _lock(self):
+        """As the program locks (src/output/lock.cpp): one that writes at a time."""
+        path = self.folder / LOCK
+        file = os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError as error:
+            if error.errno == errno.EWOULDBLOCK:
+                os.close(file)
+                sys.exit(f"{program()}: a run is writing to {self.folder}")
+        try:
+            yield
+        finally:
+            if path.exists() and os.path.samestat(os.stat(path), os.fstat(file)):
+                path.unlink()
+            os.close(file)
+
+
+def program():
+    return Path(sys.argv[0]).stem
