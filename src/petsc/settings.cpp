@@ -89,7 +89,8 @@ void requireSound(const Setting& setting) {
   const bool plain = std::none_of(name.begin(), name.end(),
                                   [](unsigned char c) { return std::isspace(c) || std::iscntrl(c) || std::strchr("\"'#,", c); });
   if (!plain || !isName("-" + name))
-    fail("'" + name + "' is not the name of an option: it begins with a letter and holds no blank");
+    fail("'" + name +
+         "' is not the name of an option: it begins with a letter and holds no blank; write _ for a blank in the name of a group");
   if (name.size() >= PETSC_MAX_OPTION_NAME) fail("the name of option -" + name.substr(0, 40) + "… is too long");
   const std::string& value = setting.value;
   if (std::any_of(value.begin(), value.end(), [](unsigned char c) { return std::iscntrl(c) && c != '\t'; }))
