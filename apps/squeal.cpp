@@ -6,11 +6,34 @@
 #include "petsc/session.hpp"
 #include "report/report.hpp"
 
+namespace {
+
+constexpr const char* usage =
+    "usage: squeal -options_file CASE.yaml [-option value …]\n"
+    "       mpirun -n 4 squeal -options_file CASE.yaml -report_dir results/case -flutter_friction 0,0.2,0.4\n"
+    "\n"
+    "Finds which modes of a brake squeal: flutter of the steady sliding of pads on a disc. A case names a mesh, materials, "
+    "supports,\n"
+    "loads and contact surfaces, or matrices; options that follow it replace what it says. A list is separated by commas.\n"
+    "  -help      the manual: all options with units, defaults and ranges\n"
+    "  -version   versions of this program and of its libraries\n"
+    "Exit code: 0 done, 2 some friction has no steady solution, 1 error.\n";
+
+}  // namespace
+
 int main(int argc, char** argv) {
   const squeal::Session session(argc, argv);
   if (session.helpWanted()) {
     if (session.rank() == 0) std::fputs(squeal::manual().c_str(), stdout);
     return 0;
+  }
+  if (session.versionWanted()) {
+    if (session.rank() == 0) std::fputs(squeal::versions().c_str(), stdout);
+    return 0;
+  }
+  if (!session.optionsGiven()) {
+    if (session.rank() == 0) std::fputs(usage, stderr);
+    return 1;  // a script whose arguments went missing must not believe that it has run
   }
   try {
     squeal::checkOptions();  // first of all: a mistake in them touches no folder

@@ -1,7 +1,10 @@
 #include "petsc/session.hpp"
 
+#include <dmumps_c.h>
 #include <gmsh.h>
+#include <hdf5.h>
 #include <slepcsys.h>
+#include <vtkVersionMacros.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -12,6 +15,7 @@
 #include "petsc/check.hpp"
 #include "petsc/settings.hpp"
 #include "petsc/termination.hpp"
+#include "petsc/text.hpp"
 
 namespace squeal {
 
@@ -58,10 +62,15 @@ Session::Session(int argc, char** argv) {
   SignalWatch signals;
   // PETSc's own -help lists several hundred options of its parts; ours is the manual of this program and replaces it.
   const std::vector<std::string> words(argv + 1, argv + argc);
-  helpWanted_ =
-      std::any_of(words.begin(), words.end(), [](const auto& word) { return word == "-help" || word == "--help" || word == "-h"; });
+  const auto among = [&](const std::vector<std::string>& names) {
+    return std::find_first_of(words.begin(), words.end(), names.begin(), names.end()) != words.end();
+  };
+  helpWanted_ = among({"-help", "--help", "-h"});
+  versionWanted_ = among({"-version", "--version"});
   check(MPI_Init(&argc, &argv));  // before PETSc's, so that a mistake in the options is told in one line instead of a traceback
-  startSlepc(argv[0], helpWanted_ ? std::vector<Setting>{} : readSettings(words));
+  const auto settings = helpWanted_ || versionWanted_ ? std::vector<Setting>{} : readSettings(words);
+  optionsGiven_ = !settings.empty();
+  startSlepc(argv[0], settings);
   signals.begin(rank());
   gmsh::initialize(0, nullptr, false);
   gmsh::option::setNumber("General.Terminal", 0);  // messages reach the user through our errors
@@ -89,5 +98,20 @@ int Session::size() const {
 }
 
 const char* version() { return SQUEAL_VERSION; }
+
+std::string versions() {
+  char petsc[256] = "", slepc[256] = "", mpi[MPI_MAX_LIBRARY_VERSION_STRING] = "";
+  int length = 0;
+  unsigned hdf5[3] = {};
+  check(PetscGetVersion(petsc, sizeof petsc));
+  check(SlepcGetVersion(slepc, sizeof slepc));
+  check(MPI_Get_library_version(mpi, &length));
+  H5get_libversion(&hdf5[0], &hdf5[1], &hdf5[2]);
+  const auto firstPart = [](const std::string& text) { return text.substr(0, text.find_first_of(",\n")); };
+  return formatted("squeal %s\n%s\n%s\nMUMPS %s\n%s\nHDF5 %u.%u.%u, gmsh %s, VTK %s\nscalars: %s, %zu bits; indices: %zu bits\n",
+                   version(), firstPart(petsc).c_str(), firstPart(slepc).c_str(), MUMPS_VERSION, firstPart(mpi).c_str(), hdf5[0],
+                   hdf5[1], hdf5[2], GMSH_API_VERSION, VTK_VERSION, PetscDefined(USE_COMPLEX) ? "complex" : "real",
+                   8 * sizeof(PetscReal), 8 * sizeof(PetscInt));
+}
 
 }  // namespace squeal

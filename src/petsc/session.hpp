@@ -2,6 +2,8 @@
 /// One session of MPI, PETSc, SLEPc and gmsh for the life of main().
 #include <mpi.h>
 
+#include <string>
+
 namespace squeal {
 
 class Session {
@@ -17,12 +19,18 @@ class Session {
   int size() const;
   /// True if `-help` was given: the manual is wanted, not a run.
   bool helpWanted() const { return helpWanted_; }
+  /// True if `-version` was given.
+  bool versionWanted() const { return versionWanted_; }
+  /// False if there is no option at all, neither on the command line nor in the environment or PETSc's resource files.
+  bool optionsGiven() const { return optionsGiven_; }
 
  private:
-  bool helpWanted_ = false;
+  bool helpWanted_ = false, versionWanted_ = false, optionsGiven_ = false;
 };
 
 /// The version of this program, as in CMakeLists.txt.
 const char* version();
+/// The versions of this program and of what it is linked with, in lines. Within a session.
+std::string versions();
 
 }  // namespace squeal

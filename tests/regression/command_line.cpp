@@ -131,5 +131,27 @@ TEST(CommandLine, ScriptHelpBuildsNothing) {
   }
 }
 
+TEST(CommandLine, VersionManualAndUsage) {
+  const fs::path place = placeFor("command_line/words");
+  writeText(place / "out", "");
+  const std::string to = " >'" + (place / "out").string() + "' 2>&1";
+  for (const char* word : {"--version", "-version"}) {
+    ASSERT_EQ(shell(place, "'" SQUEAL_EXECUTABLE "' " + std::string(word) + to), 0);
+    const std::string out = contentOf(place / "out");
+    for (const char* part : {"squeal ", "Petsc Release Version 3.", "SLEPc Release Version 3.", "MUMPS ", "MPI ", "indices: "})
+      EXPECT_NE(out.find(part), std::string::npos) << part << "\n" << out;
+  }
+  for (const char* word : {"--help", "-help", "-help -options_file nosuch.yaml"}) {
+    ASSERT_EQ(shell(place, "'" SQUEAL_EXECUTABLE "' " + std::string(word) + to), 0);
+    EXPECT_NE(contentOf(place / "out").find("-material_<group>_young [Pa]"), std::string::npos) << word;
+  }
+  // Without any option: a script whose arguments went missing must not believe that it has run.
+  ASSERT_EQ(shell(place, "'" SQUEAL_EXECUTABLE "'" + to), 1);
+  const std::string out = contentOf(place / "out");
+  EXPECT_EQ(out.rfind("usage: squeal", 0), 0U) << out;
+  EXPECT_LE(std::count(out.begin(), out.end(), '\n'), 12);
+  EXPECT_FALSE(fs::exists(place / "results"));
+}
+
 }  // namespace
 }  // namespace squeal::test
