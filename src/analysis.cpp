@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "flutter/influence.hpp"
-#include "matrices/matrices.hpp"
+#include "petsc/finite.hpp"
 #include "petsc/options.hpp"
 #include "petsc/stages.hpp"
 #include "petsc/text.hpp"
@@ -84,6 +84,7 @@ std::vector<steady::Solution> steadySweep(const Analysis& analysis, CurrentSyste
                            parameterText(at).c_str(), solution.reason.c_str(), solution.iterations,
                            static_cast<int>(solution.openNodes), static_cast<int>(analysis.contact.totalNodes),
                            solution.smallestPressure, solution.residual, solution.imbalance));
+    if (solution.converged) requireFinite(solution.displacement, "steady sliding at " + parameterText(at));
     if (solution.converged)
       closed.back() = solution.closed;
     else
@@ -91,6 +92,29 @@ std::vector<steady::Solution> steadySweep(const Analysis& analysis, CurrentSyste
                formatted("no steady sliding solution found at %s: %s", parameterText(at).c_str(), solution.reason.c_str()));
   }
   return solutions;
+}
+
+/// Collective. Error where a matrix or a load, times what the sweep multiplies it by, is not a number.
+void requireFiniteSweep(const Analysis& analysis) {
+  const auto& [frictions, speeds, pressures, dampings] = analysis.sweep;
+  const double friction = std::max(1.0, frictions.back()), speed = std::max(1.0, speeds.back()), speed2 = speed * speed;
+  const std::string swept = " times the factors of the sweep";
+  requireFinite(analysis.bodies.stiffness, "the stiffness of the bodies" + swept, friction);
+  requireFinite(analysis.bodies.mass, "the mass of the bodies" + swept, friction);
+  requireFinite(analysis.bodies.damping, "the damping of the bodies" + swept, friction * std::max(1.0, dampings.back()));
+  requireFinite(analysis.bodies.gyroscopic, "the gyroscopic matrix" + swept, friction * speed);
+  requireFinite(analysis.bodies.rotationStiffness, "the rotation stiffness" + swept, friction * speed2);
+  requireFinite(analysis.bodies.load, "the loads" + swept, std::max(pressures.back(), speed2));
+  requireFinite(analysis.contact.offset, "the displacements held" + swept, std::max(1.0, pressures.back()));
+}
+
+/// Collective. Error where the coefficient of a matrix, at an end of the sweep, makes something of it that is not a number.
+void requireFiniteSweep(const std::vector<matrices::NamedTerm>& terms, const flutter::Sweep& sweep) {
+  for (const auto& [name, term] : terms)
+    for (double friction : {sweep.frictions.front(), sweep.frictions.back()})
+      for (double speed : {sweep.speeds.front(), sweep.speeds.back()})
+        for (double damping : {sweep.dampings.front(), sweep.dampings.back()})
+          requireFinite(term.matrix, "matrix '" + name + "' times its factors", term.coefficient({friction, speed, 1, damping}));
 }
 
 /// Collective. Error for a sweep over a factor of nothing: all its points would be the same.
@@ -233,18 +257,12 @@ void rejectIdleParameters(const std::vector<matrices::NamedTerm>& terms, const f
 }
 
 /// [4.15] with matrices from files: there is neither contact nor steady state.
-Analysis analyseMatrices(MPI_Comm comm) {
-  Analysis analysis;
-  analysis.comm = comm;
-  analysis.sweep = flutter::readSweep();
+Analysis analyseMatrices(Analysis analysis) {
+  const MPI_Comm comm = analysis.comm;
+  auto named = readMatrices(comm, analysis.sweep);
   Stage stage(comm, "matrices");
-  auto named = matrices::readTerms(comm);
-  rejectIdleParameters(named, analysis.sweep);
   const matrices::AssociatedSystem system(named);
-  std::vector<std::string> files;
-  for (const auto& item : named) files.push_back(resolvedOptions().at("matrices_" + item.name + "_file"));
-  stage.finish(formatted("%s: %d matrices, %d unknowns%s", joined(files).c_str(), static_cast<int>(named.size()),
-                         static_cast<int>(system.size()),
+  stage.finish(formatted("%d unknowns%s", static_cast<int>(system.size()),
                          system.asymmetry() > 0 ? formatted("; stiffness without friction unsymmetric by %.1e: free modes of its "
                                                             "symmetric part",
                                                             system.asymmetry())
@@ -300,15 +318,35 @@ void checkOptions() {
   if (!matrices::wanted()) meshRequest();
 }
 
-Analysis analyse(MPI_Comm comm) {
-  if (matrices::wanted()) return analyseMatrices(comm);
+std::vector<matrices::NamedTerm> readMatrices(MPI_Comm comm, const flutter::Sweep& sweep) {
+  Stage stage(comm, "matrices");
+  auto named = matrices::readTerms(comm);
+  rejectIdleParameters(named, sweep);
+  requireFiniteSweep(named, sweep);
+  std::vector<std::string> files;
+  for (const auto& item : named) files.push_back(resolvedOptions().at("matrices_" + item.name + "_file"));
+  stage.finish(formatted("%d matrices: %s", static_cast<int>(named.size()), joined(files).c_str()));
+  return named;
+}
+
+Analysis prepare(MPI_Comm comm) {
   Analysis analysis;
   analysis.comm = comm;
+  const bool ofMesh = !matrices::wanted();
   analysis.sweep = flutter::readSweep();
+  flutter::warnOfLongSweep(comm, analysis.sweep, modes::wantedCount());
+  if (!ofMesh) return analysis;
   analysis.mesh = std::make_unique<mesh::Mesh>(readMesh(comm));
   analysis.bodies = assembleBodies(*analysis.mesh);
   analysis.contact = buildContact(*analysis.mesh, analysis.bodies);
+  requireFiniteSweep(analysis);
   rejectIdleFactors(analysis);
+  return analysis;
+}
+
+Analysis analyse(MPI_Comm comm) {
+  Analysis analysis = prepare(comm);
+  if (!analysis.mesh) return analyseMatrices(std::move(analysis));
   CurrentSystem system(analysis);
   analysis.steady = steadySweep(analysis, system);
   if (analysis.contact.totalNodes > 0 && steady::uniquenessWanted()) analysis.uniqueness = examineUniqueness(analysis);

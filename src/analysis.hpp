@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "matrices/matrices.hpp"
 #include "segment.hpp"
 #include "steady/steady.hpp"
 #include "steady/uniqueness.hpp"
@@ -37,6 +38,12 @@ mesh::Request meshRequest();
 
 /// Collective. Error for options that are unknown, out of range or idle: all that can be told before a file is read or written.
 void checkOptions();
+
+/// Collective. All that comes before the first solution: sweep, and mesh, matrices of the bodies and contact; options have been checked.
+/// Errors as the stages document them.
+Analysis prepare(MPI_Comm comm);
+/// Collective. The matrices of files, checked against the sweep.
+std::vector<matrices::NamedTerm> readMatrices(MPI_Comm comm, const flutter::Sweep& sweep);
 
 /// Collective. Runs all stages that the options, which have been checked, ask for. Errors as the stages document them.
 Analysis analyse(MPI_Comm comm);

@@ -15,7 +15,7 @@
 namespace squeal {
 namespace {
 
-const IntegerOption modesShown("report", "report_modes", 10, 0, "number of free modes written as fields");
+const IntegerOption modesShown("report", "report_modes", 10, 0, 100'000, "number of free modes written as fields");
 const FlagOption benchmarkWanted("modes", "modes_benchmark", false,
                                  "time one factorisation and 400 solves in blocks of 32, the floor of the stage");
 
@@ -44,6 +44,14 @@ std::string pointText(const flutter::FrictionPoint& point) {
   text += formatted(", worst backward error %.1e", point.worstBackwardError());
   if (point.tolerance > 0) text += formatted(", estimated error %.1e", point.worstErrorEstimate());
   return text;
+}
+
+/// Overflow within the eigenvalue problems must not become a row of the results.
+void requireFiniteEigenvalues(const flutter::FrictionPoint& point) {
+  for (const auto& e : point.eigenvalues)
+    if (!std::isfinite(e.s.real()) || !std::isfinite(e.s.imag()) || !std::isfinite(e.backwardError))
+      throw Error("an eigenvalue at " + parameterText(point.at) +
+                  " is not a finite number; check the magnitudes of materials and factors");
 }
 
 /// Flutter at the points of a segment, batch by batch.
@@ -135,6 +143,7 @@ class SegmentSweep {
     for (std::size_t i = 0; i < batch.size(); ++i) {
       auto& point = segment.points[batch[i]];
       point = reduced_ ? std::move(solved[i]) : flutter::solveDirect(problems[i].pencil, problems[i].at, problem_.trial);
+      requireFiniteEigenvalues(point);
       stage.say(pointText(point));
     }
     std::string text = formatted("%d points", static_cast<int>(batch.size()));

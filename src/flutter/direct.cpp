@@ -9,12 +9,12 @@
 namespace squeal::flutter {
 namespace {
 
-const IntegerOption countOption("flutter", "flutter_direct_count", 100, 1,
+const IntegerOption countOption("flutter", "flutter_direct_count", 100, 1, 1'000'000,
                                 "number of eigenvalues nearest to zero found by the direct method, conjugate pairs counted once");
 const RealListOption bandOption("flutter", "flutter_direct_band", "0,0", "Hz", nonNegative,
                                 "low,high: the direct method finds all eigenvalues with Im s / 2 pi between them and |s| up to "
                                 "2 pi high instead of a number of them; 0,0: off");
-const IntegerOption limitOption("flutter", "flutter_direct_limit", 2000, 1,
+const IntegerOption limitOption("flutter", "flutter_direct_limit", 2000, 1, 1'000'000,
                                 "most eigenvalues found by the direct method to cover -flutter_direct_band");
 
 const FlagOption confirmOption("flutter", "flutter_direct_confirm", true,

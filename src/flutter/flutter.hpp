@@ -60,12 +60,17 @@ struct Sweep {
   std::vector<Parameters> steadyPoints() const;
   /// All points: for each damping, all steady states.
   std::vector<Parameters> points() const;
+  /// The number of points.
+  double pointCount() const;
   /// Index of a steady state that differs in one parameter by one step, and comes earlier; none for the first.
   std::optional<std::size_t> earlierNeighbour(std::size_t steadyPoint) const;
 };
 
-/// Error: an empty list, a value out of range or given twice.
+/// Error: an empty list, a value out of range or given twice, more than `mostPoints` points in all.
 Sweep readSweep();
+inline constexpr double mostPoints = 100'000;
+/// Collective. A warning where the points are so many that their eigenvalue problems take long, with an estimate.
+void warnOfLongSweep(MPI_Comm comm, const Sweep& sweep, int modes);
 /// Indices of points in the order in which one basis serves them best, in batches of 5, 16, 16, … points: the largest friction
 /// first, then whatever lies farthest from the points before: of a sweep over friction alone the ends, the middle and the quarters. The
 /// same on any number of ranks.

@@ -19,7 +19,7 @@ const FlagOption criticalOption("flutter", "flutter_critical", true,
                                 "solve for the frictions at which stability changes: critical.csv; needs -flutter_track");
 const RealOption toleranceOption("flutter", "flutter_critical_tolerance", 1e-8, "", positive,
                                  "the basis is improved for a critical friction until it moves by less than this part of itself");
-const IntegerOption halvingsOption("flutter", "flutter_track_halvings", 10, 0,
+const IntegerOption halvingsOption("flutter", "flutter_track_halvings", 10, 0, 50,
                                    "how often a step of the sweep may be halved where a continuation is not certain");
 
 /// Vectors have done their service, and there are many.

@@ -19,8 +19,8 @@ const ChoiceOption basisOption(
     "the principal directions of the vectors found so far; modal: free modes alone");
 const RealOption toleranceOption("flutter", "flutter_tolerance", 1e-8, "", positive,
                                  "estimated relative error |ds|/|s| to which the eigenvalues of the band are corrected");
-const IntegerOption roundsOption("flutter", "flutter_rounds", 15, 0, "most rounds of corrections at one batch of points");
-const IntegerOption growthOption("flutter", "flutter_growth", 1000, 0,
+const IntegerOption roundsOption("flutter", "flutter_rounds", 15, 0, 10'000, "most rounds of corrections at one batch of points");
+const IntegerOption growthOption("flutter", "flutter_growth", 1000, 0, 1'000'000,
                                  "most vectors that corrections may add to the basis at one batch of points");
 
 bool correctionsWanted() { return basisOption.get() != "modal"; }

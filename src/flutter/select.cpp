@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "petsc/options.hpp"
+#include "petsc/stages.hpp"
+#include "petsc/text.hpp"
 
 namespace squeal::flutter {
 namespace {
@@ -32,7 +34,7 @@ const RealOption accuracyOption("flutter", "flutter_accuracy", 1e-9, "", positiv
                                 "full-order backward error up to which an eigenvalue is certified, and to which it is corrected");
 const RealOption toleranceOption("flutter", "flutter_unstable_tolerance", 1e-6, "", nonNegative,
                                  "unstable if the growth rate exceeds this fraction of |s|");
-const IntegerOption shapesOption("flutter", "flutter_shapes", 3, 0,
+const IntegerOption shapesOption("flutter", "flutter_shapes", 3, 0, 100'000,
                                  "number of fastest growing complex modes kept for the report at each friction");
 const RealOption shapesBelowOption("flutter", "flutter_shapes_below", 20000, "Hz", positive,
                                    "complex modes of higher frequency are not kept; squeal is what can be heard");
@@ -48,7 +50,31 @@ Sweep readSweep() {
       throw Error("option -" + option.fullName() + ": a value is given twice");
     return list;
   };
-  return {ascending(frictionOption), ascending(speedOption), ascending(pressureOption), ascending(dampingOption)};
+  Sweep sweep{ascending(frictionOption), ascending(speedOption), ascending(pressureOption), ascending(dampingOption)};
+  const double points = sweep.pointCount();
+  if (points > mostPoints)
+    throw Error(
+        formatted("options -flutter_friction, -flutter_speed, -flutter_pressure and -flutter_damping: %zu x %zu x %zu x %zu = %.0f "
+                  "points; a sweep has %.0f at most",
+                  sweep.frictions.size(), sweep.speeds.size(), sweep.pressures.size(), sweep.dampings.size(), points, mostPoints));
+  return sweep;
+}
+
+double Sweep::pointCount() const {
+  return static_cast<double>(frictions.size()) * static_cast<double>(speeds.size()) * static_cast<double>(pressures.size()) *
+         static_cast<double>(dampings.size());
+}
+
+void warnOfLongSweep(MPI_Comm comm, const Sweep& sweep, int modes) {
+  constexpr double many = 1000, perSecond = 1e10;
+  if (sweep.pointCount() < many || directWanted()) return;
+  // QZ of the linearised problem of a basis of twice the modes, some 25 (2 m)^3 operations with m vectors.
+  const double hours = sweep.pointCount() * 25 * std::pow(4.0 * modes, 3) / perSecond / 3600;
+  complain(
+      comm,
+      formatted(
+          "a sweep of %.0f points, %.0f steady states: about %.2g hours for their dense eigenvalue problems alone (%d free modes)",
+          sweep.pointCount(), sweep.pointCount() / static_cast<double>(sweep.dampings.size()), hours, modes));
 }
 
 std::vector<Parameters> Sweep::steadyPoints() const {

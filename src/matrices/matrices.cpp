@@ -15,11 +15,11 @@ const ChoiceOption roleOption("matrices", "matrices_<name>_role", {"mass", "damp
 const TextOption datasetOption("matrices", "matrices_<name>_dataset", "",
                                "variable of a MATLAB file or object of an HDF5 file; none: the only matrix there");
 const RealOption factorOption("matrices", "matrices_<name>_factor", 1, "", anyReal, "factor on the matrix");
-const IntegerOption frictionOption("matrices", "matrices_<name>_friction_exponent", 0, 0,
+const IntegerOption frictionOption("matrices", "matrices_<name>_friction_exponent", 0, 0, 10,
                                    "power of the coefficient of friction that the matrix is multiplied by");
-const IntegerOption speedOption("matrices", "matrices_<name>_speed_exponent", 0, -4,
+const IntegerOption speedOption("matrices", "matrices_<name>_speed_exponent", 0, -4, 10,
                                 "power of the speed factor that the matrix is multiplied by");
-const IntegerOption dampingOption("matrices", "matrices_<name>_damping_exponent", 0, 0,
+const IntegerOption dampingOption("matrices", "matrices_<name>_damping_exponent", 0, 0, 10,
                                   "power of the damping factor that the matrix is multiplied by");
 
 int powerOf(const std::string& role) { return role == "mass" ? 2 : role == "damping" ? 1 : 0; }

@@ -14,12 +14,13 @@
 namespace squeal::modes {
 namespace {
 
-const IntegerOption countOption("modes", "modes_count", 200, 1, "number of free-vibration modes, the basis of the reduced problem");
+const IntegerOption countOption("modes", "modes_count", 200, 1, 1'000'000,
+                                "number of free-vibration modes, the basis of the reduced problem");
 const ChoiceOption solverOption(
     "modes", "modes_solver", {"auto", "block_lanczos", "eps"}, "auto",
     "block_lanczos: blocked solves with MUMPS; eps: SLEPc; auto: block_lanczos, or eps if a -modes_eps_* option is given or "
     "the problem is small");
-const IntegerOption blockOption("modes", "modes_block_size", 8, 1, "right-hand sides that block_lanczos solves for together");
+const IntegerOption blockOption("modes", "modes_block_size", 8, 1, 1000, "right-hand sides that block_lanczos solves for together");
 const RealOption toleranceOption("modes", "modes_tolerance", 1e-8, "", {0, 1e-2, true, false},
                                  "relative error of the eigenvalues of S = inverse(K) M (of eps: -modes_eps_tol)");
 const FlagOption sturmOption("modes", "modes_sturm", true,

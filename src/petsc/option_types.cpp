@@ -20,6 +20,9 @@ double Option::number(const std::string& subject, const std::string& value) cons
   const char* end = digits.c_str() + digits.size();
   const auto [stop, error] = std::from_chars(begin, end, x);
   if (error != std::errc() || stop != end || !std::isfinite(x)) reject(subject, "'" + digits + "'");
+  if (x != 0 && (std::abs(x) > largestMagnitude || std::abs(x) < smallestMagnitude))
+    throw Error(named(subject, digits) + ": " + meaning + "; must be " + rule + ", and zero or of a magnitude between " +
+                shortest(smallestMagnitude) + " and " + shortest(largestMagnitude));
   return x;
 }
 
@@ -45,16 +48,17 @@ double RealOption::get(const std::string& subject) const {
   return x;
 }
 
-IntegerOption::IntegerOption(std::string stage, std::string name, int byDefault, int lowest, std::string meaning)
+IntegerOption::IntegerOption(std::string stage, std::string name, int byDefault, int lowest, int highest, std::string meaning)
     : Option(std::move(stage), std::move(name), std::to_string(byDefault), "", std::move(meaning),
-             "an integer >= " + std::to_string(lowest)),
-      lowest_(lowest) {}
+             "an integer >= " + std::to_string(lowest) + " and <= " + std::to_string(highest)),
+      lowest_(lowest),
+      highest_(highest) {}
 
 int IntegerOption::get(const std::string& subject) const {
   const std::string value = text(subject);
   int x = 0;
   const auto [stop, error] = std::from_chars(value.data(), value.data() + value.size(), x);
-  if (error != std::errc() || stop != value.data() + value.size() || x < lowest_) reject(subject, value);
+  if (error != std::errc() || stop != value.data() + value.size() || x < lowest_ || x > highest_) reject(subject, value);
   return x;
 }
 
@@ -65,6 +69,12 @@ RealListOption::RealListOption(std::string stage, std::string name, std::string 
       range_(range),
       ranges_(ranges) {}
 
+void RealListOption::requireLength(const std::string& subject, const std::string& value, double length) const {
+  if (length > longestList)
+    throw Error(
+        formatted("%s: %.0f values; a list holds %d at most", named(subject, value.substr(0, 40)).c_str(), length, longestList));
+}
+
 std::vector<double> RealListOption::get(const std::string& subject) const {
   const std::string value = text(subject);
   std::vector<double> list;
@@ -72,12 +82,15 @@ std::vector<double> RealListOption::get(const std::string& subject) const {
   if (ranges_ && parts.size() > 1) {
     if (parts.size() != 3) reject(subject, value);
     const double first = number(subject, parts[0]), last = number(subject, parts[1]), step = number(subject, parts[2]);
-    if (!(step > 0) || last < first || (last - first) / step > 1e6) reject(subject, value);
+    if (!(step > 0) || last < first) reject(subject, value);
+    requireLength(subject, value, std::floor((last - first) / step) + 1);
     // A little slack: 0:0.6:0.05 ends at 0.6 although 12 × 0.05 is not the double nearest to it.
     const auto steps = static_cast<int>(std::floor((last - first) / step + 1e-9));
     for (int i = 0; i <= steps; ++i) list.push_back(std::stod(formatted("%.12g", first + i * step)));
   } else {
-    for (const auto& part : split(value, ',')) list.push_back(number(subject, part));
+    const auto items = split(value, ',');
+    requireLength(subject, value, static_cast<double>(items.size()));
+    for (const auto& item : items) list.push_back(number(subject, item));
   }
   for (double x : list)
     if (!range_.holds(x)) reject(subject, value);

@@ -210,7 +210,9 @@ void rejectUnknownOptions() {
 std::string manual() {
   std::string page =
       "squeal -options_file CASE.yaml [-option value …]: flutter of steady sliding brakes (brake squeal)\n"
-      "Lengths in m, masses in kg, times in s unless the case keeps another consistent system. <…> stands for a name.\n";
+      "Lengths in m, masses in kg, times in s unless the case keeps another consistent system. <…> stands for a name.\n"
+      "Numbers are zero or of a magnitude between 1e-50 and 1e50. A list is separated by commas; with blanks it is put in "
+      "quotes.\n";
   const auto options = Option::all();
   const auto solvers = SolverPrefix::all();
   for (const auto& stage : stages) {

@@ -39,8 +39,14 @@ class Option {
   /// "option -material_disc_density -1 (disc.yaml, line 3)"
   std::string named(const std::string& subject, const std::string& value) const;
   [[noreturn]] void reject(const std::string& subject, const std::string& value) const;
+  /// A number of an admissible magnitude.
   double number(const std::string& subject, const std::string& value) const;
 };
+
+/// Numbers are zero or of a magnitude between these: products of several of them must neither overflow nor vanish.
+inline constexpr double smallestMagnitude = 1e-50, largestMagnitude = 1e50;
+/// Most values of one list.
+inline constexpr int longestList = 100'000;
 
 struct Range {
   double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
@@ -66,12 +72,12 @@ class RealOption : public Option {
 
 class IntegerOption : public Option {
  public:
-  IntegerOption(std::string stage, std::string name, int byDefault, int lowest, std::string meaning);
+  IntegerOption(std::string stage, std::string name, int byDefault, int lowest, int highest, std::string meaning);
   int get(const std::string& subject = {}) const;
   void validate(const std::string& subject) const override { get(subject); }
 
  private:
-  int lowest_;
+  int lowest_, highest_;
 };
 
 /// Reals separated by commas, blanks beside them allowed; with `ranges`, `first:last:step` stands for an arithmetic sequence (last included).
@@ -83,6 +89,7 @@ class RealListOption : public Option {
   void validate(const std::string& subject) const override { get(subject); }
 
  private:
+  void requireLength(const std::string& subject, const std::string& value, double length) const;
   Range range_;
   bool ranges_;
 };

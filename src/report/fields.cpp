@@ -12,9 +12,9 @@
 namespace squeal::report {
 namespace {
 
-const IntegerOption animatedOption("report", "report_animated", 1, 0,
+const IntegerOption animatedOption("report", "report_animated", 1, 0, 1000,
                                    "number of fastest growing modes of the whole sweep written as a time series over one period");
-const IntegerOption framesOption("report", "report_frames", 16, 4, "frames of one period");
+const IntegerOption framesOption("report", "report_frames", 16, 4, 1000, "frames of one period");
 
 /// Brings nodal values from their owners to all ranks whose cells need them.
 class Ghosts {

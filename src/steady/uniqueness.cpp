@@ -14,10 +14,10 @@ const FlagOption wantedOption("steady", "steady_uniqueness", true,
                               "examine existence and uniqueness of the steady state: one more factorisation, a solve per contact "
                               "node");
 const IntegerOption denseOption(
-    "steady", "steady_uniqueness_dense", 1000, 0,
+    "steady", "steady_uniqueness_dense", 1000, 0, 40'000,
     "contact nodes up to which the condensed matrix is formed; beyond, the friction where it ceases to be "
     "positive definite is found iteratively");
-const IntegerOption pMatrixOption("steady", "steady_uniqueness_pmatrix", 18, 0,
+const IntegerOption pMatrixOption("steady", "steady_uniqueness_pmatrix", 18, 0, 30,
                                   "contact nodes n up to which the P-matrix test is made, 2^n pivots");
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();

@@ -131,6 +131,34 @@ TEST(CommandLine, ScriptHelpBuildsNothing) {
   }
 }
 
+TEST(CommandLine, MagnitudesAndSizesHaveLimits) {
+  const fs::path place = placeFor("command_line/limits");
+  writeText(place / "huge.mtx", "%%MatrixMarket matrix coordinate real general\n2 2 2\n1 1 1e200\n2 2 1\n");
+  writeText(place / "unit.mtx", "%%MatrixMarket matrix coordinate real general\n2 2 2\n1 1 1\n2 2 1\n");
+  const Options matrices{{"matrices_k_file", (place / "unit.mtx").string()},
+                         {"matrices_k_role", "stiffness"},
+                         {"matrices_m_file", (place / "unit.mtx").string()},
+                         {"matrices_m_role", "mass"},
+                         {"matrices_x_file", (place / "unit.mtx").string()},
+                         {"matrices_x_role", "stiffness"},
+                         {"matrices_x_friction_exponent", "10"}};
+  expectExplained({
+      // All of these ended in rows of inf or nan, or went on for hours.
+      {"young", with(layer, {{"material_layer_young", "1e300"}}), {"-material_layer_young 1e300", "1e-50 and 1e+50"}},
+      {"friction", with(layer, {{"flutter_friction", "1e300"}}), {"-flutter_friction 1e300", "1e-50 and 1e+50"}},
+      {"matrix", with(matrices, {{"matrices_m_file", (place / "huge.mtx").string()}}), {"-matrices_m_file", "squares overflow"}},
+      {"matrix_factors", with(matrices, {{"flutter_friction", "1e50"}}), {"matrix 'x' times its factors", "its square"}},  // 1e500
+      {"range",
+       with(layer, {{"flutter_friction", "0:1:1e-7"}}),
+       {"-flutter_friction 0:1:1e-7", "10000001 values", "100000 at most"}},
+      {"grid",
+       with(layer, {{"flutter_friction", "0:0.999:0.001"}, {"flutter_speed", "1:1000:1"}}),
+       {"1000 x 1000 x 1 x 1 = 1000000 points"}},
+      {"modes", with(layer, {{"modes_count", "2000000000"}}), {"-modes_count 2000000000", ">= 1 and <= 1000000"}},
+      {"frames", with(layer, {{"report_frames", "2000000000"}}), {"-report_frames 2000000000", "<= 1000"}},
+  });
+}
+
 TEST(CommandLine, VersionManualAndUsage) {
   const fs::path place = placeFor("command_line/words");
   writeText(place / "out", "");

@@ -109,5 +109,14 @@ TEST(Sweep, SteadySlidingIsProportionalToThePressure) {
   EXPECT_LT(distance(3, analysis.steady[0].displacement, analysis.steady[1].displacement), 1e-11);
 }
 
+// 1000 frictions at 1000 speeds: each list is within its limit.
+TEST(Sweep, OfTooManyPointsIsRefused) {
+  test::setOptions("-flutter_friction 0:0.999:0.001 -flutter_speed 1:1000:1");
+  const auto message = test::errorOf([] { flutter::readSweep(); });
+  EXPECT_TRUE(test::contains(message, "1000 x 1000 x 1 x 1 = 1000000 points; a sweep has 100000 at most")) << message;
+  test::setOptions("-flutter_friction 0:0.099:0.001 -flutter_speed 1:1000:1");
+  EXPECT_EQ(flutter::readSweep().pointCount(), 100000);
+}
+
 }  // namespace
 }  // namespace squeal
