@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "analysis.hpp"
+#include "dryrun.hpp"
 #include "petsc/options.hpp"
 #include "petsc/session.hpp"
 #include "report/report.hpp"
@@ -15,6 +16,7 @@ constexpr const char* usage =
     "Finds which modes of a brake squeal: flutter of the steady sliding of pads on a disc. A case names a mesh, materials, "
     "supports,\n"
     "loads and contact surfaces, or matrices; options that follow it replace what it says. A list is separated by commas.\n"
+    "  -dry_run   checks a case, and says what its run would take\n"
     "  -help      the manual: all options with units, defaults and ranges\n"
     "  -version   versions of this program and of its libraries\n"
     "Exit code: 0 done, 2 some friction has no steady solution, 1 error.\n";
@@ -37,6 +39,10 @@ int main(int argc, char** argv) {
   }
   try {
     squeal::checkOptions();  // first of all: a mistake in them touches no folder
+    if (squeal::dryRunWanted()) {
+      squeal::dryRun(session.comm());
+      return 0;
+    }
     squeal::report::Directory directory(session.comm());
     const squeal::Analysis analysis = squeal::analyse(session.comm());
     squeal::report::write(analysis, directory);

@@ -74,6 +74,18 @@ void SymmetricSolver::factorise() const {
 
 void rejectUnusedSolverOptions() { factorisation.rejectUnused(); }
 
+double factorMemory(Mat matrix) {
+  Mat factor = nullptr;
+  check(MatGetFactor(matrix, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &factor));
+  const OwnedMat owner(factor);
+  MatFactorInfo info;
+  check(MatFactorInfoInitialize(&info));
+  check(MatCholeskyFactorSymbolic(factor, matrix, nullptr, &info));
+  PetscInt megabytes = 0;
+  check(MatMumpsGetInfog(factor, 17, &megabytes));
+  return 1e6 * static_cast<double>(megabytes);
+}
+
 Inertia inertia(Mat matrix, double zero) {
   Mat factor = nullptr;
   check(MatGetFactor(matrix, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &factor));

@@ -27,6 +27,10 @@ class SymmetricSolver {
   mutable OwnedKSP solver_;
 };
 
+/// Collective. Memory of MUMPS for the LDLᵀ factorisation of a symmetric matrix on all ranks, bytes, as its analysis of the pattern
+/// foresees it; nothing is factorised.
+double factorMemory(Mat matrix);
+
 /// Unused -modes_st_* options are typing errors once a solver has been configured.
 void rejectUnusedSolverOptions();
 

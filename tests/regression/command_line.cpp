@@ -159,6 +159,35 @@ TEST(CommandLine, MagnitudesAndSizesHaveLimits) {
   });
 }
 
+TEST(CommandLine, DryRunSaysWhatARunWouldDo) {
+  const fs::path place = placeFor("command_line/dry");
+  fs::remove_all(place);
+  writeText(place / "results/eigenvalues.csv", "of an earlier run\n");
+  const auto dry = [&](const std::string& options) {
+    const int code = shell(SQUEAL_SOURCE_DIR, program + options + " -dry_run -report_dir '" + (place / "results").string() +
+                                                  "' >'" + (place / "out").string() + "' 2>'" + (place / "err").string() + "'");
+    EXPECT_EQ(code, 0) << contentOf(place / "err");
+    return contentOf(place / "out");
+  };
+  const auto expect = [](const std::string& out, const std::vector<std::string>& pieces) {
+    for (const auto& piece : pieces) EXPECT_NE(out.find(piece), std::string::npos) << piece << "\n" << out;
+  };
+  // 12 x 4 cells; 12 columns of three free nodes, and one on the plate that slides.
+  expect(dry("-options_file options/layer.yaml -mesh_set nx=12,ny=4 -flutter_friction 0,0.2 -flutter_speed 1,2,3"),
+         {"meshes/layer.geo: 65 nodes, 48 cells", "layer (48 cells)", "bottom (12 nodes)", "plate (12 pairs of nodes)",
+          "6 points: 2 frictions x 3 speeds x 1 pressures x 1 dampings; 6 steady states", "unknowns     84", "GB on all ranks"});
+  expect(dry("-options_file options/external.yaml"),
+         {"mass: 2 rows, 2 entries, with s^2", "friction: 2 rows, 1 entries, with s^0, friction^1", "unknowns     2,"});
+  dry("-options_file options/external.yaml -flutter_friction 0:0.9999:0.0001");
+  EXPECT_NE(contentOf(place / "err").find("a sweep of 10000 points"), std::string::npos) << contentOf(place / "err");
+  std::vector<std::string> left;
+  for (const auto& entry : fs::directory_iterator(place / "results")) left.push_back(entry.path().filename());
+  EXPECT_EQ(left, std::vector<std::string>{"eigenvalues.csv"});
+  EXPECT_EQ(contentOf(place / "results/eigenvalues.csv"), "of an earlier run\n");
+  // What a run refuses, a dry run refuses.
+  EXPECT_EQ(shell(SQUEAL_SOURCE_DIR, program + "-options_file options/layer.yaml -dry_run -contact_plate_pad topp 2>/dev/null"), 1);
+}
+
 TEST(CommandLine, VersionManualAndUsage) {
   const fs::path place = placeFor("command_line/words");
   writeText(place / "out", "");
