@@ -95,7 +95,8 @@ TEST(CommandLine, CasesRunFromAnywhere) {
 fs::path scriptsIn(const fs::path& place) {
   fs::create_directories(place / "scripts");
   fs::create_directories(place / "build");
-  fs::copy_file(SQUEAL_SOURCE_DIR "/scripts/run", place / "scripts/run");
+  for (const char* script : {"run", "report_dir"})
+    fs::copy_file(fs::path(SQUEAL_SOURCE_DIR) / "scripts" / script, place / "scripts" / script);
   fs::create_symlink(SQUEAL_EXECUTABLE, place / "build/squeal");
   writeText(place / "scripts/setup",
             "cd \"$(dirname \"${BASH_SOURCE[0]}\")/..\"\n"
