@@ -52,4 +52,11 @@ using OwnedEPS = Owned<EPS, EPSDestroy>;
 using OwnedBV = Owned<BV, BVDestroy>;
 using OwnedViewer = Owned<PetscViewer, PetscViewerDestroy>;
 
+/// Collective. A vector that `matrix` can be multiplied with; zero.
+inline OwnedVec rightVector(Mat matrix) {
+  OwnedVec vector;
+  check(MatCreateVecs(matrix, vector.out(), nullptr));
+  return vector;
+}
+
 }  // namespace squeal

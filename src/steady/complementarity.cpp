@@ -1,0 +1,163 @@
+/// The complementarity problem by PETSc's SNES VI.
+#include <petscsnes.h>
+
+#include <algorithm>
+
+#include "petsc/options.hpp"
+#include "steady/steady.hpp"
+
+namespace squeal::steady {
+namespace {
+
+const SolverPrefix solverPrefix("steady", "steady_", "PETSc SNES VI, KSP and PC of steady sliding: snes_*, ksp_*, pc_*, …");
+
+using OwnedSNES = Owned<SNES, SNESDestroy>;
+
+/// Gives an option a value while SNES reads its options, unless the user has: SNES has no function that sets this one.
+class DefaultOption {
+ public:
+  DefaultOption(std::string name, const char* value) : name_(std::move(name)) {
+    PetscBool given = PETSC_FALSE;
+    check(PetscOptionsHasName(nullptr, nullptr, name_.c_str(), &given));
+    if (given)
+      name_.clear();
+    else
+      check(PetscOptionsSetValue(nullptr, name_.c_str(), value));
+  }
+  ~DefaultOption() {
+    if (!name_.empty()) check(PetscOptionsClearValue(nullptr, name_.c_str()));
+  }
+  DefaultOption(const DefaultOption&) = delete;
+  DefaultOption& operator=(const DefaultOption&) = delete;
+
+ private:
+  std::string name_;
+};
+
+/// SNES sees F̂(x̂) = F(x)/forceUnit with x = xUnit x̂, so that its tolerances, absolute ones among them
+/// mean the same in metres and in millimetres.
+struct Scaled {
+  const Problem& problem;
+  Parameters at;
+  double xUnit, forceUnit;
+  bool nonlinear;
+  Vec x;  // work
+};
+
+PetscErrorCode evaluate(SNES, Vec x, Vec f, void* context) {
+  const auto& scaled = *static_cast<const Scaled*>(context);
+  PetscFunctionBegin;
+  PetscCall(VecCopy(x, scaled.x));
+  PetscCall(VecScale(scaled.x, scaled.xUnit));
+  scaled.problem.residual(scaled.at, scaled.x, f);
+  PetscCall(VecScale(f, 1 / scaled.forceUnit));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode differentiate(SNES, Vec x, Mat jacobian, Mat, void* context) {
+  const auto& scaled = *static_cast<const Scaled*>(context);
+  PetscFunctionBegin;
+  if (!scaled.nonlinear) PetscFunctionReturn(0);
+  PetscCall(VecCopy(x, scaled.x));
+  PetscCall(VecScale(scaled.x, scaled.xUnit));
+  const OwnedMat fresh = scaled.problem.jacobian(scaled.at, scaled.x);
+  PetscCall(MatCopy(fresh, jacobian, SAME_NONZERO_PATTERN));
+  PetscCall(MatScale(jacobian, scaled.xUnit / scaled.forceUnit));
+  PetscFunctionReturn(0);
+}
+
+}  // namespace
+
+/// The 2-norm of what is left of the complementarity problem: of F_g at a closed gap only what pulls.
+double Problem::naturalResidual(const Parameters& at, Vec x) const {
+  const OwnedVec f = rightVector(transformation_.trial);
+  residual(at, x, f);
+  PetscInt first = 0;
+  check(VecGetOwnershipRange(x, &first, nullptr));
+  const PetscScalar* gaps = nullptr;
+  PetscScalar* values = nullptr;
+  check(VecGetArrayRead(x, &gaps));
+  check(VecGetArray(f, &values));
+  for (PetscInt column : transformation_.gapColumn)
+    if (gaps[column - first] <= 0) values[column - first] = std::min(values[column - first], 0.0);
+  check(VecRestoreArray(f, &values));
+  check(VecRestoreArrayRead(x, &gaps));
+  PetscReal size = 0;
+  check(VecNorm(f, NORM_2, &size));
+  return size;
+}
+
+/// Returns the 2-norm of the forces left, N.
+double Problem::complementarity(OwnedVec& x, Solution& solution) const {
+  PetscReal xUnit = 0, forceUnit = 0;
+  check(VecNorm(x, NORM_INFINITY, &xUnit));
+  {
+    const OwnedVec zero = rightVector(transformation_.trial), start = rightVector(transformation_.trial);
+    residual(solution.at, zero, start);
+    check(VecNorm(start, NORM_2, &forceUnit));
+  }
+  if (xUnit == 0) xUnit = 1;
+  if (forceUnit == 0) forceUnit = 1;
+  const OwnedMat jacobian = this->jacobian(solution.at, x);
+  OwnedMat symmetric;
+  check(MatDuplicate(stiffness_.matrix, MAT_COPY_VALUES, symmetric.out()));
+  for (Mat matrix : {jacobian.get(), symmetric.get()}) check(MatScale(matrix, xUnit / forceUnit));
+  // The residual cannot become smaller than rounding, which grows with the displacements and with the number of unknowns.
+  const double asked = std::max(1e-11, 10 * rounding(displacement(solution.at, x), load(solution.at)) / forceUnit);
+  check(VecScale(x, 1 / xUnit));
+  const OwnedVec work = rightVector(jacobian);
+  Scaled scaled{*this, solution.at, xUnit, forceUnit, static_cast<bool>(contact_.convected), work};
+
+  const OwnedVec low = rightVector(jacobian), high = rightVector(jacobian);
+  check(VecSet(low, PETSC_NINFINITY));
+  check(VecSet(high, PETSC_INFINITY));
+  for (PetscInt column : transformation_.gapColumn) check(VecSetValue(low, column, 0, INSERT_VALUES));
+  check(VecAssemblyBegin(low));
+  check(VecAssemblyEnd(low));
+
+  OwnedSNES snes;
+  check(SNESCreate(mesh_.comm, snes.out()));
+  check(SNESSetOptionsPrefix(snes, solverPrefix.prefix.c_str()));
+  check(SNESSetType(snes, SNESVINEWTONRSLS));
+  const OwnedVec value = rightVector(jacobian);
+  check(SNESSetFunction(snes, value, evaluate, &scaled));
+  check(SNESSetJacobian(snes, jacobian, symmetric, differentiate, &scaled));
+  check(SNESVISetVariableBounds(snes, low, high));
+  check(SNESSetTolerances(snes, asked, 1e-14, 0, 30, 1000));
+  // Newton's method corrects what a linear solve that stagnates has left; the residual decides.
+  check(SNESSetMaxLinearSolveFailures(snes, 1000));
+  KSP ksp = nullptr;
+  PC pc = nullptr;
+  check(SNESGetKSP(snes, &ksp));
+  check(KSPSetType(ksp, KSPGMRES));
+  check(KSPSetTolerances(ksp, 1e-10, PETSC_DEFAULT, PETSC_DEFAULT, 100));
+  check(KSPGMRESSetRestart(ksp, 100));
+  check(KSPGetPC(ksp, &pc));
+  check(PCSetType(pc, PCCHOLESKY));
+  check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  check(KSPSetPCSide(ksp, PC_RIGHT));
+  {
+    // A gap is open however small: the default, 1e-8 of the largest displacement, is too much where a body moves far as a whole.
+    const DefaultOption exact("-" + solverPrefix.prefix + "snes_vi_zero_tolerance", "1e-14");
+    check(SNESSetFromOptions(snes));
+  }
+  // SNES asks for these only while it solves.
+  solverPrefix.rejectUnused({"mat_mumps_", "uniqueness_", "snes_test_jacobian", "snes_converged_reason", "snes_view"});
+  check(SNESSolve(snes, nullptr, x));
+  SNESConvergedReason reason;
+  PetscInt iterations = 0;
+  check(SNESGetConvergedReason(snes, &reason));
+  check(SNESGetIterationNumber(snes, &iterations));
+  check(VecScale(x, xUnit));
+  const double left = naturalResidual(solution.at, x);
+  solution.residual = left / forceUnit;
+  PetscReal tolerance = 0;
+  check(SNESGetTolerances(snes, &tolerance, nullptr, nullptr, nullptr, nullptr));
+  solution.reason = SNESConvergedReasons[reason];
+  solution.iterations = static_cast<int>(iterations);
+  // A step that no longer changes anything (the line search, SNORM) is an end only where the residual says so.
+  solution.converged = solution.residual <= std::max<PetscReal>(tolerance, 10 * asked);
+  return left;
+}
+
+}  // namespace squeal::steady
