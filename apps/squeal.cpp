@@ -3,6 +3,7 @@
 
 #include "analysis.hpp"
 #include "dryrun.hpp"
+#include "matrices/matrices.hpp"
 #include "petsc/options.hpp"
 #include "petsc/session.hpp"
 #include "report/report.hpp"
@@ -44,6 +45,7 @@ int main(int argc, char** argv) {
       return 0;
     }
     squeal::report::Directory directory(session.comm());
+    if (squeal::matrices::exportWanted()) squeal::matrices::requireExportFolder(session.comm());
     const squeal::Analysis analysis = squeal::analyse(session.comm());
     squeal::report::write(analysis, directory);
     return analysis.converged() ? 0 : 2;  // instability is a result; a friction without steady state is not

@@ -137,13 +137,6 @@ std::string text(hid_t type, hid_t space, const Read& read) {
 
 }  // namespace
 
-Silence::Silence() {
-  H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-}
-
-Silence::~Silence() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
-
 std::string cause() {
   std::string text;
   const auto first = [](unsigned, const H5E_error2_t* error, void* to) -> herr_t {

@@ -1,48 +1,20 @@
 #pragma once
 /// What HDF5 files hold, with the checks that the HDF5 library leaves to its users.
-#include <hdf5.h>
-
 #include <string>
 #include <vector>
 
+#include "petsc/hdf5.hpp"
+
 namespace squeal::matrices {
 
-/// An HDF5 identifier with its close function.
-template <herr_t (*close)(hid_t)>
-class Id {
- public:
-  explicit Id(hid_t id) : id_(id) {}
-  ~Id() {
-    if (id_ >= 0) close(id_);
-  }
-  Id(const Id&) = delete;
-  Id& operator=(const Id&) = delete;
-  operator hid_t() const { return id_; }  // NOLINT
-  bool valid() const { return id_ >= 0; }
-
- private:
-  hid_t id_;
-};
-using FileId = Id<H5Fclose>;
-using ObjectId = Id<H5Oclose>;
-using DatasetId = Id<H5Dclose>;
-using SpaceId = Id<H5Sclose>;
-using AttributeId = Id<H5Aclose>;
-using TypeId = Id<H5Tclose>;
-using PropertiesId = Id<H5Pclose>;
-
-/// HDF5 prints its errors itself unless told not to; they reach the user through ours.
-class Silence {
- public:
-  Silence();
-  ~Silence();
-  Silence(const Silence&) = delete;
-  Silence& operator=(const Silence&) = delete;
-
- private:
-  H5E_auto2_t function_ = nullptr;
-  void* data_ = nullptr;
-};
+using hdf5::AttributeId;
+using hdf5::DatasetId;
+using hdf5::FileId;
+using hdf5::ObjectId;
+using hdf5::PropertiesId;
+using hdf5::Silence;
+using hdf5::SpaceId;
+using hdf5::TypeId;
 
 /// The cause of HDF5's last failure, " (truncated file: ...)", or nothing.
 std::string cause();

@@ -1,4 +1,5 @@
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -6,6 +7,7 @@
 #include <string_view>
 
 #include "matrices/formats.hpp"
+#include "output/file.hpp"
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
 
@@ -226,13 +228,14 @@ Entries readMatrixMarket(const std::filesystem::path& path) {
 }
 
 void writeMatrixMarket(const std::filesystem::path& path, const Entries& entries) {
+  errno = 0;
   std::ofstream file(path);
   file << formatted("%%%%MatrixMarket matrix coordinate real general\n%d %d %zu\n", static_cast<int>(entries.rows),
                     static_cast<int>(entries.columns), entries.value.size());
   for (std::size_t k = 0; k < entries.value.size(); ++k)
     file << formatted("%d %d %.17g\n", static_cast<int>(entries.row[k]) + 1, static_cast<int>(entries.column[k]) + 1,
                       entries.value[k]);
-  if (!file.flush()) throw Error("cannot write " + path.string());
+  if (!file.flush()) throw output::WriteError(output::cannotWrite(path, errno));
 }
 
 }  // namespace squeal::matrices

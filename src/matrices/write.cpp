@@ -1,10 +1,13 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <set>
 
 #include "matrices/formats.hpp"
 #include "matrices/matrices.hpp"
+#include "output/file.hpp"
+#include "output/folder.hpp"
 #include "petsc/gathered.hpp"
 #include "petsc/options.hpp"
 #include "petsc/settings.hpp"
@@ -12,6 +15,9 @@
 #include "petsc/text.hpp"
 
 namespace squeal::matrices {
+
+namespace fs = std::filesystem;
+
 namespace {
 
 const TextOption folderOption("report", "report_matrices", "",
@@ -19,6 +25,7 @@ const TextOption folderOption("report", "report_matrices", "",
 const ChoiceOption formatOption("report", "report_matrices_format", {"petsc", "matrix_market"}, "petsc",
                                 "format of these matrices");
 
+const char* const heading = "# Matrices of one problem, for squeal -options_file";
 std::string blame() { return "option -report_matrices " + folderOption.get() + ": "; }
 
 std::string roleOf(const flutter::Term& term) { return term.power == 2 ? "mass" : term.power == 1 ? "damping" : "stiffness"; }
@@ -57,20 +64,25 @@ Entries entriesOf(Mat matrix) {
   return entries;
 }
 
-void writeMatrix(Mat matrix, const std::filesystem::path& path) {
+void writeMatrix(Mat matrix, const fs::path& path) {
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(matrix));
   if (formatOption.get() == "matrix_market") {
     const OwnedMat whole = onRankZero(matrix);
     onFirstRank(comm, blame(), [&] { writeMatrixMarket(path, entriesOf(whole)); });
     return;
   }
-  onFirstRank(comm, blame(), [&] {  // PETSc would end the run with its own words
-    if (!std::ofstream(path)) throw Error("cannot write " + path.string());
-  });
+  // header, length and columns of the rows, values; PETSc would end the run with its own words, or not at all on other ranks than the first
+  MatInfo info;
+  PetscInt rows = 0;
+  check(MatGetInfo(matrix, MAT_GLOBAL_SUM, &info));
+  check(MatGetSize(matrix, &rows, nullptr));
+  const auto entries = static_cast<unsigned long long>(info.nz_used);
+  const auto bytes = (4 + static_cast<unsigned long long>(rows) + entries) * sizeof(PetscInt) + entries * sizeof(PetscScalar);
+  onFirstRank(comm, blame(), [&] { output::reserve(path, bytes); });
   OwnedViewer viewer;
   check(PetscViewerCreate(comm, viewer.out()));
   check(PetscViewerSetType(viewer, PETSCVIEWERBINARY));
-  check(PetscViewerFileSetMode(viewer, FILE_MODE_WRITE));
+  check(PetscViewerFileSetMode(viewer, FILE_MODE_APPEND));  // to the empty file, which keeps its room
   check(PetscViewerBinarySkipInfo(viewer));
   check(PetscViewerFileSetName(viewer, path.c_str()));
   check(MatView(matrix, viewer));
@@ -105,30 +117,58 @@ void requireOnePencil(const flutter::Pencil& pencil, const flutter::Sweep& sweep
         "slip); export one -flutter_friction, -flutter_speed and -flutter_pressure at a time");
 }
 
+/// The names of files that an export writes.
+bool isExport(const fs::path& path) {
+  static const std::regex matrix(R"((mass|damping|stiffness)(_(friction|speed|damping)-?\d+)*(_\d+)?\.(petsc|mtx))");
+  return path == "options.txt" || path == output::Manifest::name || std::regex_match(path.string(), matrix);
+}
+
+/// Those of version 0.1.0, which kept no manifest.
+output::Manifest formerExport(const fs::path& folder) {
+  std::string line;
+  std::ifstream options(folder / "options.txt");
+  if (!std::getline(options, line) || !line.starts_with(heading)) return {};
+  std::set<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (const auto name = entry.path().filename(); isExport(name) && !entry.is_directory()) files.insert(name);
+  return output::Manifest(files);
+}
+
+/// Collective. Error: the folder is that of the results, whose options.txt is another one.
+void requireOwnFolder() {
+  const auto results = resolvedOptions().find("report_dir");
+  const auto place = [](const std::string& folder) { return fs::weakly_canonical(fs::absolute(folder)) / ""; };
+  if (results != resolvedOptions().end() && place(results->second) == place(folderOption.get()))
+    throw Error(blame() + "is the folder of the results (-report_dir); name another one");
+}
+
 }  // namespace
 
 bool exportWanted() { return !folderOption.get().empty(); }
 
+void requireExportFolder(MPI_Comm comm) {
+  requireOwnFolder();
+  const output::Folder folder(comm, {"-report_matrices", "options.txt", isExport, formerExport}, folderOption.get());
+}
+
 void exportPencil(const flutter::Pencil& pencil, const flutter::Sweep& sweep, std::size_t steadyPoints) {
   requireOnePencil(pencil, sweep, steadyPoints);
+  requireOwnFolder();
   Stage stage(pencil.comm(), "matrices");
-  const std::filesystem::path folder = folderOption.get();
-  onFirstRank(pencil.comm(), blame(), [&] { std::filesystem::create_directories(folder); });
+  output::Folder folder(pencil.comm(), {"-report_matrices", "options.txt", isExport, formerExport}, folderOption.get());
+  folder.stage();
   std::set<std::string> taken;
-  std::string text = "# Matrices of one problem, for squeal -options_file; the rows are in the order of the run that wrote them\n";
+  std::string text = std::string(heading) + "; the rows are in the order of the run that wrote them\n";
   for (const auto& term : pencil.terms()) {
     const std::string name = nameOf(term, taken);
-    const auto path = folder / (name + (formatOption.get() == "petsc" ? ".petsc" : ".mtx"));
+    const auto path = folder.staging() / (name + (formatOption.get() == "petsc" ? ".petsc" : ".mtx"));
     writeMatrix(term.matrix, path);
     text += optionsOf(name, term, path.filename());
   }
   text += carriedOptions();
-  onFirstRank(pencil.comm(), blame(), [&] {
-    std::ofstream file(folder / "options.txt");
-    file << text;
-    if (!file.flush()) throw Error("cannot write " + (folder / "options.txt").string());
-  });
-  stage.finish(formatted("%zu matrices in %s", pencil.terms().size(), folder.c_str()));
+  onFirstRank(pencil.comm(), blame(), [&] { output::writeFile(folder.staging() / "options.txt", text); });
+  folder.commit();
+  stage.finish(formatted("%zu matrices in %s", pencil.terms().size(), folder.path().c_str()));
 }
 
 }  // namespace squeal::matrices

@@ -18,6 +18,10 @@ std::string cannotWrite(const std::filesystem::path& path, int error);
 /// Not collective. Writes the whole file, replacing what is there. Error: WriteError.
 void writeFile(const std::filesystem::path& path, const std::string& text);
 
+/// Not collective. Makes an empty file with room for `bytes` on the disc: for a library that does not end well where room is missing.
+/// Error: WriteError.
+void reserve(const std::filesystem::path& path, unsigned long long bytes);
+
 /// Not collective. Returns when the content of a file, or the entries of a folder, are on the disc. Error: WriteError.
 void sync(const std::filesystem::path& path);
 

@@ -2,15 +2,13 @@
 /// Handles of the HDF5 library.
 #include <hdf5.h>
 
-#include <utility>
-
 namespace squeal::hdf5 {
 
 /// An HDF5 identifier with its close function.
 template <herr_t (*close)(hid_t)>
 class Id {
  public:
-  explicit Id(hid_t id = -1) : id_(id) {}
+  explicit Id(hid_t id) : id_(id) {}
   ~Id() {
     if (id_ >= 0) close(id_);
   }
@@ -18,8 +16,6 @@ class Id {
   Id& operator=(const Id&) = delete;
   operator hid_t() const { return id_; }  // NOLINT
   bool valid() const { return id_ >= 0; }
-  /// Gives up ownership.
-  hid_t release() { return std::exchange(id_, -1); }
 
  private:
   hid_t id_;
