@@ -91,7 +91,7 @@ void limitMemory() {
 /// A refusal is one line in our words. onFirstRank makes an Error of every exception: what the standard library says shows through.
 std::string faultOf(const std::string& message) {
   for (const char* foreign :
-       {"std::", "vector::", "basic_string", "stoi", "stod", "not enough memory", "more memory than is free", "\n"})
+       {"std::", "vector::", "basic_string", "stoi", "stod", "not enough memory", ": it asks for more memory than is free", "\n"})
     if (message.find(foreign) != std::string::npos) return "the message is: " + message;
   return message.empty() ? "an empty message" : "";
 }
