@@ -1,9 +1,11 @@
 /// squeal: flutter of the steady sliding state of brakes. The method itself is squeal::analyse (src/analysis.cpp).
 #include <cstdio>
+#include <new>
 
 #include "analysis.hpp"
 #include "dryrun.hpp"
 #include "matrices/matrices.hpp"
+#include "petsc/memory.hpp"
 #include "petsc/options.hpp"
 #include "petsc/session.hpp"
 #include "report/report.hpp"
@@ -52,5 +54,7 @@ int main(int argc, char** argv) {
   } catch (const squeal::Error& error) {
     if (session.rank() == 0) std::fprintf(stderr, "squeal: error: %s\n", error.what());
     return 1;
+  } catch (const std::bad_alloc&) {  // perhaps on this rank alone
+    squeal::outOfMemory();
   }
 }

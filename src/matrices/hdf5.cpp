@@ -2,6 +2,7 @@
 #include "matrices/hdf5_file.hpp"
 #include "petsc/check.hpp"
 #include "petsc/child.hpp"
+#include "petsc/memory.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal::matrices {

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "petsc/check.hpp"
+#include "petsc/memory.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal::mesh {

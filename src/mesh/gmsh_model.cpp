@@ -14,6 +14,7 @@
 #include "mesh/unv.hpp"
 #include "petsc/check.hpp"
 #include "petsc/child.hpp"
+#include "petsc/memory.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal::mesh {

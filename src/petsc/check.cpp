@@ -1,11 +1,13 @@
 #include "petsc/check.hpp"
 
+#include "petsc/memory.hpp"
 #include "petsc/termination.hpp"
 
 namespace squeal {
 
 void check(PetscErrorCode code, std::source_location where) {
   if (code == 0) return;
+  if (lacksMemory(code)) outOfMemory();
   PetscError(PETSC_COMM_SELF, static_cast<int>(where.line()), where.function_name(), where.file_name(), code, PETSC_ERROR_REPEAT,
              " ");
   performLastActs();

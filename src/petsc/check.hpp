@@ -17,7 +17,7 @@ class Error : public std::runtime_error {
 };
 
 /// Checks the return code of a PETSc, SLEPc or MPI call. A failure there is a defect or a lack of memory, perhaps on this rank
-/// alone: the PETSc traceback is printed and MPI_Abort ends all ranks.
+/// alone: one line on memory or the PETSc traceback is printed, and MPI_Abort ends all ranks.
 void check(PetscErrorCode code, std::source_location where = std::source_location::current());
 
 /// Collective. Throws Error on all ranks with the message of the lowest rank whose `localMessage` is not empty; returns if all are.

@@ -11,11 +11,10 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
-#include <fstream>
 #include <new>
-#include <sstream>
 
 #include "petsc/check.hpp"
+#include "petsc/memory.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal {
@@ -24,25 +23,6 @@ namespace {
 constexpr unsigned patience = 30;  // s, until the user is told that nothing hangs
 
 enum class Outcome : char { result, failure, noMemory };
-
-/// The first number in a file of /proc or /sys; none if there is no such file, or it says "max".
-std::optional<double> numberIn(const std::string& path) {
-  double value = 0;
-  if (std::ifstream file(path); file >> value) return value;
-  return {};
-}
-
-/// The number behind `name` in a table of /proc or /sys.
-std::optional<double> entryOf(const std::string& path, const std::string& name) {
-  std::ifstream file(path);
-  for (std::string line, word; std::getline(file, line);)
-    if (double value = 0; std::istringstream(line) >> word >> value && word == name) return value;
-  return {};
-}
-
-double addressSpace() {
-  return numberIn("/proc/self/statm").value_or(0) * static_cast<double>(sysconf(_SC_PAGESIZE));  // its first number: pages in all
-}
 
 void limit(decltype(RLIMIT_AS) resource, double value) {
   rlimit now{};
@@ -170,21 +150,6 @@ Buffer inChild(const ChildLimits& limits, const std::function<Buffer(const Warn&
   if (outcome == Outcome::noMemory) throw Error(limits.subject + ": " + limits.noMemory);
   if (outcome == Outcome::failure) throw Error(std::string(result.bytes().begin(), result.bytes().end()));
   return result;
-}
-
-double availableMemory() {
-  double bytes = 1024 * entryOf("/proc/meminfo", "MemAvailable:").value_or(1e15);
-  // A batch job's own limit, in version 2 of the control groups and in version 1. What the kernel caches of files it gives back.
-  struct Group {
-    const char *most, *used, *details, *cached;
-  };
-  for (const auto& [most, used, details, cached] :
-       {Group{"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory.current", "/sys/fs/cgroup/memory.stat", "file"},
-        Group{"/sys/fs/cgroup/memory/memory.limit_in_bytes", "/sys/fs/cgroup/memory/memory.usage_in_bytes",
-              "/sys/fs/cgroup/memory/memory.stat", "cache"}})
-    if (const auto all = numberIn(most), now = numberIn(used); all && now)
-      bytes = std::min(bytes, std::max(0.0, *all - *now + entryOf(details, cached).value_or(0)));
-  return bytes;
 }
 
 }  // namespace squeal

@@ -23,7 +23,4 @@ struct ChildLimits {
 /// this process holds; `work` must not call MPI. Errors: what `work` throws, a crash, a limit reached. Not collective.
 Buffer inChild(const ChildLimits& limits, const std::function<Buffer(const Warn&)>& work);
 
-/// What is free for this process, in bytes: of the machine, or of its control group where that has less.
-double availableMemory();
-
 }  // namespace squeal

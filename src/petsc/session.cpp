@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "petsc/check.hpp"
+#include "petsc/memory.hpp"
 #include "petsc/settings.hpp"
 #include "petsc/termination.hpp"
 #include "petsc/text.hpp"
@@ -71,7 +72,9 @@ Session::Session(int argc, char** argv) {
   const auto settings = helpWanted_ || versionWanted_ ? std::vector<Setting>{} : readSettings(words);
   optionsGiven_ = !settings.empty();
   startSlepc(argv[0], settings);
+  tellLackOfMemoryInOneLine();
   signals.begin(rank());
+  claimBlasWorkspace();
   gmsh::initialize(0, nullptr, false);
   gmsh::option::setNumber("General.Terminal", 0);  // messages reach the user through our errors
 }

@@ -9,6 +9,8 @@ namespace squeal {
 
 /// Collective. One application of MUMPS' LDLᵀ unless the options with this prefix say otherwise; not yet factorised.
 OwnedKSP directSolver(Mat matrix, const SolverPrefix& prefix);
+/// Collective. KSPSetUp. Error: MUMPS' analysis foresees far more memory than is free.
+void factorise(KSP solver);
 /// The factor if it is MUMPS' LDLᵀ, set up or not; null otherwise. Borrowed from the solver.
 Mat mumpsFactor(KSP solver);
 

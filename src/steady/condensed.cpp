@@ -21,7 +21,7 @@ constexpr PetscInt blockColumns = 64;
 OwnedKSP factorisation(Mat matrix) {
   OwnedKSP solver = directSolver(matrix, solverPrefix);
   if (const Mat factor = mumpsFactor(solver)) check(MatMumpsSetIcntl(factor, 13, 1));  // the inertia is asked for
-  check(KSPSetUp(solver));
+  factorise(solver);
   return solver;
 }
 
