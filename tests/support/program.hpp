@@ -64,13 +64,14 @@ struct ProgramRun {
 inline fs::path placeFor(const std::string& name) { return fs::path(SQUEAL_OUTPUT_DIR) / name; }
 
 /// Runs the program in the repository's folder with the results in `name`/results, where what lies there stays.
-inline ProgramRun runAgain(const std::string& name, int ranks, const std::string& options, int seconds = 120) {
+inline ProgramRun runAgain(const std::string& name, int ranks, const std::string& options, int seconds = 120,
+                           const std::string& program = SQUEAL_EXECUTABLE) {
   ProgramRun run;
   run.folder = placeFor(name) / "results";
   fs::create_directories(placeFor(name));
   const fs::path out = placeFor(name) / "stdout.txt", error = placeFor(name) / "stderr.txt";
   const std::string command = "cd '" SQUEAL_SOURCE_DIR "' && exec timeout -k 5 " + std::to_string(seconds) +
-                              " '" SQUEAL_MPIEXEC "' " + std::to_string(ranks) + " '" SQUEAL_EXECUTABLE "' " + options +
+                              " '" SQUEAL_MPIEXEC "' " + std::to_string(ranks) + " '" + program + "' " + options +
                               " -report_dir '" + run.folder.string() + "' >'" + out.string() + "' 2>'" + error.string() + "'";
   const int status = std::system(command.c_str());
   run.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
