@@ -1,5 +1,6 @@
 /// squeal: flutter of the steady sliding state of brakes. The method itself is squeal::analyse (src/analysis.cpp).
 #include <cstdio>
+#include <cstring>
 #include <new>
 
 #include "analysis.hpp"
@@ -8,6 +9,8 @@
 #include "petsc/memory.hpp"
 #include "petsc/options.hpp"
 #include "petsc/session.hpp"
+#include "petsc/stages.hpp"
+#include "petsc/termination.hpp"
 #include "report/report.hpp"
 
 namespace {
@@ -24,16 +27,14 @@ constexpr const char* usage =
     "  -version   versions of this program and of its libraries\n"
     "Exit code: 0 done, 2 some friction has no steady solution, 1 error.\n";
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  const squeal::Session session(argc, argv);
+/// The exit code.
+int run(const squeal::Session& session) {
   if (session.helpWanted()) {
-    if (session.rank() == 0) std::fputs(squeal::manual().c_str(), stdout);
+    if (session.rank() == 0) squeal::print(squeal::manual());
     return 0;
   }
   if (session.versionWanted()) {
-    if (session.rank() == 0) std::fputs(squeal::versions().c_str(), stdout);
+    if (session.rank() == 0) squeal::print(squeal::versions());
     return 0;
   }
   if (!session.optionsGiven()) {
@@ -56,5 +57,21 @@ int main(int argc, char** argv) {
     return 1;
   } catch (const std::bad_alloc&) {  // perhaps on this rank alone
     squeal::outOfMemory();
+  } catch (const std::exception& error) {  // of this rank alone: the others wait for it
+    std::fprintf(stderr, "squeal: error: rank %d: %s\n", session.rank(), error.what());
+    squeal::performLastActs();
+    MPI_Abort(session.comm(), 1);
+    return 1;
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const squeal::Session session(argc, argv);
+  const int code = run(session);
+  if (squeal::outputError() == 0 || session.rank() != 0) return code;
+  std::fprintf(stderr, "squeal: error: cannot write to the standard output: %s%s\n", std::strerror(squeal::outputError()),
+               code == 1 ? "" : "; what was written to files is complete");
+  return 1;
 }

@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <cstring>
 
+#include "petsc/termination.hpp"
+
 namespace squeal::output {
 
 std::string cannotWrite(const std::filesystem::path& path, int error) {
@@ -15,6 +17,7 @@ std::string cannotWrite(const std::filesystem::path& path, int error) {
 }
 
 void writeFile(const std::filesystem::path& path, const std::string& text) {
+  const EndingWaits whole;
   std::FILE* file = std::fopen(path.c_str(), "wb");
   if (!file) throw WriteError(cannotWrite(path, errno));
   int error = std::fwrite(text.data(), 1, text.size(), file) == text.size() && std::fflush(file) == 0 ? 0 : errno;
@@ -23,6 +26,7 @@ void writeFile(const std::filesystem::path& path, const std::string& text) {
 }
 
 void reserve(const std::filesystem::path& path, unsigned long long bytes) {
+  const EndingWaits whole;
   rlimit most{};
   const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (file < 0) throw WriteError(cannotWrite(path, errno));

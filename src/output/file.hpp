@@ -1,5 +1,5 @@
 #pragma once
-/// Files written by one rank.
+/// Files written by one rank. Where the run is being ended from outside, none is begun (EndingWaits): what clears up must not be undone.
 #include <filesystem>
 #include <stdexcept>
 #include <string>

@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 
 #include "petsc/check.hpp"
@@ -17,6 +18,11 @@ const FlagOption quiet("general", "quiet", false, "print nothing but errors");
 std::vector<StageRecord>& records() {
   static std::vector<StageRecord> list;
   return list;
+}
+
+int& outputErrorSlot() {
+  static int error = 0;
+  return error;
 }
 
 bool speaks(MPI_Comm comm) {
@@ -36,8 +42,7 @@ void Stage::progress(const std::string& text) {
 void Stage::say(const std::string& text) {
   lastProgress_ = MPI_Wtime();
   if (!speaks(comm_)) return;
-  std::printf("%-10s %8.2f s … %s\n", name_.c_str(), lastProgress_ - begin_, text.c_str());
-  std::fflush(stdout);
+  print(formatted("%-10s %8.2f s … %s\n", name_.c_str(), lastProgress_ - begin_, text.c_str()));
 }
 
 void Stage::finish(const std::string& result) {
@@ -51,15 +56,19 @@ void Stage::finish(const std::string& result) {
   known->seconds += seconds;
   known->peakMemoryBytes = memory;
   if (!speaks(comm_)) return;
-  std::printf("%-10s %8.2f s  %s\n", name_.c_str(), seconds, result.c_str());
-  std::fflush(stdout);
+  print(formatted("%-10s %8.2f s  %s\n", name_.c_str(), seconds, result.c_str()));
 }
 
 void say(MPI_Comm comm, const std::string& text) {
   if (!speaks(comm)) return;
-  std::printf("%s\n", text.c_str());
-  std::fflush(stdout);
+  print(text + "\n");
 }
+
+void print(const std::string& text) {
+  if ((std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0) && outputErrorSlot() == 0) outputErrorSlot() = errno;
+}
+
+int outputError() { return outputErrorSlot() == EPIPE ? 0 : outputErrorSlot(); }
 
 void complain(MPI_Comm comm, const std::string& text) {
   int rank = 0;

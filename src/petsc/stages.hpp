@@ -33,6 +33,10 @@ class Stage {
 
 /// Text for the user on rank 0, silent with -quiet.
 void say(MPI_Comm comm, const std::string& text);
+/// Not collective. On the standard output at once, whether or not it can be written: no run is lost for its terminal.
+void print(const std::string& text);
+/// errno of the first output that could not be written; 0 where all could, or where its reader has gone, as `head` does.
+int outputError();
 /// A warning on the standard error output of rank 0, also with -quiet.
 void complain(MPI_Comm comm, const std::string& text);
 /// All finished stages in order; stages finished several times (one per friction) are summed.

@@ -2,6 +2,7 @@
 
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <mutex>
 #include <thread>
@@ -84,6 +85,8 @@ void SignalWatch::begin(int rank) {
   std::signal(SIGXFSZ, SIG_IGN);
   if (pipe2(signalPipe, O_CLOEXEC) != 0) throw Error("no pipe for signals can be made: " + std::string(std::strerror(errno)));
   std::thread(awaitSignal, rank).detach();
+  gate(), acts();                // live until then
+  std::atexit(performLastActs);  // as MPI ends a rank that has lost its mpirun
   struct sigaction action {};
   action.sa_flags = SA_RESTART;
   sigemptyset(&action.sa_mask);

@@ -1,5 +1,5 @@
 #pragma once
-/// Endings from outside: signals, and MPI_Abort after an error of a library. What a run must not leave behind is put away all the same.
+/// Endings from outside: signals, MPI_Abort after an error of a library, exit() in one. What a run must not leave behind is put away all the same.
 #include <functional>
 
 namespace squeal {
@@ -17,7 +17,8 @@ class LastAct {
   std::function<void()> act_;
 };
 
-/// While one lives, an ending from outside waits: for work of milliseconds that is to be done whole.
+/// While one lives, an ending from outside waits; once that has begun, none comes to life. For work that is short and to be done whole,
+/// and for files that must not appear while the last acts remove them.
 class EndingWaits {
  public:
   EndingWaits();

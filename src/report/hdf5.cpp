@@ -10,6 +10,7 @@
 #include "output/file.hpp"
 #include "petsc/check.hpp"
 #include "petsc/hdf5.hpp"
+#include "petsc/termination.hpp"
 #include "petsc/text.hpp"
 #include "report/hdf5_driver.hpp"
 
@@ -49,6 +50,7 @@ class Rows {
   }
   void write(const void* values, hsize_t rows) {
     if (rows == 0) return;
+    const EndingWaits whole;
     const std::array<hsize_t, 2> begin{done_, 0}, count{rows, columns_};
     const hdf5::SpaceId here(H5Screate_simple(2, count.data(), nullptr)), there(H5Dget_space(dataset_));
     H5Sselect_hyperslab(there, H5S_SELECT_SET, begin.data(), nullptr, count.data(), nullptr);
@@ -117,6 +119,7 @@ template <class Action>
 void Hdf5File::onFirst(const Action& action) {
   onFirstRank(comm_, blame, [&] {
     const hdf5::Silence silence;
+    const EndingWaits whole;
     require(action(), path_);
   });
 }

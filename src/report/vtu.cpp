@@ -18,6 +18,7 @@
 
 #include "output/file.hpp"
 #include "petsc/check.hpp"
+#include "petsc/termination.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal::report {
@@ -103,6 +104,7 @@ const std::string blame = "option -report_dir: ";
 /// Collective. Rank 0 makes the folder; the others wait for it.
 void makeFolder(MPI_Comm comm, const fs::path& folder) {
   onFirstRank(comm, blame, [&] {
+    const EndingWaits whole;
     std::error_code error;
     if (!folder.empty()) fs::create_directories(folder, error);
     if (error) throw output::WriteError(output::cannotWrite(folder, error.value()));
@@ -123,6 +125,7 @@ void requireWritable(const mesh::Mesh& mesh, const std::vector<Field>& fields) {
 
 /// Returns what went wrong, empty if nothing did.
 std::string writePiece(vtkUnstructuredGrid* grid, const fs::path& path) {
+  const EndingWaits whole;
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
   writer->SetInputData(grid);
   writer->SetFileName(path.c_str());

@@ -35,6 +35,17 @@ inline std::vector<std::string> namesOf(const Files& files) {
   return names;
 }
 
+/// The names of files that are in one of the two alone, or have other content: for messages that can be read.
+inline std::vector<std::string> differing(const Files& a, const Files& b) {
+  std::vector<std::string> names;
+  for (const auto& [name, content] : a)
+    if (const auto other = b.find(name); other == b.end() || other->second != content) names.push_back(name);
+  for (const auto& [name, content] : b)
+    if (!a.contains(name)) names.push_back(name);
+  return names;
+}
+inline const std::vector<std::string> none;
+
 /// True as soon as the condition holds, false after the time limit.
 inline bool waitUntil(const std::function<bool()>& condition, double seconds = 60) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
@@ -72,13 +83,18 @@ class Started {
   pid_t mpirun() const { return process_; }
   /// The process of a rank; 0: there is none (yet).
   pid_t rank(int wanted) const {
-    for (const auto& [process, rank] : ranks())
+    for (const auto& [process, rank] : processes())
       if (rank == wanted) return process;
     return 0;
   }
   /// Waits until the program has printed a line that begins so.
   bool printed(const std::string& begin) const {
     return waitUntil([&] { return ended() || ("\n" + contentOf(out())).find("\n" + begin) != std::string::npos; }) && !ended();
+  }
+  /// The same for a stage; the last one, whose line stands at its end, is reached when the first fields are written.
+  bool reached(const std::string& stage) const {
+    if (stage != "report") return printed(stage);
+    return waitUntil([&] { return ended() || fs::exists(folder() / ".partial" / "vtk"); }) && !ended();
   }
   bool ended() const {
     int status = 0;
@@ -90,12 +106,10 @@ class Started {
   }
   /// Waits for the end of mpirun and of the ranks, for which mpirun does not wait when it is ended by a signal.
   ProgramRun finished(double seconds = 60) {
-    const auto all = ranks();
     ProgramRun run;
     run.folder = folder();
     run.exitCode = waitUntil([&] { return ended(); }, seconds) ? exitCode_ : 124;
-    const bool gone =
-        waitUntil([&] { return std::none_of(all.begin(), all.end(), [](const auto& item) { return isProgram(item.first); }); }, 20);
+    const bool gone = waitUntil([&] { return processes().empty(); }, 20);
     EXPECT_TRUE(gone) << "a rank is left running";
     run.out = contentOf(out());
     run.error = contentOf(error());
@@ -111,16 +125,15 @@ class Started {
     text << file.rdbuf();
     return text.str();
   }
-  static bool isProgram(pid_t process) { return procFile(process, "cmdline").rfind(SQUEAL_EXECUTABLE, 0) == 0; }
-  std::vector<std::pair<pid_t, int>> ranks() const {
+  /// The processes of the program that name the folder, and their ranks.
+  std::vector<std::pair<pid_t, int>> processes() const {
     std::vector<std::pair<pid_t, int>> found;
     for (const auto& entry : fs::directory_iterator("/proc")) {
       const std::string name = entry.path().filename();
       if (name.find_first_not_of("0123456789") != std::string::npos) continue;
       const auto process = static_cast<pid_t>(std::stol(name));
-      if (procFile(process, "status").find("\nPPid:\t" + std::to_string(process_) + "\n") == std::string::npos ||
-          !isProgram(process))
-        continue;
+      const std::string words = procFile(process, "cmdline");
+      if (words.rfind(SQUEAL_EXECUTABLE, 0) != 0 || words.find('\0' + folder().string() + '\0') == std::string::npos) continue;
       const std::string environment = procFile(process, "environ"), key = "OMPI_COMM_WORLD_RANK=";
       if (const auto begin = environment.find(key); begin != std::string::npos)
         found.emplace_back(process, std::stoi(environment.substr(begin + key.size())));
