@@ -77,7 +77,7 @@ void saySweep(MPI_Comm comm, const flutter::Sweep& sweep, bool steady) {
   say(comm, text);
 }
 
-/// What is held now (mesh, matrices, libraries), the factor of K0 as the analysis of MUMPS foresees it, and the vectors of the basis with
+/// Prints what is held now (mesh, matrices, libraries), the factor of K0 as the analysis of MUMPS foresees it, and the vectors of the basis with
 /// what is computed from them: about `vectorsPerMode` for each free mode, as measured of 53,151 to 225,715 unknowns in three dimensions and of
 /// 119,600 in the plane.
 void sayMemory(MPI_Comm comm, Mat k0) {

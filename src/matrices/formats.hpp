@@ -41,11 +41,11 @@ struct Compressed {
 
 enum class Format { matrixMarket, petscBinary, hdf5, matlab };
 
-/// What a file is, by its first bytes. Errors: a file that cannot be read, an empty one, one of none of the formats; what it is then.
+/// The format that the first bytes of a file tell. Errors: a file that cannot be read, an empty one, one of none of the formats; what it is then.
 Format formatOf(const std::filesystem::path& path);
 
 /// Matrix Market: coordinate or array; general, symmetric or skew-symmetric; real, integer or pattern (ones). Exponents may begin with D.
-/// Of a symmetric matrix the file holds one triangle. Error: anything else, with the number of the line.
+/// A symmetric or skew-symmetric file holds one triangle. Error: anything else, with the number of the line.
 Entries readMatrixMarket(const std::filesystem::path& path);
 
 /// A MATLAB file of version 4 or 5 (what `save -v4`, `-v6` and `-v7` write): the variable `name`, sparse or full; empty: the only square

@@ -1,5 +1,5 @@
 #pragma once
-/// What HDF5 files hold, with the checks that the HDF5 library leaves to its users.
+/// These functions read what HDF5 files hold, with the checks that the HDF5 library leaves to its users.
 #include <string>
 #include <vector>
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What the readers of MATLAB's versions 4 and 5 share.
+/// The readers of MATLAB's versions 4 and 5 share these parts.
 #include <string>
 #include <vector>
 
