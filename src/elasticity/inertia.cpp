@@ -20,17 +20,18 @@ bool positiveDefinite(std::vector<double> matrix, std::size_t size) {
 /// Volume that each point of the rule stands for. Where det J changes its sign the mass of ∫ ρ φᵢ φⱼ det J dξ would be indefinite: the points
 /// with a negative one have none, and the others share the volume of the cell.
 std::vector<double> massVolumes(const ShapeTable& table, const std::vector<Point>& nodes) {
-  std::vector<double> volumes;
-  double total = 0, positive = 0;
+  std::vector<double> volumes, determinants;
+  double total = 0, positive = 0;  // by the sign of det J: rules of odd degree on tri3 and tet4 have a negative weight
   for (int q = 0; q < table.points(); ++q) {
     const double det = determinant(jacobian(table.gradient.data() + 3 * q * table.nodes, nodes, table.dimension));
+    determinants.push_back(det);
     volumes.push_back(table.weight[static_cast<std::size_t>(q)] * det);
     total += volumes.back();
-    positive += std::max(volumes.back(), 0.0);
+    positive += det > 0 ? volumes.back() : 0;
   }
   if (!(total > 0)) throw InvertedElement{};
-  if (positive != total)
-    for (auto& volume : volumes) volume = std::max(volume, 0.0) * total / positive;
+  if (std::all_of(determinants.begin(), determinants.end(), [](double det) { return det > 0; })) return volumes;
+  for (std::size_t q = 0; q < volumes.size(); ++q) volumes[q] *= determinants[q] > 0 ? total / positive : 0;
   return volumes;
 }
 

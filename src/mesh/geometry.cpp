@@ -23,7 +23,6 @@ std::string optionText(const Setting& setting) { return "option -mesh_set " + se
 /// What gmsh guesses for its sliders where a geometry declares no range, from the value: that is no rule.
 struct Range {
   double low, high, step;
-  bool operator==(const Range&) const = default;
 };
 
 Range guessed(double value) {
@@ -35,6 +34,12 @@ Range guessed(double value) {
   if (value != 0) range.step = (range.high - range.low) / 100;
   if (value != 0 && whole) range = {std::trunc(range.low), std::trunc(range.high), std::trunc(range.step)};
   return range;
+}
+
+/// To the digits that gmsh prints.
+bool alike(const Range& a, const Range& b) {
+  const auto near = [](double x, double y) { return std::abs(x - y) <= 1e-6 * std::max(std::abs(x), std::abs(y)); };
+  return near(a.low, b.low) && near(a.high, b.high);
 }
 
 /// Parameters that gmsh knows, without those of its own.
@@ -63,7 +68,7 @@ std::string brokenRule(const Setting& setting) {
     return joined(words, " or ");
   }
   const Range range{parameter.value("min", -1e200), parameter.value("max", 1e200), parameter.value("step", 0.0)};
-  if (const auto values = numbers("values"); values.size() == 1 && range == guessed(values[0])) return "";
+  if (const auto values = numbers("values"); values.size() == 1 && alike(range, guessed(values[0]))) return "";
   // A step is the increment of a slider, but 1 from a whole number on tells that whole numbers are meant.
   const bool whole = range.step == 1 && std::floor(range.low) == range.low;
   if (x >= range.low && x <= range.high && (!whole || std::floor(x) == x)) return "";

@@ -60,7 +60,11 @@ fs::path ownCase(const std::string& name) {
   return place;
 }
 
-/// The exit code of a shell command in a folder, in an environment without the mpirun that started this test.
+/// The program without mpirun, and without the environment of the one that runs this test.
+const std::string alone =
+    "env -i PATH=\"$PATH\" HOME=\"$HOME\" OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 '" SQUEAL_EXECUTABLE "'";
+
+/// The exit code of a shell command in a folder.
 int shell(const fs::path& folder, const std::string& command) {
   const int status = std::system(("cd '" + folder.string() + "' && " + command).c_str());
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
@@ -194,17 +198,17 @@ TEST(CommandLine, VersionManualAndUsage) {
   writeText(place / "out", "");
   const std::string to = " >'" + (place / "out").string() + "' 2>&1";
   for (const char* word : {"--version", "-version"}) {
-    ASSERT_EQ(shell(place, "'" SQUEAL_EXECUTABLE "' " + std::string(word) + to), 0);
+    ASSERT_EQ(shell(place, alone + " " + word + to), 0);
     const std::string out = contentOf(place / "out");
     for (const char* part : {"squeal ", "Petsc Release Version 3.", "SLEPc Release Version 3.", "MUMPS ", "MPI ", "indices: "})
       EXPECT_NE(out.find(part), std::string::npos) << part << "\n" << out;
   }
   for (const char* word : {"--help", "-help", "-help -options_file nosuch.yaml"}) {
-    ASSERT_EQ(shell(place, "'" SQUEAL_EXECUTABLE "' " + std::string(word) + to), 0);
+    ASSERT_EQ(shell(place, alone + " " + word + to), 0);
     EXPECT_NE(contentOf(place / "out").find("-material_<group>_young [Pa]"), std::string::npos) << word;
   }
   // Without any option: a script whose arguments went missing must not believe that it has run.
-  ASSERT_EQ(shell(place, "'" SQUEAL_EXECUTABLE "'" + to), 1);
+  ASSERT_EQ(shell(place, alone + to), 1);
   const std::string out = contentOf(place / "out");
   EXPECT_EQ(out.rfind("usage: squeal", 0), 0U) << out;
   EXPECT_LE(std::count(out.begin(), out.end(), '\n'), 12);

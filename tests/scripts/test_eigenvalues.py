@@ -88,6 +88,7 @@ class Plot(unittest.TestCase):
         (folder / "eigenvalues.csv").write_text("\n".join([f"{self.head},{names}"] + modes))
         names = "unstable_modes,largest_growth_rate_1_per_s,frequency_hz,worst_backward_error,worst_error_estimate"
         (folder / "stability_map.csv").write_text("\n".join([f"{self.head},{names}"] + stability))
+        (folder / "summary.json").write_text("{}")  # without it the results are not complete
 
     def figures(self, *sweep):
         with tempfile.TemporaryDirectory() as name:

@@ -32,7 +32,8 @@ std::string strip(const std::string& set, const std::string& more = {}) {
 }
 
 std::string solidRing(const std::string& set, const std::string& more = {}) {
-  return "-mesh_file meshes/ring.geo -mesh_set R=1,thickness=0.4,width=0.3,n_theta=16," + set +
+  const std::string cells = test::contains(set, "n_theta") ? "" : "n_theta=16,";
+  return "-mesh_file meshes/ring.geo -mesh_set R=1,thickness=0.4,width=0.3," + cells + set +
          test::material("ring", "2", "0.3", std::to_string(density)) + "-motion_ring_speed 3 -motion_convective on " + more;
 }
 
