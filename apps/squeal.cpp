@@ -9,6 +9,7 @@
 #include "petsc/memory.hpp"
 #include "petsc/options.hpp"
 #include "petsc/session.hpp"
+#include "petsc/settings.hpp"
 #include "petsc/stages.hpp"
 #include "petsc/termination.hpp"
 #include "report/report.hpp"
@@ -43,6 +44,7 @@ int run(const squeal::Session& session) {
   }
   try {
     squeal::checkOptions();  // first of all: a mistake in them touches no folder
+    for (const auto& line : squeal::replacedSettings()) squeal::say(session.comm(), line);
     if (squeal::dryRunWanted()) {
       squeal::dryRun(session.comm());
       return 0;

@@ -229,6 +229,12 @@ std::map<std::string, Setting>& record() {
   return settings;
 }
 
+/// Settings of files that were replaced, in the order of their names.
+std::map<std::string, Setting>& replaced() {
+  static std::map<std::string, Setting> settings;
+  return settings;
+}
+
 }  // namespace
 
 std::string Setting::place() const { return file.empty() ? "" : formatted("%s, line %d", file.c_str(), line); }
@@ -294,7 +300,9 @@ std::vector<Setting> onAllRanks(MPI_Comm comm, const std::vector<Setting>& ofRan
 void insert(const std::vector<Setting>& settings) {
   for (const auto& setting : settings) {
     check(PetscOptionsSetValue(nullptr, ("-" + setting.name).c_str(), setting.value.c_str()));
-    record()[setting.name] = setting;
+    Setting& inForce = record()[setting.name];
+    if (!inForce.file.empty() && inForce.value != setting.value) replaced()[setting.name] = inForce;
+    inForce = setting;
   }
 }
 
@@ -307,6 +315,14 @@ void insertFile(MPI_Comm comm, const std::string& file) {
 Setting origin(const std::string& name, const std::string& value) {
   const auto known = record().find(name);
   return known != record().end() && known->second.value == value ? known->second : Setting{name, value, "", 0};
+}
+
+std::vector<std::string> replacedSettings() {
+  std::vector<std::string> lines;
+  for (const auto& [name, earlier] : replaced())
+    if (const auto& value = record()[name].value; value != earlier.value)
+      lines.push_back("option -" + name + " " + value + " replaces " + earlier.value + " (" + earlier.place() + ")");
+  return lines;
 }
 
 std::string optionLine(const std::string& name, const std::string& value) {

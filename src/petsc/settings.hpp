@@ -51,6 +51,9 @@ void insertFile(MPI_Comm comm, const std::string& file);
 /// Where the value of an option was set, as far as it came through insert() and still holds: an empty file otherwise.
 Setting origin(const std::string& name, const std::string& value);
 
+/// One line for each setting of a file that a later one replaced with another value: "option -a 2 replaces 1 (case.yaml, line 3)".
+std::vector<std::string> replacedSettings();
+
 /// A line of an options file, with quotes where the value needs them.
 std::string optionLine(const std::string& name, const std::string& value);
 

@@ -120,6 +120,12 @@ TEST(CommandLine, ScriptRunsAnOptionsFileOfAnyFolder) {
                   "NP=2 '" + run.string() + "' 'my case.yaml' -mesh_file elsewhere.geo -report_dir 'my results'" + small + " >out"),
             0);
   EXPECT_TRUE(fs::exists(place / "my results/eigenvalues.csv"));
+  // The folder of the script replaces the one of the case, which is told.
+  writeText(place / "with folder.yaml", contentOf(place / "my case.yaml") + "report:\n  dir: mine\n");
+  EXPECT_EQ(shell(place, "NP=1 '" + run.string() + "' './with folder.yaml' -mesh_file elsewhere.geo" + small + " >out"), 0);
+  EXPECT_NE(contentOf(place / "out").find("option -report_dir ./results/with folder replaces mine (./with folder.yaml, line"),
+            std::string::npos)
+      << contentOf(place / "out");
   EXPECT_EQ(shell(place, "'" + run.string() + "' nosuch.yaml 2>err"), 2);
   EXPECT_NE(contentOf(place / "err").find("no options file 'nosuch.yaml'"), std::string::npos);
 }

@@ -368,6 +368,23 @@ TEST(CurvedTetrahedra, ConvectionAndStressTakeTheSamePoints) {
   EXPECT_THROW(elasticity::mass(table, nodes(0.6), density, elasticity::MassKind::consistent), elasticity::InvertedElement);
 }
 
+// ρ V (1 + δᵢⱼ) / ((d + 1) (d + 2)), the closed formula of linear simplices (Zienkiewicz and Taylor, The Finite Element Method). The rules of
+// gmsh for them have a point of negative weight, which is no fold.
+TEST(Mass, LinearSimplicesHaveTheClosedFormula) {
+  const std::vector<Point> triangle{{0, 0, 0}, {1.2, 0.1, 0}, {0.2, 0.8, 0}},
+      tetrahedron{{0, 0, 0}, {2, 0, 0}, {1, 3, 0}, {0, 1, 4}};
+  for (const auto& [type, nodes, volume] : {std::tuple{2, triangle, 0.47}, {4, tetrahedron, 4.0}}) {
+    const auto& table = elasticity::shapeTable(type);
+    EXPECT_LT(*std::min_element(table.weight.begin(), table.weight.end()), 0) << type;
+    const auto mass = elasticity::mass(table, nodes, density, elasticity::MassKind::consistent);
+    const std::size_t n = nodes.size();
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j)
+        EXPECT_NEAR(mass[i * n + j], density * volume * (i == j ? 2 : 1) / static_cast<double>(n * (n + 1)),
+                    1e-11 * density * volume);  // gmsh's points have 13 digits
+  }
+}
+
 // On straight cells both rules are exact: the integrand is of degree 2.
 TEST(StiffnessRule, IsExactOnStraightCells) {
   const std::vector<Point> tetrahedron{{0, 0, 0}, {1.1, 0.2, 0}, {0.1, 0.9, -0.2}, {0.3, -0.1, 1.3}},

@@ -234,5 +234,16 @@ TEST(Database, KnowsWhereAValueStands) {
   check(PetscOptionsClear(nullptr));
 }
 
+// A case that says one thing and a command line that says another are not settled in silence; the same value twice is no conflict.
+TEST(Database, TellsWhichSettingsOfFilesWereReplaced) {
+  const auto file = test::writeFile("replaced.yaml", "probe:\n  first: 1\n  second: 2\n  third: 3\n");
+  check(PetscOptionsClear(nullptr));
+  insertFile(PETSC_COMM_WORLD, file);
+  EXPECT_EQ(replacedSettings(), std::vector<std::string>{});
+  insert({{"probe_first", "1", "", 0}, {"probe_second", "5", "", 0}, {"probe_other", "4", "", 0}});
+  EXPECT_EQ(replacedSettings(), std::vector<std::string>{"option -probe_second 5 replaces 2 (" + file + ", line 3)"});
+  check(PetscOptionsClear(nullptr));
+}
+
 }  // namespace
 }  // namespace squeal
