@@ -53,6 +53,7 @@ int run(const squeal::Session& session) {
     if (squeal::matrices::exportWanted()) squeal::matrices::requireExportFolder(session.comm());
     const squeal::Analysis analysis = squeal::analyse(session.comm());
     squeal::report::write(analysis, directory);
+    for (const auto& line : squeal::unusedOptions()) squeal::say(session.comm(), line);
     return analysis.converged() ? 0 : 2;  // instability is a result; a friction without steady state is not
   } catch (const squeal::Error& error) {
     if (session.rank() == 0) std::fprintf(stderr, "squeal: error: %s\n", error.what());

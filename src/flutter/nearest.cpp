@@ -117,7 +117,7 @@ class Undamped : public NearestSolver {
     factoriseBy(st);
     check(EPSGetDS(eps_, &ds));
     check(DSSetParallel(ds, DS_PARALLEL_SYNCHRONIZED));  // or rounding makes the ranks disagree on what has converged
-    check(EPSSetFromOptions(eps_));
+    applySolverOptions([&] { return EPSSetFromOptions(eps_); });
     epsPrefix.rejectUnused();
   }
 
@@ -127,8 +127,8 @@ class Undamped : public NearestSolver {
     const OwnedVec start = startVector(terms_[0], ++runs_);
     Vec starts[1] = {start};
     check(EPSSetInitialSpace(eps_, 1, starts));
-    check(EPSSetFromOptions(eps_));  // again: the dimensions given win
-    check(EPSSetUp(eps_));
+    applySolverOptions([&] { return EPSSetFromOptions(eps_); });  // again: the dimensions given win
+    applySolverOptions([&] { return EPSSetUp(eps_); });
     stPrefix.rejectUnused();
     check(EPSSolve(eps_));
     PetscInt converged = 0;
@@ -176,7 +176,7 @@ class Damped : public NearestSolver {
     factoriseBy(st);
     check(PEPGetDS(pep_, &ds));
     check(DSSetParallel(ds, DS_PARALLEL_SYNCHRONIZED));
-    check(PEPSetFromOptions(pep_));
+    applySolverOptions([&] { return PEPSetFromOptions(pep_); });
     pepPrefix.rejectUnused();
   }
 
@@ -186,8 +186,8 @@ class Damped : public NearestSolver {
     const OwnedVec start = startVector(terms_[0], ++runs_);
     Vec starts[1] = {start};
     check(PEPSetInitialSpace(pep_, 1, starts));
-    check(PEPSetFromOptions(pep_));  // again: the dimensions given win
-    check(PEPSetUp(pep_));
+    applySolverOptions([&] { return PEPSetFromOptions(pep_); });  // again: the dimensions given win
+    applySolverOptions([&] { return PEPSetUp(pep_); });
     stPrefix.rejectUnused();
     check(PEPSolve(pep_));
     PetscInt converged = 0;

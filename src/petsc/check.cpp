@@ -5,11 +5,32 @@
 
 namespace squeal {
 
+namespace {
+
+KeptError* keeper = nullptr;
+
+}  // namespace
+
+KeptError::KeptError() { keeper = this; }
+
+KeptError::~KeptError() { keeper = nullptr; }
+
+bool KeptError::keep(PetscErrorCode code, const char* message) {
+  if (!keeper) return false;
+  if (keeper->code_ == 0) {  // functions on the way up repeat it
+    keeper->code_ = code;
+    keeper->message_ = message ? message : "";
+  }
+  return true;
+}
+
 void check(PetscErrorCode code, std::source_location where) {
   if (code == 0) return;
   if (lacksMemory(code)) outOfMemory();
-  PetscError(PETSC_COMM_SELF, static_cast<int>(where.line()), where.function_name(), where.file_name(), code, PETSC_ERROR_REPEAT,
-             " ");
+  const std::string kept = keeper ? keeper->message() : "";  // what has not been printed yet
+  keeper = nullptr;
+  PetscError(PETSC_COMM_SELF, static_cast<int>(where.line()), where.function_name(), where.file_name(), code,
+             kept.empty() ? PETSC_ERROR_REPEAT : PETSC_ERROR_INITIAL, "%s", kept.empty() ? " " : kept.c_str());
   performLastActs();
   MPI_Abort(PETSC_COMM_WORLD, 70);
 }

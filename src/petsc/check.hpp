@@ -20,6 +20,24 @@ class Error : public std::runtime_error {
 /// alone: one line on memory or the PETSc traceback is printed, and MPI_Abort ends all ranks.
 void check(PetscErrorCode code, std::source_location where = std::source_location::current());
 
+/// While one lives, the first error that PETSc meets is kept as text, and no trace of it is printed.
+class KeptError {
+ public:
+  KeptError();
+  ~KeptError();
+  KeptError(const KeptError&) = delete;
+  KeptError& operator=(const KeptError&) = delete;
+  PetscErrorCode code() const { return code_; }
+  /// PETSc's words, e.g. "Unknown EPS type given: foo".
+  const std::string& message() const { return message_; }
+  /// For the error handler: false where no object keeps errors.
+  static bool keep(PetscErrorCode code, const char* message);
+
+ private:
+  PetscErrorCode code_ = 0;
+  std::string message_;
+};
+
 /// Collective. Throws Error on all ranks with the message of the lowest rank whose `localMessage` is not empty; returns if all are.
 void failTogether(MPI_Comm comm, const std::string& localMessage);
 

@@ -42,7 +42,8 @@ bool lacks = false;
 PetscErrorCode handleError(MPI_Comm comm, int line, const char* function, const char* file, PetscErrorCode code,
                            PetscErrorType type, const char* message, void* context) {
   if (type == PETSC_ERROR_INITIAL) lacks = code == PETSC_ERR_MEM || (function && std::string(function) == "PetscMallocAlign");
-  return lacks ? code : PetscTraceBackErrorHandler(comm, line, function, file, code, type, message, context);
+  if (lacks || KeptError::keep(code, message)) return code;
+  return PetscTraceBackErrorHandler(comm, line, function, file, code, type, message, context);
 }
 
 }  // namespace

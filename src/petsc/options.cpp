@@ -36,6 +36,9 @@ std::map<std::string, std::string>& recipe() {
   return values;
 }
 
+/// While the options given are checked before the run, asking for one does not mean that the run uses it.
+bool validating = false;
+
 std::size_t stageRank(const std::string& stage) {
   return static_cast<std::size_t>(std::find(stages.begin(), stages.end(), stage) - stages.begin());
 }
@@ -154,7 +157,7 @@ std::string Option::text(const std::string& subject) const {
   const auto given = valueGiven(full);
   if (!given && required) throw Error("option -" + full + " is missing: " + meaning);
   const std::string value = trimmed(given.value_or(defaultText));
-  recipe()[full] = value;
+  if (!validating) recipe()[full] = value;
   return value;
 }
 
@@ -190,6 +193,37 @@ void SolverPrefix::rejectUnused(const std::vector<std::string>& exceptAfter) con
   }
 }
 
+void applySolverOptions(const std::function<PetscErrorCode()>& configure) {
+  std::vector<std::pair<std::string, std::string>> given;  // to solvers
+  const auto solvers = SolverPrefix::all();
+  for (const auto& option : givenOptions())
+    if (std::any_of(solvers.begin(), solvers.end(), [&](const auto* solver) { return startsWith(option.first, solver->prefix); }))
+      given.push_back(option);
+  if (given.empty()) return check(configure());
+  const std::set<PetscErrorCode> refusals{PETSC_ERR_ARG_UNKNOWN_TYPE,
+                                          PETSC_ERR_ARG_OUTOFRANGE,
+                                          PETSC_ERR_ARG_WRONG,
+                                          PETSC_ERR_ARG_SIZ,
+                                          PETSC_ERR_ARG_INCOMP,
+                                          PETSC_ERR_ARG_WRONGSTATE,
+                                          PETSC_ERR_MISSING_FACTOR,
+                                          PETSC_ERR_SUP,
+                                          PETSC_ERR_USER,
+                                          PETSC_ERR_USER_INPUT,
+                                          PETSC_ERR_ORDER};
+  const KeptError error;
+  const PetscErrorCode code = configure();
+  if (code == 0) return;
+  if (!refusals.count(error.code())) return check(code);
+  const std::string message = error.message().substr(0, error.message().find('\n'));
+  std::vector<std::string> all, named;
+  for (const auto& [name, value] : given) {
+    all.push_back("-" + name + (value.empty() ? "" : " " + value));
+    if (!value.empty() && message.find(value) != std::string::npos) named.push_back(all.back());
+  }
+  throw Error("PETSc refuses an option of its solvers, " + joined(named.empty() ? all : named) + ": " + message);
+}
+
 void rejectUnknownOptions() {
   for (const auto& name : namesLeft()) {
     const auto options = Option::all();
@@ -202,9 +236,26 @@ void rejectUnknownOptions() {
     throw Error("unknown option -" + name + (place.empty() ? "" : " (" + place + ")") +
                 (nearest.empty() ? "" : "; did you mean -" + nearest + "?") + " (squeal -help lists all options)");
   }
+  validating = true;
   for (const auto* option : Option::all())
     for (const auto& subject : option->name.find('<') == std::string::npos ? std::vector<std::string>{""} : option->subjects())
-      if (option->given(subject)) option->validate(subject);
+      if (option->given(subject)) option->validate(subject);  // an Error ends the run
+  validating = false;
+}
+
+std::vector<std::string> unusedOptions() {
+  std::vector<std::string> unused, left = namesLeft();
+  const auto options = Option::all();
+  for (const auto& [name, value] : givenOptions()) {
+    const bool ours =
+        std::any_of(options.begin(), options.end(), [&, &full = name](auto* option) { return option->matches(full); });
+    const bool used = ours ? recipe().count(name) > 0 : std::find(left.begin(), left.end(), name) == left.end();
+    if (used) continue;
+    const std::string place = origin(name, value).place();
+    unused.push_back("option -" + name + (value.empty() ? "" : " " + value) + (place.empty() ? "" : " (" + place + ")") +
+                     " was not used: nothing in this run asks for it");
+  }
+  return unused;
 }
 
 std::string manual() {

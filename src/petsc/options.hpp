@@ -2,6 +2,9 @@
 /// The user interface: every option is declared once, beside the physics that uses it, with stage, default, unit, meaning and
 /// check. Names hold at most one placeholder in angle brackets, e.g. `material_<group>_young`, replaced by a name from the mesh.
 /// All values come from the PETSc options database, the same on every rank, so every Error thrown here is thrown on all ranks.
+#include <petscsys.h>
+
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -149,9 +152,17 @@ class SolverPrefix {
   static std::vector<const SolverPrefix*> all();
 };
 
+/// Collective. `configure()` calls PETSc and SLEPc to set a solver up from its options, and returns their code. What they refuse
+/// there, such as an unknown type or text for a number, is an Error that names the options given to solvers; if none is given, or
+/// the failure is of another kind, it is treated as by check().
+void applySolverOptions(const std::function<PetscErrorCode()>& configure);
+
 /// Collective. Error for an option that neither this program nor PETSc knows, with the nearest known name, and for a value of ours
 /// that breaks its rule: both before any work is done.
 void rejectUnknownOptions();
+
+/// Once a run is done, a line for each option given that nothing has asked for: "option -a 2 (case.yaml, line 3) was not used: …".
+std::vector<std::string> unusedOptions();
 
 /// The manual printed by `-help`.
 std::string manual();

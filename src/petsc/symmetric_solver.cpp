@@ -83,9 +83,11 @@ void watchMemory(Mat factor) {
 
 void factorise(KSP solver) {
   shortage.clear();
-  const PetscErrorCode code = KSPSetUp(solver);
-  if (!shortage.empty()) throw Error(shortage);
-  check(code);
+  applySolverOptions([&] {
+    const PetscErrorCode code = KSPSetUp(solver);
+    if (!shortage.empty()) throw Error(shortage);
+    return code;
+  });
 }
 
 OwnedKSP directSolver(Mat matrix, const SolverPrefix& prefix) {
@@ -98,7 +100,7 @@ OwnedKSP directSolver(Mat matrix, const SolverPrefix& prefix) {
   check(KSPGetPC(solver, &pc));
   check(PCSetType(pc, PCCHOLESKY));
   check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
-  check(KSPSetFromOptions(solver));
+  applySolverOptions([&] { return KSPSetFromOptions(solver); });
   // Right-hand sides that MUMPS takes at once: by itself 32, and the few that are left over cost a pass of their own. An option
   // -…_mat_mumps_icntl_27 has the last word.
   if (const Mat factor = mumpsFactor(solver)) {

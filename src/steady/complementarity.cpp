@@ -139,11 +139,11 @@ double Problem::complementarity(OwnedVec& x, Solution& solution) const {
   {
     // A gap is open however small: the default, 1e-8 of the largest displacement, is too much where a body moves far as a whole.
     const DefaultOption exact("-" + solverPrefix.prefix + "snes_vi_zero_tolerance", "1e-14");
-    check(SNESSetFromOptions(snes));
+    applySolverOptions([&] { return SNESSetFromOptions(snes); });
   }
   // SNES asks for these only while it solves.
   solverPrefix.rejectUnused({"mat_mumps_", "uniqueness_", "snes_test_jacobian", "snes_converged_reason", "snes_view"});
-  check(SNESSolve(snes, nullptr, x));
+  applySolverOptions([&] { return SNESSolve(snes, nullptr, x); });  // its parts are set up as it begins
   SNESConvergedReason reason;
   PetscInt iterations = 0;
   check(SNESGetConvergedReason(snes, &reason));

@@ -87,8 +87,8 @@ std::optional<double> smallestRatio(Condensed& condensed) {
   check(PCSetType(pc, PCSHELL));
   check(PCShellSetContext(pc, &condensed));
   check(PCShellSetApply(pc, solveA0));
-  check(EPSSetFromOptions(eps));
-  check(EPSSetUp(eps));
+  applySolverOptions([&] { return EPSSetFromOptions(eps); });
+  applySolverOptions([&] { return EPSSetUp(eps); });
   rejectUnusedUniquenessOptions(false);
   check(EPSSolve(eps));
   PetscInt converged = 0;
