@@ -240,6 +240,31 @@ void normalise(std::vector<Complex>& vector) {
   vector[largest] = vector[largest].real();
 }
 
+/// max |A_ij − sign A_ji| is rounding beside max |A_ij|.
+bool hasSymmetry(const DenseMatrix& a, std::size_t m, double sign) {
+  double size = 0, difference = 0;
+  for (std::size_t j = 0; j < m; ++j)
+    for (std::size_t i = 0; i <= j; ++i) {
+      size = std::max({size, std::abs(a[j * m + i]), std::abs(a[i * m + j])});
+      difference = std::max(difference, std::abs(a[j * m + i] - sign * a[i * m + j]));
+    }
+  return difference <= 1e-13 * size;
+}
+
+bool positiveDefinite(DenseMatrix a, int m) {
+  PetscBLASInt order = m, info = 0;
+  LAPACKpotrf_("L", &order, a.data(), &order, &info);
+  return info == 0;
+}
+
+/// M and K symmetric positive definite, Z antisymmetric: gyroscopic forces do no work, and all eigenvalues are imaginary. (For a vector
+/// of length 1, s² m + i s g + k = 0 with m, k > 0 and g real has no other roots.)
+bool conservative(const DenseProblem& problem) {
+  const auto m = static_cast<std::size_t>(problem.m);
+  return hasSymmetry(problem.stiffness, m, 1) && hasSymmetry(problem.mass, m, 1) && hasSymmetry(problem.damping, m, -1) &&
+         positiveDefinite(problem.stiffness, problem.m) && positiveDefinite(problem.mass, problem.m);
+}
+
 /// From a root t of the reversed polynomial to s = 1/t, or to its conjugate, whose imaginary part is not negative.
 Complex turnedRound(Complex t) { return 1.0 / std::conj(t); }
 
@@ -265,6 +290,10 @@ std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vecto
     if (!reversed) break;
     pair = {turnedRound(pair.s), conjugated(std::move(pair.q)), conjugated(std::move(pair.left))};
   }
+  // What rounding leaves of the growth would decide which eigenvalues friction, as it sets in, makes unstable "at friction 0".
+  if (!problem.damping.empty() && conservative(problem))
+    for (auto& pair : pairs)
+      if (std::abs(pair.s.real()) <= 1e-6 * std::abs(pair.s)) pair.s = {0, pair.s.imag()};
   for (auto& pair : pairs) {
     normalise(pair.q);
     normalise(pair.left);

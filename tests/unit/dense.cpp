@@ -252,6 +252,29 @@ TEST(Dense, GyroscopicForcesDoNoWork) {
 }
 
 // Damping of the size of rounding, as at the first friction of a sweep, leaves the undamped spectrum, double frequencies included.
+// Without friction and damping the eigenvalues of a moving disc are imaginary, exactly: whatever rounding makes of a frequency of 1e-5
+// of the highest, some 1e-16 × 1e10 of itself, is no growth.
+TEST(Dense, GyroscopicForcesLeaveNoGrowth) {
+  constexpr int m = 40;
+  std::mt19937 generator(5);
+  std::vector<double> squares;
+  for (int i = 0; i < m; ++i) squares.push_back(std::pow(10.0, 0.25 * i));  // 1 to 5.6e9
+  const DenseMatrix stiffness = reflected(squares, generator), mass = reflected(std::vector<double>(m, 1.0), generator);
+  DenseMatrix gyroscopic(m * m, 0.0);
+  for (std::size_t j = 0; j < m; ++j)
+    for (std::size_t i = 0; i < j; ++i) {
+      gyroscopic[j * m + i] = 0.1 * uniform(generator);
+      gyroscopic[i * m + j] = -gyroscopic[j * m + i];
+    }
+  const auto pairs = flutter::solveQuadratic(mass, gyroscopic, stiffness, m);
+  ASSERT_EQ(pairs.size(), m);
+  for (const auto& pair : pairs) EXPECT_EQ(pair.s.real(), 0) << pair.s;
+  // A little damping is not mistaken for none.
+  DenseMatrix damped = gyroscopic;
+  for (std::size_t i = 0; i < m; ++i) damped[i * (m + 1)] = 1e-9;
+  for (const auto& pair : flutter::solveQuadratic(mass, damped, stiffness, m)) EXPECT_NE(pair.s.real(), 0) << pair.s;
+}
+
 TEST(Dense, DampingThatIsNextToNothing) {
   constexpr int m = 60;
   std::mt19937 generator(8);
