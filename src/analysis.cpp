@@ -234,7 +234,9 @@ ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::si
     examineShapes(analysis, system, analysis.steady[first + i], pencil, start, influences, point);
   };
   flutter::Pencil pencil = flutter::affineTerms(analysis.contact, system);
-  if (matrices::exportWanted()) matrices::exportPencil(pencil.with(problem.termsAt(0)), analysis.sweep, last - first);
+  // Terms of their own are absent at friction 0 alone: the last point, of the largest friction, has them if any point has.
+  if (matrices::exportWanted())
+    matrices::exportPencil(pencil.with(problem.termsAt(last - first - 1)), analysis.sweep, last - first);
   PointSource source(analysis, system, analysis.steady[first], prestress, current);
   problem.termsOf = [&](const Parameters& at) { return source(at); };
   ModalSegment segment = solveSegment(problem, std::move(pencil), analysis.sweep.dampings, floor);
