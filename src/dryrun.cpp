@@ -137,7 +137,9 @@ void dryRun(MPI_Comm comm) {
                                            std::vector<unsigned char>(analysis.contact.nodes.size(), 1));
     sayMemory(comm, system.k0());
   }
-  say(comm, "dry run: the input is sound; nothing was solved or written");
+  say(comm,
+      "dry run: no fault found in options and files; nothing was solved or written, so that solvers and the steady state are "
+      "untried");
 }
 
 }  // namespace squeal

@@ -40,10 +40,15 @@ struct FrictionPoint {
   std::vector<Shape> shapes;               ///< of the fastest growing ones
   std::vector<Sensitivity> sensitivities;  ///< [shape]; empty unless `-flutter_sensitivities`
   double bandTop = 0;                      ///< rad/s: eigenvalues with |s| up to here are listed, and corrected; 0: none are
+  int freeModesInBand = 0;                 ///< free modes up to bandTop
+  bool damped = false;                     ///< the problem has terms in s
   double accuracy = 0;                     ///< backward error asked for
   double tolerance = 0;                    ///< estimate of |δs|/|s| asked for
   double askedTo = 0;                      ///< rad/s: upper end of `-flutter_direct_band`; 0: no such band
   double coveredTo = 0;  ///< rad/s: all eigenvalues of `-flutter_direct_band` with |s| below are listed; 0: no such band
+  /// Of a damped problem, the free modes of the band that no eigenvalue listed answers to: those are damped too strongly to be
+  /// listed, or have been moved beyond the top.
+  int modesWithoutEigenvalue() const;
   int unstableCount() const;
   int uncertifiedCount() const;
   double worstBackwardError() const;

@@ -314,6 +314,8 @@ FrictionPoint ReducedProblem::result(const Work& work) const {
   FrictionPoint point;
   point.at = work.point->at;
   point.bandTop = bandTop_;
+  point.freeModesInBand = static_cast<int>(std::count_if(modes_.begin(), modes_.end(), [&](double w) { return w <= bandTop_; }));
+  point.damped = work.damped;
   point.accuracy = accuracyAsked();
   point.tolerance = toleranceOption.get();
   for (std::size_t j = 0; j < work.pairs.size(); ++j) {

@@ -25,9 +25,10 @@ const RealListOption dampingOption("flutter", "flutter_damping", "1", "", nonNeg
                                    true);
 const ChoiceOption methodOption("flutter", "flutter_method", {"reduced", "direct"}, "reduced",
                                 "reduced: dense problem on the free modes; direct: all unknowns, for checking");
-const RealOption bandOption("flutter", "flutter_band", 0, "Hz", nonNegative,
-                            "frequency up to which eigenvalues are corrected and listed, as far as the free modes reach; "
-                            "0: that of mode 0.55 x -modes_count");
+const RealOption bandOption(
+    "flutter", "flutter_band", 0, "Hz", nonNegative,
+    "|s|/(2 pi), for little damping the frequency, up to which eigenvalues are corrected and listed, as far as "
+    "the free modes reach; 0: the frequency of mode 0.55 x -modes_count");
 const RealOption bandDampingOption("flutter", "flutter_band_damping", 0.5, "", positive,
                                    "eigenvalues of a larger damping ratio, which die away within a cycle, are not listed");
 const RealOption accuracyOption("flutter", "flutter_accuracy", 1e-9, "", positive,
@@ -157,6 +158,10 @@ std::vector<std::vector<std::size_t>> batches(const std::vector<Parameters>& poi
 
 bool directWanted() { return methodOption.get() == "direct"; }
 
+int FrictionPoint::modesWithoutEigenvalue() const {
+  return damped ? std::max(0, freeModesInBand - static_cast<int>(eigenvalues.size())) : 0;
+}
+
 int FrictionPoint::unstableCount() const {
   return static_cast<int>(std::count_if(eigenvalues.begin(), eigenvalues.end(), [](const auto& e) { return e.unstable; }));
 }
@@ -192,8 +197,9 @@ void judge(std::vector<Eigenvalue>& eigenvalues) {
 
 std::vector<std::size_t> shapesWanted(const FrictionPoint& point) {
   std::vector<std::size_t> order;
+  const double below = 2 * M_PI * shapesBelowOption.get();
   for (std::size_t i = 0; i < point.eigenvalues.size(); ++i)
-    if (point.eigenvalues[i].unstable && point.eigenvalues[i].s.imag() < 2 * M_PI * shapesBelowOption.get()) order.push_back(i);
+    if (point.eigenvalues[i].unstable && point.eigenvalues[i].s.imag() < below) order.push_back(i);
   std::sort(order.begin(), order.end(),
             [&](std::size_t a, std::size_t b) { return point.eigenvalues[a].s.real() > point.eigenvalues[b].s.real(); });
   order.resize(std::min(order.size(), static_cast<std::size_t>(shapesOption.get())));

@@ -61,9 +61,9 @@ OwnedEPS solver(const System& system, int count, Stage& stage) {
   check(EPSGetST(eps, &st));
   check(STSetType(st, STSINVERT));
   check(STSetKSP(st, factorised));  // shift 0: K0 is factorised already
-  check(EPSSetFromOptions(eps));
+  applySolverOptions([&] { return EPSSetFromOptions(eps); });
   solverPrefix.rejectUnused();
-  check(EPSSetUp(eps));
+  applySolverOptions([&] { return EPSSetUp(eps); });
   rejectUnusedSolverOptions();
   return eps;
 }
@@ -91,7 +91,7 @@ std::size_t modesBelowGap(const std::vector<double>& w) {
 /// Counts the eigenvalues below a shift in that gap.
 void confirmCount(Mat k, Mat m, Modes& modes) {
   const auto& w = modes.angularFrequency;
-  if (w.size() < 2) return;
+  if (w.empty()) return;
   const std::size_t below = modesBelowGap(w);
   modes.inertiaShift = below > 0 ? 0.5 * (w[below] * w[below] + w[below - 1] * w[below - 1]) : 0.5 * w[0] * w[0];
   modes.inertiaCount = countBelow(k, m, modes.inertiaShift);
@@ -286,9 +286,12 @@ int wantedCount() { return countOption.get(); }
 
 Modes compute(const System& system, int count) {
   const PetscInt size = rowsOf(system.stiffness);
-  if (count > size)
-    throw Error(formatted("option -modes_count %d: the problem has only %d unknowns", count, static_cast<int>(size)));
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(system.stiffness));
+  if (count > size) {
+    if (countOption.given())
+      throw Error(formatted("option -modes_count %d: the problem has only %d unknowns", count, static_cast<int>(size)));
+    count = static_cast<int>(size);  // the default
+  }
   Stage stage(comm, "modes");
   Modes modes = computeBy(system, count, stage);
   if (modes.rounding > 1e-6)

@@ -107,6 +107,7 @@ void writeSummary(const Analysis& analysis, const std::filesystem::path& folder)
       if (point->coveredTo > 0 && std::isfinite(point->coveredTo)) entry["covered_to_hz"] = point->coveredTo / (2 * M_PI);
       if (point->bandTop > 0) {
         entry["band_top_hz"] = finite(point->bandTop / (2 * M_PI));  // null: all eigenvalues
+        entry["free_modes_without_eigenvalue"] = point->modesWithoutEigenvalue();
         entry["accuracy_asked"] = point->accuracy;
         entry["tolerance_asked"] = point->tolerance;
         entry["worst_error_estimate"] = finite(point->worstErrorEstimate());

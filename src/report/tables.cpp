@@ -87,10 +87,19 @@ std::string rowHead(const Parameters& at, const std::vector<Parameter>& shown) {
   return head;
 }
 
+/// What is said where no mode is unstable.
+std::string verdict(const Analysis& analysis, const ModalSegment& segment, const flutter::FrictionPoint& point) {
+  if (point.eigenvalues.empty()) return "no eigenvalue was found: nothing is known of stability";
+  if (segment.openNodes > 0 && segment.openNodes == analysis.contact.totalNodes)
+    return "none: no contact is closed, nothing slides";
+  return "none: steady sliding is stable";
+}
+
 /// One line for one point of a sweep: the lowest unstable modes.
-std::string sweepRow(const flutter::FrictionPoint& point, const std::vector<Parameter>& shown) {
+std::string sweepRow(const Analysis& analysis, const ModalSegment& segment, const flutter::FrictionPoint& point,
+                     const std::vector<Parameter>& shown) {
   std::string row = rowHead(point.at, shown);
-  if (point.unstableCount() == 0) return row + "none: steady sliding is stable";
+  if (point.unstableCount() == 0) return row + verdict(analysis, segment, point);
   int count = 0;
   for (const auto& e : point.eigenvalues)
     if (e.unstable && ++count <= 6) row += formatted("%s%.6g (%.4g)", count > 1 ? ", " : "", e.s.imag() / (2 * M_PI), e.s.real());
@@ -98,14 +107,27 @@ std::string sweepRow(const flutter::FrictionPoint& point, const std::vector<Para
 }
 
 /// The unstable modes of a single friction, a line each; modes are numbered by frequency.
-std::string modeRows(const flutter::FrictionPoint& point) {
-  if (point.unstableCount() == 0) return formatted("\nnone at friction %g: steady sliding is stable", point.at.friction);
+std::string modeRows(const Analysis& analysis, const ModalSegment& segment, const flutter::FrictionPoint& point) {
+  if (point.unstableCount() == 0) return formatted("\nfriction %g  ", point.at.friction) + verdict(analysis, segment, point);
   std::string rows;
   for (std::size_t i = 0; i < point.eigenvalues.size(); ++i) {
     const auto& e = point.eigenvalues[i];
     if (e.unstable) rows += formatted("\n%4zu  %12.6g %12.5g", i + 1, e.s.imag() / (2 * M_PI), e.s.real());
   }
   return rows;
+}
+
+/// The point where strong damping has taken most free modes of the band from the eigenvalues listed; empty if there is none.
+std::string strongDampingText(const Analysis& analysis) {
+  const flutter::FrictionPoint* most = nullptr;
+  for (const auto& segment : analysis.segments)
+    for (const auto& point : segment.points)
+      if (point.modesWithoutEigenvalue() > (most ? most->modesWithoutEigenvalue() : 0)) most = &point;
+  if (!most) return "";
+  return formatted(
+      "\n%s: %d of the %d free modes in the band have no eigenvalue there: their damping ratio exceeds -flutter_band_damping, or "
+      "damping has moved them. Modes that such damping changes much may take a larger -modes_count; -flutter_method direct tells.",
+      parameterText(most->at).c_str(), most->modesWithoutEigenvalue(), most->freeModesInBand);
 }
 
 std::string gathered(MPI_Comm comm, const std::string& text) {
@@ -178,19 +200,25 @@ std::string stabilityTable(const Analysis& analysis) {
     if (!solution.converged)
       table += rowHead(solution.at, shown) + formatted("no steady sliding solution found (%s)", solution.reason.c_str());
   for (const auto& segment : analysis.segments)
-    for (const auto& point : segment.points) table += sweep ? sweepRow(point, shown) : modeRows(point);
+    for (const auto& point : segment.points)
+      table += sweep ? sweepRow(analysis, segment, point, shown) : modeRows(analysis, segment, point);
   for (const auto& segment : analysis.segments)
     for (const auto& point : segment.points)
       if (point.coveredTo < point.askedTo)
         table += formatted("\n%s: the band is covered up to %.5g Hz only; raise -flutter_direct_limit",
                            parameterText(point.at).c_str(), point.coveredTo / (2 * M_PI));
+  table += strongDampingText(analysis);
   for (const auto& segment : analysis.segments)
     for (const auto& point : segment.points)
       if (point.bandTop > 0 && point.uncertifiedCount() > 0)
         table +=
             formatted("\n%s: %d eigenvalues could not be certified, see eigenvalues.csv; raise -modes_count or -flutter_rounds",
                       parameterText(point.at).c_str(), point.uncertifiedCount());
-  if (!analysis.segments.empty() && analysis.segments.front().points.front().bandTop > 0) {
+  const auto listsAny = [](const ModalSegment& segment) {
+    return std::any_of(segment.points.begin(), segment.points.end(), [](const auto& point) { return !point.eigenvalues.empty(); });
+  };
+  if (std::any_of(analysis.segments.begin(), analysis.segments.end(), listsAny) &&
+      analysis.segments.front().points.front().bandTop > 0) {
     double backward = 0, estimate = 0, top = INFINITY;
     for (const auto& segment : analysis.segments)
       for (const auto& point : segment.points) {
@@ -201,7 +229,7 @@ std::string stabilityTable(const Analysis& analysis) {
     if (top < flutter::bandAsked())
       table += formatted("\nThe free modes end below the %.5g Hz of -flutter_band, and so do the eigenvalues: raise -modes_count.",
                          flutter::bandAsked() / (2 * M_PI));
-    table += (std::isfinite(top) ? formatted("\nEigenvalues up to %.5g Hz", top / (2 * M_PI)) : "\nAll eigenvalues") +
+    table += (std::isfinite(top) ? formatted("\nEigenvalues with |s|/2π up to %.5g Hz", top / (2 * M_PI)) : "\nAll eigenvalues") +
              formatted(", of the full-order problem: backward errors up to %.1e, estimated errors |ds|/|s| up to %.1e.", backward,
                        estimate);
   }
