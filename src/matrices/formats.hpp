@@ -52,10 +52,13 @@ Entries readMatrixMarket(const std::filesystem::path& path);
 /// matrix of more than one row. Error: there is none, or several; complex or damaged content, in the sizes of other variables as well.
 Entries readMatlab(const std::filesystem::path& path, const std::string& name);
 
-/// HDF5: the object `name` (empty: the only matrix among the objects of the root, or the root itself), either a group with the
-/// datasets data, indices and indptr of a compressed matrix, as SciPy's users and anndata write them (by rows, unless an attribute or
-/// dataset "format", "h5sparse_format" or "encoding-type" begins with csc), or a dataset of two dimensions. Likewise MATLAB's files of
-/// version 7.3: groups with data, ir and jc, and datasets of class double or single. Errors as above.
+/// HDF5: the object `name` (empty: the only matrix among the objects of the root, or the root
+/// itself), either a group with the datasets data, indices and indptr of a compressed matrix, as
+/// SciPy's users and anndata write them, or a dataset of two dimensions. An attribute or dataset
+/// "format", "h5sparse_format" or "encoding-type" of the group begins with csr or csc; without it
+/// only a symmetric matrix is read, which is the same by rows and by columns. Likewise MATLAB's
+/// files of version 7.3: groups with data, ir and jc, and datasets of class double or single. Errors
+/// as above.
 Entries readHdf5(const std::filesystem::path& path, const std::string& name);
 
 /// Errors: a file that is not one square real sparse matrix in PETSc's binary format with 32-bit indices, is cut short, or holds row

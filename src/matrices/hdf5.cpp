@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <optional>
+#include <tuple>
+
 #include "matrices/formats.hpp"
 #include "matrices/hdf5_file.hpp"
 #include "petsc/check.hpp"
@@ -32,8 +36,9 @@ bool isMatrix(hid_t object) { return isCompressed(object) || isMatlabSparse(obje
 /// A number alone, as MATLAB saves every one, is no matrix that could be meant, if another is there.
 bool isNumber(hid_t object) { return isTable(object) && shapeOf(object) == std::vector<hsize_t>{1, 1}; }
 
-/// scipy.sparse.save_npz keeps the format as a dataset; a copy of it in HDF5 does too.
-bool byColumns(hid_t group) {
+/// Empty if the group does not say it. scipy.sparse.save_npz keeps the format as a dataset; a copy
+/// of it in HDF5 does too.
+std::optional<bool> byColumns(hid_t group) {
   std::string found;
   for (const std::string& text : {textOfAttribute(group, "format"), textOfAttribute(group, "h5sparse_format"),
                                   textOfAttribute(group, "encoding-type"), textOfDataset(group, "format")}) {
@@ -43,7 +48,28 @@ bool byColumns(hid_t group) {
     if (!found.empty() && found != format) throw Error("the group calls itself csr as well as csc");
     found = format;
   }
-  return found == "csc";
+  return found.empty() ? std::nullopt : std::optional(found == "csc");
+}
+
+/// By rows and by columns the same lists are a matrix and its transpose.
+bool isSymmetric(const Entries& entries) {
+  using Sum = std::tuple<PetscInt, PetscInt, double>;
+  const auto sums = [&](const auto& major, const auto& minor) {
+    std::vector<Sum> all, summed;
+    all.reserve(entries.value.size());
+    for (std::size_t k = 0; k < entries.value.size(); ++k)
+      all.emplace_back(major[k], minor[k], entries.value[k]);
+    const auto place = [](const Sum& sum) { return std::pair(std::get<0>(sum), std::get<1>(sum)); };
+    std::stable_sort(all.begin(), all.end(),
+                     [&](const Sum& a, const Sum& b) { return place(a) < place(b); });
+    for (const auto& entry : all)
+      if (!summed.empty() && place(summed.back()) == place(entry))
+        std::get<2>(summed.back()) += std::get<2>(entry);
+      else
+        summed.push_back(entry);
+    return summed;
+  };
+  return sums(entries.row, entries.column) == sums(entries.column, entries.row);
 }
 
 /// Rows and columns, where they are written: in the attribute of anndata or h5sparse, or as scipy.sparse.save_npz names it.
@@ -61,14 +87,21 @@ void checkShape(hid_t group, long long size) {
 
 Entries compressedGroup(hid_t group) {
   Compressed matrix;
-  matrix.byColumns = byColumns(group);
+  const auto said = byColumns(group);
+  matrix.byColumns = said.value_or(false);
   matrix.begin = integers(group, "indptr");
   if (matrix.begin.empty()) throw Error("indptr is empty");
   matrix.rows = matrix.columns = static_cast<long long>(matrix.begin.size()) - 1;  // a square matrix
   checkShape(group, matrix.rows);
   matrix.index = integers(group, "indices");
   matrix.value = reals(group, "data");
-  return matrix.entries();
+  Entries entries = matrix.entries();
+  if (!said && !isSymmetric(entries))
+    throw Error(
+        "the group does not say whether its lists are by rows or by columns, and the matrix is "
+        "not symmetric: give it the attribute 'format' (or 'h5sparse_format', 'encoding-type') "
+        "with the text csr or csc");
+  return entries;
 }
 
 /// Without entries there are no lists of them; with some, the lists may be longer than they.

@@ -42,6 +42,7 @@ class ConvertMatrix(unittest.TestCase):
             with h5py.File(self.folder / "k.h5") as file:
                 lists = tuple(file[name][:] for name in ("data", "indices", "indptr"))
                 numpy.testing.assert_array_equal(scipy.sparse.csr_matrix(lists).toarray(), SAMPLE)
+                self.assertEqual(file.attrs["format"], "csr")  # squeal wants the layout said
 
     def test_harwell_boeing_cut_short(self):
         whole = self.folder / "k.rb"

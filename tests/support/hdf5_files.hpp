@@ -55,6 +55,17 @@ class Hdf5File {
     number(object, name, type, value.data());
     H5Tclose(type);
   }
+  /// A dataset of a single text, as h5py makes one of a NumPy array without dimensions.
+  void textDataset(const std::string& name, const std::string& value) const {
+    const hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
+    H5Tset_size(type, value.size());
+    const hid_t set =
+        H5Dcreate2(id_, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value.data());
+    H5Dclose(set);
+    H5Sclose(space);
+    H5Tclose(type);
+  }
   /// An attribute of a single value.
   void number(const std::string& object, const std::string& name, hid_t type, const void* value) const {
     const hid_t space = H5Screate(H5S_SCALAR);

@@ -103,12 +103,14 @@ TEST(PetscBinary, OptionsBesideTheFileAreNotTaken) {
 struct Group {
   std::vector<long long> begin{0, 1, 3}, index{0, 0, 1};
   std::vector<double> data{2, 1, 3};
+  std::string format = "csr";  ///< empty: no attribute says it
 
   void operator()(const Hdf5File& file) const {
     file.group("k");
     file.dataset("k/indptr", H5T_NATIVE_LLONG, begin.data(), {begin.size()});
     file.dataset("k/indices", H5T_NATIVE_LLONG, index.data(), {index.size()});
     file.dataset("k/data", H5T_NATIVE_DOUBLE, data.data(), {data.size()});
+    if (!format.empty()) file.text("k", "format", format);
   }
 };
 
@@ -145,6 +147,39 @@ TEST(Hdf5, Sample) {
 TEST(Hdf5, EntriesOfEqualPlaceAreSummed) {
   const auto path = written("twice.h5", [](const auto& to) { Group{{0, 2, 4}, {0, 0, 1, 0}, {0.5, 1.5, 3, 1}}(Hdf5File(to)); });
   EXPECT_EQ(valuesRead(path), (std::vector<double>{2, 1, 0, 3}));
+}
+
+// By rows and by columns the same lists are a matrix and its transpose: neither is more likely than
+// the other.
+TEST(Hdf5, AnUnsaidLayoutIsNoMatrixUnlessItIsSymmetric) {
+  const auto unsaid =
+      written("unsaid.h5", [](const auto& to) { Group{.format = ""}(Hdf5File(to)); });
+  const std::string error = errorReading(unsaid);
+  for (const char* word :
+       {"unsaid.h5: 'k': ", "by rows or by columns", "'format'", "csr or csc", "not symmetric"})
+    EXPECT_TRUE(contains(error, word)) << word << ": " << error;
+  // [[2, 1], [1, 3]], the entry above the diagonal in two parts.
+  const Group symmetric{{0, 3, 5}, {0, 1, 1, 0, 1}, {2, 0.25, 0.75, 1, 3}, ""};
+  const auto same =
+      written("unsaid_symmetric.h5", [&](const auto& to) { symmetric(Hdf5File(to)); });
+  EXPECT_EQ(valuesRead(same), (std::vector<double>{2, 1, 1, 3}));
+}
+
+TEST(Hdf5, TheLayoutMayBeSaidInFourPlaces) {
+  // What is read has one column after the other.
+  const std::vector<double> byRows{2, 1, 0, 3}, byColumns{2, 0, 1, 3};
+  for (const std::string name : {"format", "h5sparse_format", "encoding-type", "dataset"})
+    for (const std::string layout : {"csr", "csc"}) {
+      const auto path = written("said_" + name + "_" + layout + ".h5", [&](const auto& to) {
+        const Hdf5File file(to);
+        Group{.format = ""}(file);
+        if (name == "dataset")
+          file.textDataset("k/format", layout);
+        else
+          file.text("k", name, layout + (name == "encoding-type" ? "_matrix" : ""));
+      });
+      EXPECT_EQ(valuesRead(path), layout == "csr" ? byRows : byColumns) << name << " " << layout;
+    }
 }
 
 struct Damaged {
@@ -213,10 +248,9 @@ TEST(Hdf5, OtherTypesAndKinds) {
            file.dataset("k/" + name, H5T_NATIVE_LLONG, pairs.data(), {3, 1});
        },
        "dataset 'indptr': 1 dimensions are expected, it has 2"},
-      {"blocks", [&](const Hdf5File& file) { Group{}(file), file.text("k", "format", "bsr"); },
-       "the format 'bsr', where csr and csc are read"},
+      {"blocks", Group{.format = "bsr"}, "the format 'bsr', where csr and csc are read"},
       {"contradiction",
-       [&](const Hdf5File& file) { Group{}(file), file.text("k", "format", "csr"), file.text("k", "encoding-type", "csc_matrix"); },
+       [&](const Hdf5File& file) { Group{}(file), file.text("k", "encoding-type", "csc_matrix"); },
        "csr as well as csc"},
       {"shape",
        [&](const Hdf5File& file) {
