@@ -11,6 +11,7 @@
 #include "matrices/bytes.hpp"
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
+#include "petsc/unreadable.hpp"
 
 namespace squeal::matrices {
 namespace {
@@ -23,14 +24,13 @@ void requireCountable(long long count, const char* what) {
 }
 
 std::string firstBytes(const std::filesystem::path& path, std::size_t count) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (error) throw Error(error.message());
+  if (const auto why = whyUnreadable(path); !why.empty()) throw Error(why);
+  const auto status = std::filesystem::status(path);
   if (std::filesystem::is_directory(status)) throw Error("a folder, not a file");
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) throw Error("not a regular file");
+  if (!std::filesystem::is_regular_file(status)) throw Error("not a regular file");
   errno = 0;
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error(std::strerror(errno));
+  if (!file) throw Error(std::string("cannot be read: ") + std::strerror(errno));
   std::string bytes(count, '\0');
   file.read(bytes.data(), static_cast<std::streamsize>(count));
   bytes.resize(static_cast<std::size_t>(file.gcount()));

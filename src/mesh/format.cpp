@@ -10,6 +10,7 @@
 
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
+#include "petsc/unreadable.hpp"
 
 namespace squeal::mesh {
 namespace {
@@ -71,7 +72,8 @@ bool isBuiltIn(const std::string& part) {
 
 FileKind requireSound(const std::string& file) {
   const std::string option = "option -mesh_file " + file + ": ", ending = endingOf(file);
-  if (!std::filesystem::is_regular_file(file)) throw Error(option + "there is no such file");
+  if (const auto why = whyUnreadable(file); !why.empty()) throw Error(option + why);
+  if (!std::filesystem::is_regular_file(file)) throw Error(option + "not a regular file");
   const std::string beside = file + ".opt";
   if (std::filesystem::exists(beside))
     throw Error(option + "gmsh would run the file '" + beside + "' beside it, a script; take it away");

@@ -10,6 +10,7 @@
 #include "petsc/options.hpp"
 #include "petsc/settings.hpp"
 #include "petsc/text.hpp"
+#include "petsc/unreadable.hpp"
 
 namespace squeal {
 
@@ -143,9 +144,11 @@ void FileOption::validate(const std::string& subject) const {
   onFirstRank(PETSC_COMM_WORLD, named(subject, path) + ": ", [&] {
     std::error_code ignored;
     if (std::filesystem::is_directory(path, ignored)) throw Error("this is a folder");
-    if (std::filesystem::exists(path, ignored)) return;
+    const std::string why = whyUnreadable(path);
+    if (why.empty()) return;
     const std::string file = origin(fullName(subject), path).file;
-    throw Error("there is no such file" + (file.empty() ? "" : ", neither beside " + file + " nor in the working folder"));
+    if (why != noSuchFile || file.empty()) throw Error(why);
+    throw Error(why + ", neither beside " + file + " nor in the working folder");
   });
 }
 

@@ -132,7 +132,7 @@ class FileOption : public Option {
   FileOption(std::string stage, std::string name, std::string meaning);
   /// The path to read.
   std::string get(const std::string& subject = {}) const { return text(subject); }
-  /// Collective. Error if rank 0 finds no such file.
+  /// Collective. Error if rank 0 finds no such file, or may not read it.
   void validate(const std::string& subject) const override;
   /// True if the full name (no dash) is that of an option for a file.
   static bool isOne(const std::string& fullName);

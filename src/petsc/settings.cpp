@@ -14,6 +14,7 @@
 #include "petsc/check.hpp"
 #include "petsc/options.hpp"
 #include "petsc/text.hpp"
+#include "petsc/unreadable.hpp"
 
 namespace squeal {
 namespace {
@@ -123,6 +124,13 @@ class Reader {
     for (const auto& setting : settingsOfYaml(text, name)) add(setting);
   }
 
+  /// What PETSc reads unasked, if it is there.
+  void readIfThere(const std::string& file) {
+    std::error_code unknown;
+    if (readFile(file, false) || !fs::is_regular_file(file, unknown)) return;
+    throw Error(file + ": " + whyUnreadable(file) + "; -skip_petscrc leaves it out");
+  }
+
   /// False if `file` cannot be opened.
   bool readFile(std::string file, bool yaml) {
     if (const std::string suffix = ":yaml"; file.size() > suffix.size() && file.ends_with(suffix)) {
@@ -130,7 +138,8 @@ class Reader {
       yaml = true;
     }
     std::ifstream stream(file, std::ios::binary);
-    if (fs::is_directory(file) || !stream) return false;
+    std::error_code unknown;
+    if (fs::is_directory(file, unknown) || !stream) return false;
     std::string text(largestFile + 1, '\0');
     stream.read(text.data(), static_cast<std::streamsize>(text.size()));
     text.resize(static_cast<std::size_t>(stream.gcount()));
@@ -186,7 +195,12 @@ class Reader {
     if (std::find(open_.begin(), open_.end(), file) != open_.end() || open_.size() > 20) fail("the file reads itself");
     open_.push_back(file);
     const auto before = settings.size();
-    if (!readFile(file, yaml)) fail(fs::is_directory(file) ? "this is a folder" : "there is no such file");
+    if (!readFile(file, yaml)) {
+      std::error_code unknown;
+      if (fs::is_directory(file, unknown)) fail("this is a folder");
+      const std::string why = whyUnreadable(file);
+      fail(why.empty() ? "cannot be read" : why);
+    }
     if (settings.size() == before) fail("the file holds no option");
     open_.pop_back();
   }
@@ -243,7 +257,8 @@ std::string located(const std::string& path, const std::string& namedIn) {
   if (namedIn.empty() || fs::path(path).is_absolute()) return path;
   const fs::path beside = fs::path(namedIn).parent_path() / path;
   std::error_code ignored;
-  if (!fs::exists(beside, ignored)) return path;
+  // What is there and cannot be read is meant, a link that leads nowhere too.
+  if (fs::symlink_status(beside, ignored).type() == fs::file_type::not_found) return path;
   // The short way from the working folder where the file is inside of it.
   const fs::path inside = fs::proximate(beside, ignored);
   return ignored || inside.empty() || *inside.begin() == ".." ? beside.string() : inside.string();
@@ -254,9 +269,9 @@ std::vector<Setting> settingsOfCall(const std::vector<std::string>& arguments) {
   for (const auto& argument : arguments) words.push_back({argument, false, 0});
   Reader reader;
   if (!takeSkip(words)) {
-    if (const auto home = environment("HOME")) reader.readFile(*home + "/.petscrc", false);
-    reader.readFile(".petscrc", false);
-    reader.readFile("petscrc", false);
+    if (const auto home = environment("HOME")) reader.readIfThere(*home + "/.petscrc");
+    reader.readIfThere(".petscrc");
+    reader.readIfThere("petscrc");
   }
   if (const auto text = environment("PETSC_OPTIONS")) reader.readWords(onOneLine(wordsOf(*text, "PETSC_OPTIONS", false)), "");
   if (const auto text = environment("PETSC_OPTIONS_YAML")) reader.readYaml(*text, "PETSC_OPTIONS_YAML");
