@@ -20,6 +20,13 @@ class NodeIndex {
       node = index;
     }
   }
+  /// Nodes of the file that were not added.
+  PetscInt countUnused() const {
+    PetscInt count = model_.droppedNodes();
+    for (PetscInt node = 0; node < model_.nodeCount(); ++node)
+      if (index_[static_cast<std::size_t>(node)] < 0 && model_.isOfMesh(node)) ++count;
+    return count;
+  }
   /// False if a node belongs to no cell.
   bool translate(std::vector<PetscInt>& nodes) const {
     for (auto& node : nodes) {

@@ -24,7 +24,7 @@ struct Job {
   std::string file, option;  ///< the option as messages begin with it
   FileKind kind;
   std::vector<Setting> settings;
-  MshContents contents;  ///< of a .msh; of a .unv the number of elements
+  MshContents contents;  ///< of a .msh; of a .unv the numbers of nodes and elements
   /// Version 2 of .msh gives each element one group and one entity. gmsh would put all elements of an entity into all of its groups: with
   /// this it takes the groups for the entities.
   bool groupsAreEntities() const { return kind == FileKind::msh && contents.version < 4; }
@@ -79,6 +79,16 @@ class Nodes {
       throw Error(job_.option + "an element refers to node " + std::to_string(static_cast<long long>(tag)) +
                   ", which is not in the mesh");
     return found->second;
+  }
+
+  /// [node] whether it is at a point of the geometry.
+  std::vector<char> atPoints() const {
+    std::vector<std::size_t> ofPoints;
+    std::vector<double> coordinates, parametric;
+    gmsh::model::mesh::getNodes(ofPoints, coordinates, parametric, 0);
+    std::vector<char> at(tags.size(), 0);
+    for (const auto tag : ofPoints) at[static_cast<std::size_t>(index(tag))] = 1;
+    return at;
   }
 
   std::vector<PetscInt> tags;
@@ -222,6 +232,10 @@ Buffer readWithGmsh(const Job& job, const Warn& warn) {
   buffer.put(nodes.tags);
   buffer.put(std::vector<int>{gmsh::model::getDimension()});
   buffer.put(ungroupedElements(job, gmsh::model::getDimension()));
+  buffer.put(nodes.atPoints());
+  const auto kept = static_cast<std::int64_t>(nodes.points.size());
+  buffer.put(std::vector<PetscInt>{
+      static_cast<PetscInt>(std::max(job.contents.nodes - kept, std::int64_t{0}))});
   const auto groups = namedGroups(job);
   std::vector<std::string> names;
   for (const auto& [name, group] : groups) names.push_back(name);
@@ -264,7 +278,10 @@ GmshModel::GmshModel(const std::string& file, const std::vector<std::string>& pa
   if (!job.settings.empty() && job.kind != FileKind::geometry)
     throw Error("option -mesh_set: only a geometry, a .geo file, has parameters; -mesh_file " + file + " is a mesh");
   if (job.kind == FileKind::msh) job.contents = requireSoundMsh(file);
-  if (job.kind == FileKind::unv) job.contents.elements = requireSoundUnv(file);
+  if (job.kind == FileKind::unv) {
+    const UnvContents contents = requireSoundUnv(file);
+    job.contents.nodes = contents.nodes, job.contents.elements = contents.elements;
+  }
   Buffer buffer = inChild(limitsFor(job), [&](const Warn& warn) { return readWithGmsh(job, warn); });
   take(buffer);
 }
@@ -274,6 +291,8 @@ void GmshModel::take(Buffer& buffer) {
   tags_ = buffer.take<PetscInt>();
   dimension_ = buffer.take<int>().at(0);
   ungrouped_ = buffer.take<PetscInt>();
+  atPoint_ = buffer.take<char>();
+  droppedNodes_ = buffer.take<PetscInt>().at(0);
   for (const auto& name : buffer.takeTexts()) {
     const auto sizes = buffer.take<int>();
     GroupElements& group = groups_[name];

@@ -29,6 +29,11 @@ class GmshModel {
   int largestDimension() const { return dimension_; }
   /// Tags of the elements of the largest dimension that are in no group.
   const std::vector<PetscInt>& ungrouped() const { return ungrouped_; }
+  /// False for a node at a point of the geometry, which gmsh puts there whether or not a cell has
+  /// it: at the centre of a circle, for one.
+  bool isOfMesh(PetscInt index) const { return !atPoint_[static_cast<std::size_t>(index)]; }
+  /// Nodes of the file that are in no element: gmsh drops them.
+  PetscInt droppedNodes() const { return droppedNodes_; }
   /// By the names that options use: blanks in a name are underscores there.
   const std::map<std::string, GroupElements>& groups() const { return groups_; }
 
@@ -40,6 +45,8 @@ class GmshModel {
   std::map<std::string, GroupElements> groups_;
   int dimension_ = 0;
   std::vector<PetscInt> ungrouped_;
+  std::vector<char> atPoint_;
+  PetscInt droppedNodes_ = 0;
 };
 
 }  // namespace squeal::mesh

@@ -147,7 +147,7 @@ class Msh {
     }
     if (nodes_.empty()) in_.fail("there is no section $Nodes, or nothing in it");
     if (elements_.empty()) in_.fail("there is no section $Elements, or nothing in it");
-    return {version_, static_cast<Integer>(elements_.size())};
+    return {version_, static_cast<Integer>(nodes_.size()), static_cast<Integer>(elements_.size())};
   }
 
  private:

@@ -7,7 +7,7 @@ namespace squeal::mesh {
 
 struct MshContents {
   double version = 0;
-  std::int64_t elements = 0;
+  std::int64_t nodes = 0, elements = 0;
 };
 
 /// gmsh's reader of .msh files believes their headers: it writes beyond its arrays, stops early without a word, and takes -1 for a

@@ -126,8 +126,9 @@ Buffer pack(const WholeMesh& mesh, const Numbering& numbering, const Shares& sha
   };
 
   Buffer buffer;
-  buffer.put(std::vector<PetscInt>{mesh.dimension, mesh.nodeCount(), mesh.cellCount(), end - first, first,
-                                   static_cast<PetscInt>(mesh.partName.size())});
+  buffer.put(std::vector<PetscInt>{mesh.dimension, mesh.nodeCount(), mesh.cellCount(), end - first,
+                                   first, static_cast<PetscInt>(mesh.partName.size()),
+                                   mesh.unusedNodes});
   buffer.put(mesh.bodies);
   buffer.put(mesh.surfaces);
   buffer.put(mesh.partName);
@@ -178,6 +179,7 @@ Mesh unpack(MPI_Comm comm, Buffer& buffer) {
   const auto sizes = buffer.take<PetscInt>();
   mesh.dimension = static_cast<int>(sizes[0]), mesh.totalNodes = sizes[1], mesh.totalCells = sizes[2];
   mesh.ownedNodes = sizes[3], mesh.firstNode = sizes[4], mesh.parts = static_cast<int>(sizes[5]);
+  mesh.unusedNodes = sizes[6];
   mesh.bodies = buffer.takeTexts();
   mesh.surfaces = buffer.takeTexts();
   mesh.partName = buffer.takeTexts();

@@ -38,7 +38,7 @@ class Unv {
  public:
   explicit Unv(const std::string& file) : file_(file), stream_(file, std::ios::binary) {}
 
-  Integer check() {
+  UnvContents check() {
     while (next()) {
       if (!isMark()) fail("-1 is expected, which begins a section");
       require("the number of a section");
@@ -55,7 +55,7 @@ class Unv {
     }
     if (nodes_.empty()) fail("there is no section 2411, of nodes, or nothing in it");
     if (elements_.empty()) fail("there is no section 2412, of elements, or nothing in it");
-    return static_cast<Integer>(elements_.size());
+    return {static_cast<Integer>(nodes_.size()), static_cast<Integer>(elements_.size())};
   }
 
  private:
@@ -152,6 +152,6 @@ class Unv {
 
 }  // namespace
 
-std::int64_t requireSoundUnv(const std::string& file) { return Unv(file).check(); }
+UnvContents requireSoundUnv(const std::string& file) { return Unv(file).check(); }
 
 }  // namespace squeal::mesh

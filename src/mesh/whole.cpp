@@ -286,6 +286,7 @@ WholeMesh load(const std::string& file, const std::vector<std::string>& paramete
   WholeMesh mesh;
   NodeIndex index(mesh, model);
   readBodies(mesh, model, request, index);
+  mesh.unusedNodes = index.countUnused();
   const NamedElements named = readNamed(mesh, model, request, index);
   Splitter splitter(mesh, request, named);
   splitter.split(named);

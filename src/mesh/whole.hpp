@@ -20,6 +20,7 @@ struct WholeMesh {
   int dimension = 0;
   std::vector<Point> points;
   std::vector<PetscInt> tags;
+  PetscInt unusedNodes = 0;  ///< see Mesh
   std::vector<std::string> bodies, surfaces;
   std::vector<WholeBlock> cells;
   std::vector<WholeFaces> faces;

@@ -1,5 +1,6 @@
 // The program as it is called: options files, words of the command line, and what is said of mistakes in them.
 #include "support/bad_input.hpp"
+#include "support/mesh_text.hpp"
 
 namespace squeal::test {
 namespace {
@@ -44,6 +45,28 @@ TEST(CommandLine, StrayWords) {
       {"equals", with(without(layer, {"modes_count"}), {{"modes_count=5", ""}}), {"-modes_count=5", "-modes_count 5"}},
       {"capitals", with(layer, {{"material_Layer_young", "2"}}), {"-material_Layer_young", "-material_layer_young", "capital"}},
   });
+}
+
+// They may be a slip of whoever wrote the mesh: nothing but this line would tell.
+TEST(CommandLine, NodesInNoCellAreTold) {
+  const fs::path place = placeFor("command_line/nodes");
+  for (const int extra : {0, 1, 2}) {
+    std::string nodes;
+    for (int i = 0; i < extra; ++i)
+      nodes += std::to_string(7 + i) + " 5 " + std::to_string(i) + " 0\n";
+    std::string text =
+        changed(quadranglesMsh2(), "$Nodes\n6", "$Nodes\n" + std::to_string(6 + extra));
+    writeText(place / "layer.msh", changed(text, "$EndNodes", nodes + "$EndNodes"));
+    const Options options = with(
+        without(layer, {"mesh_set", "constraint_right_image_of", "quiet"}),
+        {{"mesh_file", (place / "layer.msh").string()}, {"modes_count", "2"}, {"dry_run", ""}});
+    const ProgramRun run = runProgram("command_line/nodes_run", 2, commandLine(options));
+    EXPECT_EQ(run.exitCode, 0) << run.error;
+    const std::string told =
+        extra == 1 ? "; 1 node in no cell is not used\n" : "; 2 nodes in no cell are not used\n";
+    EXPECT_EQ(run.out.find("in no cell") != std::string::npos, extra > 0) << run.out;
+    EXPECT_EQ(run.out.find(told) != std::string::npos, extra > 0) << run.out;
+  }
 }
 
 /// A folder with a blank in its name, with a case and its mesh in it: "my case.yaml".
