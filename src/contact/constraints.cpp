@@ -40,11 +40,9 @@ Constraints readConstraints(const mesh::Mesh& mesh) {
   for (const auto& group : constrainedGroups()) {
     constraints.groups.push_back(group);
     const std::string components = clampedOption.get(group), allowed = std::string("xyz").substr(0, dimension);
-    const auto values = displacementOption.get(group);
+    const auto values = displacementOption.components(group, mesh.dimension);
     if (components.empty() || components.find_first_not_of(allowed) != std::string::npos)
       throw Error("option -" + clampedOption.fullName(group) + " '" + components + "': must be some of the letters " + allowed);
-    if (values.size() < dimension)
-      throw Error("option -" + displacementOption.fullName(group) + ": must have " + std::to_string(dimension) + " components");
     for (PetscInt node : mesh.nodeGroups.at(group))
       for (char letter : components) {
         const auto component = static_cast<std::size_t>(letter - 'x'), at = dimension * static_cast<std::size_t>(node) + component;

@@ -21,14 +21,6 @@ const RealListOption obstacleDisplacementOption("contact", "contact_<interface>_
 
 std::string text(const Point& p) { return formatted("(%.6g, %.6g, %.6g)", p[0], p[1], p[2]); }
 
-Point pointOf(const RealListOption& option, const std::string& subject) {
-  auto values = option.get(subject);
-  if (values.size() < 2 || values.size() > 3)
-    throw Error("option -" + option.fullName(subject) + ": two or three components are wanted");
-  values.resize(3, 0.0);
-  return {values[0], values[1], values[2]};
-}
-
 /// u of periodic images from that of their primaries.
 OwnedMat periodicity(const mesh::Mesh& mesh) {
   OwnedMat matrix = nodalMatrix(mesh, 1);
@@ -86,7 +78,8 @@ std::vector<ContactNode> contactNodes(const mesh::Mesh& mesh, const elasticity::
                                       const std::vector<mesh::InterfaceRequest>& requests, const FaceSums& sums) {
   std::vector<ContactNode> nodes;
   std::vector<Point> obstacleVelocity;
-  for (const auto& request : requests) obstacleVelocity.push_back(pointOf(obstacleVelocityOption, request.name));
+  for (const auto& request : requests)
+    obstacleVelocity.push_back(obstacleVelocityOption.components(request.name, mesh.dimension));
   const auto discVelocity = [&](const mesh::ContactPair& pair) {
     return pair.masterBody >= 0 ? bodies.motions[static_cast<std::size_t>(pair.masterBody)].velocity(
                                       mesh.coordinates[static_cast<std::size_t>(pair.node)])
@@ -185,7 +178,9 @@ void buildKinematics(const mesh::Mesh& mesh, const std::vector<mesh::InterfaceRe
     }
   }
   std::vector<Point> obstacleDisplacement;
-  for (const auto& request : requests) obstacleDisplacement.push_back(pointOf(obstacleDisplacementOption, request.name));
+  for (const auto& request : requests)
+    obstacleDisplacement.push_back(
+        obstacleDisplacementOption.components(request.name, mesh.dimension));
   std::string failure;
   for (const auto& node : contact.nodes) try {
       const Frame frame = frameOf(node, constraints, dimension);

@@ -179,7 +179,7 @@ OwnedVec nodalVector(const mesh::Mesh& mesh) {
 
 Bodies assemble(const mesh::Mesh& mesh) {
   Bodies bodies;
-  bodies.motions = readMotions(mesh.bodies);
+  bodies.motions = readMotions(mesh.bodies, mesh.dimension);
   const auto materials = readMaterials(mesh);
   assembleMatrices(mesh, materials, bodies);
   warnOfFoldedCells(mesh);
@@ -191,7 +191,7 @@ Bodies assemble(const mesh::Mesh& mesh) {
 
 BodyPart bodyPart(const mesh::Mesh& mesh, int body) {
   Bodies alone;
-  alone.motions = readMotions(mesh.bodies);
+  alone.motions = readMotions(mesh.bodies, mesh.dimension);
   for (std::size_t i = 0; i < alone.motions.size(); ++i)
     if (static_cast<int>(i) != body) alone.motions[i] = {};
   const auto materials = readMaterials(mesh);

@@ -20,9 +20,7 @@ OwnedVec shared(const mesh::Mesh& mesh, const RealListOption& option) {
   const auto dimension = static_cast<std::size_t>(mesh.dimension);
   OwnedVec vector;
   for (const auto& group : option.subjects()) {
-    const auto total = option.get(group);
-    if (total.size() < dimension)
-      throw Error("option -" + option.fullName(group) + ": must have " + std::to_string(dimension) + " components");
+    const auto total = option.components(group, mesh.dimension);
     const auto& nodes = mesh.nodeGroups.at(group);
     auto count = static_cast<PetscInt>(nodes.size());
     check(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPIU_INT, MPI_SUM, mesh.comm));

@@ -20,13 +20,6 @@ const FlagOption convectiveOption(
     "on: the matter of moving bodies carries its displacement along (gyroscopic and rotation stiffness "
     "terms); off: approximation A");
 
-mesh::Point point(const RealListOption& option, const std::string& body) {
-  const auto values = option.get(body);
-  if (values.size() != 2 && values.size() != 3)
-    throw Error("option -" + option.fullName(body) + ": two or three components are wanted");
-  return {values[0], values[1], values.size() == 3 ? values[2] : 0.0};
-}
-
 /// ω, rad/s, from whichever option gives it.
 double rotationSpeed(const std::string& body) {
   const bool inRpm = rpmOption.given(body);
@@ -58,7 +51,7 @@ std::vector<std::string> movingBodies() {
   return {bodies.begin(), bodies.end()};
 }
 
-std::vector<Motion> readMotions(const std::vector<std::string>& bodies) {
+std::vector<Motion> readMotions(const std::vector<std::string>& bodies, int dimension) {
   const std::set<std::string> known(bodies.begin(), bodies.end());
   for (const Option* option :
        {static_cast<const Option*>(&velocityOption), static_cast<const Option*>(&speedOption),
@@ -68,7 +61,8 @@ std::vector<Motion> readMotions(const std::vector<std::string>& bodies) {
         throw Error("option -" + option->fullName(body) + ": '" + body + "' is not a body (a group with a material)");
   std::vector<Motion> motions;
   for (const auto& body : bodies) {
-    Motion motion{point(velocityOption, body), rotationSpeed(body), point(axisOption, body), point(originOption, body)};
+    Motion motion{velocityOption.components(body, dimension), rotationSpeed(body),
+                  axisOption.components(body, dimension), originOption.components(body, dimension)};
     const double length =
         std::sqrt(motion.axis[0] * motion.axis[0] + motion.axis[1] * motion.axis[1] + motion.axis[2] * motion.axis[2]);
     if (!(length > 0)) throw Error("option -" + axisOption.fullName(body) + ": the axis has no length");

@@ -98,6 +98,14 @@ std::vector<double> RealListOption::get(const std::string& subject) const {
   return list;
 }
 
+std::array<double, 3> RealListOption::components(const std::string& subject, int dimension) const {
+  const auto values = get(subject);
+  if (values.size() != 3 && (values.size() != 2 || dimension != 2))
+    throw Error(named(subject, text(subject)) + ": " + meaning + "; must have " +
+                (dimension == 2 ? "2 components in the plane, or 3" : "3 components"));
+  return {values[0], values[1], values.size() == 3 ? values[2] : 0.0};
+}
+
 FlagOption::FlagOption(std::string stage, std::string name, bool byDefault, std::string meaning)
     : Option(std::move(stage), std::move(name), byDefault ? "on" : "off", "", std::move(meaning), "on or off") {}
 

@@ -4,6 +4,7 @@
 /// All values come from the PETSc options database, the same on every rank, so every Error thrown here is thrown on all ranks.
 #include <petscsys.h>
 
+#include <array>
 #include <functional>
 #include <limits>
 #include <map>
@@ -90,6 +91,8 @@ class RealListOption : public Option {
                  bool ranges = false);
   std::vector<double> get(const std::string& subject = {}) const;
   void validate(const std::string& subject) const override { get(subject); }
+  /// The values as a vector. Error unless there are three; two will do for a mesh in the plane.
+  std::array<double, 3> components(const std::string& subject, int dimension) const;
 
  private:
   void requireLength(const std::string& subject, const std::string& value, double length) const;

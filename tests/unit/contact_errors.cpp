@@ -43,6 +43,38 @@ TEST(Loose, BodyIsNamed) {
   EXPECT_TRUE(contains(errorOf([] { test::buildModel(); }), "can move rigidly"));
 }
 
+// A third component that is left out is no zero, and a fourth one means nothing.
+TEST(Vectors, HaveAsManyComponentsAsTheMesh) {
+  const std::string box = "-mesh_file meshes/beam.geo -mesh_set nx=2,ny=1,nz=1 " +
+                          test::material("beam", "1", "0.3", "1") +
+                          "-constraint_bottom_clamped xyz -contact_plate_pad top ",
+                    velocity = "-contact_plate_obstacle_velocity 1,0,0 ";
+  const auto message = [](const std::string& options) {
+    test::setOptions(options);
+    return errorOf([] { test::buildModel(); });
+  };
+  EXPECT_EQ(message(box + velocity + "-constraint_bottom_displacement 0,0,1e-3"), "");
+  for (const std::string option :
+       {"motion_beam_velocity", "motion_beam_axis", "motion_beam_origin",
+        "constraint_bottom_displacement", "ground_bottom_stiffness",
+        "contact_plate_obstacle_velocity", "contact_plate_obstacle_displacement"})
+    for (const std::string value : {"1", "1,0", "1,0,0,0"}) {
+      const std::string found = message(box + velocity + "-" + option + " " + value);
+      EXPECT_TRUE(contains(found, "option -" + option + " " + value) &&
+                  contains(found, "3 components"))
+          << found;
+    }
+  // In the plane a third one may be left out, no second one.
+  for (const std::string option : {"motion_disc_velocity", "constraint_disc_bottom_displacement"})
+    for (const std::string value : {"1", "1,0", "1,0,0", "1,0,0,0"}) {
+      test::setCase("two_layers", layers + " -" + option + " " + value);
+      const std::string found = errorOf([] { test::buildModel(); });
+      EXPECT_EQ(contains(found, "option -" + option) && contains(found, "2 components"),
+                value == "1" || value == "1,0,0,0")
+          << found;
+    }
+}
+
 TEST(Contact, BadInputIsNamed) {
   const std::pair<const char*, const char*> mistakes[] = {
       {"-constraint_pad_face_clamped y", "not tangential"},  // contact decides the normal component

@@ -200,12 +200,14 @@ TEST(Convection, IsThereOnlyIfWantedAndMoving) {
 
 TEST(Motion, RevolutionsPerMinute) {
   test::setOptions("-motion_disc_rpm 90 ");
-  EXPECT_NEAR(elasticity::readMotions({"disc"}).front().speed, 3 * M_PI, 1e-14);
+  EXPECT_NEAR(elasticity::readMotions({"disc"}, 2).front().speed, 3 * M_PI, 1e-14);
   EXPECT_EQ(elasticity::movingBodies(), std::vector<std::string>{"disc"});
   test::setOptions("-motion_disc_rpm 90 -motion_disc_speed 3");
-  EXPECT_TRUE(test::contains(test::errorOf([] { elasticity::readMotions({"disc"}); }), "-motion_disc_rpm"));
+  EXPECT_TRUE(test::contains(test::errorOf([] { elasticity::readMotions({"disc"}, 2); }),
+                             "-motion_disc_rpm"));
   test::setOptions("-motion_disc_rpm 90 -motion_disc_velocity 1,0");
-  EXPECT_TRUE(test::contains(test::errorOf([] { elasticity::readMotions({"disc"}); }), "not both"));
+  EXPECT_TRUE(
+      test::contains(test::errorOf([] { elasticity::readMotions({"disc"}, 2); }), "not both"));
 }
 
 }  // namespace
