@@ -1,5 +1,6 @@
 #include "contact/constraints.hpp"
 
+#include <algorithm>
 #include <set>
 
 #include "petsc/check.hpp"
@@ -43,6 +44,10 @@ Constraints readConstraints(const mesh::Mesh& mesh) {
     const auto values = displacementOption.components(group, mesh.dimension);
     if (components.empty() || components.find_first_not_of(allowed) != std::string::npos)
       throw Error("option -" + clampedOption.fullName(group) + " '" + components + "': must be some of the letters " + allowed);
+    for (const char letter : components)
+      if (std::count(components.begin(), components.end(), letter) > 1)
+        throw Error("option -" + clampedOption.fullName(group) + " '" + components + "': " +
+                    letter + " twice; must be some of the letters " + allowed + ", each once");
     for (PetscInt node : mesh.nodeGroups.at(group))
       for (char letter : components) {
         const auto component = static_cast<std::size_t>(letter - 'x'), at = dimension * static_cast<std::size_t>(node) + component;

@@ -79,6 +79,8 @@ TEST(Contact, BadInputIsNamed) {
   const std::pair<const char*, const char*> mistakes[] = {
       {"-constraint_pad_face_clamped y", "not tangential"},  // contact decides the normal component
       {"-constraint_pad_top_clamped xz", "-constraint_pad_top_clamped"},
+      {"-constraint_pad_top_clamped xyy", "-constraint_pad_top_clamped 'xyy': y twice"},
+      {"-constraint_pad_top_clamped xyxyy", "'xyxyy': x twice; must be some of the letters xy"},
       {"-contact_second_disc disc_face", "needs -contact_second_pad"},
       {"-contact_second_pad pad_top", "either -contact_second_disc or"},
       {"-contact_interface_obstacle_velocity 1,0,0", "either"},
