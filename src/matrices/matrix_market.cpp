@@ -145,7 +145,7 @@ class Filler {
   Filler(const Lines& lines, const Header& header) : lines_(lines), header_(header), entries_(header.rows, header.columns) {}
   /// Counted from 0.
   void add(long long i, long long j, double x) {
-    if (header_.oneTriangle() && i != j) requireTriangle(i > j);
+    if (header_.oneTriangle() && i != j) requireTriangle(i, j);
     if (header_.skew && i == j && x != 0) lines_.fail("the diagonal of a skew-symmetric matrix is zero");
     entries_.add(i, j, x);
     if (header_.oneTriangle() && i != j) entries_.add(j, i, header_.skew ? -x : x);
@@ -154,9 +154,14 @@ class Filler {
 
  private:
   /// The standard asks for the lower triangle. Files of the upper one alone can mean but one thing; both would be counted twice.
-  void requireTriangle(bool lower) {
+  void requireTriangle(long long i, long long j) {
+    const bool lower = i > j;
     if (lower ? upper_ : lower_)
-      lines_.fail("entries on both sides of the diagonal: a file that calls itself symmetric holds the lower triangle alone");
+      lines_.fail(
+          formatted("the entry in row %lld and column %lld is %s the diagonal, earlier ones are %s "
+                    "it: the format stores the lower triangle of a %s matrix alone",
+                    i + 1, j + 1, lower ? "below" : "above", lower ? "above" : "below",
+                    header_.skew ? "skew-symmetric" : "symmetric"));
     (lower ? lower_ : upper_) = true;
   }
 

@@ -89,7 +89,12 @@ TEST(MatrixMarket, WhatIsRefusedByLine) {
       {"zero_row", size2 + "1\n0 1 1\n", "line 3: row 0 is outside of 1 to 2"},
       {"outside", size2 + "1\n3 1 1\n", "line 3: row 3 is outside of 1 to 2"},
       {"outside_column", size2 + "1\n1 -1 1\n", "line 3: column -1 is outside of 1 to 2"},
-      {"both", head + "real symmetric\n2 2 2\n2 1 4\n1 2 4\n", "line 4: entries on both sides of the diagonal"},
+      {"both", head + "real symmetric\n2 2 2\n2 1 4\n1 2 4\n",
+       "line 4: the entry in row 1 and column 2 is above the diagonal, earlier ones are below it: "
+       "the format stores the lower triangle of a symmetric matrix alone"},
+      {"both_upper", head + "real skew-symmetric\n3 3 3\n1 2 4\n1 3 4\n% c\n3 1 4\n",
+       "line 6: the entry in row 3 and column 1 is below the diagonal, earlier ones are above it: "
+       "the format stores the lower triangle of a skew-symmetric matrix alone"},
       {"skew_diagonal", head + "real skew-symmetric\n2 2 1\n1 1 4\n", "line 3: the diagonal of a skew-symmetric matrix is zero"},
       {"half", head + "integer general\n1 1 1\n1 1 1.5\n", "line 3: the value '1.5' of a matrix of integers"},
       {"complex", head + "complex general\n1 1 1\n1 1 1 1\n", "line 1: the matrix is complex, not real"},
