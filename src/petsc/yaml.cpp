@@ -102,13 +102,30 @@ class Flattening {
     return trimmed(std::string(reinterpret_cast<const char*>(scalar->data.scalar.value), scalar->data.scalar.length));
   }
 
+  struct Key {
+    int line;
+    bool isSection;
+  };
+
+  /// YAML forbids a key that comes twice, and libyaml lets it pass. Values are left to add(), which
+  /// knows of those with the same name in other sections.
+  void requireFirst(std::map<std::string, Key>& keys, const std::string& name,
+                    const yaml_node_t* key, bool isSection) const {
+    const auto [earlier, isNew] = keys.insert({name, {lineOf(key->start_mark), isSection}});
+    if (!isNew && (isSection || earlier->second.isSection))
+      fail(key,
+           formatted("'%s' is given twice, first in line %d", name.c_str(), earlier->second.line));
+  }
+
   void addMapping(const yaml_node_t* mapping, const std::string& prefix, bool merged, int depth) {
     if (depth > deepest) fail(mapping, formatted("nested deeper than %d levels; does an alias hold itself?", deepest));
     if (mapping->data.mapping.pairs.start == mapping->data.mapping.pairs.top) fail(mapping, "a map without entries");
+    std::map<std::string, Key> keys;
     for (const auto* pair = mapping->data.mapping.pairs.start; pair < mapping->data.mapping.pairs.top; ++pair) {
       const yaml_node_t *key = node(pair->key), *value = node(pair->value);
       if (key->type != YAML_SCALAR_NODE) fail(key, "a list or a map in place of a name");
       const std::string name = textOf(key);
+      requireFirst(keys, name, key, name == "<<" || value->type == YAML_MAPPING_NODE);
       if (name == "<<")
         merge(value, prefix, depth);
       else if (value->type == YAML_MAPPING_NODE)
