@@ -132,6 +132,23 @@ std::set<PetscInt> padNodes(const WholeMesh& mesh, const std::string& surface) {
   return nodes;
 }
 
+/// Why a node of the pad finds no partner in the group of the disc.
+std::string whyAlone(const WholeMesh& mesh, PetscInt node, const std::string& group,
+                     const std::vector<int>& body, double near) {
+  const auto& place = mesh.points[static_cast<std::size_t>(node)];
+  for (std::size_t other = 0; other < mesh.points.size(); ++other)
+    if (mesh.part[other] != mesh.part[static_cast<std::size_t>(node)] && body[other] >= 0 &&
+        squaredDistance(mesh.points[other], place) <= near * near)
+      return "although body '" + mesh.bodies[static_cast<std::size_t>(body[other])] +
+             "' has one: is a face missing in the group '" + group + "'?";
+  return "where no other body has one either: the two are not meshed alike";
+}
+
+std::string optionsOf(const InterfaceRequest& request) {
+  return "options -contact_" + request.name + "_pad " + request.pad + ", -contact_" + request.name +
+         "_disc " + request.disc + ": ";
+}
+
 void pairContact(WholeMesh& mesh, const InterfaceRequest& request, int interface, const std::vector<int>& body, double near) {
   const std::set<PetscInt> pad = padNodes(mesh, request.pad);
   if (request.disc.empty()) {
@@ -142,15 +159,18 @@ void pairContact(WholeMesh& mesh, const InterfaceRequest& request, int interface
   for (PetscInt node : mesh.nodeGroups.at(request.disc))
     if (!pad.count(node)) disc.push_back(node);
   if (disc.empty())
-    throw Error("options -contact_" + request.name + "_pad " + request.pad + ", -contact_" + request.name + "_disc " +
-                request.disc + ": pad and disc are the same surface, of one body; contact is between the surfaces of two");
+    throw Error(
+        optionsOf(request) +
+        "pad and disc are the same surface, of one body; contact is between the surfaces of two");
   const Locator locator(mesh, disc, near);
   for (PetscInt node : pad) {
     const auto found = locator.at(mesh.points[static_cast<std::size_t>(node)]);
     if (found.empty())
-      throw Error("options -contact_" + request.name + "_pad " + request.pad + ", -contact_" + request.name + "_disc " +
-                  request.disc + ": the node at " + positionText(mesh.points[static_cast<std::size_t>(node)]) +
-                  " of the pad has no node of the disc at the same place; contact needs matching meshes");
+      throw Error(optionsOf(request) + "the node at " +
+                  positionText(mesh.points[static_cast<std::size_t>(node)]) + " of '" +
+                  request.pad + "' has no node of '" + request.disc + "' at the same place, " +
+                  whyAlone(mesh, node, request.disc, body, near) +
+                  " (contact needs matching meshes)");
     const auto master = static_cast<std::size_t>(found[0]);
     mesh.pairs.push_back({node, found[0], interface, body[master], mesh.part[master]});
   }
@@ -180,9 +200,9 @@ void requireEqualFaces(const WholeMesh& mesh, const InterfaceRequest& request, i
       for (auto& node : masters) node = mesh.primary[static_cast<std::size_t>(node)];
       std::sort(masters.begin(), masters.end());
       if (!discFaces.count(masters))
-        throw Error("options -contact_" + request.name + "_pad " + request.pad + ", -contact_" + request.name + "_disc " +
-                    request.disc + ": the face of the pad at " + positionText(where) +
-                    " does not lie on one face of the disc; contact needs matching meshes");
+        throw Error(optionsOf(request) + "the face of '" + request.pad + "' at " +
+                    positionText(where) + " does not lie on one face of '" + request.disc +
+                    "': is a face missing in this group? (contact needs matching meshes)");
     }
 }
 
