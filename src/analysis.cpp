@@ -15,19 +15,16 @@ namespace {
 
 std::string unusedText(PetscInt nodes) {
   if (nodes == 0) return "";
-  return nodes == 1 ? "; 1 node in no cell is not used"
-                    : formatted("; %d nodes in no cell are not used", static_cast<int>(nodes));
+  return nodes == 1 ? "; 1 node in no cell is not used" : formatted("; %d nodes in no cell are not used", static_cast<int>(nodes));
 }
 
 mesh::Mesh readMesh(MPI_Comm comm) {
   const mesh::Request request = meshRequest();
   Stage stage(comm, "mesh");
   mesh::Mesh mesh = mesh::read(comm, request);
-  stage.finish(formatted("%s: %d nodes, %d cells, %d bodies in %d connected parts%s",
-                         resolvedOptions().at("mesh_file").c_str(),
-                         static_cast<int>(mesh.totalNodes), static_cast<int>(mesh.totalCells),
-                         static_cast<int>(mesh.bodies.size()), mesh.parts,
-                         unusedText(mesh.unusedNodes).c_str()));
+  stage.finish(formatted("%s: %d nodes, %d cells, %d bodies in %d connected parts%s", resolvedOptions().at("mesh_file").c_str(),
+                         static_cast<int>(mesh.totalNodes), static_cast<int>(mesh.totalCells), static_cast<int>(mesh.bodies.size()),
+                         mesh.parts, unusedText(mesh.unusedNodes).c_str()));
   return mesh;
 }
 

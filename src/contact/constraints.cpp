@@ -5,6 +5,7 @@
 
 #include "petsc/check.hpp"
 #include "petsc/options.hpp"
+#include "petsc/stages.hpp"
 
 namespace squeal::contact {
 namespace {
@@ -46,14 +47,12 @@ Constraints readConstraints(const mesh::Mesh& mesh) {
       throw Error("option -" + clampedOption.fullName(group) + " '" + components + "': must be some of the letters " + allowed);
     for (const char letter : components)
       if (std::count(components.begin(), components.end(), letter) > 1)
-        throw Error("option -" + clampedOption.fullName(group) + " '" + components + "': " +
-                    letter + " twice; must be some of the letters " + allowed + ", each once");
+        throw Error("option -" + clampedOption.fullName(group) + " '" + components + "': " + letter +
+                    " twice; must be some of the letters " + allowed + ", each once");
     for (const char letter : std::string("xyz"))
-      if (values[static_cast<std::size_t>(letter - 'x')] != 0 &&
-          components.find(letter) == std::string::npos)
-        throw Error("option -" + displacementOption.fullName(group) + ": displaces component " +
-                    letter + ", which -" + clampedOption.fullName(group) + " " + components +
-                    " does not hold");
+      if (values[static_cast<std::size_t>(letter - 'x')] != 0 && components.find(letter) == std::string::npos)
+        complain(mesh.comm, "option -" + displacementOption.fullName(group) + ": the displacement of " + letter +
+                                " was not used, as -" + clampedOption.fullName(group) + " " + components + " does not hold it");
     for (PetscInt node : mesh.nodeGroups.at(group))
       for (char letter : components) {
         const auto component = static_cast<std::size_t>(letter - 'x'), at = dimension * static_cast<std::size_t>(node) + component;

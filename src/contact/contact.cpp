@@ -78,8 +78,7 @@ std::vector<ContactNode> contactNodes(const mesh::Mesh& mesh, const elasticity::
                                       const std::vector<mesh::InterfaceRequest>& requests, const FaceSums& sums) {
   std::vector<ContactNode> nodes;
   std::vector<Point> obstacleVelocity;
-  for (const auto& request : requests)
-    obstacleVelocity.push_back(obstacleVelocityOption.components(request.name, mesh.dimension));
+  for (const auto& request : requests) obstacleVelocity.push_back(obstacleVelocityOption.components(request.name, mesh.dimension));
   const auto discVelocity = [&](const mesh::ContactPair& pair) {
     return pair.masterBody >= 0 ? bodies.motions[static_cast<std::size_t>(pair.masterBody)].velocity(
                                       mesh.coordinates[static_cast<std::size_t>(pair.node)])
@@ -179,8 +178,7 @@ void buildKinematics(const mesh::Mesh& mesh, const std::vector<mesh::InterfaceRe
   }
   std::vector<Point> obstacleDisplacement;
   for (const auto& request : requests)
-    obstacleDisplacement.push_back(
-        obstacleDisplacementOption.components(request.name, mesh.dimension));
+    obstacleDisplacement.push_back(obstacleDisplacementOption.components(request.name, mesh.dimension));
   std::string failure;
   for (const auto& node : contact.nodes) try {
       const Frame frame = frameOf(node, constraints, dimension);

@@ -61,8 +61,8 @@ std::vector<Motion> readMotions(const std::vector<std::string>& bodies, int dime
         throw Error("option -" + option->fullName(body) + ": '" + body + "' is not a body (a group with a material)");
   std::vector<Motion> motions;
   for (const auto& body : bodies) {
-    Motion motion{velocityOption.components(body, dimension), rotationSpeed(body),
-                  axisOption.components(body, dimension), originOption.components(body, dimension)};
+    Motion motion{velocityOption.components(body, dimension), rotationSpeed(body), axisOption.components(body, dimension),
+                  originOption.components(body, dimension)};
     const double length =
         std::sqrt(motion.axis[0] * motion.axis[0] + motion.axis[1] * motion.axis[1] + motion.axis[2] * motion.axis[2]);
     if (!(length > 0)) throw Error("option -" + axisOption.fullName(body) + ": the axis has no length");

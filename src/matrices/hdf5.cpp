@@ -57,11 +57,9 @@ bool isSymmetric(const Entries& entries) {
   const auto sums = [&](const auto& major, const auto& minor) {
     std::vector<Sum> all, summed;
     all.reserve(entries.value.size());
-    for (std::size_t k = 0; k < entries.value.size(); ++k)
-      all.emplace_back(major[k], minor[k], entries.value[k]);
+    for (std::size_t k = 0; k < entries.value.size(); ++k) all.emplace_back(major[k], minor[k], entries.value[k]);
     const auto place = [](const Sum& sum) { return std::pair(std::get<0>(sum), std::get<1>(sum)); };
-    std::stable_sort(all.begin(), all.end(),
-                     [&](const Sum& a, const Sum& b) { return place(a) < place(b); });
+    std::stable_sort(all.begin(), all.end(), [&](const Sum& a, const Sum& b) { return place(a) < place(b); });
     for (const auto& entry : all)
       if (!summed.empty() && place(summed.back()) == place(entry))
         std::get<2>(summed.back()) += std::get<2>(entry);

@@ -157,11 +157,10 @@ class Filler {
   void requireTriangle(long long i, long long j) {
     const bool lower = i > j;
     if (lower ? upper_ : lower_)
-      lines_.fail(
-          formatted("the entry in row %lld and column %lld is %s the diagonal, earlier ones are %s "
-                    "it: the format stores the lower triangle of a %s matrix alone",
-                    i + 1, j + 1, lower ? "below" : "above", lower ? "above" : "below",
-                    header_.skew ? "skew-symmetric" : "symmetric"));
+      lines_.fail(formatted(
+          "the entry in row %lld and column %lld is %s the diagonal, earlier ones are %s "
+          "it: the format stores the lower triangle of a %s matrix alone",
+          i + 1, j + 1, lower ? "below" : "above", lower ? "above" : "below", header_.skew ? "skew-symmetric" : "symmetric"));
     (lower ? lower_ : upper_) = true;
   }
 

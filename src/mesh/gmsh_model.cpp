@@ -234,8 +234,7 @@ Buffer readWithGmsh(const Job& job, const Warn& warn) {
   buffer.put(ungroupedElements(job, gmsh::model::getDimension()));
   buffer.put(nodes.atPoints());
   const auto kept = static_cast<std::int64_t>(nodes.points.size());
-  buffer.put(std::vector<PetscInt>{
-      static_cast<PetscInt>(std::max(job.contents.nodes - kept, std::int64_t{0}))});
+  buffer.put(std::vector<PetscInt>{static_cast<PetscInt>(std::max(job.contents.nodes - kept, std::int64_t{0}))});
   const auto groups = namedGroups(job);
   std::vector<std::string> names;
   for (const auto& [name, group] : groups) names.push_back(name);

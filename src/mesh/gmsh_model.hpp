@@ -1,7 +1,7 @@
 #pragma once
 /// The gmsh library behind a small door: a file read or meshed, and its physical groups. Not collective: rank 0 only.
-#include "petsc/buffer.hpp"
 #include "mesh/whole.hpp"
+#include "petsc/buffer.hpp"
 
 namespace squeal::mesh {
 

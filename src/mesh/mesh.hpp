@@ -50,8 +50,7 @@ struct Mesh {
   MPI_Comm comm = MPI_COMM_NULL;
   int dimension = 3;  ///< 2: plane problem in x, y; 3: solid
   PetscInt totalNodes = 0, totalCells = 0;
-  PetscInt unusedNodes =
-      0;  ///< of the file, in no cell; those that gmsh puts at points do not count
+  PetscInt unusedNodes = 0;          ///< of the file, in no cell; those that gmsh puts at points do not count
   PetscInt ownedNodes = 0;           ///< local nodes 0 … ownedNodes−1 are owned here, the rest are ghosts
   PetscInt firstNode = 0;            ///< global number of local node 0; owned nodes are contiguous
   std::vector<PetscInt> globalNode;  ///< [local node] global number

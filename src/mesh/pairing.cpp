@@ -133,8 +133,7 @@ std::set<PetscInt> padNodes(const WholeMesh& mesh, const std::string& surface) {
 }
 
 /// Why a node of the pad finds no partner in the group of the disc.
-std::string whyAlone(const WholeMesh& mesh, PetscInt node, const std::string& group,
-                     const std::vector<int>& body, double near) {
+std::string whyAlone(const WholeMesh& mesh, PetscInt node, const std::string& group, const std::vector<int>& body, double near) {
   const auto& place = mesh.points[static_cast<std::size_t>(node)];
   for (std::size_t other = 0; other < mesh.points.size(); ++other)
     if (mesh.part[other] != mesh.part[static_cast<std::size_t>(node)] && body[other] >= 0 &&
@@ -145,8 +144,7 @@ std::string whyAlone(const WholeMesh& mesh, PetscInt node, const std::string& gr
 }
 
 std::string optionsOf(const InterfaceRequest& request) {
-  return "options -contact_" + request.name + "_pad " + request.pad + ", -contact_" + request.name +
-         "_disc " + request.disc + ": ";
+  return "options -contact_" + request.name + "_pad " + request.pad + ", -contact_" + request.name + "_disc " + request.disc + ": ";
 }
 
 void pairContact(WholeMesh& mesh, const InterfaceRequest& request, int interface, const std::vector<int>& body, double near) {
@@ -159,18 +157,14 @@ void pairContact(WholeMesh& mesh, const InterfaceRequest& request, int interface
   for (PetscInt node : mesh.nodeGroups.at(request.disc))
     if (!pad.count(node)) disc.push_back(node);
   if (disc.empty())
-    throw Error(
-        optionsOf(request) +
-        "pad and disc are the same surface, of one body; contact is between the surfaces of two");
+    throw Error(optionsOf(request) + "pad and disc are the same surface, of one body; contact is between the surfaces of two");
   const Locator locator(mesh, disc, near);
   for (PetscInt node : pad) {
     const auto found = locator.at(mesh.points[static_cast<std::size_t>(node)]);
     if (found.empty())
-      throw Error(optionsOf(request) + "the node at " +
-                  positionText(mesh.points[static_cast<std::size_t>(node)]) + " of '" +
+      throw Error(optionsOf(request) + "the node at " + positionText(mesh.points[static_cast<std::size_t>(node)]) + " of '" +
                   request.pad + "' has no node of '" + request.disc + "' at the same place, " +
-                  whyAlone(mesh, node, request.disc, body, near) +
-                  " (contact needs matching meshes)");
+                  whyAlone(mesh, node, request.disc, body, near) + " (contact needs matching meshes)");
     const auto master = static_cast<std::size_t>(found[0]);
     mesh.pairs.push_back({node, found[0], interface, body[master], mesh.part[master]});
   }
@@ -200,8 +194,8 @@ void requireEqualFaces(const WholeMesh& mesh, const InterfaceRequest& request, i
       for (auto& node : masters) node = mesh.primary[static_cast<std::size_t>(node)];
       std::sort(masters.begin(), masters.end());
       if (!discFaces.count(masters))
-        throw Error(optionsOf(request) + "the face of '" + request.pad + "' at " +
-                    positionText(where) + " does not lie on one face of '" + request.disc +
+        throw Error(optionsOf(request) + "the face of '" + request.pad + "' at " + positionText(where) +
+                    " does not lie on one face of '" + request.disc +
                     "': is a face missing in this group? (contact needs matching meshes)");
     }
 }

@@ -5,8 +5,8 @@
 #include <optional>
 #include <set>
 
-#include "petsc/buffer.hpp"
 #include "mesh/whole.hpp"
+#include "petsc/buffer.hpp"
 #include "petsc/check.hpp"
 #include "petsc/options.hpp"
 
@@ -126,9 +126,8 @@ Buffer pack(const WholeMesh& mesh, const Numbering& numbering, const Shares& sha
   };
 
   Buffer buffer;
-  buffer.put(std::vector<PetscInt>{mesh.dimension, mesh.nodeCount(), mesh.cellCount(), end - first,
-                                   first, static_cast<PetscInt>(mesh.partName.size()),
-                                   mesh.unusedNodes});
+  buffer.put(std::vector<PetscInt>{mesh.dimension, mesh.nodeCount(), mesh.cellCount(), end - first, first,
+                                   static_cast<PetscInt>(mesh.partName.size()), mesh.unusedNodes});
   buffer.put(mesh.bodies);
   buffer.put(mesh.surfaces);
   buffer.put(mesh.partName);

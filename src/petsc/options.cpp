@@ -236,11 +236,13 @@ void rejectUnknownOptions() {
     throw Error("unknown option -" + name + (place.empty() ? "" : " (" + place + ")") +
                 (nearest.empty() ? "" : "; did you mean -" + nearest + "?") + " (squeal -help lists all options)");
   }
-  validating = true;
+  struct Validation {
+    Validation() { validating = true; }
+    ~Validation() { validating = false; }  // after an Error as well
+  } validation;
   for (const auto* option : Option::all())
     for (const auto& subject : option->name.find('<') == std::string::npos ? std::vector<std::string>{""} : option->subjects())
-      if (option->given(subject)) option->validate(subject);  // an Error ends the run
-  validating = false;
+      if (option->given(subject)) option->validate(subject);
 }
 
 std::vector<std::string> unusedOptions() {

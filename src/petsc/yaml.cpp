@@ -109,12 +109,10 @@ class Flattening {
 
   /// YAML forbids a key that comes twice, and libyaml lets it pass. Values are left to add(), which
   /// knows of those with the same name in other sections.
-  void requireFirst(std::map<std::string, Key>& keys, const std::string& name,
-                    const yaml_node_t* key, bool isSection) const {
+  void requireFirst(std::map<std::string, Key>& keys, const std::string& name, const yaml_node_t* key, bool isSection) const {
     const auto [earlier, isNew] = keys.insert({name, {lineOf(key->start_mark), isSection}});
     if (!isNew && (isSection || earlier->second.isSection))
-      fail(key,
-           formatted("'%s' is given twice, first in line %d", name.c_str(), earlier->second.line));
+      fail(key, formatted("'%s' is given twice, first in line %d", name.c_str(), earlier->second.line));
   }
 
   void addMapping(const yaml_node_t* mapping, const std::string& prefix, bool merged, int depth) {

@@ -52,18 +52,14 @@ TEST(CommandLine, NodesInNoCellAreTold) {
   const fs::path place = placeFor("command_line/nodes");
   for (const int extra : {0, 1, 2}) {
     std::string nodes;
-    for (int i = 0; i < extra; ++i)
-      nodes += std::to_string(7 + i) + " 5 " + std::to_string(i) + " 0\n";
-    std::string text =
-        changed(quadranglesMsh2(), "$Nodes\n6", "$Nodes\n" + std::to_string(6 + extra));
+    for (int i = 0; i < extra; ++i) nodes += std::to_string(7 + i) + " 5 " + std::to_string(i) + " 0\n";
+    std::string text = changed(quadranglesMsh2(), "$Nodes\n6", "$Nodes\n" + std::to_string(6 + extra));
     writeText(place / "layer.msh", changed(text, "$EndNodes", nodes + "$EndNodes"));
-    const Options options = with(
-        without(layer, {"mesh_set", "constraint_right_image_of", "quiet"}),
-        {{"mesh_file", (place / "layer.msh").string()}, {"modes_count", "2"}, {"dry_run", ""}});
+    const Options options = with(without(layer, {"mesh_set", "constraint_right_image_of", "quiet"}),
+                                 {{"mesh_file", (place / "layer.msh").string()}, {"modes_count", "2"}, {"dry_run", ""}});
     const ProgramRun run = runProgram("command_line/nodes_run", 2, commandLine(options));
     EXPECT_EQ(run.exitCode, 0) << run.error;
-    const std::string told =
-        extra == 1 ? "; 1 node in no cell is not used\n" : "; 2 nodes in no cell are not used\n";
+    const std::string told = extra == 1 ? "; 1 node in no cell is not used\n" : "; 2 nodes in no cell are not used\n";
     EXPECT_EQ(run.out.find("in no cell") != std::string::npos, extra > 0) << run.out;
     EXPECT_EQ(run.out.find(told) != std::string::npos, extra > 0) << run.out;
   }

@@ -29,6 +29,18 @@ TEST(Notes, OptionsThatNothingAsksFor) {
   EXPECT_TRUE(says(run, "option -flutter_direct_count 30 (" + file.string() + ", line 2) was not used")) << run.out;
 }
 
+// The case displaces the pad along y; without a hold along y its displacement is left out.
+TEST(Notes, DisplacementThatIsNotHeld) {
+  const ProgramRun run =
+      runProgram("notes/displacement", 2,
+                 commandLine(with(twoLayers, {{"constraint_pad_top_clamped", "x"}, {"load_pad_top_pressure", "0.02"}})));
+  ASSERT_EQ(run.exitCode, 0) << run.error;
+  EXPECT_NE(run.error.find("option -constraint_pad_top_displacement: the displacement of y was not used, as "
+                           "-constraint_pad_top_clamped x does not hold it"),
+            std::string::npos)
+      << run.error;
+}
+
 // A layer that is damped beyond all vibration: every free mode becomes two real eigenvalues.
 TEST(Notes, NoEigenvalueIsNoStability) {
   const Options damped = with(spoken, {{"material_layer_rayleigh_stiffness", "10"}, {"modes_count", "8"}});

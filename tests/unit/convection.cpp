@@ -203,11 +203,9 @@ TEST(Motion, RevolutionsPerMinute) {
   EXPECT_NEAR(elasticity::readMotions({"disc"}, 2).front().speed, 3 * M_PI, 1e-14);
   EXPECT_EQ(elasticity::movingBodies(), std::vector<std::string>{"disc"});
   test::setOptions("-motion_disc_rpm 90 -motion_disc_speed 3");
-  EXPECT_TRUE(test::contains(test::errorOf([] { elasticity::readMotions({"disc"}, 2); }),
-                             "-motion_disc_rpm"));
+  EXPECT_TRUE(test::contains(test::errorOf([] { elasticity::readMotions({"disc"}, 2); }), "-motion_disc_rpm"));
   test::setOptions("-motion_disc_rpm 90 -motion_disc_velocity 1,0");
-  EXPECT_TRUE(
-      test::contains(test::errorOf([] { elasticity::readMotions({"disc"}, 2); }), "not both"));
+  EXPECT_TRUE(test::contains(test::errorOf([] { elasticity::readMotions({"disc"}, 2); }), "not both"));
 }
 
 }  // namespace

@@ -152,16 +152,13 @@ TEST(Hdf5, EntriesOfEqualPlaceAreSummed) {
 // By rows and by columns the same lists are a matrix and its transpose: neither is more likely than
 // the other.
 TEST(Hdf5, AnUnsaidLayoutIsNoMatrixUnlessItIsSymmetric) {
-  const auto unsaid =
-      written("unsaid.h5", [](const auto& to) { Group{.format = ""}(Hdf5File(to)); });
+  const auto unsaid = written("unsaid.h5", [](const auto& to) { Group{.format = ""}(Hdf5File(to)); });
   const std::string error = errorReading(unsaid);
-  for (const char* word :
-       {"unsaid.h5: 'k': ", "by rows or by columns", "'format'", "csr or csc", "not symmetric"})
+  for (const char* word : {"unsaid.h5: 'k': ", "by rows or by columns", "'format'", "csr or csc", "not symmetric"})
     EXPECT_TRUE(contains(error, word)) << word << ": " << error;
   // [[2, 1], [1, 3]], the entry above the diagonal in two parts.
   const Group symmetric{{0, 3, 5}, {0, 1, 1, 0, 1}, {2, 0.25, 0.75, 1, 3}, ""};
-  const auto same =
-      written("unsaid_symmetric.h5", [&](const auto& to) { symmetric(Hdf5File(to)); });
+  const auto same = written("unsaid_symmetric.h5", [&](const auto& to) { symmetric(Hdf5File(to)); });
   EXPECT_EQ(valuesRead(same), (std::vector<double>{2, 1, 1, 3}));
 }
 
@@ -249,8 +246,7 @@ TEST(Hdf5, OtherTypesAndKinds) {
        },
        "dataset 'indptr': 1 dimensions are expected, it has 2"},
       {"blocks", Group{.format = "bsr"}, "the format 'bsr', where csr and csc are read"},
-      {"contradiction",
-       [&](const Hdf5File& file) { Group{}(file), file.text("k", "encoding-type", "csc_matrix"); },
+      {"contradiction", [&](const Hdf5File& file) { Group{}(file), file.text("k", "encoding-type", "csc_matrix"); },
        "csr as well as csc"},
       {"shape",
        [&](const Hdf5File& file) {

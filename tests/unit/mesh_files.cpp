@@ -236,22 +236,17 @@ TEST(MeshFile, NodesInNoCellAreCounted) {
   EXPECT_EQ(unused(written("nodes2.msh", text2, {})), Counts(6, 0));
   EXPECT_EQ(unused(written("nodes4.msh", text4, {})), Counts(6, 0));
   EXPECT_EQ(unused(written("nodes.unv", test::quadranglesUnv(), {})), Counts(6, 0));
-  const Damage eight2{"$Nodes\n6", "$Nodes\n8", {}},
-      more2{"$EndNodes", "7 5 5 0\n8 6 5 0\n$EndNodes", {}};
+  const Damage eight2{"$Nodes\n6", "$Nodes\n8", {}}, more2{"$EndNodes", "7 5 5 0\n8 6 5 0\n$EndNodes", {}};
   EXPECT_EQ(unused(written("nodes2.msh", text2, {eight2, more2})), Counts(6, 2));
   // A line that is the side of no cell, and a point.
-  EXPECT_EQ(unused(written("nodes2.msh", text2,
-                           {eight2,
-                            more2,
-                            {"$Elements\n6", "$Elements\n7", {}},
-                            {"$EndElements", "7 1 2 1 7 7 8\n$EndElements", {}}})),
-            Counts(6, 2));
-  EXPECT_EQ(unused(written("nodes2.msh", text2,
-                           {eight2,
-                            more2,
-                            {"$Elements\n6", "$Elements\n7", {}},
-                            {"$EndElements", "7 15 2 0 7 7\n$EndElements", {}}})),
-            Counts(6, 1));
+  EXPECT_EQ(
+      unused(written("nodes2.msh", text2,
+                     {eight2, more2, {"$Elements\n6", "$Elements\n7", {}}, {"$EndElements", "7 1 2 1 7 7 8\n$EndElements", {}}})),
+      Counts(6, 2));
+  EXPECT_EQ(
+      unused(written("nodes2.msh", text2,
+                     {eight2, more2, {"$Elements\n6", "$Elements\n7", {}}, {"$EndElements", "7 15 2 0 7 7\n$EndElements", {}}})),
+      Counts(6, 1));
   EXPECT_EQ(unused(written("nodes4.msh", text4,
                            {{"1 6 1 6\n2 1 0 6", "1 8 1 8\n2 1 0 8", {}},
                             {"5\n6\n0 0 0", "5\n6\n7\n8\n0 0 0", {}},
@@ -266,12 +261,10 @@ TEST(MeshFile, NodesInNoCellAreCounted) {
   const std::string node =
       "         7         1         1        11\n"
       "   5.0000000000000000D+00   5.0000000000000000D+00   0.0000000000000000D+00\n";
-  const std::string unv =
-      changed(test::quadranglesUnv(), "    -1\n    -1\n  2412", node + "    -1\n    -1\n  2412");
+  const std::string unv = changed(test::quadranglesUnv(), "    -1\n    -1\n  2412", node + "    -1\n    -1\n  2412");
   EXPECT_EQ(unused(test::writeFile("nodes.unv", unv)), Counts(6, 1));
   // Centres of circles, and quadratic cells without the nodes in their middles.
-  const std::string ring =
-      test::material("inner", "1", "0.3", "1") + test::material("outer", "1", "0.3", "1");
+  const std::string ring = test::material("inner", "1", "0.3", "1") + test::material("outer", "1", "0.3", "1");
   EXPECT_EQ(unused("meshes/cylinders.geo", ring + "-mesh_set order=2,serendipity=1").second, 0);
 }
 
