@@ -3,14 +3,14 @@
 #include <cstring>
 #include <new>
 
-#include "analysis.hpp"
-#include "dryrun.hpp"
+#include "analysis/analysis.hpp"
+#include "analysis/dry_run.hpp"
 #include "matrices/matrices.hpp"
 #include "petsc/memory.hpp"
-#include "petsc/options.hpp"
-#include "petsc/session.hpp"
-#include "petsc/settings.hpp"
-#include "petsc/stages.hpp"
+#include "options/options.hpp"
+#include "session/session.hpp"
+#include "options/settings.hpp"
+#include "session/stages.hpp"
 #include "petsc/termination.hpp"
 #include "report/report.hpp"
 

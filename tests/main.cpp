@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <string>
 
-#include "petsc/session.hpp"
+#include "session/session.hpp"
 
 namespace {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <set>
 
+#include "options/options.hpp"
 #include "petsc/check.hpp"
-#include "petsc/options.hpp"
-#include "petsc/stages.hpp"
+#include "session/stages.hpp"
 
 namespace squeal::contact {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "contact/sliding.hpp"
 #include "elasticity/element.hpp"
-#include "petsc/options.hpp"
+#include "options/options.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal::contact {

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "contact/contact.hpp"
-#include "petsc/symmetric_solver.hpp"
+#include "linalg/symmetric_solver.hpp"
 
 namespace squeal::contact {
 

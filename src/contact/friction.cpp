@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "options/options.hpp"
 #include "petsc/check.hpp"
-#include "petsc/options.hpp"
 
 namespace squeal::contact {
 namespace {

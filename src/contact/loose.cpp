@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "contact/contact.hpp"
-#include "petsc/symmetric.hpp"
+#include "linalg/symmetric.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal::contact {

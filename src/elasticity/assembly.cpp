@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "petsc/stages.hpp"
 #include "petsc/text.hpp"
+#include "session/stages.hpp"
 
 namespace squeal::elasticity {
 

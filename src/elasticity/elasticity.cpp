@@ -7,7 +7,7 @@
 #include "elasticity/element.hpp"
 #include "elasticity/ground.hpp"
 #include "elasticity/material.hpp"
-#include "petsc/options.hpp"
+#include "options/options.hpp"
 
 namespace squeal::elasticity {
 namespace {

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "elasticity/elasticity.hpp"
-#include "petsc/options.hpp"
+#include "options/options.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal::elasticity {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <set>
 
+#include "options/options.hpp"
 #include "petsc/check.hpp"
-#include "petsc/options.hpp"
 
 namespace squeal::elasticity {
 namespace {

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "contact/coupled.hpp"
-#include "flutter/derive.hpp"
-#include "flutter/flutter.hpp"
 #include "flutter/work.hpp"
+#include "pencil/complex_modes.hpp"
+#include "sensitivity/derive.hpp"
 
 namespace squeal::flutter {
 

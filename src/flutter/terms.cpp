@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "petsc/options.hpp"
+#include "options/options.hpp"
 
 namespace squeal::flutter {
 namespace {

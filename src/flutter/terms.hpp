@@ -1,7 +1,7 @@
 #pragma once
 /// The terms of the friction-perturbed problem [4.15–4.16], from the coupled matrices and the steady state.
-#include "flutter/pencil.hpp"
 #include "modes/modes.hpp"
+#include "pencil/pencil.hpp"
 #include "steady/steady.hpp"
 
 namespace squeal::flutter {

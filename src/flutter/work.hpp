@@ -6,7 +6,7 @@
 
 #include "contact/contact.hpp"
 #include "elasticity/elasticity.hpp"
-#include "flutter/complexvector.hpp"
+#include "linalg/complexvector.hpp"
 #include "steady/steady.hpp"
 
 namespace squeal::flutter {

@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "petsc/options.hpp"
+#include "options/options.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal::matrices {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "flutter/flutter.hpp"
-#include "petsc/symmetric_solver.hpp"
+#include "linalg/symmetric_solver.hpp"
+#include "pencil/complex_modes.hpp"
 
 namespace squeal::matrices {
 

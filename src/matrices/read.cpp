@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include "matrices/formats.hpp"
 #include "matrices/matrices.hpp"
+#include "matrixfile/formats.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal::matrices {

@@ -4,15 +4,15 @@
 #include <regex>
 #include <set>
 
-#include "matrices/formats.hpp"
+#include "linalg/gathered.hpp"
 #include "matrices/matrices.hpp"
+#include "matrixfile/formats.hpp"
+#include "options/options.hpp"
+#include "options/settings.hpp"
 #include "output/file.hpp"
 #include "output/folder.hpp"
-#include "petsc/gathered.hpp"
-#include "petsc/options.hpp"
-#include "petsc/settings.hpp"
-#include "petsc/stages.hpp"
 #include "petsc/text.hpp"
+#include "session/stages.hpp"
 
 namespace squeal::matrices {
 

@@ -8,10 +8,10 @@
 #include <functional>
 #include <set>
 
-#include "mesh/format.hpp"
-#include "mesh/geometry.hpp"
-#include "mesh/msh.hpp"
-#include "mesh/unv.hpp"
+#include "meshfile/format.hpp"
+#include "meshfile/geometry.hpp"
+#include "meshfile/msh.hpp"
+#include "meshfile/unv.hpp"
 #include "petsc/check.hpp"
 #include "petsc/child.hpp"
 #include "petsc/memory.hpp"

@@ -6,9 +6,9 @@
 #include <set>
 
 #include "mesh/whole.hpp"
+#include "options/options.hpp"
 #include "petsc/buffer.hpp"
 #include "petsc/check.hpp"
-#include "petsc/options.hpp"
 
 namespace squeal::mesh {
 namespace {

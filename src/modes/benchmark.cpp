@@ -1,7 +1,7 @@
 #include "modes/benchmark.hpp"
 
-#include "petsc/stages.hpp"
 #include "petsc/text.hpp"
+#include "session/stages.hpp"
 
 namespace squeal::modes {
 

@@ -13,8 +13,8 @@
 #include <random>
 #include <vector>
 
-#include "petsc/columns.hpp"
-#include "petsc/symmetric.hpp"
+#include "linalg/columns.hpp"
+#include "linalg/symmetric.hpp"
 
 namespace squeal::modes {
 namespace {

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linalg/gathered.hpp"
+#include "linalg/symmetric.hpp"
+#include "linalg/symmetric_solver.hpp"
 #include "modes/blocklanczos.hpp"
-#include "petsc/gathered.hpp"
-#include "petsc/options.hpp"
-#include "petsc/stages.hpp"
-#include "petsc/symmetric.hpp"
-#include "petsc/symmetric_solver.hpp"
+#include "options/options.hpp"
 #include "petsc/text.hpp"
+#include "session/stages.hpp"
 
 namespace squeal::modes {
 namespace {

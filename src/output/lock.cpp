@@ -11,8 +11,8 @@
 
 #include "output/file.hpp"
 #include "petsc/check.hpp"
-#include "petsc/stages.hpp"
 #include "petsc/termination.hpp"
+#include "session/stages.hpp"
 
 namespace squeal::output {
 namespace {

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "petsc/session.hpp"
+#include "session/session.hpp"
 
 namespace squeal::output {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "petsc/options.hpp"
+#include "options/options.hpp"
 #include "petsc/text.hpp"
 #include "report/hdf5.hpp"
 #include "report/report.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "output/manifest.hpp"
-#include "parameters.hpp"
+#include "sweep/parameters.hpp"
 
 namespace squeal::report {
 

@@ -2,9 +2,9 @@
 
 #include <memory>
 
+#include "options/options.hpp"
 #include "output/file.hpp"
-#include "petsc/options.hpp"
-#include "petsc/stages.hpp"
+#include "session/stages.hpp"
 
 namespace squeal::report {
 namespace {

@@ -2,7 +2,7 @@
 /// What a run leaves behind: tables, fields, the summary and the terminal's stability table.
 #include <filesystem>
 
-#include "analysis.hpp"
+#include "analysis/analysis.hpp"
 #include "output/folder.hpp"
 #include "report/names.hpp"
 

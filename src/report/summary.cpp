@@ -1,10 +1,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "petsc/options.hpp"
-#include "petsc/session.hpp"
-#include "petsc/stages.hpp"
+#include "options/options.hpp"
 #include "report/report.hpp"
+#include "session/session.hpp"
+#include "session/stages.hpp"
 
 namespace squeal::report {
 namespace {

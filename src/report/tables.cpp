@@ -3,12 +3,12 @@
 #include <cmath>
 #include <cstdio>
 
-#include "flutter/select.hpp"
-#include "petsc/options.hpp"
-#include "petsc/session.hpp"
-#include "petsc/settings.hpp"
+#include "options/options.hpp"
+#include "options/settings.hpp"
+#include "pencil/select.hpp"
 #include "petsc/text.hpp"
 #include "report/report.hpp"
+#include "session/session.hpp"
 
 namespace squeal::report {
 namespace {

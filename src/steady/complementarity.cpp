@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "petsc/options.hpp"
+#include "options/options.hpp"
 #include "steady/steady.hpp"
 
 namespace squeal::steady {

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "contact/sliding.hpp"
-#include "petsc/options.hpp"
-#include "petsc/symmetric_solver.hpp"
+#include "linalg/symmetric_solver.hpp"
+#include "options/options.hpp"
 
 namespace squeal::steady {
 namespace {

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "linalg/symmetric.hpp"
 #include "petsc/check.hpp"
-#include "petsc/symmetric.hpp"
 
 namespace squeal::steady {
 namespace {

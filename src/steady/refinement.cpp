@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "petsc/inner.hpp"
+#include "linalg/inner.hpp"
 
 namespace squeal::steady {
 namespace {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "contact/coupled.hpp"
-#include "parameters.hpp"
 #include "steady/refinement.hpp"
+#include "sweep/parameters.hpp"
 
 namespace squeal::steady {
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <optional>
 
-#include "petsc/options.hpp"
+#include "options/options.hpp"
 #include "steady/condensed.hpp"
 
 namespace squeal::steady {

@@ -22,7 +22,7 @@
 
 #include "fuzz/mutator.hpp"
 #include "petsc/check.hpp"
-#include "petsc/session.hpp"
+#include "session/session.hpp"
 
 #if defined(__SANITIZE_ADDRESS__)
 // An allocation of more than this is by a header's word alone: no input is longer than some kilobytes.

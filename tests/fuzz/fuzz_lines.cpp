@@ -1,7 +1,7 @@
 #include "fuzz/fuzz.hpp"
+#include "options/options.hpp"
+#include "options/settings.hpp"
 #include "petsc/check.hpp"
-#include "petsc/options.hpp"
-#include "petsc/settings.hpp"
 
 namespace squeal::fuzz {
 

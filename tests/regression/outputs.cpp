@@ -4,8 +4,8 @@
 #include <numeric>
 #include <regex>
 
-#include "petsc/options.hpp"
-#include "petsc/session.hpp"
+#include "options/options.hpp"
+#include "session/session.hpp"
 #include "support/ranks.hpp"
 
 namespace squeal::test {

@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <string>
 
-#include "analysis.hpp"
+#include "analysis/analysis.hpp"
+#include "options/settings.hpp"
 #include "petsc/check.hpp"
-#include "petsc/settings.hpp"
 
 namespace squeal::test {
 

@@ -2,7 +2,7 @@
 /// Steady sliding judged without the program's own residual: from displacements, the bodies' stiffness and the laws of contact.
 #include <vector>
 
-#include "analysis.hpp"
+#include "analysis/analysis.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
 

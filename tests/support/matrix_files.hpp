@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "matrices/formats.hpp"
 #include "matrices/matrices.hpp"
+#include "matrixfile/formats.hpp"
 #include "support/model.hpp"
 
 namespace squeal::test {

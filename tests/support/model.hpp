@@ -6,14 +6,14 @@
 #include <utility>
 #include <vector>
 
-#include "analysis.hpp"
+#include "analysis/analysis.hpp"
 #include "contact/contact.hpp"
 #include "contact/coupled.hpp"
 #include "elasticity/elasticity.hpp"
 #include "mesh/mesh.hpp"
+#include "options/settings.hpp"
 #include "petsc/check.hpp"
 #include "petsc/owned.hpp"
-#include "petsc/settings.hpp"
 
 namespace squeal::test {
 

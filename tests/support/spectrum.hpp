@@ -8,7 +8,7 @@
 #include <tuple>
 #include <vector>
 
-#include "analysis.hpp"
+#include "analysis/analysis.hpp"
 #include "support/case.hpp"
 
 namespace squeal::test {

@@ -1,12 +1,12 @@
 // The growing basis of the reduced problem: orthonormal in the energy of K0, whatever is added.
-#include "flutter/basis.hpp"
+#include "reduction/basis.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "petsc/symmetric.hpp"
+#include "linalg/symmetric.hpp"
 #include "support/layers.hpp"
 
 namespace squeal {

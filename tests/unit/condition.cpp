@@ -1,5 +1,5 @@
 // Condition numbers of eigenvalues against the eigenvalues of perturbed matrices, and of multiple ones by hand.
-#include "flutter/condition.hpp"
+#include "reduction/condition.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Flutter problems with answers in closed form: two coupled oscillators, damping, rotation, divergence; norms and backward errors.
-#include "flutter/reduced.hpp"
+#include "reduction/reduced.hpp"
 
 #include <gtest/gtest.h>
 #include <petscblaslapack.h>
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-#include "flutter/dense.hpp"
+#include "linalg/dense.hpp"
 #include "support/layers.hpp"
 #include "support/spectrum.hpp"
 

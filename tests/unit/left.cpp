@@ -1,14 +1,14 @@
 // Left eigenvectors of full problems against LAPACK, and derivatives of two coupled oscillators in closed form.
-#include "flutter/left.hpp"
+#include "sensitivity/left.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "contact/coupled.hpp"
-#include "flutter/basis.hpp"
-#include "flutter/sensitivity.hpp"
 #include "flutter/terms.hpp"
+#include "reduction/basis.hpp"
+#include "sensitivity/sensitivity.hpp"
 #include "support/layers.hpp"
 
 namespace squeal {

@@ -1,5 +1,5 @@
 // Small dense linear systems, real and complex, with their adjoints, and singular ones.
-#include "petsc/lu.hpp"
+#include "linalg/lu.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // The options database as the user interface: parsing, checks, names with a placeholder, and the messages for mistakes.
-#include "petsc/options.hpp"
-#include "petsc/settings.hpp"
+#include "options/options.hpp"
+#include "options/settings.hpp"
 
 #include <gtest/gtest.h>
 

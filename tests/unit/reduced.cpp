@@ -1,14 +1,14 @@
 // What the reduced problem is made of: where its band ends, the responses it begins with, the projections of its terms.
-#include "flutter/reduced.hpp"
+#include "reduction/reduced.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "flutter/select.hpp"
 #include "flutter/terms.hpp"
-#include "petsc/symmetric.hpp"
+#include "linalg/symmetric.hpp"
+#include "pencil/select.hpp"
 #include "report/report.hpp"
 #include "support/layers.hpp"
 

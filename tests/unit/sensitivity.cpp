@@ -1,5 +1,5 @@
 // Derivatives of eigenvalues against finite differences of whole runs, and the balance of friction work.
-#include "flutter/sensitivity.hpp"
+#include "sensitivity/sensitivity.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "flutter/left.hpp"
 #include "petsc/text.hpp"
 #include "report/report.hpp"
+#include "sensitivity/left.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
 #include "support/spectrum.hpp"

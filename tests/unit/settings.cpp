@@ -1,12 +1,12 @@
 // Options as they are given: words of the command line, options files in YAML and in lines, and what is said of mistakes there.
-#include "petsc/settings.hpp"
+#include "options/settings.hpp"
 
 #include <gtest/gtest.h>
 #include <petscsys.h>
 
 #include <cstdlib>
 
-#include "petsc/options.hpp"
+#include "options/options.hpp"
 #include "petsc/text.hpp"
 #include "support/model.hpp"
 

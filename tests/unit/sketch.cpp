@@ -1,5 +1,5 @@
 // Norms of vectors by their sketches.
-#include "flutter/sketch.hpp"
+#include "linalg/sketch.hpp"
 
 #include <gtest/gtest.h>
 

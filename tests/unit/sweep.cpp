@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "flutter/flutter.hpp"
+#include "pencil/complex_modes.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
 

@@ -1,5 +1,5 @@
 // Eigenvalues of small dense families followed over the friction, and their critical frictions, against closed forms and brute force.
-#include "flutter/track.hpp"
+#include "tracking/track.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <random>
 #include <tuple>
 
-#include "flutter/critical.hpp"
-#include "flutter/renumber.hpp"
 #include "support/case.hpp"
+#include "tracking/critical.hpp"
+#include "tracking/renumber.hpp"
 
 namespace squeal {
 namespace {

@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <functional>
 
-#include "petsc/options.hpp"
+#include "options/options.hpp"
 #include "support/matrix_files.hpp"
 #include "support/mesh_message.hpp"
 #include "support/mesh_text.hpp"

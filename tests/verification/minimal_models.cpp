@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "flutter/flutter.hpp"
+#include "pencil/complex_modes.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
 #include "support/spectrum.hpp"

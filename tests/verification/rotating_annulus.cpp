@@ -4,9 +4,9 @@
 #include <cmath>
 #include <map>
 
+#include "direct/nearest.hpp"
 #include "exact/annulus.hpp"
-#include "flutter/flutter.hpp"
-#include "flutter/nearest.hpp"
+#include "pencil/complex_modes.hpp"
 #include "petsc/text.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"

@@ -1,0 +1,51 @@
+#pragma once
+/// The method from mesh to flutter, one call per section of the paper. Reporting takes it from here.
+#include <memory>
+#include <vector>
+
+#include "analysis/segment.hpp"
+#include "matrices/matrices.hpp"
+#include "steady/steady.hpp"
+#include "steady/uniqueness.hpp"
+
+namespace squeal {
+
+/// What is known of the number of steady states at one speed, for all frictions.
+struct SpeedUniqueness {
+  double speed = 1;
+  steady::Uniqueness found;
+};
+
+struct Analysis {
+  MPI_Comm comm = MPI_COMM_NULL;
+  flutter::Sweep sweep;
+  std::unique_ptr<mesh::Mesh> mesh;  ///< at a fixed address: contact and steady borrow it; null: matrices from files
+  elasticity::Bodies bodies;
+  contact::Contact contact;
+  std::vector<steady::Solution> steady;     ///< [steady point of the sweep]
+  std::vector<SpeedUniqueness> uniqueness;  ///< one entry for all speeds where they share it; empty unless -steady_uniqueness
+  std::vector<ModalSegment> segments;
+  double modesFloorSeconds = 0;  ///< one factorisation and 400 blocked solves, if `-modes_benchmark`
+
+  /// Every point has a steady solution.
+  bool converged() const;
+  /// What was found at a point of the sweep; null where there is no steady solution.
+  const flutter::FrictionPoint* pointAt(const Parameters& at) const;
+};
+
+/// What the options of all stages ask of the mesh.
+mesh::Request meshRequest();
+
+/// Collective. Error for options that are unknown, out of range or idle: all that can be told before a file is read or written.
+void checkOptions();
+
+/// Collective. All that comes before the first solution: sweep, and mesh, matrices of the bodies and contact; options have been checked.
+/// Errors as the stages document them.
+Analysis prepare(MPI_Comm comm);
+/// Collective. The matrices of files, checked against the sweep.
+std::vector<matrices::NamedTerm> readMatrices(MPI_Comm comm, const flutter::Sweep& sweep);
+
+/// Collective. Runs all stages that the options, which have been checked, ask for. Errors as the stages document them.
+Analysis analyse(MPI_Comm comm);
+
+}  // namespace squeal

@@ -1,0 +1,183 @@
+#include "analysis/segment.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "linalg/symmetric_solver.hpp"
+#include "modes/benchmark.hpp"
+#include "options/options.hpp"
+#include "petsc/text.hpp"
+#include "reduction/reduced.hpp"
+#include "sensitivity/sensitivity.hpp"
+#include "session/stages.hpp"
+
+namespace squeal {
+namespace {
+
+const IntegerOption modesShown("report", "report_modes", 10, 0, 100'000, "number of free modes written as fields");
+const FlagOption benchmarkWanted("modes", "modes_benchmark", false,
+                                 "time one factorisation and 400 solves in blocks of 32, the floor of the stage");
+
+std::vector<OwnedVec> reportedShapes(const modes::Modes& modes, Mat trial) {
+  std::vector<OwnedVec> shapes;
+  const int count = std::min(modesShown.get(), static_cast<int>(modes.angularFrequency.size()));
+  for (int i = 0; i < count; ++i) {
+    Vec d = nullptr;
+    OwnedVec u;
+    PetscReal largest = 0;
+    check(MatCreateVecs(trial, nullptr, u.out()));
+    check(BVGetColumn(modes.vectors, i, &d));
+    check(MatMult(trial, d, u));
+    check(BVRestoreColumn(modes.vectors, i, &d));
+    check(VecNorm(u, NORM_INFINITY, &largest));
+    check(VecScale(u, 1 / largest));
+    shapes.push_back(std::move(u));
+  }
+  return shapes;
+}
+
+std::string pointText(const flutter::FrictionPoint& point) {
+  std::string text = formatted("%s: %d of %d eigenvalues unstable", parameterText(point.at).c_str(), point.unstableCount(),
+                               static_cast<int>(point.eigenvalues.size()));
+  if (point.bandTop > 0 && std::isfinite(point.bandTop)) text += formatted(" to %.4g Hz", point.bandTop / (2 * M_PI));
+  text += formatted(", worst backward error %.1e", point.worstBackwardError());
+  if (point.tolerance > 0) text += formatted(", estimated error %.1e", point.worstErrorEstimate());
+  return text;
+}
+
+/// Overflow within the eigenvalue problems must not become a row of the results.
+void requireFiniteEigenvalues(const flutter::FrictionPoint& point) {
+  for (const auto& e : point.eigenvalues)
+    if (!std::isfinite(e.s.real()) || !std::isfinite(e.s.imag()) || !std::isfinite(e.backwardError))
+      throw Error("an eigenvalue at " + parameterText(point.at) +
+                  " is not a finite number; check the magnitudes of materials and factors");
+}
+
+/// Flutter at the points of a segment, batch by batch.
+class SegmentSweep {
+ public:
+  SegmentSweep(const SegmentProblem& problem, flutter::Pencil pencil, const std::vector<double>& dampings)
+      : problem_(problem), pencil_(std::move(pencil)) {
+    for (double damping : dampings)
+      for (Parameters at : problem.steadyPoints) {
+        at.damping = damping;
+        points_.push_back(at);
+      }
+  }
+
+  void computeModes(ModalSegment& segment, double& floor) {
+    const bool direct = flutter::directWanted();
+    if (direct) rejectUnusedSolverOptions();
+    if (direct && !flutter::sensitivitiesWanted()) return;
+    modes::Modes modes = modes::compute({problem_.k0, problem_.m0, problem_.solver()}, problem_.modes);
+    if (direct) {
+      forLeftVectors_ = std::move(modes);
+      return;
+    }
+    segment.modes = std::move(modes);
+    if (benchmarkWanted.get()) floor = modes::floorSeconds(problem_.k0);
+    segment.shapes = reportedShapes(segment.modes, problem_.trial);
+    pencil_.add(flutter::modalDamping(segment.modes, problem_.m0));
+    Stage stage(pencil_.comm(), "flutter");
+    reduced_ = std::make_unique<flutter::ReducedProblem>(pencil_, problem_.k0, problem_.solver(), segment.modes);
+    stage.finish(formatted("basis of %d free modes", static_cast<int>(reduced_->basisSize())));
+  }
+
+  void solvePoints(ModalSegment& segment) {
+    segment.points.resize(points_.size());
+    for (const auto& batch : flutter::batches(points_)) {
+      std::vector<flutter::PointProblem> problems;
+      for (std::size_t i : batch) {
+        const std::size_t steady = i % problem_.steadyPoints.size();
+        auto terms = problem_.termsAt ? problem_.termsAt(steady) : std::vector<flutter::Term>();
+        affine_ = affine_ && terms.empty();
+        problems.push_back({points_[i], pencil_.with(std::move(terms))});
+      }
+      solveBatch(batch, problems, segment);
+      for (std::size_t i = 0; i < batch.size() && problem_.examine; ++i)
+        problem_.examine(batch[i] % problem_.steadyPoints.size(), problems[i].pencil,
+                         startSpace(problems[i], segment.points[batch[i]]), segment.points[batch[i]]);
+    }
+    if (reduced_) segment.solves = reduced_->basis().solves();
+  }
+
+  /// Eigenvalues followed from point to point, and critical frictions.
+  void followPoints(ModalSegment& segment) {
+    if (!flutter::trackWanted()) return;
+    const std::string nothing = reduced_ ? flutter::nothingToFollow(*reduced_, segment.points) : "-flutter_method direct";
+    if (!nothing.empty()) {
+      if (flutter::trackAsked()) say(pencil_.comm(), "track: nothing to follow (" + nothing + ")");
+      return;
+    }
+    if (!affine_ && !flutter::trackAsked())  // each friction put in between costs a steady state and terms of its own
+      return say(pencil_.comm(), "track: not done where terms follow the steady state, unless -flutter_track is given");
+    Stage stage(pencil_.comm(), "track");
+    const auto problemAt = [&](const Parameters& at) {
+      std::optional<flutter::PointProblem> problem;
+      if (affine_) {
+        problem.emplace(flutter::PointProblem{at, pencil_.with({})});
+      } else if (auto terms = problem_.termsOf(at)) {
+        problem.emplace(flutter::PointProblem{at, pencil_.with(std::move(*terms))});
+      }
+      return problem;
+    };
+    segment.followed = flutter::followSweep(*reduced_, segment.points, segment.modes, pencil_.comm(), {pencil_, problemAt, affine_},
+                                            [&](const std::string& text) { stage.progress(text); });
+    std::size_t branches = 0, stations = 0, criticals = 0;
+    for (const auto& followed : segment.followed) {
+      branches += static_cast<std::size_t>(followed.branches.count);
+      stations += followed.branches.stations.size();
+      criticals += followed.criticals.size();
+    }
+    stage.finish(formatted("%zu branches followed over %zu frictions, %zu critical frictions, basis of %d", branches, stations,
+                           criticals, static_cast<int>(reduced_->basisSize())));
+  }
+
+ private:
+  void solveBatch(const std::vector<std::size_t>& batch, const std::vector<flutter::PointProblem>& problems,
+                  ModalSegment& segment) {
+    Stage stage(pencil_.comm(), "flutter");
+    std::vector<flutter::FrictionPoint> solved;
+    if (reduced_) solved = reduced_->solve(problems, problem_.trial);
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      auto& point = segment.points[batch[i]];
+      point = reduced_ ? std::move(solved[i]) : flutter::solveDirect(problems[i].pencil, problems[i].at, problem_.trial);
+      requireFiniteEigenvalues(point);
+      stage.say(pointText(point));
+    }
+    std::string text = formatted("%d points", static_cast<int>(batch.size()));
+    if (reduced_)
+      text += formatted(", basis of %d, %ld solves", static_cast<int>(reduced_->basisSize()), reduced_->basis().solves());
+    stage.finish(text);
+  }
+
+  /// Of the left vectors of the shapes kept.
+  flutter::StartSpace startSpace(const flutter::PointProblem& problem, const flutter::FrictionPoint& point) const {
+    if (!flutter::sensitivitiesWanted() || point.shapes.empty()) return {};
+    if (!reduced_) return {forLeftVectors_.vectors.share(), problem_.m0, {}};
+    return {reduced_->basis().vectors(), problem_.k0, reduced_->project(problem)};
+  }
+
+  const SegmentProblem& problem_;
+  flutter::Pencil pencil_;
+  std::vector<Parameters> points_;
+  modes::Modes forLeftVectors_;  // with the direct method, which has no modes of its own
+  std::unique_ptr<flutter::ReducedProblem> reduced_;
+  bool affine_ = true;  // no point has terms of its own
+};
+
+}  // namespace
+
+ModalSegment solveSegment(const SegmentProblem& problem, flutter::Pencil pencil, const std::vector<double>& dampings,
+                          double& floor) {
+  ModalSegment segment;
+  check(MatGetSize(problem.k0, &segment.unknowns, nullptr));
+  SegmentSweep sweep(problem, std::move(pencil), dampings);
+  sweep.computeModes(segment, floor);
+  sweep.solvePoints(segment);
+  sweep.followPoints(segment);
+  return segment;
+}
+
+}  // namespace squeal

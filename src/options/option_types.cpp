@@ -1,0 +1,169 @@
+/// The types of options: how their texts are read, and what is said of those that cannot be.
+#include <petscsys.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+
+#include "options/options.hpp"
+#include "options/settings.hpp"
+#include "petsc/check.hpp"
+#include "petsc/text.hpp"
+#include "petsc/unreadable.hpp"
+
+namespace squeal {
+
+double Option::number(const std::string& subject, const std::string& value) const {
+  double x = 0;
+  const std::string digits = trimmed(value);
+  const char* begin = digits.c_str() + (digits[0] == '+' ? 1 : 0);
+  const char* end = digits.c_str() + digits.size();
+  const auto [stop, error] = std::from_chars(begin, end, x);
+  if (error != std::errc() || stop != end || !std::isfinite(x)) reject(subject, "'" + digits + "'");
+  if (x != 0 && (std::abs(x) > largestMagnitude || std::abs(x) < smallestMagnitude))
+    throw Error(named(subject, digits) + ": " + meaning + "; must be " + rule + ", and zero or of a magnitude between " +
+                shortest(smallestMagnitude) + " and " + shortest(largestMagnitude));
+  return x;
+}
+
+bool Range::holds(double x) const { return (openLow ? x > low : x >= low) && (openHigh ? x < high : x <= high); }
+
+std::string Range::text() const {
+  std::string words;
+  if (std::isfinite(low)) words += (openLow ? "> " : ">= ") + shortest(low);
+  if (std::isfinite(high)) words += (words.empty() ? "" : " and ") + std::string(openHigh ? "< " : "<= ") + shortest(high);
+  return words.empty() ? "a number" : "a number " + words;
+}
+
+RealOption::RealOption(std::string stage, std::string name, std::optional<double> byDefault, std::string unit, Range range,
+                       std::string meaning)
+    : Option(std::move(stage), std::move(name), byDefault ? shortest(*byDefault) : "", std::move(unit), std::move(meaning),
+             range.text(), !byDefault),
+      range_(range) {}
+
+double RealOption::get(const std::string& subject) const {
+  const std::string value = text(subject);
+  const double x = number(subject, value);
+  if (!range_.holds(x)) reject(subject, value);
+  return x;
+}
+
+IntegerOption::IntegerOption(std::string stage, std::string name, int byDefault, int lowest, int highest, std::string meaning)
+    : Option(std::move(stage), std::move(name), std::to_string(byDefault), "", std::move(meaning),
+             "an integer >= " + std::to_string(lowest) + " and <= " + std::to_string(highest)),
+      lowest_(lowest),
+      highest_(highest) {}
+
+int IntegerOption::get(const std::string& subject) const {
+  const std::string value = text(subject);
+  int x = 0;
+  const auto [stop, error] = std::from_chars(value.data(), value.data() + value.size(), x);
+  if (error != std::errc() || stop != value.data() + value.size() || x < lowest_ || x > highest_) reject(subject, value);
+  return x;
+}
+
+RealListOption::RealListOption(std::string stage, std::string name, std::string byDefault, std::string unit, Range range,
+                               std::string meaning, bool ranges)
+    : Option(std::move(stage), std::move(name), std::move(byDefault), std::move(unit), std::move(meaning),
+             std::string(ranges ? "first:last:step or " : "") + "a comma-separated list, each " + range.text()),
+      range_(range),
+      ranges_(ranges) {}
+
+void RealListOption::requireLength(const std::string& subject, const std::string& value, double length) const {
+  if (length > longestList)
+    throw Error(
+        formatted("%s: %.0f values; a list holds %d at most", named(subject, value.substr(0, 40)).c_str(), length, longestList));
+}
+
+std::vector<double> RealListOption::get(const std::string& subject) const {
+  const std::string value = text(subject);
+  std::vector<double> list;
+  const auto parts = split(value, ':');
+  if (ranges_ && parts.size() > 1) {
+    if (parts.size() != 3) reject(subject, value);
+    const double first = number(subject, parts[0]), last = number(subject, parts[1]), step = number(subject, parts[2]);
+    if (!(step > 0) || last < first) reject(subject, value);
+    requireLength(subject, value, std::floor((last - first) / step) + 1);
+    // A little slack: 0:0.6:0.05 ends at 0.6 although 12 × 0.05 is not the double nearest to it.
+    const auto steps = static_cast<int>(std::floor((last - first) / step + 1e-9));
+    for (int i = 0; i <= steps; ++i) list.push_back(std::stod(formatted("%.12g", first + i * step)));
+  } else {
+    const auto items = split(value, ',');
+    requireLength(subject, value, static_cast<double>(items.size()));
+    for (const auto& item : items) list.push_back(number(subject, item));
+  }
+  for (double x : list)
+    if (!range_.holds(x)) reject(subject, value);
+  return list;
+}
+
+std::array<double, 3> RealListOption::components(const std::string& subject, int dimension) const {
+  const auto values = get(subject);
+  if (values.size() != 3 && (values.size() != 2 || dimension != 2))
+    throw Error(named(subject, text(subject)) + ": " + meaning + "; must have " +
+                (dimension == 2 ? "2 components in the plane, or 3" : "3 components"));
+  return {values[0], values[1], values.size() == 3 ? values[2] : 0.0};
+}
+
+FlagOption::FlagOption(std::string stage, std::string name, bool byDefault, std::string meaning)
+    : Option(std::move(stage), std::move(name), byDefault ? "on" : "off", "", std::move(meaning), "on or off") {}
+
+bool FlagOption::get(const std::string& subject) const {
+  const std::string value = text(subject);
+  if (value.empty() || value == "on" || value == "true" || value == "yes" || value == "1") return true;
+  if (value == "off" || value == "false" || value == "no" || value == "0") return false;
+  reject(subject, value);
+}
+
+ChoiceOption::ChoiceOption(std::string stage, std::string name, std::vector<std::string> choices, std::string byDefault,
+                           std::string meaning)
+    : Option(std::move(stage), std::move(name), std::move(byDefault), "", std::move(meaning), joined(choices, " or ")),
+      choices_(std::move(choices)) {}
+
+std::string ChoiceOption::get(const std::string& subject) const {
+  const std::string value = text(subject);
+  if (std::find(choices_.begin(), choices_.end(), value) == choices_.end()) reject(subject, value);
+  return value;
+}
+
+TextOption::TextOption(std::string stage, std::string name, std::optional<std::string> byDefault, std::string meaning)
+    : Option(std::move(stage), std::move(name), byDefault.value_or(""), "", std::move(meaning), "text", !byDefault) {}
+
+std::string TextOption::get(const std::string& subject) const {
+  const std::string value = text(subject);
+  if (value.empty() && given(subject)) reject(subject, "without a value");
+  return value;
+}
+
+std::vector<std::string> TextOption::list(const std::string& subject) const {
+  const std::string value = get(subject);
+  auto items = split(value, ',');
+  for (auto& item : items)
+    if (item = trimmed(item); item.empty()) throw Error(named(subject, value) + ": an item of the list is empty");
+  return items;
+}
+
+FileOption::FileOption(std::string stage, std::string name, std::string meaning)
+    : Option(std::move(stage), std::move(name), "", "", std::move(meaning), "a file", true) {}
+
+void FileOption::validate(const std::string& subject) const {
+  const std::string path = text(subject);
+  onFirstRank(PETSC_COMM_WORLD, named(subject, path) + ": ", [&] {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored)) throw Error("this is a folder");
+    const std::string why = whyUnreadable(path);
+    if (why.empty()) return;
+    const std::string file = origin(fullName(subject), path).file;
+    if (why != noSuchFile || file.empty()) throw Error(why);
+    throw Error(why + ", neither beside " + file + " nor in the working folder");
+  });
+}
+
+bool FileOption::isOne(const std::string& full) {
+  const auto options = all();
+  return std::any_of(options.begin(), options.end(),
+                     [&](const auto* option) { return dynamic_cast<const FileOption*>(option) && option->matches(full); });
+}
+
+}  // namespace squeal

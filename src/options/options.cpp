@@ -1,0 +1,311 @@
+#include "options/options.hpp"
+
+#include <petscsys.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "options/settings.hpp"
+#include "petsc/check.hpp"
+#include "petsc/owned.hpp"
+#include "petsc/text.hpp"
+
+namespace squeal {
+namespace {
+
+// Order in which the manual lists the stages: that of the method.
+const std::vector<std::string> stages = {"general", "mesh",    "matrices", "elasticity", "constraint", "load",
+                                         "motion",  "contact", "steady",   "modes",      "flutter",    "report"};
+
+std::vector<const Option*>& registry() {
+  static std::vector<const Option*> options;
+  return options;
+}
+
+std::vector<const SolverPrefix*>& prefixes() {
+  static std::vector<const SolverPrefix*> list;
+  return list;
+}
+
+std::map<std::string, std::string>& recipe() {
+  static std::map<std::string, std::string> values;
+  return values;
+}
+
+/// While the options given are checked before the run, asking for one does not mean that the run uses it.
+bool validating = false;
+
+std::size_t stageRank(const std::string& stage) {
+  return static_cast<std::size_t>(std::find(stages.begin(), stages.end(), stage) - stages.begin());
+}
+
+template <class Item>
+std::vector<const Item*> byStage(std::vector<const Item*> items) {
+  std::stable_sort(items.begin(), items.end(), [](auto* a, auto* b) { return stageRank(a->stage) < stageRank(b->stage); });
+  return items;
+}
+
+std::vector<std::string> namesGiven() {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : givenOptions()) names.push_back(name);
+  return names;
+}
+
+/// The value of an option that was given; none: it was not.
+std::optional<std::string> valueGiven(const std::string& name) {
+  const char* value = nullptr;
+  PetscBool set = PETSC_FALSE;
+  check(PetscOptionsFindPair(nullptr, nullptr, ("-" + name).c_str(), &value, &set));
+  // Asked for a_1_b, PETSc also takes a_b.
+  static const std::regex numbered("_[0-9]+_");
+  if (!set || (std::regex_search(name, numbered) && !givenOptions().count(name))) return {};
+  return value ? value : "";
+}
+
+std::vector<std::string> namesLeft() {
+  PetscInt count = 0;
+  char **names = nullptr, **values = nullptr;
+  check(PetscOptionsLeftGet(nullptr, &count, &names, &values));
+  std::vector<std::string> left(names, names + count);
+  check(PetscOptionsLeftRestore(nullptr, &count, &names, &values));
+  return left;
+}
+
+bool startsWith(const std::string& text, const std::string& start) { return text.compare(0, start.size(), start) == 0; }
+
+std::size_t editDistance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t above = row[j];
+      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      diagonal = above;
+    }
+  }
+  return row[b.size()];
+}
+
+/// The option nearest to a mistyped name, its placeholder filled with the part of the name that fits best; empty if none is near.
+std::string nearestName(const std::string& name) {
+  std::string nearest;
+  if (name.size() > 100) return nearest;  // not a slip of the finger, and long to compare
+  std::size_t least = 4;                  // more than three wrong letters are another word
+  const auto consider = [&](const std::string& candidate) {
+    if (candidate.size() >= name.size() + least || name.size() >= candidate.size() + least) return;
+    if (const auto distance = editDistance(name, candidate); distance < least) least = distance, nearest = candidate;
+  };
+  for (const auto* option : Option::all()) {
+    if (option->name.find('<') == std::string::npos)
+      consider(option->name);
+    else
+      for (std::size_t begin = 0; begin < name.size(); ++begin)
+        for (std::size_t end = begin + 1; end <= name.size(); ++end) consider(option->fullName(name.substr(begin, end - begin)));
+  }
+  return nearest;
+}
+
+}  // namespace
+
+Option::Option(std::string stage_, std::string name_, std::string default_, std::string unit_, std::string meaning_,
+               std::string rule_, bool required_)
+    : stage(std::move(stage_)),
+      name(std::move(name_)),
+      defaultText(std::move(default_)),
+      unit(std::move(unit_)),
+      meaning(std::move(meaning_)),
+      rule(std::move(rule_)),
+      required(required_) {
+  registry().push_back(this);
+}
+
+std::vector<const Option*> Option::all() { return byStage(registry()); }
+
+std::string Option::fullName(const std::string& subject) const {
+  const auto open = name.find('<');
+  if (open == std::string::npos) return name;
+  return name.substr(0, open) + subject + name.substr(name.find('>') + 1);
+}
+
+bool Option::given(const std::string& subject) const { return valueGiven(fullName(subject)).has_value(); }
+
+bool Option::matches(const std::string& full) const {
+  const auto open = name.find('<');
+  if (open == std::string::npos) return full == name;
+  const std::string before = name.substr(0, open), after = name.substr(name.find('>') + 1);
+  return full.size() > before.size() + after.size() && startsWith(full, before) &&
+         full.compare(full.size() - after.size(), after.size(), after) == 0;
+}
+
+std::vector<std::string> Option::subjects() const {
+  const auto open = name.find('<');
+  const std::size_t around = name.size() - (name.find('>') - open + 1);
+  std::set<std::string> found;
+  for (const auto& full : namesGiven())
+    if (matches(full)) found.insert(full.substr(open, full.size() - around));
+  return {found.begin(), found.end()};
+}
+
+std::string Option::text(const std::string& subject) const {
+  const std::string full = fullName(subject);
+  const auto given = valueGiven(full);
+  if (!given && required) throw Error("option -" + full + " is missing: " + meaning);
+  const std::string value = trimmed(given.value_or(defaultText));
+  if (!validating) recipe()[full] = value;
+  return value;
+}
+
+std::string Option::named(const std::string& subject, const std::string& value) const {
+  const std::string place = origin(fullName(subject), valueGiven(fullName(subject)).value_or("")).place();
+  return "option -" + fullName(subject) + (value.empty() ? "" : " " + value) + (place.empty() ? "" : " (" + place + ")");
+}
+
+void Option::reject(const std::string& subject, const std::string& value) const {
+  throw Error(named(subject, value) + ": " + meaning + (unit.empty() ? "" : " [" + unit + "]") + "; must be " + rule);
+}
+
+SolverPrefix::SolverPrefix(std::string stage_, std::string prefix_, std::string meaning_)
+    : stage(std::move(stage_)), prefix(std::move(prefix_)), meaning(std::move(meaning_)) {
+  prefixes().push_back(this);
+}
+
+std::vector<std::string> SolverPrefix::names() const {
+  std::vector<std::string> ours;
+  for (const auto& name : namesGiven())
+    if (startsWith(name, prefix)) ours.push_back("-" + name);
+  return ours;
+}
+
+std::vector<const SolverPrefix*> SolverPrefix::all() { return byStage(prefixes()); }
+
+void SolverPrefix::rejectUnused(const std::vector<std::string>& exceptAfter) const {
+  for (const auto& name : namesLeft()) {
+    if (!startsWith(name, prefix)) continue;
+    const std::string rest = name.substr(prefix.size());
+    if (std::any_of(exceptAfter.begin(), exceptAfter.end(), [&](const auto& later) { return startsWith(rest, later); })) continue;
+    throw Error("option -" + name + " is unknown to the solver with prefix -" + prefix);
+  }
+}
+
+void applySolverOptions(const std::function<PetscErrorCode()>& configure) {
+  std::vector<std::pair<std::string, std::string>> given;  // to solvers
+  const auto solvers = SolverPrefix::all();
+  for (const auto& option : givenOptions())
+    if (std::any_of(solvers.begin(), solvers.end(), [&](const auto* solver) { return startsWith(option.first, solver->prefix); }))
+      given.push_back(option);
+  if (given.empty()) return check(configure());
+  const std::set<PetscErrorCode> refusals{PETSC_ERR_ARG_UNKNOWN_TYPE,
+                                          PETSC_ERR_ARG_OUTOFRANGE,
+                                          PETSC_ERR_ARG_WRONG,
+                                          PETSC_ERR_ARG_SIZ,
+                                          PETSC_ERR_ARG_INCOMP,
+                                          PETSC_ERR_ARG_WRONGSTATE,
+                                          PETSC_ERR_MISSING_FACTOR,
+                                          PETSC_ERR_SUP,
+                                          PETSC_ERR_USER,
+                                          PETSC_ERR_USER_INPUT,
+                                          PETSC_ERR_ORDER};
+  const KeptError error;
+  const PetscErrorCode code = configure();
+  if (code == 0) return;
+  if (!refusals.count(error.code())) return check(code);
+  const std::string message = error.message().substr(0, error.message().find('\n'));
+  std::vector<std::string> all, named;
+  for (const auto& [name, value] : given) {
+    all.push_back("-" + name + (value.empty() ? "" : " " + value));
+    if (!value.empty() && message.find(value) != std::string::npos) named.push_back(all.back());
+  }
+  throw Error("PETSc refuses an option of its solvers, " + joined(named.empty() ? all : named) + ": " + message);
+}
+
+void rejectUnknownOptions() {
+  for (const auto& name : namesLeft()) {
+    const auto options = Option::all();
+    if (std::any_of(options.begin(), options.end(), [&](auto* option) { return option->matches(name); })) continue;
+    const auto solvers = SolverPrefix::all();
+    if (std::any_of(solvers.begin(), solvers.end(), [&](auto* solver) { return startsWith(name, solver->prefix); })) continue;
+    const std::string nearest = nearestName(name);
+    const auto given = givenOptions();
+    const std::string place = origin(name, given.count(name) ? given.at(name) : "").place();
+    throw Error("unknown option -" + name + (place.empty() ? "" : " (" + place + ")") +
+                (nearest.empty() ? "" : "; did you mean -" + nearest + "?") + " (squeal -help lists all options)");
+  }
+  struct Validation {
+    Validation() { validating = true; }
+    ~Validation() { validating = false; }  // after an Error as well
+  } validation;
+  for (const auto* option : Option::all())
+    for (const auto& subject : option->name.find('<') == std::string::npos ? std::vector<std::string>{""} : option->subjects())
+      if (option->given(subject)) option->validate(subject);
+}
+
+std::vector<std::string> unusedOptions() {
+  std::vector<std::string> unused, left = namesLeft();
+  const auto options = Option::all();
+  for (const auto& [name, value] : givenOptions()) {
+    const bool ours =
+        std::any_of(options.begin(), options.end(), [&, &full = name](auto* option) { return option->matches(full); });
+    const bool used = ours ? recipe().count(name) > 0 : std::find(left.begin(), left.end(), name) == left.end();
+    if (used) continue;
+    const std::string place = origin(name, value).place();
+    unused.push_back("option -" + name + (value.empty() ? "" : " " + value) + (place.empty() ? "" : " (" + place + ")") +
+                     " was not used: nothing in this run asks for it");
+  }
+  return unused;
+}
+
+std::string manual() {
+  std::string page =
+      "squeal -options_file CASE.yaml [-option value …]: flutter of steady sliding brakes (brake squeal)\n"
+      "Lengths in m, masses in kg, times in s unless the case keeps another consistent system. <…> stands for a name.\n"
+      "Numbers are zero or of a magnitude between 1e-50 and 1e50. A list is separated by commas; with blanks it is put in "
+      "quotes.\n";
+  const auto options = Option::all();
+  const auto solvers = SolverPrefix::all();
+  for (const auto& stage : stages) {
+    page += "\n" + stage + "\n";
+    for (const auto* option : options) {
+      if (option->stage != stage) continue;
+      const std::string left = "  -" + option->name + (option->unit.empty() ? "" : " [" + option->unit + "]");
+      page += formatted("%-52s ", left.c_str()) + option->meaning;
+      page += option->required
+                  ? " (required; " + option->rule + ")\n"
+                  : " (default " + (option->defaultText.empty() ? "none" : option->defaultText) + "; " + option->rule + ")\n";
+    }
+    for (const auto* solver : solvers)
+      if (solver->stage == stage) page += formatted("%-52s ", ("  -" + solver->prefix + "*").c_str()) + solver->meaning + "\n";
+  }
+  return page;
+}
+
+const std::map<std::string, std::string>& resolvedOptions() { return recipe(); }
+
+std::map<std::string, std::string> givenOptions() {
+  // PETSc offers no list of names and values; its viewer prints one to a line, and neither holds a line break.
+  char* text = nullptr;
+  std::size_t size = 0;
+  std::FILE* stream = open_memstream(&text, &size);
+  if (!stream) throw std::bad_alloc();
+  OwnedViewer viewer;
+  check(PetscViewerASCIIOpenWithFILE(PETSC_COMM_SELF, stream, viewer.out()));
+  check(PetscOptionsView(nullptr, viewer));
+  viewer = {};
+  std::fclose(stream);
+  std::istringstream lines(std::string(text, size));
+  std::free(text);
+  std::map<std::string, std::string> given;
+  for (std::string line; std::getline(lines, line);) {
+    if (line[0] != '-') continue;  // head and foot
+    const auto blank = std::min(line.find(' '), line.size());
+    given[line.substr(1, blank - 1)] = blank < line.size() ? line.substr(blank + 1) : "";
+  }
+  return given;
+}
+
+}  // namespace squeal

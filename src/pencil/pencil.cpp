@@ -1,0 +1,138 @@
+#include "pencil/pencil.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace squeal::flutter {
+
+double Term::coefficient(const Parameters& at) const {
+  return factor * std::pow(at.friction, frictionExponent) * std::pow(at.speed, speedExponent) *
+         std::pow(at.damping, dampingExponent);
+}
+
+double Term::slope(const Parameters& at, double Parameters::*parameter) const {
+  const int exponent = parameter == &Parameters::friction  ? frictionExponent
+                       : parameter == &Parameters::speed   ? speedExponent
+                       : parameter == &Parameters::damping ? dampingExponent
+                                                           : 0;
+  if (exponent == 0) return 0;
+  Parameters unit = at;
+  unit.*parameter = 1;  // leaves the other powers
+  return exponent * coefficient(unit) * std::pow(at.*parameter, exponent - 1);
+}
+
+Term Term::share() const { return {matrix.share(), power, frictionExponent, factor, speedExponent, dampingExponent}; }
+
+Pencil::Pencil(std::vector<Term> terms)
+    : terms_(std::move(terms)), affineCount_(terms_.size()), singular_(std::make_shared<std::array<OwnedVec, 3>>()) {}
+
+void Pencil::add(std::vector<Term> terms) {
+  std::move(terms.begin(), terms.end(), std::back_inserter(terms_));
+  affineCount_ = terms_.size();
+}
+
+Pencil Pencil::with(std::vector<Term> pointTerms) const {
+  std::vector<Term> all;
+  for (const auto& term : terms_) all.push_back(term.share());
+  std::move(pointTerms.begin(), pointTerms.end(), std::back_inserter(all));
+  Pencil pencil(std::move(all));
+  pencil.affineCount_ = affineCount_;
+  pencil.singular_ = singular_;
+  return pencil;
+}
+
+bool Pencil::hasPower(int power) const {
+  return std::any_of(terms_.begin(), terms_.end(), [&](const Term& term) { return term.power == power; });
+}
+
+MPI_Comm Pencil::comm() const { return PetscObjectComm(reinterpret_cast<PetscObject>(terms_.at(0).matrix.get())); }
+
+OwnedMat Pencil::assembled(int power, const Parameters& at) const {
+  OwnedMat sum;
+  for (const auto& term : terms_) {
+    if (term.power != power) continue;
+    if (!sum) {
+      check(MatDuplicate(term.matrix, MAT_COPY_VALUES, sum.out()));
+      check(MatScale(sum, term.coefficient(at)));
+    } else {
+      check(MatAXPY(sum, term.coefficient(at), term.matrix, DIFFERENT_NONZERO_PATTERN));
+    }
+    check(MatSetOption(sum, MAT_SYMMETRIC, PETSC_FALSE));
+  }
+  return sum;
+}
+
+void Pencil::apply(int power, const Parameters& at, Vec x, Vec y) const {
+  check(VecZeroEntries(y));
+  OwnedVec part;
+  check(VecDuplicate(y, part.out()));
+  for (const auto& term : terms_)
+    if (const double c = term.coefficient(at); term.power == power && c != 0) {
+      check(MatMult(term.matrix, x, part));
+      check(VecAXPY(y, c, part));
+    }
+}
+
+void Pencil::applyTranspose(int power, const Parameters& at, Vec x, Vec y) const {
+  check(VecZeroEntries(y));
+  OwnedVec part;
+  check(VecDuplicate(y, part.out()));
+  for (const auto& term : terms_)
+    if (const double c = term.coefficient(at); term.power == power && c != 0) {
+      check(MatMultTranspose(term.matrix, x, part));
+      check(VecAXPY(y, c, part));
+    }
+}
+
+double Pencil::norm(int power, const Parameters& at) const {
+  if (!hasPower(power)) return 0;
+  OwnedVec& v = (*singular_)[static_cast<std::size_t>(power)];
+  const bool fresh = !v;
+  OwnedVec image;
+  check(MatCreateVecs(terms_[0].matrix, image.out(), nullptr));
+  if (fresh) {
+    // Largest eigenvalues belong to rough vectors; a fixed pseudo-random start has them all.
+    PetscInt first = 0, end = 0;
+    check(VecDuplicate(image, v.out()));
+    check(VecGetOwnershipRange(v, &first, &end));
+    for (PetscInt i = first; i < end; ++i) check(VecSetValue(v, i, std::sin(12.9898 * static_cast<double>(i + 1)), INSERT_VALUES));
+    check(VecAssemblyBegin(v));
+    check(VecAssemblyEnd(v));
+  }
+  double estimate = 0;
+  for (int sweep = 0; sweep < (fresh ? 20 : 1); ++sweep) {
+    PetscReal size = 0;
+    check(VecNormalize(v, nullptr));
+    apply(power, at, v, image);
+    check(VecNorm(image, NORM_2, &size));
+    estimate = std::max(estimate, static_cast<double>(size));
+    if (size == 0) {  // a term that vanishes at this friction: the next begins afresh
+      v = OwnedVec();
+      return 0;
+    }
+    applyTranspose(power, at, image, v);
+  }
+  return estimate;
+}
+
+ComplexVector residual(const Pencil& pencil, const Parameters& at, std::complex<double> s, const ComplexVector& d, Side side) {
+  ComplexVector sum = ComplexVector::like(d.real), part = ComplexVector::like(d.real);
+  for (int power = 0; power <= 2; ++power) {
+    if (!pencil.hasPower(power)) continue;
+    for (const bool imaginary : {false, true}) {
+      const Vec from = imaginary ? d.imaginary : d.real, to = imaginary ? part.imaginary : part.real;
+      side == Side::left ? pencil.applyTranspose(power, at, from, to) : pencil.apply(power, at, from, to);
+    }
+    add(sum, std::pow(side == Side::left ? std::conj(s) : s, power), part);
+  }
+  return sum;
+}
+
+double backwardError(const Pencil& pencil, const Parameters& at, std::complex<double> s, const ComplexVector& d) {
+  double scale = 0;
+  for (int power = 0; power <= 2; ++power) scale += std::pow(std::abs(s), power) * pencil.norm(power, at);
+  return length(residual(pencil, at, s, d, Side::right)) / (scale * length(d));
+}
+
+}  // namespace squeal::flutter

@@ -1,0 +1,74 @@
+#pragma once
+/// A growing basis of the reduced problem, orthonormal in the energy of the stiffness K0 to a part in a thousand: VᵀK0V ≈ I.
+///
+/// Free modes enter as φ/ω, corrections as z = K0⁻¹ r. The residuals r of a Galerkin solution on V have Vᵀr = 0, so that their
+/// corrections come out orthogonal to V. VᵀK0z = Vᵀr, zᵀK0z = zᵀr and K0z = r, as closely as K0⁻¹ is known, take no product with K0.
+#include <optional>
+#include <vector>
+
+#include "linalg/complexvector.hpp"
+#include "linalg/sketch.hpp"
+#include "modes/modes.hpp"
+#include "petsc/owned.hpp"
+
+namespace squeal::flutter {
+
+class Basis {
+ public:
+  /// Collective. Begins with the modes. Borrows the solver of K0 and K0.
+  Basis(const modes::Modes& modes, Mat stiffness, KSP solver);
+  const Block& columns() const { return columns_; }
+  PetscInt size() const { return columns_.columns; }
+  PetscInt localRows() const { return columns_.rows; }
+  MPI_Comm comm() const { return comm_; }
+  Mat stiffness() const { return stiffness_; }  ///< K0
+  /// Collective. A copy of V.
+  OwnedBV vectors() const;
+
+  /// Collective. Adds K0⁻¹ of the columns of `residuals`, solved for together; combinations that depend on others or on V are dropped.
+  /// Returns the number of columns added.
+  PetscInt add(const Block& residuals);
+  /// V ← V · combinations (size() × count), which has orthonormal columns.
+  void combine(const DenseMatrix& combinations, PetscInt count);
+
+  /// Collective. Adds A times columns [first, last) of V to the columns of `result`.
+  void appendImages(Mat matrix, PetscInt first, PetscInt last, Block& result) const;
+  /// K0 times the columns last added, and VᵀK0 times them (size() × columns), where they are known without products: no columns otherwise.
+  const Block& forces() const { return forces_; }
+  const DenseMatrix& energies() const { return energies_; }
+  /// Collective. V q of several q; entries that one lacks are zero.
+  std::vector<ComplexVector> expand(const std::vector<const std::vector<std::complex<double>>*>& list) const;
+  /// Of columns of length n; the weighted norm is √(rᵀ diag(K0)⁻¹ r).
+  const Sketch& sketch() const { return *sketch_; }
+  /// Unweighted sketch of V.
+  const DenseMatrix& sketched() const { return sketched_; }
+  /// Collective. For each block of columns, all solved for together, the largest ratio of the energy norm √(rᵀ K0⁻¹ r) to
+  /// √(rᵀ diag(K0)⁻¹ r) among its combinations: it turns the second norm, which costs nothing, into an estimate of the first for columns
+  /// like these. 0: no columns.
+  std::vector<double> energyRatios(const std::vector<Block>& blocks);
+  /// That of the columns last added.
+  double lastEnergyRatio() const { return ratio_; }
+  /// Columns solved for so far.
+  long solves() const { return solves_; }
+
+ private:
+  Block solve(const Block& right);
+  double ratio(const Block& residuals, const DenseMatrix& energy) const;
+  bool addAcross(const Block& z, const Block& residuals, const DenseMatrix& energy, const DenseMatrix& parts);
+  void addOrthogonalised(Block& z, const DenseMatrix& parts);
+  double solutionError(const Block& z, const Block& residuals) const;
+
+  MPI_Comm comm_;
+  Mat stiffness_;
+  KSP solver_;
+  Block columns_;
+  Block forces_;
+  DenseMatrix energies_;
+  std::vector<double> inverseDiagonal_;
+  std::optional<Sketch> sketch_;
+  DenseMatrix sketched_;
+  double ratio_ = 1;
+  long solves_ = 0;
+};
+
+}  // namespace squeal::flutter

@@ -1,0 +1,71 @@
+/// Static responses to friction as the beginning of a basis.
+#include <algorithm>
+
+#include "reduction/reduced.hpp"
+
+namespace squeal::flutter {
+namespace {
+
+/// coefficient · matrix · s^power, or its transpose, by the rows that hold anything.
+struct Forces {
+  bool transposed;
+  RowSet rows;
+  OwnedMat matrix;
+  int power;
+  double coefficient;
+};
+
+Forces forcesOf(const Term& term, const Parameters& at, bool transposed) {
+  OwnedMat matrix = term.matrix.share();
+  if (transposed) check(MatTranspose(term.matrix, MAT_INITIAL_MATRIX, matrix.out()));
+  const RowSet rows(matrix);
+  return {transposed, rows, rows.of(matrix), term.power, term.coefficient(at)};
+}
+
+}  // namespace
+
+/// K0⁻¹ k φ_i and K0⁻¹ kᵀφ_i for the free modes of the band at their own frequencies, where k are the forces of friction and of all
+/// else that belongs to this point: the change of the right and left vectors with them, to first order in them and to lowest order
+/// in the frequency.
+void ReducedProblem::addStaticResponses(const PointProblem& point) {
+  const auto count = static_cast<PetscInt>(std::upper_bound(modes_.begin(), modes_.end(), bandTop_) - modes_.begin());
+  const auto& terms = point.pencil.terms();
+  std::vector<Forces> list;
+  for (const bool transposed : {false, true})
+    for (std::size_t t = 0; t < terms.size(); ++t)
+      if (terms[t].frictionExponent != 0 || t >= point.pencil.affineCount())
+        list.push_back(forcesOf(terms[t], point.at, transposed));
+  // Forces of friction are zero but at the contact: the columns are kept by the rows that any of them has.
+  std::vector<PetscInt> rows, place(static_cast<std::size_t>(basis_.localRows()), -1);
+  for (const auto& forces : list)
+    for (PetscInt i = 0; i < forces.rows.size(); ++i)
+      if (auto& known = place[static_cast<std::size_t>(forces.rows[i])]; known < 0) {
+        known = static_cast<PetscInt>(rows.size());
+        rows.push_back(forces.rows[i]);
+      }
+  Block all(static_cast<PetscInt>(rows.size()));
+  for (const bool transposed : {false, true})
+    for (const bool imaginary : {false, true}) {  // (iω)^power
+      Block part(all.rows, count);
+      for (const auto& forces : list) {
+        if (forces.transposed != transposed || (forces.power == 1) != imaginary) continue;
+        Block images(forces.rows.size());
+        basis_.appendImages(forces.matrix, 0, count, images);
+        for (PetscInt j = 0; j < count; ++j) {
+          const double omega = modes_[static_cast<std::size_t>(j)];
+          const double factor = forces.coefficient * (forces.power == 0 ? 1 : forces.power == 1 ? omega : -omega * omega);
+          for (PetscInt i = 0; i < images.rows; ++i)
+            part.column(j)[place[static_cast<std::size_t>(forces.rows[i])]] += factor * images.column(j)[i];
+        }
+      }
+      append(all, unitColumns(basis_.comm(), part));
+    }
+  const Block leading = principal(basis_.comm(), all, resolution);
+  Block whole(basis_.localRows(), leading.columns);
+  for (PetscInt j = 0; j < leading.columns; ++j)
+    for (PetscInt i = 0; i < leading.rows; ++i) whole.column(j)[rows[static_cast<std::size_t>(i)]] = leading.column(j)[i];
+  basis_.add(whole);
+  rightRatio_ = std::max(measuredRatio_, basis_.lastEnergyRatio());
+}
+
+}  // namespace squeal::flutter

@@ -1,0 +1,47 @@
+#include "sensitivity/derive.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace squeal::flutter {
+namespace {
+
+using Complex = std::complex<double>;
+
+double separation(const std::vector<Eigenvalue>& eigenvalues, std::size_t index) {
+  double smallest = INFINITY;
+  const Complex s = eigenvalues[index].s;
+  for (std::size_t i = 0; i < eigenvalues.size(); ++i)
+    if (i != index) smallest = std::min(smallest, std::abs(eigenvalues[i].s - s));
+  return smallest / std::abs(s);
+}
+
+}  // namespace
+
+void deriveShapes(FrictionPoint& point, const Pencil& pencil, const StartSpace& start, KSP solver, Mat mass, const Forms& forms) {
+  if (point.shapes.empty()) return;
+  std::vector<RightPair> pairs;
+  for (const auto& shape : point.shapes) pairs.push_back({point.eigenvalues[shape.index].s, &shape.unknowns});
+  const auto left = leftVectors(pencil, point.at, start, solver, pairs);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const EigenTriple triple{pairs[i].s, *pairs[i].vector, left[i].y};
+    const Complex slope = slopeForm(pencil, point.at, triple);
+    Sensitivity result{
+        condition(triple, slope, mass), separation(point.eigenvalues, point.shapes[i].index), left[i].backwardError, {}};
+    if (result.regular()) result.derivatives = forms(triple);
+    for (auto& derivative : result.derivatives) derivative.value /= -slope;
+    point.sensitivities.push_back(std::move(result));
+  }
+}
+
+void deriveParameters(FrictionPoint& point, const Pencil& pencil, const StartSpace& start, KSP solver, Mat mass) {
+  deriveShapes(point, pencil, start, solver, mass, [&](const EigenTriple& triple) {
+    std::vector<Derivative> found;
+    for (const auto& parameter : allParameters)
+      if (parameter.value != &Parameters::pressure)
+        found.push_back({parameter.name, parameterForm(pencil, point.at, triple, parameter.value)});
+    return found;
+  });
+}
+
+}  // namespace squeal::flutter

@@ -1,0 +1,261 @@
+#include "sensitivity/left.hpp"
+
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "linalg/columns.hpp"
+#include "linalg/images.hpp"
+#include "linalg/lu.hpp"
+
+namespace squeal::flutter {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double wanted = 1e-10;
+constexpr int mostRounds = 20;
+
+/// cᴴ A q; zero for an empty A.
+Complex form(const std::vector<Complex>& c, const DenseMatrix& a, const std::vector<Complex>& q) {
+  Complex sum = 0;
+  for (std::size_t j = 0; j < q.size() && !a.empty(); ++j) {
+    Complex column = 0;
+    for (std::size_t i = 0; i < q.size(); ++i) column += std::conj(c[i]) * a[j * q.size() + i];
+    sum += column * q[j];
+  }
+  return sum;
+}
+
+/// c with cᴴ H(s) = 0, H = Σ s^p h_p, by inverse iteration. s is known to some digits; where the space knows it better, the two-sided
+/// Rayleigh quotient δs = −cᴴ H q / cᴴ H′ q takes its own error out.
+std::vector<Complex> nullVector(const std::array<DenseMatrix, 3>& h, std::size_t m, Complex s) {
+  std::vector<Complex> c(m);
+  for (std::size_t i = 0; i < m; ++i) {
+    const auto at = static_cast<double>(i);
+    c[i] = {std::sin(12.9898 * (at + 1)), std::cos(78.233 * (at + 1))};
+  }
+  const auto solve = [](const Lu<Complex>& factors, std::vector<Complex> x, bool adjoint) {
+    factors.solve(x, adjoint);
+    double sum = 0;
+    for (const auto& entry : x) sum += std::norm(entry);
+    for (auto& entry : x) entry /= std::sqrt(sum);
+    return x;
+  };
+  for (int step = 0; step < 3; ++step) {
+    std::vector<Complex> sum(m * m, 0.0);
+    Complex power = 1;
+    for (const auto& matrix : h) {
+      for (std::size_t k = 0; k < matrix.size(); ++k) sum[k] += power * matrix[k];
+      power *= s;
+    }
+    Lu<Complex> factors(std::move(sum), static_cast<int>(m));
+    factors.raiseZeroPivots();  // s may be an eigenvalue to the last digit
+    auto q = c;
+    for (int cycle = 0; cycle < 2; ++cycle) {
+      q = solve(factors, std::move(q), false);
+      c = solve(factors, q, true);
+      if (cycle == 0) q = c;
+    }
+    const Complex value = form(c, h[0], q) + s * form(c, h[1], q) + s * s * form(c, h[2], q),
+                  slope = form(c, h[1], q) + 2.0 * s * form(c, h[2], q), change = -value / slope;
+    if (!(std::abs(change) > 1e-14 * std::abs(s) && std::abs(change) < 1e-6 * std::abs(s))) break;
+    s += change;
+  }
+  return c;
+}
+
+class Search {
+ public:
+  Search(const Pencil& pencil, const Parameters& at, const StartSpace& start, KSP solver)
+      : pencil_(pencil),
+        at_(at),
+        norms_{pencil.norm(0, at), pencil.norm(1, at), pencil.norm(2, at)},
+        solver_(solver),
+        projected_{start.projected.stiffness, start.projected.damping, start.projected.mass},
+        known_(start.projected.m) {
+    check(BVGetSizes(start.columns, nullptr, nullptr, &size_));
+    check(BVDuplicateResize(start.columns, size_, basis_.out()));
+    check(BVCopy(start.columns, basis_));
+    check(BVSetMatrix(basis_, start.inner, PETSC_FALSE));
+  }
+
+  std::vector<LeftVector> vectors(const std::vector<RightPair>& pairs) {
+    add(partsOf(pairs));
+    std::vector<LeftVector> found(pairs.size());
+    std::vector<std::size_t> open(pairs.size());
+    std::iota(open.begin(), open.end(), 0);
+    for (int round = 0;; ++round) {
+      std::vector<Complex> values;
+      for (std::size_t i : open) values.push_back(pairs[i].s);
+      const auto coordinates = nullVectors(values);
+      std::vector<std::size_t> bad;
+      std::vector<ComplexVector> residuals;
+      for (std::size_t k = 0; k < open.size(); ++k) {
+        auto& left = found[open[k]];
+        left.y = expand(coordinates[k]);
+        ComplexVector residual = flutter::residual(pencil_, at_, values[k], left.y, Side::left);
+        left.backwardError = length(residual) / (scale(values[k]) * length(left.y));
+        if (left.backwardError > wanted) bad.push_back(open[k]), residuals.push_back(std::move(residual));
+      }
+      if (bad.empty() || round == mostRounds) return found;
+      const auto solved = corrections(residuals);
+      if (!add({solved.begin(), solved.end()})) return found;
+      open = std::move(bad);
+    }
+  }
+
+ private:
+  static std::vector<Vec> partsOf(const std::vector<RightPair>& pairs) {
+    std::vector<Vec> parts;
+    for (const auto& pair : pairs) parts.insert(parts.end(), {pair.vector->real.get(), pair.vector->imaginary.get()});
+    return parts;
+  }
+
+  double scale(Complex s) const {
+    const double size = std::abs(s);
+    return norms_[0] + size * norms_[1] + size * size * norms_[2];
+  }
+
+  /// K0⁻¹ of the real and imaginary parts, scaled to one.
+  std::vector<OwnedVec> corrections(const std::vector<ComplexVector>& residuals) {
+    const auto count = static_cast<PetscInt>(2 * residuals.size());
+    PetscInt local = 0, global = 0;
+    check(VecGetLocalSize(residuals[0].real, &local));
+    check(VecGetSize(residuals[0].real, &global));
+    OwnedMat rhs, solution;
+    check(MatCreateDense(pencil_.comm(), local, PETSC_DECIDE, global, count, nullptr, rhs.out()));
+    check(MatCreateDense(pencil_.comm(), local, PETSC_DECIDE, global, count, nullptr, solution.out()));
+    for (PetscInt j = 0; j < count; ++j) {
+      const auto& residual = residuals[static_cast<std::size_t>(j / 2)];
+      Vec column = nullptr;
+      check(MatDenseGetColumnVecWrite(rhs, j, &column));
+      check(VecCopy(j % 2 == 0 ? residual.real : residual.imaginary, column));
+      check(VecScale(column, 1 / length(residual)));
+      check(MatDenseRestoreColumnVecWrite(rhs, j, &column));
+    }
+    check(KSPMatSolve(solver_, rhs, solution));
+    std::vector<OwnedVec> parts;
+    for (PetscInt j = 0; j < count; ++j) {
+      Vec column = nullptr;
+      OwnedVec part;
+      check(VecDuplicate(residuals[0].real, part.out()));
+      check(MatDenseGetColumnVecRead(solution, j, &column));
+      check(VecCopy(column, part));
+      check(MatDenseRestoreColumnVecRead(solution, j, &column));
+      parts.push_back(std::move(part));
+    }
+    return parts;
+  }
+
+  /// True if the basis has grown; projects what is new.
+  bool add(const std::vector<Vec>& vectors) {
+    constexpr double dependent = 1e-6;
+    const PetscInt before = size_;
+    check(BVResize(basis_, size_ + static_cast<PetscInt>(vectors.size()), PETSC_TRUE));
+    for (Vec vector : vectors) {
+      PetscReal length = 0, rest = 0;
+      PetscBool lost = PETSC_FALSE;
+      check(BVInsertVec(basis_, size_, vector));
+      check(BVNormColumn(basis_, size_, NORM_2, &length));
+      check(BVSetActiveColumns(basis_, 0, size_ + 1));
+      if (length > 0) check(BVOrthonormalizeColumn(basis_, size_, PETSC_FALSE, &rest, &lost));
+      if (!lost && rest > dependent * length) ++size_;
+    }
+    check(BVResize(basis_, size_, PETSC_TRUE));
+    check(BVSetActiveColumns(basis_, 0, size_));
+    extend();
+    return size_ > before;
+  }
+
+  /// Vᵀ A V of each power, with the columns that V has gained.
+  void extend() {
+    const PetscInt old = known_, added = size_ - old;
+    if (added == 0) return;
+    const ReadColumns all(basis_);
+    const auto size = static_cast<std::size_t>(size_), o = static_cast<std::size_t>(old);
+    for (int power = 0; power <= 2; ++power) {
+      if (!pencil_.hasPower(power)) continue;
+      const auto image = images(power, old, false), adjoint = images(power, old, true);
+      const auto right = transposedProduct(pencil_.comm(), all.values(), all.rows(), size_, image.data(), added),
+                 below = transposedProduct(pencil_.comm(), adjoint.data(), all.rows(), added, all.values(), old);
+      auto& matrix = projected_[static_cast<std::size_t>(power)];
+      DenseMatrix grown(size * size);
+      for (std::size_t j = 0; j < size; ++j)
+        for (std::size_t i = 0; i < size; ++i)
+          grown[j * size + i] = j >= o ? right[(j - o) * size + i] : i >= o ? below[j * (size - o) + i - o] : matrix[j * o + i];
+      matrix = std::move(grown);
+    }
+    known_ = size_;
+  }
+
+  /// Local rows of A V or Aᵀ V for the columns of V from `first` on.
+  DenseMatrix images(int power, PetscInt first, bool transposed) const {
+    DenseMatrix values;
+    for (PetscInt j = first; j < size_; ++j) {
+      Vec column = nullptr;
+      OwnedVec image;
+      check(BVGetColumn(basis_, j, &column));
+      check(VecDuplicate(column, image.out()));
+      if (transposed)
+        pencil_.applyTranspose(power, at_, column, image);
+      else
+        pencil_.apply(power, at_, column, image);
+      check(BVRestoreColumn(basis_, j, &column));
+      PetscInt rows = 0;
+      const PetscScalar* entries = nullptr;
+      check(VecGetLocalSize(image, &rows));
+      check(VecGetArrayRead(image, &entries));
+      values.insert(values.end(), entries, entries + rows);
+      check(VecRestoreArrayRead(image, &entries));
+    }
+    return values;
+  }
+
+  /// Left null vectors in the basis, spread over the ranks; the same on all, so that rounding cannot make them disagree.
+  std::vector<std::vector<Complex>> nullVectors(const std::vector<Complex>& values) const {
+    const auto m = static_cast<std::size_t>(size_);
+    int rank = 0, ranks = 1;
+    check(MPI_Comm_rank(pencil_.comm(), &rank));
+    check(MPI_Comm_size(pencil_.comm(), &ranks));
+    std::vector<std::vector<Complex>> vectors(values.size(), std::vector<Complex>(m));
+    for (std::size_t i = static_cast<std::size_t>(rank); i < values.size(); i += static_cast<std::size_t>(ranks))
+      vectors[i] = nullVector(projected_, m, values[i]);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      check(MPI_Bcast(vectors[i].data(), static_cast<int>(m), MPI_C_DOUBLE_COMPLEX, static_cast<int>(i) % ranks, pencil_.comm()));
+    return vectors;
+  }
+
+  /// V c, of length one.
+  ComplexVector expand(const std::vector<Complex>& c) const {
+    ComplexVector y;
+    check(MatCreateVecs(pencil_.terms().at(0).matrix, y.real.out(), y.imaginary.out()));
+    std::vector<double> real, imaginary;
+    for (const auto& entry : c) real.push_back(entry.real()), imaginary.push_back(entry.imag());
+    check(BVMultVec(basis_, 1, 0, y.real, real.data()));
+    check(BVMultVec(basis_, 1, 0, y.imaginary, imaginary.data()));
+    const double size = length(y);
+    check(VecScale(y.real, 1 / size));
+    check(VecScale(y.imaginary, 1 / size));
+    return y;
+  }
+
+  const Pencil& pencil_;
+  const Parameters at_;
+  const std::array<double, 3> norms_;  // [power of s] of the full matrices
+  KSP solver_;
+  OwnedBV basis_;
+  PetscInt size_ = 0;
+  std::array<DenseMatrix, 3> projected_;  // [power of s] Vᵀ A V
+  PetscInt known_ = 0;                    // columns of V in it
+};
+
+}  // namespace
+
+std::vector<LeftVector> leftVectors(const Pencil& pencil, const Parameters& at, const StartSpace& start, KSP solver,
+                                    const std::vector<RightPair>& pairs) {
+  if (pairs.empty()) return {};
+  return Search(pencil, at, start, solver).vectors(pairs);
+}
+
+}  // namespace squeal::flutter

@@ -1,0 +1,58 @@
+#include "sensitivity/sensitivity.hpp"
+
+#include <cmath>
+
+#include "options/options.hpp"
+
+namespace squeal::flutter {
+namespace {
+
+const FlagOption wantedOption(
+    "flutter", "flutter_sensitivities", false,
+    "derivatives of the eigenvalues of the complex modes kept (-flutter_shapes) with respect to friction, "
+    "speed, pressure, moduli and densities: sensitivities.csv");
+
+using Complex = std::complex<double>;
+
+/// Beyond, errors of 1e-8 of the vectors are a thousandth of yᴴ P′ x, and soon after all of it.
+constexpr double worstCondition = 1e5;
+/// Left vectors that were not found leave no derivative either.
+constexpr double worstLeftError = 1e-7;
+/// Of a multiple eigenvalue as it is computed.
+constexpr double closest = 1e-7;
+
+double massNorm(Mat mass, const ComplexVector& u) { return std::sqrt(std::abs(dot(u, product(mass, u)))); }
+
+}  // namespace
+
+bool Sensitivity::regular() const {
+  return leftBackwardError < worstLeftError && condition < worstCondition && separation > closest;
+}
+
+bool sensitivitiesWanted() { return wantedOption.get(); }
+
+Complex slopeForm(const Pencil& pencil, const Parameters& at, const EigenTriple& triple) {
+  Complex sum = 0;
+  for (int power = 1; power <= 2; ++power) {
+    if (!pencil.hasPower(power)) continue;
+    ComplexVector image = ComplexVector::like(triple.x.real);
+    pencil.apply(power, at, triple.x.real, image.real);
+    pencil.apply(power, at, triple.x.imaginary, image.imaginary);
+    sum += static_cast<double>(power) * std::pow(triple.s, power - 1) * dot(triple.y, image);
+  }
+  return sum;
+}
+
+Complex parameterForm(const Pencil& pencil, const Parameters& at, const EigenTriple& triple, double Parameters::*parameter) {
+  Complex sum = 0;
+  for (const auto& term : pencil.terms())
+    if (const double slope = term.slope(at, parameter); slope != 0)
+      sum += slope * std::pow(triple.s, term.power) * dot(triple.y, product(term.matrix, triple.x));
+  return sum;
+}
+
+double condition(const EigenTriple& triple, Complex slope, Mat mass) {
+  return 2 * std::abs(triple.s) * massNorm(mass, triple.x) * massNorm(mass, triple.y) / std::abs(slope);
+}
+
+}  // namespace squeal::flutter

@@ -1,0 +1,81 @@
+#include "session/stages.hpp"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+
+#include "options/options.hpp"
+#include "petsc/check.hpp"
+#include "petsc/text.hpp"
+
+namespace squeal {
+namespace {
+
+const FlagOption quiet("general", "quiet", false, "print nothing but errors");
+
+std::vector<StageRecord>& records() {
+  static std::vector<StageRecord> list;
+  return list;
+}
+
+int& outputErrorSlot() {
+  static int error = 0;
+  return error;
+}
+
+bool speaks(MPI_Comm comm) {
+  int rank = 0;
+  check(MPI_Comm_rank(comm, &rank));
+  return rank == 0 && !quiet.get();
+}
+
+}  // namespace
+
+Stage::Stage(MPI_Comm comm, std::string name) : comm_(comm), name_(std::move(name)), begin_(MPI_Wtime()), lastProgress_(begin_) {}
+
+void Stage::progress(const std::string& text) {
+  if (MPI_Wtime() - lastProgress_ >= 2) say(text);
+}
+
+void Stage::say(const std::string& text) {
+  lastProgress_ = MPI_Wtime();
+  if (!speaks(comm_)) return;
+  print(formatted("%-10s %8.2f s … %s\n", name_.c_str(), lastProgress_ - begin_, text.c_str()));
+}
+
+void Stage::finish(const std::string& result) {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  double seconds = MPI_Wtime() - begin_, memory = 1024.0 * static_cast<double>(usage.ru_maxrss);
+  check(MPI_Allreduce(MPI_IN_PLACE, &seconds, 1, MPI_DOUBLE, MPI_MAX, comm_));
+  check(MPI_Allreduce(MPI_IN_PLACE, &memory, 1, MPI_DOUBLE, MPI_SUM, comm_));
+  auto known = std::find_if(records().begin(), records().end(), [&](const auto& record) { return record.name == name_; });
+  if (known == records().end()) known = records().insert(known, {name_, 0, 0});
+  known->seconds += seconds;
+  known->peakMemoryBytes = memory;
+  if (!speaks(comm_)) return;
+  print(formatted("%-10s %8.2f s  %s\n", name_.c_str(), seconds, result.c_str()));
+}
+
+void say(MPI_Comm comm, const std::string& text) {
+  if (!speaks(comm)) return;
+  print(text + "\n");
+}
+
+void print(const std::string& text) {
+  if ((std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0) && outputErrorSlot() == 0) outputErrorSlot() = errno;
+}
+
+int outputError() { return outputErrorSlot() == EPIPE ? 0 : outputErrorSlot(); }
+
+void complain(MPI_Comm comm, const std::string& text) {
+  int rank = 0;
+  check(MPI_Comm_rank(comm, &rank));
+  if (rank == 0) std::fprintf(stderr, "squeal: %s\n", text.c_str());
+}
+
+const std::vector<StageRecord>& stageRecords() { return records(); }
+
+}  // namespace squeal

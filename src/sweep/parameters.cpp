@@ -1,0 +1,29 @@
+#include "sweep/parameters.hpp"
+
+#include <vector>
+
+#include "petsc/text.hpp"
+
+namespace squeal {
+
+std::string parameterColumns() {
+  std::vector<std::string> names;
+  for (const auto& parameter : allParameters) names.push_back(parameter.name);
+  return joined(names, ",");
+}
+
+std::string parameterValues(const Parameters& at) {
+  std::vector<std::string> values;
+  for (const auto& parameter : allParameters) values.push_back(shortest(at.*parameter.value));
+  return joined(values, ",");
+}
+
+std::string parameterText(const Parameters& at) {
+  std::string text = formatted("friction %g", at.friction);
+  for (const auto& parameter : allParameters)
+    if (parameter.value != &Parameters::friction && at.*parameter.value != 1)
+      text += formatted(", %s %g", parameter.name, at.*parameter.value);
+  return text;
+}
+
+}  // namespace squeal

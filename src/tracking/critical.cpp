@@ -1,0 +1,314 @@
+#include "tracking/critical.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <type_traits>
+
+#include "petsc/check.hpp"
+#include "petsc/text.hpp"
+#include "tracking/join.hpp"
+
+namespace squeal::flutter {
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Root of a continuous function in a bracket, a value at a time (T. R. Chandrupatla, Advances in Engineering Software 28 (1997)
+/// 145–149: inverse quadratic interpolation where it is safe, otherwise halving).
+class Search {
+ public:
+  Search(double a, double fa, double b, double fb, double tolerance)
+      : a_(a), fa_(fa), b_(b), fb_(fb), c_(a), fc_(fa), t_(fa / (fa - fb)), tolerance_(tolerance) {}
+  double next() const { return a_ + t_ * (b_ - a_); }
+  void take(double fx) {
+    const double x = next();
+    if ((fx > 0) == (fa_ > 0)) {
+      c_ = a_, fc_ = fa_;
+    } else {
+      c_ = b_, fc_ = fb_;
+      b_ = a_, fb_ = fa_;
+    }
+    a_ = x, fa_ = fx;
+    const double limit = tolerance_ / std::abs(b_ - a_);
+    done_ = fa_ == 0 || limit > 0.5 || ++count_ == 100;
+    if (done_) return;
+    const double xi = (a_ - b_) / (c_ - b_), phi = (fa_ - fb_) / (fc_ - fb_);
+    t_ = 0.5;
+    if (phi * phi < xi && (1 - phi) * (1 - phi) < 1 - xi)
+      t_ = fa_ / (fb_ - fa_) * fc_ / (fb_ - fc_) + (c_ - a_) / (b_ - a_) * fa_ / (fc_ - fa_) * fb_ / (fc_ - fb_);
+    t_ = std::clamp(t_, limit, 1 - limit);
+  }
+  bool done() const { return done_; }
+  double root() const { return std::abs(fa_) < std::abs(fb_) ? a_ : b_; }
+
+ private:
+  double a_, fa_, b_, fb_, c_, fc_, t_, tolerance_;
+  int count_ = 0;
+  bool done_ = false;
+};
+
+/// One event, on one rank.
+class Root {
+ public:
+  Root(const Event& event, double tolerance)
+      : event_(event), tolerance_(tolerance), throughZero_(real(event.below[0].s) && real(event.above[0].s)) {}
+
+  /// Locates it in the basis in force, which has `changed` since the last time.
+  void locate(Family& family, bool changed) {
+    const double before = friction_;
+    if (event_.low == event_.high) {  // at an end of a step, where equal eigenvalues part
+      friction_ = event_.low;
+      settled_ = true;
+      return;
+    }
+    const bool first = known_.empty();
+    friction_ = first ? searchFromEnds(family) : refined(family);
+    moved_ = first ? roughly() : changed ? std::abs(friction_ - before) : 0;
+    settled_ = std::isnan(friction_) || (!first && moved_ <= tolerance_ * friction_);
+  }
+  bool settled() const { return settled_; }
+
+  /// Where two eigenvalues are one, so is their vector.
+  Located located() const {
+    std::vector<DensePair> pairs = nearest(friction_).pairs();
+    const Complex s = mean(pairs);
+    pairs.resize(1);
+    pairs[0].s = s;
+    return {friction_, pairs};
+  }
+  /// NaN: there is no problem where it was located.
+  void setBackwardError(double error) {
+    lost_ = std::isnan(error);
+    if (!lost_) backwardError_ = error;
+  }
+
+  Critical result() const {
+    Critical result{event_.kind, event_.branch, event_.partner, friction_, 0, 0, event_.loss, 0, backwardError_, true};
+    if (event_.low == event_.high) {
+      result.angularFrequency = mean(event_.below).imag();
+    } else if (std::isnan(friction_)) {
+      result.converged = false;
+      result.friction = 0.5 * (event_.low + event_.high);
+      result.errorEstimate = 0.5 * (event_.high - event_.low);
+      result.angularFrequency = 0.5 * (mean(event_.below) + mean(event_.above)).imag();
+    } else {
+      result.converged = moved_ <= tolerance_ * friction_;
+      result.errorEstimate = moved_ + rootTolerance();
+      result.angularFrequency = mean(nearest(friction_).pairs()).imag();
+      result.slope = event_.kind == Event::Kind::coalescence ? -slope_ : slope_;
+    }
+    return result;
+  }
+
+ private:
+  struct Sample {
+    double friction, value;
+    Spectrum spectrum;
+    const std::vector<DensePair>& pairs() const { return spectrum.pairs(); }
+  };
+
+  double measure(const Spectrum& spectrum) const {
+    const auto& pairs = spectrum.pairs();
+    switch (event_.kind) {
+      case Event::Kind::coalescence:
+        return discriminant(pairs, spectrum.damped());
+      case Event::Kind::divergence:
+        return throughZero_ ? pairs[0].s.real() : (pairs[0].s * pairs[0].s).real();
+      case Event::Kind::crossing:
+        return pairs[0].s.real();
+    }
+    return NAN;
+  }
+
+  const Sample& nearest(double friction) const {
+    return *std::min_element(known_.begin(), known_.end(), [&](const Sample& a, const Sample& b) {
+      return std::abs(a.friction - friction) < std::abs(b.friction - friction);
+    });
+  }
+
+  /// Mean of the eigenvalues between the nearest known frictions on both sides.
+  Complex expected(double friction) const {
+    const Sample *below = &known_[0], *above = &known_[1];
+    for (const auto& sample : known_) {
+      if (sample.friction <= friction && sample.friction > below->friction) below = &sample;
+      if (sample.friction >= friction && sample.friction < above->friction) above = &sample;
+    }
+    const double width = above->friction - below->friction, t = width > 0 ? (friction - below->friction) / width : 0;
+    return (1 - t) * mean(below->pairs()) + t * mean(above->pairs());
+  }
+
+  /// NaN: there is no such problem, or the eigenvalues are not found in it. Zero without a sample: there they meet.
+  double valueAt(Family& family, double friction) {
+    const auto problem = family.near(friction);
+    auto found = problem ? continuedIn(*problem, nearest(friction).spectrum, expected(friction), event_.isolation) : std::nullopt;
+    // Two that have all but met cannot be told from each other.
+    const bool met = event_.kind == Event::Kind::coalescence && std::abs(friction - nearest(friction).friction) <= 1e-9 * width();
+    if (!found) return problem && met ? 0 : NAN;
+    known_.push_back({friction, measure(*found), std::move(*found)});
+    return known_.back().value;
+  }
+
+  double rootTolerance() const { return 1e-13 * std::max(std::abs(event_.high), std::abs(event_.low)); }
+
+  double width() const { return event_.high - event_.low; }
+  /// Good enough for a basis that is still to be improved; less would hide by how much it moves with the basis.
+  double roughly() const { return 1e-7 * width(); }
+
+  double searchFromEnds(Family& family) {
+    for (const bool low : {true, false}) {
+      const double friction = low ? event_.low : event_.high;
+      const auto problem = family.near(friction);
+      if (!problem) return NAN;
+      Spectrum spectrum(*problem, low ? event_.below : event_.above);
+      known_.push_back({friction, measure(spectrum), std::move(spectrum)});
+    }
+    return searched(family, known_[0].value, known_[1].value, roughly());
+  }
+
+  /// Of the basis in force, whose root may have left the bracket; ends where it is not known, such as those where equal eigenvalues part,
+  /// keep their values.
+  double searchedAnew(Family& family) {
+    double low = valueAt(family, event_.low), high = valueAt(family, event_.high);
+    if (std::isnan(low)) low = known_[0].value;
+    if (std::isnan(high)) high = known_[1].value;
+    return (low > 0) == (high > 0) ? NAN : searched(family, low, high, rootTolerance());
+  }
+
+  double searched(Family& family, double low, double high, double tolerance) {
+    Search search(event_.low, low, event_.high, high, tolerance);
+    while (!search.done()) {
+      const double value = valueAt(family, search.next());
+      if (std::isnan(value)) return NAN;
+      search.take(value);
+    }
+    return search.root();
+  }
+
+  /// From where it was in the basis before, by the slope there, which is of two frictions 2e-5 of the bracket apart.
+  double refined(Family& family) {
+    if (lost_) return NAN;
+    const Sample start = nearest(friction_);
+    known_.erase(known_.begin() + 2, known_.end());
+    known_.push_back(start);
+    const double left = std::max(event_.low, friction_ - 1e-5 * width());
+    double at = std::min(event_.high, friction_ + 1e-5 * width()), last = INFINITY;
+    const double before = valueAt(family, left);
+    double value = valueAt(family, at);
+    slope_ = (value - before) / (at - left);
+    for (int step = 1; std::isfinite(value) && std::isfinite(slope_); ++step) {
+      const double change = -value / slope_, next = at + change;
+      const bool inside = next >= event_.low && next <= event_.high, closer = step <= 2 || std::abs(change) < 0.1 * last;
+      if (!inside || !closer) return searchedAnew(family);
+      last = std::abs(change);
+      // A step is wrong by some 1e-4 of itself.
+      if (step > 1 && last <= 1e3 * rootTolerance()) return next;
+      at = next;
+      value = valueAt(family, at);
+    }
+    return NAN;
+  }
+
+  const Event& event_;
+  double tolerance_;
+  bool throughZero_;  // the eigenvalue is real at both ends
+  double friction_ = NAN, moved_ = 0, backwardError_ = 0, slope_ = 0;
+  bool settled_ = false, lost_ = false;
+  std::vector<Sample> known_;  // the two ends first, then what the last basis left
+};
+
+/// All events, spread over the ranks.
+class Roots {
+ public:
+  Roots(Family& family, const std::vector<Event>& events, double tolerance) : family_(family) {
+    check(MPI_Comm_rank(family.comm(), &rank_));
+    check(MPI_Comm_size(family.comm(), &ranks_));
+    std::vector<double> ends;
+    for (const auto& event : events) {
+      roots_.emplace_back(event, tolerance);
+      if (event.low < event.high) ends.insert(ends.end(), {event.low, event.high});
+    }
+    family.know(ends);
+    locate(indices(events.size()), true);
+  }
+
+  /// Indices of those that are not settled.
+  std::vector<std::size_t> open() const {
+    std::vector<int> is(roots_.size(), 0);
+    for (std::size_t i = 0; i < roots_.size(); ++i) is[i] = mine(i) && !roots_[i].settled() ? 1 : 0;
+    check(MPI_Allreduce(MPI_IN_PLACE, is.data(), static_cast<int>(is.size()), MPI_INT, MPI_MAX, family_.comm()));
+    auto list = indices(roots_.size());
+    std::erase_if(list, [&](auto i) { return is[i] == 0; });
+    return list;
+  }
+
+  /// False: the basis has not changed.
+  bool improve(const std::vector<std::size_t>& open) {
+    std::vector<Located> located;
+    for (const auto i : open) {
+      Located item = mine(i) ? roots_[i].located() : Located{};
+      int size = static_cast<int>(item.pairs.empty() ? 0 : item.pairs[0].q.size());
+      check(MPI_Bcast(&size, 1, MPI_INT, owner(i), family_.comm()));
+      check(MPI_Bcast(&item.friction, 1, MPI_DOUBLE, owner(i), family_.comm()));
+      shareFrom(owner(i), family_.comm(), item.pairs, size, Vectors::both);
+      located.push_back(std::move(item));
+    }
+    const Improvement improvement = family_.improve(located);
+    for (std::size_t k = 0; k < improvement.backwardError.size(); ++k)
+      roots_[open[k]].setBackwardError(improvement.backwardError[k]);
+    locate(open, improvement.changed);
+    return improvement.changed;
+  }
+
+  std::vector<Critical> results() const {
+    std::vector<Critical> list(roots_.size());
+    for (std::size_t i = 0; i < roots_.size(); ++i) {
+      if (mine(i)) list[i] = roots_[i].result();
+      static_assert(std::is_trivially_copyable_v<Critical>);
+      check(MPI_Bcast(&list[i], sizeof(Critical), MPI_BYTE, owner(i), family_.comm()));
+    }
+    return list;
+  }
+
+ private:
+  static std::vector<std::size_t> indices(std::size_t count) {
+    std::vector<std::size_t> list(count);
+    std::iota(list.begin(), list.end(), 0);
+    return list;
+  }
+  int owner(std::size_t i) const { return static_cast<int>(i % static_cast<std::size_t>(ranks_)); }
+  bool mine(std::size_t i) const { return owner(i) == rank_; }
+
+  void locate(const std::vector<std::size_t>& open, bool changed) {
+    std::string failure;
+    for (const auto i : open)
+      if (mine(i) && failure.empty()) try {
+          roots_[i].locate(family_, changed);
+        } catch (const Error& error) {
+          failure = error.what();
+        }
+    failTogether(family_.comm(), failure);
+  }
+
+  Family& family_;
+  int rank_ = 0, ranks_ = 1;
+  std::vector<Root> roots_;
+};
+
+}  // namespace
+
+std::vector<Critical> criticalFrictions(Family& family, const Branches& branches, double tolerance) {
+  constexpr int rounds = 10;
+  Roots roots(family, branches.events, tolerance);
+  for (int round = 0; round < rounds; ++round) {
+    const auto open = roots.open();
+    family.progress(formatted("%zu of %zu critical frictions to be improved", open.size(), branches.events.size()));
+    if (open.empty() || !roots.improve(open)) break;
+  }
+  auto list = roots.results();
+  std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.friction < b.friction; });
+  return list;
+}
+
+}  // namespace squeal::flutter

@@ -1,0 +1,115 @@
+#include "tracking/followed.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "options/options.hpp"
+#include "petsc/text.hpp"
+#include "tracking/renumber.hpp"
+
+namespace squeal::flutter {
+namespace {
+
+const FlagOption trackOption(
+    "flutter", "flutter_track", true,
+    "follow the eigenvalues of the band over the friction by left and right vectors, through crossings and "
+    "mergers: branches.csv; reduced method alone; a single friction, from friction 0 on, and sweeps with terms that follow the "
+    "steady state (friction damping, prestress) only if this or -flutter_critical is given");
+const FlagOption criticalOption("flutter", "flutter_critical", true,
+                                "solve for the frictions at which stability changes: critical.csv; needs -flutter_track");
+const RealOption toleranceOption("flutter", "flutter_critical_tolerance", 1e-8, "", positive,
+                                 "the basis is improved for a critical friction until it moves by less than this part of itself");
+const IntegerOption halvingsOption("flutter", "flutter_track_halvings", 10, 0, 50,
+                                   "how often a step of the sweep may be halved where a continuation is not certain");
+
+/// Vectors have done their service, and there are many.
+void dropVectors(Branches& branches) {
+  for (auto& station : branches.stations)
+    for (auto& pair : station.pairs) pair = {pair.s, {}};
+  branches.events.clear();
+}
+
+/// The frictions to follow of points that differ in nothing else, ascending; [line].
+std::vector<std::pair<Parameters, std::vector<double>>> lines(const std::vector<FrictionPoint>& points) {
+  std::vector<std::pair<Parameters, std::vector<double>>> found;
+  for (const auto& point : points) {
+    Parameters line = point.at;
+    line.friction = 0;
+    if (found.empty() || !(found.back().first == line)) found.push_back({line, {}});
+    found.back().second.push_back(point.at.friction);
+  }
+  std::erase_if(found, [](const auto& line) { return line.second.size() == 1 && (line.second[0] == 0 || !trackAsked()); });
+  return found;
+}
+
+}  // namespace
+
+bool trackWanted() { return trackOption.get(); }
+
+bool trackAsked() { return trackOption.given() || (criticalOption.given() && criticalOption.get()); }
+
+std::string nothingToFollow(const ReducedProblem& reduced, const std::vector<FrictionPoint>& points) {
+  if (reduced.band().top == 0) return "-reduction_basis modal corrects no eigenvalue";
+  return lines(points).empty() ? "single frictions" : "";
+}
+
+bool Followed::complete() const {
+  return std::all_of(branches.gaps.begin(), branches.gaps.end(), [](const Gap& gap) { return gap.identityOnly; });
+}
+
+std::string Followed::statement() const {
+  const auto& stations = branches.stations;
+  if (stations.empty()) return "completeness not shown: no reduced problem";
+  const auto& first = stations.front();
+  const auto& last = stations.back();
+  std::string text = formatted("%d eigenvalues in the band at friction %g (%s); ", branches.inBandAt(first), first.friction,
+                               wholeSpace   ? "of the full problem: the basis is the whole space"
+                               : countExact ? "Sturm count, exact"
+                                            : "of the reduced problem, not confirmed by a Sturm count");
+  if (complete()) {
+    text += formatted("all followed to friction %g, where there are %d: %d entered and %d left across the edge", last.friction,
+                      branches.inBandAt(last), branches.entered, branches.left);
+  } else {
+    text += "not all followed:";
+    for (const auto& gap : branches.gaps)
+      if (!gap.identityOnly) text += formatted(" [%g to %g: %s]", gap.from, gap.to, gap.what.c_str());
+  }
+  return wholeSpace ? text
+                    : text + "; assumed: the basis holds every eigenvalue of the full problem that crosses the edge of the band";
+}
+
+std::vector<Followed> followSweep(ReducedProblem& reduced, const std::vector<FrictionPoint>& points, const modes::Modes& modes,
+                                  MPI_Comm comm, const ProblemSource& source,
+                                  const std::function<void(const std::string&)>& progress) {
+  std::vector<Followed> result;
+  PetscInt unknowns = 0;
+  check(BVGetSizes(modes.vectors, nullptr, &unknowns, nullptr));
+  for (auto [line, frictions] : lines(points)) {
+    const bool swept = frictions.front() == 0;
+    if (!swept) frictions.insert(frictions.begin(), 0);
+    ReducedFamily family(reduced, comm, line, source, progress);
+    Followed followed;
+    followed.line = line;
+    followed.wholeSpace = reduced.basisSize() == unknowns;
+    TrackLimits limits;
+    limits.smallest = std::ldexp(1.0, -halvingsOption.get());
+    followed.branches = follow(family, frictions, reduced.band(), limits);
+    auto& stations = followed.branches.stations;
+    if (!stations.empty() && stations.front().friction == 0) {
+      stations.front().swept = swept;
+      const auto& w = modes.angularFrequency;
+      const auto below = std::count_if(w.begin(), w.end(), [&](double omega) { return omega <= followed.branches.band.top; });
+      const auto problem = family.at(0);
+      followed.countExact = problem && problem->damping.empty() && modes.countConfirmed &&
+                            followed.branches.band.top * followed.branches.band.top <= modes.inertiaShift &&
+                            below < static_cast<std::ptrdiff_t>(w.size()) && below == followed.branches.inBandAt(stations.front());
+    }
+    renumber(followed.branches);
+    if (criticalOption.get()) followed.criticals = criticalFrictions(family, followed.branches, toleranceOption.get());
+    dropVectors(followed.branches);
+    result.push_back(std::move(followed));
+  }
+  return result;
+}
+
+}  // namespace squeal::flutter

@@ -1,0 +1,39 @@
+#pragma once
+/// The sweep over friction as a whole: its eigenvalues followed from point to point, their critical frictions, and what can be said
+/// of their number.
+#include <string>
+#include <vector>
+
+#include "tracking/critical.hpp"
+#include "tracking/reducedfamily.hpp"
+
+namespace squeal::flutter {
+
+/// All frictions of one speed, pressure and damping with one active set.
+struct Followed {
+  Parameters line;                  ///< but for the friction
+  Branches branches;                ///< those in the band at some friction, numbered from 1 by their first frequency
+  std::vector<Critical> criticals;  ///< of these, by friction
+  bool countExact = false;          ///< the number at the first friction, 0, is that of the Sturm count
+  bool wholeSpace = false;          ///< the basis is all of it: the reduced problem is the full one
+
+  /// Every eigenvalue of the band is accounted for at every friction.
+  bool complete() const;
+  /// What is shown of the number of eigenvalues, and what is assumed; one sentence.
+  std::string statement() const;
+};
+
+/// `-flutter_track`.
+bool trackWanted();
+/// `-flutter_track` or `-flutter_critical` is given: the user is to be told if there is nothing to follow.
+bool trackAsked();
+/// Why there is nothing to follow: eigenvalues of the free modes alone, or single frictions unless trackAsked(). Empty: there is.
+std::string nothingToFollow(const ReducedProblem& reduced, const std::vector<FrictionPoint>& points);
+
+/// Collective. Follows the eigenvalues of `points`, from friction 0 on, in the basis in force, and solves for the critical frictions
+/// (`-flutter_critical`), for which the basis may grow. Single frictions are left out unless trackAsked().
+std::vector<Followed> followSweep(ReducedProblem& reduced, const std::vector<FrictionPoint>& points, const modes::Modes& modes,
+                                  MPI_Comm comm, const ProblemSource& source,
+                                  const std::function<void(const std::string&)>& progress);
+
+}  // namespace squeal::flutter

@@ -1,0 +1,199 @@
+#include "tracking/join.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+#include "petsc/check.hpp"
+
+namespace squeal::flutter {
+namespace {
+
+constexpr double reach = 0.1;  // of a projector into another: below, two eigenvalues have nothing in common
+
+using Complex = std::complex<double>;
+
+std::size_t rootOf(std::vector<std::size_t>& parent, std::size_t i) {
+  while (parent[i] != i) i = parent[i] = parent[parent[i]];
+  return i;
+}
+
+std::vector<std::size_t> byFrequency(const std::vector<DensePair>& pairs) {
+  std::vector<std::size_t> order(pairs.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](auto a, auto b) {
+    const Complex s = pairs[a].s, t = pairs[b].s;
+    // Members of a split pair have one frequency, but for rounding.
+    return std::abs(s.imag() - t.imag()) > 1e-8 * std::abs(s) ? s.imag() < t.imag() : s.real() > t.real();
+  });
+  return order;
+}
+
+/// Of a problem in s², of which −s is one with every s, without negative real ones.
+bool counted(const DenseProblem& problem, Complex s) { return !problem.damping.empty() || s.imag() != 0 || s.real() >= 0; }
+
+/// |Σ tr(Π_i Π_j) − number| for all pairs of both.
+double unshared(const Spectrum& a, const Spectrum& b) {
+  Complex sum = 0;
+  for (std::size_t i = 0; i < a.pairs().size(); ++i)
+    for (std::size_t j = 0; j < b.pairs().size(); ++j) sum += a.overlap(i, b, j);
+  return std::abs(sum - static_cast<double>(a.pairs().size()));
+}
+
+std::optional<Spectrum> locally(const DenseProblem& problem, const Spectrum& from, const std::vector<DensePair>& start,
+                                Complex expected, double isolation) {
+  Cluster cluster = clusterNear(problem, start, expected, isolation);
+  if (!cluster.converged) return {};
+  if (problem.damping.empty())  // s and −s have the same vectors
+    for (auto& pair : cluster.pairs)
+      if (pair.s.imag() < -1e-9 * std::abs(pair.s) || (real(pair.s) && pair.s.real() < 0)) pair.s = -pair.s;
+  Spectrum found(problem, std::move(cluster.pairs));
+  if (unshared(from, found) > 0.5) return {};
+  return found;
+}
+
+/// Of all pairs those that share most with `from`.
+std::vector<std::size_t> closest(const Spectrum& from, const Spectrum& all) {
+  std::vector<std::pair<double, std::size_t>> shares;
+  for (std::size_t j = 0; j < all.pairs().size(); ++j) {
+    Complex sum = 0;
+    for (std::size_t i = 0; i < from.pairs().size(); ++i) sum += from.overlap(i, all, j);
+    shares.emplace_back(-sum.real(), j);
+  }
+  std::sort(shares.begin(), shares.end());
+  std::vector<std::size_t> indices;
+  for (std::size_t k = 0; k < from.pairs().size() && k < shares.size(); ++k) indices.push_back(shares[k].second);
+  return indices;
+}
+
+}  // namespace
+
+std::optional<Spectrum> continuedIn(const DenseProblem& problem, const Spectrum& from, Complex expected, double isolation) {
+  if (auto found = locally(problem, from, from.pairs(), expected, isolation)) return found;
+  auto pairs = solveQuadratic(problem, Vectors::both);
+  std::erase_if(pairs, [&](const auto& pair) { return !counted(problem, pair.s); });
+  const Spectrum all(problem, std::move(pairs));
+  const auto indices = closest(from, all);
+  const Spectrum whole(problem, chosen(all.pairs(), indices));
+  if (unshared(from, whole) > 0.5) return {};
+  const Complex middle = mean(whole.pairs());
+  double free = std::abs(middle);
+  for (std::size_t j = 0; j < all.pairs().size(); ++j)
+    if (std::find(indices.begin(), indices.end(), j) == indices.end()) free = std::min(free, std::abs(all.pairs()[j].s - middle));
+  // Where the eigenvalues are closer to each other than to the rest, their subspace has more digits than they have.
+  if (auto found = locally(problem, whole, whole.pairs(), middle, free)) return found;
+  return whole;
+}
+
+std::vector<std::vector<DensePair>> watchedPairs(MPI_Comm comm, const std::vector<DenseProblem>& problems,
+                                                 const WatchedBand& band) {
+  auto solved = solveSpread(comm, problems, Vectors::both, [&](Complex s) { return band.watches(s); });
+  for (std::size_t i = 0; i < problems.size(); ++i)
+    std::erase_if(solved[i], [&](const auto& pair) { return !counted(problems[i], pair.s); });
+  return solved;
+}
+
+std::optional<Spectrum> pursued(Family& family, double friction, const Spectrum& from, Complex expected, double isolation) {
+  const auto problem = family.at(friction);
+  if (!problem) return {};
+  int rank = 0;
+  check(MPI_Comm_rank(family.comm(), &rank));
+  std::vector<DensePair> pairs;
+  std::string failure;
+  if (rank == 0) try {
+      if (auto found = continuedIn(*problem, from, expected, isolation)) pairs = found->pairs();
+    } catch (const Error& error) {
+      failure = error.what();
+    }
+  failTogether(family.comm(), failure);
+  shareFrom(0, family.comm(), pairs, problem->m, Vectors::both);
+  if (pairs.empty()) return {};
+  return Spectrum(*problem, std::move(pairs));
+}
+
+bool neutral(Complex s, bool damped) { return std::abs(s.real()) <= (damped ? 1e-10 : 1e-6) * std::abs(s); }
+
+bool real(Complex s) { return std::abs(s.imag()) <= 1e-6 * std::abs(s); }
+
+bool neutralPair(const std::vector<DensePair>& two, bool damped) {
+  return std::all_of(two.begin(), two.end(), [&](const auto& p) { return neutral(p.s, damped) || (!damped && real(p.s)); });
+}
+
+bool splitPair(const std::vector<DensePair>& two, bool damped) {
+  const Complex a = two[0].s, b = two[1].s;
+  return !neutral(a, damped) && !real(a) && std::abs(a + std::conj(b)) <= (damped ? 1e-8 : 1e-5) * std::abs(a.real());
+}
+
+bool coincide(const std::vector<DensePair>& pairs) {
+  const Complex middle = mean(pairs);
+  return std::all_of(pairs.begin(), pairs.end(), [&](const auto& p) { return std::abs(p.s - middle) <= 1e-7 * std::abs(middle); });
+}
+
+std::vector<Group> groups(const Spectrum& here, const Spectrum& there) {
+  const std::size_t n = here.pairs().size(), all = n + there.pairs().size();
+  std::vector<Complex> overlaps(n * (all - n));
+  std::vector<std::size_t> parent(all);
+  std::iota(parent.begin(), parent.end(), 0);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = n; j < all; ++j) {
+      overlaps[i * (all - n) + j - n] = here.overlap(i, there, j - n);
+      if (std::abs(overlaps[i * (all - n) + j - n]) > reach) parent[rootOf(parent, i)] = rootOf(parent, j);
+    }
+  std::vector<Group> found(all);
+  for (std::size_t k = 0; k < all; ++k) {
+    Group& group = found[rootOf(parent, k)];
+    (k < n ? group.here : group.there).push_back(k < n ? k : k - n);
+  }
+  std::erase_if(found, [](const Group& group) { return group.here.empty() && group.there.empty(); });
+  for (auto& group : found) {
+    Complex sum = 0;
+    for (const auto i : group.here)
+      for (const auto j : group.there) sum += overlaps[i * (all - n) + j];
+    group.share = std::abs(sum - static_cast<double>(group.here.size()));
+  }
+  return found;
+}
+
+std::vector<std::size_t> assigned(const Spectrum& here, const Spectrum& there, const Group& group) {
+  std::vector<std::tuple<double, std::size_t, std::size_t>> list;
+  for (std::size_t a = 0; a < group.here.size(); ++a)
+    for (std::size_t b = 0; b < group.there.size(); ++b)
+      list.emplace_back(-std::abs(here.overlap(group.here[a], there, group.there[b])), a, b);
+  std::sort(list.begin(), list.end());
+  std::vector<std::size_t> mate(group.here.size(), group.there.size());
+  std::vector<bool> used(group.there.size());
+  for (const auto& [size, a, b] : list)
+    if (mate[a] == group.there.size() && !used[b]) {
+      mate[a] = b;
+      used[b] = true;
+    }
+  return mate;
+}
+
+std::vector<std::size_t> ordered(const std::vector<DensePair>& here, const std::vector<DensePair>& there) {
+  const auto a = byFrequency(here), b = byFrequency(there);
+  std::vector<std::size_t> mate(a.size());
+  for (std::size_t k = 0; k < a.size(); ++k) mate[a[k]] = b[k];
+  return mate;
+}
+
+std::vector<DensePair> chosen(const std::vector<DensePair>& all, const std::vector<std::size_t>& indices) {
+  std::vector<DensePair> list;
+  for (const auto i : indices) list.push_back(all[i]);
+  return list;
+}
+
+double discriminant(const std::vector<DensePair>& two, bool damped) {
+  const Complex half = 0.5 * (two[0].s - two[1].s), middle = mean(two);
+  if (damped) return -(half * half).real();
+  return (half * half * middle * middle).real() / std::norm(middle);
+}
+
+Complex mean(const std::vector<DensePair>& pairs) {
+  Complex sum = 0;
+  for (const auto& pair : pairs) sum += pair.s;
+  return sum / static_cast<double>(pairs.size());
+}
+
+}  // namespace squeal::flutter

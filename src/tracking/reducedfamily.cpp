@@ -1,0 +1,127 @@
+#include "tracking/reducedfamily.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace squeal::flutter {
+namespace {
+
+/// sum += factor · part; what `part` lacks, being of a smaller basis, is zero.
+void add(DenseProblem& sum, double factor, const DenseProblem& part) {
+  const auto m = static_cast<std::size_t>(sum.m), n = static_cast<std::size_t>(part.m);
+  for (const auto matrix : {&DenseProblem::mass, &DenseProblem::damping, &DenseProblem::stiffness}) {
+    const DenseMatrix& from = part.*matrix;
+    DenseMatrix& to = sum.*matrix;
+    if (from.empty()) continue;
+    to.resize(m * m, 0.0);
+    for (std::size_t j = 0; j < n; ++j)
+      for (std::size_t i = 0; i < n; ++i) to[j * m + i] += factor * from[j * n + i];
+  }
+}
+
+}  // namespace
+
+Parameters ReducedFamily::point(double friction) const {
+  Parameters at = line_;
+  at.friction = friction;
+  return at;
+}
+
+DenseProblem ReducedFamily::shared(double friction) const { return reduced_.project({point(friction), source_.shared.with({})}); }
+
+/// Collective.
+DenseProblem ReducedFamily::own(const PointProblem& problem) const {
+  DenseProblem sum;
+  ProjectedTerms(reduced_.basis(), problem.pencil, problem.pencil.affineCount(), problem.pencil.terms().size())
+      .addTo(problem.at, sum);
+  return sum;
+}
+
+std::optional<DenseProblem> ReducedFamily::at(double friction) {
+  constexpr std::size_t most = 32;  // a node is two or three dense matrices
+  if (source_.local || known(friction)) return near(friction);
+  const auto problem = source_.at(point(friction));
+  if (!problem) return {};
+  Node node{friction, own(*problem)};
+  DenseProblem sum = shared(friction);
+  add(sum, 1, node.own);
+  if (nodes_.size() < most) keep(std::move(node));
+  return sum;
+}
+
+/// In the basis in force.
+bool ReducedFamily::known(double friction) const {
+  return std::any_of(nodes_.begin(), nodes_.end(),
+                     [&](const Node& node) { return node.friction == friction && node.own.m == reduced_.basisSize(); });
+}
+
+void ReducedFamily::know(const std::vector<double>& frictions) {
+  if (source_.local) return;
+  for (double friction : frictions)
+    if (!known(friction))
+      if (const auto problem = source_.at(point(friction))) keep({friction, own(*problem)});
+}
+
+/// In the place of one in a smaller basis.
+void ReducedFamily::keep(Node node) {
+  std::erase_if(nodes_, [&](const Node& other) { return other.friction == node.friction; });
+  nodes_.push_back(std::move(node));
+}
+
+/// Nodes closer than this would give a slope of rounding.
+double ReducedFamily::closest() const {
+  double largest = 0;
+  for (const auto& node : nodes_) largest = std::max(largest, std::abs(node.friction));
+  return 1e-4 * largest;
+}
+
+/// The nearest ones, not too close to each other.
+std::vector<const ReducedFamily::Node*> ReducedFamily::nodesFor(double friction) const {
+  constexpr std::size_t most = 6;
+  std::vector<const Node*> all, chosen;
+  for (const auto& node : nodes_) all.push_back(&node);
+  std::stable_sort(all.begin(), all.end(), [&](const Node* a, const Node* b) {
+    return std::abs(a->friction - friction) < std::abs(b->friction - friction);
+  });
+  const double apart = closest();
+  for (const Node* node : all)
+    if (chosen.size() < most && std::all_of(chosen.begin(), chosen.end(),
+                                            [&](const Node* other) { return std::abs(node->friction - other->friction) > apart; }))
+      chosen.push_back(node);
+  return chosen;
+}
+
+std::optional<DenseProblem> ReducedFamily::near(double friction) {
+  if (source_.local) return shared(friction);
+  if (nodes_.empty()) return {};
+  DenseProblem sum = shared(friction);
+  const auto nodes = nodesFor(friction);
+  for (const Node* node : nodes) {  // Lagrange
+    double weight = 1;
+    for (const Node* other : nodes)
+      if (other != node) weight *= (friction - other->friction) / (node->friction - other->friction);
+    if (weight != 0) add(sum, weight, node->own);
+  }
+  return sum;
+}
+
+Improvement ReducedFamily::improve(const std::vector<Located>& located) {
+  std::vector<std::pair<PointProblem, std::vector<DensePair>>> list;
+  std::vector<std::size_t> places;
+  for (std::size_t k = 0; k < located.size(); ++k)
+    if (auto problem = source_.at(point(located[k].friction))) {
+      list.emplace_back(std::move(*problem), located[k].pairs);
+      places.push_back(k);
+    }
+  const Improvement found = reduced_.improve(list);
+  Improvement result{found.changed || !source_.local, std::vector<double>(located.size(), NAN)};
+  for (std::size_t i = 0; i < places.size(); ++i) result.backwardError[places[i]] = found.backwardError[i];
+  if (source_.local) return result;
+  const double apart = closest();  // older nodes must not stand beside these; these may stand beside each other
+  for (std::size_t place : places)
+    std::erase_if(nodes_, [&](const Node& node) { return std::abs(node.friction - located[place].friction) <= apart; });
+  for (std::size_t i = 0; i < places.size(); ++i) nodes_.push_back({located[places[i]].friction, own(list[i].first)});
+  return result;
+}
+
+}  // namespace squeal::flutter

@@ -1,0 +1,59 @@
+#pragma once
+/// A sweep over the friction in the reduced basis.
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "reduction/reduced.hpp"
+
+namespace squeal::flutter {
+
+/// The terms of all points and of each.
+struct ProblemSource {
+  const Pencil& shared;  ///< the terms of all points
+  /// Collective, unless local. None: there is no steady state with this active set.
+  std::function<std::optional<PointProblem>(const Parameters&)> at;
+  bool local = false;  ///< no point has terms of its own
+};
+
+/// One line of a sweep: all frictions of one speed, pressure and damping. Where points have terms of their own, each new friction costs
+/// a steady state and a projection on all ranks; near() then interpolates what the projections of these terms are.
+class ReducedFamily : public Family {
+ public:
+  using Progress = std::function<void(const std::string&)>;
+  /// Borrows all but `line`.
+  ReducedFamily(ReducedProblem& reduced, MPI_Comm comm, const Parameters& line, const ProblemSource& source,
+                const Progress& progress)
+      : reduced_(reduced), comm_(comm), line_(line), source_(source), progress_(progress) {}
+  MPI_Comm comm() const override { return comm_; }
+  std::optional<DenseProblem> at(double friction) override;
+  std::optional<DenseProblem> near(double friction) override;
+  void know(const std::vector<double>& frictions) override;
+  void progress(const std::string& text) override { progress_(text); }
+  Improvement improve(const std::vector<Located>& located) override;
+
+ private:
+  /// The terms that belong to one friction, projected on the basis of the time.
+  struct Node {
+    double friction;
+    DenseProblem own;
+  };
+  Parameters point(double friction) const;
+  bool known(double friction) const;
+  DenseProblem shared(double friction) const;
+  DenseProblem own(const PointProblem& problem) const;
+  void keep(Node node);
+  std::vector<const Node*> nodesFor(double friction) const;
+  double closest() const;
+
+  ReducedProblem& reduced_;
+  MPI_Comm comm_;
+  Parameters line_;
+  const ProblemSource& source_;
+  const Progress& progress_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace squeal::flutter

@@ -1,0 +1,385 @@
+#include "tracking/track.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <list>
+
+#include "petsc/check.hpp"
+#include "petsc/text.hpp"
+#include "tracking/join.hpp"
+#include "tracking/screen.hpp"
+
+namespace squeal::flutter {
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Joined eigenvalues: index at one end, at the other, and how much of a projector they share.
+struct Link {
+  std::size_t here, there;
+  double overlap;
+};
+
+/// What one step brings; kept only if the step is not halved. Branches are indices of pairs at its lower end until all before are
+/// numbered.
+struct StepResult {
+  std::vector<Link> links;
+  std::vector<Event> events;
+  std::vector<Gap> gaps;
+  std::vector<Pursued> singles;  // to be screened
+  bool sure = true;
+};
+
+/// A station while it is worked on.
+struct Solved {
+  Station station;
+  DenseProblem problem;
+  Spectrum spectrum;
+  std::optional<StepResult> step = {};  // from the station before
+  bool whole = false;                   // the step from the station before is not to be halved
+  double smallest = 0;                  // of such steps
+};
+
+/// Two eigenvalues at one friction.
+struct PairAt {
+  double friction;
+  Spectrum spectrum;
+  const std::vector<DensePair>& pairs() const { return spectrum.pairs(); }
+};
+
+int sign(Complex s, bool damped) { return neutral(s, damped) ? 0 : s.real() > 0 ? 1 : -1; }
+
+class Follower {
+ public:
+  Follower(Family& family, const WatchedBand& band, const TrackLimits& limits) : family_(family), limits_(limits) {
+    result_.band = band;
+  }
+
+  Branches run(const std::vector<double>& frictions) {
+    int ranks = 1;
+    check(MPI_Comm_size(family_.comm(), &ranks));
+    const std::size_t together = std::min<std::size_t>(static_cast<std::size_t>(ranks), mostTogether);
+    std::list<Solved> row;  // the last station of those before, and the next ones
+    for (std::size_t first = 0; first < frictions.size(); first += together) {
+      const std::vector<double> some(frictions.begin() + static_cast<std::ptrdiff_t>(first),
+                                     frictions.begin() + static_cast<std::ptrdiff_t>(std::min(first + together, frictions.size())));
+      auto found = solve(some, true);
+      for (std::size_t k = 0; k < some.size(); ++k) {
+        if (!found[k]) {
+          result_.gaps.push_back({some[k], some[k], "no reduced problem"});
+          continue;
+        }
+        if (!row.empty()) found[k]->smallest = limits_.smallest * (some[k] - row.back().station.friction);
+        row.push_back(std::move(*found[k]));
+      }
+      refine(row);
+      const Solved* last = nullptr;
+      for (auto& next : row) {
+        if (last || result_.stations.empty()) finish(last, next);
+        last = &next;
+      }
+      if (!row.empty())
+        family_.progress(formatted("%d branches followed to friction %g", result_.count, row.back().station.friction));
+      if (!row.empty()) row.erase(row.begin(), std::prev(row.end()));
+    }
+    return std::move(result_);
+  }
+
+ private:
+  static constexpr std::size_t mostTogether = 4;  // stations whose matrices are held at a time
+
+  /// Those of which there is a problem, solved together.
+  std::vector<std::optional<Solved>> solve(const std::vector<double>& frictions, bool swept) {
+    std::vector<DenseProblem> problems;
+    std::vector<std::size_t> places;
+    for (std::size_t k = 0; k < frictions.size(); ++k)
+      if (auto problem = family_.at(frictions[k])) {
+        problems.push_back(std::move(*problem));
+        places.push_back(k);
+      }
+    auto pairs = watchedPairs(family_.comm(), problems, result_.band);
+    std::vector<std::optional<Solved>> list(frictions.size());
+    for (std::size_t i = 0; i < problems.size(); ++i) {
+      Station station{frictions[places[i]], swept, std::move(pairs[i]), {}, {}, {}};
+      station.branch.assign(station.pairs.size(), -1);
+      station.overlap.assign(station.pairs.size(), 0);
+      for (const auto& pair : station.pairs) station.inBand.push_back(result_.band.contains(pair.s));
+      Spectrum spectrum(problems[i], station.pairs);
+      list[places[i]].emplace(Solved{std::move(station), std::move(problems[i]), std::move(spectrum)});
+    }
+    return list;
+  }
+
+  /// Puts frictions in between until all continuations are certain, those of a round solved together.
+  void refine(std::list<Solved>& row) {
+    for (bool open = true; open;) {
+      std::vector<std::list<Solved>::iterator> places;
+      std::vector<double> middles;
+      for (auto a = row.begin(), b = row.begin(); a != row.end() && ++b != row.end(); a = b) {
+        if (!b->step) b->step = join(*a, *b);
+        if (b->step->sure || b->whole || b->station.friction - a->station.friction <= b->smallest) continue;
+        places.push_back(b);
+        middles.push_back(0.5 * (a->station.friction + b->station.friction));
+      }
+      auto found = solve(middles, false);
+      for (std::size_t k = 0; k < places.size(); ++k) {
+        Solved& end = *places[k];
+        if (found[k]) {
+          found[k]->smallest = end.smallest;
+          end.step.reset();
+          row.insert(places[k], std::move(*found[k]));
+        } else {
+          end.whole = true;
+          end.step->gaps.push_back({std::prev(places[k])->station.friction, end.station.friction, "no reduced problem in between"});
+        }
+      }
+      open = !places.empty();
+    }
+  }
+
+  /// Takes in what the step from `a` (null: none) brings, and numbers what begins at `b`.
+  void finish(const Solved* a, Solved& b) {
+    if (a) {
+      StepResult& step = *b.step;
+      for (const auto& link : step.links) {
+        b.station.branch[link.there] = a->station.branch[link.here];
+        b.station.overlap[link.there] = link.overlap;
+        result_.entered += !a->station.inBand[link.here] && b.station.inBand[link.there];
+        result_.left += a->station.inBand[link.here] && !b.station.inBand[link.there];
+      }
+      screen(family_, {a->station.friction, a->problem}, {b.station.friction, b.problem}, step.singles, step.events, step.gaps);
+      const auto number = [&](int index) { return index < 0 ? index : a->station.branch[static_cast<std::size_t>(index)]; };
+      for (auto& event : step.events) {
+        event.branch = number(event.branch);
+        event.partner = number(event.partner);
+        result_.events.push_back(std::move(event));
+      }
+      for (auto& gap : step.gaps) result_.gaps.push_back(std::move(gap));
+      b.step.reset();
+    }
+    for (int& branch : b.station.branch)
+      if (branch < 0) branch = result_.count++;
+    result_.stations.push_back(b.station);
+  }
+
+  bool matters(const Solved& a, const Solved& b, const Group& group) const {
+    return std::any_of(group.here.begin(), group.here.end(), [&](auto i) { return a.station.inBand[i]; }) ||
+           std::any_of(group.there.begin(), group.there.end(), [&](auto j) { return b.station.inBand[j]; });
+  }
+
+  /// Whether it is of use to tell them apart.
+  bool lasts(const Solved& a, const Solved& b, const Group& group) const {
+    const auto one = [&](const Solved& end, std::size_t i) { return result_.band.lasts(end.station.pairs[i].s); };
+    return std::any_of(group.here.begin(), group.here.end(), [&](auto i) { return one(a, i); }) ||
+           std::any_of(group.there.begin(), group.there.end(), [&](auto j) { return one(b, j); });
+  }
+
+  StepResult join(const Solved& a, const Solved& b) {
+    StepResult step;
+    for (const auto& group : groups(a.spectrum, b.spectrum)) {
+      const bool known = group.joined() && group.here.size() == 1;
+      if (known) {
+        single(step, a, b, group);
+      } else if (!group.joined() || !lasts(a, b, group) || !several(step, a, b, group)) {
+        const bool counts = matters(a, b, group);
+        unsure(step, a, b, group, counts);
+        step.sure = step.sure && !counts;
+      }
+    }
+    return step;
+  }
+
+  void single(StepResult& step, const Solved& a, const Solved& b, const Group& group) {
+    const std::size_t i = group.here[0], j = group.there[0];
+    step.links.push_back({i, j, std::abs(a.spectrum.overlap(i, b.spectrum, j))});
+    if (!matters(a, b, group)) return;
+    const DensePair &p = a.spectrum.pairs()[i], &q = b.spectrum.pairs()[j];
+    step.singles.push_back({static_cast<int>(i), p, q, isolation(a, b, group)});
+    crossed(step, a.station.friction, b.station.friction, p, q, static_cast<int>(i), step.singles.back().isolation,
+            a.spectrum.damped());
+  }
+
+  /// An eigenvalue that changes its stability by itself.
+  static void crossed(StepResult& step, double low, double high, const DensePair& p, const DensePair& q, int branch,
+                      double isolation, bool damped) {
+    const int before = sign(p.s, damped), after = sign(q.s, damped);
+    if (before == after) return;
+    Event event{Event::Kind::crossing, branch, -1, after > before, low, high, {p}, {q}, isolation};
+    if (real(p.s) || real(q.s)) {
+      event.kind = Event::Kind::divergence;
+    } else if (before * after == 0) {
+      if (before + after < 0) return;  // between neutral and decaying: stable on both sides
+      (before == 0 ? event.high : event.low) = before == 0 ? event.low : event.high;
+    }
+    step.events.push_back(std::move(event));
+  }
+
+  /// Several eigenvalues joined as a whole. False: it takes more frictions in between to tell them apart.
+  bool several(StepResult& step, const Solved& a, const Solved& b, const Group& group) {
+    const auto here = chosen(a.spectrum.pairs(), group.here), there = chosen(b.spectrum.pairs(), group.there);
+    std::vector<std::size_t> mate;
+    std::vector<int> ids;
+    for (const auto i : group.here) ids.push_back(static_cast<int>(i));
+    if (coincide(here) || coincide(there)) {
+      mate = ordered(here, there);
+      atEnd(step, a, b, here, there, ids, mate);
+    } else if (here.size() == 2) {
+      StepResult traced;
+      const PairAt low{a.station.friction, Spectrum(a.problem, here)}, high{b.station.friction, Spectrum(b.problem, there)};
+      const double smallest = std::ldexp(high.friction - low.friction, -14);
+      if (!trace(low, high, ids, isolation(a, b, group), smallest, mate, traced)) return false;
+      for (auto& event : traced.events) step.events.push_back(std::move(event));
+      for (auto& gap : traced.gaps) step.gaps.push_back(std::move(gap));
+    } else {
+      return false;
+    }
+    for (std::size_t k = 0; k < mate.size(); ++k) step.links.push_back({group.here[k], group.there[mate[k]], 1});
+    return true;
+  }
+
+  /// Equal eigenvalues at one end that change their stability.
+  void atEnd(StepResult& step, const Solved& a, const Solved& b, const std::vector<DensePair>& here,
+             const std::vector<DensePair>& there, const std::vector<int>& ids, const std::vector<std::size_t>& mate) {
+    const bool damped = b.spectrum.damped(), equalBelow = coincide(here);
+    const Solved& apart = equalBelow ? b : a;
+    const double equalAt = equalBelow ? a.station.friction : b.station.friction;
+    for (std::size_t k = 0; k < here.size(); ++k) {
+      const int before = sign(here[k].s, damped), after = sign(there[mate[k]].s, damped);
+      if (std::max(before, after) < 1 || before == after) continue;  // stable or unstable on both sides
+      Event event{Event::Kind::coalescence, ids[k], -1, after > before, equalAt, equalAt, {here[k]}, {there[mate[k]]}, 0};
+      if (before * after != 0) {
+        // Damped ones part, and one of them crosses the axis on its way: back to where they are equal, until it has not yet.
+        event.kind = Event::Kind::crossing;
+        approach(event, apart, equalAt, equalBelow ? event.above[0] : event.below[0], mean(equalBelow ? here : there));
+      }
+      step.events.push_back(std::move(event));
+    }
+  }
+
+  /// Brackets the crossing of one of several eigenvalues that are equal at `equalAt`, where their vectors say nothing, from `pair`.
+  void approach(Event& event, const Solved& apart, double equalAt, const DensePair& pair, Complex equal) {
+    constexpr int halvings = 16;
+    double friction = apart.station.friction;
+    Spectrum last(apart.problem, {pair});
+    for (int k = 0; k < halvings; ++k) {
+      const double next = 0.5 * (friction + equalAt);
+      const Complex expected = 0.5 * (last.pairs()[0].s + equal);
+      event.isolation = std::abs(expected - equal);  // from the others, which lie about their mean
+      const auto found = pursued(family_, next, last, expected, event.isolation);
+      if (!found) return;
+      const bool crossed = (found->pairs()[0].s.real() > 0) != (last.pairs()[0].s.real() > 0);
+      if (crossed) {
+        const bool rising = next < friction;
+        event.low = rising ? next : friction;
+        event.high = rising ? friction : next;
+        event.below = (rising ? *found : last).pairs();
+        event.above = (rising ? last : *found).pairs();
+        return;
+      }
+      friction = next;
+      last = *found;
+    }
+  }
+
+  /// Two eigenvalues from one friction to another by their common subspace; `mate`: place at `high` of each at `low`.
+  bool trace(const PairAt& low, const PairAt& high, const std::vector<int>& ids, double isolation, double smallest,
+             std::vector<std::size_t>& mate, StepResult& step) {
+    const auto& a = low.pairs();
+    const auto& b = high.pairs();
+    const bool damped = low.spectrum.damped();
+    const bool merging = neutralPair(a, damped) && splitPair(b, damped), parting = splitPair(a, damped) && neutralPair(b, damped);
+    if (merging || parting) {
+      mate = ordered(a, b);
+      const auto& split = merging ? b : a;
+      const auto& whole = merging ? a : b;
+      const std::size_t grown = split[0].s.real() > 0 ? 0 : 1, grownLow = merging ? (mate[0] == grown ? 0 : 1) : grown;
+      // Of two neutral ones the growing one loses its stability, of two divergent ones the decaying one regains it.
+      const bool divergent = real(whole[0].s);
+      const std::size_t own = divergent ? 1 - grownLow : grownLow;
+      step.events.push_back(
+          {Event::Kind::coalescence, ids[own], ids[1 - own], merging != divergent, low.friction, high.friction, a, b, isolation});
+      return true;
+    }
+    if (coincide(a) || coincide(b)) {
+      mate = ordered(a, b);
+      return true;
+    }
+    const Group both{{0, 1}, {0, 1}, 0};
+    mate = assigned(low.spectrum, high.spectrum, both);
+    bool clear = true;
+    for (std::size_t i = 0; i < 2; ++i) {
+      clear = clear && std::abs(low.spectrum.overlap(i, high.spectrum, mate[i]) - 1.0) < 0.25;
+      clear = clear && std::abs(low.spectrum.overlap(i, high.spectrum, mate[1 - i])) < 0.25;
+    }
+    if (clear) {
+      for (std::size_t i = 0; i < 2; ++i)
+        crossed(step, low.friction, high.friction, a[i], b[mate[i]], ids[i], std::min(isolation, 2 * std::abs(a[0].s - mean(a))),
+                damped);
+      return true;
+    }
+    if (high.friction - low.friction < smallest) {
+      step.gaps.push_back({low.friction, high.friction,
+                           formatted("two eigenvalues near %.6g Hz too close to tell apart: both are "
+                                     "there, which is which is not certain",
+                                     mean(a).imag() / (2 * M_PI)),
+                           true});
+      return true;
+    }
+    const double middle = 0.5 * (low.friction + high.friction);
+    const auto found = pursued(family_, middle, low.spectrum, 0.5 * (mean(a) + mean(b)), isolation);
+    if (!found) return false;
+    const PairAt between{middle, *found};
+    std::vector<std::size_t> first, second;
+    if (!trace(low, between, ids, isolation, smallest, first, step)) return false;
+    std::vector<int> idsBetween(2);
+    for (std::size_t i = 0; i < 2; ++i) idsBetween[first[i]] = ids[i];
+    if (!trace(between, high, idsBetween, isolation, smallest, second, step)) return false;
+    mate = {second[first[0]], second[first[1]]};
+    return true;
+  }
+
+  /// The largest overlaps first, where nothing better can be done.
+  void unsure(StepResult& step, const Solved& a, const Solved& b, const Group& group, bool counts) {
+    const auto mate = assigned(a.spectrum, b.spectrum, group);
+    for (std::size_t k = 0; k < mate.size(); ++k)
+      if (mate[k] < group.there.size())
+        step.links.push_back(
+            {group.here[k], group.there[mate[k]], std::abs(a.spectrum.overlap(group.here[k], b.spectrum, group.there[mate[k]]))});
+    if (!counts) return;
+    const auto pairs = group.here.empty() ? chosen(b.spectrum.pairs(), group.there) : chosen(a.spectrum.pairs(), group.here);
+    step.gaps.push_back(
+        {a.station.friction, b.station.friction,
+         formatted("%d eigenvalues near %.6g Hz before and %d after are joined without certainty",
+                   static_cast<int>(group.here.size()), mean(pairs).imag() / (2 * M_PI), static_cast<int>(group.there.size()))});
+  }
+
+  /// Of the mean of a group from all other eigenvalues.
+  double isolation(const Solved& a, const Solved& b, const Group& group) const {
+    double distance = INFINITY;
+    const auto reach = [&](const std::vector<DensePair>& pairs, const std::vector<std::size_t>& own) {
+      const Complex middle = mean(chosen(pairs, own));
+      distance = std::min(distance, std::abs(middle));
+      for (std::size_t i = 0; i < pairs.size(); ++i)
+        if (std::find(own.begin(), own.end(), i) == own.end()) distance = std::min(distance, std::abs(pairs[i].s - middle));
+    };
+    reach(a.spectrum.pairs(), group.here);
+    reach(b.spectrum.pairs(), group.there);
+    return distance;
+  }
+
+  Family& family_;
+  TrackLimits limits_;
+  Branches result_;
+};
+
+}  // namespace
+
+int Branches::inBandAt(const Station& station) const {
+  return static_cast<int>(std::count(station.inBand.begin(), station.inBand.end(), 1));
+}
+
+Branches follow(Family& family, const std::vector<double>& frictions, const WatchedBand& band, const TrackLimits& limits) {
+  return Follower(family, band, limits).run(frictions);
+}
+
+}  // namespace squeal::flutter
