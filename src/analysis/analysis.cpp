@@ -4,11 +4,25 @@
 #include <cmath>
 #include <optional>
 
+#include "contact/coupled.hpp"
+#include "direct/direct.hpp"
+#include "elasticity/elasticity.hpp"
 #include "flutter/influence.hpp"
+#include "flutter/terms.hpp"
+#include "flutter/work.hpp"
+#include "linalg/complexvector.hpp"
 #include "linalg/finite.hpp"
+#include "mesh/mesh.hpp"
 #include "options/options.hpp"
+#include "pencil/complex_modes.hpp"
+#include "pencil/pencil.hpp"
 #include "petsc/text.hpp"
+#include "sensitivity/derive.hpp"
+#include "sensitivity/left.hpp"
+#include "sensitivity/sensitivity.hpp"
 #include "session/stages.hpp"
+#include "sweep/parameters.hpp"
+#include "sweep/sweep.hpp"
 
 namespace squeal {
 namespace {
@@ -321,6 +335,9 @@ const flutter::FrictionPoint* Analysis::pointAt(const Parameters& at) const {
 void checkOptions() {
   rejectUnknownOptions();
   flutter::rejectIdleSolverOptions();
+  if (flutter::directWanted() && flutter::modalDampingWanted())
+    throw Error(
+        "option -flutter_modal_damping: damping of the free modes needs the modes of -flutter_method reduced");
   flutter::readSweep();
   if (!matrices::wanted()) meshRequest();
 }
@@ -341,7 +358,7 @@ Analysis prepare(MPI_Comm comm) {
   analysis.comm = comm;
   const bool ofMesh = !matrices::wanted();
   analysis.sweep = flutter::readSweep();
-  flutter::warnOfLongSweep(comm, analysis.sweep, modes::wantedCount());
+  if (!flutter::directWanted()) flutter::warnOfLongSweep(comm, analysis.sweep, modes::wantedCount());
   if (!ofMesh) return analysis;
   analysis.mesh = std::make_unique<mesh::Mesh>(readMesh(comm));
   analysis.bodies = assembleBodies(*analysis.mesh);

@@ -4,9 +4,14 @@
 #include <vector>
 
 #include "analysis/segment.hpp"
+#include "elasticity/elasticity.hpp"
 #include "matrices/matrices.hpp"
+#include "mesh/mesh.hpp"
+#include "pencil/complex_modes.hpp"
 #include "steady/steady.hpp"
 #include "steady/uniqueness.hpp"
+#include "sweep/parameters.hpp"
+#include "sweep/sweep.hpp"
 
 namespace squeal {
 

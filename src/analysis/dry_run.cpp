@@ -6,10 +6,13 @@
 #include <algorithm>
 
 #include "analysis/analysis.hpp"
+#include "contact/coupled.hpp"
 #include "linalg/symmetric_solver.hpp"
+#include "mesh/mesh.hpp"
 #include "options/options.hpp"
 #include "petsc/text.hpp"
 #include "session/stages.hpp"
+#include "sweep/sweep.hpp"
 
 namespace squeal {
 namespace {

@@ -4,13 +4,18 @@
 #include <cmath>
 #include <memory>
 
+#include "direct/direct.hpp"
+#include "flutter/terms.hpp"
 #include "linalg/symmetric_solver.hpp"
 #include "modes/benchmark.hpp"
 #include "options/options.hpp"
+#include "pencil/pencil.hpp"
 #include "petsc/text.hpp"
 #include "reduction/reduced.hpp"
 #include "sensitivity/sensitivity.hpp"
 #include "session/stages.hpp"
+#include "sweep/parameters.hpp"
+#include "sweep/sweep.hpp"
 
 namespace squeal {
 namespace {

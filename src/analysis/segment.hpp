@@ -7,7 +7,9 @@
 
 #include "modes/modes.hpp"
 #include "pencil/complex_modes.hpp"
+#include "pencil/pencil.hpp"
 #include "sensitivity/left.hpp"
+#include "sweep/parameters.hpp"
 #include "tracking/followed.hpp"
 
 namespace squeal {

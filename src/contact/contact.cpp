@@ -5,6 +5,7 @@
 
 #include "contact/sliding.hpp"
 #include "elasticity/element.hpp"
+#include "mesh/mesh.hpp"
 #include "options/options.hpp"
 #include "petsc/text.hpp"
 

@@ -13,6 +13,7 @@
 #include "contact/constraints.hpp"
 #include "contact/friction.hpp"
 #include "elasticity/elasticity.hpp"
+#include "mesh/mesh.hpp"
 #include "petsc/owned.hpp"
 
 namespace squeal::contact {

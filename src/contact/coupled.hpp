@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "contact/contact.hpp"
+#include "elasticity/elasticity.hpp"
 #include "linalg/symmetric_solver.hpp"
 
 namespace squeal::contact {

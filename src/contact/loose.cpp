@@ -4,6 +4,7 @@
 
 #include "contact/contact.hpp"
 #include "linalg/symmetric.hpp"
+#include "mesh/mesh.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal::contact {

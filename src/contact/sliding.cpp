@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "elasticity/elasticity.hpp"
 #include "elasticity/element.hpp"
+#include "mesh/mesh.hpp"
 
 namespace squeal::contact {
 namespace {

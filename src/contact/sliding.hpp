@@ -1,6 +1,8 @@
 #pragma once
 /// Matrices of sliding, and the small algebra that building the contact matrices needs.
 #include "contact/contact.hpp"
+#include "elasticity/elasticity.hpp"
+#include "mesh/mesh.hpp"
 
 namespace squeal::contact {
 

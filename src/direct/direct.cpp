@@ -1,14 +1,18 @@
+#include "direct/direct.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "direct/nearest.hpp"
+#include "linalg/complexvector.hpp"
 #include "options/options.hpp"
-#include "pencil/select.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal::flutter {
 namespace {
 
+const ChoiceOption methodOption("flutter", "flutter_method", {"reduced", "direct"}, "reduced",
+                                "reduced: dense problem on the free modes; direct: all unknowns, for checking");
 const IntegerOption countOption("flutter", "flutter_direct_count", 100, 1, 1'000'000,
                                 "number of eigenvalues nearest to zero found by the direct method, conjugate pairs counted once");
 const RealListOption bandOption("flutter", "flutter_direct_band", "0,0", "Hz", nonNegative,
@@ -62,6 +66,8 @@ NearestPairs solveCount(NearestSolver& solver) {
 }
 
 }  // namespace
+
+bool directWanted() { return methodOption.get() == "direct"; }
 
 FrictionPoint solveDirect(const Pencil& pencil, const Parameters& at, Mat trial) {
   const Band band = readBand();

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "direct/direct.hpp"
 #include "linalg/dense.hpp"
 #include "linalg/gathered.hpp"
 #include "options/options.hpp"
 #include "pencil/complex_modes.hpp"
 #include "petsc/text.hpp"
+#include "sweep/parameters.hpp"
 
 namespace squeal::flutter {
 namespace {
@@ -249,8 +251,6 @@ void rejectIdleSolverOptions() {
   for (const auto* prefix : {&epsPrefix, &pepPrefix, &stPrefix})
     if (prefix->given() && !directWanted())
       throw Error("options -" + prefix->prefix + "* (" + joined(prefix->names()) + ") are used by -flutter_method direct alone");
-  if (directWanted() && modalDampingWanted())
-    throw Error("option -flutter_modal_damping: damping of the free modes needs the modes of -flutter_method reduced");
 }
 
 std::unique_ptr<NearestSolver> nearestSolver(const Pencil& pencil, const Parameters& at) {

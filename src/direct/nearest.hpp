@@ -6,6 +6,7 @@
 
 #include "linalg/complexvector.hpp"
 #include "pencil/pencil.hpp"
+#include "sweep/parameters.hpp"
 
 namespace squeal::flutter {
 

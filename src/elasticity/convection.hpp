@@ -2,6 +2,7 @@
 /// Convective terms of moving bodies: D u = (V·∇)u on Cartesian components, in the vehicle's axes.
 #include "elasticity/elasticity.hpp"
 #include "elasticity/material.hpp"
+#include "mesh/mesh.hpp"
 
 namespace squeal::elasticity {
 

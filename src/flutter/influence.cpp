@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include "flutter/terms.hpp"
+#include "linalg/complexvector.hpp"
+
 namespace squeal::flutter {
 namespace {
 

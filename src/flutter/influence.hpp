@@ -4,9 +4,16 @@
 #include <vector>
 
 #include "contact/coupled.hpp"
+#include "elasticity/elasticity.hpp"
 #include "flutter/work.hpp"
+#include "mesh/mesh.hpp"
 #include "pencil/complex_modes.hpp"
+#include "pencil/pencil.hpp"
 #include "sensitivity/derive.hpp"
+#include "sensitivity/left.hpp"
+#include "sensitivity/sensitivity.hpp"
+#include "steady/steady.hpp"
+#include "sweep/parameters.hpp"
 
 namespace squeal::flutter {
 

@@ -1,5 +1,6 @@
 #pragma once
 /// The terms of the friction-perturbed problem [4.15–4.16], from the coupled matrices and the steady state.
+#include "contact/coupled.hpp"
 #include "modes/modes.hpp"
 #include "pencil/pencil.hpp"
 #include "steady/steady.hpp"

@@ -1,6 +1,7 @@
 #include "flutter/work.hpp"
 
 #include "flutter/terms.hpp"
+#include "sweep/parameters.hpp"
 
 namespace squeal::flutter {
 namespace {

@@ -8,6 +8,7 @@
 #include "elasticity/elasticity.hpp"
 #include "linalg/complexvector.hpp"
 #include "steady/steady.hpp"
+#include "sweep/parameters.hpp"
 
 namespace squeal::flutter {
 

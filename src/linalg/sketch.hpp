@@ -6,6 +6,7 @@
 /// gives the norms of residuals A V q without their n entries.
 #include <vector>
 
+#include "linalg/dense.hpp"
 #include "linalg/images.hpp"
 
 namespace squeal::flutter {

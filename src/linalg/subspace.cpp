@@ -15,32 +15,32 @@ namespace squeal::flutter {
 namespace {
 
 using Complex = std::complex<double>;
-using ComplexVector = std::vector<Complex>;
+using Entries = std::vector<Complex>;
 
 /// A x, or Aᵀ x with `transposed` "T"; zero for an empty A.
-ComplexVector product(const char* transposed, const DenseMatrix& a, const ComplexVector& x) {
+Entries product(const char* transposed, const DenseMatrix& a, const Entries& x) {
   const std::size_t m = x.size();
-  if (a.empty()) return ComplexVector(m);
+  if (a.empty()) return Entries(m);
   const PetscBLASInt n = static_cast<PetscBLASInt>(m), two = 2;
   const PetscScalar one = 1, zero = 0;
-  ComplexVector y(m);
+  Entries y(m);
   for (std::ptrdiff_t part : {0, 1})  // real and imaginary entries alternate
     BLASgemv_(transposed, &n, &n, &one, a.data(), &n, reinterpret_cast<const double*>(x.data()) + part, &two, &zero,
               reinterpret_cast<double*>(y.data()) + part, &two);
   return y;
 }
 
-ComplexVector times(const DenseMatrix& a, const ComplexVector& x) { return product("N", a, x); }
-ComplexVector timesTransposed(const DenseMatrix& a, const ComplexVector& x) { return product("T", a, x); }
+Entries times(const DenseMatrix& a, const Entries& x) { return product("N", a, x); }
+Entries timesTransposed(const DenseMatrix& a, const Entries& x) { return product("T", a, x); }
 
-Complex dot(const ComplexVector& x, const ComplexVector& y) {
+Complex dot(const Entries& x, const Entries& y) {
   Complex sum = 0;
   for (std::size_t i = 0; i < x.size(); ++i) sum += std::conj(x[i]) * y[i];
   return sum;
 }
 
-ComplexVector combined(Complex a, const ComplexVector& x, Complex b, const ComplexVector& y) {
-  ComplexVector z(x.size());
+Entries combined(Complex a, const Entries& x, Complex b, const Entries& y) {
+  Entries z(x.size());
   for (std::size_t i = 0; i < x.size(); ++i) z[i] = a * x[i] + b * y[i];
   return z;
 }
@@ -56,7 +56,7 @@ class Factors {
       for (std::size_t k = 0; k < size; ++k) sum[k] = square.real() * problem.mass[k] + problem.stiffness[k];
       real_.emplace(std::move(sum), problem.m);
     } else {
-      ComplexVector sum(size);
+      Entries sum(size);
       for (std::size_t k = 0; k < size; ++k)
         sum[k] = square * problem.mass[k] + (problem.damping.empty() ? 0 : shift * problem.damping[k]) + problem.stiffness[k];
       complex_.emplace(std::move(sum), problem.m);
@@ -64,7 +64,7 @@ class Factors {
   }
   bool regular() const { return (real_ ? real_->pivotRatio() : complex_->pivotRatio()) > 0; }
   /// P(σ)⁻¹ b, or P(σ)⁻ᴴ b.
-  ComplexVector solve(ComplexVector b, bool adjoint = false) const {
+  Entries solve(Entries b, bool adjoint = false) const {
     if (!real_) {
       complex_->solve(b, adjoint);
       return b;
@@ -84,7 +84,7 @@ class Factors {
 
 /// A vector of the companion form [0 I; −K −Z] z = s [I 0; 0 M] z: right (x, s x), left ((s M + Z)ᴴ y, y).
 struct Lifted {
-  ComplexVector top, bottom;
+  Entries top, bottom;
 };
 
 Lifted combined(Complex a, const Lifted& x, Complex b, const Lifted& y) {
@@ -123,15 +123,15 @@ class TwoSidedIteration {
     for (auto& z : right_) {
       images.push_back({z.top, times(problem_.mass, z.bottom)});
       // P(σ) x = −(M v + (Z + σM) x'), and then v = x' + σ x
-      const ComplexVector old = z.top;
-      ComplexVector rhs = combined(-1, images.back().bottom, -shift, times(problem_.mass, old));
+      const Entries old = z.top;
+      Entries rhs = combined(-1, images.back().bottom, -shift, times(problem_.mass, old));
       rhs = combined(1, rhs, -1, times(problem_.damping, old));
       z.top = factors.solve(std::move(rhs));
       z.bottom = combined(1, old, shift, z.top);
     }
     for (auto& u : left_) {
       // wᴴ (A − σB) = uᴴ B: w2ᴴ P(σ) = −(u1ᴴ + σ u2ᴴ M), w1ᴴ = u2ᴴ M + w2ᴴ (Z + σM)
-      const ComplexVector carried = timesTransposed(problem_.mass, u.bottom);
+      const Entries carried = timesTransposed(problem_.mass, u.bottom);
       u.bottom = factors.solve(combined(-1, u.top, -std::conj(shift), carried), true);
       u.top = combined(1, carried, std::conj(shift), timesTransposed(problem_.mass, u.bottom));
       u.top = combined(1, u.top, 1, timesTransposed(problem_.damping, u.bottom));
@@ -139,7 +139,7 @@ class TwoSidedIteration {
     std::array<Complex, 4> gram{}, projected{};
     const std::size_t k = right_.size();
     for (std::size_t j = 0; j < k; ++j) {
-      const ComplexVector moved = times(problem_.mass, right_[j].bottom);
+      const Entries moved = times(problem_.mass, right_[j].bottom);
       for (std::size_t i = 0; i < k; ++i) {
         gram[2 * j + i] = dot(left_[i].top, right_[j].top) + dot(left_[i].bottom, moved);
         projected[2 * j + i] = dot(left_[i].top, images[j].top) + dot(left_[i].bottom, images[j].bottom);
@@ -235,9 +235,9 @@ Spectrum::Spectrum(const DenseProblem& problem, std::vector<DensePair> pairs)
     : pairs_(std::move(pairs)), linear_(problem.damping.empty()) {
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     const auto& [s, x, y] = pairs_[i];
-    ComplexVector row = timesTransposed(problem.mass, y);
+    Entries row = timesTransposed(problem.mass, y);
     if (!linear_) {
-      const ComplexVector lifted = combined(std::conj(s), row, 1, timesTransposed(problem.damping, y));
+      const Entries lifted = combined(std::conj(s), row, 1, timesTransposed(problem.damping, y));
       row.insert(row.end(), lifted.begin(), lifted.end());
     }
     rows_.push_back(std::move(row));

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "matrices/matrices.hpp"
+#include "pencil/pencil.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal::matrices {

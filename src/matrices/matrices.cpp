@@ -3,7 +3,9 @@
 #include <set>
 
 #include "options/options.hpp"
+#include "pencil/pencil.hpp"
 #include "petsc/text.hpp"
+#include "session/stages.hpp"
 
 namespace squeal::matrices {
 namespace {

@@ -7,6 +7,8 @@
 
 #include "linalg/symmetric_solver.hpp"
 #include "pencil/complex_modes.hpp"
+#include "pencil/pencil.hpp"
+#include "sweep/sweep.hpp"
 
 namespace squeal::matrices {
 

@@ -11,8 +11,10 @@
 #include "options/settings.hpp"
 #include "output/file.hpp"
 #include "output/folder.hpp"
+#include "pencil/pencil.hpp"
 #include "petsc/text.hpp"
 #include "session/stages.hpp"
+#include "sweep/sweep.hpp"
 
 namespace squeal::matrices {
 

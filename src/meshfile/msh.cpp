@@ -14,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "linalg/images.hpp"
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
 

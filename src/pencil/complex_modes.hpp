@@ -3,17 +3,12 @@
 #include <complex>
 #include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
-#include "contact/coupled.hpp"
-#include "flutter/terms.hpp"
-#include "linalg/dense.hpp"
-#include "linalg/images.hpp"
-#include "modes/modes.hpp"
-#include "pencil/pencil.hpp"
-#include "reduction/basis.hpp"
-#include "sensitivity/left.hpp"
-#include "sensitivity/sensitivity.hpp"
+#include "linalg/complexvector.hpp"
+#include "sweep/parameters.hpp"
+
 
 namespace squeal::flutter {
 
@@ -31,6 +26,21 @@ struct Shape {
   OwnedVec real, imaginary;
   ComplexVector unknowns;            ///< the same d in the unknowns x
   std::vector<double> frictionWork;  ///< [owned contact node] what friction there adds to the growth rate, 1/s: frictionWork()
+};
+
+struct Derivative {
+  std::string parameter;
+  std::complex<double> value;  ///< ds/dθ, 1/s per unit of the parameter
+};
+
+/// What is known of one eigenvalue besides its value.
+struct Sensitivity {
+  double condition = 0;  ///< 2 |s| ‖x‖_M ‖y‖_M / |yᴴ P′(s) x|: 1 for a symmetric problem, infinite at an exceptional point
+  double separation = 0;  ///< distance to the nearest of the other eigenvalues found, relative to |s|
+  double leftBackwardError = 0;
+  std::vector<Derivative> derivatives;  ///< empty if not regular()
+  /// False where eigenvalues meet, and so have no derivatives, and where the left vector was not found.
+  bool regular() const;
 };
 
 /// Everything found at one point of the sweep.
@@ -57,39 +67,15 @@ struct FrictionPoint {
   const Eigenvalue* fastestGrowing() const;
 };
 
-/// The sweep is the grid of `-flutter_friction` × `-flutter_speed` × `-flutter_pressure` × `-flutter_damping`. Damping leaves steady
-/// sliding as it is, so that a steady state belongs to all its damping factors.
-struct Sweep {
-  std::vector<double> frictions, speeds, pressures, dampings;  ///< ascending
-  /// Steady states, damping 1: for each speed, each pressure, all frictions.
-  std::vector<Parameters> steadyPoints() const;
-  /// All points: for each damping, all steady states.
-  std::vector<Parameters> points() const;
-  /// The number of points.
-  double pointCount() const;
-  /// Index of a steady state that differs in one parameter by one step, and comes earlier; none for the first.
-  std::optional<std::size_t> earlierNeighbour(std::size_t steadyPoint) const;
-};
+/// `-flutter_accuracy`: backward error up to which an eigenvalue is certified.
+double accuracyAsked();
 
-/// Error: an empty list, a value out of range or given twice, more than `mostPoints` points in all.
-Sweep readSweep();
-inline constexpr double mostPoints = 100'000;
-/// Collective. A warning where the points are so many that their eigenvalue problems take long, with an estimate.
-void warnOfLongSweep(MPI_Comm comm, const Sweep& sweep, int modes);
-/// Indices of points in the order in which one basis serves them best, in batches of 5, 16, 16, … points: the largest friction
-/// first, then whatever lies farthest from the points before: of a sweep over friction alone the ends, the middle and the quarters. The
-/// same on any number of ranks.
-std::vector<std::vector<std::size_t>> batches(const std::vector<Parameters>& points);
-/// `-flutter_method`: true for the direct solve on all unknowns.
-bool directWanted();
+/// Marks unstable eigenvalues.
+void judge(std::vector<Eigenvalue>& eigenvalues);
 
-/// Collective. Error for -flutter_eps_*, -flutter_pep_* and -flutter_st_* options where the direct method, which alone uses them, is
-/// not asked for, and for modal damping where it is.
-void rejectIdleSolverOptions();
-
-/// Collective. Eigenvalues of the problem on all unknowns, without reduction, by SLEPc with shift-and-invert at zero: the
-/// `-flutter_direct_count` nearest to zero, or all of `-flutter_direct_band` (low ≤ Im s ≤ high, |s| ≤ high), as far as
-/// `-flutter_direct_limit` of them reach. Error: a band that is none; not converged.
-FrictionPoint solveDirect(const Pencil& pencil, const Parameters& at, Mat trial);
+/// Indices of the `-flutter_shapes` fastest growing eigenvalues below `-flutter_shapes_below`, the fastest first.
+std::vector<std::size_t> shapesWanted(const FrictionPoint& point);
+/// Collective. Keeps the shapes of these eigenvalues; `modes` are theirs in the unknowns x, of any length.
+void keepShapes(FrictionPoint& point, Mat trial, const std::vector<std::size_t>& indices, std::vector<ComplexVector> modes);
 
 }  // namespace squeal::flutter

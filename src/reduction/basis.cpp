@@ -5,6 +5,8 @@
 #include <numeric>
 
 #include "linalg/columns.hpp"
+#include "linalg/dense.hpp"
+#include "linalg/images.hpp"
 #include "linalg/symmetric.hpp"
 
 namespace squeal::flutter {

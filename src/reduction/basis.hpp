@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "linalg/complexvector.hpp"
+#include "linalg/dense.hpp"
+#include "linalg/images.hpp"
 #include "linalg/sketch.hpp"
 #include "modes/modes.hpp"
 #include "petsc/owned.hpp"

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "linalg/dense.hpp"
 #include "reduction/reduced.hpp"
 
 namespace squeal::flutter {

@@ -8,6 +8,7 @@
 #include "linalg/images.hpp"
 #include "pencil/pencil.hpp"
 #include "reduction/basis.hpp"
+#include "sweep/parameters.hpp"
 
 namespace squeal::flutter {
 

@@ -6,9 +6,8 @@
 #include <iterator>
 #include <numeric>
 
-#include "options/options.hpp"
-#include "pencil/select.hpp"
 #include "reduction/condition.hpp"
+#include "options/options.hpp"
 
 namespace squeal::flutter {
 namespace {

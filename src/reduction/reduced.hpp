@@ -4,9 +4,16 @@
 #include <utility>
 #include <vector>
 
+#include "linalg/complexvector.hpp"
+#include "linalg/dense.hpp"
+#include "linalg/images.hpp"
+#include "modes/modes.hpp"
+#include "pencil/band.hpp"
 #include "pencil/complex_modes.hpp"
+#include "pencil/pencil.hpp"
+#include "reduction/basis.hpp"
 #include "reduction/projected.hpp"
-#include "tracking/family.hpp"
+#include "sweep/parameters.hpp"
 
 namespace squeal::flutter {
 
@@ -14,6 +21,13 @@ namespace squeal::flutter {
 struct PointProblem {
   Parameters at;
   Pencil pencil;
+};
+
+/// What a large problem says of pairs of its reduced one.
+struct Improvement {
+  bool changed = false;  ///< the basis has grown, or near() is better: the pairs are to be solved for again
+  /// [located] the largest, of the large problem; NaN where there is no problem at this friction; empty: there is no larger problem
+  std::vector<double> backwardError;
 };
 
 /// Rayleigh–Ritz on the free modes and, unless `-reduction_basis modal`, on static responses to friction forces and to its own

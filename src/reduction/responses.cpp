@@ -1,7 +1,10 @@
 /// Static responses to friction as the beginning of a basis.
 #include <algorithm>
 
+#include "linalg/images.hpp"
+#include "pencil/pencil.hpp"
 #include "reduction/reduced.hpp"
+#include "sweep/parameters.hpp"
 
 namespace squeal::flutter {
 namespace {

@@ -3,6 +3,7 @@
 
 #include "petsc/text.hpp"
 #include "report/report.hpp"
+#include "sweep/parameters.hpp"
 
 namespace squeal::report {
 namespace {

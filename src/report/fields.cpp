@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/mesh.hpp"
 #include "options/options.hpp"
+#include "pencil/complex_modes.hpp"
 #include "petsc/text.hpp"
 #include "report/hdf5.hpp"
 #include "report/report.hpp"
 #include "report/vtu.hpp"
+#include "steady/steady.hpp"
+#include "sweep/parameters.hpp"
 
 namespace squeal::report {
 namespace {

@@ -5,6 +5,7 @@
 #include "options/options.hpp"
 #include "output/file.hpp"
 #include "session/stages.hpp"
+#include "sweep/sweep.hpp"
 
 namespace squeal::report {
 namespace {

@@ -1,8 +1,10 @@
 /// Tables of what the complex modes kept depend on, and of what feeds them.
 #include <cmath>
 
+#include "pencil/complex_modes.hpp"
 #include "petsc/text.hpp"
 #include "report/report.hpp"
+#include "sweep/parameters.hpp"
 
 namespace squeal::report {
 namespace {

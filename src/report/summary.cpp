@@ -1,10 +1,14 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "direct/direct.hpp"
 #include "options/options.hpp"
+#include "pencil/complex_modes.hpp"
 #include "report/report.hpp"
 #include "session/session.hpp"
 #include "session/stages.hpp"
+#include "steady/steady.hpp"
+#include "sweep/parameters.hpp"
 
 namespace squeal::report {
 namespace {

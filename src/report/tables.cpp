@@ -3,12 +3,17 @@
 #include <cmath>
 #include <cstdio>
 
+#include "modes/modes.hpp"
 #include "options/options.hpp"
 #include "options/settings.hpp"
-#include "pencil/select.hpp"
+#include "pencil/band.hpp"
+#include "pencil/complex_modes.hpp"
 #include "petsc/text.hpp"
 #include "report/report.hpp"
+#include "sensitivity/sensitivity.hpp"
 #include "session/session.hpp"
+#include "steady/steady.hpp"
+#include "sweep/parameters.hpp"
 
 namespace squeal::report {
 namespace {

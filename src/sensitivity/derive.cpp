@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sweep/parameters.hpp"
+
 namespace squeal::flutter {
 namespace {
 

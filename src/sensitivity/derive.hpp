@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "pencil/complex_modes.hpp"
+#include "pencil/pencil.hpp"
 #include "sensitivity/left.hpp"
 #include "sensitivity/sensitivity.hpp"
 

@@ -7,6 +7,7 @@
 #include "linalg/columns.hpp"
 #include "linalg/images.hpp"
 #include "linalg/lu.hpp"
+#include "sweep/parameters.hpp"
 
 namespace squeal::flutter {
 namespace {

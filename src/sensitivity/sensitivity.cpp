@@ -14,20 +14,9 @@ const FlagOption wantedOption(
 
 using Complex = std::complex<double>;
 
-/// Beyond, errors of 1e-8 of the vectors are a thousandth of yᴴ P′ x, and soon after all of it.
-constexpr double worstCondition = 1e5;
-/// Left vectors that were not found leave no derivative either.
-constexpr double worstLeftError = 1e-7;
-/// Of a multiple eigenvalue as it is computed.
-constexpr double closest = 1e-7;
-
 double massNorm(Mat mass, const ComplexVector& u) { return std::sqrt(std::abs(dot(u, product(mass, u)))); }
 
 }  // namespace
-
-bool Sensitivity::regular() const {
-  return leftBackwardError < worstLeftError && condition < worstCondition && separation > closest;
-}
 
 bool sensitivitiesWanted() { return wantedOption.get(); }
 

@@ -6,24 +6,11 @@
 #include <vector>
 
 #include "linalg/complexvector.hpp"
+#include "pencil/complex_modes.hpp"
 #include "pencil/pencil.hpp"
+#include "sweep/parameters.hpp"
 
 namespace squeal::flutter {
-
-struct Derivative {
-  std::string parameter;
-  std::complex<double> value;  ///< ds/dθ, 1/s per unit of the parameter
-};
-
-/// What is known of one eigenvalue besides its value.
-struct Sensitivity {
-  double condition = 0;  ///< 2 |s| ‖x‖_M ‖y‖_M / |yᴴ P′(s) x|: 1 for a symmetric problem, infinite at an exceptional point
-  double separation = 0;  ///< distance to the nearest of the other eigenvalues found, relative to |s|
-  double leftBackwardError = 0;
-  std::vector<Derivative> derivatives;  ///< empty if not regular()
-  /// False where eigenvalues meet, and so have no derivatives, and where the left vector was not found.
-  bool regular() const;
-};
 
 struct EigenTriple {
   std::complex<double> s;

@@ -1,8 +1,10 @@
 /// How the steady state changes with its data, to first order: the equations of steady.hpp differentiated on one active set.
 #include <functional>
 
+#include "contact/coupled.hpp"
 #include "petsc/text.hpp"
 #include "steady/steady.hpp"
+#include "sweep/parameters.hpp"
 
 namespace squeal::steady {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "options/options.hpp"
 #include "steady/steady.hpp"
+#include "sweep/parameters.hpp"
 
 namespace squeal::steady {
 namespace {

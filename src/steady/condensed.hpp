@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contact/contact.hpp"
+#include "contact/coupled.hpp"
 
 namespace squeal::steady {
 

@@ -1,4 +1,5 @@
 #include "elasticity/element.hpp"
+#include "mesh/mesh.hpp"
 #include "steady/steady.hpp"
 
 namespace squeal::steady {

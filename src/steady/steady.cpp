@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "elasticity/elasticity.hpp"
+#include "mesh/mesh.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal::steady {

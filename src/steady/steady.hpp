@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "contact/coupled.hpp"
+#include "elasticity/elasticity.hpp"
+#include "mesh/mesh.hpp"
 #include "steady/refinement.hpp"
 #include "sweep/parameters.hpp"
 

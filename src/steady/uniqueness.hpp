@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "contact/contact.hpp"
+#include "elasticity/elasticity.hpp"
 #include "steady/positivity.hpp"
 
 namespace squeal::steady {

@@ -6,8 +6,11 @@
 #include <optional>
 #include <type_traits>
 
+#include "linalg/dense.hpp"
+#include "linalg/subspace.hpp"
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
+#include "reduction/reduced.hpp"
 #include "tracking/join.hpp"
 
 namespace squeal::flutter {

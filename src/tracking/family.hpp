@@ -4,6 +4,7 @@
 #include <string>
 
 #include "linalg/dense.hpp"
+#include "reduction/reduced.hpp"
 
 namespace squeal::flutter {
 
@@ -11,13 +12,6 @@ namespace squeal::flutter {
 struct Located {
   double friction = 0;
   std::vector<DensePair> pairs;
-};
-
-/// What a large problem says of pairs of its reduced one.
-struct Improvement {
-  bool changed = false;  ///< the basis has grown, or near() is better: the pairs are to be solved for again
-  /// [located] the largest, of the large problem; NaN where there is no problem at this friction; empty: there is no larger problem
-  std::vector<double> backwardError;
 };
 
 class Family {
@@ -36,20 +30,6 @@ class Family {
   virtual void progress(const std::string&) {}
   /// Collective. Adds to the basis what the residuals of these pairs ask for, all together, and makes near() know their frictions.
   virtual Improvement improve(const std::vector<Located>&) { return {}; }
-};
-
-/// The eigenvalues that a run is about, and those watched beside them.
-struct WatchedBand {
-  double top = 1e300;    ///< rad/s, of |s|
-  double guard = 1.3;    ///< eigenvalues are watched up to this multiple of `top` and of `damping`
-  double damping = 0.5;  ///< largest damping ratio
-  double origin = 0.1;   ///< all are watched up to this multiple of `top`: a real eigenvalue may pass through zero
-  bool contains(std::complex<double> s) const { return std::abs(s) <= top && lasts(s); }
-  bool watches(std::complex<double> s) const {
-    return std::abs(s) <= guard * top && (-s.real() <= guard * damping * std::abs(s) || std::abs(s) <= origin * top);
-  }
-  /// Does not die away at once.
-  bool lasts(std::complex<double> s) const { return -s.real() <= damping * std::abs(s); }
 };
 
 }  // namespace squeal::flutter

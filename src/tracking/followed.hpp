@@ -4,6 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "modes/modes.hpp"
+#include "pencil/complex_modes.hpp"
+#include "reduction/reduced.hpp"
+#include "sweep/parameters.hpp"
 #include "tracking/critical.hpp"
 #include "tracking/reducedfamily.hpp"
 

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "linalg/dense.hpp"
+#include "pencil/band.hpp"
 #include "petsc/check.hpp"
 
 namespace squeal::flutter {

@@ -1,6 +1,8 @@
 #pragma once
 /// Which eigenvalues of one friction are those of another.
+#include "linalg/dense.hpp"
 #include "linalg/subspace.hpp"
+#include "pencil/band.hpp"
 #include "tracking/family.hpp"
 
 namespace squeal::flutter {

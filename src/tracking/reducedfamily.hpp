@@ -6,7 +6,11 @@
 #include <utility>
 #include <vector>
 
+#include "linalg/dense.hpp"
+#include "pencil/pencil.hpp"
 #include "reduction/reduced.hpp"
+#include "sweep/parameters.hpp"
+#include "tracking/family.hpp"
 
 namespace squeal::flutter {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linalg/subspace.hpp"
 #include "petsc/text.hpp"
 #include "tracking/join.hpp"
 

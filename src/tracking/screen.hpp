@@ -1,5 +1,6 @@
 #pragma once
 /// Changes of stability that come and go within a step: stable at both ends, unstable in between, or the reverse.
+#include "linalg/dense.hpp"
 #include "tracking/track.hpp"
 
 namespace squeal::flutter {

@@ -3,7 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "linalg/dense.hpp"
 #include "linalg/subspace.hpp"
+#include "pencil/band.hpp"
 #include "tracking/family.hpp"
 
 namespace squeal::flutter {

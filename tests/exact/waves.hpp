@@ -11,6 +11,8 @@
 #include <complex>
 #include <utility>
 
+#include "pencil/complex_modes.hpp"
+
 namespace squeal::exact {
 
 using Complex = std::complex<double>;

@@ -2,6 +2,7 @@
 // the active set changes within a sweep, until at some friction no steady sliding state is left.
 #include <array>
 
+#include "contact/coupled.hpp"
 #include "support/case.hpp"
 #include "support/ranks.hpp"
 

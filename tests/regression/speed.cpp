@@ -1,6 +1,7 @@
 // The speed enters by the product of -flutter_speed and the motions in the options alone.
 #include <gtest/gtest.h>
 
+#include "pencil/complex_modes.hpp"
 #include "petsc/text.hpp"
 #include "support/case.hpp"
 #include "support/spectrum.hpp"

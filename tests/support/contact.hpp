@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "analysis/analysis.hpp"
+#include "steady/steady.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
 

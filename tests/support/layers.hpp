@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "contact/coupled.hpp"
 #include "modes/modes.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"

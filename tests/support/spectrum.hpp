@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "analysis/analysis.hpp"
+#include "modes/modes.hpp"
+#include "pencil/complex_modes.hpp"
 #include "support/case.hpp"
 
 namespace squeal::test {

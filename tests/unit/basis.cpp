@@ -6,6 +6,8 @@
 #include <cmath>
 #include <random>
 
+#include "linalg/dense.hpp"
+#include "linalg/images.hpp"
 #include "linalg/symmetric.hpp"
 #include "support/layers.hpp"
 

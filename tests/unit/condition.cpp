@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "linalg/dense.hpp"
 #include "support/spectrum.hpp"
 
 namespace squeal {

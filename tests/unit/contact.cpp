@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "contact/coupled.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
 

@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include "elasticity/elasticity.hpp"
+#include "mesh/mesh.hpp"
 #include "petsc/text.hpp"
 #include "support/model.hpp"
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "elasticity/elasticity.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
 

@@ -3,7 +3,9 @@
 
 #include <cmath>
 
+#include "direct/direct.hpp"
 #include "pencil/complex_modes.hpp"
+#include "pencil/pencil.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
 #include "support/spectrum.hpp"

@@ -8,8 +8,10 @@
 #include <cmath>
 #include <map>
 
+#include "elasticity/elasticity.hpp"
 #include "elasticity/element.hpp"
 #include "elasticity/shape.hpp"
+#include "mesh/mesh.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
 

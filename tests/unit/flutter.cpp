@@ -8,9 +8,15 @@
 #include <cmath>
 #include <random>
 
+#include "direct/direct.hpp"
+#include "flutter/terms.hpp"
+#include "linalg/complexvector.hpp"
 #include "linalg/dense.hpp"
+#include "pencil/complex_modes.hpp"
+#include "pencil/pencil.hpp"
 #include "support/layers.hpp"
 #include "support/spectrum.hpp"
+#include "sweep/sweep.hpp"
 
 namespace squeal {
 namespace {

@@ -7,9 +7,13 @@
 
 #include "contact/coupled.hpp"
 #include "flutter/terms.hpp"
+#include "linalg/complexvector.hpp"
+#include "linalg/dense.hpp"
+#include "pencil/pencil.hpp"
 #include "reduction/basis.hpp"
 #include "sensitivity/sensitivity.hpp"
 #include "support/layers.hpp"
+#include "sweep/parameters.hpp"
 
 namespace squeal {
 namespace {

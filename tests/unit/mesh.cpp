@@ -8,6 +8,7 @@
 #include <set>
 
 #include "elasticity/element.hpp"
+#include "mesh/mesh.hpp"
 #include "mesh/whole.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"

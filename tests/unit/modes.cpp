@@ -1,7 +1,9 @@
 // Free modes: block Lanczos against SLEPc's EPS, its restarts, and what both promise of their vectors.
 #include <gtest/gtest.h>
 
+#include "contact/coupled.hpp"
 #include "modes/blocklanczos.hpp"
+#include "modes/modes.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
 

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "elasticity/elasticity.hpp"
+#include "mesh/mesh.hpp"
 #include "petsc/text.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"

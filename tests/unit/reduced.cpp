@@ -7,8 +7,12 @@
 #include <cmath>
 
 #include "flutter/terms.hpp"
+#include "linalg/images.hpp"
 #include "linalg/symmetric.hpp"
-#include "pencil/select.hpp"
+#include "modes/modes.hpp"
+#include "pencil/band.hpp"
+#include "pencil/complex_modes.hpp"
+#include "pencil/pencil.hpp"
 #include "report/report.hpp"
 #include "support/layers.hpp"
 

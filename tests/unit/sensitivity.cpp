@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "pencil/complex_modes.hpp"
 #include "petsc/text.hpp"
 #include "report/report.hpp"
 #include "sensitivity/left.hpp"

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "linalg/images.hpp"
 #include "support/case.hpp"
 
 namespace squeal {

@@ -7,11 +7,13 @@
 #include <regex>
 #include <utility>
 
+#include "contact/coupled.hpp"
 #include "petsc/text.hpp"
 #include "steady/steady.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
 #include "support/program.hpp"
+#include "sweep/parameters.hpp"
 
 namespace squeal {
 namespace {

@@ -4,8 +4,11 @@
 #include <algorithm>
 
 #include "pencil/complex_modes.hpp"
+#include "pencil/pencil.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
+#include "sweep/parameters.hpp"
+#include "sweep/sweep.hpp"
 
 namespace squeal {
 namespace {

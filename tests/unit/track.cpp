@@ -8,6 +8,9 @@
 #include <random>
 #include <tuple>
 
+#include "linalg/dense.hpp"
+#include "pencil/band.hpp"
+#include "reduction/reduced.hpp"
 #include "support/case.hpp"
 #include "tracking/critical.hpp"
 #include "tracking/renumber.hpp"

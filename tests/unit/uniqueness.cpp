@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include "contact/coupled.hpp"
+#include "mesh/mesh.hpp"
 #include "steady/condensed.hpp"
 #include "steady/uniqueness.hpp"
 #include "support/case.hpp"

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "contact/coupled.hpp"
 #include "steady/steady.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"

@@ -2,6 +2,7 @@
 // closed forms; the speed sweep.
 #include <gtest/gtest.h>
 
+#include "pencil/complex_modes.hpp"
 #include "petsc/text.hpp"
 #include "support/case.hpp"
 #include "support/spectrum.hpp"

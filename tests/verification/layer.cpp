@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "exact/one_layer.hpp"
+#include "pencil/complex_modes.hpp"
 #include "support/case.hpp"
 #include "support/roots.hpp"
 #include "support/spectrum.hpp"

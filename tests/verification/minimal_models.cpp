@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "direct/direct.hpp"
 #include "pencil/complex_modes.hpp"
+#include "pencil/pencil.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
 #include "support/spectrum.hpp"

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "contact/coupled.hpp"
 #include "modes/modes.hpp"
 #include "petsc/text.hpp"
 #include "support/case.hpp"

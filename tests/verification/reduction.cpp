@@ -1,6 +1,7 @@
 // The reduced problem against the one on all unknowns: its eigenvalues, and what it says of their errors.
 #include <gtest/gtest.h>
 
+#include "pencil/complex_modes.hpp"
 #include "support/case.hpp"
 #include "support/spectrum.hpp"
 

@@ -4,8 +4,11 @@
 #include <cmath>
 #include <map>
 
+#include "contact/coupled.hpp"
 #include "direct/nearest.hpp"
 #include "exact/annulus.hpp"
+#include "flutter/terms.hpp"
+#include "mesh/mesh.hpp"
 #include "pencil/complex_modes.hpp"
 #include "petsc/text.hpp"
 #include "support/case.hpp"

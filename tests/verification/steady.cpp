@@ -3,6 +3,7 @@
 
 #include "exact/one_layer.hpp"
 #include "exact/two_layers.hpp"
+#include "steady/steady.hpp"
 #include "support/case.hpp"
 #include "support/contact.hpp"
 

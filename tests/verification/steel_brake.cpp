@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "contact/coupled.hpp"
 #include "petsc/text.hpp"
 #include "steady/steady.hpp"
 #include "support/case.hpp"

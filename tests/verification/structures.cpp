@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "contact/coupled.hpp"
 #include "modes/modes.hpp"
 #include "petsc/text.hpp"
 #include "support/case.hpp"
