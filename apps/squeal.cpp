@@ -1,4 +1,4 @@
-/// squeal: flutter of the steady sliding state of brakes. The method itself is squeal::analyse (src/analysis.cpp).
+/// squeal: flutter of the steady sliding state of brakes. The method itself is squeal::analysis::analyse (src/analysis/analysis.cpp).
 #include <cstdio>
 #include <cstring>
 #include <new>
@@ -43,15 +43,15 @@ int run(const squeal::Session& session) {
     return 1;  // a script whose arguments went missing must not believe that it has run
   }
   try {
-    squeal::checkOptions();  // first of all: a mistake in them touches no folder
+    squeal::analysis::checkOptions();  // first of all: a mistake in them touches no folder
     for (const auto& line : squeal::replacedSettings()) squeal::say(session.comm(), line);
-    if (squeal::dryRunWanted()) {
-      squeal::dryRun(session.comm());
+    if (squeal::analysis::dryRunWanted()) {
+      squeal::analysis::dryRun(session.comm());
       return 0;
     }
     squeal::report::Directory directory(session.comm());
     if (squeal::matrices::exportWanted()) squeal::matrices::requireExportFolder(session.comm());
-    const squeal::Analysis analysis = squeal::analyse(session.comm());
+    const squeal::analysis::Analysis analysis = squeal::analysis::analyse(session.comm());
     squeal::report::write(analysis, directory);
     for (const auto& line : squeal::unusedOptions()) squeal::say(session.comm(), line);
     return analysis.converged() ? 0 : 2;  // instability is a result; a friction without steady state is not

@@ -24,7 +24,7 @@
 #include "sweep/parameters.hpp"
 #include "sweep/sweep.hpp"
 
-namespace squeal {
+namespace squeal::analysis {
 namespace {
 
 std::string unusedText(PetscInt nodes) {
@@ -100,15 +100,15 @@ std::vector<steady::Solution> steadySweep(const Analysis& analysis, CurrentSyste
     solutions.push_back(problem.solve(at, current));
     const auto& solution = solutions.back();
     stage.finish(formatted("%s: %s after %d iterations, %d of %d nodes open, smallest pressure %.4g, residual %.0e, imbalance %.0e",
-                           parameterText(at).c_str(), solution.reason.c_str(), solution.iterations,
+                           sweep::parameterText(at).c_str(), solution.reason.c_str(), solution.iterations,
                            static_cast<int>(solution.openNodes), static_cast<int>(analysis.contact.totalNodes),
                            solution.smallestPressure, solution.residual, solution.imbalance));
-    if (solution.converged) requireFinite(solution.displacement, "steady sliding at " + parameterText(at));
+    if (solution.converged) linalg::requireFinite(solution.displacement, "steady sliding at " + sweep::parameterText(at));
     if (solution.converged)
       closed.back() = solution.closed;
     else
       complain(analysis.mesh->comm,
-               formatted("no steady sliding solution found at %s: %s", parameterText(at).c_str(), solution.reason.c_str()));
+               formatted("no steady sliding solution found at %s: %s", sweep::parameterText(at).c_str(), solution.reason.c_str()));
   }
   return solutions;
 }
@@ -118,22 +118,22 @@ void requireFiniteSweep(const Analysis& analysis) {
   const auto& [frictions, speeds, pressures, dampings] = analysis.sweep;
   const double friction = std::max(1.0, frictions.back()), speed = std::max(1.0, speeds.back()), speed2 = speed * speed;
   const std::string swept = " times the factors of the sweep";
-  requireFinite(analysis.bodies.stiffness, "the stiffness of the bodies" + swept, friction);
-  requireFinite(analysis.bodies.mass, "the mass of the bodies" + swept, friction);
-  requireFinite(analysis.bodies.damping, "the damping of the bodies" + swept, friction * std::max(1.0, dampings.back()));
-  requireFinite(analysis.bodies.gyroscopic, "the gyroscopic matrix" + swept, friction * speed);
-  requireFinite(analysis.bodies.rotationStiffness, "the rotation stiffness" + swept, friction * speed2);
-  requireFinite(analysis.bodies.load, "the loads" + swept, std::max(pressures.back(), speed2));
-  requireFinite(analysis.contact.offset, "the displacements held" + swept, std::max(1.0, pressures.back()));
+  linalg::requireFinite(analysis.bodies.stiffness, "the stiffness of the bodies" + swept, friction);
+  linalg::requireFinite(analysis.bodies.mass, "the mass of the bodies" + swept, friction);
+  linalg::requireFinite(analysis.bodies.damping, "the damping of the bodies" + swept, friction * std::max(1.0, dampings.back()));
+  linalg::requireFinite(analysis.bodies.gyroscopic, "the gyroscopic matrix" + swept, friction * speed);
+  linalg::requireFinite(analysis.bodies.rotationStiffness, "the rotation stiffness" + swept, friction * speed2);
+  linalg::requireFinite(analysis.bodies.load, "the loads" + swept, std::max(pressures.back(), speed2));
+  linalg::requireFinite(analysis.contact.offset, "the displacements held" + swept, std::max(1.0, pressures.back()));
 }
 
 /// Collective. Error where the coefficient of a matrix, at an end of the sweep, makes something of it that is not a number.
-void requireFiniteSweep(const std::vector<matrices::NamedTerm>& terms, const flutter::Sweep& sweep) {
+void requireFiniteSweep(const std::vector<matrices::NamedTerm>& terms, const sweep::Sweep& sweep) {
   for (const auto& [name, term] : terms)
     for (double friction : {sweep.frictions.front(), sweep.frictions.back()})
       for (double speed : {sweep.speeds.front(), sweep.speeds.back()})
         for (double damping : {sweep.dampings.front(), sweep.dampings.back()})
-          requireFinite(term.matrix, "matrix '" + name + "' times its factors", term.coefficient({friction, speed, 1, damping}));
+          linalg::requireFinite(term.matrix, "matrix '" + name + "' times its factors", term.coefficient({friction, speed, 1, damping}));
 }
 
 /// Collective. Error for a sweep over a factor of nothing: all its points would be the same.
@@ -171,7 +171,7 @@ std::vector<SpeedUniqueness> examineUniqueness(const Analysis& analysis) {
 }
 
 /// The terms of one point, and the change of its geometric stiffness from that of `reference`, which is in the modes of the segment.
-std::vector<flutter::Term> termsOf(const Analysis& analysis, const contact::AssociatedSystem& system,
+std::vector<pencil::Term> termsOf(const Analysis& analysis, const contact::AssociatedSystem& system,
                                    const steady::Solution& solution, const steady::Solution& reference, Mat prestress) {
   OwnedMat change;
   if (prestress && &solution != &reference) {
@@ -183,21 +183,21 @@ std::vector<flutter::Term> termsOf(const Analysis& analysis, const contact::Asso
 
 /// Friction work of the shapes and, if wanted, the sensitivities of their eigenvalues.
 void examineShapes(const Analysis& analysis, const contact::AssociatedSystem& system, const steady::Solution& solution,
-                   const flutter::Pencil& pencil, const flutter::StartSpace& start, flutter::Influences& influences,
-                   flutter::FrictionPoint& point) {
+                   const pencil::Pencil& pencil, const sensitivity::StartSpace& start, flutter::Influences& influences,
+                   pencil::FrictionPoint& point) {
   if (point.shapes.empty()) return;
   OwnedMat prestress;
   if (elasticity::prestressWanted()) prestress = elasticity::geometricStiffness(*analysis.mesh, solution.displacement);
   for (auto& shape : point.shapes)
     shape.frictionWork =
         flutter::frictionWork(analysis.contact, analysis.bodies, solution, point.at, point.eigenvalues[shape.index].s,
-                              flutter::ComplexVector::copied(shape.real, shape.imaginary), prestress);
-  if (!flutter::sensitivitiesWanted()) return;
+                              linalg::ComplexVector::copied(shape.real, shape.imaginary), prestress);
+  if (!sensitivity::sensitivitiesWanted()) return;
   Stage stage(analysis.mesh->comm, "flutter");
   influences.derive(point, pencil, {point.at, system, solution, prestress}, start);
   double error = 0;
   for (const auto& sensitivity : point.sensitivities) error = std::max(error, sensitivity.leftBackwardError);
-  stage.finish(formatted("%s: sensitivities of %d eigenvalues, worst left backward error %.1e", parameterText(point.at).c_str(),
+  stage.finish(formatted("%s: sensitivities of %d eigenvalues, worst left backward error %.1e", sweep::parameterText(point.at).c_str(),
                          static_cast<int>(point.sensitivities.size()), error));
 }
 
@@ -208,7 +208,7 @@ class PointSource {
               CurrentSystem& current)
       : analysis_(analysis), system_(system), reference_(reference), prestress_(prestress), current_(current) {}
 
-  std::optional<std::vector<flutter::Term>> operator()(Parameters at) {
+  std::optional<std::vector<pencil::Term>> operator()(sweep::Parameters at) {
     at.damping = 1;
     const auto known =
         std::find_if(analysis_.steady.begin(), analysis_.steady.end(), [&](const auto& solution) { return solution.at == at; });
@@ -218,7 +218,7 @@ class PointSource {
   }
 
  private:
-  std::optional<std::vector<flutter::Term>> of(const steady::Solution& solution) const {
+  std::optional<std::vector<pencil::Term>> of(const steady::Solution& solution) const {
     if (!solution.converged || !sameOnAllRanks(analysis_.mesh->comm, solution.closed, reference_.closed)) return {};
     return termsOf(analysis_, system_, solution, reference_, prestress_);
   }
@@ -248,31 +248,31 @@ ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::si
   problem.termsAt = [&](std::size_t i) {
     return termsOf(analysis, system, analysis.steady[first + i], analysis.steady[first], prestress);
   };
-  problem.examine = [&](std::size_t i, const flutter::Pencil& pencil, const flutter::StartSpace& start,
-                        flutter::FrictionPoint& point) {
+  problem.examine = [&](std::size_t i, const pencil::Pencil& pencil, const sensitivity::StartSpace& start,
+                        pencil::FrictionPoint& point) {
     examineShapes(analysis, system, analysis.steady[first + i], pencil, start, influences, point);
   };
-  flutter::Pencil pencil = flutter::affineTerms(analysis.contact, system);
+  pencil::Pencil pencil = flutter::affineTerms(analysis.contact, system);
   // Terms of their own are absent at friction 0 alone: the last point, of the largest friction, has them if any point has.
   if (matrices::exportWanted())
     matrices::exportPencil(pencil.with(problem.termsAt(last - first - 1)), analysis.sweep, last - first);
   PointSource source(analysis, system, analysis.steady[first], prestress, current);
-  problem.termsOf = [&](const Parameters& at) { return source(at); };
+  problem.termsOf = [&](const sweep::Parameters& at) { return source(at); };
   ModalSegment segment = solveSegment(problem, std::move(pencil), analysis.sweep.dampings, floor);
   segment.openNodes = system.openNodes();
   return segment;
 }
 
 /// Collective. Error for a sweep over a parameter that no matrix comes with: all its points would be the same.
-void rejectIdleParameters(const std::vector<matrices::NamedTerm>& terms, const flutter::Sweep& sweep) {
+void rejectIdleParameters(const std::vector<matrices::NamedTerm>& terms, const sweep::Sweep& sweep) {
   const auto require = [&](const std::vector<double>& values, const std::string& name, auto exponent) {
     if (values.size() > 1 && std::none_of(terms.begin(), terms.end(), [&](const auto& named) { return exponent(named.term) != 0; }))
       throw Error("option -flutter_" + name + ": a sweep, but no matrix has -matrices_<name>_" + name + "_exponent");
   };
-  require(sweep.frictions, "friction", [](const flutter::Term& term) { return term.frictionExponent; });
-  require(sweep.speeds, "speed", [](const flutter::Term& term) { return term.speedExponent; });
+  require(sweep.frictions, "friction", [](const pencil::Term& term) { return term.frictionExponent; });
+  require(sweep.speeds, "speed", [](const pencil::Term& term) { return term.speedExponent; });
   if (!flutter::modalDampingWanted())
-    require(sweep.dampings, "damping", [](const flutter::Term& term) { return term.dampingExponent; });
+    require(sweep.dampings, "damping", [](const pencil::Term& term) { return term.dampingExponent; });
   if (sweep.pressures != std::vector<double>{1})
     throw Error("option -flutter_pressure: no matrix from a file depends on the pressure");
 }
@@ -289,9 +289,9 @@ Analysis analyseMatrices(Analysis analysis) {
                                                             system.asymmetry())
                                                       .c_str()
                                                 : ""));
-  std::vector<flutter::Term> terms;
+  std::vector<pencil::Term> terms;
   for (auto& item : named) terms.push_back(std::move(item.term));
-  flutter::Pencil pencil(std::move(terms));
+  pencil::Pencil pencil(std::move(terms));
   const auto points = analysis.sweep.steadyPoints();
   if (matrices::exportWanted()) matrices::exportPencil(pencil, analysis.sweep, points.size());
   OwnedMat identity;
@@ -300,8 +300,8 @@ Analysis analyseMatrices(Analysis analysis) {
   check(MatCreateConstantDiagonal(comm, local, local, PETSC_DETERMINE, PETSC_DETERMINE, 1, identity.out()));
   const int modes = static_cast<int>(std::min<PetscInt>(modes::wantedCount(), system.size()));
   SegmentProblem problem{system.k0(), system.m0(), [&] { return system.solver(); }, identity, modes, points, {}, {}, {}};
-  problem.examine = [&](std::size_t, const flutter::Pencil& at, const flutter::StartSpace& start, flutter::FrictionPoint& point) {
-    if (flutter::sensitivitiesWanted()) flutter::deriveParameters(point, at, start, system.solver(), system.m0());
+  problem.examine = [&](std::size_t, const pencil::Pencil& at, const sensitivity::StartSpace& start, pencil::FrictionPoint& point) {
+    if (sensitivity::sensitivitiesWanted()) sensitivity::deriveParameters(point, at, start, system.solver(), system.m0());
   };
   analysis.segments.push_back(solveSegment(problem, std::move(pencil), analysis.sweep.dampings, analysis.modesFloorSeconds));
   return analysis;
@@ -325,7 +325,7 @@ bool Analysis::converged() const {
   return std::all_of(steady.begin(), steady.end(), [](const auto& solution) { return solution.converged; });
 }
 
-const flutter::FrictionPoint* Analysis::pointAt(const Parameters& at) const {
+const pencil::FrictionPoint* Analysis::pointAt(const sweep::Parameters& at) const {
   for (const auto& segment : segments)
     for (const auto& point : segment.points)
       if (point.at == at) return &point;
@@ -334,15 +334,15 @@ const flutter::FrictionPoint* Analysis::pointAt(const Parameters& at) const {
 
 void checkOptions() {
   rejectUnknownOptions();
-  flutter::rejectIdleSolverOptions();
-  if (flutter::directWanted() && flutter::modalDampingWanted())
+  direct::rejectIdleSolverOptions();
+  if (direct::directWanted() && flutter::modalDampingWanted())
     throw Error(
         "option -flutter_modal_damping: damping of the free modes needs the modes of -flutter_method reduced");
-  flutter::readSweep();
+  sweep::readSweep();
   if (!matrices::wanted()) meshRequest();
 }
 
-std::vector<matrices::NamedTerm> readMatrices(MPI_Comm comm, const flutter::Sweep& sweep) {
+std::vector<matrices::NamedTerm> readMatrices(MPI_Comm comm, const sweep::Sweep& sweep) {
   Stage stage(comm, "matrices");
   auto named = matrices::readTerms(comm);
   rejectIdleParameters(named, sweep);
@@ -357,8 +357,8 @@ Analysis prepare(MPI_Comm comm) {
   Analysis analysis;
   analysis.comm = comm;
   const bool ofMesh = !matrices::wanted();
-  analysis.sweep = flutter::readSweep();
-  if (!flutter::directWanted()) flutter::warnOfLongSweep(comm, analysis.sweep, modes::wantedCount());
+  analysis.sweep = sweep::readSweep();
+  if (!direct::directWanted()) sweep::warnOfLongSweep(comm, analysis.sweep, modes::wantedCount());
   if (!ofMesh) return analysis;
   analysis.mesh = std::make_unique<mesh::Mesh>(readMesh(comm));
   analysis.bodies = assembleBodies(*analysis.mesh);
@@ -387,4 +387,4 @@ Analysis analyse(MPI_Comm comm) {
   return analysis;
 }
 
-}  // namespace squeal
+}  // namespace squeal::analysis

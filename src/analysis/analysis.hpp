@@ -13,7 +13,7 @@
 #include "sweep/parameters.hpp"
 #include "sweep/sweep.hpp"
 
-namespace squeal {
+namespace squeal::analysis {
 
 /// What is known of the number of steady states at one speed, for all frictions.
 struct SpeedUniqueness {
@@ -23,7 +23,7 @@ struct SpeedUniqueness {
 
 struct Analysis {
   MPI_Comm comm = MPI_COMM_NULL;
-  flutter::Sweep sweep;
+  sweep::Sweep sweep;
   std::unique_ptr<mesh::Mesh> mesh;  ///< at a fixed address: contact and steady borrow it; null: matrices from files
   elasticity::Bodies bodies;
   contact::Contact contact;
@@ -35,7 +35,7 @@ struct Analysis {
   /// Every point has a steady solution.
   bool converged() const;
   /// What was found at a point of the sweep; null where there is no steady solution.
-  const flutter::FrictionPoint* pointAt(const Parameters& at) const;
+  const pencil::FrictionPoint* pointAt(const sweep::Parameters& at) const;
 };
 
 /// What the options of all stages ask of the mesh.
@@ -48,9 +48,9 @@ void checkOptions();
 /// Errors as the stages document them.
 Analysis prepare(MPI_Comm comm);
 /// Collective. The matrices of files, checked against the sweep.
-std::vector<matrices::NamedTerm> readMatrices(MPI_Comm comm, const flutter::Sweep& sweep);
+std::vector<matrices::NamedTerm> readMatrices(MPI_Comm comm, const sweep::Sweep& sweep);
 
 /// Collective. Runs all stages that the options, which have been checked, ask for. Errors as the stages document them.
 Analysis analyse(MPI_Comm comm);
 
-}  // namespace squeal
+}  // namespace squeal::analysis

@@ -14,7 +14,7 @@
 #include "session/stages.hpp"
 #include "sweep/sweep.hpp"
 
-namespace squeal {
+namespace squeal::analysis {
 namespace {
 
 const FlagOption dryRunOption(
@@ -71,7 +71,7 @@ void sayContact(const contact::Contact& contact, MPI_Comm comm) {
   sayList(comm, "contact", interfaces);
 }
 
-void saySweep(MPI_Comm comm, const flutter::Sweep& sweep, bool steady) {
+void saySweep(MPI_Comm comm, const sweep::Sweep& sweep, bool steady) {
   const std::size_t states = sweep.frictions.size() * sweep.speeds.size() * sweep.pressures.size();
   std::string text = formatted("%-12s %zu points: %zu frictions x %zu speeds x %zu pressures x %zu dampings", "sweep",
                                states * sweep.dampings.size(), sweep.frictions.size(), sweep.speeds.size(), sweep.pressures.size(),
@@ -90,7 +90,7 @@ void sayMemory(MPI_Comm comm, Mat k0) {
   check(MatGetSize(k0, &unknowns, nullptr));
   check(MatGetInfo(k0, MAT_GLOBAL_SUM, &info));
   const int modes = static_cast<int>(std::min<PetscInt>(modes::wantedCount(), unknowns));
-  const double factor = factorMemory(k0);
+  const double factor = linalg::factorMemory(k0);
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   const double held = total(comm, 1024.0 * static_cast<double>(usage.ru_maxrss));
@@ -145,4 +145,4 @@ void dryRun(MPI_Comm comm) {
       "untried");
 }
 
-}  // namespace squeal
+}  // namespace squeal::analysis

@@ -2,7 +2,7 @@
 /// `-dry_run`: what a run would do and take, without a solution and without results.
 #include <mpi.h>
 
-namespace squeal {
+namespace squeal::analysis {
 
 bool dryRunWanted();
 
@@ -10,4 +10,4 @@ bool dryRunWanted();
 /// matrices), points of the sweep, and an estimate of the memory. Errors as those of the run.
 void dryRun(MPI_Comm comm);
 
-}  // namespace squeal
+}  // namespace squeal::analysis

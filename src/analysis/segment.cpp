@@ -17,7 +17,7 @@
 #include "sweep/parameters.hpp"
 #include "sweep/sweep.hpp"
 
-namespace squeal {
+namespace squeal::analysis {
 namespace {
 
 const IntegerOption modesShown("report", "report_modes", 10, 0, 100'000, "number of free modes written as fields");
@@ -42,8 +42,8 @@ std::vector<OwnedVec> reportedShapes(const modes::Modes& modes, Mat trial) {
   return shapes;
 }
 
-std::string pointText(const flutter::FrictionPoint& point) {
-  std::string text = formatted("%s: %d of %d eigenvalues unstable", parameterText(point.at).c_str(), point.unstableCount(),
+std::string pointText(const pencil::FrictionPoint& point) {
+  std::string text = formatted("%s: %d of %d eigenvalues unstable", sweep::parameterText(point.at).c_str(), point.unstableCount(),
                                static_cast<int>(point.eigenvalues.size()));
   if (point.bandTop > 0 && std::isfinite(point.bandTop)) text += formatted(" to %.4g Hz", point.bandTop / (2 * M_PI));
   text += formatted(", worst backward error %.1e", point.worstBackwardError());
@@ -52,29 +52,29 @@ std::string pointText(const flutter::FrictionPoint& point) {
 }
 
 /// Overflow within the eigenvalue problems must not become a row of the results.
-void requireFiniteEigenvalues(const flutter::FrictionPoint& point) {
+void requireFiniteEigenvalues(const pencil::FrictionPoint& point) {
   for (const auto& e : point.eigenvalues)
     if (!std::isfinite(e.s.real()) || !std::isfinite(e.s.imag()) || !std::isfinite(e.backwardError))
-      throw Error("an eigenvalue at " + parameterText(point.at) +
+      throw Error("an eigenvalue at " + sweep::parameterText(point.at) +
                   " is not a finite number; check the magnitudes of materials and factors");
 }
 
 /// Flutter at the points of a segment, batch by batch.
 class SegmentSweep {
  public:
-  SegmentSweep(const SegmentProblem& problem, flutter::Pencil pencil, const std::vector<double>& dampings)
+  SegmentSweep(const SegmentProblem& problem, pencil::Pencil pencil, const std::vector<double>& dampings)
       : problem_(problem), pencil_(std::move(pencil)) {
     for (double damping : dampings)
-      for (Parameters at : problem.steadyPoints) {
+      for (sweep::Parameters at : problem.steadyPoints) {
         at.damping = damping;
         points_.push_back(at);
       }
   }
 
   void computeModes(ModalSegment& segment, double& floor) {
-    const bool direct = flutter::directWanted();
-    if (direct) rejectUnusedSolverOptions();
-    if (direct && !flutter::sensitivitiesWanted()) return;
+    const bool direct = direct::directWanted();
+    if (direct) linalg::rejectUnusedSolverOptions();
+    if (direct && !sensitivity::sensitivitiesWanted()) return;
     modes::Modes modes = modes::compute({problem_.k0, problem_.m0, problem_.solver()}, problem_.modes);
     if (direct) {
       forLeftVectors_ = std::move(modes);
@@ -85,17 +85,17 @@ class SegmentSweep {
     segment.shapes = reportedShapes(segment.modes, problem_.trial);
     pencil_.add(flutter::modalDamping(segment.modes, problem_.m0));
     Stage stage(pencil_.comm(), "flutter");
-    reduced_ = std::make_unique<flutter::ReducedProblem>(pencil_, problem_.k0, problem_.solver(), segment.modes);
+    reduced_ = std::make_unique<reduction::ReducedProblem>(pencil_, problem_.k0, problem_.solver(), segment.modes);
     stage.finish(formatted("basis of %d free modes", static_cast<int>(reduced_->basisSize())));
   }
 
   void solvePoints(ModalSegment& segment) {
     segment.points.resize(points_.size());
-    for (const auto& batch : flutter::batches(points_)) {
-      std::vector<flutter::PointProblem> problems;
+    for (const auto& batch : sweep::batches(points_)) {
+      std::vector<reduction::PointProblem> problems;
       for (std::size_t i : batch) {
         const std::size_t steady = i % problem_.steadyPoints.size();
-        auto terms = problem_.termsAt ? problem_.termsAt(steady) : std::vector<flutter::Term>();
+        auto terms = problem_.termsAt ? problem_.termsAt(steady) : std::vector<pencil::Term>();
         affine_ = affine_ && terms.empty();
         problems.push_back({points_[i], pencil_.with(std::move(terms))});
       }
@@ -109,25 +109,25 @@ class SegmentSweep {
 
   /// Eigenvalues followed from point to point, and critical frictions.
   void followPoints(ModalSegment& segment) {
-    if (!flutter::trackWanted()) return;
-    const std::string nothing = reduced_ ? flutter::nothingToFollow(*reduced_, segment.points) : "-flutter_method direct";
+    if (!tracking::trackWanted()) return;
+    const std::string nothing = reduced_ ? tracking::nothingToFollow(*reduced_, segment.points) : "-flutter_method direct";
     if (!nothing.empty()) {
-      if (flutter::trackAsked()) say(pencil_.comm(), "track: nothing to follow (" + nothing + ")");
+      if (tracking::trackAsked()) say(pencil_.comm(), "track: nothing to follow (" + nothing + ")");
       return;
     }
-    if (!affine_ && !flutter::trackAsked())  // each friction put in between costs a steady state and terms of its own
+    if (!affine_ && !tracking::trackAsked())  // each friction put in between costs a steady state and terms of its own
       return say(pencil_.comm(), "track: not done where terms follow the steady state, unless -flutter_track is given");
     Stage stage(pencil_.comm(), "track");
-    const auto problemAt = [&](const Parameters& at) {
-      std::optional<flutter::PointProblem> problem;
+    const auto problemAt = [&](const sweep::Parameters& at) {
+      std::optional<reduction::PointProblem> problem;
       if (affine_) {
-        problem.emplace(flutter::PointProblem{at, pencil_.with({})});
+        problem.emplace(reduction::PointProblem{at, pencil_.with({})});
       } else if (auto terms = problem_.termsOf(at)) {
-        problem.emplace(flutter::PointProblem{at, pencil_.with(std::move(*terms))});
+        problem.emplace(reduction::PointProblem{at, pencil_.with(std::move(*terms))});
       }
       return problem;
     };
-    segment.followed = flutter::followSweep(*reduced_, segment.points, segment.modes, pencil_.comm(), {pencil_, problemAt, affine_},
+    segment.followed = tracking::followSweep(*reduced_, segment.points, segment.modes, pencil_.comm(), {pencil_, problemAt, affine_},
                                             [&](const std::string& text) { stage.progress(text); });
     std::size_t branches = 0, stations = 0, criticals = 0;
     for (const auto& followed : segment.followed) {
@@ -140,14 +140,14 @@ class SegmentSweep {
   }
 
  private:
-  void solveBatch(const std::vector<std::size_t>& batch, const std::vector<flutter::PointProblem>& problems,
+  void solveBatch(const std::vector<std::size_t>& batch, const std::vector<reduction::PointProblem>& problems,
                   ModalSegment& segment) {
     Stage stage(pencil_.comm(), "flutter");
-    std::vector<flutter::FrictionPoint> solved;
+    std::vector<pencil::FrictionPoint> solved;
     if (reduced_) solved = reduced_->solve(problems, problem_.trial);
     for (std::size_t i = 0; i < batch.size(); ++i) {
       auto& point = segment.points[batch[i]];
-      point = reduced_ ? std::move(solved[i]) : flutter::solveDirect(problems[i].pencil, problems[i].at, problem_.trial);
+      point = reduced_ ? std::move(solved[i]) : direct::solveDirect(problems[i].pencil, problems[i].at, problem_.trial);
       requireFiniteEigenvalues(point);
       stage.say(pointText(point));
     }
@@ -158,23 +158,23 @@ class SegmentSweep {
   }
 
   /// Of the left vectors of the shapes kept.
-  flutter::StartSpace startSpace(const flutter::PointProblem& problem, const flutter::FrictionPoint& point) const {
-    if (!flutter::sensitivitiesWanted() || point.shapes.empty()) return {};
+  sensitivity::StartSpace startSpace(const reduction::PointProblem& problem, const pencil::FrictionPoint& point) const {
+    if (!sensitivity::sensitivitiesWanted() || point.shapes.empty()) return {};
     if (!reduced_) return {forLeftVectors_.vectors.share(), problem_.m0, {}};
     return {reduced_->basis().vectors(), problem_.k0, reduced_->project(problem)};
   }
 
   const SegmentProblem& problem_;
-  flutter::Pencil pencil_;
-  std::vector<Parameters> points_;
+  pencil::Pencil pencil_;
+  std::vector<sweep::Parameters> points_;
   modes::Modes forLeftVectors_;  // with the direct method, which has no modes of its own
-  std::unique_ptr<flutter::ReducedProblem> reduced_;
+  std::unique_ptr<reduction::ReducedProblem> reduced_;
   bool affine_ = true;  // no point has terms of its own
 };
 
 }  // namespace
 
-ModalSegment solveSegment(const SegmentProblem& problem, flutter::Pencil pencil, const std::vector<double>& dampings,
+ModalSegment solveSegment(const SegmentProblem& problem, pencil::Pencil pencil, const std::vector<double>& dampings,
                           double& floor) {
   ModalSegment segment;
   check(MatGetSize(problem.k0, &segment.unknowns, nullptr));
@@ -185,4 +185,4 @@ ModalSegment solveSegment(const SegmentProblem& problem, flutter::Pencil pencil,
   return segment;
 }
 
-}  // namespace squeal
+}  // namespace squeal::analysis

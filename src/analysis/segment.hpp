@@ -12,7 +12,7 @@
 #include "sweep/parameters.hpp"
 #include "tracking/followed.hpp"
 
-namespace squeal {
+namespace squeal::analysis {
 
 /// Steady points of the sweep in a row with the same active set, and the modes of that set.
 struct ModalSegment {
@@ -20,8 +20,8 @@ struct ModalSegment {
   PetscInt unknowns = 0;
   modes::Modes modes;                          ///< empty with the direct method
   std::vector<OwnedVec> shapes;                ///< the first `-report_modes` modes in nodal displacements, largest entry 1
-  std::vector<flutter::FrictionPoint> points;  ///< for each damping factor all steady points
-  std::vector<flutter::Followed> followed;     ///< for each speed, pressure and damping
+  std::vector<pencil::FrictionPoint> points;  ///< for each damping factor all steady points
+  std::vector<tracking::Followed> followed;     ///< for each speed, pressure and damping
   long solves = 0;                             ///< right-hand sides solved for to correct the basis and to estimate errors
 };
 
@@ -31,18 +31,18 @@ struct SegmentProblem {
   std::function<KSP()> solver;           ///< of K0
   Mat trial = nullptr;                   ///< from the unknowns to what is reported
   int modes = 0;                         ///< their number
-  std::vector<Parameters> steadyPoints;  ///< for all damping factors
+  std::vector<sweep::Parameters> steadyPoints;  ///< for all damping factors
   /// The terms that belong to steadyPoints[i] alone; none: there are none.
-  std::function<std::vector<flutter::Term>(std::size_t)> termsAt;
+  std::function<std::vector<pencil::Term>(std::size_t)> termsAt;
   /// The terms that belong to any point alone, between those of the sweep, where termsAt gives any; none: it cannot be had.
-  std::function<std::optional<std::vector<flutter::Term>>(const Parameters&)> termsOf;
+  std::function<std::optional<std::vector<pencil::Term>>(const sweep::Parameters&)> termsOf;
   /// What else is to be found of steadyPoints[i], given its pencil and a space for left vectors to start from; none: nothing.
-  std::function<void(std::size_t, const flutter::Pencil&, const flutter::StartSpace&, flutter::FrictionPoint&)> examine;
+  std::function<void(std::size_t, const pencil::Pencil&, const sensitivity::StartSpace&, pencil::FrictionPoint&)> examine;
 };
 
 /// Collective. The modes, and flutter at all steady points with all `dampings`. `floor` is set by -modes_benchmark. Errors: of the stages
 /// modes and flutter.
-ModalSegment solveSegment(const SegmentProblem& problem, flutter::Pencil pencil, const std::vector<double>& dampings,
+ModalSegment solveSegment(const SegmentProblem& problem, pencil::Pencil pencil, const std::vector<double>& dampings,
                           double& floor);
 
-}  // namespace squeal
+}  // namespace squeal::analysis

@@ -51,7 +51,7 @@ AssociatedSystem::AssociatedSystem(const elasticity::Bodies& bodies, const Conta
   damping_ = project(contact, transformation_, bodies.damping);
   gyroscopic_ = project(contact, transformation_, bodies.gyroscopic);
   rotationStiffness_ = project(contact, transformation_, bodies.rotationStiffness);
-  solver_ = std::make_unique<SymmetricSolver>(stiffness_.matrix, "stiffness of the closed, frictionless contact");
+  solver_ = std::make_unique<linalg::SymmetricSolver>(stiffness_.matrix, "stiffness of the closed, frictionless contact");
 }
 
 }  // namespace squeal::contact

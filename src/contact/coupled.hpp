@@ -51,7 +51,7 @@ class AssociatedSystem {
   Projection stiffness_, mass_, damping_, gyroscopic_, rotationStiffness_;
   std::vector<unsigned char> closed_;
   PetscInt openNodes_ = 0;
-  std::unique_ptr<SymmetricSolver> solver_;
+  std::unique_ptr<linalg::SymmetricSolver> solver_;
 };
 
 }  // namespace squeal::contact

@@ -103,7 +103,7 @@ std::vector<double> gram(const mesh::Mesh& mesh, const Contact& contact, Vec spr
 std::optional<LooseBody> looseBody(const mesh::Mesh& mesh, const Contact& contact, Vec springs, bool contactCloses) {
   const RigidMotions motions = rigidMotions(mesh);
   std::vector<double> g = gram(mesh, contact, springs, motions, contactCloses);
-  const auto eigenvalues = symmetricEigen(g, motions.size());
+  const auto eigenvalues = linalg::symmetricEigen(g, motions.size());
   // A support over a thousandth of the model still holds a rotation with 1e-6 of a translation's weight per node.
   if (eigenvalues.front() > 1e-12 * std::max(eigenvalues.back(), 1.0)) return std::nullopt;
   int worst = 0;

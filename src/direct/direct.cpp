@@ -8,7 +8,7 @@
 #include "options/options.hpp"
 #include "petsc/text.hpp"
 
-namespace squeal::flutter {
+namespace squeal::direct {
 namespace {
 
 const ChoiceOption methodOption("flutter", "flutter_method", {"reduced", "direct"}, "reduced",
@@ -69,27 +69,27 @@ NearestPairs solveCount(NearestSolver& solver) {
 
 bool directWanted() { return methodOption.get() == "direct"; }
 
-FrictionPoint solveDirect(const Pencil& pencil, const Parameters& at, Mat trial) {
+pencil::FrictionPoint solveDirect(const pencil::Pencil& pencil, const sweep::Parameters& at, Mat trial) {
   const Band band = readBand();
   const auto solver = nearestSolver(pencil, at);
   auto [pairs, reached] = band.wanted() ? solveBand(*solver, band) : solveCount(*solver);
   std::sort(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) {
     return a.s.imag() != b.s.imag() ? a.s.imag() < b.s.imag() : a.s.real() < b.s.real();
   });
-  FrictionPoint point;
+  pencil::FrictionPoint point;
   point.at = at;
   if (band.wanted()) point.askedTo = band.high, point.coveredTo = std::min(reached, band.high);
-  point.accuracy = accuracyAsked();
+  point.accuracy = pencil::accuracyAsked();
   for (const auto& pair : pairs) {
-    const double error = backwardError(pencil, at, pair.s, pair);
+    const double error = pencil::backwardError(pencil, at, pair.s, pair);
     point.eigenvalues.push_back({pair.s, error, NAN, error <= point.accuracy});
   }
   judge(point.eigenvalues);
-  const auto wanted = shapesWanted(point);
-  std::vector<ComplexVector> modes;
-  for (std::size_t index : wanted) modes.push_back(ComplexVector::copied(pairs[index].real, pairs[index].imaginary));
-  keepShapes(point, trial, wanted, std::move(modes));
+  const auto wanted = pencil::shapesWanted(point);
+  std::vector<linalg::ComplexVector> modes;
+  for (std::size_t index : wanted) modes.push_back(linalg::ComplexVector::copied(pairs[index].real, pairs[index].imaginary));
+  pencil::keepShapes(point, trial, wanted, std::move(modes));
   return point;
 }
 
-}  // namespace squeal::flutter
+}  // namespace squeal::direct

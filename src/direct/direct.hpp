@@ -4,7 +4,7 @@
 #include "pencil/pencil.hpp"
 #include "sweep/parameters.hpp"
 
-namespace squeal::flutter {
+namespace squeal::direct {
 
 /// `-flutter_method`: true for the direct solve on all unknowns.
 bool directWanted();
@@ -16,6 +16,6 @@ void rejectIdleSolverOptions();
 /// Collective. Eigenvalues of the problem on all unknowns, without reduction, by SLEPc with shift-and-invert at zero: the
 /// `-flutter_direct_count` nearest to zero, or all of `-flutter_direct_band` (low ≤ Im s ≤ high, |s| ≤ high), as far as
 /// `-flutter_direct_limit` of them reach. Error: a band that is none; not converged.
-FrictionPoint solveDirect(const Pencil& pencil, const Parameters& at, Mat trial);
+pencil::FrictionPoint solveDirect(const pencil::Pencil& pencil, const sweep::Parameters& at, Mat trial);
 
-}  // namespace squeal::flutter
+}  // namespace squeal::direct

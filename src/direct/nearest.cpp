@@ -13,7 +13,7 @@
 #include "petsc/text.hpp"
 #include "sweep/parameters.hpp"
 
-namespace squeal::flutter {
+namespace squeal::direct {
 namespace {
 
 const SolverPrefix epsPrefix("flutter", "flutter_eps_", "SLEPc EPS of the direct method without damping");
@@ -62,7 +62,7 @@ void normalise(NearestPair& v) {
   check(VecScale(v.imaginary, 1 / size));
 }
 
-NearestPair copied(const NearestPair& pair) { return {ComplexVector::copied(pair.real, pair.imaginary), pair.s}; }
+NearestPair copied(const NearestPair& pair) { return {linalg::ComplexVector::copied(pair.real, pair.imaginary), pair.s}; }
 
 /// Removes from v its part in the span of the orthonormal `basis`, twice for rounding; returns the length that is left.
 double project(NearestPair& v, const std::vector<NearestPair>& basis) {
@@ -96,7 +96,7 @@ double reachedBy(std::vector<double> sizes, PetscInt wanted, PetscInt all) {
   return wanted == all ? INFINITY : sizes.at(static_cast<std::size_t>(wanted) - 1);
 }
 
-void rejectUnconverged(PetscInt converged, PetscInt wanted, const Parameters& at, const std::string& prefix) {
+void rejectUnconverged(PetscInt converged, PetscInt wanted, const sweep::Parameters& at, const std::string& prefix) {
   if (converged < wanted)
     throw Error(formatted("direct method at friction %g: only %d of %d eigenvalues converged; raise -%smax_it or -%sncv",
                           at.friction, static_cast<int>(converged), static_cast<int>(wanted), prefix.c_str(), prefix.c_str()));
@@ -105,7 +105,7 @@ void rejectUnconverged(PetscInt converged, PetscInt wanted, const Parameters& at
 /// K d = μ M d, μ = −s².
 class Undamped : public NearestSolver {
  public:
-  Undamped(const Pencil& pencil, const Parameters& at) : NearestSolver(pencil, at) {
+  Undamped(const pencil::Pencil& pencil, const sweep::Parameters& at) : NearestSolver(pencil, at) {
     ST st = nullptr;
     DS ds = nullptr;
     check(EPSCreate(pencil.comm(), eps_.out()));
@@ -161,7 +161,7 @@ class Undamped : public NearestSolver {
 /// (K + s Z + s² M) d = 0.
 class Damped : public NearestSolver {
  public:
-  Damped(const Pencil& pencil, const Parameters& at) : NearestSolver(pencil, at) {
+  Damped(const pencil::Pencil& pencil, const sweep::Parameters& at) : NearestSolver(pencil, at) {
     Mat terms[3] = {terms_[0], terms_[1], terms_[2]};
     ST st = nullptr;
     DS ds = nullptr;
@@ -217,7 +217,7 @@ class Damped : public NearestSolver {
 
 }  // namespace
 
-NearestSolver::NearestSolver(const Pencil& pencil, const Parameters& at) : at_(at) {
+NearestSolver::NearestSolver(const pencil::Pencil& pencil, const sweep::Parameters& at) : at_(at) {
   for (int power = 0; power <= 2; ++power) terms_[power] = pencil.assembled(power, at);
   check(MatGetSize(terms_[0], &size_, nullptr));
 }
@@ -235,7 +235,7 @@ NearestPairs NearestSolver::whole() const {
   PetscInt first = 0, end = 0;
   check(MatGetOwnershipRange(terms_[0], &first, &end));
   for (const auto& [s, q, left] :
-       solveTogether(comm, gathered(terms_[2]), gathered(terms_[1]), gathered(terms_[0]), static_cast<int>(size_))) {
+       linalg::solveTogether(comm, linalg::gathered(terms_[2]), linalg::gathered(terms_[1]), linalg::gathered(terms_[0]), static_cast<int>(size_))) {
     NearestPair pair = emptyPair(terms_[0], s);
     for (PetscInt i = first; i < end; ++i) {
       check(VecSetValue(pair.real, i, q[static_cast<std::size_t>(i)].real(), INSERT_VALUES));
@@ -253,7 +253,7 @@ void rejectIdleSolverOptions() {
       throw Error("options -" + prefix->prefix + "* (" + joined(prefix->names()) + ") are used by -flutter_method direct alone");
 }
 
-std::unique_ptr<NearestSolver> nearestSolver(const Pencil& pencil, const Parameters& at) {
+std::unique_ptr<NearestSolver> nearestSolver(const pencil::Pencil& pencil, const sweep::Parameters& at) {
   if (pencil.hasPower(1)) return std::make_unique<Damped>(pencil, at);
   return std::make_unique<Undamped>(pencil, at);
 }
@@ -268,4 +268,4 @@ void addMissed(NearestSolver& solver, PetscInt count, NearestPairs& found) {
   }
 }
 
-}  // namespace squeal::flutter
+}  // namespace squeal::direct

@@ -8,10 +8,10 @@
 #include "pencil/pencil.hpp"
 #include "sweep/parameters.hpp"
 
-namespace squeal::flutter {
+namespace squeal::direct {
 
 /// The vector has 2-norm 1; its imaginary part is zero for a real one.
-struct NearestPair : ComplexVector {
+struct NearestPair : linalg::ComplexVector {
   std::complex<double> s;
 };
 
@@ -23,7 +23,7 @@ struct NearestPairs {
 class NearestSolver {
  public:
   /// Collective. Assembles the terms.
-  NearestSolver(const Pencil& pencil, const Parameters& at);
+  NearestSolver(const pencil::Pencil& pencil, const sweep::Parameters& at);
   virtual ~NearestSolver() = default;
   /// Collective. At least the `count` eigenvalues nearest to zero, conjugate pairs counted once. Each call begins with another vector
   /// and keeps the factorisation. Where the Krylov space would be the whole space, LAPACK is called instead. Error: not converged.
@@ -31,7 +31,7 @@ class NearestSolver {
 
  protected:
   virtual NearestPairs krylov(PetscInt count) = 0;
-  Parameters at_;
+  sweep::Parameters at_;
   OwnedMat terms_[3];  // [power of s]
   PetscInt size_ = 0;
   int runs_ = 0;
@@ -42,11 +42,11 @@ class NearestSolver {
 
 /// Collective. Shift-and-invert at zero: EPS in −s² if there is no damping (-flutter_eps_*), otherwise TOAR, a PEP solver
 /// (-flutter_pep_*); the factorisation is configured by -flutter_st_* in both.
-std::unique_ptr<NearestSolver> nearestSolver(const Pencil& pencil, const Parameters& at);
+std::unique_ptr<NearestSolver> nearestSolver(const pencil::Pencil& pencil, const sweep::Parameters& at);
 
 /// Collective. A Krylov space begun with one vector holds one vector of a multiple eigenvalue; the others come from rounding, or do
 /// not. `found`, the result of solver.solve(count), is joined by what is new in further solves from other starts, until one brings
 /// nothing new. New is a vector that is not in the span of those already known with nearly the same s.
 void addMissed(NearestSolver& solver, PetscInt count, NearestPairs& found);
 
-}  // namespace squeal::flutter
+}  // namespace squeal::direct

@@ -14,7 +14,7 @@ using Complex = std::complex<double>;
 constexpr double step = 1e-4;
 
 /// The steady state enters the terms of the point: the direction and law of slip, friction damping, prestress.
-bool followsSteadyState(const contact::Contact& contact, const Parameters& at, Mat prestress) {
+bool followsSteadyState(const contact::Contact& contact, const sweep::Parameters& at, Mat prestress) {
   const bool damping = frictionDampingWanted() && (contact.mesh->dimension == 3 || !contact.law.constant());
   return prestress || (at.friction > 0 && (damping || !contact.slipIsGiven()));
 }
@@ -24,7 +24,7 @@ bool followsSteadyState(const contact::Contact& contact, const Parameters& at, M
 /// One parameter θ, and how the steady state follows it.
 struct Influences::Influence {
   std::string name;
-  double Parameters::*member = nullptr;  // of the point; null: one of a body
+  double sweep::Parameters::*member = nullptr;  // of the point; null: one of a body
   int body = -1;
   bool density = false;  // of the body; otherwise its moduli
   double size = 1;       // θ, for the step of differences
@@ -36,34 +36,34 @@ struct Influences::Influence {
 /// A triple on all nodal displacements: yᴴ L(f)ᵀ X T x = zᴴ X u.
 struct Influences::Projected {
   Complex s;
-  ComplexVector u, z;  // T x, L(f) y
+  linalg::ComplexVector u, z;  // T x, L(f) y
   ContactMotion motion;
   std::vector<ComplexPoint> test;  // [T y]
 };
 
-void Influences::derive(FrictionPoint& point, const Pencil& pencil, const BodyPoint& state, const StartSpace& start) {
+void Influences::derive(pencil::FrictionPoint& point, const pencil::Pencil& pencil, const BodyPoint& state, const sensitivity::StartSpace& start) {
   if (point.shapes.empty()) return;
   const auto list = influences(state);
-  const Forms forms = [&](const EigenTriple& triple) {
+  const sensitivity::Forms forms = [&](const sensitivity::EigenTriple& triple) {
     const Projected pair = project(state, triple);
-    std::vector<Derivative> found;
+    std::vector<pencil::Derivative> found;
     for (const auto& influence : list) {
-      const Complex form = influence.member ? parameterForm(pencil, state.at, triple, influence.member) : 0;
+      const Complex form = influence.member ? sensitivity::parameterForm(pencil, state.at, triple, influence.member) : 0;
       found.push_back({influence.name, form + materialForm(influence, state, pair) + steadyForm(influence, state, pair)});
     }
     return found;
   };
-  deriveShapes(point, pencil, start, state.system.solver(), state.system.m0(), forms);
+  sensitivity::deriveShapes(point, pencil, start, state.system.solver(), state.system.m0(), forms);
 }
 
 std::vector<Influences::Influence> Influences::influences(const BodyPoint& state) {
   for (int body = static_cast<int>(parts_.size()); body < static_cast<int>(mesh_.bodies.size()); ++body)
     parts_.push_back(elasticity::bodyPart(mesh_, body));
   std::vector<Influence> list;
-  for (const auto& parameter : allParameters) {
+  for (const auto& parameter : sweep::allParameters) {
     list.emplace_back();
     list.back().name = parameter.name, list.back().member = parameter.value;
-    if (parameter.value != &Parameters::friction) list.back().size = state.at.*parameter.value;
+    if (parameter.value != &sweep::Parameters::friction) list.back().size = state.at.*parameter.value;
   }
   for (std::size_t body = 0; body < mesh_.bodies.size(); ++body)
     for (const bool density : {false, true}) {
@@ -74,7 +74,7 @@ std::vector<Influences::Influence> Influences::influences(const BodyPoint& state
   if (!followsSteadyState(contact_, state.at, state.prestress)) return list;
   const steady::Problem problem(mesh_, bodies_, contact_);
   for (auto& influence : list)
-    if (influence.member != &Parameters::damping) followSteadyState(state, problem, influence);
+    if (influence.member != &sweep::Parameters::damping) followSteadyState(state, problem, influence);
   return list;
 }
 
@@ -89,12 +89,12 @@ void Influences::followSteadyState(const BodyPoint& state, const steady::Problem
     check(VecAXPY(force, -1, centrifugal));
     check(VecScale(force, factor));
   };
-  if (influence.member == &Parameters::friction) cause.friction = 1;
-  if (influence.member == &Parameters::speed) {
+  if (influence.member == &sweep::Parameters::friction) cause.friction = 1;
+  if (influence.member == &sweep::Parameters::speed) {
     inertia(bodies_.rotationStiffness, bodies_.centrifugal, 2 * v);
     cause.speed = 1;
   }
-  if (influence.member == &Parameters::pressure) {
+  if (influence.member == &sweep::Parameters::pressure) {
     check(VecAXPY(force, -1, bodies_.load));
     check(VecAXPY(force, 1, bodies_.centrifugal));
     cause.held = contact_.offset;
@@ -111,13 +111,13 @@ void Influences::followSteadyState(const BodyPoint& state, const steady::Problem
   if (state.prestress) influence.prestress = elasticity::geometricStiffness(mesh_, influence.change.displacement);
 }
 
-Influences::Projected Influences::project(const BodyPoint& state, const EigenTriple& triple) const {
+Influences::Projected Influences::project(const BodyPoint& state, const sensitivity::EigenTriple& triple) const {
   const Mat trial = state.system.transformation().trial;
   Projected pair{triple.s, product(trial, triple.x), product(trial, triple.y), {}, {}};
   pair.motion = contactMotion(contact_, pair.u, motionForces(bodies_, state.at, triple.s, pair.u, state.prestress).forces);
   pair.test = contactJump(contact_, pair.z);
   // L(f) y = T y + Nᵀ f S y
-  ComplexVector slips = ComplexVector::like(pair.z.real);
+  linalg::ComplexVector slips = linalg::ComplexVector::like(pair.z.real);
   PetscScalar *real = nullptr, *imaginary = nullptr;
   check(VecGetArray(slips.real, &real));
   check(VecGetArray(slips.imaginary, &imaginary));

@@ -19,7 +19,7 @@ namespace squeal::flutter {
 
 /// One point of a sweep, in the terms of the bodies; all borrowed.
 struct BodyPoint {
-  Parameters at;
+  sweep::Parameters at;
   const contact::AssociatedSystem& system;
   const steady::Solution& solution;
   Mat prestress = nullptr;  ///< K_σ of the steady state; null: none
@@ -35,7 +35,7 @@ class Influences {
   /// eigenvalues, by the terms that follow the steady state, too, while the active set stays. Modal damping is taken as given.
   /// Parameters: friction, speed, pressure and damping as in Parameters, and factors young_BODY on all moduli of a body (ds/d ln E) and
   /// density_BODY on its density (ds/d ln ρ).
-  void derive(FrictionPoint& point, const Pencil& pencil, const BodyPoint& state, const StartSpace& start);
+  void derive(pencil::FrictionPoint& point, const pencil::Pencil& pencil, const BodyPoint& state, const sensitivity::StartSpace& start);
 
  private:
   struct Influence;
@@ -45,7 +45,7 @@ class Influences {
   std::complex<double> materialForm(const Influence& influence, const BodyPoint& state, const Projected& pair) const;
   std::complex<double> steadyForm(const Influence& influence, const BodyPoint& state, const Projected& pair) const;
   std::complex<double> frictionSum(const FrictionState& friction, const BodyPoint& state, const Projected& pair) const;
-  Projected project(const BodyPoint& state, const EigenTriple& triple) const;
+  Projected project(const BodyPoint& state, const sensitivity::EigenTriple& triple) const;
 
   const mesh::Mesh& mesh_;
   const elasticity::Bodies& bodies_;

@@ -30,7 +30,7 @@ std::vector<Role> roles(const contact::AssociatedSystem& system) {
 }
 
 /// f Sᵀ N X T for each matrix X.
-void addFriction(std::vector<Term>& terms, const contact::Contact& contact, const contact::AssociatedSystem& system,
+void addFriction(std::vector<pencil::Term>& terms, const contact::Contact& contact, const contact::AssociatedSystem& system,
                  const std::vector<contact::Slip>& slip) {
   const OwnedMat rows = contact.slipRows(system.transformation(), slip, system.closed());
   for (const auto& role : roles(system))
@@ -39,7 +39,7 @@ void addFriction(std::vector<Term>& terms, const contact::Contact& contact, cons
 }
 
 /// [4.7]: −B w*.
-void addVelocityResponse(std::vector<Term>& terms, const contact::Contact& contact, const contact::AssociatedSystem& system,
+void addVelocityResponse(std::vector<pencil::Term>& terms, const contact::Contact& contact, const contact::AssociatedSystem& system,
                          const steady::Solution& solution) {
   std::vector<double> normalForce;
   for (const auto& state : solution.contact) normalForce.push_back(state.normalForce);
@@ -67,18 +67,18 @@ void addVelocityResponse(std::vector<Term>& terms, const contact::Contact& conta
 
 }  // namespace
 
-Pencil affineTerms(const contact::Contact& contact, const contact::AssociatedSystem& system) {
-  std::vector<Term> terms;
+pencil::Pencil affineTerms(const contact::Contact& contact, const contact::AssociatedSystem& system) {
+  std::vector<pencil::Term> terms;
   for (const auto& role : roles(system))
     if (role.projection)
       terms.push_back({role.projection.matrix.share(), role.power, 0, 1.0, role.speedExponent, role.dampingExponent});
   if (contact.slipIsGiven()) addFriction(terms, contact, system, contact.slip(1, nullptr));
-  return Pencil(std::move(terms));
+  return pencil::Pencil(std::move(terms));
 }
 
-std::vector<Term> pointTerms(const contact::Contact& contact, const contact::AssociatedSystem& system,
+std::vector<pencil::Term> pointTerms(const contact::Contact& contact, const contact::AssociatedSystem& system,
                              const steady::Solution& solution, Mat prestressChange) {
-  std::vector<Term> terms;
+  std::vector<pencil::Term> terms;
   const bool friction = solution.at.friction > 0;
   if (friction && !contact.slipIsGiven()) addFriction(terms, contact, system, solution.slip);
   if (friction && dampingOption.get()) addVelocityResponse(terms, contact, system, solution);
@@ -112,8 +112,8 @@ bool modalDampingWanted() {
   return std::any_of(ratios.begin(), ratios.end(), [](double ratio) { return ratio > 0; });
 }
 
-std::vector<Term> modalDamping(const modes::Modes& modes, Mat mass) {
-  std::vector<Term> terms;
+std::vector<pencil::Term> modalDamping(const modes::Modes& modes, Mat mass) {
+  std::vector<pencil::Term> terms;
   if (!modalDampingWanted()) return terms;
   const auto ratios = modalOption.get();
   PetscInt local = 0, global = 0;

@@ -9,7 +9,7 @@ namespace {
 using Complex = std::complex<double>;
 
 /// Values of a nodal vector in the rows of the pad nodes.
-std::vector<ComplexPoint> atPadNodes(const contact::Contact& contact, const ComplexVector& u) {
+std::vector<ComplexPoint> atPadNodes(const contact::Contact& contact, const linalg::ComplexVector& u) {
   const int dimension = contact.mesh->dimension;
   std::vector<ComplexPoint> points;
   const PetscScalar *real = nullptr, *imaginary = nullptr;
@@ -32,13 +32,13 @@ Complex along(const mesh::Point& direction, const ComplexPoint& u) {
 
 }  // namespace
 
-MotionForces motionForces(const elasticity::Bodies& bodies, const Parameters& at, Complex s, const ComplexVector& u,
+MotionForces motionForces(const elasticity::Bodies& bodies, const sweep::Parameters& at, Complex s, const linalg::ComplexVector& u,
                           Mat prestress) {
   MotionForces result{product(bodies.stiffness, u), 0};
   auto& r = result.forces;
   if (prestress) add(r, 1, product(prestress, u));
   if (bodies.rotationStiffness) add(r, at.speed * at.speed, product(bodies.rotationStiffness, u));
-  const ComplexVector inertia = product(bodies.mass, u);
+  const linalg::ComplexVector inertia = product(bodies.mass, u);
   result.energy = std::norm(s) * dot(u, inertia).real() + dot(u, r).real();
   add(r, s * s, inertia);
   if (bodies.damping) add(r, s * at.damping, product(bodies.damping, u));
@@ -46,11 +46,11 @@ MotionForces motionForces(const elasticity::Bodies& bodies, const Parameters& at
   return result;
 }
 
-std::vector<ComplexPoint> contactJump(const contact::Contact& contact, const ComplexVector& u) {
+std::vector<ComplexPoint> contactJump(const contact::Contact& contact, const linalg::ComplexVector& u) {
   return atPadNodes(contact, product(contact.jump, u));
 }
 
-ContactMotion contactMotion(const contact::Contact& contact, const ComplexVector& u, const ComplexVector& forces) {
+ContactMotion contactMotion(const contact::Contact& contact, const linalg::ComplexVector& u, const linalg::ComplexVector& forces) {
   ContactMotion motion{contactJump(contact, u), {}, {}};
   motion.convected = contact.convected ? atPadNodes(contact, product(contact.convected, u))
                                        : std::vector<ComplexPoint>(contact.nodes.size(), ComplexPoint{});
@@ -84,7 +84,7 @@ FrictionState frictionState(const contact::Contact& contact, const steady::Solut
 }
 
 std::vector<double> frictionWork(const contact::Contact& contact, const elasticity::Bodies& bodies,
-                                 const steady::Solution& solution, const Parameters& at, Complex s, const ComplexVector& u,
+                                 const steady::Solution& solution, const sweep::Parameters& at, Complex s, const linalg::ComplexVector& u,
                                  Mat prestress) {
   const MotionForces forces = motionForces(bodies, at, s, u, prestress);
   const ContactMotion motion = contactMotion(contact, u, forces.forces);

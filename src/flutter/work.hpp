@@ -17,11 +17,11 @@ using ComplexPoint = std::array<std::complex<double>, 3>;
 
 /// The nodal forces r* = (s² M + s (c C + v G) + K + v² K^R + K_σ) u of a motion u e^{st}, c the damping factor.
 struct MotionForces {
-  ComplexVector forces;
+  linalg::ComplexVector forces;
   double energy = 0;  ///< |s|² uᴴ M u + uᴴ (K + v² K^R + K_σ) u: four times its mean energy
 };
 /// Collective. `prestress`: K_σ of the steady state, may be null.
-MotionForces motionForces(const elasticity::Bodies& bodies, const Parameters& at, std::complex<double> s, const ComplexVector& u,
+MotionForces motionForces(const elasticity::Bodies& bodies, const sweep::Parameters& at, std::complex<double> s, const linalg::ComplexVector& u,
                           Mat prestress);
 
 /// Amplitudes at the contact nodes, [owned contact node].
@@ -31,12 +31,12 @@ struct ContactMotion {
   std::vector<std::complex<double>> normalForce;  ///< R_N* = N r*
 };
 /// Collective.
-std::vector<ComplexPoint> contactJump(const contact::Contact& contact, const ComplexVector& u);
-ContactMotion contactMotion(const contact::Contact& contact, const ComplexVector& u, const ComplexVector& forces);
+std::vector<ComplexPoint> contactJump(const contact::Contact& contact, const linalg::ComplexVector& u);
+ContactMotion contactMotion(const contact::Contact& contact, const linalg::ComplexVector& u, const linalg::ComplexVector& forces);
 
 /// How friction answers at one point of a sweep, f apart where it presses and where it turns.
 struct FrictionState {
-  Parameters at;
+  sweep::Parameters at;
   std::vector<contact::Slip> slip;    ///< [owned contact node]
   std::vector<double> responseForce;  ///< R_N in the answer to the relative velocity; zero without friction damping
 };
@@ -56,8 +56,8 @@ FrictionForm frictionForm(const contact::Contact& contact, const FrictionState& 
 ///   the slip velocity: d/dt E = 2 σ E = power − dissipation. The value of node k is its part of the sum over the bracket, so that all
 ///   nodes together make σ + |s|² uᴴCu / bracket; the work over a cycle is W_k = (4π/Im s) E × the value.
 std::vector<double> frictionWork(const contact::Contact& contact, const elasticity::Bodies& bodies,
-                                 const steady::Solution& solution, const Parameters& at, std::complex<double> s,
-                                 const ComplexVector& u, Mat prestress);
+                                 const steady::Solution& solution, const sweep::Parameters& at, std::complex<double> s,
+                                 const linalg::ComplexVector& u, Mat prestress);
 
 /// Collective. From the steady state.
 FrictionState frictionState(const contact::Contact& contact, const steady::Solution& solution);

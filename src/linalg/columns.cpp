@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace squeal {
+namespace squeal::linalg {
 
 ReadColumns::ReadColumns(BV bv) : bv_(bv) {
   check(BVGetSizes(bv, &rows_, nullptr, &columns_));
@@ -25,4 +25,4 @@ OwnedBV copiedColumns(Mat like, const PetscScalar* values, PetscInt count) {
   return bv;
 }
 
-}  // namespace squeal
+}  // namespace squeal::linalg

@@ -2,7 +2,7 @@
 /// The columns of a BV as plain arrays.
 #include "petsc/owned.hpp"
 
-namespace squeal {
+namespace squeal::linalg {
 
 /// The local rows of a BV of type svec for the life of the object: column-major, contiguous.
 class ReadColumns {
@@ -24,4 +24,4 @@ class ReadColumns {
 /// Collective. A BV of type svec for vectors like those of `like`, with these columns: this rank's rows, column-major.
 OwnedBV copiedColumns(Mat like, const PetscScalar* values, PetscInt count);
 
-}  // namespace squeal
+}  // namespace squeal::linalg

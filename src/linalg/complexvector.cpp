@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace squeal::flutter {
+namespace squeal::linalg {
 
 ComplexVector ComplexVector::like(Vec vector) {
   ComplexVector result;
@@ -48,4 +48,4 @@ ComplexVector product(Mat a, const ComplexVector& u, bool transposed) {
 
 double length(const ComplexVector& u) { return std::sqrt(dot(u, u).real()); }
 
-}  // namespace squeal::flutter
+}  // namespace squeal::linalg

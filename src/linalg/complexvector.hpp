@@ -4,7 +4,7 @@
 
 #include "petsc/owned.hpp"
 
-namespace squeal::flutter {
+namespace squeal::linalg {
 
 struct ComplexVector {
   OwnedVec real, imaginary;
@@ -24,4 +24,4 @@ ComplexVector product(Mat a, const ComplexVector& u, bool transposed = false);
 /// Collective.
 double length(const ComplexVector& u);
 
-}  // namespace squeal::flutter
+}  // namespace squeal::linalg

@@ -16,7 +16,7 @@
 extern "C" void dgebal_(const char* job, const PetscBLASInt* n, double* a, const PetscBLASInt* lda, PetscBLASInt* low,
                         PetscBLASInt* high, double* scale, PetscBLASInt* info);
 
-namespace squeal::flutter {
+namespace squeal::linalg {
 namespace {
 
 using Complex = std::complex<double>;
@@ -362,4 +362,4 @@ std::vector<DensePair> solveTogether(MPI_Comm comm, const DenseMatrix& mass, con
   return solveSpread(comm, {{mass, damping, stiffness, m}}, vectors)[0];
 }
 
-}  // namespace squeal::flutter
+}  // namespace squeal::linalg

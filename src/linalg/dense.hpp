@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-namespace squeal::flutter {
+namespace squeal::linalg {
 
 /// Column-major m×m.
 using DenseMatrix = std::vector<double>;
@@ -52,4 +52,4 @@ std::vector<DensePair> solveTogether(MPI_Comm comm, const DenseMatrix& mass, con
 /// Collective. The pairs of rank `root`, vectors of m entries, to all; one message.
 void shareFrom(int root, MPI_Comm comm, std::vector<DensePair>& pairs, int m, Vectors vectors);
 
-}  // namespace squeal::flutter
+}  // namespace squeal::linalg

@@ -4,7 +4,7 @@
 
 #include "petsc/check.hpp"
 
-namespace squeal {
+namespace squeal::linalg {
 namespace {
 
 void requireFiniteNorm(PetscReal norm, const std::string& what) {
@@ -27,4 +27,4 @@ void requireFinite(Vec vector, const std::string& what, double factor) {
   requireFiniteNorm(factor * norm, what);
 }
 
-}  // namespace squeal
+}  // namespace squeal::linalg

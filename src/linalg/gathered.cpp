@@ -1,6 +1,6 @@
 #include "linalg/gathered.hpp"
 
-namespace squeal {
+namespace squeal::linalg {
 
 OwnedMat onRankZero(Mat matrix) {
   PetscInt rows = 0, columns = 0;
@@ -36,4 +36,4 @@ std::vector<double> gathered(Mat matrix) {
   return values;
 }
 
-}  // namespace squeal
+}  // namespace squeal::linalg

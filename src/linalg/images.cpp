@@ -10,7 +10,7 @@
 
 #include "linalg/symmetric.hpp"
 
-namespace squeal::flutter {
+namespace squeal::linalg {
 
 void append(Block& block, const Block& other) {
   block.values.insert(block.values.end(), other.values.begin(), other.values.end());
@@ -199,4 +199,4 @@ void multiplyAdd(const RowSet& rows, const Block& x, const std::vector<double>& 
   }
 }
 
-}  // namespace squeal::flutter
+}  // namespace squeal::linalg

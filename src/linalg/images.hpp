@@ -6,7 +6,7 @@
 #include "linalg/dense.hpp"
 #include "petsc/owned.hpp"
 
-namespace squeal::flutter {
+namespace squeal::linalg {
 
 /// Columns of length n, this rank's rows of them.
 struct Block {
@@ -83,4 +83,4 @@ DenseMatrix transposedProduct(MPI_Comm comm, const RowSet& rows, const double* x
 /// y (all local rows × k) += X · coefficients (columns × k) for columns X given by `rows`, zero elsewhere.
 void multiplyAdd(const RowSet& rows, const Block& x, const std::vector<double>& coefficients, std::vector<double>& y);
 
-}  // namespace squeal::flutter
+}  // namespace squeal::linalg

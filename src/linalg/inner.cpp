@@ -1,6 +1,6 @@
 #include "linalg/inner.hpp"
 
-namespace squeal {
+namespace squeal::linalg {
 namespace {
 
 PetscErrorCode applySolver(PC pc, Vec in, Vec out) {
@@ -21,4 +21,4 @@ void preconditionBy(KSP solver, KSP inner) {
   check(PCShellSetApply(pc, applySolver));
 }
 
-}  // namespace squeal
+}  // namespace squeal::linalg

@@ -2,9 +2,9 @@
 /// One solver as the preconditioner of another.
 #include "petsc/owned.hpp"
 
-namespace squeal {
+namespace squeal::linalg {
 
 /// `solver` is preconditioned by `inner`, which it borrows.
 void preconditionBy(KSP solver, KSP inner);
 
-}  // namespace squeal
+}  // namespace squeal::linalg

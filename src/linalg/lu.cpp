@@ -17,7 +17,7 @@ void zgetrs_(const char* trans, const PetscBLASInt* n, const PetscBLASInt* colum
              PetscBLASInt* info);
 }
 
-namespace squeal {
+namespace squeal::linalg {
 namespace {
 
 void factor(PetscBLASInt n, double* a, PetscBLASInt* rows) {
@@ -70,4 +70,4 @@ void Lu<Scalar>::solve(std::vector<Scalar>& b, bool adjoint) const {
 template class Lu<double>;
 template class Lu<std::complex<double>>;
 
-}  // namespace squeal
+}  // namespace squeal::linalg

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace squeal {
+namespace squeal::linalg {
 
 /// Factors of a square matrix of doubles or std::complex<double>.
 template <class Scalar>
@@ -26,4 +26,4 @@ class Lu {
   double largest_ = 0, pivotRatio_ = 0;
 };
 
-}  // namespace squeal
+}  // namespace squeal::linalg

@@ -7,7 +7,7 @@
 
 #include "linalg/symmetric.hpp"
 
-namespace squeal::flutter {
+namespace squeal::linalg {
 namespace {
 
 /// Splitmix64 (Steele, Lea and Flood 2014): 64 random bits from a counter.
@@ -92,4 +92,4 @@ DenseMatrix leadingCombinations(const DenseMatrix& sketches, const std::vector<d
   return combinations;
 }
 
-}  // namespace squeal::flutter
+}  // namespace squeal::linalg

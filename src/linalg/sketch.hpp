@@ -9,7 +9,7 @@
 #include "linalg/dense.hpp"
 #include "linalg/images.hpp"
 
-namespace squeal::flutter {
+namespace squeal::linalg {
 
 class Sketch {
  public:
@@ -45,4 +45,4 @@ std::vector<double> squaredLengths(const DenseMatrix& unweighted);
 /// the columns are much alike; where there are too many directions for a sketch to tell, the columns themselves.
 DenseMatrix leadingCombinations(const DenseMatrix& sketches, const std::vector<double>& factors, double small);
 
-}  // namespace squeal::flutter
+}  // namespace squeal::linalg

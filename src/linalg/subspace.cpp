@@ -11,7 +11,7 @@
 
 #include "linalg/lu.hpp"
 
-namespace squeal::flutter {
+namespace squeal::linalg {
 namespace {
 
 using Complex = std::complex<double>;
@@ -261,4 +261,4 @@ Complex Spectrum::overlap(std::size_t i, const Spectrum& other, std::size_t j) c
   return product(i, other.pairs_[j]) * other.product(j, pairs_[i]) / (own_[i] * other.own_[j]);
 }
 
-}  // namespace squeal::flutter
+}  // namespace squeal::linalg

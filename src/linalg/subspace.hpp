@@ -3,7 +3,7 @@
 /// where all eigenvalues would take a hundred times as long.
 #include "linalg/dense.hpp"
 
-namespace squeal::flutter {
+namespace squeal::linalg {
 
 struct Cluster {
   std::complex<double> mean;
@@ -37,4 +37,4 @@ class Spectrum {
   std::vector<std::complex<double>> own_;                // [pair]: product with itself
 };
 
-}  // namespace squeal::flutter
+}  // namespace squeal::linalg

@@ -8,7 +8,7 @@
 
 #include "petsc/check.hpp"
 
-namespace squeal {
+namespace squeal::linalg {
 
 std::vector<double> symmetricEigen(std::vector<double>& a, int n) {
   PetscBLASInt order = n, length = -1, integers = -1, info = 0, integerLength = 0;
@@ -40,4 +40,4 @@ std::vector<double> symmetricEigen(std::vector<double>& a, std::vector<double>& 
   return values;
 }
 
-}  // namespace squeal
+}  // namespace squeal::linalg

@@ -2,7 +2,7 @@
 /// Small dense symmetric eigenproblems, by LAPACK. Not collective.
 #include <vector>
 
-namespace squeal {
+namespace squeal::linalg {
 
 /// Eigenvalues of a symmetric matrix (n×n, its lower triangle column-major), ascending; orthonormal eigenvectors take its place as
 /// columns. Error: LAPACK fails.
@@ -12,4 +12,4 @@ std::vector<double> symmetricEigen(std::vector<double>& a, int n);
 /// the place of A, a Cholesky factor that of B. Error: LAPACK fails, B is not positive definite.
 std::vector<double> symmetricEigen(std::vector<double>& a, std::vector<double>& b, int n);
 
-}  // namespace squeal
+}  // namespace squeal::linalg

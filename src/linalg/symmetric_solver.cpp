@@ -8,7 +8,7 @@
 #include "petsc/text.hpp"
 #include "session/stages.hpp"
 
-namespace squeal {
+namespace squeal::linalg {
 namespace {
 
 const SolverPrefix factorisation("modes", "modes_st_",
@@ -144,7 +144,7 @@ KSP SymmetricSolver::get() const {
 void SymmetricSolver::factorise() const {
   PC pc = nullptr;
   check(KSPSetOperators(solver_, matrix_, matrix_));
-  squeal::factorise(solver_);
+  linalg::factorise(solver_);
   check(KSPGetPC(solver_, &pc));
   PCFailedReason failed;
   check(PCGetFailedReason(pc, &failed));
@@ -191,4 +191,4 @@ Inertia inertia(Mat matrix, double zero) {
   return found;
 }
 
-}  // namespace squeal
+}  // namespace squeal::linalg

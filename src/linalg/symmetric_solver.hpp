@@ -5,7 +5,7 @@
 #include "options/options.hpp"
 #include "petsc/owned.hpp"
 
-namespace squeal {
+namespace squeal::linalg {
 
 /// Collective. One application of MUMPS' LDLᵀ unless the options with this prefix say otherwise; not yet factorised.
 OwnedKSP directSolver(Mat matrix, const SolverPrefix& prefix);
@@ -45,4 +45,4 @@ struct Inertia {
 /// 0: as MUMPS decides, some 1e-21. Error: the factorisation fails.
 Inertia inertia(Mat matrix, double zero = 0);
 
-}  // namespace squeal
+}  // namespace squeal::linalg

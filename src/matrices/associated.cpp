@@ -9,7 +9,7 @@ namespace {
 
 constexpr double symmetric = 1e-10;  // printed digits of exports
 
-bool joins(const flutter::Term& term, int power) {
+bool joins(const pencil::Term& term, int power) {
   return term.power == power && term.frictionExponent == 0 && term.speedExponent == 0 && term.dampingExponent == 0;
 }
 
@@ -76,7 +76,7 @@ void requirePositiveDefinite(Mat matrix, const std::string& what, const std::str
   check(MatNorm(matrix, NORM_FROBENIUS, &norm));
   if (norm == 0) throw Error(what + " is zero");
   const std::string bad = badDiagonal(matrix);
-  const auto [negative, zero] = inertia(matrix, 1e-13);
+  const auto [negative, zero] = linalg::inertia(matrix, 1e-13);
   if (negative == 0 && zero == 0) return;
   throw Error(formatted("%s is not positive definite: %d negative and %d zero eigenvalues%s; %s", what.c_str(),
                         static_cast<int>(negative), static_cast<int>(zero), bad.c_str(), advice.c_str()));
@@ -98,7 +98,7 @@ AssociatedSystem::AssociatedSystem(const std::vector<NamedTerm>& terms)
   requirePositiveDefinite(mass_, massName, "condense unknowns without mass");
   requirePositiveDefinite(stiffness_, stiffnessName + (asymmetry_ > 0 ? ", by its symmetric part," : ""),
                           "is a body loose? Hold it by weak springs if it is");
-  solver_ = SymmetricSolver(stiffness_, "associated symmetric stiffness");
+  solver_ = linalg::SymmetricSolver(stiffness_, "associated symmetric stiffness");
 }
 
 }  // namespace squeal::matrices

@@ -27,7 +27,7 @@ const IntegerOption dampingOption("matrices", "matrices_<name>_damping_exponent"
 int powerOf(const std::string& role) { return role == "mass" ? 2 : role == "damping" ? 1 : 0; }
 
 NamedTerm readTerm(MPI_Comm comm, const std::string& name) {
-  flutter::Term term;
+  pencil::Term term;
   term.power = powerOf(roleOption.get(name));
   term.frictionExponent = frictionOption.get(name);
   term.factor = factorOption.get(name);

@@ -24,7 +24,7 @@ OwnedMat read(MPI_Comm comm, const std::filesystem::path& path, const std::strin
 /// A term of the pencil and where it comes from.
 struct NamedTerm {
   std::string name;
-  flutter::Term term;
+  pencil::Term term;
 };
 
 /// Collective. The terms of all `-matrices_<name>_*`. Errors: as read(), with the option; matrices of different sizes; no mass or no
@@ -52,7 +52,7 @@ class AssociatedSystem {
   double asymmetry_ = 0;
   OwnedMat stiffness_, mass_;
   PetscInt size_ = 0;
-  SymmetricSolver solver_;
+  linalg::SymmetricSolver solver_;
 };
 
 /// `-report_matrices` is given.
@@ -64,6 +64,6 @@ void requireExportFolder(MPI_Comm comm);
 /// again. Terms that belong to one point of the parameters, made with its steady forces, are frozen at it. `steadyPoints`: how many
 /// steady states of the sweep the pencil is for. Errors: not for all; such terms and a sweep of several points; the folder or a file
 /// cannot be written.
-void exportPencil(const flutter::Pencil& pencil, const flutter::Sweep& sweep, std::size_t steadyPoints);
+void exportPencil(const pencil::Pencil& pencil, const sweep::Sweep& sweep, std::size_t steadyPoints);
 
 }  // namespace squeal::matrices

@@ -24,7 +24,7 @@ OwnedMat load(MPI_Comm comm, const std::filesystem::path& path) {
 
 /// From the entries that rank 0 has. PETSc sums those of equal row and column, whatever the insert mode: it adds or replaces what the
 /// matrix had before.
-OwnedMat distribute(MPI_Comm comm, Entries& entries) {
+OwnedMat distribute(MPI_Comm comm, matrixfile::Entries& entries) {
   PetscInt sizes[2] = {entries.rows, entries.columns};
   check(MPI_Bcast(sizes, 2, MPIU_INT, 0, comm));
   OwnedMat matrix;
@@ -38,32 +38,32 @@ OwnedMat distribute(MPI_Comm comm, Entries& entries) {
 
 /// The memory for empty rows is asked for by the header alone. Up to ten million, that of a gigabyte, it may; beyond, one row in a
 /// thousand at the least has an entry, or the header is damaged.
-void requireFilled(const Entries& entries) {
+void requireFilled(const matrixfile::Entries& entries) {
   const auto count = static_cast<double>(entries.value.size());
   if (entries.rows > 1e7 + 1e3 * count)
     throw Error(
         formatted("%lld rows with %.0f entries: is the number of rows right?", static_cast<long long>(entries.rows), count));
 }
 
-Entries readHere(Format format, const std::filesystem::path& path, const std::string& dataset) {
-  if (!dataset.empty() && (format == Format::matrixMarket || format == Format::petscBinary))
+matrixfile::Entries readHere(matrixfile::Format format, const std::filesystem::path& path, const std::string& dataset) {
+  if (!dataset.empty() && (format == matrixfile::Format::matrixMarket || format == matrixfile::Format::petscBinary))
     throw Error("the file is a single matrix, it holds no '" + dataset + "' by name");
-  Entries entries;
+  matrixfile::Entries entries;
   switch (format) {
-    case Format::matrixMarket:
-      entries = readMatrixMarket(path);
+    case matrixfile::Format::matrixMarket:
+      entries = matrixfile::readMatrixMarket(path);
       break;
-    case Format::hdf5:
-      entries = readHdf5(path, dataset);
+    case matrixfile::Format::hdf5:
+      entries = matrixfile::readHdf5(path, dataset);
       break;
-    case Format::matlab:
-      entries = readMatlab(path, dataset);
+    case matrixfile::Format::matlab:
+      entries = matrixfile::readMatlab(path, dataset);
       break;
-    case Format::petscBinary:
-      requirePetscBinary(path);
+    case matrixfile::Format::petscBinary:
+      matrixfile::requirePetscBinary(path);
       return entries;
   }
-  requireSquare(entries.rows, entries.columns);
+  matrixfile::requireSquare(entries.rows, entries.columns);
   requireFilled(entries);
   return entries;
 }
@@ -71,11 +71,11 @@ Entries readHere(Format format, const std::filesystem::path& path, const std::st
 }  // namespace
 
 OwnedMat read(MPI_Comm comm, const std::filesystem::path& path, const std::string& dataset) {
-  Entries entries;
+  matrixfile::Entries entries;
   int isBinary = 0;
   onFirstRank(comm, path.string() + ": ", [&] {
-    const Format format = formatOf(path);
-    isBinary = format == Format::petscBinary;
+    const matrixfile::Format format = matrixfile::formatOf(path);
+    isBinary = format == matrixfile::Format::petscBinary;
     entries = readHere(format, path, dataset);
   });
   check(MPI_Bcast(&isBinary, 1, MPI_INT, 0, comm));

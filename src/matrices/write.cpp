@@ -30,10 +30,10 @@ const ChoiceOption formatOption("report", "report_matrices_format", {"petsc", "m
 const char* const heading = "# Matrices of one problem, for squeal -options_file";
 std::string blame() { return "option -report_matrices " + folderOption.get() + ": "; }
 
-std::string roleOf(const flutter::Term& term) { return term.power == 2 ? "mass" : term.power == 1 ? "damping" : "stiffness"; }
+std::string roleOf(const pencil::Term& term) { return term.power == 2 ? "mass" : term.power == 1 ? "damping" : "stiffness"; }
 
 /// "stiffness_friction1", and a number where several terms would have the same name.
-std::string nameOf(const flutter::Term& term, std::set<std::string>& taken) {
+std::string nameOf(const pencil::Term& term, std::set<std::string>& taken) {
   std::string name = roleOf(term);
   for (const auto& [word, exponent] :
        {std::pair{"friction", term.frictionExponent}, {"speed", term.speedExponent}, {"damping", term.dampingExponent}})
@@ -43,7 +43,7 @@ std::string nameOf(const flutter::Term& term, std::set<std::string>& taken) {
   return unique;
 }
 
-std::string optionsOf(const std::string& name, const flutter::Term& term, const std::string& file) {
+std::string optionsOf(const std::string& name, const pencil::Term& term, const std::string& file) {
   std::string text = optionLine("matrices_" + name + "_file", file) + optionLine("matrices_" + name + "_role", roleOf(term));
   if (term.factor != 1) text += "-matrices_" + name + "_factor " + shortest(term.factor) + "\n";
   for (const auto& [word, exponent] :
@@ -52,8 +52,8 @@ std::string optionsOf(const std::string& name, const flutter::Term& term, const 
   return text;
 }
 
-Entries entriesOf(Mat matrix) {
-  Entries entries;
+matrixfile::Entries entriesOf(Mat matrix) {
+  matrixfile::Entries entries;
   check(MatGetSize(matrix, &entries.rows, &entries.columns));
   for (PetscInt i = 0; i < entries.rows; ++i) {
     PetscInt count = 0;
@@ -69,8 +69,8 @@ Entries entriesOf(Mat matrix) {
 void writeMatrix(Mat matrix, const fs::path& path) {
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(matrix));
   if (formatOption.get() == "matrix_market") {
-    const OwnedMat whole = onRankZero(matrix);
-    onFirstRank(comm, blame(), [&] { writeMatrixMarket(path, entriesOf(whole)); });
+    const OwnedMat whole = linalg::onRankZero(matrix);
+    onFirstRank(comm, blame(), [&] { matrixfile::writeMatrixMarket(path, entriesOf(whole)); });
     return;
   }
   // header, length and columns of the rows, values; PETSc would end the run with its own words, or not at all on other ranks than the first
@@ -108,7 +108,7 @@ std::string carriedOptions() {
   return text;
 }
 
-void requireOnePencil(const flutter::Pencil& pencil, const flutter::Sweep& sweep, std::size_t steadyPoints) {
+void requireOnePencil(const pencil::Pencil& pencil, const sweep::Sweep& sweep, std::size_t steadyPoints) {
   if (steadyPoints != sweep.steadyPoints().size())
     throw Error(
         "option -report_matrices: the contact is not the same at all points of the sweep; export one -flutter_friction, "
@@ -153,7 +153,7 @@ void requireExportFolder(MPI_Comm comm) {
   const output::Folder folder(comm, {"-report_matrices", "options.txt", isExport, formerExport}, folderOption.get());
 }
 
-void exportPencil(const flutter::Pencil& pencil, const flutter::Sweep& sweep, std::size_t steadyPoints) {
+void exportPencil(const pencil::Pencil& pencil, const sweep::Sweep& sweep, std::size_t steadyPoints) {
   requireOnePencil(pencil, sweep, steadyPoints);
   requireOwnFolder();
   Stage stage(pencil.comm(), "matrices");

@@ -2,7 +2,7 @@
 
 #include "petsc/check.hpp"
 
-namespace squeal::matrices {
+namespace squeal::matrixfile {
 
 BinaryFile::BinaryFile(const std::filesystem::path& path) : file_(path, std::ios::binary) {
   std::error_code error;
@@ -17,4 +17,4 @@ void BinaryFile::read(void* to, std::size_t count) {
   if (static_cast<std::size_t>(file_.gcount()) != count) throw Error("the file is cut short");
 }
 
-}  // namespace squeal::matrices
+}  // namespace squeal::matrixfile

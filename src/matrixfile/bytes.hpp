@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace squeal::matrices {
+namespace squeal::matrixfile {
 
 constexpr bool littleEndian = std::endian::native == std::endian::little;
 
@@ -43,4 +43,4 @@ class BinaryFile {
   std::uint64_t size_ = 0;
 };
 
-}  // namespace squeal::matrices
+}  // namespace squeal::matrixfile

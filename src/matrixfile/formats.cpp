@@ -13,7 +13,7 @@
 #include "petsc/text.hpp"
 #include "petsc/unreadable.hpp"
 
-namespace squeal::matrices {
+namespace squeal::matrixfile {
 namespace {
 
 constexpr long long mostIndices = std::numeric_limits<PetscInt>::max();
@@ -155,4 +155,4 @@ Format formatOf(const std::filesystem::path& path) {
   refuse(head);
 }
 
-}  // namespace squeal::matrices
+}  // namespace squeal::matrixfile

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace squeal::matrices {
+namespace squeal::matrixfile {
 
 /// All entries of a sparse matrix; those of equal row and column are summed.
 struct Entries {
@@ -68,4 +68,4 @@ void requirePetscBinary(const std::filesystem::path& path);
 /// Writes Matrix Market, all entries. Error: the file cannot be written.
 void writeMatrixMarket(const std::filesystem::path& path, const Entries& entries);
 
-}  // namespace squeal::matrices
+}  // namespace squeal::matrixfile

@@ -9,7 +9,7 @@
 #include "petsc/memory.hpp"
 #include "petsc/text.hpp"
 
-namespace squeal::matrices {
+namespace squeal::matrixfile {
 namespace {
 
 bool isGroup(hid_t object) { return H5Iget_type(object) == H5I_GROUP; }
@@ -210,4 +210,4 @@ Entries readHdf5(const std::filesystem::path& path, const std::string& name) {
   return entries;
 }
 
-}  // namespace squeal::matrices
+}  // namespace squeal::matrixfile

@@ -5,7 +5,7 @@
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
 
-namespace squeal::matrices {
+namespace squeal::matrixfile {
 namespace {
 
 constexpr hsize_t mostText = 64;
@@ -195,4 +195,4 @@ std::vector<long long> integersOfAttribute(hid_t object, const std::string& name
   return values;
 }
 
-}  // namespace squeal::matrices
+}  // namespace squeal::matrixfile

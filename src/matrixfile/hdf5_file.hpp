@@ -5,7 +5,7 @@
 
 #include "petsc/hdf5.hpp"
 
-namespace squeal::matrices {
+namespace squeal::matrixfile {
 
 using hdf5::AttributeId;
 using hdf5::DatasetId;
@@ -37,4 +37,4 @@ std::string textOfDataset(hid_t group, const std::string& name);
 /// Integers of an attribute; empty if there is none, or of another kind.
 std::vector<long long> integersOfAttribute(hid_t object, const std::string& name);
 
-}  // namespace squeal::matrices
+}  // namespace squeal::matrixfile

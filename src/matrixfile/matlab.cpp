@@ -4,7 +4,7 @@
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
 
-namespace squeal::matrices {
+namespace squeal::matrixfile {
 namespace {
 
 bool isMatrix(const Variable& variable) { return variable.real && variable.shape.size() == 2; }
@@ -84,4 +84,4 @@ Entries readMatlab(const std::filesystem::path& path, const std::string& name) {
   }
 }
 
-}  // namespace squeal::matrices
+}  // namespace squeal::matrixfile

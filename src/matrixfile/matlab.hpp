@@ -6,7 +6,7 @@
 #include "matrixfile/bytes.hpp"
 #include "matrixfile/formats.hpp"
 
-namespace squeal::matrices {
+namespace squeal::matrixfile {
 
 /// A variable, by its header.
 struct Variable {
@@ -31,4 +31,4 @@ Entries readVersion5(BinaryFile& file, const Variable& variable);
 /// The entries of a full matrix, by columns.
 Entries full(const Variable& variable, const std::vector<double>& values);
 
-}  // namespace squeal::matrices
+}  // namespace squeal::matrixfile

@@ -6,7 +6,7 @@
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
 
-namespace squeal::matrices {
+namespace squeal::matrixfile {
 namespace {
 
 constexpr std::size_t headerSize = 20;
@@ -121,4 +121,4 @@ Entries readVersion4(BinaryFile& file, const Variable& variable) {
   return entries;
 }
 
-}  // namespace squeal::matrices
+}  // namespace squeal::matrixfile

@@ -9,7 +9,7 @@
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
 
-namespace squeal::matrices {
+namespace squeal::matrixfile {
 namespace {
 
 constexpr std::uint32_t matrixType = 14, packedType = 15, opaqueClass = 17;
@@ -296,4 +296,4 @@ Entries readVersion5(BinaryFile& file, const Variable& variable) {
   return matrix.entries();
 }
 
-}  // namespace squeal::matrices
+}  // namespace squeal::matrixfile

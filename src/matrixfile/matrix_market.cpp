@@ -11,7 +11,7 @@
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
 
-namespace squeal::matrices {
+namespace squeal::matrixfile {
 namespace {
 
 /// The lines of a file that are neither empty nor comments, split into words.
@@ -242,4 +242,4 @@ void writeMatrixMarket(const std::filesystem::path& path, const Entries& entries
   if (!file.flush()) throw output::WriteError(output::cannotWrite(path, errno));
 }
 
-}  // namespace squeal::matrices
+}  // namespace squeal::matrixfile

@@ -7,7 +7,7 @@
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
 
-namespace squeal::matrices {
+namespace squeal::matrixfile {
 namespace {
 
 constexpr bool swapped = littleEndian;  // the format is big-endian
@@ -91,4 +91,4 @@ void requirePetscBinary(const std::filesystem::path& path) {
   checkValues(path, header);
 }
 
-}  // namespace squeal::matrices
+}  // namespace squeal::matrixfile

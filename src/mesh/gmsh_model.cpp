@@ -22,12 +22,12 @@ namespace {
 
 struct Job {
   std::string file, option;  ///< the option as messages begin with it
-  FileKind kind;
-  std::vector<Setting> settings;
-  MshContents contents;  ///< of a .msh; of a .unv the numbers of nodes and elements
+  meshfile::FileKind kind;
+  std::vector<meshfile::Setting> settings;
+  meshfile::MshContents contents;  ///< of a .msh; of a .unv the numbers of nodes and elements
   /// Version 2 of .msh gives each element one group and one entity. gmsh would put all elements of an entity into all of its groups: with
   /// this it takes the groups for the entities.
-  bool groupsAreEntities() const { return kind == FileKind::msh && contents.version < 4; }
+  bool groupsAreEntities() const { return kind == meshfile::FileKind::msh && contents.version < 4; }
 };
 
 /// gmsh's lists by type, and the tags of its nodes.
@@ -109,15 +109,15 @@ void openWith(const Job& job, const Warn& warn) {
   try {
     if (!job.settings.empty()) {
       gmsh::open(job.file);  // once with its own values, to learn the names it knows
-      applySettings(job.settings);
+      meshfile::applySettings(job.settings);
       gmsh::clear();
     }
     gmsh::open(job.file);
-    requireSettingsUsed(job.settings);
+    meshfile::requireSettingsUsed(job.settings);
     std::vector<std::size_t> tags;
     std::vector<double> coordinates, parametric;
     gmsh::model::mesh::getNodes(tags, coordinates, parametric);
-    if (tags.empty() && job.kind == FileKind::geometry) meshGeometry(job.file, warn);
+    if (tags.empty() && job.kind == meshfile::FileKind::geometry) meshfile::meshGeometry(job.file, warn);
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {
@@ -257,7 +257,7 @@ ChildLimits limitsFor(const Job& job) {
   const std::string subject = "option -mesh_file " + job.file;
   const double free = availableMemory();
   const std::string tooLarge = formatted("its mesh needs more than the %.3g GB of memory that are free", free / 1e9);
-  if (job.kind == FileKind::geometry) return {subject, {}, free, tooLarge, "gmsh"};
+  if (job.kind == meshfile::FileKind::geometry) return {subject, {}, free, tooLarge, "gmsh"};
   const auto size = static_cast<double>(std::filesystem::file_size(job.file));
   const double seconds = 5 + 5e-6 * size, enough = 5e8 + 100 * size;  // it takes some 15 bytes for a byte of the file
   if (enough > free) return {subject, seconds, free, tooLarge, "gmsh"};
@@ -273,12 +273,12 @@ std::string groupName(std::string name) {
 }
 
 GmshModel::GmshModel(const std::string& file, const std::vector<std::string>& parameters) {
-  Job job{file, "option -mesh_file " + file + ": ", requireSound(file), readSettings(parameters), {}};
-  if (!job.settings.empty() && job.kind != FileKind::geometry)
+  Job job{file, "option -mesh_file " + file + ": ", meshfile::requireSound(file), meshfile::readSettings(parameters), {}};
+  if (!job.settings.empty() && job.kind != meshfile::FileKind::geometry)
     throw Error("option -mesh_set: only a geometry, a .geo file, has parameters; -mesh_file " + file + " is a mesh");
-  if (job.kind == FileKind::msh) job.contents = requireSoundMsh(file);
-  if (job.kind == FileKind::unv) {
-    const UnvContents contents = requireSoundUnv(file);
+  if (job.kind == meshfile::FileKind::msh) job.contents = meshfile::requireSoundMsh(file);
+  if (job.kind == meshfile::FileKind::unv) {
+    const meshfile::UnvContents contents = meshfile::requireSoundUnv(file);
     job.contents.nodes = contents.nodes, job.contents.elements = contents.elements;
   }
   Buffer buffer = inChild(limitsFor(job), [&](const Warn& warn) { return readWithGmsh(job, warn); });

@@ -12,7 +12,7 @@
 #include "petsc/text.hpp"
 #include "petsc/unreadable.hpp"
 
-namespace squeal::mesh {
+namespace squeal::meshfile {
 namespace {
 
 struct Format {
@@ -88,4 +88,4 @@ FileKind requireSound(const std::string& file) {
   refuse(file, ending);
 }
 
-}  // namespace squeal::mesh
+}  // namespace squeal::meshfile

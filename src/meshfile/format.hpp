@@ -2,7 +2,7 @@
 /// Which files are handed to the gmsh library, and as what. Not collective.
 #include <string>
 
-namespace squeal::mesh {
+namespace squeal::meshfile {
 
 enum class FileKind {
   geometry,  ///< a script: it may read other files and start programs
@@ -15,4 +15,4 @@ enum class FileKind {
 /// by its name and its first line, and no options file of gmsh lies beside it, which gmsh would run as well.
 FileKind requireSound(const std::string& file);
 
-}  // namespace squeal::mesh
+}  // namespace squeal::meshfile

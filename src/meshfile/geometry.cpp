@@ -13,7 +13,7 @@
 #include "petsc/memory.hpp"
 #include "petsc/text.hpp"
 
-namespace squeal::mesh {
+namespace squeal::meshfile {
 namespace {
 
 using Json = nlohmann::json;
@@ -185,4 +185,4 @@ void meshGeometry(const std::string& file, const Warn& warn) {
   gmsh::model::mesh::generate(dimension);
 }
 
-}  // namespace squeal::mesh
+}  // namespace squeal::meshfile

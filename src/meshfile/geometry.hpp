@@ -5,7 +5,7 @@
 
 #include "petsc/child.hpp"
 
-namespace squeal::mesh {
+namespace squeal::meshfile {
 
 struct Setting {
   std::string name;
@@ -26,4 +26,4 @@ void requireSettingsUsed(const std::vector<Setting>& settings);
 /// more than there is memory.
 void meshGeometry(const std::string& file, const Warn& warn);
 
-}  // namespace squeal::mesh
+}  // namespace squeal::meshfile

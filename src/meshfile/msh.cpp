@@ -18,7 +18,7 @@
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
 
-namespace squeal::mesh {
+namespace squeal::meshfile {
 namespace {
 
 using Integer = std::int64_t;
@@ -298,4 +298,4 @@ MshContents requireSoundMsh(const std::string& file) {
   return Msh(file, mapped.text()).check();
 }
 
-}  // namespace squeal::mesh
+}  // namespace squeal::meshfile

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-namespace squeal::mesh {
+namespace squeal::meshfile {
 
 struct MshContents {
   double version = 0;
@@ -16,4 +16,4 @@ struct MshContents {
 /// binary. Not collective.
 MshContents requireSoundMsh(const std::string& file);
 
-}  // namespace squeal::mesh
+}  // namespace squeal::meshfile

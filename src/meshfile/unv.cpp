@@ -14,7 +14,7 @@
 
 #include "petsc/check.hpp"
 
-namespace squeal::mesh {
+namespace squeal::meshfile {
 namespace {
 
 using Integer = std::int64_t;
@@ -154,4 +154,4 @@ class Unv {
 
 UnvContents requireSoundUnv(const std::string& file) { return Unv(file).check(); }
 
-}  // namespace squeal::mesh
+}  // namespace squeal::meshfile

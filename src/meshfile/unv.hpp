@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-namespace squeal::mesh {
+namespace squeal::meshfile {
 
 struct UnvContents {
   std::int64_t nodes = 0, elements = 0;
@@ -15,4 +15,4 @@ struct UnvContents {
 /// a name. Not collective.
 UnvContents requireSoundUnv(const std::string& file);
 
-}  // namespace squeal::mesh
+}  // namespace squeal::meshfile

@@ -97,7 +97,7 @@ class Lanczos {
     Small a(k * k);
     for (std::size_t j = 0; j < k; ++j)
       for (std::size_t i = 0; i < k; ++i) a[j * k + i] = t_[j * static_cast<std::size_t>(limit_) + i];
-    const auto ascending = symmetricEigen(a, static_cast<int>(k));
+    const auto ascending = linalg::symmetricEigen(a, static_cast<int>(k));
     for (std::size_t j = 0; j < k; ++j) {
       const std::size_t from = k - 1 - j;
       ritz.value.push_back(ascending[from]);
@@ -144,7 +144,7 @@ class Lanczos {
   }
 
   /// The k columns of V as a BV for vectors like those of `like`.
-  OwnedBV vectors(Mat like) { return copiedColumns(like, column(0), k_); }
+  OwnedBV vectors(Mat like) { return linalg::copiedColumns(like, column(0), k_); }
 
  private:
   PetscScalar& t(PetscInt i, PetscInt j) { return t_[static_cast<std::size_t>(j * limit_ + i)]; }
@@ -218,7 +218,7 @@ class Lanczos {
       check(MatDenseGetArrayRead(w_, &read));
       Small gram = products(read, b_);
       check(MatDenseRestoreArrayRead(w_, &read));
-      const auto d = symmetricEigen(gram, static_cast<int>(b));
+      const auto d = linalg::symmetricEigen(gram, static_cast<int>(b));
       const double largest = std::max(d.back(), refills == 0 && pass == 0 ? size : 0);  // later W is scaled
       std::vector<bool> lost(b);
       bool any = false;

@@ -64,7 +64,7 @@ OwnedEPS solver(const System& system, int count, Stage& stage) {
   applySolverOptions([&] { return EPSSetFromOptions(eps); });
   solverPrefix.rejectUnused();
   applySolverOptions([&] { return EPSSetUp(eps); });
-  rejectUnusedSolverOptions();
+  linalg::rejectUnusedSolverOptions();
   return eps;
 }
 
@@ -74,7 +74,7 @@ int countBelow(Mat k, Mat m, double sigma) {
   check(MatDuplicate(k, MAT_COPY_VALUES, shifted.out()));
   check(MatAXPY(shifted, -sigma, m, DIFFERENT_NONZERO_PATTERN));
   check(MatSetOption(shifted, MAT_SYMMETRIC, PETSC_TRUE));
-  return static_cast<int>(inertia(shifted).negative);
+  return static_cast<int>(linalg::inertia(shifted).negative);
 }
 
 /// Number of modes, at most all but one, above which the widest relative gap of the topmost ten begins, so that rounding cannot move an
@@ -150,9 +150,9 @@ bool solveByLanczos(const System& system, int count, int blockSize, Stage& stage
 void solveDense(const System& system, int count, Modes& modes) {
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(system.stiffness));
   const int n = static_cast<int>(rowsOf(system.stiffness));
-  std::vector<double> all = gathered(system.mass), stiffness = gathered(system.stiffness), vectors;
+  std::vector<double> all = linalg::gathered(system.mass), stiffness = linalg::gathered(system.stiffness), vectors;
   onFirstRank(comm, "free vibration: the stiffness is not positive definite; is a body loose? ", [&] {
-    const auto inverse = symmetricEigen(all, stiffness, n);
+    const auto inverse = linalg::symmetricEigen(all, stiffness, n);
     for (int j = 0; j < count; ++j) {
       const auto last = static_cast<std::size_t>(n - 1 - j);
       modes.lambda.push_back(1 / inverse[last]);

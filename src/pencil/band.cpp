@@ -5,7 +5,7 @@
 
 #include "options/options.hpp"
 
-namespace squeal::flutter {
+namespace squeal::pencil {
 namespace {
 
 const RealOption bandOption(
@@ -34,4 +34,4 @@ double bandBelow(const std::vector<double>& w) {
   return middle(k);
 }
 
-}  // namespace squeal::flutter
+}  // namespace squeal::pencil

@@ -3,7 +3,7 @@
 #include <complex>
 #include <vector>
 
-namespace squeal::flutter {
+namespace squeal::pencil {
 
 /// `-flutter_band`, rad/s; 0: not given.
 double bandAsked();
@@ -28,4 +28,4 @@ struct WatchedBand {
   bool lasts(std::complex<double> s) const { return -s.real() <= damping * std::abs(s); }
 };
 
-}  // namespace squeal::flutter
+}  // namespace squeal::pencil

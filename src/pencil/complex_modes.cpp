@@ -5,7 +5,7 @@
 
 #include "options/options.hpp"
 
-namespace squeal::flutter {
+namespace squeal::pencil {
 namespace {
 
 const RealOption accuracyOption("flutter", "flutter_accuracy", 1e-9, "", positive,
@@ -80,7 +80,7 @@ std::vector<std::size_t> shapesWanted(const FrictionPoint& point) {
   return order;
 }
 
-void keepShapes(FrictionPoint& point, Mat trial, const std::vector<std::size_t>& indices, std::vector<ComplexVector> modes) {
+void keepShapes(FrictionPoint& point, Mat trial, const std::vector<std::size_t>& indices, std::vector<linalg::ComplexVector> modes) {
   for (std::size_t k = 0; k < indices.size(); ++k) {
     Shape shape{};
     shape.index = indices[k];
@@ -98,4 +98,4 @@ void keepShapes(FrictionPoint& point, Mat trial, const std::vector<std::size_t>&
   }
 }
 
-}  // namespace squeal::flutter
+}  // namespace squeal::pencil

@@ -10,7 +10,7 @@
 #include "sweep/parameters.hpp"
 
 
-namespace squeal::flutter {
+namespace squeal::pencil {
 
 struct Eigenvalue {
   std::complex<double> s;    ///< growth rate + i angular frequency, 1/s
@@ -24,7 +24,7 @@ struct Eigenvalue {
 struct Shape {
   std::size_t index;  ///< into Point::eigenvalues
   OwnedVec real, imaginary;
-  ComplexVector unknowns;            ///< the same d in the unknowns x
+  linalg::ComplexVector unknowns;            ///< the same d in the unknowns x
   std::vector<double> frictionWork;  ///< [owned contact node] what friction there adds to the growth rate, 1/s: frictionWork()
 };
 
@@ -45,7 +45,7 @@ struct Sensitivity {
 
 /// Everything found at one point of the sweep.
 struct FrictionPoint {
-  Parameters at;
+  sweep::Parameters at;
   std::vector<Eigenvalue> eigenvalues;     ///< Im s ≥ 0, by ascending frequency
   std::vector<Shape> shapes;               ///< of the fastest growing ones
   std::vector<Sensitivity> sensitivities;  ///< [shape]; empty unless `-flutter_sensitivities`
@@ -76,6 +76,6 @@ void judge(std::vector<Eigenvalue>& eigenvalues);
 /// Indices of the `-flutter_shapes` fastest growing eigenvalues below `-flutter_shapes_below`, the fastest first.
 std::vector<std::size_t> shapesWanted(const FrictionPoint& point);
 /// Collective. Keeps the shapes of these eigenvalues; `modes` are theirs in the unknowns x, of any length.
-void keepShapes(FrictionPoint& point, Mat trial, const std::vector<std::size_t>& indices, std::vector<ComplexVector> modes);
+void keepShapes(FrictionPoint& point, Mat trial, const std::vector<std::size_t>& indices, std::vector<linalg::ComplexVector> modes);
 
-}  // namespace squeal::flutter
+}  // namespace squeal::pencil

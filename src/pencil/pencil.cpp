@@ -4,20 +4,20 @@
 #include <cmath>
 #include <iterator>
 
-namespace squeal::flutter {
+namespace squeal::pencil {
 
-double Term::coefficient(const Parameters& at) const {
+double Term::coefficient(const sweep::Parameters& at) const {
   return factor * std::pow(at.friction, frictionExponent) * std::pow(at.speed, speedExponent) *
          std::pow(at.damping, dampingExponent);
 }
 
-double Term::slope(const Parameters& at, double Parameters::*parameter) const {
-  const int exponent = parameter == &Parameters::friction  ? frictionExponent
-                       : parameter == &Parameters::speed   ? speedExponent
-                       : parameter == &Parameters::damping ? dampingExponent
+double Term::slope(const sweep::Parameters& at, double sweep::Parameters::*parameter) const {
+  const int exponent = parameter == &sweep::Parameters::friction  ? frictionExponent
+                       : parameter == &sweep::Parameters::speed   ? speedExponent
+                       : parameter == &sweep::Parameters::damping ? dampingExponent
                                                            : 0;
   if (exponent == 0) return 0;
-  Parameters unit = at;
+  sweep::Parameters unit = at;
   unit.*parameter = 1;  // leaves the other powers
   return exponent * coefficient(unit) * std::pow(at.*parameter, exponent - 1);
 }
@@ -48,7 +48,7 @@ bool Pencil::hasPower(int power) const {
 
 MPI_Comm Pencil::comm() const { return PetscObjectComm(reinterpret_cast<PetscObject>(terms_.at(0).matrix.get())); }
 
-OwnedMat Pencil::assembled(int power, const Parameters& at) const {
+OwnedMat Pencil::assembled(int power, const sweep::Parameters& at) const {
   OwnedMat sum;
   for (const auto& term : terms_) {
     if (term.power != power) continue;
@@ -63,7 +63,7 @@ OwnedMat Pencil::assembled(int power, const Parameters& at) const {
   return sum;
 }
 
-void Pencil::apply(int power, const Parameters& at, Vec x, Vec y) const {
+void Pencil::apply(int power, const sweep::Parameters& at, Vec x, Vec y) const {
   check(VecZeroEntries(y));
   OwnedVec part;
   check(VecDuplicate(y, part.out()));
@@ -74,7 +74,7 @@ void Pencil::apply(int power, const Parameters& at, Vec x, Vec y) const {
     }
 }
 
-void Pencil::applyTranspose(int power, const Parameters& at, Vec x, Vec y) const {
+void Pencil::applyTranspose(int power, const sweep::Parameters& at, Vec x, Vec y) const {
   check(VecZeroEntries(y));
   OwnedVec part;
   check(VecDuplicate(y, part.out()));
@@ -85,7 +85,7 @@ void Pencil::applyTranspose(int power, const Parameters& at, Vec x, Vec y) const
     }
 }
 
-double Pencil::norm(int power, const Parameters& at) const {
+double Pencil::norm(int power, const sweep::Parameters& at) const {
   if (!hasPower(power)) return 0;
   OwnedVec& v = (*singular_)[static_cast<std::size_t>(power)];
   const bool fresh = !v;
@@ -116,8 +116,8 @@ double Pencil::norm(int power, const Parameters& at) const {
   return estimate;
 }
 
-ComplexVector residual(const Pencil& pencil, const Parameters& at, std::complex<double> s, const ComplexVector& d, Side side) {
-  ComplexVector sum = ComplexVector::like(d.real), part = ComplexVector::like(d.real);
+linalg::ComplexVector residual(const Pencil& pencil, const sweep::Parameters& at, std::complex<double> s, const linalg::ComplexVector& d, Side side) {
+  linalg::ComplexVector sum = linalg::ComplexVector::like(d.real), part = linalg::ComplexVector::like(d.real);
   for (int power = 0; power <= 2; ++power) {
     if (!pencil.hasPower(power)) continue;
     for (const bool imaginary : {false, true}) {
@@ -129,10 +129,10 @@ ComplexVector residual(const Pencil& pencil, const Parameters& at, std::complex<
   return sum;
 }
 
-double backwardError(const Pencil& pencil, const Parameters& at, std::complex<double> s, const ComplexVector& d) {
+double backwardError(const Pencil& pencil, const sweep::Parameters& at, std::complex<double> s, const linalg::ComplexVector& d) {
   double scale = 0;
   for (int power = 0; power <= 2; ++power) scale += std::pow(std::abs(s), power) * pencil.norm(power, at);
   return length(residual(pencil, at, s, d, Side::right)) / (scale * length(d));
 }
 
-}  // namespace squeal::flutter
+}  // namespace squeal::pencil

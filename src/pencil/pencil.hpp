@@ -11,7 +11,7 @@
 #include "petsc/owned.hpp"
 #include "sweep/parameters.hpp"
 
-namespace squeal::flutter {
+namespace squeal::pencil {
 
 struct Term {
   OwnedMat matrix;           ///< n×n
@@ -21,9 +21,9 @@ struct Term {
   int speedExponent = 0;    ///< b
   int dampingExponent = 0;  ///< d
 
-  double coefficient(const Parameters& at) const;
+  double coefficient(const sweep::Parameters& at) const;
   /// Derivative of the coefficient with respect to one parameter.
-  double slope(const Parameters& at, double Parameters::*parameter) const;
+  double slope(const sweep::Parameters& at, double sweep::Parameters::*parameter) const;
   /// The same term, its matrix shared.
   Term share() const;
 };
@@ -44,14 +44,14 @@ class Pencil {
   MPI_Comm comm() const;
 
   /// Collective. Sum of the terms with this power of s, as a new matrix; empty if there are none.
-  OwnedMat assembled(int power, const Parameters& at) const;
+  OwnedMat assembled(int power, const sweep::Parameters& at) const;
   /// Collective. y = (sum of the terms with this power) x.
-  void apply(int power, const Parameters& at, Vec x, Vec y) const;
+  void apply(int power, const sweep::Parameters& at, Vec x, Vec y) const;
   /// Collective. y = (sum of the terms with this power)ᵀ x.
-  void applyTranspose(int power, const Parameters& at, Vec x, Vec y) const;
+  void applyTranspose(int power, const sweep::Parameters& at, Vec x, Vec y) const;
   /// Collective. Estimate from below of the 2-norm of the sum, by power iteration on AᵀA continued from the last call for this
   /// power, be it at another point of the sweep: from below, so that a backward error made with it is never flattered.
-  double norm(int power, const Parameters& at) const;
+  double norm(int power, const sweep::Parameters& at) const;
 
  private:
   std::vector<Term> terms_;
@@ -63,9 +63,9 @@ class Pencil {
 enum class Side { right, left };
 
 /// Collective. P(s) d, or P(s)ᴴ d of the left side.
-ComplexVector residual(const Pencil& pencil, const Parameters& at, std::complex<double> s, const ComplexVector& d, Side side);
+linalg::ComplexVector residual(const Pencil& pencil, const sweep::Parameters& at, std::complex<double> s, const linalg::ComplexVector& d, Side side);
 
 /// Collective. ‖P(s) d‖ / ((|s|² ‖M̄‖ + |s| ‖Z̄‖ + ‖K̄‖) ‖d‖).
-double backwardError(const Pencil& pencil, const Parameters& at, std::complex<double> s, const ComplexVector& d);
+double backwardError(const Pencil& pencil, const sweep::Parameters& at, std::complex<double> s, const linalg::ComplexVector& d);
 
-}  // namespace squeal::flutter
+}  // namespace squeal::pencil

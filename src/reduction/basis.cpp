@@ -9,7 +9,7 @@
 #include "linalg/images.hpp"
 #include "linalg/symmetric.hpp"
 
-namespace squeal::flutter {
+namespace squeal::reduction {
 namespace {
 
 /// Eigenvalue of a Gram matrix, of its largest, from which on a direction counts as independent of the others: to within 1e-6.
@@ -17,14 +17,14 @@ constexpr double independent = 1e-12;
 
 /// Combinations orthonormal in the positive semi-definite matrix `gram` (n×n), without those whose eigenvalue is `small` times the
 /// largest or less, each column of the matrix taken as of unit size.
-DenseMatrix orthonormalising(DenseMatrix gram, PetscInt size, double small) {
+linalg::DenseMatrix orthonormalising(linalg::DenseMatrix gram, PetscInt size, double small) {
   const auto n = static_cast<std::size_t>(size);
   std::vector<double> scale(n);
   for (std::size_t j = 0; j < n; ++j) scale[j] = gram[j * n + j] > 0 ? 1 / std::sqrt(gram[j * n + j]) : 0;
   for (std::size_t j = 0; j < n; ++j)
     for (std::size_t i = 0; i < n; ++i) gram[j * n + i] *= scale[i] * scale[j];
-  const auto eigenvalues = symmetricEigen(gram, static_cast<int>(n));
-  DenseMatrix kept;
+  const auto eigenvalues = linalg::symmetricEigen(gram, static_cast<int>(n));
+  linalg::DenseMatrix kept;
   for (std::size_t j = 0; j < n; ++j)
     if (eigenvalues[j] > small * eigenvalues.back())
       for (std::size_t i = 0; i < n; ++i) kept.push_back(gram[j * n + i] * scale[i] / std::sqrt(eigenvalues[j]));
@@ -32,7 +32,7 @@ DenseMatrix orthonormalising(DenseMatrix gram, PetscInt size, double small) {
 }
 
 /// Sets the diagonal entries to zero (n×n) that are `small` times the whole energy of the column, with its parts along V, or less.
-void clearWhatVHolds(DenseMatrix& energy, const DenseMatrix& parts, PetscInt columns, double small) {
+void clearWhatVHolds(linalg::DenseMatrix& energy, const linalg::DenseMatrix& parts, PetscInt columns, double small) {
   const auto n = static_cast<std::size_t>(columns), rows = parts.size() / n;
   for (std::size_t j = 0; j < n; ++j) {
     double held = 0;
@@ -49,8 +49,8 @@ Basis::Basis(const modes::Modes& modes, Mat stiffness, KSP solver)
       solver_(solver),
       columns_(0),
       forces_(0) {
-  const ReadColumns shapes(modes.vectors);
-  columns_ = Block(shapes.rows());
+  const linalg::ReadColumns shapes(modes.vectors);
+  columns_ = linalg::Block(shapes.rows());
   columns_.reserve(3 * shapes.columns());  // untouched memory costs nothing, moving a grown basis does
   for (PetscInt j = 0; j < shapes.columns(); ++j)
     columns_.append(shapes.values() + j * shapes.rows(), 1 / modes.angularFrequency[static_cast<std::size_t>(j)]);
@@ -66,56 +66,56 @@ Basis::Basis(const modes::Modes& modes, Mat stiffness, KSP solver)
   sketched_ = sketch_->unweighted(columns_.values.data(), size());
 }
 
-OwnedBV Basis::vectors() const { return copiedColumns(stiffness_, columns_.values.data(), size()); }
+OwnedBV Basis::vectors() const { return linalg::copiedColumns(stiffness_, columns_.values.data(), size()); }
 
-void Basis::appendImages(Mat matrix, PetscInt first, PetscInt last, Block& result) const {
-  appendProduct(matrix, columns_.column(first), last - first, result);
+void Basis::appendImages(Mat matrix, PetscInt first, PetscInt last, linalg::Block& result) const {
+  linalg::appendProduct(matrix, columns_.column(first), last - first, result);
 }
 
 /// K0⁻¹ of all columns at once.
-Block Basis::solve(const Block& right) {
+linalg::Block Basis::solve(const linalg::Block& right) {
   PetscInt global = 0;
   check(MatGetSize(stiffness_, &global, nullptr));
-  Block solved(right.rows, right.columns);
-  const OwnedMat from = borrowed(comm_, right.rows, global, right.columns, right.values.data()),
-                 to = borrowed(comm_, right.rows, global, right.columns, solved.values.data());
+  linalg::Block solved(right.rows, right.columns);
+  const OwnedMat from = linalg::borrowed(comm_, right.rows, global, right.columns, right.values.data()),
+                 to = linalg::borrowed(comm_, right.rows, global, right.columns, solved.values.data());
   check(KSPMatSolve(solver_, from, to));
   solves_ += right.columns;
   return solved;
 }
 
-PetscInt Basis::add(const Block& residuals) {
-  forces_ = Block(localRows());
+PetscInt Basis::add(const linalg::Block& residuals) {
+  forces_ = linalg::Block(localRows());
   energies_.clear();
   if (residuals.columns == 0) return 0;
-  Block z = solve(residuals);
-  const DenseMatrix energy = transposedProduct(comm_, z, residuals);
+  linalg::Block z = solve(residuals);
+  const linalg::DenseMatrix energy = linalg::transposedProduct(comm_, z, residuals);
   ratio_ = ratio(residuals, energy);
-  const DenseMatrix parts = transposedProduct(comm_, columns_, residuals);  // VᵀK0 z
+  const linalg::DenseMatrix parts = linalg::transposedProduct(comm_, columns_, residuals);  // VᵀK0 z
   const PetscInt before = size();
   if (!addAcross(z, residuals, energy, parts)) addOrthogonalised(z, parts);
   const PetscInt added = size() - before;
-  const DenseMatrix sketch = sketch_->unweighted(columns_.column(before), added);
+  const linalg::DenseMatrix sketch = sketch_->unweighted(columns_.column(before), added);
   sketched_.insert(sketched_.end(), sketch.begin(), sketch.end());
   return added;
 }
 
 /// Adds z = K0⁻¹ R where that is all but orthogonal to V: K0 z, VᵀK0z and zᵀK0z are then R, VᵀR and zᵀR. False: it is not, or
 /// K0⁻¹ is not good enough for that.
-bool Basis::addAcross(const Block& z, const Block& residuals, const DenseMatrix& energy, const DenseMatrix& parts) {
+bool Basis::addAcross(const linalg::Block& z, const linalg::Block& residuals, const linalg::DenseMatrix& energy, const linalg::DenseMatrix& parts) {
   constexpr double little = 1e-6;
-  const DenseMatrix combinations = orthonormalising(energy, z.columns, independent);
+  const linalg::DenseMatrix combinations = orthonormalising(energy, z.columns, independent);
   const auto old = static_cast<std::size_t>(size()), added = combinations.size() / static_cast<std::size_t>(z.columns);
-  DenseMatrix along(old * added);
-  if (added > 0) multiplyAdd(parts.data(), size(), z.columns, combinations, along);
+  linalg::DenseMatrix along(old * added);
+  if (added > 0) linalg::multiplyAdd(parts.data(), size(), z.columns, combinations, along);
   for (std::size_t j = 0; j < added; ++j) {
     const auto begin = along.begin() + static_cast<std::ptrdiff_t>(j * old), end = begin + static_cast<std::ptrdiff_t>(old);
     if (!(std::inner_product(begin, end, begin, 0.0) < little)) return false;
   }
   if (added == 0 || solutionError(z, residuals) > 1e-12) return false;
-  const Block fresh = combined(z, combinations, static_cast<PetscInt>(added));
-  forces_ = combined(residuals, combinations, fresh.columns);
-  const DenseMatrix own = transposedProduct(comm_, fresh, forces_);
+  const linalg::Block fresh = linalg::combined(z, combinations, static_cast<PetscInt>(added));
+  forces_ = linalg::combined(residuals, combinations, fresh.columns);
+  const linalg::DenseMatrix own = linalg::transposedProduct(comm_, fresh, forces_);
   for (std::size_t j = 0; j < added; ++j) {
     energies_.insert(energies_.end(), along.begin() + static_cast<std::ptrdiff_t>(j * old),
                      along.begin() + static_cast<std::ptrdiff_t>((j + 1) * old));
@@ -127,29 +127,29 @@ bool Basis::addAcross(const Block& z, const Block& residuals, const DenseMatrix&
 }
 
 /// Adds what z has orthogonal to V, `parts` being VᵀK0z: twice, since V is orthonormal to some digits alone.
-void Basis::addOrthogonalised(Block& z, const DenseMatrix& parts) {
-  multiplyAdd(columns_.values.data(), columns_.rows, size(), parts, z.values, -1);
-  Block images(z.rows);
-  appendProduct(stiffness_, z.values.data(), z.columns, images);
-  const DenseMatrix rest = transposedProduct(comm_, columns_, images);
-  DenseMatrix energy = transposedProduct(comm_, z, images);
-  multiplyAdd(columns_.values.data(), columns_.rows, size(), rest, z.values, -1);
-  const DenseMatrix square = transposedProduct(MPI_COMM_SELF, rest.data(), size(), z.columns, rest.data(), z.columns);
+void Basis::addOrthogonalised(linalg::Block& z, const linalg::DenseMatrix& parts) {
+  linalg::multiplyAdd(columns_.values.data(), columns_.rows, size(), parts, z.values, -1);
+  linalg::Block images(z.rows);
+  linalg::appendProduct(stiffness_, z.values.data(), z.columns, images);
+  const linalg::DenseMatrix rest = linalg::transposedProduct(comm_, columns_, images);
+  linalg::DenseMatrix energy = linalg::transposedProduct(comm_, z, images);
+  linalg::multiplyAdd(columns_.values.data(), columns_.rows, size(), rest, z.values, -1);
+  const linalg::DenseMatrix square = linalg::transposedProduct(MPI_COMM_SELF, rest.data(), size(), z.columns, rest.data(), z.columns);
   for (std::size_t k = 0; k < energy.size(); ++k) energy[k] -= square[k];
   // What depends on others or on V would only add noise.
   clearWhatVHolds(energy, parts, z.columns, independent);
-  const DenseMatrix combinations = orthonormalising(energy, z.columns, independent);
+  const linalg::DenseMatrix combinations = orthonormalising(energy, z.columns, independent);
   const auto added = static_cast<PetscInt>(combinations.size()) / z.columns;
-  if (added > 0) append(columns_, combined(z, combinations, added));
+  if (added > 0) append(columns_, linalg::combined(z, combinations, added));
 }
 
 /// ‖K0 z w − R w‖ / ‖R w‖ for a vector w of signs, in the norm of diag(K0)⁻¹.
-double Basis::solutionError(const Block& z, const Block& residuals) const {
-  DenseMatrix signs;
+double Basis::solutionError(const linalg::Block& z, const linalg::Block& residuals) const {
+  linalg::DenseMatrix signs;
   for (PetscInt j = 0; j < z.columns; ++j) signs.push_back(j % 3 == 1 ? -1 : 1);
-  Block image(z.rows);
-  const Block solution = combined(z, signs, 1), wanted = combined(residuals, signs, 1);
-  appendProduct(stiffness_, solution.values.data(), 1, image);
+  linalg::Block image(z.rows);
+  const linalg::Block solution = linalg::combined(z, signs, 1), wanted = linalg::combined(residuals, signs, 1);
+  linalg::appendProduct(stiffness_, solution.values.data(), 1, image);
   double squares[2] = {0, 0};
   for (PetscInt i = 0; i < z.rows; ++i) {
     const double error = image.column(0)[i] - wanted.column(0)[i], weight = inverseDiagonal_[static_cast<std::size_t>(i)];
@@ -161,43 +161,43 @@ double Basis::solutionError(const Block& z, const Block& residuals) const {
   return std::sqrt(squares[0] / squares[1]);
 }
 
-void Basis::combine(const DenseMatrix& combinations, PetscInt count) {
-  columns_ = combined(columns_, combinations, count);
-  forces_ = Block(0);
+void Basis::combine(const linalg::DenseMatrix& combinations, PetscInt count) {
+  columns_ = linalg::combined(columns_, combinations, count);
+  forces_ = linalg::Block(0);
   sketched_ = sketch_->unweighted(columns_.values.data(), count);
   energies_.clear();
 }
 
 /// The largest ratio of the energy norm to that of the diagonal among all combinations of the columns; `energy`: RᵀK0⁻¹R.
-double Basis::ratio(const Block& residuals, const DenseMatrix& energy) const {
+double Basis::ratio(const linalg::Block& residuals, const linalg::DenseMatrix& energy) const {
   const PetscInt n = residuals.columns;
   if (n == 0) return 0;
-  Block scaled = residuals;
+  linalg::Block scaled = residuals;
   for (PetscInt j = 0; j < n; ++j)
     for (PetscInt i = 0; i < scaled.rows; ++i) scaled.column(j)[i] *= inverseDiagonal_[static_cast<std::size_t>(i)];
-  const DenseMatrix combinations = orthonormalising(transposedProduct(comm_, residuals, scaled), n, 1e-8);
+  const linalg::DenseMatrix combinations = orthonormalising(linalg::transposedProduct(comm_, residuals, scaled), n, 1e-8);
   const auto kept = static_cast<int>(combinations.size()) / n;
   if (kept == 0) return 0;
-  DenseMatrix projected = congruent(energy, n, combinations);
-  return std::sqrt(symmetricEigen(projected, kept).back());
+  linalg::DenseMatrix projected = linalg::congruent(energy, n, combinations);
+  return std::sqrt(linalg::symmetricEigen(projected, kept).back());
 }
 
-std::vector<double> Basis::energyRatios(const std::vector<Block>& blocks) {
-  Block all(localRows());
+std::vector<double> Basis::energyRatios(const std::vector<linalg::Block>& blocks) {
+  linalg::Block all(localRows());
   for (const auto& block : blocks) append(all, block);
-  const Block solved = solve(all);
+  const linalg::Block solved = solve(all);
   std::vector<double> ratios;
   PetscInt first = 0;
   for (const auto& block : blocks) {
     const double* solutions = solved.values.data() + first * solved.rows;
     first += block.columns;
-    const DenseMatrix energy = transposedProduct(comm_, solutions, block.rows, block.columns, block.values.data(), block.columns);
+    const linalg::DenseMatrix energy = linalg::transposedProduct(comm_, solutions, block.rows, block.columns, block.values.data(), block.columns);
     ratios.push_back(ratio(block, energy));
   }
   return ratios;
 }
 
-std::vector<ComplexVector> Basis::expand(const std::vector<const std::vector<std::complex<double>>*>& list) const {
+std::vector<linalg::ComplexVector> Basis::expand(const std::vector<const std::vector<std::complex<double>>*>& list) const {
   const auto m = static_cast<std::size_t>(size());
   std::vector<double> coordinates(2 * list.size() * m, 0.0);
   for (std::size_t j = 0; j < list.size(); ++j)
@@ -205,8 +205,8 @@ std::vector<ComplexVector> Basis::expand(const std::vector<const std::vector<std
       coordinates[2 * j * m + i] = (*list[j])[i].real();
       coordinates[(2 * j + 1) * m + i] = (*list[j])[i].imag();
     }
-  const Block parts = combined(columns_, coordinates, static_cast<PetscInt>(2 * list.size()));
-  std::vector<ComplexVector> vectors(list.size());
+  const linalg::Block parts = linalg::combined(columns_, coordinates, static_cast<PetscInt>(2 * list.size()));
+  std::vector<linalg::ComplexVector> vectors(list.size());
   for (std::size_t j = 0; j < list.size(); ++j) {
     check(MatCreateVecs(stiffness_, vectors[j].real.out(), vectors[j].imaginary.out()));
     for (const bool imaginary : {false, true}) {
@@ -220,4 +220,4 @@ std::vector<ComplexVector> Basis::expand(const std::vector<const std::vector<std
   return vectors;
 }
 
-}  // namespace squeal::flutter
+}  // namespace squeal::reduction

@@ -13,13 +13,13 @@
 #include "modes/modes.hpp"
 #include "petsc/owned.hpp"
 
-namespace squeal::flutter {
+namespace squeal::reduction {
 
 class Basis {
  public:
   /// Collective. Begins with the modes. Borrows the solver of K0 and K0.
   Basis(const modes::Modes& modes, Mat stiffness, KSP solver);
-  const Block& columns() const { return columns_; }
+  const linalg::Block& columns() const { return columns_; }
   PetscInt size() const { return columns_.columns; }
   PetscInt localRows() const { return columns_.rows; }
   MPI_Comm comm() const { return comm_; }
@@ -29,48 +29,48 @@ class Basis {
 
   /// Collective. Adds K0⁻¹ of the columns of `residuals`, solved for together; combinations that depend on others or on V are dropped.
   /// Returns the number of columns added.
-  PetscInt add(const Block& residuals);
+  PetscInt add(const linalg::Block& residuals);
   /// V ← V · combinations (size() × count), which has orthonormal columns.
-  void combine(const DenseMatrix& combinations, PetscInt count);
+  void combine(const linalg::DenseMatrix& combinations, PetscInt count);
 
   /// Collective. Adds A times columns [first, last) of V to the columns of `result`.
-  void appendImages(Mat matrix, PetscInt first, PetscInt last, Block& result) const;
+  void appendImages(Mat matrix, PetscInt first, PetscInt last, linalg::Block& result) const;
   /// K0 times the columns last added, and VᵀK0 times them (size() × columns), where they are known without products: no columns otherwise.
-  const Block& forces() const { return forces_; }
-  const DenseMatrix& energies() const { return energies_; }
+  const linalg::Block& forces() const { return forces_; }
+  const linalg::DenseMatrix& energies() const { return energies_; }
   /// Collective. V q of several q; entries that one lacks are zero.
-  std::vector<ComplexVector> expand(const std::vector<const std::vector<std::complex<double>>*>& list) const;
+  std::vector<linalg::ComplexVector> expand(const std::vector<const std::vector<std::complex<double>>*>& list) const;
   /// Of columns of length n; the weighted norm is √(rᵀ diag(K0)⁻¹ r).
-  const Sketch& sketch() const { return *sketch_; }
+  const linalg::Sketch& sketch() const { return *sketch_; }
   /// Unweighted sketch of V.
-  const DenseMatrix& sketched() const { return sketched_; }
+  const linalg::DenseMatrix& sketched() const { return sketched_; }
   /// Collective. For each block of columns, all solved for together, the largest ratio of the energy norm √(rᵀ K0⁻¹ r) to
   /// √(rᵀ diag(K0)⁻¹ r) among its combinations: it turns the second norm, which costs nothing, into an estimate of the first for columns
   /// like these. 0: no columns.
-  std::vector<double> energyRatios(const std::vector<Block>& blocks);
+  std::vector<double> energyRatios(const std::vector<linalg::Block>& blocks);
   /// That of the columns last added.
   double lastEnergyRatio() const { return ratio_; }
   /// Columns solved for so far.
   long solves() const { return solves_; }
 
  private:
-  Block solve(const Block& right);
-  double ratio(const Block& residuals, const DenseMatrix& energy) const;
-  bool addAcross(const Block& z, const Block& residuals, const DenseMatrix& energy, const DenseMatrix& parts);
-  void addOrthogonalised(Block& z, const DenseMatrix& parts);
-  double solutionError(const Block& z, const Block& residuals) const;
+  linalg::Block solve(const linalg::Block& right);
+  double ratio(const linalg::Block& residuals, const linalg::DenseMatrix& energy) const;
+  bool addAcross(const linalg::Block& z, const linalg::Block& residuals, const linalg::DenseMatrix& energy, const linalg::DenseMatrix& parts);
+  void addOrthogonalised(linalg::Block& z, const linalg::DenseMatrix& parts);
+  double solutionError(const linalg::Block& z, const linalg::Block& residuals) const;
 
   MPI_Comm comm_;
   Mat stiffness_;
   KSP solver_;
-  Block columns_;
-  Block forces_;
-  DenseMatrix energies_;
+  linalg::Block columns_;
+  linalg::Block forces_;
+  linalg::DenseMatrix energies_;
   std::vector<double> inverseDiagonal_;
-  std::optional<Sketch> sketch_;
-  DenseMatrix sketched_;
+  std::optional<linalg::Sketch> sketch_;
+  linalg::DenseMatrix sketched_;
   double ratio_ = 1;
   long solves_ = 0;
 };
 
-}  // namespace squeal::flutter
+}  // namespace squeal::reduction

@@ -5,7 +5,7 @@
 
 #include "linalg/symmetric.hpp"
 
-namespace squeal::flutter {
+namespace squeal::reduction {
 namespace {
 
 using Complex = std::complex<double>;
@@ -34,14 +34,14 @@ double smallestSingularValue(const std::vector<Complex>& g, std::size_t p) {
   for (std::size_t j = 0; j < 2 * p; ++j)
     for (std::size_t i = 0; i < 2 * p; ++i)
       for (std::size_t k = 0; k < 2 * p; ++k) gram[j * 2 * p + i] += entry(k, i) * entry(k, j);
-  return std::sqrt(std::max(0.0, symmetricEigen(gram, static_cast<int>(2 * p)).front()));
+  return std::sqrt(std::max(0.0, linalg::symmetricEigen(gram, static_cast<int>(2 * p)).front()));
 }
 
 }  // namespace
 
-std::vector<double> conditionNumbers(const DenseProblem& problem, const std::vector<DensePair>& pairs) {
-  const auto massTimes = timesVectors(problem.mass, problem.m, pairs),
-             dampingTimes = timesVectors(problem.damping, problem.m, pairs);
+std::vector<double> conditionNumbers(const linalg::DenseProblem& problem, const std::vector<linalg::DensePair>& pairs) {
+  const auto massTimes = linalg::timesVectors(problem.mass, problem.m, pairs),
+             dampingTimes = linalg::timesVectors(problem.damping, problem.m, pairs);
   std::vector<double> numbers;
   for (std::size_t j = 0; j < pairs.size(); ++j) {
     const Complex s = pairs[j].s;
@@ -64,4 +64,4 @@ std::vector<double> conditionNumbers(const DenseProblem& problem, const std::vec
   return numbers;
 }
 
-}  // namespace squeal::flutter
+}  // namespace squeal::reduction

@@ -8,11 +8,11 @@
 #include "linalg/dense.hpp"
 #include "reduction/reduced.hpp"
 
-namespace squeal::flutter {
+namespace squeal::reduction {
 namespace {
 
 /// Orthonormal vectors that hold the columns (m high) but for parts of length `small`.
-DenseMatrix principalDirections(DenseMatrix columns, int rows, double small) {
+linalg::DenseMatrix principalDirections(linalg::DenseMatrix columns, int rows, double small) {
   PetscBLASInt m = rows, n = static_cast<PetscBLASInt>(columns.size()) / m, few = std::min(m, n), one = 1, query = -1, info = 0;
   std::vector<double> sizes(static_cast<std::size_t>(few)), left(static_cast<std::size_t>(m * few)), work(1);
   const auto call = [&](PetscBLASInt length) {
@@ -28,7 +28,7 @@ DenseMatrix principalDirections(DenseMatrix columns, int rows, double small) {
 }
 
 /// Coordinates of the same vector in a basis V · directions.
-std::vector<std::complex<double>> turned(const DenseMatrix& directions, std::size_t m, const std::vector<std::complex<double>>& q) {
+std::vector<std::complex<double>> turned(const linalg::DenseMatrix& directions, std::size_t m, const std::vector<std::complex<double>>& q) {
   std::vector<std::complex<double>> result(directions.size() / m);
   for (std::size_t j = 0; j < result.size(); ++j)
     for (std::size_t i = 0; i < q.size(); ++i) result[j] += directions[j * m + i] * q[i];
@@ -42,7 +42,7 @@ void ReducedProblem::compress() {
   constexpr double left = 1e-9;  // of a unit vector; what is lost, corrections bring back
   const PetscInt old = basis_.size();
   const auto m = static_cast<std::size_t>(old);
-  DenseMatrix vectors;
+  linalg::DenseMatrix vectors;
   for (const auto& pairs : solved_)
     for (const auto& pair : pairs)
       for (const bool imaginary : {false, true}) {
@@ -52,7 +52,7 @@ void ReducedProblem::compress() {
         }
       }
   if (vectors.empty()) return;
-  const DenseMatrix directions = principalDirections(vectors, static_cast<int>(old), left);
+  const linalg::DenseMatrix directions = principalDirections(vectors, static_cast<int>(old), left);
   const auto count = static_cast<PetscInt>(directions.size() / m);
   basis_.combine(directions, count);
   terms_.combine(directions);
@@ -64,4 +64,4 @@ void ReducedProblem::compress() {
     }
 }
 
-}  // namespace squeal::flutter
+}  // namespace squeal::reduction

@@ -10,54 +10,54 @@
 #include "reduction/basis.hpp"
 #include "sweep/parameters.hpp"
 
-namespace squeal::flutter {
+namespace squeal::reduction {
 
 /// Vectors of some eigenpairs on a basis. A pair that has real vectors and a real s², in a problem without damping, takes one column,
 /// others two.
 struct Coordinates {
-  std::vector<const DensePair*> pairs;
+  std::vector<const linalg::DensePair*> pairs;
   std::vector<PetscInt> firstColumn;  ///< [pair], and the end
   PetscInt columns = 0;
 
-  Coordinates(std::vector<const DensePair*> pairs, bool damped);
+  Coordinates(std::vector<const linalg::DensePair*> pairs, bool damped);
   bool isReal(std::size_t pair) const;
   /// Real (and imaginary) parts of c s^power q, or c conj(s)^power y, column-major.
-  std::vector<double> times(Side side, int power, double c) const;
+  std::vector<double> times(pencil::Side side, int power, double c) const;
 };
 
 /// Pairs found at one point, borrowed.
 struct PointPairs {
-  Parameters at;
+  sweep::Parameters at;
   Coordinates pairs;
 };
 
 class ProjectedTerms {
  public:
   /// Collective. Terms [first, last) of the pencil; their matrices are shared. Borrows the basis and its sketch.
-  ProjectedTerms(const Basis& basis, const Pencil& pencil, std::size_t first, std::size_t last);
+  ProjectedTerms(const Basis& basis, const pencil::Pencil& pencil, std::size_t first, std::size_t last);
   /// Collective. Takes in what the basis has gained.
   void extend();
   /// The basis has become V · combinations (its former size × its size).
-  void combine(const DenseMatrix& combinations);
+  void combine(const linalg::DenseMatrix& combinations);
   /// Adds Σ c_t VᵀA_tV to the matrices of the problem, which are empty or of the size of the basis.
-  void addTo(const Parameters& at, DenseProblem& sum) const;
+  void addTo(const sweep::Parameters& at, linalg::DenseProblem& sum) const;
   /// Adds combinations of the columns P(s) V q of all points in turn (their columns × result.columns), in one product per term.
-  void addTo(const std::vector<const PointPairs*>& points, const DenseMatrix& combinations, Block& result) const;
+  void addTo(const std::vector<const PointPairs*>& points, const linalg::DenseMatrix& combinations, linalg::Block& result) const;
   /// Adds the sketch of P(s) V q or P(s)ᴴ V y.
-  void addTo(const PointPairs& point, Side side, DenseMatrix& sketch) const;
+  void addTo(const PointPairs& point, pencil::Side side, linalg::DenseMatrix& sketch) const;
 
  private:
   struct Part {
-    Term term;
-    RowSet rows, leftRows;     // of A and Aᵀ
+    pencil::Term term;
+    linalg::RowSet rows, leftRows;     // of A and Aᵀ
     OwnedMat matrix, adjoint;  // these rows; no adjoint where A is symmetric
-    Block image;               // A V, by `rows`
-    Block rowsOfV;             // these rows of V; none if they are all
-    DenseMatrix sketch;        // of A V
-    DenseMatrix leftSketch;    // of AᵀV; empty where A is symmetric
-    DenseMatrix projection;    // VᵀAV, column-major
+    linalg::Block image;               // A V, by `rows`
+    linalg::Block rowsOfV;             // these rows of V; none if they are all
+    linalg::DenseMatrix sketch;        // of A V
+    linalg::DenseMatrix leftSketch;    // of AᵀV; empty where A is symmetric
+    linalg::DenseMatrix projection;    // VᵀAV, column-major
   };
-  Part begun(Term term) const;
+  Part begun(pencil::Term term) const;
   void extend(Part& part) const;
   bool knownFrom(const Part& part, PetscInt old) const;
   void project(Part& part, PetscInt old) const;
@@ -65,4 +65,4 @@ class ProjectedTerms {
   std::vector<Part> parts_;
 };
 
-}  // namespace squeal::flutter
+}  // namespace squeal::reduction

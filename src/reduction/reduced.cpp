@@ -9,7 +9,7 @@
 #include "reduction/condition.hpp"
 #include "options/options.hpp"
 
-namespace squeal::flutter {
+namespace squeal::reduction {
 namespace {
 
 const ChoiceOption basisOption(
@@ -27,14 +27,14 @@ bool correctionsWanted() { return basisOption.get() != "modal"; }
 /// Backward errors below have nothing to correct.
 constexpr double rounding = 1e-14;
 
-std::vector<const DensePair*> pointers(const std::vector<DensePair>& pairs) {
-  std::vector<const DensePair*> list;
+std::vector<const linalg::DensePair*> pointers(const std::vector<linalg::DensePair>& pairs) {
+  std::vector<const linalg::DensePair*> list;
   for (const auto& pair : pairs) list.push_back(&pair);
   return list;
 }
 
 /// For an undamped problem, pairs that are −s̄ and the conjugate vectors of the pair before: their errors are the same.
-std::vector<bool> mirrorImages(const std::vector<DensePair>& pairs, bool damped) {
+std::vector<bool> mirrorImages(const std::vector<linalg::DensePair>& pairs, bool damped) {
   std::vector<bool> mirrored(pairs.size(), false);
   for (std::size_t j = 1; j < pairs.size() && !damped; ++j)
     mirrored[j] = !mirrored[j - 1] && pairs[j].s.real() != 0 && pairs[j].s == -std::conj(pairs[j - 1].s);
@@ -58,7 +58,7 @@ struct ReducedProblem::Work {
   ProjectedTerms ownTerms;
   bool damped;
   Norms norms;                        // of K̄, Z̄, M̄
-  std::vector<DensePair> pairs;       // of the band, with left vectors
+  std::vector<linalg::DensePair> pairs;       // of the band, with left vectors
   std::vector<double> backwardError;  // [pair]
   // |δs|/|s| is at most the product of the two, each with the norm of diag(K0)⁻¹ for that of K0⁻¹
   std::vector<double> rightError;  // [pair] of the right vector, times the condition number of s
@@ -66,7 +66,7 @@ struct ReducedProblem::Work {
   std::vector<double> rounding;    // [pair] error of the dense solve
 };
 
-ReducedProblem::ReducedProblem(const Pencil& pencil, Mat stiffness, KSP solver, const modes::Modes& modes)
+ReducedProblem::ReducedProblem(const pencil::Pencil& pencil, Mat stiffness, KSP solver, const modes::Modes& modes)
     : modes_(modes.angularFrequency), basis_(modes, stiffness, solver), terms_(basis_, pencil, 0, pencil.terms().size()) {
   check(BVGetSizes(modes.vectors, nullptr, &unknowns_, nullptr));
   lowestMode_ = modes.angularFrequency.front();
@@ -76,7 +76,7 @@ ReducedProblem::ReducedProblem(const Pencil& pencil, Mat stiffness, KSP solver, 
     return;
   }
   if (!correctionsWanted()) return;
-  bandTop_ = bandBelow(modes.angularFrequency);
+  bandTop_ = pencil::bandBelow(modes.angularFrequency);
 }
 
 /// Brings what depends on the basis up to it.
@@ -86,11 +86,11 @@ void ReducedProblem::extend(const std::vector<Work*>& works) {
 }
 
 /// The columns of a residual, without images of the basis.
-Block ReducedProblem::residualColumns(const Work& work, const DensePair& pair, const ComplexVector& vector, Side side) const {
+linalg::Block ReducedProblem::residualColumns(const Work& work, const linalg::DensePair& pair, const linalg::ComplexVector& vector, pencil::Side side) const {
   const auto& [at, pencil] = *work.point;
-  const ComplexVector residual = flutter::residual(pencil, at, pair.s, vector, side);
+  const linalg::ComplexVector residual = pencil::residual(pencil, at, pair.s, vector, side);
   const bool real = Coordinates({&pair}, work.damped).isReal(0);
-  Block result(basis_.localRows());
+  linalg::Block result(basis_.localRows());
   for (const Vec part : {residual.real.get(), residual.imaginary.get()}) {
     if (real && result.columns == 1) break;
     const PetscScalar* entries = nullptr;
@@ -109,7 +109,7 @@ double ReducedProblem::errorOf(const Work& work, std::size_t pair) const {
 /// By how much the errors of a pair are too large; nothing can be done about those of rounding.
 double ReducedProblem::excess(const Work& work, std::size_t pair) const {
   if (bandTop_ == 0 || work.backwardError[pair] < rounding) return 0;
-  return std::max(work.backwardError[pair] / accuracyAsked(), errorOf(work, pair) / toleranceOption.get());
+  return std::max(work.backwardError[pair] / pencil::accuracyAsked(), errorOf(work, pair) / toleranceOption.get());
 }
 
 bool ReducedProblem::good(const Work& work) const {
@@ -119,29 +119,29 @@ bool ReducedProblem::good(const Work& work) const {
 }
 
 /// Sketches of the residuals of one side.
-DenseMatrix ReducedProblem::residualSketch(const Work& work, const PointPairs& pairs, Side side) const {
-  DenseMatrix sketch(static_cast<std::size_t>(2 * Sketch::size * pairs.pairs.columns));
+linalg::DenseMatrix ReducedProblem::residualSketch(const Work& work, const PointPairs& pairs, pencil::Side side) const {
+  linalg::DenseMatrix sketch(static_cast<std::size_t>(2 * linalg::Sketch::size * pairs.pairs.columns));
   for (const auto* terms : {&terms_, &work.ownTerms}) terms->addTo(pairs, side, sketch);
   return sketch;
 }
 
 /// Errors of the pairs of a point.
-void ReducedProblem::judge(Work& work, const DenseProblem& problem) const {
+void ReducedProblem::judge(Work& work, const linalg::DenseProblem& problem) const {
   const auto& pairs = work.pairs;
   const PointPairs all{work.point->at, Coordinates(pointers(pairs), work.damped)};
   const auto& coordinates = all.pairs;
-  const auto norms = [&](Side side) {  // raised by what a sketch may miss
-    SquaredNorms squares = squaredNorms(residualSketch(work, all, side));
+  const auto norms = [&](pencil::Side side) {  // raised by what a sketch may miss
+    linalg::SquaredNorms squares = linalg::squaredNorms(residualSketch(work, all, side));
     for (auto* list : {&squares.euclidean, &squares.weighted}) {
       *list = perPair(coordinates, *list);
-      for (auto& square : *list) square *= Sketch::safety * Sketch::safety;
+      for (auto& square : *list) square *= linalg::Sketch::safety * linalg::Sketch::safety;
     }
     return squares;
   };
-  const auto right = norms(Side::right), left = norms(Side::left);
-  DenseMatrix vectors(static_cast<std::size_t>(Sketch::size * coordinates.columns));
-  multiplyAdd(basis_.sketched().data(), Sketch::size, basis_.size(), coordinates.times(Side::right, 0, 1), vectors);
-  const auto lengths = perPair(coordinates, squaredLengths(vectors));
+  const auto right = norms(pencil::Side::right), left = norms(pencil::Side::left);
+  linalg::DenseMatrix vectors(static_cast<std::size_t>(linalg::Sketch::size * coordinates.columns));
+  linalg::multiplyAdd(basis_.sketched().data(), linalg::Sketch::size, basis_.size(), coordinates.times(pencil::Side::right, 0, 1), vectors);
+  const auto lengths = perPair(coordinates, linalg::squaredLengths(vectors));
   const auto conditions = conditionNumbers(problem, pairs);
   work.backwardError.clear();
   work.rightError.clear();
@@ -161,7 +161,7 @@ void ReducedProblem::judge(Work& work, const DenseProblem& problem) const {
 /// half of its square for what stays unresolved, half for what the correction leaves.
 ReducedProblem::Wish ReducedProblem::wishOf(const Work& work) const {
   const auto mirrored = mirrorImages(work.pairs, work.damped);
-  std::vector<const DensePair*> bad;
+  std::vector<const linalg::DensePair*> bad;
   std::vector<double> weights;
   for (std::size_t j = 0; j < work.pairs.size(); ++j)
     if (const double tooLarge = excess(work, j); tooLarge > 1 && !mirrored[j]) {
@@ -172,40 +172,40 @@ ReducedProblem::Wish ReducedProblem::wishOf(const Work& work) const {
 }
 
 /// Directions that hold the residuals of all these pairs, of length one times their weights, but for parts of length `resolution`.
-Block ReducedProblem::directions(const std::vector<Wish>& wishes) const {
-  DenseMatrix sketches, factors;
+linalg::Block ReducedProblem::directions(const std::vector<Wish>& wishes) const {
+  linalg::DenseMatrix sketches, factors;
   std::vector<const PointPairs*> points;
   for (const auto& wish : wishes) {
     const auto& pairs = wish.pairs.pairs;
-    const DenseMatrix sketch = residualSketch(*wish.work, wish.pairs, Side::right);
+    const linalg::DenseMatrix sketch = residualSketch(*wish.work, wish.pairs, pencil::Side::right);
     sketches.insert(sketches.end(), sketch.begin(), sketch.end());
-    const auto squares = perPair(pairs, squaredNorms(sketch).euclidean);
+    const auto squares = perPair(pairs, linalg::squaredNorms(sketch).euclidean);
     for (std::size_t j = 0; j < squares.size(); ++j)
       factors.insert(factors.end(), static_cast<std::size_t>(pairs.firstColumn[j + 1] - pairs.firstColumn[j]),
                      squares[j] > 0 ? wish.weights[j] / std::sqrt(squares[j]) : 0);
     points.push_back(&wish.pairs);
   }
-  if (factors.empty()) return Block(basis_.localRows());
+  if (factors.empty()) return linalg::Block(basis_.localRows());
   // Fewer columns than residuals: those of several points are much alike.
-  const DenseMatrix combinations = leadingCombinations(sketches, factors, 0.8 * resolution);
+  const linalg::DenseMatrix combinations = linalg::leadingCombinations(sketches, factors, 0.8 * resolution);
   const std::size_t all = factors.size(), count = combinations.size() / all;
-  if (count == 0) return Block(basis_.localRows());
-  Block columns(basis_.localRows(), static_cast<PetscInt>(count));
+  if (count == 0) return linalg::Block(basis_.localRows());
+  linalg::Block columns(basis_.localRows(), static_cast<PetscInt>(count));
   terms_.addTo(points, combinations, columns);
   std::size_t first = 0;
   for (const auto& wish : wishes) {
     const auto own = static_cast<std::size_t>(wish.pairs.pairs.columns);
-    wish.work->ownTerms.addTo({&wish.pairs}, rowsOf(combinations, all, first, own), columns);
+    wish.work->ownTerms.addTo({&wish.pairs}, linalg::rowsOf(combinations, all, first, own), columns);
     first += own;
   }
-  return principal(basis_.comm(), columns, resolution);
+  return linalg::principal(basis_.comm(), columns, resolution);
 }
 
 /// Dense problems of the points that are not done, and their errors.
 void ReducedProblem::solveDense(const std::vector<Work*>& open) {
-  std::vector<DenseProblem> problems;
+  std::vector<linalg::DenseProblem> problems;
   for (const auto* work : open) problems.push_back(project(*work));
-  auto solved = solveSpread(basis_.comm(), problems, Vectors::both, [&](auto s) { return bandTop_ == 0 || inBand(s); });
+  auto solved = linalg::solveSpread(basis_.comm(), problems, linalg::Vectors::both, [&](auto s) { return bandTop_ == 0 || inBand(s); });
   for (std::size_t i = 0; i < open.size(); ++i) {
     open[i]->pairs = std::move(solved[i]);
     judge(*open[i], problems[i]);
@@ -213,11 +213,11 @@ void ReducedProblem::solveDense(const std::vector<Work*>& open) {
 }
 
 /// By how much a residual made with the matrices exceeds that made with the images of the basis.
-double ReducedProblem::drift(const Work& work, const DensePair& pair, const Block& columns, Side side) const {
+double ReducedProblem::drift(const Work& work, const linalg::DensePair& pair, const linalg::Block& columns, pencil::Side side) const {
   const PointPairs alone{work.point->at, Coordinates({&pair}, work.damped)};
   const auto sum = [](const std::vector<double>& squares) { return std::accumulate(squares.begin(), squares.end(), 0.0); };
-  const double known = sum(squaredNorms(residualSketch(work, alone, side)).weighted),
-               exact = sum(squaredNorms(basis_.sketch().of(columns.values.data(), columns.columns)).weighted);
+  const double known = sum(linalg::squaredNorms(residualSketch(work, alone, side)).weighted),
+               exact = sum(linalg::squaredNorms(basis_.sketch().of(columns.values.data(), columns.columns)).weighted);
   return std::max(1.0, std::sqrt(exact / known));
 }
 
@@ -234,15 +234,15 @@ std::vector<ReducedProblem::Work*> ReducedProblem::unconfirmed(std::vector<Work>
   if (!worst) return open;
   confirmed_ = largest;
   worst->ownTerms.extend();  // the basis may have grown since
-  DensePair& known = worst->pairs[pair];
+  linalg::DensePair& known = worst->pairs[pair];
   for (auto* vector : {&known.q, &known.left}) vector->resize(static_cast<std::size_t>(basis_.size()));
   const auto vectors = basis_.expand({&known.q, &known.left});
-  const Block right = residualColumns(*worst, known, vectors[0], Side::right),
-              left = residualColumns(*worst, known, vectors[1], Side::left);
+  const linalg::Block right = residualColumns(*worst, known, vectors[0], pencil::Side::right),
+              left = residualColumns(*worst, known, vectors[1], pencil::Side::left);
   const auto ratios = basis_.energyRatios({right, left});
-  measuredRatio_ = std::max(measuredRatio_, ratios[0] * drift(*worst, known, right, Side::right));
+  measuredRatio_ = std::max(measuredRatio_, ratios[0] * drift(*worst, known, right, pencil::Side::right));
   rightRatio_ = std::max(rightRatio_, measuredRatio_);
-  leftRatio_ = std::max(leftRatio_, ratios[1] * drift(*worst, known, left, Side::left));
+  leftRatio_ = std::max(leftRatio_, ratios[1] * drift(*worst, known, left, pencil::Side::left));
   for (auto& work : works)
     if (!good(work)) open.push_back(&work);
   return open;
@@ -269,9 +269,9 @@ ReducedProblem::Norms ReducedProblem::normsOf(const PointProblem& point) {
 
 /// Those of the point solved that is nearest in friction: they take many products with large matrices.
 ReducedProblem::Norms ReducedProblem::nearbyNorms(const PointProblem& point) {
-  const std::pair<Parameters, Norms>* nearest = nullptr;
+  const std::pair<sweep::Parameters, Norms>* nearest = nullptr;
   for (const auto& known : norms_) {
-    Parameters at = known.first;
+    sweep::Parameters at = known.first;
     at.friction = point.at.friction;
     const auto distance = [&](const auto* other) { return std::abs(other->first.friction - point.at.friction); };
     if (at == point.at && (!nearest || distance(&known) < distance(nearest))) nearest = &known;
@@ -279,7 +279,7 @@ ReducedProblem::Norms ReducedProblem::nearbyNorms(const PointProblem& point) {
   return nearest ? nearest->second : normsOf(point);
 }
 
-std::vector<FrictionPoint> ReducedProblem::solve(const std::vector<PointProblem>& batch, Mat trial) {
+std::vector<pencil::FrictionPoint> ReducedProblem::solve(const std::vector<PointProblem>& batch, Mat trial) {
   std::vector<Work> works;
   std::vector<Work*> open;
   if (!responded_ && correctionsWanted() && basis_.size() < unknowns_) addStaticResponses(batch.front());
@@ -301,7 +301,7 @@ std::vector<FrictionPoint> ReducedProblem::solve(const std::vector<PointProblem>
     if (basis_.add(directions(wishes)) == 0) break;  // residuals are rounding
     rightRatio_ = std::max(measuredRatio_, basis_.lastEnergyRatio());
   }
-  std::vector<FrictionPoint> points;
+  std::vector<pencil::FrictionPoint> points;
   for (const auto& work : works) points.push_back(result(work));
   keepShapes(points, works, trial);
   for (auto& work : works) solved_.push_back(std::move(work.pairs));
@@ -309,29 +309,29 @@ std::vector<FrictionPoint> ReducedProblem::solve(const std::vector<PointProblem>
   return points;
 }
 
-FrictionPoint ReducedProblem::result(const Work& work) const {
-  FrictionPoint point;
+pencil::FrictionPoint ReducedProblem::result(const Work& work) const {
+  pencil::FrictionPoint point;
   point.at = work.point->at;
   point.bandTop = bandTop_;
   point.freeModesInBand = static_cast<int>(std::count_if(modes_.begin(), modes_.end(), [&](double w) { return w <= bandTop_; }));
   point.damped = work.damped;
-  point.accuracy = accuracyAsked();
+  point.accuracy = pencil::accuracyAsked();
   point.tolerance = toleranceOption.get();
   for (std::size_t j = 0; j < work.pairs.size(); ++j) {
     const double estimate = errorOf(work, j) + work.rounding[j];
     point.eigenvalues.push_back(
         {work.pairs[j].s, work.backwardError[j], estimate, work.backwardError[j] <= point.accuracy && estimate <= point.tolerance});
   }
-  flutter::judge(point.eigenvalues);
+  pencil::judge(point.eigenvalues);
   return point;
 }
 
 /// Shapes of all points, made together: each product with the basis reads the whole of it.
-void ReducedProblem::keepShapes(std::vector<FrictionPoint>& points, const std::vector<Work>& works, Mat trial) const {
+void ReducedProblem::keepShapes(std::vector<pencil::FrictionPoint>& points, const std::vector<Work>& works, Mat trial) const {
   std::vector<std::vector<std::size_t>> wanted;
   std::vector<const std::vector<std::complex<double>>*> list;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    wanted.push_back(shapesWanted(points[i]));
+    wanted.push_back(pencil::shapesWanted(points[i]));
     for (std::size_t index : wanted.back()) list.push_back(&works[i].pairs[index].q);
   }
   if (list.empty()) return;
@@ -339,21 +339,21 @@ void ReducedProblem::keepShapes(std::vector<FrictionPoint>& points, const std::v
   auto next = std::make_move_iterator(all.begin());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto count = static_cast<std::ptrdiff_t>(wanted[i].size());
-    flutter::keepShapes(points[i], trial, wanted[i], {next, next + count});
+    pencil::keepShapes(points[i], trial, wanted[i], {next, next + count});
     next += count;
   }
 }
 
-DenseProblem ReducedProblem::project(const PointProblem& point) const { return project(begun(point, {})); }
+linalg::DenseProblem ReducedProblem::project(const PointProblem& point) const { return project(begun(point, {})); }
 
-DenseProblem ReducedProblem::project(const Work& work) const {
-  DenseProblem problem;
+linalg::DenseProblem ReducedProblem::project(const Work& work) const {
+  linalg::DenseProblem problem;
   terms_.addTo(work.point->at, problem);
   work.ownTerms.addTo(work.point->at, problem);
   return problem;
 }
 
-Improvement ReducedProblem::improve(const std::vector<std::pair<PointProblem, std::vector<DensePair>>>& located) {
+Improvement ReducedProblem::improve(const std::vector<std::pair<PointProblem, std::vector<linalg::DensePair>>>& located) {
   Improvement result;
   std::vector<Work> works;
   works.reserve(located.size());
@@ -374,10 +374,10 @@ Improvement ReducedProblem::improve(const std::vector<std::pair<PointProblem, st
   return result;
 }
 
-WatchedBand ReducedProblem::band() const { return {bandTop_, 1.3, bandDamping()}; }
+pencil::WatchedBand ReducedProblem::band() const { return {bandTop_, 1.3, pencil::bandDamping()}; }
 
 bool ReducedProblem::inBand(std::complex<double> s) const {
-  return std::abs(s) <= bandTop_ && -s.real() <= bandDamping() * std::abs(s);
+  return std::abs(s) <= bandTop_ && -s.real() <= pencil::bandDamping() * std::abs(s);
 }
 
-}  // namespace squeal::flutter
+}  // namespace squeal::reduction

@@ -15,12 +15,12 @@
 #include "reduction/projected.hpp"
 #include "sweep/parameters.hpp"
 
-namespace squeal::flutter {
+namespace squeal::reduction {
 
 /// One point of a sweep: the terms that all points share and those of this one.
 struct PointProblem {
-  Parameters at;
-  Pencil pencil;
+  sweep::Parameters at;
+  pencil::Pencil pencil;
 };
 
 /// What a large problem says of pairs of its reduced one.
@@ -39,17 +39,17 @@ class ReducedProblem {
  public:
   /// Collective. Borrows K0 and its solver; shares the terms of `pencil`, which hold at all points. `modes` are M0-orthonormal with ascending
   /// frequencies.
-  ReducedProblem(const Pencil& pencil, Mat stiffness, KSP solver, const modes::Modes& modes);
+  ReducedProblem(const pencil::Pencil& pencil, Mat stiffness, KSP solver, const modes::Modes& modes);
   /// Collective. All points at once: their dense problems are spread over the ranks, their corrections solved for together. Shapes are
   /// mapped to nodal displacements by `trial` (T).
-  std::vector<FrictionPoint> solve(const std::vector<PointProblem>& batch, Mat trial);
+  std::vector<pencil::FrictionPoint> solve(const std::vector<PointProblem>& batch, Mat trial);
   /// Collective. The projection on the basis as it is.
-  DenseProblem project(const PointProblem& point) const;
+  linalg::DenseProblem project(const PointProblem& point) const;
   PetscInt basisSize() const { return basis_.size(); }
   const Basis& basis() const { return basis_; }
-  WatchedBand band() const;  ///< top 0: no eigenvalue is corrected
+  pencil::WatchedBand band() const;  ///< top 0: no eigenvalue is corrected
   /// Collective. Adds corrections of the residuals of these pairs, of any points, all solved for together.
-  Improvement improve(const std::vector<std::pair<PointProblem, std::vector<DensePair>>>& located);
+  Improvement improve(const std::vector<std::pair<PointProblem, std::vector<linalg::DensePair>>>& located);
 
  private:
   struct Work;
@@ -67,21 +67,21 @@ class ReducedProblem {
   Norms normsOf(const PointProblem& point);
   Norms nearbyNorms(const PointProblem& point);
   Work begun(const PointProblem& point, const Norms& norms) const;
-  DenseProblem project(const Work& work) const;
+  linalg::DenseProblem project(const Work& work) const;
   void extend(const std::vector<Work*>& works);
-  Block residualColumns(const Work& work, const DensePair& pair, const ComplexVector& vector, Side side) const;
-  double drift(const Work& work, const DensePair& pair, const Block& columns, Side side) const;
-  DenseMatrix residualSketch(const Work& work, const PointPairs& pairs, Side side) const;
+  linalg::Block residualColumns(const Work& work, const linalg::DensePair& pair, const linalg::ComplexVector& vector, pencil::Side side) const;
+  double drift(const Work& work, const linalg::DensePair& pair, const linalg::Block& columns, pencil::Side side) const;
+  linalg::DenseMatrix residualSketch(const Work& work, const PointPairs& pairs, pencil::Side side) const;
   double errorOf(const Work& work, std::size_t pair) const;
   double excess(const Work& work, std::size_t pair) const;
-  void judge(Work& work, const DenseProblem& problem) const;
+  void judge(Work& work, const linalg::DenseProblem& problem) const;
   bool good(const Work& work) const;
   Wish wishOf(const Work& work) const;
-  Block directions(const std::vector<Wish>& wishes) const;
+  linalg::Block directions(const std::vector<Wish>& wishes) const;
   void solveDense(const std::vector<Work*>& open);
   std::vector<Work*> unconfirmed(std::vector<Work>& works);
-  FrictionPoint result(const Work& work) const;
-  void keepShapes(std::vector<FrictionPoint>& points, const std::vector<Work>& works, Mat trial) const;
+  pencil::FrictionPoint result(const Work& work) const;
+  void keepShapes(std::vector<pencil::FrictionPoint>& points, const std::vector<Work>& works, Mat trial) const;
   void compress();
   bool inBand(std::complex<double> s) const;
 
@@ -94,8 +94,8 @@ class ReducedProblem {
   std::vector<double> modes_;                              // rad/s
   Basis basis_;
   ProjectedTerms terms_;
-  std::vector<std::vector<DensePair>> solved_;
-  std::vector<std::pair<Parameters, Norms>> norms_;  // of the points solved
+  std::vector<std::vector<linalg::DensePair>> solved_;
+  std::vector<std::pair<sweep::Parameters, Norms>> norms_;  // of the points solved
 };
 
-}  // namespace squeal::flutter
+}  // namespace squeal::reduction

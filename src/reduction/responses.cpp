@@ -6,22 +6,22 @@
 #include "reduction/reduced.hpp"
 #include "sweep/parameters.hpp"
 
-namespace squeal::flutter {
+namespace squeal::reduction {
 namespace {
 
 /// coefficient · matrix · s^power, or its transpose, by the rows that hold anything.
 struct Forces {
   bool transposed;
-  RowSet rows;
+  linalg::RowSet rows;
   OwnedMat matrix;
   int power;
   double coefficient;
 };
 
-Forces forcesOf(const Term& term, const Parameters& at, bool transposed) {
+Forces forcesOf(const pencil::Term& term, const sweep::Parameters& at, bool transposed) {
   OwnedMat matrix = term.matrix.share();
   if (transposed) check(MatTranspose(term.matrix, MAT_INITIAL_MATRIX, matrix.out()));
-  const RowSet rows(matrix);
+  const linalg::RowSet rows(matrix);
   return {transposed, rows, rows.of(matrix), term.power, term.coefficient(at)};
 }
 
@@ -46,13 +46,13 @@ void ReducedProblem::addStaticResponses(const PointProblem& point) {
         known = static_cast<PetscInt>(rows.size());
         rows.push_back(forces.rows[i]);
       }
-  Block all(static_cast<PetscInt>(rows.size()));
+  linalg::Block all(static_cast<PetscInt>(rows.size()));
   for (const bool transposed : {false, true})
     for (const bool imaginary : {false, true}) {  // (iω)^power
-      Block part(all.rows, count);
+      linalg::Block part(all.rows, count);
       for (const auto& forces : list) {
         if (forces.transposed != transposed || (forces.power == 1) != imaginary) continue;
-        Block images(forces.rows.size());
+        linalg::Block images(forces.rows.size());
         basis_.appendImages(forces.matrix, 0, count, images);
         for (PetscInt j = 0; j < count; ++j) {
           const double omega = modes_[static_cast<std::size_t>(j)];
@@ -61,14 +61,14 @@ void ReducedProblem::addStaticResponses(const PointProblem& point) {
             part.column(j)[place[static_cast<std::size_t>(forces.rows[i])]] += factor * images.column(j)[i];
         }
       }
-      append(all, unitColumns(basis_.comm(), part));
+      append(all, linalg::unitColumns(basis_.comm(), part));
     }
-  const Block leading = principal(basis_.comm(), all, resolution);
-  Block whole(basis_.localRows(), leading.columns);
+  const linalg::Block leading = linalg::principal(basis_.comm(), all, resolution);
+  linalg::Block whole(basis_.localRows(), leading.columns);
   for (PetscInt j = 0; j < leading.columns; ++j)
     for (PetscInt i = 0; i < leading.rows; ++i) whole.column(j)[rows[static_cast<std::size_t>(i)]] = leading.column(j)[i];
   basis_.add(whole);
   rightRatio_ = std::max(measuredRatio_, basis_.lastEnergyRatio());
 }
 
-}  // namespace squeal::flutter
+}  // namespace squeal::reduction

@@ -8,13 +8,13 @@
 namespace squeal::report {
 namespace {
 
-const char* kindName(flutter::Event::Kind kind) {
+const char* kindName(tracking::Event::Kind kind) {
   switch (kind) {
-    case flutter::Event::Kind::coalescence:
+    case tracking::Event::Kind::coalescence:
       return "coalescence";
-    case flutter::Event::Kind::crossing:
+    case tracking::Event::Kind::crossing:
       return "hopf";
-    case flutter::Event::Kind::divergence:
+    case tracking::Event::Kind::divergence:
       return "divergence";
   }
   return "";
@@ -22,22 +22,22 @@ const char* kindName(flutter::Event::Kind kind) {
 
 /// action(number of the active set from 1, what was followed there).
 template <class Action>
-void forAllFollowed(const Analysis& analysis, const Action& action) {
+void forAllFollowed(const analysis::Analysis& analysis, const Action& action) {
   for (std::size_t s = 0; s < analysis.segments.size(); ++s)
     for (const auto& followed : analysis.segments[s].followed) action(s + 1, followed);
 }
 
-std::string parametersAt(Parameters at, double friction) {
+std::string parametersAt(sweep::Parameters at, double friction) {
   at.friction = friction;
-  return parameterValues(at);
+  return sweep::parameterValues(at);
 }
 
 }  // namespace
 
-std::string branchTable(const Analysis& analysis) {
-  std::string table = "active_set,branch," + parameterColumns() +
+std::string branchTable(const analysis::Analysis& analysis) {
+  std::string table = "active_set,branch," + sweep::parameterColumns() +
                       ",growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,overlap,in_band,swept\n";
-  forAllFollowed(analysis, [&](std::size_t set, const flutter::Followed& followed) {
+  forAllFollowed(analysis, [&](std::size_t set, const tracking::Followed& followed) {
     for (int branch = 1; branch <= followed.branches.count; ++branch)
       for (const auto& station : followed.branches.stations)
         for (std::size_t i = 0; i < station.pairs.size(); ++i) {
@@ -51,10 +51,10 @@ std::string branchTable(const Analysis& analysis) {
   return table;
 }
 
-std::string criticalTable(const Analysis& analysis) {
-  std::string table = "active_set,branch,partner,kind,direction," + parameterColumns() +
+std::string criticalTable(const analysis::Analysis& analysis) {
+  std::string table = "active_set,branch,partner,kind,direction," + sweep::parameterColumns() +
                       ",frequency_hz,slope,friction_error_estimate,backward_error,converged\n";
-  forAllFollowed(analysis, [&](std::size_t set, const flutter::Followed& followed) {
+  forAllFollowed(analysis, [&](std::size_t set, const tracking::Followed& followed) {
     for (const auto& c : followed.criticals)
       table += formatted("%zu,%d,%d,%s,%s,", set, c.branch, c.partner, kindName(c.kind), c.loss ? "loss" : "regain") +
                parametersAt(followed.line, c.friction) +
@@ -64,10 +64,10 @@ std::string criticalTable(const Analysis& analysis) {
   return table;
 }
 
-std::string followedText(const Analysis& analysis) {
+std::string followedText(const analysis::Analysis& analysis) {
   constexpr int shown = 8;
   std::string text;
-  forAllFollowed(analysis, [&](std::size_t, const flutter::Followed& followed) {
+  forAllFollowed(analysis, [&](std::size_t, const tracking::Followed& followed) {
     int count = 0;
     for (const auto& c : followed.criticals)
       if (++count <= shown)
@@ -76,8 +76,8 @@ std::string followedText(const Analysis& analysis) {
                           c.loss ? "" : ", regained");
     if (count > shown) text += formatted(", and at %d more in critical.csv", count - shown);
     text += "\nCompleteness";
-    for (const auto& parameter : allParameters)
-      if (parameter.value != &Parameters::friction && followed.line.*parameter.value != 1)
+    for (const auto& parameter : sweep::allParameters)
+      if (parameter.value != &sweep::Parameters::friction && followed.line.*parameter.value != 1)
         text += formatted(", %s %g", parameter.name, followed.line.*parameter.value);
     text += ": " + followed.statement() + ".";
   });

@@ -58,7 +58,7 @@ class Ghosts {
 };
 
 /// Contact pressure at the pad nodes, zero elsewhere, in component 0 of a nodal vector; gap in component 1.
-OwnedVec contactField(const Analysis& analysis, const steady::Solution& solution) {
+OwnedVec contactField(const analysis::Analysis& analysis, const steady::Solution& solution) {
   const auto& mesh = *analysis.mesh;
   OwnedVec field = elasticity::nodalVector(mesh);
   for (std::size_t i = 0; i < solution.contact.size(); ++i) {
@@ -72,7 +72,7 @@ OwnedVec contactField(const Analysis& analysis, const steady::Solution& solution
 }
 
 /// What friction adds to the growth rate of a mode at the pad nodes, 1/s, in component 0 of a nodal vector; per area in component 1.
-OwnedVec workField(const Analysis& analysis, const flutter::Shape& shape) {
+OwnedVec workField(const analysis::Analysis& analysis, const pencil::Shape& shape) {
   const auto& mesh = *analysis.mesh;
   OwnedVec field = elasticity::nodalVector(mesh);
   for (std::size_t i = 0; i < shape.frictionWork.size(); ++i) {
@@ -88,11 +88,11 @@ OwnedVec workField(const Analysis& analysis, const flutter::Shape& shape) {
 
 struct Animated {
   double growth;
-  const flutter::FrictionPoint* point;
-  const flutter::Shape* shape;
+  const pencil::FrictionPoint* point;
+  const pencil::Shape* shape;
 };
 
-std::vector<Animated> fastest(const Analysis& analysis) {
+std::vector<Animated> fastest(const analysis::Analysis& analysis) {
   std::vector<Animated> all;
   for (const auto& segment : analysis.segments)
     for (const auto& point : segment.points)
@@ -102,12 +102,12 @@ std::vector<Animated> fastest(const Analysis& analysis) {
   return all;
 }
 
-std::string shapeName(const flutter::FrictionPoint& point, const flutter::Shape& shape) {
+std::string shapeName(const pencil::FrictionPoint& point, const pencil::Shape& shape) {
   return formatted("mode_%03d_%.0f_Hz", static_cast<int>(shape.index) + 1, point.eigenvalues[shape.index].s.imag() / (2 * M_PI));
 }
 
 /// Re(d e^{iφ}) over one period: pressing play in ParaView shows the squeal. The growth is left out, it would hide the shape.
-void animate(const Analysis& analysis, const Ghosts& ghosts, const Animated& item, const std::filesystem::path& folder) {
+void animate(const analysis::Analysis& analysis, const Ghosts& ghosts, const Animated& item, const std::filesystem::path& folder) {
   const int frames = framesOption.get();
   const double period = 2 * M_PI / item.point->eigenvalues[item.shape->index].s.imag();
   if (!std::isfinite(period)) return;  // divergence does not oscillate
@@ -127,13 +127,13 @@ void animate(const Analysis& analysis, const Ghosts& ghosts, const Animated& ite
   writePvd(analysis.mesh->comm, folder / (name + ".pvd"), files);
 }
 
-void writeParameters(Hdf5File& file, const std::string& group, const Parameters& at) {
-  for (const auto& parameter : allParameters) file.writeAttribute(group, parameter.name, at.*parameter.value);
+void writeParameters(Hdf5File& file, const std::string& group, const sweep::Parameters& at) {
+  for (const auto& parameter : sweep::allParameters) file.writeAttribute(group, parameter.name, at.*parameter.value);
 }
 
 }  // namespace
 
-void writeFields(const Analysis& analysis, const std::filesystem::path& folder) {
+void writeFields(const analysis::Analysis& analysis, const std::filesystem::path& folder) {
   const auto& mesh = *analysis.mesh;
   const auto vtk = folder / "vtk";
   const Ghosts ghosts(mesh);
@@ -169,7 +169,7 @@ void writeFields(const Analysis& analysis, const std::filesystem::path& folder) 
   for (const auto& item : fastest(analysis)) animate(analysis, ghosts, item, vtk);
 }
 
-void writeHdf5(const Analysis& analysis, const std::filesystem::path& folder) {
+void writeHdf5(const analysis::Analysis& analysis, const std::filesystem::path& folder) {
   Hdf5File file(analysis.comm, folder / "results.h5");
   int rank = 0;
   check(MPI_Comm_rank(analysis.comm, &rank));

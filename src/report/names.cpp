@@ -34,13 +34,13 @@ bool isGrid(const std::string& name, const std::vector<std::string>& parts) {
 std::vector<std::string> partsOf(const fs::path& path) { return {path.begin(), path.end()}; }
 
 /// The names that scripts/plot_stability.py of version 0.1.0 gives its plots: one for each value of what is swept beside the axes.
-std::set<std::string> plotNames(const std::vector<Parameters>& points) {
+std::set<std::string> plotNames(const std::vector<sweep::Parameters>& points) {
   std::set<std::string> names;
   for (const auto& at : points)
-    for (unsigned chosen = 0; chosen < 1U << allParameters.size(); ++chosen) {
+    for (unsigned chosen = 0; chosen < 1U << sweep::allParameters.size(); ++chosen) {
       std::string suffix;
-      for (std::size_t i = 0; i < allParameters.size(); ++i)
-        if (chosen & 1U << i) suffix += formatted("_%s_%g", allParameters[i].name, at.*allParameters[i].value);
+      for (std::size_t i = 0; i < sweep::allParameters.size(); ++i)
+        if (chosen & 1U << i) suffix += formatted("_%s_%g", sweep::allParameters[i].name, at.*sweep::allParameters[i].value);
       names.insert("stability" + suffix + ".png");
       names.insert("stability_map" + suffix + ".png");
     }
@@ -48,7 +48,7 @@ std::set<std::string> plotNames(const std::vector<Parameters>& points) {
 }
 
 /// The points in the summary of version 0.1.0; none: the folder is not of that version.
-std::vector<Parameters> formerPoints(const fs::path& folder) {
+std::vector<sweep::Parameters> formerPoints(const fs::path& folder) {
   std::string line;
   std::ifstream recipe(folder / "options.txt"), file(folder / "summary.json");
   if (!std::getline(recipe, line) || !line.starts_with("# squeal 0.1.0,")) return {};
@@ -56,10 +56,10 @@ std::vector<Parameters> formerPoints(const fs::path& folder) {
   if (!summary.is_object() || summary.value("version", nlohmann::json()) != "0.1.0" || !summary.contains("case") ||
       !summary.contains("options") || !summary.contains("frictions"))
     return {};
-  std::vector<Parameters> points;
+  std::vector<sweep::Parameters> points;
   for (const auto& entry : summary["frictions"]) {
-    Parameters at;
-    for (const auto& parameter : allParameters) {
+    sweep::Parameters at;
+    for (const auto& parameter : sweep::allParameters) {
       if (!entry.contains(parameter.name) || !entry[parameter.name].is_number()) return {};
       at.*parameter.value = entry[parameter.name];
     }
@@ -70,15 +70,15 @@ std::vector<Parameters> formerPoints(const fs::path& folder) {
 
 }  // namespace
 
-std::string pointName(const Parameters& at) {
+std::string pointName(const sweep::Parameters& at) {
   std::string name = shortest(at.friction);
-  for (const auto& parameter : allParameters)
-    if (parameter.value != &Parameters::friction && at.*parameter.value != 1)
+  for (const auto& parameter : sweep::allParameters)
+    if (parameter.value != &sweep::Parameters::friction && at.*parameter.value != 1)
       name += "_" + std::string(parameter.name) + "_" + shortest(at.*parameter.value);
   return name;
 }
 
-ResultNames::ResultNames(const std::vector<Parameters>& points) {
+ResultNames::ResultNames(const std::vector<sweep::Parameters>& points) {
   for (auto at : points) {
     points_.insert(pointName(at));
     at.damping = 1;  // steady states

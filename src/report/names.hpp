@@ -11,12 +11,12 @@
 namespace squeal::report {
 
 /// A point of the sweep as it stands in file and group names: FRICTION, and _speed_SPEED, _pressure_… of the factors that are not 1.
-std::string pointName(const Parameters& at);
+std::string pointName(const sweep::Parameters& at);
 
 /// The names of the files and folders of a run over some points, relative to the folder of the results.
 class ResultNames {
  public:
-  explicit ResultNames(const std::vector<Parameters>& points);
+  explicit ResultNames(const std::vector<sweep::Parameters>& points);
   bool contains(const std::filesystem::path& path) const;
 
  private:

@@ -16,7 +16,7 @@ const TextOption directoryOption(
 const FlagOption fieldsOption("report", "report_fields", true, "write fields: results.h5 and the VTK files");
 
 output::Naming naming() {
-  const auto names = std::make_shared<ResultNames>(flutter::readSweep().points());
+  const auto names = std::make_shared<ResultNames>(sweep::readSweep().points());
   return {"-report_dir", "summary.json", [names](const std::filesystem::path& path) { return names->contains(path); },
           formerResults};
 }
@@ -29,7 +29,7 @@ void writeText(MPI_Comm comm, const std::filesystem::path& path, const std::stri
   onFirstRank(comm, "option -report_dir: ", [&] { output::writeFile(path, text); });
 }
 
-void write(const Analysis& analysis, Directory& directory) {
+void write(const analysis::Analysis& analysis, Directory& directory) {
   const MPI_Comm comm = analysis.comm;
   directory.stage();
   {

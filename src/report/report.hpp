@@ -16,27 +16,27 @@ class Directory : public output::Folder {
 };
 
 /// Collective. Writes all reports and prints the stability table.
-void write(const Analysis& analysis, Directory& directory);
+void write(const analysis::Analysis& analysis, Directory& directory);
 
 /// Collective. Rank 0 writes the file; Error (all ranks), naming -report_dir: it cannot.
 void writeText(MPI_Comm comm, const std::filesystem::path& path, const std::string& text);
 
 /// The parts of write(), each collective, into `folder`.
-void writeTables(const Analysis& analysis, const std::filesystem::path& folder);
+void writeTables(const analysis::Analysis& analysis, const std::filesystem::path& folder);
 /// options.txt; after all else, when every option has been asked for.
-void writeRecipe(const Analysis& analysis, const std::filesystem::path& folder);
-void writeSummary(const Analysis& analysis, const std::filesystem::path& folder);
-void writeHdf5(const Analysis& analysis, const std::filesystem::path& folder);
-void writeFields(const Analysis& analysis, const std::filesystem::path& folder);
+void writeRecipe(const analysis::Analysis& analysis, const std::filesystem::path& folder);
+void writeSummary(const analysis::Analysis& analysis, const std::filesystem::path& folder);
+void writeHdf5(const analysis::Analysis& analysis, const std::filesystem::path& folder);
+void writeFields(const analysis::Analysis& analysis, const std::filesystem::path& folder);
 /// Derivatives of the eigenvalues of the complex modes kept: a row per mode and parameter; a mode without any has one row, "none".
-std::string sensitivityTable(const Analysis& analysis);
+std::string sensitivityTable(const analysis::Analysis& analysis);
 /// Collective. What friction on each interface adds to the growth rates of the complex modes kept (flutter::frictionWork).
-std::string frictionWorkTable(const Analysis& analysis);
+std::string frictionWorkTable(const analysis::Analysis& analysis);
 /// branches.csv, critical.csv, and what the terminal says of both.
-std::string branchTable(const Analysis& analysis);
-std::string criticalTable(const Analysis& analysis);
-std::string followedText(const Analysis& analysis);
+std::string branchTable(const analysis::Analysis& analysis);
+std::string criticalTable(const analysis::Analysis& analysis);
+std::string followedText(const analysis::Analysis& analysis);
 /// Frequencies and growth rates of the unstable modes at each friction.
-std::string stabilityTable(const Analysis& analysis);
+std::string stabilityTable(const analysis::Analysis& analysis);
 
 }  // namespace squeal::report

@@ -10,13 +10,13 @@ namespace squeal::report {
 namespace {
 
 /// Parameters, number, growth rate and frequency of the mode.
-std::string modeHead(const flutter::FrictionPoint& point, const flutter::Shape& shape) {
+std::string modeHead(const pencil::FrictionPoint& point, const pencil::Shape& shape) {
   const auto s = point.eigenvalues[shape.index].s;
-  return parameterValues(point.at) + formatted(",%zu,%.15e,%.15e,", shape.index + 1, s.real(), s.imag() / (2 * M_PI));
+  return sweep::parameterValues(point.at) + formatted(",%zu,%.15e,%.15e,", shape.index + 1, s.real(), s.imag() / (2 * M_PI));
 }
 
 /// Sums over the nodes of each interface.
-std::vector<double> byInterface(const Analysis& analysis, const std::vector<double>& nodes) {
+std::vector<double> byInterface(const analysis::Analysis& analysis, const std::vector<double>& nodes) {
   std::vector<double> sums(analysis.contact.interfaces.size(), 0.0);
   for (std::size_t k = 0; k < nodes.size(); ++k) sums[static_cast<std::size_t>(analysis.contact.nodes[k].interface)] += nodes[k];
   check(MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, analysis.comm));
@@ -25,8 +25,8 @@ std::vector<double> byInterface(const Analysis& analysis, const std::vector<doub
 
 }  // namespace
 
-std::string sensitivityTable(const Analysis& analysis) {
-  std::string table = parameterColumns() +
+std::string sensitivityTable(const analysis::Analysis& analysis) {
+  std::string table = sweep::parameterColumns() +
                       ",mode,growth_rate_1_per_s,frequency_hz,condition,separation,left_backward_error,parameter,"
                       "growth_rate_derivative_1_per_s,frequency_derivative_hz\n";
   for (const auto& segment : analysis.segments)
@@ -43,8 +43,8 @@ std::string sensitivityTable(const Analysis& analysis) {
   return table;
 }
 
-std::string frictionWorkTable(const Analysis& analysis) {
-  std::string table = parameterColumns() + ",mode,growth_rate_1_per_s,frequency_hz,interface,friction_work_1_per_s\n";
+std::string frictionWorkTable(const analysis::Analysis& analysis) {
+  std::string table = sweep::parameterColumns() + ",mode,growth_rate_1_per_s,frequency_hz,interface,friction_work_1_per_s\n";
   for (const auto& segment : analysis.segments)
     for (const auto& point : segment.points)
       for (const auto& shape : point.shapes) {

@@ -47,7 +47,7 @@ Json uniquenessEntry(double speed, const steady::Uniqueness& found) {
   return entry;
 }
 
-Json unstableModes(const flutter::FrictionPoint& point) {
+Json unstableModes(const pencil::FrictionPoint& point) {
   Json list = Json::array();
   for (std::size_t i = 0; i < point.eigenvalues.size(); ++i) {
     const auto& e = point.eigenvalues[i];
@@ -62,7 +62,7 @@ Json unstableModes(const flutter::FrictionPoint& point) {
   return list;
 }
 
-Json followedEntry(const flutter::Followed& followed) {
+Json followedEntry(const tracking::Followed& followed) {
   Json entry = {{"speed", followed.line.speed},       {"pressure", followed.line.pressure},
                 {"damping", followed.line.damping},   {"branches", followed.branches.count},
                 {"complete", followed.complete()},    {"sturm_count_exact", followed.countExact},
@@ -77,15 +77,15 @@ Json followedEntry(const flutter::Followed& followed) {
   return entry;
 }
 
-Json parametersEntry(const Parameters& at) {
+Json parametersEntry(const sweep::Parameters& at) {
   Json entry;
-  for (const auto& parameter : allParameters) entry[parameter.name] = at.*parameter.value;
+  for (const auto& parameter : sweep::allParameters) entry[parameter.name] = at.*parameter.value;
   return entry;
 }
 
 }  // namespace
 
-void writeSummary(const Analysis& analysis, const std::filesystem::path& folder) {
+void writeSummary(const analysis::Analysis& analysis, const std::filesystem::path& folder) {
   int ranks = 1;
   check(MPI_Comm_size(analysis.comm, &ranks));
   Json summary;
@@ -98,7 +98,7 @@ void writeSummary(const Analysis& analysis, const std::filesystem::path& folder)
     summary["cells"] = analysis.mesh->totalCells;
     summary["contact_nodes"] = analysis.contact.totalNodes;
   }
-  summary["method"] = flutter::directWanted() ? "direct" : "reduced";
+  summary["method"] = direct::directWanted() ? "direct" : "reduced";
   summary["dofs"] = analysis.segments.empty() ? 0 : analysis.segments.front().unknowns;
   summary["frictions"] = Json::array();
   const auto points = analysis.sweep.points();
@@ -126,7 +126,7 @@ void writeSummary(const Analysis& analysis, const std::filesystem::path& folder)
   for (const auto& segment : analysis.segments) {
     Json entry;
     for (const auto& [word, point] : {std::pair{"first_", &segment.points.front()}, {"last_", &segment.points.back()}})
-      for (const auto& parameter : allParameters) entry[std::string(word) + parameter.name] = point->at.*parameter.value;
+      for (const auto& parameter : sweep::allParameters) entry[std::string(word) + parameter.name] = point->at.*parameter.value;
     entry["open_nodes"] = segment.openNodes;
     entry["dofs"] = segment.unknowns;
     entry["modes"] = segment.modes.angularFrequency.size();

@@ -18,15 +18,15 @@
 namespace squeal::report {
 namespace {
 
-std::string eigenvalueTable(const Analysis& analysis) {
+std::string eigenvalueTable(const analysis::Analysis& analysis) {
   std::string table =
-      parameterColumns() +
+      sweep::parameterColumns() +
       ",mode,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,damping_ratio,backward_error,error_estimate,certified\n";
   for (const auto& segment : analysis.segments)
     for (const auto& point : segment.points)
       for (std::size_t i = 0; i < point.eigenvalues.size(); ++i) {
         const auto& e = point.eigenvalues[i];
-        table += parameterValues(point.at) + "," + std::to_string(i + 1) +
+        table += sweep::parameterValues(point.at) + "," + std::to_string(i + 1) +
                  formatted(",%.15e,%.15e,%.15e,%.15e,%.3e,%.3e,%d\n", e.s.real(), e.s.imag(), e.s.imag() / (2 * M_PI),
                            -e.s.real() / std::abs(e.s), e.backwardError, e.errorEstimate, e.certified ? 1 : 0);
       }
@@ -34,18 +34,18 @@ std::string eigenvalueTable(const Analysis& analysis) {
 }
 
 /// A row for each point of the sweep; cells stay empty where there is nothing to say: no steady sliding, no eigenvalue, no estimate.
-std::string stabilityMap(const Analysis& analysis) {
+std::string stabilityMap(const analysis::Analysis& analysis) {
   const auto cell = [](const char* format, double value) {
     char text[32] = "";
     if (std::isfinite(value)) std::snprintf(text, sizeof text, format, value);
     return "," + std::string(text);
   };
   std::string table =
-      parameterColumns() + ",unstable_modes,largest_growth_rate_1_per_s,frequency_hz,worst_backward_error,worst_error_estimate\n";
+      sweep::parameterColumns() + ",unstable_modes,largest_growth_rate_1_per_s,frequency_hz,worst_backward_error,worst_error_estimate\n";
   for (const auto& at : analysis.sweep.points()) {
     const auto* point = analysis.pointAt(at);
     const auto* fastest = point ? point->fastestGrowing() : nullptr;
-    table += parameterValues(at) + cell("%.0f", point ? point->unstableCount() : NAN) +
+    table += sweep::parameterValues(at) + cell("%.0f", point ? point->unstableCount() : NAN) +
              cell("%.15e", fastest ? fastest->s.real() : NAN) + cell("%.15e", fastest ? fastest->s.imag() / (2 * M_PI) : NAN) +
              cell("%.3e", fastest ? point->worstBackwardError() : NAN) + cell("%.3e", fastest ? point->worstErrorEstimate() : NAN) +
              "\n";
@@ -62,7 +62,7 @@ std::string modeTable(const modes::Modes& modes) {
 }
 
 /// Rows of this rank; surface data only, gathered on rank 0.
-std::string steadyRows(const Analysis& analysis, const steady::Solution& solution) {
+std::string steadyRows(const analysis::Analysis& analysis, const steady::Solution& solution) {
   std::string rows;
   for (std::size_t i = 0; i < solution.contact.size(); ++i) {
     const auto& p = analysis.contact.nodes[i].position;
@@ -75,25 +75,25 @@ std::string steadyRows(const Analysis& analysis, const steady::Solution& solutio
 }
 
 /// Friction, and the factors that are not 1 all over the sweep.
-std::vector<Parameter> shownParameters(const Analysis& analysis) {
+std::vector<sweep::Parameter> shownParameters(const analysis::Analysis& analysis) {
   const auto points = analysis.sweep.points();
-  std::vector<Parameter> shown;
-  std::copy_if(allParameters.begin(), allParameters.end(), std::back_inserter(shown), [&](const Parameter& parameter) {
-    return parameter.value == &Parameters::friction ||
-           std::any_of(points.begin(), points.end(), [&](const Parameters& at) { return at.*parameter.value != 1; });
+  std::vector<sweep::Parameter> shown;
+  std::copy_if(sweep::allParameters.begin(), sweep::allParameters.end(), std::back_inserter(shown), [&](const sweep::Parameter& parameter) {
+    return parameter.value == &sweep::Parameters::friction ||
+           std::any_of(points.begin(), points.end(), [&](const sweep::Parameters& at) { return at.*parameter.value != 1; });
   });
   return shown;
 }
 
 /// Head of a line of a sweep.
-std::string rowHead(const Parameters& at, const std::vector<Parameter>& shown) {
+std::string rowHead(const sweep::Parameters& at, const std::vector<sweep::Parameter>& shown) {
   std::string head = "\n";
   for (const auto& parameter : shown) head += formatted("%8g  ", at.*parameter.value);
   return head;
 }
 
 /// What is said where no mode is unstable.
-std::string verdict(const Analysis& analysis, const ModalSegment& segment, const flutter::FrictionPoint& point) {
+std::string verdict(const analysis::Analysis& analysis, const analysis::ModalSegment& segment, const pencil::FrictionPoint& point) {
   if (point.eigenvalues.empty()) return "no eigenvalue was found: nothing is known of stability";
   if (segment.openNodes > 0 && segment.openNodes == analysis.contact.totalNodes)
     return "none: no contact is closed, nothing slides";
@@ -101,8 +101,8 @@ std::string verdict(const Analysis& analysis, const ModalSegment& segment, const
 }
 
 /// One line for one point of a sweep: the lowest unstable modes.
-std::string sweepRow(const Analysis& analysis, const ModalSegment& segment, const flutter::FrictionPoint& point,
-                     const std::vector<Parameter>& shown) {
+std::string sweepRow(const analysis::Analysis& analysis, const analysis::ModalSegment& segment, const pencil::FrictionPoint& point,
+                     const std::vector<sweep::Parameter>& shown) {
   std::string row = rowHead(point.at, shown);
   if (point.unstableCount() == 0) return row + verdict(analysis, segment, point);
   int count = 0;
@@ -112,7 +112,7 @@ std::string sweepRow(const Analysis& analysis, const ModalSegment& segment, cons
 }
 
 /// The unstable modes of a single friction, a line each; modes are numbered by frequency.
-std::string modeRows(const Analysis& analysis, const ModalSegment& segment, const flutter::FrictionPoint& point) {
+std::string modeRows(const analysis::Analysis& analysis, const analysis::ModalSegment& segment, const pencil::FrictionPoint& point) {
   if (point.unstableCount() == 0) return formatted("\nfriction %g  ", point.at.friction) + verdict(analysis, segment, point);
   std::string rows;
   for (std::size_t i = 0; i < point.eigenvalues.size(); ++i) {
@@ -123,8 +123,8 @@ std::string modeRows(const Analysis& analysis, const ModalSegment& segment, cons
 }
 
 /// The point where strong damping has taken most free modes of the band from the eigenvalues listed; empty if there is none.
-std::string strongDampingText(const Analysis& analysis) {
-  const flutter::FrictionPoint* most = nullptr;
+std::string strongDampingText(const analysis::Analysis& analysis) {
+  const pencil::FrictionPoint* most = nullptr;
   for (const auto& segment : analysis.segments)
     for (const auto& point : segment.points)
       if (point.modesWithoutEigenvalue() > (most ? most->modesWithoutEigenvalue() : 0)) most = &point;
@@ -132,7 +132,7 @@ std::string strongDampingText(const Analysis& analysis) {
   return formatted(
       "\n%s: %d of the %d free modes in the band have no eigenvalue there: their damping ratio exceeds -flutter_band_damping, or "
       "damping has moved them. Modes that such damping changes much may take a larger -modes_count; -flutter_method direct tells.",
-      parameterText(most->at).c_str(), most->modesWithoutEigenvalue(), most->freeModesInBand);
+      sweep::parameterText(most->at).c_str(), most->modesWithoutEigenvalue(), most->freeModesInBand);
 }
 
 std::string gathered(MPI_Comm comm, const std::string& text) {
@@ -164,10 +164,10 @@ std::string recipe(MPI_Comm comm) {
 
 }  // namespace
 
-void writeTables(const Analysis& analysis, const std::filesystem::path& folder) {
+void writeTables(const analysis::Analysis& analysis, const std::filesystem::path& folder) {
   const MPI_Comm comm = analysis.comm;
   writeText(comm, folder / "eigenvalues.csv", eigenvalueTable(analysis));
-  if (flutter::sensitivitiesWanted()) writeText(comm, folder / "sensitivities.csv", sensitivityTable(analysis));
+  if (sensitivity::sensitivitiesWanted()) writeText(comm, folder / "sensitivities.csv", sensitivityTable(analysis));
   if (analysis.mesh) writeText(comm, folder / "friction_work.csv", frictionWorkTable(analysis));
   writeText(comm, folder / "stability_map.csv", stabilityMap(analysis));
   if (std::any_of(analysis.segments.begin(), analysis.segments.end(),
@@ -189,11 +189,11 @@ void writeTables(const Analysis& analysis, const std::filesystem::path& folder) 
               gathered(comm, steadyRows(analysis, solution)));
 }
 
-void writeRecipe(const Analysis& analysis, const std::filesystem::path& folder) {
+void writeRecipe(const analysis::Analysis& analysis, const std::filesystem::path& folder) {
   writeText(analysis.comm, folder / "options.txt", recipe(analysis.comm));
 }
 
-std::string stabilityTable(const Analysis& analysis) {
+std::string stabilityTable(const analysis::Analysis& analysis) {
   const bool sweep = analysis.sweep.points().size() > 1;
   const auto shown = shownParameters(analysis);
   std::string table = sweep ? "\n" : "\nmode  frequency Hz   growth 1/s";
@@ -211,15 +211,15 @@ std::string stabilityTable(const Analysis& analysis) {
     for (const auto& point : segment.points)
       if (point.coveredTo < point.askedTo)
         table += formatted("\n%s: the band is covered up to %.5g Hz only; raise -flutter_direct_limit",
-                           parameterText(point.at).c_str(), point.coveredTo / (2 * M_PI));
+                           sweep::parameterText(point.at).c_str(), point.coveredTo / (2 * M_PI));
   table += strongDampingText(analysis);
   for (const auto& segment : analysis.segments)
     for (const auto& point : segment.points)
       if (point.bandTop > 0 && point.uncertifiedCount() > 0)
         table +=
             formatted("\n%s: %d eigenvalues could not be certified, see eigenvalues.csv; raise -modes_count or -flutter_rounds",
-                      parameterText(point.at).c_str(), point.uncertifiedCount());
-  const auto listsAny = [](const ModalSegment& segment) {
+                      sweep::parameterText(point.at).c_str(), point.uncertifiedCount());
+  const auto listsAny = [](const analysis::ModalSegment& segment) {
     return std::any_of(segment.points.begin(), segment.points.end(), [](const auto& point) { return !point.eigenvalues.empty(); });
   };
   if (std::any_of(analysis.segments.begin(), analysis.segments.end(), listsAny) &&
@@ -231,9 +231,9 @@ std::string stabilityTable(const Analysis& analysis) {
         backward = std::max(backward, point.worstBackwardError());
         estimate = std::max(estimate, point.worstErrorEstimate());
       }
-    if (top < flutter::bandAsked())
+    if (top < pencil::bandAsked())
       table += formatted("\nThe free modes end below the %.5g Hz of -flutter_band, and so do the eigenvalues: raise -modes_count.",
-                         flutter::bandAsked() / (2 * M_PI));
+                         pencil::bandAsked() / (2 * M_PI));
     table += (std::isfinite(top) ? formatted("\nEigenvalues with |s|/2π up to %.5g Hz", top / (2 * M_PI)) : "\nAll eigenvalues") +
              formatted(", of the full-order problem: backward errors up to %.1e, estimated errors |ds|/|s| up to %.1e.", backward,
                        estimate);

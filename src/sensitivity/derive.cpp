@@ -5,12 +5,12 @@
 
 #include "sweep/parameters.hpp"
 
-namespace squeal::flutter {
+namespace squeal::sensitivity {
 namespace {
 
 using Complex = std::complex<double>;
 
-double separation(const std::vector<Eigenvalue>& eigenvalues, std::size_t index) {
+double separation(const std::vector<pencil::Eigenvalue>& eigenvalues, std::size_t index) {
   double smallest = INFINITY;
   const Complex s = eigenvalues[index].s;
   for (std::size_t i = 0; i < eigenvalues.size(); ++i)
@@ -20,7 +20,7 @@ double separation(const std::vector<Eigenvalue>& eigenvalues, std::size_t index)
 
 }  // namespace
 
-void deriveShapes(FrictionPoint& point, const Pencil& pencil, const StartSpace& start, KSP solver, Mat mass, const Forms& forms) {
+void deriveShapes(pencil::FrictionPoint& point, const pencil::Pencil& pencil, const StartSpace& start, KSP solver, Mat mass, const Forms& forms) {
   if (point.shapes.empty()) return;
   std::vector<RightPair> pairs;
   for (const auto& shape : point.shapes) pairs.push_back({point.eigenvalues[shape.index].s, &shape.unknowns});
@@ -28,7 +28,7 @@ void deriveShapes(FrictionPoint& point, const Pencil& pencil, const StartSpace& 
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const EigenTriple triple{pairs[i].s, *pairs[i].vector, left[i].y};
     const Complex slope = slopeForm(pencil, point.at, triple);
-    Sensitivity result{
+    pencil::Sensitivity result{
         condition(triple, slope, mass), separation(point.eigenvalues, point.shapes[i].index), left[i].backwardError, {}};
     if (result.regular()) result.derivatives = forms(triple);
     for (auto& derivative : result.derivatives) derivative.value /= -slope;
@@ -36,14 +36,14 @@ void deriveShapes(FrictionPoint& point, const Pencil& pencil, const StartSpace& 
   }
 }
 
-void deriveParameters(FrictionPoint& point, const Pencil& pencil, const StartSpace& start, KSP solver, Mat mass) {
+void deriveParameters(pencil::FrictionPoint& point, const pencil::Pencil& pencil, const StartSpace& start, KSP solver, Mat mass) {
   deriveShapes(point, pencil, start, solver, mass, [&](const EigenTriple& triple) {
-    std::vector<Derivative> found;
-    for (const auto& parameter : allParameters)
-      if (parameter.value != &Parameters::pressure)
+    std::vector<pencil::Derivative> found;
+    for (const auto& parameter : sweep::allParameters)
+      if (parameter.value != &sweep::Parameters::pressure)
         found.push_back({parameter.name, parameterForm(pencil, point.at, triple, parameter.value)});
     return found;
   });
 }
 
-}  // namespace squeal::flutter
+}  // namespace squeal::sensitivity

@@ -9,7 +9,7 @@
 #include "linalg/lu.hpp"
 #include "sweep/parameters.hpp"
 
-namespace squeal::flutter {
+namespace squeal::sensitivity {
 namespace {
 
 using Complex = std::complex<double>;
@@ -18,7 +18,7 @@ constexpr double wanted = 1e-10;
 constexpr int mostRounds = 20;
 
 /// cᴴ A q; zero for an empty A.
-Complex form(const std::vector<Complex>& c, const DenseMatrix& a, const std::vector<Complex>& q) {
+Complex form(const std::vector<Complex>& c, const linalg::DenseMatrix& a, const std::vector<Complex>& q) {
   Complex sum = 0;
   for (std::size_t j = 0; j < q.size() && !a.empty(); ++j) {
     Complex column = 0;
@@ -30,13 +30,13 @@ Complex form(const std::vector<Complex>& c, const DenseMatrix& a, const std::vec
 
 /// c with cᴴ H(s) = 0, H = Σ s^p h_p, by inverse iteration. s is known to some digits; where the space knows it better, the two-sided
 /// Rayleigh quotient δs = −cᴴ H q / cᴴ H′ q takes its own error out.
-std::vector<Complex> nullVector(const std::array<DenseMatrix, 3>& h, std::size_t m, Complex s) {
+std::vector<Complex> nullVector(const std::array<linalg::DenseMatrix, 3>& h, std::size_t m, Complex s) {
   std::vector<Complex> c(m);
   for (std::size_t i = 0; i < m; ++i) {
     const auto at = static_cast<double>(i);
     c[i] = {std::sin(12.9898 * (at + 1)), std::cos(78.233 * (at + 1))};
   }
-  const auto solve = [](const Lu<Complex>& factors, std::vector<Complex> x, bool adjoint) {
+  const auto solve = [](const linalg::Lu<Complex>& factors, std::vector<Complex> x, bool adjoint) {
     factors.solve(x, adjoint);
     double sum = 0;
     for (const auto& entry : x) sum += std::norm(entry);
@@ -50,7 +50,7 @@ std::vector<Complex> nullVector(const std::array<DenseMatrix, 3>& h, std::size_t
       for (std::size_t k = 0; k < matrix.size(); ++k) sum[k] += power * matrix[k];
       power *= s;
     }
-    Lu<Complex> factors(std::move(sum), static_cast<int>(m));
+    linalg::Lu<Complex> factors(std::move(sum), static_cast<int>(m));
     factors.raiseZeroPivots();  // s may be an eigenvalue to the last digit
     auto q = c;
     for (int cycle = 0; cycle < 2; ++cycle) {
@@ -68,7 +68,7 @@ std::vector<Complex> nullVector(const std::array<DenseMatrix, 3>& h, std::size_t
 
 class Search {
  public:
-  Search(const Pencil& pencil, const Parameters& at, const StartSpace& start, KSP solver)
+  Search(const pencil::Pencil& pencil, const sweep::Parameters& at, const StartSpace& start, KSP solver)
       : pencil_(pencil),
         at_(at),
         norms_{pencil.norm(0, at), pencil.norm(1, at), pencil.norm(2, at)},
@@ -91,11 +91,11 @@ class Search {
       for (std::size_t i : open) values.push_back(pairs[i].s);
       const auto coordinates = nullVectors(values);
       std::vector<std::size_t> bad;
-      std::vector<ComplexVector> residuals;
+      std::vector<linalg::ComplexVector> residuals;
       for (std::size_t k = 0; k < open.size(); ++k) {
         auto& left = found[open[k]];
         left.y = expand(coordinates[k]);
-        ComplexVector residual = flutter::residual(pencil_, at_, values[k], left.y, Side::left);
+        linalg::ComplexVector residual = pencil::residual(pencil_, at_, values[k], left.y, pencil::Side::left);
         left.backwardError = length(residual) / (scale(values[k]) * length(left.y));
         if (left.backwardError > wanted) bad.push_back(open[k]), residuals.push_back(std::move(residual));
       }
@@ -119,7 +119,7 @@ class Search {
   }
 
   /// K0⁻¹ of the real and imaginary parts, scaled to one.
-  std::vector<OwnedVec> corrections(const std::vector<ComplexVector>& residuals) {
+  std::vector<OwnedVec> corrections(const std::vector<linalg::ComplexVector>& residuals) {
     const auto count = static_cast<PetscInt>(2 * residuals.size());
     PetscInt local = 0, global = 0;
     check(VecGetLocalSize(residuals[0].real, &local));
@@ -173,15 +173,15 @@ class Search {
   void extend() {
     const PetscInt old = known_, added = size_ - old;
     if (added == 0) return;
-    const ReadColumns all(basis_);
+    const linalg::ReadColumns all(basis_);
     const auto size = static_cast<std::size_t>(size_), o = static_cast<std::size_t>(old);
     for (int power = 0; power <= 2; ++power) {
       if (!pencil_.hasPower(power)) continue;
       const auto image = images(power, old, false), adjoint = images(power, old, true);
-      const auto right = transposedProduct(pencil_.comm(), all.values(), all.rows(), size_, image.data(), added),
-                 below = transposedProduct(pencil_.comm(), adjoint.data(), all.rows(), added, all.values(), old);
+      const auto right = linalg::transposedProduct(pencil_.comm(), all.values(), all.rows(), size_, image.data(), added),
+                 below = linalg::transposedProduct(pencil_.comm(), adjoint.data(), all.rows(), added, all.values(), old);
       auto& matrix = projected_[static_cast<std::size_t>(power)];
-      DenseMatrix grown(size * size);
+      linalg::DenseMatrix grown(size * size);
       for (std::size_t j = 0; j < size; ++j)
         for (std::size_t i = 0; i < size; ++i)
           grown[j * size + i] = j >= o ? right[(j - o) * size + i] : i >= o ? below[j * (size - o) + i - o] : matrix[j * o + i];
@@ -191,8 +191,8 @@ class Search {
   }
 
   /// Local rows of A V or Aᵀ V for the columns of V from `first` on.
-  DenseMatrix images(int power, PetscInt first, bool transposed) const {
-    DenseMatrix values;
+  linalg::DenseMatrix images(int power, PetscInt first, bool transposed) const {
+    linalg::DenseMatrix values;
     for (PetscInt j = first; j < size_; ++j) {
       Vec column = nullptr;
       OwnedVec image;
@@ -228,8 +228,8 @@ class Search {
   }
 
   /// V c, of length one.
-  ComplexVector expand(const std::vector<Complex>& c) const {
-    ComplexVector y;
+  linalg::ComplexVector expand(const std::vector<Complex>& c) const {
+    linalg::ComplexVector y;
     check(MatCreateVecs(pencil_.terms().at(0).matrix, y.real.out(), y.imaginary.out()));
     std::vector<double> real, imaginary;
     for (const auto& entry : c) real.push_back(entry.real()), imaginary.push_back(entry.imag());
@@ -241,22 +241,22 @@ class Search {
     return y;
   }
 
-  const Pencil& pencil_;
-  const Parameters at_;
+  const pencil::Pencil& pencil_;
+  const sweep::Parameters at_;
   const std::array<double, 3> norms_;  // [power of s] of the full matrices
   KSP solver_;
   OwnedBV basis_;
   PetscInt size_ = 0;
-  std::array<DenseMatrix, 3> projected_;  // [power of s] Vᵀ A V
+  std::array<linalg::DenseMatrix, 3> projected_;  // [power of s] Vᵀ A V
   PetscInt known_ = 0;                    // columns of V in it
 };
 
 }  // namespace
 
-std::vector<LeftVector> leftVectors(const Pencil& pencil, const Parameters& at, const StartSpace& start, KSP solver,
+std::vector<LeftVector> leftVectors(const pencil::Pencil& pencil, const sweep::Parameters& at, const StartSpace& start, KSP solver,
                                     const std::vector<RightPair>& pairs) {
   if (pairs.empty()) return {};
   return Search(pencil, at, start, solver).vectors(pairs);
 }
 
-}  // namespace squeal::flutter
+}  // namespace squeal::sensitivity

@@ -4,7 +4,7 @@
 
 #include "options/options.hpp"
 
-namespace squeal::flutter {
+namespace squeal::sensitivity {
 namespace {
 
 const FlagOption wantedOption(
@@ -14,17 +14,17 @@ const FlagOption wantedOption(
 
 using Complex = std::complex<double>;
 
-double massNorm(Mat mass, const ComplexVector& u) { return std::sqrt(std::abs(dot(u, product(mass, u)))); }
+double massNorm(Mat mass, const linalg::ComplexVector& u) { return std::sqrt(std::abs(dot(u, product(mass, u)))); }
 
 }  // namespace
 
 bool sensitivitiesWanted() { return wantedOption.get(); }
 
-Complex slopeForm(const Pencil& pencil, const Parameters& at, const EigenTriple& triple) {
+Complex slopeForm(const pencil::Pencil& pencil, const sweep::Parameters& at, const EigenTriple& triple) {
   Complex sum = 0;
   for (int power = 1; power <= 2; ++power) {
     if (!pencil.hasPower(power)) continue;
-    ComplexVector image = ComplexVector::like(triple.x.real);
+    linalg::ComplexVector image = linalg::ComplexVector::like(triple.x.real);
     pencil.apply(power, at, triple.x.real, image.real);
     pencil.apply(power, at, triple.x.imaginary, image.imaginary);
     sum += static_cast<double>(power) * std::pow(triple.s, power - 1) * dot(triple.y, image);
@@ -32,7 +32,7 @@ Complex slopeForm(const Pencil& pencil, const Parameters& at, const EigenTriple&
   return sum;
 }
 
-Complex parameterForm(const Pencil& pencil, const Parameters& at, const EigenTriple& triple, double Parameters::*parameter) {
+Complex parameterForm(const pencil::Pencil& pencil, const sweep::Parameters& at, const EigenTriple& triple, double sweep::Parameters::*parameter) {
   Complex sum = 0;
   for (const auto& term : pencil.terms())
     if (const double slope = term.slope(at, parameter); slope != 0)
@@ -44,4 +44,4 @@ double condition(const EigenTriple& triple, Complex slope, Mat mass) {
   return 2 * std::abs(triple.s) * massNorm(mass, triple.x) * massNorm(mass, triple.y) / std::abs(slope);
 }
 
-}  // namespace squeal::flutter
+}  // namespace squeal::sensitivity

@@ -27,7 +27,7 @@ PetscErrorCode multiply(Mat matrix, Vec y, Vec result) {
 /// With T of closed contact, u = T y + u0 and the friction t = f φ R_N τ(w) at the pad nodes, F = Tᵀ (r + Jᵀ t):
 ///   dr = (K + v² K^R) du + cause,   dt = f φ τ N dr − v B D du + (df φ + f φ' dv |w|/v) R_N τ,   B of velocityResponse().
 Change Problem::change(const Solution& solution, const contact::AssociatedSystem& system, const Cause& cause) const {
-  const Parameters& at = solution.at;
+  const sweep::Parameters& at = solution.at;
   const Mat trial = system.transformation().trial;
   const auto& nodes = contact_.nodes;
   std::vector<double> steadyForce;

@@ -39,7 +39,7 @@ class DefaultOption {
 /// mean the same in metres and in millimetres.
 struct Scaled {
   const Problem& problem;
-  Parameters at;
+  sweep::Parameters at;
   double xUnit, forceUnit;
   bool nonlinear;
   Vec x;  // work
@@ -70,7 +70,7 @@ PetscErrorCode differentiate(SNES, Vec x, Mat jacobian, Mat, void* context) {
 }  // namespace
 
 /// The 2-norm of what is left of the complementarity problem: of F_g at a closed gap only what pulls.
-double Problem::naturalResidual(const Parameters& at, Vec x) const {
+double Problem::naturalResidual(const sweep::Parameters& at, Vec x) const {
   const OwnedVec f = rightVector(transformation_.trial);
   residual(at, x, f);
   PetscInt first = 0;

@@ -19,9 +19,9 @@ const SolverPrefix solverPrefix("steady", "steady_uniqueness_",
 constexpr PetscInt blockColumns = 64;
 
 OwnedKSP factorisation(Mat matrix) {
-  OwnedKSP solver = directSolver(matrix, solverPrefix);
-  if (const Mat factor = mumpsFactor(solver)) check(MatMumpsSetIcntl(factor, 13, 1));  // the inertia is asked for
-  factorise(solver);
+  OwnedKSP solver = linalg::directSolver(matrix, solverPrefix);
+  if (const Mat factor = linalg::mumpsFactor(solver)) check(MatMumpsSetIcntl(factor, 13, 1));  // the inertia is asked for
+  linalg::factorise(solver);
   return solver;
 }
 
@@ -68,7 +68,7 @@ bool Condensed::factorised() const {
 }
 
 bool Condensed::positiveDefinite() const {
-  const Mat factor = mumpsFactor(solver_);
+  const Mat factor = linalg::mumpsFactor(solver_);
   PetscInt negative = 0;
   if (factor) check(MatGetInertia(factor, &negative, nullptr, nullptr));
   return negative == 0;

@@ -43,7 +43,7 @@ bool positiveMinors(const std::vector<double>& a, std::size_t n) {
 
 std::vector<double> symmetricEigenvalues(const std::vector<double>& a, int size) {
   std::vector<double> s = symmetricPart(a, size);
-  return symmetricEigen(s, size);
+  return linalg::symmetricEigen(s, size);
 }
 
 bool positiveDefinite(const std::vector<double>& eigenvalues) { return eigenvalues.front() > rounding * eigenvalues.back(); }

@@ -59,7 +59,7 @@ OwnedKSP innerSolver(Mat matrix, KSP factorised) {
   check(KSPGMRESSetRestart(solver, 100));
   // Right preconditioning: the tolerance is of forces. Where a weakly held body moves far, that of displacements hides all the rest.
   check(KSPSetPCSide(solver, PC_RIGHT));
-  preconditionBy(solver, factorised);
+  linalg::preconditionBy(solver, factorised);
   return solver;
 }
 

@@ -31,7 +31,7 @@ Problem::Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, const
 }
 
 /// b with the pressures and the centrifugal forces of this point.
-OwnedVec Problem::load(const Parameters& at) const {
+OwnedVec Problem::load(const sweep::Parameters& at) const {
   OwnedVec b = elasticity::nodalVector(mesh_);
   check(VecAXPBYPCZ(b, at.pressure, at.speed * at.speed - at.pressure, 0, bodies_.load, bodies_.centrifugal));
   return b;
@@ -50,7 +50,7 @@ OwnedVec Problem::springForces(double speed, Vec displacement) const {
 }
 
 /// r = (K + v² K^R) u − b: supports and contact.
-OwnedVec Problem::forces(const Parameters& at, Vec displacement) const {
+OwnedVec Problem::forces(const sweep::Parameters& at, Vec displacement) const {
   OwnedVec r = springForces(at.speed, displacement);
   check(VecAXPY(r, -1, load(at)));
   return r;
@@ -70,7 +70,7 @@ std::vector<double> Problem::normalForces(Vec forces) const {
 
 /// Tᵀ (r + Jᵀ f φ R_N τ): less the contact forces of the friction law, nodal forces do no work on tangential displacements.
 OwnedVec Problem::test(const contact::Transformation& transformation, const std::vector<unsigned char>& slides,
-                       const Parameters& at, Vec forces, const std::vector<contact::Slip>& slip) const {
+                       const sweep::Parameters& at, Vec forces, const std::vector<contact::Slip>& slip) const {
   const OwnedVec friction = elasticity::nodalVector(mesh_), sum = elasticity::nodalVector(mesh_);
   const auto normal = normalForces(forces);
   PetscScalar* values = nullptr;
@@ -86,20 +86,20 @@ OwnedVec Problem::test(const contact::Transformation& transformation, const std:
   return result;
 }
 
-OwnedVec Problem::displacement(const contact::Transformation& transformation, const Parameters& at, Vec x) const {
+OwnedVec Problem::displacement(const contact::Transformation& transformation, const sweep::Parameters& at, Vec x) const {
   OwnedVec u = elasticity::nodalVector(mesh_);
   check(MatMult(transformation.trial, x, u));
   check(VecAXPY(u, at.pressure, contact_.offset));
   return u;
 }
 
-void Problem::residual(const Parameters& at, Vec x, Vec f) const {
+void Problem::residual(const sweep::Parameters& at, Vec x, Vec f) const {
   const OwnedVec u = displacement(at, x);
   check(VecCopy(test(transformation_, all_, at, forces(at, u), contact_.slip(at.speed, u)), f));
 }
 
 /// Tᵀ K T + f Sᵀ N K T, and with convective terms the turning of the slip: −v Tᵀ Jᵀ B D T with B of velocityResponse().
-OwnedMat Problem::jacobian(const Parameters& at, Vec x) const {
+OwnedMat Problem::jacobian(const sweep::Parameters& at, Vec x) const {
   const OwnedVec u = displacement(at, x);
   const auto slip = contact_.slip(at.speed, u);
   const OwnedMat rows = contact_.slipRows(transformation_, slip, all_), friction = stiffness_.friction(rows);
@@ -128,7 +128,7 @@ double Problem::rounding(Vec displacement, Vec loads) const {
   return PETSC_MACHINE_EPSILON * (springs + forces);
 }
 
-Solution Problem::solve(const Parameters& at, const contact::AssociatedSystem& system) const {
+Solution Problem::solve(const sweep::Parameters& at, const contact::AssociatedSystem& system) const {
   if (at.friction > 0) contact::requireSlip(contact_, contact_.slip(at.speed, nullptr), all_);
   Solution solution;
   solution.at = at;
@@ -163,7 +163,7 @@ Solution Problem::solve(const Parameters& at, const contact::AssociatedSystem& s
   return solution;
 }
 
-double Problem::largestDisplacement(const Parameters& at, Vec x) const {
+double Problem::largestDisplacement(const sweep::Parameters& at, Vec x) const {
   PetscReal largest = 0;
   check(VecNorm(displacement(at, x), NORM_INFINITY, &largest));
   return largest;
@@ -171,7 +171,7 @@ double Problem::largestDisplacement(const Parameters& at, Vec x) const {
 
 /// Solves the problem with the gaps of the active set held at zero. Linear under approximation A. With convective terms Newton's
 /// method, its matrix without K^R and without the turning of the slip, which are small: a few more steps of refinement.
-OwnedVec Problem::closedContact(const Parameters& at, const contact::AssociatedSystem& system, Refinement& refinement) const {
+OwnedVec Problem::closedContact(const sweep::Parameters& at, const contact::AssociatedSystem& system, Refinement& refinement) const {
   const auto& closed = system.transformation();
   const OwnedMat rows = contact_.slipRows(closed, contact_.slip(at.speed, nullptr), system.closed());
   const OwnedMat matrix = contact::affine(system.k0(), system.stiffness().friction(rows), at.friction);

@@ -27,7 +27,7 @@ struct Resultant {
 };
 
 struct Solution {
-  Parameters at;
+  sweep::Parameters at;
   bool converged = false;
   std::string reason;  ///< SNES converged reason, or why there is no solution
   int iterations = 0;
@@ -67,31 +67,31 @@ class Problem {
   Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, const contact::Contact& contact);
   /// Collective. Starts from the solution with the active set of `system` held, by its factorisation, then SNES VI
   /// (-steady_snes_*). Error: |w| = 0 at a node that carries friction.
-  Solution solve(const Parameters& at, const contact::AssociatedSystem& system) const;
+  Solution solve(const sweep::Parameters& at, const contact::AssociatedSystem& system) const;
 
   /// Collective. The change dx of the converged `solution` with dF = 0 on the active set of `system`: GMRES, preconditioned by the
   /// factorised K0. Error: not converged.
   Change change(const Solution& solution, const contact::AssociatedSystem& system, const Cause& cause) const;
 
   /// Collective. F(x), n entries.
-  void residual(const Parameters& at, Vec x, Vec f) const;
+  void residual(const sweep::Parameters& at, Vec x, Vec f) const;
   /// Collective. dF/dx, exact, n×n, as a new matrix with the same pattern at every x.
-  OwnedMat jacobian(const Parameters& at, Vec x) const;
+  OwnedMat jacobian(const sweep::Parameters& at, Vec x) const;
   /// Collective. u = T x + p u0.
-  OwnedVec displacement(const Parameters& at, Vec x) const { return displacement(transformation_, at, x); }
+  OwnedVec displacement(const sweep::Parameters& at, Vec x) const { return displacement(transformation_, at, x); }
 
  private:
   OwnedVec springForces(double speed, Vec displacement) const;
-  OwnedVec load(const Parameters& at) const;
-  OwnedVec displacement(const contact::Transformation& transformation, const Parameters& at, Vec x) const;
-  OwnedVec forces(const Parameters& at, Vec displacement) const;
+  OwnedVec load(const sweep::Parameters& at) const;
+  OwnedVec displacement(const contact::Transformation& transformation, const sweep::Parameters& at, Vec x) const;
+  OwnedVec forces(const sweep::Parameters& at, Vec displacement) const;
   std::vector<double> normalForces(Vec forces) const;
-  OwnedVec test(const contact::Transformation& transformation, const std::vector<unsigned char>& slides, const Parameters& at,
+  OwnedVec test(const contact::Transformation& transformation, const std::vector<unsigned char>& slides, const sweep::Parameters& at,
                 Vec forces, const std::vector<contact::Slip>& slip) const;
   double rounding(Vec displacement, Vec loads) const;
-  double naturalResidual(const Parameters& at, Vec x) const;
-  double largestDisplacement(const Parameters& at, Vec x) const;
-  OwnedVec closedContact(const Parameters& at, const contact::AssociatedSystem& system, Refinement& refinement) const;
+  double naturalResidual(const sweep::Parameters& at, Vec x) const;
+  double largestDisplacement(const sweep::Parameters& at, Vec x) const;
+  OwnedVec closedContact(const sweep::Parameters& at, const contact::AssociatedSystem& system, Refinement& refinement) const;
   double complementarity(OwnedVec& x, Solution& solution) const;
   void recover(Vec x, double noise, Solution& solution) const;
   double imbalance(const Solution& solution, Vec nodalForces) const;

@@ -4,7 +4,7 @@
 
 #include "petsc/text.hpp"
 
-namespace squeal {
+namespace squeal::sweep {
 
 std::string parameterColumns() {
   std::vector<std::string> names;
@@ -26,4 +26,4 @@ std::string parameterText(const Parameters& at) {
   return text;
 }
 
-}  // namespace squeal
+}  // namespace squeal::sweep

@@ -3,7 +3,7 @@
 #include <array>
 #include <string>
 
-namespace squeal {
+namespace squeal::sweep {
 
 /// One point of a sweep.
 struct Parameters {
@@ -31,4 +31,4 @@ std::string parameterValues(const Parameters& at);
 /// "friction 0.4, speed 2": for messages; factors of 1 are left out.
 std::string parameterText(const Parameters& at);
 
-}  // namespace squeal
+}  // namespace squeal::sweep

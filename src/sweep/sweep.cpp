@@ -9,7 +9,7 @@
 #include "petsc/text.hpp"
 #include "session/stages.hpp"
 
-namespace squeal::flutter {
+namespace squeal::sweep {
 namespace {
 
 const RealListOption frictionOption("flutter", "flutter_friction", "0.4", "", nonNegative, "friction coefficients", true);
@@ -122,4 +122,4 @@ std::vector<std::vector<std::size_t>> batches(const std::vector<Parameters>& poi
   return result;
 }
 
-}  // namespace squeal::flutter
+}  // namespace squeal::sweep

@@ -7,7 +7,7 @@
 
 #include "sweep/parameters.hpp"
 
-namespace squeal::flutter {
+namespace squeal::sweep {
 
 /// The sweep is the grid of `-flutter_friction` × `-flutter_speed` × `-flutter_pressure` × `-flutter_damping`. Damping leaves steady
 /// sliding as it is, so that a steady state belongs to all its damping factors.
@@ -33,4 +33,4 @@ void warnOfLongSweep(MPI_Comm comm, const Sweep& sweep, int modes);
 /// same on any number of ranks.
 std::vector<std::vector<std::size_t>> batches(const std::vector<Parameters>& points);
 
-}  // namespace squeal::flutter
+}  // namespace squeal::sweep

@@ -13,7 +13,7 @@
 #include "reduction/reduced.hpp"
 #include "tracking/join.hpp"
 
-namespace squeal::flutter {
+namespace squeal::tracking {
 namespace {
 
 using Complex = std::complex<double>;
@@ -75,7 +75,7 @@ class Root {
 
   /// Where two eigenvalues are one, so is their vector.
   Located located() const {
-    std::vector<DensePair> pairs = nearest(friction_).pairs();
+    std::vector<linalg::DensePair> pairs = nearest(friction_).pairs();
     const Complex s = mean(pairs);
     pairs.resize(1);
     pairs[0].s = s;
@@ -108,11 +108,11 @@ class Root {
  private:
   struct Sample {
     double friction, value;
-    Spectrum spectrum;
-    const std::vector<DensePair>& pairs() const { return spectrum.pairs(); }
+    linalg::Spectrum spectrum;
+    const std::vector<linalg::DensePair>& pairs() const { return spectrum.pairs(); }
   };
 
-  double measure(const Spectrum& spectrum) const {
+  double measure(const linalg::Spectrum& spectrum) const {
     const auto& pairs = spectrum.pairs();
     switch (event_.kind) {
       case Event::Kind::coalescence:
@@ -164,7 +164,7 @@ class Root {
       const double friction = low ? event_.low : event_.high;
       const auto problem = family.near(friction);
       if (!problem) return NAN;
-      Spectrum spectrum(*problem, low ? event_.below : event_.above);
+      linalg::Spectrum spectrum(*problem, low ? event_.below : event_.above);
       known_.push_back({friction, measure(spectrum), std::move(spectrum)});
     }
     return searched(family, known_[0].value, known_[1].value, roughly());
@@ -254,10 +254,10 @@ class Roots {
       int size = static_cast<int>(item.pairs.empty() ? 0 : item.pairs[0].q.size());
       check(MPI_Bcast(&size, 1, MPI_INT, owner(i), family_.comm()));
       check(MPI_Bcast(&item.friction, 1, MPI_DOUBLE, owner(i), family_.comm()));
-      shareFrom(owner(i), family_.comm(), item.pairs, size, Vectors::both);
+      linalg::shareFrom(owner(i), family_.comm(), item.pairs, size, linalg::Vectors::both);
       located.push_back(std::move(item));
     }
-    const Improvement improvement = family_.improve(located);
+    const reduction::Improvement improvement = family_.improve(located);
     for (std::size_t k = 0; k < improvement.backwardError.size(); ++k)
       roots_[open[k]].setBackwardError(improvement.backwardError[k]);
     locate(open, improvement.changed);
@@ -314,4 +314,4 @@ std::vector<Critical> criticalFrictions(Family& family, const Branches& branches
   return list;
 }
 
-}  // namespace squeal::flutter
+}  // namespace squeal::tracking

@@ -4,7 +4,7 @@
 
 #include "tracking/track.hpp"
 
-namespace squeal::flutter {
+namespace squeal::tracking {
 
 struct Critical {
   Event::Kind kind = Event::Kind::crossing;
@@ -26,4 +26,4 @@ struct Critical {
 /// After each root the family improves its basis for the pairs concerned, until the friction moves by less than `tolerance` of itself.
 std::vector<Critical> criticalFrictions(Family& family, const Branches& branches, double tolerance);
 
-}  // namespace squeal::flutter
+}  // namespace squeal::tracking

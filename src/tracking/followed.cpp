@@ -7,7 +7,7 @@
 #include "petsc/text.hpp"
 #include "tracking/renumber.hpp"
 
-namespace squeal::flutter {
+namespace squeal::tracking {
 namespace {
 
 const FlagOption trackOption(
@@ -30,10 +30,10 @@ void dropVectors(Branches& branches) {
 }
 
 /// The frictions to follow of points that differ in nothing else, ascending; [line].
-std::vector<std::pair<Parameters, std::vector<double>>> lines(const std::vector<FrictionPoint>& points) {
-  std::vector<std::pair<Parameters, std::vector<double>>> found;
+std::vector<std::pair<sweep::Parameters, std::vector<double>>> lines(const std::vector<pencil::FrictionPoint>& points) {
+  std::vector<std::pair<sweep::Parameters, std::vector<double>>> found;
   for (const auto& point : points) {
-    Parameters line = point.at;
+    sweep::Parameters line = point.at;
     line.friction = 0;
     if (found.empty() || !(found.back().first == line)) found.push_back({line, {}});
     found.back().second.push_back(point.at.friction);
@@ -48,7 +48,7 @@ bool trackWanted() { return trackOption.get(); }
 
 bool trackAsked() { return trackOption.given() || (criticalOption.given() && criticalOption.get()); }
 
-std::string nothingToFollow(const ReducedProblem& reduced, const std::vector<FrictionPoint>& points) {
+std::string nothingToFollow(const reduction::ReducedProblem& reduced, const std::vector<pencil::FrictionPoint>& points) {
   if (reduced.band().top == 0) return "-reduction_basis modal corrects no eigenvalue";
   return lines(points).empty() ? "single frictions" : "";
 }
@@ -78,7 +78,7 @@ std::string Followed::statement() const {
                     : text + "; assumed: the basis holds every eigenvalue of the full problem that crosses the edge of the band";
 }
 
-std::vector<Followed> followSweep(ReducedProblem& reduced, const std::vector<FrictionPoint>& points, const modes::Modes& modes,
+std::vector<Followed> followSweep(reduction::ReducedProblem& reduced, const std::vector<pencil::FrictionPoint>& points, const modes::Modes& modes,
                                   MPI_Comm comm, const ProblemSource& source,
                                   const std::function<void(const std::string&)>& progress) {
   std::vector<Followed> result;
@@ -112,4 +112,4 @@ std::vector<Followed> followSweep(ReducedProblem& reduced, const std::vector<Fri
   return result;
 }
 
-}  // namespace squeal::flutter
+}  // namespace squeal::tracking

@@ -11,11 +11,11 @@
 #include "tracking/critical.hpp"
 #include "tracking/reducedfamily.hpp"
 
-namespace squeal::flutter {
+namespace squeal::tracking {
 
 /// All frictions of one speed, pressure and damping with one active set.
 struct Followed {
-  Parameters line;                  ///< but for the friction
+  sweep::Parameters line;                  ///< but for the friction
   Branches branches;                ///< those in the band at some friction, numbered from 1 by their first frequency
   std::vector<Critical> criticals;  ///< of these, by friction
   bool countExact = false;          ///< the number at the first friction, 0, is that of the Sturm count
@@ -32,12 +32,12 @@ bool trackWanted();
 /// `-flutter_track` or `-flutter_critical` is given: the user is to be told if there is nothing to follow.
 bool trackAsked();
 /// Why there is nothing to follow: eigenvalues of the free modes alone, or single frictions unless trackAsked(). Empty: there is.
-std::string nothingToFollow(const ReducedProblem& reduced, const std::vector<FrictionPoint>& points);
+std::string nothingToFollow(const reduction::ReducedProblem& reduced, const std::vector<pencil::FrictionPoint>& points);
 
 /// Collective. Follows the eigenvalues of `points`, from friction 0 on, in the basis in force, and solves for the critical frictions
 /// (`-flutter_critical`), for which the basis may grow. Single frictions are left out unless trackAsked().
-std::vector<Followed> followSweep(ReducedProblem& reduced, const std::vector<FrictionPoint>& points, const modes::Modes& modes,
+std::vector<Followed> followSweep(reduction::ReducedProblem& reduced, const std::vector<pencil::FrictionPoint>& points, const modes::Modes& modes,
                                   MPI_Comm comm, const ProblemSource& source,
                                   const std::function<void(const std::string&)>& progress);
 
-}  // namespace squeal::flutter
+}  // namespace squeal::tracking

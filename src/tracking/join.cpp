@@ -9,7 +9,7 @@
 #include "pencil/band.hpp"
 #include "petsc/check.hpp"
 
-namespace squeal::flutter {
+namespace squeal::tracking {
 namespace {
 
 constexpr double reach = 0.1;  // of a projector into another: below, two eigenvalues have nothing in common
@@ -21,7 +21,7 @@ std::size_t rootOf(std::vector<std::size_t>& parent, std::size_t i) {
   return i;
 }
 
-std::vector<std::size_t> byFrequency(const std::vector<DensePair>& pairs) {
+std::vector<std::size_t> byFrequency(const std::vector<linalg::DensePair>& pairs) {
   std::vector<std::size_t> order(pairs.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](auto a, auto b) {
@@ -33,30 +33,30 @@ std::vector<std::size_t> byFrequency(const std::vector<DensePair>& pairs) {
 }
 
 /// Of a problem in s², of which −s is one with every s, without negative real ones.
-bool counted(const DenseProblem& problem, Complex s) { return !problem.damping.empty() || s.imag() != 0 || s.real() >= 0; }
+bool counted(const linalg::DenseProblem& problem, Complex s) { return !problem.damping.empty() || s.imag() != 0 || s.real() >= 0; }
 
 /// |Σ tr(Π_i Π_j) − number| for all pairs of both.
-double unshared(const Spectrum& a, const Spectrum& b) {
+double unshared(const linalg::Spectrum& a, const linalg::Spectrum& b) {
   Complex sum = 0;
   for (std::size_t i = 0; i < a.pairs().size(); ++i)
     for (std::size_t j = 0; j < b.pairs().size(); ++j) sum += a.overlap(i, b, j);
   return std::abs(sum - static_cast<double>(a.pairs().size()));
 }
 
-std::optional<Spectrum> locally(const DenseProblem& problem, const Spectrum& from, const std::vector<DensePair>& start,
+std::optional<linalg::Spectrum> locally(const linalg::DenseProblem& problem, const linalg::Spectrum& from, const std::vector<linalg::DensePair>& start,
                                 Complex expected, double isolation) {
-  Cluster cluster = clusterNear(problem, start, expected, isolation);
+  linalg::Cluster cluster = linalg::clusterNear(problem, start, expected, isolation);
   if (!cluster.converged) return {};
   if (problem.damping.empty())  // s and −s have the same vectors
     for (auto& pair : cluster.pairs)
       if (pair.s.imag() < -1e-9 * std::abs(pair.s) || (real(pair.s) && pair.s.real() < 0)) pair.s = -pair.s;
-  Spectrum found(problem, std::move(cluster.pairs));
+  linalg::Spectrum found(problem, std::move(cluster.pairs));
   if (unshared(from, found) > 0.5) return {};
   return found;
 }
 
 /// Of all pairs those that share most with `from`.
-std::vector<std::size_t> closest(const Spectrum& from, const Spectrum& all) {
+std::vector<std::size_t> closest(const linalg::Spectrum& from, const linalg::Spectrum& all) {
   std::vector<std::pair<double, std::size_t>> shares;
   for (std::size_t j = 0; j < all.pairs().size(); ++j) {
     Complex sum = 0;
@@ -71,13 +71,13 @@ std::vector<std::size_t> closest(const Spectrum& from, const Spectrum& all) {
 
 }  // namespace
 
-std::optional<Spectrum> continuedIn(const DenseProblem& problem, const Spectrum& from, Complex expected, double isolation) {
+std::optional<linalg::Spectrum> continuedIn(const linalg::DenseProblem& problem, const linalg::Spectrum& from, Complex expected, double isolation) {
   if (auto found = locally(problem, from, from.pairs(), expected, isolation)) return found;
-  auto pairs = solveQuadratic(problem, Vectors::both);
+  auto pairs = linalg::solveQuadratic(problem, linalg::Vectors::both);
   std::erase_if(pairs, [&](const auto& pair) { return !counted(problem, pair.s); });
-  const Spectrum all(problem, std::move(pairs));
+  const linalg::Spectrum all(problem, std::move(pairs));
   const auto indices = closest(from, all);
-  const Spectrum whole(problem, chosen(all.pairs(), indices));
+  const linalg::Spectrum whole(problem, chosen(all.pairs(), indices));
   if (unshared(from, whole) > 0.5) return {};
   const Complex middle = mean(whole.pairs());
   double free = std::abs(middle);
@@ -88,20 +88,20 @@ std::optional<Spectrum> continuedIn(const DenseProblem& problem, const Spectrum&
   return whole;
 }
 
-std::vector<std::vector<DensePair>> watchedPairs(MPI_Comm comm, const std::vector<DenseProblem>& problems,
-                                                 const WatchedBand& band) {
-  auto solved = solveSpread(comm, problems, Vectors::both, [&](Complex s) { return band.watches(s); });
+std::vector<std::vector<linalg::DensePair>> watchedPairs(MPI_Comm comm, const std::vector<linalg::DenseProblem>& problems,
+                                                 const pencil::WatchedBand& band) {
+  auto solved = linalg::solveSpread(comm, problems, linalg::Vectors::both, [&](Complex s) { return band.watches(s); });
   for (std::size_t i = 0; i < problems.size(); ++i)
     std::erase_if(solved[i], [&](const auto& pair) { return !counted(problems[i], pair.s); });
   return solved;
 }
 
-std::optional<Spectrum> pursued(Family& family, double friction, const Spectrum& from, Complex expected, double isolation) {
+std::optional<linalg::Spectrum> pursued(Family& family, double friction, const linalg::Spectrum& from, Complex expected, double isolation) {
   const auto problem = family.at(friction);
   if (!problem) return {};
   int rank = 0;
   check(MPI_Comm_rank(family.comm(), &rank));
-  std::vector<DensePair> pairs;
+  std::vector<linalg::DensePair> pairs;
   std::string failure;
   if (rank == 0) try {
       if (auto found = continuedIn(*problem, from, expected, isolation)) pairs = found->pairs();
@@ -109,30 +109,30 @@ std::optional<Spectrum> pursued(Family& family, double friction, const Spectrum&
       failure = error.what();
     }
   failTogether(family.comm(), failure);
-  shareFrom(0, family.comm(), pairs, problem->m, Vectors::both);
+  linalg::shareFrom(0, family.comm(), pairs, problem->m, linalg::Vectors::both);
   if (pairs.empty()) return {};
-  return Spectrum(*problem, std::move(pairs));
+  return linalg::Spectrum(*problem, std::move(pairs));
 }
 
 bool neutral(Complex s, bool damped) { return std::abs(s.real()) <= (damped ? 1e-10 : 1e-6) * std::abs(s); }
 
 bool real(Complex s) { return std::abs(s.imag()) <= 1e-6 * std::abs(s); }
 
-bool neutralPair(const std::vector<DensePair>& two, bool damped) {
+bool neutralPair(const std::vector<linalg::DensePair>& two, bool damped) {
   return std::all_of(two.begin(), two.end(), [&](const auto& p) { return neutral(p.s, damped) || (!damped && real(p.s)); });
 }
 
-bool splitPair(const std::vector<DensePair>& two, bool damped) {
+bool splitPair(const std::vector<linalg::DensePair>& two, bool damped) {
   const Complex a = two[0].s, b = two[1].s;
   return !neutral(a, damped) && !real(a) && std::abs(a + std::conj(b)) <= (damped ? 1e-8 : 1e-5) * std::abs(a.real());
 }
 
-bool coincide(const std::vector<DensePair>& pairs) {
+bool coincide(const std::vector<linalg::DensePair>& pairs) {
   const Complex middle = mean(pairs);
   return std::all_of(pairs.begin(), pairs.end(), [&](const auto& p) { return std::abs(p.s - middle) <= 1e-7 * std::abs(middle); });
 }
 
-std::vector<Group> groups(const Spectrum& here, const Spectrum& there) {
+std::vector<Group> groups(const linalg::Spectrum& here, const linalg::Spectrum& there) {
   const std::size_t n = here.pairs().size(), all = n + there.pairs().size();
   std::vector<Complex> overlaps(n * (all - n));
   std::vector<std::size_t> parent(all);
@@ -157,7 +157,7 @@ std::vector<Group> groups(const Spectrum& here, const Spectrum& there) {
   return found;
 }
 
-std::vector<std::size_t> assigned(const Spectrum& here, const Spectrum& there, const Group& group) {
+std::vector<std::size_t> assigned(const linalg::Spectrum& here, const linalg::Spectrum& there, const Group& group) {
   std::vector<std::tuple<double, std::size_t, std::size_t>> list;
   for (std::size_t a = 0; a < group.here.size(); ++a)
     for (std::size_t b = 0; b < group.there.size(); ++b)
@@ -173,29 +173,29 @@ std::vector<std::size_t> assigned(const Spectrum& here, const Spectrum& there, c
   return mate;
 }
 
-std::vector<std::size_t> ordered(const std::vector<DensePair>& here, const std::vector<DensePair>& there) {
+std::vector<std::size_t> ordered(const std::vector<linalg::DensePair>& here, const std::vector<linalg::DensePair>& there) {
   const auto a = byFrequency(here), b = byFrequency(there);
   std::vector<std::size_t> mate(a.size());
   for (std::size_t k = 0; k < a.size(); ++k) mate[a[k]] = b[k];
   return mate;
 }
 
-std::vector<DensePair> chosen(const std::vector<DensePair>& all, const std::vector<std::size_t>& indices) {
-  std::vector<DensePair> list;
+std::vector<linalg::DensePair> chosen(const std::vector<linalg::DensePair>& all, const std::vector<std::size_t>& indices) {
+  std::vector<linalg::DensePair> list;
   for (const auto i : indices) list.push_back(all[i]);
   return list;
 }
 
-double discriminant(const std::vector<DensePair>& two, bool damped) {
+double discriminant(const std::vector<linalg::DensePair>& two, bool damped) {
   const Complex half = 0.5 * (two[0].s - two[1].s), middle = mean(two);
   if (damped) return -(half * half).real();
   return (half * half * middle * middle).real() / std::norm(middle);
 }
 
-Complex mean(const std::vector<DensePair>& pairs) {
+Complex mean(const std::vector<linalg::DensePair>& pairs) {
   Complex sum = 0;
   for (const auto& pair : pairs) sum += pair.s;
   return sum / static_cast<double>(pairs.size());
 }
 
-}  // namespace squeal::flutter
+}  // namespace squeal::tracking

@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
-namespace squeal::flutter {
+namespace squeal::tracking {
 namespace {
 
 /// sum += factor · part; what `part` lacks, being of a smaller basis, is zero.
-void add(DenseProblem& sum, double factor, const DenseProblem& part) {
+void add(linalg::DenseProblem& sum, double factor, const linalg::DenseProblem& part) {
   const auto m = static_cast<std::size_t>(sum.m), n = static_cast<std::size_t>(part.m);
-  for (const auto matrix : {&DenseProblem::mass, &DenseProblem::damping, &DenseProblem::stiffness}) {
-    const DenseMatrix& from = part.*matrix;
-    DenseMatrix& to = sum.*matrix;
+  for (const auto matrix : {&linalg::DenseProblem::mass, &linalg::DenseProblem::damping, &linalg::DenseProblem::stiffness}) {
+    const linalg::DenseMatrix& from = part.*matrix;
+    linalg::DenseMatrix& to = sum.*matrix;
     if (from.empty()) continue;
     to.resize(m * m, 0.0);
     for (std::size_t j = 0; j < n; ++j)
@@ -21,29 +21,29 @@ void add(DenseProblem& sum, double factor, const DenseProblem& part) {
 
 }  // namespace
 
-Parameters ReducedFamily::point(double friction) const {
-  Parameters at = line_;
+sweep::Parameters ReducedFamily::point(double friction) const {
+  sweep::Parameters at = line_;
   at.friction = friction;
   return at;
 }
 
-DenseProblem ReducedFamily::shared(double friction) const { return reduced_.project({point(friction), source_.shared.with({})}); }
+linalg::DenseProblem ReducedFamily::shared(double friction) const { return reduced_.project({point(friction), source_.shared.with({})}); }
 
 /// Collective.
-DenseProblem ReducedFamily::own(const PointProblem& problem) const {
-  DenseProblem sum;
-  ProjectedTerms(reduced_.basis(), problem.pencil, problem.pencil.affineCount(), problem.pencil.terms().size())
+linalg::DenseProblem ReducedFamily::own(const reduction::PointProblem& problem) const {
+  linalg::DenseProblem sum;
+  reduction::ProjectedTerms(reduced_.basis(), problem.pencil, problem.pencil.affineCount(), problem.pencil.terms().size())
       .addTo(problem.at, sum);
   return sum;
 }
 
-std::optional<DenseProblem> ReducedFamily::at(double friction) {
+std::optional<linalg::DenseProblem> ReducedFamily::at(double friction) {
   constexpr std::size_t most = 32;  // a node is two or three dense matrices
   if (source_.local || known(friction)) return near(friction);
   const auto problem = source_.at(point(friction));
   if (!problem) return {};
   Node node{friction, own(*problem)};
-  DenseProblem sum = shared(friction);
+  linalg::DenseProblem sum = shared(friction);
   add(sum, 1, node.own);
   if (nodes_.size() < most) keep(std::move(node));
   return sum;
@@ -91,10 +91,10 @@ std::vector<const ReducedFamily::Node*> ReducedFamily::nodesFor(double friction)
   return chosen;
 }
 
-std::optional<DenseProblem> ReducedFamily::near(double friction) {
+std::optional<linalg::DenseProblem> ReducedFamily::near(double friction) {
   if (source_.local) return shared(friction);
   if (nodes_.empty()) return {};
-  DenseProblem sum = shared(friction);
+  linalg::DenseProblem sum = shared(friction);
   const auto nodes = nodesFor(friction);
   for (const Node* node : nodes) {  // Lagrange
     double weight = 1;
@@ -105,16 +105,16 @@ std::optional<DenseProblem> ReducedFamily::near(double friction) {
   return sum;
 }
 
-Improvement ReducedFamily::improve(const std::vector<Located>& located) {
-  std::vector<std::pair<PointProblem, std::vector<DensePair>>> list;
+reduction::Improvement ReducedFamily::improve(const std::vector<Located>& located) {
+  std::vector<std::pair<reduction::PointProblem, std::vector<linalg::DensePair>>> list;
   std::vector<std::size_t> places;
   for (std::size_t k = 0; k < located.size(); ++k)
     if (auto problem = source_.at(point(located[k].friction))) {
       list.emplace_back(std::move(*problem), located[k].pairs);
       places.push_back(k);
     }
-  const Improvement found = reduced_.improve(list);
-  Improvement result{found.changed || !source_.local, std::vector<double>(located.size(), NAN)};
+  const reduction::Improvement found = reduced_.improve(list);
+  reduction::Improvement result{found.changed || !source_.local, std::vector<double>(located.size(), NAN)};
   for (std::size_t i = 0; i < places.size(); ++i) result.backwardError[places[i]] = found.backwardError[i];
   if (source_.local) return result;
   const double apart = closest();  // older nodes must not stand beside these; these may stand beside each other
@@ -124,4 +124,4 @@ Improvement ReducedFamily::improve(const std::vector<Located>& located) {
   return result;
 }
 
-}  // namespace squeal::flutter
+}  // namespace squeal::tracking

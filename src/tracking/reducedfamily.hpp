@@ -12,13 +12,13 @@
 #include "sweep/parameters.hpp"
 #include "tracking/family.hpp"
 
-namespace squeal::flutter {
+namespace squeal::tracking {
 
 /// The terms of all points and of each.
 struct ProblemSource {
-  const Pencil& shared;  ///< the terms of all points
+  const pencil::Pencil& shared;  ///< the terms of all points
   /// Collective, unless local. None: there is no steady state with this active set.
-  std::function<std::optional<PointProblem>(const Parameters&)> at;
+  std::function<std::optional<reduction::PointProblem>(const sweep::Parameters&)> at;
   bool local = false;  ///< no point has terms of its own
 };
 
@@ -28,36 +28,36 @@ class ReducedFamily : public Family {
  public:
   using Progress = std::function<void(const std::string&)>;
   /// Borrows all but `line`.
-  ReducedFamily(ReducedProblem& reduced, MPI_Comm comm, const Parameters& line, const ProblemSource& source,
+  ReducedFamily(reduction::ReducedProblem& reduced, MPI_Comm comm, const sweep::Parameters& line, const ProblemSource& source,
                 const Progress& progress)
       : reduced_(reduced), comm_(comm), line_(line), source_(source), progress_(progress) {}
   MPI_Comm comm() const override { return comm_; }
-  std::optional<DenseProblem> at(double friction) override;
-  std::optional<DenseProblem> near(double friction) override;
+  std::optional<linalg::DenseProblem> at(double friction) override;
+  std::optional<linalg::DenseProblem> near(double friction) override;
   void know(const std::vector<double>& frictions) override;
   void progress(const std::string& text) override { progress_(text); }
-  Improvement improve(const std::vector<Located>& located) override;
+  reduction::Improvement improve(const std::vector<Located>& located) override;
 
  private:
   /// The terms that belong to one friction, projected on the basis of the time.
   struct Node {
     double friction;
-    DenseProblem own;
+    linalg::DenseProblem own;
   };
-  Parameters point(double friction) const;
+  sweep::Parameters point(double friction) const;
   bool known(double friction) const;
-  DenseProblem shared(double friction) const;
-  DenseProblem own(const PointProblem& problem) const;
+  linalg::DenseProblem shared(double friction) const;
+  linalg::DenseProblem own(const reduction::PointProblem& problem) const;
   void keep(Node node);
   std::vector<const Node*> nodesFor(double friction) const;
   double closest() const;
 
-  ReducedProblem& reduced_;
+  reduction::ReducedProblem& reduced_;
   MPI_Comm comm_;
-  Parameters line_;
+  sweep::Parameters line_;
   const ProblemSource& source_;
   const Progress& progress_;
   std::vector<Node> nodes_;
 };
 
-}  // namespace squeal::flutter
+}  // namespace squeal::tracking

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-namespace squeal::flutter {
+namespace squeal::tracking {
 namespace {
 
 using Complex = std::complex<double>;
@@ -87,4 +87,4 @@ void renumber(Branches& branches) {
   std::erase_if(events, [](const Event& event) { return event.branch == 0; });
 }
 
-}  // namespace squeal::flutter
+}  // namespace squeal::tracking

@@ -7,20 +7,20 @@
 #include "petsc/text.hpp"
 #include "tracking/join.hpp"
 
-namespace squeal::flutter {
+namespace squeal::tracking {
 namespace {
 
 using Complex = std::complex<double>;
 
 /// ds/df = −yᴴ P_f x / (yᴴ P_s x) of pairs at one end, P_f by the difference over the step: exact where P is linear in f, good enough
 /// to look for candidates elsewhere.
-std::vector<Complex> slopes(const Spectrum& spectrum, const StepEnd& low, const StepEnd& high) {
+std::vector<Complex> slopes(const linalg::Spectrum& spectrum, const StepEnd& low, const StepEnd& high) {
   const auto& pairs = spectrum.pairs();
   const int m = low.problem.m;
-  const auto change = [&](const DenseMatrix& a, const DenseMatrix& b) {
-    DenseMatrix difference(a.empty() ? b.size() : a.size());
+  const auto change = [&](const linalg::DenseMatrix& a, const linalg::DenseMatrix& b) {
+    linalg::DenseMatrix difference(a.empty() ? b.size() : a.size());
     for (std::size_t k = 0; k < difference.size(); ++k) difference[k] = (b.empty() ? 0 : b[k]) - (a.empty() ? 0 : a[k]);
-    return timesVectors(difference, m, pairs);
+    return linalg::timesVectors(difference, m, pairs);
   };
   const auto stiffness = change(low.problem.stiffness, high.problem.stiffness),
              damping = change(low.problem.damping, high.problem.damping), mass = change(low.problem.mass, high.problem.mass);
@@ -104,13 +104,13 @@ class Screening {
   Screening(Family& family, const StepEnd& low, const StepEnd& high, const std::vector<Pursued>& singles,
             std::vector<Event>& events, std::vector<Gap>& gaps)
       : family_(family), low_(low), high_(high), singles_(singles), events_(events), gaps_(gaps) {
-    std::vector<DensePair> below, above;
+    std::vector<linalg::DensePair> below, above;
     for (const auto& single : singles) {
       below.push_back(single.below);
       above.push_back(single.above);
     }
-    below_ = slopes(Spectrum(low.problem, below), low, high);
-    above_ = slopes(Spectrum(high.problem, above), low, high);
+    below_ = slopes(linalg::Spectrum(low.problem, below), low, high);
+    above_ = slopes(linalg::Spectrum(high.problem, above), low, high);
   }
 
   void run() {
@@ -127,8 +127,8 @@ class Screening {
   double width() const { return high_.friction - low_.friction; }
 
   /// NaN if the subspace is not found.
-  double examine(double t, const std::vector<DensePair>& below, const std::vector<DensePair>& above, double isolation) {
-    const Spectrum from(t < 0.5 ? low_.problem : high_.problem, t < 0.5 ? below : above);
+  double examine(double t, const std::vector<linalg::DensePair>& below, const std::vector<linalg::DensePair>& above, double isolation) {
+    const linalg::Spectrum from(t < 0.5 ? low_.problem : high_.problem, t < 0.5 ? below : above);
     const auto found = pursued(family_, low_.friction + t * width(), from, (1 - t) * mean(below) + t * mean(above), isolation);
     if (!found) return NAN;
     found_ = found->pairs();
@@ -164,7 +164,7 @@ class Screening {
     const bool crossing = d0 * d1 < 0;
     if (!crossing && square(t) > 0.5 * std::min(d0 * d0, d1 * d1)) return;
     if (crossing) t = d0 / (d0 - d1);
-    const std::vector<DensePair> below{a.below, b.below}, above{a.above, b.above};
+    const std::vector<linalg::DensePair> below{a.below, b.below}, above{a.above, b.above};
     const double isolation = isolationOf(i, j);
     Dip dip(std::max(d0 * d0, d1 * d1));
     const auto result = dip.search(t, [&](double at) { return examine(at, below, above, isolation); });
@@ -193,7 +193,7 @@ class Screening {
     const Cubic growth{sign * g0, sign * below_[i].real() * width(), sign * g1, sign * above_[i].real() * width()};
     const double t = growth.lowest();
     if (growth(t) > 0.1 * std::min(sign * g0, sign * g1)) return;
-    const std::vector<DensePair> below{a.below}, above{a.above};
+    const std::vector<linalg::DensePair> below{a.below}, above{a.above};
     Dip dip(std::max(sign * g0, sign * g1));
     const auto result = dip.search(t, [&](double at) { return sign * examine(at, below, above, a.isolation); });
     record(result, dip, {Event::Kind::crossing, a.branch, -1, sign < 0, 0, 0, below, above, a.isolation});
@@ -205,7 +205,7 @@ class Screening {
   std::vector<Event>& events_;
   std::vector<Gap>& gaps_;
   std::vector<Complex> below_, above_;  // slopes at both ends
-  std::vector<DensePair> found_;
+  std::vector<linalg::DensePair> found_;
 };
 
 }  // namespace
@@ -215,4 +215,4 @@ void screen(Family& family, const StepEnd& low, const StepEnd& high, const std::
   Screening(family, low, high, singles, events, gaps).run();
 }
 
-}  // namespace squeal::flutter
+}  // namespace squeal::tracking

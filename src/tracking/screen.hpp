@@ -3,18 +3,18 @@
 #include "linalg/dense.hpp"
 #include "tracking/track.hpp"
 
-namespace squeal::flutter {
+namespace squeal::tracking {
 
 /// An eigenvalue known by itself at both ends of a step.
 struct Pursued {
   int branch = 0;
-  DensePair below, above;
+  linalg::DensePair below, above;
   double isolation = 0;
 };
 
 struct StepEnd {
   double friction;
-  const DenseProblem& problem;
+  const linalg::DenseProblem& problem;
 };
 
 /// Collective. Slopes at both ends say, by a cubic through each step, which two neutral eigenvalues may meet and which growth may
@@ -23,4 +23,4 @@ struct StepEnd {
 void screen(Family& family, const StepEnd& low, const StepEnd& high, const std::vector<Pursued>& singles,
             std::vector<Event>& events, std::vector<Gap>& gaps);
 
-}  // namespace squeal::flutter
+}  // namespace squeal::tracking

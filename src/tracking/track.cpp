@@ -9,7 +9,7 @@
 #include "tracking/join.hpp"
 #include "tracking/screen.hpp"
 
-namespace squeal::flutter {
+namespace squeal::tracking {
 namespace {
 
 using Complex = std::complex<double>;
@@ -33,8 +33,8 @@ struct StepResult {
 /// A station while it is worked on.
 struct Solved {
   Station station;
-  DenseProblem problem;
-  Spectrum spectrum;
+  linalg::DenseProblem problem;
+  linalg::Spectrum spectrum;
   std::optional<StepResult> step = {};  // from the station before
   bool whole = false;                   // the step from the station before is not to be halved
   double smallest = 0;                  // of such steps
@@ -43,15 +43,15 @@ struct Solved {
 /// Two eigenvalues at one friction.
 struct PairAt {
   double friction;
-  Spectrum spectrum;
-  const std::vector<DensePair>& pairs() const { return spectrum.pairs(); }
+  linalg::Spectrum spectrum;
+  const std::vector<linalg::DensePair>& pairs() const { return spectrum.pairs(); }
 };
 
 int sign(Complex s, bool damped) { return neutral(s, damped) ? 0 : s.real() > 0 ? 1 : -1; }
 
 class Follower {
  public:
-  Follower(Family& family, const WatchedBand& band, const TrackLimits& limits) : family_(family), limits_(limits) {
+  Follower(Family& family, const pencil::WatchedBand& band, const TrackLimits& limits) : family_(family), limits_(limits) {
     result_.band = band;
   }
 
@@ -90,7 +90,7 @@ class Follower {
 
   /// Those of which there is a problem, solved together.
   std::vector<std::optional<Solved>> solve(const std::vector<double>& frictions, bool swept) {
-    std::vector<DenseProblem> problems;
+    std::vector<linalg::DenseProblem> problems;
     std::vector<std::size_t> places;
     for (std::size_t k = 0; k < frictions.size(); ++k)
       if (auto problem = family_.at(frictions[k])) {
@@ -104,7 +104,7 @@ class Follower {
       station.branch.assign(station.pairs.size(), -1);
       station.overlap.assign(station.pairs.size(), 0);
       for (const auto& pair : station.pairs) station.inBand.push_back(result_.band.contains(pair.s));
-      Spectrum spectrum(problems[i], station.pairs);
+      linalg::Spectrum spectrum(problems[i], station.pairs);
       list[places[i]].emplace(Solved{std::move(station), std::move(problems[i]), std::move(spectrum)});
     }
     return list;
@@ -193,14 +193,14 @@ class Follower {
     const std::size_t i = group.here[0], j = group.there[0];
     step.links.push_back({i, j, std::abs(a.spectrum.overlap(i, b.spectrum, j))});
     if (!matters(a, b, group)) return;
-    const DensePair &p = a.spectrum.pairs()[i], &q = b.spectrum.pairs()[j];
+    const linalg::DensePair &p = a.spectrum.pairs()[i], &q = b.spectrum.pairs()[j];
     step.singles.push_back({static_cast<int>(i), p, q, isolation(a, b, group)});
     crossed(step, a.station.friction, b.station.friction, p, q, static_cast<int>(i), step.singles.back().isolation,
             a.spectrum.damped());
   }
 
   /// An eigenvalue that changes its stability by itself.
-  static void crossed(StepResult& step, double low, double high, const DensePair& p, const DensePair& q, int branch,
+  static void crossed(StepResult& step, double low, double high, const linalg::DensePair& p, const linalg::DensePair& q, int branch,
                       double isolation, bool damped) {
     const int before = sign(p.s, damped), after = sign(q.s, damped);
     if (before == after) return;
@@ -225,7 +225,7 @@ class Follower {
       atEnd(step, a, b, here, there, ids, mate);
     } else if (here.size() == 2) {
       StepResult traced;
-      const PairAt low{a.station.friction, Spectrum(a.problem, here)}, high{b.station.friction, Spectrum(b.problem, there)};
+      const PairAt low{a.station.friction, linalg::Spectrum(a.problem, here)}, high{b.station.friction, linalg::Spectrum(b.problem, there)};
       const double smallest = std::ldexp(high.friction - low.friction, -14);
       if (!trace(low, high, ids, isolation(a, b, group), smallest, mate, traced)) return false;
       for (auto& event : traced.events) step.events.push_back(std::move(event));
@@ -238,8 +238,8 @@ class Follower {
   }
 
   /// Equal eigenvalues at one end that change their stability.
-  void atEnd(StepResult& step, const Solved& a, const Solved& b, const std::vector<DensePair>& here,
-             const std::vector<DensePair>& there, const std::vector<int>& ids, const std::vector<std::size_t>& mate) {
+  void atEnd(StepResult& step, const Solved& a, const Solved& b, const std::vector<linalg::DensePair>& here,
+             const std::vector<linalg::DensePair>& there, const std::vector<int>& ids, const std::vector<std::size_t>& mate) {
     const bool damped = b.spectrum.damped(), equalBelow = coincide(here);
     const Solved& apart = equalBelow ? b : a;
     const double equalAt = equalBelow ? a.station.friction : b.station.friction;
@@ -257,10 +257,10 @@ class Follower {
   }
 
   /// Brackets the crossing of one of several eigenvalues that are equal at `equalAt`, where their vectors say nothing, from `pair`.
-  void approach(Event& event, const Solved& apart, double equalAt, const DensePair& pair, Complex equal) {
+  void approach(Event& event, const Solved& apart, double equalAt, const linalg::DensePair& pair, Complex equal) {
     constexpr int halvings = 16;
     double friction = apart.station.friction;
-    Spectrum last(apart.problem, {pair});
+    linalg::Spectrum last(apart.problem, {pair});
     for (int k = 0; k < halvings; ++k) {
       const double next = 0.5 * (friction + equalAt);
       const Complex expected = 0.5 * (last.pairs()[0].s + equal);
@@ -356,7 +356,7 @@ class Follower {
   /// Of the mean of a group from all other eigenvalues.
   double isolation(const Solved& a, const Solved& b, const Group& group) const {
     double distance = INFINITY;
-    const auto reach = [&](const std::vector<DensePair>& pairs, const std::vector<std::size_t>& own) {
+    const auto reach = [&](const std::vector<linalg::DensePair>& pairs, const std::vector<std::size_t>& own) {
       const Complex middle = mean(chosen(pairs, own));
       distance = std::min(distance, std::abs(middle));
       for (std::size_t i = 0; i < pairs.size(); ++i)
@@ -378,8 +378,8 @@ int Branches::inBandAt(const Station& station) const {
   return static_cast<int>(std::count(station.inBand.begin(), station.inBand.end(), 1));
 }
 
-Branches follow(Family& family, const std::vector<double>& frictions, const WatchedBand& band, const TrackLimits& limits) {
+Branches follow(Family& family, const std::vector<double>& frictions, const pencil::WatchedBand& band, const TrackLimits& limits) {
   return Follower(family, band, limits).run(frictions);
 }
 
-}  // namespace squeal::flutter
+}  // namespace squeal::tracking

@@ -8,13 +8,13 @@
 #include "pencil/band.hpp"
 #include "tracking/family.hpp"
 
-namespace squeal::flutter {
+namespace squeal::tracking {
 
 /// One friction of a followed sweep.
 struct Station {
   double friction = 0;
   bool swept = true;             ///< false: put in between to make sure of a continuation
-  std::vector<DensePair> pairs;  ///< in the band or watched beside it, with left vectors
+  std::vector<linalg::DensePair> pairs;  ///< in the band or watched beside it, with left vectors
   std::vector<int> branch;       ///< [pair]
   std::vector<double>
       overlap;  ///< [pair] |tr(Π Π')| with the station before; 1 where a group was joined as a whole; 0: begins here
@@ -27,7 +27,7 @@ struct Event {
   int branch = 0, partner = -1;
   bool loss = true;                     ///< stable below `high`'s side, unstable above
   double low = 0, high = 0;             ///< bracket; equal: at this friction itself, as where a double eigenvalue splits at once
-  std::vector<DensePair> below, above;  ///< the pairs concerned at both ends
+  std::vector<linalg::DensePair> below, above;  ///< the pairs concerned at both ends
   double isolation = 0;                 ///< from other eigenvalues, rad/s
 };
 
@@ -39,7 +39,7 @@ struct Gap {
 };
 
 struct Branches {
-  WatchedBand band;
+  pencil::WatchedBand band;
   std::vector<Station> stations;  ///< ascending friction
   std::vector<Event> events;
   std::vector<Gap> gaps;
@@ -58,6 +58,6 @@ struct TrackLimits {
 ///
 /// Where two neutral branches merge, the one of lower frequency becomes the growing one; where a growing and a decaying one part, the
 /// growing one becomes the one of lower frequency: a convention. Equal eigenvalues are numbered by frequency, then growth.
-Branches follow(Family& family, const std::vector<double>& frictions, const WatchedBand& band, const TrackLimits& limits = {});
+Branches follow(Family& family, const std::vector<double>& frictions, const pencil::WatchedBand& band, const TrackLimits& limits = {});
 
-}  // namespace squeal::flutter
+}  // namespace squeal::tracking

@@ -58,7 +58,7 @@ struct Condensed {
 };
 
 /// From the program's own matrices, by other algebra than its solver's.
-Condensed condensed(const Analysis& analysis, double friction) {
+Condensed condensed(const analysis::Analysis& analysis, double friction) {
   const std::vector<unsigned char> all(analysis.contact.nodes.size(), 1);
   const auto transformation = analysis.contact.transformation(all);
   const auto stiffness = contact::project(analysis.contact, transformation, analysis.bodies.stiffness);
@@ -132,7 +132,7 @@ std::vector<Sliding> allSolutions(const Condensed& problem) {
 }
 
 TEST(ActiveSet, SteadyStateIsTheOneThatExists) {
-  const Analysis analysis = runOptions(block + "-modes_count 5 -flutter_friction 0:1:0.1");
+  const analysis::Analysis analysis = runOptions(block + "-modes_count 5 -flutter_friction 0:1:0.1");
   ASSERT_EQ(analysis.contact.nodes.size(), static_cast<std::size_t>(contactNodes));
   int without = 0, opening = 0;
   for (const auto& steady : analysis.steady) {

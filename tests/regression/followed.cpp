@@ -19,7 +19,7 @@ struct Rule {
 };
 
 /// Frictions that the sweep asks for and that were followed.
-std::vector<double> sweptStations(const flutter::Followed& followed) {
+std::vector<double> sweptStations(const tracking::Followed& followed) {
   std::vector<double> list;
   for (const auto& station : followed.branches.stations)
     if (station.swept) list.push_back(station.friction);
@@ -52,7 +52,7 @@ TEST(Followed, WhichSweepsAre) {
   };
   for (const auto& [name, options, wanted] : rules) {
     SCOPED_TRACE(name + " " + options);
-    const Analysis analysis = runCase(name, options);
+    const analysis::Analysis analysis = runCase(name, options);
     ASSERT_EQ(analysis.segments.size(), 1U);
     const auto& followed = analysis.segments[0].followed;
     const auto lines = wanted ? analysis.sweep.speeds.size() : 0;

@@ -11,7 +11,7 @@ namespace {
 
 /// The coarse disc brake at ω with all that depends on the speed: convective terms, a friction law, friction-induced damping and
 /// centrifugal load.
-Analysis at(double omega, double factor) {
+analysis::Analysis at(double omega, double factor) {
   return runCase(
       "disc_brake",
       "-mesh_set n_pad_theta=8,n_free_theta=12,n_mount=2,n_plate=1,n_inside=1,n_pad_r=4,n_hat=2,n_h_ring=2 "
@@ -21,15 +21,15 @@ Analysis at(double omega, double factor) {
 }
 
 /// Largest difference of an eigenvalue in the band from that of the other run, relative.
-double difference(const flutter::FrictionPoint& one, const flutter::FrictionPoint& other) {
+double difference(const pencil::FrictionPoint& one, const pencil::FrictionPoint& other) {
   const auto band = eigenvaluesOf(one);
   EXPECT_GT(band.size(), 10u);
   return worst(errors(band, eigenvaluesOf(other)).relative);
 }
 
 TEST(Speed, FactorScalesTheMotions) {
-  const Analysis slow = at(10, 1), scaled = at(10, 3), fast = at(30, 1);
-  for (const Analysis* analysis : {&slow, &scaled, &fast}) {
+  const analysis::Analysis slow = at(10, 1), scaled = at(10, 3), fast = at(30, 1);
+  for (const analysis::Analysis* analysis : {&slow, &scaled, &fast}) {
     ASSERT_EQ(analysis->segments.size(), 1u);
     ASSERT_EQ(analysis->segments[0].points.size(), 2u);
   }

@@ -13,7 +13,7 @@ namespace {
 
 /// The coarse disc brake with all that the parameters act on: convective terms and centrifugal load, a friction law and
 /// friction-induced damping, and every kind of damping of the bodies.
-Analysis run(double speed, double pressure, double damping, const std::string& swept) {
+analysis::Analysis run(double speed, double pressure, double damping, const std::string& swept) {
   return runCase("disc_brake_map",
                  "-friction_law exponential -friction_static_ratio 1.4 -friction_decay_speed 5 -flutter_friction 0.2,0.5 "
                  "-flutter_accuracy 1e-10 -flutter_band 2000 -modes_count 30 -steady_uniqueness off " +
@@ -27,29 +27,29 @@ Analysis run(double speed, double pressure, double damping, const std::string& s
 }
 
 /// Largest difference of an eigenvalue in the band from that of the other run, relative.
-double difference(const flutter::FrictionPoint& one, const flutter::FrictionPoint& other) {
+double difference(const pencil::FrictionPoint& one, const pencil::FrictionPoint& other) {
   const auto band = eigenvaluesOf(one);
   EXPECT_GT(band.size(), 4U);
   return worst(errors(band, eigenvaluesOf(other)).relative);
 }
 
 TEST(Sweep, PointsOfTheGridAreRunsOfTheirOwn) {
-  const Analysis grid = run(1, 1, 1, "-flutter_speed 1,3 -flutter_pressure 1,2 -flutter_damping 1,2");
+  const analysis::Analysis grid = run(1, 1, 1, "-flutter_speed 1,3 -flutter_pressure 1,2 -flutter_damping 1,2");
   EXPECT_EQ(grid.steady.size(), 8U);  // damping does not change them
   const auto points = grid.sweep.points();
   ASSERT_EQ(points.size(), 16U);
-  for (const auto& at : points) ASSERT_NE(grid.pointAt(at), nullptr) << parameterText(at);
-  const Analysis alone = run(3, 2, 2, "-flutter_speed 1 -flutter_pressure 1 -flutter_damping 1");
+  for (const auto& at : points) ASSERT_NE(grid.pointAt(at), nullptr) << sweep::parameterText(at);
+  const analysis::Analysis alone = run(3, 2, 2, "-flutter_speed 1 -flutter_pressure 1 -flutter_damping 1");
   for (const double friction : {0.2, 0.5}) {
-    const Parameters at{friction, 3, 2, 2};
+    const sweep::Parameters at{friction, 3, 2, 2};
     const auto& wanted = *alone.pointAt({friction, 1, 1, 1});
     const double same = difference(wanted, *grid.pointAt(at));
-    print("%s: eigenvalues differ by %.1e\n", parameterText(at).c_str(), same);
+    print("%s: eigenvalues differ by %.1e\n", sweep::parameterText(at).c_str(), same);
     EXPECT_LT(same, 1e-7);  // backward errors of 1e-10, times conditions of some tens: 6e-9 measured
     EXPECT_EQ(wanted.unstableCount(), grid.pointAt(at)->unstableCount());
-    for (const auto& parameter : allParameters) {
-      if (parameter.value == &Parameters::friction) continue;
-      Parameters without = at;
+    for (const auto& parameter : sweep::allParameters) {
+      if (parameter.value == &sweep::Parameters::friction) continue;
+      sweep::Parameters without = at;
       without.*parameter.value = 1;
       const double other = difference(wanted, *grid.pointAt(without));
       print("  without the factor on the %s by %.1e\n", parameter.name, other);

@@ -13,20 +13,20 @@
 namespace squeal::test {
 
 /// Collective. Runs with these options alone.
-inline Analysis runOptions(const std::string& options) {
+inline analysis::Analysis runOptions(const std::string& options) {
   check(PetscOptionsClear(nullptr));
   insert(settingsOfText("-quiet " + options));
-  checkOptions();
-  return analyse(PETSC_COMM_WORLD);
+  analysis::checkOptions();
+  return analysis::analyse(PETSC_COMM_WORLD);
 }
 
 /// Collective. Runs a case file with a few options changed.
-inline Analysis runCase(const std::string& name, const std::string& changes = {}) {
+inline analysis::Analysis runCase(const std::string& name, const std::string& changes = {}) {
   check(PetscOptionsClear(nullptr));
   insertFile(PETSC_COMM_WORLD, "options/" + name + ".yaml");
   insert(settingsOfText("-quiet " + changes));
-  checkOptions();
-  return analyse(PETSC_COMM_WORLD);
+  analysis::checkOptions();
+  return analysis::analyse(PETSC_COMM_WORLD);
 }
 
 /// Measured figures, once for all ranks.

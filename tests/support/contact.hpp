@@ -20,7 +20,7 @@ struct Violations {
 };
 
 /// Collective. Meshes without periodic images and with V along +x; `obstacle`: displacement along y of a rigid obstacle.
-inline Violations violations(const Analysis& analysis, const steady::Solution& solution, double obstacle = 0) {
+inline Violations violations(const analysis::Analysis& analysis, const steady::Solution& solution, double obstacle = 0) {
   const auto& mesh = *analysis.mesh;
   const auto& contact = analysis.contact;
   const auto dimension = static_cast<std::size_t>(mesh.dimension);
@@ -74,7 +74,7 @@ struct Transmitted {
 };
 
 /// Collective.
-inline Transmitted transmitted(const Analysis& analysis, const steady::Solution& solution) {
+inline Transmitted transmitted(const analysis::Analysis& analysis, const steady::Solution& solution) {
   Transmitted sums;
   for (std::size_t i = 0; i < solution.contact.size(); ++i) {
     sums.normal += solution.contact[i].normalForce;

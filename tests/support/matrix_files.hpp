@@ -20,8 +20,8 @@ namespace squeal::test {
 inline const std::array<std::array<double, 4>, 4> sample{
     {{1. / 3, 0, -2, 0}, {0, 0, 0, 0}, {5, 1e-300, 7, 8}, {0, 0, 0, -1e10 / 3}}};
 
-inline matrices::Entries sampleEntries() {
-  matrices::Entries entries(4, 4);
+inline matrixfile::Entries sampleEntries() {
+  matrixfile::Entries entries(4, 4);
   for (long long i = 0; i < 4; ++i)
     for (long long j = 0; j < 4; ++j) entries.add(i, j, sample[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)]);
   return entries;

@@ -50,7 +50,7 @@ std::string errorOf(const Action& action) {
 inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 /// Collective.
-inline mesh::Mesh readMesh() { return mesh::read(PETSC_COMM_WORLD, meshRequest()); }
+inline mesh::Mesh readMesh() { return mesh::read(PETSC_COMM_WORLD, analysis::meshRequest()); }
 
 /// The stages before the first solution. Contact borrows the mesh, which therefore keeps its address.
 struct Model {

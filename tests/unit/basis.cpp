@@ -14,22 +14,22 @@
 namespace squeal {
 namespace {
 
-using flutter::Basis;
-using flutter::Block;
+using reduction::Basis;
+using linalg::Block;
 
 /// Twenty modes of the layers are the basis to begin with.
 struct Fixture : test::Layers {
-  std::unique_ptr<Basis> basis;
+  std::unique_ptr<reduction::Basis> basis;
   Fixture() : Layers("-modes_count 20") {
     const auto free = modes();  // before the solver is asked for: they leave it with other matrices
-    basis = std::make_unique<Basis>(free, system->k0(), system->solver());
+    basis = std::make_unique<reduction::Basis>(free, system->k0(), system->solver());
   }
 
   /// A X.
-  Block times(Mat matrix, const Block& x) const {
+  linalg::Block times(Mat matrix, const linalg::Block& x) const {
     OwnedVec from, to;
     check(MatCreateVecs(matrix, from.out(), to.out()));
-    Block result(x.rows);
+    linalg::Block result(x.rows);
     for (PetscInt j = 0; j < x.columns; ++j) {
       PetscScalar* entries = nullptr;
       check(VecGetArray(from, &entries));
@@ -45,13 +45,13 @@ struct Fixture : test::Layers {
   }
 
   /// V.
-  const Block& columns() const { return basis->columns(); }
+  const linalg::Block& columns() const { return basis->columns(); }
 
   /// The largest entry of VᵀK0V − I.
   double departure() const {
-    const Block v = columns();
+    const linalg::Block v = columns();
     EXPECT_EQ(v.columns, basis->size());
-    const auto gram = flutter::transposedProduct(basis->comm(), v, times(system->k0(), v));
+    const auto gram = linalg::transposedProduct(basis->comm(), v, times(system->k0(), v));
     double worst = 0;
     for (std::size_t k = 0; k < gram.size(); ++k) {
       const bool diagonal = k % (static_cast<std::size_t>(v.columns) + 1) == 0;
@@ -60,8 +60,8 @@ struct Fixture : test::Layers {
     return worst;
   }
 
-  Block random(PetscInt count, unsigned seed) const {
-    Block block(basis->localRows(), count);
+  linalg::Block random(PetscInt count, unsigned seed) const {
+    linalg::Block block(basis->localRows(), count);
     int rank = 0;
     check(MPI_Comm_rank(basis->comm(), &rank));
     std::mt19937 generator(seed + 100 * static_cast<unsigned>(rank));
@@ -83,7 +83,7 @@ TEST(Basis, StaysOrthonormalInEnergy) {
   test::print("basis of %d: departure from orthonormality %.1e\n", static_cast<int>(f.basis->size()), f.departure());
   EXPECT_LT(f.departure(), 1e-10);
   EXPECT_EQ(f.basis->solves(), 50);
-  const Block v = f.columns();
+  const linalg::Block v = f.columns();
   const auto sketch = f.basis->sketch().unweighted(v.values.data(), v.columns);
   ASSERT_EQ(sketch.size(), f.basis->sketched().size());
   for (std::size_t k = 0; k < sketch.size(); ++k) EXPECT_NEAR(f.basis->sketched()[k], sketch[k], 1e-12) << k;
@@ -92,12 +92,12 @@ TEST(Basis, StaysOrthonormalInEnergy) {
 // The basis gains K0⁻¹ R: K0 V Vᵀr = r for a residual that has gone in.
 TEST(Basis, HoldsWhatIsAdded) {
   const Fixture f;
-  const Block residuals = f.random(5, 1);
+  const linalg::Block residuals = f.random(5, 1);
   f.basis->add(residuals);
-  const Block v = f.columns(), forces = f.times(f.system->k0(), v);
-  const auto parts = flutter::transposedProduct(f.basis->comm(), v, residuals);
-  Block left = residuals;
-  flutter::multiplyAdd(forces.values.data(), forces.rows, forces.columns, parts, left.values, -1);
+  const linalg::Block v = f.columns(), forces = f.times(f.system->k0(), v);
+  const auto parts = linalg::transposedProduct(f.basis->comm(), v, residuals);
+  linalg::Block left = residuals;
+  linalg::multiplyAdd(forces.values.data(), forces.rows, forces.columns, parts, left.values, -1);
   double worst = 0;
   for (const double value : left.values) worst = std::max(worst, std::abs(value));
   EXPECT_LT(test::largest(worst), 1e-10);  // of entries up to 1
@@ -109,7 +109,7 @@ TEST(Basis, KnowsEnergiesAndForcesOfWhatIsAdded) {
   const Fixture f;
   const auto check = [&](bool kept, PetscInt count, double departure) {
     const PetscInt size = f.basis->size();
-    const Block forces = f.times(f.system->k0(), f.columns());
+    const linalg::Block forces = f.times(f.system->k0(), f.columns());
     ASSERT_EQ(f.basis->forces().columns, kept ? count : 0);
     double worst = 0;
     for (PetscInt j = 0; j < f.basis->forces().columns; ++j)
@@ -118,7 +118,7 @@ TEST(Basis, KnowsEnergiesAndForcesOfWhatIsAdded) {
     double scale = 0;
     for (const double value : forces.values) scale = std::max(scale, std::abs(value));
     EXPECT_LT(test::largest(worst), 1e-10 * test::largest(scale));
-    const auto gram = flutter::transposedProduct(f.basis->comm(), f.columns(), forces);
+    const auto gram = linalg::transposedProduct(f.basis->comm(), f.columns(), forces);
     const auto& energies = f.basis->energies();
     ASSERT_EQ(energies.size(), static_cast<std::size_t>(kept ? size * count : 0));
     double known = 0, off = 0;
@@ -132,11 +132,11 @@ TEST(Basis, KnowsEnergiesAndForcesOfWhatIsAdded) {
     EXPECT_LT(off, 1e-3);
     EXPECT_GT(off, departure);
   };
-  Block residuals = f.random(6, 8);
-  const auto parts = flutter::transposedProduct(f.basis->comm(), f.columns(), residuals);
-  const Block forces = f.times(f.system->k0(), f.columns());
+  linalg::Block residuals = f.random(6, 8);
+  const auto parts = linalg::transposedProduct(f.basis->comm(), f.columns(), residuals);
+  const linalg::Block forces = f.times(f.system->k0(), f.columns());
   // R − (1 − 1e-5) K0 V VᵀR: a hundred-thousandth of the part along V is left, and stays in the basis.
-  flutter::multiplyAdd(forces.values.data(), forces.rows, forces.columns, parts, residuals.values, -1 + 1e-5);
+  linalg::multiplyAdd(forces.values.data(), forces.rows, forces.columns, parts, residuals.values, -1 + 1e-5);
   EXPECT_EQ(f.basis->add(residuals), 6);
   check(true, 6, 1e-8);
   EXPECT_EQ(f.basis->add(f.random(4, 9)), 4);
@@ -145,14 +145,14 @@ TEST(Basis, KnowsEnergiesAndForcesOfWhatIsAdded) {
 
 TEST(Basis, DropsWhatItHasAndWhatDependsOnOthers) {
   const Fixture f;
-  Block twice = f.random(3, 2);
-  const Block copy = twice;
+  linalg::Block twice = f.random(3, 2);
+  const linalg::Block copy = twice;
   append(twice, copy);
   for (PetscInt i = 0; i < twice.rows; ++i) twice.column(4)[i] = 2 * twice.column(0)[i] - 3 * twice.column(2)[i];
   EXPECT_EQ(f.basis->add(twice), 3);
   EXPECT_EQ(f.basis->add(copy), 0);                                  // they are in the basis
   EXPECT_EQ(f.basis->add(f.times(f.system->k0(), f.columns())), 0);  // K0 V
-  EXPECT_EQ(f.basis->add(Block(f.basis->localRows())), 0);
+  EXPECT_EQ(f.basis->add(linalg::Block(f.basis->localRows())), 0);
   EXPECT_EQ(f.basis->size(), 23);
   EXPECT_LT(f.departure(), 1e-10);
 }
@@ -161,9 +161,9 @@ TEST(Basis, CombinationsStayOrthonormal) {
   const Fixture f;
   f.basis->add(f.random(10, 3));
   // Eigenvectors of a symmetric matrix: orthonormal. Twelve of them.
-  flutter::DenseMatrix turned(30 * 30);
+  linalg::DenseMatrix turned(30 * 30);
   for (std::size_t k = 0; k < turned.size(); ++k) turned[k] = std::cos(static_cast<double>((k / 30 + 1) * (k % 30 + 1)));
-  symmetricEigen(turned, 30);
+  linalg::symmetricEigen(turned, 30);
   turned.resize(30 * 12);
   f.basis->combine(turned, 12);
   EXPECT_EQ(f.basis->size(), 12);
@@ -174,16 +174,16 @@ TEST(Basis, CombinationsStayOrthonormal) {
 // first one is another solver's.
 TEST(Basis, EnergyRatiosAreWhatTheySay) {
   const Fixture f;
-  const Block one = f.random(1, 4), two = f.random(2, 5);
+  const linalg::Block one = f.random(1, 4), two = f.random(2, 5);
   OwnedVec diagonal;
   check(MatCreateVecs(f.system->k0(), diagonal.out(), nullptr));
   check(MatGetDiagonal(f.system->k0(), diagonal));
-  const auto products = [&](const Block& x) {  // XᵀK0⁻¹X and XᵀD⁻¹X
+  const auto products = [&](const linalg::Block& x) {  // XᵀK0⁻¹X and XᵀD⁻¹X
     OwnedVec from, to;
     check(MatCreateVecs(f.system->k0(), from.out(), to.out()));
-    Block solved(x.rows), divided(x.rows);
+    linalg::Block solved(x.rows), divided(x.rows);
     for (PetscInt j = 0; j < x.columns; ++j) {
-      for (Block* result : {&solved, &divided}) {
+      for (linalg::Block* result : {&solved, &divided}) {
         PetscScalar* entries = nullptr;
         check(VecGetArray(from, &entries));
         std::copy_n(x.column(j), x.rows, entries);
@@ -198,15 +198,15 @@ TEST(Basis, EnergyRatiosAreWhatTheySay) {
         check(VecRestoreArrayRead(to, &values));
       }
     }
-    return std::pair{flutter::transposedProduct(f.basis->comm(), x, solved),
-                     flutter::transposedProduct(f.basis->comm(), x, divided)};
+    return std::pair{linalg::transposedProduct(f.basis->comm(), x, solved),
+                     linalg::transposedProduct(f.basis->comm(), x, divided)};
   };
-  const auto found = f.basis->energyRatios({one, two, Block(one.rows)});
+  const auto found = f.basis->energyRatios({one, two, linalg::Block(one.rows)});
   ASSERT_EQ(found.size(), 3U);
   const auto [energy, weighted] = products(one);
   EXPECT_NEAR(found[0], std::sqrt(energy[0] / weighted[0]), 1e-10 * found[0]);
   auto [energies, weights] = products(two);
-  const double largest = std::sqrt(symmetricEigen(energies, weights, 2).back());
+  const double largest = std::sqrt(linalg::symmetricEigen(energies, weights, 2).back());
   EXPECT_NEAR(found[1], largest, 1e-10 * largest);
   EXPECT_EQ(found[2], 0);
   EXPECT_EQ(f.basis->size(), 20);  // nothing is added

@@ -12,21 +12,21 @@
 namespace squeal {
 namespace {
 
-using flutter::DenseMatrix;
-using flutter::DensePair;
-using flutter::DenseProblem;
+using linalg::DenseMatrix;
+using linalg::DensePair;
+using linalg::DenseProblem;
 using test::Complex;
 
 double uniform(std::mt19937& generator) { return 2.0 * static_cast<double>(generator()) / 4294967295.0 - 1; }
 
-DenseMatrix randomMatrix(int m, double diagonal, double rise, double size, std::mt19937& generator) {
-  DenseMatrix matrix;
+linalg::DenseMatrix randomMatrix(int m, double diagonal, double rise, double size, std::mt19937& generator) {
+  linalg::DenseMatrix matrix;
   for (int j = 0; j < m; ++j)
     for (int i = 0; i < m; ++i) matrix.push_back((i == j ? diagonal + rise * i : 0) + size * uniform(generator));
   return matrix;
 }
 
-Complex nearest(const std::vector<DensePair>& pairs, Complex s) {
+Complex nearest(const std::vector<linalg::DensePair>& pairs, Complex s) {
   Complex best = INFINITY;
   for (const auto& pair : pairs)
     if (!(std::abs(pair.s - s) > std::abs(best - s))) best = pair.s;
@@ -40,10 +40,10 @@ TEST(Condition, AgainstPerturbedMatrices) {
   constexpr int m = 9;
   std::mt19937 generator(11);
   for (const bool damped : {false, true}) {
-    DenseProblem problem{randomMatrix(m, 3, 0, 0.3, generator), {}, randomMatrix(m, 10, 7, 4, generator), m};
+    linalg::DenseProblem problem{randomMatrix(m, 3, 0, 0.3, generator), {}, randomMatrix(m, 10, 7, 4, generator), m};
     if (damped) problem.damping = randomMatrix(m, 0.5, 0.1, 0.5, generator);
-    const auto pairs = flutter::solveQuadratic(problem, flutter::Vectors::both);
-    const auto numbers = flutter::conditionNumbers(problem, pairs);
+    const auto pairs = linalg::solveQuadratic(problem, linalg::Vectors::both);
+    const auto numbers = reduction::conditionNumbers(problem, pairs);
     ASSERT_EQ(numbers.size(), pairs.size());
     ASSERT_EQ(pairs.size(), static_cast<std::size_t>(m));
     int complex = 0;
@@ -57,11 +57,11 @@ TEST(Condition, AgainstPerturbedMatrices) {
       complex += part < 0.99;
       Complex moved[2];
       for (const int side : {0, 1}) {
-        DenseProblem there = problem;
+        linalg::DenseProblem there = problem;
         for (std::size_t j = 0; j < d.size(); ++j)
           for (std::size_t i = 0; i < y.size(); ++i)
             there.stiffness[j * y.size() + i] += (side == 0 ? -step : step) * (y[i] * std::conj(d[j])).real();
-        moved[side] = nearest(flutter::solveQuadratic(there), pairs[k].s);
+        moved[side] = nearest(linalg::solveQuadratic(there), pairs[k].s);
       }
       const double wanted = std::abs(moved[1] - moved[0]) / (2 * step * std::abs(pairs[k].s) * part);
       worst = std::max(worst, std::abs(numbers[k] / wanted - 1));
@@ -83,12 +83,12 @@ std::vector<Complex> unitVector(std::size_t m, std::size_t i) {
 // M = I, K = diag(4, 4, 9). The vectors of s = 2i, twice, may be any: also e1 with e2 on the left, where yᴴP'd = 0. The matrix of all four
 // products, 4i times [1 0; 0 1] or [0 1; 1 0], has the singular value 4 either way: 2/4/|s|. The other eigenvalue has 1/6/3.
 TEST(Condition, OfADoubleEigenvalue) {
-  const DenseProblem problem{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {}, {4, 0, 0, 0, 4, 0, 0, 0, 9}, 3};
+  const linalg::DenseProblem problem{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {}, {4, 0, 0, 0, 4, 0, 0, 0, 9}, 3};
   const auto pair = [](double w, std::size_t right, std::size_t left) {
-    return DensePair{{0, w}, unitVector(3, right), unitVector(3, left)};
+    return linalg::DensePair{{0, w}, unitVector(3, right), unitVector(3, left)};
   };
   for (const bool crossed : {false, true}) {
-    const auto numbers = flutter::conditionNumbers(problem, {pair(2, 0, crossed), pair(2, 1, !crossed), pair(3, 2, 2)});
+    const auto numbers = reduction::conditionNumbers(problem, {pair(2, 0, crossed), pair(2, 1, !crossed), pair(3, 2, 2)});
     ASSERT_EQ(numbers.size(), 3U);
     EXPECT_NEAR(numbers[0], 1. / 4, 1e-15);
     EXPECT_NEAR(numbers[1], 1. / 4, 1e-15);
@@ -99,24 +99,24 @@ TEST(Condition, OfADoubleEigenvalue) {
 // X diag(4, 4, 9) X⁻¹ by LAPACK: whichever vectors it finds, perturbations of norm ε move both eigenvalues by κ ε |s| at most, and κ is
 // not large: the condition number of X is about 4.
 TEST(Condition, BoundsTheMovesOfADoubleEigenvalue) {
-  const DenseMatrix x{1, 0, 0, 1, 1, 0, 0.5, -1, 1}, inverse{1, 0, 0, -1, 1, 0, -1.5, 1, 1};
+  const linalg::DenseMatrix x{1, 0, 0, 1, 1, 0, 0.5, -1, 1}, inverse{1, 0, 0, -1, 1, 0, -1.5, 1, 1};
   const double lambda[] = {4, 4, 9};
-  DenseProblem problem{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {}, DenseMatrix(9, 0.0), 3};
+  linalg::DenseProblem problem{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {}, linalg::DenseMatrix(9, 0.0), 3};
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j)
       for (std::size_t k = 0; k < 3; ++k) problem.stiffness[3 * j + i] += x[3 * k + i] * lambda[k] * inverse[3 * j + k];
-  const auto pairs = flutter::solveQuadratic(problem, flutter::Vectors::both);
-  const auto numbers = flutter::conditionNumbers(problem, pairs);
+  const auto pairs = linalg::solveQuadratic(problem, linalg::Vectors::both);
+  const auto numbers = reduction::conditionNumbers(problem, pairs);
   ASSERT_EQ(pairs.size(), 3U);
   std::mt19937 generator(5);
   const double step = 1e-7;
   for (int trial = 0; trial < 30; ++trial) {
-    DenseProblem there = problem;
+    linalg::DenseProblem there = problem;
     double norm = 0;  // Frobenius: at least the 2-norm
-    DenseMatrix change;
+    linalg::DenseMatrix change;
     for (int k = 0; k < 9; ++k) change.push_back(uniform(generator)), norm += change.back() * change.back();
     for (std::size_t k = 0; k < 9; ++k) there.stiffness[k] += step * change[k] / std::sqrt(norm);
-    const auto moved = flutter::solveQuadratic(there);
+    const auto moved = linalg::solveQuadratic(there);
     for (std::size_t j = 0; j < 2; ++j)
       for (const auto& pair : moved)
         if (std::abs(pair.s - Complex(0, 2)) < 0.1) {
@@ -132,13 +132,13 @@ TEST(Condition, BoundsTheMovesOfADoubleEigenvalue) {
 
 // K = [4 1; 0 4]: one right vector, e1, one left, e2, and e2ᵀ e1 = 0. LAPACK's vectors miss each other by rounding, no more.
 TEST(Condition, OfADefectiveEigenvalueIsInfinite) {
-  const DenseProblem problem{{1, 0, 0, 1}, {}, {4, 0, 1, 4}, 2};
-  const DensePair pair{{0, 2}, unitVector(2, 0), unitVector(2, 1)};
-  for (const double number : flutter::conditionNumbers(problem, {pair})) EXPECT_EQ(number, INFINITY);
-  for (const double number : flutter::conditionNumbers(problem, {pair, pair})) EXPECT_EQ(number, INFINITY);
-  const auto computed = flutter::solveQuadratic(problem, flutter::Vectors::both);
+  const linalg::DenseProblem problem{{1, 0, 0, 1}, {}, {4, 0, 1, 4}, 2};
+  const linalg::DensePair pair{{0, 2}, unitVector(2, 0), unitVector(2, 1)};
+  for (const double number : reduction::conditionNumbers(problem, {pair})) EXPECT_EQ(number, INFINITY);
+  for (const double number : reduction::conditionNumbers(problem, {pair, pair})) EXPECT_EQ(number, INFINITY);
+  const auto computed = linalg::solveQuadratic(problem, linalg::Vectors::both);
   EXPECT_EQ(computed.size(), 2U);
-  for (const double number : flutter::conditionNumbers(problem, computed)) EXPECT_GT(number, 1e7);
+  for (const double number : reduction::conditionNumbers(problem, computed)) EXPECT_GT(number, 1e7);
 }
 
 }  // namespace

@@ -13,35 +13,35 @@
 namespace squeal {
 namespace {
 
-using flutter::DenseMatrix;
-using flutter::DensePair;
+using linalg::DenseMatrix;
+using linalg::DensePair;
 using test::Complex;
 
 double uniform(std::mt19937& generator) { return 2.0 * static_cast<double>(generator()) / 4294967295.0 - 1; }
 
-DenseMatrix randomMatrix(int m, double diagonal, std::mt19937& generator) {
-  DenseMatrix matrix;
+linalg::DenseMatrix randomMatrix(int m, double diagonal, std::mt19937& generator) {
+  linalg::DenseMatrix matrix;
   for (int i = 0; i < m * m; ++i) matrix.push_back((i % (m + 1) == 0 ? diagonal : 0) + uniform(generator));
   return matrix;
 }
 
-DenseMatrix product(const DenseMatrix& a, const DenseMatrix& b, int m) {
+linalg::DenseMatrix product(const linalg::DenseMatrix& a, const linalg::DenseMatrix& b, int m) {
   const auto n = static_cast<std::size_t>(m);
-  DenseMatrix c(n * n, 0.0);
+  linalg::DenseMatrix c(n * n, 0.0);
   for (std::size_t j = 0; j < n; ++j)
     for (std::size_t k = 0; k < n; ++k)
       for (std::size_t i = 0; i < n; ++i) c[j * n + i] += a[k * n + i] * b[j * n + k];
   return c;
 }
 
-double trace(const DenseMatrix& a, int m) {
+double trace(const linalg::DenseMatrix& a, int m) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); i += static_cast<std::size_t>(m) + 1) sum += a[i];
   return sum;
 }
 
 /// Q diag(d) Qᵀ, full, with the reflection Q = I − 2 v vᵀ / vᵀv.
-DenseMatrix reflected(const std::vector<double>& d, std::mt19937 generator) {
+linalg::DenseMatrix reflected(const std::vector<double>& d, std::mt19937 generator) {
   const std::size_t m = d.size();
   std::vector<double> v(m);
   double square = 0;
@@ -50,7 +50,7 @@ DenseMatrix reflected(const std::vector<double>& d, std::mt19937 generator) {
     square += x * x;
   }
   const auto q = [&](std::size_t i, std::size_t j) { return (i == j ? 1 : 0) - 2 * v[i] * v[j] / square; };
-  DenseMatrix matrix(m * m, 0.0);
+  linalg::DenseMatrix matrix(m * m, 0.0);
   for (std::size_t j = 0; j < m; ++j)
     for (std::size_t i = 0; i < m; ++i)
       for (std::size_t k = 0; k < m; ++k) matrix[j * m + i] += q(i, k) * d[k] * q(j, k);
@@ -58,7 +58,7 @@ DenseMatrix reflected(const std::vector<double>& d, std::mt19937 generator) {
 }
 
 /// ‖(s² M + s Z + K) q‖ over the sizes of its terms; q of length 1.
-double residual(const DenseMatrix& mass, const DenseMatrix& damping, const DenseMatrix& stiffness, const DensePair& pair) {
+double residual(const linalg::DenseMatrix& mass, const linalg::DenseMatrix& damping, const linalg::DenseMatrix& stiffness, const linalg::DensePair& pair) {
   const std::size_t m = pair.q.size();
   double rest = 0, scale = 0;
   for (std::size_t i = 0; i < m; ++i) {
@@ -73,20 +73,20 @@ double residual(const DenseMatrix& mass, const DenseMatrix& damping, const Dense
   return std::sqrt(rest / scale);
 }
 
-double worstResidual(const DenseMatrix& mass, const DenseMatrix& damping, const DenseMatrix& stiffness,
-                     const std::vector<DensePair>& pairs) {
+double worstResidual(const linalg::DenseMatrix& mass, const linalg::DenseMatrix& damping, const linalg::DenseMatrix& stiffness,
+                     const std::vector<linalg::DensePair>& pairs) {
   double worst = 0;
   for (const auto& pair : pairs) worst = std::max(worst, residual(mass, damping, stiffness, pair));
   return worst;
 }
 
-std::vector<Complex> eigenvalues(const std::vector<DensePair>& pairs) {
+std::vector<Complex> eigenvalues(const std::vector<linalg::DensePair>& pairs) {
   std::vector<Complex> list;
   for (const auto& pair : pairs) list.push_back(pair.s);
   return list;
 }
 
-void expectSpectrum(const std::vector<DensePair>& found, const std::vector<Complex>& wanted, double tolerance) {
+void expectSpectrum(const std::vector<linalg::DensePair>& found, const std::vector<Complex>& wanted, double tolerance) {
   EXPECT_EQ(found.size(), wanted.size());
   EXPECT_LT(test::worst(test::errors(wanted, eigenvalues(found)).relative), tolerance);
 }
@@ -128,7 +128,7 @@ TEST(Dense, ProportionalDampingOfMultipleModes) {
   std::mt19937 generator;
   const auto mass = reflected(std::vector<double>(m, 1.0), generator), damping = reflected(c, generator),
              stiffness = reflected(square, generator);
-  const auto pairs = flutter::solveQuadratic(mass, damping, stiffness, m);
+  const auto pairs = linalg::solveQuadratic(mass, damping, stiffness, m);
   // Entries are rounded at 1e-16 ‖K‖, 4e-13 of the lowest ω²; near critical damping the roots move some ten times as much.
   expectSpectrum(pairs, exact, 1e-10);
   EXPECT_LT(worstResidual(mass, damping, stiffness, pairs), 1e-14);
@@ -148,12 +148,12 @@ struct PowerSums {
   double size[3] = {0, 0, 0};  ///< the same of |s|
 };
 
-PowerSums exactSums(const DenseMatrix& damping, const DenseMatrix& stiffness, int m) {
+PowerSums exactSums(const linalg::DenseMatrix& damping, const linalg::DenseMatrix& stiffness, int m) {
   const auto square = product(damping, damping, m), cube = product(square, damping, m), mixed = product(damping, stiffness, m);
   return {{-trace(damping, m), trace(square, m) - 2 * trace(stiffness, m), -trace(cube, m) + 3 * trace(mixed, m)}, {}};
 }
 
-PowerSums foundSums(const std::vector<DensePair>& pairs) {
+PowerSums foundSums(const std::vector<linalg::DensePair>& pairs) {
   PowerSums found;
   for (const auto& pair : pairs)
     for (int power = 1; power <= 3; ++power) {
@@ -164,7 +164,7 @@ PowerSums foundSums(const std::vector<DensePair>& pairs) {
   return found;
 }
 
-void expectPowerSums(const std::vector<DensePair>& pairs, const DenseMatrix& damping, const DenseMatrix& stiffness, int m,
+void expectPowerSums(const std::vector<linalg::DensePair>& pairs, const linalg::DenseMatrix& damping, const linalg::DenseMatrix& stiffness, int m,
                      double tolerance) {
   const PowerSums exact = exactSums(damping, stiffness, m), found = foundSums(pairs);
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(found.sum[k], exact.sum[k], tolerance * found.size[k]) << "power " << k + 1;
@@ -176,31 +176,31 @@ TEST(Dense, NoEigenvalueIsMissed) {
   std::mt19937 generator(5);
   for (const int m : {60, 150}) {
     const auto order = static_cast<std::size_t>(m);
-    const DenseMatrix damping = randomMatrix(m, 0.3, generator), stiffness = randomMatrix(m, 4.0 * m, generator);
-    DenseMatrix mass(order * order, 0.0), scaled[3];
+    const linalg::DenseMatrix damping = randomMatrix(m, 0.3, generator), stiffness = randomMatrix(m, 4.0 * m, generator);
+    linalg::DenseMatrix mass(order * order, 0.0), scaled[3];
     for (std::size_t i = 0; i < order; ++i) mass[i * order + i] = 1;
-    const auto pairs = flutter::solveQuadratic(mass, damping, stiffness, m);
+    const auto pairs = linalg::solveQuadratic(mass, damping, stiffness, m);
     expectPowerSums(pairs, damping, stiffness, m, 1e-13);
     EXPECT_LT(worstResidual(mass, damping, stiffness, pairs), 1e-13);
-    const DenseMatrix* whole[3] = {&mass, &damping, &stiffness};
+    const linalg::DenseMatrix* whole[3] = {&mass, &damping, &stiffness};
     for (int k = 0; k < 3; ++k)
       for (std::size_t i = 0; i < order * order; ++i)
         scaled[k].push_back(std::pow(1e6, static_cast<double>(i % order) / m) * (*whole[k])[i]);
     // Backward errors of QZ are relative to the largest rows, 1e6 times the smallest.
-    expectSpectrum(flutter::solveQuadratic(scaled[0], scaled[1], scaled[2], m), eigenvalues(pairs), 1e-8);
+    expectSpectrum(linalg::solveQuadratic(scaled[0], scaled[1], scaled[2], m), eigenvalues(pairs), 1e-8);
   }
 }
 
 /// P with each matrix transposed, and the left vectors, conjugate, as its right ones: yᴴ P(s) = 0 is P(s)ᵀ ȳ = 0.
-double worstLeftResidual(const DenseMatrix& mass, const DenseMatrix& damping, const DenseMatrix& stiffness,
-                         const std::vector<DensePair>& pairs) {
+double worstLeftResidual(const linalg::DenseMatrix& mass, const linalg::DenseMatrix& damping, const linalg::DenseMatrix& stiffness,
+                         const std::vector<linalg::DensePair>& pairs) {
   const std::size_t m = pairs.front().q.size();
-  const auto transposed = [m](const DenseMatrix& a) {
-    DenseMatrix result(m * m, 0.0);
+  const auto transposed = [m](const linalg::DenseMatrix& a) {
+    linalg::DenseMatrix result(m * m, 0.0);
     for (std::size_t k = 0; k < a.size(); ++k) result[(k % m) * m + k / m] = a[k];
     return result;
   };
-  std::vector<DensePair> flipped;
+  std::vector<linalg::DensePair> flipped;
   for (const auto& pair : pairs) {
     flipped.push_back({pair.s, pair.left});
     double square = 0;
@@ -217,15 +217,15 @@ double worstLeftResidual(const DenseMatrix& mass, const DenseMatrix& damping, co
 TEST(Dense, LeftVectors) {
   constexpr int m = 40;
   std::mt19937 generator(11);
-  const DenseMatrix damping = randomMatrix(m, 0.3, generator), stiffness = randomMatrix(m, 4.0 * m, generator);
-  const DenseMatrix plain = randomMatrix(m, 3.0 * m, generator);
+  const linalg::DenseMatrix damping = randomMatrix(m, 0.3, generator), stiffness = randomMatrix(m, 4.0 * m, generator);
+  const linalg::DenseMatrix plain = randomMatrix(m, 3.0 * m, generator);
   for (const double spread : {1.0, 1e6}) {
-    DenseMatrix mass = plain;
+    linalg::DenseMatrix mass = plain;
     for (std::size_t k = 0; k < mass.size(); ++k) mass[k] *= std::pow(spread, -static_cast<double>(k % m) / m);
-    for (const auto& z : {damping, DenseMatrix()}) {
-      const auto pairs = flutter::solveTogether(PETSC_COMM_WORLD, mass, z, stiffness, m, flutter::Vectors::both);
-      const auto right = flutter::solveTogether(PETSC_COMM_WORLD, mass, z, stiffness, m);
-      const DenseMatrix known = z.empty() ? DenseMatrix(mass.size(), 0.0) : z;
+    for (const auto& z : {damping, linalg::DenseMatrix()}) {
+      const auto pairs = linalg::solveTogether(PETSC_COMM_WORLD, mass, z, stiffness, m, linalg::Vectors::both);
+      const auto right = linalg::solveTogether(PETSC_COMM_WORLD, mass, z, stiffness, m);
+      const linalg::DenseMatrix known = z.empty() ? linalg::DenseMatrix(mass.size(), 0.0) : z;
       EXPECT_EQ(pairs.size(), right.size());
       EXPECT_TRUE(right.front().left.empty());
       EXPECT_LT(worstResidual(mass, known, stiffness, pairs), 1e-13);
@@ -238,14 +238,14 @@ TEST(Dense, LeftVectors) {
 TEST(Dense, GyroscopicForcesDoNoWork) {
   constexpr int m = 80;
   std::mt19937 generator(6);
-  const DenseMatrix any = randomMatrix(m, 0, generator);
-  DenseMatrix gyroscopic(any.size()), mass(any.size(), 0.0), stiffness(any.size(), 0.0);
+  const linalg::DenseMatrix any = randomMatrix(m, 0, generator);
+  linalg::DenseMatrix gyroscopic(any.size()), mass(any.size(), 0.0), stiffness(any.size(), 0.0);
   for (std::size_t j = 0; j < m; ++j) {
     for (std::size_t i = 0; i < m; ++i) gyroscopic[j * m + i] = any[j * m + i] - any[i * m + j];
     mass[j * m + j] = 1;
     stiffness[j * m + j] = 1 + static_cast<double>(j * j);
   }
-  const auto pairs = flutter::solveQuadratic(mass, gyroscopic, stiffness, m);
+  const auto pairs = linalg::solveQuadratic(mass, gyroscopic, stiffness, m);
   EXPECT_EQ(pairs.size(), static_cast<std::size_t>(m));
   for (const auto& pair : pairs) EXPECT_LT(std::abs(pair.s.real()), 1e-11);
   EXPECT_LT(worstResidual(mass, gyroscopic, stiffness, pairs), 1e-13);
@@ -259,20 +259,20 @@ TEST(Dense, GyroscopicForcesLeaveNoGrowth) {
   std::mt19937 generator(5);
   std::vector<double> squares;
   for (int i = 0; i < m; ++i) squares.push_back(std::pow(10.0, 0.25 * i));  // 1 to 5.6e9
-  const DenseMatrix stiffness = reflected(squares, generator), mass = reflected(std::vector<double>(m, 1.0), generator);
-  DenseMatrix gyroscopic(m * m, 0.0);
+  const linalg::DenseMatrix stiffness = reflected(squares, generator), mass = reflected(std::vector<double>(m, 1.0), generator);
+  linalg::DenseMatrix gyroscopic(m * m, 0.0);
   for (std::size_t j = 0; j < m; ++j)
     for (std::size_t i = 0; i < j; ++i) {
       gyroscopic[j * m + i] = 0.1 * uniform(generator);
       gyroscopic[i * m + j] = -gyroscopic[j * m + i];
     }
-  const auto pairs = flutter::solveQuadratic(mass, gyroscopic, stiffness, m);
+  const auto pairs = linalg::solveQuadratic(mass, gyroscopic, stiffness, m);
   ASSERT_EQ(pairs.size(), m);
   for (const auto& pair : pairs) EXPECT_EQ(pair.s.real(), 0) << pair.s;
   // A little damping is not mistaken for none.
-  DenseMatrix damped = gyroscopic;
+  linalg::DenseMatrix damped = gyroscopic;
   for (std::size_t i = 0; i < m; ++i) damped[i * (m + 1)] = 1e-9;
-  for (const auto& pair : flutter::solveQuadratic(mass, damped, stiffness, m)) EXPECT_NE(pair.s.real(), 0) << pair.s;
+  for (const auto& pair : linalg::solveQuadratic(mass, damped, stiffness, m)) EXPECT_NE(pair.s.real(), 0) << pair.s;
 }
 
 TEST(Dense, DampingThatIsNextToNothing) {
@@ -285,20 +285,20 @@ TEST(Dense, DampingThatIsNextToNothing) {
     square.push_back(std::norm(exact.back()));
   }
   const auto mass = reflected(std::vector<double>(m, 1.0), generator), stiffness = reflected(square, generator);
-  DenseMatrix damping = randomMatrix(m, 0, generator);
+  linalg::DenseMatrix damping = randomMatrix(m, 0, generator);
   for (auto& entry : damping) entry *= 1e-12;
-  expectSpectrum(flutter::solveQuadratic(mass, damping, stiffness, m), exact, 1e-12);
+  expectSpectrum(linalg::solveQuadratic(mass, damping, stiffness, m), exact, 1e-12);
 }
 
 // The size of the reduced problem of a brake after its corrections.
 TEST(Dense, LargeProblem) {
   constexpr int m = 500;
   std::mt19937 generator(9);
-  const DenseMatrix damping = randomMatrix(m, 0.1, generator), stiffness = randomMatrix(m, 8.0 * m, generator);
-  DenseMatrix mass(static_cast<std::size_t>(m) * m, 0.0);
+  const linalg::DenseMatrix damping = randomMatrix(m, 0.1, generator), stiffness = randomMatrix(m, 8.0 * m, generator);
+  linalg::DenseMatrix mass(static_cast<std::size_t>(m) * m, 0.0);
   for (std::size_t i = 0; i < m; ++i) mass[i * m + i] = 1;
   const auto start = std::clock();
-  const auto pairs = flutter::solveQuadratic(mass, damping, stiffness, m);
+  const auto pairs = linalg::solveQuadratic(mass, damping, stiffness, m);
   test::print("all eigenvalues of a quadratic problem of size %d: %.2f s of processor time\n", m,
               static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
   expectPowerSums(pairs, damping, stiffness, m, 1e-13);

@@ -35,13 +35,13 @@ struct Chains {
     check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
     return matrix;
   }
-  flutter::Pencil pencil() const {
-    std::vector<flutter::Term> terms;
+  pencil::Pencil pencil() const {
+    std::vector<pencil::Term> terms;
     terms.push_back({tridiagonal(2 * spring, -spring), 0, 0, 1});
     terms.push_back({tridiagonal(mass, 0), 2, 0, 1});
     if (alpha > 0) terms.push_back({tridiagonal(mass, 0), 1, 0, alpha});
     if (beta > 0) terms.push_back({tridiagonal(2 * spring, -spring), 1, 0, beta});
-    return flutter::Pencil(std::move(terms));
+    return pencil::Pencil(std::move(terms));
   }
   /// Im s ≥ 0, by ascending |s|.
   std::vector<Complex> exact() const {
@@ -63,13 +63,13 @@ struct Chains {
 Chains chains(PetscInt length, PetscInt copies, double alpha) { return {length, copies, 0.01, 4e5, alpha, alpha > 0 ? 1e-6 : 0.0}; }
 constexpr double alphas[] = {0, 20, 3e3};
 
-flutter::FrictionPoint solve(const Chains& problem, const std::string& options) {
+pencil::FrictionPoint solve(const Chains& problem, const std::string& options) {
   test::setOptions(options);
-  return flutter::solveDirect(problem.pencil(), {0.0, 1.0}, problem.tridiagonal(1, 0));
+  return direct::solveDirect(problem.pencil(), {0.0, 1.0}, problem.tridiagonal(1, 0));
 }
 
 /// The found eigenvalues are the wanted ones, as often.
-void expectSpectrum(const flutter::FrictionPoint& point, const std::vector<Complex>& wanted) {
+void expectSpectrum(const pencil::FrictionPoint& point, const std::vector<Complex>& wanted) {
   EXPECT_EQ(point.eigenvalues.size(), wanted.size());
   // The solver's tolerance is 1e-12; in proportional damping no eigenvalue is more sensitive than ten times that.
   EXPECT_LT(test::worst(test::errors(wanted, test::eigenvaluesOf(point)).relative), 1e-11);
@@ -162,7 +162,7 @@ TEST(Direct, WrongOptionsAreErrors) {
   EXPECT_TRUE(test::contains(error(undamped, "-flutter_eps_foo 1"), "-flutter_eps_foo"));
   EXPECT_TRUE(test::contains(error(problem, "-flutter_pep_max_it 1 -flutter_pep_ncv 11 "), "raise -flutter_pep_max_it"));
   test::setOptions("-flutter_pep_ncv 30");
-  EXPECT_TRUE(test::contains(test::errorOf([] { flutter::rejectIdleSolverOptions(); }), "-flutter_pep_ncv"));
+  EXPECT_TRUE(test::contains(test::errorOf([] { direct::rejectIdleSolverOptions(); }), "-flutter_pep_ncv"));
 }
 
 }  // namespace

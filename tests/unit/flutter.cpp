@@ -21,8 +21,8 @@
 namespace squeal {
 namespace {
 
-using flutter::DenseMatrix;
-using flutter::DensePair;
+using linalg::DenseMatrix;
+using linalg::DensePair;
 using test::Complex;
 using test::Layers;
 
@@ -33,7 +33,7 @@ using test::Layers;
 struct Oscillators {
   double k1, k2, k3;
   double critical() const { return std::abs(k1 - k2) / (2 * k3); }
-  DenseMatrix stiffness(double f) const { return {k1, -f * k3, f * k3, k2}; }  // column-major
+  linalg::DenseMatrix stiffness(double f) const { return {k1, -f * k3, f * k3, k2}; }  // column-major
   /// With Im s ≥ 0, by ascending frequency, then growth.
   std::vector<Complex> exact(double f) const {
     const double a = (k1 + k2) / 2, square = (k1 - k2) * (k1 - k2) / 4 - f * f * k3 * k3;
@@ -45,9 +45,9 @@ struct Oscillators {
 };
 const Oscillators coupledPair{1.0, 1.5, 0.8};
 
-const DenseMatrix identity2{1, 0, 0, 1};
+const linalg::DenseMatrix identity2{1, 0, 0, 1};
 
-std::vector<Complex> eigenvalues(const std::vector<DensePair>& pairs) {
+std::vector<Complex> eigenvalues(const std::vector<linalg::DensePair>& pairs) {
   std::vector<Complex> list;
   for (const auto& pair : pairs) list.push_back(pair.s);
   return list;
@@ -60,7 +60,7 @@ void expectSpectrum(const std::vector<Complex>& found, const std::vector<Complex
 }
 
 /// ‖(s² M + s Z + K) q‖ over the sizes of its terms; q of length 1.
-double residual(const DenseMatrix& mass, const DenseMatrix& damping, const DenseMatrix& stiffness, const DensePair& pair) {
+double residual(const linalg::DenseMatrix& mass, const linalg::DenseMatrix& damping, const linalg::DenseMatrix& stiffness, const linalg::DensePair& pair) {
   const std::size_t m = pair.q.size();
   double rest = 0, scale = 0, length = 0;
   for (std::size_t i = 0; i < m; ++i) {
@@ -83,14 +83,14 @@ TEST(Dense, ModesCoupleAtTheCriticalFriction) {
   EXPECT_NEAR(critical, 0.3125, 1e-15);
   for (const double f : {0.0, 0.1, 0.3, 0.9999 * critical, 1.0001 * critical, 0.4, 1.0, 3.0})
     for (const bool companion : {false, true}) {
-      const DenseMatrix damping = companion ? DenseMatrix(4, 0.0) : DenseMatrix();
-      const auto pairs = flutter::solveQuadratic(identity2, damping, coupledPair.stiffness(f), 2);
+      const linalg::DenseMatrix damping = companion ? linalg::DenseMatrix(4, 0.0) : linalg::DenseMatrix();
+      const auto pairs = linalg::solveQuadratic(identity2, damping, coupledPair.stiffness(f), 2);
       // Near the critical point the eigenvalue is a square root of the distance: rounding of 1e-16 grows by 1e2 at 1e-4 from it.
       expectSpectrum(eigenvalues(pairs), coupledPair.exact(f), 1e-13);
       for (const auto& pair : pairs) EXPECT_LT(residual(identity2, damping, coupledPair.stiffness(f), pair), 1e-14);
     }
   // At the critical point itself two eigenvalues and their vectors are one: half of the digits remain.
-  expectSpectrum(eigenvalues(flutter::solveQuadratic(identity2, {}, coupledPair.stiffness(critical), 2)),
+  expectSpectrum(eigenvalues(linalg::solveQuadratic(identity2, {}, coupledPair.stiffness(critical), 2)),
                  coupledPair.exact(critical), 1e-7);
 }
 
@@ -99,16 +99,16 @@ TEST(Dense, DampedOscillator) {
   const double m = 2, k = 50;
   for (const double c : {0.4, -0.4, 15.0}) {
     const Complex root = std::sqrt(Complex(c * c - 4 * m * k)) / (2 * m);
-    expectSpectrum(eigenvalues(flutter::solveQuadratic({m}, {c}, {k}, 1)), {-c / (2 * m) + root}, 1e-14);
+    expectSpectrum(eigenvalues(linalg::solveQuadratic({m}, {c}, {k}, 1)), {-c / (2 * m) + root}, 1e-14);
   }
   const double c = 30, root = std::sqrt(c * c - 4 * m * k);
-  expectSpectrum(eigenvalues(flutter::solveQuadratic({m}, {c}, {k}, 1)), {(-c - root) / (2 * m), (-c + root) / (2 * m)}, 1e-14);
+  expectSpectrum(eigenvalues(linalg::solveQuadratic({m}, {c}, {k}, 1)), {(-c - root) / (2 * m), (-c + root) / (2 * m)}, 1e-14);
 }
 
 // Negative stiffness: s = ±√(−k/m), divergence without oscillation. Both count, the stable one first.
 TEST(Dense, Divergence) {
   for (const bool companion : {false, true}) {
-    const auto pairs = flutter::solveQuadratic({2}, companion ? DenseMatrix{0.0} : DenseMatrix(), {-18}, 1);
+    const auto pairs = linalg::solveQuadratic({2}, companion ? linalg::DenseMatrix{0.0} : linalg::DenseMatrix(), {-18}, 1);
     ASSERT_EQ(pairs.size(), 2u);
     EXPECT_NEAR(pairs[0].s.real(), -3, 1e-14);
     EXPECT_NEAR(pairs[1].s.real(), 3, 1e-14);
@@ -120,13 +120,13 @@ TEST(Dense, Divergence) {
 TEST(Dense, Whirl) {
   const double g = 0.7, k = 4;
   const double middle = std::sqrt(k + g * g / 4);
-  const auto pairs = flutter::solveQuadratic(identity2, {0, g, -g, 0}, {k, 0, 0, k}, 2);
+  const auto pairs = linalg::solveQuadratic(identity2, {0, g, -g, 0}, {k, 0, 0, k}, 2);
   expectSpectrum(eigenvalues(pairs), {{0, middle - g / 2}, {0, middle + g / 2}}, 1e-14);
   for (const auto& pair : pairs) EXPECT_LT(residual(identity2, {0, g, -g, 0}, {k, 0, 0, k}, pair), 1e-14);
 }
 
-DenseMatrix randomMatrix(int m, double diagonal, std::mt19937& generator) {
-  DenseMatrix matrix;
+linalg::DenseMatrix randomMatrix(int m, double diagonal, std::mt19937& generator) {
+  linalg::DenseMatrix matrix;
   for (int i = 0; i < m * m; ++i) matrix.push_back((i % (m + 1) == 0 ? diagonal : 0) + 2.0 * generator() / 4294967295.0 - 1);
   return matrix;
 }
@@ -136,11 +136,11 @@ TEST(Dense, CompanionAgreesWithLinearInSquare) {
   std::mt19937 generator(3);
   constexpr int m = 12;
   for (const double unit : {1.0, 1e9}) {
-    const DenseMatrix mass = randomMatrix(m, 8, generator);
-    DenseMatrix stiffness = randomMatrix(m, 4, generator);
+    const linalg::DenseMatrix mass = randomMatrix(m, 8, generator);
+    linalg::DenseMatrix stiffness = randomMatrix(m, 4, generator);
     for (auto& entry : stiffness) entry *= unit;
-    const auto direct = flutter::solveQuadratic(mass, {}, stiffness, m),
-               companion = flutter::solveQuadratic(mass, DenseMatrix(m * m, 0.0), stiffness, m);
+    const auto direct = linalg::solveQuadratic(mass, {}, stiffness, m),
+               companion = linalg::solveQuadratic(mass, linalg::DenseMatrix(m * m, 0.0), stiffness, m);
     expectSpectrum(eigenvalues(companion), eigenvalues(direct), 1e-12);
     for (std::size_t i = 1; i < direct.size(); ++i) EXPECT_LE(direct[i - 1].s.imag(), direct[i].s.imag());
     for (const auto& list : {direct, companion})
@@ -151,12 +151,12 @@ TEST(Dense, CompanionAgreesWithLinearInSquare) {
 // A motion without mass has no eigenvalue; the others are found by the inverse of the stiffness. Nothing can be said where both are
 // singular.
 TEST(Dense, SingularMassLeavesTheFiniteEigenvalues) {
-  for (const auto& damping : {DenseMatrix{}, DenseMatrix(4, 0.0)}) {
-    const auto pairs = flutter::solveQuadratic({1, 0, 0, 0}, damping, {2, 0, 0, 3}, 2);
+  for (const auto& damping : {linalg::DenseMatrix{}, linalg::DenseMatrix(4, 0.0)}) {
+    const auto pairs = linalg::solveQuadratic({1, 0, 0, 0}, damping, {2, 0, 0, 3}, 2);
     ASSERT_EQ(pairs.size(), 1u);
     EXPECT_NEAR(std::abs(pairs[0].s - Complex(0, std::sqrt(2.0))), 0, 1e-14);
   }
-  EXPECT_NE(test::errorOf([] { flutter::solveQuadratic({1, 0, 0, 0}, {}, {2, 0, 0, 0}, 2); }), "");
+  EXPECT_NE(test::errorOf([] { linalg::solveQuadratic({1, 0, 0, 0}, {}, {2, 0, 0, 0}, 2); }), "");
 }
 
 OwnedMat matrix(PetscInt size, const std::vector<std::tuple<PetscInt, PetscInt, double>>& entries) {
@@ -175,7 +175,7 @@ OwnedMat matrix(PetscInt size, const std::vector<std::tuple<PetscInt, PetscInt, 
 constexpr PetscInt pairCount = 12;
 Oscillators pairOf(PetscInt j) { return {1.0 + 0.9 * double(j), 1.2 + 0.93 * double(j), 1.0}; }
 
-flutter::Pencil chain() {
+pencil::Pencil chain() {
   std::vector<std::tuple<PetscInt, PetscInt, double>> k0, k1, m;
   for (PetscInt j = 0; j < pairCount; ++j) {
     const auto o = pairOf(j);
@@ -183,14 +183,14 @@ flutter::Pencil chain() {
     k1.insert(k1.end(), {{2 * j, 2 * j + 1, o.k3}, {2 * j + 1, 2 * j, -o.k3}});
     m.insert(m.end(), {{2 * j, 2 * j, 1}, {2 * j + 1, 2 * j + 1, 1}});
   }
-  std::vector<flutter::Term> terms;
+  std::vector<pencil::Term> terms;
   terms.push_back({matrix(2 * pairCount, k0), 0, 0, 1});
   terms.push_back({matrix(2 * pairCount, k1), 0, 1, 1});
   terms.push_back({matrix(2 * pairCount, m), 2, 0, 1});
-  return flutter::Pencil(std::move(terms));
+  return pencil::Pencil(std::move(terms));
 }
 
-void expectChain(const flutter::FrictionPoint& point) {
+void expectChain(const pencil::FrictionPoint& point) {
   std::vector<Complex> wanted;
   int unstable = 0;
   for (PetscInt j = 0; j < pairCount; ++j) {
@@ -217,7 +217,7 @@ TEST(Sweep, DirectMethodIsExact) {
   test::setOptions("-flutter_direct_count 24");
   const auto pencil = chain();
   const auto trial = identity();
-  for (const double f : {0.0, 0.12, 0.2, 0.6}) expectChain(flutter::solveDirect(pencil, {f}, trial));
+  for (const double f : {0.0, 0.12, 0.2, 0.6}) expectChain(direct::solveDirect(pencil, {f}, trial));
 }
 
 double largestSingularValue(test::DenseCopy a) {
@@ -229,9 +229,9 @@ double largestSingularValue(test::DenseCopy a) {
 }
 
 /// The eigenvalues of all unknowns, by LAPACK.
-std::vector<DensePair> fullOrder(const flutter::Pencil& pencil, double friction) {
+std::vector<linalg::DensePair> fullOrder(const pencil::Pencil& pencil, double friction) {
   const auto stiffness = test::denseCopy(pencil.assembled(0, {friction})), mass = test::denseCopy(pencil.assembled(2, {friction}));
-  return flutter::solveQuadratic(mass.values, {}, stiffness.values, static_cast<int>(stiffness.rows));
+  return linalg::solveQuadratic(mass.values, {}, stiffness.values, static_cast<int>(stiffness.rows));
 }
 
 // Sixty free modes of the layers' 156 unknowns, corrected by their residuals: the band holds the eigenvalues of the full order.
@@ -239,9 +239,9 @@ TEST(Sweep, CorrectedReductionIsThatOfTheFullOrder) {
   const Layers layers("-modes_count 60");
   const auto pencil = flutter::affineTerms(layers.model.contact, *layers.system);
   const auto basis = layers.modes();
-  flutter::ReducedProblem reduced(pencil, layers.system->k0(), layers.system->solver(), basis);
+  reduction::ReducedProblem reduced(pencil, layers.system->k0(), layers.system->solver(), basis);
   for (const double f : {0.0, 0.2, 0.5}) {
-    std::vector<flutter::PointProblem> problem;
+    std::vector<reduction::PointProblem> problem;
     problem.push_back({{f}, pencil.with({})});
     const auto points = reduced.solve(problem, layers.system->transformation().trial);
     const auto& point = points.at(0);
@@ -275,8 +275,8 @@ TEST(Sweep, BandEndsWithTheFreeModes) {
   const auto basis = layers.modes();
   const auto& w = basis.angularFrequency;
   for (const double f : {0.0, 0.05, 0.5}) {
-    flutter::ReducedProblem reduced(pencil, layers.system->k0(), layers.system->solver(), basis);
-    std::vector<flutter::PointProblem> problem;
+    reduction::ReducedProblem reduced(pencil, layers.system->k0(), layers.system->solver(), basis);
+    std::vector<reduction::PointProblem> problem;
     problem.push_back({{f}, pencil.with({})});
     const auto points = reduced.solve(problem, layers.system->transformation().trial);
     const auto& point = points.at(0);
@@ -306,9 +306,9 @@ TEST(Norm, IsJustBelowTheLargestSingularValue) {
 
 // A term that is zero at the first friction of a sweep, as friction-induced damping is at f = 0, has a norm at the next.
 TEST(Norm, RecoversFromAVanishingTerm) {
-  std::vector<flutter::Term> terms;
+  std::vector<pencil::Term> terms;
   terms.push_back({matrix(2, {{0, 0, 3}, {1, 1, -5}}), 1, 1, 1});
-  const flutter::Pencil pencil(std::move(terms));
+  const pencil::Pencil pencil(std::move(terms));
   EXPECT_EQ(pencil.norm(1, {0}), 0);
   EXPECT_NEAR(pencil.norm(1, {0.5}), 2.5, 0.05 * 2.5);
 }
@@ -325,7 +325,7 @@ TEST(BackwardError, OfExactAndOfPerturbedPairs) {
   const auto pairs = fullOrder(pencil, friction);
   EXPECT_TRUE(
       std::any_of(pairs.begin(), pairs.end(), [](const auto& pair) { return pair.s.real() > 1e-3; }));  // complex ones among them
-  flutter::ComplexVector d;
+  linalg::ComplexVector d;
   check(MatCreateVecs(layers.system->k0(), d.real.out(), d.imaginary.out()));
   double worst = 0;
   for (std::size_t k = 0; k < pairs.size(); k += 7) {
@@ -341,12 +341,12 @@ TEST(BackwardError, OfExactAndOfPerturbedPairs) {
       length += std::norm(moved);
     }
     for (Vec part : {d.real.get(), d.imaginary.get()}) check(VecAssemblyBegin(part)), check(VecAssemblyEnd(part));
-    worst = std::max(worst, flutter::backwardError(pencil, {friction}, s, d));
+    worst = std::max(worst, pencil::backwardError(pencil, {friction}, s, d));
     for (const Complex step : {Complex(1e-3, 0), Complex(0, -1e-6), Complex(2e-9, 1e-9)}) {
       const Complex delta = step * std::abs(s), there = s + delta;
       const double size = std::abs(there);
       const double exact = std::abs(2.0 * s * delta + delta * delta) * std::sqrt(length) / (size * size * massNorm + stiffnessNorm);
-      EXPECT_NEAR(flutter::backwardError(pencil, {friction}, there, d), exact, 0.05 * exact);  // norms are estimates
+      EXPECT_NEAR(pencil::backwardError(pencil, {friction}, there, d), exact, 0.05 * exact);  // norms are estimates
     }
   }
   test::print("backward error of LAPACK's pairs, %d unknowns: %.1e\n", static_cast<int>(mass.rows), worst);
@@ -355,11 +355,11 @@ TEST(BackwardError, OfExactAndOfPerturbedPairs) {
 
 // s = 0 is an eigenvalue like any other.
 TEST(BackwardError, OfARealVectorAndOfZero) {
-  std::vector<flutter::Term> terms;
+  std::vector<pencil::Term> terms;
   terms.push_back({matrix(2, {{0, 0, 4}}), 0, 0, 1});
   terms.push_back({matrix(2, {{0, 0, 1}, {1, 1, 1}}), 2, 0, 1});
-  const flutter::Pencil pencil(std::move(terms));
-  flutter::ComplexVector d;
+  const pencil::Pencil pencil(std::move(terms));
+  linalg::ComplexVector d;
   check(MatCreateVecs(pencil.terms()[0].matrix, d.real.out(), d.imaginary.out()));
   check(VecZeroEntries(d.imaginary));
   const auto set = [&](double a, double b) {
@@ -369,10 +369,10 @@ TEST(BackwardError, OfARealVectorAndOfZero) {
     check(VecAssemblyEnd(d.real));
   };
   set(3, 0);
-  EXPECT_LT(flutter::backwardError(pencil, {}, {0, 2}, d), 1e-15);
-  EXPECT_NEAR(flutter::backwardError(pencil, {}, {0, 1}, d), (4 - 1) / (1.0 * 1 + 4), 1e-6);
+  EXPECT_LT(pencil::backwardError(pencil, {}, {0, 2}, d), 1e-15);
+  EXPECT_NEAR(pencil::backwardError(pencil, {}, {0, 1}, d), (4 - 1) / (1.0 * 1 + 4), 1e-6);
   set(0, 5);
-  EXPECT_LT(flutter::backwardError(pencil, {}, 0, d), 1e-15);
+  EXPECT_LT(pencil::backwardError(pencil, {}, 0, d), 1e-15);
 }
 
 }  // namespace

@@ -19,10 +19,10 @@ namespace squeal {
 namespace {
 
 using Complex = std::complex<double>;
-using flutter::ComplexVector;
+using linalg::ComplexVector;
 
-ComplexVector vectorOf(Mat layout, const std::vector<Complex>& entries) {
-  ComplexVector vector;
+linalg::ComplexVector vectorOf(Mat layout, const std::vector<Complex>& entries) {
+  linalg::ComplexVector vector;
   check(MatCreateVecs(layout, vector.real.out(), vector.imaginary.out()));
   PetscInt first = 0, end = 0;
   check(VecGetOwnershipRange(vector.real, &first, &end));
@@ -43,22 +43,22 @@ TEST(Left, VectorsAreThoseOfAllUnknowns) {
     const auto& system = *layers.system;
     const auto pencil = flutter::affineTerms(layers.model.contact, system);
     const auto modes = layers.modes();
-    const Parameters at{0.4};
-    const auto full = flutter::solveQuadratic(
+    const sweep::Parameters at{0.4};
+    const auto full = linalg::solveQuadratic(
         test::denseCopy(pencil.assembled(2, at)).values,
-        damping.empty() ? flutter::DenseMatrix() : test::denseCopy(pencil.assembled(1, at)).values,
-        test::denseCopy(pencil.assembled(0, at)).values, static_cast<int>(system.size()), flutter::Vectors::both);
-    std::vector<ComplexVector> right, left;
-    std::vector<flutter::RightPair> pairs;
+        damping.empty() ? linalg::DenseMatrix() : test::denseCopy(pencil.assembled(1, at)).values,
+        test::denseCopy(pencil.assembled(0, at)).values, static_cast<int>(system.size()), linalg::Vectors::both);
+    std::vector<linalg::ComplexVector> right, left;
+    std::vector<sensitivity::RightPair> pairs;
     for (std::size_t i = 0; i < 24; i += 4) {
       right.push_back(vectorOf(system.k0(), full[i].q));
       left.push_back(vectorOf(system.k0(), full[i].left));
     }
     for (std::size_t i = 0; i < right.size(); ++i) pairs.push_back({full[4 * i].s, &right[i]});
-    const auto found = flutter::leftVectors(pencil, at, {modes.vectors.share(), system.m0(), {}}, system.solver(), pairs);
+    const auto found = sensitivity::leftVectors(pencil, at, {modes.vectors.share(), system.m0(), {}}, system.solver(), pairs);
     EXPECT_EQ(found.size(), pairs.size());
     for (std::size_t i = 0; i < found.size(); ++i) {
-      const double cosine = std::abs(flutter::dot(found[i].y, left[i])) / (flutter::length(found[i].y) * flutter::length(left[i]));
+      const double cosine = std::abs(linalg::dot(found[i].y, left[i])) / (linalg::length(found[i].y) * linalg::length(left[i]));
       test::print("s = %.4f%+.4fi: backward error %.0e, cosine less 1: %.0e\n", pairs[i].s.real(), pairs[i].s.imag(),
                   found[i].backwardError, cosine - 1);
       EXPECT_LT(found[i].backwardError, 1e-10);
@@ -84,11 +84,11 @@ OwnedMat matrix2(double a, double b, double c, double d) {
 //   2 s ds/df = ± f k3² / √(…),   and the condition number is |k1 − k2|/2 over |√(…)| below the critical friction, f k3 over it beyond.
 TEST(Left, DerivativesOfCoupledOscillators) {
   const double k1 = 1.0, k2 = 1.5, k3 = 0.8, critical = (k2 - k1) / (2 * k3);
-  std::vector<flutter::Term> terms;
+  std::vector<pencil::Term> terms;
   terms.push_back({matrix2(k1, 0, 0, k2), 0, 0, 1});
   terms.push_back({matrix2(0, k3, -k3, 0), 0, 1, 1});
   terms.push_back({matrix2(1, 0, 0, 1), 2, 0, 1});
-  const flutter::Pencil pencil(std::move(terms));
+  const pencil::Pencil pencil(std::move(terms));
   const Mat stiffness = pencil.terms()[0].matrix, mass = pencil.terms()[2].matrix;
   OwnedKSP solver;
   PC pc = nullptr;
@@ -116,16 +116,16 @@ TEST(Left, DerivativesOfCoupledOscillators) {
       const Complex root = std::sqrt(Complex((k2 - k1) * (k2 - k1) / 4 - f * f * k3 * k3)),
                     s = std::sqrt(-((k1 + k2) / 2 + sign * root));
       const auto right = vectorOf(stiffness, {f * k3, -(k1 + s * s)});
-      const Parameters at{f};
-      const auto left = flutter::leftVectors(pencil, at, {whole.share(), mass, {}}, solver, {{s, &right}});
-      const flutter::EigenTriple triple{s, right, left[0].y};
-      const Complex slope = flutter::slopeForm(pencil, at, triple);
-      const double condition = flutter::condition(triple, slope, mass);
-      const flutter::Sensitivity sensitivity{condition, 1, left[0].backwardError, {}};
+      const sweep::Parameters at{f};
+      const auto left = sensitivity::leftVectors(pencil, at, {whole.share(), mass, {}}, solver, {{s, &right}});
+      const sensitivity::EigenTriple triple{s, right, left[0].y};
+      const Complex slope = sensitivity::slopeForm(pencil, at, triple);
+      const double condition = sensitivity::condition(triple, slope, mass);
+      const pencil::Sensitivity sensitivity{condition, 1, left[0].backwardError, {}};
       test::print("f = %.4f: condition %.6g, left backward error %.0e\n", f, condition, left[0].backwardError);
       EXPECT_EQ(sensitivity.regular(), f != critical);
       if (f == critical) continue;
-      const Complex found = -flutter::parameterForm(pencil, at, triple, &Parameters::friction) / slope,
+      const Complex found = -sensitivity::parameterForm(pencil, at, triple, &sweep::Parameters::friction) / slope,
                     wanted = sign * f * k3 * k3 / root / (2.0 * s);
       // Rounding of s and of the vectors, times the square of the condition number at most.
       const double tolerance = 1e-14 * condition * condition;

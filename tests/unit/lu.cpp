@@ -34,7 +34,7 @@ TYPED_TEST(LuOf, SolvesWithTheMatrixAndItsAdjoint) {
   std::mt19937 generator(1);
   for (auto* values : {&a, &x})
     for (auto& value : *values) value = next(generator, TypeParam());
-  const Lu<TypeParam> lu(a, n);
+  const linalg::Lu<TypeParam> lu(a, n);
   for (const bool adjoint : {false, true}) {
     std::vector<TypeParam> b(2 * n);
     for (std::size_t c = 0; c < 2; ++c)
@@ -46,14 +46,14 @@ TYPED_TEST(LuOf, SolvesWithTheMatrixAndItsAdjoint) {
 }
 
 TYPED_TEST(LuOf, ComparesPivots) {
-  EXPECT_NEAR((Lu<TypeParam>({4, 0, 0, 1e-5}, 2).pivotRatio()), 2.5e-6, 1e-20);
-  EXPECT_EQ((Lu<TypeParam>({1, 2, 2, 4}, 2).pivotRatio()), 0);
-  EXPECT_EQ((Lu<TypeParam>({0, 0, 0, 0}, 2).pivotRatio()), 0);
+  EXPECT_NEAR((linalg::Lu<TypeParam>({4, 0, 0, 1e-5}, 2).pivotRatio()), 2.5e-6, 1e-20);
+  EXPECT_EQ((linalg::Lu<TypeParam>({1, 2, 2, 4}, 2).pivotRatio()), 0);
+  EXPECT_EQ((linalg::Lu<TypeParam>({0, 0, 0, 0}, 2).pivotRatio()), 0);
 }
 
 // Inverse iteration with a singular matrix: its null vector (2, -1) in one step, whatever it starts from.
 TYPED_TEST(LuOf, GoesAlongTheNullVectorOnceZeroPivotsAreRaised) {
-  Lu<TypeParam> lu({1, 2, 2, 4}, 2);
+  linalg::Lu<TypeParam> lu({1, 2, 2, 4}, 2);
   lu.raiseZeroPivots();
   std::vector<TypeParam> b{1, 1};
   lu.solve(b);

@@ -16,10 +16,10 @@ namespace {
 using Rows = std::vector<std::vector<double>>;
 
 std::string writeRows(const std::string& name, const Rows& rows) {
-  matrices::Entries entries(static_cast<long long>(rows.size()), static_cast<long long>(rows.size()));
+  matrixfile::Entries entries(static_cast<long long>(rows.size()), static_cast<long long>(rows.size()));
   for (std::size_t i = 0; i < rows.size(); ++i)
     for (std::size_t j = 0; j < rows.size(); ++j) entries.add(static_cast<long long>(i), static_cast<long long>(j), rows[i][j]);
-  return written(name, [&](const auto& path) { matrices::writeMatrixMarket(path, entries); });
+  return written(name, [&](const auto& path) { matrixfile::writeMatrixMarket(path, entries); });
 }
 
 /// Options for M, K and f K_f.
@@ -36,7 +36,7 @@ const Rows unit{{1, 0}, {0, 1}}, belt{{2, 1}, {1, 2}}, drag{{0, -4. / 3}, {0, 0}
 TEST(Matrices, BeltMergesAtItsCriticalFriction) {
   const std::string options = problem("belt", unit, belt, drag);
   for (const double f : {0.0, 0.3, 0.75 * (1 - 1e-6), 0.75 * (1 + 1e-6), 2.0}) {
-    const Analysis analysis = runOptions(options + "-flutter_friction " + formatted("%.17g", f));
+    const analysis::Analysis analysis = runOptions(options + "-flutter_friction " + formatted("%.17g", f));
     std::vector<Complex> exact;
     for (const double sign : {-1.0, 1.0}) {
       const Complex s = std::sqrt(-2.0 + sign * std::sqrt(Complex(1 - 4 * f / 3)));
@@ -67,7 +67,7 @@ TEST(Matrices, FactorsAndExponents) {
 TEST(Matrices, FrictionInsideTheStiffness) {
   const auto apart = runOptions(problem("apart", unit, belt, drag) + "-flutter_friction 1").segments.at(0).points.at(0).eigenvalues;
   const std::string inside = problem("inside", unit, {{2, 1 - 4. / 3}, {1, 2}}, {{0, 0}, {0, 0}});
-  const Analysis analysis = runOptions(inside + "-flutter_friction 1");
+  const analysis::Analysis analysis = runOptions(inside + "-flutter_friction 1");
   const auto& point = analysis.segments.at(0).points.at(0);
   ASSERT_EQ(point.eigenvalues.size(), apart.size());
   for (std::size_t i = 0; i < apart.size(); ++i) EXPECT_LT(std::abs(point.eigenvalues[i].s - apart[i].s), 1e-14);
@@ -144,8 +144,8 @@ TEST(Matrices, AStiffSpringDoesNotSpoilTheOthers) {
   chain.stiff = 1e6;
   chain.ground = 0.1;  // frequencies apart from each other
   const std::string options = chain.options("stiff");
-  const Analysis reduced = runOptions(options + "-modes_count 20");
-  const Analysis direct = runOptions(options + "-flutter_method direct -flutter_direct_count 160");
+  const analysis::Analysis reduced = runOptions(options + "-modes_count 20");
+  const analysis::Analysis direct = runOptions(options + "-flutter_method direct -flutter_direct_count 160");
   const auto& found = reduced.segments.at(0).points.at(0).eigenvalues;
   const auto exact = matched(eigenvaluesOf(reduced.segments.at(0).points.at(0)), eigenvaluesOf(direct.segments.at(0).points.at(0)));
   EXPECT_GE(found.size(), 8U);
@@ -177,8 +177,8 @@ TEST(Matrices, ALooseChainIsFound) {
 TEST(Matrices, ExportOfTheLayerComesBack) {
   const std::string changes = "-modes_count 60 -mesh_set nx=18,ny=6 -flutter_friction 0,0.4 ", folder = SQUEAL_OUTPUT_DIR "/layer_";
   for (const std::string format : {"petsc", "matrix_market"}) {
-    const Analysis mesh = runCase("layer", changes + "-report_matrices " + folder + format + " -report_matrices_format " + format);
-    const Analysis files = runOptions("-options_file " + folder + format + "/options.txt");
+    const analysis::Analysis mesh = runCase("layer", changes + "-report_matrices " + folder + format + " -report_matrices_format " + format);
+    const analysis::Analysis files = runOptions("-options_file " + folder + format + "/options.txt");
     for (std::size_t p = 0; p < 2; ++p) {
       const auto wanted = eigenvaluesOf(mesh.segments.at(0).points.at(p)), found = eigenvaluesOf(files.segments.at(0).points.at(p));
       ASSERT_EQ(wanted.size(), found.size());
@@ -197,8 +197,8 @@ TEST(Matrices, ExportOfAPointAlone) {
     const std::string error = errorOf([&] { runCase("two_layers_antiplane", changes + "-flutter_friction " + frictions); });
     EXPECT_TRUE(contains(error, "-report_matrices") && contains(error, "one -flutter_friction")) << error;
   }
-  const Analysis mesh = runCase("two_layers_antiplane", changes + "-flutter_friction 0.4");
-  const Analysis files = runOptions("-options_file " SQUEAL_OUTPUT_DIR "/antiplane/options.txt");
+  const analysis::Analysis mesh = runCase("two_layers_antiplane", changes + "-flutter_friction 0.4");
+  const analysis::Analysis files = runOptions("-options_file " SQUEAL_OUTPUT_DIR "/antiplane/options.txt");
   const auto wanted = eigenvaluesOf(mesh.segments.at(0).points.at(0)), found = eigenvaluesOf(files.segments.at(0).points.at(0));
   ASSERT_EQ(wanted.size(), found.size());
   EXPECT_GT(wanted.size(), 4U);

@@ -43,7 +43,7 @@ struct Petsc {
 
 TEST(PetscBinary, Sample) {
   const OwnedMat matrix = matrices::read(
-      PETSC_COMM_WORLD, written("from.mtx", [](const auto& path) { matrices::writeMatrixMarket(path, sampleEntries()); }));
+      PETSC_COMM_WORLD, written("from.mtx", [](const auto& path) { matrixfile::writeMatrixMarket(path, sampleEntries()); }));
   const std::string path = SQUEAL_OUTPUT_DIR "/sample.petsc";
   OwnedViewer viewer;
   check(PetscViewerBinaryOpen(PETSC_COMM_WORLD, path.c_str(), FILE_MODE_WRITE, viewer.out()));
@@ -51,7 +51,7 @@ TEST(PetscBinary, Sample) {
   viewer = {};
   check(MPI_Barrier(PETSC_COMM_WORLD));
   expectSample(path);
-  const auto read = [](const auto& from) { matrices::requirePetscBinary(from); };
+  const auto read = [](const auto& from) { matrixfile::requirePetscBinary(from); };
   EXPECT_EQ(cutsThatPass("cut.petsc", bytesOf(path), read), std::vector<std::size_t>{});
 }
 
@@ -140,7 +140,7 @@ TEST(Hdf5, Sample) {
   EXPECT_TRUE(contains(errorReading(path, "rows/data"), "neither"));
   const auto one = written("one.h5", [](const auto& to) { writeGroup(Hdf5File(to), "it", true); });
   expectSample(one);
-  const auto read = [](const auto& from) { matrices::readHdf5(from, ""); };
+  const auto read = [](const auto& from) { matrixfile::readHdf5(from, ""); };
   EXPECT_EQ(cutsThatPass("cut.h5", bytesOf(one), read, 97), std::vector<std::size_t>{});
 }
 

@@ -12,7 +12,7 @@ namespace {
 const std::string head = "%%MatrixMarket matrix coordinate ", real = head + "real general\n", size2 = real + "2 2 ";
 
 TEST(MatrixMarket, Sample) {
-  expectSample(written("sample.mtx", [](const auto& path) { matrices::writeMatrixMarket(path, sampleEntries()); }));
+  expectSample(written("sample.mtx", [](const auto& path) { matrixfile::writeMatrixMarket(path, sampleEntries()); }));
   expectSample(writeFile(
       "array.mtx",
       "%%MatrixMarket matrix array real general\n4 4\n.33333333333333331\n0\n5\n0\n0\n0\n1e-300\n0\n-2\n0\n7\n0\n0\n0\n8\n"
@@ -21,11 +21,11 @@ TEST(MatrixMarket, Sample) {
 
 TEST(MatrixMarket, WhatIsWrittenIsReadBitForBit) {
   using Limits = std::numeric_limits<double>;
-  matrices::Entries entries(3, 3);
+  matrixfile::Entries entries(3, 3);
   for (const double x : {0.1, 1. / 3, Limits::denorm_min(), Limits::min(), Limits::max(), 1 + Limits::epsilon(), 2. / 3 * 1e-310})
     entries.add(0, 1, x), entries.add(2, 0, -x);
-  const auto path = written("bits.mtx", [&](const auto& to) { matrices::writeMatrixMarket(to, entries); });
-  const auto back = matrices::readMatrixMarket(path);
+  const auto path = written("bits.mtx", [&](const auto& to) { matrixfile::writeMatrixMarket(to, entries); });
+  const auto back = matrixfile::readMatrixMarket(path);
   EXPECT_EQ(back.value, entries.value);
   EXPECT_EQ(back.row, entries.row);
   EXPECT_EQ(back.column, entries.column);

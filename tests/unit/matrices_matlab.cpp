@@ -102,7 +102,7 @@ TEST(Matlab, Version73AsMatlabWritesIt) {
   EXPECT_EQ(valuesRead(path, "mu"), std::vector<double>{0.3});
   EXPECT_TRUE(contains(errorReading(path), "several matrices, full, nothing, sparse: name one")) << errorReading(path);
   EXPECT_TRUE(contains(errorReading(path, "unit"), "'unit' is neither")) << errorReading(path, "unit");
-  const auto read = [](const std::string& name) { return [name](const auto& from) { matrices::readHdf5(from, name); }; };
+  const auto read = [](const std::string& name) { return [name](const auto& from) { matrixfile::readHdf5(from, name); }; };
   // The length of an HDF5 file stands at its beginning.
   EXPECT_EQ(cutsThatPass("cut73.mat", bytesOf(path), read("sparse"), 97), std::vector<std::size_t>{});
 }
@@ -115,14 +115,14 @@ TEST(Matlab, CutShortAtAnyByte) {
     const std::string bytes = bytesOf(path);
     std::uint32_t size = 0;  // of the first variable, which begins behind the header of 128 bytes
     std::copy(bytes.begin() + 132, bytes.begin() + 136, reinterpret_cast<char*>(&size));
-    const auto read = [](const std::string& wanted) { return [wanted](const auto& from) { matrices::readMatlab(from, wanted); }; };
+    const auto read = [](const std::string& wanted) { return [wanted](const auto& from) { matrixfile::readMatlab(from, wanted); }; };
     // Between two variables a file cut short is a sound one, and the first is whole.
     EXPECT_EQ(cutsThatPass("cut.mat", bytes, read("sparse")), std::vector<std::size_t>{136 + size}) << name;
     EXPECT_EQ(cutsThatPass("cut.mat", bytes, read("full")), std::vector<std::size_t>{}) << name;
   }
   const std::string first = version4(false, 0, 2, 2, "k", small), second = version4(true, 2, 2, 3, "f", {1, 2, 2, 2, -0.4, 0});
-  const auto f = [](const auto& from) { matrices::readMatlab(from, "f"); };
-  const auto k = [](const auto& from) { matrices::readMatlab(from, "k"); };
+  const auto f = [](const auto& from) { matrixfile::readMatlab(from, "f"); };
+  const auto k = [](const auto& from) { matrixfile::readMatlab(from, "k"); };
   EXPECT_EQ(cutsThatPass("cut4.mat", first + second, f), std::vector<std::size_t>{});
   EXPECT_EQ(cutsThatPass("cut4.mat", first + second, k), std::vector<std::size_t>{first.size()});
 }

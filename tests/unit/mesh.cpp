@@ -248,7 +248,7 @@ TEST(Partition, NoRankIsEmpty) {
   int rank = 0;
   check(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
   test::setCase("two_layers", "-mesh_set nx=12,ny_disc=4,ny_pad=3");
-  const auto request = meshRequest();
+  const auto request = analysis::meshRequest();
   std::string failure;
   if (rank == 0) {
     auto whole = mesh::load("meshes/two_layers.geo", {"nx=12", "ny_disc=4", "ny_pad=3"}, request);

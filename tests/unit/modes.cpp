@@ -34,8 +34,8 @@ double departureFromOrthonormal(BV vectors, Mat mass) {
 TEST(Modes, BlockLanczosAgreesWithEps) {
   // 51 modes: the list ends after a double one. Eigenvalue errors are the square of the residual tolerance 1e-8 over the relative gaps
   // (some 1e-3): far below 1e-10.
-  const Analysis lanczos = runCase("layer", layer + "-modes_count 51 -modes_solver block_lanczos");
-  const Analysis eps = runCase("layer", layer + "-modes_count 51 -modes_solver eps");
+  const analysis::Analysis lanczos = runCase("layer", layer + "-modes_count 51 -modes_solver block_lanczos");
+  const analysis::Analysis eps = runCase("layer", layer + "-modes_count 51 -modes_solver eps");
   const auto &a = lanczos.segments.at(0).modes, &b = eps.segments.at(0).modes;
   ASSERT_EQ(a.angularFrequency.size(), 51U);
   ASSERT_EQ(b.angularFrequency.size(), 51U);
@@ -138,7 +138,7 @@ TEST(Modes, EigenvaluesOfHighMultiplicity) {
     check(MatSetOption(sparse, MAT_SYMMETRIC, PETSC_TRUE));
     *matrix = std::move(sparse);
   }
-  const SymmetricSolver solver(k, "stiffness");
+  const linalg::SymmetricSolver solver(k, "stiffness");
   const auto modes = modes::compute({k, m, solver.get()}, 40);
   for (double lambda : modes.lambda) EXPECT_NEAR(lambda, 1, 1e-12);
   EXPECT_LT(departureFromOrthonormal(modes.vectors, m), 1e-12);

@@ -19,30 +19,30 @@
 namespace squeal {
 namespace {
 
-using flutter::Block;
+using linalg::Block;
 
 struct Fixture : test::Layers {
-  flutter::Pencil pencil;
+  pencil::Pencil pencil;
   modes::Modes free;
-  flutter::ReducedProblem reduced;
+  reduction::ReducedProblem reduced;
   explicit Fixture(const std::string& options)
       : Layers(options),
         pencil(flutter::affineTerms(model.contact, *system)),
         free(modes()),
         reduced(pencil, system->k0(), system->solver(), free) {}
 
-  std::vector<flutter::FrictionPoint> solve(double friction) {
-    std::vector<flutter::PointProblem> batch;
+  std::vector<pencil::FrictionPoint> solve(double friction) {
+    std::vector<reduction::PointProblem> batch;
     batch.push_back({{friction}, pencil.with({})});
     return reduced.solve(batch, system->transformation().trial);
   }
 
   /// A X, or Aᵀ X.
-  static Block times(Mat matrix, const Block& x, bool transposed = false) {
+  static linalg::Block times(Mat matrix, const linalg::Block& x, bool transposed = false) {
     OwnedMat kept;
     if (transposed) check(MatTranspose(matrix, MAT_INITIAL_MATRIX, kept.out()));
-    Block result(x.rows);
-    flutter::appendProduct(transposed ? kept.get() : matrix, x.values.data(), x.columns, result);
+    linalg::Block result(x.rows);
+    linalg::appendProduct(transposed ? kept.get() : matrix, x.values.data(), x.columns, result);
     return result;
   }
 };
@@ -51,7 +51,7 @@ struct Fixture : test::Layers {
 TEST(Band, EndsBetweenFreeModes) {
   const auto end = [](const std::string& hertz, const std::vector<double>& w) {
     test::setOptions(hertz.empty() ? "" : "-flutter_band " + hertz);
-    return flutter::bandBelow(w);
+    return pencil::bandBelow(w);
   };
   const std::vector<double> single{1, 2, 3, 4, 5, 6, 7, 8, 9, 10}, paired{1, 1, 2, 2, 3, 3, 3 + 1e-9, 4, 5, 5};
   EXPECT_EQ(end("", single), 6.5);  // 0.55 of ten is five: between the sixth and the next
@@ -69,7 +69,7 @@ TEST(Band, TheReportSaysThatTheFreeModesEndBelow) {
   const std::string options = "-mesh_set nx=6,ny_disc=2,ny_pad=2 -modes_count 15 -steady_uniqueness off -flutter_friction 0.2 ",
                     words = "The free modes end below the 1000 Hz of -flutter_band";
   for (const bool above : {false, true}) {
-    const Analysis analysis = test::runCase("two_layers", options + (above ? "-flutter_band 1000" : "-flutter_band 0.3"));
+    const analysis::Analysis analysis = test::runCase("two_layers", options + (above ? "-flutter_band 1000" : "-flutter_band 0.3"));
     const auto& point = analysis.segments.at(0).points.at(0);
     EXPECT_LT(point.bandTop, analysis.segments.at(0).modes.angularFrequency.back());
     EXPECT_EQ(report::stabilityTable(analysis).find(words) != std::string::npos, above);
@@ -77,12 +77,12 @@ TEST(Band, TheReportSaysThatTheFreeModesEndBelow) {
 }
 
 /// Σ (iω)^power A φ, or Aᵀ φ, over the terms A of friction, for modes φ at their angular frequencies ω; without damping real.
-Block frictionForces(const flutter::Pencil& pencil, const Block& modes, const std::vector<double>& frequencies, bool transposed) {
-  Block sum(modes.rows, modes.columns);
+linalg::Block frictionForces(const pencil::Pencil& pencil, const linalg::Block& modes, const std::vector<double>& frequencies, bool transposed) {
+  linalg::Block sum(modes.rows, modes.columns);
   for (const auto& term : pencil.terms()) {
     if (term.frictionExponent == 0) continue;
     EXPECT_NE(term.power, 1);
-    const Block image = Fixture::times(term.matrix, modes, transposed);
+    const linalg::Block image = Fixture::times(term.matrix, modes, transposed);
     for (PetscInt j = 0; j < modes.columns; ++j)
       for (PetscInt i = 0; i < modes.rows; ++i)
         sum.column(j)[i] += (term.power == 0 ? 1 : -std::pow(frequencies[static_cast<std::size_t>(j)], 2)) * image.column(j)[i];
@@ -91,15 +91,15 @@ Block frictionForces(const flutter::Pencil& pencil, const Block& modes, const st
 }
 
 /// The largest energy norm of what K0⁻¹ of these forces has outside of a basis orthonormal in energy.
-double outside(const Fixture& f, const Block& basis, const Block& forces) {
+double outside(const Fixture& f, const linalg::Block& basis, const linalg::Block& forces) {
   const MPI_Comm comm = f.pencil.comm();
-  Block responses(forces.rows, forces.columns);
+  linalg::Block responses(forces.rows, forces.columns);
   PetscInt size = 0;
   check(MatGetSize(f.system->k0(), &size, nullptr));
-  const OwnedMat from = flutter::borrowed(comm, forces.rows, size, forces.columns, forces.values.data()),
-                 to = flutter::borrowed(comm, forces.rows, size, forces.columns, responses.values.data());
+  const OwnedMat from = linalg::borrowed(comm, forces.rows, size, forces.columns, forces.values.data()),
+                 to = linalg::borrowed(comm, forces.rows, size, forces.columns, responses.values.data());
   check(KSPMatSolve(f.system->solver(), from, to));
-  const auto energy = flutter::transposedProduct(comm, forces, responses), parts = flutter::transposedProduct(comm, basis, forces);
+  const auto energy = linalg::transposedProduct(comm, forces, responses), parts = linalg::transposedProduct(comm, basis, forces);
   const auto n = static_cast<std::size_t>(forces.columns), m = static_cast<std::size_t>(basis.columns);
   double worst = 0;
   for (std::size_t j = 0; j < n; ++j) {
@@ -114,17 +114,17 @@ double outside(const Fixture& f, const Block& basis, const Block& forces) {
 // r' of length 0.03 at most, whose energy is that squared over the lowest eigenvalue of K0 at most.
 TEST(StaticResponses, AreHeldByTheBasis) {
   Fixture f("-modes_count 40 -flutter_rounds 0");
-  const Block before = f.reduced.basis().columns();
+  const linalg::Block before = f.reduced.basis().columns();
   const double top = f.solve(0.5).at(0).bandTop;
-  const Block after = f.reduced.basis().columns();
+  const linalg::Block after = f.reduced.basis().columns();
   auto k0 = test::denseCopy(f.system->k0());
-  const double bound = 0.03 / std::sqrt(symmetricEigen(k0.values, static_cast<int>(k0.rows)).front());
-  Block modes(before.rows);
+  const double bound = 0.03 / std::sqrt(linalg::symmetricEigen(k0.values, static_cast<int>(k0.rows)).front());
+  linalg::Block modes(before.rows);
   for (PetscInt j = 0; f.free.angularFrequency[static_cast<std::size_t>(j)] < top; ++j) modes.append(before.column(j));
   ASSERT_GT(modes.columns, 20);
   for (const bool transposed : {false, true}) {
-    const Block forces =
-        flutter::unitColumns(f.pencil.comm(), frictionForces(f.pencil, modes, f.free.angularFrequency, transposed));
+    const linalg::Block forces =
+        linalg::unitColumns(f.pencil.comm(), frictionForces(f.pencil, modes, f.free.angularFrequency, transposed));
     const double known = outside(f, after, forces), unknown = outside(f, before, forces);
     test::print("%s: outside of the basis %.2e, of the modes alone %.2e; bound %.2e\n", transposed ? "left" : "right", known,
                 unknown, bound);
@@ -142,7 +142,7 @@ TEST(Projection, IsThatOfTheTerms) {
   const auto projected = f.reduced.project({{0.5}, f.pencil.with({})});
   for (const int power : {0, 2}) {
     const OwnedMat whole = f.pencil.assembled(power, {0.5});
-    const auto wanted = flutter::transposedProduct(f.pencil.comm(), v, Fixture::times(whole, v));
+    const auto wanted = linalg::transposedProduct(f.pencil.comm(), v, Fixture::times(whole, v));
     const auto& found = power == 0 ? projected.stiffness : projected.mass;
     ASSERT_EQ(found.size(), wanted.size());
     double worst = 0, largest = 0;

@@ -35,7 +35,7 @@ TEST(Fields, EigenvaluesWithErrorsAndCertification) {
   const std::vector<std::pair<std::string, double>> runs{
       {"", 1}, {"-flutter_accuracy 1e-30 -flutter_rounds 1", 0}, {"-flutter_method direct -flutter_direct_count 10", 1}};
   for (const auto& [change, certified] : runs) {
-    const Analysis analysis = test::runOptions(layers + change);
+    const analysis::Analysis analysis = test::runOptions(layers + change);
     const Folder folder;
     writeHdf5(analysis, folder.path);
     Reader reader(folder.path / "results.h5");
@@ -71,7 +71,7 @@ struct ContactNodes {
 };
 
 /// Collective.
-ContactNodes contactNodes(const Analysis& analysis) {
+ContactNodes contactNodes(const analysis::Analysis& analysis) {
   const auto total = static_cast<std::size_t>(analysis.mesh->totalNodes);
   ContactNodes nodes{std::vector<double>(total, 0.0), std::vector<double>(total, 0.0)};
   for (const auto& node : analysis.contact.nodes) {
@@ -84,7 +84,7 @@ ContactNodes contactNodes(const Analysis& analysis) {
 }
 
 /// Friction work by friction and mode, and for each interface: the rows of friction_work.csv.
-std::map<std::pair<double, int>, std::map<std::string, double>> tabled(const Analysis& analysis) {
+std::map<std::pair<double, int>, std::map<std::string, double>> tabled(const analysis::Analysis& analysis) {
   std::map<std::pair<double, int>, std::map<std::string, double>> rows;
   for (const auto& line : split(frictionWorkTable(analysis), '\n')) {
     const auto cells = split(line, ',');
@@ -118,7 +118,7 @@ std::vector<double> workPerArea(const std::filesystem::path& file, const std::st
 // The fields, summed over the contact nodes of an interface, are the rows of friction_work.csv, and zero elsewhere; undamped bodies
 // take nothing, so that all interfaces together make the growth rate.
 TEST(Fields, FrictionWorkIsThatOfTheTable) {
-  const Analysis analysis = test::runOptions(layers);
+  const analysis::Analysis analysis = test::runOptions(layers);
   const auto nodes = contactNodes(analysis);
   const auto table = tabled(analysis);
   const Folder folder;

@@ -48,7 +48,7 @@ std::string materialOptions(const std::string& body, const Material& material, d
 }
 
 /// Collective. The run with one parameter changed to `value`, a factor except for friction; without a parameter, with sensitivities.
-Analysis run(const Configuration& model, const std::string& parameter, double value) {
+analysis::Analysis run(const Configuration& model, const std::string& parameter, double value) {
   std::string options = model.options + formatted(" -flutter_friction %.17g", parameter == "friction" ? value : model.friction);
   if (parameter.empty()) options += " -flutter_sensitivities";
   for (const auto* factor : {"speed", "pressure", "damping"})
@@ -59,19 +59,19 @@ Analysis run(const Configuration& model, const std::string& parameter, double va
   return model.name.empty() ? test::runOptions(options) : test::runCase(model.name, options);
 }
 
-Complex nearest(const Analysis& analysis, Complex s) {
+Complex nearest(const analysis::Analysis& analysis, Complex s) {
   return test::matched({s}, test::eigenvaluesOf(analysis.segments.at(0).points.at(0)))[0];
 }
 
 /// uᴴ A u of a symmetric A; zero for none.
-double hermitian(Mat a, const flutter::Shape& shape) {
+double hermitian(Mat a, const pencil::Shape& shape) {
   return a ? test::form(shape.real, a, shape.real) + test::form(shape.imaginary, a, shape.imaginary) : 0;
 }
 
 /// The energy that friction feeds goes into growth and dissipation:
 ///   Σ_k work_k = σ + |s|² uᴴCu / (|s|² uᴴMu + uᴴ(K + v² K^R + K_σ)u).
 /// Exact for an eigenpair: errors are those of the eigenvector, backward errors of 1e-9 and less times a power of the condition.
-void expectBalance(const Analysis& analysis, const flutter::FrictionPoint& point) {
+void expectBalance(const analysis::Analysis& analysis, const pencil::FrictionPoint& point) {
   const auto& bodies = analysis.bodies;
   OwnedMat prestress;
   if (elasticity::prestressWanted()) prestress = elasticity::geometricStiffness(*analysis.mesh, analysis.steady.at(0).displacement);
@@ -94,7 +94,7 @@ void expectBalance(const Analysis& analysis, const flutter::FrictionPoint& point
 /// Central differences with a relative step h of 4e-5: truncation of h²/6 times a third derivative, which for eigenvalues of condition
 /// numbers up to 3, the next ones some per cent away, is of the order of 10 to 100 |s|; rounding of the eigenvalues, 1e-13 |s|, over the
 /// step. The active set must not change meanwhile.
-void expectDifferences(const Configuration& model, const Analysis& analysis) {
+void expectDifferences(const Configuration& model, const analysis::Analysis& analysis) {
   const auto& segment = analysis.segments.at(0);
   const auto& point = segment.points.at(0);
   EXPECT_GE(point.shapes.size(), 1u);
@@ -106,7 +106,7 @@ void expectDifferences(const Configuration& model, const Analysis& analysis) {
     const std::string name = first[p].parameter;
     const bool idle = name == "damping" && analysis.mesh && !analysis.bodies.damping;
     const double value = name == "friction" ? model.friction : 1, h = 4e-5 * value;
-    std::vector<Analysis> runs;
+    std::vector<analysis::Analysis> runs;
     for (const double sign : {-1.0, 1.0})
       if (!idle) runs.push_back(run(model, name, value + sign * h));
     for (const auto& moved : runs) EXPECT_EQ(moved.segments.at(0).openNodes, segment.openNodes) << name;
@@ -122,7 +122,7 @@ void expectDifferences(const Configuration& model, const Analysis& analysis) {
 }
 
 void expectDerivatives(const Configuration& model) {
-  const Analysis analysis = run(model, "", 1);
+  const analysis::Analysis analysis = run(model, "", 1);
   expectBalance(analysis, analysis.segments.at(0).points.at(0));
   expectDifferences(model, analysis);
 }
@@ -175,7 +175,7 @@ TEST(Sensitivity, OfOrthotropicBodies) {
 }
 
 void expectDerivativesOfOpenContact(const Configuration& model) {
-  const Analysis analysis = run(model, "", 1);
+  const analysis::Analysis analysis = run(model, "", 1);
   const auto open = analysis.segments.at(0).openNodes;
   EXPECT_GT(open, 0);
   EXPECT_LT(open, analysis.contact.totalNodes);
@@ -213,7 +213,7 @@ TEST(Sensitivity, OfOpenContactWithAFrictionLaw) {
 // Mass on a belt: s² = −2 ± √(1 − 4f/3), so that 2 s ds/df = ∓ (2/3) / √(…). Beyond the merger at 3/4 one of both grows, and is kept.
 TEST(Sensitivity, OfTheBeltInClosedForm) {
   for (const double f : {0.8, 1.0, 2.0}) {
-    const Analysis analysis = run({"external", "", f, {}}, "", 1);
+    const analysis::Analysis analysis = run({"external", "", f, {}}, "", 1);
     const auto& point = analysis.segments.at(0).points.at(0);
     EXPECT_EQ(point.sensitivities.size(), 1u);
     for (std::size_t i = 0; i < point.sensitivities.size(); ++i) {
@@ -239,7 +239,7 @@ TEST(Sensitivity, OfMatricesFromFiles) {
 // All moduli by a factor and all densities by another multiply all eigenvalues of undamped bodies under approximation A by the root
 // of their quotient: Σ ds/d ln E = s/2, Σ ds/d ln ρ = −s/2. Any left vector would say so: this is a test of the matrices of the bodies.
 TEST(Sensitivity, OfAllBodiesTogether) {
-  const Analysis analysis = run({"two_layers", "-mesh_set nx=12,ny_disc=4,ny_pad=3 -modes_count 60"}, "", 1);
+  const analysis::Analysis analysis = run({"two_layers", "-mesh_set nx=12,ny_disc=4,ny_pad=3 -modes_count 60"}, "", 1);
   const auto& point = analysis.segments.at(0).points.at(0);
   EXPECT_EQ(point.sensitivities.size(), 3u);
   expectBalance(analysis, point);
@@ -266,7 +266,7 @@ std::vector<std::string> lines(const std::string& text) {
 
 // A row for each mode and parameter, and one without numbers for a mode without derivatives.
 TEST(Sensitivity, InTables) {
-  Analysis analysis = run({"two_layers", "-mesh_set nx=12,ny_disc=4,ny_pad=3 -modes_count 60"}, "", 1);
+  analysis::Analysis analysis = run({"two_layers", "-mesh_set nx=12,ny_disc=4,ny_pad=3 -modes_count 60"}, "", 1);
   auto& point = analysis.segments.at(0).points.at(0);
   EXPECT_EQ(point.sensitivities.size(), 3u);
   auto& first = point.sensitivities.at(0);

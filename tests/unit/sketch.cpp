@@ -12,7 +12,7 @@
 namespace squeal {
 namespace {
 
-using flutter::Sketch;
+using linalg::Sketch;
 
 constexpr PetscInt length = 3001;
 constexpr int vectors = 400;
@@ -39,7 +39,7 @@ struct Layout {
 
 double weight(PetscInt row) { return row % 7 == 0 ? 1e3 : 1.0 / (1 + static_cast<double>(row)); }
 
-Sketch sketchOn(const Layout& layout) {
+linalg::Sketch sketchOn(const Layout& layout) {
   std::vector<double> diagonal;
   for (auto row = layout.first; row < layout.end; ++row) diagonal.push_back(weight(row));
   return {layout.comm, diagonal};
@@ -83,13 +83,13 @@ Spread spreadOf(const std::vector<double>& found, const std::vector<double>& exa
 // the signs, which are always the same. Weights of a seventh of the rows that outweigh the others leave 429 independent terms.
 TEST(Sketch, NormsOfManyRandomVectors) {
   const Layout layout(PETSC_COMM_WORLD);
-  const Sketch sketch = sketchOn(layout);
+  const linalg::Sketch sketch = sketchOn(layout);
   const auto columns = randomColumns(vectors);
-  const auto norms = flutter::squaredNorms(sketch.of(layout.local(columns).data(), vectors));
-  const auto lengths = flutter::squaredLengths(sketch.unweighted(layout.local(columns).data(), vectors));
+  const auto norms = linalg::squaredNorms(sketch.of(layout.local(columns).data(), vectors));
+  const auto lengths = linalg::squaredLengths(sketch.unweighted(layout.local(columns).data(), vectors));
   ASSERT_EQ(lengths.size(), norms.euclidean.size());
   for (std::size_t i = 0; i < lengths.size(); ++i) EXPECT_NEAR(lengths[i], norms.euclidean[i], 1e-12 * norms.euclidean[i]);
-  const double expected = std::sqrt(2.0 / Sketch::size);
+  const double expected = std::sqrt(2.0 / linalg::Sketch::size);
   for (const bool weighted : {false, true}) {
     const auto& found = weighted ? norms.weighted : norms.euclidean;
     ASSERT_EQ(found.size(), static_cast<std::size_t>(vectors));
@@ -98,7 +98,7 @@ TEST(Sketch, NormsOfManyRandomVectors) {
     int outside = 0;
     for (std::size_t i = 0; i < found.size(); ++i)
       outside +=
-          std::sqrt(exact[i]) > Sketch::safety * std::sqrt(found[i]) || found[i] > std::pow(1 + 3 * expected / 2, 2) * exact[i];
+          std::sqrt(exact[i]) > linalg::Sketch::safety * std::sqrt(found[i]) || found[i] > std::pow(1 + 3 * expected / 2, 2) * exact[i];
     test::print("%s: mean of the squares %+.1e, deviation %.3f (expected %.3f), largest %.2f, %d of %d outside\n",
                 weighted ? "weighted" : "euclidean", spread.mean, spread.deviation, expected, spread.largest, outside, vectors);
     EXPECT_LT(std::abs(spread.mean), 0.03);
@@ -112,18 +112,18 @@ TEST(Sketch, NormsOfManyRandomVectors) {
 // within three deviations.
 TEST(Sketch, NormsOfRegularVectors) {
   const Layout layout(PETSC_COMM_WORLD);
-  const Sketch sketch = sketchOn(layout);
+  const linalg::Sketch sketch = sketchOn(layout);
   std::vector<double> columns(3 * length, 0.0);
   for (std::size_t k = 0; k < 3; ++k) columns[k * length + 17 + 1000 * k] = 5;
-  for (const double norm : flutter::squaredNorms(sketch.of(layout.local(columns).data(), 3)).euclidean)
+  for (const double norm : linalg::squaredNorms(sketch.of(layout.local(columns).data(), 3)).euclidean)
     EXPECT_NEAR(norm, 25, 1e-12);
   columns.clear();
   for (const int waves : {0, 1, 2, 5, 20, 100, 500})
     for (PetscInt i = 0; i < length; ++i) columns.push_back(std::cos(2 * M_PI * waves * (static_cast<double>(i) + 0.5) / length));
   for (PetscInt i = 0; i < length; ++i) columns.push_back(i % 2 == 0 ? 1 : -1);
   const auto count = static_cast<PetscInt>(columns.size()) / length;
-  const auto found = flutter::squaredNorms(sketch.of(layout.local(columns).data(), count)).euclidean;
-  EXPECT_LT(spreadOf(found, exactSquares(columns, false)).largest, 3 * std::sqrt(2.0 / Sketch::size));
+  const auto found = linalg::squaredNorms(sketch.of(layout.local(columns).data(), count)).euclidean;
+  EXPECT_LT(spreadOf(found, exactSquares(columns, false)).largest, 3 * std::sqrt(2.0 / linalg::Sketch::size));
 }
 
 // Signs belong to global rows: the sketch of all ranks is that of one rank with all rows, but for the order of the sums.
@@ -131,7 +131,7 @@ TEST(Sketch, DoesNotDependOnTheRanks) {
   const Layout layout(PETSC_COMM_WORLD), whole(PETSC_COMM_SELF);
   const auto columns = randomColumns(3);
   const auto found = sketchOn(layout).of(layout.local(columns).data(), 3), wanted = sketchOn(whole).of(columns.data(), 3);
-  ASSERT_EQ(found.size(), static_cast<std::size_t>(3 * 2 * Sketch::size));
+  ASSERT_EQ(found.size(), static_cast<std::size_t>(3 * 2 * linalg::Sketch::size));
   ASSERT_EQ(found.size(), wanted.size());
   double size = 0, difference = 0;
   for (std::size_t i = 0; i < found.size(); ++i) {
@@ -144,7 +144,7 @@ TEST(Sketch, DoesNotDependOnTheRanks) {
 // Columns that are combinations of few directions but for a small rest: as many combinations as directions, and they hold the columns.
 TEST(Sketch, LeadingCombinationsHoldTheColumns) {
   const Layout layout(PETSC_COMM_WORLD);
-  const Sketch sketch = sketchOn(layout);
+  const linalg::Sketch sketch = sketchOn(layout);
   constexpr PetscInt directions = 9, count = 150;
   constexpr double rest = 1e-4;
   auto columns = randomColumns(count);
@@ -159,7 +159,7 @@ TEST(Sketch, LeadingCombinationsHoldTheColumns) {
     factors.push_back((j % 3 == 0 ? 0.5 : 1) / std::sqrt(length / 3.0));
   }
   const auto values = layout.local(columns);
-  const auto combinations = flutter::leadingCombinations(sketch.of(values.data(), count), factors, 0.03);
+  const auto combinations = linalg::leadingCombinations(sketch.of(values.data(), count), factors, 0.03);
   ASSERT_EQ(combinations.size(), static_cast<std::size_t>(count * directions));
   // The combinations are C F V for the columns C, their factors F and orthonormal V: they hold C F V Vᵀ.
   double worst = 0;
@@ -182,7 +182,7 @@ TEST(Sketch, LeadingCombinationsHoldTheColumns) {
   // The rest of each column, 1e-4 of a length of one, and that of all 150 in the rows of V, weighed by the condition of the sketch.
   EXPECT_LT(worst, 5 * rest);
   // All directions different: too many for 64 numbers to tell apart.
-  const auto all = flutter::leadingCombinations(sketch.of(layout.local(randomColumns(count)).data(), count), factors, 0.03);
+  const auto all = linalg::leadingCombinations(sketch.of(layout.local(randomColumns(count)).data(), count), factors, 0.03);
   ASSERT_EQ(all.size(), static_cast<std::size_t>(count * count));
   for (PetscInt j = 0; j < count; ++j)
     for (PetscInt i = 0; i < count; ++i)
@@ -203,9 +203,9 @@ TEST(Sketch, OfSomeRows) {
   }
   check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
   check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
-  const flutter::RowSet rows(matrix);
+  const linalg::RowSet rows(matrix);
   EXPECT_EQ(test::total(rows.size()), 600);  // 2, 7, … 2997
-  const Sketch sketch = sketchOn(layout);
+  const linalg::Sketch sketch = sketchOn(layout);
   const auto values = layout.local(columns);
   const auto all = sketch.of(values.data(), 2), some = sketch.of(rows, rows.of(values.data(), 2).data(), 2);
   ASSERT_EQ(all.size(), some.size());

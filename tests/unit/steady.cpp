@@ -131,7 +131,7 @@ void expectDerivative(const std::string& name, double scale) {
   const test::Model model = test::buildModel();
   const steady::Problem problem(*model.mesh, model.bodies, model.contact);
   ASSERT_TRUE(model.contact.convected);
-  const Parameters at{0.4, 1.3};
+  const sweep::Parameters at{0.4, 1.3};
   double worst = 0, smallestShare = INFINITY;
   for (unsigned long seed = 1; seed <= 3; ++seed) {
     const OwnedVec x = unknowns(model.contact, scale, seed), d = unknowns(model.contact, scale, 10 + seed);
@@ -220,7 +220,7 @@ void expectCoulomb(double depth) {
   const auto& mesh = *model.mesh;
   const auto dimension = static_cast<std::size_t>(mesh.dimension);
   const contact::AssociatedSystem system(model.bodies, model.contact, std::vector<unsigned char>(model.contact.nodes.size(), 1));
-  const Parameters at{0.4, 1.3};
+  const sweep::Parameters at{0.4, 1.3};
   const auto solution = steady::Problem(mesh, model.bodies, model.contact).solve(at, system);
   ASSERT_TRUE(solution.converged) << solution.reason;
   EXPECT_LE(solution.iterations, 8);

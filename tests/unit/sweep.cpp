@@ -17,16 +17,16 @@ using test::setOptions;
 
 TEST(Sweep, IsTheGridOfAllParameters) {
   setOptions("-flutter_friction 0.4,0.2,0.6 -flutter_speed 3,1 -flutter_pressure 1,2 -flutter_damping 0:1:0.5");
-  const auto sweep = flutter::readSweep();
+  const auto sweep = sweep::readSweep();
   const auto steady = sweep.steadyPoints(), all = sweep.points();
   ASSERT_EQ(steady.size(), 12U);
   ASSERT_EQ(all.size(), 36U);
-  EXPECT_EQ(steady[0], (Parameters{0.2, 1, 1, 1}));
-  EXPECT_EQ(steady[2], (Parameters{0.6, 1, 1, 1}));
-  EXPECT_EQ(steady[3], (Parameters{0.2, 1, 2, 1}));
-  EXPECT_EQ(steady[11], (Parameters{0.6, 3, 2, 1}));
+  EXPECT_EQ(steady[0], (sweep::Parameters{0.2, 1, 1, 1}));
+  EXPECT_EQ(steady[2], (sweep::Parameters{0.6, 1, 1, 1}));
+  EXPECT_EQ(steady[3], (sweep::Parameters{0.2, 1, 2, 1}));
+  EXPECT_EQ(steady[11], (sweep::Parameters{0.6, 3, 2, 1}));
   for (std::size_t i = 0; i < all.size(); ++i) {
-    Parameters wanted = steady[i % 12];
+    sweep::Parameters wanted = steady[i % 12];
     wanted.damping = 0.5 * static_cast<double>(i / 12);
     EXPECT_EQ(all[i], wanted) << i;
   }
@@ -34,20 +34,20 @@ TEST(Sweep, IsTheGridOfAllParameters) {
 
 TEST(Sweep, WithoutOptionsIsOnePoint) {
   setOptions("");
-  EXPECT_EQ(flutter::readSweep().points(), std::vector<Parameters>{(Parameters{0.4, 1, 1, 1})});
+  EXPECT_EQ(sweep::readSweep().points(), std::vector<sweep::Parameters>{(sweep::Parameters{0.4, 1, 1, 1})});
 }
 
 /// Number of parameters in which two points differ.
-int differences(const Parameters& a, const Parameters& b) {
+int differences(const sweep::Parameters& a, const sweep::Parameters& b) {
   int count = 0;
-  for (const auto& parameter : allParameters) count += a.*parameter.value != b.*parameter.value;
+  for (const auto& parameter : sweep::allParameters) count += a.*parameter.value != b.*parameter.value;
   return count;
 }
 
 TEST(Sweep, EverySteadyStateStartsFromANeighbour) {
   for (const std::string pressures : {"1", "1,2,3"}) {
     setOptions("-flutter_friction 0.2,0.4 -flutter_speed 1,2 -flutter_pressure " + pressures);
-    const auto sweep = flutter::readSweep();
+    const auto sweep = sweep::readSweep();
     const auto points = sweep.steadyPoints();
     EXPECT_FALSE(sweep.earlierNeighbour(0));
     for (std::size_t i = 1; i < points.size(); ++i) {
@@ -60,9 +60,9 @@ TEST(Sweep, EverySteadyStateStartsFromANeighbour) {
 }
 
 TEST(Sweep, BatchesBeginWithEndsMiddleAndQuartersOfTheRange) {
-  std::vector<Parameters> points;
+  std::vector<sweep::Parameters> points;
   for (int i = 0; i <= 32; ++i) points.push_back({i / 32.0, 1, 1, 1});
-  const auto batches = flutter::batches(points);
+  const auto batches = sweep::batches(points);
   std::vector<std::size_t> sizes, order;
   for (const auto& batch : batches) {
     sizes.push_back(batch.size());
@@ -73,23 +73,23 @@ TEST(Sweep, BatchesBeginWithEndsMiddleAndQuartersOfTheRange) {
   std::sort(order.begin(), order.end());
   for (std::size_t i = 0; i < points.size(); ++i) EXPECT_EQ(order.at(i), i);
 
-  EXPECT_EQ(flutter::batches({Parameters{0.4, 1, 1, 1}}), (std::vector<std::vector<std::size_t>>{{0}}));
-  EXPECT_TRUE(flutter::batches({}).empty());
+  EXPECT_EQ(sweep::batches({sweep::Parameters{0.4, 1, 1, 1}}), (std::vector<std::vector<std::size_t>>{{0}}));
+  EXPECT_TRUE(sweep::batches({}).empty());
 }
 
 TEST(Sweep, NamesAndTables) {
-  EXPECT_EQ(parameterColumns(), "friction,speed,pressure,damping");
-  EXPECT_EQ(parameterValues({0.3, 2, 0.5, 0}), "0.3,2,0.5,0");
-  EXPECT_EQ(parameterText({0.3, 1, 1, 1}), "friction 0.3");
-  EXPECT_EQ(parameterText({0.3, 2, 1, 0}), "friction 0.3, speed 2, damping 0");
+  EXPECT_EQ(sweep::parameterColumns(), "friction,speed,pressure,damping");
+  EXPECT_EQ(sweep::parameterValues({0.3, 2, 0.5, 0}), "0.3,2,0.5,0");
+  EXPECT_EQ(sweep::parameterText({0.3, 1, 1, 1}), "friction 0.3");
+  EXPECT_EQ(sweep::parameterText({0.3, 2, 1, 0}), "friction 0.3, speed 2, damping 0");
 }
 
 TEST(Sweep, CoefficientsOfTerms) {
-  flutter::Term term;
+  pencil::Term term;
   term.factor = 7, term.frictionExponent = 1, term.speedExponent = 2, term.dampingExponent = 1;
   EXPECT_DOUBLE_EQ(term.coefficient({0.5, 3, 11, 4}), 7 * 0.5 * 9 * 4);
   EXPECT_EQ(term.coefficient({0.5, 3, 11, 0}), 0);
-  EXPECT_DOUBLE_EQ(flutter::Term{}.coefficient({0, 3, 11, 0}), 1);  // 0⁰ = 1
+  EXPECT_DOUBLE_EQ(pencil::Term{}.coefficient({0, 3, 11, 0}), 1);  // 0⁰ = 1
 }
 
 /// ‖a x − b‖ / ‖b‖.
@@ -115,10 +115,10 @@ TEST(Sweep, SteadySlidingIsProportionalToThePressure) {
 // 1000 frictions at 1000 speeds: each list is within its limit.
 TEST(Sweep, OfTooManyPointsIsRefused) {
   test::setOptions("-flutter_friction 0:0.999:0.001 -flutter_speed 1:1000:1");
-  const auto message = test::errorOf([] { flutter::readSweep(); });
+  const auto message = test::errorOf([] { sweep::readSweep(); });
   EXPECT_TRUE(test::contains(message, "1000 x 1000 x 1 x 1 = 1000000 points; a sweep has 100000 at most")) << message;
   test::setOptions("-flutter_friction 0:0.099:0.001 -flutter_speed 1:1000:1");
-  EXPECT_EQ(flutter::readSweep().pointCount(), 100000);
+  EXPECT_EQ(sweep::readSweep().pointCount(), 100000);
 }
 
 }  // namespace

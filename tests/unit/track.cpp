@@ -18,34 +18,34 @@
 namespace squeal {
 namespace {
 
-using flutter::Branches;
-using flutter::Critical;
-using flutter::DenseMatrix;
-using flutter::DenseProblem;
-using flutter::Event;
+using tracking::Branches;
+using tracking::Critical;
+using linalg::DenseMatrix;
+using linalg::DenseProblem;
+using tracking::Event;
 using test::print;
 
 /// M + s-free sum K0 + f K1, and Z.
-struct Linear : flutter::Family {
-  DenseProblem base;
-  DenseMatrix friction;
-  Linear(DenseProblem problem, DenseMatrix slope) : base(std::move(problem)), friction(std::move(slope)) {}
+struct Linear : tracking::Family {
+  linalg::DenseProblem base;
+  linalg::DenseMatrix friction;
+  Linear(linalg::DenseProblem problem, linalg::DenseMatrix slope) : base(std::move(problem)), friction(std::move(slope)) {}
   MPI_Comm comm() const override { return PETSC_COMM_WORLD; }
-  std::optional<DenseProblem> at(double f) override {
-    DenseProblem problem = base;
+  std::optional<linalg::DenseProblem> at(double f) override {
+    linalg::DenseProblem problem = base;
     for (std::size_t k = 0; k < friction.size(); ++k) problem.stiffness[k] += f * friction[k];
     return problem;
   }
 };
 
-DenseMatrix diagonal(const std::vector<double>& entries) {
+linalg::DenseMatrix diagonal(const std::vector<double>& entries) {
   const std::size_t m = entries.size();
-  DenseMatrix matrix(m * m, 0.0);
+  linalg::DenseMatrix matrix(m * m, 0.0);
   for (std::size_t i = 0; i < m; ++i) matrix[i * m + i] = entries[i];
   return matrix;
 }
 
-DenseMatrix identity(std::size_t m) { return diagonal(std::vector<double>(m, 1.0)); }
+linalg::DenseMatrix identity(std::size_t m) { return diagonal(std::vector<double>(m, 1.0)); }
 
 /// Eigenvalues ω² of modes and what friction couples: entry (i, j) and its negative at (j, i).
 struct Coupling {
@@ -55,12 +55,12 @@ struct Coupling {
 
 Linear modal(const std::vector<double>& squares, const std::vector<Coupling>& couplings, const std::vector<double>& damping = {}) {
   const std::size_t m = squares.size();
-  DenseMatrix slope(m * m, 0.0);
+  linalg::DenseMatrix slope(m * m, 0.0);
   for (const auto& [i, j, size] : couplings) {
     slope[j * m + i] += size;
     slope[i * m + j] += i == j ? 0 : -size;
   }
-  return {{identity(m), damping.empty() ? DenseMatrix() : diagonal(damping), diagonal(squares), static_cast<int>(m)}, slope};
+  return {{identity(m), damping.empty() ? linalg::DenseMatrix() : diagonal(damping), diagonal(squares), static_cast<int>(m)}, slope};
 }
 
 std::vector<double> grid(double top, int steps) {
@@ -69,7 +69,7 @@ std::vector<double> grid(double top, int steps) {
   return list;
 }
 
-void expectNoGaps(const Branches& branches) {
+void expectNoGaps(const tracking::Branches& branches) {
   for (const auto& gap : branches.gaps)
     if (!gap.identityOnly) ADD_FAILURE() << gap.from << " to " << gap.to << ": " << gap.what;
 }
@@ -85,7 +85,7 @@ TEST(Critical, CoalescenceOfTwo) {
     expectNoGaps(branches);
     EXPECT_EQ(branches.count, 3);
     ASSERT_EQ(found.size(), 1u);
-    EXPECT_EQ(found[0].kind, Event::Kind::coalescence);
+    EXPECT_EQ(found[0].kind, tracking::Event::Kind::coalescence);
     EXPECT_TRUE(found[0].loss && found[0].converged);
     // 2 ω s' = … : (s1 − s2)²/4 is ((ω1² + ω2²)/2 − √(ω1² ω2² + f² ω0⁴))/2 beyond: its slope at the critical friction is
     // f ω0⁴ / (2 √(…)), the root being (ω1² + ω2²)/2.
@@ -110,7 +110,7 @@ TEST(Critical, HopfOfDampedModes) {
     expectNoGaps(branches);
     EXPECT_EQ(branches.count, 3);
     ASSERT_EQ(found.size(), 1u);
-    EXPECT_EQ(found[0].kind, Event::Kind::crossing);
+    EXPECT_EQ(found[0].kind, tracking::Event::Kind::crossing);
     EXPECT_TRUE(found[0].loss);
     EXPECT_GT(found[0].slope, 0);
     EXPECT_NEAR(found[0].angularFrequency, std::sqrt(a1 / a3), 1e-8 * w1);
@@ -125,11 +125,11 @@ struct Interpolated : Linear {
   std::vector<double> frictions;
   int solved = 0;
   explicit Interpolated(Linear linear) : Linear(std::move(linear)) {}
-  std::optional<DenseProblem> at(double f) override {
+  std::optional<linalg::DenseProblem> at(double f) override {
     ++solved;
     return Linear::at(f * (1 + f * f));
   }
-  std::optional<DenseProblem> near(double f) override {
+  std::optional<linalg::DenseProblem> near(double f) override {
     const auto above = std::upper_bound(frictions.begin() + 1, frictions.end() - 1, f), below = above - 1;
     const double t = (f - *below) / (*above - *below);
     return Linear::at((1 - t) * (*below) * (1 + *below * *below) + t * (*above) * (1 + *above * *above));
@@ -139,7 +139,7 @@ struct Interpolated : Linear {
     std::sort(frictions.begin(), frictions.end());
     frictions.erase(std::unique(frictions.begin(), frictions.end()), frictions.end());
   }
-  flutter::Improvement improve(const std::vector<flutter::Located>& located) override {
+  reduction::Improvement improve(const std::vector<tracking::Located>& located) override {
     for (const auto& item : located) know({item.friction});
     return {true, std::vector<double>(located.size(), 0.0)};
   }
@@ -240,15 +240,15 @@ TEST(Track, EqualEigenvaluesAreNumberedByWhereTheyPart) {
 }
 
 /// Unstable eigenvalues at one friction.
-int unstableAt(flutter::Family& family, double f) {
+int unstableAt(tracking::Family& family, double f) {
   const auto problem = *family.at(f);
   int count = 0;
-  for (const auto& pair : flutter::solveTogether(PETSC_COMM_WORLD, problem.mass, problem.damping, problem.stiffness, problem.m))
+  for (const auto& pair : linalg::solveTogether(PETSC_COMM_WORLD, problem.mass, problem.damping, problem.stiffness, problem.m))
     count += pair.s.real() > 1e-6 * std::abs(pair.s);
   return count;
 }
 
-int changesBetween(const std::vector<Critical>& list, double low, double high) {
+int changesBetween(const std::vector<tracking::Critical>& list, double low, double high) {
   int change = 0;
   for (const auto& critical : list)
     if (critical.friction > low && critical.friction < high) change += critical.loss ? 1 : -1;
@@ -256,7 +256,7 @@ int changesBetween(const std::vector<Critical>& list, double low, double high) {
 }
 
 /// The number of unstable eigenvalues on a fine grid is what the critical frictions say.
-void expectCounts(flutter::Family& family, const std::vector<Critical>& found, double top) {
+void expectCounts(tracking::Family& family, const std::vector<tracking::Critical>& found, double top) {
   const int samples = 150;
   for (int k = 1; k <= samples; ++k) {
     const double f = top * k / samples;
@@ -307,7 +307,7 @@ TEST(Critical, RandomFamiliesAgainstAFineGrid) {
 // the modes beside them of damping ratio 0.9. Not followed from the start, the first is found where it comes near zero.
 TEST(Track, StronglyDampedOnesAreLeftAloneUntilTheyMatter) {
   Linear family = modal({100, 36, 49, 64}, {{1, 1, -40}}, {0.2, 20, 12.6, 14.4});
-  flutter::WatchedBand band;
+  pencil::WatchedBand band;
   band.top = 15;
   const auto branches = follow(family, grid(1, 5), band);
   const auto found = criticalFrictions(family, branches, 1e-9);
@@ -316,7 +316,7 @@ TEST(Track, StronglyDampedOnesAreLeftAloneUntilTheyMatter) {
   EXPECT_EQ(branches.stations.back().pairs.size(), 2u);
   EXPECT_EQ(branches.count, 2);
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].kind, Event::Kind::divergence);
+  EXPECT_EQ(found[0].kind, tracking::Event::Kind::divergence);
   EXPECT_TRUE(found[0].loss);
   EXPECT_NEAR(found[0].friction, 0.9, 1e-10);
   EXPECT_NEAR(found[0].slope, 2, 1e-5);  // ds/df = 20 / √(64 + 40 f), by a difference
@@ -325,7 +325,7 @@ TEST(Track, StronglyDampedOnesAreLeftAloneUntilTheyMatter) {
 // Eigenvalues enter and leave by the edge of the band alone.
 TEST(Track, TheEdgeOfTheBand) {
   Linear family = randomFamily(30, 7, false);
-  flutter::WatchedBand band;
+  pencil::WatchedBand band;
   band.top = 1540;
   const auto branches = follow(family, grid(1, 8), band);
   expectNoGaps(branches);

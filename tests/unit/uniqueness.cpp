@@ -337,7 +337,7 @@ TEST(Uniqueness, MatrixFreeAgrees) {
 TEST(Uniqueness, DoesNotDependOnTheRanks) {
   test::setOptions(block(12, 6));
   const auto together = examined(test::buildModel(), {0.3, 1.2});
-  const mesh::Mesh mesh = mesh::read(PETSC_COMM_SELF, meshRequest());
+  const mesh::Mesh mesh = mesh::read(PETSC_COMM_SELF, analysis::meshRequest());
   const auto bodies = elasticity::assemble(mesh);
   const auto contact = contact::build(mesh, bodies);
   const auto alone = steady::examine(bodies, contact, 1, {0.3, 1.2});

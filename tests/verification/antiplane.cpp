@@ -60,7 +60,7 @@ TEST(Antiplane, TablesSolveTheCharacteristicEquation) {
 void expectFourthOrder(bool full) {
   std::vector<std::vector<Errors>> found(2);
   for (std::size_t level = 0; level < 2; ++level) {
-    const Analysis analysis = runCase("two_layers_antiplane", std::string("-flutter_friction 0.1,0.3 -motion_convective ") +
+    const analysis::Analysis analysis = runCase("two_layers_antiplane", std::string("-flutter_friction 0.1,0.3 -motion_convective ") +
                                                                   (full ? "on" : "off") + reduced + (level == 0 ? coarse : fine));
     ASSERT_NEAR(analysis.steady.at(0).smallestPressure, antiplane::pressure, 1e-10 * antiplane::pressure);
     for (const auto& point : analysis.segments.at(0).points) {
@@ -89,7 +89,7 @@ void expectFourthOrder(bool full) {
 TEST(Antiplane, FirstOrderOnSerendipityFaces) {
   std::vector<Errors> found;
   for (const std::string mesh : {"nx=24,ny_disc=8,ny_pad=6", "nx=36,ny_disc=12,ny_pad=9"}) {
-    const Analysis analysis =
+    const analysis::Analysis analysis =
         runCase("two_layers_antiplane", "-flutter_friction 0.3 -modes_count 60 -mesh_set order=2,serendipity=1," + mesh);
     found.push_back(errors(exactValues(antiplane::friction03, 8), eigenvaluesOf(analysis.segments.at(0).points.at(0))));
     print("serendipity, %s: worst of 8 anti-plane waves: %.1e, growth rate %.1e\n", mesh.c_str(), worst(found.back().relative),
@@ -107,7 +107,7 @@ TEST(Antiplane, FourthOrderWithFullTerms) { expectFourthOrder(true); }
 TEST(Antiplane, AnotherSpeedAndThickness) {
   const double friction = 0.2, speed = 0.12, thickness = 0.45;
   const double pressure = two_layers::Steady{friction, 0.03, thickness}.pressure();
-  const Analysis analysis = runCase("two_layers_antiplane", medium +
+  const analysis::Analysis analysis = runCase("two_layers_antiplane", medium +
                                                                 ",h_pad=0.45 -flutter_friction 0.2 -motion_convective on"
                                                                 " -motion_disc_velocity 0.12,0,0"
                                                                 " -constraint_pad_top_displacement 0,-0.03,0" +
@@ -122,7 +122,7 @@ TEST(Antiplane, AnotherSpeedAndThickness) {
 TEST(Antiplane, FrictionFallsWithSpeed) {
   const ExponentialLaw law{2.5, 0.04};
   const double friction = 0.2, speed = antiplane::velocity, pressure = antiplane::pressure;
-  const Analysis analysis = runCase("two_layers_antiplane", medium + " -flutter_friction 0.2" + law.options() + direct);
+  const analysis::Analysis analysis = runCase("two_layers_antiplane", medium + " -flutter_friction 0.2" + law.options() + direct);
   expectSpectrum(eigenvaluesOf(analysis.segments.at(0).points.at(0)),
                  families({.friction = friction * law.value(speed),
                            .along = friction * law.slope(speed) * pressure,
@@ -138,8 +138,8 @@ TEST(Antiplane, TangentOfTheFrictionLaw) {
                                    "-flutter_friction 0.2 -flutter_method direct -flutter_direct_count 30"
                                    " -mesh_set order=2,nx=8,ny_disc=3,ny_pad=2 -motion_convective ") +
                                convective;
-    const Analysis curve = runCase("two_layers_antiplane", common + law.options());
-    const Analysis tangent = runCase("two_layers_antiplane", common + law.tangentOptions(antiplane::velocity));
+    const analysis::Analysis curve = runCase("two_layers_antiplane", common + law.options());
+    const analysis::Analysis tangent = runCase("two_layers_antiplane", common + law.tangentOptions(antiplane::velocity));
     const double difference = worst(
         errors(eigenvaluesOf(curve.segments.at(0).points.at(0)), eigenvaluesOf(tangent.segments.at(0).points.at(0))).relative);
     print("table with the same tangent, convective terms %s: %.1e\n", convective, difference);
@@ -149,7 +149,7 @@ TEST(Antiplane, TangentOfTheFrictionLaw) {
 
 // Friction of a given direction neither damps nor drives the motion across it.
 TEST(Antiplane, NoDampingWhereItIsOff) {
-  const Analysis analysis =
+  const analysis::Analysis analysis =
       runCase("two_layers_antiplane", coarse + " -flutter_friction 0.3 -flutter_friction_damping off" + direct);
   const auto found = eigenvaluesOf(analysis.segments.at(0).points.at(0));
   auto undamped = rootsNear(found, {families({.friction = 0.3})[1]}, 4);

@@ -16,7 +16,7 @@ namespace two_layers = exact::two_layers;
 // k = 0 come in pairs of equal frequency, both damped by α/2; friction parts them at once, and one of each pair may reach the axis.
 constexpr double alpha = 0.02;
 
-Analysis run(const std::string& changes) {
+analysis::Analysis run(const std::string& changes) {
   return runCase("two_layers",
                  "-elasticity_mass consistent -material_disc_rayleigh_mass 0.02 -material_pad_rayleigh_mass 0.02 " + changes);
 }
@@ -58,7 +58,7 @@ Found closest(const Found& found) {
   return best;
 }
 
-const std::vector<flutter::Critical>& criticals(const Analysis& analysis) {
+const std::vector<tracking::Critical>& criticals(const analysis::Analysis& analysis) {
   return analysis.segments.at(0).followed.at(0).criticals;
 }
 
@@ -66,14 +66,14 @@ const std::vector<flutter::Critical>& criticals(const Analysis& analysis) {
 TEST(Critical, DampedLayersAgainstExactWaves) {
   std::vector<std::vector<double>> errors;
   for (const std::string mesh : {"nx=12,ny_disc=4,ny_pad=3", "nx=24,ny_disc=8,ny_pad=6"}) {
-    const Analysis analysis = run("-mesh_set order=2,recombine=1,serendipity=0," + mesh +
+    const analysis::Analysis analysis = run("-mesh_set order=2,recombine=1,serendipity=0," + mesh +
                                   " -flutter_friction 0,0.05,0.1 -flutter_band 0.7 -modes_count 80");
     const auto& followed = analysis.segments.at(0).followed.at(0);
     EXPECT_TRUE(followed.complete()) << followed.statement();
     errors.emplace_back();
     for (const auto& critical : followed.criticals) {
       EXPECT_TRUE(critical.converged);
-      EXPECT_EQ(critical.kind, flutter::Event::Kind::crossing);
+      EXPECT_EQ(critical.kind, tracking::Event::Kind::crossing);
       const Found exact = closest({critical.friction, critical.angularFrequency});
       print("%s: critical friction %.8f at %.5f Hz, exact %.8f\n", mesh.c_str(), critical.friction,
             critical.angularFrequency / (2 * M_PI), exact.friction);
@@ -88,7 +88,7 @@ TEST(Critical, DampedLayersAgainstExactWaves) {
 // What is followed is what the sweep found, at every friction, and its number is accounted for.
 TEST(Track, HoldsTheEigenvaluesOfTheSweep) {
   for (const std::string damping : {"0.02", "0"}) {
-    const Analysis analysis =
+    const analysis::Analysis analysis =
         run("-mesh_set nx=24,ny_disc=8,ny_pad=6 -flutter_friction 0,0.05,0.1 -modes_count 60 -material_disc_rayleigh_mass " +
             damping + " -material_pad_rayleigh_mass " + damping);
     const auto& segment = analysis.segments.at(0);
@@ -115,12 +115,12 @@ TEST(Track, HoldsTheEigenvaluesOfTheSweep) {
 // the error of the friction.
 TEST(Critical, IsThatOfAllUnknowns) {
   const std::string mesh = "-mesh_set nx=24,ny_disc=8,ny_pad=6 ";
-  const Analysis analysis = run(mesh + "-flutter_friction 0,0.05,0.1 -flutter_band 0.7 -modes_count 60");
+  const analysis::Analysis analysis = run(mesh + "-flutter_friction 0,0.05,0.1 -flutter_band 0.7 -modes_count 60");
   ASSERT_GE(criticals(analysis).size(), 2u);
   for (const auto& critical : criticals(analysis)) {
     char friction[32];
     std::snprintf(friction, sizeof friction, "%.17g", critical.friction);
-    const Analysis direct =
+    const analysis::Analysis direct =
         run(mesh + "-flutter_method direct -flutter_direct_count 40 -flutter_friction " + std::string(friction));
     double distance = INFINITY;
     for (const Complex s : eigenvaluesOf(direct.segments.at(0).points.at(0)))

@@ -15,7 +15,7 @@ const std::string full =
     "-mesh_set nx=12,ny_disc=4,ny_pad=3,order=1 -motion_convective on -flutter_friction 0.3 -material_pad_rayleigh_stiffness 0.01 "
     "-material_pad_rayleigh_mass 0.002 ";
 
-std::vector<Complex> lowest(const flutter::FrictionPoint& point, double top) {
+std::vector<Complex> lowest(const pencil::FrictionPoint& point, double top) {
   std::vector<Complex> list;
   for (const auto& e : point.eigenvalues)
     if (std::abs(e.s) < top) list.push_back(e.s);
@@ -25,9 +25,9 @@ std::vector<Complex> lowest(const flutter::FrictionPoint& point, double top) {
 // Two ways that share the matrices and nothing else: TOAR on all unknowns (too many for LAPACK to take its place), and QR on the projection of them all. Eigenvalues of these
 // small matrices are hardly sensitive: the backward errors of both, 1e-13, leave 1e-8 room.
 TEST(Damped, DirectIsTheReducedProblemWithAllModes) {
-  const Analysis direct = runCase("two_layers_antiplane", full + "-flutter_method direct -flutter_direct_count 40");
+  const analysis::Analysis direct = runCase("two_layers_antiplane", full + "-flutter_method direct -flutter_direct_count 40");
   const auto unknowns = direct.segments.at(0).unknowns;
-  const Analysis reduced =
+  const analysis::Analysis reduced =
       runCase("two_layers_antiplane", full + "-reduction_basis modal -modes_count " + std::to_string(unknowns));
   const auto& found = direct.segments[0].points.at(0);
   double top = 0;
@@ -49,7 +49,7 @@ TEST(Damped, RayleighDampingHasAClosedForm) {
   const std::string mesh = "-mesh_set nx=8,ny=4 -flutter_friction 0 ";
   const std::string damping =
       "-material_layer_rayleigh_mass " + std::to_string(alpha) + " -material_layer_rayleigh_stiffness " + std::to_string(beta);
-  const Analysis undamped = runCase("layer", mesh + "-modes_count 40"),
+  const analysis::Analysis undamped = runCase("layer", mesh + "-modes_count 40"),
                  damped = runCase("layer", mesh + "-modes_count 40 " + damping);
   const auto& point = damped.segments.at(0).points.at(0);
   std::vector<Complex> expected;
@@ -63,9 +63,9 @@ TEST(Damped, RayleighDampingHasAClosedForm) {
 TEST(Damped, LossFactorHoldsAtItsFrequency) {
   const double eta = 0.03;
   const std::string mesh = "-mesh_set nx=8,ny=4 -flutter_friction 0 -modes_count 40 ";
-  const Analysis undamped = runCase("layer", mesh);
+  const analysis::Analysis undamped = runCase("layer", mesh);
   const double w = undamped.segments.at(0).modes.angularFrequency[4];
-  const Analysis damped =
+  const analysis::Analysis damped =
       runCase("layer", mesh + "-material_layer_loss_factor 0.03 -material_layer_loss_frequency " + shortest(w / (2 * M_PI)));
   for (const auto& e : damped.segments.at(0).points.at(0).eigenvalues)
     EXPECT_NEAR(-2 * e.s.real() / std::abs(e.s), eta * std::abs(e.s) / w, 1e-8);
@@ -73,7 +73,7 @@ TEST(Damped, LossFactorHoldsAtItsFrequency) {
 
 // Modal damping: each mode has its ratio, the last one given holds for the rest.
 TEST(Damped, ModalRatios) {
-  const Analysis analysis =
+  const analysis::Analysis analysis =
       runCase("layer", "-mesh_set nx=8,ny=4 -flutter_friction 0 -modes_count 40 -flutter_modal_damping 0.01,0.03,0.002");
   const auto& point = analysis.segments.at(0).points.at(0);
   const auto& modes = analysis.segments[0].modes.angularFrequency;
@@ -89,7 +89,7 @@ TEST(Damped, ModalRatios) {
 // bonded anti-plane motion, none, and the strongly damped eigenvalues go as c. Between two speeds, both small, the damping of the
 // anti-plane modes that remain falls in proportion to the speed.
 TEST(Damped, FrictionDampingDominatesAtVanishingSpeed) {
-  const Analysis analysis =
+  const analysis::Analysis analysis =
       runCase("two_layers_antiplane",
               "-mesh_set nx=6,ny_disc=3,ny_pad=2,order=2 -modes_count 60 -flutter_friction 0.3 -flutter_speed 0.001,0.002");
   ASSERT_EQ(analysis.segments.size(), 1U);
@@ -116,10 +116,10 @@ TEST(Damped, FrictionDampingDominatesAtVanishingSpeed) {
 // gives what it gives alone. The pressing strain of a percent moves frequencies by about as much.
 TEST(Prestress, OfASweepIsThatOfEachFriction) {
   const std::string options = "-mesh_set nx=8,ny_disc=4,ny_pad=3 -modes_count 40 -elasticity_prestress on -flutter_accuracy 1e-11 ";
-  const Analysis sweep = runCase("two_layers", options + "-flutter_friction 0.1,0.5"),
+  const analysis::Analysis sweep = runCase("two_layers", options + "-flutter_friction 0.1,0.5"),
                  alone = runCase("two_layers", options + "-flutter_friction 0.5"),
                  slack = runCase("two_layers", options + "-elasticity_prestress off -flutter_friction 0.5");
-  const auto inBand = [](const flutter::FrictionPoint& point) {
+  const auto inBand = [](const pencil::FrictionPoint& point) {
     std::vector<Complex> list;
     for (const auto& e : point.eigenvalues)
       if (std::abs(e.s) < 3.5) list.push_back(e.s);

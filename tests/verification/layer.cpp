@@ -32,7 +32,7 @@ TEST(Layer, TablesSolveTheCharacteristicEquation) {
 
 /// 1 % in |s| and 0.01 in growth rates, which reach 0.3: bilinear cells, 7 to the shortest of these wavelengths, cannot do much
 /// better.
-void expectAccurate(const flutter::FrictionPoint& point, const char* method) {
+void expectAccurate(const pencil::FrictionPoint& point, const char* method) {
   const Errors found = errors(exactAt(point.at.friction), eigenvaluesOf(point));
   print("f = %g, %s, worst of the first 30: |s| %.3f %%, growth rate %.4f\n", point.at.friction, method, 100 * worst(found.modulus),
         worst(found.growth));
@@ -43,7 +43,7 @@ void expectAccurate(const flutter::FrictionPoint& point, const char* method) {
 
 // The program's own case, with nothing changed: 36 × 12 bilinear cells, higher-order mass, 200 modes.
 TEST(Layer, CaseFile) {
-  const Analysis analysis = runCase("layer");
+  const analysis::Analysis analysis = runCase("layer");
   ASSERT_EQ(analysis.segments.size(), 1U);
   const auto& segment = analysis.segments[0];
   EXPECT_EQ(segment.unknowns, 828);
@@ -61,7 +61,7 @@ TEST(Layer, CaseFile) {
 }
 
 TEST(Layer, FullOrder) {
-  const Analysis analysis = runCase("layer", "-flutter_method direct -flutter_direct_count 60 -flutter_friction 0.2,0.4,0.6");
+  const analysis::Analysis analysis = runCase("layer", "-flutter_method direct -flutter_direct_count 60 -flutter_friction 0.2,0.4,0.6");
   ASSERT_EQ(analysis.segments.size(), 1U);
   ASSERT_EQ(analysis.segments[0].points.size(), 3U);
   for (const auto& point : analysis.segments[0].points) expectAccurate(point, "full order");
@@ -70,7 +70,7 @@ TEST(Layer, FullOrder) {
 // The exact frequencies of +n and −n are equal, and the periodic mesh of equal cells keeps the symmetry: equal to rounding in the
 // eigensolver.
 TEST(Layer, DoubleModesAreDouble) {
-  const Analysis analysis = runCase("layer", "-flutter_friction 0 -modes_count 90");
+  const analysis::Analysis analysis = runCase("layer", "-flutter_friction 0 -modes_count 90");
   const auto match = matched(exactAt(0), eigenvaluesOf(analysis.segments.at(0).modes));
   int doubles = 0;
   for (std::size_t i = 0; i + 1 < one_layer::frictionless.size(); ++i) {
@@ -91,7 +91,7 @@ TEST(Layer, SecondOrderWithConsistentMass) {
   const std::size_t count = 30;
   std::vector<std::vector<double>> above;
   for (const char* cells : {"nx=36,ny=12", "nx=72,ny=24", "nx=144,ny=48"}) {
-    const Analysis analysis =
+    const analysis::Analysis analysis =
         runCase("layer", std::string("-mesh_set ") + cells +
                              " -elasticity_mass consistent -modes_count 40 -modes_sturm 0 -flutter_friction 0");
     const auto& found = analysis.segments.at(0).modes.angularFrequency;
@@ -111,7 +111,7 @@ TEST(Layer, SecondOrderWithConsistentMass) {
 void expectFourthOrder(const std::string& element) {
   std::vector<Errors> found;
   for (const char* cells : {"nx=24,ny=8", "nx=48,ny=16"}) {
-    const Analysis analysis =
+    const analysis::Analysis analysis =
         runCase("layer", std::string("-mesh_set order=2,") + element + "," + cells +
                              " -elasticity_mass consistent -flutter_method direct -flutter_direct_count 24 -flutter_friction 0.4");
     found.push_back(errors(exactValues(one_layer::friction04, 12), eigenvaluesOf(analysis.segments.at(0).points.at(0))));
@@ -128,8 +128,8 @@ TEST(Layer, FourthOrderWithTri6) { expectFourthOrder("recombine=0,serendipity=0"
 // With all modes of a coarse mesh kept, the projection is a change of basis: both methods solve the same problem.
 TEST(Layer, AllModesGiveTheFullOrderProblem) {
   const std::string coarse = "-mesh_set nx=12,ny=4 -flutter_friction 0.2,0.6 ";
-  const Analysis direct = runCase("layer", coarse + "-flutter_method direct -flutter_direct_count 84");
-  const Analysis reduced = runCase("layer", coarse + "-modes_count 84");
+  const analysis::Analysis direct = runCase("layer", coarse + "-flutter_method direct -flutter_direct_count 84");
+  const analysis::Analysis reduced = runCase("layer", coarse + "-modes_count 84");
   ASSERT_EQ(direct.segments.at(0).unknowns, 84);
   for (std::size_t i = 0; i < 2; ++i) {
     const auto& point = reduced.segments.at(0).points.at(i);

@@ -34,14 +34,14 @@ OwnedMat matrix(const Matrix2& entries) {
 struct Model {
   Matrix2 mass, damping, stiffness, friction;
 
-  flutter::FrictionPoint at(double mu) const {
-    std::vector<flutter::Term> terms;
+  pencil::FrictionPoint at(double mu) const {
+    std::vector<pencil::Term> terms;
     terms.push_back({matrix(stiffness), 0, 0, 1});
     terms.push_back({matrix(friction), 0, 1, 1});
     terms.push_back({matrix(mass), 2, 0, 1});
     if (damping != Matrix2{}) terms.push_back({matrix(damping), 1, 0, 1});
-    const flutter::Pencil pencil(std::move(terms));
-    return flutter::solveDirect(pencil, {mu, 1.0}, matrix({1, 0, 0, 1}));
+    const pencil::Pencil pencil(std::move(terms));
+    return direct::solveDirect(pencil, {mu, 1.0}, matrix({1, 0, 0, 1}));
   }
   std::vector<Complex> eigenvalues(double mu) const { return test::eigenvaluesOf(at(mu)); }
   double growth(double mu) const {

@@ -44,7 +44,7 @@ TEST(MovingLayers, TablesSolveTheCharacteristicEquation) {
 
 // The program's own case, with nothing changed: 120 modes, 24 quadratic cells for up to 3 wavelengths.
 TEST(MovingLayers, CaseFile) {
-  const Analysis analysis = runCase("two_layers_moving");
+  const analysis::Analysis analysis = runCase("two_layers_moving");
   ASSERT_EQ(analysis.segments.size(), 1U);
   EXPECT_EQ(analysis.segments[0].openNodes, 0);
   ASSERT_EQ(analysis.segments[0].points.size(), 4U);
@@ -62,7 +62,7 @@ TEST(MovingLayers, CaseFile) {
 TEST(MovingLayers, FourthOrder) {
   std::vector<std::vector<Errors>> found(2);
   for (std::size_t level = 0; level < 2; ++level) {
-    const Analysis analysis = runCase("two_layers_moving", direct(30) + (level == 0 ? coarse : fine));
+    const analysis::Analysis analysis = runCase("two_layers_moving", direct(30) + (level == 0 ? coarse : fine));
     for (const auto& point : analysis.segments.at(0).points) {
       found[level].push_back(errors(exactAt(point.at.friction), eigenvaluesOf(point)));
       print("%s, f = %g, worst of the first 20: |s - s*|/|s*| %.1e, growth rate %.1e\n", level == 0 ? "coarse" : "fine",
@@ -85,8 +85,8 @@ TEST(MovingLayers, FourthOrder) {
 // G and K^R in the reduced problem: corrected to the full one up to backward errors of 1e-11.
 TEST(MovingLayers, ReducedProblemIsTheFullOne) {
   const std::string options = "-flutter_friction 0.5 -flutter_accuracy 1e-11" + coarse;
-  const Analysis reduced = runCase("two_layers_moving", options + " -modes_count 80");
-  const Analysis full = runCase("two_layers_moving", options + direct(30));
+  const analysis::Analysis reduced = runCase("two_layers_moving", options + " -modes_count 80");
+  const analysis::Analysis full = runCase("two_layers_moving", options + direct(30));
   const auto& point = reduced.segments.at(0).points.at(0);
   ASSERT_GE(point.eigenvalues.size(), 25U);
   auto wanted = eigenvaluesOf(full.segments.at(0).points.at(0));
@@ -98,7 +98,7 @@ TEST(MovingLayers, ReducedProblemIsTheFullOne) {
 
 /// The whole spectrum of the case with changes, the first of which may go on with `fine`, against the waves of `sliding`.
 void expectWaves(const std::string& options, const two_layers::Sliding& sliding, const std::string& label) {
-  const Analysis analysis = runCase("two_layers_moving", fine + options + direct(36));
+  const analysis::Analysis analysis = runCase("two_layers_moving", fine + options + direct(36));
   expectSpectrum(eigenvaluesOf(analysis.segments.at(0).points.at(0)),
                  {[&](int n, Complex s) { return two_layers::characteristic(sliding, n, s); }}, 1e-3, label);
 }

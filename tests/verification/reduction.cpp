@@ -15,7 +15,7 @@ const Lists& fullOrder(const std::string& name, const std::string& changes) {
   static std::map<std::string, Lists> known;
   auto& lists = known[name + changes];
   if (!lists.empty()) return lists;
-  const Analysis analysis = runCase(name, changes + " -flutter_method direct -flutter_direct_count 80");
+  const analysis::Analysis analysis = runCase(name, changes + " -flutter_method direct -flutter_direct_count 80");
   for (const auto& point : analysis.segments.at(0).points) {
     EXPECT_LT(point.worstBackwardError(), 1e-12);  // at the far end, where the Krylov space ends; a thousandth of it lower down
     lists.push_back(eigenvaluesOf(point));
@@ -39,7 +39,7 @@ struct Comparison {
 };
 
 /// All eigenvalues of a point with those of the full order, each with one of its own.
-Comparison compare(const flutter::FrictionPoint& point, const std::vector<Complex>& exact) {
+Comparison compare(const pencil::FrictionPoint& point, const std::vector<Complex>& exact) {
   Comparison result;
   const auto found = eigenvaluesOf(point);
   const auto match = matched(found, exact);
@@ -59,7 +59,7 @@ Comparison compare(const flutter::FrictionPoint& point, const std::vector<Comple
 void expectFullOrder(const std::string& name, const std::string& changes, std::size_t first,
                      const std::string& method = "corrected") {
   const auto& exact = fullOrder(name, changes);
-  const Analysis reduced = runCase(name, changes + " -modes_count 60 -flutter_track off -reduction_basis " + method);
+  const analysis::Analysis reduced = runCase(name, changes + " -modes_count 60 -flutter_track off -reduction_basis " + method);
   const auto& segment = reduced.segments.at(0);
   ASSERT_EQ(segment.points.size(), exact.size());
   for (std::size_t i = 0; i < exact.size(); ++i) {
@@ -83,7 +83,7 @@ TEST(Reduction, TwoLayersFromSixtyModes) { expectFullOrder("two_layers", "-flutt
 /// 1 %, as far as first order goes.
 void expectEstimated(const std::string& name, const std::string& changes) {
   const auto& exact = fullOrder(name, changes);
-  const Analysis modal = runCase(name, changes + " -modes_count 60 -reduction_basis modal -flutter_track off");
+  const analysis::Analysis modal = runCase(name, changes + " -modes_count 60 -reduction_basis modal -flutter_track off");
   const auto& points = modal.segments.at(0).points;
   ASSERT_EQ(points.size(), exact.size());
   for (std::size_t i = 0; i < exact.size(); ++i) {

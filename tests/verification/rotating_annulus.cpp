@@ -100,7 +100,7 @@ Waves computed(int cells, double omega) {
   const auto model = test::buildModel();
   const contact::AssociatedSystem system(model.bodies, model.contact, {});
   const auto pencil = flutter::affineTerms(model.contact, system);
-  const auto solver = flutter::nearestSolver(pencil, {0, 1});
+  const auto solver = direct::nearestSolver(pencil, {0, 1});
   const auto found = solver->solve(40);
   EXPECT_GT(found.reached, top);
   Waves waves;

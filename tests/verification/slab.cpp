@@ -13,8 +13,8 @@ namespace {
 void expectPlaneStrain(const std::string& mesh, const std::string& options) {
   const std::string common =
       " -elasticity_incompatible_modes none -flutter_friction 0,0.4 -flutter_method direct -flutter_direct_count 40 " + options;
-  const Analysis plane = runCase("layer", "-mesh_set " + mesh + common);
-  const Analysis slab = runCase("layer", "-mesh_file meshes/layer_slab.geo -constraint_layer_clamped z -mesh_set " + mesh + common);
+  const analysis::Analysis plane = runCase("layer", "-mesh_set " + mesh + common);
+  const analysis::Analysis slab = runCase("layer", "-mesh_file meshes/layer_slab.geo -constraint_layer_clamped z -mesh_set " + mesh + common);
   EXPECT_EQ(slab.mesh->dimension, 3);
   ASSERT_EQ(slab.segments.size(), 1U);
   const double pressure = exact::one_layer::Steady{0.4, 0.01}.pressure();

@@ -14,7 +14,7 @@ constexpr double depth = 0.01;  // by which the case files press
 
 /// Collective. Largest difference from `exact(x, y, part)` -> {u, v} at any node, relative to the largest exact component.
 template <class Exact>
-double displacementError(const Analysis& analysis, const steady::Solution& solution, const Exact& exact) {
+double displacementError(const analysis::Analysis& analysis, const steady::Solution& solution, const Exact& exact) {
   const auto& mesh = *analysis.mesh;
   const PetscScalar* values = nullptr;
   double error = 0, scale = 0;
@@ -32,7 +32,7 @@ double displacementError(const Analysis& analysis, const steady::Solution& solut
 }
 
 /// Collective. Pressure everywhere, its resultants over the contact, and friction along x · `sense`.
-void expectUniformPressure(const Analysis& analysis, const steady::Solution& solution, double pressure, double area, double normalY,
+void expectUniformPressure(const analysis::Analysis& analysis, const steady::Solution& solution, double pressure, double area, double normalY,
                            double sense) {
   double error = 0;
   for (std::size_t i = 0; i < solution.contact.size(); ++i) {
@@ -60,7 +60,7 @@ const std::vector<std::string> elements{"order=1,recombine=1", "order=1,recombin
 const std::string steadyOnly = " -flutter_friction 0,0.3,0.6 -modes_count 1 -modes_sturm 0";
 
 void expectLayer(const std::string& changes, double sense) {
-  const Analysis analysis = runCase("layer", changes + steadyOnly);
+  const analysis::Analysis analysis = runCase("layer", changes + steadyOnly);
   ASSERT_EQ(analysis.steady.size(), 3U);
   for (const auto& solution : analysis.steady) {
     const exact::one_layer::Steady exact{solution.at.friction, depth};
@@ -82,7 +82,7 @@ TEST(Steady, LayerWithOtherElements) {
 TEST(Steady, PlateSlidingTheOtherWay) { expectLayer("-mesh_set nx=6,ny=3 -contact_plate_obstacle_velocity -2,0,0", -1); }
 
 void expectTwoLayers(const std::string& changes) {
-  const Analysis analysis = runCase("two_layers", changes + steadyOnly);
+  const analysis::Analysis analysis = runCase("two_layers", changes + steadyOnly);
   ASSERT_EQ(analysis.steady.size(), 3U);
   for (const auto& solution : analysis.steady) {
     const exact::two_layers::Steady exact{solution.at.friction, depth};
@@ -107,7 +107,7 @@ TEST(Steady, TwoLayersWithOtherElements) {
 const std::string hex20 = "-mesh_file meshes/layer_slab.geo -constraint_layer_clamped z -mesh_set nx=6,ny=3,order=2,serendipity=1";
 
 TEST(Steady, ClosedSerendipityFacesAreAccepted) {
-  const Analysis analysis = runCase("layer", hex20 + steadyOnly);
+  const analysis::Analysis analysis = runCase("layer", hex20 + steadyOnly);
   ASSERT_EQ(analysis.steady.size(), 3U);
   for (const auto& solution : analysis.steady) {
     const exact::one_layer::Steady exact{solution.at.friction, depth};
@@ -150,7 +150,7 @@ std::string blockOnDisc(const std::string& frictions) {
 
 /// Collective. The solution satisfies every law of steady sliding, so it is the solution; it is open at the trailing end and
 /// nowhere else.
-void expectPartlyOpen(const Analysis& analysis, const steady::Solution& solution, double height) {
+void expectPartlyOpen(const analysis::Analysis& analysis, const steady::Solution& solution, double height) {
   ASSERT_TRUE(solution.converged) << solution.reason;
   const Violations violation = violations(analysis, solution);
   const Transmitted sums = transmitted(analysis, solution);
@@ -185,13 +185,13 @@ void expectPartlyOpen(const Analysis& analysis, const steady::Solution& solution
 }
 
 TEST(Steady, BlockUnderPlateOpens) {
-  const Analysis analysis = runOptions(plateOnBlock("0.35"));
+  const analysis::Analysis analysis = runOptions(plateOnBlock("0.35"));
   ASSERT_EQ(analysis.steady.size(), 1U);
   expectPartlyOpen(analysis, analysis.steady[0], 1);
 }
 
 TEST(Steady, BlockOnDiscOpens) {
-  const Analysis analysis = runOptions(blockOnDisc("0.35"));
+  const analysis::Analysis analysis = runOptions(blockOnDisc("0.35"));
   ASSERT_EQ(analysis.steady.size(), 1U);
   expectPartlyOpen(analysis, analysis.steady[0], 0.8);
 }
@@ -199,7 +199,7 @@ TEST(Steady, BlockOnDiscOpens) {
 // At f = 0.6 the centre of pressure would lie outside the block: no solution exists, which is said, and no flutter is computed
 // there.
 TEST(Steady, TopplingBlockHasNoSolution) {
-  const Analysis analysis = runOptions(plateOnBlock("0.3,0.35,0.6"));
+  const analysis::Analysis analysis = runOptions(plateOnBlock("0.3,0.35,0.6"));
   ASSERT_EQ(analysis.steady.size(), 3U);
   expectPartlyOpen(analysis, analysis.steady[0], 1);
   expectPartlyOpen(analysis, analysis.steady[1], 1);
@@ -215,7 +215,7 @@ TEST(Steady, TopplingBlockHasNoSolution) {
 // The same with hex20: node by node nothing can be decided where forces of both signs belong to one pressure, so an opening contact
 // is refused.
 TEST(Steady, OpeningSerendipityFacesAreRefused) {
-  const Analysis analysis = runOptions(plateOnBlock("0.35", "nx=8,ny=8,order=2,serendipity=1") +
+  const analysis::Analysis analysis = runOptions(plateOnBlock("0.35", "nx=8,ny=8,order=2,serendipity=1") +
                                        " -mesh_file meshes/layer_slab.geo -constraint_layer_clamped z");
   ASSERT_EQ(analysis.steady.size(), 1U);
   EXPECT_FALSE(analysis.steady[0].converged);
@@ -226,7 +226,7 @@ TEST(Steady, OpeningSerendipityFacesAreRefused) {
 // The consistent forces of a pressure on 3-node edges are positive at the ends and in the middle: quadratic cells are decided node
 // by node in the plane.
 TEST(Steady, QuadraticBlockOpens) {
-  const Analysis analysis = runOptions(plateOnBlock("0.35", "order=2,nx=8,ny=8"));
+  const analysis::Analysis analysis = runOptions(plateOnBlock("0.35", "order=2,nx=8,ny=8"));
   ASSERT_EQ(analysis.steady.size(), 1U);
   expectPartlyOpen(analysis, analysis.steady[0], 1);
 }
@@ -234,7 +234,7 @@ TEST(Steady, QuadraticBlockOpens) {
 TEST(Steady, TwoInterfacesOnOneBody) {
   // The layer between two plates that close in by 0.01 each and slide alike, its ends held along x: without friction the strain is
   // uniform, ε_yy = −0.02, and the pressure on both faces (λ + 2μ)·0.02. A second interface is only two more options.
-  const Analysis analysis = runOptions(
+  const analysis::Analysis analysis = runOptions(
       "-mesh_file meshes/layer.geo -material_layer_young 1 -material_layer_poisson 0.3 -material_layer_density 1 "
       "-constraint_left_clamped x -constraint_right_clamped x "
       "-contact_upper_pad top -contact_upper_obstacle_velocity 1,0,0 -contact_upper_obstacle_displacement 0,-0.01,0 "

@@ -32,7 +32,7 @@ TEST(TwoLayers, TablesSolveTheCharacteristicEquation) {
 // The program's own case, with nothing changed: bilinear cells, higher-order mass, 200 modes. With cells of the same size and the
 // same mass matrix as in the case `layer`, it is held to the same bounds: 1 % in |s|, 0.01 in growth rate.
 TEST(TwoLayers, CaseFile) {
-  const Analysis analysis = runCase("two_layers");
+  const analysis::Analysis analysis = runCase("two_layers");
   ASSERT_EQ(analysis.segments.size(), 1U);
   EXPECT_EQ(analysis.segments[0].openNodes, 0);
   ASSERT_EQ(analysis.segments[0].points.size(), 4U);
@@ -48,7 +48,7 @@ TEST(TwoLayers, CaseFile) {
 
 /// The lowest eigenvalues of the problem on all unknowns, so that no modal basis adds to the error of the mesh; [friction].
 std::vector<Errors> fullOrder(const std::string& mesh, std::size_t count) {
-  const Analysis analysis =
+  const analysis::Analysis analysis =
       runCase("two_layers", "-mesh_set " + mesh + " -elasticity_mass consistent -flutter_friction 0.1,0.3,0.5" +
                                 " -flutter_method direct -flutter_direct_count " + std::to_string(count + 12));
   std::vector<Errors> result;
@@ -98,7 +98,7 @@ TEST(TwoLayers, FourthOrderWithTri6) { expectFourthOrder("recombine=0,serendipit
 TEST(TwoLayers, SharedInterfaceNodes) {
   const std::string options =
       "-flutter_friction 0.5 -flutter_method direct -flutter_direct_count 30 -mesh_set nx=12,ny_disc=4,ny_pad=3";
-  const Analysis twofold = runCase("two_layers", options), shared = runCase("two_layers", options + ",shared=1");
+  const analysis::Analysis twofold = runCase("two_layers", options), shared = runCase("two_layers", options + ",shared=1");
   const auto wanted = eigenvaluesOf(twofold.segments.at(0).points.at(0));
   const double difference = worst(errors(wanted, eigenvaluesOf(shared.segments.at(0).points.at(0))).relative);
   print("shared against twofold interface nodes: %.1e\n", difference);
