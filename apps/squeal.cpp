@@ -50,7 +50,7 @@ int run(const squeal::Session& session) {
       return 0;
     }
     squeal::report::Directory directory(session.comm());
-    if (squeal::matrices::exportWanted()) squeal::matrices::requireExportFolder(session.comm());
+    if (squeal::matrices::exportWanted()) squeal::matrices::requireExportFolder(session.comm(), directory.path());
     const squeal::analysis::Analysis analysis = squeal::analysis::analyse(session.comm());
     squeal::report::write(analysis, directory);
     for (const auto& line : squeal::unusedOptions()) squeal::say(session.comm(), line);

@@ -318,6 +318,8 @@ mesh::Request meshRequest() {
   request.surfaces = elasticity::loadedSurfaces();
   request.interfaces = contact::readInterfaces();
   request.periodic = contact::periodicPairs();
+  request.howToGiveMaterials = elasticity::howToGiveMaterials();
+  request.motionOptions = elasticity::motionOptions();
   return request;
 }
 

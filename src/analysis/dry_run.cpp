@@ -46,11 +46,11 @@ void sayMesh(const mesh::Mesh& mesh) {
   auto held = contact::constrainedGroups();
   for (const auto& group : elasticity::groundedGroups()) held.push_back(group);
   for (const auto& [name, members] : mesh.nodeGroups)
-    if (std::find(held.begin(), held.end(), name) != held.end())
+    if (std::any_of(held.begin(), held.end(), [&, &group = name](const auto& request) { return request.name == group; }))
       nodes.push_back(counted(name, total(mesh.comm, static_cast<double>(members.size())), "nodes"));
   const auto loaded = elasticity::loadedSurfaces();
   for (std::size_t i = 0; i < mesh.surfaces.size(); ++i) {
-    if (std::find(loaded.begin(), loaded.end(), mesh.surfaces[i]) == loaded.end()) continue;
+    if (std::none_of(loaded.begin(), loaded.end(), [&](const auto& request) { return request.name == mesh.surfaces[i]; })) continue;
     double faces = 0;
     for (const auto& block : mesh.faces)
       faces += static_cast<double>(std::count(block.surface.begin(), block.surface.end(), static_cast<int>(i)));

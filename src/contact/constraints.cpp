@@ -19,16 +19,21 @@ const TextOption imageOption("constraint", "constraint_<group>_image_of", "",
 
 }  // namespace
 
-std::vector<std::string> constrainedGroups() {
+std::vector<mesh::GroupRequest> constrainedGroups() {
   for (const auto& group : displacementOption.subjects())
     if (!clampedOption.given(group))
       throw Error("option -" + displacementOption.fullName(group) + " needs -" + clampedOption.fullName(group));
-  return clampedOption.subjects();
+  std::vector<mesh::GroupRequest> requests;
+  for (const auto& group : clampedOption.subjects()) requests.push_back({group, "option -" + clampedOption.fullName(group)});
+  return requests;
 }
 
 std::vector<mesh::PeriodicRequest> periodicPairs() {
   std::vector<mesh::PeriodicRequest> pairs;
-  for (const auto& image : imageOption.subjects()) pairs.push_back({image, imageOption.get(image)});
+  for (const auto& image : imageOption.subjects()) {
+    const std::string primary = imageOption.get(image);
+    pairs.push_back({image, primary, "option -" + imageOption.fullName(image) + " " + primary});
+  }
   return pairs;
 }
 
@@ -39,7 +44,7 @@ Constraints readConstraints(const mesh::Mesh& mesh) {
   constraints.heldBy.assign(constraints.held.size(), -1);
   constraints.displacement.assign(constraints.held.size(), 0.0);
   std::string failure;
-  for (const auto& group : constrainedGroups()) {
+  for (const auto& group : clampedOption.subjects()) {
     constraints.groups.push_back(group);
     const std::string components = clampedOption.get(group), allowed = std::string("xyz").substr(0, dimension);
     const auto values = displacementOption.components(group, mesh.dimension);

@@ -7,7 +7,7 @@
 namespace squeal::contact {
 
 /// Groups that constraint options name, for the mesh reader.
-std::vector<std::string> constrainedGroups();
+std::vector<mesh::GroupRequest> constrainedGroups();
 std::vector<mesh::PeriodicRequest> periodicPairs();
 
 /// Cartesian components held at each owned node.

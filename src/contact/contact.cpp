@@ -269,7 +269,11 @@ std::vector<mesh::InterfaceRequest> readInterfaces() {
     if (disc == obstacle)
       throw Error("option -" + padOption.fullName(name) + ": give either -" + discOption.fullName(name) + " or -" +
                   obstacleVelocityOption.fullName(name));
-    requests.push_back({name, padOption.get(name), disc ? discOption.get(name) : ""});
+    const auto groupOf = [&](const TextOption& option) {
+      const std::string group = option.get(name);
+      return mesh::GroupRequest{group, "option -" + option.fullName(name) + " " + group};
+    };
+    requests.push_back({name, groupOf(padOption), disc ? groupOf(discOption) : mesh::GroupRequest{}});
   }
   return requests;
 }
@@ -279,7 +283,7 @@ Contact build(const mesh::Mesh& mesh, const elasticity::Bodies& bodies) {
   Contact contact;
   contact.constraints = readConstraints(mesh);
   contact.mesh = &mesh;
-  for (const auto& request : requests) contact.interfaces.push_back(request.name), contact.padSurfaces.push_back(request.pad);
+  for (const auto& request : requests) contact.interfaces.push_back(request.name), contact.padSurfaces.push_back(request.pad.name);
   contact.periodic = periodicity(mesh);
   requireRestingPads(mesh, bodies, contact);
   contact.law = FrictionLaw::read();

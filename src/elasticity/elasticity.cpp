@@ -164,7 +164,11 @@ void assembleLoad(const mesh::Mesh& mesh, Bodies& bodies) {
 
 }  // namespace
 
-std::vector<std::string> loadedSurfaces() { return pressureOption.subjects(); }
+std::vector<mesh::GroupRequest> loadedSurfaces() {
+  std::vector<mesh::GroupRequest> requests;
+  for (const auto& surface : pressureOption.subjects()) requests.push_back({surface, "option -" + pressureOption.fullName(surface)});
+  return requests;
+}
 
 bool prestressWanted() { return prestressOption.get(); }
 

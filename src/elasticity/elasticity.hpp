@@ -22,12 +22,14 @@ struct Bodies {
 };
 
 /// Volume groups with a material, from the options that give an elastic law (`-material_<group>_young`, …). Error if there is none.
-std::vector<std::string> materialGroups();
+std::vector<mesh::GroupRequest> materialGroups();
+/// Which options give a material, for messages: "give -…".
+std::string howToGiveMaterials();
 /// Surface groups with a `-load_<group>_pressure` option.
-std::vector<std::string> loadedSurfaces();
+std::vector<mesh::GroupRequest> loadedSurfaces();
 
 /// Groups with a `-ground_<group>_*` option.
-std::vector<std::string> groundedGroups();
+std::vector<mesh::GroupRequest> groundedGroups();
 
 /// Collective. Errors: bad or missing material, inverted element (names body and cell), convective terms on a body that does not
 /// keep its place as its matter moves.

@@ -1,7 +1,7 @@
 #include "elasticity/ground.hpp"
 
 #include <algorithm>
-#include <set>
+#include <map>
 
 #include "elasticity/elasticity.hpp"
 #include "options/options.hpp"
@@ -38,11 +38,13 @@ OwnedVec shared(const mesh::Mesh& mesh, const RealListOption& option) {
 
 }  // namespace
 
-std::vector<std::string> groundedGroups() {
-  std::set<std::string> groups;
+std::vector<mesh::GroupRequest> groundedGroups() {
+  std::map<std::string, std::string> options;
   for (const auto* option : {&stiffnessOption, &dampingOption})
-    for (const auto& group : option->subjects()) groups.insert(group);
-  return {groups.begin(), groups.end()};
+    for (const auto& group : option->subjects()) options.emplace(group, "option -" + option->fullName(group));
+  std::vector<mesh::GroupRequest> requests;
+  for (const auto& [group, option] : options) requests.push_back({group, option});
+  return requests;
 }
 
 Ground readGround(const mesh::Mesh& mesh) { return {shared(mesh, stiffnessOption), shared(mesh, dampingOption)}; }

@@ -163,7 +163,7 @@ std::vector<Material> readMaterials(const mesh::Mesh& mesh) {
   return materials;
 }
 
-std::vector<std::string> materialGroups() {
+std::vector<mesh::GroupRequest> materialGroups() {
   std::set<std::string> groups;
   for (const Option* option : {static_cast<const Option*>(&youngOption), static_cast<const Option*>(&engineeringOption),
                                static_cast<const Option*>(&transverseOption)})
@@ -177,9 +177,13 @@ std::vector<std::string> materialGroups() {
       if (!groups.count(group))
         throw Error("option -" + youngOption.fullName(group) + " (or _engineering_constants, _transverse) is missing, but -" +
                     option->fullName(group) + " is given");
-  if (groups.empty()) throw Error("no body: give -material_<group>_young, _poisson and _density for each volume group of the mesh");
+  if (groups.empty()) throw Error("no body: " + howToGiveMaterials() + " for each volume group of the mesh");
   for (const auto& group : groups) readMaterial(group, 3, false);  // checks before the mesh is read
-  return {groups.begin(), groups.end()};
+  std::vector<mesh::GroupRequest> requests;
+  for (const auto& group : groups) requests.push_back({group, "option -" + youngOption.fullName(group)});
+  return requests;
 }
+
+std::string howToGiveMaterials() { return "give -material_<group>_young, _poisson and _density"; }
 
 }  // namespace squeal::elasticity

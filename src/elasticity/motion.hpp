@@ -23,6 +23,8 @@ struct Motion {
 bool convectiveTerms();
 /// Bodies with a `-motion_<body>_*` option.
 std::vector<std::string> movingBodies();
+/// Which options give a motion, for messages.
+inline const char* motionOptions() { return "-motion_<body>_*"; }
 /// Motion of each body in turn; none given: at rest. Error: rotation and translation together, both units of the
 /// speed, axis of zero length, vectors that have not the components of the mesh's dimension.
 std::vector<Motion> readMotions(const std::vector<std::string>& bodies, int dimension);

@@ -59,7 +59,7 @@ class AssociatedSystem {
 bool exportWanted();
 
 /// Collective, before work begins. Error: the folder of `-report_matrices` cannot be written, or something in it is in the way.
-void requireExportFolder(MPI_Comm comm);
+void requireExportFolder(MPI_Comm comm, const std::filesystem::path& results);
 /// Collective. Writes the matrices of the pencil to the folder of `-report_matrices`, and options.txt, an -options_file that solves it
 /// again. Terms that belong to one point of the parameters, made with its steady forces, are frozen at it. `steadyPoints`: how many
 /// steady states of the sweep the pencil is for. Errors: not for all; such terms and a sweep of several points; the folder or a file

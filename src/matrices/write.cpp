@@ -136,26 +136,19 @@ output::Manifest formerExport(const fs::path& folder) {
   return output::Manifest(files);
 }
 
-/// Collective. Error: the folder is that of the results, whose options.txt is another one.
-void requireOwnFolder() {
-  const auto results = resolvedOptions().find("report_dir");
-  const auto place = [](const std::string& folder) { return fs::weakly_canonical(fs::absolute(folder)) / ""; };
-  if (results != resolvedOptions().end() && place(results->second) == place(folderOption.get()))
-    throw Error(blame() + "is the folder of the results (-report_dir); name another one");
-}
-
 }  // namespace
 
 bool exportWanted() { return !folderOption.get().empty(); }
 
-void requireExportFolder(MPI_Comm comm) {
-  requireOwnFolder();
+void requireExportFolder(MPI_Comm comm, const fs::path& results) {
+  const auto place = [](const fs::path& folder) { return fs::weakly_canonical(fs::absolute(folder)) / ""; };
+  if (place(results) == place(folderOption.get()))  // it has an options.txt of its own
+    throw Error(blame() + "is the folder of the results; name another one");
   const output::Folder folder(comm, {"-report_matrices", "options.txt", isExport, formerExport}, folderOption.get());
 }
 
 void exportPencil(const pencil::Pencil& pencil, const sweep::Sweep& sweep, std::size_t steadyPoints) {
   requireOnePencil(pencil, sweep, steadyPoints);
-  requireOwnFolder();
   Stage stage(pencil.comm(), "matrices");
   output::Folder folder(pencil.comm(), {"-report_matrices", "options.txt", isExport, formerExport}, folderOption.get());
   folder.stage();

@@ -42,7 +42,7 @@ void requireDistinctCells(const WholeMesh& mesh) {
 }
 
 /// Every cell of the largest dimension has a body.
-void requireMaterials(const WholeMesh& mesh, const GmshModel& model, const std::map<PetscInt, int>& bodyOf) {
+void requireMaterials(const WholeMesh& mesh, const GmshModel& model, const std::map<PetscInt, int>& bodyOf, const Request& request) {
   if (model.largestDimension() != mesh.dimension) return;
   std::map<PetscInt, std::vector<std::string>> without;  // cell -> its groups
   for (PetscInt tag : model.ungrouped()) without[tag];
@@ -54,17 +54,17 @@ void requireMaterials(const WholeMesh& mesh, const GmshModel& model, const std::
   if (without.empty()) return;
   const auto& [tag, groups] = *without.begin();
   if (groups.empty()) throw Error("cell " + std::to_string(tag) + " is in no physical group, so it has no material");
-  throw Error("group '" + joined(groups) + "' has no material: give -material_<group>_young, _poisson and _density (cell " +
+  throw Error("group '" + joined(groups) + "' has no material: " + request.howToGiveMaterials + " (cell " +
               std::to_string(tag) + ")");
 }
 
 }  // namespace
 
 void readBodies(WholeMesh& mesh, const GmshModel& model, const Request& request, NodeIndex& index) {
-  mesh.bodies = request.bodies;
+  for (const auto& body : request.bodies) mesh.bodies.push_back(body.name);
   std::map<PetscInt, int> bodyOf;
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
-    const std::string option = "option -material_" + mesh.bodies[b] + "_young";
+    const std::string& option = request.bodies[b].option;
     auto group = model.group(mesh.bodies[b], option);
     if (b == 0) mesh.dimension = group.dimension;
     if (group.dimension != mesh.dimension || group.dimension < 2)
@@ -89,7 +89,7 @@ void readBodies(WholeMesh& mesh, const GmshModel& model, const Request& request,
       known->label.insert(known->label.end(), block.tag.size(), static_cast<int>(b));
     }
   }
-  requireMaterials(mesh, model, bodyOf);
+  requireMaterials(mesh, model, bodyOf, request);
   requireDistinctCells(mesh);
   if (mesh.dimension == 2)
     for (const auto& point : mesh.points)

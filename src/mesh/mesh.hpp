@@ -70,24 +70,34 @@ struct Mesh {
   PetscInt localNodes() const { return static_cast<PetscInt>(globalNode.size()); }
 };
 
-/// One contact interface as the mesh sees it.
+/// A group of the mesh that a later stage asks for, and the words to blame where it is missing or
+/// not what is wanted: "option -…".
+struct GroupRequest {
+  std::string name, option;
+};
+
+/// One contact interface as the mesh sees it: two surface groups, or a pad on a rigid obstacle.
 struct InterfaceRequest {
-  std::string name, pad, disc;  ///< surface groups; an empty disc: rigid obstacle
+  std::string name;
+  GroupRequest pad, disc;  ///< an empty name of the disc: rigid obstacle
 };
 
 /// A periodic constraint: `image` is `of` translated.
 struct PeriodicRequest {
   std::string image, of;
+  std::string option;  ///< the words to blame
 };
 
 /// What the later stages need from the mesh.
 struct Request {
-  std::vector<std::string> bodies;      ///< volume groups with a material
-  std::vector<std::string> moving;      ///< bodies with a motion: the disc side of an interface whose nodes are shared
-  std::vector<std::string> nodeGroups;  ///< groups of any dimension whose nodes are constrained
-  std::vector<std::string> surfaces;    ///< surface groups that are loaded; those of interfaces are added
+  std::vector<GroupRequest> bodies;  ///< volume groups with a material
+  std::vector<std::string> moving;   ///< bodies with a motion: the disc side of an interface whose nodes are shared
+  std::vector<GroupRequest> nodeGroups;  ///< groups of any dimension whose nodes are constrained
+  std::vector<GroupRequest> surfaces;  ///< surface groups that are loaded; those of interfaces are added
   std::vector<InterfaceRequest> interfaces;
   std::vector<PeriodicRequest> periodic;
+  std::string howToGiveMaterials;  ///< "give -…", for a group of cells that has none
+  std::string motionOptions;       ///< "-…", for interfaces on which neither side moves
 };
 
 /// Collective. Reads (or meshes, for a .geo) `-mesh_file` through the gmsh library on rank 0, splits nodes shared across contact

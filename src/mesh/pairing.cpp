@@ -81,7 +81,7 @@ void pairImages(WholeMesh& mesh, const PeriodicRequest& request, double near) {
     PetscInt partner = -1;
     for (PetscInt node : locator.at(where))
       if (partner < 0 || mesh.part[static_cast<std::size_t>(node)] == mesh.part[static_cast<std::size_t>(image)]) partner = node;
-    const std::string option = "option -constraint_" + request.image + "_image_of " + request.of;
+    const std::string& option = request.option;
     if (partner < 0)
       throw Error(option + ": the node at " + positionText(p) + " of '" + request.image + "' has no partner in '" + request.of +
                   "'; the two must be meshed alike, one the translate of the other");
@@ -89,18 +89,18 @@ void pairImages(WholeMesh& mesh, const PeriodicRequest& request, double near) {
     if (mesh.primary[static_cast<std::size_t>(image)] == image) mesh.primary[static_cast<std::size_t>(image)] = partner;
   }
   if (images.size() != primaries.size())
-    throw Error(formatted("option -constraint_%s_image_of %s: the groups have %zu and %zu nodes; they must be meshed alike",
-                          request.image.c_str(), request.of.c_str(), images.size(), primaries.size()));
+    throw Error(formatted("%s: the groups have %zu and %zu nodes; they must be meshed alike", request.option.c_str(),
+                          images.size(), primaries.size()));
 }
 
 /// Follows images of images (the edge of a doubly periodic box) to the end.
-void resolveImages(WholeMesh& mesh) {
+void resolveImages(WholeMesh& mesh, const Request& request) {
   for (PetscInt node = 0; node < mesh.nodeCount(); ++node) {
     PetscInt end = node;
     int steps = 0;
     while (mesh.primary[static_cast<std::size_t>(end)] != end) {
       end = mesh.primary[static_cast<std::size_t>(end)];
-      if (++steps > 8) throw Error("options -constraint_<group>_image_of: the images go round in a circle");
+      if (++steps > 8) throw Error(request.periodic.front().option + ": the images go round in a circle");
     }
     mesh.primary[static_cast<std::size_t>(node)] = end;
     if (end == node) continue;
@@ -144,17 +144,17 @@ std::string whyAlone(const WholeMesh& mesh, PetscInt node, const std::string& gr
 }
 
 std::string optionsOf(const InterfaceRequest& request) {
-  return "options -contact_" + request.name + "_pad " + request.pad + ", -contact_" + request.name + "_disc " + request.disc + ": ";
+  return request.pad.option + ", " + request.disc.option + ": ";
 }
 
 void pairContact(WholeMesh& mesh, const InterfaceRequest& request, int interface, const std::vector<int>& body, double near) {
-  const std::set<PetscInt> pad = padNodes(mesh, request.pad);
-  if (request.disc.empty()) {
+  const std::set<PetscInt> pad = padNodes(mesh, request.pad.name);
+  if (request.disc.name.empty()) {
     for (PetscInt node : pad) mesh.pairs.push_back({node, -1, interface, -1, -1});
     return;
   }
   std::vector<PetscInt> disc;  // shared nodes: the group holds the twins of both sides
-  for (PetscInt node : mesh.nodeGroups.at(request.disc))
+  for (PetscInt node : mesh.nodeGroups.at(request.disc.name))
     if (!pad.count(node)) disc.push_back(node);
   if (disc.empty())
     throw Error(optionsOf(request) + "pad and disc are the same surface, of one body; contact is between the surfaces of two");
@@ -163,8 +163,8 @@ void pairContact(WholeMesh& mesh, const InterfaceRequest& request, int interface
     const auto found = locator.at(mesh.points[static_cast<std::size_t>(node)]);
     if (found.empty())
       throw Error(optionsOf(request) + "the node at " + positionText(mesh.points[static_cast<std::size_t>(node)]) + " of '" +
-                  request.pad + "' has no node of '" + request.disc + "' at the same place, " +
-                  whyAlone(mesh, node, request.disc, body, near) + " (contact needs matching meshes)");
+                  request.pad.name + "' has no node of '" + request.disc.name + "' at the same place, " +
+                  whyAlone(mesh, node, request.disc.name, body, near) + " (contact needs matching meshes)");
     const auto master = static_cast<std::size_t>(found[0]);
     mesh.pairs.push_back({node, found[0], interface, body[master], mesh.part[master]});
   }
@@ -172,17 +172,17 @@ void pairContact(WholeMesh& mesh, const InterfaceRequest& request, int interface
 
 /// Each face of the pad must lie on one face of the disc, node on node: a finer disc face would carry nodes that no gap watches.
 void requireEqualFaces(const WholeMesh& mesh, const InterfaceRequest& request, int interface) {
-  if (request.disc.empty()) return;
+  if (request.disc.name.empty()) return;
   std::map<PetscInt, PetscInt> master;
   for (const auto& pair : mesh.pairs)
     if (pair.interface == interface) master[pair.node] = pair.master;
   std::set<std::vector<PetscInt>> discFaces;
-  for (auto face : mesh.discFaces.at(request.disc)) {
+  for (auto face : mesh.discFaces.at(request.disc.name)) {
     for (auto& node : face) node = mesh.primary[static_cast<std::size_t>(node)];
     std::sort(face.begin(), face.end());
     discFaces.insert(face);
   }
-  const auto index = static_cast<int>(std::find(mesh.surfaces.begin(), mesh.surfaces.end(), request.pad) - mesh.surfaces.begin());
+  const auto index = static_cast<int>(std::find(mesh.surfaces.begin(), mesh.surfaces.end(), request.pad.name) - mesh.surfaces.begin());
   for (const auto& block : mesh.faces)
     for (std::size_t e = 0; e < block.tag.size(); ++e) {
       if (block.label[e] != index) continue;
@@ -194,8 +194,8 @@ void requireEqualFaces(const WholeMesh& mesh, const InterfaceRequest& request, i
       for (auto& node : masters) node = mesh.primary[static_cast<std::size_t>(node)];
       std::sort(masters.begin(), masters.end());
       if (!discFaces.count(masters))
-        throw Error(optionsOf(request) + "the face of '" + request.pad + "' at " + positionText(where) +
-                    " does not lie on one face of '" + request.disc +
+        throw Error(optionsOf(request) + "the face of '" + request.pad.name + "' at " + positionText(where) +
+                    " does not lie on one face of '" + request.disc.name +
                     "': is a face missing in this group? (contact needs matching meshes)");
     }
 }
@@ -204,11 +204,11 @@ void rejectChains(const WholeMesh& mesh, const Request& request) {
   std::set<PetscInt> slaves;
   for (const auto& pair : mesh.pairs)
     if (!slaves.insert(pair.node).second)
-      throw Error("option -contact_" + request.interfaces[static_cast<std::size_t>(pair.interface)].name + "_pad: the node at " +
+      throw Error(request.interfaces[static_cast<std::size_t>(pair.interface)].pad.option + ": the node at " +
                   positionText(mesh.points[static_cast<std::size_t>(pair.node)]) + " is already a pad node of another interface");
   for (const auto& pair : mesh.pairs)
     if (slaves.count(pair.master))
-      throw Error("option -contact_" + request.interfaces[static_cast<std::size_t>(pair.interface)].name + "_disc: the node at " +
+      throw Error(request.interfaces[static_cast<std::size_t>(pair.interface)].disc.option + ": the node at " +
                   positionText(mesh.points[static_cast<std::size_t>(pair.master)]) + " is also a pad node of an interface");
 }
 
@@ -219,7 +219,7 @@ void pairNodes(WholeMesh& mesh, const Request& request) {
   mesh.primary.resize(mesh.points.size());
   for (PetscInt node = 0; node < mesh.nodeCount(); ++node) mesh.primary[static_cast<std::size_t>(node)] = node;
   for (const auto& periodic : request.periodic) pairImages(mesh, periodic, near);
-  resolveImages(mesh);
+  resolveImages(mesh, request);
   const auto body = bodyOfNode(mesh);
   for (std::size_t i = 0; i < request.interfaces.size(); ++i)
     pairContact(mesh, request.interfaces[i], static_cast<int>(i), body, near);

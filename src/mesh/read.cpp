@@ -6,16 +6,14 @@
 #include <set>
 
 #include "mesh/whole.hpp"
-#include "options/options.hpp"
+#include "meshfile/format.hpp"
+#include "meshfile/geometry.hpp"
 #include "petsc/buffer.hpp"
 #include "petsc/check.hpp"
 
 namespace squeal::mesh {
 namespace {
 
-const FileOption fileOption("mesh", "mesh_file",
-                            "mesh (.msh, .unv) or geometry: a .geo, which is code, is run and meshed in memory");
-const TextOption setOption("mesh", "mesh_set", "", "parameters of a .geo file by their DefineConstant names: name=number,…");
 
 /// Who owns which node, and the numbers under which all ranks know them: owned nodes of a rank are contiguous.
 struct Numbering {
@@ -235,8 +233,8 @@ Buffer scatter(MPI_Comm comm, std::vector<Buffer>& buffers) {
 }  // namespace
 
 Mesh read(MPI_Comm comm, const Request& request) {
-  const std::string file = fileOption.get();
-  const auto parameters = setOption.list();
+  const std::string file = meshfile::meshFile();
+  const auto parameters = meshfile::geometryParameters();
   int rank = 0, size = 1;
   check(MPI_Comm_rank(comm, &rank));
   check(MPI_Comm_size(comm, &size));

@@ -66,7 +66,8 @@ struct NamedElements {
 
 NamedElements readNamed(const WholeMesh& mesh, const GmshModel& model, const Request& request, const NodeIndex& index) {
   NamedElements named;
-  const auto add = [&](const std::string& name, const std::string& wantedBy, int dimension) {
+  const auto add = [&](const GroupRequest& request, int dimension) {
+    const auto& [name, wantedBy] = request;
     if (named.groups.count(name)) return;
     auto group = model.group(name, wantedBy);
     if (dimension >= 0 && group.dimension != dimension)
@@ -78,14 +79,14 @@ NamedElements readNamed(const WholeMesh& mesh, const GmshModel& model, const Req
   };
   const int boundary = mesh.dimension - 1;
   for (const auto& interface : request.interfaces) {
-    add(interface.pad, "option -contact_" + interface.name + "_pad", boundary);
-    if (!interface.disc.empty()) add(interface.disc, "option -contact_" + interface.name + "_disc", boundary);
+    add(interface.pad, boundary);
+    if (!interface.disc.name.empty()) add(interface.disc, boundary);
   }
-  for (const auto& surface : request.surfaces) add(surface, "option -load_" + surface + "_pressure", boundary);
-  for (const auto& group : request.nodeGroups) add(group, "a -constraint_" + group + "_* or -ground_" + group + "_* option", -1);
+  for (const auto& surface : request.surfaces) add(surface, boundary);
+  for (const auto& group : request.nodeGroups) add(group, -1);
   for (const auto& pair : request.periodic) {
-    add(pair.image, "option -constraint_" + pair.image + "_image_of", -1);
-    add(pair.of, "option -constraint_" + pair.image + "_image_of", -1);
+    add({pair.image, pair.option}, -1);
+    add({pair.of, pair.option}, -1);
   }
   return named;
 }
@@ -114,19 +115,19 @@ class Splitter {
   /// Doubles each node on contact faces that lie between a moving and a resting cell; the resting cells take the new nodes.
   void split(const NamedElements& named) {
     for (const auto& interface : request_.interfaces)
-      for (const auto& block : named.groups.at(interface.pad).blocks)
+      for (const auto& block : named.groups.at(interface.pad.name).blocks)
         for (std::size_t e = 0; e < block.tag.size(); ++e) {
           const PetscInt* nodes = block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerElement);
           const auto neighbours = adjacency_.cellsHolding(nodes, block.corners);
           if (neighbours.size() < 2) continue;
           if (bodyName(neighbours[0]) == bodyName(neighbours[1]))
-            throw Error("option -contact_" + interface.name + "_pad: '" + interface.pad + "' lies inside the body '" +
+            throw Error(interface.pad.option + ": '" + interface.pad.name + "' lies inside the body '" +
                         bodyName(neighbours[0]) +
                         "', whose cells are on both sides of it; contact is between two bodies, groups with a material each");
           if (side(neighbours[0]) == side(neighbours[1]))
-            throw Error("option -contact_" + interface.name + "_pad: the bodies '" + bodyName(neighbours[0]) + "' and '" +
-                        bodyName(neighbours[1]) + "' share the nodes of '" + interface.pad +
-                        "'; to tell disc from pad, exactly one of them must have a -motion_<body>_* option");
+            throw Error(interface.pad.option + ": the bodies '" + bodyName(neighbours[0]) + "' and '" +
+                        bodyName(neighbours[1]) + "' share the nodes of '" + interface.pad.name +
+                        "'; to tell disc from pad, exactly one of them must have a " + request_.motionOptions + " option");
           for (int i = 0; i < block.nodesPerElement; ++i) restingTwin_.emplace(nodes[i], -1);
         }
     for (auto& [node, twin] : restingTwin_) {
@@ -169,9 +170,9 @@ std::vector<PetscInt> groupNodes(const GroupElements& group, const Splitter& spl
 /// Faces of the disc sides by their nodes after the split, once for each cell that they bound.
 void readDiscFaces(WholeMesh& mesh, const Request& request, const NamedElements& named, const Splitter& splitter) {
   for (const auto& interface : request.interfaces) {
-    if (interface.disc.empty()) continue;
-    auto& faces = mesh.discFaces[interface.disc];
-    for (const auto& block : named.groups.at(interface.disc).blocks)
+    if (interface.disc.name.empty()) continue;
+    auto& faces = mesh.discFaces[interface.disc.name];
+    for (const auto& block : named.groups.at(interface.disc.name).blocks)
       for (std::size_t e = 0; e < block.tag.size(); ++e) {
         const PetscInt* nodes = block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerElement);
         for (PetscInt cell : splitter.adjacency().cellsHolding(nodes, block.corners)) {
@@ -213,8 +214,9 @@ void requireDistinctFaces(const std::string& surface, const GroupElements& group
 }
 
 void readFaces(WholeMesh& mesh, const Request& request, const NamedElements& named, const Splitter& splitter) {
-  std::set<std::string> pads, wanted(request.surfaces.begin(), request.surfaces.end());
-  for (const auto& interface : request.interfaces) pads.insert(interface.pad);
+  std::set<std::string> pads, wanted;
+  for (const auto& surface : request.surfaces) wanted.insert(surface.name);
+  for (const auto& interface : request.interfaces) pads.insert(interface.pad.name);
   wanted.insert(pads.begin(), pads.end());
   mesh.surfaces.assign(wanted.begin(), wanted.end());
   for (std::size_t s = 0; s < mesh.surfaces.size(); ++s) {

@@ -8,12 +8,16 @@
 #include <fstream>
 #include <vector>
 
+#include "options/options.hpp"
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
 #include "petsc/unreadable.hpp"
 
 namespace squeal::meshfile {
 namespace {
+
+const FileOption fileOption("mesh", "mesh_file",
+                            "mesh (.msh, .unv) or geometry: a .geo, which is code, is run and meshed in memory");
 
 struct Format {
   const char* ending;
@@ -69,6 +73,8 @@ bool isBuiltIn(const std::string& part) {
 }
 
 }  // namespace
+
+std::string meshFile() { return fileOption.get(); }
 
 FileKind requireSound(const std::string& file) {
   const std::string option = "option -mesh_file " + file + ": ", ending = endingOf(file);

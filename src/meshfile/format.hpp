@@ -4,6 +4,9 @@
 
 namespace squeal::meshfile {
 
+/// `-mesh_file`: the path to read.
+std::string meshFile();
+
 enum class FileKind {
   geometry,  ///< a script: it may read other files and start programs
   msh,       ///< gmsh's own mesh format

@@ -9,12 +9,15 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "options/options.hpp"
 #include "petsc/check.hpp"
 #include "petsc/memory.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal::meshfile {
 namespace {
+
+const TextOption setOption("mesh", "mesh_set", "", "parameters of a .geo file by their DefineConstant names: name=number,…");
 
 using Json = nlohmann::json;
 
@@ -121,6 +124,8 @@ double cellsByEdges() {
 }
 
 }  // namespace
+
+std::vector<std::string> geometryParameters() { return setOption.list(); }
 
 std::vector<Setting> readSettings(const std::vector<std::string>& parameters) {
   std::vector<Setting> settings;

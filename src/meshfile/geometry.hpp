@@ -7,6 +7,9 @@
 
 namespace squeal::meshfile {
 
+/// `-mesh_set`: "name=number", each.
+std::vector<std::string> geometryParameters();
+
 struct Setting {
   std::string name;
   double value;

@@ -1,6 +1,6 @@
 #pragma once
 /// The user interface: every option is declared once, beside the physics that uses it, with stage, default, unit, meaning and
-/// check. Names hold at most one placeholder in angle brackets, e.g. `material_<group>_young`, replaced by a name from the mesh.
+/// check. Names hold at most one placeholder in angle brackets, e.g. `part_<group>_length`, replaced by a name from the mesh.
 /// All values come from the PETSc options database, the same on every rank, so every Error thrown here is thrown on all ranks.
 #include <petscsys.h>
 
@@ -23,7 +23,7 @@ class Option {
   /// Full name without the dash, the placeholder replaced by `subject`.
   std::string fullName(const std::string& subject = {}) const;
   bool given(const std::string& subject = {}) const;
-  /// The words that stand for the placeholder in the options given, sorted: the <group> of each `-material_<group>_young`.
+  /// The words that stand for the placeholder in the options given, sorted: the <group> of each `-part_<group>_length`.
   std::vector<std::string> subjects() const;
   /// True if the full name (no dash) is this option's for some subject.
   bool matches(const std::string& fullName) const;
@@ -40,7 +40,7 @@ class Option {
   /// Text given by the user, without blanks around it, or the default; an option without default that is not given is an Error. Recorded
   /// for the recipe.
   std::string text(const std::string& subject) const;
-  /// "option -material_disc_density -1 (disc.yaml, line 3)"
+  /// "option -part_disc_length -1 (disc.yaml, line 3)"
   std::string named(const std::string& subject, const std::string& value) const;
   [[noreturn]] void reject(const std::string& subject, const std::string& value) const;
   /// A number of an admissible magnitude.

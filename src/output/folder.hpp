@@ -15,7 +15,7 @@ namespace squeal::output {
 
 /// What the files of a folder are called.
 struct Naming {
-  std::string option;  ///< that names the folder, for messages: "-report_dir"
+  std::string option;  ///< that names the folder, with its dash, for messages
   std::string last;    ///< the file that tells that all others are there
   /// Whether a run may write this path, relative to the folder: file or subfolder.
   std::function<bool(const std::filesystem::path&)> mayWrite;

@@ -48,14 +48,14 @@ struct FrictionPoint {
   sweep::Parameters at;
   std::vector<Eigenvalue> eigenvalues;     ///< Im s ≥ 0, by ascending frequency
   std::vector<Shape> shapes;               ///< of the fastest growing ones
-  std::vector<Sensitivity> sensitivities;  ///< [shape]; empty unless `-flutter_sensitivities`
+  std::vector<Sensitivity> sensitivities;  ///< [shape]; empty unless they are asked for
   double bandTop = 0;                      ///< rad/s: eigenvalues with |s| up to here are listed, and corrected; 0: none are
   int freeModesInBand = 0;                 ///< free modes up to bandTop
   bool damped = false;                     ///< the problem has terms in s
   double accuracy = 0;                     ///< backward error asked for
   double tolerance = 0;                    ///< estimate of |δs|/|s| asked for
-  double askedTo = 0;                      ///< rad/s: upper end of `-flutter_direct_band`; 0: no such band
-  double coveredTo = 0;  ///< rad/s: all eigenvalues of `-flutter_direct_band` with |s| below are listed; 0: no such band
+  double askedTo = 0;                      ///< rad/s: upper end of the band asked of the direct method; 0: none
+  double coveredTo = 0;  ///< rad/s: all eigenvalues of that band with |s| below are listed; 0: none
   /// Of a damped problem, the free modes of the band that no eigenvalue listed answers to: those are damped too strongly to be
   /// listed, or have been moved beyond the top.
   int modesWithoutEigenvalue() const;

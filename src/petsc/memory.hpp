@@ -6,7 +6,7 @@ namespace squeal {
 
 /// What to try, for messages.
 inline constexpr const char* lessMemory =
-    "take more nodes, a coarser mesh, or fewer -modes_count; -dry_run estimates what a run takes";
+    "take more nodes, a coarser mesh, or fewer free modes; a dry run estimates what a run takes";
 
 /// What is free for this process, in bytes: of the machine, or of its control group where that has less.
 double availableMemory();

@@ -17,12 +17,12 @@ const RealListOption speedOption("flutter", "flutter_speed", "1", "", positive,
                                  "factors on all -motion_* and obstacle velocities, swept", true);
 const RealListOption pressureOption(
     "flutter", "flutter_pressure", "1", "", positive,
-    "factors on all that presses, swept: -load_<group>_pressure, -constraint_<group>_displacement and "
-    "-contact_<interface>_obstacle_displacement; not on centrifugal forces",
+    "factors on all that presses, swept: surface pressures, held displacements and those of "
+    "obstacles; not on centrifugal forces",
     true);
 const RealListOption dampingOption("flutter", "flutter_damping", "1", "", nonNegative,
-                                   "factors on the damping of materials, of -ground_<group>_damping and of -flutter_modal_damping, "
-                                   "swept; not on that of friction",
+                                   "factors on the damping of materials, of dashpots to the ground and of free "
+                                   "modes, swept; not on that of friction",
                                    true);
 
 }  // namespace

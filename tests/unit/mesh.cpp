@@ -279,7 +279,7 @@ TEST(Partition, NoRankIsEmptyOnAFewCells) {
   };
   for (const auto& [file, set, body] : meshes) {
     mesh::Request request;
-    request.bodies = {body};
+    request.bodies = {{body, "the test"}};
     auto whole = mesh::load(file, set, request);
     mesh::pairNodes(whole, request);
     for (int parts = 2; parts <= whole.cellCount() / 4; ++parts) {
