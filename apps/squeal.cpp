@@ -1,4 +1,5 @@
-/// squeal: flutter of the steady sliding state of brakes. The method itself is squeal::analysis::analyse (src/analysis/analysis.cpp).
+/// squeal: flutter of the steady sliding state of brakes. The method itself is
+/// squeal::analysis::analyse (src/analysis/analysis.cpp).
 #include <cstdio>
 #include <cstring>
 #include <new>
@@ -6,23 +7,26 @@
 #include "analysis/analysis.hpp"
 #include "analysis/dry_run.hpp"
 #include "matrices/matrices.hpp"
-#include "petsc/memory.hpp"
 #include "options/options.hpp"
-#include "session/session.hpp"
 #include "options/settings.hpp"
-#include "session/stages.hpp"
+#include "petsc/memory.hpp"
 #include "petsc/termination.hpp"
 #include "report/report.hpp"
+#include "session/session.hpp"
+#include "session/stages.hpp"
 
 namespace {
 
 constexpr const char* usage =
     "usage: squeal -options_file CASE.yaml [-option value …]\n"
-    "       mpirun -n 4 squeal -options_file CASE.yaml -report_dir results/case -flutter_friction 0,0.2,0.4\n"
+    "       mpirun -n 4 squeal -options_file CASE.yaml -report_dir results/case -flutter_friction "
+    "0,0.2,0.4\n"
     "\n"
-    "Finds which modes of a brake squeal: flutter of the steady sliding of pads on a disc. A case names a mesh, materials, "
+    "Finds which modes of a brake squeal: flutter of the steady sliding of pads on a disc. A case "
+    "names a mesh, materials, "
     "supports,\n"
-    "loads and contact surfaces, or matrices; options that follow it replace what it says. A list is separated by commas.\n"
+    "loads and contact surfaces, or matrices; options that follow it replace what it says. A list "
+    "is separated by commas.\n"
     "  -dry_run   checks a case, and says what its run would take\n"
     "  -help      the manual: all options with units, defaults and ranges\n"
     "  -version   versions of this program and of its libraries\n"
@@ -50,11 +54,14 @@ int run(const squeal::Session& session) {
       return 0;
     }
     squeal::report::Directory directory(session.comm());
-    if (squeal::matrices::exportWanted()) squeal::matrices::requireExportFolder(session.comm(), directory.path());
+    if (squeal::matrices::exportWanted())
+      squeal::matrices::requireExportFolder(session.comm(), directory.path());
     const squeal::analysis::Analysis analysis = squeal::analysis::analyse(session.comm());
     squeal::report::write(analysis, directory);
     for (const auto& line : squeal::unusedOptions()) squeal::say(session.comm(), line);
-    return analysis.converged() ? 0 : 2;  // instability is a result; a friction without steady state is not
+    return analysis.converged()
+               ? 0
+               : 2;  // instability is a result; a friction without steady state is not
   } catch (const squeal::Error& error) {
     if (session.rank() == 0) std::fprintf(stderr, "squeal: error: %s\n", error.what());
     return 1;
@@ -74,7 +81,8 @@ int main(int argc, char** argv) {
   const squeal::Session session(argc, argv);
   const int code = run(session);
   if (squeal::outputError() == 0 || session.rank() != 0) return code;
-  std::fprintf(stderr, "squeal: error: cannot write to the standard output: %s%s\n", std::strerror(squeal::outputError()),
+  std::fprintf(stderr, "squeal: error: cannot write to the standard output: %s%s\n",
+               std::strerror(squeal::outputError()),
                code == 1 ? "" : "; what was written to files is complete");
   return 1;
 }

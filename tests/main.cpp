@@ -15,13 +15,17 @@ class FailurePrinter : public testing::EmptyTestEventListener {
   explicit FailurePrinter(int rank) : rank_(rank) {}
 
  private:
-  // googletest holds its lock while it reports a failure: the current test cannot be asked for then, it is noted before.
-  void OnTestStart(const testing::TestInfo& test) override { test_ = std::string(test.test_suite_name()) + "." + test.name(); }
+  // googletest holds its lock while it reports a failure: the current test cannot be asked for
+  // then, it is noted before.
+  void OnTestStart(const testing::TestInfo& test) override {
+    test_ = std::string(test.test_suite_name()) + "." + test.name();
+  }
   void OnTestEnd(const testing::TestInfo&) override { test_ = "outside the tests"; }
   void OnTestPartResult(const testing::TestPartResult& result) override {
     if (!result.failed()) return;
-    std::fprintf(stderr, "[rank %d] %s: %s:%d: %s\n", rank_, test_.c_str(), result.file_name() ? result.file_name() : "?",
-                 result.line_number(), result.message());
+    std::fprintf(stderr, "[rank %d] %s: %s:%d: %s\n", rank_, test_.c_str(),
+                 result.file_name() ? result.file_name() : "?", result.line_number(),
+                 result.message());
   }
   int rank_;
   std::string test_ = "outside the tests";
@@ -41,8 +45,10 @@ int main(int argc, char** argv) {
   squeal::Session session(argc, argv);
   if (session.rank() != 0) silence(session.rank());
   int failed = RUN_ALL_TESTS();
-  if (testing::UnitTest::GetInstance()->total_test_count() == 0) failed = 1;  // a program without a test proves nothing
+  if (testing::UnitTest::GetInstance()->total_test_count() == 0)
+    failed = 1;  // a program without a test proves nothing
   MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, session.comm());
-  if (failed != 0 && session.rank() == 0) std::printf("FAILED on at least one of %d ranks\n", session.size());
+  if (failed != 0 && session.rank() == 0)
+    std::printf("FAILED on at least one of %d ranks\n", session.size());
   return failed;
 }

@@ -29,36 +29,44 @@ namespace {
 
 std::string unusedText(PetscInt nodes) {
   if (nodes == 0) return "";
-  return nodes == 1 ? "; 1 node in no cell is not used" : formatted("; %d nodes in no cell are not used", static_cast<int>(nodes));
+  return nodes == 1 ? "; 1 node in no cell is not used"
+                    : formatted("; %d nodes in no cell are not used", static_cast<int>(nodes));
 }
 
 mesh::Mesh readMesh(MPI_Comm comm) {
   const mesh::Request request = meshRequest();
   Stage stage(comm, "mesh");
   mesh::Mesh mesh = mesh::read(comm, request);
-  stage.finish(formatted("%s: %d nodes, %d cells, %d bodies in %d connected parts%s", resolvedOptions().at("mesh_file").c_str(),
-                         static_cast<int>(mesh.totalNodes), static_cast<int>(mesh.totalCells), static_cast<int>(mesh.bodies.size()),
-                         mesh.parts, unusedText(mesh.unusedNodes).c_str()));
+  stage.finish(formatted("%s: %d nodes, %d cells, %d bodies in %d connected parts%s",
+                         resolvedOptions().at("mesh_file").c_str(),
+                         static_cast<int>(mesh.totalNodes), static_cast<int>(mesh.totalCells),
+                         static_cast<int>(mesh.bodies.size()), mesh.parts,
+                         unusedText(mesh.unusedNodes).c_str()));
   return mesh;
 }
 
 elasticity::Bodies assembleBodies(const mesh::Mesh& mesh) {
   Stage stage(mesh.comm, "elasticity");
   elasticity::Bodies bodies = elasticity::assemble(mesh);
-  stage.finish(formatted("stiffness, mass and loads on %d displacements", static_cast<int>(mesh.dimension * mesh.totalNodes)));
+  stage.finish(formatted("stiffness, mass and loads on %d displacements",
+                         static_cast<int>(mesh.dimension * mesh.totalNodes)));
   return bodies;
 }
 
 contact::Contact buildContact(const mesh::Mesh& mesh, const elasticity::Bodies& bodies) {
   Stage stage(mesh.comm, "contact");
   contact::Contact contact = contact::build(mesh, bodies);
-  stage.finish(formatted(
-      "%d contact nodes on %d interfaces%s", static_cast<int>(contact.totalNodes), static_cast<int>(contact.interfaces.size()),
-      contact.weightsPositive ? "" : "; faces with non-positive nodal weights: accepted only while contact is closed everywhere"));
+  stage.finish(
+      formatted("%d contact nodes on %d interfaces%s", static_cast<int>(contact.totalNodes),
+                static_cast<int>(contact.interfaces.size()),
+                contact.weightsPositive ? ""
+                                        : "; faces with non-positive nodal weights: accepted only "
+                                          "while contact is closed everywhere"));
   return contact;
 }
 
-bool sameOnAllRanks(MPI_Comm comm, const std::vector<unsigned char>& a, const std::vector<unsigned char>& b) {
+bool sameOnAllRanks(MPI_Comm comm, const std::vector<unsigned char>& a,
+                    const std::vector<unsigned char>& b) {
   int same = a == b;
   check(MPI_Allreduce(MPI_IN_PLACE, &same, 1, MPI_INT, MPI_LAND, comm));
   return same;
@@ -72,8 +80,10 @@ class CurrentSystem {
     if (!system_ || !sameOnAllRanks(analysis_.mesh->comm, system_->closed(), closed)) {
       system_.reset();  // the old factorisation's memory first
       Stage stage(analysis_.mesh->comm, "contact");
-      system_ = std::make_unique<contact::AssociatedSystem>(analysis_.bodies, analysis_.contact, closed);
-      stage.finish(formatted("%d unknowns with %d of %d contact nodes closed", static_cast<int>(system_->size()),
+      system_ =
+          std::make_unique<contact::AssociatedSystem>(analysis_.bodies, analysis_.contact, closed);
+      stage.finish(formatted("%d unknowns with %d of %d contact nodes closed",
+                             static_cast<int>(system_->size()),
                              static_cast<int>(analysis_.contact.totalNodes - system_->openNodes()),
                              static_cast<int>(analysis_.contact.totalNodes)));
     }
@@ -89,7 +99,8 @@ class CurrentSystem {
 std::vector<steady::Solution> steadySweep(const Analysis& analysis, CurrentSystem& system) {
   const steady::Problem problem(*analysis.mesh, analysis.bodies, analysis.contact);
   const std::vector<unsigned char> bonded(analysis.contact.nodes.size(), 1);
-  std::vector<std::vector<unsigned char>> closed;  // [steady point] its active set, or the one tried where there is no solution
+  std::vector<std::vector<unsigned char>>
+      closed;  // [steady point] its active set, or the one tried where there is no solution
   std::vector<steady::Solution> solutions;
   for (const auto& at : analysis.sweep.steadyPoints()) {
     const auto neighbour = analysis.sweep.earlierNeighbour(solutions.size());
@@ -99,49 +110,65 @@ std::vector<steady::Solution> steadySweep(const Analysis& analysis, CurrentSyste
     Stage stage(analysis.mesh->comm, "steady");
     solutions.push_back(problem.solve(at, current));
     const auto& solution = solutions.back();
-    stage.finish(formatted("%s: %s after %d iterations, %d of %d nodes open, smallest pressure %.4g, residual %.0e, imbalance %.0e",
-                           sweep::parameterText(at).c_str(), solution.reason.c_str(), solution.iterations,
-                           static_cast<int>(solution.openNodes), static_cast<int>(analysis.contact.totalNodes),
-                           solution.smallestPressure, solution.residual, solution.imbalance));
-    if (solution.converged) linalg::requireFinite(solution.displacement, "steady sliding at " + sweep::parameterText(at));
+    stage.finish(formatted(
+        "%s: %s after %d iterations, %d of %d nodes open, smallest pressure %.4g, residual %.0e, "
+        "imbalance %.0e",
+        sweep::parameterText(at).c_str(), solution.reason.c_str(), solution.iterations,
+        static_cast<int>(solution.openNodes), static_cast<int>(analysis.contact.totalNodes),
+        solution.smallestPressure, solution.residual, solution.imbalance));
+    if (solution.converged)
+      linalg::requireFinite(solution.displacement, "steady sliding at " + sweep::parameterText(at));
     if (solution.converged)
       closed.back() = solution.closed;
     else
       complain(analysis.mesh->comm,
-               formatted("no steady sliding solution found at %s: %s", sweep::parameterText(at).c_str(), solution.reason.c_str()));
+               formatted("no steady sliding solution found at %s: %s",
+                         sweep::parameterText(at).c_str(), solution.reason.c_str()));
   }
   return solutions;
 }
 
-/// Collective. Error where a matrix or a load, times what the sweep multiplies it by, is not a number.
+/// Collective. Error where a matrix or a load, times what the sweep multiplies it by, is not a
+/// number.
 void requireFiniteSweep(const Analysis& analysis) {
   const auto& [frictions, speeds, pressures, dampings] = analysis.sweep;
-  const double friction = std::max(1.0, frictions.back()), speed = std::max(1.0, speeds.back()), speed2 = speed * speed;
+  const double friction = std::max(1.0, frictions.back()), speed = std::max(1.0, speeds.back()),
+               speed2 = speed * speed;
   const std::string swept = " times the factors of the sweep";
   linalg::requireFinite(analysis.bodies.stiffness, "the stiffness of the bodies" + swept, friction);
   linalg::requireFinite(analysis.bodies.mass, "the mass of the bodies" + swept, friction);
-  linalg::requireFinite(analysis.bodies.damping, "the damping of the bodies" + swept, friction * std::max(1.0, dampings.back()));
-  linalg::requireFinite(analysis.bodies.gyroscopic, "the gyroscopic matrix" + swept, friction * speed);
-  linalg::requireFinite(analysis.bodies.rotationStiffness, "the rotation stiffness" + swept, friction * speed2);
-  linalg::requireFinite(analysis.bodies.load, "the loads" + swept, std::max(pressures.back(), speed2));
-  linalg::requireFinite(analysis.contact.offset, "the displacements held" + swept, std::max(1.0, pressures.back()));
+  linalg::requireFinite(analysis.bodies.damping, "the damping of the bodies" + swept,
+                        friction * std::max(1.0, dampings.back()));
+  linalg::requireFinite(analysis.bodies.gyroscopic, "the gyroscopic matrix" + swept,
+                        friction * speed);
+  linalg::requireFinite(analysis.bodies.rotationStiffness, "the rotation stiffness" + swept,
+                        friction * speed2);
+  linalg::requireFinite(analysis.bodies.load, "the loads" + swept,
+                        std::max(pressures.back(), speed2));
+  linalg::requireFinite(analysis.contact.offset, "the displacements held" + swept,
+                        std::max(1.0, pressures.back()));
 }
 
-/// Collective. Error where the coefficient of a matrix, at an end of the sweep, makes something of it that is not a number.
+/// Collective. Error where the coefficient of a matrix, at an end of the sweep, makes something of
+/// it that is not a number.
 void requireFiniteSweep(const std::vector<matrices::NamedTerm>& terms, const sweep::Sweep& sweep) {
   for (const auto& [name, term] : terms)
     for (double friction : {sweep.frictions.front(), sweep.frictions.back()})
       for (double speed : {sweep.speeds.front(), sweep.speeds.back()})
         for (double damping : {sweep.dampings.front(), sweep.dampings.back()})
-          linalg::requireFinite(term.matrix, "matrix '" + name + "' times its factors", term.coefficient({friction, speed, 1, damping}));
+          linalg::requireFinite(term.matrix, "matrix '" + name + "' times its factors",
+                                term.coefficient({friction, speed, 1, damping}));
 }
 
 /// Collective. Error for a sweep over a factor of nothing: all its points would be the same.
 void rejectIdleFactors(const Analysis& analysis) {
-  const auto given = [](const std::vector<double>& factors) { return factors != std::vector<double>{1}; };
+  const auto given = [](const std::vector<double>& factors) {
+    return factors != std::vector<double>{1};
+  };
   if (given(analysis.sweep.dampings) && !analysis.bodies.damping && !flutter::modalDampingWanted())
     throw Error(
-        "option -flutter_damping scales the damping of the bodies, and there is none: give -material_<group>_rayleigh_*, "
+        "option -flutter_damping scales the damping of the bodies, and there is none: give "
+        "-material_<group>_rayleigh_*, "
         "-material_<group>_loss_factor, -ground_<group>_damping or -flutter_modal_damping");
   if (!given(analysis.sweep.pressures)) return;
   OwnedVec pressures;
@@ -152,7 +179,8 @@ void rejectIdleFactors(const Analysis& analysis) {
   check(VecNorm(analysis.contact.offset, NORM_INFINITY, &displacement));
   if (load == 0 && displacement == 0)
     throw Error(
-        "option -flutter_pressure scales what presses, and nothing does: give -load_<group>_pressure, "
+        "option -flutter_pressure scales what presses, and nothing does: give "
+        "-load_<group>_pressure, "
         "-constraint_<group>_displacement or -contact_<interface>_obstacle_displacement");
 }
 
@@ -163,16 +191,20 @@ std::vector<SpeedUniqueness> examineUniqueness(const Analysis& analysis) {
   std::vector<SpeedUniqueness> result;
   for (double speed : speeds) {
     Stage stage(analysis.mesh->comm, "steady");
-    result.push_back({speed, steady::examine(analysis.bodies, analysis.contact, speed, analysis.sweep.frictions)});
+    result.push_back({speed, steady::examine(analysis.bodies, analysis.contact, speed,
+                                             analysis.sweep.frictions)});
     const auto& last = result.back().found.judgements.back();
-    stage.finish(formatted("uniqueness at friction %g: %s (%s)", last.friction, last.verdict.c_str(), last.reason.c_str()));
+    stage.finish(formatted("uniqueness at friction %g: %s (%s)", last.friction,
+                           last.verdict.c_str(), last.reason.c_str()));
   }
   return result;
 }
 
-/// The terms of one point, and the change of its geometric stiffness from that of `reference`, which is in the modes of the segment.
+/// The terms of one point, and the change of its geometric stiffness from that of `reference`,
+/// which is in the modes of the segment.
 std::vector<pencil::Term> termsOf(const Analysis& analysis, const contact::AssociatedSystem& system,
-                                   const steady::Solution& solution, const steady::Solution& reference, Mat prestress) {
+                                  const steady::Solution& solution,
+                                  const steady::Solution& reference, Mat prestress) {
   OwnedMat change;
   if (prestress && &solution != &reference) {
     change = elasticity::geometricStiffness(*analysis.mesh, solution.displacement);
@@ -182,44 +214,57 @@ std::vector<pencil::Term> termsOf(const Analysis& analysis, const contact::Assoc
 }
 
 /// Friction work of the shapes and, if wanted, the sensitivities of their eigenvalues.
-void examineShapes(const Analysis& analysis, const contact::AssociatedSystem& system, const steady::Solution& solution,
-                   const pencil::Pencil& pencil, const sensitivity::StartSpace& start, flutter::Influences& influences,
+void examineShapes(const Analysis& analysis, const contact::AssociatedSystem& system,
+                   const steady::Solution& solution, const pencil::Pencil& pencil,
+                   const sensitivity::StartSpace& start, flutter::Influences& influences,
                    pencil::FrictionPoint& point) {
   if (point.shapes.empty()) return;
   OwnedMat prestress;
-  if (elasticity::prestressWanted()) prestress = elasticity::geometricStiffness(*analysis.mesh, solution.displacement);
+  if (elasticity::prestressWanted())
+    prestress = elasticity::geometricStiffness(*analysis.mesh, solution.displacement);
   for (auto& shape : point.shapes)
-    shape.frictionWork =
-        flutter::frictionWork(analysis.contact, analysis.bodies, solution, point.at, point.eigenvalues[shape.index].s,
-                              linalg::ComplexVector::copied(shape.real, shape.imaginary), prestress);
+    shape.frictionWork = flutter::frictionWork(
+        analysis.contact, analysis.bodies, solution, point.at, point.eigenvalues[shape.index].s,
+        linalg::ComplexVector::copied(shape.real, shape.imaginary), prestress);
   if (!sensitivity::sensitivitiesWanted()) return;
   Stage stage(analysis.mesh->comm, "flutter");
   influences.derive(point, pencil, {point.at, system, solution, prestress}, start);
   double error = 0;
-  for (const auto& sensitivity : point.sensitivities) error = std::max(error, sensitivity.leftBackwardError);
-  stage.finish(formatted("%s: sensitivities of %d eigenvalues, worst left backward error %.1e", sweep::parameterText(point.at).c_str(),
+  for (const auto& sensitivity : point.sensitivities)
+    error = std::max(error, sensitivity.leftBackwardError);
+  stage.finish(formatted("%s: sensitivities of %d eigenvalues, worst left backward error %.1e",
+                         sweep::parameterText(point.at).c_str(),
                          static_cast<int>(point.sensitivities.size()), error));
 }
 
-/// The terms of any point with the active set of `reference`; none: it has another one, or no steady state.
+/// The terms of any point with the active set of `reference`; none: it has another one, or no
+/// steady state.
 class PointSource {
  public:
-  PointSource(const Analysis& analysis, const contact::AssociatedSystem& system, const steady::Solution& reference, Mat prestress,
-              CurrentSystem& current)
-      : analysis_(analysis), system_(system), reference_(reference), prestress_(prestress), current_(current) {}
+  PointSource(const Analysis& analysis, const contact::AssociatedSystem& system,
+              const steady::Solution& reference, Mat prestress, CurrentSystem& current)
+      : analysis_(analysis),
+        system_(system),
+        reference_(reference),
+        prestress_(prestress),
+        current_(current) {}
 
   std::optional<std::vector<pencil::Term>> operator()(sweep::Parameters at) {
     at.damping = 1;
-    const auto known =
-        std::find_if(analysis_.steady.begin(), analysis_.steady.end(), [&](const auto& solution) { return solution.at == at; });
+    const auto known = std::find_if(analysis_.steady.begin(), analysis_.steady.end(),
+                                    [&](const auto& solution) { return solution.at == at; });
     if (known != analysis_.steady.end()) return of(*known);
-    if (!problem_) problem_ = std::make_unique<steady::Problem>(*analysis_.mesh, analysis_.bodies, analysis_.contact);
+    if (!problem_)
+      problem_ =
+          std::make_unique<steady::Problem>(*analysis_.mesh, analysis_.bodies, analysis_.contact);
     return of(problem_->solve(at, current_.of(reference_.closed)));
   }
 
  private:
   std::optional<std::vector<pencil::Term>> of(const steady::Solution& solution) const {
-    if (!solution.converged || !sameOnAllRanks(analysis_.mesh->comm, solution.closed, reference_.closed)) return {};
+    if (!solution.converged ||
+        !sameOnAllRanks(analysis_.mesh->comm, solution.closed, reference_.closed))
+      return {};
     return termsOf(analysis_, system_, solution, reference_, prestress_);
   }
   const Analysis& analysis_;
@@ -231,31 +276,41 @@ class PointSource {
 };
 
 /// Modes of one active set, then flutter at the points from `first` to `last` that share it.
-ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::size_t last, CurrentSystem& current,
-                            flutter::Influences& influences, double& floor) {
+ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::size_t last,
+                            CurrentSystem& current, flutter::Influences& influences,
+                            double& floor) {
   const auto& closed = analysis.steady[first].closed;
   OwnedMat prestress;
   std::unique_ptr<contact::AssociatedSystem> stressed;
   if (elasticity::prestressWanted()) {
     prestress = elasticity::geometricStiffness(*analysis.mesh, analysis.steady[first].displacement);
-    stressed = std::make_unique<contact::AssociatedSystem>(analysis.bodies, analysis.contact, closed, prestress);
+    stressed = std::make_unique<contact::AssociatedSystem>(analysis.bodies, analysis.contact,
+                                                           closed, prestress);
   }
   const contact::AssociatedSystem& system = stressed ? *stressed : current.of(closed);
-  SegmentProblem problem{
-      system.k0(), system.m0(), [&] { return system.solver(); }, system.transformation().trial, modes::wantedCount(), {}, {},
-      {},          {}};
+  SegmentProblem problem{system.k0(),
+                         system.m0(),
+                         [&] { return system.solver(); },
+                         system.transformation().trial,
+                         modes::wantedCount(),
+                         {},
+                         {},
+                         {},
+                         {}};
   for (std::size_t i = first; i < last; ++i) problem.steadyPoints.push_back(analysis.steady[i].at);
   problem.termsAt = [&](std::size_t i) {
     return termsOf(analysis, system, analysis.steady[first + i], analysis.steady[first], prestress);
   };
-  problem.examine = [&](std::size_t i, const pencil::Pencil& pencil, const sensitivity::StartSpace& start,
-                        pencil::FrictionPoint& point) {
+  problem.examine = [&](std::size_t i, const pencil::Pencil& pencil,
+                        const sensitivity::StartSpace& start, pencil::FrictionPoint& point) {
     examineShapes(analysis, system, analysis.steady[first + i], pencil, start, influences, point);
   };
   pencil::Pencil pencil = flutter::affineTerms(analysis.contact, system);
-  // Terms of their own are absent at friction 0 alone: the last point, of the largest friction, has them if any point has.
+  // Terms of their own are absent at friction 0 alone: the last point, of the largest friction, has
+  // them if any point has.
   if (matrices::exportWanted())
-    matrices::exportPencil(pencil.with(problem.termsAt(last - first - 1)), analysis.sweep, last - first);
+    matrices::exportPencil(pencil.with(problem.termsAt(last - first - 1)), analysis.sweep,
+                           last - first);
   PointSource source(analysis, system, analysis.steady[first], prestress, current);
   problem.termsOf = [&](const sweep::Parameters& at) { return source(at); };
   ModalSegment segment = solveSegment(problem, std::move(pencil), analysis.sweep.dampings, floor);
@@ -263,16 +318,24 @@ ModalSegment flutterSegment(const Analysis& analysis, std::size_t first, std::si
   return segment;
 }
 
-/// Collective. Error for a sweep over a parameter that no matrix comes with: all its points would be the same.
-void rejectIdleParameters(const std::vector<matrices::NamedTerm>& terms, const sweep::Sweep& sweep) {
-  const auto require = [&](const std::vector<double>& values, const std::string& name, auto exponent) {
-    if (values.size() > 1 && std::none_of(terms.begin(), terms.end(), [&](const auto& named) { return exponent(named.term) != 0; }))
-      throw Error("option -flutter_" + name + ": a sweep, but no matrix has -matrices_<name>_" + name + "_exponent");
+/// Collective. Error for a sweep over a parameter that no matrix comes with: all its points would
+/// be the same.
+void rejectIdleParameters(const std::vector<matrices::NamedTerm>& terms,
+                          const sweep::Sweep& sweep) {
+  const auto require = [&](const std::vector<double>& values, const std::string& name,
+                           auto exponent) {
+    if (values.size() > 1 && std::none_of(terms.begin(), terms.end(), [&](const auto& named) {
+          return exponent(named.term) != 0;
+        }))
+      throw Error("option -flutter_" + name + ": a sweep, but no matrix has -matrices_<name>_" +
+                  name + "_exponent");
   };
-  require(sweep.frictions, "friction", [](const pencil::Term& term) { return term.frictionExponent; });
+  require(sweep.frictions, "friction",
+          [](const pencil::Term& term) { return term.frictionExponent; });
   require(sweep.speeds, "speed", [](const pencil::Term& term) { return term.speedExponent; });
   if (!flutter::modalDampingWanted())
-    require(sweep.dampings, "damping", [](const pencil::Term& term) { return term.dampingExponent; });
+    require(sweep.dampings, "damping",
+            [](const pencil::Term& term) { return term.dampingExponent; });
   if (sweep.pressures != std::vector<double>{1})
     throw Error("option -flutter_pressure: no matrix from a file depends on the pressure");
 }
@@ -283,12 +346,14 @@ Analysis analyseMatrices(Analysis analysis) {
   auto named = readMatrices(comm, analysis.sweep);
   Stage stage(comm, "matrices");
   const matrices::AssociatedSystem system(named);
-  stage.finish(formatted("%d unknowns%s", static_cast<int>(system.size()),
-                         system.asymmetry() > 0 ? formatted("; stiffness without friction unsymmetric by %.1e: free modes of its "
-                                                            "symmetric part",
-                                                            system.asymmetry())
-                                                      .c_str()
-                                                : ""));
+  stage.finish(formatted(
+      "%d unknowns%s", static_cast<int>(system.size()),
+      system.asymmetry() > 0
+          ? formatted("; stiffness without friction unsymmetric by %.1e: free modes of its "
+                      "symmetric part",
+                      system.asymmetry())
+                .c_str()
+          : ""));
   std::vector<pencil::Term> terms;
   for (auto& item : named) terms.push_back(std::move(item.term));
   pencil::Pencil pencil(std::move(terms));
@@ -297,13 +362,19 @@ Analysis analyseMatrices(Analysis analysis) {
   OwnedMat identity;
   PetscInt local = 0;
   check(MatGetLocalSize(system.k0(), &local, nullptr));
-  check(MatCreateConstantDiagonal(comm, local, local, PETSC_DETERMINE, PETSC_DETERMINE, 1, identity.out()));
+  check(MatCreateConstantDiagonal(comm, local, local, PETSC_DETERMINE, PETSC_DETERMINE, 1,
+                                  identity.out()));
   const int modes = static_cast<int>(std::min<PetscInt>(modes::wantedCount(), system.size()));
-  SegmentProblem problem{system.k0(), system.m0(), [&] { return system.solver(); }, identity, modes, points, {}, {}, {}};
-  problem.examine = [&](std::size_t, const pencil::Pencil& at, const sensitivity::StartSpace& start, pencil::FrictionPoint& point) {
-    if (sensitivity::sensitivitiesWanted()) sensitivity::deriveParameters(point, at, start, system.solver(), system.m0());
+  SegmentProblem problem{system.k0(), system.m0(), [&] { return system.solver(); },
+                         identity,    modes,       points,
+                         {},          {},          {}};
+  problem.examine = [&](std::size_t, const pencil::Pencil& at, const sensitivity::StartSpace& start,
+                        pencil::FrictionPoint& point) {
+    if (sensitivity::sensitivitiesWanted())
+      sensitivity::deriveParameters(point, at, start, system.solver(), system.m0());
   };
-  analysis.segments.push_back(solveSegment(problem, std::move(pencil), analysis.sweep.dampings, analysis.modesFloorSeconds));
+  analysis.segments.push_back(solveSegment(problem, std::move(pencil), analysis.sweep.dampings,
+                                           analysis.modesFloorSeconds));
   return analysis;
 }
 
@@ -324,7 +395,8 @@ mesh::Request meshRequest() {
 }
 
 bool Analysis::converged() const {
-  return std::all_of(steady.begin(), steady.end(), [](const auto& solution) { return solution.converged; });
+  return std::all_of(steady.begin(), steady.end(),
+                     [](const auto& solution) { return solution.converged; });
 }
 
 const pencil::FrictionPoint* Analysis::pointAt(const sweep::Parameters& at) const {
@@ -339,7 +411,8 @@ void checkOptions() {
   direct::rejectIdleSolverOptions();
   if (direct::directWanted() && flutter::modalDampingWanted())
     throw Error(
-        "option -flutter_modal_damping: damping of the free modes needs the modes of -flutter_method reduced");
+        "option -flutter_modal_damping: damping of the free modes needs the modes of "
+        "-flutter_method reduced");
   sweep::readSweep();
   if (!matrices::wanted()) meshRequest();
 }
@@ -350,7 +423,8 @@ std::vector<matrices::NamedTerm> readMatrices(MPI_Comm comm, const sweep::Sweep&
   rejectIdleParameters(named, sweep);
   requireFiniteSweep(named, sweep);
   std::vector<std::string> files;
-  for (const auto& item : named) files.push_back(resolvedOptions().at("matrices_" + item.name + "_file"));
+  for (const auto& item : named)
+    files.push_back(resolvedOptions().at("matrices_" + item.name + "_file"));
   stage.finish(formatted("%d matrices: %s", static_cast<int>(named.size()), joined(files).c_str()));
   return named;
 }
@@ -375,7 +449,8 @@ Analysis analyse(MPI_Comm comm) {
   if (!analysis.mesh) return analyseMatrices(std::move(analysis));
   CurrentSystem system(analysis);
   analysis.steady = steadySweep(analysis, system);
-  if (analysis.contact.totalNodes > 0 && steady::uniquenessWanted()) analysis.uniqueness = examineUniqueness(analysis);
+  if (analysis.contact.totalNodes > 0 && steady::uniquenessWanted())
+    analysis.uniqueness = examineUniqueness(analysis);
   flutter::Influences influences(*analysis.mesh, analysis.bodies, analysis.contact);
   for (std::size_t first = 0, last = 0; first < analysis.steady.size(); first = last) {
     last = first + 1;
@@ -384,7 +459,8 @@ Analysis analyse(MPI_Comm comm) {
     while (last < analysis.steady.size() && analysis.steady[last].converged &&
            sameOnAllRanks(comm, analysis.steady[last].closed, start.closed))
       ++last;
-    analysis.segments.push_back(flutterSegment(analysis, first, last, system, influences, analysis.modesFloorSeconds));
+    analysis.segments.push_back(
+        flutterSegment(analysis, first, last, system, influences, analysis.modesFloorSeconds));
   }
   return analysis;
 }

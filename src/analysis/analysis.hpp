@@ -1,5 +1,6 @@
 #pragma once
-/// The method from mesh to flutter, one call per section of the paper. Reporting takes it from here.
+/// The method from mesh to flutter, one call per section of the paper. Reporting takes it from
+/// here.
 #include <memory>
 #include <vector>
 
@@ -24,13 +25,16 @@ struct SpeedUniqueness {
 struct Analysis {
   MPI_Comm comm = MPI_COMM_NULL;
   sweep::Sweep sweep;
-  std::unique_ptr<mesh::Mesh> mesh;  ///< at a fixed address: contact and steady borrow it; null: matrices from files
+  /// At a fixed address: contact and steady borrow it; null: matrices from files
+  std::unique_ptr<mesh::Mesh> mesh;
   elasticity::Bodies bodies;
   contact::Contact contact;
   std::vector<steady::Solution> steady;     ///< [steady point of the sweep]
-  std::vector<SpeedUniqueness> uniqueness;  ///< one entry for all speeds where they share it; empty unless -steady_uniqueness
+  std::vector<SpeedUniqueness> uniqueness;  ///< one entry for all speeds where they share it; empty
+                                            ///< unless -steady_uniqueness
   std::vector<ModalSegment> segments;
-  double modesFloorSeconds = 0;  ///< one factorisation and 400 blocked solves, if `-modes_benchmark`
+  /// One factorisation and 400 blocked solves, if `-modes_benchmark`
+  double modesFloorSeconds = 0;
 
   /// Every point has a steady solution.
   bool converged() const;
@@ -41,16 +45,18 @@ struct Analysis {
 /// What the options of all stages ask of the mesh.
 mesh::Request meshRequest();
 
-/// Collective. Error for options that are unknown, out of range or idle: all that can be told before a file is read or written.
+/// Collective. Error for options that are unknown, out of range or idle: all that can be told
+/// before a file is read or written.
 void checkOptions();
 
-/// Collective. All that comes before the first solution: sweep, and mesh, matrices of the bodies and contact; options have been checked.
-/// Errors as the stages document them.
+/// Collective. All that comes before the first solution: sweep, and mesh, matrices of the bodies
+/// and contact; options have been checked. Errors as the stages document them.
 Analysis prepare(MPI_Comm comm);
 /// Collective. The matrices of files, checked against the sweep.
 std::vector<matrices::NamedTerm> readMatrices(MPI_Comm comm, const sweep::Sweep& sweep);
 
-/// Collective. Runs all stages that the options, which have been checked, ask for. Errors as the stages document them.
+/// Collective. Runs all stages that the options, which have been checked, ask for. Errors as the
+/// stages document them.
 Analysis analyse(MPI_Comm comm);
 
 }  // namespace squeal::analysis

@@ -17,9 +17,9 @@
 namespace squeal::analysis {
 namespace {
 
-const FlagOption dryRunOption(
-    "general", "dry_run", false,
-    "check the input, say what a run would do and how much memory it would take, and solve and write nothing");
+const FlagOption dryRunOption("general", "dry_run", false,
+                              "check the input, say what a run would do and how much memory it "
+                              "would take, and solve and write nothing");
 
 /// Collective. The sum over all ranks.
 double total(MPI_Comm comm, double value) {
@@ -40,20 +40,26 @@ void sayMesh(const mesh::Mesh& mesh) {
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
     double cells = 0;
     for (const auto& block : mesh.cells)
-      cells += static_cast<double>(std::count(block.body.begin(), block.body.end(), static_cast<int>(b)));
+      cells += static_cast<double>(
+          std::count(block.body.begin(), block.body.end(), static_cast<int>(b)));
     bodies.push_back(counted(mesh.bodies[b], total(mesh.comm, cells), "cells"));
   }
   auto held = contact::constrainedGroups();
   for (const auto& group : elasticity::groundedGroups()) held.push_back(group);
   for (const auto& [name, members] : mesh.nodeGroups)
-    if (std::any_of(held.begin(), held.end(), [&, &group = name](const auto& request) { return request.name == group; }))
-      nodes.push_back(counted(name, total(mesh.comm, static_cast<double>(members.size())), "nodes"));
+    if (std::any_of(held.begin(), held.end(),
+                    [&, &group = name](const auto& request) { return request.name == group; }))
+      nodes.push_back(
+          counted(name, total(mesh.comm, static_cast<double>(members.size())), "nodes"));
   const auto loaded = elasticity::loadedSurfaces();
   for (std::size_t i = 0; i < mesh.surfaces.size(); ++i) {
-    if (std::none_of(loaded.begin(), loaded.end(), [&](const auto& request) { return request.name == mesh.surfaces[i]; })) continue;
+    if (std::none_of(loaded.begin(), loaded.end(),
+                     [&](const auto& request) { return request.name == mesh.surfaces[i]; }))
+      continue;
     double faces = 0;
     for (const auto& block : mesh.faces)
-      faces += static_cast<double>(std::count(block.surface.begin(), block.surface.end(), static_cast<int>(i)));
+      faces += static_cast<double>(
+          std::count(block.surface.begin(), block.surface.end(), static_cast<int>(i)));
     loads.push_back(counted(mesh.surfaces[i], total(mesh.comm, faces), "faces"));
   }
   sayList(mesh.comm, "bodies", bodies);
@@ -64,25 +70,29 @@ void sayMesh(const mesh::Mesh& mesh) {
 void sayContact(const contact::Contact& contact, MPI_Comm comm) {
   std::vector<std::string> interfaces;
   for (std::size_t i = 0; i < contact.interfaces.size(); ++i) {
-    const auto count = std::count_if(contact.nodes.begin(), contact.nodes.end(),
-                                     [&](const auto& node) { return node.interface == static_cast<int>(i); });
-    interfaces.push_back(counted(contact.interfaces[i], total(comm, static_cast<double>(count)), "pairs of nodes"));
+    const auto count =
+        std::count_if(contact.nodes.begin(), contact.nodes.end(),
+                      [&](const auto& node) { return node.interface == static_cast<int>(i); });
+    interfaces.push_back(
+        counted(contact.interfaces[i], total(comm, static_cast<double>(count)), "pairs of nodes"));
   }
   sayList(comm, "contact", interfaces);
 }
 
 void saySweep(MPI_Comm comm, const sweep::Sweep& sweep, bool steady) {
   const std::size_t states = sweep.frictions.size() * sweep.speeds.size() * sweep.pressures.size();
-  std::string text = formatted("%-12s %zu points: %zu frictions x %zu speeds x %zu pressures x %zu dampings", "sweep",
-                               states * sweep.dampings.size(), sweep.frictions.size(), sweep.speeds.size(), sweep.pressures.size(),
-                               sweep.dampings.size());
+  std::string text =
+      formatted("%-12s %zu points: %zu frictions x %zu speeds x %zu pressures x %zu dampings",
+                "sweep", states * sweep.dampings.size(), sweep.frictions.size(),
+                sweep.speeds.size(), sweep.pressures.size(), sweep.dampings.size());
   if (steady) text += formatted("; %zu steady states", states);
   say(comm, text);
 }
 
-/// Prints what is held now (mesh, matrices, libraries), the factor of K0 as the analysis of MUMPS foresees it, and the vectors of the basis with
-/// what is computed from them: about `vectorsPerMode` for each free mode, as measured of 53,151 to 225,715 unknowns in three dimensions and of
-/// 119,600 in the plane.
+/// Prints what is held now (mesh, matrices, libraries), the factor of K0 as the analysis of MUMPS
+/// foresees it, and the vectors of the basis with what is computed from them: about
+/// `vectorsPerMode` for each free mode, as measured of 53,151 to 225,715 unknowns in three
+/// dimensions and of 119,600 in the plane.
 void sayMemory(MPI_Comm comm, Mat k0) {
   constexpr double vectorsPerMode = 12;
   PetscInt unknowns = 0;
@@ -95,12 +105,15 @@ void sayMemory(MPI_Comm comm, Mat k0) {
   getrusage(RUSAGE_SELF, &usage);
   const double held = total(comm, 1024.0 * static_cast<double>(usage.ru_maxrss));
   const double vectors = 8.0 * vectorsPerMode * modes * static_cast<double>(unknowns);
-  const double machine = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-  say(comm, formatted("%-12s %d, %.0f entries in the stiffness", "unknowns", static_cast<int>(unknowns), info.nz_used));
-  say(comm,
-      formatted("%-12s about %.2g GB on all ranks: %.2g held now, %.2g for the factor, %.2g for vectors of %d modes; this machine "
-                "has %.3g GB",
-                "memory", 1e-9 * (held + factor + vectors), 1e-9 * held, 1e-9 * factor, 1e-9 * vectors, modes, 1e-9 * machine));
+  const double machine =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  say(comm, formatted("%-12s %d, %.0f entries in the stiffness", "unknowns",
+                      static_cast<int>(unknowns), info.nz_used));
+  say(comm, formatted("%-12s about %.2g GB on all ranks: %.2g held now, %.2g for the factor, %.2g "
+                      "for vectors of %d modes; this machine "
+                      "has %.3g GB",
+                      "memory", 1e-9 * (held + factor + vectors), 1e-9 * held, 1e-9 * factor,
+                      1e-9 * vectors, modes, 1e-9 * machine));
 }
 
 void ofMatrices(const Analysis& analysis) {
@@ -111,9 +124,10 @@ void ofMatrices(const Analysis& analysis) {
     PetscInt rows = 0;
     check(MatGetInfo(term.matrix, MAT_GLOBAL_SUM, &info));
     check(MatGetSize(term.matrix, &rows, nullptr));
-    say(analysis.comm, formatted("%-12s %s: %d rows, %.0f entries, with s^%d, friction^%d, speed^%d, damping^%d", "matrix",
-                                 name.c_str(), static_cast<int>(rows), info.nz_used, term.power, term.frictionExponent,
-                                 term.speedExponent, term.dampingExponent));
+    say(analysis.comm,
+        formatted("%-12s %s: %d rows, %.0f entries, with s^%d, friction^%d, speed^%d, damping^%d",
+                  "matrix", name.c_str(), static_cast<int>(rows), info.nz_used, term.power,
+                  term.frictionExponent, term.speedExponent, term.dampingExponent));
     if (term.power != 0) continue;
     if (!pattern)
       check(MatDuplicate(term.matrix, MAT_COPY_VALUES, pattern.out()));
@@ -136,12 +150,14 @@ void dryRun(MPI_Comm comm) {
     sayMesh(*analysis.mesh);
     sayContact(analysis.contact, comm);
     saySweep(comm, analysis.sweep, true);
-    const contact::AssociatedSystem system(analysis.bodies, analysis.contact,
-                                           std::vector<unsigned char>(analysis.contact.nodes.size(), 1));
+    const contact::AssociatedSystem system(
+        analysis.bodies, analysis.contact,
+        std::vector<unsigned char>(analysis.contact.nodes.size(), 1));
     sayMemory(comm, system.k0());
   }
   say(comm,
-      "dry run: no fault found in options and files; nothing was solved or written, so that solvers and the steady state are "
+      "dry run: no fault found in options and files; nothing was solved or written, so that "
+      "solvers and the steady state are "
       "untried");
 }
 

@@ -20,9 +20,11 @@
 namespace squeal::analysis {
 namespace {
 
-const IntegerOption modesShown("report", "report_modes", 10, 0, 100'000, "number of free modes written as fields");
-const FlagOption benchmarkWanted("modes", "modes_benchmark", false,
-                                 "time one factorisation and 400 solves in blocks of 32, the floor of the stage");
+const IntegerOption modesShown("report", "report_modes", 10, 0, 100'000,
+                               "number of free modes written as fields");
+const FlagOption benchmarkWanted(
+    "modes", "modes_benchmark", false,
+    "time one factorisation and 400 solves in blocks of 32, the floor of the stage");
 
 std::vector<OwnedVec> reportedShapes(const modes::Modes& modes, Mat trial) {
   std::vector<OwnedVec> shapes;
@@ -43,9 +45,11 @@ std::vector<OwnedVec> reportedShapes(const modes::Modes& modes, Mat trial) {
 }
 
 std::string pointText(const pencil::FrictionPoint& point) {
-  std::string text = formatted("%s: %d of %d eigenvalues unstable", sweep::parameterText(point.at).c_str(), point.unstableCount(),
-                               static_cast<int>(point.eigenvalues.size()));
-  if (point.bandTop > 0 && std::isfinite(point.bandTop)) text += formatted(" to %.4g Hz", point.bandTop / (2 * M_PI));
+  std::string text =
+      formatted("%s: %d of %d eigenvalues unstable", sweep::parameterText(point.at).c_str(),
+                point.unstableCount(), static_cast<int>(point.eigenvalues.size()));
+  if (point.bandTop > 0 && std::isfinite(point.bandTop))
+    text += formatted(" to %.4g Hz", point.bandTop / (2 * M_PI));
   text += formatted(", worst backward error %.1e", point.worstBackwardError());
   if (point.tolerance > 0) text += formatted(", estimated error %.1e", point.worstErrorEstimate());
   return text;
@@ -62,7 +66,8 @@ void requireFiniteEigenvalues(const pencil::FrictionPoint& point) {
 /// Flutter at the points of a segment, batch by batch.
 class SegmentSweep {
  public:
-  SegmentSweep(const SegmentProblem& problem, pencil::Pencil pencil, const std::vector<double>& dampings)
+  SegmentSweep(const SegmentProblem& problem, pencil::Pencil pencil,
+               const std::vector<double>& dampings)
       : problem_(problem), pencil_(std::move(pencil)) {
     for (double damping : dampings)
       for (sweep::Parameters at : problem.steadyPoints) {
@@ -75,7 +80,8 @@ class SegmentSweep {
     const bool direct = direct::directWanted();
     if (direct) linalg::rejectUnusedSolverOptions();
     if (direct && !sensitivity::sensitivitiesWanted()) return;
-    modes::Modes modes = modes::compute({problem_.k0, problem_.m0, problem_.solver()}, problem_.modes);
+    modes::Modes modes =
+        modes::compute({problem_.k0, problem_.m0, problem_.solver()}, problem_.modes);
     if (direct) {
       forLeftVectors_ = std::move(modes);
       return;
@@ -85,7 +91,8 @@ class SegmentSweep {
     segment.shapes = reportedShapes(segment.modes, problem_.trial);
     pencil_.add(flutter::modalDamping(segment.modes, problem_.m0));
     Stage stage(pencil_.comm(), "flutter");
-    reduced_ = std::make_unique<reduction::ReducedProblem>(pencil_, problem_.k0, problem_.solver(), segment.modes);
+    reduced_ = std::make_unique<reduction::ReducedProblem>(pencil_, problem_.k0, problem_.solver(),
+                                                           segment.modes);
     stage.finish(formatted("basis of %d free modes", static_cast<int>(reduced_->basisSize())));
   }
 
@@ -102,7 +109,8 @@ class SegmentSweep {
       solveBatch(batch, problems, segment);
       for (std::size_t i = 0; i < batch.size() && problem_.examine; ++i)
         problem_.examine(batch[i] % problem_.steadyPoints.size(), problems[i].pencil,
-                         startSpace(problems[i], segment.points[batch[i]]), segment.points[batch[i]]);
+                         startSpace(problems[i], segment.points[batch[i]]),
+                         segment.points[batch[i]]);
     }
     if (reduced_) segment.solves = reduced_->basis().solves();
   }
@@ -110,13 +118,17 @@ class SegmentSweep {
   /// Eigenvalues followed from point to point, and critical frictions.
   void followPoints(ModalSegment& segment) {
     if (!tracking::trackWanted()) return;
-    const std::string nothing = reduced_ ? tracking::nothingToFollow(*reduced_, segment.points) : "-flutter_method direct";
+    const std::string nothing =
+        reduced_ ? tracking::nothingToFollow(*reduced_, segment.points) : "-flutter_method direct";
     if (!nothing.empty()) {
       if (tracking::trackAsked()) say(pencil_.comm(), "track: nothing to follow (" + nothing + ")");
       return;
     }
-    if (!affine_ && !tracking::trackAsked())  // each friction put in between costs a steady state and terms of its own
-      return say(pencil_.comm(), "track: not done where terms follow the steady state, unless -flutter_track is given");
+    if (!affine_ && !tracking::trackAsked())  // each friction put in between costs a steady state
+                                              // and terms of its own
+      return say(
+          pencil_.comm(),
+          "track: not done where terms follow the steady state, unless -flutter_track is given");
     Stage stage(pencil_.comm(), "track");
     const auto problemAt = [&](const sweep::Parameters& at) {
       std::optional<reduction::PointProblem> problem;
@@ -127,38 +139,43 @@ class SegmentSweep {
       }
       return problem;
     };
-    segment.followed = tracking::followSweep(*reduced_, segment.points, segment.modes, pencil_.comm(), {pencil_, problemAt, affine_},
-                                            [&](const std::string& text) { stage.progress(text); });
+    segment.followed = tracking::followSweep(
+        *reduced_, segment.points, segment.modes, pencil_.comm(), {pencil_, problemAt, affine_},
+        [&](const std::string& text) { stage.progress(text); });
     std::size_t branches = 0, stations = 0, criticals = 0;
     for (const auto& followed : segment.followed) {
       branches += static_cast<std::size_t>(followed.branches.count);
       stations += followed.branches.stations.size();
       criticals += followed.criticals.size();
     }
-    stage.finish(formatted("%zu branches followed over %zu frictions, %zu critical frictions, basis of %d", branches, stations,
-                           criticals, static_cast<int>(reduced_->basisSize())));
+    stage.finish(
+        formatted("%zu branches followed over %zu frictions, %zu critical frictions, basis of %d",
+                  branches, stations, criticals, static_cast<int>(reduced_->basisSize())));
   }
 
  private:
-  void solveBatch(const std::vector<std::size_t>& batch, const std::vector<reduction::PointProblem>& problems,
-                  ModalSegment& segment) {
+  void solveBatch(const std::vector<std::size_t>& batch,
+                  const std::vector<reduction::PointProblem>& problems, ModalSegment& segment) {
     Stage stage(pencil_.comm(), "flutter");
     std::vector<pencil::FrictionPoint> solved;
     if (reduced_) solved = reduced_->solve(problems, problem_.trial);
     for (std::size_t i = 0; i < batch.size(); ++i) {
       auto& point = segment.points[batch[i]];
-      point = reduced_ ? std::move(solved[i]) : direct::solveDirect(problems[i].pencil, problems[i].at, problem_.trial);
+      point = reduced_ ? std::move(solved[i])
+                       : direct::solveDirect(problems[i].pencil, problems[i].at, problem_.trial);
       requireFiniteEigenvalues(point);
       stage.say(pointText(point));
     }
     std::string text = formatted("%d points", static_cast<int>(batch.size()));
     if (reduced_)
-      text += formatted(", basis of %d, %ld solves", static_cast<int>(reduced_->basisSize()), reduced_->basis().solves());
+      text += formatted(", basis of %d, %ld solves", static_cast<int>(reduced_->basisSize()),
+                        reduced_->basis().solves());
     stage.finish(text);
   }
 
   /// Of the left vectors of the shapes kept.
-  sensitivity::StartSpace startSpace(const reduction::PointProblem& problem, const pencil::FrictionPoint& point) const {
+  sensitivity::StartSpace startSpace(const reduction::PointProblem& problem,
+                                     const pencil::FrictionPoint& point) const {
     if (!sensitivity::sensitivitiesWanted() || point.shapes.empty()) return {};
     if (!reduced_) return {forLeftVectors_.vectors.share(), problem_.m0, {}};
     return {reduced_->basis().vectors(), problem_.k0, reduced_->project(problem)};
@@ -174,8 +191,8 @@ class SegmentSweep {
 
 }  // namespace
 
-ModalSegment solveSegment(const SegmentProblem& problem, pencil::Pencil pencil, const std::vector<double>& dampings,
-                          double& floor) {
+ModalSegment solveSegment(const SegmentProblem& problem, pencil::Pencil pencil,
+                          const std::vector<double>& dampings, double& floor) {
   ModalSegment segment;
   check(MatGetSize(problem.k0, &segment.unknowns, nullptr));
   SegmentSweep sweep(problem, std::move(pencil), dampings);

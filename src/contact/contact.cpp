@@ -12,13 +12,17 @@
 namespace squeal::contact {
 namespace {
 
-const TextOption padOption("contact", "contact_<interface>_pad", "", "surface group of the pad side (slave) of an interface");
-const TextOption discOption("contact", "contact_<interface>_disc", "", "surface group of the disc side (master), meshed alike");
-const RealListOption obstacleVelocityOption(
-    "contact", "contact_<interface>_obstacle_velocity", "0,0,0", "m/s", anyReal,
-    "instead of a disc: a rigid flat obstacle in the plane of the pad face, sliding at this velocity");
-const RealListOption obstacleDisplacementOption("contact", "contact_<interface>_obstacle_displacement", "0,0,0", "m", anyReal,
-                                                "displacement of the rigid obstacle, which presses the pad");
+const TextOption padOption("contact", "contact_<interface>_pad", "",
+                           "surface group of the pad side (slave) of an interface");
+const TextOption discOption("contact", "contact_<interface>_disc", "",
+                            "surface group of the disc side (master), meshed alike");
+const RealListOption obstacleVelocityOption("contact", "contact_<interface>_obstacle_velocity",
+                                            "0,0,0", "m/s", anyReal,
+                                            "instead of a disc: a rigid flat obstacle in the plane "
+                                            "of the pad face, sliding at this velocity");
+const RealListOption obstacleDisplacementOption(
+    "contact", "contact_<interface>_obstacle_displacement", "0,0,0", "m", anyReal,
+    "displacement of the rigid obstacle, which presses the pad");
 
 std::string text(const Point& p) { return formatted("(%.6g, %.6g, %.6g)", p[0], p[1], p[2]); }
 
@@ -27,16 +31,19 @@ OwnedMat periodicity(const mesh::Mesh& mesh) {
   OwnedMat matrix = nodalMatrix(mesh, 1);
   std::vector<PetscInt> source;
   for (PetscInt node = 0; node < mesh.ownedNodes; ++node) source.push_back(mesh.firstNode + node);
-  for (const auto& image : mesh.images) source[static_cast<std::size_t>(image.node)] = image.primary;
+  for (const auto& image : mesh.images)
+    source[static_cast<std::size_t>(image.node)] = image.primary;
   for (PetscInt node = 0; node < mesh.ownedNodes; ++node)
     for (int d = 0; d < mesh.dimension; ++d)
       check(MatSetValue(matrix, mesh.dimension * (mesh.firstNode + node) + d,
-                        mesh.dimension * source[static_cast<std::size_t>(node)] + d, 1, INSERT_VALUES));
+                        mesh.dimension * source[static_cast<std::size_t>(node)] + d, 1,
+                        INSERT_VALUES));
   assembled(matrix);
   return matrix;
 }
 
-/// Sums over the pad faces at each node: area-weighted normals (towards the pad) and ∫ φ dA; those of images go to the primaries.
+/// Sums over the pad faces at each node: area-weighted normals (towards the pad) and ∫ φ dA; those
+/// of images go to the primaries.
 struct FaceSums {
   OwnedVec normal, area;  // nodal vectors; area in component 0, lumped area in component 1
 };
@@ -47,46 +54,59 @@ FaceSums sumFaces(const mesh::Mesh& mesh, const Contact& contact) {
   for (const auto& block : mesh.faces) {
     const auto& table = elasticity::shapeTable(block.type);
     for (std::size_t e = 0; e < block.surface.size(); ++e) {
-      if (!contact.isPadSurface(mesh.surfaces[static_cast<std::size_t>(block.surface[e])])) continue;
+      if (!contact.isPadSurface(mesh.surfaces[static_cast<std::size_t>(block.surface[e])]))
+        continue;
       std::vector<Point> points;
       const PetscInt* nodes = block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerFace);
-      for (int i = 0; i < block.nodesPerFace; ++i) points.push_back(mesh.coordinates[static_cast<std::size_t>(nodes[i])]);
+      for (int i = 0; i < block.nodesPerFace; ++i)
+        points.push_back(mesh.coordinates[static_cast<std::size_t>(nodes[i])]);
       const auto faceMass = elasticity::faceMass(table, points);
       const auto normals = elasticity::nodeNormals(table, points, -block.sign[e]);
       double faceArea = 0, trace = 0;
       for (double entry : faceMass) faceArea += entry;
-      for (int i = 0; i < block.nodesPerFace; ++i) trace += faceMass[static_cast<std::size_t>(i * (block.nodesPerFace + 1))];
+      for (int i = 0; i < block.nodesPerFace; ++i)
+        trace += faceMass[static_cast<std::size_t>(i * (block.nodesPerFace + 1))];
       for (int i = 0; i < block.nodesPerFace; ++i) {
         const PetscInt row = mesh.dimension * mesh.globalNode[static_cast<std::size_t>(nodes[i])];
         double weight = 0;
-        for (int j = 0; j < block.nodesPerFace; ++j) weight += faceMass[static_cast<std::size_t>(i * block.nodesPerFace + j)];
+        for (int j = 0; j < block.nodesPerFace; ++j)
+          weight += faceMass[static_cast<std::size_t>(i * block.nodesPerFace + j)];
         check(VecSetValue(local.area, row, weight, ADD_VALUES));
-        check(VecSetValue(local.area, row + 1, faceArea * faceMass[static_cast<std::size_t>(i * (block.nodesPerFace + 1))] / trace,
-                          ADD_VALUES));
+        check(VecSetValue(
+            local.area, row + 1,
+            faceArea * faceMass[static_cast<std::size_t>(i * (block.nodesPerFace + 1))] / trace,
+            ADD_VALUES));
         for (int d = 0; d < mesh.dimension; ++d)
-          check(VecSetValue(local.normal, row + d, faceArea * normals[static_cast<std::size_t>(i)][static_cast<std::size_t>(d)],
-                            ADD_VALUES));
+          check(VecSetValue(
+              local.normal, row + d,
+              faceArea * normals[static_cast<std::size_t>(i)][static_cast<std::size_t>(d)],
+              ADD_VALUES));
       }
     }
   }
-  for (Vec vector : {local.normal.get(), local.area.get()}) check(VecAssemblyBegin(vector)), check(VecAssemblyEnd(vector));
+  for (Vec vector : {local.normal.get(), local.area.get()})
+    check(VecAssemblyBegin(vector)), check(VecAssemblyEnd(vector));
   check(MatMultTranspose(contact.periodic, local.normal, sums.normal));
   check(MatMultTranspose(contact.periodic, local.area, sums.area));
   return sums;
 }
 
 std::vector<ContactNode> contactNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
-                                      const std::vector<mesh::InterfaceRequest>& requests, const FaceSums& sums) {
+                                      const std::vector<mesh::InterfaceRequest>& requests,
+                                      const FaceSums& sums) {
   std::vector<ContactNode> nodes;
   std::vector<Point> obstacleVelocity;
-  for (const auto& request : requests) obstacleVelocity.push_back(obstacleVelocityOption.components(request.name, mesh.dimension));
+  for (const auto& request : requests)
+    obstacleVelocity.push_back(obstacleVelocityOption.components(request.name, mesh.dimension));
   const auto discVelocity = [&](const mesh::ContactPair& pair) {
-    return pair.masterBody >= 0 ? bodies.motions[static_cast<std::size_t>(pair.masterBody)].velocity(
-                                      mesh.coordinates[static_cast<std::size_t>(pair.node)])
-                                : obstacleVelocity[static_cast<std::size_t>(pair.interface)];
+    return pair.masterBody >= 0
+               ? bodies.motions[static_cast<std::size_t>(pair.masterBody)].velocity(
+                     mesh.coordinates[static_cast<std::size_t>(pair.node)])
+               : obstacleVelocity[static_cast<std::size_t>(pair.interface)];
   };
   double fastest = 0;
-  for (const auto& pair : mesh.pairs) fastest = std::max(fastest, std::sqrt(dot(discVelocity(pair), discVelocity(pair))));
+  for (const auto& pair : mesh.pairs)
+    fastest = std::max(fastest, std::sqrt(dot(discVelocity(pair), discVelocity(pair))));
   check(MPI_Allreduce(MPI_IN_PLACE, &fastest, 1, MPI_DOUBLE, MPI_MAX, mesh.comm));
   const PetscScalar *normal = nullptr, *area = nullptr;
   check(VecGetArrayRead(sums.normal, &normal));
@@ -94,10 +114,12 @@ std::vector<ContactNode> contactNodes(const mesh::Mesh& mesh, const elasticity::
   for (const auto& pair : mesh.pairs) {
     ContactNode node{};
     node.position = mesh.coordinates[static_cast<std::size_t>(pair.node)];
-    node.node = pair.node, node.globalNode = mesh.firstNode + pair.node, node.master = pair.master, node.interface = pair.interface;
+    node.node = pair.node, node.globalNode = mesh.firstNode + pair.node, node.master = pair.master,
+    node.interface = pair.interface;
     node.area = area[mesh.dimension * pair.node];
     node.lumpedArea = area[mesh.dimension * pair.node + 1];
-    for (int d = 0; d < mesh.dimension; ++d) node.normal[static_cast<std::size_t>(d)] = normal[mesh.dimension * pair.node + d];
+    for (int d = 0; d < mesh.dimension; ++d)
+      node.normal[static_cast<std::size_t>(d)] = normal[mesh.dimension * pair.node + d];
     node.normal = scaled(node.normal, 1 / std::sqrt(dot(node.normal, node.normal)));
     const Point velocity = discVelocity(pair);
     // w = −V in the tangent plane [2.15].
@@ -105,7 +127,8 @@ std::vector<ContactNode> contactNodes(const mesh::Mesh& mesh, const elasticity::
     Point w{};
     for (std::size_t d = 0; d < 3; ++d) w[d] = -(velocity[d] - along * node.normal[d]);
     node.slipSpeed = std::sqrt(dot(w, w));
-    // On the axis of a rotation, and where the velocity is along the normal, only rounding is left; gmsh places nodes to 1e-11.
+    // On the axis of a rotation, and where the velocity is along the normal, only rounding is left;
+    // gmsh places nodes to 1e-11.
     if (node.slipSpeed > 1e-9 * fastest)
       node.slip = scaled(w, 1 / node.slipSpeed);
     else
@@ -117,7 +140,8 @@ std::vector<ContactNode> contactNodes(const mesh::Mesh& mesh, const elasticity::
   return nodes;
 }
 
-/// Tangents t1, t2 at a contact node, held Cartesian directions first. In the plane only the first is used.
+/// Tangents t1, t2 at a contact node, held Cartesian directions first. In the plane only the first
+/// is used.
 struct Frame {
   std::vector<Point> tangents;
   std::vector<int> heldComponent;  ///< [tangent] Cartesian component held along it, or −1
@@ -130,16 +154,19 @@ Frame frameOf(const ContactNode& node, const Constraints& constraints, int dimen
       Point e{};
       e[static_cast<std::size_t>(d)] = 1;
       if (std::abs(dot(e, node.normal)) > 1e-6)
-        throw Error(
-            "option -constraint_" +
-            constraints.groups[static_cast<std::size_t>(constraints.heldBy[static_cast<std::size_t>(dimension * node.node + d)])] +
-            "_clamped holds component " + std::string(1, static_cast<char>('x' + d)) + " of the pad contact node at " +
-            text(node.position) + ", which is not tangential there; contact decides the normal component");
+        throw Error("option -constraint_" +
+                    constraints.groups[static_cast<std::size_t>(
+                        constraints.heldBy[static_cast<std::size_t>(dimension * node.node + d)])] +
+                    "_clamped holds component " + std::string(1, static_cast<char>('x' + d)) +
+                    " of the pad contact node at " + text(node.position) +
+                    ", which is not tangential there; contact decides the normal component");
       frame.tangents.push_back(e);
       frame.heldComponent.push_back(d);
     }
   if (dimension == 2) {
-    if (frame.tangents.empty()) frame.tangents.push_back({-node.normal[1], node.normal[0], 0}), frame.heldComponent.push_back(-1);
+    if (frame.tangents.empty())
+      frame.tangents.push_back({-node.normal[1], node.normal[0], 0}),
+          frame.heldComponent.push_back(-1);
     return frame;
   }
   if (frame.tangents.empty()) {
@@ -154,16 +181,19 @@ Frame frameOf(const ContactNode& node, const Constraints& constraints, int dimen
     frame.heldComponent.push_back(-1);
   }
   if (frame.tangents.size() == 1)
-    frame.tangents.push_back(cross(node.normal, frame.tangents[0])), frame.heldComponent.push_back(-1);
+    frame.tangents.push_back(cross(node.normal, frame.tangents[0])),
+        frame.heldComponent.push_back(-1);
   return frame;
 }
 
 /// Fills A (before periodicity), the free components of z and the values of the others.
-void buildKinematics(const mesh::Mesh& mesh, const std::vector<mesh::InterfaceRequest>& requests, Contact& contact, Mat a,
-                     Vec held) {
+void buildKinematics(const mesh::Mesh& mesh, const std::vector<mesh::InterfaceRequest>& requests,
+                     Contact& contact, Mat a, Vec held) {
   const Constraints& constraints = contact.constraints;
   const int dimension = mesh.dimension;
-  const auto local = [&](PetscInt node, int d) { return static_cast<std::size_t>(dimension * node + d); };
+  const auto local = [&](PetscInt node, int d) {
+    return static_cast<std::size_t>(dimension * node + d);
+  };
   contact.free.assign(constraints.held.size(), 1);
   std::vector<unsigned char> isPad(static_cast<std::size_t>(mesh.ownedNodes), 0);
   for (const auto& node : contact.nodes) isPad[static_cast<std::size_t>(node.node)] = 1;
@@ -171,7 +201,8 @@ void buildKinematics(const mesh::Mesh& mesh, const std::vector<mesh::InterfaceRe
   for (PetscInt node = 0; node < mesh.ownedNodes; ++node) {
     if (isPad[static_cast<std::size_t>(node)]) continue;
     for (int d = 0; d < dimension; ++d) {
-      check(MatSetValue(a, dimension * (mesh.firstNode + node) + d, dimension * (mesh.firstNode + node) + d, 1, INSERT_VALUES));
+      check(MatSetValue(a, dimension * (mesh.firstNode + node) + d,
+                        dimension * (mesh.firstNode + node) + d, 1, INSERT_VALUES));
       if (!constraints.held[local(node, d)]) continue;
       contact.free[local(node, d)] = 0;
       values[local(node, d)] = constraints.displacement[local(node, d)];
@@ -179,7 +210,8 @@ void buildKinematics(const mesh::Mesh& mesh, const std::vector<mesh::InterfaceRe
   }
   std::vector<Point> obstacleDisplacement;
   for (const auto& request : requests)
-    obstacleDisplacement.push_back(obstacleDisplacementOption.components(request.name, mesh.dimension));
+    obstacleDisplacement.push_back(
+        obstacleDisplacementOption.components(request.name, mesh.dimension));
   std::string failure;
   for (const auto& node : contact.nodes) try {
       const Frame frame = frameOf(node, constraints, dimension);
@@ -188,13 +220,16 @@ void buildKinematics(const mesh::Mesh& mesh, const std::vector<mesh::InterfaceRe
         for (int t = 0; t < dimension - 1; ++t)
           block[static_cast<std::size_t>(i * dimension + t)] =
               frame.tangents[static_cast<std::size_t>(t)][static_cast<std::size_t>(i)];
-        block[static_cast<std::size_t>(i * dimension + dimension - 1)] = node.normal[static_cast<std::size_t>(i)];
+        block[static_cast<std::size_t>(i * dimension + dimension - 1)] =
+            node.normal[static_cast<std::size_t>(i)];
       }
       setBlock(a, dimension, node.globalNode, node.globalNode, block);
       if (node.master >= 0)
-        setBlock(a, dimension, node.globalNode, node.master, outer(node.normal, node.normal, dimension));
+        setBlock(a, dimension, node.globalNode, node.master,
+                 outer(node.normal, node.normal, dimension));
       else
-        values[local(node.node, dimension - 1)] = dot(node.normal, obstacleDisplacement[static_cast<std::size_t>(node.interface)]);
+        values[local(node.node, dimension - 1)] =
+            dot(node.normal, obstacleDisplacement[static_cast<std::size_t>(node.interface)]);
       for (int t = 0; t < dimension - 1; ++t) {
         const int component = frame.heldComponent[static_cast<std::size_t>(t)];
         if (component < 0) continue;
@@ -226,16 +261,20 @@ void requireFlatObstacles(const mesh::Mesh& mesh, const Contact& contact) {
     check(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, mesh.comm));
     for (const auto& node : contact.nodes)
       if (node.interface == static_cast<int>(i) && node.master < 0 &&
-          sums[0] * node.normal[0] + sums[1] * node.normal[1] + sums[2] * node.normal[2] < (1 - 1e-10) * sums[3])
+          sums[0] * node.normal[0] + sums[1] * node.normal[1] + sums[2] * node.normal[2] <
+              (1 - 1e-10) * sums[3])
         failure = "option -" + padOption.fullName(contact.interfaces[i]) +
-                  ": the face on the rigid obstacle must be flat; its normal turns at " + text(node.position);
+                  ": the face on the rigid obstacle must be flat; its normal turns at " +
+                  text(node.position);
   }
   failTogether(mesh.comm, failure);
 }
 
 /// w = −V is the velocity of a resting pad over a moving disc.
-void requireRestingPads(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, const Contact& contact) {
-  std::vector<int> moving(static_cast<std::size_t>(mesh.localNodes()), -1);  // [local node] a moving body that it belongs to
+void requireRestingPads(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
+                        const Contact& contact) {
+  std::vector<int> moving(static_cast<std::size_t>(mesh.localNodes()),
+                          -1);  // [local node] a moving body that it belongs to
   for (const auto& block : mesh.cells)
     for (std::size_t i = 0; i < block.nodes.size(); ++i)
       if (const int body = block.body[i / static_cast<std::size_t>(block.nodesPerCell)];
@@ -244,13 +283,13 @@ void requireRestingPads(const mesh::Mesh& mesh, const elasticity::Bodies& bodies
   std::string failure;
   for (const auto& block : mesh.faces)
     for (std::size_t i = 0; i < block.nodes.size(); ++i) {
-      const auto& surface =
-          mesh.surfaces[static_cast<std::size_t>(block.surface[i / static_cast<std::size_t>(block.nodesPerFace)])];
+      const auto& surface = mesh.surfaces[static_cast<std::size_t>(
+          block.surface[i / static_cast<std::size_t>(block.nodesPerFace)])];
       const int body = moving[static_cast<std::size_t>(block.nodes[i])];
       if (body >= 0 && contact.isPadSurface(surface))
         failure = "body '" + mesh.bodies[static_cast<std::size_t>(body)] + "' has a -motion_" +
-                  mesh.bodies[static_cast<std::size_t>(body)] + "_* but bears the pad surface '" + surface +
-                  "'; the side that moves is the disc, -contact_<interface>_disc";
+                  mesh.bodies[static_cast<std::size_t>(body)] + "_* but bears the pad surface '" +
+                  surface + "'; the side that moves is the disc, -contact_<interface>_disc";
     }
   failTogether(mesh.comm, failure);
 }
@@ -259,21 +298,24 @@ void requireRestingPads(const mesh::Mesh& mesh, const elasticity::Bodies& bodies
 
 std::vector<mesh::InterfaceRequest> readInterfaces() {
   std::vector<mesh::InterfaceRequest> requests;
-  for (const Option* option : {static_cast<const Option*>(&discOption), static_cast<const Option*>(&obstacleVelocityOption),
+  for (const Option* option : {static_cast<const Option*>(&discOption),
+                               static_cast<const Option*>(&obstacleVelocityOption),
                                static_cast<const Option*>(&obstacleDisplacementOption)})
     for (const auto& name : option->subjects())
-      if (!padOption.given(name)) throw Error("option -" + option->fullName(name) + " needs -" + padOption.fullName(name));
+      if (!padOption.given(name))
+        throw Error("option -" + option->fullName(name) + " needs -" + padOption.fullName(name));
   for (const auto& name : padOption.subjects()) {
-    const bool disc = discOption.given(name),
-               obstacle = obstacleVelocityOption.given(name) || obstacleDisplacementOption.given(name);
+    const bool disc = discOption.given(name), obstacle = obstacleVelocityOption.given(name) ||
+                                                         obstacleDisplacementOption.given(name);
     if (disc == obstacle)
-      throw Error("option -" + padOption.fullName(name) + ": give either -" + discOption.fullName(name) + " or -" +
-                  obstacleVelocityOption.fullName(name));
+      throw Error("option -" + padOption.fullName(name) + ": give either -" +
+                  discOption.fullName(name) + " or -" + obstacleVelocityOption.fullName(name));
     const auto groupOf = [&](const TextOption& option) {
       const std::string group = option.get(name);
       return mesh::GroupRequest{group, "option -" + option.fullName(name) + " " + group};
     };
-    requests.push_back({name, groupOf(padOption), disc ? groupOf(discOption) : mesh::GroupRequest{}});
+    requests.push_back(
+        {name, groupOf(padOption), disc ? groupOf(discOption) : mesh::GroupRequest{}});
   }
   return requests;
 }
@@ -283,18 +325,21 @@ Contact build(const mesh::Mesh& mesh, const elasticity::Bodies& bodies) {
   Contact contact;
   contact.constraints = readConstraints(mesh);
   contact.mesh = &mesh;
-  for (const auto& request : requests) contact.interfaces.push_back(request.name), contact.padSurfaces.push_back(request.pad.name);
+  for (const auto& request : requests)
+    contact.interfaces.push_back(request.name), contact.padSurfaces.push_back(request.pad.name);
   contact.periodic = periodicity(mesh);
   requireRestingPads(mesh, bodies, contact);
   contact.law = FrictionLaw::read();
   contact.nodes = contactNodes(mesh, bodies, requests, sumFaces(mesh, contact));
   PetscInt sums[2] = {static_cast<PetscInt>(contact.nodes.size()), 0};
-  // tri6 corners weigh zero, quad8 corners less: consistent nodal forces of a positive pressure are not positive there.
+  // tri6 corners weigh zero, quad8 corners less: consistent nodal forces of a positive pressure are
+  // not positive there.
   for (const auto& block : mesh.faces) {
     const auto& table = elasticity::shapeTable(block.type);
     const bool serendipity = table.order > 1 && (table.name == "tri6" || table.name == "quad8");
     for (int surface : block.surface)
-      sums[1] += serendipity && contact.isPadSurface(mesh.surfaces[static_cast<std::size_t>(surface)]);
+      sums[1] +=
+          serendipity && contact.isPadSurface(mesh.surfaces[static_cast<std::size_t>(surface)]);
   }
   check(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPIU_INT, MPI_SUM, mesh.comm));
   contact.totalNodes = sums[0];
@@ -304,7 +349,8 @@ Contact build(const mesh::Mesh& mesh, const elasticity::Bodies& bodies) {
   const OwnedVec held = elasticity::nodalVector(mesh);
   buildKinematics(mesh, requests, contact, a, held);
   requireFlatObstacles(mesh, contact);
-  check(MatMatMult(contact.periodic, a, MAT_INITIAL_MATRIX, PETSC_DEFAULT, contact.kinematics.out()));
+  check(
+      MatMatMult(contact.periodic, a, MAT_INITIAL_MATRIX, PETSC_DEFAULT, contact.kinematics.out()));
   contact.offset = elasticity::nodalVector(mesh);
   check(MatMult(contact.kinematics, held, contact.offset));
   buildSliding(bodies, contact);
@@ -319,7 +365,9 @@ bool Contact::isPadSurface(const std::string& surface) const {
 Transformation Contact::transformation(const std::vector<unsigned char>& gapFree) const {
   const int dimension = mesh->dimension;
   std::vector<unsigned char> unknown = free;
-  const auto gapAt = [&](const ContactNode& node) { return static_cast<std::size_t>(dimension * node.node + dimension - 1); };
+  const auto gapAt = [&](const ContactNode& node) {
+    return static_cast<std::size_t>(dimension * node.node + dimension - 1);
+  };
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (!gapFree[i]) unknown[gapAt(nodes[i])] = 0;
 
@@ -335,26 +383,35 @@ Transformation Contact::transformation(const std::vector<unsigned char>& gapFree
   for (const auto& node : nodes) result.gapColumn.push_back(column[gapAt(node)]);
 
   const PetscInt owned = dimension * mesh->ownedNodes, first = dimension * mesh->firstNode;
-  check(MatCreateAIJ(mesh->comm, owned, result.ownedColumns, PETSC_DETERMINE, PETSC_DETERMINE, 1, nullptr, 0, nullptr,
-                     result.selection.out()));
+  check(MatCreateAIJ(mesh->comm, owned, result.ownedColumns, PETSC_DETERMINE, PETSC_DETERMINE, 1,
+                     nullptr, 0, nullptr, result.selection.out()));
   for (std::size_t i = 0; i < column.size(); ++i)
-    if (column[i] >= 0) check(MatSetValue(result.selection, first + static_cast<PetscInt>(i), column[i], 1, INSERT_VALUES));
+    if (column[i] >= 0)
+      check(MatSetValue(result.selection, first + static_cast<PetscInt>(i), column[i], 1,
+                        INSERT_VALUES));
   assembled(result.selection);
-  check(MatMatMult(kinematics, result.selection, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.trial.out()));
-  check(MatSetBlockSizes(result.trial, dimension, 1));  // so that T x is a nodal vector that knows its components
+  check(MatMatMult(kinematics, result.selection, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
+                   result.trial.out()));
+  check(MatSetBlockSizes(result.trial, dimension,
+                         1));  // so that T x is a nodal vector that knows its components
 
   return result;
 }
 
-void requireSlip(const Contact& contact, const std::vector<Slip>& slip, const std::vector<unsigned char>& active) {
+void requireSlip(const Contact& contact, const std::vector<Slip>& slip,
+                 const std::vector<unsigned char>& active) {
   std::string failure;
   for (std::size_t i = 0; i < slip.size(); ++i)
     if (active[i] && slip[i].speed == 0 && failure.empty()) {
       const auto& node = contact.nodes[i];
-      failure = "option -flutter_friction: friction needs a sliding velocity, but |w| = 0 at the contact node at " +
-                text(node.position) + " of interface '" + contact.interfaces[static_cast<std::size_t>(node.interface)] +
-                "'; give -motion_<body>_velocity or _speed, or -" +
-                obstacleVelocityOption.fullName(contact.interfaces[static_cast<std::size_t>(node.interface)]);
+      failure =
+          "option -flutter_friction: friction needs a sliding velocity, but |w| = 0 at the contact "
+          "node at " +
+          text(node.position) + " of interface '" +
+          contact.interfaces[static_cast<std::size_t>(node.interface)] +
+          "'; give -motion_<body>_velocity or _speed, or -" +
+          obstacleVelocityOption.fullName(
+              contact.interfaces[static_cast<std::size_t>(node.interface)]);
     }
   failTogether(contact.mesh->comm, failure);
 }

@@ -14,8 +14,10 @@ Projection project(const Contact& contact, const Transformation& transformation,
   if (!x) return projection;
   OwnedMat xt;
   check(MatMatMult(x, transformation.trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, xt.out()));
-  check(MatTransposeMatMult(transformation.trial, xt, MAT_INITIAL_MATRIX, PETSC_DEFAULT, projection.matrix.out()));
-  check(MatMatMult(contact.reaction, xt, MAT_INITIAL_MATRIX, PETSC_DEFAULT, projection.reaction.out()));
+  check(MatTransposeMatMult(transformation.trial, xt, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
+                            projection.matrix.out()));
+  check(MatMatMult(contact.reaction, xt, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
+                   projection.reaction.out()));
   PetscBool known = PETSC_FALSE, symmetric = PETSC_FALSE;
   check(MatIsSymmetricKnown(x, &known, &symmetric));
   if (known && symmetric) check(MatSetOption(projection.matrix, MAT_SYMMETRIC, PETSC_TRUE));
@@ -26,14 +28,15 @@ OwnedMat affine(Mat x0, Mat x1, double f) {
   OwnedMat sum;
   check(MatDuplicate(x0, MAT_COPY_VALUES, sum.out()));
   if (f == 0) return sum;
-  // Normal forces of a contact node come from its cells, and so do its tangential rows: Sᵀ N X T stays within Tᵀ X T.
+  // Normal forces of a contact node come from its cells, and so do its tangential rows: Sᵀ N X T
+  // stays within Tᵀ X T.
   check(MatAXPY(sum, f, x1, SUBSET_NONZERO_PATTERN));
   check(MatSetOption(sum, MAT_SYMMETRIC, PETSC_FALSE));
   return sum;
 }
 
-AssociatedSystem::AssociatedSystem(const elasticity::Bodies& bodies, const Contact& contact, std::vector<unsigned char> closed,
-                                   Mat prestress)
+AssociatedSystem::AssociatedSystem(const elasticity::Bodies& bodies, const Contact& contact,
+                                   std::vector<unsigned char> closed, Mat prestress)
     : closed_(std::move(closed)) {
   std::vector<unsigned char> open;
   for (auto isClosed : closed_) open.push_back(!isClosed);
@@ -46,12 +49,14 @@ AssociatedSystem::AssociatedSystem(const elasticity::Bodies& bodies, const Conta
     check(MatAXPY(stressed, 1, prestress, SAME_NONZERO_PATTERN));
     check(MatSetOption(stressed, MAT_SYMMETRIC, PETSC_TRUE));
   }
-  stiffness_ = project(contact, transformation_, prestress ? stressed.get() : bodies.stiffness.get());
+  stiffness_ =
+      project(contact, transformation_, prestress ? stressed.get() : bodies.stiffness.get());
   mass_ = project(contact, transformation_, bodies.mass);
   damping_ = project(contact, transformation_, bodies.damping);
   gyroscopic_ = project(contact, transformation_, bodies.gyroscopic);
   rotationStiffness_ = project(contact, transformation_, bodies.rotationStiffness);
-  solver_ = std::make_unique<linalg::SymmetricSolver>(stiffness_.matrix, "stiffness of the closed, frictionless contact");
+  solver_ = std::make_unique<linalg::SymmetricSolver>(
+      stiffness_.matrix, "stiffness of the closed, frictionless contact");
 }
 
 }  // namespace squeal::contact

@@ -9,22 +9,26 @@
 namespace squeal::contact {
 namespace {
 
-const ChoiceOption lawOption(
-    "contact", "friction_law", {"constant", "exponential", "table"}, "constant",
-    "coefficient of friction at the sliding speed |w|: -flutter_friction times 1, times 1 + (r - 1) exp(-|w|/v), "
-    "or times a table's factor");
+const ChoiceOption lawOption("contact", "friction_law", {"constant", "exponential", "table"},
+                             "constant",
+                             "coefficient of friction at the sliding speed |w|: -flutter_friction "
+                             "times 1, times 1 + (r - 1) exp(-|w|/v), "
+                             "or times a table's factor");
 const RealOption ratioOption("contact", "friction_static_ratio", 1, "", nonNegative,
                              "r, exponential law: coefficient at rest over that at high speed");
-const RealOption decayOption("contact", "friction_decay_speed", 1, "m/s", positive, "v, exponential law: speed of the decay");
+const RealOption decayOption("contact", "friction_decay_speed", 1, "m/s", positive,
+                             "v, exponential law: speed of the decay");
 const RealListOption tableSpeedOption("contact", "friction_table_speed", "0", "m/s", nonNegative,
                                       "ascending sliding speeds of the table");
-const RealListOption tableFactorOption("contact", "friction_table_factor", "1", "", nonNegative,
-                                       "factors at these speeds, linear between them and constant beyond");
+const RealListOption tableFactorOption(
+    "contact", "friction_table_factor", "1", "", nonNegative,
+    "factors at these speeds, linear between them and constant beyond");
 
 void rejectIdle(const std::string& law) {
   const auto idle = [&](const Option& option, const char* owner) {
     if (option.given() && law != owner)
-      throw Error("option -" + option.fullName() + " is used by -friction_law " + owner + " alone, not by '" + law + "'");
+      throw Error("option -" + option.fullName() + " is used by -friction_law " + owner +
+                  " alone, not by '" + law + "'");
   };
   idle(ratioOption, "exponential");
   idle(decayOption, "exponential");
@@ -47,8 +51,8 @@ FrictionLaw FrictionLaw::read() {
     law.speeds_ = tableSpeedOption.get();
     law.factors_ = tableFactorOption.get();
     if (law.speeds_.empty() || law.speeds_.size() != law.factors_.size())
-      throw Error("options -" + tableSpeedOption.fullName() + " and -" + tableFactorOption.fullName() +
-                  ": the lists must have the same length");
+      throw Error("options -" + tableSpeedOption.fullName() + " and -" +
+                  tableFactorOption.fullName() + ": the lists must have the same length");
     for (std::size_t i = 0; i + 1 < law.speeds_.size(); ++i)
       if (!(law.speeds_[i] < law.speeds_[i + 1]))
         throw Error("option -" + tableSpeedOption.fullName() + ": the speeds must ascend");
@@ -58,7 +62,8 @@ FrictionLaw FrictionLaw::read() {
 
 /// Of the table: the number of knots at or below the speed.
 std::size_t FrictionLaw::interval(double speed) const {
-  return static_cast<std::size_t>(std::upper_bound(speeds_.begin(), speeds_.end(), speed) - speeds_.begin());
+  return static_cast<std::size_t>(std::upper_bound(speeds_.begin(), speeds_.end(), speed) -
+                                  speeds_.begin());
 }
 
 double FrictionLaw::value(double speed) const {
@@ -71,7 +76,8 @@ double FrictionLaw::value(double speed) const {
 
 double FrictionLaw::slope(double speed) const {
   if (kind_ == Kind::constant) return 0;
-  if (kind_ == Kind::exponential) return -(staticRatio_ - 1) / decaySpeed_ * std::exp(-speed / decaySpeed_);
+  if (kind_ == Kind::exponential)
+    return -(staticRatio_ - 1) / decaySpeed_ * std::exp(-speed / decaySpeed_);
   const std::size_t i = interval(speed);
   if (i == 0 || i == speeds_.size()) return 0;
   return (factors_[i] - factors_[i - 1]) / (speeds_[i] - speeds_[i - 1]);

@@ -1,13 +1,16 @@
 #pragma once
-/// Coulomb friction with a coefficient f φ(|w|): f is swept, the law φ of the sliding speed is given by options.
+/// Coulomb friction with a coefficient f φ(|w|): f is swept, the law φ of the sliding speed is
+/// given by options.
 #include <vector>
 
 namespace squeal::contact {
 
-/// φ(|w|), dimensionless: constant 1, exponential decay from a static to the kinetic value, or a table.
+/// φ(|w|), dimensionless: constant 1, exponential decay from a static to the kinetic value, or a
+/// table.
 class FrictionLaw {
  public:
-  /// Reads `-friction_*`. Errors: a table whose lists differ in length or whose speeds do not ascend; options of another law.
+  /// Reads `-friction_*`. Errors: a table whose lists differ in length or whose speeds do not
+  /// ascend; options of another law.
   static FrictionLaw read();
   bool constant() const { return kind_ == Kind::constant; }
   /// φ at the sliding speed |w|, m/s.

@@ -1,4 +1,5 @@
-/// Rigid motions that nothing stops: a small dense problem, six unknowns per connected part of the mesh.
+/// Rigid motions that nothing stops: a small dense problem, six unknowns per connected part of the
+/// mesh.
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +11,8 @@
 namespace squeal::contact {
 namespace {
 
-/// Rigid motions of all parts: 3 translations and 3 rotations (2 and 1 in the plane) each, rotations in units of 1/length.
+/// Rigid motions of all parts: 3 translations and 3 rotations (2 and 1 in the plane) each,
+/// rotations in units of 1/length.
 class RigidMotions {
  public:
   RigidMotions(const mesh::Mesh& mesh, Point centre, double length)
@@ -22,12 +24,15 @@ class RigidMotions {
   int size() const { return size_; }
   int perPart() const { return perPart_; }
   /// Adds factor · direction·u(x) of part `part` to the row of coefficients.
-  void add(std::vector<double>& row, int part, const Point& x, const Point& direction, double factor) const {
+  void add(std::vector<double>& row, int part, const Point& x, const Point& direction,
+           double factor) const {
     double* a = row.data() + part * perPart_;
-    const Point r{(x[0] - centre_[0]) / length_, (x[1] - centre_[1]) / length_, (x[2] - centre_[2]) / length_};
+    const Point r{(x[0] - centre_[0]) / length_, (x[1] - centre_[1]) / length_,
+                  (x[2] - centre_[2]) / length_};
     for (int d = 0; d < dimension_; ++d) a[d] += factor * direction[static_cast<std::size_t>(d)];
     // direction · (e_k × r)
-    const Point moment{direction[2] * r[1] - direction[1] * r[2], direction[0] * r[2] - direction[2] * r[0],
+    const Point moment{direction[2] * r[1] - direction[1] * r[2],
+                       direction[0] * r[2] - direction[2] * r[0],
                        direction[1] * r[0] - direction[0] * r[1]};
     if (dimension_ == 2)
       a[2] += factor * moment[2];
@@ -50,7 +55,8 @@ Point unit(int d) {
 RigidMotions rigidMotions(const mesh::Mesh& mesh) {
   double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
   for (const auto& p : mesh.coordinates)
-    for (std::size_t d = 0; d < 3; ++d) low[d] = std::min(low[d], p[d]), high[d] = std::max(high[d], p[d]);
+    for (std::size_t d = 0; d < 3; ++d)
+      low[d] = std::min(low[d], p[d]), high[d] = std::max(high[d], p[d]);
   check(MPI_Allreduce(MPI_IN_PLACE, low, 3, MPI_DOUBLE, MPI_MIN, mesh.comm));
   check(MPI_Allreduce(MPI_IN_PLACE, high, 3, MPI_DOUBLE, MPI_MAX, mesh.comm));
   double length = 0;
@@ -58,10 +64,10 @@ RigidMotions rigidMotions(const mesh::Mesh& mesh) {
   return {mesh, {(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2}, length};
 }
 
-/// Gram matrix Σ cᵀc of all rows of supports (springs among them, however soft) on rigid motions, those of contact on demand; its
-/// kernel is what nothing stops.
-std::vector<double> gram(const mesh::Mesh& mesh, const Contact& contact, Vec springs, const RigidMotions& motions,
-                         bool contactCloses) {
+/// Gram matrix Σ cᵀc of all rows of supports (springs among them, however soft) on rigid motions,
+/// those of contact on demand; its kernel is what nothing stops.
+std::vector<double> gram(const mesh::Mesh& mesh, const Contact& contact, Vec springs,
+                         const RigidMotions& motions, bool contactCloses) {
   const auto n = static_cast<std::size_t>(motions.size());
   std::vector<double> g(n * n, 0.0), row(n);
   const auto keep = [&] {
@@ -76,8 +82,8 @@ std::vector<double> gram(const mesh::Mesh& mesh, const Contact& contact, Vec spr
     for (int d = 0; d < mesh.dimension; ++d)
       if (const PetscInt i = mesh.dimension * node + d;
           contact.constraints.held[static_cast<std::size_t>(i)] || (spring && spring[i] > 0)) {
-        motions.add(row, mesh.nodePart[static_cast<std::size_t>(node)], mesh.coordinates[static_cast<std::size_t>(node)], unit(d),
-                    1);
+        motions.add(row, mesh.nodePart[static_cast<std::size_t>(node)],
+                    mesh.coordinates[static_cast<std::size_t>(node)], unit(d), 1);
         keep();
       }
   if (springs) check(VecRestoreArrayRead(springs, &spring));
@@ -85,47 +91,58 @@ std::vector<double> gram(const mesh::Mesh& mesh, const Contact& contact, Vec spr
     for (int d = 0; d < mesh.dimension; ++d) {
       const auto& x = mesh.coordinates[static_cast<std::size_t>(image.node)];
       motions.add(row, mesh.nodePart[static_cast<std::size_t>(image.node)], x, unit(d), 1);
-      motions.add(row, image.primaryPart, {x[0] - image.shift[0], x[1] - image.shift[1], x[2] - image.shift[2]}, unit(d), -1);
+      motions.add(row, image.primaryPart,
+                  {x[0] - image.shift[0], x[1] - image.shift[1], x[2] - image.shift[2]}, unit(d),
+                  -1);
       keep();
     }
   for (std::size_t i = 0; contactCloses && i < contact.nodes.size(); ++i) {
     const auto& node = contact.nodes[i];
-    motions.add(row, mesh.nodePart[static_cast<std::size_t>(node.node)], node.position, node.normal, 1);
-    if (node.master >= 0) motions.add(row, mesh.pairs[i].masterPart, node.position, node.normal, -1);
+    motions.add(row, mesh.nodePart[static_cast<std::size_t>(node.node)], node.position, node.normal,
+                1);
+    if (node.master >= 0)
+      motions.add(row, mesh.pairs[i].masterPart, node.position, node.normal, -1);
     keep();
   }
-  check(MPI_Allreduce(MPI_IN_PLACE, g.data(), static_cast<int>(n * n), MPI_DOUBLE, MPI_SUM, mesh.comm));
+  check(MPI_Allreduce(MPI_IN_PLACE, g.data(), static_cast<int>(n * n), MPI_DOUBLE, MPI_SUM,
+                      mesh.comm));
   return g;
 }
 
 }  // namespace
 
-std::optional<LooseBody> looseBody(const mesh::Mesh& mesh, const Contact& contact, Vec springs, bool contactCloses) {
+std::optional<LooseBody> looseBody(const mesh::Mesh& mesh, const Contact& contact, Vec springs,
+                                   bool contactCloses) {
   const RigidMotions motions = rigidMotions(mesh);
   std::vector<double> g = gram(mesh, contact, springs, motions, contactCloses);
   const auto eigenvalues = linalg::symmetricEigen(g, motions.size());
-  // A support over a thousandth of the model still holds a rotation with 1e-6 of a translation's weight per node.
+  // A support over a thousandth of the model still holds a rotation with 1e-6 of a translation's
+  // weight per node.
   if (eigenvalues.front() > 1e-12 * std::max(eigenvalues.back(), 1.0)) return std::nullopt;
   int worst = 0;
   double most = -1;
   for (int part = 0; part < mesh.parts; ++part) {
     double weight = 0;
     for (int k = 0; k < motions.perPart(); ++k)
-      weight +=
-          g[static_cast<std::size_t>(part * motions.perPart() + k)] * g[static_cast<std::size_t>(part * motions.perPart() + k)];
+      weight += g[static_cast<std::size_t>(part * motions.perPart() + k)] *
+                g[static_cast<std::size_t>(part * motions.perPart() + k)];
     if (weight > most) most = weight, worst = part;
   }
   std::string motion;
   for (int k = 0; k < motions.perPart(); ++k)
-    motion += formatted(k ? ", %.3g" : "%.3g", g[static_cast<std::size_t>(worst * motions.perPart() + k)]);
+    motion += formatted(k ? ", %.3g" : "%.3g",
+                        g[static_cast<std::size_t>(worst * motions.perPart() + k)]);
   return LooseBody{mesh.partName[static_cast<std::size_t>(worst)],
-                   (mesh.dimension == 2 ? "translation x, y, rotation z: " : "translations x, y, z, rotations x, y, z: ") + motion};
+                   (mesh.dimension == 2 ? "translation x, y, rotation z: "
+                                        : "translations x, y, z, rotations x, y, z: ") +
+                       motion};
 }
 
 void rejectLooseBodies(const mesh::Mesh& mesh, const Contact& contact, Vec springs) {
   if (const auto loose = looseBody(mesh, contact, springs, true))
-    throw Error("singular problem: body '" + loose->body + "' can move rigidly while contact stays closed without friction (" +
-                loose->motion + "); hold it with -constraint_<group>_clamped or -ground_<group>_stiffness");
+    throw Error("singular problem: body '" + loose->body +
+                "' can move rigidly while contact stays closed without friction (" + loose->motion +
+                "); hold it with -constraint_<group>_clamped or -ground_<group>_stiffness");
 }
 
 }  // namespace squeal::contact

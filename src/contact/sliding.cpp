@@ -37,7 +37,8 @@ OwnedMat jumpRows(const Contact& contact) {
   OwnedMat jump = nodalMatrix(mesh, 2);
   for (const auto& node : contact.nodes) {
     setBlock(jump, mesh.dimension, node.globalNode, node.globalNode, identity(mesh.dimension, 1));
-    if (node.master >= 0) setBlock(jump, mesh.dimension, node.globalNode, node.master, identity(mesh.dimension, -1));
+    if (node.master >= 0)
+      setBlock(jump, mesh.dimension, node.globalNode, node.master, identity(mesh.dimension, -1));
   }
   assembled(jump);
   return jump;
@@ -48,33 +49,42 @@ OwnedMat masterRows(const Contact& contact) {
   const auto& mesh = *contact.mesh;
   OwnedMat primaries = nodalMatrix(mesh, 1), result;
   for (const auto& node : contact.nodes)
-    if (node.master >= 0) setBlock(primaries, mesh.dimension, node.globalNode, node.master, identity(mesh.dimension, 1));
+    if (node.master >= 0)
+      setBlock(primaries, mesh.dimension, node.globalNode, node.master,
+               identity(mesh.dimension, 1));
   assembled(primaries);
   check(MatMatMult(contact.periodic, primaries, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.out()));
   return result;
 }
 
-/// Velocity of the disc's matter at the places of the pad nodes of each interface; empty: a rigid obstacle, which does not deform.
-std::vector<const elasticity::Motion*> discMotions(const elasticity::Bodies& bodies, const Contact& contact) {
+/// Velocity of the disc's matter at the places of the pad nodes of each interface; empty: a rigid
+/// obstacle, which does not deform.
+std::vector<const elasticity::Motion*> discMotions(const elasticity::Bodies& bodies,
+                                                   const Contact& contact) {
   const auto& mesh = *contact.mesh;
   std::vector<int> body(contact.interfaces.size(), -1);
-  for (const auto& pair : mesh.pairs) body[static_cast<std::size_t>(pair.interface)] = pair.masterBody;
-  check(MPI_Allreduce(MPI_IN_PLACE, body.data(), static_cast<int>(body.size()), MPI_INT, MPI_MAX, mesh.comm));
+  for (const auto& pair : mesh.pairs)
+    body[static_cast<std::size_t>(pair.interface)] = pair.masterBody;
+  check(MPI_Allreduce(MPI_IN_PLACE, body.data(), static_cast<int>(body.size()), MPI_INT, MPI_MAX,
+                      mesh.comm));
   std::vector<const elasticity::Motion*> motions;
-  for (int index : body) motions.push_back(index < 0 ? nullptr : &bodies.motions[static_cast<std::size_t>(index)]);
+  for (int index : body)
+    motions.push_back(index < 0 ? nullptr : &bodies.motions[static_cast<std::size_t>(index)]);
   return motions;
 }
 
-/// D: the pad faces lie on faces of the disc, node on node, so the disc's displacement is differentiated along them with the pad's
-/// shape functions. At a node the faces around it are averaged by area, which weighs the derivative as the nodal forces R_N weigh
-/// it: on quadratic faces its leading errors at corners and in between cancel.
+/// D: the pad faces lie on faces of the disc, node on node, so the disc's displacement is
+/// differentiated along them with the pad's shape functions. At a node the faces around it are
+/// averaged by area, which weighs the derivative as the nodal forces R_N weigh it: on quadratic
+/// faces its leading errors at corners and in between cancel.
 OwnedMat convectedRows(const elasticity::Bodies& bodies, const Contact& contact) {
   const auto& mesh = *contact.mesh;
   const int dimension = mesh.dimension;
   const auto motions = discMotions(bodies, contact);
   const OwnedVec area = elasticity::nodalVector(mesh), folded = elasticity::nodalVector(mesh);
   OwnedMat sums;
-  check(MatDuplicate(bodies.stiffness, MAT_DO_NOT_COPY_VALUES, sums.out()));  // nodes of a face share a cell
+  check(MatDuplicate(bodies.stiffness, MAT_DO_NOT_COPY_VALUES,
+                     sums.out()));  // nodes of a face share a cell
   check(MatSetOption(sums, MAT_SYMMETRIC, PETSC_FALSE));
   for (const auto& block : mesh.faces) {
     const auto& table = elasticity::shapeTable(block.type);
@@ -98,8 +108,10 @@ OwnedMat convectedRows(const elasticity::Bodies& bodies, const Contact& contact)
         for (int d = 0; d < dimension; ++d) {
           check(VecSetValue(area, row + d, faceArea, ADD_VALUES));
           for (int j = 0; j < block.nodesPerFace; ++j)
-            check(MatSetValue(sums, row + d, dimension * mesh.globalNode[static_cast<std::size_t>(nodes[j])] + d,
-                              faceArea * derivative[static_cast<std::size_t>(i * block.nodesPerFace + j)], ADD_VALUES));
+            check(MatSetValue(
+                sums, row + d, dimension * mesh.globalNode[static_cast<std::size_t>(nodes[j])] + d,
+                faceArea * derivative[static_cast<std::size_t>(i * block.nodesPerFace + j)],
+                ADD_VALUES));
         }
       }
     }
@@ -117,7 +129,8 @@ OwnedMat convectedRows(const elasticity::Bodies& bodies, const Contact& contact)
   const OwnedMat masters = masterRows(contact);
   OwnedMat atFaces, result;
   check(MatMatMult(sums, masters, MAT_INITIAL_MATRIX, PETSC_DEFAULT, atFaces.out()));
-  check(MatTransposeMatMult(contact.periodic, atFaces, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.out()));
+  check(MatTransposeMatMult(contact.periodic, atFaces, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
+                            result.out()));
   check(MatDiagonalScale(result, folded, nullptr));
   return result;
 }
@@ -127,7 +140,8 @@ OwnedMat convectedRows(const elasticity::Bodies& bodies, const Contact& contact)
 OwnedMat nodalMatrix(const mesh::Mesh& mesh, PetscInt blocksPerRow) {
   OwnedMat matrix;
   const PetscInt owned = mesh.dimension * mesh.ownedNodes, entries = blocksPerRow * mesh.dimension;
-  check(MatCreateAIJ(mesh.comm, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE, entries, nullptr, entries, nullptr, matrix.out()));
+  check(MatCreateAIJ(mesh.comm, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE, entries, nullptr,
+                     entries, nullptr, matrix.out()));
   return matrix;
 }
 
@@ -136,16 +150,20 @@ void assembled(Mat matrix) {
   check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
 }
 
-void setBlock(Mat matrix, int dimension, PetscInt rowNode, PetscInt columnNode, const std::vector<double>& block) {
+void setBlock(Mat matrix, int dimension, PetscInt rowNode, PetscInt columnNode,
+              const std::vector<double>& block) {
   std::vector<PetscInt> rows, columns;
-  for (int d = 0; d < dimension; ++d) rows.push_back(dimension * rowNode + d), columns.push_back(dimension * columnNode + d);
-  check(MatSetValues(matrix, dimension, rows.data(), dimension, columns.data(), block.data(), INSERT_VALUES));
+  for (int d = 0; d < dimension; ++d)
+    rows.push_back(dimension * rowNode + d), columns.push_back(dimension * columnNode + d);
+  check(MatSetValues(matrix, dimension, rows.data(), dimension, columns.data(), block.data(),
+                     INSERT_VALUES));
 }
 
 std::vector<double> outer(const Point& a, const Point& b, int dimension, double factor) {
   std::vector<double> block;
   for (int i = 0; i < dimension; ++i)
-    for (int j = 0; j < dimension; ++j) block.push_back(factor * a[static_cast<std::size_t>(i)] * b[static_cast<std::size_t>(j)]);
+    for (int j = 0; j < dimension; ++j)
+      block.push_back(factor * a[static_cast<std::size_t>(i)] * b[static_cast<std::size_t>(j)]);
   return block;
 }
 
@@ -155,7 +173,9 @@ void buildSliding(const elasticity::Bodies& bodies, Contact& contact) {
   if (elasticity::convectiveTerms()) contact.convected = convectedRows(bodies, contact);
 }
 
-PetscInt Contact::gapRow(const ContactNode& node) const { return mesh->dimension * (node.globalNode + 1) - 1; }
+PetscInt Contact::gapRow(const ContactNode& node) const {
+  return mesh->dimension * (node.globalNode + 1) - 1;
+}
 
 std::vector<Slip> Contact::slip(double speed, Vec displacement) const {
   std::vector<Slip> result;
@@ -177,7 +197,8 @@ std::vector<Slip> Contact::slip(double speed, Vec displacement) const {
     }
     Slip state;
     state.speed = std::sqrt(dot(w, w));
-    if (state.speed <= 1e-9 * speed * node.slipSpeed) state.speed = 0;  // no direction but that of rounding
+    if (state.speed <= 1e-9 * speed * node.slipSpeed)
+      state.speed = 0;  // no direction but that of rounding
     if (state.speed > 0) state.direction = scaled(w, 1 / state.speed);
     state.law = law.value(state.speed);
     state.slope = law.slope(state.speed);
@@ -194,9 +215,11 @@ OwnedMat Contact::slipRows(const Transformation& transformation, const std::vect
     if (!slides[i]) continue;
     for (int d = 0; d < mesh->dimension; ++d) {
       const double entry = slip[i].law * slip[i].direction[static_cast<std::size_t>(d)];
-      check(MatSetValue(rows, gapRow(nodes[i]), mesh->dimension * nodes[i].globalNode + d, entry, INSERT_VALUES));
+      check(MatSetValue(rows, gapRow(nodes[i]), mesh->dimension * nodes[i].globalNode + d, entry,
+                        INSERT_VALUES));
       if (nodes[i].master >= 0)
-        check(MatSetValue(rows, gapRow(nodes[i]), mesh->dimension * nodes[i].master + d, -entry, INSERT_VALUES));
+        check(MatSetValue(rows, gapRow(nodes[i]), mesh->dimension * nodes[i].master + d, -entry,
+                          INSERT_VALUES));
     }
   }
   assembled(rows);
@@ -205,16 +228,19 @@ OwnedMat Contact::slipRows(const Transformation& transformation, const std::vect
   return result;
 }
 
-VelocityResponse velocityResponse(const Slip& slip, double normalForce, double friction, int dimension) {
+VelocityResponse velocityResponse(const Slip& slip, double normalForce, double friction,
+                                  int dimension) {
   const double force = friction * normalForce;
   return {slip.speed > 0 && dimension == 3 ? force * slip.law / slip.speed : 0, force * slip.slope};
 }
 
-OwnedMat Contact::velocityResponse(const std::vector<Slip>& slip, const std::vector<double>& normalForce, double friction) const {
+OwnedMat Contact::velocityResponse(const std::vector<Slip>& slip,
+                                   const std::vector<double>& normalForce, double friction) const {
   const int dimension = mesh->dimension;
   OwnedMat response = nodalMatrix(*mesh, 1);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const auto [across, along] = contact::velocityResponse(slip[i], normalForce[i], friction, dimension);
+    const auto [across, along] =
+        contact::velocityResponse(slip[i], normalForce[i], friction, dimension);
     std::vector<double> block = identity(dimension, across);
     const auto alongBlock = outer(slip[i].direction, slip[i].direction, dimension, along - across),
                normal = outer(nodes[i].normal, nodes[i].normal, dimension, -across);

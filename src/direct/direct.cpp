@@ -11,24 +11,31 @@
 namespace squeal::direct {
 namespace {
 
-const ChoiceOption methodOption("flutter", "flutter_method", {"reduced", "direct"}, "reduced",
-                                "reduced: dense problem on the free modes; direct: all unknowns, for checking");
+const ChoiceOption methodOption(
+    "flutter", "flutter_method", {"reduced", "direct"}, "reduced",
+    "reduced: dense problem on the free modes; direct: all unknowns, for checking");
 const IntegerOption countOption("flutter", "flutter_direct_count", 100, 1, 1'000'000,
-                                "number of eigenvalues nearest to zero found by the direct method, conjugate pairs counted once");
-const RealListOption bandOption("flutter", "flutter_direct_band", "0,0", "Hz", nonNegative,
-                                "low,high: the direct method finds all eigenvalues with Im s / 2 pi between them and |s| up to "
-                                "2 pi high instead of a number of them; 0,0: off");
-const IntegerOption limitOption("flutter", "flutter_direct_limit", 2000, 1, 1'000'000,
-                                "most eigenvalues found by the direct method to cover -flutter_direct_band");
+                                "number of eigenvalues nearest to zero found by the direct method, "
+                                "conjugate pairs counted once");
+const RealListOption bandOption(
+    "flutter", "flutter_direct_band", "0,0", "Hz", nonNegative,
+    "low,high: the direct method finds all eigenvalues with Im s / 2 pi between them and |s| up to "
+    "2 pi high instead of a number of them; 0,0: off");
+const IntegerOption limitOption(
+    "flutter", "flutter_direct_limit", 2000, 1, 1'000'000,
+    "most eigenvalues found by the direct method to cover -flutter_direct_band");
 
-const FlagOption confirmOption("flutter", "flutter_direct_confirm", true,
-                               "repeat the direct solve from another start until nothing new is found: one alone may miss "
-                               "multiple eigenvalues");
+const FlagOption confirmOption(
+    "flutter", "flutter_direct_confirm", true,
+    "repeat the direct solve from another start until nothing new is found: one alone may miss "
+    "multiple eigenvalues");
 
 struct Band {
   double low = 0, high = 0;  // rad/s
   bool wanted() const { return high > 0; }
-  bool holds(std::complex<double> s) const { return s.imag() >= low && s.imag() <= high && std::abs(s) <= high; }
+  bool holds(std::complex<double> s) const {
+    return s.imag() >= low && s.imag() <= high && std::abs(s) <= high;
+  }
 };
 
 Band readBand() {
@@ -42,7 +49,8 @@ Band readBand() {
 /// Solves for more and more eigenvalues until the band is covered or the limit is reached.
 NearestPairs solveBand(NearestSolver& solver, const Band& band) {
   const PetscInt limit = limitOption.get();
-  for (PetscInt count = std::min<PetscInt>(countOption.get(), limit);; count = std::min(2 * count, limit)) {
+  for (PetscInt count = std::min<PetscInt>(countOption.get(), limit);;
+       count = std::min(2 * count, limit)) {
     NearestPairs found = solver.solve(count);
     if (found.reached <= band.high && count < limit) continue;
     if (confirmOption.get()) addMissed(solver, count, found);
@@ -61,7 +69,8 @@ NearestPairs solveCount(NearestSolver& solver) {
   std::vector<double> sizes;
   for (const auto& pair : found.pairs) sizes.push_back(std::abs(pair.s));
   std::sort(sizes.begin(), sizes.end());
-  std::erase_if(found.pairs, [&](const auto& pair) { return std::abs(pair.s) > (1 + 1e-9) * sizes[count - 1]; });
+  std::erase_if(found.pairs,
+                [&](const auto& pair) { return std::abs(pair.s) > (1 + 1e-9) * sizes[count - 1]; });
   return found;
 }
 
@@ -69,7 +78,8 @@ NearestPairs solveCount(NearestSolver& solver) {
 
 bool directWanted() { return methodOption.get() == "direct"; }
 
-pencil::FrictionPoint solveDirect(const pencil::Pencil& pencil, const sweep::Parameters& at, Mat trial) {
+pencil::FrictionPoint solveDirect(const pencil::Pencil& pencil, const sweep::Parameters& at,
+                                  Mat trial) {
   const Band band = readBand();
   const auto solver = nearestSolver(pencil, at);
   auto [pairs, reached] = band.wanted() ? solveBand(*solver, band) : solveCount(*solver);
@@ -87,7 +97,8 @@ pencil::FrictionPoint solveDirect(const pencil::Pencil& pencil, const sweep::Par
   judge(point.eigenvalues);
   const auto wanted = pencil::shapesWanted(point);
   std::vector<linalg::ComplexVector> modes;
-  for (std::size_t index : wanted) modes.push_back(linalg::ComplexVector::copied(pairs[index].real, pairs[index].imaginary));
+  for (std::size_t index : wanted)
+    modes.push_back(linalg::ComplexVector::copied(pairs[index].real, pairs[index].imaginary));
   pencil::keepShapes(point, trial, wanted, std::move(modes));
   return point;
 }

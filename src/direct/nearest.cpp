@@ -16,8 +16,10 @@
 namespace squeal::direct {
 namespace {
 
-const SolverPrefix epsPrefix("flutter", "flutter_eps_", "SLEPc EPS of the direct method without damping");
-const SolverPrefix pepPrefix("flutter", "flutter_pep_", "SLEPc PEP of the direct method with damping");
+const SolverPrefix epsPrefix("flutter", "flutter_eps_",
+                             "SLEPc EPS of the direct method without damping");
+const SolverPrefix pepPrefix("flutter", "flutter_pep_",
+                             "SLEPc PEP of the direct method with damping");
 const SolverPrefix stPrefix("flutter", "flutter_st_", "SLEPc ST, KSP and PC of the direct method");
 
 using Complex = std::complex<double>;
@@ -43,7 +45,8 @@ OwnedVec startVector(Mat matrix, int run) {
   check(VecGetOwnershipRange(start, &first, &end));
   for (PetscInt i = first; i < end; ++i)
     check(VecSetValue(start, i,
-                      std::sin(12.9898 * static_cast<double>(i + 1) + 78.233 * run * std::sqrt(static_cast<double>(i + 2))),
+                      std::sin(12.9898 * static_cast<double>(i + 1) +
+                               78.233 * run * std::sqrt(static_cast<double>(i + 2))),
                       INSERT_VALUES));
   check(VecAssemblyBegin(start));
   check(VecAssemblyEnd(start));
@@ -62,9 +65,12 @@ void normalise(NearestPair& v) {
   check(VecScale(v.imaginary, 1 / size));
 }
 
-NearestPair copied(const NearestPair& pair) { return {linalg::ComplexVector::copied(pair.real, pair.imaginary), pair.s}; }
+NearestPair copied(const NearestPair& pair) {
+  return {linalg::ComplexVector::copied(pair.real, pair.imaginary), pair.s};
+}
 
-/// Removes from v its part in the span of the orthonormal `basis`, twice for rounding; returns the length that is left.
+/// Removes from v its part in the span of the orthonormal `basis`, twice for rounding; returns the
+/// length that is left.
 double project(NearestPair& v, const std::vector<NearestPair>& basis) {
   for (int pass = 0; pass < 2; ++pass)
     for (const auto& u : basis) add(v, -dot(u, v), u);
@@ -73,8 +79,9 @@ double project(NearestPair& v, const std::vector<NearestPair>& basis) {
 
 /// Eigenvalues this close, relative to their size, count as one for which vectors may mix.
 constexpr double oneCluster = 1e-6;
-/// Length outside of the span of a cluster from which a unit vector is a new one. Rounding and the tolerance of the solver, 1e-12,
-/// turn that span by 1e-12 / oneCluster at most, times a condition number.
+/// Length outside of the span of a cluster from which a unit vector is a new one. Rounding and the
+/// tolerance of the solver, 1e-12, turn that span by 1e-12 / oneCluster at most, times a condition
+/// number.
 constexpr double newVector = 1e-2;
 
 bool isNew(const NearestPair& pair, const std::vector<NearestPair>& known) {
@@ -82,7 +89,8 @@ bool isNew(const NearestPair& pair, const std::vector<NearestPair>& known) {
   for (const auto& other : known) {
     if (std::abs(other.s - pair.s) > oneCluster * std::abs(pair.s)) continue;
     NearestPair last = copied(other);
-    if (project(last, basis) < 1e-12) continue;  // two vectors of a defective eigenvalue that became one
+    if (project(last, basis) < 1e-12)
+      continue;  // two vectors of a defective eigenvalue that became one
     normalise(last);
     basis.push_back(std::move(last));
   }
@@ -90,16 +98,21 @@ bool isNew(const NearestPair& pair, const std::vector<NearestPair>& known) {
   return project(rest, basis) > newVector;
 }
 
-/// The `wanted` eigenvalues first asked for are the nearest ones; those that converged besides may leave gaps.
+/// The `wanted` eigenvalues first asked for are the nearest ones; those that converged besides may
+/// leave gaps.
 double reachedBy(std::vector<double> sizes, PetscInt wanted, PetscInt all) {
   std::sort(sizes.begin(), sizes.end());
   return wanted == all ? INFINITY : sizes.at(static_cast<std::size_t>(wanted) - 1);
 }
 
-void rejectUnconverged(PetscInt converged, PetscInt wanted, const sweep::Parameters& at, const std::string& prefix) {
+void rejectUnconverged(PetscInt converged, PetscInt wanted, const sweep::Parameters& at,
+                       const std::string& prefix) {
   if (converged < wanted)
-    throw Error(formatted("direct method at friction %g: only %d of %d eigenvalues converged; raise -%smax_it or -%sncv",
-                          at.friction, static_cast<int>(converged), static_cast<int>(wanted), prefix.c_str(), prefix.c_str()));
+    throw Error(
+        formatted("direct method at friction %g: only %d of %d eigenvalues converged; raise "
+                  "-%smax_it or -%sncv",
+                  at.friction, static_cast<int>(converged), static_cast<int>(wanted),
+                  prefix.c_str(), prefix.c_str()));
 }
 
 /// K d = μ M d, μ = −s².
@@ -118,7 +131,9 @@ class Undamped : public NearestSolver {
     check(EPSGetST(eps_, &st));
     factoriseBy(st);
     check(EPSGetDS(eps_, &ds));
-    check(DSSetParallel(ds, DS_PARALLEL_SYNCHRONIZED));  // or rounding makes the ranks disagree on what has converged
+    check(DSSetParallel(
+        ds,
+        DS_PARALLEL_SYNCHRONIZED));  // or rounding makes the ranks disagree on what has converged
     applySolverOptions([&] { return EPSSetFromOptions(eps_); });
     epsPrefix.rejectUnused();
   }
@@ -141,7 +156,8 @@ class Undamped : public NearestSolver {
     for (PetscInt i = 0; i < converged; ++i) {
       PetscScalar real = 0, imaginary = 0;
       check(EPSGetEigenvalue(eps_, i, &real, &imaginary));
-      Complex s = imaginary == 0 && real >= 0 ? Complex(0, std::sqrt(real)) : std::sqrt(-Complex(real, imaginary));
+      Complex s = imaginary == 0 && real >= 0 ? Complex(0, std::sqrt(real))
+                                              : std::sqrt(-Complex(real, imaginary));
       if (s.imag() < 0) s = -s;
       NearestPair pair = emptyPair(terms_[0], s);
       check(EPSGetEigenvector(eps_, i, pair.real, pair.imaginary));
@@ -170,7 +186,8 @@ class Damped : public NearestSolver {
     check(PEPSetOperators(pep_, 3, terms));
     check(PEPSetProblemType(pep_, PEP_GENERAL));
     check(PEPSetType(pep_, PEPTOAR));
-    check(PEPSetScale(pep_, PEP_SCALE_SCALAR, PETSC_DECIDE, nullptr, nullptr, PETSC_DECIDE, PETSC_DECIDE));
+    check(PEPSetScale(pep_, PEP_SCALE_SCALAR, PETSC_DECIDE, nullptr, nullptr, PETSC_DECIDE,
+                      PETSC_DECIDE));
     check(PEPSetTolerances(pep_, 1e-12, 500));
     check(PEPSetWhichEigenpairs(pep_, PEP_TARGET_MAGNITUDE));
     check(PEPSetTarget(pep_, 0));
@@ -223,7 +240,8 @@ NearestSolver::NearestSolver(const pencil::Pencil& pencil, const sweep::Paramete
 }
 
 NearestPairs NearestSolver::solve(PetscInt count) {
-  // Krylov spaces that end before they are full lead the ranks astray in SLEPc 3.18: rounding decides on each of them.
+  // Krylov spaces that end before they are full lead the ranks astray in SLEPc 3.18: rounding
+  // decides on each of them.
   constexpr PetscInt largestWhole = 1000;
   return size_ <= std::min(2 * count + 20, largestWhole) ? whole() : krylov(count);
 }
@@ -235,13 +253,15 @@ NearestPairs NearestSolver::whole() const {
   PetscInt first = 0, end = 0;
   check(MatGetOwnershipRange(terms_[0], &first, &end));
   for (const auto& [s, q, left] :
-       linalg::solveTogether(comm, linalg::gathered(terms_[2]), linalg::gathered(terms_[1]), linalg::gathered(terms_[0]), static_cast<int>(size_))) {
+       linalg::solveTogether(comm, linalg::gathered(terms_[2]), linalg::gathered(terms_[1]),
+                             linalg::gathered(terms_[0]), static_cast<int>(size_))) {
     NearestPair pair = emptyPair(terms_[0], s);
     for (PetscInt i = first; i < end; ++i) {
       check(VecSetValue(pair.real, i, q[static_cast<std::size_t>(i)].real(), INSERT_VALUES));
       check(VecSetValue(pair.imaginary, i, q[static_cast<std::size_t>(i)].imag(), INSERT_VALUES));
     }
-    for (Vec part : {pair.real.get(), pair.imaginary.get()}) check(VecAssemblyBegin(part)), check(VecAssemblyEnd(part));
+    for (Vec part : {pair.real.get(), pair.imaginary.get()})
+      check(VecAssemblyBegin(part)), check(VecAssemblyEnd(part));
     found.pairs.push_back(std::move(pair));
   }
   return found;
@@ -250,10 +270,12 @@ NearestPairs NearestSolver::whole() const {
 void rejectIdleSolverOptions() {
   for (const auto* prefix : {&epsPrefix, &pepPrefix, &stPrefix})
     if (prefix->given() && !directWanted())
-      throw Error("options -" + prefix->prefix + "* (" + joined(prefix->names()) + ") are used by -flutter_method direct alone");
+      throw Error("options -" + prefix->prefix + "* (" + joined(prefix->names()) +
+                  ") are used by -flutter_method direct alone");
 }
 
-std::unique_ptr<NearestSolver> nearestSolver(const pencil::Pencil& pencil, const sweep::Parameters& at) {
+std::unique_ptr<NearestSolver> nearestSolver(const pencil::Pencil& pencil,
+                                             const sweep::Parameters& at) {
   if (pencil.hasPower(1)) return std::make_unique<Damped>(pencil, at);
   return std::make_unique<Undamped>(pencil, at);
 }

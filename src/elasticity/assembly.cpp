@@ -14,7 +14,8 @@ OwnedMat toMatrix(const mesh::Mesh& mesh, Triples& triples, Symmetry symmetry) {
   check(MatSetSizes(matrix, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE));
   check(MatSetBlockSize(matrix, mesh.dimension));
   check(MatSetType(matrix, MATAIJ));
-  check(MatSetPreallocationCOO(matrix, static_cast<PetscCount>(triples.row.size()), triples.row.data(), triples.column.data()));
+  check(MatSetPreallocationCOO(matrix, static_cast<PetscCount>(triples.row.size()),
+                               triples.row.data(), triples.column.data()));
   check(MatSetValuesCOO(matrix, triples.value.data(), INSERT_VALUES));
   triples = {};
   if (symmetry != Symmetry::rounded) {  // (A ± Aᵀ)/2
@@ -27,32 +28,38 @@ OwnedMat toMatrix(const mesh::Mesh& mesh, Triples& triples, Symmetry symmetry) {
   return matrix;
 }
 
-void append(Triples& triples, const mesh::Mesh& mesh, const PetscInt* nodes, int count, const std::vector<double>& matrix,
-            bool scalar) {
+void append(Triples& triples, const mesh::Mesh& mesh, const PetscInt* nodes, int count,
+            const std::vector<double>& matrix, bool scalar) {
   const int dimension = mesh.dimension;
   for (int i = 0; i < count; ++i)
     for (int a = 0; a < dimension; ++a)
       for (int j = 0; j < count; ++j)
         for (int b = 0; b < dimension; ++b) {
           if (scalar && a != b) continue;
-          triples.row.push_back(dimension * mesh.globalNode[static_cast<std::size_t>(nodes[i])] + a);
-          triples.column.push_back(dimension * mesh.globalNode[static_cast<std::size_t>(nodes[j])] + b);
+          triples.row.push_back(dimension * mesh.globalNode[static_cast<std::size_t>(nodes[i])] +
+                                a);
+          triples.column.push_back(dimension * mesh.globalNode[static_cast<std::size_t>(nodes[j])] +
+                                   b);
           triples.value.push_back(
               scalar ? matrix[static_cast<std::size_t>(i * count + j)]
-                     : matrix[static_cast<std::size_t>((i * dimension + a) * count * dimension + j * dimension + b)]);
+                     : matrix[static_cast<std::size_t>((i * dimension + a) * count * dimension +
+                                                       j * dimension + b)]);
         }
 }
 
-void addLoad(Vec load, const mesh::Mesh& mesh, const PetscInt* nodes, int count, const std::vector<double>& values, double factor) {
+void addLoad(Vec load, const mesh::Mesh& mesh, const PetscInt* nodes, int count,
+             const std::vector<double>& values, double factor) {
   for (int i = 0; i < count; ++i)
     for (int d = 0; d < mesh.dimension; ++d)
-      check(VecSetValue(load, mesh.dimension * mesh.globalNode[static_cast<std::size_t>(nodes[i])] + d,
+      check(VecSetValue(load,
+                        mesh.dimension * mesh.globalNode[static_cast<std::size_t>(nodes[i])] + d,
                         factor * values[static_cast<std::size_t>(3 * i + d)], ADD_VALUES));
 }
 
 std::vector<Point> pointsOf(const mesh::Mesh& mesh, const PetscInt* nodes, int count) {
   std::vector<Point> points;
-  for (int i = 0; i < count; ++i) points.push_back(mesh.coordinates[static_cast<std::size_t>(nodes[i])]);
+  for (int i = 0; i < count; ++i)
+    points.push_back(mesh.coordinates[static_cast<std::size_t>(nodes[i])]);
   return points;
 }
 
@@ -79,8 +86,8 @@ CellsNamed named(const mesh::Mesh& mesh, std::vector<CellName> cells) {
   std::vector<std::string> words;
   for (std::size_t i = 0; i < std::min(most, static_cast<std::size_t>(result.count)); ++i) {
     const auto [tag, type, body] = all[i];
-    words.push_back("cell " + std::to_string(tag) + " (" + shapeTable(static_cast<int>(type)).name + ") of group '" +
-                    mesh.bodies[static_cast<std::size_t>(body)] + "'");
+    words.push_back("cell " + std::to_string(tag) + " (" + shapeTable(static_cast<int>(type)).name +
+                    ") of group '" + mesh.bodies[static_cast<std::size_t>(body)] + "'");
   }
   result.words = joined(words) + (static_cast<std::size_t>(result.count) > most ? ", …" : "");
   return result;
@@ -90,21 +97,26 @@ CellsNamed named(const mesh::Mesh& mesh, std::vector<CellName> cells) {
 
 void failOnInverted(const mesh::Mesh& mesh, const std::vector<CellName>& inverted) {
   const auto [count, words] = named(mesh, inverted);
-  if (count == 1) throw Error("inverted element: " + words + " has a Jacobian that is not positive");
+  if (count == 1)
+    throw Error("inverted element: " + words + " has a Jacobian that is not positive");
   if (count > 1)
-    throw Error("inverted elements: " + std::to_string(count) + " cells have a Jacobian that is not positive: " + words);
+    throw Error("inverted elements: " + std::to_string(count) +
+                " cells have a Jacobian that is not positive: " + words);
 }
 
 void warnOfFoldedCells(const mesh::Mesh& mesh) {
   std::vector<CellName> cells;
-  forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table, const std::vector<Point>& points) {
+  forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table,
+                        const std::vector<Point>& points) {
     if (folded(table, points)) cells.push_back(nameOf(block, e));
   });
   const auto [count, words] = named(mesh, cells);
   if (count > 0)
-    complain(mesh.comm,
-             "warning: " + std::to_string(count) + (count == 1 ? " curved cell has" : " curved cells have") +
-                 " a Jacobian that is not positive near an edge; stiffness is integrated at fewer points there: " + words);
+    complain(mesh.comm, "warning: " + std::to_string(count) +
+                            (count == 1 ? " curved cell has" : " curved cells have") +
+                            " a Jacobian that is not positive near an edge; stiffness is "
+                            "integrated at fewer points there: " +
+                            words);
 }
 
 }  // namespace squeal::elasticity

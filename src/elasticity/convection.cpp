@@ -9,7 +9,8 @@
 namespace squeal::elasticity {
 namespace {
 
-/// Matter that crosses the surface of one body, at each node i: flux cᵢ = ∮ φᵢ V·n dA = Σ_cells ∫ Dφᵢ, and Σ_cells ∫ |Dφᵢ|.
+/// Matter that crosses the surface of one body, at each node i: flux cᵢ = ∮ φᵢ V·n dA = Σ_cells ∫
+/// Dφᵢ, and Σ_cells ∫ |Dφᵢ|.
 struct Crossing {
   OwnedVec flux, scale;
 };
@@ -25,7 +26,8 @@ void assembled(Vec vector) {
   check(VecAssemblyEnd(vector));
 }
 
-/// Moves the values of periodic images to their primaries: what leaves through one comes back through the other.
+/// Moves the values of periodic images to their primaries: what leaves through one comes back
+/// through the other.
 void fold(const mesh::Mesh& mesh, Vec vector) {
   std::vector<double> values;
   const PetscScalar* array = nullptr;
@@ -39,57 +41,71 @@ void fold(const mesh::Mesh& mesh, Vec vector) {
   assembled(vector);
 }
 
-/// Collective. Flat facets inscribed in a circle let a little through although the body is one of revolution: nothing where
-/// neighbours are of equal length, 0.015 of the scale on unstructured tetrahedra, 0.14 with 12 facets around of which neighbours are
-/// as 2 to 1. A square body reaches 0.5 to 1, an axis off the centre by a tenth of the radius 0.24.
-void rejectCrossing(const mesh::Mesh& mesh, const std::string& body, const Motion& motion, Crossing& crossing) {
+/// Collective. Flat facets inscribed in a circle let a little through although the body is one of
+/// revolution: nothing where neighbours are of equal length, 0.015 of the scale on unstructured
+/// tetrahedra, 0.14 with 12 facets around of which neighbours are as 2 to 1. A square body reaches
+/// 0.5 to 1, an axis off the centre by a tenth of the radius 0.24.
+void rejectCrossing(const mesh::Mesh& mesh, const std::string& body, const Motion& motion,
+                    Crossing& crossing) {
   const double tolerance = motion.speed != 0 ? 0.15 : 1e-6;
-  for (Vec vector : {crossing.flux.get(), crossing.scale.get()}) assembled(vector), fold(mesh, vector);
+  for (Vec vector : {crossing.flux.get(), crossing.scale.get()})
+    assembled(vector), fold(mesh, vector);
   const PetscScalar *flux = nullptr, *scale = nullptr;
   check(VecGetArrayRead(crossing.flux, &flux));
   check(VecGetArrayRead(crossing.scale, &scale));
   double worst = tolerance;
   PetscInt where = -1;
   for (PetscInt node = 0; node < mesh.ownedNodes; ++node)
-    if (scale[node] > 0 && std::abs(flux[node]) > worst * scale[node]) worst = std::abs(flux[node]) / scale[node], where = node;
+    if (scale[node] > 0 && std::abs(flux[node]) > worst * scale[node])
+      worst = std::abs(flux[node]) / scale[node], where = node;
   check(VecRestoreArrayRead(crossing.flux, &flux));
   check(VecRestoreArrayRead(crossing.scale, &scale));
   std::string failure;
   if (where >= 0) {
     const Point& x = mesh.coordinates[static_cast<std::size_t>(where)];
     failure = "option -motion_convective: body '" + body +
-              "' is not a figure of revolution about its axis (or not uniform along its translation): its matter crosses its " +
-              formatted("surface at (%g, %g, %g); use -motion_convective off (approximation A)", x[0], x[1], x[2]);
+              "' is not a figure of revolution about its axis (or not uniform along its "
+              "translation): its matter crosses its " +
+              formatted("surface at (%g, %g, %g); use -motion_convective off (approximation A)",
+                        x[0], x[1], x[2]);
   }
   failTogether(mesh.comm, failure);
 }
 
 }  // namespace
 
-void assembleConvection(const mesh::Mesh& mesh, const std::vector<Material>& materials, Bodies& bodies) {
-  if (std::none_of(bodies.motions.begin(), bodies.motions.end(), [](const Motion& motion) { return motion.moves(); })) return;
+void assembleConvection(const mesh::Mesh& mesh, const std::vector<Material>& materials,
+                        Bodies& bodies) {
+  if (std::none_of(bodies.motions.begin(), bodies.motions.end(),
+                   [](const Motion& motion) { return motion.moves(); }))
+    return;
   std::vector<Crossing> crossing(mesh.bodies.size());
   for (std::size_t body = 0; body < mesh.bodies.size(); ++body)
     if (bodies.motions[body].moves()) crossing[body] = {nodeScalars(mesh), nodeScalars(mesh)};
   Triples g, k;
-  forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table, const std::vector<Point>& points) {
+  forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table,
+                        const std::vector<Point>& points) {
     const auto body = static_cast<std::size_t>(block.body[e]);
     const Motion& motion = bodies.motions[body];
     if (!motion.moves()) return;
     std::vector<Point> velocity;
     for (const auto& x : points) velocity.push_back(motion.velocity(x));
-    const Convection cell = convection(gradientTable(table, points), points, velocity, materials[body].density);
+    const Convection cell =
+        convection(gradientTable(table, points), points, velocity, materials[body].density);
     const PetscInt* nodes = block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerCell);
     append(g, mesh, nodes, block.nodesPerCell, cell.gyroscopic, true);
     append(k, mesh, nodes, block.nodesPerCell, cell.rotationStiffness, true);
     for (int i = 0; i < block.nodesPerCell; ++i) {
       const PetscInt node = mesh.globalNode[static_cast<std::size_t>(nodes[i])];
-      check(VecSetValue(crossing[body].flux, node, cell.flux[static_cast<std::size_t>(i)], ADD_VALUES));
-      check(VecSetValue(crossing[body].scale, node, cell.fluxScale[static_cast<std::size_t>(i)], ADD_VALUES));
+      check(VecSetValue(crossing[body].flux, node, cell.flux[static_cast<std::size_t>(i)],
+                        ADD_VALUES));
+      check(VecSetValue(crossing[body].scale, node, cell.fluxScale[static_cast<std::size_t>(i)],
+                        ADD_VALUES));
     }
   });
   for (std::size_t body = 0; body < mesh.bodies.size(); ++body)
-    if (crossing[body].flux) rejectCrossing(mesh, mesh.bodies[body], bodies.motions[body], crossing[body]);
+    if (crossing[body].flux)
+      rejectCrossing(mesh, mesh.bodies[body], bodies.motions[body], crossing[body]);
   bodies.gyroscopic = toMatrix(mesh, g, Symmetry::skew);
   bodies.rotationStiffness = toMatrix(mesh, k, Symmetry::symmetric);
 }

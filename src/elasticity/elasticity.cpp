@@ -12,23 +12,28 @@
 namespace squeal::elasticity {
 namespace {
 
-const ChoiceOption massOption(
-    "elasticity", "elasticity_mass", {"consistent", "higher_order"}, "consistent",
-    "mass matrix; higher_order: mean of consistent and lumped, fourth-order frequencies on linear elements");
-const TextOption incompatibleOption("elasticity", "elasticity_incompatible_modes", "hex8",
-                                    "element types (quad4, hex8) given incompatible bending modes, or none");
-const FlagOption prestressOption("elasticity", "elasticity_prestress", false,
-                                 "on: the stress of steady sliding stiffens or softens the vibrations (geometric stiffness)");
+const ChoiceOption massOption("elasticity", "elasticity_mass", {"consistent", "higher_order"},
+                              "consistent",
+                              "mass matrix; higher_order: mean of consistent and lumped, "
+                              "fourth-order frequencies on linear elements");
+const TextOption incompatibleOption(
+    "elasticity", "elasticity_incompatible_modes", "hex8",
+    "element types (quad4, hex8) given incompatible bending modes, or none");
+const FlagOption prestressOption(
+    "elasticity", "elasticity_prestress", false,
+    "on: the stress of steady sliding stiffens or softens the vibrations (geometric stiffness)");
 const RealOption pressureOption("load", "load_<group>_pressure", 0.0, "Pa", anyReal,
                                 "pressure on a surface group, positive inwards");
-const FlagOption centrifugalOption("load", "load_centrifugal", true, "centrifugal forces on rotating bodies");
+const FlagOption centrifugalOption("load", "load_centrifugal", true,
+                                   "centrifugal forces on rotating bodies");
 
 std::vector<std::string> incompatibleElements() {
   auto names = incompatibleOption.list();
   if (names == std::vector<std::string>{"none"}) names.clear();
   for (const auto& name : names)
     if (name != "quad4" && name != "hex8")
-      throw Error("option -elasticity_incompatible_modes " + incompatibleOption.get() + ": must be none or a list of quad4, hex8");
+      throw Error("option -elasticity_incompatible_modes " + incompatibleOption.get() +
+                  ": must be none or a list of quad4, hex8");
   return names;
 }
 
@@ -39,11 +44,13 @@ std::vector<double> scaled(std::vector<double> values, double factor) {
 
 /// The same scalar matrix on each component, rows and columns [node][component].
 std::vector<double> onAllComponents(const std::vector<double>& scalar, int count, int dimension) {
-  const auto n = static_cast<std::size_t>(count), components = static_cast<std::size_t>(dimension), size = n * components;
+  const auto n = static_cast<std::size_t>(count), components = static_cast<std::size_t>(dimension),
+             size = n * components;
   std::vector<double> full(size * size, 0.0);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j)
-      for (std::size_t d = 0; d < components; ++d) full[(i * components + d) * size + j * components + d] = scalar[i * n + j];
+      for (std::size_t d = 0; d < components; ++d)
+        full[(i * components + d) * size + j * components + d] = scalar[i * n + j];
   return full;
 }
 
@@ -52,7 +59,8 @@ std::vector<double> localValues(const mesh::Mesh& mesh, Vec u) {
   OwnedIS nodes;
   OwnedVec local;
   OwnedScatter scatter;
-  check(ISCreateBlock(PETSC_COMM_SELF, mesh.dimension, mesh.localNodes(), mesh.globalNode.data(), PETSC_COPY_VALUES, nodes.out()));
+  check(ISCreateBlock(PETSC_COMM_SELF, mesh.dimension, mesh.localNodes(), mesh.globalNode.data(),
+                      PETSC_COPY_VALUES, nodes.out()));
   check(VecCreateSeq(PETSC_COMM_SELF, mesh.dimension * mesh.localNodes(), local.out()));
   check(VecScatterCreate(u, nodes, local, nullptr, scatter.out()));
   check(VecScatterBegin(scatter, u, local, INSERT_VALUES, SCATTER_FORWARD));
@@ -81,8 +89,8 @@ void appendDiagonal(Triples& triples, const mesh::Mesh& mesh, Vec diagonal) {
 std::size_t denseEntries(const mesh::Mesh& mesh) {
   std::size_t entries = 0;
   for (const auto& block : mesh.cells)
-    entries +=
-        block.tag.size() * static_cast<std::size_t>(block.nodesPerCell * block.nodesPerCell * mesh.dimension * mesh.dimension);
+    entries += block.tag.size() * static_cast<std::size_t>(block.nodesPerCell * block.nodesPerCell *
+                                                           mesh.dimension * mesh.dimension);
   return entries;
 }
 
@@ -91,32 +99,40 @@ struct CellTriples {
 };
 
 /// Of all cells, or of those of one body.
-CellTriples cellTriples(const mesh::Mesh& mesh, const std::vector<Material>& materials, std::optional<int> body) {
+CellTriples cellTriples(const mesh::Mesh& mesh, const std::vector<Material>& materials,
+                        std::optional<int> body) {
   const auto incompatible = incompatibleElements();
-  const MassKind kind = massOption.get() == "consistent" ? MassKind::consistent : MassKind::higherOrder;
+  const MassKind kind =
+      massOption.get() == "consistent" ? MassKind::consistent : MassKind::higherOrder;
   CellTriples triples;
   auto& [k, m, c] = triples;
   if (!body) {
     k.reserve(denseEntries(mesh));
     m.reserve(denseEntries(mesh) / static_cast<std::size_t>(mesh.dimension));
   }
-  forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table, const std::vector<Point>& points) {
+  forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table,
+                        const std::vector<Point>& points) {
     if (body && block.body[e] != *body) return;
     const Material& material = materials[static_cast<std::size_t>(block.body[e])];
     const PetscInt* nodes = block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerCell);
-    const bool bubbles = std::find(incompatible.begin(), incompatible.end(), table.name) != incompatible.end();
-    const auto cellStiffness = stiffness(gradientTable(table, points), points, material.law, bubbles);
+    const bool bubbles =
+        std::find(incompatible.begin(), incompatible.end(), table.name) != incompatible.end();
+    const auto cellStiffness =
+        stiffness(gradientTable(table, points), points, material.law, bubbles);
     const auto cellMass = mass(table, points, material.density, kind);
     append(k, mesh, nodes, block.nodesPerCell, cellStiffness, false);
     append(m, mesh, nodes, block.nodesPerCell, cellMass, true);
-    if (material.massDamping > 0) append(c, mesh, nodes, block.nodesPerCell, scaled(cellMass, material.massDamping), true);
+    if (material.massDamping > 0)
+      append(c, mesh, nodes, block.nodesPerCell, scaled(cellMass, material.massDamping), true);
     if (material.stiffnessDamping > 0)
-      append(c, mesh, nodes, block.nodesPerCell, scaled(cellStiffness, material.stiffnessDamping), false);
+      append(c, mesh, nodes, block.nodesPerCell, scaled(cellStiffness, material.stiffnessDamping),
+             false);
   });
   return triples;
 }
 
-void assembleMatrices(const mesh::Mesh& mesh, const std::vector<Material>& materials, Bodies& bodies) {
+void assembleMatrices(const mesh::Mesh& mesh, const std::vector<Material>& materials,
+                      Bodies& bodies) {
   auto [k, m, c] = cellTriples(mesh, materials, {});
   Ground ground = readGround(mesh);
   appendDiagonal(k, mesh, ground.springs);
@@ -124,22 +140,29 @@ void assembleMatrices(const mesh::Mesh& mesh, const std::vector<Material>& mater
   bodies.stiffness = toMatrix(mesh, k, Symmetry::rounded);
   bodies.mass = toMatrix(mesh, m, Symmetry::rounded);
   bodies.springs = std::move(ground.springs);
-  const bool damped = ground.dashpots || std::any_of(materials.begin(), materials.end(), [](const Material& material) {
+  const bool damped = ground.dashpots ||
+                      std::any_of(materials.begin(), materials.end(), [](const Material& material) {
                         return material.massDamping > 0 || material.stiffnessDamping > 0;
                       });
-  if (damped) bodies.damping = toMatrix(mesh, c, Symmetry::rounded);  // C = α M + (β + η / 2πf) K, dashpots
+  if (damped)
+    bodies.damping = toMatrix(mesh, c, Symmetry::rounded);  // C = α M + (β + η / 2πf) K, dashpots
 }
 
-void assembleCentrifugal(const mesh::Mesh& mesh, const std::vector<Material>& materials, Bodies& bodies) {
+void assembleCentrifugal(const mesh::Mesh& mesh, const std::vector<Material>& materials,
+                         Bodies& bodies) {
   bodies.centrifugal = nodalVector(mesh);
   if (centrifugalOption.get())
-    forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table, const std::vector<Point>& points) {
+    forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table,
+                          const std::vector<Point>& points) {
       const Motion& motion = bodies.motions[static_cast<std::size_t>(block.body[e])];
       if (motion.speed != 0)
-        addLoad(bodies.centrifugal, mesh, block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerCell), block.nodesPerCell,
-                centrifugal(table, points, materials[static_cast<std::size_t>(block.body[e])].density, motion.speed, motion.axis,
-                            motion.origin),
-                1);
+        addLoad(
+            bodies.centrifugal, mesh,
+            block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerCell),
+            block.nodesPerCell,
+            centrifugal(table, points, materials[static_cast<std::size_t>(block.body[e])].density,
+                        motion.speed, motion.axis, motion.origin),
+            1);
     });
   check(VecAssemblyBegin(bodies.centrifugal));
   check(VecAssemblyEnd(bodies.centrifugal));
@@ -155,7 +178,9 @@ void assembleLoad(const mesh::Mesh& mesh, Bodies& bodies) {
       const PetscInt* nodes = block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerFace);
       if (p != 0)
         addLoad(bodies.load, mesh, nodes, block.nodesPerFace,
-                faceNormals(shapeTable(block.type), pointsOf(mesh, nodes, block.nodesPerFace), block.sign[e]), -p);
+                faceNormals(shapeTable(block.type), pointsOf(mesh, nodes, block.nodesPerFace),
+                            block.sign[e]),
+                -p);
     }
   check(VecAssemblyBegin(bodies.load));
   check(VecAssemblyEnd(bodies.load));
@@ -166,7 +191,8 @@ void assembleLoad(const mesh::Mesh& mesh, Bodies& bodies) {
 
 std::vector<mesh::GroupRequest> loadedSurfaces() {
   std::vector<mesh::GroupRequest> requests;
-  for (const auto& surface : pressureOption.subjects()) requests.push_back({surface, "option -" + pressureOption.fullName(surface)});
+  for (const auto& surface : pressureOption.subjects())
+    requests.push_back({surface, "option -" + pressureOption.fullName(surface)});
   return requests;
 }
 
@@ -218,16 +244,21 @@ OwnedMat geometricStiffness(const mesh::Mesh& mesh, Vec displacement, std::optio
   const auto values = localValues(mesh, displacement);
   Triples k;
   if (!body) k.reserve(denseEntries(mesh));
-  forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table, const std::vector<Point>& points) {
+  forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table,
+                        const std::vector<Point>& points) {
     if (body && block.body[e] != *body) return;
     const PetscInt* nodes = block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerCell);
     std::vector<double> u;
     for (int i = 0; i < block.nodesPerCell; ++i)
-      for (int d = 0; d < mesh.dimension; ++d) u.push_back(values[static_cast<std::size_t>(mesh.dimension * nodes[i] + d)]);
-    const bool bubbles = std::find(incompatible.begin(), incompatible.end(), table.name) != incompatible.end();
-    const auto cell = geometricStiffness(gradientTable(table, points), points,
-                                         materials[static_cast<std::size_t>(block.body[e])].law, bubbles, u);
-    append(k, mesh, nodes, block.nodesPerCell, onAllComponents(cell, block.nodesPerCell, mesh.dimension), false);  // pattern of K
+      for (int d = 0; d < mesh.dimension; ++d)
+        u.push_back(values[static_cast<std::size_t>(mesh.dimension * nodes[i] + d)]);
+    const bool bubbles =
+        std::find(incompatible.begin(), incompatible.end(), table.name) != incompatible.end();
+    const auto cell =
+        geometricStiffness(gradientTable(table, points), points,
+                           materials[static_cast<std::size_t>(block.body[e])].law, bubbles, u);
+    append(k, mesh, nodes, block.nodesPerCell,
+           onAllComponents(cell, block.nodesPerCell, mesh.dimension), false);  // pattern of K
   });
   return toMatrix(mesh, k, Symmetry::symmetric);
 }

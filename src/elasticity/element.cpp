@@ -11,7 +11,9 @@ namespace {
 
 /// Writes into column block `i` of B (row-major, `columns` wide) the strains of ∂φ/∂x = g.
 void strainColumns(double* b, int columns, int i, const Point& g, int dimension) {
-  const auto at = [&](int row, int component) -> double& { return b[row * columns + i * dimension + component]; };
+  const auto at = [&](int row, int component) -> double& {
+    return b[row * columns + i * dimension + component];
+  };
   if (dimension == 2) {
     at(0, 0) = g[0], at(1, 1) = g[1], at(2, 0) = g[1], at(2, 1) = g[0];
     return;
@@ -22,16 +24,19 @@ void strainColumns(double* b, int columns, int i, const Point& g, int dimension)
   at(5, 0) = g[2], at(5, 2) = g[0];
 }
 
-/// Amplitudes of the trailing `inner` unknowns per unit of each of the others, [other][inner], from a symmetric row-major matrix of
-/// size `all`: −Kii⁻¹ Kio.
+/// Amplitudes of the trailing `inner` unknowns per unit of each of the others, [other][inner], from
+/// a symmetric row-major matrix of size `all`: −Kii⁻¹ Kio.
 std::vector<double> innerResponse(const std::vector<double>& k, int all, int inner) {
   const int outer = all - inner;
-  std::vector<double> kii(static_cast<std::size_t>(inner * inner)), response(static_cast<std::size_t>(inner * outer));
+  std::vector<double> kii(static_cast<std::size_t>(inner * inner)),
+      response(static_cast<std::size_t>(inner * outer));
   for (int a = 0; a < inner; ++a) {  // column-major
     for (int b = 0; b < inner; ++b)
-      kii[static_cast<std::size_t>(b * inner + a)] = k[static_cast<std::size_t>((outer + a) * all + outer + b)];
+      kii[static_cast<std::size_t>(b * inner + a)] =
+          k[static_cast<std::size_t>((outer + a) * all + outer + b)];
     for (int b = 0; b < outer; ++b)
-      response[static_cast<std::size_t>(b * inner + a)] = -k[static_cast<std::size_t>((outer + a) * all + b)];
+      response[static_cast<std::size_t>(b * inner + a)] =
+          -k[static_cast<std::size_t>((outer + a) * all + b)];
   }
   PetscBLASInt n = inner, m = outer, info = 0;
   LAPACKpotrf_("L", &n, kii.data(), &n, &info);
@@ -48,7 +53,8 @@ std::vector<double> condensed(const std::vector<double>& k, int all, int inner) 
     for (int b = 0; b < outer; ++b) {
       double sum = k[static_cast<std::size_t>(a * all + b)];
       for (int c = 0; c < inner; ++c)
-        sum += k[static_cast<std::size_t>((outer + c) * all + a)] * response[static_cast<std::size_t>(b * inner + c)];
+        sum += k[static_cast<std::size_t>((outer + c) * all + a)] *
+               response[static_cast<std::size_t>(b * inner + c)];
       result[static_cast<std::size_t>(a * outer + b)] = sum;
     }
   return result;
@@ -63,9 +69,11 @@ struct StrainMatrix {
   const double* at(int q) const { return b.data() + q * rows * columns; }
 };
 
-StrainMatrix strainMatrix(const ShapeTable& table, const std::vector<Point>& nodes, bool incompatible) {
+StrainMatrix strainMatrix(const ShapeTable& table, const std::vector<Point>& nodes,
+                          bool incompatible) {
   const int dimension = table.dimension, bubbles = incompatible ? dimension : 0;
-  StrainMatrix strain{table.points(), dimension == 2 ? 3 : 6, (table.nodes + bubbles) * dimension, {}, {}, {}};
+  StrainMatrix strain{
+      table.points(), dimension == 2 ? 3 : 6, (table.nodes + bubbles) * dimension, {}, {}, {}};
   strain.b.assign(static_cast<std::size_t>(strain.points * strain.rows * strain.columns), 0.0);
   Matrix3 centre{};
   double centreDet = 0;
@@ -82,14 +90,19 @@ StrainMatrix strainMatrix(const ShapeTable& table, const std::vector<Point>& nod
     double* bq = strain.b.data() + q * strain.rows * strain.columns;
     Point x{};
     for (int i = 0; i < table.nodes; ++i) {
-      strainColumns(bq, strain.columns, i, mapped(inv, {gradient[3 * i], gradient[3 * i + 1], gradient[3 * i + 2]}), dimension);
+      strainColumns(bq, strain.columns, i,
+                    mapped(inv, {gradient[3 * i], gradient[3 * i + 1], gradient[3 * i + 2]}),
+                    dimension);
       for (std::size_t d = 0; d < 3; ++d)
-        x[d] += table.value[static_cast<std::size_t>(q * table.nodes + i)] * nodes[static_cast<std::size_t>(i)][d];
+        x[d] += table.value[static_cast<std::size_t>(q * table.nodes + i)] *
+                nodes[static_cast<std::size_t>(i)][d];
     }
     for (int m = 0; m < bubbles; ++m) {
-      // ∇(1 − ξ_m²) with the Jacobian of the centre, scaled by j0/j: its mean vanishes, so constant stress does no work on it.
+      // ∇(1 − ξ_m²) with the Jacobian of the centre, scaled by j0/j: its mean vanishes, so constant
+      // stress does no work on it.
       Point reference{};
-      reference[static_cast<std::size_t>(m)] = -2 * table.point[static_cast<std::size_t>(3 * q + m)] * centreDet / det;
+      reference[static_cast<std::size_t>(m)] =
+          -2 * table.point[static_cast<std::size_t>(3 * q + m)] * centreDet / det;
       strainColumns(bq, strain.columns, table.nodes + m, mapped(centre, reference), dimension);
     }
     strain.volume.push_back(table.weight[static_cast<std::size_t>(q)] * det);
@@ -109,34 +122,44 @@ std::vector<double> fullStiffness(const StrainMatrix& strain, const Law& law) {
       for (int s = 0; s < strain.rows; ++s) {
         const double d = strain.volume[static_cast<std::size_t>(q)] * hooke(r, s);
         if (d != 0)
-          for (int c = 0; c < strain.columns; ++c) dbq[r * strain.columns + c] += d * strain.at(q)[s * strain.columns + c];
+          for (int c = 0; c < strain.columns; ++c)
+            dbq[r * strain.columns + c] += d * strain.at(q)[s * strain.columns + c];
       }
   }
   // Row-major B is column-major Bᵀ: K = Bᵀ (D B) over all points in one product.
   std::vector<double> k(static_cast<std::size_t>(strain.columns * strain.columns));
   PetscBLASInt n = strain.columns, depth = strain.rows * strain.points;
   const PetscScalar one = 1, zero = 0;
-  BLASgemm_("N", "T", &n, &n, &depth, &one, strain.b.data(), &n, db.data(), &n, &zero, k.data(), &n);
+  BLASgemm_("N", "T", &n, &n, &depth, &one, strain.b.data(), &n, db.data(), &n, &zero, k.data(),
+            &n);
   return k;
 }
 
 /// σ = D B u at one point; in the plane, its components there.
-Matrix3 stressAt(const StrainMatrix& strain, int q, const Hooke& hooke, const std::vector<double>& displacement) {
-  std::vector<double> epsilon(static_cast<std::size_t>(strain.rows), 0.0), sigma(epsilon.size(), 0.0);
+Matrix3 stressAt(const StrainMatrix& strain, int q, const Hooke& hooke,
+                 const std::vector<double>& displacement) {
+  std::vector<double> epsilon(static_cast<std::size_t>(strain.rows), 0.0),
+      sigma(epsilon.size(), 0.0);
   for (int r = 0; r < strain.rows; ++r)
     for (int c = 0; c < strain.columns; ++c)
-      epsilon[static_cast<std::size_t>(r)] += strain.at(q)[r * strain.columns + c] * displacement[static_cast<std::size_t>(c)];
+      epsilon[static_cast<std::size_t>(r)] +=
+          strain.at(q)[r * strain.columns + c] * displacement[static_cast<std::size_t>(c)];
   for (int r = 0; r < strain.rows; ++r)
-    for (int s = 0; s < strain.rows; ++s) sigma[static_cast<std::size_t>(r)] += hooke(r, s) * epsilon[static_cast<std::size_t>(s)];
+    for (int s = 0; s < strain.rows; ++s)
+      sigma[static_cast<std::size_t>(r)] += hooke(r, s) * epsilon[static_cast<std::size_t>(s)];
   if (strain.rows == 3) return {{{sigma[0], sigma[2], 0}, {sigma[2], sigma[1], 0}, {0, 0, 0}}};
-  return {{{sigma[0], sigma[3], sigma[5]}, {sigma[3], sigma[1], sigma[4]}, {sigma[5], sigma[4], sigma[2]}}};
+  return {{{sigma[0], sigma[3], sigma[5]},
+           {sigma[3], sigma[1], sigma[4]},
+           {sigma[5], sigma[4], sigma[2]}}};
 }
 
 }  // namespace
 
 bool folded(const ShapeTable& table, const std::vector<Point>& nodes) {
   for (int q = 0; q < table.points(); ++q)
-    if (!(determinant(jacobian(table.gradient.data() + 3 * q * table.nodes, nodes, table.dimension)) > 0)) return true;
+    if (!(determinant(
+              jacobian(table.gradient.data() + 3 * q * table.nodes, nodes, table.dimension)) > 0))
+      return true;
   return false;
 }
 
@@ -144,28 +167,33 @@ const ShapeTable& gradientTable(const ShapeTable& table, const std::vector<Point
   return folded(table, nodes) ? stiffnessTable(table.type) : table;
 }
 
-std::vector<double> stiffness(const ShapeTable& table, const std::vector<Point>& nodes, const Law& law, bool incompatible) {
+std::vector<double> stiffness(const ShapeTable& table, const std::vector<Point>& nodes,
+                              const Law& law, bool incompatible) {
   const StrainMatrix strain = strainMatrix(table, nodes, incompatible);
   auto k = fullStiffness(strain, law);
   return incompatible ? condensed(k, strain.columns, table.dimension * table.dimension) : k;
 }
 
-std::vector<double> geometricStiffness(const ShapeTable& table, const std::vector<Point>& nodes, const Law& law, bool incompatible,
+std::vector<double> geometricStiffness(const ShapeTable& table, const std::vector<Point>& nodes,
+                                       const Law& law, bool incompatible,
                                        std::vector<double> displacement) {
   const StrainMatrix strain = strainMatrix(table, nodes, incompatible);
-  const auto dimension = static_cast<std::size_t>(table.dimension), n = static_cast<std::size_t>(table.nodes);
+  const auto dimension = static_cast<std::size_t>(table.dimension),
+             n = static_cast<std::size_t>(table.nodes);
   if (incompatible) {
     const int inner = table.dimension * table.dimension;
     const auto response = innerResponse(fullStiffness(strain, law), strain.columns, inner);
     const std::size_t outer = displacement.size(), bubbles = static_cast<std::size_t>(inner);
     displacement.resize(outer + bubbles);
     for (std::size_t b = 0; b < outer; ++b)
-      for (std::size_t a = 0; a < bubbles; ++a) displacement[outer + a] += response[b * bubbles + a] * displacement[b];
+      for (std::size_t a = 0; a < bubbles; ++a)
+        displacement[outer + a] += response[b * bubbles + a] * displacement[b];
   }
   std::vector<double> k(n * n, 0.0);
   Hooke storage;
   for (int q = 0; q < strain.points; ++q) {
-    const Matrix3 stress = stressAt(strain, q, law.at(strain.position[static_cast<std::size_t>(q)], storage), displacement);
+    const Matrix3 stress = stressAt(
+        strain, q, law.at(strain.position[static_cast<std::size_t>(q)], storage), displacement);
     // The normal strains of node i are its ∂φ/∂x_d.
     const auto gradient = [&](std::size_t i, std::size_t d) {
       return strain.at(q)[d * static_cast<std::size_t>(strain.columns) + i * dimension + d];
@@ -174,7 +202,8 @@ std::vector<double> geometricStiffness(const ShapeTable& table, const std::vecto
       for (std::size_t d = 0; d < dimension; ++d) {
         double flux = 0;
         for (std::size_t c = 0; c < dimension; ++c) flux += gradient(i, c) * stress[c][d];
-        for (std::size_t j = 0; j < n; ++j) k[i * n + j] += strain.volume[static_cast<std::size_t>(q)] * flux * gradient(j, d);
+        for (std::size_t j = 0; j < n; ++j)
+          k[i * n + j] += strain.volume[static_cast<std::size_t>(q)] * flux * gradient(j, d);
       }
   }
   return k;

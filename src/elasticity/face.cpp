@@ -20,14 +20,17 @@ double norm(const Point& p) { return std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] 
 
 }  // namespace
 
-std::vector<double> faceNormals(const ShapeTable& table, const std::vector<Point>& nodes, int sign) {
+std::vector<double> faceNormals(const ShapeTable& table, const std::vector<Point>& nodes,
+                                int sign) {
   const auto n = static_cast<std::size_t>(table.nodes);
   std::vector<double> load(3 * n, 0.0);
   for (int q = 0; q < table.points(); ++q) {
-    const Point normal = faceNormal(table.gradient.data() + 3 * q * table.nodes, nodes, table.dimension);
+    const Point normal =
+        faceNormal(table.gradient.data() + 3 * q * table.nodes, nodes, table.dimension);
     const double factor = sign * table.weight[static_cast<std::size_t>(q)];
     for (std::size_t a = 0; a < n; ++a)
-      for (std::size_t d = 0; d < 3; ++d) load[3 * a + d] += factor * table.value[static_cast<std::size_t>(q) * n + a] * normal[d];
+      for (std::size_t d = 0; d < 3; ++d)
+        load[3 * a + d] += factor * table.value[static_cast<std::size_t>(q) * n + a] * normal[d];
   }
   return load;
 }
@@ -36,8 +39,9 @@ std::vector<double> faceMass(const ShapeTable& table, const std::vector<Point>& 
   const auto n = static_cast<std::size_t>(table.nodes);
   std::vector<double> m(n * n, 0.0);
   for (int q = 0; q < table.points(); ++q) {
-    const double factor = table.weight[static_cast<std::size_t>(q)] *
-                          norm(faceNormal(table.gradient.data() + 3 * q * table.nodes, nodes, table.dimension));
+    const double factor =
+        table.weight[static_cast<std::size_t>(q)] *
+        norm(faceNormal(table.gradient.data() + 3 * q * table.nodes, nodes, table.dimension));
     const double* value = table.value.data() + static_cast<std::size_t>(q) * n;
     for (std::size_t a = 0; a < n; ++a)
       for (std::size_t b = 0; b < n; ++b) m[a * n + b] += factor * value[a] * value[b];
@@ -48,7 +52,8 @@ std::vector<double> faceMass(const ShapeTable& table, const std::vector<Point>& 
 std::vector<Point> nodeNormals(const ShapeTable& table, const std::vector<Point>& nodes, int sign) {
   std::vector<Point> normals;
   for (int i = 0; i < table.nodes; ++i) {
-    Point normal = faceNormal(table.nodeGradient.data() + 3 * i * table.nodes, nodes, table.dimension);
+    Point normal =
+        faceNormal(table.nodeGradient.data() + 3 * i * table.nodes, nodes, table.dimension);
     const double length = sign * norm(normal);
     for (auto& component : normal) component /= length;
     normals.push_back(normal);
@@ -56,25 +61,31 @@ std::vector<Point> nodeNormals(const ShapeTable& table, const std::vector<Point>
   return normals;
 }
 
-std::vector<double> faceDerivative(const ShapeTable& table, const std::vector<Point>& nodes, const std::vector<Point>& velocity) {
+std::vector<double> faceDerivative(const ShapeTable& table, const std::vector<Point>& nodes,
+                                   const std::vector<Point>& velocity) {
   const auto n = static_cast<std::size_t>(table.nodes);
   std::vector<double> derivative(n * n);
   for (std::size_t i = 0; i < n; ++i) {
     const double* gradient = table.nodeGradient.data() + 3 * i * n;
-    // x = x(ξ) on the face: tangents a_r = ∂x/∂ξ_r; V = Σ c_r a_r + normal part gives (V·∇)φ = Σ c_r ∂φ/∂ξ_r.
+    // x = x(ξ) on the face: tangents a_r = ∂x/∂ξ_r; V = Σ c_r a_r + normal part gives (V·∇)φ = Σ
+    // c_r ∂φ/∂ξ_r.
     Point tangent[2]{};
     for (std::size_t j = 0; j < n; ++j)
       for (std::size_t r = 0; r < 2; ++r)
         for (std::size_t d = 0; d < 3; ++d) tangent[r][d] += gradient[3 * j + r] * nodes[j][d];
-    const auto dot = [](const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
+    const auto dot = [](const Point& a, const Point& b) {
+      return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    };
     const double aa = dot(tangent[0], tangent[0]), va = dot(velocity[i], tangent[0]);
     double c[2] = {va / aa, 0};
     if (table.dimension == 2) {
-      const double ab = dot(tangent[0], tangent[1]), bb = dot(tangent[1], tangent[1]), vb = dot(velocity[i], tangent[1]);
+      const double ab = dot(tangent[0], tangent[1]), bb = dot(tangent[1], tangent[1]),
+                   vb = dot(velocity[i], tangent[1]);
       const double det = aa * bb - ab * ab;
       c[0] = (va * bb - vb * ab) / det, c[1] = (vb * aa - va * ab) / det;
     }
-    for (std::size_t j = 0; j < n; ++j) derivative[i * n + j] = c[0] * gradient[3 * j] + c[1] * gradient[3 * j + 1];
+    for (std::size_t j = 0; j < n; ++j)
+      derivative[i * n + j] = c[0] * gradient[3 * j] + c[1] * gradient[3 * j + 1];
   }
   return derivative;
 }

@@ -9,11 +9,12 @@
 namespace squeal::elasticity {
 namespace {
 
-const RealListOption stiffnessOption(
-    "constraint", "ground_<group>_stiffness", "0,0,0", "N/m", nonNegative,
-    "springs along x, y, z to the ground, total of the group, shared equally by its nodes (per m of depth in the plane)");
-const RealListOption dampingOption("constraint", "ground_<group>_damping", "0,0,0", "N s/m", nonNegative,
-                                   "dashpots to the ground, shared in the same way");
+const RealListOption stiffnessOption("constraint", "ground_<group>_stiffness", "0,0,0", "N/m",
+                                     nonNegative,
+                                     "springs along x, y, z to the ground, total of the group, "
+                                     "shared equally by its nodes (per m of depth in the plane)");
+const RealListOption dampingOption("constraint", "ground_<group>_damping", "0,0,0", "N s/m",
+                                   nonNegative, "dashpots to the ground, shared in the same way");
 
 /// N entries, empty if all values are zero.
 OwnedVec shared(const mesh::Mesh& mesh, const RealListOption& option) {
@@ -24,13 +25,15 @@ OwnedVec shared(const mesh::Mesh& mesh, const RealListOption& option) {
     const auto& nodes = mesh.nodeGroups.at(group);
     auto count = static_cast<PetscInt>(nodes.size());
     check(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPIU_INT, MPI_SUM, mesh.comm));
-    if (std::all_of(total.begin(), total.begin() + mesh.dimension, [](double x) { return x == 0; })) continue;
+    if (std::all_of(total.begin(), total.begin() + mesh.dimension, [](double x) { return x == 0; }))
+      continue;
     if (!vector) vector = nodalVector(mesh);
     PetscScalar* values = nullptr;
     check(VecGetArray(vector, &values));
     for (PetscInt node : nodes)
       for (std::size_t d = 0; d < dimension; ++d)
-        values[dimension * static_cast<std::size_t>(node) + d] += total[d] / static_cast<double>(count);
+        values[dimension * static_cast<std::size_t>(node) + d] +=
+            total[d] / static_cast<double>(count);
     check(VecRestoreArray(vector, &values));
   }
   return vector;
@@ -41,12 +44,15 @@ OwnedVec shared(const mesh::Mesh& mesh, const RealListOption& option) {
 std::vector<mesh::GroupRequest> groundedGroups() {
   std::map<std::string, std::string> options;
   for (const auto* option : {&stiffnessOption, &dampingOption})
-    for (const auto& group : option->subjects()) options.emplace(group, "option -" + option->fullName(group));
+    for (const auto& group : option->subjects())
+      options.emplace(group, "option -" + option->fullName(group));
   std::vector<mesh::GroupRequest> requests;
   for (const auto& [group, option] : options) requests.push_back({group, option});
   return requests;
 }
 
-Ground readGround(const mesh::Mesh& mesh) { return {shared(mesh, stiffnessOption), shared(mesh, dampingOption)}; }
+Ground readGround(const mesh::Mesh& mesh) {
+  return {shared(mesh, stiffnessOption), shared(mesh, dampingOption)};
+}
 
 }  // namespace squeal::elasticity

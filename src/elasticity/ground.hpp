@@ -14,7 +14,8 @@ struct Ground {
   OwnedVec dashpots;  ///< N·s/m
 };
 
-/// Collective. Each group's total is shared equally by its nodes. Error: fewer components than dimensions.
+/// Collective. Each group's total is shared equally by its nodes. Error: fewer components than
+/// dimensions.
 Ground readGround(const mesh::Mesh& mesh);
 
 }  // namespace squeal::elasticity

@@ -9,9 +9,13 @@
 namespace squeal::elasticity {
 namespace {
 
-Hooke zeroLaw(int size) { return {size, std::vector<double>(static_cast<std::size_t>(size * size), 0.0)}; }
+Hooke zeroLaw(int size) {
+  return {size, std::vector<double>(static_cast<std::size_t>(size * size), 0.0)};
+}
 
-double& entry(Hooke& hooke, int i, int j) { return hooke.matrix[static_cast<std::size_t>(i * hooke.size + j)]; }
+double& entry(Hooke& hooke, int i, int j) {
+  return hooke.matrix[static_cast<std::size_t>(i * hooke.size + j)];
+}
 
 /// Compliance of the normal components, 1/Pa.
 Matrix3 normalCompliance(const EngineeringConstants& c) {
@@ -48,16 +52,20 @@ std::string brokenRule(const EngineeringConstants& c) {
   if (!(std::abs(c.nu23) < std::sqrt(c.e2 / c.e3))) return "|nu23| must be < sqrt(E2/E3)";
   const double rest = determinant(normalCompliance(c)) * c.e1 * c.e2 * c.e3;
   if (!(rest > 0))
-    return formatted("1 - nu12 nu21 - nu23 nu32 - nu31 nu13 - 2 nu21 nu32 nu13 must be > 0, it is %.3g (nu_ji = nu_ij Ej/Ei)",
-                     rest);
+    return formatted(
+        "1 - nu12 nu21 - nu23 nu32 - nu31 nu13 - 2 nu21 nu32 nu13 must be > 0, it is %.3g (nu_ji = "
+        "nu_ij Ej/Ei)",
+        rest);
   return "";
 }
 
 Hooke orthotropic(const EngineeringConstants& c) {
-  const Matrix3 compliance = normalCompliance(c), normal = inverse(compliance, determinant(compliance));
+  const Matrix3 compliance = normalCompliance(c),
+                normal = inverse(compliance, determinant(compliance));
   Hooke hooke = zeroLaw(6);
   for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) entry(hooke, i, j) = normal[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+    for (int j = 0; j < 3; ++j)
+      entry(hooke, i, j) = normal[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
   entry(hooke, 3, 3) = c.g12, entry(hooke, 4, 4) = c.g23, entry(hooke, 5, 5) = c.g13;
   return hooke;
 }

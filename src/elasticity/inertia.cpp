@@ -17,27 +17,33 @@ bool positiveDefinite(std::vector<double> matrix, std::size_t size) {
   return info == 0;
 }
 
-/// Volume that each point of the rule stands for. Where det J changes its sign the mass of ∫ ρ φᵢ φⱼ det J dξ would be indefinite: the points
-/// with a negative one have none, and the others share the volume of the cell.
+/// Volume that each point of the rule stands for. Where det J changes its sign the mass of ∫ ρ φᵢ
+/// φⱼ det J dξ would be indefinite: the points with a negative one have none, and the others share
+/// the volume of the cell.
 std::vector<double> massVolumes(const ShapeTable& table, const std::vector<Point>& nodes) {
   std::vector<double> volumes, determinants;
-  double total = 0, positive = 0;  // by the sign of det J: rules of odd degree on tri3 and tet4 have a negative weight
+  double total = 0, positive = 0;  // by the sign of det J: rules of odd degree on tri3 and tet4
+                                   // have a negative weight
   for (int q = 0; q < table.points(); ++q) {
-    const double det = determinant(jacobian(table.gradient.data() + 3 * q * table.nodes, nodes, table.dimension));
+    const double det =
+        determinant(jacobian(table.gradient.data() + 3 * q * table.nodes, nodes, table.dimension));
     determinants.push_back(det);
     volumes.push_back(table.weight[static_cast<std::size_t>(q)] * det);
     total += volumes.back();
     positive += det > 0 ? volumes.back() : 0;
   }
   if (!(total > 0)) throw InvertedElement{};
-  if (std::all_of(determinants.begin(), determinants.end(), [](double det) { return det > 0; })) return volumes;
-  for (std::size_t q = 0; q < volumes.size(); ++q) volumes[q] *= determinants[q] > 0 ? total / positive : 0;
+  if (std::all_of(determinants.begin(), determinants.end(), [](double det) { return det > 0; }))
+    return volumes;
+  for (std::size_t q = 0; q < volumes.size(); ++q)
+    volumes[q] *= determinants[q] > 0 ? total / positive : 0;
   return volumes;
 }
 
 }  // namespace
 
-std::vector<double> mass(const ShapeTable& table, const std::vector<Point>& nodes, double density, MassKind kind) {
+std::vector<double> mass(const ShapeTable& table, const std::vector<Point>& nodes, double density,
+                         MassKind kind) {
   const auto n = static_cast<std::size_t>(table.nodes);
   const std::vector<double> volumes = massVolumes(table, nodes);
   std::vector<double> m(n * n, 0.0);
@@ -62,12 +68,14 @@ std::vector<double> mass(const ShapeTable& table, const std::vector<Point>& node
   return m;
 }
 
-std::vector<double> centrifugal(const ShapeTable& table, const std::vector<Point>& nodes, double density, double speed,
-                                const Point& axis, const Point& origin) {
+std::vector<double> centrifugal(const ShapeTable& table, const std::vector<Point>& nodes,
+                                double density, double speed, const Point& axis,
+                                const Point& origin) {
   const auto n = static_cast<std::size_t>(table.nodes);
   std::vector<double> load(3 * n, 0.0);
   for (int q = 0; q < table.points(); ++q) {
-    const double det = determinant(jacobian(table.gradient.data() + 3 * q * table.nodes, nodes, table.dimension));
+    const double det =
+        determinant(jacobian(table.gradient.data() + 3 * q * table.nodes, nodes, table.dimension));
     const double factor = density * speed * speed * table.weight[static_cast<std::size_t>(q)] * det;
     const double* value = table.value.data() + static_cast<std::size_t>(q) * n;
     Point r{-origin[0], -origin[1], -origin[2]};
@@ -75,35 +83,39 @@ std::vector<double> centrifugal(const ShapeTable& table, const std::vector<Point
       for (std::size_t d = 0; d < 3; ++d) r[d] += value[a] * nodes[a][d];
     const double along = r[0] * axis[0] + r[1] * axis[1] + r[2] * axis[2];
     for (std::size_t a = 0; a < n; ++a)
-      for (std::size_t d = 0; d < 3; ++d) load[3 * a + d] += factor * value[a] * (r[d] - along * axis[d]);
+      for (std::size_t d = 0; d < 3; ++d)
+        load[3 * a + d] += factor * value[a] * (r[d] - along * axis[d]);
   }
   return load;
 }
 
-Convection convection(const ShapeTable& table, const std::vector<Point>& nodes, const std::vector<Point>& velocity,
-                      double density) {
+Convection convection(const ShapeTable& table, const std::vector<Point>& nodes,
+                      const std::vector<Point>& velocity, double density) {
   const auto n = static_cast<std::size_t>(table.nodes);
-  Convection result{std::vector<double>(n * n, 0.0), std::vector<double>(n * n, 0.0), std::vector<double>(n, 0.0),
-                    std::vector<double>(n, 0.0)};
+  Convection result{std::vector<double>(n * n, 0.0), std::vector<double>(n * n, 0.0),
+                    std::vector<double>(n, 0.0), std::vector<double>(n, 0.0)};
   std::vector<double> rate(n);
   for (int q = 0; q < table.points(); ++q) {
     const double* gradient = table.gradient.data() + 3 * q * table.nodes;
     const double* value = table.value.data() + static_cast<std::size_t>(q) * n;
     const Matrix3 j = jacobian(gradient, nodes, table.dimension);
-    const double det = positiveDeterminant(j), volume = table.weight[static_cast<std::size_t>(q)] * det;
+    const double det = positiveDeterminant(j),
+                 volume = table.weight[static_cast<std::size_t>(q)] * det;
     const Matrix3 inv = inverse(j, det);
     Point v{};
     for (std::size_t a = 0; a < n; ++a)
       for (std::size_t d = 0; d < 3; ++d) v[d] += value[a] * velocity[a][d];
     for (std::size_t a = 0; a < n; ++a) {
       const Point g = mapped(inv, {gradient[3 * a], gradient[3 * a + 1], gradient[3 * a + 2]});
-      rate[a] = v[0] * g[0] + v[1] * g[1] + v[2] * g[2];  // D φ_a; g has no z component in the plane
+      rate[a] =
+          v[0] * g[0] + v[1] * g[1] + v[2] * g[2];  // D φ_a; g has no z component in the plane
       result.flux[a] += volume * rate[a];
       result.fluxScale[a] += volume * std::abs(rate[a]);
     }
     for (std::size_t a = 0; a < n; ++a)
       for (std::size_t b = 0; b < n; ++b) {
-        result.gyroscopic[a * n + b] += density * volume * (rate[b] * value[a] - rate[a] * value[b]);
+        result.gyroscopic[a * n + b] +=
+            density * volume * (rate[b] * value[a] - rate[a] * value[b]);
         result.rotationStiffness[a * n + b] -= density * volume * rate[b] * rate[a];
       }
   }

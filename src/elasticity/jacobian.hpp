@@ -9,10 +9,12 @@ namespace squeal::elasticity {
 
 using Matrix3 = std::array<std::array<double, 3>, 3>;
 
-/// J[r][d] = ∂x_d/∂ξ_r; rows beyond the element's dimension are unit vectors, so that the inverse exists.
+/// J[r][d] = ∂x_d/∂ξ_r; rows beyond the element's dimension are unit vectors, so that the inverse
+/// exists.
 inline Matrix3 jacobian(const double* gradient, const std::vector<Point>& nodes, int dimension) {
   Matrix3 j{};
-  for (int r = dimension; r < 3; ++r) j[static_cast<std::size_t>(r)][static_cast<std::size_t>(r)] = 1;
+  for (int r = dimension; r < 3; ++r)
+    j[static_cast<std::size_t>(r)][static_cast<std::size_t>(r)] = 1;
   for (std::size_t i = 0; i < nodes.size(); ++i)
     for (std::size_t r = 0; r < static_cast<std::size_t>(dimension); ++r)
       for (std::size_t d = 0; d < 3; ++d) j[r][d] += gradient[3 * i + r] * nodes[i][d];
@@ -20,7 +22,8 @@ inline Matrix3 jacobian(const double* gradient, const std::vector<Point>& nodes,
 }
 
 inline double determinant(const Matrix3& j) {
-  return j[0][0] * (j[1][1] * j[2][2] - j[1][2] * j[2][1]) - j[0][1] * (j[1][0] * j[2][2] - j[1][2] * j[2][0]) +
+  return j[0][0] * (j[1][1] * j[2][2] - j[1][2] * j[2][1]) -
+         j[0][1] * (j[1][0] * j[2][2] - j[1][2] * j[2][0]) +
          j[0][2] * (j[1][0] * j[2][1] - j[1][1] * j[2][0]);
 }
 

@@ -15,8 +15,8 @@ struct Material {
   double stiffnessDamping;  ///< β + η / (2π f), s: C = … + (β + η / 2πf) K
 };
 
-/// [body] in the order of `mesh.bodies`. Errors: bad or missing option, constants without positive strain energy, axes that make a
-/// plane problem leave its plane.
+/// [body] in the order of `mesh.bodies`. Errors: bad or missing option, constants without positive
+/// strain energy, axes that make a plane problem leave its plane.
 std::vector<Material> readMaterials(const mesh::Mesh& mesh);
 
 }  // namespace squeal::elasticity

@@ -11,22 +11,28 @@ namespace {
 
 const RealListOption velocityOption("motion", "motion_<body>_velocity", "0,0,0", "m/s", anyReal,
                                     "the body's matter translates with this velocity");
-const RealOption speedOption("motion", "motion_<body>_speed", 0.0, "rad/s", anyReal, "the body's matter rotates at this speed");
-const RealOption rpmOption("motion", "motion_<body>_rpm", 0.0, "1/min", anyReal, "the same in revolutions per minute");
-const RealListOption axisOption("motion", "motion_<body>_axis", "0,0,1", "", anyReal, "axis of the rotation, right-handed");
-const RealListOption originOption("motion", "motion_<body>_origin", "0,0,0", "m", anyReal, "a point of the axis");
-const FlagOption convectiveOption(
-    "motion", "motion_convective", false,
-    "on: the matter of moving bodies carries its displacement along (gyroscopic and rotation stiffness "
-    "terms); off: approximation A");
+const RealOption speedOption("motion", "motion_<body>_speed", 0.0, "rad/s", anyReal,
+                             "the body's matter rotates at this speed");
+const RealOption rpmOption("motion", "motion_<body>_rpm", 0.0, "1/min", anyReal,
+                           "the same in revolutions per minute");
+const RealListOption axisOption("motion", "motion_<body>_axis", "0,0,1", "", anyReal,
+                                "axis of the rotation, right-handed");
+const RealListOption originOption("motion", "motion_<body>_origin", "0,0,0", "m", anyReal,
+                                  "a point of the axis");
+const FlagOption convectiveOption("motion", "motion_convective", false,
+                                  "on: the matter of moving bodies carries its displacement along "
+                                  "(gyroscopic and rotation stiffness "
+                                  "terms); off: approximation A");
 
 /// ω, rad/s, from whichever option gives it.
 double rotationSpeed(const std::string& body) {
   const bool inRpm = rpmOption.given(body);
   if (inRpm && speedOption.given(body))
-    throw Error("options -" + speedOption.fullName(body) + " and -" + rpmOption.fullName(body) + ": give the speed once");
+    throw Error("options -" + speedOption.fullName(body) + " and -" + rpmOption.fullName(body) +
+                ": give the speed once");
   if (velocityOption.given(body) && (inRpm || speedOption.given(body)))
-    throw Error("options -" + velocityOption.fullName(body) + " and -" + (inRpm ? rpmOption : speedOption).fullName(body) +
+    throw Error("options -" + velocityOption.fullName(body) + " and -" +
+                (inRpm ? rpmOption : speedOption).fullName(body) +
                 ": a body translates or rotates, not both");
   return inRpm ? rpmOption.get(body) * 2 * M_PI / 60 : speedOption.get(body);
 }
@@ -35,7 +41,8 @@ double rotationSpeed(const std::string& body) {
 
 mesh::Point Motion::velocity(const mesh::Point& x) const {
   const mesh::Point r{x[0] - origin[0], x[1] - origin[1], x[2] - origin[2]};
-  return {translation[0] + speed * (axis[1] * r[2] - axis[2] * r[1]), translation[1] + speed * (axis[2] * r[0] - axis[0] * r[2]),
+  return {translation[0] + speed * (axis[1] * r[2] - axis[2] * r[1]),
+          translation[1] + speed * (axis[2] * r[0] - axis[0] * r[2]),
           translation[2] + speed * (axis[0] * r[1] - axis[1] * r[0])};
 }
 
@@ -45,8 +52,9 @@ bool convectiveTerms() { return convectiveOption.get(); }
 
 std::vector<std::string> movingBodies() {
   std::set<std::string> bodies;
-  for (const Option* option : {static_cast<const Option*>(&velocityOption), static_cast<const Option*>(&speedOption),
-                               static_cast<const Option*>(&rpmOption)})
+  for (const Option* option :
+       {static_cast<const Option*>(&velocityOption), static_cast<const Option*>(&speedOption),
+        static_cast<const Option*>(&rpmOption)})
     for (const auto& body : option->subjects()) bodies.insert(body);
   return {bodies.begin(), bodies.end()};
 }
@@ -55,17 +63,21 @@ std::vector<Motion> readMotions(const std::vector<std::string>& bodies, int dime
   const std::set<std::string> known(bodies.begin(), bodies.end());
   for (const Option* option :
        {static_cast<const Option*>(&velocityOption), static_cast<const Option*>(&speedOption),
-        static_cast<const Option*>(&rpmOption), static_cast<const Option*>(&axisOption), static_cast<const Option*>(&originOption)})
+        static_cast<const Option*>(&rpmOption), static_cast<const Option*>(&axisOption),
+        static_cast<const Option*>(&originOption)})
     for (const auto& body : option->subjects())
       if (!known.count(body))
-        throw Error("option -" + option->fullName(body) + ": '" + body + "' is not a body (a group with a material)");
+        throw Error("option -" + option->fullName(body) + ": '" + body +
+                    "' is not a body (a group with a material)");
   std::vector<Motion> motions;
   for (const auto& body : bodies) {
-    Motion motion{velocityOption.components(body, dimension), rotationSpeed(body), axisOption.components(body, dimension),
-                  originOption.components(body, dimension)};
+    Motion motion{velocityOption.components(body, dimension), rotationSpeed(body),
+                  axisOption.components(body, dimension), originOption.components(body, dimension)};
     const double length =
-        std::sqrt(motion.axis[0] * motion.axis[0] + motion.axis[1] * motion.axis[1] + motion.axis[2] * motion.axis[2]);
-    if (!(length > 0)) throw Error("option -" + axisOption.fullName(body) + ": the axis has no length");
+        std::sqrt(motion.axis[0] * motion.axis[0] + motion.axis[1] * motion.axis[1] +
+                  motion.axis[2] * motion.axis[2]);
+    if (!(length > 0))
+      throw Error("option -" + axisOption.fullName(body) + ": the axis has no length");
     for (auto& component : motion.axis) component /= length;
     motions.push_back(motion);
   }

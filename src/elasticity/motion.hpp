@@ -1,5 +1,6 @@
 #pragma once
-/// The base motion of a body's matter: V = ω k × (x − x0), or a translation (formulation: section 2 of the paper).
+/// The base motion of a body's matter: V = ω k × (x − x0), or a translation (formulation: section 2
+/// of the paper).
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,14 +20,16 @@ struct Motion {
   bool moves() const;
 };
 
-/// Option -motion_convective: the matter of moving bodies carries its displacement along, D u = (V·∇)u.
+/// Option -motion_convective: the matter of moving bodies carries its displacement along, D u =
+/// (V·∇)u.
 bool convectiveTerms();
 /// Bodies with a `-motion_<body>_*` option.
 std::vector<std::string> movingBodies();
 /// Which options give a motion, for messages.
 inline const char* motionOptions() { return "-motion_<body>_*"; }
-/// Motion of each body in turn; none given: at rest. Error: rotation and translation together, both units of the
-/// speed, axis of zero length, vectors that have not the components of the mesh's dimension.
+/// Motion of each body in turn; none given: at rest. Error: rotation and translation together, both
+/// units of the speed, axis of zero length, vectors that have not the components of the mesh's
+/// dimension.
 std::vector<Motion> readMotions(const std::vector<std::string>& bodies, int dimension);
 
 }  // namespace squeal::elasticity

@@ -19,7 +19,8 @@ std::string elementName(int dimension, int corners, int nodes) {
   if (dimension == 0) shape = "point";
   if (dimension == 1) shape = "line";
   if (dimension == 2) shape = corners == 3 ? "tri" : "quad";
-  if (dimension == 3) shape = corners == 4 ? "tet" : corners == 5 ? "pyramid" : corners == 6 ? "wedge" : "hex";
+  if (dimension == 3)
+    shape = corners == 4 ? "tet" : corners == 5 ? "pyramid" : corners == 6 ? "wedge" : "hex";
   return shape + std::to_string(nodes);
 }
 
@@ -28,18 +29,21 @@ ShapeTable tabulate(int type, int degree) {
   ShapeTable table;
   std::string gmshName;
   std::vector<double> local;
-  gmsh::model::mesh::getElementProperties(type, gmshName, table.dimension, table.order, table.nodes, local, table.corners);
+  gmsh::model::mesh::getElementProperties(type, gmshName, table.dimension, table.order, table.nodes,
+                                          local, table.corners);
   table.type = type;
   table.name = elementName(table.dimension, table.corners, table.nodes);
   // gmsh's odd-degree rules are the tensor-product ones on quadrilaterals and hexahedra.
-  gmsh::model::mesh::getIntegrationPoints(type, "Gauss" + std::to_string(degree > 0 ? degree : 2 * table.order + 1), table.point,
-                                          table.weight);
+  gmsh::model::mesh::getIntegrationPoints(
+      type, "Gauss" + std::to_string(degree > 0 ? degree : 2 * table.order + 1), table.point,
+      table.weight);
   table.value = basis(type, table.point, "Lagrange");
   table.gradient = basis(type, table.point, "GradLagrange");
   std::vector<double> nodes;
   for (int i = 0; i < table.nodes; ++i)
     for (int d = 0; d < 3; ++d)
-      nodes.push_back(d < table.dimension ? local[static_cast<std::size_t>(i * table.dimension + d)] : 0.0);
+      nodes.push_back(d < table.dimension ? local[static_cast<std::size_t>(i * table.dimension + d)]
+                                          : 0.0);
   table.nodeGradient = basis(type, nodes, "GradLagrange");
   table.centreGradient = basis(type, {0, 0, 0}, "GradLagrange");
   return table;
@@ -50,7 +54,8 @@ ShapeTable tabulate(int type, int degree) {
 const ShapeTable& shapeTable(int gmshType) {
   static std::map<int, ShapeTable> tables;
   const auto found = tables.find(gmshType);
-  return found != tables.end() ? found->second : tables.emplace(gmshType, tabulate(gmshType, 0)).first->second;
+  return found != tables.end() ? found->second
+                               : tables.emplace(gmshType, tabulate(gmshType, 0)).first->second;
 }
 
 const ShapeTable& stiffnessTable(int gmshType) {
@@ -58,7 +63,8 @@ const ShapeTable& stiffnessTable(int gmshType) {
   const ShapeTable& full = shapeTable(gmshType);
   if (full.name != "tri6" && full.name != "tet10") return full;
   const auto found = tables.find(gmshType);
-  return found != tables.end() ? found->second : tables.emplace(gmshType, tabulate(gmshType, 2)).first->second;
+  return found != tables.end() ? found->second
+                               : tables.emplace(gmshType, tabulate(gmshType, 2)).first->second;
 }
 
 }  // namespace squeal::elasticity

@@ -10,12 +10,16 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Central differences of what follows the steady state: errors of its square beside rounding over it.
+/// Central differences of what follows the steady state: errors of its square beside rounding over
+/// it.
 constexpr double step = 1e-4;
 
-/// The steady state enters the terms of the point: the direction and law of slip, friction damping, prestress.
-bool followsSteadyState(const contact::Contact& contact, const sweep::Parameters& at, Mat prestress) {
-  const bool damping = frictionDampingWanted() && (contact.mesh->dimension == 3 || !contact.law.constant());
+/// The steady state enters the terms of the point: the direction and law of slip, friction damping,
+/// prestress.
+bool followsSteadyState(const contact::Contact& contact, const sweep::Parameters& at,
+                        Mat prestress) {
+  const bool damping =
+      frictionDampingWanted() && (contact.mesh->dimension == 3 || !contact.law.constant());
   return prestress || (at.friction > 0 && (damping || !contact.slipIsGiven()));
 }
 
@@ -41,15 +45,19 @@ struct Influences::Projected {
   std::vector<ComplexPoint> test;  // [T y]
 };
 
-void Influences::derive(pencil::FrictionPoint& point, const pencil::Pencil& pencil, const BodyPoint& state, const sensitivity::StartSpace& start) {
+void Influences::derive(pencil::FrictionPoint& point, const pencil::Pencil& pencil,
+                        const BodyPoint& state, const sensitivity::StartSpace& start) {
   if (point.shapes.empty()) return;
   const auto list = influences(state);
   const sensitivity::Forms forms = [&](const sensitivity::EigenTriple& triple) {
     const Projected pair = project(state, triple);
     std::vector<pencil::Derivative> found;
     for (const auto& influence : list) {
-      const Complex form = influence.member ? sensitivity::parameterForm(pencil, state.at, triple, influence.member) : 0;
-      found.push_back({influence.name, form + materialForm(influence, state, pair) + steadyForm(influence, state, pair)});
+      const Complex form =
+          influence.member ? sensitivity::parameterForm(pencil, state.at, triple, influence.member)
+                           : 0;
+      found.push_back({influence.name, form + materialForm(influence, state, pair) +
+                                           steadyForm(influence, state, pair)});
     }
     return found;
   };
@@ -57,13 +65,15 @@ void Influences::derive(pencil::FrictionPoint& point, const pencil::Pencil& penc
 }
 
 std::vector<Influences::Influence> Influences::influences(const BodyPoint& state) {
-  for (int body = static_cast<int>(parts_.size()); body < static_cast<int>(mesh_.bodies.size()); ++body)
+  for (int body = static_cast<int>(parts_.size()); body < static_cast<int>(mesh_.bodies.size());
+       ++body)
     parts_.push_back(elasticity::bodyPart(mesh_, body));
   std::vector<Influence> list;
   for (const auto& parameter : sweep::allParameters) {
     list.emplace_back();
     list.back().name = parameter.name, list.back().member = parameter.value;
-    if (parameter.value != &sweep::Parameters::friction) list.back().size = state.at.*parameter.value;
+    if (parameter.value != &sweep::Parameters::friction)
+      list.back().size = state.at.*parameter.value;
   }
   for (std::size_t body = 0; body < mesh_.bodies.size(); ++body)
     for (const bool density : {false, true}) {
@@ -74,11 +84,13 @@ std::vector<Influences::Influence> Influences::influences(const BodyPoint& state
   if (!followsSteadyState(contact_, state.at, state.prestress)) return list;
   const steady::Problem problem(mesh_, bodies_, contact_);
   for (auto& influence : list)
-    if (influence.member != &sweep::Parameters::damping) followSteadyState(state, problem, influence);
+    if (influence.member != &sweep::Parameters::damping)
+      followSteadyState(state, problem, influence);
   return list;
 }
 
-void Influences::followSteadyState(const BodyPoint& state, const steady::Problem& problem, Influence& influence) const {
+void Influences::followSteadyState(const BodyPoint& state, const steady::Problem& problem,
+                                   Influence& influence) const {
   const double v = state.at.speed;
   const OwnedVec force = elasticity::nodalVector(mesh_);
   steady::Cause cause;
@@ -107,14 +119,18 @@ void Influences::followSteadyState(const BodyPoint& state, const steady::Problem
       check(MatMult(part.stiffness, state.solution.displacement, force));
   }
   influence.change = problem.change(state.solution, state.system, cause);
-  influence.responseForce = responseForces(contact_, state.solution.closed, influence.change.normalForce);
-  if (state.prestress) influence.prestress = elasticity::geometricStiffness(mesh_, influence.change.displacement);
+  influence.responseForce =
+      responseForces(contact_, state.solution.closed, influence.change.normalForce);
+  if (state.prestress)
+    influence.prestress = elasticity::geometricStiffness(mesh_, influence.change.displacement);
 }
 
-Influences::Projected Influences::project(const BodyPoint& state, const sensitivity::EigenTriple& triple) const {
+Influences::Projected Influences::project(const BodyPoint& state,
+                                          const sensitivity::EigenTriple& triple) const {
   const Mat trial = state.system.transformation().trial;
   Projected pair{triple.s, product(trial, triple.x), product(trial, triple.y), {}, {}};
-  pair.motion = contactMotion(contact_, pair.u, motionForces(bodies_, state.at, triple.s, pair.u, state.prestress).forces);
+  pair.motion = contactMotion(
+      contact_, pair.u, motionForces(bodies_, state.at, triple.s, pair.u, state.prestress).forces);
   pair.test = contactJump(contact_, pair.z);
   // L(f) y = T y + Nᵀ f S y
   linalg::ComplexVector slips = linalg::ComplexVector::like(pair.z.real);
@@ -136,8 +152,10 @@ Influences::Projected Influences::project(const BodyPoint& state, const sensitiv
   return pair;
 }
 
-/// zᴴ (∂X/∂θ) u of the matrices of one body: K, C, K_σ with its moduli, M, C, G, K^R with its density.
-Complex Influences::materialForm(const Influence& influence, const BodyPoint& state, const Projected& pair) const {
+/// zᴴ (∂X/∂θ) u of the matrices of one body: K, C, K_σ with its moduli, M, C, G, K^R with its
+/// density.
+Complex Influences::materialForm(const Influence& influence, const BodyPoint& state,
+                                 const Projected& pair) const {
   if (influence.member) return 0;
   const auto& part = parts_[static_cast<std::size_t>(influence.body)];
   const auto form = [&](Mat matrix) { return matrix ? dot(pair.z, product(matrix, pair.u)) : 0; };
@@ -147,12 +165,15 @@ Complex Influences::materialForm(const Influence& influence, const BodyPoint& st
     return (s * s + s * c * part.massDamping) * form(part.mass) + s * v * form(part.gyroscopic) +
            v * v * form(part.rotationStiffness);
   Complex sum = (1.0 + s * c * part.stiffnessDamping) * form(part.stiffness);
-  if (state.prestress) sum += form(elasticity::geometricStiffness(mesh_, state.solution.displacement, influence.body));
+  if (state.prestress)
+    sum += form(elasticity::geometricStiffness(mesh_, state.solution.displacement, influence.body));
   return sum;
 }
 
-/// The part by the steady state: of K_σ, linear in its displacement, exactly; of friction by central differences along its change.
-Complex Influences::steadyForm(const Influence& influence, const BodyPoint& state, const Projected& pair) const {
+/// The part by the steady state: of K_σ, linear in its displacement, exactly; of friction by
+/// central differences along its change.
+Complex Influences::steadyForm(const Influence& influence, const BodyPoint& state,
+                               const Projected& pair) const {
   if (!influence.change.displacement) return 0;
   Complex sum = 0;
   if (state.prestress) sum += dot(pair.z, product(influence.prestress, pair.u));
@@ -163,14 +184,17 @@ Complex Influences::steadyForm(const Influence& influence, const BodyPoint& stat
     if (influence.member) moved.at.*influence.member += sign * h;
     check(VecWAXPY(u, sign * h, influence.change.displacement, state.solution.displacement));
     moved.slip = contact_.slip(moved.at.speed, u);
-    for (std::size_t k = 0; k < moved.responseForce.size(); ++k) moved.responseForce[k] += sign * h * influence.responseForce[k];
+    for (std::size_t k = 0; k < moved.responseForce.size(); ++k)
+      moved.responseForce[k] += sign * h * influence.responseForce[k];
     sum += sign / (2 * h) * frictionSum(moved, state, pair);
   }
   return sum;
 }
 
-/// Σ_k of frictionForm(); f itself, where it multiplies the change of the normal force, is a coefficient of the pencil, and is held.
-Complex Influences::frictionSum(const FrictionState& friction, const BodyPoint& state, const Projected& pair) const {
+/// Σ_k of frictionForm(); f itself, where it multiplies the change of the normal force, is a
+/// coefficient of the pencil, and is held.
+Complex Influences::frictionSum(const FrictionState& friction, const BodyPoint& state,
+                                const Projected& pair) const {
   Complex sum = 0;
   const double held = friction.at.friction > 0 ? state.at.friction / friction.at.friction : 0;
   for (std::size_t k = 0; k < contact_.nodes.size(); ++k) {

@@ -9,11 +9,12 @@ namespace squeal::flutter {
 namespace {
 
 const FlagOption dampingOption("flutter", "flutter_friction_damping", true,
-                               "the friction force turns with the relative velocity and follows the friction law: friction-induced "
+                               "the friction force turns with the relative velocity and follows "
+                               "the friction law: friction-induced "
                                "damping and, with convective terms, stiffness");
-const RealListOption modalOption(
-    "flutter", "flutter_modal_damping", "0", "", nonNegative,
-    "damping ratios of the free modes in order, the last one for all that follow; reduced method alone");
+const RealListOption modalOption("flutter", "flutter_modal_damping", "0", "", nonNegative,
+                                 "damping ratios of the free modes in order, the last one for all "
+                                 "that follow; reduced method alone");
 
 /// Powers of s, of the speed and of the damping factor that a matrix of the bodies comes with.
 struct Role {
@@ -30,27 +31,31 @@ std::vector<Role> roles(const contact::AssociatedSystem& system) {
 }
 
 /// f Sᵀ N X T for each matrix X.
-void addFriction(std::vector<pencil::Term>& terms, const contact::Contact& contact, const contact::AssociatedSystem& system,
-                 const std::vector<contact::Slip>& slip) {
+void addFriction(std::vector<pencil::Term>& terms, const contact::Contact& contact,
+                 const contact::AssociatedSystem& system, const std::vector<contact::Slip>& slip) {
   const OwnedMat rows = contact.slipRows(system.transformation(), slip, system.closed());
   for (const auto& role : roles(system))
     if (role.projection)
-      terms.push_back({role.projection.friction(rows), role.power, 1, 1.0, role.speedExponent, role.dampingExponent});
+      terms.push_back({role.projection.friction(rows), role.power, 1, 1.0, role.speedExponent,
+                       role.dampingExponent});
 }
 
 /// [4.7]: −B w*.
-void addVelocityResponse(std::vector<pencil::Term>& terms, const contact::Contact& contact, const contact::AssociatedSystem& system,
+void addVelocityResponse(std::vector<pencil::Term>& terms, const contact::Contact& contact,
+                         const contact::AssociatedSystem& system,
                          const steady::Solution& solution) {
   std::vector<double> normalForce;
   for (const auto& state : solution.contact) normalForce.push_back(state.normalForce);
   const OwnedMat response = contact.velocityResponse(
-      solution.slip, responseForces(contact, solution.closed, std::move(normalForce)), solution.at.friction);
+      solution.slip, responseForces(contact, solution.closed, std::move(normalForce)),
+      solution.at.friction);
   const Mat trial = system.transformation().trial;
   OwnedMat jumps, answered, damping;
   check(MatMatMult(contact.jump, trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, jumps.out()));
   check(MatMatMult(response, jumps, MAT_INITIAL_MATRIX, PETSC_DEFAULT, answered.out()));
   check(MatTransposeMatMult(jumps, answered, MAT_INITIAL_MATRIX, PETSC_DEFAULT, damping.out()));
-  // In the plane, and where motion across the sliding direction is held, a constant law leaves nothing but rounding.
+  // In the plane, and where motion across the sliding direction is held, a constant law leaves
+  // nothing but rounding.
   PetscReal size = 0, scale = 0;
   check(MatNorm(damping, NORM_FROBENIUS, &size));
   check(MatNorm(response, NORM_FROBENIUS, &scale));
@@ -67,23 +72,27 @@ void addVelocityResponse(std::vector<pencil::Term>& terms, const contact::Contac
 
 }  // namespace
 
-pencil::Pencil affineTerms(const contact::Contact& contact, const contact::AssociatedSystem& system) {
+pencil::Pencil affineTerms(const contact::Contact& contact,
+                           const contact::AssociatedSystem& system) {
   std::vector<pencil::Term> terms;
   for (const auto& role : roles(system))
     if (role.projection)
-      terms.push_back({role.projection.matrix.share(), role.power, 0, 1.0, role.speedExponent, role.dampingExponent});
+      terms.push_back({role.projection.matrix.share(), role.power, 0, 1.0, role.speedExponent,
+                       role.dampingExponent});
   if (contact.slipIsGiven()) addFriction(terms, contact, system, contact.slip(1, nullptr));
   return pencil::Pencil(std::move(terms));
 }
 
-std::vector<pencil::Term> pointTerms(const contact::Contact& contact, const contact::AssociatedSystem& system,
-                             const steady::Solution& solution, Mat prestressChange) {
+std::vector<pencil::Term> pointTerms(const contact::Contact& contact,
+                                     const contact::AssociatedSystem& system,
+                                     const steady::Solution& solution, Mat prestressChange) {
   std::vector<pencil::Term> terms;
   const bool friction = solution.at.friction > 0;
   if (friction && !contact.slipIsGiven()) addFriction(terms, contact, system, solution.slip);
   if (friction && dampingOption.get()) addVelocityResponse(terms, contact, system, solution);
   if (prestressChange) {
-    contact::Projection change = contact::project(contact, system.transformation(), prestressChange);
+    contact::Projection change =
+        contact::project(contact, system.transformation(), prestressChange);
     const OwnedMat rows = contact.slipRows(system.transformation(), solution.slip, system.closed());
     terms.push_back({change.friction(rows), 0, 1, 1.0, 0});
     terms.push_back({std::move(change.matrix), 0, 0, 1.0, 0});
@@ -93,14 +102,17 @@ std::vector<pencil::Term> pointTerms(const contact::Contact& contact, const cont
 
 bool frictionDampingWanted() { return dampingOption.get(); }
 
-std::vector<double> responseForces(const contact::Contact& contact, const std::vector<unsigned char>& closed,
+std::vector<double> responseForces(const contact::Contact& contact,
+                                   const std::vector<unsigned char>& closed,
                                    std::vector<double> normalForce) {
   if (!dampingOption.get()) return std::vector<double>(normalForce.size(), 0.0);
-  // Nodal forces that are not positive under pressure (tri6, quad8) would make the damping negative: there the pressure on a
-  // positive share of the faces takes their place, at the price of an error of first order in the mesh.
+  // Nodal forces that are not positive under pressure (tri6, quad8) would make the damping
+  // negative: there the pressure on a positive share of the faces takes their place, at the price
+  // of an error of first order in the mesh.
   if (!contact.weightsPositive) {
     normalForce = steady::consistentPressure(*contact.mesh, contact, normalForce);
-    for (std::size_t i = 0; i < normalForce.size(); ++i) normalForce[i] *= contact.nodes[i].lumpedArea;
+    for (std::size_t i = 0; i < normalForce.size(); ++i)
+      normalForce[i] *= contact.nodes[i].lumpedArea;
   }
   for (std::size_t i = 0; i < normalForce.size(); ++i)
     if (!closed[i]) normalForce[i] = 0;
@@ -120,15 +132,16 @@ std::vector<pencil::Term> modalDamping(const modes::Modes& modes, Mat mass) {
   const auto count = static_cast<PetscInt>(modes.angularFrequency.size());
   check(BVGetSizes(modes.vectors, &local, &global, nullptr));
   OwnedMat factors, product;
-  check(MatCreateDense(PetscObjectComm(reinterpret_cast<PetscObject>(mass)), local, PETSC_DECIDE, global, count, nullptr,
-                       factors.out()));
+  check(MatCreateDense(PetscObjectComm(reinterpret_cast<PetscObject>(mass)), local, PETSC_DECIDE,
+                       global, count, nullptr, factors.out()));
   for (PetscInt i = 0; i < count; ++i) {
     const auto mode = static_cast<std::size_t>(i);
     Vec d = nullptr, column = nullptr;
     check(BVGetColumn(modes.vectors, i, &d));
     check(MatDenseGetColumnVecWrite(factors, i, &column));
     check(MatMult(mass, d, column));
-    check(VecScale(column, std::sqrt(2 * ratios[std::min(mode, ratios.size() - 1)] * modes.angularFrequency[mode])));
+    check(VecScale(column, std::sqrt(2 * ratios[std::min(mode, ratios.size() - 1)] *
+                                     modes.angularFrequency[mode])));
     check(MatDenseRestoreColumnVecWrite(factors, i, &column));
     check(BVRestoreColumn(modes.vectors, i, &d));
   }

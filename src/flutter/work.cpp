@@ -9,7 +9,8 @@ namespace {
 using Complex = std::complex<double>;
 
 /// Values of a nodal vector in the rows of the pad nodes.
-std::vector<ComplexPoint> atPadNodes(const contact::Contact& contact, const linalg::ComplexVector& u) {
+std::vector<ComplexPoint> atPadNodes(const contact::Contact& contact,
+                                     const linalg::ComplexVector& u) {
   const int dimension = contact.mesh->dimension;
   std::vector<ComplexPoint> points;
   const PetscScalar *real = nullptr, *imaginary = nullptr;
@@ -18,7 +19,8 @@ std::vector<ComplexPoint> atPadNodes(const contact::Contact& contact, const lina
   for (const auto& node : contact.nodes) {
     ComplexPoint point{};
     for (int d = 0; d < dimension; ++d)
-      point[static_cast<std::size_t>(d)] = {real[dimension * node.node + d], imaginary[dimension * node.node + d]};
+      point[static_cast<std::size_t>(d)] = {real[dimension * node.node + d],
+                                            imaginary[dimension * node.node + d]};
     points.push_back(point);
   }
   check(VecRestoreArrayRead(u.real, &real));
@@ -32,8 +34,8 @@ Complex along(const mesh::Point& direction, const ComplexPoint& u) {
 
 }  // namespace
 
-MotionForces motionForces(const elasticity::Bodies& bodies, const sweep::Parameters& at, Complex s, const linalg::ComplexVector& u,
-                          Mat prestress) {
+MotionForces motionForces(const elasticity::Bodies& bodies, const sweep::Parameters& at, Complex s,
+                          const linalg::ComplexVector& u, Mat prestress) {
   MotionForces result{product(bodies.stiffness, u), 0};
   auto& r = result.forces;
   if (prestress) add(r, 1, product(prestress, u));
@@ -46,35 +48,43 @@ MotionForces motionForces(const elasticity::Bodies& bodies, const sweep::Paramet
   return result;
 }
 
-std::vector<ComplexPoint> contactJump(const contact::Contact& contact, const linalg::ComplexVector& u) {
+std::vector<ComplexPoint> contactJump(const contact::Contact& contact,
+                                      const linalg::ComplexVector& u) {
   return atPadNodes(contact, product(contact.jump, u));
 }
 
-ContactMotion contactMotion(const contact::Contact& contact, const linalg::ComplexVector& u, const linalg::ComplexVector& forces) {
+ContactMotion contactMotion(const contact::Contact& contact, const linalg::ComplexVector& u,
+                            const linalg::ComplexVector& forces) {
   ContactMotion motion{contactJump(contact, u), {}, {}};
-  motion.convected = contact.convected ? atPadNodes(contact, product(contact.convected, u))
-                                       : std::vector<ComplexPoint>(contact.nodes.size(), ComplexPoint{});
-  const auto component = static_cast<std::size_t>(contact.mesh->dimension - 1);  // the row of the gap
-  for (const auto& row : atPadNodes(contact, product(contact.reaction, forces))) motion.normalForce.push_back(row[component]);
+  motion.convected = contact.convected
+                         ? atPadNodes(contact, product(contact.convected, u))
+                         : std::vector<ComplexPoint>(contact.nodes.size(), ComplexPoint{});
+  const auto component =
+      static_cast<std::size_t>(contact.mesh->dimension - 1);  // the row of the gap
+  for (const auto& row : atPadNodes(contact, product(contact.reaction, forces)))
+    motion.normalForce.push_back(row[component]);
   return motion;
 }
 
-FrictionForm frictionForm(const contact::Contact& contact, const FrictionState& state, Complex s, const ComplexPoint& test,
-                          const ContactMotion& motion, std::size_t k) {
+FrictionForm frictionForm(const contact::Contact& contact, const FrictionState& state, Complex s,
+                          const ComplexPoint& test, const ContactMotion& motion, std::size_t k) {
   const auto& slip = state.slip[k];
-  const auto [across, alongSlip] =
-      contact::velocityResponse(slip, state.responseForce[k], state.at.friction, contact.mesh->dimension);
+  const auto [across, alongSlip] = contact::velocityResponse(
+      slip, state.responseForce[k], state.at.friction, contact.mesh->dimension);
   ComplexPoint velocity, conjugate;
   for (std::size_t d = 0; d < 3; ++d) {
     velocity[d] = s * motion.jump[k][d] - state.at.speed * motion.convected[k][d];
     conjugate[d] = std::conj(test[d]);
   }
-  const Complex testAlong = along(slip.direction, conjugate), velocityAlong = along(slip.direction, velocity),
-                velocityNormal = along(contact.nodes[k].normal, velocity), testNormal = along(contact.nodes[k].normal, conjugate);
+  const Complex testAlong = along(slip.direction, conjugate),
+                velocityAlong = along(slip.direction, velocity),
+                velocityNormal = along(contact.nodes[k].normal, velocity),
+                testNormal = along(contact.nodes[k].normal, conjugate);
   Complex product = 0;
   for (std::size_t d = 0; d < 3; ++d) product += conjugate[d] * velocity[d];
   return {state.at.friction * slip.law * testAlong * motion.normalForce[k],
-          across * (product - testAlong * velocityAlong - testNormal * velocityNormal) + alongSlip * testAlong * velocityAlong};
+          across * (product - testAlong * velocityAlong - testNormal * velocityNormal) +
+              alongSlip * testAlong * velocityAlong};
 }
 
 FrictionState frictionState(const contact::Contact& contact, const steady::Solution& solution) {
@@ -84,15 +94,17 @@ FrictionState frictionState(const contact::Contact& contact, const steady::Solut
 }
 
 std::vector<double> frictionWork(const contact::Contact& contact, const elasticity::Bodies& bodies,
-                                 const steady::Solution& solution, const sweep::Parameters& at, Complex s, const linalg::ComplexVector& u,
-                                 Mat prestress) {
+                                 const steady::Solution& solution, const sweep::Parameters& at,
+                                 Complex s, const linalg::ComplexVector& u, Mat prestress) {
   const MotionForces forces = motionForces(bodies, at, s, u, prestress);
   const ContactMotion motion = contactMotion(contact, u, forces.forces);
   const FrictionState state = frictionState(contact, solution);
   std::vector<double> work;
   for (std::size_t k = 0; k < contact.nodes.size(); ++k) {
     const FrictionForm form = frictionForm(contact, state, s, motion.jump[k], motion, k);
-    work.push_back(solution.closed[k] ? -(std::conj(s) * (form.pressing + form.turning)).real() / forces.energy : 0);
+    work.push_back(solution.closed[k]
+                       ? -(std::conj(s) * (form.pressing + form.turning)).real() / forces.energy
+                       : 0);
   }
   return work;
 }

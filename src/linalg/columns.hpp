@@ -21,7 +21,8 @@ class ReadColumns {
   const PetscScalar* values_ = nullptr;
 };
 
-/// Collective. A BV of type svec for vectors like those of `like`, with these columns: this rank's rows, column-major.
+/// Collective. A BV of type svec for vectors like those of `like`, with these columns: this rank's
+/// rows, column-major.
 OwnedBV copiedColumns(Mat like, const PetscScalar* values, PetscInt count);
 
 }  // namespace squeal::linalg

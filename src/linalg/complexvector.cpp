@@ -39,7 +39,8 @@ void add(ComplexVector& v, std::complex<double> a, const ComplexVector& u) {
 ComplexVector product(Mat a, const ComplexVector& u, bool transposed) {
   ComplexVector result;
   const auto multiply = transposed ? MatMultTranspose : MatMult;
-  check(MatCreateVecs(a, transposed ? result.real.out() : nullptr, transposed ? nullptr : result.real.out()));
+  check(MatCreateVecs(a, transposed ? result.real.out() : nullptr,
+                      transposed ? nullptr : result.real.out()));
   check(VecDuplicate(result.real, result.imaginary.out()));
   check(multiply(a, u.real, result.real));
   check(multiply(a, u.imaginary, result.imaginary));

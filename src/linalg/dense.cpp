@@ -13,8 +13,8 @@
 #include "linalg/lu.hpp"
 #include "petsc/check.hpp"
 
-extern "C" void dgebal_(const char* job, const PetscBLASInt* n, double* a, const PetscBLASInt* lda, PetscBLASInt* low,
-                        PetscBLASInt* high, double* scale, PetscBLASInt* info);
+extern "C" void dgebal_(const char* job, const PetscBLASInt* n, double* a, const PetscBLASInt* lda,
+                        PetscBLASInt* low, PetscBLASInt* high, double* scale, PetscBLASInt* info);
 
 namespace squeal::linalg {
 namespace {
@@ -27,9 +27,11 @@ struct EigenPair {
 };
 
 /// Column j of LAPACK's real storage of conjugate pairs; empty of an empty matrix.
-std::vector<Complex> complexColumn(const std::vector<double>& vectors, std::size_t n, std::size_t j, bool conjugates) {
+std::vector<Complex> complexColumn(const std::vector<double>& vectors, std::size_t n, std::size_t j,
+                                   bool conjugates) {
   std::vector<Complex> column(vectors.empty() ? 0 : n);
-  for (std::size_t i = 0; i < column.size(); ++i) column[i] = {vectors[j * n + i], conjugates ? vectors[(j + 1) * n + i] : 0.0};
+  for (std::size_t i = 0; i < column.size(); ++i)
+    column[i] = {vectors[j * n + i], conjugates ? vectors[(j + 1) * n + i] : 0.0};
   return column;
 }
 
@@ -38,20 +40,26 @@ std::vector<Complex> conjugated(std::vector<Complex> vector) {
   return vector;
 }
 
-/// LAPACK's real storage of conjugate pairs (n high) as complex numbers, of each pair the one with Im ≥ 0 and its conjugate.
-std::vector<EigenPair> unpacked(std::size_t n, const std::vector<double>& real, const std::vector<double>& imaginary,
-                                const std::vector<double>& beta, const std::vector<double>& right, const std::vector<double>& left,
-                                const Wanted& wanted) {
+/// LAPACK's real storage of conjugate pairs (n high) as complex numbers, of each pair the one with
+/// Im ≥ 0 and its conjugate.
+std::vector<EigenPair> unpacked(std::size_t n, const std::vector<double>& real,
+                                const std::vector<double>& imaginary,
+                                const std::vector<double>& beta, const std::vector<double>& right,
+                                const std::vector<double>& left, const Wanted& wanted) {
   std::vector<EigenPair> pairs;
   for (std::size_t j = 0; j < real.size(); ++j) {
     if (beta[j] == 0 && real[j] == 0)
-      throw Error("the reduced eigenproblem is singular: mass and stiffness have a common null vector");
+      throw Error(
+          "the reduced eigenproblem is singular: mass and stiffness have a common null vector");
     if (beta[j] == 0) continue;  // infinite: a motion without mass
     const Complex value = Complex(real[j], imaginary[j]) / beta[j];
-    const bool conjugates = imaginary[j] != 0, first = wanted(value), second = conjugates && wanted(std::conj(value));
+    const bool conjugates = imaginary[j] != 0, first = wanted(value),
+               second = conjugates && wanted(std::conj(value));
     if (first || second) {
-      EigenPair pair{value, complexColumn(right, n, j, conjugates), complexColumn(left, n, j, conjugates)};
-      if (second) pairs.push_back({std::conj(value), conjugated(pair.right), conjugated(pair.left)});
+      EigenPair pair{value, complexColumn(right, n, j, conjugates),
+                     complexColumn(left, n, j, conjugates)};
+      if (second)
+        pairs.push_back({std::conj(value), conjugated(pair.right), conjugated(pair.left)});
       if (first) pairs.push_back(std::move(pair));
     }
     if (conjugates) ++j;
@@ -61,43 +69,51 @@ std::vector<EigenPair> unpacked(std::size_t n, const std::vector<double>& real, 
 
 /// What a call of LAPACK needs for its vectors.
 struct LapackVectors {
-  LapackVectors(std::size_t n, Vectors wanted) : right(n * n), left(wanted == Vectors::both ? n * n : 0) {}
+  LapackVectors(std::size_t n, Vectors wanted)
+      : right(n * n), left(wanted == Vectors::both ? n * n : 0) {}
   const char* leftJob() const { return left.empty() ? "N" : "V"; }
   std::vector<double> right, left;
 };
 
 /// All eigenvalues and eigenvectors of A x = μ B x.
-std::vector<EigenPair> generalized(DenseMatrix a, DenseMatrix b, int size, Vectors sides, const Wanted& wanted) {
+std::vector<EigenPair> generalized(DenseMatrix a, DenseMatrix b, int size, Vectors sides,
+                                   const Wanted& wanted) {
   const auto n = static_cast<std::size_t>(size);
   PetscBLASInt order = size, query = -1, info = 0;
   std::vector<double> real(n), imaginary(n), beta(n), work(1);
   LapackVectors vectors(n, sides);
   const auto call = [&](PetscBLASInt length) {
-    LAPACKggev_(vectors.leftJob(), "V", &order, a.data(), &order, b.data(), &order, real.data(), imaginary.data(), beta.data(),
-                vectors.left.data(), &order, vectors.right.data(), &order, work.data(), &length, &info);
+    LAPACKggev_(vectors.leftJob(), "V", &order, a.data(), &order, b.data(), &order, real.data(),
+                imaginary.data(), beta.data(), vectors.left.data(), &order, vectors.right.data(),
+                &order, work.data(), &length, &info);
   };
   call(query);
   work.resize(static_cast<std::size_t>(work[0]));
   call(static_cast<PetscBLASInt>(work.size()));
-  if (info != 0) throw Error("LAPACK dggev failed on the reduced eigenproblem (info " + std::to_string(info) + ")");
+  if (info != 0)
+    throw Error("LAPACK dggev failed on the reduced eigenproblem (info " + std::to_string(info) +
+                ")");
   return unpacked(n, real, imaginary, beta, vectors.right, vectors.left, wanted);
 }
 
-/// Eigenvalues and eigenvectors of A x = μ x: its Schur form, and the vectors of the wanted ones alone, of which the calls that give all would
-/// make the most of their work.
+/// Eigenvalues and eigenvectors of A x = μ x: its Schur form, and the vectors of the wanted ones
+/// alone, of which the calls that give all would make the most of their work.
 std::vector<EigenPair> standard(DenseMatrix a, int size, Vectors sides, const Wanted& wanted) {
   const auto n = static_cast<std::size_t>(size);
   PetscBLASInt order = size, query = -1, info = 0, sorted = 0, low = 0, high = 0;
   std::vector<double> real(n), imaginary(n), schur(n * n), scale(n), work(1);
-  dgebal_("S", &order, a.data(), &order, &low, &high, scale.data(), &info);  // D⁻¹ A D: matrices of mixed units
+  dgebal_("S", &order, a.data(), &order, &low, &high, scale.data(),
+          &info);  // D⁻¹ A D: matrices of mixed units
   const auto call = [&](PetscBLASInt length) {
-    LAPACKgees_("V", "N", nullptr, &order, a.data(), &order, &sorted, real.data(), imaginary.data(), schur.data(), &order,
-                work.data(), &length, nullptr, &info);
+    LAPACKgees_("V", "N", nullptr, &order, a.data(), &order, &sorted, real.data(), imaginary.data(),
+                schur.data(), &order, work.data(), &length, nullptr, &info);
   };
   call(query);
   work.resize(static_cast<std::size_t>(work[0]));
   call(static_cast<PetscBLASInt>(work.size()));
-  if (info != 0) throw Error("LAPACK dgees failed on the reduced eigenproblem (info " + std::to_string(info) + ")");
+  if (info != 0)
+    throw Error("LAPACK dgees failed on the reduced eigenproblem (info " + std::to_string(info) +
+                ")");
   std::vector<PetscBLASInt> chosen(n, 0);
   std::vector<double> realParts, imaginaryParts;  // of the chosen
   for (std::size_t j = 0; j < n; ++j) {
@@ -115,16 +131,20 @@ std::vector<EigenPair> standard(DenseMatrix a, int size, Vectors sides, const Wa
   PetscBLASInt columns = static_cast<PetscBLASInt>(count), found = 0;
   std::vector<double> right(n * count), left(sides == Vectors::both ? n * count : 1);
   work.resize(3 * n);
-  LAPACKtrevc_(sides == Vectors::both ? "B" : "R", "S", chosen.data(), &order, a.data(), &order, left.data(), &order, right.data(),
-               &order, &columns, &found, work.data(), &info);
-  if (info != 0) throw Error("LAPACK dtrevc failed on the reduced eigenproblem (info " + std::to_string(info) + ")");
+  LAPACKtrevc_(sides == Vectors::both ? "B" : "R", "S", chosen.data(), &order, a.data(), &order,
+               left.data(), &order, right.data(), &order, &columns, &found, work.data(), &info);
+  if (info != 0)
+    throw Error("LAPACK dtrevc failed on the reduced eigenproblem (info " + std::to_string(info) +
+                ")");
   const auto turned = [&](const std::vector<double>& vectors, bool inverse) {
     std::vector<double> result(n * count);
     multiplyAdd(schur.data(), size, size, vectors, result);
-    for (std::size_t k = 0; k < result.size(); ++k) result[k] *= inverse ? 1 / scale[k % n] : scale[k % n];
+    for (std::size_t k = 0; k < result.size(); ++k)
+      result[k] *= inverse ? 1 / scale[k % n] : scale[k % n];
     return result;
   };
-  return unpacked(n, realParts, imaginaryParts, std::vector<double>(count, 1.0), turned(right, false),
+  return unpacked(n, realParts, imaginaryParts, std::vector<double>(count, 1.0),
+                  turned(right, false),
                   sides == Vectors::both ? turned(left, true) : std::vector<double>(), wanted);
 }
 
@@ -134,7 +154,8 @@ DenseMatrix sideBySide(const DenseMatrix& left, const DenseMatrix& right) {
   return both;
 }
 
-/// From here on an inverse is formed: eigenvalues then lose half of the digits at worst, the largest ones none.
+/// From here on an inverse is formed: eigenvalues then lose half of the digits at worst, the
+/// largest ones none.
 bool invertible(const Lu<double>& matrix) { return matrix.pivotRatio() > 1e-8; }
 
 /// uᴴ M⁻¹ A = μ uᴴ gives the left vectors y = M⁻ᵀ u of A y = μ M y.
@@ -149,34 +170,39 @@ void undoInverse(const Lu<double>& mass, std::vector<DensePair>& pairs) {
   for (auto& pair : pairs) {
     const auto imaginary = part + static_cast<std::ptrdiff_t>(pair.left.size());
     for (std::size_t i = 0; i < pair.left.size(); ++i)
-      pair.left[i] = {part[static_cast<std::ptrdiff_t>(i)], imaginary[static_cast<std::ptrdiff_t>(i)]};
+      pair.left[i] = {part[static_cast<std::ptrdiff_t>(i)],
+                      imaginary[static_cast<std::ptrdiff_t>(i)]};
     part = imaginary + static_cast<std::ptrdiff_t>(pair.left.size());
   }
 }
 
 /// The root of s² = −μ with Im s ≥ 0.
 Complex rootOf(Complex mu) {
-  const Complex s = mu.imag() == 0 && mu.real() >= 0 ? Complex(0, std::sqrt(mu.real())) : std::sqrt(-mu);
+  const Complex s =
+      mu.imag() == 0 && mu.real() >= 0 ? Complex(0, std::sqrt(mu.real())) : std::sqrt(-mu);
   return s.imag() < 0 ? -s : s;
 }
 
-/// The leading matrix M of a quadratic problem, and its factors: M⁻¹ A is formed where it can be, as QR takes a small part of the time of QZ.
+/// The leading matrix M of a quadratic problem, and its factors: M⁻¹ A is formed where it can be,
+/// as QR takes a small part of the time of QZ.
 struct Leading {
   const DenseMatrix& matrix;
   const Lu<double>& factors;
 };
 
-std::vector<DensePair> linearInSquare(const Leading& mass, const DenseMatrix& stiffness, int m, Vectors vectors,
-                                      const Wanted& wanted) {
-  // K q = μ M q with μ = −s²; both roots ±s are eigenvalues, one of them (two, if real) has Im s ≥ 0.
+std::vector<DensePair> linearInSquare(const Leading& mass, const DenseMatrix& stiffness, int m,
+                                      Vectors vectors, const Wanted& wanted) {
+  // K q = μ M q with μ = −s²; both roots ±s are eigenvalues, one of them (two, if real) has Im s ≥
+  // 0.
   const Wanted either = [&](Complex mu) {
     const Complex s = rootOf(mu);
     return wanted(s) || (s.imag() == 0 && wanted(-s));
   };
   DenseMatrix product = stiffness;
   if (invertible(mass.factors)) mass.factors.solve(product);
-  const auto solved = invertible(mass.factors) ? standard(std::move(product), m, vectors, either)
-                                               : generalized(stiffness, mass.matrix, m, vectors, either);
+  const auto solved = invertible(mass.factors)
+                          ? standard(std::move(product), m, vectors, either)
+                          : generalized(stiffness, mass.matrix, m, vectors, either);
   std::vector<DensePair> pairs;
   for (const auto& [mu, q, left] : solved) {
     const Complex s = rootOf(mu);
@@ -192,16 +218,21 @@ DenseMatrix padded(const DenseMatrix& mass, std::size_t m) {
   DenseMatrix b(4 * m * m, 0.0);
   for (std::size_t j = 0; j < m; ++j) {
     b[j * 2 * m + j] = 1;
-    std::copy_n(mass.begin() + static_cast<std::ptrdiff_t>(j * m), m, b.begin() + static_cast<std::ptrdiff_t>((m + j) * 2 * m + m));
+    std::copy_n(mass.begin() + static_cast<std::ptrdiff_t>(j * m), m,
+                b.begin() + static_cast<std::ptrdiff_t>((m + j) * 2 * m + m));
   }
   return b;
 }
 
-std::vector<DensePair> companion(const Leading& mass, const DenseMatrix& damping, const DenseMatrix& stiffness, int size,
-                                 Vectors vectors, const Wanted& wanted) {
+std::vector<DensePair> companion(const Leading& mass, const DenseMatrix& damping,
+                                 const DenseMatrix& stiffness, int size, Vectors vectors,
+                                 const Wanted& wanted) {
   const auto m = static_cast<std::size_t>(size);
-  const auto norm = [](const DenseMatrix& x) { return std::sqrt(std::inner_product(x.begin(), x.end(), x.begin(), 0.0)); };
-  const double unit = std::sqrt(norm(stiffness) / norm(mass.matrix));  // s = unit ŝ (Fan, Lin and Van Dooren 2004)
+  const auto norm = [](const DenseMatrix& x) {
+    return std::sqrt(std::inner_product(x.begin(), x.end(), x.begin(), 0.0));
+  };
+  const double unit =
+      std::sqrt(norm(stiffness) / norm(mass.matrix));  // s = unit ŝ (Fan, Lin and Van Dooren 2004)
   // [0 I; −K −Z] (q, ŝq) = ŝ [I 0; 0 M] (q, ŝq), K and Z scaled
   DenseMatrix lower = sideBySide(stiffness, damping);
   if (invertible(mass.factors)) mass.factors.solve(lower);
@@ -215,12 +246,15 @@ std::vector<DensePair> companion(const Leading& mass, const DenseMatrix& damping
   }
   std::vector<DensePair> pairs;
   const Wanted upper = [&](Complex value) { return value.imag() >= 0 && wanted(unit * value); };
-  for (const auto& [value, right, left] : invertible(mass.factors)
-                                              ? standard(a, 2 * size, vectors, upper)
-                                              : generalized(a, padded(mass.matrix, m), 2 * size, vectors, upper)) {
+  for (const auto& [value, right, left] :
+       invertible(mass.factors)
+           ? standard(a, 2 * size, vectors, upper)
+           : generalized(a, padded(mass.matrix, m), 2 * size, vectors, upper)) {
     const auto half = right.begin() + (std::abs(value) > 1 ? size : 0);  // the larger of q and ŝq
     // (u, y)ᴴ of the companion form: u = −K̂ᵀ y / conj ŝ, and yᴴ P = 0
-    pairs.push_back({unit * value, {half, half + size}, {left.begin() + (left.empty() ? 0 : size), left.end()}});
+    pairs.push_back({unit * value,
+                     {half, half + size},
+                     {left.begin() + (left.empty() ? 0 : size), left.end()}});
   }
   if (vectors == Vectors::both && invertible(mass.factors)) undoInverse(mass.factors, pairs);
   return pairs;
@@ -235,7 +269,9 @@ void normalise(std::vector<Complex>& vector) {
     if (std::norm(vector[i]) > std::norm(vector[largest])) largest = i;
   }
   if (sum == 0) return;
-  const Complex entry = vector[largest], factor = (entry.imag() == 0 ? 1 : std::conj(entry) / std::abs(entry)) / std::sqrt(sum);
+  const Complex entry = vector[largest],
+                factor =
+                    (entry.imag() == 0 ? 1 : std::conj(entry) / std::abs(entry)) / std::sqrt(sum);
   for (auto& value : vector) value *= factor;
   vector[largest] = vector[largest].real();
 }
@@ -257,40 +293,48 @@ bool positiveDefinite(DenseMatrix a, int m) {
   return info == 0;
 }
 
-/// M and K symmetric positive definite, Z antisymmetric: gyroscopic forces do no work, and all eigenvalues are imaginary. (For a vector
-/// of length 1, s² m + i s g + k = 0 with m, k > 0 and g real has no other roots.)
+/// M and K symmetric positive definite, Z antisymmetric: gyroscopic forces do no work, and all
+/// eigenvalues are imaginary. (For a vector of length 1, s² m + i s g + k = 0 with m, k > 0 and g
+/// real has no other roots.)
 bool conservative(const DenseProblem& problem) {
   const auto m = static_cast<std::size_t>(problem.m);
-  return hasSymmetry(problem.stiffness, m, 1) && hasSymmetry(problem.mass, m, 1) && hasSymmetry(problem.damping, m, -1) &&
-         positiveDefinite(problem.stiffness, problem.m) && positiveDefinite(problem.mass, problem.m);
+  return hasSymmetry(problem.stiffness, m, 1) && hasSymmetry(problem.mass, m, 1) &&
+         hasSymmetry(problem.damping, m, -1) && positiveDefinite(problem.stiffness, problem.m) &&
+         positiveDefinite(problem.mass, problem.m);
 }
 
-/// From a root t of the reversed polynomial to s = 1/t, or to its conjugate, whose imaginary part is not negative.
+/// From a root t of the reversed polynomial to s = 1/t, or to its conjugate, whose imaginary part
+/// is not negative.
 Complex turnedRound(Complex t) { return 1.0 / std::conj(t); }
 
 }  // namespace
 
-std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vectors, const Wanted& wanted) {
-  // The roots of the reversed polynomial, K + t Z + t² M read as t² K + t Z + M with t = 1/s, where K is the better matrix to invert:
-  // so it is in a basis that is orthonormal in energy.
+std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vectors,
+                                      const Wanted& wanted) {
+  // The roots of the reversed polynomial, K + t Z + t² M read as t² K + t Z + M with t = 1/s, where
+  // K is the better matrix to invert: so it is in a basis that is orthonormal in energy.
   constexpr double beyondDoubt = 0.01;
   const Lu<double> ofStiffness(problem.stiffness, problem.m);
   std::optional<Lu<double>> ofMass;
   if (ofStiffness.pivotRatio() < beyondDoubt) ofMass.emplace(problem.mass, problem.m);
-  const bool reversed = !ofMass || (invertible(ofStiffness) && ofStiffness.pivotRatio() > ofMass->pivotRatio());
-  const Leading leading = reversed ? Leading{problem.stiffness, ofStiffness} : Leading{problem.mass, *ofMass};
+  const bool reversed =
+      !ofMass || (invertible(ofStiffness) && ofStiffness.pivotRatio() > ofMass->pivotRatio());
+  const Leading leading =
+      reversed ? Leading{problem.stiffness, ofStiffness} : Leading{problem.mass, *ofMass};
   const auto& last = reversed ? problem.mass : problem.stiffness;
   const Wanted root = [&](Complex t) {
     if (reversed && t == 0.0) return false;  // s is infinite: a motion without mass
     return !wanted || wanted(reversed ? turnedRound(t) : t);
   };
-  auto pairs = problem.damping.empty() ? linearInSquare(leading, last, problem.m, vectors, root)
-                                       : companion(leading, problem.damping, last, problem.m, vectors, root);
+  auto pairs = problem.damping.empty()
+                   ? linearInSquare(leading, last, problem.m, vectors, root)
+                   : companion(leading, problem.damping, last, problem.m, vectors, root);
   for (auto& pair : pairs) {
     if (!reversed) break;
     pair = {turnedRound(pair.s), conjugated(std::move(pair.q)), conjugated(std::move(pair.left))};
   }
-  // What rounding leaves of the growth would decide which eigenvalues friction, as it sets in, makes unstable "at friction 0".
+  // What rounding leaves of the growth would decide which eigenvalues friction, as it sets in,
+  // makes unstable "at friction 0".
   if (!problem.damping.empty() && conservative(problem))
     for (auto& pair : pairs)
       if (std::abs(pair.s.real()) <= 1e-6 * std::abs(pair.s)) pair.s = {0, pair.s.imag()};
@@ -304,8 +348,8 @@ std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vecto
   return pairs;
 }
 
-std::vector<DensePair> solveQuadratic(const DenseMatrix& mass, const DenseMatrix& damping, const DenseMatrix& stiffness, int m,
-                                      Vectors vectors) {
+std::vector<DensePair> solveQuadratic(const DenseMatrix& mass, const DenseMatrix& damping,
+                                      const DenseMatrix& stiffness, int m, Vectors vectors) {
   return solveQuadratic({mass, damping, stiffness, m}, vectors);
 }
 
@@ -332,33 +376,40 @@ void shareFrom(int root, MPI_Comm comm, std::vector<DensePair>& pairs, int m, Ve
     packed.insert(packed.end(), pair.left.begin(), pair.left.end());
   }
   packed.resize(length * static_cast<std::size_t>(count));
-  check(MPI_Bcast(packed.data(), static_cast<int>(packed.size()), MPI_C_DOUBLE_COMPLEX, root, comm));
+  check(
+      MPI_Bcast(packed.data(), static_cast<int>(packed.size()), MPI_C_DOUBLE_COMPLEX, root, comm));
   pairs.clear();
-  for (auto entry = packed.begin(); entry != packed.end(); entry += static_cast<std::ptrdiff_t>(length)) {
+  for (auto entry = packed.begin(); entry != packed.end();
+       entry += static_cast<std::ptrdiff_t>(length)) {
     const auto q = entry + 1, left = q + m, end = entry + static_cast<std::ptrdiff_t>(length);
     pairs.push_back({*entry, {q, left}, {left, end}});
   }
 }
 
-std::vector<std::vector<DensePair>> solveSpread(MPI_Comm comm, const std::vector<DenseProblem>& problems, Vectors vectors,
-                                                const Wanted& wanted) {
+std::vector<std::vector<DensePair>> solveSpread(MPI_Comm comm,
+                                                const std::vector<DenseProblem>& problems,
+                                                Vectors vectors, const Wanted& wanted) {
   int rank = 0, ranks = 1;
   check(MPI_Comm_rank(comm, &rank));
   check(MPI_Comm_size(comm, &ranks));
   std::vector<std::vector<DensePair>> solved(problems.size());
   std::string failure;
-  for (auto i = static_cast<std::size_t>(rank); i < problems.size() && failure.empty(); i += static_cast<std::size_t>(ranks)) try {
+  for (auto i = static_cast<std::size_t>(rank); i < problems.size() && failure.empty();
+       i += static_cast<std::size_t>(ranks))
+    try {
       solved[i] = solveQuadratic(problems[i], vectors, wanted);
     } catch (const Error& error) {
       failure = error.what();
     }
   failTogether(comm, failure);
-  for (std::size_t i = 0; i < problems.size(); ++i) shareFrom(static_cast<int>(i) % ranks, comm, solved[i], problems[i].m, vectors);
+  for (std::size_t i = 0; i < problems.size(); ++i)
+    shareFrom(static_cast<int>(i) % ranks, comm, solved[i], problems[i].m, vectors);
   return solved;
 }
 
-std::vector<DensePair> solveTogether(MPI_Comm comm, const DenseMatrix& mass, const DenseMatrix& damping,
-                                     const DenseMatrix& stiffness, int m, Vectors vectors) {
+std::vector<DensePair> solveTogether(MPI_Comm comm, const DenseMatrix& mass,
+                                     const DenseMatrix& damping, const DenseMatrix& stiffness,
+                                     int m, Vectors vectors) {
   return solveSpread(comm, {{mass, damping, stiffness, m}}, vectors)[0];
 }
 

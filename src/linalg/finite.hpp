@@ -6,8 +6,8 @@
 
 namespace squeal::linalg {
 
-/// Collective. Error if an entry times `factor` is inf or nan, or so large that its square is; `what` begins the message. A null matrix
-/// or vector passes.
+/// Collective. Error if an entry times `factor` is inf or nan, or so large that its square is;
+/// `what` begins the message. A null matrix or vector passes.
 void requireFinite(Mat matrix, const std::string& what, double factor = 1);
 void requireFinite(Vec vector, const std::string& what, double factor = 1);
 

@@ -30,7 +30,8 @@ std::vector<double> gathered(Mat matrix) {
     const PetscInt* columns = nullptr;
     const PetscScalar* entries = nullptr;
     check(MatGetRow(whole, row, &count, &columns, &entries));
-    for (PetscInt k = 0; k < count; ++k) values[static_cast<std::size_t>(columns[k] * n + row)] = entries[k];
+    for (PetscInt k = 0; k < count; ++k)
+      values[static_cast<std::size_t>(columns[k] * n + row)] = entries[k];
     check(MatRestoreRow(whole, row, &count, &columns, &entries));
   }
   return values;

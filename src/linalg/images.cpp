@@ -17,20 +17,26 @@ void append(Block& block, const Block& other) {
   block.columns += other.columns;
 }
 
-void multiplyAdd(const double* x, PetscInt rowCount, PetscInt columnCount, const std::vector<double>& coefficients,
-                 std::vector<double>& result, double factor) {
+void multiplyAdd(const double* x, PetscInt rowCount, PetscInt columnCount,
+                 const std::vector<double>& coefficients, std::vector<double>& result,
+                 double factor) {
   PetscBLASInt rows = rowCount, inner = columnCount,
-               columns = static_cast<PetscBLASInt>(coefficients.size() / static_cast<std::size_t>(columnCount));
+               columns = static_cast<PetscBLASInt>(coefficients.size() /
+                                                   static_cast<std::size_t>(columnCount));
   const PetscScalar one = 1;
   if (rows > 0 && columns > 0)
-    BLASgemm_("N", "N", &rows, &columns, &inner, &factor, x, &rows, coefficients.data(), &inner, &one, result.data(), &rows);
+    BLASgemm_("N", "N", &rows, &columns, &inner, &factor, x, &rows, coefficients.data(), &inner,
+              &one, result.data(), &rows);
 }
 
-DenseMatrix transposedProduct(MPI_Comm comm, const double* x, PetscInt rowCount, PetscInt m, const double* y, PetscInt n) {
+DenseMatrix transposedProduct(MPI_Comm comm, const double* x, PetscInt rowCount, PetscInt m,
+                              const double* y, PetscInt n) {
   DenseMatrix product(static_cast<std::size_t>(m) * static_cast<std::size_t>(n), 0.0);
   PetscBLASInt rows = rowCount, left = m, right = n;
   const PetscScalar one = 1, zero = 0;
-  if (rows > 0 && m > 0 && n > 0) BLASgemm_("T", "N", &left, &right, &rows, &one, x, &rows, y, &rows, &zero, product.data(), &left);
+  if (rows > 0 && m > 0 && n > 0)
+    BLASgemm_("T", "N", &left, &right, &rows, &one, x, &rows, y, &rows, &zero, product.data(),
+              &left);
   const auto count = static_cast<int>(product.size());
   check(MPI_Allreduce(MPI_IN_PLACE, product.data(), count, MPI_DOUBLE, MPI_SUM, comm));
   // The rounding of sums over the ranks may depend on the rank; what follows from them must not.
@@ -55,11 +61,13 @@ DenseMatrix congruent(const DenseMatrix& a, PetscInt size, const DenseMatrix& c)
   return transposedProduct(MPI_COMM_SELF, c.data(), size, count, image.data(), count);
 }
 
-DenseMatrix rowsOf(const DenseMatrix& matrix, std::size_t height, std::size_t first, std::size_t count) {
+DenseMatrix rowsOf(const DenseMatrix& matrix, std::size_t height, std::size_t first,
+                   std::size_t count) {
   DenseMatrix rows;
   if (matrix.empty()) return rows;
   rows.reserve(matrix.size() / height * count);
-  for (auto column = matrix.begin(); column != matrix.end(); column += static_cast<std::ptrdiff_t>(height)) {
+  for (auto column = matrix.begin(); column != matrix.end();
+       column += static_cast<std::ptrdiff_t>(height)) {
     const auto begin = column + static_cast<std::ptrdiff_t>(first);
     rows.insert(rows.end(), begin, begin + static_cast<std::ptrdiff_t>(count));
   }
@@ -74,15 +82,18 @@ Block principal(MPI_Comm comm, const Block& columns, double small) {
   const auto n = static_cast<std::size_t>(columns.columns);
   std::size_t first = 0;
   while (first < n && !(sizes[first] > small * small)) ++first;
-  combinations.erase(combinations.begin(), combinations.begin() + static_cast<std::ptrdiff_t>(first * n));
+  combinations.erase(combinations.begin(),
+                     combinations.begin() + static_cast<std::ptrdiff_t>(first * n));
   return combined(columns, combinations, static_cast<PetscInt>(n - first));
 }
 
 Block unitColumns(MPI_Comm comm, const Block& columns) {
   std::vector<double> squares;
   for (PetscInt j = 0; j < columns.columns; ++j)
-    squares.push_back(std::inner_product(columns.column(j), columns.column(j) + columns.rows, columns.column(j), 0.0));
-  check(MPI_Allreduce(MPI_IN_PLACE, squares.data(), static_cast<int>(squares.size()), MPI_DOUBLE, MPI_SUM, comm));
+    squares.push_back(std::inner_product(columns.column(j), columns.column(j) + columns.rows,
+                                         columns.column(j), 0.0));
+  check(MPI_Allreduce(MPI_IN_PLACE, squares.data(), static_cast<int>(squares.size()), MPI_DOUBLE,
+                      MPI_SUM, comm));
   check(MPI_Bcast(squares.data(), static_cast<int>(squares.size()), MPI_DOUBLE, 0, comm));
   Block units(columns.rows);
   for (PetscInt j = 0; j < columns.columns; ++j)
@@ -91,9 +102,11 @@ Block unitColumns(MPI_Comm comm, const Block& columns) {
   return units;
 }
 
-OwnedMat borrowed(MPI_Comm comm, PetscInt localRows, PetscInt rows, PetscInt columns, const double* values) {
+OwnedMat borrowed(MPI_Comm comm, PetscInt localRows, PetscInt rows, PetscInt columns,
+                  const double* values) {
   OwnedMat matrix;
-  check(MatCreateDense(comm, localRows, PETSC_DECIDE, rows, columns, const_cast<double*>(values), matrix.out()));
+  check(MatCreateDense(comm, localRows, PETSC_DECIDE, rows, columns, const_cast<double*>(values),
+                       matrix.out()));
   return matrix;
 }
 
@@ -102,7 +115,8 @@ void appendProduct(Mat matrix, const double* columns, PetscInt count, Block& res
   check(MatGetLocalSize(matrix, &localRows, &localColumns));
   check(MatGetSize(matrix, &rows, &length));
   if (count == 0) return;
-  result.values.resize(result.values.size() + static_cast<std::size_t>(localRows) * static_cast<std::size_t>(count));
+  result.values.resize(result.values.size() +
+                       static_cast<std::size_t>(localRows) * static_cast<std::size_t>(count));
   const PetscInt first = result.columns;
   result.columns += count;
   if (rows == 0) return;
@@ -154,7 +168,8 @@ std::vector<double> RowSet::of(const double* columns, PetscInt count) const {
   std::vector<double> values;
   values.reserve(rows_.size() * static_cast<std::size_t>(count));
   for (PetscInt j = 0; j < count; ++j)
-    for (PetscInt row : rows_) values.push_back(columns[static_cast<std::ptrdiff_t>(j) * localRows_ + row]);
+    for (PetscInt row : rows_)
+      values.push_back(columns[static_cast<std::ptrdiff_t>(j) * localRows_ + row]);
   return values;
 }
 
@@ -177,18 +192,21 @@ OwnedMat RowSet::of(Mat matrix) const {
   check(MatGetOwnershipRangeColumn(matrix, &begin, &end));
   OwnedIS rows, columns;
   OwnedMat part;
-  check(ISCreateGeneral(comm, static_cast<PetscInt>(global.size()), global.data(), PETSC_COPY_VALUES, rows.out()));
+  check(ISCreateGeneral(comm, static_cast<PetscInt>(global.size()), global.data(),
+                        PETSC_COPY_VALUES, rows.out()));
   check(ISCreateStride(comm, end - begin, begin, 1, columns.out()));
   check(MatCreateSubMatrix(matrix, rows, columns, MAT_INITIAL_MATRIX, part.out()));
   return part;
 }
 
-DenseMatrix transposedProduct(MPI_Comm comm, const RowSet& rows, const double* x, PetscInt m, const double* y, PetscInt n) {
+DenseMatrix transposedProduct(MPI_Comm comm, const RowSet& rows, const double* x, PetscInt m,
+                              const double* y, PetscInt n) {
   if (rows.all()) return transposedProduct(comm, x, rows.size(), m, y, n);
   return transposedProduct(comm, rows.of(x, m).data(), rows.size(), m, y, n);
 }
 
-void multiplyAdd(const RowSet& rows, const Block& x, const std::vector<double>& coefficients, std::vector<double>& y) {
+void multiplyAdd(const RowSet& rows, const Block& x, const std::vector<double>& coefficients,
+                 std::vector<double>& y) {
   if (rows.all()) return multiplyAdd(x.values.data(), x.rows, x.columns, coefficients, y);
   const auto count = static_cast<PetscInt>(coefficients.size()) / x.columns;
   Block part(x.rows, count);

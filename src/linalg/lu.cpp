@@ -10,11 +10,11 @@
 
 // PETSc of real scalars declares the real routines alone.
 extern "C" {
-void zgetrf_(const PetscBLASInt* m, const PetscBLASInt* n, std::complex<double>* a, const PetscBLASInt* lda, PetscBLASInt* pivots,
-             PetscBLASInt* info);
-void zgetrs_(const char* trans, const PetscBLASInt* n, const PetscBLASInt* columns, const std::complex<double>* a,
-             const PetscBLASInt* lda, const PetscBLASInt* pivots, std::complex<double>* b, const PetscBLASInt* ldb,
-             PetscBLASInt* info);
+void zgetrf_(const PetscBLASInt* m, const PetscBLASInt* n, std::complex<double>* a,
+             const PetscBLASInt* lda, PetscBLASInt* pivots, PetscBLASInt* info);
+void zgetrs_(const char* trans, const PetscBLASInt* n, const PetscBLASInt* columns,
+             const std::complex<double>* a, const PetscBLASInt* lda, const PetscBLASInt* pivots,
+             std::complex<double>* b, const PetscBLASInt* ldb, PetscBLASInt* info);
 }
 
 namespace squeal::linalg {
@@ -30,13 +30,15 @@ void factor(PetscBLASInt n, std::complex<double>* a, PetscBLASInt* rows) {
   zgetrf_(&n, &n, a, &n, rows, &info);
 }
 
-void solveWith(const char* side, PetscBLASInt n, PetscBLASInt columns, const double* a, const PetscBLASInt* rows, double* b) {
+void solveWith(const char* side, PetscBLASInt n, PetscBLASInt columns, const double* a,
+               const PetscBLASInt* rows, double* b) {
   PetscBLASInt info = 0;
-  LAPACKgetrs_(side, &n, &columns, const_cast<double*>(a), &n, const_cast<PetscBLASInt*>(rows), b, &n, &info);
+  LAPACKgetrs_(side, &n, &columns, const_cast<double*>(a), &n, const_cast<PetscBLASInt*>(rows), b,
+               &n, &info);
 }
 
-void solveWith(const char* side, PetscBLASInt n, PetscBLASInt columns, const std::complex<double>* a, const PetscBLASInt* rows,
-               std::complex<double>* b) {
+void solveWith(const char* side, PetscBLASInt n, PetscBLASInt columns,
+               const std::complex<double>* a, const PetscBLASInt* rows, std::complex<double>* b) {
   PetscBLASInt info = 0;
   zgetrs_(side, &n, &columns, a, &n, rows, b, &n, &info);
 }
@@ -44,7 +46,8 @@ void solveWith(const char* side, PetscBLASInt n, PetscBLASInt columns, const std
 }  // namespace
 
 template <class Scalar>
-Lu<Scalar>::Lu(std::vector<Scalar> matrix, int n) : n_(n), factors_(std::move(matrix)), rows_(static_cast<std::size_t>(n)) {
+Lu<Scalar>::Lu(std::vector<Scalar> matrix, int n)
+    : n_(n), factors_(std::move(matrix)), rows_(static_cast<std::size_t>(n)) {
   if (n > 0) factor(n_, factors_.data(), rows_.data());
   double smallest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < factors_.size(); i += static_cast<std::size_t>(n) + 1) {
@@ -64,7 +67,9 @@ void Lu<Scalar>::raiseZeroPivots() {
 
 template <class Scalar>
 void Lu<Scalar>::solve(std::vector<Scalar>& b, bool adjoint) const {
-  if (n_ > 0) solveWith(adjoint ? "C" : "N", n_, static_cast<PetscBLASInt>(b.size()) / n_, factors_.data(), rows_.data(), b.data());
+  if (n_ > 0)
+    solveWith(adjoint ? "C" : "N", n_, static_cast<PetscBLASInt>(b.size()) / n_, factors_.data(),
+              rows_.data(), b.data());
 }
 
 template class Lu<double>;

@@ -14,7 +14,8 @@ class Lu {
   Lu(std::vector<Scalar> matrix, int n);
   /// Smallest pivot over the largest; 0: the matrix is singular.
   double pivotRatio() const { return pivotRatio_; }
-  /// Gives pivots of zero the size of rounding: solutions then go along the null vector, which inverse iteration wants.
+  /// Gives pivots of zero the size of rounding: solutions then go along the null vector, which
+  /// inverse iteration wants.
   void raiseZeroPivots();
   /// b ← A⁻¹ b, or A⁻ᴴ b, for b of any number of columns. Pivots of zero: infinite.
   void solve(std::vector<Scalar>& b, bool adjoint = false) const;

@@ -66,7 +66,8 @@ SquaredNorms squaredNorms(const DenseMatrix& sketch) {
   return norms;
 }
 
-DenseMatrix leadingCombinations(const DenseMatrix& sketches, const std::vector<double>& factors, double small) {
+DenseMatrix leadingCombinations(const DenseMatrix& sketches, const std::vector<double>& factors,
+                                double small) {
   constexpr auto k = static_cast<std::size_t>(Sketch::size);
   const std::size_t all = factors.size();
   DenseMatrix sketch(k * all), gram(k * k);
@@ -76,8 +77,8 @@ DenseMatrix leadingCombinations(const DenseMatrix& sketches, const std::vector<d
     for (std::size_t a = 0; a < k; ++a)
       for (std::size_t b = 0; b < k; ++b) gram[a * k + b] += sketch[j * k + a] * sketch[j * k + b];
   const auto squares = symmetricEigen(gram, static_cast<int>(k));
-  const auto count = static_cast<std::size_t>(
-      std::count_if(squares.begin(), squares.end(), [&](double square) { return square > small * small; }));
+  const auto count = static_cast<std::size_t>(std::count_if(
+      squares.begin(), squares.end(), [&](double square) { return square > small * small; }));
   if (8 * count > 7 * k || count >= all) {
     DenseMatrix diagonal(all * all);
     for (std::size_t j = 0; j < all; ++j) diagonal[j * all + j] = factors[j];
@@ -87,7 +88,9 @@ DenseMatrix leadingCombinations(const DenseMatrix& sketches, const std::vector<d
   for (std::size_t c = 0; c < count; ++c) {
     const double *direction = gram.data() + (k - 1 - c) * k, size = std::sqrt(squares[k - 1 - c]);
     for (std::size_t j = 0; j < all; ++j)
-      combinations[c * all + j] = factors[j] / size * std::inner_product(direction, direction + k, sketch.data() + j * k, 0.0);
+      combinations[c * all + j] =
+          factors[j] / size *
+          std::inner_product(direction, direction + k, sketch.data() + j * k, 0.0);
   }
   return combinations;
 }

@@ -25,7 +25,8 @@ Entries product(const char* transposed, const DenseMatrix& a, const Entries& x) 
   const PetscScalar one = 1, zero = 0;
   Entries y(m);
   for (std::ptrdiff_t part : {0, 1})  // real and imaginary entries alternate
-    BLASgemv_(transposed, &n, &n, &one, a.data(), &n, reinterpret_cast<const double*>(x.data()) + part, &two, &zero,
+    BLASgemv_(transposed, &n, &n, &one, a.data(), &n,
+              reinterpret_cast<const double*>(x.data()) + part, &two, &zero,
               reinterpret_cast<double*>(y.data()) + part, &two);
   return y;
 }
@@ -53,12 +54,14 @@ class Factors {
     const Complex square = shift * shift;
     if (problem.damping.empty() && shift.real() == 0) {
       DenseMatrix sum(size);
-      for (std::size_t k = 0; k < size; ++k) sum[k] = square.real() * problem.mass[k] + problem.stiffness[k];
+      for (std::size_t k = 0; k < size; ++k)
+        sum[k] = square.real() * problem.mass[k] + problem.stiffness[k];
       real_.emplace(std::move(sum), problem.m);
     } else {
       Entries sum(size);
       for (std::size_t k = 0; k < size; ++k)
-        sum[k] = square * problem.mass[k] + (problem.damping.empty() ? 0 : shift * problem.damping[k]) + problem.stiffness[k];
+        sum[k] = square * problem.mass[k] +
+                 (problem.damping.empty() ? 0 : shift * problem.damping[k]) + problem.stiffness[k];
       complex_.emplace(std::move(sum), problem.m);
     }
   }
@@ -82,7 +85,8 @@ class Factors {
   std::optional<Lu<Complex>> complex_;
 };
 
-/// A vector of the companion form [0 I; −K −Z] z = s [I 0; 0 M] z: right (x, s x), left ((s M + Z)ᴴ y, y).
+/// A vector of the companion form [0 I; −K −Z] z = s [I 0; 0 M] z: right (x, s x), left ((s M + Z)ᴴ
+/// y, y).
 struct Lifted {
   Entries top, bottom;
 };
@@ -97,7 +101,8 @@ void orthonormalise(std::vector<Lifted>& z, double weight) {
     return dot(x.top, y.top) + weight * weight * dot(x.bottom, y.bottom);
   };
   for (std::size_t j = 0; j < z.size(); ++j) {
-    for (int pass = 0; pass < 2 && j > 0; ++pass) z[j] = combined(1, z[j], -product(z[0], z[j]), z[0]);
+    for (int pass = 0; pass < 2 && j > 0; ++pass)
+      z[j] = combined(1, z[j], -product(z[0], z[j]), z[0]);
     const double size = std::sqrt(product(z[j], z[j]).real());
     z[j] = combined(1 / size, z[j], 0, z[j]);
   }
@@ -105,16 +110,20 @@ void orthonormalise(std::vector<Lifted>& z, double weight) {
 
 class TwoSidedIteration {
  public:
-  TwoSidedIteration(const DenseProblem& problem, const std::vector<DensePair>& start) : problem_(problem) {
+  TwoSidedIteration(const DenseProblem& problem, const std::vector<DensePair>& start)
+      : problem_(problem) {
     for (auto [s, x, y] : start) {
       x.resize(static_cast<std::size_t>(problem.m), 0.0);
       y.resize(static_cast<std::size_t>(problem.m), 0.0);
       right_.push_back({x, combined(s, x, 0, x)});
-      left_.push_back({combined(std::conj(s), timesTransposed(problem.mass, y), 1, timesTransposed(problem.damping, y)), y});
+      left_.push_back({combined(std::conj(s), timesTransposed(problem.mass, y), 1,
+                                timesTransposed(problem.damping, y)),
+                       y});
     }
   }
 
-  /// Z ← (A − σB)⁻¹ B Z, U ← (A − σB)⁻ᴴ Bᴴ U, and the eigenvalues less σ of the pencil between them.
+  /// Z ← (A − σB)⁻¹ B Z, U ← (A − σB)⁻ᴴ Bᴴ U, and the eigenvalues less σ of the pencil between
+  /// them.
   void step(const Factors& factors, Complex shift) {
     const double size = std::abs(shift);
     orthonormalise(right_, 1 / size);
@@ -142,23 +151,31 @@ class TwoSidedIteration {
       const Entries moved = times(problem_.mass, right_[j].bottom);
       for (std::size_t i = 0; i < k; ++i) {
         gram[2 * j + i] = dot(left_[i].top, right_[j].top) + dot(left_[i].bottom, moved);
-        projected[2 * j + i] = dot(left_[i].top, images[j].top) + dot(left_[i].bottom, images[j].bottom);
+        projected[2 * j + i] =
+            dot(left_[i].top, images[j].top) + dot(left_[i].bottom, images[j].bottom);
       }
     }
-    if (k == 1) gram[3] = 1;  // the second row and column of the unit matrix: an eigenvalue of its own
+    if (k == 1)
+      gram[3] = 1;  // the second row and column of the unit matrix: an eigenvalue of its own
     gram_ = gram;
     const Complex det = gram[0] * gram[3] - gram[1] * gram[2];
-    small_ = {(gram[3] * projected[0] - gram[2] * projected[1]) / det, (gram[0] * projected[1] - gram[1] * projected[0]) / det,
-              (gram[3] * projected[2] - gram[2] * projected[3]) / det, (gram[0] * projected[3] - gram[1] * projected[2]) / det};
+    small_ = {(gram[3] * projected[0] - gram[2] * projected[1]) / det,
+              (gram[0] * projected[1] - gram[1] * projected[0]) / det,
+              (gram[3] * projected[2] - gram[2] * projected[3]) / det,
+              (gram[0] * projected[3] - gram[1] * projected[2]) / det};
   }
 
   /// Mean less the shift, and ((s1 − s2)/2)².
   Complex mean() const { return right_.size() == 1 ? small_[0] : 0.5 * (small_[0] + small_[3]); }
   Complex square() const {
-    return right_.size() == 1 ? Complex(0) : 0.25 * (small_[0] - small_[3]) * (small_[0] - small_[3]) + small_[1] * small_[2];
+    return right_.size() == 1
+               ? Complex(0)
+               : 0.25 * (small_[0] - small_[3]) * (small_[0] - small_[3]) + small_[1] * small_[2];
   }
   /// Size of what cancels in square().
-  double entries() const { return std::abs(small_[0] - small_[3]) + std::abs(small_[1]) + std::abs(small_[2]); }
+  double entries() const {
+    return std::abs(small_[0] - small_[3]) + std::abs(small_[1]) + std::abs(small_[2]);
+  }
 
   std::vector<DensePair> pairs(Complex shift) const {
     if (right_.size() == 1) return {pair(shift + small_[0], right_[0], left_[0])};
@@ -167,13 +184,15 @@ class TwoSidedIteration {
     for (const Complex value : {mean() + root, mean() - root}) {
       const auto& [s11, s21, s12, s22] = small_;
       const bool first = std::abs(value - s11) > std::abs(value - s22);
-      const Complex a = first ? s12 : value - s22, b = first ? value - s11 : s21;  // right vector of the 2×2 matrix
+      const Complex a = first ? s12 : value - s22,
+                    b = first ? value - s11 : s21;  // right vector of the 2×2 matrix
       const Complex c = first ? s21 : value - s22, d = first ? value - s11 : s12;  // left, as a row
       // The row times the inverse of the Gram matrix: coefficients of Uᴴ.
       const Complex e = c * gram_[3] - d * gram_[1], g = d * gram_[0] - c * gram_[2];
       const bool still = a == 0.0 && b == 0.0;  // a multiple of the unit matrix: any vector
-      result.push_back(pair(shift + value, still ? right_[result.size()] : combined(a, right_[0], b, right_[1]),
-                            still ? left_[result.size()] : combined(std::conj(e), left_[0], std::conj(g), left_[1])));
+      result.push_back(pair(
+          shift + value, still ? right_[result.size()] : combined(a, right_[0], b, right_[1]),
+          still ? left_[result.size()] : combined(std::conj(e), left_[0], std::conj(g), left_[1])));
     }
     return result;
   }
@@ -195,8 +214,10 @@ class TwoSidedIteration {
 
 }  // namespace
 
-Cluster clusterNear(const DenseProblem& problem, const std::vector<DensePair>& start, Complex guess, double isolation) {
-  // Off the mean by part of the way to the next eigenvalue: on it, the two vectors would become parallel.
+Cluster clusterNear(const DenseProblem& problem, const std::vector<DensePair>& start, Complex guess,
+                    double isolation) {
+  // Off the mean by part of the way to the next eigenvalue: on it, the two vectors would become
+  // parallel.
   constexpr double aside = 0.05, rounding = 4e-15;
   constexpr int factorisations = 3, solves = 25;
   TwoSidedIteration iteration(problem, start);
@@ -205,7 +226,8 @@ Cluster clusterNear(const DenseProblem& problem, const std::vector<DensePair>& s
   Complex square = 0;
   for (int attempt = 0; attempt < factorisations && !cluster.converged; ++attempt) {
     Complex shift = cluster.mean + aside * isolation;
-    // Without damping, neutral eigenvalues and split pairs have means on the imaginary axis, up to rounding.
+    // Without damping, neutral eigenvalues and split pairs have means on the imaginary axis, up to
+    // rounding.
     if (problem.damping.empty() && std::abs(cluster.mean.real()) < 1e-6 * std::abs(cluster.mean))
       shift = Complex(0, cluster.mean.imag() + aside * isolation);
     const Factors factors(problem, shift);
@@ -218,7 +240,8 @@ Cluster clusterNear(const DenseProblem& problem, const std::vector<DensePair>& s
           std::abs(mean - cluster.mean) / std::abs(mean),
           start.size() == 1
               ? 0
-              : std::abs(iteration.square() - square) / (std::abs(mean) * std::max(iteration.entries(), 1e-10 * std::abs(mean))));
+              : std::abs(iteration.square() - square) /
+                    (std::abs(mean) * std::max(iteration.entries(), 1e-10 * std::abs(mean))));
       cluster.mean = mean;
       square = iteration.square();
       // Rounding ends the descent above the bound where eigenvalues are ill-conditioned.
@@ -249,7 +272,8 @@ Spectrum::Spectrum(const DenseProblem& problem, std::vector<DensePair> pairs)
 Complex Spectrum::product(std::size_t i, const DensePair& pair) const {
   Complex mass = 0, lifted = 0;
   const auto& row = rows_[i];
-  const std::size_t m = std::min(pair.q.size(), linear_ ? row.size() : row.size() / 2);  // the basis may have grown in between
+  const std::size_t m = std::min(
+      pair.q.size(), linear_ ? row.size() : row.size() / 2);  // the basis may have grown in between
   for (std::size_t k = 0; k < m; ++k) mass += std::conj(row[k]) * pair.q[k];
   if (linear_) return mass;
   const std::size_t half = row.size() / 2;

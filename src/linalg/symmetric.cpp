@@ -15,15 +15,19 @@ std::vector<double> symmetricEigen(std::vector<double>& a, int n) {
   std::vector<double> values(static_cast<std::size_t>(n));
   if (n == 0) return values;
   double workLength = 0;
-  // Divide and conquer: on some hundred columns several times faster than dsyev, whose rotations (dlasr) are not blocked.
-  LAPACKsyevd_("V", "L", &order, a.data(), &order, values.data(), &workLength, &length, &integerLength, &integers, &info);
+  // Divide and conquer: on some hundred columns several times faster than dsyev, whose rotations
+  // (dlasr) are not blocked.
+  LAPACKsyevd_("V", "L", &order, a.data(), &order, values.data(), &workLength, &length,
+               &integerLength, &integers, &info);
   length = static_cast<PetscBLASInt>(workLength);
   integers = integerLength;
   std::vector<double> work(static_cast<std::size_t>(length));
   std::vector<PetscBLASInt> integerWork(static_cast<std::size_t>(integers));
-  LAPACKsyevd_("V", "L", &order, a.data(), &order, values.data(), work.data(), &length, integerWork.data(), &integers, &info);
+  LAPACKsyevd_("V", "L", &order, a.data(), &order, values.data(), work.data(), &length,
+               integerWork.data(), &integers, &info);
   if (info != 0)
-    throw Error("LAPACK dsyevd failed on a matrix of order " + std::to_string(n) + " (info " + std::to_string(info) + ")");
+    throw Error("LAPACK dsyevd failed on a matrix of order " + std::to_string(n) + " (info " +
+                std::to_string(info) + ")");
   return values;
 }
 
@@ -31,12 +35,15 @@ std::vector<double> symmetricEigen(std::vector<double>& a, std::vector<double>& 
   PetscBLASInt type = 1, order = n, length = -1, info = 0;
   std::vector<double> values(static_cast<std::size_t>(n)), work(1);
   if (n == 0) return values;
-  LAPACKsygv_(&type, "V", "L", &order, a.data(), &order, b.data(), &order, values.data(), work.data(), &length, &info);
+  LAPACKsygv_(&type, "V", "L", &order, a.data(), &order, b.data(), &order, values.data(),
+              work.data(), &length, &info);
   length = static_cast<PetscBLASInt>(work[0]);
   work.resize(static_cast<std::size_t>(length));
-  LAPACKsygv_(&type, "V", "L", &order, a.data(), &order, b.data(), &order, values.data(), work.data(), &length, &info);
+  LAPACKsygv_(&type, "V", "L", &order, a.data(), &order, b.data(), &order, values.data(),
+              work.data(), &length, &info);
   if (info != 0)
-    throw Error("LAPACK dsygv failed on matrices of order " + std::to_string(n) + " (info " + std::to_string(info) + ")");
+    throw Error("LAPACK dsygv failed on matrices of order " + std::to_string(n) + " (info " +
+                std::to_string(info) + ")");
   return values;
 }
 

@@ -11,8 +11,9 @@
 namespace squeal::linalg {
 namespace {
 
-const SolverPrefix factorisation("modes", "modes_st_",
-                                 "SLEPc ST, KSP and PC with the factorisation of K (MUMPS LDLt): st_type, ksp_*, pc_*, …");
+const SolverPrefix factorisation(
+    "modes", "modes_st_",
+    "SLEPc ST, KSP and PC with the factorisation of K (MUMPS LDLt): st_type, ksp_*, pc_*, …");
 
 /// Why MUMPS failed, from INFOG(1) and INFOG(2) of its manual; empty if it did not.
 std::string failureOf(Mat factor) {
@@ -20,14 +21,19 @@ std::string failureOf(Mat factor) {
   check(MatMumpsGetInfog(factor, 1, &code));
   check(MatMumpsGetInfog(factor, 2, &detail));
   if (code >= 0) return "";
-  const std::string numbers = formatted(" (INFOG(1) = %d, INFOG(2) = %d)", static_cast<int>(code), static_cast<int>(detail));
-  constexpr PetscInt allocations[] = {-5, -7, -13, -19, -22}, workspace[] = {-8, -9, -11, -14, -15, -17, -20},
-                     overflow[] = {-51, -52};
-  const auto among = [&](const auto& codes) { return std::find(std::begin(codes), std::end(codes), code) != std::end(codes); };
+  const std::string numbers = formatted(" (INFOG(1) = %d, INFOG(2) = %d)", static_cast<int>(code),
+                                        static_cast<int>(detail));
+  constexpr PetscInt allocations[] = {-5, -7, -13, -19, -22},
+                     workspace[] = {-8, -9, -11, -14, -15, -17, -20}, overflow[] = {-51, -52};
+  const auto among = [&](const auto& codes) {
+    return std::find(std::begin(codes), std::end(codes), code) != std::end(codes);
+  };
   if (among(allocations)) return "MUMPS got no more memory" + numbers + ": " + lessMemory;
   if (among(workspace))
-    return "MUMPS needs a larger workspace than it foresaw" + numbers + ": raise -…_mat_mumps_icntl_14, percent, for example to 50";
-  if (among(overflow)) return "the factor has more entries than 32-bit integers count" + numbers + ": take more ranks";
+    return "MUMPS needs a larger workspace than it foresaw" + numbers +
+           ": raise -…_mat_mumps_icntl_14, percent, for example to 50";
+  if (among(overflow))
+    return "the factor has more entries than 32-bit integers count" + numbers + ": take more ranks";
   if (code == -6 || code == -10) return "the matrix is singular" + numbers + ": is a body loose?";
   return "MUMPS fails" + numbers;
 }
@@ -40,7 +46,8 @@ constexpr double hopeless = 2;
 /// Why the last analysis was the end, on all ranks; empty if it was not.
 std::string shortage;
 
-/// Collective. Compares what MUMPS' analysis foresees with what is free, before a machine begins to swap or a kernel to kill.
+/// Collective. Compares what MUMPS' analysis foresees with what is free, before a machine begins to
+/// swap or a kernel to kill.
 void compareWithMemory(Mat factor) {
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(factor));
   PetscInt megabytes = 0;
@@ -57,7 +64,8 @@ void compareWithMemory(Mat factor) {
   double sizes[] = {needed, free};
   check(MPI_Bcast(sizes, 2, MPI_DOUBLE, worst.rank, comm));
   const std::string text =
-      formatted("the factorisation needs %.3g GB on a node where %.3g GB are free", 1e-9 * sizes[0], 1e-9 * sizes[1]);
+      formatted("the factorisation needs %.3g GB on a node where %.3g GB are free", 1e-9 * sizes[0],
+                1e-9 * sizes[1]);
   if (worst.ratio > hopeless)
     shortage = text + ": " + lessMemory;
   else
@@ -76,7 +84,8 @@ void watchMemory(Mat factor) {
   void (*operation)() = nullptr;
   check(MatGetOperation(factor, MATOP_CHOLESKY_FACTOR_SYMBOLIC, &operation));
   analysisOfMumps = reinterpret_cast<Symbolic>(operation);
-  check(MatSetOperation(factor, MATOP_CHOLESKY_FACTOR_SYMBOLIC, reinterpret_cast<void (*)()>(analyse)));
+  check(MatSetOperation(factor, MATOP_CHOLESKY_FACTOR_SYMBOLIC,
+                        reinterpret_cast<void (*)()>(analyse)));
 }
 
 }  // namespace
@@ -101,8 +110,8 @@ OwnedKSP directSolver(Mat matrix, const SolverPrefix& prefix) {
   check(PCSetType(pc, PCCHOLESKY));
   check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
   applySolverOptions([&] { return KSPSetFromOptions(solver); });
-  // Right-hand sides that MUMPS takes at once: by itself 32, and the few that are left over cost a pass of their own. An option
-  // -…_mat_mumps_icntl_27 has the last word.
+  // Right-hand sides that MUMPS takes at once: by itself 32, and the few that are left over cost a
+  // pass of their own. An option -…_mat_mumps_icntl_27 has the last word.
   if (const Mat factor = mumpsFactor(solver)) {
     check(MatMumpsSetIcntl(factor, 27, 64));
     watchMemory(factor);
@@ -150,7 +159,8 @@ void SymmetricSolver::factorise() const {
   check(PCGetFailedReason(pc, &failed));
   if (failed != PC_NOERROR) {
     const Mat factor = mumpsFactor(solver_);
-    const std::string why = factor ? failureOf(factor) : "see the options -modes_st_pc_*; is a body loose?";
+    const std::string why =
+        factor ? failureOf(factor) : "see the options -modes_st_pc_*; is a body loose?";
     throw Error("the " + name_ + " cannot be factorised: " + why);
   }
 }
@@ -185,7 +195,8 @@ Inertia inertia(Mat matrix, double zero) {
   check(MatCholeskyFactorNumeric(factor, matrix, &info));
   MatFactorError failed = MAT_FACTOR_NOERROR;
   check(MatFactorGetError(factor, &failed));
-  if (failed != MAT_FACTOR_NOERROR) throw Error("the inertia of a symmetric matrix: " + failureOf(factor));
+  if (failed != MAT_FACTOR_NOERROR)
+    throw Error("the inertia of a symmetric matrix: " + failureOf(factor));
   Inertia found;
   check(MatGetInertia(factor, &found.negative, &found.zero, nullptr));
   return found;

@@ -10,7 +10,8 @@ namespace {
 constexpr double symmetric = 1e-10;  // printed digits of exports
 
 bool joins(const pencil::Term& term, int power) {
-  return term.power == power && term.frictionExponent == 0 && term.speedExponent == 0 && term.dampingExponent == 0;
+  return term.power == power && term.frictionExponent == 0 && term.speedExponent == 0 &&
+         term.dampingExponent == 0;
 }
 
 std::string namesOf(const std::vector<NamedTerm>& terms, int power) {
@@ -33,8 +34,10 @@ OwnedMat sum(const std::vector<NamedTerm>& terms, int power) {
     }
   }
   if (!total)
-    throw Error(formatted("options -matrices_<name>_role: there is no %s matrix without exponents of friction, speed and damping",
-                          power == 2 ? "mass" : "stiffness"));
+    throw Error(
+        formatted("options -matrices_<name>_role: there is no %s matrix without exponents of "
+                  "friction, speed and damping",
+                  power == 2 ? "mass" : "stiffness"));
   return total;
 }
 
@@ -65,12 +68,12 @@ std::string badDiagonal(Mat matrix) {
   check(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPIU_INT, MPI_SUM, comm));
   check(MPI_Allreduce(MPI_IN_PLACE, &lowest, 1, MPIU_INT, MPI_MIN, comm));
   if (count == 0) return "";
-  return formatted(" (diagonal entries that are not positive: %d, the first in row %d)", static_cast<int>(count),
-                   static_cast<int>(lowest) + 1);
+  return formatted(" (diagonal entries that are not positive: %d, the first in row %d)",
+                   static_cast<int>(count), static_cast<int>(lowest) + 1);
 }
 
-/// A pivot of 1e-13 of the scaled matrix is what cancellation leaves of a zero one in a large model; stiff springs do not come near it,
-/// since the rows are scaled.
+/// A pivot of 1e-13 of the scaled matrix is what cancellation leaves of a zero one in a large
+/// model; stiff springs do not come near it, since the rows are scaled.
 void requirePositiveDefinite(Mat matrix, const std::string& what, const std::string& advice) {
   PetscReal norm = 0;
   check(MatNorm(matrix, NORM_FROBENIUS, &norm));
@@ -78,25 +81,30 @@ void requirePositiveDefinite(Mat matrix, const std::string& what, const std::str
   const std::string bad = badDiagonal(matrix);
   const auto [negative, zero] = linalg::inertia(matrix, 1e-13);
   if (negative == 0 && zero == 0) return;
-  throw Error(formatted("%s is not positive definite: %d negative and %d zero eigenvalues%s; %s", what.c_str(),
-                        static_cast<int>(negative), static_cast<int>(zero), bad.c_str(), advice.c_str()));
+  throw Error(formatted("%s is not positive definite: %d negative and %d zero eigenvalues%s; %s",
+                        what.c_str(), static_cast<int>(negative), static_cast<int>(zero),
+                        bad.c_str(), advice.c_str()));
 }
 
 }  // namespace
 
 AssociatedSystem::AssociatedSystem(const std::vector<NamedTerm>& terms)
     : stiffness_(sum(terms, 0)), mass_(sum(terms, 2)), solver_(nullptr, "") {
-  const std::string massName = "the mass " + namesOf(terms, 2), stiffnessName = "the stiffness " + namesOf(terms, 0);
+  const std::string massName = "the mass " + namesOf(terms, 2),
+                    stiffnessName = "the stiffness " + namesOf(terms, 0);
   if (const double departure = matrices::asymmetry(mass_); departure > symmetric)
-    throw Error(formatted("%s is not symmetric: ‖M − Mᵀ‖ is %.1e of ‖M‖; friction of inertia forces needs an exponent of friction",
-                          massName.c_str(), departure));
+    throw Error(
+        formatted("%s is not symmetric: ‖M − Mᵀ‖ is %.1e of ‖M‖; friction of inertia forces needs "
+                  "an exponent of friction",
+                  massName.c_str(), departure));
   asymmetry_ = matrices::asymmetry(stiffness_);
   if (asymmetry_ <= symmetric) asymmetry_ = 0;
   mass_ = symmetricPart(mass_);
   stiffness_ = symmetricPart(stiffness_);
   check(MatGetSize(stiffness_, &size_, nullptr));
   requirePositiveDefinite(mass_, massName, "condense unknowns without mass");
-  requirePositiveDefinite(stiffness_, stiffnessName + (asymmetry_ > 0 ? ", by its symmetric part," : ""),
+  requirePositiveDefinite(stiffness_,
+                          stiffnessName + (asymmetry_ > 0 ? ", by its symmetric part," : ""),
                           "is a body loose? Hold it by weak springs if it is");
   solver_ = linalg::SymmetricSolver(stiffness_, "associated symmetric stiffness");
 }

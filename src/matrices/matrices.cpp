@@ -10,15 +10,19 @@
 namespace squeal::matrices {
 namespace {
 
-const FileOption fileOption("matrices", "matrices_<name>_file",
-                            "a matrix of the problem: Matrix Market, PETSc binary, HDF5 or MATLAB file; instead of a mesh");
-const ChoiceOption roleOption("matrices", "matrices_<name>_role", {"mass", "damping", "stiffness"}, "",
-                              "the power of s that the matrix comes with: 2, 1, 0");
-const TextOption datasetOption("matrices", "matrices_<name>_dataset", "",
-                               "variable of a MATLAB file or object of an HDF5 file; none: the only matrix there");
-const RealOption factorOption("matrices", "matrices_<name>_factor", 1, "", anyReal, "factor on the matrix");
-const IntegerOption frictionOption("matrices", "matrices_<name>_friction_exponent", 0, 0, 10,
-                                   "power of the coefficient of friction that the matrix is multiplied by");
+const FileOption fileOption(
+    "matrices", "matrices_<name>_file",
+    "a matrix of the problem: Matrix Market, PETSc binary, HDF5 or MATLAB file; instead of a mesh");
+const ChoiceOption roleOption("matrices", "matrices_<name>_role", {"mass", "damping", "stiffness"},
+                              "", "the power of s that the matrix comes with: 2, 1, 0");
+const TextOption datasetOption(
+    "matrices", "matrices_<name>_dataset", "",
+    "variable of a MATLAB file or object of an HDF5 file; none: the only matrix there");
+const RealOption factorOption("matrices", "matrices_<name>_factor", 1, "", anyReal,
+                              "factor on the matrix");
+const IntegerOption frictionOption(
+    "matrices", "matrices_<name>_friction_exponent", 0, 0, 10,
+    "power of the coefficient of friction that the matrix is multiplied by");
 const IntegerOption speedOption("matrices", "matrices_<name>_speed_exponent", 0, -4, 10,
                                 "power of the speed factor that the matrix is multiplied by");
 const IntegerOption dampingOption("matrices", "matrices_<name>_damping_exponent", 0, 0, 10,
@@ -49,8 +53,9 @@ void requireEqualSizes(const std::vector<NamedTerm>& terms) {
   for (const auto& [name, term] : terms) {
     check(MatGetSize(term.matrix, &size, nullptr));
     if (size != wanted)
-      throw Error(formatted("option -%s: %d rows, but matrix '%s' has %d", fileOption.fullName(name).c_str(),
-                            static_cast<int>(size), terms[0].name.c_str(), static_cast<int>(wanted)));
+      throw Error(formatted("option -%s: %d rows, but matrix '%s' has %d",
+                            fileOption.fullName(name).c_str(), static_cast<int>(size),
+                            terms[0].name.c_str(), static_cast<int>(wanted)));
   }
 }
 
@@ -60,7 +65,9 @@ void rejectOrphans() {
   const std::set<std::string> known(files.begin(), files.end());
   const auto requireFile = [&](const Option& option) {
     for (const auto& name : option.subjects())
-      if (!known.count(name)) throw Error("option -" + option.fullName(name) + ": there is no -" + fileOption.fullName(name));
+      if (!known.count(name))
+        throw Error("option -" + option.fullName(name) + ": there is no -" +
+                    fileOption.fullName(name));
   };
   requireFile(roleOption);
   requireFile(datasetOption);
@@ -71,14 +78,17 @@ void rejectOrphans() {
 }
 
 void rejectMeshOptions() {
-  const std::set<std::string> ofMesh{"mesh", "elasticity", "constraint", "load", "motion", "contact", "steady"};
+  const std::set<std::string> ofMesh{"mesh",   "elasticity", "constraint", "load",
+                                     "motion", "contact",    "steady"};
   const auto complain = [&](const std::string& name) {
-    throw Error("option -" + name + ": a run is of a mesh or of matrices (-" + fileOption.fullName(fileOption.subjects()[0]) +
-                "), not of both");
+    throw Error("option -" + name + ": a run is of a mesh or of matrices (-" +
+                fileOption.fullName(fileOption.subjects()[0]) + "), not of both");
   };
   for (const auto* option : Option::all()) {
     if (!ofMesh.count(option->stage)) continue;
-    for (const auto& subject : option->name.find('<') == std::string::npos ? std::vector<std::string>{""} : option->subjects())
+    for (const auto& subject : option->name.find('<') == std::string::npos
+                                   ? std::vector<std::string>{""}
+                                   : option->subjects())
       if (option->given(subject)) complain(option->fullName(subject));
   }
   for (const auto* solver : SolverPrefix::all())

@@ -22,8 +22,8 @@ OwnedMat load(MPI_Comm comm, const std::filesystem::path& path) {
   return matrix;
 }
 
-/// From the entries that rank 0 has. PETSc sums those of equal row and column, whatever the insert mode: it adds or replaces what the
-/// matrix had before.
+/// From the entries that rank 0 has. PETSc sums those of equal row and column, whatever the insert
+/// mode: it adds or replaces what the matrix had before.
 OwnedMat distribute(MPI_Comm comm, matrixfile::Entries& entries) {
   PetscInt sizes[2] = {entries.rows, entries.columns};
   check(MPI_Bcast(sizes, 2, MPIU_INT, 0, comm));
@@ -31,22 +31,26 @@ OwnedMat distribute(MPI_Comm comm, matrixfile::Entries& entries) {
   check(MatCreate(comm, matrix.out()));
   check(MatSetSizes(matrix, PETSC_DECIDE, PETSC_DECIDE, sizes[0], sizes[1]));
   check(MatSetType(matrix, MATAIJ));
-  check(MatSetPreallocationCOO(matrix, static_cast<PetscCount>(entries.value.size()), entries.row.data(), entries.column.data()));
+  check(MatSetPreallocationCOO(matrix, static_cast<PetscCount>(entries.value.size()),
+                               entries.row.data(), entries.column.data()));
   check(MatSetValuesCOO(matrix, entries.value.data(), INSERT_VALUES));
   return matrix;
 }
 
-/// The memory for empty rows is asked for by the header alone. Up to ten million, that of a gigabyte, it may; beyond, one row in a
-/// thousand at the least has an entry, or the header is damaged.
+/// The memory for empty rows is asked for by the header alone. Up to ten million, that of a
+/// gigabyte, it may; beyond, one row in a thousand at the least has an entry, or the header is
+/// damaged.
 void requireFilled(const matrixfile::Entries& entries) {
   const auto count = static_cast<double>(entries.value.size());
   if (entries.rows > 1e7 + 1e3 * count)
-    throw Error(
-        formatted("%lld rows with %.0f entries: is the number of rows right?", static_cast<long long>(entries.rows), count));
+    throw Error(formatted("%lld rows with %.0f entries: is the number of rows right?",
+                          static_cast<long long>(entries.rows), count));
 }
 
-matrixfile::Entries readHere(matrixfile::Format format, const std::filesystem::path& path, const std::string& dataset) {
-  if (!dataset.empty() && (format == matrixfile::Format::matrixMarket || format == matrixfile::Format::petscBinary))
+matrixfile::Entries readHere(matrixfile::Format format, const std::filesystem::path& path,
+                             const std::string& dataset) {
+  if (!dataset.empty() &&
+      (format == matrixfile::Format::matrixMarket || format == matrixfile::Format::petscBinary))
     throw Error("the file is a single matrix, it holds no '" + dataset + "' by name");
   matrixfile::Entries entries;
   switch (format) {
@@ -82,7 +86,8 @@ OwnedMat read(MPI_Comm comm, const std::filesystem::path& path, const std::strin
   OwnedMat matrix = isBinary ? load(comm, path) : distribute(comm, entries);
   PetscReal norm = 0;
   check(MatNorm(matrix, NORM_FROBENIUS, &norm));
-  if (!std::isfinite(norm)) throw Error(path.string() + ": the numbers are too large, their squares overflow");
+  if (!std::isfinite(norm))
+    throw Error(path.string() + ": the numbers are too large, their squares overflow");
   return matrix;
 }
 

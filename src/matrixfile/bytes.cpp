@@ -10,7 +10,9 @@ BinaryFile::BinaryFile(const std::filesystem::path& path) : file_(path, std::ios
   if (!file_ || error) throw Error("the file cannot be read");
 }
 
-void BinaryFile::seek(std::uint64_t position) { file_.seekg(static_cast<std::streamoff>(position)); }
+void BinaryFile::seek(std::uint64_t position) {
+  file_.seekg(static_cast<std::streamoff>(position));
+}
 
 void BinaryFile::read(void* to, std::size_t count) {
   file_.read(static_cast<char*>(to), static_cast<std::streamsize>(count));

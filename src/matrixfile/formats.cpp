@@ -20,7 +20,8 @@ constexpr long long mostIndices = std::numeric_limits<PetscInt>::max();
 
 void requireCountable(long long count, const char* what) {
   if (count > mostIndices)
-    throw Error(formatted("%lld %s: this build's %zu-bit indices count to %lld", count, what, 8 * sizeof(PetscInt), mostIndices));
+    throw Error(formatted("%lld %s: this build's %zu-bit indices count to %lld", count, what,
+                          8 * sizeof(PetscInt), mostIndices));
 }
 
 std::string firstBytes(const std::filesystem::path& path, std::size_t count) {
@@ -38,19 +39,26 @@ std::string firstBytes(const std::filesystem::path& path, std::size_t count) {
   return bytes;
 }
 
-bool begins(const std::string& text, const std::string& start) { return text.compare(0, start.size(), start) == 0; }
+bool begins(const std::string& text, const std::string& start) {
+  return text.compare(0, start.size(), start) == 0;
+}
 
 /// In capitals or not.
-bool beginsAsWord(const std::string& text, const char* start) { return strncasecmp(text.c_str(), start, std::strlen(start)) == 0; }
+bool beginsAsWord(const std::string& text, const char* start) {
+  return strncasecmp(text.c_str(), start, std::strlen(start)) == 0;
+}
 
 std::int32_t wordAt(const std::string& bytes, std::size_t position, bool big) {
-  return position + 4 > bytes.size() ? 0 : numberAt<std::int32_t>(bytes.data() + position, big == littleEndian);
+  return position + 4 > bytes.size()
+             ? 0
+             : numberAt<std::int32_t>(bytes.data() + position, big == littleEndian);
 }
 
 /// Version and mark of the byte order end the header of 128 bytes; the text before is free.
 bool isMatlab5(const std::string& head) {
   if (begins(head, "MATLAB 5.0 MAT-file")) return true;
-  return head.size() == 128 && (head.substr(124) == std::string("\0\1IM", 4) || head.substr(124) == std::string("\1\0MI", 4));
+  return head.size() == 128 && (head.substr(124) == std::string("\0\1IM", 4) ||
+                                head.substr(124) == std::string("\1\0MI", 4));
 }
 
 /// MATLAB's files of version 7.3 have a header of their own before that of HDF5.
@@ -60,11 +68,13 @@ bool isHdf5(const std::string& head) {
          (head.size() >= 520 && head.compare(512, signature.size(), signature) == 0);
 }
 
-/// Without a signature: type, rows, columns, whether there is an imaginary part, length of the name.
+/// Without a signature: type, rows, columns, whether there is an imaginary part, length of the
+/// name.
 bool isMatlab4(const std::string& head) {
   const auto looksSound = [&](bool big) {
     const auto at = [&](std::size_t word) { return wordAt(head, 4 * word, big); };
-    return head.size() >= 20 && at(0) >= 0 && at(0) < 5000 && at(1) >= 0 && at(2) >= 0 && (at(3) == 0 || at(3) == 1) && at(4) > 0;
+    return head.size() >= 20 && at(0) >= 0 && at(0) < 5000 && at(1) >= 0 && at(2) >= 0 &&
+           (at(3) == 0 || at(3) == 1) && at(4) > 0;
   };
   return looksSound(true) || looksSound(false);
 }
@@ -73,7 +83,8 @@ std::string beginningOf(const std::string& head) {
   std::string text;
   for (const char c : head.substr(0, 24)) {
     if (c == '\n') break;
-    text += c >= ' ' && c <= '~' ? std::string(1, c) : formatted("\\x%02x", static_cast<unsigned char>(c));
+    text += c >= ' ' && c <= '~' ? std::string(1, c)
+                                 : formatted("\\x%02x", static_cast<unsigned char>(c));
   }
   return text;
 }
@@ -81,16 +92,22 @@ std::string beginningOf(const std::string& head) {
 /// Other files that are taken for matrices.
 [[noreturn]] void refuse(const std::string& head) {
   if (begins(head, "PK"))
-    throw Error("an archive, as numpy and scipy.sparse.save_npz write it: make scripts/convert_matrix a .mtx or .h5 of it");
-  if (begins(head, "\x93NUMPY")) throw Error("an array of numpy: make scripts/convert_matrix a .mtx or .h5 of it");
+    throw Error(
+        "an archive, as numpy and scipy.sparse.save_npz write it: make scripts/convert_matrix a "
+        ".mtx or .h5 of it");
+  if (begins(head, "\x93NUMPY"))
+    throw Error("an array of numpy: make scripts/convert_matrix a .mtx or .h5 of it");
   if (begins(head, "\x1f\x8b")) throw Error("a file packed by gzip: unpack it first");
   if (wordAt(head, 4, true) == MAT_FILE_CLASSID && wordAt(head, 0, true) == 0)
-    throw Error("a matrix in PETSc's binary format with 64-bit indices: write it with 32-bit indices");
+    throw Error(
+        "a matrix in PETSc's binary format with 64-bit indices: write it with 32-bit indices");
   if (wordAt(head, 0, false) == MAT_FILE_CLASSID)
     throw Error("a matrix in PETSc's binary format, but little-endian: the format is big-endian");
-  if (wordAt(head, 0, true) == VEC_FILE_CLASSID) throw Error("a vector in PETSc's binary format, not a matrix");
+  if (wordAt(head, 0, true) == VEC_FILE_CLASSID)
+    throw Error("a vector in PETSc's binary format, not a matrix");
   throw Error(
-      "the file is none of Matrix Market (first line %%MatrixMarket ...), MATLAB, HDF5 and PETSc's binary format: it begins with "
+      "the file is none of Matrix Market (first line %%MatrixMarket ...), MATLAB, HDF5 and PETSc's "
+      "binary format: it begins with "
       "'" +
       beginningOf(head) + "'");
 }
@@ -98,7 +115,8 @@ std::string beginningOf(const std::string& head) {
 }  // namespace
 
 Entries::Entries(long long rowCount, long long columnCount) {
-  if (rowCount < 0 || columnCount < 0) throw Error(formatted("%lld rows and %lld columns", rowCount, columnCount));
+  if (rowCount < 0 || columnCount < 0)
+    throw Error(formatted("%lld rows and %lld columns", rowCount, columnCount));
   requireCountable(rowCount, "rows");
   requireCountable(columnCount, "columns");
   rows = static_cast<PetscInt>(rowCount);
@@ -107,10 +125,12 @@ Entries::Entries(long long rowCount, long long columnCount) {
 
 void Entries::add(long long i, long long j, double x) {
   if (i < 0 || j < 0 || i >= rows || j >= columns)
-    throw Error(formatted("an entry in row %lld and column %lld of a matrix of %lld x %lld (counted from 0)", i, j,
-                          static_cast<long long>(rows), static_cast<long long>(columns)));
+    throw Error(formatted(
+        "an entry in row %lld and column %lld of a matrix of %lld x %lld (counted from 0)", i, j,
+        static_cast<long long>(rows), static_cast<long long>(columns)));
   if (!std::isfinite(x))
-    throw Error(formatted("the entry in row %lld and column %lld (counted from 0) is not a finite number", i, j));
+    throw Error(formatted(
+        "the entry in row %lld and column %lld (counted from 0) is not a finite number", i, j));
   if (x == 0) return;
   requireCountable(static_cast<long long>(value.size()) + 1, "entries");
   row.push_back(static_cast<PetscInt>(i));
@@ -119,7 +139,8 @@ void Entries::add(long long i, long long j, double x) {
 }
 
 void requireSquare(long long rows, long long columns) {
-  if (rows != columns) throw Error(formatted("%lld rows and %lld columns, not square", rows, columns));
+  if (rows != columns)
+    throw Error(formatted("%lld rows and %lld columns, not square", rows, columns));
   if (rows <= 0) throw Error("a matrix without rows");
   requireCountable(rows, "rows");
 }
@@ -128,17 +149,21 @@ Entries Compressed::entries() const {
   const long long lists = byColumns ? columns : rows;
   const auto sizeOf = [](const auto& list) { return static_cast<long long>(list.size()); };
   if (sizeOf(begin) != lists + 1)
-    throw Error(formatted("%s has %lld numbers where a matrix of %lld x %lld by %s takes %lld", beginName, sizeOf(begin), rows,
-                          columns, byColumns ? "columns" : "rows", lists + 1));
-  if (begin.front() != 0) throw Error(formatted("%s begins with %lld, not with 0", beginName, begin.front()));
+    throw Error(formatted("%s has %lld numbers where a matrix of %lld x %lld by %s takes %lld",
+                          beginName, sizeOf(begin), rows, columns, byColumns ? "columns" : "rows",
+                          lists + 1));
+  if (begin.front() != 0)
+    throw Error(formatted("%s begins with %lld, not with 0", beginName, begin.front()));
   for (std::size_t k = 0; k + 1 < begin.size(); ++k)
-    if (begin[k + 1] < begin[k]) throw Error(formatted("%s falls from %lld to %lld", beginName, begin[k], begin[k + 1]));
+    if (begin[k + 1] < begin[k])
+      throw Error(formatted("%s falls from %lld to %lld", beginName, begin[k], begin[k + 1]));
   if (begin.back() != sizeOf(index) || begin.back() != sizeOf(value))
-    throw Error(formatted("%s ends with %lld, but %s has %lld numbers and data has %lld", beginName, begin.back(), indexName,
-                          sizeOf(index), sizeOf(value)));
+    throw Error(formatted("%s ends with %lld, but %s has %lld numbers and data has %lld", beginName,
+                          begin.back(), indexName, sizeOf(index), sizeOf(value)));
   Entries entries(rows, columns);
   for (std::size_t k = 0; k + 1 < begin.size(); ++k)
-    for (auto e = static_cast<std::size_t>(begin[k]); e < static_cast<std::size_t>(begin[k + 1]); ++e) {
+    for (auto e = static_cast<std::size_t>(begin[k]); e < static_cast<std::size_t>(begin[k + 1]);
+         ++e) {
       const auto list = static_cast<long long>(k);
       entries.add(byColumns ? index[e] : list, byColumns ? list : index[e], value[e]);
     }

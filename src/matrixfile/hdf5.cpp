@@ -20,7 +20,9 @@ bool isCompressed(hid_t object) {
 
 /// MATLAB 7.3 marks every variable with its class, a sparse one with its number of rows.
 std::string matlabClass(hid_t object) { return textOfAttribute(object, "MATLAB_class"); }
-bool isMatlabSparse(hid_t object) { return isGroup(object) && has(object, "jc") && hasAttribute(object, "MATLAB_sparse"); }
+bool isMatlabSparse(hid_t object) {
+  return isGroup(object) && has(object, "jc") && hasAttribute(object, "MATLAB_sparse");
+}
 
 bool isTable(hid_t object) {
   if (H5Iget_type(object) != H5I_DATASET || shapeOf(object).size() != 2) return false;
@@ -31,20 +33,27 @@ bool isTable(hid_t object) {
          (matlab.empty() || matlab == "double" || matlab == "single");
 }
 
-bool isMatrix(hid_t object) { return isCompressed(object) || isMatlabSparse(object) || isTable(object); }
+bool isMatrix(hid_t object) {
+  return isCompressed(object) || isMatlabSparse(object) || isTable(object);
+}
 
-/// A number alone, as MATLAB saves every one, is no matrix that could be meant, if another is there.
-bool isNumber(hid_t object) { return isTable(object) && shapeOf(object) == std::vector<hsize_t>{1, 1}; }
+/// A number alone, as MATLAB saves every one, is no matrix that could be meant, if another is
+/// there.
+bool isNumber(hid_t object) {
+  return isTable(object) && shapeOf(object) == std::vector<hsize_t>{1, 1};
+}
 
 /// Empty if the group does not say it. scipy.sparse.save_npz keeps the format as a dataset; a copy
 /// of it in HDF5 does too.
 std::optional<bool> byColumns(hid_t group) {
   std::string found;
-  for (const std::string& text : {textOfAttribute(group, "format"), textOfAttribute(group, "h5sparse_format"),
-                                  textOfAttribute(group, "encoding-type"), textOfDataset(group, "format")}) {
+  for (const std::string& text :
+       {textOfAttribute(group, "format"), textOfAttribute(group, "h5sparse_format"),
+        textOfAttribute(group, "encoding-type"), textOfDataset(group, "format")}) {
     if (text.empty()) continue;
     const std::string format = text.substr(0, 3);
-    if (format != "csr" && format != "csc") throw Error("the format '" + text + "', where csr and csc are read");
+    if (format != "csr" && format != "csc")
+      throw Error("the format '" + text + "', where csr and csc are read");
     if (!found.empty() && found != format) throw Error("the group calls itself csr as well as csc");
     found = format;
   }
@@ -57,9 +66,11 @@ bool isSymmetric(const Entries& entries) {
   const auto sums = [&](const auto& major, const auto& minor) {
     std::vector<Sum> all, summed;
     all.reserve(entries.value.size());
-    for (std::size_t k = 0; k < entries.value.size(); ++k) all.emplace_back(major[k], minor[k], entries.value[k]);
+    for (std::size_t k = 0; k < entries.value.size(); ++k)
+      all.emplace_back(major[k], minor[k], entries.value[k]);
     const auto place = [](const Sum& sum) { return std::pair(std::get<0>(sum), std::get<1>(sum)); };
-    std::stable_sort(all.begin(), all.end(), [&](const Sum& a, const Sum& b) { return place(a) < place(b); });
+    std::stable_sort(all.begin(), all.end(),
+                     [&](const Sum& a, const Sum& b) { return place(a) < place(b); });
     for (const auto& entry : all)
       if (!summed.empty() && place(summed.back()) == place(entry))
         std::get<2>(summed.back()) += std::get<2>(entry);
@@ -70,7 +81,8 @@ bool isSymmetric(const Entries& entries) {
   return sums(entries.row, entries.column) == sums(entries.column, entries.row);
 }
 
-/// Rows and columns, where they are written: in the attribute of anndata or h5sparse, or as scipy.sparse.save_npz names it.
+/// Rows and columns, where they are written: in the attribute of anndata or h5sparse, or as
+/// scipy.sparse.save_npz names it.
 void checkShape(hid_t group, long long size) {
   std::vector<long long> shape;
   for (const char* name : {"shape", "h5sparse_shape"})
@@ -80,7 +92,8 @@ void checkShape(hid_t group, long long size) {
   if (shape.size() != 2) throw Error(formatted("a shape of %zu numbers", shape.size()));
   requireSquare(shape[0], shape[1]);
   if (shape[0] != size)
-    throw Error(formatted("indptr has %lld numbers where a matrix of %lld rows takes %lld", size + 1, shape[0], shape[0] + 1));
+    throw Error(formatted("indptr has %lld numbers where a matrix of %lld rows takes %lld",
+                          size + 1, shape[0], shape[0] + 1));
 }
 
 Entries compressedGroup(hid_t group) {
@@ -89,7 +102,8 @@ Entries compressedGroup(hid_t group) {
   matrix.byColumns = said.value_or(false);
   matrix.begin = integers(group, "indptr");
   if (matrix.begin.empty()) throw Error("indptr is empty");
-  matrix.rows = matrix.columns = static_cast<long long>(matrix.begin.size()) - 1;  // a square matrix
+  matrix.rows = matrix.columns =
+      static_cast<long long>(matrix.begin.size()) - 1;  // a square matrix
   checkShape(group, matrix.rows);
   matrix.index = integers(group, "indices");
   matrix.value = reals(group, "data");
@@ -127,7 +141,8 @@ Entries matlabSparse(hid_t group) {
 /// By rows; MATLAB's by columns.
 Entries table(hid_t file, hid_t dataset, const std::string& name) {
   const auto shape = shapeOf(dataset);
-  if (shape[0] > LLONG_MAX || shape[1] > LLONG_MAX) throw Error("its sizes are beyond what 64 bits count");
+  if (shape[0] > LLONG_MAX || shape[1] > LLONG_MAX)
+    throw Error("its sizes are beyond what 64 bits count");
   requireSquare(static_cast<long long>(shape[0]), static_cast<long long>(shape[1]));
   const bool transposed = !matlabClass(dataset).empty();
   const auto values = reals(file, name, 2);
@@ -155,15 +170,18 @@ std::string onlyMatrix(hid_t file) {
   if (isCompressed(root)) return "/";
   std::vector<std::string> matrices, numbers;
   for (const auto& name : namesIn(root))
-    if (const ObjectId object(H5Oopen(root, name.c_str(), H5P_DEFAULT)); object.valid() && isMatrix(object))
+    if (const ObjectId object(H5Oopen(root, name.c_str(), H5P_DEFAULT));
+        object.valid() && isMatrix(object))
       (isNumber(object) ? numbers : matrices).push_back(name);
   if (matrices.empty()) matrices = numbers;
   if (matrices.empty())
     throw Error(
-        "the HDF5 file holds no matrix: no group with data, indices and indptr (MATLAB: data, ir and jc), no dataset of real "
+        "the HDF5 file holds no matrix: no group with data, indices and indptr (MATLAB: data, ir "
+        "and jc), no dataset of real "
         "numbers of two "
         "dimensions");
-  if (matrices.size() > 1) throw Error("the HDF5 file holds several matrices, " + joined(matrices) + ": name one");
+  if (matrices.size() > 1)
+    throw Error("the HDF5 file holds several matrices, " + joined(matrices) + ": name one");
   return matrices[0];
 }
 
@@ -182,7 +200,8 @@ Entries readHere(const std::filesystem::path& path, const std::string& name) {
     throw Error("'" + wanted + "': " + error.what());
   }
   throw Error("'" + wanted +
-              "' is neither a group with data, indices and indptr (MATLAB: data, ir and jc) nor a dataset of real numbers "
+              "' is neither a group with data, indices and indptr (MATLAB: data, ir and jc) nor a "
+              "dataset of real numbers "
               "of two dimensions");
 }
 
@@ -191,8 +210,8 @@ Entries readHere(const std::filesystem::path& path, const std::string& name) {
 /// The HDF5 library crashes on damaged files.
 Entries readHdf5(const std::filesystem::path& path, const std::string& name) {
   const auto size = static_cast<double>(std::filesystem::file_size(path));
-  const ChildLimits limits{"the HDF5 file", 5 + 1e-6 * size, availableMemory(), "it asks for more memory than is free",
-                           "the HDF5 library"};
+  const ChildLimits limits{"the HDF5 file", 5 + 1e-6 * size, availableMemory(),
+                           "it asks for more memory than is free", "the HDF5 library"};
   Buffer buffer = inChild(limits, [&](const Warn&) {
     const Entries entries = readHere(path, name);
     Buffer packed;

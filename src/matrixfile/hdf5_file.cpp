@@ -20,7 +20,8 @@ std::vector<hsize_t> extentOf(hid_t space) {
 /// Error: more than memory has addresses for.
 hsize_t product(const std::vector<hsize_t>& shape, hsize_t size) {
   for (const auto extent : shape)
-    if (__builtin_mul_overflow(size, extent, &size)) throw Error("its sizes are beyond what 64 bits count");
+    if (__builtin_mul_overflow(size, extent, &size))
+      throw Error("its sizes are beyond what 64 bits count");
   return size;
 }
 
@@ -30,9 +31,11 @@ hsize_t mostUnpacked(hid_t properties, hsize_t stored) {
   for (int k = 0; k < filters; ++k) {
     unsigned flags = 0, configuration = 0;
     std::size_t count = 0;
-    const H5Z_filter_t filter =
-        H5Pget_filter2(properties, static_cast<unsigned>(k), &flags, &count, nullptr, 0, nullptr, &configuration);
-    if (filter != H5Z_FILTER_DEFLATE && filter != H5Z_FILTER_SHUFFLE && filter != H5Z_FILTER_FLETCHER32) return HSIZE_UNDEF;
+    const H5Z_filter_t filter = H5Pget_filter2(properties, static_cast<unsigned>(k), &flags, &count,
+                                               nullptr, 0, nullptr, &configuration);
+    if (filter != H5Z_FILTER_DEFLATE && filter != H5Z_FILTER_SHUFFLE &&
+        filter != H5Z_FILTER_FLETCHER32)
+      return HSIZE_UNDEF;
   }
   return filters > 0 ? 1040 * stored : stored;
 }
@@ -48,16 +51,19 @@ hsize_t chunksOf(const std::vector<hsize_t>& shape, const std::vector<hsize_t>& 
 }
 
 /// Bytes that the values take, those of whole chunks. Error: some were never written.
-hsize_t wantedBytes(hid_t dataset, hid_t properties, hsize_t width, const std::vector<hsize_t>& shape) {
+hsize_t wantedBytes(hid_t dataset, hid_t properties, hsize_t width,
+                    const std::vector<hsize_t>& shape) {
   const hsize_t wanted = product(shape, width);
   if (wanted == 0 || H5Pget_layout(properties) != H5D_CHUNKED) return wanted;
   std::vector<hsize_t> chunk(shape.size());
-  if (H5Pget_chunk(properties, static_cast<int>(chunk.size()), chunk.data()) < 0) throw Error("its layout is damaged" + cause());
+  if (H5Pget_chunk(properties, static_cast<int>(chunk.size()), chunk.data()) < 0)
+    throw Error("its layout is damaged" + cause());
   const hsize_t chunks = chunksOf(shape, chunk);
   hsize_t present = 0;
   const SpaceId space(H5Dget_space(dataset));
   if (H5Dget_num_chunks(dataset, space, &present) < 0 || present != chunks)
-    throw Error(formatted("%llu of its %llu chunks were written", static_cast<unsigned long long>(present),
+    throw Error(formatted("%llu of its %llu chunks were written",
+                          static_cast<unsigned long long>(present),
                           static_cast<unsigned long long>(chunks)));
   return product(chunk, product({chunks}, width));
 }
@@ -67,9 +73,11 @@ void requireStored(hid_t dataset, hid_t type, const std::vector<hsize_t>& shape)
   const PropertiesId properties(H5Dget_create_plist(dataset));
   if (H5Pget_layout(properties) == H5D_VIRTUAL || H5Pget_external_count(properties) > 0)
     throw Error("its values lie in other files: bring them into one by h5repack");
-  const hsize_t wanted = wantedBytes(dataset, properties, H5Tget_size(type), shape), stored = H5Dget_storage_size(dataset);
+  const hsize_t wanted = wantedBytes(dataset, properties, H5Tget_size(type), shape),
+                stored = H5Dget_storage_size(dataset);
   if (wanted > mostUnpacked(properties, stored))
-    throw Error(formatted("the file holds %llu bytes of it, where its size takes %llu", static_cast<unsigned long long>(stored),
+    throw Error(formatted("the file holds %llu bytes of it, where its size takes %llu",
+                          static_cast<unsigned long long>(stored),
                           static_cast<unsigned long long>(wanted)));
 }
 
@@ -94,10 +102,13 @@ std::vector<Number> valuesOf(hid_t dataset, bool onlyIntegers, hid_t memory, int
   const TypeId type(H5Dget_type(dataset));
   const auto kind = H5Tget_class(type);
   if (kind != H5T_INTEGER && (onlyIntegers || kind != H5T_FLOAT))
-    throw Error(std::string(onlyIntegers ? "integers" : "real numbers") + " are expected, it holds " + kindOf(type));
+    throw Error(std::string(onlyIntegers ? "integers" : "real numbers") +
+                " are expected, it holds " + kindOf(type));
   const SpaceId space(H5Dget_space(dataset));
-  if (H5Sget_simple_extent_type(space) != H5S_SIMPLE || H5Sget_simple_extent_ndims(space) != dimensions)
-    throw Error(formatted("%d dimensions are expected, it has %d", dimensions, H5Sget_simple_extent_ndims(space)));
+  if (H5Sget_simple_extent_type(space) != H5S_SIMPLE ||
+      H5Sget_simple_extent_ndims(space) != dimensions)
+    throw Error(formatted("%d dimensions are expected, it has %d", dimensions,
+                          H5Sget_simple_extent_ndims(space)));
   const auto shape = extentOf(space);
   requireStored(dataset, type, shape);
   std::vector<Number> values(static_cast<std::size_t>(product(shape, 1)));
@@ -107,7 +118,8 @@ std::vector<Number> valuesOf(hid_t dataset, bool onlyIntegers, hid_t memory, int
 }
 
 template <class Number>
-std::vector<Number> valuesIn(hid_t group, const std::string& name, bool onlyIntegers, hid_t memory, int dimensions) {
+std::vector<Number> valuesIn(hid_t group, const std::string& name, bool onlyIntegers, hid_t memory,
+                             int dimensions) {
   const DatasetId dataset(H5Dopen2(group, name.c_str(), H5P_DEFAULT));
   if (!dataset.valid()) throw Error("there is no dataset '" + name + "'" + cause());
   try {
@@ -149,9 +161,13 @@ std::string cause() {
   return text.empty() ? "" : " (HDF5: " + text + ")";
 }
 
-bool has(hid_t group, const std::string& name) { return H5Lexists(group, name.c_str(), H5P_DEFAULT) > 0; }
+bool has(hid_t group, const std::string& name) {
+  return H5Lexists(group, name.c_str(), H5P_DEFAULT) > 0;
+}
 
-bool hasAttribute(hid_t object, const std::string& name) { return H5Aexists(object, name.c_str()) > 0; }
+bool hasAttribute(hid_t object, const std::string& name) {
+  return H5Aexists(object, name.c_str()) > 0;
+}
 
 std::vector<hsize_t> shapeOf(hid_t dataset) {
   const SpaceId space(H5Dget_space(dataset));
@@ -180,7 +196,9 @@ std::string textOfDataset(hid_t group, const std::string& name) {
   if (!id.valid()) return "";
   const TypeId type(H5Dget_type(id));
   const SpaceId space(H5Dget_space(id));
-  return text(type, space, [&](hid_t as, void* to) { return H5Dread(id, as, H5S_ALL, H5S_ALL, H5P_DEFAULT, to); });
+  return text(type, space, [&](hid_t as, void* to) {
+    return H5Dread(id, as, H5S_ALL, H5S_ALL, H5P_DEFAULT, to);
+  });
 }
 
 std::vector<long long> integersOfAttribute(hid_t object, const std::string& name) {

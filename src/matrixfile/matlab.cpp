@@ -1,4 +1,5 @@
-// By hand: matio 1.5 fills up with zeros what a file cut short no longer holds, and leaves out what follows.
+// By hand: matio 1.5 fills up with zeros what a file cut short no longer holds, and leaves out what
+// follows.
 #include "matrixfile/matlab.hpp"
 
 #include "petsc/check.hpp"
@@ -17,7 +18,8 @@ bool isSquareMatrix(const Variable& variable) {
 std::string described(const Variable& variable) {
   std::vector<std::string> sizes;
   for (const auto size : variable.shape) sizes.push_back(std::to_string(size));
-  return variable.name + " (" + joined(sizes, " x ") + (sizes.empty() ? "" : " ") + variable.kind + ")";
+  return variable.name + " (" + joined(sizes, " x ") + (sizes.empty() ? "" : " ") + variable.kind +
+         ")";
 }
 
 std::string describedAll(const std::vector<Variable>& variables) {
@@ -33,15 +35,18 @@ const Variable& chosen(const std::vector<Variable>& variables, const std::string
   std::vector<const Variable*> found;
   std::vector<std::string> names;
   for (const auto& variable : variables)
-    if (name.empty() ? isSquareMatrix(variable) : variable.name == name) found.push_back(&variable), names.push_back(variable.name);
+    if (name.empty() ? isSquareMatrix(variable) : variable.name == name)
+      found.push_back(&variable), names.push_back(variable.name);
   if (found.empty())
-    throw Error((name.empty() ? std::string("the MATLAB file holds no square matrix of real numbers")
-                              : "the MATLAB file holds no variable '" + name + "'") +
+    throw Error((name.empty()
+                     ? std::string("the MATLAB file holds no square matrix of real numbers")
+                     : "the MATLAB file holds no variable '" + name + "'") +
                 ", but " + describedAll(variables));
   if (found.size() > 1)
     throw Error("the MATLAB file holds several " +
                 (name.empty() ? "matrices, " + joined(names) + ": name one" : "variables " + name));
-  if (!isMatrix(*found[0])) throw Error("variable " + described(*found[0]) + " is not a matrix of real numbers");
+  if (!isMatrix(*found[0]))
+    throw Error("variable " + described(*found[0]) + " is not a matrix of real numbers");
   return *found[0];
 }
 
@@ -66,14 +71,16 @@ bool claimsVersion5(BinaryFile& file) {
 Entries full(const Variable& variable, const std::vector<double>& values) {
   Entries entries(variable.shape.at(0), variable.shape.at(1));
   for (long long j = 0, k = 0; j < variable.shape[1]; ++j)
-    for (long long i = 0; i < variable.shape[0]; ++i, ++k) entries.add(i, j, values[static_cast<std::size_t>(k)]);
+    for (long long i = 0; i < variable.shape[0]; ++i, ++k)
+      entries.add(i, j, values[static_cast<std::size_t>(k)]);
   return entries;
 }
 
 Entries readMatlab(const std::filesystem::path& path, const std::string& name) {
   BinaryFile file(path);
   const bool version5 = isVersion5(file);
-  if (!version5 && claimsVersion5(file)) throw Error("the header of the MATLAB file is cut short or damaged");
+  if (!version5 && claimsVersion5(file))
+    throw Error("the header of the MATLAB file is cut short or damaged");
   const auto variables = version5 ? variablesOfVersion5(file) : variablesOfVersion4(file);
   const Variable& variable = chosen(variables, name);
   if (!variable.sparse || version5) requireSquare(variable.shape[0], variable.shape[1]);

@@ -20,7 +20,8 @@ struct Variable {
   int type = 0;  ///< of the values in version 4
 };
 
-/// All variables in the order of the file. Errors: sizes that do not add up to that of the file; damaged headers.
+/// All variables in the order of the file. Errors: sizes that do not add up to that of the file;
+/// damaged headers.
 std::vector<Variable> variablesOfVersion4(BinaryFile& file);
 std::vector<Variable> variablesOfVersion5(BinaryFile& file);
 

@@ -1,4 +1,5 @@
-// MATLAB's version 4: variables one after the other, each with a header of five integers, its name and its values by columns.
+// MATLAB's version 4: variables one after the other, each with a header of five integers, its name
+// and its values by columns.
 #include <array>
 #include <cmath>
 
@@ -12,7 +13,9 @@ namespace {
 constexpr std::size_t headerSize = 20;
 
 /// Of the types of values: double, float, and integers of 32, 16, 16 and 8 bits.
-std::uint64_t widthOf(int type) { return std::array<std::uint64_t, 6>{8, 4, 4, 2, 2, 1}.at(static_cast<std::size_t>(type)); }
+std::uint64_t widthOf(int type) {
+  return std::array<std::uint64_t, 6>{8, 4, 4, 2, 2, 1}.at(static_cast<std::size_t>(type));
+}
 
 double valueAt(const char* bytes, int type, bool swapped) {
   switch (type) {
@@ -37,57 +40,71 @@ std::vector<double> valuesOf(BinaryFile& file, const Variable& variable) {
   file.read(bytes.data(), bytes.size());
   const std::size_t width = widthOf(variable.type);
   std::vector<double> values(bytes.size() / width);
-  for (std::size_t k = 0; k < values.size(); ++k) values[k] = valueAt(bytes.data() + k * width, variable.type, variable.swapped);
+  for (std::size_t k = 0; k < values.size(); ++k)
+    values[k] = valueAt(bytes.data() + k * width, variable.type, variable.swapped);
   return values;
 }
 
 Variable variableAt(BinaryFile& file, std::uint64_t position) {
   file.seek(position);
-  if (file.size() - position < headerSize) throw Error("the file is cut short in the header of a variable");
+  if (file.size() - position < headerSize)
+    throw Error("the file is cut short in the header of a variable");
   const auto fail = [&] {
-    throw Error(formatted("no header of a MATLAB variable at byte %llu: the file is damaged, or no MATLAB file",
-                          static_cast<unsigned long long>(position)));
+    throw Error(formatted(
+        "no header of a MATLAB variable at byte %llu: the file is damaged, or no MATLAB file",
+        static_cast<unsigned long long>(position)));
   };
   char bytes[headerSize];
   file.read(bytes, sizeof bytes);
   Variable variable;
-  // Thousands: the byte order, 0 for little-endian and 1 for big; so the type itself shows the order it is written in.
+  // Thousands: the byte order, 0 for little-endian and 1 for big; so the type itself shows the
+  // order it is written in.
   const auto type = [&](bool swapped) { return numberAt<std::int32_t>(bytes, swapped); };
-  variable.swapped = type(!littleEndian) / 1000 == 0 && type(!littleEndian) >= 0 ? !littleEndian : littleEndian;
-  const auto word = [&](std::size_t i) { return static_cast<long long>(numberAt<std::int32_t>(bytes + 4 * i, variable.swapped)); };
+  variable.swapped =
+      type(!littleEndian) / 1000 == 0 && type(!littleEndian) >= 0 ? !littleEndian : littleEndian;
+  const auto word = [&](std::size_t i) {
+    return static_cast<long long>(numberAt<std::int32_t>(bytes + 4 * i, variable.swapped));
+  };
   const long long mopt = word(0), imaginary = word(3), nameLength = word(4);
-  if (mopt / 1000 != (variable.swapped == littleEndian ? 1 : 0) || mopt < 0 || mopt / 100 % 10 != 0 || mopt / 10 % 10 > 5 ||
-      mopt % 10 > 2 || word(1) < 0 || word(2) < 0 || imaginary < 0 || imaginary > 1 || nameLength < 1 || nameLength > 4096)
+  if (mopt / 1000 != (variable.swapped == littleEndian ? 1 : 0) || mopt < 0 ||
+      mopt / 100 % 10 != 0 || mopt / 10 % 10 > 5 || mopt % 10 > 2 || word(1) < 0 || word(2) < 0 ||
+      imaginary < 0 || imaginary > 1 || nameLength < 1 || nameLength > 4096)
     fail();
   variable.type = static_cast<int>(mopt / 10 % 10);
   variable.sparse = mopt % 10 == 2;
   variable.shape = {word(1), word(2)};
   variable.begin = position + headerSize + static_cast<std::uint64_t>(nameLength);
-  const auto count = static_cast<std::uint64_t>(word(1)) * static_cast<std::uint64_t>(word(2));  // less than 2^62
+  const auto count =
+      static_cast<std::uint64_t>(word(1)) * static_cast<std::uint64_t>(word(2));  // less than 2^62
   const std::uint64_t width = widthOf(variable.type) * static_cast<std::uint64_t>(1 + imaginary);
   if (variable.begin > file.size() || count > (file.size() - variable.begin) / width)
-    throw Error(formatted("the file is cut short: the variable at byte %llu is longer than what is left",
-                          static_cast<unsigned long long>(position)));
+    throw Error(
+        formatted("the file is cut short: the variable at byte %llu is longer than what is left",
+                  static_cast<unsigned long long>(position)));
   variable.end = variable.begin + count * width;
   variable.name.resize(static_cast<std::size_t>(nameLength));
   file.read(variable.name.data(), variable.name.size());
   variable.name = variable.name.c_str();  // a zero ends it
   const bool isText = mopt % 10 == 1, complex = imaginary == 1 || (variable.sparse && word(2) == 4);
-  variable.kind = std::string(complex ? "complex " : "") + (isText ? "text" : variable.sparse ? "sparse" : "double");
+  variable.kind = std::string(complex ? "complex " : "") + (isText            ? "text"
+                                                            : variable.sparse ? "sparse"
+                                                                              : "double");
   variable.real = !isText && !complex;
   return variable;
 }
 
 /// The size of a sparse matrix stands in its last row.
 long long sizeFrom(double value) {
-  if (!(value >= 0 && value < 9e15) || value != std::floor(value)) throw Error(formatted("a size or an index of %g", value));
+  if (!(value >= 0 && value < 9e15) || value != std::floor(value))
+    throw Error(formatted("a size or an index of %g", value));
   return static_cast<long long>(value);
 }
 
 void completeSparse(BinaryFile& file, Variable& variable) {
   const auto rows = static_cast<std::size_t>(variable.shape[0]);
   if (!variable.real) return;
-  if (rows < 1 || variable.shape[1] != 3) throw Error("variable '" + variable.name + "': a sparse matrix without its size");
+  if (rows < 1 || variable.shape[1] != 3)
+    throw Error("variable '" + variable.name + "': a sparse matrix without its size");
   const auto width = widthOf(variable.type);
   std::vector<long long> shape;
   for (const std::size_t column : {std::size_t{0}, std::size_t{1}}) {

@@ -1,5 +1,5 @@
-// MATLAB's version 5: elements one after the other, each with its type and length; a variable is an element of elements, packed by zlib
-// in what -v7 writes.
+// MATLAB's version 5: elements one after the other, each with its type and length; a variable is an
+// element of elements, packed by zlib in what -v7 writes.
 #include <zlib.h>
 
 #include <array>
@@ -18,7 +18,8 @@ constexpr std::uint64_t headerSize = 128, tagSize = 8;
 /// The bytes of one element, unpacked.
 class Source {
  public:
-  Source(BinaryFile& file, std::uint64_t begin, std::uint64_t end, bool packed) : file_(file), left_(end - begin), packed_(packed) {
+  Source(BinaryFile& file, std::uint64_t begin, std::uint64_t end, bool packed)
+      : file_(file), left_(end - begin), packed_(packed) {
     file_.seek(begin);
     if (packed_ && inflateInit(&stream_) != Z_OK) throw Error("zlib lacks memory");
   }
@@ -51,7 +52,8 @@ class Source {
     if (!packed_) return;
     char surplus = 0;
     if (!atEnd_ && produce(&surplus, 1) == 1) throw Error("it is longer than its header says");
-    if (!atEnd_ || left_ > 0 || stream_.avail_in > 0) throw Error("its packed bytes do not end where they should");
+    if (!atEnd_ || left_ > 0 || stream_.avail_in > 0)
+      throw Error("its packed bytes do not end where they should");
   }
 
  private:
@@ -135,7 +137,8 @@ class Elements {
     bool small = false;
     char data[4] = {};
   };
-  /// A small element has its length in the upper half of the type, and its bytes where others have their length.
+  /// A small element has its length in the upper half of the type, and its bytes where others have
+  /// their length.
   Tag nextTag() {
     char bytes[tagSize];
     if (left_ < tagSize) throw Error("it is cut short");
@@ -147,7 +150,8 @@ class Elements {
     tag.small = true;
     tag.type = first & 0xffff;
     tag.size = first >> 16;
-    if (tag.size > 4) throw Error(formatted("a small part of %d bytes", static_cast<int>(tag.size)));
+    if (tag.size > 4)
+      throw Error(formatted("a small part of %d bytes", static_cast<int>(tag.size)));
     std::copy(bytes + 4, bytes + 8, tag.data);
     return tag;
   }
@@ -169,7 +173,9 @@ std::vector<Number> converted(const std::vector<char>& bytes, bool swapped) {
 /// MATLAB stores numbers in the smallest type that holds them all.
 template <class Number>
 std::vector<Number> numbersOf(const Elements::Element& element, bool swapped) {
-  const auto as = [&](auto stored) { return converted<decltype(stored), Number>(element.bytes, swapped); };
+  const auto as = [&](auto stored) {
+    return converted<decltype(stored), Number>(element.bytes, swapped);
+  };
   switch (element.type) {
     case 1:
       return as(std::int8_t{});
@@ -217,9 +223,11 @@ void readHeader(Elements& elements, Variable& variable) {
   const bool complex = word & 0x800, logical = word & 0x200;
   variable.sparse = type == 5;
   variable.real = !complex && !logical && type >= 5 && type <= 7;
-  const std::array<const char*, 18> names{"?",     "cell",  "struct", "object", "char",   "sparse", "double", "single",   "int8",
-                                          "uint8", "int16", "uint16", "int32",  "uint32", "int64",  "uint64", "function", "object"};
-  variable.kind = std::string(complex ? "complex " : "") + (logical ? "logical " : "") + names[type < names.size() ? type : 0];
+  const std::array<const char*, 18> names{
+      "?",     "cell",  "struct", "object", "char",   "sparse", "double", "single",   "int8",
+      "uint8", "int16", "uint16", "int32",  "uint32", "int64",  "uint64", "function", "object"};
+  variable.kind = std::string(complex ? "complex " : "") + (logical ? "logical " : "") +
+                  names[type < names.size() ? type : 0];
   if (type != opaqueClass) variable.shape = shapeOf(elements.next(), variable.swapped);
   const auto name = elements.next();
   if (name.bytes.size() > 4096) throw Error("its name is damaged");
@@ -227,31 +235,36 @@ void readHeader(Elements& elements, Variable& variable) {
 }
 
 Variable variableAt(BinaryFile& file, std::uint64_t position, bool swapped) {
-  if (file.size() - position < tagSize) throw Error("the file is cut short in the header of a variable");
+  if (file.size() - position < tagSize)
+    throw Error("the file is cut short in the header of a variable");
   file.seek(position);
   const auto type = file.number<std::uint32_t>(swapped), size = file.number<std::uint32_t>(swapped);
   if (type != matrixType && type != packedType)
-    throw Error(formatted("no variable at byte %llu: the file is damaged", static_cast<unsigned long long>(position)));
+    throw Error(formatted("no variable at byte %llu: the file is damaged",
+                          static_cast<unsigned long long>(position)));
   Variable variable;
   variable.begin = position + tagSize;
   variable.end = variable.begin + size;
   variable.packed = type == packedType;
   variable.swapped = swapped;
   if (variable.end > file.size())
-    throw Error(formatted("the file is cut short: the variable at byte %llu takes %u bytes, %llu are left",
-                          static_cast<unsigned long long>(position), size,
-                          static_cast<unsigned long long>(file.size() - variable.begin)));
+    throw Error(
+        formatted("the file is cut short: the variable at byte %llu takes %u bytes, %llu are left",
+                  static_cast<unsigned long long>(position), size,
+                  static_cast<unsigned long long>(file.size() - variable.begin)));
   if (size == 0) return variable;  // an empty matrix of nothing
   try {
     Elements elements(file, variable);
     readHeader(elements, variable);
   } catch (const Error& error) {
-    throw Error(formatted("the variable at byte %llu is damaged: %s", static_cast<unsigned long long>(position), error.what()));
+    throw Error(formatted("the variable at byte %llu is damaged: %s",
+                          static_cast<unsigned long long>(position), error.what()));
   }
   return variable;
 }
 
-/// Lists may be longer than what the last column ends with: MATLAB keeps places free, one at the least.
+/// Lists may be longer than what the last column ends with: MATLAB keeps places free, one at the
+/// least.
 void dropFree(Compressed& matrix) {
   if (matrix.begin.empty() || matrix.begin.back() < 0) return;
   const auto count = static_cast<std::size_t>(matrix.begin.back());
@@ -270,7 +283,8 @@ std::vector<Variable> variablesOfVersion5(BinaryFile& file) {
   for (std::uint64_t position = headerSize; position < file.size();) {
     Variable variable = variableAt(file, position, swapped);
     position = variable.end;
-    if (!variable.name.empty()) variables.push_back(std::move(variable));  // one without a name is MATLAB's own
+    if (!variable.name.empty())
+      variables.push_back(std::move(variable));  // one without a name is MATLAB's own
   }
   return variables;
 }
@@ -282,9 +296,11 @@ Entries readVersion5(BinaryFile& file, const Variable& variable) {
   if (!variable.sparse) {
     const auto values = numbersOf<double>(elements.next(), variable.swapped);
     elements.finish();
-    const auto wanted = static_cast<std::uint64_t>(variable.shape[0]) * static_cast<std::uint64_t>(variable.shape[1]);
+    const auto wanted = static_cast<std::uint64_t>(variable.shape[0]) *
+                        static_cast<std::uint64_t>(variable.shape[1]);
     if (values.size() != wanted)
-      throw Error(formatted("%zu values in a matrix of %lld x %lld", values.size(), variable.shape[0], variable.shape[1]));
+      throw Error(formatted("%zu values in a matrix of %lld x %lld", values.size(),
+                            variable.shape[0], variable.shape[1]));
     return full(variable, values);
   }
   Compressed matrix{variable.shape[0], variable.shape[1], true, {}, {}, {}, "jc", "ir"};

@@ -32,7 +32,9 @@ class Lines {
   }
   std::size_t count() const { return count_; }
   std::string_view word(std::size_t i) const { return words_[i]; }
-  [[noreturn]] void fail(const std::string& why) const { throw Error(formatted("line %lld: ", number_) + why); }
+  [[noreturn]] void fail(const std::string& why) const {
+    throw Error(formatted("line %lld: ", number_) + why);
+  }
 
   void requireWords(std::size_t wanted, const char* what) const {
     if (count_ != wanted) fail(formatted("%zu words where %s are expected", count_, what));
@@ -41,16 +43,20 @@ class Lines {
     const std::string_view text = withoutPlus(words_[i]);
     long long value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size()) fail(what + quoted(i) + " is not a whole number");
+    if (error != std::errc() || end != text.data() + text.size())
+      fail(what + quoted(i) + " is not a whole number");
     return value;
   }
   double real(std::size_t i) const {
     std::string text(withoutPlus(words_[i]));
-    if (const auto exponent = text.find_first_of("Dd"); exponent != std::string::npos) text[exponent] = 'e';  // Fortran's
+    if (const auto exponent = text.find_first_of("Dd"); exponent != std::string::npos)
+      text[exponent] = 'e';  // Fortran's
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error == std::errc::result_out_of_range) fail("the value" + quoted(i) + " is beyond the range of doubles");
-    if (error != std::errc() || end != text.data() + text.size()) fail("the value" + quoted(i) + " is not a number");
+    if (error == std::errc::result_out_of_range)
+      fail("the value" + quoted(i) + " is beyond the range of doubles");
+    if (error != std::errc() || end != text.data() + text.size())
+      fail("the value" + quoted(i) + " is not a number");
     if (!std::isfinite(value)) fail("the value" + quoted(i) + " is not a finite number");
     return value;
   }
@@ -60,12 +66,15 @@ class Lines {
     if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
     return text;
   }
-  std::string quoted(std::size_t i) const { return " '" + std::string(words_[i].substr(0, 40)) + "'"; }
+  std::string quoted(std::size_t i) const {
+    return " '" + std::string(words_[i].substr(0, 40)) + "'";
+  }
   /// A word too many is enough to know of.
   void split() {
     const std::string_view line = line_, blanks = " \t\r\f\v";
     count_ = 0;
-    for (std::size_t begin = line.find_first_not_of(blanks); begin < line.size() && count_ < words_.size();) {
+    for (std::size_t begin = line.find_first_not_of(blanks);
+         begin < line.size() && count_ < words_.size();) {
       const std::size_t end = std::min(line.find_first_of(blanks, begin), line.size());
       words_[count_++] = line.substr(begin, end - begin);
       begin = line.find_first_not_of(blanks, end);
@@ -115,26 +124,33 @@ Header kindOf(const Lines& lines) {
   header.integer = word[3] == "integer" || word[3] == "unsigned-integer";
   header.symmetric = word[4] == "symmetric";
   header.skew = word[4] == "skew-symmetric";
-  if (header.pattern && (header.array || header.skew)) lines.fail("a pattern is a coordinate matrix, general or symmetric");
+  if (header.pattern && (header.array || header.skew))
+    lines.fail("a pattern is a coordinate matrix, general or symmetric");
   return header;
 }
 
 Header readHeader(Lines& lines) {
   if (!lines.next()) throw Error("the file holds nothing");
   Header header = kindOf(lines);
-  if (!lines.next()) throw Error("the file ends before the line with the numbers of rows and columns");
-  lines.requireWords(header.array ? 2 : 3, header.array ? "rows and columns" : "rows, columns and entries");
+  if (!lines.next())
+    throw Error("the file ends before the line with the numbers of rows and columns");
+  lines.requireWords(header.array ? 2 : 3,
+                     header.array ? "rows and columns" : "rows, columns and entries");
   header.rows = lines.integer(0, "the number of rows");
   header.columns = lines.integer(1, "the number of columns");
   if (header.rows < 0 || header.columns < 0) lines.fail("a negative number of rows or columns");
-  const Entries checked(header.rows, header.columns);  // so that their product is no more than 64 bits hold
+  const Entries checked(header.rows,
+                        header.columns);  // so that their product is no more than 64 bits hold
   if (header.oneTriangle() && header.rows != header.columns)
-    lines.fail(formatted("a symmetric matrix of %lld rows and %lld columns", header.rows, header.columns));
+    lines.fail(
+        formatted("a symmetric matrix of %lld rows and %lld columns", header.rows, header.columns));
   const long long half = header.rows * (header.rows - 1) / 2;
   if (!header.array)
     header.count = lines.integer(2, "the number of entries");
   else
-    header.count = header.symmetric ? half + header.rows : header.skew ? half : header.rows * header.columns;
+    header.count = header.symmetric ? half + header.rows
+                   : header.skew    ? half
+                                    : header.rows * header.columns;
   if (header.count < 0) lines.fail("a negative number of entries");
   return header;
 }
@@ -142,25 +158,29 @@ Header readHeader(Lines& lines) {
 /// Puts the entries of one triangle on both sides.
 class Filler {
  public:
-  Filler(const Lines& lines, const Header& header) : lines_(lines), header_(header), entries_(header.rows, header.columns) {}
+  Filler(const Lines& lines, const Header& header)
+      : lines_(lines), header_(header), entries_(header.rows, header.columns) {}
   /// Counted from 0.
   void add(long long i, long long j, double x) {
     if (header_.oneTriangle() && i != j) requireTriangle(i, j);
-    if (header_.skew && i == j && x != 0) lines_.fail("the diagonal of a skew-symmetric matrix is zero");
+    if (header_.skew && i == j && x != 0)
+      lines_.fail("the diagonal of a skew-symmetric matrix is zero");
     entries_.add(i, j, x);
     if (header_.oneTriangle() && i != j) entries_.add(j, i, header_.skew ? -x : x);
   }
   Entries take() { return std::move(entries_); }
 
  private:
-  /// The standard asks for the lower triangle. Files of the upper one alone can mean but one thing; both would be counted twice.
+  /// The standard asks for the lower triangle. Files of the upper one alone can mean but one thing;
+  /// both would be counted twice.
   void requireTriangle(long long i, long long j) {
     const bool lower = i > j;
     if (lower ? upper_ : lower_)
-      lines_.fail(formatted(
-          "the entry in row %lld and column %lld is %s the diagonal, earlier ones are %s "
-          "it: the format stores the lower triangle of a %s matrix alone",
-          i + 1, j + 1, lower ? "below" : "above", lower ? "above" : "below", header_.skew ? "skew-symmetric" : "symmetric"));
+      lines_.fail(
+          formatted("the entry in row %lld and column %lld is %s the diagonal, earlier ones are %s "
+                    "it: the format stores the lower triangle of a %s matrix alone",
+                    i + 1, j + 1, lower ? "below" : "above", lower ? "above" : "below",
+                    header_.skew ? "skew-symmetric" : "symmetric"));
     (lower ? lower_ : upper_) = true;
   }
 
@@ -171,24 +191,30 @@ class Filler {
 };
 
 double valueOf(const Lines& lines, const Header& header, std::size_t word) {
-  if (header.integer && lines.word(word).find_first_not_of("+-0123456789") != std::string_view::npos)
-    lines.fail("the value '" + std::string(lines.word(word).substr(0, 40)) + "' of a matrix of integers is not a whole number");
+  if (header.integer &&
+      lines.word(word).find_first_not_of("+-0123456789") != std::string_view::npos)
+    lines.fail("the value '" + std::string(lines.word(word).substr(0, 40)) +
+               "' of a matrix of integers is not a whole number");
   return lines.real(word);
 }
 
 long long indexOf(const Lines& lines, std::size_t word, const char* what, long long size) {
   const long long index = lines.integer(word, what);
-  if (index < 1 || index > size) lines.fail(formatted("%s %lld is outside of 1 to %lld", what, index, size));
+  if (index < 1 || index > size)
+    lines.fail(formatted("%s %lld is outside of 1 to %lld", what, index, size));
   return index - 1;
 }
 
 void addCoordinate(const Lines& lines, const Header& header, Filler& filler) {
-  lines.requireWords(header.pattern ? 2 : 3, header.pattern ? "row and column" : "row, column and value");
-  const long long i = indexOf(lines, 0, "row", header.rows), j = indexOf(lines, 1, "column", header.columns);
+  lines.requireWords(header.pattern ? 2 : 3,
+                     header.pattern ? "row and column" : "row, column and value");
+  const long long i = indexOf(lines, 0, "row", header.rows),
+                  j = indexOf(lines, 1, "column", header.columns);
   filler.add(i, j, header.pattern ? 1 : valueOf(lines, header, 2));
 }
 
-/// Where the values of an array belong: column by column, of a symmetric one from the diagonal on, of a skew one from below it.
+/// Where the values of an array belong: column by column, of a symmetric one from the diagonal on,
+/// of a skew one from below it.
 class Place {
  public:
   explicit Place(const Header& header) : header_(header), row_(firstRow()) {}
@@ -201,7 +227,9 @@ class Place {
   }
 
  private:
-  long long firstRow() const { return header_.symmetric ? column_ : header_.skew ? column_ + 1 : 0; }
+  long long firstRow() const {
+    return header_.symmetric ? column_ : header_.skew ? column_ + 1 : 0;
+  }
 
   const Header& header_;
   long long column_ = 0, row_;
@@ -217,7 +245,8 @@ Entries readMatrixMarket(const std::filesystem::path& path) {
   Place place(header);
   long long count = 0;
   for (; lines.next(); ++count) {
-    if (count == header.count) lines.fail(formatted("more than the %lld entries that the header announces", header.count));
+    if (count == header.count)
+      lines.fail(formatted("more than the %lld entries that the header announces", header.count));
     if (!header.array) {
       addCoordinate(lines, header, filler);
       continue;
@@ -227,18 +256,20 @@ Entries readMatrixMarket(const std::filesystem::path& path) {
     place.advance();
   }
   if (count < header.count)
-    throw Error(formatted("the file ends after %lld of the %lld entries that its header announces", count, header.count));
+    throw Error(formatted("the file ends after %lld of the %lld entries that its header announces",
+                          count, header.count));
   return filler.take();
 }
 
 void writeMatrixMarket(const std::filesystem::path& path, const Entries& entries) {
   errno = 0;
   std::ofstream file(path);
-  file << formatted("%%%%MatrixMarket matrix coordinate real general\n%d %d %zu\n", static_cast<int>(entries.rows),
-                    static_cast<int>(entries.columns), entries.value.size());
+  file << formatted("%%%%MatrixMarket matrix coordinate real general\n%d %d %zu\n",
+                    static_cast<int>(entries.rows), static_cast<int>(entries.columns),
+                    entries.value.size());
   for (std::size_t k = 0; k < entries.value.size(); ++k)
-    file << formatted("%d %d %.17g\n", static_cast<int>(entries.row[k]) + 1, static_cast<int>(entries.column[k]) + 1,
-                      entries.value[k]);
+    file << formatted("%d %d %.17g\n", static_cast<int>(entries.row[k]) + 1,
+                      static_cast<int>(entries.column[k]) + 1, entries.value[k]);
   if (!file.flush()) throw output::WriteError(output::cannotWrite(path, errno));
 }
 

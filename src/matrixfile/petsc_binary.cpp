@@ -12,7 +12,8 @@ namespace {
 
 constexpr bool swapped = littleEndian;  // the format is big-endian
 
-/// Class, rows, columns, entries; then the length of each row, the columns row by row, and the values, without gaps.
+/// Class, rows, columns, entries; then the length of each row, the columns row by row, and the
+/// values, without gaps.
 struct Header {
   std::int64_t rows = 0, columns = 0, entries = 0;
   std::uint64_t columnsBegin() const { return static_cast<std::uint64_t>(4 * (4 + rows)); }
@@ -24,16 +25,20 @@ Header headerOf(BinaryFile& file) {
   if (file.size() < 16 || file.number<std::int32_t>(swapped) != MAT_FILE_CLASSID)
     throw Error("not a matrix in PETSc's binary format: the file is cut short");
   Header header;
-  for (auto* value : {&header.rows, &header.columns, &header.entries}) *value = file.number<std::int32_t>(swapped);
-  if (header.entries == -1) throw Error("a dense matrix in PETSc's binary format; write a sparse one");
+  for (auto* value : {&header.rows, &header.columns, &header.entries})
+    *value = file.number<std::int32_t>(swapped);
+  if (header.entries == -1)
+    throw Error("a dense matrix in PETSc's binary format; write a sparse one");
   if (header.rows < 0 || header.columns < 0 || header.entries < 0)
-    throw Error(formatted("the header announces %lld rows, %lld columns and %lld entries", static_cast<long long>(header.rows),
-                          static_cast<long long>(header.columns), static_cast<long long>(header.entries)));
+    throw Error(formatted("the header announces %lld rows, %lld columns and %lld entries",
+                          static_cast<long long>(header.rows),
+                          static_cast<long long>(header.columns),
+                          static_cast<long long>(header.entries)));
   return header;
 }
 
-/// The lengths of all rows must sum to the number of entries; each row's columns lie in the matrix, none of them twice, of which MatLoad()
-/// would keep the last.
+/// The lengths of all rows must sum to the number of entries; each row's columns lie in the matrix,
+/// none of them twice, of which MatLoad() would keep the last.
 void checkPattern(const std::filesystem::path& path, const Header& header) {
   BinaryFile lengths(path), columns(path);
   lengths.seek(16);
@@ -46,23 +51,28 @@ void checkPattern(const std::filesystem::path& path, const Header& header) {
       throw Error(formatted("row %lld (counted from 0) ", static_cast<long long>(row)) + why);
     };
     if (count < 0 || count > header.columns)
-      fail(formatted("has %d entries in %lld columns", count, static_cast<long long>(header.columns)));
+      fail(formatted("has %d entries in %lld columns", count,
+                     static_cast<long long>(header.columns)));
     if (count > left)
-      fail(formatted("has more entries than the header announces in all, %lld", static_cast<long long>(header.entries)));
+      fail(formatted("has more entries than the header announces in all, %lld",
+                     static_cast<long long>(header.entries)));
     left -= count;
     list.resize(static_cast<std::size_t>(count));
     columns.read(list.data(), list.size() * sizeof list[0]);
     for (auto& column : list) {
       column = numberAt<std::int32_t>(reinterpret_cast<const char*>(&column), swapped);
       if (column < 0 || column >= header.columns)
-        fail(formatted("has an entry in column %d of %lld", column, static_cast<long long>(header.columns)));
+        fail(formatted("has an entry in column %d of %lld", column,
+                       static_cast<long long>(header.columns)));
     }
     std::sort(list.begin(), list.end());
     const auto twice = std::adjacent_find(list.begin(), list.end());
-    if (twice != list.end()) fail(formatted("has two entries in column %d; this format holds each once", *twice));
+    if (twice != list.end())
+      fail(formatted("has two entries in column %d; this format holds each once", *twice));
   }
   if (left != 0)
-    throw Error(formatted("the rows have %lld entries, the header announces %lld", static_cast<long long>(header.entries - left),
+    throw Error(formatted("the rows have %lld entries, the header announces %lld",
+                          static_cast<long long>(header.entries - left),
                           static_cast<long long>(header.entries)));
 }
 
@@ -71,8 +81,8 @@ void checkValues(const std::filesystem::path& path, const Header& header) {
   values.seek(header.valuesBegin());
   for (std::int64_t k = 0; k < header.entries; ++k)
     if (!std::isfinite(values.number<double>(swapped)))
-      throw Error(formatted("entry %lld of %lld is not a finite number", static_cast<long long>(k + 1),
-                            static_cast<long long>(header.entries)));
+      throw Error(formatted("entry %lld of %lld is not a finite number",
+                            static_cast<long long>(k + 1), static_cast<long long>(header.entries)));
 }
 
 }  // namespace
@@ -81,11 +91,12 @@ void requirePetscBinary(const std::filesystem::path& path) {
   BinaryFile file(path);
   const Header header = headerOf(file);
   if (file.size() != header.end())
-    throw Error(
-        formatted("%llu bytes where a real matrix of %lld rows and %lld entries with 32-bit indices takes %llu: cut short, or of "
-                  "another PETSc configuration",
-                  static_cast<unsigned long long>(file.size()), static_cast<long long>(header.rows),
-                  static_cast<long long>(header.entries), static_cast<unsigned long long>(header.end())));
+    throw Error(formatted(
+        "%llu bytes where a real matrix of %lld rows and %lld entries with 32-bit indices takes "
+        "%llu: cut short, or of "
+        "another PETSc configuration",
+        static_cast<unsigned long long>(file.size()), static_cast<long long>(header.rows),
+        static_cast<long long>(header.entries), static_cast<unsigned long long>(header.end())));
   requireSquare(header.rows, header.columns);
   checkPattern(path, header);
   checkValues(path, header);

@@ -20,9 +20,11 @@ void requireSupported(const WholeBlock& block, const std::string& body) {
   std::string name;
   int dimension = 0, order = 0, nodes = 0, corners = 0;
   std::vector<double> local;
-  gmsh::model::mesh::getElementProperties(block.type, name, dimension, order, nodes, local, corners);
+  gmsh::model::mesh::getElementProperties(block.type, name, dimension, order, nodes, local,
+                                          corners);
   throw Error("option -mesh_file: group '" + body + "' has cells '" + name +
-              "'; supported are tri3, tri6, quad4, quad8, quad9, tet4, tet10, hex8, hex20, hex27, wedge6, wedge15, wedge18");
+              "'; supported are tri3, tri6, quad4, quad8, quad9, tet4, tet10, hex8, hex20, hex27, "
+              "wedge6, wedge15, wedge18");
 }
 
 std::string cellText(const WholeMesh& mesh, const ElementPlace& place) {
@@ -37,12 +39,13 @@ void requireDistinctCells(const WholeMesh& mesh) {
     throw Error("option -mesh_file: cell " + cellText(mesh, *place) +
                 " has a node twice; write it as the cell with fewer nodes that it is");
   if (const auto twins = findTwins(mesh.cells))
-    throw Error("option -mesh_file: the cells " + cellText(mesh, twins->first) + " and " + cellText(mesh, twins->second) +
-                " have the same nodes: one cell, written twice");
+    throw Error("option -mesh_file: the cells " + cellText(mesh, twins->first) + " and " +
+                cellText(mesh, twins->second) + " have the same nodes: one cell, written twice");
 }
 
 /// Every cell of the largest dimension has a body.
-void requireMaterials(const WholeMesh& mesh, const GmshModel& model, const std::map<PetscInt, int>& bodyOf, const Request& request) {
+void requireMaterials(const WholeMesh& mesh, const GmshModel& model,
+                      const std::map<PetscInt, int>& bodyOf, const Request& request) {
   if (model.largestDimension() != mesh.dimension) return;
   std::map<PetscInt, std::vector<std::string>> without;  // cell -> its groups
   for (PetscInt tag : model.ungrouped()) without[tag];
@@ -53,9 +56,10 @@ void requireMaterials(const WholeMesh& mesh, const GmshModel& model, const std::
           if (!bodyOf.count(tag)) without[tag].push_back(name);
   if (without.empty()) return;
   const auto& [tag, groups] = *without.begin();
-  if (groups.empty()) throw Error("cell " + std::to_string(tag) + " is in no physical group, so it has no material");
-  throw Error("group '" + joined(groups) + "' has no material: " + request.howToGiveMaterials + " (cell " +
-              std::to_string(tag) + ")");
+  if (groups.empty())
+    throw Error("cell " + std::to_string(tag) + " is in no physical group, so it has no material");
+  throw Error("group '" + joined(groups) + "' has no material: " + request.howToGiveMaterials +
+              " (cell " + std::to_string(tag) + ")");
 }
 
 }  // namespace
@@ -68,21 +72,26 @@ void readBodies(WholeMesh& mesh, const GmshModel& model, const Request& request,
     auto group = model.group(mesh.bodies[b], option);
     if (b == 0) mesh.dimension = group.dimension;
     if (group.dimension != mesh.dimension || group.dimension < 2)
-      throw Error(option + ": group '" + mesh.bodies[b] + "' has dimension " + std::to_string(group.dimension) +
+      throw Error(option + ": group '" + mesh.bodies[b] + "' has dimension " +
+                  std::to_string(group.dimension) +
                   "; bodies are all volumes, or all surfaces of a plane mesh");
     for (auto& block : group.blocks) {
       requireSupported(block, mesh.bodies[b]);
       index.add(block.nodes);
-      auto known = std::find_if(mesh.cells.begin(), mesh.cells.end(), [&](const auto& c) { return c.type == block.type; });
+      auto known = std::find_if(mesh.cells.begin(), mesh.cells.end(),
+                                [&](const auto& c) { return c.type == block.type; });
       if (known == mesh.cells.end())
-        known = mesh.cells.insert(known, WholeBlock{block.type, block.nodesPerElement, block.corners, {}, {}, {}});
+        known = mesh.cells.insert(
+            known, WholeBlock{block.type, block.nodesPerElement, block.corners, {}, {}, {}});
       for (auto tag : block.tag) {
         const auto [entry, isNew] = bodyOf.emplace(tag, static_cast<int>(b));
         if (!isNew && entry->second == static_cast<int>(b))
-          throw Error("option -mesh_file: two cells of group '" + mesh.bodies[b] + "' have the tag " + std::to_string(tag));
+          throw Error("option -mesh_file: two cells of group '" + mesh.bodies[b] +
+                      "' have the tag " + std::to_string(tag));
         if (!isNew)
-          throw Error("cell " + std::to_string(tag) + " is in the groups '" + mesh.bodies[static_cast<std::size_t>(entry->second)] +
-                      "' and '" + mesh.bodies[b] + "', which both have a material; a cell has one");
+          throw Error("cell " + std::to_string(tag) + " is in the groups '" +
+                      mesh.bodies[static_cast<std::size_t>(entry->second)] + "' and '" +
+                      mesh.bodies[b] + "', which both have a material; a cell has one");
       }
       known->nodes.insert(known->nodes.end(), block.nodes.begin(), block.nodes.end());
       known->tag.insert(known->tag.end(), block.tag.begin(), block.tag.end());

@@ -42,8 +42,9 @@ class NodeIndex {
   std::vector<PetscInt> index_;
 };
 
-/// Fills bodies, dimension, cells, points and tags of the mesh. Errors: body that is no volume (no surface of a plane mesh), cells of an
-/// unknown kind, cell without a body or with two, cell that is there twice or has a node twice.
+/// Fills bodies, dimension, cells, points and tags of the mesh. Errors: body that is no volume (no
+/// surface of a plane mesh), cells of an unknown kind, cell without a body or with two, cell that
+/// is there twice or has a node twice.
 void readBodies(WholeMesh& mesh, const GmshModel& model, const Request& request, NodeIndex& index);
 
 }  // namespace squeal::mesh

@@ -25,8 +25,8 @@ struct Job {
   meshfile::FileKind kind;
   std::vector<meshfile::Setting> settings;
   meshfile::MshContents contents;  ///< of a .msh; of a .unv the numbers of nodes and elements
-  /// Version 2 of .msh gives each element one group and one entity. gmsh would put all elements of an entity into all of its groups: with
-  /// this it takes the groups for the entities.
+  /// Version 2 of .msh gives each element one group and one entity. gmsh would put all elements of
+  /// an entity into all of its groups: with this it takes the groups for the entities.
   bool groupsAreEntities() const { return kind == meshfile::FileKind::msh && contents.version < 4; }
 };
 
@@ -45,8 +45,8 @@ Elements elementsOf(int dimension, int entity) {
 /// A tag that fits the numbers of this program.
 PetscInt checkedTag(const Job& job, std::size_t tag, const char* what) {
   if (tag < 1 || tag > static_cast<std::size_t>(PETSC_MAX_INT))
-    throw Error(job.option + what + " tag " + std::to_string(static_cast<long long>(tag)) + ": must be from 1 to " +
-                std::to_string(PETSC_MAX_INT));
+    throw Error(job.option + what + " tag " + std::to_string(static_cast<long long>(tag)) +
+                ": must be from 1 to " + std::to_string(PETSC_MAX_INT));
   return static_cast<PetscInt>(tag);
 }
 
@@ -62,22 +62,25 @@ class Nodes {
       points.push_back({coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]});
       for (double x : points.back())
         if (!(std::abs(x) < 1e100))  // the volume of a cell is a product of three
-          throw Error(job.option + "node " + std::to_string(all[i]) + " has the coordinate " + shortest(x) +
-                      "; must be finite, below 1e100");
+          throw Error(job.option + "node " + std::to_string(all[i]) + " has the coordinate " +
+                      shortest(x) + "; must be finite, below 1e100");
       order_.emplace_back(tags.back(), static_cast<PetscInt>(i));
     }
     std::sort(order_.begin(), order_.end());
     for (std::size_t i = 1; i < order_.size(); ++i)
       if (order_[i].first == order_[i - 1].first)
-        throw Error(job.option + "there are two nodes with the tag " + std::to_string(order_[i].first));
+        throw Error(job.option + "there are two nodes with the tag " +
+                    std::to_string(order_[i].first));
   }
   PetscInt index(std::size_t tag) const {
     const auto wanted = static_cast<PetscInt>(tag);
-    if (tag >= 1 && tag <= order_.size() && order_[tag - 1].first == wanted) return order_[tag - 1].second;  // 1, 2, 3, …
-    const auto found = std::lower_bound(order_.begin(), order_.end(), std::pair<PetscInt, PetscInt>{wanted, -1});
+    if (tag >= 1 && tag <= order_.size() && order_[tag - 1].first == wanted)
+      return order_[tag - 1].second;  // 1, 2, 3, …
+    const auto found =
+        std::lower_bound(order_.begin(), order_.end(), std::pair<PetscInt, PetscInt>{wanted, -1});
     if (found == order_.end() || found->first != wanted)
-      throw Error(job_.option + "an element refers to node " + std::to_string(static_cast<long long>(tag)) +
-                  ", which is not in the mesh");
+      throw Error(job_.option + "an element refers to node " +
+                  std::to_string(static_cast<long long>(tag)) + ", which is not in the mesh");
     return found->second;
   }
 
@@ -117,7 +120,8 @@ void openWith(const Job& job, const Warn& warn) {
     std::vector<std::size_t> tags;
     std::vector<double> coordinates, parametric;
     gmsh::model::mesh::getNodes(tags, coordinates, parametric);
-    if (tags.empty() && job.kind == meshfile::FileKind::geometry) meshfile::meshGeometry(job.file, warn);
+    if (tags.empty() && job.kind == meshfile::FileKind::geometry)
+      meshfile::meshGeometry(job.file, warn);
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {
@@ -137,7 +141,8 @@ void openWith(const Job& job, const Warn& warn) {
     if (failure.empty() && line.rfind("Error", 0) == 0) failure = line;
     if (line.rfind("Warning", 0) == 0) warnings.insert(line.substr(line.find(' ') + 1));
   }
-  if (!failure.empty()) throw Error(job.option + "gmsh says: " + failure.substr(0, failure.find('\n')));
+  if (!failure.empty())
+    throw Error(job.option + "gmsh says: " + failure.substr(0, failure.find('\n')));
   std::size_t said = 0;
   for (const auto& line : warnings)
     if (++said <= 5) warn(job.option + "gmsh says: " + line.substr(0, line.find('\n')));
@@ -161,7 +166,8 @@ std::map<std::string, gmsh::vectorpair> namedGroups(const Job& job) {
     const std::string usable = groupName(name);
     const auto [known, isNew] = original.emplace(usable, name);
     if (!isNew && known->second != name)
-      throw Error(job.option + "the groups '" + known->second + "' and '" + name + "' have the same name '" + usable +
+      throw Error(job.option + "the groups '" + known->second + "' and '" + name +
+                  "' have the same name '" + usable +
                   "' in options, where underscores stand for blanks");
     groups[usable].emplace_back(dimension, tag);
   }
@@ -174,20 +180,21 @@ GroupElements elementsOfGroup(const Job& job, const gmsh::vectorpair& group, con
   for (auto [dimension, physical] : group) {
     if (dimension != elements.dimension) continue;
     std::vector<int> entities{physical};
-    if (!job.groupsAreEntities()) gmsh::model::getEntitiesForPhysicalGroup(dimension, physical, entities);
+    if (!job.groupsAreEntities())
+      gmsh::model::getEntitiesForPhysicalGroup(dimension, physical, entities);
     for (int entity : entities) {
       const Elements found = elementsOf(dimension, entity);
       for (std::size_t t = 0; t < found.types.size(); ++t) {
-        auto block =
-            std::find_if(elements.blocks.begin(), elements.blocks.end(), [&](const auto& b) { return b.type == found.types[t]; });
+        auto block = std::find_if(elements.blocks.begin(), elements.blocks.end(),
+                                  [&](const auto& b) { return b.type == found.types[t]; });
         if (block == elements.blocks.end()) {
           block = elements.blocks.insert(block, WholeBlock{});
           std::string typeName;
           int typeDimension = 0, order = 0;
           std::vector<double> local;
           block->type = found.types[t];
-          gmsh::model::mesh::getElementProperties(found.types[t], typeName, typeDimension, order, block->nodesPerElement, local,
-                                                  block->corners);
+          gmsh::model::mesh::getElementProperties(found.types[t], typeName, typeDimension, order,
+                                                  block->nodesPerElement, local, block->corners);
         }
         for (auto tag : found.tags[t]) block->tag.push_back(checkedTag(job, tag, "element"));
         for (auto tag : found.nodes[t]) block->nodes.push_back(nodes.index(tag));
@@ -217,8 +224,8 @@ void requireAllElements(const Job& job) {
   std::int64_t kept = 0;
   for (const auto& list : elementsOf(-1, -1).tags) kept += static_cast<std::int64_t>(list.size());
   if (kept != job.contents.elements)
-    throw Error(job.option + "gmsh keeps " + std::to_string(kept) + " of the " + std::to_string(job.contents.elements) +
-                " elements in the file");
+    throw Error(job.option + "gmsh keeps " + std::to_string(kept) + " of the " +
+                std::to_string(job.contents.elements) + " elements in the file");
 }
 
 /// In the child.
@@ -234,7 +241,8 @@ Buffer readWithGmsh(const Job& job, const Warn& warn) {
   buffer.put(ungroupedElements(job, gmsh::model::getDimension()));
   buffer.put(nodes.atPoints());
   const auto kept = static_cast<std::int64_t>(nodes.points.size());
-  buffer.put(std::vector<PetscInt>{static_cast<PetscInt>(std::max(job.contents.nodes - kept, std::int64_t{0}))});
+  buffer.put(std::vector<PetscInt>{
+      static_cast<PetscInt>(std::max(job.contents.nodes - kept, std::int64_t{0}))});
   const auto groups = namedGroups(job);
   std::vector<std::string> names;
   for (const auto& [name, group] : groups) names.push_back(name);
@@ -251,17 +259,20 @@ Buffer readWithGmsh(const Job& job, const Warn& warn) {
   return buffer;
 }
 
-/// A geometry may take its time and what memory there is. What a mesh file needs is known from its size; it may be damaged where the checks
-/// do not look.
+/// A geometry may take its time and what memory there is. What a mesh file needs is known from its
+/// size; it may be damaged where the checks do not look.
 ChildLimits limitsFor(const Job& job) {
   const std::string subject = "option -mesh_file " + job.file;
   const double free = availableMemory();
-  const std::string tooLarge = formatted("its mesh needs more than the %.3g GB of memory that are free", free / 1e9);
+  const std::string tooLarge =
+      formatted("its mesh needs more than the %.3g GB of memory that are free", free / 1e9);
   if (job.kind == meshfile::FileKind::geometry) return {subject, {}, free, tooLarge, "gmsh"};
   const auto size = static_cast<double>(std::filesystem::file_size(job.file));
-  const double seconds = 5 + 5e-6 * size, enough = 5e8 + 100 * size;  // it takes some 15 bytes for a byte of the file
+  const double seconds = 5 + 5e-6 * size,
+               enough = 5e8 + 100 * size;  // it takes some 15 bytes for a byte of the file
   if (enough > free) return {subject, seconds, free, tooLarge, "gmsh"};
-  return {subject, seconds, enough, "it asks for more room than a file of its size can fill: it is damaged", "gmsh"};
+  return {subject, seconds, enough,
+          "it asks for more room than a file of its size can fill: it is damaged", "gmsh"};
 }
 
 }  // namespace
@@ -273,15 +284,21 @@ std::string groupName(std::string name) {
 }
 
 GmshModel::GmshModel(const std::string& file, const std::vector<std::string>& parameters) {
-  Job job{file, "option -mesh_file " + file + ": ", meshfile::requireSound(file), meshfile::readSettings(parameters), {}};
+  Job job{file,
+          "option -mesh_file " + file + ": ",
+          meshfile::requireSound(file),
+          meshfile::readSettings(parameters),
+          {}};
   if (!job.settings.empty() && job.kind != meshfile::FileKind::geometry)
-    throw Error("option -mesh_set: only a geometry, a .geo file, has parameters; -mesh_file " + file + " is a mesh");
+    throw Error("option -mesh_set: only a geometry, a .geo file, has parameters; -mesh_file " +
+                file + " is a mesh");
   if (job.kind == meshfile::FileKind::msh) job.contents = meshfile::requireSoundMsh(file);
   if (job.kind == meshfile::FileKind::unv) {
     const meshfile::UnvContents contents = meshfile::requireSoundUnv(file);
     job.contents.nodes = contents.nodes, job.contents.elements = contents.elements;
   }
-  Buffer buffer = inChild(limitsFor(job), [&](const Warn& warn) { return readWithGmsh(job, warn); });
+  Buffer buffer =
+      inChild(limitsFor(job), [&](const Warn& warn) { return readWithGmsh(job, warn); });
   take(buffer);
 }
 
@@ -312,7 +329,8 @@ const GroupElements& GmshModel::group(const std::string& name, const std::string
   std::vector<std::string> names;
   for (const auto& [known, where] : groups_) names.push_back(known);
   throw Error(wantedBy + " names group '" + name + "', which is not in the mesh; " +
-              (names.empty() ? "it has no physical groups at all: name its bodies and surfaces (Physical Volume, Physical Surface)"
+              (names.empty() ? "it has no physical groups at all: name its bodies and surfaces "
+                               "(Physical Volume, Physical Surface)"
                              : "its groups are: " + joined(names)));
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-/// The gmsh library behind a small door: a file read or meshed, and its physical groups. Not collective: rank 0 only.
+/// The gmsh library behind a small door: a file read or meshed, and its physical groups. Not
+/// collective: rank 0 only.
 #include "mesh/whole.hpp"
 #include "petsc/buffer.hpp"
 
@@ -14,14 +15,17 @@ struct GroupElements {
 /// A group by the name that options use, which cannot hold blanks: underscores stand for them.
 std::string groupName(std::string name);
 
-/// What gmsh makes of a file. gmsh itself works in a child process: a crash there is an Error here, and its memory goes with it.
+/// What gmsh makes of a file. gmsh itself works in a child process: a crash there is an Error here,
+/// and its memory goes with it.
 class GmshModel {
  public:
-  /// `parameters`: "name=value" settings of a geometry. Errors: a file that is not what its name says, or that gmsh cannot read or
-  /// mesh; parameters that the geometry does not have or whose range they leave.
+  /// `parameters`: "name=value" settings of a geometry. Errors: a file that is not what its name
+  /// says, or that gmsh cannot read or mesh; parameters that the geometry does not have or whose
+  /// range they leave.
   GmshModel(const std::string& file, const std::vector<std::string>& parameters);
 
-  /// Error naming the group, the option that wants it and the groups there are, if the mesh has none of this name.
+  /// Error naming the group, the option that wants it and the groups there are, if the mesh has
+  /// none of this name.
   const GroupElements& group(const std::string& name, const std::string& wantedBy) const;
   const Point& point(PetscInt index) const { return points_[static_cast<std::size_t>(index)]; }
   PetscInt tag(PetscInt index) const { return tags_[static_cast<std::size_t>(index)]; }

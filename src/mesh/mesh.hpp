@@ -11,7 +11,8 @@ namespace squeal::mesh {
 
 using Point = std::array<double, 3>;
 
-/// Cells of one gmsh element type on this rank. Cells belong to one rank; every node of a cell is a local node of its rank.
+/// Cells of one gmsh element type on this rank. Cells belong to one rank; every node of a cell is a
+/// local node of its rank.
 struct CellBlock {
   int type = 0;  ///< gmsh element type
   int nodesPerCell = 0;
@@ -20,13 +21,15 @@ struct CellBlock {
   std::vector<PetscInt> tag;    ///< [cell] gmsh's element tag
 };
 
-/// Boundary faces of one gmsh element type of the surface groups that options name, each on the rank of the cell it bounds.
+/// Boundary faces of one gmsh element type of the surface groups that options name, each on the
+/// rank of the cell it bounds.
 struct FaceBlock {
   int type = 0;
   int nodesPerFace = 0;
   std::vector<PetscInt> nodes;  ///< [face][node] local node
   std::vector<int> surface;     ///< [face] index into Mesh::surfaces
-  std::vector<int> sign;        ///< [face] +1 if the normal by node order leaves the cell, −1 if it enters it
+  /// [face] +1 if the normal by node order leaves the cell, −1 if it enters it
+  std::vector<int> sign;
 };
 
 /// A node that repeats the displacement of another one (periodicity), [node] owned here.
@@ -50,20 +53,24 @@ struct Mesh {
   MPI_Comm comm = MPI_COMM_NULL;
   int dimension = 3;  ///< 2: plane problem in x, y; 3: solid
   PetscInt totalNodes = 0, totalCells = 0;
-  PetscInt unusedNodes = 0;          ///< of the file, in no cell; those that gmsh puts at points do not count
-  PetscInt ownedNodes = 0;           ///< local nodes 0 … ownedNodes−1 are owned here, the rest are ghosts
-  PetscInt firstNode = 0;            ///< global number of local node 0; owned nodes are contiguous
+  /// Of the file, in no cell; those that gmsh puts at points do not count
+  PetscInt unusedNodes = 0;
+  PetscInt ownedNodes = 0;  ///< local nodes 0 … ownedNodes−1 are owned here, the rest are ghosts
+  PetscInt firstNode = 0;   ///< global number of local node 0; owned nodes are contiguous
   std::vector<PetscInt> globalNode;  ///< [local node] global number
   std::vector<Point> coordinates;    ///< [local node], m
-  std::vector<PetscInt> nodeTag;     ///< [local node] gmsh's tag; the two nodes of a split shared node repeat it
-  std::vector<int> nodePart;         ///< [local node] connected part (0 … parts−1) of the bodies once contact is cut
+  /// [local node] gmsh's tag; the two nodes of a split shared node repeat it
+  std::vector<PetscInt> nodeTag;
+  /// [local node] connected part (0 … parts−1) of the bodies once contact is cut
+  std::vector<int> nodePart;
   int parts = 0;
   std::vector<std::string> partName;  ///< [part] names of its bodies joined by '+'
   std::vector<std::string> bodies;    ///< groups with a material
   std::vector<CellBlock> cells;
   std::vector<std::string> surfaces;  ///< surface groups that options name
   std::vector<FaceBlock> faces;
-  std::map<std::string, std::vector<PetscInt>> nodeGroups;  ///< owned local nodes; images replaced by their primaries
+  /// Owned local nodes; images replaced by their primaries
+  std::map<std::string, std::vector<PetscInt>> nodeGroups;
   std::vector<Image> images;
   std::vector<ContactPair> pairs;
 
@@ -91,19 +98,22 @@ struct PeriodicRequest {
 /// What the later stages need from the mesh.
 struct Request {
   std::vector<GroupRequest> bodies;  ///< volume groups with a material
-  std::vector<std::string> moving;   ///< bodies with a motion: the disc side of an interface whose nodes are shared
+  /// Bodies with a motion: the disc side of an interface whose nodes are shared
+  std::vector<std::string> moving;
   std::vector<GroupRequest> nodeGroups;  ///< groups of any dimension whose nodes are constrained
-  std::vector<GroupRequest> surfaces;  ///< surface groups that are loaded; those of interfaces are added
+  /// Surface groups that are loaded; those of interfaces are added
+  std::vector<GroupRequest> surfaces;
   std::vector<InterfaceRequest> interfaces;
   std::vector<PeriodicRequest> periodic;
   std::string howToGiveMaterials;  ///< "give -…", for a group of cells that has none
   std::string motionOptions;       ///< "-…", for interfaces on which neither side moves
 };
 
-/// Collective. Reads (or meshes, for a .geo) `-mesh_file` through the gmsh library on rank 0, splits nodes shared across contact
-/// interfaces, pairs contact and periodic nodes, partitions with METIS and hands each rank its part. Only rank 0 holds the whole
-/// mesh. Errors (all ranks): unreadable file, missing group, cell without material, surface that bounds no body, nodes without a
-/// partner.
+/// Collective. Reads (or meshes, for a .geo) `-mesh_file` through the gmsh library on rank 0,
+/// splits nodes shared across contact interfaces, pairs contact and periodic nodes, partitions with
+/// METIS and hands each rank its part. Only rank 0 holds the whole mesh. Errors (all ranks):
+/// unreadable file, missing group, cell without material, surface that bounds no body, nodes
+/// without a partner.
 Mesh read(MPI_Comm comm, const Request& request);
 
 }  // namespace squeal::mesh

@@ -12,7 +12,9 @@
 namespace squeal::mesh {
 namespace {
 
-std::string positionText(const Point& p) { return formatted("(%.6g, %.6g, %.6g)", p[0], p[1], p[2]); }
+std::string positionText(const Point& p) {
+  return formatted("(%.6g, %.6g, %.6g)", p[0], p[1], p[2]);
+}
 
 double squaredDistance(const Point& a, const Point& b) {
   double sum = 0;
@@ -23,8 +25,10 @@ double squaredDistance(const Point& a, const Point& b) {
 /// Finds nodes by position with buckets of twice the tolerance.
 class Locator {
  public:
-  Locator(const WholeMesh& mesh, const std::vector<PetscInt>& nodes, double tolerance) : mesh_(mesh), tolerance_(tolerance) {
-    for (PetscInt node : nodes) buckets_[bucket(mesh.points[static_cast<std::size_t>(node)])].push_back(node);
+  Locator(const WholeMesh& mesh, const std::vector<PetscInt>& nodes, double tolerance)
+      : mesh_(mesh), tolerance_(tolerance) {
+    for (PetscInt node : nodes)
+      buckets_[bucket(mesh.points[static_cast<std::size_t>(node)])].push_back(node);
   }
   /// Nodes within the tolerance of `where`.
   std::vector<PetscInt> at(const Point& where) const {
@@ -36,7 +40,8 @@ class Locator {
           const auto entry = buckets_.find({centre[0] + i, centre[1] + j, centre[2] + k});
           if (entry == buckets_.end()) continue;
           for (PetscInt node : entry->second)
-            if (squaredDistance(mesh_.points[static_cast<std::size_t>(node)], where) <= tolerance_ * tolerance_)
+            if (squaredDistance(mesh_.points[static_cast<std::size_t>(node)], where) <=
+                tolerance_ * tolerance_)
               found.push_back(node);
         }
     return found;
@@ -54,18 +59,21 @@ class Locator {
   std::map<Bucket, std::vector<PetscInt>> buckets_;
 };
 
-/// Coordinates in mesh files carry some 6 to 16 digits; nodes closer than this are at the same place.
+/// Coordinates in mesh files carry some 6 to 16 digits; nodes closer than this are at the same
+/// place.
 double tolerance(const WholeMesh& mesh) {
   Point low = mesh.points[0], high = low;
   for (const auto& p : mesh.points)
-    for (std::size_t d = 0; d < 3; ++d) low[d] = std::min(low[d], p[d]), high[d] = std::max(high[d], p[d]);
+    for (std::size_t d = 0; d < 3; ++d)
+      low[d] = std::min(low[d], p[d]), high[d] = std::max(high[d], p[d]);
   return 1e-6 * std::sqrt(squaredDistance(low, high));
 }
 
 Point lowCorner(const WholeMesh& mesh, const std::vector<PetscInt>& nodes) {
   Point low = mesh.points[static_cast<std::size_t>(nodes.at(0))];
   for (PetscInt node : nodes)
-    for (std::size_t d = 0; d < 3; ++d) low[d] = std::min(low[d], mesh.points[static_cast<std::size_t>(node)][d]);
+    for (std::size_t d = 0; d < 3; ++d)
+      low[d] = std::min(low[d], mesh.points[static_cast<std::size_t>(node)][d]);
   return low;
 }
 
@@ -77,20 +85,25 @@ void pairImages(WholeMesh& mesh, const PeriodicRequest& request, double near) {
   for (PetscInt image : images) {
     const auto& p = mesh.points[static_cast<std::size_t>(image)];
     const Point where{p[0] - to[0] + from[0], p[1] - to[1] + from[1], p[2] - to[2] + from[2]};
-    // Two bodies may meet here at one place (a contact node on the periodic boundary): the image follows its own body.
+    // Two bodies may meet here at one place (a contact node on the periodic boundary): the image
+    // follows its own body.
     PetscInt partner = -1;
     for (PetscInt node : locator.at(where))
-      if (partner < 0 || mesh.part[static_cast<std::size_t>(node)] == mesh.part[static_cast<std::size_t>(image)]) partner = node;
+      if (partner < 0 ||
+          mesh.part[static_cast<std::size_t>(node)] == mesh.part[static_cast<std::size_t>(image)])
+        partner = node;
     const std::string& option = request.option;
     if (partner < 0)
-      throw Error(option + ": the node at " + positionText(p) + " of '" + request.image + "' has no partner in '" + request.of +
+      throw Error(option + ": the node at " + positionText(p) + " of '" + request.image +
+                  "' has no partner in '" + request.of +
                   "'; the two must be meshed alike, one the translate of the other");
     if (partner == image) throw Error(option + ": a group cannot be its own image");
-    if (mesh.primary[static_cast<std::size_t>(image)] == image) mesh.primary[static_cast<std::size_t>(image)] = partner;
+    if (mesh.primary[static_cast<std::size_t>(image)] == image)
+      mesh.primary[static_cast<std::size_t>(image)] = partner;
   }
   if (images.size() != primaries.size())
-    throw Error(formatted("%s: the groups have %zu and %zu nodes; they must be meshed alike", request.option.c_str(),
-                          images.size(), primaries.size()));
+    throw Error(formatted("%s: the groups have %zu and %zu nodes; they must be meshed alike",
+                          request.option.c_str(), images.size(), primaries.size()));
 }
 
 /// Follows images of images (the edge of a doubly periodic box) to the end.
@@ -100,12 +113,17 @@ void resolveImages(WholeMesh& mesh, const Request& request) {
     int steps = 0;
     while (mesh.primary[static_cast<std::size_t>(end)] != end) {
       end = mesh.primary[static_cast<std::size_t>(end)];
-      if (++steps > 8) throw Error(request.periodic.front().option + ": the images go round in a circle");
+      if (++steps > 8)
+        throw Error(request.periodic.front().option + ": the images go round in a circle");
     }
     mesh.primary[static_cast<std::size_t>(node)] = end;
     if (end == node) continue;
-    const auto &p = mesh.points[static_cast<std::size_t>(node)], &q = mesh.points[static_cast<std::size_t>(end)];
-    mesh.images.push_back({node, end, {p[0] - q[0], p[1] - q[1], p[2] - q[2]}, mesh.part[static_cast<std::size_t>(end)]});
+    const auto &p = mesh.points[static_cast<std::size_t>(node)],
+               &q = mesh.points[static_cast<std::size_t>(end)];
+    mesh.images.push_back({node,
+                           end,
+                           {p[0] - q[0], p[1] - q[1], p[2] - q[2]},
+                           mesh.part[static_cast<std::size_t>(end)]});
   }
   for (auto& [name, nodes] : mesh.nodeGroups) {
     std::set<PetscInt> primaries;
@@ -118,12 +136,14 @@ std::vector<int> bodyOfNode(const WholeMesh& mesh) {
   std::vector<int> body(mesh.points.size(), -1);
   for (const auto& block : mesh.cells)
     for (std::size_t i = 0; i < block.nodes.size(); ++i)
-      body[static_cast<std::size_t>(block.nodes[i])] = block.label[i / static_cast<std::size_t>(block.nodesPerElement)];
+      body[static_cast<std::size_t>(block.nodes[i])] =
+          block.label[i / static_cast<std::size_t>(block.nodesPerElement)];
   return body;
 }
 
 std::set<PetscInt> padNodes(const WholeMesh& mesh, const std::string& surface) {
-  const auto index = static_cast<int>(std::find(mesh.surfaces.begin(), mesh.surfaces.end(), surface) - mesh.surfaces.begin());
+  const auto index = static_cast<int>(
+      std::find(mesh.surfaces.begin(), mesh.surfaces.end(), surface) - mesh.surfaces.begin());
   std::set<PetscInt> nodes;
   for (const auto& block : mesh.faces)
     for (std::size_t i = 0; i < block.nodes.size(); ++i)
@@ -133,7 +153,8 @@ std::set<PetscInt> padNodes(const WholeMesh& mesh, const std::string& surface) {
 }
 
 /// Why a node of the pad finds no partner in the group of the disc.
-std::string whyAlone(const WholeMesh& mesh, PetscInt node, const std::string& group, const std::vector<int>& body, double near) {
+std::string whyAlone(const WholeMesh& mesh, PetscInt node, const std::string& group,
+                     const std::vector<int>& body, double near) {
   const auto& place = mesh.points[static_cast<std::size_t>(node)];
   for (std::size_t other = 0; other < mesh.points.size(); ++other)
     if (mesh.part[other] != mesh.part[static_cast<std::size_t>(node)] && body[other] >= 0 &&
@@ -147,7 +168,8 @@ std::string optionsOf(const InterfaceRequest& request) {
   return request.pad.option + ", " + request.disc.option + ": ";
 }
 
-void pairContact(WholeMesh& mesh, const InterfaceRequest& request, int interface, const std::vector<int>& body, double near) {
+void pairContact(WholeMesh& mesh, const InterfaceRequest& request, int interface,
+                 const std::vector<int>& body, double near) {
   const std::set<PetscInt> pad = padNodes(mesh, request.pad.name);
   if (request.disc.name.empty()) {
     for (PetscInt node : pad) mesh.pairs.push_back({node, -1, interface, -1, -1});
@@ -157,20 +179,25 @@ void pairContact(WholeMesh& mesh, const InterfaceRequest& request, int interface
   for (PetscInt node : mesh.nodeGroups.at(request.disc.name))
     if (!pad.count(node)) disc.push_back(node);
   if (disc.empty())
-    throw Error(optionsOf(request) + "pad and disc are the same surface, of one body; contact is between the surfaces of two");
+    throw Error(
+        optionsOf(request) +
+        "pad and disc are the same surface, of one body; contact is between the surfaces of two");
   const Locator locator(mesh, disc, near);
   for (PetscInt node : pad) {
     const auto found = locator.at(mesh.points[static_cast<std::size_t>(node)]);
     if (found.empty())
-      throw Error(optionsOf(request) + "the node at " + positionText(mesh.points[static_cast<std::size_t>(node)]) + " of '" +
-                  request.pad.name + "' has no node of '" + request.disc.name + "' at the same place, " +
-                  whyAlone(mesh, node, request.disc.name, body, near) + " (contact needs matching meshes)");
+      throw Error(optionsOf(request) + "the node at " +
+                  positionText(mesh.points[static_cast<std::size_t>(node)]) + " of '" +
+                  request.pad.name + "' has no node of '" + request.disc.name +
+                  "' at the same place, " + whyAlone(mesh, node, request.disc.name, body, near) +
+                  " (contact needs matching meshes)");
     const auto master = static_cast<std::size_t>(found[0]);
     mesh.pairs.push_back({node, found[0], interface, body[master], mesh.part[master]});
   }
 }
 
-/// Each face of the pad must lie on one face of the disc, node on node: a finer disc face would carry nodes that no gap watches.
+/// Each face of the pad must lie on one face of the disc, node on node: a finer disc face would
+/// carry nodes that no gap watches.
 void requireEqualFaces(const WholeMesh& mesh, const InterfaceRequest& request, int interface) {
   if (request.disc.name.empty()) return;
   std::map<PetscInt, PetscInt> master;
@@ -182,20 +209,24 @@ void requireEqualFaces(const WholeMesh& mesh, const InterfaceRequest& request, i
     std::sort(face.begin(), face.end());
     discFaces.insert(face);
   }
-  const auto index = static_cast<int>(std::find(mesh.surfaces.begin(), mesh.surfaces.end(), request.pad.name) - mesh.surfaces.begin());
+  const auto index =
+      static_cast<int>(std::find(mesh.surfaces.begin(), mesh.surfaces.end(), request.pad.name) -
+                       mesh.surfaces.begin());
   for (const auto& block : mesh.faces)
     for (std::size_t e = 0; e < block.tag.size(); ++e) {
       if (block.label[e] != index) continue;
       std::vector<PetscInt> masters;
       for (int i = 0; i < block.nodesPerElement; ++i)
         masters.push_back(master.at(mesh.primary[static_cast<std::size_t>(
-            block.nodes[e * static_cast<std::size_t>(block.nodesPerElement) + static_cast<std::size_t>(i)])]));
-      const Point where = mesh.points[static_cast<std::size_t>(block.nodes[e * static_cast<std::size_t>(block.nodesPerElement)])];
+            block.nodes[e * static_cast<std::size_t>(block.nodesPerElement) +
+                        static_cast<std::size_t>(i)])]));
+      const Point where = mesh.points[static_cast<std::size_t>(
+          block.nodes[e * static_cast<std::size_t>(block.nodesPerElement)])];
       for (auto& node : masters) node = mesh.primary[static_cast<std::size_t>(node)];
       std::sort(masters.begin(), masters.end());
       if (!discFaces.count(masters))
-        throw Error(optionsOf(request) + "the face of '" + request.pad.name + "' at " + positionText(where) +
-                    " does not lie on one face of '" + request.disc.name +
+        throw Error(optionsOf(request) + "the face of '" + request.pad.name + "' at " +
+                    positionText(where) + " does not lie on one face of '" + request.disc.name +
                     "': is a face missing in this group? (contact needs matching meshes)");
     }
 }
@@ -204,12 +235,16 @@ void rejectChains(const WholeMesh& mesh, const Request& request) {
   std::set<PetscInt> slaves;
   for (const auto& pair : mesh.pairs)
     if (!slaves.insert(pair.node).second)
-      throw Error(request.interfaces[static_cast<std::size_t>(pair.interface)].pad.option + ": the node at " +
-                  positionText(mesh.points[static_cast<std::size_t>(pair.node)]) + " is already a pad node of another interface");
+      throw Error(request.interfaces[static_cast<std::size_t>(pair.interface)].pad.option +
+                  ": the node at " +
+                  positionText(mesh.points[static_cast<std::size_t>(pair.node)]) +
+                  " is already a pad node of another interface");
   for (const auto& pair : mesh.pairs)
     if (slaves.count(pair.master))
-      throw Error(request.interfaces[static_cast<std::size_t>(pair.interface)].disc.option + ": the node at " +
-                  positionText(mesh.points[static_cast<std::size_t>(pair.master)]) + " is also a pad node of an interface");
+      throw Error(request.interfaces[static_cast<std::size_t>(pair.interface)].disc.option +
+                  ": the node at " +
+                  positionText(mesh.points[static_cast<std::size_t>(pair.master)]) +
+                  " is also a pad node of an interface");
 }
 
 }  // namespace
@@ -217,14 +252,16 @@ void rejectChains(const WholeMesh& mesh, const Request& request) {
 void pairNodes(WholeMesh& mesh, const Request& request) {
   const double near = tolerance(mesh);
   mesh.primary.resize(mesh.points.size());
-  for (PetscInt node = 0; node < mesh.nodeCount(); ++node) mesh.primary[static_cast<std::size_t>(node)] = node;
+  for (PetscInt node = 0; node < mesh.nodeCount(); ++node)
+    mesh.primary[static_cast<std::size_t>(node)] = node;
   for (const auto& periodic : request.periodic) pairImages(mesh, periodic, near);
   resolveImages(mesh, request);
   const auto body = bodyOfNode(mesh);
   for (std::size_t i = 0; i < request.interfaces.size(); ++i)
     pairContact(mesh, request.interfaces[i], static_cast<int>(i), body, near);
   rejectChains(mesh, request);
-  for (std::size_t i = 0; i < request.interfaces.size(); ++i) requireEqualFaces(mesh, request.interfaces[i], static_cast<int>(i));
+  for (std::size_t i = 0; i < request.interfaces.size(); ++i)
+    requireEqualFaces(mesh, request.interfaces[i], static_cast<int>(i));
 }
 
 }  // namespace squeal::mesh

@@ -9,8 +9,10 @@ std::vector<int> partition(const WholeMesh& mesh, int ranks) {
   std::vector<int> rank(static_cast<std::size_t>(mesh.cellCount()), 0);
   if (ranks == 1) return rank;
   if (mesh.cellCount() < ranks)
-    throw Error("the mesh has " + std::to_string(mesh.cellCount()) + " cells, fewer than the " + std::to_string(ranks) + " ranks");
-  // Partners across contact and periodicity as one node: their equations are coupled, they belong on one rank.
+    throw Error("the mesh has " + std::to_string(mesh.cellCount()) + " cells, fewer than the " +
+                std::to_string(ranks) + " ranks");
+  // Partners across contact and periodicity as one node: their equations are coupled, they belong
+  // on one rank.
   std::vector<PetscInt> canonical = mesh.primary;
   for (const auto& pair : mesh.pairs)
     if (pair.master >= 0) canonical[static_cast<std::size_t>(pair.node)] = pair.master;
@@ -20,15 +22,19 @@ std::vector<int> partition(const WholeMesh& mesh, int ranks) {
     for (std::size_t e = 0; e < block.tag.size(); ++e) {
       for (int i = 0; i < block.corners; ++i)
         corners.push_back(static_cast<idx_t>(canonical[static_cast<std::size_t>(
-            block.nodes[e * static_cast<std::size_t>(block.nodesPerElement) + static_cast<std::size_t>(i)])]));
+            block.nodes[e * static_cast<std::size_t>(block.nodesPerElement) +
+                        static_cast<std::size_t>(i)])]));
       start.push_back(static_cast<idx_t>(corners.size()));
       weight.push_back(block.nodesPerElement);
     }
-  idx_t elements = static_cast<idx_t>(rank.size()), nodes = static_cast<idx_t>(mesh.nodeCount()), parts = ranks, cut = 0;
-  idx_t common = mesh.dimension;  // corners shared by neighbours: an edge in the plane, a triangle in space
+  idx_t elements = static_cast<idx_t>(rank.size()), nodes = static_cast<idx_t>(mesh.nodeCount()),
+        parts = ranks, cut = 0;
+  idx_t common =
+      mesh.dimension;  // corners shared by neighbours: an edge in the plane, a triangle in space
   std::vector<idx_t> elementPart(rank.size()), nodePart(mesh.points.size());
-  if (METIS_PartMeshDual(&elements, &nodes, start.data(), corners.data(), weight.data(), nullptr, &common, &parts, nullptr, nullptr,
-                         &cut, elementPart.data(), nodePart.data()) != METIS_OK)
+  if (METIS_PartMeshDual(&elements, &nodes, start.data(), corners.data(), weight.data(), nullptr,
+                         &common, &parts, nullptr, nullptr, &cut, elementPart.data(),
+                         nodePart.data()) != METIS_OK)
     throw Error("METIS cannot partition the mesh");
   for (std::size_t c = 0; c < rank.size(); ++c) rank[c] = static_cast<int>(elementPart[c]);
   return rank;

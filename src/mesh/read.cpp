@@ -14,8 +14,8 @@
 namespace squeal::mesh {
 namespace {
 
-
-/// Who owns which node, and the numbers under which all ranks know them: owned nodes of a rank are contiguous.
+/// Who owns which node, and the numbers under which all ranks know them: owned nodes of a rank are
+/// contiguous.
 struct Numbering {
   std::vector<int> owner;             ///< [whole node]
   std::vector<PetscInt> global;       ///< [whole node]
@@ -31,13 +31,15 @@ Numbering number(const WholeMesh& mesh, const std::vector<int>& cellRank, int ra
     for (std::size_t e = 0; e < block.tag.size(); ++e, ++cell)
       for (int i = 0; i < block.nodesPerElement; ++i) {
         auto& owner = numbering.owner[static_cast<std::size_t>(
-            block.nodes[e * static_cast<std::size_t>(block.nodesPerElement) + static_cast<std::size_t>(i)])];
+            block.nodes[e * static_cast<std::size_t>(block.nodesPerElement) +
+                        static_cast<std::size_t>(i)])];
         owner = std::min(owner, cellRank[cell]);
       }
   numbering.whole.resize(mesh.points.size());
   std::iota(numbering.whole.begin(), numbering.whole.end(), 0);
   std::stable_sort(numbering.whole.begin(), numbering.whole.end(), [&](PetscInt a, PetscInt b) {
-    return numbering.owner[static_cast<std::size_t>(a)] < numbering.owner[static_cast<std::size_t>(b)];
+    return numbering.owner[static_cast<std::size_t>(a)] <
+           numbering.owner[static_cast<std::size_t>(b)];
   });
   numbering.global.resize(mesh.points.size());
   numbering.firstOfRank.assign(static_cast<std::size_t>(ranks) + 1, 0);
@@ -46,18 +48,21 @@ Numbering number(const WholeMesh& mesh, const std::vector<int>& cellRank, int ra
     numbering.global[node] = g;
     ++numbering.firstOfRank[static_cast<std::size_t>(numbering.owner[node]) + 1];
   }
-  std::partial_sum(numbering.firstOfRank.begin(), numbering.firstOfRank.end(), numbering.firstOfRank.begin());
+  std::partial_sum(numbering.firstOfRank.begin(), numbering.firstOfRank.end(),
+                   numbering.firstOfRank.begin());
   return numbering;
 }
 
-/// Items of the mesh sorted by the rank that gets them, so that packing all ranks is one pass over the mesh.
+/// Items of the mesh sorted by the rank that gets them, so that packing all ranks is one pass over
+/// the mesh.
 struct Shares {
   std::vector<std::vector<std::vector<PetscInt>>> cells, faces;  // [rank][block] -> element
   std::vector<std::vector<PetscInt>> images, pairs;              // [rank] -> item
   std::vector<std::vector<std::vector<PetscInt>>> groups;        // [rank][group] -> whole node
 };
 
-Shares share(const WholeMesh& mesh, const Numbering& numbering, const std::vector<int>& cellRank, int ranks) {
+Shares share(const WholeMesh& mesh, const Numbering& numbering, const std::vector<int>& cellRank,
+             int ranks) {
   const auto size = static_cast<std::size_t>(ranks);
   Shares shares;
   shares.cells.assign(size, std::vector<std::vector<PetscInt>>(mesh.cells.size()));
@@ -71,12 +76,17 @@ Shares share(const WholeMesh& mesh, const Numbering& numbering, const std::vecto
       shares.cells[static_cast<std::size_t>(cellRank[cell])][b].push_back(static_cast<PetscInt>(e));
   for (std::size_t b = 0; b < mesh.faces.size(); ++b)
     for (std::size_t e = 0; e < mesh.faces[b].tag.size(); ++e)
-      shares.faces[static_cast<std::size_t>(cellRank[static_cast<std::size_t>(mesh.faces[b].cell[e])])][b].push_back(
-          static_cast<PetscInt>(e));
-  const auto ownerOf = [&](PetscInt node) { return static_cast<std::size_t>(numbering.owner[static_cast<std::size_t>(node)]); };
+      shares
+          .faces[static_cast<std::size_t>(
+              cellRank[static_cast<std::size_t>(mesh.faces[b].cell[e])])][b]
+          .push_back(static_cast<PetscInt>(e));
+  const auto ownerOf = [&](PetscInt node) {
+    return static_cast<std::size_t>(numbering.owner[static_cast<std::size_t>(node)]);
+  };
   for (std::size_t i = 0; i < mesh.images.size(); ++i)
     shares.images[ownerOf(mesh.images[i].node)].push_back(static_cast<PetscInt>(i));
-  for (std::size_t i = 0; i < mesh.pairs.size(); ++i) shares.pairs[ownerOf(mesh.pairs[i].node)].push_back(static_cast<PetscInt>(i));
+  for (std::size_t i = 0; i < mesh.pairs.size(); ++i)
+    shares.pairs[ownerOf(mesh.pairs[i].node)].push_back(static_cast<PetscInt>(i));
   std::size_t g = 0;
   for (const auto& [name, nodes] : mesh.nodeGroups) {
     for (PetscInt node : nodes) shares.groups[ownerOf(node)][g].push_back(node);
@@ -101,10 +111,12 @@ std::vector<Number> picked(const std::vector<Number>& all, const std::vector<Pet
   return some;
 }
 
-Buffer pack(const WholeMesh& mesh, const Numbering& numbering, const Shares& shares, std::size_t rank) {
+Buffer pack(const WholeMesh& mesh, const Numbering& numbering, const Shares& shares,
+            std::size_t rank) {
   // Local numbers: owned nodes in global order, then the ghosts of this rank's cells.
   std::vector<PetscInt> local;  // local -> global
-  for (PetscInt g = numbering.firstOfRank[rank]; g < numbering.firstOfRank[rank + 1]; ++g) local.push_back(g);
+  for (PetscInt g = numbering.firstOfRank[rank]; g < numbering.firstOfRank[rank + 1]; ++g)
+    local.push_back(g);
   const PetscInt first = numbering.firstOfRank[rank], end = numbering.firstOfRank[rank + 1];
   std::set<PetscInt> ghosts;
   for (std::size_t b = 0; b < mesh.cells.size(); ++b)
@@ -116,7 +128,8 @@ Buffer pack(const WholeMesh& mesh, const Numbering& numbering, const Shares& sha
   const auto toLocal = [&](PetscInt node) {
     const PetscInt g = numbering.global[static_cast<std::size_t>(node)];
     if (g >= first && g < end) return g - first;
-    return static_cast<PetscInt>(std::lower_bound(local.begin() + (end - first), local.end(), g) - local.begin());
+    return static_cast<PetscInt>(std::lower_bound(local.begin() + (end - first), local.end(), g) -
+                                 local.begin());
   };
   const auto allToLocal = [&](std::vector<PetscInt> nodes) {
     for (auto& node : nodes) node = toLocal(node);
@@ -124,8 +137,9 @@ Buffer pack(const WholeMesh& mesh, const Numbering& numbering, const Shares& sha
   };
 
   Buffer buffer;
-  buffer.put(std::vector<PetscInt>{mesh.dimension, mesh.nodeCount(), mesh.cellCount(), end - first, first,
-                                   static_cast<PetscInt>(mesh.partName.size()), mesh.unusedNodes});
+  buffer.put(std::vector<PetscInt>{mesh.dimension, mesh.nodeCount(), mesh.cellCount(), end - first,
+                                   first, static_cast<PetscInt>(mesh.partName.size()),
+                                   mesh.unusedNodes});
   buffer.put(mesh.bodies);
   buffer.put(mesh.surfaces);
   buffer.put(mesh.partName);
@@ -157,15 +171,18 @@ Buffer pack(const WholeMesh& mesh, const Numbering& numbering, const Shares& sha
   for (const auto& nodes : shares.groups[rank]) buffer.put(allToLocal(nodes));
   auto images = picked(mesh.images, shares.images[rank]);
   for (auto& image : images)
-    image.node = toLocal(image.node), image.primary = numbering.global[static_cast<std::size_t>(image.primary)];
+    image.node = toLocal(image.node),
+    image.primary = numbering.global[static_cast<std::size_t>(image.primary)];
   buffer.put(images);
   auto pairs = picked(mesh.pairs, shares.pairs[rank]);
   for (auto& pair : pairs) {
     pair.node = toLocal(pair.node);
     if (pair.master >= 0) pair.master = numbering.global[static_cast<std::size_t>(pair.master)];
   }
-  // In local order, so that everything kept per contact node (gap columns of T, reports) runs the same way.
-  std::sort(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) { return a.node < b.node; });
+  // In local order, so that everything kept per contact node (gap columns of T, reports) runs the
+  // same way.
+  std::sort(pairs.begin(), pairs.end(),
+            [](const auto& a, const auto& b) { return a.node < b.node; });
   buffer.put(pairs);
   return buffer;
 }
@@ -174,7 +191,8 @@ Mesh unpack(MPI_Comm comm, Buffer& buffer) {
   Mesh mesh;
   mesh.comm = comm;
   const auto sizes = buffer.take<PetscInt>();
-  mesh.dimension = static_cast<int>(sizes[0]), mesh.totalNodes = sizes[1], mesh.totalCells = sizes[2];
+  mesh.dimension = static_cast<int>(sizes[0]), mesh.totalNodes = sizes[1],
+  mesh.totalCells = sizes[2];
   mesh.ownedNodes = sizes[3], mesh.firstNode = sizes[4], mesh.parts = static_cast<int>(sizes[5]);
   mesh.unusedNodes = sizes[6];
   mesh.bodies = buffer.takeTexts();
@@ -214,7 +232,8 @@ Buffer scatter(MPI_Comm comm, std::vector<Buffer>& buffers) {
   std::vector<char> all;
   std::string failure;
   for (auto& buffer : buffers) {
-    if (all.size() + buffer.bytes().size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+    if (all.size() + buffer.bytes().size() >
+        static_cast<std::size_t>(std::numeric_limits<int>::max()))
       failure = "the mesh is too large for one rank to hand out (2 GiB of message)";
     counts.push_back(static_cast<int>(buffer.bytes().size()));
     offsets.push_back(static_cast<int>(all.size()));
@@ -226,7 +245,8 @@ Buffer scatter(MPI_Comm comm, std::vector<Buffer>& buffers) {
   check(MPI_Scatter(counts.data(), 1, MPI_INT, &count, 1, MPI_INT, 0, comm));
   Buffer mine;
   mine.bytes().resize(static_cast<std::size_t>(count));
-  check(MPI_Scatterv(all.data(), counts.data(), offsets.data(), MPI_CHAR, mine.bytes().data(), count, MPI_CHAR, 0, comm));
+  check(MPI_Scatterv(all.data(), counts.data(), offsets.data(), MPI_CHAR, mine.bytes().data(),
+                     count, MPI_CHAR, 0, comm));
   return mine;
 }
 
@@ -246,7 +266,8 @@ Mesh read(MPI_Comm comm, const Request& request) {
       const auto cellRank = partition(whole, size);
       const Numbering numbering = number(whole, cellRank, size);
       const Shares shares = share(whole, numbering, cellRank, size);
-      for (int r = 0; r < size; ++r) buffers.push_back(pack(whole, numbering, shares, static_cast<std::size_t>(r)));
+      for (int r = 0; r < size; ++r)
+        buffers.push_back(pack(whole, numbering, shares, static_cast<std::size_t>(r)));
     } catch (const std::exception& error) {
       failure = error.what();
     }

@@ -8,7 +8,8 @@ namespace squeal::mesh {
 namespace {
 
 std::vector<PetscInt> sortedNodes(const WholeBlock& block, std::size_t element, int count) {
-  const auto begin = block.nodes.begin() + static_cast<std::ptrdiff_t>(element) * block.nodesPerElement;
+  const auto begin =
+      block.nodes.begin() + static_cast<std::ptrdiff_t>(element) * block.nodesPerElement;
   std::vector<PetscInt> nodes(begin, begin + count);
   std::sort(nodes.begin(), nodes.end());
   return nodes;
@@ -27,13 +28,15 @@ std::uint64_t hashed(const std::vector<PetscInt>& nodes) {
 }
 
 bool same(const WholeBlock& a, std::size_t i, const WholeBlock& b, std::size_t j) {
-  if (a.type == b.type) return sortedNodes(a, i, a.nodesPerElement) == sortedNodes(b, j, b.nodesPerElement);
+  if (a.type == b.type)
+    return sortedNodes(a, i, a.nodesPerElement) == sortedNodes(b, j, b.nodesPerElement);
   return sortedNodes(a, i, a.corners) == sortedNodes(b, j, b.corners);
 }
 
 }  // namespace
 
-std::optional<std::pair<ElementPlace, ElementPlace>> findTwins(const std::vector<WholeBlock>& blocks) {
+std::optional<std::pair<ElementPlace, ElementPlace>> findTwins(
+    const std::vector<WholeBlock>& blocks) {
   struct Key {
     std::uint64_t hash;
     ElementPlace place;
@@ -42,14 +45,17 @@ std::optional<std::pair<ElementPlace, ElementPlace>> findTwins(const std::vector
   for (std::size_t b = 0; b < blocks.size(); ++b)
     for (std::size_t e = 0; e < blocks[b].tag.size(); ++e)
       keys.push_back({hashed(sortedNodes(blocks[b], e, blocks[b].corners)), {b, e}});
-  const auto tag = [&](const ElementPlace& place) { return blocks[place.block].tag[place.element]; };
+  const auto tag = [&](const ElementPlace& place) {
+    return blocks[place.block].tag[place.element];
+  };
   std::sort(keys.begin(), keys.end(), [&](const Key& a, const Key& b) {
     return std::tuple(a.hash, tag(a.place), a.place.block, a.place.element) <
            std::tuple(b.hash, tag(b.place), b.place.block, b.place.element);
   });
   std::optional<std::pair<ElementPlace, ElementPlace>> twins;
   for (std::size_t first = 0; first < keys.size(); ++first)
-    for (std::size_t next = first + 1; next < keys.size() && keys[next].hash == keys[first].hash; ++next) {
+    for (std::size_t next = first + 1; next < keys.size() && keys[next].hash == keys[first].hash;
+         ++next) {
       const auto &a = keys[first].place, &b = keys[next].place;
       if (twins && tag(a) >= tag(twins->first)) continue;
       if (same(blocks[a.block], a.element, blocks[b.block], b.element)) twins = {a, b};

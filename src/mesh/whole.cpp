@@ -20,7 +20,8 @@ class Adjacency {
     for (const auto& block : mesh.cells)
       for (std::size_t e = 0; e < block.tag.size(); ++e, ++cell)
         for (int i = 0; i < block.nodesPerElement; ++i) {
-          const PetscInt node = block.nodes[e * static_cast<std::size_t>(block.nodesPerElement) + static_cast<std::size_t>(i)];
+          const PetscInt node = block.nodes[e * static_cast<std::size_t>(block.nodesPerElement) +
+                                            static_cast<std::size_t>(i)];
           if (nodesOfInterest.count(node)) cells_[node].push_back(cell);
         }
   }
@@ -29,7 +30,8 @@ class Adjacency {
     for (int i = 1; i < count; ++i) {
       std::vector<PetscInt> both;
       const auto& next = cells_.at(corners[i]);
-      std::set_intersection(common.begin(), common.end(), next.begin(), next.end(), std::back_inserter(both));
+      std::set_intersection(common.begin(), common.end(), next.begin(), next.end(),
+                            std::back_inserter(both));
       common = both;
     }
     return common;
@@ -43,7 +45,9 @@ class Adjacency {
 struct CellReference {
   WholeBlock* block;
   std::size_t element;
-  PetscInt* nodes() const { return block->nodes.data() + element * static_cast<std::size_t>(block->nodesPerElement); }
+  PetscInt* nodes() const {
+    return block->nodes.data() + element * static_cast<std::size_t>(block->nodesPerElement);
+  }
 };
 
 std::vector<CellReference> references(WholeMesh& mesh) {
@@ -64,17 +68,20 @@ struct NamedElements {
   }
 };
 
-NamedElements readNamed(const WholeMesh& mesh, const GmshModel& model, const Request& request, const NodeIndex& index) {
+NamedElements readNamed(const WholeMesh& mesh, const GmshModel& model, const Request& request,
+                        const NodeIndex& index) {
   NamedElements named;
   const auto add = [&](const GroupRequest& request, int dimension) {
     const auto& [name, wantedBy] = request;
     if (named.groups.count(name)) return;
     auto group = model.group(name, wantedBy);
     if (dimension >= 0 && group.dimension != dimension)
-      throw Error(wantedBy + ": group '" + name + "' has dimension " + std::to_string(group.dimension) +
-                  "; a boundary of dimension " + std::to_string(dimension) + " is wanted");
+      throw Error(wantedBy + ": group '" + name + "' has dimension " +
+                  std::to_string(group.dimension) + "; a boundary of dimension " +
+                  std::to_string(dimension) + " is wanted");
     for (auto& block : group.blocks)
-      if (!index.translate(block.nodes)) throw Error(wantedBy + ": group '" + name + "' has nodes that belong to no body");
+      if (!index.translate(block.nodes))
+        throw Error(wantedBy + ": group '" + name + "' has nodes that belong to no body");
     named.groups[name] = group;
   };
   const int boundary = mesh.dimension - 1;
@@ -99,11 +106,14 @@ class Splitter {
   Splitter(WholeMesh& mesh, const Request& request, const NamedElements& named)
       : mesh_(mesh), request_(request), adjacency_(mesh, named.nodes()), cells_(references(mesh)) {
     for (const auto& body : mesh.bodies)
-      moves_.push_back(std::find(request.moving.begin(), request.moving.end(), body) != request.moving.end());
+      moves_.push_back(std::find(request.moving.begin(), request.moving.end(), body) !=
+                       request.moving.end());
   }
   Side side(PetscInt cell) const {
     const auto& reference = cells_[static_cast<std::size_t>(cell)];
-    return moves_[static_cast<std::size_t>(reference.block->label[reference.element])] ? Side::moving : Side::resting;
+    return moves_[static_cast<std::size_t>(reference.block->label[reference.element])]
+               ? Side::moving
+               : Side::resting;
   }
   std::string bodyName(PetscInt cell) const {
     const auto& reference = cells_[static_cast<std::size_t>(cell)];
@@ -112,22 +122,27 @@ class Splitter {
   const Adjacency& adjacency() const { return adjacency_; }
   CellReference cell(PetscInt number) const { return cells_[static_cast<std::size_t>(number)]; }
 
-  /// Doubles each node on contact faces that lie between a moving and a resting cell; the resting cells take the new nodes.
+  /// Doubles each node on contact faces that lie between a moving and a resting cell; the resting
+  /// cells take the new nodes.
   void split(const NamedElements& named) {
     for (const auto& interface : request_.interfaces)
       for (const auto& block : named.groups.at(interface.pad.name).blocks)
         for (std::size_t e = 0; e < block.tag.size(); ++e) {
-          const PetscInt* nodes = block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerElement);
+          const PetscInt* nodes =
+              block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerElement);
           const auto neighbours = adjacency_.cellsHolding(nodes, block.corners);
           if (neighbours.size() < 2) continue;
           if (bodyName(neighbours[0]) == bodyName(neighbours[1]))
-            throw Error(interface.pad.option + ": '" + interface.pad.name + "' lies inside the body '" +
-                        bodyName(neighbours[0]) +
-                        "', whose cells are on both sides of it; contact is between two bodies, groups with a material each");
+            throw Error(interface.pad.option + ": '" + interface.pad.name +
+                        "' lies inside the body '" + bodyName(neighbours[0]) +
+                        "', whose cells are on both sides of it; contact is between two bodies, "
+                        "groups with a material each");
           if (side(neighbours[0]) == side(neighbours[1]))
-            throw Error(interface.pad.option + ": the bodies '" + bodyName(neighbours[0]) + "' and '" +
-                        bodyName(neighbours[1]) + "' share the nodes of '" + interface.pad.name +
-                        "'; to tell disc from pad, exactly one of them must have a " + request_.motionOptions + " option");
+            throw Error(interface.pad.option + ": the bodies '" + bodyName(neighbours[0]) +
+                        "' and '" + bodyName(neighbours[1]) + "' share the nodes of '" +
+                        interface.pad.name +
+                        "'; to tell disc from pad, exactly one of them must have a " +
+                        request_.motionOptions + " option");
           for (int i = 0; i < block.nodesPerElement; ++i) restingTwin_.emplace(nodes[i], -1);
         }
     for (auto& [node, twin] : restingTwin_) {
@@ -138,7 +153,8 @@ class Splitter {
     if (restingTwin_.empty()) return;
     for (std::size_t c = 0; c < cells_.size(); ++c)
       if (side(static_cast<PetscInt>(c)) == Side::resting)
-        for (int i = 0; i < cells_[c].block->nodesPerElement; ++i) cells_[c].nodes()[i] = twin(cells_[c].nodes()[i], Side::resting);
+        for (int i = 0; i < cells_[c].block->nodesPerElement; ++i)
+          cells_[c].nodes()[i] = twin(cells_[c].nodes()[i], Side::resting);
   }
   PetscInt twin(PetscInt node, Side side) const {
     if (side == Side::moving) return node;
@@ -155,29 +171,35 @@ class Splitter {
   std::map<PetscInt, PetscInt> restingTwin_;
 };
 
-/// Nodes of a group after the split: an element that bounds cells of both sides gives the nodes of both.
+/// Nodes of a group after the split: an element that bounds cells of both sides gives the nodes of
+/// both.
 std::vector<PetscInt> groupNodes(const GroupElements& group, const Splitter& splitter) {
   std::set<PetscInt> nodes;
   for (const auto& block : group.blocks)
     for (std::size_t e = 0; e < block.tag.size(); ++e) {
-      const PetscInt* element = block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerElement);
+      const PetscInt* element =
+          block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerElement);
       for (PetscInt cell : splitter.adjacency().cellsHolding(element, block.corners))
-        for (int i = 0; i < block.nodesPerElement; ++i) nodes.insert(splitter.twin(element[i], splitter.side(cell)));
+        for (int i = 0; i < block.nodesPerElement; ++i)
+          nodes.insert(splitter.twin(element[i], splitter.side(cell)));
     }
   return {nodes.begin(), nodes.end()};
 }
 
 /// Faces of the disc sides by their nodes after the split, once for each cell that they bound.
-void readDiscFaces(WholeMesh& mesh, const Request& request, const NamedElements& named, const Splitter& splitter) {
+void readDiscFaces(WholeMesh& mesh, const Request& request, const NamedElements& named,
+                   const Splitter& splitter) {
   for (const auto& interface : request.interfaces) {
     if (interface.disc.name.empty()) continue;
     auto& faces = mesh.discFaces[interface.disc.name];
     for (const auto& block : named.groups.at(interface.disc.name).blocks)
       for (std::size_t e = 0; e < block.tag.size(); ++e) {
-        const PetscInt* nodes = block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerElement);
+        const PetscInt* nodes =
+            block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerElement);
         for (PetscInt cell : splitter.adjacency().cellsHolding(nodes, block.corners)) {
           faces.emplace_back();
-          for (int i = 0; i < block.nodesPerElement; ++i) faces.back().push_back(splitter.twin(nodes[i], splitter.side(cell)));
+          for (int i = 0; i < block.nodesPerElement; ++i)
+            faces.back().push_back(splitter.twin(nodes[i], splitter.side(cell)));
         }
       }
   }
@@ -186,7 +208,8 @@ void readDiscFaces(WholeMesh& mesh, const Request& request, const NamedElements&
 Point centroid(const WholeMesh& mesh, const PetscInt* nodes, int count) {
   Point centre{};
   for (int i = 0; i < count; ++i)
-    for (std::size_t d = 0; d < 3; ++d) centre[d] += mesh.points[static_cast<std::size_t>(nodes[i])][d] / count;
+    for (std::size_t d = 0; d < 3; ++d)
+      centre[d] += mesh.points[static_cast<std::size_t>(nodes[i])][d] / count;
   return centre;
 }
 
@@ -195,8 +218,10 @@ int outwardSign(const WholeMesh& mesh, const PetscInt* nodes, int corners, const
   const auto at = [&](int i) { return mesh.points[static_cast<std::size_t>(nodes[i])]; };
   const Point a = at(0), b = at(1), c = mesh.dimension == 3 ? at(2) : a;
   const Point e{b[0] - a[0], b[1] - a[1], b[2] - a[2]}, g{c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-  const Point normal = mesh.dimension == 3 ? Point{e[1] * g[2] - e[2] * g[1], e[2] * g[0] - e[0] * g[2], e[0] * g[1] - e[1] * g[0]}
-                                           : Point{e[1], -e[0], 0};
+  const Point normal =
+      mesh.dimension == 3
+          ? Point{e[1] * g[2] - e[2] * g[1], e[2] * g[0] - e[0] * g[2], e[0] * g[1] - e[1] * g[0]}
+          : Point{e[1], -e[0], 0};
   const Point centre = centroid(mesh, nodes, corners);
   double dot = 0;
   for (std::size_t d = 0; d < 3; ++d) dot += normal[d] * (centre[d] - inside[d]);
@@ -205,15 +230,19 @@ int outwardSign(const WholeMesh& mesh, const PetscInt* nodes, int corners, const
 
 /// Pressure and contact area of a face that is there twice would be doubled.
 void requireDistinctFaces(const std::string& surface, const GroupElements& group) {
-  const auto tag = [&](const ElementPlace& place) { return std::to_string(group.blocks[place.block].tag[place.element]); };
+  const auto tag = [&](const ElementPlace& place) {
+    return std::to_string(group.blocks[place.block].tag[place.element]);
+  };
   if (const auto place = findRepeatedNode(group.blocks))
-    throw Error("option -mesh_file: face " + tag(*place) + " of group '" + surface + "' has a node twice");
+    throw Error("option -mesh_file: face " + tag(*place) + " of group '" + surface +
+                "' has a node twice");
   if (const auto twins = findTwins(group.blocks))
-    throw Error("option -mesh_file: the faces " + tag(twins->first) + " and " + tag(twins->second) + " of group '" + surface +
-                "' have the same nodes: one face, written twice");
+    throw Error("option -mesh_file: the faces " + tag(twins->first) + " and " + tag(twins->second) +
+                " of group '" + surface + "' have the same nodes: one face, written twice");
 }
 
-void readFaces(WholeMesh& mesh, const Request& request, const NamedElements& named, const Splitter& splitter) {
+void readFaces(WholeMesh& mesh, const Request& request, const NamedElements& named,
+               const Splitter& splitter) {
   std::set<std::string> pads, wanted;
   for (const auto& surface : request.surfaces) wanted.insert(surface.name);
   for (const auto& interface : request.interfaces) pads.insert(interface.pad.name);
@@ -223,13 +252,16 @@ void readFaces(WholeMesh& mesh, const Request& request, const NamedElements& nam
     const std::string& name = mesh.surfaces[s];
     requireDistinctFaces(name, named.groups.at(name));
     for (const auto& block : named.groups.at(name).blocks) {
-      auto known = std::find_if(mesh.faces.begin(), mesh.faces.end(), [&](const auto& f) { return f.type == block.type; });
+      auto known = std::find_if(mesh.faces.begin(), mesh.faces.end(),
+                                [&](const auto& f) { return f.type == block.type; });
       if (known == mesh.faces.end()) {
         known = mesh.faces.insert(known, WholeFaces{});
-        known->type = block.type, known->nodesPerElement = block.nodesPerElement, known->corners = block.corners;
+        known->type = block.type, known->nodesPerElement = block.nodesPerElement,
+        known->corners = block.corners;
       }
       for (std::size_t e = 0; e < block.tag.size(); ++e) {
-        const PetscInt* nodes = block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerElement);
+        const PetscInt* nodes =
+            block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerElement);
         auto cells = splitter.adjacency().cellsHolding(nodes, block.corners);
         if (pads.count(name) && cells.size() == 2)  // shared with the disc: the pad's face is meant
           cells = {splitter.side(cells[0]) == Side::resting ? cells[0] : cells[1]};
@@ -237,11 +269,13 @@ void readFaces(WholeMesh& mesh, const Request& request, const NamedElements& nam
           throw Error("surface group '" + name + "': face " + std::to_string(block.tag[e]) +
                       " must bound one cell of a body, it bounds " + std::to_string(cells.size()));
         const CellReference cell = splitter.cell(cells[0]);
-        for (int i = 0; i < block.nodesPerElement; ++i) known->nodes.push_back(splitter.twin(nodes[i], splitter.side(cells[0])));
+        for (int i = 0; i < block.nodesPerElement; ++i)
+          known->nodes.push_back(splitter.twin(nodes[i], splitter.side(cells[0])));
         known->label.push_back(static_cast<int>(s));
         known->tag.push_back(block.tag[e]);
         known->cell.push_back(cells[0]);
-        known->sign.push_back(outwardSign(mesh, nodes, block.corners, centroid(mesh, cell.nodes(), cell.block->corners)));
+        known->sign.push_back(outwardSign(mesh, nodes, block.corners,
+                                          centroid(mesh, cell.nodes(), cell.block->corners)));
       }
     }
   }
@@ -267,7 +301,8 @@ void findParts(WholeMesh& mesh) {
   std::map<PetscInt, int> number;
   mesh.part.resize(mesh.points.size());
   for (PetscInt node = 0; node < mesh.nodeCount(); ++node)
-    mesh.part[static_cast<std::size_t>(node)] = number.emplace(root(node), static_cast<int>(number.size())).first->second;
+    mesh.part[static_cast<std::size_t>(node)] =
+        number.emplace(root(node), static_cast<int>(number.size())).first->second;
   std::vector<std::set<std::string>> names(number.size());
   for (auto cell : references(mesh))
     names[static_cast<std::size_t>(mesh.part[static_cast<std::size_t>(cell.nodes()[0])])].insert(
@@ -283,7 +318,8 @@ PetscInt WholeMesh::cellCount() const {
   return static_cast<PetscInt>(count);
 }
 
-WholeMesh load(const std::string& file, const std::vector<std::string>& parameters, const Request& request) {
+WholeMesh load(const std::string& file, const std::vector<std::string>& parameters,
+               const Request& request) {
   const GmshModel model(file, parameters);
   WholeMesh mesh;
   NodeIndex index(mesh, model);
@@ -294,7 +330,8 @@ WholeMesh load(const std::string& file, const std::vector<std::string>& paramete
   splitter.split(named);
   readFaces(mesh, request, named, splitter);
   readDiscFaces(mesh, request, named, splitter);
-  for (const auto& [name, group] : named.groups) mesh.nodeGroups[name] = groupNodes(group, splitter);
+  for (const auto& [name, group] : named.groups)
+    mesh.nodeGroups[name] = groupNodes(group, splitter);
   findParts(mesh);
   return mesh;
 }

@@ -1,5 +1,6 @@
 #pragma once
-/// The whole mesh, held by the reader's rank alone between the gmsh library and the distribution. Not collective: rank 0 only.
+/// The whole mesh, held by the reader's rank alone between the gmsh library and the distribution.
+/// Not collective: rank 0 only.
 #include "mesh/mesh.hpp"
 
 namespace squeal::mesh {
@@ -37,14 +38,16 @@ struct WholeMesh {
   PetscInt cellCount() const;
 };
 
-/// Reads or meshes `file` with gmsh, splits nodes shared across contact interfaces, finds parts and faces.
-/// `parameters`: "name=value" settings of a .geo file.
-WholeMesh load(const std::string& file, const std::vector<std::string>& parameters, const Request& request);
+/// Reads or meshes `file` with gmsh, splits nodes shared across contact interfaces, finds parts and
+/// faces. `parameters`: "name=value" settings of a .geo file.
+WholeMesh load(const std::string& file, const std::vector<std::string>& parameters,
+               const Request& request);
 
 /// Finds the partner of each periodic image and of each contact node; fills primary, images, pairs.
 void pairNodes(WholeMesh& mesh, const Request& request);
 
-/// METIS: the rank of each cell, from the dual graph in which contact partners and periodic images count as one node.
+/// METIS: the rank of each cell, from the dual graph in which contact partners and periodic images
+/// count as one node.
 std::vector<int> partition(const WholeMesh& mesh, int ranks);
 
 }  // namespace squeal::mesh

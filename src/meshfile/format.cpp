@@ -16,13 +16,14 @@
 namespace squeal::meshfile {
 namespace {
 
-const FileOption fileOption("mesh", "mesh_file",
-                            "mesh (.msh, .unv) or geometry: a .geo, which is code, is run and meshed in memory");
+const FileOption fileOption(
+    "mesh", "mesh_file",
+    "mesh (.msh, .unv) or geometry: a .geo, which is code, is run and meshed in memory");
 
 struct Format {
   const char* ending;
   std::vector<const char*> starts;  ///< one of these the file begins with
-  const char* part;                 ///< of the gmsh library that reads it; empty: it is always there
+  const char* part;  ///< of the gmsh library that reads it; empty: it is always there
 };
 
 // Formats of which gmsh makes physical groups.
@@ -34,10 +35,12 @@ const std::vector<Format>& formats() {
   return list;
 }
 
-/// As gmsh sees it: from the last point of the path on, in small letters, or in capitals throughout.
+/// As gmsh sees it: from the last point of the path on, in small letters, or in capitals
+/// throughout.
 std::string endingOf(const std::string& file) {
   const auto point = file.rfind('.');
-  std::string ending = point == std::string::npos ? "" : file.substr(point), small = ending, capital = ending;
+  std::string ending = point == std::string::npos ? "" : file.substr(point), small = ending,
+              capital = ending;
   for (auto& c : small) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   for (auto& c : capital) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   return ending == capital ? small : ending;
@@ -63,11 +66,16 @@ bool isBuiltIn(const std::string& part) {
     if (isBuiltIn(format.part)) known.push_back(format.ending);
   const std::string list = joined(known) + ", and geometries .geo, .geo_unrolled";
   if (ending == ".inp")
-    throw Error(option + "gmsh writes Abaqus input files but cannot read them; have the mesh written in another format: " + list);
-  for (const char* shape : {".step", ".stp", ".iges", ".igs", ".brep", ".stl", ".vtk", ".ply", ".bdf", ".nas", ".mesh"})
+    throw Error(option +
+                "gmsh writes Abaqus input files but cannot read them; have the mesh written in "
+                "another format: " +
+                list);
+  for (const char* shape :
+       {".step", ".stp", ".iges", ".igs", ".brep", ".stl", ".vtk", ".ply", ".bdf", ".nas", ".mesh"})
     if (ending == shape)
       throw Error(option +
-                  "gmsh makes no physical groups of such a file; write a .geo that merges it and names them, as in Merge \"x" +
+                  "gmsh makes no physical groups of such a file; write a .geo that merges it and "
+                  "names them, as in Merge \"x" +
                   shape + "\"; Physical Volume(\"disc\") = {1};");
   throw Error(option + "unknown ending '" + ending + "'; known are " + list);
 }
@@ -82,11 +90,13 @@ FileKind requireSound(const std::string& file) {
   if (!std::filesystem::is_regular_file(file)) throw Error(option + "not a regular file");
   const std::string beside = file + ".opt";
   if (std::filesystem::exists(beside))
-    throw Error(option + "gmsh would run the file '" + beside + "' beside it, a script; take it away");
+    throw Error(option + "gmsh would run the file '" + beside +
+                "' beside it, a script; take it away");
   if (ending == ".geo" || ending == ".geo_unrolled") return FileKind::geometry;
   for (const auto& format : formats()) {
     if (ending != format.ending || !isBuiltIn(format.part)) continue;
-    if (std::none_of(format.starts.begin(), format.starts.end(), [&](const char* start) { return beginsWith(file, start); }))
+    if (std::none_of(format.starts.begin(), format.starts.end(),
+                     [&](const char* start) { return beginsWith(file, start); }))
       throw Error(option + "not a " + ending + " file: it does not begin with '" +
                   (ending == ".unv" || ending == ".msh" ? format.starts[0] : "HDF") + "'");
     return ending == ".msh" ? FileKind::msh : ending == ".unv" ? FileKind::unv : FileKind::mesh;

@@ -14,8 +14,9 @@ enum class FileKind {
   mesh       ///< another mesh format
 };
 
-/// gmsh runs as a script whatever it does not know by its ending or first line. Error unless `file` is a geometry by its name, or a mesh
-/// by its name and its first line, and no options file of gmsh lies beside it, which gmsh would run as well.
+/// gmsh runs as a script whatever it does not know by its ending or first line. Error unless `file`
+/// is a geometry by its name, or a mesh by its name and its first line, and no options file of gmsh
+/// lies beside it, which gmsh would run as well.
 FileKind requireSound(const std::string& file);
 
 }  // namespace squeal::meshfile

@@ -30,7 +30,8 @@ class Mapped {
     const int handle = open(file.c_str(), O_RDONLY | O_CLOEXEC);
     std::error_code failure;
     size_ = std::filesystem::file_size(file, failure);
-    if (handle >= 0 && !failure && size_ > 0) place_ = mmap(nullptr, size_, PROT_READ, MAP_PRIVATE, handle, 0);
+    if (handle >= 0 && !failure && size_ > 0)
+      place_ = mmap(nullptr, size_, PROT_READ, MAP_PRIVATE, handle, 0);
     if (handle >= 0) close(handle);
     if (place_ == MAP_FAILED) throw Error("option -mesh_file " + file + ": cannot be read");
   }
@@ -52,8 +53,10 @@ class Reader {
   bool binary = false, swapped = false;
 
   [[noreturn]] void fail(const std::string& what) const {
-    const auto line = 1 + std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(begin_), '\n');
-    throw Error("option -mesh_file " + file_ + ", " + (binary ? "byte " + std::to_string(begin_) : "line " + std::to_string(line)) +
+    const auto line =
+        1 + std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(begin_), '\n');
+    throw Error("option -mesh_file " + file_ + ", " +
+                (binary ? "byte " + std::to_string(begin_) : "line " + std::to_string(line)) +
                 ": " + what);
   }
   /// A word of text, empty at the end of the file.
@@ -67,7 +70,8 @@ class Reader {
   template <class Number>
   Number written(const char* what) {
     const std::string_view token = word();
-    const char *first = token.data() + (token.size() > 1 && token[0] == '+'), *last = token.data() + token.size();
+    const char *first = token.data() + (token.size() > 1 && token[0] == '+'),
+               *last = token.data() + token.size();
     Number value{};
     const auto [stop, error] = std::from_chars(first, last, value);
     if (token.empty() || error != std::errc() || stop != last)
@@ -76,15 +80,19 @@ class Reader {
     return value;
   }
   /// Integers of 4 and of 8 bytes in a binary file.
-  Integer small(const char* what) { return binary ? raw<std::int32_t>(what) : written<Integer>(what); }
+  Integer small(const char* what) {
+    return binary ? raw<std::int32_t>(what) : written<Integer>(what);
+  }
   Integer large(const char* what) { return binary ? raw<Integer>(what) : written<Integer>(what); }
   double real(const char* what) { return binary ? raw<double>(what) : written<double>(what); }
   /// A number of things each of which takes `least` bytes of the file.
   Integer count(Integer promised, const char* what, Integer least) const {
     const auto left = static_cast<Integer>(text_.size() - at_);
-    if (promised < 0 || promised > left / least + 1)  // the last number of a text needs no blank behind it
-      fail(formatted("%lld %s are promised, of which the file, with %lld more bytes, cannot hold so many",
-                     static_cast<long long>(promised), what, static_cast<long long>(left)));
+    if (promised < 0 ||
+        promised > left / least + 1)  // the last number of a text needs no blank behind it
+      fail(formatted(
+          "%lld %s are promised, of which the file, with %lld more bytes, cannot hold so many",
+          static_cast<long long>(promised), what, static_cast<long long>(left)));
     return promised;
   }
   void skipLine() { at_ = std::min(text_.find('\n', at_), text_.size() - 1) + 1; }
@@ -96,14 +104,16 @@ class Reader {
   /// Behind the line that closes a section.
   void skipSection(const std::string& name) {
     const auto end = text_.find("$End" + name, at_);
-    if (end == std::string_view::npos) fail("the section $" + name + " has no end: the file is cut short");
+    if (end == std::string_view::npos)
+      fail("the section $" + name + " has no end: the file is cut short");
     at_ = end;
     word();
   }
   void closeSection(const std::string& name) {
     const std::string_view token = word();
     if (token != "$End" + name)
-      fail("$End" + name + " is expected, there is " + (token.empty() ? "nothing" : "'" + std::string(token.substr(0, 40)) + "'") +
+      fail("$End" + name + " is expected, there is " +
+           (token.empty() ? "nothing" : "'" + std::string(token.substr(0, 40)) + "'") +
            "; the number in the header of the section does not fit");
   }
 
@@ -111,7 +121,8 @@ class Reader {
   template <class Number>
   Number raw(const char* what) {
     begin_ = at_;
-    if (text_.size() - at_ < sizeof(Number)) fail("the file ends where " + std::string(what) + " should be");
+    if (text_.size() - at_ < sizeof(Number))
+      fail("the file ends where " + std::string(what) + " should be");
     std::array<char, sizeof(Number)> bytes;
     std::copy_n(text_.begin() + static_cast<std::ptrdiff_t>(at_), bytes.size(), bytes.begin());
     if (swapped) std::reverse(bytes.begin(), bytes.end());
@@ -126,8 +137,11 @@ class Reader {
 
 /// Nodes of an element of a type of first or second order, 1 to 19; 0 for others.
 int nodesOf(Integer type) {
-  constexpr std::array<int, 20> nodes{0, 2, 3, 4, 4, 8, 6, 5, 3, 6, 9, 10, 27, 18, 14, 1, 8, 20, 15, 13};
-  return type > 0 && type < static_cast<Integer>(nodes.size()) ? nodes[static_cast<std::size_t>(type)] : 0;
+  constexpr std::array<int, 20> nodes{0, 2,  3,  4,  4,  8, 6, 5,  3,  6,
+                                      9, 10, 27, 18, 14, 1, 8, 20, 15, 13};
+  return type > 0 && type < static_cast<Integer>(nodes.size())
+             ? nodes[static_cast<std::size_t>(type)]
+             : 0;
 }
 
 class Msh {
@@ -137,7 +151,9 @@ class Msh {
   MshContents check() {
     header();
     for (std::string_view word = in_.word(); !word.empty(); word = in_.word()) {
-      if (word[0] != '$') in_.fail("a section is expected, $Nodes or another; there is '" + std::string(word.substr(0, 40)) + "'");
+      if (word[0] != '$')
+        in_.fail("a section is expected, $Nodes or another; there is '" +
+                 std::string(word.substr(0, 40)) + "'");
       const std::string name(word.substr(1));
       if (name == "Nodes")
         section(name, nodes_, version_ < 4 ? &Msh::nodes2 : &Msh::nodes4);
@@ -155,10 +171,13 @@ class Msh {
   void header() {
     in_.word();
     version_ = in_.written<double>("a version of the format");
-    const auto binary = in_.written<Integer>("a file type, 0 or 1"), size = in_.written<Integer>("a size of numbers");
+    const auto binary = in_.written<Integer>("a file type, 0 or 1"),
+               size = in_.written<Integer>("a size of numbers");
     if (!(version_ >= 2 && version_ < 3) && version_ != 4 && version_ != 4.1)
-      in_.fail(formatted("version %g of the format is unknown; known are 2 to 2.2, 4 and 4.1", version_));
-    if ((binary != 0 && binary != 1) || size != 8) in_.fail("the file type must be 0 or 1, the size of numbers 8");
+      in_.fail(formatted("version %g of the format is unknown; known are 2 to 2.2, 4 and 4.1",
+                         version_));
+    if ((binary != 0 && binary != 1) || size != 8)
+      in_.fail("the file type must be 0 or 1, the size of numbers 8");
     in_.binary = binary == 1;
     if (in_.binary) in_.swapped = in_.rawAfterLine() != 1;
     in_.closeSection("MeshFormat");
@@ -171,18 +190,21 @@ class Msh {
     in_.closeSection(name);
     if (!std::is_sorted(tags.begin(), tags.end())) std::sort(tags.begin(), tags.end());
     const auto twice = std::adjacent_find(tags.begin(), tags.end());
-    if (twice != tags.end()) in_.fail("$" + name + " has the tag " + std::to_string(*twice) + " twice");
+    if (twice != tags.end())
+      in_.fail("$" + name + " has the tag " + std::to_string(*twice) + " twice");
   }
   void add(std::vector<Integer>& tags, Integer tag, const char* what) {
     if (tag < 1 || tag > PETSC_MAX_INT)
-      in_.fail(std::string(what) + " tag " + std::to_string(tag) + ": must be from 1 to " + std::to_string(PETSC_MAX_INT));
+      in_.fail(std::string(what) + " tag " + std::to_string(tag) + ": must be from 1 to " +
+               std::to_string(PETSC_MAX_INT));
     tags.push_back(tag);
   }
   void coordinates(Integer tag) {
     for (int d = 0; d < 3; ++d) {
       const double x = in_.real("coordinate");
       if (!(std::abs(x) < 1e100))  // the volume of a cell is a product of three
-        in_.fail("node " + std::to_string(tag) + " has the coordinate " + shortest(x) + "; must be finite, below 1e100");
+        in_.fail("node " + std::to_string(tag) + " has the coordinate " + shortest(x) +
+                 "; must be finite, below 1e100");
     }
   }
   /// One element, from its nodes on.
@@ -192,40 +214,48 @@ class Msh {
     const bool dense = all == 0 || nodes_.back() == all;  // 1, 2, 3, …
     for (int i = 0; i < count; ++i) {
       const Integer wanted = version_ < 4 ? in_.small("node tag") : in_.large("node tag");
-      if (dense ? wanted < 1 || wanted > all : !std::binary_search(nodes_.begin(), nodes_.end(), wanted))
-        in_.fail("element " + std::to_string(tag) + " refers to node " + std::to_string(wanted) + ", which is not in the file");
+      if (dense ? wanted < 1 || wanted > all
+                : !std::binary_search(nodes_.begin(), nodes_.end(), wanted))
+        in_.fail("element " + std::to_string(tag) + " refers to node " + std::to_string(wanted) +
+                 ", which is not in the file");
     }
   }
   int knownType(Integer type) {
-    if (nodesOf(type) == 0) in_.fail("element type " + std::to_string(type) + ": must be of first or second order, 1 to 19");
+    if (nodesOf(type) == 0)
+      in_.fail("element type " + std::to_string(type) +
+               ": must be of first or second order, 1 to 19");
     return nodesOf(type);
   }
 
   /// Version 2: the number of nodes as text, then tag and coordinates of each.
   void nodes2() {
-    const Integer count = in_.count(in_.written<Integer>("number of nodes"), "nodes", in_.binary ? 28 : 8);
+    const Integer count =
+        in_.count(in_.written<Integer>("number of nodes"), "nodes", in_.binary ? 28 : 8);
     if (in_.binary) in_.skipLine();
     for (Integer i = 0; i < count; ++i) {
       add(nodes_, in_.small("node tag"), "node");
       coordinates(nodes_.back());
     }
   }
-  /// Tag, type, number of labels, labels, nodes; in a binary file all elements of a type and number of labels in one block.
+  /// Tag, type, number of labels, labels, nodes; in a binary file all elements of a type and number
+  /// of labels in one block.
   void elements2() {
     const Integer count = in_.count(in_.written<Integer>("number of elements"), "elements", 8);
     if (in_.binary) in_.skipLine();
     for (Integer done = 0; done < count;) {
       Integer tag = in_.binary ? 0 : in_.small("element tag"), inBlock = 1;
       const int nodes = knownType(in_.small("element type"));
-      if (in_.binary) inBlock = in_.count(in_.small("number of elements"), "elements", 4 * (1 + nodes));
-      if (inBlock < 1 || inBlock > count - done) in_.fail("a block of " + std::to_string(inBlock) + " elements");
+      if (in_.binary)
+        inBlock = in_.count(in_.small("number of elements"), "elements", 4 * (1 + nodes));
+      if (inBlock < 1 || inBlock > count - done)
+        in_.fail("a block of " + std::to_string(inBlock) + " elements");
       const Integer labels = in_.count(in_.small("number of labels"), "labels", 2);
       for (Integer i = 0; i < inBlock; ++i, ++done) {
         if (in_.binary) tag = in_.small("element tag");
         for (Integer j = 0; j < labels; ++j)
           if (const Integer label = in_.small("label"); label < 0 && j < 2)
-            in_.fail("element " + std::to_string(tag) + " has the group or entity " + std::to_string(label) +
-                     ", a negative number");
+            in_.fail("element " + std::to_string(tag) + " has the group or entity " +
+                     std::to_string(label) + ", a negative number");
         nodesOfElement(tag, nodes);
       }
     }
@@ -249,13 +279,16 @@ class Msh {
     if (version_ < 4.1) std::swap(block.dimension, block.entity);
     block.third = in_.small("number");
     block.count = in_.count(in_.large(what), what, least);
-    if (block.dimension < 0 || block.dimension > 3) in_.fail("dimension " + std::to_string(block.dimension) + ": must be 0 to 3");
-    if (block.count > most) in_.fail("the blocks of the section hold more than the number in its header");
+    if (block.dimension < 0 || block.dimension > 3)
+      in_.fail("dimension " + std::to_string(block.dimension) + ": must be 0 to 3");
+    if (block.count > most)
+      in_.fail("the blocks of the section hold more than the number in its header");
     return block;
   }
   void requireAll(Integer left, const char* what) {
     if (left != 0)
-      in_.fail(std::to_string(left) + " fewer " + what + " in the blocks of the section than the number in its header");
+      in_.fail(std::to_string(left) + " fewer " + what +
+               " in the blocks of the section than the number in its header");
   }
   void nodes4() {
     Integer left = 0;
@@ -266,7 +299,8 @@ class Msh {
         for (Integer i = 0; i < entity.count; ++i) add(nodes_, in_.large("node tag"), "node");
       for (Integer i = 0; i < entity.count; ++i) {
         if (version_ <= 4) add(nodes_, in_.large("node tag"), "node");
-        coordinates(nodes_[nodes_.size() - static_cast<std::size_t>(version_ > 4 ? entity.count - i : 1)]);
+        coordinates(
+            nodes_[nodes_.size() - static_cast<std::size_t>(version_ > 4 ? entity.count - i : 1)]);
         if (entity.third != 0)
           for (Integer d = 0; d < entity.dimension; ++d) in_.real("parametric coordinate");
       }

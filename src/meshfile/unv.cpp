@@ -21,14 +21,15 @@ using Integer = std::int64_t;
 
 /// Nodes of the element types that gmsh reads; 0 for others.
 Integer nodesOf(Integer type) {
-  static const std::map<Integer, std::vector<Integer>> types{{2, {11, 21, 22, 31}},
-                                                             {3, {23, 24, 32, 41, 51, 61, 74, 81, 91}},
-                                                             {4, {44, 54, 64, 71, 84, 94, 111}},
-                                                             {6, {42, 52, 62, 72, 82, 92, 101, 112}},
-                                                             {8, {45, 55, 65, 75, 85, 95, 104, 115}},
-                                                             {10, {118}},
-                                                             {15, {102, 113}},
-                                                             {20, {105, 116}}};
+  static const std::map<Integer, std::vector<Integer>> types{
+      {2, {11, 21, 22, 31}},
+      {3, {23, 24, 32, 41, 51, 61, 74, 81, 91}},
+      {4, {44, 54, 64, 71, 84, 94, 111}},
+      {6, {42, 52, 62, 72, 82, 92, 101, 112}},
+      {8, {45, 55, 65, 75, 85, 95, 104, 115}},
+      {10, {118}},
+      {15, {102, 113}},
+      {20, {105, 116}}};
   for (const auto& [nodes, list] : types)
     if (std::find(list.begin(), list.end(), type) != list.end()) return nodes;
   return 0;
@@ -71,7 +72,10 @@ class Unv {
   void require(const char* what) {
     if (!next()) fail(std::string("the file ends where ") + what + " should be");
   }
-  bool isMark() const { return line_.compare(0, 6, "    -1") == 0 && line_.find_first_not_of(" \t\r", 6) == std::string::npos; }
+  bool isMark() const {
+    return line_.compare(0, 6, "    -1") == 0 &&
+           line_.find_first_not_of(" \t\r", 6) == std::string::npos;
+  }
   std::vector<std::string> words() const {
     std::istringstream text(line_);
     std::vector<std::string> list;
@@ -89,14 +93,19 @@ class Unv {
       if (error != std::errc() || stop != last) fail("'" + word.substr(0, 40) + "' is no " + what);
       list.push_back(value);
     }
-    if (list.size() != count) fail(std::to_string(list.size()) + " numbers where there should be " + std::to_string(count));
+    if (list.size() != count)
+      fail(std::to_string(list.size()) + " numbers where there should be " + std::to_string(count));
     return list;
   }
-  std::vector<Integer> integers(std::size_t count, const std::string& what) const { return numbers<Integer>(count, what); }
+  std::vector<Integer> integers(std::size_t count, const std::string& what) const {
+    return numbers<Integer>(count, what);
+  }
   void add(std::unordered_set<Integer>& tags, Integer tag, const std::string& what) {
     if (tag < 1 || tag > PETSC_MAX_INT)
-      fail(what + " tag " + std::to_string(tag) + ": must be from 1 to " + std::to_string(PETSC_MAX_INT));
-    if (!tags.insert(tag).second) fail("there are two " + what + "s with the tag " + std::to_string(tag));
+      fail(what + " tag " + std::to_string(tag) + ": must be from 1 to " +
+           std::to_string(PETSC_MAX_INT));
+    if (!tags.insert(tag).second)
+      fail("there are two " + what + "s with the tag " + std::to_string(tag));
   }
 
   void nodes() {
@@ -105,7 +114,8 @@ class Unv {
       add(nodes_, tag, "node");
       require("a line of coordinates");
       for (double x : numbers<double>(3, "coordinate"))
-        if (!(std::abs(x) < 1e100)) fail("node " + std::to_string(tag) + ": coordinates must be finite, below 1e100");
+        if (!(std::abs(x) < 1e100))
+          fail("node " + std::to_string(tag) + ": coordinates must be finite, below 1e100");
     }
   }
   void elements() {
@@ -114,16 +124,19 @@ class Unv {
       add(elements_, head[0], "element");
       const Integer nodes = nodesOf(head[1]);
       if (nodes == 0)
-        fail("element " + std::to_string(head[0]) + " is of type " + std::to_string(head[1]) + ", which gmsh does not read");
+        fail("element " + std::to_string(head[0]) + " is of type " + std::to_string(head[1]) +
+             ", which gmsh does not read");
       if (nodes != head[5])
-        fail("element " + std::to_string(head[0]) + " of type " + std::to_string(head[1]) + " has " + std::to_string(nodes) +
-             " nodes, not " + std::to_string(head[5]));
+        fail("element " + std::to_string(head[0]) + " of type " + std::to_string(head[1]) +
+             " has " + std::to_string(nodes) + " nodes, not " + std::to_string(head[5]));
       if (head[1] < 41) require("the orientation of a beam");
       for (Integer left = head[5]; left > 0; left -= 8) {
         require("the nodes of an element");
-        for (Integer node : integers(static_cast<std::size_t>(std::min<Integer>(left, 8)), "node tag"))
+        for (Integer node :
+             integers(static_cast<std::size_t>(std::min<Integer>(left, 8)), "node tag"))
           if (!nodes_.count(node))
-            fail("element " + std::to_string(head[0]) + " refers to node " + std::to_string(node) + ", which is not in the file");
+            fail("element " + std::to_string(head[0]) + " refers to node " + std::to_string(node) +
+                 ", which is not in the file");
       }
     }
   }
@@ -134,7 +147,8 @@ class Unv {
       const auto name = words();
       if (name.empty()) fail("a group without a name");
       if (!groups_.insert(name[0]).second)
-        fail("there are two groups whose names begin with '" + name[0] + "', which is all that gmsh reads of a name");
+        fail("there are two groups whose names begin with '" + name[0] +
+             "', which is all that gmsh reads of a name");
       for (Integer left = head[7]; left > 0; left -= 2) {
         require("the members of a group");
         integers(left > 1 ? 8 : 4, "number");

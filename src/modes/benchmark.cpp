@@ -30,7 +30,8 @@ double floorSeconds(Mat stiffness) {
   }
   double seconds = MPI_Wtime() - begin;
   check(MPI_Allreduce(MPI_IN_PLACE, &seconds, 1, MPI_DOUBLE, MPI_MAX, comm));
-  stage.finish(formatted("one factorisation %.2f s and 400 solves in blocks of 32", factored - begin));
+  stage.finish(
+      formatted("one factorisation %.2f s and 400 solves in blocks of 32", factored - begin));
   return seconds;
 }
 

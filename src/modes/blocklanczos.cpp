@@ -1,7 +1,7 @@
-/// Block Lanczos with full orthogonalisation and thick restart (Golub and Underwood 1977; Wu and Simon 2000) on the operator S =
-/// K⁻¹ M, which is self-adjoint in the inner product of M. A direct solver answers a block of right-hand sides many times faster
-/// than as many single ones, because the factor is read from memory once a block; SLEPc's Krylov-Schur asks for them one at a
-/// time.
+/// Block Lanczos with full orthogonalisation and thick restart (Golub and Underwood 1977; Wu and
+/// Simon 2000) on the operator S = K⁻¹ M, which is self-adjoint in the inner product of M. A direct
+/// solver answers a block of right-hand sides many times faster than as many single ones, because
+/// the factor is read from memory once a block; SLEPc's Krylov-Schur asks for them one at a time.
 #include "modes/blocklanczos.hpp"
 
 #include <slepcsys.h>  // first: the next header needs it
@@ -58,7 +58,8 @@ class Lanczos {
     append();
   }
 
-  /// W = S (last block), orthogonal to V; T gets its columns. The new block stays in W until append().
+  /// W = S (last block), orthogonal to V; T gets its columns. The new block stays in W until
+  /// append().
   void expand() {
     PetscScalar* w = nullptr;
     check(MatDenseGetArrayWrite(w_, &w));
@@ -74,7 +75,8 @@ class Lanczos {
       size = std::max(size, sum);
     }
     for (PetscInt j = 0; j < b_; ++j)
-      for (PetscInt i = 0; i < k_; ++i) t(i, k_ - b_ + j) = t(k_ - b_ + j, i) = h[static_cast<std::size_t>(j * k_ + i)];
+      for (PetscInt i = 0; i < k_; ++i)
+        t(i, k_ - b_ + j) = t(k_ - b_ + j, i) = h[static_cast<std::size_t>(j * k_ + i)];
     orthonormalise(size);
   }
 
@@ -86,7 +88,8 @@ class Lanczos {
     k_ += b_;
   }
 
-  /// Ritz values θ descending, vectors Y (columns), and residual norms ‖R Y_last‖ of S V y − θ V y in the norm of M.
+  /// Ritz values θ descending, vectors Y (columns), and residual norms ‖R Y_last‖ of S V y − θ V y
+  /// in the norm of M.
   struct Ritz {
     std::vector<PetscReal> value, residual;
     Small vector;
@@ -96,7 +99,8 @@ class Lanczos {
     const auto k = static_cast<std::size_t>(k_);
     Small a(k * k);
     for (std::size_t j = 0; j < k; ++j)
-      for (std::size_t i = 0; i < k; ++i) a[j * k + i] = t_[j * static_cast<std::size_t>(limit_) + i];
+      for (std::size_t i = 0; i < k; ++i)
+        a[j * k + i] = t_[j * static_cast<std::size_t>(limit_) + i];
     const auto ascending = linalg::symmetricEigen(a, static_cast<int>(k));
     for (std::size_t j = 0; j < k; ++j) {
       const std::size_t from = k - 1 - j;
@@ -107,7 +111,8 @@ class Lanczos {
       for (PetscInt i = 0; i < b_; ++i) {
         PetscReal entry = 0;
         for (PetscInt l = 0; l < b_; ++l)
-          entry += r_[static_cast<std::size_t>(l * b_ + i)] * a[from * k + k - static_cast<std::size_t>(b_ - l)];
+          entry += r_[static_cast<std::size_t>(l * b_ + i)] *
+                   a[from * k + k - static_cast<std::size_t>(b_ - l)];
         sum += entry * entry;
       }
       ritz.residual.push_back(std::sqrt(sum));
@@ -121,12 +126,14 @@ class Lanczos {
     const PetscInt chunk = 256;  // rows at a time: no second copy of V
     std::vector<PetscScalar> rowsOfV(static_cast<std::size_t>(chunk * kept));
     for (PetscInt begin = 0; begin < rows_; begin += chunk) {
-      PetscBLASInt rows = static_cast<PetscBLASInt>(std::min(chunk, rows_ - begin)), columns = static_cast<PetscBLASInt>(kept),
-                   inner = static_cast<PetscBLASInt>(k_), leading = static_cast<PetscBLASInt>(rows_);
+      PetscBLASInt rows = static_cast<PetscBLASInt>(std::min(chunk, rows_ - begin)),
+                   columns = static_cast<PetscBLASInt>(kept), inner = static_cast<PetscBLASInt>(k_),
+                   leading = static_cast<PetscBLASInt>(rows_);
       const PetscScalar one = 1, zero = 0;
-      BLASgemm_("N", "N", &rows, &columns, &inner, &one, column(0) + begin, &leading, ritz.vector.data(), &inner, &zero,
-                rowsOfV.data(), &rows);
-      for (PetscInt j = 0; j < kept; ++j) std::copy_n(rowsOfV.data() + j * rows, rows, column(j) + begin);
+      BLASgemm_("N", "N", &rows, &columns, &inner, &one, column(0) + begin, &leading,
+                ritz.vector.data(), &inner, &zero, rowsOfV.data(), &rows);
+      for (PetscInt j = 0; j < kept; ++j)
+        std::copy_n(rowsOfV.data() + j * rows, rows, column(j) + begin);
     }
     k_ = kept;
     restarted_ = true;
@@ -170,13 +177,17 @@ class Lanczos {
     PetscBLASInt rows = static_cast<PetscBLASInt>(rows_), leading = std::max<PetscBLASInt>(rows, 1),
                  columns = static_cast<PetscBLASInt>(b_), m = static_cast<PetscBLASInt>(count);
     const PetscScalar one = 1, zero = 0;
-    if (rows > 0 && m > 0) BLASgemm_("T", "N", &m, &columns, &rows, &one, x, &leading, mw, &leading, &zero, result.data(), &m);
+    if (rows > 0 && m > 0)
+      BLASgemm_("T", "N", &m, &columns, &rows, &one, x, &leading, mw, &leading, &zero,
+                result.data(), &m);
     check(MatDenseRestoreArrayRead(mw_, &mw));
-    check(MPI_Allreduce(MPI_IN_PLACE, result.data(), static_cast<int>(result.size()), MPIU_SCALAR, MPI_SUM, comm_));
+    check(MPI_Allreduce(MPI_IN_PLACE, result.data(), static_cast<int>(result.size()), MPIU_SCALAR,
+                        MPI_SUM, comm_));
     return result;
   }
 
-  /// W ← W − X (Xᵀ M W) for the columns X of V from `first` on; adds the coefficients to rows `first`… of `sum` (k × b).
+  /// W ← W − X (Xᵀ M W) for the columns X of V from `first` on; adds the coefficients to rows
+  /// `first`… of `sum` (k × b).
   void subtract(PetscInt first, Small& sum) {
     massTimesW();
     const PetscInt count = k_ - first;
@@ -187,16 +198,18 @@ class Lanczos {
                  columns = static_cast<PetscBLASInt>(b_), inner = static_cast<PetscBLASInt>(count);
     const PetscScalar minus = -1, one = 1;
     if (rows > 0 && count > 0)
-      BLASgemm_("N", "N", &rows, &columns, &inner, &minus, column(first), &leading, h.data(), &inner, &one, w, &leading);
+      BLASgemm_("N", "N", &rows, &columns, &inner, &minus, column(first), &leading, h.data(),
+                &inner, &one, w, &leading);
     check(MatDenseRestoreArray(w_, &w));
     for (PetscInt j = 0; j < b_; ++j)
       for (PetscInt i = 0; i < count; ++i)
-        sum[static_cast<std::size_t>(j * k_ + first + i)] += h[static_cast<std::size_t>(j * count + i)];
+        sum[static_cast<std::size_t>(j * k_ + first + i)] +=
+            h[static_cast<std::size_t>(j * count + i)];
   }
 
-  /// W made M-orthogonal to V; the summed coefficients (k × b). In exact arithmetic only the last two blocks have a part in S
-  /// V_last (three-term recurrence), so one pass over these and one over all of V does; after a restart, and for random columns,
-  /// all of V has: two full passes.
+  /// W made M-orthogonal to V; the summed coefficients (k × b). In exact arithmetic only the last
+  /// two blocks have a part in S V_last (three-term recurrence), so one pass over these and one
+  /// over all of V does; after a restart, and for random columns, all of V has: two full passes.
   Small orthogonalise(bool recurrence) {
     Small sum(static_cast<std::size_t>(k_ * b_), 0.0);
     subtract(recurrence ? std::max<PetscInt>(0, k_ - 2 * b_) : 0, sum);
@@ -204,9 +217,10 @@ class Lanczos {
     return sum;
   }
 
-  /// W = Q R with Qᵀ M Q = I by the eigenvectors of WᵀMW (Stathopoulos and Wu 2002), twice; Q replaces W. Directions that have
-  /// vanished beside `size`, the square of what W was before V was taken out of it (an invariant subspace is complete), are replaced
-  /// by random ones orthogonal to V, with zero rows in R.
+  /// W = Q R with Qᵀ M Q = I by the eigenvectors of WᵀMW (Stathopoulos and Wu 2002), twice; Q
+  /// replaces W. Directions that have vanished beside `size`, the square of what W was before V was
+  /// taken out of it (an invariant subspace is complete), are replaced by random ones orthogonal to
+  /// V, with zero rows in R.
   void orthonormalise(double size) {
     const auto b = static_cast<std::size_t>(b_);
     r_.assign(b * b, 0.0);
@@ -219,24 +233,28 @@ class Lanczos {
       Small gram = products(read, b_);
       check(MatDenseRestoreArrayRead(w_, &read));
       const auto d = linalg::symmetricEigen(gram, static_cast<int>(b));
-      const double largest = std::max(d.back(), refills == 0 && pass == 0 ? size : 0);  // later W is scaled
+      const double largest =
+          std::max(d.back(), refills == 0 && pass == 0 ? size : 0);  // later W is scaled
       std::vector<bool> lost(b);
       bool any = false;
       for (std::size_t j = 0; j < b; ++j) any |= lost[j] = !(d[j] > 1e-28 * largest);
       // W ← W U D^(−1/2), R ← D^(1/2) Uᵀ R
       Small transform(b * b), product(b * b, 0.0);
       for (std::size_t j = 0; j < b; ++j)
-        for (std::size_t i = 0; i < b; ++i) transform[j * b + i] = lost[j] ? 0.0 : gram[j * b + i] / std::sqrt(d[j]);
+        for (std::size_t i = 0; i < b; ++i)
+          transform[j * b + i] = lost[j] ? 0.0 : gram[j * b + i] / std::sqrt(d[j]);
       for (std::size_t j = 0; j < b; ++j)
         for (std::size_t i = 0; i < b; ++i)
-          for (std::size_t l = 0; l < b && !lost[i]; ++l) product[j * b + i] += std::sqrt(d[i]) * gram[i * b + l] * r_[j * b + l];
+          for (std::size_t l = 0; l < b && !lost[i]; ++l)
+            product[j * b + i] += std::sqrt(d[i]) * gram[i * b + l] * r_[j * b + l];
       r_ = product;
       multiply(transform);
       if (!any) {
         if (pass > 0) return;
         continue;
       }
-      if (++refills > 5) throw Error("free vibration: block Lanczos cannot extend its basis; use -modes_solver eps");
+      if (++refills > 5)
+        throw Error("free vibration: block Lanczos cannot extend its basis; use -modes_solver eps");
       refill(lost);
       pass = -1;
     }
@@ -251,7 +269,8 @@ class Lanczos {
                  columns = static_cast<PetscBLASInt>(b_);
     const PetscScalar one = 1, zero = 0;
     if (rows > 0)
-      BLASgemm_("N", "N", &rows, &columns, &columns, &one, old_.data(), &leading, x.data(), &columns, &zero, w, &leading);
+      BLASgemm_("N", "N", &rows, &columns, &columns, &one, old_.data(), &leading, x.data(),
+                &columns, &zero, w, &leading);
     check(MatDenseRestoreArray(w_, &w));
   }
 
@@ -281,8 +300,8 @@ constexpr int restartsBeforeGrowth = 4;
 
 }  // namespace
 
-LanczosResult blockLanczos(Mat k, Mat m, KSP solver, int count, int blockSize, double tolerance, int maxRestarts,
-                           const std::function<void(int, int)>& progress) {
+LanczosResult blockLanczos(Mat k, Mat m, KSP solver, int count, int blockSize, double tolerance,
+                           int maxRestarts, const std::function<void(int, int)>& progress) {
   PetscInt limit = lanczosVectors(count, blockSize), size = 0;
   check(MatGetSize(k, &size, nullptr));
   Lanczos lanczos(k, m, solver, blockSize, limit);
@@ -300,21 +319,25 @@ LanczosResult blockLanczos(Mat k, Mat m, KSP solver, int count, int blockSize, d
     const auto ritz = lanczos.ritz();
     int converged = 0;
     while (converged < std::min<int>(count, static_cast<int>(lanczos.size())) &&
-           ritz.residual[static_cast<std::size_t>(converged)] <= tolerance * ritz.value[static_cast<std::size_t>(converged)])
+           ritz.residual[static_cast<std::size_t>(converged)] <=
+               tolerance * ritz.value[static_cast<std::size_t>(converged)])
       ++converged;
     progress(result.restarts, converged);
     if (converged == count || (lanczos.full() && result.restarts == maxRestarts)) {
       result.converged = converged;
       lanczos.contract(ritz, converged);
-      for (int i = 0; i < converged; ++i) result.lambda.push_back(1 / ritz.value[static_cast<std::size_t>(i)]);
+      for (int i = 0; i < converged; ++i)
+        result.lambda.push_back(1 / ritz.value[static_cast<std::size_t>(i)]);
       if (converged > 0) result.vectors = lanczos.vectors(k);  // SLEPc knows no BV without columns
       return result;
     }
     next = lanczos.size() + every;
     if (lanczos.full()) {
       lanczos.contract(ritz, count + (limit - count) / 3);
-      // Eigenvalues that lie close together, as those of a thin ring held at its hub, need a larger basis: more restarts do not help.
-      if (++result.restarts % restartsBeforeGrowth == 0 && 4 * limit <= size) lanczos.enlarge(limit *= 2);
+      // Eigenvalues that lie close together, as those of a thin ring held at its hub, need a larger
+      // basis: more restarts do not help.
+      if (++result.restarts % restartsBeforeGrowth == 0 && 4 * limit <= size)
+        lanczos.enlarge(limit *= 2);
       next = lanczos.size() + every;
     }
     lanczos.append();

@@ -1,5 +1,6 @@
 #pragma once
-/// Block Lanczos: the lowest modes of a symmetric pencil (K, M) from blocked solves with a factorised K.
+/// Block Lanczos: the lowest modes of a symmetric pencil (K, M) from blocked solves with a
+/// factorised K.
 #include <functional>
 #include <vector>
 
@@ -18,10 +19,12 @@ struct LanczosResult {
   int restarts = 0;
 };
 
-/// Collective. The `count` smallest eigenvalues of K d = λ M d, K symmetric positive definite and factorised in `solver` (MUMPS),
-/// M symmetric positive definite, of at least 2·lanczosVectors() rows. A pair has converged when ‖K⁻¹M d − d/λ‖_M ≤ tolerance/λ.
-/// The basis grows, up to half of all rows, where restarts do not converge. `progress(restarts, converged)` is called on all ranks.
-LanczosResult blockLanczos(Mat k, Mat m, KSP solver, int count, int blockSize, double tolerance, int maxRestarts,
-                           const std::function<void(int, int)>& progress);
+/// Collective. The `count` smallest eigenvalues of K d = λ M d, K symmetric positive definite and
+/// factorised in `solver` (MUMPS), M symmetric positive definite, of at least 2·lanczosVectors()
+/// rows. A pair has converged when ‖K⁻¹M d − d/λ‖_M ≤ tolerance/λ. The basis grows, up to half of
+/// all rows, where restarts do not converge. `progress(restarts, converged)` is called on all
+/// ranks.
+LanczosResult blockLanczos(Mat k, Mat m, KSP solver, int count, int blockSize, double tolerance,
+                           int maxRestarts, const std::function<void(int, int)>& progress);
 
 }  // namespace squeal::modes

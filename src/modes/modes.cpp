@@ -16,16 +16,20 @@ namespace {
 
 const IntegerOption countOption("modes", "modes_count", 200, 1, 1'000'000,
                                 "number of free-vibration modes, the basis of the reduced problem");
-const ChoiceOption solverOption(
-    "modes", "modes_solver", {"auto", "block_lanczos", "eps"}, "auto",
-    "block_lanczos: blocked solves with MUMPS; eps: SLEPc; auto: block_lanczos, or eps if a -modes_eps_* option is given or "
-    "the problem is small");
-const IntegerOption blockOption("modes", "modes_block_size", 8, 1, 1000, "right-hand sides that block_lanczos solves for together");
-const RealOption toleranceOption("modes", "modes_tolerance", 1e-8, "", {0, 1e-2, true, false},
-                                 "relative error of the eigenvalues of S = inverse(K) M (of eps: -modes_eps_tol)");
-const FlagOption sturmOption("modes", "modes_sturm", true,
-                             "confirm by the inertia of K - sigma M that no mode is missing (one more factorisation)");
-const SolverPrefix solverPrefix("modes", "modes_eps_", "SLEPc EPS of the free vibrations: tol, ncv, mpd, type, …");
+const ChoiceOption solverOption("modes", "modes_solver", {"auto", "block_lanczos", "eps"}, "auto",
+                                "block_lanczos: blocked solves with MUMPS; eps: SLEPc; auto: "
+                                "block_lanczos, or eps if a -modes_eps_* option is given or "
+                                "the problem is small");
+const IntegerOption blockOption("modes", "modes_block_size", 8, 1, 1000,
+                                "right-hand sides that block_lanczos solves for together");
+const RealOption toleranceOption(
+    "modes", "modes_tolerance", 1e-8, "", {0, 1e-2, true, false},
+    "relative error of the eigenvalues of S = inverse(K) M (of eps: -modes_eps_tol)");
+const FlagOption sturmOption(
+    "modes", "modes_sturm", true,
+    "confirm by the inertia of K - sigma M that no mode is missing (one more factorisation)");
+const SolverPrefix solverPrefix("modes", "modes_eps_",
+                                "SLEPc EPS of the free vibrations: tol, ncv, mpd, type, …");
 
 PetscInt rowsOf(Mat matrix) {
   PetscInt rows = 0;
@@ -33,10 +37,10 @@ PetscInt rowsOf(Mat matrix) {
   return rows;
 }
 
-PetscErrorCode report(EPS, PetscInt iteration, PetscInt converged, PetscScalar*, PetscScalar*, PetscReal*, PetscInt,
-                      void* context) {
-  static_cast<Stage*>(context)->progress(
-      formatted("restart %d: %d modes converged", static_cast<int>(iteration), static_cast<int>(converged)));
+PetscErrorCode report(EPS, PetscInt iteration, PetscInt converged, PetscScalar*, PetscScalar*,
+                      PetscReal*, PetscInt, void* context) {
+  static_cast<Stage*>(context)->progress(formatted(
+      "restart %d: %d modes converged", static_cast<int>(iteration), static_cast<int>(converged)));
   return 0;
 }
 
@@ -52,7 +56,8 @@ OwnedEPS solver(const System& system, int count, Stage& stage) {
   check(EPSSetTarget(eps, 0));
   // Half as many vectors again as modes, enlarged in portions of 100, took the fewest solves.
   const int vectors =
-      std::min(static_cast<int>(rowsOf(k)), count + std::clamp(count / 2, 50, 100));  // SLEPc wants <= count + portion
+      std::min(static_cast<int>(rowsOf(k)),
+               count + std::clamp(count / 2, 50, 100));  // SLEPc wants <= count + portion
   check(EPSSetDimensions(eps, count, vectors, std::min(vectors, 100)));
   check(EPSSetTolerances(eps, toleranceOption.get(), PETSC_DEFAULT));
   check(EPSSetPurify(eps, PETSC_FALSE));
@@ -77,8 +82,9 @@ int countBelow(Mat k, Mat m, double sigma) {
   return static_cast<int>(linalg::inertia(shifted).negative);
 }
 
-/// Number of modes, at most all but one, above which the widest relative gap of the topmost ten begins, so that rounding cannot move an
-/// eigenvalue across it; below a multiple eigenvalue if these are all copies of it.
+/// Number of modes, at most all but one, above which the widest relative gap of the topmost ten
+/// begins, so that rounding cannot move an eigenvalue across it; below a multiple eigenvalue if
+/// these are all copies of it.
 std::size_t modesBelowGap(const std::vector<double>& w) {
   constexpr double distinct = 1e-6;
   std::size_t below = 0;
@@ -93,15 +99,17 @@ void confirmCount(Mat k, Mat m, Modes& modes) {
   const auto& w = modes.angularFrequency;
   if (w.empty()) return;
   const std::size_t below = modesBelowGap(w);
-  modes.inertiaShift = below > 0 ? 0.5 * (w[below] * w[below] + w[below - 1] * w[below - 1]) : 0.5 * w[0] * w[0];
+  modes.inertiaShift =
+      below > 0 ? 0.5 * (w[below] * w[below] + w[below - 1] * w[below - 1]) : 0.5 * w[0] * w[0];
   modes.inertiaCount = countBelow(k, m, modes.inertiaShift);
   modes.countConfirmed = modes.inertiaCount == static_cast<int>(below);
 }
 
 void requireConverged(int converged, int count, const char* options) {
   if (converged < count)
-    throw Error(
-        formatted("free vibration: only %d of %d modes converged; try %s, or loosen -modes_tolerance", converged, count, options));
+    throw Error(formatted(
+        "free vibration: only %d of %d modes converged; try %s, or loosen -modes_tolerance",
+        converged, count, options));
 }
 
 /// Eigenvalues ascending and vectors, M-orthonormal, by SLEPc.
@@ -112,7 +120,8 @@ void solveByEps(const System& system, int count, Stage& stage, Modes& modes) {
   PetscInt converged = 0, iterations = 0;
   check(EPSGetConverged(eps, &converged));
   check(EPSGetIterationNumber(eps, &iterations));
-  requireConverged(static_cast<int>(converged), count, "a larger -modes_eps_max_it or -modes_eps_ncv");
+  requireConverged(static_cast<int>(converged), count,
+                   "a larger -modes_eps_max_it or -modes_eps_ncv");
   OwnedVec d;
   check(MatCreateVecs(k, d.out(), nullptr));
   check(BVCreate(PetscObjectComm(reinterpret_cast<PetscObject>(k)), modes.vectors.out()));
@@ -135,9 +144,10 @@ void solveByEps(const System& system, int count, Stage& stage, Modes& modes) {
 
 /// False if fewer have converged; `modes` is then as it was.
 bool solveByLanczos(const System& system, int count, int blockSize, Stage& stage, Modes& modes) {
-  auto result = blockLanczos(system.stiffness, system.mass, system.solver, count, blockSize, toleranceOption.get(), 20,
-                             [&](int restarts, int converged) {
-                               stage.progress(formatted("%d restarts: %d of %d modes converged", restarts, converged, count));
+  auto result = blockLanczos(system.stiffness, system.mass, system.solver, count, blockSize,
+                             toleranceOption.get(), 20, [&](int restarts, int converged) {
+                               stage.progress(formatted("%d restarts: %d of %d modes converged",
+                                                        restarts, converged, count));
                              });
   if (result.converged < count) return false;
   modes.lambda = result.lambda;
@@ -146,20 +156,24 @@ bool solveByLanczos(const System& system, int count, int blockSize, Stage& stage
   return true;
 }
 
-/// By LAPACK on rank 0, so that the ranks agree: M d = (1/λ) K d, whose largest eigenvalues, those of the lowest modes, it gets best.
+/// By LAPACK on rank 0, so that the ranks agree: M d = (1/λ) K d, whose largest eigenvalues, those
+/// of the lowest modes, it gets best.
 void solveDense(const System& system, int count, Modes& modes) {
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(system.stiffness));
   const int n = static_cast<int>(rowsOf(system.stiffness));
-  std::vector<double> all = linalg::gathered(system.mass), stiffness = linalg::gathered(system.stiffness), vectors;
-  onFirstRank(comm, "free vibration: the stiffness is not positive definite; is a body loose? ", [&] {
-    const auto inverse = linalg::symmetricEigen(all, stiffness, n);
-    for (int j = 0; j < count; ++j) {
-      const auto last = static_cast<std::size_t>(n - 1 - j);
-      modes.lambda.push_back(1 / inverse[last]);
-      for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i)
-        vectors.push_back(all[last * static_cast<std::size_t>(n) + i] / std::sqrt(inverse[last]));
-    }
-  });
+  std::vector<double> all = linalg::gathered(system.mass),
+                      stiffness = linalg::gathered(system.stiffness), vectors;
+  onFirstRank(comm, "free vibration: the stiffness is not positive definite; is a body loose? ",
+              [&] {
+                const auto inverse = linalg::symmetricEigen(all, stiffness, n);
+                for (int j = 0; j < count; ++j) {
+                  const auto last = static_cast<std::size_t>(n - 1 - j);
+                  modes.lambda.push_back(1 / inverse[last]);
+                  for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i)
+                    vectors.push_back(all[last * static_cast<std::size_t>(n) + i] /
+                                      std::sqrt(inverse[last]));
+                }
+              });
   modes.lambda.resize(static_cast<std::size_t>(count));
   vectors.resize(static_cast<std::size_t>(n * count));
   check(MPI_Bcast(modes.lambda.data(), count, MPI_DOUBLE, 0, comm));
@@ -174,11 +188,13 @@ void solveDense(const System& system, int count, Modes& modes) {
   PetscScalar* values = nullptr;
   check(BVGetArray(modes.vectors, &values));
   for (PetscInt j = 0; j < count; ++j)
-    std::copy(vectors.begin() + j * n + first, vectors.begin() + j * n + end, values + j * (end - first));
+    std::copy(vectors.begin() + j * n + first, vectors.begin() + j * n + end,
+              values + j * (end - first));
   check(BVRestoreArray(modes.vectors, &values));
 }
 
-/// ε Σ K_jj d_j² / λ: what rounding in K, whose entries may cancel in d, makes of λ. Near one, λ says nothing.
+/// ε Σ K_jj d_j² / λ: what rounding in K, whose entries may cancel in d, makes of λ. Near one, λ
+/// says nothing.
 double roundingOf(Vec diagonal, Vec d, double lambda) {
   OwnedVec weighted;
   PetscScalar sum = 0;
@@ -203,7 +219,8 @@ void measureResiduals(const System& system, Modes& modes) {
     check(BVRestoreColumn(modes.vectors, static_cast<PetscInt>(i), &d));
     if (!(modes.lambda[i] > 0) || modes.rounding > noise)
       throw Error(
-          formatted("free vibration: eigenvalue %zu, %g, is not positive or nothing but rounding; a body is loose or nearly so",
+          formatted("free vibration: eigenvalue %zu, %g, is not positive or nothing but rounding; "
+                    "a body is loose or nearly so",
                     i + 1, modes.lambda[i]));
     PetscReal scale = 0, residual = 0;
     check(VecNorm(md, NORM_2, &scale));
@@ -215,14 +232,17 @@ void measureResiduals(const System& system, Modes& modes) {
 }
 
 /// The method keeps up to lanczosVectors() vectors; it must not run out of directions.
-bool lanczosFits(int count, int blockSize, PetscInt size) { return 2 * lanczosVectors(count, blockSize) <= size; }
+bool lanczosFits(int count, int blockSize, PetscInt size) {
+  return 2 * lanczosVectors(count, blockSize) <= size;
+}
 
 bool lanczosWanted(int count, PetscInt size) {
   const std::string solver = solverOption.get();
   const bool fits = lanczosFits(count, blockOption.get(), size);
   if (solver == "block_lanczos" && !fits)
-    throw Error(formatted("option -modes_solver block_lanczos: %d modes of %d unknowns are too many for it; use eps", count,
-                          static_cast<int>(size)));
+    throw Error(formatted(
+        "option -modes_solver block_lanczos: %d modes of %d unknowns are too many for it; use eps",
+        count, static_cast<int>(size)));
   return solver == "block_lanczos" || (solver == "auto" && fits && !solverPrefix.given());
 }
 
@@ -239,8 +259,8 @@ bool examine(const System& system, Modes& modes) {
   return modes.countConfirmed;
 }
 
-/// A block of b vectors meets b copies of a multiple eigenvalue: where some are missing, a block twice as large is taken. False: no
-/// modes, or modes of which some are missing still.
+/// A block of b vectors meets b copies of a multiple eigenvalue: where some are missing, a block
+/// twice as large is taken. False: no modes, or modes of which some are missing still.
 bool computeByLanczos(const System& system, int count, Stage& stage, Modes& modes) {
   const PetscInt size = rowsOf(system.stiffness);
   for (int block = blockOption.get(); lanczosFits(count, block, size); block *= 2) {
@@ -267,7 +287,8 @@ Modes computeBy(const System& system, int count, Stage& stage) {
   if (lanczosWanted(count, size)) {
     if (computeByLanczos(system, count, stage, modes)) return modes;
     if (chosen) {
-      requireConverged(static_cast<int>(modes.lambda.size()), count, "-modes_solver eps or another -modes_block_size");
+      requireConverged(static_cast<int>(modes.lambda.size()), count,
+                       "-modes_solver eps or another -modes_block_size");
       return modes;
     }
   }
@@ -289,22 +310,24 @@ Modes compute(const System& system, int count) {
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(system.stiffness));
   if (count > size) {
     if (countOption.given())
-      throw Error(formatted("option -modes_count %d: the problem has only %d unknowns", count, static_cast<int>(size)));
+      throw Error(formatted("option -modes_count %d: the problem has only %d unknowns", count,
+                            static_cast<int>(size)));
     count = static_cast<int>(size);  // the default
   }
   Stage stage(comm, "modes");
   Modes modes = computeBy(system, count, stage);
   if (modes.rounding > 1e-6)
-    complain(
-        comm,
-        formatted("free vibration: rounding of the entries of the stiffness may change the lowest eigenvalues by %.0e of their "
-                  "size; is a body nearly loose, or a spring very stiff?",
-                  modes.rounding));
-  stage.finish(formatted("%d modes to %.4g Hz, worst relative residual %.1e%s", count, modes.angularFrequency.back() / (2 * M_PI),
-                         *std::max_element(modes.relativeResidual.begin(), modes.relativeResidual.end()),
-                         !sturmOption.get()     ? ""
-                         : modes.countConfirmed ? ", count confirmed by inertia"
-                                                : ", COUNT NOT CONFIRMED BY INERTIA"));
+    complain(comm, formatted("free vibration: rounding of the entries of the stiffness may change "
+                             "the lowest eigenvalues by %.0e of their "
+                             "size; is a body nearly loose, or a spring very stiff?",
+                             modes.rounding));
+  stage.finish(
+      formatted("%d modes to %.4g Hz, worst relative residual %.1e%s", count,
+                modes.angularFrequency.back() / (2 * M_PI),
+                *std::max_element(modes.relativeResidual.begin(), modes.relativeResidual.end()),
+                !sturmOption.get()     ? ""
+                : modes.countConfirmed ? ", count confirmed by inertia"
+                                       : ", COUNT NOT CONFIRMED BY INERTIA"));
   return modes;
 }
 

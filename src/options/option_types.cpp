@@ -22,24 +22,28 @@ double Option::number(const std::string& subject, const std::string& value) cons
   const auto [stop, error] = std::from_chars(begin, end, x);
   if (error != std::errc() || stop != end || !std::isfinite(x)) reject(subject, "'" + digits + "'");
   if (x != 0 && (std::abs(x) > largestMagnitude || std::abs(x) < smallestMagnitude))
-    throw Error(named(subject, digits) + ": " + meaning + "; must be " + rule + ", and zero or of a magnitude between " +
-                shortest(smallestMagnitude) + " and " + shortest(largestMagnitude));
+    throw Error(named(subject, digits) + ": " + meaning + "; must be " + rule +
+                ", and zero or of a magnitude between " + shortest(smallestMagnitude) + " and " +
+                shortest(largestMagnitude));
   return x;
 }
 
-bool Range::holds(double x) const { return (openLow ? x > low : x >= low) && (openHigh ? x < high : x <= high); }
+bool Range::holds(double x) const {
+  return (openLow ? x > low : x >= low) && (openHigh ? x < high : x <= high);
+}
 
 std::string Range::text() const {
   std::string words;
   if (std::isfinite(low)) words += (openLow ? "> " : ">= ") + shortest(low);
-  if (std::isfinite(high)) words += (words.empty() ? "" : " and ") + std::string(openHigh ? "< " : "<= ") + shortest(high);
+  if (std::isfinite(high))
+    words += (words.empty() ? "" : " and ") + std::string(openHigh ? "< " : "<= ") + shortest(high);
   return words.empty() ? "a number" : "a number " + words;
 }
 
-RealOption::RealOption(std::string stage, std::string name, std::optional<double> byDefault, std::string unit, Range range,
-                       std::string meaning)
-    : Option(std::move(stage), std::move(name), byDefault ? shortest(*byDefault) : "", std::move(unit), std::move(meaning),
-             range.text(), !byDefault),
+RealOption::RealOption(std::string stage, std::string name, std::optional<double> byDefault,
+                       std::string unit, Range range, std::string meaning)
+    : Option(std::move(stage), std::move(name), byDefault ? shortest(*byDefault) : "",
+             std::move(unit), std::move(meaning), range.text(), !byDefault),
       range_(range) {}
 
 double RealOption::get(const std::string& subject) const {
@@ -49,7 +53,8 @@ double RealOption::get(const std::string& subject) const {
   return x;
 }
 
-IntegerOption::IntegerOption(std::string stage, std::string name, int byDefault, int lowest, int highest, std::string meaning)
+IntegerOption::IntegerOption(std::string stage, std::string name, int byDefault, int lowest,
+                             int highest, std::string meaning)
     : Option(std::move(stage), std::move(name), std::to_string(byDefault), "", std::move(meaning),
              "an integer >= " + std::to_string(lowest) + " and <= " + std::to_string(highest)),
       lowest_(lowest),
@@ -59,21 +64,25 @@ int IntegerOption::get(const std::string& subject) const {
   const std::string value = text(subject);
   int x = 0;
   const auto [stop, error] = std::from_chars(value.data(), value.data() + value.size(), x);
-  if (error != std::errc() || stop != value.data() + value.size() || x < lowest_ || x > highest_) reject(subject, value);
+  if (error != std::errc() || stop != value.data() + value.size() || x < lowest_ || x > highest_)
+    reject(subject, value);
   return x;
 }
 
-RealListOption::RealListOption(std::string stage, std::string name, std::string byDefault, std::string unit, Range range,
-                               std::string meaning, bool ranges)
-    : Option(std::move(stage), std::move(name), std::move(byDefault), std::move(unit), std::move(meaning),
-             std::string(ranges ? "first:last:step or " : "") + "a comma-separated list, each " + range.text()),
+RealListOption::RealListOption(std::string stage, std::string name, std::string byDefault,
+                               std::string unit, Range range, std::string meaning, bool ranges)
+    : Option(std::move(stage), std::move(name), std::move(byDefault), std::move(unit),
+             std::move(meaning),
+             std::string(ranges ? "first:last:step or " : "") + "a comma-separated list, each " +
+                 range.text()),
       range_(range),
       ranges_(ranges) {}
 
-void RealListOption::requireLength(const std::string& subject, const std::string& value, double length) const {
+void RealListOption::requireLength(const std::string& subject, const std::string& value,
+                                   double length) const {
   if (length > longestList)
-    throw Error(
-        formatted("%s: %.0f values; a list holds %d at most", named(subject, value.substr(0, 40)).c_str(), length, longestList));
+    throw Error(formatted("%s: %.0f values; a list holds %d at most",
+                          named(subject, value.substr(0, 40)).c_str(), length, longestList));
 }
 
 std::vector<double> RealListOption::get(const std::string& subject) const {
@@ -82,12 +91,14 @@ std::vector<double> RealListOption::get(const std::string& subject) const {
   const auto parts = split(value, ':');
   if (ranges_ && parts.size() > 1) {
     if (parts.size() != 3) reject(subject, value);
-    const double first = number(subject, parts[0]), last = number(subject, parts[1]), step = number(subject, parts[2]);
+    const double first = number(subject, parts[0]), last = number(subject, parts[1]),
+                 step = number(subject, parts[2]);
     if (!(step > 0) || last < first) reject(subject, value);
     requireLength(subject, value, std::floor((last - first) / step) + 1);
     // A little slack: 0:0.6:0.05 ends at 0.6 although 12 × 0.05 is not the double nearest to it.
     const auto steps = static_cast<int>(std::floor((last - first) / step + 1e-9));
-    for (int i = 0; i <= steps; ++i) list.push_back(std::stod(formatted("%.12g", first + i * step)));
+    for (int i = 0; i <= steps; ++i)
+      list.push_back(std::stod(formatted("%.12g", first + i * step)));
   } else {
     const auto items = split(value, ',');
     requireLength(subject, value, static_cast<double>(items.size()));
@@ -107,18 +118,21 @@ std::array<double, 3> RealListOption::components(const std::string& subject, int
 }
 
 FlagOption::FlagOption(std::string stage, std::string name, bool byDefault, std::string meaning)
-    : Option(std::move(stage), std::move(name), byDefault ? "on" : "off", "", std::move(meaning), "on or off") {}
+    : Option(std::move(stage), std::move(name), byDefault ? "on" : "off", "", std::move(meaning),
+             "on or off") {}
 
 bool FlagOption::get(const std::string& subject) const {
   const std::string value = text(subject);
-  if (value.empty() || value == "on" || value == "true" || value == "yes" || value == "1") return true;
+  if (value.empty() || value == "on" || value == "true" || value == "yes" || value == "1")
+    return true;
   if (value == "off" || value == "false" || value == "no" || value == "0") return false;
   reject(subject, value);
 }
 
-ChoiceOption::ChoiceOption(std::string stage, std::string name, std::vector<std::string> choices, std::string byDefault,
-                           std::string meaning)
-    : Option(std::move(stage), std::move(name), std::move(byDefault), "", std::move(meaning), joined(choices, " or ")),
+ChoiceOption::ChoiceOption(std::string stage, std::string name, std::vector<std::string> choices,
+                           std::string byDefault, std::string meaning)
+    : Option(std::move(stage), std::move(name), std::move(byDefault), "", std::move(meaning),
+             joined(choices, " or ")),
       choices_(std::move(choices)) {}
 
 std::string ChoiceOption::get(const std::string& subject) const {
@@ -127,8 +141,10 @@ std::string ChoiceOption::get(const std::string& subject) const {
   return value;
 }
 
-TextOption::TextOption(std::string stage, std::string name, std::optional<std::string> byDefault, std::string meaning)
-    : Option(std::move(stage), std::move(name), byDefault.value_or(""), "", std::move(meaning), "text", !byDefault) {}
+TextOption::TextOption(std::string stage, std::string name, std::optional<std::string> byDefault,
+                       std::string meaning)
+    : Option(std::move(stage), std::move(name), byDefault.value_or(""), "", std::move(meaning),
+             "text", !byDefault) {}
 
 std::string TextOption::get(const std::string& subject) const {
   const std::string value = text(subject);
@@ -140,7 +156,8 @@ std::vector<std::string> TextOption::list(const std::string& subject) const {
   const std::string value = get(subject);
   auto items = split(value, ',');
   for (auto& item : items)
-    if (item = trimmed(item); item.empty()) throw Error(named(subject, value) + ": an item of the list is empty");
+    if (item = trimmed(item); item.empty())
+      throw Error(named(subject, value) + ": an item of the list is empty");
   return items;
 }
 
@@ -162,8 +179,9 @@ void FileOption::validate(const std::string& subject) const {
 
 bool FileOption::isOne(const std::string& full) {
   const auto options = all();
-  return std::any_of(options.begin(), options.end(),
-                     [&](const auto* option) { return dynamic_cast<const FileOption*>(option) && option->matches(full); });
+  return std::any_of(options.begin(), options.end(), [&](const auto* option) {
+    return dynamic_cast<const FileOption*>(option) && option->matches(full);
+  });
 }
 
 }  // namespace squeal

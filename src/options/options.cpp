@@ -18,8 +18,9 @@ namespace squeal {
 namespace {
 
 // Order in which the manual lists the stages: that of the method.
-const std::vector<std::string> stages = {"general", "mesh",    "matrices", "elasticity", "constraint", "load",
-                                         "motion",  "contact", "steady",   "modes",      "flutter",    "report"};
+const std::vector<std::string> stages = {"general",    "mesh",  "matrices", "elasticity",
+                                         "constraint", "load",  "motion",   "contact",
+                                         "steady",     "modes", "flutter",  "report"};
 
 std::vector<const Option*>& registry() {
   static std::vector<const Option*> options;
@@ -36,7 +37,8 @@ std::map<std::string, std::string>& recipe() {
   return values;
 }
 
-/// While the options given are checked before the run, asking for one does not mean that the run uses it.
+/// While the options given are checked before the run, asking for one does not mean that the run
+/// uses it.
 bool validating = false;
 
 std::size_t stageRank(const std::string& stage) {
@@ -45,7 +47,8 @@ std::size_t stageRank(const std::string& stage) {
 
 template <class Item>
 std::vector<const Item*> byStage(std::vector<const Item*> items) {
-  std::stable_sort(items.begin(), items.end(), [](auto* a, auto* b) { return stageRank(a->stage) < stageRank(b->stage); });
+  std::stable_sort(items.begin(), items.end(),
+                   [](auto* a, auto* b) { return stageRank(a->stage) < stageRank(b->stage); });
   return items;
 }
 
@@ -75,7 +78,9 @@ std::vector<std::string> namesLeft() {
   return left;
 }
 
-bool startsWith(const std::string& text, const std::string& start) { return text.compare(0, start.size(), start) == 0; }
+bool startsWith(const std::string& text, const std::string& start) {
+  return text.compare(0, start.size(), start) == 0;
+}
 
 std::size_t editDistance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
@@ -92,29 +97,32 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
   return row[b.size()];
 }
 
-/// The option nearest to a mistyped name, its placeholder filled with the part of the name that fits best; empty if none is near.
+/// The option nearest to a mistyped name, its placeholder filled with the part of the name that
+/// fits best; empty if none is near.
 std::string nearestName(const std::string& name) {
   std::string nearest;
   if (name.size() > 100) return nearest;  // not a slip of the finger, and long to compare
   std::size_t least = 4;                  // more than three wrong letters are another word
   const auto consider = [&](const std::string& candidate) {
     if (candidate.size() >= name.size() + least || name.size() >= candidate.size() + least) return;
-    if (const auto distance = editDistance(name, candidate); distance < least) least = distance, nearest = candidate;
+    if (const auto distance = editDistance(name, candidate); distance < least)
+      least = distance, nearest = candidate;
   };
   for (const auto* option : Option::all()) {
     if (option->name.find('<') == std::string::npos)
       consider(option->name);
     else
       for (std::size_t begin = 0; begin < name.size(); ++begin)
-        for (std::size_t end = begin + 1; end <= name.size(); ++end) consider(option->fullName(name.substr(begin, end - begin)));
+        for (std::size_t end = begin + 1; end <= name.size(); ++end)
+          consider(option->fullName(name.substr(begin, end - begin)));
   }
   return nearest;
 }
 
 }  // namespace
 
-Option::Option(std::string stage_, std::string name_, std::string default_, std::string unit_, std::string meaning_,
-               std::string rule_, bool required_)
+Option::Option(std::string stage_, std::string name_, std::string default_, std::string unit_,
+               std::string meaning_, std::string rule_, bool required_)
     : stage(std::move(stage_)),
       name(std::move(name_)),
       defaultText(std::move(default_)),
@@ -133,7 +141,9 @@ std::string Option::fullName(const std::string& subject) const {
   return name.substr(0, open) + subject + name.substr(name.find('>') + 1);
 }
 
-bool Option::given(const std::string& subject) const { return valueGiven(fullName(subject)).has_value(); }
+bool Option::given(const std::string& subject) const {
+  return valueGiven(fullName(subject)).has_value();
+}
 
 bool Option::matches(const std::string& full) const {
   const auto open = name.find('<');
@@ -162,12 +172,15 @@ std::string Option::text(const std::string& subject) const {
 }
 
 std::string Option::named(const std::string& subject, const std::string& value) const {
-  const std::string place = origin(fullName(subject), valueGiven(fullName(subject)).value_or("")).place();
-  return "option -" + fullName(subject) + (value.empty() ? "" : " " + value) + (place.empty() ? "" : " (" + place + ")");
+  const std::string place =
+      origin(fullName(subject), valueGiven(fullName(subject)).value_or("")).place();
+  return "option -" + fullName(subject) + (value.empty() ? "" : " " + value) +
+         (place.empty() ? "" : " (" + place + ")");
 }
 
 void Option::reject(const std::string& subject, const std::string& value) const {
-  throw Error(named(subject, value) + ": " + meaning + (unit.empty() ? "" : " [" + unit + "]") + "; must be " + rule);
+  throw Error(named(subject, value) + ": " + meaning + (unit.empty() ? "" : " [" + unit + "]") +
+              "; must be " + rule);
 }
 
 SolverPrefix::SolverPrefix(std::string stage_, std::string prefix_, std::string meaning_)
@@ -188,7 +201,9 @@ void SolverPrefix::rejectUnused(const std::vector<std::string>& exceptAfter) con
   for (const auto& name : namesLeft()) {
     if (!startsWith(name, prefix)) continue;
     const std::string rest = name.substr(prefix.size());
-    if (std::any_of(exceptAfter.begin(), exceptAfter.end(), [&](const auto& later) { return startsWith(rest, later); })) continue;
+    if (std::any_of(exceptAfter.begin(), exceptAfter.end(),
+                    [&](const auto& later) { return startsWith(rest, later); }))
+      continue;
     throw Error("option -" + name + " is unknown to the solver with prefix -" + prefix);
   }
 }
@@ -197,7 +212,8 @@ void applySolverOptions(const std::function<PetscErrorCode()>& configure) {
   std::vector<std::pair<std::string, std::string>> given;  // to solvers
   const auto solvers = SolverPrefix::all();
   for (const auto& option : givenOptions())
-    if (std::any_of(solvers.begin(), solvers.end(), [&](const auto* solver) { return startsWith(option.first, solver->prefix); }))
+    if (std::any_of(solvers.begin(), solvers.end(),
+                    [&](const auto* solver) { return startsWith(option.first, solver->prefix); }))
       given.push_back(option);
   if (given.empty()) return check(configure());
   const std::set<PetscErrorCode> refusals{PETSC_ERR_ARG_UNKNOWN_TYPE,
@@ -221,27 +237,35 @@ void applySolverOptions(const std::function<PetscErrorCode()>& configure) {
     all.push_back("-" + name + (value.empty() ? "" : " " + value));
     if (!value.empty() && message.find(value) != std::string::npos) named.push_back(all.back());
   }
-  throw Error("PETSc refuses an option of its solvers, " + joined(named.empty() ? all : named) + ": " + message);
+  throw Error("PETSc refuses an option of its solvers, " + joined(named.empty() ? all : named) +
+              ": " + message);
 }
 
 void rejectUnknownOptions() {
   for (const auto& name : namesLeft()) {
     const auto options = Option::all();
-    if (std::any_of(options.begin(), options.end(), [&](auto* option) { return option->matches(name); })) continue;
+    if (std::any_of(options.begin(), options.end(),
+                    [&](auto* option) { return option->matches(name); }))
+      continue;
     const auto solvers = SolverPrefix::all();
-    if (std::any_of(solvers.begin(), solvers.end(), [&](auto* solver) { return startsWith(name, solver->prefix); })) continue;
+    if (std::any_of(solvers.begin(), solvers.end(),
+                    [&](auto* solver) { return startsWith(name, solver->prefix); }))
+      continue;
     const std::string nearest = nearestName(name);
     const auto given = givenOptions();
     const std::string place = origin(name, given.count(name) ? given.at(name) : "").place();
     throw Error("unknown option -" + name + (place.empty() ? "" : " (" + place + ")") +
-                (nearest.empty() ? "" : "; did you mean -" + nearest + "?") + " (squeal -help lists all options)");
+                (nearest.empty() ? "" : "; did you mean -" + nearest + "?") +
+                " (squeal -help lists all options)");
   }
   struct Validation {
     Validation() { validating = true; }
     ~Validation() { validating = false; }  // after an Error as well
   } validation;
   for (const auto* option : Option::all())
-    for (const auto& subject : option->name.find('<') == std::string::npos ? std::vector<std::string>{""} : option->subjects())
+    for (const auto& subject : option->name.find('<') == std::string::npos
+                                   ? std::vector<std::string>{""}
+                                   : option->subjects())
       if (option->given(subject)) option->validate(subject);
 }
 
@@ -249,12 +273,15 @@ std::vector<std::string> unusedOptions() {
   std::vector<std::string> unused, left = namesLeft();
   const auto options = Option::all();
   for (const auto& [name, value] : givenOptions()) {
-    const bool ours =
-        std::any_of(options.begin(), options.end(), [&, &full = name](auto* option) { return option->matches(full); });
-    const bool used = ours ? recipe().count(name) > 0 : std::find(left.begin(), left.end(), name) == left.end();
+    const bool ours = std::any_of(options.begin(), options.end(), [&, &full = name](auto* option) {
+      return option->matches(full);
+    });
+    const bool used =
+        ours ? recipe().count(name) > 0 : std::find(left.begin(), left.end(), name) == left.end();
     if (used) continue;
     const std::string place = origin(name, value).place();
-    unused.push_back("option -" + name + (value.empty() ? "" : " " + value) + (place.empty() ? "" : " (" + place + ")") +
+    unused.push_back("option -" + name + (value.empty() ? "" : " " + value) +
+                     (place.empty() ? "" : " (" + place + ")") +
                      " was not used: nothing in this run asks for it");
   }
   return unused;
@@ -262,9 +289,12 @@ std::vector<std::string> unusedOptions() {
 
 std::string manual() {
   std::string page =
-      "squeal -options_file CASE.yaml [-option value …]: flutter of steady sliding brakes (brake squeal)\n"
-      "Lengths in m, masses in kg, times in s unless the case keeps another consistent system. <…> stands for a name.\n"
-      "Numbers are zero or of a magnitude between 1e-50 and 1e50. A list is separated by commas; with blanks it is put in "
+      "squeal -options_file CASE.yaml [-option value …]: flutter of steady sliding brakes (brake "
+      "squeal)\n"
+      "Lengths in m, masses in kg, times in s unless the case keeps another consistent system. <…> "
+      "stands for a name.\n"
+      "Numbers are zero or of a magnitude between 1e-50 and 1e50. A list is separated by commas; "
+      "with blanks it is put in "
       "quotes.\n";
   const auto options = Option::all();
   const auto solvers = SolverPrefix::all();
@@ -272,14 +302,18 @@ std::string manual() {
     page += "\n" + stage + "\n";
     for (const auto* option : options) {
       if (option->stage != stage) continue;
-      const std::string left = "  -" + option->name + (option->unit.empty() ? "" : " [" + option->unit + "]");
+      const std::string left =
+          "  -" + option->name + (option->unit.empty() ? "" : " [" + option->unit + "]");
       page += formatted("%-52s ", left.c_str()) + option->meaning;
       page += option->required
                   ? " (required; " + option->rule + ")\n"
-                  : " (default " + (option->defaultText.empty() ? "none" : option->defaultText) + "; " + option->rule + ")\n";
+                  : " (default " + (option->defaultText.empty() ? "none" : option->defaultText) +
+                        "; " + option->rule + ")\n";
     }
     for (const auto* solver : solvers)
-      if (solver->stage == stage) page += formatted("%-52s ", ("  -" + solver->prefix + "*").c_str()) + solver->meaning + "\n";
+      if (solver->stage == stage)
+        page +=
+            formatted("%-52s ", ("  -" + solver->prefix + "*").c_str()) + solver->meaning + "\n";
   }
   return page;
 }
@@ -287,7 +321,8 @@ std::string manual() {
 const std::map<std::string, std::string>& resolvedOptions() { return recipe(); }
 
 std::map<std::string, std::string> givenOptions() {
-  // PETSc offers no list of names and values; its viewer prints one to a line, and neither holds a line break.
+  // PETSc offers no list of names and values; its viewer prints one to a line, and neither holds a
+  // line break.
   char* text = nullptr;
   std::size_t size = 0;
   std::FILE* stream = open_memstream(&text, &size);

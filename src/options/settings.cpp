@@ -21,8 +21,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t largestFile = 10'000'000;  // bytes; a mesh given by mistake is not read to its end
-constexpr std::size_t mostOptions = 500;         // PETSc's database holds 512, some of which it sets itself
+constexpr std::size_t largestFile =
+    10'000'000;  // bytes; a mesh given by mistake is not read to its end
+constexpr std::size_t mostOptions =
+    500;  // PETSc's database holds 512, some of which it sets itself
 
 struct Word {
   std::string text;
@@ -30,7 +32,9 @@ struct Word {
   int line = 0;  ///< in a file, from 1
 };
 
-bool same(const std::string& a, const char* b) { return strcasecmp(a.c_str(), b) == 0; }  // as PETSc compares names
+bool same(const std::string& a, const char* b) {
+  return strcasecmp(a.c_str(), b) == 0;
+}  // as PETSc compares names
 
 bool isName(const std::string& word) {
   PetscBool valid = PETSC_FALSE;
@@ -42,10 +46,13 @@ std::string prefixed(const std::string& place, const std::string& message) {
   return place.empty() ? message : place + ": " + message;
 }
 
-/// Words separated by blanks; one that begins with a quote ends at the next one of its kind in the line. In files `#` begins a comment.
+/// Words separated by blanks; one that begins with a quote ends at the next one of its kind in the
+/// line. In files `#` begins a comment.
 std::vector<Word> wordsOf(const std::string& text, const std::string& name, bool comments) {
   std::vector<Word> words;
-  const auto blank = [&](std::size_t i) { return std::strchr(" \t\r\n", text[i]) && text[i] != '\0'; };
+  const auto blank = [&](std::size_t i) {
+    return std::strchr(" \t\r\n", text[i]) && text[i] != '\0';
+  };
   int line = 1;
   const auto fail = [&](const std::string& message) {
     throw Error(formatted("%s, line %d: %s", name.c_str(), line, message.c_str()));
@@ -65,7 +72,8 @@ std::vector<Word> wordsOf(const std::string& text, const std::string& name, bool
     } else {
       std::size_t end = i;
       while (end < text.size() && !blank(end) && !(comments && text[end] == '#')) {
-        if (std::iscntrl(static_cast<unsigned char>(text[end]))) fail("a control character; an options file is text");
+        if (std::iscntrl(static_cast<unsigned char>(text[end])))
+          fail("a control character; an options file is text");
         ++end;
       }
       words.push_back({text.substr(i, end - i), false, line});
@@ -83,18 +91,25 @@ std::vector<Word> onOneLine(std::vector<Word> words) {
 
 /// Rejects what PETSc's database, or the record of the run, would not keep as it is.
 void requireSound(const Setting& setting) {
-  const auto fail = [&](const std::string& message) { throw Error(prefixed(setting.place(), message)); };
+  const auto fail = [&](const std::string& message) {
+    throw Error(prefixed(setting.place(), message));
+  };
   const std::string& name = setting.name;
   if (const auto equals = name.find('='); equals != std::string::npos)
-    fail("option -" + name + ": a blank separates name and value: -" + name.substr(0, equals) + " " + name.substr(equals + 1));
-  const bool plain = std::none_of(name.begin(), name.end(),
-                                  [](unsigned char c) { return std::isspace(c) || std::iscntrl(c) || std::strchr("\"'#,", c); });
+    fail("option -" + name + ": a blank separates name and value: -" + name.substr(0, equals) +
+         " " + name.substr(equals + 1));
+  const bool plain = std::none_of(name.begin(), name.end(), [](unsigned char c) {
+    return std::isspace(c) || std::iscntrl(c) || std::strchr("\"'#,", c);
+  });
   if (!plain || !isName("-" + name))
     fail("'" + name +
-         "' is not the name of an option: it begins with a letter and holds no blank; write _ for a blank in the name of a group");
-  if (name.size() >= PETSC_MAX_OPTION_NAME) fail("the name of option -" + name.substr(0, 40) + "… is too long");
+         "' is not the name of an option: it begins with a letter and holds no blank; write _ for "
+         "a blank in the name of a group");
+  if (name.size() >= PETSC_MAX_OPTION_NAME)
+    fail("the name of option -" + name.substr(0, 40) + "… is too long");
   const std::string& value = setting.value;
-  if (std::any_of(value.begin(), value.end(), [](unsigned char c) { return std::iscntrl(c) && c != '\t'; }))
+  if (std::any_of(value.begin(), value.end(),
+                  [](unsigned char c) { return std::iscntrl(c) && c != '\t'; }))
     fail("option -" + name + ": its value holds a line break or another control character");
   if (value.find('"') != std::string::npos && value.find('\'') != std::string::npos)
     fail("option -" + name + ": its value holds both kinds of quotes");
@@ -114,7 +129,8 @@ class Reader {
       const Word& word = words[i];
       if (word.quoted || !isName(word.text)) rejectStray(words, i, file);
       Setting setting{word.text.substr(1), "", file, word.line};
-      if (i + 1 < words.size() && words[i + 1].line == word.line && (words[i + 1].quoted || !isName(words[i + 1].text)))
+      if (i + 1 < words.size() && words[i + 1].line == word.line &&
+          (words[i + 1].quoted || !isName(words[i + 1].text)))
         setting.value = words[++i].text;
       add(setting);
     }
@@ -153,12 +169,14 @@ class Reader {
   }
 
  private:
-  [[noreturn]] void rejectStray(const std::vector<Word>& words, std::size_t i, const std::string& file) const {
+  [[noreturn]] void rejectStray(const std::vector<Word>& words, std::size_t i,
+                                const std::string& file) const {
     const std::string& stray = words[i].text;
     const std::string place = Setting{"", "", file, words[i].line}.place();
     if (i < 2 || words[i - 1].line != words[i].line)
-      throw Error(prefixed(place, "'" + stray + "' is not an option: those begin with a dash" +
-                                      (file.empty() ? "; a case is named by -options_file " + stray : "")));
+      throw Error(
+          prefixed(place, "'" + stray + "' is not an option: those begin with a dash" +
+                              (file.empty() ? "; a case is named by -options_file " + stray : "")));
     const std::string last = words[i - 2].text + " " + words[i - 1].text;
     throw Error(prefixed(place, "'" + stray + "' follows option " + last +
                                     ", which has its value; a list is separated by commas, with "
@@ -168,31 +186,39 @@ class Reader {
   void add(const Setting& setting) {
     requireSound(setting);
     const std::string& name = setting.name;
-    if (same(name, "options_file") || same(name, "options_file_yaml")) return addFile(setting, same(name, "options_file_yaml"));
-    if (same(name, "options_string_yaml")) return readYaml(setting.value, "option -options_string_yaml");
+    if (same(name, "options_file") || same(name, "options_file_yaml"))
+      return addFile(setting, same(name, "options_file_yaml"));
+    if (same(name, "options_string_yaml"))
+      return readYaml(setting.value, "option -options_string_yaml");
     for (const char* ofCall : {"help", "h", "version", "skip_petscrc"})
-      if (same(name, ofCall)) throw Error(prefixed(setting.place(), "option -" + name + " belongs on the command line"));
+      if (same(name, ofCall))
+        throw Error(prefixed(setting.place(), "option -" + name + " belongs on the command line"));
     if (same(name, "prefix_push")) {
       if (!isName("-" + setting.value))
-        throw Error(prefixed(setting.place(), "option -prefix_push '" + setting.value + "': must begin with a letter"));
+        throw Error(prefixed(setting.place(), "option -prefix_push '" + setting.value +
+                                                  "': must begin with a letter"));
       prefixes_.push_back(setting.value);
     } else if (same(name, "prefix_pop")) {
-      if (prefixes_.empty()) throw Error(prefixed(setting.place(), "option -prefix_pop without -prefix_push"));
+      if (prefixes_.empty())
+        throw Error(prefixed(setting.place(), "option -prefix_pop without -prefix_push"));
       prefixes_.pop_back();
     } else {
       settings.push_back(setting);
       settings.back().name = joined(prefixes_, "") + name;
-      if (FileOption::isOne(settings.back().name)) settings.back().value = located(setting.value, setting.file);
+      if (FileOption::isOne(settings.back().name))
+        settings.back().value = located(setting.value, setting.file);
     }
   }
 
   void addFile(const Setting& setting, bool yaml) {
     const auto fail = [&](const std::string& message) {
-      throw Error(prefixed(setting.place(), "option -" + setting.name + " " + setting.value + ": " + message));
+      throw Error(prefixed(setting.place(),
+                           "option -" + setting.name + " " + setting.value + ": " + message));
     };
     if (setting.value.empty()) fail("no file is named");
     const std::string file = located(setting.value, setting.file);
-    if (std::find(open_.begin(), open_.end(), file) != open_.end() || open_.size() > 20) fail("the file reads itself");
+    if (std::find(open_.begin(), open_.end(), file) != open_.end() || open_.size() > 20)
+      fail("the file reads itself");
     open_.push_back(file);
     const auto before = settings.size();
     if (!readFile(file, yaml)) {
@@ -226,16 +252,20 @@ bool takeSkip(std::vector<Word>& words) {
 }
 
 void requireRoom(const std::vector<Setting>& settings) {
-  const auto less = [](const std::string& a, const std::string& b) { return strcasecmp(a.c_str(), b.c_str()) < 0; };
+  const auto less = [](const std::string& a, const std::string& b) {
+    return strcasecmp(a.c_str(), b.c_str()) < 0;
+  };
   std::map<std::string, const Setting*, decltype(less)> known(less);
   for (const auto& setting : settings) {
     const auto [earlier, isNew] = known.insert({setting.name, &setting});
     if (!isNew && earlier->first != setting.name)
-      throw Error(prefixed(setting.place(), "options -" + earlier->first + " and -" + setting.name +
-                                                " differ by capital letters alone, which PETSc takes for the same"));
+      throw Error(prefixed(setting.place(),
+                           "options -" + earlier->first + " and -" + setting.name +
+                               " differ by capital letters alone, which PETSc takes for the same"));
   }
   if (known.size() > mostOptions)
-    throw Error(formatted("%zu options are given; PETSc keeps no more than %zu", known.size(), mostOptions));
+    throw Error(formatted("%zu options are given; PETSc keeps no more than %zu", known.size(),
+                          mostOptions));
 }
 
 std::map<std::string, Setting>& record() {
@@ -251,7 +281,9 @@ std::map<std::string, Setting>& replaced() {
 
 }  // namespace
 
-std::string Setting::place() const { return file.empty() ? "" : formatted("%s, line %d", file.c_str(), line); }
+std::string Setting::place() const {
+  return file.empty() ? "" : formatted("%s, line %d", file.c_str(), line);
+}
 
 std::string located(const std::string& path, const std::string& namedIn) {
   if (namedIn.empty() || fs::path(path).is_absolute()) return path;
@@ -273,8 +305,10 @@ std::vector<Setting> settingsOfCall(const std::vector<std::string>& arguments) {
     reader.readIfThere(".petscrc");
     reader.readIfThere("petscrc");
   }
-  if (const auto text = environment("PETSC_OPTIONS")) reader.readWords(onOneLine(wordsOf(*text, "PETSC_OPTIONS", false)), "");
-  if (const auto text = environment("PETSC_OPTIONS_YAML")) reader.readYaml(*text, "PETSC_OPTIONS_YAML");
+  if (const auto text = environment("PETSC_OPTIONS"))
+    reader.readWords(onOneLine(wordsOf(*text, "PETSC_OPTIONS", false)), "");
+  if (const auto text = environment("PETSC_OPTIONS_YAML"))
+    reader.readYaml(*text, "PETSC_OPTIONS_YAML");
   reader.readWords(words, "");
   requireRoom(reader.settings);
   return reader.settings;
@@ -300,7 +334,8 @@ std::vector<Setting> onAllRanks(MPI_Comm comm, const std::vector<Setting>& ofRan
   std::string packed;  // no text holds a line break
   if (rank == 0)
     for (const auto& setting : ofRankZero)
-      packed += setting.name + "\n" + setting.value + "\n" + setting.file + "\n" + std::to_string(setting.line) + "\n";
+      packed += setting.name + "\n" + setting.value + "\n" + setting.file + "\n" +
+                std::to_string(setting.line) + "\n";
   int length = static_cast<int>(packed.size());
   check(MPI_Bcast(&length, 1, MPI_INT, 0, comm));
   packed.resize(static_cast<std::size_t>(length));
@@ -329,14 +364,16 @@ void insertFile(MPI_Comm comm, const std::string& file) {
 
 Setting origin(const std::string& name, const std::string& value) {
   const auto known = record().find(name);
-  return known != record().end() && known->second.value == value ? known->second : Setting{name, value, "", 0};
+  return known != record().end() && known->second.value == value ? known->second
+                                                                 : Setting{name, value, "", 0};
 }
 
 std::vector<std::string> replacedSettings() {
   std::vector<std::string> lines;
   for (const auto& [name, earlier] : replaced())
     if (const auto& value = record()[name].value; value != earlier.value)
-      lines.push_back("option -" + name + " " + value + " replaces " + earlier.value + " (" + earlier.place() + ")");
+      lines.push_back("option -" + name + " " + value + " replaces " + earlier.value + " (" +
+                      earlier.place() + ")");
   return lines;
 }
 

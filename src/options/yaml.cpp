@@ -13,13 +13,15 @@
 namespace squeal {
 namespace {
 
-constexpr int deepest = 64;                  // an alias may hold itself
-constexpr std::size_t mostSettings = 10000;  // and aliases of aliases multiply; PETSc's database holds far fewer
+constexpr int deepest = 64;  // an alias may hold itself
+constexpr std::size_t mostSettings =
+    10000;  // and aliases of aliases multiply; PETSc's database holds far fewer
 
 struct Parser {
   explicit Parser(const std::string& text) {
     if (!yaml_parser_initialize(&parser)) throw std::bad_alloc();
-    yaml_parser_set_input_string(&parser, reinterpret_cast<const unsigned char*>(text.data()), text.size());
+    yaml_parser_set_input_string(&parser, reinterpret_cast<const unsigned char*>(text.data()),
+                                 text.size());
   }
   ~Parser() { yaml_parser_delete(&parser); }
   Parser(const Parser&) = delete;
@@ -53,19 +55,26 @@ int tabbedLine(const std::string& text, int last) {
 }
 
 /// The parser's own words, with what a person is likely to have done.
-[[noreturn]] void failParsing(const yaml_parser_t& parser, const std::string& text, const std::string& name) {
+[[noreturn]] void failParsing(const yaml_parser_t& parser, const std::string& text,
+                              const std::string& name) {
   if (parser.error == YAML_MEMORY_ERROR) throw std::bad_alloc();
   const std::string problem = parser.problem ? parser.problem : "not YAML";
   if (parser.error == YAML_READER_ERROR) {
     const auto bytes = std::min(parser.problem_offset, text.size());
-    fail(name, 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(bytes), '\n')),
+    fail(name,
+         1 + static_cast<int>(
+                 std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(bytes), '\n')),
          problem + "; an options file is text in UTF-8");
   }
   const int line = lineOf(parser.problem_mark);
-  if (const int tab = tabbedLine(text, line)) fail(name, tab, "indented by a tab; YAML indents by blanks alone");
+  if (const int tab = tabbedLine(text, line))
+    fail(name, tab, "indented by a tab; YAML indents by blanks alone");
   std::string context;
-  if (parser.context) context = formatted("%s that begins in line %d, ", parser.context, lineOf(parser.context_mark));
-  const char* hint = parser.error == YAML_COMPOSER_ERROR ? "" : "; is a line indented wrongly, a quote or a bracket left open?";
+  if (parser.context)
+    context = formatted("%s that begins in line %d, ", parser.context, lineOf(parser.context_mark));
+  const char* hint = parser.error == YAML_COMPOSER_ERROR
+                         ? ""
+                         : "; is a line indented wrongly, a quote or a bracket left open?";
   fail(name, line, context + problem + hint);
 }
 
@@ -76,7 +85,8 @@ bool load(Parser& parser, Document& document, const std::string& text, const std
 
 class Flattening {
  public:
-  Flattening(yaml_document_t& document, const std::string& name) : document_(document), name_(name) {}
+  Flattening(yaml_document_t& document, const std::string& name)
+      : document_(document), name_(name) {}
 
   std::vector<Setting> all() {
     yaml_node_t* root = yaml_document_get_root_node(&document_);
@@ -96,10 +106,12 @@ class Flattening {
   yaml_node_t* node(int index) const { return yaml_document_get_node(&document_, index); }
 
   std::string textOf(const yaml_node_t* scalar) const {
-    static const std::set<std::string> plain{YAML_STR_TAG, YAML_INT_TAG, YAML_FLOAT_TAG, YAML_BOOL_TAG, YAML_NULL_TAG};
+    static const std::set<std::string> plain{YAML_STR_TAG, YAML_INT_TAG, YAML_FLOAT_TAG,
+                                             YAML_BOOL_TAG, YAML_NULL_TAG};
     const std::string tag = scalar->tag ? reinterpret_cast<const char*>(scalar->tag) : YAML_STR_TAG;
     if (!plain.count(tag)) fail(scalar, "the tag '" + tag + "' is not supported");
-    return trimmed(std::string(reinterpret_cast<const char*>(scalar->data.scalar.value), scalar->data.scalar.length));
+    return trimmed(std::string(reinterpret_cast<const char*>(scalar->data.scalar.value),
+                               scalar->data.scalar.length));
   }
 
   struct Key {
@@ -109,17 +121,22 @@ class Flattening {
 
   /// YAML forbids a key that comes twice, and libyaml lets it pass. Values are left to add(), which
   /// knows of those with the same name in other sections.
-  void requireFirst(std::map<std::string, Key>& keys, const std::string& name, const yaml_node_t* key, bool isSection) const {
+  void requireFirst(std::map<std::string, Key>& keys, const std::string& name,
+                    const yaml_node_t* key, bool isSection) const {
     const auto [earlier, isNew] = keys.insert({name, {lineOf(key->start_mark), isSection}});
     if (!isNew && (isSection || earlier->second.isSection))
-      fail(key, formatted("'%s' is given twice, first in line %d", name.c_str(), earlier->second.line));
+      fail(key,
+           formatted("'%s' is given twice, first in line %d", name.c_str(), earlier->second.line));
   }
 
   void addMapping(const yaml_node_t* mapping, const std::string& prefix, bool merged, int depth) {
-    if (depth > deepest) fail(mapping, formatted("nested deeper than %d levels; does an alias hold itself?", deepest));
-    if (mapping->data.mapping.pairs.start == mapping->data.mapping.pairs.top) fail(mapping, "a map without entries");
+    if (depth > deepest)
+      fail(mapping, formatted("nested deeper than %d levels; does an alias hold itself?", deepest));
+    if (mapping->data.mapping.pairs.start == mapping->data.mapping.pairs.top)
+      fail(mapping, "a map without entries");
     std::map<std::string, Key> keys;
-    for (const auto* pair = mapping->data.mapping.pairs.start; pair < mapping->data.mapping.pairs.top; ++pair) {
+    for (const auto* pair = mapping->data.mapping.pairs.start;
+         pair < mapping->data.mapping.pairs.top; ++pair) {
       const yaml_node_t *key = node(pair->key), *value = node(pair->value);
       if (key->type != YAML_SCALAR_NODE) fail(key, "a list or a map in place of a name");
       const std::string name = textOf(key);
@@ -129,7 +146,8 @@ class Flattening {
       else if (value->type == YAML_MAPPING_NODE)
         addMapping(value, prefix + name + "_", merged, depth + 1);
       else
-        add({prefix + name, value->type == YAML_SCALAR_NODE ? textOf(value) : list(value, prefix + name), name_,
+        add({prefix + name,
+             value->type == YAML_SCALAR_NODE ? textOf(value) : list(value, prefix + name), name_,
              lineOf(key->start_mark)},
             merged);
     }
@@ -139,7 +157,8 @@ class Flattening {
   void merge(const yaml_node_t* value, const std::string& prefix, int depth) {
     if (value->type == YAML_MAPPING_NODE) return addMapping(value, prefix, true, depth + 1);
     if (value->type != YAML_SEQUENCE_NODE) fail(value, "'<<' merges maps, and this is a text");
-    for (const auto* item = value->data.sequence.items.start; item < value->data.sequence.items.top; ++item) {
+    for (const auto* item = value->data.sequence.items.start; item < value->data.sequence.items.top;
+         ++item) {
       if (node(*item)->type != YAML_MAPPING_NODE) fail(node(*item), "'<<' merges maps alone");
       addMapping(node(*item), prefix, true, depth + 1);
     }
@@ -147,8 +166,10 @@ class Flattening {
 
   std::string list(const yaml_node_t* sequence, const std::string& name) const {
     std::vector<std::string> items;
-    for (const auto* item = sequence->data.sequence.items.start; item < sequence->data.sequence.items.top; ++item) {
-      if (node(*item)->type != YAML_SCALAR_NODE) fail(node(*item), "the list of -" + name + " holds a list or a map");
+    for (const auto* item = sequence->data.sequence.items.start;
+         item < sequence->data.sequence.items.top; ++item) {
+      if (node(*item)->type != YAML_SCALAR_NODE)
+        fail(node(*item), "the list of -" + name + " holds a list or a map");
       items.push_back(textOf(node(*item)));
       if (items.back().empty()) fail(node(*item), "the list of -" + name + " holds an empty item");
     }
@@ -160,11 +181,13 @@ class Flattening {
     const auto [known, isNew] = where_.insert({setting.name, {settings_.size(), merged}});
     auto& [index, wasMerged] = known->second;
     if (isNew) {
-      if (settings_.size() >= mostSettings) squeal::fail(name_, setting.line, formatted("more than %zu options", mostSettings));
+      if (settings_.size() >= mostSettings)
+        squeal::fail(name_, setting.line, formatted("more than %zu options", mostSettings));
       settings_.push_back(std::move(setting));
     } else if (!merged && !wasMerged) {
       squeal::fail(name_, setting.line,
-                   formatted("a second value of -%s, which line %d gives", setting.name.c_str(), settings_[index].line));
+                   formatted("a second value of -%s, which line %d gives", setting.name.c_str(),
+                             settings_[index].line));
     } else if (!merged) {
       settings_[index] = std::move(setting);
       wasMerged = false;
@@ -185,7 +208,8 @@ std::vector<Setting> settingsOfYaml(const std::string& text, const std::string& 
   if (!load(parser, document, text, name)) return {};
   auto settings = Flattening(document.document, name).all();
   if (load(parser, next, text, name))
-    fail(name, lineOf(yaml_document_get_root_node(&next.document)->start_mark), "a second document begins; options files hold one");
+    fail(name, lineOf(yaml_document_get_root_node(&next.document)->start_mark),
+         "a second document begins; options files hold one");
   return settings;
 }
 

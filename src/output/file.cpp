@@ -20,7 +20,10 @@ void writeFile(const std::filesystem::path& path, const std::string& text) {
   const EndingWaits whole;
   std::FILE* file = std::fopen(path.c_str(), "wb");
   if (!file) throw WriteError(cannotWrite(path, errno));
-  int error = std::fwrite(text.data(), 1, text.size(), file) == text.size() && std::fflush(file) == 0 ? 0 : errno;
+  int error =
+      std::fwrite(text.data(), 1, text.size(), file) == text.size() && std::fflush(file) == 0
+          ? 0
+          : errno;
   if (std::fclose(file) != 0 && error == 0) error = errno;
   if (error != 0) throw WriteError(cannotWrite(path, error));
 }
@@ -31,9 +34,12 @@ void reserve(const std::filesystem::path& path, unsigned long long bytes) {
   const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (file < 0) throw WriteError(cannotWrite(path, errno));
   int error = getrlimit(RLIMIT_FSIZE, &most) == 0 && bytes > most.rlim_cur ? EFBIG : 0;
-  if (error == 0 && bytes > 0 && fallocate(file, FALLOC_FL_KEEP_SIZE, 0, static_cast<off_t>(bytes)) != 0) error = errno;
+  if (error == 0 && bytes > 0 &&
+      fallocate(file, FALLOC_FL_KEEP_SIZE, 0, static_cast<off_t>(bytes)) != 0)
+    error = errno;
   close(file);
-  if (error != 0 && error != EOPNOTSUPP) throw WriteError(cannotWrite(path, error));  // such as NFS: it is found out in writing
+  if (error != 0 && error != EOPNOTSUPP)
+    throw WriteError(cannotWrite(path, error));  // such as NFS: it is found out in writing
 }
 
 void sync(const std::filesystem::path& path) {

@@ -25,7 +25,8 @@ std::vector<fs::path> entriesOf(const fs::path& folder) {
   return names;
 }
 
-/// mpirun ends all ranks as soon as one has ended: the first ones stay until the last one has cleared up. Then it loses patience itself.
+/// mpirun ends all ranks as soon as one has ended: the first ones stay until the last one has
+/// cleared up. Then it loses patience itself.
 constexpr std::chrono::milliseconds patience(1000);
 
 std::string inTheWay(const fs::path& path) {
@@ -47,7 +48,8 @@ void moveTo(const fs::path& from, const fs::path& to) {
                    ", and the next run puts them into their place");
 }
 
-void moveAll(const fs::path& from, const fs::path& to, const std::function<bool(const fs::path&)>& later) {
+void moveAll(const fs::path& from, const fs::path& to,
+             const std::function<bool(const fs::path&)>& later) {
   for (const auto& name : entriesOf(from)) {
     if (later(name)) continue;
     if (isFolder(from / name) && isFolder(to / name)) {
@@ -58,22 +60,25 @@ void moveAll(const fs::path& from, const fs::path& to, const std::function<bool(
   }
 }
 
-/// Removes the files listed, `first` before all and the manifest after all, and the folders that are empty then. A folder of ours that has
-/// become a link leads elsewhere: nothing is removed behind it.
+/// Removes the files listed, `first` before all and the manifest after all, and the folders that
+/// are empty then. A folder of ours that has become a link leads elsewhere: nothing is removed
+/// behind it.
 void removeListed(const fs::path& folder, const Manifest& manifest, const fs::path& first) {
   std::set<fs::path> real{""};
   for (const auto& inside : manifest.folders())  // parents come before what is in them
     if (real.contains(inside.parent_path()) && isFolder(folder / inside)) real.insert(inside);
   const auto removeFile = [&](const fs::path& file) {
     // what has become a folder is the user's
-    if (unlink((folder / file).c_str()) != 0 && errno != ENOENT && errno != EISDIR && errno != EPERM)
+    if (unlink((folder / file).c_str()) != 0 && errno != ENOENT && errno != EISDIR &&
+        errno != EPERM)
       throw WriteError(cannotWrite(folder / file, errno));
   };
   if (manifest.files().contains(first)) removeFile(first);
   for (const auto& file : manifest.files())
     if (real.contains(file.parent_path()) && file != Manifest::name) removeFile(file);
   for (auto inside = real.rbegin(); inside != real.rend(); ++inside)
-    if (!inside->empty()) rmdir((folder / *inside).c_str());  // unless something of the user's is in it
+    if (!inside->empty())
+      rmdir((folder / *inside).c_str());  // unless something of the user's is in it
   sync(folder);
   removeFile(Manifest::name);
 }
@@ -82,8 +87,9 @@ void removeListed(const fs::path& folder, const Manifest& manifest, const fs::pa
 bool holdsMore(const fs::path& folder, const fs::path& inside, const Manifest& ours) {
   for (const auto& name : entriesOf(folder / inside)) {
     const fs::path path = inside / name;
-    const bool listed =
-        isFolder(folder / path) ? ours.folders().contains(path) && !holdsMore(folder, path, ours) : ours.files().contains(path);
+    const bool listed = isFolder(folder / path)
+                            ? ours.folders().contains(path) && !holdsMore(folder, path, ours)
+                            : ours.files().contains(path);
     if (!listed) return true;
   }
   return false;
@@ -134,14 +140,18 @@ Folder::~Folder() {
 void Folder::make() {
   const EndingWaits whole;
   std::vector<fs::path> missing;
-  for (fs::path folder = path_; !folder.empty() && !fs::exists(folder); folder = folder.parent_path()) missing.push_back(folder);
-  for (auto folder = missing.rbegin(); folder != missing.rend(); ++folder) made_ += fs::create_directory(*folder);
+  for (fs::path folder = path_; !folder.empty() && !fs::exists(folder);
+       folder = folder.parent_path())
+    missing.push_back(folder);
+  for (auto folder = missing.rbegin(); folder != missing.rend(); ++folder)
+    made_ += fs::create_directory(*folder);
   if (!fs::is_directory(path_)) throw WriteError(cannotWrite(path_, ENOTDIR));
 }
 
 /// What a run that was killed has left.
 void Folder::clear() {
-  if (fs::exists(fs::symlink_status(staging_)) && !isFolder(staging_)) throw WriteError(inTheWay(staging_));
+  if (fs::exists(fs::symlink_status(staging_)) && !isFolder(staging_))
+    throw WriteError(inTheWay(staging_));
   fs::remove_all(staging_);
   if (fs::exists(fs::symlink_status(complete_))) replace();
 }
@@ -155,7 +165,8 @@ void Folder::tidy(std::chrono::milliseconds patience) {
   };
   lock_.release(asLast, patience);
   // only what has stayed empty
-  for (fs::path folder = path_; made_ > 0 && rmdir(folder.c_str()) == 0; --made_) folder = folder.parent_path();
+  for (fs::path folder = path_; made_ > 0 && rmdir(folder.c_str()) == 0; --made_)
+    folder = folder.parent_path();
 }
 
 /// The files of the earlier run.
@@ -164,12 +175,14 @@ Manifest Folder::earlier() const {
   return naming_.former(path_);
 }
 
-void Folder::requireFree(const std::function<bool(const fs::path&)>& writes, const Manifest& ours, const fs::path& inside) const {
+void Folder::requireFree(const std::function<bool(const fs::path&)>& writes, const Manifest& ours,
+                         const fs::path& inside) const {
   for (const auto& name : entriesOf(path_ / inside)) {
     const fs::path path = inside / name;
     if (!writes(path)) continue;
     const bool folder = isFolder(path_ / path);
-    if (!(folder ? ours.folders() : ours.files()).contains(path)) throw WriteError(inTheWay(path_ / path));
+    if (!(folder ? ours.folders() : ours.files()).contains(path))
+      throw WriteError(inTheWay(path_ / path));
     if (folder) requireFree(writes, ours, path);
   }
 }
@@ -207,11 +220,13 @@ void Folder::commit() {
 /// Puts what is in .complete into its place; each step, once done, is not found to be done again.
 void Folder::replace() const {
   const fs::path manifest = complete_ / Manifest::name, last = complete_ / naming_.last;
-  if (!isFolder(complete_) || (!Manifest::read(complete_) && !fs::exists(last) && !fs::is_empty(complete_)))
+  if (!isFolder(complete_) ||
+      (!Manifest::read(complete_) && !fs::exists(last) && !fs::is_empty(complete_)))
     throw WriteError(inTheWay(complete_));
   if (fs::exists(manifest)) {
     if (const auto old = Manifest::read(path_)) removeListed(path_, *old, naming_.last);
-    moveAll(complete_, path_, [&](const fs::path& name) { return name == Manifest::name || name == naming_.last; });
+    moveAll(complete_, path_,
+            [&](const fs::path& name) { return name == Manifest::name || name == naming_.last; });
     sync(path_);
     moveTo(manifest, path_ / Manifest::name);
   }

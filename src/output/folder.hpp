@@ -1,5 +1,6 @@
 #pragma once
-/// A folder whose content is replaced as a whole: what lies there is always one complete run, or nothing that looks like one.
+/// A folder whose content is replaced as a whole: what lies there is always one complete run, or
+/// nothing that looks like one.
 #include <mpi.h>
 
 #include <filesystem>
@@ -19,20 +20,24 @@ struct Naming {
   std::string last;    ///< the file that tells that all others are there
   /// Whether a run may write this path, relative to the folder: file or subfolder.
   std::function<bool(const std::filesystem::path&)> mayWrite;
-  /// The files that a version without manifests left in a folder; none: it holds no results of such a version.
+  /// The files that a version without manifests left in a folder; none: it holds no results of such
+  /// a version.
   std::function<Manifest(const std::filesystem::path&)> former;
 };
 
-/// Files are written to staging() and replace those of the earlier run when all are complete; of the earlier run is what its manifest
-/// lists. Every way out but commit() leaves the folder as it was: errors, signals, MPI_Abort; after SIGKILL the next run does it.
+/// Files are written to staging() and replace those of the earlier run when all are complete; of
+/// the earlier run is what its manifest lists. Every way out but commit() leaves the folder as it
+/// was: errors, signals, MPI_Abort; after SIGKILL the next run does it.
 ///
-/// commit() has one moment, the renaming of .partial to .complete, before which the earlier results stand and after which the new ones
-/// are what a next run would finish putting in place. From then on: the earlier run's `last` goes first, then its other files, its
-/// manifest at the end; the new files are renamed into the folder, then the manifest, and `last` as the very last.
+/// commit() has one moment, the renaming of .partial to .complete, before which the earlier results
+/// stand and after which the new ones are what a next run would finish putting in place. From then
+/// on: the earlier run's `last` goes first, then its other files, its manifest at the end; the new
+/// files are renamed into the folder, then the manifest, and `last` as the very last.
 class Folder {
  public:
-  /// Collective. Makes the folder if need be and locks it; finishes the commit of a run that was killed in it, and removes what one left
-  /// behind. Errors: it cannot be written; another run is writing to it; something that is of no run has a name that this one may write.
+  /// Collective. Makes the folder if need be and locks it; finishes the commit of a run that was
+  /// killed in it, and removes what one left behind. Errors: it cannot be written; another run is
+  /// writing to it; something that is of no run has a name that this one may write.
   Folder(MPI_Comm comm, Naming naming, std::filesystem::path path);
   ~Folder();
   Folder(const Folder&) = delete;
@@ -43,8 +48,8 @@ class Folder {
   const std::filesystem::path& staging() const { return staging_; }
   /// Collective. Makes the staging folder. Error: it cannot be made.
   void stage();
-  /// Collective, after all ranks have written. Error: something of the user's has come into the way, or a disc that is full; the earlier
-  /// results stand then.
+  /// Collective, after all ranks have written. Error: something of the user's has come into the
+  /// way, or a disc that is full; the earlier results stand then.
   void commit();
 
  private:
@@ -54,15 +59,16 @@ class Folder {
   void clear();
   void tidy(std::chrono::milliseconds patience = {});
   Manifest earlier() const;
-  void requireFree(const std::function<bool(const std::filesystem::path&)>& writes, const Manifest& ours,
-                   const std::filesystem::path& inside = {}) const;
+  void requireFree(const std::function<bool(const std::filesystem::path&)>& writes,
+                   const Manifest& ours, const std::filesystem::path& inside = {}) const;
   void replace() const;
 
   MPI_Comm comm_;
   Naming naming_;
   std::string head_;
   std::filesystem::path path_, staging_, complete_;
-  int made_ = 0;  ///< how many of the last folders of the path had to be made, this one and its parents
+  /// How many of the last folders of the path had to be made, this one and its parents
+  int made_ = 0;
   Lock lock_;
   std::unique_ptr<LastAct> lastAct_;
 };

@@ -28,14 +28,16 @@ int lockFile(int file, int kind) {
 bool isStill(const std::filesystem::path& path, int file) {
   struct stat named {
   }, open{};
-  return stat(path.c_str(), &named) == 0 && fstat(file, &open) == 0 && named.st_ino == open.st_ino && named.st_dev == open.st_dev;
+  return stat(path.c_str(), &named) == 0 && fstat(file, &open) == 0 &&
+         named.st_ino == open.st_ino && named.st_dev == open.st_dev;
 }
 
 }  // namespace
 
 void Lock::take(MPI_Comm comm, const std::filesystem::path& folder, const std::string& head) {
   path_ = folder / name;
-  check(MPI_Barrier(comm));  // every rank has let go of the lock that this run may have had there before
+  check(MPI_Barrier(
+      comm));  // every rank has let go of the lock that this run may have had there before
   std::string warning;
   onFirstRank(comm, head, [&] { takeAlone(folder, warning); });
   if (!warning.empty()) complain(comm, warning);
@@ -45,10 +47,12 @@ void Lock::take(MPI_Comm comm, const std::filesystem::path& folder, const std::s
   if (rank != 0 && held) join();
 }
 
-/// Exclusively at first, which tells that no other run has it; then shared, for the other ranks to join.
+/// Exclusively at first, which tells that no other run has it; then shared, for the other ranks to
+/// join.
 void Lock::takeAlone(const std::filesystem::path& folder, std::string& warning) {
   const EndingWaits whole;
-  for (int attempt = 0; attempt < 10; ++attempt) {  // a run that ends at this moment takes its file with it
+  for (int attempt = 0; attempt < 10;
+       ++attempt) {  // a run that ends at this moment takes its file with it
     const int file = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (file < 0) throw WriteError(cannotWrite(path_, errno));
     int error = lockFile(file, LOCK_EX);
@@ -68,10 +72,12 @@ void Lock::takeAlone(const std::filesystem::path& folder, std::string& warning) 
               "): nothing keeps another run from writing there at the same time";
     return;
   }
-  throw WriteError("another run is writing to " + folder.string() + ": wait for its end, or name another folder");
+  throw WriteError("another run is writing to " + folder.string() +
+                   ": wait for its end, or name another folder");
 }
 
-/// Rank 0 holds the lock already. Should this fail, as on a node that does not see the folder, the run has it still.
+/// Rank 0 holds the lock already. Should this fail, as on a node that does not see the folder, the
+/// run has it still.
 void Lock::join() {
   const EndingWaits whole;
   const int file = open(path_.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);

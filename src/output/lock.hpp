@@ -9,8 +9,9 @@
 
 namespace squeal::output {
 
-/// An advisory lock (flock) on a file in a folder, held by every rank of a run, so that it lasts until the last of them is gone,
-/// however it ends. One that is left behind by SIGKILL locks nothing.
+/// An advisory lock (flock) on a file in a folder, held by every rank of a run, so that it lasts
+/// until the last of them is gone, however it ends. One that is left behind by SIGKILL locks
+/// nothing.
 class Lock {
  public:
   /// The name of the file.
@@ -21,16 +22,20 @@ class Lock {
   Lock(const Lock&) = delete;
   Lock& operator=(const Lock&) = delete;
 
-  /// Collective. Error, on all ranks, that begins with `head`: another run holds the lock, or the file cannot be made. Where the file
-  /// system cannot lock, a warning says so.
+  /// Collective. Error, on all ranks, that begins with `head`: another run holds the lock, or the
+  /// file cannot be made. Where the file system cannot lock, a warning says so.
   void take(MPI_Comm comm, const std::filesystem::path& folder, const std::string& head);
-  /// Not collective. The last rank to let go does `asLast` first and removes the file. The others do not wait for it, or as long as
-  /// `patience`, and take its part should it die.
+  /// Not collective. The last rank to let go does `asLast` first and removes the file. The others
+  /// do not wait for it, or as long as `patience`, and take its part should it die.
   void release(
       const std::function<void()>& asLast = [] {}, std::chrono::milliseconds patience = {});
 
  private:
-  enum class State { none, held, unlockable };  ///< unlockable: on rank 0, which is the last one then
+  enum class State {
+    none,
+    held,
+    unlockable
+  };  ///< unlockable: on rank 0, which is the last one then
   void takeAlone(const std::filesystem::path& folder, std::string& warning);
   void join();
 

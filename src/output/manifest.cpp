@@ -13,7 +13,9 @@ namespace {
 
 const std::string firstWord = "# squeal ";
 
-std::string firstLine(std::size_t count) { return firstWord + version() + ": the " + std::to_string(count) + " files of a run"; }
+std::string firstLine(std::size_t count) {
+  return firstWord + version() + ": the " + std::to_string(count) + " files of a run";
+}
 
 bool staysInside(const fs::path& path) {
   if (path.empty() || path.is_absolute()) return false;
@@ -41,14 +43,17 @@ std::optional<Manifest> Manifest::read(const fs::path& folder) {
   const fs::path path = folder / name;
   std::ifstream file(path);
   std::string line;
-  if (!fs::is_regular_file(fs::symlink_status(path)) || !std::getline(file, line) || !line.starts_with(firstWord)) return {};
+  if (!fs::is_regular_file(fs::symlink_status(path)) || !std::getline(file, line) ||
+      !line.starts_with(firstWord))
+    return {};
   const std::string head = line;
   Manifest manifest;
   std::size_t count = 0;
   for (int number = 2; std::getline(file, line); ++number) {
     const fs::path listed = line;
     if (!staysInside(listed))
-      throw std::runtime_error(path.string() + ", line " + std::to_string(number) + ": no path in this folder");
+      throw std::runtime_error(path.string() + ", line " + std::to_string(number) +
+                               ": no path in this folder");
     if (listed.has_filename()) {
       manifest.add(listed);
       ++count;
@@ -56,13 +61,17 @@ std::optional<Manifest> Manifest::read(const fs::path& folder) {
       manifest.keep(listed.parent_path());
   }
   if (head.find(": the " + std::to_string(count) + " files") == std::string::npos)
-    throw std::runtime_error(path.string() + " is damaged: its first line promises another number of files than it lists");
+    throw std::runtime_error(
+        path.string() +
+        " is damaged: its first line promises another number of files than it lists");
   return manifest;
 }
 
 void Manifest::add(const fs::path& file) {
   files_.insert(file);
-  for (fs::path folder = file.parent_path(); folder.has_relative_path(); folder = folder.parent_path()) folders_.insert(folder);
+  for (fs::path folder = file.parent_path(); folder.has_relative_path();
+       folder = folder.parent_path())
+    folders_.insert(folder);
 }
 
 void Manifest::keep(const fs::path& folder) {

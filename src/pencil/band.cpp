@@ -8,12 +8,13 @@
 namespace squeal::pencil {
 namespace {
 
-const RealOption bandOption(
-    "flutter", "flutter_band", 0, "Hz", nonNegative,
-    "|s|/(2 pi), for little damping the frequency, up to which eigenvalues are corrected and listed, as far as "
-    "the free modes reach; 0: that of the free mode 0.55 up the list");
-const RealOption bandDampingOption("flutter", "flutter_band_damping", 0.5, "", positive,
-                                   "eigenvalues of a larger damping ratio, which die away within a cycle, are not listed");
+const RealOption bandOption("flutter", "flutter_band", 0, "Hz", nonNegative,
+                            "|s|/(2 pi), for little damping the frequency, up to which eigenvalues "
+                            "are corrected and listed, as far as "
+                            "the free modes reach; 0: that of the free mode 0.55 up the list");
+const RealOption bandDampingOption(
+    "flutter", "flutter_band_damping", 0.5, "", positive,
+    "eigenvalues of a larger damping ratio, which die away within a cycle, are not listed");
 
 }  // namespace
 
@@ -23,9 +24,14 @@ double bandDamping() { return bandDampingOption.get(); }
 
 double bandBelow(const std::vector<double>& w) {
   constexpr double apart = 1 + 1e-4;
-  // Between two modes that are not a double one no eigenvalue sits on the edge for rounding to decide; the last may lack its double.
-  const auto edge = [&](std::size_t k) { return k > 0 && w[k] >= apart * w[k - 1]; };  // below mode k
-  const auto middle = [&](std::size_t k) { return k > 0 ? 0.5 * (w[k - 1] + w[k]) : apart * w.back(); };
+  // Between two modes that are not a double one no eigenvalue sits on the edge for rounding to
+  // decide; the last may lack its double.
+  const auto edge = [&](std::size_t k) {
+    return k > 0 && w[k] >= apart * w[k - 1];
+  };  // below mode k
+  const auto middle = [&](std::size_t k) {
+    return k > 0 ? 0.5 * (w[k - 1] + w[k]) : apart * w.back();
+  };
   std::size_t last = w.size() - 1;
   while (last > 0 && !edge(last)) --last;
   if (bandAsked() > 0) return std::min(bandAsked(), middle(last));

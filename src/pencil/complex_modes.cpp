@@ -9,13 +9,16 @@ namespace squeal::pencil {
 namespace {
 
 const RealOption accuracyOption("flutter", "flutter_accuracy", 1e-9, "", positive,
-                                "full-order backward error up to which an eigenvalue is certified, and to which it is corrected");
+                                "full-order backward error up to which an eigenvalue is certified, "
+                                "and to which it is corrected");
 const RealOption toleranceOption("flutter", "flutter_unstable_tolerance", 1e-6, "", nonNegative,
                                  "unstable if the growth rate exceeds this fraction of |s|");
-const IntegerOption shapesOption("flutter", "flutter_shapes", 3, 0, 100'000,
-                                 "number of fastest growing complex modes kept for the report at each friction");
-const RealOption shapesBelowOption("flutter", "flutter_shapes_below", 20000, "Hz", positive,
-                                   "complex modes of higher frequency are not kept; squeal is what can be heard");
+const IntegerOption shapesOption(
+    "flutter", "flutter_shapes", 3, 0, 100'000,
+    "number of fastest growing complex modes kept for the report at each friction");
+const RealOption shapesBelowOption(
+    "flutter", "flutter_shapes_below", 20000, "Hz", positive,
+    "complex modes of higher frequency are not kept; squeal is what can be heard");
 
 /// Beyond, errors of 1e-8 of the vectors are a thousandth of yᴴ P′ x, and soon after all of it.
 constexpr double worstCondition = 1e5;
@@ -37,11 +40,13 @@ int FrictionPoint::modesWithoutEigenvalue() const {
 }
 
 int FrictionPoint::unstableCount() const {
-  return static_cast<int>(std::count_if(eigenvalues.begin(), eigenvalues.end(), [](const auto& e) { return e.unstable; }));
+  return static_cast<int>(std::count_if(eigenvalues.begin(), eigenvalues.end(),
+                                        [](const auto& e) { return e.unstable; }));
 }
 
 int FrictionPoint::uncertifiedCount() const {
-  return static_cast<int>(std::count_if(eigenvalues.begin(), eigenvalues.end(), [](const auto& e) { return !e.certified; }));
+  return static_cast<int>(std::count_if(eigenvalues.begin(), eigenvalues.end(),
+                                        [](const auto& e) { return !e.certified; }));
 }
 
 double FrictionPoint::worstBackwardError() const {
@@ -53,7 +58,8 @@ double FrictionPoint::worstBackwardError() const {
 double FrictionPoint::worstErrorEstimate() const {
   double worst = 0;
   for (const auto& eigenvalue : eigenvalues)
-    if (!std::isnan(worst) && !(eigenvalue.errorEstimate <= worst)) worst = eigenvalue.errorEstimate;
+    if (!std::isnan(worst) && !(eigenvalue.errorEstimate <= worst))
+      worst = eigenvalue.errorEstimate;
   return worst;
 }
 
@@ -66,7 +72,8 @@ const Eigenvalue* FrictionPoint::fastestGrowing() const {
 
 void judge(std::vector<Eigenvalue>& eigenvalues) {
   const double tolerance = toleranceOption.get();
-  for (auto& eigenvalue : eigenvalues) eigenvalue.unstable = eigenvalue.s.real() > tolerance * std::abs(eigenvalue.s);
+  for (auto& eigenvalue : eigenvalues)
+    eigenvalue.unstable = eigenvalue.s.real() > tolerance * std::abs(eigenvalue.s);
 }
 
 std::vector<std::size_t> shapesWanted(const FrictionPoint& point) {
@@ -74,13 +81,15 @@ std::vector<std::size_t> shapesWanted(const FrictionPoint& point) {
   const double below = 2 * M_PI * shapesBelowOption.get();
   for (std::size_t i = 0; i < point.eigenvalues.size(); ++i)
     if (point.eigenvalues[i].unstable && point.eigenvalues[i].s.imag() < below) order.push_back(i);
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return point.eigenvalues[a].s.real() > point.eigenvalues[b].s.real(); });
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return point.eigenvalues[a].s.real() > point.eigenvalues[b].s.real();
+  });
   order.resize(std::min(order.size(), static_cast<std::size_t>(shapesOption.get())));
   return order;
 }
 
-void keepShapes(FrictionPoint& point, Mat trial, const std::vector<std::size_t>& indices, std::vector<linalg::ComplexVector> modes) {
+void keepShapes(FrictionPoint& point, Mat trial, const std::vector<std::size_t>& indices,
+                std::vector<linalg::ComplexVector> modes) {
   for (std::size_t k = 0; k < indices.size(); ++k) {
     Shape shape{};
     shape.index = indices[k];
@@ -92,7 +101,8 @@ void keepShapes(FrictionPoint& point, Mat trial, const std::vector<std::size_t>&
     PetscReal a = 0, b = 0;
     check(VecNorm(shape.real, NORM_INFINITY, &a));
     check(VecNorm(shape.imaginary, NORM_INFINITY, &b));
-    for (Vec part : {shape.real.get(), shape.imaginary.get(), shape.unknowns.real.get(), shape.unknowns.imaginary.get()})
+    for (Vec part : {shape.real.get(), shape.imaginary.get(), shape.unknowns.real.get(),
+                     shape.unknowns.imaginary.get()})
       check(VecScale(part, 1 / std::max(a, b)));
     point.shapes.push_back(std::move(shape));
   }

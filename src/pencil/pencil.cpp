@@ -15,17 +15,21 @@ double Term::slope(const sweep::Parameters& at, double sweep::Parameters::*param
   const int exponent = parameter == &sweep::Parameters::friction  ? frictionExponent
                        : parameter == &sweep::Parameters::speed   ? speedExponent
                        : parameter == &sweep::Parameters::damping ? dampingExponent
-                                                           : 0;
+                                                                  : 0;
   if (exponent == 0) return 0;
   sweep::Parameters unit = at;
   unit.*parameter = 1;  // leaves the other powers
   return exponent * coefficient(unit) * std::pow(at.*parameter, exponent - 1);
 }
 
-Term Term::share() const { return {matrix.share(), power, frictionExponent, factor, speedExponent, dampingExponent}; }
+Term Term::share() const {
+  return {matrix.share(), power, frictionExponent, factor, speedExponent, dampingExponent};
+}
 
 Pencil::Pencil(std::vector<Term> terms)
-    : terms_(std::move(terms)), affineCount_(terms_.size()), singular_(std::make_shared<std::array<OwnedVec, 3>>()) {}
+    : terms_(std::move(terms)),
+      affineCount_(terms_.size()),
+      singular_(std::make_shared<std::array<OwnedVec, 3>>()) {}
 
 void Pencil::add(std::vector<Term> terms) {
   std::move(terms.begin(), terms.end(), std::back_inserter(terms_));
@@ -43,10 +47,13 @@ Pencil Pencil::with(std::vector<Term> pointTerms) const {
 }
 
 bool Pencil::hasPower(int power) const {
-  return std::any_of(terms_.begin(), terms_.end(), [&](const Term& term) { return term.power == power; });
+  return std::any_of(terms_.begin(), terms_.end(),
+                     [&](const Term& term) { return term.power == power; });
 }
 
-MPI_Comm Pencil::comm() const { return PetscObjectComm(reinterpret_cast<PetscObject>(terms_.at(0).matrix.get())); }
+MPI_Comm Pencil::comm() const {
+  return PetscObjectComm(reinterpret_cast<PetscObject>(terms_.at(0).matrix.get()));
+}
 
 OwnedMat Pencil::assembled(int power, const sweep::Parameters& at) const {
   OwnedMat sum;
@@ -96,7 +103,8 @@ double Pencil::norm(int power, const sweep::Parameters& at) const {
     PetscInt first = 0, end = 0;
     check(VecDuplicate(image, v.out()));
     check(VecGetOwnershipRange(v, &first, &end));
-    for (PetscInt i = first; i < end; ++i) check(VecSetValue(v, i, std::sin(12.9898 * static_cast<double>(i + 1)), INSERT_VALUES));
+    for (PetscInt i = first; i < end; ++i)
+      check(VecSetValue(v, i, std::sin(12.9898 * static_cast<double>(i + 1)), INSERT_VALUES));
     check(VecAssemblyBegin(v));
     check(VecAssemblyEnd(v));
   }
@@ -116,22 +124,28 @@ double Pencil::norm(int power, const sweep::Parameters& at) const {
   return estimate;
 }
 
-linalg::ComplexVector residual(const Pencil& pencil, const sweep::Parameters& at, std::complex<double> s, const linalg::ComplexVector& d, Side side) {
-  linalg::ComplexVector sum = linalg::ComplexVector::like(d.real), part = linalg::ComplexVector::like(d.real);
+linalg::ComplexVector residual(const Pencil& pencil, const sweep::Parameters& at,
+                               std::complex<double> s, const linalg::ComplexVector& d, Side side) {
+  linalg::ComplexVector sum = linalg::ComplexVector::like(d.real),
+                        part = linalg::ComplexVector::like(d.real);
   for (int power = 0; power <= 2; ++power) {
     if (!pencil.hasPower(power)) continue;
     for (const bool imaginary : {false, true}) {
-      const Vec from = imaginary ? d.imaginary : d.real, to = imaginary ? part.imaginary : part.real;
-      side == Side::left ? pencil.applyTranspose(power, at, from, to) : pencil.apply(power, at, from, to);
+      const Vec from = imaginary ? d.imaginary : d.real,
+                to = imaginary ? part.imaginary : part.real;
+      side == Side::left ? pencil.applyTranspose(power, at, from, to)
+                         : pencil.apply(power, at, from, to);
     }
     add(sum, std::pow(side == Side::left ? std::conj(s) : s, power), part);
   }
   return sum;
 }
 
-double backwardError(const Pencil& pencil, const sweep::Parameters& at, std::complex<double> s, const linalg::ComplexVector& d) {
+double backwardError(const Pencil& pencil, const sweep::Parameters& at, std::complex<double> s,
+                     const linalg::ComplexVector& d) {
   double scale = 0;
-  for (int power = 0; power <= 2; ++power) scale += std::pow(std::abs(s), power) * pencil.norm(power, at);
+  for (int power = 0; power <= 2; ++power)
+    scale += std::pow(std::abs(s), power) * pencil.norm(power, at);
   return length(residual(pencil, at, s, d, Side::right)) / (scale * length(d));
 }
 

@@ -16,7 +16,8 @@ class Buffer {
     const std::size_t count = values.size(), begin = bytes_.size();
     bytes_.resize(begin + sizeof count + count * sizeof(Number));
     std::memcpy(bytes_.data() + begin, &count, sizeof count);
-    if (count) std::memcpy(bytes_.data() + begin + sizeof count, values.data(), count * sizeof(Number));
+    if (count)
+      std::memcpy(bytes_.data() + begin + sizeof count, values.data(), count * sizeof(Number));
   }
   void put(const std::vector<std::string>& texts) {
     put(std::vector<std::size_t>{texts.size()});
@@ -27,7 +28,8 @@ class Buffer {
     std::size_t count = 0;
     std::memcpy(&count, bytes_.data() + at_, sizeof count);
     std::vector<Number> values(count);
-    if (count) std::memcpy(values.data(), bytes_.data() + at_ + sizeof count, count * sizeof(Number));
+    if (count)
+      std::memcpy(values.data(), bytes_.data() + at_ + sizeof count, count * sizeof(Number));
     at_ += sizeof count + count * sizeof(Number);
     return values;
   }

@@ -29,8 +29,9 @@ void check(PetscErrorCode code, std::source_location where) {
   if (lacksMemory(code)) outOfMemory();
   const std::string kept = keeper ? keeper->message() : "";  // what has not been printed yet
   keeper = nullptr;
-  PetscError(PETSC_COMM_SELF, static_cast<int>(where.line()), where.function_name(), where.file_name(), code,
-             kept.empty() ? PETSC_ERROR_REPEAT : PETSC_ERROR_INITIAL, "%s", kept.empty() ? " " : kept.c_str());
+  PetscError(PETSC_COMM_SELF, static_cast<int>(where.line()), where.function_name(),
+             where.file_name(), code, kept.empty() ? PETSC_ERROR_REPEAT : PETSC_ERROR_INITIAL, "%s",
+             kept.empty() ? " " : kept.c_str());
   performLastActs();
   MPI_Abort(PETSC_COMM_WORLD, 70);
 }

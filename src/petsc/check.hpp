@@ -9,18 +9,21 @@
 
 namespace squeal {
 
-/// A mistake in the input or a problem without an answer, known to every rank. The message names the option or group and
-/// the rule it breaks. Thrown on all ranks of the communicator together, so that the program ends without a hang.
+/// A mistake in the input or a problem without an answer, known to every rank. The message names
+/// the option or group and the rule it breaks. Thrown on all ranks of the communicator together, so
+/// that the program ends without a hang.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Checks the return code of a PETSc, SLEPc or MPI call. A failure there is a defect or a lack of memory, perhaps on this rank
-/// alone: one line on memory or the PETSc traceback is printed, and MPI_Abort ends all ranks.
+/// Checks the return code of a PETSc, SLEPc or MPI call. A failure there is a defect or a lack of
+/// memory, perhaps on this rank alone: one line on memory or the PETSc traceback is printed, and
+/// MPI_Abort ends all ranks.
 void check(PetscErrorCode code, std::source_location where = std::source_location::current());
 
-/// While one lives, the first error that PETSc meets is kept as text, and no trace of it is printed.
+/// While one lives, the first error that PETSc meets is kept as text, and no trace of it is
+/// printed.
 class KeptError {
  public:
   KeptError();
@@ -38,10 +41,12 @@ class KeptError {
   std::string message_;
 };
 
-/// Collective. Throws Error on all ranks with the message of the lowest rank whose `localMessage` is not empty; returns if all are.
+/// Collective. Throws Error on all ranks with the message of the lowest rank whose `localMessage`
+/// is not empty; returns if all are.
 void failTogether(MPI_Comm comm, const std::string& localMessage);
 
-/// Collective. `action()` on rank 0 alone; what it throws becomes an Error of all ranks, with `head` before its text.
+/// Collective. `action()` on rank 0 alone; what it throws becomes an Error of all ranks, with
+/// `head` before its text.
 template <class Action>
 void onFirstRank(MPI_Comm comm, const std::string& head, const Action& action) {
   int rank = 0;

@@ -56,22 +56,26 @@ void sayStillAtWork(int) {
 }
 
 /// The child: nothing of the parent's is flushed, finalised or handled here.
-[[noreturn]] void serve(int pipe, pid_t parent, const ChildLimits& limits, const std::function<Buffer(const Warn&)>& work) {
+[[noreturn]] void serve(int pipe, pid_t parent, const ChildLimits& limits,
+                        const std::function<Buffer(const Warn&)>& work) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(1);
-  for (int number = 1; number < NSIG; ++number) signal(number, SIG_DFL);  // PETSc's handlers would print a traceback
+  for (int number = 1; number < NSIG; ++number)
+    signal(number, SIG_DFL);  // PETSc's handlers would print a traceback
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_AS, addressSpace() + limits.memoryBytes);
   if (limits.processorSeconds) limit(RLIMIT_CPU, std::ceil(*limits.processorSeconds));
   const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
   voice = fcntl(2, F_DUPFD_CLOEXEC, 3);
-  for (int file : {0, 1, 2}) dup2(nowhere, file);  // what the C library says of a crash is no message of ours
-  std::snprintf(stillAtWork, sizeof stillAtWork, "squeal: %s: %s is at work for %u s now\n", limits.subject.c_str(),
-                limits.program.c_str(), patience);
+  for (int file : {0, 1, 2})
+    dup2(nowhere, file);  // what the C library says of a crash is no message of ours
+  std::snprintf(stillAtWork, sizeof stillAtWork, "squeal: %s: %s is at work for %u s now\n",
+                limits.subject.c_str(), limits.program.c_str(), patience);
   signal(SIGALRM, sayStillAtWork);
   alarm(patience);
   try {
-    Buffer result = work([&](const std::string& text) { dprintf(voice, "squeal: warning: %s\n", text.c_str()); });
+    Buffer result = work(
+        [&](const std::string& text) { dprintf(voice, "squeal: warning: %s\n", text.c_str()); });
     answer(pipe, Outcome::result, result.bytes().data(), result.bytes().size());
   } catch (const std::bad_alloc&) {
     answer(pipe, Outcome::noMemory, "", 0);
@@ -112,7 +116,8 @@ struct Child {
 
 Child start(const ChildLimits& limits, const std::function<Buffer(const Warn&)>& work) {
   int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) throw Error(limits.subject + ": no pipe to a child process: " + std::strerror(errno));
+  if (pipe2(ends, O_CLOEXEC) != 0)
+    throw Error(limits.subject + ": no pipe to a child process: " + std::strerror(errno));
   const pid_t parent = getpid(), id = fork();
   if (id == 0) serve(ends[1], parent, limits, work);
   close(ends[1]);
@@ -127,9 +132,11 @@ std::string endOf(int status, const ChildLimits& limits) {
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
     return formatted("%s has not finished after %.0f s of processor time", limits.program.c_str(),
                      std::ceil(limits.processorSeconds.value_or(0)));
-  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) return limits.program + " was killed; is memory short?";
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL)
+    return limits.program + " was killed; is memory short?";
   if (WIFSIGNALED(status))  // a library does not always survive that it is given no memory
-    return limits.program + " crashes on it (" + std::string(strsignal(WTERMSIG(status))) + "), or " + limits.noMemory;
+    return limits.program + " crashes on it (" + std::string(strsignal(WTERMSIG(status))) +
+           "), or " + limits.noMemory;
   return limits.program + " ends the process with exit code " + std::to_string(WEXITSTATUS(status));
 }
 
@@ -148,7 +155,8 @@ Buffer inChild(const ChildLimits& limits, const std::function<Buffer(const Warn&
   const int status = child.wait();
   if (!whole) throw Error(limits.subject + ": " + endOf(status, limits));
   if (outcome == Outcome::noMemory) throw Error(limits.subject + ": " + limits.noMemory);
-  if (outcome == Outcome::failure) throw Error(std::string(result.bytes().begin(), result.bytes().end()));
+  if (outcome == Outcome::failure)
+    throw Error(std::string(result.bytes().begin(), result.bytes().end()));
   return result;
 }
 

@@ -19,8 +19,9 @@ struct ChildLimits {
   std::string program;                     ///< who works, for messages: "gmsh"
 };
 
-/// What `work` returns, from a child process: a crash there is an Error here, and its memory goes with it. The child inherits all that
-/// this process holds; `work` must not call MPI. Errors: what `work` throws, a crash, a limit reached. Not collective.
+/// What `work` returns, from a child process: a crash there is an Error here, and its memory goes
+/// with it. The child inherits all that this process holds; `work` must not call MPI. Errors: what
+/// `work` throws, a crash, a limit reached. Not collective.
 Buffer inChild(const ChildLimits& limits, const std::function<Buffer(const Warn&)>& work);
 
 }  // namespace squeal

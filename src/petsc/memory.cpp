@@ -37,11 +37,14 @@ std::optional<double> entryOf(const std::string& path, const std::string& name) 
 
 bool lacks = false;
 
-/// PETSc's own handler prints a trace where an allocation fails. The code alone goes up to check(), which says it in one line. The
-/// code that PetscMallocAlign of PETSc 3.18 raises is the number of a line instead of PETSC_ERR_MEM: its name tells.
-PetscErrorCode handleError(MPI_Comm comm, int line, const char* function, const char* file, PetscErrorCode code,
-                           PetscErrorType type, const char* message, void* context) {
-  if (type == PETSC_ERROR_INITIAL) lacks = code == PETSC_ERR_MEM || (function && std::string(function) == "PetscMallocAlign");
+/// PETSc's own handler prints a trace where an allocation fails. The code alone goes up to check(),
+/// which says it in one line. The code that PetscMallocAlign of PETSc 3.18 raises is the number of
+/// a line instead of PETSC_ERR_MEM: its name tells.
+PetscErrorCode handleError(MPI_Comm comm, int line, const char* function, const char* file,
+                           PetscErrorCode code, PetscErrorType type, const char* message,
+                           void* context) {
+  if (type == PETSC_ERROR_INITIAL)
+    lacks = code == PETSC_ERR_MEM || (function && std::string(function) == "PetscMallocAlign");
   if (lacks || KeptError::keep(code, message)) return code;
   return PetscTraceBackErrorHandler(comm, line, function, file, code, type, message, context);
 }
@@ -49,19 +52,23 @@ PetscErrorCode handleError(MPI_Comm comm, int line, const char* function, const 
 }  // namespace
 
 double addressSpace() {
-  return numberIn("/proc/self/statm").value_or(0) * static_cast<double>(sysconf(_SC_PAGESIZE));  // its first number: pages in all
+  return numberIn("/proc/self/statm").value_or(0) *
+         static_cast<double>(sysconf(_SC_PAGESIZE));  // its first number: pages in all
 }
 
 double availableMemory() {
   double bytes = 1024 * entryOf("/proc/meminfo", "MemAvailable:").value_or(1e15);
-  // A batch job's own limit, in version 2 of the control groups and in version 1. What the kernel caches of files it gives back.
+  // A batch job's own limit, in version 2 of the control groups and in version 1. What the kernel
+  // caches of files it gives back.
   struct Group {
     const char *most, *used, *details, *cached;
   };
   for (const auto& [most, used, details, cached] :
-       {Group{"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory.current", "/sys/fs/cgroup/memory.stat", "file"},
-        Group{"/sys/fs/cgroup/memory/memory.limit_in_bytes", "/sys/fs/cgroup/memory/memory.usage_in_bytes",
-              "/sys/fs/cgroup/memory/memory.stat", "cache"}})
+       {Group{"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory.current",
+              "/sys/fs/cgroup/memory.stat", "file"},
+        Group{"/sys/fs/cgroup/memory/memory.limit_in_bytes",
+              "/sys/fs/cgroup/memory/memory.usage_in_bytes", "/sys/fs/cgroup/memory/memory.stat",
+              "cache"}})
     if (const auto all = numberIn(most), now = numberIn(used); all && now)
       bytes = std::min(bytes, std::max(0.0, *all - *now + entryOf(details, cached).value_or(0)));
   return bytes;

@@ -1,5 +1,6 @@
 #pragma once
-/// Move-only ownership of PETSc and SLEPc objects. A raw `Mat`, `Vec`, … in a parameter list means borrowed.
+/// Move-only ownership of PETSc and SLEPc objects. A raw `Mat`, `Vec`, … in a parameter list means
+/// borrowed.
 #include <slepceps.h>
 
 #include <utility>

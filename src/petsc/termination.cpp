@@ -18,7 +18,8 @@ namespace {
 
 constexpr int endings[] = {SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGXCPU, SIGUSR1, SIGUSR2};
 
-/// Held while last acts are registered or done, and while an ending has to wait. Recursive: such work may fail and abort.
+/// Held while last acts are registered or done, and while an ending has to wait. Recursive: such
+/// work may fail and abort.
 std::recursive_mutex& gate() {
   static std::recursive_mutex mutex;
   return mutex;
@@ -31,7 +32,8 @@ std::vector<const std::function<void()>*>& acts() {
 
 int signalPipe[2] = {-1, -1};
 
-/// All that a handler may do: memory or a lock in use by the interrupted code must not be touched here.
+/// All that a handler may do: memory or a lock in use by the interrupted code must not be touched
+/// here.
 extern "C" void passOn(int signal) {
   const auto byte = static_cast<unsigned char>(signal);
   [[maybe_unused]] const auto written = write(signalPipe[1], &byte, 1);
@@ -44,7 +46,8 @@ void awaitSignal(int rank) {
   const int signal = byte;
   const std::lock_guard lock(gate());
   performLastActs();
-  if (rank == 0) std::fprintf(stderr, "squeal: error: ended by signal %d (%s)\n", signal, strsignal(signal));
+  if (rank == 0)
+    std::fprintf(stderr, "squeal: error: ended by signal %d (%s)\n", signal, strsignal(signal));
   std::signal(signal, SIG_DFL);
   raise(signal);
 }
@@ -83,7 +86,8 @@ SignalWatch::SignalWatch() {
 void SignalWatch::begin(int rank) {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
-  if (pipe2(signalPipe, O_CLOEXEC) != 0) throw Error("no pipe for signals can be made: " + std::string(std::strerror(errno)));
+  if (pipe2(signalPipe, O_CLOEXEC) != 0)
+    throw Error("no pipe for signals can be made: " + std::string(std::strerror(errno)));
   std::thread(awaitSignal, rank).detach();
   gate(), acts();                // live until then
   std::atexit(performLastActs);  // as MPI ends a rank that has lost its mpirun

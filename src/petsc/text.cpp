@@ -38,7 +38,8 @@ std::vector<std::string> split(const std::string& text, char separator) {
 std::string trimmed(const std::string& text) {
   const char* blanks = " \t\r\n";
   const auto begin = text.find_first_not_of(blanks);
-  return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
+  return begin == std::string::npos ? ""
+                                    : text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
 }
 
 std::string shortest(double value) {

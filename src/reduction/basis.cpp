@@ -12,27 +12,33 @@
 namespace squeal::reduction {
 namespace {
 
-/// Eigenvalue of a Gram matrix, of its largest, from which on a direction counts as independent of the others: to within 1e-6.
+/// Eigenvalue of a Gram matrix, of its largest, from which on a direction counts as independent of
+/// the others: to within 1e-6.
 constexpr double independent = 1e-12;
 
-/// Combinations orthonormal in the positive semi-definite matrix `gram` (n×n), without those whose eigenvalue is `small` times the
-/// largest or less, each column of the matrix taken as of unit size.
+/// Combinations orthonormal in the positive semi-definite matrix `gram` (n×n), without those whose
+/// eigenvalue is `small` times the largest or less, each column of the matrix taken as of unit
+/// size.
 linalg::DenseMatrix orthonormalising(linalg::DenseMatrix gram, PetscInt size, double small) {
   const auto n = static_cast<std::size_t>(size);
   std::vector<double> scale(n);
-  for (std::size_t j = 0; j < n; ++j) scale[j] = gram[j * n + j] > 0 ? 1 / std::sqrt(gram[j * n + j]) : 0;
+  for (std::size_t j = 0; j < n; ++j)
+    scale[j] = gram[j * n + j] > 0 ? 1 / std::sqrt(gram[j * n + j]) : 0;
   for (std::size_t j = 0; j < n; ++j)
     for (std::size_t i = 0; i < n; ++i) gram[j * n + i] *= scale[i] * scale[j];
   const auto eigenvalues = linalg::symmetricEigen(gram, static_cast<int>(n));
   linalg::DenseMatrix kept;
   for (std::size_t j = 0; j < n; ++j)
     if (eigenvalues[j] > small * eigenvalues.back())
-      for (std::size_t i = 0; i < n; ++i) kept.push_back(gram[j * n + i] * scale[i] / std::sqrt(eigenvalues[j]));
+      for (std::size_t i = 0; i < n; ++i)
+        kept.push_back(gram[j * n + i] * scale[i] / std::sqrt(eigenvalues[j]));
   return kept;
 }
 
-/// Sets the diagonal entries to zero (n×n) that are `small` times the whole energy of the column, with its parts along V, or less.
-void clearWhatVHolds(linalg::DenseMatrix& energy, const linalg::DenseMatrix& parts, PetscInt columns, double small) {
+/// Sets the diagonal entries to zero (n×n) that are `small` times the whole energy of the column,
+/// with its parts along V, or less.
+void clearWhatVHolds(linalg::DenseMatrix& energy, const linalg::DenseMatrix& parts,
+                     PetscInt columns, double small) {
   const auto n = static_cast<std::size_t>(columns), rows = parts.size() / n;
   for (std::size_t j = 0; j < n; ++j) {
     double held = 0;
@@ -51,9 +57,11 @@ Basis::Basis(const modes::Modes& modes, Mat stiffness, KSP solver)
       forces_(0) {
   const linalg::ReadColumns shapes(modes.vectors);
   columns_ = linalg::Block(shapes.rows());
-  columns_.reserve(3 * shapes.columns());  // untouched memory costs nothing, moving a grown basis does
+  columns_.reserve(3 *
+                   shapes.columns());  // untouched memory costs nothing, moving a grown basis does
   for (PetscInt j = 0; j < shapes.columns(); ++j)
-    columns_.append(shapes.values() + j * shapes.rows(), 1 / modes.angularFrequency[static_cast<std::size_t>(j)]);
+    columns_.append(shapes.values() + j * shapes.rows(),
+                    1 / modes.angularFrequency[static_cast<std::size_t>(j)]);
   OwnedVec diagonal;
   check(MatCreateVecs(stiffness, diagonal.out(), nullptr));
   check(MatGetDiagonal(stiffness, diagonal));
@@ -66,7 +74,9 @@ Basis::Basis(const modes::Modes& modes, Mat stiffness, KSP solver)
   sketched_ = sketch_->unweighted(columns_.values.data(), size());
 }
 
-OwnedBV Basis::vectors() const { return linalg::copiedColumns(stiffness_, columns_.values.data(), size()); }
+OwnedBV Basis::vectors() const {
+  return linalg::copiedColumns(stiffness_, columns_.values.data(), size());
+}
 
 void Basis::appendImages(Mat matrix, PetscInt first, PetscInt last, linalg::Block& result) const {
   linalg::appendProduct(matrix, columns_.column(first), last - first, result);
@@ -77,8 +87,10 @@ linalg::Block Basis::solve(const linalg::Block& right) {
   PetscInt global = 0;
   check(MatGetSize(stiffness_, &global, nullptr));
   linalg::Block solved(right.rows, right.columns);
-  const OwnedMat from = linalg::borrowed(comm_, right.rows, global, right.columns, right.values.data()),
-                 to = linalg::borrowed(comm_, right.rows, global, right.columns, solved.values.data());
+  const OwnedMat from = linalg::borrowed(comm_, right.rows, global, right.columns,
+                                         right.values.data()),
+                 to = linalg::borrowed(comm_, right.rows, global, right.columns,
+                                       solved.values.data());
   check(KSPMatSolve(solver_, from, to));
   solves_ += right.columns;
   return solved;
@@ -91,7 +103,8 @@ PetscInt Basis::add(const linalg::Block& residuals) {
   linalg::Block z = solve(residuals);
   const linalg::DenseMatrix energy = linalg::transposedProduct(comm_, z, residuals);
   ratio_ = ratio(residuals, energy);
-  const linalg::DenseMatrix parts = linalg::transposedProduct(comm_, columns_, residuals);  // VᵀK0 z
+  const linalg::DenseMatrix parts =
+      linalg::transposedProduct(comm_, columns_, residuals);  // VᵀK0 z
   const PetscInt before = size();
   if (!addAcross(z, residuals, energy, parts)) addOrthogonalised(z, parts);
   const PetscInt added = size() - before;
@@ -100,16 +113,19 @@ PetscInt Basis::add(const linalg::Block& residuals) {
   return added;
 }
 
-/// Adds z = K0⁻¹ R where that is all but orthogonal to V: K0 z, VᵀK0z and zᵀK0z are then R, VᵀR and zᵀR. False: it is not, or
-/// K0⁻¹ is not good enough for that.
-bool Basis::addAcross(const linalg::Block& z, const linalg::Block& residuals, const linalg::DenseMatrix& energy, const linalg::DenseMatrix& parts) {
+/// Adds z = K0⁻¹ R where that is all but orthogonal to V: K0 z, VᵀK0z and zᵀK0z are then R, VᵀR and
+/// zᵀR. False: it is not, or K0⁻¹ is not good enough for that.
+bool Basis::addAcross(const linalg::Block& z, const linalg::Block& residuals,
+                      const linalg::DenseMatrix& energy, const linalg::DenseMatrix& parts) {
   constexpr double little = 1e-6;
   const linalg::DenseMatrix combinations = orthonormalising(energy, z.columns, independent);
-  const auto old = static_cast<std::size_t>(size()), added = combinations.size() / static_cast<std::size_t>(z.columns);
+  const auto old = static_cast<std::size_t>(size()),
+             added = combinations.size() / static_cast<std::size_t>(z.columns);
   linalg::DenseMatrix along(old * added);
   if (added > 0) linalg::multiplyAdd(parts.data(), size(), z.columns, combinations, along);
   for (std::size_t j = 0; j < added; ++j) {
-    const auto begin = along.begin() + static_cast<std::ptrdiff_t>(j * old), end = begin + static_cast<std::ptrdiff_t>(old);
+    const auto begin = along.begin() + static_cast<std::ptrdiff_t>(j * old),
+               end = begin + static_cast<std::ptrdiff_t>(old);
     if (!(std::inner_product(begin, end, begin, 0.0) < little)) return false;
   }
   if (added == 0 || solutionError(z, residuals) > 1e-12) return false;
@@ -126,7 +142,8 @@ bool Basis::addAcross(const linalg::Block& z, const linalg::Block& residuals, co
   return true;
 }
 
-/// Adds what z has orthogonal to V, `parts` being VᵀK0z: twice, since V is orthonormal to some digits alone.
+/// Adds what z has orthogonal to V, `parts` being VᵀK0z: twice, since V is orthonormal to some
+/// digits alone.
 void Basis::addOrthogonalised(linalg::Block& z, const linalg::DenseMatrix& parts) {
   linalg::multiplyAdd(columns_.values.data(), columns_.rows, size(), parts, z.values, -1);
   linalg::Block images(z.rows);
@@ -134,7 +151,8 @@ void Basis::addOrthogonalised(linalg::Block& z, const linalg::DenseMatrix& parts
   const linalg::DenseMatrix rest = linalg::transposedProduct(comm_, columns_, images);
   linalg::DenseMatrix energy = linalg::transposedProduct(comm_, z, images);
   linalg::multiplyAdd(columns_.values.data(), columns_.rows, size(), rest, z.values, -1);
-  const linalg::DenseMatrix square = linalg::transposedProduct(MPI_COMM_SELF, rest.data(), size(), z.columns, rest.data(), z.columns);
+  const linalg::DenseMatrix square = linalg::transposedProduct(MPI_COMM_SELF, rest.data(), size(),
+                                                               z.columns, rest.data(), z.columns);
   for (std::size_t k = 0; k < energy.size(); ++k) energy[k] -= square[k];
   // What depends on others or on V would only add noise.
   clearWhatVHolds(energy, parts, z.columns, independent);
@@ -148,11 +166,13 @@ double Basis::solutionError(const linalg::Block& z, const linalg::Block& residua
   linalg::DenseMatrix signs;
   for (PetscInt j = 0; j < z.columns; ++j) signs.push_back(j % 3 == 1 ? -1 : 1);
   linalg::Block image(z.rows);
-  const linalg::Block solution = linalg::combined(z, signs, 1), wanted = linalg::combined(residuals, signs, 1);
+  const linalg::Block solution = linalg::combined(z, signs, 1),
+                      wanted = linalg::combined(residuals, signs, 1);
   linalg::appendProduct(stiffness_, solution.values.data(), 1, image);
   double squares[2] = {0, 0};
   for (PetscInt i = 0; i < z.rows; ++i) {
-    const double error = image.column(0)[i] - wanted.column(0)[i], weight = inverseDiagonal_[static_cast<std::size_t>(i)];
+    const double error = image.column(0)[i] - wanted.column(0)[i],
+                 weight = inverseDiagonal_[static_cast<std::size_t>(i)];
     squares[0] += weight * error * error;
     squares[1] += weight * wanted.column(0)[i] * wanted.column(0)[i];
   }
@@ -168,14 +188,17 @@ void Basis::combine(const linalg::DenseMatrix& combinations, PetscInt count) {
   energies_.clear();
 }
 
-/// The largest ratio of the energy norm to that of the diagonal among all combinations of the columns; `energy`: RᵀK0⁻¹R.
+/// The largest ratio of the energy norm to that of the diagonal among all combinations of the
+/// columns; `energy`: RᵀK0⁻¹R.
 double Basis::ratio(const linalg::Block& residuals, const linalg::DenseMatrix& energy) const {
   const PetscInt n = residuals.columns;
   if (n == 0) return 0;
   linalg::Block scaled = residuals;
   for (PetscInt j = 0; j < n; ++j)
-    for (PetscInt i = 0; i < scaled.rows; ++i) scaled.column(j)[i] *= inverseDiagonal_[static_cast<std::size_t>(i)];
-  const linalg::DenseMatrix combinations = orthonormalising(linalg::transposedProduct(comm_, residuals, scaled), n, 1e-8);
+    for (PetscInt i = 0; i < scaled.rows; ++i)
+      scaled.column(j)[i] *= inverseDiagonal_[static_cast<std::size_t>(i)];
+  const linalg::DenseMatrix combinations =
+      orthonormalising(linalg::transposedProduct(comm_, residuals, scaled), n, 1e-8);
   const auto kept = static_cast<int>(combinations.size()) / n;
   if (kept == 0) return 0;
   linalg::DenseMatrix projected = linalg::congruent(energy, n, combinations);
@@ -191,13 +214,15 @@ std::vector<double> Basis::energyRatios(const std::vector<linalg::Block>& blocks
   for (const auto& block : blocks) {
     const double* solutions = solved.values.data() + first * solved.rows;
     first += block.columns;
-    const linalg::DenseMatrix energy = linalg::transposedProduct(comm_, solutions, block.rows, block.columns, block.values.data(), block.columns);
+    const linalg::DenseMatrix energy = linalg::transposedProduct(
+        comm_, solutions, block.rows, block.columns, block.values.data(), block.columns);
     ratios.push_back(ratio(block, energy));
   }
   return ratios;
 }
 
-std::vector<linalg::ComplexVector> Basis::expand(const std::vector<const std::vector<std::complex<double>>*>& list) const {
+std::vector<linalg::ComplexVector> Basis::expand(
+    const std::vector<const std::vector<std::complex<double>>*>& list) const {
   const auto m = static_cast<std::size_t>(size());
   std::vector<double> coordinates(2 * list.size() * m, 0.0);
   for (std::size_t j = 0; j < list.size(); ++j)
@@ -205,7 +230,8 @@ std::vector<linalg::ComplexVector> Basis::expand(const std::vector<const std::ve
       coordinates[2 * j * m + i] = (*list[j])[i].real();
       coordinates[(2 * j + 1) * m + i] = (*list[j])[i].imag();
     }
-  const linalg::Block parts = linalg::combined(columns_, coordinates, static_cast<PetscInt>(2 * list.size()));
+  const linalg::Block parts =
+      linalg::combined(columns_, coordinates, static_cast<PetscInt>(2 * list.size()));
   std::vector<linalg::ComplexVector> vectors(list.size());
   for (std::size_t j = 0; j < list.size(); ++j) {
     check(MatCreateVecs(stiffness_, vectors[j].real.out(), vectors[j].imaginary.out()));
@@ -213,7 +239,8 @@ std::vector<linalg::ComplexVector> Basis::expand(const std::vector<const std::ve
       const Vec part = imaginary ? vectors[j].imaginary : vectors[j].real;
       PetscScalar* entries = nullptr;
       check(VecGetArrayWrite(part, &entries));
-      std::copy_n(parts.column(static_cast<PetscInt>(2 * j) + (imaginary ? 1 : 0)), parts.rows, entries);
+      std::copy_n(parts.column(static_cast<PetscInt>(2 * j) + (imaginary ? 1 : 0)), parts.rows,
+                  entries);
       check(VecRestoreArrayWrite(part, &entries));
     }
   }

@@ -1,8 +1,10 @@
 #pragma once
-/// A growing basis of the reduced problem, orthonormal in the energy of the stiffness K0 to a part in a thousand: VᵀK0V ≈ I.
+/// A growing basis of the reduced problem, orthonormal in the energy of the stiffness K0 to a part
+/// in a thousand: VᵀK0V ≈ I.
 ///
-/// Free modes enter as φ/ω, corrections as z = K0⁻¹ r. The residuals r of a Galerkin solution on V have Vᵀr = 0, so that their
-/// corrections come out orthogonal to V. VᵀK0z = Vᵀr, zᵀK0z = zᵀr and K0z = r, as closely as K0⁻¹ is known, take no product with K0.
+/// Free modes enter as φ/ω, corrections as z = K0⁻¹ r. The residuals r of a Galerkin solution on V
+/// have Vᵀr = 0, so that their corrections come out orthogonal to V. VᵀK0z = Vᵀr, zᵀK0z = zᵀr and
+/// K0z = r, as closely as K0⁻¹ is known, take no product with K0.
 #include <optional>
 #include <vector>
 
@@ -27,26 +29,29 @@ class Basis {
   /// Collective. A copy of V.
   OwnedBV vectors() const;
 
-  /// Collective. Adds K0⁻¹ of the columns of `residuals`, solved for together; combinations that depend on others or on V are dropped.
-  /// Returns the number of columns added.
+  /// Collective. Adds K0⁻¹ of the columns of `residuals`, solved for together; combinations that
+  /// depend on others or on V are dropped. Returns the number of columns added.
   PetscInt add(const linalg::Block& residuals);
   /// V ← V · combinations (size() × count), which has orthonormal columns.
   void combine(const linalg::DenseMatrix& combinations, PetscInt count);
 
   /// Collective. Adds A times columns [first, last) of V to the columns of `result`.
   void appendImages(Mat matrix, PetscInt first, PetscInt last, linalg::Block& result) const;
-  /// K0 times the columns last added, and VᵀK0 times them (size() × columns), where they are known without products: no columns otherwise.
+  /// K0 times the columns last added, and VᵀK0 times them (size() × columns), where they are known
+  /// without products: no columns otherwise.
   const linalg::Block& forces() const { return forces_; }
   const linalg::DenseMatrix& energies() const { return energies_; }
   /// Collective. V q of several q; entries that one lacks are zero.
-  std::vector<linalg::ComplexVector> expand(const std::vector<const std::vector<std::complex<double>>*>& list) const;
+  std::vector<linalg::ComplexVector> expand(
+      const std::vector<const std::vector<std::complex<double>>*>& list) const;
   /// Of columns of length n; the weighted norm is √(rᵀ diag(K0)⁻¹ r).
   const linalg::Sketch& sketch() const { return *sketch_; }
   /// Unweighted sketch of V.
   const linalg::DenseMatrix& sketched() const { return sketched_; }
-  /// Collective. For each block of columns, all solved for together, the largest ratio of the energy norm √(rᵀ K0⁻¹ r) to
-  /// √(rᵀ diag(K0)⁻¹ r) among its combinations: it turns the second norm, which costs nothing, into an estimate of the first for columns
-  /// like these. 0: no columns.
+  /// Collective. For each block of columns, all solved for together, the largest ratio of the
+  /// energy norm √(rᵀ K0⁻¹ r) to √(rᵀ diag(K0)⁻¹ r) among its combinations: it turns the second
+  /// norm, which costs nothing, into an estimate of the first for columns like these. 0: no
+  /// columns.
   std::vector<double> energyRatios(const std::vector<linalg::Block>& blocks);
   /// That of the columns last added.
   double lastEnergyRatio() const { return ratio_; }
@@ -56,7 +61,8 @@ class Basis {
  private:
   linalg::Block solve(const linalg::Block& right);
   double ratio(const linalg::Block& residuals, const linalg::DenseMatrix& energy) const;
-  bool addAcross(const linalg::Block& z, const linalg::Block& residuals, const linalg::DenseMatrix& energy, const linalg::DenseMatrix& parts);
+  bool addAcross(const linalg::Block& z, const linalg::Block& residuals,
+                 const linalg::DenseMatrix& energy, const linalg::DenseMatrix& parts);
   void addOrthogonalised(linalg::Block& z, const linalg::DenseMatrix& parts);
   double solutionError(const linalg::Block& z, const linalg::Block& residuals) const;
 

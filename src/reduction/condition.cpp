@@ -18,12 +18,13 @@ Complex pairing(const std::vector<Complex>& left, Complex s, const std::vector<d
   const std::size_t m = left.size(), re = 2 * b * m, im = re + m;
   Complex sum = 0;
   for (std::size_t i = 0; i < m; ++i)
-    sum += std::conj(left[i]) *
-           (2.0 * s * Complex(massTimes[re + i], massTimes[im + i]) + Complex(dampingTimes[re + i], dampingTimes[im + i]));
+    sum += std::conj(left[i]) * (2.0 * s * Complex(massTimes[re + i], massTimes[im + i]) +
+                                 Complex(dampingTimes[re + i], dampingTimes[im + i]));
   return sum;
 }
 
-/// Smallest singular value of a complex matrix given by columns, from the real matrix [Re −Im; Im Re].
+/// Smallest singular value of a complex matrix given by columns, from the real matrix [Re −Im; Im
+/// Re].
 double smallestSingularValue(const std::vector<Complex>& g, std::size_t p) {
   if (p == 1) return std::abs(g[0]);
   const auto entry = [&](std::size_t i, std::size_t j) {
@@ -39,7 +40,8 @@ double smallestSingularValue(const std::vector<Complex>& g, std::size_t p) {
 
 }  // namespace
 
-std::vector<double> conditionNumbers(const linalg::DenseProblem& problem, const std::vector<linalg::DensePair>& pairs) {
+std::vector<double> conditionNumbers(const linalg::DenseProblem& problem,
+                                     const std::vector<linalg::DensePair>& pairs) {
   const auto massTimes = linalg::timesVectors(problem.mass, problem.m, pairs),
              dampingTimes = linalg::timesVectors(problem.damping, problem.m, pairs);
   std::vector<double> numbers;
@@ -54,8 +56,8 @@ std::vector<double> conditionNumbers(const linalg::DenseProblem& problem, const 
       std::vector<Complex> g;
       for (auto b : cluster)
         for (auto a : cluster) g.push_back(pairing(pairs[a].left, s, massTimes, dampingTimes, b));
-      // The change of the cluster is G⁻¹YᴴR: p unit vectors on either side. One pair alone says nothing of it: of a multiple eigenvalue
-      // its vectors are any of many.
+      // The change of the cluster is G⁻¹YᴴR: p unit vectors on either side. One pair alone says
+      // nothing of it: of a multiple eigenvalue its vectors are any of many.
       number = static_cast<double>(cluster.size()) / smallestSingularValue(g, cluster.size());
     }
     number /= std::abs(s);

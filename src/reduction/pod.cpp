@@ -13,22 +13,29 @@ namespace {
 
 /// Orthonormal vectors that hold the columns (m high) but for parts of length `small`.
 linalg::DenseMatrix principalDirections(linalg::DenseMatrix columns, int rows, double small) {
-  PetscBLASInt m = rows, n = static_cast<PetscBLASInt>(columns.size()) / m, few = std::min(m, n), one = 1, query = -1, info = 0;
-  std::vector<double> sizes(static_cast<std::size_t>(few)), left(static_cast<std::size_t>(m * few)), work(1);
+  PetscBLASInt m = rows, n = static_cast<PetscBLASInt>(columns.size()) / m, few = std::min(m, n),
+               one = 1, query = -1, info = 0;
+  std::vector<double> sizes(static_cast<std::size_t>(few)), left(static_cast<std::size_t>(m * few)),
+      work(1);
   const auto call = [&](PetscBLASInt length) {
-    LAPACKgesvd_("S", "N", &m, &n, columns.data(), &m, sizes.data(), left.data(), &m, nullptr, &one, work.data(), &length, &info);
+    LAPACKgesvd_("S", "N", &m, &n, columns.data(), &m, sizes.data(), left.data(), &m, nullptr, &one,
+                 work.data(), &length, &info);
   };
   call(query);
   work.resize(static_cast<std::size_t>(work[0]));
   call(static_cast<PetscBLASInt>(work.size()));
-  if (info != 0) throw Error("LAPACK dgesvd failed on the vectors of -reduction_basis pod (info " + std::to_string(info) + ")");
-  const auto kept = std::count_if(sizes.begin(), sizes.end(), [&](double size) { return size > small; });
+  if (info != 0)
+    throw Error("LAPACK dgesvd failed on the vectors of -reduction_basis pod (info " +
+                std::to_string(info) + ")");
+  const auto kept =
+      std::count_if(sizes.begin(), sizes.end(), [&](double size) { return size > small; });
   left.resize(static_cast<std::size_t>(m * kept));
   return left;
 }
 
 /// Coordinates of the same vector in a basis V · directions.
-std::vector<std::complex<double>> turned(const linalg::DenseMatrix& directions, std::size_t m, const std::vector<std::complex<double>>& q) {
+std::vector<std::complex<double>> turned(const linalg::DenseMatrix& directions, std::size_t m,
+                                         const std::vector<std::complex<double>>& q) {
   std::vector<std::complex<double>> result(directions.size() / m);
   for (std::size_t j = 0; j < result.size(); ++j)
     for (std::size_t i = 0; i < q.size(); ++i) result[j] += directions[j * m + i] * q[i];

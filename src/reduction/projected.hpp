@@ -1,6 +1,6 @@
 #pragma once
-/// Terms of a pencil on a growing basis V: their images A V, by this rank's rows, their projections VᵀAV,
-/// and sketches of A V and AᵀV for the norms of residuals.
+/// Terms of a pencil on a growing basis V: their images A V, by this rank's rows, their projections
+/// VᵀAV, and sketches of A V and AᵀV for the norms of residuals.
 #include <complex>
 #include <vector>
 
@@ -12,8 +12,8 @@
 
 namespace squeal::reduction {
 
-/// Vectors of some eigenpairs on a basis. A pair that has real vectors and a real s², in a problem without damping, takes one column,
-/// others two.
+/// Vectors of some eigenpairs on a basis. A pair that has real vectors and a real s², in a problem
+/// without damping, takes one column, others two.
 struct Coordinates {
   std::vector<const linalg::DensePair*> pairs;
   std::vector<PetscInt> firstColumn;  ///< [pair], and the end
@@ -33,29 +33,33 @@ struct PointPairs {
 
 class ProjectedTerms {
  public:
-  /// Collective. Terms [first, last) of the pencil; their matrices are shared. Borrows the basis and its sketch.
-  ProjectedTerms(const Basis& basis, const pencil::Pencil& pencil, std::size_t first, std::size_t last);
+  /// Collective. Terms [first, last) of the pencil; their matrices are shared. Borrows the basis
+  /// and its sketch.
+  ProjectedTerms(const Basis& basis, const pencil::Pencil& pencil, std::size_t first,
+                 std::size_t last);
   /// Collective. Takes in what the basis has gained.
   void extend();
   /// The basis has become V · combinations (its former size × its size).
   void combine(const linalg::DenseMatrix& combinations);
   /// Adds Σ c_t VᵀA_tV to the matrices of the problem, which are empty or of the size of the basis.
   void addTo(const sweep::Parameters& at, linalg::DenseProblem& sum) const;
-  /// Adds combinations of the columns P(s) V q of all points in turn (their columns × result.columns), in one product per term.
-  void addTo(const std::vector<const PointPairs*>& points, const linalg::DenseMatrix& combinations, linalg::Block& result) const;
+  /// Adds combinations of the columns P(s) V q of all points in turn (their columns ×
+  /// result.columns), in one product per term.
+  void addTo(const std::vector<const PointPairs*>& points, const linalg::DenseMatrix& combinations,
+             linalg::Block& result) const;
   /// Adds the sketch of P(s) V q or P(s)ᴴ V y.
   void addTo(const PointPairs& point, pencil::Side side, linalg::DenseMatrix& sketch) const;
 
  private:
   struct Part {
     pencil::Term term;
-    linalg::RowSet rows, leftRows;     // of A and Aᵀ
-    OwnedMat matrix, adjoint;  // these rows; no adjoint where A is symmetric
-    linalg::Block image;               // A V, by `rows`
-    linalg::Block rowsOfV;             // these rows of V; none if they are all
-    linalg::DenseMatrix sketch;        // of A V
-    linalg::DenseMatrix leftSketch;    // of AᵀV; empty where A is symmetric
-    linalg::DenseMatrix projection;    // VᵀAV, column-major
+    linalg::RowSet rows, leftRows;   // of A and Aᵀ
+    OwnedMat matrix, adjoint;        // these rows; no adjoint where A is symmetric
+    linalg::Block image;             // A V, by `rows`
+    linalg::Block rowsOfV;           // these rows of V; none if they are all
+    linalg::DenseMatrix sketch;      // of A V
+    linalg::DenseMatrix leftSketch;  // of AᵀV; empty where A is symmetric
+    linalg::DenseMatrix projection;  // VᵀAV, column-major
   };
   Part begun(pencil::Term term) const;
   void extend(Part& part) const;

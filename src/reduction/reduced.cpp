@@ -6,21 +6,25 @@
 #include <iterator>
 #include <numeric>
 
-#include "reduction/condition.hpp"
 #include "options/options.hpp"
+#include "reduction/condition.hpp"
 
 namespace squeal::reduction {
 namespace {
 
 const ChoiceOption basisOption(
     "flutter", "reduction_basis", {"corrected", "modal", "pod"}, "corrected",
-    "corrected: free modes, static responses to friction and to residuals; pod: after each batch of points "
+    "corrected: free modes, static responses to friction and to residuals; pod: after each batch "
+    "of points "
     "the principal directions of the vectors found so far; modal: free modes alone");
-const RealOption toleranceOption("flutter", "flutter_tolerance", 1e-8, "", positive,
-                                 "estimated relative error |ds|/|s| to which the eigenvalues of the band are corrected");
-const IntegerOption roundsOption("flutter", "flutter_rounds", 15, 0, 10'000, "most rounds of corrections at one batch of points");
-const IntegerOption growthOption("flutter", "flutter_growth", 1000, 0, 1'000'000,
-                                 "most vectors that corrections may add to the basis at one batch of points");
+const RealOption toleranceOption(
+    "flutter", "flutter_tolerance", 1e-8, "", positive,
+    "estimated relative error |ds|/|s| to which the eigenvalues of the band are corrected");
+const IntegerOption roundsOption("flutter", "flutter_rounds", 15, 0, 10'000,
+                                 "most rounds of corrections at one batch of points");
+const IntegerOption growthOption(
+    "flutter", "flutter_growth", 1000, 0, 1'000'000,
+    "most vectors that corrections may add to the basis at one batch of points");
 
 bool correctionsWanted() { return basisOption.get() != "modal"; }
 
@@ -33,11 +37,13 @@ std::vector<const linalg::DensePair*> pointers(const std::vector<linalg::DensePa
   return list;
 }
 
-/// For an undamped problem, pairs that are −s̄ and the conjugate vectors of the pair before: their errors are the same.
+/// For an undamped problem, pairs that are −s̄ and the conjugate vectors of the pair before: their
+/// errors are the same.
 std::vector<bool> mirrorImages(const std::vector<linalg::DensePair>& pairs, bool damped) {
   std::vector<bool> mirrored(pairs.size(), false);
   for (std::size_t j = 1; j < pairs.size() && !damped; ++j)
-    mirrored[j] = !mirrored[j - 1] && pairs[j].s.real() != 0 && pairs[j].s == -std::conj(pairs[j - 1].s);
+    mirrored[j] =
+        !mirrored[j - 1] && pairs[j].s.real() != 0 && pairs[j].s == -std::conj(pairs[j - 1].s);
   return mirrored;
 }
 
@@ -57,17 +63,20 @@ struct ReducedProblem::Work {
   const PointProblem* point;
   ProjectedTerms ownTerms;
   bool damped;
-  Norms norms;                        // of K̄, Z̄, M̄
-  std::vector<linalg::DensePair> pairs;       // of the band, with left vectors
-  std::vector<double> backwardError;  // [pair]
+  Norms norms;                           // of K̄, Z̄, M̄
+  std::vector<linalg::DensePair> pairs;  // of the band, with left vectors
+  std::vector<double> backwardError;     // [pair]
   // |δs|/|s| is at most the product of the two, each with the norm of diag(K0)⁻¹ for that of K0⁻¹
   std::vector<double> rightError;  // [pair] of the right vector, times the condition number of s
   std::vector<double> leftError;   // [pair] of the left vector, 1 at most
   std::vector<double> rounding;    // [pair] error of the dense solve
 };
 
-ReducedProblem::ReducedProblem(const pencil::Pencil& pencil, Mat stiffness, KSP solver, const modes::Modes& modes)
-    : modes_(modes.angularFrequency), basis_(modes, stiffness, solver), terms_(basis_, pencil, 0, pencil.terms().size()) {
+ReducedProblem::ReducedProblem(const pencil::Pencil& pencil, Mat stiffness, KSP solver,
+                               const modes::Modes& modes)
+    : modes_(modes.angularFrequency),
+      basis_(modes, stiffness, solver),
+      terms_(basis_, pencil, 0, pencil.terms().size()) {
   check(BVGetSizes(modes.vectors, nullptr, &unknowns_, nullptr));
   lowestMode_ = modes.angularFrequency.front();
   highestMode_ = modes.angularFrequency.back();
@@ -86,7 +95,9 @@ void ReducedProblem::extend(const std::vector<Work*>& works) {
 }
 
 /// The columns of a residual, without images of the basis.
-linalg::Block ReducedProblem::residualColumns(const Work& work, const linalg::DensePair& pair, const linalg::ComplexVector& vector, pencil::Side side) const {
+linalg::Block ReducedProblem::residualColumns(const Work& work, const linalg::DensePair& pair,
+                                              const linalg::ComplexVector& vector,
+                                              pencil::Side side) const {
   const auto& [at, pencil] = *work.point;
   const linalg::ComplexVector residual = pencil::residual(pencil, at, pair.s, vector, side);
   const bool real = Coordinates({&pair}, work.damped).isReal(0);
@@ -109,7 +120,8 @@ double ReducedProblem::errorOf(const Work& work, std::size_t pair) const {
 /// By how much the errors of a pair are too large; nothing can be done about those of rounding.
 double ReducedProblem::excess(const Work& work, std::size_t pair) const {
   if (bandTop_ == 0 || work.backwardError[pair] < rounding) return 0;
-  return std::max(work.backwardError[pair] / pencil::accuracyAsked(), errorOf(work, pair) / toleranceOption.get());
+  return std::max(work.backwardError[pair] / pencil::accuracyAsked(),
+                  errorOf(work, pair) / toleranceOption.get());
 }
 
 bool ReducedProblem::good(const Work& work) const {
@@ -119,8 +131,10 @@ bool ReducedProblem::good(const Work& work) const {
 }
 
 /// Sketches of the residuals of one side.
-linalg::DenseMatrix ReducedProblem::residualSketch(const Work& work, const PointPairs& pairs, pencil::Side side) const {
-  linalg::DenseMatrix sketch(static_cast<std::size_t>(2 * linalg::Sketch::size * pairs.pairs.columns));
+linalg::DenseMatrix ReducedProblem::residualSketch(const Work& work, const PointPairs& pairs,
+                                                   pencil::Side side) const {
+  linalg::DenseMatrix sketch(
+      static_cast<std::size_t>(2 * linalg::Sketch::size * pairs.pairs.columns));
   for (const auto* terms : {&terms_, &work.ownTerms}) terms->addTo(pairs, side, sketch);
   return sketch;
 }
@@ -140,7 +154,8 @@ void ReducedProblem::judge(Work& work, const linalg::DenseProblem& problem) cons
   };
   const auto right = norms(pencil::Side::right), left = norms(pencil::Side::left);
   linalg::DenseMatrix vectors(static_cast<std::size_t>(linalg::Sketch::size * coordinates.columns));
-  linalg::multiplyAdd(basis_.sketched().data(), linalg::Sketch::size, basis_.size(), coordinates.times(pencil::Side::right, 0, 1), vectors);
+  linalg::multiplyAdd(basis_.sketched().data(), linalg::Sketch::size, basis_.size(),
+                      coordinates.times(pencil::Side::right, 0, 1), vectors);
   const auto lengths = perPair(coordinates, linalg::squaredLengths(vectors));
   const auto conditions = conditionNumbers(problem, pairs);
   work.backwardError.clear();
@@ -148,17 +163,23 @@ void ReducedProblem::judge(Work& work, const linalg::DenseProblem& problem) cons
   work.leftError.clear();
   work.rounding.clear();
   for (std::size_t j = 0; j < pairs.size(); ++j) {
-    const double size = std::abs(pairs[j].s), scale = work.norms[0] + size * work.norms[1] + size * size * work.norms[2];
+    const double size = std::abs(pairs[j].s),
+                 scale = work.norms[0] + size * work.norms[1] + size * size * work.norms[2];
     work.backwardError.push_back(std::sqrt(right.euclidean[j] / lengths[j]) / scale);
-    // Backward errors ε of the dense matrices, in norm: VᵀK̄V is of the order of 1, VᵀM̄V of the lowest 1/ω².
-    work.rounding.push_back(PETSC_MACHINE_EPSILON * conditions[j] * (1 + std::pow(size / lowestMode_, 2)));
+    // Backward errors ε of the dense matrices, in norm: VᵀK̄V is of the order of 1, VᵀM̄V of the
+    // lowest 1/ω².
+    work.rounding.push_back(PETSC_MACHINE_EPSILON * conditions[j] *
+                            (1 + std::pow(size / lowestMode_, 2)));
     work.rightError.push_back(conditions[j] * std::sqrt(right.weighted[j]));
-    work.leftError.push_back(size < highestMode_ ? std::sqrt(left.weighted[j]) / (1 - std::pow(size / highestMode_, 2)) : INFINITY);
+    work.leftError.push_back(size < highestMode_ ? std::sqrt(left.weighted[j]) /
+                                                       (1 - std::pow(size / highestMode_, 2))
+                                                 : INFINITY);
   }
 }
 
-/// The pairs of a point that are not good enough, each to be resolved but for `resolution` of its residual, or for what is good enough:
-/// half of its square for what stays unresolved, half for what the correction leaves.
+/// The pairs of a point that are not good enough, each to be resolved but for `resolution` of its
+/// residual, or for what is good enough: half of its square for what stays unresolved, half for
+/// what the correction leaves.
 ReducedProblem::Wish ReducedProblem::wishOf(const Work& work) const {
   const auto mirrored = mirrorImages(work.pairs, work.damped);
   std::vector<const linalg::DensePair*> bad;
@@ -171,7 +192,8 @@ ReducedProblem::Wish ReducedProblem::wishOf(const Work& work) const {
   return {&work, {work.point->at, Coordinates(bad, work.damped)}, weights};
 }
 
-/// Directions that hold the residuals of all these pairs, of length one times their weights, but for parts of length `resolution`.
+/// Directions that hold the residuals of all these pairs, of length one times their weights, but
+/// for parts of length `resolution`.
 linalg::Block ReducedProblem::directions(const std::vector<Wish>& wishes) const {
   linalg::DenseMatrix sketches, factors;
   std::vector<const PointPairs*> points;
@@ -181,13 +203,15 @@ linalg::Block ReducedProblem::directions(const std::vector<Wish>& wishes) const 
     sketches.insert(sketches.end(), sketch.begin(), sketch.end());
     const auto squares = perPair(pairs, linalg::squaredNorms(sketch).euclidean);
     for (std::size_t j = 0; j < squares.size(); ++j)
-      factors.insert(factors.end(), static_cast<std::size_t>(pairs.firstColumn[j + 1] - pairs.firstColumn[j]),
+      factors.insert(factors.end(),
+                     static_cast<std::size_t>(pairs.firstColumn[j + 1] - pairs.firstColumn[j]),
                      squares[j] > 0 ? wish.weights[j] / std::sqrt(squares[j]) : 0);
     points.push_back(&wish.pairs);
   }
   if (factors.empty()) return linalg::Block(basis_.localRows());
   // Fewer columns than residuals: those of several points are much alike.
-  const linalg::DenseMatrix combinations = linalg::leadingCombinations(sketches, factors, 0.8 * resolution);
+  const linalg::DenseMatrix combinations =
+      linalg::leadingCombinations(sketches, factors, 0.8 * resolution);
   const std::size_t all = factors.size(), count = combinations.size() / all;
   if (count == 0) return linalg::Block(basis_.localRows());
   linalg::Block columns(basis_.localRows(), static_cast<PetscInt>(count));
@@ -195,7 +219,8 @@ linalg::Block ReducedProblem::directions(const std::vector<Wish>& wishes) const 
   std::size_t first = 0;
   for (const auto& wish : wishes) {
     const auto own = static_cast<std::size_t>(wish.pairs.pairs.columns);
-    wish.work->ownTerms.addTo({&wish.pairs}, linalg::rowsOf(combinations, all, first, own), columns);
+    wish.work->ownTerms.addTo({&wish.pairs}, linalg::rowsOf(combinations, all, first, own),
+                              columns);
     first += own;
   }
   return linalg::principal(basis_.comm(), columns, resolution);
@@ -205,7 +230,8 @@ linalg::Block ReducedProblem::directions(const std::vector<Wish>& wishes) const 
 void ReducedProblem::solveDense(const std::vector<Work*>& open) {
   std::vector<linalg::DenseProblem> problems;
   for (const auto* work : open) problems.push_back(project(*work));
-  auto solved = linalg::solveSpread(basis_.comm(), problems, linalg::Vectors::both, [&](auto s) { return bandTop_ == 0 || inBand(s); });
+  auto solved = linalg::solveSpread(basis_.comm(), problems, linalg::Vectors::both,
+                                    [&](auto s) { return bandTop_ == 0 || inBand(s); });
   for (std::size_t i = 0; i < open.size(); ++i) {
     open[i]->pairs = std::move(solved[i]);
     judge(*open[i], problems[i]);
@@ -213,34 +239,43 @@ void ReducedProblem::solveDense(const std::vector<Work*>& open) {
 }
 
 /// By how much a residual made with the matrices exceeds that made with the images of the basis.
-double ReducedProblem::drift(const Work& work, const linalg::DensePair& pair, const linalg::Block& columns, pencil::Side side) const {
+double ReducedProblem::drift(const Work& work, const linalg::DensePair& pair,
+                             const linalg::Block& columns, pencil::Side side) const {
   const PointPairs alone{work.point->at, Coordinates({&pair}, work.damped)};
-  const auto sum = [](const std::vector<double>& squares) { return std::accumulate(squares.begin(), squares.end(), 0.0); };
+  const auto sum = [](const std::vector<double>& squares) {
+    return std::accumulate(squares.begin(), squares.end(), 0.0);
+  };
   const double known = sum(linalg::squaredNorms(residualSketch(work, alone, side)).weighted),
-               exact = sum(linalg::squaredNorms(basis_.sketch().of(columns.values.data(), columns.columns)).weighted);
+               exact = sum(
+                   linalg::squaredNorms(basis_.sketch().of(columns.values.data(), columns.columns))
+                       .weighted);
   return std::max(1.0, std::sqrt(exact / known));
 }
 
-/// Solves for the residuals of the pair with the largest estimate of all points so far. If that shows the estimates to be too small, those
-/// that are no longer good enough are left to do.
+/// Solves for the residuals of the pair with the largest estimate of all points so far. If that
+/// shows the estimates to be too small, those that are no longer good enough are left to do.
 std::vector<ReducedProblem::Work*> ReducedProblem::unconfirmed(std::vector<Work>& works) {
   std::vector<Work*> open;
   Work* worst = nullptr;
   std::size_t pair = 0;
-  double largest = std::max(confirmed_, 1e-3 * toleranceOption.get());  // below: next to nothing, or rounding
+  double largest =
+      std::max(confirmed_, 1e-3 * toleranceOption.get());  // below: next to nothing, or rounding
   for (auto& work : works)
     for (std::size_t j = 0; j < work.pairs.size(); ++j)
-      if (const double error = errorOf(work, j); std::isfinite(error) && error > largest) worst = &work, pair = j, largest = error;
+      if (const double error = errorOf(work, j); std::isfinite(error) && error > largest)
+        worst = &work, pair = j, largest = error;
   if (!worst) return open;
   confirmed_ = largest;
   worst->ownTerms.extend();  // the basis may have grown since
   linalg::DensePair& known = worst->pairs[pair];
-  for (auto* vector : {&known.q, &known.left}) vector->resize(static_cast<std::size_t>(basis_.size()));
+  for (auto* vector : {&known.q, &known.left})
+    vector->resize(static_cast<std::size_t>(basis_.size()));
   const auto vectors = basis_.expand({&known.q, &known.left});
   const linalg::Block right = residualColumns(*worst, known, vectors[0], pencil::Side::right),
-              left = residualColumns(*worst, known, vectors[1], pencil::Side::left);
+                      left = residualColumns(*worst, known, vectors[1], pencil::Side::left);
   const auto ratios = basis_.energyRatios({right, left});
-  measuredRatio_ = std::max(measuredRatio_, ratios[0] * drift(*worst, known, right, pencil::Side::right));
+  measuredRatio_ =
+      std::max(measuredRatio_, ratios[0] * drift(*worst, known, right, pencil::Side::right));
   rightRatio_ = std::max(rightRatio_, measuredRatio_);
   leftRatio_ = std::max(leftRatio_, ratios[1] * drift(*worst, known, left, pencil::Side::left));
   for (auto& work : works)
@@ -263,30 +298,37 @@ ReducedProblem::Work ReducedProblem::begun(const PointProblem& point, const Norm
 
 ReducedProblem::Norms ReducedProblem::normsOf(const PointProblem& point) {
   const auto& pencil = point.pencil;
-  norms_.emplace_back(point.at, Norms{pencil.norm(0, point.at), pencil.norm(1, point.at), pencil.norm(2, point.at)});
+  norms_.emplace_back(point.at, Norms{pencil.norm(0, point.at), pencil.norm(1, point.at),
+                                      pencil.norm(2, point.at)});
   return norms_.back().second;
 }
 
-/// Those of the point solved that is nearest in friction: they take many products with large matrices.
+/// Those of the point solved that is nearest in friction: they take many products with large
+/// matrices.
 ReducedProblem::Norms ReducedProblem::nearbyNorms(const PointProblem& point) {
   const std::pair<sweep::Parameters, Norms>* nearest = nullptr;
   for (const auto& known : norms_) {
     sweep::Parameters at = known.first;
     at.friction = point.at.friction;
-    const auto distance = [&](const auto* other) { return std::abs(other->first.friction - point.at.friction); };
+    const auto distance = [&](const auto* other) {
+      return std::abs(other->first.friction - point.at.friction);
+    };
     if (at == point.at && (!nearest || distance(&known) < distance(nearest))) nearest = &known;
   }
   return nearest ? nearest->second : normsOf(point);
 }
 
-std::vector<pencil::FrictionPoint> ReducedProblem::solve(const std::vector<PointProblem>& batch, Mat trial) {
+std::vector<pencil::FrictionPoint> ReducedProblem::solve(const std::vector<PointProblem>& batch,
+                                                         Mat trial) {
   std::vector<Work> works;
   std::vector<Work*> open;
-  if (!responded_ && correctionsWanted() && basis_.size() < unknowns_) addStaticResponses(batch.front());
+  if (!responded_ && correctionsWanted() && basis_.size() < unknowns_)
+    addStaticResponses(batch.front());
   responded_ = true;
   for (const auto& point : batch) works.push_back(begun(point, normsOf(point)));
   for (auto& work : works) open.push_back(&work);
-  const PetscInt largest = std::min(basis_.size() + static_cast<PetscInt>(growthOption.get()), unknowns_);
+  const PetscInt largest =
+      std::min(basis_.size() + static_cast<PetscInt>(growthOption.get()), unknowns_);
   for (int round = 0; !open.empty(); ++round) {
     extend(open);
     solveDense(open);
@@ -313,21 +355,24 @@ pencil::FrictionPoint ReducedProblem::result(const Work& work) const {
   pencil::FrictionPoint point;
   point.at = work.point->at;
   point.bandTop = bandTop_;
-  point.freeModesInBand = static_cast<int>(std::count_if(modes_.begin(), modes_.end(), [&](double w) { return w <= bandTop_; }));
+  point.freeModesInBand = static_cast<int>(
+      std::count_if(modes_.begin(), modes_.end(), [&](double w) { return w <= bandTop_; }));
   point.damped = work.damped;
   point.accuracy = pencil::accuracyAsked();
   point.tolerance = toleranceOption.get();
   for (std::size_t j = 0; j < work.pairs.size(); ++j) {
     const double estimate = errorOf(work, j) + work.rounding[j];
     point.eigenvalues.push_back(
-        {work.pairs[j].s, work.backwardError[j], estimate, work.backwardError[j] <= point.accuracy && estimate <= point.tolerance});
+        {work.pairs[j].s, work.backwardError[j], estimate,
+         work.backwardError[j] <= point.accuracy && estimate <= point.tolerance});
   }
   pencil::judge(point.eigenvalues);
   return point;
 }
 
 /// Shapes of all points, made together: each product with the basis reads the whole of it.
-void ReducedProblem::keepShapes(std::vector<pencil::FrictionPoint>& points, const std::vector<Work>& works, Mat trial) const {
+void ReducedProblem::keepShapes(std::vector<pencil::FrictionPoint>& points,
+                                const std::vector<Work>& works, Mat trial) const {
   std::vector<std::vector<std::size_t>> wanted;
   std::vector<const std::vector<std::complex<double>>*> list;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -344,7 +389,9 @@ void ReducedProblem::keepShapes(std::vector<pencil::FrictionPoint>& points, cons
   }
 }
 
-linalg::DenseProblem ReducedProblem::project(const PointProblem& point) const { return project(begun(point, {})); }
+linalg::DenseProblem ReducedProblem::project(const PointProblem& point) const {
+  return project(begun(point, {}));
+}
 
 linalg::DenseProblem ReducedProblem::project(const Work& work) const {
   linalg::DenseProblem problem;
@@ -353,7 +400,8 @@ linalg::DenseProblem ReducedProblem::project(const Work& work) const {
   return problem;
 }
 
-Improvement ReducedProblem::improve(const std::vector<std::pair<PointProblem, std::vector<linalg::DensePair>>>& located) {
+Improvement ReducedProblem::improve(
+    const std::vector<std::pair<PointProblem, std::vector<linalg::DensePair>>>& located) {
   Improvement result;
   std::vector<Work> works;
   works.reserve(located.size());
@@ -362,12 +410,16 @@ Improvement ReducedProblem::improve(const std::vector<std::pair<PointProblem, st
     Work& work = works.emplace_back(begun(point, nearbyNorms(point)));
     work.pairs = pairs;
     for (auto& pair : work.pairs)  // they may be of a smaller basis
-      for (auto* vector : {&pair.q, &pair.left}) vector->resize(static_cast<std::size_t>(basis_.size()));
+      for (auto* vector : {&pair.q, &pair.left})
+        vector->resize(static_cast<std::size_t>(basis_.size()));
     judge(work, project(work));
-    result.backwardError.push_back(*std::max_element(work.backwardError.begin(), work.backwardError.end()));
+    result.backwardError.push_back(
+        *std::max_element(work.backwardError.begin(), work.backwardError.end()));
     if (result.backwardError.back() < rounding) continue;
     // Both parts of a residual in units of the whole: one of them may be rounding.
-    wishes.push_back({&work, {point.at, Coordinates(pointers(work.pairs), true)}, std::vector<double>(pairs.size(), 1.0)});
+    wishes.push_back({&work,
+                      {point.at, Coordinates(pointers(work.pairs), true)},
+                      std::vector<double>(pairs.size(), 1.0)});
   }
   result.changed = basis_.add(directions(wishes)) > 0;
   terms_.extend();

@@ -25,31 +25,37 @@ struct PointProblem {
 
 /// What a large problem says of pairs of its reduced one.
 struct Improvement {
-  bool changed = false;  ///< the basis has grown, or near() is better: the pairs are to be solved for again
-  /// [located] the largest, of the large problem; NaN where there is no problem at this friction; empty: there is no larger problem
+  /// The basis has grown, or near() is better: the pairs are to be solved for again
+  bool changed = false;
+  /// [located] the largest, of the large problem; NaN where there is no problem at this friction;
+  /// empty: there is no larger problem
   std::vector<double> backwardError;
 };
 
-/// Rayleigh–Ritz on the free modes and, unless `-reduction_basis modal`, on static responses to friction forces and to its own
-/// residuals. The modes alone miss unstable eigenvalues and invent others; K0⁻¹ r for the residuals r of all bad pairs, solved for
-/// together with the real symmetric factorisation that the modes used, gains about a decade a round. A pair is certified once its
-/// full-order backward error is below `-flutter_accuracy` and the estimate of |δs|/|s| below `-flutter_tolerance`. The basis is kept over a
-/// sweep.
+/// Rayleigh–Ritz on the free modes and, unless `-reduction_basis modal`, on static responses to
+/// friction forces and to its own residuals. The modes alone miss unstable eigenvalues and invent
+/// others; K0⁻¹ r for the residuals r of all bad pairs, solved for together with the real symmetric
+/// factorisation that the modes used, gains about a decade a round. A pair is certified once its
+/// full-order backward error is below `-flutter_accuracy` and the estimate of |δs|/|s| below
+/// `-flutter_tolerance`. The basis is kept over a sweep.
 class ReducedProblem {
  public:
-  /// Collective. Borrows K0 and its solver; shares the terms of `pencil`, which hold at all points. `modes` are M0-orthonormal with ascending
-  /// frequencies.
-  ReducedProblem(const pencil::Pencil& pencil, Mat stiffness, KSP solver, const modes::Modes& modes);
-  /// Collective. All points at once: their dense problems are spread over the ranks, their corrections solved for together. Shapes are
-  /// mapped to nodal displacements by `trial` (T).
+  /// Collective. Borrows K0 and its solver; shares the terms of `pencil`, which hold at all points.
+  /// `modes` are M0-orthonormal with ascending frequencies.
+  ReducedProblem(const pencil::Pencil& pencil, Mat stiffness, KSP solver,
+                 const modes::Modes& modes);
+  /// Collective. All points at once: their dense problems are spread over the ranks, their
+  /// corrections solved for together. Shapes are mapped to nodal displacements by `trial` (T).
   std::vector<pencil::FrictionPoint> solve(const std::vector<PointProblem>& batch, Mat trial);
   /// Collective. The projection on the basis as it is.
   linalg::DenseProblem project(const PointProblem& point) const;
   PetscInt basisSize() const { return basis_.size(); }
   const Basis& basis() const { return basis_; }
   pencil::WatchedBand band() const;  ///< top 0: no eigenvalue is corrected
-  /// Collective. Adds corrections of the residuals of these pairs, of any points, all solved for together.
-  Improvement improve(const std::vector<std::pair<PointProblem, std::vector<linalg::DensePair>>>& located);
+  /// Collective. Adds corrections of the residuals of these pairs, of any points, all solved for
+  /// together.
+  Improvement improve(
+      const std::vector<std::pair<PointProblem, std::vector<linalg::DensePair>>>& located);
 
  private:
   struct Work;
@@ -60,8 +66,8 @@ class ReducedProblem {
     std::vector<double> weights;  // [pair]
   };
   using Norms = std::array<double, 3>;  // of K̄, Z̄, M̄
-  /// What a direction of the residuals leaves unresolved of them, as a part of their size: a round gains a decade, and what it need not
-  /// resolve it need not solve for.
+  /// What a direction of the residuals leaves unresolved of them, as a part of their size: a round
+  /// gains a decade, and what it need not resolve it need not solve for.
   static constexpr double resolution = 0.03;
   void addStaticResponses(const PointProblem& point);
   Norms normsOf(const PointProblem& point);
@@ -69,9 +75,12 @@ class ReducedProblem {
   Work begun(const PointProblem& point, const Norms& norms) const;
   linalg::DenseProblem project(const Work& work) const;
   void extend(const std::vector<Work*>& works);
-  linalg::Block residualColumns(const Work& work, const linalg::DensePair& pair, const linalg::ComplexVector& vector, pencil::Side side) const;
-  double drift(const Work& work, const linalg::DensePair& pair, const linalg::Block& columns, pencil::Side side) const;
-  linalg::DenseMatrix residualSketch(const Work& work, const PointPairs& pairs, pencil::Side side) const;
+  linalg::Block residualColumns(const Work& work, const linalg::DensePair& pair,
+                                const linalg::ComplexVector& vector, pencil::Side side) const;
+  double drift(const Work& work, const linalg::DensePair& pair, const linalg::Block& columns,
+               pencil::Side side) const;
+  linalg::DenseMatrix residualSketch(const Work& work, const PointPairs& pairs,
+                                     pencil::Side side) const;
   double errorOf(const Work& work, std::size_t pair) const;
   double excess(const Work& work, std::size_t pair) const;
   void judge(Work& work, const linalg::DenseProblem& problem) const;
@@ -81,17 +90,18 @@ class ReducedProblem {
   void solveDense(const std::vector<Work*>& open);
   std::vector<Work*> unconfirmed(std::vector<Work>& works);
   pencil::FrictionPoint result(const Work& work) const;
-  void keepShapes(std::vector<pencil::FrictionPoint>& points, const std::vector<Work>& works, Mat trial) const;
+  void keepShapes(std::vector<pencil::FrictionPoint>& points, const std::vector<Work>& works,
+                  Mat trial) const;
   void compress();
   bool inBand(std::complex<double> s) const;
 
   PetscInt unknowns_ = 0;
   double bandTop_ = 0, lowestMode_ = 0, highestMode_ = 0;  // rad/s
   double rightRatio_ = 1, leftRatio_ = 1;                  // Basis::energyRatios of the residuals
-  double measuredRatio_ = 0;                               // that of right residuals of pairs solved for
-  double confirmed_ = 0;                                   // the largest estimate that a solve has been made for
-  bool responded_ = false;                                 // static responses are in the basis
-  std::vector<double> modes_;                              // rad/s
+  double measuredRatio_ = 0;   // that of right residuals of pairs solved for
+  double confirmed_ = 0;       // the largest estimate that a solve has been made for
+  bool responded_ = false;     // static responses are in the basis
+  std::vector<double> modes_;  // rad/s
   Basis basis_;
   ProjectedTerms terms_;
   std::vector<std::vector<linalg::DensePair>> solved_;

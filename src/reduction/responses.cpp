@@ -27,18 +27,20 @@ Forces forcesOf(const pencil::Term& term, const sweep::Parameters& at, bool tran
 
 }  // namespace
 
-/// K0⁻¹ k φ_i and K0⁻¹ kᵀφ_i for the free modes of the band at their own frequencies, where k are the forces of friction and of all
-/// else that belongs to this point: the change of the right and left vectors with them, to first order in them and to lowest order
-/// in the frequency.
+/// K0⁻¹ k φ_i and K0⁻¹ kᵀφ_i for the free modes of the band at their own frequencies, where k are
+/// the forces of friction and of all else that belongs to this point: the change of the right and
+/// left vectors with them, to first order in them and to lowest order in the frequency.
 void ReducedProblem::addStaticResponses(const PointProblem& point) {
-  const auto count = static_cast<PetscInt>(std::upper_bound(modes_.begin(), modes_.end(), bandTop_) - modes_.begin());
+  const auto count = static_cast<PetscInt>(
+      std::upper_bound(modes_.begin(), modes_.end(), bandTop_) - modes_.begin());
   const auto& terms = point.pencil.terms();
   std::vector<Forces> list;
   for (const bool transposed : {false, true})
     for (std::size_t t = 0; t < terms.size(); ++t)
       if (terms[t].frictionExponent != 0 || t >= point.pencil.affineCount())
         list.push_back(forcesOf(terms[t], point.at, transposed));
-  // Forces of friction are zero but at the contact: the columns are kept by the rows that any of them has.
+  // Forces of friction are zero but at the contact: the columns are kept by the rows that any of
+  // them has.
   std::vector<PetscInt> rows, place(static_cast<std::size_t>(basis_.localRows()), -1);
   for (const auto& forces : list)
     for (PetscInt i = 0; i < forces.rows.size(); ++i)
@@ -56,9 +58,12 @@ void ReducedProblem::addStaticResponses(const PointProblem& point) {
         basis_.appendImages(forces.matrix, 0, count, images);
         for (PetscInt j = 0; j < count; ++j) {
           const double omega = modes_[static_cast<std::size_t>(j)];
-          const double factor = forces.coefficient * (forces.power == 0 ? 1 : forces.power == 1 ? omega : -omega * omega);
+          const double factor = forces.coefficient * (forces.power == 0   ? 1
+                                                      : forces.power == 1 ? omega
+                                                                          : -omega * omega);
           for (PetscInt i = 0; i < images.rows; ++i)
-            part.column(j)[place[static_cast<std::size_t>(forces.rows[i])]] += factor * images.column(j)[i];
+            part.column(j)[place[static_cast<std::size_t>(forces.rows[i])]] +=
+                factor * images.column(j)[i];
         }
       }
       append(all, linalg::unitColumns(basis_.comm(), part));
@@ -66,7 +71,8 @@ void ReducedProblem::addStaticResponses(const PointProblem& point) {
   const linalg::Block leading = linalg::principal(basis_.comm(), all, resolution);
   linalg::Block whole(basis_.localRows(), leading.columns);
   for (PetscInt j = 0; j < leading.columns; ++j)
-    for (PetscInt i = 0; i < leading.rows; ++i) whole.column(j)[rows[static_cast<std::size_t>(i)]] = leading.column(j)[i];
+    for (PetscInt i = 0; i < leading.rows; ++i)
+      whole.column(j)[rows[static_cast<std::size_t>(i)]] = leading.column(j)[i];
   basis_.add(whole);
   rightRatio_ = std::max(measuredRatio_, basis_.lastEnergyRatio());
 }

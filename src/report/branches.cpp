@@ -35,17 +35,20 @@ std::string parametersAt(sweep::Parameters at, double friction) {
 }  // namespace
 
 std::string branchTable(const analysis::Analysis& analysis) {
-  std::string table = "active_set,branch," + sweep::parameterColumns() +
-                      ",growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,overlap,in_band,swept\n";
+  std::string table =
+      "active_set,branch," + sweep::parameterColumns() +
+      ",growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,overlap,in_band,swept\n";
   forAllFollowed(analysis, [&](std::size_t set, const tracking::Followed& followed) {
     for (int branch = 1; branch <= followed.branches.count; ++branch)
       for (const auto& station : followed.branches.stations)
         for (std::size_t i = 0; i < station.pairs.size(); ++i) {
           if (station.branch[i] != branch) continue;
           const auto s = station.pairs[i].s;
-          table += formatted("%zu,%d,", set, branch) + parametersAt(followed.line, station.friction) +
-                   formatted(",%.15e,%.15e,%.15e,%.4f,%d,%d\n", s.real(), s.imag(), s.imag() / (2 * M_PI), station.overlap[i],
-                             station.inBand[i], station.swept ? 1 : 0);
+          table += formatted("%zu,%d,", set, branch) +
+                   parametersAt(followed.line, station.friction) +
+                   formatted(",%.15e,%.15e,%.15e,%.4f,%d,%d\n", s.real(), s.imag(),
+                             s.imag() / (2 * M_PI), station.overlap[i], station.inBand[i],
+                             station.swept ? 1 : 0);
         }
   });
   return table;
@@ -56,10 +59,11 @@ std::string criticalTable(const analysis::Analysis& analysis) {
                       ",frequency_hz,slope,friction_error_estimate,backward_error,converged\n";
   forAllFollowed(analysis, [&](std::size_t set, const tracking::Followed& followed) {
     for (const auto& c : followed.criticals)
-      table += formatted("%zu,%d,%d,%s,%s,", set, c.branch, c.partner, kindName(c.kind), c.loss ? "loss" : "regain") +
+      table += formatted("%zu,%d,%d,%s,%s,", set, c.branch, c.partner, kindName(c.kind),
+                         c.loss ? "loss" : "regain") +
                parametersAt(followed.line, c.friction) +
-               formatted(",%.15e,%.6e,%.1e,%.1e,%d\n", c.angularFrequency / (2 * M_PI), c.slope, c.errorEstimate, c.backwardError,
-                         c.converged ? 1 : 0);
+               formatted(",%.15e,%.6e,%.1e,%.1e,%d\n", c.angularFrequency / (2 * M_PI), c.slope,
+                         c.errorEstimate, c.backwardError, c.converged ? 1 : 0);
   });
   return table;
 }
@@ -72,8 +76,8 @@ std::string followedText(const analysis::Analysis& analysis) {
     for (const auto& c : followed.criticals)
       if (++count <= shown)
         text += (count > 1 ? ", " : "\nStability changes at friction ") +
-                formatted("%.8g (%s, %.6g Hz%s)", c.friction, kindName(c.kind), c.angularFrequency / (2 * M_PI),
-                          c.loss ? "" : ", regained");
+                formatted("%.8g (%s, %.6g Hz%s)", c.friction, kindName(c.kind),
+                          c.angularFrequency / (2 * M_PI), c.loss ? "" : ", regained");
     if (count > shown) text += formatted(", and at %d more in critical.csv", count - shown);
     text += "\nCompleteness";
     for (const auto& parameter : sweep::allParameters)

@@ -1,5 +1,5 @@
-/// Fields for ParaView and for other programs: steady displacement and pressure, free modes, complex modes and the squeal in
-/// motion.
+/// Fields for ParaView and for other programs: steady displacement and pressure, free modes,
+/// complex modes and the squeal in motion.
 #include <algorithm>
 #include <cmath>
 
@@ -16,8 +16,9 @@
 namespace squeal::report {
 namespace {
 
-const IntegerOption animatedOption("report", "report_animated", 1, 0, 1000,
-                                   "number of fastest growing modes of the whole sweep written as a time series over one period");
+const IntegerOption animatedOption(
+    "report", "report_animated", 1, 0, 1000,
+    "number of fastest growing modes of the whole sweep written as a time series over one period");
 const IntegerOption framesOption("report", "report_frames", 16, 4, 1000, "frames of one period");
 
 /// Brings nodal values from their owners to all ranks whose cells need them.
@@ -26,8 +27,8 @@ class Ghosts {
   explicit Ghosts(const mesh::Mesh& mesh) : mesh_(mesh) {
     std::vector<PetscInt> nodes(mesh.globalNode.begin(), mesh.globalNode.end());
     OwnedIS from;
-    check(
-        ISCreateBlock(mesh.comm, mesh.dimension, static_cast<PetscInt>(nodes.size()), nodes.data(), PETSC_COPY_VALUES, from.out()));
+    check(ISCreateBlock(mesh.comm, mesh.dimension, static_cast<PetscInt>(nodes.size()),
+                        nodes.data(), PETSC_COPY_VALUES, from.out()));
     check(VecCreateSeq(PETSC_COMM_SELF, mesh.dimension * mesh.localNodes(), local_.out()));
     const OwnedVec global = elasticity::nodalVector(mesh);
     check(VecScatterCreate(global, from, local_, nullptr, scatter_.out()));
@@ -39,7 +40,8 @@ class Ghosts {
     const PetscScalar* values = nullptr;
     check(VecGetArrayRead(local_, &values));
     for (PetscInt node = 0; node < mesh_.localNodes(); ++node)
-      for (int d = 0; d < 3; ++d) field.values.push_back(d < mesh_.dimension ? values[mesh_.dimension * node + d] : 0.0);
+      for (int d = 0; d < 3; ++d)
+        field.values.push_back(d < mesh_.dimension ? values[mesh_.dimension * node + d] : 0.0);
     check(VecRestoreArrayRead(local_, &values));
     return field;
   }
@@ -47,7 +49,8 @@ class Ghosts {
   Field scalar(const std::string& name, Vec u, std::size_t component = 0) const {
     const Field all = vector(name, u);
     Field field{name, 1, {}};
-    for (std::size_t i = component; i < all.values.size(); i += 3) field.values.push_back(all.values[i]);
+    for (std::size_t i = component; i < all.values.size(); i += 3)
+      field.values.push_back(all.values[i]);
     return field;
   }
 
@@ -57,7 +60,8 @@ class Ghosts {
   OwnedScatter scatter_;
 };
 
-/// Contact pressure at the pad nodes, zero elsewhere, in component 0 of a nodal vector; gap in component 1.
+/// Contact pressure at the pad nodes, zero elsewhere, in component 0 of a nodal vector; gap in
+/// component 1.
 OwnedVec contactField(const analysis::Analysis& analysis, const steady::Solution& solution) {
   const auto& mesh = *analysis.mesh;
   OwnedVec field = elasticity::nodalVector(mesh);
@@ -71,7 +75,8 @@ OwnedVec contactField(const analysis::Analysis& analysis, const steady::Solution
   return field;
 }
 
-/// What friction adds to the growth rate of a mode at the pad nodes, 1/s, in component 0 of a nodal vector; per area in component 1.
+/// What friction adds to the growth rate of a mode at the pad nodes, 1/s, in component 0 of a nodal
+/// vector; per area in component 1.
 OwnedVec workField(const analysis::Analysis& analysis, const pencil::Shape& shape) {
   const auto& mesh = *analysis.mesh;
   OwnedVec field = elasticity::nodalVector(mesh);
@@ -96,22 +101,28 @@ std::vector<Animated> fastest(const analysis::Analysis& analysis) {
   std::vector<Animated> all;
   for (const auto& segment : analysis.segments)
     for (const auto& point : segment.points)
-      for (const auto& shape : point.shapes) all.push_back({point.eigenvalues[shape.index].s.real(), &point, &shape});
-  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.growth > b.growth; });
+      for (const auto& shape : point.shapes)
+        all.push_back({point.eigenvalues[shape.index].s.real(), &point, &shape});
+  std::sort(all.begin(), all.end(),
+            [](const auto& a, const auto& b) { return a.growth > b.growth; });
   all.resize(std::min(all.size(), static_cast<std::size_t>(animatedOption.get())));
   return all;
 }
 
 std::string shapeName(const pencil::FrictionPoint& point, const pencil::Shape& shape) {
-  return formatted("mode_%03d_%.0f_Hz", static_cast<int>(shape.index) + 1, point.eigenvalues[shape.index].s.imag() / (2 * M_PI));
+  return formatted("mode_%03d_%.0f_Hz", static_cast<int>(shape.index) + 1,
+                   point.eigenvalues[shape.index].s.imag() / (2 * M_PI));
 }
 
-/// Re(d e^{iφ}) over one period: pressing play in ParaView shows the squeal. The growth is left out, it would hide the shape.
-void animate(const analysis::Analysis& analysis, const Ghosts& ghosts, const Animated& item, const std::filesystem::path& folder) {
+/// Re(d e^{iφ}) over one period: pressing play in ParaView shows the squeal. The growth is left
+/// out, it would hide the shape.
+void animate(const analysis::Analysis& analysis, const Ghosts& ghosts, const Animated& item,
+             const std::filesystem::path& folder) {
   const int frames = framesOption.get();
   const double period = 2 * M_PI / item.point->eigenvalues[item.shape->index].s.imag();
   if (!std::isfinite(period)) return;  // divergence does not oscillate
-  const std::string name = "squeal_friction_" + pointName(item.point->at) + "_" + shapeName(*item.point, *item.shape);
+  const std::string name =
+      "squeal_friction_" + pointName(item.point->at) + "_" + shapeName(*item.point, *item.shape);
   std::vector<std::pair<double, std::filesystem::path>> files;
   OwnedVec u;
   check(VecDuplicate(item.shape->real, u.out()));
@@ -128,7 +139,8 @@ void animate(const analysis::Analysis& analysis, const Ghosts& ghosts, const Ani
 }
 
 void writeParameters(Hdf5File& file, const std::string& group, const sweep::Parameters& at) {
-  for (const auto& parameter : sweep::allParameters) file.writeAttribute(group, parameter.name, at.*parameter.value);
+  for (const auto& parameter : sweep::allParameters)
+    file.writeAttribute(group, parameter.name, at.*parameter.value);
 }
 
 }  // namespace
@@ -144,26 +156,32 @@ void writeFields(const analysis::Analysis& analysis, const std::filesystem::path
     writeVtu(mesh, stem,
              {ghosts.vector("displacement", solution.displacement),
               ghosts.scalar("contact_pressure", contactField(analysis, solution))});
-    // ParaView's time is the friction; where more is swept, several states would share it, and the file's place in the list is the time.
+    // ParaView's time is the friction; where more is swept, several states would share it, and the
+    // file's place in the list is the time.
     const bool frictionAlone = analysis.sweep.frictions.size() == analysis.steady.size();
-    steadyFiles.emplace_back(frictionAlone ? solution.at.friction : static_cast<double>(steadyFiles.size()),
-                             stem.string() + ".pvtu");
+    steadyFiles.emplace_back(
+        frictionAlone ? solution.at.friction : static_cast<double>(steadyFiles.size()),
+        stem.string() + ".pvtu");
   }
   writePvd(mesh.comm, vtk / "steady.pvd", steadyFiles);
   for (const auto& segment : analysis.segments) {
     std::vector<Field> fields;
     for (std::size_t i = 0; i < segment.shapes.size(); ++i)
-      fields.push_back(
-          ghosts.vector(formatted("mode_%03zu_%.0f_Hz", i + 1, segment.modes.angularFrequency[i] / (2 * M_PI)), segment.shapes[i]));
-    if (!fields.empty()) writeVtu(mesh, vtk / ("modes_from_friction_" + pointName(segment.points.front().at)), fields);
+      fields.push_back(ghosts.vector(
+          formatted("mode_%03zu_%.0f_Hz", i + 1, segment.modes.angularFrequency[i] / (2 * M_PI)),
+          segment.shapes[i]));
+    if (!fields.empty())
+      writeVtu(mesh, vtk / ("modes_from_friction_" + pointName(segment.points.front().at)), fields);
     for (const auto& point : segment.points) {
       std::vector<Field> shapes;
       for (const auto& shape : point.shapes) {
         shapes.push_back(ghosts.vector(shapeName(point, shape) + "_real", shape.real));
         shapes.push_back(ghosts.vector(shapeName(point, shape) + "_imaginary", shape.imaginary));
-        shapes.push_back(ghosts.scalar(shapeName(point, shape) + "_friction_work_per_area", workField(analysis, shape), 1));
+        shapes.push_back(ghosts.scalar(shapeName(point, shape) + "_friction_work_per_area",
+                                       workField(analysis, shape), 1));
       }
-      if (!shapes.empty()) writeVtu(mesh, vtk / ("complex_modes_friction_" + pointName(point.at)), shapes);
+      if (!shapes.empty())
+        writeVtu(mesh, vtk / ("complex_modes_friction_" + pointName(point.at)), shapes);
     }
   }
   for (const auto& item : fastest(analysis)) animate(analysis, ghosts, item, vtk);
@@ -195,16 +213,20 @@ void writeHdf5(const analysis::Analysis& analysis, const std::filesystem::path& 
       const std::string group = "/flutter/friction_" + pointName(point.at);
       std::vector<std::vector<double>> rows;
       for (const auto& e : point.eigenvalues)
-        rows.push_back({e.s.real(), e.s.imag(), e.backwardError, e.errorEstimate, e.certified ? 1.0 : 0.0});
+        rows.push_back(
+            {e.s.real(), e.s.imag(), e.backwardError, e.errorEstimate, e.certified ? 1.0 : 0.0});
       file.writeTable(group, "eigenvalues",
-                      {"growth_rate_1_per_s", "angular_frequency_rad_per_s", "backward_error", "error_estimate", "certified"},
+                      {"growth_rate_1_per_s", "angular_frequency_rad_per_s", "backward_error",
+                       "error_estimate", "certified"},
                       rank == 0 ? rows : std::vector<std::vector<double>>{});
       writeParameters(file, group, point.at);
       for (const auto& shape : point.shapes) {
         file.writeNodeVector(group, formatted("mode_%03zu_real", shape.index + 1), shape.real);
-        file.writeNodeVector(group, formatted("mode_%03zu_imaginary", shape.index + 1), shape.imaginary);
+        file.writeNodeVector(group, formatted("mode_%03zu_imaginary", shape.index + 1),
+                             shape.imaginary);
         if (analysis.mesh)
-          file.writeNodeVector(group, formatted("mode_%03zu_friction_work", shape.index + 1), workField(analysis, shape));
+          file.writeNodeVector(group, formatted("mode_%03zu_friction_work", shape.index + 1),
+                               workField(analysis, shape));
       }
     }
   }

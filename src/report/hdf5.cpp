@@ -31,7 +31,10 @@ hid_t openOrMake(hid_t file, const std::string& object) {
     const std::string path = object.substr(0, end);
     const auto exists = H5Lexists(file, path.c_str(), H5P_DEFAULT);
     if (exists < 0) return -1;
-    if (!exists && !hdf5::GroupId(H5Gcreate2(file, path.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT)).valid()) return -1;
+    if (!exists &&
+        !hdf5::GroupId(H5Gcreate2(file, path.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT))
+             .valid())
+      return -1;
     if (end == std::string::npos) return H5Oopen(file, path.c_str(), H5P_DEFAULT);
   }
 }
@@ -44,7 +47,8 @@ void require(bool done, const std::filesystem::path& path) {
 /// A table [row][column] of which rows are written in turn, on one rank. Error: output::WriteError.
 class Rows {
  public:
-  Rows(hid_t file, const std::filesystem::path& path, const std::string& name, hid_t type, hsize_t rows, hsize_t columns)
+  Rows(hid_t file, const std::filesystem::path& path, const std::string& name, hid_t type,
+       hsize_t rows, hsize_t columns)
       : path_(path), type_(type), columns_(columns), dataset_(create(file, name, rows)) {
     require(dataset_.valid(), path_);
   }
@@ -52,7 +56,8 @@ class Rows {
     if (rows == 0) return;
     const EndingWaits whole;
     const std::array<hsize_t, 2> begin{done_, 0}, count{rows, columns_};
-    const hdf5::SpaceId here(H5Screate_simple(2, count.data(), nullptr)), there(H5Dget_space(dataset_));
+    const hdf5::SpaceId here(H5Screate_simple(2, count.data(), nullptr)),
+        there(H5Dget_space(dataset_));
     H5Sselect_hyperslab(there, H5S_SELECT_SET, begin.data(), nullptr, count.data(), nullptr);
     require(H5Dwrite(dataset_, type_, here, there, H5P_DEFAULT, values) >= 0, path_);
     done_ += rows;
@@ -72,10 +77,12 @@ class Rows {
   hdf5::DatasetId dataset_;
 };
 
-/// Collective. Hands the rows of all ranks, in their order and in pieces, to `take(values, entries)` on rank 0.
+/// Collective. Hands the rows of all ranks, in their order and in pieces, to `take(values,
+/// entries)` on rank 0.
 template <class Number, class Take>
 void inTurn(MPI_Comm comm, std::span<const Number> mine, std::size_t columns, const Take& take) {
-  const std::size_t most = std::max<std::size_t>(1, (1 << 20) / columns) * columns;  // entries of a piece: some megabytes
+  const std::size_t most = std::max<std::size_t>(1, (1 << 20) / columns) *
+                           columns;  // entries of a piece: some megabytes
   const auto bytes = [](std::size_t entries) { return static_cast<int>(entries * sizeof(Number)); };
   constexpr int tag = 0;
   int rank = 0, size = 1;
@@ -83,7 +90,8 @@ void inTurn(MPI_Comm comm, std::span<const Number> mine, std::size_t columns, co
   check(MPI_Comm_size(comm, &size));
   const unsigned long long count = mine.size();
   std::vector<unsigned long long> counts(static_cast<std::size_t>(size));
-  check(MPI_Gather(&count, 1, MPI_UNSIGNED_LONG_LONG, counts.data(), 1, MPI_UNSIGNED_LONG_LONG, 0, comm));
+  check(MPI_Gather(&count, 1, MPI_UNSIGNED_LONG_LONG, counts.data(), 1, MPI_UNSIGNED_LONG_LONG, 0,
+                   comm));
   if (rank != 0) {
     for (; !mine.empty(); mine = mine.subspan(std::min(most, mine.size())))
       check(MPI_Send(mine.data(), bytes(std::min(most, mine.size())), MPI_BYTE, 0, tag, comm));
@@ -92,14 +100,16 @@ void inTurn(MPI_Comm comm, std::span<const Number> mine, std::size_t columns, co
   take(mine.data(), mine.size());
   std::vector<Number> piece(most);
   for (int other = 1; other < size; ++other)
-    for (std::size_t left = counts[static_cast<std::size_t>(other)]; left > 0; left -= std::min(most, left)) {
+    for (std::size_t left = counts[static_cast<std::size_t>(other)]; left > 0;
+         left -= std::min(most, left)) {
       const std::size_t entries = std::min(most, left);
       check(MPI_Recv(piece.data(), bytes(entries), MPI_BYTE, other, tag, comm, MPI_STATUS_IGNORE));
       take(piece.data(), entries);
     }
 }
 
-/// Collective. The gmsh element types of the whole mesh, ascending: a rank may lack cells of a type that others have.
+/// Collective. The gmsh element types of the whole mesh, ascending: a rank may lack cells of a type
+/// that others have.
 std::vector<int> elementTypes(const mesh::Mesh& mesh) {
   constexpr int most = 256;  // gmsh's type numbers end at 140
   std::vector<int> present(most, 0);
@@ -137,14 +147,17 @@ Hdf5File::~Hdf5File() {
 }
 
 void Hdf5File::close() {
-  onFirst([&] { return H5Fflush(file_, H5F_SCOPE_LOCAL) >= 0 && H5Fclose(std::exchange(file_, -1)) >= 0; });
+  onFirst([&] {
+    return H5Fflush(file_, H5F_SCOPE_LOCAL) >= 0 && H5Fclose(std::exchange(file_, -1)) >= 0;
+  });
 }
 
 void Hdf5File::writeMesh(const mesh::Mesh& mesh) {
   const auto owned = static_cast<std::size_t>(mesh.ownedNodes);
   std::vector<double> coordinates;
   for (std::size_t node = 0; node < owned; ++node)
-    coordinates.insert(coordinates.end(), mesh.coordinates[node].begin(), mesh.coordinates[node].end());
+    coordinates.insert(coordinates.end(), mesh.coordinates[node].begin(),
+                       mesh.coordinates[node].end());
   writeRows<double>("/mesh", "coordinates", 3, coordinates);
   writeRows<PetscInt>("/mesh", "node_tag", 1, std::span(mesh.nodeTag).first(owned));
   writeRows<int>("/mesh", "node_part", 1, std::span(mesh.nodePart).first(owned));
@@ -158,12 +171,14 @@ void Hdf5File::writeCells(const mesh::Mesh& mesh, int type) {
   std::string name;
   int dimension = 0, order = 0, nodesPerCell = 0, corners = 0;
   std::vector<double> localCoordinates;
-  gmsh::model::mesh::getElementProperties(type, name, dimension, order, nodesPerCell, localCoordinates, corners);
+  gmsh::model::mesh::getElementProperties(type, name, dimension, order, nodesPerCell,
+                                          localCoordinates, corners);
 
   std::vector<PetscInt> nodes, bodies, tags;
   for (const auto& block : mesh.cells) {
     if (block.type != type) continue;
-    for (PetscInt node : block.nodes) nodes.push_back(mesh.globalNode[static_cast<std::size_t>(node)]);
+    for (PetscInt node : block.nodes)
+      nodes.push_back(mesh.globalNode[static_cast<std::size_t>(node)]);
     bodies.insert(bodies.end(), block.body.begin(), block.body.end());
     tags.insert(tags.end(), block.tag.begin(), block.tag.end());
   }
@@ -186,13 +201,15 @@ void Hdf5File::writeNodeVector(const std::string& group, const std::string& name
   writeRows<double>(group, name, components, copy);
 }
 
-void Hdf5File::writeTable(const std::string& group, const std::string& name, const std::vector<std::string>& columns,
+void Hdf5File::writeTable(const std::string& group, const std::string& name,
+                          const std::vector<std::string>& columns,
                           const std::vector<std::vector<double>>& rows) {
   std::string message;
   std::vector<double> values;
   for (const auto& row : rows) {
     if (row.size() != columns.size())
-      message = formatted("table %s: a row of %zu values for %zu columns", name.c_str(), row.size(), columns.size());
+      message = formatted("table %s: a row of %zu values for %zu columns", name.c_str(), row.size(),
+                          columns.size());
     values.insert(values.end(), row.begin(), row.end());
   }
   failTogether(comm_, message);
@@ -201,11 +218,14 @@ void Hdf5File::writeTable(const std::string& group, const std::string& name, con
 }
 
 template <class Value>
-void Hdf5File::writeValue(const std::string& object, const std::string& name, hid_t type, const Value* value) {
+void Hdf5File::writeValue(const std::string& object, const std::string& name, hid_t type,
+                          const Value* value) {
   onFirst([&] {
     const hdf5::ObjectId owner(openOrMake(file_, object));
     const hdf5::SpaceId single(H5Screate(H5S_SCALAR));
-    const hdf5::AttributeId attribute(owner.valid() ? H5Acreate2(owner, name.c_str(), type, single, H5P_DEFAULT, H5P_DEFAULT) : -1);
+    const hdf5::AttributeId attribute(
+        owner.valid() ? H5Acreate2(owner, name.c_str(), type, single, H5P_DEFAULT, H5P_DEFAULT)
+                      : -1);
     return attribute.valid() && H5Awrite(attribute, type, value) >= 0;
   });
 }
@@ -214,7 +234,8 @@ void Hdf5File::writeAttribute(const std::string& object, const std::string& name
   writeValue(object, name, H5T_NATIVE_DOUBLE, &value);
 }
 
-void Hdf5File::writeAttribute(const std::string& object, const std::string& name, const std::string& text) {
+void Hdf5File::writeAttribute(const std::string& object, const std::string& name,
+                              const std::string& text) {
   const hdf5::TypeId type(H5Tcopy(H5T_C_S1));
   H5Tset_size(type, text.size() + 1);
   writeValue(object, name, type, text.c_str());
@@ -225,13 +246,16 @@ void Hdf5File::writeAttribute(const std::string& object, const std::string& name
 }
 
 template <class Number>
-void Hdf5File::writeRows(const std::string& group, const std::string& name, int columns, std::span<const Number> values) {
+void Hdf5File::writeRows(const std::string& group, const std::string& name, int columns,
+                         std::span<const Number> values) {
   unsigned long long total = values.size();
   check(MPI_Allreduce(MPI_IN_PLACE, &total, 1, MPI_UNSIGNED_LONG_LONG, MPI_SUM, comm_));
   const auto width = static_cast<hsize_t>(columns);
   const hdf5::Silence silence;
   std::optional<Rows> rows;
-  onFirstRank(comm_, blame, [&] { rows.emplace(file_, path_, group + "/" + name, typeOf<Number>(), total / width, width); });
+  onFirstRank(comm_, blame, [&] {
+    rows.emplace(file_, path_, group + "/" + name, typeOf<Number>(), total / width, width);
+  });
   std::string failure;  // the other ranks send all the same
   inTurn(comm_, values, width, [&](const Number* piece, std::size_t entries) {
     if (failure.empty()) try {

@@ -12,14 +12,16 @@
 
 namespace squeal::report {
 
-/// An HDF5 file open for writing. All methods are collective. Groups are absolute ("/modes") and made when first written to.
+/// An HDF5 file open for writing. All methods are collective. Groups are absolute ("/modes") and
+/// made when first written to.
 ///
-/// Rank 0 alone writes; the others send it their parts, a piece at a time, so that it never holds more than its own part and a piece. Were
-/// each to write its part, a disc that is full for one of them would leave the others waiting inside the library.
+/// Rank 0 alone writes; the others send it their parts, a piece at a time, so that it never holds
+/// more than its own part and a piece. Were each to write its part, a disc that is full for one of
+/// them would leave the others waiting inside the library.
 class Hdf5File {
  public:
-  /// Replaces the file if there is one; the folder must exist. Errors of all methods (all ranks): what cannot be written, naming
-  /// -report_dir.
+  /// Replaces the file if there is one; the folder must exist. Errors of all methods (all ranks):
+  /// what cannot be written, naming -report_dir.
   Hdf5File(MPI_Comm comm, const std::filesystem::path& path);
   /// Closes the file if close() has not, whether or not all of it could be written.
   ~Hdf5File();
@@ -28,15 +30,18 @@ class Hdf5File {
   /// Writes what the library still keeps in memory.
   void close();
 
-  /// /mesh: `coordinates` [global node][3], `node_tag` and `node_part` [global node], attributes `dimension`, `bodies` and `parts`
-  /// (names joined by commas). For each gmsh element type T of the mesh a group cells_T: `nodes` [cell][node] global nodes in
-  /// gmsh's order, `body` [cell] index into bodies, `tag` [cell], attributes `gmsh_element_type` and `gmsh_element_name`.
+  /// /mesh: `coordinates` [global node][3], `node_tag` and `node_part` [global node], attributes
+  /// `dimension`, `bodies` and `parts` (names joined by commas). For each gmsh element type T of
+  /// the mesh a group cells_T: `nodes` [cell][node] global nodes in gmsh's order, `body` [cell]
+  /// index into bodies, `tag` [cell], attributes `gmsh_element_type` and `gmsh_element_name`.
   void writeMesh(const mesh::Mesh& mesh);
-  /// A field at the nodes: dataset [global node][component]; the block size of `values` is the number of components.
+  /// A field at the nodes: dataset [global node][component]; the block size of `values` is the
+  /// number of components.
   void writeNodeVector(const std::string& group, const std::string& name, Vec values);
-  /// A small table of reals: dataset [row][column] with attribute `columns` (names joined by commas). Rank 0 passes the rows, the
-  /// others none.
-  void writeTable(const std::string& group, const std::string& name, const std::vector<std::string>& columns,
+  /// A small table of reals: dataset [row][column] with attribute `columns` (names joined by
+  /// commas). Rank 0 passes the rows, the others none.
+  void writeTable(const std::string& group, const std::string& name,
+                  const std::vector<std::string>& columns,
                   const std::vector<std::vector<double>>& rows);
   /// An attribute of the group or dataset `object`; the same value on all ranks.
   void writeAttribute(const std::string& object, const std::string& name, double value);
@@ -47,9 +52,11 @@ class Hdf5File {
   template <class Action>
   void onFirst(const Action& action);
   template <class Number>
-  void writeRows(const std::string& group, const std::string& name, int columns, std::span<const Number> values);
+  void writeRows(const std::string& group, const std::string& name, int columns,
+                 std::span<const Number> values);
   template <class Value>
-  void writeValue(const std::string& object, const std::string& name, hid_t type, const Value* value);
+  void writeValue(const std::string& object, const std::string& name, hid_t type,
+                  const Value* value);
   void writeCells(const mesh::Mesh& mesh, int type);
 
   MPI_Comm comm_;

@@ -48,7 +48,8 @@ herr_t closeFile(H5FD_t* file) {
 
 herr_t query(const H5FD_t*, unsigned long* flags) {
   if (flags)
-    *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_DATA_SIEVE | H5FD_FEAT_AGGREGATE_SMALLDATA;
+    *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_DATA_SIEVE |
+             H5FD_FEAT_AGGREGATE_SMALLDATA;
   return 0;
 }
 
@@ -78,7 +79,8 @@ herr_t readBytes(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, std::size_t s
   return 0;
 }
 
-herr_t writeBytes(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, std::size_t size, const void* buffer) {
+herr_t writeBytes(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, std::size_t size,
+                  const void* buffer) {
   own(file)->end = std::max(own(file)->end, address + size);
   const auto* bytes = static_cast<const char*>(buffer);
   while (size > 0 && firstError == 0) {
@@ -98,7 +100,8 @@ herr_t writeBytes(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, std::size_t 
 herr_t truncateFile(H5FD_t* file, hid_t, hbool_t) {
   auto& self = *own(file);
   if (self.end == self.allocated) return 0;
-  if (firstError == 0 && ftruncate(self.descriptor, static_cast<off_t>(self.allocated)) != 0) note(errno);
+  if (firstError == 0 && ftruncate(self.descriptor, static_cast<off_t>(self.allocated)) != 0)
+    note(errno);
   self.end = self.allocated;
   return 0;
 }

@@ -4,8 +4,9 @@
 
 namespace squeal::report {
 
-/// After a write that fails HDF5 1.10 cannot close its file, and crashes when the program ends. This driver (one rank, one file at a time)
-/// therefore tells the library that all goes well, drops what comes after the failure, and keeps the reason for us.
+/// After a write that fails HDF5 1.10 cannot close its file, and crashes when the program ends.
+/// This driver (one rank, one file at a time) therefore tells the library that all goes well, drops
+/// what comes after the failure, and keeps the reason for us.
 ///
 /// Properties for H5Fcreate, to be closed with H5Pclose.
 hid_t keepingErrorsProperties();

@@ -12,19 +12,33 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::set<std::string> fixedNames{
-    "eigenvalues.csv", "branches.csv", "critical.csv", "modes.csv", "sensitivities.csv",   "friction_work.csv", "stability_map.csv",
-    "summary.json",    "options.txt",  "results.h5",   "vtk",       output::Manifest::name};
+const std::set<std::string> fixedNames{"eigenvalues.csv",
+                                       "branches.csv",
+                                       "critical.csv",
+                                       "modes.csv",
+                                       "sensitivities.csv",
+                                       "friction_work.csv",
+                                       "stability_map.csv",
+                                       "summary.json",
+                                       "options.txt",
+                                       "results.h5",
+                                       "vtk",
+                                       output::Manifest::name};
 
 /// What stands between the two; none: the text does not begin and end so.
-std::optional<std::string> between(const std::string& text, const std::string& begin, const std::string& end) {
-  if (text.size() < begin.size() + end.size() || !text.starts_with(begin) || !text.ends_with(end)) return {};
+std::optional<std::string> between(const std::string& text, const std::string& begin,
+                                   const std::string& end) {
+  if (text.size() < begin.size() + end.size() || !text.starts_with(begin) || !text.ends_with(end))
+    return {};
   return text.substr(begin.size(), text.size() - begin.size() - end.size());
 }
 
-bool isNumber(const std::string& text) { return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos; }
+bool isNumber(const std::string& text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+}
 
-/// NAME.pvtu beside the folder NAME with the pieces NAME_RANK.vtu: `parts` are the names from there on.
+/// NAME.pvtu beside the folder NAME with the pieces NAME_RANK.vtu: `parts` are the names from there
+/// on.
 bool isGrid(const std::string& name, const std::vector<std::string>& parts) {
   if (parts.size() == 1) return parts[0] == name || parts[0] == name + ".pvtu";
   const auto rank = between(parts[1], name + "_", ".vtu");
@@ -33,14 +47,17 @@ bool isGrid(const std::string& name, const std::vector<std::string>& parts) {
 
 std::vector<std::string> partsOf(const fs::path& path) { return {path.begin(), path.end()}; }
 
-/// The names that scripts/plot_stability.py of version 0.1.0 gives its plots: one for each value of what is swept beside the axes.
+/// The names that scripts/plot_stability.py of version 0.1.0 gives its plots: one for each value of
+/// what is swept beside the axes.
 std::set<std::string> plotNames(const std::vector<sweep::Parameters>& points) {
   std::set<std::string> names;
   for (const auto& at : points)
     for (unsigned chosen = 0; chosen < 1U << sweep::allParameters.size(); ++chosen) {
       std::string suffix;
       for (std::size_t i = 0; i < sweep::allParameters.size(); ++i)
-        if (chosen & 1U << i) suffix += formatted("_%s_%g", sweep::allParameters[i].name, at.*sweep::allParameters[i].value);
+        if (chosen & 1U << i)
+          suffix +=
+              formatted("_%s_%g", sweep::allParameters[i].name, at.*sweep::allParameters[i].value);
       names.insert("stability" + suffix + ".png");
       names.insert("stability_map" + suffix + ".png");
     }
@@ -53,8 +70,8 @@ std::vector<sweep::Parameters> formerPoints(const fs::path& folder) {
   std::ifstream recipe(folder / "options.txt"), file(folder / "summary.json");
   if (!std::getline(recipe, line) || !line.starts_with("# squeal 0.1.0,")) return {};
   const auto summary = nlohmann::json::parse(file, nullptr, false);
-  if (!summary.is_object() || summary.value("version", nlohmann::json()) != "0.1.0" || !summary.contains("case") ||
-      !summary.contains("options") || !summary.contains("frictions"))
+  if (!summary.is_object() || summary.value("version", nlohmann::json()) != "0.1.0" ||
+      !summary.contains("case") || !summary.contains("options") || !summary.contains("frictions"))
     return {};
   std::vector<sweep::Parameters> points;
   for (const auto& entry : summary["frictions"]) {
@@ -91,21 +108,27 @@ bool ResultNames::contains(const fs::path& path) const {
   if (parts.size() > 1) return parts[0] == "vtk" && isField({parts.begin() + 1, parts.end()});
   if (fixedNames.contains(parts.at(0))) return true;
   for (const char* begin : {"steady_", "modes_"})
-    if (const auto point = between(parts[0], begin, ".csv"); point && points_.contains(*point)) return true;
+    if (const auto point = between(parts[0], begin, ".csv"); point && points_.contains(*point))
+      return true;
   return false;
 }
 
 /// `parts`: the names below vtk.
 bool ResultNames::isField(const std::vector<std::string>& parts) const {
   if (parts == std::vector<std::string>{"steady.pvd"}) return true;
-  const std::string stem = parts.size() > 1 || !parts[0].ends_with(".pvtu") ? parts[0] : parts[0].substr(0, parts[0].size() - 5);
+  const std::string stem = parts.size() > 1 || !parts[0].ends_with(".pvtu")
+                               ? parts[0]
+                               : parts[0].substr(0, parts[0].size() - 5);
   for (const char* begin : {"steady_friction_", "modes_from_friction_", "complex_modes_friction_"})
-    if (const auto point = between(stem, begin, ""); point && points_.contains(*point)) return isGrid(stem, parts);
-  static const std::regex animation(R"((squeal_friction_(.+)_mode_\d{3,}_\d+_Hz)(\.pvd)?)"), frame(R"((frame_\d{3,})(\.pvtu)?)");
+    if (const auto point = between(stem, begin, ""); point && points_.contains(*point))
+      return isGrid(stem, parts);
+  static const std::regex animation(R"((squeal_friction_(.+)_mode_\d{3,}_\d+_Hz)(\.pvd)?)"),
+      frame(R"((frame_\d{3,})(\.pvtu)?)");
   std::smatch match;
   if (!std::regex_match(parts[0], match, animation) || !points_.contains(match[2])) return false;
   if (parts.size() == 1) return true;
-  return !match[3].matched && std::regex_match(parts[1], match, frame) && isGrid(match[1], {parts.begin() + 1, parts.end()});
+  return !match[3].matched && std::regex_match(parts[1], match, frame) &&
+         isGrid(match[1], {parts.begin() + 1, parts.end()});
 }
 
 output::Manifest formerResults(const fs::path& folder) {
@@ -114,7 +137,8 @@ output::Manifest formerResults(const fs::path& folder) {
   const ResultNames names(points);
   const auto plots = plotNames(points);
   std::set<fs::path> files;
-  for (auto entry = fs::recursive_directory_iterator(folder); entry != fs::recursive_directory_iterator(); ++entry) {
+  for (auto entry = fs::recursive_directory_iterator(folder);
+       entry != fs::recursive_directory_iterator(); ++entry) {
     const fs::path path = entry->path().lexically_relative(folder);
     const bool ours = names.contains(path) || plots.contains(path);
     const bool isFolder = fs::is_directory(entry->symlink_status());

@@ -1,5 +1,6 @@
 #pragma once
-/// What the files of a run are called: which names a run may take, and which files a version without a manifest left.
+/// What the files of a run are called: which names a run may take, and which files a version
+/// without a manifest left.
 #include <filesystem>
 #include <set>
 #include <string>
@@ -10,10 +11,12 @@
 
 namespace squeal::report {
 
-/// A point of the sweep as it stands in file and group names: FRICTION, and _speed_SPEED, _pressure_… of the factors that are not 1.
+/// A point of the sweep as it stands in file and group names: FRICTION, and _speed_SPEED,
+/// _pressure_… of the factors that are not 1.
 std::string pointName(const sweep::Parameters& at);
 
-/// The names of the files and folders of a run over some points, relative to the folder of the results.
+/// The names of the files and folders of a run over some points, relative to the folder of the
+/// results.
 class ResultNames {
  public:
   explicit ResultNames(const std::vector<sweep::Parameters>& points);
@@ -24,8 +27,8 @@ class ResultNames {
   std::set<std::string> points_;
 };
 
-/// The files in `folder` that version 0.1.0, which kept no manifest, left there, the plots of its scripts included; none unless
-/// summary.json and options.txt are of that version.
+/// The files in `folder` that version 0.1.0, which kept no manifest, left there, the plots of its
+/// scripts included; none unless summary.json and options.txt are of that version.
 output::Manifest formerResults(const std::filesystem::path& folder);
 
 }  // namespace squeal::report

@@ -10,14 +10,16 @@
 namespace squeal::report {
 namespace {
 
-const TextOption directoryOption(
-    "report", "report_dir", "results",
-    "folder for the results; those of an earlier run in it are replaced when the new ones are complete");
-const FlagOption fieldsOption("report", "report_fields", true, "write fields: results.h5 and the VTK files");
+const TextOption directoryOption("report", "report_dir", "results",
+                                 "folder for the results; those of an earlier run in it are "
+                                 "replaced when the new ones are complete");
+const FlagOption fieldsOption("report", "report_fields", true,
+                              "write fields: results.h5 and the VTK files");
 
 output::Naming naming() {
   const auto names = std::make_shared<ResultNames>(sweep::readSweep().points());
-  return {"-report_dir", "summary.json", [names](const std::filesystem::path& path) { return names->contains(path); },
+  return {"-report_dir", "summary.json",
+          [names](const std::filesystem::path& path) { return names->contains(path); },
           formerResults};
 }
 

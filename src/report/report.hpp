@@ -8,7 +8,8 @@
 
 namespace squeal::report {
 
-/// The folder of a run (`-report_dir`), where new results replace those of an earlier run when all are complete.
+/// The folder of a run (`-report_dir`), where new results replace those of an earlier run when all
+/// are complete.
 class Directory : public output::Folder {
  public:
   /// Collective, when all options have been checked. Errors as of output::Folder.
@@ -28,9 +29,11 @@ void writeRecipe(const analysis::Analysis& analysis, const std::filesystem::path
 void writeSummary(const analysis::Analysis& analysis, const std::filesystem::path& folder);
 void writeHdf5(const analysis::Analysis& analysis, const std::filesystem::path& folder);
 void writeFields(const analysis::Analysis& analysis, const std::filesystem::path& folder);
-/// Derivatives of the eigenvalues of the complex modes kept: a row per mode and parameter; a mode without any has one row, "none".
+/// Derivatives of the eigenvalues of the complex modes kept: a row per mode and parameter; a mode
+/// without any has one row, "none".
 std::string sensitivityTable(const analysis::Analysis& analysis);
-/// Collective. What friction on each interface adds to the growth rates of the complex modes kept (flutter::frictionWork).
+/// Collective. What friction on each interface adds to the growth rates of the complex modes kept
+/// (flutter::frictionWork).
 std::string frictionWorkTable(const analysis::Analysis& analysis);
 /// branches.csv, critical.csv, and what the terminal says of both.
 std::string branchTable(const analysis::Analysis& analysis);

@@ -28,8 +28,9 @@ Json steadyEntry(const steady::Solution& solution) {
   entry["relative_residual"] = solution.residual;
   entry["relative_imbalance"] = solution.imbalance;
   for (const auto& resultant : solution.resultants)
-    entry["interfaces"][resultant.interface] = {{"normal_force_n", point3(resultant.normalForce)},
-                                                {"friction_force_n", point3(resultant.frictionForce)}};
+    entry["interfaces"][resultant.interface] = {
+        {"normal_force_n", point3(resultant.normalForce)},
+        {"friction_force_n", point3(resultant.frictionForce)}};
   return entry;
 }
 
@@ -38,7 +39,8 @@ Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nul
 
 Json uniquenessEntry(double speed, const steady::Uniqueness& found) {
   Json entry = {{"speed", speed},
-                {"positive_definite_up_to_friction", std::isinf(found.lostAt) ? Json("any") : finite(found.lostAt)}};
+                {"positive_definite_up_to_friction",
+                 std::isinf(found.lostAt) ? Json("any") : finite(found.lostAt)}};
   for (const auto& judgement : found.judgements)
     entry["frictions"].push_back({{"friction", judgement.friction},
                                   {"steady_state", judgement.verdict},
@@ -70,10 +72,13 @@ Json followedEntry(const tracking::Followed& followed) {
                 {"left", followed.branches.left},     {"statement", followed.statement()}};
   entry["uncertain"] = Json::array();
   for (const auto& gap : followed.branches.gaps)
-    entry["uncertain"].push_back(
-        {{"from_friction", gap.from}, {"to_friction", gap.to}, {"what", gap.what}, {"identity_only", gap.identityOnly}});
+    entry["uncertain"].push_back({{"from_friction", gap.from},
+                                  {"to_friction", gap.to},
+                                  {"what", gap.what},
+                                  {"identity_only", gap.identityOnly}});
   entry["critical_frictions"] = Json::array();
-  for (const auto& critical : followed.criticals) entry["critical_frictions"].push_back(critical.friction);
+  for (const auto& critical : followed.criticals)
+    entry["critical_frictions"].push_back(critical.friction);
   return entry;
 }
 
@@ -91,7 +96,8 @@ void writeSummary(const analysis::Analysis& analysis, const std::filesystem::pat
   Json summary;
   summary["version"] = version();
   const auto& options = resolvedOptions();
-  summary["case"] = analysis.mesh ? std::filesystem::path(options.at("mesh_file")).stem().string() : "matrices";
+  summary["case"] =
+      analysis.mesh ? std::filesystem::path(options.at("mesh_file")).stem().string() : "matrices";
   summary["ranks"] = ranks;
   if (analysis.mesh) {
     summary["nodes"] = analysis.mesh->totalNodes;
@@ -108,7 +114,8 @@ void writeSummary(const analysis::Analysis& analysis, const std::filesystem::pat
     if (const auto* point = analysis.pointAt(points[i])) {
       entry["eigenvalues"] = point->eigenvalues.size();
       entry["worst_backward_error"] = point->worstBackwardError();
-      if (point->coveredTo > 0 && std::isfinite(point->coveredTo)) entry["covered_to_hz"] = point->coveredTo / (2 * M_PI);
+      if (point->coveredTo > 0 && std::isfinite(point->coveredTo))
+        entry["covered_to_hz"] = point->coveredTo / (2 * M_PI);
       if (point->bandTop > 0) {
         entry["band_top_hz"] = finite(point->bandTop / (2 * M_PI));  // null: all eigenvalues
         entry["free_modes_without_eigenvalue"] = point->modesWithoutEigenvalue();
@@ -121,12 +128,15 @@ void writeSummary(const analysis::Analysis& analysis, const std::filesystem::pat
     }
     summary["frictions"].push_back(entry);
   }
-  for (const auto& [speed, found] : analysis.uniqueness) summary["steady_uniqueness"].push_back(uniquenessEntry(speed, found));
+  for (const auto& [speed, found] : analysis.uniqueness)
+    summary["steady_uniqueness"].push_back(uniquenessEntry(speed, found));
   summary["active_sets"] = Json::array();
   for (const auto& segment : analysis.segments) {
     Json entry;
-    for (const auto& [word, point] : {std::pair{"first_", &segment.points.front()}, {"last_", &segment.points.back()}})
-      for (const auto& parameter : sweep::allParameters) entry[std::string(word) + parameter.name] = point->at.*parameter.value;
+    for (const auto& [word, point] :
+         {std::pair{"first_", &segment.points.front()}, {"last_", &segment.points.back()}})
+      for (const auto& parameter : sweep::allParameters)
+        entry[std::string(word) + parameter.name] = point->at.*parameter.value;
     entry["open_nodes"] = segment.openNodes;
     entry["dofs"] = segment.unknowns;
     entry["modes"] = segment.modes.angularFrequency.size();
@@ -136,12 +146,14 @@ void writeSummary(const analysis::Analysis& analysis, const std::filesystem::pat
       entry["sturm_count"] = {{"shift_rad2_per_s2", segment.modes.inertiaShift},
                               {"eigenvalues_below", segment.modes.inertiaCount},
                               {"confirmed", segment.modes.countConfirmed}};
-    for (const auto& followed : segment.followed) entry["followed"].push_back(followedEntry(followed));
+    for (const auto& followed : segment.followed)
+      entry["followed"].push_back(followedEntry(followed));
     summary["active_sets"].push_back(entry);
   }
   double total = 0;
   for (const auto& record : stageRecords()) {
-    summary["stages"][record.name] = {{"wall_s", record.seconds}, {"peak_memory_bytes", record.peakMemoryBytes}};
+    summary["stages"][record.name] = {{"wall_s", record.seconds},
+                                      {"peak_memory_bytes", record.peakMemoryBytes}};
     total += record.seconds;
   }
   summary["wall_s"] = total;

@@ -19,36 +19,40 @@ namespace squeal::report {
 namespace {
 
 std::string eigenvalueTable(const analysis::Analysis& analysis) {
-  std::string table =
-      sweep::parameterColumns() +
-      ",mode,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,damping_ratio,backward_error,error_estimate,certified\n";
+  std::string table = sweep::parameterColumns() +
+                      ",mode,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,damping_"
+                      "ratio,backward_error,error_estimate,certified\n";
   for (const auto& segment : analysis.segments)
     for (const auto& point : segment.points)
       for (std::size_t i = 0; i < point.eigenvalues.size(); ++i) {
         const auto& e = point.eigenvalues[i];
         table += sweep::parameterValues(point.at) + "," + std::to_string(i + 1) +
-                 formatted(",%.15e,%.15e,%.15e,%.15e,%.3e,%.3e,%d\n", e.s.real(), e.s.imag(), e.s.imag() / (2 * M_PI),
-                           -e.s.real() / std::abs(e.s), e.backwardError, e.errorEstimate, e.certified ? 1 : 0);
+                 formatted(",%.15e,%.15e,%.15e,%.15e,%.3e,%.3e,%d\n", e.s.real(), e.s.imag(),
+                           e.s.imag() / (2 * M_PI), -e.s.real() / std::abs(e.s), e.backwardError,
+                           e.errorEstimate, e.certified ? 1 : 0);
       }
   return table;
 }
 
-/// A row for each point of the sweep; cells stay empty where there is nothing to say: no steady sliding, no eigenvalue, no estimate.
+/// A row for each point of the sweep; cells stay empty where there is nothing to say: no steady
+/// sliding, no eigenvalue, no estimate.
 std::string stabilityMap(const analysis::Analysis& analysis) {
   const auto cell = [](const char* format, double value) {
     char text[32] = "";
     if (std::isfinite(value)) std::snprintf(text, sizeof text, format, value);
     return "," + std::string(text);
   };
-  std::string table =
-      sweep::parameterColumns() + ",unstable_modes,largest_growth_rate_1_per_s,frequency_hz,worst_backward_error,worst_error_estimate\n";
+  std::string table = sweep::parameterColumns() +
+                      ",unstable_modes,largest_growth_rate_1_per_s,frequency_hz,worst_backward_"
+                      "error,worst_error_estimate\n";
   for (const auto& at : analysis.sweep.points()) {
     const auto* point = analysis.pointAt(at);
     const auto* fastest = point ? point->fastestGrowing() : nullptr;
     table += sweep::parameterValues(at) + cell("%.0f", point ? point->unstableCount() : NAN) +
-             cell("%.15e", fastest ? fastest->s.real() : NAN) + cell("%.15e", fastest ? fastest->s.imag() / (2 * M_PI) : NAN) +
-             cell("%.3e", fastest ? point->worstBackwardError() : NAN) + cell("%.3e", fastest ? point->worstErrorEstimate() : NAN) +
-             "\n";
+             cell("%.15e", fastest ? fastest->s.real() : NAN) +
+             cell("%.15e", fastest ? fastest->s.imag() / (2 * M_PI) : NAN) +
+             cell("%.3e", fastest ? point->worstBackwardError() : NAN) +
+             cell("%.3e", fastest ? point->worstErrorEstimate() : NAN) + "\n";
   }
   return table;
 }
@@ -56,8 +60,8 @@ std::string stabilityMap(const analysis::Analysis& analysis) {
 std::string modeTable(const modes::Modes& modes) {
   std::string table = "mode,angular_frequency_rad_per_s,frequency_hz,relative_residual\n";
   for (std::size_t i = 0; i < modes.angularFrequency.size(); ++i)
-    table += formatted("%zu,%.15e,%.15e,%.3e\n", i + 1, modes.angularFrequency[i], modes.angularFrequency[i] / (2 * M_PI),
-                       modes.relativeResidual[i]);
+    table += formatted("%zu,%.15e,%.15e,%.3e\n", i + 1, modes.angularFrequency[i],
+                       modes.angularFrequency[i] / (2 * M_PI), modes.relativeResidual[i]);
   return table;
 }
 
@@ -67,9 +71,12 @@ std::string steadyRows(const analysis::Analysis& analysis, const steady::Solutio
   for (std::size_t i = 0; i < solution.contact.size(); ++i) {
     const auto& p = analysis.contact.nodes[i].position;
     const auto& state = solution.contact[i];
-    rows += formatted("%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,", p[0], p[1], p[2], state.gap, state.normalForce,
-                      state.pressure, state.frictionForce[0], state.frictionForce[1], state.frictionForce[2]) +
-            analysis.contact.interfaces[static_cast<std::size_t>(analysis.contact.nodes[i].interface)] + "\n";
+    rows +=
+        formatted("%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,", p[0], p[1], p[2],
+                  state.gap, state.normalForce, state.pressure, state.frictionForce[0],
+                  state.frictionForce[1], state.frictionForce[2]) +
+        analysis.contact.interfaces[static_cast<std::size_t>(analysis.contact.nodes[i].interface)] +
+        "\n";
   }
   return rows;
 }
@@ -78,10 +85,13 @@ std::string steadyRows(const analysis::Analysis& analysis, const steady::Solutio
 std::vector<sweep::Parameter> shownParameters(const analysis::Analysis& analysis) {
   const auto points = analysis.sweep.points();
   std::vector<sweep::Parameter> shown;
-  std::copy_if(sweep::allParameters.begin(), sweep::allParameters.end(), std::back_inserter(shown), [&](const sweep::Parameter& parameter) {
-    return parameter.value == &sweep::Parameters::friction ||
-           std::any_of(points.begin(), points.end(), [&](const sweep::Parameters& at) { return at.*parameter.value != 1; });
-  });
+  std::copy_if(sweep::allParameters.begin(), sweep::allParameters.end(), std::back_inserter(shown),
+               [&](const sweep::Parameter& parameter) {
+                 return parameter.value == &sweep::Parameters::friction ||
+                        std::any_of(points.begin(), points.end(), [&](const sweep::Parameters& at) {
+                          return at.*parameter.value != 1;
+                        });
+               });
   return shown;
 }
 
@@ -93,7 +103,8 @@ std::string rowHead(const sweep::Parameters& at, const std::vector<sweep::Parame
 }
 
 /// What is said where no mode is unstable.
-std::string verdict(const analysis::Analysis& analysis, const analysis::ModalSegment& segment, const pencil::FrictionPoint& point) {
+std::string verdict(const analysis::Analysis& analysis, const analysis::ModalSegment& segment,
+                    const pencil::FrictionPoint& point) {
   if (point.eigenvalues.empty()) return "no eigenvalue was found: nothing is known of stability";
   if (segment.openNodes > 0 && segment.openNodes == analysis.contact.totalNodes)
     return "none: no contact is closed, nothing slides";
@@ -101,38 +112,48 @@ std::string verdict(const analysis::Analysis& analysis, const analysis::ModalSeg
 }
 
 /// One line for one point of a sweep: the lowest unstable modes.
-std::string sweepRow(const analysis::Analysis& analysis, const analysis::ModalSegment& segment, const pencil::FrictionPoint& point,
+std::string sweepRow(const analysis::Analysis& analysis, const analysis::ModalSegment& segment,
+                     const pencil::FrictionPoint& point,
                      const std::vector<sweep::Parameter>& shown) {
   std::string row = rowHead(point.at, shown);
   if (point.unstableCount() == 0) return row + verdict(analysis, segment, point);
   int count = 0;
   for (const auto& e : point.eigenvalues)
-    if (e.unstable && ++count <= 6) row += formatted("%s%.6g (%.4g)", count > 1 ? ", " : "", e.s.imag() / (2 * M_PI), e.s.real());
+    if (e.unstable && ++count <= 6)
+      row += formatted("%s%.6g (%.4g)", count > 1 ? ", " : "", e.s.imag() / (2 * M_PI), e.s.real());
   return row + (count > 6 ? formatted(", and %d more in eigenvalues.csv", count - 6) : "");
 }
 
 /// The unstable modes of a single friction, a line each; modes are numbered by frequency.
-std::string modeRows(const analysis::Analysis& analysis, const analysis::ModalSegment& segment, const pencil::FrictionPoint& point) {
-  if (point.unstableCount() == 0) return formatted("\nfriction %g  ", point.at.friction) + verdict(analysis, segment, point);
+std::string modeRows(const analysis::Analysis& analysis, const analysis::ModalSegment& segment,
+                     const pencil::FrictionPoint& point) {
+  if (point.unstableCount() == 0)
+    return formatted("\nfriction %g  ", point.at.friction) + verdict(analysis, segment, point);
   std::string rows;
   for (std::size_t i = 0; i < point.eigenvalues.size(); ++i) {
     const auto& e = point.eigenvalues[i];
-    if (e.unstable) rows += formatted("\n%4zu  %12.6g %12.5g", i + 1, e.s.imag() / (2 * M_PI), e.s.real());
+    if (e.unstable)
+      rows += formatted("\n%4zu  %12.6g %12.5g", i + 1, e.s.imag() / (2 * M_PI), e.s.real());
   }
   return rows;
 }
 
-/// The point where strong damping has taken most free modes of the band from the eigenvalues listed; empty if there is none.
+/// The point where strong damping has taken most free modes of the band from the eigenvalues
+/// listed; empty if there is none.
 std::string strongDampingText(const analysis::Analysis& analysis) {
   const pencil::FrictionPoint* most = nullptr;
   for (const auto& segment : analysis.segments)
     for (const auto& point : segment.points)
-      if (point.modesWithoutEigenvalue() > (most ? most->modesWithoutEigenvalue() : 0)) most = &point;
+      if (point.modesWithoutEigenvalue() > (most ? most->modesWithoutEigenvalue() : 0))
+        most = &point;
   if (!most) return "";
   return formatted(
-      "\n%s: %d of the %d free modes in the band have no eigenvalue there: their damping ratio exceeds -flutter_band_damping, or "
-      "damping has moved them. Modes that such damping changes much may take a larger -modes_count; -flutter_method direct tells.",
-      sweep::parameterText(most->at).c_str(), most->modesWithoutEigenvalue(), most->freeModesInBand);
+      "\n%s: %d of the %d free modes in the band have no eigenvalue there: their damping ratio "
+      "exceeds -flutter_band_damping, or "
+      "damping has moved them. Modes that such damping changes much may take a larger "
+      "-modes_count; -flutter_method direct tells.",
+      sweep::parameterText(most->at).c_str(), most->modesWithoutEigenvalue(),
+      most->freeModesInBand);
 }
 
 std::string gathered(MPI_Comm comm, const std::string& text) {
@@ -143,7 +164,8 @@ std::string gathered(MPI_Comm comm, const std::string& text) {
   check(MPI_Gather(&length, 1, MPI_INT, lengths.data(), 1, MPI_INT, 0, comm));
   for (std::size_t r = 1; r < lengths.size(); ++r) offsets[r] = offsets[r - 1] + lengths[r - 1];
   std::string all(rank == 0 ? static_cast<std::size_t>(offsets.back() + lengths.back()) : 0, ' ');
-  check(MPI_Gatherv(text.data(), length, MPI_CHAR, all.data(), lengths.data(), offsets.data(), MPI_CHAR, 0, comm));
+  check(MPI_Gatherv(text.data(), length, MPI_CHAR, all.data(), lengths.data(), offsets.data(),
+                    MPI_CHAR, 0, comm));
   return all;
 }
 
@@ -151,11 +173,14 @@ std::string gathered(MPI_Comm comm, const std::string& text) {
 std::string recipe(MPI_Comm comm) {
   int size = 1;
   check(MPI_Comm_size(comm, &size));
-  std::string text = formatted("# squeal %s, %d ranks: the options of this run; defaults in comments\n", version(), size);
+  std::string text = formatted(
+      "# squeal %s, %d ranks: the options of this run; defaults in comments\n", version(), size);
   const auto given = givenOptions();
   for (const auto& [name, value] : given) {
     if (name == "report_dir") continue;
-    text += optionLine(name, FileOption::isOne(name) ? std::filesystem::absolute(value).lexically_normal().string() : value);
+    text += optionLine(name, FileOption::isOne(name)
+                                 ? std::filesystem::absolute(value).lexically_normal().string()
+                                 : value);
   }
   for (const auto& [name, value] : resolvedOptions())
     if (!given.count(name) && name != "report_dir") text += "# " + optionLine(name, value);
@@ -167,7 +192,8 @@ std::string recipe(MPI_Comm comm) {
 void writeTables(const analysis::Analysis& analysis, const std::filesystem::path& folder) {
   const MPI_Comm comm = analysis.comm;
   writeText(comm, folder / "eigenvalues.csv", eigenvalueTable(analysis));
-  if (sensitivity::sensitivitiesWanted()) writeText(comm, folder / "sensitivities.csv", sensitivityTable(analysis));
+  if (sensitivity::sensitivitiesWanted())
+    writeText(comm, folder / "sensitivities.csv", sensitivityTable(analysis));
   if (analysis.mesh) writeText(comm, folder / "friction_work.csv", frictionWorkTable(analysis));
   writeText(comm, folder / "stability_map.csv", stabilityMap(analysis));
   if (std::any_of(analysis.segments.begin(), analysis.segments.end(),
@@ -178,15 +204,16 @@ void writeTables(const analysis::Analysis& analysis, const std::filesystem::path
   for (std::size_t s = 0; s < analysis.segments.size(); ++s) {
     if (analysis.segments[s].modes.angularFrequency.empty()) continue;
     // modes.csv: the first active set; each later one has its own file, named by its first point.
-    const std::string name = s == 0 ? "modes.csv" : "modes_" + pointName(analysis.segments[s].points.at(0).at) + ".csv";
+    const std::string name =
+        s == 0 ? "modes.csv" : "modes_" + pointName(analysis.segments[s].points.at(0).at) + ".csv";
     writeText(comm, folder / name, modeTable(analysis.segments[s].modes));
   }
   for (const auto& solution : analysis.steady)
     if (solution.converged)
-      writeText(
-          comm, folder / ("steady_" + pointName(solution.at) + ".csv"),
-          "x_m,y_m,z_m,gap_m,normal_force_n,pressure_pa,friction_force_x_n,friction_force_y_n,friction_force_z_n,interface\n" +
-              gathered(comm, steadyRows(analysis, solution)));
+      writeText(comm, folder / ("steady_" + pointName(solution.at) + ".csv"),
+                "x_m,y_m,z_m,gap_m,normal_force_n,pressure_pa,friction_force_x_n,friction_force_y_"
+                "n,friction_force_z_n,interface\n" +
+                    gathered(comm, steadyRows(analysis, solution)));
 }
 
 void writeRecipe(const analysis::Analysis& analysis, const std::filesystem::path& folder) {
@@ -203,24 +230,29 @@ std::string stabilityTable(const analysis::Analysis& analysis) {
   }
   for (const auto& solution : analysis.steady)
     if (!solution.converged)
-      table += rowHead(solution.at, shown) + formatted("no steady sliding solution found (%s)", solution.reason.c_str());
+      table += rowHead(solution.at, shown) +
+               formatted("no steady sliding solution found (%s)", solution.reason.c_str());
   for (const auto& segment : analysis.segments)
     for (const auto& point : segment.points)
-      table += sweep ? sweepRow(analysis, segment, point, shown) : modeRows(analysis, segment, point);
+      table +=
+          sweep ? sweepRow(analysis, segment, point, shown) : modeRows(analysis, segment, point);
   for (const auto& segment : analysis.segments)
     for (const auto& point : segment.points)
       if (point.coveredTo < point.askedTo)
-        table += formatted("\n%s: the band is covered up to %.5g Hz only; raise -flutter_direct_limit",
-                           sweep::parameterText(point.at).c_str(), point.coveredTo / (2 * M_PI));
+        table +=
+            formatted("\n%s: the band is covered up to %.5g Hz only; raise -flutter_direct_limit",
+                      sweep::parameterText(point.at).c_str(), point.coveredTo / (2 * M_PI));
   table += strongDampingText(analysis);
   for (const auto& segment : analysis.segments)
     for (const auto& point : segment.points)
       if (point.bandTop > 0 && point.uncertifiedCount() > 0)
-        table +=
-            formatted("\n%s: %d eigenvalues could not be certified, see eigenvalues.csv; raise -modes_count or -flutter_rounds",
-                      sweep::parameterText(point.at).c_str(), point.uncertifiedCount());
+        table += formatted(
+            "\n%s: %d eigenvalues could not be certified, see eigenvalues.csv; raise -modes_count "
+            "or -flutter_rounds",
+            sweep::parameterText(point.at).c_str(), point.uncertifiedCount());
   const auto listsAny = [](const analysis::ModalSegment& segment) {
-    return std::any_of(segment.points.begin(), segment.points.end(), [](const auto& point) { return !point.eigenvalues.empty(); });
+    return std::any_of(segment.points.begin(), segment.points.end(),
+                       [](const auto& point) { return !point.eigenvalues.empty(); });
   };
   if (std::any_of(analysis.segments.begin(), analysis.segments.end(), listsAny) &&
       analysis.segments.front().points.front().bandTop > 0) {
@@ -232,11 +264,17 @@ std::string stabilityTable(const analysis::Analysis& analysis) {
         estimate = std::max(estimate, point.worstErrorEstimate());
       }
     if (top < pencil::bandAsked())
-      table += formatted("\nThe free modes end below the %.5g Hz of -flutter_band, and so do the eigenvalues: raise -modes_count.",
-                         pencil::bandAsked() / (2 * M_PI));
-    table += (std::isfinite(top) ? formatted("\nEigenvalues with |s|/2π up to %.5g Hz", top / (2 * M_PI)) : "\nAll eigenvalues") +
-             formatted(", of the full-order problem: backward errors up to %.1e, estimated errors |ds|/|s| up to %.1e.", backward,
-                       estimate);
+      table += formatted(
+          "\nThe free modes end below the %.5g Hz of -flutter_band, and so do the eigenvalues: "
+          "raise -modes_count.",
+          pencil::bandAsked() / (2 * M_PI));
+    table +=
+        (std::isfinite(top) ? formatted("\nEigenvalues with |s|/2π up to %.5g Hz", top / (2 * M_PI))
+                            : "\nAll eigenvalues") +
+        formatted(
+            ", of the full-order problem: backward errors up to %.1e, estimated errors |ds|/|s| up "
+            "to %.1e.",
+            backward, estimate);
   }
   return table + followedText(analysis);
 }

@@ -38,9 +38,10 @@ std::vector<int> sameOrder(int nodes) {
   return order;
 }
 
-// Corners and, in the plane, mid-side nodes have the same order in gmsh and VTK. In solids gmsh sorts the mid-edge nodes by the
-// corners of their edge, VTK walks round the base, then round the top, then up the edges between (tetrahedra: base, then up).
-// The mid-face nodes of bricks: gmsh −z −y −x +x +y +z, VTK −x +x −y +y −z +z.
+// Corners and, in the plane, mid-side nodes have the same order in gmsh and VTK. In solids gmsh
+// sorts the mid-edge nodes by the corners of their edge, VTK walks round the base, then round the
+// top, then up the edges between (tetrahedra: base, then up). The mid-face nodes of bricks: gmsh −z
+// −y −x +x +y +z, VTK −x +x −y +y −z +z.
 const std::map<int, VtkCell>& cellsByGmshType() {
   static const std::map<int, VtkCell> cells{
       {2, {VTK_TRIANGLE, sameOrder(3)}},
@@ -53,16 +54,20 @@ const std::map<int, VtkCell>& cellsByGmshType() {
       {11, {VTK_QUADRATIC_TETRA, {0, 1, 2, 3, 4, 5, 6, 7, 9, 8}}},
       {12, {VTK_TRIQUADRATIC_HEXAHEDRON, {0,  1,  2,  3,  4,  5,  6,  7,  8,  11, 13, 9,  16, 18,
                                           19, 17, 10, 12, 14, 15, 22, 23, 21, 24, 20, 25, 26}}},
-      {13, {VTK_BIQUADRATIC_QUADRATIC_WEDGE, {0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11, 15, 17, 16}}},
+      {13,
+       {VTK_BIQUADRATIC_QUADRATIC_WEDGE,
+        {0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11, 15, 17, 16}}},
       {16, {VTK_QUADRATIC_QUAD, sameOrder(8)}},
-      {17, {VTK_QUADRATIC_HEXAHEDRON, {0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15}}},
+      {17, {VTK_QUADRATIC_HEXAHEDRON, {0,  1, 2,  3,  4,  5,  6,  7,  8,  11,
+                                       13, 9, 16, 18, 19, 17, 10, 12, 14, 15}}},
       {18, {VTK_QUADRATIC_WEDGE, {0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11}}},
   };
   return cells;
 }
 
 template <class Array, class Value>
-vtkNew<Array> filledArray(const std::string& name, int components, const std::vector<Value>& values) {
+vtkNew<Array> filledArray(const std::string& name, int components,
+                          const std::vector<Value>& values) {
   vtkNew<Array> array;
   array->SetName(name.c_str());
   array->SetNumberOfComponents(components);
@@ -96,7 +101,8 @@ void addCells(vtkUnstructuredGrid* grid, const mesh::Mesh& mesh, int rank) {
     bodies.insert(bodies.end(), block.body.begin(), block.body.end());
   }
   grid->GetCellData()->AddArray(filledArray<vtkIntArray>("body", 1, bodies));
-  grid->GetCellData()->AddArray(filledArray<vtkIntArray>("rank", 1, std::vector<int>(bodies.size(), rank)));
+  grid->GetCellData()->AddArray(
+      filledArray<vtkIntArray>("rank", 1, std::vector<int>(bodies.size(), rank)));
 }
 
 const std::string blame = "option -report_dir: ";
@@ -114,12 +120,14 @@ void makeFolder(MPI_Comm comm, const fs::path& folder) {
 void requireWritable(const mesh::Mesh& mesh, const std::vector<Field>& fields) {
   std::string message;
   for (const auto& block : mesh.cells)
-    if (!cellsByGmshType().contains(block.type)) message = formatted("no VTK cell for cells of gmsh type %d", block.type);
+    if (!cellsByGmshType().contains(block.type))
+      message = formatted("no VTK cell for cells of gmsh type %d", block.type);
   for (const auto& field : fields)
     if ((field.components != 1 && field.components != 3) ||
         field.values.size() != static_cast<std::size_t>(field.components) * mesh.globalNode.size())
-      message = formatted("field %s: %zu values of %d components do not fit %zu nodes", field.name.c_str(), field.values.size(),
-                          field.components, mesh.globalNode.size());
+      message = formatted("field %s: %zu values of %d components do not fit %zu nodes",
+                          field.name.c_str(), field.values.size(), field.components,
+                          mesh.globalNode.size());
   failTogether(mesh.comm, message);
 }
 
@@ -138,7 +146,9 @@ std::string writePiece(vtkUnstructuredGrid* grid, const fs::path& path) {
   vtkObject::SetGlobalWarningDisplay(0);  // our message replaces VTK's text on stderr
   const bool written = writer->Write() == 1 && writer->GetErrorCode() == vtkErrorCode::NoError;
   vtkObject::SetGlobalWarningDisplay(warnings);
-  return written ? "" : blame + output::cannotWrite(path, 0) + ": " + vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode());
+  return written ? ""
+                 : blame + output::cannotWrite(path, 0) + ": " +
+                       vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode());
 }
 
 std::string xmlText(const std::string& text) {
@@ -157,23 +167,28 @@ std::string xmlText(const std::string& text) {
 }
 
 std::string arrayTag(const std::string& type, const std::string& name, int components) {
-  return formatted("      <PDataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\"/>\n", type.c_str(), xmlText(name).c_str(),
-                   components);
+  return formatted("      <PDataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\"/>\n",
+                   type.c_str(), xmlText(name).c_str(), components);
 }
 
-/// The file that names the pieces. VTK's own writer of it cuts the stem at its last dot: steady_0.2 and steady_0.4 would share, and
-/// overwrite, the pieces of steady_0.
+/// The file that names the pieces. VTK's own writer of it cuts the stem at its last dot: steady_0.2
+/// and steady_0.4 would share, and overwrite, the pieces of steady_0.
 template <class Piece>
-std::string summaryText(const std::vector<Field>& fields, const fs::path& folder, const Piece& piece, int pieces) {
+std::string summaryText(const std::vector<Field>& fields, const fs::path& folder,
+                        const Piece& piece, int pieces) {
   std::string text =
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" header_type=\"UInt64\">\n"
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" "
+      "header_type=\"UInt64\">\n"
       "  <PUnstructuredGrid GhostLevel=\"0\">\n    <PPointData>\n" +
       arrayTag("Int64", "node_tag", 1) + arrayTag("Int32", "part", 1);
   for (const auto& field : fields) text += arrayTag("Float32", field.name, field.components);
-  text += "    </PPointData>\n    <PCellData>\n" + arrayTag("Int32", "body", 1) + arrayTag("Int32", "rank", 1);
-  text += "    </PCellData>\n    <PPoints>\n" + arrayTag("Float64", "Points", 3) + "    </PPoints>\n";
+  text += "    </PPointData>\n    <PCellData>\n" + arrayTag("Int32", "body", 1) +
+          arrayTag("Int32", "rank", 1);
+  text +=
+      "    </PCellData>\n    <PPoints>\n" + arrayTag("Float64", "Points", 3) + "    </PPoints>\n";
   for (int i = 0; i < pieces; ++i)
-    text += "    <Piece Source=\"" + xmlText((folder / piece(i).filename()).generic_string()) + "\"/>\n";
+    text += "    <Piece Source=\"" + xmlText((folder / piece(i).filename()).generic_string()) +
+            "\"/>\n";
   return text + "  </PUnstructuredGrid>\n</VTKFile>\n";
 }
 
@@ -189,20 +204,27 @@ void writeVtu(const mesh::Mesh& mesh, const fs::path& stem, const std::vector<Fi
   addPoints(grid, mesh);
   addCells(grid, mesh, rank);
   for (const auto& field : pointFields)
-    grid->GetPointData()->AddArray(filledArray<vtkFloatArray>(field.name, field.components, field.values));
+    grid->GetPointData()->AddArray(
+        filledArray<vtkFloatArray>(field.name, field.components, field.values));
 
-  const auto piece = [&stem](int index) { return stem / (stem.filename().string() + "_" + std::to_string(index) + ".vtu"); };
+  const auto piece = [&stem](int index) {
+    return stem / (stem.filename().string() + "_" + std::to_string(index) + ".vtu");
+  };
   // not replace_extension: a stem such as steady_0.4 has a dot that begins no extension
   const fs::path summary = stem.string() + ".pvtu";
   makeFolder(mesh.comm, stem);
   failTogether(mesh.comm, writePiece(grid, piece(rank)));
-  onFirstRank(mesh.comm, blame, [&] { output::writeFile(summary, summaryText(pointFields, stem.filename(), piece, size)); });
+  onFirstRank(mesh.comm, blame, [&] {
+    output::writeFile(summary, summaryText(pointFields, stem.filename(), piece, size));
+  });
 }
 
-void writePvd(MPI_Comm comm, const fs::path& path, const std::vector<std::pair<double, fs::path>>& frames) {
+void writePvd(MPI_Comm comm, const fs::path& path,
+              const std::vector<std::pair<double, fs::path>>& frames) {
   const fs::path folder = path.parent_path();
   makeFolder(comm, folder);
-  std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n";
+  std::string text =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n";
   for (const auto& [time, file] : frames)
     text += "    <DataSet timestep=\"" + shortest(time) + "\" part=\"0\" file=\"" +
             xmlText(file.lexically_proximate(folder).generic_string()) + "\"/>\n";

@@ -20,23 +20,28 @@ double separation(const std::vector<pencil::Eigenvalue>& eigenvalues, std::size_
 
 }  // namespace
 
-void deriveShapes(pencil::FrictionPoint& point, const pencil::Pencil& pencil, const StartSpace& start, KSP solver, Mat mass, const Forms& forms) {
+void deriveShapes(pencil::FrictionPoint& point, const pencil::Pencil& pencil,
+                  const StartSpace& start, KSP solver, Mat mass, const Forms& forms) {
   if (point.shapes.empty()) return;
   std::vector<RightPair> pairs;
-  for (const auto& shape : point.shapes) pairs.push_back({point.eigenvalues[shape.index].s, &shape.unknowns});
+  for (const auto& shape : point.shapes)
+    pairs.push_back({point.eigenvalues[shape.index].s, &shape.unknowns});
   const auto left = leftVectors(pencil, point.at, start, solver, pairs);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const EigenTriple triple{pairs[i].s, *pairs[i].vector, left[i].y};
     const Complex slope = slopeForm(pencil, point.at, triple);
-    pencil::Sensitivity result{
-        condition(triple, slope, mass), separation(point.eigenvalues, point.shapes[i].index), left[i].backwardError, {}};
+    pencil::Sensitivity result{condition(triple, slope, mass),
+                               separation(point.eigenvalues, point.shapes[i].index),
+                               left[i].backwardError,
+                               {}};
     if (result.regular()) result.derivatives = forms(triple);
     for (auto& derivative : result.derivatives) derivative.value /= -slope;
     point.sensitivities.push_back(std::move(result));
   }
 }
 
-void deriveParameters(pencil::FrictionPoint& point, const pencil::Pencil& pencil, const StartSpace& start, KSP solver, Mat mass) {
+void deriveParameters(pencil::FrictionPoint& point, const pencil::Pencil& pencil,
+                      const StartSpace& start, KSP solver, Mat mass) {
   deriveShapes(point, pencil, start, solver, mass, [&](const EigenTriple& triple) {
     std::vector<pencil::Derivative> found;
     for (const auto& parameter : sweep::allParameters)

@@ -13,11 +13,15 @@ namespace squeal::sensitivity {
 /// The forms yᴴ (∂P/∂θ)(s) x of one eigenvalue, in place of derivatives.
 using Forms = std::function<std::vector<pencil::Derivative>(const EigenTriple&)>;
 
-/// Collective. Fills FrictionPoint::sensitivities for all shapes of the point, whose terms the pencil holds: left vectors, and the forms
-/// divided by −yᴴP′x where the eigenvalue has derivatives. `solver` is that of K0, `mass` M0.
-void deriveShapes(pencil::FrictionPoint& point, const pencil::Pencil& pencil, const StartSpace& start, KSP solver, Mat mass, const Forms& forms);
+/// Collective. Fills FrictionPoint::sensitivities for all shapes of the point, whose terms the
+/// pencil holds: left vectors, and the forms divided by −yᴴP′x where the eigenvalue has
+/// derivatives. `solver` is that of K0, `mass` M0.
+void deriveShapes(pencil::FrictionPoint& point, const pencil::Pencil& pencil,
+                  const StartSpace& start, KSP solver, Mat mass, const Forms& forms);
 
-/// Collective. The same for the parameters in the coefficients of the terms alone: friction, speed and damping.
-void deriveParameters(pencil::FrictionPoint& point, const pencil::Pencil& pencil, const StartSpace& start, KSP solver, Mat mass);
+/// Collective. The same for the parameters in the coefficients of the terms alone: friction, speed
+/// and damping.
+void deriveParameters(pencil::FrictionPoint& point, const pencil::Pencil& pencil,
+                      const StartSpace& start, KSP solver, Mat mass);
 
 }  // namespace squeal::sensitivity

@@ -18,7 +18,8 @@ constexpr double wanted = 1e-10;
 constexpr int mostRounds = 20;
 
 /// cᴴ A q; zero for an empty A.
-Complex form(const std::vector<Complex>& c, const linalg::DenseMatrix& a, const std::vector<Complex>& q) {
+Complex form(const std::vector<Complex>& c, const linalg::DenseMatrix& a,
+             const std::vector<Complex>& q) {
   Complex sum = 0;
   for (std::size_t j = 0; j < q.size() && !a.empty(); ++j) {
     Complex column = 0;
@@ -28,9 +29,11 @@ Complex form(const std::vector<Complex>& c, const linalg::DenseMatrix& a, const 
   return sum;
 }
 
-/// c with cᴴ H(s) = 0, H = Σ s^p h_p, by inverse iteration. s is known to some digits; where the space knows it better, the two-sided
-/// Rayleigh quotient δs = −cᴴ H q / cᴴ H′ q takes its own error out.
-std::vector<Complex> nullVector(const std::array<linalg::DenseMatrix, 3>& h, std::size_t m, Complex s) {
+/// c with cᴴ H(s) = 0, H = Σ s^p h_p, by inverse iteration. s is known to some digits; where the
+/// space knows it better, the two-sided Rayleigh quotient δs = −cᴴ H q / cᴴ H′ q takes its own
+/// error out.
+std::vector<Complex> nullVector(const std::array<linalg::DenseMatrix, 3>& h, std::size_t m,
+                                Complex s) {
   std::vector<Complex> c(m);
   for (std::size_t i = 0; i < m; ++i) {
     const auto at = static_cast<double>(i);
@@ -68,7 +71,8 @@ std::vector<Complex> nullVector(const std::array<linalg::DenseMatrix, 3>& h, std
 
 class Search {
  public:
-  Search(const pencil::Pencil& pencil, const sweep::Parameters& at, const StartSpace& start, KSP solver)
+  Search(const pencil::Pencil& pencil, const sweep::Parameters& at, const StartSpace& start,
+         KSP solver)
       : pencil_(pencil),
         at_(at),
         norms_{pencil.norm(0, at), pencil.norm(1, at), pencil.norm(2, at)},
@@ -95,9 +99,11 @@ class Search {
       for (std::size_t k = 0; k < open.size(); ++k) {
         auto& left = found[open[k]];
         left.y = expand(coordinates[k]);
-        linalg::ComplexVector residual = pencil::residual(pencil_, at_, values[k], left.y, pencil::Side::left);
+        linalg::ComplexVector residual =
+            pencil::residual(pencil_, at_, values[k], left.y, pencil::Side::left);
         left.backwardError = length(residual) / (scale(values[k]) * length(left.y));
-        if (left.backwardError > wanted) bad.push_back(open[k]), residuals.push_back(std::move(residual));
+        if (left.backwardError > wanted)
+          bad.push_back(open[k]), residuals.push_back(std::move(residual));
       }
       if (bad.empty() || round == mostRounds) return found;
       const auto solved = corrections(residuals);
@@ -109,7 +115,8 @@ class Search {
  private:
   static std::vector<Vec> partsOf(const std::vector<RightPair>& pairs) {
     std::vector<Vec> parts;
-    for (const auto& pair : pairs) parts.insert(parts.end(), {pair.vector->real.get(), pair.vector->imaginary.get()});
+    for (const auto& pair : pairs)
+      parts.insert(parts.end(), {pair.vector->real.get(), pair.vector->imaginary.get()});
     return parts;
   }
 
@@ -126,7 +133,8 @@ class Search {
     check(VecGetSize(residuals[0].real, &global));
     OwnedMat rhs, solution;
     check(MatCreateDense(pencil_.comm(), local, PETSC_DECIDE, global, count, nullptr, rhs.out()));
-    check(MatCreateDense(pencil_.comm(), local, PETSC_DECIDE, global, count, nullptr, solution.out()));
+    check(MatCreateDense(pencil_.comm(), local, PETSC_DECIDE, global, count, nullptr,
+                         solution.out()));
     for (PetscInt j = 0; j < count; ++j) {
       const auto& residual = residuals[static_cast<std::size_t>(j / 2)];
       Vec column = nullptr;
@@ -178,13 +186,17 @@ class Search {
     for (int power = 0; power <= 2; ++power) {
       if (!pencil_.hasPower(power)) continue;
       const auto image = images(power, old, false), adjoint = images(power, old, true);
-      const auto right = linalg::transposedProduct(pencil_.comm(), all.values(), all.rows(), size_, image.data(), added),
-                 below = linalg::transposedProduct(pencil_.comm(), adjoint.data(), all.rows(), added, all.values(), old);
+      const auto right = linalg::transposedProduct(pencil_.comm(), all.values(), all.rows(), size_,
+                                                   image.data(), added),
+                 below = linalg::transposedProduct(pencil_.comm(), adjoint.data(), all.rows(),
+                                                   added, all.values(), old);
       auto& matrix = projected_[static_cast<std::size_t>(power)];
       linalg::DenseMatrix grown(size * size);
       for (std::size_t j = 0; j < size; ++j)
         for (std::size_t i = 0; i < size; ++i)
-          grown[j * size + i] = j >= o ? right[(j - o) * size + i] : i >= o ? below[j * (size - o) + i - o] : matrix[j * o + i];
+          grown[j * size + i] = j >= o   ? right[(j - o) * size + i]
+                                : i >= o ? below[j * (size - o) + i - o]
+                                         : matrix[j * o + i];
       matrix = std::move(grown);
     }
     known_ = size_;
@@ -213,17 +225,20 @@ class Search {
     return values;
   }
 
-  /// Left null vectors in the basis, spread over the ranks; the same on all, so that rounding cannot make them disagree.
+  /// Left null vectors in the basis, spread over the ranks; the same on all, so that rounding
+  /// cannot make them disagree.
   std::vector<std::vector<Complex>> nullVectors(const std::vector<Complex>& values) const {
     const auto m = static_cast<std::size_t>(size_);
     int rank = 0, ranks = 1;
     check(MPI_Comm_rank(pencil_.comm(), &rank));
     check(MPI_Comm_size(pencil_.comm(), &ranks));
     std::vector<std::vector<Complex>> vectors(values.size(), std::vector<Complex>(m));
-    for (std::size_t i = static_cast<std::size_t>(rank); i < values.size(); i += static_cast<std::size_t>(ranks))
+    for (std::size_t i = static_cast<std::size_t>(rank); i < values.size();
+         i += static_cast<std::size_t>(ranks))
       vectors[i] = nullVector(projected_, m, values[i]);
     for (std::size_t i = 0; i < values.size(); ++i)
-      check(MPI_Bcast(vectors[i].data(), static_cast<int>(m), MPI_C_DOUBLE_COMPLEX, static_cast<int>(i) % ranks, pencil_.comm()));
+      check(MPI_Bcast(vectors[i].data(), static_cast<int>(m), MPI_C_DOUBLE_COMPLEX,
+                      static_cast<int>(i) % ranks, pencil_.comm()));
     return vectors;
   }
 
@@ -248,12 +263,13 @@ class Search {
   OwnedBV basis_;
   PetscInt size_ = 0;
   std::array<linalg::DenseMatrix, 3> projected_;  // [power of s] Vᵀ A V
-  PetscInt known_ = 0;                    // columns of V in it
+  PetscInt known_ = 0;                            // columns of V in it
 };
 
 }  // namespace
 
-std::vector<LeftVector> leftVectors(const pencil::Pencil& pencil, const sweep::Parameters& at, const StartSpace& start, KSP solver,
+std::vector<LeftVector> leftVectors(const pencil::Pencil& pencil, const sweep::Parameters& at,
+                                    const StartSpace& start, KSP solver,
                                     const std::vector<RightPair>& pairs) {
   if (pairs.empty()) return {};
   return Search(pencil, at, start, solver).vectors(pairs);

@@ -7,20 +7,23 @@
 namespace squeal::sensitivity {
 namespace {
 
-const FlagOption wantedOption(
-    "flutter", "flutter_sensitivities", false,
-    "derivatives of the eigenvalues of the complex modes kept (-flutter_shapes) with respect to friction, "
-    "speed, pressure, moduli and densities: sensitivities.csv");
+const FlagOption wantedOption("flutter", "flutter_sensitivities", false,
+                              "derivatives of the eigenvalues of the complex modes kept "
+                              "(-flutter_shapes) with respect to friction, "
+                              "speed, pressure, moduli and densities: sensitivities.csv");
 
 using Complex = std::complex<double>;
 
-double massNorm(Mat mass, const linalg::ComplexVector& u) { return std::sqrt(std::abs(dot(u, product(mass, u)))); }
+double massNorm(Mat mass, const linalg::ComplexVector& u) {
+  return std::sqrt(std::abs(dot(u, product(mass, u))));
+}
 
 }  // namespace
 
 bool sensitivitiesWanted() { return wantedOption.get(); }
 
-Complex slopeForm(const pencil::Pencil& pencil, const sweep::Parameters& at, const EigenTriple& triple) {
+Complex slopeForm(const pencil::Pencil& pencil, const sweep::Parameters& at,
+                  const EigenTriple& triple) {
   Complex sum = 0;
   for (int power = 1; power <= 2; ++power) {
     if (!pencil.hasPower(power)) continue;
@@ -32,7 +35,8 @@ Complex slopeForm(const pencil::Pencil& pencil, const sweep::Parameters& at, con
   return sum;
 }
 
-Complex parameterForm(const pencil::Pencil& pencil, const sweep::Parameters& at, const EigenTriple& triple, double sweep::Parameters::*parameter) {
+Complex parameterForm(const pencil::Pencil& pencil, const sweep::Parameters& at,
+                      const EigenTriple& triple, double sweep::Parameters::*parameter) {
   Complex sum = 0;
   for (const auto& term : pencil.terms())
     if (const double slope = term.slope(at, parameter); slope != 0)
@@ -41,7 +45,8 @@ Complex parameterForm(const pencil::Pencil& pencil, const sweep::Parameters& at,
 }
 
 double condition(const EigenTriple& triple, Complex slope, Mat mass) {
-  return 2 * std::abs(triple.s) * massNorm(mass, triple.x) * massNorm(mass, triple.y) / std::abs(slope);
+  return 2 * std::abs(triple.s) * massNorm(mass, triple.x) * massNorm(mass, triple.y) /
+         std::abs(slope);
 }
 
 }  // namespace squeal::sensitivity

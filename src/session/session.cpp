@@ -37,7 +37,8 @@ std::vector<Setting> readSettings(const std::vector<std::string>& words) {
   }
 }
 
-/// PETSc looks at options of its own when it starts: it gets them all. What looks like a name is not passed as a value; insert() follows.
+/// PETSc looks at options of its own when it starts: it gets them all. What looks like a name is
+/// not passed as a value; insert() follows.
 void startSlepc(char* program, const std::vector<Setting>& settings) {
   static std::vector<std::string> words;  // PETSc keeps pointers to them
   static std::vector<char*> pointers;
@@ -61,15 +62,19 @@ void startSlepc(char* program, const std::vector<Setting>& settings) {
 
 Session::Session(int argc, char** argv) {
   SignalWatch signals;
-  // PETSc's own -help lists several hundred options of its parts; ours is the manual of this program and replaces it.
+  // PETSc's own -help lists several hundred options of its parts; ours is the manual of this
+  // program and replaces it.
   const std::vector<std::string> words(argv + 1, argv + argc);
   const auto among = [&](const std::vector<std::string>& names) {
-    return std::find_first_of(words.begin(), words.end(), names.begin(), names.end()) != words.end();
+    return std::find_first_of(words.begin(), words.end(), names.begin(), names.end()) !=
+           words.end();
   };
   helpWanted_ = among({"-help", "--help", "-h"});
   versionWanted_ = among({"-version", "--version"});
-  check(MPI_Init(&argc, &argv));  // before PETSc's, so that a mistake in the options is told in one line instead of a traceback
-  const auto settings = helpWanted_ || versionWanted_ ? std::vector<Setting>{} : readSettings(words);
+  check(MPI_Init(&argc, &argv));  // before PETSc's, so that a mistake in the options is told in one
+                                  // line instead of a traceback
+  const auto settings =
+      helpWanted_ || versionWanted_ ? std::vector<Setting>{} : readSettings(words);
   optionsGiven_ = !settings.empty();
   startSlepc(argv[0], settings);
   tellLackOfMemoryInOneLine();
@@ -80,7 +85,8 @@ Session::Session(int argc, char** argv) {
 }
 
 Session::~Session() {
-  PetscOptionsSetValue(nullptr, "-options_left", "no");  // rejectUnknownOptions says it before the run, not after
+  PetscOptionsSetValue(nullptr, "-options_left",
+                       "no");  // rejectUnknownOptions says it before the run, not after
   gmsh::finalize();
   SlepcFinalize();
   MPI_Finalize();
@@ -110,11 +116,15 @@ std::string versions() {
   check(SlepcGetVersion(slepc, sizeof slepc));
   check(MPI_Get_library_version(mpi, &length));
   H5get_libversion(&hdf5[0], &hdf5[1], &hdf5[2]);
-  const auto firstPart = [](const std::string& text) { return text.substr(0, text.find_first_of(",\n")); };
-  return formatted("squeal %s\n%s\n%s\nMUMPS %s\n%s\nHDF5 %u.%u.%u, gmsh %s, VTK %s\nscalars: %s, %zu bits; indices: %zu bits\n",
-                   version(), firstPart(petsc).c_str(), firstPart(slepc).c_str(), MUMPS_VERSION, firstPart(mpi).c_str(), hdf5[0],
-                   hdf5[1], hdf5[2], GMSH_API_VERSION, VTK_VERSION, PetscDefined(USE_COMPLEX) ? "complex" : "real",
-                   8 * sizeof(PetscReal), 8 * sizeof(PetscInt));
+  const auto firstPart = [](const std::string& text) {
+    return text.substr(0, text.find_first_of(",\n"));
+  };
+  return formatted(
+      "squeal %s\n%s\n%s\nMUMPS %s\n%s\nHDF5 %u.%u.%u, gmsh %s, VTK %s\nscalars: %s, %zu bits; "
+      "indices: %zu bits\n",
+      version(), firstPart(petsc).c_str(), firstPart(slepc).c_str(), MUMPS_VERSION,
+      firstPart(mpi).c_str(), hdf5[0], hdf5[1], hdf5[2], GMSH_API_VERSION, VTK_VERSION,
+      PetscDefined(USE_COMPLEX) ? "complex" : "real", 8 * sizeof(PetscReal), 8 * sizeof(PetscInt));
 }
 
 }  // namespace squeal

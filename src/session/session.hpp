@@ -8,7 +8,8 @@ namespace squeal {
 
 class Session {
  public:
-  /// Collective. Starts MPI, PETSc, SLEPc and the gmsh library; the options database holds the command line and its option files.
+  /// Collective. Starts MPI, PETSc, SLEPc and the gmsh library; the options database holds the
+  /// command line and its option files.
   Session(int argc, char** argv);
   ~Session();
   Session(const Session&) = delete;
@@ -21,7 +22,8 @@ class Session {
   bool helpWanted() const { return helpWanted_; }
   /// True if `-version` was given.
   bool versionWanted() const { return versionWanted_; }
-  /// False if there is no option at all, neither on the command line nor in the environment or PETSc's resource files.
+  /// False if there is no option at all, neither on the command line nor in the environment or
+  /// PETSc's resource files.
   bool optionsGiven() const { return optionsGiven_; }
 
  private:

@@ -33,7 +33,8 @@ bool speaks(MPI_Comm comm) {
 
 }  // namespace
 
-Stage::Stage(MPI_Comm comm, std::string name) : comm_(comm), name_(std::move(name)), begin_(MPI_Wtime()), lastProgress_(begin_) {}
+Stage::Stage(MPI_Comm comm, std::string name)
+    : comm_(comm), name_(std::move(name)), begin_(MPI_Wtime()), lastProgress_(begin_) {}
 
 void Stage::progress(const std::string& text) {
   if (MPI_Wtime() - lastProgress_ >= 2) say(text);
@@ -51,7 +52,8 @@ void Stage::finish(const std::string& result) {
   double seconds = MPI_Wtime() - begin_, memory = 1024.0 * static_cast<double>(usage.ru_maxrss);
   check(MPI_Allreduce(MPI_IN_PLACE, &seconds, 1, MPI_DOUBLE, MPI_MAX, comm_));
   check(MPI_Allreduce(MPI_IN_PLACE, &memory, 1, MPI_DOUBLE, MPI_SUM, comm_));
-  auto known = std::find_if(records().begin(), records().end(), [&](const auto& record) { return record.name == name_; });
+  auto known = std::find_if(records().begin(), records().end(),
+                            [&](const auto& record) { return record.name == name_; });
   if (known == records().end()) known = records().insert(known, {name_, 0, 0});
   known->seconds += seconds;
   known->peakMemoryBytes = memory;
@@ -65,7 +67,8 @@ void say(MPI_Comm comm, const std::string& text) {
 }
 
 void print(const std::string& text) {
-  if ((std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0) && outputErrorSlot() == 0) outputErrorSlot() = errno;
+  if ((std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0) && outputErrorSlot() == 0)
+    outputErrorSlot() = errno;
 }
 
 int outputError() { return outputErrorSlot() == EPIPE ? 0 : outputErrorSlot(); }

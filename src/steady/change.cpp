@@ -1,4 +1,5 @@
-/// How the steady state changes with its data, to first order: the equations of steady.hpp differentiated on one active set.
+/// How the steady state changes with its data, to first order: the equations of steady.hpp
+/// differentiated on one active set.
 #include <functional>
 
 #include "contact/coupled.hpp"
@@ -24,9 +25,12 @@ PetscErrorCode multiply(Mat matrix, Vec y, Vec result) {
 
 }  // namespace
 
-/// With T of closed contact, u = T y + u0 and the friction t = f φ R_N τ(w) at the pad nodes, F = Tᵀ (r + Jᵀ t):
-///   dr = (K + v² K^R) du + cause,   dt = f φ τ N dr − v B D du + (df φ + f φ' dv |w|/v) R_N τ,   B of velocityResponse().
-Change Problem::change(const Solution& solution, const contact::AssociatedSystem& system, const Cause& cause) const {
+/// With T of closed contact, u = T y + u0 and the friction t = f φ R_N τ(w) at the pad nodes, F =
+/// Tᵀ (r + Jᵀ t):
+///   dr = (K + v² K^R) du + cause,   dt = f φ τ N dr − v B D du + (df φ + f φ' dv |w|/v) R_N τ,   B
+///   of velocityResponse().
+Change Problem::change(const Solution& solution, const contact::AssociatedSystem& system,
+                       const Cause& cause) const {
   const sweep::Parameters& at = solution.at;
   const Mat trial = system.transformation().trial;
   const auto& nodes = contact_.nodes;
@@ -35,7 +39,8 @@ Change Problem::change(const Solution& solution, const contact::AssociatedSystem
   OwnedMat turning;  // B D
   if (contact_.convected) {
     const OwnedMat response = contact_.velocityResponse(solution.slip, steadyForce, at.friction);
-    check(MatMatMult(response, contact_.convected, MAT_INITIAL_MATRIX, PETSC_DEFAULT, turning.out()));
+    check(
+        MatMatMult(response, contact_.convected, MAT_INITIAL_MATRIX, PETSC_DEFAULT, turning.out()));
   }
   // Tᵀ (dr + Jᵀ dt) for given du and dr; with the explicit part of dt where `direct`.
   const auto test = [&](Vec du, Vec dr, bool direct, Vec result) {
@@ -49,12 +54,15 @@ Change Problem::change(const Solution& solution, const contact::AssociatedSystem
     check(VecGetArray(friction, &values));
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const auto& slip = solution.slip[i];
-      const double causes =
-          direct ? (cause.friction * slip.law + at.friction * slip.slope * cause.speed * slip.speed / at.speed) * steadyForce[i]
-                 : 0;
+      const double causes = direct
+                                ? (cause.friction * slip.law +
+                                   at.friction * slip.slope * cause.speed * slip.speed / at.speed) *
+                                      steadyForce[i]
+                                : 0;
       const double along = system.closed()[i] ? at.friction * slip.law * normal[i] + causes : 0;
       for (int d = 0; d < mesh_.dimension; ++d)
-        values[mesh_.dimension * nodes[i].node + d] += along * slip.direction[static_cast<std::size_t>(d)];
+        values[mesh_.dimension * nodes[i].node + d] +=
+            along * slip.direction[static_cast<std::size_t>(d)];
     }
     check(VecRestoreArray(friction, &values));
     check(MatMultTransposeAdd(contact_.jump, friction, dr, sum));
@@ -86,9 +94,11 @@ Change Problem::change(const Solution& solution, const contact::AssociatedSystem
   OwnedMat matrix;
   check(MatCreateShell(mesh_.comm, local, local, global, global, &linearised, matrix.out()));
   check(MatShellSetOperation(matrix, MATOP_MULT, reinterpret_cast<void (*)()>(multiply)));
-  if (const auto refinement = refine(innerSolver(matrix, system.solver()), residual, y); !refinement.solved())
+  if (const auto refinement = refine(innerSolver(matrix, system.solver()), residual, y);
+      !refinement.solved())
     throw Error(
-        formatted("the change of the steady state with its data was not found at -flutter_friction %g: a residual of %.1e is left",
+        formatted("the change of the steady state with its data was not found at -flutter_friction "
+                  "%g: a residual of %.1e is left",
                   at.friction, refinement.relative()));
 
   Change change{elasticity::nodalVector(mesh_), {}};

@@ -10,11 +10,13 @@
 namespace squeal::steady {
 namespace {
 
-const SolverPrefix solverPrefix("steady", "steady_", "PETSc SNES VI, KSP and PC of steady sliding: snes_*, ksp_*, pc_*, …");
+const SolverPrefix solverPrefix(
+    "steady", "steady_", "PETSc SNES VI, KSP and PC of steady sliding: snes_*, ksp_*, pc_*, …");
 
 using OwnedSNES = Owned<SNES, SNESDestroy>;
 
-/// Gives an option a value while SNES reads its options, unless the user has: SNES has no function that sets this one.
+/// Gives an option a value while SNES reads its options, unless the user has: SNES has no function
+/// that sets this one.
 class DefaultOption {
  public:
   DefaultOption(std::string name, const char* value) : name_(std::move(name)) {
@@ -35,8 +37,8 @@ class DefaultOption {
   std::string name_;
 };
 
-/// SNES sees F̂(x̂) = F(x)/forceUnit with x = xUnit x̂, so that its tolerances, absolute ones among them
-/// mean the same in metres and in millimetres.
+/// SNES sees F̂(x̂) = F(x)/forceUnit with x = xUnit x̂, so that its tolerances, absolute ones among
+/// them mean the same in metres and in millimetres.
 struct Scaled {
   const Problem& problem;
   sweep::Parameters at;
@@ -69,7 +71,8 @@ PetscErrorCode differentiate(SNES, Vec x, Mat jacobian, Mat, void* context) {
 
 }  // namespace
 
-/// The 2-norm of what is left of the complementarity problem: of F_g at a closed gap only what pulls.
+/// The 2-norm of what is left of the complementarity problem: of F_g at a closed gap only what
+/// pulls.
 double Problem::naturalResidual(const sweep::Parameters& at, Vec x) const {
   const OwnedVec f = rightVector(transformation_.trial);
   residual(at, x, f);
@@ -93,7 +96,8 @@ double Problem::complementarity(OwnedVec& x, Solution& solution) const {
   PetscReal xUnit = 0, forceUnit = 0;
   check(VecNorm(x, NORM_INFINITY, &xUnit));
   {
-    const OwnedVec zero = rightVector(transformation_.trial), start = rightVector(transformation_.trial);
+    const OwnedVec zero = rightVector(transformation_.trial),
+                   start = rightVector(transformation_.trial);
     residual(solution.at, zero, start);
     check(VecNorm(start, NORM_2, &forceUnit));
   }
@@ -103,8 +107,10 @@ double Problem::complementarity(OwnedVec& x, Solution& solution) const {
   OwnedMat symmetric;
   check(MatDuplicate(stiffness_.matrix, MAT_COPY_VALUES, symmetric.out()));
   for (Mat matrix : {jacobian.get(), symmetric.get()}) check(MatScale(matrix, xUnit / forceUnit));
-  // The residual cannot become smaller than rounding, which grows with the displacements and with the number of unknowns.
-  const double asked = std::max(1e-11, 10 * rounding(displacement(solution.at, x), load(solution.at)) / forceUnit);
+  // The residual cannot become smaller than rounding, which grows with the displacements and with
+  // the number of unknowns.
+  const double asked =
+      std::max(1e-11, 10 * rounding(displacement(solution.at, x), load(solution.at)) / forceUnit);
   check(VecScale(x, 1 / xUnit));
   const OwnedVec work = rightVector(jacobian);
   Scaled scaled{*this, solution.at, xUnit, forceUnit, static_cast<bool>(contact_.convected), work};
@@ -112,7 +118,8 @@ double Problem::complementarity(OwnedVec& x, Solution& solution) const {
   const OwnedVec low = rightVector(jacobian), high = rightVector(jacobian);
   check(VecSet(low, PETSC_NINFINITY));
   check(VecSet(high, PETSC_INFINITY));
-  for (PetscInt column : transformation_.gapColumn) check(VecSetValue(low, column, 0, INSERT_VALUES));
+  for (PetscInt column : transformation_.gapColumn)
+    check(VecSetValue(low, column, 0, INSERT_VALUES));
   check(VecAssemblyBegin(low));
   check(VecAssemblyEnd(low));
 
@@ -138,13 +145,16 @@ double Problem::complementarity(OwnedVec& x, Solution& solution) const {
   check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
   check(KSPSetPCSide(ksp, PC_RIGHT));
   {
-    // A gap is open however small: the default, 1e-8 of the largest displacement, is too much where a body moves far as a whole.
+    // A gap is open however small: the default, 1e-8 of the largest displacement, is too much where
+    // a body moves far as a whole.
     const DefaultOption exact("-" + solverPrefix.prefix + "snes_vi_zero_tolerance", "1e-14");
     applySolverOptions([&] { return SNESSetFromOptions(snes); });
   }
   // SNES asks for these only while it solves.
-  solverPrefix.rejectUnused({"mat_mumps_", "uniqueness_", "snes_test_jacobian", "snes_converged_reason", "snes_view"});
-  applySolverOptions([&] { return SNESSolve(snes, nullptr, x); });  // its parts are set up as it begins
+  solverPrefix.rejectUnused(
+      {"mat_mumps_", "uniqueness_", "snes_test_jacobian", "snes_converged_reason", "snes_view"});
+  applySolverOptions(
+      [&] { return SNESSolve(snes, nullptr, x); });  // its parts are set up as it begins
   SNESConvergedReason reason;
   PetscInt iterations = 0;
   check(SNESGetConvergedReason(snes, &reason));
@@ -156,7 +166,8 @@ double Problem::complementarity(OwnedVec& x, Solution& solution) const {
   check(SNESGetTolerances(snes, &tolerance, nullptr, nullptr, nullptr, nullptr));
   solution.reason = SNESConvergedReasons[reason];
   solution.iterations = static_cast<int>(iterations);
-  // A step that no longer changes anything (the line search, SNORM) is an end only where the residual says so.
+  // A step that no longer changes anything (the line search, SNORM) is an end only where the
+  // residual says so.
   solution.converged = solution.residual <= std::max<PetscReal>(tolerance, 10 * asked);
   return left;
 }

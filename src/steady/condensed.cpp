@@ -12,15 +12,17 @@
 namespace squeal::steady {
 namespace {
 
-const SolverPrefix solverPrefix("steady", "steady_uniqueness_",
-                                "KSP and PC of the open contact's stiffness (MUMPS LDLt), SLEPc EPS: ksp_*, pc_*, eps_*, …");
+const SolverPrefix solverPrefix(
+    "steady", "steady_uniqueness_",
+    "KSP and PC of the open contact's stiffness (MUMPS LDLt), SLEPc EPS: ksp_*, pc_*, eps_*, …");
 
 /// Columns solved for at once: enough for the speed of dense kernels, few enough for memory.
 constexpr PetscInt blockColumns = 64;
 
 OwnedKSP factorisation(Mat matrix) {
   OwnedKSP solver = linalg::directSolver(matrix, solverPrefix);
-  if (const Mat factor = linalg::mumpsFactor(solver)) check(MatMumpsSetIcntl(factor, 13, 1));  // the inertia is asked for
+  if (const Mat factor = linalg::mumpsFactor(solver))
+    check(MatMumpsSetIcntl(factor, 13, 1));  // the inertia is asked for
   linalg::factorise(solver);
   return solver;
 }
@@ -33,24 +35,30 @@ std::vector<double> Compliance::at(double friction) const {
   return a;
 }
 
-Condensed::Condensed(const contact::Contact& contact, Mat stiffness, const std::vector<contact::Slip>& slip)
-    : contact_(contact), size_(contact.totalNodes), ownedSize_(static_cast<PetscInt>(contact.nodes.size())) {
+Condensed::Condensed(const contact::Contact& contact, Mat stiffness,
+                     const std::vector<contact::Slip>& slip)
+    : contact_(contact),
+      size_(contact.totalNodes),
+      ownedSize_(static_cast<PetscInt>(contact.nodes.size())) {
   const std::vector<unsigned char> all(contact.nodes.size(), 1);
   transformation_ = contact.transformation(all);
   check(MPI_Scan(&ownedSize_, &first_, 1, MPIU_INT, MPI_SUM, contact.mesh->comm));
   first_ -= ownedSize_;
 
-  check(MatPtAP(stiffness, transformation_.trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, stiffness_.out()));
+  check(MatPtAP(stiffness, transformation_.trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
+                stiffness_.out()));
   check(MatSetOption(stiffness_, MAT_SYMMETRIC, PETSC_TRUE));
-  check(MatCreateAIJ(contact.mesh->comm, transformation_.ownedColumns, ownedSize_, PETSC_DETERMINE, PETSC_DETERMINE, 1, nullptr, 0,
-                     nullptr, gaps_.out()));
+  check(MatCreateAIJ(contact.mesh->comm, transformation_.ownedColumns, ownedSize_, PETSC_DETERMINE,
+                     PETSC_DETERMINE, 1, nullptr, 0, nullptr, gaps_.out()));
   for (PetscInt i = 0; i < ownedSize_; ++i)
-    check(MatSetValue(gaps_, transformation_.gapColumn[static_cast<std::size_t>(i)], first_ + i, 1, INSERT_VALUES));
+    check(MatSetValue(gaps_, transformation_.gapColumn[static_cast<std::size_t>(i)], first_ + i, 1,
+                      INSERT_VALUES));
   contact::assembled(gaps_);
   // The slip rows stand in the rows of the gaps, which B e selects.
   const OwnedMat rows = contact.slipRows(transformation_, slip, all);
   OwnedMat gapRows;
-  check(MatMatMult(transformation_.selection, gaps_, MAT_INITIAL_MATRIX, PETSC_DEFAULT, gapRows.out()));
+  check(MatMatMult(transformation_.selection, gaps_, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
+                   gapRows.out()));
   check(MatTransposeMatMult(rows, gapRows, MAT_INITIAL_MATRIX, PETSC_DEFAULT, friction_.out()));
 
   solver_ = factorisation(stiffness_);
@@ -76,8 +84,8 @@ bool Condensed::positiveDefinite() const {
 
 OwnedMat Condensed::block(PetscInt columns) const {
   OwnedMat matrix;
-  check(
-      MatCreateDense(comm(), transformation_.ownedColumns, PETSC_DECIDE, transformation_.columns, columns, nullptr, matrix.out()));
+  check(MatCreateDense(comm(), transformation_.ownedColumns, PETSC_DECIDE, transformation_.columns,
+                       columns, nullptr, matrix.out()));
   check(MatZeroEntries(matrix));
   contact::assembled(matrix);
   return matrix;
@@ -85,7 +93,8 @@ OwnedMat Condensed::block(PetscInt columns) const {
 
 Compliance Condensed::dense() const {
   const auto n = static_cast<std::size_t>(size_), first = static_cast<std::size_t>(first_);
-  Compliance compliance{static_cast<int>(size_), std::vector<double>(n * n, 0.0), std::vector<double>(n * n, 0.0)};
+  Compliance compliance{static_cast<int>(size_), std::vector<double>(n * n, 0.0),
+                        std::vector<double>(n * n, 0.0)};
   PetscInt firstRow = 0;
   check(MatGetOwnershipRange(stiffness_, &firstRow, nullptr));
   for (PetscInt begin = 0; begin < size_; begin += blockColumns) {
@@ -95,7 +104,8 @@ Compliance Condensed::dense() const {
     check(MatDenseGetArray(rhs, &values));
     for (PetscInt i = 0; i < ownedSize_; ++i)
       if (const PetscInt column = first_ + i - begin; column >= 0 && column < width)
-        values[column * transformation_.ownedColumns + transformation_.gapColumn[static_cast<std::size_t>(i)] - firstRow] = 1;
+        values[column * transformation_.ownedColumns +
+               transformation_.gapColumn[static_cast<std::size_t>(i)] - firstRow] = 1;
     check(MatDenseRestoreArray(rhs, &values));
     check(KSPMatSolve(solver_, rhs, x));
     for (PetscInt column = 0; column < width; ++column) {
@@ -117,11 +127,12 @@ Compliance Condensed::dense() const {
       }
     }
   }
-  // Every entry is on one rank, zero on the others: the sums are exact, and the same everywhere. By columns, since n² may exceed an
-  // int.
+  // Every entry is on one rank, zero on the others: the sums are exact, and the same everywhere. By
+  // columns, since n² may exceed an int.
   for (auto* a : {&compliance.a0, &compliance.a1})
     for (std::size_t j = 0; j < n; ++j)
-      check(MPI_Allreduce(MPI_IN_PLACE, a->data() + j * n, static_cast<int>(n), MPI_DOUBLE, MPI_SUM, comm()));
+      check(MPI_Allreduce(MPI_IN_PLACE, a->data() + j * n, static_cast<int>(n), MPI_DOUBLE, MPI_SUM,
+                          comm()));
   return compliance;
 }
 
@@ -155,12 +166,15 @@ void Condensed::close() {
   PetscInt begin = 0, end = 0;
   check(MatGetOwnershipRange(stiffness_, &begin, &end));
   OwnedIS gaps, others;
-  check(ISCreateGeneral(comm(), ownedSize_, transformation_.gapColumn.data(), PETSC_COPY_VALUES, gaps.out()));
+  check(ISCreateGeneral(comm(), ownedSize_, transformation_.gapColumn.data(), PETSC_COPY_VALUES,
+                        gaps.out()));
   std::vector<PetscInt> rest(static_cast<std::size_t>(end - begin));
   std::iota(rest.begin(), rest.end(), begin);
-  const std::set<PetscInt> isGap(transformation_.gapColumn.begin(), transformation_.gapColumn.end());
+  const std::set<PetscInt> isGap(transformation_.gapColumn.begin(),
+                                 transformation_.gapColumn.end());
   std::erase_if(rest, [&](PetscInt column) { return isGap.count(column) > 0; });
-  check(ISCreateGeneral(comm(), static_cast<PetscInt>(rest.size()), rest.data(), PETSC_COPY_VALUES, others.out()));
+  check(ISCreateGeneral(comm(), static_cast<PetscInt>(rest.size()), rest.data(), PETSC_COPY_VALUES,
+                        others.out()));
   check(MatCreateSubMatrix(stiffness_, others, others, MAT_INITIAL_MATRIX, closedStiffness_.out()));
   check(MatCreateSubMatrix(stiffness_, others, gaps, MAT_INITIAL_MATRIX, coupling_.out()));
   check(MatCreateSubMatrix(stiffness_, gaps, gaps, MAT_INITIAL_MATRIX, gapStiffness_.out()));
@@ -179,7 +193,8 @@ void Condensed::solveA0(Vec v, Vec solution) {
 }
 
 void rejectUnusedUniquenessOptions(bool dense) {
-  solverPrefix.rejectUnused(dense ? std::vector<std::string>{"eps_", "st_"} : std::vector<std::string>{});
+  solverPrefix.rejectUnused(dense ? std::vector<std::string>{"eps_", "st_"}
+                                  : std::vector<std::string>{});
 }
 
 }  // namespace squeal::steady

@@ -14,7 +14,8 @@
 namespace squeal::steady {
 namespace {
 
-/// A comes from solves with a stiffness matrix of condition 1e6 and more: what is smaller than this part of it is rounding.
+/// A comes from solves with a stiffness matrix of condition 1e6 and more: what is smaller than this
+/// part of it is rounding.
 constexpr double rounding = 1e-10;
 
 std::vector<double> symmetricPart(const std::vector<double>& a, int size) {
@@ -46,7 +47,9 @@ std::vector<double> symmetricEigenvalues(const std::vector<double>& a, int size)
   return linalg::symmetricEigen(s, size);
 }
 
-bool positiveDefinite(const std::vector<double>& eigenvalues) { return eigenvalues.front() > rounding * eigenvalues.back(); }
+bool positiveDefinite(const std::vector<double>& eigenvalues) {
+  return eigenvalues.front() > rounding * eigenvalues.back();
+}
 
 bool pMatrix(const std::vector<double>& a, int size) {
   const auto n = static_cast<std::size_t>(size);
@@ -55,7 +58,8 @@ bool pMatrix(const std::vector<double>& a, int size) {
     if (!(a[i * n + i] > 0)) return false;
   // Positive scaling of rows and columns keeps the signs of the minors.
   for (std::size_t j = 0; j < n; ++j)
-    for (std::size_t i = 0; i < n; ++i) unit[j * n + i] = a[j * n + i] / std::sqrt(a[i * n + i] * a[j * n + j]);
+    for (std::size_t i = 0; i < n; ++i)
+      unit[j * n + i] = a[j * n + i] / std::sqrt(a[i * n + i] * a[j * n + j]);
   return positiveMinors(unit, n);
 }
 
@@ -71,12 +75,17 @@ bool surelyCopositive(const std::vector<double>& a, int size) {
 Judgement judge(const std::vector<double>& a, int n, double friction, int pMatrixLimit) {
   const auto eigenvalues = symmetricEigenvalues(a, n);
   const double smallest = eigenvalues.front();
-  if (positiveDefinite(eigenvalues)) return {friction, smallest, "one solution", "the condensed matrix is positive definite"};
+  if (positiveDefinite(eigenvalues))
+    return {friction, smallest, "one solution", "the condensed matrix is positive definite"};
   const bool tested = n <= pMatrixLimit;
-  if (tested && pMatrix(a, n)) return {friction, smallest, "one solution", "the condensed matrix is a P-matrix"};
-  const std::string notUnique = tested ? "no P-matrix: for some loads there is not exactly one solution" : "not positive definite";
+  if (tested && pMatrix(a, n))
+    return {friction, smallest, "one solution", "the condensed matrix is a P-matrix"};
+  const std::string notUnique =
+      tested ? "no P-matrix: for some loads there is not exactly one solution"
+             : "not positive definite";
   if (surelyCopositive(a, n))
-    return {friction, smallest, "a solution exists", "the condensed matrix is strictly copositive, but " + notUnique};
+    return {friction, smallest, "a solution exists",
+            "the condensed matrix is strictly copositive, but " + notUnique};
   return {friction, smallest, "not decided", "the condensed matrix is " + notUnique};
 }
 
@@ -86,13 +95,17 @@ double lossOfPositivity(double smallestRatio) {
 }
 
 double lossOfPositivity(const std::vector<double>& a0, const std::vector<double>& a1, int size) {
-  std::vector<double> s0 = symmetricPart(a0, size), s1 = symmetricPart(a1, size), values(static_cast<std::size_t>(size));
+  std::vector<double> s0 = symmetricPart(a0, size), s1 = symmetricPart(a1, size),
+                      values(static_cast<std::size_t>(size));
   PetscBLASInt n = size, length = 34 * n, info = 0;
   const PetscBLASInt type = 1;
   std::vector<double> work(static_cast<std::size_t>(length));
-  LAPACKsygv_(&type, "N", "U", &n, s1.data(), &n, s0.data(), &n, values.data(), work.data(), &length, &info);
+  LAPACKsygv_(&type, "N", "U", &n, s1.data(), &n, s0.data(), &n, values.data(), work.data(),
+              &length, &info);
   if (info > n) return 0;
-  if (info != 0) throw Error("LAPACK dsygv failed on the condensed matrix of the contact (info " + std::to_string(info) + ")");
+  if (info != 0)
+    throw Error("LAPACK dsygv failed on the condensed matrix of the contact (info " +
+                std::to_string(info) + ")");
   return lossOfPositivity(values.front());
 }
 

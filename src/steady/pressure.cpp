@@ -6,24 +6,29 @@ namespace squeal::steady {
 
 std::vector<double> consistentPressure(const mesh::Mesh& mesh, const contact::Contact& contact,
                                        const std::vector<double>& normalForce) {
-  // One scalar per node, kept in the first component of a nodal vector, so that the periodic matrix folds images as it does for u.
+  // One scalar per node, kept in the first component of a nodal vector, so that the periodic matrix
+  // folds images as it does for u.
   const PetscInt owned = mesh.dimension * mesh.ownedNodes;
   OwnedMat faces, folded;
-  check(MatCreateAIJ(mesh.comm, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE, 32, nullptr, 16, nullptr, faces.out()));
+  check(MatCreateAIJ(mesh.comm, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE, 32, nullptr, 16,
+                     nullptr, faces.out()));
   check(MatSetOption(faces, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
   for (const auto& block : mesh.faces)
     for (std::size_t e = 0; e < block.surface.size(); ++e) {
-      if (!contact.isPadSurface(mesh.surfaces[static_cast<std::size_t>(block.surface[e])])) continue;
+      if (!contact.isPadSurface(mesh.surfaces[static_cast<std::size_t>(block.surface[e])]))
+        continue;
       std::vector<Point> points;
       std::vector<PetscInt> rows;
       for (int i = 0; i < block.nodesPerFace; ++i) {
         const auto node =
-            static_cast<std::size_t>(block.nodes[e * static_cast<std::size_t>(block.nodesPerFace) + static_cast<std::size_t>(i)]);
+            static_cast<std::size_t>(block.nodes[e * static_cast<std::size_t>(block.nodesPerFace) +
+                                                 static_cast<std::size_t>(i)]);
         points.push_back(mesh.coordinates[node]);
         rows.push_back(mesh.dimension * mesh.globalNode[node]);
       }
       const auto values = elasticity::faceMass(elasticity::shapeTable(block.type), points);
-      check(MatSetValues(faces, block.nodesPerFace, rows.data(), block.nodesPerFace, rows.data(), values.data(), ADD_VALUES));
+      check(MatSetValues(faces, block.nodesPerFace, rows.data(), block.nodesPerFace, rows.data(),
+                         values.data(), ADD_VALUES));
     }
   check(MatAssemblyBegin(faces, MAT_FINAL_ASSEMBLY));
   check(MatAssemblyEnd(faces, MAT_FINAL_ASSEMBLY));
@@ -32,7 +37,8 @@ std::vector<double> consistentPressure(const mesh::Mesh& mesh, const contact::Co
   OwnedIS rows;
   std::vector<PetscInt> indices;
   for (const auto& node : contact.nodes) indices.push_back(mesh.dimension * node.globalNode);
-  check(ISCreateGeneral(mesh.comm, static_cast<PetscInt>(indices.size()), indices.data(), PETSC_COPY_VALUES, rows.out()));
+  check(ISCreateGeneral(mesh.comm, static_cast<PetscInt>(indices.size()), indices.data(),
+                        PETSC_COPY_VALUES, rows.out()));
   OwnedMat mass;
   check(MatCreateSubMatrix(folded, rows, rows, MAT_INITIAL_MATRIX, mass.out()));
   OwnedVec force, pressure;

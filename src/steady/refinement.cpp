@@ -32,7 +32,8 @@ Refinement refine(KSP inner, const std::function<Residual(Vec)>& residual, Vec y
   OwnedVec step;
   check(VecDuplicate(y, step.out()));
   while (result.steps < mostSteps && result.least > result.rounding) {
-    check(KSPSolve(inner, current.vector, step));  // judged by the residual below, not by its reason
+    check(
+        KSPSolve(inner, current.vector, step));  // judged by the residual below, not by its reason
     ++result.steps;
     check(VecAXPY(y, -1, step));
     Residual next = residual(y);
@@ -57,7 +58,8 @@ OwnedKSP innerSolver(Mat matrix, KSP factorised) {
   // Eight digits a step: GMRES stagnates some digits above rounding, refinement does not.
   check(KSPSetTolerances(solver, 1e-8, PETSC_DEFAULT, PETSC_DEFAULT, 100));
   check(KSPGMRESSetRestart(solver, 100));
-  // Right preconditioning: the tolerance is of forces. Where a weakly held body moves far, that of displacements hides all the rest.
+  // Right preconditioning: the tolerance is of forces. Where a weakly held body moves far, that of
+  // displacements hides all the rest.
   check(KSPSetPCSide(solver, PC_RIGHT));
   linalg::preconditionBy(solver, factorised);
   return solver;

@@ -15,7 +15,8 @@ constexpr double meaningful = 1e-6;
 
 }  // namespace
 
-Problem::Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, const contact::Contact& contact)
+Problem::Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
+                 const contact::Contact& contact)
     : mesh_(mesh),
       bodies_(bodies),
       contact_(contact),
@@ -26,14 +27,17 @@ Problem::Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, const
       diagonal_(elasticity::nodalVector(mesh)) {
   check(MatGetDiagonal(bodies.stiffness, diagonal_));
   if (!contact.convected) return;
-  check(MatMatMult(contact.jump, transformation_.trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, jumps_.out()));
-  check(MatMatMult(contact.convected, transformation_.trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, convected_.out()));
+  check(MatMatMult(contact.jump, transformation_.trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
+                   jumps_.out()));
+  check(MatMatMult(contact.convected, transformation_.trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
+                   convected_.out()));
 }
 
 /// b with the pressures and the centrifugal forces of this point.
 OwnedVec Problem::load(const sweep::Parameters& at) const {
   OwnedVec b = elasticity::nodalVector(mesh_);
-  check(VecAXPBYPCZ(b, at.pressure, at.speed * at.speed - at.pressure, 0, bodies_.load, bodies_.centrifugal));
+  check(VecAXPBYPCZ(b, at.pressure, at.speed * at.speed - at.pressure, 0, bodies_.load,
+                    bodies_.centrifugal));
   return b;
 }
 
@@ -63,14 +67,17 @@ std::vector<double> Problem::normalForces(Vec forces) const {
   const PetscScalar* values = nullptr;
   check(VecGetArrayRead(reactions, &values));
   std::vector<double> normal;
-  for (const auto& node : contact_.nodes) normal.push_back(values[contact_.gapRow(node) - mesh_.dimension * mesh_.firstNode]);
+  for (const auto& node : contact_.nodes)
+    normal.push_back(values[contact_.gapRow(node) - mesh_.dimension * mesh_.firstNode]);
   check(VecRestoreArrayRead(reactions, &values));
   return normal;
 }
 
-/// Tᵀ (r + Jᵀ f φ R_N τ): less the contact forces of the friction law, nodal forces do no work on tangential displacements.
-OwnedVec Problem::test(const contact::Transformation& transformation, const std::vector<unsigned char>& slides,
-                       const sweep::Parameters& at, Vec forces, const std::vector<contact::Slip>& slip) const {
+/// Tᵀ (r + Jᵀ f φ R_N τ): less the contact forces of the friction law, nodal forces do no work on
+/// tangential displacements.
+OwnedVec Problem::test(const contact::Transformation& transformation,
+                       const std::vector<unsigned char>& slides, const sweep::Parameters& at,
+                       Vec forces, const std::vector<contact::Slip>& slip) const {
   const OwnedVec friction = elasticity::nodalVector(mesh_), sum = elasticity::nodalVector(mesh_);
   const auto normal = normalForces(forces);
   PetscScalar* values = nullptr;
@@ -78,7 +85,9 @@ OwnedVec Problem::test(const contact::Transformation& transformation, const std:
   for (std::size_t i = 0; i < contact_.nodes.size(); ++i)
     for (int d = 0; d < mesh_.dimension; ++d)
       values[mesh_.dimension * contact_.nodes[i].node + d] =
-          slides[i] ? at.friction * slip[i].law * normal[i] * slip[i].direction[static_cast<std::size_t>(d)] : 0;
+          slides[i] ? at.friction * slip[i].law * normal[i] *
+                          slip[i].direction[static_cast<std::size_t>(d)]
+                    : 0;
   check(VecRestoreArray(friction, &values));
   check(MatMultTransposeAdd(contact_.jump, friction, forces, sum));
   OwnedVec result = rightVector(transformation.trial);
@@ -86,7 +95,8 @@ OwnedVec Problem::test(const contact::Transformation& transformation, const std:
   return result;
 }
 
-OwnedVec Problem::displacement(const contact::Transformation& transformation, const sweep::Parameters& at, Vec x) const {
+OwnedVec Problem::displacement(const contact::Transformation& transformation,
+                               const sweep::Parameters& at, Vec x) const {
   OwnedVec u = elasticity::nodalVector(mesh_);
   check(MatMult(transformation.trial, x, u));
   check(VecAXPY(u, at.pressure, contact_.offset));
@@ -98,18 +108,22 @@ void Problem::residual(const sweep::Parameters& at, Vec x, Vec f) const {
   check(VecCopy(test(transformation_, all_, at, forces(at, u), contact_.slip(at.speed, u)), f));
 }
 
-/// Tᵀ K T + f Sᵀ N K T, and with convective terms the turning of the slip: −v Tᵀ Jᵀ B D T with B of velocityResponse().
+/// Tᵀ K T + f Sᵀ N K T, and with convective terms the turning of the slip: −v Tᵀ Jᵀ B D T with B of
+/// velocityResponse().
 OwnedMat Problem::jacobian(const sweep::Parameters& at, Vec x) const {
   const OwnedVec u = displacement(at, x);
   const auto slip = contact_.slip(at.speed, u);
-  const OwnedMat rows = contact_.slipRows(transformation_, slip, all_), friction = stiffness_.friction(rows);
+  const OwnedMat rows = contact_.slipRows(transformation_, slip, all_),
+                 friction = stiffness_.friction(rows);
   OwnedMat sum = contact::affine(stiffness_.matrix, friction, at.friction);
   if (rotationStiffness_) {
-    const OwnedMat moving = contact::affine(rotationStiffness_.matrix, rotationStiffness_.friction(rows), at.friction);
+    const OwnedMat moving =
+        contact::affine(rotationStiffness_.matrix, rotationStiffness_.friction(rows), at.friction);
     check(MatAXPY(sum, at.speed * at.speed, moving, DIFFERENT_NONZERO_PATTERN));
   }
   if (contact_.convected) {
-    const OwnedMat response = contact_.velocityResponse(slip, normalForces(forces(at, u)), at.friction);
+    const OwnedMat response =
+        contact_.velocityResponse(slip, normalForces(forces(at, u)), at.friction);
     OwnedMat change, turning;
     check(MatMatMult(response, convected_, MAT_INITIAL_MATRIX, PETSC_DEFAULT, change.out()));
     check(MatTransposeMatMult(jumps_, change, MAT_INITIAL_MATRIX, PETSC_DEFAULT, turning.out()));
@@ -118,7 +132,8 @@ OwnedMat Problem::jacobian(const sweep::Parameters& at, Vec x) const {
   return sum;
 }
 
-/// What rounding leaves of F: ε times what cancels in K u − b, the diagonal standing for the rows of K. `loads` may be null.
+/// What rounding leaves of F: ε times what cancels in K u − b, the diagonal standing for the rows
+/// of K. `loads` may be null.
 double Problem::rounding(Vec displacement, Vec loads) const {
   const OwnedVec magnitude = elasticity::nodalVector(mesh_);
   PetscReal springs = 0, forces = 0;
@@ -128,7 +143,8 @@ double Problem::rounding(Vec displacement, Vec loads) const {
   return PETSC_MACHINE_EPSILON * (springs + forces);
 }
 
-Solution Problem::solve(const sweep::Parameters& at, const contact::AssociatedSystem& system) const {
+Solution Problem::solve(const sweep::Parameters& at,
+                        const contact::AssociatedSystem& system) const {
   if (at.friction > 0) contact::requireSlip(contact_, contact_.slip(at.speed, nullptr), all_);
   Solution solution;
   solution.at = at;
@@ -141,14 +157,18 @@ Solution Problem::solve(const sweep::Parameters& at, const contact::AssociatedSy
     noise = refinement.least;
     solution.residual = refinement.relative();
     solution.converged = refinement.solved();
-    solution.reason = solution.converged ? "closed contact held (faces with non-positive nodal weights)"
-                                         : formatted("the solution with closed contact was not found: a residual of %.1e is left",
-                                                     solution.residual);
+    solution.reason =
+        solution.converged
+            ? "closed contact held (faces with non-positive nodal weights)"
+            : formatted(
+                  "the solution with closed contact was not found: a residual of %.1e is left",
+                  solution.residual);
   }
   if (solution.converged && solution.residual > meaningful) {
     solution.converged = false;
     solution.reason = formatted(
-        "rounding of the stiffness alone leaves %.1e of the forces out of balance, for displacements reach %.3g m: a body is held "
+        "rounding of the stiffness alone leaves %.1e of the forces out of balance, for "
+        "displacements reach %.3g m: a body is held "
         "too "
         "weakly for these loads; hold it by stiffer springs",
         solution.residual, largestDisplacement(at, x));
@@ -157,7 +177,8 @@ Solution Problem::solve(const sweep::Parameters& at, const contact::AssociatedSy
   if (!contact_.weightsPositive && solution.converged && solution.smallestPressure < 0) {
     solution.converged = false;
     solution.reason =
-        "contact opens, which cannot be decided node by node on tri6 or quad8 faces; mesh the contact faces with linear or 9-node "
+        "contact opens, which cannot be decided node by node on tri6 or quad8 faces; mesh the "
+        "contact faces with linear or 9-node "
         "elements";
   }
   return solution;
@@ -169,19 +190,26 @@ double Problem::largestDisplacement(const sweep::Parameters& at, Vec x) const {
   return largest;
 }
 
-/// Solves the problem with the gaps of the active set held at zero. Linear under approximation A. With convective terms Newton's
-/// method, its matrix without K^R and without the turning of the slip, which are small: a few more steps of refinement.
-OwnedVec Problem::closedContact(const sweep::Parameters& at, const contact::AssociatedSystem& system, Refinement& refinement) const {
+/// Solves the problem with the gaps of the active set held at zero. Linear under approximation A.
+/// With convective terms Newton's method, its matrix without K^R and without the turning of the
+/// slip, which are small: a few more steps of refinement.
+OwnedVec Problem::closedContact(const sweep::Parameters& at,
+                                const contact::AssociatedSystem& system,
+                                Refinement& refinement) const {
   const auto& closed = system.transformation();
-  const OwnedMat rows = contact_.slipRows(closed, contact_.slip(at.speed, nullptr), system.closed());
-  const OwnedMat matrix = contact::affine(system.k0(), system.stiffness().friction(rows), at.friction);
+  const OwnedMat rows =
+      contact_.slipRows(closed, contact_.slip(at.speed, nullptr), system.closed());
+  const OwnedMat matrix =
+      contact::affine(system.k0(), system.stiffness().friction(rows), at.friction);
   const auto residual = [&](Vec y) {
     const OwnedVec u = displacement(closed, at, y);
-    return Residual{test(closed, system.closed(), at, forces(at, u), contact_.slip(at.speed, u)), rounding(u, load(at))};
+    return Residual{test(closed, system.closed(), at, forces(at, u), contact_.slip(at.speed, u)),
+                    rounding(u, load(at))};
   };
   const OwnedVec y = rightVector(closed.trial);
   refinement = refine(innerSolver(matrix, system.solver()), residual, y);
-  if (refinement.relative() > 0.5) {  // near a friction without solution: the frictionless one to start from
+  if (refinement.relative() >
+      0.5) {  // near a friction without solution: the frictionless one to start from
     check(VecSet(y, 0));
     check(KSPSolve(system.solver(), residual(y).vector, y));
     check(VecScale(y, -1));
@@ -195,8 +223,11 @@ OwnedVec Problem::closedContact(const sweep::Parameters& at, const contact::Asso
 
 void Problem::recover(Vec x, double noise, Solution& solution) const {
   solution.displacement = displacement(solution.at, x);
-  const OwnedVec force = forces(solution.at, solution.displacement), folded = elasticity::nodalVector(mesh_);
-  check(MatMultTranspose(contact_.periodic, force, folded));  // a contact node on a periodic boundary is pressed on both sides
+  const OwnedVec force = forces(solution.at, solution.displacement),
+                 folded = elasticity::nodalVector(mesh_);
+  check(
+      MatMultTranspose(contact_.periodic, force,
+                       folded));  // a contact node on a periodic boundary is pressed on both sides
   solution.slip = contact_.slip(solution.at.speed, solution.displacement);
   const auto normal = normalForces(force);
 
@@ -212,7 +243,8 @@ void Problem::recover(Vec x, double noise, Solution& solution) const {
     state.normalForce = normal[i];
     const auto& slip = solution.slip[i];
     for (std::size_t d = 0; d < 3; ++d)
-      state.frictionForce[d] = -solution.at.friction * slip.law * state.normalForce * slip.direction[d];
+      state.frictionForce[d] =
+          -solution.at.friction * slip.law * state.normalForce * slip.direction[d];
     state.pressure = state.normalForce / node.area;
     largest = std::max(largest, std::abs(state.normalForce));
     solution.contact.push_back(state);
@@ -235,7 +267,8 @@ void Problem::recover(Vec x, double noise, Solution& solution) const {
   check(MPI_Allreduce(MPI_IN_PLACE, &solution.openNodes, 1, MPIU_INT, MPI_SUM, mesh_.comm));
   check(MPI_Allreduce(MPI_IN_PLACE, &smallest, 1, MPI_DOUBLE, MPI_MIN, mesh_.comm));
   solution.smallestPressure = contact_.totalNodes ? smallest : 0;
-  if (solution.at.friction > 0 && solution.converged) contact::requireSlip(contact_, solution.slip, solution.closed);
+  if (solution.at.friction > 0 && solution.converged)
+    contact::requireSlip(contact_, solution.slip, solution.closed);
 
   for (std::size_t i = 0; i < contact_.interfaces.size(); ++i) {
     Resultant resultant{contact_.interfaces[i], {}, {}};
@@ -245,14 +278,17 @@ void Problem::recover(Vec x, double noise, Solution& solution) const {
           resultant.normalForce[d] += solution.contact[k].normalForce * contact_.nodes[k].normal[d];
           resultant.frictionForce[d] += solution.contact[k].frictionForce[d];
         }
-    check(MPI_Allreduce(MPI_IN_PLACE, resultant.normalForce.data(), 3, MPI_DOUBLE, MPI_SUM, mesh_.comm));
-    check(MPI_Allreduce(MPI_IN_PLACE, resultant.frictionForce.data(), 3, MPI_DOUBLE, MPI_SUM, mesh_.comm));
+    check(MPI_Allreduce(MPI_IN_PLACE, resultant.normalForce.data(), 3, MPI_DOUBLE, MPI_SUM,
+                        mesh_.comm));
+    check(MPI_Allreduce(MPI_IN_PLACE, resultant.frictionForce.data(), 3, MPI_DOUBLE, MPI_SUM,
+                        mesh_.comm));
     solution.resultants.push_back(resultant);
   }
   solution.imbalance = imbalance(solution, folded);
 }
 
-/// Newton's third law as a check of signs and solution: contact by the friction law, supports where components are held, and loads.
+/// Newton's third law as a check of signs and solution: contact by the friction law, supports where
+/// components are held, and loads.
 double Problem::imbalance(const Solution& solution, Vec nodalForces) const {
   const int dimension = mesh_.dimension;
   const OwnedVec contactForces = elasticity::nodalVector(mesh_);
@@ -260,16 +296,21 @@ double Problem::imbalance(const Solution& solution, Vec nodalForces) const {
     for (int d = 0; d < dimension; ++d) {
       const auto& node = contact_.nodes[i];
       const auto c = static_cast<std::size_t>(d);
-      const double force = solution.contact[i].normalForce * node.normal[c] + solution.contact[i].frictionForce[c];
+      const double force =
+          solution.contact[i].normalForce * node.normal[c] + solution.contact[i].frictionForce[c];
       check(VecSetValue(contactForces, dimension * node.globalNode + d, force, ADD_VALUES));
-      if (node.master >= 0) check(VecSetValue(contactForces, dimension * node.master + d, -force, ADD_VALUES));
+      if (node.master >= 0)
+        check(VecSetValue(contactForces, dimension * node.master + d, -force, ADD_VALUES));
     }
   check(VecAssemblyBegin(contactForces));
   check(VecAssemblyEnd(contactForces));
   // [part][contact, supports, load][component]
-  // and at the end the sum of all magnitudes, the scale of what cancels: resultants may vanish on their own.
+  // and at the end the sum of all magnitudes, the scale of what cancels: resultants may vanish on
+  // their own.
   std::vector<double> sums(static_cast<std::size_t>(mesh_.parts) * 9 + 1, 0.0);
-  const auto at = [&](int part, int kind, int d) -> double& { return sums[static_cast<std::size_t>(part * 9 + kind * 3 + d)]; };
+  const auto at = [&](int part, int kind, int d) -> double& {
+    return sums[static_cast<std::size_t>(part * 9 + kind * 3 + d)];
+  };
   const OwnedVec load = this->load(solution.at), springs = elasticity::nodalVector(mesh_);
   if (bodies_.springs) check(VecPointwiseMult(springs, bodies_.springs, solution.displacement));
   const PetscScalar *forces = nullptr, *loads = nullptr, *contacts = nullptr, *grounded = nullptr;
@@ -282,7 +323,9 @@ double Problem::imbalance(const Solution& solution, Vec nodalForces) const {
       const int part = mesh_.nodePart[static_cast<std::size_t>(node)];
       const PetscInt row = dimension * node + d;
       const double support =
-          (contact_.constraints.held[static_cast<std::size_t>(row)] ? forces[row] - contacts[row] : 0) - grounded[row];
+          (contact_.constraints.held[static_cast<std::size_t>(row)] ? forces[row] - contacts[row]
+                                                                    : 0) -
+          grounded[row];
       at(part, 0, d) += contacts[row];
       at(part, 1, d) += support;
       at(part, 2, d) += loads[row];
@@ -292,11 +335,13 @@ double Problem::imbalance(const Solution& solution, Vec nodalForces) const {
   check(VecRestoreArrayRead(load, &loads));
   check(VecRestoreArrayRead(springs, &grounded));
   check(VecRestoreArrayRead(contactForces, &contacts));
-  check(MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, mesh_.comm));
+  check(MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM,
+                      mesh_.comm));
   double worst = 0;
   for (int part = 0; part < mesh_.parts; ++part) {
     double rest = 0;
-    for (int d = 0; d < dimension; ++d) rest += std::pow(at(part, 0, d) + at(part, 1, d) + at(part, 2, d), 2);
+    for (int d = 0; d < dimension; ++d)
+      rest += std::pow(at(part, 0, d) + at(part, 1, d) + at(part, 2, d), 2);
     worst = std::max(worst, std::sqrt(rest));
   }
   return sums.back() > 0 ? worst / sums.back() : 0;

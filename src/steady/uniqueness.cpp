@@ -11,27 +11,32 @@ namespace squeal::steady {
 namespace {
 
 const FlagOption wantedOption("steady", "steady_uniqueness", true,
-                              "examine existence and uniqueness of the steady state: one more factorisation, a solve per contact "
+                              "examine existence and uniqueness of the steady state: one more "
+                              "factorisation, a solve per contact "
                               "node");
-const IntegerOption denseOption(
-    "steady", "steady_uniqueness_dense", 1000, 0, 40'000,
-    "contact nodes up to which the condensed matrix is formed; beyond, the friction where it ceases to be "
-    "positive definite is found iteratively");
-const IntegerOption pMatrixOption("steady", "steady_uniqueness_pmatrix", 18, 0, 30,
-                                  "contact nodes n up to which the P-matrix test is made, 2^n pivots");
+const IntegerOption denseOption("steady", "steady_uniqueness_dense", 1000, 0, 40'000,
+                                "contact nodes up to which the condensed matrix is formed; beyond, "
+                                "the friction where it ceases to be "
+                                "positive definite is found iteratively");
+const IntegerOption pMatrixOption(
+    "steady", "steady_uniqueness_pmatrix", 18, 0, 30,
+    "contact nodes n up to which the P-matrix test is made, 2^n pivots");
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 Uniqueness undecided(const std::vector<double>& frictions, const std::string& reason) {
   Uniqueness result{{}, unknown};
-  for (double friction : frictions) result.judgements.push_back({friction, unknown, "not decided", reason});
+  for (double friction : frictions)
+    result.judgements.push_back({friction, unknown, "not decided", reason});
   return result;
 }
 
-Uniqueness examineDense(const Compliance& compliance, const std::vector<double>& frictions, int pMatrixLimit) {
+Uniqueness examineDense(const Compliance& compliance, const std::vector<double>& frictions,
+                        int pMatrixLimit) {
   Uniqueness result{{}, lossOfPositivity(compliance.a0, compliance.a1, compliance.size)};
   for (double friction : frictions)
-    result.judgements.push_back(judge(compliance.at(friction), compliance.size, friction, pMatrixLimit));
+    result.judgements.push_back(
+        judge(compliance.at(friction), compliance.size, friction, pMatrixLimit));
   return result;
 }
 
@@ -61,9 +66,10 @@ OwnedMat shell(Condensed& condensed, PetscErrorCode (*multiply)(Mat, Vec, Vec)) 
   return matrix;
 }
 
-/// The smallest μ of sym(A1) v = μ A0 v; none if it has not converged. The smallest eigenvalues of sym(A(f)) itself belong to
-/// forces that alternate from node to node: they crowd, scale with the mesh size and hardly depend on friction. Relative to A0 the
-/// mesh hardly matters, and one number serves all frictions.
+/// The smallest μ of sym(A1) v = μ A0 v; none if it has not converged. The smallest eigenvalues of
+/// sym(A(f)) itself belong to forces that alternate from node to node: they crowd, scale with the
+/// mesh size and hardly depend on friction. Relative to A0 the mesh hardly matters, and one number
+/// serves all frictions.
 std::optional<double> smallestRatio(Condensed& condensed) {
   const OwnedMat a0 = shell(condensed, multiply<&Condensed::multiplyA0>),
                  a1 = shell(condensed, multiply<&Condensed::multiplySymmetricA1>);
@@ -102,20 +108,25 @@ std::optional<double> smallestRatio(Condensed& condensed) {
 /// A never formed. sym(A(f)) = A0 + f sym(A1) is positive definite below the friction of loss.
 Uniqueness examineMatrixFree(Condensed& condensed, const std::vector<double>& frictions) {
   if (!condensed.positiveDefinite())
-    return undecided(frictions, "the stiffness of the open contact is not positive definite; raise -steady_uniqueness_dense");
+    return undecided(frictions,
+                     "the stiffness of the open contact is not positive definite; raise "
+                     "-steady_uniqueness_dense");
   const auto ratio = smallestRatio(condensed);
   if (!ratio)
-    return undecided(frictions,
-                     "the eigenvalue that decides did not converge; raise -steady_uniqueness_eps_max_it or "
-                     "-steady_uniqueness_dense");
+    return undecided(
+        frictions,
+        "the eigenvalue that decides did not converge; raise -steady_uniqueness_eps_max_it or "
+        "-steady_uniqueness_dense");
   Uniqueness result{{}, lossOfPositivity(*ratio)};
   for (double friction : frictions)
     if (friction < result.lostAt)
-      result.judgements.push_back({friction, unknown, "one solution", "the condensed matrix is positive definite"});
+      result.judgements.push_back(
+          {friction, unknown, "one solution", "the condensed matrix is positive definite"});
     else
-      result.judgements.push_back({friction, unknown, "not decided",
-                                   "the condensed matrix is not positive definite; other tests need it formed, up to "
-                                   "-steady_uniqueness_dense contact nodes"});
+      result.judgements.push_back(
+          {friction, unknown, "not decided",
+           "the condensed matrix is not positive definite; other tests need it formed, up to "
+           "-steady_uniqueness_dense contact nodes"});
   return result;
 }
 
@@ -127,9 +138,12 @@ Uniqueness examine(const elasticity::Bodies& bodies, const contact::Contact& con
                    const std::vector<double>& frictions) {
   const int denseLimit = denseOption.get(), pMatrixLimit = pMatrixOption.get();
   if (contact.totalNodes == 0) return undecided(frictions, "there is no contact node");
-  if (!contact.weightsPositive) return undecided(frictions, "on tri6 or quad8 faces contact cannot be decided node by node");
+  if (!contact.weightsPositive)
+    return undecided(frictions, "on tri6 or quad8 faces contact cannot be decided node by node");
   if (const auto loose = contact::looseBody(*contact.mesh, contact, bodies.springs, false))
-    return undecided(frictions, "body '" + loose->body + "' is held by the contact alone, so the condensed matrix does not exist");
+    return undecided(frictions,
+                     "body '" + loose->body +
+                         "' is held by the contact alone, so the condensed matrix does not exist");
   OwnedMat stiffness = bodies.stiffness.share();
   if (bodies.rotationStiffness) {
     check(MatDuplicate(bodies.stiffness, MAT_COPY_VALUES, stiffness.out()));
@@ -139,8 +153,10 @@ Uniqueness examine(const elasticity::Bodies& bodies, const contact::Contact& con
   Condensed condensed(contact, stiffness, contact.slip(speed, nullptr));
   const bool dense = condensed.size() <= denseLimit;
   if (dense) rejectUnusedUniquenessOptions(true);
-  if (!condensed.factorised()) return undecided(frictions, "the stiffness matrix of the open contact cannot be factorised");
-  return dense ? examineDense(condensed.dense(), frictions, pMatrixLimit) : examineMatrixFree(condensed, frictions);
+  if (!condensed.factorised())
+    return undecided(frictions, "the stiffness matrix of the open contact cannot be factorised");
+  return dense ? examineDense(condensed.dense(), frictions, pMatrixLimit)
+               : examineMatrixFree(condensed, frictions);
 }
 
 }  // namespace squeal::steady

@@ -9,8 +9,10 @@ namespace squeal::sweep {
 struct Parameters {
   double friction = 0;  ///< f, coefficient of friction
   double speed = 1;     ///< v, a factor on the base motions of all bodies and obstacles
-  double pressure = 1;  ///< p, a factor on all that presses: surface pressures, held displacements, displacements of obstacles
-  double damping = 1;   ///< a factor on the damping of the bodies: materials, dashpots, modal; not on that of friction
+  double pressure = 1;  ///< p, a factor on all that presses: surface pressures, held displacements,
+                        ///< displacements of obstacles
+  double damping = 1;   ///< a factor on the damping of the bodies: materials, dashpots, modal; not
+                        ///< on that of friction
 
   bool operator==(const Parameters&) const = default;
 };

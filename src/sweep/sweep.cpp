@@ -12,7 +12,8 @@
 namespace squeal::sweep {
 namespace {
 
-const RealListOption frictionOption("flutter", "flutter_friction", "0.4", "", nonNegative, "friction coefficients", true);
+const RealListOption frictionOption("flutter", "flutter_friction", "0.4", "", nonNegative,
+                                    "friction coefficients", true);
 const RealListOption speedOption("flutter", "flutter_speed", "1", "", positive,
                                  "factors on all -motion_* and obstacle velocities, swept", true);
 const RealListOption pressureOption(
@@ -20,10 +21,11 @@ const RealListOption pressureOption(
     "factors on all that presses, swept: surface pressures, held displacements and those of "
     "obstacles; not on centrifugal forces",
     true);
-const RealListOption dampingOption("flutter", "flutter_damping", "1", "", nonNegative,
-                                   "factors on the damping of materials, of dashpots to the ground and of free "
-                                   "modes, swept; not on that of friction",
-                                   true);
+const RealListOption dampingOption(
+    "flutter", "flutter_damping", "1", "", nonNegative,
+    "factors on the damping of materials, of dashpots to the ground and of free "
+    "modes, swept; not on that of friction",
+    true);
 
 }  // namespace
 
@@ -36,31 +38,35 @@ Sweep readSweep() {
       throw Error("option -" + option.fullName() + ": a value is given twice");
     return list;
   };
-  Sweep sweep{ascending(frictionOption), ascending(speedOption), ascending(pressureOption), ascending(dampingOption)};
+  Sweep sweep{ascending(frictionOption), ascending(speedOption), ascending(pressureOption),
+              ascending(dampingOption)};
   const double points = sweep.pointCount();
   if (points > mostPoints)
     throw Error(
-        formatted("options -flutter_friction, -flutter_speed, -flutter_pressure and -flutter_damping: %zu x %zu x %zu x %zu = %.0f "
+        formatted("options -flutter_friction, -flutter_speed, -flutter_pressure and "
+                  "-flutter_damping: %zu x %zu x %zu x %zu = %.0f "
                   "points; a sweep has %.0f at most",
-                  sweep.frictions.size(), sweep.speeds.size(), sweep.pressures.size(), sweep.dampings.size(), points, mostPoints));
+                  sweep.frictions.size(), sweep.speeds.size(), sweep.pressures.size(),
+                  sweep.dampings.size(), points, mostPoints));
   return sweep;
 }
 
 double Sweep::pointCount() const {
-  return static_cast<double>(frictions.size()) * static_cast<double>(speeds.size()) * static_cast<double>(pressures.size()) *
-         static_cast<double>(dampings.size());
+  return static_cast<double>(frictions.size()) * static_cast<double>(speeds.size()) *
+         static_cast<double>(pressures.size()) * static_cast<double>(dampings.size());
 }
 
 void warnOfLongSweep(MPI_Comm comm, const Sweep& sweep, int modes) {
   constexpr double many = 1000, perSecond = 1e10;
   if (sweep.pointCount() < many) return;
-  // QZ of the linearised problem of a basis of twice the modes, some 25 (2 m)^3 operations with m vectors.
+  // QZ of the linearised problem of a basis of twice the modes, some 25 (2 m)^3 operations with m
+  // vectors.
   const double hours = sweep.pointCount() * 25 * std::pow(4.0 * modes, 3) / perSecond / 3600;
-  complain(
-      comm,
-      formatted(
-          "a sweep of %.0f points, %.0f steady states: about %.2g hours for their dense eigenvalue problems alone (%d free modes)",
-          sweep.pointCount(), sweep.pointCount() / static_cast<double>(sweep.dampings.size()), hours, modes));
+  complain(comm, formatted("a sweep of %.0f points, %.0f steady states: about %.2g hours for their "
+                           "dense eigenvalue problems alone (%d free modes)",
+                           sweep.pointCount(),
+                           sweep.pointCount() / static_cast<double>(sweep.dampings.size()), hours,
+                           modes));
 }
 
 std::vector<Parameters> Sweep::steadyPoints() const {
@@ -90,13 +96,15 @@ std::optional<std::size_t> Sweep::earlierNeighbour(std::size_t steadyPoint) cons
 }
 
 std::vector<std::vector<std::size_t>> batches(const std::vector<Parameters>& points) {
-  // The ends of a range, its middle and its quarters build most of the basis; later points find it ready, and cost a round or two.
+  // The ends of a range, its middle and its quarters build most of the basis; later points find it
+  // ready, and cost a round or two.
   constexpr std::size_t first = 5, later = 16;
   std::array<double, allParameters.size()> ranges{};
   for (std::size_t k = 0; k < ranges.size() && !points.empty(); ++k) {
     const auto value = allParameters[k].value;
     const auto [low, high] =
-        std::minmax_element(points.begin(), points.end(), [&](const auto& p, const auto& q) { return p.*value < q.*value; });
+        std::minmax_element(points.begin(), points.end(),
+                            [&](const auto& p, const auto& q) { return p.*value < q.*value; });
     ranges[k] = (*high).*value - (*low).*value;
   }
   const auto apart = [&](std::size_t a, std::size_t b) {
@@ -115,9 +123,11 @@ std::vector<std::vector<std::size_t>> batches(const std::vector<Parameters>& poi
   for (std::size_t chosen = 0; chosen < points.size(); ++chosen) {
     if (chosen == 0 || (chosen >= first && (chosen - first) % later == 0)) result.emplace_back();
     result.back().push_back(next);
-    for (std::size_t i = 0; i < points.size(); ++i) distance[i] = std::min(distance[i], apart(i, next));
+    for (std::size_t i = 0; i < points.size(); ++i)
+      distance[i] = std::min(distance[i], apart(i, next));
     distance[next] = -1;
-    next = static_cast<std::size_t>(std::max_element(distance.begin(), distance.end()) - distance.begin());
+    next = static_cast<std::size_t>(std::max_element(distance.begin(), distance.end()) -
+                                    distance.begin());
   }
   return result;
 }

@@ -18,8 +18,9 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Root of a continuous function in a bracket, a value at a time (T. R. Chandrupatla, Advances in Engineering Software 28 (1997)
-/// 145–149: inverse quadratic interpolation where it is safe, otherwise halving).
+/// Root of a continuous function in a bracket, a value at a time (T. R. Chandrupatla, Advances in
+/// Engineering Software 28 (1997) 145–149: inverse quadratic interpolation where it is safe,
+/// otherwise halving).
 class Search {
  public:
   Search(double a, double fa, double b, double fb, double tolerance)
@@ -40,7 +41,8 @@ class Search {
     const double xi = (a_ - b_) / (c_ - b_), phi = (fa_ - fb_) / (fc_ - fb_);
     t_ = 0.5;
     if (phi * phi < xi && (1 - phi) * (1 - phi) < 1 - xi)
-      t_ = fa_ / (fb_ - fa_) * fc_ / (fb_ - fc_) + (c_ - a_) / (b_ - a_) * fa_ / (fc_ - fa_) * fb_ / (fc_ - fb_);
+      t_ = fa_ / (fb_ - fa_) * fc_ / (fb_ - fc_) +
+           (c_ - a_) / (b_ - a_) * fa_ / (fc_ - fa_) * fb_ / (fc_ - fb_);
     t_ = std::clamp(t_, limit, 1 - limit);
   }
   bool done() const { return done_; }
@@ -56,7 +58,9 @@ class Search {
 class Root {
  public:
   Root(const Event& event, double tolerance)
-      : event_(event), tolerance_(tolerance), throughZero_(real(event.below[0].s) && real(event.above[0].s)) {}
+      : event_(event),
+        tolerance_(tolerance),
+        throughZero_(real(event.below[0].s) && real(event.above[0].s)) {}
 
   /// Locates it in the basis in force, which has `changed` since the last time.
   void locate(Family& family, bool changed) {
@@ -88,7 +92,8 @@ class Root {
   }
 
   Critical result() const {
-    Critical result{event_.kind, event_.branch, event_.partner, friction_, 0, 0, event_.loss, 0, backwardError_, true};
+    Critical result{event_.kind,    event_.branch, event_.partner, friction_, 0, 0, event_.loss, 0,
+                    backwardError_, true};
     if (event_.low == event_.high) {
       result.angularFrequency = mean(event_.below).imag();
     } else if (std::isnan(friction_)) {
@@ -138,25 +143,33 @@ class Root {
       if (sample.friction <= friction && sample.friction > below->friction) below = &sample;
       if (sample.friction >= friction && sample.friction < above->friction) above = &sample;
     }
-    const double width = above->friction - below->friction, t = width > 0 ? (friction - below->friction) / width : 0;
+    const double width = above->friction - below->friction,
+                 t = width > 0 ? (friction - below->friction) / width : 0;
     return (1 - t) * mean(below->pairs()) + t * mean(above->pairs());
   }
 
-  /// NaN: there is no such problem, or the eigenvalues are not found in it. Zero without a sample: there they meet.
+  /// NaN: there is no such problem, or the eigenvalues are not found in it. Zero without a sample:
+  /// there they meet.
   double valueAt(Family& family, double friction) {
     const auto problem = family.near(friction);
-    auto found = problem ? continuedIn(*problem, nearest(friction).spectrum, expected(friction), event_.isolation) : std::nullopt;
+    auto found = problem ? continuedIn(*problem, nearest(friction).spectrum, expected(friction),
+                                       event_.isolation)
+                         : std::nullopt;
     // Two that have all but met cannot be told from each other.
-    const bool met = event_.kind == Event::Kind::coalescence && std::abs(friction - nearest(friction).friction) <= 1e-9 * width();
+    const bool met = event_.kind == Event::Kind::coalescence &&
+                     std::abs(friction - nearest(friction).friction) <= 1e-9 * width();
     if (!found) return problem && met ? 0 : NAN;
     known_.push_back({friction, measure(*found), std::move(*found)});
     return known_.back().value;
   }
 
-  double rootTolerance() const { return 1e-13 * std::max(std::abs(event_.high), std::abs(event_.low)); }
+  double rootTolerance() const {
+    return 1e-13 * std::max(std::abs(event_.high), std::abs(event_.low));
+  }
 
   double width() const { return event_.high - event_.low; }
-  /// Good enough for a basis that is still to be improved; less would hide by how much it moves with the basis.
+  /// Good enough for a basis that is still to be improved; less would hide by how much it moves
+  /// with the basis.
   double roughly() const { return 1e-7 * width(); }
 
   double searchFromEnds(Family& family) {
@@ -170,8 +183,8 @@ class Root {
     return searched(family, known_[0].value, known_[1].value, roughly());
   }
 
-  /// Of the basis in force, whose root may have left the bracket; ends where it is not known, such as those where equal eigenvalues part,
-  /// keep their values.
+  /// Of the basis in force, whose root may have left the bracket; ends where it is not known, such
+  /// as those where equal eigenvalues part, keep their values.
   double searchedAnew(Family& family) {
     double low = valueAt(family, event_.low), high = valueAt(family, event_.high);
     if (std::isnan(low)) low = known_[0].value;
@@ -189,7 +202,8 @@ class Root {
     return search.root();
   }
 
-  /// From where it was in the basis before, by the slope there, which is of two frictions 2e-5 of the bracket apart.
+  /// From where it was in the basis before, by the slope there, which is of two frictions 2e-5 of
+  /// the bracket apart.
   double refined(Family& family) {
     if (lost_) return NAN;
     const Sample start = nearest(friction_);
@@ -202,7 +216,8 @@ class Root {
     slope_ = (value - before) / (at - left);
     for (int step = 1; std::isfinite(value) && std::isfinite(slope_); ++step) {
       const double change = -value / slope_, next = at + change;
-      const bool inside = next >= event_.low && next <= event_.high, closer = step <= 2 || std::abs(change) < 0.1 * last;
+      const bool inside = next >= event_.low && next <= event_.high,
+                 closer = step <= 2 || std::abs(change) < 0.1 * last;
       if (!inside || !closer) return searchedAnew(family);
       last = std::abs(change);
       // A step is wrong by some 1e-4 of itself.
@@ -240,7 +255,8 @@ class Roots {
   std::vector<std::size_t> open() const {
     std::vector<int> is(roots_.size(), 0);
     for (std::size_t i = 0; i < roots_.size(); ++i) is[i] = mine(i) && !roots_[i].settled() ? 1 : 0;
-    check(MPI_Allreduce(MPI_IN_PLACE, is.data(), static_cast<int>(is.size()), MPI_INT, MPI_MAX, family_.comm()));
+    check(MPI_Allreduce(MPI_IN_PLACE, is.data(), static_cast<int>(is.size()), MPI_INT, MPI_MAX,
+                        family_.comm()));
     auto list = indices(roots_.size());
     std::erase_if(list, [&](auto i) { return is[i] == 0; });
     return list;
@@ -301,16 +317,19 @@ class Roots {
 
 }  // namespace
 
-std::vector<Critical> criticalFrictions(Family& family, const Branches& branches, double tolerance) {
+std::vector<Critical> criticalFrictions(Family& family, const Branches& branches,
+                                        double tolerance) {
   constexpr int rounds = 10;
   Roots roots(family, branches.events, tolerance);
   for (int round = 0; round < rounds; ++round) {
     const auto open = roots.open();
-    family.progress(formatted("%zu of %zu critical frictions to be improved", open.size(), branches.events.size()));
+    family.progress(formatted("%zu of %zu critical frictions to be improved", open.size(),
+                              branches.events.size()));
     if (open.empty() || !roots.improve(open)) break;
   }
   auto list = roots.results();
-  std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.friction < b.friction; });
+  std::stable_sort(list.begin(), list.end(),
+                   [](const auto& a, const auto& b) { return a.friction < b.friction; });
   return list;
 }
 

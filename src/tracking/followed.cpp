@@ -12,15 +12,20 @@ namespace {
 
 const FlagOption trackOption(
     "flutter", "flutter_track", true,
-    "follow the eigenvalues of the band over the friction by left and right vectors, through crossings and "
-    "mergers: branches.csv; reduced method alone; a single friction, from friction 0 on, and sweeps with terms that follow the "
+    "follow the eigenvalues of the band over the friction by left and right vectors, through "
+    "crossings and "
+    "mergers: branches.csv; reduced method alone; a single friction, from friction 0 on, and "
+    "sweeps with terms that follow the "
     "steady state (friction damping, prestress) only if this or -flutter_critical is given");
-const FlagOption criticalOption("flutter", "flutter_critical", true,
-                                "solve for the frictions at which stability changes: critical.csv; needs -flutter_track");
+const FlagOption criticalOption(
+    "flutter", "flutter_critical", true,
+    "solve for the frictions at which stability changes: critical.csv; needs -flutter_track");
 const RealOption toleranceOption("flutter", "flutter_critical_tolerance", 1e-8, "", positive,
-                                 "the basis is improved for a critical friction until it moves by less than this part of itself");
-const IntegerOption halvingsOption("flutter", "flutter_track_halvings", 10, 0, 50,
-                                   "how often a step of the sweep may be halved where a continuation is not certain");
+                                 "the basis is improved for a critical friction until it moves by "
+                                 "less than this part of itself");
+const IntegerOption halvingsOption(
+    "flutter", "flutter_track_halvings", 10, 0, 50,
+    "how often a step of the sweep may be halved where a continuation is not certain");
 
 /// Vectors have done their service, and there are many.
 void dropVectors(Branches& branches) {
@@ -30,7 +35,8 @@ void dropVectors(Branches& branches) {
 }
 
 /// The frictions to follow of points that differ in nothing else, ascending; [line].
-std::vector<std::pair<sweep::Parameters, std::vector<double>>> lines(const std::vector<pencil::FrictionPoint>& points) {
+std::vector<std::pair<sweep::Parameters, std::vector<double>>> lines(
+    const std::vector<pencil::FrictionPoint>& points) {
   std::vector<std::pair<sweep::Parameters, std::vector<double>>> found;
   for (const auto& point : points) {
     sweep::Parameters line = point.at;
@@ -38,7 +44,9 @@ std::vector<std::pair<sweep::Parameters, std::vector<double>>> lines(const std::
     if (found.empty() || !(found.back().first == line)) found.push_back({line, {}});
     found.back().second.push_back(point.at.friction);
   }
-  std::erase_if(found, [](const auto& line) { return line.second.size() == 1 && (line.second[0] == 0 || !trackAsked()); });
+  std::erase_if(found, [](const auto& line) {
+    return line.second.size() == 1 && (line.second[0] == 0 || !trackAsked());
+  });
   return found;
 }
 
@@ -46,15 +54,19 @@ std::vector<std::pair<sweep::Parameters, std::vector<double>>> lines(const std::
 
 bool trackWanted() { return trackOption.get(); }
 
-bool trackAsked() { return trackOption.given() || (criticalOption.given() && criticalOption.get()); }
+bool trackAsked() {
+  return trackOption.given() || (criticalOption.given() && criticalOption.get());
+}
 
-std::string nothingToFollow(const reduction::ReducedProblem& reduced, const std::vector<pencil::FrictionPoint>& points) {
+std::string nothingToFollow(const reduction::ReducedProblem& reduced,
+                            const std::vector<pencil::FrictionPoint>& points) {
   if (reduced.band().top == 0) return "-reduction_basis modal corrects no eigenvalue";
   return lines(points).empty() ? "single frictions" : "";
 }
 
 bool Followed::complete() const {
-  return std::all_of(branches.gaps.begin(), branches.gaps.end(), [](const Gap& gap) { return gap.identityOnly; });
+  return std::all_of(branches.gaps.begin(), branches.gaps.end(),
+                     [](const Gap& gap) { return gap.identityOnly; });
 }
 
 std::string Followed::statement() const {
@@ -62,24 +74,31 @@ std::string Followed::statement() const {
   if (stations.empty()) return "completeness not shown: no reduced problem";
   const auto& first = stations.front();
   const auto& last = stations.back();
-  std::string text = formatted("%d eigenvalues in the band at friction %g (%s); ", branches.inBandAt(first), first.friction,
-                               wholeSpace   ? "of the full problem: the basis is the whole space"
-                               : countExact ? "Sturm count, exact"
-                                            : "of the reduced problem, not confirmed by a Sturm count");
+  std::string text = formatted(
+      "%d eigenvalues in the band at friction %g (%s); ", branches.inBandAt(first), first.friction,
+      wholeSpace   ? "of the full problem: the basis is the whole space"
+      : countExact ? "Sturm count, exact"
+                   : "of the reduced problem, not confirmed by a Sturm count");
   if (complete()) {
-    text += formatted("all followed to friction %g, where there are %d: %d entered and %d left across the edge", last.friction,
-                      branches.inBandAt(last), branches.entered, branches.left);
+    text += formatted(
+        "all followed to friction %g, where there are %d: %d entered and %d left across the edge",
+        last.friction, branches.inBandAt(last), branches.entered, branches.left);
   } else {
     text += "not all followed:";
     for (const auto& gap : branches.gaps)
-      if (!gap.identityOnly) text += formatted(" [%g to %g: %s]", gap.from, gap.to, gap.what.c_str());
+      if (!gap.identityOnly)
+        text += formatted(" [%g to %g: %s]", gap.from, gap.to, gap.what.c_str());
   }
   return wholeSpace ? text
-                    : text + "; assumed: the basis holds every eigenvalue of the full problem that crosses the edge of the band";
+                    : text +
+                          "; assumed: the basis holds every eigenvalue of the full problem that "
+                          "crosses the edge of the band";
 }
 
-std::vector<Followed> followSweep(reduction::ReducedProblem& reduced, const std::vector<pencil::FrictionPoint>& points, const modes::Modes& modes,
-                                  MPI_Comm comm, const ProblemSource& source,
+std::vector<Followed> followSweep(reduction::ReducedProblem& reduced,
+                                  const std::vector<pencil::FrictionPoint>& points,
+                                  const modes::Modes& modes, MPI_Comm comm,
+                                  const ProblemSource& source,
                                   const std::function<void(const std::string&)>& progress) {
   std::vector<Followed> result;
   PetscInt unknowns = 0;
@@ -98,14 +117,18 @@ std::vector<Followed> followSweep(reduction::ReducedProblem& reduced, const std:
     if (!stations.empty() && stations.front().friction == 0) {
       stations.front().swept = swept;
       const auto& w = modes.angularFrequency;
-      const auto below = std::count_if(w.begin(), w.end(), [&](double omega) { return omega <= followed.branches.band.top; });
+      const auto below = std::count_if(
+          w.begin(), w.end(), [&](double omega) { return omega <= followed.branches.band.top; });
       const auto problem = family.at(0);
-      followed.countExact = problem && problem->damping.empty() && modes.countConfirmed &&
-                            followed.branches.band.top * followed.branches.band.top <= modes.inertiaShift &&
-                            below < static_cast<std::ptrdiff_t>(w.size()) && below == followed.branches.inBandAt(stations.front());
+      followed.countExact =
+          problem && problem->damping.empty() && modes.countConfirmed &&
+          followed.branches.band.top * followed.branches.band.top <= modes.inertiaShift &&
+          below < static_cast<std::ptrdiff_t>(w.size()) &&
+          below == followed.branches.inBandAt(stations.front());
     }
     renumber(followed.branches);
-    if (criticalOption.get()) followed.criticals = criticalFrictions(family, followed.branches, toleranceOption.get());
+    if (criticalOption.get())
+      followed.criticals = criticalFrictions(family, followed.branches, toleranceOption.get());
     dropVectors(followed.branches);
     result.push_back(std::move(followed));
   }

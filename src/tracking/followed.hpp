@@ -1,6 +1,6 @@
 #pragma once
-/// The sweep over friction as a whole: its eigenvalues followed from point to point, their critical frictions, and what can be said
-/// of their number.
+/// The sweep over friction as a whole: its eigenvalues followed from point to point, their critical
+/// frictions, and what can be said of their number.
 #include <string>
 #include <vector>
 
@@ -15,11 +15,12 @@ namespace squeal::tracking {
 
 /// All frictions of one speed, pressure and damping with one active set.
 struct Followed {
-  sweep::Parameters line;                  ///< but for the friction
-  Branches branches;                ///< those in the band at some friction, numbered from 1 by their first frequency
+  sweep::Parameters line;  ///< but for the friction
+  Branches
+      branches;  ///< those in the band at some friction, numbered from 1 by their first frequency
   std::vector<Critical> criticals;  ///< of these, by friction
-  bool countExact = false;          ///< the number at the first friction, 0, is that of the Sturm count
-  bool wholeSpace = false;          ///< the basis is all of it: the reduced problem is the full one
+  bool countExact = false;  ///< the number at the first friction, 0, is that of the Sturm count
+  bool wholeSpace = false;  ///< the basis is all of it: the reduced problem is the full one
 
   /// Every eigenvalue of the band is accounted for at every friction.
   bool complete() const;
@@ -29,15 +30,22 @@ struct Followed {
 
 /// `-flutter_track`.
 bool trackWanted();
-/// `-flutter_track` or `-flutter_critical` is given: the user is to be told if there is nothing to follow.
+/// `-flutter_track` or `-flutter_critical` is given: the user is to be told if there is nothing to
+/// follow.
 bool trackAsked();
-/// Why there is nothing to follow: eigenvalues of the free modes alone, or single frictions unless trackAsked(). Empty: there is.
-std::string nothingToFollow(const reduction::ReducedProblem& reduced, const std::vector<pencil::FrictionPoint>& points);
+/// Why there is nothing to follow: eigenvalues of the free modes alone, or single frictions unless
+/// trackAsked(). Empty: there is.
+std::string nothingToFollow(const reduction::ReducedProblem& reduced,
+                            const std::vector<pencil::FrictionPoint>& points);
 
-/// Collective. Follows the eigenvalues of `points`, from friction 0 on, in the basis in force, and solves for the critical frictions
-/// (`-flutter_critical`), for which the basis may grow. Single frictions are left out unless trackAsked().
-std::vector<Followed> followSweep(reduction::ReducedProblem& reduced, const std::vector<pencil::FrictionPoint>& points, const modes::Modes& modes,
-                                  MPI_Comm comm, const ProblemSource& source,
+/// Collective. Follows the eigenvalues of `points`, from friction 0 on, in the basis in force, and
+/// solves for the critical frictions
+/// (`-flutter_critical`), for which the basis may grow. Single frictions are left out unless
+/// trackAsked().
+std::vector<Followed> followSweep(reduction::ReducedProblem& reduced,
+                                  const std::vector<pencil::FrictionPoint>& points,
+                                  const modes::Modes& modes, MPI_Comm comm,
+                                  const ProblemSource& source,
                                   const std::function<void(const std::string&)>& progress);
 
 }  // namespace squeal::tracking

@@ -12,7 +12,8 @@
 namespace squeal::tracking {
 namespace {
 
-constexpr double reach = 0.1;  // of a projector into another: below, two eigenvalues have nothing in common
+constexpr double reach =
+    0.1;  // of a projector into another: below, two eigenvalues have nothing in common
 
 using Complex = std::complex<double>;
 
@@ -27,13 +28,16 @@ std::vector<std::size_t> byFrequency(const std::vector<linalg::DensePair>& pairs
   std::sort(order.begin(), order.end(), [&](auto a, auto b) {
     const Complex s = pairs[a].s, t = pairs[b].s;
     // Members of a split pair have one frequency, but for rounding.
-    return std::abs(s.imag() - t.imag()) > 1e-8 * std::abs(s) ? s.imag() < t.imag() : s.real() > t.real();
+    return std::abs(s.imag() - t.imag()) > 1e-8 * std::abs(s) ? s.imag() < t.imag()
+                                                              : s.real() > t.real();
   });
   return order;
 }
 
 /// Of a problem in s², of which −s is one with every s, without negative real ones.
-bool counted(const linalg::DenseProblem& problem, Complex s) { return !problem.damping.empty() || s.imag() != 0 || s.real() >= 0; }
+bool counted(const linalg::DenseProblem& problem, Complex s) {
+  return !problem.damping.empty() || s.imag() != 0 || s.real() >= 0;
+}
 
 /// |Σ tr(Π_i Π_j) − number| for all pairs of both.
 double unshared(const linalg::Spectrum& a, const linalg::Spectrum& b) {
@@ -43,13 +47,16 @@ double unshared(const linalg::Spectrum& a, const linalg::Spectrum& b) {
   return std::abs(sum - static_cast<double>(a.pairs().size()));
 }
 
-std::optional<linalg::Spectrum> locally(const linalg::DenseProblem& problem, const linalg::Spectrum& from, const std::vector<linalg::DensePair>& start,
-                                Complex expected, double isolation) {
+std::optional<linalg::Spectrum> locally(const linalg::DenseProblem& problem,
+                                        const linalg::Spectrum& from,
+                                        const std::vector<linalg::DensePair>& start,
+                                        Complex expected, double isolation) {
   linalg::Cluster cluster = linalg::clusterNear(problem, start, expected, isolation);
   if (!cluster.converged) return {};
   if (problem.damping.empty())  // s and −s have the same vectors
     for (auto& pair : cluster.pairs)
-      if (pair.s.imag() < -1e-9 * std::abs(pair.s) || (real(pair.s) && pair.s.real() < 0)) pair.s = -pair.s;
+      if (pair.s.imag() < -1e-9 * std::abs(pair.s) || (real(pair.s) && pair.s.real() < 0))
+        pair.s = -pair.s;
   linalg::Spectrum found(problem, std::move(cluster.pairs));
   if (unshared(from, found) > 0.5) return {};
   return found;
@@ -65,13 +72,16 @@ std::vector<std::size_t> closest(const linalg::Spectrum& from, const linalg::Spe
   }
   std::sort(shares.begin(), shares.end());
   std::vector<std::size_t> indices;
-  for (std::size_t k = 0; k < from.pairs().size() && k < shares.size(); ++k) indices.push_back(shares[k].second);
+  for (std::size_t k = 0; k < from.pairs().size() && k < shares.size(); ++k)
+    indices.push_back(shares[k].second);
   return indices;
 }
 
 }  // namespace
 
-std::optional<linalg::Spectrum> continuedIn(const linalg::DenseProblem& problem, const linalg::Spectrum& from, Complex expected, double isolation) {
+std::optional<linalg::Spectrum> continuedIn(const linalg::DenseProblem& problem,
+                                            const linalg::Spectrum& from, Complex expected,
+                                            double isolation) {
   if (auto found = locally(problem, from, from.pairs(), expected, isolation)) return found;
   auto pairs = linalg::solveQuadratic(problem, linalg::Vectors::both);
   std::erase_if(pairs, [&](const auto& pair) { return !counted(problem, pair.s); });
@@ -82,21 +92,27 @@ std::optional<linalg::Spectrum> continuedIn(const linalg::DenseProblem& problem,
   const Complex middle = mean(whole.pairs());
   double free = std::abs(middle);
   for (std::size_t j = 0; j < all.pairs().size(); ++j)
-    if (std::find(indices.begin(), indices.end(), j) == indices.end()) free = std::min(free, std::abs(all.pairs()[j].s - middle));
-  // Where the eigenvalues are closer to each other than to the rest, their subspace has more digits than they have.
+    if (std::find(indices.begin(), indices.end(), j) == indices.end())
+      free = std::min(free, std::abs(all.pairs()[j].s - middle));
+  // Where the eigenvalues are closer to each other than to the rest, their subspace has more digits
+  // than they have.
   if (auto found = locally(problem, whole, whole.pairs(), middle, free)) return found;
   return whole;
 }
 
-std::vector<std::vector<linalg::DensePair>> watchedPairs(MPI_Comm comm, const std::vector<linalg::DenseProblem>& problems,
-                                                 const pencil::WatchedBand& band) {
-  auto solved = linalg::solveSpread(comm, problems, linalg::Vectors::both, [&](Complex s) { return band.watches(s); });
+std::vector<std::vector<linalg::DensePair>> watchedPairs(
+    MPI_Comm comm, const std::vector<linalg::DenseProblem>& problems,
+    const pencil::WatchedBand& band) {
+  auto solved = linalg::solveSpread(comm, problems, linalg::Vectors::both,
+                                    [&](Complex s) { return band.watches(s); });
   for (std::size_t i = 0; i < problems.size(); ++i)
     std::erase_if(solved[i], [&](const auto& pair) { return !counted(problems[i], pair.s); });
   return solved;
 }
 
-std::optional<linalg::Spectrum> pursued(Family& family, double friction, const linalg::Spectrum& from, Complex expected, double isolation) {
+std::optional<linalg::Spectrum> pursued(Family& family, double friction,
+                                        const linalg::Spectrum& from, Complex expected,
+                                        double isolation) {
   const auto problem = family.at(friction);
   if (!problem) return {};
   int rank = 0;
@@ -114,22 +130,28 @@ std::optional<linalg::Spectrum> pursued(Family& family, double friction, const l
   return linalg::Spectrum(*problem, std::move(pairs));
 }
 
-bool neutral(Complex s, bool damped) { return std::abs(s.real()) <= (damped ? 1e-10 : 1e-6) * std::abs(s); }
+bool neutral(Complex s, bool damped) {
+  return std::abs(s.real()) <= (damped ? 1e-10 : 1e-6) * std::abs(s);
+}
 
 bool real(Complex s) { return std::abs(s.imag()) <= 1e-6 * std::abs(s); }
 
 bool neutralPair(const std::vector<linalg::DensePair>& two, bool damped) {
-  return std::all_of(two.begin(), two.end(), [&](const auto& p) { return neutral(p.s, damped) || (!damped && real(p.s)); });
+  return std::all_of(two.begin(), two.end(),
+                     [&](const auto& p) { return neutral(p.s, damped) || (!damped && real(p.s)); });
 }
 
 bool splitPair(const std::vector<linalg::DensePair>& two, bool damped) {
   const Complex a = two[0].s, b = two[1].s;
-  return !neutral(a, damped) && !real(a) && std::abs(a + std::conj(b)) <= (damped ? 1e-8 : 1e-5) * std::abs(a.real());
+  return !neutral(a, damped) && !real(a) &&
+         std::abs(a + std::conj(b)) <= (damped ? 1e-8 : 1e-5) * std::abs(a.real());
 }
 
 bool coincide(const std::vector<linalg::DensePair>& pairs) {
   const Complex middle = mean(pairs);
-  return std::all_of(pairs.begin(), pairs.end(), [&](const auto& p) { return std::abs(p.s - middle) <= 1e-7 * std::abs(middle); });
+  return std::all_of(pairs.begin(), pairs.end(), [&](const auto& p) {
+    return std::abs(p.s - middle) <= 1e-7 * std::abs(middle);
+  });
 }
 
 std::vector<Group> groups(const linalg::Spectrum& here, const linalg::Spectrum& there) {
@@ -140,14 +162,16 @@ std::vector<Group> groups(const linalg::Spectrum& here, const linalg::Spectrum& 
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = n; j < all; ++j) {
       overlaps[i * (all - n) + j - n] = here.overlap(i, there, j - n);
-      if (std::abs(overlaps[i * (all - n) + j - n]) > reach) parent[rootOf(parent, i)] = rootOf(parent, j);
+      if (std::abs(overlaps[i * (all - n) + j - n]) > reach)
+        parent[rootOf(parent, i)] = rootOf(parent, j);
     }
   std::vector<Group> found(all);
   for (std::size_t k = 0; k < all; ++k) {
     Group& group = found[rootOf(parent, k)];
     (k < n ? group.here : group.there).push_back(k < n ? k : k - n);
   }
-  std::erase_if(found, [](const Group& group) { return group.here.empty() && group.there.empty(); });
+  std::erase_if(found,
+                [](const Group& group) { return group.here.empty() && group.there.empty(); });
   for (auto& group : found) {
     Complex sum = 0;
     for (const auto i : group.here)
@@ -157,7 +181,8 @@ std::vector<Group> groups(const linalg::Spectrum& here, const linalg::Spectrum& 
   return found;
 }
 
-std::vector<std::size_t> assigned(const linalg::Spectrum& here, const linalg::Spectrum& there, const Group& group) {
+std::vector<std::size_t> assigned(const linalg::Spectrum& here, const linalg::Spectrum& there,
+                                  const Group& group) {
   std::vector<std::tuple<double, std::size_t, std::size_t>> list;
   for (std::size_t a = 0; a < group.here.size(); ++a)
     for (std::size_t b = 0; b < group.there.size(); ++b)
@@ -173,14 +198,16 @@ std::vector<std::size_t> assigned(const linalg::Spectrum& here, const linalg::Sp
   return mate;
 }
 
-std::vector<std::size_t> ordered(const std::vector<linalg::DensePair>& here, const std::vector<linalg::DensePair>& there) {
+std::vector<std::size_t> ordered(const std::vector<linalg::DensePair>& here,
+                                 const std::vector<linalg::DensePair>& there) {
   const auto a = byFrequency(here), b = byFrequency(there);
   std::vector<std::size_t> mate(a.size());
   for (std::size_t k = 0; k < a.size(); ++k) mate[a[k]] = b[k];
   return mate;
 }
 
-std::vector<linalg::DensePair> chosen(const std::vector<linalg::DensePair>& all, const std::vector<std::size_t>& indices) {
+std::vector<linalg::DensePair> chosen(const std::vector<linalg::DensePair>& all,
+                                      const std::vector<std::size_t>& indices) {
   std::vector<linalg::DensePair> list;
   for (const auto i : indices) list.push_back(all[i]);
   return list;

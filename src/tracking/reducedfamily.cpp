@@ -9,7 +9,8 @@ namespace {
 /// sum += factor · part; what `part` lacks, being of a smaller basis, is zero.
 void add(linalg::DenseProblem& sum, double factor, const linalg::DenseProblem& part) {
   const auto m = static_cast<std::size_t>(sum.m), n = static_cast<std::size_t>(part.m);
-  for (const auto matrix : {&linalg::DenseProblem::mass, &linalg::DenseProblem::damping, &linalg::DenseProblem::stiffness}) {
+  for (const auto matrix : {&linalg::DenseProblem::mass, &linalg::DenseProblem::damping,
+                            &linalg::DenseProblem::stiffness}) {
     const linalg::DenseMatrix& from = part.*matrix;
     linalg::DenseMatrix& to = sum.*matrix;
     if (from.empty()) continue;
@@ -27,12 +28,15 @@ sweep::Parameters ReducedFamily::point(double friction) const {
   return at;
 }
 
-linalg::DenseProblem ReducedFamily::shared(double friction) const { return reduced_.project({point(friction), source_.shared.with({})}); }
+linalg::DenseProblem ReducedFamily::shared(double friction) const {
+  return reduced_.project({point(friction), source_.shared.with({})});
+}
 
 /// Collective.
 linalg::DenseProblem ReducedFamily::own(const reduction::PointProblem& problem) const {
   linalg::DenseProblem sum;
-  reduction::ProjectedTerms(reduced_.basis(), problem.pencil, problem.pencil.affineCount(), problem.pencil.terms().size())
+  reduction::ProjectedTerms(reduced_.basis(), problem.pencil, problem.pencil.affineCount(),
+                            problem.pencil.terms().size())
       .addTo(problem.at, sum);
   return sum;
 }
@@ -51,8 +55,9 @@ std::optional<linalg::DenseProblem> ReducedFamily::at(double friction) {
 
 /// In the basis in force.
 bool ReducedFamily::known(double friction) const {
-  return std::any_of(nodes_.begin(), nodes_.end(),
-                     [&](const Node& node) { return node.friction == friction && node.own.m == reduced_.basisSize(); });
+  return std::any_of(nodes_.begin(), nodes_.end(), [&](const Node& node) {
+    return node.friction == friction && node.own.m == reduced_.basisSize();
+  });
 }
 
 void ReducedFamily::know(const std::vector<double>& frictions) {
@@ -85,8 +90,9 @@ std::vector<const ReducedFamily::Node*> ReducedFamily::nodesFor(double friction)
   });
   const double apart = closest();
   for (const Node* node : all)
-    if (chosen.size() < most && std::all_of(chosen.begin(), chosen.end(),
-                                            [&](const Node* other) { return std::abs(node->friction - other->friction) > apart; }))
+    if (chosen.size() < most && std::all_of(chosen.begin(), chosen.end(), [&](const Node* other) {
+          return std::abs(node->friction - other->friction) > apart;
+        }))
       chosen.push_back(node);
   return chosen;
 }
@@ -99,7 +105,8 @@ std::optional<linalg::DenseProblem> ReducedFamily::near(double friction) {
   for (const Node* node : nodes) {  // Lagrange
     double weight = 1;
     for (const Node* other : nodes)
-      if (other != node) weight *= (friction - other->friction) / (node->friction - other->friction);
+      if (other != node)
+        weight *= (friction - other->friction) / (node->friction - other->friction);
     if (weight != 0) add(sum, weight, node->own);
   }
   return sum;
@@ -114,13 +121,19 @@ reduction::Improvement ReducedFamily::improve(const std::vector<Located>& locate
       places.push_back(k);
     }
   const reduction::Improvement found = reduced_.improve(list);
-  reduction::Improvement result{found.changed || !source_.local, std::vector<double>(located.size(), NAN)};
-  for (std::size_t i = 0; i < places.size(); ++i) result.backwardError[places[i]] = found.backwardError[i];
+  reduction::Improvement result{found.changed || !source_.local,
+                                std::vector<double>(located.size(), NAN)};
+  for (std::size_t i = 0; i < places.size(); ++i)
+    result.backwardError[places[i]] = found.backwardError[i];
   if (source_.local) return result;
-  const double apart = closest();  // older nodes must not stand beside these; these may stand beside each other
+  const double apart =
+      closest();  // older nodes must not stand beside these; these may stand beside each other
   for (std::size_t place : places)
-    std::erase_if(nodes_, [&](const Node& node) { return std::abs(node.friction - located[place].friction) <= apart; });
-  for (std::size_t i = 0; i < places.size(); ++i) nodes_.push_back({located[places[i]].friction, own(list[i].first)});
+    std::erase_if(nodes_, [&](const Node& node) {
+      return std::abs(node.friction - located[place].friction) <= apart;
+    });
+  for (std::size_t i = 0; i < places.size(); ++i)
+    nodes_.push_back({located[places[i]].friction, own(list[i].first)});
   return result;
 }
 

@@ -22,14 +22,15 @@ struct ProblemSource {
   bool local = false;  ///< no point has terms of its own
 };
 
-/// One line of a sweep: all frictions of one speed, pressure and damping. Where points have terms of their own, each new friction costs
-/// a steady state and a projection on all ranks; near() then interpolates what the projections of these terms are.
+/// One line of a sweep: all frictions of one speed, pressure and damping. Where points have terms
+/// of their own, each new friction costs a steady state and a projection on all ranks; near() then
+/// interpolates what the projections of these terms are.
 class ReducedFamily : public Family {
  public:
   using Progress = std::function<void(const std::string&)>;
   /// Borrows all but `line`.
-  ReducedFamily(reduction::ReducedProblem& reduced, MPI_Comm comm, const sweep::Parameters& line, const ProblemSource& source,
-                const Progress& progress)
+  ReducedFamily(reduction::ReducedProblem& reduced, MPI_Comm comm, const sweep::Parameters& line,
+                const ProblemSource& source, const Progress& progress)
       : reduced_(reduced), comm_(comm), line_(line), source_(source), progress_(progress) {}
   MPI_Comm comm() const override { return comm_; }
   std::optional<linalg::DenseProblem> at(double friction) override;

@@ -12,7 +12,8 @@ using Eigenvalues = std::map<int, Complex>;  // [branch] at one station
 
 constexpr double rounding = 1e-7;  // of |s|, as in coincide()
 
-/// Orders a list by descending keys, and what is equal but for `tolerance` by `further`, which reorders in place.
+/// Orders a list by descending keys, and what is equal but for `tolerance` by `further`, which
+/// reorders in place.
 template <class Key, class Further>
 void orderBy(std::vector<int>& list, const Key& key, double tolerance, const Further& further) {
   std::stable_sort(list.begin(), list.end(), [&](int a, int b) { return key(a) > key(b); });
@@ -30,15 +31,18 @@ class Order {
   explicit Order(const std::vector<Station>& stations) {
     for (const auto& station : stations) {
       Eigenvalues& here = at_.emplace_back();
-      for (std::size_t i = 0; i < station.pairs.size(); ++i) here.emplace(station.branch[i], station.pairs[i].s);
+      for (std::size_t i = 0; i < station.pairs.size(); ++i)
+        here.emplace(station.branch[i], station.pairs[i].s);
     }
   }
 
-  /// By the station, and those that are equal there by the next ones. Those that have ended before keep their order, behind the others.
+  /// By the station, and those that are equal there by the next ones. Those that have ended before
+  /// keep their order, behind the others.
   void apply(std::vector<int>& list, std::size_t station) const {
     if (list.size() < 2 || station == at_.size()) return;
     const Eigenvalues& here = at_[station];
-    const auto ended = std::stable_partition(list.begin(), list.end(), [&](int branch) { return here.count(branch) > 0; });
+    const auto ended = std::stable_partition(list.begin(), list.end(),
+                                             [&](int branch) { return here.count(branch) > 0; });
     std::vector<int> present(list.begin(), ended);
     const auto s = [&](int branch) { return here.at(branch); };
     double tolerance = 0;
@@ -70,7 +74,8 @@ void renumber(Branches& branches) {
   for (std::size_t k = 0; k < stations.size(); ++k) {
     std::vector<int> fresh;
     for (int branch : stations[k].branch)
-      if (const auto entry = number.find(branch); entry != number.end() && entry->second == 0) fresh.push_back(branch);
+      if (const auto entry = number.find(branch); entry != number.end() && entry->second == 0)
+        fresh.push_back(branch);
     order.apply(fresh, k);
     for (int branch : fresh) number[branch] = ++count;
   }

@@ -12,25 +12,29 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// ds/df = −yᴴ P_f x / (yᴴ P_s x) of pairs at one end, P_f by the difference over the step: exact where P is linear in f, good enough
-/// to look for candidates elsewhere.
-std::vector<Complex> slopes(const linalg::Spectrum& spectrum, const StepEnd& low, const StepEnd& high) {
+/// ds/df = −yᴴ P_f x / (yᴴ P_s x) of pairs at one end, P_f by the difference over the step: exact
+/// where P is linear in f, good enough to look for candidates elsewhere.
+std::vector<Complex> slopes(const linalg::Spectrum& spectrum, const StepEnd& low,
+                            const StepEnd& high) {
   const auto& pairs = spectrum.pairs();
   const int m = low.problem.m;
   const auto change = [&](const linalg::DenseMatrix& a, const linalg::DenseMatrix& b) {
     linalg::DenseMatrix difference(a.empty() ? b.size() : a.size());
-    for (std::size_t k = 0; k < difference.size(); ++k) difference[k] = (b.empty() ? 0 : b[k]) - (a.empty() ? 0 : a[k]);
+    for (std::size_t k = 0; k < difference.size(); ++k)
+      difference[k] = (b.empty() ? 0 : b[k]) - (a.empty() ? 0 : a[k]);
     return linalg::timesVectors(difference, m, pairs);
   };
   const auto stiffness = change(low.problem.stiffness, high.problem.stiffness),
-             damping = change(low.problem.damping, high.problem.damping), mass = change(low.problem.mass, high.problem.mass);
+             damping = change(low.problem.damping, high.problem.damping),
+             mass = change(low.problem.mass, high.problem.mass);
   std::vector<Complex> list;
   for (std::size_t j = 0; j < pairs.size(); ++j) {
     const auto& [s, x, y] = pairs[j];
     Complex sum = 0;
     const std::size_t n = y.size(), re = 2 * j * n, im = re + n;
     for (std::size_t i = 0; i < n; ++i)
-      sum += std::conj(y[i]) * (Complex(stiffness[re + i], stiffness[im + i]) + s * Complex(damping[re + i], damping[im + i]) +
+      sum += std::conj(y[i]) * (Complex(stiffness[re + i], stiffness[im + i]) +
+                                s * Complex(damping[re + i], damping[im + i]) +
                                 s * s * Complex(mass[re + i], mass[im + i]));
     list.push_back(-sum / (high.friction - low.friction) / spectrum.derivative(j));
   }
@@ -42,7 +46,8 @@ struct Cubic {
   double value0, slope0, value1, slope1;
   double operator()(double t) const {
     const double u = 1 - t;
-    return u * u * (1 + 2 * t) * value0 + t * t * (3 - 2 * t) * value1 + t * u * (u * slope0 - t * slope1);
+    return u * u * (1 + 2 * t) * value0 + t * t * (3 - 2 * t) * value1 +
+           t * u * (u * slope0 - t * slope1);
   }
   /// Place of the smallest value inside.
   double lowest() const {
@@ -63,8 +68,8 @@ class Dip {
   /// `scale`: of the values at the ends; next to nothing of it counts as zero, not negative.
   explicit Dip(double scale) : nothing_(1e-10 * scale) {}
 
-  /// From t by parabolas through three points as close as the zero of the last one seems to be. `value(t)` is NaN where it is not
-  /// known.
+  /// From t by parabolas through three points as close as the zero of the last one seems to be.
+  /// `value(t)` is NaN where it is not known.
   template <class Function>
   Result search(double t, const Function& value) {
     constexpr int most = 6;
@@ -75,20 +80,24 @@ class Dip {
       if (!std::isfinite(middle)) return Result::unknown;
       if (middle < 0) return Result::negative;
       if (middle < nothing_) return Result::positive;
-      const double centre = at_, low = std::max(centre - reach, 0.5 * centre), high = std::min(centre + reach, 0.5 * (1 + centre));
+      const double centre = at_, low = std::max(centre - reach, 0.5 * centre),
+                   high = std::min(centre + reach, 0.5 * (1 + centre));
       const double below = value(low);
       if (below < 0) return at_ = low, Result::negative;
       const double above = value(high);
       if (above < 0) return at_ = high, Result::negative;
       if (!std::isfinite(below) || !std::isfinite(above)) return Result::unknown;
-      const double left = (middle - below) / (centre - low), right = (above - middle) / (high - centre);
+      const double left = (middle - below) / (centre - low),
+                   right = (above - middle) / (high - centre);
       const double curvature = (right - left) / (high - low);
       const double vertex = 0.5 * (low + centre) - left / (2 * curvature);
       const double least = middle - curvature * (vertex - centre) * (vertex - centre);
-      if (curvature > 0 && vertex > low && vertex < high && least > 0.1 * middle) return Result::positive;
+      if (curvature > 0 && vertex > low && vertex < high && least > 0.1 * middle)
+        return Result::positive;
       at_ = curvature > 0 ? std::clamp(vertex, low, high) : below < above ? low : high;
       middle = value(at_);
-      reach = std::clamp(curvature > 0 ? std::sqrt(std::abs(middle) / curvature) : reach, 1e-6, reach);
+      reach =
+          std::clamp(curvature > 0 ? std::sqrt(std::abs(middle) / curvature) : reach, 1e-6, reach);
     }
     return Result::positive;
   }
@@ -101,8 +110,8 @@ class Dip {
 /// A step and what is examined in it.
 class Screening {
  public:
-  Screening(Family& family, const StepEnd& low, const StepEnd& high, const std::vector<Pursued>& singles,
-            std::vector<Event>& events, std::vector<Gap>& gaps)
+  Screening(Family& family, const StepEnd& low, const StepEnd& high,
+            const std::vector<Pursued>& singles, std::vector<Event>& events, std::vector<Gap>& gaps)
       : family_(family), low_(low), high_(high), singles_(singles), events_(events), gaps_(gaps) {
     std::vector<linalg::DensePair> below, above;
     for (const auto& single : singles) {
@@ -116,10 +125,12 @@ class Screening {
   void run() {
     const bool damped = !low_.problem.damping.empty();
     for (std::size_t i = 0; i < singles_.size(); ++i) {
-      const bool still = neutral(singles_[i].below.s, damped) && neutral(singles_[i].above.s, damped);
+      const bool still =
+          neutral(singles_[i].below.s, damped) && neutral(singles_[i].above.s, damped);
       if (!still) arch(i);
       for (std::size_t j = 0; still && j < i; ++j)
-        if (neutral(singles_[j].below.s, damped) && neutral(singles_[j].above.s, damped)) merger(i, j);
+        if (neutral(singles_[j].below.s, damped) && neutral(singles_[j].above.s, damped))
+          merger(i, j);
     }
   }
 
@@ -127,9 +138,11 @@ class Screening {
   double width() const { return high_.friction - low_.friction; }
 
   /// NaN if the subspace is not found.
-  double examine(double t, const std::vector<linalg::DensePair>& below, const std::vector<linalg::DensePair>& above, double isolation) {
+  double examine(double t, const std::vector<linalg::DensePair>& below,
+                 const std::vector<linalg::DensePair>& above, double isolation) {
     const linalg::Spectrum from(t < 0.5 ? low_.problem : high_.problem, t < 0.5 ? below : above);
-    const auto found = pursued(family_, low_.friction + t * width(), from, (1 - t) * mean(below) + t * mean(above), isolation);
+    const auto found = pursued(family_, low_.friction + t * width(), from,
+                               (1 - t) * mean(below) + t * mean(above), isolation);
     if (!found) return NAN;
     found_ = found->pairs();
     return found_.size() == 2 ? discriminant(found_, from.damped()) : found_[0].s.real();
@@ -139,9 +152,9 @@ class Screening {
   void record(Dip::Result result, const Dip& dip, Event event) {
     if (result == Dip::Result::positive) return;
     if (result == Dip::Result::unknown) {
-      gaps_.push_back(
-          {low_.friction, high_.friction,
-           formatted("what eigenvalues near %.6g Hz do in between was not found", mean(event.below).imag() / (2 * M_PI))});
+      gaps_.push_back({low_.friction, high_.friction,
+                       formatted("what eigenvalues near %.6g Hz do in between was not found",
+                                 mean(event.below).imag() / (2 * M_PI))});
       return;
     }
     Event second = event;
@@ -157,8 +170,10 @@ class Screening {
   /// Do two neutral eigenvalues meet?
   void merger(std::size_t i, std::size_t j) {
     const Pursued &a = singles_[i], &b = singles_[j];
-    const double d0 = 0.5 * (a.below.s - b.below.s).imag(), d1 = 0.5 * (a.above.s - b.above.s).imag();
-    const double slope0 = 0.5 * (below_[i] - below_[j]).imag() * width(), slope1 = 0.5 * (above_[i] - above_[j]).imag() * width();
+    const double d0 = 0.5 * (a.below.s - b.below.s).imag(),
+                 d1 = 0.5 * (a.above.s - b.above.s).imag();
+    const double slope0 = 0.5 * (below_[i] - below_[j]).imag() * width(),
+                 slope1 = 0.5 * (above_[i] - above_[j]).imag() * width();
     const Cubic square{d0 * d0, 2 * d0 * slope0, d1 * d1, 2 * d1 * slope1};
     double t = square.lowest();
     const bool crossing = d0 * d1 < 0;
@@ -167,11 +182,12 @@ class Screening {
     const std::vector<linalg::DensePair> below{a.below, b.below}, above{a.above, b.above};
     const double isolation = isolationOf(i, j);
     Dip dip(std::max(d0 * d0, d1 * d1));
-    const auto result = dip.search(t, [&](double at) { return examine(at, below, above, isolation); });
+    const auto result =
+        dip.search(t, [&](double at) { return examine(at, below, above, isolation); });
     const bool lower = d0 < 0;  // a is: it becomes the growing one
-    record(
-        result, dip,
-        {Event::Kind::coalescence, lower ? a.branch : b.branch, lower ? b.branch : a.branch, true, 0, 0, below, above, isolation});
+    record(result, dip,
+           {Event::Kind::coalescence, lower ? a.branch : b.branch, lower ? b.branch : a.branch,
+            true, 0, 0, below, above, isolation});
   }
 
   double isolationOf(std::size_t i, std::size_t j) const {
@@ -180,7 +196,8 @@ class Screening {
     double distance = std::min(std::abs(below), std::abs(above));
     for (std::size_t k = 0; k < singles_.size(); ++k)
       if (k != i && k != j)
-        distance = std::min({distance, std::abs(singles_[k].below.s - below), std::abs(singles_[k].above.s - above)});
+        distance = std::min({distance, std::abs(singles_[k].below.s - below),
+                             std::abs(singles_[k].above.s - above)});
     return distance;
   }
 
@@ -190,13 +207,16 @@ class Screening {
     const double g0 = a.below.s.real(), g1 = a.above.s.real();
     if (g0 * g1 <= 0) return;
     const double sign = g0 > 0 ? 1 : -1;
-    const Cubic growth{sign * g0, sign * below_[i].real() * width(), sign * g1, sign * above_[i].real() * width()};
+    const Cubic growth{sign * g0, sign * below_[i].real() * width(), sign * g1,
+                       sign * above_[i].real() * width()};
     const double t = growth.lowest();
     if (growth(t) > 0.1 * std::min(sign * g0, sign * g1)) return;
     const std::vector<linalg::DensePair> below{a.below}, above{a.above};
     Dip dip(std::max(sign * g0, sign * g1));
-    const auto result = dip.search(t, [&](double at) { return sign * examine(at, below, above, a.isolation); });
-    record(result, dip, {Event::Kind::crossing, a.branch, -1, sign < 0, 0, 0, below, above, a.isolation});
+    const auto result =
+        dip.search(t, [&](double at) { return sign * examine(at, below, above, a.isolation); });
+    record(result, dip,
+           {Event::Kind::crossing, a.branch, -1, sign < 0, 0, 0, below, above, a.isolation});
   }
 
   Family& family_;
@@ -210,8 +230,9 @@ class Screening {
 
 }  // namespace
 
-void screen(Family& family, const StepEnd& low, const StepEnd& high, const std::vector<Pursued>& singles,
-            std::vector<Event>& events, std::vector<Gap>& gaps) {
+void screen(Family& family, const StepEnd& low, const StepEnd& high,
+            const std::vector<Pursued>& singles, std::vector<Event>& events,
+            std::vector<Gap>& gaps) {
   Screening(family, low, high, singles, events, gaps).run();
 }
 

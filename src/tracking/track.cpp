@@ -20,8 +20,8 @@ struct Link {
   double overlap;
 };
 
-/// What one step brings; kept only if the step is not halved. Branches are indices of pairs at its lower end until all before are
-/// numbered.
+/// What one step brings; kept only if the step is not halved. Branches are indices of pairs at its
+/// lower end until all before are numbered.
 struct StepResult {
   std::vector<Link> links;
   std::vector<Event> events;
@@ -51,25 +51,29 @@ int sign(Complex s, bool damped) { return neutral(s, damped) ? 0 : s.real() > 0 
 
 class Follower {
  public:
-  Follower(Family& family, const pencil::WatchedBand& band, const TrackLimits& limits) : family_(family), limits_(limits) {
+  Follower(Family& family, const pencil::WatchedBand& band, const TrackLimits& limits)
+      : family_(family), limits_(limits) {
     result_.band = band;
   }
 
   Branches run(const std::vector<double>& frictions) {
     int ranks = 1;
     check(MPI_Comm_size(family_.comm(), &ranks));
-    const std::size_t together = std::min<std::size_t>(static_cast<std::size_t>(ranks), mostTogether);
+    const std::size_t together =
+        std::min<std::size_t>(static_cast<std::size_t>(ranks), mostTogether);
     std::list<Solved> row;  // the last station of those before, and the next ones
     for (std::size_t first = 0; first < frictions.size(); first += together) {
       const std::vector<double> some(frictions.begin() + static_cast<std::ptrdiff_t>(first),
-                                     frictions.begin() + static_cast<std::ptrdiff_t>(std::min(first + together, frictions.size())));
+                                     frictions.begin() + static_cast<std::ptrdiff_t>(std::min(
+                                                             first + together, frictions.size())));
       auto found = solve(some, true);
       for (std::size_t k = 0; k < some.size(); ++k) {
         if (!found[k]) {
           result_.gaps.push_back({some[k], some[k], "no reduced problem"});
           continue;
         }
-        if (!row.empty()) found[k]->smallest = limits_.smallest * (some[k] - row.back().station.friction);
+        if (!row.empty())
+          found[k]->smallest = limits_.smallest * (some[k] - row.back().station.friction);
         row.push_back(std::move(*found[k]));
       }
       refine(row);
@@ -79,7 +83,8 @@ class Follower {
         last = &next;
       }
       if (!row.empty())
-        family_.progress(formatted("%d branches followed to friction %g", result_.count, row.back().station.friction));
+        family_.progress(formatted("%d branches followed to friction %g", result_.count,
+                                   row.back().station.friction));
       if (!row.empty()) row.erase(row.begin(), std::prev(row.end()));
     }
     return std::move(result_);
@@ -103,21 +108,25 @@ class Follower {
       Station station{frictions[places[i]], swept, std::move(pairs[i]), {}, {}, {}};
       station.branch.assign(station.pairs.size(), -1);
       station.overlap.assign(station.pairs.size(), 0);
-      for (const auto& pair : station.pairs) station.inBand.push_back(result_.band.contains(pair.s));
+      for (const auto& pair : station.pairs)
+        station.inBand.push_back(result_.band.contains(pair.s));
       linalg::Spectrum spectrum(problems[i], station.pairs);
-      list[places[i]].emplace(Solved{std::move(station), std::move(problems[i]), std::move(spectrum)});
+      list[places[i]].emplace(
+          Solved{std::move(station), std::move(problems[i]), std::move(spectrum)});
     }
     return list;
   }
 
-  /// Puts frictions in between until all continuations are certain, those of a round solved together.
+  /// Puts frictions in between until all continuations are certain, those of a round solved
+  /// together.
   void refine(std::list<Solved>& row) {
     for (bool open = true; open;) {
       std::vector<std::list<Solved>::iterator> places;
       std::vector<double> middles;
       for (auto a = row.begin(), b = row.begin(); a != row.end() && ++b != row.end(); a = b) {
         if (!b->step) b->step = join(*a, *b);
-        if (b->step->sure || b->whole || b->station.friction - a->station.friction <= b->smallest) continue;
+        if (b->step->sure || b->whole || b->station.friction - a->station.friction <= b->smallest)
+          continue;
         places.push_back(b);
         middles.push_back(0.5 * (a->station.friction + b->station.friction));
       }
@@ -130,7 +139,8 @@ class Follower {
           row.insert(places[k], std::move(*found[k]));
         } else {
           end.whole = true;
-          end.step->gaps.push_back({std::prev(places[k])->station.friction, end.station.friction, "no reduced problem in between"});
+          end.step->gaps.push_back({std::prev(places[k])->station.friction, end.station.friction,
+                                    "no reduced problem in between"});
         }
       }
       open = !places.empty();
@@ -147,8 +157,11 @@ class Follower {
         result_.entered += !a->station.inBand[link.here] && b.station.inBand[link.there];
         result_.left += a->station.inBand[link.here] && !b.station.inBand[link.there];
       }
-      screen(family_, {a->station.friction, a->problem}, {b.station.friction, b.problem}, step.singles, step.events, step.gaps);
-      const auto number = [&](int index) { return index < 0 ? index : a->station.branch[static_cast<std::size_t>(index)]; };
+      screen(family_, {a->station.friction, a->problem}, {b.station.friction, b.problem},
+             step.singles, step.events, step.gaps);
+      const auto number = [&](int index) {
+        return index < 0 ? index : a->station.branch[static_cast<std::size_t>(index)];
+      };
       for (auto& event : step.events) {
         event.branch = number(event.branch);
         event.partner = number(event.partner);
@@ -163,13 +176,17 @@ class Follower {
   }
 
   bool matters(const Solved& a, const Solved& b, const Group& group) const {
-    return std::any_of(group.here.begin(), group.here.end(), [&](auto i) { return a.station.inBand[i]; }) ||
-           std::any_of(group.there.begin(), group.there.end(), [&](auto j) { return b.station.inBand[j]; });
+    return std::any_of(group.here.begin(), group.here.end(),
+                       [&](auto i) { return a.station.inBand[i]; }) ||
+           std::any_of(group.there.begin(), group.there.end(),
+                       [&](auto j) { return b.station.inBand[j]; });
   }
 
   /// Whether it is of use to tell them apart.
   bool lasts(const Solved& a, const Solved& b, const Group& group) const {
-    const auto one = [&](const Solved& end, std::size_t i) { return result_.band.lasts(end.station.pairs[i].s); };
+    const auto one = [&](const Solved& end, std::size_t i) {
+      return result_.band.lasts(end.station.pairs[i].s);
+    };
     return std::any_of(group.here.begin(), group.here.end(), [&](auto i) { return one(a, i); }) ||
            std::any_of(group.there.begin(), group.there.end(), [&](auto j) { return one(b, j); });
   }
@@ -195,13 +212,13 @@ class Follower {
     if (!matters(a, b, group)) return;
     const linalg::DensePair &p = a.spectrum.pairs()[i], &q = b.spectrum.pairs()[j];
     step.singles.push_back({static_cast<int>(i), p, q, isolation(a, b, group)});
-    crossed(step, a.station.friction, b.station.friction, p, q, static_cast<int>(i), step.singles.back().isolation,
-            a.spectrum.damped());
+    crossed(step, a.station.friction, b.station.friction, p, q, static_cast<int>(i),
+            step.singles.back().isolation, a.spectrum.damped());
   }
 
   /// An eigenvalue that changes its stability by itself.
-  static void crossed(StepResult& step, double low, double high, const linalg::DensePair& p, const linalg::DensePair& q, int branch,
-                      double isolation, bool damped) {
+  static void crossed(StepResult& step, double low, double high, const linalg::DensePair& p,
+                      const linalg::DensePair& q, int branch, double isolation, bool damped) {
     const int before = sign(p.s, damped), after = sign(q.s, damped);
     if (before == after) return;
     Event event{Event::Kind::crossing, branch, -1, after > before, low, high, {p}, {q}, isolation};
@@ -214,9 +231,11 @@ class Follower {
     step.events.push_back(std::move(event));
   }
 
-  /// Several eigenvalues joined as a whole. False: it takes more frictions in between to tell them apart.
+  /// Several eigenvalues joined as a whole. False: it takes more frictions in between to tell them
+  /// apart.
   bool several(StepResult& step, const Solved& a, const Solved& b, const Group& group) {
-    const auto here = chosen(a.spectrum.pairs(), group.here), there = chosen(b.spectrum.pairs(), group.there);
+    const auto here = chosen(a.spectrum.pairs(), group.here),
+               there = chosen(b.spectrum.pairs(), group.there);
     std::vector<std::size_t> mate;
     std::vector<int> ids;
     for (const auto i : group.here) ids.push_back(static_cast<int>(i));
@@ -225,7 +244,8 @@ class Follower {
       atEnd(step, a, b, here, there, ids, mate);
     } else if (here.size() == 2) {
       StepResult traced;
-      const PairAt low{a.station.friction, linalg::Spectrum(a.problem, here)}, high{b.station.friction, linalg::Spectrum(b.problem, there)};
+      const PairAt low{a.station.friction, linalg::Spectrum(a.problem, here)},
+          high{b.station.friction, linalg::Spectrum(b.problem, there)};
       const double smallest = std::ldexp(high.friction - low.friction, -14);
       if (!trace(low, high, ids, isolation(a, b, group), smallest, mate, traced)) return false;
       for (auto& event : traced.events) step.events.push_back(std::move(event));
@@ -233,31 +253,40 @@ class Follower {
     } else {
       return false;
     }
-    for (std::size_t k = 0; k < mate.size(); ++k) step.links.push_back({group.here[k], group.there[mate[k]], 1});
+    for (std::size_t k = 0; k < mate.size(); ++k)
+      step.links.push_back({group.here[k], group.there[mate[k]], 1});
     return true;
   }
 
   /// Equal eigenvalues at one end that change their stability.
-  void atEnd(StepResult& step, const Solved& a, const Solved& b, const std::vector<linalg::DensePair>& here,
-             const std::vector<linalg::DensePair>& there, const std::vector<int>& ids, const std::vector<std::size_t>& mate) {
+  void atEnd(StepResult& step, const Solved& a, const Solved& b,
+             const std::vector<linalg::DensePair>& here,
+             const std::vector<linalg::DensePair>& there, const std::vector<int>& ids,
+             const std::vector<std::size_t>& mate) {
     const bool damped = b.spectrum.damped(), equalBelow = coincide(here);
     const Solved& apart = equalBelow ? b : a;
     const double equalAt = equalBelow ? a.station.friction : b.station.friction;
     for (std::size_t k = 0; k < here.size(); ++k) {
       const int before = sign(here[k].s, damped), after = sign(there[mate[k]].s, damped);
-      if (std::max(before, after) < 1 || before == after) continue;  // stable or unstable on both sides
-      Event event{Event::Kind::coalescence, ids[k], -1, after > before, equalAt, equalAt, {here[k]}, {there[mate[k]]}, 0};
+      if (std::max(before, after) < 1 || before == after)
+        continue;  // stable or unstable on both sides
+      Event event{Event::Kind::coalescence, ids[k], -1, after > before, equalAt, equalAt, {here[k]},
+                  {there[mate[k]]},         0};
       if (before * after != 0) {
-        // Damped ones part, and one of them crosses the axis on its way: back to where they are equal, until it has not yet.
+        // Damped ones part, and one of them crosses the axis on its way: back to where they are
+        // equal, until it has not yet.
         event.kind = Event::Kind::crossing;
-        approach(event, apart, equalAt, equalBelow ? event.above[0] : event.below[0], mean(equalBelow ? here : there));
+        approach(event, apart, equalAt, equalBelow ? event.above[0] : event.below[0],
+                 mean(equalBelow ? here : there));
       }
       step.events.push_back(std::move(event));
     }
   }
 
-  /// Brackets the crossing of one of several eigenvalues that are equal at `equalAt`, where their vectors say nothing, from `pair`.
-  void approach(Event& event, const Solved& apart, double equalAt, const linalg::DensePair& pair, Complex equal) {
+  /// Brackets the crossing of one of several eigenvalues that are equal at `equalAt`, where their
+  /// vectors say nothing, from `pair`.
+  void approach(Event& event, const Solved& apart, double equalAt, const linalg::DensePair& pair,
+                Complex equal) {
     constexpr int halvings = 16;
     double friction = apart.station.friction;
     linalg::Spectrum last(apart.problem, {pair});
@@ -281,23 +310,27 @@ class Follower {
     }
   }
 
-  /// Two eigenvalues from one friction to another by their common subspace; `mate`: place at `high` of each at `low`.
-  bool trace(const PairAt& low, const PairAt& high, const std::vector<int>& ids, double isolation, double smallest,
-             std::vector<std::size_t>& mate, StepResult& step) {
+  /// Two eigenvalues from one friction to another by their common subspace; `mate`: place at `high`
+  /// of each at `low`.
+  bool trace(const PairAt& low, const PairAt& high, const std::vector<int>& ids, double isolation,
+             double smallest, std::vector<std::size_t>& mate, StepResult& step) {
     const auto& a = low.pairs();
     const auto& b = high.pairs();
     const bool damped = low.spectrum.damped();
-    const bool merging = neutralPair(a, damped) && splitPair(b, damped), parting = splitPair(a, damped) && neutralPair(b, damped);
+    const bool merging = neutralPair(a, damped) && splitPair(b, damped),
+               parting = splitPair(a, damped) && neutralPair(b, damped);
     if (merging || parting) {
       mate = ordered(a, b);
       const auto& split = merging ? b : a;
       const auto& whole = merging ? a : b;
-      const std::size_t grown = split[0].s.real() > 0 ? 0 : 1, grownLow = merging ? (mate[0] == grown ? 0 : 1) : grown;
-      // Of two neutral ones the growing one loses its stability, of two divergent ones the decaying one regains it.
+      const std::size_t grown = split[0].s.real() > 0 ? 0 : 1,
+                        grownLow = merging ? (mate[0] == grown ? 0 : 1) : grown;
+      // Of two neutral ones the growing one loses its stability, of two divergent ones the decaying
+      // one regains it.
       const bool divergent = real(whole[0].s);
       const std::size_t own = divergent ? 1 - grownLow : grownLow;
-      step.events.push_back(
-          {Event::Kind::coalescence, ids[own], ids[1 - own], merging != divergent, low.friction, high.friction, a, b, isolation});
+      step.events.push_back({Event::Kind::coalescence, ids[own], ids[1 - own], merging != divergent,
+                             low.friction, high.friction, a, b, isolation});
       return true;
     }
     if (coincide(a) || coincide(b)) {
@@ -313,16 +346,17 @@ class Follower {
     }
     if (clear) {
       for (std::size_t i = 0; i < 2; ++i)
-        crossed(step, low.friction, high.friction, a[i], b[mate[i]], ids[i], std::min(isolation, 2 * std::abs(a[0].s - mean(a))),
-                damped);
+        crossed(step, low.friction, high.friction, a[i], b[mate[i]], ids[i],
+                std::min(isolation, 2 * std::abs(a[0].s - mean(a))), damped);
       return true;
     }
     if (high.friction - low.friction < smallest) {
-      step.gaps.push_back({low.friction, high.friction,
-                           formatted("two eigenvalues near %.6g Hz too close to tell apart: both are "
-                                     "there, which is which is not certain",
-                                     mean(a).imag() / (2 * M_PI)),
-                           true});
+      step.gaps.push_back(
+          {low.friction, high.friction,
+           formatted("two eigenvalues near %.6g Hz too close to tell apart: both are "
+                     "there, which is which is not certain",
+                     mean(a).imag() / (2 * M_PI)),
+           true});
       return true;
     }
     const double middle = 0.5 * (low.friction + high.friction);
@@ -344,23 +378,28 @@ class Follower {
     for (std::size_t k = 0; k < mate.size(); ++k)
       if (mate[k] < group.there.size())
         step.links.push_back(
-            {group.here[k], group.there[mate[k]], std::abs(a.spectrum.overlap(group.here[k], b.spectrum, group.there[mate[k]]))});
+            {group.here[k], group.there[mate[k]],
+             std::abs(a.spectrum.overlap(group.here[k], b.spectrum, group.there[mate[k]]))});
     if (!counts) return;
-    const auto pairs = group.here.empty() ? chosen(b.spectrum.pairs(), group.there) : chosen(a.spectrum.pairs(), group.here);
+    const auto pairs = group.here.empty() ? chosen(b.spectrum.pairs(), group.there)
+                                          : chosen(a.spectrum.pairs(), group.here);
     step.gaps.push_back(
         {a.station.friction, b.station.friction,
          formatted("%d eigenvalues near %.6g Hz before and %d after are joined without certainty",
-                   static_cast<int>(group.here.size()), mean(pairs).imag() / (2 * M_PI), static_cast<int>(group.there.size()))});
+                   static_cast<int>(group.here.size()), mean(pairs).imag() / (2 * M_PI),
+                   static_cast<int>(group.there.size()))});
   }
 
   /// Of the mean of a group from all other eigenvalues.
   double isolation(const Solved& a, const Solved& b, const Group& group) const {
     double distance = INFINITY;
-    const auto reach = [&](const std::vector<linalg::DensePair>& pairs, const std::vector<std::size_t>& own) {
+    const auto reach = [&](const std::vector<linalg::DensePair>& pairs,
+                           const std::vector<std::size_t>& own) {
       const Complex middle = mean(chosen(pairs, own));
       distance = std::min(distance, std::abs(middle));
       for (std::size_t i = 0; i < pairs.size(); ++i)
-        if (std::find(own.begin(), own.end(), i) == own.end()) distance = std::min(distance, std::abs(pairs[i].s - middle));
+        if (std::find(own.begin(), own.end(), i) == own.end())
+          distance = std::min(distance, std::abs(pairs[i].s - middle));
     };
     reach(a.spectrum.pairs(), group.here);
     reach(b.spectrum.pairs(), group.there);
@@ -378,7 +417,8 @@ int Branches::inBandAt(const Station& station) const {
   return static_cast<int>(std::count(station.inBand.begin(), station.inBand.end(), 1));
 }
 
-Branches follow(Family& family, const std::vector<double>& frictions, const pencil::WatchedBand& band, const TrackLimits& limits) {
+Branches follow(Family& family, const std::vector<double>& frictions,
+                const pencil::WatchedBand& band, const TrackLimits& limits) {
   return Follower(family, band, limits).run(frictions);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-/// The two layers of two_layers.hpp with the full terms of moving matter: the disc's matter travels along +x at W = 0.05, and
-/// D u = W ∂u/∂x.
+/// The two layers of two_layers.hpp with the full terms of moving matter: the disc's matter travels
+/// along +x at W = 0.05, and D u = W ∂u/∂x.
 #include "exact/two_layers.hpp"
 #include "pencil/complex_modes.hpp"
 
@@ -12,16 +12,19 @@ inline Complex characteristic(double friction, int n, Complex s) {
   return two_layers::characteristic({.friction = friction, .carried = velocity}, n, s);
 }
 
-// The lowest eigenvalues with Im s ≥ 0 by ascending Im s: roots of the characteristic equation for all n, converged to 1e-8 or
-// better.
+// The lowest eigenvalues with Im s ≥ 0 by ascending Im s: roots of the characteristic equation for
+// all n, converged to 1e-8 or better.
 
 /// f = 0
 inline constexpr std::array<Eigenvalue, 24> frictionless{{
-    {0, 0, 0.974166527439},  {0, 0, 1.351926225325},  {1, 0, 1.873009504319},  {0, 0, 1.961651784659}, {-1, 0, 2.040487755222},
-    {1, 0, 2.226913527523},  {-1, 0, 2.227067921217}, {1, 0, 2.311325172733},  {2, 0, 2.420628868067}, {-1, 0, 2.518370174576},
-    {-2, 0, 2.729744484432}, {0, 0, 2.922499582344},  {3, 0, 3.316167898584},  {1, 0, 3.518123967183}, {2, 0, 3.534363652726},
-    {-2, 0, 3.615329915153}, {-1, 0, 3.66197956452},  {-3, 0, 3.696001146477}, {2, 0, 3.802604235741}, {-2, 0, 4.035845333568},
-    {0, 0, 4.055778675974},  {1, 0, 4.124469547094},  {-1, 0, 4.217212427081}, {0, 0, 4.276377228042},
+    {0, 0, 0.974166527439},  {0, 0, 1.351926225325},  {1, 0, 1.873009504319},
+    {0, 0, 1.961651784659},  {-1, 0, 2.040487755222}, {1, 0, 2.226913527523},
+    {-1, 0, 2.227067921217}, {1, 0, 2.311325172733},  {2, 0, 2.420628868067},
+    {-1, 0, 2.518370174576}, {-2, 0, 2.729744484432}, {0, 0, 2.922499582344},
+    {3, 0, 3.316167898584},  {1, 0, 3.518123967183},  {2, 0, 3.534363652726},
+    {-2, 0, 3.615329915153}, {-1, 0, 3.66197956452},  {-3, 0, 3.696001146477},
+    {2, 0, 3.802604235741},  {-2, 0, 4.035845333568}, {0, 0, 4.055778675974},
+    {1, 0, 4.124469547094},  {-1, 0, 4.217212427081}, {0, 0, 4.276377228042},
 }};
 
 /// f = 0.1

@@ -1,6 +1,6 @@
 #pragma once
-/// One elastic layer −h ≤ y ≤ 0, clamped at y = −h, under a rigid plate at y = 0 that slides along +x: Moirot and Nguyen (2000),
-/// section 5. E = 1, ν = 0.3, ρ = 1, h = 1, Lx = 3, plane strain.
+/// One elastic layer −h ≤ y ≤ 0, clamped at y = −h, under a rigid plate at y = 0 that slides along
+/// +x: Moirot and Nguyen (2000), section 5. E = 1, ν = 0.3, ρ = 1, h = 1, Lx = 3, plane strain.
 #include "exact/waves.hpp"
 #include "pencil/complex_modes.hpp"
 
@@ -9,8 +9,9 @@ namespace squeal::exact::one_layer {
 inline constexpr Material material{1, 0.3, 1};
 inline constexpr double thickness = 1, period = 3;
 
-/// Steady sliding, the plate pressed down by `depth`: uniform strain. Vertical equilibrium gives the pressure p = (λ+2μ) depth/h,
-/// horizontal equilibrium the shear μ u' = f p along the plate's velocity.
+/// Steady sliding, the plate pressed down by `depth`: uniform strain. Vertical equilibrium gives
+/// the pressure p = (λ+2μ) depth/h, horizontal equilibrium the shear μ u' = f p along the plate's
+/// velocity.
 struct Steady {
   double friction, depth;
   double pressure() const { return material.uniaxial() * depth / thickness; }
@@ -18,8 +19,8 @@ struct Steady {
   double v(double y) const { return -depth / thickness * (y + thickness); }
 };
 
-/// Zero where s is an eigenvalue of wave number index n: u = v = 0 at y = −h, and at the plate v = 0 and σ_xy + f σ_yy = 0 (the
-/// plate drags the layer along +x with f R_N = −f σ_yy).
+/// Zero where s is an eigenvalue of wave number index n: u = v = 0 at y = −h, and at the plate v =
+/// 0 and σ_xy + f σ_yy = 0 (the plate drags the layer along +x with f R_N = −f σ_yy).
 inline Complex characteristic(double friction, int n, Complex s) {
   const double k = 2 * M_PI * n / period;
   const Waves bottom = wavesAt(material, k, s, -thickness), top = wavesAt(material, k, s, 0);
@@ -28,25 +29,29 @@ inline Complex characteristic(double friction, int n, Complex s) {
   return determinant(conditions);
 }
 
-// The lowest eigenvalues with Im s ≥ 0 by ascending Im s: roots of the characteristic equation for all n, converged to 1e-8 or
-// better.
+// The lowest eigenvalues with Im s ≥ 0 by ascending Im s: roots of the characteristic equation for
+// all n, converged to 1e-8 or better.
 
 /// f = 0
 inline constexpr std::array<Eigenvalue, 70> frictionless{{
-    {0, 0, 0.974166527438}, {-1, 0, 2.39168688582}, {1, 0, 2.39168688582},  {0, 0, 2.92249958237},  {-1, 0, 3.14940466868},
-    {1, 0, 3.14940466868},  {-2, 0, 3.46323579862}, {2, 0, 3.46323579862},  {0, 0, 3.64499738334},  {-1, 0, 4.30755341551},
-    {1, 0, 4.30755341551},  {-3, 0, 4.47932585412}, {3, 0, 4.47932585412},  {-2, 0, 4.77723131022}, {2, 0, 4.77723131022},
-    {0, 0, 4.87083263719},  {-1, 0, 5.13044547041}, {1, 0, 5.13044547041},  {-2, 0, 5.32102364618}, {2, 0, 5.32102364618},
-    {-4, 0, 5.62292919664}, {4, 0, 5.62292919664},  {-3, 0, 5.77441048038}, {3, 0, 5.77441048038},  {-2, 0, 6.21202190031},
-    {2, 0, 6.21202190031},  {-4, 0, 6.69789075163}, {4, 0, 6.69789075163},  {0, 0, 6.81916569207},  {-5, 0, 6.82898879739},
-    {5, 0, 6.82898879739},  {-1, 0, 6.89210604145}, {1, 0, 6.89210604145},  {-3, 0, 7.15181713579}, {3, 0, 7.15181713579},
-    {0, 0, 7.28999476668},  {-2, 0, 7.30056338336}, {2, 0, 7.30056338336},  {-3, 0, 7.59118394711}, {3, 0, 7.59118394711},
-    {-1, 0, 7.70507035023}, {1, 0, 7.70507035023},  {-5, 0, 7.72485783369}, {5, 0, 7.72485783369},  {-6, 0, 8.06723095941},
-    {6, 0, 8.06723095941},  {-4, 0, 8.09474140558}, {4, 0, 8.09474140558},  {-3, 0, 8.4193974486},  {3, 0, 8.4193974486},
-    {-2, 0, 8.60221902894}, {2, 0, 8.60221902894},  {0, 0, 8.76749874694},  {-6, 0, 8.82706812175}, {6, 0, 8.82706812175},
-    {-1, 0, 8.87713263552}, {1, 0, 8.87713263552},  {-5, 0, 8.97836425248}, {5, 0, 8.97836425248},  {-2, 0, 9.30885979797},
-    {2, 0, 9.30885979797},  {-7, 0, 9.32371327567}, {7, 0, 9.32371327567},  {-3, 0, 9.44337322514}, {3, 0, 9.44337322514},
-    {-4, 0, 9.51450047458}, {4, 0, 9.51450047458},  {-4, 0, 9.93009240843}, {4, 0, 9.93009240843},  {-6, 0, 9.94043514139},
+    {0, 0, 0.974166527438}, {-1, 0, 2.39168688582}, {1, 0, 2.39168688582},  {0, 0, 2.92249958237},
+    {-1, 0, 3.14940466868}, {1, 0, 3.14940466868},  {-2, 0, 3.46323579862}, {2, 0, 3.46323579862},
+    {0, 0, 3.64499738334},  {-1, 0, 4.30755341551}, {1, 0, 4.30755341551},  {-3, 0, 4.47932585412},
+    {3, 0, 4.47932585412},  {-2, 0, 4.77723131022}, {2, 0, 4.77723131022},  {0, 0, 4.87083263719},
+    {-1, 0, 5.13044547041}, {1, 0, 5.13044547041},  {-2, 0, 5.32102364618}, {2, 0, 5.32102364618},
+    {-4, 0, 5.62292919664}, {4, 0, 5.62292919664},  {-3, 0, 5.77441048038}, {3, 0, 5.77441048038},
+    {-2, 0, 6.21202190031}, {2, 0, 6.21202190031},  {-4, 0, 6.69789075163}, {4, 0, 6.69789075163},
+    {0, 0, 6.81916569207},  {-5, 0, 6.82898879739}, {5, 0, 6.82898879739},  {-1, 0, 6.89210604145},
+    {1, 0, 6.89210604145},  {-3, 0, 7.15181713579}, {3, 0, 7.15181713579},  {0, 0, 7.28999476668},
+    {-2, 0, 7.30056338336}, {2, 0, 7.30056338336},  {-3, 0, 7.59118394711}, {3, 0, 7.59118394711},
+    {-1, 0, 7.70507035023}, {1, 0, 7.70507035023},  {-5, 0, 7.72485783369}, {5, 0, 7.72485783369},
+    {-6, 0, 8.06723095941}, {6, 0, 8.06723095941},  {-4, 0, 8.09474140558}, {4, 0, 8.09474140558},
+    {-3, 0, 8.4193974486},  {3, 0, 8.4193974486},   {-2, 0, 8.60221902894}, {2, 0, 8.60221902894},
+    {0, 0, 8.76749874694},  {-6, 0, 8.82706812175}, {6, 0, 8.82706812175},  {-1, 0, 8.87713263552},
+    {1, 0, 8.87713263552},  {-5, 0, 8.97836425248}, {5, 0, 8.97836425248},  {-2, 0, 9.30885979797},
+    {2, 0, 9.30885979797},  {-7, 0, 9.32371327567}, {7, 0, 9.32371327567},  {-3, 0, 9.44337322514},
+    {3, 0, 9.44337322514},  {-4, 0, 9.51450047458}, {4, 0, 9.51450047458},  {-4, 0, 9.93009240843},
+    {4, 0, 9.93009240843},  {-6, 0, 9.94043514139},
 }};
 
 /// f = 0.2

@@ -1,7 +1,8 @@
 #pragma once
-/// Two elastic layers of period Lx = 3 in plane strain, one sliding on the other: the disc, −1 ≤ y ≤ 0, clamped at y = −1, whose
-/// matter moves along +x, and the pad, 0 ≤ y ≤ 0.6, held at y = 0.6. In the tables the speed enters the direction of friction alone
-/// (approximation A); the characteristic equation holds for moving matter and for friction that follows the speed as well.
+/// Two elastic layers of period Lx = 3 in plane strain, one sliding on the other: the disc, −1 ≤ y
+/// ≤ 0, clamped at y = −1, whose matter moves along +x, and the pad, 0 ≤ y ≤ 0.6, held at y = 0.6.
+/// In the tables the speed enters the direction of friction alone (approximation A); the
+/// characteristic equation holds for moving matter and for friction that follows the speed as well.
 #include "exact/waves.hpp"
 #include "pencil/complex_modes.hpp"
 
@@ -10,26 +11,34 @@ namespace squeal::exact::two_layers {
 inline constexpr Material disc{1, 0.3, 1}, pad{0.4, 0.25, 0.6};
 inline constexpr double discThickness = 1, padThickness = 0.6, period = 3;
 
-/// Steady sliding, the top of the pad displaced down by `depth`: uniform strain in each layer, the same normal stress −p and shear
-/// stress in both. The shortenings p h/(λ+2μ) of the layers add up to `depth`; the disc drags the pad along +x with f p: σ_xy = f
-/// σ_yy = −f p, and u = 0 where the layers are held.
+/// Steady sliding, the top of the pad displaced down by `depth`: uniform strain in each layer, the
+/// same normal stress −p and shear stress in both. The shortenings p h/(λ+2μ) of the layers add up
+/// to `depth`; the disc drags the pad along +x with f p: σ_xy = f σ_yy = −f p, and u = 0 where the
+/// layers are held.
 struct Steady {
   double friction, depth;
   double padThickness = two_layers::padThickness;
-  double pressure() const { return depth / (discThickness / disc.uniaxial() + padThickness / pad.uniaxial()); }
+  double pressure() const {
+    return depth / (discThickness / disc.uniaxial() + padThickness / pad.uniaxial());
+  }
   double u(double y, bool inPad) const {
-    return inPad ? friction * pressure() / pad.mu() * (padThickness - y) : -friction * pressure() / disc.mu() * (y + discThickness);
+    return inPad ? friction * pressure() / pad.mu() * (padThickness - y)
+                 : -friction * pressure() / disc.mu() * (y + discThickness);
   }
   double v(double y, bool inPad) const {
-    return inPad ? -depth + pressure() / pad.uniaxial() * (padThickness - y) : -pressure() / disc.uniaxial() * (y + discThickness);
+    return inPad ? -depth + pressure() / pad.uniaxial() * (padThickness - y)
+                 : -pressure() / disc.uniaxial() * (y + discThickness);
   }
 };
 
-/// What the waves see of steady sliding under the pressure p, the disc's matter moving at W > 0; φ is the friction law.
+/// What the waves see of steady sliding under the pressure p, the disc's matter moving at W > 0; φ
+/// is the friction law.
 struct Sliding {
   double friction = 0;  ///< f φ(W)
-  double along = 0;   ///< f φ'(W) p, Pa·s/m: change of the friction stress with the relative velocity along the sliding direction
-  double across = 0;  ///< f φ(W) p / W, Pa·s/m: the same across it, where the stress turns with the relative velocity
+  double along = 0;     ///< f φ'(W) p, Pa·s/m: change of the friction stress with the relative
+                        ///< velocity along the sliding direction
+  double across = 0;  ///< f φ(W) p / W, Pa·s/m: the same across it, where the stress turns with the
+                      ///< relative velocity
   double carried = 0;  ///< W, m/s, where matter carries its displacement along; 0: approximation A
   double padThickness = two_layers::padThickness;
 
@@ -38,15 +47,17 @@ struct Sliding {
   Complex discRate(int n, Complex s) const { return s + Complex(0, k(n) * carried); }
 };
 
-/// Zero where s is an eigenvalue of wave number index n: u = v = 0 where the layers are held; v and σ_yy continuous, and on both
-/// sides of the interface σ_xy = f φ σ_yy + f φ' p w*: the pad, whose outer normal is −y, is drawn along +x with −σ_xy, pressed
-/// with R_N = −σ_yy, and w* = s u_P − (s + ikW) u_D adds to w = −W, so that it lowers the sliding speed. [4.7]
-/// A layer whose rate is zero has a = b, where only two of its four potentials differ in displacement: a fourfold zero of the
+/// Zero where s is an eigenvalue of wave number index n: u = v = 0 where the layers are held; v and
+/// σ_yy continuous, and on both sides of the interface σ_xy = f φ σ_yy + f φ' p w*: the pad, whose
+/// outer normal is −y, is drawn along +x with −σ_xy, pressed with R_N = −σ_yy, and w* = s u_P − (s
+/// + ikW) u_D adds to w = −W, so that it lowers the sliding speed. [4.7] A layer whose rate is zero
+/// has a = b, where only two of its four potentials differ in displacement: a fourfold zero of the
 /// determinant that is no eigenvalue, divided out.
 inline Complex characteristic(const Sliding& sliding, int n, Complex s) {
   const double k = sliding.k(n);
   const Complex discRate = sliding.discRate(n, s);
-  const Waves bottom = wavesAt(disc, k, discRate, -discThickness), below = wavesAt(disc, k, discRate, 0);
+  const Waves bottom = wavesAt(disc, k, discRate, -discThickness),
+              below = wavesAt(disc, k, discRate, 0);
   const Waves above = wavesAt(pad, k, s, 0), top = wavesAt(pad, k, s, sliding.padThickness);
   Matrix<8> conditions{};
   for (std::size_t j = 0; j < 4; ++j) {
@@ -54,16 +65,18 @@ inline Complex characteristic(const Sliding& sliding, int n, Complex s) {
     conditions[2][4 + j] = top.u[j], conditions[3][4 + j] = top.v[j];
     conditions[4][j] = below.v[j], conditions[4][4 + j] = -above.v[j];
     conditions[5][j] = below.yy[j], conditions[5][4 + j] = -above.yy[j];
-    conditions[6][j] = below.xy[j] - sliding.friction * below.yy[j] + sliding.along * discRate * below.u[j];
+    conditions[6][j] =
+        below.xy[j] - sliding.friction * below.yy[j] + sliding.along * discRate * below.u[j];
     conditions[6][4 + j] = -sliding.along * s * above.u[j];
     conditions[7][j] = sliding.along * discRate * below.u[j];
-    conditions[7][4 + j] = above.xy[j] - sliding.friction * above.yy[j] - sliding.along * s * above.u[j];
+    conditions[7][4 + j] =
+        above.xy[j] - sliding.friction * above.yy[j] - sliding.along * s * above.u[j];
   }
   return determinant(conditions) / std::pow(s * discRate, 4);
 }
 
-// The lowest eigenvalues with Im s ≥ 0 by ascending Im s: roots of the characteristic equation for all n, converged to 1e-8 or
-// better.
+// The lowest eigenvalues with Im s ≥ 0 by ascending Im s: roots of the characteristic equation for
+// all n, converged to 1e-8 or better.
 
 /// f = 0.1
 inline constexpr std::array<Eigenvalue, 30> friction01{{

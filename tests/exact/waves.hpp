@@ -1,11 +1,14 @@
 #pragma once
-/// Exact plane-strain waves exp(ikx + st) in elastic layers −∞ < x < ∞, of period Lx, k = 2πn/Lx, n = 0, ±1, …
+/// Exact plane-strain waves exp(ikx + st) in elastic layers −∞ < x < ∞, of period Lx, k = 2πn/Lx, n
+/// = 0, ±1, …
 ///
-/// Potentials: u = ∂φ/∂x + ∂ψ/∂y, v = ∂φ/∂y − ∂ψ/∂x turn ρ s² u = div σ into φ'' = a² φ, ψ'' = b² ψ across a layer, with
-/// a² = k² + ρ s²/(λ+2μ), b² = k² + ρ s²/μ. Hence
-///   u = ikφ + ψ',  v = φ' − ikψ,  σ_xy = μ (2ikφ' + (b²+k²) ψ),  σ_yy = λ (a²−k²) φ + 2μ (a² φ − ikψ'),
-/// four functions per layer: cosh ay and (sinh ay)/a for φ, the same with b for ψ. The conditions at the faces of the layers are
-/// linear in their four amplitudes; s is an eigenvalue where the determinant of these conditions vanishes.
+/// Potentials: u = ∂φ/∂x + ∂ψ/∂y, v = ∂φ/∂y − ∂ψ/∂x turn ρ s² u = div σ into φ'' = a² φ, ψ'' = b² ψ
+/// across a layer, with a² = k² + ρ s²/(λ+2μ), b² = k² + ρ s²/μ. Hence
+///   u = ikφ + ψ',  v = φ' − ikψ,  σ_xy = μ (2ikφ' + (b²+k²) ψ),  σ_yy = λ (a²−k²) φ + 2μ (a² φ −
+///   ikψ'),
+/// four functions per layer: cosh ay and (sinh ay)/a for φ, the same with b for ψ. The conditions
+/// at the faces of the layers are linear in their four amplitudes; s is an eigenvalue where the
+/// determinant of these conditions vanishes.
 #include <array>
 #include <cmath>
 #include <complex>
@@ -28,7 +31,9 @@ struct Material {
   double young, poisson, density;
   constexpr double mu() const { return young / (2 * (1 + poisson)); }
   constexpr double lambda() const { return young * poisson / ((1 + poisson) * (1 - 2 * poisson)); }
-  constexpr double uniaxial() const { return lambda() + 2 * mu(); }  ///< stress per strain with no lateral strain, Pa
+  constexpr double uniaxial() const {
+    return lambda() + 2 * mu();
+  }  ///< stress per strain with no lateral strain, Pa
 };
 
 /// What each of the four functions contributes at one height.
@@ -49,7 +54,8 @@ inline Waves wavesAt(const Material& material, double k, Complex s, double y) {
     waves.u[j] = i * k * phi[j] + dPsi[j];
     waves.v[j] = dPhi[j] - i * k * psi[j];
     waves.xy[j] = material.mu() * (2.0 * i * k * dPhi[j] + (b2 + k * k) * psi[j]);
-    waves.yy[j] = material.lambda() * (a2 - k * k) * phi[j] + 2 * material.mu() * (a2 * phi[j] - i * k * dPsi[j]);
+    waves.yy[j] = material.lambda() * (a2 - k * k) * phi[j] +
+                  2 * material.mu() * (a2 * phi[j] - i * k * dPsi[j]);
   }
   return waves;
 }
@@ -75,7 +81,8 @@ Complex determinant(Matrix<size> m) {
   return product;
 }
 
-/// The step back to a root of `function` by Newton's method: the error of s as a root, to first order.
+/// The step back to a root of `function` by Newton's method: the error of s as a root, to first
+/// order.
 template <class Function>
 Complex newtonStep(const Function& function, Complex s) {
   const double step = 1e-5;

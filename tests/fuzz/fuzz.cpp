@@ -1,5 +1,5 @@
-/// main() of the programs of this folder. A child process reads the inputs one after the other; its parent sees it crash or hang, keeps
-/// the input, and starts another child behind it.
+/// main() of the programs of this folder. A child process reads the inputs one after the other; its
+/// parent sees it crash or hang, keeps the input, and starts another child behind it.
 #include "fuzz/fuzz.hpp"
 
 #include <fcntl.h>
@@ -25,12 +25,13 @@
 #include "session/session.hpp"
 
 #if defined(__SANITIZE_ADDRESS__)
-// An allocation of more than this is by a header's word alone: no input is longer than some kilobytes.
+// An allocation of more than this is by a header's word alone: no input is longer than some
+// kilobytes.
 extern "C" const char* __asan_default_options();
 extern "C" const char* __asan_default_options() {
   // Into files, since readers that work in a process of their own close its standard error output.
-  return "detect_leaks=0:allocator_may_return_null=1:max_allocation_size_mb=256:log_exe_name=1:log_path=" SQUEAL_OUTPUT_DIR
-         "/sanitizer";
+  return "detect_leaks=0:allocator_may_return_null=1:max_allocation_size_mb=256:log_exe_name=1:log_"
+         "path=" SQUEAL_OUTPUT_DIR "/sanitizer";
 }
 extern "C" const char* __ubsan_default_options();
 extern "C" const char* __ubsan_default_options() { return "print_stacktrace=1"; }
@@ -76,7 +77,9 @@ fs::path folder() {
 }
 
 /// By the child's number: several programs may run at once.
-fs::path pathOf(pid_t child, const std::string& end) { return folder() / (std::to_string(child) + end); }
+fs::path pathOf(pid_t child, const std::string& end) {
+  return folder() / (std::to_string(child) + end);
+}
 
 void limitMemory() {
   if (sanitized) return;  // the sanitizer needs terabytes of addresses and has a limit of its own
@@ -88,10 +91,11 @@ void limitMemory() {
   setrlimit(RLIMIT_AS, &both);
 }
 
-/// A refusal is one line in our words. onFirstRank makes an Error of every exception: what the standard library says shows through.
+/// A refusal is one line in our words. onFirstRank makes an Error of every exception: what the
+/// standard library says shows through.
 std::string faultOf(const std::string& message) {
-  for (const char* foreign :
-       {"std::", "vector::", "basic_string", "stoi", "stod", "not enough memory", ": it asks for more memory than is free", "\n"})
+  for (const char* foreign : {"std::", "vector::", "basic_string", "stoi", "stod",
+                              "not enough memory", ": it asks for more memory than is free", "\n"})
     if (message.find(foreign) != std::string::npos) return "the message is: " + message;
   return message.empty() ? "an empty message" : "";
 }
@@ -121,7 +125,8 @@ std::string said(const fs::path& path) {
   return text.empty() ? "" : "the reader prints:\n" + text.substr(0, 1500);
 }
 
-/// A library that is known to err on damaged files, and is called in a process of its own, is at fault; the first lines of a report tell.
+/// A library that is known to err on damaged files, and is called in a process of its own, is at
+/// fault; the first lines of a report tell.
 bool isOfLibrary(const std::string& report) {
   std::istringstream lines(report);
   std::string line;
@@ -133,10 +138,12 @@ bool isOfLibrary(const std::string& report) {
   return false;
 }
 
-/// What the sanitizers report of the process `reader` and of those that it has started. The reports are removed.
+/// What the sanitizers report of the process `reader` and of those that it has started. The reports
+/// are removed.
 std::string reported(pid_t reader) {
   if (!sanitized) return "";
-  const std::string name = "sanitizer." + fs::read_symlink("/proc/self/exe").filename().string() + ".";
+  const std::string name =
+      "sanitizer." + fs::read_symlink("/proc/self/exe").filename().string() + ".";
   std::string text;
   for (const auto& entry : fs::directory_iterator(SQUEAL_OUTPUT_DIR)) {
     const std::string found = entry.path().filename();
@@ -169,7 +176,8 @@ int readAll(std::uint64_t first, std::uint64_t count, Progress& progress) {
     std::fflush(nullptr);
     progress.reading = false;
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    if (seconds > progress.slowestSeconds) progress.slowestSeconds = seconds, progress.slowest = number;
+    if (seconds > progress.slowestSeconds)
+      progress.slowestSeconds = seconds, progress.slowest = number;
     if (failure.empty()) failure = said(printed);
     if (failure.empty()) failure = reported(getpid());
     if (failure.empty()) continue;
@@ -180,7 +188,8 @@ int readAll(std::uint64_t first, std::uint64_t count, Progress& progress) {
   return 0;
 }
 
-/// Waits for the child; how it ended badly, or nothing. It is ended if it reads one input for too long.
+/// Waits for the child; how it ended badly, or nothing. It is ended if it reads one input for too
+/// long.
 std::string watch(pid_t child, const Progress& progress) {
   std::uint64_t current = 0;
   bool reading = false;
@@ -189,8 +198,9 @@ std::string watch(pid_t child, const Progress& progress) {
     if (waitpid(child, &status, WNOHANG) == child) {
       if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return "";
       if (progress.failure[0]) return progress.failure;
-      const std::string end = WIFSIGNALED(status) ? std::string("ends by signal ") + strsignal(WTERMSIG(status))
-                                                  : "ends with exit code " + std::to_string(WEXITSTATUS(status));
+      const std::string end = WIFSIGNALED(status)
+                                  ? std::string("ends by signal ") + strsignal(WTERMSIG(status))
+                                  : "ends with exit code " + std::to_string(WEXITSTATUS(status));
       return "the reader " + end + "\n" + said(pathOf(child, ".printed")) + reported(child);
     }
     if (!progress.reading || progress.current != current || !reading)
@@ -198,12 +208,14 @@ std::string watch(pid_t child, const Progress& progress) {
     if (std::chrono::duration<double>(Clock::now() - since).count() < longestSeconds) continue;
     kill(child, SIGKILL);
     waitpid(child, &status, 0);
-    return "the reader takes longer than " + std::to_string(static_cast<int>(longestSeconds)) + " s";
+    return "the reader takes longer than " + std::to_string(static_cast<int>(longestSeconds)) +
+           " s";
   }
 }
 
 Progress& shared() {
-  void* place = mmap(nullptr, sizeof(Progress), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  void* place =
+      mmap(nullptr, sizeof(Progress), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (place == MAP_FAILED) throw std::bad_alloc();
   return *new (place) Progress{};
 }
@@ -220,11 +232,12 @@ int run(std::uint64_t begin, std::uint64_t count) {
     if (child == 0) std::exit(readAll(first, end - first, progress));
     const std::string failure = watch(child, progress);
     if (!failure.empty()) {
-      const fs::path kept = folder() / (std::string(progress.name) + "_" + std::to_string(progress.current) + progress.suffix);
+      const fs::path kept = folder() / (std::string(progress.name) + "_" +
+                                        std::to_string(progress.current) + progress.suffix);
       std::error_code ignored;  // the session itself may have failed, before any input
       fs::rename(pathOf(child, progress.suffix), kept, ignored);
-      std::printf("FAILED: input %llu, kept as %s\n%s\n", static_cast<unsigned long long>(progress.current), kept.c_str(),
-                  failure.c_str());
+      std::printf("FAILED: input %llu, kept as %s\n%s\n",
+                  static_cast<unsigned long long>(progress.current), kept.c_str(), failure.c_str());
       ++failures;
       first = progress.current + 1;
     } else {
@@ -233,9 +246,10 @@ int run(std::uint64_t begin, std::uint64_t count) {
     fs::remove(pathOf(child, ".printed"));
   }
   const auto number = [](const auto& value) { return static_cast<unsigned long long>(value); };
-  std::printf("%s: %llu inputs, %llu accepted, %llu refused, %d failures; slowest %.3f s (input %llu)\n", progress.name,
-              number(first - begin), number(progress.accepted), number(progress.refused), failures, progress.slowestSeconds.load(),
-              number(progress.slowest));
+  std::printf(
+      "%s: %llu inputs, %llu accepted, %llu refused, %d failures; slowest %.3f s (input %llu)\n",
+      progress.name, number(first - begin), number(progress.accepted), number(progress.refused),
+      failures, progress.slowestSeconds.load(), number(progress.slowest));
   return failures == 0 ? 0 : 1;
 }
 
@@ -252,7 +266,9 @@ int replay(const char* path) {
   return 0;
 }
 
-bool isNumber(const char* word) { return *word && std::strspn(word, "0123456789") == std::strlen(word); }
+bool isNumber(const char* word) {
+  return *word && std::strspn(word, "0123456789") == std::strlen(word);
+}
 
 }  // namespace
 
@@ -270,9 +286,13 @@ int main(int argc, char** argv) {
   using namespace squeal::fuzz;
   if (argc == 2 && !isNumber(argv[1])) return replay(argv[1]);
   if (argc > 3 || (argc > 1 && !isNumber(argv[1])) || (argc > 2 && !isNumber(argv[2]))) {
-    std::fprintf(stderr, "usage: %s [COUNT [FIRST]] (inputs, by their numbers) or %s FILE (one input, again)\n", argv[0], argv[0]);
+    std::fprintf(
+        stderr,
+        "usage: %s [COUNT [FIRST]] (inputs, by their numbers) or %s FILE (one input, again)\n",
+        argv[0], argv[0]);
     return 2;
   }
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
-  return run(argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 0, argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 10000);
+  return run(argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 0,
+             argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 10000);
 }

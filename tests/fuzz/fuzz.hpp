@@ -1,6 +1,6 @@
 #pragma once
-/// What every program of this folder shares: main(), which reads damaged files by the thousand, and demands of the reader that it takes
-/// them or refuses them by a message of one line.
+/// What every program of this folder shares: main(), which reads damaged files by the thousand, and
+/// demands of the reader that it takes them or refuses them by a message of one line.
 #include <functional>
 #include <string>
 #include <vector>
@@ -11,9 +11,11 @@ namespace squeal::fuzz {
 struct Target {
   std::string name;    ///< of the program's files
   std::string suffix;  ///< of the file name, ".msh"
-  /// Sound contents, of every kind that the reader knows and as small as can be. They are to be accepted as they stand.
+  /// Sound contents, of every kind that the reader knows and as small as can be. They are to be
+  /// accepted as they stand.
   std::vector<std::string> seeds;
-  /// Reads the file; returns, or throws squeal::Error. Called many times in one process, on one rank.
+  /// Reads the file; returns, or throws squeal::Error. Called many times in one process, on one
+  /// rank.
   std::function<void(const std::string& path)> read;
 };
 

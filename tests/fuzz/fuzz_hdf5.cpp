@@ -6,13 +6,15 @@
 namespace squeal::fuzz {
 namespace {
 
-/// [[2, 0], [1, 3]], with the format of the file, the type of the indices and the layout of the datasets.
+/// [[2, 0], [1, 3]], with the format of the file, the type of the indices and the layout of the
+/// datasets.
 struct Writer {
   H5F_libver_t version = H5F_LIBVER_EARLIEST;
   hid_t indexType = H5T_NATIVE_INT;
   bool chunked = false, table = false;
 
-  void dataset(hid_t place, const char* name, hid_t type, hid_t stored, const void* values, std::vector<hsize_t> shape) const {
+  void dataset(hid_t place, const char* name, hid_t type, hid_t stored, const void* values,
+               std::vector<hsize_t> shape) const {
     const hid_t space = H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr);
     const hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
     if (chunked) {
@@ -56,13 +58,14 @@ struct Writer {
 }  // namespace
 
 Target target() {
-  return {"hdf5",
-          ".h5",
-          {bytesWritten(Writer{}), bytesWritten(Writer{H5F_LIBVER_LATEST, H5T_STD_I64LE, false, false}),
-           bytesWritten(Writer{H5F_LIBVER_EARLIEST, H5T_STD_U32BE, true, false}),
-           bytesWritten(Writer{H5F_LIBVER_EARLIEST, H5T_STD_I32LE, false, true}),
-           bytesWritten(Writer{H5F_LIBVER_LATEST, H5T_STD_I32LE, true, true})},
-          [](const std::string& path) { matrices::read(PETSC_COMM_WORLD, path); }};
+  return {
+      "hdf5",
+      ".h5",
+      {bytesWritten(Writer{}), bytesWritten(Writer{H5F_LIBVER_LATEST, H5T_STD_I64LE, false, false}),
+       bytesWritten(Writer{H5F_LIBVER_EARLIEST, H5T_STD_U32BE, true, false}),
+       bytesWritten(Writer{H5F_LIBVER_EARLIEST, H5T_STD_I32LE, false, true}),
+       bytesWritten(Writer{H5F_LIBVER_LATEST, H5T_STD_I32LE, true, true})},
+      [](const std::string& path) { matrices::read(PETSC_COMM_WORLD, path); }};
 }
 
 }  // namespace squeal::fuzz

@@ -19,9 +19,10 @@ Target target() {
       std::filesystem::remove(from);
     });
   };
-  return {"msh", ".msh", {two, four, binary(two, 2.2), binary(four, 4.1)}, [](const std::string& path) {
-            mesh::GmshModel(path, {}).group("layer", "the fuzzer");
-          }};
+  return {
+      "msh", ".msh", {two, four, binary(two, 2.2), binary(four, 4.1)}, [](const std::string& path) {
+        mesh::GmshModel(path, {}).group("layer", "the fuzzer");
+      }};
 }
 
 }  // namespace squeal::fuzz

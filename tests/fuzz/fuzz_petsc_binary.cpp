@@ -6,7 +6,8 @@
 namespace squeal::fuzz {
 namespace {
 
-void write(const std::string& path, PetscInt size, const std::vector<std::vector<PetscInt>>& columns) {
+void write(const std::string& path, PetscInt size,
+           const std::vector<std::vector<PetscInt>>& columns) {
   OwnedMat matrix;
   check(MatCreateSeqAIJ(PETSC_COMM_SELF, size, size, size, nullptr, matrix.out()));
   for (PetscInt i = 0; i < size; ++i)

@@ -8,7 +8,8 @@
 namespace squeal::fuzz {
 namespace {
 
-/// splitmix64: the standard library promises the numbers of its generators, but not those of its distributions.
+/// splitmix64: the standard library promises the numbers of its generators, but not those of its
+/// distributions.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
@@ -51,17 +52,20 @@ const std::array<const char*, 26> awkwardNumbers{"-1",
                                                  "+",
                                                  "e5",
                                                  ""};
-const std::array<std::uint64_t, 18> awkwardWords{0,          1,          2,          3,          127,        128,
-                                                 255,        256,        65535,      65536,      2000000000, 0x7fffffff,
-                                                 0x80000000, 0xfffffffb, 0xffffffff, 1ULL << 32, ~0ULL >> 1, ~0ULL};
+const std::array<std::uint64_t, 18> awkwardWords{
+    0,          1,          2,          3,          127,        128,
+    255,        256,        65535,      65536,      2000000000, 0x7fffffff,
+    0x80000000, 0xfffffffb, 0xffffffff, 1ULL << 32, ~0ULL >> 1, ~0ULL};
 
 std::size_t chunkLength(Random& random, const std::string& bytes, std::size_t from) {
-  return 1 + random.below(std::min<std::size_t>(bytes.size() - from, random.below(4) == 0 ? bytes.size() : 16));
+  return 1 + random.below(std::min<std::size_t>(bytes.size() - from,
+                                                random.below(4) == 0 ? bytes.size() : 16));
 }
 
 void changeByte(Random& random, std::string& bytes) {
   auto& byte = bytes[random.below(bytes.size())];
-  byte = random.below(2) ? static_cast<char>(byte ^ 1 << random.below(8)) : static_cast<char>(random.below(256));
+  byte = random.below(2) ? static_cast<char>(byte ^ 1 << random.below(8))
+                         : static_cast<char>(random.below(256));
 }
 
 void cut(Random& random, std::string& bytes) { bytes.resize(random.below(bytes.size())); }
@@ -73,13 +77,15 @@ void insert(Random& random, std::string& bytes) {
   const std::string characters = " \n\t0123456789.,-+eEdD%#:'\"[]{}";
   std::string chunk(1 + random.below(8), '\0');
   for (auto& byte : chunk)
-    byte = isText(bytes) ? characters[random.below(characters.size())] : static_cast<char>(random.below(256));
+    byte = isText(bytes) ? characters[random.below(characters.size())]
+                         : static_cast<char>(random.below(256));
   bytes.insert(random.below(bytes.size() + 1), chunk);
 }
 
 void duplicate(Random& random, std::string& bytes) {
   const std::size_t from = random.below(bytes.size());
-  bytes.insert(random.below(bytes.size() + 1), bytes.substr(from, chunkLength(random, bytes, from)));
+  bytes.insert(random.below(bytes.size() + 1),
+               bytes.substr(from, chunkLength(random, bytes, from)));
 }
 
 void erase(Random& random, std::string& bytes) {
@@ -98,12 +104,15 @@ void splice(Random& random, std::string& bytes, const std::string& other) {
   bytes.replace(at, random.below(2) ? std::min(chunk.size(), bytes.size() - at) : 0, chunk);
 }
 
-bool ofNumber(char c) { return (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+' || c == 'e' || c == 'E'; }
+bool ofNumber(char c) {
+  return (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+' || c == 'e' || c == 'E';
+}
 
 /// The first number in text from a random place on.
 void replaceNumber(Random& random, std::string& bytes) {
   const std::size_t start = random.below(bytes.size());
-  const auto begin = std::find_if(bytes.begin() + static_cast<std::ptrdiff_t>(start), bytes.end(), ofNumber);
+  const auto begin =
+      std::find_if(bytes.begin() + static_cast<std::ptrdiff_t>(start), bytes.end(), ofNumber);
   const auto end = std::find_if_not(begin, bytes.end(), ofNumber);
   bytes.replace(begin, end, awkwardNumbers[random.below(awkwardNumbers.size())]);
 }
@@ -112,7 +121,8 @@ void replaceNumber(Random& random, std::string& bytes) {
 void replaceWord(Random& random, std::string& bytes) {
   const std::uint64_t awkward = awkwardWords[random.below(awkwardWords.size())];
   const std::size_t width = random.below(3) == 0 ? 8 : random.below(6) == 0 ? 2 : 4;
-  std::string word(reinterpret_cast<const char*>(&awkward), width);  // little-endian on all that we build for
+  std::string word(reinterpret_cast<const char*>(&awkward),
+                   width);  // little-endian on all that we build for
   if constexpr (std::endian::native == std::endian::big) return;
   if (random.below(2)) std::reverse(word.begin(), word.end());
   if (bytes.size() < width) return;

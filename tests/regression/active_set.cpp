@@ -1,5 +1,6 @@
-// A block clamped at its foot and pressed at its top by a sliding plate. Friction bends it and its nodes lift one after the other:
-// the active set changes within a sweep, until at some friction no steady sliding state is left.
+// A block clamped at its foot and pressed at its top by a sliding plate. Friction bends it and its
+// nodes lift one after the other: the active set changes within a sweep, until at some friction no
+// steady sliding state is left.
 #include <array>
 
 #include "contact/coupled.hpp"
@@ -10,7 +11,8 @@ namespace squeal::test {
 namespace {
 
 const std::string block =
-    "-mesh_file meshes/layer.geo -mesh_set Lx=0.5,nx=4,ny=8 -material_layer_young 1e9 -material_layer_poisson 0.3 "
+    "-mesh_file meshes/layer.geo -mesh_set Lx=0.5,nx=4,ny=8 -material_layer_young 1e9 "
+    "-material_layer_poisson 0.3 "
     "-material_layer_density 1000"
     " -constraint_bottom_clamped xy -contact_plate_pad top -contact_plate_obstacle_velocity 1,0,0 "
     "-contact_plate_obstacle_displacement 0,-0.001,0"
@@ -19,7 +21,8 @@ const std::string block =
 // 4 x 8 cells: 40 free nodes of 45, 5 of them in contact; a closed gap is no unknown.
 constexpr int contactNodes = 5, closedUnknowns = 75;
 
-// --- the complementarity problem of one friction, condensed to the gaps: F = S g + q >= 0, g >= 0, F g = 0 ---
+// --- the complementarity problem of one friction, condensed to the gaps: F = S g + q >= 0, g >= 0,
+// F g = 0 ---
 
 using Rows = std::vector<std::vector<double>>;  // [row][column]
 
@@ -43,7 +46,8 @@ Rows solve(Rows a, Rows b) {
   return b;
 }
 
-Rows part(const Rows& a, const std::vector<std::size_t>& rows, const std::vector<std::size_t>& columns) {
+Rows part(const Rows& a, const std::vector<std::size_t>& rows,
+          const std::vector<std::size_t>& columns) {
   Rows result;
   for (auto i : rows) {
     result.emplace_back();
@@ -61,10 +65,13 @@ struct Condensed {
 Condensed condensed(const analysis::Analysis& analysis, double friction) {
   const std::vector<unsigned char> all(analysis.contact.nodes.size(), 1);
   const auto transformation = analysis.contact.transformation(all);
-  const auto stiffness = contact::project(analysis.contact, transformation, analysis.bodies.stiffness);
-  const OwnedMat rows = analysis.contact.slipRows(transformation, analysis.contact.slip(1, nullptr), all);
+  const auto stiffness =
+      contact::project(analysis.contact, transformation, analysis.bodies.stiffness);
+  const OwnedMat rows =
+      analysis.contact.slipRows(transformation, analysis.contact.slip(1, nullptr), all);
   const OwnedMat jacobian = contact::affine(stiffness.matrix, stiffness.friction(rows), friction);
-  const OwnedVec residual = elasticity::nodalVector(*analysis.mesh), reactions = elasticity::nodalVector(*analysis.mesh);
+  const OwnedVec residual = elasticity::nodalVector(*analysis.mesh),
+                 reactions = elasticity::nodalVector(*analysis.mesh);
   OwnedVec constant, slope;
   check(MatCreateVecs(jacobian, constant.out(), slope.out()));
   check(MatMult(analysis.bodies.stiffness, analysis.contact.offset, residual));
@@ -86,11 +93,13 @@ Condensed condensed(const analysis::Analysis& analysis, double friction) {
   check(VecGetArrayRead(constant, &values));
   for (std::size_t i = 0; i < n; ++i) full[i][n] = values[i];
   check(VecRestoreArrayRead(constant, &values));
-  std::vector<std::size_t> gaps(transformation.gapColumn.begin(), transformation.gapColumn.end()), inner, right = gaps;
+  std::vector<std::size_t> gaps(transformation.gapColumn.begin(), transformation.gapColumn.end()),
+      inner, right = gaps;
   for (std::size_t i = 0; i < n; ++i)
     if (std::find(gaps.begin(), gaps.end(), i) == gaps.end()) inner.push_back(i);
   right.push_back(n);
-  const Rows response = solve(part(full, inner, inner), part(full, inner, right)), coupling = part(full, gaps, inner);
+  const Rows response = solve(part(full, inner, inner), part(full, inner, right)),
+             coupling = part(full, gaps, inner);
   Rows outer = part(full, gaps, right);
   for (std::size_t i = 0; i < outer.size(); ++i)
     for (std::size_t j = 0; j < outer[i].size(); ++j)
@@ -132,14 +141,18 @@ std::vector<Sliding> allSolutions(const Condensed& problem) {
 }
 
 TEST(ActiveSet, SteadyStateIsTheOneThatExists) {
-  const analysis::Analysis analysis = runOptions(block + "-modes_count 5 -flutter_friction 0:1:0.1");
+  const analysis::Analysis analysis =
+      runOptions(block + "-modes_count 5 -flutter_friction 0:1:0.1");
   ASSERT_EQ(analysis.contact.nodes.size(), static_cast<std::size_t>(contactNodes));
   int without = 0, opening = 0;
   for (const auto& steady : analysis.steady) {
     SCOPED_TRACE("friction " + std::to_string(steady.at.friction) + ": " + steady.reason);
     const auto solutions = allSolutions(condensed(analysis, steady.at.friction));
-    std::printf("friction %.1f: %zu solutions among %d active sets; SNES: %s after %d iterations, %d open\n", steady.at.friction,
-                solutions.size(), 1 << contactNodes, steady.reason.c_str(), steady.iterations, static_cast<int>(steady.openNodes));
+    std::printf(
+        "friction %.1f: %zu solutions among %d active sets; SNES: %s after %d iterations, %d "
+        "open\n",
+        steady.at.friction, solutions.size(), 1 << contactNodes, steady.reason.c_str(),
+        steady.iterations, static_cast<int>(steady.openNodes));
     EXPECT_EQ(steady.converged, !solutions.empty());
     without += solutions.empty();
     if (solutions.size() != 1 || !steady.converged) continue;
@@ -147,8 +160,8 @@ TEST(ActiveSet, SteadyStateIsTheOneThatExists) {
     const double largest = *std::max_element(solutions[0].force.begin(), solutions[0].force.end()),
                  widest = *std::max_element(solutions[0].gap.begin(), solutions[0].gap.end());
     for (std::size_t i = 0; i < analysis.contact.nodes.size(); ++i) {
-      // SNES stops at 1e-11 of the forces; near the last friction with a solution the gaps answer with up to thirty times that.
-      // Gaps open from 1e-3 m.
+      // SNES stops at 1e-11 of the forces; near the last friction with a solution the gaps answer
+      // with up to thirty times that. Gaps open from 1e-3 m.
       EXPECT_NEAR(steady.contact[i].gap, solutions[0].gap[i], 1e-9 * (1e-3 + widest));
       EXPECT_NEAR(steady.contact[i].normalForce, solutions[0].force[i], 1e-9 * largest);
       EXPECT_EQ(steady.closed[i] != 0, solutions[0].force[i] > 0);
@@ -183,35 +196,43 @@ TEST(ActiveSet, ModesAreComputedAnewWhereItChanges) {
     EXPECT_EQ(set.at("modes"), 21);
     EXPECT_TRUE(set.at("sturm_count").at("confirmed"));
     // Open nodes free the structure: no frequency rises (Rayleigh), and the first falls.
-    const auto now = readCsv(sweep.folder / (before.empty() ? "modes.csv" : "modes_" + shortest(first) + ".csv"))
-                         .column("angular_frequency_rad_per_s");
-    for (std::size_t i = 0; i < before.size(); ++i) EXPECT_LE(now[i], before[i] * (1 + 1e-9)) << "mode " << i + 1;
+    const auto now =
+        readCsv(sweep.folder / (before.empty() ? "modes.csv" : "modes_" + shortest(first) + ".csv"))
+            .column("angular_frequency_rad_per_s");
+    for (std::size_t i = 0; i < before.size(); ++i)
+      EXPECT_LE(now[i], before[i] * (1 + 1e-9)) << "mode " << i + 1;
     EXPECT_TRUE(before.empty() || now[0] < before[0] * (1 - 1e-6));
     before = now;
-    // The way through the sweep leaves no trace: alone, from the bonded state, this friction gives the same.
+    // The way through the sweep leaves no trace: alone, from the bonded state, this friction gives
+    // the same.
     const ProgramRun alone =
-        runProgram("active_set/alone_" + shortest(first), 1, block + "-modes_count 21 -quiet -flutter_friction " + shortest(first));
+        runProgram("active_set/alone_" + shortest(first), 1,
+                   block + "-modes_count 21 -quiet -flutter_friction " + shortest(first));
     ASSERT_EQ(alone.exitCode, 0) << alone.error;
     const Findings same = findingsOf(alone);
-    EXPECT_LT(worst(errors(findings.eigenvalues.at(first), same.eigenvalues.at(first)).relative), 1e-6);
+    EXPECT_LT(worst(errors(findings.eigenvalues.at(first), same.eigenvalues.at(first)).relative),
+              1e-6);
     EXPECT_LT(forceDifference(findings.steady.at(first), same.steady.at(first)), 1e-8);
   }
 }
 
 TEST(ActiveSet, OpenNodesCarryNoFriction) {
-  const ProgramRun run = runProgram("active_set/open", 2, block + "-modes_count 21 -flutter_friction 0.1,0.3,0.5 -quiet");
+  const ProgramRun run = runProgram("active_set/open", 2,
+                                    block + "-modes_count 21 -flutter_friction 0.1,0.3,0.5 -quiet");
   ASSERT_EQ(run.exitCode, 0) << run.error;
   const Findings findings = findingsOf(run);
   for (std::size_t k = 0; k < 3; ++k) {
     const auto& entry = findings.summary.at("frictions").at(k);
     const double friction = entry.at("friction");
     const CsvTable& table = findings.steady.at(friction);
-    const auto gap = table.column("gap_m"), normal = table.column("normal_force_n"), along = table.column("friction_force_x_n");
+    const auto gap = table.column("gap_m"), normal = table.column("normal_force_n"),
+               along = table.column("friction_force_x_n");
     ASSERT_EQ(gap.size(), static_cast<std::size_t>(contactNodes));
     const double largest = *std::max_element(normal.begin(), normal.end());
     int open = 0;
     for (std::size_t i = 0; i < gap.size(); ++i) {
-      EXPECT_NEAR(along[i], friction * normal[i], 1e-10 * largest);  // the plate drags the block along with it
+      EXPECT_NEAR(along[i], friction * normal[i],
+                  1e-10 * largest);  // the plate drags the block along with it
       if (gap[i] > 1e-12) {
         ++open;
         EXPECT_NEAR(normal[i], 0, 1e-9 * largest);
@@ -227,17 +248,22 @@ TEST(ActiveSet, OpenNodesCarryNoFriction) {
 
 // With every mode kept the basis is the whole space, whichever nodes are open.
 TEST(ActiveSet, ReducedAndDirectAgree) {
-  for (const auto& [friction, open] : std::map<std::string, int>{{"0.1", 0}, {"0.4", 2}, {"0.5", 3}}) {
+  for (const auto& [friction, open] :
+       std::map<std::string, int>{{"0.1", 0}, {"0.4", 2}, {"0.5", 3}}) {
     SCOPED_TRACE("friction " + friction);
-    const std::string all = std::to_string(closedUnknowns + open), options = block + "-quiet -flutter_friction " + friction;
-    const ProgramRun reduced = runProgram("active_set/reduced_" + friction, 1, options + " -modes_count " + all);
+    const std::string all = std::to_string(closedUnknowns + open),
+                      options = block + "-quiet -flutter_friction " + friction;
+    const ProgramRun reduced =
+        runProgram("active_set/reduced_" + friction, 1, options + " -modes_count " + all);
     const ProgramRun direct =
-        runProgram("active_set/direct_" + friction, 1, options + " -flutter_method direct -flutter_direct_count " + all);
+        runProgram("active_set/direct_" + friction, 1,
+                   options + " -flutter_method direct -flutter_direct_count " + all);
     ASSERT_EQ(reduced.exitCode, 0) << reduced.error;
     ASSERT_EQ(direct.exitCode, 0) << direct.error;
     const auto eigenvaluesIn = [](const ProgramRun& run) {
       const CsvTable table = readCsv(run.folder / "eigenvalues.csv");
-      const auto growth = table.column("growth_rate_1_per_s"), frequency = table.column("angular_frequency_rad_per_s");
+      const auto growth = table.column("growth_rate_1_per_s"),
+                 frequency = table.column("angular_frequency_rad_per_s");
       std::vector<Complex> values;
       for (std::size_t i = 0; i < growth.size(); ++i) values.emplace_back(growth[i], frequency[i]);
       return values;
@@ -249,11 +275,13 @@ TEST(ActiveSet, ReducedAndDirectAgree) {
     const double difference = worst(errors(one, other).relative);
     EXPECT_LT(difference, 1e-7);
     const auto count = [](const std::vector<Complex>& values) {
-      return std::count_if(values.begin(), values.end(), [](Complex s) { return s.real() > 1e-6 * std::abs(s); });
+      return std::count_if(values.begin(), values.end(),
+                           [](Complex s) { return s.real() > 1e-6 * std::abs(s); });
     };
     EXPECT_EQ(count(one), count(other));
-    std::printf("friction %s: reduced and direct differ by %.1e of |s| in %zu eigenvalues, %d unstable\n", friction.c_str(),
-                difference, one.size(), static_cast<int>(count(one)));
+    std::printf(
+        "friction %s: reduced and direct differ by %.1e of |s| in %zu eigenvalues, %d unstable\n",
+        friction.c_str(), difference, one.size(), static_cast<int>(count(one)));
   }
 }
 
@@ -276,23 +304,26 @@ TEST(ActiveSet, SameOnOneAndTwoRanks) {
 TEST(ActiveSet, FrictionWithoutSteadyState) {
   for (int ranks : {1, 2}) {
     SCOPED_TRACE(std::to_string(ranks) + " ranks");
-    const ProgramRun run =
-        runProgram("active_set/none_np" + std::to_string(ranks), ranks, block + "-modes_count 21 -flutter_friction 0.1,0.9,0.5");
+    const ProgramRun run = runProgram("active_set/none_np" + std::to_string(ranks), ranks,
+                                      block + "-modes_count 21 -flutter_friction 0.1,0.9,0.5");
     EXPECT_EQ(run.exitCode, 2) << run.error;
     EXPECT_NE(run.out.find("0.9  no steady sliding solution"), std::string::npos) << run.out;
     const auto friction = readCsv(run.folder / "eigenvalues.csv").column("friction");
     // The band ends above mode 11 or 12 of 21; friction may move a few across its edge.
-    const auto low = std::count(friction.begin(), friction.end(), 0.1), high = std::count(friction.begin(), friction.end(), 0.5);
+    const auto low = std::count(friction.begin(), friction.end(), 0.1),
+               high = std::count(friction.begin(), friction.end(), 0.5);
     EXPECT_GE(low, 10);
     EXPECT_GE(high, 10);
     EXPECT_EQ(static_cast<long>(friction.size()), low + high);
     EXPECT_FALSE(fs::exists(run.folder / "steady_0.9.csv"));
-    EXPECT_NE(contentOf(run.folder / "stability_map.csv").find("\n0.9,1,1,1,,,,,\n"), std::string::npos);
+    EXPECT_NE(contentOf(run.folder / "stability_map.csv").find("\n0.9,1,1,1,,,,,\n"),
+              std::string::npos);
     const auto summary = nlohmann::json::parse(contentOf(run.folder / "summary.json"));
     for (const auto& entry : summary.at("frictions")) {
       const bool exists = entry.at("friction") != 0.9;
       EXPECT_EQ(entry.at("steady").at("converged"), exists);
-      EXPECT_EQ(entry.at("steady").at("snes_reason").get<std::string>().rfind("DIVERGED", 0) == 0, !exists);
+      EXPECT_EQ(entry.at("steady").at("snes_reason").get<std::string>().rfind("DIVERGED", 0) == 0,
+                !exists);
       EXPECT_EQ(entry.contains("unstable_modes"), exists);
     }
   }
@@ -301,12 +332,15 @@ TEST(ActiveSet, FrictionWithoutSteadyState) {
 // Nothing at all to report is reported all the same.
 TEST(ActiveSet, NoFrictionHasASteadyState) {
   const ProgramRun run =
-      runProgram("active_set/nothing", 2, block + "-report_fields on -modes_count 21 -flutter_friction 0.9 -quiet");
+      runProgram("active_set/nothing", 2,
+                 block + "-report_fields on -modes_count 21 -flutter_friction 0.9 -quiet");
   EXPECT_EQ(run.exitCode, 2) << run.error;
   EXPECT_EQ(run.out, "");
-  EXPECT_NE(run.error.find("no steady sliding solution"), std::string::npos) << "-quiet hides no failure";
+  EXPECT_NE(run.error.find("no steady sliding solution"), std::string::npos)
+      << "-quiet hides no failure";
   EXPECT_TRUE(readCsv(run.folder / "eigenvalues.csv").rows.empty());
-  EXPECT_TRUE(nlohmann::json::parse(contentOf(run.folder / "summary.json")).at("active_sets").empty());
+  EXPECT_TRUE(
+      nlohmann::json::parse(contentOf(run.folder / "summary.json")).at("active_sets").empty());
 }
 
 }  // namespace

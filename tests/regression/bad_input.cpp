@@ -1,4 +1,5 @@
-// Mistakes in the input: the program says what is wrong, ends on all ranks with exit code 1, and leaves no results behind.
+// Mistakes in the input: the program says what is wrong, ends on all ranks with exit code 1, and
+// leaves no results behind.
 #include "support/bad_input.hpp"
 #include "support/mesh_text.hpp"
 
@@ -10,20 +11,23 @@ TEST(BadInput, OnOneRank) {
   const fs::path place = placeFor("bad_input/meshes_np1");
   writeText(place / "inverted.msh", twoQuadrangles(true));
   writeText(place / "faces.geo", squares("4", "5"));
-  expectExplained({{"unknown", with(layer, {{"flutter_frictions", "0.2"}}), {"unknown option -flutter_frictions"}},
-                   {"density", with(layer, {{"material_layer_density", "-1"}}), {"-material_layer_density -1"}},
-                   {"mesh_file", with(layer, {{"mesh_file", "meshes/nosuch.geo"}}), {"no such file"}},
-                   {"faces", onSquares(place / "faces.geo"), {"matching meshes"}},
-                   {"inverted",
-                    with(without(layer, {"mesh_set", "constraint_right_image_of"}),
-                         {{"mesh_file", (place / "inverted.msh").string()}, {"modes_count", "2"}}),
-                    {"inverted element"}},
-                   {"loose", without(layer, {"constraint_bottom_clamped"}), {"body 'layer' can move rigidly"}},
-                   {"no_slip", without(layer, {"contact_plate_obstacle_velocity"}), {"|w| = 0"}},
-                   {"steady_solver", with(layer, {{"steady_snes_foo", "1"}}), {"-steady_snes_foo"}},
-                   {"modes_solver", with(layer, {{"modes_eps_foo", "1"}}), {"-modes_eps_foo"}},
-                   {"count_too_large", with(layer, {{"modes_count", "100000"}}), {"30 unknowns"}}},
-                  1);
+  expectExplained(
+      {{"unknown",
+        with(layer, {{"flutter_frictions", "0.2"}}),
+        {"unknown option -flutter_frictions"}},
+       {"density", with(layer, {{"material_layer_density", "-1"}}), {"-material_layer_density -1"}},
+       {"mesh_file", with(layer, {{"mesh_file", "meshes/nosuch.geo"}}), {"no such file"}},
+       {"faces", onSquares(place / "faces.geo"), {"matching meshes"}},
+       {"inverted",
+        with(without(layer, {"mesh_set", "constraint_right_image_of"}),
+             {{"mesh_file", (place / "inverted.msh").string()}, {"modes_count", "2"}}),
+        {"inverted element"}},
+       {"loose", without(layer, {"constraint_bottom_clamped"}), {"body 'layer' can move rigidly"}},
+       {"no_slip", without(layer, {"contact_plate_obstacle_velocity"}), {"|w| = 0"}},
+       {"steady_solver", with(layer, {{"steady_snes_foo", "1"}}), {"-steady_snes_foo"}},
+       {"modes_solver", with(layer, {{"modes_eps_foo", "1"}}), {"-modes_eps_foo"}},
+       {"count_too_large", with(layer, {{"modes_count", "100000"}}), {"30 unknowns"}}},
+      1);
 }
 
 // Without this, a mistake in the cases themselves would pass for the mistake they are about.
@@ -31,13 +35,15 @@ TEST(BadInput, BaseCasesAreSound) {
   const fs::path place = placeFor("bad_input/meshes");
   writeText(place / "matching.geo", squares("4", "4"));
   writeText(place / "sound.msh", twoQuadrangles(false));
-  const Options quadrangles = with(without(layer, {"mesh_set", "constraint_right_image_of"}),
-                                   {{"mesh_file", (place / "sound.msh").string()}, {"modes_count", "2"}});
-  const std::map<std::string, Options> cases{{"layer", layer},
-                                             {"two_layers", twoLayers},
-                                             {"squares", onSquares(place / "matching.geo")},
-                                             {"quadrangles", quadrangles},
-                                             {"periodic_squares", periodicSquares(place / "matching.geo")}};
+  const Options quadrangles =
+      with(without(layer, {"mesh_set", "constraint_right_image_of"}),
+           {{"mesh_file", (place / "sound.msh").string()}, {"modes_count", "2"}});
+  const std::map<std::string, Options> cases{
+      {"layer", layer},
+      {"two_layers", twoLayers},
+      {"squares", onSquares(place / "matching.geo")},
+      {"quadrangles", quadrangles},
+      {"periodic_squares", periodicSquares(place / "matching.geo")}};
   for (const auto& [name, options] : cases) {
     const ProgramRun run = runProgram("bad_input/sound_" + name, 2, commandLine(options), 60);
     EXPECT_EQ(run.exitCode, 0) << name << ": " << run.error;
@@ -53,39 +59,87 @@ TEST(BadInput, Options) {
       {"unknown_of_group",
        with(layer, {{"material_layer_yung", "1"}}),
        {"unknown option -material_layer_yung", "did you mean -material_layer_young?"}},
-      {"unknown_word", with(layer, {{"brake_pedal", "1"}}), {"unknown option -brake_pedal", "-help"}},
-      {"steady_solver", with(layer, {{"steady_snes_foo", "1"}}), {"-steady_snes_foo", "unknown to the solver", "-steady_"}},
-      {"modes_solver", with(layer, {{"modes_eps_foo", "1"}}), {"-modes_eps_foo", "unknown to the solver", "-modes_eps_"}},
-      {"factorisation", with(layer, {{"modes_st_foo", "1"}}), {"-modes_st_foo", "unknown to the solver", "-modes_st_"}},
+      {"unknown_word",
+       with(layer, {{"brake_pedal", "1"}}),
+       {"unknown option -brake_pedal", "-help"}},
+      {"steady_solver",
+       with(layer, {{"steady_snes_foo", "1"}}),
+       {"-steady_snes_foo", "unknown to the solver", "-steady_"}},
+      {"modes_solver",
+       with(layer, {{"modes_eps_foo", "1"}}),
+       {"-modes_eps_foo", "unknown to the solver", "-modes_eps_"}},
+      {"factorisation",
+       with(layer, {{"modes_st_foo", "1"}}),
+       {"-modes_st_foo", "unknown to the solver", "-modes_st_"}},
       {"direct_solver",
        with(layer, {{"flutter_method", "direct"}, {"flutter_eps_foo", "1"}}),
        {"-flutter_eps_foo", "unknown to the solver"}},
       {"solver_that_does_not_run", with(layer, {{"flutter_eps_foo", "1"}}), {"-flutter_eps_foo"}},
-      {"factorisation_direct", with(layer, {{"flutter_method", "direct"}, {"modes_st_foo", "1"}}), {"-modes_st_foo"}},
+      {"factorisation_direct",
+       with(layer, {{"flutter_method", "direct"}, {"modes_st_foo", "1"}}),
+       {"-modes_st_foo"}},
       // PETSc and SLEPc find these out as they set their solvers up.
-      {"solver_number", with(layer, {{"modes_eps_tol", "abc"}}), {"-modes_eps_tol abc", "no numeric value"}},
+      {"solver_number",
+       with(layer, {{"modes_eps_tol", "abc"}}),
+       {"-modes_eps_tol abc", "no numeric value"}},
       {"solver_type", with(layer, {{"modes_eps_type", "foo"}}), {"-modes_eps_type foo"}},
-      {"solver_size", with(layer, {{"modes_eps_ncv", "3"}}), {"-modes_eps_ncv 3", "at least nev+1"}},
-      {"solver_of_bounds", with(layer, {{"steady_snes_type", "newtonls"}}), {"-steady_snes_type newtonls", "bounds"}},
+      {"solver_size",
+       with(layer, {{"modes_eps_ncv", "3"}}),
+       {"-modes_eps_ncv 3", "at least nev+1"}},
+      {"solver_of_bounds",
+       with(layer, {{"steady_snes_type", "newtonls"}}),
+       {"-steady_snes_type newtonls", "bounds"}},
       {"steady_inner_solver", with(layer, {{"steady_ksp_type", "foo"}}), {"-steady_ksp_type foo"}},
-      {"factor_type", with(layer, {{"modes_st_ksp_type", "gmress"}}), {"-modes_st_ksp_type gmress"}},
-      {"factor_package", with(layer, {{"modes_st_pc_factor_mat_solver_type", "foo"}}), {"-modes_st_pc_factor_mat_solver_type foo"}},
-      {"factor_ordering", with(layer, {{"modes_st_mat_mumps_icntl_7", "999"}}), {"-modes_st_mat_mumps_icntl_7 999"}},
-      {"direct_type", with(layer, {{"flutter_method", "direct"}, {"flutter_st_type", "foo"}}), {"-flutter_st_type foo"}},
-      {"method", with(layer, {{"flutter_method", "qz"}}), {"-flutter_method qz", "must be reduced or direct"}},
-      {"mass", with(layer, {{"elasticity_mass", "lumped"}}), {"-elasticity_mass lumped", "must be consistent or higher_order"}},
+      {"factor_type",
+       with(layer, {{"modes_st_ksp_type", "gmress"}}),
+       {"-modes_st_ksp_type gmress"}},
+      {"factor_package",
+       with(layer, {{"modes_st_pc_factor_mat_solver_type", "foo"}}),
+       {"-modes_st_pc_factor_mat_solver_type foo"}},
+      {"factor_ordering",
+       with(layer, {{"modes_st_mat_mumps_icntl_7", "999"}}),
+       {"-modes_st_mat_mumps_icntl_7 999"}},
+      {"direct_type",
+       with(layer, {{"flutter_method", "direct"}, {"flutter_st_type", "foo"}}),
+       {"-flutter_st_type foo"}},
+      {"method",
+       with(layer, {{"flutter_method", "qz"}}),
+       {"-flutter_method qz", "must be reduced or direct"}},
+      {"mass",
+       with(layer, {{"elasticity_mass", "lumped"}}),
+       {"-elasticity_mass lumped", "must be consistent or higher_order"}},
       {"count_zero", with(layer, {{"modes_count", "0"}}), {"-modes_count 0", "an integer >= 1"}},
-      {"count_real", with(layer, {{"modes_count", "1.5"}}), {"-modes_count 1.5", "an integer >= 1"}},
-      {"count_too_large", with(layer, {{"modes_count", "100000"}}), {"-modes_count 100000", "30 unknowns"}},
-      {"friction_negative", with(layer, {{"flutter_friction", "-0.1"}}), {"-flutter_friction -0.1", "a number >= 0"}},
-      {"friction_no_step", with(layer, {{"flutter_friction", "0:0.6"}}), {"-flutter_friction 0:0.6", "first:last:step"}},
-      {"friction_zero_step", with(layer, {{"flutter_friction", "0:0.6:0"}}), {"-flutter_friction 0:0.6:0", "first:last:step"}},
-      {"friction_backwards", with(layer, {{"flutter_friction", "0.6:0:0.1"}}), {"-flutter_friction 0.6:0:0.1", "first:last:step"}},
-      {"friction_word", with(layer, {{"flutter_friction", "0,high"}}), {"-flutter_friction", "'high'", "a comma-separated list"}},
-      {"friction_gap", with(layer, {{"flutter_friction", "0.2,,0.4"}}), {"-flutter_friction", "a comma-separated list"}},
+      {"count_real",
+       with(layer, {{"modes_count", "1.5"}}),
+       {"-modes_count 1.5", "an integer >= 1"}},
+      {"count_too_large",
+       with(layer, {{"modes_count", "100000"}}),
+       {"-modes_count 100000", "30 unknowns"}},
+      {"friction_negative",
+       with(layer, {{"flutter_friction", "-0.1"}}),
+       {"-flutter_friction -0.1", "a number >= 0"}},
+      {"friction_no_step",
+       with(layer, {{"flutter_friction", "0:0.6"}}),
+       {"-flutter_friction 0:0.6", "first:last:step"}},
+      {"friction_zero_step",
+       with(layer, {{"flutter_friction", "0:0.6:0"}}),
+       {"-flutter_friction 0:0.6:0", "first:last:step"}},
+      {"friction_backwards",
+       with(layer, {{"flutter_friction", "0.6:0:0.1"}}),
+       {"-flutter_friction 0.6:0:0.1", "first:last:step"}},
+      {"friction_word",
+       with(layer, {{"flutter_friction", "0,high"}}),
+       {"-flutter_friction", "'high'", "a comma-separated list"}},
+      {"friction_gap",
+       with(layer, {{"flutter_friction", "0.2,,0.4"}}),
+       {"-flutter_friction", "a comma-separated list"}},
       {"friction_empty", with(layer, {{"flutter_friction", ""}}), {"-flutter_friction", "empty"}},
-      {"report_frames", with(layer, {{"report_frames", "1"}}), {"-report_frames 1", "an integer >= 4"}},
-      {"options_file", with(layer, {{"options_file", "options/nosuch.yaml"}}), {"-options_file options/nosuch.yaml"}},
+      {"report_frames",
+       with(layer, {{"report_frames", "1"}}),
+       {"-report_frames 1", "an integer >= 4"}},
+      {"options_file",
+       with(layer, {{"options_file", "options/nosuch.yaml"}}),
+       {"-options_file options/nosuch.yaml"}},
       {"no_options", {}, {"-material_<group>_young"}},
   });
 }
@@ -98,14 +152,24 @@ TEST(BadInput, Material) {
       {"poisson_half",
        with(layer, {{"material_layer_poisson", "0.5"}}),
        {"-material_layer_poisson 0.5", "Poisson", "> -1 and < 0.5"}},
-      {"young_zero", with(layer, {{"material_layer_young", "0"}}), {"-material_layer_young 0", "Young", "must be a number > 0"}},
-      {"young_negative", with(layer, {{"material_layer_young", "-2e11"}}), {"-material_layer_young -2e11", "must be a number > 0"}},
-      {"young_word", with(layer, {{"material_layer_young", "steel"}}), {"-material_layer_young 'steel'", "must be a number > 0"}},
+      {"young_zero",
+       with(layer, {{"material_layer_young", "0"}}),
+       {"-material_layer_young 0", "Young", "must be a number > 0"}},
+      {"young_negative",
+       with(layer, {{"material_layer_young", "-2e11"}}),
+       {"-material_layer_young -2e11", "must be a number > 0"}},
+      {"young_word",
+       with(layer, {{"material_layer_young", "steel"}}),
+       {"-material_layer_young 'steel'", "must be a number > 0"}},
       {"young_with_unit",
        with(layer, {{"material_layer_young", "2e11Pa"}}),
        {"-material_layer_young '2e11Pa'", "must be a number > 0"}},
-      {"young_nan", with(layer, {{"material_layer_young", "nan"}}), {"-material_layer_young 'nan'", "must be a number > 0"}},
-      {"density_missing", without(layer, {"material_layer_density"}), {"-material_layer_density is missing", "mass density"}},
+      {"young_nan",
+       with(layer, {{"material_layer_young", "nan"}}),
+       {"-material_layer_young 'nan'", "must be a number > 0"}},
+      {"density_missing",
+       without(layer, {"material_layer_density"}),
+       {"-material_layer_density is missing", "mass density"}},
       {"without_material",
        without(with(layer, {{"mesh_file", "meshes/two_layers.geo"},
                             {"mesh_set", "nx=6,ny_disc=3,ny_pad=3"},
@@ -114,7 +178,9 @@ TEST(BadInput, Material) {
                             {"material_disc_density", "1"}}),
                {"material_layer_young", "material_layer_poisson", "material_layer_density"}),
        {"group 'pad' has no material", "-material_<group>_young"}},
-      {"motion_of_no_body", with(layer, {{"motion_disk_velocity", "1,0,0"}}), {"-motion_disk_velocity", "'disk' is not a body"}},
+      {"motion_of_no_body",
+       with(layer, {{"motion_disk_velocity", "1,0,0"}}),
+       {"-motion_disk_velocity", "'disk' is not a body"}},
       {"motion_twice",
        with(layer, {{"motion_layer_velocity", "1,0,0"}, {"motion_layer_speed", "1"}}),
        {"-motion_layer_velocity", "-motion_layer_speed", "not both"}},
@@ -128,12 +194,16 @@ TEST(BadInput, Mesh) {
   writeText(place / "inverted.msh", twoQuadrangles(true));
   writeText(place / "not_a_mesh.msh", "hello\n");
   writeText(place / "cubic.geo",
-            "SetFactory(\"OpenCASCADE\"); Rectangle(1) = {0, 0, 0, 1, 1}; Physical Surface(\"layer\") = {1};\n"
+            "SetFactory(\"OpenCASCADE\"); Rectangle(1) = {0, 0, 0, 1, 1}; Physical "
+            "Surface(\"layer\") = {1};\n"
             "Transfinite Surface {1}; Recombine Surface {1}; Mesh.ElementOrder = 3;\n");
   writeText(place / "script.msh", "SystemCall \"touch '" + file("script_ran") + "'\";\n");
-  writeText(place / "crash.msh", changed(quadranglesMsh4(), "1 1 \"bottom\"", "900000000 1 \"bottom\""));
+  writeText(place / "crash.msh",
+            changed(quadranglesMsh4(), "1 1 \"bottom\"", "900000000 1 \"bottom\""));
   expectExplained({
-      {"mesh_file", with(layer, {{"mesh_file", "meshes/nosuch.geo"}}), {"-mesh_file meshes/nosuch.geo", "no such file"}},
+      {"mesh_file",
+       with(layer, {{"mesh_file", "meshes/nosuch.geo"}}),
+       {"-mesh_file meshes/nosuch.geo", "no such file"}},
       {"mesh_file_missing", without(layer, {"mesh_file"}), {"-mesh_file is missing"}},
       {"geo_syntax",
        without(with(layer, {{"mesh_file", file("syntax.geo")}}), {"mesh_set"}),
@@ -141,22 +211,35 @@ TEST(BadInput, Mesh) {
       {"geo_syntax_with_parameters",
        with(layer, {{"mesh_file", file("syntax.geo")}}),
        {"-mesh_file", "syntax.geo", "syntax error"}},
-      {"not_a_mesh", without(with(layer, {{"mesh_file", file("not_a_mesh.msh")}}), {"mesh_set"}), {"-mesh_file", "not_a_mesh.msh"}},
-      {"mesh_set_value", with(layer, {{"mesh_set", "nx=many"}}), {"-mesh_set nx=many", "name=number"}},
-      {"mesh_set_name", with(layer, {{"mesh_set", "mx=6"}}), {"-mesh_set mx=6", "no parameter 'mx'", "nx"}},
-      {"mesh_set_range", with(layer, {{"mesh_set", "nx=0,ny=3"}}), {"-mesh_set nx=0", "must be a whole number >= 1"}},
+      {"not_a_mesh",
+       without(with(layer, {{"mesh_file", file("not_a_mesh.msh")}}), {"mesh_set"}),
+       {"-mesh_file", "not_a_mesh.msh"}},
+      {"mesh_set_value",
+       with(layer, {{"mesh_set", "nx=many"}}),
+       {"-mesh_set nx=many", "name=number"}},
+      {"mesh_set_name",
+       with(layer, {{"mesh_set", "mx=6"}}),
+       {"-mesh_set mx=6", "no parameter 'mx'", "nx"}},
+      {"mesh_set_range",
+       with(layer, {{"mesh_set", "nx=0,ny=3"}}),
+       {"-mesh_set nx=0", "must be a whole number >= 1"}},
       {"cubic_cells",
        without(with(layer, {{"mesh_file", file("cubic.geo")}}), {"mesh_set"}),
        {"has cells 'Quadrilateral 16'", "quad9"}},
       {"script",
        without(with(layer, {{"mesh_file", file("script.msh")}}), {"mesh_set"}),
        {"-mesh_file", "does not begin with '$MeshFormat'"}},
-      {"crash", without(with(layer, {{"mesh_file", file("crash.msh")}}), {"mesh_set"}), {"-mesh_file", "gmsh crashes on it"}},
+      {"crash",
+       without(with(layer, {{"mesh_file", file("crash.msh")}}), {"mesh_set"}),
+       {"-mesh_file", "gmsh crashes on it"}},
       {"inverted",
-       with(without(layer, {"mesh_set", "constraint_right_image_of"}), {{"mesh_file", file("inverted.msh")}, {"modes_count", "2"}}),
+       with(without(layer, {"mesh_set", "constraint_right_image_of"}),
+            {{"mesh_file", file("inverted.msh")}, {"modes_count", "2"}}),
        {"inverted element", "cell 6", "'layer'"}},
       {"body_group",
-       with(layer, {{"material_pad_young", "1"}, {"material_pad_poisson", "0.3"}, {"material_pad_density", "1"}}),
+       with(layer, {{"material_pad_young", "1"},
+                    {"material_pad_poisson", "0.3"},
+                    {"material_pad_density", "1"}}),
        {"-material_pad_young", "'pad', which is not in the mesh", "layer"}},
       {"contact_group",
        with(layer, {{"contact_plate_pad", "topp"}}),
@@ -164,8 +247,12 @@ TEST(BadInput, Mesh) {
       {"constraint_group",
        with(layer, {{"constraint_botom_clamped", "xy"}}),
        {"-constraint_botom_", "'botom', which is not in the mesh"}},
-      {"load_group", with(layer, {{"load_roof_pressure", "1"}}), {"-load_roof_pressure", "'roof', which is not in the mesh"}},
-      {"load_on_body", with(layer, {{"load_layer_pressure", "1"}}), {"-load_layer_pressure", "dimension 2"}},
+      {"load_group",
+       with(layer, {{"load_roof_pressure", "1"}}),
+       {"-load_roof_pressure", "'roof', which is not in the mesh"}},
+      {"load_on_body",
+       with(layer, {{"load_layer_pressure", "1"}}),
+       {"-load_layer_pressure", "dimension 2"}},
   });
   EXPECT_FALSE(fs::exists(place / "script_ran"));
 }
@@ -179,12 +266,15 @@ TEST(BadInput, Constraints) {
        without(layer, {"constraint_bottom_clamped"}),
        {"body 'layer' can move rigidly", "-constraint_<group>_clamped"}},
       {"loose_pad",
-       without(with(onSquares("meshes/two_layers.geo"), {{"mesh_set", "nx=6,ny_disc=3,ny_pad=3"},
-                                                         {"constraint_disc_bottom_clamped", "xy"},
-                                                         {"load_pad_top_pressure", "1"}}),
-               {"constraint_bottom_clamped", "constraint_top_clamped", "constraint_top_displacement"}),
+       without(
+           with(onSquares("meshes/two_layers.geo"), {{"mesh_set", "nx=6,ny_disc=3,ny_pad=3"},
+                                                     {"constraint_disc_bottom_clamped", "xy"},
+                                                     {"load_pad_top_pressure", "1"}}),
+           {"constraint_bottom_clamped", "constraint_top_clamped", "constraint_top_displacement"}),
        {"body 'pad' can move rigidly", "-constraint_<group>_clamped"}},
-      {"components", with(layer, {{"constraint_bottom_clamped", "xyz"}}), {"-constraint_bottom_clamped 'xyz'", "letters xy"}},
+      {"components",
+       with(layer, {{"constraint_bottom_clamped", "xyz"}}),
+       {"-constraint_bottom_clamped 'xyz'", "letters xy"}},
       {"displacement_not_clamped",
        with(layer, {{"constraint_left_displacement", "1,0,0"}}),
        {"-constraint_left_displacement needs -constraint_left_clamped"}},
@@ -197,8 +287,12 @@ TEST(BadInput, Constraints) {
       {"image_of_nothing",
        with(layer, {{"constraint_right_image_of", "nothing"}}),
        {"-constraint_right_image_of", "'nothing', which is not in the mesh"}},
-      {"image_finer", periodicSquares(place / "sides_3_2.geo"), {"-constraint_right_image_of left", "meshed alike"}},
-      {"image_coarser", periodicSquares(place / "sides_1_2.geo"), {"-constraint_right_image_of left", "meshed alike"}},
+      {"image_finer",
+       periodicSquares(place / "sides_3_2.geo"),
+       {"-constraint_right_image_of left", "meshed alike"}},
+      {"image_coarser",
+       periodicSquares(place / "sides_1_2.geo"),
+       {"-constraint_right_image_of left", "meshed alike"}},
   });
 }
 
@@ -207,53 +301,67 @@ TEST(BadInput, Contact) {
   writeText(place / "faces_4_5.geo", squares("4", "5"));
   writeText(place / "faces_4_2.geo", squares("4", "2"));
   writeText(place / "inside.geo",
-            "Point(1) = {0, -1, 0}; Point(2) = {1, -1, 0}; Point(3) = {1, 0, 0}; Point(4) = {0, 0, 0}; Point(5) = {1, 1, 0}; "
+            "Point(1) = {0, -1, 0}; Point(2) = {1, -1, 0}; Point(3) = {1, 0, 0}; Point(4) = {0, 0, "
+            "0}; Point(5) = {1, 1, 0}; "
             "Point(6) = {0, 1, 0};\n"
-            "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1}; Line(5) = {3, 5}; Line(6) = {5, 6}; Line(7) = "
+            "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1}; Line(5) = {3, "
+            "5}; Line(6) = {5, 6}; Line(7) = "
             "{6, 4};\n"
-            "Curve Loop(1) = {1, 2, 3, 4}; Curve Loop(2) = {-3, 5, 6, 7}; Plane Surface(1) = {1}; Plane Surface(2) = {2};\n"
-            "Physical Curve(\"bottom\") = {1}; Physical Curve(\"inside\") = {3}; Physical Curve(\"disc_face\") = {6};\n"
+            "Curve Loop(1) = {1, 2, 3, 4}; Curve Loop(2) = {-3, 5, 6, 7}; Plane Surface(1) = {1}; "
+            "Plane Surface(2) = {2};\n"
+            "Physical Curve(\"bottom\") = {1}; Physical Curve(\"inside\") = {3}; Physical "
+            "Curve(\"disc_face\") = {6};\n"
             "Physical Surface(\"disc\") = {1, 2};\n");
   writeText(place / "matching.geo", squares("4", "4"));
   // The lower face in two halves, one of which the group leaves out.
-  std::string halves =
-      changed(squares("2", "4"), "Line(3) = {3, 4};", "Point(9) = {0.5, 0, 0}; Line(3) = {3, 9}; Line(9) = {9, 4};");
-  halves = changed(halves, "Curve Loop(1) = {1, 2, 3, 4};", "Curve Loop(1) = {1, 2, 3, 9, 4}; Transfinite Curve {9} = 3;");
+  std::string halves = changed(squares("2", "4"), "Line(3) = {3, 4};",
+                               "Point(9) = {0.5, 0, 0}; Line(3) = {3, 9}; Line(9) = {9, 4};");
+  halves = changed(halves, "Curve Loop(1) = {1, 2, 3, 4};",
+                   "Curve Loop(1) = {1, 2, 3, 9, 4}; Transfinite Curve {9} = 3;");
   writeText(place / "half_missing.geo", halves);
   expectExplained({
       {"no_slip_obstacle",
        without(layer, {"contact_plate_obstacle_velocity"}),
        {"|w| = 0", "'plate'", "-contact_plate_obstacle_velocity"}},
-      {"slip_along_normal", with(layer, {{"contact_plate_obstacle_velocity", "0,1,0"}}), {"|w| = 0", "'plate'"}},
+      {"slip_along_normal",
+       with(layer, {{"contact_plate_obstacle_velocity", "0,1,0"}}),
+       {"|w| = 0", "'plate'"}},
       {"no_slip_disc",
        without(onSquares(place / "matching.geo"), {"motion_disc_velocity"}),
        {"|w| = 0", "'face'", "-motion_<body>_velocity"}},
       {"faces",
        onSquares(place / "faces_4_5.geo"),
-       {"-contact_face_pad pad_face", "-contact_face_disc disc_face", "not meshed alike", "matching meshes"}},
+       {"-contact_face_pad pad_face", "-contact_face_disc disc_face", "not meshed alike",
+        "matching meshes"}},
       {"disc_face_finer",
        onSquares(place / "faces_4_2.geo"),
-       {"-contact_face_pad pad_face", "-contact_face_disc disc_face", "the face of 'pad_face'", "one face of 'disc_face'",
-        "matching meshes"}},
+       {"-contact_face_pad pad_face", "-contact_face_disc disc_face", "the face of 'pad_face'",
+        "one face of 'disc_face'", "matching meshes"}},
       {"disc_face_missing",
        onSquares(place / "half_missing.geo"),
        {"-contact_face_pad pad_face, -contact_face_disc disc_face: the node at (0.25, 0, 0) of "
         "'pad_face'",
-        "no node of 'disc_face'", "body 'disc' has one", "is a face missing in the group 'disc_face'?"}},
+        "no node of 'disc_face'", "body 'disc' has one",
+        "is a face missing in the group 'disc_face'?"}},
       {"held_across",
        with(layer, {{"constraint_top_clamped", "y"}}),
        {"holds component y", "not tangential", "-constraint_top_clamped"}},
       {"neither",
        without(layer, {"contact_plate_obstacle_velocity", "contact_plate_obstacle_displacement"}),
        {"-contact_plate_pad", "-contact_plate_disc", "-contact_plate_obstacle_velocity"}},
-      {"both", with(layer, {{"contact_plate_disc", "bottom"}}), {"-contact_plate_pad", "-contact_plate_disc"}},
-      {"no_pad", with(layer, {{"contact_other_disc", "bottom"}}), {"-contact_other_disc needs -contact_other_pad"}},
+      {"both",
+       with(layer, {{"contact_plate_disc", "bottom"}}),
+       {"-contact_plate_pad", "-contact_plate_disc"}},
+      {"no_pad",
+       with(layer, {{"contact_other_disc", "bottom"}}),
+       {"-contact_other_disc needs -contact_other_pad"}},
       {"pad_is_disc",
        with(onSquares(place / "matching.geo"), {{"contact_face_pad", "disc_face"}}),
        {"-contact_face_pad disc_face", "pad and disc are the same surface", "two"}},
       {"pad_inside",
-       with(without(onSquares(place / "inside.geo"), {"material_pad_young", "material_pad_poisson", "material_pad_density",
-                                                      "constraint_top_clamped", "constraint_top_displacement"}),
+       with(without(onSquares(place / "inside.geo"),
+                    {"material_pad_young", "material_pad_poisson", "material_pad_density",
+                     "constraint_top_clamped", "constraint_top_displacement"}),
             {{"contact_face_pad", "inside"}}),
        {"-contact_face_pad", "'inside' lies inside the body 'disc'"}},
       {"pad_twice",
@@ -261,7 +369,8 @@ TEST(BadInput, Contact) {
        {"already a pad node of another interface"}},
       {"shared_both_rest",
        with(without(onSquares("meshes/two_layers.geo"),
-                    {"motion_disc_velocity", "constraint_bottom_clamped", "constraint_top_clamped", "constraint_top_displacement"}),
+                    {"motion_disc_velocity", "constraint_bottom_clamped", "constraint_top_clamped",
+                     "constraint_top_displacement"}),
             {{"mesh_set", "nx=6,ny_disc=3,ny_pad=3,shared=1"},
              {"constraint_disc_bottom_clamped", "xy"},
              {"constraint_pad_top_clamped", "xy"}}),

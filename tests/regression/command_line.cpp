@@ -1,4 +1,5 @@
-// The program as it is called: options files, words of the command line, and what is said of mistakes in them.
+// The program as it is called: options files, words of the command line, and what is said of
+// mistakes in them.
 #include "support/bad_input.hpp"
 #include "support/mesh_text.hpp"
 
@@ -14,13 +15,22 @@ TEST(CommandLine, OptionsFilesThatCannotBeRead) {
   };
   expectExplained({
       {"yaml_tab", file("tab.yaml", "mesh:\n\tfile: x\n"), {"tab.yaml, line 2", "tab"}},
-      {"yaml_quote", file("quote.yaml", "mesh:\n  file: \"x\nquiet:\n"), {"quote.yaml, line", "begins in line 2", "quote"}},
+      {"yaml_quote",
+       file("quote.yaml", "mesh:\n  file: \"x\nquiet:\n"),
+       {"quote.yaml, line", "begins in line 2", "quote"}},
       {"yaml_list", file("list.yaml", "- mesh\n"), {"list.yaml, line 1", "a list at the top"}},
-      {"yaml_binary", file("binary.yaml", std::string("mesh: \0\1\2", 9)), {"binary.yaml, line 1", "text in UTF-8"}},
-      {"yaml_duplicate", file("twice.yaml", "mesh:\n  file: x\nmesh_file: y\n"), {"twice.yaml, line 3", "-mesh_file", "line 2"}},
-      {"yaml_empty", file("empty.yaml", "# nothing\n"), {"-options_file", "empty.yaml", "no option"}},
+      {"yaml_binary",
+       file("binary.yaml", std::string("mesh: \0\1\2", 9)),
+       {"binary.yaml, line 1", "text in UTF-8"}},
+      {"yaml_duplicate",
+       file("twice.yaml", "mesh:\n  file: x\nmesh_file: y\n"),
+       {"twice.yaml, line 3", "-mesh_file", "line 2"}},
+      {"yaml_empty",
+       file("empty.yaml", "# nothing\n"),
+       {"-options_file", "empty.yaml", "no option"}},
       {"yaml_rule",
-       with(without(layer, {"material_layer_density"}), file("rule.yaml", "material:\n  layer:\n    density: -1\n")),
+       with(without(layer, {"material_layer_density"}),
+            file("rule.yaml", "material:\n  layer:\n    density: -1\n")),
        {"-material_layer_density -1", "rule.yaml, line 3", "must be a number > 0"}},
       {"lines_stray",
        file("stray.txt", "-quiet\n-flutter_friction 0 0.2\n"),
@@ -33,17 +43,29 @@ TEST(CommandLine, OptionsFilesThatCannotBeRead) {
               return text;
             }()),
        {"601 options"}},
-      {"folder", with({}, {{"options_file", place.string()}}), {"-options_file " + place.string(), "folder"}},
+      {"folder",
+       with({}, {{"options_file", place.string()}}),
+       {"-options_file " + place.string(), "folder"}},
   });
 }
 
 TEST(CommandLine, StrayWords) {
   expectExplained({
-      {"list_as_words", with(layer, {{"flutter_friction", "0.2' '0.4"}}), {"'0.4'", "-flutter_friction 0.2", "commas"}},
-      {"list_split", with(layer, {{"flutter_friction", "0,' '0.4"}}), {"'0.4'", "-flutter_friction 0,", "quotes"}},
-      {"flag_with_word", with(without(layer, {"quiet"}), {{"quiet", "disc_brake"}}), {"-quiet disc_brake", "on or off"}},
-      {"equals", with(without(layer, {"modes_count"}), {{"modes_count=5", ""}}), {"-modes_count=5", "-modes_count 5"}},
-      {"capitals", with(layer, {{"material_Layer_young", "2"}}), {"-material_Layer_young", "-material_layer_young", "capital"}},
+      {"list_as_words",
+       with(layer, {{"flutter_friction", "0.2' '0.4"}}),
+       {"'0.4'", "-flutter_friction 0.2", "commas"}},
+      {"list_split",
+       with(layer, {{"flutter_friction", "0,' '0.4"}}),
+       {"'0.4'", "-flutter_friction 0,", "quotes"}},
+      {"flag_with_word",
+       with(without(layer, {"quiet"}), {{"quiet", "disc_brake"}}),
+       {"-quiet disc_brake", "on or off"}},
+      {"equals",
+       with(without(layer, {"modes_count"}), {{"modes_count=5", ""}}),
+       {"-modes_count=5", "-modes_count 5"}},
+      {"capitals",
+       with(layer, {{"material_Layer_young", "2"}}),
+       {"-material_Layer_young", "-material_layer_young", "capital"}},
   });
 }
 
@@ -52,14 +74,18 @@ TEST(CommandLine, NodesInNoCellAreTold) {
   const fs::path place = placeFor("command_line/nodes");
   for (const int extra : {0, 1, 2}) {
     std::string nodes;
-    for (int i = 0; i < extra; ++i) nodes += std::to_string(7 + i) + " 5 " + std::to_string(i) + " 0\n";
-    std::string text = changed(quadranglesMsh2(), "$Nodes\n6", "$Nodes\n" + std::to_string(6 + extra));
+    for (int i = 0; i < extra; ++i)
+      nodes += std::to_string(7 + i) + " 5 " + std::to_string(i) + " 0\n";
+    std::string text =
+        changed(quadranglesMsh2(), "$Nodes\n6", "$Nodes\n" + std::to_string(6 + extra));
     writeText(place / "layer.msh", changed(text, "$EndNodes", nodes + "$EndNodes"));
-    const Options options = with(without(layer, {"mesh_set", "constraint_right_image_of", "quiet"}),
-                                 {{"mesh_file", (place / "layer.msh").string()}, {"modes_count", "2"}, {"dry_run", ""}});
+    const Options options = with(
+        without(layer, {"mesh_set", "constraint_right_image_of", "quiet"}),
+        {{"mesh_file", (place / "layer.msh").string()}, {"modes_count", "2"}, {"dry_run", ""}});
     const ProgramRun run = runProgram("command_line/nodes_run", 2, commandLine(options));
     EXPECT_EQ(run.exitCode, 0) << run.error;
-    const std::string told = extra == 1 ? "; 1 node in no cell is not used\n" : "; 2 nodes in no cell are not used\n";
+    const std::string told =
+        extra == 1 ? "; 1 node in no cell is not used\n" : "; 2 nodes in no cell are not used\n";
     EXPECT_EQ(run.out.find("in no cell") != std::string::npos, extra > 0) << run.out;
     EXPECT_EQ(run.out.find(told) != std::string::npos, extra > 0) << run.out;
   }
@@ -70,7 +96,8 @@ fs::path ownCase(const std::string& name) {
   const fs::path place = placeFor(name) / "my cases";
   fs::remove_all(placeFor(name));
   fs::create_directories(place);
-  for (const char* file : {"layer.geo", "grid.inc"}) fs::copy_file(fs::path(SQUEAL_SOURCE_DIR) / "meshes" / file, place / file);
+  for (const char* file : {"layer.geo", "grid.inc"})
+    fs::copy_file(fs::path(SQUEAL_SOURCE_DIR) / "meshes" / file, place / file);
   fs::rename(place / "layer.geo", place / "my layer.geo");
   std::string text = contentOf(fs::path(SQUEAL_SOURCE_DIR) / "options/layer.yaml");
   const std::string shipped = "../meshes/layer.geo";
@@ -81,7 +108,8 @@ fs::path ownCase(const std::string& name) {
 
 /// The program without mpirun, and without the environment of the one that runs this test.
 const std::string alone =
-    "env -i PATH=\"$PATH\" HOME=\"$HOME\" OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 '" SQUEAL_EXECUTABLE "'";
+    "env -i PATH=\"$PATH\" HOME=\"$HOME\" OMPI_ALLOW_RUN_AS_ROOT=1 "
+    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 '" SQUEAL_EXECUTABLE "'";
 
 /// The exit code of a shell command in a folder.
 int shell(const fs::path& folder, const std::string& command) {
@@ -89,32 +117,40 @@ int shell(const fs::path& folder, const std::string& command) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
 }
 
-const std::string small = " -mesh_set 'nx=6, ny=3' -modes_count 5 -flutter_friction '0, 0.2' -report_fields off";
+const std::string small =
+    " -mesh_set 'nx=6, ny=3' -modes_count 5 -flutter_friction '0, 0.2' -report_fields off";
 const std::string program = "'" SQUEAL_MPIEXEC "' 2 '" SQUEAL_EXECUTABLE "' ";
 
-// Files named in a case are found beside it, and options.txt repeats the run, both from any working folder.
+// Files named in a case are found beside it, and options.txt repeats the run, both from any working
+// folder.
 TEST(CommandLine, CasesRunFromAnywhere) {
   const fs::path place = ownCase("command_line/anywhere"), results = place / "results";
   ASSERT_EQ(shell(place.parent_path(),
-                  program + "-options_file 'my cases/my case.yaml' -report_dir 'my cases/results'" + small + " >out"),
+                  program + "-options_file 'my cases/my case.yaml' -report_dir 'my cases/results'" +
+                      small + " >out"),
             0);
   EXPECT_NE(contentOf(place.parent_path() / "out").find("my cases/my layer.geo: 28 nodes"),
             std::string::npos);  // (6 + 1) x (3 + 1)
   EXPECT_NE(contentOf(results / "summary.json").find("my cases/my layer.geo"), std::string::npos);
-  EXPECT_EQ(readCsv(results / "stability_map.csv").column("friction"), (std::vector<double>{0, 0.2}));
-  ASSERT_EQ(shell("/", program + "-options_file '" + (results / "options.txt").string() + "' -quiet -report_dir '" +
-                           (place / "again").string() + "'"),
+  EXPECT_EQ(readCsv(results / "stability_map.csv").column("friction"),
+            (std::vector<double>{0, 0.2}));
+  ASSERT_EQ(shell("/", program + "-options_file '" + (results / "options.txt").string() +
+                           "' -quiet -report_dir '" + (place / "again").string() + "'"),
             0);
-  const CsvTable first = readCsv(results / "eigenvalues.csv"), again = readCsv(place / "again/eigenvalues.csv");
+  const CsvTable first = readCsv(results / "eigenvalues.csv"),
+                 again = readCsv(place / "again/eigenvalues.csv");
   EXPECT_EQ(again.column("friction"), first.column("friction"));
   for (std::size_t i = 0; i < first.rows.size(); ++i)  // sums over two ranks differ by rounding
     EXPECT_NEAR(again.column("frequency_hz").at(i), first.column("frequency_hz").at(i), 1e-10);
-  EXPECT_EQ(shell("/", program + "-options_file '" SQUEAL_SOURCE_DIR "/options/external.yaml' -quiet -report_dir '" +
+  EXPECT_EQ(shell("/", program +
+                           "-options_file '" SQUEAL_SOURCE_DIR
+                           "/options/external.yaml' -quiet -report_dir '" +
                            (place / "external").string() + "'"),
             0);
 }
 
-/// scripts/run in a folder where there is nothing to build: a setup that installs and builds nothing, and the program of these tests.
+/// scripts/run in a folder where there is nothing to build: a setup that installs and builds
+/// nothing, and the program of these tests.
 fs::path scriptsIn(const fs::path& place) {
   fs::create_directories(place / "scripts");
   fs::create_directories(place / "build");
@@ -129,21 +165,28 @@ fs::path scriptsIn(const fs::path& place) {
 }
 
 TEST(CommandLine, ScriptRunsAnOptionsFileOfAnyFolder) {
-  const fs::path place = ownCase("command_line/script"), run = scriptsIn(placeFor("command_line/script") / "a clone");
+  const fs::path place = ownCase("command_line/script"),
+                 run = scriptsIn(placeFor("command_line/script") / "a clone");
   ASSERT_EQ(shell(place, "NP=1 '" + run.string() + "' './my case.yaml'" + small + " >out"), 0);
   EXPECT_TRUE(fs::exists(place / "results/my case/eigenvalues.csv"));
   EXPECT_NE(contentOf(place / "out").find("plotted"), std::string::npos);
   // Paths on the command line are those of the caller, not of the clone.
   fs::rename(place / "my layer.geo", place / "elsewhere.geo");
-  EXPECT_EQ(shell(place,
-                  "NP=2 '" + run.string() + "' 'my case.yaml' -mesh_file elsewhere.geo -report_dir 'my results'" + small + " >out"),
+  EXPECT_EQ(shell(place, "NP=2 '" + run.string() +
+                             "' 'my case.yaml' -mesh_file elsewhere.geo -report_dir 'my results'" +
+                             small + " >out"),
             0);
   EXPECT_TRUE(fs::exists(place / "my results/eigenvalues.csv"));
   // The folder of the script replaces the one of the case, which is told.
-  writeText(place / "with folder.yaml", contentOf(place / "my case.yaml") + "report:\n  dir: mine\n");
-  EXPECT_EQ(shell(place, "NP=1 '" + run.string() + "' './with folder.yaml' -mesh_file elsewhere.geo" + small + " >out"), 0);
-  EXPECT_NE(contentOf(place / "out").find("option -report_dir ./results/with folder replaces mine (./with folder.yaml, line"),
-            std::string::npos)
+  writeText(place / "with folder.yaml",
+            contentOf(place / "my case.yaml") + "report:\n  dir: mine\n");
+  EXPECT_EQ(shell(place, "NP=1 '" + run.string() +
+                             "' './with folder.yaml' -mesh_file elsewhere.geo" + small + " >out"),
+            0);
+  EXPECT_NE(
+      contentOf(place / "out")
+          .find("option -report_dir ./results/with folder replaces mine (./with folder.yaml, line"),
+      std::string::npos)
       << contentOf(place / "out");
   EXPECT_EQ(shell(place, "'" + run.string() + "' nosuch.yaml 2>err"), 2);
   EXPECT_NE(contentOf(place / "err").find("no options file 'nosuch.yaml'"), std::string::npos);
@@ -163,8 +206,10 @@ TEST(CommandLine, ScriptHelpBuildsNothing) {
 
 TEST(CommandLine, MagnitudesAndSizesHaveLimits) {
   const fs::path place = placeFor("command_line/limits");
-  writeText(place / "huge.mtx", "%%MatrixMarket matrix coordinate real general\n2 2 2\n1 1 1e200\n2 2 1\n");
-  writeText(place / "unit.mtx", "%%MatrixMarket matrix coordinate real general\n2 2 2\n1 1 1\n2 2 1\n");
+  writeText(place / "huge.mtx",
+            "%%MatrixMarket matrix coordinate real general\n2 2 2\n1 1 1e200\n2 2 1\n");
+  writeText(place / "unit.mtx",
+            "%%MatrixMarket matrix coordinate real general\n2 2 2\n1 1 1\n2 2 1\n");
   const Options matrices{{"matrices_k_file", (place / "unit.mtx").string()},
                          {"matrices_k_role", "stiffness"},
                          {"matrices_m_file", (place / "unit.mtx").string()},
@@ -174,18 +219,30 @@ TEST(CommandLine, MagnitudesAndSizesHaveLimits) {
                          {"matrices_x_friction_exponent", "10"}};
   expectExplained({
       // All of these ended in rows of inf or nan, or went on for hours.
-      {"young", with(layer, {{"material_layer_young", "1e300"}}), {"-material_layer_young 1e300", "1e-50 and 1e+50"}},
-      {"friction", with(layer, {{"flutter_friction", "1e300"}}), {"-flutter_friction 1e300", "1e-50 and 1e+50"}},
-      {"matrix", with(matrices, {{"matrices_m_file", (place / "huge.mtx").string()}}), {"-matrices_m_file", "squares overflow"}},
-      {"matrix_factors", with(matrices, {{"flutter_friction", "1e50"}}), {"matrix 'x' times its factors", "its square"}},  // 1e500
+      {"young",
+       with(layer, {{"material_layer_young", "1e300"}}),
+       {"-material_layer_young 1e300", "1e-50 and 1e+50"}},
+      {"friction",
+       with(layer, {{"flutter_friction", "1e300"}}),
+       {"-flutter_friction 1e300", "1e-50 and 1e+50"}},
+      {"matrix",
+       with(matrices, {{"matrices_m_file", (place / "huge.mtx").string()}}),
+       {"-matrices_m_file", "squares overflow"}},
+      {"matrix_factors",
+       with(matrices, {{"flutter_friction", "1e50"}}),
+       {"matrix 'x' times its factors", "its square"}},  // 1e500
       {"range",
        with(layer, {{"flutter_friction", "0:1:1e-7"}}),
        {"-flutter_friction 0:1:1e-7", "10000001 values", "100000 at most"}},
       {"grid",
        with(layer, {{"flutter_friction", "0:0.999:0.001"}, {"flutter_speed", "1:1000:1"}}),
        {"1000 x 1000 x 1 x 1 = 1000000 points"}},
-      {"modes", with(layer, {{"modes_count", "2000000000"}}), {"-modes_count 2000000000", ">= 1 and <= 1000000"}},
-      {"frames", with(layer, {{"report_frames", "2000000000"}}), {"-report_frames 2000000000", "<= 1000"}},
+      {"modes",
+       with(layer, {{"modes_count", "2000000000"}}),
+       {"-modes_count 2000000000", ">= 1 and <= 1000000"}},
+      {"frames",
+       with(layer, {{"report_frames", "2000000000"}}),
+       {"-report_frames 2000000000", "<= 1000"}},
   });
 }
 
@@ -194,28 +251,41 @@ TEST(CommandLine, DryRunSaysWhatARunWouldDo) {
   fs::remove_all(place);
   writeText(place / "results/eigenvalues.csv", "of an earlier run\n");
   const auto dry = [&](const std::string& options) {
-    const int code = shell(SQUEAL_SOURCE_DIR, program + options + " -dry_run -report_dir '" + (place / "results").string() +
-                                                  "' >'" + (place / "out").string() + "' 2>'" + (place / "err").string() + "'");
+    const int code =
+        shell(SQUEAL_SOURCE_DIR,
+              program + options + " -dry_run -report_dir '" + (place / "results").string() +
+                  "' >'" + (place / "out").string() + "' 2>'" + (place / "err").string() + "'");
     EXPECT_EQ(code, 0) << contentOf(place / "err");
     return contentOf(place / "out");
   };
   const auto expect = [](const std::string& out, const std::vector<std::string>& pieces) {
-    for (const auto& piece : pieces) EXPECT_NE(out.find(piece), std::string::npos) << piece << "\n" << out;
+    for (const auto& piece : pieces)
+      EXPECT_NE(out.find(piece), std::string::npos) << piece << "\n" << out;
   };
   // 12 x 4 cells; 12 columns of three free nodes, and one on the plate that slides.
-  expect(dry("-options_file options/layer.yaml -mesh_set nx=12,ny=4 -flutter_friction 0,0.2 -flutter_speed 1,2,3"),
-         {"meshes/layer.geo: 65 nodes, 48 cells", "layer (48 cells)", "bottom (12 nodes)", "plate (12 pairs of nodes)",
-          "6 points: 2 frictions x 3 speeds x 1 pressures x 1 dampings; 6 steady states", "unknowns     84", "GB on all ranks"});
+  expect(dry("-options_file options/layer.yaml -mesh_set nx=12,ny=4 -flutter_friction 0,0.2 "
+             "-flutter_speed 1,2,3"),
+         {"meshes/layer.geo: 65 nodes, 48 cells", "layer (48 cells)", "bottom (12 nodes)",
+          "plate (12 pairs of nodes)",
+          "6 points: 2 frictions x 3 speeds x 1 pressures x 1 dampings; 6 steady states",
+          "unknowns     84", "GB on all ranks"});
   expect(dry("-options_file options/external.yaml"),
-         {"mass: 2 rows, 2 entries, with s^2", "friction: 2 rows, 1 entries, with s^0, friction^1", "unknowns     2,"});
+         {"mass: 2 rows, 2 entries, with s^2", "friction: 2 rows, 1 entries, with s^0, friction^1",
+          "unknowns     2,"});
   dry("-options_file options/external.yaml -flutter_friction 0:0.9999:0.0001");
-  EXPECT_NE(contentOf(place / "err").find("a sweep of 10000 points"), std::string::npos) << contentOf(place / "err");
+  EXPECT_NE(contentOf(place / "err").find("a sweep of 10000 points"), std::string::npos)
+      << contentOf(place / "err");
   std::vector<std::string> left;
-  for (const auto& entry : fs::directory_iterator(place / "results")) left.push_back(entry.path().filename());
+  for (const auto& entry : fs::directory_iterator(place / "results"))
+    left.push_back(entry.path().filename());
   EXPECT_EQ(left, std::vector<std::string>{"eigenvalues.csv"});
   EXPECT_EQ(contentOf(place / "results/eigenvalues.csv"), "of an earlier run\n");
   // What a run refuses, a dry run refuses.
-  EXPECT_EQ(shell(SQUEAL_SOURCE_DIR, program + "-options_file options/layer.yaml -dry_run -contact_plate_pad topp 2>/dev/null"), 1);
+  EXPECT_EQ(
+      shell(SQUEAL_SOURCE_DIR,
+            program +
+                "-options_file options/layer.yaml -dry_run -contact_plate_pad topp 2>/dev/null"),
+      1);
 }
 
 TEST(CommandLine, VersionManualAndUsage) {
@@ -225,12 +295,14 @@ TEST(CommandLine, VersionManualAndUsage) {
   for (const char* word : {"--version", "-version"}) {
     ASSERT_EQ(shell(place, alone + " " + word + to), 0);
     const std::string out = contentOf(place / "out");
-    for (const char* part : {"squeal ", "Petsc Release Version 3.", "SLEPc Release Version 3.", "MUMPS ", "MPI ", "indices: "})
+    for (const char* part : {"squeal ", "Petsc Release Version 3.", "SLEPc Release Version 3.",
+                             "MUMPS ", "MPI ", "indices: "})
       EXPECT_NE(out.find(part), std::string::npos) << part << "\n" << out;
   }
   for (const char* word : {"--help", "-help", "-help -options_file nosuch.yaml"}) {
     ASSERT_EQ(shell(place, alone + " " + word + to), 0);
-    EXPECT_NE(contentOf(place / "out").find("-material_<group>_young [Pa]"), std::string::npos) << word;
+    EXPECT_NE(contentOf(place / "out").find("-material_<group>_young [Pa]"), std::string::npos)
+        << word;
   }
   // Without any option: a script whose arguments went missing must not believe that it has run.
   ASSERT_EQ(shell(place, alone + to), 1);

@@ -8,25 +8,28 @@
 namespace squeal::test {
 namespace {
 
-// Damping on either side of the contact parts the critical frictions of the layers, which without it are all zero.
+// Damping on either side of the contact parts the critical frictions of the layers, which without
+// it are all zero.
 const std::string layers =
-    "-options_file options/two_layers.yaml -mesh_set nx=12,ny_disc=4,ny_pad=3 -modes_count 60 -quiet -report_fields off"
+    "-options_file options/two_layers.yaml -mesh_set nx=12,ny_disc=4,ny_pad=3 -modes_count 60 "
+    "-quiet -report_fields off"
     " -material_pad_rayleigh_stiffness 0.005 -material_disc_rayleigh_mass 0.005 ";
 
 struct Law {
   std::string name, options;
 };
 /// A coefficient that falls with the speed gives each friction terms of its own.
-const Law constant{"constant", ""},
-    falling{"falling", "-friction_law exponential -friction_static_ratio 1.05 -friction_decay_speed 1 -flutter_track "};
+const Law constant{"constant", ""}, falling{"falling",
+                                            "-friction_law exponential -friction_static_ratio 1.05 "
+                                            "-friction_decay_speed 1 -flutter_track "};
 
 /// The same run on 1 to 3 ranks, which several tests read.
 const ProgramRun& layersOn(int ranks, const Law& law = constant) {
   static std::map<std::string, std::map<int, ProgramRun>> runs;
   if (runs[law.name].empty())
     for (int count : {1, 2, 3})
-      runs[law.name][count] =
-          runProgram("critical/" + law.name + std::to_string(count), count, layers + law.options + "-flutter_friction 0:0.4:0.1");
+      runs[law.name][count] = runProgram("critical/" + law.name + std::to_string(count), count,
+                                         layers + law.options + "-flutter_friction 0:0.4:0.1");
   return runs[law.name].at(ranks);
 }
 
@@ -36,9 +39,11 @@ void expectSameOnAllRanks(const Law& law) {
     ASSERT_EQ(layersOn(ranks, law).exitCode, 0) << layersOn(ranks, law).error;
     const CsvTable table = readCsv(layersOn(ranks, law).folder / "critical.csv");
     EXPECT_EQ(table.header,
-              "active_set,branch,partner,kind,direction,friction,speed,pressure,damping,frequency_hz,slope,"
+              "active_set,branch,partner,kind,direction,friction,speed,pressure,damping,frequency_"
+              "hz,slope,"
               "friction_error_estimate,backward_error,converged");
-    const auto friction = table.column("friction"), estimate = table.column("friction_error_estimate"),
+    const auto friction = table.column("friction"),
+               estimate = table.column("friction_error_estimate"),
                error = table.column("backward_error"), converged = table.column("converged");
     ASSERT_GE(friction.size(), 8U);
     EXPECT_TRUE(std::is_sorted(friction.begin(), friction.end()));
@@ -58,16 +63,18 @@ void expectSameOnAllRanks(const Law& law) {
 TEST(Critical, SameFrictionsOnAllRanks) { expectSameOnAllRanks(constant); }
 TEST(Critical, SameFrictionsWhereTermsBelongToPoints) { expectSameOnAllRanks(falling); }
 
-// At each critical friction the problem on all unknowns has an eigenvalue iω of the frequency listed. Growth rates err by the slope, 0.6 at
-// most, times the tolerance of the friction, 1e-9.
+// At each critical friction the problem on all unknowns has an eigenvalue iω of the frequency
+// listed. Growth rates err by the slope, 0.6 at most, times the tolerance of the friction, 1e-9.
 void expectZeroGrowthOfAllUnknowns(const Law& law) {
   ASSERT_EQ(layersOn(2, law).exitCode, 0);
   const CsvTable table = readCsv(layersOn(2, law).folder / "critical.csv");
   const auto friction = table.column("friction"), hertz = table.column("frequency_hz");
   std::string list;
   for (double f : friction) list += formatted("%s%.17g", list.empty() ? "" : ",", f);
-  const ProgramRun run = runProgram(
-      "critical/direct", 1, layers + law.options + "-flutter_method direct -flutter_direct_count 60 -flutter_friction " + list);
+  const ProgramRun run =
+      runProgram("critical/direct", 1,
+                 layers + law.options +
+                     "-flutter_method direct -flutter_direct_count 60 -flutter_friction " + list);
   ASSERT_EQ(run.exitCode, 0) << run.error;
   const CsvTable full = readCsv(run.folder / "eigenvalues.csv");
   const auto at = full.column("friction");
@@ -81,13 +88,17 @@ void expectZeroGrowthOfAllUnknowns(const Law& law) {
     EXPECT_LT(nearest, 1e-9 * std::abs(wanted)) << "friction " << friction[i];
     worst = std::max(worst, nearest / std::abs(wanted));
   }
-  std::printf("%zu critical frictions: full-order eigenvalues off i omega by %.1e at most\n", friction.size(), worst);
+  std::printf("%zu critical frictions: full-order eigenvalues off i omega by %.1e at most\n",
+              friction.size(), worst);
 }
 
 TEST(Critical, GrowthRatesOfAllUnknownsAreZero) { expectZeroGrowthOfAllUnknowns(constant); }
-TEST(Critical, GrowthRatesAreZeroWhereTermsBelongToPoints) { expectZeroGrowthOfAllUnknowns(falling); }
+TEST(Critical, GrowthRatesAreZeroWhereTermsBelongToPoints) {
+  expectZeroGrowthOfAllUnknowns(falling);
+}
 
-// Damping at friction 0, and a basis of a part of the unknowns: what is said of completeness is what can be said of that.
+// Damping at friction 0, and a basis of a part of the unknowns: what is said of completeness is
+// what can be said of that.
 TEST(Critical, CompletenessOfAPartOfTheSpace) {
   ASSERT_EQ(layersOn(2).exitCode, 0);
   const auto summary = nlohmann::json::parse(contentOf(layersOn(2).folder / "summary.json"));
@@ -100,18 +111,21 @@ TEST(Critical, CompletenessOfAPartOfTheSpace) {
   EXPECT_NE(statement.find("; assumed: the basis holds"), std::string::npos) << statement;
 }
 
-// Each branch is there once at each friction, the swept ones are the eigenvalues of the band, and the number of unstable ones is that of
-// the critical frictions below.
+// Each branch is there once at each friction, the swept ones are the eigenvalues of the band, and
+// the number of unstable ones is that of the critical frictions below.
 void expectBranchesToHoldTheSweep(const Law& law) {
   for (int ranks : {1, 2}) {
     ASSERT_EQ(layersOn(ranks, law).exitCode, 0);
     const fs::path folder = layersOn(ranks, law).folder;
-    const CsvTable table = readCsv(folder / "branches.csv"), listed = readCsv(folder / "eigenvalues.csv");
+    const CsvTable table = readCsv(folder / "branches.csv"),
+                   listed = readCsv(folder / "eigenvalues.csv");
     EXPECT_EQ(table.header,
-              "active_set,branch,friction,speed,pressure,damping,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,"
+              "active_set,branch,friction,speed,pressure,damping,growth_rate_1_per_s,angular_"
+              "frequency_rad_per_s,frequency_hz,"
               "overlap,in_band,swept");
-    const auto branch = table.column("branch"), friction = table.column("friction"), inBand = table.column("in_band"),
-               swept = table.column("swept"), overlap = table.column("overlap"), at = listed.column("friction"),
+    const auto branch = table.column("branch"), friction = table.column("friction"),
+               inBand = table.column("in_band"), swept = table.column("swept"),
+               overlap = table.column("overlap"), at = listed.column("friction"),
                critical = readCsv(folder / "critical.csv").column("friction");
     const auto followed = eigenvaluesOf(table), wanted = eigenvaluesOf(listed);
     std::map<double, std::vector<Complex>> bands, rows;
@@ -133,14 +147,19 @@ void expectBranchesToHoldTheSweep(const Law& law) {
     for (const auto& [f, values] : rows) {
       EXPECT_EQ(bands[f].size(), values.size()) << f;
       EXPECT_LT(worst(errors(values, bands[f]).relative), 1e-8) << f;  // both to -flutter_tolerance
-      const auto unstable = std::count_if(values.begin(), values.end(), [](Complex s) { return s.real() > 1e-6 * std::abs(s); });
-      EXPECT_EQ(unstable, std::count_if(critical.begin(), critical.end(), [&, f = f](double c) { return c < f; })) << f;
+      const auto unstable = std::count_if(values.begin(), values.end(),
+                                          [](Complex s) { return s.real() > 1e-6 * std::abs(s); });
+      EXPECT_EQ(unstable, std::count_if(critical.begin(), critical.end(),
+                                        [&, f = f](double c) { return c < f; }))
+          << f;
     }
   }
 }
 
 TEST(Critical, BranchesHoldTheSweep) { expectBranchesToHoldTheSweep(constant); }
-TEST(Critical, BranchesHoldTheSweepWhereTermsBelongToPoints) { expectBranchesToHoldTheSweep(falling); }
+TEST(Critical, BranchesHoldTheSweepWhereTermsBelongToPoints) {
+  expectBranchesToHoldTheSweep(falling);
+}
 
 }  // namespace
 }  // namespace squeal::test

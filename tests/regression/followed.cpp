@@ -9,9 +9,11 @@
 namespace squeal::test {
 namespace {
 
-const std::string plane = "-mesh_set nx=6,ny_disc=2,ny_pad=2 -modes_count 15 -steady_uniqueness off ";
+const std::string plane =
+    "-mesh_set nx=6,ny_disc=2,ny_pad=2 -modes_count 15 -steady_uniqueness off ";
 /// Anti-plane motion is damped by friction, by the steady forces of each point.
-const std::string slab = "-mesh_set nx=6,ny_disc=2,ny_pad=1,order=1 -modes_count 15 -steady_uniqueness off ";
+const std::string slab =
+    "-mesh_set nx=6,ny_disc=2,ny_pad=1,order=1 -modes_count 15 -steady_uniqueness off ";
 
 struct Rule {
   std::string name, options;
@@ -38,7 +40,8 @@ TEST(Followed, WhichSweepsAre) {
       {"two_layers", plane + "-flutter_friction 0 -flutter_track", false},
       {"two_layers", plane + sweep + "-material_pad_rayleigh_mass 0.01 -flutter_speed 1,2", true},
       {"two_layers", plane + sweep + "-reduction_basis modal -flutter_track", false},
-      {"two_layers", plane + sweep + "-flutter_method direct -flutter_direct_count 10 -flutter_track", false},
+      {"two_layers",
+       plane + sweep + "-flutter_method direct -flutter_direct_count 10 -flutter_track", false},
       // terms that follow the steady state
       {"two_layers", plane + sweep + "-elasticity_prestress on", false},
       {"two_layers", plane + sweep + "-elasticity_prestress on -flutter_track", true},
@@ -60,7 +63,8 @@ TEST(Followed, WhichSweepsAre) {
     for (const auto& line : followed) {
       EXPECT_EQ(sweptStations(line), analysis.sweep.frictions);
       ASSERT_FALSE(line.branches.stations.empty());
-      EXPECT_EQ(line.branches.stations.front().friction, 0);  // where the number of eigenvalues is known
+      EXPECT_EQ(line.branches.stations.front().friction,
+                0);  // where the number of eigenvalues is known
       EXPECT_GT(line.branches.count, 0);
     }
   }

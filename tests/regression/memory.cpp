@@ -13,22 +13,28 @@ struct Limited {
 
 /// The program on a mesh of 53,000 unknowns, each rank with so many addresses.
 ProgramRun runLimited(const Limited& limited) {
-  const std::string name = "memory/np" + std::to_string(limited.ranks) + "_" + std::to_string(limited.megabytes);
+  const std::string name =
+      "memory/np" + std::to_string(limited.ranks) + "_" + std::to_string(limited.megabytes);
   fs::remove_all(placeFor(name));
   const fs::path shell = placeFor(name) / "limited";
-  writeText(shell, "#!/bin/sh\nulimit -v " + std::to_string(1024 * limited.megabytes) + "\nexec '" SQUEAL_EXECUTABLE "' \"$@\"\n");
+  writeText(shell, "#!/bin/sh\nulimit -v " + std::to_string(1024 * limited.megabytes) +
+                       "\nexec '" SQUEAL_EXECUTABLE "' \"$@\"\n");
   fs::permissions(shell, fs::perms::owner_all);
-  return runAgain(name, limited.ranks, "-options_file options/disc_brake.yaml -flutter_friction 0.4 -quiet", 100, shell.string());
+  return runAgain(name, limited.ranks,
+                  "-options_file options/disc_brake.yaml -flutter_friction 0.4 -quiet", 100,
+                  shell.string());
 }
 
-// Libraries take some 400 MB of addresses, the case 1.8 GB on one rank: in between the run ends, by an allocation of PETSc, of the C++
-// library, or of MUMPS. OpenBLAS, which asks for ever, has its 128 MB before anything else.
+// Libraries take some 400 MB of addresses, the case 1.8 GB on one rank: in between the run ends, by
+// an allocation of PETSc, of the C++ library, or of MUMPS. OpenBLAS, which asks for ever, has its
+// 128 MB before anything else.
 TEST(Memory, TooLittleIsToldInOneLine) {
   for (const Limited& limited : {Limited{1, 500, "no more memory"},
                                  {1, 800, "no more memory"},
                                  {1, 1100, "MUMPS got no more memory"},
                                  {2, 800, "no more memory"}}) {
-    SCOPED_TRACE(std::to_string(limited.ranks) + " ranks of " + std::to_string(limited.megabytes) + " MB");
+    SCOPED_TRACE(std::to_string(limited.ranks) + " ranks of " + std::to_string(limited.megabytes) +
+                 " MB");
     const ProgramRun run = runLimited(limited);
     EXPECT_EQ(run.exitCode, 1) << "124: it hangs";
     EXPECT_NE(messageOf(run).find(limited.message), std::string::npos) << run.error.substr(0, 500);

@@ -14,8 +14,9 @@ namespace {
 // The case as it stands in options/, on a coarser mesh with fewer modes.
 const std::string layer = "-options_file options/layer.yaml -mesh_set nx=12,ny=4 -modes_count 21 ";
 const std::string frictions = "-flutter_friction 0.4,0,0.2 ";
-constexpr double period = 3;                                             // m
-constexpr double pressure = 0.01 * (1 - 0.3) / ((1 + 0.3) * (1 - 0.6));  // (λ + 2μ) times the strain, Pa
+constexpr double period = 3;  // m
+constexpr double pressure =
+    0.01 * (1 - 0.3) / ((1 + 0.3) * (1 - 0.6));  // (λ + 2μ) times the strain, Pa
 
 /// One run that several tests read.
 const ProgramRun& layerRun() {
@@ -27,17 +28,22 @@ TEST(Outputs, Eigenvalues) {
   ASSERT_EQ(layerRun().exitCode, 0) << layerRun().error;
   const CsvTable table = readCsv(layerRun().folder / "eigenvalues.csv");
   EXPECT_EQ(table.header,
-            "friction,speed,pressure,damping,mode,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,damping_ratio,"
+            "friction,speed,pressure,damping,mode,growth_rate_1_per_s,angular_frequency_rad_per_s,"
+            "frequency_hz,damping_ratio,"
             "backward_error,error_estimate,certified");
-  const auto friction = table.column("friction"), mode = table.column("mode"), growth = table.column("growth_rate_1_per_s"),
-             angular = table.column("angular_frequency_rad_per_s"), frequency = table.column("frequency_hz"),
-             damping = table.column("damping_ratio"), error = table.column("backward_error");
+  const auto friction = table.column("friction"), mode = table.column("mode"),
+             growth = table.column("growth_rate_1_per_s"),
+             angular = table.column("angular_frequency_rad_per_s"),
+             frequency = table.column("frequency_hz"), damping = table.column("damping_ratio"),
+             error = table.column("backward_error");
   const auto estimate = table.column("error_estimate"), certified = table.column("certified");
   const auto band = findingsOf(layerRun()).bandTop;
-  EXPECT_TRUE(std::is_sorted(friction.begin(), friction.end())) << "begins with friction " << friction[0];
+  EXPECT_TRUE(std::is_sorted(friction.begin(), friction.end()))
+      << "begins with friction " << friction[0];
   EXPECT_EQ(friction.front(), 0);
   EXPECT_EQ(friction.back(), 0.4);
-  // The band ends between two of the 21 modes, a little above 0.55 of them; without friction it holds the modes below.
+  // The band ends between two of the 21 modes, a little above 0.55 of them; without friction it
+  // holds the modes below.
   const auto free = readCsv(layerRun().folder / "modes.csv").column("angular_frequency_rad_per_s");
   const auto below = std::upper_bound(free.begin(), free.end(), band.at(0)) - free.begin();
   EXPECT_GE(below, 11);
@@ -61,13 +67,16 @@ TEST(Outputs, Eigenvalues) {
 
 // The map says of each point what can be read from the eigenvalues of its band.
 TEST(Outputs, StabilityMap) {
-  const CsvTable map = readCsv(layerRun().folder / "stability_map.csv"), all = readCsv(layerRun().folder / "eigenvalues.csv");
+  const CsvTable map = readCsv(layerRun().folder / "stability_map.csv"),
+                 all = readCsv(layerRun().folder / "eigenvalues.csv");
   EXPECT_EQ(map.header,
-            "friction,speed,pressure,damping,unstable_modes,largest_growth_rate_1_per_s,frequency_hz,worst_backward_error,"
+            "friction,speed,pressure,damping,unstable_modes,largest_growth_rate_1_per_s,frequency_"
+            "hz,worst_backward_error,"
             "worst_error_estimate");
   EXPECT_EQ(map.column("friction"), (std::vector<double>{0, 0.2, 0.4}));
   const auto friction = all.column("friction"), growth = all.column("growth_rate_1_per_s"),
-             angular = all.column("angular_frequency_rad_per_s"), error = all.column("backward_error");
+             angular = all.column("angular_frequency_rad_per_s"),
+             error = all.column("backward_error");
   for (std::size_t row = 0; row < map.rows.size(); ++row) {
     double unstable = 0, largest = -INFINITY, frequency = 0, worst = 0;
     for (std::size_t i = 0; i < friction.size(); ++i) {
@@ -92,8 +101,10 @@ TEST(Outputs, Modes) {
   ASSERT_EQ(mode.size(), 21U);
   EXPECT_TRUE(std::is_sorted(angular.begin(), angular.end()));
   const auto eigenvalues = readCsv(layerRun().folder / "eigenvalues.csv");
-  const auto friction = eigenvalues.column("friction"), without = eigenvalues.column("frequency_hz");
-  const auto first = static_cast<std::size_t>(std::find(friction.begin(), friction.end(), 0.0) - friction.begin());
+  const auto friction = eigenvalues.column("friction"),
+             without = eigenvalues.column("frequency_hz");
+  const auto first =
+      static_cast<std::size_t>(std::find(friction.begin(), friction.end(), 0.0) - friction.begin());
   const auto listed = static_cast<std::size_t>(std::count(friction.begin(), friction.end(), 0.0));
   EXPECT_GE(listed, 11U);
   for (std::size_t i = 0; i < mode.size(); ++i) {
@@ -102,7 +113,8 @@ TEST(Outputs, Modes) {
     EXPECT_GT(angular[i], 0);
     EXPECT_LT(residual[i], 1e-6);
     if (i >= listed) continue;
-    EXPECT_NEAR(without.at(first + i), frequency[i], 1e-10 * frequency[i]);  // without friction the free modes are the answer
+    EXPECT_NEAR(without.at(first + i), frequency[i],
+                1e-10 * frequency[i]);  // without friction the free modes are the answer
   }
 }
 
@@ -111,9 +123,10 @@ TEST(Outputs, SteadyTables) {
     SCOPED_TRACE("friction " + shortest(friction));
     const CsvTable table = readCsv(layerRun().folder / ("steady_" + shortest(friction) + ".csv"));
     EXPECT_EQ(table.header,
-              "x_m,y_m,z_m,gap_m,normal_force_n,pressure_pa,friction_force_x_n,friction_force_y_n,friction_force_z_n,interface");
-    const auto gap = table.column("gap_m"), normal = table.column("normal_force_n"), local = table.column("pressure_pa"),
-               along = table.column("friction_force_x_n");
+              "x_m,y_m,z_m,gap_m,normal_force_n,pressure_pa,friction_force_x_n,friction_force_y_n,"
+              "friction_force_z_n,interface");
+    const auto gap = table.column("gap_m"), normal = table.column("normal_force_n"),
+               local = table.column("pressure_pa"), along = table.column("friction_force_x_n");
     ASSERT_EQ(gap.size(), 12U);
     for (std::size_t i = 0; i < gap.size(); ++i) {
       EXPECT_EQ(table.rows[i].back(), "plate");
@@ -121,24 +134,32 @@ TEST(Outputs, SteadyTables) {
       EXPECT_NEAR(local[i], pressure, 1e-10 * pressure);  // uniform strain: in the elements' space
       EXPECT_NEAR(along[i], friction * normal[i], 1e-12 * pressure);
     }
-    EXPECT_NEAR(std::accumulate(normal.begin(), normal.end(), 0.0), pressure * period, 1e-10 * pressure * period);
+    EXPECT_NEAR(std::accumulate(normal.begin(), normal.end(), 0.0), pressure * period,
+                1e-10 * pressure * period);
   }
 }
 
 // The same balance where the pressure is given: pad held along x alone.
 TEST(Outputs, ContactCarriesTheLoad) {
-  const ProgramRun run = runProgram("outputs/loaded", 2,
-                                    "-options_file options/two_layers.yaml -mesh_set nx=12,ny_disc=4,ny_pad=3 -modes_count 5 "
-                                    "-flutter_friction 0.3 -quiet -report_fields off"
-                                    " -constraint_pad_top_clamped x -load_pad_top_pressure 0.02");
+  const ProgramRun run = runProgram(
+      "outputs/loaded", 2,
+      "-options_file options/two_layers.yaml -mesh_set nx=12,ny_disc=4,ny_pad=3 -modes_count 5 "
+      "-flutter_friction 0.3 -quiet -report_fields off"
+      " -constraint_pad_top_clamped x -load_pad_top_pressure 0.02");
   ASSERT_EQ(run.exitCode, 0) << run.error;
   const CsvTable table = readCsv(run.folder / "steady_0.3.csv");
   const auto normal = table.column("normal_force_n"), along = table.column("friction_force_x_n");
-  EXPECT_NEAR(std::accumulate(normal.begin(), normal.end(), 0.0), 0.02 * period, 1e-9 * 0.02 * period);
-  EXPECT_NEAR(std::accumulate(along.begin(), along.end(), 0.0), 0.3 * 0.02 * period, 1e-9 * 0.02 * period);
-  const auto steady = nlohmann::json::parse(contentOf(run.folder / "summary.json")).at("frictions").at(0).at("steady");
+  EXPECT_NEAR(std::accumulate(normal.begin(), normal.end(), 0.0), 0.02 * period,
+              1e-9 * 0.02 * period);
+  EXPECT_NEAR(std::accumulate(along.begin(), along.end(), 0.0), 0.3 * 0.02 * period,
+              1e-9 * 0.02 * period);
+  const auto steady = nlohmann::json::parse(contentOf(run.folder / "summary.json"))
+                          .at("frictions")
+                          .at(0)
+                          .at("steady");
   EXPECT_LT(steady.at("relative_imbalance"), 1e-8);
-  EXPECT_NEAR(steady.at("interfaces").at("interface").at("normal_force_n").at(1).get<double>(), 0.02 * period,
+  EXPECT_NEAR(steady.at("interfaces").at("interface").at("normal_force_n").at(1).get<double>(),
+              0.02 * period,
               1e-9 * 0.02 * period);  // n points to the pad, up
 }
 
@@ -149,11 +170,14 @@ TEST(Outputs, Summary) {
   EXPECT_EQ(summary.at("ranks"), 2);
   EXPECT_EQ(summary.at("nodes"), 13 * 5);
   EXPECT_EQ(summary.at("contact_nodes"), 12);
-  EXPECT_EQ(summary.at("dofs"), 12 * (3 * 2 + 1));  // 12 columns of three free nodes and one on the plate
+  EXPECT_EQ(summary.at("dofs"),
+            12 * (3 * 2 + 1));  // 12 columns of three free nodes and one on the plate
   ASSERT_EQ(summary.at("frictions").size(), 3U);
   const CsvTable table = readCsv(layerRun().folder / "eigenvalues.csv");
-  const auto friction = table.column("friction"), mode = table.column("mode"), growth = table.column("growth_rate_1_per_s"),
-             angular = table.column("angular_frequency_rad_per_s"), estimate = table.column("error_estimate");
+  const auto friction = table.column("friction"), mode = table.column("mode"),
+             growth = table.column("growth_rate_1_per_s"),
+             angular = table.column("angular_frequency_rad_per_s"),
+             estimate = table.column("error_estimate");
   for (const auto& entry : summary.at("frictions")) {
     const auto& steady = entry.at("steady");
     EXPECT_EQ(steady.at("snes_reason").get<std::string>().rfind("CONVERGED", 0), 0U);
@@ -171,27 +195,33 @@ TEST(Outputs, Summary) {
       const auto& listed = entry.at("unstable_modes").at(unstable++);
       EXPECT_EQ(listed.at("mode"), mode[i]);
       EXPECT_NEAR(listed.at("growth_rate_1_per_s").get<double>(), growth[i], 1e-12 * growth[i]);
-      EXPECT_NEAR(listed.at("frequency_hz").get<double>(), angular[i] / (2 * M_PI), 1e-12 * angular[i]);
+      EXPECT_NEAR(listed.at("frequency_hz").get<double>(), angular[i] / (2 * M_PI),
+                  1e-12 * angular[i]);
     }
     EXPECT_EQ(unstable, entry.at("unstable_modes").size());
     EXPECT_EQ(entry.at("uncertified"), 0);
     EXPECT_EQ(entry.at("tolerance_asked"), 1e-8);
-    EXPECT_NEAR(entry.at("worst_error_estimate").get<double>(), worst, 1e-3 * worst);  // four digits in the table
-    EXPECT_EQ(unstable > 0, entry.at("friction") != 0.0);                              // the layer flutters at every friction
+    EXPECT_NEAR(entry.at("worst_error_estimate").get<double>(), worst,
+                1e-3 * worst);                             // four digits in the table
+    EXPECT_EQ(unstable > 0, entry.at("friction") != 0.0);  // the layer flutters at every friction
   }
-  for (const char* stage : {"mesh", "elasticity", "contact", "steady", "modes", "flutter", "report"}) {
+  for (const char* stage :
+       {"mesh", "elasticity", "contact", "steady", "modes", "flutter", "report"}) {
     EXPECT_GE(summary.at("stages").at(stage).at("wall_s"), 0) << stage;
     EXPECT_GT(summary.at("stages").at(stage).at("peak_memory_bytes"), 1e6) << stage;
   }
 }
 
 TEST(Outputs, TerminalTable) {
-  for (const char* stage : {"mesh", "elasticity", "contact", "steady", "modes", "flutter", "report"})
-    EXPECT_NE(("\n" + layerRun().out).find("\n" + std::string(stage) + " "), std::string::npos) << stage;
+  for (const char* stage :
+       {"mesh", "elasticity", "contact", "steady", "modes", "flutter", "report"})
+    EXPECT_NE(("\n" + layerRun().out).find("\n" + std::string(stage) + " "), std::string::npos)
+        << stage;
   const auto begin = layerRun().out.find("friction  unstable modes");
   ASSERT_NE(begin, std::string::npos) << layerRun().out;
   const auto zero = layerRun().out.find("\n       0  none: steady sliding is stable", begin),
-             low = layerRun().out.find("\n     0.2  ", begin), high = layerRun().out.find("\n     0.4  ", begin);
+             low = layerRun().out.find("\n     0.2  ", begin),
+             high = layerRun().out.find("\n     0.4  ", begin);
   ASSERT_NE(zero, std::string::npos) << layerRun().out;
   ASSERT_NE(low, std::string::npos);
   ASSERT_NE(high, std::string::npos);
@@ -202,7 +232,8 @@ std::vector<std::string> matches(const fs::path& file, const std::string& patter
   const std::string text = contentOf(file);
   std::vector<std::string> found;
   const std::regex expression(pattern);
-  for (std::sregex_iterator match(text.begin(), text.end(), expression), end; match != end; ++match) found.push_back((*match)[1]);
+  for (std::sregex_iterator match(text.begin(), text.end(), expression), end; match != end; ++match)
+    found.push_back((*match)[1]);
   return found;
 }
 
@@ -226,20 +257,24 @@ TEST(Outputs, FieldsForParaView) {
       ++grids;
       const auto pieces = matches(entry.path(), "Source=\"([^\"]+)\"");
       EXPECT_EQ(pieces.size(), 2U) << entry.path();  // ranks
-      for (const auto& piece : pieces) EXPECT_TRUE(fs::exists(entry.path().parent_path() / piece)) << piece;
+      for (const auto& piece : pieces)
+        EXPECT_TRUE(fs::exists(entry.path().parent_path() / piece)) << piece;
     }
   EXPECT_EQ(steady.size(), 3U);
   EXPECT_GE(collections, 2);  // steady states, one mode in motion
   EXPECT_GE(grids, 3 + 1 + 2 + 16);
-  for (const char* name : {"steady_friction_0.4.pvtu", "modes_from_friction_0.pvtu", "complex_modes_friction_0.2.pvtu"})
+  for (const char* name : {"steady_friction_0.4.pvtu", "modes_from_friction_0.pvtu",
+                           "complex_modes_friction_0.2.pvtu"})
     EXPECT_TRUE(fs::exists(vtk / name)) << name;
 }
 
 TEST(Outputs, Hdf5) {
-  const hid_t file = H5Fopen((layerRun().folder / "results.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const hid_t file =
+      H5Fopen((layerRun().folder / "results.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   ASSERT_GE(file, 0);
-  for (const char* name : {"/mesh", "/mesh/coordinates", "/steady", "/steady/friction_0.4", "/steady/friction_0.4/displacement",
-                           "/modes", "/modes/active_set_1", "/modes/active_set_1/frequencies", "/flutter", "/flutter/friction_0.2",
+  for (const char* name : {"/mesh", "/mesh/coordinates", "/steady", "/steady/friction_0.4",
+                           "/steady/friction_0.4/displacement", "/modes", "/modes/active_set_1",
+                           "/modes/active_set_1/frequencies", "/flutter", "/flutter/friction_0.2",
                            "/flutter/friction_0.2/eigenvalues"})
     EXPECT_GT(H5Lexists(file, name, H5P_DEFAULT), 0) << name;
   H5Fclose(file);
@@ -248,9 +283,10 @@ TEST(Outputs, Hdf5) {
 // --- the recipe ---
 
 TEST(Outputs, RecipeRepeatsTheRun) {
-  const ProgramRun layers = runProgram("outputs/two_layers", 2,
-                                       "-options_file options/two_layers.yaml -mesh_set nx=12,ny_disc=4,ny_pad=3 -modes_count 21 "
-                                       "-flutter_friction 0.1:0.5:0.2 -report_fields off");
+  const ProgramRun layers = runProgram(
+      "outputs/two_layers", 2,
+      "-options_file options/two_layers.yaml -mesh_set nx=12,ny_disc=4,ny_pad=3 -modes_count 21 "
+      "-flutter_friction 0.1:0.5:0.2 -report_fields off");
   ASSERT_EQ(layers.exitCode, 0) << layers.error;
   for (const ProgramRun* run : {&layerRun(), &layers}) {
     SCOPED_TRACE(run->folder.string());
@@ -259,26 +295,29 @@ TEST(Outputs, RecipeRepeatsTheRun) {
     EXPECT_EQ(again.exitCode, 0) << again.error;
     if (again.exitCode != 0) continue;
     // Not to the letter: on two ranks MUMPS adds in the order in which messages arrive.
-    const auto first = readCsv(run->folder / "eigenvalues.csv"), second = readCsv(again.folder / "eigenvalues.csv");
+    const auto first = readCsv(run->folder / "eigenvalues.csv"),
+               second = readCsv(again.folder / "eigenvalues.csv");
     const auto size = first.column("angular_frequency_rad_per_s");
     for (const char* column : {"friction", "growth_rate_1_per_s", "angular_frequency_rad_per_s"}) {
       const auto a = first.column(column), b = second.column(column);
       ASSERT_EQ(a.size(), b.size());
-      for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-9 * size[i]) << column << " of row " << i;
+      for (std::size_t i = 0; i < a.size(); ++i)
+        EXPECT_NEAR(a[i], b[i], 1e-9 * size[i]) << column << " of row " << i;
     }
     EXPECT_EQ(contentOf(again.folder / "options.txt"), contentOf(recipe));
   }
 }
 
 TEST(Outputs, RecipeHoldsEveryOption) {
-  const ProgramRun run = runProgram("outputs/recipe_solver", 1,
-                                    layer +
-                                        "-flutter_friction 0.4 -modes_eps_ncv 60 -steady_snes_max_it 7 -report_fields off "
-                                        "-report_frames 8 -modes_benchmark -quiet");
+  const ProgramRun run = runProgram(
+      "outputs/recipe_solver", 1,
+      layer +
+          "-flutter_friction 0.4 -modes_eps_ncv 60 -steady_snes_max_it 7 -report_fields off "
+          "-report_frames 8 -modes_benchmark -quiet");
   ASSERT_EQ(run.exitCode, 0) << run.error;
   const std::string recipe = contentOf(run.folder / "options.txt");
-  for (const char* line : {"-modes_eps_ncv 60\n", "-steady_snes_max_it 7\n", "-report_fields off\n", "-report_frames 8\n",
-                           "-mesh_set nx=12,ny=4\n", "-modes_count 21\n"})
+  for (const char* line : {"-modes_eps_ncv 60\n", "-steady_snes_max_it 7\n", "-report_fields off\n",
+                           "-report_frames 8\n", "-mesh_set nx=12,ny=4\n", "-modes_count 21\n"})
     EXPECT_NE(recipe.find(line), std::string::npos) << line;
   EXPECT_NE(recipe.find("\n-modes_benchmark"), std::string::npos);
   EXPECT_EQ(recipe.find("\n-modes_benchmark off"), std::string::npos);
@@ -288,12 +327,14 @@ TEST(Outputs, RecipeHoldsEveryOption) {
 
 TEST(Outputs, CommandLineOverridesTheFile) {
   const ProgramRun run =
-      runProgram("outputs/override", 1, layer + "-flutter_friction 0.1 -material_layer_young 4 -quiet -report_fields off");
+      runProgram("outputs/override", 1,
+                 layer + "-flutter_friction 0.1 -material_layer_young 4 -quiet -report_fields off");
   ASSERT_EQ(run.exitCode, 0) << run.error;
   const auto modes = readCsv(run.folder / "modes.csv").column("frequency_hz"),
              before = readCsv(layerRun().folder / "modes.csv").column("frequency_hz");
-  ASSERT_EQ(modes.size(), 21U);                                                                          // the file says 200
-  for (std::size_t i = 0; i < modes.size(); ++i) EXPECT_NEAR(modes[i], 2 * before[i], 1e-9 * modes[i]);  // stiffness times 4
+  ASSERT_EQ(modes.size(), 21U);  // the file says 200
+  for (std::size_t i = 0; i < modes.size(); ++i)
+    EXPECT_NEAR(modes[i], 2 * before[i], 1e-9 * modes[i]);  // stiffness times 4
   const auto friction = readCsv(run.folder / "eigenvalues.csv").column("friction");
   EXPECT_EQ(std::count(friction.begin(), friction.end(), 0.1), static_cast<long>(friction.size()));
 }
@@ -310,11 +351,15 @@ TEST(Outputs, Help) {
     for (const auto* option : Option::all()) {
       const auto line = run.out.find("\n  -" + option->name + " ");
       EXPECT_NE(line, std::string::npos) << option->name;
-      EXPECT_EQ(run.out.find("\n  -" + option->name + " ", line + 1), std::string::npos) << option->name << " twice";
+      EXPECT_EQ(run.out.find("\n  -" + option->name + " ", line + 1), std::string::npos)
+          << option->name << " twice";
       const std::string text = run.out.substr(line + 1, run.out.find('\n', line + 1) - line - 1);
       EXPECT_NE(text.find(option->meaning), std::string::npos) << text;
-      EXPECT_NE(text.find("[" + option->unit + "]"), option->unit.empty() ? 0 : std::string::npos) << text;
-      EXPECT_TRUE(text.find("(default ") != std::string::npos || text.find("(required") != std::string::npos) << text;
+      EXPECT_NE(text.find("[" + option->unit + "]"), option->unit.empty() ? 0 : std::string::npos)
+          << text;
+      EXPECT_TRUE(text.find("(default ") != std::string::npos ||
+                  text.find("(required") != std::string::npos)
+          << text;
     }
     for (const auto* solver : SolverPrefix::all())
       EXPECT_NE(run.out.find("-" + solver->prefix + "*"), std::string::npos) << solver->prefix;
@@ -331,8 +376,9 @@ TEST(Outputs, Quiet) {
 
 // The direct method has no free modes: their file and fields are left out, the rest is there.
 TEST(Outputs, DirectMethod) {
-  const ProgramRun run =
-      runProgram("outputs/direct", 2, layer + "-flutter_friction 0.4 -quiet -flutter_method direct -flutter_direct_count 10");
+  const ProgramRun run = runProgram(
+      "outputs/direct", 2,
+      layer + "-flutter_friction 0.4 -quiet -flutter_method direct -flutter_direct_count 10");
   ASSERT_EQ(run.exitCode, 0) << run.error;
   EXPECT_FALSE(fs::exists(run.folder / "modes.csv"));
   EXPECT_EQ(nlohmann::json::parse(contentOf(run.folder / "summary.json")).at("method"), "direct");
@@ -347,11 +393,12 @@ TEST(Outputs, SharedInterfaceNodesGiveTheSameResults) {
   std::vector<Findings> findings;
   for (const char* shared : {"0", "1"}) {
     // 25 modes: a whole number of the pairs that periodicity makes
-    const ProgramRun run = runProgram(
-        std::string("outputs/shared_") + shared, 2,
-        std::string("-options_file options/two_layers.yaml -modes_count 25 -flutter_friction 0,0.3 -quiet -report_fields off"
-                    " -mesh_set nx=12,ny_disc=4,ny_pad=3,shared=") +
-            shared);
+    const ProgramRun run =
+        runProgram(std::string("outputs/shared_") + shared, 2,
+                   std::string("-options_file options/two_layers.yaml -modes_count 25 "
+                               "-flutter_friction 0,0.3 -quiet -report_fields off"
+                               " -mesh_set nx=12,ny_disc=4,ny_pad=3,shared=") +
+                       shared);
     ASSERT_EQ(run.exitCode, 0) << run.error;
     findings.push_back(findingsOf(run));
   }

@@ -5,7 +5,10 @@ namespace squeal::test {
 namespace {
 
 TEST(Ranks, DiscBrake) {
-  expectSameOnAllRanks("disc_brake", "-options_file options/disc_brake.yaml -modes_count 200 -flutter_friction 0,0.2,0.4,0.6", 600);
+  expectSameOnAllRanks(
+      "disc_brake",
+      "-options_file options/disc_brake.yaml -modes_count 200 -flutter_friction 0,0.2,0.4,0.6",
+      600);
 }
 
 }  // namespace

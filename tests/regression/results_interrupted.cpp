@@ -1,4 +1,5 @@
-// Every way to end a run at five moments of it: the earlier results stay as they were, no process is left, the next run works.
+// Every way to end a run at five moments of it: the earlier results stay as they were, no process
+// is left, the next run works.
 #include "support/disc.hpp"
 
 namespace squeal::test {
@@ -7,7 +8,8 @@ namespace {
 constexpr std::array<const char*, 5> moments{"mesh", "elasticity", "steady", "modes", "report"};
 
 void expectKeptAtAllMoments(const std::string& name, int signal, int rank) {
-  for (const char* moment : moments) expectKept({(name + "_at_" + moment).c_str(), signal, rank, moment});
+  for (const char* moment : moments)
+    expectKept({(name + "_at_" + moment).c_str(), signal, rank, moment});
 }
 
 TEST(ResultsInterrupted, KillOfRank0) { expectKeptAtAllMoments("kill_0", SIGKILL, 0); }
@@ -19,10 +21,13 @@ TEST(ResultsInterrupted, HangUp) { expectKeptAtAllMoments("hang_up", SIGHUP, 0);
 
 TEST(ResultsInterrupted, FullDisc) {
   for (const char* moment : moments)
-    for (int rank : {0, 1}) expectLimitExplained({(std::string(moment) + "_" + std::to_string(rank)).c_str(), moment, rank, 0, ""});
+    for (int rank : {0, 1})
+      expectLimitExplained(
+          {(std::string(moment) + "_" + std::to_string(rank)).c_str(), moment, rank, 0, ""});
   if (!canMount()) GTEST_SKIP() << "a file system cannot be mounted here (unshare --mount)";
   for (int ranks : {1, 2, 3})
-    for (double fraction : {0.02, 0.2, 0.4, 0.6, 0.8, 0.99}) expectFullDiscExplained(ranks, fraction);
+    for (double fraction : {0.02, 0.2, 0.4, 0.6, 0.8, 0.99})
+      expectFullDiscExplained(ranks, fraction);
 }
 
 }  // namespace

@@ -14,22 +14,25 @@ TEST(ResultsKept, WhenARunFails) {
       {"mistyped", with(layer, {{"flutter_frictions", "0.2"}})},
       {"value", with(layer, {{"material_layer_density", "-1"}})},
       {"no_mesh", with(layer, {{"mesh_file", "meshes/nosuch.geo"}})},
-      {"late", with(layer, {{"modes_count", "100000"}})}};  // known when the mesh is read and assembled
+      {"late",
+       with(layer, {{"modes_count", "100000"}})}};  // known when the mesh is read and assembled
   std::vector<std::future<void>> runs;
   const Files before = filesIn(earlierResults());
   for (const auto& [name, options] : failing)
-    runs.push_back(std::async(std::launch::async, [&, name = placeOf("failing_" + name), options = options] {
-      const fs::path folder = copyOfEarlier(name);
-      const ProgramRun run = runAgain(name, 2, commandLine(options), 60);
-      EXPECT_EQ(run.exitCode, 1) << name << run.error;
-      EXPECT_EQ(differing(before, filesIn(folder)), none) << name;
-    }));
+    runs.push_back(
+        std::async(std::launch::async, [&, name = placeOf("failing_" + name), options = options] {
+          const fs::path folder = copyOfEarlier(name);
+          const ProgramRun run = runAgain(name, 2, commandLine(options), 60);
+          EXPECT_EQ(run.exitCode, 1) << name << run.error;
+          EXPECT_EQ(differing(before, filesIn(folder)), none) << name;
+        }));
   for (auto& run : runs) run.get();
 }
 
 TEST(ResultsKept, NoFolderIsMadeForARunThatFails) {
   const std::string name = placeOf("none");
-  const ProgramRun run = runProgram(name, 2, commandLine(with(layer, {{"modes_count", "100000"}})), 60);
+  const ProgramRun run =
+      runProgram(name, 2, commandLine(with(layer, {{"modes_count", "100000"}})), 60);
   EXPECT_EQ(run.exitCode, 1);
   EXPECT_FALSE(fs::exists(run.folder));
 }
@@ -55,15 +58,18 @@ TEST(ResultsKept, ReplacedByExactlyThoseOfTheNewRun) {
   EXPECT_EQ(listed(folder).size(), filesIn(folder).size() - mine.size());
 }
 
-// Version 0.1.0 kept no manifest. Its results are known by summary.json and options.txt, its files by the names it documents.
+// Version 0.1.0 kept no manifest. Its results are known by summary.json and options.txt, its files
+// by the names it documents.
 TEST(ResultsKept, OfTheVersionWithoutManifest) {
   const std::string name = placeOf("former");
   const fs::path folder = copyOfEarlier(name);
   fs::remove(folder / "manifest.txt");
   put(folder, {{"stability.png", "plot"}, {"stability_map.png", "plot"}});
-  const Files more{{"steady_0.25.csv", "mine"}, {"vtk/steady_friction_0.25.pvtu", "mine"}};  // no point of that run
+  const Files more{{"steady_0.25.csv", "mine"},
+                   {"vtk/steady_friction_0.25.pvtu", "mine"}};  // no point of that run
   put(folder, more);
-  const ProgramRun run = runAgain(name, 1, commandLine(with(layer, {{"flutter_friction", "0.1"}})), 60);
+  const ProgramRun run =
+      runAgain(name, 1, commandLine(with(layer, {{"flutter_friction", "0.1"}})), 60);
   ASSERT_EQ(run.exitCode, 0) << run.error;
   Files all = mine;
   all.insert(more.begin(), more.end());
@@ -72,10 +78,12 @@ TEST(ResultsKept, OfTheVersionWithoutManifest) {
   EXPECT_FALSE(fs::exists(folder / "stability.png"));
 }
 
-// What has the name of a result and is of no run: an error before work begins, which a line of the stage would show.
+// What has the name of a result and is of no run: an error before work begins, which a line of the
+// stage would show.
 TEST(ResultsKept, NothingOfTheUserIsOverwritten) {
   std::vector<std::future<void>> runs;
-  for (const std::string file : {"options.txt", "vtk/mine.vtu", "steady_0.2.csv", "results.h5/mine", "summary.json"})
+  for (const std::string file :
+       {"options.txt", "vtk/mine.vtu", "steady_0.2.csv", "results.h5/mine", "summary.json"})
     runs.push_back(std::async(std::launch::async, [file] {
       const std::string name = placeOf("in_the_way_" + fs::path(file).begin()->string());
       fs::remove_all(placeFor(name));
@@ -84,7 +92,9 @@ TEST(ResultsKept, NothingOfTheUserIsOverwritten) {
       EXPECT_EQ(run.exitCode, 1) << file;
       const std::string message = messageOf(run);
       EXPECT_NE(message.find("option -report_dir: "), std::string::npos) << run.error;
-      EXPECT_NE(message.find((run.folder / *fs::path(file).begin()).string() + " is in the way"), std::string::npos) << run.error;
+      EXPECT_NE(message.find((run.folder / *fs::path(file).begin()).string() + " is in the way"),
+                std::string::npos)
+          << run.error;
       EXPECT_EQ(run.out, "") << file;
       EXPECT_EQ(filesIn(run.folder), (Files{{file, "mine"}}));
     }));
@@ -100,11 +110,14 @@ TEST(ResultsKept, OneRunAtATimeInAFolder) {
   ASSERT_TRUE(one.printed("elasticity"));
   fs::create_directories(placeFor(placeOf("second")));
   const fs::path error = placeFor(placeOf("second")) / "stderr.txt";
-  const std::string command = "cd '" SQUEAL_SOURCE_DIR "' && '" SQUEAL_MPIEXEC "' 2 '" SQUEAL_EXECUTABLE "' " + commandLine(layer) +
-                              " -report_dir '" + folder.string() + "/../results' 2>'" + error.string() + "'";
+  const std::string command = "cd '" SQUEAL_SOURCE_DIR "' && '" SQUEAL_MPIEXEC
+                              "' 2 '" SQUEAL_EXECUTABLE "' " +
+                              commandLine(layer) + " -report_dir '" + folder.string() +
+                              "/../results' 2>'" + error.string() + "'";
   const int status = std::system(command.c_str());
   EXPECT_EQ(WEXITSTATUS(status), 1);
-  EXPECT_NE(contentOf(error).find("squeal: error: option -report_dir: another run is writing to "), std::string::npos)
+  EXPECT_NE(contentOf(error).find("squeal: error: option -report_dir: another run is writing to "),
+            std::string::npos)
       << contentOf(error);
   const ProgramRun run = one.finished();
   EXPECT_EQ(run.exitCode, 0) << run.error;
@@ -116,8 +129,10 @@ TEST(ResultsKept, OneRunAtATimeInAFolder) {
 TEST(ResultsKept, WhenARunIsEnded) {
   earlierResults();
   std::vector<std::future<void>> runs;
-  for (const Ending& ending : {Ending{"kill_rank_0", SIGKILL, 0, "report"}, Ending{"kill_rank_1", SIGKILL, 1, "elasticity"},
-                               Ending{"terminate", SIGTERM, -1, "modes"}, Ending{"interrupt", SIGINT, -1, "report"}})
+  for (const Ending& ending :
+       {Ending{"kill_rank_0", SIGKILL, 0, "report"},
+        Ending{"kill_rank_1", SIGKILL, 1, "elasticity"}, Ending{"terminate", SIGTERM, -1, "modes"},
+        Ending{"interrupt", SIGINT, -1, "report"}})
     runs.push_back(std::async(std::launch::async, expectKept, ending));
   for (auto& run : runs) run.get();
 }

@@ -9,15 +9,19 @@
 namespace squeal::test {
 namespace {
 
-/// The coarse disc brake at ω with all that depends on the speed: convective terms, a friction law, friction-induced damping and
-/// centrifugal load.
+/// The coarse disc brake at ω with all that depends on the speed: convective terms, a friction law,
+/// friction-induced damping and centrifugal load.
 analysis::Analysis at(double omega, double factor) {
   return runCase(
       "disc_brake",
-      "-mesh_set n_pad_theta=8,n_free_theta=12,n_mount=2,n_plate=1,n_inside=1,n_pad_r=4,n_hat=2,n_h_ring=2 "
-      "-motion_convective on -load_centrifugal on -friction_law exponential -friction_static_ratio 1.4 "
-      "-friction_decay_speed 5 -flutter_friction 0.2,0.5 -flutter_accuracy 1e-11 -modes_count 40 -steady_uniqueness off " +
-          formatted("-motion_disc_speed %.17g -motion_hat_speed %.17g -flutter_speed %.17g", omega, omega, factor));
+      "-mesh_set "
+      "n_pad_theta=8,n_free_theta=12,n_mount=2,n_plate=1,n_inside=1,n_pad_r=4,n_hat=2,n_h_ring=2 "
+      "-motion_convective on -load_centrifugal on -friction_law exponential -friction_static_ratio "
+      "1.4 "
+      "-friction_decay_speed 5 -flutter_friction 0.2,0.5 -flutter_accuracy 1e-11 -modes_count 40 "
+      "-steady_uniqueness off " +
+          formatted("-motion_disc_speed %.17g -motion_hat_speed %.17g -flutter_speed %.17g", omega,
+                    omega, factor));
 }
 
 /// Largest difference of an eigenvalue in the band from that of the other run, relative.
@@ -43,9 +47,11 @@ TEST(Speed, FactorScalesTheMotions) {
       }
     force = largest(force) / largest(forceSize);
     const auto& wanted = fast.segments[0].points[i];
-    const double same = difference(wanted, scaled.segments[0].points[i]), other = difference(wanted, slow.segments[0].points[i]);
+    const double same = difference(wanted, scaled.segments[0].points[i]),
+                 other = difference(wanted, slow.segments[0].points[i]);
     print(
-        "friction %g: %d unstable; friction forces differ by %.1e, eigenvalues by %.1e; from those at a third of the speed by "
+        "friction %g: %d unstable; friction forces differ by %.1e, eigenvalues by %.1e; from those "
+        "at a third of the speed by "
         "%.1e\n",
         wanted.at.friction, wanted.unstableCount(), force, same, other);
     EXPECT_LT(force, 1e-10);

@@ -11,19 +11,22 @@
 namespace squeal::test {
 namespace {
 
-/// The coarse disc brake with all that the parameters act on: convective terms and centrifugal load, a friction law and
-/// friction-induced damping, and every kind of damping of the bodies.
+/// The coarse disc brake with all that the parameters act on: convective terms and centrifugal
+/// load, a friction law and friction-induced damping, and every kind of damping of the bodies.
 analysis::Analysis run(double speed, double pressure, double damping, const std::string& swept) {
-  return runCase("disc_brake_map",
-                 "-friction_law exponential -friction_static_ratio 1.4 -friction_decay_speed 5 -flutter_friction 0.2,0.5 "
-                 "-flutter_accuracy 1e-10 -flutter_band 2000 -modes_count 30 -steady_uniqueness off " +
-                     formatted("-motion_disc_rpm %.17g -motion_hat_rpm %.17g -load_pressed_pressure %.17g ", 100 * speed,
-                               100 * speed, 1e6 * pressure) +
-                     formatted("-material_disc_loss_factor %.17g -material_hat_loss_factor 0 -material_back_plate_loss_factor 0 "
-                               "-material_lining_loss_factor 0 -material_lining_rayleigh_stiffness %.17g "
-                               "-ground_guide_leading_damping %.17g,0,0 -flutter_modal_damping %.17g ",
-                               0.004 * damping, 1e-6 * damping, 50 * damping, 0.001 * damping) +
-                     swept);
+  return runCase(
+      "disc_brake_map",
+      "-friction_law exponential -friction_static_ratio 1.4 -friction_decay_speed 5 "
+      "-flutter_friction 0.2,0.5 "
+      "-flutter_accuracy 1e-10 -flutter_band 2000 -modes_count 30 -steady_uniqueness off " +
+          formatted("-motion_disc_rpm %.17g -motion_hat_rpm %.17g -load_pressed_pressure %.17g ",
+                    100 * speed, 100 * speed, 1e6 * pressure) +
+          formatted("-material_disc_loss_factor %.17g -material_hat_loss_factor 0 "
+                    "-material_back_plate_loss_factor 0 "
+                    "-material_lining_loss_factor 0 -material_lining_rayleigh_stiffness %.17g "
+                    "-ground_guide_leading_damping %.17g,0,0 -flutter_modal_damping %.17g ",
+                    0.004 * damping, 1e-6 * damping, 50 * damping, 0.001 * damping) +
+          swept);
 }
 
 /// Largest difference of an eigenvalue in the band from that of the other run, relative.
@@ -34,18 +37,21 @@ double difference(const pencil::FrictionPoint& one, const pencil::FrictionPoint&
 }
 
 TEST(Sweep, PointsOfTheGridAreRunsOfTheirOwn) {
-  const analysis::Analysis grid = run(1, 1, 1, "-flutter_speed 1,3 -flutter_pressure 1,2 -flutter_damping 1,2");
+  const analysis::Analysis grid =
+      run(1, 1, 1, "-flutter_speed 1,3 -flutter_pressure 1,2 -flutter_damping 1,2");
   EXPECT_EQ(grid.steady.size(), 8U);  // damping does not change them
   const auto points = grid.sweep.points();
   ASSERT_EQ(points.size(), 16U);
   for (const auto& at : points) ASSERT_NE(grid.pointAt(at), nullptr) << sweep::parameterText(at);
-  const analysis::Analysis alone = run(3, 2, 2, "-flutter_speed 1 -flutter_pressure 1 -flutter_damping 1");
+  const analysis::Analysis alone =
+      run(3, 2, 2, "-flutter_speed 1 -flutter_pressure 1 -flutter_damping 1");
   for (const double friction : {0.2, 0.5}) {
     const sweep::Parameters at{friction, 3, 2, 2};
     const auto& wanted = *alone.pointAt({friction, 1, 1, 1});
     const double same = difference(wanted, *grid.pointAt(at));
     print("%s: eigenvalues differ by %.1e\n", sweep::parameterText(at).c_str(), same);
-    EXPECT_LT(same, 1e-7);  // backward errors of 1e-10, times conditions of some tens: 6e-9 measured
+    EXPECT_LT(same,
+              1e-7);  // backward errors of 1e-10, times conditions of some tens: 6e-9 measured
     EXPECT_EQ(wanted.unstableCount(), grid.pointAt(at)->unstableCount());
     for (const auto& parameter : sweep::allParameters) {
       if (parameter.value == &sweep::Parameters::friction) continue;

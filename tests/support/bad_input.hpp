@@ -1,6 +1,6 @@
 #pragma once
-/// Sound cases to make mistakes in, and what is expected of the program then: it says what is wrong, ends on all ranks with exit code 1,
-/// and leaves no results behind.
+/// Sound cases to make mistakes in, and what is expected of the program then: it says what is
+/// wrong, ends on all ranks with exit code 1, and leaves no results behind.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -10,7 +10,8 @@
 
 namespace squeal::test {
 
-// A coarse layer under a rigid plate, and two layers on each other: both run as they stand (see BadInput.BaseCasesAreSound).
+// A coarse layer under a rigid plate, and two layers on each other: both run as they stand (see
+// BadInput.BaseCasesAreSound).
 inline const Options layer{{"mesh_file", "meshes/layer.geo"},
                            {"mesh_set", "nx=6,ny=3"},
                            {"material_layer_young", "1"},
@@ -30,21 +31,27 @@ inline const Options twoLayers{{"options_file", "options/two_layers.yaml"},
                                {"flutter_friction", "0.2"},
                                {"quiet", ""}};
 
-// Two squares, one on the other, in the plane of the layers; the numbers of cells along x and up the sides are free.
-inline std::string squares(const std::string& lowerFace, const std::string& upperFace, const std::string& right = "2") {
-  return "Point(1) = {0, -1, 0}; Point(2) = {1, -1, 0}; Point(3) = {1, 0, 0}; Point(4) = {0, 0, 0};\n"
+// Two squares, one on the other, in the plane of the layers; the numbers of cells along x and up
+// the sides are free.
+inline std::string squares(const std::string& lowerFace, const std::string& upperFace,
+                           const std::string& right = "2") {
+  return "Point(1) = {0, -1, 0}; Point(2) = {1, -1, 0}; Point(3) = {1, 0, 0}; Point(4) = {0, 0, "
+         "0};\n"
          "Point(5) = {0, 0, 0}; Point(6) = {1, 0, 0}; Point(7) = {1, 1, 0}; Point(8) = {0, 1, 0};\n"
          "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};\n"
          "Line(5) = {5, 6}; Line(6) = {6, 7}; Line(7) = {7, 8}; Line(8) = {8, 5};\n"
-         "Curve Loop(1) = {1, 2, 3, 4}; Curve Loop(2) = {5, 6, 7, 8}; Plane Surface(1) = {1}; Plane Surface(2) = {2};\n"
+         "Curve Loop(1) = {1, 2, 3, 4}; Curve Loop(2) = {5, 6, 7, 8}; Plane Surface(1) = {1}; "
+         "Plane Surface(2) = {2};\n"
          "Transfinite Curve {1, 4, 6, 7, 8} = 3; Transfinite Curve {2} = " +
          right +
          " + 1;\n"
          "Transfinite Curve {3} = " +
          lowerFace + " + 1; Transfinite Curve {5} = " + upperFace +
          " + 1;\n"
-         "Physical Curve(\"bottom\") = {1}; Physical Curve(\"right\") = {2}; Physical Curve(\"left\") = {4};\n"
-         "Physical Curve(\"disc_face\") = {3}; Physical Curve(\"pad_face\") = {5}; Physical Curve(\"top\") = {7};\n"
+         "Physical Curve(\"bottom\") = {1}; Physical Curve(\"right\") = {2}; Physical "
+         "Curve(\"left\") = {4};\n"
+         "Physical Curve(\"disc_face\") = {3}; Physical Curve(\"pad_face\") = {5}; Physical "
+         "Curve(\"top\") = {7};\n"
          "Physical Curve(\"pad_right\") = {6}; Physical Curve(\"pad_left\") = {8};\n"
          "Physical Surface(\"disc\") = {1}; Physical Surface(\"pad\") = {2};\n";
 }
@@ -69,7 +76,8 @@ inline Options onSquares(const fs::path& mesh) {
 }
 
 inline Options periodicSquares(const fs::path& mesh) {
-  return with(onSquares(mesh), {{"constraint_right_image_of", "left"}, {"constraint_pad_right_image_of", "pad_left"}});
+  return with(onSquares(mesh), {{"constraint_right_image_of", "left"},
+                                {"constraint_pad_right_image_of", "pad_left"}});
 }
 
 // Two bilinear quadrangles side by side; the nodes of the second run clockwise when it is inverted.
@@ -77,7 +85,8 @@ inline std::string twoQuadrangles(bool inverted) {
   return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
          "$PhysicalNames\n3\n1 1 \"bottom\"\n1 2 \"top\"\n2 3 \"layer\"\n$EndPhysicalNames\n"
          "$Nodes\n6\n1 0 0 0\n2 1 0 0\n3 2 0 0\n4 0 1 0\n5 1 1 0\n6 2 1 0\n$EndNodes\n"
-         "$Elements\n6\n1 1 2 1 1 1 2\n2 1 2 1 1 2 3\n3 1 2 2 2 4 5\n4 1 2 2 2 5 6\n5 3 2 3 1 1 2 5 4\n6 3 2 3 1 " +
+         "$Elements\n6\n1 1 2 1 1 1 2\n2 1 2 1 1 2 3\n3 1 2 2 2 4 5\n4 1 2 2 2 5 6\n5 3 2 3 1 1 2 "
+         "5 4\n6 3 2 3 1 " +
          std::string(inverted ? "2 5 6 3" : "2 3 6 5") + "\n$EndElements\n";
 }
 
@@ -101,7 +110,8 @@ inline std::vector<Outcome> runAll(const std::vector<BadInput>& inputs, int rank
   const auto work = [&] {
     for (std::size_t i = next++; i < outcomes.size(); i = next++) {
       auto& [input, ranks, run] = outcomes[i];
-      run = runProgram("bad_input/" + input->name + "_np" + std::to_string(ranks), ranks, commandLine(input->options), 60);
+      run = runProgram("bad_input/" + input->name + "_np" + std::to_string(ranks), ranks,
+                       commandLine(input->options), 60);
     }
   };
   std::vector<std::future<void>> workers;
@@ -121,15 +131,19 @@ inline std::string messageOf(const ProgramRun& run) {
 /// On 2 ranks, where a message of one rank alone would leave the other waiting.
 inline void expectExplained(const std::vector<BadInput>& inputs, int onRanks = 2) {
   for (const auto& [input, ranks, run] : runAll(inputs, onRanks)) {
-    SCOPED_TRACE(input->name + " on " + std::to_string(ranks) + " ranks; stderr:\n" + run.error.substr(0, 600));
+    SCOPED_TRACE(input->name + " on " + std::to_string(ranks) + " ranks; stderr:\n" +
+                 run.error.substr(0, 600));
     EXPECT_EQ(run.exitCode, 1) << "124: it hangs";
     const std::string message = messageOf(run);
     for (const auto& piece : input->message)
       EXPECT_NE(message.find(piece), std::string::npos) << "missing from the message: " << piece;
-    EXPECT_EQ(run.error.find("squeal: error: ", run.error.find("squeal: error: ") + 1), std::string::npos) << "said more than once";
+    EXPECT_EQ(run.error.find("squeal: error: ", run.error.find("squeal: error: ") + 1),
+              std::string::npos)
+        << "said more than once";
     EXPECT_EQ(run.out, "");
     if (fs::is_directory(run.folder))
-      for (const auto& entry : fs::directory_iterator(run.folder)) ADD_FAILURE() << "left behind: " << entry.path().filename();
+      for (const auto& entry : fs::directory_iterator(run.folder))
+        ADD_FAILURE() << "left behind: " << entry.path().filename();
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-/// Steady sliding judged without the program's own residual: from displacements, the bodies' stiffness and the laws of contact.
+/// Steady sliding judged without the program's own residual: from displacements, the bodies'
+/// stiffness and the laws of contact.
 #include <vector>
 
 #include "analysis/analysis.hpp"
@@ -9,18 +10,21 @@
 
 namespace squeal::test {
 
-/// Violations of the laws of steady sliding over the whole contact, each relative to the largest gap, displacement or force.
+/// Violations of the laws of steady sliding over the whole contact, each relative to the largest
+/// gap, displacement or force.
 struct Violations {
-  double gap = 0;              ///< the solution's gap against the distance of the displaced surfaces
-  double penetration = 0;      ///< −gap
-  double tension = 0;          ///< −R_N
+  double gap = 0;          ///< the solution's gap against the distance of the displaced surfaces
+  double penetration = 0;  ///< −gap
+  double tension = 0;      ///< −R_N
   double complementarity = 0;  ///< gap · R_N
   double coulomb = 0;          ///< |R_T − f R_N V/|V||, V the velocity of the disc
-  double equilibrium = 0;      ///< K u − b less the contact forces, on all components that are not held
+  double equilibrium = 0;  ///< K u − b less the contact forces, on all components that are not held
 };
 
-/// Collective. Meshes without periodic images and with V along +x; `obstacle`: displacement along y of a rigid obstacle.
-inline Violations violations(const analysis::Analysis& analysis, const steady::Solution& solution, double obstacle = 0) {
+/// Collective. Meshes without periodic images and with V along +x; `obstacle`: displacement along y
+/// of a rigid obstacle.
+inline Violations violations(const analysis::Analysis& analysis, const steady::Solution& solution,
+                             double obstacle = 0) {
   const auto& mesh = *analysis.mesh;
   const auto& contact = analysis.contact;
   const auto dimension = static_cast<std::size_t>(mesh.dimension);
@@ -30,7 +34,8 @@ inline Violations violations(const analysis::Analysis& analysis, const steady::S
   check(VecAXPY(rest, -1, analysis.bodies.load));
   double force = 0, length = 0;
   for (const auto& state : solution.contact)
-    force = std::max(force, std::abs(state.normalForce)), length = std::max(length, std::abs(state.gap));
+    force = std::max(force, std::abs(state.normalForce)),
+    length = std::max(length, std::abs(state.gap));
   for (double component : u) length = std::max(length, std::abs(component));
   force = largest(force), length = largest(length);
 
@@ -40,17 +45,24 @@ inline Violations violations(const analysis::Analysis& analysis, const steady::S
     const auto& state = solution.contact[i];
     double distance = node.master < 0 ? -obstacle * node.normal[1] : 0, slip = 0;
     for (std::size_t d = 0; d < dimension; ++d) {
-      const double disc = node.master < 0 ? 0 : u[dimension * static_cast<std::size_t>(node.master) + d];
-      distance += node.normal[d] * (u[dimension * static_cast<std::size_t>(node.globalNode) + d] - disc);
-      slip += std::abs(state.frictionForce[d] - (d == 0 ? solution.at.friction * state.normalForce : 0));
+      const double disc =
+          node.master < 0 ? 0 : u[dimension * static_cast<std::size_t>(node.master) + d];
+      distance +=
+          node.normal[d] * (u[dimension * static_cast<std::size_t>(node.globalNode) + d] - disc);
+      slip += std::abs(state.frictionForce[d] -
+                       (d == 0 ? solution.at.friction * state.normalForce : 0));
       const double onPad = state.normalForce * node.normal[d] + state.frictionForce[d];
-      check(VecSetValue(rest, mesh.dimension * node.globalNode + static_cast<PetscInt>(d), -onPad, ADD_VALUES));
-      if (node.master >= 0) check(VecSetValue(rest, mesh.dimension * node.master + static_cast<PetscInt>(d), onPad, ADD_VALUES));
+      check(VecSetValue(rest, mesh.dimension * node.globalNode + static_cast<PetscInt>(d), -onPad,
+                        ADD_VALUES));
+      if (node.master >= 0)
+        check(VecSetValue(rest, mesh.dimension * node.master + static_cast<PetscInt>(d), onPad,
+                          ADD_VALUES));
     }
     worst.gap = std::max(worst.gap, std::abs(state.gap - distance) / length);
     worst.penetration = std::max(worst.penetration, -state.gap / length);
     worst.tension = std::max(worst.tension, -state.normalForce / force);
-    worst.complementarity = std::max(worst.complementarity, std::abs(state.gap * state.normalForce) / (length * force));
+    worst.complementarity =
+        std::max(worst.complementarity, std::abs(state.gap * state.normalForce) / (length * force));
     worst.coulomb = std::max(worst.coulomb, slip / force);
   }
   check(VecAssemblyBegin(rest));
@@ -61,7 +73,8 @@ inline Violations violations(const analysis::Analysis& analysis, const steady::S
   for (std::size_t row = 0; row < held.size(); ++row)
     if (!held[row]) worst.equilibrium = std::max(worst.equilibrium, std::abs(values[row]) / force);
   check(VecRestoreArrayRead(rest, &values));
-  for (double* value : {&worst.gap, &worst.penetration, &worst.tension, &worst.complementarity, &worst.coulomb, &worst.equilibrium})
+  for (double* value : {&worst.gap, &worst.penetration, &worst.tension, &worst.complementarity,
+                        &worst.coulomb, &worst.equilibrium})
     *value = largest(*value);
   return worst;
 }
@@ -74,14 +87,16 @@ struct Transmitted {
 };
 
 /// Collective.
-inline Transmitted transmitted(const analysis::Analysis& analysis, const steady::Solution& solution) {
+inline Transmitted transmitted(const analysis::Analysis& analysis,
+                               const steady::Solution& solution) {
   Transmitted sums;
   for (std::size_t i = 0; i < solution.contact.size(); ++i) {
     sums.normal += solution.contact[i].normalForce;
     sums.friction += solution.contact[i].frictionForce[0];
     sums.centre += solution.contact[i].normalForce * analysis.contact.nodes[i].position[0];
   }
-  sums.normal = total(sums.normal), sums.friction = total(sums.friction), sums.centre = total(sums.centre) / sums.normal;
+  sums.normal = total(sums.normal), sums.friction = total(sums.friction),
+  sums.centre = total(sums.centre) / sums.normal;
   return sums;
 }
 

@@ -4,22 +4,26 @@
 
 namespace squeal::test {
 
-/// From a stage on, files of a rank cannot grow beyond some bytes: EFBIG, where a full disc gives ENOSPC.
+/// From a stage on, files of a rank cannot grow beyond some bytes: EFBIG, where a full disc gives
+/// ENOSPC.
 struct Limit {
   const char* name;
   const char* stage;
   int rank;
   rlim_t bytes;
-  const char* file;  ///< whose name ends so is the one that cannot be written; it may be any of several
+  const char*
+      file;  ///< whose name ends so is the one that cannot be written; it may be any of several
 };
 
-/// The line of an error, and nothing of the libraries; what else mpirun says of the exit code is its own.
+/// The line of an error, and nothing of the libraries; what else mpirun says of the exit code is
+/// its own.
 inline void expectOneLine(const std::string& error, const std::string& end) {
   const auto begin = error.find("squeal: error: option -report_dir: cannot write ");
   ASSERT_NE(begin, std::string::npos) << error;
   const std::string line = error.substr(begin, error.find('\n', begin) - begin);
   EXPECT_TRUE(line.ends_with(end)) << line;
-  EXPECT_EQ(error.find("squeal: ", begin + 1), std::string::npos) << "said more than once: " << error;
+  EXPECT_EQ(error.find("squeal: ", begin + 1), std::string::npos)
+      << "said more than once: " << error;
   for (const char* trace : {"HDF5-DIAG", "PETSC ERROR", "vtk", "terminate called"})
     EXPECT_EQ(error.find(trace, error.find('\n', begin)), std::string::npos) << error;
 }
@@ -43,7 +47,9 @@ inline void expectLimitExplained(const Limit& limit) {
 inline bool canMount() {
   const fs::path place = placeFor(placeOf("mount"));
   fs::create_directories(place);
-  return std::system(("unshare --mount --map-root-user mount -t tmpfs none '" + place.string() + "' 2>/dev/null").c_str()) == 0;
+  return std::system(("unshare --mount --map-root-user mount -t tmpfs none '" + place.string() +
+                      "' 2>/dev/null")
+                         .c_str()) == 0;
 }
 
 /// Kilobytes that files take on a file system with pages of 4.
@@ -53,23 +59,28 @@ inline std::size_t kilobytes(const Files& files) {
   return sum;
 }
 
-/// A run with its folder on a file system of so many kilobytes, which holds `before`; it is gone with the run.
+/// A run with its folder on a file system of so many kilobytes, which holds `before`; it is gone
+/// with the run.
 struct OnSmallDisc {
   int exitCode = -1;
   std::string error;
   Files after;
 
-  OnSmallDisc(const std::string& name, int ranks, std::size_t size, const fs::path& before, const Options& options) {
+  OnSmallDisc(const std::string& name, int ranks, std::size_t size, const fs::path& before,
+              const Options& options) {
     const fs::path place = placeFor(name);
     fs::remove_all(place);
     for (const char* folder : {"disc", "after"}) fs::create_directories(place / folder);
-    const std::string script = "mount -t tmpfs -o size=" + std::to_string(size) + "k none disc && mkdir disc/results && " +
-                               (before.empty() ? "" : "cp -r '" + before.string() + "'/. disc/results && ") +
-                               "cd disc && ln -s '" SQUEAL_SOURCE_DIR "'/* . && " + "'" SQUEAL_MPIEXEC "' " +
-                               std::to_string(ranks) + " '" SQUEAL_EXECUTABLE "' " + commandLine(options) +
-                               " -report_dir results 2>../stderr.txt >../stdout.txt; code=$?; cp -r results/. ../after; exit $code";
+    const std::string script =
+        "mount -t tmpfs -o size=" + std::to_string(size) + "k none disc && mkdir disc/results && " +
+        (before.empty() ? "" : "cp -r '" + before.string() + "'/. disc/results && ") +
+        "cd disc && ln -s '" SQUEAL_SOURCE_DIR "'/* . && " + "'" SQUEAL_MPIEXEC "' " +
+        std::to_string(ranks) + " '" SQUEAL_EXECUTABLE "' " + commandLine(options) +
+        " -report_dir results 2>../stderr.txt >../stdout.txt; code=$?; cp -r results/. ../after; "
+        "exit $code";
     writeText(place / "run.sh", script);
-    const std::string command = "cd '" + place.string() + "' && timeout -k 5 60 unshare --mount --map-root-user sh ./run.sh";
+    const std::string command = "cd '" + place.string() +
+                                "' && timeout -k 5 60 unshare --mount --map-root-user sh ./run.sh";
     const int status = std::system(command.c_str());
     exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
     error = contentOf(place / "stderr.txt");
@@ -77,7 +88,8 @@ struct OnSmallDisc {
   }
 };
 
-/// Room for this fraction of the new results, whose number of files depends on the ranks, beside the earlier ones.
+/// Room for this fraction of the new results, whose number of files depends on the ranks, beside
+/// the earlier ones.
 inline void expectFullDiscExplained(int ranks, double fraction) {
   const std::string name = placeOf("disc_" + shortest(fraction) + "_np" + std::to_string(ranks));
   SCOPED_TRACE(name);
@@ -85,7 +97,8 @@ inline void expectFullDiscExplained(int ranks, double fraction) {
   ASSERT_EQ(whole.exitCode, 0) << whole.error;
   const Files before = filesIn(earlierResults());
   const double room = fraction * static_cast<double>(kilobytes(filesIn(whole.folder)));
-  const OnSmallDisc run(name, ranks, kilobytes(before) + static_cast<std::size_t>(room) / 4 * 4, earlierResults(), layer);
+  const OnSmallDisc run(name, ranks, kilobytes(before) + static_cast<std::size_t>(room) / 4 * 4,
+                        earlierResults(), layer);
   EXPECT_EQ(run.exitCode, 1) << "124: it hangs";
   expectOneLine(run.error, ": No space left on device");
   EXPECT_EQ(differing(before, run.after), none);

@@ -20,7 +20,8 @@ class Reader {
   }
 
   /// Values and number of columns.
-  std::pair<std::vector<double>, PetscInt> reals(const std::string& group, const std::string& name) {
+  std::pair<std::vector<double>, PetscInt> reals(const std::string& group,
+                                                 const std::string& name) {
     OwnedVec vector;
     check(VecCreate(PETSC_COMM_SELF, vector.out()));
     check(PetscObjectSetName(reinterpret_cast<PetscObject>(vector.get()), name.c_str()));
@@ -37,7 +38,8 @@ class Reader {
     return {copy, columns};
   }
 
-  std::pair<std::vector<PetscInt>, PetscInt> integers(const std::string& group, const std::string& name) {
+  std::pair<std::vector<PetscInt>, PetscInt> integers(const std::string& group,
+                                                      const std::string& name) {
     OwnedIS set;
     check(ISCreate(PETSC_COMM_SELF, set.out()));
     check(PetscObjectSetName(reinterpret_cast<PetscObject>(set.get()), name.c_str()));
@@ -57,7 +59,8 @@ class Reader {
   template <class Value>
   Value attribute(const std::string& object, const std::string& name, PetscDataType type) {
     Value value{};
-    check(PetscViewerHDF5ReadAttribute(viewer_, object.c_str(), name.c_str(), type, nullptr, &value));
+    check(
+        PetscViewerHDF5ReadAttribute(viewer_, object.c_str(), name.c_str(), type, nullptr, &value));
     return value;
   }
 

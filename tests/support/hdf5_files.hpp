@@ -20,9 +20,12 @@ class Hdf5File {
   Hdf5File(const Hdf5File&) = delete;
   Hdf5File& operator=(const Hdf5File&) = delete;
 
-  void group(const std::string& name) const { H5Gclose(H5Gcreate2(id_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT)); }
+  void group(const std::string& name) const {
+    H5Gclose(H5Gcreate2(id_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+  }
 
-  /// `values` null: nothing is written; `chunk`: none, or one number per dimension; `external`: a file of that name holds the values.
+  /// `values` null: nothing is written; `chunk`: none, or one number per dimension; `external`: a
+  /// file of that name holds the values.
   void dataset(const std::string& name, hid_t type, const void* values, std::vector<hsize_t> shape,
                const std::vector<hsize_t>& chunk = {}, const char* external = nullptr) const {
     const hid_t space = H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr);
@@ -59,16 +62,19 @@ class Hdf5File {
   void textDataset(const std::string& name, const std::string& value) const {
     const hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
     H5Tset_size(type, value.size());
-    const hid_t set = H5Dcreate2(id_, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t set =
+        H5Dcreate2(id_, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
     H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value.data());
     H5Dclose(set);
     H5Sclose(space);
     H5Tclose(type);
   }
   /// An attribute of a single value.
-  void number(const std::string& object, const std::string& name, hid_t type, const void* value) const {
+  void number(const std::string& object, const std::string& name, hid_t type,
+              const void* value) const {
     const hid_t space = H5Screate(H5S_SCALAR);
-    const hid_t id = H5Acreate_by_name(id_, object.c_str(), name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t id = H5Acreate_by_name(id_, object.c_str(), name.c_str(), type, space, H5P_DEFAULT,
+                                       H5P_DEFAULT, H5P_DEFAULT);
     H5Awrite(id, type, value);
     H5Aclose(id);
     H5Sclose(space);

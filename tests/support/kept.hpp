@@ -1,5 +1,6 @@
 #pragma once
-/// Results of an earlier run with files of the user among them, and what is expected of them after something has happened to a run.
+/// Results of an earlier run with files of the user among them, and what is expected of them after
+/// something has happened to a run.
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -11,7 +12,9 @@
 namespace squeal::test {
 
 /// Test programs run at the same time: each has its places in a folder of its own.
-inline std::string placeOf(const std::string& name) { return fs::read_symlink("/proc/self/exe").filename().string() + "/" + name; }
+inline std::string placeOf(const std::string& name) {
+  return fs::read_symlink("/proc/self/exe").filename().string() + "/" + name;
+}
 
 inline const Files mine{{"vtk/mine.vtu", "mine"},
                         {"options_copy.txt", "mine"},
@@ -54,7 +57,8 @@ inline std::vector<std::string> listed(const fs::path& folder) {
   return names;
 }
 
-inline void expectOnly(const fs::path& folder, const std::vector<std::string>& results, const Files& ofTheUser) {
+inline void expectOnly(const fs::path& folder, const std::vector<std::string>& results,
+                       const Files& ofTheUser) {
   Files files = filesIn(folder);
   for (const auto& [name, content] : ofTheUser) {
     EXPECT_EQ(files.count(name) ? files[name] : "gone", content) << name;
@@ -65,9 +69,11 @@ inline void expectOnly(const fs::path& folder, const std::vector<std::string>& r
   EXPECT_EQ(namesOf(files), expected);
 }
 
-/// A run of which the stages can be told. Its fields alone take seconds: mpirun passes a signal on after one.
+/// A run of which the stages can be told. Its fields alone take seconds: mpirun passes a signal on
+/// after one.
 inline const Options slow =
-    with(without(layer, {"quiet"}), {{"mesh_set", "nx=60,ny=20"}, {"modes_count", "40"}, {"report_frames", "600"}});
+    with(without(layer, {"quiet"}),
+         {{"mesh_set", "nx=60,ny=20"}, {"modes_count", "40"}, {"report_frames", "600"}});
 
 struct Ending {
   const char* name;
@@ -75,7 +81,8 @@ struct Ending {
   const char* stage;
 };
 
-/// Ends a run after the first line of a stage, and expects the earlier results as they were; then the next run works.
+/// Ends a run after the first line of a stage, and expects the earlier results as they were; then
+/// the next run works.
 inline void expectKept(const Ending& ending) {
   const std::string name = placeOf(ending.name);
   SCOPED_TRACE(name);

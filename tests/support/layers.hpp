@@ -1,5 +1,6 @@
 #pragma once
-/// Two layers that slide on each other, on a coarse mesh: 156 unknowns, few enough for dense matrices of the full order.
+/// Two layers that slide on each other, on a coarse mesh: 156 unknowns, few enough for dense
+/// matrices of the full order.
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,10 +18,12 @@ struct Layers {
   explicit Layers(const std::string& options = {}) {
     setCase("two_layers", "-mesh_set nx=12,ny_disc=4,ny_pad=3 " + options);
     model = buildModel();
-    system = std::make_unique<contact::AssociatedSystem>(model.bodies, model.contact,
-                                                         std::vector<unsigned char>(model.contact.nodes.size(), 1));
+    system = std::make_unique<contact::AssociatedSystem>(
+        model.bodies, model.contact, std::vector<unsigned char>(model.contact.nodes.size(), 1));
   }
-  modes::Modes modes() const { return modes::compute({system->k0(), system->m0(), system->solver()}); }
+  modes::Modes modes() const {
+    return modes::compute({system->k0(), system->m0(), system->solver()});
+  }
 };
 
 }  // namespace squeal::test

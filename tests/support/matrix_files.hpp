@@ -23,7 +23,8 @@ inline const std::array<std::array<double, 4>, 4> sample{
 inline matrixfile::Entries sampleEntries() {
   matrixfile::Entries entries(4, 4);
   for (long long i = 0; i < 4; ++i)
-    for (long long j = 0; j < 4; ++j) entries.add(i, j, sample[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)]);
+    for (long long j = 0; j < 4; ++j)
+      entries.add(i, j, sample[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)]);
   return entries;
 }
 
@@ -34,7 +35,8 @@ struct Lists {
   explicit Lists(bool byColumns) {
     for (unsigned k = 0; k < 4; ++k) {
       for (unsigned l = 0; l < 4; ++l)
-        if (const double x = byColumns ? sample[l][k] : sample[k][l]; x != 0) data.push_back(x), indices.push_back(l);
+        if (const double x = byColumns ? sample[l][k] : sample[k][l]; x != 0)
+          data.push_back(x), indices.push_back(l);
       begin.push_back(static_cast<unsigned>(data.size()));
     }
   }
@@ -68,7 +70,8 @@ inline void expectSample(const std::string& path, const std::string& dataset = {
   ASSERT_EQ(all.columns, 4) << path;
   for (PetscInt i = 0; i < 4; ++i)
     for (PetscInt j = 0; j < 4; ++j)
-      EXPECT_EQ(all(i, j), sample[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)]) << path << " " << i << " " << j;
+      EXPECT_EQ(all(i, j), sample[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)])
+          << path << " " << i << " " << j;
 }
 
 /// Collective. Empty where the file is read.
@@ -82,10 +85,12 @@ inline std::string bytesOf(const std::string& path) {
   return text.str();
 }
 
-/// Lengths below that of the whole, 0, `step`, 2 `step`, ..., at which a file made of the first bytes of `bytes` is read without an error by
-/// `read(path)`. Not collective: each rank has a file of its own.
+/// Lengths below that of the whole, 0, `step`, 2 `step`, ..., at which a file made of the first
+/// bytes of `bytes` is read without an error by `read(path)`. Not collective: each rank has a file
+/// of its own.
 template <class Read>
-std::vector<std::size_t> cutsThatPass(const std::string& name, const std::string& bytes, const Read& read, std::size_t step = 1) {
+std::vector<std::size_t> cutsThatPass(const std::string& name, const std::string& bytes,
+                                      const Read& read, std::size_t step = 1) {
   const std::string path = SQUEAL_OUTPUT_DIR "/rank" + std::to_string(rankHere()) + "_" + name;
   std::vector<std::size_t> lengths;
   for (std::size_t length = 0; length < bytes.size(); length += step) {

@@ -16,7 +16,8 @@ inline std::string messageOfMesh(const std::string& file, const std::string& opt
 inline void expectMessage(const std::string& message, const std::vector<std::string>& pieces) {
   EXPECT_NE(message, "");
   EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-  for (const auto& piece : pieces) EXPECT_TRUE(contains(message, piece)) << "missing: " << piece << "\nin: " << message;
+  for (const auto& piece : pieces)
+    EXPECT_TRUE(contains(message, piece)) << "missing: " << piece << "\nin: " << message;
 }
 
 }  // namespace squeal::test

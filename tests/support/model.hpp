@@ -1,5 +1,6 @@
 #pragma once
-/// What tests of single stages share: options in, mesh, bodies and contact out; matrices and vectors as plain arrays on every rank.
+/// What tests of single stages share: options in, mesh, bodies and contact out; matrices and
+/// vectors as plain arrays on every rank.
 #include <fstream>
 #include <memory>
 #include <string>
@@ -30,10 +31,11 @@ inline void setCase(const std::string& name, const std::string& changes = {}) {
   insert(settingsOfText("-quiet " + changes));
 }
 
-inline std::string material(const std::string& body, const std::string& young, const std::string& poisson,
-                            const std::string& density) {
+inline std::string material(const std::string& body, const std::string& young,
+                            const std::string& poisson, const std::string& density) {
   const std::string name = " -material_" + body;
-  return name + "_young " + young + name + "_poisson " + poisson + name + "_density " + density + " ";
+  return name + "_young " + young + name + "_poisson " + poisson + name + "_density " + density +
+         " ";
 }
 
 /// The message of the Error that `action` throws; empty if none.
@@ -47,12 +49,15 @@ std::string errorOf(const Action& action) {
   return "";
 }
 
-inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
 /// Collective.
 inline mesh::Mesh readMesh() { return mesh::read(PETSC_COMM_WORLD, analysis::meshRequest()); }
 
-/// The stages before the first solution. Contact borrows the mesh, which therefore keeps its address.
+/// The stages before the first solution. Contact borrows the mesh, which therefore keeps its
+/// address.
 struct Model {
   std::unique_ptr<mesh::Mesh> mesh;
   elasticity::Bodies bodies;
@@ -72,7 +77,9 @@ inline Model buildModel() {
 struct DenseCopy {
   PetscInt rows = 0, columns = 0;
   std::vector<double> values;
-  double operator()(PetscInt i, PetscInt j) const { return values[static_cast<std::size_t>(j * rows + i)]; }
+  double operator()(PetscInt i, PetscInt j) const {
+    return values[static_cast<std::size_t>(j * rows + i)];
+  }
 };
 
 inline DenseCopy denseCopy(Mat matrix) {
@@ -118,7 +125,8 @@ OwnedVec nodalField(const mesh::Mesh& mesh, const Field& field) {
   check(VecGetArray(u, &values));
   for (PetscInt node = 0; node < mesh.ownedNodes; ++node) {
     const mesh::Point value = field(mesh.coordinates[static_cast<std::size_t>(node)]);
-    for (int d = 0; d < mesh.dimension; ++d) values[mesh.dimension * node + d] = value[static_cast<std::size_t>(d)];
+    for (int d = 0; d < mesh.dimension; ++d)
+      values[mesh.dimension * node + d] = value[static_cast<std::size_t>(d)];
   }
   check(VecRestoreArray(u, &values));
   return u;
@@ -140,7 +148,9 @@ inline double dot(Vec x, Vec y) {
   return value;
 }
 
-inline double dot(const mesh::Point& a, const mesh::Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+inline double dot(const mesh::Point& a, const mesh::Point& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
 /// The bodies alone, without contact.
 struct Built {

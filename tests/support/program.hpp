@@ -1,5 +1,6 @@
 #pragma once
-/// Starts the program as its users do and reads what it leaves behind. For tests on one rank: the program has ranks of its own.
+/// Starts the program as its users do and reads what it leaves behind. For tests on one rank: the
+/// program has ranks of its own.
 #include <sys/wait.h>
 
 #include <cstdlib>
@@ -34,8 +35,10 @@ inline Options without(Options options, const std::vector<std::string>& names) {
 /// The options file first: what comes after it overrides it.
 inline std::string commandLine(Options options) {
   std::string line;
-  if (const auto file = options.extract("options_file")) line = "-options_file '" + file.mapped() + "'";
-  for (const auto& [name, value] : options) line += " -" + name + (value.empty() ? "" : " '" + value + "'");
+  if (const auto file = options.extract("options_file"))
+    line = "-options_file '" + file.mapped() + "'";
+  for (const auto& [name, value] : options)
+    line += " -" + name + (value.empty() ? "" : " '" + value + "'");
   return line;
 }
 
@@ -63,16 +66,19 @@ struct ProgramRun {
 /// A place to write for one test.
 inline fs::path placeFor(const std::string& name) { return fs::path(SQUEAL_OUTPUT_DIR) / name; }
 
-/// Runs the program in the repository's folder with the results in `name`/results, where what lies there stays.
-inline ProgramRun runAgain(const std::string& name, int ranks, const std::string& options, int seconds = 120,
-                           const std::string& program = SQUEAL_EXECUTABLE) {
+/// Runs the program in the repository's folder with the results in `name`/results, where what lies
+/// there stays.
+inline ProgramRun runAgain(const std::string& name, int ranks, const std::string& options,
+                           int seconds = 120, const std::string& program = SQUEAL_EXECUTABLE) {
   ProgramRun run;
   run.folder = placeFor(name) / "results";
   fs::create_directories(placeFor(name));
   const fs::path out = placeFor(name) / "stdout.txt", error = placeFor(name) / "stderr.txt";
-  const std::string command = "cd '" SQUEAL_SOURCE_DIR "' && exec timeout -k 5 " + std::to_string(seconds) +
-                              " '" SQUEAL_MPIEXEC "' " + std::to_string(ranks) + " '" + program + "' " + options +
-                              " -report_dir '" + run.folder.string() + "' >'" + out.string() + "' 2>'" + error.string() + "'";
+  const std::string command = "cd '" SQUEAL_SOURCE_DIR "' && exec timeout -k 5 " +
+                              std::to_string(seconds) + " '" SQUEAL_MPIEXEC "' " +
+                              std::to_string(ranks) + " '" + program + "' " + options +
+                              " -report_dir '" + run.folder.string() + "' >'" + out.string() +
+                              "' 2>'" + error.string() + "'";
   const int status = std::system(command.c_str());
   run.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
   run.out = contentOf(out);
@@ -81,7 +87,8 @@ inline ProgramRun runAgain(const std::string& name, int ranks, const std::string
 }
 
 /// The same with an empty folder to begin with.
-inline ProgramRun runProgram(const std::string& name, int ranks, const std::string& options, int seconds = 120) {
+inline ProgramRun runProgram(const std::string& name, int ranks, const std::string& options,
+                             int seconds = 120) {
   fs::remove_all(placeFor(name));
   return runAgain(name, ranks, options, seconds);
 }

@@ -1,5 +1,6 @@
 #pragma once
-/// One case on several numbers of ranks: the partition changes the order of every sum, and nothing else.
+/// One case on several numbers of ranks: the partition changes the order of every sum, and nothing
+/// else.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -13,14 +14,15 @@ namespace squeal::test {
 struct Findings {
   std::vector<double> frequencies;                     ///< free modes, rad/s
   std::map<double, std::vector<Complex>> eigenvalues;  ///< [friction]
-  std::map<double, double> bandTop;                    ///< [friction] rad/s: what lies above is not listed
-  std::map<double, CsvTable> steady;                   ///< [friction]
+  std::map<double, double> bandTop;   ///< [friction] rad/s: what lies above is not listed
+  std::map<double, CsvTable> steady;  ///< [friction]
   nlohmann::json summary;
 };
 
 /// Of a table that has growth rates and angular frequencies.
 inline std::vector<Complex> eigenvaluesOf(const CsvTable& table) {
-  const auto growth = table.column("growth_rate_1_per_s"), angular = table.column("angular_frequency_rad_per_s");
+  const auto growth = table.column("growth_rate_1_per_s"),
+             angular = table.column("angular_frequency_rad_per_s");
   std::vector<Complex> list;
   for (std::size_t i = 0; i < growth.size(); ++i) list.emplace_back(growth[i], angular[i]);
   return list;
@@ -33,17 +35,21 @@ inline Findings findingsOf(const ProgramRun& run) {
   const CsvTable table = readCsv(run.folder / "eigenvalues.csv");
   const auto friction = table.column("friction");
   const auto eigenvalues = eigenvaluesOf(table);
-  for (std::size_t i = 0; i < friction.size(); ++i) findings.eigenvalues[friction[i]].push_back(eigenvalues[i]);
+  for (std::size_t i = 0; i < friction.size(); ++i)
+    findings.eigenvalues[friction[i]].push_back(eigenvalues[i]);
   for (const auto& entry : findings.summary.at("frictions")) {
     const double at = entry.at("friction");
-    if (entry.at("steady").at("converged")) findings.steady[at] = readCsv(run.folder / ("steady_" + shortest(at) + ".csv"));
-    findings.bandTop[at] = entry.contains("band_top_hz") ? 2 * M_PI * entry.at("band_top_hz").get<double>() : INFINITY;
+    if (entry.at("steady").at("converged"))
+      findings.steady[at] = readCsv(run.folder / ("steady_" + shortest(at) + ".csv"));
+    findings.bandTop[at] =
+        entry.contains("band_top_hz") ? 2 * M_PI * entry.at("band_top_hz").get<double>() : INFINITY;
   }
   return findings;
 }
 
 /// Normal force and friction of each contact node, found again by its place.
-inline std::map<std::vector<std::string>, std::vector<double>> contactForces(const CsvTable& table) {
+inline std::map<std::vector<std::string>, std::vector<double>> contactForces(
+    const CsvTable& table) {
   const auto normal = table.column("normal_force_n"), x = table.column("friction_force_x_n"),
              y = table.column("friction_force_y_n"), z = table.column("friction_force_z_n");
   std::map<std::vector<std::string>, std::vector<double>> forces;
@@ -69,10 +75,12 @@ inline double forceDifference(const CsvTable& a, const CsvTable& b) {
 }
 
 inline int unstableModes(const Findings& findings, std::size_t friction) {
-  return static_cast<int>(findings.summary.at("frictions").at(friction).at("unstable_modes").size());
+  return static_cast<int>(
+      findings.summary.at("frictions").at(friction).at("unstable_modes").size());
 }
 
-/// Frequencies, eigenvalues, contact forces and counts of `other` are those of `one`; prints the differences.
+/// Frequencies, eigenvalues, contact forces and counts of `other` are those of `one`; prints the
+/// differences.
 inline void expectSame(const Findings& one, const Findings& other, const std::string& label) {
   SCOPED_TRACE(label);
   ASSERT_EQ(one.frequencies.size(), other.frequencies.size());
@@ -85,7 +93,8 @@ inline void expectSame(const Findings& one, const Findings& other, const std::st
   for (const auto& [friction, values] : one.eigenvalues) {
     ASSERT_EQ(values.size(), other.eigenvalues.at(friction).size());
     const auto band = one.eigenvalues.at(friction);
-    ASSERT_GE(5 * band.size(), values.size());  // the band is the lower part of the modes, not an empty one
+    ASSERT_GE(5 * band.size(),
+              values.size());  // the band is the lower part of the modes, not an empty one
     eigenvalue = std::max(eigenvalue, worst(errors(band, other.eigenvalues.at(friction)).relative));
     force = std::max(force, forceDifference(one.steady.at(friction), other.steady.at(friction)));
   }
@@ -95,15 +104,20 @@ inline void expectSame(const Findings& one, const Findings& other, const std::st
   ASSERT_EQ(frictions.size(), other.summary.at("frictions").size());
   int iterations = 0;
   for (std::size_t i = 0; i < frictions.size(); ++i) {
-    EXPECT_EQ(unstableModes(one, i), unstableModes(other, i)) << "friction " << frictions[i].at("friction");
+    EXPECT_EQ(unstableModes(one, i), unstableModes(other, i))
+        << "friction " << frictions[i].at("friction");
     for (const auto* findings : {&one, &other})
-      iterations = std::max(iterations, findings->summary.at("frictions").at(i).at("steady").at("iterations").get<int>());
+      iterations = std::max(
+          iterations,
+          findings->summary.at("frictions").at(i).at("steady").at("iterations").get<int>());
   }
   EXPECT_LE(iterations, 6);
   std::printf(
-      "%s: frequencies differ by %.1e, eigenvalues by %.1e of |s|, contact forces by %.1e of the largest; SNES iterations <= %d; "
+      "%s: frequencies differ by %.1e, eigenvalues by %.1e of |s|, contact forces by %.1e of the "
+      "largest; SNES iterations <= %d; "
       "unstable modes at the last friction: %d\n",
-      label.c_str(), frequency, eigenvalue, force, iterations, unstableModes(one, frictions.size() - 1));
+      label.c_str(), frequency, eigenvalue, force, iterations,
+      unstableModes(one, frictions.size() - 1));
 }
 
 /// Runs a case on 1, 2 and 3 ranks.
@@ -111,8 +125,8 @@ inline void expectSameOnAllRanks(const std::string& name, const std::string& opt
   Findings one;
   for (int ranks : {1, 2, 3}) {
     const std::string label = name + " on " + std::to_string(ranks) + " ranks";
-    const ProgramRun run =
-        runProgram("ranks/" + name + "_np" + std::to_string(ranks), ranks, options + " -quiet -report_fields off", seconds);
+    const ProgramRun run = runProgram("ranks/" + name + "_np" + std::to_string(ranks), ranks,
+                                      options + " -quiet -report_fields off", seconds);
     ASSERT_EQ(run.exitCode, 0) << label << ": " << run.error;
     Findings findings = findingsOf(run);
     EXPECT_EQ(findings.summary.at("ranks"), ranks);

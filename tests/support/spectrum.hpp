@@ -38,14 +38,18 @@ std::vector<Complex> exactValues(const Table& table, std::size_t count) {
   return list;
 }
 
-/// For each wanted value the found one that belongs to it. The closest pair of all is matched first, then the closest of the rest:
-/// no found value is used twice, so a double eigenvalue found once shows as an error.
-inline std::vector<Complex> matched(const std::vector<Complex>& wanted, const std::vector<Complex>& found) {
+/// For each wanted value the found one that belongs to it. The closest pair of all is matched
+/// first, then the closest of the rest: no found value is used twice, so a double eigenvalue found
+/// once shows as an error.
+inline std::vector<Complex> matched(const std::vector<Complex>& wanted,
+                                    const std::vector<Complex>& found) {
   std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;
   for (std::size_t i = 0; i < wanted.size(); ++i)
-    for (std::size_t j = 0; j < found.size(); ++j) pairs.emplace_back(std::abs(wanted[i] - found[j]), i, j);
+    for (std::size_t j = 0; j < found.size(); ++j)
+      pairs.emplace_back(std::abs(wanted[i] - found[j]), i, j);
   std::sort(pairs.begin(), pairs.end());
-  std::vector<Complex> result(wanted.size(), Complex(NAN, NAN));  // too few found: every comparison fails
+  std::vector<Complex> result(wanted.size(),
+                              Complex(NAN, NAN));  // too few found: every comparison fails
   std::vector<bool> done(wanted.size()), used(found.size());
   for (const auto& [distance, i, j] : pairs) {
     if (done[i] || used[j]) continue;
@@ -91,14 +95,16 @@ inline double rootMeanSquare(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-/// Prints and checks the order of convergence of each error between two meshes, the second of cells half as large.
-inline void expectOrder(double expected, double tolerance, const std::vector<double>& coarse, const std::vector<double>& fine,
-                        const char* what) {
+/// Prints and checks the order of convergence of each error between two meshes, the second of cells
+/// half as large.
+inline void expectOrder(double expected, double tolerance, const std::vector<double>& coarse,
+                        const std::vector<double>& fine, const char* what) {
   double low = INFINITY, high = 0;
   for (std::size_t i = 0; i < coarse.size(); ++i) {
     const double order = std::log2(coarse[i] / fine.at(i));
     low = std::min(low, order), high = std::max(high, order);
-    EXPECT_NEAR(order, expected, tolerance) << what << ", number " << i + 1 << ": errors " << coarse[i] << " and " << fine[i];
+    EXPECT_NEAR(order, expected, tolerance)
+        << what << ", number " << i + 1 << ": errors " << coarse[i] << " and " << fine[i];
   }
   print("orders of %s: %.3f to %.3f\n", what, low, high);
 }

@@ -35,11 +35,13 @@ inline std::vector<std::string> namesOf(const Files& files) {
   return names;
 }
 
-/// The names of files that are in one of the two alone, or have other content: for messages that can be read.
+/// The names of files that are in one of the two alone, or have other content: for messages that
+/// can be read.
 inline std::vector<std::string> differing(const Files& a, const Files& b) {
   std::vector<std::string> names;
   for (const auto& [name, content] : a)
-    if (const auto other = b.find(name); other == b.end() || other->second != content) names.push_back(name);
+    if (const auto other = b.find(name); other == b.end() || other->second != content)
+      names.push_back(name);
   for (const auto& [name, content] : b)
     if (!a.contains(name)) names.push_back(name);
   return names;
@@ -62,9 +64,10 @@ class Started {
   Started(const std::string& name, int ranks, const std::string& options) : place_(placeFor(name)) {
     fs::create_directories(place_);
     for (const auto& file : {out(), error()}) writeText(file, "");
-    const std::string command = "cd '" SQUEAL_SOURCE_DIR "' && exec '" SQUEAL_MPIEXEC "' " + std::to_string(ranks) +
-                                " '" SQUEAL_EXECUTABLE "' " + options + " -report_dir '" + folder().string() + "' >'" +
-                                out().string() + "' 2>'" + error().string() + "'";
+    const std::string command = "cd '" SQUEAL_SOURCE_DIR "' && exec '" SQUEAL_MPIEXEC "' " +
+                                std::to_string(ranks) + " '" SQUEAL_EXECUTABLE "' " + options +
+                                " -report_dir '" + folder().string() + "' >'" + out().string() +
+                                "' 2>'" + error().string() + "'";
     process_ = fork();
     if (process_ == 0) {
       setpgid(0, 0);  // as a shell does: a signal for the test is none for the run
@@ -89,12 +92,17 @@ class Started {
   }
   /// Waits until the program has printed a line that begins so.
   bool printed(const std::string& begin) const {
-    return waitUntil([&] { return ended() || ("\n" + contentOf(out())).find("\n" + begin) != std::string::npos; }) && !ended();
+    return waitUntil([&] {
+             return ended() || ("\n" + contentOf(out())).find("\n" + begin) != std::string::npos;
+           }) &&
+           !ended();
   }
-  /// The same for a stage; the last one, whose line stands at its end, is reached when the first fields are written.
+  /// The same for a stage; the last one, whose line stands at its end, is reached when the first
+  /// fields are written.
   bool reached(const std::string& stage) const {
     if (stage != "report") return printed(stage);
-    return waitUntil([&] { return ended() || fs::exists(folder() / ".partial" / "vtk"); }) && !ended();
+    return waitUntil([&] { return ended() || fs::exists(folder() / ".partial" / "vtk"); }) &&
+           !ended();
   }
   bool ended() const {
     int status = 0;
@@ -104,7 +112,8 @@ class Started {
     }
     return ended_;
   }
-  /// Waits for the end of mpirun and of the ranks, for which mpirun does not wait when it is ended by a signal.
+  /// Waits for the end of mpirun and of the ranks, for which mpirun does not wait when it is ended
+  /// by a signal.
   ProgramRun finished(double seconds = 60) {
     ProgramRun run;
     run.folder = folder();
@@ -133,7 +142,9 @@ class Started {
       if (name.find_first_not_of("0123456789") != std::string::npos) continue;
       const auto process = static_cast<pid_t>(std::stol(name));
       const std::string words = procFile(process, "cmdline");
-      if (words.rfind(SQUEAL_EXECUTABLE, 0) != 0 || words.find('\0' + folder().string() + '\0') == std::string::npos) continue;
+      if (words.rfind(SQUEAL_EXECUTABLE, 0) != 0 ||
+          words.find('\0' + folder().string() + '\0') == std::string::npos)
+        continue;
       const std::string environment = procFile(process, "environ"), key = "OMPI_COMM_WORLD_RANK=";
       if (const auto begin = environment.find(key); begin != std::string::npos)
         found.emplace_back(process, std::stoi(environment.substr(begin + key.size())));

@@ -14,8 +14,8 @@
 namespace squeal {
 namespace {
 
-using reduction::Basis;
 using linalg::Block;
+using reduction::Basis;
 
 /// Twenty modes of the layers are the basis to begin with.
 struct Fixture : test::Layers {
@@ -65,7 +65,8 @@ struct Fixture : test::Layers {
     int rank = 0;
     check(MPI_Comm_rank(basis->comm(), &rank));
     std::mt19937 generator(seed + 100 * static_cast<unsigned>(rank));
-    for (auto& value : block.values) value = 2.0 * static_cast<double>(generator()) / 4294967295.0 - 1;
+    for (auto& value : block.values)
+      value = 2.0 * static_cast<double>(generator()) / 4294967295.0 - 1;
     return block;
   }
 };
@@ -80,13 +81,15 @@ TEST(Basis, StaysOrthonormalInEnergy) {
     EXPECT_EQ(f.basis->add(f.random(count, static_cast<unsigned>(count))), count);
     EXPECT_EQ(f.basis->size(), before + count);
   }
-  test::print("basis of %d: departure from orthonormality %.1e\n", static_cast<int>(f.basis->size()), f.departure());
+  test::print("basis of %d: departure from orthonormality %.1e\n",
+              static_cast<int>(f.basis->size()), f.departure());
   EXPECT_LT(f.departure(), 1e-10);
   EXPECT_EQ(f.basis->solves(), 50);
   const linalg::Block v = f.columns();
   const auto sketch = f.basis->sketch().unweighted(v.values.data(), v.columns);
   ASSERT_EQ(sketch.size(), f.basis->sketched().size());
-  for (std::size_t k = 0; k < sketch.size(); ++k) EXPECT_NEAR(f.basis->sketched()[k], sketch[k], 1e-12) << k;
+  for (std::size_t k = 0; k < sketch.size(); ++k)
+    EXPECT_NEAR(f.basis->sketched()[k], sketch[k], 1e-12) << k;
 }
 
 // The basis gains K0⁻¹ R: K0 V Vᵀr = r for a residual that has gone in.
@@ -103,8 +106,9 @@ TEST(Basis, HoldsWhatIsAdded) {
   EXPECT_LT(test::largest(worst), 1e-10);  // of entries up to 1
 }
 
-// VᵀK0V and K0 V of what is added, known without products with K0: those of the products, to the rounding of StaysOrthonormalInEnergy. Residuals
-// of a Galerkin solution have Vᵀr = 0 to some digits; others are made orthogonal first, and their K0 z is not kept.
+// VᵀK0V and K0 V of what is added, known without products with K0: those of the products, to the
+// rounding of StaysOrthonormalInEnergy. Residuals of a Galerkin solution have Vᵀr = 0 to some
+// digits; others are made orthogonal first, and their K0 z is not kept.
 TEST(Basis, KnowsEnergiesAndForcesOfWhatIsAdded) {
   const Fixture f;
   const auto check = [&](bool kept, PetscInt count, double departure) {
@@ -114,7 +118,8 @@ TEST(Basis, KnowsEnergiesAndForcesOfWhatIsAdded) {
     double worst = 0;
     for (PetscInt j = 0; j < f.basis->forces().columns; ++j)
       for (PetscInt i = 0; i < forces.rows; ++i)
-        worst = std::max(worst, std::abs(f.basis->forces().column(j)[i] - forces.column(size - count + j)[i]));
+        worst = std::max(
+            worst, std::abs(f.basis->forces().column(j)[i] - forces.column(size - count + j)[i]));
     double scale = 0;
     for (const double value : forces.values) scale = std::max(scale, std::abs(value));
     EXPECT_LT(test::largest(worst), 1e-10 * test::largest(scale));
@@ -125,7 +130,10 @@ TEST(Basis, KnowsEnergiesAndForcesOfWhatIsAdded) {
     for (PetscInt j = size - count; j < size; ++j)
       for (PetscInt i = 0; i < size; ++i) {
         const double entry = gram[static_cast<std::size_t>(j * size + i)];
-        if (kept) known = std::max(known, std::abs(energies[static_cast<std::size_t>((j - size + count) * size + i)] - entry));
+        if (kept)
+          known = std::max(
+              known,
+              std::abs(energies[static_cast<std::size_t>((j - size + count) * size + i)] - entry));
         off = std::max(off, std::abs(entry - (i == j ? 1 : 0)));
       }
     EXPECT_LT(known, 1e-10);
@@ -135,8 +143,10 @@ TEST(Basis, KnowsEnergiesAndForcesOfWhatIsAdded) {
   linalg::Block residuals = f.random(6, 8);
   const auto parts = linalg::transposedProduct(f.basis->comm(), f.columns(), residuals);
   const linalg::Block forces = f.times(f.system->k0(), f.columns());
-  // R − (1 − 1e-5) K0 V VᵀR: a hundred-thousandth of the part along V is left, and stays in the basis.
-  linalg::multiplyAdd(forces.values.data(), forces.rows, forces.columns, parts, residuals.values, -1 + 1e-5);
+  // R − (1 − 1e-5) K0 V VᵀR: a hundred-thousandth of the part along V is left, and stays in the
+  // basis.
+  linalg::multiplyAdd(forces.values.data(), forces.rows, forces.columns, parts, residuals.values,
+                      -1 + 1e-5);
   EXPECT_EQ(f.basis->add(residuals), 6);
   check(true, 6, 1e-8);
   EXPECT_EQ(f.basis->add(f.random(4, 9)), 4);
@@ -148,7 +158,8 @@ TEST(Basis, DropsWhatItHasAndWhatDependsOnOthers) {
   linalg::Block twice = f.random(3, 2);
   const linalg::Block copy = twice;
   append(twice, copy);
-  for (PetscInt i = 0; i < twice.rows; ++i) twice.column(4)[i] = 2 * twice.column(0)[i] - 3 * twice.column(2)[i];
+  for (PetscInt i = 0; i < twice.rows; ++i)
+    twice.column(4)[i] = 2 * twice.column(0)[i] - 3 * twice.column(2)[i];
   EXPECT_EQ(f.basis->add(twice), 3);
   EXPECT_EQ(f.basis->add(copy), 0);                                  // they are in the basis
   EXPECT_EQ(f.basis->add(f.times(f.system->k0(), f.columns())), 0);  // K0 V
@@ -162,7 +173,8 @@ TEST(Basis, CombinationsStayOrthonormal) {
   f.basis->add(f.random(10, 3));
   // Eigenvectors of a symmetric matrix: orthonormal. Twelve of them.
   linalg::DenseMatrix turned(30 * 30);
-  for (std::size_t k = 0; k < turned.size(); ++k) turned[k] = std::cos(static_cast<double>((k / 30 + 1) * (k % 30 + 1)));
+  for (std::size_t k = 0; k < turned.size(); ++k)
+    turned[k] = std::cos(static_cast<double>((k / 30 + 1) * (k % 30 + 1)));
   linalg::symmetricEigen(turned, 30);
   turned.resize(30 * 12);
   f.basis->combine(turned, 12);
@@ -170,8 +182,8 @@ TEST(Basis, CombinationsStayOrthonormal) {
   EXPECT_LT(f.departure(), 1e-10);
 }
 
-// One column: √(rᵀK0⁻¹r) / √(rᵀ diag(K0)⁻¹ r). Two: the root of the largest eigenvalue of the pencil of both products. The solution of the
-// first one is another solver's.
+// One column: √(rᵀK0⁻¹r) / √(rᵀ diag(K0)⁻¹ r). Two: the root of the largest eigenvalue of the
+// pencil of both products. The solution of the first one is another solver's.
 TEST(Basis, EnergyRatiosAreWhatTheySay) {
   const Fixture f;
   const linalg::Block one = f.random(1, 4), two = f.random(2, 5);

@@ -1,4 +1,5 @@
-// Condition numbers of eigenvalues against the eigenvalues of perturbed matrices, and of multiple ones by hand.
+// Condition numbers of eigenvalues against the eigenvalues of perturbed matrices, and of multiple
+// ones by hand.
 #include "reduction/condition.hpp"
 
 #include <gtest/gtest.h>
@@ -17,12 +18,16 @@ using linalg::DensePair;
 using linalg::DenseProblem;
 using test::Complex;
 
-double uniform(std::mt19937& generator) { return 2.0 * static_cast<double>(generator()) / 4294967295.0 - 1; }
+double uniform(std::mt19937& generator) {
+  return 2.0 * static_cast<double>(generator()) / 4294967295.0 - 1;
+}
 
-linalg::DenseMatrix randomMatrix(int m, double diagonal, double rise, double size, std::mt19937& generator) {
+linalg::DenseMatrix randomMatrix(int m, double diagonal, double rise, double size,
+                                 std::mt19937& generator) {
   linalg::DenseMatrix matrix;
   for (int j = 0; j < m; ++j)
-    for (int i = 0; i < m; ++i) matrix.push_back((i == j ? diagonal + rise * i : 0) + size * uniform(generator));
+    for (int i = 0; i < m; ++i)
+      matrix.push_back((i == j ? diagonal + rise * i : 0) + size * uniform(generator));
   return matrix;
 }
 
@@ -33,14 +38,16 @@ Complex nearest(const std::vector<linalg::DensePair>& pairs, Complex s) {
   return best;
 }
 
-// P + ε Re(y dᴴ) moves s by ε yᴴ Re(y dᴴ) d / (yᴴP'd) = ε (1 + conj(yᵀy) dᵀd)/2 / (yᴴP'd): for real vectors that is the largest
-// change a perturbation of this norm can make, κ ε |s|. Differences with ε = 1e-5: ε² from truncation; from rounding of s, 1e-15 |s|,
-// over 2 ε κ |s| with κ = 0.01 at least, 1e-8.
+// P + ε Re(y dᴴ) moves s by ε yᴴ Re(y dᴴ) d / (yᴴP'd) = ε (1 + conj(yᵀy) dᵀd)/2 / (yᴴP'd): for real
+// vectors that is the largest change a perturbation of this norm can make, κ ε |s|. Differences
+// with ε = 1e-5: ε² from truncation; from rounding of s, 1e-15 |s|, over 2 ε κ |s| with κ = 0.01 at
+// least, 1e-8.
 TEST(Condition, AgainstPerturbedMatrices) {
   constexpr int m = 9;
   std::mt19937 generator(11);
   for (const bool damped : {false, true}) {
-    linalg::DenseProblem problem{randomMatrix(m, 3, 0, 0.3, generator), {}, randomMatrix(m, 10, 7, 4, generator), m};
+    linalg::DenseProblem problem{
+        randomMatrix(m, 3, 0, 0.3, generator), {}, randomMatrix(m, 10, 7, 4, generator), m};
     if (damped) problem.damping = randomMatrix(m, 0.5, 0.1, 0.5, generator);
     const auto pairs = linalg::solveQuadratic(problem, linalg::Vectors::both);
     const auto numbers = reduction::conditionNumbers(problem, pairs);
@@ -51,8 +58,10 @@ TEST(Condition, AgainstPerturbedMatrices) {
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       const auto &d = pairs[k].q, &y = pairs[k].left;
       Complex yy = 0, dd = 0;
-      for (int i = 0; i < m; ++i) yy += y[static_cast<std::size_t>(i)] * y[static_cast<std::size_t>(i)];
-      for (int i = 0; i < m; ++i) dd += d[static_cast<std::size_t>(i)] * d[static_cast<std::size_t>(i)];
+      for (int i = 0; i < m; ++i)
+        yy += y[static_cast<std::size_t>(i)] * y[static_cast<std::size_t>(i)];
+      for (int i = 0; i < m; ++i)
+        dd += d[static_cast<std::size_t>(i)] * d[static_cast<std::size_t>(i)];
       const double part = std::abs(1.0 + std::conj(yy) * dd) / 2, step = 1e-5;
       complex += part < 0.99;
       Complex moved[2];
@@ -60,15 +69,17 @@ TEST(Condition, AgainstPerturbedMatrices) {
         linalg::DenseProblem there = problem;
         for (std::size_t j = 0; j < d.size(); ++j)
           for (std::size_t i = 0; i < y.size(); ++i)
-            there.stiffness[j * y.size() + i] += (side == 0 ? -step : step) * (y[i] * std::conj(d[j])).real();
+            there.stiffness[j * y.size() + i] +=
+                (side == 0 ? -step : step) * (y[i] * std::conj(d[j])).real();
         moved[side] = nearest(linalg::solveQuadratic(there), pairs[k].s);
       }
-      const double wanted = std::abs(moved[1] - moved[0]) / (2 * step * std::abs(pairs[k].s) * part);
+      const double wanted =
+          std::abs(moved[1] - moved[0]) / (2 * step * std::abs(pairs[k].s) * part);
       worst = std::max(worst, std::abs(numbers[k] / wanted - 1));
       EXPECT_NEAR(numbers[k], wanted, 1e-6 * wanted) << "s = " << pairs[k].s;
     }
-    test::print("%s: condition numbers off by %.1e, %d of %d with complex vectors\n", damped ? "damped" : "undamped", worst,
-                complex, m);
+    test::print("%s: condition numbers off by %.1e, %d of %d with complex vectors\n",
+                damped ? "damped" : "undamped", worst, complex, m);
     EXPECT_GT(complex, 0);  // both kinds are there
     EXPECT_LT(complex, m);
   }
@@ -80,15 +91,18 @@ std::vector<Complex> unitVector(std::size_t m, std::size_t i) {
   return e;
 }
 
-// M = I, K = diag(4, 4, 9). The vectors of s = 2i, twice, may be any: also e1 with e2 on the left, where yᴴP'd = 0. The matrix of all four
-// products, 4i times [1 0; 0 1] or [0 1; 1 0], has the singular value 4 either way: 2/4/|s|. The other eigenvalue has 1/6/3.
+// M = I, K = diag(4, 4, 9). The vectors of s = 2i, twice, may be any: also e1 with e2 on the left,
+// where yᴴP'd = 0. The matrix of all four products, 4i times [1 0; 0 1] or [0 1; 1 0], has the
+// singular value 4 either way: 2/4/|s|. The other eigenvalue has 1/6/3.
 TEST(Condition, OfADoubleEigenvalue) {
-  const linalg::DenseProblem problem{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {}, {4, 0, 0, 0, 4, 0, 0, 0, 9}, 3};
+  const linalg::DenseProblem problem{
+      {1, 0, 0, 0, 1, 0, 0, 0, 1}, {}, {4, 0, 0, 0, 4, 0, 0, 0, 9}, 3};
   const auto pair = [](double w, std::size_t right, std::size_t left) {
     return linalg::DensePair{{0, w}, unitVector(3, right), unitVector(3, left)};
   };
   for (const bool crossed : {false, true}) {
-    const auto numbers = reduction::conditionNumbers(problem, {pair(2, 0, crossed), pair(2, 1, !crossed), pair(3, 2, 2)});
+    const auto numbers = reduction::conditionNumbers(
+        problem, {pair(2, 0, crossed), pair(2, 1, !crossed), pair(3, 2, 2)});
     ASSERT_EQ(numbers.size(), 3U);
     EXPECT_NEAR(numbers[0], 1. / 4, 1e-15);
     EXPECT_NEAR(numbers[1], 1. / 4, 1e-15);
@@ -96,15 +110,16 @@ TEST(Condition, OfADoubleEigenvalue) {
   }
 }
 
-// X diag(4, 4, 9) X⁻¹ by LAPACK: whichever vectors it finds, perturbations of norm ε move both eigenvalues by κ ε |s| at most, and κ is
-// not large: the condition number of X is about 4.
+// X diag(4, 4, 9) X⁻¹ by LAPACK: whichever vectors it finds, perturbations of norm ε move both
+// eigenvalues by κ ε |s| at most, and κ is not large: the condition number of X is about 4.
 TEST(Condition, BoundsTheMovesOfADoubleEigenvalue) {
   const linalg::DenseMatrix x{1, 0, 0, 1, 1, 0, 0.5, -1, 1}, inverse{1, 0, 0, -1, 1, 0, -1.5, 1, 1};
   const double lambda[] = {4, 4, 9};
   linalg::DenseProblem problem{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {}, linalg::DenseMatrix(9, 0.0), 3};
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j)
-      for (std::size_t k = 0; k < 3; ++k) problem.stiffness[3 * j + i] += x[3 * k + i] * lambda[k] * inverse[3 * j + k];
+      for (std::size_t k = 0; k < 3; ++k)
+        problem.stiffness[3 * j + i] += x[3 * k + i] * lambda[k] * inverse[3 * j + k];
   const auto pairs = linalg::solveQuadratic(problem, linalg::Vectors::both);
   const auto numbers = reduction::conditionNumbers(problem, pairs);
   ASSERT_EQ(pairs.size(), 3U);
@@ -114,7 +129,8 @@ TEST(Condition, BoundsTheMovesOfADoubleEigenvalue) {
     linalg::DenseProblem there = problem;
     double norm = 0;  // Frobenius: at least the 2-norm
     linalg::DenseMatrix change;
-    for (int k = 0; k < 9; ++k) change.push_back(uniform(generator)), norm += change.back() * change.back();
+    for (int k = 0; k < 9; ++k)
+      change.push_back(uniform(generator)), norm += change.back() * change.back();
     for (std::size_t k = 0; k < 9; ++k) there.stiffness[k] += step * change[k] / std::sqrt(norm);
     const auto moved = linalg::solveQuadratic(there);
     for (std::size_t j = 0; j < 2; ++j)
@@ -130,12 +146,15 @@ TEST(Condition, BoundsTheMovesOfADoubleEigenvalue) {
   }
 }
 
-// K = [4 1; 0 4]: one right vector, e1, one left, e2, and e2ᵀ e1 = 0. LAPACK's vectors miss each other by rounding, no more.
+// K = [4 1; 0 4]: one right vector, e1, one left, e2, and e2ᵀ e1 = 0. LAPACK's vectors miss each
+// other by rounding, no more.
 TEST(Condition, OfADefectiveEigenvalueIsInfinite) {
   const linalg::DenseProblem problem{{1, 0, 0, 1}, {}, {4, 0, 1, 4}, 2};
   const linalg::DensePair pair{{0, 2}, unitVector(2, 0), unitVector(2, 1)};
-  for (const double number : reduction::conditionNumbers(problem, {pair})) EXPECT_EQ(number, INFINITY);
-  for (const double number : reduction::conditionNumbers(problem, {pair, pair})) EXPECT_EQ(number, INFINITY);
+  for (const double number : reduction::conditionNumbers(problem, {pair}))
+    EXPECT_EQ(number, INFINITY);
+  for (const double number : reduction::conditionNumbers(problem, {pair, pair}))
+    EXPECT_EQ(number, INFINITY);
   const auto computed = linalg::solveQuadratic(problem, linalg::Vectors::both);
   EXPECT_EQ(computed.size(), 2U);
   for (const double number : reduction::conditionNumbers(problem, computed)) EXPECT_GT(number, 1e7);

@@ -1,4 +1,5 @@
-// Cases that contact must refuse: bodies that nothing holds, constraints and interfaces that contradict each other.
+// Cases that contact must refuse: bodies that nothing holds, constraints and interfaces that
+// contradict each other.
 #include <gtest/gtest.h>
 
 #include "support/model.hpp"
@@ -10,42 +11,49 @@ using test::contains;
 using test::errorOf;
 
 const std::string layers = "-mesh_set nx=6,ny_disc=3,ny_pad=2";
-const std::string cylinderBodies = "-mesh_file meshes/cylinders.geo -mesh_set n_inner=2,n_outer=2,n_theta=16" +
-                                   test::material("inner", "1", "0.3", "1") + test::material("outer", "1", "0.3", "1");
-const std::string cylinders =
-    cylinderBodies +
-    "-contact_ring_pad outer_face -contact_ring_disc inner_face -constraint_sym_x_clamped x -constraint_sym_y_clamped y";
+const std::string cylinderBodies =
+    "-mesh_file meshes/cylinders.geo -mesh_set n_inner=2,n_outer=2,n_theta=16" +
+    test::material("inner", "1", "0.3", "1") + test::material("outer", "1", "0.3", "1");
+const std::string cylinders = cylinderBodies +
+                              "-contact_ring_pad outer_face -contact_ring_disc inner_face "
+                              "-constraint_sym_x_clamped x -constraint_sym_y_clamped y";
 
 /// The case of two layers without one of its options.
 std::string messageWithout(const std::string& option) {
   test::setCase("two_layers", layers);
   check(PetscOptionsClearValue(nullptr, option.c_str()));
-  if (option == "-constraint_pad_top_clamped") check(PetscOptionsClearValue(nullptr, "-constraint_pad_top_displacement"));
+  if (option == "-constraint_pad_top_clamped")
+    check(PetscOptionsClearValue(nullptr, "-constraint_pad_top_displacement"));
   return errorOf([] { test::buildModel(); });
 }
 
 // Closed contact holds a body across the interface only: without friction it slides away.
 TEST(Loose, BodyIsNamed) {
   auto message = messageWithout("-constraint_pad_top_clamped");
-  EXPECT_TRUE(contains(message, "body 'pad' can move rigidly") && contains(message, "-constraint_<group>_clamped")) << message;
+  EXPECT_TRUE(contains(message, "body 'pad' can move rigidly") &&
+              contains(message, "-constraint_<group>_clamped"))
+      << message;
   message = messageWithout("-constraint_disc_bottom_clamped");
   EXPECT_TRUE(contains(message, "body 'disc' can move rigidly")) << message;
   EXPECT_EQ(messageWithout("-quiet"), "");
   // Only across, or only along: both leave one motion.
   test::setCase("two_layers", layers + " -constraint_pad_top_clamped y");
   EXPECT_TRUE(contains(errorOf([] { test::buildModel(); }), "'pad'"));
-  test::setCase("two_layers", layers + " -constraint_pad_top_clamped x -constraint_pad_top_displacement 0,0,0");
+  test::setCase("two_layers",
+                layers + " -constraint_pad_top_clamped x -constraint_pad_top_displacement 0,0,0");
   EXPECT_EQ(errorOf([] { test::buildModel(); }), "");  // contact holds y
   // A cylinder in another one: free to turn unless a line of each is held.
   test::setOptions(cylinders);
   EXPECT_EQ(errorOf([] { test::buildModel(); }), "");
-  for (const char* line : {"-constraint_sym_x_clamped", "-constraint_sym_y_clamped"}) check(PetscOptionsClearValue(nullptr, line));
+  for (const char* line : {"-constraint_sym_x_clamped", "-constraint_sym_y_clamped"})
+    check(PetscOptionsClearValue(nullptr, line));
   EXPECT_TRUE(contains(errorOf([] { test::buildModel(); }), "can move rigidly"));
 }
 
 // A third component that is left out is no zero, and a fourth one means nothing.
 TEST(Vectors, HaveAsManyComponentsAsTheMesh) {
-  const std::string box = "-mesh_file meshes/beam.geo -mesh_set nx=2,ny=1,nz=1 " + test::material("beam", "1", "0.3", "1") +
+  const std::string box = "-mesh_file meshes/beam.geo -mesh_set nx=2,ny=1,nz=1 " +
+                          test::material("beam", "1", "0.3", "1") +
                           "-constraint_bottom_clamped xyz -contact_plate_pad top ",
                     velocity = "-contact_plate_obstacle_velocity 1,0,0 ";
   const auto message = [](const std::string& options) {
@@ -54,18 +62,22 @@ TEST(Vectors, HaveAsManyComponentsAsTheMesh) {
   };
   EXPECT_EQ(message(box + velocity + "-constraint_bottom_displacement 0,0,1e-3"), "");
   for (const std::string option :
-       {"motion_beam_velocity", "motion_beam_axis", "motion_beam_origin", "constraint_bottom_displacement",
-        "ground_bottom_stiffness", "contact_plate_obstacle_velocity", "contact_plate_obstacle_displacement"})
+       {"motion_beam_velocity", "motion_beam_axis", "motion_beam_origin",
+        "constraint_bottom_displacement", "ground_bottom_stiffness",
+        "contact_plate_obstacle_velocity", "contact_plate_obstacle_displacement"})
     for (const std::string value : {"1", "1,0", "1,0,0,0"}) {
       const std::string found = message(box + velocity + "-" + option + " " + value);
-      EXPECT_TRUE(contains(found, "option -" + option + " " + value) && contains(found, "3 components")) << found;
+      EXPECT_TRUE(contains(found, "option -" + option + " " + value) &&
+                  contains(found, "3 components"))
+          << found;
     }
   // In the plane a third one may be left out, no second one.
   for (const std::string option : {"motion_disc_velocity", "constraint_disc_bottom_displacement"})
     for (const std::string value : {"1", "1,0", "1,0,0", "1,0,0,0"}) {
       test::setCase("two_layers", layers + " -" + option + " " + value);
       const std::string found = errorOf([] { test::buildModel(); });
-      EXPECT_EQ(contains(found, "option -" + option) && contains(found, "2 components"), value == "1" || value == "1,0,0,0")
+      EXPECT_EQ(contains(found, "option -" + option) && contains(found, "2 components"),
+                value == "1" || value == "1,0,0,0")
           << found;
     }
 }
@@ -87,7 +99,8 @@ TEST(Contact, BadInputIsNamed) {
   }
   // A round face on a flat plate.
   test::setOptions(cylinderBodies +
-                   "-constraint_inner_bore_clamped xy -contact_rim_pad outer_rim -contact_rim_obstacle_velocity 1,0,0");
+                   "-constraint_inner_bore_clamped xy -contact_rim_pad outer_rim "
+                   "-contact_rim_obstacle_velocity 1,0,0");
   EXPECT_TRUE(contains(errorOf([] { test::buildModel(); }), "must be flat"));
 }
 

@@ -1,4 +1,5 @@
-// The direct solve on all unknowns, with and without damping, of chains whose eigenvalues are known in closed form.
+// The direct solve on all unknowns, with and without damping, of chains whose eigenvalues are known
+// in closed form.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +16,8 @@ namespace {
 
 using test::Complex;
 
-/// `copies` equal chains of `length` masses m between walls, springs k, dampers proportional: Z = α M + β K. With
+/// `copies` equal chains of `length` masses m between walls, springs k, dampers proportional: Z = α
+/// M + β K. With
 ///   κ_j = 4 k/m sin²(jπ / (2 (length + 1))):  s² + (α + β κ_j) s + κ_j = 0, `copies` times.
 struct Chains {
   PetscInt length, copies;
@@ -24,7 +26,8 @@ struct Chains {
   PetscInt size() const { return length * copies; }
   OwnedMat tridiagonal(double diagonal, double beside) const {
     OwnedMat matrix;
-    check(MatCreateAIJ(PETSC_COMM_WORLD, PETSC_DECIDE, PETSC_DECIDE, size(), size(), 3, nullptr, 2, nullptr, matrix.out()));
+    check(MatCreateAIJ(PETSC_COMM_WORLD, PETSC_DECIDE, PETSC_DECIDE, size(), size(), 3, nullptr, 2,
+                       nullptr, matrix.out()));
     PetscInt first = 0, end = 0;
     check(MatGetOwnershipRange(matrix, &first, &end));
     for (PetscInt i = first; i < end; ++i)
@@ -48,19 +51,23 @@ struct Chains {
     std::vector<Complex> list;
     for (PetscInt j = 1; j <= length; ++j)
       for (PetscInt copy = 0; copy < copies; ++copy) {
-        const double sine = std::sin(static_cast<double>(j) * M_PI / (2.0 * (static_cast<double>(length) + 1))),
+        const double sine = std::sin(static_cast<double>(j) * M_PI /
+                                     (2.0 * (static_cast<double>(length) + 1))),
                      kappa = 4 * spring / mass * sine * sine, half = (alpha + beta * kappa) / 2;
         const Complex root = std::sqrt(Complex(half * half - kappa));
         list.push_back(-half + root);
         if (root.imag() == 0) list.push_back(-half - root);
       }
-    std::sort(list.begin(), list.end(), [](Complex a, Complex b) { return std::abs(a) < std::abs(b); });
+    std::sort(list.begin(), list.end(),
+              [](Complex a, Complex b) { return std::abs(a) < std::abs(b); });
     return list;
   }
 };
 
 /// Undamped; all under-damped; the lowest modes overdamped, with two real eigenvalues each.
-Chains chains(PetscInt length, PetscInt copies, double alpha) { return {length, copies, 0.01, 4e5, alpha, alpha > 0 ? 1e-6 : 0.0}; }
+Chains chains(PetscInt length, PetscInt copies, double alpha) {
+  return {length, copies, 0.01, 4e5, alpha, alpha > 0 ? 1e-6 : 0.0};
+}
 constexpr double alphas[] = {0, 20, 3e3};
 
 pencil::FrictionPoint solve(const Chains& problem, const std::string& options) {
@@ -71,7 +78,8 @@ pencil::FrictionPoint solve(const Chains& problem, const std::string& options) {
 /// The found eigenvalues are the wanted ones, as often.
 void expectSpectrum(const pencil::FrictionPoint& point, const std::vector<Complex>& wanted) {
   EXPECT_EQ(point.eigenvalues.size(), wanted.size());
-  // The solver's tolerance is 1e-12; in proportional damping no eigenvalue is more sensitive than ten times that.
+  // The solver's tolerance is 1e-12; in proportional damping no eigenvalue is more sensitive than
+  // ten times that.
   EXPECT_LT(test::worst(test::errors(wanted, test::eigenvaluesOf(point)).relative), 1e-11);
   EXPECT_LT(point.worstBackwardError(), 1e-12);
   for (std::size_t i = 1; i < point.eigenvalues.size(); ++i)
@@ -84,7 +92,8 @@ std::vector<Complex> nearest(std::vector<Complex> exact, std::size_t count) {
   return exact;
 }
 
-// Single, double and triple eigenvalues, complex and real ones; those as near as the twentieth are listed with it.
+// Single, double and triple eigenvalues, complex and real ones; those as near as the twentieth are
+// listed with it.
 TEST(Direct, FindsMultipleEigenvalues) {
   for (const PetscInt copies : {1, 2, 3})
     for (const double alpha : alphas) {
@@ -107,18 +116,21 @@ TEST(Direct, FindsAllOfATinyProblem) {
 }
 
 std::vector<Complex> inBand(std::vector<Complex> exact, double low, double high, double coveredTo) {
-  std::erase_if(exact, [&](Complex s) { return s.imag() < low || s.imag() > high || std::abs(s) > std::min(high, coveredTo); });
+  std::erase_if(exact, [&](Complex s) {
+    return s.imag() < low || s.imag() > high || std::abs(s) > std::min(high, coveredTo);
+  });
   return exact;
 }
 
-// The band holds more than the five first asked for. Overdamped eigenvalues larger than its top do not belong to it.
+// The band holds more than the five first asked for. Overdamped eigenvalues larger than its top do
+// not belong to it.
 TEST(Direct, CoversABand) {
   for (const double alpha : alphas) {
     constexpr double high = 2 * M_PI * 400;
     const double low = alpha == 20 ? 2 * M_PI * 150 : 0;
     const auto problem = chains(80, 2, alpha);
-    const auto point =
-        solve(problem, std::string("-flutter_direct_count 5 -flutter_direct_band ") + (low > 0 ? "150" : "0") + ",400");
+    const auto point = solve(problem, std::string("-flutter_direct_count 5 -flutter_direct_band ") +
+                                          (low > 0 ? "150" : "0") + ",400");
     const auto wanted = inBand(problem.exact(), low, high, INFINITY);
     EXPECT_GT(wanted.size(), 10u);
     expectSpectrum(point, wanted);
@@ -137,13 +149,16 @@ TEST(Direct, CoversABandThatHoldsAll) {
 TEST(Direct, TellsHowFarTheLimitReaches) {
   for (const double alpha : alphas) {
     const auto problem = chains(120, 1, alpha);
-    const auto point = solve(problem, "-flutter_direct_count 4 -flutter_direct_limit 9 -flutter_direct_band 50,700");
+    const auto point = solve(
+        problem, "-flutter_direct_count 4 -flutter_direct_limit 9 -flutter_direct_band 50,700");
     EXPECT_GT(point.coveredTo, 2 * M_PI * 50);
     EXPECT_LT(point.coveredTo, 2 * M_PI * 700);
     std::vector<Complex> found;
     for (const Complex s : test::eigenvaluesOf(point))
-      if (std::abs(s) < (1 - 1e-9) * point.coveredTo) found.push_back(s);  // the last one itself is on the edge
-    const auto wanted = inBand(problem.exact(), 2 * M_PI * 50, 2 * M_PI * 700, (1 - 1e-9) * point.coveredTo);
+      if (std::abs(s) < (1 - 1e-9) * point.coveredTo)
+        found.push_back(s);  // the last one itself is on the edge
+    const auto wanted =
+        inBand(problem.exact(), 2 * M_PI * 50, 2 * M_PI * 700, (1 - 1e-9) * point.coveredTo);
     EXPECT_GT(wanted.size(), 2u);
     EXPECT_EQ(found.size(), wanted.size());
     EXPECT_LT(test::worst(test::errors(wanted, found).relative), 1e-11);
@@ -156,13 +171,17 @@ TEST(Direct, WrongOptionsAreErrors) {
     return test::errorOf([&] { solve(of, "-flutter_direct_count 5 " + options); });
   };
   for (const char* band : {"3", "5,2", "1,1", "1,2,3"})
-    EXPECT_TRUE(test::contains(error(problem, std::string("-flutter_direct_band ") + band), "-flutter_direct_band")) << band;
+    EXPECT_TRUE(test::contains(error(problem, std::string("-flutter_direct_band ") + band),
+                               "-flutter_direct_band"))
+        << band;
   EXPECT_TRUE(test::contains(error(problem, "-flutter_pep_foo 1"), "-flutter_pep_foo"));
   EXPECT_TRUE(test::contains(error(problem, "-flutter_st_foo 1"), "-flutter_st_foo"));
   EXPECT_TRUE(test::contains(error(undamped, "-flutter_eps_foo 1"), "-flutter_eps_foo"));
-  EXPECT_TRUE(test::contains(error(problem, "-flutter_pep_max_it 1 -flutter_pep_ncv 11 "), "raise -flutter_pep_max_it"));
+  EXPECT_TRUE(test::contains(error(problem, "-flutter_pep_max_it 1 -flutter_pep_ncv 11 "),
+                             "raise -flutter_pep_max_it"));
   test::setOptions("-flutter_pep_ncv 30");
-  EXPECT_TRUE(test::contains(test::errorOf([] { direct::rejectIdleSolverOptions(); }), "-flutter_pep_ncv"));
+  EXPECT_TRUE(
+      test::contains(test::errorOf([] { direct::rejectIdleSolverOptions(); }), "-flutter_pep_ncv"));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// A folder of results is replaced as a whole: what is in it before and after, and after an end at each step between.
+// A folder of results is replaced as a whole: what is in it before and after, and after an end at
+// each step between.
 #include "output/folder.hpp"
 
 #include <fcntl.h>
@@ -16,7 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using test::errorOf;
-using Files = std::map<std::string, std::string>;  // relative path and content; a link's is where it leads
+using Files =
+    std::map<std::string, std::string>;  // relative path and content; a link's is where it leads
 
 bool first() { return report::rankOf(PETSC_COMM_WORLD) == 0; }
 
@@ -63,7 +65,8 @@ void putManifest(const fs::path& folder, const std::set<fs::path>& files) {
 Naming naming() {
   return {"-to", "summary.txt",
           [](const fs::path& path) {
-            static const std::set<fs::path> names{"a.csv", "summary.txt", Manifest::name, "vtk", "vtk/x.vtu", "vtk/y", "vtk/z"};
+            static const std::set<fs::path> names{"a.csv",     "summary.txt", Manifest::name, "vtk",
+                                                  "vtk/x.vtu", "vtk/y",       "vtk/z"};
             return names.contains(path);
           },
           [](const fs::path&) { return Manifest(); }};
@@ -85,8 +88,10 @@ Files without(Files files, const std::string& name) {
   return files;
 }
 
-const Files old{{"a.csv", "old"}, {"vtk/x.vtu", "old"}, {"vtk/y/y.vtu", "old"}, {"summary.txt", "old"}};
-const Files fresh{{"a.csv", "new"}, {"vtk/x.vtu", "new"}, {"vtk/z/z.vtu", "new"}, {"summary.txt", "new"}};
+const Files old{
+    {"a.csv", "old"}, {"vtk/x.vtu", "old"}, {"vtk/y/y.vtu", "old"}, {"summary.txt", "old"}};
+const Files fresh{
+    {"a.csv", "new"}, {"vtk/x.vtu", "new"}, {"vtk/z/z.vtu", "new"}, {"summary.txt", "new"}};
 const Files mine{{"notes.csv", "mine"}, {"vtk/mine.vtu", "mine"}, {"own/a.csv", "mine"}};
 
 Files both(Files a, const Files& b) {
@@ -103,7 +108,8 @@ TEST(Folder, ReplacesWhatAnEarlierRunListsAndNothingElse) {
   run(folder, fresh);
   EXPECT_EQ(without(filesIn(folder), Manifest::name), both(fresh, mine));
   EXPECT_FALSE(isThere(folder / "vtk" / "y"));  // was of the earlier run alone, and is empty
-  run(folder, {{"summary.txt", "third"}});      // leaves vtk/ with the user's file, and remembers that it is ours
+  run(folder, {{"summary.txt",
+                "third"}});  // leaves vtk/ with the user's file, and remembers that it is ours
   EXPECT_EQ(without(filesIn(folder), Manifest::name), both({{"summary.txt", "third"}}, mine));
   run(folder, fresh);
   EXPECT_EQ(without(filesIn(folder), Manifest::name), both(fresh, mine));
@@ -130,10 +136,12 @@ TEST(Folder, StaysAsItWasWithoutCommit) {
 }
 
 TEST(Folder, RefusesWhatIsInTheWay) {
-  for (const char* name : {"a.csv", "summary.txt", "vtk/x.vtu", "vtk/mine.vtu", "vtk", "manifest.txt"}) {
+  for (const char* name :
+       {"a.csv", "summary.txt", "vtk/x.vtu", "vtk/mine.vtu", "vtk", "manifest.txt"}) {
     const report::Folder place;
     put(place.path, {{name, "mine"}});
-    EXPECT_NE(errorOf([&] { run(place.path, fresh); }).find("is in the way"), std::string::npos) << name;
+    EXPECT_NE(errorOf([&] { run(place.path, fresh); }).find("is in the way"), std::string::npos)
+        << name;
     EXPECT_EQ(filesIn(place.path), (Files{{name, "mine"}}));
   }
 }
@@ -153,7 +161,8 @@ TEST(Folder, RefusesWhatComesIntoTheWayDuringTheRun) {
   EXPECT_EQ(filesIn(place.path), both(before, {{"b.csv", "mine"}}));
 }
 
-// A kill can come between any two steps of a commit: the next run finishes it, whatever is there by then.
+// A kill can come between any two steps of a commit: the next run finishes it, whatever is there by
+// then.
 TEST(Folder, FinishesACommitThatWasCutShort) {
   std::set<fs::path> oldNames, freshNames;
   for (const auto& [name, text] : old) oldNames.insert(name);
@@ -163,18 +172,19 @@ TEST(Folder, FinishesACommitThatWasCutShort) {
     Files there, waiting;
     bool oldManifest, freshManifestWaits;
   };
-  const std::vector<State> states{{"nothing moved", old, fresh, true, true},
-                                  {"old summary gone", without(old, "summary.txt"), fresh, true, true},
-                                  {"old files gone", {}, fresh, true, true},
-                                  {"old manifest gone", {}, fresh, false, true},
-                                  {"first file moved", {{"a.csv", "new"}}, without(fresh, "a.csv"), false, true},
-                                  {"half of a folder moved",
-                                   {{"a.csv", "new"}, {"vtk/x.vtu", "new"}},
-                                   {{"vtk/z/z.vtu", "new"}, {"summary.txt", "new"}},
-                                   false,
-                                   true},
-                                  {"manifest moved", without(fresh, "summary.txt"), {{"summary.txt", "new"}}, false, false},
-                                  {"all moved", fresh, {}, false, false}};
+  const std::vector<State> states{
+      {"nothing moved", old, fresh, true, true},
+      {"old summary gone", without(old, "summary.txt"), fresh, true, true},
+      {"old files gone", {}, fresh, true, true},
+      {"old manifest gone", {}, fresh, false, true},
+      {"first file moved", {{"a.csv", "new"}}, without(fresh, "a.csv"), false, true},
+      {"half of a folder moved",
+       {{"a.csv", "new"}, {"vtk/x.vtu", "new"}},
+       {{"vtk/z/z.vtu", "new"}, {"summary.txt", "new"}},
+       false,
+       true},
+      {"manifest moved", without(fresh, "summary.txt"), {{"summary.txt", "new"}}, false, false},
+      {"all moved", fresh, {}, false, false}};
   for (const auto& state : states) {
     SCOPED_TRACE(state.what);
     const report::Folder place;
@@ -212,7 +222,9 @@ TEST(Folder, RemovesNothingBehindALink) {
   EXPECT_NE(errorOf([&] { run(folder, fresh); }).find("vtk is in the way"), std::string::npos);
   {
     Naming needsNoFields = naming();
-    needsNoFields.mayWrite = [](const fs::path& path) { return path == "a.csv" || path == "summary.txt"; };
+    needsNoFields.mayWrite = [](const fs::path& path) {
+      return path == "a.csv" || path == "summary.txt";
+    };
     Folder open(PETSC_COMM_WORLD, needsNoFields, folder);
     open.stage();
     put(open.staging(), {{"a.csv", "new"}, {"summary.txt", "new"}});
@@ -228,21 +240,24 @@ TEST(Folder, RemovesNothingOutsideThatAManifestNames) {
     const report::Folder place;
     put(place.path, {{"mine.txt", "mine"}});
     putManifest(place.path / "results", {path});
-    EXPECT_NE(errorOf([&] { run(place.path / "results", fresh); }).find("no path in this folder"), std::string::npos) << path;
+    EXPECT_NE(errorOf([&] { run(place.path / "results", fresh); }).find("no path in this folder"),
+              std::string::npos)
+        << path;
     EXPECT_EQ(filesIn(place.path)["mine.txt"], "mine");
   }
 }
 
 TEST(Folder, IsForOneRunAtATime) {
   const report::Folder place;
-  const int other =
-      open((place.path / Lock::name).c_str(), O_RDWR | O_CREAT, 0666);  // a file of its own: another process' would do the same
+  const int other = open((place.path / Lock::name).c_str(), O_RDWR | O_CREAT,
+                         0666);  // a file of its own: another process' would do the same
   MPI_Barrier(PETSC_COMM_WORLD);
   const int taken = first() ? flock(other, LOCK_EX | LOCK_NB) : 0;
   EXPECT_EQ(taken, 0);
   MPI_Barrier(PETSC_COMM_WORLD);
   const std::string message = errorOf([&] { run(place.path, fresh); });
-  EXPECT_NE(message.find("another run is writing to " + place.path.string()), std::string::npos) << message;
+  EXPECT_NE(message.find("another run is writing to " + place.path.string()), std::string::npos)
+      << message;
   EXPECT_NE(message.find("option -to"), std::string::npos) << message;
   MPI_Barrier(PETSC_COMM_WORLD);
   close(other);
@@ -250,7 +265,8 @@ TEST(Folder, IsForOneRunAtATime) {
   run(place.path, fresh);
   {
     const Folder open(PETSC_COMM_WORLD, naming(), place.path);
-    EXPECT_NE(errorOf([&] { run(place.path, old); }).find("another run is writing"), std::string::npos);
+    EXPECT_NE(errorOf([&] { run(place.path, old); }).find("another run is writing"),
+              std::string::npos);
   }
   EXPECT_EQ(without(filesIn(place.path), Manifest::name), fresh);
 }

@@ -1,4 +1,5 @@
-// Left eigenvectors of full problems against LAPACK, and derivatives of two coupled oscillators in closed form.
+// Left eigenvectors of full problems against LAPACK, and derivatives of two coupled oscillators in
+// closed form.
 #include "sensitivity/left.hpp"
 
 #include <gtest/gtest.h>
@@ -28,15 +29,18 @@ linalg::ComplexVector vectorOf(Mat layout, const std::vector<Complex>& entries) 
   check(VecGetOwnershipRange(vector.real, &first, &end));
   for (PetscInt i = first; i < end; ++i) {
     check(VecSetValue(vector.real, i, entries[static_cast<std::size_t>(i)].real(), INSERT_VALUES));
-    check(VecSetValue(vector.imaginary, i, entries[static_cast<std::size_t>(i)].imag(), INSERT_VALUES));
+    check(VecSetValue(vector.imaginary, i, entries[static_cast<std::size_t>(i)].imag(),
+                      INSERT_VALUES));
   }
-  for (Vec part : {vector.real.get(), vector.imaginary.get()}) check(VecAssemblyBegin(part)), check(VecAssemblyEnd(part));
+  for (Vec part : {vector.real.get(), vector.imaginary.get()})
+    check(VecAssemblyBegin(part)), check(VecAssemblyEnd(part));
   return vector;
 }
 
-// Sixty free modes of the layers' 156 unknowns; pairs of the lower two fifths, as in the band of the reduced problem. The left
-// vectors of LAPACK on all unknowns span the same lines: with backward errors of 1e-10 and eigenvalues apart by some hundredths they
-// turn by 1e-7 at most, which changes the cosine by the square.
+// Sixty free modes of the layers' 156 unknowns; pairs of the lower two fifths, as in the band of
+// the reduced problem. The left vectors of LAPACK on all unknowns span the same lines: with
+// backward errors of 1e-10 and eigenvalues apart by some hundredths they turn by 1e-7 at most,
+// which changes the cosine by the square.
 TEST(Left, VectorsAreThoseOfAllUnknowns) {
   for (const std::string damping : {"", " -material_pad_rayleigh_stiffness 0.01"}) {
     const test::Layers layers("-modes_count 60" + damping);
@@ -47,7 +51,8 @@ TEST(Left, VectorsAreThoseOfAllUnknowns) {
     const auto full = linalg::solveQuadratic(
         test::denseCopy(pencil.assembled(2, at)).values,
         damping.empty() ? linalg::DenseMatrix() : test::denseCopy(pencil.assembled(1, at)).values,
-        test::denseCopy(pencil.assembled(0, at)).values, static_cast<int>(system.size()), linalg::Vectors::both);
+        test::denseCopy(pencil.assembled(0, at)).values, static_cast<int>(system.size()),
+        linalg::Vectors::both);
     std::vector<linalg::ComplexVector> right, left;
     std::vector<sensitivity::RightPair> pairs;
     for (std::size_t i = 0; i < 24; i += 4) {
@@ -55,12 +60,14 @@ TEST(Left, VectorsAreThoseOfAllUnknowns) {
       left.push_back(vectorOf(system.k0(), full[i].left));
     }
     for (std::size_t i = 0; i < right.size(); ++i) pairs.push_back({full[4 * i].s, &right[i]});
-    const auto found = sensitivity::leftVectors(pencil, at, {modes.vectors.share(), system.m0(), {}}, system.solver(), pairs);
+    const auto found = sensitivity::leftVectors(
+        pencil, at, {modes.vectors.share(), system.m0(), {}}, system.solver(), pairs);
     EXPECT_EQ(found.size(), pairs.size());
     for (std::size_t i = 0; i < found.size(); ++i) {
-      const double cosine = std::abs(linalg::dot(found[i].y, left[i])) / (linalg::length(found[i].y) * linalg::length(left[i]));
-      test::print("s = %.4f%+.4fi: backward error %.0e, cosine less 1: %.0e\n", pairs[i].s.real(), pairs[i].s.imag(),
-                  found[i].backwardError, cosine - 1);
+      const double cosine = std::abs(linalg::dot(found[i].y, left[i])) /
+                            (linalg::length(found[i].y) * linalg::length(left[i]));
+      test::print("s = %.4f%+.4fi: backward error %.0e, cosine less 1: %.0e\n", pairs[i].s.real(),
+                  pairs[i].s.imag(), found[i].backwardError, cosine - 1);
       EXPECT_LT(found[i].backwardError, 1e-10);
       EXPECT_NEAR(cosine, 1, 1e-11);
     }
@@ -69,7 +76,8 @@ TEST(Left, VectorsAreThoseOfAllUnknowns) {
 
 OwnedMat matrix2(double a, double b, double c, double d) {
   OwnedMat result;
-  check(MatCreateAIJ(PETSC_COMM_WORLD, PETSC_DECIDE, PETSC_DECIDE, 2, 2, 2, nullptr, 2, nullptr, result.out()));
+  check(MatCreateAIJ(PETSC_COMM_WORLD, PETSC_DECIDE, PETSC_DECIDE, 2, 2, 2, nullptr, 2, nullptr,
+                     result.out()));
   const double entries[2][2] = {{a, b}, {c, d}};
   PetscInt first = 0, end = 0;
   check(MatGetOwnershipRange(result, &first, &end));
@@ -80,8 +88,10 @@ OwnedMat matrix2(double a, double b, double c, double d) {
   return result;
 }
 
-// M = I, K = diag(k1, k2) + f k3 [0 1; −1 0]: s² = −μ, μ = (k1 + k2)/2 ± √(((k1 − k2)/2)² − f² k3²), so that
-//   2 s ds/df = ± f k3² / √(…),   and the condition number is |k1 − k2|/2 over |√(…)| below the critical friction, f k3 over it beyond.
+// M = I, K = diag(k1, k2) + f k3 [0 1; −1 0]: s² = −μ, μ = (k1 + k2)/2 ± √(((k1 − k2)/2)² − f²
+// k3²), so that
+//   2 s ds/df = ± f k3² / √(…),   and the condition number is |k1 − k2|/2 over |√(…)| below the
+//   critical friction, f k3 over it beyond.
 TEST(Left, DerivativesOfCoupledOscillators) {
   const double k1 = 1.0, k2 = 1.5, k3 = 0.8, critical = (k2 - k1) / (2 * k3);
   std::vector<pencil::Term> terms;
@@ -117,20 +127,25 @@ TEST(Left, DerivativesOfCoupledOscillators) {
                     s = std::sqrt(-((k1 + k2) / 2 + sign * root));
       const auto right = vectorOf(stiffness, {f * k3, -(k1 + s * s)});
       const sweep::Parameters at{f};
-      const auto left = sensitivity::leftVectors(pencil, at, {whole.share(), mass, {}}, solver, {{s, &right}});
+      const auto left =
+          sensitivity::leftVectors(pencil, at, {whole.share(), mass, {}}, solver, {{s, &right}});
       const sensitivity::EigenTriple triple{s, right, left[0].y};
       const Complex slope = sensitivity::slopeForm(pencil, at, triple);
       const double condition = sensitivity::condition(triple, slope, mass);
       const pencil::Sensitivity sensitivity{condition, 1, left[0].backwardError, {}};
-      test::print("f = %.4f: condition %.6g, left backward error %.0e\n", f, condition, left[0].backwardError);
+      test::print("f = %.4f: condition %.6g, left backward error %.0e\n", f, condition,
+                  left[0].backwardError);
       EXPECT_EQ(sensitivity.regular(), f != critical);
       if (f == critical) continue;
-      const Complex found = -sensitivity::parameterForm(pencil, at, triple, &sweep::Parameters::friction) / slope,
+      const Complex found = -sensitivity::parameterForm(pencil, at, triple,
+                                                        &sweep::Parameters::friction) /
+                            slope,
                     wanted = sign * f * k3 * k3 / root / (2.0 * s);
       // Rounding of s and of the vectors, times the square of the condition number at most.
       const double tolerance = 1e-14 * condition * condition;
       EXPECT_LT(std::abs(found - wanted), tolerance * std::abs(wanted));
-      EXPECT_NEAR(condition, std::max((k2 - k1) / 2, f * k3) / std::abs(root), tolerance * condition);
+      EXPECT_NEAR(condition, std::max((k2 - k1) / 2, f * k3) / std::abs(root),
+                  tolerance * condition);
     }
 }
 

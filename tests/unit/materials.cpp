@@ -14,13 +14,17 @@ using mesh::Point;
 using test::form;
 
 std::string patch(int dimension, const std::string& set, const std::string& law) {
-  return formatted("-mesh_file meshes/patch_%dd.geo -elasticity_incompatible_modes quad4,hex8 -material_body_density 1 ",
-                   dimension) +
+  return formatted(
+             "-mesh_file meshes/patch_%dd.geo -elasticity_incompatible_modes quad4,hex8 "
+             "-material_body_density 1 ",
+             dimension) +
          (set.empty() ? "" : "-mesh_set " + set + " ") + law;
 }
 
-constexpr double e1 = 3, e2 = 1.3, e3 = 0.8, nu12 = 0.35, nu13 = 0.42, nu23 = 0.27, g12 = 0.9, g13 = 0.7, g23 = 0.5;
-const std::string orthotropic = "-material_body_engineering_constants 3,1.3,0.8,0.35,0.42,0.27,0.9,0.7,0.5 ";
+constexpr double e1 = 3, e2 = 1.3, e3 = 0.8, nu12 = 0.35, nu13 = 0.42, nu23 = 0.27, g12 = 0.9,
+                 g13 = 0.7, g23 = 0.5;
+const std::string orthotropic =
+    "-material_body_engineering_constants 3,1.3,0.8,0.35,0.42,0.27,0.9,0.7,0.5 ";
 
 using Matrix = std::array<std::array<double, 3>, 3>;
 
@@ -30,7 +34,8 @@ Matrix strainOf(const Matrix& s) {
   e[0][0] = s[0][0] / e1 - nu12 / e1 * s[1][1] - nu13 / e1 * s[2][2];
   e[1][1] = -nu12 / e1 * s[0][0] + s[1][1] / e2 - nu23 / e2 * s[2][2];
   e[2][2] = -nu13 / e1 * s[0][0] - nu23 / e2 * s[1][1] + s[2][2] / e3;
-  e[0][1] = e[1][0] = s[0][1] / (2 * g12), e[0][2] = e[2][0] = s[0][2] / (2 * g13), e[1][2] = e[2][1] = s[1][2] / (2 * g23);
+  e[0][1] = e[1][0] = s[0][1] / (2 * g12), e[0][2] = e[2][0] = s[0][2] / (2 * g13),
+  e[1][2] = e[2][1] = s[1][2] / (2 * g23);
   return e;
 }
 
@@ -53,15 +58,17 @@ Matrix toMesh(const Matrix& e, const Matrix& q) {
 
 /// The energy of u = ε x on the unit square or cube is σ:ε.
 void expectEnergy(const std::string& options, const Matrix& stress, const Matrix& axes) {
-  const auto [mesh, bodies] =
-      test::buildBodies(options + formatted("-material_body_orientation %.17g,%.17g,%.17g,%.17g,%.17g,%.17g ", 2 * axes[0][0],
-                                            2 * axes[0][1], 2 * axes[0][2], axes[1][0] - 0.3 * axes[0][0],
-                                            axes[1][1] - 0.3 * axes[0][1], axes[1][2] - 0.3 * axes[0][2]));
+  const auto [mesh, bodies] = test::buildBodies(
+      options + formatted("-material_body_orientation %.17g,%.17g,%.17g,%.17g,%.17g,%.17g ",
+                          2 * axes[0][0], 2 * axes[0][1], 2 * axes[0][2],
+                          axes[1][0] - 0.3 * axes[0][0], axes[1][1] - 0.3 * axes[0][1],
+                          axes[1][2] - 0.3 * axes[0][2]));
   const Matrix strain = strainOf(stress), e = toMesh(strain, axes);
   const auto u = test::nodalField(mesh, [&](const Point& x) {
     Point value{};
     for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < static_cast<std::size_t>(mesh.dimension); ++j) value[i] += e[i][j] * x[j];
+      for (std::size_t j = 0; j < static_cast<std::size_t>(mesh.dimension); ++j)
+        value[i] += e[i][j] * x[j];
     return value;
   });
   const double energy = product(stress, strain);
@@ -71,9 +78,12 @@ void expectEnergy(const std::string& options, const Matrix& stress, const Matrix
 // Rotation by 0.7 about (1, 2, 2)/3.
 Matrix turnedAxes() {
   const double k[] = {1.0 / 3, 2.0 / 3, 2.0 / 3}, c = std::cos(0.7), s = std::sin(0.7);
-  return {{{c + (1 - c) * k[0] * k[0], (1 - c) * k[0] * k[1] + s * k[2], (1 - c) * k[0] * k[2] - s * k[1]},
-           {(1 - c) * k[1] * k[0] - s * k[2], c + (1 - c) * k[1] * k[1], (1 - c) * k[1] * k[2] + s * k[0]},
-           {(1 - c) * k[2] * k[0] + s * k[1], (1 - c) * k[2] * k[1] - s * k[0], c + (1 - c) * k[2] * k[2]}}};
+  return {{{c + (1 - c) * k[0] * k[0], (1 - c) * k[0] * k[1] + s * k[2],
+            (1 - c) * k[0] * k[2] - s * k[1]},
+           {(1 - c) * k[1] * k[0] - s * k[2], c + (1 - c) * k[1] * k[1],
+            (1 - c) * k[1] * k[2] + s * k[0]},
+           {(1 - c) * k[2] * k[0] + s * k[1], (1 - c) * k[2] * k[1] - s * k[0],
+            c + (1 - c) * k[2] * k[2]}}};
 }
 
 TEST(Orthotropy, EnergyOfAffineDisplacementsInSpace) {
@@ -96,7 +106,8 @@ TEST(Orthotropy, EnergyOfAffineDisplacementsInThePlane) {
         if (plane == "strain") {  // the stress across the plane that undoes the strain across it
           Matrix one{};
           one[normal][normal] = 1;
-          stress[normal][normal] = -strainOf(stress)[normal][normal] / strainOf(one)[normal][normal];
+          stress[normal][normal] =
+              -strainOf(stress)[normal][normal] / strainOf(one)[normal][normal];
         }
         expectEnergy(patch(2, set, orthotropic + "-elasticity_plane " + plane + " "), stress, axes);
       }
@@ -107,13 +118,15 @@ void expectSameStiffness(const std::string& one, const std::string& other) {
              b = test::denseCopy(test::buildBodies(other).bodies.stiffness);
   double largest = 0, difference = 0;
   for (std::size_t i = 0; i < a.values.size(); ++i)
-    largest = std::max(largest, std::abs(a.values[i])), difference = std::max(difference, std::abs(a.values[i] - b.values[i]));
+    largest = std::max(largest, std::abs(a.values[i])),
+    difference = std::max(difference, std::abs(a.values[i] - b.values[i]));
   EXPECT_LT(difference, 1e-13 * largest) << one << " / " << other;
 }
 
 TEST(Orthotropy, IsotropicLawAsEngineeringConstants) {
   const std::string isotropic = "-material_body_young 2 -material_body_poisson 0.25 ",
-                    constants = "-material_body_engineering_constants 2,2,2,0.25,0.25,0.25,0.8,0.8,0.8 ",
+                    constants =
+                        "-material_body_engineering_constants 2,2,2,0.25,0.25,0.25,0.8,0.8,0.8 ",
                     turned = "-material_body_orientation 1,2,0.5,-1,0.3,2 ",
                     cylindrical = "-material_body_cylindrical 0.1,0.2,0,1,2,3 ";
   expectSameStiffness(patch(3, "", isotropic), patch(3, "", constants));
@@ -128,54 +141,75 @@ TEST(Orthotropy, TransverseIsotropyAsEngineeringConstants) {
                     turned = "-material_body_orientation 1,2,0.5,-1,0.3,2 ";
   expectSameStiffness(
       patch(3, "", transverse + turned),
-      patch(3, "", formatted("-material_body_engineering_constants 3,3,0.8,0.3,0.4,0.4,%.17g,0.6,0.6 ", 3 / 2.6) + turned));
+      patch(3, "",
+            formatted("-material_body_engineering_constants 3,3,0.8,0.3,0.4,0.4,%.17g,0.6,0.6 ",
+                      3 / 2.6) +
+                turned));
   // Isotropic in the plane 1-2: turning that plane about axis 3 changes nothing.
-  expectSameStiffness(patch(3, "", transverse), patch(3, "", transverse + "-material_body_orientation 0.6,0.8,0,-0.8,0.6,0 "));
+  expectSameStiffness(
+      patch(3, "", transverse),
+      patch(3, "", transverse + "-material_body_orientation 0.6,0.8,0,-0.8,0.6,0 "));
 }
 
-// u = x e_x stretches radially by cos², tangentially by sin², and shears by −2 sin cos: the mean of its energy over all directions is
-// 3/8 (D11 + D22) + 1/4 D12 + 1/2 D66. On 12 equal sectors the sum over quadrature points is the exact mean, harmonics being of
-// order 4 at most.
+// u = x e_x stretches radially by cos², tangentially by sin², and shears by −2 sin cos: the mean of
+// its energy over all directions is 3/8 (D11 + D22) + 1/4 D12 + 1/2 D66. On 12 equal sectors the
+// sum over quadrature points is the exact mean, harmonics being of order 4 at most.
 TEST(Orthotropy, CylindricalAxesOnARing) {
   const double nu21 = nu12 * e2 / e1, nu31 = nu13 * e3 / e1, nu32 = nu23 * e3 / e2;
   const double delta = 1 - nu12 * nu21 - nu23 * nu32 - nu31 * nu13 - 2 * nu21 * nu32 * nu13;
-  const double d11 = e1 * (1 - nu23 * nu32) / delta, d22 = e2 * (1 - nu13 * nu31) / delta, d12 = e1 * (nu21 + nu31 * nu23) / delta;
+  const double d11 = e1 * (1 - nu23 * nu32) / delta, d22 = e2 * (1 - nu13 * nu31) / delta,
+               d12 = e1 * (nu21 + nu31 * nu23) / delta;
   const double stretch = 3.0 / 8 * (d11 + d22) + d12 / 4 + g12 / 2, swelling = d11 + d22 + 2 * d12;
   const std::string axes = "-material_body_cylindrical 0,0,0.3,0,0,2 ";
   const auto rename = [](std::string options, const std::string& body) {
-    for (auto at = options.find("body"); at != std::string::npos; at = options.find("body")) options.replace(at, 4, body);
+    for (auto at = options.find("body"); at != std::string::npos; at = options.find("body"))
+      options.replace(at, 4, body);
     return options;
   };
   const std::string density = "-material_body_density 1 ", law = orthotropic + axes + density;
   const auto check = [&](const std::string& options, double volume) {
     const auto [mesh, bodies] = test::buildBodies(options);
     const auto alongX = test::nodalField(mesh, [](const Point& x) { return Point{x[0], 0, 0}; });
-    const auto outwards = test::nodalField(mesh, [](const Point& x) { return Point{x[0], x[1], 0}; });
-    EXPECT_NEAR(form(alongX, bodies.stiffness, alongX), stretch * volume, 1e-12 * stretch * volume) << options;
-    EXPECT_NEAR(form(outwards, bodies.stiffness, outwards), swelling * volume, 1e-12 * swelling * volume) << options;
+    const auto outwards = test::nodalField(mesh, [](const Point& x) {
+      return Point{x[0], x[1], 0};
+    });
+    EXPECT_NEAR(form(alongX, bodies.stiffness, alongX), stretch * volume, 1e-12 * stretch * volume)
+        << options;
+    EXPECT_NEAR(form(outwards, bodies.stiffness, outwards), swelling * volume,
+                1e-12 * swelling * volume)
+        << options;
   };
   const double sector = std::sin(2 * M_PI / 12) / 2;  // area of a triangle of unit sides
-  check("-mesh_file meshes/cylinders.geo -mesh_set a=0.5,b=0.8,c=1.2,n_inner=2,n_outer=2,n_theta=12 " + rename(law, "inner") +
-            rename(law, "outer"),
-        12 * sector * (1.2 * 1.2 - 0.5 * 0.5));
-  check("-mesh_file meshes/ring.geo -mesh_set R=1,thickness=0.4,width=0.3,n_theta=12 -elasticity_incompatible_modes none " +
-            rename(law, "ring"),
-        12 * sector * (1.2 * 1.2 - 0.8 * 0.8) * 0.3);
+  check(
+      "-mesh_file meshes/cylinders.geo -mesh_set "
+      "a=0.5,b=0.8,c=1.2,n_inner=2,n_outer=2,n_theta=12 " +
+          rename(law, "inner") + rename(law, "outer"),
+      12 * sector * (1.2 * 1.2 - 0.5 * 0.5));
+  check(
+      "-mesh_file meshes/ring.geo -mesh_set R=1,thickness=0.4,width=0.3,n_theta=12 "
+      "-elasticity_incompatible_modes none " +
+          rename(law, "ring"),
+      12 * sector * (1.2 * 1.2 - 0.8 * 0.8) * 0.3);
 }
 
 TEST(Orthotropy, RejectsWhatIsNoLaw) {
-  const auto message = [](const std::string& law) { return test::errorOf([&] { test::buildBodies(patch(2, "", law)); }); };
+  const auto message = [](const std::string& law) {
+    return test::errorOf([&] { test::buildBodies(patch(2, "", law)); });
+  };
   const auto expect = [&](const std::string& law, const std::string& part) {
     EXPECT_TRUE(test::contains(message(law), part)) << law << ": " << message(law);
   };
   ASSERT_EQ(message(orthotropic), "");
   expect(orthotropic + "-material_body_young 1", "-material_body_young exclude each other");
-  expect(orthotropic + "-material_body_transverse 1,1,0.3,0.3,1", "-material_body_transverse exclude each other");
+  expect(orthotropic + "-material_body_transverse 1,1,0.3,0.3,1",
+         "-material_body_transverse exclude each other");
   expect("-material_body_engineering_constants 1,1,1,0.3,0.3,0.3,1,1", "9 numbers");
   expect("-material_body_transverse 1,1,0.3,0.3", "5 numbers");
   expect("-material_body_engineering_constants 1,1,1,0.3,0.3,0.3,1,1,0", "all moduli must be > 0");
-  expect("-material_body_engineering_constants 1,4,1,0.6,0.3,0.3,1,1,1", "|nu12| must be < sqrt(E1/E2)");
-  expect("-material_body_engineering_constants 1,1,1,0.6,0.6,0.6,1,1,1", "-material_body_engineering_constants: the strain energy");
+  expect("-material_body_engineering_constants 1,4,1,0.6,0.3,0.3,1,1,1",
+         "|nu12| must be < sqrt(E1/E2)");
+  expect("-material_body_engineering_constants 1,1,1,0.6,0.6,0.6,1,1,1",
+         "-material_body_engineering_constants: the strain energy");
   expect("-material_body_transverse 1,1,0.3,1.2,1", "|nu13|");
   expect("-material_body_young 1 -material_body_poisson 0.3 -material_body_orientation 1,0,0,0,1,0",
          "needs -material_body_engineering");
@@ -183,7 +217,9 @@ TEST(Orthotropy, RejectsWhatIsNoLaw) {
   expect(orthotropic + "-material_body_orientation 1,0,1,0,1,0", "normal to the plane");
   expect(orthotropic + "-material_body_cylindrical 0,0,0,1,0,0", "must be 0,0,1");
   expect(orthotropic + "-material_body_cylindrical 0,0,0,0,0,0", "no length");
-  expect(orthotropic + "-material_body_orientation 1,0,0,0,1,0 -material_body_cylindrical 0,0,0,0,0,1", "exclude each other");
+  expect(
+      orthotropic + "-material_body_orientation 1,0,0,0,1,0 -material_body_cylindrical 0,0,0,0,0,1",
+      "exclude each other");
   expect(orthotropic + "-material_other_orientation 1,0,0,0,1,0", "-material_other_young");
 }
 

@@ -18,13 +18,15 @@ namespace {
 
 std::string bigEndian(std::int32_t number) {
   std::string bytes;
-  for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(static_cast<std::uint32_t>(number) >> shift & 0xff);
+  for (int shift = 24; shift >= 0; shift -= 8)
+    bytes += static_cast<char>(static_cast<std::uint32_t>(number) >> shift & 0xff);
   return bytes;
 }
 
 std::string bigEndian(double number) {
   const auto bits = std::bit_cast<std::uint64_t>(number);
-  return bigEndian(static_cast<std::int32_t>(bits >> 32)) + bigEndian(static_cast<std::int32_t>(bits & 0xffffffff));
+  return bigEndian(static_cast<std::int32_t>(bits >> 32)) +
+         bigEndian(static_cast<std::int32_t>(bits & 0xffffffff));
 }
 
 struct Petsc {
@@ -33,7 +35,8 @@ struct Petsc {
   std::vector<double> values{2, 1, 3};
 
   std::string bytes() const {
-    std::string text = bigEndian(1211216) + bigEndian(rows) + bigEndian(columns) + bigEndian(entries);
+    std::string text =
+        bigEndian(1211216) + bigEndian(rows) + bigEndian(columns) + bigEndian(entries);
     for (const auto& list : {lengths, index})
       for (const auto number : list) text += bigEndian(number);
     for (const double value : values) text += bigEndian(value);
@@ -42,8 +45,10 @@ struct Petsc {
 };
 
 TEST(PetscBinary, Sample) {
-  const OwnedMat matrix = matrices::read(
-      PETSC_COMM_WORLD, written("from.mtx", [](const auto& path) { matrixfile::writeMatrixMarket(path, sampleEntries()); }));
+  const OwnedMat matrix =
+      matrices::read(PETSC_COMM_WORLD, written("from.mtx", [](const auto& path) {
+                       matrixfile::writeMatrixMarket(path, sampleEntries());
+                     }));
   const std::string path = SQUEAL_OUTPUT_DIR "/sample.petsc";
   OwnedViewer viewer;
   check(PetscViewerBinaryOpen(PETSC_COMM_WORLD, path.c_str(), FILE_MODE_WRITE, viewer.out()));
@@ -58,31 +63,44 @@ TEST(PetscBinary, Sample) {
 TEST(PetscBinary, ColumnsInAnyOrder) {
   const std::vector<double> byColumns{2, 1, 0, 3};
   EXPECT_EQ(valuesRead(writeFile("sorted.petsc", Petsc{}.bytes())), byColumns);
-  EXPECT_EQ(valuesRead(writeFile("unsorted.petsc", Petsc{2, 2, 3, {1, 2}, {0, 1, 0}, {2, 3, 1}}.bytes())), byColumns);
+  EXPECT_EQ(
+      valuesRead(writeFile("unsorted.petsc", Petsc{2, 2, 3, {1, 2}, {0, 1, 0}, {2, 3, 1}}.bytes())),
+      byColumns);
 }
 
 TEST(PetscBinary, WhatMatLoadWouldMisreadIsNamed) {
   const std::string sound = Petsc{}.bytes();
   const std::vector<std::array<std::string, 3>> cases{
-      {"negative", Petsc{2, 2, 3, {1, 2}, {0, -5, 1}, {2, 1, 3}}.bytes(), "row 1 (counted from 0) has an entry in column -5 of 2"},
-      {"beyond", Petsc{2, 2, 3, {1, 2}, {7, 0, 1}, {2, 1, 3}}.bytes(), "row 0 (counted from 0) has an entry in column 7 of 2"},
-      {"last", Petsc{2, 2, 3, {1, 2}, {0, 0, 2}, {2, 1, 3}}.bytes(), "row 1 (counted from 0) has an entry in column 2 of 2"},
-      {"lengths", Petsc{2, 2, 2, {3, -1}, {0, 1}, {1, 1}}.bytes(), "row 0 (counted from 0) has 3 entries in 2 columns"},
-      {"length", Petsc{2, 2, 1, {2, -1}, {0}, {1}}.bytes(), "row 0 (counted from 0) has more entries than the header announces"},
+      {"negative", Petsc{2, 2, 3, {1, 2}, {0, -5, 1}, {2, 1, 3}}.bytes(),
+       "row 1 (counted from 0) has an entry in column -5 of 2"},
+      {"beyond", Petsc{2, 2, 3, {1, 2}, {7, 0, 1}, {2, 1, 3}}.bytes(),
+       "row 0 (counted from 0) has an entry in column 7 of 2"},
+      {"last", Petsc{2, 2, 3, {1, 2}, {0, 0, 2}, {2, 1, 3}}.bytes(),
+       "row 1 (counted from 0) has an entry in column 2 of 2"},
+      {"lengths", Petsc{2, 2, 2, {3, -1}, {0, 1}, {1, 1}}.bytes(),
+       "row 0 (counted from 0) has 3 entries in 2 columns"},
+      {"length", Petsc{2, 2, 1, {2, -1}, {0}, {1}}.bytes(),
+       "row 0 (counted from 0) has more entries than the header announces"},
       {"minus", Petsc{2, 2, 1, {-1, 2}, {0}, {1}}.bytes(), "row 0 (counted from 0) has -1 entries"},
-      {"sum", Petsc{2, 2, 3, {1, 1}, {0, 0, 1}, {2, 1, 3}}.bytes(), "the rows have 2 entries, the header announces 3"},
-      {"twice", Petsc{2, 2, 3, {1, 2}, {0, 1, 1}, {2, 1, 3}}.bytes(), "row 1 (counted from 0) has two entries in column 1"},
-      {"nan", Petsc{2, 2, 3, {1, 2}, {0, 0, 1}, {2, std::nan(""), 3}}.bytes(), "entry 2 of 3 is not a finite number"},
-      {"wide", Petsc{2, 3, 3, {1, 2}, {0, 0, 1}, {2, 1, 3}}.bytes(), "2 rows and 3 columns, not square"},
+      {"sum", Petsc{2, 2, 3, {1, 1}, {0, 0, 1}, {2, 1, 3}}.bytes(),
+       "the rows have 2 entries, the header announces 3"},
+      {"twice", Petsc{2, 2, 3, {1, 2}, {0, 1, 1}, {2, 1, 3}}.bytes(),
+       "row 1 (counted from 0) has two entries in column 1"},
+      {"nan", Petsc{2, 2, 3, {1, 2}, {0, 0, 1}, {2, std::nan(""), 3}}.bytes(),
+       "entry 2 of 3 is not a finite number"},
+      {"wide", Petsc{2, 3, 3, {1, 2}, {0, 0, 1}, {2, 1, 3}}.bytes(),
+       "2 rows and 3 columns, not square"},
       {"dense", Petsc{2, 2, -1, {}, {}, {1, 2, 3, 4}}.bytes(), "a dense matrix"},
       {"rows", Petsc{-2, 2, 0, {}, {}, {}}.bytes(), "the header announces -2 rows"},
-      {"huge", Petsc{2000000000, 2000000000, 2000000000, {}, {}, {}}.bytes(), "16 bytes where a real matrix of 2000000000 rows"},
+      {"huge", Petsc{2000000000, 2000000000, 2000000000, {}, {}, {}}.bytes(),
+       "16 bytes where a real matrix of 2000000000 rows"},
       {"long", sound + "1234", "cut short, or of another PETSc configuration"},
       {"head", sound.substr(0, 12), "cut short"},
   };
   for (const auto& [name, bytes, message] : cases) {
     const std::string error = errorReading(writeFile(name + ".petsc", bytes));
-    EXPECT_TRUE(contains(error, name + ".petsc: ") && contains(error, message)) << name << ": " << error;
+    EXPECT_TRUE(contains(error, name + ".petsc: ") && contains(error, message))
+        << name << ": " << error;
   }
 }
 
@@ -145,20 +163,25 @@ TEST(Hdf5, Sample) {
 }
 
 TEST(Hdf5, EntriesOfEqualPlaceAreSummed) {
-  const auto path = written("twice.h5", [](const auto& to) { Group{{0, 2, 4}, {0, 0, 1, 0}, {0.5, 1.5, 3, 1}}(Hdf5File(to)); });
+  const auto path = written("twice.h5", [](const auto& to) {
+    Group{{0, 2, 4}, {0, 0, 1, 0}, {0.5, 1.5, 3, 1}}(Hdf5File(to));
+  });
   EXPECT_EQ(valuesRead(path), (std::vector<double>{2, 1, 0, 3}));
 }
 
 // By rows and by columns the same lists are a matrix and its transpose: neither is more likely than
 // the other.
 TEST(Hdf5, AnUnsaidLayoutIsNoMatrixUnlessItIsSymmetric) {
-  const auto unsaid = written("unsaid.h5", [](const auto& to) { Group{.format = ""}(Hdf5File(to)); });
+  const auto unsaid =
+      written("unsaid.h5", [](const auto& to) { Group{.format = ""}(Hdf5File(to)); });
   const std::string error = errorReading(unsaid);
-  for (const char* word : {"unsaid.h5: 'k': ", "by rows or by columns", "'format'", "csr or csc", "not symmetric"})
+  for (const char* word :
+       {"unsaid.h5: 'k': ", "by rows or by columns", "'format'", "csr or csc", "not symmetric"})
     EXPECT_TRUE(contains(error, word)) << word << ": " << error;
   // [[2, 1], [1, 3]], the entry above the diagonal in two parts.
   const Group symmetric{{0, 3, 5}, {0, 1, 1, 0, 1}, {2, 0.25, 0.75, 1, 3}, ""};
-  const auto same = written("unsaid_symmetric.h5", [&](const auto& to) { symmetric(Hdf5File(to)); });
+  const auto same =
+      written("unsaid_symmetric.h5", [&](const auto& to) { symmetric(Hdf5File(to)); });
   EXPECT_EQ(valuesRead(same), (std::vector<double>{2, 1, 1, 3}));
 }
 
@@ -187,9 +210,11 @@ struct Damaged {
 
 void expectNamed(const std::vector<Damaged>& cases) {
   for (const auto& [name, write, message] : cases) {
-    const auto path = written(name + ".h5", [&, &write = write](const auto& to) { write(Hdf5File(to)); });
+    const auto path =
+        written(name + ".h5", [&, &write = write](const auto& to) { write(Hdf5File(to)); });
     const std::string error = errorReading(path);
-    EXPECT_TRUE(contains(error, name + ".h5: ") && contains(error, message)) << name << ": " << error;
+    EXPECT_TRUE(contains(error, name + ".h5: ") && contains(error, message))
+        << name << ": " << error;
   }
 }
 
@@ -200,13 +225,17 @@ TEST(Hdf5, ListsThatDoNotFitTogether) {
       {"first", Group{{1, 1, 3}, {0, 0, 1}, {2, 1, 3}}, "indptr begins with 1, not with 0"},
       {"falls", Group{{0, 4, 3}, {0, 0, 1}, {2, 1, 3}}, "indptr falls from 4 to 3"},
       {"below", Group{{0, -1, 3}, {0, 0, 1}, {2, 1, 3}}, "indptr falls from 0 to -1"},
-      {"last", Group{{0, 1, 2}, {0, 0, 1}, {2, 1, 3}}, "indptr ends with 2, but indices has 3 numbers and data has 3"},
+      {"last", Group{{0, 1, 2}, {0, 0, 1}, {2, 1, 3}},
+       "indptr ends with 2, but indices has 3 numbers and data has 3"},
       {"beyond", Group{{0, 1, 4000000000}, {0, 0, 1}, {2, 1, 3}}, "indptr ends with 4000000000"},
       {"indices", Group{{0, 1, 3}, {0, 0}, {2, 1, 3}}, "indices has 2 numbers and data has 3"},
       {"data", Group{{0, 1, 3}, {0, 0, 1}, {2, 1}}, "indices has 3 numbers and data has 2"},
-      {"negative", Group{{0, 1, 3}, {0, -5, 1}, {2, 1, 3}}, "row 1 and column -5 of a matrix of 2 x 2"},
-      {"outside", Group{{0, 1, 3}, {0, 4294967296, 1}, {2, 1, 3}}, "row 1 and column 4294967296 of a matrix of 2 x 2"},
-      {"infinite", Group{{0, 1, 3}, {0, 0, 1}, {2, HUGE_VAL, 3}}, "row 1 and column 0 (counted from 0) is not a finite number"},
+      {"negative", Group{{0, 1, 3}, {0, -5, 1}, {2, 1, 3}},
+       "row 1 and column -5 of a matrix of 2 x 2"},
+      {"outside", Group{{0, 1, 3}, {0, 4294967296, 1}, {2, 1, 3}},
+       "row 1 and column 4294967296 of a matrix of 2 x 2"},
+      {"infinite", Group{{0, 1, 3}, {0, 0, 1}, {2, HUGE_VAL, 3}},
+       "row 1 and column 0 (counted from 0) is not a finite number"},
   });
 }
 
@@ -232,7 +261,8 @@ TEST(Hdf5, OtherTypesAndKinds) {
          file.dataset("k/indices", H5T_NATIVE_LLONG, Group{}.index.data(), {3});
          file.dataset("k/data", pair, pairs.data(), {3});
        },
-       "dataset 'data': real numbers are expected, it holds a compound type, as complex numbers are"},
+       "dataset 'data': real numbers are expected, it holds a compound type, as complex numbers "
+       "are"},
       {"complex_table",
        [&](const Hdf5File& file) {
          file.dataset("k", pair, pairs.data(), {2, 2});
@@ -246,7 +276,8 @@ TEST(Hdf5, OtherTypesAndKinds) {
        },
        "dataset 'indptr': 1 dimensions are expected, it has 2"},
       {"blocks", Group{.format = "bsr"}, "the format 'bsr', where csr and csc are read"},
-      {"contradiction", [&](const Hdf5File& file) { Group{}(file), file.text("k", "encoding-type", "csc_matrix"); },
+      {"contradiction",
+       [&](const Hdf5File& file) { Group{}(file), file.text("k", "encoding-type", "csc_matrix"); },
        "csr as well as csc"},
       {"shape",
        [&](const Hdf5File& file) {
@@ -276,14 +307,17 @@ TEST(Hdf5, WhatWasNeverWritten) {
     };
   };
   expectNamed({
-      {"unwritten", around([](const auto& file) { file.dataset("k/data", H5T_NATIVE_DOUBLE, nullptr, {3}); }),
+      {"unwritten",
+       around([](const auto& file) { file.dataset("k/data", H5T_NATIVE_DOUBLE, nullptr, {3}); }),
        "dataset 'data': the file holds 0 bytes of it, where its size takes 24"},
       {"unwritten_chunk", around([&](const auto& file) {
          file.dataset("k/data", H5T_NATIVE_DOUBLE, nullptr, {3}, {1});
          file.writeFirst("k/data", H5T_NATIVE_DOUBLE, &one, 1);
        }),
        "dataset 'data': 1 of its 3 chunks were written"},
-      {"huge", around([](const auto& file) { file.dataset("k/data", H5T_NATIVE_DOUBLE, nullptr, {2000000000}); }),
+      {"huge", around([](const auto& file) {
+         file.dataset("k/data", H5T_NATIVE_DOUBLE, nullptr, {2000000000});
+       }),
        "the file holds 0 bytes of it, where its size takes 16000000000"},
       {"huge_chunks", around([&](const auto& file) {
          file.dataset("k/data", H5T_NATIVE_DOUBLE, nullptr, {2000000000}, {1000});
@@ -295,21 +329,24 @@ TEST(Hdf5, WhatWasNeverWritten) {
          file.dataset("k", H5T_NATIVE_DOUBLE, nullptr, {100000, 100000});
        },
        "the file holds 0 bytes of it, where its size takes 80000000000"},
-      {"elsewhere", around([](const auto& file) { file.dataset("k/data", H5T_NATIVE_DOUBLE, nullptr, {3}, {}, "/dev/null"); }),
+      {"elsewhere", around([](const auto& file) {
+         file.dataset("k/data", H5T_NATIVE_DOUBLE, nullptr, {3}, {}, "/dev/null");
+       }),
        "its values lie in other files"},
   });
 }
 
-// The heap that holds the names of the root's objects, without an address or of another size: the HDF5 library reads beyond its arrays, or
-// asks for the memory that the word says.
+// The heap that holds the names of the root's objects, without an address or of another size: the
+// HDF5 library reads beyond its arrays, or asks for the memory that the word says.
 TEST(Hdf5, DamageThatTheLibraryDoesNotSurvive) {
   const auto path = written("heap.h5", [](const auto& to) { Group{}(Hdf5File(to)); });
   const std::string bytes = bytesOf(path);
   const std::size_t heap = bytes.find("HEAP");
   ASSERT_NE(heap, std::string::npos);
-  for (const auto& [name, at, word] : {std::tuple{"no_address.h5", 24, std::string(8, '\xff')},
-                                       {"size.h5", 8, std::string("\x58\0\0\0\0\0\0\x5a", 8)},
-                                       {"size_32.h5", 8, std::string("\xfb\xff\xff\xff\0\0\0\0", 8)}}) {
+  for (const auto& [name, at, word] :
+       {std::tuple{"no_address.h5", 24, std::string(8, '\xff')},
+        {"size.h5", 8, std::string("\x58\0\0\0\0\0\0\x5a", 8)},
+        {"size_32.h5", 8, std::string("\xfb\xff\xff\xff\0\0\0\0", 8)}}) {
     std::string damaged = bytes;
     damaged.replace(heap + static_cast<std::size_t>(at), 8, word);
     const std::string error = errorReading(writeFile(name, damaged));

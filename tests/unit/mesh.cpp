@@ -1,4 +1,5 @@
-// The distributed mesh: numbering, groups, pairs, images and partition, whatever the number of ranks.
+// The distributed mesh: numbering, groups, pairs, images and partition, whatever the number of
+// ranks.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +33,8 @@ std::vector<Number> gathered(const std::vector<Number>& mine, MPI_Datatype type)
   check(MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, PETSC_COMM_WORLD));
   std::partial_sum(counts.begin(), counts.end() - 1, offsets.begin() + 1);
   std::vector<Number> all(static_cast<std::size_t>(offsets.back() + counts.back()));
-  check(MPI_Allgatherv(mine.data(), count, type, all.data(), counts.data(), offsets.data(), type, PETSC_COMM_WORLD));
+  check(MPI_Allgatherv(mine.data(), count, type, all.data(), counts.data(), offsets.data(), type,
+                       PETSC_COMM_WORLD));
   return all;
 }
 
@@ -64,16 +66,20 @@ void expectNumbering(const Mesh& mesh) {
   std::set<PetscInt> ghosts(mesh.globalNode.begin() + mesh.ownedNodes, mesh.globalNode.end());
   EXPECT_EQ(ghosts.size(), size - static_cast<std::size_t>(mesh.ownedNodes));
   for (PetscInt ghost : ghosts)
-    EXPECT_TRUE(ghost >= 0 && ghost < mesh.totalNodes && (ghost < mesh.firstNode || ghost >= end)) << ghost;
+    EXPECT_TRUE(ghost >= 0 && ghost < mesh.totalNodes && (ghost < mesh.firstNode || ghost >= end))
+        << ghost;
 }
 
-/// A ghost is where its owner says; every local node belongs to a local cell or is owned; cells are whole and on one rank.
+/// A ghost is where its owner says; every local node belongs to a local cell or is owned; cells are
+/// whole and on one rank.
 void expectCells(const Mesh& mesh) {
   const auto coordinates = allCoordinates(mesh);
   for (PetscInt node = 0; node < mesh.localNodes(); ++node)
     for (std::size_t d = 0; d < 3; ++d)
       EXPECT_EQ(mesh.coordinates[static_cast<std::size_t>(node)][d],
-                coordinates[3 * static_cast<std::size_t>(mesh.globalNode[static_cast<std::size_t>(node)]) + d]);
+                coordinates[3 * static_cast<std::size_t>(
+                                    mesh.globalNode[static_cast<std::size_t>(node)]) +
+                            d]);
   std::vector<PetscInt> tags;
   std::set<PetscInt> used;
   for (const auto& block : mesh.cells) {
@@ -84,7 +90,8 @@ void expectCells(const Mesh& mesh) {
   }
   EXPECT_FALSE(tags.empty());
   for (PetscInt node : used) EXPECT_TRUE(node >= 0 && node < mesh.localNodes());
-  for (PetscInt node = mesh.ownedNodes; node < mesh.localNodes(); ++node) EXPECT_TRUE(used.count(node));
+  for (PetscInt node = mesh.ownedNodes; node < mesh.localNodes(); ++node)
+    EXPECT_TRUE(used.count(node));
   const auto all = gathered(tags, MPIU_INT);
   EXPECT_EQ(static_cast<PetscInt>(all.size()), mesh.totalCells);
   EXPECT_EQ(std::set<PetscInt>(all.begin(), all.end()).size(), all.size());
@@ -101,8 +108,10 @@ std::map<std::string, Point> areaVectors(const Mesh& mesh) {
         std::vector<Point> points;
         for (int i = 0; i < block.nodesPerFace; ++i)
           points.push_back(mesh.coordinates[static_cast<std::size_t>(
-              block.nodes[e * static_cast<std::size_t>(block.nodesPerFace) + static_cast<std::size_t>(i)])]);
-        const auto normals = elasticity::faceNormals(elasticity::shapeTable(block.type), points, block.sign[e]);
+              block.nodes[e * static_cast<std::size_t>(block.nodesPerFace) +
+                          static_cast<std::size_t>(i)])]);
+        const auto normals =
+            elasticity::faceNormals(elasticity::shapeTable(block.type), points, block.sign[e]);
         for (std::size_t i = 0; i < normals.size(); ++i) sum[i % 3] += normals[i];
       }
     for (auto& component : sum) component = test::total(component);
@@ -115,9 +124,10 @@ std::map<std::string, Point> areaVectors(const Mesh& mesh) {
 TEST(Mesh, CountsAndNumbersOfABox) {
   for (const int order : {1, 2}) {
     test::setOptions(
-        "-mesh_file meshes/beam.geo -mesh_set Lx=1,Ly=0.4,Lz=0.2,nx=8,ny=3,nz=2,order=" + std::to_string(order) +
-        test::material("beam", "1", "0.3", "1") +
-        "-constraint_clamped_clamped xyz -load_top_pressure 1 -load_bottom_pressure 1 -load_left_pressure 1 -load_tip_pressure 1");
+        "-mesh_file meshes/beam.geo -mesh_set Lx=1,Ly=0.4,Lz=0.2,nx=8,ny=3,nz=2,order=" +
+        std::to_string(order) + test::material("beam", "1", "0.3", "1") +
+        "-constraint_clamped_clamped xyz -load_top_pressure 1 -load_bottom_pressure 1 "
+        "-load_left_pressure 1 -load_tip_pressure 1");
     const Mesh mesh = test::readMesh();
     EXPECT_EQ(mesh.dimension, 3);
     EXPECT_EQ(mesh.totalCells, 48);
@@ -132,28 +142,35 @@ TEST(Mesh, CountsAndNumbersOfABox) {
     EXPECT_TRUE(mesh.images.empty() && mesh.pairs.empty());
     expectNumbering(mesh);
     expectCells(mesh);
-    const std::map<std::string, Point> expected{
-        {"top", {0, 0, 0.4}}, {"bottom", {0, 0, -0.4}}, {"left", {0, 0.2, 0}}, {"tip", {0.08, 0, 0}}};
+    const std::map<std::string, Point> expected{{"top", {0, 0, 0.4}},
+                                                {"bottom", {0, 0, -0.4}},
+                                                {"left", {0, 0.2, 0}},
+                                                {"tip", {0.08, 0, 0}}};
     const auto areas = areaVectors(mesh);
     ASSERT_EQ(areas.size(), expected.size());
     for (const auto& [surface, area] : expected)
-      for (std::size_t d = 0; d < 3; ++d) EXPECT_NEAR(areas.at(surface)[d], area[d], 1e-13) << surface;
+      for (std::size_t d = 0; d < 3; ++d)
+        EXPECT_NEAR(areas.at(surface)[d], area[d], 1e-13) << surface;
   }
 }
 
 /// Positions of all contact pairs, sorted; what every pair must fulfil is checked on the way.
 std::vector<std::pair<double, double>> contactPositions(const Mesh& mesh) {
   const auto coordinates = allCoordinates(mesh);
-  const int disc = static_cast<int>(std::find(mesh.bodies.begin(), mesh.bodies.end(), "disc") - mesh.bodies.begin());
+  const int disc = static_cast<int>(std::find(mesh.bodies.begin(), mesh.bodies.end(), "disc") -
+                                    mesh.bodies.begin());
   std::vector<double> mine;
   for (const auto& pair : mesh.pairs) {
     EXPECT_LT(pair.node, mesh.ownedNodes);
     const auto& x = mesh.coordinates[static_cast<std::size_t>(pair.node)];
-    for (std::size_t d = 0; d < 3; ++d) EXPECT_NEAR(x[d], coordinates[3 * static_cast<std::size_t>(pair.master) + d], 1e-9);
+    for (std::size_t d = 0; d < 3; ++d)
+      EXPECT_NEAR(x[d], coordinates[3 * static_cast<std::size_t>(pair.master) + d], 1e-9);
     EXPECT_NE(pair.master, mesh.firstNode + pair.node);
     EXPECT_EQ(pair.masterBody, disc);
     EXPECT_EQ(mesh.partName[static_cast<std::size_t>(pair.masterPart)], "disc");
-    EXPECT_EQ(mesh.partName[static_cast<std::size_t>(mesh.nodePart[static_cast<std::size_t>(pair.node)])], "pad");
+    EXPECT_EQ(
+        mesh.partName[static_cast<std::size_t>(mesh.nodePart[static_cast<std::size_t>(pair.node)])],
+        "pad");
     mine.insert(mine.end(), {x[0], x[1]});
   }
   const auto all = gathered(mine, MPI_DOUBLE);
@@ -179,24 +196,29 @@ TEST(Mesh, SharedAndCoincidentInterfaceNodesGiveTheSamePairs) {
       // After the split no cell of one body has a node of the other.
       for (const auto& block : mesh.cells)
         for (std::size_t i = 0; i < block.nodes.size(); ++i)
-          EXPECT_EQ(mesh.partName[static_cast<std::size_t>(mesh.nodePart[static_cast<std::size_t>(block.nodes[i])])],
-                    mesh.bodies[static_cast<std::size_t>(block.body[i / static_cast<std::size_t>(block.nodesPerCell)])]);
+          EXPECT_EQ(mesh.partName[static_cast<std::size_t>(
+                        mesh.nodePart[static_cast<std::size_t>(block.nodes[i])])],
+                    mesh.bodies[static_cast<std::size_t>(
+                        block.body[i / static_cast<std::size_t>(block.nodesPerCell)])]);
       // Towards the disc, whichever cells the interface's lines were drawn with.
       const auto area = areaVectors(mesh).at("pad_face");
       EXPECT_NEAR(area[0], 0, 1e-12);
       EXPECT_NEAR(area[1], -3, 1e-12);
     }
     EXPECT_EQ(nodes[0], nodes[1]) << shape;
-    ASSERT_EQ(positions[0].size(), shape.find("order=2") == std::string::npos ? 6u : 12u) << shape;  // the end at x = 3 is an image
+    ASSERT_EQ(positions[0].size(), shape.find("order=2") == std::string::npos ? 6u : 12u)
+        << shape;  // the end at x = 3 is an image
     for (std::size_t i = 0; i < positions[0].size(); ++i) {
       EXPECT_NEAR(positions[0][i].first, positions[1][i].first, 1e-9);
-      EXPECT_NEAR(positions[0][i].first, 3.0 * static_cast<double>(i) / static_cast<double>(positions[0].size()), 1e-9);
+      EXPECT_NEAR(positions[0][i].first,
+                  3.0 * static_cast<double>(i) / static_cast<double>(positions[0].size()), 1e-9);
     }
   }
 }
 
 TEST(Mesh, SharedNodesNeedOneMovingBody) {
-  test::setCase("two_layers", "-mesh_set nx=6,ny_disc=3,ny_pad=2,shared=1 -motion_pad_velocity 1,0,0");
+  test::setCase("two_layers",
+                "-mesh_set nx=6,ny_disc=3,ny_pad=2,shared=1 -motion_pad_velocity 1,0,0");
   const auto message = test::errorOf([] { test::readMesh(); });
   EXPECT_TRUE(test::contains(message, "-contact_interface_pad")) << message;
   EXPECT_TRUE(test::contains(message, "-motion_")) << message;
@@ -213,11 +235,14 @@ TEST(Mesh, PeriodicImagesAreTranslates) {
     const auto& x = mesh.coordinates[static_cast<std::size_t>(image.node)];
     EXPECT_NEAR(x[0], 3, 1e-12);
     for (std::size_t d = 0; d < 3; ++d) {
-      EXPECT_NEAR(image.shift[d], d == 0 ? 3 : 0, 1e-9);  // gmsh places nodes on a line to 11 digits
-      EXPECT_NEAR(coordinates[3 * static_cast<std::size_t>(image.primary) + d], x[d] - image.shift[d], 1e-14);
+      EXPECT_NEAR(image.shift[d], d == 0 ? 3 : 0,
+                  1e-9);  // gmsh places nodes on a line to 11 digits
+      EXPECT_NEAR(coordinates[3 * static_cast<std::size_t>(image.primary) + d],
+                  x[d] - image.shift[d], 1e-14);
     }
   }
-  // Groups hold primaries: the clamped corner (3, −1) is that at (0, −1); the face under the plate has one node less than it shows.
+  // Groups hold primaries: the clamped corner (3, −1) is that at (0, −1); the face under the plate
+  // has one node less than it shows.
   EXPECT_EQ(groupSize(mesh, "bottom"), 5);
   EXPECT_EQ(test::total(static_cast<double>(mesh.pairs.size())), 5);
 }
@@ -226,7 +251,8 @@ TEST(Mesh, PeriodicImagesAreTranslates) {
 TEST(Mesh, ImagesOfImagesEndAtOnePrimary) {
   test::setOptions("-mesh_file meshes/layer_slab.geo -mesh_set nx=4,ny=2,nz=3,depth=0.5" +
                    test::material("layer", "1", "0.3", "1") +
-                   "-constraint_right_image_of left -constraint_front_image_of back -constraint_bottom_clamped xyz");
+                   "-constraint_right_image_of left -constraint_front_image_of back "
+                   "-constraint_bottom_clamped xyz");
   const Mesh mesh = test::readMesh();
   expectNumbering(mesh);
   const auto coordinates = allCoordinates(mesh);
@@ -259,14 +285,16 @@ TEST(Partition, NoRankIsEmpty) {
       std::vector<int> cells(static_cast<std::size_t>(parts), 0);
       for (int part : rankOfCell) ++cells.at(static_cast<std::size_t>(part));
       EXPECT_GT(*std::min_element(cells.begin(), cells.end()), 0) << parts << " parts";
-      EXPECT_LE(*std::max_element(cells.begin(), cells.end()), std::ceil(1.2 * 84 / parts)) << parts << " parts";
+      EXPECT_LE(*std::max_element(cells.begin(), cells.end()), std::ceil(1.2 * 84 / parts))
+          << parts << " parts";
     }
     failure = test::errorOf([&] { mesh::partition(whole, 85); });
     EXPECT_TRUE(test::contains(failure, "84 cells")) << failure;
   }
 }
 
-// METIS may leave a rank without cells on a handful of them (harmless, but idle); from four a rank on it must not.
+// METIS may leave a rank without cells on a handful of them (harmless, but idle); from four a rank
+// on it must not.
 TEST(Partition, NoRankIsEmptyOnAFewCells) {
   int rank = 0;
   check(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
@@ -284,7 +312,8 @@ TEST(Partition, NoRankIsEmptyOnAFewCells) {
     mesh::pairNodes(whole, request);
     for (int parts = 2; parts <= whole.cellCount() / 4; ++parts) {
       const auto rankOfCell = mesh::partition(whole, parts);
-      EXPECT_EQ(std::set<int>(rankOfCell.begin(), rankOfCell.end()).size(), static_cast<std::size_t>(parts))
+      EXPECT_EQ(std::set<int>(rankOfCell.begin(), rankOfCell.end()).size(),
+                static_cast<std::size_t>(parts))
           << file << " " << set[0];
     }
   }
@@ -301,18 +330,23 @@ TEST(Mesh, ErrorsNameGroupAndOption) {
       {"-mesh_set nx", {"-mesh_set nx", "name=number", ""}},
       {"-constraint_botom_clamped xy", {"'botom'", "groups are", "disc_bottom"}},
       {"-load_sky_pressure 1", {"-load_sky_pressure", "'sky'", "pad_top"}},
-      {"-material_ring_young 1 -material_ring_poisson 0 -material_ring_density 1", {"-material_ring_young", "'ring'", "disc"}},
-      {"-contact_interface_pad pad_top", {"-contact_interface_pad", "no node of 'disc_face' at the same place", "matching"}},
-      {"-constraint_pad_top_image_of disc_left", {"-constraint_pad_top_image_of", "no partner", "translate"}},
+      {"-material_ring_young 1 -material_ring_poisson 0 -material_ring_density 1",
+       {"-material_ring_young", "'ring'", "disc"}},
+      {"-contact_interface_pad pad_top",
+       {"-contact_interface_pad", "no node of 'disc_face' at the same place", "matching"}},
+      {"-constraint_pad_top_image_of disc_left",
+       {"-constraint_pad_top_image_of", "no partner", "translate"}},
       {"-load_disc_pressure 1", {"-load_disc_pressure", "dimension", "'disc'"}},
   };
   for (const auto& mistake : mistakes) {
     test::setCase("two_layers", std::string("-mesh_set nx=6,ny_disc=3,ny_pad=2 ") + mistake.change);
     const auto message = test::errorOf([] { test::readMesh(); });
     EXPECT_NE(message, "") << mistake.change;
-    for (const char* word : mistake.words) EXPECT_TRUE(test::contains(message, word)) << mistake.change << ": " << message;
+    for (const char* word : mistake.words)
+      EXPECT_TRUE(test::contains(message, word)) << mistake.change << ": " << message;
   }
-  test::setOptions("-mesh_file meshes/two_layers.geo -mesh_set nx=6,ny_disc=3,ny_pad=2" + test::material("disc", "1", "0.3", "1"));
+  test::setOptions("-mesh_file meshes/two_layers.geo -mesh_set nx=6,ny_disc=3,ny_pad=2" +
+                   test::material("disc", "1", "0.3", "1"));
   const auto message = test::errorOf([] { test::readMesh(); });
   EXPECT_TRUE(test::contains(message, "'pad' has no material")) << message;
 }

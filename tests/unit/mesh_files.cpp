@@ -1,5 +1,5 @@
-// Files that are handed to gmsh: none is taken for a script that is none by its name, none brings the program down, and what a damaged or
-// doubtful one holds is told.
+// Files that are handed to gmsh: none is taken for a script that is none by its name, none brings
+// the program down, and what a damaged or doubtful one holds is told.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -32,21 +32,25 @@ int rank() {
 
 const std::string layer = test::material("layer", "1", "0.3", "1");
 
-std::string messageOf(const std::string& file, const std::string& more = layer) { return test::messageOfMesh(file, more); }
+std::string messageOf(const std::string& file, const std::string& more = layer) {
+  return test::messageOfMesh(file, more);
+}
 
 TEST(MeshFile, TextsAreSound) {
   EXPECT_EQ(messageOf(test::writeFile("sound2.msh", test::quadranglesMsh2())), "");
   EXPECT_EQ(messageOf(test::writeFile("sound4.msh", test::quadranglesMsh4())), "");
 }
 
-// gmsh runs what it does not know as a script, and SystemCall in it starts a program: here one that would leave a file behind.
+// gmsh runs what it does not know as a script, and SystemCall in it starts a program: here one that
+// would leave a file behind.
 TEST(MeshFile, OnlyAGeometryIsAScript) {
   const std::string trace = SQUEAL_OUTPUT_DIR "/script_ran";
   const auto script = "SystemCall \"touch " + trace + "\";\n";
   if (rank() == 0) fs::remove(trace);
   for (const char* name :
-       {"script.msh", "script.MSH", "script.Msh", "script.txt", "script.pos", "script.py", "script.opt", "script", "script.unv",
-        "script.Unv", "script.cgns", "script.med", "script.inp", "script.msh.gz", "script.geo.txt"}) {
+       {"script.msh", "script.MSH", "script.Msh", "script.txt", "script.pos", "script.py",
+        "script.opt", "script", "script.unv", "script.Unv", "script.cgns", "script.med",
+        "script.inp", "script.msh.gz", "script.geo.txt"}) {
     expectMessage(messageOf(test::writeFile(name, script)), {"-mesh_file", name});
     EXPECT_FALSE(fs::exists(trace)) << name;
   }
@@ -68,8 +72,10 @@ TEST(MeshFile, OnlyAGeometryIsAScript) {
 }
 
 TEST(MeshFile, SaysWhatToDoWithOtherFormats) {
-  expectMessage(messageOf(test::writeFile("abaqus.inp", "*NODE\n1, 0, 0, 0\n")), {"Abaqus", "cannot read", ".unv"});
-  expectMessage(messageOf(test::writeFile("shape.step", "ISO-10303-21;\n")), {"no physical groups", "Merge", ".geo"});
+  expectMessage(messageOf(test::writeFile("abaqus.inp", "*NODE\n1, 0, 0, 0\n")),
+                {"Abaqus", "cannot read", ".unv"});
+  expectMessage(messageOf(test::writeFile("shape.step", "ISO-10303-21;\n")),
+                {"no physical groups", "Merge", ".geo"});
 }
 
 struct Damage {
@@ -77,7 +83,8 @@ struct Damage {
   std::vector<std::string> words;
 };
 
-// What gmsh's reader makes of these: a crash, another mesh without a word, or numbers that fit no array.
+// What gmsh's reader makes of these: a crash, another mesh without a word, or numbers that fit no
+// array.
 TEST(MeshFile, DamagedMshIsToldByLine) {
   const Damage ofVersion4[] = {
       {"\n3\n4\n", "\n-1\n4\n", {"line 21", "node tag -1"}},
@@ -91,7 +98,9 @@ TEST(MeshFile, DamagedMshIsToldByLine) {
       {"2 1 0\n$EndNodes", "2 1e200 0\n$EndNodes", {"node 6", "1e+200", "below 1e100"}},
       {"2 1 0\n$EndNodes", "2,5 1 0\n$EndNodes", {"line 30", "'2,5'"}},
       {"2 1 0\n$EndNodes", "2 4.0D+2 0\n$EndNodes", {"'4.0D+2'"}},
-      {"1 6 1 6\n2 1 0 6", "1 2000000000 1 6\n2 1 0 6", {"2000000000 nodes are promised", "cannot hold"}},
+      {"1 6 1 6\n2 1 0 6",
+       "1 2000000000 1 6\n2 1 0 6",
+       {"2000000000 nodes are promised", "cannot hold"}},
       {"1 6 1 6\n2 1 0 6", "1 5 1 6\n2 1 0 6", {"the blocks of the section hold more"}},
       {"1 6 1 6\n2 1 0 6", "1 7 1 6\n2 1 0 6", {"1 fewer nodes"}},
       {"1 6 1 6\n2 1 0 6", "0 6 1 6\n2 1 0 6", {"6 fewer nodes"}},
@@ -103,14 +112,18 @@ TEST(MeshFile, DamagedMshIsToldByLine) {
       {"4.1 0 8", "7 0 8", {"version 7"}},
   };
   for (const auto& [was, is, words] : ofVersion4)
-    expectMessage(messageOf(test::writeFile("damaged4.msh", changed(test::quadranglesMsh4(), was, is))), words);
+    expectMessage(
+        messageOf(test::writeFile("damaged4.msh", changed(test::quadranglesMsh4(), was, is))),
+        words);
   const Damage ofVersion2[] = {
       {"3 2 0 0", "-1 2 0 0", {"line 14", "node tag -1"}},
       {"3 2 0 0", "2 2 0 0", {"$Nodes has the tag 2 twice"}},
       {"3 2 0 0", "3 inf 0 0", {"node 3", "inf"}},
       {"$Nodes\n6", "$Nodes\n5", {"line 17", "$EndNodes is expected"}},
       {"$Nodes\n6", "$Nodes\n7", {"'$EndNodes'"}},
-      {"$Elements\n6", "$Elements\n5", {"$EndElements is expected"}},  // gmsh would leave out the last cell
+      {"$Elements\n6",
+       "$Elements\n5",
+       {"$EndElements is expected"}},  // gmsh would leave out the last cell
       {"$Elements\n6", "$Elements\n2000000000", {"2000000000 elements are promised"}},
       {"5 3 2 3 1 1 2 5 4", "5 3 2 3 1 1 2 9 4", {"element 5", "node 9"}},
       {"5 3 2 3 1 1 2 5 4", "5 3 2 3 -1 1 2 5 4", {"element 5", "-1"}},  // gmsh would leave it out
@@ -118,13 +131,17 @@ TEST(MeshFile, DamagedMshIsToldByLine) {
       {"5 3 2 3 1 1 2 5 4", "5 3 2 3 1 1 2 5.5 4", {"'5.5'"}},
   };
   for (const auto& [was, is, words] : ofVersion2)
-    expectMessage(messageOf(test::writeFile("damaged2.msh", changed(test::quadranglesMsh2(), was, is))), words);
+    expectMessage(
+        messageOf(test::writeFile("damaged2.msh", changed(test::quadranglesMsh2(), was, is))),
+        words);
 }
 
-// gmsh's reader leaves a section at the first line that it does not understand, and the rest of the cells with it.
+// gmsh's reader leaves a section at the first line that it does not understand, and the rest of the
+// cells with it.
 TEST(MeshFile, DamagedUnvIsToldByLine) {
   const std::string sound = test::quadranglesUnv();
-  test::setOptions("-mesh_file " + test::writeFile("sound.unv", sound) + layer + "-load_top_pressure 1");
+  test::setOptions("-mesh_file " + test::writeFile("sound.unv", sound) + layer +
+                   "-load_top_pressure 1");
   const auto mesh = test::readMesh();
   EXPECT_EQ(mesh.totalCells, 2);
   EXPECT_EQ(mesh.totalNodes, 6);
@@ -133,11 +150,17 @@ TEST(MeshFile, DamagedUnvIsToldByLine) {
       {"         6        44", "         6       999", {"line 32", "element 6 is of type 999"}},
       {"         6        44", "         6        45", {"element 6 of type 45 has 8 nodes, not 4"}},
       {"         6        44", "         5        44", {"two elements with the tag 5"}},
-      {"2         3         6         5", "2         3         9         5", {"line 33", "element 6 refers to node 9"}},
-      {"2         3         6         5", "2         3         6", {"3 numbers where there should be 4"}},
+      {"2         3         6         5",
+       "2         3         9         5",
+       {"line 33", "element 6 refers to node 9"}},
+      {"2         3         6         5",
+       "2         3         6",
+       {"3 numbers where there should be 4"}},
       {"2.0000000000000000D+00", "nan", {"line 8", "finite"}},
       {"2.0000000000000000D+00", "2,0", {"line 8", "'2,0'"}},
-      {"         3         1         1        11", "        -3         1         1        11", {"line 7", "node tag -3"}},
+      {"         3         1         1        11",
+       "        -3         1         1        11",
+       {"line 7", "node tag -3"}},
       {"bottom", "top most", {"two groups whose names begin with 'top'"}},
   };
   for (const auto& [was, is, words] : damages)
@@ -146,7 +169,8 @@ TEST(MeshFile, DamagedUnvIsToldByLine) {
     expectMessage(messageOf(test::writeFile("short.unv", sound.substr(0, length))), {"line"});
 }
 
-// The checks look at nodes and elements alone; where gmsh crashes on the rest, its process dies and not this one.
+// The checks look at nodes and elements alone; where gmsh crashes on the rest, its process dies and
+// not this one.
 TEST(MeshFile, ACrashOfGmshIsAnError) {
   const auto text = changed(test::quadranglesMsh4(), "1 1 \"bottom\"", "900000000 1 \"bottom\"");
   expectMessage(messageOf(test::writeFile("crash.msh", text)),
@@ -155,7 +179,8 @@ TEST(MeshFile, ACrashOfGmshIsAnError) {
 
 TEST(MeshFile, BinaryFilesAreReadAndChecked) {
   for (const double version : {2.2, 4.1}) {
-    const auto from = test::writeFile("to_binary.msh", version < 4 ? test::quadranglesMsh2() : test::quadranglesMsh4());
+    const auto from = test::writeFile(
+        "to_binary.msh", version < 4 ? test::quadranglesMsh2() : test::quadranglesMsh4());
     const std::string file = SQUEAL_OUTPUT_DIR "/binary.msh";
     std::string bytes;
     if (rank() == 0) {
@@ -170,7 +195,8 @@ TEST(MeshFile, BinaryFilesAreReadAndChecked) {
     EXPECT_EQ(mesh.totalNodes, 6);
     const auto inNodes = bytes.find("$Nodes") + 60, inElements = bytes.find("$EndElements") - 10;
     for (const auto length : {inNodes, inElements})
-      expectMessage(messageOf(test::writeFile("cut.msh", bytes.substr(0, length))), {"byte", "the file"});
+      expectMessage(messageOf(test::writeFile("cut.msh", bytes.substr(0, length))),
+                    {"byte", "the file"});
     // The count of nodes, 6: text in version 2, behind the count of blocks in version 4.
     const auto at = bytes.find("$Nodes\n") + 7 + (version < 4 ? 0 : 8);
     if (rank() == 0) bytes.replace(at, 1, version < 4 ? "9" : "\x09");
@@ -178,13 +204,16 @@ TEST(MeshFile, BinaryFilesAreReadAndChecked) {
   }
 }
 
-// gmsh puts the elements of one entity into all groups of that entity; many programs write 1 for every entity.
+// gmsh puts the elements of one entity into all groups of that entity; many programs write 1 for
+// every entity.
 TEST(MeshFile, EachElementOfVersion2IsInTheGroupThatItNames) {
   std::string text = changed(test::quadranglesMsh2(), "3 1 2 2 2 4 5", "3 1 2 2 1 4 5");
   text = changed(text, "4 1 2 2 2 5 6", "4 1 2 2 1 5 6");
-  test::setOptions("-mesh_file " + test::writeFile("one_entity.msh", text) + layer + "-constraint_bottom_clamped xy");
+  test::setOptions("-mesh_file " + test::writeFile("one_entity.msh", text) + layer +
+                   "-constraint_bottom_clamped xy");
   const auto mesh = test::readMesh();
-  EXPECT_EQ(test::total(static_cast<double>(mesh.nodeGroups.at("bottom").size())), 3);  // not all six
+  EXPECT_EQ(test::total(static_cast<double>(mesh.nodeGroups.at("bottom").size())),
+            3);  // not all six
 }
 
 // A surface with two names, as a shared contact surface has, is written twice in version 2.
@@ -193,8 +222,8 @@ TEST(MeshFile, ASurfaceWithTwoNamesIsNotDoubled) {
   if (rank() == 0) {
     std::string text = changed(test::quadranglesMsh2(), "$Elements\n6", "$Elements\n8");
     text = changed(text, "$EndElements", "7 1 2 4 2 4 5\n8 1 2 4 2 5 6\n$EndElements");
-    std::ofstream(file) << changed(changed(text, "$PhysicalNames\n3", "$PhysicalNames\n4"), "2 3 \"layer\"",
-                                   "1 4 \"roof\"\n2 3 \"layer\"");
+    std::ofstream(file) << changed(changed(text, "$PhysicalNames\n3", "$PhysicalNames\n4"),
+                                   "2 3 \"layer\"", "1 4 \"roof\"\n2 3 \"layer\"");
   }
   check(MPI_Barrier(PETSC_COMM_WORLD));
   for (const std::string surface : {"top", "roof"}) {
@@ -212,11 +241,14 @@ TEST(MeshFile, ASurfaceWithTwoNamesIsNotDoubled) {
 }
 
 TEST(MeshFile, GroupNamesWithBlanksHaveUnderscoresInOptions) {
-  const auto file = test::writeFile("blanks.msh", changed(test::quadranglesMsh2(), "\"layer\"", "\"brake  disc\""));
+  const auto file = test::writeFile(
+      "blanks.msh", changed(test::quadranglesMsh2(), "\"layer\"", "\"brake  disc\""));
   EXPECT_EQ(messageOf(file, test::material("brake__disc", "1", "0.3", "1")), "");
-  expectMessage(messageOf(file, test::material("disc", "1", "0.3", "1")), {"'disc'", "its groups are: bottom, brake__disc, top"});
-  const auto both =
-      test::writeFile("blanks2.msh", changed(changed(test::quadranglesMsh2(), "\"bottom\"", "\"a b\""), "\"top\"", "\"a_b\""));
+  expectMessage(messageOf(file, test::material("disc", "1", "0.3", "1")),
+                {"'disc'", "its groups are: bottom, brake__disc, top"});
+  const auto both = test::writeFile(
+      "blanks2.msh",
+      changed(changed(test::quadranglesMsh2(), "\"bottom\"", "\"a b\""), "\"top\"", "\"a_b\""));
   expectMessage(messageOf(both), {"'a b'", "'a_b'", "underscores stand for blanks"});
 }
 
@@ -236,17 +268,22 @@ TEST(MeshFile, NodesInNoCellAreCounted) {
   EXPECT_EQ(unused(written("nodes2.msh", text2, {})), Counts(6, 0));
   EXPECT_EQ(unused(written("nodes4.msh", text4, {})), Counts(6, 0));
   EXPECT_EQ(unused(written("nodes.unv", test::quadranglesUnv(), {})), Counts(6, 0));
-  const Damage eight2{"$Nodes\n6", "$Nodes\n8", {}}, more2{"$EndNodes", "7 5 5 0\n8 6 5 0\n$EndNodes", {}};
+  const Damage eight2{"$Nodes\n6", "$Nodes\n8", {}},
+      more2{"$EndNodes", "7 5 5 0\n8 6 5 0\n$EndNodes", {}};
   EXPECT_EQ(unused(written("nodes2.msh", text2, {eight2, more2})), Counts(6, 2));
   // A line that is the side of no cell, and a point.
-  EXPECT_EQ(
-      unused(written("nodes2.msh", text2,
-                     {eight2, more2, {"$Elements\n6", "$Elements\n7", {}}, {"$EndElements", "7 1 2 1 7 7 8\n$EndElements", {}}})),
-      Counts(6, 2));
-  EXPECT_EQ(
-      unused(written("nodes2.msh", text2,
-                     {eight2, more2, {"$Elements\n6", "$Elements\n7", {}}, {"$EndElements", "7 15 2 0 7 7\n$EndElements", {}}})),
-      Counts(6, 1));
+  EXPECT_EQ(unused(written("nodes2.msh", text2,
+                           {eight2,
+                            more2,
+                            {"$Elements\n6", "$Elements\n7", {}},
+                            {"$EndElements", "7 1 2 1 7 7 8\n$EndElements", {}}})),
+            Counts(6, 2));
+  EXPECT_EQ(unused(written("nodes2.msh", text2,
+                           {eight2,
+                            more2,
+                            {"$Elements\n6", "$Elements\n7", {}},
+                            {"$EndElements", "7 15 2 0 7 7\n$EndElements", {}}})),
+            Counts(6, 1));
   EXPECT_EQ(unused(written("nodes4.msh", text4,
                            {{"1 6 1 6\n2 1 0 6", "1 8 1 8\n2 1 0 8", {}},
                             {"5\n6\n0 0 0", "5\n6\n7\n8\n0 0 0", {}},
@@ -261,15 +298,18 @@ TEST(MeshFile, NodesInNoCellAreCounted) {
   const std::string node =
       "         7         1         1        11\n"
       "   5.0000000000000000D+00   5.0000000000000000D+00   0.0000000000000000D+00\n";
-  const std::string unv = changed(test::quadranglesUnv(), "    -1\n    -1\n  2412", node + "    -1\n    -1\n  2412");
+  const std::string unv =
+      changed(test::quadranglesUnv(), "    -1\n    -1\n  2412", node + "    -1\n    -1\n  2412");
   EXPECT_EQ(unused(test::writeFile("nodes.unv", unv)), Counts(6, 1));
   // Centres of circles, and quadratic cells without the nodes in their middles.
-  const std::string ring = test::material("inner", "1", "0.3", "1") + test::material("outer", "1", "0.3", "1");
+  const std::string ring =
+      test::material("inner", "1", "0.3", "1") + test::material("outer", "1", "0.3", "1");
   EXPECT_EQ(unused("meshes/cylinders.geo", ring + "-mesh_set order=2,serendipity=1").second, 0);
 }
 
 TEST(MeshFile, AMeshWithoutGroupsSaysSo) {
-  const auto file = test::writeFile("nameless.geo", "SetFactory(\"OpenCASCADE\"); Rectangle(1) = {0, 0, 0, 1, 1};\n");
+  const auto file = test::writeFile(
+      "nameless.geo", "SetFactory(\"OpenCASCADE\"); Rectangle(1) = {0, 0, 0, 1, 1};\n");
   expectMessage(messageOf(file), {"'layer'", "it has no physical groups at all"});
 }
 
@@ -277,13 +317,18 @@ TEST(MeshFile, AMeshWithoutGroupsSaysSo) {
 TEST(MeshParameters, MustBeWhatTheGeometryDeclares) {
   const std::string geometry = "meshes/layer.geo";
   for (const char* value : {"0", "-3", "2.5", "100001", "1e9"})
-    expectMessage(messageOf(geometry, layer + "-mesh_set nx=" + value), {"-mesh_set nx=", "must be a whole number >= 1"});
+    expectMessage(messageOf(geometry, layer + "-mesh_set nx=" + value),
+                  {"-mesh_set nx=", "must be a whole number >= 1"});
   for (const char* value : {"nan", "inf", "-inf", "1e999", "0x10", "", "3=4"})
-    expectMessage(messageOf(geometry, layer + "-mesh_set nx=" + value), {"-mesh_set", "name=number"});
+    expectMessage(messageOf(geometry, layer + "-mesh_set nx=" + value),
+                  {"-mesh_set", "name=number"});
   expectMessage(messageOf(geometry, layer + "-mesh_set order=3"), {"order=3", "must be 1 or 2"});
-  expectMessage(messageOf(geometry, layer + "-mesh_set nx=3,ny=2,nx=4"), {"-mesh_set", "'nx' twice"});
-  expectMessage(messageOf(geometry, layer + "-mesh_set mx=3"), {"no parameter 'mx'", "it has: Lx, h, nx"});
-  expectMessage(messageOf("meshes/ring.geo", test::material("ring", "1", "0.3", "1") + "-mesh_set n_theta=66"),
+  expectMessage(messageOf(geometry, layer + "-mesh_set nx=3,ny=2,nx=4"),
+                {"-mesh_set", "'nx' twice"});
+  expectMessage(messageOf(geometry, layer + "-mesh_set mx=3"),
+                {"no parameter 'mx'", "it has: Lx, h, nx"});
+  expectMessage(messageOf("meshes/ring.geo",
+                          test::material("ring", "1", "0.3", "1") + "-mesh_set n_theta=66"),
                 {"n_theta = 66", "multiple of 4"});
   const auto mesh = test::writeFile("sound2.msh", test::quadranglesMsh2());
   expectMessage(messageOf(mesh, layer + "-mesh_set nx=3"), {"-mesh_set", "sound2.msh", "a mesh"});
@@ -291,10 +336,13 @@ TEST(MeshParameters, MustBeWhatTheGeometryDeclares) {
 
 std::string square(const std::string& declarations) {
   return "DefineConstant[" + declarations +
-         "];\nPoint(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {1, 1, 0}; Point(4) = {0, 1, 0};\n"
-         "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1}; Curve Loop(1) = {1 : 4}; Plane Surface(1) = "
+         "];\nPoint(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {1, 1, 0}; Point(4) = {0, 1, "
+         "0};\n"
+         "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1}; Curve Loop(1) = "
+         "{1 : 4}; Plane Surface(1) = "
          "{1};\n"
-         "Transfinite Curve {1, 3} = n + 1; Transfinite Curve {2, 4} = 3; Transfinite Surface {1}; Recombine Surface {1};\n"
+         "Transfinite Curve {1, 3} = n + 1; Transfinite Curve {2, 4} = 3; Transfinite Surface {1}; "
+         "Recombine Surface {1};\n"
          "Physical Surface(\"layer\") = {1};\n";
 }
 
@@ -304,7 +352,8 @@ TEST(MeshParameters, RangesOfOtherGeometries) {
   test::setOptions("-mesh_file " + free + layer + "-mesh_set n=3");
   EXPECT_EQ(test::readMesh().totalCells, 6);
   const auto bounded = test::writeFile("bounded.geo", square("n = {3, Name \"n\", Min 2, Max 5}"));
-  expectMessage(messageOf(bounded, layer + "-mesh_set n=6"), {"n=6", "must be a number >= 2 and <= 5"});
+  expectMessage(messageOf(bounded, layer + "-mesh_set n=6"),
+                {"n=6", "must be a number >= 2 and <= 5"});
   expectMessage(messageOf(bounded, layer + "-mesh_set n=1"), {"n=1", ">= 2"});
   EXPECT_EQ(messageOf(bounded, layer + "-mesh_set n=5"), "");
   const auto fixed = test::writeFile("fixed.geo", square("n = {3, Name \"n\", ReadOnly 1}"));
@@ -315,8 +364,10 @@ TEST(MeshParameters, RangesOfOtherGeometries) {
 
 // 10¹⁰ cells: told from the numbers on the edges, before gmsh asks for them.
 TEST(MeshParameters, AMeshTooLargeIsToldBeforeItIsMade) {
-  expectMessage(messageOf("meshes/layer.geo", layer + "-mesh_set nx=100000,ny=100000"), {"about 1e+10 cells"});
-  expectMessage(messageOf("meshes/beam.geo", test::material("beam", "1", "0.3", "1") + "-mesh_set nx=5000,ny=2000,nz=1000"),
+  expectMessage(messageOf("meshes/layer.geo", layer + "-mesh_set nx=100000,ny=100000"),
+                {"about 1e+10 cells"});
+  expectMessage(messageOf("meshes/beam.geo", test::material("beam", "1", "0.3", "1") +
+                                                 "-mesh_set nx=5000,ny=2000,nz=1000"),
                 {"about 1e+10 cells"});
 }
 
@@ -361,7 +412,8 @@ TEST(Child, ItsMemoryIsLimitedAndItsResultWhole) {
   ASSERT_EQ(values.size(), 1000000u);
   EXPECT_EQ(values[999999], 999999);
 #if !defined(__SANITIZE_ADDRESS__)  // which has an end of its own for this
-  expectMessage(test::errorOf([&] { inChild(limits, numbers(100000000)); }), {"the work", "it is too large"});
+  expectMessage(test::errorOf([&] { inChild(limits, numbers(100000000)); }),
+                {"the work", "it is too large"});
 #endif
 }
 

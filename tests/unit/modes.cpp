@@ -1,4 +1,5 @@
-// Free modes: block Lanczos against SLEPc's EPS, its restarts, and what both promise of their vectors.
+// Free modes: block Lanczos against SLEPc's EPS, its restarts, and what both promise of their
+// vectors.
 #include <gtest/gtest.h>
 
 #include "contact/coupled.hpp"
@@ -32,9 +33,10 @@ double departureFromOrthonormal(BV vectors, Mat mass) {
 }
 
 TEST(Modes, BlockLanczosAgreesWithEps) {
-  // 51 modes: the list ends after a double one. Eigenvalue errors are the square of the residual tolerance 1e-8 over the relative gaps
-  // (some 1e-3): far below 1e-10.
-  const analysis::Analysis lanczos = runCase("layer", layer + "-modes_count 51 -modes_solver block_lanczos");
+  // 51 modes: the list ends after a double one. Eigenvalue errors are the square of the residual
+  // tolerance 1e-8 over the relative gaps (some 1e-3): far below 1e-10.
+  const analysis::Analysis lanczos =
+      runCase("layer", layer + "-modes_count 51 -modes_solver block_lanczos");
   const analysis::Analysis eps = runCase("layer", layer + "-modes_count 51 -modes_solver eps");
   const auto &a = lanczos.segments.at(0).modes, &b = eps.segments.at(0).modes;
   ASSERT_EQ(a.angularFrequency.size(), 51U);
@@ -52,8 +54,8 @@ class Layer : public testing::Test {
     insertFile(PETSC_COMM_WORLD, "options/layer.yaml");
     check(PetscOptionsInsertString(nullptr, "-quiet"));
     model_ = buildModel();
-    system_ = std::make_unique<contact::AssociatedSystem>(model_.bodies, model_.contact,
-                                                          std::vector<unsigned char>(model_.contact.nodes.size(), 1));
+    system_ = std::make_unique<contact::AssociatedSystem>(
+        model_.bodies, model_.contact, std::vector<unsigned char>(model_.contact.nodes.size(), 1));
   }
   Model model_;
   std::unique_ptr<contact::AssociatedSystem> system_;
@@ -62,14 +64,16 @@ class Layer : public testing::Test {
 TEST_F(Layer, RestartsFindTheSameModes) {
   const Mat k = system_->k0(), m = system_->m0();
   const auto silent = [](int, int) {};
-  // Room for 3·4 + 8·1 = 20 vectors is too little for four modes to 1e-12 at once, and blocks of one cannot see both of a double mode
-  // but through rounding and restarts: the hard way. Blocks of four have room for 44.
+  // Room for 3·4 + 8·1 = 20 vectors is too little for four modes to 1e-12 at once, and blocks of
+  // one cannot see both of a double mode but through rounding and restarts: the hard way. Blocks of
+  // four have room for 44.
   const auto hard = modes::blockLanczos(k, m, system_->solver(), 4, 1, 1e-12, 60, silent);
   const auto easy = modes::blockLanczos(k, m, system_->solver(), 4, 4, 1e-12, 60, silent);
   ASSERT_EQ(hard.converged, 4);
   ASSERT_EQ(easy.converged, 4);
   EXPECT_GT(hard.restarts, 0);
-  // The exact frequencies of the continuous layer (one, a double one, one), a coarse check that none is skipped: the mesh errs by 0.3 %.
+  // The exact frequencies of the continuous layer (one, a double one, one), a coarse check that
+  // none is skipped: the mesh errs by 0.3 %.
   const double exact[4] = {0.9741665274383, 2.391686885819, 2.391686885819, 2.922499582374};
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_NEAR(std::sqrt(easy.lambda[i]), exact[i], 3e-3 * exact[i]);
@@ -80,19 +84,22 @@ TEST_F(Layer, RestartsFindTheSameModes) {
 }
 
 TEST_F(Layer, SturmCountSeesAMissingMode) {
-  // The inertia of K − σ M counts 51 modes below a shift just above mode 51: the confirmation is a number, not a formality.
+  // The inertia of K − σ M counts 51 modes below a shift just above mode 51: the confirmation is a
+  // number, not a formality.
   check(PetscOptionsInsertString(nullptr, "-modes_count 60"));
   const auto modes = modes::compute({system_->k0(), system_->m0(), system_->solver()});
   ASSERT_TRUE(modes.countConfirmed);
-  const auto below =
-      std::count_if(modes.lambda.begin(), modes.lambda.end(), [&](double lambda) { return lambda < modes.inertiaShift; });
+  const auto below = std::count_if(modes.lambda.begin(), modes.lambda.end(),
+                                   [&](double lambda) { return lambda < modes.inertiaShift; });
   EXPECT_EQ(modes.inertiaCount, static_cast<int>(below));
   EXPECT_GT(modes.inertiaCount, 45);
 }
 
-/// A ring of one cell held at its inner side: double modes, and clusters of them where the ring is thin.
+/// A ring of one cell held at its inner side: double modes, and clusters of them where the ring is
+/// thin.
 Model heldRing(const std::string& shape) {
-  setOptions("-mesh_file meshes/ring.geo -mesh_set " + shape + material("ring", "2.1e11", "0.3", "7850") +
+  setOptions("-mesh_file meshes/ring.geo -mesh_set " + shape +
+             material("ring", "2.1e11", "0.3", "7850") +
              "-constraint_inner_clamped xyz -flutter_friction 0");
   return buildModel();
 }
@@ -103,36 +110,41 @@ modes::Modes modesOf(const Model& model, const std::string& options, int count) 
   return modes::compute({system.k0(), system.m0(), system.solver()}, count);
 }
 
-// Krylov vectors of one start vector meet one vector of each eigenspace: blocks of one miss half of the modes of a ring. The inertia
-// tells, and larger blocks find them; LAPACK gives the frequencies.
+// Krylov vectors of one start vector meet one vector of each eigenspace: blocks of one miss half of
+// the modes of a ring. The inertia tells, and larger blocks find them; LAPACK gives the
+// frequencies.
 TEST(HeldRing, DoubleModesAreCounted) {
   const Model model = heldRing("n_theta=64,n_r=2,thickness=0.04,width=0.01");
   const auto wanted = modesOf(model, "-modes_solver auto", 300),
              found = modesOf(model, "-modes_solver block_lanczos -modes_block_size 1", 4);
   EXPECT_TRUE(found.countConfirmed);
-  for (std::size_t i = 0; i < found.lambda.size(); ++i) EXPECT_NEAR(found.lambda[i] / wanted.lambda[i], 1, 1e-8) << i;
+  for (std::size_t i = 0; i < found.lambda.size(); ++i)
+    EXPECT_NEAR(found.lambda[i] / wanted.lambda[i], 1, 1e-8) << i;
   EXPECT_NEAR(found.lambda[2] / found.lambda[1], 1, 1e-8);
 }
 
-// The lowest frequencies of a thin ring, shear of its width, differ by parts of a thousand: few vectors and many restarts do not part
-// them, more vectors do.
+// The lowest frequencies of a thin ring, shear of its width, differ by parts of a thousand: few
+// vectors and many restarts do not part them, more vectors do.
 TEST(HeldRing, ClustersOfModesConverge) {
   const auto found = modesOf(heldRing("n_theta=192"), "-modes_solver block_lanczos", 3);
   EXPECT_TRUE(found.countConfirmed);
   EXPECT_LT(*std::max_element(found.relativeResidual.begin(), found.relativeResidual.end()), 1e-6);
 }
 
-// Three eigenvalues of multiplicity 100: the first three blocks are an invariant subspace, beyond which the residual is rounding.
+// Three eigenvalues of multiplicity 100: the first three blocks are an invariant subspace, beyond
+// which the residual is rounding.
 TEST(Modes, EigenvaluesOfHighMultiplicity) {
   setOptions("");
   OwnedMat k, m;
   for (auto [matrix, isMass] : {std::pair{&k, false}, {&m, true}}) {
-    check(MatCreateConstantDiagonal(PETSC_COMM_WORLD, PETSC_DECIDE, PETSC_DECIDE, 300, 300, 1, matrix->out()));
+    check(MatCreateConstantDiagonal(PETSC_COMM_WORLD, PETSC_DECIDE, PETSC_DECIDE, 300, 300, 1,
+                                    matrix->out()));
     OwnedMat sparse;
     check(MatConvert(*matrix, MATAIJ, MAT_INITIAL_MATRIX, sparse.out()));
     PetscInt first = 0, end = 0;
     check(MatGetOwnershipRange(sparse, &first, &end));
-    for (PetscInt i = first; i < end; ++i) check(MatSetValue(sparse, i, i, isMass ? 1 : 1 + i / 100, INSERT_VALUES));
+    for (PetscInt i = first; i < end; ++i)
+      check(MatSetValue(sparse, i, i, isMass ? 1 : 1 + i / 100, INSERT_VALUES));
     check(MatAssemblyBegin(sparse, MAT_FINAL_ASSEMBLY));
     check(MatAssemblyEnd(sparse, MAT_FINAL_ASSEMBLY));
     check(MatSetOption(sparse, MAT_SYMMETRIC, PETSC_TRUE));

@@ -1,4 +1,5 @@
-// The options database as the user interface: parsing, checks, names with a placeholder, and the messages for mistakes.
+// The options database as the user interface: parsing, checks, names with a placeholder, and the
+// messages for mistakes.
 #include "options/options.hpp"
 #include "options/settings.hpp"
 
@@ -17,7 +18,8 @@ using test::contains;
 using test::errorOf;
 
 // Options of the tests' own, beside those of the method.
-const RealOption length("general", "probe_<part>_length", std::nullopt, "m", positive, "length of a part");
+const RealOption length("general", "probe_<part>_length", std::nullopt, "m", positive,
+                        "length of a part");
 const RealOption ratio("general", "probe_ratio", 0.25, "", {-1, 0.5, true, true}, "a ratio");
 const RealOption offset("general", "probe_<part>_offset", 0.0, "m", anyReal, "offset of a part");
 const IntegerOption count("general", "probe_count", 7, 2, 1'000'000, "a number of things");
@@ -49,7 +51,8 @@ TEST(Lists, RangesEndExactly) {
 }
 
 TEST(Lists, ValuesAreReadToTheLastDigit) {
-  EXPECT_EQ(swept("0.2,0,+.5,1e-3"), (std::vector<double>{0.2, 0, 0.5, 0.001}));  // in the order given
+  EXPECT_EQ(swept("0.2,0,+.5,1e-3"),
+            (std::vector<double>{0.2, 0, 0.5, 0.001}));  // in the order given
   test::setOptions("-probe_vector 0,-0.01,0.1234567890123456");
   EXPECT_EQ(vector.get(), (std::vector<double>{0, -0.01, 0.1234567890123456}));
   test::setOptions("-probe_vector -1,2,3");  // begins like a name
@@ -60,7 +63,8 @@ TEST(Lists, ValuesAreReadToTheLastDigit) {
 
 // Before memory is taken for them.
 TEST(Lists, OfTooManyValuesAreRefused) {
-  EXPECT_TRUE(contains(errorOf([] { swept("0:1:1e-7"); }), "-probe_sweep 0:1:1e-7: 10000001 values; a list holds 100000 at most"));
+  EXPECT_TRUE(contains(errorOf([] { swept("0:1:1e-7"); }),
+                       "-probe_sweep 0:1:1e-7: 10000001 values; a list holds 100000 at most"));
   EXPECT_TRUE(contains(errorOf([] { swept("0:1e9:1e-9"); }), "a list holds 100000 at most"));
   EXPECT_EQ(swept("1:100000:1").size(), 100000U);
 }
@@ -70,7 +74,9 @@ TEST(Numbers, MagnitudesAreLimited) {
   for (const std::string value : {"1e51", "-1e51", "1e300", "1e-51", "-1e-300"}) {
     test::setOptions("-probe_a_offset " + value);
     const auto message = errorOf([] { offset.get("a"); });
-    EXPECT_TRUE(contains(message, "-probe_a_offset " + value) && contains(message, "magnitude between 1e-50 and 1e+50")) << message;
+    EXPECT_TRUE(contains(message, "-probe_a_offset " + value) &&
+                contains(message, "magnitude between 1e-50 and 1e+50"))
+        << message;
     test::setOptions("-probe_vector 0,0," + value);
     EXPECT_TRUE(contains(errorOf([] { vector.get(); }), "magnitude between")) << value;
   }
@@ -83,13 +89,16 @@ TEST(Numbers, MagnitudesAreLimited) {
 TEST(Lists, MayHoldBlanks) {
   EXPECT_EQ(swept("'0, 0.2 ,\t0.4'"), (std::vector<double>{0, 0.2, 0.4}));
   EXPECT_EQ(swept("' 0 : 0.2 : 0.1 '"), (std::vector<double>{0, 0.1, 0.2}));
-  test::setOptions("-probe_vector ' 0, -0.01 , 1e3' -probe_list 'a, b_c ,d' -probe_count ' 3 ' -probe_flag 'off '");
+  test::setOptions(
+      "-probe_vector ' 0, -0.01 , 1e3' -probe_list 'a, b_c ,d' -probe_count ' 3 ' -probe_flag 'off "
+      "'");
   EXPECT_EQ(vector.get(), (std::vector<double>{0, -0.01, 1000}));
   EXPECT_EQ(list.list(), (std::vector<std::string>{"a", "b_c", "d"}));
   EXPECT_EQ(count.get(), 3);
   EXPECT_FALSE(flag.get());
-  const auto file =
-      test::writeFile("lists.yaml", "probe:\n  vector: [0, -0.01, 1e3]\n  list:\n    - a\n    - b_c\n    - d\n  sweep: [0, 0.2]\n");
+  const auto file = test::writeFile("lists.yaml",
+                                    "probe:\n  vector: [0, -0.01, 1e3]\n  list:\n    - a\n    - "
+                                    "b_c\n    - d\n  sweep: [0, 0.2]\n");
   check(PetscOptionsClear(nullptr));
   insertFile(PETSC_COMM_WORLD, file);
   EXPECT_EQ(vector.get(), (std::vector<double>{0, -0.01, 1000}));
@@ -106,22 +115,25 @@ TEST(Lists, EmptyItemsAreRefused) {
   EXPECT_TRUE(contains(errorOf([] { list.list(); }), "-probe_list without a value"));
 }
 
-// Beside the options file that names it, then in the working folder; on the command line in the working folder.
+// Beside the options file that names it, then in the working folder; on the command line in the
+// working folder.
 TEST(Files, AreLookedForBesideTheOptionsFile) {
   const std::string folder = SQUEAL_OUTPUT_DIR "/beside here";
   std::filesystem::create_directories(folder);
   test::writeFile("beside here/probe.msh", "");
   const auto named = [&](const std::string& path) {
     static int number = 0;
-    const auto options =
-        test::writeFile(formatted("beside here/options_%d.yaml", number++), "probe:\n  disc:\n    file: " + path + "\n");
+    const auto options = test::writeFile(formatted("beside here/options_%d.yaml", number++),
+                                         "probe:\n  disc:\n    file: " + path + "\n");
     check(PetscOptionsClear(nullptr));
     insertFile(PETSC_COMM_WORLD, options);
   };
   named("probe.msh");
-  EXPECT_TRUE(std::filesystem::equivalent(file.get("disc"), folder + "/probe.msh")) << file.get("disc");
+  EXPECT_TRUE(std::filesystem::equivalent(file.get("disc"), folder + "/probe.msh"))
+      << file.get("disc");
   EXPECT_EQ(errorOf([] { rejectUnknownOptions(); }), "");
-  EXPECT_EQ(givenOptions().at("probe_disc_file"), file.get("disc"));  // which the record of the run repeats
+  EXPECT_EQ(givenOptions().at("probe_disc_file"),
+            file.get("disc"));  // which the record of the run repeats
   named("../beside here/probe.msh");
   EXPECT_TRUE(std::filesystem::equivalent(file.get("disc"), folder + "/probe.msh"));
   named("meshes/layer.geo");  // the tests run in the root of the repository
@@ -133,14 +145,17 @@ TEST(Files, AreLookedForBesideTheOptionsFile) {
       << missing;
   test::setOptions("-probe_disc_file probe.msh");
   const auto working = errorOf([] { rejectUnknownOptions(); });
-  EXPECT_TRUE(contains(working, "-probe_disc_file probe.msh: there is no such file") && !contains(working, "beside")) << working;
+  EXPECT_TRUE(contains(working, "-probe_disc_file probe.msh: there is no such file") &&
+              !contains(working, "beside"))
+      << working;
   test::setOptions("-probe_disc_file meshes");
   EXPECT_TRUE(contains(errorOf([] { rejectUnknownOptions(); }), "this is a folder"));
 }
 
 TEST(Lists, BadOnesAreRejectedByName) {
-  for (const std::string value : {"0,,1", "0,1,", "a", "0.1:0.2", "0:1:0", "0:1:-0.1", "1:0:0.1", "0:1:0.1:2", "0:x:1", "nan",
-                                  "inf", "0;1", "1e999", "0.1.2", "-0.1", "0.4,-0.1"}) {
+  for (const std::string value :
+       {"0,,1", "0,1,", "a", "0.1:0.2", "0:1:0", "0:1:-0.1", "1:0:0.1", "0:1:0.1:2", "0:x:1", "nan",
+        "inf", "0;1", "1e999", "0.1.2", "-0.1", "0.4,-0.1"}) {
     const auto message = errorOf([&] { swept(value); });
     EXPECT_TRUE(contains(message, "-probe_sweep")) << value;
     EXPECT_TRUE(contains(message, "first:last:step")) << value << ": " << message;
@@ -159,12 +174,14 @@ TEST(Numbers, RangesAreOpenOrClosedAsDeclared) {
   EXPECT_EQ(ratioOf("-0.999"), -0.999);
   for (const std::string value : {"0.5", "-1", "7", "-1e300", "none", "0.2m", "0,3"}) {
     const auto message = errorOf([&] { ratioOf(value); });
-    EXPECT_TRUE(contains(message, "-probe_ratio") && contains(message, "> -1") && contains(message, "< 0.5"))
+    EXPECT_TRUE(contains(message, "-probe_ratio") && contains(message, "> -1") &&
+                contains(message, "< 0.5"))
         << value << ": " << message;
   }
   test::setOptions("-probe_a_length 0");
   EXPECT_TRUE(contains(errorOf([] { length.get("a"); }), "-probe_a_length"));
-  EXPECT_TRUE(nonNegative.holds(0) && !nonNegative.holds(-1e-300) && !positive.holds(0) && positive.holds(1e-300));
+  EXPECT_TRUE(nonNegative.holds(0) && !nonNegative.holds(-1e-300) && !positive.holds(0) &&
+              positive.holds(1e-300));
   EXPECT_FALSE(nonNegative.holds(std::nan("")));
   EXPECT_EQ(nonNegative.text(), "a number >= 0");
 }
@@ -175,15 +192,21 @@ TEST(Numbers, IntegersAreWholeAndLargeEnough) {
     return count.get();
   };
   EXPECT_EQ(countOf("2"), 2);
-  for (const std::string value : {"1", "-3", "2.0", "3e2", "two", "1000001", "2000000000", "99999999999"})
+  for (const std::string value :
+       {"1", "-3", "2.0", "3e2", "two", "1000001", "2000000000", "99999999999"})
     EXPECT_TRUE(contains(errorOf([&] { countOf(value); }), "-probe_count " + value)) << value;
   test::setOptions("");
   EXPECT_EQ(count.get(), 7);
 }
 
 TEST(Words, FlagsAndChoices) {
-  for (const auto& [value, expected] :
-       {std::pair{"", true}, {"on", true}, {"true", true}, {"1", true}, {"off", false}, {"no", false}, {"0", false}}) {
+  for (const auto& [value, expected] : {std::pair{"", true},
+                                        {"on", true},
+                                        {"true", true},
+                                        {"1", true},
+                                        {"off", false},
+                                        {"no", false},
+                                        {"0", false}}) {
     test::setOptions(std::string("-probe_flag ") + value);
     EXPECT_EQ(flag.get(), expected) << value;
   }
@@ -193,7 +216,8 @@ TEST(Words, FlagsAndChoices) {
   EXPECT_EQ(choice.get(), "fast");
   test::setOptions("-probe_choice faster");
   const auto message = errorOf([] { choice.get(); });
-  EXPECT_TRUE(contains(message, "-probe_choice faster") && contains(message, "fast or exact")) << message;
+  EXPECT_TRUE(contains(message, "-probe_choice faster") && contains(message, "fast or exact"))
+      << message;
   test::setOptions("-probe_list a,b_c,d");
   EXPECT_EQ(list.list(), (std::vector<std::string>{"a", "b_c", "d"}));
   test::setOptions("");
@@ -203,7 +227,9 @@ TEST(Words, FlagsAndChoices) {
 TEST(Required, MissingOnesAreNamedWithTheirMeaning) {
   test::setOptions("-probe_pad_offset 1");
   const auto message = errorOf([] { length.get("pad"); });
-  EXPECT_TRUE(contains(message, "-probe_pad_length is missing") && contains(message, "length of a part")) << message;
+  EXPECT_TRUE(contains(message, "-probe_pad_length is missing") &&
+              contains(message, "length of a part"))
+      << message;
   EXPECT_TRUE(contains(errorOf([] { text.get(); }), "-probe_text is missing"));
   EXPECT_FALSE(length.given("pad"));
   EXPECT_TRUE(offset.given("pad"));
@@ -212,13 +238,16 @@ TEST(Required, MissingOnesAreNamedWithTheirMeaning) {
 // Group names hold underscores, even words that options hold too.
 TEST(Subjects, AreTheWordsInPlaceOfThePlaceholder) {
   test::setOptions(
-      "-probe_back_plate_length 1 -probe_disc_length 2 -probe_the_length_of_it_length 3 -probe_offset_length 4 -probe_x_offset -5");
-  EXPECT_EQ(length.subjects(), (std::vector<std::string>{"back_plate", "disc", "offset", "the_length_of_it"}));
+      "-probe_back_plate_length 1 -probe_disc_length 2 -probe_the_length_of_it_length 3 "
+      "-probe_offset_length 4 -probe_x_offset -5");
+  EXPECT_EQ(length.subjects(),
+            (std::vector<std::string>{"back_plate", "disc", "offset", "the_length_of_it"}));
   EXPECT_EQ(offset.subjects(), (std::vector<std::string>{"x"}));
   EXPECT_EQ(length.get("the_length_of_it"), 3);
   EXPECT_EQ(offset.get("x"), -5);
-  EXPECT_TRUE(length.matches("probe_a_length") && !length.matches("probe_length") && !length.matches("probe__length") &&
-              !length.matches("probe_a_lengths") && !length.matches("sprobe_a_length"));
+  EXPECT_TRUE(length.matches("probe_a_length") && !length.matches("probe_length") &&
+              !length.matches("probe__length") && !length.matches("probe_a_lengths") &&
+              !length.matches("sprobe_a_length"));
   EXPECT_EQ(length.fullName("back_plate"), "probe_back_plate_length");
 }
 
@@ -270,13 +299,16 @@ TEST(Lists, MayBeLong) {
 TEST(Unknown, TypingErrorsStopTheRunWithTheNearestName) {
   test::setOptions("-mesh_fiel brake.msh");
   const auto message = errorOf([] { rejectUnknownOptions(); });
-  EXPECT_TRUE(contains(message, "unknown option -mesh_fiel") && contains(message, "-mesh_file")) << message;
+  EXPECT_TRUE(contains(message, "unknown option -mesh_fiel") && contains(message, "-mesh_file"))
+      << message;
   test::setOptions("-probe_cuont 3");
   EXPECT_TRUE(contains(errorOf([] { rejectUnknownOptions(); }), "did you mean -probe_count?"));
   test::setOptions("-weather fine");
   const auto far = errorOf([] { rejectUnknownOptions(); });
   EXPECT_TRUE(contains(far, "-weather") && !contains(far, "did you mean")) << far;
-  test::setOptions("-probe_disc_length 3 -probe_solver_type lu -probe_count 9");  // declared, though nobody has asked for them yet
+  test::setOptions(
+      "-probe_disc_length 3 -probe_solver_type lu -probe_count 9");  // declared, though nobody has
+                                                                     // asked for them yet
   EXPECT_EQ(errorOf([] { rejectUnknownOptions(); }), "");
 }
 
@@ -296,7 +328,8 @@ TEST(Manual, ListsEveryOptionWithUnitDefaultAndRule) {
     EXPECT_TRUE(contains(page, "-" + option->name)) << option->name;
     EXPECT_FALSE(option->meaning.empty()) << option->name;
   }
-  for (const auto* prefix : SolverPrefix::all()) EXPECT_TRUE(contains(page, "-" + prefix->prefix + "*"));
+  for (const auto* prefix : SolverPrefix::all())
+    EXPECT_TRUE(contains(page, "-" + prefix->prefix + "*"));
   EXPECT_TRUE(contains(page, "-probe_<part>_length [m]"));
   const auto line = page.substr(page.find("-probe_ratio"));
   EXPECT_TRUE(contains(line.substr(0, line.find('\n')), "(default 0.25; a number > -1 and < 0.5)"))

@@ -1,4 +1,5 @@
-// What the reduced problem is made of: where its band ends, the responses it begins with, the projections of its terms.
+// What the reduced problem is made of: where its band ends, the responses it begins with, the
+// projections of its terms.
 #include "reduction/reduced.hpp"
 
 #include <gtest/gtest.h>
@@ -47,13 +48,15 @@ struct Fixture : test::Layers {
   }
 };
 
-// Modes at 1, 2, … rad/s, some of them double. 2π Hz asked for are cut where the free modes end: between the last two that are not double.
+// Modes at 1, 2, … rad/s, some of them double. 2π Hz asked for are cut where the free modes end:
+// between the last two that are not double.
 TEST(Band, EndsBetweenFreeModes) {
   const auto end = [](const std::string& hertz, const std::vector<double>& w) {
     test::setOptions(hertz.empty() ? "" : "-flutter_band " + hertz);
     return pencil::bandBelow(w);
   };
-  const std::vector<double> single{1, 2, 3, 4, 5, 6, 7, 8, 9, 10}, paired{1, 1, 2, 2, 3, 3, 3 + 1e-9, 4, 5, 5};
+  const std::vector<double> single{1, 2, 3, 4, 5, 6, 7, 8, 9, 10},
+      paired{1, 1, 2, 2, 3, 3, 3 + 1e-9, 4, 5, 5};
   EXPECT_EQ(end("", single), 6.5);  // 0.55 of ten is five: between the sixth and the next
   EXPECT_EQ(end("", paired), 3.5 + 5e-10);
   EXPECT_DOUBLE_EQ(end("1", single), 2 * M_PI);
@@ -66,18 +69,23 @@ TEST(Band, EndsBetweenFreeModes) {
 }
 
 TEST(Band, TheReportSaysThatTheFreeModesEndBelow) {
-  const std::string options = "-mesh_set nx=6,ny_disc=2,ny_pad=2 -modes_count 15 -steady_uniqueness off -flutter_friction 0.2 ",
+  const std::string options =
+                        "-mesh_set nx=6,ny_disc=2,ny_pad=2 -modes_count 15 -steady_uniqueness off "
+                        "-flutter_friction 0.2 ",
                     words = "The free modes end below the 1000 Hz of -flutter_band";
   for (const bool above : {false, true}) {
-    const analysis::Analysis analysis = test::runCase("two_layers", options + (above ? "-flutter_band 1000" : "-flutter_band 0.3"));
+    const analysis::Analysis analysis =
+        test::runCase("two_layers", options + (above ? "-flutter_band 1000" : "-flutter_band 0.3"));
     const auto& point = analysis.segments.at(0).points.at(0);
     EXPECT_LT(point.bandTop, analysis.segments.at(0).modes.angularFrequency.back());
     EXPECT_EQ(report::stabilityTable(analysis).find(words) != std::string::npos, above);
   }
 }
 
-/// Σ (iω)^power A φ, or Aᵀ φ, over the terms A of friction, for modes φ at their angular frequencies ω; without damping real.
-linalg::Block frictionForces(const pencil::Pencil& pencil, const linalg::Block& modes, const std::vector<double>& frequencies, bool transposed) {
+/// Σ (iω)^power A φ, or Aᵀ φ, over the terms A of friction, for modes φ at their angular
+/// frequencies ω; without damping real.
+linalg::Block frictionForces(const pencil::Pencil& pencil, const linalg::Block& modes,
+                             const std::vector<double>& frequencies, bool transposed) {
   linalg::Block sum(modes.rows, modes.columns);
   for (const auto& term : pencil.terms()) {
     if (term.frictionExponent == 0) continue;
@@ -85,22 +93,29 @@ linalg::Block frictionForces(const pencil::Pencil& pencil, const linalg::Block& 
     const linalg::Block image = Fixture::times(term.matrix, modes, transposed);
     for (PetscInt j = 0; j < modes.columns; ++j)
       for (PetscInt i = 0; i < modes.rows; ++i)
-        sum.column(j)[i] += (term.power == 0 ? 1 : -std::pow(frequencies[static_cast<std::size_t>(j)], 2)) * image.column(j)[i];
+        sum.column(j)[i] +=
+            (term.power == 0 ? 1 : -std::pow(frequencies[static_cast<std::size_t>(j)], 2)) *
+            image.column(j)[i];
   }
   return sum;
 }
 
-/// The largest energy norm of what K0⁻¹ of these forces has outside of a basis orthonormal in energy.
+/// The largest energy norm of what K0⁻¹ of these forces has outside of a basis orthonormal in
+/// energy.
 double outside(const Fixture& f, const linalg::Block& basis, const linalg::Block& forces) {
   const MPI_Comm comm = f.pencil.comm();
   linalg::Block responses(forces.rows, forces.columns);
   PetscInt size = 0;
   check(MatGetSize(f.system->k0(), &size, nullptr));
-  const OwnedMat from = linalg::borrowed(comm, forces.rows, size, forces.columns, forces.values.data()),
-                 to = linalg::borrowed(comm, forces.rows, size, forces.columns, responses.values.data());
+  const OwnedMat from = linalg::borrowed(comm, forces.rows, size, forces.columns,
+                                         forces.values.data()),
+                 to = linalg::borrowed(comm, forces.rows, size, forces.columns,
+                                       responses.values.data());
   check(KSPMatSolve(f.system->solver(), from, to));
-  const auto energy = linalg::transposedProduct(comm, forces, responses), parts = linalg::transposedProduct(comm, basis, forces);
-  const auto n = static_cast<std::size_t>(forces.columns), m = static_cast<std::size_t>(basis.columns);
+  const auto energy = linalg::transposedProduct(comm, forces, responses),
+             parts = linalg::transposedProduct(comm, basis, forces);
+  const auto n = static_cast<std::size_t>(forces.columns),
+             m = static_cast<std::size_t>(basis.columns);
   double worst = 0;
   for (std::size_t j = 0; j < n; ++j) {
     double rest = energy[j * n + j];
@@ -110,30 +125,34 @@ double outside(const Fixture& f, const linalg::Block& basis, const linalg::Block
   return worst;
 }
 
-// K0⁻¹ r for the forces of friction r = k φ and kᵀφ, of unit length, on the modes of the band: the basis holds them but for K0⁻¹ r' with
-// r' of length 0.03 at most, whose energy is that squared over the lowest eigenvalue of K0 at most.
+// K0⁻¹ r for the forces of friction r = k φ and kᵀφ, of unit length, on the modes of the band: the
+// basis holds them but for K0⁻¹ r' with r' of length 0.03 at most, whose energy is that squared
+// over the lowest eigenvalue of K0 at most.
 TEST(StaticResponses, AreHeldByTheBasis) {
   Fixture f("-modes_count 40 -flutter_rounds 0");
   const linalg::Block before = f.reduced.basis().columns();
   const double top = f.solve(0.5).at(0).bandTop;
   const linalg::Block after = f.reduced.basis().columns();
   auto k0 = test::denseCopy(f.system->k0());
-  const double bound = 0.03 / std::sqrt(linalg::symmetricEigen(k0.values, static_cast<int>(k0.rows)).front());
+  const double bound =
+      0.03 / std::sqrt(linalg::symmetricEigen(k0.values, static_cast<int>(k0.rows)).front());
   linalg::Block modes(before.rows);
-  for (PetscInt j = 0; f.free.angularFrequency[static_cast<std::size_t>(j)] < top; ++j) modes.append(before.column(j));
+  for (PetscInt j = 0; f.free.angularFrequency[static_cast<std::size_t>(j)] < top; ++j)
+    modes.append(before.column(j));
   ASSERT_GT(modes.columns, 20);
   for (const bool transposed : {false, true}) {
-    const linalg::Block forces =
-        linalg::unitColumns(f.pencil.comm(), frictionForces(f.pencil, modes, f.free.angularFrequency, transposed));
+    const linalg::Block forces = linalg::unitColumns(
+        f.pencil.comm(), frictionForces(f.pencil, modes, f.free.angularFrequency, transposed));
     const double known = outside(f, after, forces), unknown = outside(f, before, forces);
-    test::print("%s: outside of the basis %.2e, of the modes alone %.2e; bound %.2e\n", transposed ? "left" : "right", known,
-                unknown, bound);
+    test::print("%s: outside of the basis %.2e, of the modes alone %.2e; bound %.2e\n",
+                transposed ? "left" : "right", known, unknown, bound);
     EXPECT_LT(known, bound);
     EXPECT_GT(unknown, 2 * bound);  // else the bound says nothing
   }
 }
 
-// Eighty modes: the projections of symmetric terms are made in two blocks, and half of them by symmetry.
+// Eighty modes: the projections of symmetric terms are made in two blocks, and half of them by
+// symmetry.
 TEST(Projection, IsThatOfTheTerms) {
   Fixture f("-modes_count 80 -flutter_rounds 2 -flutter_band 0.5");
   f.solve(0.5);
@@ -151,7 +170,8 @@ TEST(Projection, IsThatOfTheTerms) {
       largest = std::max(largest, std::abs(wanted[k]));
     }
     test::print("s^%d: entries differ by %.1e of the largest\n", power, worst / largest);
-    EXPECT_LT(worst, 1e-11 * largest);  // rounding of the solves for K0 z where that is known without products, otherwise of sums
+    EXPECT_LT(worst, 1e-11 * largest);  // rounding of the solves for K0 z where that is known
+                                        // without products, otherwise of sums
   }
 }
 

@@ -1,4 +1,5 @@
-// Eigenvalue tables and friction work in results.h5 and in the files for ParaView, read back as numbers.
+// Eigenvalue tables and friction work in results.h5 and in the files for ParaView, read back as
+// numbers.
 #include <gtest/gtest.h>
 #include <vtkDataArray.h>
 #include <vtkPointData.h>
@@ -21,19 +22,26 @@ namespace {
 
 using test::Reader;
 
-/// The pad on springs between the disc below and a plate that slides the other way above: two interfaces.
+/// The pad on springs between the disc below and a plate that slides the other way above: two
+/// interfaces.
 const std::string layers =
-    "-mesh_file meshes/two_layers.geo -mesh_set nx=8,ny_disc=3,ny_pad=2 -material_disc_young 1 -material_disc_poisson 0.3 "
-    "-material_disc_density 1 -material_pad_young 0.4 -material_pad_poisson 0.25 -material_pad_density 0.6 "
+    "-mesh_file meshes/two_layers.geo -mesh_set nx=8,ny_disc=3,ny_pad=2 -material_disc_young 1 "
+    "-material_disc_poisson 0.3 "
+    "-material_disc_density 1 -material_pad_young 0.4 -material_pad_poisson 0.25 "
+    "-material_pad_density 0.6 "
     "-motion_disc_velocity 1,0,0 -ground_pad_stiffness 3,0 -constraint_disc_bottom_clamped xy "
-    "-constraint_disc_right_image_of disc_left -constraint_pad_right_image_of pad_left -contact_below_pad pad_face "
-    "-contact_below_disc disc_face -contact_above_pad pad_top -contact_above_obstacle_velocity 0.5,0,0 "
+    "-constraint_disc_right_image_of disc_left -constraint_pad_right_image_of pad_left "
+    "-contact_below_pad pad_face "
+    "-contact_below_disc disc_face -contact_above_pad pad_top -contact_above_obstacle_velocity "
+    "0.5,0,0 "
     "-contact_above_obstacle_displacement 0,-0.01,0 -modes_count 30 -flutter_friction 0.2,0.5 ";
 
 // Rows of all eigenvalues: as many as in memory, and the same to the bit.
 TEST(Fields, EigenvaluesWithErrorsAndCertification) {
   const std::vector<std::pair<std::string, double>> runs{
-      {"", 1}, {"-flutter_accuracy 1e-30 -flutter_rounds 1", 0}, {"-flutter_method direct -flutter_direct_count 10", 1}};
+      {"", 1},
+      {"-flutter_accuracy 1e-30 -flutter_rounds 1", 0},
+      {"-flutter_method direct -flutter_direct_count 10", 1}};
   for (const auto& [change, certified] : runs) {
     const analysis::Analysis analysis = test::runOptions(layers + change);
     const Folder folder;
@@ -42,12 +50,14 @@ TEST(Fields, EigenvaluesWithErrorsAndCertification) {
     for (const auto& point : analysis.segments.at(0).points) {
       const std::string group = "/flutter/friction_" + pointName(point.at);
       EXPECT_EQ(reader.text(group + "/eigenvalues", "columns"),
-                "growth_rate_1_per_s,angular_frequency_rad_per_s,backward_error,error_estimate,certified");
+                "growth_rate_1_per_s,angular_frequency_rad_per_s,backward_error,error_estimate,"
+                "certified");
       const auto [values, columns] = reader.reals(group, "eigenvalues");
       EXPECT_EQ(columns, 5);
       EXPECT_GE(point.eigenvalues.size(), 10U);
       EXPECT_EQ(values.size(), 5 * point.eigenvalues.size());
-      if (rankOf(PETSC_COMM_WORLD) > 0 || values.size() != 5 * point.eigenvalues.size()) continue;  // rank 0 gave the rows
+      if (rankOf(PETSC_COMM_WORLD) > 0 || values.size() != 5 * point.eigenvalues.size())
+        continue;  // rank 0 gave the rows
       for (std::size_t i = 0; i < point.eigenvalues.size(); ++i) {
         const auto& e = point.eigenvalues[i];
         const double* row = &values[5 * i];
@@ -79,12 +89,14 @@ ContactNodes contactNodes(const analysis::Analysis& analysis) {
     nodes.lumpedArea[static_cast<std::size_t>(node.globalNode)] = node.lumpedArea;
   }
   for (auto* list : {&nodes.interface, &nodes.lumpedArea})
-    check(MPI_Allreduce(MPI_IN_PLACE, list->data(), static_cast<int>(total), MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD));
+    check(MPI_Allreduce(MPI_IN_PLACE, list->data(), static_cast<int>(total), MPI_DOUBLE, MPI_SUM,
+                        PETSC_COMM_WORLD));
   return nodes;
 }
 
 /// Friction work by friction and mode, and for each interface: the rows of friction_work.csv.
-std::map<std::pair<double, int>, std::map<std::string, double>> tabled(const analysis::Analysis& analysis) {
+std::map<std::pair<double, int>, std::map<std::string, double>> tabled(
+    const analysis::Analysis& analysis) {
   std::map<std::pair<double, int>, std::map<std::string, double>> rows;
   for (const auto& line : split(frictionWorkTable(analysis), '\n')) {
     const auto cells = split(line, ',');
@@ -95,13 +107,15 @@ std::map<std::pair<double, int>, std::map<std::string, double>> tabled(const ana
 }
 
 /// The friction work per area of a mode at each global node, from the files for ParaView.
-std::vector<double> workPerArea(const std::filesystem::path& file, const std::string& mode, const std::vector<PetscInt>& tags) {
+std::vector<double> workPerArea(const std::filesystem::path& file, const std::string& mode,
+                                const std::vector<PetscInt>& tags) {
   const auto grid = readVtu(file);
   auto* points = grid->GetPointData();
   vtkDataArray* field = nullptr;
   for (int i = 0; i < points->GetNumberOfArrays(); ++i) {
     const std::string name = points->GetArrayName(i);
-    if (name.starts_with(mode) && name.ends_with("_friction_work_per_area")) field = points->GetArray(i);
+    if (name.starts_with(mode) && name.ends_with("_friction_work_per_area"))
+      field = points->GetArray(i);
   }
   std::vector<double> values(tags.size(), NAN);
   std::map<PetscInt, double> byTag;
@@ -111,12 +125,14 @@ std::vector<double> workPerArea(const std::filesystem::path& file, const std::st
     EXPECT_TRUE(isNew || entry->second == field->GetTuple1(i)) << "node " << tag << " of two ranks";
   }
   for (std::size_t node = 0; node < tags.size(); ++node)
-    if (const auto entry = byTag.find(tags[node]); entry != byTag.end()) values[node] = entry->second;
+    if (const auto entry = byTag.find(tags[node]); entry != byTag.end())
+      values[node] = entry->second;
   return values;
 }
 
-// The fields, summed over the contact nodes of an interface, are the rows of friction_work.csv, and zero elsewhere; undamped bodies
-// take nothing, so that all interfaces together make the growth rate.
+// The fields, summed over the contact nodes of an interface, are the rows of friction_work.csv, and
+// zero elsewhere; undamped bodies take nothing, so that all interfaces together make the growth
+// rate.
 TEST(Fields, FrictionWorkIsThatOfTheTable) {
   const analysis::Analysis analysis = test::runOptions(layers);
   const auto nodes = contactNodes(analysis);
@@ -131,10 +147,11 @@ TEST(Fields, FrictionWorkIsThatOfTheTable) {
   for (const auto& point : analysis.segments.at(0).points)
     for (const auto& shape : point.shapes) {
       const int mode = static_cast<int>(shape.index) + 1;
-      const auto [work, columns] =
-          reader.reals("/flutter/friction_" + pointName(point.at), formatted("mode_%03d_friction_work", mode));
-      const auto perArea = workPerArea(folder.path / "vtk" / ("complex_modes_friction_" + pointName(point.at) + ".pvtu"),
-                                       formatted("mode_%03d_", mode), tags);
+      const auto [work, columns] = reader.reals("/flutter/friction_" + pointName(point.at),
+                                                formatted("mode_%03d_friction_work", mode));
+      const auto perArea = workPerArea(
+          folder.path / "vtk" / ("complex_modes_friction_" + pointName(point.at) + ".pvtu"),
+          formatted("mode_%03d_", mode), tags);
       EXPECT_EQ(columns, 2);
       EXPECT_EQ(work.size(), 2 * tags.size());
       if (work.size() != 2 * tags.size()) continue;
@@ -143,20 +160,24 @@ TEST(Fields, FrictionWorkIsThatOfTheTable) {
       for (std::size_t node = 0; node < tags.size(); ++node) {
         const auto place = static_cast<std::size_t>(nodes.interface[node]);
         sums[place] += place == 0 ? std::abs(work[2 * node]) : work[2 * node];
-        fromAreas[place] += place == 0 ? std::abs(perArea[node]) : perArea[node] * nodes.lumpedArea[node];
+        fromAreas[place] +=
+            place == 0 ? std::abs(perArea[node]) : perArea[node] * nodes.lumpedArea[node];
         magnitudes += std::abs(work[2 * node]);
       }
       EXPECT_EQ(sums[0], 0);
       EXPECT_EQ(fromAreas[0], 0);
       for (std::size_t i = 0; i < 2; ++i) {
-        const double wanted = table.at({point.at.friction, mode}).at(analysis.contact.interfaces.at(i));
+        const double wanted =
+            table.at({point.at.friction, mode}).at(analysis.contact.interfaces.at(i));
         growth += wanted;
-        EXPECT_NEAR(sums[i + 1], wanted, 1e-9 * std::abs(wanted) + 1e-14 * magnitudes);  // ten digits in the table
-        EXPECT_NEAR(fromAreas[i + 1], wanted, 1e-7 * magnitudes);                        // single precision in VTK
+        EXPECT_NEAR(sums[i + 1], wanted,
+                    1e-9 * std::abs(wanted) + 1e-14 * magnitudes);  // ten digits in the table
+        EXPECT_NEAR(fromAreas[i + 1], wanted, 1e-7 * magnitudes);   // single precision in VTK
         EXPECT_GT(std::abs(wanted), 1e-4 * magnitudes);
       }
-      test::print("friction %g, mode %d: %s %.6g, %s %.6g, growth rate %.6g\n", point.at.friction, mode,
-                  analysis.contact.interfaces[0].c_str(), sums[1], analysis.contact.interfaces[1].c_str(), sums[2],
+      test::print("friction %g, mode %d: %s %.6g, %s %.6g, growth rate %.6g\n", point.at.friction,
+                  mode, analysis.contact.interfaces[0].c_str(), sums[1],
+                  analysis.contact.interfaces[1].c_str(), sums[2],
                   point.eigenvalues[shape.index].s.real());
       const auto s = point.eigenvalues[shape.index].s;
       EXPECT_NEAR(growth, s.real(), 1e-8 * std::abs(s));

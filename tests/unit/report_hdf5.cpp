@@ -39,7 +39,8 @@ TEST(Hdf5, HoldsTheMeshInGlobalOrder) {
     const auto [bricks, perBrick] = reader.integers("/mesh/cells_5", "nodes");
     EXPECT_EQ(perBrick, 8);
     ASSERT_EQ(bricks.size(), static_cast<std::size_t>(8 * (size - 1)));
-    for (std::size_t i = 0; i < bricks.size(); ++i) EXPECT_EQ(bricks[i], static_cast<PetscInt>(i / 8 * 4 + i % 8));
+    for (std::size_t i = 0; i < bricks.size(); ++i)
+      EXPECT_EQ(bricks[i], static_cast<PetscInt>(i / 8 * 4 + i % 8));
     EXPECT_EQ(reader.attribute<PetscInt>("/mesh/cells_5", "gmsh_element_type", PETSC_INT), 5);
     EXPECT_EQ(reader.text("/mesh/cells_5", "gmsh_element_name"), "Hexahedron 8");
   }
@@ -49,7 +50,8 @@ TEST(Hdf5, HoldsTheMeshInGlobalOrder) {
   EXPECT_EQ(perWedge, 6);
   EXPECT_EQ(wedges, expected);
   EXPECT_EQ(reader.integers("/mesh/cells_6", "body").first, (std::vector<PetscInt>{1, 0}));
-  EXPECT_EQ(reader.integers("/mesh/cells_6", "tag").first, (std::vector<PetscInt>{999 + size, 1000 + size}));
+  EXPECT_EQ(reader.integers("/mesh/cells_6", "tag").first,
+            (std::vector<PetscInt>{999 + size, 1000 + size}));
   EXPECT_EQ(reader.attribute<PetscInt>("/mesh/cells_6", "gmsh_element_type", PETSC_INT), 6);
   EXPECT_EQ(reader.attribute<PetscInt>("/mesh", "dimension", PETSC_INT), 3);
   EXPECT_EQ(reader.text("/mesh", "bodies"), "disc,pad");
@@ -76,11 +78,13 @@ TEST(Hdf5, HoldsNodeVectors) {
   EXPECT_STREQ(name, "mine");
 
   Reader reader(folder.path / "results.h5");
-  for (const auto& [group, dataset] : {std::pair{"/modes", "shape_0001"}, std::pair{"/flutter/friction_0.4", "shape_0001_real"}}) {
+  for (const auto& [group, dataset] :
+       {std::pair{"/modes", "shape_0001"}, std::pair{"/flutter/friction_0.4", "shape_0001_real"}}) {
     const auto [values, components] = reader.reals(group, dataset);
     EXPECT_EQ(components, 2);
     ASSERT_EQ(values.size(), static_cast<std::size_t>(2 * mesh.totalNodes));
-    for (std::size_t i = 0; i < values.size(); ++i) EXPECT_EQ(values[i], 1.0 / (1 + static_cast<double>(i)));
+    for (std::size_t i = 0; i < values.size(); ++i)
+      EXPECT_EQ(values[i], 1.0 / (1 + static_cast<double>(i)));
   }
 }
 
@@ -118,7 +122,8 @@ TEST(Hdf5, NamesTheOptionWhereTheFileCannotBeMade) {
   const fs::path file = folder.path / "file";  // a file is no folder, for root as well
   if (rankOf(PETSC_COMM_WORLD) == 0) std::ofstream(file) << "x";
   MPI_Barrier(PETSC_COMM_WORLD);
-  EXPECT_NE(errorOf([&] { Hdf5File(PETSC_COMM_WORLD, file / "inside"); }).find("-report_dir"), std::string::npos);
+  EXPECT_NE(errorOf([&] { Hdf5File(PETSC_COMM_WORLD, file / "inside"); }).find("-report_dir"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -32,19 +32,23 @@ Reference gmshReference(int type) {
   int dimension = 0, order = 0, nodes = 0, corners = 0;
   std::vector<double> given;
   gmsh::model::mesh::getElementProperties(type, name, dimension, order, nodes, given, corners);
-  Reference reference{nodes, dimension, std::vector<double>(static_cast<std::size_t>(3 * nodes), 0.0)};
+  Reference reference{nodes, dimension,
+                      std::vector<double>(static_cast<std::size_t>(3 * nodes), 0.0)};
   for (int node = 0; node < nodes; ++node)
     for (int i = 0; i < dimension; ++i)
-      reference.local[static_cast<std::size_t>(3 * node + i)] = given[static_cast<std::size_t>(dimension * node + i)];
+      reference.local[static_cast<std::size_t>(3 * node + i)] =
+          given[static_cast<std::size_t>(dimension * node + i)];
   return reference;
 }
 
-/// gmsh's reference cells span [−1, 1] where VTK's span [0, 1]: all directions of quads and bricks, the third one of wedges.
+/// gmsh's reference cells span [−1, 1] where VTK's span [0, 1]: all directions of quads and bricks,
+/// the third one of wedges.
 Point vtkParameters(int type, const Point& local) {
   const std::set<int> quads{3, 10, 16}, bricks{5, 12, 17}, wedges{6, 13, 18};
   Point result = local;
   for (std::size_t i = 0; i < 3; ++i)
-    if (bricks.contains(type) || (quads.contains(type) && i < 2) || (wedges.contains(type) && i == 2))
+    if (bricks.contains(type) || (quads.contains(type) && i < 2) ||
+        (wedges.contains(type) && i == 2))
       result[i] = (1 + local[i]) / 2;
   return result;
 }
@@ -64,9 +68,10 @@ Mesh curvedCells(int type) {
   for (int node = 0; node < reference.nodes; ++node) {
     const double* u = &reference.local[static_cast<std::size_t>(3 * node)];
     mesh.globalNode.push_back(mesh.firstNode + node);
-    mesh.coordinates.push_back({10.0 * rank + u[0] + 0.11 * u[1] * u[1] + 0.07 * u[1] * u[2],
-                                u[1] + 0.13 * u[0] * u[0] - 0.05 * u[2],
-                                reference.dimension == 2 ? 0 : u[2] + 0.09 * u[0] * u[1] + 0.06 * u[0]});
+    mesh.coordinates.push_back(
+        {10.0 * rank + u[0] + 0.11 * u[1] * u[1] + 0.07 * u[1] * u[2],
+         u[1] + 0.13 * u[0] * u[0] - 0.05 * u[2],
+         reference.dimension == 2 ? 0 : u[2] + 0.09 * u[0] * u[1] + 0.06 * u[0]});
     mesh.nodeTag.push_back(node);  // the node's place in gmsh's order, to know it again in the file
     mesh.nodePart.push_back(0);
     block.nodes.push_back(node);
@@ -77,11 +82,14 @@ Mesh curvedCells(int type) {
   return mesh;
 }
 
-double fieldValue(const Point& x, int component) { return (component + 1) * (x[0] + 2 * x[1] + 4 * x[2]); }
+double fieldValue(const Point& x, int component) {
+  return (component + 1) * (x[0] + 2 * x[1] + 4 * x[2]);
+}
 
 class VtuElement : public testing::TestWithParam<int> {};
 
-// Each gmsh node is the VTK node of the same parametric position, and VTK's shape functions make the same curved cell of them.
+// Each gmsh node is the VTK node of the same parametric position, and VTK's shape functions make
+// the same curved cell of them.
 TEST_P(VtuElement, NodesAndShapeAreThoseOfGmsh) {
   const int type = GetParam();
   const Folder folder;
@@ -95,17 +103,22 @@ TEST_P(VtuElement, NodesAndShapeAreThoseOfGmsh) {
     vtkCell* cell = grid->GetCell(i);
     ASSERT_EQ(cell->GetNumberOfPoints(), reference.nodes);
     for (vtkIdType node = 0; node < reference.nodes; ++node) {
-      const double* local = &reference.local[static_cast<std::size_t>(3 * tags->GetTuple1(cell->GetPointId(node)))];
+      const double* local =
+          &reference.local[static_cast<std::size_t>(3 * tags->GetTuple1(cell->GetPointId(node)))];
       const auto expected = vtkParameters(type, {local[0], local[1], local[2]});
       for (std::size_t c = 0; c < 3; ++c)
-        EXPECT_NEAR(cell->GetParametricCoords()[3 * static_cast<std::size_t>(node) + c], expected[c], 1e-12) << "VTK node " << node;
+        EXPECT_NEAR(cell->GetParametricCoords()[3 * static_cast<std::size_t>(node) + c],
+                    expected[c], 1e-12)
+            << "VTK node " << node;
     }
     const auto origin = 10.0 * grid->GetCellData()->GetArray("rank")->GetTuple1(i);
-    for (const Point& local : {Point{0.2, 0.3, 0.1}, Point{0.5, 0.15, 0.25}, Point{0.1, 0.6, 0.05}}) {
+    for (const Point& local :
+         {Point{0.2, 0.3, 0.1}, Point{0.5, 0.15, 0.25}, Point{0.1, 0.6, 0.05}}) {
       int components = 0, orientations = 0, part = 0;
       const double w = reference.dimension == 2 ? 0 : local[2];
       std::vector<double> shape;
-      gmsh::model::mesh::getBasisFunctions(type, {local[0], local[1], w}, "Lagrange", components, shape, orientations);
+      gmsh::model::mesh::getBasisFunctions(type, {local[0], local[1], w}, "Lagrange", components,
+                                           shape, orientations);
       Point expected{origin - 10.0 * rankOf(mesh.comm), 0, 0};
       for (std::size_t node = 0; node < shape.size(); ++node)
         for (std::size_t c = 0; c < 3; ++c) expected[c] += shape[node] * mesh.coordinates[node][c];
@@ -116,7 +129,8 @@ TEST_P(VtuElement, NodesAndShapeAreThoseOfGmsh) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(GmshTypes, VtuElement, testing::Values(2, 3, 4, 5, 6, 9, 10, 11, 12, 13, 16, 17, 18));
+INSTANTIATE_TEST_SUITE_P(GmshTypes, VtuElement,
+                         testing::Values(2, 3, 4, 5, 6, 9, 10, 11, 12, 13, 16, 17, 18));
 
 TEST(Vtu, HoldsFieldsOfAllRanks) {
   const Folder folder;
@@ -129,7 +143,8 @@ TEST(Vtu, HoldsFieldsOfAllRanks) {
   const fs::path stem = folder.path / "steady_0.4";  // the dot is part of the name
   writeVtu(mesh, stem, {scalar, vector});
   EXPECT_TRUE(fs::is_directory(stem));
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()), 2);  // steady_0.4.pvtu and the folder
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()),
+            2);  // steady_0.4.pvtu and the folder
 
   const auto grid = readVtu(folder.path / "steady_0.4.pvtu");
   const int size = sizeOf(mesh.comm);
@@ -144,7 +159,8 @@ TEST(Vtu, HoldsFieldsOfAllRanks) {
     EXPECT_EQ(x[2], node % 4 / 2 + 1e-12 * node);  // coordinates in double precision
     EXPECT_EQ(points->GetArray("part")->GetTuple1(i), x[0] > 0);
     EXPECT_FLOAT_EQ(points->GetArray("pressure")->GetTuple1(i), fieldValue(x, 0));
-    for (int c = 0; c < 3; ++c) EXPECT_FLOAT_EQ(points->GetArray("displacement")->GetComponent(i, c), fieldValue(x, c));
+    for (int c = 0; c < 3; ++c)
+      EXPECT_FLOAT_EQ(points->GetArray("displacement")->GetComponent(i, c), fieldValue(x, c));
   }
   auto* cells = grid->GetCellData();
   for (vtkIdType i = 0; i < grid->GetNumberOfCells(); ++i) {
@@ -192,7 +208,9 @@ TEST(Vtu, RejectsFieldOfWrongSizeOnAnyRank) {
   const Folder folder;
   const Mesh mesh = bar();
   const std::size_t missing = rankOf(mesh.comm) == sizeOf(mesh.comm) - 1 ? 1 : 0;
-  EXPECT_THROW(writeVtu(mesh, folder.path / "x", {{"p", 1, std::vector<double>(mesh.globalNode.size() - missing)}}), Error);
+  EXPECT_THROW(writeVtu(mesh, folder.path / "x",
+                        {{"p", 1, std::vector<double>(mesh.globalNode.size() - missing)}}),
+               Error);
 }
 
 TEST(Vtu, RejectsCellTypeWithoutVtkCellOnAnyRank) {
@@ -203,11 +221,13 @@ TEST(Vtu, RejectsCellTypeWithoutVtkCellOnAnyRank) {
 }
 TEST(Vtu, NamesTheOptionWhereAFileCannotBeMade) {
   const Folder folder;
-  const fs::path file = folder.path / "file", inside = file / "inside";  // a file is no folder, for root as well
+  const fs::path file = folder.path / "file",
+                 inside = file / "inside";  // a file is no folder, for root as well
   if (rankOf(PETSC_COMM_WORLD) == 0) std::ofstream(file) << "x";
   MPI_Barrier(PETSC_COMM_WORLD);
   EXPECT_NE(errorOf([&] { writeVtu(bar(), inside, {}); }).find("-report_dir"), std::string::npos);
-  EXPECT_NE(errorOf([&] { writePvd(PETSC_COMM_WORLD, inside, {}); }).find("-report_dir"), std::string::npos);
+  EXPECT_NE(errorOf([&] { writePvd(PETSC_COMM_WORLD, inside, {}); }).find("-report_dir"),
+            std::string::npos);
   MPI_Barrier(PETSC_COMM_WORLD);
   // the folder of the pieces cannot be made where a file has its name
   EXPECT_NE(errorOf([&] { writeVtu(bar(), file, {}); }).find("-report_dir"), std::string::npos);
@@ -215,8 +235,10 @@ TEST(Vtu, NamesTheOptionWhereAFileCannotBeMade) {
 
 TEST(Vtu, AllRanksLearnOfAPieceThatOneCannotWrite) {
   const Folder folder;
-  const fs::path piece = folder.path / "x" / ("x_" + std::to_string(sizeOf(PETSC_COMM_WORLD) - 1) + ".vtu");
-  if (rankOf(PETSC_COMM_WORLD) == 0) fs::create_directories(piece);  // a folder in the place of the file
+  const fs::path piece =
+      folder.path / "x" / ("x_" + std::to_string(sizeOf(PETSC_COMM_WORLD) - 1) + ".vtu");
+  if (rankOf(PETSC_COMM_WORLD) == 0)
+    fs::create_directories(piece);  // a folder in the place of the file
   MPI_Barrier(PETSC_COMM_WORLD);
   const auto message = errorOf([&] { writeVtu(bar(), folder.path / "x", {}); });
   EXPECT_NE(message.find("-report_dir"), std::string::npos);
@@ -225,11 +247,14 @@ TEST(Vtu, AllRanksLearnOfAPieceThatOneCannotWrite) {
 
 TEST(Pvd, ListsFramesRelativeToItsFolder) {
   const Folder folder;
-  writePvd(PETSC_COMM_WORLD, folder.path / "mode.pvd", {{0, folder.path / "mode" / "0.pvtu"}, {0.1, folder.path / "a&b.pvtu"}});
+  writePvd(PETSC_COMM_WORLD, folder.path / "mode.pvd",
+           {{0, folder.path / "mode" / "0.pvtu"}, {0.1, folder.path / "a&b.pvtu"}});
   std::ostringstream text;
   text << std::ifstream(folder.path / "mode.pvd").rdbuf();
-  EXPECT_NE(text.str().find("timestep=\"0\" part=\"0\" file=\"mode/0.pvtu\""), std::string::npos) << text.str();
-  EXPECT_NE(text.str().find("timestep=\"0.1\" part=\"0\" file=\"a&amp;b.pvtu\""), std::string::npos) << text.str();
+  EXPECT_NE(text.str().find("timestep=\"0\" part=\"0\" file=\"mode/0.pvtu\""), std::string::npos)
+      << text.str();
+  EXPECT_NE(text.str().find("timestep=\"0.1\" part=\"0\" file=\"a&amp;b.pvtu\""), std::string::npos)
+      << text.str();
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Derivatives of eigenvalues against finite differences of whole runs, and the balance of friction work.
+// Derivatives of eigenvalues against finite differences of whole runs, and the balance of friction
+// work.
 #include "sensitivity/sensitivity.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +23,8 @@ namespace {
 
 using test::Complex;
 
-/// Young's modulus, or the nine constants of -material_<group>_engineering_constants, and the density.
+/// Young's modulus, or the nine constants of -material_<group>_engineering_constants, and the
+/// density.
 struct Material {
   std::vector<double> elastic;
   double density;
@@ -36,7 +38,8 @@ struct Configuration {
 };
 
 /// Options of a body with a factor on all its moduli and another on its density.
-std::string materialOptions(const std::string& body, const Material& material, double moduli, double density) {
+std::string materialOptions(const std::string& body, const Material& material, double moduli,
+                            double density) {
   const std::string head = " -material_" + body;
   std::vector<double> values = material.elastic;
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -47,15 +50,17 @@ std::string materialOptions(const std::string& body, const Material& material, d
          formatted("_density %.17g", density * material.density);
 }
 
-/// Collective. The run with one parameter changed to `value`, a factor except for friction; without a parameter, with sensitivities.
+/// Collective. The run with one parameter changed to `value`, a factor except for friction; without
+/// a parameter, with sensitivities.
 analysis::Analysis run(const Configuration& model, const std::string& parameter, double value) {
-  std::string options = model.options + formatted(" -flutter_friction %.17g", parameter == "friction" ? value : model.friction);
+  std::string options = model.options + formatted(" -flutter_friction %.17g",
+                                                  parameter == "friction" ? value : model.friction);
   if (parameter.empty()) options += " -flutter_sensitivities";
   for (const auto* factor : {"speed", "pressure", "damping"})
     if (parameter == factor) options += formatted(" -flutter_%s %.17g", factor, value);
   for (const auto& [body, material] : model.materials)
-    options +=
-        materialOptions(body, material, parameter == "young_" + body ? value : 1, parameter == "density_" + body ? value : 1);
+    options += materialOptions(body, material, parameter == "young_" + body ? value : 1,
+                               parameter == "density_" + body ? value : 1);
   return model.name.empty() ? test::runOptions(options) : test::runCase(model.name, options);
 }
 
@@ -65,35 +70,42 @@ Complex nearest(const analysis::Analysis& analysis, Complex s) {
 
 /// uᴴ A u of a symmetric A; zero for none.
 double hermitian(Mat a, const pencil::Shape& shape) {
-  return a ? test::form(shape.real, a, shape.real) + test::form(shape.imaginary, a, shape.imaginary) : 0;
+  return a ? test::form(shape.real, a, shape.real) + test::form(shape.imaginary, a, shape.imaginary)
+           : 0;
 }
 
 /// The energy that friction feeds goes into growth and dissipation:
 ///   Σ_k work_k = σ + |s|² uᴴCu / (|s|² uᴴMu + uᴴ(K + v² K^R + K_σ)u).
-/// Exact for an eigenpair: errors are those of the eigenvector, backward errors of 1e-9 and less times a power of the condition.
+/// Exact for an eigenpair: errors are those of the eigenvector, backward errors of 1e-9 and less
+/// times a power of the condition.
 void expectBalance(const analysis::Analysis& analysis, const pencil::FrictionPoint& point) {
   const auto& bodies = analysis.bodies;
   OwnedMat prestress;
-  if (elasticity::prestressWanted()) prestress = elasticity::geometricStiffness(*analysis.mesh, analysis.steady.at(0).displacement);
+  if (elasticity::prestressWanted())
+    prestress = elasticity::geometricStiffness(*analysis.mesh, analysis.steady.at(0).displacement);
   for (const auto& shape : point.shapes) {
     const Complex s = point.eigenvalues[shape.index].s;
-    const double energy = std::norm(s) * hermitian(bodies.mass, shape) + hermitian(bodies.stiffness, shape) +
-                          point.at.speed * point.at.speed * hermitian(bodies.rotationStiffness, shape) +
-                          hermitian(prestress, shape);
-    const double wanted = s.real() + std::norm(s) * point.at.damping * hermitian(bodies.damping, shape) / energy;
+    const double energy =
+        std::norm(s) * hermitian(bodies.mass, shape) + hermitian(bodies.stiffness, shape) +
+        point.at.speed * point.at.speed * hermitian(bodies.rotationStiffness, shape) +
+        hermitian(prestress, shape);
+    const double wanted =
+        s.real() + std::norm(s) * point.at.damping * hermitian(bodies.damping, shape) / energy;
     double sums[2] = {0, 0};
     for (double work : shape.frictionWork) sums[0] += work, sums[1] += std::abs(work);
     check(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD));
-    test::print("friction adds %.12g to the growth rate, growth and damping take %.12g, magnitudes %.4g\n", sums[0], wanted,
-                sums[1]);
+    test::print(
+        "friction adds %.12g to the growth rate, growth and damping take %.12g, magnitudes %.4g\n",
+        sums[0], wanted, sums[1]);
     EXPECT_NEAR(sums[0], wanted, 1e-8 * std::abs(s));
     EXPECT_GT(sums[0], 0);
   }
 }
 
-/// Central differences with a relative step h of 4e-5: truncation of h²/6 times a third derivative, which for eigenvalues of condition
-/// numbers up to 3, the next ones some per cent away, is of the order of 10 to 100 |s|; rounding of the eigenvalues, 1e-13 |s|, over the
-/// step. The active set must not change meanwhile.
+/// Central differences with a relative step h of 4e-5: truncation of h²/6 times a third derivative,
+/// which for eigenvalues of condition numbers up to 3, the next ones some per cent away, is of the
+/// order of 10 to 100 |s|; rounding of the eigenvalues, 1e-13 |s|, over the step. The active set
+/// must not change meanwhile.
 void expectDifferences(const Configuration& model, const analysis::Analysis& analysis) {
   const auto& segment = analysis.segments.at(0);
   const auto& point = segment.points.at(0);
@@ -101,7 +113,8 @@ void expectDifferences(const Configuration& model, const analysis::Analysis& ana
   EXPECT_EQ(point.sensitivities.size(), point.shapes.size());
   if (point.sensitivities.empty()) return;
   const auto& first = point.sensitivities[0].derivatives;
-  EXPECT_EQ(first.size(), analysis.mesh ? 4 + 2 * model.materials.size() : 3);  // no pressure on matrices from files
+  EXPECT_EQ(first.size(), analysis.mesh ? 4 + 2 * model.materials.size()
+                                        : 3);  // no pressure on matrices from files
   for (std::size_t p = 0; p < first.size(); ++p) {
     const std::string name = first[p].parameter;
     const bool idle = name == "damping" && analysis.mesh && !analysis.bodies.damping;
@@ -109,13 +122,18 @@ void expectDifferences(const Configuration& model, const analysis::Analysis& ana
     std::vector<analysis::Analysis> runs;
     for (const double sign : {-1.0, 1.0})
       if (!idle) runs.push_back(run(model, name, value + sign * h));
-    for (const auto& moved : runs) EXPECT_EQ(moved.segments.at(0).openNodes, segment.openNodes) << name;
+    for (const auto& moved : runs)
+      EXPECT_EQ(moved.segments.at(0).openNodes, segment.openNodes) << name;
     for (std::size_t i = 0; i < point.shapes.size(); ++i) {
-      const Complex s = point.eigenvalues[point.shapes[i].index].s, found = point.sensitivities[i].derivatives.at(p).value;
+      const Complex s = point.eigenvalues[point.shapes[i].index].s,
+                    found = point.sensitivities[i].derivatives.at(p).value;
       const Complex wanted = idle ? 0 : (nearest(runs[1], s) - nearest(runs[0], s)) / (2 * h);
-      test::print("s = %.4f%+.4fi, condition %.1f, left backward error %.0e, %s: %.8g%+.8gi, differences less this %.0e |s|\n",
-                  s.real(), s.imag(), point.sensitivities[i].condition, point.sensitivities[i].leftBackwardError, name.c_str(),
-                  found.real(), found.imag(), std::abs(wanted - found) / std::abs(s));
+      test::print(
+          "s = %.4f%+.4fi, condition %.1f, left backward error %.0e, %s: %.8g%+.8gi, differences "
+          "less this %.0e |s|\n",
+          s.real(), s.imag(), point.sensitivities[i].condition,
+          point.sensitivities[i].leftBackwardError, name.c_str(), found.real(), found.imag(),
+          std::abs(wanted - found) / std::abs(s));
       EXPECT_LT(std::abs(found - wanted), 1e-7 * std::abs(s)) << name;
     }
   }
@@ -129,42 +147,53 @@ void expectDerivatives(const Configuration& model) {
 
 TEST(Sensitivity, OfApproximationAWithDampedBodies) {
   expectDerivatives({"two_layers",
-                     "-mesh_set nx=8,ny_disc=3,ny_pad=2 -modes_count 40 -flutter_method direct -flutter_direct_count 400 "
+                     "-mesh_set nx=8,ny_disc=3,ny_pad=2 -modes_count 40 -flutter_method direct "
+                     "-flutter_direct_count 400 "
                      "-material_disc_rayleigh_mass 0.01 -material_pad_rayleigh_stiffness 0.002"});
 }
 
-// The full terms of moving matter, a friction law that falls with speed, and prestress: every term of the point follows the steady
-// state.
+// The full terms of moving matter, a friction law that falls with speed, and prestress: every term
+// of the point follows the steady state.
 TEST(Sensitivity, OfMovingMatterWithAFrictionLaw) {
   expectDerivatives({"two_layers_moving",
-                     "-mesh_set nx=4,ny_disc=2,ny_pad=2,order=2 -modes_count 80 -flutter_method direct -flutter_direct_count 400 "
-                     "-friction_law exponential -friction_static_ratio 1.5 -friction_decay_speed 0.05 -elasticity_prestress on "
+                     "-mesh_set nx=4,ny_disc=2,ny_pad=2,order=2 -modes_count 80 -flutter_method "
+                     "direct -flutter_direct_count 400 "
+                     "-friction_law exponential -friction_static_ratio 1.5 -friction_decay_speed "
+                     "0.05 -elasticity_prestress on "
                      "-flutter_shapes_below 2.4 "
                      "-flutter_shapes_below 2.2"});
 }
 
-// Friction damping in a solid that slides at an angle to its waves: it grows with the pressure and falls with speed.
+// Friction damping in a solid that slides at an angle to its waves: it grows with the pressure and
+// falls with speed.
 TEST(Sensitivity, OfFrictionDamping) {
-  expectDerivatives({"two_layers_antiplane",
-                     "-mesh_set nx=6,ny_disc=2,ny_pad=1,order=1 -modes_count 40 -motion_convective on "
-                     "-motion_disc_velocity 0.05,0,0.03"});
+  expectDerivatives(
+      {"two_layers_antiplane",
+       "-mesh_set nx=6,ny_disc=2,ny_pad=1,order=1 -modes_count 40 -motion_convective on "
+       "-motion_disc_velocity 0.05,0,0.03"});
 }
 
 // Equivalent viscous damping follows the moduli, and not the density.
 TEST(Sensitivity, OfLossFactors) {
   expectDerivatives({"two_layers",
-                     "-mesh_set nx=8,ny_disc=3,ny_pad=2 -modes_count 40 -flutter_method direct -flutter_direct_count 400 "
-                     "-material_disc_loss_factor 0.004 -material_disc_loss_frequency 0.3 -material_pad_loss_factor 0.02 "
+                     "-mesh_set nx=8,ny_disc=3,ny_pad=2 -modes_count 40 -flutter_method direct "
+                     "-flutter_direct_count 400 "
+                     "-material_disc_loss_factor 0.004 -material_disc_loss_frequency 0.3 "
+                     "-material_pad_loss_factor 0.02 "
                      "-material_pad_loss_frequency 0.5"});
 }
 
-// Axes turned in the disc, and with the place in the pad; the steady stress of both joins the stiffness.
+// Axes turned in the disc, and with the place in the pad; the steady stress of both joins the
+// stiffness.
 TEST(Sensitivity, OfOrthotropicBodies) {
   const Configuration model{
       "",
-      "-mesh_file meshes/two_layers.geo -mesh_set nx=8,ny_disc=3,ny_pad=2 -motion_disc_velocity 1,0,0 "
-      "-constraint_disc_bottom_clamped xy -constraint_pad_top_clamped xy -constraint_pad_top_displacement 0,-0.01,0 "
-      "-constraint_disc_right_image_of disc_left -constraint_pad_right_image_of pad_left -contact_interface_pad pad_face "
+      "-mesh_file meshes/two_layers.geo -mesh_set nx=8,ny_disc=3,ny_pad=2 -motion_disc_velocity "
+      "1,0,0 "
+      "-constraint_disc_bottom_clamped xy -constraint_pad_top_clamped xy "
+      "-constraint_pad_top_displacement 0,-0.01,0 "
+      "-constraint_disc_right_image_of disc_left -constraint_pad_right_image_of pad_left "
+      "-contact_interface_pad pad_face "
       "-contact_interface_disc disc_face -material_disc_orientation 0.8,0.6,0,-0.6,0.8,0 "
       "-material_pad_cylindrical 1,-4,0,0,0,1 -elasticity_prestress on "
       "-modes_count 40 -flutter_method direct -flutter_direct_count 400",
@@ -183,13 +212,16 @@ void expectDerivativesOfOpenContact(const Configuration& model) {
   expectDifferences(model, analysis);
 }
 
-// Blocks that friction lifts off at the leading edge: prestress moves with the gaps of the open nodes, what friction does with relative
-// velocities with the forces of the closed ones. First across the sliding direction, on a rigid plate,
+// Blocks that friction lifts off at the leading edge: prestress moves with the gaps of the open
+// nodes, what friction does with relative velocities with the forces of the closed ones. First
+// across the sliding direction, on a rigid plate,
 TEST(Sensitivity, OfOpenContactWithFrictionDamping) {
   expectDerivativesOfOpenContact(
       {"",
-       "-mesh_file meshes/layer_slab.geo -mesh_set Lx=0.5,nx=4,ny=4,nz=1,depth=0.3 -material_layer_poisson 0.3 "
-       "-constraint_bottom_clamped xyz -contact_plate_pad top -contact_plate_obstacle_velocity 1,0,0.2 "
+       "-mesh_file meshes/layer_slab.geo -mesh_set Lx=0.5,nx=4,ny=4,nz=1,depth=0.3 "
+       "-material_layer_poisson 0.3 "
+       "-constraint_bottom_clamped xyz -contact_plate_pad top -contact_plate_obstacle_velocity "
+       "1,0,0.2 "
        "-contact_plate_obstacle_displacement 0,-0.01,0 -elasticity_prestress on "
        "-modes_count 40 -flutter_method direct -flutter_direct_count 400",
        0.4,
@@ -200,17 +232,22 @@ TEST(Sensitivity, OfOpenContactWithFrictionDamping) {
 TEST(Sensitivity, OfOpenContactWithAFrictionLaw) {
   expectDerivativesOfOpenContact(
       {"",
-       "-mesh_file meshes/two_layers.geo -mesh_set nx=6,ny_disc=3,ny_pad=6,Lx=0.6,h_pad=1 -material_disc_poisson 0.3 "
-       "-material_pad_poisson 0.25 -motion_disc_velocity 0.05,0,0 -constraint_disc_bottom_clamped xy -constraint_pad_top_clamped "
+       "-mesh_file meshes/two_layers.geo -mesh_set nx=6,ny_disc=3,ny_pad=6,Lx=0.6,h_pad=1 "
+       "-material_disc_poisson 0.3 "
+       "-material_pad_poisson 0.25 -motion_disc_velocity 0.05,0,0 -constraint_disc_bottom_clamped "
+       "xy -constraint_pad_top_clamped "
        "xy "
-       "-constraint_pad_top_displacement 0,-0.02,0 -contact_interface_pad pad_face -contact_interface_disc disc_face "
-       "-friction_law exponential -friction_static_ratio 1.5 -friction_decay_speed 0.05 -elasticity_prestress on "
+       "-constraint_pad_top_displacement 0,-0.02,0 -contact_interface_pad pad_face "
+       "-contact_interface_disc disc_face "
+       "-friction_law exponential -friction_static_ratio 1.5 -friction_decay_speed 0.05 "
+       "-elasticity_prestress on "
        "-flutter_shapes_below 2.4 "
        "-modes_count 40 -flutter_method direct -flutter_direct_count 400",
        0.5});
 }
 
-// Mass on a belt: s² = −2 ± √(1 − 4f/3), so that 2 s ds/df = ∓ (2/3) / √(…). Beyond the merger at 3/4 one of both grows, and is kept.
+// Mass on a belt: s² = −2 ± √(1 − 4f/3), so that 2 s ds/df = ∓ (2/3) / √(…). Beyond the merger at
+// 3/4 one of both grows, and is kept.
 TEST(Sensitivity, OfTheBeltInClosedForm) {
   for (const double f : {0.8, 1.0, 2.0}) {
     const analysis::Analysis analysis = run({"external", "", f, {}}, "", 1);
@@ -218,13 +255,16 @@ TEST(Sensitivity, OfTheBeltInClosedForm) {
     EXPECT_EQ(point.sensitivities.size(), 1u);
     for (std::size_t i = 0; i < point.sensitivities.size(); ++i) {
       const auto& [condition, separation, error, derivatives] = point.sensitivities[i];
-      const Complex root(0, std::sqrt(4 * f / 3 - 1)), s = std::sqrt(root - 2.0), wanted = -(2. / 3) / root / (2.0 * s);
+      const Complex root(0, std::sqrt(4 * f / 3 - 1)), s = std::sqrt(root - 2.0),
+                                                       wanted = -(2. / 3) / root / (2.0 * s);
       EXPECT_EQ(derivatives.size(), 3u);
       for (const auto& [name, found] : derivatives) {
-        test::print("belt at friction %g, condition %.2f, %s: %.12g%+.12gi\n", f, condition, name.c_str(), found.real(),
-                    found.imag());
+        test::print("belt at friction %g, condition %.2f, %s: %.12g%+.12gi\n", f, condition,
+                    name.c_str(), found.real(), found.imag());
         // Rounding of s and of the vectors, times the square of the condition number at most.
-        EXPECT_LT(std::abs(found - (name == "friction" ? wanted : 0)), 1e-14 * condition * condition) << name;
+        EXPECT_LT(std::abs(found - (name == "friction" ? wanted : 0)),
+                  1e-14 * condition * condition)
+            << name;
       }
     }
   }
@@ -236,10 +276,12 @@ TEST(Sensitivity, OfMatricesFromFiles) {
   expectDifferences(model, run(model, "", 1));
 }
 
-// All moduli by a factor and all densities by another multiply all eigenvalues of undamped bodies under approximation A by the root
-// of their quotient: Σ ds/d ln E = s/2, Σ ds/d ln ρ = −s/2. Any left vector would say so: this is a test of the matrices of the bodies.
+// All moduli by a factor and all densities by another multiply all eigenvalues of undamped bodies
+// under approximation A by the root of their quotient: Σ ds/d ln E = s/2, Σ ds/d ln ρ = −s/2. Any
+// left vector would say so: this is a test of the matrices of the bodies.
 TEST(Sensitivity, OfAllBodiesTogether) {
-  const analysis::Analysis analysis = run({"two_layers", "-mesh_set nx=12,ny_disc=4,ny_pad=3 -modes_count 60"}, "", 1);
+  const analysis::Analysis analysis =
+      run({"two_layers", "-mesh_set nx=12,ny_disc=4,ny_pad=3 -modes_count 60"}, "", 1);
   const auto& point = analysis.segments.at(0).points.at(0);
   EXPECT_EQ(point.sensitivities.size(), 3u);
   expectBalance(analysis, point);
@@ -250,8 +292,9 @@ TEST(Sensitivity, OfAllBodiesTogether) {
       if (name.starts_with("young_")) moduli += value;
       if (name.starts_with("density_")) densities += value;
     }
-    test::print("reduced: left backward error %.0e, errors of the sums %.0e and %.0e\n", point.sensitivities[i].leftBackwardError,
-                std::abs(moduli - 0.5 * s) / std::abs(s), std::abs(densities + 0.5 * s) / std::abs(s));
+    test::print("reduced: left backward error %.0e, errors of the sums %.0e and %.0e\n",
+                point.sensitivities[i].leftBackwardError, std::abs(moduli - 0.5 * s) / std::abs(s),
+                std::abs(densities + 0.5 * s) / std::abs(s));
     EXPECT_LT(std::abs(moduli - 0.5 * s), 1e-7 * std::abs(s));
     EXPECT_LT(std::abs(densities + 0.5 * s), 1e-7 * std::abs(s));
   }
@@ -266,16 +309,20 @@ std::vector<std::string> lines(const std::string& text) {
 
 // A row for each mode and parameter, and one without numbers for a mode without derivatives.
 TEST(Sensitivity, InTables) {
-  analysis::Analysis analysis = run({"two_layers", "-mesh_set nx=12,ny_disc=4,ny_pad=3 -modes_count 60"}, "", 1);
+  analysis::Analysis analysis =
+      run({"two_layers", "-mesh_set nx=12,ny_disc=4,ny_pad=3 -modes_count 60"}, "", 1);
   auto& point = analysis.segments.at(0).points.at(0);
   EXPECT_EQ(point.sensitivities.size(), 3u);
   auto& first = point.sensitivities.at(0);
-  const auto full = lines(report::sensitivityTable(analysis)), work = lines(report::frictionWorkTable(analysis));
+  const auto full = lines(report::sensitivityTable(analysis)),
+             work = lines(report::frictionWorkTable(analysis));
   EXPECT_EQ(full.size(), 1 + 3 * first.derivatives.size());
   EXPECT_EQ(work.size(), 1 + 3 * analysis.contact.interfaces.size());
   for (const auto* table : {&full, &work})
     for (const auto& line : *table)
-      EXPECT_EQ(std::count(line.begin(), line.end(), ','), std::count(table->front().begin(), table->front().end(), ',')) << line;
+      EXPECT_EQ(std::count(line.begin(), line.end(), ','),
+                std::count(table->front().begin(), table->front().end(), ','))
+          << line;
   EXPECT_TRUE(first.regular());
   first.condition = 1e6;
   EXPECT_FALSE(first.regular());

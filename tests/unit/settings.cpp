@@ -1,4 +1,5 @@
-// Options as they are given: words of the command line, options files in YAML and in lines, and what is said of mistakes there.
+// Options as they are given: words of the command line, options files in YAML and in lines, and
+// what is said of mistakes there.
 #include "options/settings.hpp"
 
 #include <gtest/gtest.h>
@@ -37,7 +38,8 @@ std::string fileWith(const std::string& text, const std::string& suffix = ".txt"
 TEST(Yaml, NestedNamesAreJoined) {
   EXPECT_EQ(yaml("# comment\na:\n  b:\n    c: 1.5  # m\n  d: x y\nquiet:\ne_f: -1\n"),
             (Pairs{{"a_b_c", "1.5"}, {"a_d", "x y"}, {"quiet", ""}, {"e_f", "-1"}}));
-  EXPECT_EQ(yaml("{\"a\": {\"b\": 1, \"c\": \"two\"}}"), (Pairs{{"a_b", "1"}, {"a_c", "two"}}));  // JSON
+  EXPECT_EQ(yaml("{\"a\": {\"b\": 1, \"c\": \"two\"}}"),
+            (Pairs{{"a_b", "1"}, {"a_c", "two"}}));  // JSON
   EXPECT_EQ(yaml(""), Pairs{});
   EXPECT_EQ(yaml("# nothing\n"), Pairs{});
 }
@@ -55,9 +57,12 @@ TEST(Yaml, ListsAreJoinedByCommas) {
 // PETSc's reader has them too.
 TEST(Yaml, AliasesAndMergeKeys) {
   const std::string iron = "hat: &iron\n  young: 1\n  density: 7\n";
-  EXPECT_EQ(yaml(iron + "disc: *iron\n"),
-            (Pairs{{"hat_young", "1"}, {"hat_density", "7"}, {"disc_young", "1"}, {"disc_density", "7"}}));
-  const Pairs expected{{"hat_young", "1"}, {"hat_density", "7"}, {"disc_young", "2"}, {"disc_density", "7"}};
+  EXPECT_EQ(
+      yaml(iron + "disc: *iron\n"),
+      (Pairs{
+          {"hat_young", "1"}, {"hat_density", "7"}, {"disc_young", "1"}, {"disc_density", "7"}}));
+  const Pairs expected{
+      {"hat_young", "1"}, {"hat_density", "7"}, {"disc_young", "2"}, {"disc_density", "7"}};
   EXPECT_EQ(yaml(iron + "disc:\n  <<: *iron\n  young: 2\n"), expected);
   // What stands beside the merge key counts more, before it as well.
   EXPECT_EQ(yaml(iron + "disc:\n  young: 2\n  <<: [*iron]\n"), expected);
@@ -95,7 +100,9 @@ TEST(Yaml, MistakesAreNamedWithTheirLine) {
   };
   for (const auto& [text, line, what] : mistakes) {
     const std::string message = yamlError(text);
-    EXPECT_TRUE(contains(message, "case.yaml, ") && contains(message, line) && contains(message, what)) << text << ": " << message;
+    EXPECT_TRUE(contains(message, "case.yaml, ") && contains(message, line) &&
+                contains(message, what))
+        << text << ": " << message;
     EXPECT_FALSE(contains(message, "\n")) << message;
   }
 }
@@ -103,27 +110,44 @@ TEST(Yaml, MistakesAreNamedWithTheirLine) {
 // Aliases of aliases multiply; a file of a hundred bytes must not fill the memory.
 TEST(Yaml, AliasesDoNotMultiplyWithoutEnd) {
   std::string text = "a0: &a0 {x: 1, y: 2}\n";
-  for (int i = 1; i < 40; ++i) text += formatted("a%d: &a%d {x: *a%d, y: *a%d}\n", i, i, i - 1, i - 1);
+  for (int i = 1; i < 40; ++i)
+    text += formatted("a%d: &a%d {x: *a%d, y: *a%d}\n", i, i, i - 1, i - 1);
   EXPECT_TRUE(contains(yamlError(text), "more than 10000 options"));
 }
 
 TEST(Words, NamesAndValues) {
-  EXPECT_EQ(pairs(settingsOfCall({"-a", "1", "-quiet", "-b", "-1e3,2", "-c", "-.5", "-d", "0, 0.2", "-e", "-inf", "-f", ""})),
-            (Pairs{{"a", "1"}, {"quiet", ""}, {"b", "-1e3,2"}, {"c", "-.5"}, {"d", "0, 0.2"}, {"e", "-inf"}, {"f", ""}}));
-  EXPECT_EQ(pairs(settingsOfCall(
-                {"-prefix_push", "a_", "-b", "1", "-prefix_push", "c_", "-d", "2", "-prefix_pop", "-prefix_pop", "-e", "3"})),
+  EXPECT_EQ(pairs(settingsOfCall({"-a", "1", "-quiet", "-b", "-1e3,2", "-c", "-.5", "-d", "0, 0.2",
+                                  "-e", "-inf", "-f", ""})),
+            (Pairs{{"a", "1"},
+                   {"quiet", ""},
+                   {"b", "-1e3,2"},
+                   {"c", "-.5"},
+                   {"d", "0, 0.2"},
+                   {"e", "-inf"},
+                   {"f", ""}}));
+  EXPECT_EQ(pairs(settingsOfCall({"-prefix_push", "a_", "-b", "1", "-prefix_push", "c_", "-d", "2",
+                                  "-prefix_pop", "-prefix_pop", "-e", "3"})),
             (Pairs{{"a_b", "1"}, {"a_c_d", "2"}, {"e", "3"}}));
-  EXPECT_EQ(pairs(settingsOfCall({"-options_string_yaml", "{a: {b: 1}}", "-c", "2"})), (Pairs{{"a_b", "1"}, {"c", "2"}}));
+  EXPECT_EQ(pairs(settingsOfCall({"-options_string_yaml", "{a: {b: 1}}", "-c", "2"})),
+            (Pairs{{"a_b", "1"}, {"c", "2"}}));
 }
 
 TEST(Words, StrayOnesAreNamedWithTheOptionBeforeThem) {
-  const auto message = [](const std::vector<std::string>& words) { return errorOf([&] { settingsOfCall(words); }); };
+  const auto message = [](const std::vector<std::string>& words) {
+    return errorOf([&] { settingsOfCall(words); });
+  };
   const auto list = message({"-flutter_friction", "0.2", "0.4"});
-  EXPECT_TRUE(contains(list, "'0.4' follows option -flutter_friction 0.2") && contains(list, "commas")) << list;
+  EXPECT_TRUE(contains(list, "'0.4' follows option -flutter_friction 0.2") &&
+              contains(list, "commas"))
+      << list;
   const auto split = message({"-quiet", "-flutter_friction", "0,", "0.4"});
-  EXPECT_TRUE(contains(split, "'0.4' follows option -flutter_friction 0,") && contains(split, "quotes")) << split;
+  EXPECT_TRUE(contains(split, "'0.4' follows option -flutter_friction 0,") &&
+              contains(split, "quotes"))
+      << split;
   const auto first = message({"disc_brake", "-quiet"});
-  EXPECT_TRUE(contains(first, "'disc_brake' is not an option") && contains(first, "-options_file disc_brake")) << first;
+  EXPECT_TRUE(contains(first, "'disc_brake' is not an option") &&
+              contains(first, "-options_file disc_brake"))
+      << first;
   EXPECT_TRUE(contains(message({"-a=1"}), "-a 1"));
   EXPECT_TRUE(contains(message({"-my disc_young", "1"}), "no blank"));
   EXPECT_TRUE(contains(message({"-a", "1\n2"}), "line break"));
@@ -134,38 +158,47 @@ TEST(Words, StrayOnesAreNamedWithTheOptionBeforeThem) {
 }
 
 TEST(Files, LinesOfNamesAndValues) {
-  const auto file = fileWith("# comment\n-a 1  # one\n\n  -b \"0, 0.2\"\r\n-c\n-d '-x.msh'\n-e -1 -f 2\n-g 'a#b \"c\"'\n");
-  EXPECT_EQ(pairs(settingsOfFile(file)),
-            (Pairs{{"a", "1"}, {"b", "0, 0.2"}, {"c", ""}, {"d", "-x.msh"}, {"e", "-1"}, {"f", "2"}, {"g", "a#b \"c\""}}));
+  const auto file = fileWith(
+      "# comment\n-a 1  # one\n\n  -b \"0, 0.2\"\r\n-c\n-d '-x.msh'\n-e -1 -f 2\n-g 'a#b \"c\"'\n");
+  EXPECT_EQ(pairs(settingsOfFile(file)), (Pairs{{"a", "1"},
+                                                {"b", "0, 0.2"},
+                                                {"c", ""},
+                                                {"d", "-x.msh"},
+                                                {"e", "-1"},
+                                                {"f", "2"},
+                                                {"g", "a#b \"c\""}}));
   EXPECT_EQ(settingsOfFile(file)[1].place(), file + ", line 4");
 }
 
 // What optionLine() writes is what is read, whatever the value.
 TEST(Files, LinesRepeatTheirValues) {
-  const Pairs values{{"a", ""},        {"b", "0, 0.2"}, {"c", "-x y"}, {"d", "-x"}, {"e", "it's # here"},
-                     {"f", "a \"b\""}, {"g", "-1"},     {"k", "'x'"}};
+  const Pairs values{{"a", ""},   {"b", "0, 0.2"},      {"c", "-x y"},
+                     {"d", "-x"}, {"e", "it's # here"}, {"f", "a \"b\""},
+                     {"g", "-1"}, {"k", "'x'"}};
   std::string text;
   for (const auto& [name, value] : values) text += optionLine(name, value);
   EXPECT_EQ(pairs(settingsOfFile(fileWith(text))), values);
 }
 
 TEST(Files, MistakesAreNamedWithTheirLine) {
-  const std::vector<std::pair<std::string, std::string>> mistakes{{"-a 1\n-b 0 0.2\n", "line 2: '0.2' follows option -b 0"},
-                                                                  {"-a 1\nb 2\n", "line 2: 'b' is not an option"},
-                                                                  {"-a 1\n-b\n2\n", "line 3: '2' is not an option"},
-                                                                  {"-a 1\n-b \"2\n", "line 2: a quote is left open"},
-                                                                  {"-a 1\n-b \"2\"3\n", "line 2: text follows"},
-                                                                  {std::string("-a 1\n-b \0\n", 10), "line 2: a control character"},
-                                                                  {"alias -a -b\n", "line 1: 'alias' is not an option"},
-                                                                  {"-help\n", "line 1: option -help belongs on the command line"},
-                                                                  {"-skip_petscrc\n", "belongs on the command line"},
-                                                                  {"# nothing\n", "holds no option"}};
+  const std::vector<std::pair<std::string, std::string>> mistakes{
+      {"-a 1\n-b 0 0.2\n", "line 2: '0.2' follows option -b 0"},
+      {"-a 1\nb 2\n", "line 2: 'b' is not an option"},
+      {"-a 1\n-b\n2\n", "line 3: '2' is not an option"},
+      {"-a 1\n-b \"2\n", "line 2: a quote is left open"},
+      {"-a 1\n-b \"2\"3\n", "line 2: text follows"},
+      {std::string("-a 1\n-b \0\n", 10), "line 2: a control character"},
+      {"alias -a -b\n", "line 1: 'alias' is not an option"},
+      {"-help\n", "line 1: option -help belongs on the command line"},
+      {"-skip_petscrc\n", "belongs on the command line"},
+      {"# nothing\n", "holds no option"}};
   for (const auto& [text, what] : mistakes) {
     const auto file = fileWith(text);
     const auto message = errorOf([&] { settingsOfFile(file); });
     EXPECT_TRUE(contains(message, file) && contains(message, what)) << text << ": " << message;
   }
-  EXPECT_TRUE(contains(errorOf([] { settingsOfFile("nosuch.txt"); }), "-options_file nosuch.txt: there is no such file"));
+  EXPECT_TRUE(contains(errorOf([] { settingsOfFile("nosuch.txt"); }),
+                       "-options_file nosuch.txt: there is no such file"));
   EXPECT_TRUE(contains(errorOf([] { settingsOfFile("tests"); }), "this is a folder"));
   const auto large = fileWith("# " + std::string(11'000'000, 'x') + "\n-a 1\n");
   EXPECT_TRUE(contains(errorOf([&] { settingsOfFile(large); }), "10 MB"));
@@ -182,14 +215,16 @@ TEST(Files, ManyOptionsAreRefused) {
 TEST(Files, KindIsToldByNameAndByContent) {
   const std::string text = "a: {b: 1}\n";
   const Pairs expected{{"a_b", "1"}};
-  for (const std::string suffix : {".yaml", ".yml", ".json"}) EXPECT_EQ(pairs(settingsOfFile(fileWith(text, suffix))), expected);
+  for (const std::string suffix : {".yaml", ".yml", ".json"})
+    EXPECT_EQ(pairs(settingsOfFile(fileWith(text, suffix))), expected);
   EXPECT_EQ(pairs(settingsOfFile(fileWith("---\n" + text))), expected);
   EXPECT_EQ(pairs(settingsOfFile(fileWith("%YAML 1.1\n---\n" + text))), expected);
   EXPECT_EQ(pairs(settingsOfFile(fileWith(text) + ":yaml")), expected);
   EXPECT_EQ(pairs(settingsOfCall({"-options_file_yaml", fileWith(text)})), expected);
 }
 
-// Later wins, files and words in the order in which they stand; a file reads another one where it names it, beside itself.
+// Later wins, files and words in the order in which they stand; a file reads another one where it
+// names it, beside itself.
 TEST(Files, CountInTheOrderInWhichTheyStand) {
   const auto base = test::writeFile("base.yaml", "a: 1\nb: 1\nc: 1\n");
   const auto file = fileWith("-a 2\n-options_file base.yaml\n-b 3\n");
@@ -204,7 +239,8 @@ TEST(Files, CountInTheOrderInWhichTheyStand) {
 }
 
 TEST(Text, IsACommandLine) {
-  EXPECT_EQ(pairs(settingsOfText("-a '0, 1'\n -b \"x\" -c")), (Pairs{{"a", "0, 1"}, {"b", "x"}, {"c", ""}}));
+  EXPECT_EQ(pairs(settingsOfText("-a '0, 1'\n -b \"x\" -c")),
+            (Pairs{{"a", "0, 1"}, {"b", "x"}, {"c", ""}}));
   EXPECT_EQ(pairs(settingsOfText("")), Pairs{});
   EXPECT_TRUE(contains(errorOf([] { settingsOfText("-a 1 2"); }), "'2' follows option -a 1"));
 }
@@ -212,20 +248,27 @@ TEST(Text, IsACommandLine) {
 TEST(Environment, ComesBeforeTheCommandLine) {
   setenv("PETSC_OPTIONS", "-a 1 -b \"0, 1\"", 1);
   setenv("PETSC_OPTIONS_YAML", "{c: [1, 2]}", 1);
-  EXPECT_EQ(pairs(settingsOfCall({"-a", "2"})), (Pairs{{"a", "1"}, {"b", "0, 1"}, {"c", "1,2"}, {"a", "2"}}));
+  EXPECT_EQ(pairs(settingsOfCall({"-a", "2"})),
+            (Pairs{{"a", "1"}, {"b", "0, 1"}, {"c", "1,2"}, {"a", "2"}}));
   setenv("PETSC_OPTIONS", "-a 1 2", 1);
   EXPECT_TRUE(contains(errorOf([] { settingsOfCall({}); }), "'2' follows option -a 1"));
   unsetenv("PETSC_OPTIONS");
   unsetenv("PETSC_OPTIONS_YAML");
 }
 
-// Values come out of the database as they went in: with blanks, with a dash in front, longer than any buffer.
+// Values come out of the database as they went in: with blanks, with a dash in front, longer than
+// any buffer.
 TEST(Database, KeepsValuesAsTheyAre) {
   const std::string lengthy(20000, 'x');
   check(PetscOptionsClear(nullptr));
-  insert({{"probe_a", "0, 0.2", "", 0}, {"probe_b", "-x y -z", "", 0}, {"probe_c", "", "", 0}, {"probe_d", lengthy, "", 0}});
-  EXPECT_EQ(givenOptions(), (std::map<std::string, std::string>{
-                                {"probe_a", "0, 0.2"}, {"probe_b", "-x y -z"}, {"probe_c", ""}, {"probe_d", lengthy}}));
+  insert({{"probe_a", "0, 0.2", "", 0},
+          {"probe_b", "-x y -z", "", 0},
+          {"probe_c", "", "", 0},
+          {"probe_d", lengthy, "", 0}});
+  EXPECT_EQ(
+      givenOptions(),
+      (std::map<std::string, std::string>{
+          {"probe_a", "0, 0.2"}, {"probe_b", "-x y -z"}, {"probe_c", ""}, {"probe_d", lengthy}}));
   check(PetscOptionsClear(nullptr));
 }
 
@@ -239,14 +282,17 @@ TEST(Database, KnowsWhereAValueStands) {
   check(PetscOptionsClear(nullptr));
 }
 
-// A case that says one thing and a command line that says another are not settled in silence; the same value twice is no conflict.
+// A case that says one thing and a command line that says another are not settled in silence; the
+// same value twice is no conflict.
 TEST(Database, TellsWhichSettingsOfFilesWereReplaced) {
-  const auto file = test::writeFile("replaced.yaml", "probe:\n  first: 1\n  second: 2\n  third: 3\n");
+  const auto file =
+      test::writeFile("replaced.yaml", "probe:\n  first: 1\n  second: 2\n  third: 3\n");
   check(PetscOptionsClear(nullptr));
   insertFile(PETSC_COMM_WORLD, file);
   EXPECT_EQ(replacedSettings(), std::vector<std::string>{});
   insert({{"probe_first", "1", "", 0}, {"probe_second", "5", "", 0}, {"probe_other", "4", "", 0}});
-  EXPECT_EQ(replacedSettings(), std::vector<std::string>{"option -probe_second 5 replaces 2 (" + file + ", line 3)"});
+  EXPECT_EQ(replacedSettings(),
+            std::vector<std::string>{"option -probe_second 5 replaces 2 (" + file + ", line 3)"});
   check(PetscOptionsClear(nullptr));
 }
 

@@ -1,4 +1,5 @@
-// Steady sliding with convective terms: w = −V − D u_D turns and changes its length with the unknown displacement.
+// Steady sliding with convective terms: w = −V − D u_D turns and changes its length with the
+// unknown displacement.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,12 +24,15 @@ using mesh::Point;
 constexpr double speed = 0.05, step = 0.25;  // V, m/s; length of the cells along x
 constexpr double staticRatio = 1.5, decaySpeed = 0.05;
 const std::string law =
-    formatted("-friction_law exponential -friction_static_ratio %g -friction_decay_speed %g ", staticRatio, decaySpeed);
+    formatted("-friction_law exponential -friction_static_ratio %g -friction_decay_speed %g ",
+              staticRatio, decaySpeed);
 
-/// A disc layer of three blocks in a row, periodic along x, 3 × 1, and a pad of length 1 on the middle one; solid if `depth` > 0. Under
-/// the pad the strain is anything but uniform along x. `side`: the middle block's face at z = 0, or in the plane the end of the pad.
+/// A disc layer of three blocks in a row, periodic along x, 3 × 1, and a pad of length 1 on the
+/// middle one; solid if `depth` > 0. Under the pad the strain is anything but uniform along x.
+/// `side`: the middle block's face at z = 0, or in the plane the end of the pad.
 std::string slider(int order, double depth) {
-  std::string text = formatted("n = %d; depth = %g;\n", static_cast<int>(1 / step) / order, depth) + R"(
+  std::string text =
+      formatted("n = %d; depth = %g;\n", static_cast<int>(1 / step) / order, depth) + R"(
 For i In {0 : 3}
   Point(1 + i) = {i, -1, 0};
   Point(11 + i) = {i, 0, 0};
@@ -88,15 +92,18 @@ EndIf
 std::string sliding(int order, double depth) {
   const std::string all = depth > 0 ? "xyz" : "xy";
   return "-mesh_file " + slider(order, depth) + test::material("disc", "1", "0.3", "1") +
-         test::material("pad", "0.4", "0.25", "0.6") + formatted("-motion_disc_velocity %g,0,0 -motion_convective on ", speed) +
-         law + "-constraint_disc_bottom_clamped " + all + " -constraint_pad_top_clamped " + all +
+         test::material("pad", "0.4", "0.25", "0.6") +
+         formatted("-motion_disc_velocity %g,0,0 -motion_convective on ", speed) + law +
+         "-constraint_disc_bottom_clamped " + all + " -constraint_pad_top_clamped " + all +
          " -constraint_pad_top_displacement 0.1,-0.2," + (depth > 0 ? "0.05" : "0") +
-         " -constraint_disc_right_image_of disc_left -contact_face_pad pad_face -contact_face_disc disc_face -load_side_pressure "
+         " -constraint_disc_right_image_of disc_left -contact_face_pad pad_face -contact_face_disc "
+         "disc_face -load_side_pressure "
          "0.2 ";
 }
 
 OwnedVec unknowns(const contact::Contact& contact, double scale, unsigned long seed) {
-  const auto transformation = contact.transformation(std::vector<unsigned char>(contact.nodes.size(), 1));
+  const auto transformation =
+      contact.transformation(std::vector<unsigned char>(contact.nodes.size(), 1));
   OwnedVec x;
   check(MatCreateVecs(transformation.trial, x.out(), nullptr));
   PetscRandom random = nullptr;
@@ -125,8 +132,9 @@ OwnedVec product(const OwnedMat& matrix, Vec x) {
   return y;
 }
 
-/// J d at x, displacements of the size `scale`, against (F(x + h d) − F(x − h d)) / 2h. F depends on its slip, which makes it
-/// nonlinear, by a part of J that may be small beside the stiffness: the error is measured by that part.
+/// J d at x, displacements of the size `scale`, against (F(x + h d) − F(x − h d)) / 2h. F depends
+/// on its slip, which makes it nonlinear, by a part of J that may be small beside the stiffness:
+/// the error is measured by that part.
 void expectDerivative(const std::string& name, double scale) {
   const test::Model model = test::buildModel();
   const steady::Problem problem(*model.mesh, model.bodies, model.contact);
@@ -134,13 +142,16 @@ void expectDerivative(const std::string& name, double scale) {
   const sweep::Parameters at{0.4, 1.3};
   double worst = 0, smallestShare = INFINITY;
   for (unsigned long seed = 1; seed <= 3; ++seed) {
-    const OwnedVec x = unknowns(model.contact, scale, seed), d = unknowns(model.contact, scale, 10 + seed);
+    const OwnedVec x = unknowns(model.contact, scale, seed),
+                   d = unknowns(model.contact, scale, 10 + seed);
     OwnedVec rest, moved, forward, backward;
-    for (OwnedVec* vector : {&rest, &moved, &forward, &backward}) check(VecDuplicate(x, vector->out()));
+    for (OwnedVec* vector : {&rest, &moved, &forward, &backward})
+      check(VecDuplicate(x, vector->out()));
     check(VecZeroEntries(rest));
-    const OwnedVec exact = product(problem.jacobian(at, x), d), linear = product(problem.jacobian(at, rest), d);
-    constexpr double h =
-        2e-4;  // the slip changes by about h/10: an error of its square; rounding, 1e-16 / h of the whole, is 1e-12
+    const OwnedVec exact = product(problem.jacobian(at, x), d),
+                   linear = product(problem.jacobian(at, rest), d);
+    constexpr double h = 2e-4;  // the slip changes by about h/10: an error of its square; rounding,
+                                // 1e-16 / h of the whole, is 1e-12
     check(VecWAXPY(moved, h, d, x));
     problem.residual(at, moved, forward);
     check(VecWAXPY(moved, -h, d, x));
@@ -154,8 +165,9 @@ void expectDerivative(const std::string& name, double scale) {
     EXPECT_LT(error, 1e-7 * nonlinear) << name;
     EXPECT_GT(nonlinear, 1e-5 * size) << name;
   }
-  test::print("%s: Jacobian against differences %.1e of its nonlinear part, which is %.1e of the whole\n", name.c_str(), worst,
-              smallestShare);
+  test::print(
+      "%s: Jacobian against differences %.1e of its nonlinear part, which is %.1e of the whole\n",
+      name.c_str(), worst, smallestShare);
 }
 
 TEST(Steady, JacobianIsTheDerivative) {
@@ -169,15 +181,18 @@ TEST(Steady, JacobianIsTheDerivative) {
 TEST(Steady, JacobianIsTheDerivativeOnACircle) {
   test::setOptions(
       "-mesh_file meshes/cylinders.geo -mesh_set order=2,n_inner=2,n_outer=2,n_theta=16" +
-      test::material("inner", "7e10", "0.33", "2700") + test::material("outer", "2.1e11", "0.3", "7850") +
-      "-constraint_sym_x_clamped x -constraint_sym_y_clamped y -contact_ring_pad inner_face -contact_ring_disc outer_face "
+      test::material("inner", "7e10", "0.33", "2700") +
+      test::material("outer", "2.1e11", "0.3", "7850") +
+      "-constraint_sym_x_clamped x -constraint_sym_y_clamped y -contact_ring_pad inner_face "
+      "-contact_ring_disc outer_face "
       "-motion_outer_speed 2 -motion_convective on " +
       law);
   expectDerivative("cylinders", 4e-3);
 }
 
 const std::string coarseBrake =
-    "-mesh_set n_pad_theta=8,n_free_theta=12,n_mount=2,n_plate=1,n_inside=1,n_pad_r=4,n_hat=2,n_h_ring=2 ";
+    "-mesh_set "
+    "n_pad_theta=8,n_free_theta=12,n_mount=2,n_plate=1,n_inside=1,n_pad_r=4,n_hat=2,n_h_ring=2 ";
 
 TEST(Steady, JacobianIsTheDerivativeOnADisc) {
   test::setCase("disc_brake", coarseBrake + "-motion_convective on " + law);
@@ -197,11 +212,13 @@ struct Field {
   }
 };
 
-/// ∂u/∂x of the disc's surface at the contact node at `x` by differences between the nodes beside it, within 1 ≤ x ≤ 2, under the pad.
-/// `disc`: the disc's node of each place.
-Point slope(const Field& field, const std::map<std::pair<int, int>, std::size_t>& disc, const Point& x) {
+/// ∂u/∂x of the disc's surface at the contact node at `x` by differences between the nodes beside
+/// it, within 1 ≤ x ≤ 2, under the pad. `disc`: the disc's node of each place.
+Point slope(const Field& field, const std::map<std::pair<int, int>, std::size_t>& disc,
+            const Point& x) {
   const auto key = [](const Point& p) {
-    return std::pair(static_cast<int>(std::lround(p[0] / step)), static_cast<int>(std::lround(1000 * p[2])));
+    return std::pair(static_cast<int>(std::lround(p[0] / step)),
+                     static_cast<int>(std::lround(1000 * p[2])));
   };
   Point low = x, high = x;
   low[0] = std::max(1.0, x[0] - step), high[0] = std::min(2.0, x[0] + step);
@@ -211,35 +228,41 @@ Point slope(const Field& field, const std::map<std::pair<int, int>, std::size_t>
   return result;
 }
 
-// With n = e_y: on the pad the contact force is R_N n − f φ(|w|) R_N w/|w|, w = −v (V + D u_D) without its part along n. The force is
-// the residual of the pad's own nodes, D u_D = V ∂u_D/∂x a difference of displacements: of linear cells of equal length it is what
-// the contact takes it for.
+// With n = e_y: on the pad the contact force is R_N n − f φ(|w|) R_N w/|w|, w = −v (V + D u_D)
+// without its part along n. The force is the residual of the pad's own nodes, D u_D = V ∂u_D/∂x a
+// difference of displacements: of linear cells of equal length it is what the contact takes it for.
 void expectCoulomb(double depth) {
   test::setOptions(sliding(1, depth));
   const test::Model model = test::buildModel();
   const auto& mesh = *model.mesh;
   const auto dimension = static_cast<std::size_t>(mesh.dimension);
-  const contact::AssociatedSystem system(model.bodies, model.contact, std::vector<unsigned char>(model.contact.nodes.size(), 1));
+  const contact::AssociatedSystem system(model.bodies, model.contact,
+                                         std::vector<unsigned char>(model.contact.nodes.size(), 1));
   const sweep::Parameters at{0.4, 1.3};
   const auto solution = steady::Problem(mesh, model.bodies, model.contact).solve(at, system);
   ASSERT_TRUE(solution.converged) << solution.reason;
   EXPECT_LE(solution.iterations, 8);
   EXPECT_LT(solution.imbalance, 1e-10);
 
-  const Field field{mesh.dimension, test::allEntries(test::nodalField(mesh, [](const Point& x) { return x; })),
+  const Field field{mesh.dimension,
+                    test::allEntries(test::nodalField(mesh, [](const Point& x) { return x; })),
                     test::allEntries(solution.displacement)};
-  const OwnedVec residual = elasticity::nodalVector(mesh);  // of the pad, which is at rest and carries no load but supports
+  const OwnedVec residual = elasticity::nodalVector(
+      mesh);  // of the pad, which is at rest and carries no load but supports
   check(MatMult(model.bodies.stiffness, solution.displacement, residual));
   check(VecAXPY(residual, -1, model.bodies.load));
   const auto force = test::allEntries(residual);
   // The disc's nodes under the pad, on all ranks: masters are known where the contact node is.
   std::vector<double> master(field.u.size() / dimension, 0.0);
   for (const auto& node : model.contact.nodes) master[static_cast<std::size_t>(node.master)] = 1;
-  check(MPI_Allreduce(MPI_IN_PLACE, master.data(), static_cast<int>(master.size()), MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD));
+  check(MPI_Allreduce(MPI_IN_PLACE, master.data(), static_cast<int>(master.size()), MPI_DOUBLE,
+                      MPI_MAX, PETSC_COMM_WORLD));
   std::map<std::pair<int, int>, std::size_t> disc;
   for (std::size_t node = 0; node < master.size(); ++node) {
     const Point x = field.at(field.place, node);
-    if (master[node] > 0) disc[{static_cast<int>(std::lround(x[0] / step)), static_cast<int>(std::lround(1000 * x[2]))}] = node;
+    if (master[node] > 0)
+      disc[{static_cast<int>(std::lround(x[0] / step)),
+            static_cast<int>(std::lround(1000 * x[2]))}] = node;
   }
 
   double error = 0, turning = 0, slowing = 0, largest = 0;
@@ -251,7 +274,8 @@ void expectCoulomb(double depth) {
     for (double& component : w) component *= -at.speed * speed;
     w[0] -= at.speed * speed;
     w[1] = 0;
-    const double size = std::hypot(w[0], w[2]), phi = 1 + (staticRatio - 1) * std::exp(-size / decaySpeed);
+    const double size = std::hypot(w[0], w[2]),
+                 phi = 1 + (staticRatio - 1) * std::exp(-size / decaySpeed);
     const auto first = dimension * static_cast<std::size_t>(node.globalNode);
     const double normal = force[first + 1];
     for (std::size_t d = 0; d < dimension; ++d) {
@@ -264,7 +288,8 @@ void expectCoulomb(double depth) {
   }
   error = test::largest(error), turning = test::largest(turning), slowing = test::largest(slowing);
   test::print(
-      "depth %g: %d iterations, %d nodes open, slip turns by %.2g and changes by %.2g; Coulomb's law holds to %.1e of the largest "
+      "depth %g: %d iterations, %d nodes open, slip turns by %.2g and changes by %.2g; Coulomb's "
+      "law holds to %.1e of the largest "
       "force\n",
       depth, solution.iterations, static_cast<int>(solution.openNodes), turning, slowing, error);
   EXPECT_LT(error, 1e-9);    // SNES stops at 1e-11 of its first residual
@@ -292,18 +317,25 @@ TEST(Steady, NewtonConvergesQuadratically) {
   check(MPI_Comm_size(PETSC_COMM_WORLD, &size));
   if (size > 1) GTEST_SKIP() << "starts the program itself";
   const auto run = test::runProgram(
-      "steady", 2, options + "-flutter_friction 0.4 -modes_count 2 -steady_snes_test_jacobian -steady_snes_monitor");
+      "steady", 2,
+      options +
+          "-flutter_friction 0.4 -modes_count 2 -steady_snes_test_jacobian -steady_snes_monitor");
   ASSERT_EQ(run.exitCode, 0) << run.error;
   // The preconditioner, which is tested in between, is the frictionless stiffness.
-  const std::string own = std::regex_replace(run.out, std::regex("Jacobian for preconditioner[^=]*= "), "");
-  const auto differences = numbersAfter(own, "||J - Jfd||_F/||J||_F = "), norms = numbersAfter(run.out, "SNES Function norm ");
+  const std::string own =
+      std::regex_replace(run.out, std::regex("Jacobian for preconditioner[^=]*= "), "");
+  const auto differences = numbersAfter(own, "||J - Jfd||_F/||J||_F = "),
+             norms = numbersAfter(run.out, "SNES Function norm ");
   ASSERT_GE(norms.size(), 3u) << run.out;
   EXPECT_LE(norms.size(), 8u);
   ASSERT_EQ(differences.size() + 1, norms.size());
   for (double difference : differences) EXPECT_LT(difference, 1e-6);
-  EXPECT_LT(norms[1], norms[0]);  // contact nodes open in the first step, which ends its quadratic decrease
-  for (std::size_t i = 2; i < norms.size(); ++i) EXPECT_LT(norms[i], std::max(norms[i - 1] * norms[i - 1], 1e-13));  // rounding
-  std::printf("Jacobian against PETSc's differences: %.1e; norms", *std::max_element(differences.begin(), differences.end()));
+  EXPECT_LT(norms[1],
+            norms[0]);  // contact nodes open in the first step, which ends its quadratic decrease
+  for (std::size_t i = 2; i < norms.size(); ++i)
+    EXPECT_LT(norms[i], std::max(norms[i - 1] * norms[i - 1], 1e-13));  // rounding
+  std::printf("Jacobian against PETSc's differences: %.1e; norms",
+              *std::max_element(differences.begin(), differences.end()));
   for (double norm : norms) std::printf(" %.1e", norm);
   std::printf("\n");
 }

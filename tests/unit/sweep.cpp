@@ -16,7 +16,9 @@ namespace {
 using test::setOptions;
 
 TEST(Sweep, IsTheGridOfAllParameters) {
-  setOptions("-flutter_friction 0.4,0.2,0.6 -flutter_speed 3,1 -flutter_pressure 1,2 -flutter_damping 0:1:0.5");
+  setOptions(
+      "-flutter_friction 0.4,0.2,0.6 -flutter_speed 3,1 -flutter_pressure 1,2 -flutter_damping "
+      "0:1:0.5");
   const auto sweep = sweep::readSweep();
   const auto steady = sweep.steadyPoints(), all = sweep.points();
   ASSERT_EQ(steady.size(), 12U);
@@ -34,13 +36,15 @@ TEST(Sweep, IsTheGridOfAllParameters) {
 
 TEST(Sweep, WithoutOptionsIsOnePoint) {
   setOptions("");
-  EXPECT_EQ(sweep::readSweep().points(), std::vector<sweep::Parameters>{(sweep::Parameters{0.4, 1, 1, 1})});
+  EXPECT_EQ(sweep::readSweep().points(),
+            std::vector<sweep::Parameters>{(sweep::Parameters{0.4, 1, 1, 1})});
 }
 
 /// Number of parameters in which two points differ.
 int differences(const sweep::Parameters& a, const sweep::Parameters& b) {
   int count = 0;
-  for (const auto& parameter : sweep::allParameters) count += a.*parameter.value != b.*parameter.value;
+  for (const auto& parameter : sweep::allParameters)
+    count += a.*parameter.value != b.*parameter.value;
   return count;
 }
 
@@ -69,11 +73,14 @@ TEST(Sweep, BatchesBeginWithEndsMiddleAndQuartersOfTheRange) {
     order.insert(order.end(), batch.begin(), batch.end());
   }
   EXPECT_EQ(sizes, (std::vector<std::size_t>{5, 16, 12}));
-  EXPECT_EQ(batches.front(), (std::vector<std::size_t>{32, 0, 16, 8, 24}));  // largest friction, then farthest from those before
+  EXPECT_EQ(batches.front(),
+            (std::vector<std::size_t>{32, 0, 16, 8,
+                                      24}));  // largest friction, then farthest from those before
   std::sort(order.begin(), order.end());
   for (std::size_t i = 0; i < points.size(); ++i) EXPECT_EQ(order.at(i), i);
 
-  EXPECT_EQ(sweep::batches({sweep::Parameters{0.4, 1, 1, 1}}), (std::vector<std::vector<std::size_t>>{{0}}));
+  EXPECT_EQ(sweep::batches({sweep::Parameters{0.4, 1, 1, 1}}),
+            (std::vector<std::vector<std::size_t>>{{0}}));
   EXPECT_TRUE(sweep::batches({}).empty());
 }
 
@@ -103,9 +110,11 @@ double distance(double a, Vec x, Vec b) {
   return a * size / whole;
 }
 
-// Loads and held displacements alike: K u = b with u = T x + u0 is linear, and complementarity is homogeneous.
+// Loads and held displacements alike: K u = b with u = T x + u0 is linear, and complementarity is
+// homogeneous.
 TEST(Sweep, SteadySlidingIsProportionalToThePressure) {
-  const auto analysis = test::runCase("layer", "-mesh_set nx=8,ny=4 -modes_count 10 -flutter_friction 0.3 -flutter_pressure 1,3");
+  const auto analysis = test::runCase(
+      "layer", "-mesh_set nx=8,ny=4 -modes_count 10 -flutter_friction 0.3 -flutter_pressure 1,3");
   ASSERT_EQ(analysis.steady.size(), 2U);
   ASSERT_EQ(analysis.steady[1].at.pressure, 3);
   // The tolerance of GMRES, 1e-13, with the condition of this small stiffness, some hundreds.
@@ -116,7 +125,9 @@ TEST(Sweep, SteadySlidingIsProportionalToThePressure) {
 TEST(Sweep, OfTooManyPointsIsRefused) {
   test::setOptions("-flutter_friction 0:0.999:0.001 -flutter_speed 1:1000:1");
   const auto message = test::errorOf([] { sweep::readSweep(); });
-  EXPECT_TRUE(test::contains(message, "1000 x 1000 x 1 x 1 = 1000000 points; a sweep has 100000 at most")) << message;
+  EXPECT_TRUE(
+      test::contains(message, "1000 x 1000 x 1 x 1 = 1000000 points; a sweep has 100000 at most"))
+      << message;
   test::setOptions("-flutter_friction 0:0.099:0.001 -flutter_speed 1:1000:1");
   EXPECT_EQ(sweep::readSweep().pointCount(), 100000);
 }

@@ -1,4 +1,5 @@
-// Eigenvalues of small dense families followed over the friction, and their critical frictions, against closed forms and brute force.
+// Eigenvalues of small dense families followed over the friction, and their critical frictions,
+// against closed forms and brute force.
 #include "tracking/track.hpp"
 
 #include <gtest/gtest.h>
@@ -18,18 +19,19 @@
 namespace squeal {
 namespace {
 
-using tracking::Branches;
-using tracking::Critical;
 using linalg::DenseMatrix;
 using linalg::DenseProblem;
-using tracking::Event;
 using test::print;
+using tracking::Branches;
+using tracking::Critical;
+using tracking::Event;
 
 /// M + s-free sum K0 + f K1, and Z.
 struct Linear : tracking::Family {
   linalg::DenseProblem base;
   linalg::DenseMatrix friction;
-  Linear(linalg::DenseProblem problem, linalg::DenseMatrix slope) : base(std::move(problem)), friction(std::move(slope)) {}
+  Linear(linalg::DenseProblem problem, linalg::DenseMatrix slope)
+      : base(std::move(problem)), friction(std::move(slope)) {}
   MPI_Comm comm() const override { return PETSC_COMM_WORLD; }
   std::optional<linalg::DenseProblem> at(double f) override {
     linalg::DenseProblem problem = base;
@@ -53,14 +55,17 @@ struct Coupling {
   double size;
 };
 
-Linear modal(const std::vector<double>& squares, const std::vector<Coupling>& couplings, const std::vector<double>& damping = {}) {
+Linear modal(const std::vector<double>& squares, const std::vector<Coupling>& couplings,
+             const std::vector<double>& damping = {}) {
   const std::size_t m = squares.size();
   linalg::DenseMatrix slope(m * m, 0.0);
   for (const auto& [i, j, size] : couplings) {
     slope[j * m + i] += size;
     slope[i * m + j] += i == j ? 0 : -size;
   }
-  return {{identity(m), damping.empty() ? linalg::DenseMatrix() : diagonal(damping), diagonal(squares), static_cast<int>(m)}, slope};
+  return {{identity(m), damping.empty() ? linalg::DenseMatrix() : diagonal(damping),
+           diagonal(squares), static_cast<int>(m)},
+          slope};
 }
 
 std::vector<double> grid(double top, int steps) {
@@ -74,8 +79,8 @@ void expectNoGaps(const tracking::Branches& branches) {
     if (!gap.identityOnly) ADD_FAILURE() << gap.from << " to " << gap.to << ": " << gap.what;
 }
 
-// Two modes of 600 and 660 rad/s that merge at f = (ω2² − ω1²) / (2 ω0²), and a third that is in their way: at f = 0 between them, it
-// takes no part.
+// Two modes of 600 and 660 rad/s that merge at f = (ω2² − ω1²) / (2 ω0²), and a third that is in
+// their way: at f = 0 between them, it takes no part.
 TEST(Critical, CoalescenceOfTwo) {
   const double w1 = 600, w2 = 660, w0 = 500, exact = (w2 * w2 - w1 * w1) / (2 * w0 * w0);
   Linear family = modal({w1 * w1, 630 * 630, w2 * w2}, {{0, 2, w0 * w0}});
@@ -87,13 +92,13 @@ TEST(Critical, CoalescenceOfTwo) {
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].kind, tracking::Event::Kind::coalescence);
     EXPECT_TRUE(found[0].loss && found[0].converged);
-    // 2 ω s' = … : (s1 − s2)²/4 is ((ω1² + ω2²)/2 − √(ω1² ω2² + f² ω0⁴))/2 beyond: its slope at the critical friction is
-    // f ω0⁴ / (2 √(…)), the root being (ω1² + ω2²)/2.
+    // 2 ω s' = … : (s1 − s2)²/4 is ((ω1² + ω2²)/2 − √(ω1² ω2² + f² ω0⁴))/2 beyond: its slope at the
+    // critical friction is f ω0⁴ / (2 √(…)), the root being (ω1² + ω2²)/2.
     const double slope = exact * std::pow(w0, 4) / (w1 * w1 + w2 * w2);
     EXPECT_NEAR(found[0].slope, slope, 1e-5 * slope);
     EXPECT_NEAR(found[0].angularFrequency, std::sqrt((w1 * w1 + w2 * w2) / 2), 1e-7 * w1);
-    print("%d steps, %zu stations: critical friction wrong by %.1e\n", steps, branches.stations.size(),
-          found[0].friction / exact - 1);
+    print("%d steps, %zu stations: critical friction wrong by %.1e\n", steps,
+          branches.stations.size(), found[0].friction / exact - 1);
     EXPECT_NEAR(found[0].friction, exact, 1e-10 * exact);
   }
 }
@@ -102,8 +107,10 @@ TEST(Critical, CoalescenceOfTwo) {
 TEST(Critical, HopfOfDampedModes) {
   const double w1 = 600, w2 = 660, w0 = 500;
   for (const auto& [eta1, eta2] : {std::pair{1.0, 30.0}, {30.0, 6.0}, {30.0, 30.0}, {1e-3, 2e-3}}) {
-    const double a3 = eta1 + eta2, a2 = w1 * w1 + w2 * w2 + eta1 * eta2, a1 = eta1 * w2 * w2 + eta2 * w1 * w1;
-    const double exact = std::sqrt(a1 * a2 / a3 - std::pow(a1 / a3, 2) - std::pow(w1 * w2, 2)) / (w0 * w0);
+    const double a3 = eta1 + eta2, a2 = w1 * w1 + w2 * w2 + eta1 * eta2,
+                 a1 = eta1 * w2 * w2 + eta2 * w1 * w1;
+    const double exact =
+        std::sqrt(a1 * a2 / a3 - std::pow(a1 / a3, 2) - std::pow(w1 * w2, 2)) / (w0 * w0);
     Linear family = modal({w1 * w1, 630 * 630, w2 * w2}, {{0, 2, w0 * w0}}, {eta1, 10, eta2});
     const auto branches = follow(family, grid(0.5, 3), {});
     const auto found = criticalFrictions(family, branches, 1e-9);
@@ -114,13 +121,14 @@ TEST(Critical, HopfOfDampedModes) {
     EXPECT_TRUE(found[0].loss);
     EXPECT_GT(found[0].slope, 0);
     EXPECT_NEAR(found[0].angularFrequency, std::sqrt(a1 / a3), 1e-8 * w1);
-    print("damping %g, %g: critical friction wrong by %.1e, %zu stations\n", eta1, eta2, found[0].friction / exact - 1,
-          branches.stations.size());
+    print("damping %g, %g: critical friction wrong by %.1e, %zu stations\n", eta1, eta2,
+          found[0].friction / exact - 1, branches.stations.size());
     EXPECT_NEAR(found[0].friction, exact, 1e-10 * exact);
   }
 }
 
-/// Coupling f (1 + f²) where f stands elsewhere, and near() by straight lines between the frictions known.
+/// Coupling f (1 + f²) where f stands elsewhere, and near() by straight lines between the frictions
+/// known.
 struct Interpolated : Linear {
   std::vector<double> frictions;
   int solved = 0;
@@ -130,9 +138,11 @@ struct Interpolated : Linear {
     return Linear::at(f * (1 + f * f));
   }
   std::optional<linalg::DenseProblem> near(double f) override {
-    const auto above = std::upper_bound(frictions.begin() + 1, frictions.end() - 1, f), below = above - 1;
+    const auto above = std::upper_bound(frictions.begin() + 1, frictions.end() - 1, f),
+               below = above - 1;
     const double t = (f - *below) / (*above - *below);
-    return Linear::at((1 - t) * (*below) * (1 + *below * *below) + t * (*above) * (1 + *above * *above));
+    return Linear::at((1 - t) * (*below) * (1 + *below * *below) +
+                      t * (*above) * (1 + *above * *above));
   }
   void know(const std::vector<double>& list) override {
     frictions.insert(frictions.end(), list.begin(), list.end());
@@ -145,8 +155,8 @@ struct Interpolated : Linear {
   }
 };
 
-// What near() gets wrong is set right where a root is found: the coalescence of CoalescenceOfTwo at f (1 + f²) = 0.1512. No problem is
-// solved for beyond those of the stations.
+// What near() gets wrong is set right where a root is found: the coalescence of CoalescenceOfTwo at
+// f (1 + f²) = 0.1512. No problem is solved for beyond those of the stations.
 TEST(Critical, RootOfAnInterpolatedFamily) {
   const double w1 = 600, w2 = 660, w0 = 500, coupling = (w2 * w2 - w1 * w1) / (2 * w0 * w0);
   double exact = coupling;
@@ -163,14 +173,17 @@ TEST(Critical, RootOfAnInterpolatedFamily) {
   EXPECT_NEAR(found[0].friction, exact, tolerance * exact);
 }
 
-/// Friction that changes the eigenvalues of modes: ω² = square + f · rate, so that they cross and merge where wanted.
-Linear crossingModes(const std::vector<double>& squares, const std::vector<double>& rates, const std::vector<Coupling>& couplings) {
+/// Friction that changes the eigenvalues of modes: ω² = square + f · rate, so that they cross and
+/// merge where wanted.
+Linear crossingModes(const std::vector<double>& squares, const std::vector<double>& rates,
+                     const std::vector<Coupling>& couplings) {
   Linear family = modal(squares, couplings);
   for (std::size_t i = 0; i < rates.size(); ++i) family.friction[i * rates.size() + i] += rates[i];
   return family;
 }
 
-// Modes that cross without seeing each other keep their vectors: branch k has the frequency of mode k throughout.
+// Modes that cross without seeing each other keep their vectors: branch k has the frequency of mode
+// k throughout.
 TEST(Track, UncoupledModesKeepTheirIdentity) {
   Linear family = crossingModes({100, 110, 121, 150}, {60, 20, 0, -50}, {});
   for (const int steps : {1, 4, 10}) {
@@ -181,14 +194,15 @@ TEST(Track, UncoupledModesKeepTheirIdentity) {
     for (const auto& station : branches.stations)
       for (std::size_t i = 0; i < 4; ++i) {
         const auto mode = static_cast<std::size_t>(station.branch[i]);
-        const double exact = family.base.stiffness[mode * 5] + station.friction * family.friction[mode * 5];
+        const double exact =
+            family.base.stiffness[mode * 5] + station.friction * family.friction[mode * 5];
         EXPECT_NEAR(std::norm(station.pairs[i].s), exact, 1e-10 * exact);
       }
   }
 }
 
-// Modes that come close, merge over a short stretch of friction and part again within one step: 2 g f c, c = 0.02, is the coupling;
-// they cross at f = 0.5. (d)² = (c f)² at 10 (f − 0.5) = ± c f.
+// Modes that come close, merge over a short stretch of friction and part again within one step: 2 g
+// f c, c = 0.02, is the coupling; they cross at f = 0.5. (d)² = (c f)² at 10 (f − 0.5) = ± c f.
 TEST(Critical, MergerWithinOneStep) {
   const double c = 0.02;
   Linear family = crossingModes({100, 110}, {20, 0}, {{0, 1, c}});
@@ -213,8 +227,9 @@ TEST(Critical, VeeringIsNoMerger) {
   }
 }
 
-// Two modes are equal at f = 0, but for what stands for rounding: it makes them a split pair, or puts one of them or the other first.
-// Their frequencies part from there, and so number 1 is the one that falls, whatever rounding says.
+// Two modes are equal at f = 0, but for what stands for rounding: it makes them a split pair, or
+// puts one of them or the other first. Their frequencies part from there, and so number 1 is the
+// one that falls, whatever rounding says.
 TEST(Track, EqualEigenvaluesAreNumberedByWhereTheyPart) {
   const double square = 100, rounding = 1e-10;
   for (const auto& [first, second, skew] : {std::tuple{rounding, -rounding, 0.0},
@@ -223,7 +238,8 @@ TEST(Track, EqualEigenvaluesAreNumberedByWhereTheyPart) {
                                             {0.0, 0.0, -rounding},
                                             {0.0, 0.0, 0.0}})
     for (const bool falls : {false, true}) {
-      Linear family = crossingModes({square + first, square + second, 400}, {falls ? -10.0 : 20.0, falls ? 20.0 : -10.0, 0}, {});
+      Linear family = crossingModes({square + first, square + second, 400},
+                                    {falls ? -10.0 : 20.0, falls ? 20.0 : -10.0, 0}, {});
       family.base.stiffness[1] = skew;
       family.base.stiffness[3] = -skew;
       auto branches = follow(family, grid(1, 4), {});
@@ -231,10 +247,12 @@ TEST(Track, EqualEigenvaluesAreNumberedByWhereTheyPart) {
       EXPECT_EQ(branches.count, 3);
       for (const auto& station : branches.stations)
         for (std::size_t i = 0; i < 3; ++i) {
-          const double exact = std::vector{square - 10 * station.friction, square + 20 * station.friction,
-                                           400.0}[static_cast<std::size_t>(station.branch[i] - 1)];
+          const double exact =
+              std::vector{square - 10 * station.friction, square + 20 * station.friction,
+                          400.0}[static_cast<std::size_t>(station.branch[i] - 1)];
           EXPECT_NEAR(std::norm(station.pairs[i].s), exact, 10 * rounding)
-              << "friction " << station.friction << ", rounding " << first << " " << second << " " << skew;
+              << "friction " << station.friction << ", rounding " << first << " " << second << " "
+              << skew;
         }
     }
 }
@@ -243,7 +261,8 @@ TEST(Track, EqualEigenvaluesAreNumberedByWhereTheyPart) {
 int unstableAt(tracking::Family& family, double f) {
   const auto problem = *family.at(f);
   int count = 0;
-  for (const auto& pair : linalg::solveTogether(PETSC_COMM_WORLD, problem.mass, problem.damping, problem.stiffness, problem.m))
+  for (const auto& pair : linalg::solveTogether(PETSC_COMM_WORLD, problem.mass, problem.damping,
+                                                problem.stiffness, problem.m))
     count += pair.s.real() > 1e-6 * std::abs(pair.s);
   return count;
 }
@@ -256,7 +275,8 @@ int changesBetween(const std::vector<tracking::Critical>& list, double low, doub
 }
 
 /// The number of unstable eigenvalues on a fine grid is what the critical frictions say.
-void expectCounts(tracking::Family& family, const std::vector<tracking::Critical>& found, double top) {
+void expectCounts(tracking::Family& family, const std::vector<tracking::Critical>& found,
+                  double top) {
   const int samples = 150;
   for (int k = 1; k <= samples; ++k) {
     const double f = top * k / samples;
@@ -267,7 +287,9 @@ void expectCounts(tracking::Family& family, const std::vector<tracking::Critical
   }
 }
 
-double uniform(std::mt19937& generator) { return 2.0 * static_cast<double>(generator()) / 4294967295.0 - 1; }
+double uniform(std::mt19937& generator) {
+  return 2.0 * static_cast<double>(generator()) / 4294967295.0 - 1;
+}
 
 Linear randomFamily(int m, unsigned seed, bool damped) {
   std::mt19937 generator(seed);
@@ -280,7 +302,8 @@ Linear randomFamily(int m, unsigned seed, bool damped) {
   for (std::size_t k = 0; k < family.friction.size(); ++k) {
     const auto n = static_cast<std::size_t>(m);
     family.friction[k] =
-        3e4 * uniform(generator) * std::sqrt((1.0 + static_cast<double>(k % n)) * (1.0 + static_cast<double>(k / n)));
+        3e4 * uniform(generator) *
+        std::sqrt((1.0 + static_cast<double>(k % n)) * (1.0 + static_cast<double>(k / n)));
   }
   return family;
 }
@@ -290,11 +313,13 @@ TEST(Critical, RandomFamiliesAgainstAFineGrid) {
     for (const unsigned seed : {1u, 2u, 3u}) {
       const int m = 20 + 10 * static_cast<int>(seed % 2);
       Linear family = randomFamily(m, seed, damped);
-      const double top = damped ? 0.8 : 1;  // beyond, a damped pair becomes two real eigenvalues: no continuation of one by one
+      const double top = damped ? 0.8 : 1;  // beyond, a damped pair becomes two real eigenvalues:
+                                            // no continuation of one by one
       const auto branches = follow(family, grid(top, 10), {});
       const auto found = criticalFrictions(family, branches, 1e-9);
-      print("%s family of %d: %zu stations, %d branches, %zu critical frictions, %zu gaps\n", damped ? "damped" : "undamped", m,
-            branches.stations.size(), branches.count, found.size(), branches.gaps.size());
+      print("%s family of %d: %zu stations, %d branches, %zu critical frictions, %zu gaps\n",
+            damped ? "damped" : "undamped", m, branches.stations.size(), branches.count,
+            found.size(), branches.gaps.size());
       expectNoGaps(branches);
       EXPECT_EQ(branches.count, m);
       EXPECT_GT(found.size(), 2u);
@@ -303,8 +328,9 @@ TEST(Critical, RandomFamiliesAgainstAFineGrid) {
     }
 }
 
-// s² + 20 s + 36 − 40 f has the roots −10 ± √(64 + 40 f): −2 passes through zero at f = 0.9 and into the band, −18 stays out of it, and so do
-// the modes beside them of damping ratio 0.9. Not followed from the start, the first is found where it comes near zero.
+// s² + 20 s + 36 − 40 f has the roots −10 ± √(64 + 40 f): −2 passes through zero at f = 0.9 and
+// into the band, −18 stays out of it, and so do the modes beside them of damping ratio 0.9. Not
+// followed from the start, the first is found where it comes near zero.
 TEST(Track, StronglyDampedOnesAreLeftAloneUntilTheyMatter) {
   Linear family = modal({100, 36, 49, 64}, {{1, 1, -40}}, {0.2, 20, 12.6, 14.4});
   pencil::WatchedBand band;

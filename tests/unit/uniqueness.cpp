@@ -1,4 +1,5 @@
-// Existence and uniqueness of the steady sliding state: the condensed matrix A(f) of the contact, and what is concluded from it.
+// Existence and uniqueness of the steady sliding state: the condensed matrix A(f) of the contact,
+// and what is concluded from it.
 #include <petscsys.h>  // first: the next header needs it
 
 #include <petscblaslapack.h>
@@ -27,7 +28,9 @@ using Matrix = std::vector<double>;  // column-major
 
 /// B of A X = B by LAPACK.
 Matrix solved(Matrix a, Matrix b, int size) {
-  PetscBLASInt n = size, columns = static_cast<PetscBLASInt>(b.size() / static_cast<std::size_t>(size)), info = 0;
+  PetscBLASInt n = size,
+               columns = static_cast<PetscBLASInt>(b.size() / static_cast<std::size_t>(size)),
+               info = 0;
   std::vector<PetscBLASInt> pivots(static_cast<std::size_t>(size));
   LAPACKgesv_(&n, &columns, a.data(), &n, pivots.data(), b.data(), &n, &info);
   EXPECT_EQ(info, 0);
@@ -75,7 +78,8 @@ TEST(PMatrix, KnownOnes) {
   EXPECT_FALSE(steady::pMatrix({0, -1, 1, 0}, 2));
   EXPECT_FALSE(steady::pMatrix({-1}, 1));
   // [1 0 −c; −c 1 0; 0 −c 1]: all minors of order two are 1, the determinant is 1 − c³.
-  for (const double c : {0.99, 1.01}) EXPECT_EQ(steady::pMatrix({1, -c, 0, 0, 1, -c, -c, 0, 1}, 3), c < 1);
+  for (const double c : {0.99, 1.01})
+    EXPECT_EQ(steady::pMatrix({1, -c, 0, 0, 1, -c, -c, 0, 1}, 3), c < 1);
   // Tiny units are no smaller minors.
   EXPECT_TRUE(steady::pMatrix({1e-9, 0, -3e-9, 1e-9}, 2));
   EXPECT_TRUE(steady::pMatrix({1e-20, 0, 0, 1}, 2));
@@ -100,7 +104,9 @@ TEST(PMatrix, AgreesWithAllMinors) {
 }
 
 TEST(Verdict, IsTheStrongestThatHolds) {
-  const auto verdict = [](const Matrix& a, int limit = 18) { return steady::judge(a, 2, 0.3, limit).verdict; };
+  const auto verdict = [](const Matrix& a, int limit = 18) {
+    return steady::judge(a, 2, 0.3, limit).verdict;
+  };
   EXPECT_EQ(verdict({2, -1, -1, 2}), "one solution");
   EXPECT_EQ(verdict({2, -1, -1, 2}, 0), "one solution");
   EXPECT_EQ(verdict({1, 0, -3, 1}), "one solution");  // a P-matrix, not positive definite
@@ -115,7 +121,7 @@ TEST(Verdict, IsTheStrongestThatHolds) {
 }
 
 TEST(Loss, IsTheFirstFrictionWithoutPositivity) {
-  EXPECT_NEAR(steady::lossOfPositivity({1, 0, 0, 1}, {0, -2, 0, 0}, 2), 1, 1e-14);     // 1 − f² = 0
+  EXPECT_NEAR(steady::lossOfPositivity({1, 0, 0, 1}, {0, -2, 0, 0}, 2), 1, 1e-14);  // 1 − f² = 0
   EXPECT_NEAR(steady::lossOfPositivity({2, 0, 0, 1}, {-1, 0, 0, 0.25}, 2), 2, 1e-14);  // 2 − f = 0
   EXPECT_EQ(steady::lossOfPositivity({2, 0, 0, 1}, {0, -5, 5, 0}, 2), INFINITY);       // skew
   EXPECT_EQ(steady::lossOfPositivity({2, 0, 0, 1}, {1, 0, 0, 0}, 2), INFINITY);
@@ -126,24 +132,30 @@ TEST(Loss, IsTheFirstFrictionWithoutPositivity) {
 
 const std::string layers = "-mesh_set nx=6,ny_disc=3,ny_pad=2";
 const std::string cylinders =
-    "-mesh_file meshes/cylinders.geo -mesh_set n_inner=2,n_outer=2,n_theta=16,order=2 -motion_inner_speed 2" +
+    "-mesh_file meshes/cylinders.geo -mesh_set n_inner=2,n_outer=2,n_theta=16,order=2 "
+    "-motion_inner_speed 2" +
     test::material("inner", "1", "0.3", "1") + test::material("outer", "0.3", "0.2", "1") +
-    "-contact_ring_pad outer_face -contact_ring_disc inner_face -constraint_sym_x_clamped x -constraint_sym_y_clamped y ";
+    "-contact_ring_pad outer_face -contact_ring_disc inner_face -constraint_sym_x_clamped x "
+    "-constraint_sym_y_clamped y ";
 /// Two slabs that slide obliquely: both tangential directions take part.
 const std::string slabs =
-    "-mesh_file meshes/two_slabs.geo -mesh_set nx=3,ny_disc=2,ny_pad=2,nz=2,depth=1.3 -motion_disc_velocity 1,0,-2" +
+    "-mesh_file meshes/two_slabs.geo -mesh_set nx=3,ny_disc=2,ny_pad=2,nz=2,depth=1.3 "
+    "-motion_disc_velocity 1,0,-2" +
     test::material("disc", "1", "0.3", "1") + test::material("pad", "0.4", "0.25", "1") +
-    "-constraint_disc_bottom_clamped xyz -constraint_pad_top_clamped xyz -contact_face_pad pad_face -contact_face_disc disc_face "
+    "-constraint_disc_bottom_clamped xyz -constraint_pad_top_clamped xyz -contact_face_pad "
+    "pad_face -contact_face_disc disc_face "
     "-constraint_disc_right_image_of disc_left -constraint_pad_right_image_of pad_left ";
 /// A block clamped at its foot under a sliding plate.
 std::string block(int nx, int ny) {
-  return "-mesh_file meshes/layer.geo -mesh_set Lx=0.5,nx=" + std::to_string(nx) + ",ny=" + std::to_string(ny) +
-         test::material("layer", "1e9", "0.3", "1000") +
-         "-constraint_bottom_clamped xy -contact_plate_pad top -contact_plate_obstacle_velocity 1,0,0 ";
+  return "-mesh_file meshes/layer.geo -mesh_set Lx=0.5,nx=" + std::to_string(nx) +
+         ",ny=" + std::to_string(ny) + test::material("layer", "1e9", "0.3", "1000") +
+         "-constraint_bottom_clamped xy -contact_plate_pad top -contact_plate_obstacle_velocity "
+         "1,0,0 ";
 }
 
 steady::Compliance complianceOf(const Model& model) {
-  return steady::Condensed(model.contact, model.bodies.stiffness, model.contact.slip(1, nullptr)).dense();
+  return steady::Condensed(model.contact, model.bodies.stiffness, model.contact.slip(1, nullptr))
+      .dense();
 }
 
 steady::Uniqueness examined(const Model& model, const std::vector<double>& frictions) {
@@ -160,12 +172,14 @@ Coupled coupledOf(const Model& model) {
   const std::vector<unsigned char> all(model.contact.nodes.size(), 1);
   Coupled coupled{model.contact.transformation(all), {}, {}};
   auto stiffness = contact::project(model.contact, coupled.transformation, model.bodies.stiffness);
-  coupled.k1 = stiffness.friction(model.contact.slipRows(coupled.transformation, model.contact.slip(1, nullptr), all));
+  coupled.k1 = stiffness.friction(
+      model.contact.slipRows(coupled.transformation, model.contact.slip(1, nullptr), all));
   coupled.k0 = std::move(stiffness.matrix);
   return coupled;
 }
 
-/// The gap block of the inverse of L(f)ᵀ K T, all entries at once: no symmetry used, and none of K_o, e and U.
+/// The gap block of the inverse of L(f)ᵀ K T, all entries at once: no symmetry used, and none of
+/// K_o, e and U.
 Matrix gapBlock(const Model& model, const Coupled& coupled, double friction) {
   std::vector<PetscInt> gaps;
   int size = 1, count = static_cast<int>(model.contact.nodes.size());
@@ -174,13 +188,14 @@ Matrix gapBlock(const Model& model, const Coupled& coupled, double friction) {
   check(MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, PETSC_COMM_WORLD));
   std::exclusive_scan(counts.begin(), counts.end(), offsets.begin(), 0);
   gaps.resize(static_cast<std::size_t>(model.contact.totalNodes));
-  check(MPI_Allgatherv(coupled.transformation.gapColumn.data(), count, MPIU_INT, gaps.data(), counts.data(), offsets.data(),
-                       MPIU_INT, PETSC_COMM_WORLD));
+  check(MPI_Allgatherv(coupled.transformation.gapColumn.data(), count, MPIU_INT, gaps.data(),
+                       counts.data(), offsets.data(), MPIU_INT, PETSC_COMM_WORLD));
   const OwnedMat jacobian = contact::affine(coupled.k0, coupled.k1, friction);
   const auto full = test::denseCopy(jacobian);
   const auto n = static_cast<std::size_t>(full.rows);
   Matrix units(n * gaps.size(), 0.0), result;
-  for (std::size_t k = 0; k < gaps.size(); ++k) units[k * n + static_cast<std::size_t>(gaps[k])] = 1;
+  for (std::size_t k = 0; k < gaps.size(); ++k)
+    units[k * n + static_cast<std::size_t>(gaps[k])] = 1;
   const Matrix columns = solved(full.values, units, static_cast<int>(n));
   for (std::size_t k = 0; k < gaps.size(); ++k)
     for (PetscInt gap : gaps) result.push_back(columns[k * n + static_cast<std::size_t>(gap)]);
@@ -195,11 +210,14 @@ double largestEntry(const Matrix& a) {
 
 TEST(Condensed, IsTheGapBlockOfTheInverse) {
   const auto layersCase = [] { test::setCase("two_layers", layers); };
-  const auto with = [](const std::string& options) { return [options] { test::setOptions(options); }; };
-  const std::pair<const char*, std::function<void()>> cases[] = {{"layers", layersCase},
-                                                                 {"cylinders", with(cylinders)},
-                                                                 {"slabs", with(slabs)},
-                                                                 {"block", with(block(70, 2))}};  // more than one block of columns
+  const auto with = [](const std::string& options) {
+    return [options] { test::setOptions(options); };
+  };
+  const std::pair<const char*, std::function<void()>> cases[] = {
+      {"layers", layersCase},
+      {"cylinders", with(cylinders)},
+      {"slabs", with(slabs)},
+      {"block", with(block(70, 2))}};  // more than one block of columns
   for (const auto& [name, set] : cases) {
     set();
     const Model model = test::buildModel();
@@ -211,28 +229,35 @@ TEST(Condensed, IsTheGapBlockOfTheInverse) {
       const Matrix expected = gapBlock(model, coupled, friction), found = compliance.at(friction);
       ASSERT_EQ(found.size(), expected.size());
       const double scale = largestEntry(expected);
-      for (std::size_t i = 0; i < found.size(); ++i) worst = std::max(worst, std::abs(found[i] - expected[i]) / scale);
+      for (std::size_t i = 0; i < found.size(); ++i)
+        worst = std::max(worst, std::abs(found[i] - expected[i]) / scale);
     }
-    // The part of friction is not nothing; both inverses lose digits with the condition of K, below 1e5 here.
+    // The part of friction is not nothing; both inverses lose digits with the condition of K, below
+    // 1e5 here.
     EXPECT_GT(largestEntry(compliance.a1), 0.01 * largestEntry(compliance.a0));
     EXPECT_LT(worst, 1e-10) << name;
-    test::print("%s: %d contact nodes, entries of A(f) differ by %.1e of the largest, |A1| / |A0| %.2f\n", name, compliance.size,
-                worst, largestEntry(compliance.a1) / largestEntry(compliance.a0));
+    test::print(
+        "%s: %d contact nodes, entries of A(f) differ by %.1e of the largest, |A1| / |A0| %.2f\n",
+        name, compliance.size, worst, largestEntry(compliance.a1) / largestEntry(compliance.a0));
   }
 }
 
-// One contact node. Two unit squares of bilinear cells side by side, clamped below and at the right end; the plate slides on the
-// upper side of the left one, whose two nodes are tied. Their displacement spreads as φ = 1 + y in the left square and (2 − x)(1 + y)
-// in the right one: ∫φ_x² = 1/3, ∫φ_y² = 1 + 1/3, ∫φ_x φ_y = −1/4, so
+// One contact node. Two unit squares of bilinear cells side by side, clamped below and at the right
+// end; the plate slides on the upper side of the left one, whose two nodes are tied. Their
+// displacement spreads as φ = 1 + y in the left square and (2 − x)(1 + y) in the right one: ∫φ_x² =
+// 1/3, ∫φ_y² = 1 + 1/3, ∫φ_x φ_y = −1/4, so
 //   K_xx = (λ+2μ)/3 + 4μ/3,  K_yy = 4(λ+2μ)/3 + μ/3,  K_xy = −(λ+μ)/4.
-// n = (0, −1) and τ = −V/|V|. With a = τ_x K_ny = −τ_x K_xy, K_xx u + a g = −f R and a u + K_yy g = R give
+// n = (0, −1) and τ = −V/|V|. With a = τ_x K_ny = −τ_x K_xy, K_xx u + a g = −f R and a u + K_yy g =
+// R give
 //   g = A(f) R,  A(f) = (1 + f a / K_xx) / (K_yy − a² / K_xx),
-// which vanishes at f* = −K_xx / a, the critical friction of Klarbring (1990), if the plate pushes towards the clamped end.
+// which vanishes at f* = −K_xx / a, the critical friction of Klarbring (1990), if the plate pushes
+// towards the clamped end.
 std::string oneNode(double velocity) {
   const auto file = test::writeFile("one_node.geo", R"(
 Point(1) = {0, -1, 0}; Point(2) = {1, -1, 0}; Point(3) = {2, -1, 0};
 Point(4) = {0, 0, 0}; Point(5) = {1, 0, 0}; Point(6) = {2, 0, 0};
-Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 6}; Line(4) = {6, 5}; Line(5) = {5, 4}; Line(6) = {4, 1}; Line(7) = {2, 5};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 6}; Line(4) = {6, 5}; Line(5) = {5, 4};
+Line(6) = {4, 1}; Line(7) = {2, 5};
 Curve Loop(1) = {1, 7, 5, 6}; Curve Loop(2) = {2, 3, 4, -7};
 Plane Surface(1) = {1}; Plane Surface(2) = {2};
 Transfinite Curve {1 : 7} = 2;
@@ -245,13 +270,15 @@ Physical Curve("fixed") = {1, 2, 3};
 Physical Surface("body") = {1, 2};
 )");
   return "-mesh_file " + file + test::material("body", "1", "0.25", "1") +
-         "-elasticity_incompatible_modes none -constraint_fixed_clamped xy -constraint_second_image_of first "
+         "-elasticity_incompatible_modes none -constraint_fixed_clamped xy "
+         "-constraint_second_image_of first "
          "-contact_plate_pad face -contact_plate_obstacle_velocity " +
          std::to_string(velocity) + ",0,0 ";
 }
 
 TEST(Uniqueness, OneNodeLosesItAtTheKnownFriction) {
-  const double lambda = 0.4, mu = 0.4, kxx = (lambda + 6 * mu) / 3, kyy = (4 * lambda + 9 * mu) / 3, kxy = -(lambda + mu) / 4;
+  const double lambda = 0.4, mu = 0.4, kxx = (lambda + 6 * mu) / 3, kyy = (4 * lambda + 9 * mu) / 3,
+               kxy = -(lambda + mu) / 4;
   const double critical = kxx / -kxy;
   EXPECT_NEAR(critical, 14.0 / 3, 1e-14);
   for (const double velocity : {1.0, -1.0})
@@ -263,9 +290,11 @@ TEST(Uniqueness, OneNodeLosesItAtTheKnownFriction) {
       const auto result = examined(model, {0, 0.3, 4.66, 4.67});
       for (const auto& judgement : result.judgements) {
         if (limit == "1000") {
-          EXPECT_NEAR(judgement.smallest, (1 + judgement.friction * a / kxx) / (kyy - a * a / kxx), 1e-13);
+          EXPECT_NEAR(judgement.smallest, (1 + judgement.friction * a / kxx) / (kyy - a * a / kxx),
+                      1e-13);
         }
-        EXPECT_EQ(judgement.verdict, velocity > 0 && judgement.friction > critical ? "not decided" : "one solution");
+        EXPECT_EQ(judgement.verdict,
+                  velocity > 0 && judgement.friction > critical ? "not decided" : "one solution");
       }
       if (velocity > 0)
         EXPECT_NEAR(result.lostAt, critical, 1e-12);
@@ -274,7 +303,8 @@ TEST(Uniqueness, OneNodeLosesItAtTheKnownFriction) {
     }
 }
 
-// A strip that looks the same after a turn about z: friction to the left and to the right are one, so sym(A1) = 0.
+// A strip that looks the same after a turn about z: friction to the left and to the right are one,
+// so sym(A1) = 0.
 TEST(Uniqueness, LayersNeverLoseIt) {
   test::setCase("two_layers", layers);
   const auto result = examined(test::buildModel(), {0, 0.5, 5});
@@ -288,7 +318,8 @@ TEST(Uniqueness, LayersNeverLoseIt) {
   EXPECT_EQ(examined(test::buildModel(), {5}).lostAt, INFINITY);
 }
 
-// The verdicts follow from A(f): all its principal minors, its symmetric part on either side of the loss.
+// The verdicts follow from A(f): all its principal minors, its symmetric part on either side of the
+// loss.
 TEST(Uniqueness, VerdictsOfABlock) {
   test::setOptions(block(4, 8));
   const Model model = test::buildModel();
@@ -303,25 +334,29 @@ TEST(Uniqueness, VerdictsOfABlock) {
   double noLonger = INFINITY;
   for (const auto& judgement : result.judgements) {
     const bool unique = smallestMinor(compliance.at(judgement.friction), 5) > 0;
-    EXPECT_EQ(judgement.verdict == "one solution", unique) << "friction " << judgement.friction << ": " << judgement.reason;
+    EXPECT_EQ(judgement.verdict == "one solution", unique)
+        << "friction " << judgement.friction << ": " << judgement.reason;
     EXPECT_EQ(judgement.smallest > 0, judgement.friction < lost);
     if (!unique) noLonger = std::min(noLonger, judgement.friction);
   }
-  test::print("block: sym(A) positive definite below friction %.4f, no P-matrix at %.1f\n", lost, noLonger);
+  test::print("block: sym(A) positive definite below friction %.4f, no P-matrix at %.1f\n", lost,
+              noLonger);
   EXPECT_LT(lost, noLonger);
   EXPECT_LT(noLonger, 2.1);
 }
 
 // A never formed: the same loss, and the verdicts that follow from it.
 TEST(Uniqueness, MatrixFreeAgrees) {
-  for (const auto& options : {block(40, 10), slabs + "-constraint_disc_left_clamped x -constraint_pad_left_clamped x "}) {
+  for (const auto& options :
+       {block(40, 10), slabs + "-constraint_disc_left_clamped x -constraint_pad_left_clamped x "}) {
     std::vector<steady::Uniqueness> results;
     for (const std::string limit : {"1000", "0"}) {
       test::setOptions(options + "-steady_uniqueness_pmatrix 0 -steady_uniqueness_dense " + limit);
       const Model model = test::buildModel();
       results.push_back(examined(model, {0, 0.2, 0.7, 1.5}));
     }
-    test::print("formed: lost at %.10g; matrix-free: %.10g\n", results[0].lostAt, results[1].lostAt);
+    test::print("formed: lost at %.10g; matrix-free: %.10g\n", results[0].lostAt,
+                results[1].lostAt);
     if (std::isfinite(results[0].lostAt))
       EXPECT_NEAR(results[1].lostAt / results[0].lostAt, 1, 1e-5);
     else
@@ -349,26 +384,30 @@ TEST(Uniqueness, DoesNotDependOnTheRanks) {
 }
 
 TEST(Uniqueness, IsNotDecidedWithoutTheMatrix) {
-  test::setCase("two_layers", layers + " -constraint_pad_top_clamped x -constraint_pad_top_displacement 0,0,0");
+  test::setCase("two_layers",
+                layers + " -constraint_pad_top_clamped x -constraint_pad_top_displacement 0,0,0");
   auto result = examined(test::buildModel(), {0, 0.5});
   ASSERT_EQ(result.judgements.size(), 2u);
   EXPECT_TRUE(std::isnan(result.lostAt));
   for (const auto& judgement : result.judgements) {
     EXPECT_TRUE(std::isnan(judgement.smallest));
     EXPECT_EQ(judgement.verdict, "not decided");
-    EXPECT_EQ(judgement.reason, "body 'pad' is held by the contact alone, so the condensed matrix does not exist");
+    EXPECT_EQ(judgement.reason,
+              "body 'pad' is held by the contact alone, so the condensed matrix does not exist");
   }
   // tri6: no nodal complementarity.
-  test::setOptions("-mesh_file meshes/beam.geo -mesh_set Lx=1,Ly=0.4,Lz=0.4,nx=2,ny=1,nz=1,recombine=0,order=2" +
-                   test::material("beam", "1", "0.3", "1") +
-                   "-constraint_clamped_clamped xyz -contact_plate_pad tip -contact_plate_obstacle_velocity 0,1,0");
+  test::setOptions(
+      "-mesh_file meshes/beam.geo -mesh_set Lx=1,Ly=0.4,Lz=0.4,nx=2,ny=1,nz=1,recombine=0,order=2" +
+      test::material("beam", "1", "0.3", "1") +
+      "-constraint_clamped_clamped xyz -contact_plate_pad tip -contact_plate_obstacle_velocity "
+      "0,1,0");
   result = examined(test::buildModel(), {0.5});
   EXPECT_EQ(result.judgements.at(0).verdict, "not decided");
   EXPECT_TRUE(contains(result.judgements[0].reason, "tri6")) << result.judgements[0].reason;
 }
 
-// Beyond a critical speed, here K − σ M with σ = 1e7: the lowest eigenvalue of the cantilever is about 3.5² E h² / (12 ρ L⁴) = 3e5.
-// A0 is no inner product that the eigenvalue solver could use.
+// Beyond a critical speed, here K − σ M with σ = 1e7: the lowest eigenvalue of the cantilever is
+// about 3.5² E h² / (12 ρ L⁴) = 3e5. A0 is no inner product that the eigenvalue solver could use.
 TEST(Uniqueness, IndefiniteStiffnessNeedsTheMatrixFormed) {
   test::setOptions(block(4, 8) + "-steady_uniqueness_dense 0");
   const Model model = test::buildModel();
@@ -384,7 +423,9 @@ TEST(Uniqueness, UnknownSolverOptionIsNamed) {
     test::setOptions(block(4, 2) + size + " -steady_uniqueness_ksp_typo 1");
     const Model model = test::buildModel();
     EXPECT_TRUE(contains(errorOf([&] { examined(model, {0.5}); }), "-steady_uniqueness_ksp_typo"));
-    test::setOptions(block(4, 2) + size + " -steady_uniqueness_eps_max_it 77 -steady_uniqueness_pc_factor_mat_ordering_type rcm");
+    test::setOptions(
+        block(4, 2) + size +
+        " -steady_uniqueness_eps_max_it 77 -steady_uniqueness_pc_factor_mat_ordering_type rcm");
     EXPECT_EQ(errorOf([&] { examined(model, {0.5}); }), "");
   }
 }

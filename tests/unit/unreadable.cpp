@@ -28,7 +28,8 @@ class Unprivileged {
   }
   ~Unprivileged() {
     if (getuid() == 0 && seteuid(0) != 0) std::abort();
-    prctl(PR_SET_DUMPABLE, 1);  // MPI's ranks read each other's memory, which a change of user forbids
+    prctl(PR_SET_DUMPABLE,
+          1);  // MPI's ranks read each other's memory, which a change of user forbids
   }
   Unprivileged(const Unprivileged&) = delete;
 };
@@ -79,7 +80,8 @@ TEST(Unreadable, FilesWithoutPermissionSaySo) {
                     }),
                     {"option -mesh_file", why});
     } else {
-      expectMessage(errorOfOptions("-matrices_m_role mass -matrices_m_file " + file), {"option -matrices_m_file", why});
+      expectMessage(errorOfOptions("-matrices_m_role mass -matrices_m_file " + file),
+                    {"option -matrices_m_file", why});
       expectMessage(errorOfUnprivileged([&] { matrices::read(PETSC_COMM_WORLD, file); }), {why});
     }
   }
@@ -95,18 +97,23 @@ TEST(Unreadable, FoldersThatCannotBeEntered) {
     std::ofstream(shut + "/inside.msh") << quadranglesMsh2();
   }
   withoutRights("shut");
-  if (!permissionsBind(shut + "/inside.msh")) GTEST_SKIP() << "the permissions of folders do not bind here";
+  if (!permissionsBind(shut + "/inside.msh"))
+    GTEST_SKIP() << "the permissions of folders do not bind here";
   const std::string why = ": cannot be read: Permission denied";
-  expectMessage(errorOfUnprivileged([&] { settingsOfFile(shut + "/inside.yaml"); }), {"option -options_file", "inside.yaml" + why});
-  expectMessage(errorOfOptions("-mesh_file " + shut + "/inside.msh"), {"option -mesh_file", "inside.msh" + why});
-  expectMessage(errorOfUnprivileged([&] { matrices::read(PETSC_COMM_WORLD, shut + "/x.mtx"); }), {"x.mtx" + why});
+  expectMessage(errorOfUnprivileged([&] { settingsOfFile(shut + "/inside.yaml"); }),
+                {"option -options_file", "inside.yaml" + why});
+  expectMessage(errorOfOptions("-mesh_file " + shut + "/inside.msh"),
+                {"option -mesh_file", "inside.msh" + why});
+  expectMessage(errorOfUnprivileged([&] { matrices::read(PETSC_COMM_WORLD, shut + "/x.mtx"); }),
+                {"x.mtx" + why});
   // A home folder of somebody else's holds no options for this user.
   const std::string home = std::getenv("HOME") ? std::getenv("HOME") : "";
   setenv("HOME", shut.c_str(), 1);
   EXPECT_EQ(errorOfUnprivileged([] { settingsOfCall({"-quiet"}); }), "");
   setenv("HOME", home.c_str(), 1);
   check(MPI_Barrier(PETSC_COMM_WORLD));
-  if (rankHere() == 0) fs::permissions(shut, fs::perms::owner_all);  // so that it can be cleared away
+  if (rankHere() == 0)
+    fs::permissions(shut, fs::perms::owner_all);  // so that it can be cleared away
 }
 
 // PETSc passes such a file over, and runs without what it says.
@@ -120,7 +127,8 @@ TEST(Unreadable, OptionsOfTheHomeFolderAreNotPassedOver) {
   if (!permissionsBind(file)) GTEST_SKIP() << "the permissions of files do not bind here";
   const std::string home = std::getenv("HOME") ? std::getenv("HOME") : "";
   setenv("HOME", SQUEAL_OUTPUT_DIR "/home", 1);
-  expectMessage(errorOfUnprivileged([] { settingsOfCall({"-quiet"}); }), {"home/.petscrc: cannot be read: Permission denied"});
+  expectMessage(errorOfUnprivileged([] { settingsOfCall({"-quiet"}); }),
+                {"home/.petscrc: cannot be read: Permission denied"});
   EXPECT_EQ(errorOfUnprivileged([] { settingsOfCall({"-skip_petscrc", "-quiet"}); }), "");
   setenv("HOME", home.c_str(), 1);
 }
@@ -154,14 +162,17 @@ TEST(Unreadable, PipesAndSocketsAreNoMeshes) {
       fs::remove(path);
       mkfifo(path.c_str(), 0666);
     });
-    expectMessage(messageOfMesh(file, material("layer", "1", "0.3", "1")), {name + ": not a regular file"});
+    expectMessage(messageOfMesh(file, material("layer", "1", "0.3", "1")),
+                  {name + ": not a regular file"});
   }
 }
 
 TEST(Unreadable, FilesBelowFiles) {
   const std::string below = writeFile("a_file", "") + "/x";
-  expectMessage(errorOfOptions("-mesh_file " + below + ".msh"), {"cannot be read: Not a directory"});
-  expectMessage(errorOf([&] { settingsOfFile(below + ".yaml"); }), {"cannot be read: Not a directory"});
+  expectMessage(errorOfOptions("-mesh_file " + below + ".msh"),
+                {"cannot be read: Not a directory"});
+  expectMessage(errorOf([&] { settingsOfFile(below + ".yaml"); }),
+                {"cannot be read: Not a directory"});
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Critical frictions of two damped elastic layers: against the problem on all unknowns, and against the exact waves.
+// Critical frictions of two damped elastic layers: against the problem on all unknowns, and against
+// the exact waves.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -12,13 +13,16 @@ namespace {
 
 namespace two_layers = exact::two_layers;
 
-// Damping α M of both layers: s² + α s stands for s² of the undamped waves, for every mode. Without friction all waves but those with
-// k = 0 come in pairs of equal frequency, both damped by α/2; friction parts them at once, and one of each pair may reach the axis.
+// Damping α M of both layers: s² + α s stands for s² of the undamped waves, for every mode. Without
+// friction all waves but those with k = 0 come in pairs of equal frequency, both damped by α/2;
+// friction parts them at once, and one of each pair may reach the axis.
 constexpr double alpha = 0.02;
 
 analysis::Analysis run(const std::string& changes) {
   return runCase("two_layers",
-                 "-elasticity_mass consistent -material_disc_rayleigh_mass 0.02 -material_pad_rayleigh_mass 0.02 " + changes);
+                 "-elasticity_mass consistent -material_disc_rayleigh_mass 0.02 "
+                 "-material_pad_rayleigh_mass 0.02 " +
+                     changes);
 }
 
 struct Found {
@@ -34,8 +38,10 @@ Found exactNear(Found at, int n) {
   for (int k = 0; k < 30; ++k) {
     constexpr double h = 1e-6;
     const Complex here = value(at.friction, at.omega);
-    const Complex df = (value(at.friction + h, at.omega) - value(at.friction - h, at.omega)) / (2 * h),
-                  dw = (value(at.friction, at.omega + h) - value(at.friction, at.omega - h)) / (2 * h);
+    const Complex df = (value(at.friction + h, at.omega) - value(at.friction - h, at.omega)) /
+                       (2 * h),
+                  dw = (value(at.friction, at.omega + h) - value(at.friction, at.omega - h)) /
+                       (2 * h);
     const double det = df.real() * dw.imag() - df.imag() * dw.real();
     const double stepF = (here.real() * dw.imag() - here.imag() * dw.real()) / det,
                  stepW = (df.real() * here.imag() - df.imag() * here.real()) / det;
@@ -52,7 +58,8 @@ Found closest(const Found& found) {
   double distance = INFINITY;
   for (int n = -8; n <= 8; ++n) {
     const Found exact = exactNear(found, n);
-    const double here = std::abs(exact.friction - found.friction) + std::abs(exact.omega - found.omega) / found.omega;
+    const double here = std::abs(exact.friction - found.friction) +
+                        std::abs(exact.omega - found.omega) / found.omega;
     if (here < distance) best = exact, distance = here;
   }
   return best;
@@ -66,8 +73,9 @@ const std::vector<tracking::Critical>& criticals(const analysis::Analysis& analy
 TEST(Critical, DampedLayersAgainstExactWaves) {
   std::vector<std::vector<double>> errors;
   for (const std::string mesh : {"nx=12,ny_disc=4,ny_pad=3", "nx=24,ny_disc=8,ny_pad=6"}) {
-    const analysis::Analysis analysis = run("-mesh_set order=2,recombine=1,serendipity=0," + mesh +
-                                  " -flutter_friction 0,0.05,0.1 -flutter_band 0.7 -modes_count 80");
+    const analysis::Analysis analysis =
+        run("-mesh_set order=2,recombine=1,serendipity=0," + mesh +
+            " -flutter_friction 0,0.05,0.1 -flutter_band 0.7 -modes_count 80");
     const auto& followed = analysis.segments.at(0).followed.at(0);
     EXPECT_TRUE(followed.complete()) << followed.statement();
     errors.emplace_back();
@@ -82,14 +90,16 @@ TEST(Critical, DampedLayersAgainstExactWaves) {
   }
   ASSERT_GE(errors[0].size(), 2u);
   ASSERT_EQ(errors[0].size(), errors[1].size());
-  expectOrder(4, 0.35, errors[0], errors[1], "critical frictions");  // 12 columns are few for the fourth order of the elements
+  expectOrder(4, 0.35, errors[0], errors[1],
+              "critical frictions");  // 12 columns are few for the fourth order of the elements
 }
 
 // What is followed is what the sweep found, at every friction, and its number is accounted for.
 TEST(Track, HoldsTheEigenvaluesOfTheSweep) {
   for (const std::string damping : {"0.02", "0"}) {
     const analysis::Analysis analysis =
-        run("-mesh_set nx=24,ny_disc=8,ny_pad=6 -flutter_friction 0,0.05,0.1 -modes_count 60 -material_disc_rayleigh_mass " +
+        run("-mesh_set nx=24,ny_disc=8,ny_pad=6 -flutter_friction 0,0.05,0.1 -modes_count 60 "
+            "-material_disc_rayleigh_mass " +
             damping + " -material_pad_rayleigh_mass " + damping);
     const auto& segment = analysis.segments.at(0);
     const auto& followed = segment.followed.at(0);
@@ -97,36 +107,44 @@ TEST(Track, HoldsTheEigenvaluesOfTheSweep) {
     EXPECT_EQ(followed.countExact, damping == "0");
     const auto& stations = followed.branches.stations;
     const auto inBand = [&](const auto& station) { return followed.branches.inBandAt(station); };
-    EXPECT_EQ(inBand(stations.back()), inBand(stations.front()) + followed.branches.entered - followed.branches.left);
+    EXPECT_EQ(inBand(stations.back()),
+              inBand(stations.front()) + followed.branches.entered - followed.branches.left);
     for (const auto& point : segment.points) {
       std::vector<Complex> wanted, found;
       for (const auto& eigenvalue : point.eigenvalues) wanted.push_back(eigenvalue.s);
       for (const auto& station : stations)
-        for (std::size_t i = 0; station.friction == point.at.friction && i < station.pairs.size(); ++i)
+        for (std::size_t i = 0; station.friction == point.at.friction && i < station.pairs.size();
+             ++i)
           if (station.inBand[i]) found.push_back(station.pairs[i].s);
       EXPECT_EQ(found.size(), wanted.size()) << point.at.friction;
-      // Both are of the reduced problem, in bases that differ by later corrections: to the accuracy asked for, some times over.
+      // Both are of the reduced problem, in bases that differ by later corrections: to the accuracy
+      // asked for, some times over.
       EXPECT_LT(worst(errors(wanted, found).relative), 1e-7);
     }
   }
 }
 
-// At the critical friction the eigenvalue of the problem on all unknowns is on the axis: its distance over the slope of the growth is
-// the error of the friction.
+// At the critical friction the eigenvalue of the problem on all unknowns is on the axis: its
+// distance over the slope of the growth is the error of the friction.
 TEST(Critical, IsThatOfAllUnknowns) {
   const std::string mesh = "-mesh_set nx=24,ny_disc=8,ny_pad=6 ";
-  const analysis::Analysis analysis = run(mesh + "-flutter_friction 0,0.05,0.1 -flutter_band 0.7 -modes_count 60");
+  const analysis::Analysis analysis =
+      run(mesh + "-flutter_friction 0,0.05,0.1 -flutter_band 0.7 -modes_count 60");
   ASSERT_GE(criticals(analysis).size(), 2u);
   for (const auto& critical : criticals(analysis)) {
     char friction[32];
     std::snprintf(friction, sizeof friction, "%.17g", critical.friction);
     const analysis::Analysis direct =
-        run(mesh + "-flutter_method direct -flutter_direct_count 40 -flutter_friction " + std::string(friction));
+        run(mesh + "-flutter_method direct -flutter_direct_count 40 -flutter_friction " +
+            std::string(friction));
     double distance = INFINITY;
     for (const Complex s : eigenvaluesOf(direct.segments.at(0).points.at(0)))
       distance = std::min(distance, std::abs(s - Complex(0, critical.angularFrequency)));
-    print("critical friction %.10f: error by all unknowns %.1e, estimated %.1e, backward error %.1e\n", critical.friction,
-          distance / critical.slope, critical.errorEstimate, critical.backwardError);
+    print(
+        "critical friction %.10f: error by all unknowns %.1e, estimated %.1e, backward error "
+        "%.1e\n",
+        critical.friction, distance / critical.slope, critical.errorEstimate,
+        critical.backwardError);
     EXPECT_LT(distance / critical.slope, 1e-8 * critical.friction);
   }
 }

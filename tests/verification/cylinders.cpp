@@ -1,4 +1,5 @@
-// Curved contact with a known pressure: two concentric cylinders, pressed together by pressure in the bore.
+// Curved contact with a known pressure: two concentric cylinders, pressed together by pressure in
+// the bore.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,12 +14,15 @@ namespace {
 
 // Lamé's solution in plane strain. A cylinder r1 ≤ r ≤ r2 under pressures p1 inside and p2 outside:
 //   u(r) = (1 + ν)/E · [(1 − 2ν)(p1 r1² − p2 r2²) r + (p1 − p2) r1² r2² / r] / (r2² − r1²).
-// The bore r = a of the inner cylinder carries p0, the rim r = c of the outer one nothing. Without friction the two meet at r = b
-// with the pressure p that makes their radial displacements there equal: u_inner(b; p0, p) = u_outer(b; p, 0), linear in p.
+// The bore r = a of the inner cylinder carries p0, the rim r = c of the outer one nothing. Without
+// friction the two meet at r = b with the pressure p that makes their radial displacements there
+// equal: u_inner(b; p0, p) = u_outer(b; p, 0), linear in p.
 struct Cylinder {
   double young, poisson, r1, r2;
   double displacement(double r, double p1, double p2) const {
-    return (1 + poisson) / young * ((1 - 2 * poisson) * (p1 * r1 * r1 - p2 * r2 * r2) * r + (p1 - p2) * r1 * r1 * r2 * r2 / r) /
+    return (1 + poisson) / young *
+           ((1 - 2 * poisson) * (p1 * r1 * r1 - p2 * r2 * r2) * r +
+            (p1 - p2) * r1 * r1 * r2 * r2 / r) /
            (r2 * r2 - r1 * r1);
   }
 };
@@ -26,7 +30,8 @@ constexpr double a = 0.05, b = 0.08, c = 0.12, borePressure = 3e6;
 const Cylinder inner{7e10, 0.33, a, b}, outer{2.1e11, 0.3, b, c};
 
 double exactPressure() {
-  return inner.displacement(b, borePressure, 0) / (outer.displacement(b, 1, 0) - inner.displacement(b, 0, 1));
+  return inner.displacement(b, borePressure, 0) /
+         (outer.displacement(b, 1, 0) - inner.displacement(b, 0, 1));
 }
 
 /// Relative errors: the largest of all contact nodes, and that of the mean pressure.
@@ -34,17 +39,21 @@ struct Deviation {
   double pressure = 0, displacement = 0, mean = 0;
 };
 
-/// `refinement` times as many cells in both directions as the coarsest mesh; `pad` and `disc` name the sides of the contact.
-Deviation solve(const std::string& shape, int refinement, const std::string& pad, const std::string& disc) {
+/// `refinement` times as many cells in both directions as the coarsest mesh; `pad` and `disc` name
+/// the sides of the contact.
+Deviation solve(const std::string& shape, int refinement, const std::string& pad,
+                const std::string& disc) {
   const auto times = [&](int cells) { return std::to_string(cells * refinement); };
-  test::setOptions("-mesh_file meshes/cylinders.geo -mesh_set n_inner=" + times(2) + ",n_outer=" + times(3) +
-                   ",n_theta=" + times(16) + shape + test::material("inner", "7e10", "0.33", "2700") +
-                   test::material("outer", "2.1e11", "0.3", "7850") +
-                   "-constraint_sym_x_clamped x -constraint_sym_y_clamped y -load_inner_bore_pressure 3e6"
-                   " -contact_ring_pad " +
-                   pad + "_face -contact_ring_disc " + disc + "_face");
+  test::setOptions(
+      "-mesh_file meshes/cylinders.geo -mesh_set n_inner=" + times(2) + ",n_outer=" + times(3) +
+      ",n_theta=" + times(16) + shape + test::material("inner", "7e10", "0.33", "2700") +
+      test::material("outer", "2.1e11", "0.3", "7850") +
+      "-constraint_sym_x_clamped x -constraint_sym_y_clamped y -load_inner_bore_pressure 3e6"
+      " -contact_ring_pad " +
+      pad + "_face -contact_ring_disc " + disc + "_face");
   const auto model = test::buildModel();
-  const contact::AssociatedSystem system(model.bodies, model.contact, std::vector<unsigned char>(model.contact.nodes.size(), 1));
+  const contact::AssociatedSystem system(model.bodies, model.contact,
+                                         std::vector<unsigned char>(model.contact.nodes.size(), 1));
   const auto solution = steady::Problem(*model.mesh, model.bodies, model.contact).solve({}, system);
   EXPECT_TRUE(solution.converged) << solution.reason;
   EXPECT_EQ(solution.openNodes, 0);
@@ -57,7 +66,9 @@ Deviation solve(const std::string& shape, int refinement, const std::string& pad
     const auto& node = model.contact.nodes[i];
     const double r = std::hypot(node.position[0], node.position[1]);
     EXPECT_NEAR(r, b, 1e-10);
-    const double radial = (values[2 * node.node] * node.position[0] + values[2 * node.node + 1] * node.position[1]) / r;
+    const double radial =
+        (values[2 * node.node] * node.position[0] + values[2 * node.node + 1] * node.position[1]) /
+        r;
     force += solution.contact[i].normalForce, length += node.area;
     worst.pressure = std::max(worst.pressure, std::abs(solution.contact[i].pressure / p - 1));
     worst.displacement = std::max(worst.displacement, std::abs(radial / u - 1));
@@ -71,14 +82,16 @@ struct Orders {
   double pressure, displacement, mean;
 };
 
-void converges(const std::string& shape, const Orders& orders, const Deviation& finest, const std::string& pad = "inner",
-               const std::string& disc = "outer") {
+void converges(const std::string& shape, const Orders& orders, const Deviation& finest,
+               const std::string& pad = "inner", const std::string& disc = "outer") {
   std::vector<Deviation> errors;
   for (const int refinement : {1, 2, 4}) {
     errors.push_back(solve(shape, refinement, pad, disc));
     const auto& e = errors.back();
-    test::print("cylinders%s, pad %s, %dx: error of pressure %.2e, of its mean %.2e, of displacement %.2e\n", shape.c_str(),
-                pad.c_str(), refinement, e.pressure, e.mean, e.displacement);
+    test::print(
+        "cylinders%s, pad %s, %dx: error of pressure %.2e, of its mean %.2e, of displacement "
+        "%.2e\n",
+        shape.c_str(), pad.c_str(), refinement, e.pressure, e.mean, e.displacement);
   }
   for (std::size_t i = 1; i < errors.size(); ++i) {
     const auto &coarse = errors[i - 1], &fine = errors[i];
@@ -94,18 +107,25 @@ void converges(const std::string& shape, const Orders& orders, const Deviation& 
 TEST(Cylinders, LameByHand) {
   // Against the textbook formula of equal materials: p = p0 · a²(c² − b²) / (b²(c² − a²)).
   const Cylinder in{1, 0.3, a, b}, out{1, 0.3, b, c};
-  const double p = in.displacement(b, 1, 0) / (out.displacement(b, 1, 0) - in.displacement(b, 0, 1));
+  const double p =
+      in.displacement(b, 1, 0) / (out.displacement(b, 1, 0) - in.displacement(b, 0, 1));
   EXPECT_NEAR(p, a * a * (c * c - b * b) / (b * b * (c * c - a * a)), 1e-14);
 }
 
 // Chords for arcs: all errors are of second order.
 TEST(Cylinders, BilinearFaces) { converges("", {2, 2, 2}, {2e-3, 2e-3, 2e-3}); }
-TEST(Cylinders, SidesMayBeExchanged) { converges("", {2, 2, 2}, {2e-3, 2e-3, 2e-3}, "outer", "inner"); }
-// Parabolas for arcs. Nodal pressures at corners and at mid-side nodes err in opposite directions: their mean, and
-// displacements, are better.
+TEST(Cylinders, SidesMayBeExchanged) {
+  converges("", {2, 2, 2}, {2e-3, 2e-3, 2e-3}, "outer", "inner");
+}
+// Parabolas for arcs. Nodal pressures at corners and at mid-side nodes err in opposite directions:
+// their mean, and displacements, are better.
 TEST(Cylinders, CurvedQuad9Faces) { converges(",order=2", {2, 3, 3}, {1e-3, 2e-5, 2e-5}); }
-TEST(Cylinders, CurvedQuad8Faces) { converges(",order=2,serendipity=1", {2, 3, 3}, {1e-3, 2e-5, 2e-5}); }
-TEST(Cylinders, CurvedTri6Faces) { converges(",order=2,recombine=0", {2, 3, 3}, {1e-2, 1e-4, 1e-4}); }
+TEST(Cylinders, CurvedQuad8Faces) {
+  converges(",order=2,serendipity=1", {2, 3, 3}, {1e-3, 2e-5, 2e-5});
+}
+TEST(Cylinders, CurvedTri6Faces) {
+  converges(",order=2,recombine=0", {2, 3, 3}, {1e-2, 1e-4, 1e-4});
+}
 
 }  // namespace
 }  // namespace squeal

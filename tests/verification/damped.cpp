@@ -1,5 +1,5 @@
-// Damped, rotating and unsymmetric problems: the reduced problem with all modes against the direct solve; structural damping against
-// closed forms; the speed sweep.
+// Damped, rotating and unsymmetric problems: the reduced problem with all modes against the direct
+// solve; structural damping against closed forms; the speed sweep.
 #include <gtest/gtest.h>
 
 #include "pencil/complex_modes.hpp"
@@ -12,7 +12,8 @@ namespace {
 
 /// A coarse slab with everything: friction damping, convective terms, Rayleigh damping of one body.
 const std::string full =
-    "-mesh_set nx=12,ny_disc=4,ny_pad=3,order=1 -motion_convective on -flutter_friction 0.3 -material_pad_rayleigh_stiffness 0.01 "
+    "-mesh_set nx=12,ny_disc=4,ny_pad=3,order=1 -motion_convective on -flutter_friction 0.3 "
+    "-material_pad_rayleigh_stiffness 0.01 "
     "-material_pad_rayleigh_mass 0.002 ";
 
 std::vector<Complex> lowest(const pencil::FrictionPoint& point, double top) {
@@ -22,13 +23,16 @@ std::vector<Complex> lowest(const pencil::FrictionPoint& point, double top) {
   return list;
 }
 
-// Two ways that share the matrices and nothing else: TOAR on all unknowns (too many for LAPACK to take its place), and QR on the projection of them all. Eigenvalues of these
-// small matrices are hardly sensitive: the backward errors of both, 1e-13, leave 1e-8 room.
+// Two ways that share the matrices and nothing else: TOAR on all unknowns (too many for LAPACK to
+// take its place), and QR on the projection of them all. Eigenvalues of these small matrices are
+// hardly sensitive: the backward errors of both, 1e-13, leave 1e-8 room.
 TEST(Damped, DirectIsTheReducedProblemWithAllModes) {
-  const analysis::Analysis direct = runCase("two_layers_antiplane", full + "-flutter_method direct -flutter_direct_count 40");
+  const analysis::Analysis direct =
+      runCase("two_layers_antiplane", full + "-flutter_method direct -flutter_direct_count 40");
   const auto unknowns = direct.segments.at(0).unknowns;
   const analysis::Analysis reduced =
-      runCase("two_layers_antiplane", full + "-reduction_basis modal -modes_count " + std::to_string(unknowns));
+      runCase("two_layers_antiplane",
+              full + "-reduction_basis modal -modes_count " + std::to_string(unknowns));
   const auto& found = direct.segments[0].points.at(0);
   double top = 0;
   for (const auto& e : found.eigenvalues) top = std::max(top, std::abs(e.s));
@@ -37,8 +41,8 @@ TEST(Damped, DirectIsTheReducedProblemWithAllModes) {
   ASSERT_EQ(a.size(), b.size());
   EXPECT_GT(a.size(), 30U);
   const double worst = test::worst(errors(b, a).relative);
-  print("direct against all %d modes, %zu eigenvalues: %.1e; backward error %.1e\n", static_cast<int>(unknowns), a.size(), worst,
-        found.worstBackwardError());
+  print("direct against all %d modes, %zu eigenvalues: %.1e; backward error %.1e\n",
+        static_cast<int>(unknowns), a.size(), worst, found.worstBackwardError());
   EXPECT_LT(worst, 1e-8);
   EXPECT_LT(found.worstBackwardError(), 1e-10);
 }
@@ -47,26 +51,30 @@ TEST(Damped, DirectIsTheReducedProblemWithAllModes) {
 TEST(Damped, RayleighDampingHasAClosedForm) {
   const double alpha = 0.02, beta = 0.015;
   const std::string mesh = "-mesh_set nx=8,ny=4 -flutter_friction 0 ";
-  const std::string damping =
-      "-material_layer_rayleigh_mass " + std::to_string(alpha) + " -material_layer_rayleigh_stiffness " + std::to_string(beta);
+  const std::string damping = "-material_layer_rayleigh_mass " + std::to_string(alpha) +
+                              " -material_layer_rayleigh_stiffness " + std::to_string(beta);
   const analysis::Analysis undamped = runCase("layer", mesh + "-modes_count 40"),
-                 damped = runCase("layer", mesh + "-modes_count 40 " + damping);
+                           damped = runCase("layer", mesh + "-modes_count 40 " + damping);
   const auto& point = damped.segments.at(0).points.at(0);
   std::vector<Complex> expected;
   for (double w : undamped.segments.at(0).modes.angularFrequency)
-    if (const double c = alpha + beta * w * w; w <= point.bandTop) expected.push_back({-c / 2, std::sqrt(w * w - c * c / 4)});
+    if (const double c = alpha + beta * w * w; w <= point.bandTop)
+      expected.push_back({-c / 2, std::sqrt(w * w - c * c / 4)});
   ASSERT_GT(expected.size(), 12U);
-  EXPECT_LT(worst(errors(expected, eigenvaluesOf(point)).relative), 1e-8);  // square roots of the double modes' rounding
+  EXPECT_LT(worst(errors(expected, eigenvaluesOf(point)).relative),
+            1e-8);  // square roots of the double modes' rounding
 }
 
-// The loss factor is met exactly at its frequency: −2 Re s/|s| = η there, and in proportion to the frequency elsewhere.
+// The loss factor is met exactly at its frequency: −2 Re s/|s| = η there, and in proportion to the
+// frequency elsewhere.
 TEST(Damped, LossFactorHoldsAtItsFrequency) {
   const double eta = 0.03;
   const std::string mesh = "-mesh_set nx=8,ny=4 -flutter_friction 0 -modes_count 40 ";
   const analysis::Analysis undamped = runCase("layer", mesh);
   const double w = undamped.segments.at(0).modes.angularFrequency[4];
   const analysis::Analysis damped =
-      runCase("layer", mesh + "-material_layer_loss_factor 0.03 -material_layer_loss_frequency " + shortest(w / (2 * M_PI)));
+      runCase("layer", mesh + "-material_layer_loss_factor 0.03 -material_layer_loss_frequency " +
+                           shortest(w / (2 * M_PI)));
   for (const auto& e : damped.segments.at(0).points.at(0).eigenvalues)
     EXPECT_NEAR(-2 * e.s.real() / std::abs(e.s), eta * std::abs(e.s) / w, 1e-8);
 }
@@ -74,7 +82,9 @@ TEST(Damped, LossFactorHoldsAtItsFrequency) {
 // Modal damping: each mode has its ratio, the last one given holds for the rest.
 TEST(Damped, ModalRatios) {
   const analysis::Analysis analysis =
-      runCase("layer", "-mesh_set nx=8,ny=4 -flutter_friction 0 -modes_count 40 -flutter_modal_damping 0.01,0.03,0.002");
+      runCase("layer",
+              "-mesh_set nx=8,ny=4 -flutter_friction 0 -modes_count 40 -flutter_modal_damping "
+              "0.01,0.03,0.002");
   const auto& point = analysis.segments.at(0).points.at(0);
   const auto& modes = analysis.segments[0].modes.angularFrequency;
   std::vector<Complex> expected;
@@ -85,40 +95,52 @@ TEST(Damped, ModalRatios) {
   EXPECT_LT(worst(errors(expected, eigenvaluesOf(point)).relative), 1e-8);
 }
 
-// At vanishing speed friction damping c = f p/|w| holds the surfaces together across the sliding direction: growth rates are those of
-// bonded anti-plane motion, none, and the strongly damped eigenvalues go as c. Between two speeds, both small, the damping of the
-// anti-plane modes that remain falls in proportion to the speed.
+// At vanishing speed friction damping c = f p/|w| holds the surfaces together across the sliding
+// direction: growth rates are those of bonded anti-plane motion, none, and the strongly damped
+// eigenvalues go as c. Between two speeds, both small, the damping of the anti-plane modes that
+// remain falls in proportion to the speed.
 TEST(Damped, FrictionDampingDominatesAtVanishingSpeed) {
   const analysis::Analysis analysis =
       runCase("two_layers_antiplane",
-              "-mesh_set nx=6,ny_disc=3,ny_pad=2,order=2 -modes_count 60 -flutter_friction 0.3 -flutter_speed 0.001,0.002");
+              "-mesh_set nx=6,ny_disc=3,ny_pad=2,order=2 -modes_count 60 -flutter_friction 0.3 "
+              "-flutter_speed 0.001,0.002");
   ASSERT_EQ(analysis.segments.size(), 1U);
   // The lowest anti-plane mode with k = 0: layers of modulus μ, joined.
   const auto growthNear = [&](std::size_t index, double frequency) {
     double distance = INFINITY, growth = 0;
     for (const auto& e : analysis.segments[0].points.at(index).eigenvalues)
-      if (std::abs(e.s.imag() - frequency) < distance) distance = std::abs(e.s.imag() - frequency), growth = e.s.real();
+      if (std::abs(e.s.imag() - frequency) < distance)
+        distance = std::abs(e.s.imag() - frequency), growth = e.s.real();
     EXPECT_LT(distance, 0.01);
     return growth;
   };
   // √(μρ) cot(ω h/c) of the two layers sums to zero.
-  const double muDisc = 1 / 2.6, muPad = 0.4 / 2.5, cDisc = std::sqrt(muDisc), cPad = std::sqrt(muPad / 0.6);
+  const double muDisc = 1 / 2.6, muPad = 0.4 / 2.5, cDisc = std::sqrt(muDisc),
+               cPad = std::sqrt(muPad / 0.6);
   double low = 0.5, high = 1.8;
-  const auto joined = [&](double w) { return muDisc / cDisc / std::tan(w / cDisc) + muPad / cPad / std::tan(0.6 * w / cPad); };
+  const auto joined = [&](double w) {
+    return muDisc / cDisc / std::tan(w / cDisc) + muPad / cPad / std::tan(0.6 * w / cPad);
+  };
   for (int i = 0; i < 60; ++i) (joined((low + high) / 2) > 0 ? low : high) = (low + high) / 2;
   const double slow = growthNear(0, low), faster = growthNear(1, low);
   print("anti-plane mode at %.4f: growth %.3e and %.3e at twice the speed\n", low, slow, faster);
   EXPECT_LT(slow, 0);
-  EXPECT_NEAR(faster / slow, 2, 1e-3);  // relative corrections (impedance / c)² are of the order of 1e-4
+  EXPECT_NEAR(faster / slow, 2,
+              1e-3);  // relative corrections (impedance / c)² are of the order of 1e-4
 }
 
-// The stress of the first friction of a sweep is in the modes, its change at the others in terms of their own: one friction of a sweep
-// gives what it gives alone. The pressing strain of a percent moves frequencies by about as much.
+// The stress of the first friction of a sweep is in the modes, its change at the others in terms of
+// their own: one friction of a sweep gives what it gives alone. The pressing strain of a percent
+// moves frequencies by about as much.
 TEST(Prestress, OfASweepIsThatOfEachFriction) {
-  const std::string options = "-mesh_set nx=8,ny_disc=4,ny_pad=3 -modes_count 40 -elasticity_prestress on -flutter_accuracy 1e-11 ";
+  const std::string options =
+      "-mesh_set nx=8,ny_disc=4,ny_pad=3 -modes_count 40 -elasticity_prestress on "
+      "-flutter_accuracy 1e-11 ";
   const analysis::Analysis sweep = runCase("two_layers", options + "-flutter_friction 0.1,0.5"),
-                 alone = runCase("two_layers", options + "-flutter_friction 0.5"),
-                 slack = runCase("two_layers", options + "-elasticity_prestress off -flutter_friction 0.5");
+                           alone = runCase("two_layers", options + "-flutter_friction 0.5"),
+                           slack =
+                               runCase("two_layers",
+                                       options + "-elasticity_prestress off -flutter_friction 0.5");
   const auto inBand = [](const pencil::FrictionPoint& point) {
     std::vector<Complex> list;
     for (const auto& e : point.eigenvalues)
@@ -131,8 +153,11 @@ TEST(Prestress, OfASweepIsThatOfEachFriction) {
   ASSERT_EQ(one.size(), other.size());
   EXPECT_GT(one.size(), 10U);
   const double difference = worst(errors(one, other).relative),
-               effect = std::abs(slack.segments.at(0).modes.angularFrequency[5] / alone.segments[0].modes.angularFrequency[5] - 1);
-  print("prestress: sweep against single friction %.1e; effect of the stress %.1e\n", difference, effect);
+               effect = std::abs(slack.segments.at(0).modes.angularFrequency[5] /
+                                     alone.segments[0].modes.angularFrequency[5] -
+                                 1);
+  print("prestress: sweep against single friction %.1e; effect of the stress %.1e\n", difference,
+        effect);
   EXPECT_LT(difference, 1e-8);  // both corrected to 1e-11
   EXPECT_GT(effect, 1e-3);
 }

@@ -1,4 +1,5 @@
-// The reduced problem against the one on all unknowns: its eigenvalues, and what it says of their errors.
+// The reduced problem against the one on all unknowns: its eigenvalues, and what it says of their
+// errors.
 #include <gtest/gtest.h>
 
 #include "pencil/complex_modes.hpp"
@@ -10,31 +11,37 @@ namespace {
 
 using Lists = std::vector<std::vector<Complex>>;
 
-/// The 80 lowest eigenvalues of the problem on all unknowns at each point of the sweep; solved once.
+/// The 80 lowest eigenvalues of the problem on all unknowns at each point of the sweep; solved
+/// once.
 const Lists& fullOrder(const std::string& name, const std::string& changes) {
   static std::map<std::string, Lists> known;
   auto& lists = known[name + changes];
   if (!lists.empty()) return lists;
-  const analysis::Analysis analysis = runCase(name, changes + " -flutter_method direct -flutter_direct_count 80");
+  const analysis::Analysis analysis =
+      runCase(name, changes + " -flutter_method direct -flutter_direct_count 80");
   for (const auto& point : analysis.segments.at(0).points) {
-    EXPECT_LT(point.worstBackwardError(), 1e-12);  // at the far end, where the Krylov space ends; a thousandth of it lower down
+    EXPECT_LT(point.worstBackwardError(),
+              1e-12);  // at the far end, where the Krylov space ends; a thousandth of it lower down
     lists.push_back(eigenvaluesOf(point));
   }
   return lists;
 }
 
 std::vector<Complex> nearestToZero(std::vector<Complex> list, std::size_t count) {
-  std::sort(list.begin(), list.end(), [](Complex a, Complex b) { return std::abs(a) < std::abs(b); });
+  std::sort(list.begin(), list.end(),
+            [](Complex a, Complex b) { return std::abs(a) < std::abs(b); });
   list.resize(std::min(count, list.size()));
   return list;
 }
 
-/// By which the direct solve may err, relative to |s|: where two reduced bases agree to 1e-15, TOAR was 1.2e-13 from both.
+/// By which the direct solve may err, relative to |s|: where two reduced bases agree to 1e-15, TOAR
+/// was 1.2e-13 from both.
 constexpr double directError = 3e-13;
 
 struct Comparison {
-  double worst = 0;       ///< |s − s*| / |s*|
-  double worstRatio = 0;  ///< of true error to the estimate, as far as it can be told from the error of s*
+  double worst = 0;  ///< |s − s*| / |s*|
+  /// Of true error to the estimate, as far as it can be told from the error of s*
+  double worstRatio = 0;
   int certified = 0;
 };
 
@@ -44,9 +51,11 @@ Comparison compare(const pencil::FrictionPoint& point, const std::vector<Complex
   const auto found = eigenvaluesOf(point);
   const auto match = matched(found, exact);
   for (std::size_t i = 0; i < found.size(); ++i) {
-    const double error = std::abs(found[i] - match[i]) / std::abs(match[i]), estimate = point.eigenvalues[i].errorEstimate;
+    const double error = std::abs(found[i] - match[i]) / std::abs(match[i]),
+                 estimate = point.eigenvalues[i].errorEstimate;
     EXPECT_FALSE(std::isnan(error)) << found[i] << " is none of the full order";
-    EXPECT_LT(error, 2 * estimate + directError) << found[i] << " at friction " << point.at.friction;
+    EXPECT_LT(error, 2 * estimate + directError)
+        << found[i] << " at friction " << point.at.friction;
     result.worst = std::max(result.worst, error);
     result.worstRatio = std::max(result.worstRatio, (error - directError) / estimate);
     result.certified += point.eigenvalues[i].certified;
@@ -54,21 +63,25 @@ Comparison compare(const pencil::FrictionPoint& point, const std::vector<Complex
   return result;
 }
 
-/// Each point of the corrected sweep: the first `first` eigenvalues are there, and all that are listed are certified, right to 1e-8 and
-/// not further off than estimated.
+/// Each point of the corrected sweep: the first `first` eigenvalues are there, and all that are
+/// listed are certified, right to 1e-8 and not further off than estimated.
 void expectFullOrder(const std::string& name, const std::string& changes, std::size_t first,
                      const std::string& method = "corrected") {
   const auto& exact = fullOrder(name, changes);
-  const analysis::Analysis reduced = runCase(name, changes + " -modes_count 60 -flutter_track off -reduction_basis " + method);
+  const analysis::Analysis reduced =
+      runCase(name, changes + " -modes_count 60 -flutter_track off -reduction_basis " + method);
   const auto& segment = reduced.segments.at(0);
   ASSERT_EQ(segment.points.size(), exact.size());
   for (std::size_t i = 0; i < exact.size(); ++i) {
     const auto& point = segment.points[i];
     const Comparison all = compare(point, exact[i]);
-    const double lowest = worst(errors(nearestToZero(exact[i], first), eigenvaluesOf(point)).relative);
-    print("%s, %s, friction %g: %zu of %d unknowns, first %zu off by %.1e, all by %.1e, error / estimate %.2f\n", name.c_str(),
-          method.c_str(), point.at.friction, point.eigenvalues.size(), static_cast<int>(segment.unknowns), first, lowest, all.worst,
-          all.worstRatio);
+    const double lowest =
+        worst(errors(nearestToZero(exact[i], first), eigenvaluesOf(point)).relative);
+    print(
+        "%s, %s, friction %g: %zu of %d unknowns, first %zu off by %.1e, all by %.1e, error / "
+        "estimate %.2f\n",
+        name.c_str(), method.c_str(), point.at.friction, point.eigenvalues.size(),
+        static_cast<int>(segment.unknowns), first, lowest, all.worst, all.worstRatio);
     EXPECT_LT(lowest, 1e-8);
     EXPECT_LT(all.worst, 1e-8);
     EXPECT_EQ(all.certified, static_cast<int>(point.eigenvalues.size()));
@@ -76,47 +89,60 @@ void expectFullOrder(const std::string& name, const std::string& changes, std::s
   }
 }
 
-TEST(Reduction, LayerFromSixtyModes) { expectFullOrder("layer", "-flutter_friction 0.2,0.4,0.6", 30); }
-TEST(Reduction, TwoLayersFromSixtyModes) { expectFullOrder("two_layers", "-flutter_friction 0.1,0.3,0.5", 30); }
+TEST(Reduction, LayerFromSixtyModes) {
+  expectFullOrder("layer", "-flutter_friction 0.2,0.4,0.6", 30);
+}
+TEST(Reduction, TwoLayersFromSixtyModes) {
+  expectFullOrder("two_layers", "-flutter_friction 0.1,0.3,0.5", 30);
+}
 
-/// Estimates of the free modes alone, whose eigenvalues are wrong by up to a few thousandths: of all that are said to be right to
-/// 1 %, as far as first order goes.
+/// Estimates of the free modes alone, whose eigenvalues are wrong by up to a few thousandths: of
+/// all that are said to be right to 1 %, as far as first order goes.
 void expectEstimated(const std::string& name, const std::string& changes) {
   const auto& exact = fullOrder(name, changes);
-  const analysis::Analysis modal = runCase(name, changes + " -modes_count 60 -reduction_basis modal -flutter_track off");
+  const analysis::Analysis modal =
+      runCase(name, changes + " -modes_count 60 -reduction_basis modal -flutter_track off");
   const auto& points = modal.segments.at(0).points;
   ASSERT_EQ(points.size(), exact.size());
   for (std::size_t i = 0; i < exact.size(); ++i) {
     std::vector<Complex> found;
     std::vector<double> estimates;
     for (const auto& eigenvalue : points[i].eigenvalues)
-      if (eigenvalue.errorEstimate < 0.01) found.push_back(eigenvalue.s), estimates.push_back(eigenvalue.errorEstimate);
+      if (eigenvalue.errorEstimate < 0.01)
+        found.push_back(eigenvalue.s), estimates.push_back(eigenvalue.errorEstimate);
     const Errors all = errors(found, exact[i]);
     double ratio = 0;
     for (std::size_t k = 0; k < found.size(); ++k) {
-      EXPECT_LT(all.relative[k], 2 * estimates[k] + directError) << found[k] << " at friction " << points[i].at.friction;
+      EXPECT_LT(all.relative[k], 2 * estimates[k] + directError)
+          << found[k] << " at friction " << points[i].at.friction;
       ratio = std::max(ratio, (all.relative[k] - directError) / estimates[k]);
     }
-    print("%s %s, free modes, friction %g: %zu of %zu estimated below 1 %%, worst error %.1e, error / estimate up to %.2f\n",
-          name.c_str(), changes.c_str(), points[i].at.friction, found.size(), points[i].eigenvalues.size(), worst(all.relative),
-          ratio);
+    print(
+        "%s %s, free modes, friction %g: %zu of %zu estimated below 1 %%, worst error %.1e, error "
+        "/ estimate up to %.2f\n",
+        name.c_str(), changes.c_str(), points[i].at.friction, found.size(),
+        points[i].eigenvalues.size(), worst(all.relative), ratio);
     EXPECT_GE(found.size(), 10U);
     EXPECT_GT(worst(all.relative), 1e-6);  // there is an error to estimate
-    for (const auto& eigenvalue : points[i].eigenvalues) EXPECT_FALSE(eigenvalue.certified && eigenvalue.errorEstimate > 1e-8);
+    for (const auto& eigenvalue : points[i].eigenvalues)
+      EXPECT_FALSE(eigenvalue.certified && eigenvalue.errorEstimate > 1e-8);
   }
 }
 
 const std::string coarse = "-mesh_set nx=18,ny_disc=6,ny_pad=4 -flutter_friction 0.1:0.5:0.1";
-const std::string damping = " -material_pad_rayleigh_stiffness 0.01 -material_disc_rayleigh_mass 0.02";
+const std::string damping =
+    " -material_pad_rayleigh_stiffness 0.01 -material_disc_rayleigh_mass 0.02";
 
 TEST(Reduction, WithDamping) { expectFullOrder("two_layers", coarse + damping, 30); }
 
 TEST(Reduction, ErrorsOfFreeModesAreEstimated) {
-  for (const auto& damped : {std::string(), damping}) expectEstimated("two_layers", coarse + damped);
+  for (const auto& damped : {std::string(), damping})
+    expectEstimated("two_layers", coarse + damped);
 }
 
 TEST(Reduction, ProperOrthogonalDecomposition) {
-  for (const auto& damped : {std::string(), damping}) expectFullOrder("two_layers", coarse + damped, 30, "pod");
+  for (const auto& damped : {std::string(), damping})
+    expectFullOrder("two_layers", coarse + damped, 30, "pod");
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// An annulus that turns: gyroscopic terms and rotation stiffness split its double modes into forward and backward waves.
+// An annulus that turns: gyroscopic terms and rotation stiffness split its double modes into
+// forward and backward waves.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,37 +32,45 @@ std::string mesh(int cells) {
   for (int side = 0; side < 2; ++side)
     for (int q = 0; q < 4; ++q) {
       const double r = side ? annulus.outer : annulus.inner;
-      text += formatted("Point(%d) = {%.17g, %.17g, 0};\n", 10 + 10 * side + q, r * (q % 2 ? 0 : 1 - q), r * (q % 2 ? 2 - q : 0));
+      text += formatted("Point(%d) = {%.17g, %.17g, 0};\n", 10 + 10 * side + q,
+                        r * (q % 2 ? 0 : 1 - q), r * (q % 2 ? 2 - q : 0));
     }
   for (int q = 0; q < 4; ++q) {
     const int next = (q + 1) % 4;
-    text += formatted("Line(%d) = {%d, %d};\nCircle(%d) = {%d, 1, %d};\nCircle(%d) = {%d, 1, %d};\n", 10 + q, 10 + q, 20 + q,
-                      20 + q, 10 + q, 10 + next, 30 + q, 20 + q, 20 + next);
+    text +=
+        formatted("Line(%d) = {%d, %d};\nCircle(%d) = {%d, 1, %d};\nCircle(%d) = {%d, 1, %d};\n",
+                  10 + q, 10 + q, 20 + q, 20 + q, 10 + q, 10 + next, 30 + q, 20 + q, 20 + next);
   }
   for (int q = 0; q < 4; ++q) {
     const int next = (q + 1) % 4;
-    text += formatted("Curve Loop(%d) = {%d, %d, %d, %d};\nPlane Surface(%d) = {%d};\n", 10 + q, 10 + q, 30 + q, -(10 + next),
-                      -(20 + q), 10 + q, 10 + q);
+    text += formatted("Curve Loop(%d) = {%d, %d, %d, %d};\nPlane Surface(%d) = {%d};\n", 10 + q,
+                      10 + q, 30 + q, -(10 + next), -(20 + q), 10 + q, 10 + q);
   }
-  text += formatted("Transfinite Curve {10 : 13} = %d;\nTransfinite Curve {20 : 23, 30 : 33} = %d;\n", cells / 2 + 1, cells + 1);
   text +=
-      "Transfinite Surface {10 : 13};\nRecombine Surface {10 : 13};\nPhysical Curve(\"inner\") = {20 : 23};\n"
+      formatted("Transfinite Curve {10 : 13} = %d;\nTransfinite Curve {20 : 23, 30 : 33} = %d;\n",
+                cells / 2 + 1, cells + 1);
+  text +=
+      "Transfinite Surface {10 : 13};\nRecombine Surface {10 : 13};\nPhysical Curve(\"inner\") = "
+      "{20 : 23};\n"
       "Physical Surface(\"disc\") = {10 : 13};\nMesh.ElementOrder = 2;\n";
   return test::writeFile(formatted("annulus_%d.geo", cells), text);
 }
 
 std::string turning(int cells, double omega) {
   return "-mesh_file " + mesh(cells) + test::material("disc", "1", "0.3", "1") +
-         "-constraint_inner_clamped xy -motion_convective on " + formatted("-motion_disc_speed %.17g ", omega);
+         "-constraint_inner_clamped xy -motion_convective on " +
+         formatted("-motion_disc_speed %.17g ", omega);
 }
 
 /// Frequencies Λ > 0 of the waves e^{i(nθ + Λt)}, by n.
 using Waves = std::map<int, std::vector<double>>;
 
-/// Collective. The order n of the shape: where the Fourier transform of u_r and u_θ on the rim, whose nodes are equally spaced, is.
+/// Collective. The order n of the shape: where the Fourier transform of u_r and u_θ on the rim,
+/// whose nodes are equally spaced, is.
 int orderOf(const mesh::Mesh& mesh, Vec real, Vec imaginary) {
   constexpr int range = 12;
-  std::vector<double> sums(8 * range + 6, 0.0);  // [n][Re, Im of the transforms of u_r and u_θ], Σ |u|², number of nodes
+  std::vector<double> sums(
+      8 * range + 6, 0.0);  // [n][Re, Im of the transforms of u_r and u_θ], Σ |u|², number of nodes
   const PetscScalar *a = nullptr, *b = nullptr;
   check(VecGetArrayRead(real, &a));
   check(VecGetArrayRead(imaginary, &b));
@@ -69,7 +78,8 @@ int orderOf(const mesh::Mesh& mesh, Vec real, Vec imaginary) {
     const auto& x = mesh.coordinates[static_cast<std::size_t>(node)];
     if (std::hypot(x[0], x[1]) < annulus.outer - 1e-9) continue;
     const Complex ux(a[2 * node], b[2 * node]), uy(a[2 * node + 1], b[2 * node + 1]);
-    const Complex components[] = {x[0] * ux + x[1] * uy, x[0] * uy - x[1] * ux};  // the rim's radius is 1
+    const Complex components[] = {x[0] * ux + x[1] * uy,
+                                  x[0] * uy - x[1] * ux};  // the rim's radius is 1
     for (int n = -range; n <= range; ++n)
       for (int c = 0; c < 2; ++c) {
         const Complex part = components[c] * std::polar(1.0, -n * std::atan2(x[1], x[0]));
@@ -81,12 +91,14 @@ int orderOf(const mesh::Mesh& mesh, Vec real, Vec imaginary) {
   }
   check(VecRestoreArrayRead(real, &a));
   check(VecRestoreArrayRead(imaginary, &b));
-  check(MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD));
+  check(MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM,
+                      PETSC_COMM_WORLD));
   int best = 0;
   double power = 0;
   for (int n = -range; n <= range; ++n) {
     double square = 0;
-    for (int i = 0; i < 4; ++i) square += std::pow(sums[static_cast<std::size_t>(4 * (n + range) + i)], 2);
+    for (int i = 0; i < 4; ++i)
+      square += std::pow(sums[static_cast<std::size_t>(4 * (n + range) + i)], 2);
     if (square > power) power = square, best = n;
   }
   // Parseval: all of a pure wave is at its n, but for what the cells of the mesh add.
@@ -108,7 +120,8 @@ Waves computed(int cells, double omega) {
     const auto s = pair.s;
     if (s.imag() > top) continue;
     EXPECT_LT(std::abs(s.real()), 1e-9) << s;
-    const OwnedVec u = elasticity::nodalVector(*model.mesh), v = elasticity::nodalVector(*model.mesh);
+    const OwnedVec u = elasticity::nodalVector(*model.mesh),
+                   v = elasticity::nodalVector(*model.mesh);
     check(MatMult(system.transformation().trial, pair.real, u));
     check(MatMult(system.transformation().trial, pair.imaginary, v));
     waves[orderOf(*model.mesh, u, v)].push_back(s.imag());
@@ -146,7 +159,8 @@ std::vector<double> errors(const Waves& waves, double omega) {
     const auto exact = exact::annulus::vehicleFrequencies(annulus, n, omega, top);
     const auto found = waves.count(n) ? waves.at(n) : std::vector<double>{};
     EXPECT_EQ(found.size(), exact.size()) << "n = " << n;
-    for (std::size_t i = 0; i < exact.size(); ++i) list.push_back(i < found.size() ? std::abs(found[i] / exact[i] - 1) : NAN);
+    for (std::size_t i = 0; i < exact.size(); ++i)
+      list.push_back(i < found.size() ? std::abs(found[i] / exact[i] - 1) : NAN);
   }
   return list;
 }
@@ -154,13 +168,15 @@ std::vector<double> errors(const Waves& waves, double omega) {
 TEST(Annulus, WavesSplitByRotation) {
   const auto coarse = computed(14, speed), fine = computed(28, speed);
   const auto coarseErrors = errors(coarse, speed), fineErrors = errors(fine, speed);
-  test::print("%zu waves: largest error %.1e, %.1e\n", fineErrors.size(), test::worst(coarseErrors), test::worst(fineErrors));
+  test::print("%zu waves: largest error %.1e, %.1e\n", fineErrors.size(), test::worst(coarseErrors),
+              test::worst(fineErrors));
   test::expectOrder(4, 0.4, coarseErrors, fineErrors, "frequencies");
   EXPECT_LT(test::worst(fineErrors), 1e-5);
   // Not split, or shifted by (n ± 1) ω on top of the Coriolis term, they would be off by per cents.
   for (int n = 1; n <= highestOrder; ++n) {
     const double against = fine.at(n).at(0), along = fine.at(-n).at(0);
-    test::print("n = %d: %.6f and %.6f, split by %.1f %%\n", n, against, along, 100 * (along / against - 1));
+    test::print("n = %d: %.6f and %.6f, split by %.1f %%\n", n, against, along,
+                100 * (along / against - 1));
     EXPECT_GT(along / against, 1.02);
   }
 }
@@ -180,7 +196,8 @@ TEST(Annulus, TurningTheOtherWayMirrorsTheWaves) {
 std::vector<Complex> allExact() {
   std::vector<Complex> list;
   for (int n = -20; n <= 20; ++n)
-    for (double frequency : exact::annulus::vehicleFrequencies(annulus, n, speed, top)) list.emplace_back(0, frequency);
+    for (double frequency : exact::annulus::vehicleFrequencies(annulus, n, speed, top))
+      list.emplace_back(0, frequency);
   return list;
 }
 
@@ -188,7 +205,8 @@ std::vector<Complex> allExact() {
 TEST(Annulus, ProgramWithoutContact) {
   const auto exact = allExact();
   for (const std::string method :
-       {"-flutter_method direct -flutter_direct_band 0,0.64 -flutter_direct_count 25", "-modes_count 50 -flutter_band 0.64"}) {
+       {"-flutter_method direct -flutter_direct_band 0,0.64 -flutter_direct_count 25",
+        "-modes_count 50 -flutter_band 0.64"}) {
     const auto analysis = test::runOptions(turning(12, speed) + "-flutter_friction 0 " + method);
     EXPECT_EQ(analysis.contact.totalNodes, 0);
     ASSERT_EQ(analysis.segments.size(), 1u);
@@ -197,7 +215,8 @@ TEST(Annulus, ProgramWithoutContact) {
     EXPECT_EQ(found.size(), exact.size()) << method;
     const double error = test::worst(test::errors(exact, found).relative);
     test::print("%s: %zu eigenvalues, largest error %.1e\n", method.c_str(), found.size(), error);
-    EXPECT_LT(error, 1e-3) << method;  // orders up to 6 on a mesh of 48 cells around; the waves are split by per cents
+    EXPECT_LT(error, 1e-3)
+        << method;  // orders up to 6 on a mesh of 48 cells around; the waves are split by per cents
     for (const Complex s : found) EXPECT_LT(std::abs(s.real()), 1e-8) << method;
   }
 }

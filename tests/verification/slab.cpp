@@ -1,4 +1,5 @@
-// The layer as a solid slab one cell thick, held in z: the plane-strain answers, cell type by cell type.
+// The layer as a solid slab one cell thick, held in z: the plane-strain answers, cell type by cell
+// type.
 #include <gtest/gtest.h>
 
 #include "exact/one_layer.hpp"
@@ -8,13 +9,18 @@
 namespace squeal::test {
 namespace {
 
-// Of the displacements in the plane, those that do not vary in z span the plane problem exactly: Gauss rules, consistent and
-// diagonal mass are tensor products. Those that do vary shear the cell across its small depth and lie far above.
+// Of the displacements in the plane, those that do not vary in z span the plane problem exactly:
+// Gauss rules, consistent and diagonal mass are tensor products. Those that do vary shear the cell
+// across its small depth and lie far above.
 void expectPlaneStrain(const std::string& mesh, const std::string& options) {
   const std::string common =
-      " -elasticity_incompatible_modes none -flutter_friction 0,0.4 -flutter_method direct -flutter_direct_count 40 " + options;
+      " -elasticity_incompatible_modes none -flutter_friction 0,0.4 -flutter_method direct "
+      "-flutter_direct_count 40 " +
+      options;
   const analysis::Analysis plane = runCase("layer", "-mesh_set " + mesh + common);
-  const analysis::Analysis slab = runCase("layer", "-mesh_file meshes/layer_slab.geo -constraint_layer_clamped z -mesh_set " + mesh + common);
+  const analysis::Analysis slab =
+      runCase("layer", "-mesh_file meshes/layer_slab.geo -constraint_layer_clamped z -mesh_set " +
+                           mesh + common);
   EXPECT_EQ(slab.mesh->dimension, 3);
   ASSERT_EQ(slab.segments.size(), 1U);
   const double pressure = exact::one_layer::Steady{0.4, 0.01}.pressure();
@@ -24,7 +30,8 @@ void expectPlaneStrain(const std::string& mesh, const std::string& options) {
     wanted.resize(30);
     const auto& found = slab.segments[0].points.at(i);
     const double difference = worst(errors(wanted, eigenvaluesOf(found)).relative);
-    print("%s %s, f = %g: slab against plane %.1e\n", mesh.c_str(), options.c_str(), found.at.friction, difference);
+    print("%s %s, f = %g: slab against plane %.1e\n", mesh.c_str(), options.c_str(),
+          found.at.friction, difference);
     EXPECT_LT(difference, 1e-8);
     // The same lowest ones, not only among more.
     EXPECT_NEAR(found.eigenvalues.at(29).s.imag(), wanted[29].imag(), 1e-8 * wanted[29].imag());
@@ -32,9 +39,13 @@ void expectPlaneStrain(const std::string& mesh, const std::string& options) {
 }
 
 TEST(Slab, Hex8IsQuad4) { expectPlaneStrain("nx=36,ny=12", "-elasticity_mass higher_order"); }
-TEST(Slab, Hex8IsQuad4WithConsistentMass) { expectPlaneStrain("nx=36,ny=12", "-elasticity_mass consistent"); }
+TEST(Slab, Hex8IsQuad4WithConsistentMass) {
+  expectPlaneStrain("nx=36,ny=12", "-elasticity_mass consistent");
+}
 TEST(Slab, Hex27IsQuad9) { expectPlaneStrain("order=2,nx=12,ny=4", "-elasticity_mass consistent"); }
-TEST(Slab, Hex27IsQuad9WithHigherOrderMass) { expectPlaneStrain("order=2,nx=12,ny=4", "-elasticity_mass higher_order"); }
+TEST(Slab, Hex27IsQuad9WithHigherOrderMass) {
+  expectPlaneStrain("order=2,nx=12,ny=4", "-elasticity_mass higher_order");
+}
 
 }  // namespace
 }  // namespace squeal::test

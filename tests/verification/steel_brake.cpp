@@ -1,5 +1,6 @@
-// Steady sliding of a stiff brake, three steel parts: what the linear solvers leave is rounding, and so is what is accepted. The pads
-// are pressed on by a uniform pressure and held by springs alone, so that statics gives the resultants of contact and springs.
+// Steady sliding of a stiff brake, three steel parts: what the linear solvers leave is rounding,
+// and so is what is accepted. The pads are pressed on by a uniform pressure and held by springs
+// alone, so that statics gives the resultants of contact and springs.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,63 +17,79 @@ namespace {
 constexpr double pressure = 1e6;
 
 std::string brake(int order, double size, double spring) {
-  std::string text =
-      formatted("-mesh_file meshes/steel_brake.geo -mesh_set order=%d,size=%g -constraint_bore_clamped xyz ", order, size) +
-      "-motion_disc_speed 5 -motion_disc_axis 0,0,1 -motion_disc_origin 0,0,0 -load_centrifugal off" +
-      test::material("disc", "2.1e11", "0.3", "7850");
+  std::string text = formatted(
+                         "-mesh_file meshes/steel_brake.geo -mesh_set order=%d,size=%g "
+                         "-constraint_bore_clamped xyz ",
+                         order, size) +
+                     "-motion_disc_speed 5 -motion_disc_axis 0,0,1 -motion_disc_origin 0,0,0 "
+                     "-load_centrifugal off" +
+                     test::material("disc", "2.1e11", "0.3", "7850");
   for (const std::string pad : {"upper", "lower"})
-    text +=
-        test::material(pad, "2.1e11", "0.3", "7850") +
-        formatted("-load_%s_back_pressure %g -ground_%s_back_stiffness %g,%g,0 -contact_%s_pad %s_face -contact_%s_disc %s_face ",
-                  pad.c_str(), pressure, pad.c_str(), spring, spring, pad.c_str(), pad.c_str(), pad.c_str(), pad.c_str());
+    text += test::material(pad, "2.1e11", "0.3", "7850") +
+            formatted(
+                "-load_%s_back_pressure %g -ground_%s_back_stiffness %g,%g,0 -contact_%s_pad "
+                "%s_face -contact_%s_disc %s_face ",
+                pad.c_str(), pressure, pad.c_str(), spring, spring, pad.c_str(), pad.c_str(),
+                pad.c_str(), pad.c_str());
   return text;
 }
 
-std::vector<steady::Solution> solutions(const std::string& options, const std::vector<double>& frictions) {
+std::vector<steady::Solution> solutions(const std::string& options,
+                                        const std::vector<double>& frictions) {
   test::setOptions(options);
   const test::Model model = test::buildModel();
-  const contact::AssociatedSystem system(model.bodies, model.contact, std::vector<unsigned char>(model.contact.nodes.size(), 1));
+  const contact::AssociatedSystem system(model.bodies, model.contact,
+                                         std::vector<unsigned char>(model.contact.nodes.size(), 1));
   const steady::Problem problem(*model.mesh, model.bodies, model.contact);
   std::vector<steady::Solution> all;
   for (double friction : frictions) all.push_back(problem.solve({friction}, system));
   return all;
 }
 
-/// A sector of a ring. Cells of h = 0.022 m make polygons of its arcs, at worst: (h/r)²/12, 0.2 %, of the area is missing.
+/// A sector of a ring. Cells of h = 0.022 m make polygons of its arcs, at worst: (h/r)²/12, 0.2 %,
+/// of the area is missing.
 constexpr double padArea = M_PI / 6 * (0.145 * 0.145 - 0.085 * 0.085);
 
 void expectBalance(const steady::Solution& solution, double residual) {
   ASSERT_TRUE(solution.converged) << "friction " << solution.at.friction << ": " << solution.reason;
-  test::print("friction %g: residual %.1e, imbalance %.1e, smallest pressure %.6g\n", solution.at.friction, solution.residual,
-              solution.imbalance, solution.smallestPressure);
+  test::print("friction %g: residual %.1e, imbalance %.1e, smallest pressure %.6g\n",
+              solution.at.friction, solution.residual, solution.imbalance,
+              solution.smallestPressure);
   EXPECT_LT(solution.residual, residual);
   EXPECT_LT(solution.imbalance, residual);  // of every part: contact, springs and load
   for (const auto& resultant : solution.resultants) {
     EXPECT_NEAR(std::abs(resultant.normalForce[2]) / (pressure * padArea), 1, 3e-3);
-    // The friction forces, at right angles to the radius, point along nearly half the circle: their resultant is f R_N times the
-    // ratio of chord to arc for a uniform pressure, which friction changes by its moment about the contact.
+    // The friction forces, at right angles to the radius, point along nearly half the circle: their
+    // resultant is f R_N times the ratio of chord to arc for a uniform pressure, which friction
+    // changes by its moment about the contact.
     const double tangential = std::hypot(resultant.frictionForce[0], resultant.frictionForce[1]);
     EXPECT_LE(tangential, solution.at.friction * std::abs(resultant.normalForce[2]) * (1 + 1e-12));
     EXPECT_GE(tangential, 0.9 * solution.at.friction * std::abs(resultant.normalForce[2]));
   }
 }
 
-// GMRES on this problem stagnates at a relative residual between 1e-11 and 1e-13, at which of them depends on the number of ranks.
-// Epsilon times the forces of which the residual is the difference, some 1e8 N/m x 1e-4 m on each node, is 1e-11 of the loads.
+// GMRES on this problem stagnates at a relative residual between 1e-11 and 1e-13, at which of them
+// depends on the number of ranks. Epsilon times the forces of which the residual is the difference,
+// some 1e8 N/m x 1e-4 m on each node, is 1e-11 of the loads.
 TEST(SteelBrake, ClosedContactIsFoundToRounding) {
-  for (const auto& solution : solutions(brake(2, 0.022, 1e7), {0, 0.1, 0.25})) expectBalance(solution, 1e-10);
+  for (const auto& solution : solutions(brake(2, 0.022, 1e7), {0, 0.1, 0.25}))
+    expectBalance(solution, 1e-10);
 }
 
-// Springs of 1 kN/m let the pads move by 2 m, and rounding of forces that displacements of metres make is 1e-7 of the loads.
+// Springs of 1 kN/m let the pads move by 2 m, and rounding of forces that displacements of metres
+// make is 1e-7 of the loads.
 TEST(SteelBrake, WeaklyHeldPads) {
-  const auto firm = solutions(brake(2, 0.022, 1e5), {0.25}), weak = solutions(brake(2, 0.022, 1e3), {0.25});
+  const auto firm = solutions(brake(2, 0.022, 1e5), {0.25}),
+             weak = solutions(brake(2, 0.022, 1e3), {0.25});
   expectBalance(firm[0], 1e-8);
   expectBalance(weak[0], 1e-6);
-  // Both springs are soft beside the pads: what presses is the same but for the share of the elastic deformation in their motion.
+  // Both springs are soft beside the pads: what presses is the same but for the share of the
+  // elastic deformation in their motion.
   EXPECT_NEAR(weak[0].smallestPressure / firm[0].smallestPressure, 1, 1e-2);
 }
 
-// Springs of 1 N/m are less than rounding of the stiffness of the pads: forces would be right to four digits. This is said.
+// Springs of 1 N/m are less than rounding of the stiffness of the pads: forces would be right to
+// four digits. This is said.
 TEST(SteelBrake, PadsHeldByNothingButRounding) {
   const auto solution = std::move(solutions(brake(2, 0.022, 1), {0.25})[0]);
   EXPECT_FALSE(solution.converged);
@@ -80,7 +97,8 @@ TEST(SteelBrake, PadsHeldByNothingButRounding) {
   EXPECT_GT(solution.residual, 1e-6);
 }
 
-// On linear faces SNES VI decides which nodes open. The motion of the pads as a whole, 4 m, must not hide gaps of nanometres.
+// On linear faces SNES VI decides which nodes open. The motion of the pads as a whole, 4 m, must
+// not hide gaps of nanometres.
 TEST(SteelBrake, OpeningContactOfWeaklyHeldPads) {
   std::vector<PetscInt> open;
   for (const double spring : {1e7, 1e3}) {

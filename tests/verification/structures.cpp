@@ -1,4 +1,5 @@
-// Solids against beam and ring theory: cantilever (Timoshenko 1921, Huang 1961), free circular ring (Hoppe 1871, Love).
+// Solids against beam and ring theory: cantilever (Timoshenko 1921, Huang 1961), free circular ring
+// (Hoppe 1871, Love).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +23,8 @@ std::string steel(const std::string& body, double poisson) {
 }
 
 /// The first `count` roots of `f` from `start` on, bracketed by small steps.
-std::vector<double> roots(const std::function<double(double)>& f, double start, double factor, std::size_t count) {
+std::vector<double> roots(const std::function<double(double)>& f, double start, double factor,
+                          std::size_t count) {
   std::vector<double> found;
   for (double low = start; found.size() < count; low *= factor) {
     double a = low, b = low * factor;
@@ -37,30 +39,37 @@ struct Section {
   double length, width, height;  // bending along the height
 };
 
-/// Angular frequencies of bending of a Timoshenko cantilever (Huang 1961, J. Appl. Mech. 28, 579, clamped–free):
+/// Angular frequencies of bending of a Timoshenko cantilever (Huang 1961, J. Appl. Mech. 28, 579,
+/// clamped–free):
 ///   2 + (b² (r² − s²)² + 2) cosh bα cos bβ − b (r² + s²) / √(1 − b² r² s²) sinh bα sin bβ = 0,
-///   b² = ρ A L⁴ ω² / (E I),  r² = I / (A L²),  s² = E I / (κ A G L²),  α, β = √(½ (∓(r² + s²) + √((r² − s²)² + 4/b²))).
+///   b² = ρ A L⁴ ω² / (E I),  r² = I / (A L²),  s² = E I / (κ A G L²),  α, β = √(½ (∓(r² + s²) +
+///   √((r² − s²)² + 4/b²))).
 std::vector<double> bending(const Section& section, double poisson, std::size_t count) {
   const double inertia = section.height * section.height / 12;    // I / A
   const double kappa = 10 * (1 + poisson) / (12 + 11 * poisson);  // Cowper 1966
-  const double l2 = section.length * section.length, r2 = inertia / l2, s2 = young / (kappa * shear(poisson)) * r2;
+  const double l2 = section.length * section.length, r2 = inertia / l2,
+               s2 = young / (kappa * shear(poisson)) * r2;
   const auto equation = [&](double b) {
     const double root = std::sqrt((r2 - s2) * (r2 - s2) + 4 / (b * b));
     const double alpha = std::sqrt((root - r2 - s2) / 2), beta = std::sqrt((root + r2 + s2) / 2);
     return 2 + (b * b * (r2 - s2) * (r2 - s2) + 2) * std::cosh(b * alpha) * std::cos(b * beta) -
-           b * (r2 + s2) / std::sqrt(1 - b * b * r2 * s2) * std::sinh(b * alpha) * std::sin(b * beta);
+           b * (r2 + s2) / std::sqrt(1 - b * b * r2 * s2) * std::sinh(b * alpha) *
+               std::sin(b * beta);
   };
   auto list = roots(equation, 1, 1.01, count);
   for (auto& b : list) b *= std::sqrt(young * inertia / density) / l2;
   return list;
 }
 
-/// First torsion of a rod whose end sections may warp: ω = (π / 2L) √(G J / ρ I_p), J of a rectangle by Saint-Venant's series.
+/// First torsion of a rod whose end sections may warp: ω = (π / 2L) √(G J / ρ I_p), J of a
+/// rectangle by Saint-Venant's series.
 double torsion(const Section& section, double poisson) {
-  const double a = std::max(section.width, section.height), b = std::min(section.width, section.height);
+  const double a = std::max(section.width, section.height),
+               b = std::min(section.width, section.height);
   double sum = 0;
   for (int n = 1; n < 20; n += 2) sum += std::tanh(n * M_PI * a / (2 * b)) / std::pow(n, 5);
-  const double j = a * b * b * b * (1.0 / 3 - 64 * b / (std::pow(M_PI, 5) * a) * sum), polar = a * b * (a * a + b * b) / 12;
+  const double j = a * b * b * b * (1.0 / 3 - 64 * b / (std::pow(M_PI, 5) * a) * sum),
+               polar = a * b * (a * a + b * b) / 12;
   return M_PI / (2 * section.length) * std::sqrt(shear(poisson) * j / (density * polar));
 }
 
@@ -70,11 +79,13 @@ struct Families {
   std::vector<double> vertical, sideways, axial, torsion;  // angular frequencies, ascending
 };
 
-/// Modes of the clamped beam, each in the family of the rigid motion of a cross section that holds most of its mass-weighted
-/// motion.
+/// Modes of the clamped beam, each in the family of the rigid motion of a cross section that holds
+/// most of its mass-weighted motion.
 Families families(const std::string& set, double poisson, const std::string& incompatible) {
-  test::setOptions("-mesh_file meshes/beam.geo -mesh_set " + set + steel("beam", poisson) +
-                   "-constraint_clamped_clamped xyz -modes_count 16 -elasticity_incompatible_modes " + incompatible);
+  test::setOptions(
+      "-mesh_file meshes/beam.geo -mesh_set " + set + steel("beam", poisson) +
+      "-constraint_clamped_clamped xyz -modes_count 16 -elasticity_incompatible_modes " +
+      incompatible);
   const auto model = test::buildModel();
   const contact::AssociatedSystem system(model.bodies, model.contact, {});
   const auto modes = modes::compute({system.k0(), system.m0(), system.solver()});
@@ -87,13 +98,15 @@ Families families(const std::string& set, double poisson, const std::string& inc
     check(MatMult(system.transformation().trial, d, u));
     check(BVRestoreColumn(modes.vectors, static_cast<PetscInt>(i), &d));
     const PetscScalar* values = nullptr;
-    double part[4] = {0, 0, 0, 0};  // Σ u_x², Σ u_y², Σ u_z², all rotation: Σ (y u_z − z u_y)² / (y² + z²)
+    double part[4] = {0, 0, 0,
+                      0};  // Σ u_x², Σ u_y², Σ u_z², all rotation: Σ (y u_z − z u_y)² / (y² + z²)
     check(VecGetArrayRead(u, &values));
     for (PetscInt node = 0; node < mesh.ownedNodes; ++node) {
       const auto& x = mesh.coordinates[static_cast<std::size_t>(node)];
       for (int c = 0; c < 3; ++c) part[c] += values[3 * node + c] * values[3 * node + c];
       const double radius2 = x[1] * x[1] + x[2] * x[2];
-      if (radius2 > 1e-12) part[3] += std::pow(x[1] * values[3 * node + 2] - x[2] * values[3 * node + 1], 2) / radius2;
+      if (radius2 > 1e-12)
+        part[3] += std::pow(x[1] * values[3 * node + 2] - x[2] * values[3 * node + 1], 2) / radius2;
     }
     check(VecRestoreArrayRead(u, &values));
     for (auto& sum : part) sum = test::total(sum);
@@ -109,7 +122,8 @@ Families families(const std::string& set, double poisson, const std::string& inc
 
 constexpr Section upright{1, 0.04, 0.02}, flat{1, 0.02, 0.04};
 
-/// Deviations from theory in per cent: bending 1 to 3 over the height, over the width, axial, torsion.
+/// Deviations from theory in per cent: bending 1 to 3 over the height, over the width, axial,
+/// torsion.
 std::vector<double> deviations(const char* name, double poisson, const Families& found) {
   std::vector<double> percent;
   const auto add = [&](const std::vector<double>& list, std::size_t i, double theory) {
@@ -127,18 +141,21 @@ std::vector<double> deviations(const char* name, double poisson, const Families&
 }
 
 TEST(Beam, TheoryIsThatOfTheTextbooks) {
-  // A thin beam: Euler's (β L)² = 3.51602, 22.0345, 61.6972; Saint-Venant's J = 0.2287 a b³ at a = 2b.
+  // A thin beam: Euler's (β L)² = 3.51602, 22.0345, 61.6972; Saint-Venant's J = 0.2287 a b³ at a =
+  // 2b.
   const auto thin = bending({1, 1e-4, 1e-4}, 0.3, 3);
   const double unit = std::sqrt(young / 12 / density) * 1e-4;
   EXPECT_NEAR(thin[0] / unit, 3.51602, 1e-4);
   EXPECT_NEAR(thin[1] / unit, 22.0345, 1e-3);
   EXPECT_NEAR(thin[2] / unit, 61.6972, 3e-3);
   const double j = 0.2287 * 0.04 * 8e-6, polar = 0.04 * 0.02 * (16e-4 + 4e-4) / 12;
-  EXPECT_NEAR(torsion(upright, 0.3) / (M_PI / 2 * std::sqrt(shear(0.3) * j / (density * polar))), 1, 1e-4);
+  EXPECT_NEAR(torsion(upright, 0.3) / (M_PI / 2 * std::sqrt(shear(0.3) * j / (density * polar))), 1,
+              1e-4);
 }
 
-// ν = 0: a clamped section need not contract, and Timoshenko's beam is nearly exact; what remains is the mesh. Torsion is
-// stiffer by the warping that the clamp suppresses over d = √(E C / G J), C = a³ b³ / 144: d = 1 cm of 1 m, 1 %.
+// ν = 0: a clamped section need not contract, and Timoshenko's beam is nearly exact; what remains
+// is the mesh. Torsion is stiffer by the warping that the clamp suppresses over d = √(E C / G J), C
+// = a³ b³ / 144: d = 1 cm of 1 m, 1 %.
 TEST(Beam, Hex27) {
   const char* const set = "order=2,nx=20,ny=4,nz=2";
   const auto percent = deviations("hex27, 20 x 4 x 2", 0, families(set, 0, "none"));
@@ -147,39 +164,43 @@ TEST(Beam, Hex27) {
   EXPECT_NEAR(percent[6], 0, 0.01);
   for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(percent[i], 0, 0.4) << i;
   EXPECT_NEAR(percent[7], 1, 0.5);
-  // ν = 0.3: the clamped end cannot contract either, which stiffens it over about one thickness; seen as 0.2 to 0.7 %.
+  // ν = 0.3: the clamped end cannot contract either, which stiffens it over about one thickness;
+  // seen as 0.2 to 0.7 %.
   const auto contracting = deviations("hex27, 20 x 4 x 2", 0.3, families(set, 0.3, "none"));
   for (std::size_t i = 0; i < 7; ++i) EXPECT_NEAR(contracting[i], 0.4, 0.4) << i;
 }
 
-// Two cells through the thickness bend as they should. In torsion they warp as y z only: J is that of the warping function y z,
-// 4 I_y I_z / (I_y + I_z), 17 % too high, hence 8 %, and 0.7 % more from the clamp.
+// Two cells through the thickness bend as they should. In torsion they warp as y z only: J is that
+// of the warping function y z, 4 I_y I_z / (I_y + I_z), 17 % too high, hence 8 %, and 0.7 % more
+// from the clamp.
 TEST(Beam, Hex8WithIncompatibleModes) {
   for (const double poisson : {0.0, 0.3}) {
-    const auto percent =
-        deviations("hex8 with incompatible modes, 40 x 2 x 2", poisson, families("nx=40,ny=2,nz=2", poisson, "hex8"));
+    const auto percent = deviations("hex8 with incompatible modes, 40 x 2 x 2", poisson,
+                                    families("nx=40,ny=2,nz=2", poisson, "hex8"));
     for (std::size_t i = 0; i < 7; ++i) EXPECT_NEAR(percent[i], 0, 1) << i;
     EXPECT_NEAR(percent[7], 8.5, 0.5);
   }
 }
 
-// Without them a cell of length l cannot curve: a parasitic shear κ x, |x| ≤ l/2, adds G A l²/12 to the bending stiffness
-// E A H²/12, however many cells share the height H. With ν = 0 nothing else is wrong: frequencies are too high by
-// √(1 + G l² / (E H²)), a third here.
+// Without them a cell of length l cannot curve: a parasitic shear κ x, |x| ≤ l/2, adds G A l²/12 to
+// the bending stiffness E A H²/12, however many cells share the height H. With ν = 0 nothing else
+// is wrong: frequencies are too high by √(1 + G l² / (E H²)), a third here.
 TEST(Beam, Hex8WithoutIncompatibleModesIsTooStiff) {
-  const auto percent = deviations("hex8 without, 40 x 2 x 2", 0, families("nx=40,ny=2,nz=2", 0, "none"));
+  const auto percent =
+      deviations("hex8 without, 40 x 2 x 2", 0, families("nx=40,ny=2,nz=2", 0, "none"));
   const double ratio = 0.5 * std::pow(1.0 / 40, 2);  // G l² / E
   EXPECT_NEAR(percent[0], 100 * (std::sqrt(1 + ratio / 0.0004) - 1), 0.5);
   EXPECT_NEAR(percent[3], 100 * (std::sqrt(1 + ratio / 0.0016) - 1), 0.5);
   EXPECT_GT(percent[0], 33);
 }
 
-// Ring of radius R, thickness t (radial) and width w, t, w ≪ R. In-plane bending without extension, n waves around
-// (Love, art. 293):
+// Ring of radius R, thickness t (radial) and width w, t, w ≪ R. In-plane bending without extension,
+// n waves around (Love, art. 293):
 //   ω² = E I n² (n² − 1)² / (ρ A R⁴ (n² + 1)),  I / A = t² / 12,
-// each twice, turned by a quarter wave. Out of the plane: ω² = E I' n² (n² − 1)² / (ρ A R⁴ (n² + E I'/(G J))): told apart by u_z.
-// Shear and rotatory inertia lower ω by about ½ (n t/R)²/12 · (1 + E/κG) = 0.17 % at n = 5. Quadratic cells on a thin arc lock
-// against extension until they are short: 2.7 % on 48 cells, 0.18 % on 96, then nothing to be seen.
+// each twice, turned by a quarter wave. Out of the plane: ω² = E I' n² (n² − 1)² / (ρ A R⁴ (n² + E
+// I'/(G J))): told apart by u_z. Shear and rotatory inertia lower ω by about ½ (n t/R)²/12 · (1 +
+// E/κG) = 0.17 % at n = 5. Quadratic cells on a thin arc lock against extension until they are
+// short: 2.7 % on 48 cells, 0.18 % on 96, then nothing to be seen.
 TEST(Ring, FlexuralModesComeInPairs) {
   constexpr double radius = 0.1, thickness = 0.002;
   struct Mesh {
@@ -187,12 +208,15 @@ TEST(Ring, FlexuralModesComeInPairs) {
     double percent;
   };
   for (const auto& [name, set, tolerance] :
-       {Mesh{"hex27, 192 cells", "order=2,n_theta=192", 0.2}, Mesh{"hex8 with incompatible modes, 96 cells", "order=1", 1.5}}) {
-    test::setOptions(std::string("-mesh_file meshes/ring.geo -mesh_set ") + set + steel("ring", 0.3));
+       {Mesh{"hex27, 192 cells", "order=2,n_theta=192", 0.2},
+        Mesh{"hex8 with incompatible modes, 96 cells", "order=1", 1.5}}) {
+    test::setOptions(std::string("-mesh_file meshes/ring.geo -mesh_set ") + set +
+                     steel("ring", 0.3));
     const auto mesh = test::readMesh();
     const auto bodies = elasticity::assemble(mesh);
     // Free: six rigid motions at zero. A shift below zero keeps K − σ M positive definite.
-    const double second = young * thickness * thickness / 12 * 4 * 9 / (density * std::pow(radius, 4) * 5);
+    const double second =
+        young * thickness * thickness / 12 * 4 * 9 / (density * std::pow(radius, 4) * 5);
     Owned<EPS, EPSDestroy> eps;
     ST st = nullptr;
     KSP ksp = nullptr;
@@ -235,13 +259,15 @@ TEST(Ring, FlexuralModesComeInPairs) {
     EXPECT_EQ(rigid, 6);
     ASSERT_GE(inPlane.size(), 8u);
     for (int n = 2; n <= 5; ++n) {
-      const double theory = n * (n * n - 1) * thickness / (radius * radius) * std::sqrt(young / (12 * density * (n * n + 1)));
+      const double theory = n * (n * n - 1) * thickness / (radius * radius) *
+                            std::sqrt(young / (12 * density * (n * n + 1)));
       const double first = inPlane[static_cast<std::size_t>(2 * (n - 2))],
                    twin = inPlane[static_cast<std::size_t>(2 * (n - 2) + 1)];
-      test::print("ring, %s, n = %d: deviation from theory %.2f %%, pair apart by %.1e\n", name, n, 100 * (first / theory - 1),
-                  twin / first - 1);
+      test::print("ring, %s, n = %d: deviation from theory %.2f %%, pair apart by %.1e\n", name, n,
+                  100 * (first / theory - 1), twin / first - 1);
       EXPECT_NEAR(100 * (first / theory - 1), 0, tolerance);
-      EXPECT_NEAR(twin / first, 1, 1e-8);  // the mesh turns into itself: exactly double, but for gmsh's 11 digits
+      EXPECT_NEAR(twin / first, 1,
+                  1e-8);  // the mesh turns into itself: exactly double, but for gmsh's 11 digits
     }
   }
 }
