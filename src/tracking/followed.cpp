@@ -50,6 +50,21 @@ std::vector<std::pair<sweep::Parameters, std::vector<double>>> lines(
   return found;
 }
 
+/// Whether the eigenvalues of the band are the i ω of the `count` lowest modes, to within their
+/// errors. At friction 0 they are not where the problem is another one than that of the modes: with
+/// an unsymmetric stiffness from a file, or with the prestress of another friction.
+bool areFreeModes(const Station& station, const std::vector<double>& angularFrequency,
+                  std::size_t count) {
+  constexpr double near = 1e-6;
+  std::vector<double> found;
+  for (std::size_t i = 0; i < station.pairs.size(); ++i)
+    if (station.inBand[i]) found.push_back(station.pairs[i].s.imag());
+  std::sort(found.begin(), found.end());
+  return found.size() == count &&
+         std::equal(found.begin(), found.end(), angularFrequency.begin(),
+                    [&](double s, double w) { return std::abs(s - w) <= near * w; });
+}
+
 }  // namespace
 
 bool trackWanted() { return trackOption.get(); }
@@ -124,7 +139,7 @@ std::vector<Followed> followSweep(reduction::ReducedProblem& reduced,
           problem && problem->damping.empty() && modes.countConfirmed &&
           followed.branches.band.top * followed.branches.band.top <= modes.inertiaShift &&
           below < static_cast<std::ptrdiff_t>(w.size()) &&
-          below == followed.branches.inBandAt(stations.front());
+          areFreeModes(stations.front(), w, static_cast<std::size_t>(below));
     }
     renumber(followed.branches);
     if (criticalOption.get())

@@ -215,6 +215,19 @@ TEST(External, ExportRunsOnOtherRanks) {
           nearest, std::abs(Complex(growth[i] - otherGrowth[j], frequency[i] - otherFrequency[j])));
     EXPECT_LT(nearest, 1e-10 * frequency[i]) << i;
   }
+  // The Sturm count is that of K0 and M0. Friction that is in the stiffness at friction 0 makes
+  // another problem of it.
+  const std::string again = "-options_file '" + (folder / "options.txt").string() +
+                            "' -flutter_friction 0,0.1 -report_fields off",
+                    frozen = " -matrices_frozen_file '" +
+                             (folder / "stiffness_friction1.petsc").string() +
+                             "' -matrices_frozen_role stiffness -matrices_frozen_factor 0.3";
+  const ProgramRun free = runProgram("external/free", 1, again),
+                   held = runProgram("external/frozen", 1, again + frozen);
+  ASSERT_EQ(free.exitCode, 0) << free.error;
+  ASSERT_EQ(held.exitCode, 0) << held.error;
+  EXPECT_NE(free.out.find("(Sturm count, exact)"), std::string::npos) << free.out;
+  EXPECT_NE(held.out.find("not confirmed by a Sturm count"), std::string::npos) << held.out;
 }
 
 TEST(External, ConverterOfSciPyFiles) {
