@@ -27,7 +27,7 @@ std::vector<mesh::GroupRequest> constrainedGroups() {
                   clampedOption.fullName(group));
   std::vector<mesh::GroupRequest> requests;
   for (const auto& group : clampedOption.subjects())
-    requests.push_back({group, "option -" + clampedOption.fullName(group)});
+    requests.push_back({group, "-" + clampedOption.fullName(group)});
   return requests;
 }
 
@@ -35,7 +35,7 @@ std::vector<mesh::PeriodicRequest> periodicPairs() {
   std::vector<mesh::PeriodicRequest> pairs;
   for (const auto& image : imageOption.subjects()) {
     const std::string primary = imageOption.get(image);
-    pairs.push_back({image, primary, "option -" + imageOption.fullName(image) + " " + primary});
+    pairs.push_back({image, primary, "-" + imageOption.fullName(image) + " " + primary});
   }
   return pairs;
 }

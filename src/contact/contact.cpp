@@ -312,7 +312,7 @@ std::vector<mesh::InterfaceRequest> readInterfaces() {
                   discOption.fullName(name) + " or -" + obstacleVelocityOption.fullName(name));
     const auto groupOf = [&](const TextOption& option) {
       const std::string group = option.get(name);
-      return mesh::GroupRequest{group, "option -" + option.fullName(name) + " " + group};
+      return mesh::GroupRequest{group, "-" + option.fullName(name) + " " + group};
     };
     requests.push_back(
         {name, groupOf(padOption), disc ? groupOf(discOption) : mesh::GroupRequest{}});

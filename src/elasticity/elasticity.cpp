@@ -192,7 +192,7 @@ void assembleLoad(const mesh::Mesh& mesh, Bodies& bodies) {
 std::vector<mesh::GroupRequest> loadedSurfaces() {
   std::vector<mesh::GroupRequest> requests;
   for (const auto& surface : pressureOption.subjects())
-    requests.push_back({surface, "option -" + pressureOption.fullName(surface)});
+    requests.push_back({surface, "-" + pressureOption.fullName(surface)});
   return requests;
 }
 

@@ -45,7 +45,7 @@ std::vector<mesh::GroupRequest> groundedGroups() {
   std::map<std::string, std::string> options;
   for (const auto* option : {&stiffnessOption, &dampingOption})
     for (const auto& group : option->subjects())
-      options.emplace(group, "option -" + option->fullName(group));
+      options.emplace(group, "-" + option->fullName(group));
   std::vector<mesh::GroupRequest> requests;
   for (const auto& [group, option] : options) requests.push_back({group, option});
   return requests;

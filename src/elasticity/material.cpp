@@ -210,8 +210,7 @@ std::vector<mesh::GroupRequest> materialGroups() {
     throw Error("no body: " + howToGiveMaterials() + " for each volume group of the mesh");
   for (const auto& group : groups) readMaterial(group, 3, false);  // checks before the mesh is read
   std::vector<mesh::GroupRequest> requests;
-  for (const auto& group : groups)
-    requests.push_back({group, "option -" + youngOption.fullName(group)});
+  for (const auto& group : groups) requests.push_back({group, "-" + youngOption.fullName(group)});
   return requests;
 }
 

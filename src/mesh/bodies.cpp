@@ -68,7 +68,7 @@ void readBodies(WholeMesh& mesh, const GmshModel& model, const Request& request,
   for (const auto& body : request.bodies) mesh.bodies.push_back(body.name);
   std::map<PetscInt, int> bodyOf;
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
-    const std::string& option = request.bodies[b].option;
+    const std::string option = "option " + request.bodies[b].option;
     auto group = model.group(mesh.bodies[b], option);
     if (b == 0) mesh.dimension = group.dimension;
     if (group.dimension != mesh.dimension || group.dimension < 2)

@@ -78,7 +78,7 @@ struct Mesh {
 };
 
 /// A group of the mesh that a later stage asks for, and the words to blame where it is missing or
-/// not what is wanted: "option -…".
+/// not what is wanted: "-option".
 struct GroupRequest {
   std::string name, option;
 };

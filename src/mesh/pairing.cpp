@@ -92,7 +92,7 @@ void pairImages(WholeMesh& mesh, const PeriodicRequest& request, double near) {
       if (partner < 0 ||
           mesh.part[static_cast<std::size_t>(node)] == mesh.part[static_cast<std::size_t>(image)])
         partner = node;
-    const std::string& option = request.option;
+    const std::string option = "option " + request.option;
     if (partner < 0)
       throw Error(option + ": the node at " + positionText(p) + " of '" + request.image +
                   "' has no partner in '" + request.of +
@@ -102,7 +102,7 @@ void pairImages(WholeMesh& mesh, const PeriodicRequest& request, double near) {
       mesh.primary[static_cast<std::size_t>(image)] = partner;
   }
   if (images.size() != primaries.size())
-    throw Error(formatted("%s: the groups have %zu and %zu nodes; they must be meshed alike",
+    throw Error(formatted("option %s: the groups have %zu and %zu nodes; they must be meshed alike",
                           request.option.c_str(), images.size(), primaries.size()));
 }
 
@@ -114,7 +114,8 @@ void resolveImages(WholeMesh& mesh, const Request& request) {
     while (mesh.primary[static_cast<std::size_t>(end)] != end) {
       end = mesh.primary[static_cast<std::size_t>(end)];
       if (++steps > 8)
-        throw Error(request.periodic.front().option + ": the images go round in a circle");
+        throw Error("option " + request.periodic.front().option +
+                    ": the images go round in a circle");
     }
     mesh.primary[static_cast<std::size_t>(node)] = end;
     if (end == node) continue;
@@ -165,7 +166,7 @@ std::string whyAlone(const WholeMesh& mesh, PetscInt node, const std::string& gr
 }
 
 std::string optionsOf(const InterfaceRequest& request) {
-  return request.pad.option + ", " + request.disc.option + ": ";
+  return "options " + request.pad.option + ", " + request.disc.option + ": ";
 }
 
 void pairContact(WholeMesh& mesh, const InterfaceRequest& request, int interface,
@@ -235,16 +236,16 @@ void rejectChains(const WholeMesh& mesh, const Request& request) {
   std::set<PetscInt> slaves;
   for (const auto& pair : mesh.pairs)
     if (!slaves.insert(pair.node).second)
-      throw Error(request.interfaces[static_cast<std::size_t>(pair.interface)].pad.option +
-                  ": the node at " +
-                  positionText(mesh.points[static_cast<std::size_t>(pair.node)]) +
-                  " is already a pad node of another interface");
+      throw Error(
+          "option " + request.interfaces[static_cast<std::size_t>(pair.interface)].pad.option +
+          ": the node at " + positionText(mesh.points[static_cast<std::size_t>(pair.node)]) +
+          " is already a pad node of another interface");
   for (const auto& pair : mesh.pairs)
     if (slaves.count(pair.master))
-      throw Error(request.interfaces[static_cast<std::size_t>(pair.interface)].disc.option +
-                  ": the node at " +
-                  positionText(mesh.points[static_cast<std::size_t>(pair.master)]) +
-                  " is also a pad node of an interface");
+      throw Error(
+          "option " + request.interfaces[static_cast<std::size_t>(pair.interface)].disc.option +
+          ": the node at " + positionText(mesh.points[static_cast<std::size_t>(pair.master)]) +
+          " is also a pad node of an interface");
 }
 
 }  // namespace

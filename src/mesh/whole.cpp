@@ -72,7 +72,8 @@ NamedElements readNamed(const WholeMesh& mesh, const GmshModel& model, const Req
                         const NodeIndex& index) {
   NamedElements named;
   const auto add = [&](const GroupRequest& request, int dimension) {
-    const auto& [name, wantedBy] = request;
+    const std::string& name = request.name;
+    const std::string wantedBy = "option " + request.option;
     if (named.groups.count(name)) return;
     auto group = model.group(name, wantedBy);
     if (dimension >= 0 && group.dimension != dimension)
@@ -133,14 +134,14 @@ class Splitter {
           const auto neighbours = adjacency_.cellsHolding(nodes, block.corners);
           if (neighbours.size() < 2) continue;
           if (bodyName(neighbours[0]) == bodyName(neighbours[1]))
-            throw Error(interface.pad.option + ": '" + interface.pad.name +
+            throw Error("option " + interface.pad.option + ": '" + interface.pad.name +
                         "' lies inside the body '" + bodyName(neighbours[0]) +
                         "', whose cells are on both sides of it; contact is between two bodies, "
                         "groups with a material each");
           if (side(neighbours[0]) == side(neighbours[1]))
-            throw Error(interface.pad.option + ": the bodies '" + bodyName(neighbours[0]) +
-                        "' and '" + bodyName(neighbours[1]) + "' share the nodes of '" +
-                        interface.pad.name +
+            throw Error("option " + interface.pad.option + ": the bodies '" +
+                        bodyName(neighbours[0]) + "' and '" + bodyName(neighbours[1]) +
+                        "' share the nodes of '" + interface.pad.name +
                         "'; to tell disc from pad, exactly one of them must have a " +
                         request_.motionOptions + " option");
           for (int i = 0; i < block.nodesPerElement; ++i) restingTwin_.emplace(nodes[i], -1);
