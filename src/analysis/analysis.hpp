@@ -42,9 +42,6 @@ struct Analysis {
   const pencil::FrictionPoint* pointAt(const sweep::Parameters& at) const;
 };
 
-/// What the options of all stages ask of the mesh.
-mesh::Request meshRequest();
-
 /// Collective. Error for options that are unknown, out of range or idle: all that can be told
 /// before a file is read or written.
 void checkOptions();
@@ -52,8 +49,6 @@ void checkOptions();
 /// Collective. All that comes before the first solution: sweep, and mesh, matrices of the bodies
 /// and contact; options have been checked. Errors as the stages document them.
 Analysis prepare(MPI_Comm comm);
-/// Collective. The matrices of files, checked against the sweep.
-std::vector<matrices::NamedTerm> readMatrices(MPI_Comm comm, const sweep::Sweep& sweep);
 
 /// Collective. Runs all stages that the options, which have been checked, ask for. Errors as the
 /// stages document them.

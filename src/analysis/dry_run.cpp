@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "analysis/analysis.hpp"
+#include "analysis/matrix_route.hpp"
 #include "contact/coupled.hpp"
 #include "linalg/symmetric_solver.hpp"
 #include "mesh/mesh.hpp"
@@ -150,7 +151,7 @@ void dryRun(MPI_Comm comm) {
     sayMesh(*analysis.mesh);
     sayContact(analysis.contact, comm);
     saySweep(comm, analysis.sweep, true);
-    const contact::AssociatedSystem system(
+    const contact::CoupledSystem system(
         analysis.bodies, analysis.contact,
         std::vector<unsigned char>(analysis.contact.nodes.size(), 1));
     sayMemory(comm, system.k0());

@@ -7,7 +7,6 @@
 #include "direct/direct.hpp"
 #include "flutter/terms.hpp"
 #include "linalg/symmetric_solver.hpp"
-#include "modes/benchmark.hpp"
 #include "options/options.hpp"
 #include "pencil/pencil.hpp"
 #include "petsc/text.hpp"
@@ -22,9 +21,6 @@ namespace {
 
 const IntegerOption modesShown("report", "report_modes", 10, 0, 100'000,
                                "number of free modes written as fields");
-const FlagOption benchmarkWanted(
-    "modes", "modes_benchmark", false,
-    "time one factorisation and 400 solves in blocks of 32, the floor of the stage");
 
 std::vector<OwnedVec> reportedShapes(const modes::Modes& modes, Mat trial) {
   std::vector<OwnedVec> shapes;
@@ -66,33 +62,30 @@ void requireFiniteEigenvalues(const pencil::FrictionPoint& point) {
 /// Flutter at the points of a segment, batch by batch.
 class SegmentSweep {
  public:
-  SegmentSweep(const SegmentProblem& problem, pencil::Pencil pencil,
-               const std::vector<double>& dampings)
-      : problem_(problem), pencil_(std::move(pencil)) {
+  SegmentSweep(SegmentProblem& problem, const std::vector<double>& dampings)
+      : problem_(problem), pencil_(problem.pencil()) {
     for (double damping : dampings)
-      for (sweep::Parameters at : problem.steadyPoints) {
+      for (sweep::Parameters at : problem.steadyPoints()) {
         at.damping = damping;
         points_.push_back(at);
       }
   }
 
-  void computeModes(ModalSegment& segment, double& floor) {
+  void computeModes(ModalSegment& segment) {
     const bool direct = direct::directWanted();
     if (direct) linalg::rejectUnusedSolverOptions();
     if (direct && !sensitivity::sensitivitiesWanted()) return;
-    modes::Modes modes =
-        modes::compute({problem_.k0, problem_.m0, problem_.solver()}, problem_.modes);
+    modes::Modes modes = modes::compute(problem_.system(), problem_.modeCount());
     if (direct) {
       forLeftVectors_ = std::move(modes);
       return;
     }
     segment.modes = std::move(modes);
-    if (benchmarkWanted.get()) floor = modes::floorSeconds(problem_.k0);
-    segment.shapes = reportedShapes(segment.modes, problem_.trial);
-    pencil_.add(flutter::modalDamping(segment.modes, problem_.m0));
+    segment.shapes = reportedShapes(segment.modes, problem_.trial());
+    pencil_.add(flutter::modalDamping(segment.modes, problem_.system().m0()));
     Stage stage(pencil_.comm(), "flutter");
-    reduced_ = std::make_unique<reduction::ReducedProblem>(pencil_, problem_.k0, problem_.solver(),
-                                                           segment.modes);
+    reduced_ =
+        std::make_unique<reduction::ReducedProblem>(pencil_, problem_.system(), segment.modes);
     stage.finish(formatted("basis of %d free modes", static_cast<int>(reduced_->basisSize())));
   }
 
@@ -101,14 +94,13 @@ class SegmentSweep {
     for (const auto& batch : sweep::batches(points_)) {
       std::vector<reduction::PointProblem> problems;
       for (std::size_t i : batch) {
-        const std::size_t steady = i % problem_.steadyPoints.size();
-        auto terms = problem_.termsAt ? problem_.termsAt(steady) : std::vector<pencil::Term>();
+        auto terms = problem_.termsOf(i % problem_.steadyPoints().size());
         affine_ = affine_ && terms.empty();
         problems.push_back({points_[i], pencil_.with(std::move(terms))});
       }
       solveBatch(batch, problems, segment);
-      for (std::size_t i = 0; i < batch.size() && problem_.examine; ++i)
-        problem_.examine(batch[i] % problem_.steadyPoints.size(), problems[i].pencil,
+      for (std::size_t i = 0; i < batch.size(); ++i)
+        problem_.examine(batch[i] % problem_.steadyPoints().size(), problems[i].pencil,
                          startSpace(problems[i], segment.points[batch[i]]),
                          segment.points[batch[i]]);
     }
@@ -134,7 +126,7 @@ class SegmentSweep {
       std::optional<reduction::PointProblem> problem;
       if (affine_) {
         problem.emplace(reduction::PointProblem{at, pencil_.with({})});
-      } else if (auto terms = problem_.termsOf(at)) {
+      } else if (auto terms = problem_.termsAt(at)) {
         problem.emplace(reduction::PointProblem{at, pencil_.with(std::move(*terms))});
       }
       return problem;
@@ -158,11 +150,11 @@ class SegmentSweep {
                   const std::vector<reduction::PointProblem>& problems, ModalSegment& segment) {
     Stage stage(pencil_.comm(), "flutter");
     std::vector<pencil::FrictionPoint> solved;
-    if (reduced_) solved = reduced_->solve(problems, problem_.trial);
+    if (reduced_) solved = reduced_->solve(problems, problem_.trial());
     for (std::size_t i = 0; i < batch.size(); ++i) {
       auto& point = segment.points[batch[i]];
       point = reduced_ ? std::move(solved[i])
-                       : direct::solveDirect(problems[i].pencil, problems[i].at, problem_.trial);
+                       : direct::solveDirect(problems[i].pencil, problems[i].at, problem_.trial());
       requireFiniteEigenvalues(point);
       stage.say(pointText(point));
     }
@@ -177,11 +169,11 @@ class SegmentSweep {
   sensitivity::StartSpace startSpace(const reduction::PointProblem& problem,
                                      const pencil::FrictionPoint& point) const {
     if (!sensitivity::sensitivitiesWanted() || point.shapes.empty()) return {};
-    if (!reduced_) return {forLeftVectors_.vectors.share(), problem_.m0, {}};
-    return {reduced_->basis().vectors(), problem_.k0, reduced_->project(problem)};
+    if (!reduced_) return {forLeftVectors_.vectors.share(), problem_.system().m0(), {}};
+    return {reduced_->basis().vectors(), problem_.system().k0(), reduced_->project(problem)};
   }
 
-  const SegmentProblem& problem_;
+  SegmentProblem& problem_;
   pencil::Pencil pencil_;
   std::vector<sweep::Parameters> points_;
   modes::Modes forLeftVectors_;  // with the direct method, which has no modes of its own
@@ -191,12 +183,11 @@ class SegmentSweep {
 
 }  // namespace
 
-ModalSegment solveSegment(const SegmentProblem& problem, pencil::Pencil pencil,
-                          const std::vector<double>& dampings, double& floor) {
+ModalSegment solveSegment(SegmentProblem& problem, const std::vector<double>& dampings) {
   ModalSegment segment;
-  check(MatGetSize(problem.k0, &segment.unknowns, nullptr));
-  SegmentSweep sweep(problem, std::move(pencil), dampings);
-  sweep.computeModes(segment, floor);
+  segment.unknowns = problem.system().size();
+  SegmentSweep sweep(problem, dampings);
+  sweep.computeModes(segment);
   sweep.solvePoints(segment);
   sweep.followPoints(segment);
   return segment;

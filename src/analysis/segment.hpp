@@ -1,10 +1,10 @@
 #pragma once
 /// The algebraic part of the method, from K0, M0 and the terms of the pencil to the eigenvalues of
 /// a sweep: the same for a mesh and for matrices from files.
-#include <functional>
 #include <optional>
 #include <vector>
 
+#include "modes/associated.hpp"
 #include "modes/modes.hpp"
 #include "pencil/complex_modes.hpp"
 #include "pencil/pencil.hpp"
@@ -26,28 +26,35 @@ struct ModalSegment {
   long solves = 0;  ///< right-hand sides solved for to correct the basis and to estimate errors
 };
 
-/// What a segment is solved from; matrices are borrowed.
-struct SegmentProblem {
-  Mat k0 = nullptr, m0 = nullptr;
-  std::function<KSP()> solver;                  ///< of K0
-  Mat trial = nullptr;                          ///< from the unknowns to what is reported
-  int modes = 0;                                ///< their number
-  std::vector<sweep::Parameters> steadyPoints;  ///< for all damping factors
-  /// The terms that belong to steadyPoints[i] alone; none: there are none.
-  std::function<std::vector<pencil::Term>(std::size_t)> termsAt;
-  /// The terms that belong to any point alone, between those of the sweep, where termsAt gives any;
-  /// none: it cannot be had.
-  std::function<std::optional<std::vector<pencil::Term>>(const sweep::Parameters&)> termsOf;
-  /// What else is to be found of steadyPoints[i], given its pencil and a space for left vectors to
-  /// start from; none: nothing.
-  std::function<void(std::size_t, const pencil::Pencil&, const sensitivity::StartSpace&,
-                     pencil::FrictionPoint&)>
-      examine;
+/// What a segment is solved from: steady points with one active set, of a mesh or of matrices from
+/// files. Everything it returns by reference or handle is borrowed.
+class SegmentProblem {
+ public:
+  virtual ~SegmentProblem() = default;
+  virtual const modes::AssociatedSystem& system() const = 0;
+  /// From the unknowns, n, to what is reported, N×n.
+  virtual Mat trial() const = 0;
+  /// The number of free modes wanted.
+  virtual int modeCount() const = 0;
+  /// The points, damping 1.
+  virtual const std::vector<sweep::Parameters>& steadyPoints() const = 0;
+  /// Collective. The terms that hold at all points.
+  virtual pencil::Pencil pencil() const = 0;
+  /// Collective. The terms that belong to steadyPoints()[i] alone.
+  virtual std::vector<pencil::Term> termsOf(std::size_t /*i*/) const { return {}; }
+  /// Collective. The same for a point between those of the sweep, where termsOf() gives any; none:
+  /// the point has another active set, or no steady state.
+  virtual std::optional<std::vector<pencil::Term>> termsAt(const sweep::Parameters& /*at*/) {
+    return std::vector<pencil::Term>();
+  }
+  /// Collective. Adds to `point`, which belongs to steadyPoints()[i], what is to be found besides
+  /// its eigenvalues; the pencil is that of the point, left vectors are looked for from `start`.
+  virtual void examine(std::size_t i, const pencil::Pencil& pencil,
+                       const sensitivity::StartSpace& start, pencil::FrictionPoint& point) = 0;
 };
 
-/// Collective. The modes, and flutter at all steady points with all `dampings`. `floor` is set by
-/// -modes_benchmark. Errors: of the stages modes and flutter.
-ModalSegment solveSegment(const SegmentProblem& problem, pencil::Pencil pencil,
-                          const std::vector<double>& dampings, double& floor);
+/// Collective. The modes, and flutter at all steady points with all `dampings`. Errors: of the
+/// stages modes and flutter.
+ModalSegment solveSegment(SegmentProblem& problem, const std::vector<double>& dampings);
 
 }  // namespace squeal::analysis

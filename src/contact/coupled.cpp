@@ -35,28 +35,49 @@ OwnedMat affine(Mat x0, Mat x1, double f) {
   return sum;
 }
 
-AssociatedSystem::AssociatedSystem(const elasticity::Bodies& bodies, const Contact& contact,
-                                   std::vector<unsigned char> closed, Mat prestress)
-    : closed_(std::move(closed)) {
+namespace {
+
+/// Collective. The number of nodes that are not closed, of all ranks.
+PetscInt countOpen(MPI_Comm comm, const std::vector<unsigned char>& closed) {
+  auto open = static_cast<PetscInt>(std::count(closed.begin(), closed.end(), 0));
+  check(MPI_Allreduce(MPI_IN_PLACE, &open, 1, MPIU_INT, MPI_SUM, comm));
+  return open;
+}
+
+Projections projectAll(const elasticity::Bodies& bodies, const Contact& contact,
+                       const std::vector<unsigned char>& closed, Mat prestress) {
   std::vector<unsigned char> open;
-  for (auto isClosed : closed_) open.push_back(!isClosed);
-  openNodes_ = static_cast<PetscInt>(std::count(open.begin(), open.end(), 1));
-  check(MPI_Allreduce(MPI_IN_PLACE, &openNodes_, 1, MPIU_INT, MPI_SUM, contact.mesh->comm));
-  transformation_ = contact.transformation(open);
+  for (const auto isClosed : closed) open.push_back(!isClosed);
+  Projections result;
+  result.transformation = contact.transformation(open);
   OwnedMat stressed;
   if (prestress) {
     check(MatDuplicate(bodies.stiffness, MAT_COPY_VALUES, stressed.out()));
     check(MatAXPY(stressed, 1, prestress, SAME_NONZERO_PATTERN));
     check(MatSetOption(stressed, MAT_SYMMETRIC, PETSC_TRUE));
   }
-  stiffness_ =
-      project(contact, transformation_, prestress ? stressed.get() : bodies.stiffness.get());
-  mass_ = project(contact, transformation_, bodies.mass);
-  damping_ = project(contact, transformation_, bodies.damping);
-  gyroscopic_ = project(contact, transformation_, bodies.gyroscopic);
-  rotationStiffness_ = project(contact, transformation_, bodies.rotationStiffness);
-  solver_ = std::make_unique<linalg::SymmetricSolver>(
-      stiffness_.matrix, "stiffness of the closed, frictionless contact");
+  const auto projected = [&](Mat x) { return project(contact, result.transformation, x); };
+  result.stiffness = projected(prestress ? stressed.get() : bodies.stiffness.get());
+  result.mass = projected(bodies.mass);
+  result.damping = projected(bodies.damping);
+  result.gyroscopic = projected(bodies.gyroscopic);
+  result.rotationStiffness = projected(bodies.rotationStiffness);
+  return result;
 }
+
+}  // namespace
+
+CoupledSystem::CoupledSystem(const elasticity::Bodies& bodies, const Contact& contact,
+                             std::vector<unsigned char> closed, Mat prestress)
+    : CoupledSystem(projectAll(bodies, contact, closed, prestress), closed,
+                    countOpen(contact.mesh->comm, closed)) {}
+
+CoupledSystem::CoupledSystem(Projections projections, std::vector<unsigned char> closed,
+                             PetscInt openNodes)
+    : AssociatedSystem(projections.stiffness.matrix.share(), projections.mass.matrix.share(),
+                       "stiffness of the closed, frictionless contact"),
+      projections_(std::move(projections)),
+      closed_(std::move(closed)),
+      openNodes_(openNodes) {}
 
 }  // namespace squeal::contact

@@ -5,7 +5,7 @@
 
 #include "contact/contact.hpp"
 #include "elasticity/elasticity.hpp"
-#include "linalg/symmetric_solver.hpp"
+#include "modes/associated.hpp"
 
 namespace squeal::contact {
 
@@ -25,37 +25,35 @@ Projection project(const Contact& contact, const Transformation& transformation,
 /// Collective. X0 + f X1 as a new unsymmetric matrix, X1 within the pattern of X0.
 OwnedMat affine(Mat x0, Mat x1, double f);
 
-/// The ideal associated system [4.17]: contact closed on the active nodes, no friction, no
-/// rotation. K0 is symmetric positive definite; its one factorisation serves the steady problem,
-/// the modes and the corrections of this active set.
-class AssociatedSystem {
+/// The matrices of the bodies in the unknowns of one active set.
+struct Projections {
+  Transformation transformation;
+  Projection stiffness;          ///< of K, prestress included
+  Projection mass;               ///< of M
+  Projection damping;            ///< of C
+  Projection gyroscopic;         ///< of G at the base motions
+  Projection rotationStiffness;  ///< of K^R at the base motions
+};
+
+/// The coupled problem with contact closed on the active nodes. Without friction and rotation it is
+/// the associated system [4.17], whose K0 and M0 are those of K and M; its one factorisation serves
+/// the steady problem, the modes and the corrections of this active set.
+class CoupledSystem : public modes::AssociatedSystem {
  public:
   /// Collective. `closed[i]`: contact node i is active. `prestress` (may be null) is added to K.
-  /// Factorises K0 on first use of solver().
-  AssociatedSystem(const elasticity::Bodies& bodies, const Contact& contact,
-                   std::vector<unsigned char> closed, Mat prestress = nullptr);
-  const Transformation& transformation() const { return transformation_; }
-  const Projection& stiffness() const { return stiffness_; }    ///< of K
-  const Projection& mass() const { return mass_; }              ///< of M
-  const Projection& damping() const { return damping_; }        ///< of C
-  const Projection& gyroscopic() const { return gyroscopic_; }  ///< of G at the base motions
-  const Projection& rotationStiffness() const {
-    return rotationStiffness_;
-  }  ///< of K^R at the base motions
-  Mat k0() const { return stiffness_.matrix; }
-  Mat m0() const { return mass_.matrix; }
+  CoupledSystem(const elasticity::Bodies& bodies, const Contact& contact,
+                std::vector<unsigned char> closed, Mat prestress = nullptr);
+  const Transformation& transformation() const { return projections_.transformation; }
+  const Projections& projections() const { return projections_; }
+  /// [contact node] 1 if it is active.
   const std::vector<unsigned char>& closed() const { return closed_; }
   PetscInt openNodes() const { return openNodes_; }  ///< of all ranks
-  PetscInt size() const { return transformation_.columns; }
-  /// Collective. Direct solver for K0 (prefix -modes_st_), factorised.
-  KSP solver() const { return solver_->get(); }
 
  private:
-  Transformation transformation_;
-  Projection stiffness_, mass_, damping_, gyroscopic_, rotationStiffness_;
+  CoupledSystem(Projections projections, std::vector<unsigned char> closed, PetscInt openNodes);
+  Projections projections_;
   std::vector<unsigned char> closed_;
   PetscInt openNodes_ = 0;
-  std::unique_ptr<linalg::SymmetricSolver> solver_;
 };
 
 }  // namespace squeal::contact

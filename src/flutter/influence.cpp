@@ -61,7 +61,7 @@ void Influences::derive(pencil::FrictionPoint& point, const pencil::Pencil& penc
     }
     return found;
   };
-  sensitivity::deriveShapes(point, pencil, start, state.system.solver(), state.system.m0(), forms);
+  sensitivity::deriveShapes(point, pencil, start, state.system, forms);
 }
 
 std::vector<Influences::Influence> Influences::influences(const BodyPoint& state) {

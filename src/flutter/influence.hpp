@@ -20,7 +20,7 @@ namespace squeal::flutter {
 /// One point of a sweep, in the terms of the bodies; all borrowed.
 struct BodyPoint {
   sweep::Parameters at;
-  const contact::AssociatedSystem& system;
+  const contact::CoupledSystem& system;
   const steady::Solution& solution;
   Mat prestress = nullptr;  ///< K_σ of the steady state; null: none
 };

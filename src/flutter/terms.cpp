@@ -22,17 +22,17 @@ struct Role {
   int power, speedExponent, dampingExponent;
 };
 
-std::vector<Role> roles(const contact::AssociatedSystem& system) {
-  return {{system.stiffness(), 0, 0, 0},
-          {system.mass(), 2, 0, 0},
-          {system.damping(), 1, 0, 1},
-          {system.gyroscopic(), 1, 1, 0},
-          {system.rotationStiffness(), 0, 2, 0}};
+std::vector<Role> roles(const contact::CoupledSystem& system) {
+  return {{system.projections().stiffness, 0, 0, 0},
+          {system.projections().mass, 2, 0, 0},
+          {system.projections().damping, 1, 0, 1},
+          {system.projections().gyroscopic, 1, 1, 0},
+          {system.projections().rotationStiffness, 0, 2, 0}};
 }
 
 /// f Sᵀ N X T for each matrix X.
 void addFriction(std::vector<pencil::Term>& terms, const contact::Contact& contact,
-                 const contact::AssociatedSystem& system, const std::vector<contact::Slip>& slip) {
+                 const contact::CoupledSystem& system, const std::vector<contact::Slip>& slip) {
   const OwnedMat rows = contact.slipRows(system.transformation(), slip, system.closed());
   for (const auto& role : roles(system))
     if (role.projection)
@@ -42,8 +42,7 @@ void addFriction(std::vector<pencil::Term>& terms, const contact::Contact& conta
 
 /// [4.7]: −B w*.
 void addVelocityResponse(std::vector<pencil::Term>& terms, const contact::Contact& contact,
-                         const contact::AssociatedSystem& system,
-                         const steady::Solution& solution) {
+                         const contact::CoupledSystem& system, const steady::Solution& solution) {
   std::vector<double> normalForce;
   for (const auto& state : solution.contact) normalForce.push_back(state.normalForce);
   const OwnedMat response = contact.velocityResponse(
@@ -72,8 +71,7 @@ void addVelocityResponse(std::vector<pencil::Term>& terms, const contact::Contac
 
 }  // namespace
 
-pencil::Pencil affineTerms(const contact::Contact& contact,
-                           const contact::AssociatedSystem& system) {
+pencil::Pencil affineTerms(const contact::Contact& contact, const contact::CoupledSystem& system) {
   std::vector<pencil::Term> terms;
   for (const auto& role : roles(system))
     if (role.projection)
@@ -84,7 +82,7 @@ pencil::Pencil affineTerms(const contact::Contact& contact,
 }
 
 std::vector<pencil::Term> pointTerms(const contact::Contact& contact,
-                                     const contact::AssociatedSystem& system,
+                                     const contact::CoupledSystem& system,
                                      const steady::Solution& solution, Mat prestressChange) {
   std::vector<pencil::Term> terms;
   const bool friction = solution.at.friction > 0;

@@ -11,8 +11,7 @@ namespace squeal::flutter {
 /// Collective. What holds at all parameters: K0, M0, c C0 with the damping factor c, v G0, v² K^R0,
 /// and, where all points slide alike, the friction of the normal forces that each of these matrices
 /// exerts. Borrows nothing.
-pencil::Pencil affineTerms(const contact::Contact& contact,
-                           const contact::AssociatedSystem& system);
+pencil::Pencil affineTerms(const contact::Contact& contact, const contact::CoupledSystem& system);
 
 /// Collective. What depends on the steady state: the friction of the normal forces where the slip
 /// follows the deformation; the answer −B w* of the friction force to the relative velocity w* =
@@ -21,7 +20,7 @@ pencil::Pencil affineTerms(const contact::Contact& contact,
 /// geometric stiffness (null: none) from that in `system`. Without `-flutter_friction_damping`,
 /// R_T* = −f φ R_N* τ alone.
 std::vector<pencil::Term> pointTerms(const contact::Contact& contact,
-                                     const contact::AssociatedSystem& system,
+                                     const contact::CoupledSystem& system,
                                      const steady::Solution& solution, Mat prestressChange);
 
 /// `-flutter_friction_damping`.

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "linalg/symmetric_solver.hpp"
 #include "matrices/matrices.hpp"
 #include "pencil/pencil.hpp"
 #include "petsc/text.hpp"
@@ -41,7 +42,7 @@ OwnedMat sum(const std::vector<NamedTerm>& terms, int power) {
   return total;
 }
 
-OwnedMat symmetricPart(Mat matrix) {
+OwnedMat symmetrised(Mat matrix) {
   OwnedMat part;
   check(MatTranspose(matrix, MAT_INITIAL_MATRIX, part.out()));
   check(MatAXPY(part, 1, matrix, DIFFERENT_NONZERO_PATTERN));
@@ -88,25 +89,26 @@ void requirePositiveDefinite(Mat matrix, const std::string& what, const std::str
 
 }  // namespace
 
-AssociatedSystem::AssociatedSystem(const std::vector<NamedTerm>& terms)
-    : stiffness_(sum(terms, 0)), mass_(sum(terms, 2)), solver_(nullptr, "") {
+SymmetricPart symmetricPart(const std::vector<NamedTerm>& terms) {
+  OwnedMat stiffness = sum(terms, 0), mass = sum(terms, 2);
   const std::string massName = "the mass " + namesOf(terms, 2),
                     stiffnessName = "the stiffness " + namesOf(terms, 0);
-  if (const double departure = matrices::asymmetry(mass_); departure > symmetric)
+  if (const double departure = asymmetry(mass); departure > symmetric)
     throw Error(
         formatted("%s is not symmetric: ‖M − Mᵀ‖ is %.1e of ‖M‖; friction of inertia forces needs "
                   "an exponent of friction",
                   massName.c_str(), departure));
-  asymmetry_ = matrices::asymmetry(stiffness_);
-  if (asymmetry_ <= symmetric) asymmetry_ = 0;
-  mass_ = symmetricPart(mass_);
-  stiffness_ = symmetricPart(stiffness_);
-  check(MatGetSize(stiffness_, &size_, nullptr));
-  requirePositiveDefinite(mass_, massName, "condense unknowns without mass");
-  requirePositiveDefinite(stiffness_,
-                          stiffnessName + (asymmetry_ > 0 ? ", by its symmetric part," : ""),
+  double departure = asymmetry(stiffness);
+  if (departure <= symmetric) departure = 0;
+  mass = symmetrised(mass);
+  stiffness = symmetrised(stiffness);
+  requirePositiveDefinite(mass, massName, "condense unknowns without mass");
+  requirePositiveDefinite(stiffness,
+                          stiffnessName + (departure > 0 ? ", by its symmetric part," : ""),
                           "is a body loose? Hold it by weak springs if it is");
-  solver_ = linalg::SymmetricSolver(stiffness_, "associated symmetric stiffness");
+  return {modes::AssociatedSystem(std::move(stiffness), std::move(mass),
+                                  "associated symmetric stiffness"),
+          departure};
 }
 
 }  // namespace squeal::matrices

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "linalg/symmetric_solver.hpp"
+#include "modes/associated.hpp"
 #include "pencil/complex_modes.hpp"
 #include "pencil/pencil.hpp"
 #include "sweep/sweep.hpp"
@@ -36,27 +36,16 @@ std::vector<NamedTerm> readTerms(MPI_Comm comm);
 /// Relative departure from symmetry, ‖A − Aᵀ‖ / ‖A‖ (Frobenius). Collective.
 double asymmetry(Mat matrix);
 
-/// The symmetric problem (K0 − ω² M0) d = 0 whose modes are the basis: sums of the stiffness and of
-/// the mass terms without friction and speed. The friction that such a stiffness may hold stays in
-/// the pencil, K0 is the symmetric part.
-class AssociatedSystem {
- public:
-  /// Collective. Errors, naming matrices: no such term; an unsymmetric mass; a mass or a stiffness
-  /// that is not positive definite to within rounding (massless unknowns; a loose body).
-  explicit AssociatedSystem(const std::vector<NamedTerm>& terms);
-  Mat k0() const { return stiffness_; }
-  Mat m0() const { return mass_; }
-  PetscInt size() const { return size_; }
-  double asymmetry() const { return asymmetry_; }  ///< of the sum of which K0 is the symmetric part
-  /// Collective. Direct solver for K0, factorised.
-  KSP solver() const { return solver_.get(); }
-
- private:
-  double asymmetry_ = 0;
-  OwnedMat stiffness_, mass_;
-  PetscInt size_ = 0;
-  linalg::SymmetricSolver solver_;
+/// The associated system of matrices from files: sums of the stiffness and of the mass terms
+/// without friction and speed. The friction that such a stiffness may hold stays in the pencil.
+struct SymmetricPart {
+  modes::AssociatedSystem system;  ///< K0 is the symmetric part of the sum
+  double asymmetry;                ///< ‖K − Kᵀ‖ / ‖K‖ of the sum; 0: to printed digits
 };
+
+/// Collective. Errors, naming matrices: no such term; an unsymmetric mass; a mass or a stiffness
+/// that is not positive definite to within rounding (massless unknowns; a loose body).
+SymmetricPart symmetricPart(const std::vector<NamedTerm>& terms);
 
 /// `-report_matrices` is given.
 bool exportWanted();

@@ -1,9 +1,19 @@
 #include "modes/benchmark.hpp"
 
+#include "options/options.hpp"
 #include "petsc/text.hpp"
 #include "session/stages.hpp"
 
 namespace squeal::modes {
+namespace {
+
+const FlagOption benchmarkOption("modes", "modes_benchmark", false,
+                                 "time one factorisation and 400 solves in blocks of 32, the floor "
+                                 "of the stage");
+
+}  // namespace
+
+bool benchmarkWanted() { return benchmarkOption.get(); }
 
 double floorSeconds(Mat stiffness) {
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(stiffness));

@@ -4,6 +4,9 @@
 
 namespace squeal::modes {
 
+/// `-modes_benchmark`.
+bool benchmarkWanted();
+
 /// Collective. Wall time of one factorisation of K0 and 400 solves in blocks of 32 with it, s.
 double floorSeconds(Mat stiffness);
 

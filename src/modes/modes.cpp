@@ -44,12 +44,12 @@ PetscErrorCode report(EPS, PetscInt iteration, PetscInt converged, PetscScalar*,
   return 0;
 }
 
-OwnedEPS solver(const System& system, int count, Stage& stage) {
-  const auto [k, m, factorised] = system;
+OwnedEPS solver(const AssociatedSystem& system, int count, Stage& stage) {
+  const Mat k = system.k0();
   OwnedEPS eps;
   check(EPSCreate(PetscObjectComm(reinterpret_cast<PetscObject>(k)), eps.out()));
   check(EPSSetOptionsPrefix(eps, "modes_"));
-  check(EPSSetOperators(eps, k, m));
+  check(EPSSetOperators(eps, k, system.m0()));
   check(EPSSetProblemType(eps, EPS_GHEP));
   check(EPSSetType(eps, EPSKRYLOVSCHUR));
   check(EPSSetWhichEigenpairs(eps, EPS_TARGET_MAGNITUDE));
@@ -65,7 +65,7 @@ OwnedEPS solver(const System& system, int count, Stage& stage) {
   ST st = nullptr;
   check(EPSGetST(eps, &st));
   check(STSetType(st, STSINVERT));
-  check(STSetKSP(st, factorised));  // shift 0: K0 is factorised already
+  check(STSetKSP(st, system.solver()));  // shift 0: K0 is factorised already
   applySolverOptions([&] { return EPSSetFromOptions(eps); });
   solverPrefix.rejectUnused();
   applySolverOptions([&] { return EPSSetUp(eps); });
@@ -113,8 +113,8 @@ void requireConverged(int converged, int count, const char* options) {
 }
 
 /// Eigenvalues ascending and vectors, M-orthonormal, by SLEPc.
-void solveByEps(const System& system, int count, Stage& stage, Modes& modes) {
-  const Mat k = system.stiffness;
+void solveByEps(const AssociatedSystem& system, int count, Stage& stage, Modes& modes) {
+  const Mat k = system.k0();
   const OwnedEPS eps = solver(system, count, stage);
   check(EPSSolve(eps));
   PetscInt converged = 0, iterations = 0;
@@ -143,8 +143,9 @@ void solveByEps(const System& system, int count, Stage& stage, Modes& modes) {
 }
 
 /// False if fewer have converged; `modes` is then as it was.
-bool solveByLanczos(const System& system, int count, int blockSize, Stage& stage, Modes& modes) {
-  auto result = blockLanczos(system.stiffness, system.mass, system.solver, count, blockSize,
+bool solveByLanczos(const AssociatedSystem& system, int count, int blockSize, Stage& stage,
+                    Modes& modes) {
+  auto result = blockLanczos(system.k0(), system.m0(), system.solver(), count, blockSize,
                              toleranceOption.get(), 20, [&](int restarts, int converged) {
                                stage.progress(formatted("%d restarts: %d of %d modes converged",
                                                         restarts, converged, count));
@@ -158,11 +159,11 @@ bool solveByLanczos(const System& system, int count, int blockSize, Stage& stage
 
 /// By LAPACK on rank 0, so that the ranks agree: M d = (1/λ) K d, whose largest eigenvalues, those
 /// of the lowest modes, it gets best.
-void solveDense(const System& system, int count, Modes& modes) {
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(system.stiffness));
-  const int n = static_cast<int>(rowsOf(system.stiffness));
-  std::vector<double> all = linalg::gathered(system.mass),
-                      stiffness = linalg::gathered(system.stiffness), vectors;
+void solveDense(const AssociatedSystem& system, int count, Modes& modes) {
+  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(system.k0()));
+  const int n = static_cast<int>(rowsOf(system.k0()));
+  std::vector<double> all = linalg::gathered(system.m0()),
+                      stiffness = linalg::gathered(system.k0()), vectors;
   onFirstRank(comm, "free vibration: the stiffness is not positive definite; is a body loose? ",
               [&] {
                 const auto inverse = linalg::symmetricEigen(all, stiffness, n);
@@ -180,7 +181,7 @@ void solveDense(const System& system, int count, Modes& modes) {
   check(MPI_Bcast(vectors.data(), n * count, MPI_DOUBLE, 0, comm));
   OwnedVec d;
   PetscInt first = 0, end = 0;
-  check(MatCreateVecs(system.stiffness, d.out(), nullptr));
+  check(MatCreateVecs(system.k0(), d.out(), nullptr));
   check(VecGetOwnershipRange(d, &first, &end));
   check(BVCreate(comm, modes.vectors.out()));
   check(BVSetSizesFromVec(modes.vectors, d, count));
@@ -204,17 +205,17 @@ double roundingOf(Vec diagonal, Vec d, double lambda) {
   return PETSC_MACHINE_EPSILON * sum / std::abs(lambda);
 }
 
-void measureResiduals(const System& system, Modes& modes) {
+void measureResiduals(const AssociatedSystem& system, Modes& modes) {
   constexpr double noise = 1e-3;  // of λ: three digits are no frequency
   OwnedVec kd, md, diagonal;
-  check(MatCreateVecs(system.stiffness, kd.out(), md.out()));
+  check(MatCreateVecs(system.k0(), kd.out(), md.out()));
   check(VecDuplicate(kd, diagonal.out()));
-  check(MatGetDiagonal(system.stiffness, diagonal));
+  check(MatGetDiagonal(system.k0(), diagonal));
   for (std::size_t i = 0; i < modes.lambda.size(); ++i) {
     Vec d = nullptr;
     check(BVGetColumn(modes.vectors, static_cast<PetscInt>(i), &d));
-    check(MatMult(system.stiffness, d, kd));
-    check(MatMult(system.mass, d, md));
+    check(MatMult(system.k0(), d, kd));
+    check(MatMult(system.m0(), d, md));
     modes.rounding = std::max(modes.rounding, roundingOf(diagonal, d, modes.lambda[i]));
     check(BVRestoreColumn(modes.vectors, static_cast<PetscInt>(i), &d));
     if (!(modes.lambda[i] > 0) || modes.rounding > noise)
@@ -252,17 +253,17 @@ bool denseWanted(int count, PetscInt size) {
 }
 
 /// Residuals and, if wanted, the count by inertia. False if modes are missing.
-bool examine(const System& system, Modes& modes) {
+bool examine(const AssociatedSystem& system, Modes& modes) {
   measureResiduals(system, modes);
   if (!sturmOption.get()) return true;
-  confirmCount(system.stiffness, system.mass, modes);
+  confirmCount(system.k0(), system.m0(), modes);
   return modes.countConfirmed;
 }
 
 /// A block of b vectors meets b copies of a multiple eigenvalue: where some are missing, a block
 /// twice as large is taken. False: no modes, or modes of which some are missing still.
-bool computeByLanczos(const System& system, int count, Stage& stage, Modes& modes) {
-  const PetscInt size = rowsOf(system.stiffness);
+bool computeByLanczos(const AssociatedSystem& system, int count, Stage& stage, Modes& modes) {
+  const PetscInt size = rowsOf(system.k0());
   for (int block = blockOption.get(); lanczosFits(count, block, size); block *= 2) {
     Modes found;
     if (!solveByLanczos(system, count, block, stage, found)) return false;
@@ -274,9 +275,9 @@ bool computeByLanczos(const System& system, int count, Stage& stage, Modes& mode
   return false;
 }
 
-Modes computeBy(const System& system, int count, Stage& stage) {
+Modes computeBy(const AssociatedSystem& system, int count, Stage& stage) {
   constexpr PetscInt denseAtMost = 2000;
-  const PetscInt size = rowsOf(system.stiffness);
+  const PetscInt size = rowsOf(system.k0());
   const bool chosen = solverOption.get() != "auto" || solverPrefix.given();
   Modes modes;
   if (denseWanted(count, size)) {
@@ -305,9 +306,9 @@ Modes computeBy(const System& system, int count, Stage& stage) {
 
 int wantedCount() { return countOption.get(); }
 
-Modes compute(const System& system, int count) {
-  const PetscInt size = rowsOf(system.stiffness);
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(system.stiffness));
+Modes compute(const AssociatedSystem& system, int count) {
+  const PetscInt size = rowsOf(system.k0());
+  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(system.k0()));
   if (count > size) {
     if (countOption.given())
       throw Error(formatted("option -modes_count %d: the problem has only %d unknowns", count,

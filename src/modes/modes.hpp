@@ -3,15 +3,10 @@
 /// of the reduced problem.
 #include <vector>
 
+#include "modes/associated.hpp"
 #include "petsc/owned.hpp"
 
 namespace squeal::modes {
-
-/// The symmetric positive definite K0 and M0, and the factorised K0; borrowed.
-struct System {
-  Mat stiffness = nullptr, mass = nullptr;
-  KSP solver = nullptr;
-};
 
 struct Modes {
   std::vector<double> lambda;            ///< ω², ascending, rad²/s²
@@ -34,6 +29,6 @@ int wantedCount();
 /// -modes_st_*), or by LAPACK where most of the modes of a small problem are wanted. Error: more
 /// modes wanted than there are unknowns; not converged; an eigenvalue that is not positive, or that
 /// rounding could have made.
-Modes compute(const System& system, int count = wantedCount());
+Modes compute(const AssociatedSystem& system, int count = wantedCount());
 
 }  // namespace squeal::modes

@@ -49,10 +49,10 @@ void clearWhatVHolds(linalg::DenseMatrix& energy, const linalg::DenseMatrix& par
 
 }  // namespace
 
-Basis::Basis(const modes::Modes& modes, Mat stiffness, KSP solver)
-    : comm_(PetscObjectComm(reinterpret_cast<PetscObject>(stiffness))),
-      stiffness_(stiffness),
-      solver_(solver),
+Basis::Basis(const modes::Modes& modes, const modes::AssociatedSystem& system)
+    : comm_(system.comm()),
+      stiffness_(system.k0()),
+      solver_(system.solver()),
       columns_(0),
       forces_(0) {
   const linalg::ReadColumns shapes(modes.vectors);
@@ -63,8 +63,8 @@ Basis::Basis(const modes::Modes& modes, Mat stiffness, KSP solver)
     columns_.append(shapes.values() + j * shapes.rows(),
                     1 / modes.angularFrequency[static_cast<std::size_t>(j)]);
   OwnedVec diagonal;
-  check(MatCreateVecs(stiffness, diagonal.out(), nullptr));
-  check(MatGetDiagonal(stiffness, diagonal));
+  check(MatCreateVecs(stiffness_, diagonal.out(), nullptr));
+  check(MatGetDiagonal(stiffness_, diagonal));
   check(VecReciprocal(diagonal));
   const PetscScalar* values = nullptr;
   check(VecGetArrayRead(diagonal, &values));

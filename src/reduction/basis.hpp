@@ -19,8 +19,8 @@ namespace squeal::reduction {
 
 class Basis {
  public:
-  /// Collective. Begins with the modes. Borrows the solver of K0 and K0.
-  Basis(const modes::Modes& modes, Mat stiffness, KSP solver);
+  /// Collective. Begins with the modes of the system, which is borrowed.
+  Basis(const modes::Modes& modes, const modes::AssociatedSystem& system);
   const linalg::Block& columns() const { return columns_; }
   PetscInt size() const { return columns_.columns; }
   PetscInt localRows() const { return columns_.rows; }

@@ -72,10 +72,10 @@ struct ReducedProblem::Work {
   std::vector<double> rounding;    // [pair] error of the dense solve
 };
 
-ReducedProblem::ReducedProblem(const pencil::Pencil& pencil, Mat stiffness, KSP solver,
+ReducedProblem::ReducedProblem(const pencil::Pencil& pencil, const modes::AssociatedSystem& system,
                                const modes::Modes& modes)
     : modes_(modes.angularFrequency),
-      basis_(modes, stiffness, solver),
+      basis_(modes, system),
       terms_(basis_, pencil, 0, pencil.terms().size()) {
   check(BVGetSizes(modes.vectors, nullptr, &unknowns_, nullptr));
   lowestMode_ = modes.angularFrequency.front();

@@ -40,9 +40,9 @@ struct Improvement {
 /// `-flutter_tolerance`. The basis is kept over a sweep.
 class ReducedProblem {
  public:
-  /// Collective. Borrows K0 and its solver; shares the terms of `pencil`, which hold at all points.
+  /// Collective. Borrows the system; shares the terms of `pencil`, which hold at all points.
   /// `modes` are M0-orthonormal with ascending frequencies.
-  ReducedProblem(const pencil::Pencil& pencil, Mat stiffness, KSP solver,
+  ReducedProblem(const pencil::Pencil& pencil, const modes::AssociatedSystem& system,
                  const modes::Modes& modes);
   /// Collective. All points at once: their dense problems are spread over the ranks, their
   /// corrections solved for together. Shapes are mapped to nodal displacements by `trial` (T).

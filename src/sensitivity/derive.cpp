@@ -21,16 +21,17 @@ double separation(const std::vector<pencil::Eigenvalue>& eigenvalues, std::size_
 }  // namespace
 
 void deriveShapes(pencil::FrictionPoint& point, const pencil::Pencil& pencil,
-                  const StartSpace& start, KSP solver, Mat mass, const Forms& forms) {
+                  const StartSpace& start, const modes::AssociatedSystem& system,
+                  const Forms& forms) {
   if (point.shapes.empty()) return;
   std::vector<RightPair> pairs;
   for (const auto& shape : point.shapes)
     pairs.push_back({point.eigenvalues[shape.index].s, &shape.unknowns});
-  const auto left = leftVectors(pencil, point.at, start, solver, pairs);
+  const auto left = leftVectors(pencil, point.at, start, system.solver(), pairs);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const EigenTriple triple{pairs[i].s, *pairs[i].vector, left[i].y};
     const Complex slope = slopeForm(pencil, point.at, triple);
-    pencil::Sensitivity result{condition(triple, slope, mass),
+    pencil::Sensitivity result{condition(triple, slope, system.m0()),
                                separation(point.eigenvalues, point.shapes[i].index),
                                left[i].backwardError,
                                {}};
@@ -41,8 +42,8 @@ void deriveShapes(pencil::FrictionPoint& point, const pencil::Pencil& pencil,
 }
 
 void deriveParameters(pencil::FrictionPoint& point, const pencil::Pencil& pencil,
-                      const StartSpace& start, KSP solver, Mat mass) {
-  deriveShapes(point, pencil, start, solver, mass, [&](const EigenTriple& triple) {
+                      const StartSpace& start, const modes::AssociatedSystem& system) {
+  deriveShapes(point, pencil, start, system, [&](const EigenTriple& triple) {
     std::vector<pencil::Derivative> found;
     for (const auto& parameter : sweep::allParameters)
       if (parameter.value != &sweep::Parameters::pressure)

@@ -3,6 +3,7 @@
 #include <functional>
 #include <vector>
 
+#include "modes/associated.hpp"
 #include "pencil/complex_modes.hpp"
 #include "pencil/pencil.hpp"
 #include "sensitivity/left.hpp"
@@ -15,13 +16,14 @@ using Forms = std::function<std::vector<pencil::Derivative>(const EigenTriple&)>
 
 /// Collective. Fills FrictionPoint::sensitivities for all shapes of the point, whose terms the
 /// pencil holds: left vectors, and the forms divided by −yᴴP′x where the eigenvalue has
-/// derivatives. `solver` is that of K0, `mass` M0.
+/// derivatives.
 void deriveShapes(pencil::FrictionPoint& point, const pencil::Pencil& pencil,
-                  const StartSpace& start, KSP solver, Mat mass, const Forms& forms);
+                  const StartSpace& start, const modes::AssociatedSystem& system,
+                  const Forms& forms);
 
 /// Collective. The same for the parameters in the coefficients of the terms alone: friction, speed
 /// and damping.
 void deriveParameters(pencil::FrictionPoint& point, const pencil::Pencil& pencil,
-                      const StartSpace& start, KSP solver, Mat mass);
+                      const StartSpace& start, const modes::AssociatedSystem& system);
 
 }  // namespace squeal::sensitivity

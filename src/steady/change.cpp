@@ -29,7 +29,7 @@ PetscErrorCode multiply(Mat matrix, Vec y, Vec result) {
 /// Tᵀ (r + Jᵀ t):
 ///   dr = (K + v² K^R) du + cause,   dt = f φ τ N dr − v B D du + (df φ + f φ' dv |w|/v) R_N τ,   B
 ///   of velocityResponse().
-Change Problem::change(const Solution& solution, const contact::AssociatedSystem& system,
+Change Problem::change(const Solution& solution, const contact::CoupledSystem& system,
                        const Cause& cause) const {
   const sweep::Parameters& at = solution.at;
   const Mat trial = system.transformation().trial;

@@ -143,8 +143,7 @@ double Problem::rounding(Vec displacement, Vec loads) const {
   return PETSC_MACHINE_EPSILON * (springs + forces);
 }
 
-Solution Problem::solve(const sweep::Parameters& at,
-                        const contact::AssociatedSystem& system) const {
+Solution Problem::solve(const sweep::Parameters& at, const contact::CoupledSystem& system) const {
   if (at.friction > 0) contact::requireSlip(contact_, contact_.slip(at.speed, nullptr), all_);
   Solution solution;
   solution.at = at;
@@ -193,14 +192,13 @@ double Problem::largestDisplacement(const sweep::Parameters& at, Vec x) const {
 /// Solves the problem with the gaps of the active set held at zero. Linear under approximation A.
 /// With convective terms Newton's method, its matrix without K^R and without the turning of the
 /// slip, which are small: a few more steps of refinement.
-OwnedVec Problem::closedContact(const sweep::Parameters& at,
-                                const contact::AssociatedSystem& system,
+OwnedVec Problem::closedContact(const sweep::Parameters& at, const contact::CoupledSystem& system,
                                 Refinement& refinement) const {
   const auto& closed = system.transformation();
   const OwnedMat rows =
       contact_.slipRows(closed, contact_.slip(at.speed, nullptr), system.closed());
   const OwnedMat matrix =
-      contact::affine(system.k0(), system.stiffness().friction(rows), at.friction);
+      contact::affine(system.k0(), system.projections().stiffness.friction(rows), at.friction);
   const auto residual = [&](Vec y) {
     const OwnedVec u = displacement(closed, at, y);
     return Residual{test(closed, system.closed(), at, forces(at, u), contact_.slip(at.speed, u)),

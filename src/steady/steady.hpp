@@ -73,11 +73,11 @@ class Problem {
   /// Collective. Starts from the solution with the active set of `system` held, by its
   /// factorisation, then SNES VI
   /// (-steady_snes_*). Error: |w| = 0 at a node that carries friction.
-  Solution solve(const sweep::Parameters& at, const contact::AssociatedSystem& system) const;
+  Solution solve(const sweep::Parameters& at, const contact::CoupledSystem& system) const;
 
   /// Collective. The change dx of the converged `solution` with dF = 0 on the active set of
   /// `system`: GMRES, preconditioned by the factorised K0. Error: not converged.
-  Change change(const Solution& solution, const contact::AssociatedSystem& system,
+  Change change(const Solution& solution, const contact::CoupledSystem& system,
                 const Cause& cause) const;
 
   /// Collective. F(x), n entries.
@@ -102,7 +102,7 @@ class Problem {
   double rounding(Vec displacement, Vec loads) const;
   double naturalResidual(const sweep::Parameters& at, Vec x) const;
   double largestDisplacement(const sweep::Parameters& at, Vec x) const;
-  OwnedVec closedContact(const sweep::Parameters& at, const contact::AssociatedSystem& system,
+  OwnedVec closedContact(const sweep::Parameters& at, const contact::CoupledSystem& system,
                          Refinement& refinement) const;
   double complementarity(OwnedVec& x, Solution& solution) const;
   void recover(Vec x, double noise, Solution& solution) const;

@@ -14,16 +14,14 @@ namespace squeal::test {
 
 struct Layers {
   Model model;
-  std::unique_ptr<contact::AssociatedSystem> system;
+  std::unique_ptr<contact::CoupledSystem> system;
   explicit Layers(const std::string& options = {}) {
     setCase("two_layers", "-mesh_set nx=12,ny_disc=4,ny_pad=3 " + options);
     model = buildModel();
-    system = std::make_unique<contact::AssociatedSystem>(
+    system = std::make_unique<contact::CoupledSystem>(
         model.bodies, model.contact, std::vector<unsigned char>(model.contact.nodes.size(), 1));
   }
-  modes::Modes modes() const {
-    return modes::compute({system->k0(), system->m0(), system->solver()});
-  }
+  modes::Modes modes() const { return modes::compute(*system); }
 };
 
 }  // namespace squeal::test

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analysis/analysis.hpp"
+#include "analysis/mesh_route.hpp"
 #include "contact/contact.hpp"
 #include "contact/coupled.hpp"
 #include "elasticity/elasticity.hpp"

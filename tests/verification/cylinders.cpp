@@ -52,8 +52,8 @@ Deviation solve(const std::string& shape, int refinement, const std::string& pad
       " -contact_ring_pad " +
       pad + "_face -contact_ring_disc " + disc + "_face");
   const auto model = test::buildModel();
-  const contact::AssociatedSystem system(model.bodies, model.contact,
-                                         std::vector<unsigned char>(model.contact.nodes.size(), 1));
+  const contact::CoupledSystem system(model.bodies, model.contact,
+                                      std::vector<unsigned char>(model.contact.nodes.size(), 1));
   const auto solution = steady::Problem(*model.mesh, model.bodies, model.contact).solve({}, system);
   EXPECT_TRUE(solution.converged) << solution.reason;
   EXPECT_EQ(solution.openNodes, 0);

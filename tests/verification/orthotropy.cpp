@@ -54,8 +54,8 @@ double worstError(int cells, int order) {
       "-material_layer_density 1.7 -constraint_bottom_clamped xy -constraint_right_image_of left "
       "-modes_count 5");
   const auto model = test::buildModel();
-  const contact::AssociatedSystem system(model.bodies, model.contact, {});
-  const auto modes = modes::compute({system.k0(), system.m0(), system.solver()});
+  const contact::CoupledSystem system(model.bodies, model.contact, {});
+  const auto modes = modes::compute(system);
   const auto exact = exactFrequencies(5);
   double worst = 0;
   for (std::size_t i = 0; i < exact.size(); ++i)

@@ -110,7 +110,7 @@ int orderOf(const mesh::Mesh& mesh, Vec real, Vec imaginary) {
 Waves computed(int cells, double omega) {
   test::setOptions(turning(cells, omega));
   const auto model = test::buildModel();
-  const contact::AssociatedSystem system(model.bodies, model.contact, {});
+  const contact::CoupledSystem system(model.bodies, model.contact, {});
   const auto pencil = flutter::affineTerms(model.contact, system);
   const auto solver = direct::nearestSolver(pencil, {0, 1});
   const auto found = solver->solve(40);

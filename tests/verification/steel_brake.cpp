@@ -38,8 +38,8 @@ std::vector<steady::Solution> solutions(const std::string& options,
                                         const std::vector<double>& frictions) {
   test::setOptions(options);
   const test::Model model = test::buildModel();
-  const contact::AssociatedSystem system(model.bodies, model.contact,
-                                         std::vector<unsigned char>(model.contact.nodes.size(), 1));
+  const contact::CoupledSystem system(model.bodies, model.contact,
+                                      std::vector<unsigned char>(model.contact.nodes.size(), 1));
   const steady::Problem problem(*model.mesh, model.bodies, model.contact);
   std::vector<steady::Solution> all;
   for (double friction : frictions) all.push_back(problem.solve({friction}, system));

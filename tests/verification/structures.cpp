@@ -87,8 +87,8 @@ Families families(const std::string& set, double poisson, const std::string& inc
       "-constraint_clamped_clamped xyz -modes_count 16 -elasticity_incompatible_modes " +
       incompatible);
   const auto model = test::buildModel();
-  const contact::AssociatedSystem system(model.bodies, model.contact, {});
-  const auto modes = modes::compute({system.k0(), system.m0(), system.solver()});
+  const contact::CoupledSystem system(model.bodies, model.contact, {});
+  const auto modes = modes::compute(system);
   const auto& mesh = *model.mesh;
   Families families;
   for (std::size_t i = 0; i < modes.angularFrequency.size(); ++i) {

@@ -270,7 +270,7 @@ TEST(Sweep, CorrectedReductionIsThatOfTheFullOrder) {
   const Layers layers("-modes_count 60");
   const auto pencil = flutter::affineTerms(layers.model.contact, *layers.system);
   const auto basis = layers.modes();
-  reduction::ReducedProblem reduced(pencil, layers.system->k0(), layers.system->solver(), basis);
+  reduction::ReducedProblem reduced(pencil, *layers.system, basis);
   for (const double f : {0.0, 0.2, 0.5}) {
     std::vector<reduction::PointProblem> problem;
     problem.push_back({{f}, pencil.with({})});
@@ -309,7 +309,7 @@ TEST(Sweep, BandEndsWithTheFreeModes) {
   const auto basis = layers.modes();
   const auto& w = basis.angularFrequency;
   for (const double f : {0.0, 0.05, 0.5}) {
-    reduction::ReducedProblem reduced(pencil, layers.system->k0(), layers.system->solver(), basis);
+    reduction::ReducedProblem reduced(pencil, *layers.system, basis);
     std::vector<reduction::PointProblem> problem;
     problem.push_back({{f}, pencil.with({})});
     const auto points = reduced.solve(problem, layers.system->transformation().trial);

@@ -54,11 +54,11 @@ class Layer : public testing::Test {
     insertFile(PETSC_COMM_WORLD, "options/layer.yaml");
     check(PetscOptionsInsertString(nullptr, "-quiet"));
     model_ = buildModel();
-    system_ = std::make_unique<contact::AssociatedSystem>(
+    system_ = std::make_unique<contact::CoupledSystem>(
         model_.bodies, model_.contact, std::vector<unsigned char>(model_.contact.nodes.size(), 1));
   }
   Model model_;
-  std::unique_ptr<contact::AssociatedSystem> system_;
+  std::unique_ptr<contact::CoupledSystem> system_;
 };
 
 TEST_F(Layer, RestartsFindTheSameModes) {
@@ -87,7 +87,7 @@ TEST_F(Layer, SturmCountSeesAMissingMode) {
   // The inertia of K − σ M counts 51 modes below a shift just above mode 51: the confirmation is a
   // number, not a formality.
   check(PetscOptionsInsertString(nullptr, "-modes_count 60"));
-  const auto modes = modes::compute({system_->k0(), system_->m0(), system_->solver()});
+  const auto modes = modes::compute(*system_);
   ASSERT_TRUE(modes.countConfirmed);
   const auto below = std::count_if(modes.lambda.begin(), modes.lambda.end(),
                                    [&](double lambda) { return lambda < modes.inertiaShift; });
@@ -106,8 +106,8 @@ Model heldRing(const std::string& shape) {
 
 modes::Modes modesOf(const Model& model, const std::string& options, int count) {
   check(PetscOptionsInsertString(nullptr, options.c_str()));
-  const contact::AssociatedSystem system(model.bodies, model.contact, {});
-  return modes::compute({system.k0(), system.m0(), system.solver()}, count);
+  const contact::CoupledSystem system(model.bodies, model.contact, {});
+  return modes::compute(system, count);
 }
 
 // Krylov vectors of one start vector meet one vector of each eigenspace: blocks of one miss half of
@@ -150,8 +150,8 @@ TEST(Modes, EigenvaluesOfHighMultiplicity) {
     check(MatSetOption(sparse, MAT_SYMMETRIC, PETSC_TRUE));
     *matrix = std::move(sparse);
   }
-  const linalg::SymmetricSolver solver(k, "stiffness");
-  const auto modes = modes::compute({k, m, solver.get()}, 40);
+  const modes::AssociatedSystem system(k.share(), m.share(), "stiffness");
+  const auto modes = modes::compute(system, 40);
   for (double lambda : modes.lambda) EXPECT_NEAR(lambda, 1, 1e-12);
   EXPECT_LT(departureFromOrthonormal(modes.vectors, m), 1e-12);
 }

@@ -22,7 +22,7 @@ struct Fixture : test::Layers {
   std::unique_ptr<reduction::Basis> basis;
   Fixture() : Layers("-modes_count 20") {
     const auto free = modes();  // before the solver is asked for: they leave it with other matrices
-    basis = std::make_unique<reduction::Basis>(free, system->k0(), system->solver());
+    basis = std::make_unique<reduction::Basis>(free, *system);
   }
 
   /// A X.

@@ -30,7 +30,7 @@ struct Fixture : test::Layers {
       : Layers(options),
         pencil(flutter::affineTerms(model.contact, *system)),
         free(modes()),
-        reduced(pencil, system->k0(), system->solver(), free) {}
+        reduced(pencil, *system, free) {}
 
   std::vector<pencil::FrictionPoint> solve(double friction) {
     std::vector<reduction::PointProblem> batch;

@@ -236,8 +236,8 @@ void expectCoulomb(double depth) {
   const test::Model model = test::buildModel();
   const auto& mesh = *model.mesh;
   const auto dimension = static_cast<std::size_t>(mesh.dimension);
-  const contact::AssociatedSystem system(model.bodies, model.contact,
-                                         std::vector<unsigned char>(model.contact.nodes.size(), 1));
+  const contact::CoupledSystem system(model.bodies, model.contact,
+                                      std::vector<unsigned char>(model.contact.nodes.size(), 1));
   const sweep::Parameters at{0.4, 1.3};
   const auto solution = steady::Problem(mesh, model.bodies, model.contact).solve(at, system);
   ASSERT_TRUE(solution.converged) << solution.reason;

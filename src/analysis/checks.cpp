@@ -1,0 +1,80 @@
+#include "analysis/checks.hpp"
+
+#include <algorithm>
+
+#include "flutter/terms.hpp"
+#include "linalg/finite.hpp"
+
+namespace squeal::analysis {
+
+void requireFiniteSweep(const elasticity::Bodies& bodies, const contact::Contact& contact,
+                        const sweep::Sweep& sweep) {
+  const auto& [frictions, speeds, pressures, dampings] = sweep;
+  const double friction = std::max(1.0, frictions.back()), speed = std::max(1.0, speeds.back()),
+               speed2 = speed * speed;
+  const std::string swept = " times the factors of the sweep";
+  linalg::requireFinite(bodies.stiffness, "the stiffness of the bodies" + swept, friction);
+  linalg::requireFinite(bodies.mass, "the mass of the bodies" + swept, friction);
+  linalg::requireFinite(bodies.damping, "the damping of the bodies" + swept,
+                        friction * std::max(1.0, dampings.back()));
+  linalg::requireFinite(bodies.gyroscopic, "the gyroscopic matrix" + swept, friction * speed);
+  linalg::requireFinite(bodies.rotationStiffness, "the rotation stiffness" + swept,
+                        friction * speed2);
+  linalg::requireFinite(bodies.load, "the loads" + swept, std::max(pressures.back(), speed2));
+  linalg::requireFinite(contact.offset, "the displacements held" + swept,
+                        std::max(1.0, pressures.back()));
+}
+
+void requireFiniteSweep(const std::vector<matrices::NamedTerm>& terms, const sweep::Sweep& sweep) {
+  for (const auto& [name, term] : terms)
+    for (double friction : {sweep.frictions.front(), sweep.frictions.back()})
+      for (double speed : {sweep.speeds.front(), sweep.speeds.back()})
+        for (double damping : {sweep.dampings.front(), sweep.dampings.back()})
+          linalg::requireFinite(term.matrix, "matrix '" + name + "' times its factors",
+                                term.coefficient({friction, speed, 1, damping}));
+}
+
+void rejectIdleFactors(const elasticity::Bodies& bodies, const contact::Contact& contact,
+                       const sweep::Sweep& sweep) {
+  const auto given = [](const std::vector<double>& factors) {
+    return factors != std::vector<double>{1};
+  };
+  if (given(sweep.dampings) && !bodies.damping && !flutter::modalDampingWanted())
+    throw Error(
+        "option -flutter_damping scales the damping of the bodies, and there is none: give "
+        "-material_<group>_rayleigh_*, "
+        "-material_<group>_loss_factor, -ground_<group>_damping or -flutter_modal_damping");
+  if (!given(sweep.pressures)) return;
+  OwnedVec pressures;
+  check(VecDuplicate(bodies.load, pressures.out()));
+  check(VecWAXPY(pressures, -1, bodies.centrifugal, bodies.load));
+  PetscReal load = 0, displacement = 0;
+  check(VecNorm(pressures, NORM_INFINITY, &load));
+  check(VecNorm(contact.offset, NORM_INFINITY, &displacement));
+  if (load == 0 && displacement == 0)
+    throw Error(
+        "option -flutter_pressure scales what presses, and nothing does: give "
+        "-load_<group>_pressure, "
+        "-constraint_<group>_displacement or -contact_<interface>_obstacle_displacement");
+}
+
+void rejectIdleFactors(const std::vector<matrices::NamedTerm>& terms, const sweep::Sweep& sweep) {
+  const auto require = [&](const std::vector<double>& values, const std::string& name,
+                           auto exponent) {
+    if (values.size() > 1 && std::none_of(terms.begin(), terms.end(), [&](const auto& named) {
+          return exponent(named.term) != 0;
+        }))
+      throw Error("option -flutter_" + name + ": a sweep, but no matrix has -matrices_<name>_" +
+                  name + "_exponent");
+  };
+  require(sweep.frictions, "friction",
+          [](const pencil::Term& term) { return term.frictionExponent; });
+  require(sweep.speeds, "speed", [](const pencil::Term& term) { return term.speedExponent; });
+  if (!flutter::modalDampingWanted())
+    require(sweep.dampings, "damping",
+            [](const pencil::Term& term) { return term.dampingExponent; });
+  if (sweep.pressures != std::vector<double>{1})
+    throw Error("option -flutter_pressure: no matrix from a file depends on the pressure");
+}
+
+}  // namespace squeal::analysis

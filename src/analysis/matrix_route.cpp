@@ -1,0 +1,87 @@
+#include "analysis/matrix_route.hpp"
+
+#include <algorithm>
+
+#include "analysis/checks.hpp"
+#include "analysis/segment.hpp"
+#include "modes/benchmark.hpp"
+#include "modes/modes.hpp"
+#include "options/options.hpp"
+#include "petsc/text.hpp"
+#include "sensitivity/derive.hpp"
+#include "sensitivity/sensitivity.hpp"
+#include "session/stages.hpp"
+
+namespace squeal::analysis {
+namespace {
+
+/// All points of the sweep.
+class MatrixSegment : public SegmentProblem {
+ public:
+  /// Collective. Borrows all but the points.
+  MatrixSegment(const modes::AssociatedSystem& system, const pencil::Pencil& pencil,
+                std::vector<sweep::Parameters> points)
+      : system_(system), pencil_(pencil), points_(std::move(points)) {
+    PetscInt local = 0;
+    check(MatGetLocalSize(system.k0(), &local, nullptr));
+    check(MatCreateConstantDiagonal(system.comm(), local, local, PETSC_DETERMINE, PETSC_DETERMINE,
+                                    1, identity_.out()));
+  }
+  const modes::AssociatedSystem& system() const override { return system_; }
+  Mat trial() const override { return identity_; }
+  int modeCount() const override {
+    return static_cast<int>(std::min<PetscInt>(modes::wantedCount(), system_.size()));
+  }
+  const std::vector<sweep::Parameters>& steadyPoints() const override { return points_; }
+  pencil::Pencil pencil() const override { return pencil_.with({}); }
+  void examine(std::size_t, const pencil::Pencil& pencil, const sensitivity::StartSpace& start,
+               pencil::FrictionPoint& point) override {
+    if (sensitivity::sensitivitiesWanted())
+      sensitivity::deriveParameters(point, pencil, start, system_);
+  }
+
+ private:
+  const modes::AssociatedSystem& system_;
+  const pencil::Pencil& pencil_;
+  std::vector<sweep::Parameters> points_;
+  OwnedMat identity_;
+};
+
+}  // namespace
+
+std::vector<matrices::NamedTerm> readMatrices(MPI_Comm comm, const sweep::Sweep& sweep) {
+  Stage stage(comm, "matrices");
+  auto named = matrices::readTerms(comm);
+  rejectIdleFactors(named, sweep);
+  requireFiniteSweep(named, sweep);
+  std::vector<std::string> files;
+  for (const auto& item : named)
+    files.push_back(resolvedOptions().at("matrices_" + item.name + "_file"));
+  stage.finish(formatted("%d matrices: %s", static_cast<int>(named.size()), joined(files).c_str()));
+  return named;
+}
+
+void solveMatrices(Analysis& analysis) {
+  auto named = readMatrices(analysis.comm, analysis.sweep);
+  Stage stage(analysis.comm, "matrices");
+  const matrices::SymmetricPart symmetric = matrices::symmetricPart(named);
+  stage.finish(formatted(
+      "%d unknowns%s", static_cast<int>(symmetric.system.size()),
+      symmetric.asymmetry > 0
+          ? formatted("; stiffness without friction unsymmetric by %.1e: free modes of its "
+                      "symmetric part",
+                      symmetric.asymmetry)
+                .c_str()
+          : ""));
+  std::vector<pencil::Term> terms;
+  for (auto& item : named) terms.push_back(std::move(item.term));
+  const pencil::Pencil pencil(std::move(terms));
+  const auto points = analysis.sweep.steadyPoints();
+  if (matrices::exportWanted()) matrices::exportPencil(pencil, analysis.sweep, points.size());
+  MatrixSegment problem(symmetric.system, pencil, points);
+  analysis.segments.push_back(solveSegment(problem, analysis.sweep.dampings));
+  if (modes::benchmarkWanted())
+    analysis.modesFloorSeconds = modes::floorSeconds(symmetric.system.k0());
+}
+
+}  // namespace squeal::analysis

@@ -1,0 +1,297 @@
+#include "analysis/mesh_route.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "analysis/checks.hpp"
+#include "analysis/segment.hpp"
+#include "contact/coupled.hpp"
+#include "elasticity/elasticity.hpp"
+#include "flutter/influence.hpp"
+#include "flutter/terms.hpp"
+#include "flutter/work.hpp"
+#include "linalg/finite.hpp"
+#include "matrices/matrices.hpp"
+#include "modes/benchmark.hpp"
+#include "modes/modes.hpp"
+#include "options/options.hpp"
+#include "petsc/text.hpp"
+#include "sensitivity/sensitivity.hpp"
+#include "session/stages.hpp"
+#include "steady/steady.hpp"
+#include "steady/uniqueness.hpp"
+
+namespace squeal::analysis {
+namespace {
+
+std::string unusedText(PetscInt nodes) {
+  if (nodes == 0) return "";
+  return nodes == 1 ? "; 1 node in no cell is not used"
+                    : formatted("; %d nodes in no cell are not used", static_cast<int>(nodes));
+}
+
+mesh::Mesh readMesh(MPI_Comm comm) {
+  const mesh::Request request = meshRequest();
+  Stage stage(comm, "mesh");
+  mesh::Mesh mesh = mesh::read(comm, request);
+  stage.finish(formatted("%s: %d nodes, %d cells, %d bodies in %d connected parts%s",
+                         resolvedOptions().at("mesh_file").c_str(),
+                         static_cast<int>(mesh.totalNodes), static_cast<int>(mesh.totalCells),
+                         static_cast<int>(mesh.bodies.size()), mesh.parts,
+                         unusedText(mesh.unusedNodes).c_str()));
+  return mesh;
+}
+
+elasticity::Bodies assembleBodies(const mesh::Mesh& mesh) {
+  Stage stage(mesh.comm, "elasticity");
+  elasticity::Bodies bodies = elasticity::assemble(mesh);
+  stage.finish(formatted("stiffness, mass and loads on %d displacements",
+                         static_cast<int>(mesh.dimension * mesh.totalNodes)));
+  return bodies;
+}
+
+contact::Contact buildContact(const mesh::Mesh& mesh, const elasticity::Bodies& bodies) {
+  Stage stage(mesh.comm, "contact");
+  contact::Contact contact = contact::build(mesh, bodies);
+  stage.finish(
+      formatted("%d contact nodes on %d interfaces%s", static_cast<int>(contact.totalNodes),
+                static_cast<int>(contact.interfaces.size()),
+                contact.weightsPositive ? ""
+                                        : "; faces with non-positive nodal weights: accepted only "
+                                          "while contact is closed everywhere"));
+  return contact;
+}
+
+bool sameOnAllRanks(MPI_Comm comm, const std::vector<unsigned char>& a,
+                    const std::vector<unsigned char>& b) {
+  int same = a == b;
+  check(MPI_Allreduce(MPI_IN_PLACE, &same, 1, MPI_INT, MPI_LAND, comm));
+  return same;
+}
+
+/// The associated system of the active set in force; made anew when the set changes.
+class CurrentSystem {
+ public:
+  CurrentSystem(const Analysis& analysis) : analysis_(analysis) {}
+  const contact::CoupledSystem& of(const std::vector<unsigned char>& closed) {
+    if (!system_ || !sameOnAllRanks(analysis_.mesh->comm, system_->closed(), closed)) {
+      system_.reset();  // the old factorisation's memory first
+      Stage stage(analysis_.mesh->comm, "contact");
+      system_ =
+          std::make_unique<contact::CoupledSystem>(analysis_.bodies, analysis_.contact, closed);
+      stage.finish(formatted("%d unknowns with %d of %d contact nodes closed",
+                             static_cast<int>(system_->size()),
+                             static_cast<int>(analysis_.contact.totalNodes - system_->openNodes()),
+                             static_cast<int>(analysis_.contact.totalNodes)));
+    }
+    return *system_;
+  }
+
+ private:
+  const Analysis& analysis_;
+  std::unique_ptr<contact::CoupledSystem> system_;
+};
+
+/// Steady sliding at every steady point, each started from the active set of a neighbour.
+std::vector<steady::Solution> steadySweep(const Analysis& analysis, CurrentSystem& system) {
+  const steady::Problem problem(*analysis.mesh, analysis.bodies, analysis.contact);
+  const std::vector<unsigned char> bonded(analysis.contact.nodes.size(), 1);
+  std::vector<std::vector<unsigned char>>
+      closed;  // [steady point] its active set, or the one tried where there is no solution
+  std::vector<steady::Solution> solutions;
+  for (const auto& at : analysis.sweep.steadyPoints()) {
+    const auto neighbour = analysis.sweep.earlierNeighbour(solutions.size());
+    closed.push_back(neighbour ? closed[*neighbour] : bonded);
+    const auto& current = system.of(closed.back());
+    current.solver();
+    Stage stage(analysis.mesh->comm, "steady");
+    solutions.push_back(problem.solve(at, current));
+    const auto& solution = solutions.back();
+    stage.finish(formatted(
+        "%s: %s after %d iterations, %d of %d nodes open, smallest pressure %.4g, residual %.0e, "
+        "imbalance %.0e",
+        sweep::parameterText(at).c_str(), solution.reason.c_str(), solution.iterations,
+        static_cast<int>(solution.openNodes), static_cast<int>(analysis.contact.totalNodes),
+        solution.smallestPressure, solution.residual, solution.imbalance));
+    if (solution.converged)
+      linalg::requireFinite(solution.displacement, "steady sliding at " + sweep::parameterText(at));
+    if (solution.converged)
+      closed.back() = solution.closed;
+    else
+      complain(analysis.mesh->comm,
+               formatted("no steady sliding solution found at %s: %s",
+                         sweep::parameterText(at).c_str(), solution.reason.c_str()));
+  }
+  return solutions;
+}
+
+/// At each speed, or once where K and the slip are the same at all; loads do not matter.
+std::vector<SpeedUniqueness> examineUniqueness(const Analysis& analysis) {
+  std::vector<double> speeds = analysis.sweep.speeds;
+  if (analysis.contact.slipIsGiven()) speeds.resize(1);
+  std::vector<SpeedUniqueness> result;
+  for (double speed : speeds) {
+    Stage stage(analysis.mesh->comm, "steady");
+    result.push_back({speed, steady::examine(analysis.bodies, analysis.contact, speed,
+                                             analysis.sweep.frictions)});
+    const auto& last = result.back().found.judgements.back();
+    stage.finish(formatted("uniqueness at friction %g: %s (%s)", last.friction,
+                           last.verdict.c_str(), last.reason.c_str()));
+  }
+  return result;
+}
+
+/// Friction work of the shapes and, if wanted, the sensitivities of their eigenvalues.
+void examineShapes(const Analysis& analysis, const contact::CoupledSystem& system,
+                   const steady::Solution& solution, const pencil::Pencil& pencil,
+                   const sensitivity::StartSpace& start, flutter::Influences& influences,
+                   pencil::FrictionPoint& point) {
+  if (point.shapes.empty()) return;
+  OwnedMat prestress;
+  if (elasticity::prestressWanted())
+    prestress = elasticity::geometricStiffness(*analysis.mesh, solution.displacement);
+  for (auto& shape : point.shapes)
+    shape.frictionWork = flutter::frictionWork(
+        analysis.contact, analysis.bodies, solution, point.at, point.eigenvalues[shape.index].s,
+        linalg::ComplexVector::copied(shape.real, shape.imaginary), prestress);
+  if (!sensitivity::sensitivitiesWanted()) return;
+  Stage stage(analysis.mesh->comm, "flutter");
+  influences.derive(point, pencil, {point.at, system, solution, prestress}, start);
+  double error = 0;
+  for (const auto& sensitivity : point.sensitivities)
+    error = std::max(error, sensitivity.leftBackwardError);
+  stage.finish(formatted("%s: sensitivities of %d eigenvalues, worst left backward error %.1e",
+                         sweep::parameterText(point.at).c_str(),
+                         static_cast<int>(point.sensitivities.size()), error));
+}
+
+/// The steady points from `first` to `last`, which share one active set.
+class MeshSegment : public SegmentProblem {
+ public:
+  /// Collective. Borrows all.
+  MeshSegment(const Analysis& analysis, std::size_t first, std::size_t last, CurrentSystem& current,
+              flutter::Influences& influences)
+      : analysis_(analysis), first_(first), current_(current), influences_(influences) {
+    for (std::size_t i = first; i < last; ++i) points_.push_back(analysis.steady[i].at);
+    if (elasticity::prestressWanted()) {
+      prestress_ = elasticity::geometricStiffness(*analysis.mesh, reference().displacement);
+      stressed_ = std::make_unique<contact::CoupledSystem>(analysis.bodies, analysis.contact,
+                                                           reference().closed, prestress_);
+    }
+    system_ = stressed_ ? stressed_.get() : &current.of(reference().closed);
+  }
+  const contact::CoupledSystem& system() const override { return *system_; }
+  Mat trial() const override { return system_->transformation().trial; }
+  int modeCount() const override { return modes::wantedCount(); }
+  const std::vector<sweep::Parameters>& steadyPoints() const override { return points_; }
+  pencil::Pencil pencil() const override {
+    return flutter::affineTerms(analysis_.contact, system());
+  }
+  std::vector<pencil::Term> termsOf(std::size_t i) const override {
+    return termsOf(analysis_.steady[first_ + i]);
+  }
+  std::optional<std::vector<pencil::Term>> termsAt(const sweep::Parameters& at) override {
+    sweep::Parameters steady = at;
+    steady.damping = 1;
+    const auto known = std::find_if(analysis_.steady.begin(), analysis_.steady.end(),
+                                    [&](const auto& solution) { return solution.at == steady; });
+    if (known != analysis_.steady.end()) return termsIfShared(*known);
+    if (!problem_)
+      problem_ =
+          std::make_unique<steady::Problem>(*analysis_.mesh, analysis_.bodies, analysis_.contact);
+    return termsIfShared(problem_->solve(steady, current_.of(reference().closed)));
+  }
+  void examine(std::size_t i, const pencil::Pencil& pencil, const sensitivity::StartSpace& start,
+               pencil::FrictionPoint& point) override {
+    examineShapes(analysis_, system(), analysis_.steady[first_ + i], pencil, start, influences_,
+                  point);
+  }
+
+ private:
+  /// Its geometric stiffness is in K0.
+  const steady::Solution& reference() const { return analysis_.steady[first_]; }
+  std::vector<pencil::Term> termsOf(const steady::Solution& solution) const {
+    OwnedMat change;
+    if (prestress_ && &solution != &reference()) {
+      change = elasticity::geometricStiffness(*analysis_.mesh, solution.displacement);
+      check(MatAXPY(change, -1, prestress_, SAME_NONZERO_PATTERN));
+    }
+    return flutter::pointTerms(analysis_.contact, system(), solution, change);
+  }
+  std::optional<std::vector<pencil::Term>> termsIfShared(const steady::Solution& solution) const {
+    if (!solution.converged ||
+        !sameOnAllRanks(analysis_.mesh->comm, solution.closed, reference().closed))
+      return {};
+    return termsOf(solution);
+  }
+
+  const Analysis& analysis_;
+  std::size_t first_;
+  CurrentSystem& current_;
+  flutter::Influences& influences_;
+  std::vector<sweep::Parameters> points_;
+  OwnedMat prestress_;
+  std::unique_ptr<contact::CoupledSystem> stressed_;  // with prestress
+  const contact::CoupledSystem* system_ = nullptr;
+  std::unique_ptr<steady::Problem> problem_;  // for points between those of the sweep
+};
+
+void solveMeshSegment(Analysis& analysis, std::size_t first, std::size_t last,
+                      CurrentSystem& current, flutter::Influences& influences) {
+  MeshSegment problem(analysis, first, last, current, influences);
+  // Terms of their own are absent at friction 0 alone: the last point, of the largest friction, has
+  // them if any point has.
+  if (matrices::exportWanted())
+    matrices::exportPencil(problem.pencil().with(problem.termsOf(last - first - 1)), analysis.sweep,
+                           last - first);
+  ModalSegment segment = solveSegment(problem, analysis.sweep.dampings);
+  segment.openNodes = problem.system().openNodes();
+  analysis.segments.push_back(std::move(segment));
+  if (modes::benchmarkWanted())
+    analysis.modesFloorSeconds = modes::floorSeconds(problem.system().k0());
+}
+
+}  // namespace
+
+mesh::Request meshRequest() {
+  mesh::Request request;
+  request.bodies = elasticity::materialGroups();
+  request.moving = elasticity::movingBodies();
+  request.nodeGroups = contact::constrainedGroups();
+  for (const auto& group : elasticity::groundedGroups()) request.nodeGroups.push_back(group);
+  request.surfaces = elasticity::loadedSurfaces();
+  request.interfaces = contact::readInterfaces();
+  request.periodic = contact::periodicPairs();
+  request.howToGiveMaterials = elasticity::howToGiveMaterials();
+  request.motionOptions = elasticity::motionOptions();
+  return request;
+}
+
+void prepareMesh(Analysis& analysis) {
+  analysis.mesh = std::make_unique<mesh::Mesh>(readMesh(analysis.comm));
+  analysis.bodies = assembleBodies(*analysis.mesh);
+  analysis.contact = buildContact(*analysis.mesh, analysis.bodies);
+  requireFiniteSweep(analysis.bodies, analysis.contact, analysis.sweep);
+  rejectIdleFactors(analysis.bodies, analysis.contact, analysis.sweep);
+}
+
+void solveMesh(Analysis& analysis) {
+  CurrentSystem system(analysis);
+  analysis.steady = steadySweep(analysis, system);
+  if (analysis.contact.totalNodes > 0 && steady::uniquenessWanted())
+    analysis.uniqueness = examineUniqueness(analysis);
+  flutter::Influences influences(*analysis.mesh, analysis.bodies, analysis.contact);
+  for (std::size_t first = 0, last = 0; first < analysis.steady.size(); first = last) {
+    last = first + 1;
+    const auto& start = analysis.steady[first];
+    if (!start.converged) continue;
+    while (last < analysis.steady.size() && analysis.steady[last].converged &&
+           sameOnAllRanks(analysis.comm, analysis.steady[last].closed, start.closed))
+      ++last;
+    solveMeshSegment(analysis, first, last, system, influences);
+  }
+}
+
+}  // namespace squeal::analysis

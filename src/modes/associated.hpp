@@ -1,0 +1,31 @@
+#pragma once
+/// The ideal associated system [4.17] that the modes, the reduction and the corrections share.
+#include <memory>
+#include <string>
+
+#include "linalg/symmetric_solver.hpp"
+#include "petsc/owned.hpp"
+
+namespace squeal::modes {
+
+/// K0 and M0, n×n, symmetric positive definite, and the direct solver of K0 (prefix -modes_st_),
+/// whose one factorisation serves all stages.
+class AssociatedSystem {
+ public:
+  /// Collective. Takes both matrices; `name` stands for K0 in messages.
+  AssociatedSystem(OwnedMat k0, OwnedMat m0, const std::string& name);
+  Mat k0() const { return k0_; }
+  Mat m0() const { return m0_; }
+  PetscInt size() const { return size_; }  ///< n
+  MPI_Comm comm() const;
+  /// Collective. The solver, which is factorised on first use. An EPS that has used it leaves it
+  /// without its factor, so it is asked for anew each time. Error: the factorisation fails.
+  KSP solver() const { return solver_->get(); }
+
+ private:
+  OwnedMat k0_, m0_;
+  PetscInt size_ = 0;
+  std::unique_ptr<linalg::SymmetricSolver> solver_;
+};
+
+}  // namespace squeal::modes
