@@ -1,10 +1,11 @@
 #pragma once
-/// The columns of a BV as plain arrays.
+/// Access to the columns of a SLEPc BV as plain arrays.
 #include "petsc/owned.hpp"
 
 namespace squeal::linalg {
 
-/// The local rows of a BV of type svec for the life of the object: column-major, contiguous.
+/// Read access to this rank's rows of a BV of type svec, as one contiguous column-major array of
+/// rows() × columns(). The BV is borrowed and locked for reading during the life of the object.
 class ReadColumns {
  public:
   explicit ReadColumns(BV bv);
@@ -21,8 +22,8 @@ class ReadColumns {
   const PetscScalar* values_ = nullptr;
 };
 
-/// Collective. A BV of type svec for vectors like those of `like`, with these columns: this rank's
-/// rows, column-major.
+/// Collective. Returns a BV of type svec with `count` columns, whose vectors are laid out like the
+/// columns of `like`. The entries are copied from `values`, this rank's rows, column-major.
 OwnedBV copiedColumns(Mat like, const PetscScalar* values, PetscInt count);
 
 }  // namespace squeal::linalg

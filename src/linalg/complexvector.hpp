@@ -1,27 +1,28 @@
 #pragma once
-/// Complex vectors of a real build.
+/// Complex vectors for a PETSc that is built with real scalars.
 #include <complex>
 
 #include "petsc/owned.hpp"
 
 namespace squeal::linalg {
 
+/// A complex vector as two real ones of the same layout, both owned.
 struct ComplexVector {
   OwnedVec real, imaginary;
 
-  /// Collective. Laid out like `vector`, zero.
+  /// Collective. Returns a vector of zeros, laid out like `vector`.
   static ComplexVector like(Vec vector);
-  /// Collective.
+  /// Collective. Returns a copy of the two parts; the arguments are borrowed.
   static ComplexVector copied(Vec real, Vec imaginary);
 };
 
-/// Collective. uᴴ v.
+/// Collective. Returns uᴴ v.
 std::complex<double> dot(const ComplexVector& u, const ComplexVector& v);
-/// Collective. v += a u.
+/// Collective. Adds a u to v.
 void add(ComplexVector& v, std::complex<double> a, const ComplexVector& u);
-/// Collective. A u; `transposed`: Aᵀ u.
+/// Collective. Returns A u, or Aᵀ u if `transposed`.
 ComplexVector product(Mat a, const ComplexVector& u, bool transposed = false);
-/// Collective.
+/// Collective. Returns the 2-norm of u.
 double length(const ComplexVector& u);
 
 }  // namespace squeal::linalg

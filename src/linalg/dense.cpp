@@ -26,7 +26,7 @@ struct EigenPair {
   std::vector<Complex> right, left;  // left: empty unless asked for
 };
 
-/// Column j of LAPACK's real storage of conjugate pairs; empty of an empty matrix.
+/// Returns column j of LAPACK's real storage of conjugate pairs; empty for an empty matrix.
 std::vector<Complex> complexColumn(const std::vector<double>& vectors, std::size_t n, std::size_t j,
                                    bool conjugates) {
   std::vector<Complex> column(vectors.empty() ? 0 : n);
@@ -40,8 +40,8 @@ std::vector<Complex> conjugated(std::vector<Complex> vector) {
   return vector;
 }
 
-/// LAPACK's real storage of conjugate pairs (n high) as complex numbers, of each pair the one with
-/// Im ≥ 0 and its conjugate.
+/// Returns the wanted eigenvalues from LAPACK's real storage of conjugate pairs (n rows) as complex
+/// numbers. Each number of a conjugate pair is tested, and listed if it is wanted.
 std::vector<EigenPair> unpacked(std::size_t n, const std::vector<double>& real,
                                 const std::vector<double>& imaginary,
                                 const std::vector<double>& beta, const std::vector<double>& right,
@@ -67,7 +67,7 @@ std::vector<EigenPair> unpacked(std::size_t n, const std::vector<double>& real,
   return pairs;
 }
 
-/// What a call of LAPACK needs for its vectors.
+/// The arrays for the eigenvectors in a call of LAPACK, n × n each.
 struct LapackVectors {
   LapackVectors(std::size_t n, Vectors wanted)
       : right(n * n), left(wanted == Vectors::both ? n * n : 0) {}
@@ -75,7 +75,7 @@ struct LapackVectors {
   std::vector<double> right, left;
 };
 
-/// All eigenvalues and eigenvectors of A x = μ B x.
+/// Returns the wanted eigenvalues, with eigenvectors, of A x = μ B x, by QZ.
 std::vector<EigenPair> generalized(DenseMatrix a, DenseMatrix b, int size, Vectors sides,
                                    const Wanted& wanted) {
   const auto n = static_cast<std::size_t>(size);
@@ -96,8 +96,8 @@ std::vector<EigenPair> generalized(DenseMatrix a, DenseMatrix b, int size, Vecto
   return unpacked(n, real, imaginary, beta, vectors.right, vectors.left, wanted);
 }
 
-/// Eigenvalues and eigenvectors of A x = μ x: its Schur form, and the vectors of the wanted ones
-/// alone, of which the calls that give all would make the most of their work.
+/// Returns the wanted eigenvalues, with eigenvectors, of A x = μ x, from its Schur form. Only the
+/// wanted eigenvectors are computed: computing all of them would take most of the time.
 std::vector<EigenPair> standard(DenseMatrix a, int size, Vectors sides, const Wanted& wanted) {
   const auto n = static_cast<std::size_t>(size);
   PetscBLASInt order = size, query = -1, info = 0, sorted = 0, low = 0, high = 0;
@@ -115,7 +115,7 @@ std::vector<EigenPair> standard(DenseMatrix a, int size, Vectors sides, const Wa
     throw Error("LAPACK dgees failed on the reduced eigenproblem (info " + std::to_string(info) +
                 ")");
   std::vector<PetscBLASInt> chosen(n, 0);
-  std::vector<double> realParts, imaginaryParts;  // of the chosen
+  std::vector<double> realParts, imaginaryParts;  // of the chosen eigenvalues
   for (std::size_t j = 0; j < n; ++j) {
     const std::size_t width = imaginary[j] != 0 ? 2 : 1;
     const Complex value(real[j], imaginary[j]);
@@ -154,11 +154,12 @@ DenseMatrix sideBySide(const DenseMatrix& left, const DenseMatrix& right) {
   return both;
 }
 
-/// From here on an inverse is formed: eigenvalues then lose half of the digits at worst, the
-/// largest ones none.
+/// Returns true if the inverse may be formed. With this bound, eigenvalues lose at worst half of
+/// their digits, the largest ones none.
 bool invertible(const Lu<double>& matrix) { return matrix.pivotRatio() > 1e-8; }
 
-/// uᴴ M⁻¹ A = μ uᴴ gives the left vectors y = M⁻ᵀ u of A y = μ M y.
+/// Replaces the left vectors u of M⁻¹ A, uᴴ M⁻¹ A = μ uᴴ, by the left vectors of (A, M),
+///   y = M⁻ᵀ u.
 void undoInverse(const Lu<double>& mass, std::vector<DensePair>& pairs) {
   DenseMatrix columns;
   for (const auto& pair : pairs) {
@@ -176,15 +177,15 @@ void undoInverse(const Lu<double>& mass, std::vector<DensePair>& pairs) {
   }
 }
 
-/// The root of s² = −μ with Im s ≥ 0.
+/// Returns the root of s² = −μ with Im s ≥ 0.
 Complex rootOf(Complex mu) {
   const Complex s =
       mu.imag() == 0 && mu.real() >= 0 ? Complex(0, std::sqrt(mu.real())) : std::sqrt(-mu);
   return s.imag() < 0 ? -s : s;
 }
 
-/// The leading matrix M of a quadratic problem, and its factors: M⁻¹ A is formed where it can be,
-/// as QR takes a small part of the time of QZ.
+/// The leading matrix M of a quadratic problem, and its factors, both borrowed. M⁻¹ A is formed
+/// where it can be, as QR takes a small part of the time of QZ.
 struct Leading {
   const DenseMatrix& matrix;
   const Lu<double>& factors;
@@ -192,8 +193,8 @@ struct Leading {
 
 std::vector<DensePair> linearInSquare(const Leading& mass, const DenseMatrix& stiffness, int m,
                                       Vectors vectors, const Wanted& wanted) {
-  // K q = μ M q with μ = −s²; both roots ±s are eigenvalues, one of them (two, if real) has Im s ≥
-  // 0.
+  //   K q = μ M q,   μ = −s²
+  // Both roots ±s are eigenvalues. One of them has Im s ≥ 0, or both if they are real.
   const Wanted either = [&](Complex mu) {
     const Complex s = rootOf(mu);
     return wanted(s) || (s.imag() == 0 && wanted(-s));
@@ -213,7 +214,7 @@ std::vector<DensePair> linearInSquare(const Leading& mass, const DenseMatrix& st
   return pairs;
 }
 
-/// [I 0; 0 M].
+/// Returns [I 0; 0 M].
 DenseMatrix padded(const DenseMatrix& mass, std::size_t m) {
   DenseMatrix b(4 * m * m, 0.0);
   for (std::size_t j = 0; j < m; ++j) {
@@ -233,7 +234,7 @@ std::vector<DensePair> companion(const Leading& mass, const DenseMatrix& damping
   };
   const double unit =
       std::sqrt(norm(stiffness) / norm(mass.matrix));  // s = unit ŝ (Fan, Lin and Van Dooren 2004)
-  // [0 I; −K −Z] (q, ŝq) = ŝ [I 0; 0 M] (q, ŝq), K and Z scaled
+  //   [0 I; −K̂ −Ẑ] (q, ŝq) = ŝ [I 0; 0 M] (q, ŝq),   K̂ = K / unit², Ẑ = Z / unit
   DenseMatrix lower = sideBySide(stiffness, damping);
   if (invertible(mass.factors)) mass.factors.solve(lower);
   DenseMatrix a(4 * m * m, 0.0);
@@ -251,7 +252,7 @@ std::vector<DensePair> companion(const Leading& mass, const DenseMatrix& damping
            ? standard(a, 2 * size, vectors, upper)
            : generalized(a, padded(mass.matrix, m), 2 * size, vectors, upper)) {
     const auto half = right.begin() + (std::abs(value) > 1 ? size : 0);  // the larger of q and ŝq
-    // (u, y)ᴴ of the companion form: u = −K̂ᵀ y / conj ŝ, and yᴴ P = 0
+    // The left vector of the companion form is (u, y) with u = −K̂ᵀ y / conj ŝ and yᴴ P = 0.
     pairs.push_back({unit * value,
                      {half, half + size},
                      {left.begin() + (left.empty() ? 0 : size), left.end()}});
@@ -260,7 +261,7 @@ std::vector<DensePair> companion(const Leading& mass, const DenseMatrix& damping
   return pairs;
 }
 
-/// To 2-norm 1, the largest entry real.
+/// Scales a vector to the 2-norm 1, with its largest entry real.
 void normalise(std::vector<Complex>& vector) {
   double sum = 0;
   std::size_t largest = 0;
@@ -276,7 +277,7 @@ void normalise(std::vector<Complex>& vector) {
   vector[largest] = vector[largest].real();
 }
 
-/// max |A_ij − sign A_ji| is rounding beside max |A_ij|.
+/// Returns true if A = sign Aᵀ up to rounding: max |A_ij − sign A_ji| ≤ 1e-13 max |A_ij|.
 bool hasSymmetry(const DenseMatrix& a, std::size_t m, double sign) {
   double size = 0, difference = 0;
   for (std::size_t j = 0; j < m; ++j)
@@ -293,9 +294,10 @@ bool positiveDefinite(DenseMatrix a, int m) {
   return info == 0;
 }
 
-/// M and K symmetric positive definite, Z antisymmetric: gyroscopic forces do no work, and all
-/// eigenvalues are imaginary. (For a vector of length 1, s² m + i s g + k = 0 with m, k > 0 and g
-/// real has no other roots.)
+/// Returns true if M and K are symmetric positive definite and Z is antisymmetric. Gyroscopic
+/// forces do no work, and all eigenvalues are imaginary: with q of length 1,
+///   s² m + i s g + k = 0,   m = qᴴ M q > 0,   k = qᴴ K q > 0,   i g = qᴴ Z q,
+/// has imaginary roots only.
 bool conservative(const DenseProblem& problem) {
   const auto m = static_cast<std::size_t>(problem.m);
   return hasSymmetry(problem.stiffness, m, 1) && hasSymmetry(problem.mass, m, 1) &&
@@ -303,16 +305,17 @@ bool conservative(const DenseProblem& problem) {
          positiveDefinite(problem.mass, problem.m);
 }
 
-/// From a root t of the reversed polynomial to s = 1/t, or to its conjugate, whose imaginary part
-/// is not negative.
+/// Returns the conjugate of s = 1/t for a root t of the reversed polynomial with Im t ≥ 0, so that
+/// the imaginary part of the result is not negative either.
 Complex turnedRound(Complex t) { return 1.0 / std::conj(t); }
 
 }  // namespace
 
 std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vectors,
                                       const Wanted& wanted) {
-  // The roots of the reversed polynomial, K + t Z + t² M read as t² K + t Z + M with t = 1/s, where
-  // K is the better matrix to invert: so it is in a basis that is orthonormal in energy.
+  // Where K is the better matrix to invert, as in a basis that is orthonormal in energy, the roots
+  // of the reversed polynomial are found:
+  //   t² K + t Z + M,   t = 1/s
   constexpr double beyondDoubt = 0.01;
   const Lu<double> ofStiffness(problem.stiffness, problem.m);
   std::optional<Lu<double>> ofMass;
@@ -333,8 +336,8 @@ std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vecto
     if (!reversed) break;
     pair = {turnedRound(pair.s), conjugated(std::move(pair.q)), conjugated(std::move(pair.left))};
   }
-  // What rounding leaves of the growth would decide which eigenvalues friction, as it sets in,
-  // makes unstable "at friction 0".
+  // Growth rates are exactly zero here. If rounding errors stayed in them, eigenvalues that a small
+  // friction makes unstable would be reported as unstable at friction 0.
   if (!problem.damping.empty() && conservative(problem))
     for (auto& pair : pairs)
       if (std::abs(pair.s.real()) <= 1e-6 * std::abs(pair.s)) pair.s = {0, pair.s.imag()};

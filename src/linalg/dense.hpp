@@ -9,56 +9,66 @@
 
 namespace squeal::linalg {
 
-/// Column-major m×m.
+/// A dense matrix, column-major; m × m in this header.
 using DenseMatrix = std::vector<double>;
 
-/// s² mass + s damping + stiffness, m×m; damping may be empty.
+/// The quadratic eigenproblem
+///   (s² M + s Z + K) q = 0
+/// with real m × m matrices. An empty Z stands for zero.
 struct DenseProblem {
   DenseMatrix mass, damping, stiffness;
   int m = 0;
 };
 
+/// An eigenvalue with its vectors.
 struct DensePair {
-  std::complex<double> s;
-  std::vector<std::complex<double>> q;  ///< [m], 2-norm 1
-  /// Y with yᴴ P(s) = 0, 2-norm 1; empty unless asked for
+  std::complex<double> s;               ///< 1/s
+  std::vector<std::complex<double>> q;  ///< right vector, [m], 2-norm 1
+  /// Left vector y with yᴴ P(s) = 0, [m], 2-norm 1; empty unless it is asked for.
   std::vector<std::complex<double>> left = {};
 };
 
-/// What a solve gives beside the eigenvalues.
+/// The eigenvectors that a solve returns: the right ones, or both the right and the left ones.
 enum class Vectors { right, both };
 
-/// Which eigenvalues; empty: all.
+/// Returns true for each eigenvalue s that is to be returned. An empty function selects all.
 using Wanted = std::function<bool(std::complex<double>)>;
 
-/// Not collective. All finite eigenvalues with Im s ≥ 0, by ascending Im s, then Re s. An empty Z:
-/// the problem is linear in s², solved at size m; otherwise its companion form of size 2m is scaled
-/// and solved. QR with the inverse of M or K, whichever is better conditioned, finds them; QZ, in
-/// ten times as long, where neither is. Error: LAPACK fails, or M and K are singular. Those that
-/// are not `wanted` (none given: all are) are left out.
+/// Not collective. Returns the finite eigenvalues with Im s ≥ 0 that are `wanted`, by ascending
+/// Im s, then by ascending Re s.
+///
+/// If Z is empty, the problem is linear in s² and is solved at size m. Otherwise its companion form
+/// of size 2m is scaled (Fan, Lin and Van Dooren 2004) and solved. The QR algorithm is applied with
+/// the inverse of M or K, whichever is better conditioned. Where neither can be inverted safely,
+/// the QZ algorithm is used, which takes ten times as long.
+///
+/// Throws Error if LAPACK fails, or if M and K have a common null vector.
 std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vectors = Vectors::right,
                                       const Wanted& wanted = {});
 std::vector<DensePair> solveQuadratic(const DenseMatrix& mass, const DenseMatrix& damping,
                                       const DenseMatrix& stiffness, int m,
                                       Vectors vectors = Vectors::right);
 
-/// Not collective. A times the right vectors, their real and imaginary parts as columns 2j and 2j +
-/// 1; zero for an empty A.
+/// Not collective. Returns A times the right vectors of the pairs, m rows, column-major. Columns 2j
+/// and 2j + 1 hold the real and the imaginary part for pair j. An empty A stands for zero.
 std::vector<double> timesVectors(const DenseMatrix& a, int m, const std::vector<DensePair>& pairs);
 
-/// Collective. Solves several problems, each on one rank, which alone needs its matrices: problem i
-/// on rank i modulo their number. The same results on all ranks, so that rounding cannot make the
-/// ranks disagree on the order or number of eigenvalues.
+/// Collective. Solves several problems, problem i on the rank i modulo the number of ranks, which
+/// alone needs its matrices. Every rank needs m of all problems. The results are sent to all ranks,
+/// so that rounding cannot make the ranks disagree on the order or number of eigenvalues. Throws
+/// Error on all ranks if one problem fails.
 std::vector<std::vector<DensePair>> solveSpread(MPI_Comm comm,
                                                 const std::vector<DenseProblem>& problems,
                                                 Vectors vectors, const Wanted& wanted = {});
 
-/// Collective. One problem, on rank 0.
+/// Collective. Solves one problem on rank 0 and returns the results on all ranks. Throws Error on
+/// all ranks if it fails.
 std::vector<DensePair> solveTogether(MPI_Comm comm, const DenseMatrix& mass,
                                      const DenseMatrix& damping, const DenseMatrix& stiffness,
                                      int m, Vectors vectors = Vectors::right);
 
-/// Collective. The pairs of rank `root`, vectors of m entries, to all; one message.
+/// Collective. Sends the pairs of rank `root`, with vectors of m entries, to all ranks; all vectors
+/// travel in one message. `vectors` says whether left vectors are sent too.
 void shareFrom(int root, MPI_Comm comm, std::vector<DensePair>& pairs, int m, Vectors vectors);
 
 }  // namespace squeal::linalg

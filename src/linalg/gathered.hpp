@@ -1,16 +1,17 @@
 #pragma once
-/// Small distributed matrices brought to rank 0.
+/// Copies of small distributed matrices on rank 0.
 #include <vector>
 
 #include "petsc/owned.hpp"
 
 namespace squeal::linalg {
 
-/// Collective. The whole matrix as a sequential one on rank 0, of no rows elsewhere.
+/// Collective. Returns a sequential copy of the whole matrix on rank 0, and a matrix without rows
+/// on the other ranks.
 OwnedMat onRankZero(Mat matrix);
 
-/// Collective. All entries of a square matrix on rank 0, column-major; empty elsewhere and for a
-/// matrix that is not there.
+/// Collective. Returns all entries of a square matrix on rank 0, column-major. The result is empty
+/// on the other ranks, and on all ranks for a null matrix.
 std::vector<double> gathered(Mat matrix);
 
 }  // namespace squeal::linalg

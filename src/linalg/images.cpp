@@ -39,7 +39,7 @@ DenseMatrix transposedProduct(MPI_Comm comm, const double* x, PetscInt rowCount,
               &left);
   const auto count = static_cast<int>(product.size());
   check(MPI_Allreduce(MPI_IN_PLACE, product.data(), count, MPI_DOUBLE, MPI_SUM, comm));
-  // The rounding of sums over the ranks may depend on the rank; what follows from them must not.
+  // The rounding of sums over the ranks may depend on the rank; later decisions must not.
   check(MPI_Bcast(product.data(), count, MPI_DOUBLE, 0, comm));
   return product;
 }
@@ -74,7 +74,6 @@ DenseMatrix rowsOf(const DenseMatrix& matrix, std::size_t height, std::size_t fi
   return rows;
 }
 
-/// Orthogonal combinations of columns that hold them but for parts of length `small`.
 Block principal(MPI_Comm comm, const Block& columns, double small) {
   if (columns.columns == 0) return columns;
   DenseMatrix combinations = transposedProduct(comm, columns, columns);

@@ -1,6 +1,6 @@
 #pragma once
-/// Tall matrices by this rank's rows: the basis V and its images A V. Products of them are BLAS on
-/// the local rows and one reduction.
+/// Tall matrices that are distributed by rows: the basis V and its images A V. A product of two of
+/// them is one BLAS call on the local rows and one reduction.
 #include <vector>
 
 #include "linalg/dense.hpp"
@@ -8,10 +8,10 @@
 
 namespace squeal::linalg {
 
-/// Columns of length n, this rank's rows of them.
+/// This rank's rows of a tall matrix with n rows over all ranks.
 struct Block {
-  PetscInt rows = 0, columns = 0;
-  std::vector<double> values;  ///< column-major
+  PetscInt rows = 0, columns = 0;  ///< rows of this rank, columns of the matrix
+  std::vector<double> values;      ///< column-major
 
   explicit Block(PetscInt rowCount, PetscInt columnCount = 0)
       : rows(rowCount),
@@ -31,59 +31,65 @@ struct Block {
   }
 };
 
-/// Adds the columns of another block.
+/// Appends the columns of another block with the same number of rows. Not collective.
 void append(Block& block, const Block& other);
 
-/// Collective. Adds A times columns of length n, given by this rank's rows, to the columns of
-/// `result`.
+/// Collective. Appends A times the `count` columns, of which this rank's rows are given, to the
+/// columns of `result`.
 void appendProduct(Mat matrix, const double* columns, PetscInt count, Block& result);
 
-/// result (rows × k) += factor · X (rows × columns) · coefficients (columns × k), local, all
-/// column-major.
+/// Not collective. Computes
+///   result += factor · X · coefficients
+/// with X rows × columns, coefficients columns × k and result rows × k, all column-major.
 void multiplyAdd(const double* x, PetscInt rows, PetscInt columns,
                  const std::vector<double>& coefficients, std::vector<double>& result,
                  double factor = 1);
 
-/// X · combinations (x.columns × count), local.
+/// Not collective. Returns X · combinations, where combinations is x.columns × count.
 Block combined(const Block& x, const DenseMatrix& combinations, PetscInt count);
 
-/// Cᵀ A C of small matrices, A size × size. Not collective.
+/// Not collective. Returns Cᵀ A C for small matrices, where A is size × size.
 DenseMatrix congruent(const DenseMatrix& a, PetscInt size, const DenseMatrix& c);
 
-/// Rows [first, first + count) of a matrix of this height.
+/// Not collective. Returns the rows [first, first + count) of a matrix with `height` rows.
 DenseMatrix rowsOf(const DenseMatrix& matrix, std::size_t height, std::size_t first,
                    std::size_t count);
 
-/// Columns by this rank's rows as a dense matrix that borrows them.
+/// Collective. Returns a dense rows × columns matrix that borrows `values`, this rank's localRows
+/// rows, column-major.
 OwnedMat borrowed(MPI_Comm comm, PetscInt localRows, PetscInt rows, PetscInt columns,
                   const double* values);
 
-/// Collective. Xᵀ Y for X rows × m and Y rows × n, column-major m × n, the same on all ranks.
+/// Collective. Returns Xᵀ Y, m × n, column-major and the same on all ranks. X and Y are given by
+/// this rank's rows, X as rows × m and Y as rows × n.
 DenseMatrix transposedProduct(MPI_Comm comm, const double* x, PetscInt rows, PetscInt m,
                               const double* y, PetscInt n);
 DenseMatrix transposedProduct(MPI_Comm comm, const Block& x, const Block& y);
 
-/// Collective. Orthogonal combinations of columns that hold them but for parts of length `small`.
+/// Collective. Returns orthogonal combinations of the columns, the principal directions. Those of
+/// length `small` or less are dropped.
 Block principal(MPI_Comm comm, const Block& columns, double small);
-/// Collective. The columns that have a length, of unit length.
+/// Collective. Returns the columns scaled to the 2-norm 1. Columns of zeros are dropped.
 Block unitColumns(MPI_Comm comm, const Block& columns);
 
-/// The rows of a matrix on this rank that hold anything but zeros: a friction operator has some at
-/// the contact nodes alone.
+/// The rows of a matrix on this rank that have nonzero entries. A friction operator has such rows
+/// at the contact nodes only, so that products need not touch the others.
 class RowSet {
  public:
-  /// Collective.
+  /// Collective. The matrix is borrowed during this call only.
   explicit RowSet(Mat matrix);
   PetscInt size() const { return all_ ? localRows_ : static_cast<PetscInt>(rows_.size()); }
-  /// Of every rank.
+  /// Returns true if the set holds all rows of the matrix, on every rank.
   bool all() const { return all_; }
   PetscInt localRows() const { return localRows_; }
   PetscInt operator[](PetscInt i) const { return all_ ? i : rows_[static_cast<std::size_t>(i)]; }
-  /// These rows of columns given by all local rows, column-major.
+  /// Returns these rows of `count` columns, size() × count. The columns are given by all local
+  /// rows, column-major.
   std::vector<double> of(const double* columns, PetscInt count) const;
+  /// Returns these rows of the columns [first, last).
   Block of(const Block& columns, PetscInt first, PetscInt last) const;
-  /// Collective. These rows of the matrix, all columns; the matrix itself where there are no
-  /// others.
+  /// Collective. Returns these rows of the matrix, with all columns. If the set holds all rows, the
+  /// matrix itself is returned, shared.
   OwnedMat of(Mat matrix) const;
 
  private:
@@ -92,11 +98,14 @@ class RowSet {
   std::vector<PetscInt> rows_;  // ascending; empty if all
 };
 
-/// Collective. Xᵀ Y for columns X given by all local rows, and columns Y by `rows`, zero elsewhere.
+/// Collective. Returns Xᵀ Y, m × n, the same on all ranks. X is given by all local rows, and Y by
+/// `rows`; its other rows are zero.
 DenseMatrix transposedProduct(MPI_Comm comm, const RowSet& rows, const double* x, PetscInt m,
                               const double* y, PetscInt n);
-/// y (all local rows × k) += X · coefficients (columns × k) for columns X given by `rows`, zero
-/// elsewhere.
+/// Not collective. Computes
+///   y += X · coefficients
+/// with X given by `rows`, its other rows being zero, coefficients columns × k, and y by all local
+/// rows, with k columns.
 void multiplyAdd(const RowSet& rows, const Block& x, const std::vector<double>& coefficients,
                  std::vector<double>& y);
 

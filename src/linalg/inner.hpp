@@ -1,10 +1,11 @@
 #pragma once
-/// One solver as the preconditioner of another.
+/// Use of one solver as the preconditioner of another.
 #include "petsc/owned.hpp"
 
 namespace squeal::linalg {
 
-/// `solver` is preconditioned by `inner`, which it borrows.
+/// Collective. Makes `inner` the preconditioner of `solver`, which borrows it: `inner` must outlive
+/// the solves of `solver`.
 void preconditionBy(KSP solver, KSP inner);
 
 }  // namespace squeal::linalg

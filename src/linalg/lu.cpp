@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-// PETSc of real scalars declares the real routines alone.
+// PETSc built with real scalars declares the real routines only.
 extern "C" {
 void zgetrf_(const PetscBLASInt* m, const PetscBLASInt* n, std::complex<double>* a,
              const PetscBLASInt* lda, PetscBLASInt* pivots, PetscBLASInt* info);

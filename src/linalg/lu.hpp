@@ -10,14 +10,15 @@ namespace squeal::linalg {
 template <class Scalar>
 class Lu {
  public:
-  /// n × n, column-major.
+  /// Factorises a matrix, n × n, column-major, which is taken.
   Lu(std::vector<Scalar> matrix, int n);
-  /// Smallest pivot over the largest; 0: the matrix is singular.
+  /// Returns the smallest pivot divided by the largest, in magnitude; 0 for a singular matrix.
   double pivotRatio() const { return pivotRatio_; }
-  /// Gives pivots of zero the size of rounding: solutions then go along the null vector, which
-  /// inverse iteration wants.
+  /// Replaces pivots of zero by the machine precision times the largest pivot. Solutions then point
+  /// along the null vector, as inverse iteration needs.
   void raiseZeroPivots();
-  /// b ← A⁻¹ b, or A⁻ᴴ b, for b of any number of columns. Pivots of zero: infinite.
+  /// Replaces b, which has any number of columns, by A⁻¹ b, or by A⁻ᴴ b if `adjoint`. A pivot of
+  /// zero gives infinite entries.
   void solve(std::vector<Scalar>& b, bool adjoint = false) const;
 
  private:

@@ -10,7 +10,7 @@
 namespace squeal::linalg {
 namespace {
 
-/// Splitmix64 (Steele, Lea and Flood 2014): 64 random bits from a counter.
+/// Returns 64 random bits made from a counter by Splitmix64 (Steele, Lea and Flood 2014).
 std::uint64_t bits(std::uint64_t counter) {
   std::uint64_t z = (counter + 1) * 0x9e3779b97f4a7c15u;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -58,7 +58,7 @@ std::vector<double> squaredLengths(const DenseMatrix& unweighted) {
 
 SquaredNorms squaredNorms(const DenseMatrix& sketch) {
   SquaredNorms norms;
-  const auto halves = squaredLengths(sketch);  // of the two halves of each column
+  const auto halves = squaredLengths(sketch);  // two per column: unweighted, weighted
   for (std::size_t j = 0; j < halves.size(); j += 2) {
     norms.euclidean.push_back(halves[j]);
     norms.weighted.push_back(halves[j + 1]);

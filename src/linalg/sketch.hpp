@@ -1,10 +1,11 @@
 #pragma once
 /// Norms of tall vectors from a few random combinations of their entries.
 ///
-/// For a matrix Ω of k columns of independent random signs, ‖Ωᵀr‖²/k has the mean ‖r‖² and a
-/// relative deviation of √(2/k) (Johnson and Lindenstrauss 1984; Achlioptas 2003): the norm is
-/// found to within 9 % (one deviation) for k = 64. Ωᵀ A V, kept for a basis V, gives the norms of
-/// residuals A V q without their n entries.
+/// For a matrix Ω with k columns of independent random signs [M.39],
+///   ‖Ωᵀ r‖² / k
+/// has the mean ‖r‖² and a relative standard deviation of √(2/k) (Johnson and Lindenstrauss 1984;
+/// Achlioptas 2003). For k = 64 the norm is found to within 9 % (one deviation). Ωᵀ A V, kept for a
+/// basis V, gives the norms of residuals A V q without their n entries.
 #include <vector>
 
 #include "linalg/dense.hpp"
@@ -12,21 +13,24 @@
 
 namespace squeal::linalg {
 
+/// The matrix Ω of random signs, distributed by rows.
 class Sketch {
  public:
-  static constexpr PetscInt size = 64;  ///< k
-  /// Three deviations.
+  static constexpr PetscInt size = 64;  ///< k, the number of columns of Ω
+  /// A factor that raises a norm by three deviations.
   static constexpr double safety = 1.27;
 
-  /// Collective. For columns whose local rows are as many as those of the diagonal D, [local row];
-  /// signs belong to global rows, whatever the ranks. Weighted norms are √(rᵀ D r).
+  /// Collective. Makes Ω for vectors distributed like `diagonal`, [local row], the diagonal D ≥ 0
+  /// of the weighted norm √(rᵀ D r). The signs are a function of the global row, so that they do
+  /// not depend on the number of ranks.
   Sketch(MPI_Comm comm, const std::vector<double>& diagonal);
-  /// Collective. Ωᵀ X and Ωᵀ D^½ X, one above the other, 2k × columns, divided by √k: the same on
-  /// all ranks.
+  /// Collective. Returns Ωᵀ X / √k above Ωᵀ D^½ X / √k, 2k × columns, the same on all ranks. X is
+  /// given by this rank's rows.
   DenseMatrix of(const double* x, PetscInt columns) const;
-  /// Collective. Ωᵀ X alone, k × columns.
+  /// Collective. Returns Ωᵀ X / √k alone, k × columns.
   DenseMatrix unweighted(const double* x, PetscInt columns) const;
-  /// `of` for columns given by some rows, zero elsewhere.
+  /// Collective. Returns the same as the first `of` for an X that is given by `rows`; its other
+  /// rows are zero.
   DenseMatrix of(const RowSet& rows, const double* x, PetscInt columns) const;
 
  private:
@@ -34,18 +38,22 @@ class Sketch {
   Block signs_;  // n × 2k, the second half times D^½
 };
 
-/// Norms from a sketch (2k × columns): of all columns in turn.
+/// Estimates of squared norms, [column].
 struct SquaredNorms {
   std::vector<double> euclidean, weighted;
 };
+/// Returns the squared norms of all columns from a sketch, 2k × columns.
 SquaredNorms squaredNorms(const DenseMatrix& sketch);
-/// Squared Euclidean norms from an unweighted sketch (k × columns).
+/// Returns the squared Euclidean norms of all columns from an unweighted sketch, k × columns.
 std::vector<double> squaredLengths(const DenseMatrix& unweighted);
 
-/// Orthogonal combinations of columns, each first multiplied by its factor, that hold them but for
-/// parts of length `small`, as far as their sketches can tell (all × count, the factors included):
-/// right singular vectors of the sketch. `count` is a fraction of `all` where the columns are much
-/// alike; where there are too many directions for a sketch to tell, the columns themselves.
+/// Returns the coefficients of orthogonal combinations of columns, all × count, estimated from the
+/// sketches of the columns, 2k × all. Each column is first multiplied by its factor, [column]; the
+/// coefficients include the factors. They are the right singular vectors of the unweighted half of
+/// the sketch whose singular values exceed `small`; `count` is their number, a fraction of `all`
+/// where the columns are nearly linearly dependent. If nearly k values exceed `small`, or as many
+/// as there are columns, the sketch cannot tell: the coefficients are then the diagonal matrix of
+/// the factors.
 DenseMatrix leadingCombinations(const DenseMatrix& sketches, const std::vector<double>& factors,
                                 double small);
 

@@ -17,7 +17,7 @@ namespace {
 using Complex = std::complex<double>;
 using Entries = std::vector<Complex>;
 
-/// A x, or Aᵀ x with `transposed` "T"; zero for an empty A.
+/// Returns A x, or Aᵀ x if `transposed` is "T"; zero for an empty A.
 Entries product(const char* transposed, const DenseMatrix& a, const Entries& x) {
   const std::size_t m = x.size();
   if (a.empty()) return Entries(m);
@@ -46,7 +46,7 @@ Entries combined(Complex a, const Entries& x, Complex b, const Entries& y) {
   return z;
 }
 
-/// LU of P(σ): real, at a quarter of the cost, where P(σ) is.
+/// The LU factors of P(σ). Where P(σ) is real they are real, at a quarter of the cost.
 class Factors {
  public:
   Factors(const DenseProblem& problem, Complex shift) {
@@ -66,7 +66,7 @@ class Factors {
     }
   }
   bool regular() const { return (real_ ? real_->pivotRatio() : complex_->pivotRatio()) > 0; }
-  /// P(σ)⁻¹ b, or P(σ)⁻ᴴ b.
+  /// Returns P(σ)⁻¹ b, or P(σ)⁻ᴴ b if `adjoint`.
   Entries solve(Entries b, bool adjoint = false) const {
     if (!real_) {
       complex_->solve(b, adjoint);
@@ -85,8 +85,9 @@ class Factors {
   std::optional<Lu<Complex>> complex_;
 };
 
-/// A vector of the companion form [0 I; −K −Z] z = s [I 0; 0 M] z: right (x, s x), left ((s M + Z)ᴴ
-/// y, y).
+/// A vector of the companion form
+///   [0 I; −K −Z] z = s [I 0; 0 M] z.
+/// A right vector is (x, s x), and a left vector is ((s M + Z)ᴴ y, y).
 struct Lifted {
   Entries top, bottom;
 };
@@ -95,7 +96,8 @@ Lifted combined(Complex a, const Lifted& x, Complex b, const Lifted& y) {
   return {combined(a, x.top, b, y.top), combined(a, x.bottom, b, y.bottom)};
 }
 
-/// Orthonormal columns; `weight` makes both halves of a size.
+/// Orthonormalises one or two columns. `weight` multiplies the bottom halves in the inner product,
+/// so that both halves count alike.
 void orthonormalise(std::vector<Lifted>& z, double weight) {
   const auto product = [&](const Lifted& x, const Lifted& y) {
     return dot(x.top, y.top) + weight * weight * dot(x.bottom, y.bottom);
@@ -122,8 +124,9 @@ class TwoSidedIteration {
     }
   }
 
-  /// Z ← (A − σB)⁻¹ B Z, U ← (A − σB)⁻ᴴ Bᴴ U, and the eigenvalues less σ of the pencil between
-  /// them.
+  /// Takes a step of two-sided inverse iteration,
+  ///   Z ← (A − σB)⁻¹ B Z,   U ← (A − σB)⁻ᴴ Bᴴ U,
+  /// and projects A − σB on U and Z.
   void step(const Factors& factors, Complex shift) {
     const double size = std::abs(shift);
     orthonormalise(right_, 1 / size);
@@ -131,7 +134,7 @@ class TwoSidedIteration {
     std::vector<Lifted> images;  // B Z
     for (auto& z : right_) {
       images.push_back({z.top, times(problem_.mass, z.bottom)});
-      // P(σ) x = −(M v + (Z + σM) x'), and then v = x' + σ x
+      //   P(σ) x = −(M v' + (Z + σM) x'),   v = x' + σ x,   (x', v') the column before the step
       const Entries old = z.top;
       Entries rhs = combined(-1, images.back().bottom, -shift, times(problem_.mass, old));
       rhs = combined(1, rhs, -1, times(problem_.damping, old));
@@ -139,7 +142,7 @@ class TwoSidedIteration {
       z.bottom = combined(1, old, shift, z.top);
     }
     for (auto& u : left_) {
-      // wᴴ (A − σB) = uᴴ B: w2ᴴ P(σ) = −(u1ᴴ + σ u2ᴴ M), w1ᴴ = u2ᴴ M + w2ᴴ (Z + σM)
+      //   wᴴ (A − σB) = uᴴ B:   w2ᴴ P(σ) = −(u1ᴴ + σ u2ᴴ M),   w1ᴴ = u2ᴴ M + w2ᴴ (Z + σM)
       const Entries carried = timesTransposed(problem_.mass, u.bottom);
       u.bottom = factors.solve(combined(-1, u.top, -std::conj(shift), carried), true);
       u.top = combined(1, carried, std::conj(shift), timesTransposed(problem_.mass, u.bottom));
@@ -165,14 +168,15 @@ class TwoSidedIteration {
               (gram[0] * projected[3] - gram[1] * projected[2]) / det};
   }
 
-  /// Mean less the shift, and ((s1 − s2)/2)².
+  /// Returns the mean of the eigenvalues minus the shift.
   Complex mean() const { return right_.size() == 1 ? small_[0] : 0.5 * (small_[0] + small_[3]); }
+  /// Returns ((s1 − s2)/2)², or zero for one eigenvalue.
   Complex square() const {
     return right_.size() == 1
                ? Complex(0)
                : 0.25 * (small_[0] - small_[3]) * (small_[0] - small_[3]) + small_[1] * small_[2];
   }
-  /// Size of what cancels in square().
+  /// Returns the size of the numbers that cancel in square().
   double entries() const {
     return std::abs(small_[0] - small_[3]) + std::abs(small_[1]) + std::abs(small_[2]);
   }
@@ -187,7 +191,7 @@ class TwoSidedIteration {
       const Complex a = first ? s12 : value - s22,
                     b = first ? value - s11 : s21;  // right vector of the 2×2 matrix
       const Complex c = first ? s21 : value - s22, d = first ? value - s11 : s12;  // left, as a row
-      // The row times the inverse of the Gram matrix: coefficients of Uᴴ.
+      // The row times the inverse of the Gram matrix gives the coefficients of Uᴴ.
       const Complex e = c * gram_[3] - d * gram_[1], g = d * gram_[0] - c * gram_[2];
       const bool still = a == 0.0 && b == 0.0;  // a multiple of the unit matrix: any vector
       result.push_back(pair(
@@ -216,8 +220,8 @@ class TwoSidedIteration {
 
 Cluster clusterNear(const DenseProblem& problem, const std::vector<DensePair>& start, Complex guess,
                     double isolation) {
-  // Off the mean by part of the way to the next eigenvalue: on it, the two vectors would become
-  // parallel.
+  // The shift keeps some distance from the mean, a part of that to the next eigenvalue: with a
+  // shift at the mean, the two vectors would become parallel.
   constexpr double aside = 0.05, rounding = 4e-15;
   constexpr int factorisations = 3, solves = 25;
   TwoSidedIteration iteration(problem, start);
@@ -268,7 +272,8 @@ Spectrum::Spectrum(const DenseProblem& problem, std::vector<DensePair> pairs)
   }
 }
 
-/// yᴴ ((s_i + s) M + Z) x, the biorthogonal product; of the problem in s² yᴴ M x.
+/// Returns the biorthogonal product [M.42] of left vector i and the right vector of `pair`,
+///   yᴴ ((s_i + s) M + Z) x,   or in a problem in s²   yᴴ M x.
 Complex Spectrum::product(std::size_t i, const DensePair& pair) const {
   Complex mass = 0, lifted = 0;
   const auto& row = rows_[i];

@@ -4,13 +4,16 @@
 
 namespace squeal::linalg {
 
-/// Eigenvalues of a symmetric matrix (n×n, its lower triangle column-major), ascending; orthonormal
-/// eigenvectors take its place as columns. Error: LAPACK fails.
+/// Returns the eigenvalues of a symmetric matrix, ascending. A is n × n, column-major; only its
+/// lower triangle is read. Orthonormal eigenvectors replace it, as columns. Throws Error if LAPACK
+/// fails.
 std::vector<double> symmetricEigen(std::vector<double>& a, int n);
 
-/// Eigenvalues of A x = λ B x, A symmetric, B symmetric positive definite (both as above),
-/// ascending; B-orthonormal eigenvectors take the place of A, a Cholesky factor that of B. Error:
-/// LAPACK fails, B is not positive definite.
+/// Returns the eigenvalues λ of
+///   A x = λ B x,
+/// ascending, for A symmetric and B symmetric positive definite, both stored as above.
+/// B-orthonormal eigenvectors replace A, and a Cholesky factor replaces B. Throws Error if LAPACK
+/// fails or B is not positive definite.
 std::vector<double> symmetricEigen(std::vector<double>& a, std::vector<double>& b, int n);
 
 }  // namespace squeal::linalg

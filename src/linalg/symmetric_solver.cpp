@@ -15,7 +15,8 @@ const SolverPrefix factorisation(
     "modes", "modes_st_",
     "SLEPc ST, KSP and PC with the factorisation of K (MUMPS LDLt): st_type, ksp_*, pc_*, …");
 
-/// Why MUMPS failed, from INFOG(1) and INFOG(2) of its manual; empty if it did not.
+/// Returns the reason why MUMPS failed, from INFOG(1) and INFOG(2) of its manual; empty if it did
+/// not fail.
 std::string failureOf(Mat factor) {
   PetscInt code = 0, detail = 0;
   check(MatMumpsGetInfog(factor, 1, &code));
@@ -41,13 +42,14 @@ std::string failureOf(Mat factor) {
 using Symbolic = PetscErrorCode (*)(Mat, Mat, IS, const MatFactorInfo*);
 Symbolic analysisOfMumps = nullptr;
 
-/// More than what is free is foreseen: by how much it takes to give up at once.
+/// The ratio of the memory foreseen to the free memory above which the factorisation is not tried.
 constexpr double hopeless = 2;
-/// Why the last analysis was the end, on all ranks; empty if it was not.
+/// The reason why the last analysis ended the factorisation, the same on all ranks; empty if it did
+/// not.
 std::string shortage;
 
-/// Collective. Compares what MUMPS' analysis foresees with what is free, before a machine begins to
-/// swap or a kernel to kill.
+/// Collective. Compares the memory that the analysis of MUMPS foresees with the free memory, before
+/// the machine begins to swap or the kernel ends the process. Warns, or sets `shortage`.
 void compareWithMemory(Mat factor) {
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(factor));
   PetscInt megabytes = 0;
@@ -79,7 +81,7 @@ PetscErrorCode analyse(Mat factor, Mat matrix, IS order, const MatFactorInfo* in
   PetscFunctionReturn(shortage.empty() ? 0 : PETSC_ERR_MEM);
 }
 
-/// MUMPS' analysis of this factor is followed by a look at the memory.
+/// Makes the analysis of this factor by MUMPS be followed by compareWithMemory().
 void watchMemory(Mat factor) {
   void (*operation)() = nullptr;
   check(MatGetOperation(factor, MATOP_CHOLESKY_FACTOR_SYMBOLIC, &operation));
@@ -110,8 +112,8 @@ OwnedKSP directSolver(Mat matrix, const SolverPrefix& prefix) {
   check(PCSetType(pc, PCCHOLESKY));
   check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
   applySolverOptions([&] { return KSPSetFromOptions(solver); });
-  // Right-hand sides that MUMPS takes at once: by itself 32, and the few that are left over cost a
-  // pass of their own. An option -…_mat_mumps_icntl_27 has the last word.
+  // The number of right-hand sides that MUMPS solves for in one pass. Its default is 32, and the
+  // remaining few then cost a pass of their own. An option -…_mat_mumps_icntl_27 takes precedence.
   if (const Mat factor = mumpsFactor(solver)) {
     check(MatMumpsSetIcntl(factor, 27, 64));
     watchMemory(factor);
@@ -149,7 +151,7 @@ KSP SymmetricSolver::get() const {
   return solver_;
 }
 
-/// Does nothing where the factorisation is at hand.
+/// Factorises the matrix, unless that has been done.
 void SymmetricSolver::factorise() const {
   PC pc = nullptr;
   check(KSPSetOperators(solver_, matrix_, matrix_));

@@ -1,5 +1,5 @@
 #pragma once
-/// Symmetric matrices by MUMPS: solutions with one LDLᵀ factorisation, and inertia.
+/// Symmetric matrices and MUMPS: solves with one LDLᵀ factorisation, and the inertia.
 #include <string>
 
 #include "options/options.hpp"
@@ -7,22 +7,26 @@
 
 namespace squeal::linalg {
 
-/// Collective. One application of MUMPS' LDLᵀ unless the options with this prefix say otherwise;
-/// not yet factorised.
+/// Collective. Returns a solver that applies the LDLᵀ factorisation of MUMPS once (KSPPREONLY),
+/// unless the options with this prefix say otherwise. The matrix is shared with the solver and not
+/// yet factorised.
 OwnedKSP directSolver(Mat matrix, const SolverPrefix& prefix);
-/// Collective. KSPSetUp. Error: MUMPS' analysis foresees far more memory than is free.
+/// Collective. Calls KSPSetUp. Throws Error if the analysis of MUMPS foresees more than twice the
+/// memory that is free.
 void factorise(KSP solver);
-/// The factor if it is MUMPS' LDLᵀ, set up or not; null otherwise. Borrowed from the solver.
+/// Returns the factor, borrowed from the solver, if it is an LDLᵀ factor of MUMPS, factorised or
+/// not; otherwise null.
 Mat mumpsFactor(KSP solver);
 
-/// The direct solver of a symmetric positive definite matrix (prefix -modes_st_), factorised on
-/// first use.
+/// The direct solver of a symmetric positive definite matrix (prefix -modes_st_), which factorises
+/// it on first use.
 class SymmetricSolver {
  public:
-  /// Borrows the matrix for its life; `name` stands for it in messages.
+  /// Borrows the matrix during the life of the object; `name` stands for it in messages.
   SymmetricSolver(Mat matrix, std::string name) : matrix_(matrix), name_(std::move(name)) {}
-  /// Collective. The solver, factorised. (An EPS that has used it leaves it without: call again.)
-  /// Error: the factorisation fails.
+  /// Collective. Returns the solver, factorised, borrowed from this object. An EPS that has used
+  /// the solver leaves it with other operators; call get() again after it. Throws Error if the
+  /// factorisation fails.
   KSP get() const;
 
  private:
@@ -32,20 +36,23 @@ class SymmetricSolver {
   mutable OwnedKSP solver_;
 };
 
-/// Collective. Memory of MUMPS for the LDLᵀ factorisation of a symmetric matrix on all ranks,
-/// bytes, as its analysis of the pattern foresees it; nothing is factorised.
+/// Collective. Returns the memory in bytes, summed over all ranks, that MUMPS foresees for the LDLᵀ
+/// factorisation of a symmetric matrix. Only the pattern is analysed; nothing is factorised.
 double factorMemory(Mat matrix);
 
-/// Unused -modes_st_* options are typing errors once a solver has been configured.
+/// Throws Error for unused -modes_st_* options: once a solver has been configured, these are typing
+/// errors.
 void rejectUnusedSolverOptions();
 
-/// Numbers of eigenvalues of a symmetric matrix by sign (Sylvester).
+/// Numbers of negative and of zero eigenvalues of a symmetric matrix.
 struct Inertia {
   PetscInt negative = 0, zero = 0;
 };
 
-/// Collective. From the pivots of an LDLᵀ factorisation. Pivots below `zero` times the norm of the
-/// scaled matrix count as zero; 0: as MUMPS decides, some 1e-21. Error: the factorisation fails.
+/// Collective. Returns the inertia of a symmetric matrix from the signs of the pivots of an LDLᵀ
+/// factorisation (Sylvester's law of inertia, [M.25]). Pivots below `zero` times the norm of the
+/// scaled matrix count as zero; with 0, MUMPS decides (about 1e-21). Throws Error if the
+/// factorisation fails, or if MUMPS foresees more than twice the memory that is free.
 Inertia inertia(Mat matrix, double zero = 0);
 
 }  // namespace squeal::linalg

@@ -24,8 +24,9 @@ double bandDamping() { return bandDampingOption.get(); }
 
 double bandBelow(const std::vector<double>& w) {
   constexpr double apart = 1 + 1e-4;
-  // Between two modes that are not a double one no eigenvalue sits on the edge for rounding to
-  // decide; the last may lack its double.
+  // The edge lies between two modes of different frequency, so that rounding does not decide
+  // whether an eigenvalue is inside. The last mode may be one of an equal pair whose other mode is
+  // not in the list.
   const auto edge = [&](std::size_t k) {
     return k > 0 && w[k] >= apart * w[k - 1];
   };  // below mode k

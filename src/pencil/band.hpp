@@ -1,32 +1,36 @@
 #pragma once
-/// The band: the eigenvalues that a run lists, corrects and follows.
+/// The band: the set of eigenvalues that a run lists, corrects and follows [M.27].
 #include <complex>
 #include <vector>
 
 namespace squeal::pencil {
 
-/// `-flutter_band`, rad/s; 0: not given.
+/// Returns the option `-flutter_band` in rad/s; 0 if it is not given.
 double bandAsked();
-/// Its end for free modes of these angular frequencies, ascending: by itself a little more than
-/// half up the list. It ends below the last mode (unless all are the same): nothing would tell of
-/// an eigenvalue above that is missing, as corrections are those of eigenvalues found.
+/// Returns the top of the band in rad/s for the angular frequencies of the free modes, rad/s,
+/// ascending and not empty. It is `-flutter_band` if that is given, and otherwise lies at 0.55 of
+/// the list. It lies below the last mode, unless all modes are equal: corrections are made for
+/// eigenvalues that have been found, so that an eigenvalue above all modes could be missed without
+/// notice.
 double bandBelow(const std::vector<double>& frequencies);
-/// `-flutter_band_damping`: largest damping ratio.
+/// Returns the option `-flutter_band_damping`, the largest damping ratio in the band.
 double bandDamping();
 
-/// The eigenvalues that a run is about, and those watched beside them.
+/// The band, and the guard zone around it [M.43] whose eigenvalues are followed too.
 struct WatchedBand {
-  double top = 1e300;    ///< rad/s, of |s|
+  double top = 1e300;    ///< largest |s| in the band, rad/s
   double guard = 1.3;    ///< eigenvalues are watched up to this multiple of `top` and of `damping`
-  double damping = 0.5;  ///< largest damping ratio
-  double origin = 0.1;   ///< all are watched up to this multiple of `top`: a real eigenvalue may
-                         ///< pass through zero
+  double damping = 0.5;  ///< largest damping ratio in the band
+  double origin = 0.1;  ///< up to this multiple of `top` all eigenvalues are watched, as a real one
+                        ///< may pass through zero
+  /// Returns true if s, with Im s ≥ 0, is in the band.
   bool contains(std::complex<double> s) const { return std::abs(s) <= top && lasts(s); }
+  /// Returns true if s, with Im s ≥ 0, is in the band or in the guard zone.
   bool watches(std::complex<double> s) const {
     return std::abs(s) <= guard * top &&
            (-s.real() <= guard * damping * std::abs(s) || std::abs(s) <= origin * top);
   }
-  /// Does not die away at once.
+  /// Returns true if the damping ratio of s is at most `damping`.
   bool lasts(std::complex<double> s) const { return -s.real() <= damping * std::abs(s); }
 };
 

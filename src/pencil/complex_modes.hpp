@@ -1,6 +1,6 @@
 #pragma once
-/// The friction-perturbed eigenproblem (paper, section 4): which modes flutter, at which friction,
-/// how fast they grow.
+/// Results of the friction-perturbed eigenproblem (paper, section 4): which modes flutter, at which
+/// friction, and how fast they grow.
 #include <complex>
 #include <limits>
 #include <optional>
@@ -12,38 +12,42 @@
 
 namespace squeal::pencil {
 
+/// An eigenvalue s of the pencil with estimates of its error.
 struct Eigenvalue {
   std::complex<double> s;    ///< growth rate + i angular frequency, 1/s
-  double backwardError = 0;  ///< of the full-order problem
-  double errorEstimate = 0;  ///< of |δs|/|s|; NaN where there is none (direct method)
-  bool certified = false;    ///< both are as small as asked for
-  bool unstable = false;     ///< Re s > -flutter_unstable_tolerance · |s|
+  double backwardError = 0;  ///< backward error of the full-order problem [M.33]
+  double errorEstimate = 0;  ///< estimate of the relative error |δs|/|s|; NaN: none (direct method)
+  bool certified = false;    ///< the errors that are known are as small as asked for
+  bool unstable = false;     ///< Re s exceeds |s| times flutter_unstable_tolerance [M.24]
 };
 
-/// A complex mode d = real + i imaginary in nodal displacements, N entries, largest entry 1.
+/// A complex mode d = real + i imaginary in nodal displacements, N entries. The largest real or
+/// imaginary part of an entry is 1.
 struct Shape {
-  std::size_t index;  ///< into Point::eigenvalues
+  std::size_t index;  ///< index into FrictionPoint::eigenvalues
   OwnedVec real, imaginary;
   linalg::ComplexVector unknowns;    ///< the same d in the unknowns x
-  std::vector<double> frictionWork;  ///< [owned contact node] what friction there adds to the
-                                     ///< growth rate, 1/s: frictionWork()
+  std::vector<double> frictionWork;  ///< [owned contact node] contribution of friction there to the
+                                     ///< growth rate, 1/s [M.52]
 };
 
+/// The derivative of an eigenvalue with respect to one parameter θ.
 struct Derivative {
-  std::string parameter;
+  std::string parameter;       ///< name of θ
   std::complex<double> value;  ///< ds/dθ, 1/s per unit of the parameter
 };
 
-/// What is known of one eigenvalue besides its value.
+/// Condition number and derivatives of one eigenvalue.
 struct Sensitivity {
-  double condition = 0;  ///< 2 |s| ‖x‖_M ‖y‖_M / |yᴴ P′(s) x|: 1 for a symmetric problem, infinite
-                         ///< at an exceptional point
-  /// Distance to the nearest of the other eigenvalues found, relative to |s|
+  /// Condition number [M.50], 1 for a symmetric problem and infinite at an exceptional point:
+  ///   2 |s| ‖x‖_M0 ‖y‖_M0 / |yᴴ P′(s) x|
+  double condition = 0;
+  /// Distance to the nearest of the other eigenvalues found, relative to |s|.
   double separation = 0;
-  double leftBackwardError = 0;
+  double leftBackwardError = 0;         ///< backward error of the left vector
   std::vector<Derivative> derivatives;  ///< empty if not regular()
-  /// False where eigenvalues meet, and so have no derivatives, and where the left vector was not
-  /// found.
+  /// Returns true if the eigenvalue has derivatives and its left vector was found. Where
+  /// eigenvalues meet they have no derivatives.
   bool regular() const;
 };
 
@@ -51,38 +55,42 @@ struct Sensitivity {
 struct FrictionPoint {
   sweep::Parameters at;
   std::vector<Eigenvalue> eigenvalues;     ///< Im s ≥ 0, by ascending frequency
-  std::vector<Shape> shapes;               ///< of the fastest growing ones
+  std::vector<Shape> shapes;               ///< the fastest growing modes: keepShapes()
   std::vector<Sensitivity> sensitivities;  ///< [shape]; empty unless they are asked for
-  /// rad/s: eigenvalues with |s| up to here are listed, and corrected; 0: none are
+  /// Top of the band, rad/s: eigenvalues with |s| up to here are listed and corrected. 0: none are
+  /// corrected.
   double bandTop = 0;
   int freeModesInBand = 0;  ///< free modes up to bandTop
   bool damped = false;      ///< the problem has terms in s
   double accuracy = 0;      ///< backward error asked for
   double tolerance = 0;     ///< estimate of |δs|/|s| asked for
-  double askedTo = 0;       ///< rad/s: upper end of the band asked of the direct method; 0: none
-  double coveredTo = 0;  ///< rad/s: all eigenvalues of that band with |s| below are listed; 0: none
-  /// Of a damped problem, the free modes of the band that no eigenvalue listed answers to: those
-  /// are damped too strongly to be listed, or have been moved beyond the top.
+  double askedTo = 0;       ///< upper end of the band asked of the direct method, rad/s; 0: none
+  /// All eigenvalues of that band with |s| below this are listed, rad/s; 0: no band was asked for.
+  double coveredTo = 0;
+  /// Returns by how many the free modes in the band exceed the eigenvalues listed, for a damped
+  /// problem. The missing eigenvalues are damped too strongly to be listed, or lie beyond the top.
   int modesWithoutEigenvalue() const;
   int unstableCount() const;
   int uncertifiedCount() const;
   double worstBackwardError() const;
+  /// Returns the largest estimate of the relative error; NaN if one of them is NaN.
   double worstErrorEstimate() const;
-  /// Null if there are no eigenvalues.
+  /// Returns the eigenvalue of the largest growth rate, borrowed; null if there are none.
   const Eigenvalue* fastestGrowing() const;
 };
 
-/// `-flutter_accuracy`: backward error up to which an eigenvalue is certified.
+/// Returns the option `-flutter_accuracy`, the backward error up to which an eigenvalue is
+/// certified.
 double accuracyAsked();
 
-/// Marks unstable eigenvalues.
+/// Sets `unstable` of each eigenvalue by [M.24].
 void judge(std::vector<Eigenvalue>& eigenvalues);
 
-/// Indices of the `-flutter_shapes` fastest growing eigenvalues below `-flutter_shapes_below`, the
-/// fastest first.
+/// Returns the indices of the fastest growing unstable eigenvalues below the frequency
+/// `-flutter_shapes_below`, the fastest first, `-flutter_shapes` at most.
 std::vector<std::size_t> shapesWanted(const FrictionPoint& point);
-/// Collective. Keeps the shapes of these eigenvalues; `modes` are theirs in the unknowns x, of any
-/// length.
+/// Collective. Appends the shapes of the eigenvalues with these indices to the point. `modes`,
+/// which are taken, are their vectors in the unknowns x, of any length; `trial` is T.
 void keepShapes(FrictionPoint& point, Mat trial, const std::vector<std::size_t>& indices,
                 std::vector<linalg::ComplexVector> modes);
 

@@ -99,7 +99,7 @@ double Pencil::norm(int power, const sweep::Parameters& at) const {
   OwnedVec image;
   check(MatCreateVecs(terms_[0].matrix, image.out(), nullptr));
   if (fresh) {
-    // Largest eigenvalues belong to rough vectors; a fixed pseudo-random start has them all.
+    // The largest eigenvalues belong to rough vectors; a fixed pseudo-random start contains them.
     PetscInt first = 0, end = 0;
     check(VecDuplicate(image, v.out()));
     check(VecGetOwnershipRange(v, &first, &end));
@@ -115,7 +115,7 @@ double Pencil::norm(int power, const sweep::Parameters& at) const {
     apply(power, at, v, image);
     check(VecNorm(image, NORM_2, &size));
     estimate = std::max(estimate, static_cast<double>(size));
-    if (size == 0) {  // a term that vanishes at this friction: the next begins afresh
+    if (size == 0) {  // the terms vanish at this friction; the next call begins anew
       v = OwnedVec();
       return 0;
     }

@@ -1,8 +1,8 @@
 #pragma once
-/// The friction-perturbed problem P(s; f, v, …) d = 0 as one object, P = Σ_t c_t s^p_t A_t with c_t
-/// = factor · f^a · v^b · c^d for the friction f, the speed v, a factor on the motion of the
-/// bodies, and the factor c on their damping. It knows nothing of finite elements: [4.15–4.16]
-/// enter as terms.
+/// The friction-perturbed eigenproblem as a sum of terms [M.23],
+///   P(s; f, v, c) d = 0,   P = Σ_t α_t f^a_t v^b_t c^d_t s^k_t A_t,
+/// with the friction f, the factor v on the base velocities of the bodies, and the factor c on
+/// their damping. The pencil knows nothing of finite elements: [4.15–4.16] enter as terms.
 #include <array>
 #include <complex>
 #include <memory>
@@ -14,62 +14,69 @@
 
 namespace squeal::pencil {
 
+/// One term of P.
 struct Term {
-  OwnedMat matrix;           ///< n×n
-  int power = 0;             ///< of s: 0 stiffness, 1 damping, 2 mass
+  OwnedMat matrix;           ///< A, n×n
+  int power = 0;             ///< k, power of s: 0 stiffness, 1 damping, 2 mass
   int frictionExponent = 0;  ///< a
-  double factor = 1;
-  int speedExponent = 0;    ///< b
-  int dampingExponent = 0;  ///< d
+  double factor = 1;         ///< α
+  int speedExponent = 0;     ///< b
+  int dampingExponent = 0;   ///< d
 
+  /// Returns α f^a v^b c^d.
   double coefficient(const sweep::Parameters& at) const;
-  /// Derivative of the coefficient with respect to one parameter.
+  /// Returns the derivative of the coefficient with respect to one parameter.
   double slope(const sweep::Parameters& at, double sweep::Parameters::*parameter) const;
-  /// The same term, its matrix shared.
+  /// Returns the same term, its matrix shared.
   Term share() const;
 };
 
+/// The sum of terms P.
 class Pencil {
  public:
+  /// Takes the terms, which hold for all parameters.
   explicit Pencil(std::vector<Term> terms);
-  /// All terms, those of the point last.
+  /// Returns all terms, those of the point last.
   const std::vector<Term>& terms() const { return terms_; }
-  /// Number of terms that hold for all parameters.
+  /// Returns the number of terms that hold for all parameters.
   std::size_t affineCount() const { return affineCount_; }
-  /// Adds terms that hold for all parameters.
+  /// Takes further terms that hold for all parameters. The pencil has no terms of a point.
   void add(std::vector<Term> terms);
-  /// Collective. These terms, whose matrices are shared, and some that hold at one point of the
-  /// parameters alone, such as those made with its steady forces.
+  /// Returns a pencil of these terms, whose matrices are shared, and of terms that hold at one
+  /// point of the parameters only, such as those made with its steady forces.
   Pencil with(std::vector<Term> pointTerms) const;
+  /// Returns true if there are terms with this power of s.
   bool hasPower(int power) const;
   MPI_Comm comm() const;
 
-  /// Collective. Sum of the terms with this power of s, as a new matrix; empty if there are none.
+  /// Collective. Returns the sum of the terms with this power of s as a new matrix; empty if there
+  /// are none.
   OwnedMat assembled(int power, const sweep::Parameters& at) const;
-  /// Collective. y = (sum of the terms with this power) x.
+  /// Collective. Sets y = (sum of the terms with this power) x.
   void apply(int power, const sweep::Parameters& at, Vec x, Vec y) const;
-  /// Collective. y = (sum of the terms with this power)ᵀ x.
+  /// Collective. Sets y = (sum of the terms with this power)ᵀ x.
   void applyTranspose(int power, const sweep::Parameters& at, Vec x, Vec y) const;
-  /// Collective. Estimate from below of the 2-norm of the sum, by power iteration on AᵀA continued
-  /// from the last call for this power, be it at another point of the sweep: from below, so that a
-  /// backward error made with it is never flattered.
+  /// Collective. Returns an estimate of the 2-norm of the sum, from below, so that a backward error
+  /// made with it is never too small. It comes from power iteration on AᵀA, which is continued from
+  /// the last call for this power, even if that was at another point of the sweep.
   double norm(int power, const sweep::Parameters& at) const;
 
  private:
   std::vector<Term> terms_;
   std::size_t affineCount_;
   std::shared_ptr<std::array<OwnedVec, 3>>
-      singular_;  // [power] where the next power iteration begins, shared by `with`
+      singular_;  // [power] start vector of the next power iteration, shared by `with`
 };
 
-/// Which vectors of eigenpairs: right ones with P(s) d = 0, or left ones with P(s)ᴴ d = 0.
+/// The side of an eigenvector: right with P(s) d = 0, or left with P(s)ᴴ d = 0.
 enum class Side { right, left };
 
-/// Collective. P(s) d, or P(s)ᴴ d of the left side.
+/// Collective. Returns P(s) d, or P(s)ᴴ d for the left side.
 linalg::ComplexVector residual(const Pencil& pencil, const sweep::Parameters& at,
                                std::complex<double> s, const linalg::ComplexVector& d, Side side);
 
-/// Collective. ‖P(s) d‖ / ((|s|² ‖M̄‖ + |s| ‖Z̄‖ + ‖K̄‖) ‖d‖).
+/// Collective. Returns the backward error of a right eigenpair [M.33],
+///   ‖P(s) d‖ / ((|s|² ‖M̄‖ + |s| ‖Z̄‖ + ‖K̄‖) ‖d‖).
 double backwardError(const Pencil& pencil, const sweep::Parameters& at, std::complex<double> s,
                      const linalg::ComplexVector& d);
 
