@@ -1,5 +1,5 @@
 #pragma once
-/// The sensitivities of the complex modes kept at a point.
+/// Sensitivities of the complex modes that are kept at a point.
 #include <functional>
 #include <vector>
 
@@ -11,18 +11,18 @@
 
 namespace squeal::sensitivity {
 
-/// The forms yᴴ (∂P/∂θ)(s) x of one eigenvalue, in place of derivatives.
+/// Returns the forms yᴴ (∂P/∂θ)(s) x of one eigenvalue, in the field `value` of each derivative.
 using Forms = std::function<std::vector<pencil::Derivative>(const EigenTriple&)>;
 
-/// Collective. Fills FrictionPoint::sensitivities for all shapes of the point, whose terms the
-/// pencil holds: left vectors, and the forms divided by −yᴴP′x where the eigenvalue has
-/// derivatives.
+/// Collective. Appends to FrictionPoint::sensitivities an entry for each shape of the point, whose
+/// terms the pencil holds. Left vectors are computed first, beginning in `start`. Where the
+/// eigenvalue has derivatives, they are the forms divided by −yᴴ P′ x [M.46].
 void deriveShapes(pencil::FrictionPoint& point, const pencil::Pencil& pencil,
                   const StartSpace& start, const modes::AssociatedSystem& system,
                   const Forms& forms);
 
-/// Collective. The same for the parameters in the coefficients of the terms alone: friction, speed
-/// and damping.
+/// Collective. Does the same for friction, speed and damping, as far as the coefficients of the
+/// terms depend on them.
 void deriveParameters(pencil::FrictionPoint& point, const pencil::Pencil& pencil,
                       const StartSpace& start, const modes::AssociatedSystem& system);
 

@@ -17,7 +17,7 @@ using Complex = std::complex<double>;
 constexpr double wanted = 1e-10;
 constexpr int mostRounds = 20;
 
-/// cᴴ A q; zero for an empty A.
+/// Returns cᴴ A q; zero for an empty A.
 Complex form(const std::vector<Complex>& c, const linalg::DenseMatrix& a,
              const std::vector<Complex>& q) {
   Complex sum = 0;
@@ -29,9 +29,11 @@ Complex form(const std::vector<Complex>& c, const linalg::DenseMatrix& a,
   return sum;
 }
 
-/// c with cᴴ H(s) = 0, H = Σ s^p h_p, by inverse iteration. s is known to some digits; where the
-/// space knows it better, the two-sided Rayleigh quotient δs = −cᴴ H q / cᴴ H′ q takes its own
-/// error out.
+/// Returns c with
+///   cᴴ H(s) = 0,   H = Σ s^p h_p,
+/// by inverse iteration. s is known to some digits only and is corrected by the two-sided Rayleigh
+/// quotient
+///   δs = −cᴴ H q / cᴴ H′ q.
 std::vector<Complex> nullVector(const std::array<linalg::DenseMatrix, 3>& h, std::size_t m,
                                 Complex s) {
   std::vector<Complex> c(m);
@@ -125,7 +127,8 @@ class Search {
     return norms_[0] + size * norms_[1] + size * size * norms_[2];
   }
 
-  /// K0⁻¹ of the real and imaginary parts, scaled to one.
+  /// Returns K0⁻¹ times the real and the imaginary parts of the residuals, which are first scaled
+  /// to the 2-norm 1.
   std::vector<OwnedVec> corrections(const std::vector<linalg::ComplexVector>& residuals) {
     const auto count = static_cast<PetscInt>(2 * residuals.size());
     PetscInt local = 0, global = 0;
@@ -157,7 +160,8 @@ class Search {
     return parts;
   }
 
-  /// True if the basis has grown; projects what is new.
+  /// Adds vectors to the basis, those apart that depend on it, and projects the pencil on the new
+  /// columns. Returns true if the basis has grown.
   bool add(const std::vector<Vec>& vectors) {
     constexpr double dependent = 1e-6;
     const PetscInt before = size_;
@@ -177,7 +181,7 @@ class Search {
     return size_ > before;
   }
 
-  /// Vᵀ A V of each power, with the columns that V has gained.
+  /// Extends Vᵀ A V of each power of s by the columns that V has gained.
   void extend() {
     const PetscInt old = known_, added = size_ - old;
     if (added == 0) return;
@@ -202,7 +206,7 @@ class Search {
     known_ = size_;
   }
 
-  /// Local rows of A V or Aᵀ V for the columns of V from `first` on.
+  /// Returns this rank's rows of A V, or of Aᵀ V, for the columns of V from `first` on.
   linalg::DenseMatrix images(int power, PetscInt first, bool transposed) const {
     linalg::DenseMatrix values;
     for (PetscInt j = first; j < size_; ++j) {
@@ -225,8 +229,8 @@ class Search {
     return values;
   }
 
-  /// Left null vectors in the basis, spread over the ranks; the same on all, so that rounding
-  /// cannot make them disagree.
+  /// Returns the left null vectors in coordinates of the basis, [value]. The work is spread over
+  /// the ranks, and all ranks get the same results, so that rounding cannot make them disagree.
   std::vector<std::vector<Complex>> nullVectors(const std::vector<Complex>& values) const {
     const auto m = static_cast<std::size_t>(size_);
     int rank = 0, ranks = 1;
@@ -242,7 +246,7 @@ class Search {
     return vectors;
   }
 
-  /// V c, of length one.
+  /// Returns V c, scaled to the 2-norm 1.
   linalg::ComplexVector expand(const std::vector<Complex>& c) const {
     linalg::ComplexVector y;
     check(MatCreateVecs(pencil_.terms().at(0).matrix, y.real.out(), y.imaginary.out()));
@@ -258,7 +262,7 @@ class Search {
 
   const pencil::Pencil& pencil_;
   const sweep::Parameters at_;
-  const std::array<double, 3> norms_;  // [power of s] of the full matrices
+  const std::array<double, 3> norms_;  // [power of s] 2-norms of the full matrices
   KSP solver_;
   OwnedBV basis_;
   PetscInt size_ = 0;

@@ -1,5 +1,5 @@
 #pragma once
-/// Left eigenvectors of the full-order problem, yᴴ P(s) = 0, for eigenvalues that are known.
+/// Left eigenvectors y of the full-order problem, yᴴ P(s) = 0, for known eigenvalues.
 #include <complex>
 #include <vector>
 
@@ -10,29 +10,34 @@
 
 namespace squeal::sensitivity {
 
-/// An eigenvalue and its right vector, in the unknowns.
+/// An eigenvalue and its right vector in the unknowns x.
 struct RightPair {
   std::complex<double> s;
   const linalg::ComplexVector* vector;  ///< borrowed
 };
 
+/// A left vector and its backward error.
 struct LeftVector {
   linalg::ComplexVector y;  ///< in the unknowns, 2-norm 1
-  double backwardError = 0;  ///< ‖P(s)ᴴ y‖ / ((|s|² ‖M̄‖ + |s| ‖Z̄‖ + ‖K̄‖) ‖y‖)
+  /// Backward error
+  ///   ‖P(s)ᴴ y‖ / ((|s|² ‖M̄‖ + |s| ‖Z̄‖ + ‖K̄‖) ‖y‖).
+  double backwardError = 0;
 };
 
-/// Where the search begins.
+/// The space in which the search for left vectors begins.
 struct StartSpace {
   OwnedBV columns;      ///< V: the free modes, or the basis of the reduced problem
-  Mat inner = nullptr;  ///< the matrix in which V is (all but) orthonormal: M0 or K0; borrowed
-  linalg::DenseProblem projected;  ///< Vᵀ P V at the point, if at hand: it saves products of the
-                                   ///< size of V; otherwise m = 0
+  Mat inner = nullptr;  ///< the matrix in which V is nearly orthonormal, M0 or K0; borrowed
+  linalg::DenseProblem projected;  ///< Vᵀ P V at the point, which saves products with V, if it is
+                                   ///< known; otherwise m = 0
 };
 
-/// Collective. Rayleigh–Ritz on V, the right vectors, and K0⁻¹ (Re l, Im l) of the left residuals l
-/// = P(s)ᴴ y of all pairs, solved for together by `solver` (of K0): about a decade a round, until
-/// the backward error is below 1e-10 or corrections bring nothing new. The caller judges the error
-/// that is left.
+/// Collective. Returns the left vectors of all pairs, [pair], by Rayleigh–Ritz on a basis that
+/// begins with V and the right vectors. Each round extends it by
+///   K0⁻¹ Re l, K0⁻¹ Im l,   l = P(s)ᴴ y,
+/// for the left residuals l of all pairs together, with `solver`, a factorisation of K0, borrowed.
+/// A round gains about a decade. The rounds end when all backward errors are at most 1e-10, when
+/// the basis no longer grows, or after 20 rounds; the caller judges the error that is left.
 std::vector<LeftVector> leftVectors(const pencil::Pencil& pencil, const sweep::Parameters& at,
                                     const StartSpace& start, KSP solver,
                                     const std::vector<RightPair>& pairs);

@@ -1,6 +1,7 @@
 #pragma once
-/// Derivatives of eigenvalues by left and right vectors, on the pencil alone: ds/dθ = −yᴴ
-/// (∂P/∂θ)(s) x / yᴴ P′(s) x, with P′ = dP/ds = 2 s M̄ + Z̄.
+/// Derivatives of eigenvalues by left and right vectors [M.46],
+///   ds/dθ = −yᴴ (∂P/∂θ)(s) x / yᴴ P′(s) x,   P′ = dP/ds = 2 s M̄ + Z̄,
+/// as far as the pencil alone gives them.
 #include <complex>
 #include <string>
 #include <vector>
@@ -12,22 +13,25 @@
 
 namespace squeal::sensitivity {
 
+/// An eigenvalue with its right and left vector, both borrowed.
 struct EigenTriple {
   std::complex<double> s;
-  const linalg::ComplexVector& x;  ///< right vector, in the unknowns
-  const linalg::ComplexVector& y;  ///< left vector
+  const linalg::ComplexVector& x;  ///< right vector in the unknowns
+  const linalg::ComplexVector& y;  ///< left vector in the unknowns
 };
 
-/// `-flutter_sensitivities`.
+/// Returns the option `-flutter_sensitivities`.
 bool sensitivitiesWanted();
 
-/// Collective. yᴴ P′(s) x.
+/// Collective. Returns yᴴ P′(s) x.
 std::complex<double> slopeForm(const pencil::Pencil& pencil, const sweep::Parameters& at,
                                const EigenTriple& triple);
-/// Collective. yᴴ (∂P/∂θ)(s) x as far as the coefficients of the terms hold θ.
+/// Collective. Returns yᴴ (∂P/∂θ)(s) x for the dependence of the coefficients of the terms on θ,
+/// which is `parameter`.
 std::complex<double> parameterForm(const pencil::Pencil& pencil, const sweep::Parameters& at,
                                    const EigenTriple& triple, double sweep::Parameters::*parameter);
-/// Collective. Sensitivity::condition for the given yᴴ P′(s) x, in the norm of the mass M0.
+/// Collective. Returns the condition number [M.50], Sensitivity::condition, where `slope` is
+/// yᴴ P′(s) x and `mass` is M0.
 double condition(const EigenTriple& triple, std::complex<double> slope, Mat mass);
 
 }  // namespace squeal::sensitivity

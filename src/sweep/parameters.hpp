@@ -1,5 +1,5 @@
 #pragma once
-/// What a sweep varies.
+/// The parameters that a sweep varies.
 #include <array>
 #include <string>
 
@@ -9,28 +9,30 @@ namespace squeal::sweep {
 struct Parameters {
   double friction = 0;  ///< f, coefficient of friction
   double speed = 1;     ///< v, a factor on the base motions of all bodies and obstacles
-  double pressure = 1;  ///< p, a factor on all that presses: surface pressures, held displacements,
-                        ///< displacements of obstacles
-  double damping = 1;   ///< a factor on the damping of the bodies: materials, dashpots, modal; not
-                        ///< on that of friction
+  double pressure = 1;  ///< p, a factor on surface pressures, held displacements and displacements
+                        ///< of obstacles
+  double damping = 1;   ///< c, a factor on the damping of materials, dashpots and modes, not on
+                        ///< that of friction
 
   bool operator==(const Parameters&) const = default;
 };
 
+/// A parameter by its name and its member.
 struct Parameter {
   const char* name;
   double Parameters::*value;
 };
-/// All of them, in the order of tables and names.
+/// All parameters, in the order of tables and names.
 inline constexpr std::array<Parameter, 4> allParameters{{{"friction", &Parameters::friction},
                                                          {"speed", &Parameters::speed},
                                                          {"pressure", &Parameters::pressure},
                                                          {"damping", &Parameters::damping}}};
 
-/// Head of a comma-separated table, "friction,speed,…", and the values of one row.
+/// Returns the head of a comma-separated table, "friction,speed,…".
 std::string parameterColumns();
+/// Returns the values of one row of that table.
 std::string parameterValues(const Parameters& at);
-/// "friction 0.4, speed 2": for messages; factors of 1 are left out.
+/// Returns a text for messages such as "friction 0.4, speed 2"; factors of 1 are left out.
 std::string parameterText(const Parameters& at);
 
 }  // namespace squeal::sweep

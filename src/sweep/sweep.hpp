@@ -1,6 +1,5 @@
 #pragma once
-/// The grid of parameters that a run goes through, and the order in which its points are best
-/// solved.
+/// The grid of parameters of a run, and the order in which its points are solved.
 #include <mpi.h>
 
 #include <optional>
@@ -11,31 +10,34 @@
 namespace squeal::sweep {
 
 /// The sweep is the grid of `-flutter_friction` × `-flutter_speed` × `-flutter_pressure` ×
-/// `-flutter_damping`. Damping leaves steady sliding as it is, so that a steady state belongs to
-/// all its damping factors.
+/// `-flutter_damping`. Steady sliding does not depend on damping, so that one steady state belongs
+/// to all damping factors.
 struct Sweep {
   std::vector<double> frictions, speeds, pressures, dampings;  ///< ascending
-  /// Steady states, damping 1: for each speed, each pressure, all frictions.
+  /// Returns the points of the steady states, with damping 1. The friction varies fastest, the
+  /// speed slowest.
   std::vector<Parameters> steadyPoints() const;
-  /// All points: for each damping, all steady states.
+  /// Returns all points: for each damping, those of all steady states.
   std::vector<Parameters> points() const;
-  /// The number of points.
+  /// Returns the number of points.
   double pointCount() const;
-  /// Index of a steady state that differs in one parameter by one step, and comes earlier; none for
-  /// the first.
+  /// Returns the index of an earlier steady state that differs in one parameter by one step; none
+  /// for the first.
   std::optional<std::size_t> earlierNeighbour(std::size_t steadyPoint) const;
 };
 
-/// Error: an empty list, a value out of range or given twice, more than `mostPoints` points in all.
+/// Returns the sweep that the options ask for. Throws Error if a list is empty, if a value is out
+/// of range or given twice, or if there are more than `mostPoints` points.
 Sweep readSweep();
 inline constexpr double mostPoints = 100'000;
-/// Collective. A warning where the points are so many that their eigenvalue problems take long,
-/// with an estimate.
+/// Collective. Warns, with an estimate of the time, where the eigenvalue problems of 1000 points or
+/// more take long. `modes` is the number of free modes.
 void warnOfLongSweep(MPI_Comm comm, const Sweep& sweep, int modes);
-/// Indices of points in the order in which one basis serves them best, in batches of 5, 16, 16, …
-/// points: the largest friction first, then whatever lies farthest from the points before: of a
-/// sweep over friction alone the ends, the middle and the quarters. The same on any number of
-/// ranks.
+/// Returns the indices of the points in the order in which they are solved with one growing basis,
+/// in batches of 5, 16, 16, … points. A point of the largest friction is first; each next point is
+/// the one farthest from all before, with every parameter scaled to its range. In a sweep over
+/// friction alone these are the ends, the middle and the quarters. The order does not depend on the
+/// number of ranks.
 std::vector<std::vector<std::size_t>> batches(const std::vector<Parameters>& points);
 
 }  // namespace squeal::sweep
