@@ -60,7 +60,7 @@ NearestPairs solveBand(NearestSolver& solver, const Band& band) {
   }
 }
 
-/// The nearest `-flutter_direct_count`, and those as near as the last of them.
+/// Returns the `-flutter_direct_count` nearest eigenvalues, and those as near as the last of them.
 NearestPairs solveCount(NearestSolver& solver) {
   const auto count = static_cast<std::size_t>(countOption.get());
   NearestPairs found = solver.solve(countOption.get());

@@ -25,7 +25,7 @@ const SolverPrefix stPrefix("flutter", "flutter_st_", "SLEPc ST, KSP and PC of t
 using Complex = std::complex<double>;
 using OwnedPEP = Owned<PEP, PEPDestroy>;
 
-/// Shift-and-invert by one factorisation.
+/// Makes the spectral transformation shift-and-invert with one LU factorisation by MUMPS.
 void factoriseBy(ST st) {
   KSP ksp = nullptr;
   PC pc = nullptr;
@@ -37,7 +37,7 @@ void factoriseBy(ST st) {
   check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
 }
 
-/// A fixed pseudo-random vector, the same on any number of ranks, another one for each run.
+/// Returns a pseudo-random vector that depends on `run` but not on the number of ranks.
 OwnedVec startVector(Mat matrix, int run) {
   OwnedVec start;
   PetscInt first = 0, end = 0;
@@ -69,19 +69,19 @@ NearestPair copied(const NearestPair& pair) {
   return {linalg::ComplexVector::copied(pair.real, pair.imaginary), pair.s};
 }
 
-/// Removes from v its part in the span of the orthonormal `basis`, twice for rounding; returns the
-/// length that is left.
+/// Removes from v its part in the span of the orthonormal `basis`, twice because of rounding, and
+/// returns the 2-norm that is left.
 double project(NearestPair& v, const std::vector<NearestPair>& basis) {
   for (int pass = 0; pass < 2; ++pass)
     for (const auto& u : basis) add(v, -dot(u, v), u);
   return length(v);
 }
 
-/// Eigenvalues this close, relative to their size, count as one for which vectors may mix.
+/// Eigenvalues within this relative distance count as one, whose vectors may mix.
 constexpr double oneCluster = 1e-6;
-/// Length outside of the span of a cluster from which a unit vector is a new one. Rounding and the
-/// tolerance of the solver, 1e-12, turn that span by 1e-12 / oneCluster at most, times a condition
-/// number.
+/// A unit vector is new if its part outside of the span of a cluster is longer than this. Rounding
+/// and the tolerance of the solver, 1e-12, turn that span by at most 1e-12 / oneCluster, times a
+/// condition number.
 constexpr double newVector = 1e-2;
 
 bool isNew(const NearestPair& pair, const std::vector<NearestPair>& known) {
@@ -98,8 +98,8 @@ bool isNew(const NearestPair& pair, const std::vector<NearestPair>& known) {
   return project(rest, basis) > newVector;
 }
 
-/// The `wanted` eigenvalues first asked for are the nearest ones; those that converged besides may
-/// leave gaps.
+/// Returns the |s| up to which all eigenvalues are listed. The `wanted` ones are the nearest;
+/// further ones that have converged may leave gaps.
 double reachedBy(std::vector<double> sizes, PetscInt wanted, PetscInt all) {
   std::sort(sizes.begin(), sizes.end());
   return wanted == all ? INFINITY : sizes.at(static_cast<std::size_t>(wanted) - 1);
@@ -115,7 +115,8 @@ void rejectUnconverged(PetscInt converged, PetscInt wanted, const sweep::Paramet
                   prefix.c_str(), prefix.c_str()));
 }
 
-/// K d = μ M d, μ = −s².
+/// The solver for
+///   K d = μ M d,   μ = −s².
 class Undamped : public NearestSolver {
  public:
   Undamped(const pencil::Pencil& pencil, const sweep::Parameters& at) : NearestSolver(pencil, at) {
@@ -174,7 +175,8 @@ class Undamped : public NearestSolver {
   OwnedEPS eps_;
 };
 
-/// (K + s Z + s² M) d = 0.
+/// The solver for
+///   (K + s Z + s² M) d = 0.
 class Damped : public NearestSolver {
  public:
   Damped(const pencil::Pencil& pencil, const sweep::Parameters& at) : NearestSolver(pencil, at) {
@@ -240,13 +242,13 @@ NearestSolver::NearestSolver(const pencil::Pencil& pencil, const sweep::Paramete
 }
 
 NearestPairs NearestSolver::solve(PetscInt count) {
-  // Krylov spaces that end before they are full lead the ranks astray in SLEPc 3.18: rounding
-  // decides on each of them.
+  // Where a Krylov space ends early, the ranks may disagree in SLEPc 3.18, as each decides by its
+  // own rounding. Small problems therefore go to LAPACK.
   constexpr PetscInt largestWhole = 1000;
   return size_ <= std::min(2 * count + 20, largestWhole) ? whole() : krylov(count);
 }
 
-/// All eigenvalues.
+/// Returns all eigenvalues with Im s ≥ 0, by LAPACK on rank 0.
 NearestPairs NearestSolver::whole() const {
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(terms_[0].get()));
   NearestPairs found{{}, INFINITY};

@@ -10,24 +10,28 @@
 
 namespace squeal::direct {
 
-/// The vector has 2-norm 1; its imaginary part is zero for a real one.
+/// An eigenvalue with its right vector, which has the 2-norm 1. The imaginary part of a real vector
+/// is zero.
 struct NearestPair : linalg::ComplexVector {
   std::complex<double> s;
 };
 
+/// Eigenvalues found near zero.
 struct NearestPairs {
-  std::vector<NearestPair> pairs;  ///< Im s ≥ 0
-  double reached = 0;  ///< all eigenvalues with |s| below are among them; infinite: all there are
+  std::vector<NearestPair> pairs;  ///< with Im s ≥ 0
+  double reached = 0;  ///< 1/s: all eigenvalues of smaller |s| are listed; infinite: all there are
 };
 
+/// A solver for the eigenvalues nearest to zero at one point of the sweep.
 class NearestSolver {
  public:
-  /// Collective. Assembles the terms.
+  /// Collective. Assembles the matrices of all powers of s at this point.
   NearestSolver(const pencil::Pencil& pencil, const sweep::Parameters& at);
   virtual ~NearestSolver() = default;
-  /// Collective. At least the `count` eigenvalues nearest to zero, conjugate pairs counted once.
-  /// Each call begins with another vector and keeps the factorisation. Where the Krylov space would
-  /// be the whole space, LAPACK is called instead. Error: not converged.
+  /// Collective. Returns at least the `count` eigenvalues nearest to zero, with conjugate pairs
+  /// counted once. Each call begins with another vector and keeps the factorisation. Where the
+  /// Krylov space would be the whole space of a small problem, LAPACK is called instead. Throws
+  /// Error if SLEPc does not converge.
   NearestPairs solve(PetscInt count);
 
  protected:
@@ -41,16 +45,16 @@ class NearestSolver {
   NearestPairs whole() const;
 };
 
-/// Collective. Shift-and-invert at zero: EPS in −s² if there is no damping (-flutter_eps_*),
-/// otherwise TOAR, a PEP solver
-/// (-flutter_pep_*); the factorisation is configured by -flutter_st_* in both.
+/// Collective. Returns a solver with shift-and-invert at zero: if there is no damping, an EPS in
+/// μ = −s² [M.40] (-flutter_eps_*), otherwise the PEP solver TOAR (-flutter_pep_*). The options
+/// -flutter_st_* configure the factorisation of both.
 std::unique_ptr<NearestSolver> nearestSolver(const pencil::Pencil& pencil,
                                              const sweep::Parameters& at);
 
-/// Collective. A Krylov space begun with one vector holds one vector of a multiple eigenvalue; the
-/// others come from rounding, or do not. `found`, the result of solver.solve(count), is joined by
-/// what is new in further solves from other starts, until one brings nothing new. New is a vector
-/// that is not in the span of those already known with nearly the same s.
+/// Collective. Adds to `found`, the result of solver.solve(count), the pairs that further solves
+/// from other start vectors find, until a solve finds no new one. A Krylov space from one vector
+/// holds only one vector of a multiple eigenvalue, except for rounding. A pair is new if its vector
+/// is not in the span of those already known with nearly the same s.
 void addMissed(NearestSolver& solver, PetscInt count, NearestPairs& found);
 
 }  // namespace squeal::direct

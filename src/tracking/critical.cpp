@@ -18,9 +18,10 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Root of a continuous function in a bracket, a value at a time (T. R. Chandrupatla, Advances in
-/// Engineering Software 28 (1997) 145–149: inverse quadratic interpolation where it is safe,
-/// otherwise halving).
+/// Finds the root of a continuous function in a bracket by the method of T. R. Chandrupatla
+/// (Advances in Engineering Software 28 (1997) 145–149): inverse quadratic interpolation where it
+/// is safe, otherwise bisection. The caller evaluates the function at next() and passes the value
+/// to take().
 class Search {
  public:
   Search(double a, double fa, double b, double fb, double tolerance)
@@ -54,7 +55,7 @@ class Search {
   bool done_ = false;
 };
 
-/// One event, on one rank.
+/// The search for the critical friction of one event, on one rank.
 class Root {
  public:
   Root(const Event& event, double tolerance)
@@ -62,7 +63,8 @@ class Root {
         tolerance_(tolerance),
         throughZero_(real(event.below[0].s) && real(event.above[0].s)) {}
 
-  /// Locates it in the basis in force, which has `changed` since the last time.
+  /// Locates the critical friction in the present basis; `changed` says whether that differs from
+  /// the basis of the last call.
   void locate(Family& family, bool changed) {
     const double before = friction_;
     if (event_.low == event_.high) {  // at an end of a step, where equal eigenvalues part
@@ -77,7 +79,8 @@ class Root {
   }
   bool settled() const { return settled_; }
 
-  /// Where two eigenvalues are one, so is their vector.
+  /// Returns the friction with one pair, which has the mean of the eigenvalues: where two
+  /// eigenvalues meet, so do their vectors.
   Located located() const {
     std::vector<linalg::DensePair> pairs = nearest(friction_).pairs();
     const Complex s = mean(pairs);
@@ -85,7 +88,7 @@ class Root {
     pairs[0].s = s;
     return {friction_, pairs};
   }
-  /// NaN: there is no problem where it was located.
+  /// Notes the backward error; NaN says that there is no problem at the located friction.
   void setBackwardError(double error) {
     lost_ = std::isnan(error);
     if (!lost_) backwardError_ = error;
@@ -136,7 +139,8 @@ class Root {
     });
   }
 
-  /// Mean of the eigenvalues between the nearest known frictions on both sides.
+  /// Returns the mean of the eigenvalues, interpolated between the nearest known frictions on both
+  /// sides.
   Complex expected(double friction) const {
     const Sample *below = &known_[0], *above = &known_[1];
     for (const auto& sample : known_) {
@@ -148,14 +152,14 @@ class Root {
     return (1 - t) * mean(below->pairs()) + t * mean(above->pairs());
   }
 
-  /// NaN: there is no such problem, or the eigenvalues are not found in it. Zero without a sample:
-  /// there they meet.
+  /// Returns the function at a friction and keeps a sample. The value is NaN if there is no problem
+  /// at this friction, or if the eigenvalues are not found in it. It is zero, without a sample,
+  /// where two eigenvalues have met so closely that they cannot be told apart.
   double valueAt(Family& family, double friction) {
     const auto problem = family.near(friction);
     auto found = problem ? continuedIn(*problem, nearest(friction).spectrum, expected(friction),
                                        event_.isolation)
                          : std::nullopt;
-    // Two that have all but met cannot be told from each other.
     const bool met = event_.kind == Event::Kind::coalescence &&
                      std::abs(friction - nearest(friction).friction) <= 1e-9 * width();
     if (!found) return problem && met ? 0 : NAN;
@@ -168,8 +172,8 @@ class Root {
   }
 
   double width() const { return event_.high - event_.low; }
-  /// Good enough for a basis that is still to be improved; less would hide by how much it moves
-  /// with the basis.
+  /// Returns the tolerance of a root in a basis that is still to be improved. It is small enough
+  /// not to hide how far the root moves with the basis.
   double roughly() const { return 1e-7 * width(); }
 
   double searchFromEnds(Family& family) {
@@ -183,8 +187,9 @@ class Root {
     return searched(family, known_[0].value, known_[1].value, roughly());
   }
 
-  /// Of the basis in force, whose root may have left the bracket; ends where it is not known, such
-  /// as those where equal eigenvalues part, keep their values.
+  /// Searches the whole bracket in the present basis. Returns NaN if the root has left the bracket.
+  /// Where the function is not known at an end of the bracket, as where equal eigenvalues part, the
+  /// value in the first basis is kept.
   double searchedAnew(Family& family) {
     double low = valueAt(family, event_.low), high = valueAt(family, event_.high);
     if (std::isnan(low)) low = known_[0].value;
@@ -202,8 +207,8 @@ class Root {
     return search.root();
   }
 
-  /// From where it was in the basis before, by the slope there, which is of two frictions 2e-5 of
-  /// the bracket apart.
+  /// Improves the root of the previous basis in the present one, by Newton's method with a fixed
+  /// slope, taken from two frictions 2e-5 of the bracket apart.
   double refined(Family& family) {
     if (lost_) return NAN;
     const Sample start = nearest(friction_);
@@ -220,7 +225,7 @@ class Root {
                  closer = step <= 2 || std::abs(change) < 0.1 * last;
       if (!inside || !closer) return searchedAnew(family);
       last = std::abs(change);
-      // A step is wrong by some 1e-4 of itself.
+      // A step has a relative error of about 1e-4.
       if (step > 1 && last <= 1e3 * rootTolerance()) return next;
       at = next;
       value = valueAt(family, at);
@@ -233,10 +238,10 @@ class Root {
   bool throughZero_;  // the eigenvalue is real at both ends
   double friction_ = NAN, moved_ = 0, backwardError_ = 0, slope_ = 0;
   bool settled_ = false, lost_ = false;
-  std::vector<Sample> known_;  // the two ends first, then what the last basis left
+  std::vector<Sample> known_;  // the two ends of the bracket first
 };
 
-/// All events, spread over the ranks.
+/// The searches for all events, spread over the ranks.
 class Roots {
  public:
   Roots(Family& family, const std::vector<Event>& events, double tolerance) : family_(family) {
@@ -251,7 +256,7 @@ class Roots {
     locate(indices(events.size()), true);
   }
 
-  /// Indices of those that are not settled.
+  /// Returns the indices of the events that are not settled.
   std::vector<std::size_t> open() const {
     std::vector<int> is(roots_.size(), 0);
     for (std::size_t i = 0; i < roots_.size(); ++i) is[i] = mine(i) && !roots_[i].settled() ? 1 : 0;
@@ -262,7 +267,8 @@ class Roots {
     return list;
   }
 
-  /// False: the basis has not changed.
+  /// Improves the basis for these events and locates them again. Returns false if the basis has not
+  /// changed.
   bool improve(const std::vector<std::size_t>& open) {
     std::vector<Located> located;
     for (const auto i : open) {

@@ -1,33 +1,35 @@
 #pragma once
-/// The frictions at which stability changes, solved for rather than read off a grid.
+/// Critical frictions: the frictions at which stability changes, as roots of analytic functions.
 #include <vector>
 
 #include "tracking/track.hpp"
 
 namespace squeal::tracking {
 
+/// One critical friction.
 struct Critical {
   Event::Kind kind = Event::Kind::crossing;
   int branch = 0, partner = -1;
   double friction = 0;
   double angularFrequency = 0;  ///< rad/s
-  /// crossing: d Re s/df, 1/s; coalescence: d (Re s)²/df, 1/s²; divergence: d Re s²/df, 1/s², or of
-  /// a real s ds/df, 1/s
+  /// Slope over the friction. Crossing: d Re s/df, 1/s. Coalescence: d (Re s)²/df, 1/s².
+  /// Divergence: d Re s²/df, 1/s², or ds/df, 1/s, where s is real on both sides.
   double slope = 0;
-  bool loss = true;          ///< of stability with rising friction; false: it is regained
-  double errorEstimate = 0;  ///< of the friction: its change with the last improvement of the
-                             ///< basis, and the tolerance of the root
-  double backwardError = 0;  ///< of the large problem at this friction; 0: there is none
-  bool converged = true;
+  bool loss = true;          ///< stability is lost with rising friction; false: it is regained
+  double errorEstimate = 0;  ///< estimate of the error of `friction`: its change with the last
+                             ///< improvement of the basis, plus the tolerance of the root
+  double backwardError = 0;  ///< backward error of the large problem here; 0: there is none
+  bool converged = true;     ///< the basis was improved until `friction` settled
 };
 
-/// Collective. Each event as the zero of a function that is analytic in f, inside its bracket:
-/// - crossing: Re s(f) of one eigenvalue (Hopf);
-/// - coalescence: −((s1 − s2)/2)² of the two-dimensional invariant subspace, which is simple where
-/// s1 and s2 are square roots;
-/// - divergence: Re s², or s where it is real at both ends.
-/// After each root the family improves its basis for the pairs concerned, until the friction moves
-/// by less than `tolerance` of itself.
+/// Collective. Returns a critical friction for each event of `branches`, by friction. Inside its
+/// bracket it is the zero of a function that is analytic in f [M.44]:
+///   crossing (Hopf):   Re s of one eigenvalue
+///   coalescence:       −((s1 − s2)/2)² of the two-dimensional invariant subspace
+///   divergence:        Re s², or s where it is real at both ends
+/// At a coalescence s1 and s2 themselves behave like square roots. After each root the family
+/// improves its basis for the pairs concerned, until the friction changes by at most `tolerance` of
+/// itself, relative, or after ten rounds. Throws Error if LAPACK fails.
 std::vector<Critical> criticalFrictions(Family& family, const Branches& branches, double tolerance);
 
 }  // namespace squeal::tracking

@@ -1,5 +1,5 @@
 #pragma once
-/// Dense problems that depend on the friction: small models, or a large pencil in a reduced basis
+/// Dense problems that depend on the friction: a small model, or a large pencil in a reduced basis
 /// that may grow.
 #include <optional>
 #include <string>
@@ -9,28 +9,30 @@
 
 namespace squeal::tracking {
 
-/// Pairs found at one friction.
+/// Eigenpairs at one friction.
 struct Located {
   double friction = 0;
   std::vector<linalg::DensePair> pairs;
 };
 
+/// The interface to a dense problem for each friction.
 class Family {
  public:
   virtual ~Family() = default;
   virtual MPI_Comm comm() const = 0;
-  /// Collective. The problem at one friction in the basis in force, the same on all ranks; none
-  /// where it cannot be had, for example because the contact opens.
+  /// Collective. Returns the problem at one friction in the present basis, the same on all ranks;
+  /// none where it does not exist, for example because the contact opens.
   virtual std::optional<linalg::DenseProblem> at(double friction) = 0;
-  /// Not collective. The same, where it takes other ranks interpolated between the frictions known,
-  /// exact at those: to look for what improve() then makes exact.
+  /// Not collective. Returns the same problem. Where at() would need other ranks, its matrices are
+  /// interpolated between the known frictions, at which they are exact. A root found so is made
+  /// exact by improve().
   virtual std::optional<linalg::DenseProblem> near(double friction) { return at(friction); }
-  /// Collective. Makes near() know these frictions.
+  /// Collective. Makes these frictions known to near().
   virtual void know(const std::vector<double>&) {}
-  /// Told on all ranks how far the work is.
+  /// Reports progress; called on all ranks.
   virtual void progress(const std::string&) {}
-  /// Collective. Adds to the basis what the residuals of these pairs ask for, all together, and
-  /// makes near() know their frictions.
+  /// Collective. Corrects the basis by the residuals of these pairs, all together, and makes their
+  /// frictions known to near().
   virtual reduction::Improvement improve(const std::vector<Located>&) { return {}; }
 };
 

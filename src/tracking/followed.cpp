@@ -27,14 +27,14 @@ const IntegerOption halvingsOption(
     "flutter", "flutter_track_halvings", 10, 0, 50,
     "how often a step of the sweep may be halved where a continuation is not certain");
 
-/// Vectors have done their service, and there are many.
+/// Drops the vectors, which take much memory and are no longer needed, and the events.
 void dropVectors(Branches& branches) {
   for (auto& station : branches.stations)
     for (auto& pair : station.pairs) pair = {pair.s, {}};
   branches.events.clear();
 }
 
-/// The frictions to follow of points that differ in nothing else, ascending; [line].
+/// Returns the frictions to follow, [line], where the points of a line differ in friction only.
 std::vector<std::pair<sweep::Parameters, std::vector<double>>> lines(
     const std::vector<pencil::FrictionPoint>& points) {
   std::vector<std::pair<sweep::Parameters, std::vector<double>>> found;
@@ -50,8 +50,8 @@ std::vector<std::pair<sweep::Parameters, std::vector<double>>> lines(
   return found;
 }
 
-/// Whether the eigenvalues of the band are the i ω of the `count` lowest modes, to within their
-/// errors. At friction 0 they are not where the problem is another one than that of the modes: with
+/// Returns true if the eigenvalues in the band are i ω for the `count` lowest modes, within their
+/// errors. Even at friction 0 they are not where the problem differs from that of the modes: with
 /// an unsymmetric stiffness from a file, or with the prestress of another friction.
 bool areFreeModes(const Station& station, const std::vector<double>& angularFrequency,
                   std::size_t count) {

@@ -1,6 +1,6 @@
 #pragma once
-/// The sweep over friction as a whole: its eigenvalues followed from point to point, their critical
-/// frictions, and what can be said of their number.
+/// A whole sweep over friction: its eigenvalues followed from point to point, their critical
+/// frictions, and a statement on the completeness of their number.
 #include <string>
 #include <vector>
 
@@ -28,20 +28,19 @@ struct Followed {
   std::string statement() const;
 };
 
-/// `-flutter_track`.
+/// Returns the option `-flutter_track`.
 bool trackWanted();
-/// `-flutter_track` or `-flutter_critical` is given: the user is to be told if there is nothing to
-/// follow.
+/// Returns true if `-flutter_track` is given, or `-flutter_critical` is given and on. The user is
+/// then told if there is nothing to follow.
 bool trackAsked();
-/// Why there is nothing to follow: eigenvalues of the free modes alone, or single frictions unless
-/// trackAsked(). Empty: there is.
+/// Returns the reason why there is nothing to follow; empty if there is something. Nothing is
+/// followed in the basis of the free modes alone, nor for single frictions unless trackAsked().
 std::string nothingToFollow(const reduction::ReducedProblem& reduced,
                             const std::vector<pencil::FrictionPoint>& points);
 
-/// Collective. Follows the eigenvalues of `points`, from friction 0 on, in the basis in force, and
-/// solves for the critical frictions
-/// (`-flutter_critical`), for which the basis may grow. Single frictions are left out unless
-/// trackAsked().
+/// Collective. Follows the eigenvalues of `points`, from friction 0 on, in the present basis, and
+/// solves for the critical frictions (`-flutter_critical`), for which the basis may grow. Returns a
+/// result for each speed, pressure and damping. Single frictions are left out unless trackAsked().
 std::vector<Followed> followSweep(reduction::ReducedProblem& reduced,
                                   const std::vector<pencil::FrictionPoint>& points,
                                   const modes::Modes& modes, MPI_Comm comm,

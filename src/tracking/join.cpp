@@ -12,8 +12,8 @@
 namespace squeal::tracking {
 namespace {
 
-constexpr double reach =
-    0.1;  // of a projector into another: below, two eigenvalues have nothing in common
+/// Up to this |tr(Π_i Π_j)| two eigenvalues count as having nothing in common.
+constexpr double reach = 0.1;
 
 using Complex = std::complex<double>;
 
@@ -27,19 +27,19 @@ std::vector<std::size_t> byFrequency(const std::vector<linalg::DensePair>& pairs
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](auto a, auto b) {
     const Complex s = pairs[a].s, t = pairs[b].s;
-    // Members of a split pair have one frequency, but for rounding.
+    // Members of a split pair have the same frequency up to rounding.
     return std::abs(s.imag() - t.imag()) > 1e-8 * std::abs(s) ? s.imag() < t.imag()
                                                               : s.real() > t.real();
   });
   return order;
 }
 
-/// Of a problem in s², of which −s is one with every s, without negative real ones.
+/// Returns false for a negative real s in a problem in s², where −s is an eigenvalue too.
 bool counted(const linalg::DenseProblem& problem, Complex s) {
   return !problem.damping.empty() || s.imag() != 0 || s.real() >= 0;
 }
 
-/// |Σ tr(Π_i Π_j) − number| for all pairs of both.
+/// Returns |Σ tr(Π_i Π_j) − number| over all pairs of both, with the number of pairs of `a`.
 double unshared(const linalg::Spectrum& a, const linalg::Spectrum& b) {
   Complex sum = 0;
   for (std::size_t i = 0; i < a.pairs().size(); ++i)
@@ -62,7 +62,7 @@ std::optional<linalg::Spectrum> locally(const linalg::DenseProblem& problem,
   return found;
 }
 
-/// Of all pairs those that share most with `from`.
+/// Returns the indices of as many pairs of `all` as `from` has: those that share most with it.
 std::vector<std::size_t> closest(const linalg::Spectrum& from, const linalg::Spectrum& all) {
   std::vector<std::pair<double, std::size_t>> shares;
   for (std::size_t j = 0; j < all.pairs().size(); ++j) {
@@ -94,8 +94,8 @@ std::optional<linalg::Spectrum> continuedIn(const linalg::DenseProblem& problem,
   for (std::size_t j = 0; j < all.pairs().size(); ++j)
     if (std::find(indices.begin(), indices.end(), j) == indices.end())
       free = std::min(free, std::abs(all.pairs()[j].s - middle));
-  // Where the eigenvalues are closer to each other than to the rest, their subspace has more digits
-  // than they have.
+  // Where the eigenvalues are closer to each other than to the rest, their subspace is more
+  // accurate than they are.
   if (auto found = locally(problem, whole, whole.pairs(), middle, free)) return found;
   return whole;
 }

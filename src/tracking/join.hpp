@@ -1,5 +1,5 @@
 #pragma once
-/// Which eigenvalues of one friction are those of another.
+/// Identification of the eigenvalues at one friction with those at another.
 #include "linalg/dense.hpp"
 #include "linalg/subspace.hpp"
 #include "pencil/band.hpp"
@@ -7,68 +7,74 @@
 
 namespace squeal::tracking {
 
-/// |Re s| of no account: rounding at multiple eigenvalues where all are neutral or come in pairs
-/// ±σ, less where there is damping.
+/// Returns true if |Re s| is at most 1e-6 |s|, or 1e-10 |s| in a damped problem. The first bound is
+/// larger because rounding splits multiple eigenvalues in problems in s².
 bool neutral(std::complex<double> s, bool damped);
-/// Im s of no account.
+/// Returns true if |Im s| is at most 1e-6 |s|.
 bool real(std::complex<double> s);
-/// Two neutral eigenvalues; of a problem in s², two real s².
+/// Returns true if both eigenvalues are neutral or, in a problem in s², if both s² are real.
 bool neutralPair(const std::vector<linalg::DensePair>& two, bool damped);
-/// s and −conj s, neither neutral nor real.
+/// Returns true if the eigenvalues are s and −conj s, neither neutral nor real.
 bool splitPair(const std::vector<linalg::DensePair>& two, bool damped);
-/// All the same but for rounding.
+/// Returns true if all eigenvalues are the same up to rounding.
 bool coincide(const std::vector<linalg::DensePair>& pairs);
 
-/// A group of eigenvalues here and there that span the same subspace.
+/// A group of eigenvalues at one friction ("here") and a group at another ("there") whose subspaces
+/// overlap.
 struct Group {
-  std::vector<std::size_t> here, there;
-  double share = 0;  ///< |Σ tr(Π_i Π_j) − number|, small where the subspaces are the same
+  std::vector<std::size_t> here, there;  ///< indices of pairs
+  double share = 0;  ///< |Σ tr(Π_i Π_j) − number here|, small where the subspaces are the same
+  /// Returns true if both groups have the same number of members and nearly the same subspace.
   bool joined() const {
     return here.size() == there.size() && share < 0.25 * static_cast<double>(here.size());
   }
 };
 
-/// Not collective. The smallest groups such that no projector reaches into another one, those that
-/// end at the edge included.
+/// Not collective. Returns the smallest groups between which all |tr(Π_i Π_j)| are at most 0.1.
+/// Groups that have members on one side only are included.
 std::vector<Group> groups(const linalg::Spectrum& here, const linalg::Spectrum& there);
 
-/// Not collective. Place in `group.there` of the partner of each of `group.here`, largest overlaps
-/// first; its size: none is left.
+/// Not collective. Returns the place in `group.there` of the partner of each member of
+/// `group.here`, assigned in the order of descending overlaps. A place equal to the size of
+/// `group.there` means that no partner is left.
 std::vector<std::size_t> assigned(const linalg::Spectrum& here, const linalg::Spectrum& there,
                                   const Group& group);
-/// The same by order: frequency, then growth; at a change between neutral and split, the convention
-/// of follow().
+/// Returns the same for two lists of equal length by their order: ascending frequency, then
+/// descending growth rate. At a change between neutral and split this is the convention of
+/// follow().
 std::vector<std::size_t> ordered(const std::vector<linalg::DensePair>& here,
                                  const std::vector<linalg::DensePair>& there);
 
-/// Collective. The eigenvalues of several problems that the band watches, Im s ≥ 0, with both
-/// vectors, by solveSpread; of a problem in s², of which −s is one with every s, without negative
-/// real ones.
+/// Collective. Returns the eigenvalues of several problems that the band watches, with Im s ≥ 0 and
+/// with both vectors, by solveSpread(). In a problem in s², where −s is an eigenvalue with every s,
+/// negative real ones are left out.
 std::vector<std::vector<linalg::DensePair>> watchedPairs(
     MPI_Comm comm, const std::vector<linalg::DenseProblem>& problems,
     const pencil::WatchedBand& band);
 
-/// Not collective. The eigenvalues of `from`, one or two of a neighbouring friction, in this
-/// problem: by their own subspace begun with `expected` and `isolation` (see clusterNear), or,
-/// where that fails or ends elsewhere, out of all eigenvalues. Nothing: none of its eigenvalues
-/// continue these. Error: LAPACK fails.
+/// Not collective. Returns the eigenvalues of this problem that continue those of `from`, one or
+/// two at a neighbouring friction. They are sought in their own subspace, from `expected` and
+/// `isolation` (see clusterNear()). Where that fails or ends at other eigenvalues, they are chosen
+/// from all eigenvalues. Returns nothing if none continue those of `from`. Throws Error if LAPACK
+/// fails.
 std::optional<linalg::Spectrum> continuedIn(const linalg::DenseProblem& problem,
                                             const linalg::Spectrum& from,
                                             std::complex<double> expected, double isolation);
 
-/// Collective. The same at a friction of the family, on rank 0, so that rounding cannot make the
-/// ranks disagree. Nothing also: there is no problem at this friction.
+/// Collective. Returns the same at a friction of the family, computed on rank 0, so that rounding
+/// cannot make the ranks disagree. Returns nothing also if there is no problem at this friction.
 std::optional<linalg::Spectrum> pursued(Family& family, double friction,
                                         const linalg::Spectrum& from, std::complex<double> expected,
                                         double isolation);
 
-/// The entries of `all` with these indices.
+/// Returns the entries of `all` with these indices.
 std::vector<linalg::DensePair> chosen(const std::vector<linalg::DensePair>& all,
                                       const std::vector<std::size_t>& indices);
 
-/// Positive for two different neutral eigenvalues, negative for a split pair: −((s1 − s2)/2)², real
-/// part; of a problem in s²
-/// ((s1² − s2²)/4)² / |(s1 + s2)/2|², the same where they meet, and the more analytic.
+/// Returns a function of two eigenvalues that is analytic in the friction, positive for two
+/// different neutral eigenvalues and negative for a split pair [M.44, M.45]:
+///   Re[ −((s1 − s2)/2)² ],   or in a problem in s²   Re[ ((s1² − s2²)/4)² ] / |(s1 + s2)/2|².
+/// Both have the same zero.
 double discriminant(const std::vector<linalg::DensePair>& two, bool damped);
 std::complex<double> mean(const std::vector<linalg::DensePair>& pairs);
 

@@ -6,7 +6,9 @@
 namespace squeal::tracking {
 namespace {
 
-/// sum += factor · part; what `part` lacks, being of a smaller basis, is zero.
+/// Computes
+///   sum += factor · part,
+/// where a `part` of a smaller basis is extended by zeros.
 void add(linalg::DenseProblem& sum, double factor, const linalg::DenseProblem& part) {
   const auto m = static_cast<std::size_t>(sum.m), n = static_cast<std::size_t>(part.m);
   for (const auto matrix : {&linalg::DenseProblem::mass, &linalg::DenseProblem::damping,
@@ -53,7 +55,7 @@ std::optional<linalg::DenseProblem> ReducedFamily::at(double friction) {
   return sum;
 }
 
-/// In the basis in force.
+/// Returns true if there is a node at this friction in the present basis.
 bool ReducedFamily::known(double friction) const {
   return std::any_of(nodes_.begin(), nodes_.end(), [&](const Node& node) {
     return node.friction == friction && node.own.m == reduced_.basisSize();
@@ -67,20 +69,21 @@ void ReducedFamily::know(const std::vector<double>& frictions) {
       if (const auto problem = source_.at(point(friction))) keep({friction, own(*problem)});
 }
 
-/// In the place of one in a smaller basis.
+/// Keeps the node; it replaces one at the same friction, which is of a smaller basis.
 void ReducedFamily::keep(Node node) {
   std::erase_if(nodes_, [&](const Node& other) { return other.friction == node.friction; });
   nodes_.push_back(std::move(node));
 }
 
-/// Nodes closer than this would give a slope of rounding.
+/// Returns the smallest distance of nodes: with closer ones the interpolant's slope would be
+/// rounding.
 double ReducedFamily::closest() const {
   double largest = 0;
   for (const auto& node : nodes_) largest = std::max(largest, std::abs(node.friction));
   return 1e-4 * largest;
 }
 
-/// The nearest ones, not too close to each other.
+/// Returns the nearest nodes, six at most, that are not too close to each other.
 std::vector<const ReducedFamily::Node*> ReducedFamily::nodesFor(double friction) const {
   constexpr std::size_t most = 6;
   std::vector<const Node*> all, chosen;
@@ -102,7 +105,7 @@ std::optional<linalg::DenseProblem> ReducedFamily::near(double friction) {
   if (nodes_.empty()) return {};
   linalg::DenseProblem sum = shared(friction);
   const auto nodes = nodesFor(friction);
-  for (const Node* node : nodes) {  // Lagrange
+  for (const Node* node : nodes) {  // Lagrange interpolation
     double weight = 1;
     for (const Node* other : nodes)
       if (other != node)

@@ -1,5 +1,5 @@
 #pragma once
-/// A sweep over the friction in the reduced basis.
+/// A sweep over the friction in the reduced basis, as a Family.
 #include <functional>
 #include <optional>
 #include <string>
@@ -14,21 +14,22 @@
 
 namespace squeal::tracking {
 
-/// The terms of all points and of each.
+/// The terms that all points share, and those of a single point.
 struct ProblemSource {
-  const pencil::Pencil& shared;  ///< the terms of all points
-  /// Collective, unless local. None: there is no steady state with this active set.
+  const pencil::Pencil& shared;  ///< the terms of all points, borrowed
+  /// Returns the problem of a point; none if there is no steady state with this active set.
+  /// Collective, unless `local`.
   std::function<std::optional<reduction::PointProblem>(const sweep::Parameters&)> at;
   bool local = false;  ///< no point has terms of its own
 };
 
-/// One line of a sweep: all frictions of one speed, pressure and damping. Where points have terms
-/// of their own, each new friction costs a steady state and a projection on all ranks; near() then
-/// interpolates what the projections of these terms are.
+/// All frictions of one speed, pressure and damping. Where points have terms of their own, each new
+/// friction costs a steady state and a projection on all ranks; near() then interpolates the
+/// projections of these terms.
 class ReducedFamily : public Family {
  public:
   using Progress = std::function<void(const std::string&)>;
-  /// Borrows all but `line`.
+  /// Borrows everything but `line`, which is copied.
   ReducedFamily(reduction::ReducedProblem& reduced, MPI_Comm comm, const sweep::Parameters& line,
                 const ProblemSource& source, const Progress& progress)
       : reduced_(reduced), comm_(comm), line_(line), source_(source), progress_(progress) {}
@@ -40,7 +41,7 @@ class ReducedFamily : public Family {
   reduction::Improvement improve(const std::vector<Located>& located) override;
 
  private:
-  /// The terms that belong to one friction, projected on the basis of the time.
+  /// The terms that belong to one friction, projected on the basis at that time.
   struct Node {
     double friction;
     linalg::DenseProblem own;

@@ -10,10 +10,10 @@ namespace {
 using Complex = std::complex<double>;
 using Eigenvalues = std::map<int, Complex>;  // [branch] at one station
 
-constexpr double rounding = 1e-7;  // of |s|, as in coincide()
+constexpr double rounding = 1e-7;  // relative to |s|, as in coincide()
 
-/// Orders a list by descending keys, and what is equal but for `tolerance` by `further`, which
-/// reorders in place.
+/// Orders a list by descending keys. Runs of keys that differ by at most `tolerance` are reordered
+/// in place by `further`.
 template <class Key, class Further>
 void orderBy(std::vector<int>& list, const Key& key, double tolerance, const Further& further) {
   std::stable_sort(list.begin(), list.end(), [&](int a, int b) { return key(a) > key(b); });
@@ -36,8 +36,9 @@ class Order {
     }
   }
 
-  /// By the station, and those that are equal there by the next ones. Those that have ended before
-  /// keep their order, behind the others.
+  /// Orders a list of branches by their eigenvalues at the station; those that are equal there are
+  /// ordered by the next stations. Branches that have ended before the station keep their order,
+  /// behind the others.
   void apply(std::vector<int>& list, std::size_t station) const {
     if (list.size() < 2 || station == at_.size()) return;
     const Eigenvalues& here = at_[station];

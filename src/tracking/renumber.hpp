@@ -1,13 +1,14 @@
 #pragma once
-/// The numbers by which the branches of a followed sweep are known to the user.
+/// The numbers of the branches in the output.
 #include "tracking/track.hpp"
 
 namespace squeal::tracking {
 
-/// Not collective. Drops the events of what is watched beside the band alone, whose number becomes
-/// 0, and numbers the rest from 1 by the station where they begin, there by frequency, then the
-/// fastest growing first. Eigenvalues that are equal there but for rounding are ordered by the next
-/// station where they differ. A partner that is none or outside of the band is 0.
+/// Not collective. Numbers the branches that are in the band at some station from 1, by the station
+/// where they begin, there by ascending frequency, then by descending growth rate. Eigenvalues that
+/// are equal there up to rounding are ordered by the next station where they differ. Branches that
+/// are never in the band get the number 0, and their events are dropped. A partner that is none or
+/// never in the band becomes 0.
 void renumber(Branches& branches);
 
 }  // namespace squeal::tracking

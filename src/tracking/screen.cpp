@@ -12,8 +12,10 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// ds/df = −yᴴ P_f x / (yᴴ P_s x) of pairs at one end, P_f by the difference over the step: exact
-/// where P is linear in f, good enough to look for candidates elsewhere.
+/// Returns the slopes of the eigenvalues at one end of the step,
+///   ds/df = −yᴴ P_f x / (yᴴ P_s x),
+/// with P_f from the difference over the step. This is exact where P is linear in f, and elsewhere
+/// good enough to look for candidates.
 std::vector<Complex> slopes(const linalg::Spectrum& spectrum, const StepEnd& low,
                             const StepEnd& high) {
   const auto& pairs = spectrum.pairs();
@@ -41,7 +43,7 @@ std::vector<Complex> slopes(const linalg::Spectrum& spectrum, const StepEnd& low
   return list;
 }
 
-/// Cubic of given values and slopes at 0 and 1.
+/// The cubic with given values and slopes at 0 and 1.
 struct Cubic {
   double value0, slope0, value1, slope1;
   double operator()(double t) const {
@@ -49,7 +51,7 @@ struct Cubic {
     return u * u * (1 + 2 * t) * value0 + t * t * (3 - 2 * t) * value1 +
            t * u * (u * slope0 - t * slope1);
   }
-  /// Place of the smallest value inside.
+  /// Returns the place of the smallest value between 0 and 1, among 63 samples.
   double lowest() const {
     constexpr int samples = 64;
     double best = 0.5;
@@ -61,15 +63,16 @@ struct Cubic {
   }
 };
 
-/// A function over a step, t from 0 to 1, that is positive at both ends: is it negative somewhere?
+/// Decides whether a function over a step, t from 0 to 1, that is positive at both ends, is
+/// negative somewhere.
 class Dip {
  public:
   enum class Result { negative, positive, unknown };
-  /// `scale`: of the values at the ends; next to nothing of it counts as zero, not negative.
+  /// `scale` is the size of the values at the ends; 1e-10 of it counts as zero.
   explicit Dip(double scale) : nothing_(1e-10 * scale) {}
 
-  /// From t by parabolas through three points as close as the zero of the last one seems to be.
-  /// `value(t)` is NaN where it is not known.
+  /// Searches from t by parabolas through three points, which come closer as the minimum
+  /// approaches zero. `value(t)` is NaN where it is not known.
   template <class Function>
   Result search(double t, const Function& value) {
     constexpr int most = 6;
@@ -107,7 +110,7 @@ class Dip {
   double nothing_, at_ = 0;
 };
 
-/// A step and what is examined in it.
+/// The examination of one step.
 class Screening {
  public:
   Screening(Family& family, const StepEnd& low, const StepEnd& high,
@@ -137,7 +140,8 @@ class Screening {
  private:
   double width() const { return high_.friction - low_.friction; }
 
-  /// NaN if the subspace is not found.
+  /// Returns the discriminant of two eigenvalues, or the growth rate of one, at t; NaN if the
+  /// subspace is not found.
   double examine(double t, const std::vector<linalg::DensePair>& below,
                  const std::vector<linalg::DensePair>& above, double isolation) {
     const linalg::Spectrum from(t < 0.5 ? low_.problem : high_.problem, t < 0.5 ? below : above);
@@ -148,7 +152,7 @@ class Screening {
     return found_.size() == 2 ? discriminant(found_, from.damped()) : found_[0].s.real();
   }
 
-  /// Both ends of a search with its result.
+  /// Appends the two events that a search has found, or a gap if its result is unknown.
   void record(Dip::Result result, const Dip& dip, Event event) {
     if (result == Dip::Result::positive) return;
     if (result == Dip::Result::unknown) {
@@ -167,7 +171,7 @@ class Screening {
     events_.push_back(std::move(second));
   }
 
-  /// Do two neutral eigenvalues meet?
+  /// Examines whether two neutral eigenvalues meet.
   void merger(std::size_t i, std::size_t j) {
     const Pursued &a = singles_[i], &b = singles_[j];
     const double d0 = 0.5 * (a.below.s - b.below.s).imag(),
@@ -201,7 +205,7 @@ class Screening {
     return distance;
   }
 
-  /// Does the growth change its sign twice?
+  /// Examines whether the growth rate of an eigenvalue changes its sign twice.
   void arch(std::size_t i) {
     const Pursued& a = singles_[i];
     const double g0 = a.below.s.real(), g1 = a.above.s.real();

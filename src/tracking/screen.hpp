@@ -1,27 +1,29 @@
 #pragma once
-/// Changes of stability that come and go within a step: stable at both ends, unstable in between,
-/// or the reverse.
+/// Pairs of changes of stability within one step: stable at both ends and unstable in between, or
+/// the reverse.
 #include "linalg/dense.hpp"
 #include "tracking/track.hpp"
 
 namespace squeal::tracking {
 
-/// An eigenvalue known by itself at both ends of a step.
+/// An eigenvalue that is joined by itself over a step.
 struct Pursued {
   int branch = 0;
-  linalg::DensePair below, above;
-  double isolation = 0;
+  linalg::DensePair below, above;  ///< at the lower and at the upper end
+  double isolation = 0;            ///< distance from other eigenvalues, rad/s
 };
+/// One end of a step.
 
 struct StepEnd {
   double friction;
   const linalg::DenseProblem& problem;
 };
 
-/// Collective. Slopes at both ends say, by a cubic through each step, which two neutral eigenvalues
-/// may meet and which growth may change its sign twice; these are examined in between by their own
-/// subspace. Found are mergers wider than about 1e-5 of the step, and arches of the growth that the
-/// cubic shows to within a tenth. What cannot be examined becomes a gap.
+/// Collective. Appends the events found within the step between `low` and `high`. A cubic through
+/// the values and slopes at both ends tells which two neutral eigenvalues may meet and which growth
+/// rate may change its sign twice. These are examined in between by their own subspace. Mergers
+/// wider than about 1e-5 of the step are found, and so are arches of the growth rate whose cubic
+/// falls to a tenth of the values at the ends. If an examination fails, a gap is appended.
 void screen(Family& family, const StepEnd& low, const StepEnd& high,
             const std::vector<Pursued>& singles, std::vector<Event>& events,
             std::vector<Gap>& gaps);

@@ -14,14 +14,14 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Joined eigenvalues: index at one end, at the other, and how much of a projector they share.
+/// Two joined eigenvalues: their indices at both ends of the step, and |tr(Π Π')|.
 struct Link {
   std::size_t here, there;
   double overlap;
 };
 
-/// What one step brings; kept only if the step is not halved. Branches are indices of pairs at its
-/// lower end until all before are numbered.
+/// The result of one step, kept only if the step is not halved. Its branches are indices of pairs
+/// at the lower end until all earlier steps are finished.
 struct StepResult {
   std::vector<Link> links;
   std::vector<Event> events;
@@ -30,14 +30,14 @@ struct StepResult {
   bool sure = true;
 };
 
-/// A station while it is worked on.
+/// A station with its problem.
 struct Solved {
   Station station;
   linalg::DenseProblem problem;
   linalg::Spectrum spectrum;
   std::optional<StepResult> step = {};  // from the station before
   bool whole = false;                   // the step from the station before is not to be halved
-  double smallest = 0;                  // of such steps
+  double smallest = 0;                  // smallest step here
 };
 
 /// Two eigenvalues at one friction.
@@ -61,7 +61,7 @@ class Follower {
     check(MPI_Comm_size(family_.comm(), &ranks));
     const std::size_t together =
         std::min<std::size_t>(static_cast<std::size_t>(ranks), mostTogether);
-    std::list<Solved> row;  // the last station of those before, and the next ones
+    std::list<Solved> row;  // the last station already finished, and the next ones
     for (std::size_t first = 0; first < frictions.size(); first += together) {
       const std::vector<double> some(frictions.begin() + static_cast<std::ptrdiff_t>(first),
                                      frictions.begin() + static_cast<std::ptrdiff_t>(std::min(
@@ -93,7 +93,7 @@ class Follower {
  private:
   static constexpr std::size_t mostTogether = 4;  // stations whose matrices are held at a time
 
-  /// Those of which there is a problem, solved together.
+  /// Solves the problems at these frictions together, [friction]; none where there is no problem.
   std::vector<std::optional<Solved>> solve(const std::vector<double>& frictions, bool swept) {
     std::vector<linalg::DenseProblem> problems;
     std::vector<std::size_t> places;
@@ -117,8 +117,8 @@ class Follower {
     return list;
   }
 
-  /// Puts frictions in between until all continuations are certain, those of a round solved
-  /// together.
+  /// Adds frictions in between until all continuations are certain or the steps are too small. The
+  /// problems of a round are solved together.
   void refine(std::list<Solved>& row) {
     for (bool open = true; open;) {
       std::vector<std::list<Solved>::iterator> places;
@@ -147,7 +147,8 @@ class Follower {
     }
   }
 
-  /// Takes in what the step from `a` (null: none) brings, and numbers what begins at `b`.
+  /// Adds the result of the step from `a` to `b` (`a` is null for the first station), and numbers
+  /// the branches that begin at `b`.
   void finish(const Solved* a, Solved& b) {
     if (a) {
       StepResult& step = *b.step;
@@ -182,7 +183,8 @@ class Follower {
                        [&](auto j) { return b.station.inBand[j]; });
   }
 
-  /// Whether it is of use to tell them apart.
+  /// Returns true if a member has a damping ratio within that of the band. Strongly damped
+  /// eigenvalues need not be told apart.
   bool lasts(const Solved& a, const Solved& b, const Group& group) const {
     const auto one = [&](const Solved& end, std::size_t i) {
       return result_.band.lasts(end.station.pairs[i].s);
@@ -216,7 +218,7 @@ class Follower {
             step.singles.back().isolation, a.spectrum.damped());
   }
 
-  /// An eigenvalue that changes its stability by itself.
+  /// Appends an event if one eigenvalue changes its stability by itself.
   static void crossed(StepResult& step, double low, double high, const linalg::DensePair& p,
                       const linalg::DensePair& q, int branch, double isolation, bool damped) {
     const int before = sign(p.s, damped), after = sign(q.s, damped);
@@ -231,8 +233,8 @@ class Follower {
     step.events.push_back(std::move(event));
   }
 
-  /// Several eigenvalues joined as a whole. False: it takes more frictions in between to tell them
-  /// apart.
+  /// Joins several eigenvalues as a group. Returns false if more frictions in between are needed to
+  /// tell them apart.
   bool several(StepResult& step, const Solved& a, const Solved& b, const Group& group) {
     const auto here = chosen(a.spectrum.pairs(), group.here),
                there = chosen(b.spectrum.pairs(), group.there);
@@ -258,7 +260,7 @@ class Follower {
     return true;
   }
 
-  /// Equal eigenvalues at one end that change their stability.
+  /// Appends events for eigenvalues that are equal at one end and change their stability.
   void atEnd(StepResult& step, const Solved& a, const Solved& b,
              const std::vector<linalg::DensePair>& here,
              const std::vector<linalg::DensePair>& there, const std::vector<int>& ids,
@@ -273,8 +275,8 @@ class Follower {
       Event event{Event::Kind::coalescence, ids[k], -1, after > before, equalAt, equalAt, {here[k]},
                   {there[mate[k]]},         0};
       if (before * after != 0) {
-        // Damped ones part, and one of them crosses the axis on its way: back to where they are
-        // equal, until it has not yet.
+        // Damped eigenvalues part, and one of them crosses the imaginary axis: the friction goes
+        // back towards the one where they are equal, until that one has not yet crossed.
         event.kind = Event::Kind::crossing;
         approach(event, apart, equalAt, equalBelow ? event.above[0] : event.below[0],
                  mean(equalBelow ? here : there));
@@ -283,8 +285,8 @@ class Follower {
     }
   }
 
-  /// Brackets the crossing of one of several eigenvalues that are equal at `equalAt`, where their
-  /// vectors say nothing, from `pair`.
+  /// Brackets the crossing of one of several eigenvalues that are equal at `equalAt`, beginning
+  /// with `pair` at the other end: at `equalAt` the vectors cannot be told apart.
   void approach(Event& event, const Solved& apart, double equalAt, const linalg::DensePair& pair,
                 Complex equal) {
     constexpr int halvings = 16;
@@ -293,7 +295,7 @@ class Follower {
     for (int k = 0; k < halvings; ++k) {
       const double next = 0.5 * (friction + equalAt);
       const Complex expected = 0.5 * (last.pairs()[0].s + equal);
-      event.isolation = std::abs(expected - equal);  // from the others, which lie about their mean
+      event.isolation = std::abs(expected - equal);  // the others lie about the mean
       const auto found = pursued(family_, next, last, expected, event.isolation);
       if (!found) return;
       const bool crossed = (found->pairs()[0].s.real() > 0) != (last.pairs()[0].s.real() > 0);
@@ -310,8 +312,8 @@ class Follower {
     }
   }
 
-  /// Two eigenvalues from one friction to another by their common subspace; `mate`: place at `high`
-  /// of each at `low`.
+  /// Follows two eigenvalues from one friction to another in their common subspace. `mate` becomes
+  /// the place at `high` of each at `low`. Returns false if the subspace is lost.
   bool trace(const PairAt& low, const PairAt& high, const std::vector<int>& ids, double isolation,
              double smallest, std::vector<std::size_t>& mate, StepResult& step) {
     const auto& a = low.pairs();
@@ -325,8 +327,8 @@ class Follower {
       const auto& whole = merging ? a : b;
       const std::size_t grown = split[0].s.real() > 0 ? 0 : 1,
                         grownLow = merging ? (mate[0] == grown ? 0 : 1) : grown;
-      // Of two neutral ones the growing one loses its stability, of two divergent ones the decaying
-      // one regains it.
+      // Where two neutral eigenvalues merge, the growing one loses its stability. Where two real
+      // ones merge, the decaying one regains it.
       const bool divergent = real(whole[0].s);
       const std::size_t own = divergent ? 1 - grownLow : grownLow;
       step.events.push_back({Event::Kind::coalescence, ids[own], ids[1 - own], merging != divergent,
@@ -372,7 +374,7 @@ class Follower {
     return true;
   }
 
-  /// The largest overlaps first, where nothing better can be done.
+  /// Joins a group by its largest overlaps, without certainty, and appends a gap if it `counts`.
   void unsure(StepResult& step, const Solved& a, const Solved& b, const Group& group, bool counts) {
     const auto mate = assigned(a.spectrum, b.spectrum, group);
     for (std::size_t k = 0; k < mate.size(); ++k)
@@ -390,7 +392,8 @@ class Follower {
                    static_cast<int>(group.there.size()))});
   }
 
-  /// Of the mean of a group from all other eigenvalues.
+  /// Returns the smallest distance of the mean of a group, at either end, from all other
+  /// eigenvalues and from zero.
   double isolation(const Solved& a, const Solved& b, const Group& group) const {
     double distance = INFINITY;
     const auto reach = [&](const std::vector<linalg::DensePair>& pairs,
