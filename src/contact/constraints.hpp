@@ -1,27 +1,28 @@
 #pragma once
-/// Clamped, guided and displaced surfaces, periodic images: what removes rows of u before contact
-/// does.
+/// Constraints: clamped, guided and displaced surfaces, and periodic images.
 #include <vector>
 
 #include "mesh/mesh.hpp"
 
 namespace squeal::contact {
 
-/// Groups that constraint options name, for the mesh reader.
+/// Returns the groups that constraint options name, for the mesh reader. Throws Error for a
+/// displacement without a clamp.
 std::vector<mesh::GroupRequest> constrainedGroups();
+/// Returns the pairs of groups of which one is the periodic image of the other.
 std::vector<mesh::PeriodicRequest> periodicPairs();
 
-/// Cartesian components held at each owned node.
+/// The Cartesian components of the displacement that are held at the nodes owned by this rank.
 struct Constraints {
   std::vector<unsigned char> held;  ///< [owned node · dimension + component] 1 if held
   std::vector<int> heldBy;          ///< [owned node · dimension + component] index into groups
   std::vector<std::string> groups;  ///< groups with a clamp
-  /// [owned node · dimension + component] its value where held, m
+  /// [owned node · dimension + component] prescribed value where held, m
   std::vector<double> displacement;
 };
 
-/// Collective. Errors: component that the dimension does not have, displacement without clamp, two
-/// groups that disagree.
+/// Collective. Returns the constraints that the options ask for. Throws Error for a component that
+/// the dimension does not have or that is given twice, and for two groups that disagree.
 Constraints readConstraints(const mesh::Mesh& mesh);
 
 }  // namespace squeal::contact

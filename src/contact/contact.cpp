@@ -26,7 +26,7 @@ const RealListOption obstacleDisplacementOption(
 
 std::string text(const Point& p) { return formatted("(%.6g, %.6g, %.6g)", p[0], p[1], p[2]); }
 
-/// u of periodic images from that of their primaries.
+/// Returns P, which copies u of primaries to their images.
 OwnedMat periodicity(const mesh::Mesh& mesh) {
   OwnedMat matrix = nodalMatrix(mesh, 1);
   std::vector<PetscInt> source;
@@ -42,8 +42,8 @@ OwnedMat periodicity(const mesh::Mesh& mesh) {
   return matrix;
 }
 
-/// Sums over the pad faces at each node: area-weighted normals (towards the pad) and ∫ φ dA; those
-/// of images go to the primaries.
+/// Sums over the pad faces at each node: area-weighted normals (towards the pad) and ∫ φ dA. The
+/// sums of images are added to those of their primaries.
 struct FaceSums {
   OwnedVec normal, area;  // nodal vectors; area in component 0, lumped area in component 1
 };
@@ -122,13 +122,13 @@ std::vector<ContactNode> contactNodes(const mesh::Mesh& mesh, const elasticity::
       node.normal[static_cast<std::size_t>(d)] = normal[mesh.dimension * pair.node + d];
     node.normal = scaled(node.normal, 1 / std::sqrt(dot(node.normal, node.normal)));
     const Point velocity = discVelocity(pair);
-    // w = −V in the tangent plane [2.15].
+    //   w = −V in the tangent plane   [2.15]
     const double along = dot(velocity, node.normal);
     Point w{};
     for (std::size_t d = 0; d < 3; ++d) w[d] = -(velocity[d] - along * node.normal[d]);
     node.slipSpeed = std::sqrt(dot(w, w));
-    // On the axis of a rotation, and where the velocity is along the normal, only rounding is left;
-    // gmsh places nodes to 1e-11.
+    // On the axis of a rotation, and where the velocity is normal to the contact, w is only
+    // rounding; gmsh places nodes to 1e-11.
     if (node.slipSpeed > 1e-9 * fastest)
       node.slip = scaled(w, 1 / node.slipSpeed);
     else
@@ -140,8 +140,8 @@ std::vector<ContactNode> contactNodes(const mesh::Mesh& mesh, const elasticity::
   return nodes;
 }
 
-/// Tangents t1, t2 at a contact node, held Cartesian directions first. In the plane only the first
-/// is used.
+/// The tangents t1, t2 at a contact node, with held Cartesian directions first. In a plane problem
+/// only the first is used.
 struct Frame {
   std::vector<Point> tangents;
   std::vector<int> heldComponent;  ///< [tangent] Cartesian component held along it, or −1
@@ -170,7 +170,7 @@ Frame frameOf(const ContactNode& node, const Constraints& constraints, int dimen
     return frame;
   }
   if (frame.tangents.empty()) {
-    // Any direction not along n does.
+    // Any direction that is not along n will do.
     std::size_t least = 0;
     for (std::size_t d = 1; d < 3; ++d)
       if (std::abs(node.normal[d]) < std::abs(node.normal[least])) least = d;
@@ -186,7 +186,7 @@ Frame frameOf(const ContactNode& node, const Constraints& constraints, int dimen
   return frame;
 }
 
-/// Fills A (before periodicity), the free components of z and the values of the others.
+/// Fills A (before periodicity), marks the free components of z and sets the values of the others.
 void buildKinematics(const mesh::Mesh& mesh, const std::vector<mesh::InterfaceRequest>& requests,
                      Contact& contact, Mat a, Vec held) {
   const Constraints& constraints = contact.constraints;
@@ -270,7 +270,7 @@ void requireFlatObstacles(const mesh::Mesh& mesh, const Contact& contact) {
   failTogether(mesh.comm, failure);
 }
 
-/// w = −V is the velocity of a resting pad over a moving disc.
+/// Throws Error if a pad moves: w = −V holds for a resting pad on a moving disc.
 void requireRestingPads(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
                         const Contact& contact) {
   std::vector<int> moving(static_cast<std::size_t>(mesh.localNodes()),
@@ -332,8 +332,8 @@ Contact build(const mesh::Mesh& mesh, const elasticity::Bodies& bodies) {
   contact.law = FrictionLaw::read();
   contact.nodes = contactNodes(mesh, bodies, requests, sumFaces(mesh, contact));
   PetscInt sums[2] = {static_cast<PetscInt>(contact.nodes.size()), 0};
-  // tri6 corners weigh zero, quad8 corners less: consistent nodal forces of a positive pressure are
-  // not positive there.
+  // ∫ φ dA is zero at tri6 corners and negative at quad8 corners: consistent nodal forces of a
+  // positive pressure are not positive there.
   for (const auto& block : mesh.faces) {
     const auto& table = elasticity::shapeTable(block.type);
     const bool serendipity = table.order > 1 && (table.name == "tri6" || table.name == "quad8");

@@ -28,8 +28,8 @@ OwnedMat affine(Mat x0, Mat x1, double f) {
   OwnedMat sum;
   check(MatDuplicate(x0, MAT_COPY_VALUES, sum.out()));
   if (f == 0) return sum;
-  // Normal forces of a contact node come from its cells, and so do its tangential rows: Sᵀ N X T
-  // stays within Tᵀ X T.
+  // The normal force of a contact node comes from its cells, and so do its tangential rows: the
+  // pattern of Sᵀ N X T lies within that of Tᵀ X T.
   check(MatAXPY(sum, f, x1, SUBSET_NONZERO_PATTERN));
   check(MatSetOption(sum, MAT_SYMMETRIC, PETSC_FALSE));
   return sum;
@@ -37,7 +37,7 @@ OwnedMat affine(Mat x0, Mat x1, double f) {
 
 namespace {
 
-/// Collective. The number of nodes that are not closed, of all ranks.
+/// Collective. Returns the number of contact nodes that are not closed, over all ranks.
 PetscInt countOpen(MPI_Comm comm, const std::vector<unsigned char>& closed) {
   auto open = static_cast<PetscInt>(std::count(closed.begin(), closed.end(), 0));
   check(MPI_Allreduce(MPI_IN_PLACE, &open, 1, MPIU_INT, MPI_SUM, comm));

@@ -1,6 +1,6 @@
 #pragma once
-/// The matrices of the coupled problem: L(f)ᵀ X T = Tᵀ X T + f Sᵀ N X T for every matrix X of the
-/// bodies.
+/// The matrices of the coupled problem, for every matrix X of the bodies [M.11]:
+///   L(f)ᵀ X T = Tᵀ X T + f Sᵀ N X T.
 #include <memory>
 
 #include "contact/contact.hpp"
@@ -9,45 +9,50 @@
 
 namespace squeal::contact {
 
-/// One matrix X of the bodies in the unknowns; both empty where X is.
+/// The projections of one matrix X of the bodies on the unknowns; both are null where X is.
 struct Projection {
   OwnedMat matrix;    ///< Tᵀ X T, n×n
-  OwnedMat reaction;  ///< N X T, N×n: normal forces that X exerts, in the rows of the gaps
+  OwnedMat reaction;  ///< N X T, N×n: the normal forces that X exerts, in the rows of the gaps
 
   explicit operator bool() const { return static_cast<bool>(matrix); }
-  /// Collective. Sᵀ N X T, n×n: the friction of these normal forces, for the slip rows S.
+  /// Collective. Returns Sᵀ N X T, n×n, the friction of these normal forces, for the slip rows S.
   OwnedMat friction(Mat slipRows) const;
 };
 
-/// Collective. Projections of X (null: empty ones) by a transformation.
+/// Collective. Returns the projections of X, which may be null, by a transformation.
 Projection project(const Contact& contact, const Transformation& transformation, Mat x);
 
-/// Collective. X0 + f X1 as a new unsymmetric matrix, X1 within the pattern of X0.
+/// Collective. Returns X0 + f X1 as a new unsymmetric matrix. The pattern of X1 must lie within
+/// that of X0.
 OwnedMat affine(Mat x0, Mat x1, double f);
 
 /// The matrices of the bodies in the unknowns of one active set.
 struct Projections {
   Transformation transformation;
-  Projection stiffness;          ///< of K, prestress included
-  Projection mass;               ///< of M
-  Projection damping;            ///< of C
-  Projection gyroscopic;         ///< of G at the base motions
-  Projection rotationStiffness;  ///< of K^R at the base motions
+  Projection stiffness;          ///< projections of K, prestress included
+  Projection mass;               ///< projections of M
+  Projection damping;            ///< projections of C
+  Projection gyroscopic;         ///< projections of G for the base motions
+  Projection rotationStiffness;  ///< projections of K^R for the base motions
 };
 
-/// The coupled problem with contact closed on the active nodes. Without friction and rotation it is
-/// the associated system [4.17], whose K0 and M0 are those of K and M; its one factorisation serves
-/// the steady problem, the modes and the corrections of this active set.
+/// The coupled problem with the contact closed at the active nodes. Without friction and rotation
+/// it is the associated system [4.17],
+///   K0 = Tᵀ K T,   M0 = Tᵀ M T.
+/// The one factorisation of K0 serves the steady problem, the modes and the corrections of this
+/// active set.
 class CoupledSystem : public modes::AssociatedSystem {
  public:
-  /// Collective. `closed[i]`: contact node i is active. `prestress` (may be null) is added to K.
+  /// Collective. Contact node i is active if closed[i] is set. `prestress` is added to K; it may be
+  /// null.
   CoupledSystem(const elasticity::Bodies& bodies, const Contact& contact,
                 std::vector<unsigned char> closed, Mat prestress = nullptr);
   const Transformation& transformation() const { return projections_.transformation; }
   const Projections& projections() const { return projections_; }
   /// [contact node] 1 if it is active.
   const std::vector<unsigned char>& closed() const { return closed_; }
-  PetscInt openNodes() const { return openNodes_; }  ///< of all ranks
+  /// Returns the number of contact nodes that are not active, over all ranks.
+  PetscInt openNodes() const { return openNodes_; }
 
  private:
   CoupledSystem(Projections projections, std::vector<unsigned char> closed, PetscInt openNodes);

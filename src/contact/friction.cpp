@@ -60,7 +60,7 @@ FrictionLaw FrictionLaw::read() {
   return law;
 }
 
-/// Of the table: the number of knots at or below the speed.
+/// Returns the number of knots of the table at or below the speed.
 std::size_t FrictionLaw::interval(double speed) const {
   return static_cast<std::size_t>(std::upper_bound(speeds_.begin(), speeds_.end(), speed) -
                                   speeds_.begin());

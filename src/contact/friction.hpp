@@ -1,21 +1,21 @@
 #pragma once
-/// Coulomb friction with a coefficient f φ(|w|): f is swept, the law φ of the sliding speed is
-/// given by options.
+/// Coulomb friction with the coefficient f φ(|w|): f is swept, and options give the law φ of the
+/// sliding speed.
 #include <vector>
 
 namespace squeal::contact {
 
-/// φ(|w|), dimensionless: constant 1, exponential decay from a static to the kinetic value, or a
-/// table.
+/// The law φ(|w|), dimensionless: constant 1, an exponential decay from a static to the kinetic
+/// value, or a table.
 class FrictionLaw {
  public:
-  /// Reads `-friction_*`. Errors: a table whose lists differ in length or whose speeds do not
-  /// ascend; options of another law.
+  /// Returns the law that the options `-friction_*` ask for. Throws Error for a table whose lists
+  /// differ in length or whose speeds do not ascend, and for options of another law.
   static FrictionLaw read();
   bool constant() const { return kind_ == Kind::constant; }
-  /// φ at the sliding speed |w|, m/s.
+  /// Returns φ at the sliding speed |w|, m/s.
   double value(double speed) const;
-  /// dφ/d|w|, s/m; at a knot of a table the slope of the interval that begins there.
+  /// Returns dφ/d|w|, s/m. At a knot of a table it is the slope of the interval that begins there.
   double slope(double speed) const;
 
  private:

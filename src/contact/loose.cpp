@@ -1,5 +1,5 @@
-/// Rigid motions that nothing stops: a small dense problem, six unknowns per connected part of the
-/// mesh.
+/// Rigid motions that nothing prevents: a small dense problem with six unknowns per connected part
+/// of the mesh.
 #include <algorithm>
 #include <cmath>
 
@@ -11,8 +11,8 @@
 namespace squeal::contact {
 namespace {
 
-/// Rigid motions of all parts: 3 translations and 3 rotations (2 and 1 in the plane) each,
-/// rotations in units of 1/length.
+/// The rigid motions of all parts: for each part 3 translations and 3 rotations (2 and 1 in the
+/// plane), with rotations in units of 1/length.
 class RigidMotions {
  public:
   RigidMotions(const mesh::Mesh& mesh, Point centre, double length)
@@ -23,14 +23,14 @@ class RigidMotions {
         length_(length) {}
   int size() const { return size_; }
   int perPart() const { return perPart_; }
-  /// Adds factor · direction·u(x) of part `part` to the row of coefficients.
+  /// Adds the coefficients of factor · direction·u(x), for a point x of part `part`, to the row.
   void add(std::vector<double>& row, int part, const Point& x, const Point& direction,
            double factor) const {
     double* a = row.data() + part * perPart_;
     const Point r{(x[0] - centre_[0]) / length_, (x[1] - centre_[1]) / length_,
                   (x[2] - centre_[2]) / length_};
     for (int d = 0; d < dimension_; ++d) a[d] += factor * direction[static_cast<std::size_t>(d)];
-    // direction · (e_k × r)
+    //   direction · (e_k × r), k = 1, 2, 3
     const Point moment{direction[2] * r[1] - direction[1] * r[2],
                        direction[0] * r[2] - direction[2] * r[0],
                        direction[1] * r[0] - direction[0] * r[1]};
@@ -64,8 +64,9 @@ RigidMotions rigidMotions(const mesh::Mesh& mesh) {
   return {mesh, {(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2}, length};
 }
 
-/// Gram matrix Σ cᵀc of all rows of supports (springs among them, however soft) on rigid motions,
-/// those of contact on demand; its kernel is what nothing stops.
+/// Returns the Gram matrix Σ cᵀc over the rows c of all supports, applied to rigid motions. Springs
+/// count as supports however soft they are; contact counts if `contactCloses`. The null space holds
+/// the motions that nothing prevents.
 std::vector<double> gram(const mesh::Mesh& mesh, const Contact& contact, Vec springs,
                          const RigidMotions& motions, bool contactCloses) {
   const auto n = static_cast<std::size_t>(motions.size());
@@ -116,8 +117,8 @@ std::optional<LooseBody> looseBody(const mesh::Mesh& mesh, const Contact& contac
   const RigidMotions motions = rigidMotions(mesh);
   std::vector<double> g = gram(mesh, contact, springs, motions, contactCloses);
   const auto eigenvalues = linalg::symmetricEigen(g, motions.size());
-  // A support over a thousandth of the model still holds a rotation with 1e-6 of a translation's
-  // weight per node.
+  // A support that extends over a thousandth of the model still holds a rotation, with 1e-6 of the
+  // weight with which it holds a translation.
   if (eigenvalues.front() > 1e-12 * std::max(eigenvalues.back(), 1.0)) return std::nullopt;
   int worst = 0;
   double most = -1;

@@ -1,4 +1,5 @@
-/// Sliding at the contact nodes: its velocity, and how friction follows it (paper, 2.15 and 4.7).
+/// Sliding at the contact nodes: the relative velocity [2.15], and the change of friction with it
+/// [4.7].
 #include "contact/sliding.hpp"
 
 #include <algorithm>
@@ -17,7 +18,8 @@ std::vector<double> identity(int dimension, double factor) {
   return block;
 }
 
-/// N: R_N,k = n_k · r, with the forces of periodic images added to those of their primaries.
+/// Returns N, so that R_N,k = n_k · r, with the forces on periodic images added to those on their
+/// primaries.
 OwnedMat reactionRows(const Contact& contact) {
   const auto& mesh = *contact.mesh;
   const OwnedMat normals = nodalMatrix(mesh, 1);
@@ -44,7 +46,8 @@ OwnedMat jumpRows(const Contact& contact) {
   return jump;
 }
 
-/// u_D at the place of each pad node, in its rows; images of pad nodes like their primaries.
+/// Returns the matrix that gives u_D at the place of each pad node, in its rows. Images of pad
+/// nodes are treated like their primaries.
 OwnedMat masterRows(const Contact& contact) {
   const auto& mesh = *contact.mesh;
   OwnedMat primaries = nodalMatrix(mesh, 1), result;
@@ -57,8 +60,8 @@ OwnedMat masterRows(const Contact& contact) {
   return result;
 }
 
-/// Velocity of the disc's matter at the places of the pad nodes of each interface; empty: a rigid
-/// obstacle, which does not deform.
+/// Returns the base motion of the disc at each interface, borrowed; null for a rigid obstacle,
+/// which does not deform.
 std::vector<const elasticity::Motion*> discMotions(const elasticity::Bodies& bodies,
                                                    const Contact& contact) {
   const auto& mesh = *contact.mesh;
@@ -73,10 +76,10 @@ std::vector<const elasticity::Motion*> discMotions(const elasticity::Bodies& bod
   return motions;
 }
 
-/// D: the pad faces lie on faces of the disc, node on node, so the disc's displacement is
-/// differentiated along them with the pad's shape functions. At a node the faces around it are
-/// averaged by area, which weighs the derivative as the nodal forces R_N weigh it: on quadratic
-/// faces its leading errors at corners and in between cancel.
+/// Returns D. The faces of the pad lie on faces of the disc, node on node, so that the disc's
+/// displacement is differentiated along them with the pad's shape functions. At a node the
+/// derivative is averaged over the faces around it, weighted by area like the nodal forces R_N. On
+/// quadratic faces the leading errors at corners and mid-sides then cancel.
 OwnedMat convectedRows(const elasticity::Bodies& bodies, const Contact& contact) {
   const auto& mesh = *contact.mesh;
   const int dimension = mesh.dimension;
@@ -198,7 +201,7 @@ std::vector<Slip> Contact::slip(double speed, Vec displacement) const {
     Slip state;
     state.speed = std::sqrt(dot(w, w));
     if (state.speed <= 1e-9 * speed * node.slipSpeed)
-      state.speed = 0;  // no direction but that of rounding
+      state.speed = 0;  // the direction would be that of rounding
     if (state.speed > 0) state.direction = scaled(w, 1 / state.speed);
     state.law = law.value(state.speed);
     state.slope = law.slope(state.speed);

@@ -1,5 +1,5 @@
 #pragma once
-/// Matrices of sliding, and the small algebra that building the contact matrices needs.
+/// Matrices of sliding, and the vector algebra for building the contact matrices.
 #include "contact/contact.hpp"
 #include "elasticity/elasticity.hpp"
 #include "mesh/mesh.hpp"
@@ -14,18 +14,20 @@ inline Point cross(const Point& a, const Point& b) {
 }
 inline Point scaled(const Point& a, double s) { return {s * a[0], s * a[1], s * a[2]}; }
 
-/// Collective. An N×N matrix with room for some dimension×dimension blocks in each row.
+/// Collective. Returns an N×N matrix with room for `blocksPerRow` dimension×dimension blocks per
+/// row of blocks.
 OwnedMat nodalMatrix(const mesh::Mesh& mesh, PetscInt blocksPerRow);
-/// Collective. Ends the setting of values.
+/// Collective. Assembles the matrix after values have been set.
 void assembled(Mat matrix);
-/// Sets the block (global nodes). Explicit zeros are kept, so that friction only scales entries of
-/// the frictionless pattern.
+/// Sets the block of two global nodes. Zeros are kept as entries, so that friction only changes
+/// values within the frictionless pattern.
 void setBlock(Mat matrix, int dimension, PetscInt rowNode, PetscInt columnNode,
               const std::vector<double>& block);
-/// factor · a bᵀ, row-major.
+/// Returns factor · a bᵀ, dimension × dimension, row-major.
 std::vector<double> outer(const Point& a, const Point& b, int dimension, double factor = 1);
 
-/// Collective. Fills reaction, jump and, with convective terms, convected.
+/// Collective. Fills Contact::reaction, Contact::jump and, with convective terms,
+/// Contact::convected.
 void buildSliding(const elasticity::Bodies& bodies, Contact& contact);
 
 }  // namespace squeal::contact

@@ -1,5 +1,5 @@
-/// How the steady state changes with its data, to first order: the equations of steady.hpp
-/// differentiated on one active set.
+/// The first-order change of the steady state with its data: the equations of steady.hpp,
+/// differentiated on one active set [M.48, M.49].
 #include <functional>
 
 #include "contact/coupled.hpp"
@@ -10,7 +10,7 @@
 namespace squeal::steady {
 namespace {
 
-/// dF of a change y of the unknowns of closed contact and of `cause`, for MatShell.
+/// The context of a MatShell that applies dF/dy, with y the unknowns of the closed contact.
 struct Linearised {
   std::function<void(Vec, Vec)> apply;
 };
@@ -25,10 +25,11 @@ PetscErrorCode multiply(Mat matrix, Vec y, Vec result) {
 
 }  // namespace
 
-/// With T of closed contact, u = T y + u0 and the friction t = f φ R_N τ(w) at the pad nodes, F =
-/// Tᵀ (r + Jᵀ t):
-///   dr = (K + v² K^R) du + cause,   dt = f φ τ N dr − v B D du + (df φ + f φ' dv |w|/v) R_N τ,   B
-///   of velocityResponse().
+/// With T of the closed contact, u = T y + u0 and t = f φ R_N τ(w) at the pad nodes [M.48, M.49]:
+///   F  = Tᵀ (r + Jᵀ t),
+///   dr = (K + v² K^R) du + cause,
+///   dt = f φ τ N dr − v B D du + (df φ + f φ′ dv |w|/v) R_N τ,
+/// with B of velocityResponse().
 Change Problem::change(const Solution& solution, const contact::CoupledSystem& system,
                        const Cause& cause) const {
   const sweep::Parameters& at = solution.at;
@@ -42,7 +43,7 @@ Change Problem::change(const Solution& solution, const contact::CoupledSystem& s
     check(
         MatMatMult(response, contact_.convected, MAT_INITIAL_MATRIX, PETSC_DEFAULT, turning.out()));
   }
-  // Tᵀ (dr + Jᵀ dt) for given du and dr; with the explicit part of dt where `direct`.
+  // Computes Tᵀ (dr + Jᵀ dt) for given du and dr; if `direct`, dt has its terms in df and dv too.
   const auto test = [&](Vec du, Vec dr, bool direct, Vec result) {
     const OwnedVec friction = elasticity::nodalVector(mesh_), sum = elasticity::nodalVector(mesh_);
     const auto normal = normalForces(dr);

@@ -1,4 +1,4 @@
-/// The complementarity problem by PETSc's SNES VI.
+/// Solution of the complementarity problem by PETSc's SNES VI.
 #include <petscsnes.h>
 
 #include <algorithm>
@@ -15,8 +15,8 @@ const SolverPrefix solverPrefix(
 
 using OwnedSNES = Owned<SNES, SNESDestroy>;
 
-/// Gives an option a value while SNES reads its options, unless the user has: SNES has no function
-/// that sets this one.
+/// Gives an option a value while SNES reads its options, unless the user has given one: PETSc has
+/// no function that sets this value.
 class DefaultOption {
  public:
   DefaultOption(std::string name, const char* value) : name_(std::move(name)) {
@@ -37,8 +37,8 @@ class DefaultOption {
   std::string name_;
 };
 
-/// SNES sees F̂(x̂) = F(x)/forceUnit with x = xUnit x̂, so that its tolerances, absolute ones among
-/// them mean the same in metres and in millimetres.
+/// The problem as SNES sees it, scaled so that tolerances do not depend on units:
+///   F̂(x̂) = F(x)/forceUnit,   x = xUnit x̂.
 struct Scaled {
   const Problem& problem;
   sweep::Parameters at;
@@ -71,8 +71,7 @@ PetscErrorCode differentiate(SNES, Vec x, Mat jacobian, Mat, void* context) {
 
 }  // namespace
 
-/// The 2-norm of what is left of the complementarity problem: of F_g at a closed gap only what
-/// pulls.
+/// Returns the 2-norm of the natural residual, N: F(x), but min(R_N, 0) in the rows of gaps g ≤ 0.
 double Problem::naturalResidual(const sweep::Parameters& at, Vec x) const {
   const OwnedVec f = rightVector(transformation_.trial);
   residual(at, x, f);
@@ -91,7 +90,8 @@ double Problem::naturalResidual(const sweep::Parameters& at, Vec x) const {
   return size;
 }
 
-/// Returns the 2-norm of the forces left, N.
+/// Solves by SNES VI from the start x, which becomes the solution. Returns the 2-norm of its
+/// natural residual, N.
 double Problem::complementarity(OwnedVec& x, Solution& solution) const {
   PetscReal xUnit = 0, forceUnit = 0;
   check(VecNorm(x, NORM_INFINITY, &xUnit));
@@ -132,7 +132,7 @@ double Problem::complementarity(OwnedVec& x, Solution& solution) const {
   check(SNESSetJacobian(snes, jacobian, symmetric, differentiate, &scaled));
   check(SNESVISetVariableBounds(snes, low, high));
   check(SNESSetTolerances(snes, asked, 1e-14, 0, 30, 1000));
-  // Newton's method corrects what a linear solve that stagnates has left; the residual decides.
+  // Newton's method corrects the error of a linear solve that stagnates; the residual decides.
   check(SNESSetMaxLinearSolveFailures(snes, 1000));
   KSP ksp = nullptr;
   PC pc = nullptr;
@@ -145,12 +145,12 @@ double Problem::complementarity(OwnedVec& x, Solution& solution) const {
   check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
   check(KSPSetPCSide(ksp, PC_RIGHT));
   {
-    // A gap is open however small: the default, 1e-8 of the largest displacement, is too much where
-    // a body moves far as a whole.
+    // Even a tiny gap is open. The default, 1e-8 of the largest displacement, is too large where a
+    // body moves far as a whole.
     const DefaultOption exact("-" + solverPrefix.prefix + "snes_vi_zero_tolerance", "1e-14");
     applySolverOptions([&] { return SNESSetFromOptions(snes); });
   }
-  // SNES asks for these only while it solves.
+  // SNES reads these options only while it solves.
   solverPrefix.rejectUnused(
       {"mat_mumps_", "uniqueness_", "snes_test_jacobian", "snes_converged_reason", "snes_view"});
   applySolverOptions(
@@ -166,8 +166,7 @@ double Problem::complementarity(OwnedVec& x, Solution& solution) const {
   check(SNESGetTolerances(snes, &tolerance, nullptr, nullptr, nullptr, nullptr));
   solution.reason = SNESConvergedReasons[reason];
   solution.iterations = static_cast<int>(iterations);
-  // A step that no longer changes anything (the line search, SNORM) is an end only where the
-  // residual says so.
+  // SNES also stops where steps no longer change anything; only the residual decides on success.
   solution.converged = solution.residual <= std::max<PetscReal>(tolerance, 10 * asked);
   return left;
 }

@@ -16,7 +16,8 @@ const SolverPrefix solverPrefix(
     "steady", "steady_uniqueness_",
     "KSP and PC of the open contact's stiffness (MUMPS LDLt), SLEPc EPS: ksp_*, pc_*, eps_*, …");
 
-/// Columns solved for at once: enough for the speed of dense kernels, few enough for memory.
+/// The number of columns solved for at once: enough for the speed of dense kernels, few enough for
+/// memory.
 constexpr PetscInt blockColumns = 64;
 
 OwnedKSP factorisation(Mat matrix) {
@@ -54,7 +55,7 @@ Condensed::Condensed(const contact::Contact& contact, Mat stiffness,
     check(MatSetValue(gaps_, transformation_.gapColumn[static_cast<std::size_t>(i)], first_ + i, 1,
                       INSERT_VALUES));
   contact::assembled(gaps_);
-  // The slip rows stand in the rows of the gaps, which B e selects.
+  // The slip rows stand in the rows of the gaps, which the product B e selects.
   const OwnedMat rows = contact.slipRows(transformation_, slip, all);
   OwnedMat gapRows;
   check(MatMatMult(transformation_.selection, gaps_, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
@@ -110,7 +111,7 @@ Compliance Condensed::dense() const {
     check(KSPMatSolve(solver_, rhs, x));
     for (PetscInt column = 0; column < width; ++column) {
       const auto j = static_cast<std::size_t>(begin + column);
-      // A0 e_j = eᵀ x, and row j of A1 is −xᵀ U: K_o is symmetric.
+      // As K_o is symmetric, column j of A0 is eᵀ x, and row j of A1 is −xᵀ U.
       for (Mat side : {gaps_.get(), friction_.get()}) {
         Vec xj = nullptr;
         check(MatDenseGetColumnVecRead(x, column, &xj));
@@ -127,8 +128,8 @@ Compliance Condensed::dense() const {
       }
     }
   }
-  // Every entry is on one rank, zero on the others: the sums are exact, and the same everywhere. By
-  // columns, since n² may exceed an int.
+  // Every entry is on one rank and zero on the others, so that the sums are exact and the same on
+  // all ranks. They are made column by column, since n² may exceed an int.
   for (auto* a : {&compliance.a0, &compliance.a1})
     for (std::size_t j = 0; j < n; ++j)
       check(MPI_Allreduce(MPI_IN_PLACE, a->data() + j * n, static_cast<int>(n), MPI_DOUBLE, MPI_SUM,
@@ -151,7 +152,7 @@ void Condensed::multiplySymmetricA1(Vec v, Vec product) const {
     check(MatDenseRestoreColumnVecWrite(rhs_, j, &column));
   }
   check(KSPMatSolve(solver_, rhs_, solution_));
-  // With y = K_o⁻¹ e v and z = K_o⁻¹ U v: A1ᵀ v = −Uᵀ y, A1 v = −eᵀ z.
+  //   A1ᵀ v = −Uᵀ y,   A1 v = −eᵀ z,   y = K_o⁻¹ e v,   z = K_o⁻¹ U v
   check(MatDenseGetColumnVecRead(solution_, 0, &column));
   check(MatMultTranspose(friction_, column, product));
   check(MatDenseRestoreColumnVecRead(solution_, 0, &column));

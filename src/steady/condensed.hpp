@@ -1,11 +1,12 @@
 #pragma once
 /// The steady problem condensed to the contact [3.10–3.18]: the gaps that nodal normal forces open.
 ///
-/// All gaps are unknowns of u = T x + u0, K_o = Tᵀ K T is the stiffness with the contact open, R_N
-/// the rows of the gaps. Since Sᵀ N r = U R with U_k = the row φ_k τ_k·[·] T, transposed, L(f)ᵀ (K
-/// u − b) = e R, with e the columns of the identity at the gaps, reads
-///   K_o x + f U R = Tᵀ (b − K u0) + e R, so that g = eᵀ x = A(f) R + F,
-///   A(f) = A0 + f A1,  A0 = eᵀ K_o⁻¹ e,  A1 = −eᵀ K_o⁻¹ U.
+/// All gaps are unknowns of u = T x + u0, and K_o = Tᵀ K T is the stiffness with the contact open.
+/// R holds the normal forces, e the columns of the identity at the gaps, and U the slip rows as
+/// columns, so that Sᵀ N r = U R. Equilibrium L(f)ᵀ (K u − b) = e R reads [M.17]
+///   K_o x + f U R = Tᵀ (b − K u0) + e R,
+/// and the gaps are
+///   g = eᵀ x = A(f) R + F,   A(f) = A0 + f A1,   A0 = eᵀ K_o⁻¹ e,   A1 = −eᵀ K_o⁻¹ U   [M.18].
 #include <vector>
 
 #include "contact/contact.hpp"
@@ -13,33 +14,40 @@
 
 namespace squeal::steady {
 
-/// A0 and A1, m/N, column-major, all entries on every rank.
+/// The matrices A0 and A1, size × size, m/N, column-major, with all entries on every rank.
 struct Compliance {
   int size = 0;
   std::vector<double> a0, a1;
-  std::vector<double> at(double friction) const;  ///< A0 + f A1
+  /// Returns A0 + f A1.
+  std::vector<double> at(double friction) const;
 };
 
+/// The condensed problem, with a factorisation of K_o.
 class Condensed {
  public:
-  /// Collective. Factorises K_o (prefix -steady_uniqueness_); no body may be loose with the contact
-  /// open. `stiffness`: K on all nodal displacements, symmetric, N/m. Borrows contact for its life.
+  /// Collective. Factorises K_o (prefix -steady_uniqueness_). No body may be loose with the contact
+  /// open. `stiffness` is K on all nodal displacements, symmetric, N/m. Borrows `contact` during
+  /// the life of the object.
   Condensed(const contact::Contact& contact, Mat stiffness, const std::vector<contact::Slip>& slip);
-  /// False if K_o could not be factorised: nothing else may be called then.
+  /// Returns false if K_o could not be factorised; nothing else may be called then.
   bool factorised() const;
-  /// Collective. False if K_o is known to have a negative eigenvalue: convective terms, beyond a
-  /// critical speed.
+  /// Collective. Returns false if K_o is known to have a negative eigenvalue, as with convective
+  /// terms beyond a critical speed.
   bool positiveDefinite() const;
   MPI_Comm comm() const { return contact_.mesh->comm; }
-  PetscInt size() const { return size_; }            ///< contact nodes of all ranks
-  PetscInt ownedSize() const { return ownedSize_; }  ///< contact nodes of this rank
-  /// Collective. A0 and A1, all columns solved for in blocks.
+  PetscInt size() const { return size_; }            ///< number of contact nodes of all ranks
+  PetscInt ownedSize() const { return ownedSize_; }  ///< number of contact nodes of this rank
+  /// Collective. Returns A0 and A1; all columns are solved for, in blocks.
   Compliance dense() const;
-  /// Collective. Products without A0 and A1; entries of v in the order of Contact::nodes.
+  /// Collective. Sets product = A0 v without forming A0. The entries of v stand in the order of
+  /// Contact::nodes.
   void multiplyA0(Vec v, Vec product) const;
+  /// Collective. Sets product = sym(A1) v without forming A1.
   void multiplySymmetricA1(Vec v, Vec product) const;
-  /// Collective. A0⁻¹ v = (K_gg − K_gi K_ii⁻¹ K_ig) v with the gaps g of K_o and the rest i;
-  /// factorises K_ii, the stiffness of the closed contact, on first use.
+  /// Collective. Sets solution = A0⁻¹ v with
+  ///   A0⁻¹ = K_gg − K_gi K_ii⁻¹ K_ig,
+  /// where g are the gaps and i the other unknowns of K_o. K_ii, the stiffness of the closed
+  /// contact, is factorised on first use.
   void solveA0(Vec v, Vec solution);
 
  private:
@@ -60,8 +68,8 @@ class Condensed {
   OwnedVec inner_, innerAnswer_;
 };
 
-/// Collective. Error for a -steady_uniqueness_* option that no solver knows; those of the
-/// eigenvalue solver count as known where `dense`, for it is not needed there.
+/// Collective. Throws Error for a -steady_uniqueness_* option that no solver knows. If `dense`,
+/// options of the eigenvalue solver, which is not used then, count as known.
 void rejectUnusedUniquenessOptions(bool dense);
 
 }  // namespace squeal::steady

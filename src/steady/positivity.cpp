@@ -14,8 +14,8 @@
 namespace squeal::steady {
 namespace {
 
-/// A comes from solves with a stiffness matrix of condition 1e6 and more: what is smaller than this
-/// part of it is rounding.
+/// Relative size below which numbers count as rounding. A comes from solves with a stiffness matrix
+/// of a condition number of 1e6 and more.
 constexpr double rounding = 1e-10;
 
 std::vector<double> symmetricPart(const std::vector<double>& a, int size) {
@@ -26,7 +26,7 @@ std::vector<double> symmetricPart(const std::vector<double>& a, int size) {
   return s;
 }
 
-/// For a matrix of unit diagonal at the outset.
+/// Returns true if all principal minors are positive, for a matrix that first has a unit diagonal.
 bool positiveMinors(const std::vector<double>& a, std::size_t n) {
   if (!(a[0] > rounding)) return false;
   if (n == 1) return true;

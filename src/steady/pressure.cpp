@@ -6,8 +6,8 @@ namespace squeal::steady {
 
 std::vector<double> consistentPressure(const mesh::Mesh& mesh, const contact::Contact& contact,
                                        const std::vector<double>& normalForce) {
-  // One scalar per node, kept in the first component of a nodal vector, so that the periodic matrix
-  // folds images as it does for u.
+  // The scalar of a node is kept in the first component of a nodal vector, so that the periodic
+  // matrix treats images as it does for u.
   const PetscInt owned = mesh.dimension * mesh.ownedNodes;
   OwnedMat faces, folded;
   check(MatCreateAIJ(mesh.comm, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE, 32, nullptr, 16,

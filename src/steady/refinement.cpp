@@ -7,11 +7,11 @@
 namespace squeal::steady {
 namespace {
 
-/// A residual below this multiple of its estimated rounding is nothing but rounding.
+/// A residual below this multiple of its estimated rounding counts as rounding.
 constexpr double roundings = 10;
-/// A residual this small beside that of the start is that of a solution, whatever made it.
+/// A residual below this part of that of the start counts as that of a solution.
 constexpr double small = 1e-9;
-/// Convective terms, whose change the inner solver does not know, take some ten steps.
+/// With convective terms, which the inner solver leaves out in part, some ten steps are needed.
 constexpr int mostSteps = 20;
 
 PetscReal norm(Vec vector) {
@@ -32,8 +32,7 @@ Refinement refine(KSP inner, const std::function<Residual(Vec)>& residual, Vec y
   OwnedVec step;
   check(VecDuplicate(y, step.out()));
   while (result.steps < mostSteps && result.least > result.rounding) {
-    check(
-        KSPSolve(inner, current.vector, step));  // judged by the residual below, not by its reason
+    check(KSPSolve(inner, current.vector, step));  // judged by the residual below
     ++result.steps;
     check(VecAXPY(y, -1, step));
     Residual next = residual(y);
@@ -55,11 +54,11 @@ OwnedKSP innerSolver(Mat matrix, KSP factorised) {
   check(KSPCreate(PetscObjectComm(reinterpret_cast<PetscObject>(matrix)), solver.out()));
   check(KSPSetOperators(solver, matrix, matrix));
   check(KSPSetType(solver, KSPGMRES));
-  // Eight digits a step: GMRES stagnates some digits above rounding, refinement does not.
+  // Eight digits per step: GMRES stagnates some digits above rounding, refinement does not.
   check(KSPSetTolerances(solver, 1e-8, PETSC_DEFAULT, PETSC_DEFAULT, 100));
   check(KSPGMRESSetRestart(solver, 100));
-  // Right preconditioning: the tolerance is of forces. Where a weakly held body moves far, that of
-  // displacements hides all the rest.
+  // With right preconditioning the tolerance applies to forces. Where a weakly held body moves far,
+  // a tolerance on displacements would hide all other errors.
   check(KSPSetPCSide(solver, PC_RIGHT));
   linalg::preconditionBy(solver, factorised);
   return solver;

@@ -10,7 +10,7 @@
 namespace squeal::steady {
 namespace {
 
-/// The largest residual, relative to that without displacements, with which forces mean anything.
+/// The largest relative residual with which a solution is accepted.
 constexpr double meaningful = 1e-6;
 
 }  // namespace
@@ -33,7 +33,7 @@ Problem::Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
                    convected_.out()));
 }
 
-/// b with the pressures and the centrifugal forces of this point.
+/// Returns b with the pressures and the centrifugal forces of this point.
 OwnedVec Problem::load(const sweep::Parameters& at) const {
   OwnedVec b = elasticity::nodalVector(mesh_);
   check(VecAXPBYPCZ(b, at.pressure, at.speed * at.speed - at.pressure, 0, bodies_.load,
@@ -41,7 +41,7 @@ OwnedVec Problem::load(const sweep::Parameters& at) const {
   return b;
 }
 
-/// (K + v² K^R) u.
+/// Returns (K + v² K^R) u.
 OwnedVec Problem::springForces(double speed, Vec displacement) const {
   OwnedVec r = elasticity::nodalVector(mesh_);
   check(MatMult(bodies_.stiffness, displacement, r));
@@ -53,14 +53,14 @@ OwnedVec Problem::springForces(double speed, Vec displacement) const {
   return r;
 }
 
-/// r = (K + v² K^R) u − b: supports and contact.
+/// Returns r = (K + v² K^R) u − b, the nodal forces of supports and contact.
 OwnedVec Problem::forces(const sweep::Parameters& at, Vec displacement) const {
   OwnedVec r = springForces(at.speed, displacement);
   check(VecAXPY(r, -1, load(at)));
   return r;
 }
 
-/// R_N = N r, [contact node].
+/// Returns R_N = N r, [contact node].
 std::vector<double> Problem::normalForces(Vec forces) const {
   const OwnedVec reactions = elasticity::nodalVector(mesh_);
   check(MatMult(contact_.reaction, forces, reactions));
@@ -73,8 +73,8 @@ std::vector<double> Problem::normalForces(Vec forces) const {
   return normal;
 }
 
-/// Tᵀ (r + Jᵀ f φ R_N τ): less the contact forces of the friction law, nodal forces do no work on
-/// tangential displacements.
+/// Returns L(f)ᵀ r in the form
+///   Tᵀ (r + Jᵀ f φ R_N τ).
 OwnedVec Problem::test(const contact::Transformation& transformation,
                        const std::vector<unsigned char>& slides, const sweep::Parameters& at,
                        Vec forces, const std::vector<contact::Slip>& slip) const {
@@ -108,8 +108,10 @@ void Problem::residual(const sweep::Parameters& at, Vec x, Vec f) const {
   check(VecCopy(test(transformation_, all_, at, forces(at, u), contact_.slip(at.speed, u)), f));
 }
 
-/// Tᵀ K T + f Sᵀ N K T, and with convective terms the turning of the slip: −v Tᵀ Jᵀ B D T with B of
-/// velocityResponse().
+/// Returns [M.14]
+///   Tᵀ (K + v² K^R) T + f Sᵀ N (K + v² K^R) T − v (J T)ᵀ B (D T)
+/// with B of velocityResponse(). The last term, the turning of the slip, is there with convective
+/// terms only.
 OwnedMat Problem::jacobian(const sweep::Parameters& at, Vec x) const {
   const OwnedVec u = displacement(at, x);
   const auto slip = contact_.slip(at.speed, u);
@@ -132,8 +134,9 @@ OwnedMat Problem::jacobian(const sweep::Parameters& at, Vec x) const {
   return sum;
 }
 
-/// What rounding leaves of F: ε times what cancels in K u − b, the diagonal standing for the rows
-/// of K. `loads` may be null.
+/// Returns an estimate of the rounding error of F, N, as in the numerator of [M.16],
+///   ε (‖diag(K) u‖ + ‖b‖).
+/// `loads` b may be null.
 double Problem::rounding(Vec displacement, Vec loads) const {
   const OwnedVec magnitude = elasticity::nodalVector(mesh_);
   PetscReal springs = 0, forces = 0;
@@ -189,9 +192,9 @@ double Problem::largestDisplacement(const sweep::Parameters& at, Vec x) const {
   return largest;
 }
 
-/// Solves the problem with the gaps of the active set held at zero. Linear under approximation A.
-/// With convective terms Newton's method, its matrix without K^R and without the turning of the
-/// slip, which are small: a few more steps of refinement.
+/// Solves the problem with the gaps of the active set held at zero. Under approximation A it is
+/// linear. With convective terms the matrix leaves out K^R and the turning of the slip, which are
+/// small and cost a few more steps of refinement.
 OwnedVec Problem::closedContact(const sweep::Parameters& at, const contact::CoupledSystem& system,
                                 Refinement& refinement) const {
   const auto& closed = system.transformation();
@@ -254,7 +257,7 @@ void Problem::recover(Vec x, double noise, Solution& solution) const {
     for (std::size_t i = 0; i < pressure.size(); ++i) solution.contact[i].pressure = pressure[i];
   }
   double smallest = INFINITY;
-  // SNES leaves an open gap with a force of the order of its tolerance.
+  // SNES leaves a force of the order of its tolerance at an open gap.
   const double nothing = std::max(1e-8 * largest, 10 * noise);
   for (const auto& state : solution.contact) {
     const bool closed = !contact_.weightsPositive || state.normalForce > nothing;
@@ -285,8 +288,9 @@ void Problem::recover(Vec x, double noise, Solution& solution) const {
   solution.imbalance = imbalance(solution, folded);
 }
 
-/// Newton's third law as a check of signs and solution: contact by the friction law, supports where
-/// components are held, and loads.
+/// Returns the worst imbalance of the forces on a connected part, relative to the sum of all
+/// magnitudes, as a check of signs and solution. The forces are those of contact by the friction
+/// law, of supports where components are held, and loads.
 double Problem::imbalance(const Solution& solution, Vec nodalForces) const {
   const int dimension = mesh_.dimension;
   const OwnedVec contactForces = elasticity::nodalVector(mesh_);
@@ -302,9 +306,8 @@ double Problem::imbalance(const Solution& solution, Vec nodalForces) const {
     }
   check(VecAssemblyBegin(contactForces));
   check(VecAssemblyEnd(contactForces));
-  // [part][contact, supports, load][component]
-  // and at the end the sum of all magnitudes, the scale of what cancels: resultants may vanish on
-  // their own.
+  // [part][contact, supports, load][component], and at the end the sum of all magnitudes. That is
+  // the scale of the terms that cancel; resultants may vanish by themselves.
   std::vector<double> sums(static_cast<std::size_t>(mesh_.parts) * 9 + 1, 0.0);
   const auto at = [&](int part, int kind, int d) -> double& {
     return sums[static_cast<std::size_t>(part * 9 + kind * 3 + d)];

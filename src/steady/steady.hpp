@@ -1,6 +1,6 @@
 #pragma once
-/// Steady sliding (paper, section 3): gap ≥ 0, R_N ≥ 0, gap·R_N = 0, R_T = −f φ R_N τ, equilibrium
-/// elsewhere.
+/// Steady sliding (paper, section 3): equilibrium with
+///   g ≥ 0,   R_N ≥ 0,   g R_N = 0   [3.3],   R_T = −f φ R_N τ   [3.4].
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,76 +15,84 @@ namespace squeal::steady {
 
 using mesh::Point;
 
+/// The steady state of one contact node.
 struct ContactState {
-  double gap = 0;          ///< m
+  double gap = 0;          ///< g, m
   double normalForce = 0;  ///< R_N, N, ≥ 0 in compression
-  double pressure = 0;     ///< Pa: R_N over nodal area, or consistent with R_N on faces whose nodal
-                           ///< areas are not positive
+  double pressure = 0;     ///< Pa: R_N over the nodal area; on faces whose nodal areas are not
+                           ///< positive, consistentPressure()
   Point frictionForce{};   ///< R_T on the pad, N
 };
 
+/// The contact forces of one interface.
 struct Resultant {
   std::string interface;
   Point normalForce{}, frictionForce{};  ///< sums over the interface, on the pad, N
 };
 
+/// The steady state at one point of the sweep.
 struct Solution {
   sweep::Parameters at;
   bool converged = false;
   std::string reason;  ///< SNES converged reason, or why there is no solution
   int iterations = 0;
-  /// 2-norm of what is left of the equations, over that without displacements
+  /// Relative residual: its 2-norm divided by that without displacements [M.15].
   double residual = 0;
   OwnedVec displacement;              ///< u, N entries, m
   std::vector<ContactState> contact;  ///< [owned contact node]
   std::vector<contact::Slip> slip;    ///< [owned contact node] sliding in this state
   std::vector<unsigned char> closed;  ///< [owned contact node] active: closed and pressed
-  PetscInt openNodes = 0;             ///< of all ranks
-  double smallestPressure = 0;        ///< over all contact nodes, Pa
+  PetscInt openNodes = 0;             ///< contact nodes that are not active, over all ranks
+  double smallestPressure = 0;        ///< smallest pressure of all contact nodes, Pa
   std::vector<Resultant> resultants;  ///< [interface]
   double imbalance = 0;  ///< worst |contact + supports + load| of a connected part over the sum of
                          ///< the magnitudes of all nodal forces
 };
 
-/// What changes the steady state: per unit of a parameter.
+/// The direct effect of a parameter on the steady equations, per unit of the parameter.
 struct Cause {
-  /// Dr of the nodal forces r = (K + v² K^R) u − b at fixed u, N entries; null: none
+  /// Change dr of the nodal forces r = (K + v² K^R) u − b at fixed u, N entries; null: none.
+  /// Borrowed.
   Vec force = nullptr;
-  Vec held = nullptr;   ///< du0 of the held displacements; null: none
+  Vec held = nullptr;   ///< change du0 of the held displacements; null: none; borrowed
   double friction = 0;  ///< df
   double speed = 0;     ///< dv, as it enters the friction law
 };
 
-/// First-order change of the steady state while the active set stays.
+/// The first-order change of the steady state with a fixed active set.
 struct Change {
   OwnedVec displacement;            ///< du, N entries
   std::vector<double> normalForce;  ///< dR_N, [owned contact node]
 };
 
-/// The complementarity problem [3.3–3.4]: with u = T x + p u0 and the nodal forces r = (K + v² K^R)
-/// u − b, b = p × pressures + v² × centrifugal forces,
-///   F(x) = Tᵀ r + f Sᵀ N r, gaps g ≥ 0 ⟂ F_g = R_N ≥ 0, F = 0 elsewhere.
-/// Linear under approximation A; with convective terms the slip rows S follow w = −v (V + D u_D).
+/// The complementarity problem [3.3–3.4, M.13]: with u = T x + p u0,
+///   r = (K + v² K^R) u − b,   b = p × pressures + v² × centrifugal forces,
+///   F(x) = Tᵀ r + f Sᵀ N r,
+///   0 ≤ g ⟂ F_g = R_N ≥ 0 at the gaps,   F = 0 in all other rows.
+/// Under approximation A it is linear but for the inequalities. With convective terms the slip rows
+/// S follow w = −v (V + D u_D).
 class Problem {
  public:
-  /// Collective. Borrows mesh, bodies and contact for its life.
+  /// Collective. Borrows mesh, bodies and contact during the life of the object.
   Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
           const contact::Contact& contact);
-  /// Collective. Starts from the solution with the active set of `system` held, by its
-  /// factorisation, then SNES VI
-  /// (-steady_snes_*). Error: |w| = 0 at a node that carries friction.
+  /// Collective. Solves by SNES VI (-steady_snes_*), starting from the solution with the active set
+  /// of `system` held closed, which its factorisation gives. Throws Error if |w| = 0 at a node that
+  /// carries friction.
   Solution solve(const sweep::Parameters& at, const contact::CoupledSystem& system) const;
 
-  /// Collective. The change dx of the converged `solution` with dF = 0 on the active set of
-  /// `system`: GMRES, preconditioned by the factorised K0. Error: not converged.
+  /// Collective. Returns the change of the converged `solution` for which dF = 0 on the active set
+  /// of `system` [M.48], by GMRES preconditioned by the factorised K0. Throws Error if that does
+  /// not converge.
   Change change(const Solution& solution, const contact::CoupledSystem& system,
                 const Cause& cause) const;
 
-  /// Collective. F(x), n entries.
+  /// Collective. Sets f = F(x), n entries.
   void residual(const sweep::Parameters& at, Vec x, Vec f) const;
-  /// Collective. dF/dx, exact, n×n, as a new matrix with the same pattern at every x.
+  /// Collective. Returns the exact derivative dF/dx [M.14], n×n, as a new matrix whose pattern is
+  /// the same at every x.
   OwnedMat jacobian(const sweep::Parameters& at, Vec x) const;
-  /// Collective. u = T x + p u0.
+  /// Collective. Returns u = T x + p u0, N entries, m.
   OwnedVec displacement(const sweep::Parameters& at, Vec x) const {
     return displacement(transformation_, at, x);
   }
@@ -114,12 +122,13 @@ class Problem {
   std::vector<unsigned char> all_;          // [contact node] 1
   contact::Transformation transformation_;  // all gaps unknown
   contact::Projection stiffness_, rotationStiffness_;
-  OwnedVec diagonal_;           // of K, N entries
+  OwnedVec diagonal_;           // diagonal of K, N entries
   OwnedMat jumps_, convected_;  // J T and D T, N×n; empty without convective terms
 };
 
-/// Collective. Pressure p with ∫ φ_i p dA = R_N,i (the consistent mass of the pad faces), [owned
-/// contact node], Pa.
+/// Collective. Returns the nodal pressures P, Pa, [owned contact node], with [M.12]
+///   ∫ φ_i P dA = R_N,i
+/// on the faces of the pad.
 std::vector<double> consistentPressure(const mesh::Mesh& mesh, const contact::Contact& contact,
                                        const std::vector<double>& normalForce);
 

@@ -66,10 +66,11 @@ OwnedMat shell(Condensed& condensed, PetscErrorCode (*multiply)(Mat, Vec, Vec)) 
   return matrix;
 }
 
-/// The smallest μ of sym(A1) v = μ A0 v; none if it has not converged. The smallest eigenvalues of
-/// sym(A(f)) itself belong to forces that alternate from node to node: they crowd, scale with the
-/// mesh size and hardly depend on friction. Relative to A0 the mesh hardly matters, and one number
-/// serves all frictions.
+/// Returns the smallest μ of
+///   sym(A1) v = μ A0 v;
+/// none if SLEPc does not converge. The smallest eigenvalues of sym(A(f)) itself belong to forces
+/// that alternate from node to node: they are close together, scale with the mesh size and hardly
+/// depend on friction. Relative to A0 the mesh hardly matters, and one number serves all frictions.
 std::optional<double> smallestRatio(Condensed& condensed) {
   const OwnedMat a0 = shell(condensed, multiply<&Condensed::multiplyA0>),
                  a1 = shell(condensed, multiply<&Condensed::multiplySymmetricA1>);
@@ -80,7 +81,7 @@ std::optional<double> smallestRatio(Condensed& condensed) {
   check(EPSSetProblemType(eps, EPS_GHEP));
   check(EPSSetWhichEigenpairs(eps, EPS_SMALLEST_REAL));
   check(EPSSetDimensions(eps, 1, std::min<PetscInt>(condensed.size(), 40), PETSC_DEFAULT));
-  // Not relative to an eigenvalue that vanishes where the structure and its mirror image are one.
+  // An absolute test, as the eigenvalue vanishes where a structure is its own mirror image.
   check(EPSSetConvergenceTest(eps, EPS_CONV_ABS));
   check(EPSSetTolerances(eps, 1e-8, 500));
   ST st = nullptr;
@@ -105,7 +106,8 @@ std::optional<double> smallestRatio(Condensed& condensed) {
   return value;
 }
 
-/// A never formed. sym(A(f)) = A0 + f sym(A1) is positive definite below the friction of loss.
+/// Examines the problem without forming A: sym(A(f)) = A0 + f sym(A1) is positive definite below
+/// the friction where that is lost.
 Uniqueness examineMatrixFree(Condensed& condensed, const std::vector<double>& frictions) {
   if (!condensed.positiveDefinite())
     return undecided(frictions,

@@ -1,7 +1,7 @@
 #pragma once
-/// Existence and uniqueness of the steady sliding state (paper, section 3), whatever the loads:
-/// what the condensed matrix A(f) of g = A(f) R + F says. sym(A) positive definite, or A a
-/// P-matrix: one solution; A strictly copositive: a solution exists.
+/// Existence and uniqueness of the steady sliding state for all loads (paper, section 3), from the
+/// condensed matrix A(f) of g = A(f) R + F. There is one solution if sym(A) is positive definite or
+/// A is a P-matrix; a solution exists if A is strictly copositive.
 #include <vector>
 
 #include "contact/contact.hpp"
@@ -10,20 +10,21 @@
 
 namespace squeal::steady {
 
+/// The result of the examination at one speed.
 struct Uniqueness {
   std::vector<Judgement> judgements;  ///< [friction]
-  /// Friction from which sym(A) is not positive definite; infinite: never; NaN: unknown
+  /// Friction from which sym(A) is not positive definite; infinite: never; NaN: unknown.
   double lostAt = 0;
 };
 
-/// -steady_uniqueness: the examination is wanted.
+/// Returns the option -steady_uniqueness.
 bool uniquenessWanted();
 
-/// Collective. With K + v² K^R and the slip of w = −v V at the speed factor v.
-/// A is formed up to -steady_uniqueness_dense contact nodes; beyond, SLEPc finds `lostAt` by solves
-/// with the open and with the closed contact's stiffness, and no eigenvalue of sym(A) is known.
-/// Where A does not exist, or says nothing, the verdict is "not decided" and the reason says why.
-/// Error: an unknown -steady_uniqueness_* option.
+/// Collective. Examines the problem with K + v² K^R and with the slip of w = −v V at the speed
+/// factor v. A is formed up to -steady_uniqueness_dense contact nodes. Beyond, SLEPc finds `lostAt`
+/// by solves with the stiffness of the open and of the closed contact, and no eigenvalue of sym(A)
+/// is known. Where A does not exist or decides nothing, the verdict is "not decided", with the
+/// reason. Throws Error for an unknown -steady_uniqueness_* option.
 Uniqueness examine(const elasticity::Bodies& bodies, const contact::Contact& contact, double speed,
                    const std::vector<double>& frictions);
 

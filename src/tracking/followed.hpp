@@ -13,18 +13,18 @@
 
 namespace squeal::tracking {
 
-/// All frictions of one speed, pressure and damping with one active set.
+/// The result for all frictions of one speed, pressure and damping with one active set.
 struct Followed {
-  sweep::Parameters line;  ///< but for the friction
-  Branches
-      branches;  ///< those in the band at some friction, numbered from 1 by their first frequency
-  std::vector<Critical> criticals;  ///< of these, by friction
+  sweep::Parameters line;           ///< the other parameters; its friction has no meaning
+  Branches branches;                ///< numbered from 1: renumber()
+  std::vector<Critical> criticals;  ///< critical frictions of these branches, ascending
   bool countExact = false;  ///< the number at the first friction, 0, is that of the Sturm count
-  bool wholeSpace = false;  ///< the basis is all of it: the reduced problem is the full one
+  bool wholeSpace =
+      false;  ///< the basis spans the whole space: the reduced problem is the full one
 
-  /// Every eigenvalue of the band is accounted for at every friction.
+  /// Returns true if every eigenvalue of the band is accounted for at every friction.
   bool complete() const;
-  /// What is shown of the number of eigenvalues, and what is assumed; one sentence.
+  /// Returns a sentence that says what is shown of the number of eigenvalues, and what is assumed.
   std::string statement() const;
 };
 

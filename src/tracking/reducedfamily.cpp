@@ -34,7 +34,7 @@ linalg::DenseProblem ReducedFamily::shared(double friction) const {
   return reduced_.project({point(friction), source_.shared.with({})});
 }
 
-/// Collective.
+/// Collective. Returns the projection of the terms that belong to the point alone.
 linalg::DenseProblem ReducedFamily::own(const reduction::PointProblem& problem) const {
   linalg::DenseProblem sum;
   reduction::ProjectedTerms(reduced_.basis(), problem.pencil, problem.pencil.affineCount(),
