@@ -17,7 +17,7 @@ bool Analysis::converged() const {
                      [](const auto& solution) { return solution.converged; });
 }
 
-const pencil::FrictionPoint* Analysis::pointAt(const sweep::Parameters& at) const {
+const pencil::ComplexModes* Analysis::pointAt(const sweep::Parameters& at) const {
   for (const auto& segment : segments)
     for (const auto& point : segment.points)
       if (point.at == at) return &point;

@@ -16,7 +16,7 @@
 
 namespace squeal::analysis {
 
-/// What is known of the number of steady states at one speed, for all frictions.
+/// The number of steady states at one speed, for all frictions, as far as it is known.
 struct SpeedUniqueness {
   double speed = 1;
   steady::Uniqueness found;
@@ -38,8 +38,8 @@ struct Analysis {
 
   /// Every point has a steady solution.
   bool converged() const;
-  /// What was found at a point of the sweep; null where there is no steady solution.
-  const pencil::FrictionPoint* pointAt(const sweep::Parameters& at) const;
+  /// Returns the complex modes at a point of the sweep; null where there is no steady solution.
+  const pencil::ComplexModes* pointAt(const sweep::Parameters& at) const;
 };
 
 /// Collective. Error for options that are unknown, out of range or idle: all that can be told

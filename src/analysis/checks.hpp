@@ -1,5 +1,5 @@
 #pragma once
-/// What a sweep is checked for before anything is solved.
+/// Checks of a sweep before anything is solved.
 #include <vector>
 
 #include "contact/contact.hpp"

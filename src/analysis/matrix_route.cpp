@@ -35,7 +35,7 @@ class MatrixSegment : public SegmentProblem {
   const std::vector<sweep::Parameters>& steadyPoints() const override { return points_; }
   pencil::Pencil pencil() const override { return pencil_.with({}); }
   void examine(std::size_t, const pencil::Pencil& pencil, const sensitivity::StartSpace& start,
-               pencil::FrictionPoint& point) override {
+               pencil::ComplexModes& point) override {
     if (sensitivity::sensitivitiesWanted())
       sensitivity::deriveParameters(point, pencil, start, system_);
   }

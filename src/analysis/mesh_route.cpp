@@ -147,7 +147,7 @@ std::vector<SpeedUniqueness> examineUniqueness(const Analysis& analysis) {
 void examineShapes(const Analysis& analysis, const contact::CoupledSystem& system,
                    const steady::Solution& solution, const pencil::Pencil& pencil,
                    const sensitivity::StartSpace& start, flutter::Influences& influences,
-                   pencil::FrictionPoint& point) {
+                   pencil::ComplexModes& point) {
   if (point.shapes.empty()) return;
   OwnedMat prestress;
   if (elasticity::prestressWanted())
@@ -204,7 +204,7 @@ class MeshSegment : public SegmentProblem {
     return termsIfShared(problem_->solve(steady, current_.of(reference().closed)));
   }
   void examine(std::size_t i, const pencil::Pencil& pencil, const sensitivity::StartSpace& start,
-               pencil::FrictionPoint& point) override {
+               pencil::ComplexModes& point) override {
     examineShapes(analysis_, system(), analysis_.steady[first_ + i], pencil, start, influences_,
                   point);
   }

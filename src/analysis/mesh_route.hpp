@@ -6,7 +6,7 @@
 
 namespace squeal::analysis {
 
-/// What the options of all stages ask of the mesh.
+/// Returns the groups and interfaces that the options of all stages ask of the mesh.
 mesh::Request meshRequest();
 
 /// Collective. Adds to the analysis the mesh, the matrices of the bodies and contact, checked

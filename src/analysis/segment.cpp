@@ -40,7 +40,7 @@ std::vector<OwnedVec> reportedShapes(const modes::Modes& modes, Mat trial) {
   return shapes;
 }
 
-std::string pointText(const pencil::FrictionPoint& point) {
+std::string pointText(const pencil::ComplexModes& point) {
   std::string text =
       formatted("%s: %d of %d eigenvalues unstable", sweep::parameterText(point.at).c_str(),
                 point.unstableCount(), static_cast<int>(point.eigenvalues.size()));
@@ -52,7 +52,7 @@ std::string pointText(const pencil::FrictionPoint& point) {
 }
 
 /// Overflow within the eigenvalue problems must not become a row of the results.
-void requireFiniteEigenvalues(const pencil::FrictionPoint& point) {
+void requireFiniteEigenvalues(const pencil::ComplexModes& point) {
   for (const auto& e : point.eigenvalues)
     if (!std::isfinite(e.s.real()) || !std::isfinite(e.s.imag()) || !std::isfinite(e.backwardError))
       throw Error("an eigenvalue at " + sweep::parameterText(point.at) +
@@ -149,7 +149,7 @@ class SegmentSweep {
   void solveBatch(const std::vector<std::size_t>& batch,
                   const std::vector<reduction::PointProblem>& problems, ModalSegment& segment) {
     Stage stage(pencil_.comm(), "flutter");
-    std::vector<pencil::FrictionPoint> solved;
+    std::vector<pencil::ComplexModes> solved;
     if (reduced_) solved = reduced_->solve(problems, problem_.trial());
     for (std::size_t i = 0; i < batch.size(); ++i) {
       auto& point = segment.points[batch[i]];
@@ -165,9 +165,9 @@ class SegmentSweep {
     stage.finish(text);
   }
 
-  /// Of the left vectors of the shapes kept.
+  /// Returns where the search for the left vectors of the shapes kept begins.
   sensitivity::StartSpace startSpace(const reduction::PointProblem& problem,
-                                     const pencil::FrictionPoint& point) const {
+                                     const pencil::ComplexModes& point) const {
     if (!sensitivity::sensitivitiesWanted() || point.shapes.empty()) return {};
     if (!reduced_) return {forLeftVectors_.vectors.share(), problem_.system().m0(), {}};
     return {reduced_->basis().vectors(), problem_.system().k0(), reduced_->project(problem)};

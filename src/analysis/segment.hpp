@@ -21,12 +21,12 @@ struct ModalSegment {
   modes::Modes modes;  ///< empty with the direct method
   /// The first `-report_modes` modes in nodal displacements, largest entry 1
   std::vector<OwnedVec> shapes;
-  std::vector<pencil::FrictionPoint> points;  ///< for each damping factor all steady points
-  std::vector<tracking::Followed> followed;   ///< for each speed, pressure and damping
+  std::vector<pencil::ComplexModes> points;  ///< for each damping factor all steady points
+  std::vector<tracking::Followed> followed;  ///< for each speed, pressure and damping
   long solves = 0;  ///< right-hand sides solved for to correct the basis and to estimate errors
 };
 
-/// What a segment is solved from: steady points with one active set, of a mesh or of matrices from
+/// The problem of one segment: steady points with one active set, of a mesh or of matrices from
 /// files. Everything it returns by reference or handle is borrowed.
 class SegmentProblem {
  public:
@@ -50,7 +50,7 @@ class SegmentProblem {
   /// Collective. Adds to `point`, which belongs to steadyPoints()[i], what is to be found besides
   /// its eigenvalues; the pencil is that of the point, left vectors are looked for from `start`.
   virtual void examine(std::size_t i, const pencil::Pencil& pencil,
-                       const sensitivity::StartSpace& start, pencil::FrictionPoint& point) = 0;
+                       const sensitivity::StartSpace& start, pencil::ComplexModes& point) = 0;
 };
 
 /// Collective. The modes, and flutter at all steady points with all `dampings`. Errors: of the

@@ -78,15 +78,15 @@ NearestPairs solveCount(NearestSolver& solver) {
 
 bool directWanted() { return methodOption.get() == "direct"; }
 
-pencil::FrictionPoint solveDirect(const pencil::Pencil& pencil, const sweep::Parameters& at,
-                                  Mat trial) {
+pencil::ComplexModes solveDirect(const pencil::Pencil& pencil, const sweep::Parameters& at,
+                                 Mat trial) {
   const Band band = readBand();
   const auto solver = nearestSolver(pencil, at);
   auto [pairs, reached] = band.wanted() ? solveBand(*solver, band) : solveCount(*solver);
   std::sort(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) {
     return a.s.imag() != b.s.imag() ? a.s.imag() < b.s.imag() : a.s.real() < b.s.real();
   });
-  pencil::FrictionPoint point;
+  pencil::ComplexModes point;
   point.at = at;
   if (band.wanted()) point.askedTo = band.high, point.coveredTo = std::min(reached, band.high);
   point.accuracy = pencil::accuracyAsked();
@@ -94,7 +94,7 @@ pencil::FrictionPoint solveDirect(const pencil::Pencil& pencil, const sweep::Par
     const double error = pencil::backwardError(pencil, at, pair.s, pair);
     point.eigenvalues.push_back({pair.s, error, NAN, error <= point.accuracy});
   }
-  judge(point.eigenvalues);
+  markUnstable(point.eigenvalues);
   const auto wanted = pencil::shapesWanted(point);
   std::vector<linalg::ComplexVector> modes;
   for (std::size_t index : wanted)

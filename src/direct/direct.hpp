@@ -17,7 +17,7 @@ void rejectIdleSolverOptions();
 /// the `-flutter_direct_count` eigenvalues nearest to zero, or all in `-flutter_direct_band` (low ≤
 /// Im s ≤ high, |s| ≤ high) that `-flutter_direct_limit` of them reach. `trial` is T. Throws Error
 /// if the band is not two ascending frequencies, or if the solver does not converge.
-pencil::FrictionPoint solveDirect(const pencil::Pencil& pencil, const sweep::Parameters& at,
-                                  Mat trial);
+pencil::ComplexModes solveDirect(const pencil::Pencil& pencil, const sweep::Parameters& at,
+                                 Mat trial);
 
 }  // namespace squeal::direct

@@ -45,7 +45,7 @@ struct Influences::Projected {
   std::vector<ComplexPoint> test;  // [T y]
 };
 
-void Influences::derive(pencil::FrictionPoint& point, const pencil::Pencil& pencil,
+void Influences::derive(pencil::ComplexModes& point, const pencil::Pencil& pencil,
                         const BodyPoint& state, const sensitivity::StartSpace& start) {
   if (point.shapes.empty()) return;
   const auto list = influences(state);
@@ -96,14 +96,14 @@ void Influences::followSteadyState(const BodyPoint& state, const steady::Problem
   steady::Cause cause;
   cause.force = force;
   // dr = factor (K^R u − centrifugal forces), of one body or of all.
-  const auto inertia = [&](Mat rotationStiffness, Vec centrifugal, double factor) {
+  const auto inertiaForms = [&](Mat rotationStiffness, Vec centrifugal, double factor) {
     if (rotationStiffness) check(MatMult(rotationStiffness, state.solution.displacement, force));
     check(VecAXPY(force, -1, centrifugal));
     check(VecScale(force, factor));
   };
   if (influence.member == &sweep::Parameters::friction) cause.friction = 1;
   if (influence.member == &sweep::Parameters::speed) {
-    inertia(bodies_.rotationStiffness, bodies_.centrifugal, 2 * v);
+    inertiaForms(bodies_.rotationStiffness, bodies_.centrifugal, 2 * v);
     cause.speed = 1;
   }
   if (influence.member == &sweep::Parameters::pressure) {
@@ -114,7 +114,7 @@ void Influences::followSteadyState(const BodyPoint& state, const steady::Problem
   if (!influence.member) {
     const auto& part = parts_[static_cast<std::size_t>(influence.body)];
     if (influence.density)
-      inertia(part.rotationStiffness, part.centrifugal, v * v);
+      inertiaForms(part.rotationStiffness, part.centrifugal, v * v);
     else
       check(MatMult(part.stiffness, state.solution.displacement, force));
   }

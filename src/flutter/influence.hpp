@@ -32,12 +32,12 @@ class Influences {
              const contact::Contact& contact)
       : mesh_(mesh), bodies_(bodies), contact_(contact) {}
 
-  /// Collective. Fills FrictionPoint::sensitivities for all shapes of the point, whose terms the
+  /// Collective. Fills ComplexModes::sensitivities for all shapes of the point, whose terms the
   /// pencil holds: total derivatives of the eigenvalues, by the terms that follow the steady state,
   /// too, while the active set stays. Modal damping is taken as given. Parameters: friction, speed,
   /// pressure and damping as in Parameters, and factors young_BODY on all moduli of a body (ds/d ln
   /// E) and density_BODY on its density (ds/d ln ρ).
-  void derive(pencil::FrictionPoint& point, const pencil::Pencil& pencil, const BodyPoint& state,
+  void derive(pencil::ComplexModes& point, const pencil::Pencil& pencil, const BodyPoint& state,
               const sensitivity::StartSpace& start);
 
  private:

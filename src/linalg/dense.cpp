@@ -9,7 +9,7 @@
 #include <numeric>
 #include <optional>
 
-#include "linalg/images.hpp"
+#include "linalg/block.hpp"
 #include "linalg/lu.hpp"
 #include "petsc/check.hpp"
 

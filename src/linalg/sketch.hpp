@@ -8,8 +8,8 @@
 /// basis V, gives the norms of residuals A V q without their n entries.
 #include <vector>
 
+#include "linalg/block.hpp"
 #include "linalg/dense.hpp"
-#include "linalg/images.hpp"
 
 namespace squeal::linalg {
 

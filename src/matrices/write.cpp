@@ -100,7 +100,7 @@ void writeMatrix(Mat matrix, const fs::path& path) {
   check(MatView(matrix, viewer));
 }
 
-/// What was given to the stages that matrices go through.
+/// Returns the options given to the stages that matrices go through, a line each.
 std::string carriedOptions() {
   const std::set<std::string> stages{"modes", "flutter"},
       ofMesh{"flutter_pressure", "flutter_friction_damping"};

@@ -100,7 +100,7 @@ NamedElements readNamed(const WholeMesh& mesh, const GmshModel& model, const Req
 }
 
 /// The two sides of a contact interface whose nodes both bodies share.
-enum class Side { resting, moving };
+enum class ContactSide { resting, moving };
 
 class Splitter {
  public:
@@ -110,11 +110,11 @@ class Splitter {
       moves_.push_back(std::find(request.moving.begin(), request.moving.end(), body) !=
                        request.moving.end());
   }
-  Side side(PetscInt cell) const {
+  ContactSide side(PetscInt cell) const {
     const auto& reference = cells_[static_cast<std::size_t>(cell)];
     return moves_[static_cast<std::size_t>(reference.block->label[reference.element])]
-               ? Side::moving
-               : Side::resting;
+               ? ContactSide::moving
+               : ContactSide::resting;
   }
   std::string bodyName(PetscInt cell) const {
     const auto& reference = cells_[static_cast<std::size_t>(cell)];
@@ -153,12 +153,12 @@ class Splitter {
     }
     if (restingTwin_.empty()) return;
     for (std::size_t c = 0; c < cells_.size(); ++c)
-      if (side(static_cast<PetscInt>(c)) == Side::resting)
+      if (side(static_cast<PetscInt>(c)) == ContactSide::resting)
         for (int i = 0; i < cells_[c].block->nodesPerElement; ++i)
-          cells_[c].nodes()[i] = twin(cells_[c].nodes()[i], Side::resting);
+          cells_[c].nodes()[i] = twin(cells_[c].nodes()[i], ContactSide::resting);
   }
-  PetscInt twin(PetscInt node, Side side) const {
-    if (side == Side::moving) return node;
+  PetscInt twin(PetscInt node, ContactSide side) const {
+    if (side == ContactSide::moving) return node;
     const auto found = restingTwin_.find(node);
     return found == restingTwin_.end() ? node : found->second;
   }
@@ -265,7 +265,7 @@ void readFaces(WholeMesh& mesh, const Request& request, const NamedElements& nam
             block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerElement);
         auto cells = splitter.adjacency().cellsHolding(nodes, block.corners);
         if (pads.count(name) && cells.size() == 2)  // shared with the disc: the pad's face is meant
-          cells = {splitter.side(cells[0]) == Side::resting ? cells[0] : cells[1]};
+          cells = {splitter.side(cells[0]) == ContactSide::resting ? cells[0] : cells[1]};
         if (cells.size() != 1)
           throw Error("surface group '" + name + "': face " + std::to_string(block.tag[e]) +
                       " must bound one cell of a body, it bounds " + std::to_string(cells.size()));

@@ -14,7 +14,6 @@
 #include <string_view>
 #include <vector>
 
-#include "linalg/images.hpp"
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What the free-vibration stage could cost at best.
+/// The least time that the free-vibration stage could take.
 #include "petsc/owned.hpp"
 
 namespace squeal::modes {

@@ -37,27 +37,27 @@ bool Sensitivity::regular() const {
 
 double accuracyAsked() { return accuracyOption.get(); }
 
-int FrictionPoint::modesWithoutEigenvalue() const {
+int ComplexModes::modesWithoutEigenvalue() const {
   return damped ? std::max(0, freeModesInBand - static_cast<int>(eigenvalues.size())) : 0;
 }
 
-int FrictionPoint::unstableCount() const {
+int ComplexModes::unstableCount() const {
   return static_cast<int>(std::count_if(eigenvalues.begin(), eigenvalues.end(),
                                         [](const auto& e) { return e.unstable; }));
 }
 
-int FrictionPoint::uncertifiedCount() const {
+int ComplexModes::uncertifiedCount() const {
   return static_cast<int>(std::count_if(eigenvalues.begin(), eigenvalues.end(),
                                         [](const auto& e) { return !e.certified; }));
 }
 
-double FrictionPoint::worstBackwardError() const {
+double ComplexModes::worstBackwardError() const {
   double worst = 0;
   for (const auto& eigenvalue : eigenvalues) worst = std::max(worst, eigenvalue.backwardError);
   return worst;
 }
 
-double FrictionPoint::worstErrorEstimate() const {
+double ComplexModes::worstErrorEstimate() const {
   double worst = 0;
   for (const auto& eigenvalue : eigenvalues)
     if (!std::isnan(worst) && !(eigenvalue.errorEstimate <= worst))
@@ -65,20 +65,20 @@ double FrictionPoint::worstErrorEstimate() const {
   return worst;
 }
 
-const Eigenvalue* FrictionPoint::fastestGrowing() const {
+const Eigenvalue* ComplexModes::fastestGrowing() const {
   const Eigenvalue* fastest = nullptr;
   for (const auto& eigenvalue : eigenvalues)
     if (!fastest || eigenvalue.s.real() > fastest->s.real()) fastest = &eigenvalue;
   return fastest;
 }
 
-void judge(std::vector<Eigenvalue>& eigenvalues) {
+void markUnstable(std::vector<Eigenvalue>& eigenvalues) {
   const double tolerance = toleranceOption.get();
   for (auto& eigenvalue : eigenvalues)
     eigenvalue.unstable = eigenvalue.s.real() > tolerance * std::abs(eigenvalue.s);
 }
 
-std::vector<std::size_t> shapesWanted(const FrictionPoint& point) {
+std::vector<std::size_t> shapesWanted(const ComplexModes& point) {
   std::vector<std::size_t> order;
   const double below = 2 * M_PI * shapesBelowOption.get();
   for (std::size_t i = 0; i < point.eigenvalues.size(); ++i)
@@ -90,7 +90,7 @@ std::vector<std::size_t> shapesWanted(const FrictionPoint& point) {
   return order;
 }
 
-void keepShapes(FrictionPoint& point, Mat trial, const std::vector<std::size_t>& indices,
+void keepShapes(ComplexModes& point, Mat trial, const std::vector<std::size_t>& indices,
                 std::vector<linalg::ComplexVector> modes) {
   for (std::size_t k = 0; k < indices.size(); ++k) {
     Shape shape{};

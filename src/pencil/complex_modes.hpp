@@ -24,7 +24,7 @@ struct Eigenvalue {
 /// A complex mode d = real + i imaginary in nodal displacements, N entries. The largest real or
 /// imaginary part of an entry is 1.
 struct Shape {
-  std::size_t index;  ///< index into FrictionPoint::eigenvalues
+  std::size_t index;  ///< index into ComplexModes::eigenvalues
   OwnedVec real, imaginary;
   linalg::ComplexVector unknowns;    ///< the same d in the unknowns x
   std::vector<double> frictionWork;  ///< [owned contact node] contribution of friction there to the
@@ -52,7 +52,7 @@ struct Sensitivity {
 };
 
 /// Everything found at one point of the sweep.
-struct FrictionPoint {
+struct ComplexModes {
   sweep::Parameters at;
   std::vector<Eigenvalue> eigenvalues;     ///< Im s ≥ 0, by ascending frequency
   std::vector<Shape> shapes;               ///< the fastest growing modes: keepShapes()
@@ -84,14 +84,14 @@ struct FrictionPoint {
 double accuracyAsked();
 
 /// Sets `unstable` of each eigenvalue by [M.24].
-void judge(std::vector<Eigenvalue>& eigenvalues);
+void markUnstable(std::vector<Eigenvalue>& eigenvalues);
 
 /// Returns the indices of the fastest growing unstable eigenvalues below the frequency
 /// `-flutter_shapes_below`, the fastest first, `-flutter_shapes` at most.
-std::vector<std::size_t> shapesWanted(const FrictionPoint& point);
+std::vector<std::size_t> shapesWanted(const ComplexModes& point);
 /// Collective. Appends the shapes of the eigenvalues with these indices to the point. `modes`,
 /// which are taken, are their vectors in the unknowns x, of any length; `trial` is T.
-void keepShapes(FrictionPoint& point, Mat trial, const std::vector<std::size_t>& indices,
+void keepShapes(ComplexModes& point, Mat trial, const std::vector<std::size_t>& indices,
                 std::vector<linalg::ComplexVector> modes);
 
 }  // namespace squeal::pencil

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "linalg/block.hpp"
 #include "linalg/columns.hpp"
 #include "linalg/dense.hpp"
-#include "linalg/images.hpp"
 #include "linalg/symmetric.hpp"
 
 namespace squeal::reduction {
@@ -78,7 +78,7 @@ OwnedBV Basis::vectors() const {
   return linalg::copiedColumns(stiffness_, columns_.values.data(), size());
 }
 
-void Basis::appendImages(Mat matrix, PetscInt first, PetscInt last, linalg::Block& result) const {
+void Basis::appendProducts(Mat matrix, PetscInt first, PetscInt last, linalg::Block& result) const {
   linalg::appendProduct(matrix, columns_.column(first), last - first, result);
 }
 

@@ -8,9 +8,9 @@
 #include <optional>
 #include <vector>
 
+#include "linalg/block.hpp"
 #include "linalg/complexvector.hpp"
 #include "linalg/dense.hpp"
-#include "linalg/images.hpp"
 #include "linalg/sketch.hpp"
 #include "modes/modes.hpp"
 #include "petsc/owned.hpp"
@@ -36,7 +36,7 @@ class Basis {
   void combine(const linalg::DenseMatrix& combinations, PetscInt count);
 
   /// Collective. Adds A times columns [first, last) of V to the columns of `result`.
-  void appendImages(Mat matrix, PetscInt first, PetscInt last, linalg::Block& result) const;
+  void appendProducts(Mat matrix, PetscInt first, PetscInt last, linalg::Block& result) const;
   /// K0 times the columns last added, and VᵀK0 times them (size() × columns), where they are known
   /// without products: no columns otherwise.
   const linalg::Block& forces() const { return forces_; }
@@ -44,7 +44,7 @@ class Basis {
   /// Collective. V q of several q; entries that one lacks are zero.
   std::vector<linalg::ComplexVector> expand(
       const std::vector<const std::vector<std::complex<double>>*>& list) const;
-  /// Of columns of length n; the weighted norm is √(rᵀ diag(K0)⁻¹ r).
+  /// The sketch of columns of length n, whose weighted norm is √(rᵀ diag(K0)⁻¹ r).
   const linalg::Sketch& sketch() const { return *sketch_; }
   /// Unweighted sketch of V.
   const linalg::DenseMatrix& sketched() const { return sketched_; }
@@ -53,7 +53,7 @@ class Basis {
   /// norm, which costs nothing, into an estimate of the first for columns like these. 0: no
   /// columns.
   std::vector<double> energyRatios(const std::vector<linalg::Block>& blocks);
-  /// That of the columns last added.
+  /// Returns the energy ratio of the columns last added.
   double lastEnergyRatio() const { return ratio_; }
   /// Columns solved for so far.
   long solves() const { return solves_; }

@@ -16,14 +16,14 @@ linalg::DenseMatrix principalDirections(linalg::DenseMatrix columns, int rows, d
   PetscBLASInt m = rows, n = static_cast<PetscBLASInt>(columns.size()) / m, few = std::min(m, n),
                one = 1, query = -1, info = 0;
   std::vector<double> sizes(static_cast<std::size_t>(few)), left(static_cast<std::size_t>(m * few)),
-      work(1);
+      state(1);
   const auto call = [&](PetscBLASInt length) {
     LAPACKgesvd_("S", "N", &m, &n, columns.data(), &m, sizes.data(), left.data(), &m, nullptr, &one,
-                 work.data(), &length, &info);
+                 state.data(), &length, &info);
   };
   call(query);
-  work.resize(static_cast<std::size_t>(work[0]));
-  call(static_cast<PetscBLASInt>(work.size()));
+  state.resize(static_cast<std::size_t>(state[0]));
+  call(static_cast<PetscBLASInt>(state.size()));
   if (info != 0)
     throw Error("LAPACK dgesvd failed on the vectors of -reduction_basis pod (info " +
                 std::to_string(info) + ")");

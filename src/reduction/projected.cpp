@@ -102,11 +102,11 @@ std::vector<double> Coordinates::times(pencil::Side side, int power, double c) c
 ProjectedTerms::ProjectedTerms(const Basis& basis, const pencil::Pencil& pencil, std::size_t first,
                                std::size_t last)
     : basis_(basis) {
-  for (std::size_t t = first; t < last; ++t) parts_.push_back(begun(pencil.terms()[t].share()));
+  for (std::size_t t = first; t < last; ++t) parts_.push_back(newState(pencil.terms()[t].share()));
   extend();
 }
 
-ProjectedTerms::Part ProjectedTerms::begun(pencil::Term term) const {
+ProjectedTerms::Part ProjectedTerms::newState(pencil::Term term) const {
   const linalg::RowSet rows(term.matrix);
   OwnedMat matrix = rows.of(term.matrix);
   linalg::Block image(rows.size());
@@ -153,11 +153,11 @@ void ProjectedTerms::extend(Part& part) const {
   if (knownFrom(part, old))
     append(part.image, basis_.forces());
   else
-    basis_.appendImages(part.matrix, old, size, part.image);
+    basis_.appendProducts(part.matrix, old, size, part.image);
   sketch(part.image.column(old), part.rows, part.sketch);
   if (part.adjoint) {
     linalg::Block images(part.leftRows.size());
-    basis_.appendImages(part.adjoint, old, size, images);
+    basis_.appendProducts(part.adjoint, old, size, images);
     sketch(images.values.data(), part.leftRows, part.leftSketch);
   }
   project(part, old);

@@ -4,8 +4,8 @@
 #include <complex>
 #include <vector>
 
+#include "linalg/block.hpp"
 #include "linalg/dense.hpp"
-#include "linalg/images.hpp"
 #include "pencil/pencil.hpp"
 #include "reduction/basis.hpp"
 #include "sweep/parameters.hpp"
@@ -61,7 +61,7 @@ class ProjectedTerms {
     linalg::DenseMatrix leftSketch;  // of AᵀV; empty where A is symmetric
     linalg::DenseMatrix projection;  // VᵀAV, column-major
   };
-  Part begun(pencil::Term term) const;
+  Part newState(pencil::Term term) const;
   void extend(Part& part) const;
   bool knownFrom(const Part& part, PetscInt old) const;
   void project(Part& part, PetscInt old) const;

@@ -58,8 +58,8 @@ std::vector<double> perPair(const Coordinates& coordinates, const std::vector<do
 
 }  // namespace
 
-/// A point on its way.
-struct ReducedProblem::Work {
+/// The state of one point while the basis is corrected.
+struct ReducedProblem::PointState {
   const PointProblem* point;
   ProjectedTerms ownTerms;
   bool damped;
@@ -88,19 +88,20 @@ ReducedProblem::ReducedProblem(const pencil::Pencil& pencil, const modes::Associ
   bandTop_ = pencil::bandBelow(modes.angularFrequency);
 }
 
-/// Brings what depends on the basis up to it.
-void ReducedProblem::extend(const std::vector<Work*>& works) {
+/// Collective. Extends the projections of all terms to the vectors that the basis has gained.
+void ReducedProblem::extend(const std::vector<PointState*>& states) {
   terms_.extend();
-  for (auto* work : works) work->ownTerms.extend();
+  for (auto* state : states) state->ownTerms.extend();
 }
 
-/// The columns of a residual, without images of the basis.
-linalg::Block ReducedProblem::residualColumns(const Work& work, const linalg::DensePair& pair,
+/// Collective. The real and imaginary part of P(s) x, or of P(s)ᴴ y, from the matrices themselves.
+linalg::Block ReducedProblem::residualColumns(const PointState& state,
+                                              const linalg::DensePair& pair,
                                               const linalg::ComplexVector& vector,
                                               pencil::Side side) const {
-  const auto& [at, pencil] = *work.point;
+  const auto& [at, pencil] = *state.point;
   const linalg::ComplexVector residual = pencil::residual(pencil, at, pair.s, vector, side);
-  const bool real = Coordinates({&pair}, work.damped).isReal(0);
+  const bool real = Coordinates({&pair}, state.damped).isReal(0);
   linalg::Block result(basis_.localRows());
   for (const Vec part : {residual.real.get(), residual.imaginary.get()}) {
     if (real && result.columns == 1) break;
@@ -112,40 +113,40 @@ linalg::Block ReducedProblem::residualColumns(const Work& work, const linalg::De
   return result;
 }
 
-/// Estimate of |δs|/|s| by what the basis lacks.
-double ReducedProblem::errorOf(const Work& work, std::size_t pair) const {
-  return rightRatio_ * work.rightError[pair] * std::min(1.0, leftRatio_ * work.leftError[pair]);
+/// Returns the estimate of |δs|/|s| that comes from what the basis lacks.
+double ReducedProblem::errorOf(const PointState& state, std::size_t pair) const {
+  return rightRatio_ * state.rightError[pair] * std::min(1.0, leftRatio_ * state.leftError[pair]);
 }
 
 /// By how much the errors of a pair are too large; nothing can be done about those of rounding.
-double ReducedProblem::excess(const Work& work, std::size_t pair) const {
-  if (bandTop_ == 0 || work.backwardError[pair] < rounding) return 0;
-  return std::max(work.backwardError[pair] / pencil::accuracyAsked(),
-                  errorOf(work, pair) / toleranceOption.get());
+double ReducedProblem::errorRatio(const PointState& state, std::size_t pair) const {
+  if (bandTop_ == 0 || state.backwardError[pair] < rounding) return 0;
+  return std::max(state.backwardError[pair] / pencil::accuracyAsked(),
+                  errorOf(state, pair) / toleranceOption.get());
 }
 
-bool ReducedProblem::good(const Work& work) const {
-  for (std::size_t j = 0; j < work.pairs.size(); ++j)
-    if (excess(work, j) > 1) return false;
+bool ReducedProblem::isAccurate(const PointState& state) const {
+  for (std::size_t j = 0; j < state.pairs.size(); ++j)
+    if (errorRatio(state, j) > 1) return false;
   return true;
 }
 
-/// Sketches of the residuals of one side.
-linalg::DenseMatrix ReducedProblem::residualSketch(const Work& work, const PointPairs& pairs,
+/// Collective. Returns sketches of the residuals of one side, Sketch::size × columns.
+linalg::DenseMatrix ReducedProblem::residualSketch(const PointState& state, const PointPairs& pairs,
                                                    pencil::Side side) const {
   linalg::DenseMatrix sketch(
       static_cast<std::size_t>(2 * linalg::Sketch::size * pairs.pairs.columns));
-  for (const auto* terms : {&terms_, &work.ownTerms}) terms->addTo(pairs, side, sketch);
+  for (const auto* terms : {&terms_, &state.ownTerms}) terms->addTo(pairs, side, sketch);
   return sketch;
 }
 
-/// Errors of the pairs of a point.
-void ReducedProblem::judge(Work& work, const linalg::DenseProblem& problem) const {
-  const auto& pairs = work.pairs;
-  const PointPairs all{work.point->at, Coordinates(pointers(pairs), work.damped)};
+/// Collective. Fills in the errors of the pairs of a point.
+void ReducedProblem::estimateErrors(PointState& state, const linalg::DenseProblem& problem) const {
+  const auto& pairs = state.pairs;
+  const PointPairs all{state.point->at, Coordinates(pointers(pairs), state.damped)};
   const auto& coordinates = all.pairs;
   const auto norms = [&](pencil::Side side) {  // raised by what a sketch may miss
-    linalg::SquaredNorms squares = linalg::squaredNorms(residualSketch(work, all, side));
+    linalg::SquaredNorms squares = linalg::squaredNorms(residualSketch(state, all, side));
     for (auto* list : {&squares.euclidean, &squares.weighted}) {
       *list = perPair(coordinates, *list);
       for (auto& square : *list) square *= linalg::Sketch::safety * linalg::Sketch::safety;
@@ -158,55 +159,56 @@ void ReducedProblem::judge(Work& work, const linalg::DenseProblem& problem) cons
                       coordinates.times(pencil::Side::right, 0, 1), vectors);
   const auto lengths = perPair(coordinates, linalg::squaredLengths(vectors));
   const auto conditions = conditionNumbers(problem, pairs);
-  work.backwardError.clear();
-  work.rightError.clear();
-  work.leftError.clear();
-  work.rounding.clear();
+  state.backwardError.clear();
+  state.rightError.clear();
+  state.leftError.clear();
+  state.rounding.clear();
   for (std::size_t j = 0; j < pairs.size(); ++j) {
     const double size = std::abs(pairs[j].s),
-                 scale = work.norms[0] + size * work.norms[1] + size * size * work.norms[2];
-    work.backwardError.push_back(std::sqrt(right.euclidean[j] / lengths[j]) / scale);
+                 scale = state.norms[0] + size * state.norms[1] + size * size * state.norms[2];
+    state.backwardError.push_back(std::sqrt(right.euclidean[j] / lengths[j]) / scale);
     // Backward errors ε of the dense matrices, in norm: VᵀK̄V is of the order of 1, VᵀM̄V of the
     // lowest 1/ω².
-    work.rounding.push_back(PETSC_MACHINE_EPSILON * conditions[j] *
-                            (1 + std::pow(size / lowestMode_, 2)));
-    work.rightError.push_back(conditions[j] * std::sqrt(right.weighted[j]));
-    work.leftError.push_back(size < highestMode_ ? std::sqrt(left.weighted[j]) /
-                                                       (1 - std::pow(size / highestMode_, 2))
-                                                 : INFINITY);
+    state.rounding.push_back(PETSC_MACHINE_EPSILON * conditions[j] *
+                             (1 + std::pow(size / lowestMode_, 2)));
+    state.rightError.push_back(conditions[j] * std::sqrt(right.weighted[j]));
+    state.leftError.push_back(size < highestMode_ ? std::sqrt(left.weighted[j]) /
+                                                        (1 - std::pow(size / highestMode_, 2))
+                                                  : INFINITY);
   }
 }
 
 /// The pairs of a point that are not good enough, each to be resolved but for `resolution` of its
 /// residual, or for what is good enough: half of its square for what stays unresolved, half for
 /// what the correction leaves.
-ReducedProblem::Wish ReducedProblem::wishOf(const Work& work) const {
-  const auto mirrored = mirrorImages(work.pairs, work.damped);
+ReducedProblem::CorrectionRequest ReducedProblem::requestOf(const PointState& state) const {
+  const auto mirrored = mirrorImages(state.pairs, state.damped);
   std::vector<const linalg::DensePair*> bad;
   std::vector<double> weights;
-  for (std::size_t j = 0; j < work.pairs.size(); ++j)
-    if (const double tooLarge = excess(work, j); tooLarge > 1 && !mirrored[j]) {
-      bad.push_back(&work.pairs[j]);
+  for (std::size_t j = 0; j < state.pairs.size(); ++j)
+    if (const double tooLarge = errorRatio(state, j); tooLarge > 1 && !mirrored[j]) {
+      bad.push_back(&state.pairs[j]);
       weights.push_back(std::min(1.0, std::sqrt(2) * resolution * tooLarge));
     }
-  return {&work, {work.point->at, Coordinates(bad, work.damped)}, weights};
+  return {&state, {state.point->at, Coordinates(bad, state.damped)}, weights};
 }
 
 /// Directions that hold the residuals of all these pairs, of length one times their weights, but
 /// for parts of length `resolution`.
-linalg::Block ReducedProblem::directions(const std::vector<Wish>& wishes) const {
+linalg::Block ReducedProblem::directions(const std::vector<CorrectionRequest>& requests) const {
   linalg::DenseMatrix sketches, factors;
   std::vector<const PointPairs*> points;
-  for (const auto& wish : wishes) {
-    const auto& pairs = wish.pairs.pairs;
-    const linalg::DenseMatrix sketch = residualSketch(*wish.work, wish.pairs, pencil::Side::right);
+  for (const auto& request : requests) {
+    const auto& pairs = request.pairs.pairs;
+    const linalg::DenseMatrix sketch =
+        residualSketch(*request.state, request.pairs, pencil::Side::right);
     sketches.insert(sketches.end(), sketch.begin(), sketch.end());
     const auto squares = perPair(pairs, linalg::squaredNorms(sketch).euclidean);
     for (std::size_t j = 0; j < squares.size(); ++j)
       factors.insert(factors.end(),
                      static_cast<std::size_t>(pairs.firstColumn[j + 1] - pairs.firstColumn[j]),
-                     squares[j] > 0 ? wish.weights[j] / std::sqrt(squares[j]) : 0);
-    points.push_back(&wish.pairs);
+                     squares[j] > 0 ? request.weights[j] / std::sqrt(squares[j]) : 0);
+    points.push_back(&request.pairs);
   }
   if (factors.empty()) return linalg::Block(basis_.localRows());
   // Fewer columns than residuals: those of several points are much alike.
@@ -217,35 +219,35 @@ linalg::Block ReducedProblem::directions(const std::vector<Wish>& wishes) const 
   linalg::Block columns(basis_.localRows(), static_cast<PetscInt>(count));
   terms_.addTo(points, combinations, columns);
   std::size_t first = 0;
-  for (const auto& wish : wishes) {
-    const auto own = static_cast<std::size_t>(wish.pairs.pairs.columns);
-    wish.work->ownTerms.addTo({&wish.pairs}, linalg::rowsOf(combinations, all, first, own),
-                              columns);
+  for (const auto& request : requests) {
+    const auto own = static_cast<std::size_t>(request.pairs.pairs.columns);
+    request.state->ownTerms.addTo({&request.pairs}, linalg::rowsOf(combinations, all, first, own),
+                                  columns);
     first += own;
   }
   return linalg::principal(basis_.comm(), columns, resolution);
 }
 
-/// Dense problems of the points that are not done, and their errors.
-void ReducedProblem::solveDense(const std::vector<Work*>& open) {
+/// Collective. Solves the dense problems of the points that are not done, and estimates errors.
+void ReducedProblem::solveDense(const std::vector<PointState*>& open) {
   std::vector<linalg::DenseProblem> problems;
-  for (const auto* work : open) problems.push_back(project(*work));
+  for (const auto* state : open) problems.push_back(project(*state));
   auto solved = linalg::solveSpread(basis_.comm(), problems, linalg::Vectors::both,
                                     [&](auto s) { return bandTop_ == 0 || inBand(s); });
   for (std::size_t i = 0; i < open.size(); ++i) {
     open[i]->pairs = std::move(solved[i]);
-    judge(*open[i], problems[i]);
+    estimateErrors(*open[i], problems[i]);
   }
 }
 
 /// By how much a residual made with the matrices exceeds that made with the images of the basis.
-double ReducedProblem::drift(const Work& work, const linalg::DensePair& pair,
-                             const linalg::Block& columns, pencil::Side side) const {
-  const PointPairs alone{work.point->at, Coordinates({&pair}, work.damped)};
+double ReducedProblem::residualRatio(const PointState& state, const linalg::DensePair& pair,
+                                     const linalg::Block& columns, pencil::Side side) const {
+  const PointPairs alone{state.point->at, Coordinates({&pair}, state.damped)};
   const auto sum = [](const std::vector<double>& squares) {
     return std::accumulate(squares.begin(), squares.end(), 0.0);
   };
-  const double known = sum(linalg::squaredNorms(residualSketch(work, alone, side)).weighted),
+  const double known = sum(linalg::squaredNorms(residualSketch(state, alone, side)).weighted),
                exact = sum(
                    linalg::squaredNorms(basis_.sketch().of(columns.values.data(), columns.columns))
                        .weighted);
@@ -254,16 +256,17 @@ double ReducedProblem::drift(const Work& work, const linalg::DensePair& pair,
 
 /// Solves for the residuals of the pair with the largest estimate of all points so far. If that
 /// shows the estimates to be too small, those that are no longer good enough are left to do.
-std::vector<ReducedProblem::Work*> ReducedProblem::unconfirmed(std::vector<Work>& works) {
-  std::vector<Work*> open;
-  Work* worst = nullptr;
+std::vector<ReducedProblem::PointState*> ReducedProblem::unconfirmed(
+    std::vector<PointState>& states) {
+  std::vector<PointState*> open;
+  PointState* worst = nullptr;
   std::size_t pair = 0;
   double largest =
       std::max(confirmed_, 1e-3 * toleranceOption.get());  // below: next to nothing, or rounding
-  for (auto& work : works)
-    for (std::size_t j = 0; j < work.pairs.size(); ++j)
-      if (const double error = errorOf(work, j); std::isfinite(error) && error > largest)
-        worst = &work, pair = j, largest = error;
+  for (auto& state : states)
+    for (std::size_t j = 0; j < state.pairs.size(); ++j)
+      if (const double error = errorOf(state, j); std::isfinite(error) && error > largest)
+        worst = &state, pair = j, largest = error;
   if (!worst) return open;
   confirmed_ = largest;
   worst->ownTerms.extend();  // the basis may have grown since
@@ -274,16 +277,18 @@ std::vector<ReducedProblem::Work*> ReducedProblem::unconfirmed(std::vector<Work>
   const linalg::Block right = residualColumns(*worst, known, vectors[0], pencil::Side::right),
                       left = residualColumns(*worst, known, vectors[1], pencil::Side::left);
   const auto ratios = basis_.energyRatios({right, left});
-  measuredRatio_ =
-      std::max(measuredRatio_, ratios[0] * drift(*worst, known, right, pencil::Side::right));
+  measuredRatio_ = std::max(measuredRatio_,
+                            ratios[0] * residualRatio(*worst, known, right, pencil::Side::right));
   rightRatio_ = std::max(rightRatio_, measuredRatio_);
-  leftRatio_ = std::max(leftRatio_, ratios[1] * drift(*worst, known, left, pencil::Side::left));
-  for (auto& work : works)
-    if (!good(work)) open.push_back(&work);
+  leftRatio_ =
+      std::max(leftRatio_, ratios[1] * residualRatio(*worst, known, left, pencil::Side::left));
+  for (auto& state : states)
+    if (!isAccurate(state)) open.push_back(&state);
   return open;
 }
 
-ReducedProblem::Work ReducedProblem::begun(const PointProblem& point, const Norms& norms) const {
+ReducedProblem::PointState ReducedProblem::newState(const PointProblem& point,
+                                                    const Norms& norms) const {
   const auto& pencil = point.pencil;
   return {&point,
           ProjectedTerms(basis_, pencil, pencil.affineCount(), pencil.terms().size()),
@@ -318,66 +323,66 @@ ReducedProblem::Norms ReducedProblem::nearbyNorms(const PointProblem& point) {
   return nearest ? nearest->second : normsOf(point);
 }
 
-std::vector<pencil::FrictionPoint> ReducedProblem::solve(const std::vector<PointProblem>& batch,
-                                                         Mat trial) {
-  std::vector<Work> works;
-  std::vector<Work*> open;
+std::vector<pencil::ComplexModes> ReducedProblem::solve(const std::vector<PointProblem>& batch,
+                                                        Mat trial) {
+  std::vector<PointState> states;
+  std::vector<PointState*> open;
   if (!responded_ && correctionsWanted() && basis_.size() < unknowns_)
     addStaticResponses(batch.front());
   responded_ = true;
-  for (const auto& point : batch) works.push_back(begun(point, normsOf(point)));
-  for (auto& work : works) open.push_back(&work);
+  for (const auto& point : batch) states.push_back(newState(point, normsOf(point)));
+  for (auto& state : states) open.push_back(&state);
   const PetscInt largest =
       std::min(basis_.size() + static_cast<PetscInt>(growthOption.get()), unknowns_);
   for (int round = 0; !open.empty(); ++round) {
     extend(open);
     solveDense(open);
-    std::erase_if(open, [&](const Work* work) { return good(*work); });
+    std::erase_if(open, [&](const PointState* state) { return isAccurate(*state); });
     if (open.empty()) {
-      open = unconfirmed(works);
+      open = unconfirmed(states);
       continue;
     }
     if (round >= roundsOption.get() || basis_.size() >= largest) break;
-    std::vector<Wish> wishes;
-    for (const auto* work : open) wishes.push_back(wishOf(*work));
-    if (basis_.add(directions(wishes)) == 0) break;  // residuals are rounding
+    std::vector<CorrectionRequest> requests;
+    for (const auto* state : open) requests.push_back(requestOf(*state));
+    if (basis_.add(directions(requests)) == 0) break;  // residuals are rounding
     rightRatio_ = std::max(measuredRatio_, basis_.lastEnergyRatio());
   }
-  std::vector<pencil::FrictionPoint> points;
-  for (const auto& work : works) points.push_back(result(work));
-  keepShapes(points, works, trial);
-  for (auto& work : works) solved_.push_back(std::move(work.pairs));
+  std::vector<pencil::ComplexModes> points;
+  for (const auto& state : states) points.push_back(result(state));
+  keepShapes(points, states, trial);
+  for (auto& state : states) solved_.push_back(std::move(state.pairs));
   if (basisOption.get() == "pod") compress();
   return points;
 }
 
-pencil::FrictionPoint ReducedProblem::result(const Work& work) const {
-  pencil::FrictionPoint point;
-  point.at = work.point->at;
+pencil::ComplexModes ReducedProblem::result(const PointState& state) const {
+  pencil::ComplexModes point;
+  point.at = state.point->at;
   point.bandTop = bandTop_;
   point.freeModesInBand = static_cast<int>(
       std::count_if(modes_.begin(), modes_.end(), [&](double w) { return w <= bandTop_; }));
-  point.damped = work.damped;
+  point.damped = state.damped;
   point.accuracy = pencil::accuracyAsked();
   point.tolerance = toleranceOption.get();
-  for (std::size_t j = 0; j < work.pairs.size(); ++j) {
-    const double estimate = errorOf(work, j) + work.rounding[j];
+  for (std::size_t j = 0; j < state.pairs.size(); ++j) {
+    const double estimate = errorOf(state, j) + state.rounding[j];
     point.eigenvalues.push_back(
-        {work.pairs[j].s, work.backwardError[j], estimate,
-         work.backwardError[j] <= point.accuracy && estimate <= point.tolerance});
+        {state.pairs[j].s, state.backwardError[j], estimate,
+         state.backwardError[j] <= point.accuracy && estimate <= point.tolerance});
   }
-  pencil::judge(point.eigenvalues);
+  pencil::markUnstable(point.eigenvalues);
   return point;
 }
 
 /// Shapes of all points, made together: each product with the basis reads the whole of it.
-void ReducedProblem::keepShapes(std::vector<pencil::FrictionPoint>& points,
-                                const std::vector<Work>& works, Mat trial) const {
+void ReducedProblem::keepShapes(std::vector<pencil::ComplexModes>& points,
+                                const std::vector<PointState>& states, Mat trial) const {
   std::vector<std::vector<std::size_t>> wanted;
   std::vector<const std::vector<std::complex<double>>*> list;
   for (std::size_t i = 0; i < points.size(); ++i) {
     wanted.push_back(pencil::shapesWanted(points[i]));
-    for (std::size_t index : wanted.back()) list.push_back(&works[i].pairs[index].q);
+    for (std::size_t index : wanted.back()) list.push_back(&states[i].pairs[index].q);
   }
   if (list.empty()) return;
   auto all = basis_.expand(list);
@@ -390,38 +395,38 @@ void ReducedProblem::keepShapes(std::vector<pencil::FrictionPoint>& points,
 }
 
 linalg::DenseProblem ReducedProblem::project(const PointProblem& point) const {
-  return project(begun(point, {}));
+  return project(newState(point, {}));
 }
 
-linalg::DenseProblem ReducedProblem::project(const Work& work) const {
+linalg::DenseProblem ReducedProblem::project(const PointState& state) const {
   linalg::DenseProblem problem;
-  terms_.addTo(work.point->at, problem);
-  work.ownTerms.addTo(work.point->at, problem);
+  terms_.addTo(state.point->at, problem);
+  state.ownTerms.addTo(state.point->at, problem);
   return problem;
 }
 
 Improvement ReducedProblem::improve(
     const std::vector<std::pair<PointProblem, std::vector<linalg::DensePair>>>& located) {
   Improvement result;
-  std::vector<Work> works;
-  works.reserve(located.size());
-  std::vector<Wish> wishes;
+  std::vector<PointState> states;
+  states.reserve(located.size());
+  std::vector<CorrectionRequest> requests;
   for (const auto& [point, pairs] : located) {
-    Work& work = works.emplace_back(begun(point, nearbyNorms(point)));
-    work.pairs = pairs;
-    for (auto& pair : work.pairs)  // they may be of a smaller basis
+    PointState& state = states.emplace_back(newState(point, nearbyNorms(point)));
+    state.pairs = pairs;
+    for (auto& pair : state.pairs)  // they may be of a smaller basis
       for (auto* vector : {&pair.q, &pair.left})
         vector->resize(static_cast<std::size_t>(basis_.size()));
-    judge(work, project(work));
+    estimateErrors(state, project(state));
     result.backwardError.push_back(
-        *std::max_element(work.backwardError.begin(), work.backwardError.end()));
+        *std::max_element(state.backwardError.begin(), state.backwardError.end()));
     if (result.backwardError.back() < rounding) continue;
     // Both parts of a residual in units of the whole: one of them may be rounding.
-    wishes.push_back({&work,
-                      {point.at, Coordinates(pointers(work.pairs), true)},
-                      std::vector<double>(pairs.size(), 1.0)});
+    requests.push_back({&state,
+                        {point.at, Coordinates(pointers(state.pairs), true)},
+                        std::vector<double>(pairs.size(), 1.0)});
   }
-  result.changed = basis_.add(directions(wishes)) > 0;
+  result.changed = basis_.add(directions(requests)) > 0;
   terms_.extend();
   return result;
 }

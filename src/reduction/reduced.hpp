@@ -4,9 +4,9 @@
 #include <utility>
 #include <vector>
 
+#include "linalg/block.hpp"
 #include "linalg/complexvector.hpp"
 #include "linalg/dense.hpp"
-#include "linalg/images.hpp"
 #include "modes/modes.hpp"
 #include "pencil/band.hpp"
 #include "pencil/complex_modes.hpp"
@@ -23,7 +23,7 @@ struct PointProblem {
   pencil::Pencil pencil;
 };
 
-/// What a large problem says of pairs of its reduced one.
+/// The answer of the full problem to eigenpairs of the reduced one.
 struct Improvement {
   /// The basis has grown, or near() is better: the pairs are to be solved for again
   bool changed = false;
@@ -46,7 +46,7 @@ class ReducedProblem {
                  const modes::Modes& modes);
   /// Collective. All points at once: their dense problems are spread over the ranks, their
   /// corrections solved for together. Shapes are mapped to nodal displacements by `trial` (T).
-  std::vector<pencil::FrictionPoint> solve(const std::vector<PointProblem>& batch, Mat trial);
+  std::vector<pencil::ComplexModes> solve(const std::vector<PointProblem>& batch, Mat trial);
   /// Collective. The projection on the basis as it is.
   linalg::DenseProblem project(const PointProblem& point) const;
   PetscInt basisSize() const { return basis_.size(); }
@@ -58,39 +58,39 @@ class ReducedProblem {
       const std::vector<std::pair<PointProblem, std::vector<linalg::DensePair>>>& located);
 
  private:
-  struct Work;
+  struct PointState;
   /// Pairs of a point whose residuals are to be corrected.
-  struct Wish {
-    const Work* work;
+  struct CorrectionRequest {
+    const PointState* state;
     PointPairs pairs;
     std::vector<double> weights;  // [pair]
   };
   using Norms = std::array<double, 3>;  // of K̄, Z̄, M̄
-  /// What a direction of the residuals leaves unresolved of them, as a part of their size: a round
+  /// The part of the residuals that their directions may leave unresolved: a round
   /// gains a decade, and what it need not resolve it need not solve for.
   static constexpr double resolution = 0.03;
   void addStaticResponses(const PointProblem& point);
   Norms normsOf(const PointProblem& point);
   Norms nearbyNorms(const PointProblem& point);
-  Work begun(const PointProblem& point, const Norms& norms) const;
-  linalg::DenseProblem project(const Work& work) const;
-  void extend(const std::vector<Work*>& works);
-  linalg::Block residualColumns(const Work& work, const linalg::DensePair& pair,
+  PointState newState(const PointProblem& point, const Norms& norms) const;
+  linalg::DenseProblem project(const PointState& state) const;
+  void extend(const std::vector<PointState*>& states);
+  linalg::Block residualColumns(const PointState& state, const linalg::DensePair& pair,
                                 const linalg::ComplexVector& vector, pencil::Side side) const;
-  double drift(const Work& work, const linalg::DensePair& pair, const linalg::Block& columns,
-               pencil::Side side) const;
-  linalg::DenseMatrix residualSketch(const Work& work, const PointPairs& pairs,
+  double residualRatio(const PointState& state, const linalg::DensePair& pair,
+                       const linalg::Block& columns, pencil::Side side) const;
+  linalg::DenseMatrix residualSketch(const PointState& state, const PointPairs& pairs,
                                      pencil::Side side) const;
-  double errorOf(const Work& work, std::size_t pair) const;
-  double excess(const Work& work, std::size_t pair) const;
-  void judge(Work& work, const linalg::DenseProblem& problem) const;
-  bool good(const Work& work) const;
-  Wish wishOf(const Work& work) const;
-  linalg::Block directions(const std::vector<Wish>& wishes) const;
-  void solveDense(const std::vector<Work*>& open);
-  std::vector<Work*> unconfirmed(std::vector<Work>& works);
-  pencil::FrictionPoint result(const Work& work) const;
-  void keepShapes(std::vector<pencil::FrictionPoint>& points, const std::vector<Work>& works,
+  double errorOf(const PointState& state, std::size_t pair) const;
+  double errorRatio(const PointState& state, std::size_t pair) const;
+  void estimateErrors(PointState& state, const linalg::DenseProblem& problem) const;
+  bool isAccurate(const PointState& state) const;
+  CorrectionRequest requestOf(const PointState& state) const;
+  linalg::Block directions(const std::vector<CorrectionRequest>& requests) const;
+  void solveDense(const std::vector<PointState*>& open);
+  std::vector<PointState*> unconfirmed(std::vector<PointState>& states);
+  pencil::ComplexModes result(const PointState& state) const;
+  void keepShapes(std::vector<pencil::ComplexModes>& points, const std::vector<PointState>& states,
                   Mat trial) const;
   void compress();
   bool inBand(std::complex<double> s) const;

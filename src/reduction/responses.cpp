@@ -1,7 +1,7 @@
 /// Static responses to friction as the beginning of a basis.
 #include <algorithm>
 
-#include "linalg/images.hpp"
+#include "linalg/block.hpp"
 #include "pencil/pencil.hpp"
 #include "reduction/reduced.hpp"
 #include "sweep/parameters.hpp"
@@ -55,7 +55,7 @@ void ReducedProblem::addStaticResponses(const PointProblem& point) {
       for (const auto& forces : list) {
         if (forces.transposed != transposed || (forces.power == 1) != imaginary) continue;
         linalg::Block images(forces.rows.size());
-        basis_.appendImages(forces.matrix, 0, count, images);
+        basis_.appendProducts(forces.matrix, 0, count, images);
         for (PetscInt j = 0; j < count; ++j) {
           const double omega = modes_[static_cast<std::size_t>(j)];
           const double factor = forces.coefficient * (forces.power == 0   ? 1

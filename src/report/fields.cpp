@@ -93,7 +93,7 @@ OwnedVec workField(const analysis::Analysis& analysis, const pencil::Shape& shap
 
 struct Animated {
   double growth;
-  const pencil::FrictionPoint* point;
+  const pencil::ComplexModes* point;
   const pencil::Shape* shape;
 };
 
@@ -109,7 +109,7 @@ std::vector<Animated> fastest(const analysis::Analysis& analysis) {
   return all;
 }
 
-std::string shapeName(const pencil::FrictionPoint& point, const pencil::Shape& shape) {
+std::string shapeName(const pencil::ComplexModes& point, const pencil::Shape& shape) {
   return formatted("mode_%03d_%.0f_Hz", static_cast<int>(shape.index) + 1,
                    point.eigenvalues[shape.index].s.imag() / (2 * M_PI));
 }

@@ -10,7 +10,7 @@ namespace squeal::report {
 namespace {
 
 /// Parameters, number, growth rate and frequency of the mode.
-std::string modeHead(const pencil::FrictionPoint& point, const pencil::Shape& shape) {
+std::string modeHead(const pencil::ComplexModes& point, const pencil::Shape& shape) {
   const auto s = point.eigenvalues[shape.index].s;
   return sweep::parameterValues(point.at) +
          formatted(",%zu,%.15e,%.15e,", shape.index + 1, s.real(), s.imag() / (2 * M_PI));

@@ -49,7 +49,7 @@ Json uniquenessEntry(double speed, const steady::Uniqueness& found) {
   return entry;
 }
 
-Json unstableModes(const pencil::FrictionPoint& point) {
+Json unstableModes(const pencil::ComplexModes& point) {
   Json list = Json::array();
   for (std::size_t i = 0; i < point.eigenvalues.size(); ++i) {
     const auto& e = point.eigenvalues[i];

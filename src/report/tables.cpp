@@ -104,7 +104,7 @@ std::string rowHead(const sweep::Parameters& at, const std::vector<sweep::Parame
 
 /// What is said where no mode is unstable.
 std::string verdict(const analysis::Analysis& analysis, const analysis::ModalSegment& segment,
-                    const pencil::FrictionPoint& point) {
+                    const pencil::ComplexModes& point) {
   if (point.eigenvalues.empty()) return "no eigenvalue was found: nothing is known of stability";
   if (segment.openNodes > 0 && segment.openNodes == analysis.contact.totalNodes)
     return "none: no contact is closed, nothing slides";
@@ -113,7 +113,7 @@ std::string verdict(const analysis::Analysis& analysis, const analysis::ModalSeg
 
 /// One line for one point of a sweep: the lowest unstable modes.
 std::string sweepRow(const analysis::Analysis& analysis, const analysis::ModalSegment& segment,
-                     const pencil::FrictionPoint& point,
+                     const pencil::ComplexModes& point,
                      const std::vector<sweep::Parameter>& shown) {
   std::string row = rowHead(point.at, shown);
   if (point.unstableCount() == 0) return row + verdict(analysis, segment, point);
@@ -126,7 +126,7 @@ std::string sweepRow(const analysis::Analysis& analysis, const analysis::ModalSe
 
 /// The unstable modes of a single friction, a line each; modes are numbered by frequency.
 std::string modeRows(const analysis::Analysis& analysis, const analysis::ModalSegment& segment,
-                     const pencil::FrictionPoint& point) {
+                     const pencil::ComplexModes& point) {
   if (point.unstableCount() == 0)
     return formatted("\nfriction %g  ", point.at.friction) + verdict(analysis, segment, point);
   std::string rows;
@@ -141,7 +141,7 @@ std::string modeRows(const analysis::Analysis& analysis, const analysis::ModalSe
 /// The point where strong damping has taken most free modes of the band from the eigenvalues
 /// listed; empty if there is none.
 std::string strongDampingText(const analysis::Analysis& analysis) {
-  const pencil::FrictionPoint* most = nullptr;
+  const pencil::ComplexModes* most = nullptr;
   for (const auto& segment : analysis.segments)
     for (const auto& point : segment.points)
       if (point.modesWithoutEigenvalue() > (most ? most->modesWithoutEigenvalue() : 0))

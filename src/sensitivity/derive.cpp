@@ -20,7 +20,7 @@ double separation(const std::vector<pencil::Eigenvalue>& eigenvalues, std::size_
 
 }  // namespace
 
-void deriveShapes(pencil::FrictionPoint& point, const pencil::Pencil& pencil,
+void deriveShapes(pencil::ComplexModes& point, const pencil::Pencil& pencil,
                   const StartSpace& start, const modes::AssociatedSystem& system,
                   const Forms& forms) {
   if (point.shapes.empty()) return;
@@ -41,7 +41,7 @@ void deriveShapes(pencil::FrictionPoint& point, const pencil::Pencil& pencil,
   }
 }
 
-void deriveParameters(pencil::FrictionPoint& point, const pencil::Pencil& pencil,
+void deriveParameters(pencil::ComplexModes& point, const pencil::Pencil& pencil,
                       const StartSpace& start, const modes::AssociatedSystem& system) {
   deriveShapes(point, pencil, start, system, [&](const EigenTriple& triple) {
     std::vector<pencil::Derivative> found;

@@ -14,16 +14,16 @@ namespace squeal::sensitivity {
 /// Returns the forms yᴴ (∂P/∂θ)(s) x of one eigenvalue, in the field `value` of each derivative.
 using Forms = std::function<std::vector<pencil::Derivative>(const EigenTriple&)>;
 
-/// Collective. Appends to FrictionPoint::sensitivities an entry for each shape of the point, whose
+/// Collective. Appends to ComplexModes::sensitivities an entry for each shape of the point, whose
 /// terms the pencil holds. Left vectors are computed first, beginning in `start`. Where the
 /// eigenvalue has derivatives, they are the forms divided by −yᴴ P′ x [M.46].
-void deriveShapes(pencil::FrictionPoint& point, const pencil::Pencil& pencil,
+void deriveShapes(pencil::ComplexModes& point, const pencil::Pencil& pencil,
                   const StartSpace& start, const modes::AssociatedSystem& system,
                   const Forms& forms);
 
 /// Collective. Does the same for friction, speed and damping, as far as the coefficients of the
 /// terms depend on them.
-void deriveParameters(pencil::FrictionPoint& point, const pencil::Pencil& pencil,
+void deriveParameters(pencil::ComplexModes& point, const pencil::Pencil& pencil,
                       const StartSpace& start, const modes::AssociatedSystem& system);
 
 }  // namespace squeal::sensitivity

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "linalg/block.hpp"
 #include "linalg/columns.hpp"
-#include "linalg/images.hpp"
 #include "linalg/lu.hpp"
 #include "sweep/parameters.hpp"
 
@@ -71,10 +71,10 @@ std::vector<Complex> nullVector(const std::array<linalg::DenseMatrix, 3>& h, std
   return c;
 }
 
-class Search {
+class LeftIteration {
  public:
-  Search(const pencil::Pencil& pencil, const sweep::Parameters& at, const StartSpace& start,
-         KSP solver)
+  LeftIteration(const pencil::Pencil& pencil, const sweep::Parameters& at, const StartSpace& start,
+                KSP solver)
       : pencil_(pencil),
         at_(at),
         norms_{pencil.norm(0, at), pencil.norm(1, at), pencil.norm(2, at)},
@@ -276,7 +276,7 @@ std::vector<LeftVector> leftVectors(const pencil::Pencil& pencil, const sweep::P
                                     const StartSpace& start, KSP solver,
                                     const std::vector<RightPair>& pairs) {
   if (pairs.empty()) return {};
-  return Search(pencil, at, start, solver).vectors(pairs);
+  return LeftIteration(pencil, at, start, solver).vectors(pairs);
 }
 
 }  // namespace squeal::sensitivity

@@ -72,7 +72,7 @@ bool surelyCopositive(const std::vector<double>& a, int size) {
   return positiveDefinite(symmetricEigenvalues(s, size));
 }
 
-Judgement judge(const std::vector<double>& a, int n, double friction, int pMatrixLimit) {
+Judgement examineMatrix(const std::vector<double>& a, int n, double friction, int pMatrixLimit) {
   const auto eigenvalues = symmetricEigenvalues(a, n);
   const double smallest = eigenvalues.front();
   if (positiveDefinite(eigenvalues))

@@ -32,7 +32,7 @@ bool surelyCopositive(const std::vector<double>& a, int n);
 
 /// Returns the verdict on A(f), m/N. If sym(A) is not positive definite, the P-matrix test is made
 /// up to n = `pMatrixLimit`.
-Judgement judge(const std::vector<double>& a, int n, double friction, int pMatrixLimit);
+Judgement examineMatrix(const std::vector<double>& a, int n, double friction, int pMatrixLimit);
 
 /// Returns the friction where positive definiteness is lost [M.19],
 ///   f = −1/μ,

@@ -36,7 +36,7 @@ Uniqueness examineDense(const Compliance& compliance, const std::vector<double>&
   Uniqueness result{{}, lossOfPositivity(compliance.a0, compliance.a1, compliance.size)};
   for (double friction : frictions)
     result.judgements.push_back(
-        judge(compliance.at(friction), compliance.size, friction, pMatrixLimit));
+        examineMatrix(compliance.at(friction), compliance.size, friction, pMatrixLimit));
   return result;
 }
 

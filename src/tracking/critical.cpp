@@ -22,9 +22,9 @@ using Complex = std::complex<double>;
 /// (Advances in Engineering Software 28 (1997) 145–149): inverse quadratic interpolation where it
 /// is safe, otherwise bisection. The caller evaluates the function at next() and passes the value
 /// to take().
-class Search {
+class BracketedRoot {
  public:
-  Search(double a, double fa, double b, double fb, double tolerance)
+  BracketedRoot(double a, double fa, double b, double fb, double tolerance)
       : a_(a), fa_(fa), b_(b), fb_(fb), c_(a), fc_(fa), t_(fa / (fa - fb)), tolerance_(tolerance) {}
   double next() const { return a_ + t_ * (b_ - a_); }
   void take(double fx) {
@@ -81,7 +81,7 @@ class Root {
 
   /// Returns the friction with one pair, which has the mean of the eigenvalues: where two
   /// eigenvalues meet, so do their vectors.
-  Located located() const {
+  PairsAtFriction located() const {
     std::vector<linalg::DensePair> pairs = nearest(friction_).pairs();
     const Complex s = mean(pairs);
     pairs.resize(1);
@@ -198,7 +198,7 @@ class Root {
   }
 
   double searched(Family& family, double low, double high, double tolerance) {
-    Search search(event_.low, low, event_.high, high, tolerance);
+    BracketedRoot search(event_.low, low, event_.high, high, tolerance);
     while (!search.done()) {
       const double value = valueAt(family, search.next());
       if (std::isnan(value)) return NAN;
@@ -270,9 +270,9 @@ class Roots {
   /// Improves the basis for these events and locates them again. Returns false if the basis has not
   /// changed.
   bool improve(const std::vector<std::size_t>& open) {
-    std::vector<Located> located;
+    std::vector<PairsAtFriction> located;
     for (const auto i : open) {
-      Located item = mine(i) ? roots_[i].located() : Located{};
+      PairsAtFriction item = mine(i) ? roots_[i].located() : PairsAtFriction{};
       int size = static_cast<int>(item.pairs.empty() ? 0 : item.pairs[0].q.size());
       check(MPI_Bcast(&size, 1, MPI_INT, owner(i), family_.comm()));
       check(MPI_Bcast(&item.friction, 1, MPI_DOUBLE, owner(i), family_.comm()));

@@ -10,7 +10,7 @@
 namespace squeal::tracking {
 
 /// Eigenpairs at one friction.
-struct Located {
+struct PairsAtFriction {
   double friction = 0;
   std::vector<linalg::DensePair> pairs;
 };
@@ -33,7 +33,7 @@ class Family {
   virtual void progress(const std::string&) {}
   /// Collective. Corrects the basis by the residuals of these pairs, all together, and makes their
   /// frictions known to near().
-  virtual reduction::Improvement improve(const std::vector<Located>&) { return {}; }
+  virtual reduction::Improvement improve(const std::vector<PairsAtFriction>&) { return {}; }
 };
 
 }  // namespace squeal::tracking

@@ -36,7 +36,7 @@ void dropVectors(Branches& branches) {
 
 /// Returns the frictions to follow, [line], where the points of a line differ in friction only.
 std::vector<std::pair<sweep::Parameters, std::vector<double>>> lines(
-    const std::vector<pencil::FrictionPoint>& points) {
+    const std::vector<pencil::ComplexModes>& points) {
   std::vector<std::pair<sweep::Parameters, std::vector<double>>> found;
   for (const auto& point : points) {
     sweep::Parameters line = point.at;
@@ -74,7 +74,7 @@ bool trackAsked() {
 }
 
 std::string nothingToFollow(const reduction::ReducedProblem& reduced,
-                            const std::vector<pencil::FrictionPoint>& points) {
+                            const std::vector<pencil::ComplexModes>& points) {
   if (reduced.band().top == 0) return "-reduction_basis modal corrects no eigenvalue";
   return lines(points).empty() ? "single frictions" : "";
 }
@@ -111,7 +111,7 @@ std::string Followed::statement() const {
 }
 
 std::vector<Followed> followSweep(reduction::ReducedProblem& reduced,
-                                  const std::vector<pencil::FrictionPoint>& points,
+                                  const std::vector<pencil::ComplexModes>& points,
                                   const modes::Modes& modes, MPI_Comm comm,
                                   const ProblemSource& source,
                                   const std::function<void(const std::string&)>& progress) {

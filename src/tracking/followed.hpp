@@ -36,13 +36,13 @@ bool trackAsked();
 /// Returns the reason why there is nothing to follow; empty if there is something. Nothing is
 /// followed in the basis of the free modes alone, nor for single frictions unless trackAsked().
 std::string nothingToFollow(const reduction::ReducedProblem& reduced,
-                            const std::vector<pencil::FrictionPoint>& points);
+                            const std::vector<pencil::ComplexModes>& points);
 
 /// Collective. Follows the eigenvalues of `points`, from friction 0 on, in the present basis, and
 /// solves for the critical frictions (`-flutter_critical`), for which the basis may grow. Returns a
 /// result for each speed, pressure and damping. Single frictions are left out unless trackAsked().
 std::vector<Followed> followSweep(reduction::ReducedProblem& reduced,
-                                  const std::vector<pencil::FrictionPoint>& points,
+                                  const std::vector<pencil::ComplexModes>& points,
                                   const modes::Modes& modes, MPI_Comm comm,
                                   const ProblemSource& source,
                                   const std::function<void(const std::string&)>& progress);

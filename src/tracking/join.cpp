@@ -110,9 +110,9 @@ std::vector<std::vector<linalg::DensePair>> watchedPairs(
   return solved;
 }
 
-std::optional<linalg::Spectrum> pursued(Family& family, double friction,
-                                        const linalg::Spectrum& from, Complex expected,
-                                        double isolation) {
+std::optional<linalg::Spectrum> continuedTo(Family& family, double friction,
+                                            const linalg::Spectrum& from, Complex expected,
+                                            double isolation) {
   const auto problem = family.at(friction);
   if (!problem) return {};
   int rank = 0;

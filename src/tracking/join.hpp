@@ -63,9 +63,9 @@ std::optional<linalg::Spectrum> continuedIn(const linalg::DenseProblem& problem,
 
 /// Collective. Returns the same at a friction of the family, computed on rank 0, so that rounding
 /// cannot make the ranks disagree. Returns nothing also if there is no problem at this friction.
-std::optional<linalg::Spectrum> pursued(Family& family, double friction,
-                                        const linalg::Spectrum& from, std::complex<double> expected,
-                                        double isolation);
+std::optional<linalg::Spectrum> continuedTo(Family& family, double friction,
+                                            const linalg::Spectrum& from,
+                                            std::complex<double> expected, double isolation);
 
 /// Returns the entries of `all` with these indices.
 std::vector<linalg::DensePair> chosen(const std::vector<linalg::DensePair>& all,

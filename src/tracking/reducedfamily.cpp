@@ -115,7 +115,7 @@ std::optional<linalg::DenseProblem> ReducedFamily::near(double friction) {
   return sum;
 }
 
-reduction::Improvement ReducedFamily::improve(const std::vector<Located>& located) {
+reduction::Improvement ReducedFamily::improve(const std::vector<PairsAtFriction>& located) {
   std::vector<std::pair<reduction::PointProblem, std::vector<linalg::DensePair>>> list;
   std::vector<std::size_t> places;
   for (std::size_t k = 0; k < located.size(); ++k)

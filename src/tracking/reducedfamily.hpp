@@ -38,7 +38,7 @@ class ReducedFamily : public Family {
   std::optional<linalg::DenseProblem> near(double friction) override;
   void know(const std::vector<double>& frictions) override;
   void progress(const std::string& text) override { progress_(text); }
-  reduction::Improvement improve(const std::vector<Located>& located) override;
+  reduction::Improvement improve(const std::vector<PairsAtFriction>& located) override;
 
  private:
   /// The terms that belong to one friction, projected on the basis at that time.

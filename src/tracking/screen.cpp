@@ -114,7 +114,8 @@ class Dip {
 class Screening {
  public:
   Screening(Family& family, const StepEnd& low, const StepEnd& high,
-            const std::vector<Pursued>& singles, std::vector<Event>& events, std::vector<Gap>& gaps)
+            const std::vector<ContinuedPair>& singles, std::vector<Event>& events,
+            std::vector<Gap>& gaps)
       : family_(family), low_(low), high_(high), singles_(singles), events_(events), gaps_(gaps) {
     std::vector<linalg::DensePair> below, above;
     for (const auto& single : singles) {
@@ -145,8 +146,8 @@ class Screening {
   double examine(double t, const std::vector<linalg::DensePair>& below,
                  const std::vector<linalg::DensePair>& above, double isolation) {
     const linalg::Spectrum from(t < 0.5 ? low_.problem : high_.problem, t < 0.5 ? below : above);
-    const auto found = pursued(family_, low_.friction + t * width(), from,
-                               (1 - t) * mean(below) + t * mean(above), isolation);
+    const auto found = continuedTo(family_, low_.friction + t * width(), from,
+                                   (1 - t) * mean(below) + t * mean(above), isolation);
     if (!found) return NAN;
     found_ = found->pairs();
     return found_.size() == 2 ? discriminant(found_, from.damped()) : found_[0].s.real();
@@ -173,7 +174,7 @@ class Screening {
 
   /// Examines whether two neutral eigenvalues meet.
   void merger(std::size_t i, std::size_t j) {
-    const Pursued &a = singles_[i], &b = singles_[j];
+    const ContinuedPair &a = singles_[i], &b = singles_[j];
     const double d0 = 0.5 * (a.below.s - b.below.s).imag(),
                  d1 = 0.5 * (a.above.s - b.above.s).imag();
     const double slope0 = 0.5 * (below_[i] - below_[j]).imag() * width(),
@@ -207,7 +208,7 @@ class Screening {
 
   /// Examines whether the growth rate of an eigenvalue changes its sign twice.
   void arch(std::size_t i) {
-    const Pursued& a = singles_[i];
+    const ContinuedPair& a = singles_[i];
     const double g0 = a.below.s.real(), g1 = a.above.s.real();
     if (g0 * g1 <= 0) return;
     const double sign = g0 > 0 ? 1 : -1;
@@ -225,7 +226,7 @@ class Screening {
 
   Family& family_;
   StepEnd low_, high_;
-  const std::vector<Pursued>& singles_;
+  const std::vector<ContinuedPair>& singles_;
   std::vector<Event>& events_;
   std::vector<Gap>& gaps_;
   std::vector<Complex> below_, above_;  // slopes at both ends
@@ -235,7 +236,7 @@ class Screening {
 }  // namespace
 
 void screen(Family& family, const StepEnd& low, const StepEnd& high,
-            const std::vector<Pursued>& singles, std::vector<Event>& events,
+            const std::vector<ContinuedPair>& singles, std::vector<Event>& events,
             std::vector<Gap>& gaps) {
   Screening(family, low, high, singles, events, gaps).run();
 }

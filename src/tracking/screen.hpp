@@ -7,7 +7,7 @@
 namespace squeal::tracking {
 
 /// An eigenvalue that is joined by itself over a step.
-struct Pursued {
+struct ContinuedPair {
   int branch = 0;
   linalg::DensePair below, above;  ///< at the lower and at the upper end
   double isolation = 0;            ///< distance from other eigenvalues, rad/s
@@ -25,7 +25,7 @@ struct StepEnd {
 /// wider than about 1e-5 of the step are found, and so are arches of the growth rate whose cubic
 /// falls to a tenth of the values at the ends. If an examination fails, a gap is appended.
 void screen(Family& family, const StepEnd& low, const StepEnd& high,
-            const std::vector<Pursued>& singles, std::vector<Event>& events,
+            const std::vector<ContinuedPair>& singles, std::vector<Event>& events,
             std::vector<Gap>& gaps);
 
 }  // namespace squeal::tracking

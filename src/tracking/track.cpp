@@ -26,7 +26,7 @@ struct StepResult {
   std::vector<Link> links;
   std::vector<Event> events;
   std::vector<Gap> gaps;
-  std::vector<Pursued> singles;  // to be screened
+  std::vector<ContinuedPair> singles;  // to be screened
   bool sure = true;
 };
 
@@ -296,7 +296,7 @@ class Follower {
       const double next = 0.5 * (friction + equalAt);
       const Complex expected = 0.5 * (last.pairs()[0].s + equal);
       event.isolation = std::abs(expected - equal);  // the others lie about the mean
-      const auto found = pursued(family_, next, last, expected, event.isolation);
+      const auto found = continuedTo(family_, next, last, expected, event.isolation);
       if (!found) return;
       const bool crossed = (found->pairs()[0].s.real() > 0) != (last.pairs()[0].s.real() > 0);
       if (crossed) {
@@ -362,7 +362,8 @@ class Follower {
       return true;
     }
     const double middle = 0.5 * (low.friction + high.friction);
-    const auto found = pursued(family_, middle, low.spectrum, 0.5 * (mean(a) + mean(b)), isolation);
+    const auto found =
+        continuedTo(family_, middle, low.spectrum, 0.5 * (mean(a) + mean(b)), isolation);
     if (!found) return false;
     const PairAt between{middle, *found};
     std::vector<std::size_t> first, second;

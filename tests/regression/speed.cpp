@@ -25,7 +25,7 @@ analysis::Analysis at(double omega, double factor) {
 }
 
 /// Largest difference of an eigenvalue in the band from that of the other run, relative.
-double difference(const pencil::FrictionPoint& one, const pencil::FrictionPoint& other) {
+double difference(const pencil::ComplexModes& one, const pencil::ComplexModes& other) {
   const auto band = eigenvaluesOf(one);
   EXPECT_GT(band.size(), 10u);
   return worst(errors(band, eigenvaluesOf(other)).relative);

@@ -30,7 +30,7 @@ analysis::Analysis run(double speed, double pressure, double damping, const std:
 }
 
 /// Largest difference of an eigenvalue in the band from that of the other run, relative.
-double difference(const pencil::FrictionPoint& one, const pencil::FrictionPoint& other) {
+double difference(const pencil::ComplexModes& one, const pencil::ComplexModes& other) {
   const auto band = eigenvaluesOf(one);
   EXPECT_GT(band.size(), 4U);
   return worst(errors(band, eigenvaluesOf(other)).relative);

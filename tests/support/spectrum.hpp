@@ -17,7 +17,7 @@ namespace squeal::test {
 
 using Complex = std::complex<double>;
 
-inline std::vector<Complex> eigenvaluesOf(const pencil::FrictionPoint& point) {
+inline std::vector<Complex> eigenvaluesOf(const pencil::ComplexModes& point) {
   std::vector<Complex> list;
   for (const auto& eigenvalue : point.eigenvalues) list.push_back(eigenvalue.s);
   return list;

@@ -16,7 +16,7 @@ const std::string full =
     "-material_pad_rayleigh_stiffness 0.01 "
     "-material_pad_rayleigh_mass 0.002 ";
 
-std::vector<Complex> lowest(const pencil::FrictionPoint& point, double top) {
+std::vector<Complex> lowest(const pencil::ComplexModes& point, double top) {
   std::vector<Complex> list;
   for (const auto& e : point.eigenvalues)
     if (std::abs(e.s) < top) list.push_back(e.s);
@@ -141,7 +141,7 @@ TEST(Prestress, OfASweepIsThatOfEachFriction) {
                            slack =
                                runCase("two_layers",
                                        options + "-elasticity_prestress off -flutter_friction 0.5");
-  const auto inBand = [](const pencil::FrictionPoint& point) {
+  const auto inBand = [](const pencil::ComplexModes& point) {
     std::vector<Complex> list;
     for (const auto& e : point.eigenvalues)
       if (std::abs(e.s) < 3.5) list.push_back(e.s);

@@ -36,7 +36,7 @@ TEST(Layer, TablesSolveTheCharacteristicEquation) {
 
 /// 1 % in |s| and 0.01 in growth rates, which reach 0.3: bilinear cells, 7 to the shortest of these
 /// wavelengths, cannot do much better.
-void expectAccurate(const pencil::FrictionPoint& point, const char* method) {
+void expectAccurate(const pencil::ComplexModes& point, const char* method) {
   const Errors found = errors(exactAt(point.at.friction), eigenvaluesOf(point));
   print("f = %g, %s, worst of the first 30: |s| %.3f %%, growth rate %.4f\n", point.at.friction,
         method, 100 * worst(found.modulus), worst(found.growth));

@@ -37,7 +37,7 @@ OwnedMat matrix(const Matrix2& entries) {
 struct Model {
   Matrix2 mass, damping, stiffness, friction;
 
-  pencil::FrictionPoint at(double mu) const {
+  pencil::ComplexModes at(double mu) const {
     std::vector<pencil::Term> terms;
     terms.push_back({matrix(stiffness), 0, 0, 1});
     terms.push_back({matrix(friction), 0, 1, 1});

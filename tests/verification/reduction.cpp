@@ -46,7 +46,7 @@ struct Comparison {
 };
 
 /// All eigenvalues of a point with those of the full order, each with one of its own.
-Comparison compare(const pencil::FrictionPoint& point, const std::vector<Complex>& exact) {
+Comparison compare(const pencil::ComplexModes& point, const std::vector<Complex>& exact) {
   Comparison result;
   const auto found = eigenvaluesOf(point);
   const auto match = matched(found, exact);

@@ -70,13 +70,13 @@ Chains chains(PetscInt length, PetscInt copies, double alpha) {
 }
 constexpr double alphas[] = {0, 20, 3e3};
 
-pencil::FrictionPoint solve(const Chains& problem, const std::string& options) {
+pencil::ComplexModes solve(const Chains& problem, const std::string& options) {
   test::setOptions(options);
   return direct::solveDirect(problem.pencil(), {0.0, 1.0}, problem.tridiagonal(1, 0));
 }
 
 /// The found eigenvalues are the wanted ones, as often.
-void expectSpectrum(const pencil::FrictionPoint& point, const std::vector<Complex>& wanted) {
+void expectSpectrum(const pencil::ComplexModes& point, const std::vector<Complex>& wanted) {
   EXPECT_EQ(point.eigenvalues.size(), wanted.size());
   // The solver's tolerance is 1e-12; in proportional damping no eigenvalue is more sensitive than
   // ten times that.

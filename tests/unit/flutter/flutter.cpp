@@ -216,7 +216,7 @@ pencil::Pencil chain() {
   return pencil::Pencil(std::move(terms));
 }
 
-void expectChain(const pencil::FrictionPoint& point) {
+void expectChain(const pencil::ComplexModes& point) {
   std::vector<Complex> wanted;
   int unstable = 0;
   for (PetscInt j = 0; j < pairCount; ++j) {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "linalg/images.hpp"
+#include "linalg/block.hpp"
 #include "support/case.hpp"
 
 namespace squeal {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
+#include "linalg/block.hpp"
 #include "linalg/dense.hpp"
-#include "linalg/images.hpp"
 #include "linalg/symmetric.hpp"
 #include "support/layers.hpp"
 

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "flutter/terms.hpp"
-#include "linalg/images.hpp"
+#include "linalg/block.hpp"
 #include "linalg/symmetric.hpp"
 #include "modes/modes.hpp"
 #include "pencil/band.hpp"
@@ -32,7 +32,7 @@ struct Fixture : test::Layers {
         free(modes()),
         reduced(pencil, *system, free) {}
 
-  std::vector<pencil::FrictionPoint> solve(double friction) {
+  std::vector<pencil::ComplexModes> solve(double friction) {
     std::vector<reduction::PointProblem> batch;
     batch.push_back({{friction}, pencil.with({})});
     return reduced.solve(batch, system->transformation().trial);

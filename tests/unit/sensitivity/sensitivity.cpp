@@ -78,7 +78,7 @@ double hermitian(Mat a, const pencil::Shape& shape) {
 ///   Σ_k work_k = σ + |s|² uᴴCu / (|s|² uᴴMu + uᴴ(K + v² K^R + K_σ)u).
 /// Exact for an eigenpair: errors are those of the eigenvector, backward errors of 1e-9 and less
 /// times a power of the condition.
-void expectBalance(const analysis::Analysis& analysis, const pencil::FrictionPoint& point) {
+void expectBalance(const analysis::Analysis& analysis, const pencil::ComplexModes& point) {
   const auto& bodies = analysis.bodies;
   OwnedMat prestress;
   if (elasticity::prestressWanted())

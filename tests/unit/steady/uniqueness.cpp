@@ -105,7 +105,7 @@ TEST(PMatrix, AgreesWithAllMinors) {
 
 TEST(Verdict, IsTheStrongestThatHolds) {
   const auto verdict = [](const Matrix& a, int limit = 18) {
-    return steady::judge(a, 2, 0.3, limit).verdict;
+    return steady::examineMatrix(a, 2, 0.3, limit).verdict;
   };
   EXPECT_EQ(verdict({2, -1, -1, 2}), "one solution");
   EXPECT_EQ(verdict({2, -1, -1, 2}, 0), "one solution");
@@ -114,7 +114,7 @@ TEST(Verdict, IsTheStrongestThatHolds) {
   EXPECT_EQ(verdict({1, 2, 2, 1}), "a solution exists");  // g = A R + F with F = (−1, −1) has three
   EXPECT_EQ(verdict({1, -2, -2, 1}), "not decided");
   EXPECT_EQ(verdict({1, -1, -1, 1}), "not decided");  // on the border
-  const auto judgement = steady::judge({1, 2, 2, 1}, 2, 0.3, 18);
+  const auto judgement = steady::examineMatrix({1, 2, 2, 1}, 2, 0.3, 18);
   EXPECT_EQ(judgement.friction, 0.3);
   EXPECT_NEAR(judgement.smallest, -1, 1e-14);
   EXPECT_TRUE(contains(judgement.reason, "no P-matrix")) << judgement.reason;

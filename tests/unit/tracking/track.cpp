@@ -149,7 +149,7 @@ struct Interpolated : Linear {
     std::sort(frictions.begin(), frictions.end());
     frictions.erase(std::unique(frictions.begin(), frictions.end()), frictions.end());
   }
-  reduction::Improvement improve(const std::vector<tracking::Located>& located) override {
+  reduction::Improvement improve(const std::vector<tracking::PairsAtFriction>& located) override {
     for (const auto& item : located) know({item.friction});
     return {true, std::vector<double>(located.size(), 0.0)};
   }

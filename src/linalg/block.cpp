@@ -1,4 +1,4 @@
-#include "linalg/images.hpp"
+#include "linalg/block.hpp"
 
 #include <petscsys.h>  // first: the next header needs it
 
