@@ -65,7 +65,7 @@ std::vector<Point> pointsOf(const mesh::Mesh& mesh, const PetscInt* nodes, int c
 
 namespace {
 
-/// Collective. Of the cells of all ranks: how many, and the first three by their tags in words.
+/// The number of some cells of all ranks, and the first three by their tags in words. Collective.
 struct CellsNamed {
   PetscInt count = 0;
   std::string words;

@@ -1,5 +1,5 @@
 #pragma once
-/// From element arrays to distributed matrices and vectors of nodal displacements.
+/// Assembly of element arrays into distributed matrices and vectors on nodal displacements.
 #include <compare>
 
 #include "elasticity/element.hpp"
@@ -9,7 +9,7 @@
 
 namespace squeal::elasticity {
 
-/// Entries of a matrix as (row, column, value) triples, the interface of MatSetPreallocationCOO.
+/// Entries of a matrix as triples (row, column, value), as MatSetPreallocationCOO takes them.
 struct Triples {
   std::vector<PetscInt> row, column;
   std::vector<PetscScalar> value;
@@ -18,26 +18,27 @@ struct Triples {
   }
 };
 
-/// What entries in transposed places have in common. Contributions are summed in any order, so that
-/// `rounded` is symmetric to rounding; `symmetric` and `skew` are made exactly so.
+/// The symmetry of a matrix. Contributions are summed in any order, so that a `rounded` matrix is
+/// symmetric up to rounding; `symmetric` and `skew` matrices are made exactly so.
 enum class Symmetry { rounded, symmetric, skew };
 
-/// Collective. N×N from the triples of all ranks; spends them.
+/// Collective. Returns the N×N matrix of the triples of all ranks, which are used up.
 OwnedMat toMatrix(const mesh::Mesh& mesh, Triples& triples, Symmetry symmetry);
 
-/// Adds the entries of one element: `components` copies of a scalar matrix, or one matrix on all
-/// components.
+/// Appends the entries of one element. If `scalar`, the matrix is [node][node] and is repeated on
+/// each component; otherwise it is on all components.
 void append(Triples& triples, const mesh::Mesh& mesh, const PetscInt* nodes, int count,
             const std::vector<double>& matrix, bool scalar);
 
-/// Adds [node][3] values of one element, times `factor`; to be followed by VecAssemblyBegin and
-/// End.
+/// Adds the values of one element, [node][3], times `factor`. VecAssemblyBegin and VecAssemblyEnd
+/// must follow.
 void addLoad(Vec load, const mesh::Mesh& mesh, const PetscInt* nodes, int count,
              const std::vector<double>& values, double factor);
 
+/// Returns the coordinates of local nodes, [node], m.
 std::vector<Point> pointsOf(const mesh::Mesh& mesh, const PetscInt* nodes, int count);
 
-/// A cell for messages; only integers, so that ranks can tell each other.
+/// The name of a cell for messages, in integers only, so that ranks can send it.
 struct CellName {
   PetscInt tag, type, body;
   auto operator<=>(const CellName&) const = default;
@@ -46,16 +47,16 @@ inline CellName nameOf(const mesh::CellBlock& block, std::size_t e) {
   return {block.tag[e], block.type, block.body[e]};
 }
 
-/// Collective. Error on all ranks if a rank has inverted cells: how many there are, and the first
-/// of them.
+/// Collective. Throws Error on all ranks if any rank has inverted cells. The message gives their
+/// number and names the first of them.
 void failOnInverted(const mesh::Mesh& mesh, const std::vector<CellName>& inverted);
 
-/// Collective. One line on the cells that are of use although folded(): how many, and the first of
-/// them.
+/// Collective. Warns in one line of cells that are used although folded(): their number and the
+/// first of them.
 void warnOfFoldedCells(const mesh::Mesh& mesh);
 
-/// Collective. Calls `visit(block, cell index, table, coordinates)` for each cell; where it throws
-/// InvertedElement all ranks get an Error.
+/// Collective. Calls `visit(block, cell index, table, coordinates)` for each cell of this rank.
+/// Throws Error on all ranks if a call throws InvertedElement.
 template <class Visit>
 void forEachCell(const mesh::Mesh& mesh, Visit visit) {
   std::vector<CellName> inverted;

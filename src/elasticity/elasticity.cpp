@@ -42,7 +42,8 @@ std::vector<double> scaled(std::vector<double> values, double factor) {
   return values;
 }
 
-/// The same scalar matrix on each component, rows and columns [node][component].
+/// Returns the matrix that has the same scalar matrix on each component, with rows and columns
+/// [node][component].
 std::vector<double> onAllComponents(const std::vector<double>& scalar, int count, int dimension) {
   const auto n = static_cast<std::size_t>(count), components = static_cast<std::size_t>(dimension),
              size = n * components;
@@ -54,7 +55,7 @@ std::vector<double> onAllComponents(const std::vector<double>& scalar, int count
   return full;
 }
 
-/// Collective. [local node][component], ghosts included.
+/// Collective. Returns the values of a nodal vector, [local node][component], ghosts included.
 std::vector<double> localValues(const mesh::Mesh& mesh, Vec u) {
   OwnedIS nodes;
   OwnedVec local;
@@ -72,7 +73,7 @@ std::vector<double> localValues(const mesh::Mesh& mesh, Vec u) {
   return values;
 }
 
-/// `diagonal` may be null.
+/// Appends the entries of a diagonal, which may be null.
 void appendDiagonal(Triples& triples, const mesh::Mesh& mesh, Vec diagonal) {
   if (!diagonal) return;
   const PetscScalar* values = nullptr;
@@ -85,7 +86,7 @@ void appendDiagonal(Triples& triples, const mesh::Mesh& mesh, Vec diagonal) {
   check(VecRestoreArrayRead(diagonal, &values));
 }
 
-/// Entries of all element matrices of this rank.
+/// Returns the number of entries of all element matrices of this rank.
 std::size_t denseEntries(const mesh::Mesh& mesh) {
   std::size_t entries = 0;
   for (const auto& block : mesh.cells)
@@ -98,7 +99,7 @@ struct CellTriples {
   Triples stiffness, mass, damping;
 };
 
-/// Of all cells, or of those of one body.
+/// Returns the entries for all cells, or for those of one body.
 CellTriples cellTriples(const mesh::Mesh& mesh, const std::vector<Material>& materials,
                         std::optional<int> body) {
   const auto incompatible = incompatibleElements();

@@ -1,6 +1,6 @@
 #pragma once
-/// The elastic bodies, uncoupled: their matrices and the loads on all nodal displacements u. N =
-/// dimension × nodes, row dimension·node + component.
+/// The uncoupled elastic bodies: their matrices and loads on all nodal displacements u. N =
+/// dimension × nodes; a component of a node has the row dimension·node + component.
 #include <optional>
 
 #include "elasticity/motion.hpp"
@@ -13,55 +13,59 @@ struct Bodies {
   OwnedMat stiffness;  ///< K, N×N, symmetric, block-diagonal over the bodies, grounded springs
                        ///< included, N/m
   OwnedMat mass;       ///< M, N×N, symmetric positive definite, kg
-  OwnedMat
-      damping;  ///< C, N×N, symmetric, of rates in the axes at rest, N·s/m; empty if there is none
-  OwnedMat gyroscopic;  ///< G = 2∫ρ(Dφⱼ)·φᵢ at the base motions, N×N, exactly skew, N·s/m; empty
-                        ///< without convective terms
-  OwnedMat rotationStiffness;  ///< K^R = −∫ρ(Dφⱼ)·(Dφᵢ) at the base motions, exactly symmetric,
-                               ///< N/m; empty as G
-  OwnedVec load;                ///< b, N: pressures, and centrifugal forces at the base motions, N
-  OwnedVec centrifugal;         ///< the centrifugal part of b, N
-  OwnedVec springs;             ///< N: stiffness of grounded springs, N/m; empty if there are none
+  OwnedMat damping;  ///< C, N×N, symmetric, acting on rates in axes at rest, N·s/m; null if none
+  OwnedMat gyroscopic;  ///< G = 2∫ρ(Dφⱼ)·φᵢ for the base motions [4.10], N×N, exactly skew, N·s/m;
+                        ///< null without convective terms
+  OwnedMat rotationStiffness;  ///< K^R = −∫ρ(Dφⱼ)·(Dφᵢ) for the base motions [4.10], N×N, exactly
+                               ///< symmetric, N/m; null where G is
+  OwnedVec load;         ///< b, N entries, N: pressures, and centrifugal forces of the base motions
+  OwnedVec centrifugal;  ///< the centrifugal part of b, N entries, N
+  OwnedVec springs;      ///< stiffness of grounded springs, N entries, N/m; null if none
   std::vector<Motion> motions;  ///< [body], base motions
 };
 
-/// Volume groups with a material, from the options that give an elastic law
-/// (`-material_<group>_young`, …). Error if there is none.
+/// Returns the volume groups with a material, from the options that give an elastic law
+/// (`-material_<group>_young`, …). Throws Error if there is none.
 std::vector<mesh::GroupRequest> materialGroups();
-/// Which options give a material, for messages: "give -…".
+/// Returns the options that give a material, for messages: "give -…".
 std::string howToGiveMaterials();
-/// Surface groups with a `-load_<group>_pressure` option.
+/// Returns the surface groups with a `-load_<group>_pressure` option.
 std::vector<mesh::GroupRequest> loadedSurfaces();
 
-/// Groups with a `-ground_<group>_*` option.
+/// Returns the groups with a `-ground_<group>_*` option.
 std::vector<mesh::GroupRequest> groundedGroups();
 
-/// Collective. Errors: bad or missing material, inverted element (names body and cell), convective
-/// terms on a body that does not keep its place as its matter moves.
+/// Collective. Assembles the matrices and loads of all bodies. Throws Error for a bad or missing
+/// material, for an inverted element (the message names body and cell), and for convective terms on
+/// a body that does not keep its place as its matter moves.
 Bodies assemble(const mesh::Mesh& mesh);
 
-/// What one body contributes to the matrices of Bodies, on all nodal displacements: the derivatives
-/// with respect to factors on its moduli (K, and the stiffness damping K/s) and on its density (the
-/// others).
+/// The contribution of one body to the matrices of Bodies, on all nodal displacements. These are
+/// the derivatives with respect to a factor on its moduli (K, and the part of C with K) and to one
+/// on its density (all others).
 struct BodyPart {
   OwnedMat stiffness, mass;  ///< without grounded springs
   OwnedMat gyroscopic,
-      rotationStiffness;  ///< empty unless the body moves and there are convective terms
+      rotationStiffness;  ///< null unless the body moves and there are convective terms
   OwnedVec centrifugal;
   double massDamping = 0;       ///< α, 1/s: C = α M + …
   double stiffnessDamping = 0;  ///< β + η / (2π f), s: C = … + (β + η / 2πf) K
 };
-/// Collective. Of the body with this index.
+/// Collective. Returns the contribution of the body with this index.
 BodyPart bodyPart(const mesh::Mesh& mesh, int body);
 
-/// `-elasticity_prestress`: the geometric stiffness of steady sliding joins K.
+/// Returns the option `-elasticity_prestress`: the geometric stiffness of the steady stress is then
+/// added to K.
 bool prestressWanted();
-/// Collective. `body` alone, if given. K_σ,ij = ∫ ∇φᵢ·σ∇φⱼ on each component, σ = D ε of the nodal
-/// displacements given (of their incompatible modes, too): N×N, exactly symmetric, with the pattern
-/// of K, N/m.
+/// Collective. Returns the geometric stiffness [M.6], the same on each component,
+///   K_σ,ij = ∫ ∇φᵢ·σ ∇φⱼ,   σ = D ε,
+/// for the stress of the given nodal displacements and of the incompatible modes that go with them.
+/// It is N×N, N/m, exactly symmetric and has the pattern of K. If `body` is given, it is that of
+/// this body alone.
 OwnedMat geometricStiffness(const mesh::Mesh& mesh, Vec displacement, std::optional<int> body = {});
 
-/// Collective. A vector of nodal displacements, N entries, block size = dimension.
+/// Collective. Returns a vector of nodal displacements, with N entries and the block size
+/// `dimension`.
 OwnedVec nodalVector(const mesh::Mesh& mesh);
 
 }  // namespace squeal::elasticity

@@ -24,8 +24,9 @@ void strainColumns(double* b, int columns, int i, const Point& g, int dimension)
   at(5, 0) = g[2], at(5, 2) = g[0];
 }
 
-/// Amplitudes of the trailing `inner` unknowns per unit of each of the others, [other][inner], from
-/// a symmetric row-major matrix of size `all`: −Kii⁻¹ Kio.
+/// Returns the amplitudes of the trailing `inner` unknowns per unit of each of the others,
+///   −Kii⁻¹ Kio,
+/// [other][inner], from a symmetric row-major matrix of size `all`.
 std::vector<double> innerResponse(const std::vector<double>& k, int all, int inner) {
   const int outer = all - inner;
   std::vector<double> kii(static_cast<std::size_t>(inner * inner)),
@@ -44,7 +45,8 @@ std::vector<double> innerResponse(const std::vector<double>& k, int all, int inn
   return response;
 }
 
-/// Schur complement of the trailing `inner` rows of a symmetric row-major matrix of size `all`.
+/// Returns the Schur complement of the trailing `inner` rows of a symmetric row-major matrix of
+/// size `all`.
 std::vector<double> condensed(const std::vector<double>& k, int all, int inner) {
   const int outer = all - inner;
   const auto response = innerResponse(k, all, inner);
@@ -60,7 +62,7 @@ std::vector<double> condensed(const std::vector<double>& k, int all, int inner) 
   return result;
 }
 
-/// Strains at the quadrature points from nodal displacements and bubble amplitudes.
+/// The matrix B of strains at the quadrature points from nodal displacements and bubble amplitudes.
 struct StrainMatrix {
   int points = 0, rows = 0, columns = 0;  ///< rows per point
   std::vector<double> b;                  ///< [point][row][column]
@@ -111,7 +113,7 @@ StrainMatrix strainMatrix(const ShapeTable& table, const std::vector<Point>& nod
   return strain;
 }
 
-/// K = ∫ Bᵀ D B with rows and columns of the bubbles.
+/// Returns K = ∫ Bᵀ D B, with the rows and columns of the bubbles.
 std::vector<double> fullStiffness(const StrainMatrix& strain, const Law& law) {
   std::vector<double> db(strain.b.size(), 0.0);
   Hooke storage;
@@ -135,7 +137,7 @@ std::vector<double> fullStiffness(const StrainMatrix& strain, const Law& law) {
   return k;
 }
 
-/// σ = D B u at one point; in the plane, its components there.
+/// Returns the stress σ = D B u at one point; in the plane its in-plane components.
 Matrix3 stressAt(const StrainMatrix& strain, int q, const Hooke& hooke,
                  const std::vector<double>& displacement) {
   std::vector<double> epsilon(static_cast<std::size_t>(strain.rows), 0.0),

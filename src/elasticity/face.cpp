@@ -67,8 +67,8 @@ std::vector<double> faceDerivative(const ShapeTable& table, const std::vector<Po
   std::vector<double> derivative(n * n);
   for (std::size_t i = 0; i < n; ++i) {
     const double* gradient = table.nodeGradient.data() + 3 * i * n;
-    // x = x(ξ) on the face: tangents a_r = ∂x/∂ξ_r; V = Σ c_r a_r + normal part gives (V·∇)φ = Σ
-    // c_r ∂φ/∂ξ_r.
+    // With x = x(ξ) on the face and the tangents a_r = ∂x/∂ξ_r:
+    //   V = Σ c_r a_r + normal part,   (V·∇)φ = Σ c_r ∂φ/∂ξ_r
     Point tangent[2]{};
     for (std::size_t j = 0; j < n; ++j)
       for (std::size_t r = 0; r < 2; ++r)

@@ -16,7 +16,7 @@ const RealListOption stiffnessOption("constraint", "ground_<group>_stiffness", "
 const RealListOption dampingOption("constraint", "ground_<group>_damping", "0,0,0", "N s/m",
                                    nonNegative, "dashpots to the ground, shared in the same way");
 
-/// N entries, empty if all values are zero.
+/// Returns the values of all groups shared by their nodes, N entries; null if all are zero.
 OwnedVec shared(const mesh::Mesh& mesh, const RealListOption& option) {
   const auto dimension = static_cast<std::size_t>(mesh.dimension);
   OwnedVec vector;

@@ -8,14 +8,14 @@
 
 namespace squeal::elasticity {
 
-/// Totals of all groups at each nodal displacement, N entries; empty if there are none.
+/// The sums over all groups at each nodal displacement, N entries; null if there are none.
 struct Ground {
   OwnedVec springs;   ///< N/m
   OwnedVec dashpots;  ///< N·s/m
 };
 
-/// Collective. Each group's total is shared equally by its nodes. Error: fewer components than
-/// dimensions.
+/// Collective. Returns the springs and dashpots that the options ask for. The total of each group
+/// is shared equally by its nodes. Throws Error for fewer components than dimensions.
 Ground readGround(const mesh::Mesh& mesh);
 
 }  // namespace squeal::elasticity

@@ -17,14 +17,14 @@ double& entry(Hooke& hooke, int i, int j) {
   return hooke.matrix[static_cast<std::size_t>(i * hooke.size + j)];
 }
 
-/// Compliance of the normal components, 1/Pa.
+/// Returns the compliance of the normal components, 1/Pa.
 Matrix3 normalCompliance(const EngineeringConstants& c) {
   return {{{1 / c.e1, -c.nu12 / c.e1, -c.nu13 / c.e1},
            {-c.nu12 / c.e1, 1 / c.e2, -c.nu23 / c.e2},
            {-c.nu13 / c.e1, -c.nu23 / c.e2, 1 / c.e3}}};
 }
 
-/// Components of the tensor behind each row: xx, yy, zz, xy, yz, zx.
+/// The two indices of the tensor component of each row: xx, yy, zz, xy, yz, zx.
 constexpr std::size_t first[] = {0, 1, 2, 0, 1, 2}, second[] = {0, 1, 2, 1, 2, 0};
 
 }  // namespace
@@ -71,7 +71,7 @@ Hooke orthotropic(const EngineeringConstants& c) {
 }
 
 Hooke rotated(const Hooke& hooke, const Axes& axes) {
-  // ε' = T ε, ε'_ij = Q_ik Q_jl ε_kl with engineering shear strains; equal work: D = Tᵀ D' T.
+  //   ε' = T ε,   ε'_ij = Q_ik Q_jl ε_kl with engineering shear strains;   equal work: D = Tᵀ D' T
   double t[6][6];
   for (std::size_t r = 0; r < 6; ++r)
     for (std::size_t c = 0; c < 6; ++c) {

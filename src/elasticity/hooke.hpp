@@ -1,5 +1,6 @@
 #pragma once
-/// Hooke's laws, in their own axes and turned. No PETSc object is seen here. Not collective.
+/// Hooke's laws, in the axes of the material and of the mesh. No PETSc object is used here. Not
+/// collective.
 #include <array>
 #include <functional>
 #include <string>
@@ -18,28 +19,29 @@ struct Hooke {
   std::vector<double> matrix;
   double operator()(int i, int j) const { return matrix[static_cast<std::size_t>(i * size + j)]; }
 };
+/// Returns the law of an isotropic material, for `young` in Pa and in the given dimension.
 Hooke isotropic(double young, double poisson, int dimension, bool planeStress);
 
-/// Moduli in Pa; νij: contraction along j per stretch along i in tension along i, so that νij/Ei =
-/// νji/Ej.
+/// Engineering constants of an orthotropic material, moduli in Pa. νij is the contraction along j
+/// divided by the stretch along i in tension along i, so that νij/Ei = νji/Ej.
 struct EngineeringConstants {
   double e1, e2, e3, nu12, nu13, nu23, g12, g13, g23;
 };
-/// The first rule that these constants break if the strain energy is not positive for every strain;
-/// empty if it is.
+/// Returns the first rule that these constants break if the strain energy is not positive for every
+/// strain; empty if it is.
 std::string brokenRule(const EngineeringConstants& constants);
-/// 6×6 in the axes 1, 2, 3 of the material, from constants that break no rule.
+/// Returns the law, 6×6, in the axes 1, 2, 3 of the material, from constants that break no rule.
 Hooke orthotropic(const EngineeringConstants& constants);
 
-/// Unit vectors of the material's axes 1, 2, 3, orthogonal and right-handed.
+/// The unit vectors of the axes 1, 2, 3 of a material, orthogonal and right-handed.
 using Axes = std::array<Point, 3>;
-/// 6×6 in the axes of the mesh, from 6×6 in the axes given.
+/// Returns the law in the axes of the mesh, 6×6, from the law in the given axes, 6×6.
 Hooke rotated(const Hooke& hooke, const Axes& axes);
 
-/// True if strains in the plane x, y cause no shear stress across it.
+/// Returns true if strains in the plane x, y cause no shear stress across it.
 bool mirrorSymmetric(const Hooke& solid);
-/// 3×3 from a mirror-symmetric 6×6: u_z = 0 in plane strain, σ_zz = σ_yz = σ_zx = 0 in plane
-/// stress.
+/// Returns the law in the plane, 3×3, from a mirror-symmetric 6×6: with u_z = 0 in plane strain,
+/// and σ_zz = σ_yz = σ_zx = 0 in plane stress.
 Hooke inPlane(const Hooke& solid, bool planeStress);
 
 /// Hooke's law of a body.
@@ -47,7 +49,7 @@ struct Law {
   Hooke uniform;
   std::function<Hooke(const Point&)> varying;  ///< if not empty, the law at each point instead
 
-  /// The law at x, in `storage` if it varies.
+  /// Returns the law at x, in `storage` if it varies.
   const Hooke& at(const Point& x, Hooke& storage) const {
     return varying ? storage = varying(x) : uniform;
   }

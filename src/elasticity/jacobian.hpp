@@ -9,8 +9,9 @@ namespace squeal::elasticity {
 
 using Matrix3 = std::array<std::array<double, 3>, 3>;
 
-/// J[r][d] = ∂x_d/∂ξ_r; rows beyond the element's dimension are unit vectors, so that the inverse
-/// exists.
+/// Returns the Jacobian
+///   J[r][d] = ∂x_d/∂ξ_r.
+/// Rows beyond the element's dimension are unit vectors, so that the inverse exists.
 inline Matrix3 jacobian(const double* gradient, const std::vector<Point>& nodes, int dimension) {
   Matrix3 j{};
   for (int r = dimension; r < 3; ++r)
@@ -37,13 +38,14 @@ inline Matrix3 inverse(const Matrix3& j, double det) {
   return inv;
 }
 
+/// Returns det J. Throws InvertedElement unless it is positive.
 inline double positiveDeterminant(const Matrix3& j) {
   const double det = determinant(j);
   if (!(det > 0)) throw InvertedElement{};
   return det;
 }
 
-/// ∂φ/∂x from the reference gradient.
+/// Returns ∂φ/∂x from the reference gradient ∂φ/∂ξ and J⁻¹.
 inline Point mapped(const Matrix3& inv, const Point& reference) {
   Point g{};
   for (std::size_t d = 0; d < 3; ++d)

@@ -51,7 +51,7 @@ const RealOption lossFrequencyOption("elasticity", "material_<group>_loss_freque
 const ChoiceOption planeOption("elasticity", "elasticity_plane", {"strain", "stress"}, "strain",
                                "plane problems: plane strain or plane stress");
 
-/// β + η / (2π f), s.
+/// Returns β + η / (2π f), s [M.5].
 double stiffnessDamping(const std::string& body) {
   const double beta = rayleighStiffnessOption.get(body);
   if (lossFactorOption.given(body))
@@ -62,7 +62,7 @@ double stiffnessDamping(const std::string& body) {
   return beta;
 }
 
-/// Exactly `count` numbers.
+/// Returns the numbers of the option. Throws Error unless there are `count`.
 std::vector<double> numbers(const RealListOption& option, const std::string& body,
                             std::size_t count) {
   auto values = option.get(body);
@@ -72,7 +72,7 @@ std::vector<double> numbers(const RealListOption& option, const std::string& bod
   return values;
 }
 
-/// The constants of an orthotropic or transversely isotropic body.
+/// Returns the constants of an orthotropic or transversely isotropic body.
 EngineeringConstants constants(const std::string& body) {
   const bool transverse = transverseOption.given(body);
   const auto& option = transverse ? transverseOption : engineeringOption;
@@ -100,7 +100,7 @@ Point cross(const Point& a, const Point& b) {
 
 Point unit(const Point& p) { return {p[0] / length(p), p[1] / length(p), p[2] / length(p)}; }
 
-/// Axis 1 along a, b in the plane 1-2.
+/// Returns axes with axis 1 along a and with b in the plane 1-2.
 Axes axesOf(const Point& a, const Point& b) {
   const Point one = unit(a), three = unit(cross(a, b));
   return {one, cross(three, one), three};
@@ -115,7 +115,7 @@ Axes orientation(const std::string& body) {
   return axesOf(a, b);
 }
 
-/// Axes at x: radial, tangential, along k.
+/// Returns the cylindrical axes at x: radial, tangential, and along k.
 Axes cylindricalAxes(const Point& x, const Point& origin, const Point& k) {
   const Point r{x[0] - origin[0], x[1] - origin[1], x[2] - origin[2]};
   Point tangential = cross(k, r);
@@ -126,8 +126,8 @@ Axes cylindricalAxes(const Point& x, const Point& origin, const Point& k) {
   return {cross(two, k), two, k};
 }
 
-/// Cylindrical axes at each point. Error: no direction, or one that is not the normal of a plane
-/// problem.
+/// Returns the law with cylindrical axes at each point. Throws Error if the direction is zero, or
+/// is not normal to the plane of a plane problem.
 Law cylindricalLaw(const Hooke& solid, const std::string& body, int dimension, bool planeStress) {
   const auto v = numbers(cylindricalOption, body, 6);
   const Point origin{v[0], v[1], v[2]}, direction{v[3], v[4], v[5]};
@@ -143,7 +143,7 @@ Law cylindricalLaw(const Hooke& solid, const std::string& body, int dimension, b
           }};
 }
 
-/// The law of the options. Error: those of different laws together.
+/// Returns the law that the options ask for. Throws Error if options of different laws are given.
 Law readLaw(const std::string& body, int dimension, bool planeStress) {
   const auto exclude = [&](const Option& one, const Option& other) {
     if (one.given(body) && other.given(body))

@@ -1,5 +1,5 @@
 #pragma once
-/// Materials of the bodies from the options.
+/// The materials of the bodies, from the options.
 #include <string>
 #include <vector>
 
@@ -15,8 +15,9 @@ struct Material {
   double stiffnessDamping;  ///< β + η / (2π f), s: C = … + (β + η / 2πf) K
 };
 
-/// [body] in the order of `mesh.bodies`. Errors: bad or missing option, constants without positive
-/// strain energy, axes that make a plane problem leave its plane.
+/// Returns the materials in the order of `mesh.bodies`, [body]. Throws Error for a bad or missing
+/// option, for constants without positive strain energy, and for axes with which a plane problem
+/// would leave its plane.
 std::vector<Material> readMaterials(const mesh::Mesh& mesh);
 
 }  // namespace squeal::elasticity

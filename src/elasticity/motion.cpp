@@ -24,7 +24,7 @@ const FlagOption convectiveOption("motion", "motion_convective", false,
                                   "(gyroscopic and rotation stiffness "
                                   "terms); off: approximation A");
 
-/// ω, rad/s, from whichever option gives it.
+/// Returns ω, rad/s, from the option that gives it.
 double rotationSpeed(const std::string& body) {
   const bool inRpm = rpmOption.given(body);
   if (inRpm && speedOption.given(body))

@@ -1,6 +1,6 @@
 #pragma once
-/// The base motion of a body's matter: V = ω k × (x − x0), or a translation (formulation: section 2
-/// of the paper).
+/// The base motion of a body's matter (paper, section 2), a rotation or a translation [2.1]:
+///   V = ω k × (x − x0)   or   V = const.
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,21 +15,22 @@ struct Motion {
   mesh::Point axis{0, 0, 1};  ///< k, unit vector
   mesh::Point origin{};       ///< x0, m
 
-  /// V(x), m/s.
+  /// Returns V(x), m/s.
   mesh::Point velocity(const mesh::Point& x) const;
   bool moves() const;
 };
 
-/// Option -motion_convective: the matter of moving bodies carries its displacement along, D u =
-/// (V·∇)u.
+/// Returns the option -motion_convective: the matter of moving bodies then carries its displacement
+/// along,
+///   D u = (V·∇)u.
 bool convectiveTerms();
-/// Bodies with a `-motion_<body>_*` option.
+/// Returns the bodies with a `-motion_<body>_*` option.
 std::vector<std::string> movingBodies();
-/// Which options give a motion, for messages.
+/// Returns the options that give a motion, for messages.
 inline const char* motionOptions() { return "-motion_<body>_*"; }
-/// Motion of each body in turn; none given: at rest. Error: rotation and translation together, both
-/// units of the speed, axis of zero length, vectors that have not the components of the mesh's
-/// dimension.
+/// Returns the motion of each body, [body]; a body without options is at rest. Throws Error if
+/// rotation and translation, or both units of the speed, are given together, for an axis of zero
+/// length, and for vectors whose number of components does not suit the dimension.
 std::vector<Motion> readMotions(const std::vector<std::string>& bodies, int dimension);
 
 }  // namespace squeal::elasticity

@@ -24,7 +24,7 @@ std::string elementName(int dimension, int corners, int nodes) {
   return shape + std::to_string(nodes);
 }
 
-/// `degree` 0: 2·order + 1.
+/// Returns the table with a rule of this degree; 0 stands for 2·order + 1.
 ShapeTable tabulate(int type, int degree) {
   ShapeTable table;
   std::string gmshName;

@@ -1,6 +1,6 @@
 #pragma once
-/// Shape functions and quadrature of one element type, tabulated by the gmsh library: any nodal
-/// Lagrange or serendipity element it knows.
+/// The shape functions and a quadrature rule of one element type, tabulated by the gmsh library for
+/// any nodal Lagrange or serendipity element that it knows.
 #include <string>
 #include <vector>
 
@@ -20,12 +20,14 @@ struct ShapeTable {
   int points() const { return static_cast<int>(weight.size()); }
 };
 
-/// Tabulated on first use; the rule integrates polynomials of degree 2·order + 1. Not collective.
+/// Returns the table of a gmsh element type, made on first use. Its rule integrates polynomials of
+/// the degree 2·order + 1 exactly. Not collective.
 const ShapeTable& shapeTable(int gmshType);
-/// The same with the least rule that the stiffness needs. On tri6 and tet10 three and four points,
-/// exact where the cell is straight (degree 2 keeps the order of convergence, Ciarlet and Raviart
-/// 1972). They lie further inside, where many a curved cell is sound although its det J changes
-/// sign near an edge. All other cells: the rule of shapeTable.
+/// Returns the table with the smallest rule that the stiffness needs. tri6 has three and tet10 four
+/// points, which is exact where the cell is straight; degree 2 keeps the order of convergence
+/// (Ciarlet and Raviart 1972). These points lie further inside, where many curved cells have
+/// det J > 0 although it changes its sign near an edge. All other cells have the rule of
+/// shapeTable().
 const ShapeTable& stiffnessTable(int gmshType);
 
 }  // namespace squeal::elasticity

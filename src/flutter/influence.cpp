@@ -10,12 +10,12 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Central differences of what follows the steady state: errors of its square beside rounding over
-/// it.
+/// The step of central differences along the change of the steady state. It balances an error of
+/// its square against rounding divided by it.
 constexpr double step = 1e-4;
 
-/// The steady state enters the terms of the point: the direction and law of slip, friction damping,
-/// prestress.
+/// Returns true if the steady state enters the terms of the point by the direction and law of slip,
+/// by friction damping or by prestress.
 bool followsSteadyState(const contact::Contact& contact, const sweep::Parameters& at,
                         Mat prestress) {
   const bool damping =
@@ -25,19 +25,20 @@ bool followsSteadyState(const contact::Contact& contact, const sweep::Parameters
 
 }  // namespace
 
-/// One parameter θ, and how the steady state follows it.
+/// One parameter θ, and the change of the steady state with it.
 struct Influences::Influence {
   std::string name;
-  double sweep::Parameters::*member = nullptr;  // of the point; null: one of a body
+  double sweep::Parameters::*member = nullptr;  // θ in the point; null: θ belongs to a body
   int body = -1;
-  bool density = false;  // of the body; otherwise its moduli
+  bool density = false;  // θ is a factor on the density of the body; otherwise on its moduli
   double size = 1;       // θ, for the step of differences
   steady::Change change;
   std::vector<double> responseForce;  // its change
   OwnedMat prestress;                 // its change
 };
 
-/// A triple on all nodal displacements: yᴴ L(f)ᵀ X T x = zᴴ X u.
+/// A triple on all nodal displacements, so that
+///   yᴴ L(f)ᵀ X T x = zᴴ X u,   u = T x,   z = L(f) y.
 struct Influences::Projected {
   Complex s;
   linalg::ComplexVector u, z;  // T x, L(f) y
@@ -95,7 +96,7 @@ void Influences::followSteadyState(const BodyPoint& state, const steady::Problem
   const OwnedVec force = elasticity::nodalVector(mesh_);
   steady::Cause cause;
   cause.force = force;
-  // dr = factor (K^R u − centrifugal forces), of one body or of all.
+  //   dr = factor (K^R u − centrifugal forces), of one body or of all
   const auto inertiaForms = [&](Mat rotationStiffness, Vec centrifugal, double factor) {
     if (rotationStiffness) check(MatMult(rotationStiffness, state.solution.displacement, force));
     check(VecAXPY(force, -1, centrifugal));
@@ -132,7 +133,7 @@ Influences::Projected Influences::project(const BodyPoint& state,
   pair.motion = contactMotion(
       contact_, pair.u, motionForces(bodies_, state.at, triple.s, pair.u, state.prestress).forces);
   pair.test = contactJump(contact_, pair.z);
-  // L(f) y = T y + Nᵀ f S y
+  //   L(f) y = T y + f Nᵀ S y
   linalg::ComplexVector slips = linalg::ComplexVector::like(pair.z.real);
   PetscScalar *real = nullptr, *imaginary = nullptr;
   check(VecGetArray(slips.real, &real));
@@ -152,8 +153,8 @@ Influences::Projected Influences::project(const BodyPoint& state,
   return pair;
 }
 
-/// zᴴ (∂X/∂θ) u of the matrices of one body: K, C, K_σ with its moduli, M, C, G, K^R with its
-/// density.
+/// Returns zᴴ (∂P/∂θ) u for the matrices of one body [M.47]: K, C and K_σ with its moduli, or M, C,
+/// G and K^R with its density.
 Complex Influences::materialForm(const Influence& influence, const BodyPoint& state,
                                  const Projected& pair) const {
   if (influence.member) return 0;
@@ -170,8 +171,8 @@ Complex Influences::materialForm(const Influence& influence, const BodyPoint& st
   return sum;
 }
 
-/// The part by the steady state: of K_σ, linear in its displacement, exactly; of friction by
-/// central differences along its change.
+/// Returns the part that comes from the change of the steady state. That of K_σ, which is linear in
+/// the displacement, is exact; that of friction is a central difference.
 Complex Influences::steadyForm(const Influence& influence, const BodyPoint& state,
                                const Projected& pair) const {
   if (!influence.change.displacement) return 0;
@@ -191,8 +192,8 @@ Complex Influences::steadyForm(const Influence& influence, const BodyPoint& stat
   return sum;
 }
 
-/// Σ_k of frictionForm(); f itself, where it multiplies the change of the normal force, is a
-/// coefficient of the pencil, and is held.
+/// Returns the sum of frictionForm() over the contact nodes. The f that multiplies the change of
+/// the normal force is held: it is a coefficient of the pencil.
 Complex Influences::frictionSum(const FrictionState& friction, const BodyPoint& state,
                                 const Projected& pair) const {
   Complex sum = 0;

@@ -1,6 +1,6 @@
 #pragma once
-/// What the eigenvalues depend on: the parameters of the point, moduli and density of each body.
-/// Here the pencil meets the matrices it is made of.
+/// Derivatives of the eigenvalues with respect to the parameters of the point and to the moduli and
+/// the density of each body, from the matrices of which the pencil is made.
 #include <vector>
 
 #include "contact/coupled.hpp"
@@ -25,18 +25,19 @@ struct BodyPoint {
   Mat prestress = nullptr;  ///< K_σ of the steady state; null: none
 };
 
+/// Computes total derivatives of eigenvalues.
 class Influences {
  public:
-  /// Borrows all for its life.
+  /// Borrows all arguments during the life of the object.
   Influences(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
              const contact::Contact& contact)
       : mesh_(mesh), bodies_(bodies), contact_(contact) {}
 
   /// Collective. Fills ComplexModes::sensitivities for all shapes of the point, whose terms the
-  /// pencil holds: total derivatives of the eigenvalues, by the terms that follow the steady state,
-  /// too, while the active set stays. Modal damping is taken as given. Parameters: friction, speed,
-  /// pressure and damping as in Parameters, and factors young_BODY on all moduli of a body (ds/d ln
-  /// E) and density_BODY on its density (ds/d ln ρ).
+  /// pencil holds. The derivatives [M.46] include the terms that follow the steady state; the
+  /// active set and the matrix of modal damping are held. The parameters are friction, speed,
+  /// pressure and damping as in Parameters, a factor young_BODY on all moduli of a body (ds/d ln
+  /// E), and a factor density_BODY on its density (ds/d ln ρ).
   void derive(pencil::ComplexModes& point, const pencil::Pencil& pencil, const BodyPoint& state,
               const sensitivity::StartSpace& start);
 

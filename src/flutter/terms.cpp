@@ -16,7 +16,7 @@ const RealListOption modalOption("flutter", "flutter_modal_damping", "0", "", no
                                  "damping ratios of the free modes in order, the last one for all "
                                  "that follow; reduced method alone");
 
-/// Powers of s, of the speed and of the damping factor that a matrix of the bodies comes with.
+/// The exponents of s, of the speed and of the damping factor for a matrix of the bodies.
 struct Role {
   const contact::Projection& projection;
   int power, speedExponent, dampingExponent;
@@ -30,7 +30,7 @@ std::vector<Role> roles(const contact::CoupledSystem& system) {
           {system.projections().rotationStiffness, 0, 2, 0}};
 }
 
-/// f Sᵀ N X T for each matrix X.
+/// Appends the term f Sᵀ N X T for each matrix X.
 void addFriction(std::vector<pencil::Term>& terms, const contact::Contact& contact,
                  const contact::CoupledSystem& system, const std::vector<contact::Slip>& slip) {
   const OwnedMat rows = contact.slipRows(system.transformation(), slip, system.closed());
@@ -40,7 +40,7 @@ void addFriction(std::vector<pencil::Term>& terms, const contact::Contact& conta
                        role.dampingExponent});
 }
 
-/// [4.7]: −B w*.
+/// Appends the terms of the change −B w* of the friction force [4.7, M.21].
 void addVelocityResponse(std::vector<pencil::Term>& terms, const contact::Contact& contact,
                          const contact::CoupledSystem& system, const steady::Solution& solution) {
   std::vector<double> normalForce;
@@ -53,8 +53,8 @@ void addVelocityResponse(std::vector<pencil::Term>& terms, const contact::Contac
   check(MatMatMult(contact.jump, trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, jumps.out()));
   check(MatMatMult(response, jumps, MAT_INITIAL_MATRIX, PETSC_DEFAULT, answered.out()));
   check(MatTransposeMatMult(jumps, answered, MAT_INITIAL_MATRIX, PETSC_DEFAULT, damping.out()));
-  // In the plane, and where motion across the sliding direction is held, a constant law leaves
-  // nothing but rounding.
+  // With a constant law only rounding is left in the plane, and where motion across the sliding
+  // direction is held.
   PetscReal size = 0, scale = 0;
   check(MatNorm(damping, NORM_FROBENIUS, &size));
   check(MatNorm(response, NORM_FROBENIUS, &scale));
@@ -105,8 +105,8 @@ std::vector<double> responseForces(const contact::Contact& contact,
                                    std::vector<double> normalForce) {
   if (!dampingOption.get()) return std::vector<double>(normalForce.size(), 0.0);
   // Nodal forces that are not positive under pressure (tri6, quad8) would make the damping
-  // negative: there the pressure on a positive share of the faces takes their place, at the price
-  // of an error of first order in the mesh.
+  // negative. The pressure times a positive share of the faces takes their place, at the price of
+  // an error of first order in the mesh size.
   if (!contact.weightsPositive) {
     normalForce = steady::consistentPressure(*contact.mesh, contact, normalForce);
     for (std::size_t i = 0; i < normalForce.size(); ++i)

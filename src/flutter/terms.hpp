@@ -1,5 +1,5 @@
 #pragma once
-/// The terms of the friction-perturbed problem [4.15–4.16], from the coupled matrices and the
+/// The terms of the friction-perturbed problem [4.15, 4.16], from the coupled matrices and the
 /// steady state.
 #include "contact/coupled.hpp"
 #include "modes/modes.hpp"
@@ -8,34 +8,38 @@
 
 namespace squeal::flutter {
 
-/// Collective. What holds at all parameters: K0, M0, c C0 with the damping factor c, v G0, v² K^R0,
-/// and, where all points slide alike, the friction of the normal forces that each of these matrices
-/// exerts. Borrows nothing.
+/// Collective. Returns the terms that hold for all parameters: K0, M0, c C0, v G0, v² K^R0 and, if
+/// the slip is the same at all points, the friction f Sᵀ N X T of each of these matrices. The
+/// arguments are not needed afterwards.
 pencil::Pencil affineTerms(const contact::Contact& contact, const contact::CoupledSystem& system);
 
-/// Collective. What depends on the steady state: the friction of the normal forces where the slip
-/// follows the deformation; the answer −B w* of the friction force to the relative velocity w* =
-/// [u_t] − v D u_D [4.7], which gives Z̄ the term (J T)ᵀ B (J T), the paper's f[A], and with
-/// convective terms K̄ the term −v (J T)ᵀ B (D T), its f[B_T], f[B_N]; and the change of the
-/// geometric stiffness (null: none) from that in `system`. Without `-flutter_friction_damping`,
-/// R_T* = −f φ R_N* τ alone.
+/// Collective. Returns the terms that depend on the steady state:
+/// - the friction f Sᵀ N X T where the slip follows the deformation or a friction law;
+/// - the change −B w* of the friction force with the relative velocity w* = [u_t] − v D u_D [4.7],
+///   which gives [M.21]
+///     (J T)ᵀ B (J T) in Z̄, the paper's f[A],
+///     −v (J T)ᵀ B (D T) in K̄, the paper's f[B_T] + f[B_N], with convective terms;
+/// - `prestressChange`, the change of the geometric stiffness from that in `system`; null: none.
+/// Without `-flutter_friction_damping` the friction force changes by R_T* = −f φ R_N* τ only.
 std::vector<pencil::Term> pointTerms(const contact::Contact& contact,
                                      const contact::CoupledSystem& system,
                                      const steady::Solution& solution, Mat prestressChange);
 
-/// `-flutter_friction_damping`.
+/// Returns the option `-flutter_friction_damping`.
 bool frictionDampingWanted();
-/// Collective. The normal forces that enter the answer to the relative velocity, [owned contact
-/// node]: R_N of the `closed` nodes, on tri6 and quad8 faces the pressure on a positive share of
-/// the faces; zero without `-flutter_friction_damping`. Linear in R_N.
+/// Collective. Returns the normal forces that enter B, [owned contact node], N: R_N at the `closed`
+/// nodes; on tri6 and quad8 faces the pressure times a positive share of the faces. They are linear
+/// in R_N, and zero without `-flutter_friction_damping`.
 std::vector<double> responseForces(const contact::Contact& contact,
                                    const std::vector<unsigned char>& closed,
                                    std::vector<double> normalForce);
 
-/// Collective. Modal damping [Caughey]: c Σ 2 ζ_i ω_i (M0 φ_i)(M0 φ_i)ᵀ with the ratios of
-/// `-flutter_modal_damping`; empty if there are none. A matrix that can only be multiplied.
+/// Collective. Returns the term of modal damping [M.22],
+///   c C_m,   C_m = Σ 2 ζ_i ω_i (M0 d_i)(M0 d_i)ᵀ,
+/// with the ratios of `-flutter_modal_damping`; none if these are not given. The matrix can only be
+/// multiplied.
 std::vector<pencil::Term> modalDamping(const modes::Modes& modes, Mat mass);
-/// `-flutter_modal_damping` is given.
+/// Returns true if `-flutter_modal_damping` is given.
 bool modalDampingWanted();
 
 }  // namespace squeal::flutter

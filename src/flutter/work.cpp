@@ -8,7 +8,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Values of a nodal vector in the rows of the pad nodes.
+/// Returns the values of a nodal vector in the rows of the pad nodes, [owned contact node].
 std::vector<ComplexPoint> atPadNodes(const contact::Contact& contact,
                                      const linalg::ComplexVector& u) {
   const int dimension = contact.mesh->dimension;

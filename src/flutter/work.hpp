@@ -1,6 +1,6 @@
 #pragma once
-/// A mode as the contact sees it, and the work of friction in it: which part of the contact feeds
-/// the mode.
+/// The motion of a mode at the contact, and the work of friction in it, which shows the part of the
+/// contact that feeds the mode.
 #include <array>
 #include <complex>
 #include <vector>
@@ -13,63 +13,68 @@
 
 namespace squeal::flutter {
 
-/// Complex amplitudes of a vector in space.
+/// The complex amplitudes of a vector in space.
 using ComplexPoint = std::array<std::complex<double>, 3>;
 
-/// The nodal forces r* = (s² M + s (c C + v G) + K + v² K^R + K_σ) u of a motion u e^{st}, c the
-/// damping factor.
+/// The nodal forces and the energy of a motion u e^{st}.
 struct MotionForces {
+  /// r* = (s² M + s (c C + v G) + K + v² K^R + K_σ) u, N entries.
   linalg::ComplexVector forces;
-  double energy = 0;  ///< |s|² uᴴ M u + uᴴ (K + v² K^R + K_σ) u: four times its mean energy
+  /// E = |s|² uᴴ M u + uᴴ (K + v² K^R + K_σ) u [M.51], four times the mean energy.
+  double energy = 0;
 };
-/// Collective. `prestress`: K_σ of the steady state, may be null.
+
+/// Collective. Returns both. `prestress` is K_σ of the steady state; it may be null.
 MotionForces motionForces(const elasticity::Bodies& bodies, const sweep::Parameters& at,
                           std::complex<double> s, const linalg::ComplexVector& u, Mat prestress);
 
-/// Amplitudes at the contact nodes, [owned contact node].
+/// The amplitudes of a motion at the contact nodes, [owned contact node].
 struct ContactMotion {
   std::vector<ComplexPoint> jump;                 ///< [u]
   std::vector<ComplexPoint> convected;            ///< D u_D; zero without convective terms
   std::vector<std::complex<double>> normalForce;  ///< R_N* = N r*
 };
-/// Collective.
+/// Collective. Returns the jumps [u] at the contact nodes, [owned contact node].
 std::vector<ComplexPoint> contactJump(const contact::Contact& contact,
                                       const linalg::ComplexVector& u);
+/// Collective. Returns the amplitudes of the motion u with the nodal forces `forces`.
 ContactMotion contactMotion(const contact::Contact& contact, const linalg::ComplexVector& u,
                             const linalg::ComplexVector& forces);
 
-/// How friction answers at one point of a sweep, f apart where it presses and where it turns.
+/// The data of friction at one point of a sweep.
 struct FrictionState {
   sweep::Parameters at;
   std::vector<contact::Slip> slip;  ///< [owned contact node]
-  /// R_N in the answer to the relative velocity; zero without friction damping
+  /// The normal forces that enter B, N, [owned contact node]: responseForces().
   std::vector<double> responseForce;
 };
 
-/// −[w]ᴴ R_T* of contact node k for test jumps [w], with R_T* = −f φ R_N* τ − B (s [u] − v D u_D)
-/// [4.7], in two parts.
+/// The form −[w]ᴴ R_T* of a contact node for a test jump [w], in two parts, with [4.7]
+///   R_T* = −f φ R_N* τ − B (s [u] − v D u_D).
 struct FrictionForm {
-  std::complex<double> pressing;  ///< by the change of the normal force
-  std::complex<double> turning;   ///< by the change of the relative velocity
+  std::complex<double> pressing;  ///< part with the change of the normal force
+  std::complex<double> turning;   ///< part with the change of the relative velocity
 };
 FrictionForm frictionForm(const contact::Contact& contact, const FrictionState& state,
                           std::complex<double> s, const ComplexPoint& test,
                           const ContactMotion& motion, std::size_t k);
 
-/// Collective. What friction at each contact node adds to the growth rate of the mode u e^{st},
-/// 1/s; positive feeds it.
-///   T x = u satisfies Tᵀ r* = (J T)ᵀ R_T*. Times (s x)ᴴ, real part, with σ = Re s:
-///     σ (|s|² uᴴMu + uᴴKu) + |s|² uᴴCu = Σ_k Re((s [u]_k)ᴴ R_T*,k),
-///   where G (skew) does no work. A quarter of the first bracket is the mean energy E, half of the
-///   sum the mean power of friction on the slip velocity: d/dt E = 2 σ E = power − dissipation. The
-///   value of node k is its part of the sum over the bracket, so that all nodes together make σ +
-///   |s|² uᴴCu / bracket; the work over a cycle is W_k = (4π/Im s) E × the value.
+/// Collective. Returns the contribution of friction at each contact node to the growth rate of the
+/// mode u e^{st}, 1/s, [owned contact node]. Where it is positive, friction feeds the mode.
+///
+/// The mode u = T x satisfies Tᵀ r* = (J T)ᵀ R_T*. The real part of its product with (s x)ᴴ is,
+/// with σ = Re s and E of MotionForces [M.51],
+///   σ E + |s|² c uᴴ C u = Σ_k Re((s [u]_k)ᴴ R_T*,k).
+/// G is skew and does no work. The value of node k is [M.52]
+///   Re((s [u]_k)ᴴ R_T*,k) / E.
+/// All values add up to σ + |s|² c uᴴ C u / E. The mean energy is E/4, and the work over a cycle is
+/// (π / Im s) E times the value.
 std::vector<double> frictionWork(const contact::Contact& contact, const elasticity::Bodies& bodies,
                                  const steady::Solution& solution, const sweep::Parameters& at,
                                  std::complex<double> s, const linalg::ComplexVector& u,
                                  Mat prestress);
 
-/// Collective. From the steady state.
+/// Collective. Returns the data of friction from the steady state.
 FrictionState frictionState(const contact::Contact& contact, const steady::Solution& solution);
 
 }  // namespace squeal::flutter
