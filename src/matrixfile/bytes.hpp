@@ -11,7 +11,7 @@ namespace squeal::matrixfile {
 
 constexpr bool littleEndian = std::endian::native == std::endian::little;
 
-/// The number at `bytes`, from the other byte order if `swapped`.
+/// Returns the number at `bytes`, from the other byte order if `swapped`.
 template <class Number>
 Number numberAt(const char* bytes, bool swapped) {
   char copy[sizeof(Number)];
@@ -25,11 +25,11 @@ Number numberAt(const char* bytes, bool swapped) {
 /// A file that is read in pieces.
 class BinaryFile {
  public:
-  /// Error: the file cannot be opened.
+  /// Throws Error if the file cannot be opened.
   explicit BinaryFile(const std::filesystem::path& path);
   std::uint64_t size() const { return size_; }
   void seek(std::uint64_t position);
-  /// Error: the file ends before.
+  /// Reads `count` bytes. Throws Error if the file ends before.
   void read(void* to, std::size_t count);
   template <class Number>
   Number number(bool swapped) {

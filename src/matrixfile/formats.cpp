@@ -43,7 +43,7 @@ bool begins(const std::string& text, const std::string& start) {
   return text.compare(0, start.size(), start) == 0;
 }
 
-/// In capitals or not.
+/// Returns true if the text begins with `start`, in capitals or not.
 bool beginsAsWord(const std::string& text, const char* start) {
   return strncasecmp(text.c_str(), start, std::strlen(start)) == 0;
 }
@@ -54,22 +54,24 @@ std::int32_t wordAt(const std::string& bytes, std::size_t position, bool big) {
              : numberAt<std::int32_t>(bytes.data() + position, big == littleEndian);
 }
 
-/// Version and mark of the byte order end the header of 128 bytes; the text before is free.
+/// Returns true for a MATLAB file of version 5. The version and the mark of the byte order end the
+/// header of 128 bytes; the text before them is free.
 bool isMatlab5(const std::string& head) {
   if (begins(head, "MATLAB 5.0 MAT-file")) return true;
   return head.size() == 128 && (head.substr(124) == std::string("\0\1IM", 4) ||
                                 head.substr(124) == std::string("\1\0MI", 4));
 }
 
-/// MATLAB's files of version 7.3 have a header of their own before that of HDF5.
+/// Returns true for an HDF5 file. MATLAB files of version 7.3 have a header of their own before
+/// that of HDF5.
 bool isHdf5(const std::string& head) {
   const std::string signature = "\x89HDF\r\n\x1a\n";
   return begins(head, signature) || begins(head, "MATLAB 7.3 MAT-file") ||
          (head.size() >= 520 && head.compare(512, signature.size(), signature) == 0);
 }
 
-/// Without a signature: type, rows, columns, whether there is an imaginary part, length of the
-/// name.
+/// Returns true for a MATLAB file of version 4. It has no signature; its header holds type, rows,
+/// columns, a flag for an imaginary part, and the length of the name.
 bool isMatlab4(const std::string& head) {
   const auto looksSound = [&](bool big) {
     const auto at = [&](std::size_t word) { return wordAt(head, 4 * word, big); };
@@ -89,7 +91,7 @@ std::string beginningOf(const std::string& head) {
   return text;
 }
 
-/// Other files that are taken for matrices.
+/// Throws Error for a file of another kind, naming that kind where it is known.
 [[noreturn]] void refuse(const std::string& head) {
   if (begins(head, "PK"))
     throw Error(

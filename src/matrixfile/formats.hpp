@@ -1,7 +1,7 @@
 #pragma once
-/// Matrix files. A reader takes what its format allows and refuses the rest: nothing in a file is
-/// passed over, and nothing that its header promises may be missing. Not collective: for rank 0.
-/// Every Error says why; none names the file.
+/// Matrix files. A reader accepts what its format allows and rejects all else: nothing in a file is
+/// ignored, and nothing that its header announces may be missing. Not collective: for rank 0. Every
+/// Error gives the reason; none names the file.
 #include <petscsys.h>
 
 #include <filesystem>
@@ -10,26 +10,26 @@
 
 namespace squeal::matrixfile {
 
-/// All entries of a sparse matrix; those of equal row and column are summed.
+/// The entries of a sparse matrix; entries of equal row and column are summed.
 struct Entries {
   Entries() = default;
-  /// Error: negative; more than PETSc's index type can count.
+  /// Throws Error if a size is negative or exceeds PetscInt.
   Entries(long long rows, long long columns);
 
   PetscInt rows = 0, columns = 0;
   std::vector<PetscInt> row, column;
   std::vector<double> value;
 
-  /// Zeros are left out. Error: an index outside the matrix; a value that is not finite; more
-  /// entries than PETSc can count.
+  /// Adds an entry unless it is zero. Throws Error for an index outside the matrix, for a value
+  /// that is not finite, and for more entries than PetscInt can count.
   void add(long long i, long long j, double x);
 };
 
-/// Error: not square; no rows; more than PETSc's index type can count.
+/// Throws Error if the matrix is not square, has no rows, or has more than PetscInt can count.
 void requireSquare(long long rows, long long columns);
 
-/// Rows or columns one after the other, as compressed formats hold them: those from begin[k] to
-/// begin[k + 1] belong to row (or column) k.
+/// A matrix in compressed rows or columns: the entries from begin[k] to begin[k + 1] belong to row
+/// (or column) k.
 struct Compressed {
   long long rows = 0, columns = 0;
   bool byColumns = false;
@@ -43,35 +43,37 @@ struct Compressed {
 
 enum class Format { matrixMarket, petscBinary, hdf5, matlab };
 
-/// The format that the first bytes of a file tell. Errors: a file that cannot be read, an empty
-/// one, one of none of the formats; what it is then.
+/// Returns the format, from the first bytes of the file. Throws Error for a file that cannot be
+/// read, is empty, or has none of the formats; the message then says what it is, where that is
+/// known.
 Format formatOf(const std::filesystem::path& path);
 
-/// Matrix Market: coordinate or array; general, symmetric or skew-symmetric; real, integer or
+/// Reads Matrix Market: coordinate or array; general, symmetric or skew-symmetric; real, integer or
 /// pattern (ones). Exponents may begin with D. A symmetric or skew-symmetric file holds one
-/// triangle. Error: anything else, with the number of the line.
+/// triangle. Throws Error, with the number of the line, for anything else.
 Entries readMatrixMarket(const std::filesystem::path& path);
 
-/// A MATLAB file of version 4 or 5 (what `save -v4`, `-v6` and `-v7` write): the variable `name`,
-/// sparse or full; empty: the only square matrix of more than one row. Error: there is none, or
-/// several; complex or damaged content, in the sizes of other variables as well.
+/// Reads a MATLAB file of version 4 or 5 (as `save -v4`, `-v6` and `-v7` write): the variable
+/// `name`, sparse or full. An empty name stands for the only square matrix of more than one row.
+/// Throws Error if there is none or several of them, and for complex or damaged content, including
+/// damaged sizes of other variables.
 Entries readMatlab(const std::filesystem::path& path, const std::string& name);
 
-/// HDF5: the object `name` (empty: the only matrix among the objects of the root, or the root
-/// itself), either a group with the datasets data, indices and indptr of a compressed matrix, as
-/// SciPy's users and anndata write them, or a dataset of two dimensions. An attribute or dataset
-/// "format", "h5sparse_format" or "encoding-type" of the group begins with csr or csc; without it
-/// only a symmetric matrix is read, which is the same by rows and by columns. Likewise MATLAB's
-/// files of version 7.3: groups with data, ir and jc, and datasets of class double or single.
-/// Errors as above.
+/// Reads the object `name` of an HDF5 file. An empty name stands for the only matrix among the
+/// objects of the root, or the root itself. The object is a dataset of two dimensions, or a group
+/// with the datasets data, indices and indptr of a compressed matrix, as users of SciPy and anndata
+/// write it. An attribute or dataset "format", "h5sparse_format" or "encoding-type" of the group
+/// begins with csr or csc; without it only a symmetric matrix is read, which is the same by rows
+/// and by columns. MATLAB files of version 7.3 are read too: groups with data, ir and jc, and
+/// datasets of class double or single. Throws Error as readMatlab() does.
 Entries readHdf5(const std::filesystem::path& path, const std::string& name);
 
-/// Errors: a file that is not one square real sparse matrix in PETSc's binary format with 32-bit
-/// indices, is cut short, or holds row lengths, columns or values that MatLoad() would end the
-/// program at or misread. Holds one row at a time.
+/// Throws Error for a file that is not one square real sparse matrix in PETSc's binary format with
+/// 32-bit indices, that is cut short, or that holds row lengths, columns or values with which
+/// MatLoad() would end the program or misread it. Only one row is held in memory at a time.
 void requirePetscBinary(const std::filesystem::path& path);
 
-/// Writes Matrix Market, all entries. Error: the file cannot be written.
+/// Writes all entries as Matrix Market. Throws Error if the file cannot be written.
 void writeMatrixMarket(const std::filesystem::path& path, const Entries& entries);
 
 }  // namespace squeal::matrixfile

@@ -1,6 +1,6 @@
 #pragma once
-/// These functions read what HDF5 files hold, with the checks that the HDF5 library leaves to its
-/// users.
+/// Functions that read the contents of HDF5 files, with the checks that the HDF5 library leaves to
+/// its users.
 #include <string>
 #include <vector>
 
@@ -17,26 +17,27 @@ using hdf5::Silence;
 using hdf5::SpaceId;
 using hdf5::TypeId;
 
-/// The cause of HDF5's last failure, " (truncated file: ...)", or nothing.
+/// Returns the cause of HDF5's last failure, such as " (truncated file: ...)"; empty if unknown.
 std::string cause();
 
 bool has(hid_t group, const std::string& name);
 bool hasAttribute(hid_t object, const std::string& name);
 
-/// Empty for a scalar and for what has no extent.
+/// Returns the extents of a dataset; empty for a scalar and for a dataset without extent.
 std::vector<hsize_t> shapeOf(hid_t dataset);
 
-/// Integers, or reals. Error: of another type or number of dimensions; values that the file does
-/// not hold, since they were never written or lie in other files.
+/// These functions return the values of a dataset. They throw Error if it has another type or
+/// number of dimensions, or if the file does not hold its values, since they were never written or
+/// lie in other files.
 std::vector<long long> integers(hid_t group, const std::string& name);
 std::vector<double> reals(hid_t group, const std::string& name, int dimensions = 1);
 
-/// Text of an attribute, or of a dataset, a single one of up to 64 characters, of fixed or variable
-/// length; otherwise empty.
+/// These functions return the text of an attribute or of a dataset: a single one of up to 64
+/// characters, of fixed or variable length. Otherwise the result is empty.
 std::string textOfAttribute(hid_t object, const std::string& name);
 std::string textOfDataset(hid_t group, const std::string& name);
 
-/// Integers of an attribute; empty if there is none, or of another kind.
+/// Returns the integers of an attribute; empty if there is none, or one of another type.
 std::vector<long long> integersOfAttribute(hid_t object, const std::string& name);
 
 }  // namespace squeal::matrixfile

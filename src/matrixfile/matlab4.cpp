@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t headerSize = 20;
 
-/// Of the types of values: double, float, and integers of 32, 16, 16 and 8 bits.
+/// Returns the bytes per value of a type: double, float, and integers of 32, 16, 16 and 8 bits.
 std::uint64_t widthOf(int type) {
   return std::array<std::uint64_t, 6>{8, 4, 4, 2, 2, 1}.at(static_cast<std::size_t>(type));
 }

@@ -20,7 +20,7 @@ class Lines {
   explicit Lines(const std::filesystem::path& path) : file_(path) {
     if (!file_) throw Error("the file cannot be read");
   }
-  /// False at the end of the file.
+  /// Moves to the next line. Returns false at the end of the file.
   bool next() {
     while (std::getline(file_, line_)) {
       ++number_;
@@ -95,7 +95,7 @@ std::string lowerCase(std::string_view word) {
   return text;
 }
 
-/// What the first lines promise.
+/// The contents that the first lines announce.
 struct Header {
   bool array = false, pattern = false, integer = false, symmetric = false, skew = false;
   long long rows = 0, columns = 0, count = 0;

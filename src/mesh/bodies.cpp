@@ -13,7 +13,8 @@
 namespace squeal::mesh {
 namespace {
 
-/// First- and second-order cells; reports and contact know no others.
+/// Throws Error unless the cells are of first or second order; reports and contact support no
+/// others.
 void requireSupported(const WholeBlock& block, const std::string& body) {
   static const std::set<int> supported = {2, 3, 4, 5, 6, 9, 10, 11, 12, 13, 16, 17, 18};
   if (supported.count(block.type)) return;
@@ -33,7 +34,8 @@ std::string cellText(const WholeMesh& mesh, const ElementPlace& place) {
          mesh.bodies[static_cast<std::size_t>(block.label[place.element])] + "'";
 }
 
-/// Stiffness and mass of a cell that is there twice would be doubled.
+/// Throws Error if a cell is there twice, since its stiffness and mass would be doubled, or if it
+/// has a node twice.
 void requireDistinctCells(const WholeMesh& mesh) {
   if (const auto place = findRepeatedNode(mesh.cells))
     throw Error("option -mesh_file: cell " + cellText(mesh, *place) +
@@ -43,7 +45,7 @@ void requireDistinctCells(const WholeMesh& mesh) {
                 cellText(mesh, twins->second) + " have the same nodes: one cell, written twice");
 }
 
-/// Every cell of the largest dimension has a body.
+/// Throws Error unless every cell of the largest dimension belongs to a body.
 void requireMaterials(const WholeMesh& mesh, const GmshModel& model,
                       const std::map<PetscInt, int>& bodyOf, const Request& request) {
   if (model.largestDimension() != mesh.dimension) return;

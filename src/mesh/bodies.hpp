@@ -1,10 +1,11 @@
 #pragma once
-/// The cells of the bodies, and the nodes that they bring with them. Not collective: rank 0 only.
+/// The cells of the bodies and their nodes. Not collective: for rank 0 only.
 #include "mesh/gmsh_model.hpp"
 
 namespace squeal::mesh {
 
-/// Nodes of the gmsh model -> indices into mesh.points, which grows when `adding`.
+/// The map from nodes of the gmsh model to indices into WholeMesh::points. Borrows both during the
+/// life of the object.
 class NodeIndex {
  public:
   NodeIndex(WholeMesh& mesh, const GmshModel& model)
@@ -20,14 +21,15 @@ class NodeIndex {
       node = index;
     }
   }
-  /// Nodes of the file that were not added.
+  /// Returns the number of nodes of the file that were not added.
   PetscInt countUnused() const {
     PetscInt count = model_.droppedNodes();
     for (PetscInt node = 0; node < model_.nodeCount(); ++node)
       if (index_[static_cast<std::size_t>(node)] < 0 && model_.isOfMesh(node)) ++count;
     return count;
   }
-  /// False if a node belongs to no cell.
+  /// Replaces nodes of the gmsh model by indices into WholeMesh::points. Returns false if a node
+  /// belongs to no cell.
   bool translate(std::vector<PetscInt>& nodes) const {
     for (auto& node : nodes) {
       node = index_[static_cast<std::size_t>(node)];
@@ -42,9 +44,9 @@ class NodeIndex {
   std::vector<PetscInt> index_;
 };
 
-/// Fills bodies, dimension, cells, points and tags of the mesh. Errors: body that is no volume (no
-/// surface of a plane mesh), cells of an unknown kind, cell without a body or with two, cell that
-/// is there twice or has a node twice.
+/// Fills bodies, dimension, cells, points and tags of the mesh. Throws Error for a body that is not
+/// a volume (a surface of a plane mesh), for cells of an unsupported type, for a cell without a
+/// body or with two, and for a cell that is there twice or has a node twice.
 void readBodies(WholeMesh& mesh, const GmshModel& model, const Request& request, NodeIndex& index);
 
 }  // namespace squeal::mesh

@@ -25,12 +25,13 @@ struct Job {
   meshfile::FileKind kind;
   std::vector<meshfile::Setting> settings;
   meshfile::MshContents contents;  ///< of a .msh; of a .unv the numbers of nodes and elements
-  /// Version 2 of .msh gives each element one group and one entity. gmsh would put all elements of
-  /// an entity into all of its groups: with this it takes the groups for the entities.
+  /// Returns true for a .msh file of version 2, which gives each element one group and one entity.
+  /// gmsh would put all elements of an entity into all of its groups; it is told to take the groups
+  /// for the entities.
   bool groupsAreEntities() const { return kind == meshfile::FileKind::msh && contents.version < 4; }
 };
 
-/// gmsh's lists by type, and the tags of its nodes.
+/// The elements as gmsh lists them by type, and the tags of their nodes.
 struct Elements {
   std::vector<int> types;
   std::vector<std::vector<std::size_t>> tags, nodes;
@@ -42,7 +43,7 @@ Elements elementsOf(int dimension, int entity) {
   return elements;
 }
 
-/// A tag that fits the numbers of this program.
+/// Returns the tag. Throws Error unless it fits PetscInt.
 PetscInt checkedTag(const Job& job, std::size_t tag, const char* what) {
   if (tag < 1 || tag > static_cast<std::size_t>(PETSC_MAX_INT))
     throw Error(job.option + what + " tag " + std::to_string(static_cast<long long>(tag)) +
@@ -50,7 +51,7 @@ PetscInt checkedTag(const Job& job, std::size_t tag, const char* what) {
   return static_cast<PetscInt>(tag);
 }
 
-/// The nodes in gmsh's order, and where in it a tag is.
+/// The nodes in gmsh's order, and the index of each tag.
 class Nodes {
  public:
   explicit Nodes(const Job& job) : job_(job) {
@@ -84,7 +85,7 @@ class Nodes {
     return found->second;
   }
 
-  /// [node] whether it is at a point of the geometry.
+  /// Returns 1 for each node at a point of the geometry, [node].
   std::vector<char> atPoints() const {
     std::vector<std::size_t> ofPoints;
     std::vector<double> coordinates, parametric;
@@ -102,7 +103,7 @@ class Nodes {
   std::vector<std::pair<PetscInt, PetscInt>> order_;  // tag, index
 };
 
-/// gmsh's own errors, and what it has to say that is none.
+/// Opens the file with gmsh, and reports its errors and warnings.
 void openWith(const Job& job, const Warn& warn) {
   gmsh::clear();
   gmsh::onelab::clear();  // gmsh keeps parameters from one file to the next
@@ -149,7 +150,7 @@ void openWith(const Job& job, const Warn& warn) {
   if (said > 5) warn(job.option + std::to_string(said - 5) + " more warnings of gmsh");
 }
 
-/// Tags of groups by the names that options use.
+/// Returns the dimensions and tags of groups by the names that options use.
 std::map<std::string, gmsh::vectorpair> namedGroups(const Job& job) {
   std::map<std::string, gmsh::vectorpair> groups;
   std::map<std::string, std::string> original;
@@ -218,7 +219,7 @@ std::vector<PetscInt> ungroupedElements(const Job& job, int dimension) {
   return tags;
 }
 
-/// gmsh drops elements that it cannot place without a word.
+/// Throws Error if elements are missing: gmsh silently drops those that it cannot place.
 void requireAllElements(const Job& job) {
   if (job.contents.elements == 0) return;
   std::int64_t kept = 0;
@@ -228,7 +229,7 @@ void requireAllElements(const Job& job) {
                 std::to_string(job.contents.elements) + " elements in the file");
 }
 
-/// In the child.
+/// Reads the mesh in the child process.
 Buffer readWithGmsh(const Job& job, const Warn& warn) {
   openWith(job, warn);
   requireAllElements(job);
@@ -259,8 +260,8 @@ Buffer readWithGmsh(const Job& job, const Warn& warn) {
   return buffer;
 }
 
-/// A geometry may take its time and what memory there is. What a mesh file needs is known from its
-/// size; it may be damaged where the checks do not look.
+/// Returns the limits of the child process. A geometry may take any time and all free memory. The
+/// limits for a mesh file follow from its size, as it may be damaged in ways that the checks miss.
 ChildLimits limitsFor(const Job& job) {
   const std::string subject = "option -mesh_file " + job.file;
   const double free = availableMemory();

@@ -1,44 +1,44 @@
 #pragma once
-/// The gmsh library behind a small door: a file read or meshed, and its physical groups. Not
-/// collective: rank 0 only.
+/// The interface to the gmsh library: a file read or meshed, and its physical groups. Not
+/// collective: for rank 0 only.
 #include "mesh/whole.hpp"
 #include "petsc/buffer.hpp"
 
 namespace squeal::mesh {
 
-/// Elements of one physical group, nodes by index into GmshModel::points.
+/// The elements of one physical group, with nodes as indices for GmshModel::point().
 struct GroupElements {
   int dimension = 0;
   std::vector<WholeBlock> blocks;
 };
 
-/// A group by the name that options use, which cannot hold blanks: underscores stand for them.
+/// Returns the name of a group as options use it, with underscores in place of blanks.
 std::string groupName(std::string name);
 
-/// What gmsh makes of a file. gmsh itself works in a child process: a crash there is an Error here,
-/// and its memory goes with it.
+/// The mesh that gmsh reads from a file or makes of a geometry. gmsh works in a child process: a
+/// crash there becomes an Error here, and its memory is freed with it.
 class GmshModel {
  public:
-  /// `parameters`: "name=value" settings of a geometry. Errors: a file that is not what its name
-  /// says, or that gmsh cannot read or mesh; parameters that the geometry does not have or whose
-  /// range they leave.
+  /// Reads or meshes the file. `parameters` are the settings of a geometry, "name=value". Throws
+  /// Error for a file that is not what its name says or that gmsh cannot read or mesh, and for
+  /// parameters that the geometry does not have or whose range the value leaves.
   GmshModel(const std::string& file, const std::vector<std::string>& parameters);
 
-  /// Error naming the group, the option that wants it and the groups there are, if the mesh has
-  /// none of this name.
+  /// Returns a group. If the mesh has none of this name, throws Error, naming the group, the option
+  /// that needs it and the groups of the mesh.
   const GroupElements& group(const std::string& name, const std::string& wantedBy) const;
   const Point& point(PetscInt index) const { return points_[static_cast<std::size_t>(index)]; }
   PetscInt tag(PetscInt index) const { return tags_[static_cast<std::size_t>(index)]; }
   PetscInt nodeCount() const { return static_cast<PetscInt>(points_.size()); }
   int largestDimension() const { return dimension_; }
-  /// Tags of the elements of the largest dimension that are in no group.
+  /// Returns the tags of the elements of the largest dimension that are in no group.
   const std::vector<PetscInt>& ungrouped() const { return ungrouped_; }
-  /// False for a node at a point of the geometry, which gmsh puts there whether or not a cell has
-  /// it: at the centre of a circle, for one.
+  /// Returns false for a node at a point of the geometry. gmsh makes these whether or not a cell
+  /// uses them, for example at the centre of a circle.
   bool isOfMesh(PetscInt index) const { return !atPoint_[static_cast<std::size_t>(index)]; }
-  /// Nodes of the file that are in no element: gmsh drops them.
+  /// Returns the number of nodes of the file that are in no element; gmsh drops them.
   PetscInt droppedNodes() const { return droppedNodes_; }
-  /// By the names that options use: blanks in a name are underscores there.
+  /// Returns all groups by the names that options use: see groupName().
   const std::map<std::string, GroupElements>& groups() const { return groups_; }
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-/// The distributed finite element mesh: what every later stage knows of geometry and names.
+/// The distributed finite element mesh, with the geometry and the names for all later stages.
 #include <petscsys.h>
 
 #include <array>
@@ -11,8 +11,8 @@ namespace squeal::mesh {
 
 using Point = std::array<double, 3>;
 
-/// Cells of one gmsh element type on this rank. Cells belong to one rank; every node of a cell is a
-/// local node of its rank.
+/// The cells of one gmsh element type on this rank. A cell belongs to one rank, and all of its
+/// nodes are local nodes there.
 struct CellBlock {
   int type = 0;  ///< gmsh element type
   int nodesPerCell = 0;
@@ -21,26 +21,26 @@ struct CellBlock {
   std::vector<PetscInt> tag;    ///< [cell] gmsh's element tag
 };
 
-/// Boundary faces of one gmsh element type of the surface groups that options name, each on the
-/// rank of the cell it bounds.
+/// The boundary faces of one gmsh element type, from the surface groups that options name. A face
+/// is on the rank of the cell that it bounds.
 struct FaceBlock {
   int type = 0;
   int nodesPerFace = 0;
   std::vector<PetscInt> nodes;  ///< [face][node] local node
   std::vector<int> surface;     ///< [face] index into Mesh::surfaces
-  /// [face] +1 if the normal by node order leaves the cell, −1 if it enters it
+  /// [face] +1 if the normal by node order points out of the cell, −1 if it points into it
   std::vector<int> sign;
 };
 
-/// A node that repeats the displacement of another one (periodicity), [node] owned here.
+/// A node of this rank that repeats the displacement of another one (periodicity).
 struct Image {
   PetscInt node;     ///< local node (owned)
   PetscInt primary;  ///< global node
-  Point shift;       ///< position of the image less that of the primary, m
+  Point shift;       ///< position of the image minus that of the primary, m
   int primaryPart;   ///< connected part of the primary
 };
 
-/// A contact node of the pad side (slave) and the disc node at the same place (master).
+/// A contact node of the pad (slave) and the disc node at the same place (master).
 struct ContactPair {
   PetscInt node;    ///< local node of the pad side (owned)
   PetscInt master;  ///< global node of the disc side; −1: rigid obstacle
@@ -53,7 +53,7 @@ struct Mesh {
   MPI_Comm comm = MPI_COMM_NULL;
   int dimension = 3;  ///< 2: plane problem in x, y; 3: solid
   PetscInt totalNodes = 0, totalCells = 0;
-  /// Of the file, in no cell; those that gmsh puts at points do not count
+  /// Number of nodes of the file in no cell, without those that gmsh makes at points.
   PetscInt unusedNodes = 0;
   PetscInt ownedNodes = 0;  ///< local nodes 0 … ownedNodes−1 are owned here, the rest are ghosts
   PetscInt firstNode = 0;   ///< global number of local node 0; owned nodes are contiguous
@@ -69,7 +69,7 @@ struct Mesh {
   std::vector<CellBlock> cells;
   std::vector<std::string> surfaces;  ///< surface groups that options name
   std::vector<FaceBlock> faces;
-  /// Owned local nodes; images replaced by their primaries
+  /// [group] owned local nodes, with images replaced by their primaries
   std::map<std::string, std::vector<PetscInt>> nodeGroups;
   std::vector<Image> images;
   std::vector<ContactPair> pairs;
@@ -77,8 +77,8 @@ struct Mesh {
   PetscInt localNodes() const { return static_cast<PetscInt>(globalNode.size()); }
 };
 
-/// A group of the mesh that a later stage asks for, and the words to blame where it is missing or
-/// not what is wanted: "-option".
+/// A group of the mesh that a later stage asks for. `option` is the option that names it, with its
+/// dash, for messages where the group is missing or unsuitable.
 struct GroupRequest {
   std::string name, option;
 };
@@ -86,22 +86,22 @@ struct GroupRequest {
 /// One contact interface as the mesh sees it: two surface groups, or a pad on a rigid obstacle.
 struct InterfaceRequest {
   std::string name;
-  GroupRequest pad, disc;  ///< an empty name of the disc: rigid obstacle
+  GroupRequest pad, disc;  ///< an empty name for the disc stands for a rigid obstacle
 };
 
-/// A periodic constraint: `image` is `of` translated.
+/// A periodic constraint: the group `image` is the group `of`, translated.
 struct PeriodicRequest {
   std::string image, of;
-  std::string option;  ///< the words to blame
+  std::string option;  ///< begins messages: "option -…"
 };
 
-/// What the later stages need from the mesh.
+/// The groups that the later stages need from the mesh.
 struct Request {
   std::vector<GroupRequest> bodies;  ///< volume groups with a material
-  /// Bodies with a motion: the disc side of an interface whose nodes are shared
+  /// Bodies with a motion; where an interface has shared nodes, they are its disc side.
   std::vector<std::string> moving;
   std::vector<GroupRequest> nodeGroups;  ///< groups of any dimension whose nodes are constrained
-  /// Surface groups that are loaded; those of interfaces are added
+  /// Surface groups that are loaded; those of interfaces are added.
   std::vector<GroupRequest> surfaces;
   std::vector<InterfaceRequest> interfaces;
   std::vector<PeriodicRequest> periodic;
@@ -109,11 +109,11 @@ struct Request {
   std::string motionOptions;       ///< "-…", for interfaces on which neither side moves
 };
 
-/// Collective. Reads (or meshes, for a .geo) `-mesh_file` through the gmsh library on rank 0,
-/// splits nodes shared across contact interfaces, pairs contact and periodic nodes, partitions with
-/// METIS and hands each rank its part. Only rank 0 holds the whole mesh. Errors (all ranks):
-/// unreadable file, missing group, cell without material, surface that bounds no body, nodes
-/// without a partner.
+/// Collective. Reads `-mesh_file`, or meshes it if it is a .geo, through the gmsh library on rank
+/// 0; splits nodes shared across contact interfaces, pairs contact and periodic nodes, partitions
+/// with METIS and sends each rank its part. Only rank 0 holds the whole mesh. Throws Error on all
+/// ranks for an unreadable file, a missing group, a cell without material, a surface that bounds no
+/// body, and nodes without a partner.
 Mesh read(MPI_Comm comm, const Request& request);
 
 }  // namespace squeal::mesh

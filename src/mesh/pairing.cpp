@@ -1,4 +1,4 @@
-/// Which node stands opposite which: periodic images and matching contact nodes.
+/// Pairs of nodes: periodic images and matching contact nodes.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -30,7 +30,7 @@ class Locator {
     for (PetscInt node : nodes)
       buckets_[bucket(mesh.points[static_cast<std::size_t>(node)])].push_back(node);
   }
-  /// Nodes within the tolerance of `where`.
+  /// Returns the nodes within the tolerance of `where`.
   std::vector<PetscInt> at(const Point& where) const {
     std::vector<PetscInt> found;
     const auto centre = bucket(where);
@@ -59,8 +59,8 @@ class Locator {
   std::map<Bucket, std::vector<PetscInt>> buckets_;
 };
 
-/// Coordinates in mesh files carry some 6 to 16 digits; nodes closer than this are at the same
-/// place.
+/// Returns the distance below which nodes are at the same place: coordinates in mesh files have 6
+/// to 16 digits.
 double tolerance(const WholeMesh& mesh) {
   Point low = mesh.points[0], high = low;
   for (const auto& p : mesh.points)
@@ -106,7 +106,8 @@ void pairImages(WholeMesh& mesh, const PeriodicRequest& request, double near) {
                           request.option.c_str(), images.size(), primaries.size()));
 }
 
-/// Follows images of images (the edge of a doubly periodic box) to the end.
+/// Replaces images of images, as at the edge of a doubly periodic box, by images of the last
+/// primary.
 void resolveImages(WholeMesh& mesh, const Request& request) {
   for (PetscInt node = 0; node < mesh.nodeCount(); ++node) {
     PetscInt end = node;
@@ -153,7 +154,7 @@ std::set<PetscInt> padNodes(const WholeMesh& mesh, const std::string& surface) {
   return nodes;
 }
 
-/// Why a node of the pad finds no partner in the group of the disc.
+/// Returns the reason why a node of the pad has no partner in the group of the disc.
 std::string whyAlone(const WholeMesh& mesh, PetscInt node, const std::string& group,
                      const std::vector<int>& body, double near) {
   const auto& place = mesh.points[static_cast<std::size_t>(node)];
@@ -197,8 +198,8 @@ void pairContact(WholeMesh& mesh, const InterfaceRequest& request, int interface
   }
 }
 
-/// Each face of the pad must lie on one face of the disc, node on node: a finer disc face would
-/// carry nodes that no gap watches.
+/// Throws Error unless each face of the pad lies on one face of the disc, node on node: a finer
+/// face of the disc would have nodes without a gap.
 void requireEqualFaces(const WholeMesh& mesh, const InterfaceRequest& request, int interface) {
   if (request.disc.name.empty()) return;
   std::map<PetscInt, PetscInt> master;

@@ -11,8 +11,8 @@ std::vector<int> partition(const WholeMesh& mesh, int ranks) {
   if (mesh.cellCount() < ranks)
     throw Error("the mesh has " + std::to_string(mesh.cellCount()) + " cells, fewer than the " +
                 std::to_string(ranks) + " ranks");
-  // Partners across contact and periodicity as one node: their equations are coupled, they belong
-  // on one rank.
+  // Partners across contact and periodicity count as one node: their equations are coupled, so that
+  // they belong on one rank.
   std::vector<PetscInt> canonical = mesh.primary;
   for (const auto& pair : mesh.pairs)
     if (pair.master >= 0) canonical[static_cast<std::size_t>(pair.node)] = pair.master;

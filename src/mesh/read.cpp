@@ -1,4 +1,4 @@
-/// From the whole mesh on rank 0 to each rank's part.
+/// Distribution of the whole mesh on rank 0 to all ranks.
 #include <algorithm>
 #include <limits>
 #include <numeric>
@@ -14,7 +14,7 @@
 namespace squeal::mesh {
 namespace {
 
-/// Who owns which node, and the numbers under which all ranks know them: owned nodes of a rank are
+/// The owners and the global numbers of the nodes. The numbers of the nodes of a rank are
 /// contiguous.
 struct Numbering {
   std::vector<int> owner;             ///< [whole node]
@@ -179,8 +179,8 @@ Buffer pack(const WholeMesh& mesh, const Numbering& numbering, const Shares& sha
     pair.node = toLocal(pair.node);
     if (pair.master >= 0) pair.master = numbering.global[static_cast<std::size_t>(pair.master)];
   }
-  // In local order, so that everything kept per contact node (gap columns of T, reports) runs the
-  // same way.
+  // Pairs stand in local order, so that all data per contact node (gap columns of T, reports) have
+  // the same order.
   std::sort(pairs.begin(), pairs.end(),
             [](const auto& a, const auto& b) { return a.node < b.node; });
   buffer.put(pairs);

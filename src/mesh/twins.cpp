@@ -15,7 +15,7 @@ std::vector<PetscInt> sortedNodes(const WholeBlock& block, std::size_t element, 
   return nodes;
 }
 
-/// Equal for equal nodes; rarely so for others.
+/// Returns a hash, which is equal for equal nodes and rarely equal for others.
 std::uint64_t hashed(const std::vector<PetscInt>& nodes) {
   std::uint64_t hash = 0;
   for (PetscInt node : nodes) {  // the steps of splitmix64

@@ -1,5 +1,5 @@
 #pragma once
-/// Elements that a mesh holds twice. Not collective: rank 0 only.
+/// Elements that a mesh holds twice. Not collective: for rank 0 only.
 #include <optional>
 #include <utility>
 
@@ -11,13 +11,13 @@ struct ElementPlace {
   std::size_t block, element;
 };
 
-/// Two elements on the same nodes: nothing else in a model tells that they are one, and what they
-/// contribute counts twice. Elements of one type are the same where all nodes are, elements of two
-/// types where their corners are. Of several pairs the one of least tags.
+/// Returns two elements on the same nodes, whose contributions would count twice; none if there are
+/// none. Elements of one type are the same if all nodes are; elements of two types, if their
+/// corners are. Of several pairs, the one with the smallest tags is returned.
 std::optional<std::pair<ElementPlace, ElementPlace>> findTwins(
     const std::vector<WholeBlock>& blocks);
 
-/// The element of least tag that has a node twice.
+/// Returns the element of the smallest tag that has a node twice; none if there is none.
 std::optional<ElementPlace> findRepeatedNode(const std::vector<WholeBlock>& blocks);
 
 }  // namespace squeal::mesh

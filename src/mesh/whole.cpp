@@ -12,7 +12,7 @@
 namespace squeal::mesh {
 namespace {
 
-/// Which cells stand at the nodes of interest, and in which all of an element's corners lie.
+/// The cells at each node of interest, and the cells that hold all corners of an element.
 class Adjacency {
  public:
   Adjacency(const WholeMesh& mesh, const std::set<PetscInt>& nodesOfInterest) : mesh_(mesh) {
@@ -57,7 +57,7 @@ std::vector<CellReference> references(WholeMesh& mesh) {
   return all;
 }
 
-/// Everything named that is not a body: read once, before nodes are split.
+/// All named groups that are not bodies, read once before nodes are split.
 struct NamedElements {
   std::map<std::string, GroupElements> groups;
   std::set<PetscInt> nodes() const {
@@ -172,8 +172,8 @@ class Splitter {
   std::map<PetscInt, PetscInt> restingTwin_;
 };
 
-/// Nodes of a group after the split: an element that bounds cells of both sides gives the nodes of
-/// both.
+/// Returns the nodes of a group after the split. An element that bounds cells of both sides gives
+/// the nodes of both.
 std::vector<PetscInt> groupNodes(const GroupElements& group, const Splitter& splitter) {
   std::set<PetscInt> nodes;
   for (const auto& block : group.blocks)
@@ -187,7 +187,8 @@ std::vector<PetscInt> groupNodes(const GroupElements& group, const Splitter& spl
   return {nodes.begin(), nodes.end()};
 }
 
-/// Faces of the disc sides by their nodes after the split, once for each cell that they bound.
+/// Fills WholeMesh::discFaces: the faces of the disc sides by their nodes after the split, once for
+/// each cell that they bound.
 void readDiscFaces(WholeMesh& mesh, const Request& request, const NamedElements& named,
                    const Splitter& splitter) {
   for (const auto& interface : request.interfaces) {
@@ -214,7 +215,8 @@ Point centroid(const WholeMesh& mesh, const PetscInt* nodes, int count) {
   return centre;
 }
 
-/// +1 if the normal of the face by the order of its corners points away from `inside`.
+/// Returns +1 if the normal of the face by the order of its corners points away from `inside`,
+/// otherwise −1.
 int outwardSign(const WholeMesh& mesh, const PetscInt* nodes, int corners, const Point& inside) {
   const auto at = [&](int i) { return mesh.points[static_cast<std::size_t>(nodes[i])]; };
   const Point a = at(0), b = at(1), c = mesh.dimension == 3 ? at(2) : a;
@@ -229,7 +231,7 @@ int outwardSign(const WholeMesh& mesh, const PetscInt* nodes, int corners, const
   return dot > 0 ? 1 : -1;
 }
 
-/// Pressure and contact area of a face that is there twice would be doubled.
+/// Throws Error if a face is there twice, since its pressure and contact area would be doubled.
 void requireDistinctFaces(const std::string& surface, const GroupElements& group) {
   const auto tag = [&](const ElementPlace& place) {
     return std::to_string(group.blocks[place.block].tag[place.element]);
@@ -282,7 +284,7 @@ void readFaces(WholeMesh& mesh, const Request& request, const NamedElements& nam
   }
 }
 
-/// Connected parts of the mesh by union-find over the nodes of each cell.
+/// Finds the connected parts of the mesh by union-find over the nodes of each cell.
 void findParts(WholeMesh& mesh) {
   std::vector<PetscInt> parent(mesh.points.size());
   std::iota(parent.begin(), parent.end(), 0);

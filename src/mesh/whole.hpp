@@ -1,6 +1,6 @@
 #pragma once
-/// The whole mesh, held by the reader's rank alone between the gmsh library and the distribution.
-/// Not collective: rank 0 only.
+/// The whole mesh, which rank 0 holds between reading and distribution. Not collective: for rank 0
+/// only.
 #include "mesh/mesh.hpp"
 
 namespace squeal::mesh {
@@ -27,27 +27,28 @@ struct WholeMesh {
   std::vector<WholeFaces> faces;
   std::map<std::string, std::vector<PetscInt>> nodeGroups;
   std::map<std::string, std::vector<std::vector<PetscInt>>>
-      discFaces;          ///< [surface of a disc side] nodes of each face, of all cells it bounds
+      discFaces;          ///< [surface of a disc] nodes of each face, for each cell it bounds
   std::vector<int> part;  ///< [node] connected part
   std::vector<std::string> partName;
-  std::vector<PetscInt> primary;   ///< [node] the node it repeats, itself if none
-  std::vector<Image> images;       ///< whole-mesh numbers
-  std::vector<ContactPair> pairs;  ///< whole-mesh numbers
+  std::vector<PetscInt> primary;   ///< [node] the node that it repeats, itself if none
+  std::vector<Image> images;       ///< in numbers of the whole mesh
+  std::vector<ContactPair> pairs;  ///< in numbers of the whole mesh
 
   PetscInt nodeCount() const { return static_cast<PetscInt>(points.size()); }
   PetscInt cellCount() const;
 };
 
-/// Reads or meshes `file` with gmsh, splits nodes shared across contact interfaces, finds parts and
-/// faces. `parameters`: "name=value" settings of a .geo file.
+/// Reads or meshes `file` with gmsh, splits nodes shared across contact interfaces, and finds parts
+/// and faces. `parameters` are the settings of a .geo file, "name=value".
 WholeMesh load(const std::string& file, const std::vector<std::string>& parameters,
                const Request& request);
 
-/// Finds the partner of each periodic image and of each contact node; fills primary, images, pairs.
+/// Finds the partner of each periodic image and of each contact node, and fills primary, images and
+/// pairs of the mesh.
 void pairNodes(WholeMesh& mesh, const Request& request);
 
-/// METIS: the rank of each cell, from the dual graph in which contact partners and periodic images
-/// count as one node.
+/// Returns the rank of each cell, [cell], which METIS finds from the dual graph. Contact partners,
+/// and periodic images with their primaries, count as one node.
 std::vector<int> partition(const WholeMesh& mesh, int ranks);
 
 }  // namespace squeal::mesh

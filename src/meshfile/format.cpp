@@ -35,8 +35,8 @@ const std::vector<Format>& formats() {
   return list;
 }
 
-/// As gmsh sees it: from the last point of the path on, in small letters, or in capitals
-/// throughout.
+/// Returns the ending of a file name as gmsh sees it: from the last point of the path on, in small
+/// letters or in capitals throughout.
 std::string endingOf(const std::string& file) {
   const auto point = file.rfind('.');
   std::string ending = point == std::string::npos ? "" : file.substr(point), small = ending,

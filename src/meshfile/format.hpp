@@ -1,10 +1,10 @@
 #pragma once
-/// Which files are handed to the gmsh library, and as what. Not collective.
+/// The files that are passed to the gmsh library, and their kinds. Not collective.
 #include <string>
 
 namespace squeal::meshfile {
 
-/// `-mesh_file`: the path to read.
+/// Returns the option `-mesh_file`, the path to read.
 std::string meshFile();
 
 enum class FileKind {
@@ -14,9 +14,9 @@ enum class FileKind {
   mesh       ///< another mesh format
 };
 
-/// gmsh runs as a script whatever it does not know by its ending or first line. Error unless `file`
-/// is a geometry by its name, or a mesh by its name and its first line, and no options file of gmsh
-/// lies beside it, which gmsh would run as well.
+/// Returns the kind of a file. Throws Error unless it is a geometry by its name, or a mesh by its
+/// name and its first line: gmsh runs any other file as a script. Throws Error also if an options
+/// file of gmsh lies beside it, which gmsh would run too.
 FileKind requireSound(const std::string& file);
 
 }  // namespace squeal::meshfile

@@ -27,8 +27,8 @@ std::string optionText(const Setting& setting) {
   return "option -mesh_set " + setting.name + "=" + shortest(setting.value) + ": ";
 }
 
-/// What gmsh guesses for its sliders where a geometry declares no range, from the value: that is no
-/// rule.
+/// The range and step of a parameter. Where a geometry declares none, gmsh guesses them from the
+/// value for its sliders; guesses are not rules.
 struct Range {
   double low, high, step;
 };
@@ -45,7 +45,7 @@ Range guessed(double value) {
   return range;
 }
 
-/// To the digits that gmsh prints.
+/// Returns true if both ranges are the same to the digits that gmsh prints.
 bool alike(const Range& a, const Range& b) {
   const auto near = [](double x, double y) {
     return std::abs(x - y) <= 1e-6 * std::max(std::abs(x), std::abs(y));
@@ -53,7 +53,7 @@ bool alike(const Range& a, const Range& b) {
   return near(a.low, b.low) && near(a.high, b.high);
 }
 
-/// Parameters that gmsh knows, without those of its own.
+/// Returns the parameters that gmsh knows, without its own ones.
 std::vector<std::string> knownNames() {
   std::vector<std::string> all, known;
   gmsh::onelab::getNames(all);
@@ -62,7 +62,8 @@ std::vector<std::string> knownNames() {
   return known;
 }
 
-/// The rule that a geometry declares for a parameter and that the value breaks; empty if none.
+/// Returns the rule that a geometry declares for a parameter and that the value breaks; empty if
+/// there is none.
 std::string brokenRule(const Setting& setting) {
   std::string text;
   gmsh::onelab::get(text, setting.name);
@@ -111,8 +112,9 @@ std::vector<int> boundaryOf(int dimension, int entity) {
   return tags;
 }
 
-/// Cells of the finest structured mesh that the edges on the curves allow: exact for rectangles and
-/// boxes with as many cells on opposite sides, and the order of magnitude for meshes of even size.
+/// Returns the number of cells of the finest structured mesh that the edges on the curves allow. It
+/// is exact for rectangles and boxes with the same number of cells on opposite sides, and gives the
+/// order of magnitude for meshes of even size.
 double cellsByEdges() {
   gmsh::vectorpair surfaces, volumes;
   gmsh::model::getEntities(surfaces, 2);

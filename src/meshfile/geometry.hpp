@@ -1,5 +1,5 @@
 #pragma once
-/// The parameters of a geometry, and how large a mesh it asks for. Not collective.
+/// The parameters of a geometry, and the size of its mesh. Not collective.
 #include <string>
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace squeal::meshfile {
 
-/// `-mesh_set`: "name=number", each.
+/// Returns the items of the option `-mesh_set`, each "name=number".
 std::vector<std::string> geometryParameters();
 
 struct Setting {
@@ -15,18 +15,20 @@ struct Setting {
   double value;
 };
 
-/// Error unless each is name=number, finite, and no name comes twice.
+/// Returns the settings. Throws Error unless each is name=number with a finite number, and no name
+/// is given twice.
 std::vector<Setting> readSettings(const std::vector<std::string>& parameters);
 
-/// Gives the settings to gmsh for the next time it opens the geometry that it has open. Error if
-/// the geometry has no parameter of a name, or declares a range or choices that a value leaves.
+/// Gives the settings to gmsh for the next time it opens the geometry that is open. Throws Error if
+/// the geometry has no parameter of a name, or if a value leaves the range or choices it declares.
 void applySettings(const std::vector<Setting>& settings);
 
-/// After the geometry was read. Error if it has put other values in place of the settings.
+/// Throws Error if the geometry has replaced the settings by other values. Call it after the
+/// geometry was read.
 void requireSettingsUsed(const std::vector<Setting>& settings);
 
-/// Meshes the geometry that gmsh has open. Its edges come first: an Error if they ask for more
-/// cells than can be numbered, a warning for more than there is memory.
+/// Meshes the geometry that gmsh has open. From its edges, which are meshed first, it estimates the
+/// number of cells: throws Error if they cannot be numbered, and warns if memory is too small.
 void meshGeometry(const std::string& file, const Warn& warn);
 
 }  // namespace squeal::meshfile

@@ -22,7 +22,7 @@ namespace {
 
 using Integer = std::int64_t;
 
-/// The file in memory, page by page as it is looked at.
+/// The file mapped into memory, whose pages are loaded when they are read.
 class Mapped {
  public:
   explicit Mapped(const std::string& file) {
@@ -44,7 +44,7 @@ class Mapped {
   std::size_t size_ = 0;
 };
 
-/// What the file says, number by number.
+/// Reads words and numbers of the file in turn.
 class Reader {
  public:
   Reader(const std::string& file, std::string_view text) : file_(file), text_(text) {}
@@ -58,14 +58,14 @@ class Reader {
                 (binary ? "byte " + std::to_string(begin_) : "line " + std::to_string(line)) +
                 ": " + what);
   }
-  /// A word of text, empty at the end of the file.
+  /// Returns the next word of text; empty at the end of the file.
   std::string_view word() {
     const char* blanks = " \t\r\n";
     begin_ = std::min(text_.find_first_not_of(blanks, at_), text_.size());
     at_ = std::min(text_.find_first_of(blanks, begin_), text_.size());
     return text_.substr(begin_, at_ - begin_);
   }
-  /// A number written as text, in a binary file as well.
+  /// Returns a number written as text, which binary files hold too.
   template <class Number>
   Number written(const char* what) {
     const std::string_view token = word();
@@ -78,13 +78,13 @@ class Reader {
                          : "'" + std::string(token.substr(0, 40)) + "' is no " + what);
     return value;
   }
-  /// Integers of 4 and of 8 bytes in a binary file.
+  /// Returns an integer, which has 4 bytes (small) or 8 bytes (large) in a binary file.
   Integer small(const char* what) {
     return binary ? raw<std::int32_t>(what) : written<Integer>(what);
   }
   Integer large(const char* what) { return binary ? raw<Integer>(what) : written<Integer>(what); }
   double real(const char* what) { return binary ? raw<double>(what) : written<double>(what); }
-  /// A number of things each of which takes `least` bytes of the file.
+  /// Returns a number of items, each of which takes at least `least` bytes of the file.
   Integer count(Integer promised, const char* what, Integer least) const {
     const auto left = static_cast<Integer>(text_.size() - at_);
     if (promised < 0 ||
@@ -95,12 +95,12 @@ class Reader {
     return promised;
   }
   void skipLine() { at_ = std::min(text_.find('\n', at_), text_.size() - 1) + 1; }
-  /// From the next line on.
+  /// Returns an integer that begins at the next line of a binary file.
   Integer rawAfterLine() {
     skipLine();
     return raw<std::int32_t>("the number 1");
   }
-  /// Behind the line that closes a section.
+  /// Moves behind the line that closes a section.
   void skipSection(const std::string& name) {
     const auto end = text_.find("$End" + name, at_);
     if (end == std::string_view::npos)
@@ -134,7 +134,7 @@ class Reader {
   std::size_t at_ = 0, begin_ = 0;  // behind the last number read, and where it began
 };
 
-/// Nodes of an element of a type of first or second order, 1 to 19; 0 for others.
+/// Returns the number of nodes of an element type of first or second order, 1 to 19; 0 for others.
 int nodesOf(Integer type) {
   constexpr std::array<int, 20> nodes{0, 2,  3,  4,  4,  8, 6, 5,  3,  6,
                                       9, 10, 27, 18, 14, 1, 8, 20, 15, 13};
@@ -206,7 +206,7 @@ class Msh {
                  "; must be finite, below 1e100");
     }
   }
-  /// One element, from its nodes on.
+  /// Reads the nodes of one element.
   void nodesOfElement(Integer tag, int count) {
     add(elements_, tag, "element");
     const auto all = static_cast<Integer>(nodes_.size());
@@ -226,7 +226,7 @@ class Msh {
     return nodesOf(type);
   }
 
-  /// Version 2: the number of nodes as text, then tag and coordinates of each.
+  /// Reads the nodes of version 2: their number as text, then tag and coordinates of each.
   void nodes2() {
     const Integer count =
         in_.count(in_.written<Integer>("number of nodes"), "nodes", in_.binary ? 28 : 8);
@@ -236,8 +236,8 @@ class Msh {
       coordinates(nodes_.back());
     }
   }
-  /// Tag, type, number of labels, labels, nodes; in a binary file all elements of a type and number
-  /// of labels in one block.
+  /// Reads the elements of version 2: tag, type, number of labels, labels, nodes. In a binary file
+  /// a block holds all elements of one type and number of labels.
   void elements2() {
     const Integer count = in_.count(in_.written<Integer>("number of elements"), "elements", 8);
     if (in_.binary) in_.skipLine();
@@ -263,7 +263,7 @@ class Msh {
   struct Block {
     Integer dimension, entity, third, count;
   };
-  /// Numbers of blocks and of items; in version 4.1 also the least and the largest tag.
+  /// Reads the numbers of blocks and of items; in version 4.1 also the smallest and largest tag.
   Integer blocks(const char* what, Integer& items) {
     if (in_.binary) in_.skipLine();
     const Integer number = in_.count(in_.large("number of blocks"), "blocks", in_.binary ? 20 : 8);

@@ -1,5 +1,5 @@
 #pragma once
-/// gmsh's mesh format, checked before gmsh reads it.
+/// Checks of files in gmsh's mesh format before gmsh reads them.
 #include <cstdint>
 #include <string>
 
@@ -10,11 +10,11 @@ struct MshContents {
   std::int64_t nodes = 0, elements = 0;
 };
 
-/// gmsh's reader of .msh files believes their headers: it writes beyond its arrays, stops early
-/// without a word, and takes -1 for a node. Error, with the line (or byte, in a binary file),
-/// unless the sections $Nodes and $Elements hold what their headers promise: tags that are positive
-/// and given once, finite coordinates, elements of known types on nodes that there are. Versions 2
-/// to 4.1, ASCII and binary. Not collective.
+/// Returns the contents of a .msh file of version 2 to 4.1, ASCII or binary. Throws Error, with the
+/// line (or the byte in a binary file), unless the sections $Nodes and $Elements hold what their
+/// headers announce: tags that are positive and given once, finite coordinates, and elements of
+/// known types on existing nodes. gmsh's reader does not check its headers: it writes beyond its
+/// arrays, stops early without a message, and takes -1 for a node. Not collective.
 MshContents requireSoundMsh(const std::string& file);
 
 }  // namespace squeal::meshfile

@@ -19,7 +19,7 @@ namespace {
 
 using Integer = std::int64_t;
 
-/// Nodes of the element types that gmsh reads; 0 for others.
+/// Returns the number of nodes of the element types that gmsh reads; 0 for others.
 Integer nodesOf(Integer type) {
   static const std::map<Integer, std::vector<Integer>> types{
       {2, {11, 21, 22, 31}},
@@ -63,7 +63,7 @@ class Unv {
   [[noreturn]] void fail(const std::string& what) const {
     throw Error("option -mesh_file " + file_ + ", line " + std::to_string(number_) + ": " + what);
   }
-  /// The next line that is not empty.
+  /// Moves to the next line that is not empty.
   bool next() {
     do ++number_;
     while (std::getline(stream_, line_) && line_.find_first_not_of(" \t\r") == std::string::npos);
