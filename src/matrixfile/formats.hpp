@@ -35,9 +35,9 @@ struct Compressed {
   bool byColumns = false;
   std::vector<long long> begin, index;
   std::vector<double> value;
-  const char *beginName = "indptr", *indexName = "indices";  ///< of the format, for messages
+  const char *beginName = "indptr", *indexName = "indices";  ///< names in the format, for messages
 
-  /// Error: lists that do not fit together.
+  /// Returns the entries. Throws Error if the lists do not fit together.
   Entries entries() const;
 };
 

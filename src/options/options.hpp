@@ -15,7 +15,7 @@
 
 namespace squeal {
 
-/// What `-help` prints of an option.
+/// A declared option, as `-help` prints it.
 class Option {
  public:
   const std::string stage, name, defaultText, unit, meaning, rule;
@@ -24,14 +24,15 @@ class Option {
   /// Full name without the dash, the placeholder replaced by `subject`.
   std::string fullName(const std::string& subject = {}) const;
   bool given(const std::string& subject = {}) const;
-  /// The words that stand for the placeholder in the options given, sorted: the <group> of each
+  /// Returns the words in place of the placeholder in the options given, sorted: the <group> of
+  /// each
   /// `-part_<group>_length`.
   std::vector<std::string> subjects() const;
-  /// True if the full name (no dash) is this option's for some subject.
+  /// Returns true if this is the full name (no dash) of this option for some subject.
   bool matches(const std::string& fullName) const;
-  /// Error if the value given for this subject breaks the rule.
+  /// Throws Error if the value given for this subject breaks the rule.
   virtual void validate(const std::string& subject) const = 0;
-  /// All declared options in order of stage, then of declaration.
+  /// Returns all declared options in order of stage, then of declaration; borrowed.
   static std::vector<const Option*> all();
 
  protected:
@@ -39,20 +40,20 @@ class Option {
          std::string meaning, std::string rule, bool required = false);
   ~Option() = default;
   Option(const Option&) = delete;
-  /// Text given by the user, without blanks around it, or the default; an option without default
-  /// that is not given is an Error. Recorded for the recipe.
+  /// Returns the text given by the user, without blanks around it, or the default, and records it
+  /// for the recipe. Throws Error if an option without default is not given.
   std::string text(const std::string& subject) const;
-  /// "option -part_disc_length -1 (disc.yaml, line 3)"
+  /// Returns a text such as "option -part_disc_length -1 (disc.yaml, line 3)".
   std::string named(const std::string& subject, const std::string& value) const;
   [[noreturn]] void reject(const std::string& subject, const std::string& value) const;
-  /// A number of an admissible magnitude.
+  /// Returns the value as a number. Throws Error unless its magnitude is admissible.
   double number(const std::string& subject, const std::string& value) const;
 };
 
-/// Numbers are zero or of a magnitude between these: products of several of them must neither
-/// overflow nor vanish.
+/// The magnitudes of numbers other than zero lie between these bounds: products of several of them
+/// must neither overflow nor vanish.
 inline constexpr double smallestMagnitude = 1e-50, largestMagnitude = 1e50;
-/// Most values of one list.
+/// The largest number of values in one list.
 inline constexpr int longestList = 100'000;
 
 struct Range {
@@ -89,15 +90,16 @@ class IntegerOption : public Option {
   int lowest_, highest_;
 };
 
-/// Reals separated by commas, blanks beside them allowed; with `ranges`, `first:last:step` stands
-/// for an arithmetic sequence (last included).
+/// Reals separated by commas, with blanks allowed beside them. With `ranges`, `first:last:step`
+/// stands for an arithmetic sequence, `last` included.
 class RealListOption : public Option {
  public:
   RealListOption(std::string stage, std::string name, std::string byDefault, std::string unit,
                  Range range, std::string meaning, bool ranges = false);
   std::vector<double> get(const std::string& subject = {}) const;
   void validate(const std::string& subject) const override { get(subject); }
-  /// The values as a vector. Error unless there are three; two will do for a mesh in the plane.
+  /// Returns the values as a vector. Throws Error unless there are three; two are enough for a mesh
+  /// in the plane.
   std::array<double, 3> components(const std::string& subject, int dimension) const;
 
  private:
@@ -131,61 +133,62 @@ class TextOption : public Option {
              std::string meaning);
   std::string get(const std::string& subject = {}) const;
   void validate(const std::string& subject) const override { get(subject); }
-  /// Split at commas, without the blanks beside them; empty if the option is not given and its
-  /// default is empty. Error for an empty item.
+  /// Returns the text split at commas, without the blanks beside them; empty if the option is not
+  /// given and its default is empty. Throws Error for an empty item.
   std::vector<std::string> list(const std::string& subject = {}) const;
 };
 
-/// A file to be read. Named in an options file, it is looked for beside that file, then in the
-/// working folder; named on the command line, in the working folder.
+/// A file to be read. If an options file names it, it is sought beside that file, then in the
+/// working folder; if the command line names it, in the working folder.
 class FileOption : public Option {
  public:
   /// No default: required wherever it is asked for.
   FileOption(std::string stage, std::string name, std::string meaning);
-  /// The path to read.
+  /// Returns the path to read.
   std::string get(const std::string& subject = {}) const { return text(subject); }
-  /// Collective. Error if rank 0 finds no such file, or may not read it.
+  /// Collective. Throws Error if rank 0 finds no such file, or may not read it.
   void validate(const std::string& subject) const override;
-  /// True if the full name (no dash) is that of an option for a file.
+  /// Returns true if this is the full name (no dash) of an option for a file.
   static bool isOne(const std::string& fullName);
 };
 
-/// Prefix handed to a PETSc or SLEPc solver: options that begin with it belong to that solver.
+/// The prefix of a PETSc or SLEPc solver: options that begin with it belong to that solver.
 class SolverPrefix {
  public:
   SolverPrefix(std::string stage, std::string prefix, std::string meaning);
   const std::string stage, prefix, meaning;
-  /// Options given with this prefix, with a dash.
+  /// Returns the names, with a dash, of the options given with this prefix.
   std::vector<std::string> names() const;
   bool given() const { return !names().empty(); }
-  /// Collective. Error if an option with this prefix is still unused, i.e. known to no solver; call
-  /// after the solver is configured. `exceptAfter` names sub-prefixes whose options are read later
-  /// (by a factorisation).
+  /// Collective. Throws Error if an option with this prefix is still unused, that is, known to no
+  /// solver. Call it after the solver is configured. `exceptAfter` names sub-prefixes whose options
+  /// are read later, by a factorisation for example.
   void rejectUnused(const std::vector<std::string>& exceptAfter = {}) const;
   static std::vector<const SolverPrefix*> all();
 };
 
-/// Collective. `configure()` calls PETSc and SLEPc to set a solver up from its options, and returns
-/// their code. What they refuse there, such as an unknown type or text for a number, is an Error
-/// that names the options given to solvers; if none is given, or the failure is of another kind, it
-/// is treated as by check().
+/// Collective. Runs `configure()`, which calls PETSc and SLEPc to set up a solver from its options
+/// and returns their code. Throws Error, naming the options given to solvers, if they reject one,
+/// such as an unknown type or text for a number. If no such option is given, or for a failure of
+/// another kind, the code is treated as by check().
 void applySolverOptions(const std::function<PetscErrorCode()>& configure);
 
-/// Collective. Error for an option that neither this program nor PETSc knows, with the nearest
-/// known name, and for a value of ours that breaks its rule: both before any work is done.
+/// Collective. Throws Error, before any work is done, for an option that neither this program nor
+/// PETSc knows, with the nearest known name, and for a value of a declared option that breaks its
+/// rule.
 void rejectUnknownOptions();
 
-/// Once a run is done, a line for each option given that nothing has asked for: "option -a 2
+/// Returns, at the end of a run, a line for each given option that was never read: "option -a 2
 /// (case.yaml, line 3) was not used: …".
 std::vector<std::string> unusedOptions();
 
-/// The manual printed by `-help`.
+/// Returns the manual that `-help` prints.
 std::string manual();
 
-/// Name and value of every option of ours asked for so far, defaults included.
+/// Returns name and value of every declared option that has been read so far, defaults included.
 const std::map<std::string, std::string>& resolvedOptions();
-/// Name and value of every option given, PETSc's own included, whether by file or on the command
-/// line.
+/// Returns name and value of every given option, those of PETSc included, whether from a file or
+/// the command line.
 std::map<std::string, std::string> givenOptions();
 
 }  // namespace squeal

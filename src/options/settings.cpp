@@ -140,7 +140,7 @@ class Reader {
     for (const auto& setting : settingsOfYaml(text, name)) add(setting);
   }
 
-  /// What PETSc reads unasked, if it is there.
+  /// Reads a file that PETSc reads by default, if it exists.
   void readIfThere(const std::string& file) {
     std::error_code unknown;
     if (readFile(file, false) || !fs::is_regular_file(file, unknown)) return;
@@ -289,7 +289,7 @@ std::string located(const std::string& path, const std::string& namedIn) {
   if (namedIn.empty() || fs::path(path).is_absolute()) return path;
   const fs::path beside = fs::path(namedIn).parent_path() / path;
   std::error_code ignored;
-  // What is there and cannot be read is meant, a link that leads nowhere too.
+  // A file beside the options file is taken even if it cannot be read or is a broken link.
   if (fs::symlink_status(beside, ignored).type() == fs::file_type::not_found) return path;
   // The short way from the working folder where the file is inside of it.
   const fs::path inside = fs::proximate(beside, ignored);

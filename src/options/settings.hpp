@@ -17,7 +17,7 @@ struct Setting {
   std::string file;         ///< options file that holds it; empty: command line or environment
   int line = 0;             ///< in the file, from 1
 
-  /// "disc.yaml, line 3"; empty if it stands in no file.
+  /// Returns a text such as "disc.yaml, line 3"; empty if the setting is in no file.
   std::string place() const;
 };
 
@@ -27,7 +27,7 @@ struct Setting {
 /// options files they name. Error with file and line for what cannot be understood.
 std::vector<Setting> settingsOfCall(const std::vector<std::string>& words);
 
-/// The words of a command line in one text, values with blanks in quotes.
+/// Returns the settings of a command line given as one text, with quotes around values with blanks.
 std::vector<Setting> settingsOfText(const std::string& text);
 
 /// The options of one file: YAML by its name (.yaml, .yml, .json, or `:yaml` at the end of it) or
@@ -36,32 +36,32 @@ std::vector<Setting> settingsOfText(const std::string& text);
 /// option.
 std::vector<Setting> settingsOfFile(const std::string& file);
 
-/// Where a file lies that an options file names: beside that file or, if it is not there, in the
-/// working folder. `namedIn` empty: the command line names it.
+/// Returns the path of a file that an options file names: beside that file or, if it is not there,
+/// in the working folder. An empty `namedIn` says that the command line names it.
 std::string located(const std::string& path, const std::string& namedIn);
 
-/// The options of a YAML text: names of nested maps joined by `_`, items of lists joined by commas.
-/// Errors begin with `name`.
+/// Returns the options of a YAML text: names of nested maps are joined by `_`, items of lists by
+/// commas. Throws Error with a message that begins with `name`.
 std::vector<Setting> settingsOfYaml(const std::string& text, const std::string& name);
 
-/// Collective. The settings of rank 0 on all ranks.
+/// Collective. Returns the settings of rank 0 on all ranks.
 std::vector<Setting> onAllRanks(MPI_Comm comm, const std::vector<Setting>& ofRankZero);
 
-/// Puts options into PETSc's database and remembers where they stand.
+/// Puts options into PETSc's database and records their places.
 void insert(const std::vector<Setting>& settings);
 
-/// Collective. Inserts an options file: `insert` of `settingsOfFile`.
+/// Collective. Inserts the settings of an options file.
 void insertFile(MPI_Comm comm, const std::string& file);
 
-/// Where the value of an option was set, as far as it came through insert() and still holds: an
-/// empty file otherwise.
+/// Returns the place where the value of an option was set, if it came through insert() and is still
+/// in force; otherwise a setting without a file.
 Setting origin(const std::string& name, const std::string& value);
 
-/// One line for each setting of a file that a later one replaced with another value: "option -a 2
-/// replaces 1 (case.yaml, line 3)".
+/// Returns a line for each setting of a file that a later one has replaced by another value:
+/// "option -a 2 replaces 1 (case.yaml, line 3)".
 std::vector<std::string> replacedSettings();
 
-/// A line of an options file, with quotes where the value needs them.
+/// Returns a line of an options file, with quotes where the value needs them.
 std::string optionLine(const std::string& name, const std::string& value);
 
 }  // namespace squeal

@@ -14,18 +14,18 @@ class WriteError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// "cannot write PATH: reason" with the reason of an errno value; 0: none is known.
+/// Returns "cannot write PATH: reason" with the reason of an errno value; 0: none is known.
 std::string cannotWrite(const std::filesystem::path& path, int error);
 
-/// Not collective. Writes the whole file, replacing what is there. Error: WriteError.
+/// Not collective. Writes the whole file; an existing one is replaced. Throws WriteError.
 void writeFile(const std::filesystem::path& path, const std::string& text);
 
-/// Not collective. Makes an empty file with room for `bytes` on the disc: for a library that does
-/// not end well where room is missing. Error: WriteError.
+/// Not collective. Makes an empty file with room for `bytes` on the disc, for a library that fails
+/// badly on a full disc. Throws WriteError.
 void reserve(const std::filesystem::path& path, unsigned long long bytes);
 
 /// Not collective. Returns when the content of a file, or the entries of a folder, are on the disc.
-/// Error: WriteError.
+/// Throws WriteError.
 void sync(const std::filesystem::path& path);
 
 }  // namespace squeal::output

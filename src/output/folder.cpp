@@ -83,7 +83,7 @@ void removeListed(const fs::path& folder, const Manifest& manifest, const fs::pa
   removeFile(Manifest::name);
 }
 
-/// Whether a folder of ours holds something that is not.
+/// Returns true if a folder of an earlier run holds files that are not of that run.
 bool holdsMore(const fs::path& folder, const fs::path& inside, const Manifest& ours) {
   for (const auto& name : entriesOf(folder / inside)) {
     const fs::path path = inside / name;
@@ -148,7 +148,7 @@ void Folder::make() {
   if (!fs::is_directory(path_)) throw WriteError(cannotWrite(path_, ENOTDIR));
 }
 
-/// What a run that was killed has left.
+/// Removes the files that a killed run has left.
 void Folder::clear() {
   if (fs::exists(fs::symlink_status(staging_)) && !isFolder(staging_))
     throw WriteError(inTheWay(staging_));
@@ -169,7 +169,7 @@ void Folder::tidy(std::chrono::milliseconds patience) {
     folder = folder.parent_path();
 }
 
-/// The files of the earlier run.
+/// Returns the files of the earlier run.
 Manifest Folder::earlier() const {
   if (const auto manifest = Manifest::read(path_)) return *manifest;
   return naming_.former(path_);
@@ -206,7 +206,7 @@ void Folder::commit() {
     const EndingWaits whole;
     requireFree([&](const fs::path& path) { return fresh.lists(path); }, old);
     if (!old.files().empty() && !fs::exists(path_ / Manifest::name)) {
-      // What a version without manifests left is listed, so that its removal can be taken up again.
+      // Files of a version without manifests are listed, so that their removal can be resumed.
       const fs::path list = staging_ / "former";
       writeFile(list, old.text());
       fs::rename(list, path_ / Manifest::name);

@@ -14,11 +14,11 @@
 
 namespace squeal::output {
 
-/// What the files of a folder are called.
+/// The names of the files in a folder.
 struct Naming {
-  std::string option;  ///< that names the folder, with its dash, for messages
-  std::string last;    ///< the file that tells that all others are there
-  /// Whether a run may write this path, relative to the folder: file or subfolder.
+  std::string option;  ///< the option that names the folder, with its dash, for messages
+  std::string last;    ///< the file whose presence shows that all others are there
+  /// Returns true if a run may write this path, relative to the folder: a file or a subfolder.
   std::function<bool(const std::filesystem::path&)> mayWrite;
   /// The files that a version without manifests left in a folder; none: it holds no results of such
   /// a version.

@@ -1,5 +1,5 @@
 #pragma once
-/// How meshes and matrices travel between processes.
+/// Messages that carry meshes and matrices between processes.
 #include <cstring>
 #include <string>
 #include <type_traits>
@@ -7,7 +7,7 @@
 
 namespace squeal {
 
-/// Flat message: numbers and texts in the order they are written, read back in the same order.
+/// A flat message of numbers and texts, which are read in the order in which they were written.
 class Buffer {
  public:
   template <class Number>

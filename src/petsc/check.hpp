@@ -1,5 +1,5 @@
 #pragma once
-/// Errors: who reports them, and how all ranks learn of them.
+/// Errors, and their propagation to all ranks.
 #include <petscsys.h>
 
 #include <new>
@@ -22,8 +22,8 @@ class Error : public std::runtime_error {
 /// MPI_Abort ends all ranks.
 void check(PetscErrorCode code, std::source_location where = std::source_location::current());
 
-/// While one lives, the first error that PETSc meets is kept as text, and no trace of it is
-/// printed.
+/// During the life of an object, the first error of PETSc is kept as text, and PETSc prints no
+/// traceback of it.
 class KeptError {
  public:
   KeptError();
@@ -31,9 +31,9 @@ class KeptError {
   KeptError(const KeptError&) = delete;
   KeptError& operator=(const KeptError&) = delete;
   PetscErrorCode code() const { return code_; }
-  /// PETSc's words, e.g. "Unknown EPS type given: foo".
+  /// Returns PETSc's message, such as "Unknown EPS type given: foo".
   const std::string& message() const { return message_; }
-  /// For the error handler: false where no object keeps errors.
+  /// Keeps an error; for the error handler. Returns false if there is no such object.
   static bool keep(PetscErrorCode code, const char* message);
 
  private:
@@ -45,8 +45,8 @@ class KeptError {
 /// is not empty; returns if all are.
 void failTogether(MPI_Comm comm, const std::string& localMessage);
 
-/// Collective. `action()` on rank 0 alone; what it throws becomes an Error of all ranks, with
-/// `head` before its text.
+/// Collective. Runs `action()` on rank 0 only. If it throws an exception, throws Error on all ranks
+/// with its message, after `head`.
 template <class Action>
 void onFirstRank(MPI_Comm comm, const std::string& head, const Action& action) {
   int rank = 0;

@@ -1,5 +1,5 @@
 #pragma once
-/// Work that may crash or ask for more memory than there is, in a process of its own.
+/// A child process for work that may crash or need more memory than there is.
 #include <functional>
 #include <optional>
 #include <string>
@@ -8,20 +8,20 @@
 
 namespace squeal {
 
-/// Tells the user at once, on the standard error output.
+/// Prints a warning at once, on the standard error output.
 using Warn = std::function<void(const std::string&)>;
 
 struct ChildLimits {
-  std::string subject;                     ///< what the work is about: every message begins with it
-  std::optional<double> processorSeconds;  ///< none: as long as it takes
-  double memoryBytes = 0;                  ///< addresses that the work may ask for
-  std::string noMemory;                    ///< what it means if that is too little
-  std::string program;                     ///< who works, for messages: "gmsh"
+  std::string subject;                     ///< begins every message
+  std::optional<double> processorSeconds;  ///< limit of processor time, s; none: no limit
+  double memoryBytes = 0;                  ///< address space that the work may allocate, bytes
+  std::string noMemory;                    ///< message if that is too little
+  std::string program;                     ///< the library that works, for messages: "gmsh"
 };
 
-/// What `work` returns, from a child process: a crash there is an Error here, and its memory goes
-/// with it. The child inherits all that this process holds; `work` must not call MPI. Errors: what
-/// `work` throws, a crash, a limit reached. Not collective.
+/// Runs `work` in a child process and returns its result. The child inherits a copy of this
+/// process, and its memory is freed when it ends; `work` must not call MPI. Throws Error if `work`
+/// throws, if the child crashes, or if it reaches a limit. Not collective.
 Buffer inChild(const ChildLimits& limits, const std::function<Buffer(const Warn&)>& work);
 
 }  // namespace squeal

@@ -1,35 +1,35 @@
 #pragma once
-/// How much memory there is, and what is said where there is too little.
+/// Free memory, and messages where there is too little.
 #include <petscsys.h>
 
 namespace squeal {
 
-/// What to try, for messages.
+/// Advice for messages on lack of memory.
 inline constexpr const char* lessMemory =
     "take more nodes, a coarser mesh, or fewer free modes; a dry run estimates what a run takes";
 
-/// What is free for this process, in bytes: of the machine, or of its control group where that has
-/// less.
+/// Returns the memory that is free for this process, in bytes: that of the machine, or that of its
+/// control group where that is less.
 double availableMemory();
 
-/// The addresses that this process holds, in bytes.
+/// Returns the size of the address space of this process, in bytes.
 double addressSpace();
 
-/// Collective. What is free on this rank's node, in bytes. `needed`, in: by this rank, out: by all
-/// ranks of the node.
+/// Collective. Returns the free memory of this rank's node, in bytes. `needed`, the memory that
+/// this rank needs, becomes the sum over all ranks of the node.
 double memoryFreeOnNode(MPI_Comm comm, double& needed);
 
-/// PETSc prints no trace of an allocation that fails from here on.
+/// Makes PETSc print no traceback of failed allocations from here on.
 void tellLackOfMemoryInOneLine();
 
-/// The error `code` of a PETSc call means that an allocation has failed.
+/// Returns true if the error code of a PETSc call means that an allocation has failed.
 bool lacksMemory(PetscErrorCode code);
 
-/// OpenBLAS asks for its workspace for ever if it does not get it. It gets it here, once and for
-/// all calls of this thread, or the run ends.
+/// Makes OpenBLAS allocate its workspace, once for all calls of this thread, or ends the run if
+/// there is no memory. OpenBLAS itself would try again for ever.
 void claimBlasWorkspace();
 
-/// Says in one line that this rank has got no memory, and ends all ranks.
+/// Prints in one line that this rank has no memory, and ends all ranks.
 [[noreturn]] void outOfMemory();
 
 }  // namespace squeal

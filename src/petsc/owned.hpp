@@ -34,7 +34,7 @@ class Owned {
   Handle get() const { return handle_; }
   operator Handle() const { return handle_; }  // NOLINT: borrowing is the common use
   explicit operator bool() const { return handle_ != nullptr; }
-  /// A second owner of the same object (one more PETSc reference).
+  /// Returns a second owner of the same object, with one more PETSc reference.
   Owned share() const {
     if (handle_) check(PetscObjectReference(reinterpret_cast<PetscObject>(handle_)));
     return Owned(handle_);
@@ -53,7 +53,7 @@ using OwnedEPS = Owned<EPS, EPSDestroy>;
 using OwnedBV = Owned<BV, BVDestroy>;
 using OwnedViewer = Owned<PetscViewer, PetscViewerDestroy>;
 
-/// Collective. A vector that `matrix` can be multiplied with; zero.
+/// Collective. Returns a vector of zeros that `matrix` can be multiplied with.
 inline OwnedVec rightVector(Mat matrix) {
   OwnedVec vector;
   check(MatCreateVecs(matrix, vector.out(), nullptr));

@@ -5,13 +5,13 @@
 
 namespace squeal {
 
-/// printf into a string.
+/// Returns the text that printf would print.
 [[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...);
 std::string joined(const std::vector<std::string>& words, const std::string& separator = ", ");
 std::vector<std::string> split(const std::string& text, char separator);
-/// Without blanks, tabs and line ends around it.
+/// Returns the text without blanks, tabs and line ends around it.
 std::string trimmed(const std::string& text);
-/// The shortest decimal text that reads back as the same double.
+/// Returns the shortest decimal text that reads back as the same double.
 std::string shortest(double value);
 
 }  // namespace squeal

@@ -1,5 +1,5 @@
 #pragma once
-/// Why a file cannot be read.
+/// Reasons why a file cannot be read.
 #include <filesystem>
 #include <string>
 
@@ -7,8 +7,8 @@ namespace squeal {
 
 inline constexpr const char* noSuchFile = "there is no such file";
 
-/// Empty if this process may read the file, or list the folder, of this name; else the reason in
-/// words. Opens nothing, since whoever writes to a pipe would notice. Not collective.
+/// Returns the reason why this process may not read the file, or list the folder, of this name;
+/// empty if it may. Nothing is opened, since the writer of a pipe would notice. Not collective.
 std::string whyUnreadable(const std::filesystem::path& path);
 
 }  // namespace squeal

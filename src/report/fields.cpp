@@ -75,8 +75,8 @@ OwnedVec contactField(const analysis::Analysis& analysis, const steady::Solution
   return field;
 }
 
-/// What friction adds to the growth rate of a mode at the pad nodes, 1/s, in component 0 of a nodal
-/// vector; per area in component 1.
+/// Returns a nodal vector with the contribution of friction at the pad nodes to the growth rate of
+/// a mode, 1/s, in component 0, and per area in component 1.
 OwnedVec workField(const analysis::Analysis& analysis, const pencil::Shape& shape) {
   const auto& mesh = *analysis.mesh;
   OwnedVec field = elasticity::nodalVector(mesh);

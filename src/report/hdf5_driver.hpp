@@ -1,5 +1,5 @@
 #pragma once
-/// How HDF5 reaches the disc.
+/// The driver with which HDF5 writes to the disc.
 #include <hdf5.h>
 
 namespace squeal::report {
@@ -10,7 +10,7 @@ namespace squeal::report {
 ///
 /// Properties for H5Fcreate, to be closed with H5Pclose.
 hid_t keepingErrorsProperties();
-/// errno of the first write that failed since the file was made; 0: none has.
+/// Returns errno of the first write that failed since the file was made; 0 if none has.
 int keptError();
 
 }  // namespace squeal::report

@@ -25,7 +25,7 @@ const std::set<std::string> fixedNames{"eigenvalues.csv",
                                        "vtk",
                                        output::Manifest::name};
 
-/// What stands between the two; none: the text does not begin and end so.
+/// Returns the text between `begin` and `end`; none if the text does not begin and end with them.
 std::optional<std::string> between(const std::string& text, const std::string& begin,
                                    const std::string& end) {
   if (text.size() < begin.size() + end.size() || !text.starts_with(begin) || !text.ends_with(end))

@@ -1,6 +1,5 @@
 #pragma once
-/// What the files of a run are called: which names a run may take, and which files a version
-/// without a manifest left.
+/// The names of the files of a run, and the files that a version without a manifest left.
 #include <filesystem>
 #include <set>
 #include <string>
@@ -11,8 +10,8 @@
 
 namespace squeal::report {
 
-/// A point of the sweep as it stands in file and group names: FRICTION, and _speed_SPEED,
-/// _pressure_… of the factors that are not 1.
+/// Returns a point of the sweep as part of file and group names: FRICTION, then _speed_SPEED,
+/// _pressure_… for the factors that are not 1.
 std::string pointName(const sweep::Parameters& at);
 
 /// The names of the files and folders of a run over some points, relative to the folder of the

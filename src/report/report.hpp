@@ -1,5 +1,5 @@
 #pragma once
-/// What a run leaves behind: tables, fields, the summary and the terminal's stability table.
+/// The output of a run: tables, fields, the summary and the stability table on the terminal.
 #include <filesystem>
 
 #include "analysis/analysis.hpp"
@@ -12,14 +12,15 @@ namespace squeal::report {
 /// are complete.
 class Directory : public output::Folder {
  public:
-  /// Collective, when all options have been checked. Errors as of output::Folder.
+  /// Collective. Call it when all options have been checked. Throws Error as output::Folder does.
   explicit Directory(MPI_Comm comm);
 };
 
 /// Collective. Writes all reports and prints the stability table.
 void write(const analysis::Analysis& analysis, Directory& directory);
 
-/// Collective. Rank 0 writes the file; Error (all ranks), naming -report_dir: it cannot.
+/// Collective. Writes the file on rank 0. Throws Error on all ranks, naming -report_dir, if that
+/// fails.
 void writeText(MPI_Comm comm, const std::filesystem::path& path, const std::string& text);
 
 /// The parts of write(), each collective, into `folder`.
@@ -29,17 +30,17 @@ void writeRecipe(const analysis::Analysis& analysis, const std::filesystem::path
 void writeSummary(const analysis::Analysis& analysis, const std::filesystem::path& folder);
 void writeHdf5(const analysis::Analysis& analysis, const std::filesystem::path& folder);
 void writeFields(const analysis::Analysis& analysis, const std::filesystem::path& folder);
-/// Derivatives of the eigenvalues of the complex modes kept: a row per mode and parameter; a mode
-/// without any has one row, "none".
+/// Returns the derivatives of the eigenvalues of the complex modes kept, with a row per mode and
+/// parameter; a mode without derivatives has one row, "none".
 std::string sensitivityTable(const analysis::Analysis& analysis);
-/// Collective. What friction on each interface adds to the growth rates of the complex modes kept
-/// (flutter::frictionWork).
+/// Collective. Returns the contribution of friction on each interface to the growth rates of the
+/// complex modes kept (flutter::frictionWork).
 std::string frictionWorkTable(const analysis::Analysis& analysis);
 /// branches.csv, critical.csv, and what the terminal says of both.
 std::string branchTable(const analysis::Analysis& analysis);
 std::string criticalTable(const analysis::Analysis& analysis);
 std::string followedText(const analysis::Analysis& analysis);
-/// Frequencies and growth rates of the unstable modes at each friction.
+/// Returns the frequencies and growth rates of the unstable modes at each friction.
 std::string stabilityTable(const analysis::Analysis& analysis);
 
 }  // namespace squeal::report

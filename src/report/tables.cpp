@@ -102,7 +102,7 @@ std::string rowHead(const sweep::Parameters& at, const std::vector<sweep::Parame
   return head;
 }
 
-/// What is said where no mode is unstable.
+/// Returns the text for a point where no mode is unstable.
 std::string verdict(const analysis::Analysis& analysis, const analysis::ModalSegment& segment,
                     const pencil::ComplexModes& point) {
   if (point.eigenvalues.empty()) return "no eigenvalue was found: nothing is known of stability";

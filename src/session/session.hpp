@@ -1,5 +1,5 @@
 #pragma once
-/// One session of MPI, PETSc, SLEPc and gmsh for the life of main().
+/// The session of MPI, PETSc, SLEPc and gmsh during main().
 #include <mpi.h>
 
 #include <string>
@@ -18,21 +18,22 @@ class Session {
   MPI_Comm comm() const;
   int rank() const;
   int size() const;
-  /// True if `-help` was given: the manual is wanted, not a run.
+  /// Returns true if `-help` was given: the manual is printed, and there is no run.
   bool helpWanted() const { return helpWanted_; }
-  /// True if `-version` was given.
+  /// Returns true if `-version` was given.
   bool versionWanted() const { return versionWanted_; }
-  /// False if there is no option at all, neither on the command line nor in the environment or
-  /// PETSc's resource files.
+  /// Returns false if there is no option at all, neither on the command line nor in the environment
+  /// nor in PETSc's resource files.
   bool optionsGiven() const { return optionsGiven_; }
 
  private:
   bool helpWanted_ = false, versionWanted_ = false, optionsGiven_ = false;
 };
 
-/// The version of this program, as in CMakeLists.txt.
+/// Returns the version of this program, as in CMakeLists.txt.
 const char* version();
-/// The versions of this program and of what it is linked with, in lines. Within a session.
+/// Returns the versions of this program and of its libraries, one per line. Call it within a
+/// session.
 std::string versions();
 
 }  // namespace squeal

@@ -1,5 +1,5 @@
 #pragma once
-/// Where a run is: one line per stage with its wall time, progress within long stages, and the
+/// The log of a run: one line per stage with its wall time, progress within long stages, and the
 /// record for the summary.
 #include <mpi.h>
 
@@ -10,8 +10,8 @@ namespace squeal {
 
 struct StageRecord {
   std::string name;
-  double seconds = 0;  ///< wall time, maximum over the ranks
-  /// High-water mark of resident memory at the end of the stage, summed over the ranks
+  double seconds = 0;  ///< wall time, s, the largest of all ranks
+  /// Peak of the resident memory at the end of the stage, bytes, summed over the ranks.
   double peakMemoryBytes = 0;
 };
 
@@ -19,12 +19,12 @@ struct StageRecord {
 class Stage {
  public:
   Stage(MPI_Comm comm, std::string name);
-  /// Says on the terminal (rank 0, unless -quiet) what was found, with the time; keeps the record.
+  /// Prints the result with the time (on rank 0, unless -quiet) and keeps the record.
   void finish(const std::string& result);
-  /// Progress of long work, a line every two seconds at most: plain lines, since output of parallel
-  /// jobs goes through pipes and files.
+  /// Prints the progress of long work, at most a line every two seconds. These are plain lines,
+  /// since the output of parallel jobs goes through pipes and files.
   void progress(const std::string& text);
-  /// Says at once what one of several tasks of the stage found.
+  /// Prints the result of one of several tasks of the stage at once.
   void say(const std::string& text);
 
  private:
@@ -33,17 +33,18 @@ class Stage {
   double begin_, lastProgress_;
 };
 
-/// Text for the user on rank 0, silent with -quiet.
+/// Prints text on rank 0, unless -quiet is given.
 void say(MPI_Comm comm, const std::string& text);
-/// Not collective. On the standard output at once, whether or not it can be written: no run is lost
-/// for its terminal.
+/// Not collective. Prints text on the standard output at once. A failure to write does not end the
+/// run; outputError() keeps it.
 void print(const std::string& text);
-/// errno of the first output that could not be written; 0 where all could, or where its reader has
-/// gone, as `head` does.
+/// Returns errno of the first output that could not be written; 0 if all could, or if its reader
+/// has gone, as `head` does.
 int outputError();
-/// A warning on the standard error output of rank 0, also with -quiet.
+/// Prints a warning on the standard error output of rank 0, also with -quiet.
 void complain(MPI_Comm comm, const std::string& text);
-/// All finished stages in order; stages finished several times (one per friction) are summed.
+/// Returns all finished stages in order. Stages that were finished several times, such as once per
+/// friction, are summed.
 const std::vector<StageRecord>& stageRecords();
 
 }  // namespace squeal
