@@ -60,7 +60,8 @@ std::optional<bool> byColumns(hid_t group) {
   return found.empty() ? std::nullopt : std::optional(found == "csc");
 }
 
-/// By rows and by columns the same lists are a matrix and its transpose.
+/// Returns true if the matrix is symmetric. Read by rows and by columns, the same lists are a
+/// matrix and its transpose.
 bool isSymmetric(const Entries& entries) {
   using Sum = std::tuple<PetscInt, PetscInt, double>;
   const auto sums = [&](const auto& major, const auto& minor) {
@@ -138,7 +139,8 @@ Entries matlabSparse(hid_t group) {
   return matrix.entries();
 }
 
-/// By rows; MATLAB's by columns.
+/// Returns the entries of a dataset of two dimensions, which is stored by rows, in MATLAB files by
+/// columns.
 Entries table(hid_t file, hid_t dataset, const std::string& name) {
   const auto shape = shapeOf(dataset);
   if (shape[0] > LLONG_MAX || shape[1] > LLONG_MAX)

@@ -81,7 +81,7 @@ void requireStored(hid_t dataset, hid_t type, const std::vector<hsize_t>& shape)
                           static_cast<unsigned long long>(wanted)));
 }
 
-/// For messages.
+/// Returns the name of a type for messages.
 std::string kindOf(hid_t type) {
   switch (H5Tget_class(type)) {
     case H5T_INTEGER:

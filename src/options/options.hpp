@@ -19,9 +19,9 @@ namespace squeal {
 class Option {
  public:
   const std::string stage, name, defaultText, unit, meaning, rule;
-  const bool required;  ///< no default: an Error wherever it is asked for and not given
+  const bool required;  ///< it has no default: reading it throws Error unless it is given
 
-  /// Full name without the dash, the placeholder replaced by `subject`.
+  /// Returns the full name without the dash, the placeholder replaced by `subject`.
   std::string fullName(const std::string& subject = {}) const;
   bool given(const std::string& subject = {}) const;
   /// Returns the words in place of the placeholder in the options given, sorted: the <group> of

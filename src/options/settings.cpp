@@ -147,7 +147,7 @@ class Reader {
     throw Error(file + ": " + whyUnreadable(file) + "; -skip_petscrc leaves it out");
   }
 
-  /// False if `file` cannot be opened.
+  /// Reads an options file. Returns false if it cannot be opened.
   bool readFile(std::string file, bool yaml) {
     if (const std::string suffix = ":yaml"; file.size() > suffix.size() && file.ends_with(suffix)) {
       file.resize(file.size() - suffix.size());

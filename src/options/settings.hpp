@@ -21,19 +21,18 @@ struct Setting {
   std::string place() const;
 };
 
-/// The options of a program call in the order in which they count: PETSc's resource files
-/// (~/.petscrc, .petscrc, petscrc; none with
-/// `-skip_petscrc`), PETSC_OPTIONS, PETSC_OPTIONS_YAML, the words of the command line with the
-/// options files they name. Error with file and line for what cannot be understood.
+/// Returns the options of a program call in the order in which they count: PETSc's resource files
+/// (~/.petscrc, .petscrc, petscrc; none with `-skip_petscrc`), PETSC_OPTIONS, PETSC_OPTIONS_YAML,
+/// then the words of the command line with the options files that they name. Throws Error, with
+/// file and line, for text that cannot be understood.
 std::vector<Setting> settingsOfCall(const std::vector<std::string>& words);
 
 /// Returns the settings of a command line given as one text, with quotes around values with blanks.
 std::vector<Setting> settingsOfText(const std::string& text);
 
-/// The options of one file: YAML by its name (.yaml, .yml, .json, or `:yaml` at the end of it) or
-/// first line (--- or %YAML), otherwise lines
-/// `-name value`. Error with file and line for what cannot be understood, and for a file without an
-/// option.
+/// Returns the options of one file. It is YAML by its name (.yaml, .yml, .json, or `:yaml` at its
+/// end) or first line (--- or %YAML); otherwise it has lines `-name value`. Throws Error, with file
+/// and line, for text that cannot be understood, and for a file without an option.
 std::vector<Setting> settingsOfFile(const std::string& file);
 
 /// Returns the path of a file that an options file names: beside that file or, if it is not there,

@@ -20,8 +20,8 @@ struct Naming {
   std::string last;    ///< the file whose presence shows that all others are there
   /// Returns true if a run may write this path, relative to the folder: a file or a subfolder.
   std::function<bool(const std::filesystem::path&)> mayWrite;
-  /// The files that a version without manifests left in a folder; none: it holds no results of such
-  /// a version.
+  /// Returns the files that a version without manifests left in a folder; none if it holds no
+  /// results of such a version.
   std::function<Manifest(const std::filesystem::path&)> former;
 };
 
@@ -36,8 +36,9 @@ struct Naming {
 class Folder {
  public:
   /// Collective. Makes the folder if need be and locks it; finishes the commit of a run that was
-  /// killed in it, and removes what one left behind. Errors: it cannot be written; another run is
-  /// writing to it; something that is of no run has a name that this one may write.
+  /// killed in it, and removes the files that such a run left. Throws Error if the folder cannot be
+  /// written, if another run is writing to it, or if a file that belongs to no run has a name that
+  /// this run may write.
   Folder(MPI_Comm comm, Naming naming, std::filesystem::path path);
   ~Folder();
   Folder(const Folder&) = delete;
@@ -46,10 +47,10 @@ class Folder {
   const std::filesystem::path& path() const { return path_; }
   /// Where files are written until commit().
   const std::filesystem::path& staging() const { return staging_; }
-  /// Collective. Makes the staging folder. Error: it cannot be made.
+  /// Collective. Makes the staging folder. Throws Error if it cannot be made.
   void stage();
-  /// Collective, after all ranks have written. Error: something of the user's has come into the
-  /// way, or a disc that is full; the earlier results stand then.
+  /// Collective. Call it after all ranks have written. Throws Error if a file of the user is in the
+  /// way, or if the disc is full; the earlier results then stay.
   void commit();
 
  private:

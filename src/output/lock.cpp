@@ -24,7 +24,7 @@ int lockFile(int file, int kind) {
   return 0;
 }
 
-/// False after another run has removed the file of this name, or put a new one in its place.
+/// Returns false if another run has removed the file of this name, or put a new one in its place.
 bool isStill(const std::filesystem::path& path, int file) {
   struct stat named {
   }, open{};

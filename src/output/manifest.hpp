@@ -23,7 +23,7 @@ class Manifest {
 
   const std::set<std::filesystem::path>& files() const { return files_; }
   const std::set<std::filesystem::path>& folders() const { return folders_; }
-  /// True if the file, or the folder, is one of these.
+  /// Returns true if the file, or the folder, is one of these.
   bool lists(const std::filesystem::path& path) const {
     return files_.contains(path) || folders_.contains(path);
   }

@@ -102,7 +102,7 @@ struct Child {
     id = 0;
     return status;
   }
-  /// False if there is less.
+  /// Reads `count` bytes. Returns false if there are fewer.
   bool take(void* to, std::size_t count) const {
     for (char* at = static_cast<char*>(to); count > 0;) {
       const ssize_t got = read(pipe, at, count);

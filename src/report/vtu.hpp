@@ -18,16 +18,16 @@ struct Field {
 
 /// Collective. Writes `stem`.pvtu and the pieces `stem`/…_RANK.vtu (a folder, so that the report
 /// folder stays readable): compressed binary, coordinates in double and fields in single precision.
-/// Beside the fields: node_tag and part of the nodes, body (index) and rank of the cells. Errors
-/// (all ranks): a file that cannot be written, naming -report_dir; a cell type that VTK lacks; a
-/// field of the wrong size.
+/// Beside the fields it holds node_tag and part of the nodes, body (index) and rank of the cells.
+/// Throws Error on all ranks if a file cannot be written, naming -report_dir, for a cell type that
+/// VTK lacks, and for a field of the wrong size.
 void writeVtu(const mesh::Mesh& mesh, const std::filesystem::path& stem,
               const std::vector<Field>& pointFields);
 
 /// Collective. Rank 0 writes a ParaView collection of (time, file) pairs: the frames of an
 /// animation or of a sweep. The files are named relative to the folder of `path`, so that the
-/// report folder can be moved (all paths absolute, or all relative). Errors (all ranks): a file
-/// that cannot be written, naming -report_dir.
+/// report folder can be moved (all paths absolute, or all relative). Throws Error on all ranks,
+/// naming -report_dir, if a file cannot be written.
 void writePvd(MPI_Comm comm, const std::filesystem::path& path,
               const std::vector<std::pair<double, std::filesystem::path>>& frames);
 

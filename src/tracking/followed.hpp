@@ -19,8 +19,7 @@ struct Followed {
   Branches branches;                ///< numbered from 1: renumber()
   std::vector<Critical> criticals;  ///< critical frictions of these branches, ascending
   bool countExact = false;  ///< the number at the first friction, 0, is that of the Sturm count
-  bool wholeSpace =
-      false;  ///< the basis spans the whole space: the reduced problem is the full one
+  bool wholeSpace = false;  ///< the reduced problem is the full one: the basis spans all of it
 
   /// Returns true if every eigenvalue of the band is accounted for at every friction.
   bool complete() const;
