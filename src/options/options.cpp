@@ -82,6 +82,29 @@ bool startsWith(const std::string& text, const std::string& start) {
   return text.compare(0, start.size(), start) == 0;
 }
 
+/// Returns true if the full name (no dash) is that of an option of this program.
+bool isOurs(const std::string& name) {
+  const auto options = Option::all();
+  return std::any_of(options.begin(), options.end(),
+                     [&](const auto* option) { return option->matches(name); });
+}
+
+/// Returns true if the full name (no dash) begins with the prefix of a PETSc or SLEPc solver.
+bool isOfSolver(const std::string& name) {
+  const auto solvers = SolverPrefix::all();
+  return std::any_of(solvers.begin(), solvers.end(),
+                     [&](const auto* solver) { return startsWith(name, solver->prefix); });
+}
+
+/// Returns "option -a 2 (case.yaml, line 3)", with the place where the value `given` stands if it
+/// stands in a file; an empty `value` is left out.
+std::string optionText(const std::string& name, const std::string& value,
+                       const std::string& given) {
+  const std::string place = origin(name, given).place();
+  return "option -" + name + (value.empty() ? "" : " " + value) +
+         (place.empty() ? "" : " (" + place + ")");
+}
+
 std::size_t editDistance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -172,10 +195,8 @@ std::string Option::text(const std::string& subject) const {
 }
 
 std::string Option::named(const std::string& subject, const std::string& value) const {
-  const std::string place =
-      origin(fullName(subject), valueGiven(fullName(subject)).value_or("")).place();
-  return "option -" + fullName(subject) + (value.empty() ? "" : " " + value) +
-         (place.empty() ? "" : " (" + place + ")");
+  const std::string full = fullName(subject);
+  return optionText(full, value, valueGiven(full).value_or(""));
 }
 
 void Option::reject(const std::string& subject, const std::string& value) const {
@@ -210,11 +231,8 @@ void SolverPrefix::rejectUnused(const std::vector<std::string>& exceptAfter) con
 
 void applySolverOptions(const std::function<PetscErrorCode()>& configure) {
   std::vector<std::pair<std::string, std::string>> given;  // to solvers
-  const auto solvers = SolverPrefix::all();
   for (const auto& option : givenOptions())
-    if (std::any_of(solvers.begin(), solvers.end(),
-                    [&](const auto* solver) { return startsWith(option.first, solver->prefix); }))
-      given.push_back(option);
+    if (isOfSolver(option.first)) given.push_back(option);
   if (given.empty()) return check(configure());
   const std::set<PetscErrorCode> refusals{PETSC_ERR_ARG_UNKNOWN_TYPE,
                                           PETSC_ERR_ARG_OUTOFRANGE,
@@ -243,18 +261,10 @@ void applySolverOptions(const std::function<PetscErrorCode()>& configure) {
 
 void rejectUnknownOptions() {
   for (const auto& name : namesLeft()) {
-    const auto options = Option::all();
-    if (std::any_of(options.begin(), options.end(),
-                    [&](auto* option) { return option->matches(name); }))
-      continue;
-    const auto solvers = SolverPrefix::all();
-    if (std::any_of(solvers.begin(), solvers.end(),
-                    [&](auto* solver) { return startsWith(name, solver->prefix); }))
-      continue;
+    if (isOurs(name) || isOfSolver(name)) continue;
     const std::string nearest = nearestName(name);
     const auto given = givenOptions();
-    const std::string place = origin(name, given.count(name) ? given.at(name) : "").place();
-    throw Error("unknown option -" + name + (place.empty() ? "" : " (" + place + ")") +
+    throw Error("unknown " + optionText(name, "", given.count(name) ? given.at(name) : "") +
                 (nearest.empty() ? "" : "; did you mean -" + nearest + "?") +
                 " (squeal -help lists all options)");
   }
@@ -271,18 +281,12 @@ void rejectUnknownOptions() {
 
 std::vector<std::string> unusedOptions() {
   std::vector<std::string> unused, left = namesLeft();
-  const auto options = Option::all();
   for (const auto& [name, value] : givenOptions()) {
-    const bool ours = std::any_of(options.begin(), options.end(), [&, &full = name](auto* option) {
-      return option->matches(full);
-    });
-    const bool used =
-        ours ? recipe().count(name) > 0 : std::find(left.begin(), left.end(), name) == left.end();
-    if (used) continue;
-    const std::string place = origin(name, value).place();
-    unused.push_back("option -" + name + (value.empty() ? "" : " " + value) +
-                     (place.empty() ? "" : " (" + place + ")") +
-                     " was not used: nothing in this run asks for it");
+    const bool used = isOurs(name) ? recipe().count(name) > 0
+                                   : std::find(left.begin(), left.end(), name) == left.end();
+    if (!used)
+      unused.push_back(optionText(name, value, value) +
+                       " was not used: nothing in this run asks for it");
   }
   return unused;
 }

@@ -154,7 +154,7 @@ void Basis::addOrthogonalised(linalg::Block& z, const linalg::DenseMatrix& parts
   const linalg::DenseMatrix square = linalg::transposedProduct(MPI_COMM_SELF, rest.data(), size(),
                                                                z.columns, rest.data(), z.columns);
   for (std::size_t k = 0; k < energy.size(); ++k) energy[k] -= square[k];
-  // What depends on others or on V would only add noise.
+  // Columns that depend on others or on V would only add noise.
   clearWhatVHolds(energy, parts, z.columns, independent);
   const linalg::DenseMatrix combinations = orthonormalising(energy, z.columns, independent);
   const auto added = static_cast<PetscInt>(combinations.size()) / z.columns;

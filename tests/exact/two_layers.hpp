@@ -31,8 +31,8 @@ struct Steady {
   }
 };
 
-/// What the waves see of steady sliding under the pressure p, the disc's matter moving at W > 0; φ
-/// is the friction law.
+/// The effect on the waves of steady sliding under the pressure p, the disc's matter moving at W >
+/// 0; φ is the friction law.
 struct Sliding {
   double friction = 0;  ///< f φ(W)
   double along = 0;     ///< f φ'(W) p, Pa·s/m: change of the friction stress with the relative

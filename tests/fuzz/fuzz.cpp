@@ -138,8 +138,8 @@ bool isOfLibrary(const std::string& report) {
   return false;
 }
 
-/// What the sanitizers report of the process `reader` and of those that it has started. The reports
-/// are removed.
+/// Returns the reports of the sanitizers on the process `reader` and of those that it has started.
+/// The reports are removed.
 std::string reported(pid_t reader) {
   if (!sanitized) return "";
   const std::string name =

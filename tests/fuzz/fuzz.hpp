@@ -1,6 +1,6 @@
 #pragma once
-/// What every program of this folder shares: main(), which reads damaged files by the thousand, and
-/// demands of the reader that it takes them or refuses them by a message of one line.
+/// The parts that all programs of this folder share: main(), which reads damaged files by the
+/// thousand, and demands of the reader that it takes them or refuses them by a message of one line.
 #include <functional>
 #include <string>
 #include <vector>

@@ -1,4 +1,4 @@
-// What a run says beside its numbers: of options it had no use for, and of what its numbers do not
+// Notes that a run prints beside its numbers: options it had no use for, and what they do not
 // show.
 #include "support/bad_input.hpp"
 

@@ -119,16 +119,16 @@ TEST(Unreadable, FoldersThatCannotBeEntered) {
 // PETSc passes such a file over, and runs without what it says.
 TEST(Unreadable, OptionsOfTheHomeFolderAreNotPassedOver) {
   if (rankHere() == 0) {
-    fs::create_directories(SQUEAL_OUTPUT_DIR "/home");
-    fs::remove(SQUEAL_OUTPUT_DIR "/home/.petscrc");
+    fs::create_directories(SQUEAL_OUTPUT_DIR "/of_a_user");
+    fs::remove(SQUEAL_OUTPUT_DIR "/of_a_user/.petscrc");
   }
-  writeFile("home/.petscrc", "-modes_count 7\n");
-  const std::string file = withoutRights("home/.petscrc");
+  writeFile("of_a_user/.petscrc", "-modes_count 7\n");
+  const std::string file = withoutRights("of_a_user/.petscrc");
   if (!permissionsBind(file)) GTEST_SKIP() << "the permissions of files do not bind here";
   const std::string home = std::getenv("HOME") ? std::getenv("HOME") : "";
-  setenv("HOME", SQUEAL_OUTPUT_DIR "/home", 1);
+  setenv("HOME", SQUEAL_OUTPUT_DIR "/of_a_user", 1);
   expectMessage(errorOfUnprivileged([] { settingsOfCall({"-quiet"}); }),
-                {"home/.petscrc: cannot be read: Permission denied"});
+                {"of_a_user/.petscrc: cannot be read: Permission denied"});
   EXPECT_EQ(errorOfUnprivileged([] { settingsOfCall({"-skip_petscrc", "-quiet"}); }), "");
   setenv("HOME", home.c_str(), 1);
 }
