@@ -60,8 +60,7 @@ Constraints readConstraints(const mesh::Mesh& mesh) {
         throw Error("option -" + clampedOption.fullName(group) + " '" + components + "': " +
                     letter + " twice; must be some of the letters " + allowed + ", each once");
     for (const char letter : std::string("xyz"))
-      if (values[static_cast<std::size_t>(letter - 'x')] != 0 &&
-          components.find(letter) == std::string::npos)
+      if (values[letter - 'x'] != 0 && components.find(letter) == std::string::npos)
         complain(mesh.comm, "option -" + displacementOption.fullName(group) +
                                 ": the displacement of " + letter + " was not used, as -" +
                                 clampedOption.fullName(group) + " " + components +

@@ -31,13 +31,11 @@ OwnedMat periodicity(const mesh::Mesh& mesh) {
   OwnedMat matrix = nodalMatrix(mesh, 1);
   std::vector<PetscInt> source;
   for (PetscInt node = 0; node < mesh.ownedNodes; ++node) source.push_back(mesh.firstNode + node);
-  for (const auto& image : mesh.images)
-    source[static_cast<std::size_t>(image.node)] = image.primary;
+  for (const auto& image : mesh.images) source[image.node] = image.primary;
   for (PetscInt node = 0; node < mesh.ownedNodes; ++node)
     for (int d = 0; d < mesh.dimension; ++d)
       check(MatSetValue(matrix, mesh.dimension * (mesh.firstNode + node) + d,
-                        mesh.dimension * source[static_cast<std::size_t>(node)] + d, 1,
-                        INSERT_VALUES));
+                        mesh.dimension * source[node] + d, 1, INSERT_VALUES));
   assembled(matrix);
   return matrix;
 }
@@ -54,33 +52,24 @@ FaceSums sumFaces(const mesh::Mesh& mesh, const Contact& contact) {
   for (const auto& block : mesh.faces) {
     const auto& table = elasticity::shapeTable(block.type);
     for (std::size_t e = 0; e < block.surface.size(); ++e) {
-      if (!contact.isPadSurface(mesh.surfaces[static_cast<std::size_t>(block.surface[e])]))
-        continue;
+      if (!contact.isPadSurface(mesh.surfaces[block.surface[e]])) continue;
       std::vector<Point> points;
       const PetscInt* nodes = block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerFace);
-      for (int i = 0; i < block.nodesPerFace; ++i)
-        points.push_back(mesh.coordinates[static_cast<std::size_t>(nodes[i])]);
+      for (int i = 0; i < block.nodesPerFace; ++i) points.push_back(mesh.coordinates[nodes[i]]);
       const auto faceMass = elasticity::faceMass(table, points);
       const auto normals = elasticity::nodeNormals(table, points, -block.sign[e]);
       double faceArea = 0, trace = 0;
       for (double entry : faceMass) faceArea += entry;
-      for (int i = 0; i < block.nodesPerFace; ++i)
-        trace += faceMass[static_cast<std::size_t>(i * (block.nodesPerFace + 1))];
+      for (int i = 0; i < block.nodesPerFace; ++i) trace += faceMass[i * (block.nodesPerFace + 1)];
       for (int i = 0; i < block.nodesPerFace; ++i) {
-        const PetscInt row = mesh.dimension * mesh.globalNode[static_cast<std::size_t>(nodes[i])];
+        const PetscInt row = mesh.dimension * mesh.globalNode[nodes[i]];
         double weight = 0;
-        for (int j = 0; j < block.nodesPerFace; ++j)
-          weight += faceMass[static_cast<std::size_t>(i * block.nodesPerFace + j)];
+        for (int j = 0; j < block.nodesPerFace; ++j) weight += faceMass[i * block.nodesPerFace + j];
         check(VecSetValue(local.area, row, weight, ADD_VALUES));
-        check(VecSetValue(
-            local.area, row + 1,
-            faceArea * faceMass[static_cast<std::size_t>(i * (block.nodesPerFace + 1))] / trace,
-            ADD_VALUES));
+        check(VecSetValue(local.area, row + 1,
+                          faceArea * faceMass[i * (block.nodesPerFace + 1)] / trace, ADD_VALUES));
         for (int d = 0; d < mesh.dimension; ++d)
-          check(VecSetValue(
-              local.normal, row + d,
-              faceArea * normals[static_cast<std::size_t>(i)][static_cast<std::size_t>(d)],
-              ADD_VALUES));
+          check(VecSetValue(local.normal, row + d, faceArea * normals[i][d], ADD_VALUES));
       }
     }
   }
@@ -100,9 +89,8 @@ std::vector<ContactNode> contactNodes(const mesh::Mesh& mesh, const elasticity::
     obstacleVelocity.push_back(obstacleVelocityOption.components(request.name, mesh.dimension));
   const auto discVelocity = [&](const mesh::ContactPair& pair) {
     return pair.masterBody >= 0
-               ? bodies.motions[static_cast<std::size_t>(pair.masterBody)].velocity(
-                     mesh.coordinates[static_cast<std::size_t>(pair.node)])
-               : obstacleVelocity[static_cast<std::size_t>(pair.interface)];
+               ? bodies.motions[pair.masterBody].velocity(mesh.coordinates[pair.node])
+               : obstacleVelocity[pair.interface];
   };
   double fastest = 0;
   for (const auto& pair : mesh.pairs)
@@ -113,13 +101,13 @@ std::vector<ContactNode> contactNodes(const mesh::Mesh& mesh, const elasticity::
   check(VecGetArrayRead(sums.area, &area));
   for (const auto& pair : mesh.pairs) {
     ContactNode node{};
-    node.position = mesh.coordinates[static_cast<std::size_t>(pair.node)];
+    node.position = mesh.coordinates[pair.node];
     node.node = pair.node, node.globalNode = mesh.firstNode + pair.node, node.master = pair.master,
     node.interface = pair.interface;
     node.area = area[mesh.dimension * pair.node];
     node.lumpedArea = area[mesh.dimension * pair.node + 1];
     for (int d = 0; d < mesh.dimension; ++d)
-      node.normal[static_cast<std::size_t>(d)] = normal[mesh.dimension * pair.node + d];
+      node.normal[d] = normal[mesh.dimension * pair.node + d];
     node.normal = scaled(node.normal, 1 / std::sqrt(dot(node.normal, node.normal)));
     const Point velocity = discVelocity(pair);
     //   w = −V in the tangent plane   [2.15]
@@ -150,13 +138,12 @@ struct Frame {
 Frame frameOf(const ContactNode& node, const Constraints& constraints, int dimension) {
   Frame frame;
   for (int d = 0; d < dimension; ++d)
-    if (constraints.held[static_cast<std::size_t>(dimension * node.node + d)]) {
+    if (constraints.held[dimension * node.node + d]) {
       Point e{};
-      e[static_cast<std::size_t>(d)] = 1;
+      e[d] = 1;
       if (std::abs(dot(e, node.normal)) > 1e-6)
         throw Error("option -constraint_" +
-                    constraints.groups[static_cast<std::size_t>(
-                        constraints.heldBy[static_cast<std::size_t>(dimension * node.node + d)])] +
+                    constraints.groups[constraints.heldBy[dimension * node.node + d]] +
                     "_clamped holds component " + std::string(1, static_cast<char>('x' + d)) +
                     " of the pad contact node at " + text(node.position) +
                     ", which is not tangential there; contact decides the normal component");
@@ -196,10 +183,10 @@ void buildKinematics(const mesh::Mesh& mesh, const std::vector<mesh::InterfaceRe
   };
   contact.free.assign(constraints.held.size(), 1);
   std::vector<unsigned char> isPad(static_cast<std::size_t>(mesh.ownedNodes), 0);
-  for (const auto& node : contact.nodes) isPad[static_cast<std::size_t>(node.node)] = 1;
+  for (const auto& node : contact.nodes) isPad[node.node] = 1;
   std::vector<double> values(constraints.held.size(), 0.0);
   for (PetscInt node = 0; node < mesh.ownedNodes; ++node) {
-    if (isPad[static_cast<std::size_t>(node)]) continue;
+    if (isPad[node]) continue;
     for (int d = 0; d < dimension; ++d) {
       check(MatSetValue(a, dimension * (mesh.firstNode + node) + d,
                         dimension * (mesh.firstNode + node) + d, 1, INSERT_VALUES));
@@ -215,13 +202,10 @@ void buildKinematics(const mesh::Mesh& mesh, const std::vector<mesh::InterfaceRe
   std::string failure;
   for (const auto& node : contact.nodes) try {
       const Frame frame = frameOf(node, constraints, dimension);
-      std::vector<double> block(static_cast<std::size_t>(dimension * dimension));
+      std::vector<double> block(dimension * dimension);
       for (int i = 0; i < dimension; ++i) {
-        for (int t = 0; t < dimension - 1; ++t)
-          block[static_cast<std::size_t>(i * dimension + t)] =
-              frame.tangents[static_cast<std::size_t>(t)][static_cast<std::size_t>(i)];
-        block[static_cast<std::size_t>(i * dimension + dimension - 1)] =
-            node.normal[static_cast<std::size_t>(i)];
+        for (int t = 0; t < dimension - 1; ++t) block[i * dimension + t] = frame.tangents[t][i];
+        block[i * dimension + dimension - 1] = node.normal[i];
       }
       setBlock(a, dimension, node.globalNode, node.globalNode, block);
       if (node.master >= 0)
@@ -229,9 +213,9 @@ void buildKinematics(const mesh::Mesh& mesh, const std::vector<mesh::InterfaceRe
                  outer(node.normal, node.normal, dimension));
       else
         values[local(node.node, dimension - 1)] =
-            dot(node.normal, obstacleDisplacement[static_cast<std::size_t>(node.interface)]);
+            dot(node.normal, obstacleDisplacement[node.interface]);
       for (int t = 0; t < dimension - 1; ++t) {
-        const int component = frame.heldComponent[static_cast<std::size_t>(t)];
+        const int component = frame.heldComponent[t];
         if (component < 0) continue;
         contact.free[local(node.node, t)] = 0;
         values[local(node.node, t)] = constraints.displacement[local(node.node, component)];
@@ -273,23 +257,23 @@ void requireFlatObstacles(const mesh::Mesh& mesh, const Contact& contact) {
 /// Throws Error if a pad moves: w = −V holds for a resting pad on a moving disc.
 void requireRestingPads(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
                         const Contact& contact) {
-  std::vector<int> moving(static_cast<std::size_t>(mesh.localNodes()),
+  std::vector<int> moving(mesh.localNodes(),
                           -1);  // [local node] a moving body that it belongs to
   for (const auto& block : mesh.cells)
     for (std::size_t i = 0; i < block.nodes.size(); ++i)
       if (const int body = block.body[i / static_cast<std::size_t>(block.nodesPerCell)];
-          bodies.motions[static_cast<std::size_t>(body)].moves())
-        moving[static_cast<std::size_t>(block.nodes[i])] = body;
+          bodies.motions[body].moves())
+        moving[block.nodes[i]] = body;
   std::string failure;
   for (const auto& block : mesh.faces)
     for (std::size_t i = 0; i < block.nodes.size(); ++i) {
-      const auto& surface = mesh.surfaces[static_cast<std::size_t>(
-          block.surface[i / static_cast<std::size_t>(block.nodesPerFace)])];
-      const int body = moving[static_cast<std::size_t>(block.nodes[i])];
+      const auto& surface =
+          mesh.surfaces[block.surface[i / static_cast<std::size_t>(block.nodesPerFace)]];
+      const int body = moving[block.nodes[i]];
       if (body >= 0 && contact.isPadSurface(surface))
-        failure = "body '" + mesh.bodies[static_cast<std::size_t>(body)] + "' has a -motion_" +
-                  mesh.bodies[static_cast<std::size_t>(body)] + "_* but bears the pad surface '" +
-                  surface + "'; the side that moves is the disc, -contact_<interface>_disc";
+        failure = "body '" + mesh.bodies[body] + "' has a -motion_" + mesh.bodies[body] +
+                  "_* but bears the pad surface '" + surface +
+                  "'; the side that moves is the disc, -contact_<interface>_disc";
     }
   failTogether(mesh.comm, failure);
 }
@@ -338,8 +322,7 @@ Contact build(const mesh::Mesh& mesh, const elasticity::Bodies& bodies) {
     const auto& table = elasticity::shapeTable(block.type);
     const bool serendipity = table.order > 1 && (table.name == "tri6" || table.name == "quad8");
     for (int surface : block.surface)
-      sums[1] +=
-          serendipity && contact.isPadSurface(mesh.surfaces[static_cast<std::size_t>(surface)]);
+      sums[1] += serendipity && contact.isPadSurface(mesh.surfaces[surface]);
   }
   check(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPIU_INT, MPI_SUM, mesh.comm));
   contact.totalNodes = sums[0];
@@ -407,11 +390,9 @@ void requireSlip(const Contact& contact, const std::vector<Slip>& slip,
       failure =
           "option -flutter_friction: friction needs a sliding velocity, but |w| = 0 at the contact "
           "node at " +
-          text(node.position) + " of interface '" +
-          contact.interfaces[static_cast<std::size_t>(node.interface)] +
+          text(node.position) + " of interface '" + contact.interfaces[node.interface] +
           "'; give -motion_<body>_velocity or _speed, or -" +
-          obstacleVelocityOption.fullName(
-              contact.interfaces[static_cast<std::size_t>(node.interface)]);
+          obstacleVelocityOption.fullName(contact.interfaces[node.interface]);
     }
   failTogether(contact.mesh->comm, failure);
 }

@@ -29,7 +29,7 @@ class RigidMotions {
     double* a = row.data() + part * perPart_;
     const Point r{(x[0] - centre_[0]) / length_, (x[1] - centre_[1]) / length_,
                   (x[2] - centre_[2]) / length_};
-    for (int d = 0; d < dimension_; ++d) a[d] += factor * direction[static_cast<std::size_t>(d)];
+    for (int d = 0; d < dimension_; ++d) a[d] += factor * direction[d];
     //   direction · (e_k × r), k = 1, 2, 3
     const Point moment{direction[2] * r[1] - direction[1] * r[2],
                        direction[0] * r[2] - direction[2] * r[0],
@@ -37,7 +37,7 @@ class RigidMotions {
     if (dimension_ == 2)
       a[2] += factor * moment[2];
     else
-      for (int k = 0; k < 3; ++k) a[3 + k] += factor * moment[static_cast<std::size_t>(k)];
+      for (int k = 0; k < 3; ++k) a[3 + k] += factor * moment[k];
   }
 
  private:
@@ -48,7 +48,7 @@ class RigidMotions {
 
 Point unit(int d) {
   Point e{};
-  e[static_cast<std::size_t>(d)] = 1;
+  e[d] = 1;
   return e;
 }
 
@@ -82,16 +82,15 @@ std::vector<double> gram(const mesh::Mesh& mesh, const Contact& contact, Vec spr
   for (PetscInt node = 0; node < mesh.ownedNodes; ++node)
     for (int d = 0; d < mesh.dimension; ++d)
       if (const PetscInt i = mesh.dimension * node + d;
-          contact.constraints.held[static_cast<std::size_t>(i)] || (spring && spring[i] > 0)) {
-        motions.add(row, mesh.nodePart[static_cast<std::size_t>(node)],
-                    mesh.coordinates[static_cast<std::size_t>(node)], unit(d), 1);
+          contact.constraints.held[i] || (spring && spring[i] > 0)) {
+        motions.add(row, mesh.nodePart[node], mesh.coordinates[node], unit(d), 1);
         keep();
       }
   if (springs) check(VecRestoreArrayRead(springs, &spring));
   for (const auto& image : mesh.images)
     for (int d = 0; d < mesh.dimension; ++d) {
-      const auto& x = mesh.coordinates[static_cast<std::size_t>(image.node)];
-      motions.add(row, mesh.nodePart[static_cast<std::size_t>(image.node)], x, unit(d), 1);
+      const auto& x = mesh.coordinates[image.node];
+      motions.add(row, mesh.nodePart[image.node], x, unit(d), 1);
       motions.add(row, image.primaryPart,
                   {x[0] - image.shift[0], x[1] - image.shift[1], x[2] - image.shift[2]}, unit(d),
                   -1);
@@ -99,8 +98,7 @@ std::vector<double> gram(const mesh::Mesh& mesh, const Contact& contact, Vec spr
     }
   for (std::size_t i = 0; contactCloses && i < contact.nodes.size(); ++i) {
     const auto& node = contact.nodes[i];
-    motions.add(row, mesh.nodePart[static_cast<std::size_t>(node.node)], node.position, node.normal,
-                1);
+    motions.add(row, mesh.nodePart[node.node], node.position, node.normal, 1);
     if (node.master >= 0)
       motions.add(row, mesh.pairs[i].masterPart, node.position, node.normal, -1);
     keep();
@@ -125,15 +123,13 @@ std::optional<LooseBody> looseBody(const mesh::Mesh& mesh, const Contact& contac
   for (int part = 0; part < mesh.parts; ++part) {
     double weight = 0;
     for (int k = 0; k < motions.perPart(); ++k)
-      weight += g[static_cast<std::size_t>(part * motions.perPart() + k)] *
-                g[static_cast<std::size_t>(part * motions.perPart() + k)];
+      weight += g[part * motions.perPart() + k] * g[part * motions.perPart() + k];
     if (weight > most) most = weight, worst = part;
   }
   std::string motion;
   for (int k = 0; k < motions.perPart(); ++k)
-    motion += formatted(k ? ", %.3g" : "%.3g",
-                        g[static_cast<std::size_t>(worst * motions.perPart() + k)]);
-  return LooseBody{mesh.partName[static_cast<std::size_t>(worst)],
+    motion += formatted(k ? ", %.3g" : "%.3g", g[worst * motions.perPart() + k]);
+  return LooseBody{mesh.partName[worst],
                    (mesh.dimension == 2 ? "translation x, y, rotation z: "
                                         : "translations x, y, z, rotations x, y, z: ") +
                        motion};

@@ -13,8 +13,8 @@ namespace squeal::contact {
 namespace {
 
 std::vector<double> identity(int dimension, double factor) {
-  std::vector<double> block(static_cast<std::size_t>(dimension * dimension), 0.0);
-  for (int d = 0; d < dimension; ++d) block[static_cast<std::size_t>(d * dimension + d)] = factor;
+  std::vector<double> block(dimension * dimension, 0.0);
+  for (int d = 0; d < dimension; ++d) block[d * dimension + d] = factor;
   return block;
 }
 
@@ -26,7 +26,7 @@ OwnedMat reactionRows(const Contact& contact) {
   for (const auto& node : contact.nodes)
     for (int d = 0; d < mesh.dimension; ++d)
       check(MatSetValue(normals, contact.gapRow(node), mesh.dimension * node.globalNode + d,
-                        node.normal[static_cast<std::size_t>(d)], INSERT_VALUES));
+                        node.normal[d], INSERT_VALUES));
   assembled(normals);
   OwnedMat folded, result;
   check(MatTranspose(contact.periodic, MAT_INITIAL_MATRIX, folded.out()));
@@ -66,13 +66,11 @@ std::vector<const elasticity::Motion*> discMotions(const elasticity::Bodies& bod
                                                    const Contact& contact) {
   const auto& mesh = *contact.mesh;
   std::vector<int> body(contact.interfaces.size(), -1);
-  for (const auto& pair : mesh.pairs)
-    body[static_cast<std::size_t>(pair.interface)] = pair.masterBody;
+  for (const auto& pair : mesh.pairs) body[pair.interface] = pair.masterBody;
   check(MPI_Allreduce(MPI_IN_PLACE, body.data(), static_cast<int>(body.size()), MPI_INT, MPI_MAX,
                       mesh.comm));
   std::vector<const elasticity::Motion*> motions;
-  for (int index : body)
-    motions.push_back(index < 0 ? nullptr : &bodies.motions[static_cast<std::size_t>(index)]);
+  for (int index : body) motions.push_back(index < 0 ? nullptr : &bodies.motions[index]);
   return motions;
 }
 
@@ -93,28 +91,26 @@ OwnedMat convectedRows(const elasticity::Bodies& bodies, const Contact& contact)
     const auto& table = elasticity::shapeTable(block.type);
     for (std::size_t e = 0; e < block.surface.size(); ++e) {
       const auto found = std::find(contact.padSurfaces.begin(), contact.padSurfaces.end(),
-                                   mesh.surfaces[static_cast<std::size_t>(block.surface[e])]);
+                                   mesh.surfaces[block.surface[e]]);
       if (found == contact.padSurfaces.end()) continue;
-      const auto* motion = motions[static_cast<std::size_t>(found - contact.padSurfaces.begin())];
+      const auto* motion = motions[found - contact.padSurfaces.begin()];
       if (!motion) continue;
       std::vector<Point> points, velocity;
       const PetscInt* nodes = block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerFace);
       for (int i = 0; i < block.nodesPerFace; ++i) {
-        points.push_back(mesh.coordinates[static_cast<std::size_t>(nodes[i])]);
+        points.push_back(mesh.coordinates[nodes[i]]);
         velocity.push_back(motion->velocity(points.back()));
       }
       double faceArea = 0;
       for (double entry : elasticity::faceMass(table, points)) faceArea += entry;
       const auto derivative = elasticity::faceDerivative(table, points, velocity);
       for (int i = 0; i < block.nodesPerFace; ++i) {
-        const PetscInt row = dimension * mesh.globalNode[static_cast<std::size_t>(nodes[i])];
+        const PetscInt row = dimension * mesh.globalNode[nodes[i]];
         for (int d = 0; d < dimension; ++d) {
           check(VecSetValue(area, row + d, faceArea, ADD_VALUES));
           for (int j = 0; j < block.nodesPerFace; ++j)
-            check(MatSetValue(
-                sums, row + d, dimension * mesh.globalNode[static_cast<std::size_t>(nodes[j])] + d,
-                faceArea * derivative[static_cast<std::size_t>(i * block.nodesPerFace + j)],
-                ADD_VALUES));
+            check(MatSetValue(sums, row + d, dimension * mesh.globalNode[nodes[j]] + d,
+                              faceArea * derivative[i * block.nodesPerFace + j], ADD_VALUES));
         }
       }
     }
@@ -165,8 +161,7 @@ void setBlock(Mat matrix, int dimension, PetscInt rowNode, PetscInt columnNode,
 std::vector<double> outer(const Point& a, const Point& b, int dimension, double factor) {
   std::vector<double> block;
   for (int i = 0; i < dimension; ++i)
-    for (int j = 0; j < dimension; ++j)
-      block.push_back(factor * a[static_cast<std::size_t>(i)] * b[static_cast<std::size_t>(j)]);
+    for (int j = 0; j < dimension; ++j) block.push_back(factor * a[i] * b[j]);
   return block;
 }
 
@@ -194,7 +189,7 @@ std::vector<Slip> Contact::slip(double speed, Vec displacement) const {
     if (values) {
       Point change{};
       for (int d = 0; d < mesh->dimension; ++d)
-        change[static_cast<std::size_t>(d)] = -speed * values[mesh->dimension * node.node + d];
+        change[d] = -speed * values[mesh->dimension * node.node + d];
       const double along = dot(change, node.normal);
       for (std::size_t d = 0; d < 3; ++d) w[d] += change[d] - along * node.normal[d];
     }
@@ -217,7 +212,7 @@ OwnedMat Contact::slipRows(const Transformation& transformation, const std::vect
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (!slides[i]) continue;
     for (int d = 0; d < mesh->dimension; ++d) {
-      const double entry = slip[i].law * slip[i].direction[static_cast<std::size_t>(d)];
+      const double entry = slip[i].law * slip[i].direction[d];
       check(MatSetValue(rows, gapRow(nodes[i]), mesh->dimension * nodes[i].globalNode + d, entry,
                         INSERT_VALUES));
       if (nodes[i].master >= 0)

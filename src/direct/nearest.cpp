@@ -259,8 +259,8 @@ NearestPairs NearestSolver::whole() const {
                              linalg::gathered(terms_[0]), static_cast<int>(size_))) {
     NearestPair pair = emptyPair(terms_[0], s);
     for (PetscInt i = first; i < end; ++i) {
-      check(VecSetValue(pair.real, i, q[static_cast<std::size_t>(i)].real(), INSERT_VALUES));
-      check(VecSetValue(pair.imaginary, i, q[static_cast<std::size_t>(i)].imag(), INSERT_VALUES));
+      check(VecSetValue(pair.real, i, q[i].real(), INSERT_VALUES));
+      check(VecSetValue(pair.imaginary, i, q[i].imag(), INSERT_VALUES));
     }
     for (Vec part : {pair.real.get(), pair.imaginary.get()})
       check(VecAssemblyBegin(part)), check(VecAssemblyEnd(part));

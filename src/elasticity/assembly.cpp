@@ -36,14 +36,11 @@ void append(Triples& triples, const mesh::Mesh& mesh, const PetscInt* nodes, int
       for (int j = 0; j < count; ++j)
         for (int b = 0; b < dimension; ++b) {
           if (scalar && a != b) continue;
-          triples.row.push_back(dimension * mesh.globalNode[static_cast<std::size_t>(nodes[i])] +
-                                a);
-          triples.column.push_back(dimension * mesh.globalNode[static_cast<std::size_t>(nodes[j])] +
-                                   b);
+          triples.row.push_back(dimension * mesh.globalNode[nodes[i]] + a);
+          triples.column.push_back(dimension * mesh.globalNode[nodes[j]] + b);
           triples.value.push_back(
-              scalar ? matrix[static_cast<std::size_t>(i * count + j)]
-                     : matrix[static_cast<std::size_t>((i * dimension + a) * count * dimension +
-                                                       j * dimension + b)]);
+              scalar ? matrix[i * count + j]
+                     : matrix[(i * dimension + a) * count * dimension + j * dimension + b]);
         }
 }
 
@@ -51,15 +48,13 @@ void addLoad(Vec load, const mesh::Mesh& mesh, const PetscInt* nodes, int count,
              const std::vector<double>& values, double factor) {
   for (int i = 0; i < count; ++i)
     for (int d = 0; d < mesh.dimension; ++d)
-      check(VecSetValue(load,
-                        mesh.dimension * mesh.globalNode[static_cast<std::size_t>(nodes[i])] + d,
-                        factor * values[static_cast<std::size_t>(3 * i + d)], ADD_VALUES));
+      check(VecSetValue(load, mesh.dimension * mesh.globalNode[nodes[i]] + d,
+                        factor * values[3 * i + d], ADD_VALUES));
 }
 
 std::vector<Point> pointsOf(const mesh::Mesh& mesh, const PetscInt* nodes, int count) {
   std::vector<Point> points;
-  for (int i = 0; i < count; ++i)
-    points.push_back(mesh.coordinates[static_cast<std::size_t>(nodes[i])]);
+  for (int i = 0; i < count; ++i) points.push_back(mesh.coordinates[nodes[i]]);
   return points;
 }
 
@@ -87,7 +82,7 @@ CellsNamed named(const mesh::Mesh& mesh, std::vector<CellName> cells) {
   for (std::size_t i = 0; i < std::min(most, static_cast<std::size_t>(result.count)); ++i) {
     const auto [tag, type, body] = all[i];
     words.push_back("cell " + std::to_string(tag) + " (" + shapeTable(static_cast<int>(type)).name +
-                    ") of group '" + mesh.bodies[static_cast<std::size_t>(body)] + "'");
+                    ") of group '" + mesh.bodies[body] + "'");
   }
   result.words = joined(words) + (static_cast<std::size_t>(result.count) > most ? ", …" : "");
   return result;

@@ -63,7 +63,7 @@ void rejectCrossing(const mesh::Mesh& mesh, const std::string& body, const Motio
   check(VecRestoreArrayRead(crossing.scale, &scale));
   std::string failure;
   if (where >= 0) {
-    const Point& x = mesh.coordinates[static_cast<std::size_t>(where)];
+    const Point& x = mesh.coordinates[where];
     failure = "option -motion_convective: body '" + body +
               "' is not a figure of revolution about its axis (or not uniform along its "
               "translation): its matter crosses its " +
@@ -97,11 +97,9 @@ void assembleConvection(const mesh::Mesh& mesh, const std::vector<Material>& mat
     append(g, mesh, nodes, block.nodesPerCell, cell.gyroscopic, true);
     append(k, mesh, nodes, block.nodesPerCell, cell.rotationStiffness, true);
     for (int i = 0; i < block.nodesPerCell; ++i) {
-      const PetscInt node = mesh.globalNode[static_cast<std::size_t>(nodes[i])];
-      check(VecSetValue(crossing[body].flux, node, cell.flux[static_cast<std::size_t>(i)],
-                        ADD_VALUES));
-      check(VecSetValue(crossing[body].scale, node, cell.fluxScale[static_cast<std::size_t>(i)],
-                        ADD_VALUES));
+      const PetscInt node = mesh.globalNode[nodes[i]];
+      check(VecSetValue(crossing[body].flux, node, cell.flux[i], ADD_VALUES));
+      check(VecSetValue(crossing[body].scale, node, cell.fluxScale[i], ADD_VALUES));
     }
   });
   for (std::size_t body = 0; body < mesh.bodies.size(); ++body)

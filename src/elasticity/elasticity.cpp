@@ -114,7 +114,7 @@ CellTriples cellTriples(const mesh::Mesh& mesh, const std::vector<Material>& mat
   forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table,
                         const std::vector<Point>& points) {
     if (body && block.body[e] != *body) return;
-    const Material& material = materials[static_cast<std::size_t>(block.body[e])];
+    const Material& material = materials[block.body[e]];
     const PetscInt* nodes = block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerCell);
     const bool bubbles =
         std::find(incompatible.begin(), incompatible.end(), table.name) != incompatible.end();
@@ -155,15 +155,14 @@ void assembleCentrifugal(const mesh::Mesh& mesh, const std::vector<Material>& ma
   if (centrifugalOption.get())
     forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table,
                           const std::vector<Point>& points) {
-      const Motion& motion = bodies.motions[static_cast<std::size_t>(block.body[e])];
+      const Motion& motion = bodies.motions[block.body[e]];
       if (motion.speed != 0)
-        addLoad(
-            bodies.centrifugal, mesh,
-            block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerCell),
-            block.nodesPerCell,
-            centrifugal(table, points, materials[static_cast<std::size_t>(block.body[e])].density,
-                        motion.speed, motion.axis, motion.origin),
-            1);
+        addLoad(bodies.centrifugal, mesh,
+                block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerCell),
+                block.nodesPerCell,
+                centrifugal(table, points, materials[block.body[e]].density, motion.speed,
+                            motion.axis, motion.origin),
+                1);
     });
   check(VecAssemblyBegin(bodies.centrifugal));
   check(VecAssemblyEnd(bodies.centrifugal));
@@ -175,7 +174,7 @@ void assembleLoad(const mesh::Mesh& mesh, Bodies& bodies) {
   for (const auto& surface : mesh.surfaces) pressure.push_back(pressureOption.get(surface));
   for (const auto& block : mesh.faces)
     for (std::size_t e = 0; e < block.surface.size(); ++e) {
-      const double p = pressure[static_cast<std::size_t>(block.surface[e])];
+      const double p = pressure[block.surface[e]];
       const PetscInt* nodes = block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerFace);
       if (p != 0)
         addLoad(bodies.load, mesh, nodes, block.nodesPerFace,
@@ -229,7 +228,7 @@ BodyPart bodyPart(const mesh::Mesh& mesh, int body) {
   auto triples = cellTriples(mesh, materials, body);
   if (convectiveTerms()) assembleConvection(mesh, materials, alone);
   assembleCentrifugal(mesh, materials, alone);
-  const Material& material = materials[static_cast<std::size_t>(body)];
+  const Material& material = materials[body];
   return {toMatrix(mesh, triples.stiffness, Symmetry::rounded),
           toMatrix(mesh, triples.mass, Symmetry::rounded),
           std::move(alone.gyroscopic),
@@ -251,13 +250,11 @@ OwnedMat geometricStiffness(const mesh::Mesh& mesh, Vec displacement, std::optio
     const PetscInt* nodes = block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerCell);
     std::vector<double> u;
     for (int i = 0; i < block.nodesPerCell; ++i)
-      for (int d = 0; d < mesh.dimension; ++d)
-        u.push_back(values[static_cast<std::size_t>(mesh.dimension * nodes[i] + d)]);
+      for (int d = 0; d < mesh.dimension; ++d) u.push_back(values[mesh.dimension * nodes[i] + d]);
     const bool bubbles =
         std::find(incompatible.begin(), incompatible.end(), table.name) != incompatible.end();
-    const auto cell =
-        geometricStiffness(gradientTable(table, points), points,
-                           materials[static_cast<std::size_t>(block.body[e])].law, bubbles, u);
+    const auto cell = geometricStiffness(gradientTable(table, points), points,
+                                         materials[block.body[e]].law, bubbles, u);
     append(k, mesh, nodes, block.nodesPerCell,
            onAllComponents(cell, block.nodesPerCell, mesh.dimension), false);  // pattern of K
   });

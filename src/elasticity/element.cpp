@@ -29,15 +29,10 @@ void strainColumns(double* b, int columns, int i, const Point& g, int dimension)
 /// [other][inner], from a symmetric row-major matrix of size `all`.
 std::vector<double> innerResponse(const std::vector<double>& k, int all, int inner) {
   const int outer = all - inner;
-  std::vector<double> kii(static_cast<std::size_t>(inner * inner)),
-      response(static_cast<std::size_t>(inner * outer));
+  std::vector<double> kii(inner * inner), response(static_cast<std::size_t>(inner * outer));
   for (int a = 0; a < inner; ++a) {  // column-major
-    for (int b = 0; b < inner; ++b)
-      kii[static_cast<std::size_t>(b * inner + a)] =
-          k[static_cast<std::size_t>((outer + a) * all + outer + b)];
-    for (int b = 0; b < outer; ++b)
-      response[static_cast<std::size_t>(b * inner + a)] =
-          -k[static_cast<std::size_t>((outer + a) * all + b)];
+    for (int b = 0; b < inner; ++b) kii[b * inner + a] = k[(outer + a) * all + outer + b];
+    for (int b = 0; b < outer; ++b) response[b * inner + a] = -k[(outer + a) * all + b];
   }
   PetscBLASInt n = inner, m = outer, info = 0;
   LAPACKpotrf_("L", &n, kii.data(), &n, &info);
@@ -50,14 +45,12 @@ std::vector<double> innerResponse(const std::vector<double>& k, int all, int inn
 std::vector<double> condensed(const std::vector<double>& k, int all, int inner) {
   const int outer = all - inner;
   const auto response = innerResponse(k, all, inner);
-  std::vector<double> result(static_cast<std::size_t>(outer * outer));
+  std::vector<double> result(outer * outer);
   for (int a = 0; a < outer; ++a)
     for (int b = 0; b < outer; ++b) {
-      double sum = k[static_cast<std::size_t>(a * all + b)];
-      for (int c = 0; c < inner; ++c)
-        sum += k[static_cast<std::size_t>((outer + c) * all + a)] *
-               response[static_cast<std::size_t>(b * inner + c)];
-      result[static_cast<std::size_t>(a * outer + b)] = sum;
+      double sum = k[a * all + b];
+      for (int c = 0; c < inner; ++c) sum += k[(outer + c) * all + a] * response[b * inner + c];
+      result[a * outer + b] = sum;
     }
   return result;
 }
@@ -76,7 +69,7 @@ StrainMatrix strainMatrix(const ShapeTable& table, const std::vector<Point>& nod
   const int dimension = table.dimension, bubbles = incompatible ? dimension : 0;
   StrainMatrix strain{
       table.points(), dimension == 2 ? 3 : 6, (table.nodes + bubbles) * dimension, {}, {}, {}};
-  strain.b.assign(static_cast<std::size_t>(strain.points * strain.rows * strain.columns), 0.0);
+  strain.b.assign(strain.points * strain.rows * strain.columns, 0.0);
   Matrix3 centre{};
   double centreDet = 0;
   if (incompatible) {
@@ -95,19 +88,16 @@ StrainMatrix strainMatrix(const ShapeTable& table, const std::vector<Point>& nod
       strainColumns(bq, strain.columns, i,
                     mapped(inv, {gradient[3 * i], gradient[3 * i + 1], gradient[3 * i + 2]}),
                     dimension);
-      for (std::size_t d = 0; d < 3; ++d)
-        x[d] += table.value[static_cast<std::size_t>(q * table.nodes + i)] *
-                nodes[static_cast<std::size_t>(i)][d];
+      for (std::size_t d = 0; d < 3; ++d) x[d] += table.value[q * table.nodes + i] * nodes[i][d];
     }
     for (int m = 0; m < bubbles; ++m) {
       // ∇(1 − ξ_m²) with the Jacobian of the centre, scaled by j0/j: its mean vanishes, so constant
       // stress does no work on it.
       Point reference{};
-      reference[static_cast<std::size_t>(m)] =
-          -2 * table.point[static_cast<std::size_t>(3 * q + m)] * centreDet / det;
+      reference[m] = -2 * table.point[3 * q + m] * centreDet / det;
       strainColumns(bq, strain.columns, table.nodes + m, mapped(centre, reference), dimension);
     }
-    strain.volume.push_back(table.weight[static_cast<std::size_t>(q)] * det);
+    strain.volume.push_back(table.weight[q] * det);
     strain.position.push_back(x);
   }
   return strain;
@@ -118,18 +108,18 @@ std::vector<double> fullStiffness(const StrainMatrix& strain, const Law& law) {
   std::vector<double> db(strain.b.size(), 0.0);
   Hooke storage;
   for (int q = 0; q < strain.points; ++q) {
-    const Hooke& hooke = law.at(strain.position[static_cast<std::size_t>(q)], storage);
+    const Hooke& hooke = law.at(strain.position[q], storage);
     double* dbq = db.data() + q * strain.rows * strain.columns;
     for (int r = 0; r < strain.rows; ++r)
       for (int s = 0; s < strain.rows; ++s) {
-        const double d = strain.volume[static_cast<std::size_t>(q)] * hooke(r, s);
+        const double d = strain.volume[q] * hooke(r, s);
         if (d != 0)
           for (int c = 0; c < strain.columns; ++c)
             dbq[r * strain.columns + c] += d * strain.at(q)[s * strain.columns + c];
       }
   }
   // Row-major B is column-major Bᵀ: K = Bᵀ (D B) over all points in one product.
-  std::vector<double> k(static_cast<std::size_t>(strain.columns * strain.columns));
+  std::vector<double> k(strain.columns * strain.columns);
   PetscBLASInt n = strain.columns, depth = strain.rows * strain.points;
   const PetscScalar one = 1, zero = 0;
   BLASgemm_("N", "T", &n, &n, &depth, &one, strain.b.data(), &n, db.data(), &n, &zero, k.data(),
@@ -140,15 +130,12 @@ std::vector<double> fullStiffness(const StrainMatrix& strain, const Law& law) {
 /// Returns the stress σ = D B u at one point; in the plane its in-plane components.
 Matrix3 stressAt(const StrainMatrix& strain, int q, const Hooke& hooke,
                  const std::vector<double>& displacement) {
-  std::vector<double> epsilon(static_cast<std::size_t>(strain.rows), 0.0),
-      sigma(epsilon.size(), 0.0);
+  std::vector<double> epsilon(strain.rows, 0.0), sigma(epsilon.size(), 0.0);
   for (int r = 0; r < strain.rows; ++r)
     for (int c = 0; c < strain.columns; ++c)
-      epsilon[static_cast<std::size_t>(r)] +=
-          strain.at(q)[r * strain.columns + c] * displacement[static_cast<std::size_t>(c)];
+      epsilon[r] += strain.at(q)[r * strain.columns + c] * displacement[c];
   for (int r = 0; r < strain.rows; ++r)
-    for (int s = 0; s < strain.rows; ++s)
-      sigma[static_cast<std::size_t>(r)] += hooke(r, s) * epsilon[static_cast<std::size_t>(s)];
+    for (int s = 0; s < strain.rows; ++s) sigma[r] += hooke(r, s) * epsilon[s];
   if (strain.rows == 3) return {{{sigma[0], sigma[2], 0}, {sigma[2], sigma[1], 0}, {0, 0, 0}}};
   return {{{sigma[0], sigma[3], sigma[5]},
            {sigma[3], sigma[1], sigma[4]},
@@ -194,8 +181,7 @@ std::vector<double> geometricStiffness(const ShapeTable& table, const std::vecto
   std::vector<double> k(n * n, 0.0);
   Hooke storage;
   for (int q = 0; q < strain.points; ++q) {
-    const Matrix3 stress = stressAt(
-        strain, q, law.at(strain.position[static_cast<std::size_t>(q)], storage), displacement);
+    const Matrix3 stress = stressAt(strain, q, law.at(strain.position[q], storage), displacement);
     // The normal strains of node i are its ∂φ/∂x_d.
     const auto gradient = [&](std::size_t i, std::size_t d) {
       return strain.at(q)[d * static_cast<std::size_t>(strain.columns) + i * dimension + d];
@@ -205,7 +191,7 @@ std::vector<double> geometricStiffness(const ShapeTable& table, const std::vecto
         double flux = 0;
         for (std::size_t c = 0; c < dimension; ++c) flux += gradient(i, c) * stress[c][d];
         for (std::size_t j = 0; j < n; ++j)
-          k[i * n + j] += strain.volume[static_cast<std::size_t>(q)] * flux * gradient(j, d);
+          k[i * n + j] += strain.volume[q] * flux * gradient(j, d);
       }
   }
   return k;

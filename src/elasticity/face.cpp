@@ -27,7 +27,7 @@ std::vector<double> faceNormals(const ShapeTable& table, const std::vector<Point
   for (int q = 0; q < table.points(); ++q) {
     const Point normal =
         faceNormal(table.gradient.data() + 3 * q * table.nodes, nodes, table.dimension);
-    const double factor = sign * table.weight[static_cast<std::size_t>(q)];
+    const double factor = sign * table.weight[q];
     for (std::size_t a = 0; a < n; ++a)
       for (std::size_t d = 0; d < 3; ++d)
         load[3 * a + d] += factor * table.value[static_cast<std::size_t>(q) * n + a] * normal[d];
@@ -40,7 +40,7 @@ std::vector<double> faceMass(const ShapeTable& table, const std::vector<Point>& 
   std::vector<double> m(n * n, 0.0);
   for (int q = 0; q < table.points(); ++q) {
     const double factor =
-        table.weight[static_cast<std::size_t>(q)] *
+        table.weight[q] *
         norm(faceNormal(table.gradient.data() + 3 * q * table.nodes, nodes, table.dimension));
     const double* value = table.value.data() + static_cast<std::size_t>(q) * n;
     for (std::size_t a = 0; a < n; ++a)

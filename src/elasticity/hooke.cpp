@@ -9,13 +9,9 @@
 namespace squeal::elasticity {
 namespace {
 
-Hooke zeroLaw(int size) {
-  return {size, std::vector<double>(static_cast<std::size_t>(size * size), 0.0)};
-}
+Hooke zeroLaw(int size) { return {size, std::vector<double>(size * size, 0.0)}; }
 
-double& entry(Hooke& hooke, int i, int j) {
-  return hooke.matrix[static_cast<std::size_t>(i * hooke.size + j)];
-}
+double& entry(Hooke& hooke, int i, int j) { return hooke.matrix[i * hooke.size + j]; }
 
 /// Returns the compliance of the normal components, 1/Pa.
 Matrix3 normalCompliance(const EngineeringConstants& c) {
@@ -64,8 +60,7 @@ Hooke orthotropic(const EngineeringConstants& c) {
                 normal = inverse(compliance, determinant(compliance));
   Hooke hooke = zeroLaw(6);
   for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      entry(hooke, i, j) = normal[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+    for (int j = 0; j < 3; ++j) entry(hooke, i, j) = normal[i][j];
   entry(hooke, 3, 3) = c.g12, entry(hooke, 4, 4) = c.g23, entry(hooke, 5, 5) = c.g13;
   return hooke;
 }

@@ -17,7 +17,7 @@ using mesh::Point;
 struct Hooke {
   int size = 6;
   std::vector<double> matrix;
-  double operator()(int i, int j) const { return matrix[static_cast<std::size_t>(i * size + j)]; }
+  double operator()(int i, int j) const { return matrix[i * size + j]; }
 };
 /// Returns the law of an isotropic material, for `young` in Pa and in the given dimension.
 Hooke isotropic(double young, double poisson, int dimension, bool planeStress);

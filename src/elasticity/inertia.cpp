@@ -28,7 +28,7 @@ std::vector<double> massVolumes(const ShapeTable& table, const std::vector<Point
     const double det =
         determinant(jacobian(table.gradient.data() + 3 * q * table.nodes, nodes, table.dimension));
     determinants.push_back(det);
-    volumes.push_back(table.weight[static_cast<std::size_t>(q)] * det);
+    volumes.push_back(table.weight[q] * det);
     total += volumes.back();
     positive += det > 0 ? volumes.back() : 0;
   }
@@ -76,7 +76,7 @@ std::vector<double> centrifugal(const ShapeTable& table, const std::vector<Point
   for (int q = 0; q < table.points(); ++q) {
     const double det =
         determinant(jacobian(table.gradient.data() + 3 * q * table.nodes, nodes, table.dimension));
-    const double factor = density * speed * speed * table.weight[static_cast<std::size_t>(q)] * det;
+    const double factor = density * speed * speed * table.weight[q] * det;
     const double* value = table.value.data() + static_cast<std::size_t>(q) * n;
     Point r{-origin[0], -origin[1], -origin[2]};
     for (std::size_t a = 0; a < n; ++a)
@@ -99,8 +99,7 @@ Convection convection(const ShapeTable& table, const std::vector<Point>& nodes,
     const double* gradient = table.gradient.data() + 3 * q * table.nodes;
     const double* value = table.value.data() + static_cast<std::size_t>(q) * n;
     const Matrix3 j = jacobian(gradient, nodes, table.dimension);
-    const double det = positiveDeterminant(j),
-                 volume = table.weight[static_cast<std::size_t>(q)] * det;
+    const double det = positiveDeterminant(j), volume = table.weight[q] * det;
     const Matrix3 inv = inverse(j, det);
     Point v{};
     for (std::size_t a = 0; a < n; ++a)

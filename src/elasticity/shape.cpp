@@ -42,8 +42,7 @@ ShapeTable tabulate(int type, int degree) {
   std::vector<double> nodes;
   for (int i = 0; i < table.nodes; ++i)
     for (int d = 0; d < 3; ++d)
-      nodes.push_back(d < table.dimension ? local[static_cast<std::size_t>(i * table.dimension + d)]
-                                          : 0.0);
+      nodes.push_back(d < table.dimension ? local[i * table.dimension + d] : 0.0);
   table.nodeGradient = basis(type, nodes, "GradLagrange");
   table.centreGradient = basis(type, {0, 0, 0}, "GradLagrange");
   return table;

@@ -113,7 +113,7 @@ void Influences::followSteadyState(const BodyPoint& state, const steady::Problem
     cause.held = contact_.offset;
   }
   if (!influence.member) {
-    const auto& part = parts_[static_cast<std::size_t>(influence.body)];
+    const auto& part = parts_[influence.body];
     if (influence.density)
       inertiaForms(part.rotationStiffness, part.centrifugal, v * v);
     else
@@ -158,7 +158,7 @@ Influences::Projected Influences::project(const BodyPoint& state,
 Complex Influences::materialForm(const Influence& influence, const BodyPoint& state,
                                  const Projected& pair) const {
   if (influence.member) return 0;
-  const auto& part = parts_[static_cast<std::size_t>(influence.body)];
+  const auto& part = parts_[influence.body];
   const auto form = [&](Mat matrix) { return matrix ? dot(pair.z, product(matrix, pair.u)) : 0; };
   const Complex s = pair.s;
   const double v = state.at.speed, c = state.at.damping;

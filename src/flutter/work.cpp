@@ -19,8 +19,7 @@ std::vector<ComplexPoint> atPadNodes(const contact::Contact& contact,
   for (const auto& node : contact.nodes) {
     ComplexPoint point{};
     for (int d = 0; d < dimension; ++d)
-      point[static_cast<std::size_t>(d)] = {real[dimension * node.node + d],
-                                            imaginary[dimension * node.node + d]};
+      point[d] = {real[dimension * node.node + d], imaginary[dimension * node.node + d]};
     points.push_back(point);
   }
   check(VecRestoreArrayRead(u.real, &real));

@@ -81,8 +81,7 @@ Block principal(MPI_Comm comm, const Block& columns, double small) {
   const auto n = static_cast<std::size_t>(columns.columns);
   std::size_t first = 0;
   while (first < n && !(sizes[first] > small * small)) ++first;
-  combinations.erase(combinations.begin(),
-                     combinations.begin() + static_cast<std::ptrdiff_t>(first * n));
+  combinations.erase(combinations.begin(), combinations.begin() + first * n);
   return combined(columns, combinations, static_cast<PetscInt>(n - first));
 }
 
@@ -96,7 +95,7 @@ Block unitColumns(MPI_Comm comm, const Block& columns) {
   check(MPI_Bcast(squares.data(), static_cast<int>(squares.size()), MPI_DOUBLE, 0, comm));
   Block units(columns.rows);
   for (PetscInt j = 0; j < columns.columns; ++j)
-    if (const double square = squares[static_cast<std::size_t>(j)]; square > 0)
+    if (const double square = squares[j]; square > 0)
       units.append(columns.column(j), 1 / std::sqrt(square));
   return units;
 }

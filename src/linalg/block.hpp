@@ -82,7 +82,7 @@ class RowSet {
   /// Returns true if the set holds all rows of the matrix, on every rank.
   bool all() const { return all_; }
   PetscInt localRows() const { return localRows_; }
-  PetscInt operator[](PetscInt i) const { return all_ ? i : rows_[static_cast<std::size_t>(i)]; }
+  PetscInt operator[](PetscInt i) const { return all_ ? i : rows_[i]; }
   /// Returns these rows of `count` columns, size() × count. The columns are given by all local
   /// rows, column-major.
   std::vector<double> of(const double* columns, PetscInt count) const;

@@ -88,7 +88,7 @@ std::vector<EigenPair> generalized(DenseMatrix a, DenseMatrix b, int size, Vecto
                 &order, work.data(), &length, &info);
   };
   call(query);
-  work.resize(static_cast<std::size_t>(work[0]));
+  work.resize(work[0]);
   call(static_cast<PetscBLASInt>(work.size()));
   if (info != 0)
     throw Error("LAPACK dggev failed on the reduced eigenproblem (info " + std::to_string(info) +
@@ -109,7 +109,7 @@ std::vector<EigenPair> standard(DenseMatrix a, int size, Vectors sides, const Wa
                 schur.data(), &order, work.data(), &length, nullptr, &info);
   };
   call(query);
-  work.resize(static_cast<std::size_t>(work[0]));
+  work.resize(work[0]);
   call(static_cast<PetscBLASInt>(work.size()));
   if (info != 0)
     throw Error("LAPACK dgees failed on the reduced eigenproblem (info " + std::to_string(info) +
@@ -170,9 +170,7 @@ void undoInverse(const Lu<double>& mass, std::vector<DensePair>& pairs) {
   auto part = columns.begin();
   for (auto& pair : pairs) {
     const auto imaginary = part + static_cast<std::ptrdiff_t>(pair.left.size());
-    for (std::size_t i = 0; i < pair.left.size(); ++i)
-      pair.left[i] = {part[static_cast<std::ptrdiff_t>(i)],
-                      imaginary[static_cast<std::ptrdiff_t>(i)]};
+    for (std::size_t i = 0; i < pair.left.size(); ++i) pair.left[i] = {part[i], imaginary[i]};
     part = imaginary + static_cast<std::ptrdiff_t>(pair.left.size());
   }
 }
@@ -219,8 +217,7 @@ DenseMatrix padded(const DenseMatrix& mass, std::size_t m) {
   DenseMatrix b(4 * m * m, 0.0);
   for (std::size_t j = 0; j < m; ++j) {
     b[j * 2 * m + j] = 1;
-    std::copy_n(mass.begin() + static_cast<std::ptrdiff_t>(j * m), m,
-                b.begin() + static_cast<std::ptrdiff_t>((m + j) * 2 * m + m));
+    std::copy_n(mass.begin() + j * m, m, b.begin() + ((m + j) * 2 * m + m));
   }
   return b;
 }

@@ -24,14 +24,13 @@ std::vector<double> gathered(Mat matrix) {
   const OwnedMat whole = onRankZero(matrix);
   PetscInt n = 0;
   check(MatGetSize(whole, &n, nullptr));
-  std::vector<double> values(static_cast<std::size_t>(n * n), 0.0);
+  std::vector<double> values(n * n, 0.0);
   for (PetscInt row = 0; row < n; ++row) {
     PetscInt count = 0;
     const PetscInt* columns = nullptr;
     const PetscScalar* entries = nullptr;
     check(MatGetRow(whole, row, &count, &columns, &entries));
-    for (PetscInt k = 0; k < count; ++k)
-      values[static_cast<std::size_t>(columns[k] * n + row)] = entries[k];
+    for (PetscInt k = 0; k < count; ++k) values[columns[k] * n + row] = entries[k];
     check(MatRestoreRow(whole, row, &count, &columns, &entries));
   }
   return values;

@@ -29,7 +29,7 @@ Sketch::Sketch(MPI_Comm comm, const std::vector<double>& diagonal)
   const double unit = 1 / std::sqrt(static_cast<double>(size));
   for (PetscInt i = 0; i < rows; ++i) {
     std::uint64_t word = bits(static_cast<std::uint64_t>(first + i));
-    const double weight = std::sqrt(diagonal[static_cast<std::size_t>(i)]);
+    const double weight = std::sqrt(diagonal[i]);
     for (PetscInt j = 0; j < size; ++j, word >>= 1) {
       signs_.column(j)[i] = (word & 1) != 0 ? unit : -unit;
       signs_.column(size + j)[i] = weight * signs_.column(j)[i];

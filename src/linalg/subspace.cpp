@@ -115,8 +115,8 @@ class TwoSidedIteration {
   TwoSidedIteration(const DenseProblem& problem, const std::vector<DensePair>& start)
       : problem_(problem) {
     for (auto [s, x, y] : start) {
-      x.resize(static_cast<std::size_t>(problem.m), 0.0);
-      y.resize(static_cast<std::size_t>(problem.m), 0.0);
+      x.resize(problem.m, 0.0);
+      y.resize(problem.m, 0.0);
       right_.push_back({x, combined(s, x, 0, x)});
       left_.push_back({combined(std::conj(s), timesTransposed(problem.mass, y), 1,
                                 timesTransposed(problem.damping, y)),

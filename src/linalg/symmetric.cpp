@@ -12,7 +12,7 @@ namespace squeal::linalg {
 
 std::vector<double> symmetricEigen(std::vector<double>& a, int n) {
   PetscBLASInt order = n, length = -1, integers = -1, info = 0, integerLength = 0;
-  std::vector<double> values(static_cast<std::size_t>(n));
+  std::vector<double> values(n);
   if (n == 0) return values;
   double workLength = 0;
   // Divide and conquer: on some hundred columns several times faster than dsyev, whose rotations
@@ -21,8 +21,8 @@ std::vector<double> symmetricEigen(std::vector<double>& a, int n) {
                &integerLength, &integers, &info);
   length = static_cast<PetscBLASInt>(workLength);
   integers = integerLength;
-  std::vector<double> work(static_cast<std::size_t>(length));
-  std::vector<PetscBLASInt> integerWork(static_cast<std::size_t>(integers));
+  std::vector<double> work(length);
+  std::vector<PetscBLASInt> integerWork(integers);
   LAPACKsyevd_("V", "L", &order, a.data(), &order, values.data(), work.data(), &length,
                integerWork.data(), &integers, &info);
   if (info != 0)
@@ -33,12 +33,12 @@ std::vector<double> symmetricEigen(std::vector<double>& a, int n) {
 
 std::vector<double> symmetricEigen(std::vector<double>& a, std::vector<double>& b, int n) {
   PetscBLASInt type = 1, order = n, length = -1, info = 0;
-  std::vector<double> values(static_cast<std::size_t>(n)), work(1);
+  std::vector<double> values(n), work(1);
   if (n == 0) return values;
   LAPACKsygv_(&type, "V", "L", &order, a.data(), &order, b.data(), &order, values.data(),
               work.data(), &length, &info);
   length = static_cast<PetscBLASInt>(work[0]);
-  work.resize(static_cast<std::size_t>(length));
+  work.resize(length);
   LAPACKsygv_(&type, "V", "L", &order, a.data(), &order, b.data(), &order, values.data(),
               work.data(), &length, &info);
   if (info != 0)

@@ -34,7 +34,7 @@ std::string firstBytes(const std::filesystem::path& path, std::size_t count) {
   if (!file) throw Error(std::string("cannot be read: ") + std::strerror(errno));
   std::string bytes(count, '\0');
   file.read(bytes.data(), static_cast<std::streamsize>(count));
-  bytes.resize(static_cast<std::size_t>(file.gcount()));
+  bytes.resize(file.gcount());
   if (bytes.empty()) throw Error("the file is empty");
   return bytes;
 }

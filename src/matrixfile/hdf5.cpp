@@ -152,7 +152,7 @@ Entries table(hid_t file, hid_t dataset, const std::string& name) {
   Entries entries(size, size);
   for (long long i = 0, k = 0; i < size; ++i)
     for (long long j = 0; j < size; ++j, ++k)
-      entries.add(transposed ? j : i, transposed ? i : j, values[static_cast<std::size_t>(k)]);
+      entries.add(transposed ? j : i, transposed ? i : j, values[k]);
   return entries;
 }
 

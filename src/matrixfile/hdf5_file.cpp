@@ -12,7 +12,7 @@ constexpr hsize_t mostText = 64;
 
 std::vector<hsize_t> extentOf(hid_t space) {
   const int rank = H5Sget_simple_extent_ndims(space);
-  std::vector<hsize_t> shape(static_cast<std::size_t>(std::max(rank, 0)));
+  std::vector<hsize_t> shape(std::max(rank, 0));
   if (rank > 0) H5Sget_simple_extent_dims(space, shape.data(), nullptr);
   return shape;
 }
@@ -111,7 +111,7 @@ std::vector<Number> valuesOf(hid_t dataset, bool onlyIntegers, hid_t memory, int
                           H5Sget_simple_extent_ndims(space)));
   const auto shape = extentOf(space);
   requireStored(dataset, type, shape);
-  std::vector<Number> values(static_cast<std::size_t>(product(shape, 1)));
+  std::vector<Number> values(product(shape, 1));
   if (!values.empty() && H5Dread(dataset, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
     throw Error("it cannot be read" + cause());
   return values;

@@ -13,9 +13,7 @@ namespace {
 constexpr std::size_t headerSize = 20;
 
 /// Returns the bytes per value of a type: double, float, and integers of 32, 16, 16 and 8 bits.
-std::uint64_t widthOf(int type) {
-  return std::array<std::uint64_t, 6>{8, 4, 4, 2, 2, 1}.at(static_cast<std::size_t>(type));
-}
+std::uint64_t widthOf(int type) { return std::array<std::uint64_t, 6>{8, 4, 4, 2, 2, 1}.at(type); }
 
 double valueAt(const char* bytes, int type, bool swapped) {
   switch (type) {
@@ -35,7 +33,7 @@ double valueAt(const char* bytes, int type, bool swapped) {
 }
 
 std::vector<double> valuesOf(BinaryFile& file, const Variable& variable) {
-  std::vector<char> bytes(static_cast<std::size_t>(variable.end - variable.begin));
+  std::vector<char> bytes(variable.end - variable.begin);
   file.seek(variable.begin);
   file.read(bytes.data(), bytes.size());
   const std::size_t width = widthOf(variable.type);
@@ -82,7 +80,7 @@ Variable variableAt(BinaryFile& file, std::uint64_t position) {
         formatted("the file is cut short: the variable at byte %llu is longer than what is left",
                   static_cast<unsigned long long>(position)));
   variable.end = variable.begin + count * width;
-  variable.name.resize(static_cast<std::size_t>(nameLength));
+  variable.name.resize(nameLength);
   file.read(variable.name.data(), variable.name.size());
   variable.name = variable.name.c_str();  // a zero ends it
   const bool isText = mopt % 10 == 1, complex = imaginary == 1 || (variable.sparse && word(2) == 4);

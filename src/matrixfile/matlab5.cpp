@@ -42,7 +42,7 @@ class Source {
     std::vector<char> bytes;
     while (bytes.size() < count) {
       const std::size_t had = bytes.size();
-      bytes.resize(static_cast<std::size_t>(std::min<std::uint64_t>(count, had + step)));
+      bytes.resize(std::min<std::uint64_t>(count, had + step));
       read(bytes.data() + had, bytes.size() - had);
     }
     return bytes;

@@ -57,7 +57,7 @@ void checkPattern(const std::filesystem::path& path, const Header& header) {
       fail(formatted("has more entries than the header announces in all, %lld",
                      static_cast<long long>(header.entries)));
     left -= count;
-    list.resize(static_cast<std::size_t>(count));
+    list.resize(count);
     columns.read(list.data(), list.size() * sizeof list[0]);
     for (auto& column : list) {
       column = numberAt<std::int32_t>(reinterpret_cast<const char*>(&column), swapped);

@@ -31,7 +31,7 @@ void requireSupported(const WholeBlock& block, const std::string& body) {
 std::string cellText(const WholeMesh& mesh, const ElementPlace& place) {
   const auto& block = mesh.cells[place.block];
   return std::to_string(block.tag[place.element]) + " of group '" +
-         mesh.bodies[static_cast<std::size_t>(block.label[place.element])] + "'";
+         mesh.bodies[block.label[place.element]] + "'";
 }
 
 /// Throws Error if a cell is there twice, since its stiffness and mass would be doubled, or if it
@@ -92,8 +92,8 @@ void readBodies(WholeMesh& mesh, const GmshModel& model, const Request& request,
                       "' have the tag " + std::to_string(tag));
         if (!isNew)
           throw Error("cell " + std::to_string(tag) + " is in the groups '" +
-                      mesh.bodies[static_cast<std::size_t>(entry->second)] + "' and '" +
-                      mesh.bodies[b] + "', which both have a material; a cell has one");
+                      mesh.bodies[entry->second] + "' and '" + mesh.bodies[b] +
+                      "', which both have a material; a cell has one");
       }
       known->nodes.insert(known->nodes.end(), block.nodes.begin(), block.nodes.end());
       known->tag.insert(known->tag.end(), block.tag.begin(), block.tag.end());

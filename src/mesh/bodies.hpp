@@ -12,7 +12,7 @@ class NodeIndex {
       : mesh_(mesh), model_(model), index_(static_cast<std::size_t>(model.nodeCount()), -1) {}
   void add(std::vector<PetscInt>& nodes) {
     for (auto& node : nodes) {
-      auto& index = index_[static_cast<std::size_t>(node)];
+      auto& index = index_[node];
       if (index < 0) {
         index = mesh_.nodeCount();
         mesh_.points.push_back(model_.point(node));
@@ -25,14 +25,14 @@ class NodeIndex {
   PetscInt countUnused() const {
     PetscInt count = model_.droppedNodes();
     for (PetscInt node = 0; node < model_.nodeCount(); ++node)
-      if (index_[static_cast<std::size_t>(node)] < 0 && model_.isOfMesh(node)) ++count;
+      if (index_[node] < 0 && model_.isOfMesh(node)) ++count;
     return count;
   }
   /// Replaces nodes of the gmsh model by indices into WholeMesh::points. Returns false if a node
   /// belongs to no cell.
   bool translate(std::vector<PetscInt>& nodes) const {
     for (auto& node : nodes) {
-      node = index_[static_cast<std::size_t>(node)];
+      node = index_[node];
       if (node < 0) return false;
     }
     return true;

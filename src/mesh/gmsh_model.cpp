@@ -91,7 +91,7 @@ class Nodes {
     std::vector<double> coordinates, parametric;
     gmsh::model::mesh::getNodes(ofPoints, coordinates, parametric, 0);
     std::vector<char> at(tags.size(), 0);
-    for (const auto tag : ofPoints) at[static_cast<std::size_t>(index(tag))] = 1;
+    for (const auto tag : ofPoints) at[index(tag)] = 1;
     return at;
   }
 
@@ -314,7 +314,7 @@ void GmshModel::take(Buffer& buffer) {
     const auto sizes = buffer.take<int>();
     GroupElements& group = groups_[name];
     group.dimension = sizes.at(0);
-    group.blocks.resize(static_cast<std::size_t>(sizes.at(1)));
+    group.blocks.resize(sizes.at(1));
     for (auto& block : group.blocks) {
       const auto kind = buffer.take<int>();
       block.type = kind.at(0), block.nodesPerElement = kind.at(1), block.corners = kind.at(2);

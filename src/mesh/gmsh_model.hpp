@@ -27,15 +27,15 @@ class GmshModel {
   /// Returns a group. If the mesh has none of this name, throws Error, naming the group, the option
   /// that needs it and the groups of the mesh.
   const GroupElements& group(const std::string& name, const std::string& wantedBy) const;
-  const Point& point(PetscInt index) const { return points_[static_cast<std::size_t>(index)]; }
-  PetscInt tag(PetscInt index) const { return tags_[static_cast<std::size_t>(index)]; }
+  const Point& point(PetscInt index) const { return points_[index]; }
+  PetscInt tag(PetscInt index) const { return tags_[index]; }
   PetscInt nodeCount() const { return static_cast<PetscInt>(points_.size()); }
   int largestDimension() const { return dimension_; }
   /// Returns the tags of the elements of the largest dimension that are in no group.
   const std::vector<PetscInt>& ungrouped() const { return ungrouped_; }
   /// Returns false for a node at a point of the geometry. gmsh makes these whether or not a cell
   /// uses them, for example at the centre of a circle.
-  bool isOfMesh(PetscInt index) const { return !atPoint_[static_cast<std::size_t>(index)]; }
+  bool isOfMesh(PetscInt index) const { return !atPoint_[index]; }
   /// Returns the number of nodes of the file that are in no element; gmsh drops them.
   PetscInt droppedNodes() const { return droppedNodes_; }
   /// Returns all groups by the names that options use: see groupName().

@@ -27,8 +27,7 @@ class Locator {
  public:
   Locator(const WholeMesh& mesh, const std::vector<PetscInt>& nodes, double tolerance)
       : mesh_(mesh), tolerance_(tolerance) {
-    for (PetscInt node : nodes)
-      buckets_[bucket(mesh.points[static_cast<std::size_t>(node)])].push_back(node);
+    for (PetscInt node : nodes) buckets_[bucket(mesh.points[node])].push_back(node);
   }
   /// Returns the nodes within the tolerance of `where`.
   std::vector<PetscInt> at(const Point& where) const {
@@ -40,8 +39,7 @@ class Locator {
           const auto entry = buckets_.find({centre[0] + i, centre[1] + j, centre[2] + k});
           if (entry == buckets_.end()) continue;
           for (PetscInt node : entry->second)
-            if (squaredDistance(mesh_.points[static_cast<std::size_t>(node)], where) <=
-                tolerance_ * tolerance_)
+            if (squaredDistance(mesh_.points[node], where) <= tolerance_ * tolerance_)
               found.push_back(node);
         }
     return found;
@@ -70,10 +68,9 @@ double tolerance(const WholeMesh& mesh) {
 }
 
 Point lowCorner(const WholeMesh& mesh, const std::vector<PetscInt>& nodes) {
-  Point low = mesh.points[static_cast<std::size_t>(nodes.at(0))];
+  Point low = mesh.points[nodes.at(0)];
   for (PetscInt node : nodes)
-    for (std::size_t d = 0; d < 3; ++d)
-      low[d] = std::min(low[d], mesh.points[static_cast<std::size_t>(node)][d]);
+    for (std::size_t d = 0; d < 3; ++d) low[d] = std::min(low[d], mesh.points[node][d]);
   return low;
 }
 
@@ -83,23 +80,20 @@ void pairImages(WholeMesh& mesh, const PeriodicRequest& request, double near) {
   const Point from = lowCorner(mesh, primaries), to = lowCorner(mesh, images);
   const Locator locator(mesh, primaries, near);
   for (PetscInt image : images) {
-    const auto& p = mesh.points[static_cast<std::size_t>(image)];
+    const auto& p = mesh.points[image];
     const Point where{p[0] - to[0] + from[0], p[1] - to[1] + from[1], p[2] - to[2] + from[2]};
     // Two bodies may meet here at one place (a contact node on the periodic boundary): the image
     // follows its own body.
     PetscInt partner = -1;
     for (PetscInt node : locator.at(where))
-      if (partner < 0 ||
-          mesh.part[static_cast<std::size_t>(node)] == mesh.part[static_cast<std::size_t>(image)])
-        partner = node;
+      if (partner < 0 || mesh.part[node] == mesh.part[image]) partner = node;
     const std::string option = "option " + request.option;
     if (partner < 0)
       throw Error(option + ": the node at " + positionText(p) + " of '" + request.image +
                   "' has no partner in '" + request.of +
                   "'; the two must be meshed alike, one the translate of the other");
     if (partner == image) throw Error(option + ": a group cannot be its own image");
-    if (mesh.primary[static_cast<std::size_t>(image)] == image)
-      mesh.primary[static_cast<std::size_t>(image)] = partner;
+    if (mesh.primary[image] == image) mesh.primary[image] = partner;
   }
   if (images.size() != primaries.size())
     throw Error(formatted("option %s: the groups have %zu and %zu nodes; they must be meshed alike",
@@ -112,24 +106,20 @@ void resolveImages(WholeMesh& mesh, const Request& request) {
   for (PetscInt node = 0; node < mesh.nodeCount(); ++node) {
     PetscInt end = node;
     int steps = 0;
-    while (mesh.primary[static_cast<std::size_t>(end)] != end) {
-      end = mesh.primary[static_cast<std::size_t>(end)];
+    while (mesh.primary[end] != end) {
+      end = mesh.primary[end];
       if (++steps > 8)
         throw Error("option " + request.periodic.front().option +
                     ": the images go round in a circle");
     }
-    mesh.primary[static_cast<std::size_t>(node)] = end;
+    mesh.primary[node] = end;
     if (end == node) continue;
-    const auto &p = mesh.points[static_cast<std::size_t>(node)],
-               &q = mesh.points[static_cast<std::size_t>(end)];
-    mesh.images.push_back({node,
-                           end,
-                           {p[0] - q[0], p[1] - q[1], p[2] - q[2]},
-                           mesh.part[static_cast<std::size_t>(end)]});
+    const auto &p = mesh.points[node], &q = mesh.points[end];
+    mesh.images.push_back({node, end, {p[0] - q[0], p[1] - q[1], p[2] - q[2]}, mesh.part[end]});
   }
   for (auto& [name, nodes] : mesh.nodeGroups) {
     std::set<PetscInt> primaries;
-    for (PetscInt node : nodes) primaries.insert(mesh.primary[static_cast<std::size_t>(node)]);
+    for (PetscInt node : nodes) primaries.insert(mesh.primary[node]);
     nodes.assign(primaries.begin(), primaries.end());
   }
 }
@@ -138,8 +128,7 @@ std::vector<int> bodyOfNode(const WholeMesh& mesh) {
   std::vector<int> body(mesh.points.size(), -1);
   for (const auto& block : mesh.cells)
     for (std::size_t i = 0; i < block.nodes.size(); ++i)
-      body[static_cast<std::size_t>(block.nodes[i])] =
-          block.label[i / static_cast<std::size_t>(block.nodesPerElement)];
+      body[block.nodes[i]] = block.label[i / static_cast<std::size_t>(block.nodesPerElement)];
   return body;
 }
 
@@ -150,18 +139,18 @@ std::set<PetscInt> padNodes(const WholeMesh& mesh, const std::string& surface) {
   for (const auto& block : mesh.faces)
     for (std::size_t i = 0; i < block.nodes.size(); ++i)
       if (block.label[i / static_cast<std::size_t>(block.nodesPerElement)] == index)
-        nodes.insert(mesh.primary[static_cast<std::size_t>(block.nodes[i])]);
+        nodes.insert(mesh.primary[block.nodes[i]]);
   return nodes;
 }
 
 /// Returns the reason why a node of the pad has no partner in the group of the disc.
 std::string whyAlone(const WholeMesh& mesh, PetscInt node, const std::string& group,
                      const std::vector<int>& body, double near) {
-  const auto& place = mesh.points[static_cast<std::size_t>(node)];
+  const auto& place = mesh.points[node];
   for (std::size_t other = 0; other < mesh.points.size(); ++other)
-    if (mesh.part[other] != mesh.part[static_cast<std::size_t>(node)] && body[other] >= 0 &&
+    if (mesh.part[other] != mesh.part[node] && body[other] >= 0 &&
         squaredDistance(mesh.points[other], place) <= near * near)
-      return "although body '" + mesh.bodies[static_cast<std::size_t>(body[other])] +
+      return "although body '" + mesh.bodies[body[other]] +
              "' has one: is a face missing in the group '" + group + "'?";
   return "where no other body has one either: the two are not meshed alike";
 }
@@ -186,10 +175,9 @@ void pairContact(WholeMesh& mesh, const InterfaceRequest& request, int interface
         "pad and disc are the same surface, of one body; contact is between the surfaces of two");
   const Locator locator(mesh, disc, near);
   for (PetscInt node : pad) {
-    const auto found = locator.at(mesh.points[static_cast<std::size_t>(node)]);
+    const auto found = locator.at(mesh.points[node]);
     if (found.empty())
-      throw Error(optionsOf(request) + "the node at " +
-                  positionText(mesh.points[static_cast<std::size_t>(node)]) + " of '" +
+      throw Error(optionsOf(request) + "the node at " + positionText(mesh.points[node]) + " of '" +
                   request.pad.name + "' has no node of '" + request.disc.name +
                   "' at the same place, " + whyAlone(mesh, node, request.disc.name, body, near) +
                   " (contact needs matching meshes)");
@@ -207,7 +195,7 @@ void requireEqualFaces(const WholeMesh& mesh, const InterfaceRequest& request, i
     if (pair.interface == interface) master[pair.node] = pair.master;
   std::set<std::vector<PetscInt>> discFaces;
   for (auto face : mesh.discFaces.at(request.disc.name)) {
-    for (auto& node : face) node = mesh.primary[static_cast<std::size_t>(node)];
+    for (auto& node : face) node = mesh.primary[node];
     std::sort(face.begin(), face.end());
     discFaces.insert(face);
   }
@@ -219,12 +207,12 @@ void requireEqualFaces(const WholeMesh& mesh, const InterfaceRequest& request, i
       if (block.label[e] != index) continue;
       std::vector<PetscInt> masters;
       for (int i = 0; i < block.nodesPerElement; ++i)
-        masters.push_back(master.at(mesh.primary[static_cast<std::size_t>(
-            block.nodes[e * static_cast<std::size_t>(block.nodesPerElement) +
-                        static_cast<std::size_t>(i)])]));
-      const Point where = mesh.points[static_cast<std::size_t>(
-          block.nodes[e * static_cast<std::size_t>(block.nodesPerElement)])];
-      for (auto& node : masters) node = mesh.primary[static_cast<std::size_t>(node)];
+        masters.push_back(
+            master.at(mesh.primary[block.nodes[e * static_cast<std::size_t>(block.nodesPerElement) +
+                                               static_cast<std::size_t>(i)]]));
+      const Point where =
+          mesh.points[block.nodes[e * static_cast<std::size_t>(block.nodesPerElement)]];
+      for (auto& node : masters) node = mesh.primary[node];
       std::sort(masters.begin(), masters.end());
       if (!discFaces.count(masters))
         throw Error(optionsOf(request) + "the face of '" + request.pad.name + "' at " +
@@ -237,16 +225,13 @@ void rejectChains(const WholeMesh& mesh, const Request& request) {
   std::set<PetscInt> slaves;
   for (const auto& pair : mesh.pairs)
     if (!slaves.insert(pair.node).second)
-      throw Error(
-          "option " + request.interfaces[static_cast<std::size_t>(pair.interface)].pad.option +
-          ": the node at " + positionText(mesh.points[static_cast<std::size_t>(pair.node)]) +
-          " is already a pad node of another interface");
+      throw Error("option " + request.interfaces[pair.interface].pad.option + ": the node at " +
+                  positionText(mesh.points[pair.node]) +
+                  " is already a pad node of another interface");
   for (const auto& pair : mesh.pairs)
     if (slaves.count(pair.master))
-      throw Error(
-          "option " + request.interfaces[static_cast<std::size_t>(pair.interface)].disc.option +
-          ": the node at " + positionText(mesh.points[static_cast<std::size_t>(pair.master)]) +
-          " is also a pad node of an interface");
+      throw Error("option " + request.interfaces[pair.interface].disc.option + ": the node at " +
+                  positionText(mesh.points[pair.master]) + " is also a pad node of an interface");
 }
 
 }  // namespace
@@ -254,8 +239,7 @@ void rejectChains(const WholeMesh& mesh, const Request& request) {
 void pairNodes(WholeMesh& mesh, const Request& request) {
   const double near = tolerance(mesh);
   mesh.primary.resize(mesh.points.size());
-  for (PetscInt node = 0; node < mesh.nodeCount(); ++node)
-    mesh.primary[static_cast<std::size_t>(node)] = node;
+  for (PetscInt node = 0; node < mesh.nodeCount(); ++node) mesh.primary[node] = node;
   for (const auto& periodic : request.periodic) pairImages(mesh, periodic, near);
   resolveImages(mesh, request);
   const auto body = bodyOfNode(mesh);

@@ -6,7 +6,7 @@
 namespace squeal::mesh {
 
 std::vector<int> partition(const WholeMesh& mesh, int ranks) {
-  std::vector<int> rank(static_cast<std::size_t>(mesh.cellCount()), 0);
+  std::vector<int> rank(mesh.cellCount(), 0);
   if (ranks == 1) return rank;
   if (mesh.cellCount() < ranks)
     throw Error("the mesh has " + std::to_string(mesh.cellCount()) + " cells, fewer than the " +
@@ -15,15 +15,15 @@ std::vector<int> partition(const WholeMesh& mesh, int ranks) {
   // they belong on one rank.
   std::vector<PetscInt> canonical = mesh.primary;
   for (const auto& pair : mesh.pairs)
-    if (pair.master >= 0) canonical[static_cast<std::size_t>(pair.node)] = pair.master;
-  for (auto& node : canonical) node = canonical[static_cast<std::size_t>(node)];
+    if (pair.master >= 0) canonical[pair.node] = pair.master;
+  for (auto& node : canonical) node = canonical[node];
   std::vector<idx_t> start{0}, corners, weight;
   for (const auto& block : mesh.cells)
     for (std::size_t e = 0; e < block.tag.size(); ++e) {
       for (int i = 0; i < block.corners; ++i)
-        corners.push_back(static_cast<idx_t>(canonical[static_cast<std::size_t>(
-            block.nodes[e * static_cast<std::size_t>(block.nodesPerElement) +
-                        static_cast<std::size_t>(i)])]));
+        corners.push_back(static_cast<idx_t>(
+            canonical[block.nodes[e * static_cast<std::size_t>(block.nodesPerElement) +
+                                  static_cast<std::size_t>(i)]]));
       start.push_back(static_cast<idx_t>(corners.size()));
       weight.push_back(block.nodesPerElement);
     }

@@ -30,21 +30,19 @@ Numbering number(const WholeMesh& mesh, const std::vector<int>& cellRank, int ra
   for (const auto& block : mesh.cells)
     for (std::size_t e = 0; e < block.tag.size(); ++e, ++cell)
       for (int i = 0; i < block.nodesPerElement; ++i) {
-        auto& owner = numbering.owner[static_cast<std::size_t>(
-            block.nodes[e * static_cast<std::size_t>(block.nodesPerElement) +
-                        static_cast<std::size_t>(i)])];
+        auto& owner =
+            numbering.owner[block.nodes[e * static_cast<std::size_t>(block.nodesPerElement) +
+                                        static_cast<std::size_t>(i)]];
         owner = std::min(owner, cellRank[cell]);
       }
   numbering.whole.resize(mesh.points.size());
   std::iota(numbering.whole.begin(), numbering.whole.end(), 0);
-  std::stable_sort(numbering.whole.begin(), numbering.whole.end(), [&](PetscInt a, PetscInt b) {
-    return numbering.owner[static_cast<std::size_t>(a)] <
-           numbering.owner[static_cast<std::size_t>(b)];
-  });
+  std::stable_sort(numbering.whole.begin(), numbering.whole.end(),
+                   [&](PetscInt a, PetscInt b) { return numbering.owner[a] < numbering.owner[b]; });
   numbering.global.resize(mesh.points.size());
   numbering.firstOfRank.assign(static_cast<std::size_t>(ranks) + 1, 0);
   for (PetscInt g = 0; g < mesh.nodeCount(); ++g) {
-    const auto node = static_cast<std::size_t>(numbering.whole[static_cast<std::size_t>(g)]);
+    const auto node = static_cast<std::size_t>(numbering.whole[g]);
     numbering.global[node] = g;
     ++numbering.firstOfRank[static_cast<std::size_t>(numbering.owner[node]) + 1];
   }
@@ -73,15 +71,12 @@ Shares share(const WholeMesh& mesh, const Numbering& numbering, const std::vecto
   std::size_t cell = 0;
   for (std::size_t b = 0; b < mesh.cells.size(); ++b)
     for (std::size_t e = 0; e < mesh.cells[b].tag.size(); ++e, ++cell)
-      shares.cells[static_cast<std::size_t>(cellRank[cell])][b].push_back(static_cast<PetscInt>(e));
+      shares.cells[cellRank[cell]][b].push_back(static_cast<PetscInt>(e));
   for (std::size_t b = 0; b < mesh.faces.size(); ++b)
     for (std::size_t e = 0; e < mesh.faces[b].tag.size(); ++e)
-      shares
-          .faces[static_cast<std::size_t>(
-              cellRank[static_cast<std::size_t>(mesh.faces[b].cell[e])])][b]
-          .push_back(static_cast<PetscInt>(e));
+      shares.faces[cellRank[mesh.faces[b].cell[e]]][b].push_back(static_cast<PetscInt>(e));
   const auto ownerOf = [&](PetscInt node) {
-    return static_cast<std::size_t>(numbering.owner[static_cast<std::size_t>(node)]);
+    return static_cast<std::size_t>(numbering.owner[node]);
   };
   for (std::size_t i = 0; i < mesh.images.size(); ++i)
     shares.images[ownerOf(mesh.images[i].node)].push_back(static_cast<PetscInt>(i));
@@ -107,7 +102,7 @@ std::vector<PetscInt> elementNodes(const WholeBlock& block, const std::vector<Pe
 template <class Number>
 std::vector<Number> picked(const std::vector<Number>& all, const std::vector<PetscInt>& which) {
   std::vector<Number> some;
-  for (PetscInt i : which) some.push_back(all[static_cast<std::size_t>(i)]);
+  for (PetscInt i : which) some.push_back(all[i]);
   return some;
 }
 
@@ -121,12 +116,12 @@ Buffer pack(const WholeMesh& mesh, const Numbering& numbering, const Shares& sha
   std::set<PetscInt> ghosts;
   for (std::size_t b = 0; b < mesh.cells.size(); ++b)
     for (PetscInt node : elementNodes(mesh.cells[b], shares.cells[rank][b])) {
-      const PetscInt g = numbering.global[static_cast<std::size_t>(node)];
+      const PetscInt g = numbering.global[node];
       if (g < first || g >= end) ghosts.insert(g);
     }
   local.insert(local.end(), ghosts.begin(), ghosts.end());
   const auto toLocal = [&](PetscInt node) {
-    const PetscInt g = numbering.global[static_cast<std::size_t>(node)];
+    const PetscInt g = numbering.global[node];
     if (g >= first && g < end) return g - first;
     return static_cast<PetscInt>(std::lower_bound(local.begin() + (end - first), local.end(), g) -
                                  local.begin());
@@ -145,7 +140,7 @@ Buffer pack(const WholeMesh& mesh, const Numbering& numbering, const Shares& sha
   buffer.put(mesh.partName);
   buffer.put(local);
   std::vector<PetscInt> whole;
-  for (PetscInt g : local) whole.push_back(numbering.whole[static_cast<std::size_t>(g)]);
+  for (PetscInt g : local) whole.push_back(numbering.whole[g]);
   buffer.put(picked(mesh.points, whole));
   buffer.put(picked(mesh.tags, whole));
   buffer.put(picked(mesh.part, whole));
@@ -171,13 +166,12 @@ Buffer pack(const WholeMesh& mesh, const Numbering& numbering, const Shares& sha
   for (const auto& nodes : shares.groups[rank]) buffer.put(allToLocal(nodes));
   auto images = picked(mesh.images, shares.images[rank]);
   for (auto& image : images)
-    image.node = toLocal(image.node),
-    image.primary = numbering.global[static_cast<std::size_t>(image.primary)];
+    image.node = toLocal(image.node), image.primary = numbering.global[image.primary];
   buffer.put(images);
   auto pairs = picked(mesh.pairs, shares.pairs[rank]);
   for (auto& pair : pairs) {
     pair.node = toLocal(pair.node);
-    if (pair.master >= 0) pair.master = numbering.global[static_cast<std::size_t>(pair.master)];
+    if (pair.master >= 0) pair.master = numbering.global[pair.master];
   }
   // Pairs stand in local order, so that all data per contact node (gap columns of T, reports) have
   // the same order.
@@ -202,7 +196,7 @@ Mesh unpack(MPI_Comm comm, Buffer& buffer) {
   mesh.coordinates = buffer.take<Point>();
   mesh.nodeTag = buffer.take<PetscInt>();
   mesh.nodePart = buffer.take<int>();
-  mesh.cells.resize(static_cast<std::size_t>(buffer.take<PetscInt>().at(0)));
+  mesh.cells.resize(buffer.take<PetscInt>().at(0));
   for (auto& block : mesh.cells) {
     const auto kind = buffer.take<PetscInt>();
     block.type = static_cast<int>(kind[0]), block.nodesPerCell = static_cast<int>(kind[1]);
@@ -210,7 +204,7 @@ Mesh unpack(MPI_Comm comm, Buffer& buffer) {
     block.body = buffer.take<int>();
     block.tag = buffer.take<PetscInt>();
   }
-  mesh.faces.resize(static_cast<std::size_t>(buffer.take<PetscInt>().at(0)));
+  mesh.faces.resize(buffer.take<PetscInt>().at(0));
   for (auto& block : mesh.faces) {
     const auto kind = buffer.take<PetscInt>();
     block.type = static_cast<int>(kind[0]), block.nodesPerFace = static_cast<int>(kind[1]);
@@ -244,7 +238,7 @@ Buffer scatter(MPI_Comm comm, std::vector<Buffer>& buffers) {
   int count = 0;
   check(MPI_Scatter(counts.data(), 1, MPI_INT, &count, 1, MPI_INT, 0, comm));
   Buffer mine;
-  mine.bytes().resize(static_cast<std::size_t>(count));
+  mine.bytes().resize(count);
   check(MPI_Scatterv(all.data(), counts.data(), offsets.data(), MPI_CHAR, mine.bytes().data(),
                      count, MPI_CHAR, 0, comm));
   return mine;

@@ -111,17 +111,16 @@ class Splitter {
                        request.moving.end());
   }
   ContactSide side(PetscInt cell) const {
-    const auto& reference = cells_[static_cast<std::size_t>(cell)];
-    return moves_[static_cast<std::size_t>(reference.block->label[reference.element])]
-               ? ContactSide::moving
-               : ContactSide::resting;
+    const auto& reference = cells_[cell];
+    return moves_[reference.block->label[reference.element]] ? ContactSide::moving
+                                                             : ContactSide::resting;
   }
   std::string bodyName(PetscInt cell) const {
-    const auto& reference = cells_[static_cast<std::size_t>(cell)];
-    return mesh_.bodies[static_cast<std::size_t>(reference.block->label[reference.element])];
+    const auto& reference = cells_[cell];
+    return mesh_.bodies[reference.block->label[reference.element]];
   }
   const Adjacency& adjacency() const { return adjacency_; }
-  CellReference cell(PetscInt number) const { return cells_[static_cast<std::size_t>(number)]; }
+  CellReference cell(PetscInt number) const { return cells_[number]; }
 
   /// Doubles each node on contact faces that lie between a moving and a resting cell; the resting
   /// cells take the new nodes.
@@ -148,8 +147,8 @@ class Splitter {
         }
     for (auto& [node, twin] : restingTwin_) {
       twin = mesh_.nodeCount();
-      mesh_.points.push_back(mesh_.points[static_cast<std::size_t>(node)]);
-      mesh_.tags.push_back(mesh_.tags[static_cast<std::size_t>(node)]);
+      mesh_.points.push_back(mesh_.points[node]);
+      mesh_.tags.push_back(mesh_.tags[node]);
     }
     if (restingTwin_.empty()) return;
     for (std::size_t c = 0; c < cells_.size(); ++c)
@@ -210,15 +209,14 @@ void readDiscFaces(WholeMesh& mesh, const Request& request, const NamedElements&
 Point centroid(const WholeMesh& mesh, const PetscInt* nodes, int count) {
   Point centre{};
   for (int i = 0; i < count; ++i)
-    for (std::size_t d = 0; d < 3; ++d)
-      centre[d] += mesh.points[static_cast<std::size_t>(nodes[i])][d] / count;
+    for (std::size_t d = 0; d < 3; ++d) centre[d] += mesh.points[nodes[i]][d] / count;
   return centre;
 }
 
 /// Returns +1 if the normal of the face by the order of its corners points away from `inside`,
 /// otherwise −1.
 int outwardSign(const WholeMesh& mesh, const PetscInt* nodes, int corners, const Point& inside) {
-  const auto at = [&](int i) { return mesh.points[static_cast<std::size_t>(nodes[i])]; };
+  const auto at = [&](int i) { return mesh.points[nodes[i]]; };
   const Point a = at(0), b = at(1), c = mesh.dimension == 3 ? at(2) : a;
   const Point e{b[0] - a[0], b[1] - a[1], b[2] - a[2]}, g{c[0] - a[0], c[1] - a[1], c[2] - a[2]};
   const Point normal =
@@ -289,9 +287,9 @@ void findParts(WholeMesh& mesh) {
   std::vector<PetscInt> parent(mesh.points.size());
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](PetscInt node) {
-    while (parent[static_cast<std::size_t>(node)] != node) {
-      auto& up = parent[static_cast<std::size_t>(node)];
-      up = parent[static_cast<std::size_t>(up)];
+    while (parent[node] != node) {
+      auto& up = parent[node];
+      up = parent[up];
       node = up;
     }
     return node;
@@ -299,17 +297,15 @@ void findParts(WholeMesh& mesh) {
   for (auto cell : references(mesh))
     for (int i = 1; i < cell.block->nodesPerElement; ++i) {
       const PetscInt a = root(cell.nodes()[0]), b = root(cell.nodes()[i]);
-      parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+      parent[std::max(a, b)] = std::min(a, b);
     }
   std::map<PetscInt, int> number;
   mesh.part.resize(mesh.points.size());
   for (PetscInt node = 0; node < mesh.nodeCount(); ++node)
-    mesh.part[static_cast<std::size_t>(node)] =
-        number.emplace(root(node), static_cast<int>(number.size())).first->second;
+    mesh.part[node] = number.emplace(root(node), static_cast<int>(number.size())).first->second;
   std::vector<std::set<std::string>> names(number.size());
   for (auto cell : references(mesh))
-    names[static_cast<std::size_t>(mesh.part[static_cast<std::size_t>(cell.nodes()[0])])].insert(
-        mesh.bodies[static_cast<std::size_t>(cell.block->label[cell.element])]);
+    names[mesh.part[cell.nodes()[0]]].insert(mesh.bodies[cell.block->label[cell.element]]);
   for (const auto& set : names) mesh.partName.push_back(joined({set.begin(), set.end()}, "+"));
 }
 

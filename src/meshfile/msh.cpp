@@ -52,8 +52,7 @@ class Reader {
   bool binary = false, swapped = false;
 
   [[noreturn]] void fail(const std::string& what) const {
-    const auto line =
-        1 + std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(begin_), '\n');
+    const auto line = 1 + std::count(text_.begin(), text_.begin() + begin_, '\n');
     throw Error("option -mesh_file " + file_ + ", " +
                 (binary ? "byte " + std::to_string(begin_) : "line " + std::to_string(line)) +
                 ": " + what);
@@ -123,7 +122,7 @@ class Reader {
     if (text_.size() - at_ < sizeof(Number))
       fail("the file ends where " + std::string(what) + " should be");
     std::array<char, sizeof(Number)> bytes;
-    std::copy_n(text_.begin() + static_cast<std::ptrdiff_t>(at_), bytes.size(), bytes.begin());
+    std::copy_n(text_.begin() + at_, bytes.size(), bytes.begin());
     if (swapped) std::reverse(bytes.begin(), bytes.end());
     at_ += bytes.size();
     return std::bit_cast<Number>(bytes);
@@ -138,9 +137,7 @@ class Reader {
 int nodesOf(Integer type) {
   constexpr std::array<int, 20> nodes{0, 2,  3,  4,  4,  8, 6, 5,  3,  6,
                                       9, 10, 27, 18, 14, 1, 8, 20, 15, 13};
-  return type > 0 && type < static_cast<Integer>(nodes.size())
-             ? nodes[static_cast<std::size_t>(type)]
-             : 0;
+  return type > 0 && type < static_cast<Integer>(nodes.size()) ? nodes[type] : 0;
 }
 
 class Msh {

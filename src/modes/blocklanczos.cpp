@@ -36,7 +36,7 @@ class Lanczos {
     check(MatCreateDense(comm_, rows_, PETSC_DECIDE, n, b_, nullptr, w_.out()));
     check(MatZeroEntries(w_));
     check(MatMatMult(m_, w_, MAT_INITIAL_MATRIX, PETSC_DEFAULT, mw_.out()));
-    v_.resize(static_cast<std::size_t>(rows_ * limit));
+    v_.resize(rows_ * limit);
     // Each rank draws its own part; the seed is fixed, so that a run can be repeated.
     int rank = 0;
     check(MPI_Comm_rank(comm_, &rank));
@@ -53,7 +53,7 @@ class Lanczos {
     for (PetscInt i = 0; i < b_ * rows_; ++i) w[i] = uniform_(random_);
     check(MatDenseRestoreArray(w_, &w));
     apply();
-    r_.assign(static_cast<std::size_t>(b_ * b_), 0.0);
+    r_.assign(b_ * b_, 0.0);
     orthonormalise(0);
     append();
   }
@@ -71,12 +71,11 @@ class Lanczos {
     double size = 0;  // of W before V was taken out of it, squared
     for (PetscInt j = 0; j < b_; ++j) {
       double sum = 0;
-      for (PetscInt i = 0; i < k_; ++i) sum += std::pow(h[static_cast<std::size_t>(j * k_ + i)], 2);
+      for (PetscInt i = 0; i < k_; ++i) sum += std::pow(h[j * k_ + i], 2);
       size = std::max(size, sum);
     }
     for (PetscInt j = 0; j < b_; ++j)
-      for (PetscInt i = 0; i < k_; ++i)
-        t(i, k_ - b_ + j) = t(k_ - b_ + j, i) = h[static_cast<std::size_t>(j * k_ + i)];
+      for (PetscInt i = 0; i < k_; ++i) t(i, k_ - b_ + j) = t(k_ - b_ + j, i) = h[j * k_ + i];
     orthonormalise(size);
   }
 
@@ -105,14 +104,12 @@ class Lanczos {
     for (std::size_t j = 0; j < k; ++j) {
       const std::size_t from = k - 1 - j;
       ritz.value.push_back(ascending[from]);
-      ritz.vector.insert(ritz.vector.end(), a.begin() + static_cast<std::ptrdiff_t>(from * k),
-                         a.begin() + static_cast<std::ptrdiff_t>((from + 1) * k));
+      ritz.vector.insert(ritz.vector.end(), a.begin() + from * k, a.begin() + ((from + 1) * k));
       PetscReal sum = 0;
       for (PetscInt i = 0; i < b_; ++i) {
         PetscReal entry = 0;
         for (PetscInt l = 0; l < b_; ++l)
-          entry += r_[static_cast<std::size_t>(l * b_ + i)] *
-                   a[from * k + k - static_cast<std::size_t>(b_ - l)];
+          entry += r_[l * b_ + i] * a[from * k + k - static_cast<std::size_t>(b_ - l)];
         sum += entry * entry;
       }
       ritz.residual.push_back(std::sqrt(sum));
@@ -122,9 +119,9 @@ class Lanczos {
 
   /// V ← V Y, the first `kept` columns; T diagonal.
   void contract(const Ritz& ritz, PetscInt kept) {
-    std::vector<PetscScalar> block(static_cast<std::size_t>(kept));
+    std::vector<PetscScalar> block(kept);
     const PetscInt chunk = 256;  // rows at a time: no second copy of V
-    std::vector<PetscScalar> rowsOfV(static_cast<std::size_t>(chunk * kept));
+    std::vector<PetscScalar> rowsOfV(chunk * kept);
     for (PetscInt begin = 0; begin < rows_; begin += chunk) {
       PetscBLASInt rows = static_cast<PetscBLASInt>(std::min(chunk, rows_ - begin)),
                    columns = static_cast<PetscBLASInt>(kept), inner = static_cast<PetscBLASInt>(k_),
@@ -138,23 +135,23 @@ class Lanczos {
     k_ = kept;
     restarted_ = true;
     std::fill(t_.begin(), t_.end(), 0.0);
-    for (PetscInt j = 0; j < kept; ++j) t(j, j) = ritz.value[static_cast<std::size_t>(j)];
+    for (PetscInt j = 0; j < kept; ++j) t(j, j) = ritz.value[j];
   }
 
   /// Room for `limit` vectors, at a restart: T is diagonal then.
   void enlarge(PetscInt limit) {
     Small larger(static_cast<std::size_t>(limit * limit), 0.0);
-    for (PetscInt j = 0; j < k_; ++j) larger[static_cast<std::size_t>(j * limit + j)] = t(j, j);
+    for (PetscInt j = 0; j < k_; ++j) larger[j * limit + j] = t(j, j);
     t_ = std::move(larger);
     limit_ = limit;
-    v_.resize(static_cast<std::size_t>(rows_ * limit));
+    v_.resize(rows_ * limit);
   }
 
   /// The k columns of V as a BV for vectors like those of `like`.
   OwnedBV vectors(Mat like) { return linalg::copiedColumns(like, column(0), k_); }
 
  private:
-  PetscScalar& t(PetscInt i, PetscInt j) { return t_[static_cast<std::size_t>(j * limit_ + i)]; }
+  PetscScalar& t(PetscInt i, PetscInt j) { return t_[j * limit_ + i]; }
 
   PetscScalar* column(PetscInt j) { return v_.data() + j * rows_; }
 
@@ -202,9 +199,7 @@ class Lanczos {
                 &inner, &one, w, &leading);
     check(MatDenseRestoreArray(w_, &w));
     for (PetscInt j = 0; j < b_; ++j)
-      for (PetscInt i = 0; i < count; ++i)
-        sum[static_cast<std::size_t>(j * k_ + first + i)] +=
-            h[static_cast<std::size_t>(j * count + i)];
+      for (PetscInt i = 0; i < count; ++i) sum[j * k_ + first + i] += h[j * count + i];
   }
 
   /// W made M-orthogonal to V; the summed coefficients (k × b). In exact arithmetic only the last
@@ -278,7 +273,7 @@ class Lanczos {
     PetscScalar* w = nullptr;
     check(MatDenseGetArray(w_, &w));
     for (PetscInt j = 0; j < b_; ++j)
-      if (lost[static_cast<std::size_t>(j)])
+      if (lost[j])
         for (PetscInt i = 0; i < rows_; ++i) w[j * rows_ + i] = uniform_(random_);
     check(MatDenseRestoreArray(w_, &w));
     orthogonalise(false);
@@ -319,15 +314,13 @@ LanczosResult blockLanczos(Mat k, Mat m, KSP solver, int count, int blockSize, d
     const auto ritz = lanczos.ritz();
     int converged = 0;
     while (converged < std::min<int>(count, static_cast<int>(lanczos.size())) &&
-           ritz.residual[static_cast<std::size_t>(converged)] <=
-               tolerance * ritz.value[static_cast<std::size_t>(converged)])
+           ritz.residual[converged] <= tolerance * ritz.value[converged])
       ++converged;
     progress(result.restarts, converged);
     if (converged == count || (lanczos.full() && result.restarts == maxRestarts)) {
       result.converged = converged;
       lanczos.contract(ritz, converged);
-      for (int i = 0; i < converged; ++i)
-        result.lambda.push_back(1 / ritz.value[static_cast<std::size_t>(i)]);
+      for (int i = 0; i < converged; ++i) result.lambda.push_back(1 / ritz.value[i]);
       if (converged > 0) result.vectors = lanczos.vectors(k);  // SLEPc knows no BV without columns
       return result;
     }

@@ -135,9 +135,9 @@ void solveByEps(const AssociatedSystem& system, int count, Stage& stage, Modes& 
   }
   std::sort(order.begin(), order.end());
   for (int i = 0; i < count; ++i) {
-    check(EPSGetEigenvector(eps, order[static_cast<std::size_t>(i)].second, d, nullptr));
+    check(EPSGetEigenvector(eps, order[i].second, d, nullptr));
     check(BVInsertVec(modes.vectors, i, d));
-    modes.lambda.push_back(order[static_cast<std::size_t>(i)].first);
+    modes.lambda.push_back(order[i].first);
   }
   modes.iterations = static_cast<int>(iterations);
 }
@@ -175,8 +175,8 @@ void solveDense(const AssociatedSystem& system, int count, Modes& modes) {
                                       std::sqrt(inverse[last]));
                 }
               });
-  modes.lambda.resize(static_cast<std::size_t>(count));
-  vectors.resize(static_cast<std::size_t>(n * count));
+  modes.lambda.resize(count);
+  vectors.resize(n * count);
   check(MPI_Bcast(modes.lambda.data(), count, MPI_DOUBLE, 0, comm));
   check(MPI_Bcast(vectors.data(), n * count, MPI_DOUBLE, 0, comm));
   OwnedVec d;

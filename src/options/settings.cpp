@@ -158,7 +158,7 @@ class Reader {
     if (fs::is_directory(file, unknown) || !stream) return false;
     std::string text(largestFile + 1, '\0');
     stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(stream.gcount()));
+    text.resize(stream.gcount());
     if (text.size() > largestFile) throw Error(file + ": more than 10 MB is not an options file");
     for (const char* ending : {".yaml", ".yml", ".json"}) yaml = yaml || file.ends_with(ending);
     if (yaml || text.starts_with("%YAML ") || text.starts_with("---"))
@@ -245,7 +245,7 @@ bool takeSkip(std::vector<Word>& words) {
     const bool hasValue = i + 1 < words.size() && !isName(words[i + 1].text);
     const std::string value = hasValue ? words[i + 1].text : "yes";
     skip = !(same(value, "no") || same(value, "false") || same(value, "off") || value == "0");
-    words.erase(words.begin() + static_cast<std::ptrdiff_t>(i),
+    words.erase(words.begin() + i,
                 words.begin() + static_cast<std::ptrdiff_t>(i) + (hasValue ? 2 : 1));
   }
   return skip;
@@ -338,7 +338,7 @@ std::vector<Setting> onAllRanks(MPI_Comm comm, const std::vector<Setting>& ofRan
                 std::to_string(setting.line) + "\n";
   int length = static_cast<int>(packed.size());
   check(MPI_Bcast(&length, 1, MPI_INT, 0, comm));
-  packed.resize(static_cast<std::size_t>(length));
+  packed.resize(length);
   check(MPI_Bcast(packed.data(), length, MPI_CHAR, 0, comm));
   const auto parts = split(packed, '\n');
   std::vector<Setting> settings;

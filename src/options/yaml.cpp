@@ -61,9 +61,7 @@ int tabbedLine(const std::string& text, int last) {
   const std::string problem = parser.problem ? parser.problem : "not YAML";
   if (parser.error == YAML_READER_ERROR) {
     const auto bytes = std::min(parser.problem_offset, text.size());
-    fail(name,
-         1 + static_cast<int>(
-                 std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(bytes), '\n')),
+    fail(name, 1 + static_cast<int>(std::count(text.begin(), text.begin() + bytes, '\n')),
          problem + "; an options file is text in UTF-8");
   }
   const int line = lineOf(parser.problem_mark);

@@ -94,7 +94,7 @@ void Pencil::applyTranspose(int power, const sweep::Parameters& at, Vec x, Vec y
 
 double Pencil::norm(int power, const sweep::Parameters& at) const {
   if (!hasPower(power)) return 0;
-  OwnedVec& v = (*singular_)[static_cast<std::size_t>(power)];
+  OwnedVec& v = (*singular_)[power];
   const bool fresh = !v;
   OwnedVec image;
   check(MatCreateVecs(terms_[0].matrix, image.out(), nullptr));

@@ -46,7 +46,7 @@ void failTogether(MPI_Comm comm, const std::string& localMessage) {
   int length = static_cast<int>(localMessage.size());
   check(MPI_Bcast(&length, 1, MPI_INT, first, comm));
   std::string message = localMessage;
-  message.resize(static_cast<std::size_t>(length));
+  message.resize(length);
   check(MPI_Bcast(message.data(), length, MPI_CHAR, first, comm));
   throw Error(message);
 }

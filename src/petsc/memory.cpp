@@ -94,7 +94,7 @@ void claimBlasWorkspace() {
     outOfMemory();
   PetscBLASInt n = 128;  // smaller products may do without
   const PetscScalar one = 1;
-  const std::vector<PetscScalar> a(static_cast<std::size_t>(n * n), 1.0);
+  const std::vector<PetscScalar> a(n * n, 1.0);
   std::vector<PetscScalar> product(a.size(), 0.0);
   BLASgemm_("N", "N", &n, &n, &n, &one, a.data(), &n, a.data(), &n, &one, product.data(), &n);
 }

@@ -60,8 +60,7 @@ Basis::Basis(const modes::Modes& modes, const modes::AssociatedSystem& system)
   columns_.reserve(3 *
                    shapes.columns());  // untouched memory costs nothing, moving a grown basis does
   for (PetscInt j = 0; j < shapes.columns(); ++j)
-    columns_.append(shapes.values() + j * shapes.rows(),
-                    1 / modes.angularFrequency[static_cast<std::size_t>(j)]);
+    columns_.append(shapes.values() + j * shapes.rows(), 1 / modes.angularFrequency[j]);
   OwnedVec diagonal;
   check(MatCreateVecs(stiffness_, diagonal.out(), nullptr));
   check(MatGetDiagonal(stiffness_, diagonal));
@@ -124,8 +123,7 @@ bool Basis::addAcross(const linalg::Block& z, const linalg::Block& residuals,
   linalg::DenseMatrix along(old * added);
   if (added > 0) linalg::multiplyAdd(parts.data(), size(), z.columns, combinations, along);
   for (std::size_t j = 0; j < added; ++j) {
-    const auto begin = along.begin() + static_cast<std::ptrdiff_t>(j * old),
-               end = begin + static_cast<std::ptrdiff_t>(old);
+    const auto begin = along.begin() + j * old, end = begin + static_cast<std::ptrdiff_t>(old);
     if (!(std::inner_product(begin, end, begin, 0.0) < little)) return false;
   }
   if (added == 0 || solutionError(z, residuals) > 1e-12) return false;
@@ -133,10 +131,8 @@ bool Basis::addAcross(const linalg::Block& z, const linalg::Block& residuals,
   forces_ = linalg::combined(residuals, combinations, fresh.columns);
   const linalg::DenseMatrix own = linalg::transposedProduct(comm_, fresh, forces_);
   for (std::size_t j = 0; j < added; ++j) {
-    energies_.insert(energies_.end(), along.begin() + static_cast<std::ptrdiff_t>(j * old),
-                     along.begin() + static_cast<std::ptrdiff_t>((j + 1) * old));
-    energies_.insert(energies_.end(), own.begin() + static_cast<std::ptrdiff_t>(j * added),
-                     own.begin() + static_cast<std::ptrdiff_t>((j + 1) * added));
+    energies_.insert(energies_.end(), along.begin() + j * old, along.begin() + ((j + 1) * old));
+    energies_.insert(energies_.end(), own.begin() + j * added, own.begin() + ((j + 1) * added));
   }
   append(columns_, fresh);
   return true;
@@ -171,8 +167,7 @@ double Basis::solutionError(const linalg::Block& z, const linalg::Block& residua
   linalg::appendProduct(stiffness_, solution.values.data(), 1, image);
   double squares[2] = {0, 0};
   for (PetscInt i = 0; i < z.rows; ++i) {
-    const double error = image.column(0)[i] - wanted.column(0)[i],
-                 weight = inverseDiagonal_[static_cast<std::size_t>(i)];
+    const double error = image.column(0)[i] - wanted.column(0)[i], weight = inverseDiagonal_[i];
     squares[0] += weight * error * error;
     squares[1] += weight * wanted.column(0)[i] * wanted.column(0)[i];
   }
@@ -195,8 +190,7 @@ double Basis::ratio(const linalg::Block& residuals, const linalg::DenseMatrix& e
   if (n == 0) return 0;
   linalg::Block scaled = residuals;
   for (PetscInt j = 0; j < n; ++j)
-    for (PetscInt i = 0; i < scaled.rows; ++i)
-      scaled.column(j)[i] *= inverseDiagonal_[static_cast<std::size_t>(i)];
+    for (PetscInt i = 0; i < scaled.rows; ++i) scaled.column(j)[i] *= inverseDiagonal_[i];
   const linalg::DenseMatrix combinations =
       orthonormalising(linalg::transposedProduct(comm_, residuals, scaled), n, 1e-8);
   const auto kept = static_cast<int>(combinations.size()) / n;

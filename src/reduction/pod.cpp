@@ -15,21 +15,20 @@ namespace {
 linalg::DenseMatrix principalDirections(linalg::DenseMatrix columns, int rows, double small) {
   PetscBLASInt m = rows, n = static_cast<PetscBLASInt>(columns.size()) / m, few = std::min(m, n),
                one = 1, query = -1, info = 0;
-  std::vector<double> sizes(static_cast<std::size_t>(few)), left(static_cast<std::size_t>(m * few)),
-      state(1);
+  std::vector<double> sizes(few), left(static_cast<std::size_t>(m * few)), state(1);
   const auto call = [&](PetscBLASInt length) {
     LAPACKgesvd_("S", "N", &m, &n, columns.data(), &m, sizes.data(), left.data(), &m, nullptr, &one,
                  state.data(), &length, &info);
   };
   call(query);
-  state.resize(static_cast<std::size_t>(state[0]));
+  state.resize(state[0]);
   call(static_cast<PetscBLASInt>(state.size()));
   if (info != 0)
     throw Error("LAPACK dgesvd failed on the vectors of -reduction_basis pod (info " +
                 std::to_string(info) + ")");
   const auto kept =
       std::count_if(sizes.begin(), sizes.end(), [&](double size) { return size > small; });
-  left.resize(static_cast<std::size_t>(m * kept));
+  left.resize(m * kept);
   return left;
 }
 

@@ -12,12 +12,11 @@ void grow(linalg::DenseMatrix& matrix, PetscInt old, PetscInt size,
   const auto n = static_cast<std::size_t>(size), o = static_cast<std::size_t>(old), added = n - o;
   linalg::DenseMatrix grown(n * n);
   for (std::size_t j = 0; j < o; ++j) {
-    std::copy_n(matrix.begin() + static_cast<std::ptrdiff_t>(j * o), o,
-                grown.begin() + static_cast<std::ptrdiff_t>(j * n));
+    std::copy_n(matrix.begin() + j * o, o, grown.begin() + j * n);
     for (std::size_t i = 0; i < added; ++i)
       grown[j * n + o + i] = below.empty() ? right[i * n + j] : below[j * added + i];
   }
-  std::copy(right.begin(), right.end(), grown.begin() + static_cast<std::ptrdiff_t>(o * n));
+  std::copy(right.begin(), right.end(), grown.begin() + o * n);
   matrix = std::move(grown);
 }
 
@@ -47,7 +46,7 @@ template <class Product>
 linalg::DenseMatrix upperColumns(PetscInt old, PetscInt size, const Product& product) {
   constexpr PetscInt atOnce = 64;  // enough for matrix products to be fast
   const auto n = static_cast<std::ptrdiff_t>(size);
-  linalg::DenseMatrix columns(static_cast<std::size_t>(n * (size - old)));
+  linalg::DenseMatrix columns(n * (size - old));
   for (PetscInt begin = old, end = old; begin < size; begin = end) {
     end = std::min(begin + atOnce, size);
     const linalg::DenseMatrix some = product(0, end, begin, end);
@@ -56,9 +55,7 @@ linalg::DenseMatrix upperColumns(PetscInt old, PetscInt size, const Product& pro
                   columns.begin() + (j - old) * n);
   }
   for (PetscInt j = old; j < size; ++j)
-    for (PetscInt i = j + 1; i < size; ++i)
-      columns[static_cast<std::size_t>((j - old) * n + i)] =
-          columns[static_cast<std::size_t>((i - old) * n + j)];
+    for (PetscInt i = j + 1; i < size; ++i) columns[(j - old) * n + i] = columns[(i - old) * n + j];
   return columns;
 }
 

@@ -52,7 +52,7 @@ std::vector<double> perPair(const Coordinates& coordinates, const std::vector<do
   std::vector<double> sums(coordinates.pairs.size(), 0.0);
   for (std::size_t j = 0; j < sums.size(); ++j)
     for (auto c = coordinates.firstColumn[j]; c < coordinates.firstColumn[j + 1]; ++c)
-      sums[j] += squares[static_cast<std::size_t>(c)];
+      sums[j] += squares[c];
   return sums;
 }
 
@@ -154,7 +154,7 @@ void ReducedProblem::estimateErrors(PointState& state, const linalg::DenseProble
     return squares;
   };
   const auto right = norms(pencil::Side::right), left = norms(pencil::Side::left);
-  linalg::DenseMatrix vectors(static_cast<std::size_t>(linalg::Sketch::size * coordinates.columns));
+  linalg::DenseMatrix vectors(linalg::Sketch::size * coordinates.columns);
   linalg::multiplyAdd(basis_.sketched().data(), linalg::Sketch::size, basis_.size(),
                       coordinates.times(pencil::Side::right, 0, 1), vectors);
   const auto lengths = perPair(coordinates, linalg::squaredLengths(vectors));
@@ -271,8 +271,7 @@ std::vector<ReducedProblem::PointState*> ReducedProblem::unconfirmed(
   confirmed_ = largest;
   worst->ownTerms.extend();  // the basis may have grown since
   linalg::DensePair& known = worst->pairs[pair];
-  for (auto* vector : {&known.q, &known.left})
-    vector->resize(static_cast<std::size_t>(basis_.size()));
+  for (auto* vector : {&known.q, &known.left}) vector->resize(basis_.size());
   const auto vectors = basis_.expand({&known.q, &known.left});
   const linalg::Block right = residualColumns(*worst, known, vectors[0], pencil::Side::right),
                       left = residualColumns(*worst, known, vectors[1], pencil::Side::left);
@@ -415,8 +414,7 @@ Improvement ReducedProblem::improve(
     PointState& state = states.emplace_back(newState(point, nearbyNorms(point)));
     state.pairs = pairs;
     for (auto& pair : state.pairs)  // they may be of a smaller basis
-      for (auto* vector : {&pair.q, &pair.left})
-        vector->resize(static_cast<std::size_t>(basis_.size()));
+      for (auto* vector : {&pair.q, &pair.left}) vector->resize(basis_.size());
     estimateErrors(state, project(state));
     result.backwardError.push_back(
         *std::max_element(state.backwardError.begin(), state.backwardError.end()));

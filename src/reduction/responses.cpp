@@ -44,7 +44,7 @@ void ReducedProblem::addStaticResponses(const PointProblem& point) {
   std::vector<PetscInt> rows, place(static_cast<std::size_t>(basis_.localRows()), -1);
   for (const auto& forces : list)
     for (PetscInt i = 0; i < forces.rows.size(); ++i)
-      if (auto& known = place[static_cast<std::size_t>(forces.rows[i])]; known < 0) {
+      if (auto& known = place[forces.rows[i]]; known < 0) {
         known = static_cast<PetscInt>(rows.size());
         rows.push_back(forces.rows[i]);
       }
@@ -57,13 +57,12 @@ void ReducedProblem::addStaticResponses(const PointProblem& point) {
         linalg::Block images(forces.rows.size());
         basis_.appendProducts(forces.matrix, 0, count, images);
         for (PetscInt j = 0; j < count; ++j) {
-          const double omega = modes_[static_cast<std::size_t>(j)];
+          const double omega = modes_[j];
           const double factor = forces.coefficient * (forces.power == 0   ? 1
                                                       : forces.power == 1 ? omega
                                                                           : -omega * omega);
           for (PetscInt i = 0; i < images.rows; ++i)
-            part.column(j)[place[static_cast<std::size_t>(forces.rows[i])]] +=
-                factor * images.column(j)[i];
+            part.column(j)[place[forces.rows[i]]] += factor * images.column(j)[i];
         }
       }
       append(all, linalg::unitColumns(basis_.comm(), part));
@@ -71,8 +70,7 @@ void ReducedProblem::addStaticResponses(const PointProblem& point) {
   const linalg::Block leading = linalg::principal(basis_.comm(), all, resolution);
   linalg::Block whole(basis_.localRows(), leading.columns);
   for (PetscInt j = 0; j < leading.columns; ++j)
-    for (PetscInt i = 0; i < leading.rows; ++i)
-      whole.column(j)[rows[static_cast<std::size_t>(i)]] = leading.column(j)[i];
+    for (PetscInt i = 0; i < leading.rows; ++i) whole.column(j)[rows[i]] = leading.column(j)[i];
   basis_.add(whole);
   rightRatio_ = std::max(measuredRatio_, basis_.lastEnergyRatio());
 }

@@ -100,8 +100,7 @@ void inTurn(MPI_Comm comm, std::span<const Number> mine, std::size_t columns, co
   take(mine.data(), mine.size());
   std::vector<Number> piece(most);
   for (int other = 1; other < size; ++other)
-    for (std::size_t left = counts[static_cast<std::size_t>(other)]; left > 0;
-         left -= std::min(most, left)) {
+    for (std::size_t left = counts[other]; left > 0; left -= std::min(most, left)) {
       const std::size_t entries = std::min(most, left);
       check(MPI_Recv(piece.data(), bytes(entries), MPI_BYTE, other, tag, comm, MPI_STATUS_IGNORE));
       take(piece.data(), entries);
@@ -114,11 +113,11 @@ std::vector<int> elementTypes(const mesh::Mesh& mesh) {
   constexpr int most = 256;  // gmsh's type numbers end at 140
   std::vector<int> present(most, 0);
   for (const auto& block : mesh.cells)
-    if (!block.body.empty()) present.at(static_cast<std::size_t>(block.type)) = 1;
+    if (!block.body.empty()) present.at(block.type) = 1;
   check(MPI_Allreduce(MPI_IN_PLACE, present.data(), most, MPI_INT, MPI_MAX, mesh.comm));
   std::vector<int> types;
   for (int type = 0; type < most; ++type)
-    if (present[static_cast<std::size_t>(type)]) types.push_back(type);
+    if (present[type]) types.push_back(type);
   return types;
 }
 
@@ -177,8 +176,7 @@ void Hdf5File::writeCells(const mesh::Mesh& mesh, int type) {
   std::vector<PetscInt> nodes, bodies, tags;
   for (const auto& block : mesh.cells) {
     if (block.type != type) continue;
-    for (PetscInt node : block.nodes)
-      nodes.push_back(mesh.globalNode[static_cast<std::size_t>(node)]);
+    for (PetscInt node : block.nodes) nodes.push_back(mesh.globalNode[node]);
     bodies.insert(bodies.end(), block.body.begin(), block.body.end());
     tags.insert(tags.end(), block.tag.begin(), block.tag.end());
   }

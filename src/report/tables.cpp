@@ -71,12 +71,10 @@ std::string steadyRows(const analysis::Analysis& analysis, const steady::Solutio
   for (std::size_t i = 0; i < solution.contact.size(); ++i) {
     const auto& p = analysis.contact.nodes[i].position;
     const auto& state = solution.contact[i];
-    rows +=
-        formatted("%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,", p[0], p[1], p[2],
-                  state.gap, state.normalForce, state.pressure, state.frictionForce[0],
-                  state.frictionForce[1], state.frictionForce[2]) +
-        analysis.contact.interfaces[static_cast<std::size_t>(analysis.contact.nodes[i].interface)] +
-        "\n";
+    rows += formatted("%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,", p[0], p[1], p[2],
+                      state.gap, state.normalForce, state.pressure, state.frictionForce[0],
+                      state.frictionForce[1], state.frictionForce[2]) +
+            analysis.contact.interfaces[analysis.contact.nodes[i].interface] + "\n";
   }
   return rows;
 }
@@ -160,7 +158,7 @@ std::string gathered(MPI_Comm comm, const std::string& text) {
   int rank = 0, size = 1, length = static_cast<int>(text.size());
   check(MPI_Comm_rank(comm, &rank));
   check(MPI_Comm_size(comm, &size));
-  std::vector<int> lengths(static_cast<std::size_t>(size)), offsets(lengths.size(), 0);
+  std::vector<int> lengths(size), offsets(lengths.size(), 0);
   check(MPI_Gather(&length, 1, MPI_INT, lengths.data(), 1, MPI_INT, 0, comm));
   for (std::size_t r = 1; r < lengths.size(); ++r) offsets[r] = offsets[r - 1] + lengths[r - 1];
   std::string all(rank == 0 ? static_cast<std::size_t>(offsets.back() + lengths.back()) : 0, ' ');

@@ -33,7 +33,7 @@ struct VtkCell {
 };
 
 std::vector<int> sameOrder(int nodes) {
-  std::vector<int> order(static_cast<std::size_t>(nodes));
+  std::vector<int> order(nodes);
   std::iota(order.begin(), order.end(), 0);
   return order;
 }
@@ -82,7 +82,7 @@ void addPoints(vtkUnstructuredGrid* grid, const mesh::Mesh& mesh) {
   points->SetDataTypeToDouble();
   points->SetNumberOfPoints(mesh.localNodes());
   for (PetscInt node = 0; node < mesh.localNodes(); ++node)
-    points->SetPoint(node, mesh.coordinates[static_cast<std::size_t>(node)].data());
+    points->SetPoint(node, mesh.coordinates[node].data());
   grid->SetPoints(points);
   grid->GetPointData()->AddArray(filledArray<vtkTypeInt64Array>("node_tag", 1, mesh.nodeTag));
   grid->GetPointData()->AddArray(filledArray<vtkIntArray>("part", 1, mesh.nodePart));

@@ -139,7 +139,7 @@ class LeftIteration {
     check(MatCreateDense(pencil_.comm(), local, PETSC_DECIDE, global, count, nullptr,
                          solution.out()));
     for (PetscInt j = 0; j < count; ++j) {
-      const auto& residual = residuals[static_cast<std::size_t>(j / 2)];
+      const auto& residual = residuals[j / 2];
       Vec column = nullptr;
       check(MatDenseGetColumnVecWrite(rhs, j, &column));
       check(VecCopy(j % 2 == 0 ? residual.real : residual.imaginary, column));
@@ -194,7 +194,7 @@ class LeftIteration {
                                                    image.data(), added),
                  below = linalg::transposedProduct(pencil_.comm(), adjoint.data(), all.rows(),
                                                    added, all.values(), old);
-      auto& matrix = projected_[static_cast<std::size_t>(power)];
+      auto& matrix = projected_[power];
       linalg::DenseMatrix grown(size * size);
       for (std::size_t j = 0; j < size; ++j)
         for (std::size_t i = 0; i < size; ++i)

@@ -62,8 +62,7 @@ Change Problem::change(const Solution& solution, const contact::CoupledSystem& s
                                 : 0;
       const double along = system.closed()[i] ? at.friction * slip.law * normal[i] + causes : 0;
       for (int d = 0; d < mesh_.dimension; ++d)
-        values[mesh_.dimension * nodes[i].node + d] +=
-            along * slip.direction[static_cast<std::size_t>(d)];
+        values[mesh_.dimension * nodes[i].node + d] += along * slip.direction[d];
     }
     check(VecRestoreArray(friction, &values));
     check(MatMultTransposeAdd(contact_.jump, friction, dr, sum));

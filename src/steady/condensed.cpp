@@ -52,8 +52,7 @@ Condensed::Condensed(const contact::Contact& contact, Mat stiffness,
   check(MatCreateAIJ(contact.mesh->comm, transformation_.ownedColumns, ownedSize_, PETSC_DETERMINE,
                      PETSC_DETERMINE, 1, nullptr, 0, nullptr, gaps_.out()));
   for (PetscInt i = 0; i < ownedSize_; ++i)
-    check(MatSetValue(gaps_, transformation_.gapColumn[static_cast<std::size_t>(i)], first_ + i, 1,
-                      INSERT_VALUES));
+    check(MatSetValue(gaps_, transformation_.gapColumn[i], first_ + i, 1, INSERT_VALUES));
   contact::assembled(gaps_);
   // The slip rows stand in the rows of the gaps, which the product B e selects.
   const OwnedMat rows = contact.slipRows(transformation_, slip, all);
@@ -105,8 +104,7 @@ Compliance Condensed::dense() const {
     check(MatDenseGetArray(rhs, &values));
     for (PetscInt i = 0; i < ownedSize_; ++i)
       if (const PetscInt column = first_ + i - begin; column >= 0 && column < width)
-        values[column * transformation_.ownedColumns +
-               transformation_.gapColumn[static_cast<std::size_t>(i)] - firstRow] = 1;
+        values[column * transformation_.ownedColumns + transformation_.gapColumn[i] - firstRow] = 1;
     check(MatDenseRestoreArray(rhs, &values));
     check(KSPMatSolve(solver_, rhs, x));
     for (PetscInt column = 0; column < width; ++column) {
@@ -169,7 +167,7 @@ void Condensed::close() {
   OwnedIS gaps, others;
   check(ISCreateGeneral(comm(), ownedSize_, transformation_.gapColumn.data(), PETSC_COPY_VALUES,
                         gaps.out()));
-  std::vector<PetscInt> rest(static_cast<std::size_t>(end - begin));
+  std::vector<PetscInt> rest(end - begin);
   std::iota(rest.begin(), rest.end(), begin);
   const std::set<PetscInt> isGap(transformation_.gapColumn.begin(),
                                  transformation_.gapColumn.end());

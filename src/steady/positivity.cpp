@@ -99,7 +99,7 @@ double lossOfPositivity(const std::vector<double>& a0, const std::vector<double>
                       values(static_cast<std::size_t>(size));
   PetscBLASInt n = size, length = 34 * n, info = 0;
   const PetscBLASInt type = 1;
-  std::vector<double> work(static_cast<std::size_t>(length));
+  std::vector<double> work(length);
   LAPACKsygv_(&type, "N", "U", &n, s1.data(), &n, s0.data(), &n, values.data(), work.data(),
               &length, &info);
   if (info > n) return 0;

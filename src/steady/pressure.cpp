@@ -15,8 +15,7 @@ std::vector<double> consistentPressure(const mesh::Mesh& mesh, const contact::Co
   check(MatSetOption(faces, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
   for (const auto& block : mesh.faces)
     for (std::size_t e = 0; e < block.surface.size(); ++e) {
-      if (!contact.isPadSurface(mesh.surfaces[static_cast<std::size_t>(block.surface[e])]))
-        continue;
+      if (!contact.isPadSurface(mesh.surfaces[block.surface[e]])) continue;
       std::vector<Point> points;
       std::vector<PetscInt> rows;
       for (int i = 0; i < block.nodesPerFace; ++i) {

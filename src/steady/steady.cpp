@@ -85,9 +85,7 @@ OwnedVec Problem::test(const contact::Transformation& transformation,
   for (std::size_t i = 0; i < contact_.nodes.size(); ++i)
     for (int d = 0; d < mesh_.dimension; ++d)
       values[mesh_.dimension * contact_.nodes[i].node + d] =
-          slides[i] ? at.friction * slip[i].law * normal[i] *
-                          slip[i].direction[static_cast<std::size_t>(d)]
-                    : 0;
+          slides[i] ? at.friction * slip[i].law * normal[i] * slip[i].direction[d] : 0;
   check(VecRestoreArray(friction, &values));
   check(MatMultTransposeAdd(contact_.jump, friction, forces, sum));
   OwnedVec result = rightVector(transformation.trial);
@@ -310,7 +308,7 @@ double Problem::imbalance(const Solution& solution, Vec nodalForces) const {
   // the scale of the terms that cancel; resultants may vanish by themselves.
   std::vector<double> sums(static_cast<std::size_t>(mesh_.parts) * 9 + 1, 0.0);
   const auto at = [&](int part, int kind, int d) -> double& {
-    return sums[static_cast<std::size_t>(part * 9 + kind * 3 + d)];
+    return sums[part * 9 + kind * 3 + d];
   };
   const OwnedVec load = this->load(solution.at), springs = elasticity::nodalVector(mesh_);
   if (bodies_.springs) check(VecPointwiseMult(springs, bodies_.springs, solution.displacement));
@@ -321,12 +319,10 @@ double Problem::imbalance(const Solution& solution, Vec nodalForces) const {
   check(VecGetArrayRead(contactForces, &contacts));
   for (PetscInt node = 0; node < mesh_.ownedNodes; ++node)
     for (int d = 0; d < dimension; ++d) {
-      const int part = mesh_.nodePart[static_cast<std::size_t>(node)];
+      const int part = mesh_.nodePart[node];
       const PetscInt row = dimension * node + d;
       const double support =
-          (contact_.constraints.held[static_cast<std::size_t>(row)] ? forces[row] - contacts[row]
-                                                                    : 0) -
-          grounded[row];
+          (contact_.constraints.held[row] ? forces[row] - contacts[row] : 0) - grounded[row];
       at(part, 0, d) += contacts[row];
       at(part, 1, d) += support;
       at(part, 2, d) += loads[row];

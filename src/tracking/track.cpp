@@ -63,9 +63,9 @@ class Follower {
         std::min<std::size_t>(static_cast<std::size_t>(ranks), mostTogether);
     std::list<Solved> row;  // the last station already finished, and the next ones
     for (std::size_t first = 0; first < frictions.size(); first += together) {
-      const std::vector<double> some(frictions.begin() + static_cast<std::ptrdiff_t>(first),
-                                     frictions.begin() + static_cast<std::ptrdiff_t>(std::min(
-                                                             first + together, frictions.size())));
+      const std::vector<double> some(
+          frictions.begin() + first,
+          frictions.begin() + (std::min(first + together, frictions.size())));
       auto found = solve(some, true);
       for (std::size_t k = 0; k < some.size(); ++k) {
         if (!found[k]) {
@@ -160,9 +160,7 @@ class Follower {
       }
       screen(family_, {a->station.friction, a->problem}, {b.station.friction, b.problem},
              step.singles, step.events, step.gaps);
-      const auto number = [&](int index) {
-        return index < 0 ? index : a->station.branch[static_cast<std::size_t>(index)];
-      };
+      const auto number = [&](int index) { return index < 0 ? index : a->station.branch[index]; };
       for (auto& event : step.events) {
         event.branch = number(event.branch);
         event.partner = number(event.partner);

@@ -11,7 +11,7 @@ void write(const std::string& path, PetscInt size,
   OwnedMat matrix;
   check(MatCreateSeqAIJ(PETSC_COMM_SELF, size, size, size, nullptr, matrix.out()));
   for (PetscInt i = 0; i < size; ++i)
-    for (const PetscInt j : columns[static_cast<std::size_t>(i)])
+    for (const PetscInt j : columns[i])
       check(MatSetValue(matrix, i, j, 1.0 + i - 2.0 * j, INSERT_VALUES));
   check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
   check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));

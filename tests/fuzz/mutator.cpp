@@ -156,7 +156,7 @@ void change(Random& random, std::string& bytes, const std::string& other) {
 }  // namespace
 
 std::string inputOf(const std::vector<std::string>& seeds, std::uint64_t number) {
-  if (number < seeds.size()) return seeds[static_cast<std::size_t>(number)];
+  if (number < seeds.size()) return seeds[number];
   Random random(number);
   std::size_t longest = 0;
   for (const auto& seed : seeds) longest = std::max(longest, seed.size());

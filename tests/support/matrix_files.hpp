@@ -23,8 +23,7 @@ inline const std::array<std::array<double, 4>, 4> sample{
 inline matrixfile::Entries sampleEntries() {
   matrixfile::Entries entries(4, 4);
   for (long long i = 0; i < 4; ++i)
-    for (long long j = 0; j < 4; ++j)
-      entries.add(i, j, sample[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)]);
+    for (long long j = 0; j < 4; ++j) entries.add(i, j, sample[i][j]);
   return entries;
 }
 
@@ -70,8 +69,7 @@ inline void expectSample(const std::string& path, const std::string& dataset = {
   ASSERT_EQ(all.columns, 4) << path;
   for (PetscInt i = 0; i < 4; ++i)
     for (PetscInt j = 0; j < 4; ++j)
-      EXPECT_EQ(all(i, j), sample[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)])
-          << path << " " << i << " " << j;
+      EXPECT_EQ(all(i, j), sample[i][j]) << path << " " << i << " " << j;
 }
 
 /// Collective. Empty where the file is read.

@@ -78,9 +78,7 @@ inline Model buildModel() {
 struct DenseCopy {
   PetscInt rows = 0, columns = 0;
   std::vector<double> values;
-  double operator()(PetscInt i, PetscInt j) const {
-    return values[static_cast<std::size_t>(j * rows + i)];
-  }
+  double operator()(PetscInt i, PetscInt j) const { return values[j * rows + i]; }
 };
 
 inline DenseCopy denseCopy(Mat matrix) {
@@ -125,9 +123,8 @@ OwnedVec nodalField(const mesh::Mesh& mesh, const Field& field) {
   PetscScalar* values = nullptr;
   check(VecGetArray(u, &values));
   for (PetscInt node = 0; node < mesh.ownedNodes; ++node) {
-    const mesh::Point value = field(mesh.coordinates[static_cast<std::size_t>(node)]);
-    for (int d = 0; d < mesh.dimension; ++d)
-      values[mesh.dimension * node + d] = value[static_cast<std::size_t>(d)];
+    const mesh::Point value = field(mesh.coordinates[node]);
+    for (int d = 0; d < mesh.dimension; ++d) values[mesh.dimension * node + d] = value[d];
   }
   check(VecRestoreArray(u, &values));
   return u;

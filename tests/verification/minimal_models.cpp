@@ -27,7 +27,7 @@ OwnedMat matrix(const Matrix2& entries) {
   check(MatGetOwnershipRange(result, &first, &end));
   for (PetscInt i = first; i < end; ++i)
     for (PetscInt j = 0; j < 2; ++j)
-      check(MatSetValue(result, i, j, entries[static_cast<std::size_t>(2 * i + j)], INSERT_VALUES));
+      check(MatSetValue(result, i, j, entries[2 * i + j], INSERT_VALUES));
   check(MatAssemblyBegin(result, MAT_FINAL_ASSEMBLY));
   check(MatAssemblyEnd(result, MAT_FINAL_ASSEMBLY));
   return result;

@@ -75,7 +75,7 @@ int orderOf(const mesh::Mesh& mesh, Vec real, Vec imaginary) {
   check(VecGetArrayRead(real, &a));
   check(VecGetArrayRead(imaginary, &b));
   for (PetscInt node = 0; node < mesh.ownedNodes; ++node) {
-    const auto& x = mesh.coordinates[static_cast<std::size_t>(node)];
+    const auto& x = mesh.coordinates[node];
     if (std::hypot(x[0], x[1]) < annulus.outer - 1e-9) continue;
     const Complex ux(a[2 * node], b[2 * node]), uy(a[2 * node + 1], b[2 * node + 1]);
     const Complex components[] = {x[0] * ux + x[1] * uy,
@@ -97,8 +97,7 @@ int orderOf(const mesh::Mesh& mesh, Vec real, Vec imaginary) {
   double power = 0;
   for (int n = -range; n <= range; ++n) {
     double square = 0;
-    for (int i = 0; i < 4; ++i)
-      square += std::pow(sums[static_cast<std::size_t>(4 * (n + range) + i)], 2);
+    for (int i = 0; i < 4; ++i) square += std::pow(sums[4 * (n + range) + i], 2);
     if (square > power) power = square, best = n;
   }
   // Parseval: all of a pure wave is at its n, but for what the cells of the mesh add.

@@ -23,8 +23,7 @@ double displacementError(const analysis::Analysis& analysis, const steady::Solut
   check(VecGetArrayRead(solution.displacement, &values));
   for (PetscInt node = 0; node < mesh.ownedNodes; ++node) {
     const auto i = static_cast<std::size_t>(node);
-    const auto wanted =
-        exact(mesh.coordinates[i], mesh.partName[static_cast<std::size_t>(mesh.nodePart[i])]);
+    const auto wanted = exact(mesh.coordinates[i], mesh.partName[mesh.nodePart[i]]);
     for (std::size_t d = 0; d < static_cast<std::size_t>(mesh.dimension); ++d) {
       error = std::max(
           error, std::abs(values[mesh.dimension * node + static_cast<PetscInt>(d)] - wanted[d]));

@@ -102,7 +102,7 @@ Families families(const std::string& set, double poisson, const std::string& inc
                       0};  // Σ u_x², Σ u_y², Σ u_z², all rotation: Σ (y u_z − z u_y)² / (y² + z²)
     check(VecGetArrayRead(u, &values));
     for (PetscInt node = 0; node < mesh.ownedNodes; ++node) {
-      const auto& x = mesh.coordinates[static_cast<std::size_t>(node)];
+      const auto& x = mesh.coordinates[node];
       for (int c = 0; c < 3; ++c) part[c] += values[3 * node + c] * values[3 * node + c];
       const double radius2 = x[1] * x[1] + x[2] * x[2];
       if (radius2 > 1e-12)
@@ -261,8 +261,7 @@ TEST(Ring, FlexuralModesComeInPairs) {
     for (int n = 2; n <= 5; ++n) {
       const double theory = n * (n * n - 1) * thickness / (radius * radius) *
                             std::sqrt(young / (12 * density * (n * n + 1)));
-      const double first = inPlane[static_cast<std::size_t>(2 * (n - 2))],
-                   twin = inPlane[static_cast<std::size_t>(2 * (n - 2) + 1)];
+      const double first = inPlane[2 * (n - 2)], twin = inPlane[2 * (n - 2) + 1];
       test::print("ring, %s, n = %d: deviation from theory %.2f %%, pair apart by %.1e\n", name, n,
                   100 * (first / theory - 1), twin / first - 1);
       EXPECT_NEAR(100 * (first / theory - 1), 0, tolerance);

@@ -33,8 +33,7 @@ OwnedVec vectorOf(Mat matrix, bool columns, const std::vector<double>& entries) 
     check(MatCreateVecs(matrix, nullptr, vector.out()));
   PetscInt first = 0, end = 0;
   check(VecGetOwnershipRange(vector, &first, &end));
-  for (PetscInt i = first; i < end; ++i)
-    check(VecSetValue(vector, i, entries[static_cast<std::size_t>(i)], INSERT_VALUES));
+  for (PetscInt i = first; i < end; ++i) check(VecSetValue(vector, i, entries[i], INSERT_VALUES));
   check(VecAssemblyBegin(vector));
   check(VecAssemblyEnd(vector));
   return vector;
@@ -94,8 +93,7 @@ std::vector<Node> allNodes(const contact::Contact& contact,
 
 Point at(const std::vector<double>& u, PetscInt node, int dimension) {
   Point p{};
-  for (int d = 0; d < dimension; ++d)
-    p[static_cast<std::size_t>(d)] = u[static_cast<std::size_t>(dimension * node + d)];
+  for (int d = 0; d < dimension; ++d) p[d] = u[dimension * node + d];
   return p;
 }
 
@@ -185,8 +183,7 @@ void gapIsTheUnknown(const Coupled& c) {
   const auto x = randomEntries(c.transformation.columns, 7), u = product(c.transformation.trial, x);
   for (const auto& node : c.nodes) {
     ASSERT_GE(node.gapColumn, 0);
-    EXPECT_NEAR(test::dot(node.normal, c.jump(u, node)),
-                x[static_cast<std::size_t>(node.gapColumn)], 1e-14);
+    EXPECT_NEAR(test::dot(node.normal, c.jump(u, node)), x[node.gapColumn], 1e-14);
   }
   // Every column counts: TᵀT of a change of variables is regular.
   OwnedMat gram;
@@ -212,8 +209,7 @@ TEST(Trial, GapIsTheUnknownOnLayers) {
   const auto& mesh = *c.model.mesh;
   for (const auto& image : mesh.images)
     for (int d = 0; d < 2; ++d)
-      EXPECT_EQ(u[static_cast<std::size_t>(2 * (mesh.firstNode + image.node) + d)],
-                u[static_cast<std::size_t>(2 * image.primary + d)]);
+      EXPECT_EQ(u[2 * (mesh.firstNode + image.node) + d], u[2 * image.primary + d]);
   const auto offset = test::allEntries(c.model.contact.offset);
   for (const char* group : {"disc_bottom", "pad_top"})
     for (PetscInt node : mesh.nodeGroups.at(group)) {
@@ -268,11 +264,8 @@ void frictionOfTheNormalForce(const Coupled& c) {
         const Point& force = slides ? coulomb : any;
         std::vector<double> r(static_cast<std::size_t>(dimension * c.model.mesh->totalNodes), 0.0);
         for (int d = 0; d < dimension; ++d) {
-          r[static_cast<std::size_t>(dimension * node.pad + d)] =
-              force[static_cast<std::size_t>(d)];
-          if (node.master >= 0)
-            r[static_cast<std::size_t>(dimension * node.master + d)] =
-                -force[static_cast<std::size_t>(d)];
+          r[dimension * node.pad + d] = force[d];
+          if (node.master >= 0) r[dimension * node.master + d] = -force[d];
         }
         auto rows = product(c.transformation.trial, r, true);
         const auto part = product(c.friction, r, true);
@@ -283,7 +276,7 @@ void frictionOfTheNormalForce(const Coupled& c) {
         const double rn = test::dot(force, node.normal);
         EXPECT_NEAR(work, test::dot(force, jump) + friction * rn * test::dot(node.slip, jump),
                     1e-13);
-        EXPECT_NEAR(rows[static_cast<std::size_t>(node.gapColumn)], rn, 1e-14);
+        EXPECT_NEAR(rows[node.gapColumn], rn, 1e-14);
         for (std::size_t i = 0; i < rows.size(); ++i)
           if (slides && static_cast<PetscInt>(i) != node.gapColumn) {
             EXPECT_NEAR(rows[i], 0, 1e-14) << "row " << i;
@@ -339,13 +332,11 @@ void orthonormalFrames(const Coupled& c, double tolerance) {
       for (int b = 0; b < dimension; ++b) {
         double sum = 0;
         for (int i = 0; i < dimension; ++i)
-          sum += frame[static_cast<std::size_t>(i * dimension + a)] *
-                 frame[static_cast<std::size_t>(i * dimension + b)];
+          sum += frame[i * dimension + a] * frame[i * dimension + b];
         EXPECT_NEAR(sum, a == b, tolerance);
       }
     for (int i = 0; i < dimension; ++i)
-      EXPECT_NEAR(frame[static_cast<std::size_t>(i * dimension + dimension - 1)],
-                  node.normal[static_cast<std::size_t>(i)], 1e-14);
+      EXPECT_NEAR(frame[i * dimension + dimension - 1], node.normal[i], 1e-14);
   }
 }
 

@@ -105,7 +105,7 @@ TEST(Ground, IsSharedByTheNodesOfTheGroup) {
   int supported = 0;
   for (PetscInt i = 0; i < k.rows; ++i)
     for (PetscInt j = 0; j < k.rows; ++j) {
-      const bool grounded = i == j && springs[static_cast<std::size_t>(i)] > 0;
+      const bool grounded = i == j && springs[i] > 0;
       supported += grounded;
       EXPECT_NEAR(k(i, j),
                   !grounded ? 0.0

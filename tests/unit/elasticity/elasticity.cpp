@@ -74,7 +74,7 @@ class Patch : public testing::TestWithParam<Element> {
   OwnedVec unit(int component) const {
     return test::nodalField(mesh, [&](const Point&) {
       Point e{};
-      e[static_cast<std::size_t>(component)] = 1;
+      e[component] = 1;
       return e;
     });
   }
@@ -457,11 +457,9 @@ TEST(StiffnessRule, IsExactOnStraightCells) {
   auto tet10 = tetrahedron, tri6 = triangle;
   for (const auto& [i, j] :
        {std::pair{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}})  // gmsh's order of the edges
-    tet10.push_back(
-        middle(tetrahedron[static_cast<std::size_t>(i)], tetrahedron[static_cast<std::size_t>(j)]));
+    tet10.push_back(middle(tetrahedron[i], tetrahedron[j]));
   for (const auto& [i, j] : {std::pair{0, 1}, {1, 2}, {2, 0}})
-    tri6.push_back(
-        middle(triangle[static_cast<std::size_t>(i)], triangle[static_cast<std::size_t>(j)]));
+    tri6.push_back(middle(triangle[i], triangle[j]));
   for (const auto& [type, nodes, points] : {std::tuple{11, tet10, 4}, {9, tri6, 3}}) {
     const auto& rule = elasticity::stiffnessTable(type);
     EXPECT_EQ(rule.points(), points);

@@ -166,10 +166,10 @@ TEST(Sketch, LeadingCombinationsHoldTheColumns) {
   std::vector<double> factors;
   for (PetscInt j = 0; j < count; ++j) {
     for (PetscInt i = 0; i < length; ++i) {
-      auto& entry = columns[static_cast<std::size_t>(j * length + i)];
+      auto& entry = columns[j * length + i];
       entry *= rest;
       for (PetscInt k = 0; k < directions; ++k)
-        entry += std::sin(1 + j * k) * leading[static_cast<std::size_t>(k * length + i)];
+        entry += std::sin(1 + j * k) * leading[k * length + i];
     }
     factors.push_back((j % 3 == 0 ? 0.5 : 1) / std::sqrt(length / 3.0));
   }
@@ -186,14 +186,9 @@ TEST(Sketch, LeadingCombinationsHoldTheColumns) {
     for (PetscInt l = 0; l < count; ++l) {
       double kept = 0;  // (V Vᵀ) of l and j
       for (PetscInt k = 0; k < directions; ++k)
-        kept += combinations[static_cast<std::size_t>(k * count + l)] /
-                factors[static_cast<std::size_t>(l)] *
-                combinations[static_cast<std::size_t>(k * count + j)] /
-                factors[static_cast<std::size_t>(j)];
-      const double part = factors[static_cast<std::size_t>(l)] * ((l == j ? 1 : 0) - kept);
-      for (PetscInt i = 0; i < length; ++i)
-        left[static_cast<std::size_t>(i)] +=
-            part * columns[static_cast<std::size_t>(l * length + i)];
+        kept += combinations[k * count + l] / factors[l] * combinations[k * count + j] / factors[j];
+      const double part = factors[l] * ((l == j ? 1 : 0) - kept);
+      for (PetscInt i = 0; i < length; ++i) left[i] += part * columns[l * length + i];
     }
     for (const double value : left) sum += value * value;
     worst = std::max(worst, std::sqrt(sum));
@@ -207,9 +202,7 @@ TEST(Sketch, LeadingCombinationsHoldTheColumns) {
       sketch.of(layout.local(randomColumns(count)).data(), count), factors, 0.03);
   ASSERT_EQ(all.size(), static_cast<std::size_t>(count * count));
   for (PetscInt j = 0; j < count; ++j)
-    for (PetscInt i = 0; i < count; ++i)
-      EXPECT_EQ(all[static_cast<std::size_t>(j * count + i)],
-                i == j ? factors[static_cast<std::size_t>(j)] : 0);
+    for (PetscInt i = 0; i < count; ++i) EXPECT_EQ(all[j * count + i], i == j ? factors[j] : 0);
 }
 
 // Rows that are zero may be left out.
@@ -224,8 +217,7 @@ TEST(Sketch, OfSomeRows) {
     const bool there = i % 5 == 2;
     if (there && i >= layout.first && i < layout.end)
       check(MatSetValue(matrix, i, i, 1, INSERT_VALUES));
-    for (PetscInt j = 0; j < 2 && !there; ++j)
-      columns[static_cast<std::size_t>(j * length + i)] = 0;
+    for (PetscInt j = 0; j < 2 && !there; ++j) columns[j * length + i] = 0;
   }
   check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
   check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));

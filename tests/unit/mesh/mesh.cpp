@@ -42,8 +42,7 @@ std::vector<Number> gathered(const std::vector<Number>& mine, MPI_Datatype type)
 std::vector<double> allCoordinates(const Mesh& mesh) {
   std::vector<double> mine;
   for (PetscInt node = 0; node < mesh.ownedNodes; ++node)
-    mine.insert(mine.end(), mesh.coordinates[static_cast<std::size_t>(node)].begin(),
-                mesh.coordinates[static_cast<std::size_t>(node)].end());
+    mine.insert(mine.end(), mesh.coordinates[node].begin(), mesh.coordinates[node].end());
   return gathered(mine, MPI_DOUBLE);
 }
 
@@ -62,7 +61,7 @@ void expectNumbering(const Mesh& mesh) {
   check(MPI_Scan(&mesh.ownedNodes, &end, 1, MPIU_INT, MPI_SUM, mesh.comm));
   EXPECT_EQ(mesh.firstNode, end - mesh.ownedNodes);
   for (PetscInt node = 0; node < mesh.ownedNodes; ++node)
-    EXPECT_EQ(mesh.globalNode[static_cast<std::size_t>(node)], mesh.firstNode + node);
+    EXPECT_EQ(mesh.globalNode[node], mesh.firstNode + node);
   std::set<PetscInt> ghosts(mesh.globalNode.begin() + mesh.ownedNodes, mesh.globalNode.end());
   EXPECT_EQ(ghosts.size(), size - static_cast<std::size_t>(mesh.ownedNodes));
   for (PetscInt ghost : ghosts)
@@ -76,10 +75,8 @@ void expectCells(const Mesh& mesh) {
   const auto coordinates = allCoordinates(mesh);
   for (PetscInt node = 0; node < mesh.localNodes(); ++node)
     for (std::size_t d = 0; d < 3; ++d)
-      EXPECT_EQ(mesh.coordinates[static_cast<std::size_t>(node)][d],
-                coordinates[3 * static_cast<std::size_t>(
-                                    mesh.globalNode[static_cast<std::size_t>(node)]) +
-                            d]);
+      EXPECT_EQ(mesh.coordinates[node][d],
+                coordinates[3 * static_cast<std::size_t>(mesh.globalNode[node]) + d]);
   std::vector<PetscInt> tags;
   std::set<PetscInt> used;
   for (const auto& block : mesh.cells) {
@@ -107,9 +104,9 @@ std::map<std::string, Point> areaVectors(const Mesh& mesh) {
         if (block.surface[e] != static_cast<int>(s)) continue;
         std::vector<Point> points;
         for (int i = 0; i < block.nodesPerFace; ++i)
-          points.push_back(mesh.coordinates[static_cast<std::size_t>(
-              block.nodes[e * static_cast<std::size_t>(block.nodesPerFace) +
-                          static_cast<std::size_t>(i)])]);
+          points.push_back(
+              mesh.coordinates[block.nodes[e * static_cast<std::size_t>(block.nodesPerFace) +
+                                           static_cast<std::size_t>(i)]]);
         const auto normals =
             elasticity::faceNormals(elasticity::shapeTable(block.type), points, block.sign[e]);
         for (std::size_t i = 0; i < normals.size(); ++i) sum[i % 3] += normals[i];
@@ -135,7 +132,7 @@ TEST(Mesh, CountsAndNumbersOfABox) {
     EXPECT_EQ(groupSize(mesh, "clamped"), (3 * order + 1) * (2 * order + 1));
     for (PetscInt node : mesh.nodeGroups.at("clamped")) {
       ASSERT_TRUE(node >= 0 && node < mesh.ownedNodes);
-      EXPECT_NEAR(mesh.coordinates[static_cast<std::size_t>(node)][0], 0, 1e-12);
+      EXPECT_NEAR(mesh.coordinates[node][0], 0, 1e-12);
     }
     EXPECT_EQ(mesh.parts, 1);
     EXPECT_EQ(mesh.partName, (std::vector<std::string>{"beam"}));
@@ -162,15 +159,13 @@ std::vector<std::pair<double, double>> contactPositions(const Mesh& mesh) {
   std::vector<double> mine;
   for (const auto& pair : mesh.pairs) {
     EXPECT_LT(pair.node, mesh.ownedNodes);
-    const auto& x = mesh.coordinates[static_cast<std::size_t>(pair.node)];
+    const auto& x = mesh.coordinates[pair.node];
     for (std::size_t d = 0; d < 3; ++d)
       EXPECT_NEAR(x[d], coordinates[3 * static_cast<std::size_t>(pair.master) + d], 1e-9);
     EXPECT_NE(pair.master, mesh.firstNode + pair.node);
     EXPECT_EQ(pair.masterBody, disc);
-    EXPECT_EQ(mesh.partName[static_cast<std::size_t>(pair.masterPart)], "disc");
-    EXPECT_EQ(
-        mesh.partName[static_cast<std::size_t>(mesh.nodePart[static_cast<std::size_t>(pair.node)])],
-        "pad");
+    EXPECT_EQ(mesh.partName[pair.masterPart], "disc");
+    EXPECT_EQ(mesh.partName[mesh.nodePart[pair.node]], "pad");
     mine.insert(mine.end(), {x[0], x[1]});
   }
   const auto all = gathered(mine, MPI_DOUBLE);
@@ -196,10 +191,8 @@ TEST(Mesh, SharedAndCoincidentInterfaceNodesGiveTheSamePairs) {
       // After the split no cell of one body has a node of the other.
       for (const auto& block : mesh.cells)
         for (std::size_t i = 0; i < block.nodes.size(); ++i)
-          EXPECT_EQ(mesh.partName[static_cast<std::size_t>(
-                        mesh.nodePart[static_cast<std::size_t>(block.nodes[i])])],
-                    mesh.bodies[static_cast<std::size_t>(
-                        block.body[i / static_cast<std::size_t>(block.nodesPerCell)])]);
+          EXPECT_EQ(mesh.partName[mesh.nodePart[block.nodes[i]]],
+                    mesh.bodies[block.body[i / static_cast<std::size_t>(block.nodesPerCell)]]);
       // Towards the disc, whichever cells the interface's lines were drawn with.
       const auto area = areaVectors(mesh).at("pad_face");
       EXPECT_NEAR(area[0], 0, 1e-12);
@@ -232,7 +225,7 @@ TEST(Mesh, PeriodicImagesAreTranslates) {
   for (const auto& image : mesh.images) {
     EXPECT_LT(image.node, mesh.ownedNodes);
     EXPECT_EQ(image.primaryPart, 0);
-    const auto& x = mesh.coordinates[static_cast<std::size_t>(image.node)];
+    const auto& x = mesh.coordinates[image.node];
     EXPECT_NEAR(x[0], 3, 1e-12);
     for (std::size_t d = 0; d < 3; ++d) {
       EXPECT_NEAR(image.shift[d], d == 0 ? 3 : 0,
@@ -262,7 +255,7 @@ TEST(Mesh, ImagesOfImagesEndAtOnePrimary) {
   EXPECT_EQ(groupSize(mesh, "bottom"), 4 * 3);
   for (const auto& image : mesh.images) {
     const double* primary = &coordinates[3 * static_cast<std::size_t>(image.primary)];
-    const auto& x = mesh.coordinates[static_cast<std::size_t>(image.node)];
+    const auto& x = mesh.coordinates[image.node];
     EXPECT_NEAR(primary[0], x[0] > 2.9 ? x[0] - 3 : x[0], 1e-9);
     EXPECT_NEAR(primary[1], x[1], 1e-9);
     EXPECT_NEAR(primary[2], x[2] > 0.49 ? x[2] - 0.5 : x[2], 1e-9);

@@ -129,11 +129,9 @@ TEST(Basis, KnowsEnergiesAndForcesOfWhatIsAdded) {
     double known = 0, off = 0;
     for (PetscInt j = size - count; j < size; ++j)
       for (PetscInt i = 0; i < size; ++i) {
-        const double entry = gram[static_cast<std::size_t>(j * size + i)];
+        const double entry = gram[j * size + i];
         if (kept)
-          known = std::max(
-              known,
-              std::abs(energies[static_cast<std::size_t>((j - size + count) * size + i)] - entry));
+          known = std::max(known, std::abs(energies[(j - size + count) * size + i] - entry));
         off = std::max(off, std::abs(entry - (i == j ? 1 : 0)));
       }
     EXPECT_LT(known, 1e-10);

@@ -58,10 +58,8 @@ TEST(Condition, AgainstPerturbedMatrices) {
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       const auto &d = pairs[k].q, &y = pairs[k].left;
       Complex yy = 0, dd = 0;
-      for (int i = 0; i < m; ++i)
-        yy += y[static_cast<std::size_t>(i)] * y[static_cast<std::size_t>(i)];
-      for (int i = 0; i < m; ++i)
-        dd += d[static_cast<std::size_t>(i)] * d[static_cast<std::size_t>(i)];
+      for (int i = 0; i < m; ++i) yy += y[i] * y[i];
+      for (int i = 0; i < m; ++i) dd += d[i] * d[i];
       const double part = std::abs(1.0 + std::conj(yy) * dd) / 2, step = 1e-5;
       complex += part < 0.99;
       Complex moved[2];

@@ -94,8 +94,7 @@ linalg::Block frictionForces(const pencil::Pencil& pencil, const linalg::Block& 
     for (PetscInt j = 0; j < modes.columns; ++j)
       for (PetscInt i = 0; i < modes.rows; ++i)
         sum.column(j)[i] +=
-            (term.power == 0 ? 1 : -std::pow(frequencies[static_cast<std::size_t>(j)], 2)) *
-            image.column(j)[i];
+            (term.power == 0 ? 1 : -std::pow(frequencies[j], 2)) * image.column(j)[i];
   }
   return sum;
 }
@@ -137,8 +136,7 @@ TEST(StaticResponses, AreHeldByTheBasis) {
   const double bound =
       0.03 / std::sqrt(linalg::symmetricEigen(k0.values, static_cast<int>(k0.rows)).front());
   linalg::Block modes(before.rows);
-  for (PetscInt j = 0; f.free.angularFrequency[static_cast<std::size_t>(j)] < top; ++j)
-    modes.append(before.column(j));
+  for (PetscInt j = 0; f.free.angularFrequency[j] < top; ++j) modes.append(before.column(j));
   ASSERT_GT(modes.columns, 20);
   for (const bool transposed : {false, true}) {
     const linalg::Block forces = linalg::unitColumns(

@@ -85,8 +85,8 @@ ContactNodes contactNodes(const analysis::Analysis& analysis) {
   const auto total = static_cast<std::size_t>(analysis.mesh->totalNodes);
   ContactNodes nodes{std::vector<double>(total, 0.0), std::vector<double>(total, 0.0)};
   for (const auto& node : analysis.contact.nodes) {
-    nodes.interface[static_cast<std::size_t>(node.globalNode)] = node.interface + 1;
-    nodes.lumpedArea[static_cast<std::size_t>(node.globalNode)] = node.lumpedArea;
+    nodes.interface[node.globalNode] = node.interface + 1;
+    nodes.lumpedArea[node.globalNode] = node.lumpedArea;
   }
   for (auto* list : {&nodes.interface, &nodes.lumpedArea})
     check(MPI_Allreduce(MPI_IN_PLACE, list->data(), static_cast<int>(total), MPI_DOUBLE, MPI_SUM,

@@ -35,9 +35,7 @@ Reference gmshReference(int type) {
   Reference reference{nodes, dimension,
                       std::vector<double>(static_cast<std::size_t>(3 * nodes), 0.0)};
   for (int node = 0; node < nodes; ++node)
-    for (int i = 0; i < dimension; ++i)
-      reference.local[static_cast<std::size_t>(3 * node + i)] =
-          given[static_cast<std::size_t>(dimension * node + i)];
+    for (int i = 0; i < dimension; ++i) reference.local[3 * node + i] = given[dimension * node + i];
   return reference;
 }
 
@@ -66,7 +64,7 @@ Mesh curvedCells(int type) {
   mesh.firstNode = rank * reference.nodes;
   mesh::CellBlock block{type, reference.nodes, {}, {0}, {1 + rank}};
   for (int node = 0; node < reference.nodes; ++node) {
-    const double* u = &reference.local[static_cast<std::size_t>(3 * node)];
+    const double* u = &reference.local[3 * node];
     mesh.globalNode.push_back(mesh.firstNode + node);
     mesh.coordinates.push_back(
         {10.0 * rank + u[0] + 0.11 * u[1] * u[1] + 0.07 * u[1] * u[2],
@@ -103,8 +101,7 @@ TEST_P(VtuElement, NodesAndShapeAreThoseOfGmsh) {
     vtkCell* cell = grid->GetCell(i);
     ASSERT_EQ(cell->GetNumberOfPoints(), reference.nodes);
     for (vtkIdType node = 0; node < reference.nodes; ++node) {
-      const double* local =
-          &reference.local[static_cast<std::size_t>(3 * tags->GetTuple1(cell->GetPointId(node)))];
+      const double* local = &reference.local[3 * tags->GetTuple1(cell->GetPointId(node))];
       const auto expected = vtkParameters(type, {local[0], local[1], local[2]});
       for (std::size_t c = 0; c < 3; ++c)
         EXPECT_NEAR(cell->GetParametricCoords()[3 * static_cast<std::size_t>(node) + c],

@@ -28,9 +28,8 @@ linalg::ComplexVector vectorOf(Mat layout, const std::vector<Complex>& entries) 
   PetscInt first = 0, end = 0;
   check(VecGetOwnershipRange(vector.real, &first, &end));
   for (PetscInt i = first; i < end; ++i) {
-    check(VecSetValue(vector.real, i, entries[static_cast<std::size_t>(i)].real(), INSERT_VALUES));
-    check(VecSetValue(vector.imaginary, i, entries[static_cast<std::size_t>(i)].imag(),
-                      INSERT_VALUES));
+    check(VecSetValue(vector.real, i, entries[i].real(), INSERT_VALUES));
+    check(VecSetValue(vector.imaginary, i, entries[i].imag(), INSERT_VALUES));
   }
   for (Vec part : {vector.real.get(), vector.imaginary.get()})
     check(VecAssemblyBegin(part)), check(VecAssemblyEnd(part));

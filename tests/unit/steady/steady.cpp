@@ -254,7 +254,7 @@ void expectCoulomb(double depth) {
   const auto force = test::allEntries(residual);
   // The disc's nodes under the pad, on all ranks: masters are known where the contact node is.
   std::vector<double> master(field.u.size() / dimension, 0.0);
-  for (const auto& node : model.contact.nodes) master[static_cast<std::size_t>(node.master)] = 1;
+  for (const auto& node : model.contact.nodes) master[node.master] = 1;
   check(MPI_Allreduce(MPI_IN_PLACE, master.data(), static_cast<int>(master.size()), MPI_DOUBLE,
                       MPI_MAX, PETSC_COMM_WORLD));
   std::map<std::pair<int, int>, std::size_t> disc;

@@ -249,7 +249,7 @@ TEST(Track, EqualEigenvaluesAreNumberedByWhereTheyPart) {
         for (std::size_t i = 0; i < 3; ++i) {
           const double exact =
               std::vector{square - 10 * station.friction, square + 20 * station.friction,
-                          400.0}[static_cast<std::size_t>(station.branch[i] - 1)];
+                          400.0}[station.branch[i] - 1];
           EXPECT_NEAR(std::norm(station.pairs[i].s), exact, 10 * rounding)
               << "friction " << station.friction << ", rounding " << first << " " << second << " "
               << skew;
