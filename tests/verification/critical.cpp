@@ -4,65 +4,19 @@
 
 #include <array>
 
-#include "exact/two_layers.hpp"
+#include "exact/damped_layers.hpp"
 #include "support/case.hpp"
 #include "support/spectrum.hpp"
 
 namespace squeal::test {
 namespace {
 
-namespace two_layers = exact::two_layers;
-
-// Damping α M of both layers: s² + α s stands for s² of the undamped waves, for every mode. Without
-// friction all waves but those with k = 0 come in pairs of equal frequency, both damped by α/2;
-// friction parts them at once, and one of each pair may reach the axis.
-constexpr double alpha = 0.02;
-
+/// With the damping of the exact waves.
 analysis::Analysis run(const std::string& changes) {
   return runCase("two_layers",
                  "-elasticity_mass consistent -material_disc_rayleigh_mass 0.02 "
                  "-material_pad_rayleigh_mass 0.02 " +
                      changes);
-}
-
-struct Found {
-  double friction, omega;
-};
-
-/// Exact waves of index n that neither grow nor decay: Newton in (f, ω) from the discrete ones.
-Found exactNear(Found at, int n) {
-  const auto value = [&](double f, double omega) {
-    const Complex s(0, omega);
-    return two_layers::characteristic({f}, n, std::sqrt(s * s + alpha * s));
-  };
-  for (int k = 0; k < 30; ++k) {
-    constexpr double h = 1e-6;
-    const Complex here = value(at.friction, at.omega);
-    const Complex df = (value(at.friction + h, at.omega) - value(at.friction - h, at.omega)) /
-                       (2 * h),
-                  dw = (value(at.friction, at.omega + h) - value(at.friction, at.omega - h)) /
-                       (2 * h);
-    const double det = df.real() * dw.imag() - df.imag() * dw.real();
-    const double stepF = (here.real() * dw.imag() - here.imag() * dw.real()) / det,
-                 stepW = (df.real() * here.imag() - df.imag() * here.real()) / det;
-    at.friction -= stepF, at.omega -= stepW;
-    if (!(std::abs(stepF) + std::abs(stepW) < 1)) return {NAN, NAN};
-    if (std::abs(stepF) + std::abs(stepW) < 1e-13) return at;
-  }
-  return {NAN, NAN};
-}
-
-/// The closest of all wave numbers.
-Found closest(const Found& found) {
-  Found best{NAN, NAN};
-  double distance = INFINITY;
-  for (int n = -8; n <= 8; ++n) {
-    const Found exact = exactNear(found, n);
-    const double here = std::abs(exact.friction - found.friction) +
-                        std::abs(exact.omega - found.omega) / found.omega;
-    if (here < distance) best = exact, distance = here;
-  }
-  return best;
 }
 
 const std::vector<tracking::Critical>& criticals(const analysis::Analysis& analysis) {
@@ -82,7 +36,7 @@ TEST(Critical, DampedLayersAgainstExactWaves) {
     for (const auto& critical : followed.criticals) {
       EXPECT_TRUE(critical.converged);
       EXPECT_EQ(critical.kind, tracking::Event::Kind::crossing);
-      const Found exact = closest({critical.friction, critical.angularFrequency});
+      const auto exact = exact::two_layers::closest({critical.friction, critical.angularFrequency});
       print("%s: critical friction %.8f at %.5f Hz, exact %.8f\n", mesh.c_str(), critical.friction,
             critical.angularFrequency / (2 * M_PI), exact.friction);
       errors.back().push_back(std::abs(critical.friction - exact.friction));

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "contact/coupled.hpp"
+#include "exact/cylinders.hpp"
 #include "steady/steady.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
@@ -12,26 +13,19 @@
 namespace squeal {
 namespace {
 
-// Lamé's solution in plane strain. A cylinder r1 ≤ r ≤ r2 under pressures p1 inside and p2 outside:
-//   u(r) = (1 + ν)/E · [(1 − 2ν)(p1 r1² − p2 r2²) r + (p1 − p2) r1² r2² / r] / (r2² − r1²).
-// The bore r = a of the inner cylinder carries p0, the rim r = c of the outer one nothing. Without
-// friction the two meet at r = b with the pressure p that makes their radial displacements there
-// equal: u_inner(b; p0, p) = u_outer(b; p, 0), linear in p.
-struct Cylinder {
-  double young, poisson, r1, r2;
-  double displacement(double r, double p1, double p2) const {
-    return (1 + poisson) / young *
-           ((1 - 2 * poisson) * (p1 * r1 * r1 - p2 * r2 * r2) * r +
-            (p1 - p2) * r1 * r1 * r2 * r2 / r) /
-           (r2 * r2 - r1 * r1);
-  }
-};
-constexpr double a = 0.05, b = 0.08, c = 0.12, borePressure = 3e6;
-const Cylinder inner{7e10, 0.33, a, b}, outer{2.1e11, 0.3, b, c};
+using exact::cylinders::a;
+using exact::cylinders::b;
+using exact::cylinders::c;
+using exact::cylinders::contactPressure;
+using exact::cylinders::Cylinder;
+using exact::cylinders::outer;
 
-double exactPressure() {
-  return inner.displacement(b, borePressure, 0) /
-         (outer.displacement(b, 1, 0) - inner.displacement(b, 0, 1));
+TEST(Cylinders, LameByHand) {
+  // Against the textbook formula of equal materials: p = p0 · a²(c² − b²) / (b²(c² − a²)).
+  const Cylinder in{1, 0.3, a, b}, out{1, 0.3, b, c};
+  const double p =
+      in.displacement(b, 1, 0) / (out.displacement(b, 1, 0) - in.displacement(b, 0, 1));
+  EXPECT_NEAR(p, a * a * (c * c - b * b) / (b * b * (c * c - a * a)), 1e-14);
 }
 
 /// Relative errors: the largest of all contact nodes, and that of the mean pressure.
@@ -57,7 +51,7 @@ Deviation solve(const std::string& shape, int refinement, const std::string& pad
   const auto solution = steady::Problem(*model.mesh, model.bodies, model.contact).solve({}, system);
   EXPECT_TRUE(solution.converged) << solution.reason;
   EXPECT_EQ(solution.openNodes, 0);
-  const double p = exactPressure(), u = outer.displacement(b, p, 0);
+  const double p = contactPressure(), u = outer.displacement(b, p, 0);
   const PetscScalar* values = nullptr;
   Deviation worst;
   double force = 0, length = 0;
@@ -102,14 +96,6 @@ void converges(const std::string& shape, const Orders& orders, const Deviation& 
   EXPECT_LT(errors.back().pressure, finest.pressure);
   EXPECT_LT(errors.back().displacement, finest.displacement);
   EXPECT_LT(errors.back().mean, finest.mean);
-}
-
-TEST(Cylinders, LameByHand) {
-  // Against the textbook formula of equal materials: p = p0 · a²(c² − b²) / (b²(c² − a²)).
-  const Cylinder in{1, 0.3, a, b}, out{1, 0.3, b, c};
-  const double p =
-      in.displacement(b, 1, 0) / (out.displacement(b, 1, 0) - in.displacement(b, 0, 1));
-  EXPECT_NEAR(p, a * a * (c * c - b * b) / (b * b * (c * c - a * a)), 1e-14);
 }
 
 // Chords for arcs: all errors are of second order.

@@ -2,10 +2,10 @@
 // frictions in closed form.
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 
 #include "direct/direct.hpp"
+#include "exact/minimal_models.hpp"
 #include "pencil/complex_modes.hpp"
 #include "pencil/pencil.hpp"
 #include "support/case.hpp"
@@ -15,9 +15,10 @@
 namespace squeal {
 namespace {
 
+using exact::minimal_models::Belt;
+using exact::minimal_models::Coupled;
+using exact::minimal_models::Matrix2;
 using test::Complex;
-
-using Matrix2 = std::array<double, 4>;  // row by row
 
 OwnedMat matrix(const Matrix2& entries) {
   OwnedMat result;
@@ -33,10 +34,8 @@ OwnedMat matrix(const Matrix2& entries) {
   return result;
 }
 
-/// M ẍ + C ẋ + (K0 + μ K1) x = 0.
-struct Model {
-  Matrix2 mass, damping, stiffness, friction;
-
+/// A model as the program solves it.
+struct Model : exact::minimal_models::Matrices {
   pencil::ComplexModes at(double mu) const {
     std::vector<pencil::Term> terms;
     terms.push_back({matrix(stiffness), 0, 0, 1});
@@ -54,55 +53,18 @@ struct Model {
   }
 };
 
-// N. Hoffmann, M. Fischer, R. Allgaier, L. Gaul, A minimal model for studying properties of the
-// mode-coupling type instability in friction induced oscillations, Mechanics Research
-// Communications 29 (2002) 197–205. A mass m on a belt, held by springs k1, k2 at the angles α1, α2
-// to the belt and by the contact spring k3 across it; Coulomb friction μ k3 y along the belt. In
-// (x, y):
-//   K = [k11, k12 − μ k3; k12, k22],  k11 = Σ k_i cos² α_i,  k12 = Σ k_i sin α_i cos α_i,  k22 = Σ
-//   k_i sin² α_i + k3.
-// With M = m I:  (k11 − λ)(k22 − λ) = k12 (k12 − μ k3), λ = −m s². The frequencies merge where the
-// discriminant vanishes,
-//   (k11 − k22)²/4 + k12 (k12 − μ k3) = 0:  μ_c = (k12 + (k11 − k22)²/(4 k12)) / k3.
-struct Belt {
-  double m = 0.02, k1 = 1.1e4, k2 = 2.0e4, k3 = 1.3e4, alpha1 = 2.6, alpha2 = 0.5;  // rad
-
-  double k11() const {
-    return k1 * std::pow(std::cos(alpha1), 2) + k2 * std::pow(std::cos(alpha2), 2);
-  }
-  double k12() const {
-    return k1 * std::sin(alpha1) * std::cos(alpha1) + k2 * std::sin(alpha2) * std::cos(alpha2);
-  }
-  double k22() const {
-    return k1 * std::pow(std::sin(alpha1), 2) + k2 * std::pow(std::sin(alpha2), 2) + k3;
-  }
-  double discriminant(double mu) const {
-    return std::pow((k11() - k22()) / 2, 2) + k12() * (k12() - mu * k3);
-  }
-  double critical() const { return (k12() + std::pow(k11() - k22(), 2) / (4 * k12())) / k3; }
-  Model model() const { return {{m, 0, 0, m}, {}, {k11(), k12(), k12(), k22()}, {0, -k3, 0, 0}}; }
-  std::vector<Complex> exact(double mu) const {
-    std::vector<Complex> list;
-    for (const double sign : {-1.0, 1.0}) {
-      const Complex s =
-          std::sqrt(-((k11() + k22()) / 2 + sign * std::sqrt(Complex(discriminant(mu)))) / m);
-      list.push_back(s.imag() < 0 ? -s : s);
-    }
-    return list;
-  }
-};
-
 TEST(MinimalModels, ModesOfTheBeltMergeAtTheCriticalFriction) {
   const Belt belt;
   const double critical = belt.critical(),
                middle = std::sqrt((belt.k11() + belt.k22()) / 2 / belt.m);
+  const Model model{belt.matrices()};
   test::setOptions("");
   EXPECT_GT(critical, 0.1);
   EXPECT_LT(critical, 1);
   EXPECT_NEAR(belt.discriminant(critical) / std::pow(belt.k11(), 2), 0, 1e-15);
   for (const double mu :
        {0.0, 0.5 * critical, (1 - 1e-4) * critical, (1 + 1e-4) * critical, 2 * critical}) {
-    const auto point = belt.model().at(mu);
+    const auto point = model.at(mu);
     // At 1e-4 from the merger, where the eigenvalue is a square root, rounding of 1e-16 grows by
     // 1e2.
     EXPECT_LT(test::worst(test::errors(belt.exact(mu), test::eigenvaluesOf(point)).relative), 1e-13)
@@ -110,36 +72,12 @@ TEST(MinimalModels, ModesOfTheBeltMergeAtTheCriticalFriction) {
     EXPECT_EQ(point.unstableCount(), mu > critical ? 1 : 0) << mu;
   }
   // At the merger both are one: half of the digits are left.
-  for (const Complex s : belt.model().eigenvalues(critical))
+  for (const Complex s : model.eigenvalues(critical))
     EXPECT_LT(std::abs(s - Complex(0, middle)), 1e-7 * middle);
 }
 
-// J.-J. Sinou, L. Jézéquel, Mode coupling instability in friction-induced vibrations and its
-// dependency on system parameters including damping, European Journal of Mechanics A/Solids 26
-// (2007) 106–122, in its normalised form: two modes with equal masses, coupled by a friction that
-// is proportional to the displacement of the other,
-//   ẍ1 + η1 ẋ1 + ω1² x1 − μ ω0² x2 = 0,  ẍ2 + η2 ẋ2 + ω2² x2 + μ ω0² x1 = 0.
-// Characteristic polynomial s⁴ + a3 s³ + a2 s² + a1 s + a0:
-//   a3 = η1 + η2, a2 = ω1² + ω2² + η1 η2, a1 = η1 ω2² + η2 ω1², a0 = ω1² ω2² + μ² ω0⁴.
-// Routh and Hurwitz: flutter begins at a1 a2 a3 = a1² + a3² a0, where s² = −a1/a3:
-//   μ_c² ω0⁴ = a1 a2 / a3 − (a1 / a3)² − ω1² ω2².
-struct Coupled {
-  double w1 = 600, w2 = 660, w0 = 500, eta1 = 0, eta2 = 0;
-
-  double damped() const {
-    const double a3 = eta1 + eta2, a2 = w1 * w1 + w2 * w2 + eta1 * eta2,
-                 a1 = eta1 * w2 * w2 + eta2 * w1 * w1;
-    return std::sqrt(a1 * a2 / a3 - std::pow(a1 / a3, 2) - std::pow(w1 * w2, 2)) / (w0 * w0);
-  }
-  double frequency() const { return std::sqrt((eta1 * w2 * w2 + eta2 * w1 * w1) / (eta1 + eta2)); }
-  double undamped() const { return std::abs(w2 * w2 - w1 * w1) / (2 * w0 * w0); }
-  Model model() const {
-    return {{1, 0, 0, 1}, {eta1, 0, 0, eta2}, {w1 * w1, 0, 0, w2 * w2}, {0, -w0 * w0, w0 * w0, 0}};
-  }
-};
-
 void expectChangeOfStability(const Coupled& coupled, double critical) {
-  const auto model = coupled.model();
+  const Model model{coupled.matrices()};
   EXPECT_LT(std::abs(model.growth(critical)), 1e-10 * coupled.w1);
   EXPECT_LT(model.growth((1 - 1e-6) * critical), 0);
   EXPECT_GT(model.growth((1 + 1e-6) * critical), 0);
@@ -156,7 +94,7 @@ TEST(MinimalModels, UnequalDampingDestabilises) {
     EXPECT_LT(critical, coupled.undamped());
     // The mode that begins to flutter has s² = −a1 / a3.
     double nearest = INFINITY;
-    for (const Complex s : coupled.model().eigenvalues(critical))
+    for (const Complex s : Model{coupled.matrices()}.eigenvalues(critical))
       nearest = std::min(nearest, std::abs(s - Complex(0, coupled.frequency())));
     EXPECT_LT(nearest, 1e-10 * coupled.w1);
     test::print("damping %g and %g: critical friction %.4f, undamped %.4f\n", eta1, eta2, critical,
@@ -170,9 +108,9 @@ TEST(MinimalModels, DampingOfOneModeAloneLeavesNoStableFriction) {
   Coupled coupled;
   coupled.eta2 = 30;
   EXPECT_NEAR(coupled.damped(), 0, 1e-7);
-  EXPECT_LT(std::abs(coupled.model().growth(0)), 1e-10 * coupled.w1);
+  EXPECT_LT(std::abs(Model{coupled.matrices()}.growth(0)), 1e-10 * coupled.w1);
   // To first order in η2 and in μ² the growth is η2 (μ ω0²)² / (2 (ω2² − ω1²)²), 0.02 here.
-  for (const double mu : {0.01, 0.05, 0.1}) EXPECT_GT(coupled.model().growth(mu), 0.01);
+  for (const double mu : {0.01, 0.05, 0.1}) EXPECT_GT(Model{coupled.matrices()}.growth(mu), 0.01);
 }
 
 // Equal damping η of both modes: s² + η s = −λ has the undamped λ, so that s = −η/2 + √(η²/4 − λ):
@@ -185,12 +123,13 @@ TEST(MinimalModels, EqualDampingStabilises) {
   expectChangeOfStability(coupled, coupled.damped());
   for (const double mu : {0.0, 0.1, 0.3, 0.6}) {
     std::vector<Complex> wanted;
-    for (const Complex s0 : undamped.model().eigenvalues(mu)) {
+    for (const Complex s0 : Model{undamped.matrices()}.eigenvalues(mu)) {
       const double half = coupled.eta1 / 2;
       const Complex root = std::sqrt(half * half + s0 * s0);  // −λ = s0²
       wanted.push_back(-half + (root.imag() < 0 ? -root : root));
     }
-    EXPECT_LT(test::worst(test::errors(wanted, coupled.model().eigenvalues(mu)).relative), 1e-13);
+    EXPECT_LT(test::worst(test::errors(wanted, Model{coupled.matrices()}.eigenvalues(mu)).relative),
+              1e-13);
   }
 }
 
@@ -205,7 +144,7 @@ TEST(MinimalModels, VanishingDampingKeepsItsEffect) {
     coupled.eta1 = ratio * coupled.eta2;
     const double limit = std::sqrt(ratio) / (1 + ratio) * 2 * coupled.undamped();
     EXPECT_NEAR(coupled.damped(), limit, 1e-9);
-    const auto model = coupled.model();
+    const Model model{coupled.matrices()};
     // The growth is at most the damping, 1e-3 of 600; its sign is what counts.
     if (ratio != 1) {
       EXPECT_LT(model.growth(0.99 * limit), 0);

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 
 #include "contact/coupled.hpp"
+#include "exact/beam.hpp"
 #include "modes/modes.hpp"
 #include "petsc/text.hpp"
 #include "support/case.hpp"
@@ -14,66 +14,32 @@
 namespace squeal {
 namespace {
 
-using mesh::Point;
+using exact::beam::axial;
+using exact::beam::bending;
+using exact::beam::density;
+using exact::beam::Section;
+using exact::beam::shear;
+using exact::beam::torsion;
+using exact::beam::young;
 
-constexpr double young = 2.1e11, density = 7850;  // steel
-double shear(double poisson) { return young / (2 * (1 + poisson)); }
+constexpr Section upright{1, 0.04, 0.02}, flat{1, 0.02, 0.04};
+
+TEST(Beam, TheoryIsThatOfTheTextbooks) {
+  // A thin beam: Euler's (β L)² = 3.51602, 22.0345, 61.6972; Saint-Venant's J = 0.2287 a b³ at a =
+  // 2b.
+  const auto thin = bending({1, 1e-4, 1e-4}, 0.3, 3);
+  const double unit = std::sqrt(young / 12 / density) * 1e-4;
+  EXPECT_NEAR(thin[0] / unit, 3.51602, 1e-4);
+  EXPECT_NEAR(thin[1] / unit, 22.0345, 1e-3);
+  EXPECT_NEAR(thin[2] / unit, 61.6972, 3e-3);
+  const double j = 0.2287 * 0.04 * 8e-6, polar = 0.04 * 0.02 * (16e-4 + 4e-4) / 12;
+  EXPECT_NEAR(torsion(upright, 0.3) / (M_PI / 2 * std::sqrt(shear(0.3) * j / (density * polar))), 1,
+              1e-4);
+}
+
 std::string steel(const std::string& body, double poisson) {
   return test::material(body, "2.1e11", formatted("%g", poisson), "7850");
 }
-
-/// The first `count` roots of `f` from `start` on, bracketed by small steps.
-std::vector<double> roots(const std::function<double(double)>& f, double start, double factor,
-                          std::size_t count) {
-  std::vector<double> found;
-  for (double low = start; found.size() < count; low *= factor) {
-    double a = low, b = low * factor;
-    if (f(a) * f(b) > 0) continue;
-    for (int i = 0; i < 100; ++i) (f(a) * f((a + b) / 2) <= 0 ? b : a) = (a + b) / 2;
-    found.push_back((a + b) / 2);
-  }
-  return found;
-}
-
-struct Section {
-  double length, width, height;  // bending along the height
-};
-
-/// Angular frequencies of bending of a Timoshenko cantilever (Huang 1961, J. Appl. Mech. 28, 579,
-/// clamped–free):
-///   2 + (b² (r² − s²)² + 2) cosh bα cos bβ − b (r² + s²) / √(1 − b² r² s²) sinh bα sin bβ = 0,
-///   b² = ρ A L⁴ ω² / (E I),  r² = I / (A L²),  s² = E I / (κ A G L²),  α, β = √(½ (∓(r² + s²) +
-///   √((r² − s²)² + 4/b²))).
-std::vector<double> bending(const Section& section, double poisson, std::size_t count) {
-  const double inertia = section.height * section.height / 12;    // I / A
-  const double kappa = 10 * (1 + poisson) / (12 + 11 * poisson);  // Cowper 1966
-  const double l2 = section.length * section.length, r2 = inertia / l2,
-               s2 = young / (kappa * shear(poisson)) * r2;
-  const auto equation = [&](double b) {
-    const double root = std::sqrt((r2 - s2) * (r2 - s2) + 4 / (b * b));
-    const double alpha = std::sqrt((root - r2 - s2) / 2), beta = std::sqrt((root + r2 + s2) / 2);
-    return 2 + (b * b * (r2 - s2) * (r2 - s2) + 2) * std::cosh(b * alpha) * std::cos(b * beta) -
-           b * (r2 + s2) / std::sqrt(1 - b * b * r2 * s2) * std::sinh(b * alpha) *
-               std::sin(b * beta);
-  };
-  auto list = roots(equation, 1, 1.01, count);
-  for (auto& b : list) b *= std::sqrt(young * inertia / density) / l2;
-  return list;
-}
-
-/// First torsion of a rod whose end sections may warp: ω = (π / 2L) √(G J / ρ I_p), J of a
-/// rectangle by Saint-Venant's series.
-double torsion(const Section& section, double poisson) {
-  const double a = std::max(section.width, section.height),
-               b = std::min(section.width, section.height);
-  double sum = 0;
-  for (int n = 1; n < 20; n += 2) sum += std::tanh(n * M_PI * a / (2 * b)) / std::pow(n, 5);
-  const double j = a * b * b * b * (1.0 / 3 - 64 * b / (std::pow(M_PI, 5) * a) * sum),
-               polar = a * b * (a * a + b * b) / 12;
-  return M_PI / (2 * section.length) * std::sqrt(shear(poisson) * j / (density * polar));
-}
-
-double axial(double length) { return M_PI / (2 * length) * std::sqrt(young / density); }
 
 struct Families {
   std::vector<double> vertical, sideways, axial, torsion;  // angular frequencies, ascending
@@ -120,8 +86,6 @@ Families families(const std::string& set, double poisson, const std::string& inc
   return families;
 }
 
-constexpr Section upright{1, 0.04, 0.02}, flat{1, 0.02, 0.04};
-
 /// Deviations from theory in per cent: bending 1 to 3 over the height, over the width, axial,
 /// torsion.
 std::vector<double> deviations(const char* name, double poisson, const Families& found) {
@@ -138,19 +102,6 @@ std::vector<double> deviations(const char* name, double poisson, const Families&
   for (double value : percent) text += formatted(" %6.2f", value);
   test::print("beam, %s, nu = %g: deviation from theory in %%%s\n", name, poisson, text.c_str());
   return percent;
-}
-
-TEST(Beam, TheoryIsThatOfTheTextbooks) {
-  // A thin beam: Euler's (β L)² = 3.51602, 22.0345, 61.6972; Saint-Venant's J = 0.2287 a b³ at a =
-  // 2b.
-  const auto thin = bending({1, 1e-4, 1e-4}, 0.3, 3);
-  const double unit = std::sqrt(young / 12 / density) * 1e-4;
-  EXPECT_NEAR(thin[0] / unit, 3.51602, 1e-4);
-  EXPECT_NEAR(thin[1] / unit, 22.0345, 1e-3);
-  EXPECT_NEAR(thin[2] / unit, 61.6972, 3e-3);
-  const double j = 0.2287 * 0.04 * 8e-6, polar = 0.04 * 0.02 * (16e-4 + 4e-4) / 12;
-  EXPECT_NEAR(torsion(upright, 0.3) / (M_PI / 2 * std::sqrt(shear(0.3) * j / (density * polar))), 1,
-              1e-4);
 }
 
 // ν = 0: a clamped section need not contract, and Timoshenko's beam is nearly exact; what remains

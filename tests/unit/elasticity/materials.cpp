@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "exact/orthotropic.hpp"
 #include "petsc/text.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
@@ -10,8 +11,16 @@
 namespace squeal {
 namespace {
 
+using exact::orthotropic::g12;
+using exact::orthotropic::Matrix;
+using exact::orthotropic::product;
+using exact::orthotropic::strainOf;
+using exact::orthotropic::toMesh;
 using mesh::Point;
 using test::form;
+
+const std::string orthotropic =
+    std::string("-material_body_engineering_constants ") + exact::orthotropic::constants + " ";
 
 std::string patch(int dimension, const std::string& set, const std::string& law) {
   return formatted(
@@ -19,41 +28,6 @@ std::string patch(int dimension, const std::string& set, const std::string& law)
              "-material_body_density 1 ",
              dimension) +
          (set.empty() ? "" : "-mesh_set " + set + " ") + law;
-}
-
-constexpr double e1 = 3, e2 = 1.3, e3 = 0.8, nu12 = 0.35, nu13 = 0.42, nu23 = 0.27, g12 = 0.9,
-                 g13 = 0.7, g23 = 0.5;
-const std::string orthotropic =
-    "-material_body_engineering_constants 3,1.3,0.8,0.35,0.42,0.27,0.9,0.7,0.5 ";
-
-using Matrix = std::array<std::array<double, 3>, 3>;
-
-/// ε' = S σ' in the axes of the material, as the constants are defined.
-Matrix strainOf(const Matrix& s) {
-  Matrix e{};
-  e[0][0] = s[0][0] / e1 - nu12 / e1 * s[1][1] - nu13 / e1 * s[2][2];
-  e[1][1] = -nu12 / e1 * s[0][0] + s[1][1] / e2 - nu23 / e2 * s[2][2];
-  e[2][2] = -nu13 / e1 * s[0][0] - nu23 / e2 * s[1][1] + s[2][2] / e3;
-  e[0][1] = e[1][0] = s[0][1] / (2 * g12), e[0][2] = e[2][0] = s[0][2] / (2 * g13),
-  e[1][2] = e[2][1] = s[1][2] / (2 * g23);
-  return e;
-}
-
-double product(const Matrix& a, const Matrix& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j) sum += a[i][j] * b[i][j];
-  return sum;
-}
-
-/// Qᵀ ε' Q, the rows of Q being the axes of the material.
-Matrix toMesh(const Matrix& e, const Matrix& q) {
-  Matrix turned{};
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j)
-      for (std::size_t k = 0; k < 3; ++k)
-        for (std::size_t l = 0; l < 3; ++l) turned[i][j] += q[k][i] * e[k][l] * q[l][j];
-  return turned;
 }
 
 /// The energy of u = ε x on the unit square or cube is σ:ε.
@@ -75,23 +49,6 @@ void expectEnergy(const std::string& options, const Matrix& stress, const Matrix
   EXPECT_NEAR(form(u, bodies.stiffness, u), energy, 1e-12 * energy) << options;
 }
 
-// Rotation by 0.7 about (1, 2, 2)/3.
-Matrix turnedAxes() {
-  const double k[] = {1.0 / 3, 2.0 / 3, 2.0 / 3}, c = std::cos(0.7), s = std::sin(0.7);
-  return {{{c + (1 - c) * k[0] * k[0], (1 - c) * k[0] * k[1] + s * k[2],
-            (1 - c) * k[0] * k[2] - s * k[1]},
-           {(1 - c) * k[1] * k[0] - s * k[2], c + (1 - c) * k[1] * k[1],
-            (1 - c) * k[1] * k[2] + s * k[0]},
-           {(1 - c) * k[2] * k[0] + s * k[1], (1 - c) * k[2] * k[1] - s * k[0],
-            c + (1 - c) * k[2] * k[2]}}};
-}
-
-TEST(Orthotropy, EnergyOfAffineDisplacementsInSpace) {
-  const Matrix stress{{{0.7, -0.4, 0.9}, {-0.4, 1.1, 0.6}, {0.9, 0.6, -0.5}}};
-  for (const char* set : {"", "order=2", "recombine=0", "recombine=0,order=2"})
-    expectEnergy(patch(3, set, orthotropic), stress, turnedAxes());
-}
-
 // Each axis of the material in turn is normal to the plane, the others are turned by 0.4.
 TEST(Orthotropy, EnergyOfAffineDisplacementsInThePlane) {
   const double c = std::cos(0.4), s = std::sin(0.4);
@@ -111,6 +68,23 @@ TEST(Orthotropy, EnergyOfAffineDisplacementsInThePlane) {
         }
         expectEnergy(patch(2, set, orthotropic + "-elasticity_plane " + plane + " "), stress, axes);
       }
+}
+
+// Rotation by 0.7 about (1, 2, 2)/3.
+Matrix turnedAxes() {
+  const double k[] = {1.0 / 3, 2.0 / 3, 2.0 / 3}, c = std::cos(0.7), s = std::sin(0.7);
+  return {{{c + (1 - c) * k[0] * k[0], (1 - c) * k[0] * k[1] + s * k[2],
+            (1 - c) * k[0] * k[2] - s * k[1]},
+           {(1 - c) * k[1] * k[0] - s * k[2], c + (1 - c) * k[1] * k[1],
+            (1 - c) * k[1] * k[2] + s * k[0]},
+           {(1 - c) * k[2] * k[0] + s * k[1], (1 - c) * k[2] * k[1] - s * k[0],
+            c + (1 - c) * k[2] * k[2]}}};
+}
+
+TEST(Orthotropy, EnergyOfAffineDisplacementsInSpace) {
+  const Matrix stress{{{0.7, -0.4, 0.9}, {-0.4, 1.1, 0.6}, {0.9, 0.6, -0.5}}};
+  for (const char* set : {"", "order=2", "recombine=0", "recombine=0,order=2"})
+    expectEnergy(patch(3, set, orthotropic), stress, turnedAxes());
 }
 
 void expectSameStiffness(const std::string& one, const std::string& other) {
@@ -155,10 +129,7 @@ TEST(Orthotropy, TransverseIsotropyAsEngineeringConstants) {
 // its energy over all directions is 3/8 (D11 + D22) + 1/4 D12 + 1/2 D66. On 12 equal sectors the
 // sum over quadrature points is the exact mean, harmonics being of order 4 at most.
 TEST(Orthotropy, CylindricalAxesOnARing) {
-  const double nu21 = nu12 * e2 / e1, nu31 = nu13 * e3 / e1, nu32 = nu23 * e3 / e2;
-  const double delta = 1 - nu12 * nu21 - nu23 * nu32 - nu31 * nu13 - 2 * nu21 * nu32 * nu13;
-  const double d11 = e1 * (1 - nu23 * nu32) / delta, d22 = e2 * (1 - nu13 * nu31) / delta,
-               d12 = e1 * (nu21 + nu31 * nu23) / delta;
+  const auto [d11, d22, d12] = exact::orthotropic::planeStrain();
   const double stretch = 3.0 / 8 * (d11 + d22) + d12 / 4 + g12 / 2, swelling = d11 + d22 + 2 * d12;
   const std::string axes = "-material_body_cylindrical 0,0,0.3,0,0,2 ";
   const auto rename = [](std::string options, const std::string& body) {
