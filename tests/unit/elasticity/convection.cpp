@@ -1,9 +1,6 @@
 // G and K^R of moving bodies: D u = (V·∇)u of linear fields is exact, and so are its integrals on
 // regular polygons and rectangles.
 #include <gtest/gtest.h>
-#include <petscsys.h>  // before the next header, which needs it
-
-#include <petscblaslapack.h>
 
 #include <cmath>
 
@@ -11,6 +8,7 @@
 #include "mesh/mesh.hpp"
 #include "petsc/text.hpp"
 #include "support/model.hpp"
+#include "support/symmetric.hpp"
 
 namespace squeal {
 namespace {
@@ -43,29 +41,42 @@ std::string solidRing(const std::string& set, const std::string& more = {}) {
          "-motion_ring_speed 3 -motion_convective on " + more;
 }
 
-struct Moving {
-  mesh::Mesh mesh;
-  elasticity::Bodies bodies;
-};
-Moving build(const std::string& options) {
-  test::setOptions(options);
-  Moving moving{test::readMesh(), {}};
-  moving.bodies = elasticity::assemble(moving.mesh);
-  return moving;
-}
-
 double largestEntry(const test::DenseCopy& matrix) {
   double largest = 0;
   for (double value : matrix.values) largest = std::max(largest, std::abs(value));
   return largest;
 }
 
-std::vector<double> eigenvalues(test::DenseCopy matrix) {
-  PetscBLASInt n = matrix.rows, length = 40 * n, info = 0;
-  std::vector<double> values(static_cast<std::size_t>(n)), work(static_cast<std::size_t>(length));
-  LAPACKsyev_("N", "U", &n, matrix.values.data(), &n, values.data(), work.data(), &length, &info);
-  EXPECT_EQ(info, 0);
-  return values;
+TEST(Convection, GyroscopicMatrixIsSkewAndRotationStiffnessNegative) {
+  for (const auto& options :
+       {rings(12, "recombine=1"), rings(12, "recombine=0"), rings(24, "order=2"),
+        strip("recombine=0"), strip("order=2,serendipity=1"), solidRing("n_r=1"),
+        solidRing("order=2,n_theta=8")}) {
+    SCOPED_TRACE(options);
+    const auto [mesh, bodies] = test::buildBodies(options);
+    const auto g = test::denseCopy(bodies.gyroscopic),
+               k = test::denseCopy(bodies.rotationStiffness);
+    for (PetscInt i = 0; i < g.rows; ++i)
+      for (PetscInt j = 0; j < g.rows; ++j)
+        ASSERT_TRUE(g(i, j) == -g(j, i) && k(i, j) == k(j, i)) << i << " " << j;
+    EXPECT_GT(largestEntry(g), 0);
+    const auto values = test::symmetricEigenvalues(k);
+    EXPECT_LT(values.front(), 0);
+    EXPECT_LT(values.back(), -1e-13 * values.front());  // rounding
+  }
+}
+
+TEST(Convection, RigidTranslationCostsNothing) {
+  for (const auto& options :
+       {rings(12, "recombine=0"), strip("order=2"), solidRing("order=2,serendipity=1,n_theta=8")}) {
+    const auto [mesh, bodies] = test::buildBodies(options);
+    const auto u = test::nodalField(mesh, [](const Point&) { return Point{1, -2, 0.5}; });
+    OwnedVec force = elasticity::nodalVector(mesh);
+    check(MatMult(bodies.rotationStiffness, u, force));
+    PetscReal size = 0;
+    check(VecNorm(force, NORM_INFINITY, &size));
+    EXPECT_LT(size, 1e-13 * largestEntry(test::denseCopy(bodies.rotationStiffness))) << options;
+  }
 }
 
 /// u = H x with nothing special about H.
@@ -85,43 +96,11 @@ double polarMoment(int n, double radius) {
   return n / 12.0 * std::pow(radius, 4) * std::sin(angle) * (2 + std::cos(angle));
 }
 
-TEST(Convection, GyroscopicMatrixIsSkewAndRotationStiffnessNegative) {
-  for (const auto& options :
-       {rings(12, "recombine=1"), rings(12, "recombine=0"), rings(24, "order=2"),
-        strip("recombine=0"), strip("order=2,serendipity=1"), solidRing("n_r=1"),
-        solidRing("order=2,n_theta=8")}) {
-    SCOPED_TRACE(options);
-    const auto [mesh, bodies] = build(options);
-    const auto g = test::denseCopy(bodies.gyroscopic),
-               k = test::denseCopy(bodies.rotationStiffness);
-    for (PetscInt i = 0; i < g.rows; ++i)
-      for (PetscInt j = 0; j < g.rows; ++j)
-        ASSERT_TRUE(g(i, j) == -g(j, i) && k(i, j) == k(j, i)) << i << " " << j;
-    EXPECT_GT(largestEntry(g), 0);
-    const auto values = eigenvalues(k);
-    EXPECT_LT(values.front(), 0);
-    EXPECT_LT(values.back(), -1e-13 * values.front());  // rounding
-  }
-}
-
-TEST(Convection, RigidTranslationCostsNothing) {
-  for (const auto& options :
-       {rings(12, "recombine=0"), strip("order=2"), solidRing("order=2,serendipity=1,n_theta=8")}) {
-    const auto [mesh, bodies] = build(options);
-    const auto u = test::nodalField(mesh, [](const Point&) { return Point{1, -2, 0.5}; });
-    OwnedVec force = elasticity::nodalVector(mesh);
-    check(MatMult(bodies.rotationStiffness, u, force));
-    PetscReal size = 0;
-    check(VecNorm(force, NORM_INFINITY, &size));
-    EXPECT_LT(size, 1e-13 * largestEntry(test::denseCopy(bodies.rotationStiffness))) << options;
-  }
-}
-
 // vᵀ G u = ∫ ρ ((Du)·v − (Dv)·u), uᵀ K^R u = −∫ ρ |Du|². On the rings D (H x) = ω H J x, J x = k ×
 // x, and ∫ x xᵀ = I/2 1.
 TEST(Convection, LinearFieldsOnRings) {
   for (const char* set : {"recombine=1", "recombine=0"}) {
-    const auto [mesh, bodies] = build(rings(12, set));
+    const auto [mesh, bodies] = test::buildBodies(rings(12, set));
     const double half = density * (polarMoment(12, 1.2) - polarMoment(12, 0.8)) / 2;
     double gyroscopic = 0, stiffness = 0;
     for (int i = 0; i < 2; ++i) {
@@ -141,7 +120,7 @@ TEST(Convection, LinearFieldsOnRings) {
 TEST(Convection, LinearFieldsOnStrip) {
   for (const char* set :
        {"recombine=1", "recombine=0", "order=2", "order=2,recombine=0", "order=2,serendipity=1"}) {
-    const auto [mesh, bodies] = build(strip(set));
+    const auto [mesh, bodies] = test::buildBodies(strip(set));
     const Point e{1, 0, 0}, centre{1.5, -0.25, 0};
     const double factor = density * 1.5 * speed;
     const double gyroscopic = factor * (test::dot(linear(h1, e), linear(h2, centre)) -
@@ -160,7 +139,7 @@ TEST(Convection, RigidRotationCostsItsMomentOfInertia) {
   for (const auto& options :
        {rings(12, "recombine=0", both), rings(24, "order=2,recombine=0", both), solidRing("n_z=2"),
         solidRing("order=2,n_theta=8"), solidRing("order=2,serendipity=1,n_theta=8")}) {
-    const auto [mesh, bodies] = build(options);
+    const auto [mesh, bodies] = test::buildBodies(options);
     const auto u = test::nodalField(mesh, [&](const Point& x) { return Point{-x[1], x[0], 0}; });
     const double expected = -speed * speed * form(u, bodies.mass, u);
     EXPECT_NEAR(form(u, bodies.rotationStiffness, u), expected, -1e-12 * expected) << options;
@@ -204,28 +183,33 @@ TEST(Convection, MatterCrossesTheSurfaceOfWhatIsNotOfRevolution) {
       for (const double depth : {0.0, 0.5}) {
         if (order == 2 && depth > 0 && cells > 12) continue;  // more of the same
         SCOPED_TRACE(formatted("%d cells around, order %d, depth %g", cells, order, depth));
-        EXPECT_EQ(test::errorOf([&] {
-                    build(bodyOf(unstructured("round", cells, order, depth, false), spin));
-                  }),
-                  "");
+        EXPECT_EQ(
+            test::errorOf([&] {
+              test::buildBodies(bodyOf(unstructured("round", cells, order, depth, false), spin));
+            }),
+            "");
         const auto file = unstructured("square", cells, order, depth, true);
-        const auto message = test::errorOf([&] { build(bodyOf(file, spin)); });
+        const auto message = test::errorOf([&] { test::buildBodies(bodyOf(file, spin)); });
         EXPECT_TRUE(test::contains(message,
                                    "-motion_convective: body 'body' is not a figure of revolution"))
             << message;
         EXPECT_TRUE(test::contains(message, "approximation A")) << message;
       }
   const auto round = unstructured("round", 36, 1, 0, false);
-  EXPECT_NE(test::errorOf([&] { build(bodyOf(round, spin + "-motion_body_origin 0.1,0")); }),
-            "");  // off its axis
-  EXPECT_NE(test::errorOf([&] { build(bodyOf(round, "-motion_body_velocity 1,0")); }), "");
-  EXPECT_EQ(test::errorOf([&] { build(strip("order=2")); }), "");
-  EXPECT_NE(test::errorOf([&] { build(strip("order=2", "-motion_layer_velocity 3,0.1 ")); }), "");
+  EXPECT_NE(
+      test::errorOf([&] { test::buildBodies(bodyOf(round, spin + "-motion_body_origin 0.1,0")); }),
+      "");  // off its axis
+  EXPECT_NE(test::errorOf([&] { test::buildBodies(bodyOf(round, "-motion_body_velocity 1,0")); }),
+            "");
+  EXPECT_EQ(test::errorOf([&] { test::buildBodies(strip("order=2")); }), "");
+  EXPECT_NE(
+      test::errorOf([&] { test::buildBodies(strip("order=2", "-motion_layer_velocity 3,0.1 ")); }),
+      "");
 }
 
 TEST(Convection, IsThereOnlyIfWantedAndMoving) {
   for (const std::string more : {"-motion_convective off", "-motion_outer_speed 0"}) {
-    const auto [mesh, bodies] = build(rings(12, "recombine=1", more));
+    const auto [mesh, bodies] = test::buildBodies(rings(12, "recombine=1", more));
     EXPECT_FALSE(bodies.gyroscopic || bodies.rotationStiffness) << more;
   }
 }

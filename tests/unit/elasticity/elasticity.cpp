@@ -1,12 +1,8 @@
 // K, M and loads of every element on distorted cells: what holds exactly whatever the shape.
 #include <gtest/gtest.h>
-#include <petscsys.h>  // before the next header, which needs it
-
-#include <petscblaslapack.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "elasticity/elasticity.hpp"
 #include "elasticity/element.hpp"
@@ -14,109 +10,23 @@
 #include "mesh/mesh.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
+#include "support/patch.hpp"
+#include "support/symmetric.hpp"
 
 namespace squeal {
 namespace {
 
 using mesh::Point;
+using test::asymmetry;
 using test::form;
+using test::symmetricEigenvalues;
+using test::patch::density;
+using test::patch::Patch;
+using test::patch::poisson;
+using test::patch::young;
 
-constexpr double young = 2.0, poisson = 0.3, density = 1.7;
-
-struct Element {
-  const char *label, *name;
-  int dimension;
-  const char *parameters, *incompatible;
-};
-void PrintTo(const Element& element, std::ostream* out) { *out << element.label; }
-const Element elements[] = {
-    {"tri3", "tri3", 2, "recombine=0,n=2", "none"},
-    {"tri6", "tri6", 2, "recombine=0,order=2", "none"},
-    {"quad4", "quad4", 2, "n=2", "none"},
-    {"quad4_incompatible", "quad4", 2, "n=2", "quad4"},
-    {"quad8", "quad8", 2, "order=2,serendipity=1", "none"},
-    {"quad9", "quad9", 2, "order=2", "none"},
-    {"tet4", "tet4", 3, "recombine=0,n=2", "none"},
-    {"tet10", "tet10", 3, "recombine=0,order=2", "none"},
-    {"hex8", "hex8", 3, "n=2", "none"},
-    {"hex8_incompatible", "hex8", 3, "n=2", "hex8"},
-    {"hex20", "hex20", 3, "order=2,serendipity=1", "none"},
-    {"hex27", "hex27", 3, "order=2", "none"},
-    {"wedge6", "wedge6", 3, "recombine=0,wedge=1,n=2", "none"},
-    {"wedge15", "wedge15", 3, "recombine=0,wedge=1,order=2,serendipity=1", "none"},
-    {"wedge18", "wedge18", 3, "recombine=0,wedge=1,order=2", "none"},
-};
-
-std::string patchOptions(const Element& element, const std::string& more = {}) {
-  return std::string("-mesh_file meshes/patch_") + (element.dimension == 2 ? "2d" : "3d") +
-         ".geo -mesh_set " + element.parameters +
-         test::material("body", std::to_string(young), std::to_string(poisson),
-                        std::to_string(density)) +
-         "-constraint_boundary_clamped " + (element.dimension == 2 ? "xy" : "xyz") +
-         " -load_boundary_pressure 0 -elasticity_incompatible_modes " + element.incompatible + " " +
-         more;
-}
-
-/// The unit square or cube of distorted cells.
-class Patch : public testing::TestWithParam<Element> {
- protected:
-  void build(const std::string& more = {}) {
-    test::setOptions(patchOptions(GetParam(), more));
-    static std::map<std::string, mesh::Mesh>
-        meshes;  // of all tests: gmsh takes longer than they do
-    if (!meshes.count(GetParam().label)) meshes[GetParam().label] = test::readMesh();
-    mesh = meshes[GetParam().label];
-    bodies = elasticity::assemble(mesh);
-    for (const auto& block : mesh.cells)
-      EXPECT_EQ(elasticity::shapeTable(block.type).name, GetParam().name);
-  }
-  int dimension() const { return GetParam().dimension; }
-  OwnedVec unit(int component) const {
-    return test::nodalField(mesh, [&](const Point&) {
-      Point e{};
-      e[component] = 1;
-      return e;
-    });
-  }
-  /// Translations, then rotations e_k × (x − centre): 3 in the plane, 6 in space.
-  std::vector<OwnedVec> rigidMotions() const {
-    std::vector<OwnedVec> motions;
-    for (int d = 0; d < dimension(); ++d) motions.push_back(unit(d));
-    for (std::size_t k = dimension() == 2 ? 2 : 0; k < 3; ++k)
-      motions.push_back(test::nodalField(mesh, [&](const Point& x) {
-        const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
-        Point u{};
-        u[i] = -(x[j] - 0.5), u[j] = x[i] - 0.5;
-        return u;
-      }));
-    return motions;
-  }
-  mesh::Mesh mesh;
-  elasticity::Bodies bodies;
-};
-
-INSTANTIATE_TEST_SUITE_P(Elements, Patch, testing::ValuesIn(elements),
+INSTANTIATE_TEST_SUITE_P(Elements, Patch, testing::ValuesIn(test::patch::elements),
                          [](const auto& info) { return std::string(info.param.label); });
-
-std::vector<double> symmetricEigenvalues(test::DenseCopy matrix) {
-  PetscBLASInt n = matrix.rows, length = 40 * n, info = 0;
-  std::vector<double> eigenvalues(static_cast<std::size_t>(n)),
-      work(static_cast<std::size_t>(length));
-  LAPACKsyev_("N", "U", &n, matrix.values.data(), &n, eigenvalues.data(), work.data(), &length,
-              &info);
-  EXPECT_EQ(info, 0);
-  return eigenvalues;
-}
-
-double asymmetry(const test::DenseCopy& matrix) {
-  double worst = 0, largest = 0;
-  for (PetscInt i = 0; i < matrix.rows; ++i)
-    for (PetscInt j = 0; j < matrix.columns; ++j) {
-      worst = std::max(worst, std::abs(matrix(i, j) - matrix(j, i)));
-      largest = std::max(largest, std::abs(matrix(i, j)));
-    }
-  return worst / largest;
-}
 
 // Strain energy vanishes for rigid motions and for nothing else: no spurious mode from quadrature,
 // none from the incompatible modes.
