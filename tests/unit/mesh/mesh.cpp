@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 
-#include "elasticity/element.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/whole.hpp"
 #include "support/case.hpp"
+#include "support/gathered.hpp"
+#include "support/mesh_checks.hpp"
 #include "support/model.hpp"
 
 namespace squeal {
@@ -19,103 +19,11 @@ namespace {
 
 using mesh::Mesh;
 using mesh::Point;
-
-int ranks() {
-  int size = 1;
-  check(MPI_Comm_size(PETSC_COMM_WORLD, &size));
-  return size;
-}
-
-template <class Number>
-std::vector<Number> gathered(const std::vector<Number>& mine, MPI_Datatype type) {
-  int count = static_cast<int>(mine.size());
-  std::vector<int> counts(static_cast<std::size_t>(ranks())), offsets(counts.size(), 0);
-  check(MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, PETSC_COMM_WORLD));
-  std::partial_sum(counts.begin(), counts.end() - 1, offsets.begin() + 1);
-  std::vector<Number> all(static_cast<std::size_t>(offsets.back() + counts.back()));
-  check(MPI_Allgatherv(mine.data(), count, type, all.data(), counts.data(), offsets.data(), type,
-                       PETSC_COMM_WORLD));
-  return all;
-}
-
-/// Owned nodes of all ranks in the order of their global numbers.
-std::vector<double> allCoordinates(const Mesh& mesh) {
-  std::vector<double> mine;
-  for (PetscInt node = 0; node < mesh.ownedNodes; ++node)
-    mine.insert(mine.end(), mesh.coordinates[node].begin(), mesh.coordinates[node].end());
-  return gathered(mine, MPI_DOUBLE);
-}
-
-PetscInt groupSize(const Mesh& mesh, const std::string& group) {
-  return static_cast<PetscInt>(test::total(static_cast<double>(mesh.nodeGroups.at(group).size())));
-}
-
-void expectNumbering(const Mesh& mesh) {
-  const auto size = mesh.globalNode.size();
-  ASSERT_EQ(mesh.coordinates.size(), size);
-  ASSERT_EQ(mesh.nodeTag.size(), size);
-  ASSERT_EQ(mesh.nodePart.size(), size);
-  EXPECT_GT(mesh.ownedNodes, 0);
-  EXPECT_EQ(test::total(static_cast<double>(mesh.ownedNodes)), mesh.totalNodes);
-  PetscInt end = 0;
-  check(MPI_Scan(&mesh.ownedNodes, &end, 1, MPIU_INT, MPI_SUM, mesh.comm));
-  EXPECT_EQ(mesh.firstNode, end - mesh.ownedNodes);
-  for (PetscInt node = 0; node < mesh.ownedNodes; ++node)
-    EXPECT_EQ(mesh.globalNode[node], mesh.firstNode + node);
-  std::set<PetscInt> ghosts(mesh.globalNode.begin() + mesh.ownedNodes, mesh.globalNode.end());
-  EXPECT_EQ(ghosts.size(), size - static_cast<std::size_t>(mesh.ownedNodes));
-  for (PetscInt ghost : ghosts)
-    EXPECT_TRUE(ghost >= 0 && ghost < mesh.totalNodes && (ghost < mesh.firstNode || ghost >= end))
-        << ghost;
-}
-
-/// A ghost is where its owner says; every local node belongs to a local cell or is owned; cells are
-/// whole and on one rank.
-void expectCells(const Mesh& mesh) {
-  const auto coordinates = allCoordinates(mesh);
-  for (PetscInt node = 0; node < mesh.localNodes(); ++node)
-    for (std::size_t d = 0; d < 3; ++d)
-      EXPECT_EQ(mesh.coordinates[node][d],
-                coordinates[3 * static_cast<std::size_t>(mesh.globalNode[node]) + d]);
-  std::vector<PetscInt> tags;
-  std::set<PetscInt> used;
-  for (const auto& block : mesh.cells) {
-    ASSERT_EQ(block.nodes.size(), block.tag.size() * static_cast<std::size_t>(block.nodesPerCell));
-    ASSERT_EQ(block.body.size(), block.tag.size());
-    tags.insert(tags.end(), block.tag.begin(), block.tag.end());
-    used.insert(block.nodes.begin(), block.nodes.end());
-  }
-  EXPECT_FALSE(tags.empty());
-  for (PetscInt node : used) EXPECT_TRUE(node >= 0 && node < mesh.localNodes());
-  for (PetscInt node = mesh.ownedNodes; node < mesh.localNodes(); ++node)
-    EXPECT_TRUE(used.count(node));
-  const auto all = gathered(tags, MPIU_INT);
-  EXPECT_EQ(static_cast<PetscInt>(all.size()), mesh.totalCells);
-  EXPECT_EQ(std::set<PetscInt>(all.begin(), all.end()).size(), all.size());
-}
-
-/// ∫ n dA over each surface, outwards: [surface][component].
-std::map<std::string, Point> areaVectors(const Mesh& mesh) {
-  std::map<std::string, Point> areas;
-  for (std::size_t s = 0; s < mesh.surfaces.size(); ++s) {
-    Point sum{};
-    for (const auto& block : mesh.faces)
-      for (std::size_t e = 0; e < block.surface.size(); ++e) {
-        if (block.surface[e] != static_cast<int>(s)) continue;
-        std::vector<Point> points;
-        for (int i = 0; i < block.nodesPerFace; ++i)
-          points.push_back(
-              mesh.coordinates[block.nodes[e * static_cast<std::size_t>(block.nodesPerFace) +
-                                           static_cast<std::size_t>(i)]]);
-        const auto normals =
-            elasticity::faceNormals(elasticity::shapeTable(block.type), points, block.sign[e]);
-        for (std::size_t i = 0; i < normals.size(); ++i) sum[i % 3] += normals[i];
-      }
-    for (auto& component : sum) component = test::total(component);
-    areas[mesh.surfaces[s]] = sum;
-  }
-  return areas;
-}
+using test::allCoordinates;
+using test::areaVectors;
+using test::expectCells;
+using test::expectNumbering;
+using test::groupSize;
 
 // A box of nx × ny × nz cells: all counts are known, so they cannot depend on the number of ranks.
 TEST(Mesh, CountsAndNumbersOfABox) {
@@ -168,7 +76,7 @@ std::vector<std::pair<double, double>> contactPositions(const Mesh& mesh) {
     EXPECT_EQ(mesh.partName[mesh.nodePart[pair.node]], "pad");
     mine.insert(mine.end(), {x[0], x[1]});
   }
-  const auto all = gathered(mine, MPI_DOUBLE);
+  const auto all = test::gathered(mine, MPI_DOUBLE);
   std::vector<std::pair<double, double>> positions;
   for (std::size_t i = 0; i < all.size(); i += 2) positions.emplace_back(all[i], all[i + 1]);
   std::sort(positions.begin(), positions.end());

@@ -5,7 +5,6 @@
 #include <petscblaslapack.h>
 
 #include <cmath>
-#include <numeric>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -15,6 +14,7 @@
 #include "steady/condensed.hpp"
 #include "steady/uniqueness.hpp"
 #include "support/case.hpp"
+#include "support/gathered.hpp"
 #include "support/model.hpp"
 
 namespace squeal {
@@ -26,15 +26,18 @@ using test::Model;
 
 using Matrix = std::vector<double>;  // column-major
 
-/// B of A X = B by LAPACK.
-Matrix solved(Matrix a, Matrix b, int size) {
-  PetscBLASInt n = size,
-               columns = static_cast<PetscBLASInt>(b.size() / static_cast<std::size_t>(size)),
-               info = 0;
-  std::vector<PetscBLASInt> pivots(static_cast<std::size_t>(size));
-  LAPACKgesv_(&n, &columns, a.data(), &n, pivots.data(), b.data(), &n, &info);
-  EXPECT_EQ(info, 0);
-  return b;
+TEST(PMatrix, KnownOnes) {
+  EXPECT_TRUE(steady::pMatrix({1, 0, 0, 1}, 2));
+  EXPECT_TRUE(steady::pMatrix({1, 0, -3, 1}, 2));  // its symmetric part has the eigenvalue 1 − 1.5
+  EXPECT_FALSE(steady::pMatrix({1, 2, 2, 1}, 2));  // determinant −3
+  EXPECT_FALSE(steady::pMatrix({0, -1, 1, 0}, 2));
+  EXPECT_FALSE(steady::pMatrix({-1}, 1));
+  // [1 0 −c; −c 1 0; 0 −c 1]: all minors of order two are 1, the determinant is 1 − c³.
+  for (const double c : {0.99, 1.01})
+    EXPECT_EQ(steady::pMatrix({1, -c, 0, 0, 1, -c, -c, 0, 1}, 3), c < 1);
+  // Tiny units are no smaller minors.
+  EXPECT_TRUE(steady::pMatrix({1e-9, 0, -3e-9, 1e-9}, 2));
+  EXPECT_TRUE(steady::pMatrix({1e-20, 0, 0, 1}, 2));
 }
 
 /// Product of the pivots of Gaussian elimination with row pivoting.
@@ -69,20 +72,6 @@ double smallestMinor(const Matrix& a, std::size_t n) {
     smallest = std::min(smallest, determinant(part));
   }
   return smallest;
-}
-
-TEST(PMatrix, KnownOnes) {
-  EXPECT_TRUE(steady::pMatrix({1, 0, 0, 1}, 2));
-  EXPECT_TRUE(steady::pMatrix({1, 0, -3, 1}, 2));  // its symmetric part has the eigenvalue 1 − 1.5
-  EXPECT_FALSE(steady::pMatrix({1, 2, 2, 1}, 2));  // determinant −3
-  EXPECT_FALSE(steady::pMatrix({0, -1, 1, 0}, 2));
-  EXPECT_FALSE(steady::pMatrix({-1}, 1));
-  // [1 0 −c; −c 1 0; 0 −c 1]: all minors of order two are 1, the determinant is 1 − c³.
-  for (const double c : {0.99, 1.01})
-    EXPECT_EQ(steady::pMatrix({1, -c, 0, 0, 1, -c, -c, 0, 1}, 3), c < 1);
-  // Tiny units are no smaller minors.
-  EXPECT_TRUE(steady::pMatrix({1e-9, 0, -3e-9, 1e-9}, 2));
-  EXPECT_TRUE(steady::pMatrix({1e-20, 0, 0, 1}, 2));
 }
 
 TEST(PMatrix, AgreesWithAllMinors) {
@@ -178,18 +167,21 @@ Coupled coupledOf(const Model& model) {
   return coupled;
 }
 
+/// X of A X = B by LAPACK.
+Matrix solved(Matrix a, Matrix b, int size) {
+  PetscBLASInt n = size,
+               columns = static_cast<PetscBLASInt>(b.size() / static_cast<std::size_t>(size)),
+               info = 0;
+  std::vector<PetscBLASInt> pivots(static_cast<std::size_t>(size));
+  LAPACKgesv_(&n, &columns, a.data(), &n, pivots.data(), b.data(), &n, &info);
+  EXPECT_EQ(info, 0);
+  return b;
+}
+
 /// The gap block of the inverse of L(f)ᵀ K T, all entries at once: no symmetry used, and none of
 /// K_o, e and U.
 Matrix gapBlock(const Model& model, const Coupled& coupled, double friction) {
-  std::vector<PetscInt> gaps;
-  int size = 1, count = static_cast<int>(model.contact.nodes.size());
-  check(MPI_Comm_size(PETSC_COMM_WORLD, &size));
-  std::vector<int> counts(static_cast<std::size_t>(size)), offsets(counts.size());
-  check(MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, PETSC_COMM_WORLD));
-  std::exclusive_scan(counts.begin(), counts.end(), offsets.begin(), 0);
-  gaps.resize(static_cast<std::size_t>(model.contact.totalNodes));
-  check(MPI_Allgatherv(coupled.transformation.gapColumn.data(), count, MPIU_INT, gaps.data(),
-                       counts.data(), offsets.data(), MPIU_INT, PETSC_COMM_WORLD));
+  const auto gaps = test::gathered(coupled.transformation.gapColumn, MPIU_INT);
   const OwnedMat jacobian = contact::affine(coupled.k0, coupled.k1, friction);
   const auto full = test::denseCopy(jacobian);
   const auto n = static_cast<std::size_t>(full.rows);
