@@ -14,93 +14,54 @@
 #include "support/case.hpp"
 #include "support/model.hpp"
 #include "support/program.hpp"
+#include "support/slider.hpp"
 #include "sweep/parameters.hpp"
 
 namespace squeal {
 namespace {
 
 using mesh::Point;
+namespace slider = test::slider;
 
-constexpr double speed = 0.05, step = 0.25;  // V, m/s; length of the cells along x
-constexpr double staticRatio = 1.5, decaySpeed = 0.05;
-const std::string law =
-    formatted("-friction_law exponential -friction_static_ratio %g -friction_decay_speed %g ",
-              staticRatio, decaySpeed);
-
-/// A disc layer of three blocks in a row, periodic along x, 3 × 1, and a pad of length 1 on the
-/// middle one; solid if `depth` > 0. Under the pad the strain is anything but uniform along x.
-/// `side`: the middle block's face at z = 0, or in the plane the end of the pad.
-std::string slider(int order, double depth) {
-  std::string text =
-      formatted("n = %d; depth = %g;\n", static_cast<int>(1 / step) / order, depth) + R"(
-For i In {0 : 3}
-  Point(1 + i) = {i, -1, 0};
-  Point(11 + i) = {i, 0, 0};
-  Line(11 + i) = {1 + i, 11 + i};
-EndFor
-Point(21) = {1, 0.6, 0};
-Point(22) = {2, 0.6, 0};
-For i In {0 : 2}
-  Line(1 + i) = {1 + i, 2 + i};
-  Line(21 + i) = {11 + i, 12 + i};
-  Curve Loop(1 + i) = {1 + i, 12 + i, -(21 + i), -(11 + i)};
-  Plane Surface(1 + i) = {1 + i};
-EndFor
-Line(31) = {12, 21};
-Line(32) = {13, 22};
-Line(33) = {21, 22};
-Curve Loop(4) = {22, 32, -33, -31};
-Plane Surface(4) = {4};
-Transfinite Curve {1 : 3, 21 : 23, 33} = n + 1;
-Transfinite Curve {11 : 14, 31, 32} = 3;
-Transfinite Surface {1 : 4};
-Recombine Surface {1 : 4};
-If (depth > 0)
-  For i In {0 : 3}
-    out[] = Extrude {0, 0, depth} { Surface{1 + i}; Layers{2}; Recombine; };
-    volume[] += {out[1]};
-    below[] += {out[2]};
-    right[] += {out[3]};
-    above[] += {out[4]};
-    left[] += {out[5]};
-  EndFor
-  Physical Volume("disc") = {volume[0], volume[1], volume[2]};
-  Physical Volume("pad") = {volume[3]};
-  Physical Surface("disc_bottom") = {below[0], below[1], below[2]};
-  Physical Surface("disc_left") = {left[0]};
-  Physical Surface("disc_right") = {right[2]};
-  Physical Surface("disc_face") = {above[1]};
-  Physical Surface("pad_face") = {above[1]};
-  Physical Surface("pad_top") = {above[3]};
-  Physical Surface("side") = {2};
-Else
-  Physical Surface("disc") = {1 : 3};
-  Physical Surface("pad") = {4};
-  Physical Curve("disc_bottom") = {1 : 3};
-  Physical Curve("disc_left") = {11};
-  Physical Curve("disc_right") = {14};
-  Physical Curve("disc_face") = {22};
-  Physical Curve("pad_face") = {22};
-  Physical Curve("pad_top") = {33};
-  Physical Curve("side") = {31};
-EndIf
-)" + formatted("Mesh.ElementOrder = %d;\n", order);
-  return test::writeFile(formatted("slider_%d_%g.geo", order, depth), text);
+/// All numbers after `label`.
+std::vector<double> numbersAfter(const std::string& text, const std::string& label) {
+  std::vector<double> numbers;
+  for (std::size_t at = text.find(label); at != std::string::npos; at = text.find(label, at + 1))
+    numbers.push_back(std::stod(text.substr(at + label.size())));
+  return numbers;
 }
 
-/// The pad is displaced down and aside; the pressure on `side` turns the slip of the solid disc.
-std::string sliding(int order, double depth) {
-  const std::string all = depth > 0 ? "xyz" : "xy";
-  return "-mesh_file " + slider(order, depth) + test::material("disc", "1", "0.3", "1") +
-         test::material("pad", "0.4", "0.25", "0.6") +
-         formatted("-motion_disc_velocity %g,0,0 -motion_convective on ", speed) + law +
-         "-constraint_disc_bottom_clamped " + all + " -constraint_pad_top_clamped " + all +
-         " -constraint_pad_top_displacement 0.1,-0.2," + (depth > 0 ? "0.05" : "0") +
-         " -constraint_disc_right_image_of disc_left -contact_face_pad pad_face -contact_face_disc "
-         "disc_face -load_side_pressure "
-         "0.2 ";
+// PETSc's own difference quotients of every column, and Newton's convergence, as a user sees them.
+TEST(Steady, NewtonConvergesQuadratically) {
+  const std::string options = slider::options(1, 0.6);
+  int size = 0;
+  check(MPI_Comm_size(PETSC_COMM_WORLD, &size));
+  if (size > 1) GTEST_SKIP() << "starts the program itself";
+  const auto run = test::runProgram(
+      "steady", 2,
+      options +
+          "-flutter_friction 0.4 -modes_count 2 -steady_snes_test_jacobian -steady_snes_monitor");
+  ASSERT_EQ(run.exitCode, 0) << run.error;
+  // The preconditioner, which is tested in between, is the frictionless stiffness.
+  const std::string own =
+      std::regex_replace(run.out, std::regex("Jacobian for preconditioner[^=]*= "), "");
+  const auto differences = numbersAfter(own, "||J - Jfd||_F/||J||_F = "),
+             norms = numbersAfter(run.out, "SNES Function norm ");
+  ASSERT_GE(norms.size(), 3u) << run.out;
+  EXPECT_LE(norms.size(), 8u);
+  ASSERT_EQ(differences.size() + 1, norms.size());
+  for (double difference : differences) EXPECT_LT(difference, 1e-6);
+  EXPECT_LT(norms[1],
+            norms[0]);  // contact nodes open in the first step, which ends its quadratic decrease
+  for (std::size_t i = 2; i < norms.size(); ++i)
+    EXPECT_LT(norms[i], std::max(norms[i - 1] * norms[i - 1], 1e-13));  // rounding
+  std::printf("Jacobian against PETSc's differences: %.1e; norms",
+              *std::max_element(differences.begin(), differences.end()));
+  for (double norm : norms) std::printf(" %.1e", norm);
+  std::printf("\n");
 }
 
+/// Random ones up to `scale`.
 OwnedVec unknowns(const contact::Contact& contact, double scale, unsigned long seed) {
   const auto transformation =
       contact.transformation(std::vector<unsigned char>(contact.nodes.size(), 1));
@@ -173,7 +134,7 @@ void expectDerivative(const std::string& name, double scale) {
 TEST(Steady, JacobianIsTheDerivative) {
   for (const int order : {1, 2})
     for (const double depth : {0.0, 0.6}) {
-      test::setOptions(sliding(order, depth));
+      test::setOptions(slider::options(order, depth));
       expectDerivative(formatted("slider, order %d, depth %g", order, depth), 0.02);
     }
 }
@@ -186,7 +147,7 @@ TEST(Steady, JacobianIsTheDerivativeOnACircle) {
       "-constraint_sym_x_clamped x -constraint_sym_y_clamped y -contact_ring_pad inner_face "
       "-contact_ring_disc outer_face "
       "-motion_outer_speed 2 -motion_convective on " +
-      law);
+      slider::law);
   expectDerivative("cylinders", 4e-3);
 }
 
@@ -195,7 +156,7 @@ const std::string coarseBrake =
     "n_pad_theta=8,n_free_theta=12,n_mount=2,n_plate=1,n_inside=1,n_pad_r=4,n_hat=2,n_h_ring=2 ";
 
 TEST(Steady, JacobianIsTheDerivativeOnADisc) {
-  test::setCase("disc_brake", coarseBrake + "-motion_convective on " + law);
+  test::setCase("disc_brake", coarseBrake + "-motion_convective on " + slider::law);
   expectDerivative("disc brake", 1e-3);
 }
 
@@ -217,11 +178,11 @@ struct Field {
 Point slope(const Field& field, const std::map<std::pair<int, int>, std::size_t>& disc,
             const Point& x) {
   const auto key = [](const Point& p) {
-    return std::pair(static_cast<int>(std::lround(p[0] / step)),
+    return std::pair(static_cast<int>(std::lround(p[0] / slider::step)),
                      static_cast<int>(std::lround(1000 * p[2])));
   };
   Point low = x, high = x;
-  low[0] = std::max(1.0, x[0] - step), high[0] = std::min(2.0, x[0] + step);
+  low[0] = std::max(1.0, x[0] - slider::step), high[0] = std::min(2.0, x[0] + slider::step);
   const Point a = field.at(field.u, disc.at(key(low))), b = field.at(field.u, disc.at(key(high)));
   Point result{};
   for (std::size_t d = 0; d < 3; ++d) result[d] = (b[d] - a[d]) / (high[0] - low[0]);
@@ -232,7 +193,7 @@ Point slope(const Field& field, const std::map<std::pair<int, int>, std::size_t>
 // without its part along n. The force is the residual of the pad's own nodes, D u_D = V ∂u_D/∂x a
 // difference of displacements: of linear cells of equal length it is what the contact takes it for.
 void expectCoulomb(double depth) {
-  test::setOptions(sliding(1, depth));
+  test::setOptions(slider::options(1, depth));
   const test::Model model = test::buildModel();
   const auto& mesh = *model.mesh;
   const auto dimension = static_cast<std::size_t>(mesh.dimension);
@@ -261,7 +222,7 @@ void expectCoulomb(double depth) {
   for (std::size_t node = 0; node < master.size(); ++node) {
     const Point x = field.at(field.place, node);
     if (master[node] > 0)
-      disc[{static_cast<int>(std::lround(x[0] / step)),
+      disc[{static_cast<int>(std::lround(x[0] / slider::step)),
             static_cast<int>(std::lround(1000 * x[2]))}] = node;
   }
 
@@ -271,11 +232,11 @@ void expectCoulomb(double depth) {
   for (std::size_t i = 0; i < solution.contact.size(); ++i) {
     const auto& node = model.contact.nodes[i];
     Point w = slope(field, disc, node.position);
-    for (double& component : w) component *= -at.speed * speed;
-    w[0] -= at.speed * speed;
+    for (double& component : w) component *= -at.speed * slider::speed;
+    w[0] -= at.speed * slider::speed;
     w[1] = 0;
     const double size = std::hypot(w[0], w[2]),
-                 phi = 1 + (staticRatio - 1) * std::exp(-size / decaySpeed);
+                 phi = 1 + (slider::staticRatio - 1) * std::exp(-size / slider::decaySpeed);
     const auto first = dimension * static_cast<std::size_t>(node.globalNode);
     const double normal = force[first + 1];
     for (std::size_t d = 0; d < dimension; ++d) {
@@ -284,7 +245,7 @@ void expectCoulomb(double depth) {
     }
     EXPECT_NEAR(solution.contact[i].normalForce, normal, 1e-10 * largest);
     turning = std::max(turning, std::abs(w[2]) / size);
-    slowing = std::max(slowing, std::abs(size / (at.speed * speed) - 1));
+    slowing = std::max(slowing, std::abs(size / (at.speed * slider::speed) - 1));
   }
   error = test::largest(error), turning = test::largest(turning), slowing = test::largest(slowing);
   test::print(
@@ -300,44 +261,6 @@ void expectCoulomb(double depth) {
 TEST(Steady, FrictionOpposesTheSlipOfTheDeformedDisc) {
   expectCoulomb(0);
   expectCoulomb(0.6);
-}
-
-/// All numbers after `label`.
-std::vector<double> numbersAfter(const std::string& text, const std::string& label) {
-  std::vector<double> numbers;
-  for (std::size_t at = text.find(label); at != std::string::npos; at = text.find(label, at + 1))
-    numbers.push_back(std::stod(text.substr(at + label.size())));
-  return numbers;
-}
-
-// PETSc's own difference quotients of every column, and Newton's convergence, as a user sees them.
-TEST(Steady, NewtonConvergesQuadratically) {
-  const std::string options = sliding(1, 0.6);
-  int size = 0;
-  check(MPI_Comm_size(PETSC_COMM_WORLD, &size));
-  if (size > 1) GTEST_SKIP() << "starts the program itself";
-  const auto run = test::runProgram(
-      "steady", 2,
-      options +
-          "-flutter_friction 0.4 -modes_count 2 -steady_snes_test_jacobian -steady_snes_monitor");
-  ASSERT_EQ(run.exitCode, 0) << run.error;
-  // The preconditioner, which is tested in between, is the frictionless stiffness.
-  const std::string own =
-      std::regex_replace(run.out, std::regex("Jacobian for preconditioner[^=]*= "), "");
-  const auto differences = numbersAfter(own, "||J - Jfd||_F/||J||_F = "),
-             norms = numbersAfter(run.out, "SNES Function norm ");
-  ASSERT_GE(norms.size(), 3u) << run.out;
-  EXPECT_LE(norms.size(), 8u);
-  ASSERT_EQ(differences.size() + 1, norms.size());
-  for (double difference : differences) EXPECT_LT(difference, 1e-6);
-  EXPECT_LT(norms[1],
-            norms[0]);  // contact nodes open in the first step, which ends its quadratic decrease
-  for (std::size_t i = 2; i < norms.size(); ++i)
-    EXPECT_LT(norms[i], std::max(norms[i - 1] * norms[i - 1], 1e-13));  // rounding
-  std::printf("Jacobian against PETSc's differences: %.1e; norms",
-              *std::max_element(differences.begin(), differences.end()));
-  for (double norm : norms) std::printf(" %.1e", norm);
-  std::printf("\n");
 }
 
 }  // namespace
