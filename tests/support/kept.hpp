@@ -7,6 +7,7 @@
 #include <future>
 
 #include "support/bad_input.hpp"
+#include "support/files.hpp"
 #include "support/started.hpp"
 
 namespace squeal::test {
@@ -21,10 +22,6 @@ inline const Files mine{{"vtk/mine.vtu", "mine"},
                         {"stability_mine.png", "mine"},
                         {"steady_notes.csv", "mine"},
                         {"pictures/squeal.txt", "mine"}};
-
-inline void put(const fs::path& folder, const Files& files) {
-  for (const auto& [name, content] : files) writeText(folder / name, content);
-}
 
 /// A folder of results with files of the user among them, made once and copied.
 inline const fs::path& earlierResults() {

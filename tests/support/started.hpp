@@ -9,44 +9,10 @@
 #include <functional>
 #include <thread>
 
+#include "support/files.hpp"
 #include "support/program.hpp"
 
 namespace squeal::test {
-
-/// Files below a folder with their content; the content of a link is where it leads.
-using Files = std::map<std::string, std::string>;
-
-inline Files filesIn(const fs::path& folder) {
-  Files files;
-  if (!fs::exists(folder)) return files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    const std::string name = entry.path().lexically_relative(folder);
-    if (entry.is_symlink())
-      files[name] = "-> " + fs::read_symlink(entry.path()).string();
-    else if (!entry.is_directory())
-      files[name] = contentOf(entry.path());
-  }
-  return files;
-}
-
-inline std::vector<std::string> namesOf(const Files& files) {
-  std::vector<std::string> names;
-  for (const auto& [name, content] : files) names.push_back(name);
-  return names;
-}
-
-/// The names of files that are in one of the two alone, or have other content: for messages that
-/// can be read.
-inline std::vector<std::string> differing(const Files& a, const Files& b) {
-  std::vector<std::string> names;
-  for (const auto& [name, content] : a)
-    if (const auto other = b.find(name); other == b.end() || other->second != content)
-      names.push_back(name);
-  for (const auto& [name, content] : b)
-    if (!a.contains(name)) names.push_back(name);
-  return names;
-}
-inline const std::vector<std::string> none;
 
 /// True as soon as the condition holds, false after the time limit.
 inline bool waitUntil(const std::function<bool()>& condition, double seconds = 60) {

@@ -7,59 +7,22 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <fstream>
-#include <sstream>
+#include <set>
 
 #include "support/report_files.hpp"
+#include "support/shared_files.hpp"
 
 namespace squeal::output {
 namespace {
 
 namespace fs = std::filesystem;
+using test::both;
 using test::errorOf;
-using Files =
-    std::map<std::string, std::string>;  // relative path and content; a link's is where it leads
-
-bool first() { return report::rankOf(PETSC_COMM_WORLD) == 0; }
-
-/// Collective: nobody writes meanwhile.
-Files filesIn(const fs::path& folder) {
-  MPI_Barrier(PETSC_COMM_WORLD);
-  Files files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    std::ostringstream text;
-    if (entry.is_symlink())
-      text << "-> " << fs::read_symlink(entry.path()).string();
-    else if (entry.is_directory())
-      continue;
-    else
-      text << std::ifstream(entry.path()).rdbuf();
-    files[entry.path().lexically_relative(folder)] = text.str();
-  }
-  MPI_Barrier(PETSC_COMM_WORLD);
-  return files;
-}
-
-bool isThere(const fs::path& path) {
-  MPI_Barrier(PETSC_COMM_WORLD);
-  const bool found = fs::exists(path);
-  MPI_Barrier(PETSC_COMM_WORLD);
-  return found;
-}
-
-/// On rank 0.
-void put(const fs::path& folder, const Files& files) {
-  if (first())
-    for (const auto& [name, text] : files) {
-      fs::create_directories((folder / name).parent_path());
-      std::ofstream(folder / name) << text;
-    }
-  MPI_Barrier(PETSC_COMM_WORLD);
-}
-
-void putManifest(const fs::path& folder, const std::set<fs::path>& files) {
-  put(folder, {{Manifest::name, Manifest(files).text()}});
-}
+using test::Files;
+using test::shared::filesIn;
+using test::shared::first;
+using test::shared::isThere;
+using test::shared::put;
 
 /// A run whose files have these names, and are in these folders.
 Naming naming() {
@@ -93,11 +56,6 @@ const Files old{
 const Files fresh{
     {"a.csv", "new"}, {"vtk/x.vtu", "new"}, {"vtk/z/z.vtu", "new"}, {"summary.txt", "new"}};
 const Files mine{{"notes.csv", "mine"}, {"vtk/mine.vtu", "mine"}, {"own/a.csv", "mine"}};
-
-Files both(Files a, const Files& b) {
-  a.insert(b.begin(), b.end());
-  return a;
-}
 
 TEST(Folder, ReplacesWhatAnEarlierRunListsAndNothingElse) {
   const report::Folder place;
@@ -159,6 +117,10 @@ TEST(Folder, RefusesWhatComesIntoTheWayDuringTheRun) {
             }).find("b.csv is in the way"),
             std::string::npos);
   EXPECT_EQ(filesIn(place.path), both(before, {{"b.csv", "mine"}}));
+}
+
+void putManifest(const fs::path& folder, const std::set<fs::path>& files) {
+  put(folder, {{Manifest::name, Manifest(files).text()}});
 }
 
 // A kill can come between any two steps of a commit: the next run finishes it, whatever is there by
