@@ -2,65 +2,18 @@
 // errors.
 #include <gtest/gtest.h>
 
-#include "pencil/complex_modes.hpp"
 #include "support/case.hpp"
+#include "support/full_order.hpp"
 #include "support/spectrum.hpp"
 
 namespace squeal::test {
 namespace {
-
-using Lists = std::vector<std::vector<Complex>>;
-
-/// The 80 lowest eigenvalues of the problem on all unknowns at each point of the sweep; solved
-/// once.
-const Lists& fullOrder(const std::string& name, const std::string& changes) {
-  static std::map<std::string, Lists> known;
-  auto& lists = known[name + changes];
-  if (!lists.empty()) return lists;
-  const analysis::Analysis analysis =
-      runCase(name, changes + " -flutter_method direct -flutter_direct_count 80");
-  for (const auto& point : analysis.segments.at(0).points) {
-    EXPECT_LT(point.worstBackwardError(),
-              1e-12);  // at the far end, where the Krylov space ends; a thousandth of it lower down
-    lists.push_back(eigenvaluesOf(point));
-  }
-  return lists;
-}
 
 std::vector<Complex> nearestToZero(std::vector<Complex> list, std::size_t count) {
   std::sort(list.begin(), list.end(),
             [](Complex a, Complex b) { return std::abs(a) < std::abs(b); });
   list.resize(std::min(count, list.size()));
   return list;
-}
-
-/// By which the direct solve may err, relative to |s|: where two reduced bases agree to 1e-15, TOAR
-/// was 1.2e-13 from both.
-constexpr double directError = 3e-13;
-
-struct Comparison {
-  double worst = 0;  ///< |s − s*| / |s*|
-  /// Of true error to the estimate, as far as it can be told from the error of s*
-  double worstRatio = 0;
-  int certified = 0;
-};
-
-/// All eigenvalues of a point with those of the full order, each with one of its own.
-Comparison compare(const pencil::ComplexModes& point, const std::vector<Complex>& exact) {
-  Comparison result;
-  const auto found = eigenvaluesOf(point);
-  const auto match = matched(found, exact);
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    const double error = std::abs(found[i] - match[i]) / std::abs(match[i]),
-                 estimate = point.eigenvalues[i].errorEstimate;
-    EXPECT_FALSE(std::isnan(error)) << found[i] << " is none of the full order";
-    EXPECT_LT(error, 2 * estimate + directError)
-        << found[i] << " at friction " << point.at.friction;
-    result.worst = std::max(result.worst, error);
-    result.worstRatio = std::max(result.worstRatio, (error - directError) / estimate);
-    result.certified += point.eigenvalues[i].certified;
-  }
-  return result;
 }
 
 /// Each point of the corrected sweep: the first `first` eigenvalues are there, and all that are

@@ -6,33 +6,16 @@
 #include <cmath>
 
 #include "contact/coupled.hpp"
-#include "petsc/text.hpp"
 #include "steady/steady.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
+#include "support/steel_brake.hpp"
 
 namespace squeal {
 namespace {
 
-constexpr double pressure = 1e6;
-
-std::string brake(int order, double size, double spring) {
-  std::string text = formatted(
-                         "-mesh_file meshes/steel_brake.geo -mesh_set order=%d,size=%g "
-                         "-constraint_bore_clamped xyz ",
-                         order, size) +
-                     "-motion_disc_speed 5 -motion_disc_axis 0,0,1 -motion_disc_origin 0,0,0 "
-                     "-load_centrifugal off" +
-                     test::material("disc", "2.1e11", "0.3", "7850");
-  for (const std::string pad : {"upper", "lower"})
-    text += test::material(pad, "2.1e11", "0.3", "7850") +
-            formatted(
-                "-load_%s_back_pressure %g -ground_%s_back_stiffness %g,%g,0 -contact_%s_pad "
-                "%s_face -contact_%s_disc %s_face ",
-                pad.c_str(), pressure, pad.c_str(), spring, spring, pad.c_str(), pad.c_str(),
-                pad.c_str(), pad.c_str());
-  return text;
-}
+using test::steel_brake::padArea;
+using test::steel_brake::pressure;
 
 std::vector<steady::Solution> solutions(const std::string& options,
                                         const std::vector<double>& frictions) {
@@ -45,10 +28,6 @@ std::vector<steady::Solution> solutions(const std::string& options,
   for (double friction : frictions) all.push_back(problem.solve({friction}, system));
   return all;
 }
-
-/// A sector of a ring. Cells of h = 0.022 m make polygons of its arcs, at worst: (h/r)²/12, 0.2 %,
-/// of the area is missing.
-constexpr double padArea = M_PI / 6 * (0.145 * 0.145 - 0.085 * 0.085);
 
 void expectBalance(const steady::Solution& solution, double residual) {
   ASSERT_TRUE(solution.converged) << "friction " << solution.at.friction << ": " << solution.reason;
@@ -72,15 +51,15 @@ void expectBalance(const steady::Solution& solution, double residual) {
 // depends on the number of ranks. Epsilon times the forces of which the residual is the difference,
 // some 1e8 N/m x 1e-4 m on each node, is 1e-11 of the loads.
 TEST(SteelBrake, ClosedContactIsFoundToRounding) {
-  for (const auto& solution : solutions(brake(2, 0.022, 1e7), {0, 0.1, 0.25}))
+  for (const auto& solution : solutions(test::steel_brake::options(2, 0.022, 1e7), {0, 0.1, 0.25}))
     expectBalance(solution, 1e-10);
 }
 
 // Springs of 1 kN/m let the pads move by 2 m, and rounding of forces that displacements of metres
 // make is 1e-7 of the loads.
 TEST(SteelBrake, WeaklyHeldPads) {
-  const auto firm = solutions(brake(2, 0.022, 1e5), {0.25}),
-             weak = solutions(brake(2, 0.022, 1e3), {0.25});
+  const auto firm = solutions(test::steel_brake::options(2, 0.022, 1e5), {0.25}),
+             weak = solutions(test::steel_brake::options(2, 0.022, 1e3), {0.25});
   expectBalance(firm[0], 1e-8);
   expectBalance(weak[0], 1e-6);
   // Both springs are soft beside the pads: what presses is the same but for the share of the
@@ -91,7 +70,7 @@ TEST(SteelBrake, WeaklyHeldPads) {
 // Springs of 1 N/m are less than rounding of the stiffness of the pads: forces would be right to
 // four digits. This is said.
 TEST(SteelBrake, PadsHeldByNothingButRounding) {
-  const auto solution = std::move(solutions(brake(2, 0.022, 1), {0.25})[0]);
+  const auto solution = std::move(solutions(test::steel_brake::options(2, 0.022, 1), {0.25})[0]);
   EXPECT_FALSE(solution.converged);
   EXPECT_NE(solution.reason.find("held too weakly"), std::string::npos) << solution.reason;
   EXPECT_GT(solution.residual, 1e-6);
@@ -102,7 +81,8 @@ TEST(SteelBrake, PadsHeldByNothingButRounding) {
 TEST(SteelBrake, OpeningContactOfWeaklyHeldPads) {
   std::vector<PetscInt> open;
   for (const double spring : {1e7, 1e3}) {
-    const auto solution = std::move(solutions(brake(1, 0.012, spring), {0.5})[0]);
+    const auto solution =
+        std::move(solutions(test::steel_brake::options(1, 0.012, spring), {0.5})[0]);
     ASSERT_TRUE(solution.converged) << solution.reason;
     expectBalance(solution, spring > 1e6 ? 1e-10 : 1e-6);
     double largest = 0;
