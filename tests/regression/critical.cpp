@@ -33,6 +33,20 @@ const ProgramRun& layersOn(int ranks, const Law& law = constant) {
   return runs[law.name].at(ranks);
 }
 
+// Damping at friction 0, and a basis of a part of the unknowns: what is said of completeness is
+// what can be said of that.
+TEST(Critical, CompletenessOfAPartOfTheSpace) {
+  ASSERT_EQ(layersOn(2).exitCode, 0);
+  const auto summary = nlohmann::json::parse(contentOf(layersOn(2).folder / "summary.json"));
+  const auto followed = summary.at("active_sets").at(0).at("followed").at(0);
+  EXPECT_EQ(followed.at("complete"), true);
+  EXPECT_EQ(followed.at("sturm_count_exact"), false);
+  EXPECT_EQ(followed.at("whole_space"), false);
+  const std::string statement = followed.at("statement");
+  EXPECT_NE(statement.find("not confirmed by a Sturm count"), std::string::npos) << statement;
+  EXPECT_NE(statement.find("; assumed: the basis holds"), std::string::npos) << statement;
+}
+
 void expectSameOnAllRanks(const Law& law) {
   std::vector<double> one;
   for (int ranks : {1, 2, 3}) {
@@ -95,20 +109,6 @@ void expectZeroGrowthOfAllUnknowns(const Law& law) {
 TEST(Critical, GrowthRatesOfAllUnknownsAreZero) { expectZeroGrowthOfAllUnknowns(constant); }
 TEST(Critical, GrowthRatesAreZeroWhereTermsBelongToPoints) {
   expectZeroGrowthOfAllUnknowns(falling);
-}
-
-// Damping at friction 0, and a basis of a part of the unknowns: what is said of completeness is
-// what can be said of that.
-TEST(Critical, CompletenessOfAPartOfTheSpace) {
-  ASSERT_EQ(layersOn(2).exitCode, 0);
-  const auto summary = nlohmann::json::parse(contentOf(layersOn(2).folder / "summary.json"));
-  const auto followed = summary.at("active_sets").at(0).at("followed").at(0);
-  EXPECT_EQ(followed.at("complete"), true);
-  EXPECT_EQ(followed.at("sturm_count_exact"), false);
-  EXPECT_EQ(followed.at("whole_space"), false);
-  const std::string statement = followed.at("statement");
-  EXPECT_NE(statement.find("not confirmed by a Sturm count"), std::string::npos) << statement;
-  EXPECT_NE(statement.find("; assumed: the basis holds"), std::string::npos) << statement;
 }
 
 // Each branch is there once at each friction, the swept ones are the eigenvalues of the band, and

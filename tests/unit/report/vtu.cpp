@@ -22,6 +22,65 @@ namespace {
 
 using mesh::Point;
 
+double fieldValue(const Point& x, int component) {
+  return (component + 1) * (x[0] + 2 * x[1] + 4 * x[2]);
+}
+
+TEST(Vtu, HoldsFieldsOfAllRanks) {
+  const Folder folder;
+  const Mesh mesh = bar();
+  Field scalar{"pressure", 1, {}}, vector{"displacement", 3, {}};
+  for (const auto& x : mesh.coordinates) {
+    scalar.values.push_back(fieldValue(x, 0));
+    for (int c = 0; c < 3; ++c) vector.values.push_back(fieldValue(x, c));
+  }
+  const fs::path stem = folder.path / "steady_0.4";  // the dot is part of the name
+  writeVtu(mesh, stem, {scalar, vector});
+  EXPECT_TRUE(fs::is_directory(stem));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()),
+            2);  // steady_0.4.pvtu and the folder
+
+  const auto grid = readVtu(folder.path / "steady_0.4.pvtu");
+  const int size = sizeOf(mesh.comm);
+  ASSERT_EQ(grid->GetNumberOfCells(), size + 1);
+  ASSERT_EQ(grid->GetNumberOfPoints(), 8 * size);
+  auto* points = grid->GetPointData();
+  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i) {
+    Point x;
+    grid->GetPoint(i, x.data());
+    const auto node = static_cast<int>(points->GetArray("node_tag")->GetTuple1(i)) - 100;
+    EXPECT_EQ(x[0], node / 4);
+    EXPECT_EQ(x[2], node % 4 / 2 + 1e-12 * node);  // coordinates in double precision
+    EXPECT_EQ(points->GetArray("part")->GetTuple1(i), x[0] > 0);
+    EXPECT_FLOAT_EQ(points->GetArray("pressure")->GetTuple1(i), fieldValue(x, 0));
+    for (int c = 0; c < 3; ++c)
+      EXPECT_FLOAT_EQ(points->GetArray("displacement")->GetComponent(i, c), fieldValue(x, c));
+  }
+  auto* cells = grid->GetCellData();
+  for (vtkIdType i = 0; i < grid->GetNumberOfCells(); ++i) {
+    EXPECT_EQ(cells->GetArray("rank")->GetTuple1(i), std::min<vtkIdType>(i, size - 1));
+    EXPECT_EQ(cells->GetArray("body")->GetTuple1(i), i == size - 1);
+    double box[6];
+    grid->GetCellBounds(i, box);
+    EXPECT_EQ(box[0], std::min<vtkIdType>(i, size - 1));
+    EXPECT_EQ(box[1], box[0] + 1);
+  }
+}
+
+// Names that differ after the last dot only must not share the files of their pieces.
+TEST(Vtu, KeepsFilesOfASweepApart) {
+  const Folder folder;
+  const Mesh mesh = bar();
+  for (const double friction : {0.2, 0.4})
+    writeVtu(mesh, folder.path / ("steady_" + std::to_string(friction)),
+             {{"f", 1, std::vector<double>(mesh.globalNode.size(), friction)}});
+  for (const double friction : {0.2, 0.4}) {
+    const auto grid = readVtu(folder.path / ("steady_" + std::to_string(friction) + ".pvtu"));
+    ASSERT_GT(grid->GetNumberOfPoints(), 0);
+    EXPECT_FLOAT_EQ(grid->GetPointData()->GetArray("f")->GetTuple1(0), friction);
+  }
+}
+
 struct Reference {
   int nodes = 0, dimension = 0;
   std::vector<double> local;  ///< [node][3]
@@ -80,10 +139,6 @@ Mesh curvedCells(int type) {
   return mesh;
 }
 
-double fieldValue(const Point& x, int component) {
-  return (component + 1) * (x[0] + 2 * x[1] + 4 * x[2]);
-}
-
 class VtuElement : public testing::TestWithParam<int> {};
 
 // Each gmsh node is the VTK node of the same parametric position, and VTK's shape functions make
@@ -128,61 +183,6 @@ TEST_P(VtuElement, NodesAndShapeAreThoseOfGmsh) {
 
 INSTANTIATE_TEST_SUITE_P(GmshTypes, VtuElement,
                          testing::Values(2, 3, 4, 5, 6, 9, 10, 11, 12, 13, 16, 17, 18));
-
-TEST(Vtu, HoldsFieldsOfAllRanks) {
-  const Folder folder;
-  const Mesh mesh = bar();
-  Field scalar{"pressure", 1, {}}, vector{"displacement", 3, {}};
-  for (const auto& x : mesh.coordinates) {
-    scalar.values.push_back(fieldValue(x, 0));
-    for (int c = 0; c < 3; ++c) vector.values.push_back(fieldValue(x, c));
-  }
-  const fs::path stem = folder.path / "steady_0.4";  // the dot is part of the name
-  writeVtu(mesh, stem, {scalar, vector});
-  EXPECT_TRUE(fs::is_directory(stem));
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()),
-            2);  // steady_0.4.pvtu and the folder
-
-  const auto grid = readVtu(folder.path / "steady_0.4.pvtu");
-  const int size = sizeOf(mesh.comm);
-  ASSERT_EQ(grid->GetNumberOfCells(), size + 1);
-  ASSERT_EQ(grid->GetNumberOfPoints(), 8 * size);
-  auto* points = grid->GetPointData();
-  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i) {
-    Point x;
-    grid->GetPoint(i, x.data());
-    const auto node = static_cast<int>(points->GetArray("node_tag")->GetTuple1(i)) - 100;
-    EXPECT_EQ(x[0], node / 4);
-    EXPECT_EQ(x[2], node % 4 / 2 + 1e-12 * node);  // coordinates in double precision
-    EXPECT_EQ(points->GetArray("part")->GetTuple1(i), x[0] > 0);
-    EXPECT_FLOAT_EQ(points->GetArray("pressure")->GetTuple1(i), fieldValue(x, 0));
-    for (int c = 0; c < 3; ++c)
-      EXPECT_FLOAT_EQ(points->GetArray("displacement")->GetComponent(i, c), fieldValue(x, c));
-  }
-  auto* cells = grid->GetCellData();
-  for (vtkIdType i = 0; i < grid->GetNumberOfCells(); ++i) {
-    EXPECT_EQ(cells->GetArray("rank")->GetTuple1(i), std::min<vtkIdType>(i, size - 1));
-    EXPECT_EQ(cells->GetArray("body")->GetTuple1(i), i == size - 1);
-    double box[6];
-    grid->GetCellBounds(i, box);
-    EXPECT_EQ(box[0], std::min<vtkIdType>(i, size - 1));
-    EXPECT_EQ(box[1], box[0] + 1);
-  }
-}
-
-// Names that differ after the last dot only must not share the files of their pieces.
-TEST(Vtu, KeepsFilesOfASweepApart) {
-  const Folder folder;
-  const Mesh mesh = bar();
-  for (const double friction : {0.2, 0.4})
-    writeVtu(mesh, folder.path / ("steady_" + std::to_string(friction)),
-             {{"f", 1, std::vector<double>(mesh.globalNode.size(), friction)}});
-  for (const double friction : {0.2, 0.4}) {
-    const auto grid = readVtu(folder.path / ("steady_" + std::to_string(friction) + ".pvtu"));
-    ASSERT_GT(grid->GetNumberOfPoints(), 0);
-    EXPECT_FLOAT_EQ(grid->GetPointData()->GetArray("f")->GetTuple1(0), friction);
-  }
-}
 
 // More ranks than a small mesh has parts: the last one has nothing.
 TEST(Vtu, WritesRanksWithoutCells) {
