@@ -43,7 +43,7 @@ inline std::vector<Node> allNodes(const contact::Contact& contact,
   return nodes;
 }
 
-/// The entries of a node.
+/// The components at a node, of a list of those at all nodes.
 inline mesh::Point at(const std::vector<double>& u, PetscInt node, int dimension) {
   mesh::Point p{};
   for (int d = 0; d < dimension; ++d) p[d] = u[dimension * node + d];

@@ -45,12 +45,13 @@ inline std::vector<std::string> differing(const Files& a, const Files& b) {
 }
 inline const std::vector<std::string> none;
 
-/// Of a file that is in both, the content in `a`.
+/// All files of the two; one that both have is as in `a`.
 inline Files both(Files a, const Files& b) {
   a.insert(b.begin(), b.end());
   return a;
 }
 
+/// Writes files into a folder, which it makes where there is none.
 inline void put(const fs::path& folder, const Files& files) {
   for (const auto& [name, content] : files) writeText(folder / name, content);
 }

@@ -2,6 +2,7 @@
 // contradict each other.
 #include <gtest/gtest.h>
 
+#include "support/contact_cases.hpp"
 #include "support/model.hpp"
 
 namespace squeal {
@@ -9,8 +10,8 @@ namespace {
 
 using test::contains;
 using test::errorOf;
+using test::contact_cases::layers;
 
-const std::string layers = "-mesh_set nx=6,ny_disc=3,ny_pad=2";
 const std::string cylinderBodies =
     "-mesh_file meshes/cylinders.geo -mesh_set n_inner=2,n_outer=2,n_theta=16" +
     test::material("inner", "1", "0.3", "1") + test::material("outer", "1", "0.3", "1");

@@ -14,6 +14,7 @@
 #include "steady/condensed.hpp"
 #include "steady/uniqueness.hpp"
 #include "support/case.hpp"
+#include "support/contact_cases.hpp"
 #include "support/gathered.hpp"
 #include "support/model.hpp"
 
@@ -23,6 +24,7 @@ namespace {
 using test::contains;
 using test::errorOf;
 using test::Model;
+using test::contact_cases::layers;
 
 using Matrix = std::vector<double>;  // column-major
 
@@ -119,7 +121,6 @@ TEST(Loss, IsTheFirstFrictionWithoutPositivity) {
 
 // --- the condensed matrix ---
 
-const std::string layers = "-mesh_set nx=6,ny_disc=3,ny_pad=2";
 const std::string cylinders =
     "-mesh_file meshes/cylinders.geo -mesh_set n_inner=2,n_outer=2,n_theta=16,order=2 "
     "-motion_inner_speed 2" +
@@ -180,7 +181,7 @@ Matrix solved(Matrix a, Matrix b, int size) {
 
 /// The gap block of the inverse of L(f)ᵀ K T, all entries at once: no symmetry used, and none of
 /// K_o, e and U.
-Matrix gapBlock(const Model& model, const Coupled& coupled, double friction) {
+Matrix gapBlock(const Coupled& coupled, double friction) {
   const auto gaps = test::gathered(coupled.transformation.gapColumn, MPIU_INT);
   const OwnedMat jacobian = contact::affine(coupled.k0, coupled.k1, friction);
   const auto full = test::denseCopy(jacobian);
@@ -218,7 +219,7 @@ TEST(Condensed, IsTheGapBlockOfTheInverse) {
     const auto coupled = coupledOf(model);
     double worst = 0;
     for (const double friction : {0.0, 0.3, 1.7}) {
-      const Matrix expected = gapBlock(model, coupled, friction), found = compliance.at(friction);
+      const Matrix expected = gapBlock(coupled, friction), found = compliance.at(friction);
       ASSERT_EQ(found.size(), expected.size());
       const double scale = largestEntry(expected);
       for (std::size_t i = 0; i < found.size(); ++i)
