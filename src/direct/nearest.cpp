@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "direct/direct.hpp"
-#include "linalg/dense.hpp"
 #include "linalg/gathered.hpp"
+#include "linalg/quadratic.hpp"
 #include "options/options.hpp"
 #include "pencil/complex_modes.hpp"
 #include "petsc/text.hpp"

@@ -3,7 +3,7 @@
 /// them is one BLAS call on the local rows and one reduction.
 #include <vector>
 
-#include "linalg/dense.hpp"
+#include "linalg/quadratic.hpp"
 #include "petsc/owned.hpp"
 
 namespace squeal::linalg {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "linalg/block.hpp"
-#include "linalg/dense.hpp"
+#include "linalg/quadratic.hpp"
 
 namespace squeal::linalg {
 

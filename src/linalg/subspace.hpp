@@ -2,7 +2,7 @@
 /// One or two eigenvalues of a dense quadratic problem with their invariant subspace, continued
 /// from a neighbouring problem. This takes one to three factorisations; all eigenvalues would take
 /// a hundred times as long as one.
-#include "linalg/dense.hpp"
+#include "linalg/quadratic.hpp"
 
 namespace squeal::linalg {
 

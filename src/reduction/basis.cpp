@@ -6,7 +6,7 @@
 
 #include "linalg/block.hpp"
 #include "linalg/columns.hpp"
-#include "linalg/dense.hpp"
+#include "linalg/quadratic.hpp"
 #include "linalg/symmetric.hpp"
 
 namespace squeal::reduction {

@@ -10,7 +10,7 @@
 
 #include "linalg/block.hpp"
 #include "linalg/complexvector.hpp"
-#include "linalg/dense.hpp"
+#include "linalg/quadratic.hpp"
 #include "linalg/sketch.hpp"
 #include "modes/modes.hpp"
 #include "petsc/owned.hpp"

@@ -2,7 +2,7 @@
 /// How far residuals move eigenvalues: condition numbers by left eigenvectors.
 #include <vector>
 
-#include "linalg/dense.hpp"
+#include "linalg/quadratic.hpp"
 
 namespace squeal::reduction {
 

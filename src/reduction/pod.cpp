@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "linalg/dense.hpp"
+#include "linalg/quadratic.hpp"
 #include "reduction/reduced.hpp"
 
 namespace squeal::reduction {

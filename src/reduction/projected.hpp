@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "linalg/block.hpp"
-#include "linalg/dense.hpp"
+#include "linalg/quadratic.hpp"
 #include "pencil/pencil.hpp"
 #include "reduction/basis.hpp"
 #include "sweep/parameters.hpp"

@@ -6,7 +6,7 @@
 
 #include "linalg/block.hpp"
 #include "linalg/complexvector.hpp"
-#include "linalg/dense.hpp"
+#include "linalg/quadratic.hpp"
 #include "modes/modes.hpp"
 #include "pencil/band.hpp"
 #include "pencil/complex_modes.hpp"

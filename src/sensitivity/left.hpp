@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "linalg/complexvector.hpp"
-#include "linalg/dense.hpp"
+#include "linalg/quadratic.hpp"
 #include "pencil/pencil.hpp"
 #include "sweep/parameters.hpp"
 

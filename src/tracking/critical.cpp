@@ -6,7 +6,7 @@
 #include <optional>
 #include <type_traits>
 
-#include "linalg/dense.hpp"
+#include "linalg/quadratic.hpp"
 #include "linalg/subspace.hpp"
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"

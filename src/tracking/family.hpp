@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "linalg/dense.hpp"
+#include "linalg/quadratic.hpp"
 #include "reduction/reduced.hpp"
 
 namespace squeal::tracking {

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "linalg/dense.hpp"
+#include "linalg/quadratic.hpp"
 #include "pencil/band.hpp"
 #include "petsc/check.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 /// Identification of the eigenvalues at one friction with those at another.
-#include "linalg/dense.hpp"
+#include "linalg/quadratic.hpp"
 #include "linalg/subspace.hpp"
 #include "pencil/band.hpp"
 #include "tracking/family.hpp"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "linalg/dense.hpp"
+#include "linalg/quadratic.hpp"
 #include "pencil/pencil.hpp"
 #include "reduction/reduced.hpp"
 #include "sweep/parameters.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 /// Pairs of changes of stability within one step: stable at both ends and unstable in between, or
 /// the reverse.
-#include "linalg/dense.hpp"
+#include "linalg/quadratic.hpp"
 #include "tracking/track.hpp"
 
 namespace squeal::tracking {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "linalg/dense.hpp"
+#include "linalg/quadratic.hpp"
 #include "linalg/subspace.hpp"
 #include "pencil/band.hpp"
 #include "tracking/family.hpp"

@@ -12,7 +12,7 @@
 #include "direct/direct.hpp"
 #include "flutter/terms.hpp"
 #include "linalg/complexvector.hpp"
-#include "linalg/dense.hpp"
+#include "linalg/quadratic.hpp"
 #include "pencil/complex_modes.hpp"
 #include "pencil/pencil.hpp"
 #include "support/layers.hpp"

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "linalg/block.hpp"
-#include "linalg/dense.hpp"
+#include "linalg/quadratic.hpp"
 #include "linalg/symmetric.hpp"
 #include "support/layers.hpp"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "linalg/dense.hpp"
+#include "linalg/quadratic.hpp"
 #include "support/spectrum.hpp"
 
 namespace squeal {

@@ -9,7 +9,7 @@
 #include "contact/coupled.hpp"
 #include "flutter/terms.hpp"
 #include "linalg/complexvector.hpp"
-#include "linalg/dense.hpp"
+#include "linalg/quadratic.hpp"
 #include "pencil/pencil.hpp"
 #include "reduction/basis.hpp"
 #include "sensitivity/sensitivity.hpp"

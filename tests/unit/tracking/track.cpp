@@ -9,7 +9,7 @@
 #include <random>
 #include <tuple>
 
-#include "linalg/dense.hpp"
+#include "linalg/quadratic.hpp"
 #include "pencil/band.hpp"
 #include "reduction/reduced.hpp"
 #include "support/case.hpp"

@@ -1,4 +1,4 @@
-#include "linalg/dense.hpp"
+#include "linalg/quadratic.hpp"
 
 #include <slepcsys.h>  // first: the next header needs it
 

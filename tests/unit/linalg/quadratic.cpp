@@ -1,6 +1,6 @@
 // Dense quadratic problems whose spectrum is known: proportional damping with multiple eigenvalues,
 // overdamped modes, gyroscopic forces; sums and products of all eigenvalues where it is not.
-#include "linalg/dense.hpp"
+#include "linalg/quadratic.hpp"
 
 #include <gtest/gtest.h>
 
