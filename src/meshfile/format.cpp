@@ -39,17 +39,16 @@ const std::vector<Format>& formats() {
 /// letters or in capitals throughout.
 std::string endingOf(const std::string& file) {
   const auto point = file.rfind('.');
-  std::string ending = point == std::string::npos ? "" : file.substr(point), small = ending,
-              capital = ending;
-  for (auto& c : small) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  for (auto& c : capital) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  const std::string ending = point == std::string::npos ? "" : file.substr(point);
+  std::string small, capital;
+  for (unsigned char c : ending) small += std::tolower(c), capital += std::toupper(c);
   return ending == capital ? small : ending;
 }
 
 bool beginsWith(const std::string& file, const std::string& start) {
   std::string begin(start.size(), ' ');
   std::ifstream stream(file, std::ios::binary);
-  return stream.read(begin.data(), static_cast<std::streamsize>(begin.size())) && begin == start;
+  return stream.read(begin.data(), begin.size()) && begin == start;
 }
 
 bool isBuiltIn(const std::string& part) {

@@ -124,8 +124,7 @@ double cellsByEdges() {
   for (const auto& [dimension, surface] : surfaces) {
     std::vector<double> edges;
     double sum = 0;
-    for (int curve : boundaryOf(2, surface))
-      edges.push_back(static_cast<double>(edgesOn(curve))), sum += edges.back();
+    for (int curve : boundaryOf(2, surface)) edges.push_back(edgesOn(curve)), sum += edges.back();
     ofSurface[surface] = edges.size() == 4
                              ? std::max(edges[0], edges[2]) * std::max(edges[1], edges[3])
                              : sum * sum / 16;
@@ -204,7 +203,7 @@ void meshGeometry(const std::string& file, const Warn& warn) {
   const std::string expected = formatted(
       "option -mesh_file %s: by the numbers of cells along its edges the mesh has about %.2g cells",
       file.c_str(), cells);
-  if (numbers > static_cast<double>(PETSC_MAX_INT))
+  if (numbers > PETSC_MAX_INT)
     throw Error(expected + formatted(", more displacements than indices of %zu bits can number",
                                      8 * sizeof(PetscInt)));
   constexpr double bytesPerCell = 200;  // of gmsh alone, at least

@@ -85,12 +85,11 @@ class Reader {
   double real(const char* what) { return binary ? raw<double>(what) : written<double>(what); }
   /// Returns a number of items, each of which takes at least `least` bytes of the file.
   Integer count(Integer promised, const char* what, Integer least) const {
-    const auto left = static_cast<Integer>(text_.size() - at_);
+    const Integer left = text_.size() - at_;
     if (promised < 0 ||
         promised > left / least + 1)  // the last number of a text needs no blank behind it
-      fail(formatted(
-          "%lld %s are promised, of which the file, with %lld more bytes, cannot hold so many",
-          static_cast<long long>(promised), what, static_cast<long long>(left)));
+      fail(std::to_string(promised) + " " + what + " are promised, of which the file, with " +
+           std::to_string(left) + " more bytes, cannot hold so many");
     return promised;
   }
   void skipLine() { at_ = std::min(text_.find('\n', at_), text_.size() - 1) + 1; }
@@ -137,7 +136,7 @@ class Reader {
 int nodesOf(Integer type) {
   constexpr std::array<int, 20> nodes{0, 2,  3,  4,  4,  8, 6, 5,  3,  6,
                                       9, 10, 27, 18, 14, 1, 8, 20, 15, 13};
-  return type > 0 && type < static_cast<Integer>(nodes.size()) ? nodes[type] : 0;
+  return type > 0 && type < std::ssize(nodes) ? nodes[type] : 0;
 }
 
 class Msh {
@@ -160,7 +159,7 @@ class Msh {
     }
     if (nodes_.empty()) in_.fail("there is no section $Nodes, or nothing in it");
     if (elements_.empty()) in_.fail("there is no section $Elements, or nothing in it");
-    return {version_, static_cast<Integer>(nodes_.size()), static_cast<Integer>(elements_.size())};
+    return {version_, std::ssize(nodes_), std::ssize(elements_)};
   }
 
  private:
@@ -206,7 +205,7 @@ class Msh {
   /// Reads the nodes of one element.
   void nodesOfElement(Integer tag, int count) {
     add(elements_, tag, "element");
-    const auto all = static_cast<Integer>(nodes_.size());
+    const Integer all = nodes_.size();
     const bool dense = all == 0 || nodes_.back() == all;  // 1, 2, 3, …
     for (int i = 0; i < count; ++i) {
       const Integer wanted = version_ < 4 ? in_.small("node tag") : in_.large("node tag");
@@ -295,8 +294,7 @@ class Msh {
         for (Integer i = 0; i < entity.count; ++i) add(nodes_, in_.large("node tag"), "node");
       for (Integer i = 0; i < entity.count; ++i) {
         if (version_ <= 4) add(nodes_, in_.large("node tag"), "node");
-        coordinates(
-            nodes_[nodes_.size() - static_cast<std::size_t>(version_ > 4 ? entity.count - i : 1)]);
+        coordinates(nodes_[nodes_.size() - (version_ > 4 ? entity.count - i : 1)]);
         if (entity.third != 0)
           for (Integer d = 0; d < entity.dimension; ++d) in_.real("parametric coordinate");
       }

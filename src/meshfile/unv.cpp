@@ -56,7 +56,7 @@ class Unv {
     }
     if (nodes_.empty()) fail("there is no section 2411, of nodes, or nothing in it");
     if (elements_.empty()) fail("there is no section 2412, of elements, or nothing in it");
-    return {static_cast<Integer>(nodes_.size()), static_cast<Integer>(elements_.size())};
+    return {std::ssize(nodes_), std::ssize(elements_)};
   }
 
  private:
@@ -67,7 +67,7 @@ class Unv {
   bool next() {
     do ++number_;
     while (std::getline(stream_, line_) && line_.find_first_not_of(" \t\r") == std::string::npos);
-    return static_cast<bool>(stream_);
+    return !stream_.fail();
   }
   void require(const char* what) {
     if (!next()) fail(std::string("the file ends where ") + what + " should be");
@@ -132,8 +132,7 @@ class Unv {
       if (head[1] < 41) require("the orientation of a beam");
       for (Integer left = head[5]; left > 0; left -= 8) {
         require("the nodes of an element");
-        for (Integer node :
-             integers(static_cast<std::size_t>(std::min<Integer>(left, 8)), "node tag"))
+        for (Integer node : integers(std::min<Integer>(left, 8), "node tag"))
           if (!nodes_.count(node))
             fail("element " + std::to_string(head[0]) + " refers to node " + std::to_string(node) +
                  ", which is not in the file");

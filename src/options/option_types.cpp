@@ -96,12 +96,12 @@ std::vector<double> RealListOption::get(const std::string& subject) const {
     if (!(step > 0) || last < first) reject(subject, value);
     requireLength(subject, value, std::floor((last - first) / step) + 1);
     // A little slack: 0:0.6:0.05 ends at 0.6 although 12 × 0.05 is not the double nearest to it.
-    const auto steps = static_cast<int>(std::floor((last - first) / step + 1e-9));
+    const int steps = std::floor((last - first) / step + 1e-9);
     for (int i = 0; i <= steps; ++i)
       list.push_back(std::stod(formatted("%.12g", first + i * step)));
   } else {
     const auto items = split(value, ',');
-    requireLength(subject, value, static_cast<double>(items.size()));
+    requireLength(subject, value, items.size());
     for (const auto& item : items) list.push_back(number(subject, item));
   }
   for (double x : list)

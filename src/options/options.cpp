@@ -42,7 +42,7 @@ std::map<std::string, std::string>& recipe() {
 bool validating = false;
 
 std::size_t stageRank(const std::string& stage) {
-  return static_cast<std::size_t>(std::find(stages.begin(), stages.end(), stage) - stages.begin());
+  return std::find(stages.begin(), stages.end(), stage) - stages.begin();
 }
 
 template <class Item>

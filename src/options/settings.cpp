@@ -72,8 +72,8 @@ std::vector<Word> wordsOf(const std::string& text, const std::string& name, bool
     } else {
       std::size_t end = i;
       while (end < text.size() && !blank(end) && !(comments && text[end] == '#')) {
-        if (std::iscntrl(static_cast<unsigned char>(text[end])))
-          fail("a control character; an options file is text");
+        const unsigned char character = text[end];
+        if (std::iscntrl(character)) fail("a control character; an options file is text");
         ++end;
       }
       words.push_back({text.substr(i, end - i), false, line});
@@ -157,7 +157,7 @@ class Reader {
     std::error_code unknown;
     if (fs::is_directory(file, unknown) || !stream) return false;
     std::string text(largestFile + 1, '\0');
-    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+    stream.read(text.data(), text.size());
     text.resize(stream.gcount());
     if (text.size() > largestFile) throw Error(file + ": more than 10 MB is not an options file");
     for (const char* ending : {".yaml", ".yml", ".json"}) yaml = yaml || file.ends_with(ending);
@@ -245,8 +245,8 @@ bool takeSkip(std::vector<Word>& words) {
     const bool hasValue = i + 1 < words.size() && !isName(words[i + 1].text);
     const std::string value = hasValue ? words[i + 1].text : "yes";
     skip = !(same(value, "no") || same(value, "false") || same(value, "off") || value == "0");
-    words.erase(words.begin() + i,
-                words.begin() + static_cast<std::ptrdiff_t>(i) + (hasValue ? 2 : 1));
+    const auto name = words.begin() + i;
+    words.erase(name, name + (hasValue ? 2 : 1));
   }
   return skip;
 }
@@ -336,7 +336,7 @@ std::vector<Setting> onAllRanks(MPI_Comm comm, const std::vector<Setting>& ofRan
     for (const auto& setting : ofRankZero)
       packed += setting.name + "\n" + setting.value + "\n" + setting.file + "\n" +
                 std::to_string(setting.line) + "\n";
-  int length = static_cast<int>(packed.size());
+  int length = packed.size();
   check(MPI_Bcast(&length, 1, MPI_INT, 0, comm));
   packed.resize(length);
   check(MPI_Bcast(packed.data(), length, MPI_CHAR, 0, comm));

@@ -35,7 +35,7 @@ struct Document {
   yaml_document_t document{};
 };
 
-int lineOf(const yaml_mark_t& mark) { return static_cast<int>(mark.line) + 1; }
+int lineOf(const yaml_mark_t& mark) { return mark.line + 1; }
 
 /// The first line up to `last` that is indented by a tab; 0: none is.
 int tabbedLine(const std::string& text, int last) {
@@ -61,7 +61,7 @@ int tabbedLine(const std::string& text, int last) {
   const std::string problem = parser.problem ? parser.problem : "not YAML";
   if (parser.error == YAML_READER_ERROR) {
     const auto bytes = std::min(parser.problem_offset, text.size());
-    fail(name, 1 + static_cast<int>(std::count(text.begin(), text.begin() + bytes, '\n')),
+    fail(name, 1 + std::count(text.begin(), text.begin() + bytes, '\n'),
          problem + "; an options file is text in UTF-8");
   }
   const int line = lineOf(parser.problem_mark);

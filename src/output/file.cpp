@@ -34,9 +34,7 @@ void reserve(const std::filesystem::path& path, unsigned long long bytes) {
   const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (file < 0) throw WriteError(cannotWrite(path, errno));
   int error = getrlimit(RLIMIT_FSIZE, &most) == 0 && bytes > most.rlim_cur ? EFBIG : 0;
-  if (error == 0 && bytes > 0 &&
-      fallocate(file, FALLOC_FL_KEEP_SIZE, 0, static_cast<off_t>(bytes)) != 0)
-    error = errno;
+  if (error == 0 && bytes > 0 && fallocate(file, FALLOC_FL_KEEP_SIZE, 0, bytes) != 0) error = errno;
   close(file);
   if (error != 0 && error != EOPNOTSUPP)
     throw WriteError(cannotWrite(path, error));  // such as NFS: it is found out in writing

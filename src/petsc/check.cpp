@@ -29,8 +29,8 @@ void check(PetscErrorCode code, std::source_location where) {
   if (lacksMemory(code)) outOfMemory();
   const std::string kept = keeper ? keeper->message() : "";  // what has not been printed yet
   keeper = nullptr;
-  PetscError(PETSC_COMM_SELF, static_cast<int>(where.line()), where.function_name(),
-             where.file_name(), code, kept.empty() ? PETSC_ERROR_REPEAT : PETSC_ERROR_INITIAL, "%s",
+  PetscError(PETSC_COMM_SELF, where.line(), where.function_name(), where.file_name(), code,
+             kept.empty() ? PETSC_ERROR_REPEAT : PETSC_ERROR_INITIAL, "%s",
              kept.empty() ? " " : kept.c_str());
   performLastActs();
   MPI_Abort(PETSC_COMM_WORLD, 70);
@@ -43,7 +43,7 @@ void failTogether(MPI_Comm comm, const std::string& localMessage) {
   int mine = localMessage.empty() ? size : rank, first = size;
   check(MPI_Allreduce(&mine, &first, 1, MPI_INT, MPI_MIN, comm));
   if (first == size) return;
-  int length = static_cast<int>(localMessage.size());
+  int length = localMessage.size();
   check(MPI_Bcast(&length, 1, MPI_INT, first, comm));
   std::string message = localMessage;
   message.resize(length);

@@ -27,7 +27,7 @@ enum class Outcome : char { result, failure, noMemory };
 void limit(decltype(RLIMIT_AS) resource, double value) {
   rlimit now{};
   if (getrlimit(resource, &now) != 0) return;
-  const auto wanted = static_cast<rlim_t>(value);
+  const rlim_t wanted = value;
   now.rlim_cur = std::min(now.rlim_cur, wanted);
   setrlimit(resource, &now);
 }
@@ -37,7 +37,7 @@ void writeAll(int file, const char* bytes, std::size_t count) {
     const ssize_t written = write(file, bytes, count);
     if (written < 0 && errno == EINTR) continue;
     if (written <= 0) return;  // the parent is gone, or will see that bytes are missing
-    bytes += written, count -= static_cast<std::size_t>(written);
+    bytes += written, count -= written;
   }
 }
 
@@ -51,8 +51,7 @@ char stillAtWork[512];  // a signal's handler can only write what is ready
 int voice = 2;
 
 void sayStillAtWork(int) {
-  const ssize_t ignored = write(voice, stillAtWork, std::strlen(stillAtWork));
-  static_cast<void>(ignored);
+  [[maybe_unused]] const auto written = write(voice, stillAtWork, std::strlen(stillAtWork));
 }
 
 /// The child: nothing of the parent's is flushed, finalised or handled here.
@@ -108,7 +107,7 @@ struct Child {
       const ssize_t got = read(pipe, at, count);
       if (got < 0 && errno == EINTR) continue;
       if (got <= 0) return false;
-      at += got, count -= static_cast<std::size_t>(got);
+      at += got, count -= got;
     }
     return true;
   }

@@ -52,8 +52,8 @@ PetscErrorCode handleError(MPI_Comm comm, int line, const char* function, const 
 }  // namespace
 
 double addressSpace() {
-  return numberIn("/proc/self/statm").value_or(0) *
-         static_cast<double>(sysconf(_SC_PAGESIZE));  // its first number: pages in all
+  // Its first number: pages in all.
+  return numberIn("/proc/self/statm").value_or(0) * sysconf(_SC_PAGESIZE);
 }
 
 double availableMemory() {

@@ -35,7 +35,7 @@ int signalPipe[2] = {-1, -1};
 /// All that a handler may do: memory or a lock in use by the interrupted code must not be touched
 /// here.
 extern "C" void passOn(int signal) {
-  const auto byte = static_cast<unsigned char>(signal);
+  const unsigned char byte = signal;
   [[maybe_unused]] const auto written = write(signalPipe[1], &byte, 1);
 }
 

@@ -50,7 +50,7 @@ void startSlepc(char* program, const std::vector<Setting>& settings) {
     if (!setting.value.empty() && setting.value[0] != '-') words.push_back(setting.value);
   }
   for (auto& word : words) pointers.push_back(word.data());
-  int count = static_cast<int>(pointers.size());
+  int count = pointers.size();
   pointers.push_back(nullptr);
   char** arguments = pointers.data();
   if (SlepcInitialize(&count, &arguments, nullptr, nullptr) != 0) MPI_Abort(MPI_COMM_WORLD, 70);

@@ -49,7 +49,7 @@ void Stage::say(const std::string& text) {
 void Stage::finish(const std::string& result) {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  double seconds = MPI_Wtime() - begin_, memory = 1024.0 * static_cast<double>(usage.ru_maxrss);
+  double seconds = MPI_Wtime() - begin_, memory = 1024.0 * usage.ru_maxrss;
   check(MPI_Allreduce(MPI_IN_PLACE, &seconds, 1, MPI_DOUBLE, MPI_MAX, comm_));
   check(MPI_Allreduce(MPI_IN_PLACE, &memory, 1, MPI_DOUBLE, MPI_SUM, comm_));
   auto known = std::find_if(records().begin(), records().end(),
