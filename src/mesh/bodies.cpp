@@ -69,7 +69,7 @@ void requireMaterials(const WholeMesh& mesh, const GmshModel& model,
 void readBodies(WholeMesh& mesh, const GmshModel& model, const Request& request, NodeIndex& index) {
   for (const auto& body : request.bodies) mesh.bodies.push_back(body.name);
   std::map<PetscInt, int> bodyOf;
-  for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
+  for (int b = 0; b < std::ssize(mesh.bodies); ++b) {
     const std::string option = "option " + request.bodies[b].option;
     auto group = model.group(mesh.bodies[b], option);
     if (b == 0) mesh.dimension = group.dimension;
@@ -86,8 +86,8 @@ void readBodies(WholeMesh& mesh, const GmshModel& model, const Request& request,
         known = mesh.cells.insert(
             known, WholeBlock{block.type, block.nodesPerElement, block.corners, {}, {}, {}});
       for (auto tag : block.tag) {
-        const auto [entry, isNew] = bodyOf.emplace(tag, static_cast<int>(b));
-        if (!isNew && entry->second == static_cast<int>(b))
+        const auto [entry, isNew] = bodyOf.emplace(tag, b);
+        if (!isNew && entry->second == b)
           throw Error("option -mesh_file: two cells of group '" + mesh.bodies[b] +
                       "' have the tag " + std::to_string(tag));
         if (!isNew)
@@ -97,7 +97,7 @@ void readBodies(WholeMesh& mesh, const GmshModel& model, const Request& request,
       }
       known->nodes.insert(known->nodes.end(), block.nodes.begin(), block.nodes.end());
       known->tag.insert(known->tag.end(), block.tag.begin(), block.tag.end());
-      known->label.insert(known->label.end(), block.tag.size(), static_cast<int>(b));
+      known->label.insert(known->label.end(), block.tag.size(), b);
     }
   }
   requireMaterials(mesh, model, bodyOf, request);

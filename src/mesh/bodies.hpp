@@ -9,7 +9,7 @@ namespace squeal::mesh {
 class NodeIndex {
  public:
   NodeIndex(WholeMesh& mesh, const GmshModel& model)
-      : mesh_(mesh), model_(model), index_(static_cast<std::size_t>(model.nodeCount()), -1) {}
+      : mesh_(mesh), model_(model), index_(model.nodeCount(), -1) {}
   void add(std::vector<PetscInt>& nodes) {
     for (auto& node : nodes) {
       auto& index = index_[node];

@@ -44,11 +44,11 @@ Elements elementsOf(int dimension, int entity) {
 }
 
 /// Returns the tag. Throws Error unless it fits PetscInt.
-PetscInt checkedTag(const Job& job, std::size_t tag, const char* what) {
-  if (tag < 1 || tag > static_cast<std::size_t>(PETSC_MAX_INT))
-    throw Error(job.option + what + " tag " + std::to_string(static_cast<long long>(tag)) +
-                ": must be from 1 to " + std::to_string(PETSC_MAX_INT));
-  return static_cast<PetscInt>(tag);
+PetscInt checkedTag(const Job& job, std::int64_t tag, const char* what) {
+  if (tag < 1 || tag > PETSC_MAX_INT)
+    throw Error(job.option + what + " tag " + std::to_string(tag) + ": must be from 1 to " +
+                std::to_string(PETSC_MAX_INT));
+  return tag;
 }
 
 /// The nodes in gmsh's order, and the index of each tag.
@@ -65,7 +65,7 @@ class Nodes {
         if (!(std::abs(x) < 1e100))  // the volume of a cell is a product of three
           throw Error(job.option + "node " + std::to_string(all[i]) + " has the coordinate " +
                       shortest(x) + "; must be finite, below 1e100");
-      order_.emplace_back(tags.back(), static_cast<PetscInt>(i));
+      order_.emplace_back(tags.back(), i);
     }
     std::sort(order_.begin(), order_.end());
     for (std::size_t i = 1; i < order_.size(); ++i)
@@ -73,15 +73,13 @@ class Nodes {
         throw Error(job.option + "there are two nodes with the tag " +
                     std::to_string(order_[i].first));
   }
-  PetscInt index(std::size_t tag) const {
-    const auto wanted = static_cast<PetscInt>(tag);
-    if (tag >= 1 && tag <= order_.size() && order_[tag - 1].first == wanted)
+  PetscInt index(std::int64_t tag) const {
+    if (tag >= 1 && tag <= std::ssize(order_) && order_[tag - 1].first == tag)
       return order_[tag - 1].second;  // 1, 2, 3, …
-    const auto found =
-        std::lower_bound(order_.begin(), order_.end(), std::pair<PetscInt, PetscInt>{wanted, -1});
-    if (found == order_.end() || found->first != wanted)
-      throw Error(job_.option + "an element refers to node " +
-                  std::to_string(static_cast<long long>(tag)) + ", which is not in the mesh");
+    const auto found = std::ranges::lower_bound(order_, tag, {}, &TagAndIndex::first);
+    if (found == order_.end() || found->first != tag)
+      throw Error(job_.option + "an element refers to node " + std::to_string(tag) +
+                  ", which is not in the mesh");
     return found->second;
   }
 
@@ -99,8 +97,9 @@ class Nodes {
   std::vector<Point> points;
 
  private:
+  using TagAndIndex = std::pair<PetscInt, PetscInt>;
   const Job& job_;
-  std::vector<std::pair<PetscInt, PetscInt>> order_;  // tag, index
+  std::vector<TagAndIndex> order_;
 };
 
 /// Opens the file with gmsh, and reports its errors and warnings.
@@ -223,7 +222,7 @@ std::vector<PetscInt> ungroupedElements(const Job& job, int dimension) {
 void requireAllElements(const Job& job) {
   if (job.contents.elements == 0) return;
   std::int64_t kept = 0;
-  for (const auto& list : elementsOf(-1, -1).tags) kept += static_cast<std::int64_t>(list.size());
+  for (const auto& list : elementsOf(-1, -1).tags) kept += list.size();
   if (kept != job.contents.elements)
     throw Error(job.option + "gmsh keeps " + std::to_string(kept) + " of the " +
                 std::to_string(job.contents.elements) + " elements in the file");
@@ -241,16 +240,17 @@ Buffer readWithGmsh(const Job& job, const Warn& warn) {
   buffer.put(std::vector<int>{gmsh::model::getDimension()});
   buffer.put(ungroupedElements(job, gmsh::model::getDimension()));
   buffer.put(nodes.atPoints());
-  const auto kept = static_cast<std::int64_t>(nodes.points.size());
-  buffer.put(std::vector<PetscInt>{
-      static_cast<PetscInt>(std::max(job.contents.nodes - kept, std::int64_t{0}))});
+  const std::int64_t kept = nodes.points.size();
+  const PetscInt dropped = std::max(job.contents.nodes - kept, std::int64_t{0});
+  buffer.put(std::vector{dropped});
   const auto groups = namedGroups(job);
   std::vector<std::string> names;
   for (const auto& [name, group] : groups) names.push_back(name);
   buffer.put(names);
   for (const auto& [name, group] : groups) {
     const GroupElements elements = elementsOfGroup(job, group, nodes);
-    buffer.put(std::vector<int>{elements.dimension, static_cast<int>(elements.blocks.size())});
+    const int blocks = elements.blocks.size();
+    buffer.put(std::vector{elements.dimension, blocks});
     for (const auto& block : elements.blocks) {
       buffer.put(std::vector<int>{block.type, block.nodesPerElement, block.corners});
       buffer.put(block.nodes);
@@ -268,7 +268,7 @@ ChildLimits limitsFor(const Job& job) {
   const std::string tooLarge =
       formatted("its mesh needs more than the %.3g GB of memory that are free", free / 1e9);
   if (job.kind == meshfile::FileKind::geometry) return {subject, {}, free, tooLarge, "gmsh"};
-  const auto size = static_cast<double>(std::filesystem::file_size(job.file));
+  const double size = std::filesystem::file_size(job.file);
   const double seconds = 5 + 5e-6 * size,
                enough = 5e8 + 100 * size;  // it takes some 15 bytes for a byte of the file
   if (enough > free) return {subject, seconds, free, tooLarge, "gmsh"};
@@ -279,8 +279,8 @@ ChildLimits limitsFor(const Job& job) {
 }  // namespace
 
 std::string groupName(std::string name) {
-  for (auto& c : name)
-    if (std::isspace(static_cast<unsigned char>(c))) c = '_';
+  const auto isBlank = [](unsigned char c) { return std::isspace(c); };
+  std::replace_if(name.begin(), name.end(), isBlank, '_');
   return name;
 }
 

@@ -29,7 +29,7 @@ class GmshModel {
   const GroupElements& group(const std::string& name, const std::string& wantedBy) const;
   const Point& point(PetscInt index) const { return points_[index]; }
   PetscInt tag(PetscInt index) const { return tags_[index]; }
-  PetscInt nodeCount() const { return static_cast<PetscInt>(points_.size()); }
+  PetscInt nodeCount() const { return points_.size(); }
   int largestDimension() const { return dimension_; }
   /// Returns the tags of the elements of the largest dimension that are in no group.
   const std::vector<PetscInt>& ungrouped() const { return ungrouped_; }

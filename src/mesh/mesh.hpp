@@ -4,6 +4,7 @@
 
 #include <array>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,10 @@ struct CellBlock {
   std::vector<PetscInt> nodes;  ///< [cell][node] local node, in gmsh's order
   std::vector<int> body;        ///< [cell] index into Mesh::bodies
   std::vector<PetscInt> tag;    ///< [cell] gmsh's element tag
+
+  std::span<const PetscInt> nodesOf(std::size_t cell) const {
+    return std::span(nodes).subspan(cell * nodesPerCell, nodesPerCell);
+  }
 };
 
 /// The boundary faces of one gmsh element type, from the surface groups that options name. A face
@@ -30,6 +35,10 @@ struct FaceBlock {
   std::vector<int> surface;     ///< [face] index into Mesh::surfaces
   /// [face] +1 if the normal by node order points out of the cell, −1 if it points into it
   std::vector<int> sign;
+
+  std::span<const PetscInt> nodesOf(std::size_t face) const {
+    return std::span(nodes).subspan(face * nodesPerFace, nodesPerFace);
+  }
 };
 
 /// A node of this rank that repeats the displacement of another one (periodicity).
@@ -74,7 +83,7 @@ struct Mesh {
   std::vector<Image> images;
   std::vector<ContactPair> pairs;
 
-  PetscInt localNodes() const { return static_cast<PetscInt>(globalNode.size()); }
+  PetscInt localNodes() const { return globalNode.size(); }
 };
 
 /// A group of the mesh that a later stage asks for. `option` is the option that names it, with its

@@ -127,19 +127,22 @@ void resolveImages(WholeMesh& mesh, const Request& request) {
 std::vector<int> bodyOfNode(const WholeMesh& mesh) {
   std::vector<int> body(mesh.points.size(), -1);
   for (const auto& block : mesh.cells)
-    for (std::size_t i = 0; i < block.nodes.size(); ++i)
-      body[block.nodes[i]] = block.label[i / static_cast<std::size_t>(block.nodesPerElement)];
+    for (std::size_t e = 0; e < block.tag.size(); ++e)
+      for (PetscInt node : block.nodesOf(e)) body[node] = block.label[e];
   return body;
 }
 
+int surfaceIndex(const WholeMesh& mesh, const std::string& surface) {
+  return std::find(mesh.surfaces.begin(), mesh.surfaces.end(), surface) - mesh.surfaces.begin();
+}
+
 std::set<PetscInt> padNodes(const WholeMesh& mesh, const std::string& surface) {
-  const auto index = static_cast<int>(
-      std::find(mesh.surfaces.begin(), mesh.surfaces.end(), surface) - mesh.surfaces.begin());
+  const int index = surfaceIndex(mesh, surface);
   std::set<PetscInt> nodes;
   for (const auto& block : mesh.faces)
-    for (std::size_t i = 0; i < block.nodes.size(); ++i)
-      if (block.label[i / static_cast<std::size_t>(block.nodesPerElement)] == index)
-        nodes.insert(mesh.primary[block.nodes[i]]);
+    for (std::size_t e = 0; e < block.tag.size(); ++e)
+      if (block.label[e] == index)
+        for (PetscInt node : block.nodesOf(e)) nodes.insert(mesh.primary[node]);
   return nodes;
 }
 
@@ -181,8 +184,8 @@ void pairContact(WholeMesh& mesh, const InterfaceRequest& request, int interface
                   request.pad.name + "' has no node of '" + request.disc.name +
                   "' at the same place, " + whyAlone(mesh, node, request.disc.name, body, near) +
                   " (contact needs matching meshes)");
-    const auto master = static_cast<std::size_t>(found[0]);
-    mesh.pairs.push_back({node, found[0], interface, body[master], mesh.part[master]});
+    const PetscInt master = found[0];
+    mesh.pairs.push_back({node, master, interface, body[master], mesh.part[master]});
   }
 }
 
@@ -199,24 +202,18 @@ void requireEqualFaces(const WholeMesh& mesh, const InterfaceRequest& request, i
     std::sort(face.begin(), face.end());
     discFaces.insert(face);
   }
-  const auto index =
-      static_cast<int>(std::find(mesh.surfaces.begin(), mesh.surfaces.end(), request.pad.name) -
-                       mesh.surfaces.begin());
+  const int index = surfaceIndex(mesh, request.pad.name);
   for (const auto& block : mesh.faces)
     for (std::size_t e = 0; e < block.tag.size(); ++e) {
       if (block.label[e] != index) continue;
       std::vector<PetscInt> masters;
-      for (int i = 0; i < block.nodesPerElement; ++i)
-        masters.push_back(
-            master.at(mesh.primary[block.nodes[e * static_cast<std::size_t>(block.nodesPerElement) +
-                                               static_cast<std::size_t>(i)]]));
-      const Point where =
-          mesh.points[block.nodes[e * static_cast<std::size_t>(block.nodesPerElement)]];
-      for (auto& node : masters) node = mesh.primary[node];
+      for (PetscInt node : block.nodesOf(e))
+        masters.push_back(mesh.primary[master.at(mesh.primary[node])]);
       std::sort(masters.begin(), masters.end());
       if (!discFaces.count(masters))
         throw Error(optionsOf(request) + "the face of '" + request.pad.name + "' at " +
-                    positionText(where) + " does not lie on one face of '" + request.disc.name +
+                    positionText(mesh.points[block.nodesOf(e)[0]]) +
+                    " does not lie on one face of '" + request.disc.name +
                     "': is a face missing in this group? (contact needs matching meshes)");
     }
 }
@@ -243,11 +240,11 @@ void pairNodes(WholeMesh& mesh, const Request& request) {
   for (const auto& periodic : request.periodic) pairImages(mesh, periodic, near);
   resolveImages(mesh, request);
   const auto body = bodyOfNode(mesh);
-  for (std::size_t i = 0; i < request.interfaces.size(); ++i)
-    pairContact(mesh, request.interfaces[i], static_cast<int>(i), body, near);
+  for (int i = 0; i < std::ssize(request.interfaces); ++i)
+    pairContact(mesh, request.interfaces[i], i, body, near);
   rejectChains(mesh, request);
-  for (std::size_t i = 0; i < request.interfaces.size(); ++i)
-    requireEqualFaces(mesh, request.interfaces[i], static_cast<int>(i));
+  for (int i = 0; i < std::ssize(request.interfaces); ++i)
+    requireEqualFaces(mesh, request.interfaces[i], i);
 }
 
 }  // namespace squeal::mesh

@@ -6,8 +6,7 @@
 namespace squeal::mesh {
 
 std::vector<int> partition(const WholeMesh& mesh, int ranks) {
-  std::vector<int> rank(mesh.cellCount(), 0);
-  if (ranks == 1) return rank;
+  if (ranks == 1) return std::vector<int>(mesh.cellCount(), 0);
   if (mesh.cellCount() < ranks)
     throw Error("the mesh has " + std::to_string(mesh.cellCount()) + " cells, fewer than the " +
                 std::to_string(ranks) + " ranks");
@@ -20,24 +19,19 @@ std::vector<int> partition(const WholeMesh& mesh, int ranks) {
   std::vector<idx_t> start{0}, corners, weight;
   for (const auto& block : mesh.cells)
     for (std::size_t e = 0; e < block.tag.size(); ++e) {
-      for (int i = 0; i < block.corners; ++i)
-        corners.push_back(static_cast<idx_t>(
-            canonical[block.nodes[e * static_cast<std::size_t>(block.nodesPerElement) +
-                                  static_cast<std::size_t>(i)]]));
-      start.push_back(static_cast<idx_t>(corners.size()));
+      for (PetscInt node : block.cornersOf(e)) corners.push_back(canonical[node]);
+      start.push_back(corners.size());
       weight.push_back(block.nodesPerElement);
     }
-  idx_t elements = static_cast<idx_t>(rank.size()), nodes = static_cast<idx_t>(mesh.nodeCount()),
-        parts = ranks, cut = 0;
+  idx_t elements = mesh.cellCount(), nodes = mesh.nodeCount(), parts = ranks, cut = 0;
   idx_t common =
       mesh.dimension;  // corners shared by neighbours: an edge in the plane, a triangle in space
-  std::vector<idx_t> elementPart(rank.size()), nodePart(mesh.points.size());
+  std::vector<idx_t> elementPart(elements), nodePart(nodes);
   if (METIS_PartMeshDual(&elements, &nodes, start.data(), corners.data(), weight.data(), nullptr,
                          &common, &parts, nullptr, nullptr, &cut, elementPart.data(),
                          nodePart.data()) != METIS_OK)
     throw Error("METIS cannot partition the mesh");
-  for (std::size_t c = 0; c < rank.size(); ++c) rank[c] = static_cast<int>(elementPart[c]);
-  return rank;
+  return {elementPart.begin(), elementPart.end()};
 }
 
 }  // namespace squeal::mesh

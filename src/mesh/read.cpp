@@ -29,22 +29,18 @@ Numbering number(const WholeMesh& mesh, const std::vector<int>& cellRank, int ra
   std::size_t cell = 0;
   for (const auto& block : mesh.cells)
     for (std::size_t e = 0; e < block.tag.size(); ++e, ++cell)
-      for (int i = 0; i < block.nodesPerElement; ++i) {
-        auto& owner =
-            numbering.owner[block.nodes[e * static_cast<std::size_t>(block.nodesPerElement) +
-                                        static_cast<std::size_t>(i)]];
-        owner = std::min(owner, cellRank[cell]);
-      }
+      for (PetscInt node : block.nodesOf(e))
+        numbering.owner[node] = std::min(numbering.owner[node], cellRank[cell]);
   numbering.whole.resize(mesh.points.size());
   std::iota(numbering.whole.begin(), numbering.whole.end(), 0);
   std::stable_sort(numbering.whole.begin(), numbering.whole.end(),
                    [&](PetscInt a, PetscInt b) { return numbering.owner[a] < numbering.owner[b]; });
   numbering.global.resize(mesh.points.size());
-  numbering.firstOfRank.assign(static_cast<std::size_t>(ranks) + 1, 0);
+  numbering.firstOfRank.assign(ranks + 1, 0);
   for (PetscInt g = 0; g < mesh.nodeCount(); ++g) {
-    const auto node = static_cast<std::size_t>(numbering.whole[g]);
+    const PetscInt node = numbering.whole[g];
     numbering.global[node] = g;
-    ++numbering.firstOfRank[static_cast<std::size_t>(numbering.owner[node]) + 1];
+    ++numbering.firstOfRank[numbering.owner[node] + 1];
   }
   std::partial_sum(numbering.firstOfRank.begin(), numbering.firstOfRank.end(),
                    numbering.firstOfRank.begin());
@@ -61,30 +57,26 @@ struct Shares {
 
 Shares share(const WholeMesh& mesh, const Numbering& numbering, const std::vector<int>& cellRank,
              int ranks) {
-  const auto size = static_cast<std::size_t>(ranks);
   Shares shares;
-  shares.cells.assign(size, std::vector<std::vector<PetscInt>>(mesh.cells.size()));
-  shares.faces.assign(size, std::vector<std::vector<PetscInt>>(mesh.faces.size()));
-  shares.groups.assign(size, std::vector<std::vector<PetscInt>>(mesh.nodeGroups.size()));
-  shares.images.resize(size);
-  shares.pairs.resize(size);
+  shares.cells.assign(ranks, std::vector<std::vector<PetscInt>>(mesh.cells.size()));
+  shares.faces.assign(ranks, std::vector<std::vector<PetscInt>>(mesh.faces.size()));
+  shares.groups.assign(ranks, std::vector<std::vector<PetscInt>>(mesh.nodeGroups.size()));
+  shares.images.resize(ranks);
+  shares.pairs.resize(ranks);
   std::size_t cell = 0;
   for (std::size_t b = 0; b < mesh.cells.size(); ++b)
     for (std::size_t e = 0; e < mesh.cells[b].tag.size(); ++e, ++cell)
-      shares.cells[cellRank[cell]][b].push_back(static_cast<PetscInt>(e));
+      shares.cells[cellRank[cell]][b].push_back(e);
   for (std::size_t b = 0; b < mesh.faces.size(); ++b)
     for (std::size_t e = 0; e < mesh.faces[b].tag.size(); ++e)
-      shares.faces[cellRank[mesh.faces[b].cell[e]]][b].push_back(static_cast<PetscInt>(e));
-  const auto ownerOf = [&](PetscInt node) {
-    return static_cast<std::size_t>(numbering.owner[node]);
-  };
+      shares.faces[cellRank[mesh.faces[b].cell[e]]][b].push_back(e);
   for (std::size_t i = 0; i < mesh.images.size(); ++i)
-    shares.images[ownerOf(mesh.images[i].node)].push_back(static_cast<PetscInt>(i));
+    shares.images[numbering.owner[mesh.images[i].node]].push_back(i);
   for (std::size_t i = 0; i < mesh.pairs.size(); ++i)
-    shares.pairs[ownerOf(mesh.pairs[i].node)].push_back(static_cast<PetscInt>(i));
+    shares.pairs[numbering.owner[mesh.pairs[i].node]].push_back(i);
   std::size_t g = 0;
   for (const auto& [name, nodes] : mesh.nodeGroups) {
-    for (PetscInt node : nodes) shares.groups[ownerOf(node)][g].push_back(node);
+    for (PetscInt node : nodes) shares.groups[numbering.owner[node]][g].push_back(node);
     ++g;
   }
   return shares;
@@ -93,8 +85,8 @@ Shares share(const WholeMesh& mesh, const Numbering& numbering, const std::vecto
 std::vector<PetscInt> elementNodes(const WholeBlock& block, const std::vector<PetscInt>& elements) {
   std::vector<PetscInt> nodes;
   for (PetscInt e : elements) {
-    const auto begin = block.nodes.begin() + e * block.nodesPerElement;
-    nodes.insert(nodes.end(), begin, begin + block.nodesPerElement);
+    const auto more = block.nodesOf(e);
+    nodes.insert(nodes.end(), more.begin(), more.end());
   }
   return nodes;
 }
@@ -106,8 +98,7 @@ std::vector<Number> picked(const std::vector<Number>& all, const std::vector<Pet
   return some;
 }
 
-Buffer pack(const WholeMesh& mesh, const Numbering& numbering, const Shares& shares,
-            std::size_t rank) {
+Buffer pack(const WholeMesh& mesh, const Numbering& numbering, const Shares& shares, int rank) {
   // Local numbers: owned nodes in global order, then the ghosts of this rank's cells.
   std::vector<PetscInt> local;  // local -> global
   for (PetscInt g = numbering.firstOfRank[rank]; g < numbering.firstOfRank[rank + 1]; ++g)
@@ -120,21 +111,21 @@ Buffer pack(const WholeMesh& mesh, const Numbering& numbering, const Shares& sha
       if (g < first || g >= end) ghosts.insert(g);
     }
   local.insert(local.end(), ghosts.begin(), ghosts.end());
-  const auto toLocal = [&](PetscInt node) {
+  const auto toLocal = [&](PetscInt node) -> PetscInt {
     const PetscInt g = numbering.global[node];
     if (g >= first && g < end) return g - first;
-    return static_cast<PetscInt>(std::lower_bound(local.begin() + (end - first), local.end(), g) -
-                                 local.begin());
+    return std::lower_bound(local.begin() + (end - first), local.end(), g) - local.begin();
   };
   const auto allToLocal = [&](std::vector<PetscInt> nodes) {
     for (auto& node : nodes) node = toLocal(node);
     return nodes;
   };
 
+  const PetscInt parts = mesh.partName.size(), cellBlocks = mesh.cells.size(),
+                 faceBlocks = mesh.faces.size();
   Buffer buffer;
   buffer.put(std::vector<PetscInt>{mesh.dimension, mesh.nodeCount(), mesh.cellCount(), end - first,
-                                   first, static_cast<PetscInt>(mesh.partName.size()),
-                                   mesh.unusedNodes});
+                                   first, parts, mesh.unusedNodes});
   buffer.put(mesh.bodies);
   buffer.put(mesh.surfaces);
   buffer.put(mesh.partName);
@@ -144,7 +135,7 @@ Buffer pack(const WholeMesh& mesh, const Numbering& numbering, const Shares& sha
   buffer.put(picked(mesh.points, whole));
   buffer.put(picked(mesh.tags, whole));
   buffer.put(picked(mesh.part, whole));
-  buffer.put(std::vector<PetscInt>{static_cast<PetscInt>(mesh.cells.size())});
+  buffer.put(std::vector{cellBlocks});
   for (std::size_t b = 0; b < mesh.cells.size(); ++b) {
     const auto& block = mesh.cells[b];
     buffer.put(std::vector<PetscInt>{block.type, block.nodesPerElement});
@@ -152,7 +143,7 @@ Buffer pack(const WholeMesh& mesh, const Numbering& numbering, const Shares& sha
     buffer.put(picked(block.label, shares.cells[rank][b]));
     buffer.put(picked(block.tag, shares.cells[rank][b]));
   }
-  buffer.put(std::vector<PetscInt>{static_cast<PetscInt>(mesh.faces.size())});
+  buffer.put(std::vector{faceBlocks});
   for (std::size_t b = 0; b < mesh.faces.size(); ++b) {
     const auto& block = mesh.faces[b];
     buffer.put(std::vector<PetscInt>{block.type, block.nodesPerElement});
@@ -185,9 +176,8 @@ Mesh unpack(MPI_Comm comm, Buffer& buffer) {
   Mesh mesh;
   mesh.comm = comm;
   const auto sizes = buffer.take<PetscInt>();
-  mesh.dimension = static_cast<int>(sizes[0]), mesh.totalNodes = sizes[1],
-  mesh.totalCells = sizes[2];
-  mesh.ownedNodes = sizes[3], mesh.firstNode = sizes[4], mesh.parts = static_cast<int>(sizes[5]);
+  mesh.dimension = sizes[0], mesh.totalNodes = sizes[1], mesh.totalCells = sizes[2];
+  mesh.ownedNodes = sizes[3], mesh.firstNode = sizes[4], mesh.parts = sizes[5];
   mesh.unusedNodes = sizes[6];
   mesh.bodies = buffer.takeTexts();
   mesh.surfaces = buffer.takeTexts();
@@ -199,7 +189,7 @@ Mesh unpack(MPI_Comm comm, Buffer& buffer) {
   mesh.cells.resize(buffer.take<PetscInt>().at(0));
   for (auto& block : mesh.cells) {
     const auto kind = buffer.take<PetscInt>();
-    block.type = static_cast<int>(kind[0]), block.nodesPerCell = static_cast<int>(kind[1]);
+    block.type = kind[0], block.nodesPerCell = kind[1];
     block.nodes = buffer.take<PetscInt>();
     block.body = buffer.take<int>();
     block.tag = buffer.take<PetscInt>();
@@ -207,7 +197,7 @@ Mesh unpack(MPI_Comm comm, Buffer& buffer) {
   mesh.faces.resize(buffer.take<PetscInt>().at(0));
   for (auto& block : mesh.faces) {
     const auto kind = buffer.take<PetscInt>();
-    block.type = static_cast<int>(kind[0]), block.nodesPerFace = static_cast<int>(kind[1]);
+    block.type = kind[0], block.nodesPerFace = kind[1];
     block.nodes = buffer.take<PetscInt>();
     block.surface = buffer.take<int>();
     block.sign = buffer.take<int>();
@@ -225,12 +215,12 @@ Buffer scatter(MPI_Comm comm, std::vector<Buffer>& buffers) {
   std::vector<int> counts, offsets;
   std::vector<char> all;
   std::string failure;
+  constexpr std::size_t most = std::numeric_limits<int>::max();
   for (auto& buffer : buffers) {
-    if (all.size() + buffer.bytes().size() >
-        static_cast<std::size_t>(std::numeric_limits<int>::max()))
+    if (all.size() + buffer.bytes().size() > most)
       failure = "the mesh is too large for one rank to hand out (2 GiB of message)";
-    counts.push_back(static_cast<int>(buffer.bytes().size()));
-    offsets.push_back(static_cast<int>(all.size()));
+    counts.push_back(buffer.bytes().size());
+    offsets.push_back(all.size());
     all.insert(all.end(), buffer.bytes().begin(), buffer.bytes().end());
     std::vector<char>().swap(buffer.bytes());
   }
@@ -260,8 +250,7 @@ Mesh read(MPI_Comm comm, const Request& request) {
       const auto cellRank = partition(whole, size);
       const Numbering numbering = number(whole, cellRank, size);
       const Shares shares = share(whole, numbering, cellRank, size);
-      for (int r = 0; r < size; ++r)
-        buffers.push_back(pack(whole, numbering, shares, static_cast<std::size_t>(r)));
+      for (int r = 0; r < size; ++r) buffers.push_back(pack(whole, numbering, shares, r));
     } catch (const std::exception& error) {
       failure = error.what();
     }

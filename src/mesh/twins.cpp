@@ -7,19 +7,17 @@
 namespace squeal::mesh {
 namespace {
 
-std::vector<PetscInt> sortedNodes(const WholeBlock& block, std::size_t element, int count) {
-  const auto begin =
-      block.nodes.begin() + static_cast<std::ptrdiff_t>(element) * block.nodesPerElement;
-  std::vector<PetscInt> nodes(begin, begin + count);
-  std::sort(nodes.begin(), nodes.end());
-  return nodes;
+std::vector<PetscInt> sorted(std::span<const PetscInt> nodes) {
+  std::vector<PetscInt> list(nodes.begin(), nodes.end());
+  std::sort(list.begin(), list.end());
+  return list;
 }
 
 /// Returns a hash, which is equal for equal nodes and rarely equal for others.
 std::uint64_t hashed(const std::vector<PetscInt>& nodes) {
   std::uint64_t hash = 0;
-  for (PetscInt node : nodes) {  // the steps of splitmix64
-    hash += static_cast<std::uint64_t>(node) + 0x9e3779b97f4a7c15;
+  for (std::uint64_t node : nodes) {  // the steps of splitmix64
+    hash += node + 0x9e3779b97f4a7c15;
     hash = (hash ^ (hash >> 30)) * 0xbf58476d1ce4e5b9;
     hash = (hash ^ (hash >> 27)) * 0x94d049bb133111eb;
     hash ^= hash >> 31;
@@ -28,9 +26,8 @@ std::uint64_t hashed(const std::vector<PetscInt>& nodes) {
 }
 
 bool same(const WholeBlock& a, std::size_t i, const WholeBlock& b, std::size_t j) {
-  if (a.type == b.type)
-    return sortedNodes(a, i, a.nodesPerElement) == sortedNodes(b, j, b.nodesPerElement);
-  return sortedNodes(a, i, a.corners) == sortedNodes(b, j, b.corners);
+  if (a.type == b.type) return sorted(a.nodesOf(i)) == sorted(b.nodesOf(j));
+  return sorted(a.cornersOf(i)) == sorted(b.cornersOf(j));
 }
 
 }  // namespace
@@ -44,7 +41,7 @@ std::optional<std::pair<ElementPlace, ElementPlace>> findTwins(
   std::vector<Key> keys;
   for (std::size_t b = 0; b < blocks.size(); ++b)
     for (std::size_t e = 0; e < blocks[b].tag.size(); ++e)
-      keys.push_back({hashed(sortedNodes(blocks[b], e, blocks[b].corners)), {b, e}});
+      keys.push_back({hashed(sorted(blocks[b].cornersOf(e))), {b, e}});
   const auto tag = [&](const ElementPlace& place) {
     return blocks[place.block].tag[place.element];
   };
@@ -68,7 +65,7 @@ std::optional<ElementPlace> findRepeatedNode(const std::vector<WholeBlock>& bloc
   for (std::size_t b = 0; b < blocks.size(); ++b)
     for (std::size_t e = 0; e < blocks[b].tag.size(); ++e) {
       if (found && blocks[b].tag[e] >= blocks[found->block].tag[found->element]) continue;
-      const auto nodes = sortedNodes(blocks[b], e, blocks[b].nodesPerElement);
+      const auto nodes = sorted(blocks[b].nodesOf(e));
       if (std::adjacent_find(nodes.begin(), nodes.end()) != nodes.end()) found = {b, e};
     }
   return found;

@@ -19,17 +19,14 @@ class Adjacency {
     PetscInt cell = 0;
     for (const auto& block : mesh.cells)
       for (std::size_t e = 0; e < block.tag.size(); ++e, ++cell)
-        for (int i = 0; i < block.nodesPerElement; ++i) {
-          const PetscInt node = block.nodes[e * static_cast<std::size_t>(block.nodesPerElement) +
-                                            static_cast<std::size_t>(i)];
+        for (PetscInt node : block.nodesOf(e))
           if (nodesOfInterest.count(node)) cells_[node].push_back(cell);
-        }
   }
-  std::vector<PetscInt> cellsHolding(const PetscInt* corners, int count) const {
+  std::vector<PetscInt> cellsHolding(std::span<const PetscInt> corners) const {
     std::vector<PetscInt> common = cells_.at(corners[0]);
-    for (int i = 1; i < count; ++i) {
+    for (PetscInt corner : corners.subspan(1)) {
       std::vector<PetscInt> both;
-      const auto& next = cells_.at(corners[i]);
+      const auto& next = cells_.at(corner);
       std::set_intersection(common.begin(), common.end(), next.begin(), next.end(),
                             std::back_inserter(both));
       common = both;
@@ -45,9 +42,9 @@ class Adjacency {
 struct CellReference {
   WholeBlock* block;
   std::size_t element;
-  PetscInt* nodes() const {
-    return block->nodes.data() + element * static_cast<std::size_t>(block->nodesPerElement);
-  }
+  std::span<PetscInt> nodes() const { return block->nodesOf(element); }
+  std::span<const PetscInt> corners() const { return block->cornersOf(element); }
+  int label() const { return block->label[element]; }
 };
 
 std::vector<CellReference> references(WholeMesh& mesh) {
@@ -111,14 +108,9 @@ class Splitter {
                        request.moving.end());
   }
   ContactSide side(PetscInt cell) const {
-    const auto& reference = cells_[cell];
-    return moves_[reference.block->label[reference.element]] ? ContactSide::moving
-                                                             : ContactSide::resting;
+    return moves_[cells_[cell].label()] ? ContactSide::moving : ContactSide::resting;
   }
-  std::string bodyName(PetscInt cell) const {
-    const auto& reference = cells_[cell];
-    return mesh_.bodies[reference.block->label[reference.element]];
-  }
+  std::string bodyName(PetscInt cell) const { return mesh_.bodies[cells_[cell].label()]; }
   const Adjacency& adjacency() const { return adjacency_; }
   CellReference cell(PetscInt number) const { return cells_[number]; }
 
@@ -128,9 +120,7 @@ class Splitter {
     for (const auto& interface : request_.interfaces)
       for (const auto& block : named.groups.at(interface.pad.name).blocks)
         for (std::size_t e = 0; e < block.tag.size(); ++e) {
-          const PetscInt* nodes =
-              block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerElement);
-          const auto neighbours = adjacency_.cellsHolding(nodes, block.corners);
+          const auto neighbours = adjacency_.cellsHolding(block.cornersOf(e));
           if (neighbours.size() < 2) continue;
           if (bodyName(neighbours[0]) == bodyName(neighbours[1]))
             throw Error("option " + interface.pad.option + ": '" + interface.pad.name +
@@ -143,7 +133,7 @@ class Splitter {
                         "' share the nodes of '" + interface.pad.name +
                         "'; to tell disc from pad, exactly one of them must have a " +
                         request_.motionOptions + " option");
-          for (int i = 0; i < block.nodesPerElement; ++i) restingTwin_.emplace(nodes[i], -1);
+          for (PetscInt node : block.nodesOf(e)) restingTwin_.emplace(node, -1);
         }
     for (auto& [node, twin] : restingTwin_) {
       twin = mesh_.nodeCount();
@@ -151,10 +141,9 @@ class Splitter {
       mesh_.tags.push_back(mesh_.tags[node]);
     }
     if (restingTwin_.empty()) return;
-    for (std::size_t c = 0; c < cells_.size(); ++c)
-      if (side(static_cast<PetscInt>(c)) == ContactSide::resting)
-        for (int i = 0; i < cells_[c].block->nodesPerElement; ++i)
-          cells_[c].nodes()[i] = twin(cells_[c].nodes()[i], ContactSide::resting);
+    for (PetscInt c = 0; c < std::ssize(cells_); ++c)
+      if (side(c) == ContactSide::resting)
+        for (PetscInt& node : cells_[c].nodes()) node = twin(node, ContactSide::resting);
   }
   PetscInt twin(PetscInt node, ContactSide side) const {
     if (side == ContactSide::moving) return node;
@@ -176,13 +165,10 @@ class Splitter {
 std::vector<PetscInt> groupNodes(const GroupElements& group, const Splitter& splitter) {
   std::set<PetscInt> nodes;
   for (const auto& block : group.blocks)
-    for (std::size_t e = 0; e < block.tag.size(); ++e) {
-      const PetscInt* element =
-          block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerElement);
-      for (PetscInt cell : splitter.adjacency().cellsHolding(element, block.corners))
-        for (int i = 0; i < block.nodesPerElement; ++i)
-          nodes.insert(splitter.twin(element[i], splitter.side(cell)));
-    }
+    for (std::size_t e = 0; e < block.tag.size(); ++e)
+      for (PetscInt cell : splitter.adjacency().cellsHolding(block.cornersOf(e)))
+        for (PetscInt node : block.nodesOf(e))
+          nodes.insert(splitter.twin(node, splitter.side(cell)));
   return {nodes.begin(), nodes.end()};
 }
 
@@ -194,36 +180,33 @@ void readDiscFaces(WholeMesh& mesh, const Request& request, const NamedElements&
     if (interface.disc.name.empty()) continue;
     auto& faces = mesh.discFaces[interface.disc.name];
     for (const auto& block : named.groups.at(interface.disc.name).blocks)
-      for (std::size_t e = 0; e < block.tag.size(); ++e) {
-        const PetscInt* nodes =
-            block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerElement);
-        for (PetscInt cell : splitter.adjacency().cellsHolding(nodes, block.corners)) {
+      for (std::size_t e = 0; e < block.tag.size(); ++e)
+        for (PetscInt cell : splitter.adjacency().cellsHolding(block.cornersOf(e))) {
           faces.emplace_back();
-          for (int i = 0; i < block.nodesPerElement; ++i)
-            faces.back().push_back(splitter.twin(nodes[i], splitter.side(cell)));
+          for (PetscInt node : block.nodesOf(e))
+            faces.back().push_back(splitter.twin(node, splitter.side(cell)));
         }
-      }
   }
 }
 
-Point centroid(const WholeMesh& mesh, const PetscInt* nodes, int count) {
+Point centroid(const WholeMesh& mesh, std::span<const PetscInt> nodes) {
   Point centre{};
-  for (int i = 0; i < count; ++i)
-    for (std::size_t d = 0; d < 3; ++d) centre[d] += mesh.points[nodes[i]][d] / count;
+  for (PetscInt node : nodes)
+    for (std::size_t d = 0; d < 3; ++d) centre[d] += mesh.points[node][d] / nodes.size();
   return centre;
 }
 
 /// Returns +1 if the normal of the face by the order of its corners points away from `inside`,
 /// otherwise −1.
-int outwardSign(const WholeMesh& mesh, const PetscInt* nodes, int corners, const Point& inside) {
-  const auto at = [&](int i) { return mesh.points[nodes[i]]; };
+int outwardSign(const WholeMesh& mesh, std::span<const PetscInt> corners, const Point& inside) {
+  const auto at = [&](int i) { return mesh.points[corners[i]]; };
   const Point a = at(0), b = at(1), c = mesh.dimension == 3 ? at(2) : a;
   const Point e{b[0] - a[0], b[1] - a[1], b[2] - a[2]}, g{c[0] - a[0], c[1] - a[1], c[2] - a[2]};
   const Point normal =
       mesh.dimension == 3
           ? Point{e[1] * g[2] - e[2] * g[1], e[2] * g[0] - e[0] * g[2], e[0] * g[1] - e[1] * g[0]}
           : Point{e[1], -e[0], 0};
-  const Point centre = centroid(mesh, nodes, corners);
+  const Point centre = centroid(mesh, corners);
   double dot = 0;
   for (std::size_t d = 0; d < 3; ++d) dot += normal[d] * (centre[d] - inside[d]);
   return dot > 0 ? 1 : -1;
@@ -249,7 +232,7 @@ void readFaces(WholeMesh& mesh, const Request& request, const NamedElements& nam
   for (const auto& interface : request.interfaces) pads.insert(interface.pad.name);
   wanted.insert(pads.begin(), pads.end());
   mesh.surfaces.assign(wanted.begin(), wanted.end());
-  for (std::size_t s = 0; s < mesh.surfaces.size(); ++s) {
+  for (int s = 0; s < std::ssize(mesh.surfaces); ++s) {
     const std::string& name = mesh.surfaces[s];
     requireDistinctFaces(name, named.groups.at(name));
     for (const auto& block : named.groups.at(name).blocks) {
@@ -261,22 +244,19 @@ void readFaces(WholeMesh& mesh, const Request& request, const NamedElements& nam
         known->corners = block.corners;
       }
       for (std::size_t e = 0; e < block.tag.size(); ++e) {
-        const PetscInt* nodes =
-            block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerElement);
-        auto cells = splitter.adjacency().cellsHolding(nodes, block.corners);
+        auto cells = splitter.adjacency().cellsHolding(block.cornersOf(e));
         if (pads.count(name) && cells.size() == 2)  // shared with the disc: the pad's face is meant
           cells = {splitter.side(cells[0]) == ContactSide::resting ? cells[0] : cells[1]};
         if (cells.size() != 1)
           throw Error("surface group '" + name + "': face " + std::to_string(block.tag[e]) +
                       " must bound one cell of a body, it bounds " + std::to_string(cells.size()));
-        const CellReference cell = splitter.cell(cells[0]);
-        for (int i = 0; i < block.nodesPerElement; ++i)
-          known->nodes.push_back(splitter.twin(nodes[i], splitter.side(cells[0])));
-        known->label.push_back(static_cast<int>(s));
+        for (PetscInt node : block.nodesOf(e))
+          known->nodes.push_back(splitter.twin(node, splitter.side(cells[0])));
+        known->label.push_back(s);
         known->tag.push_back(block.tag[e]);
         known->cell.push_back(cells[0]);
-        known->sign.push_back(outwardSign(mesh, nodes, block.corners,
-                                          centroid(mesh, cell.nodes(), cell.block->corners)));
+        known->sign.push_back(outwardSign(mesh, block.cornersOf(e),
+                                          centroid(mesh, splitter.cell(cells[0]).corners())));
       }
     }
   }
@@ -295,26 +275,26 @@ void findParts(WholeMesh& mesh) {
     return node;
   };
   for (auto cell : references(mesh))
-    for (int i = 1; i < cell.block->nodesPerElement; ++i) {
-      const PetscInt a = root(cell.nodes()[0]), b = root(cell.nodes()[i]);
+    for (PetscInt node : cell.nodes().subspan(1)) {
+      const PetscInt a = root(cell.nodes()[0]), b = root(node);
       parent[std::max(a, b)] = std::min(a, b);
     }
   std::map<PetscInt, int> number;
   mesh.part.resize(mesh.points.size());
   for (PetscInt node = 0; node < mesh.nodeCount(); ++node)
-    mesh.part[node] = number.emplace(root(node), static_cast<int>(number.size())).first->second;
+    mesh.part[node] = number.emplace(root(node), number.size()).first->second;
   std::vector<std::set<std::string>> names(number.size());
   for (auto cell : references(mesh))
-    names[mesh.part[cell.nodes()[0]]].insert(mesh.bodies[cell.block->label[cell.element]]);
+    names[mesh.part[cell.nodes()[0]]].insert(mesh.bodies[cell.label()]);
   for (const auto& set : names) mesh.partName.push_back(joined({set.begin(), set.end()}, "+"));
 }
 
 }  // namespace
 
 PetscInt WholeMesh::cellCount() const {
-  std::size_t count = 0;
+  PetscInt count = 0;
   for (const auto& block : cells) count += block.tag.size();
-  return static_cast<PetscInt>(count);
+  return count;
 }
 
 WholeMesh load(const std::string& file, const std::vector<std::string>& parameters,

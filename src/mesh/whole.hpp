@@ -10,6 +10,16 @@ struct WholeBlock {
   std::vector<PetscInt> nodes;  ///< [element][node] index into WholeMesh::points
   std::vector<int> label;       ///< [element] body (cells) or surface (faces)
   std::vector<PetscInt> tag;    ///< [element] gmsh's tag
+
+  std::span<PetscInt> nodesOf(std::size_t element) {
+    return std::span(nodes).subspan(element * nodesPerElement, nodesPerElement);
+  }
+  std::span<const PetscInt> nodesOf(std::size_t element) const {
+    return std::span(nodes).subspan(element * nodesPerElement, nodesPerElement);
+  }
+  std::span<const PetscInt> cornersOf(std::size_t element) const {
+    return nodesOf(element).first(corners);
+  }
 };
 
 struct WholeFaces : WholeBlock {
@@ -34,7 +44,7 @@ struct WholeMesh {
   std::vector<Image> images;       ///< in numbers of the whole mesh
   std::vector<ContactPair> pairs;  ///< in numbers of the whole mesh
 
-  PetscInt nodeCount() const { return static_cast<PetscInt>(points.size()); }
+  PetscInt nodeCount() const { return points.size(); }
   PetscInt cellCount() const;
 };
 
