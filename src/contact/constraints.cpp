@@ -41,9 +41,9 @@ std::vector<mesh::PeriodicRequest> periodicPairs() {
 }
 
 Constraints readConstraints(const mesh::Mesh& mesh) {
-  const auto dimension = static_cast<std::size_t>(mesh.dimension);
+  const int dimension = mesh.dimension;
   Constraints constraints;
-  constraints.held.assign(dimension * static_cast<std::size_t>(mesh.ownedNodes), 0);
+  constraints.held.assign(dimension * mesh.ownedNodes, 0);
   constraints.heldBy.assign(constraints.held.size(), -1);
   constraints.displacement.assign(constraints.held.size(), 0.0);
   std::string failure;
@@ -51,7 +51,7 @@ Constraints readConstraints(const mesh::Mesh& mesh) {
     constraints.groups.push_back(group);
     const std::string components = clampedOption.get(group),
                       allowed = std::string("xyz").substr(0, dimension);
-    const auto values = displacementOption.components(group, mesh.dimension);
+    const auto values = displacementOption.components(group, dimension);
     if (components.empty() || components.find_first_not_of(allowed) != std::string::npos)
       throw Error("option -" + clampedOption.fullName(group) + " '" + components +
                   "': must be some of the letters " + allowed);
@@ -67,13 +67,12 @@ Constraints readConstraints(const mesh::Mesh& mesh) {
                                 " does not hold it");
     for (PetscInt node : mesh.nodeGroups.at(group))
       for (char letter : components) {
-        const auto component = static_cast<std::size_t>(letter - 'x'),
-                   at = dimension * static_cast<std::size_t>(node) + component;
+        const PetscInt component = letter - 'x', at = dimension * node + component;
         if (constraints.held[at] && constraints.displacement[at] != values[component])
           failure = "option -" + displacementOption.fullName(group) +
                     ": a node of this group is displaced differently by another group";
         constraints.held[at] = 1;
-        constraints.heldBy[at] = static_cast<int>(constraints.groups.size()) - 1;
+        constraints.heldBy[at] = constraints.groups.size() - 1;
         constraints.displacement[at] = values[component];
       }
   }

@@ -7,6 +7,7 @@
 #include "elasticity/element.hpp"
 #include "mesh/mesh.hpp"
 #include "options/options.hpp"
+#include "petsc/arrays.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal::contact {
@@ -54,8 +55,8 @@ FaceSums sumFaces(const mesh::Mesh& mesh, const Contact& contact) {
     for (std::size_t e = 0; e < block.surface.size(); ++e) {
       if (!contact.isPadSurface(mesh.surfaces[block.surface[e]])) continue;
       std::vector<Point> points;
-      const PetscInt* nodes = block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerFace);
-      for (int i = 0; i < block.nodesPerFace; ++i) points.push_back(mesh.coordinates[nodes[i]]);
+      const auto nodes = block.nodesOf(e);
+      for (PetscInt node : nodes) points.push_back(mesh.coordinates[node]);
       const auto faceMass = elasticity::faceMass(table, points);
       const auto normals = elasticity::nodeNormals(table, points, -block.sign[e]);
       double faceArea = 0, trace = 0;
@@ -96,9 +97,7 @@ std::vector<ContactNode> contactNodes(const mesh::Mesh& mesh, const elasticity::
   for (const auto& pair : mesh.pairs)
     fastest = std::max(fastest, std::sqrt(dot(discVelocity(pair), discVelocity(pair))));
   check(MPI_Allreduce(MPI_IN_PLACE, &fastest, 1, MPI_DOUBLE, MPI_MAX, mesh.comm));
-  const PetscScalar *normal = nullptr, *area = nullptr;
-  check(VecGetArrayRead(sums.normal, &normal));
-  check(VecGetArrayRead(sums.area, &area));
+  const ReadArray normal(sums.normal), area(sums.area);
   for (const auto& pair : mesh.pairs) {
     ContactNode node{};
     node.position = mesh.coordinates[pair.node];
@@ -123,8 +122,6 @@ std::vector<ContactNode> contactNodes(const mesh::Mesh& mesh, const elasticity::
       node.slipSpeed = 0;
     nodes.push_back(node);
   }
-  check(VecRestoreArrayRead(sums.normal, &normal));
-  check(VecRestoreArrayRead(sums.area, &area));
   return nodes;
 }
 
@@ -144,8 +141,8 @@ Frame frameOf(const ContactNode& node, const Constraints& constraints, int dimen
       if (std::abs(dot(e, node.normal)) > 1e-6)
         throw Error("option -constraint_" +
                     constraints.groups[constraints.heldBy[dimension * node.node + d]] +
-                    "_clamped holds component " + std::string(1, static_cast<char>('x' + d)) +
-                    " of the pad contact node at " + text(node.position) +
+                    "_clamped holds component " + "xyz"[d] + " of the pad contact node at " +
+                    text(node.position) +
                     ", which is not tangential there; contact decides the normal component");
       frame.tangents.push_back(e);
       frame.heldComponent.push_back(d);
@@ -178,11 +175,9 @@ void buildKinematics(const mesh::Mesh& mesh, const std::vector<mesh::InterfaceRe
                      Contact& contact, Mat a, Vec held) {
   const Constraints& constraints = contact.constraints;
   const int dimension = mesh.dimension;
-  const auto local = [&](PetscInt node, int d) {
-    return static_cast<std::size_t>(dimension * node + d);
-  };
+  const auto local = [&](PetscInt node, int d) { return dimension * node + d; };
   contact.free.assign(constraints.held.size(), 1);
-  std::vector<unsigned char> isPad(static_cast<std::size_t>(mesh.ownedNodes), 0);
+  std::vector<unsigned char> isPad(mesh.ownedNodes, 0);
   for (const auto& node : contact.nodes) isPad[node.node] = 1;
   std::vector<double> values(constraints.held.size(), 0.0);
   for (PetscInt node = 0; node < mesh.ownedNodes; ++node) {
@@ -227,24 +222,21 @@ void buildKinematics(const mesh::Mesh& mesh, const std::vector<mesh::InterfaceRe
   for (const auto& image : mesh.images)
     for (int d = 0; d < dimension; ++d) contact.free[local(image.node, d)] = 0;
   assembled(a);
-  PetscScalar* array = nullptr;
-  check(VecGetArray(held, &array));
-  std::copy(values.begin(), values.end(), array);
-  check(VecRestoreArray(held, &array));
+  std::copy(values.begin(), values.end(), WriteArray(held).begin());
 }
 
 void requireFlatObstacles(const mesh::Mesh& mesh, const Contact& contact) {
   std::string failure;
-  for (std::size_t i = 0; i < contact.interfaces.size(); ++i) {
+  for (int i = 0; i < std::ssize(contact.interfaces); ++i) {
     double sums[4] = {0, 0, 0, 0};
     for (const auto& node : contact.nodes)
-      if (node.interface == static_cast<int>(i) && node.master < 0) {
+      if (node.interface == i && node.master < 0) {
         for (std::size_t d = 0; d < 3; ++d) sums[d] += node.normal[d];
         sums[3] += 1;
       }
     check(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, mesh.comm));
     for (const auto& node : contact.nodes)
-      if (node.interface == static_cast<int>(i) && node.master < 0 &&
+      if (node.interface == i && node.master < 0 &&
           sums[0] * node.normal[0] + sums[1] * node.normal[1] + sums[2] * node.normal[2] <
               (1 - 1e-10) * sums[3])
         failure = "option -" + padOption.fullName(contact.interfaces[i]) +
@@ -260,20 +252,19 @@ void requireRestingPads(const mesh::Mesh& mesh, const elasticity::Bodies& bodies
   std::vector<int> moving(mesh.localNodes(),
                           -1);  // [local node] a moving body that it belongs to
   for (const auto& block : mesh.cells)
-    for (std::size_t i = 0; i < block.nodes.size(); ++i)
-      if (const int body = block.body[i / static_cast<std::size_t>(block.nodesPerCell)];
-          bodies.motions[body].moves())
-        moving[block.nodes[i]] = body;
+    for (std::size_t e = 0; e < block.body.size(); ++e)
+      if (const int body = block.body[e]; bodies.motions[body].moves())
+        for (PetscInt node : block.nodesOf(e)) moving[node] = body;
   std::string failure;
   for (const auto& block : mesh.faces)
-    for (std::size_t i = 0; i < block.nodes.size(); ++i) {
-      const auto& surface =
-          mesh.surfaces[block.surface[i / static_cast<std::size_t>(block.nodesPerFace)]];
-      const int body = moving[block.nodes[i]];
-      if (body >= 0 && contact.isPadSurface(surface))
-        failure = "body '" + mesh.bodies[body] + "' has a -motion_" + mesh.bodies[body] +
-                  "_* but bears the pad surface '" + surface +
-                  "'; the side that moves is the disc, -contact_<interface>_disc";
+    for (std::size_t e = 0; e < block.surface.size(); ++e) {
+      const auto& surface = mesh.surfaces[block.surface[e]];
+      if (!contact.isPadSurface(surface)) continue;
+      for (PetscInt node : block.nodesOf(e))
+        if (const int body = moving[node]; body >= 0)
+          failure = "body '" + mesh.bodies[body] + "' has a -motion_" + mesh.bodies[body] +
+                    "_* but bears the pad surface '" + surface +
+                    "'; the side that moves is the disc, -contact_<interface>_disc";
     }
   failTogether(mesh.comm, failure);
 }
@@ -282,9 +273,8 @@ void requireRestingPads(const mesh::Mesh& mesh, const elasticity::Bodies& bodies
 
 std::vector<mesh::InterfaceRequest> readInterfaces() {
   std::vector<mesh::InterfaceRequest> requests;
-  for (const Option* option : {static_cast<const Option*>(&discOption),
-                               static_cast<const Option*>(&obstacleVelocityOption),
-                               static_cast<const Option*>(&obstacleDisplacementOption)})
+  for (const Option* option : std::vector<const Option*>{&discOption, &obstacleVelocityOption,
+                                                         &obstacleDisplacementOption})
     for (const auto& name : option->subjects())
       if (!padOption.given(name))
         throw Error("option -" + option->fullName(name) + " needs -" + padOption.fullName(name));
@@ -315,7 +305,8 @@ Contact build(const mesh::Mesh& mesh, const elasticity::Bodies& bodies) {
   requireRestingPads(mesh, bodies, contact);
   contact.law = FrictionLaw::read();
   contact.nodes = contactNodes(mesh, bodies, requests, sumFaces(mesh, contact));
-  PetscInt sums[2] = {static_cast<PetscInt>(contact.nodes.size()), 0};
+  const PetscInt ownedNodes = contact.nodes.size();
+  PetscInt sums[2] = {ownedNodes, 0};
   // ∫ φ dA is zero at tri6 corners and negative at quad8 corners: consistent nodal forces of a
   // positive pressure are not positive there.
   for (const auto& block : mesh.faces) {
@@ -348,14 +339,12 @@ bool Contact::isPadSurface(const std::string& surface) const {
 Transformation Contact::transformation(const std::vector<unsigned char>& gapFree) const {
   const int dimension = mesh->dimension;
   std::vector<unsigned char> unknown = free;
-  const auto gapAt = [&](const ContactNode& node) {
-    return static_cast<std::size_t>(dimension * node.node + dimension - 1);
-  };
+  const auto gapAt = [&](const ContactNode& node) { return dimension * (node.node + 1) - 1; };
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (!gapFree[i]) unknown[gapAt(nodes[i])] = 0;
 
   Transformation result;
-  result.ownedColumns = static_cast<PetscInt>(std::count(unknown.begin(), unknown.end(), 1));
+  result.ownedColumns = std::count(unknown.begin(), unknown.end(), 1);
   PetscInt end = 0;
   check(MPI_Scan(&result.ownedColumns, &end, 1, MPIU_INT, MPI_SUM, mesh->comm));
   check(MPI_Allreduce(&result.ownedColumns, &result.columns, 1, MPIU_INT, MPI_SUM, mesh->comm));
@@ -368,10 +357,9 @@ Transformation Contact::transformation(const std::vector<unsigned char>& gapFree
   const PetscInt owned = dimension * mesh->ownedNodes, first = dimension * mesh->firstNode;
   check(MatCreateAIJ(mesh->comm, owned, result.ownedColumns, PETSC_DETERMINE, PETSC_DETERMINE, 1,
                      nullptr, 0, nullptr, result.selection.out()));
-  for (std::size_t i = 0; i < column.size(); ++i)
+  for (PetscInt i = 0; i < owned; ++i)
     if (column[i] >= 0)
-      check(MatSetValue(result.selection, first + static_cast<PetscInt>(i), column[i], 1,
-                        INSERT_VALUES));
+      check(MatSetValue(result.selection, first + i, column[i], 1, INSERT_VALUES));
   assembled(result.selection);
   check(MatMatMult(kinematics, result.selection, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
                    result.trial.out()));

@@ -39,7 +39,7 @@ namespace {
 
 /// Collective. Returns the number of contact nodes that are not closed, over all ranks.
 PetscInt countOpen(MPI_Comm comm, const std::vector<unsigned char>& closed) {
-  auto open = static_cast<PetscInt>(std::count(closed.begin(), closed.end(), 0));
+  PetscInt open = std::count(closed.begin(), closed.end(), 0);
   check(MPI_Allreduce(MPI_IN_PLACE, &open, 1, MPIU_INT, MPI_SUM, comm));
   return open;
 }

@@ -14,7 +14,7 @@ struct Projection {
   OwnedMat matrix;    ///< Tᵀ X T, n×n
   OwnedMat reaction;  ///< N X T, N×n: the normal forces that X exerts, in the rows of the gaps
 
-  explicit operator bool() const { return static_cast<bool>(matrix); }
+  explicit operator bool() const { return matrix.get() != nullptr; }
   /// Collective. Returns Sᵀ N X T, n×n, the friction of these normal forces, for the slip rows S.
   OwnedMat friction(Mat slipRows) const;
 };

@@ -62,8 +62,7 @@ FrictionLaw FrictionLaw::read() {
 
 /// Returns the number of knots of the table at or below the speed.
 std::size_t FrictionLaw::interval(double speed) const {
-  return static_cast<std::size_t>(std::upper_bound(speeds_.begin(), speeds_.end(), speed) -
-                                  speeds_.begin());
+  return std::upper_bound(speeds_.begin(), speeds_.end(), speed) - speeds_.begin();
 }
 
 double FrictionLaw::value(double speed) const {

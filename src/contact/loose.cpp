@@ -2,10 +2,12 @@
 /// of the mesh.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "contact/contact.hpp"
 #include "linalg/symmetric.hpp"
 #include "mesh/mesh.hpp"
+#include "petsc/arrays.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal::contact {
@@ -69,7 +71,7 @@ RigidMotions rigidMotions(const mesh::Mesh& mesh) {
 /// the motions that nothing prevents.
 std::vector<double> gram(const mesh::Mesh& mesh, const Contact& contact, Vec springs,
                          const RigidMotions& motions, bool contactCloses) {
-  const auto n = static_cast<std::size_t>(motions.size());
+  const std::size_t n = motions.size();
   std::vector<double> g(n * n, 0.0), row(n);
   const auto keep = [&] {
     for (std::size_t i = 0; i < n; ++i)
@@ -77,16 +79,15 @@ std::vector<double> gram(const mesh::Mesh& mesh, const Contact& contact, Vec spr
         for (std::size_t j = 0; j < n; ++j) g[i * n + j] += row[i] * row[j];
     std::fill(row.begin(), row.end(), 0.0);
   };
-  const PetscScalar* spring = nullptr;
-  if (springs) check(VecGetArrayRead(springs, &spring));
+  std::optional<ReadArray> spring;
+  if (springs) spring.emplace(springs);
   for (PetscInt node = 0; node < mesh.ownedNodes; ++node)
     for (int d = 0; d < mesh.dimension; ++d)
       if (const PetscInt i = mesh.dimension * node + d;
-          contact.constraints.held[i] || (spring && spring[i] > 0)) {
+          contact.constraints.held[i] || (spring && (*spring)[i] > 0)) {
         motions.add(row, mesh.nodePart[node], mesh.coordinates[node], unit(d), 1);
         keep();
       }
-  if (springs) check(VecRestoreArrayRead(springs, &spring));
   for (const auto& image : mesh.images)
     for (int d = 0; d < mesh.dimension; ++d) {
       const auto& x = mesh.coordinates[image.node];
@@ -103,8 +104,7 @@ std::vector<double> gram(const mesh::Mesh& mesh, const Contact& contact, Vec spr
       motions.add(row, mesh.pairs[i].masterPart, node.position, node.normal, -1);
     keep();
   }
-  check(MPI_Allreduce(MPI_IN_PLACE, g.data(), static_cast<int>(n * n), MPI_DOUBLE, MPI_SUM,
-                      mesh.comm));
+  check(MPI_Allreduce(MPI_IN_PLACE, g.data(), g.size(), MPI_DOUBLE, MPI_SUM, mesh.comm));
   return g;
 }
 

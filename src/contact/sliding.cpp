@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "elasticity/elasticity.hpp"
 #include "elasticity/element.hpp"
 #include "mesh/mesh.hpp"
+#include "petsc/arrays.hpp"
 
 namespace squeal::contact {
 namespace {
@@ -67,8 +69,7 @@ std::vector<const elasticity::Motion*> discMotions(const elasticity::Bodies& bod
   const auto& mesh = *contact.mesh;
   std::vector<int> body(contact.interfaces.size(), -1);
   for (const auto& pair : mesh.pairs) body[pair.interface] = pair.masterBody;
-  check(MPI_Allreduce(MPI_IN_PLACE, body.data(), static_cast<int>(body.size()), MPI_INT, MPI_MAX,
-                      mesh.comm));
+  check(MPI_Allreduce(MPI_IN_PLACE, body.data(), body.size(), MPI_INT, MPI_MAX, mesh.comm));
   std::vector<const elasticity::Motion*> motions;
   for (int index : body) motions.push_back(index < 0 ? nullptr : &bodies.motions[index]);
   return motions;
@@ -96,9 +97,9 @@ OwnedMat convectedRows(const elasticity::Bodies& bodies, const Contact& contact)
       const auto* motion = motions[found - contact.padSurfaces.begin()];
       if (!motion) continue;
       std::vector<Point> points, velocity;
-      const PetscInt* nodes = block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerFace);
-      for (int i = 0; i < block.nodesPerFace; ++i) {
-        points.push_back(mesh.coordinates[nodes[i]]);
+      const auto nodes = block.nodesOf(e);
+      for (PetscInt node : nodes) {
+        points.push_back(mesh.coordinates[node]);
         velocity.push_back(motion->velocity(points.back()));
       }
       double faceArea = 0;
@@ -119,12 +120,7 @@ OwnedMat convectedRows(const elasticity::Bodies& bodies, const Contact& contact)
   check(VecAssemblyBegin(area));
   check(VecAssemblyEnd(area));
   check(MatMultTranspose(contact.periodic, area, folded));
-  PetscScalar* values = nullptr;
-  PetscInt count = 0;
-  check(VecGetLocalSize(folded, &count));
-  check(VecGetArray(folded, &values));
-  for (PetscInt i = 0; i < count; ++i) values[i] = values[i] > 0 ? 1 / values[i] : 0;
-  check(VecRestoreArray(folded, &values));
+  for (double& value : WriteArray(folded)) value = value > 0 ? 1 / value : 0;
   const OwnedMat masters = masterRows(contact);
   OwnedMat atFaces, result;
   check(MatMatMult(sums, masters, MAT_INITIAL_MATRIX, PETSC_DEFAULT, atFaces.out()));
@@ -178,18 +174,18 @@ PetscInt Contact::gapRow(const ContactNode& node) const {
 std::vector<Slip> Contact::slip(double speed, Vec displacement) const {
   std::vector<Slip> result;
   OwnedVec carried;
-  const PetscScalar* values = nullptr;
+  std::optional<ReadArray> values;
   if (convected && displacement) {
     carried = elasticity::nodalVector(*mesh);
     check(MatMult(convected, displacement, carried));
-    check(VecGetArrayRead(carried, &values));
+    values.emplace(carried);
   }
   for (const auto& node : nodes) {
     Point w = scaled(node.slip, speed * node.slipSpeed);
     if (values) {
       Point change{};
       for (int d = 0; d < mesh->dimension; ++d)
-        change[d] = -speed * values[mesh->dimension * node.node + d];
+        change[d] = -speed * (*values)[mesh->dimension * node.node + d];
       const double along = dot(change, node.normal);
       for (std::size_t d = 0; d < 3; ++d) w[d] += change[d] - along * node.normal[d];
     }
@@ -202,7 +198,6 @@ std::vector<Slip> Contact::slip(double speed, Vec displacement) const {
     state.slope = law.slope(state.speed);
     result.push_back(state);
   }
-  if (values) check(VecRestoreArrayRead(carried, &values));
   return result;
 }
 

@@ -14,8 +14,8 @@ OwnedMat toMatrix(const mesh::Mesh& mesh, Triples& triples, Symmetry symmetry) {
   check(MatSetSizes(matrix, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE));
   check(MatSetBlockSize(matrix, mesh.dimension));
   check(MatSetType(matrix, MATAIJ));
-  check(MatSetPreallocationCOO(matrix, static_cast<PetscCount>(triples.row.size()),
-                               triples.row.data(), triples.column.data()));
+  check(MatSetPreallocationCOO(matrix, triples.row.size(), triples.row.data(),
+                               triples.column.data()));
   check(MatSetValuesCOO(matrix, triples.value.data(), INSERT_VALUES));
   triples = {};
   if (symmetry != Symmetry::rounded) {  // (A ± Aᵀ)/2
@@ -28,9 +28,9 @@ OwnedMat toMatrix(const mesh::Mesh& mesh, Triples& triples, Symmetry symmetry) {
   return matrix;
 }
 
-void append(Triples& triples, const mesh::Mesh& mesh, const PetscInt* nodes, int count,
+void append(Triples& triples, const mesh::Mesh& mesh, std::span<const PetscInt> nodes,
             const std::vector<double>& matrix, bool scalar) {
-  const int dimension = mesh.dimension;
+  const int dimension = mesh.dimension, count = nodes.size();
   for (int i = 0; i < count; ++i)
     for (int a = 0; a < dimension; ++a)
       for (int j = 0; j < count; ++j)
@@ -44,17 +44,17 @@ void append(Triples& triples, const mesh::Mesh& mesh, const PetscInt* nodes, int
         }
 }
 
-void addLoad(Vec load, const mesh::Mesh& mesh, const PetscInt* nodes, int count,
+void addLoad(Vec load, const mesh::Mesh& mesh, std::span<const PetscInt> nodes,
              const std::vector<double>& values, double factor) {
-  for (int i = 0; i < count; ++i)
+  for (int i = 0; i < std::ssize(nodes); ++i)
     for (int d = 0; d < mesh.dimension; ++d)
       check(VecSetValue(load, mesh.dimension * mesh.globalNode[nodes[i]] + d,
                         factor * values[3 * i + d], ADD_VALUES));
 }
 
-std::vector<Point> pointsOf(const mesh::Mesh& mesh, const PetscInt* nodes, int count) {
+std::vector<Point> pointsOf(const mesh::Mesh& mesh, std::span<const PetscInt> nodes) {
   std::vector<Point> points;
-  for (int i = 0; i < count; ++i) points.push_back(mesh.coordinates[nodes[i]]);
+  for (PetscInt node : nodes) points.push_back(mesh.coordinates[node]);
   return points;
 }
 
@@ -67,24 +67,25 @@ struct CellsNamed {
 };
 
 CellsNamed named(const mesh::Mesh& mesh, std::vector<CellName> cells) {
-  constexpr std::size_t most = 3;
-  CellsNamed result{static_cast<PetscInt>(cells.size()), ""};
+  constexpr PetscInt most = 3;
+  CellsNamed result;
+  result.count = cells.size();
   check(MPI_Allreduce(MPI_IN_PLACE, &result.count, 1, MPIU_INT, MPI_SUM, mesh.comm));
   if (result.count == 0) return result;
   int ranks = 1;
   check(MPI_Comm_size(mesh.comm, &ranks));
   std::sort(cells.begin(), cells.end());
   cells.resize(most, CellName{PETSC_MAX_INT, 0, 0});
-  std::vector<CellName> all(most * static_cast<std::size_t>(ranks));
+  std::vector<CellName> all(most * ranks);
   check(MPI_Allgather(cells.data(), 3 * most, MPIU_INT, all.data(), 3 * most, MPIU_INT, mesh.comm));
   std::sort(all.begin(), all.end());
   std::vector<std::string> words;
-  for (std::size_t i = 0; i < std::min(most, static_cast<std::size_t>(result.count)); ++i) {
+  for (PetscInt i = 0; i < std::min(most, result.count); ++i) {
     const auto [tag, type, body] = all[i];
-    words.push_back("cell " + std::to_string(tag) + " (" + shapeTable(static_cast<int>(type)).name +
-                    ") of group '" + mesh.bodies[body] + "'");
+    words.push_back("cell " + std::to_string(tag) + " (" + shapeTable(type).name + ") of group '" +
+                    mesh.bodies[body] + "'");
   }
-  result.words = joined(words) + (static_cast<std::size_t>(result.count) > most ? ", …" : "");
+  result.words = joined(words) + (result.count > most ? ", …" : "");
   return result;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// Assembly of element arrays into distributed matrices and vectors on nodal displacements.
 #include <compare>
+#include <span>
 
 #include "elasticity/element.hpp"
 #include "elasticity/shape.hpp"
@@ -27,16 +28,16 @@ OwnedMat toMatrix(const mesh::Mesh& mesh, Triples& triples, Symmetry symmetry);
 
 /// Appends the entries of one element. If `scalar`, the matrix is [node][node] and is repeated on
 /// each component; otherwise it is on all components.
-void append(Triples& triples, const mesh::Mesh& mesh, const PetscInt* nodes, int count,
+void append(Triples& triples, const mesh::Mesh& mesh, std::span<const PetscInt> nodes,
             const std::vector<double>& matrix, bool scalar);
 
 /// Adds the values of one element, [node][3], times `factor`. VecAssemblyBegin and VecAssemblyEnd
 /// must follow.
-void addLoad(Vec load, const mesh::Mesh& mesh, const PetscInt* nodes, int count,
+void addLoad(Vec load, const mesh::Mesh& mesh, std::span<const PetscInt> nodes,
              const std::vector<double>& values, double factor);
 
 /// Returns the coordinates of local nodes, [node], m.
-std::vector<Point> pointsOf(const mesh::Mesh& mesh, const PetscInt* nodes, int count);
+std::vector<Point> pointsOf(const mesh::Mesh& mesh, std::span<const PetscInt> nodes);
 
 /// The name of a cell for messages, in integers only, so that ranks can send it.
 struct CellName {
@@ -63,9 +64,7 @@ void forEachCell(const mesh::Mesh& mesh, Visit visit) {
   for (const auto& block : mesh.cells) {
     const ShapeTable& table = shapeTable(block.type);
     for (std::size_t e = 0; e < block.tag.size(); ++e) try {
-        visit(block, e, table,
-              pointsOf(mesh, block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerCell),
-                       block.nodesPerCell));
+        visit(block, e, table, pointsOf(mesh, block.nodesOf(e)));
       } catch (const InvertedElement&) {
         inverted.push_back(nameOf(block, e));
       }

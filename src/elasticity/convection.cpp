@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "elasticity/assembly.hpp"
+#include "petsc/arrays.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal::elasticity {
@@ -30,10 +31,8 @@ void assembled(Vec vector) {
 /// comes back through the other.
 void fold(const mesh::Mesh& mesh, Vec vector) {
   std::vector<double> values;
-  const PetscScalar* array = nullptr;
-  check(VecGetArrayRead(vector, &array));
-  for (const auto& image : mesh.images) values.push_back(array[image.node]);
-  check(VecRestoreArrayRead(vector, &array));
+  for (const ReadArray array(vector); const auto& image : mesh.images)
+    values.push_back(array[image.node]);
   for (std::size_t i = 0; i < mesh.images.size(); ++i) {
     check(VecSetValue(vector, mesh.images[i].primary, values[i], ADD_VALUES));
     check(VecSetValue(vector, mesh.firstNode + mesh.images[i].node, -values[i], ADD_VALUES));
@@ -51,16 +50,12 @@ void rejectCrossing(const mesh::Mesh& mesh, const std::string& body, const Motio
   const double tolerance = motion.speed != 0 ? 0.15 : 1e-6;
   for (Vec vector : {crossing.flux.get(), crossing.scale.get()})
     assembled(vector), fold(mesh, vector);
-  const PetscScalar *flux = nullptr, *scale = nullptr;
-  check(VecGetArrayRead(crossing.flux, &flux));
-  check(VecGetArrayRead(crossing.scale, &scale));
+  const ReadArray flux(crossing.flux), scale(crossing.scale);
   double worst = tolerance;
   PetscInt where = -1;
   for (PetscInt node = 0; node < mesh.ownedNodes; ++node)
     if (scale[node] > 0 && std::abs(flux[node]) > worst * scale[node])
       worst = std::abs(flux[node]) / scale[node], where = node;
-  check(VecRestoreArrayRead(crossing.flux, &flux));
-  check(VecRestoreArrayRead(crossing.scale, &scale));
   std::string failure;
   if (where >= 0) {
     const Point& x = mesh.coordinates[where];
@@ -86,16 +81,16 @@ void assembleConvection(const mesh::Mesh& mesh, const std::vector<Material>& mat
   Triples g, k;
   forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table,
                         const std::vector<Point>& points) {
-    const auto body = static_cast<std::size_t>(block.body[e]);
+    const int body = block.body[e];
     const Motion& motion = bodies.motions[body];
     if (!motion.moves()) return;
     std::vector<Point> velocity;
     for (const auto& x : points) velocity.push_back(motion.velocity(x));
     const Convection cell =
         convection(gradientTable(table, points), points, velocity, materials[body].density);
-    const PetscInt* nodes = block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerCell);
-    append(g, mesh, nodes, block.nodesPerCell, cell.gyroscopic, true);
-    append(k, mesh, nodes, block.nodesPerCell, cell.rotationStiffness, true);
+    const auto nodes = block.nodesOf(e);
+    append(g, mesh, nodes, cell.gyroscopic, true);
+    append(k, mesh, nodes, cell.rotationStiffness, true);
     for (int i = 0; i < block.nodesPerCell; ++i) {
       const PetscInt node = mesh.globalNode[nodes[i]];
       check(VecSetValue(crossing[body].flux, node, cell.flux[i], ADD_VALUES));

@@ -8,6 +8,7 @@
 #include "elasticity/ground.hpp"
 #include "elasticity/material.hpp"
 #include "options/options.hpp"
+#include "petsc/arrays.hpp"
 
 namespace squeal::elasticity {
 namespace {
@@ -45,13 +46,12 @@ std::vector<double> scaled(std::vector<double> values, double factor) {
 /// Returns the matrix that has the same scalar matrix on each component, with rows and columns
 /// [node][component].
 std::vector<double> onAllComponents(const std::vector<double>& scalar, int count, int dimension) {
-  const auto n = static_cast<std::size_t>(count), components = static_cast<std::size_t>(dimension),
-             size = n * components;
+  const int size = count * dimension;
   std::vector<double> full(size * size, 0.0);
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < n; ++j)
-      for (std::size_t d = 0; d < components; ++d)
-        full[(i * components + d) * size + j * components + d] = scalar[i * n + j];
+  for (int i = 0; i < count; ++i)
+    for (int j = 0; j < count; ++j)
+      for (int d = 0; d < dimension; ++d)
+        full[(i * dimension + d) * size + j * dimension + d] = scalar[i * count + j];
   return full;
 }
 
@@ -66,32 +66,26 @@ std::vector<double> localValues(const mesh::Mesh& mesh, Vec u) {
   check(VecScatterCreate(u, nodes, local, nullptr, scatter.out()));
   check(VecScatterBegin(scatter, u, local, INSERT_VALUES, SCATTER_FORWARD));
   check(VecScatterEnd(scatter, u, local, INSERT_VALUES, SCATTER_FORWARD));
-  const PetscScalar* array = nullptr;
-  check(VecGetArrayRead(local, &array));
-  std::vector<double> values(array, array + mesh.dimension * mesh.localNodes());
-  check(VecRestoreArrayRead(local, &array));
-  return values;
+  const ReadArray values(local);
+  return {values.begin(), values.end()};
 }
 
 /// Appends the entries of a diagonal, which may be null.
 void appendDiagonal(Triples& triples, const mesh::Mesh& mesh, Vec diagonal) {
   if (!diagonal) return;
-  const PetscScalar* values = nullptr;
-  check(VecGetArrayRead(diagonal, &values));
-  for (PetscInt i = 0; i < mesh.dimension * mesh.ownedNodes; ++i) {
+  const ReadArray values(diagonal);
+  for (PetscInt i = 0; i < values.size(); ++i) {
     triples.row.push_back(mesh.dimension * mesh.firstNode + i);
     triples.column.push_back(mesh.dimension * mesh.firstNode + i);
     triples.value.push_back(values[i]);
   }
-  check(VecRestoreArrayRead(diagonal, &values));
 }
 
 /// Returns the number of entries of all element matrices of this rank.
 std::size_t denseEntries(const mesh::Mesh& mesh) {
   std::size_t entries = 0;
   for (const auto& block : mesh.cells)
-    entries += block.tag.size() * static_cast<std::size_t>(block.nodesPerCell * block.nodesPerCell *
-                                                           mesh.dimension * mesh.dimension);
+    entries += block.nodes.size() * block.nodesPerCell * mesh.dimension * mesh.dimension;
   return entries;
 }
 
@@ -109,25 +103,24 @@ CellTriples cellTriples(const mesh::Mesh& mesh, const std::vector<Material>& mat
   auto& [k, m, c] = triples;
   if (!body) {
     k.reserve(denseEntries(mesh));
-    m.reserve(denseEntries(mesh) / static_cast<std::size_t>(mesh.dimension));
+    m.reserve(denseEntries(mesh) / mesh.dimension);
   }
   forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table,
                         const std::vector<Point>& points) {
     if (body && block.body[e] != *body) return;
     const Material& material = materials[block.body[e]];
-    const PetscInt* nodes = block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerCell);
+    const auto nodes = block.nodesOf(e);
     const bool bubbles =
         std::find(incompatible.begin(), incompatible.end(), table.name) != incompatible.end();
     const auto cellStiffness =
         stiffness(gradientTable(table, points), points, material.law, bubbles);
     const auto cellMass = mass(table, points, material.density, kind);
-    append(k, mesh, nodes, block.nodesPerCell, cellStiffness, false);
-    append(m, mesh, nodes, block.nodesPerCell, cellMass, true);
+    append(k, mesh, nodes, cellStiffness, false);
+    append(m, mesh, nodes, cellMass, true);
     if (material.massDamping > 0)
-      append(c, mesh, nodes, block.nodesPerCell, scaled(cellMass, material.massDamping), true);
+      append(c, mesh, nodes, scaled(cellMass, material.massDamping), true);
     if (material.stiffnessDamping > 0)
-      append(c, mesh, nodes, block.nodesPerCell, scaled(cellStiffness, material.stiffnessDamping),
-             false);
+      append(c, mesh, nodes, scaled(cellStiffness, material.stiffnessDamping), false);
   });
   return triples;
 }
@@ -157,9 +150,7 @@ void assembleCentrifugal(const mesh::Mesh& mesh, const std::vector<Material>& ma
                           const std::vector<Point>& points) {
       const Motion& motion = bodies.motions[block.body[e]];
       if (motion.speed != 0)
-        addLoad(bodies.centrifugal, mesh,
-                block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerCell),
-                block.nodesPerCell,
+        addLoad(bodies.centrifugal, mesh, block.nodesOf(e),
                 centrifugal(table, points, materials[block.body[e]].density, motion.speed,
                             motion.axis, motion.origin),
                 1);
@@ -175,12 +166,10 @@ void assembleLoad(const mesh::Mesh& mesh, Bodies& bodies) {
   for (const auto& block : mesh.faces)
     for (std::size_t e = 0; e < block.surface.size(); ++e) {
       const double p = pressure[block.surface[e]];
-      const PetscInt* nodes = block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerFace);
+      const auto nodes = block.nodesOf(e);
       if (p != 0)
-        addLoad(bodies.load, mesh, nodes, block.nodesPerFace,
-                faceNormals(shapeTable(block.type), pointsOf(mesh, nodes, block.nodesPerFace),
-                            block.sign[e]),
-                -p);
+        addLoad(bodies.load, mesh, nodes,
+                faceNormals(shapeTable(block.type), pointsOf(mesh, nodes), block.sign[e]), -p);
     }
   check(VecAssemblyBegin(bodies.load));
   check(VecAssemblyEnd(bodies.load));
@@ -222,8 +211,8 @@ Bodies assemble(const mesh::Mesh& mesh) {
 BodyPart bodyPart(const mesh::Mesh& mesh, int body) {
   Bodies alone;
   alone.motions = readMotions(mesh.bodies, mesh.dimension);
-  for (std::size_t i = 0; i < alone.motions.size(); ++i)
-    if (static_cast<int>(i) != body) alone.motions[i] = {};
+  for (int i = 0; i < std::ssize(alone.motions); ++i)
+    if (i != body) alone.motions[i] = {};
   const auto materials = readMaterials(mesh);
   auto triples = cellTriples(mesh, materials, body);
   if (convectiveTerms()) assembleConvection(mesh, materials, alone);
@@ -247,16 +236,16 @@ OwnedMat geometricStiffness(const mesh::Mesh& mesh, Vec displacement, std::optio
   forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table,
                         const std::vector<Point>& points) {
     if (body && block.body[e] != *body) return;
-    const PetscInt* nodes = block.nodes.data() + e * static_cast<std::size_t>(block.nodesPerCell);
+    const auto nodes = block.nodesOf(e);
     std::vector<double> u;
-    for (int i = 0; i < block.nodesPerCell; ++i)
-      for (int d = 0; d < mesh.dimension; ++d) u.push_back(values[mesh.dimension * nodes[i] + d]);
+    for (PetscInt node : nodes)
+      for (int d = 0; d < mesh.dimension; ++d) u.push_back(values[mesh.dimension * node + d]);
     const bool bubbles =
         std::find(incompatible.begin(), incompatible.end(), table.name) != incompatible.end();
     const auto cell = geometricStiffness(gradientTable(table, points), points,
                                          materials[block.body[e]].law, bubbles, u);
-    append(k, mesh, nodes, block.nodesPerCell,
-           onAllComponents(cell, block.nodesPerCell, mesh.dimension), false);  // pattern of K
+    append(k, mesh, nodes, onAllComponents(cell, block.nodesPerCell, mesh.dimension),
+           false);  // pattern of K
   });
   return toMatrix(mesh, k, Symmetry::symmetric);
 }

@@ -29,7 +29,7 @@ void strainColumns(double* b, int columns, int i, const Point& g, int dimension)
 /// [other][inner], from a symmetric row-major matrix of size `all`.
 std::vector<double> innerResponse(const std::vector<double>& k, int all, int inner) {
   const int outer = all - inner;
-  std::vector<double> kii(inner * inner), response(static_cast<std::size_t>(inner * outer));
+  std::vector<double> kii(inner * inner), response(inner * outer);
   for (int a = 0; a < inner; ++a) {  // column-major
     for (int b = 0; b < inner; ++b) kii[b * inner + a] = k[(outer + a) * all + outer + b];
     for (int b = 0; b < outer; ++b) response[b * inner + a] = -k[(outer + a) * all + b];
@@ -167,31 +167,28 @@ std::vector<double> geometricStiffness(const ShapeTable& table, const std::vecto
                                        const Law& law, bool incompatible,
                                        std::vector<double> displacement) {
   const StrainMatrix strain = strainMatrix(table, nodes, incompatible);
-  const auto dimension = static_cast<std::size_t>(table.dimension),
-             n = static_cast<std::size_t>(table.nodes);
+  const int dimension = table.dimension, n = table.nodes;
   if (incompatible) {
-    const int inner = table.dimension * table.dimension;
+    const int inner = dimension * dimension, outer = displacement.size();
     const auto response = innerResponse(fullStiffness(strain, law), strain.columns, inner);
-    const std::size_t outer = displacement.size(), bubbles = static_cast<std::size_t>(inner);
-    displacement.resize(outer + bubbles);
-    for (std::size_t b = 0; b < outer; ++b)
-      for (std::size_t a = 0; a < bubbles; ++a)
-        displacement[outer + a] += response[b * bubbles + a] * displacement[b];
+    displacement.resize(outer + inner);
+    for (int b = 0; b < outer; ++b)
+      for (int a = 0; a < inner; ++a)
+        displacement[outer + a] += response[b * inner + a] * displacement[b];
   }
   std::vector<double> k(n * n, 0.0);
   Hooke storage;
   for (int q = 0; q < strain.points; ++q) {
     const Matrix3 stress = stressAt(strain, q, law.at(strain.position[q], storage), displacement);
     // The normal strains of node i are its ∂φ/∂x_d.
-    const auto gradient = [&](std::size_t i, std::size_t d) {
-      return strain.at(q)[d * static_cast<std::size_t>(strain.columns) + i * dimension + d];
+    const auto gradient = [&](int i, int d) {
+      return strain.at(q)[d * strain.columns + i * dimension + d];
     };
-    for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t d = 0; d < dimension; ++d) {
+    for (int i = 0; i < n; ++i)
+      for (int d = 0; d < dimension; ++d) {
         double flux = 0;
-        for (std::size_t c = 0; c < dimension; ++c) flux += gradient(i, c) * stress[c][d];
-        for (std::size_t j = 0; j < n; ++j)
-          k[i * n + j] += strain.volume[q] * flux * gradient(j, d);
+        for (int c = 0; c < dimension; ++c) flux += gradient(i, c) * stress[c][d];
+        for (int j = 0; j < n; ++j) k[i * n + j] += strain.volume[q] * flux * gradient(j, d);
       }
   }
   return k;

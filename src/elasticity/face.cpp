@@ -22,7 +22,7 @@ double norm(const Point& p) { return std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] 
 
 std::vector<double> faceNormals(const ShapeTable& table, const std::vector<Point>& nodes,
                                 int sign) {
-  const auto n = static_cast<std::size_t>(table.nodes);
+  const std::size_t n = table.nodes;
   std::vector<double> load(3 * n, 0.0);
   for (int q = 0; q < table.points(); ++q) {
     const Point normal =
@@ -30,19 +30,19 @@ std::vector<double> faceNormals(const ShapeTable& table, const std::vector<Point
     const double factor = sign * table.weight[q];
     for (std::size_t a = 0; a < n; ++a)
       for (std::size_t d = 0; d < 3; ++d)
-        load[3 * a + d] += factor * table.value[static_cast<std::size_t>(q) * n + a] * normal[d];
+        load[3 * a + d] += factor * table.value[q * n + a] * normal[d];
   }
   return load;
 }
 
 std::vector<double> faceMass(const ShapeTable& table, const std::vector<Point>& nodes) {
-  const auto n = static_cast<std::size_t>(table.nodes);
+  const std::size_t n = table.nodes;
   std::vector<double> m(n * n, 0.0);
   for (int q = 0; q < table.points(); ++q) {
     const double factor =
         table.weight[q] *
         norm(faceNormal(table.gradient.data() + 3 * q * table.nodes, nodes, table.dimension));
-    const double* value = table.value.data() + static_cast<std::size_t>(q) * n;
+    const double* value = table.value.data() + q * n;
     for (std::size_t a = 0; a < n; ++a)
       for (std::size_t b = 0; b < n; ++b) m[a * n + b] += factor * value[a] * value[b];
   }
@@ -63,7 +63,7 @@ std::vector<Point> nodeNormals(const ShapeTable& table, const std::vector<Point>
 
 std::vector<double> faceDerivative(const ShapeTable& table, const std::vector<Point>& nodes,
                                    const std::vector<Point>& velocity) {
-  const auto n = static_cast<std::size_t>(table.nodes);
+  const std::size_t n = table.nodes;
   std::vector<double> derivative(n * n);
   for (std::size_t i = 0; i < n; ++i) {
     const double* gradient = table.nodeGradient.data() + 3 * i * n;

@@ -5,6 +5,7 @@
 
 #include "elasticity/elasticity.hpp"
 #include "options/options.hpp"
+#include "petsc/arrays.hpp"
 
 namespace squeal::elasticity {
 namespace {
@@ -18,23 +19,19 @@ const RealListOption dampingOption("constraint", "ground_<group>_damping", "0,0,
 
 /// Returns the values of all groups shared by their nodes, N entries; null if all are zero.
 OwnedVec shared(const mesh::Mesh& mesh, const RealListOption& option) {
-  const auto dimension = static_cast<std::size_t>(mesh.dimension);
   OwnedVec vector;
   for (const auto& group : option.subjects()) {
     const auto total = option.components(group, mesh.dimension);
     const auto& nodes = mesh.nodeGroups.at(group);
-    auto count = static_cast<PetscInt>(nodes.size());
+    PetscInt count = nodes.size();
     check(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPIU_INT, MPI_SUM, mesh.comm));
     if (std::all_of(total.begin(), total.begin() + mesh.dimension, [](double x) { return x == 0; }))
       continue;
     if (!vector) vector = nodalVector(mesh);
-    PetscScalar* values = nullptr;
-    check(VecGetArray(vector, &values));
+    const WriteArray values(vector);
     for (PetscInt node : nodes)
-      for (std::size_t d = 0; d < dimension; ++d)
-        values[dimension * static_cast<std::size_t>(node) + d] +=
-            total[d] / static_cast<double>(count);
-    check(VecRestoreArray(vector, &values));
+      for (int d = 0; d < mesh.dimension; ++d)
+        values[mesh.dimension * node + d] += total[d] / count;
   }
   return vector;
 }

@@ -12,7 +12,7 @@ namespace squeal::elasticity {
 namespace {
 
 bool positiveDefinite(std::vector<double> matrix, std::size_t size) {
-  PetscBLASInt n = static_cast<PetscBLASInt>(size), info = 0;
+  PetscBLASInt n = size, info = 0;
   LAPACKpotrf_("L", &n, matrix.data(), &n, &info);
   return info == 0;
 }
@@ -44,7 +44,7 @@ std::vector<double> massVolumes(const ShapeTable& table, const std::vector<Point
 
 std::vector<double> mass(const ShapeTable& table, const std::vector<Point>& nodes, double density,
                          MassKind kind) {
-  const auto n = static_cast<std::size_t>(table.nodes);
+  const std::size_t n = table.nodes;
   const std::vector<double> volumes = massVolumes(table, nodes);
   std::vector<double> m(n * n, 0.0);
   for (std::size_t q = 0; q < volumes.size(); ++q) {
@@ -71,13 +71,13 @@ std::vector<double> mass(const ShapeTable& table, const std::vector<Point>& node
 std::vector<double> centrifugal(const ShapeTable& table, const std::vector<Point>& nodes,
                                 double density, double speed, const Point& axis,
                                 const Point& origin) {
-  const auto n = static_cast<std::size_t>(table.nodes);
+  const std::size_t n = table.nodes;
   std::vector<double> load(3 * n, 0.0);
   for (int q = 0; q < table.points(); ++q) {
     const double det =
         determinant(jacobian(table.gradient.data() + 3 * q * table.nodes, nodes, table.dimension));
     const double factor = density * speed * speed * table.weight[q] * det;
-    const double* value = table.value.data() + static_cast<std::size_t>(q) * n;
+    const double* value = table.value.data() + q * n;
     Point r{-origin[0], -origin[1], -origin[2]};
     for (std::size_t a = 0; a < n; ++a)
       for (std::size_t d = 0; d < 3; ++d) r[d] += value[a] * nodes[a][d];
@@ -91,13 +91,13 @@ std::vector<double> centrifugal(const ShapeTable& table, const std::vector<Point
 
 Convection convection(const ShapeTable& table, const std::vector<Point>& nodes,
                       const std::vector<Point>& velocity, double density) {
-  const auto n = static_cast<std::size_t>(table.nodes);
+  const std::size_t n = table.nodes;
   Convection result{std::vector<double>(n * n, 0.0), std::vector<double>(n * n, 0.0),
                     std::vector<double>(n, 0.0), std::vector<double>(n, 0.0)};
   std::vector<double> rate(n);
   for (int q = 0; q < table.points(); ++q) {
     const double* gradient = table.gradient.data() + 3 * q * table.nodes;
-    const double* value = table.value.data() + static_cast<std::size_t>(q) * n;
+    const double* value = table.value.data() + q * n;
     const Matrix3 j = jacobian(gradient, nodes, table.dimension);
     const double det = positiveDeterminant(j), volume = table.weight[q] * det;
     const Matrix3 inv = inverse(j, det);

@@ -16,7 +16,7 @@ inline Matrix3 jacobian(const double* gradient, const std::vector<Point>& nodes,
   Matrix3 j{};
   for (int r = dimension; r < 3; ++r) j[r][r] = 1;
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    for (std::size_t r = 0; r < static_cast<std::size_t>(dimension); ++r)
+    for (int r = 0; r < dimension; ++r)
       for (std::size_t d = 0; d < 3; ++d) j[r][d] += gradient[3 * i + r] * nodes[i][d];
   return j;
 }

@@ -150,8 +150,7 @@ Law readLaw(const std::string& body, int dimension, bool planeStress) {
       throw Error("options -" + one.fullName(body) + " and -" + other.fullName(body) +
                   " exclude each other");
   };
-  for (const Option* elastic : {static_cast<const Option*>(&engineeringOption),
-                                static_cast<const Option*>(&transverseOption)})
+  for (const Option* elastic : std::vector<const Option*>{&engineeringOption, &transverseOption})
     exclude(*elastic, youngOption), exclude(*elastic, poissonOption);
   exclude(engineeringOption, transverseOption);
   exclude(orientationOption, cylindricalOption);
@@ -190,17 +189,11 @@ std::vector<Material> readMaterials(const mesh::Mesh& mesh) {
 std::vector<mesh::GroupRequest> materialGroups() {
   std::set<std::string> groups;
   for (const Option* option :
-       {static_cast<const Option*>(&youngOption), static_cast<const Option*>(&engineeringOption),
-        static_cast<const Option*>(&transverseOption)})
+       std::vector<const Option*>{&youngOption, &engineeringOption, &transverseOption})
     for (const auto& group : option->subjects()) groups.insert(group);
-  for (const Option* option :
-       {static_cast<const Option*>(&poissonOption), static_cast<const Option*>(&densityOption),
-        static_cast<const Option*>(&rayleighMassOption),
-        static_cast<const Option*>(&rayleighStiffnessOption),
-        static_cast<const Option*>(&lossFactorOption),
-        static_cast<const Option*>(&lossFrequencyOption),
-        static_cast<const Option*>(&orientationOption),
-        static_cast<const Option*>(&cylindricalOption)})
+  for (const Option* option : std::vector<const Option*>{
+           &poissonOption, &densityOption, &rayleighMassOption, &rayleighStiffnessOption,
+           &lossFactorOption, &lossFrequencyOption, &orientationOption, &cylindricalOption})
     for (const auto& group : option->subjects())
       if (!groups.count(group))
         throw Error("option -" + youngOption.fullName(group) +

@@ -52,19 +52,15 @@ bool convectiveTerms() { return convectiveOption.get(); }
 
 std::vector<std::string> movingBodies() {
   std::set<std::string> bodies;
-  for (const Option* option :
-       {static_cast<const Option*>(&velocityOption), static_cast<const Option*>(&speedOption),
-        static_cast<const Option*>(&rpmOption)})
+  for (const Option* option : std::vector<const Option*>{&velocityOption, &speedOption, &rpmOption})
     for (const auto& body : option->subjects()) bodies.insert(body);
   return {bodies.begin(), bodies.end()};
 }
 
 std::vector<Motion> readMotions(const std::vector<std::string>& bodies, int dimension) {
   const std::set<std::string> known(bodies.begin(), bodies.end());
-  for (const Option* option :
-       {static_cast<const Option*>(&velocityOption), static_cast<const Option*>(&speedOption),
-        static_cast<const Option*>(&rpmOption), static_cast<const Option*>(&axisOption),
-        static_cast<const Option*>(&originOption)})
+  for (const Option* option : std::vector<const Option*>{&velocityOption, &speedOption, &rpmOption,
+                                                         &axisOption, &originOption})
     for (const auto& body : option->subjects())
       if (!known.count(body))
         throw Error("option -" + option->fullName(body) + ": '" + body +

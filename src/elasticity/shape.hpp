@@ -17,7 +17,7 @@ struct ShapeTable {
   /// [node][3] at the centre of a line, quadrilateral or hexahedron
   std::vector<double> centreGradient;
 
-  int points() const { return static_cast<int>(weight.size()); }
+  int points() const { return weight.size(); }
 };
 
 /// Returns the table of a gmsh element type, made on first use. Its rule integrates polynomials of
