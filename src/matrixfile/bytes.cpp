@@ -10,13 +10,10 @@ BinaryFile::BinaryFile(const std::filesystem::path& path) : file_(path, std::ios
   if (!file_ || error) throw Error("the file cannot be read");
 }
 
-void BinaryFile::seek(std::uint64_t position) {
-  file_.seekg(static_cast<std::streamoff>(position));
-}
+void BinaryFile::seek(std::uint64_t position) { file_.seekg(position); }
 
-void BinaryFile::read(void* to, std::size_t count) {
-  file_.read(static_cast<char*>(to), static_cast<std::streamsize>(count));
-  if (static_cast<std::size_t>(file_.gcount()) != count) throw Error("the file is cut short");
+void BinaryFile::read(char* to, std::size_t count) {
+  if (!file_.read(to, count)) throw Error("the file is cut short");
 }
 
 }  // namespace squeal::matrixfile

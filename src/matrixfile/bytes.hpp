@@ -30,7 +30,7 @@ class BinaryFile {
   std::uint64_t size() const { return size_; }
   void seek(std::uint64_t position);
   /// Reads `count` bytes. Throws Error if the file ends before.
-  void read(void* to, std::size_t count);
+  void read(char* to, std::size_t count);
   template <class Number>
   Number number(bool swapped) {
     char bytes[sizeof(Number)];

@@ -33,7 +33,7 @@ std::string firstBytes(const std::filesystem::path& path, std::size_t count) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw Error(std::string("cannot be read: ") + std::strerror(errno));
   std::string bytes(count, '\0');
-  file.read(bytes.data(), static_cast<std::streamsize>(count));
+  file.read(bytes.data(), count);
   bytes.resize(file.gcount());
   if (bytes.empty()) throw Error("the file is empty");
   return bytes;
@@ -85,8 +85,7 @@ std::string beginningOf(const std::string& head) {
   std::string text;
   for (const char c : head.substr(0, 24)) {
     if (c == '\n') break;
-    text += c >= ' ' && c <= '~' ? std::string(1, c)
-                                 : formatted("\\x%02x", static_cast<unsigned char>(c));
+    text += c >= ' ' && c <= '~' ? std::string(1, c) : formatted("\\x%02hhx", c);
   }
   return text;
 }
@@ -121,22 +120,22 @@ Entries::Entries(long long rowCount, long long columnCount) {
     throw Error(formatted("%lld rows and %lld columns", rowCount, columnCount));
   requireCountable(rowCount, "rows");
   requireCountable(columnCount, "columns");
-  rows = static_cast<PetscInt>(rowCount);
-  columns = static_cast<PetscInt>(columnCount);
+  rows = rowCount;
+  columns = columnCount;
 }
 
 void Entries::add(long long i, long long j, double x) {
   if (i < 0 || j < 0 || i >= rows || j >= columns)
-    throw Error(formatted(
-        "an entry in row %lld and column %lld of a matrix of %lld x %lld (counted from 0)", i, j,
-        static_cast<long long>(rows), static_cast<long long>(columns)));
+    throw Error(formatted("an entry in row %lld and column %lld of a matrix of %" PetscInt_FMT
+                          " x %" PetscInt_FMT " (counted from 0)",
+                          i, j, rows, columns));
   if (!std::isfinite(x))
     throw Error(formatted(
         "the entry in row %lld and column %lld (counted from 0) is not a finite number", i, j));
   if (x == 0) return;
-  requireCountable(static_cast<long long>(value.size()) + 1, "entries");
-  row.push_back(static_cast<PetscInt>(i));
-  column.push_back(static_cast<PetscInt>(j));
+  requireCountable(std::ssize(value) + 1, "entries");
+  row.push_back(i);
+  column.push_back(j);
   value.push_back(x);
 }
 
@@ -149,27 +148,30 @@ void requireSquare(long long rows, long long columns) {
 
 Entries Compressed::entries() const {
   const long long lists = byColumns ? columns : rows;
-  const auto sizeOf = [](const auto& list) { return static_cast<long long>(list.size()); };
-  if (sizeOf(begin) != lists + 1)
-    throw Error(formatted("%s has %lld numbers where a matrix of %lld x %lld by %s takes %lld",
-                          beginName, sizeOf(begin), rows, columns, byColumns ? "columns" : "rows",
+  if (std::ssize(begin) != lists + 1)
+    throw Error(formatted("%s has %zu numbers where a matrix of %lld x %lld by %s takes %lld",
+                          beginName, begin.size(), rows, columns, byColumns ? "columns" : "rows",
                           lists + 1));
   if (begin.front() != 0)
     throw Error(formatted("%s begins with %lld, not with 0", beginName, begin.front()));
   for (std::size_t k = 0; k + 1 < begin.size(); ++k)
     if (begin[k + 1] < begin[k])
       throw Error(formatted("%s falls from %lld to %lld", beginName, begin[k], begin[k + 1]));
-  if (begin.back() != sizeOf(index) || begin.back() != sizeOf(value))
-    throw Error(formatted("%s ends with %lld, but %s has %lld numbers and data has %lld", beginName,
-                          begin.back(), indexName, sizeOf(index), sizeOf(value)));
+  if (begin.back() != std::ssize(index) || begin.back() != std::ssize(value))
+    throw Error(formatted("%s ends with %lld, but %s has %zu numbers and data has %zu", beginName,
+                          begin.back(), indexName, index.size(), value.size()));
   Entries entries(rows, columns);
-  for (std::size_t k = 0; k + 1 < begin.size(); ++k)
-    for (auto e = static_cast<std::size_t>(begin[k]); e < static_cast<std::size_t>(begin[k + 1]);
-         ++e) {
-      const auto list = static_cast<long long>(k);
-      entries.add(byColumns ? index[e] : list, byColumns ? list : index[e], value[e]);
-    }
+  for (long long k = 0; k < lists; ++k)
+    for (long long e = begin[k]; e < begin[k + 1]; ++e)
+      entries.add(byColumns ? index[e] : k, byColumns ? k : index[e], value[e]);
   return entries;
+}
+
+void Compressed::dropFree() {
+  if (begin.empty() || begin.back() < 0) return;
+  const std::size_t count = begin.back();
+  if (index.size() > count) index.resize(count);
+  if (value.size() > count) value.resize(count);
 }
 
 Format formatOf(const std::filesystem::path& path) {

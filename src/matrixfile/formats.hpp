@@ -37,6 +37,8 @@ struct Compressed {
   std::vector<double> value;
   const char *beginName = "indptr", *indexName = "indices";  ///< names in the format, for messages
 
+  /// Shortens lists that go on after the last entry: MATLAB keeps places free, one at the least.
+  void dropFree();
   /// Returns the entries. Throws Error if the lists do not fit together.
   Entries entries() const;
 };

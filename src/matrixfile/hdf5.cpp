@@ -103,8 +103,7 @@ Entries compressedGroup(hid_t group) {
   matrix.byColumns = said.value_or(false);
   matrix.begin = integers(group, "indptr");
   if (matrix.begin.empty()) throw Error("indptr is empty");
-  matrix.rows = matrix.columns =
-      static_cast<long long>(matrix.begin.size()) - 1;  // a square matrix
+  matrix.rows = matrix.columns = std::ssize(matrix.begin) - 1;  // a square matrix
   checkShape(group, matrix.rows);
   matrix.index = integers(group, "indices");
   matrix.value = reals(group, "data");
@@ -117,7 +116,7 @@ Entries compressedGroup(hid_t group) {
   return entries;
 }
 
-/// Without entries there are no lists of them; with some, the lists may be longer than they.
+/// Without entries there are no lists of them.
 Entries matlabSparse(hid_t group) {
   Compressed matrix{0, 0, true, {}, {}, {}, "jc", "ir"};
   const auto rows = integersOfAttribute(group, "MATLAB_sparse");
@@ -127,14 +126,12 @@ Entries matlabSparse(hid_t group) {
   matrix.begin = integers(group, "jc");
   if (matrix.begin.empty()) throw Error("jc is empty");
   matrix.rows = rows[0];
-  matrix.columns = static_cast<long long>(matrix.begin.size()) - 1;
+  matrix.columns = std::ssize(matrix.begin) - 1;
   requireSquare(matrix.rows, matrix.columns);
   if (matrix.begin.back() > 0) {
     matrix.index = integers(group, "ir");
     matrix.value = reals(group, "data");
-    const auto count = static_cast<std::size_t>(matrix.begin.back());
-    if (matrix.index.size() > count) matrix.index.resize(count);
-    if (matrix.value.size() > count) matrix.value.resize(count);
+    matrix.dropFree();
   }
   return matrix.entries();
 }
@@ -145,10 +142,10 @@ Entries table(hid_t file, hid_t dataset, const std::string& name) {
   const auto shape = shapeOf(dataset);
   if (shape[0] > LLONG_MAX || shape[1] > LLONG_MAX)
     throw Error("its sizes are beyond what 64 bits count");
-  requireSquare(static_cast<long long>(shape[0]), static_cast<long long>(shape[1]));
+  requireSquare(shape[0], shape[1]);
   const bool transposed = !matlabClass(dataset).empty();
   const auto values = reals(file, name, 2);
-  const auto size = static_cast<long long>(shape[0]);
+  const long long size = shape[0];
   Entries entries(size, size);
   for (long long i = 0, k = 0; i < size; ++i)
     for (long long j = 0; j < size; ++j, ++k)
@@ -211,9 +208,9 @@ Entries readHere(const std::filesystem::path& path, const std::string& name) {
 
 /// The HDF5 library crashes on damaged files.
 Entries readHdf5(const std::filesystem::path& path, const std::string& name) {
-  const auto size = static_cast<double>(std::filesystem::file_size(path));
-  const ChildLimits limits{"the HDF5 file", 5 + 1e-6 * size, availableMemory(),
-                           "it asks for more memory than is free", "the HDF5 library"};
+  const ChildLimits limits{"the HDF5 file", 5 + 1e-6 * std::filesystem::file_size(path),
+                           availableMemory(), "it asks for more memory than is free",
+                           "the HDF5 library"};
   Buffer buffer = inChild(limits, [&](const Warn&) {
     const Entries entries = readHere(path, name);
     Buffer packed;

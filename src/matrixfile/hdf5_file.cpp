@@ -31,8 +31,8 @@ hsize_t mostUnpacked(hid_t properties, hsize_t stored) {
   for (int k = 0; k < filters; ++k) {
     unsigned flags = 0, configuration = 0;
     std::size_t count = 0;
-    const H5Z_filter_t filter = H5Pget_filter2(properties, static_cast<unsigned>(k), &flags, &count,
-                                               nullptr, 0, nullptr, &configuration);
+    const H5Z_filter_t filter =
+        H5Pget_filter2(properties, k, &flags, &count, nullptr, 0, nullptr, &configuration);
     if (filter != H5Z_FILTER_DEFLATE && filter != H5Z_FILTER_SHUFFLE &&
         filter != H5Z_FILTER_FLETCHER32)
       return HSIZE_UNDEF;
@@ -56,15 +56,14 @@ hsize_t wantedBytes(hid_t dataset, hid_t properties, hsize_t width,
   const hsize_t wanted = product(shape, width);
   if (wanted == 0 || H5Pget_layout(properties) != H5D_CHUNKED) return wanted;
   std::vector<hsize_t> chunk(shape.size());
-  if (H5Pget_chunk(properties, static_cast<int>(chunk.size()), chunk.data()) < 0)
+  if (H5Pget_chunk(properties, chunk.size(), chunk.data()) < 0)
     throw Error("its layout is damaged" + cause());
   const hsize_t chunks = chunksOf(shape, chunk);
   hsize_t present = 0;
   const SpaceId space(H5Dget_space(dataset));
   if (H5Dget_num_chunks(dataset, space, &present) < 0 || present != chunks)
-    throw Error(formatted("%llu of its %llu chunks were written",
-                          static_cast<unsigned long long>(present),
-                          static_cast<unsigned long long>(chunks)));
+    throw Error(std::to_string(present) + " of its " + std::to_string(chunks) +
+                " chunks were written");
   return product(chunk, product({chunks}, width));
 }
 
@@ -76,9 +75,8 @@ void requireStored(hid_t dataset, hid_t type, const std::vector<hsize_t>& shape)
   const hsize_t wanted = wantedBytes(dataset, properties, H5Tget_size(type), shape),
                 stored = H5Dget_storage_size(dataset);
   if (wanted > mostUnpacked(properties, stored))
-    throw Error(formatted("the file holds %llu bytes of it, where its size takes %llu",
-                          static_cast<unsigned long long>(stored),
-                          static_cast<unsigned long long>(wanted)));
+    throw Error("the file holds " + std::to_string(stored) + " bytes of it, where its size takes " +
+                std::to_string(wanted));
 }
 
 /// Returns the name of a type for messages.
@@ -208,7 +206,7 @@ std::vector<long long> integersOfAttribute(hid_t object, const std::string& name
   const SpaceId space(H5Aget_space(id));
   const hssize_t count = H5Sget_simple_extent_npoints(space);
   if (H5Tget_class(type) != H5T_INTEGER || count < 1 || count > 64) return {};
-  std::vector<long long> values(static_cast<std::size_t>(count));
+  std::vector<long long> values(count);
   if (H5Aread(id, H5T_NATIVE_LLONG, values.data()) < 0) return {};
   return values;
 }

@@ -1,6 +1,7 @@
 // MATLAB's version 4: variables one after the other, each with a header of five integers, its name
 // and its values by columns.
 #include <array>
+#include <cinttypes>
 #include <cmath>
 
 #include "matrixfile/matlab.hpp"
@@ -48,9 +49,9 @@ Variable variableAt(BinaryFile& file, std::uint64_t position) {
   if (file.size() - position < headerSize)
     throw Error("the file is cut short in the header of a variable");
   const auto fail = [&] {
-    throw Error(formatted(
-        "no header of a MATLAB variable at byte %llu: the file is damaged, or no MATLAB file",
-        static_cast<unsigned long long>(position)));
+    throw Error(formatted("no header of a MATLAB variable at byte %" PRIu64
+                          ": the file is damaged, or no MATLAB file",
+                          position));
   };
   char bytes[headerSize];
   file.read(bytes, sizeof bytes);
@@ -60,25 +61,24 @@ Variable variableAt(BinaryFile& file, std::uint64_t position) {
   const auto type = [&](bool swapped) { return numberAt<std::int32_t>(bytes, swapped); };
   variable.swapped =
       type(!littleEndian) / 1000 == 0 && type(!littleEndian) >= 0 ? !littleEndian : littleEndian;
-  const auto word = [&](std::size_t i) {
-    return static_cast<long long>(numberAt<std::int32_t>(bytes + 4 * i, variable.swapped));
+  const auto word = [&](std::size_t i) -> long long {
+    return numberAt<std::int32_t>(bytes + 4 * i, variable.swapped);
   };
   const long long mopt = word(0), imaginary = word(3), nameLength = word(4);
   if (mopt / 1000 != (variable.swapped == littleEndian ? 1 : 0) || mopt < 0 ||
       mopt / 100 % 10 != 0 || mopt / 10 % 10 > 5 || mopt % 10 > 2 || word(1) < 0 || word(2) < 0 ||
       imaginary < 0 || imaginary > 1 || nameLength < 1 || nameLength > 4096)
     fail();
-  variable.type = static_cast<int>(mopt / 10 % 10);
+  variable.type = mopt / 10 % 10;
   variable.sparse = mopt % 10 == 2;
   variable.shape = {word(1), word(2)};
-  variable.begin = position + headerSize + static_cast<std::uint64_t>(nameLength);
-  const auto count =
-      static_cast<std::uint64_t>(word(1)) * static_cast<std::uint64_t>(word(2));  // less than 2^62
-  const std::uint64_t width = widthOf(variable.type) * static_cast<std::uint64_t>(1 + imaginary);
+  variable.begin = position + headerSize + nameLength;
+  const std::uint64_t count = word(1) * word(2),  // less than 2^62
+      width = widthOf(variable.type) * (1 + imaginary);
   if (variable.begin > file.size() || count > (file.size() - variable.begin) / width)
-    throw Error(
-        formatted("the file is cut short: the variable at byte %llu is longer than what is left",
-                  static_cast<unsigned long long>(position)));
+    throw Error(formatted("the file is cut short: the variable at byte %" PRIu64
+                          " is longer than what is left",
+                          position));
   variable.end = variable.begin + count * width;
   variable.name.resize(nameLength);
   file.read(variable.name.data(), variable.name.size());
@@ -95,17 +95,17 @@ Variable variableAt(BinaryFile& file, std::uint64_t position) {
 long long sizeFrom(double value) {
   if (!(value >= 0 && value < 9e15) || value != std::floor(value))
     throw Error(formatted("a size or an index of %g", value));
-  return static_cast<long long>(value);
+  return value;
 }
 
 void completeSparse(BinaryFile& file, Variable& variable) {
-  const auto rows = static_cast<std::size_t>(variable.shape[0]);
+  const std::size_t rows = variable.shape[0];
   if (!variable.real) return;
   if (rows < 1 || variable.shape[1] != 3)
     throw Error("variable '" + variable.name + "': a sparse matrix without its size");
   const auto width = widthOf(variable.type);
   std::vector<long long> shape;
-  for (const std::size_t column : {std::size_t{0}, std::size_t{1}}) {
+  for (std::size_t column = 0; column < 2; ++column) {
     char bytes[8];
     file.seek(variable.begin + (column * rows + rows - 1) * width);
     file.read(bytes, width);

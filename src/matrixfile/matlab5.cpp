@@ -3,6 +3,7 @@
 #include <zlib.h>
 
 #include <array>
+#include <cinttypes>
 #include <limits>
 
 #include "matrixfile/matlab.hpp"
@@ -67,14 +68,14 @@ class Source {
   }
   std::size_t produce(char* to, std::size_t count) {
     stream_.next_out = reinterpret_cast<Bytef*>(to);
-    stream_.avail_out = static_cast<uInt>(count);
+    stream_.avail_out = count;
     while (!atEnd_ && stream_.avail_out > 0) {
       if (stream_.avail_in == 0 && left_ > 0) {
-        const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(left_, buffer_.size()));
+        const std::size_t size = std::min<std::uint64_t>(left_, buffer_.size());
         file_.read(buffer_.data(), size);
         left_ -= size;
         stream_.next_in = reinterpret_cast<Bytef*>(buffer_.data());
-        stream_.avail_in = static_cast<uInt>(size);
+        stream_.avail_in = size;
       }
       const int code = inflate(&stream_, Z_NO_FLUSH);
       if (code == Z_STREAM_END) atEnd_ = true;
@@ -150,8 +151,7 @@ class Elements {
     tag.small = true;
     tag.type = first & 0xffff;
     tag.size = first >> 16;
-    if (tag.size > 4)
-      throw Error(formatted("a small part of %d bytes", static_cast<int>(tag.size)));
+    if (tag.size > 4) throw Error(formatted("a small part of %u bytes", first >> 16));
     std::copy(bytes + 4, bytes + 8, tag.data);
     return tag;
   }
@@ -166,7 +166,7 @@ std::vector<Number> converted(const std::vector<char>& bytes, bool swapped) {
   if (bytes.size() % sizeof(Stored) != 0) throw Error("half a number at the end of a part");
   std::vector<Number> numbers(bytes.size() / sizeof(Stored));
   for (std::size_t k = 0; k < numbers.size(); ++k)
-    numbers[k] = static_cast<Number>(numberAt<Stored>(bytes.data() + k * sizeof(Stored), swapped));
+    numbers[k] = numberAt<Stored>(bytes.data() + k * sizeof(Stored), swapped);
   return numbers;
 }
 
@@ -240,36 +240,25 @@ Variable variableAt(BinaryFile& file, std::uint64_t position, bool swapped) {
   file.seek(position);
   const auto type = file.number<std::uint32_t>(swapped), size = file.number<std::uint32_t>(swapped);
   if (type != matrixType && type != packedType)
-    throw Error(formatted("no variable at byte %llu: the file is damaged",
-                          static_cast<unsigned long long>(position)));
+    throw Error(formatted("no variable at byte %" PRIu64 ": the file is damaged", position));
   Variable variable;
   variable.begin = position + tagSize;
   variable.end = variable.begin + size;
   variable.packed = type == packedType;
   variable.swapped = swapped;
   if (variable.end > file.size())
-    throw Error(
-        formatted("the file is cut short: the variable at byte %llu takes %u bytes, %llu are left",
-                  static_cast<unsigned long long>(position), size,
-                  static_cast<unsigned long long>(file.size() - variable.begin)));
+    throw Error(formatted("the file is cut short: the variable at byte %" PRIu64
+                          " takes %u bytes, %" PRIu64 " are left",
+                          position, size, file.size() - variable.begin));
   if (size == 0) return variable;  // an empty matrix of nothing
   try {
     Elements elements(file, variable);
     readHeader(elements, variable);
   } catch (const Error& error) {
-    throw Error(formatted("the variable at byte %llu is damaged: %s",
-                          static_cast<unsigned long long>(position), error.what()));
+    throw Error(
+        formatted("the variable at byte %" PRIu64 " is damaged: %s", position, error.what()));
   }
   return variable;
-}
-
-/// Lists may be longer than what the last column ends with: MATLAB keeps places free, one at the
-/// least.
-void dropFree(Compressed& matrix) {
-  if (matrix.begin.empty() || matrix.begin.back() < 0) return;
-  const auto count = static_cast<std::size_t>(matrix.begin.back());
-  if (matrix.index.size() > count) matrix.index.resize(count);
-  if (matrix.value.size() > count) matrix.value.resize(count);
 }
 
 }  // namespace
@@ -296,9 +285,7 @@ Entries readVersion5(BinaryFile& file, const Variable& variable) {
   if (!variable.sparse) {
     const auto values = numbersOf<double>(elements.next(), variable.swapped);
     elements.finish();
-    const auto wanted = static_cast<std::uint64_t>(variable.shape[0]) *
-                        static_cast<std::uint64_t>(variable.shape[1]);
-    if (values.size() != wanted)
+    if (std::ssize(values) != variable.shape[0] * variable.shape[1])  // less than 2^62
       throw Error(formatted("%zu values in a matrix of %lld x %lld", values.size(),
                             variable.shape[0], variable.shape[1]));
     return full(variable, values);
@@ -308,7 +295,7 @@ Entries readVersion5(BinaryFile& file, const Variable& variable) {
   matrix.begin = numbersOf<long long>(elements.next(), variable.swapped);
   matrix.value = numbersOf<double>(elements.next(), variable.swapped);
   elements.finish();
-  dropFree(matrix);
+  matrix.dropFree();
   return matrix.entries();
 }
 

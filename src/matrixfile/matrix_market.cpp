@@ -91,7 +91,7 @@ class Lines {
 std::string lowerCase(std::string_view word) {
   std::string text(word);
   for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    if (c >= 'A' && c <= 'Z') c += 'a' - 'A';
   return text;
 }
 
@@ -264,12 +264,11 @@ Entries readMatrixMarket(const std::filesystem::path& path) {
 void writeMatrixMarket(const std::filesystem::path& path, const Entries& entries) {
   errno = 0;
   std::ofstream file(path);
-  file << formatted("%%%%MatrixMarket matrix coordinate real general\n%d %d %zu\n",
-                    static_cast<int>(entries.rows), static_cast<int>(entries.columns),
-                    entries.value.size());
+  file << "%%MatrixMarket matrix coordinate real general\n"
+       << entries.rows << ' ' << entries.columns << ' ' << entries.value.size() << '\n';
   for (std::size_t k = 0; k < entries.value.size(); ++k)
-    file << formatted("%d %d %.17g\n", static_cast<int>(entries.row[k]) + 1,
-                      static_cast<int>(entries.column[k]) + 1, entries.value[k]);
+    file << entries.row[k] + 1 << ' ' << entries.column[k] + 1
+         << formatted(" %.17g\n", entries.value[k]);
   if (!file.flush()) throw output::WriteError(output::cannotWrite(path, errno));
 }
 

@@ -1,5 +1,6 @@
 #include <petscmat.h>
 
+#include <cinttypes>
 #include <cmath>
 
 #include "matrixfile/bytes.hpp"
@@ -15,10 +16,10 @@ constexpr bool swapped = littleEndian;  // the format is big-endian
 /// Class, rows, columns, entries; then the length of each row, the columns row by row, and the
 /// values, without gaps.
 struct Header {
-  std::int64_t rows = 0, columns = 0, entries = 0;
-  std::uint64_t columnsBegin() const { return static_cast<std::uint64_t>(4 * (4 + rows)); }
-  std::uint64_t valuesBegin() const { return static_cast<std::uint64_t>(4 * (4 + rows + entries)); }
-  std::uint64_t end() const { return valuesBegin() + static_cast<std::uint64_t>(8 * entries); }
+  long long rows = 0, columns = 0, entries = 0;
+  std::uint64_t columnsBegin() const { return 4 * (4 + rows); }
+  std::uint64_t valuesBegin() const { return 4 * (4 + rows + entries); }
+  std::uint64_t end() const { return valuesBegin() + 8 * entries; }
 };
 
 Header headerOf(BinaryFile& file) {
@@ -31,9 +32,7 @@ Header headerOf(BinaryFile& file) {
     throw Error("a dense matrix in PETSc's binary format; write a sparse one");
   if (header.rows < 0 || header.columns < 0 || header.entries < 0)
     throw Error(formatted("the header announces %lld rows, %lld columns and %lld entries",
-                          static_cast<long long>(header.rows),
-                          static_cast<long long>(header.columns),
-                          static_cast<long long>(header.entries)));
+                          header.rows, header.columns, header.entries));
   return header;
 }
 
@@ -43,27 +42,23 @@ void checkPattern(const std::filesystem::path& path, const Header& header) {
   BinaryFile lengths(path), columns(path);
   lengths.seek(16);
   columns.seek(header.columnsBegin());
-  std::int64_t left = header.entries;
+  long long left = header.entries;
   std::vector<std::int32_t> list;
-  for (std::int64_t row = 0; row < header.rows; ++row) {
+  for (long long row = 0; row < header.rows; ++row) {
     const auto count = lengths.number<std::int32_t>(swapped);
     const auto fail = [&](const std::string& why) {
-      throw Error(formatted("row %lld (counted from 0) ", static_cast<long long>(row)) + why);
+      throw Error(formatted("row %lld (counted from 0) ", row) + why);
     };
     if (count < 0 || count > header.columns)
-      fail(formatted("has %d entries in %lld columns", count,
-                     static_cast<long long>(header.columns)));
+      fail(formatted("has %d entries in %lld columns", count, header.columns));
     if (count > left)
-      fail(formatted("has more entries than the header announces in all, %lld",
-                     static_cast<long long>(header.entries)));
+      fail(formatted("has more entries than the header announces in all, %lld", header.entries));
     left -= count;
     list.resize(count);
-    columns.read(list.data(), list.size() * sizeof list[0]);
     for (auto& column : list) {
-      column = numberAt<std::int32_t>(reinterpret_cast<const char*>(&column), swapped);
+      column = columns.number<std::int32_t>(swapped);
       if (column < 0 || column >= header.columns)
-        fail(formatted("has an entry in column %d of %lld", column,
-                       static_cast<long long>(header.columns)));
+        fail(formatted("has an entry in column %d of %lld", column, header.columns));
     }
     std::sort(list.begin(), list.end());
     const auto twice = std::adjacent_find(list.begin(), list.end());
@@ -79,10 +74,9 @@ void checkPattern(const std::filesystem::path& path, const Header& header) {
 void checkValues(const std::filesystem::path& path, const Header& header) {
   BinaryFile values(path);
   values.seek(header.valuesBegin());
-  for (std::int64_t k = 0; k < header.entries; ++k)
+  for (long long k = 0; k < header.entries; ++k)
     if (!std::isfinite(values.number<double>(swapped)))
-      throw Error(formatted("entry %lld of %lld is not a finite number",
-                            static_cast<long long>(k + 1), static_cast<long long>(header.entries)));
+      throw Error(formatted("entry %lld of %lld is not a finite number", k + 1, header.entries));
 }
 
 }  // namespace
@@ -91,12 +85,11 @@ void requirePetscBinary(const std::filesystem::path& path) {
   BinaryFile file(path);
   const Header header = headerOf(file);
   if (file.size() != header.end())
-    throw Error(formatted(
-        "%llu bytes where a real matrix of %lld rows and %lld entries with 32-bit indices takes "
-        "%llu: cut short, or of "
-        "another PETSc configuration",
-        static_cast<unsigned long long>(file.size()), static_cast<long long>(header.rows),
-        static_cast<long long>(header.entries), static_cast<unsigned long long>(header.end())));
+    throw Error(
+        formatted("%" PRIu64
+                  " bytes where a real matrix of %lld rows and %lld entries with 32-bit indices "
+                  "takes %" PRIu64 ": cut short, or of another PETSc configuration",
+                  file.size(), header.rows, header.entries, header.end()));
   requireSquare(header.rows, header.columns);
   checkPattern(path, header);
   checkValues(path, header);
