@@ -69,8 +69,9 @@ std::string badDiagonal(Mat matrix) {
   check(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPIU_INT, MPI_SUM, comm));
   check(MPI_Allreduce(MPI_IN_PLACE, &lowest, 1, MPIU_INT, MPI_MIN, comm));
   if (count == 0) return "";
-  return formatted(" (diagonal entries that are not positive: %d, the first in row %d)",
-                   static_cast<int>(count), static_cast<int>(lowest) + 1);
+  return formatted(" (diagonal entries that are not positive: %" PetscInt_FMT
+                   ", the first in row %" PetscInt_FMT ")",
+                   count, lowest + 1);
 }
 
 /// A pivot of 1e-13 of the scaled matrix is what cancellation leaves of a zero one in a large
@@ -82,9 +83,9 @@ void requirePositiveDefinite(Mat matrix, const std::string& what, const std::str
   const std::string bad = badDiagonal(matrix);
   const auto [negative, zero] = linalg::inertia(matrix, 1e-13);
   if (negative == 0 && zero == 0) return;
-  throw Error(formatted("%s is not positive definite: %d negative and %d zero eigenvalues%s; %s",
-                        what.c_str(), static_cast<int>(negative), static_cast<int>(zero),
-                        bad.c_str(), advice.c_str()));
+  throw Error(formatted("%s is not positive definite: %" PetscInt_FMT " negative and %" PetscInt_FMT
+                        " zero eigenvalues%s; %s",
+                        what.c_str(), negative, zero, bad.c_str(), advice.c_str()));
 }
 
 }  // namespace

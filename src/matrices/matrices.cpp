@@ -53,9 +53,9 @@ void requireEqualSizes(const std::vector<NamedTerm>& terms) {
   for (const auto& [name, term] : terms) {
     check(MatGetSize(term.matrix, &size, nullptr));
     if (size != wanted)
-      throw Error(formatted("option -%s: %d rows, but matrix '%s' has %d",
-                            fileOption.fullName(name).c_str(), static_cast<int>(size),
-                            terms[0].name.c_str(), static_cast<int>(wanted)));
+      throw Error(
+          formatted("option -%s: %" PetscInt_FMT " rows, but matrix '%s' has %" PetscInt_FMT,
+                    fileOption.fullName(name).c_str(), size, terms[0].name.c_str(), wanted));
   }
 }
 

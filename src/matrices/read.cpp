@@ -31,8 +31,8 @@ OwnedMat distribute(MPI_Comm comm, matrixfile::Entries& entries) {
   check(MatCreate(comm, matrix.out()));
   check(MatSetSizes(matrix, PETSC_DECIDE, PETSC_DECIDE, sizes[0], sizes[1]));
   check(MatSetType(matrix, MATAIJ));
-  check(MatSetPreallocationCOO(matrix, static_cast<PetscCount>(entries.value.size()),
-                               entries.row.data(), entries.column.data()));
+  check(MatSetPreallocationCOO(matrix, entries.value.size(), entries.row.data(),
+                               entries.column.data()));
   check(MatSetValuesCOO(matrix, entries.value.data(), INSERT_VALUES));
   return matrix;
 }
@@ -41,10 +41,10 @@ OwnedMat distribute(MPI_Comm comm, matrixfile::Entries& entries) {
 /// gigabyte, it may; beyond, one row in a thousand at the least has an entry, or the header is
 /// damaged.
 void requireFilled(const matrixfile::Entries& entries) {
-  const auto count = static_cast<double>(entries.value.size());
+  const double count = entries.value.size();
   if (entries.rows > 1e7 + 1e3 * count)
-    throw Error(formatted("%lld rows with %.0f entries: is the number of rows right?",
-                          static_cast<long long>(entries.rows), count));
+    throw Error(formatted("%" PetscInt_FMT " rows with %.0f entries: is the number of rows right?",
+                          entries.rows, count));
 }
 
 matrixfile::Entries readHere(matrixfile::Format format, const std::filesystem::path& path,

@@ -86,9 +86,8 @@ void writeMatrix(Mat matrix, const fs::path& path) {
   PetscInt rows = 0;
   check(MatGetInfo(matrix, MAT_GLOBAL_SUM, &info));
   check(MatGetSize(matrix, &rows, nullptr));
-  const auto entries = static_cast<unsigned long long>(info.nz_used);
-  const auto bytes = (4 + static_cast<unsigned long long>(rows) + entries) * sizeof(PetscInt) +
-                     entries * sizeof(PetscScalar);
+  const unsigned long long entries = info.nz_used;
+  const auto bytes = (4 + entries + rows) * sizeof(PetscInt) + entries * sizeof(PetscScalar);
   onFirstRank(comm, blame(), [&] { output::reserve(path, bytes); });
   OwnedViewer viewer;
   check(PetscViewerCreate(comm, viewer.out()));

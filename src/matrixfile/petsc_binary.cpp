@@ -67,8 +67,7 @@ void checkPattern(const std::filesystem::path& path, const Header& header) {
   }
   if (left != 0)
     throw Error(formatted("the rows have %lld entries, the header announces %lld",
-                          static_cast<long long>(header.entries - left),
-                          static_cast<long long>(header.entries)));
+                          header.entries - left, header.entries));
 }
 
 void checkValues(const std::filesystem::path& path, const Header& header) {

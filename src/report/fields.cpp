@@ -25,10 +25,9 @@ const IntegerOption framesOption("report", "report_frames", 16, 4, 1000, "frames
 class Ghosts {
  public:
   explicit Ghosts(const mesh::Mesh& mesh) : mesh_(mesh) {
-    std::vector<PetscInt> nodes(mesh.globalNode.begin(), mesh.globalNode.end());
     OwnedIS from;
-    check(ISCreateBlock(mesh.comm, mesh.dimension, static_cast<PetscInt>(nodes.size()),
-                        nodes.data(), PETSC_COPY_VALUES, from.out()));
+    check(ISCreateBlock(mesh.comm, mesh.dimension, mesh.localNodes(), mesh.globalNode.data(),
+                        PETSC_COPY_VALUES, from.out()));
     check(VecCreateSeq(PETSC_COMM_SELF, mesh.dimension * mesh.localNodes(), local_.out()));
     const OwnedVec global = elasticity::nodalVector(mesh);
     check(VecScatterCreate(global, from, local_, nullptr, scatter_.out()));
@@ -105,12 +104,12 @@ std::vector<Animated> fastest(const analysis::Analysis& analysis) {
         all.push_back({point.eigenvalues[shape.index].s.real(), &point, &shape});
   std::sort(all.begin(), all.end(),
             [](const auto& a, const auto& b) { return a.growth > b.growth; });
-  all.resize(std::min(all.size(), static_cast<std::size_t>(animatedOption.get())));
+  all.resize(std::min<std::size_t>(all.size(), animatedOption.get()));
   return all;
 }
 
 std::string shapeName(const pencil::ComplexModes& point, const pencil::Shape& shape) {
-  return formatted("mode_%03d_%.0f_Hz", static_cast<int>(shape.index) + 1,
+  return formatted("mode_%03zu_%.0f_Hz", shape.index + 1,
                    point.eigenvalues[shape.index].s.imag() / (2 * M_PI));
 }
 
@@ -159,9 +158,8 @@ void writeFields(const analysis::Analysis& analysis, const std::filesystem::path
     // ParaView's time is the friction; where more is swept, several states would share it, and the
     // file's place in the list is the time.
     const bool frictionAlone = analysis.sweep.frictions.size() == analysis.steady.size();
-    steadyFiles.emplace_back(
-        frictionAlone ? solution.at.friction : static_cast<double>(steadyFiles.size()),
-        stem.string() + ".pvtu");
+    steadyFiles.emplace_back(frictionAlone ? solution.at.friction : steadyFiles.size(),
+                             stem.string() + ".pvtu");
   }
   writePvd(mesh.comm, vtk / "steady.pvd", steadyFiles);
   for (const auto& segment : analysis.segments) {

@@ -83,18 +83,20 @@ template <class Number, class Take>
 void inTurn(MPI_Comm comm, std::span<const Number> mine, std::size_t columns, const Take& take) {
   const std::size_t most = std::max<std::size_t>(1, (1 << 20) / columns) *
                            columns;  // entries of a piece: some megabytes
-  const auto bytes = [](std::size_t entries) { return static_cast<int>(entries * sizeof(Number)); };
   constexpr int tag = 0;
   int rank = 0, size = 1;
   check(MPI_Comm_rank(comm, &rank));
   check(MPI_Comm_size(comm, &size));
   const unsigned long long count = mine.size();
-  std::vector<unsigned long long> counts(static_cast<std::size_t>(size));
+  std::vector<unsigned long long> counts(size);
   check(MPI_Gather(&count, 1, MPI_UNSIGNED_LONG_LONG, counts.data(), 1, MPI_UNSIGNED_LONG_LONG, 0,
                    comm));
   if (rank != 0) {
-    for (; !mine.empty(); mine = mine.subspan(std::min(most, mine.size())))
-      check(MPI_Send(mine.data(), bytes(std::min(most, mine.size())), MPI_BYTE, 0, tag, comm));
+    while (!mine.empty()) {
+      const auto piece = mine.first(std::min(most, mine.size()));
+      check(MPI_Send(piece.data(), piece.size_bytes(), MPI_BYTE, 0, tag, comm));
+      mine = mine.subspan(piece.size());
+    }
     return;
   }
   take(mine.data(), mine.size());
@@ -102,7 +104,8 @@ void inTurn(MPI_Comm comm, std::span<const Number> mine, std::size_t columns, co
   for (int other = 1; other < size; ++other)
     for (std::size_t left = counts[other]; left > 0; left -= std::min(most, left)) {
       const std::size_t entries = std::min(most, left);
-      check(MPI_Recv(piece.data(), bytes(entries), MPI_BYTE, other, tag, comm, MPI_STATUS_IGNORE));
+      check(MPI_Recv(piece.data(), entries * sizeof(Number), MPI_BYTE, other, tag, comm,
+                     MPI_STATUS_IGNORE));
       take(piece.data(), entries);
     }
 }
@@ -152,9 +155,9 @@ void Hdf5File::close() {
 }
 
 void Hdf5File::writeMesh(const mesh::Mesh& mesh) {
-  const auto owned = static_cast<std::size_t>(mesh.ownedNodes);
+  const PetscInt owned = mesh.ownedNodes;
   std::vector<double> coordinates;
-  for (std::size_t node = 0; node < owned; ++node)
+  for (PetscInt node = 0; node < owned; ++node)
     coordinates.insert(coordinates.end(), mesh.coordinates[node].begin(),
                        mesh.coordinates[node].end());
   writeRows<double>("/mesh", "coordinates", 3, coordinates);
@@ -211,7 +214,7 @@ void Hdf5File::writeTable(const std::string& group, const std::string& name,
     values.insert(values.end(), row.begin(), row.end());
   }
   failTogether(comm_, message);
-  writeRows<double>(group, name, static_cast<int>(columns.size()), values);
+  writeRows<double>(group, name, columns.size(), values);
   writeAttribute(group + "/" + name, "columns", joined(columns, ","));
 }
 
@@ -248,7 +251,7 @@ void Hdf5File::writeRows(const std::string& group, const std::string& name, int 
                          std::span<const Number> values) {
   unsigned long long total = values.size();
   check(MPI_Allreduce(MPI_IN_PLACE, &total, 1, MPI_UNSIGNED_LONG_LONG, MPI_SUM, comm_));
-  const auto width = static_cast<hsize_t>(columns);
+  const hsize_t width = columns;
   const hdf5::Silence silence;
   std::optional<Rows> rows;
   onFirstRank(comm_, blame, [&] {

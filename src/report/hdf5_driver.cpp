@@ -65,7 +65,7 @@ haddr_t end(const H5FD_t* file, H5FD_mem_t) { return own(file)->end; }
 herr_t readBytes(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, std::size_t size, void* buffer) {
   auto* bytes = static_cast<char*>(buffer);
   while (size > 0) {
-    const auto count = pread(own(file)->descriptor, bytes, size, static_cast<off_t>(address));
+    const auto count = pread(own(file)->descriptor, bytes, size, address);
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) return -1;
     if (count == 0) {  // beyond the end of the file
@@ -73,8 +73,8 @@ herr_t readBytes(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, std::size_t s
       return 0;
     }
     bytes += count;
-    size -= static_cast<std::size_t>(count);
-    address += static_cast<haddr_t>(count);
+    size -= count;
+    address += count;
   }
   return 0;
 }
@@ -84,15 +84,15 @@ herr_t writeBytes(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, std::size_t 
   own(file)->end = std::max(own(file)->end, address + size);
   const auto* bytes = static_cast<const char*>(buffer);
   while (size > 0 && firstError == 0) {
-    const auto count = pwrite(own(file)->descriptor, bytes, size, static_cast<off_t>(address));
+    const auto count = pwrite(own(file)->descriptor, bytes, size, address);
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) {
       note(count < 0 ? errno : ENOSPC);
       break;
     }
     bytes += count;
-    size -= static_cast<std::size_t>(count);
-    address += static_cast<haddr_t>(count);
+    size -= count;
+    address += count;
   }
   return 0;
 }
@@ -100,8 +100,7 @@ herr_t writeBytes(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, std::size_t 
 herr_t truncateFile(H5FD_t* file, hid_t, hbool_t) {
   auto& self = *own(file);
   if (self.end == self.allocated) return 0;
-  if (firstError == 0 && ftruncate(self.descriptor, static_cast<off_t>(self.allocated)) != 0)
-    note(errno);
+  if (firstError == 0 && ftruncate(self.descriptor, self.allocated) != 0) note(errno);
   self.end = self.allocated;
   return 0;
 }

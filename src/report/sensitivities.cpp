@@ -22,8 +22,7 @@ std::vector<double> byInterface(const analysis::Analysis& analysis,
   std::vector<double> sums(analysis.contact.interfaces.size(), 0.0);
   for (std::size_t k = 0; k < nodes.size(); ++k)
     sums[analysis.contact.nodes[k].interface] += nodes[k];
-  check(MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM,
-                      analysis.comm));
+  check(MPI_Allreduce(MPI_IN_PLACE, sums.data(), sums.size(), MPI_DOUBLE, MPI_SUM, analysis.comm));
   return sums;
 }
 

@@ -155,13 +155,13 @@ std::string strongDampingText(const analysis::Analysis& analysis) {
 }
 
 std::string gathered(MPI_Comm comm, const std::string& text) {
-  int rank = 0, size = 1, length = static_cast<int>(text.size());
+  int rank = 0, size = 1, length = text.size();
   check(MPI_Comm_rank(comm, &rank));
   check(MPI_Comm_size(comm, &size));
   std::vector<int> lengths(size), offsets(lengths.size(), 0);
   check(MPI_Gather(&length, 1, MPI_INT, lengths.data(), 1, MPI_INT, 0, comm));
   for (std::size_t r = 1; r < lengths.size(); ++r) offsets[r] = offsets[r - 1] + lengths[r - 1];
-  std::string all(rank == 0 ? static_cast<std::size_t>(offsets.back() + lengths.back()) : 0, ' ');
+  std::string all(rank == 0 ? offsets.back() + lengths.back() : 0, ' ');
   check(MPI_Gatherv(text.data(), length, MPI_CHAR, all.data(), lengths.data(), offsets.data(),
                     MPI_CHAR, 0, comm));
   return all;

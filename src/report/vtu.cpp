@@ -71,9 +71,8 @@ vtkNew<Array> filledArray(const std::string& name, int components,
   vtkNew<Array> array;
   array->SetName(name.c_str());
   array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()) / components);
-  for (std::size_t i = 0; i < values.size(); ++i)
-    array->SetValue(static_cast<vtkIdType>(i), static_cast<typename Array::ValueType>(values[i]));
+  array->SetNumberOfTuples(values.size() / components);
+  for (std::size_t i = 0; i < values.size(); ++i) array->SetValue(i, values[i]);
   return array;
 }
 
@@ -95,8 +94,8 @@ void addCells(vtkUnstructuredGrid* grid, const mesh::Mesh& mesh, int rank) {
     std::vector<vtkIdType> nodes(order.size());
     for (std::size_t cell = 0; cell < block.body.size(); ++cell) {
       for (std::size_t i = 0; i < order.size(); ++i)
-        nodes[i] = block.nodes[cell * order.size() + static_cast<std::size_t>(order[i])];
-      grid->InsertNextCell(type, static_cast<vtkIdType>(nodes.size()), nodes.data());
+        nodes[i] = block.nodes[cell * order.size() + order[i]];
+      grid->InsertNextCell(type, nodes.size(), nodes.data());
     }
     bodies.insert(bodies.end(), block.body.begin(), block.body.end());
   }
@@ -124,7 +123,7 @@ void requireWritable(const mesh::Mesh& mesh, const std::vector<Field>& fields) {
       message = formatted("no VTK cell for cells of gmsh type %d", block.type);
   for (const auto& field : fields)
     if ((field.components != 1 && field.components != 3) ||
-        field.values.size() != static_cast<std::size_t>(field.components) * mesh.globalNode.size())
+        field.values.size() != field.components * mesh.globalNode.size())
       message = formatted("field %s: %zu values of %d components do not fit %zu nodes",
                           field.name.c_str(), field.values.size(), field.components,
                           mesh.globalNode.size());
