@@ -38,11 +38,10 @@ void sayList(MPI_Comm comm, const char* head, const std::vector<std::string>& it
 
 void sayMesh(const mesh::Mesh& mesh) {
   std::vector<std::string> bodies, nodes, loads;
-  for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
+  for (int b = 0; b < std::ssize(mesh.bodies); ++b) {
     double cells = 0;
     for (const auto& block : mesh.cells)
-      cells += static_cast<double>(
-          std::count(block.body.begin(), block.body.end(), static_cast<int>(b)));
+      cells += std::count(block.body.begin(), block.body.end(), b);
     bodies.push_back(counted(mesh.bodies[b], total(mesh.comm, cells), "cells"));
   }
   auto held = contact::constrainedGroups();
@@ -50,17 +49,15 @@ void sayMesh(const mesh::Mesh& mesh) {
   for (const auto& [name, members] : mesh.nodeGroups)
     if (std::any_of(held.begin(), held.end(),
                     [&, &group = name](const auto& request) { return request.name == group; }))
-      nodes.push_back(
-          counted(name, total(mesh.comm, static_cast<double>(members.size())), "nodes"));
+      nodes.push_back(counted(name, total(mesh.comm, members.size()), "nodes"));
   const auto loaded = elasticity::loadedSurfaces();
-  for (std::size_t i = 0; i < mesh.surfaces.size(); ++i) {
+  for (int i = 0; i < std::ssize(mesh.surfaces); ++i) {
     if (std::none_of(loaded.begin(), loaded.end(),
                      [&](const auto& request) { return request.name == mesh.surfaces[i]; }))
       continue;
     double faces = 0;
     for (const auto& block : mesh.faces)
-      faces += static_cast<double>(
-          std::count(block.surface.begin(), block.surface.end(), static_cast<int>(i)));
+      faces += std::count(block.surface.begin(), block.surface.end(), i);
     loads.push_back(counted(mesh.surfaces[i], total(mesh.comm, faces), "faces"));
   }
   sayList(mesh.comm, "bodies", bodies);
@@ -70,12 +67,10 @@ void sayMesh(const mesh::Mesh& mesh) {
 
 void sayContact(const contact::Contact& contact, MPI_Comm comm) {
   std::vector<std::string> interfaces;
-  for (std::size_t i = 0; i < contact.interfaces.size(); ++i) {
-    const auto count =
-        std::count_if(contact.nodes.begin(), contact.nodes.end(),
-                      [&](const auto& node) { return node.interface == static_cast<int>(i); });
-    interfaces.push_back(
-        counted(contact.interfaces[i], total(comm, static_cast<double>(count)), "pairs of nodes"));
+  for (int i = 0; i < std::ssize(contact.interfaces); ++i) {
+    const double count = std::count_if(contact.nodes.begin(), contact.nodes.end(),
+                                       [&](const auto& node) { return node.interface == i; });
+    interfaces.push_back(counted(contact.interfaces[i], total(comm, count), "pairs of nodes"));
   }
   sayList(comm, "contact", interfaces);
 }
@@ -100,16 +95,15 @@ void sayMemory(MPI_Comm comm, Mat k0) {
   MatInfo info;
   check(MatGetSize(k0, &unknowns, nullptr));
   check(MatGetInfo(k0, MAT_GLOBAL_SUM, &info));
-  const int modes = static_cast<int>(std::min<PetscInt>(modes::wantedCount(), unknowns));
+  const int modes = std::min<PetscInt>(modes::wantedCount(), unknowns);
   const double factor = linalg::factorMemory(k0);
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  const double held = total(comm, 1024.0 * static_cast<double>(usage.ru_maxrss));
-  const double vectors = 8.0 * vectorsPerMode * modes * static_cast<double>(unknowns);
-  const double machine =
-      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-  say(comm, formatted("%-12s %d, %.0f entries in the stiffness", "unknowns",
-                      static_cast<int>(unknowns), info.nz_used));
+  const double held = total(comm, 1024.0 * usage.ru_maxrss);
+  const double vectors = 8.0 * vectorsPerMode * modes * unknowns;
+  const double machine = 1.0 * sysconf(_SC_PHYS_PAGES) * sysconf(_SC_PAGESIZE);
+  say(comm, formatted("%-12s %" PetscInt_FMT ", %.0f entries in the stiffness", "unknowns",
+                      unknowns, info.nz_used));
   say(comm, formatted("%-12s about %.2g GB on all ranks: %.2g held now, %.2g for the factor, %.2g "
                       "for vectors of %d modes; this machine "
                       "has %.3g GB",
@@ -126,9 +120,10 @@ void ofMatrices(const Analysis& analysis) {
     check(MatGetInfo(term.matrix, MAT_GLOBAL_SUM, &info));
     check(MatGetSize(term.matrix, &rows, nullptr));
     say(analysis.comm,
-        formatted("%-12s %s: %d rows, %.0f entries, with s^%d, friction^%d, speed^%d, damping^%d",
-                  "matrix", name.c_str(), static_cast<int>(rows), info.nz_used, term.power,
-                  term.frictionExponent, term.speedExponent, term.dampingExponent));
+        formatted("%-12s %s: %" PetscInt_FMT
+                  " rows, %.0f entries, with s^%d, friction^%d, speed^%d, damping^%d",
+                  "matrix", name.c_str(), rows, info.nz_used, term.power, term.frictionExponent,
+                  term.speedExponent, term.dampingExponent));
     if (term.power != 0) continue;
     if (!pattern)
       check(MatDuplicate(term.matrix, MAT_COPY_VALUES, pattern.out()));

@@ -30,7 +30,7 @@ class MatrixSegment : public SegmentProblem {
   const modes::AssociatedSystem& system() const override { return system_; }
   Mat trial() const override { return identity_; }
   int modeCount() const override {
-    return static_cast<int>(std::min<PetscInt>(modes::wantedCount(), system_.size()));
+    return std::min<PetscInt>(modes::wantedCount(), system_.size());
   }
   const std::vector<sweep::Parameters>& steadyPoints() const override { return points_; }
   pencil::Pencil pencil() const override { return pencil_.with({}); }
@@ -57,7 +57,7 @@ std::vector<matrices::NamedTerm> readMatrices(MPI_Comm comm, const sweep::Sweep&
   std::vector<std::string> files;
   for (const auto& item : named)
     files.push_back(resolvedOptions().at("matrices_" + item.name + "_file"));
-  stage.finish(formatted("%d matrices: %s", static_cast<int>(named.size()), joined(files).c_str()));
+  stage.finish(formatted("%zu matrices: %s", named.size(), joined(files).c_str()));
   return named;
 }
 
@@ -66,7 +66,7 @@ void solveMatrices(Analysis& analysis) {
   Stage stage(analysis.comm, "matrices");
   const matrices::SymmetricPart symmetric = matrices::symmetricPart(named);
   stage.finish(formatted(
-      "%d unknowns%s", static_cast<int>(symmetric.system.size()),
+      "%" PetscInt_FMT " unknowns%s", symmetric.system.size(),
       symmetric.asymmetry > 0
           ? formatted("; stiffness without friction unsymmetric by %.1e: free modes of its "
                       "symmetric part",

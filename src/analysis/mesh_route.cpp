@@ -29,38 +29,37 @@ namespace {
 std::string unusedText(PetscInt nodes) {
   if (nodes == 0) return "";
   return nodes == 1 ? "; 1 node in no cell is not used"
-                    : formatted("; %d nodes in no cell are not used", static_cast<int>(nodes));
+                    : "; " + std::to_string(nodes) + " nodes in no cell are not used";
 }
 
 mesh::Mesh readMesh(MPI_Comm comm) {
   const mesh::Request request = meshRequest();
   Stage stage(comm, "mesh");
   mesh::Mesh mesh = mesh::read(comm, request);
-  stage.finish(formatted("%s: %d nodes, %d cells, %d bodies in %d connected parts%s",
-                         resolvedOptions().at("mesh_file").c_str(),
-                         static_cast<int>(mesh.totalNodes), static_cast<int>(mesh.totalCells),
-                         static_cast<int>(mesh.bodies.size()), mesh.parts,
-                         unusedText(mesh.unusedNodes).c_str()));
+  stage.finish(formatted(
+      "%s: %" PetscInt_FMT " nodes, %" PetscInt_FMT " cells, %zu bodies in %d connected parts%s",
+      resolvedOptions().at("mesh_file").c_str(), mesh.totalNodes, mesh.totalCells,
+      mesh.bodies.size(), mesh.parts, unusedText(mesh.unusedNodes).c_str()));
   return mesh;
 }
 
 elasticity::Bodies assembleBodies(const mesh::Mesh& mesh) {
   Stage stage(mesh.comm, "elasticity");
   elasticity::Bodies bodies = elasticity::assemble(mesh);
-  stage.finish(formatted("stiffness, mass and loads on %d displacements",
-                         static_cast<int>(mesh.dimension * mesh.totalNodes)));
+  stage.finish(formatted("stiffness, mass and loads on %" PetscInt_FMT " displacements",
+                         mesh.dimension * mesh.totalNodes));
   return bodies;
 }
 
 contact::Contact buildContact(const mesh::Mesh& mesh, const elasticity::Bodies& bodies) {
   Stage stage(mesh.comm, "contact");
   contact::Contact contact = contact::build(mesh, bodies);
-  stage.finish(
-      formatted("%d contact nodes on %d interfaces%s", static_cast<int>(contact.totalNodes),
-                static_cast<int>(contact.interfaces.size()),
-                contact.weightsPositive ? ""
-                                        : "; faces with non-positive nodal weights: accepted only "
-                                          "while contact is closed everywhere"));
+  stage.finish(formatted("%" PetscInt_FMT " contact nodes on %zu interfaces%s", contact.totalNodes,
+                         contact.interfaces.size(),
+                         contact.weightsPositive
+                             ? ""
+                             : "; faces with non-positive nodal weights: accepted only "
+                               "while contact is closed everywhere"));
   return contact;
 }
 
@@ -81,10 +80,10 @@ class CurrentSystem {
       Stage stage(analysis_.mesh->comm, "contact");
       system_ =
           std::make_unique<contact::CoupledSystem>(analysis_.bodies, analysis_.contact, closed);
-      stage.finish(formatted("%d unknowns with %d of %d contact nodes closed",
-                             static_cast<int>(system_->size()),
-                             static_cast<int>(analysis_.contact.totalNodes - system_->openNodes()),
-                             static_cast<int>(analysis_.contact.totalNodes)));
+      const PetscInt nodes = analysis_.contact.totalNodes;
+      stage.finish(formatted("%" PetscInt_FMT " unknowns with %" PetscInt_FMT " of %" PetscInt_FMT
+                             " contact nodes closed",
+                             system_->size(), nodes - system_->openNodes(), nodes));
     }
     return *system_;
   }
@@ -109,12 +108,11 @@ std::vector<steady::Solution> steadySweep(const Analysis& analysis, CurrentSyste
     Stage stage(analysis.mesh->comm, "steady");
     solutions.push_back(problem.solve(at, current));
     const auto& solution = solutions.back();
-    stage.finish(formatted(
-        "%s: %s after %d iterations, %d of %d nodes open, smallest pressure %.4g, residual %.0e, "
-        "imbalance %.0e",
-        sweep::parameterText(at).c_str(), solution.reason.c_str(), solution.iterations,
-        static_cast<int>(solution.openNodes), static_cast<int>(analysis.contact.totalNodes),
-        solution.smallestPressure, solution.residual, solution.imbalance));
+    stage.finish(formatted("%s: %s after %d iterations, %" PetscInt_FMT " of %" PetscInt_FMT
+                           " nodes open, smallest pressure %.4g, residual %.0e, imbalance %.0e",
+                           sweep::parameterText(at).c_str(), solution.reason.c_str(),
+                           solution.iterations, solution.openNodes, analysis.contact.totalNodes,
+                           solution.smallestPressure, solution.residual, solution.imbalance));
     if (solution.converged)
       linalg::requireFinite(solution.displacement, "steady sliding at " + sweep::parameterText(at));
     if (solution.converged)
@@ -162,9 +160,9 @@ void examineShapes(const Analysis& analysis, const contact::CoupledSystem& syste
   double error = 0;
   for (const auto& sensitivity : point.sensitivities)
     error = std::max(error, sensitivity.leftBackwardError);
-  stage.finish(formatted("%s: sensitivities of %d eigenvalues, worst left backward error %.1e",
-                         sweep::parameterText(point.at).c_str(),
-                         static_cast<int>(point.sensitivities.size()), error));
+  stage.finish(formatted("%s: sensitivities of %zu eigenvalues, worst left backward error %.1e",
+                         sweep::parameterText(point.at).c_str(), point.sensitivities.size(),
+                         error));
 }
 
 /// The steady points from `first` to `last`, which share one active set.

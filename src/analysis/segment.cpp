@@ -24,7 +24,7 @@ const IntegerOption modesShown("report", "report_modes", 10, 0, 100'000,
 
 std::vector<OwnedVec> reportedShapes(const modes::Modes& modes, Mat trial) {
   std::vector<OwnedVec> shapes;
-  const int count = std::min(modesShown.get(), static_cast<int>(modes.angularFrequency.size()));
+  const int count = std::min<std::size_t>(modesShown.get(), modes.angularFrequency.size());
   for (int i = 0; i < count; ++i) {
     Vec d = nullptr;
     OwnedVec u;
@@ -42,8 +42,8 @@ std::vector<OwnedVec> reportedShapes(const modes::Modes& modes, Mat trial) {
 
 std::string pointText(const pencil::ComplexModes& point) {
   std::string text =
-      formatted("%s: %d of %d eigenvalues unstable", sweep::parameterText(point.at).c_str(),
-                point.unstableCount(), static_cast<int>(point.eigenvalues.size()));
+      formatted("%s: %d of %zu eigenvalues unstable", sweep::parameterText(point.at).c_str(),
+                point.unstableCount(), point.eigenvalues.size());
   if (point.bandTop > 0 && std::isfinite(point.bandTop))
     text += formatted(" to %.4g Hz", point.bandTop / (2 * M_PI));
   text += formatted(", worst backward error %.1e", point.worstBackwardError());
@@ -86,7 +86,7 @@ class SegmentSweep {
     Stage stage(pencil_.comm(), "flutter");
     reduced_ =
         std::make_unique<reduction::ReducedProblem>(pencil_, problem_.system(), segment.modes);
-    stage.finish(formatted("basis of %d free modes", static_cast<int>(reduced_->basisSize())));
+    stage.finish(formatted("basis of %" PetscInt_FMT " free modes", reduced_->basisSize()));
   }
 
   void solvePoints(ModalSegment& segment) {
@@ -136,13 +136,14 @@ class SegmentSweep {
         [&](const std::string& text) { stage.progress(text); });
     std::size_t branches = 0, stations = 0, criticals = 0;
     for (const auto& followed : segment.followed) {
-      branches += static_cast<std::size_t>(followed.branches.count);
+      branches += followed.branches.count;
       stations += followed.branches.stations.size();
       criticals += followed.criticals.size();
     }
     stage.finish(
-        formatted("%zu branches followed over %zu frictions, %zu critical frictions, basis of %d",
-                  branches, stations, criticals, static_cast<int>(reduced_->basisSize())));
+        formatted("%zu branches followed over %zu frictions, %zu critical frictions, basis of "
+                  "%" PetscInt_FMT,
+                  branches, stations, criticals, reduced_->basisSize()));
   }
 
  private:
@@ -158,9 +159,9 @@ class SegmentSweep {
       requireFiniteEigenvalues(point);
       stage.say(pointText(point));
     }
-    std::string text = formatted("%d points", static_cast<int>(batch.size()));
+    std::string text = formatted("%zu points", batch.size());
     if (reduced_)
-      text += formatted(", basis of %d, %ld solves", static_cast<int>(reduced_->basisSize()),
+      text += formatted(", basis of %" PetscInt_FMT ", %ld solves", reduced_->basisSize(),
                         reduced_->basis().solves());
     stage.finish(text);
   }

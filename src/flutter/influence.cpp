@@ -66,8 +66,7 @@ void Influences::derive(pencil::ComplexModes& point, const pencil::Pencil& penci
 }
 
 std::vector<Influences::Influence> Influences::influences(const BodyPoint& state) {
-  for (int body = static_cast<int>(parts_.size()); body < static_cast<int>(mesh_.bodies.size());
-       ++body)
+  for (int body = parts_.size(); body < std::ssize(mesh_.bodies); ++body)
     parts_.push_back(elasticity::bodyPart(mesh_, body));
   std::vector<Influence> list;
   for (const auto& parameter : sweep::allParameters) {
@@ -76,11 +75,11 @@ std::vector<Influences::Influence> Influences::influences(const BodyPoint& state
     if (parameter.value != &sweep::Parameters::friction)
       list.back().size = state.at.*parameter.value;
   }
-  for (std::size_t body = 0; body < mesh_.bodies.size(); ++body)
+  for (int body = 0; body < std::ssize(mesh_.bodies); ++body)
     for (const bool density : {false, true}) {
       list.emplace_back();
       list.back().name = (density ? "density_" : "young_") + mesh_.bodies[body];
-      list.back().body = static_cast<int>(body), list.back().density = density;
+      list.back().body = body, list.back().density = density;
     }
   if (!followsSteadyState(contact_, state.at, state.prestress)) return list;
   const steady::Problem problem(mesh_, bodies_, contact_);

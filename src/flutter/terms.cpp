@@ -127,19 +127,18 @@ std::vector<pencil::Term> modalDamping(const modes::Modes& modes, Mat mass) {
   if (!modalDampingWanted()) return terms;
   const auto ratios = modalOption.get();
   PetscInt local = 0, global = 0;
-  const auto count = static_cast<PetscInt>(modes.angularFrequency.size());
+  const PetscInt count = modes.angularFrequency.size();
   check(BVGetSizes(modes.vectors, &local, &global, nullptr));
   OwnedMat factors, product;
   check(MatCreateDense(PetscObjectComm(reinterpret_cast<PetscObject>(mass)), local, PETSC_DECIDE,
                        global, count, nullptr, factors.out()));
   for (PetscInt i = 0; i < count; ++i) {
-    const auto mode = static_cast<std::size_t>(i);
     Vec d = nullptr, column = nullptr;
     check(BVGetColumn(modes.vectors, i, &d));
     check(MatDenseGetColumnVecWrite(factors, i, &column));
     check(MatMult(mass, d, column));
-    check(VecScale(column, std::sqrt(2 * ratios[std::min(mode, ratios.size() - 1)] *
-                                     modes.angularFrequency[mode])));
+    check(VecScale(column, std::sqrt(2 * ratios[std::min<std::size_t>(i, ratios.size() - 1)] *
+                                     modes.angularFrequency[i])));
     check(MatDenseRestoreColumnVecWrite(factors, i, &column));
     check(BVRestoreColumn(modes.vectors, i, &d));
   }

@@ -58,8 +58,7 @@ ContactMotion contactMotion(const contact::Contact& contact, const linalg::Compl
   motion.convected = contact.convected
                          ? atPadNodes(contact, product(contact.convected, u))
                          : std::vector<ComplexPoint>(contact.nodes.size(), ComplexPoint{});
-  const auto component =
-      static_cast<std::size_t>(contact.mesh->dimension - 1);  // the row of the gap
+  const int component = contact.mesh->dimension - 1;  // the row of the gap
   for (const auto& row : atPadNodes(contact, product(contact.reaction, forces)))
     motion.normalForce.push_back(row[component]);
   return motion;

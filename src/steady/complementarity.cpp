@@ -113,7 +113,7 @@ double Problem::complementarity(OwnedVec& x, Solution& solution) const {
       std::max(1e-11, 10 * rounding(displacement(solution.at, x), load(solution.at)) / forceUnit);
   check(VecScale(x, 1 / xUnit));
   const OwnedVec work = rightVector(jacobian);
-  Scaled scaled{*this, solution.at, xUnit, forceUnit, static_cast<bool>(contact_.convected), work};
+  Scaled scaled{*this, solution.at, xUnit, forceUnit, contact_.convected != nullptr, work};
 
   const OwnedVec low = rightVector(jacobian), high = rightVector(jacobian);
   check(VecSet(low, PETSC_NINFINITY));
@@ -165,7 +165,7 @@ double Problem::complementarity(OwnedVec& x, Solution& solution) const {
   PetscReal tolerance = 0;
   check(SNESGetTolerances(snes, &tolerance, nullptr, nullptr, nullptr, nullptr));
   solution.reason = SNESConvergedReasons[reason];
-  solution.iterations = static_cast<int>(iterations);
+  solution.iterations = iterations;
   // SNES also stops where steps no longer change anything; only the residual decides on success.
   solution.converged = solution.residual <= std::max<PetscReal>(tolerance, 10 * asked);
   return left;

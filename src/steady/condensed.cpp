@@ -38,9 +38,7 @@ std::vector<double> Compliance::at(double friction) const {
 
 Condensed::Condensed(const contact::Contact& contact, Mat stiffness,
                      const std::vector<contact::Slip>& slip)
-    : contact_(contact),
-      size_(contact.totalNodes),
-      ownedSize_(static_cast<PetscInt>(contact.nodes.size())) {
+    : contact_(contact), size_(contact.totalNodes), ownedSize_(contact.nodes.size()) {
   const std::vector<unsigned char> all(contact.nodes.size(), 1);
   transformation_ = contact.transformation(all);
   check(MPI_Scan(&ownedSize_, &first_, 1, MPIU_INT, MPI_SUM, contact.mesh->comm));
@@ -92,9 +90,8 @@ OwnedMat Condensed::block(PetscInt columns) const {
 }
 
 Compliance Condensed::dense() const {
-  const auto n = static_cast<std::size_t>(size_), first = static_cast<std::size_t>(first_);
-  Compliance compliance{static_cast<int>(size_), std::vector<double>(n * n, 0.0),
-                        std::vector<double>(n * n, 0.0)};
+  const std::size_t n = size_;  // n² may exceed PetscInt
+  Compliance compliance{size_, std::vector<double>(n * n, 0.0), std::vector<double>(n * n, 0.0)};
   PetscInt firstRow = 0;
   check(MatGetOwnershipRange(stiffness_, &firstRow, nullptr));
   for (PetscInt begin = 0; begin < size_; begin += blockColumns) {
@@ -108,7 +105,7 @@ Compliance Condensed::dense() const {
     check(MatDenseRestoreArray(rhs, &values));
     check(KSPMatSolve(solver_, rhs, x));
     for (PetscInt column = 0; column < width; ++column) {
-      const auto j = static_cast<std::size_t>(begin + column);
+      const PetscInt j = begin + column;
       // As K_o is symmetric, column j of A0 is eᵀ x, and row j of A1 is −xᵀ U.
       for (Mat side : {gaps_.get(), friction_.get()}) {
         Vec xj = nullptr;
@@ -117,11 +114,11 @@ Compliance Condensed::dense() const {
         check(MatDenseRestoreColumnVecRead(x, column, &xj));
         const PetscScalar* entries = nullptr;
         check(VecGetArrayRead(part_, &entries));
-        for (std::size_t i = 0; i < static_cast<std::size_t>(ownedSize_); ++i)
+        for (PetscInt i = 0; i < ownedSize_; ++i)
           if (side == gaps_)
-            compliance.a0[j * n + first + i] = entries[i];
+            compliance.a0[j * n + first_ + i] = entries[i];
           else
-            compliance.a1[(first + i) * n + j] = -entries[i];
+            compliance.a1[(first_ + i) * n + j] = -entries[i];
         check(VecRestoreArrayRead(part_, &entries));
       }
     }
@@ -130,8 +127,7 @@ Compliance Condensed::dense() const {
   // all ranks. They are made column by column, since n² may exceed an int.
   for (auto* a : {&compliance.a0, &compliance.a1})
     for (std::size_t j = 0; j < n; ++j)
-      check(MPI_Allreduce(MPI_IN_PLACE, a->data() + j * n, static_cast<int>(n), MPI_DOUBLE, MPI_SUM,
-                          comm()));
+      check(MPI_Allreduce(MPI_IN_PLACE, a->data() + j * n, n, MPI_DOUBLE, MPI_SUM, comm()));
   return compliance;
 }
 
@@ -172,8 +168,7 @@ void Condensed::close() {
   const std::set<PetscInt> isGap(transformation_.gapColumn.begin(),
                                  transformation_.gapColumn.end());
   std::erase_if(rest, [&](PetscInt column) { return isGap.count(column) > 0; });
-  check(ISCreateGeneral(comm(), static_cast<PetscInt>(rest.size()), rest.data(), PETSC_COPY_VALUES,
-                        others.out()));
+  check(ISCreateGeneral(comm(), rest.size(), rest.data(), PETSC_COPY_VALUES, others.out()));
   check(MatCreateSubMatrix(stiffness_, others, others, MAT_INITIAL_MATRIX, closedStiffness_.out()));
   check(MatCreateSubMatrix(stiffness_, others, gaps, MAT_INITIAL_MATRIX, coupling_.out()));
   check(MatCreateSubMatrix(stiffness_, gaps, gaps, MAT_INITIAL_MATRIX, gapStiffness_.out()));

@@ -16,7 +16,7 @@ namespace squeal::steady {
 
 /// The matrices A0 and A1, size × size, m/N, column-major, with all entries on every rank.
 struct Compliance {
-  int size = 0;
+  PetscInt size = 0;
   std::vector<double> a0, a1;
   /// Returns A0 + f A1.
   std::vector<double> at(double friction) const;

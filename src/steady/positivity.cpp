@@ -18,8 +18,7 @@ namespace {
 /// of a condition number of 1e6 and more.
 constexpr double rounding = 1e-10;
 
-std::vector<double> symmetricPart(const std::vector<double>& a, int size) {
-  const auto n = static_cast<std::size_t>(size);
+std::vector<double> symmetricPart(const std::vector<double>& a, std::size_t n) {
   std::vector<double> s(n * n);
   for (std::size_t j = 0; j < n; ++j)
     for (std::size_t i = 0; i < n; ++i) s[j * n + i] = 0.5 * (a[j * n + i] + a[i * n + j]);
@@ -52,7 +51,7 @@ bool positiveDefinite(const std::vector<double>& eigenvalues) {
 }
 
 bool pMatrix(const std::vector<double>& a, int size) {
-  const auto n = static_cast<std::size_t>(size);
+  const std::size_t n = size;
   std::vector<double> unit(n * n);
   for (std::size_t i = 0; i < n; ++i)
     if (!(a[i * n + i] > 0)) return false;
@@ -64,7 +63,7 @@ bool pMatrix(const std::vector<double>& a, int size) {
 }
 
 bool surelyCopositive(const std::vector<double>& a, int size) {
-  const auto n = static_cast<std::size_t>(size);
+  const std::size_t n = size;
   std::vector<double> s = symmetricPart(a, size);
   for (std::size_t j = 0; j < n; ++j)
     for (std::size_t i = 0; i < n; ++i)
@@ -95,8 +94,7 @@ double lossOfPositivity(double smallestRatio) {
 }
 
 double lossOfPositivity(const std::vector<double>& a0, const std::vector<double>& a1, int size) {
-  std::vector<double> s0 = symmetricPart(a0, size), s1 = symmetricPart(a1, size),
-                      values(static_cast<std::size_t>(size));
+  std::vector<double> s0 = symmetricPart(a0, size), s1 = symmetricPart(a1, size), values(size);
   PetscBLASInt n = size, length = 34 * n, info = 0;
   const PetscBLASInt type = 1;
   std::vector<double> work(length);

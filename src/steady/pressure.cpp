@@ -19,9 +19,7 @@ std::vector<double> consistentPressure(const mesh::Mesh& mesh, const contact::Co
       std::vector<Point> points;
       std::vector<PetscInt> rows;
       for (int i = 0; i < block.nodesPerFace; ++i) {
-        const auto node =
-            static_cast<std::size_t>(block.nodes[e * static_cast<std::size_t>(block.nodesPerFace) +
-                                                 static_cast<std::size_t>(i)]);
+        const PetscInt node = block.nodes[e * block.nodesPerFace + i];
         points.push_back(mesh.coordinates[node]);
         rows.push_back(mesh.dimension * mesh.globalNode[node]);
       }
@@ -36,8 +34,7 @@ std::vector<double> consistentPressure(const mesh::Mesh& mesh, const contact::Co
   OwnedIS rows;
   std::vector<PetscInt> indices;
   for (const auto& node : contact.nodes) indices.push_back(mesh.dimension * node.globalNode);
-  check(ISCreateGeneral(mesh.comm, static_cast<PetscInt>(indices.size()), indices.data(),
-                        PETSC_COPY_VALUES, rows.out()));
+  check(ISCreateGeneral(mesh.comm, indices.size(), indices.data(), PETSC_COPY_VALUES, rows.out()));
   OwnedMat mass;
   check(MatCreateSubMatrix(folded, rows, rows, MAT_INITIAL_MATRIX, mass.out()));
   OwnedVec force, pressure;

@@ -269,10 +269,10 @@ void Problem::recover(Vec x, double noise, Solution& solution) const {
   if (solution.at.friction > 0 && solution.converged)
     contact::requireSlip(contact_, solution.slip, solution.closed);
 
-  for (std::size_t i = 0; i < contact_.interfaces.size(); ++i) {
+  for (int i = 0; i < std::ssize(contact_.interfaces); ++i) {
     Resultant resultant{contact_.interfaces[i], {}, {}};
     for (std::size_t k = 0; k < contact_.nodes.size(); ++k)
-      if (contact_.nodes[k].interface == static_cast<int>(i))
+      if (contact_.nodes[k].interface == i)
         for (std::size_t d = 0; d < 3; ++d) {
           resultant.normalForce[d] += solution.contact[k].normalForce * contact_.nodes[k].normal[d];
           resultant.frictionForce[d] += solution.contact[k].frictionForce[d];
@@ -295,9 +295,8 @@ double Problem::imbalance(const Solution& solution, Vec nodalForces) const {
   for (std::size_t i = 0; i < contact_.nodes.size(); ++i)
     for (int d = 0; d < dimension; ++d) {
       const auto& node = contact_.nodes[i];
-      const auto c = static_cast<std::size_t>(d);
       const double force =
-          solution.contact[i].normalForce * node.normal[c] + solution.contact[i].frictionForce[c];
+          solution.contact[i].normalForce * node.normal[d] + solution.contact[i].frictionForce[d];
       check(VecSetValue(contactForces, dimension * node.globalNode + d, force, ADD_VALUES));
       if (node.master >= 0)
         check(VecSetValue(contactForces, dimension * node.master + d, -force, ADD_VALUES));
@@ -306,7 +305,7 @@ double Problem::imbalance(const Solution& solution, Vec nodalForces) const {
   check(VecAssemblyEnd(contactForces));
   // [part][contact, supports, load][component], and at the end the sum of all magnitudes. That is
   // the scale of the terms that cancel; resultants may vanish by themselves.
-  std::vector<double> sums(static_cast<std::size_t>(mesh_.parts) * 9 + 1, 0.0);
+  std::vector<double> sums(mesh_.parts * 9 + 1, 0.0);
   const auto at = [&](int part, int kind, int d) -> double& {
     return sums[part * 9 + kind * 3 + d];
   };
@@ -332,8 +331,7 @@ double Problem::imbalance(const Solution& solution, Vec nodalForces) const {
   check(VecRestoreArrayRead(load, &loads));
   check(VecRestoreArrayRead(springs, &grounded));
   check(VecRestoreArrayRead(contactForces, &contacts));
-  check(MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM,
-                      mesh_.comm));
+  check(MPI_Allreduce(MPI_IN_PLACE, sums.data(), sums.size(), MPI_DOUBLE, MPI_SUM, mesh_.comm));
   double worst = 0;
   for (int part = 0; part < mesh_.parts; ++part) {
     double rest = 0;

@@ -52,8 +52,7 @@ Sweep readSweep() {
 }
 
 double Sweep::pointCount() const {
-  return static_cast<double>(frictions.size()) * static_cast<double>(speeds.size()) *
-         static_cast<double>(pressures.size()) * static_cast<double>(dampings.size());
+  return 1.0 * frictions.size() * speeds.size() * pressures.size() * dampings.size();
 }
 
 void warnOfLongSweep(MPI_Comm comm, const Sweep& sweep, int modes) {
@@ -62,11 +61,10 @@ void warnOfLongSweep(MPI_Comm comm, const Sweep& sweep, int modes) {
   // QZ on the linearised problem takes some 25 (2 m)³ operations for a basis of m vectors; m is
   // taken as twice the number of modes.
   const double hours = sweep.pointCount() * 25 * std::pow(4.0 * modes, 3) / perSecond / 3600;
-  complain(comm, formatted("a sweep of %.0f points, %.0f steady states: about %.2g hours for their "
-                           "dense eigenvalue problems alone (%d free modes)",
-                           sweep.pointCount(),
-                           sweep.pointCount() / static_cast<double>(sweep.dampings.size()), hours,
-                           modes));
+  complain(comm,
+           formatted("a sweep of %.0f points, %.0f steady states: about %.2g hours for their "
+                     "dense eigenvalue problems alone (%d free modes)",
+                     sweep.pointCount(), sweep.pointCount() / sweep.dampings.size(), hours, modes));
 }
 
 std::vector<Parameters> Sweep::steadyPoints() const {
@@ -126,8 +124,7 @@ std::vector<std::vector<std::size_t>> batches(const std::vector<Parameters>& poi
     for (std::size_t i = 0; i < points.size(); ++i)
       distance[i] = std::min(distance[i], apart(i, next));
     distance[next] = -1;
-    next = static_cast<std::size_t>(std::max_element(distance.begin(), distance.end()) -
-                                    distance.begin());
+    next = std::max_element(distance.begin(), distance.end()) - distance.begin();
   }
   return result;
 }
