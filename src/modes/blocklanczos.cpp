@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <random>
 #include <vector>
 
@@ -20,19 +21,21 @@ namespace squeal::modes {
 namespace {
 
 using Small = std::vector<PetscScalar>;  // column-major
+using Index = std::ptrdiff_t;            // so that products of sizes do not overflow
 
 /// The growing M-orthonormal basis V of size n × k, kept by columns, and T = Vᵀ M S V.
 class Lanczos {
  public:
-  Lanczos(Mat k, Mat m, KSP solver, PetscInt blockSize, PetscInt limit)
-      : m_(m), b_(blockSize), limit_(limit), t_(static_cast<std::size_t>(limit * limit), 0.0) {
+  Lanczos(Mat k, Mat m, KSP solver, int blockSize, Index limit)
+      : m_(m), b_(blockSize), limit_(limit), t_(limit * limit, 0.0) {
     PC pc = nullptr;
     check(KSPGetPC(solver, &pc));
     check(PCFactorGetMatrix(pc, &factor_));
     comm_ = PetscObjectComm(reinterpret_cast<PetscObject>(k));
-    PetscInt n = 0;
-    check(MatGetLocalSize(k, &rows_, nullptr));
+    PetscInt local = 0, n = 0;
+    check(MatGetLocalSize(k, &local, nullptr));
     check(MatGetSize(k, &n, nullptr));
+    rows_ = local;
     check(MatCreateDense(comm_, rows_, PETSC_DECIDE, n, b_, nullptr, w_.out()));
     check(MatZeroEntries(w_));
     check(MatMatMult(m_, w_, MAT_INITIAL_MATRIX, PETSC_DEFAULT, mw_.out()));
@@ -40,17 +43,17 @@ class Lanczos {
     // Each rank draws its own part; the seed is fixed, so that a run can be repeated.
     int rank = 0;
     check(MPI_Comm_rank(comm_, &rank));
-    random_.seed(static_cast<unsigned>(rank) + 1);
+    random_.seed(rank + 1);
   }
 
-  PetscInt size() const { return k_; }
+  Index size() const { return k_; }
   bool full() const { return k_ + b_ > limit_; }
 
   /// The first block: S applied to a random one, which damps what belongs to high frequencies.
   void start() {
     PetscScalar* w = nullptr;
     check(MatDenseGetArray(w_, &w));
-    for (PetscInt i = 0; i < b_ * rows_; ++i) w[i] = uniform_(random_);
+    for (Index i = 0; i < b_ * rows_; ++i) w[i] = uniform_(random_);
     check(MatDenseRestoreArray(w_, &w));
     apply();
     r_.assign(b_ * b_, 0.0);
@@ -69,13 +72,13 @@ class Lanczos {
     const Small h = orthogonalise(!restarted_);
     restarted_ = false;
     double size = 0;  // of W before V was taken out of it, squared
-    for (PetscInt j = 0; j < b_; ++j) {
+    for (Index j = 0; j < b_; ++j) {
       double sum = 0;
-      for (PetscInt i = 0; i < k_; ++i) sum += std::pow(h[j * k_ + i], 2);
+      for (Index i = 0; i < k_; ++i) sum += std::pow(h[j * k_ + i], 2);
       size = std::max(size, sum);
     }
-    for (PetscInt j = 0; j < b_; ++j)
-      for (PetscInt i = 0; i < k_; ++i) t(i, k_ - b_ + j) = t(k_ - b_ + j, i) = h[j * k_ + i];
+    for (Index j = 0; j < b_; ++j)
+      for (Index i = 0; i < k_; ++i) t(i, k_ - b_ + j) = t(k_ - b_ + j, i) = h[j * k_ + i];
     orthonormalise(size);
   }
 
@@ -95,21 +98,17 @@ class Lanczos {
   };
   Ritz ritz() const {
     Ritz ritz;
-    const auto k = static_cast<std::size_t>(k_);
-    Small a(k * k);
-    for (std::size_t j = 0; j < k; ++j)
-      for (std::size_t i = 0; i < k; ++i)
-        a[j * k + i] = t_[j * static_cast<std::size_t>(limit_) + i];
-    const auto ascending = linalg::symmetricEigen(a, static_cast<int>(k));
-    for (std::size_t j = 0; j < k; ++j) {
-      const std::size_t from = k - 1 - j;
+    Small a(k_ * k_);
+    for (Index j = 0; j < k_; ++j) std::copy_n(t_.begin() + j * limit_, k_, a.begin() + j * k_);
+    const auto ascending = linalg::symmetricEigen(a, k_);
+    for (Index from = k_ - 1; from >= 0; --from) {
+      const auto y = a.begin() + from * k_;
       ritz.value.push_back(ascending[from]);
-      ritz.vector.insert(ritz.vector.end(), a.begin() + from * k, a.begin() + ((from + 1) * k));
+      ritz.vector.insert(ritz.vector.end(), y, y + k_);
       PetscReal sum = 0;
-      for (PetscInt i = 0; i < b_; ++i) {
+      for (Index i = 0; i < b_; ++i) {
         PetscReal entry = 0;
-        for (PetscInt l = 0; l < b_; ++l)
-          entry += r_[l * b_ + i] * a[from * k + k - static_cast<std::size_t>(b_ - l)];
+        for (Index l = 0; l < b_; ++l) entry += r_[l * b_ + i] * y[k_ - b_ + l];
         sum += entry * entry;
       }
       ritz.residual.push_back(std::sqrt(sum));
@@ -118,30 +117,28 @@ class Lanczos {
   }
 
   /// V ← V Y, the first `kept` columns; T diagonal.
-  void contract(const Ritz& ritz, PetscInt kept) {
-    std::vector<PetscScalar> block(kept);
-    const PetscInt chunk = 256;  // rows at a time: no second copy of V
+  void contract(const Ritz& ritz, Index kept) {
+    const Index chunk = 256;  // rows at a time: no second copy of V
     std::vector<PetscScalar> rowsOfV(chunk * kept);
-    for (PetscInt begin = 0; begin < rows_; begin += chunk) {
-      PetscBLASInt rows = static_cast<PetscBLASInt>(std::min(chunk, rows_ - begin)),
-                   columns = static_cast<PetscBLASInt>(kept), inner = static_cast<PetscBLASInt>(k_),
-                   leading = static_cast<PetscBLASInt>(rows_);
+    for (Index begin = 0; begin < rows_; begin += chunk) {
+      PetscBLASInt rows = std::min(chunk, rows_ - begin), columns = kept, inner = k_,
+                   leading = rows_;
       const PetscScalar one = 1, zero = 0;
       BLASgemm_("N", "N", &rows, &columns, &inner, &one, column(0) + begin, &leading,
                 ritz.vector.data(), &inner, &zero, rowsOfV.data(), &rows);
-      for (PetscInt j = 0; j < kept; ++j)
+      for (Index j = 0; j < kept; ++j)
         std::copy_n(rowsOfV.data() + j * rows, rows, column(j) + begin);
     }
     k_ = kept;
     restarted_ = true;
     std::fill(t_.begin(), t_.end(), 0.0);
-    for (PetscInt j = 0; j < kept; ++j) t(j, j) = ritz.value[j];
+    for (Index j = 0; j < kept; ++j) t(j, j) = ritz.value[j];
   }
 
   /// Room for `limit` vectors, at a restart: T is diagonal then.
-  void enlarge(PetscInt limit) {
-    Small larger(static_cast<std::size_t>(limit * limit), 0.0);
-    for (PetscInt j = 0; j < k_; ++j) larger[j * limit + j] = t(j, j);
+  void enlarge(Index limit) {
+    Small larger(limit * limit, 0.0);
+    for (Index j = 0; j < k_; ++j) larger[j * limit + j] = t(j, j);
     t_ = std::move(larger);
     limit_ = limit;
     v_.resize(rows_ * limit);
@@ -151,9 +148,9 @@ class Lanczos {
   OwnedBV vectors(Mat like) { return linalg::copiedColumns(like, column(0), k_); }
 
  private:
-  PetscScalar& t(PetscInt i, PetscInt j) { return t_[j * limit_ + i]; }
+  PetscScalar& t(Index i, Index j) { return t_[j * limit_ + i]; }
 
-  PetscScalar* column(PetscInt j) { return v_.data() + j * rows_; }
+  PetscScalar* column(Index j) { return v_.data() + j * rows_; }
 
   void massTimesW() {
     Mat product = mw_;
@@ -167,47 +164,45 @@ class Lanczos {
   }
 
   /// Xᵀ (M W) over all ranks for the columns X = first `count` of `x`.
-  Small products(const PetscScalar* x, PetscInt count) {
+  Small products(const PetscScalar* x, Index count) {
     const PetscScalar* mw = nullptr;
-    Small result(static_cast<std::size_t>(count * b_), 0.0);
+    Small result(count * b_, 0.0);
     check(MatDenseGetArrayRead(mw_, &mw));
-    PetscBLASInt rows = static_cast<PetscBLASInt>(rows_), leading = std::max<PetscBLASInt>(rows, 1),
-                 columns = static_cast<PetscBLASInt>(b_), m = static_cast<PetscBLASInt>(count);
+    PetscBLASInt rows = rows_, leading = std::max<PetscBLASInt>(rows, 1), columns = b_, m = count;
     const PetscScalar one = 1, zero = 0;
     if (rows > 0 && m > 0)
       BLASgemm_("T", "N", &m, &columns, &rows, &one, x, &leading, mw, &leading, &zero,
                 result.data(), &m);
     check(MatDenseRestoreArrayRead(mw_, &mw));
-    check(MPI_Allreduce(MPI_IN_PLACE, result.data(), static_cast<int>(result.size()), MPIU_SCALAR,
-                        MPI_SUM, comm_));
+    check(MPI_Allreduce(MPI_IN_PLACE, result.data(), result.size(), MPIU_SCALAR, MPI_SUM, comm_));
     return result;
   }
 
   /// W ← W − X (Xᵀ M W) for the columns X of V from `first` on; adds the coefficients to rows
   /// `first`… of `sum` (k × b).
-  void subtract(PetscInt first, Small& sum) {
+  void subtract(Index first, Small& sum) {
     massTimesW();
-    const PetscInt count = k_ - first;
+    const Index count = k_ - first;
     const Small h = products(column(first), count);
     PetscScalar* w = nullptr;
     check(MatDenseGetArray(w_, &w));
-    PetscBLASInt rows = static_cast<PetscBLASInt>(rows_), leading = std::max<PetscBLASInt>(rows, 1),
-                 columns = static_cast<PetscBLASInt>(b_), inner = static_cast<PetscBLASInt>(count);
+    PetscBLASInt rows = rows_, leading = std::max<PetscBLASInt>(rows, 1), columns = b_,
+                 inner = count;
     const PetscScalar minus = -1, one = 1;
     if (rows > 0 && count > 0)
       BLASgemm_("N", "N", &rows, &columns, &inner, &minus, column(first), &leading, h.data(),
                 &inner, &one, w, &leading);
     check(MatDenseRestoreArray(w_, &w));
-    for (PetscInt j = 0; j < b_; ++j)
-      for (PetscInt i = 0; i < count; ++i) sum[j * k_ + first + i] += h[j * count + i];
+    for (Index j = 0; j < b_; ++j)
+      for (Index i = 0; i < count; ++i) sum[j * k_ + first + i] += h[j * count + i];
   }
 
   /// W made M-orthogonal to V; the summed coefficients (k × b). In exact arithmetic only the last
   /// two blocks have a part in S V_last (three-term recurrence), so one pass over these and one
   /// over all of V does; after a restart, and for random columns, all of V has: two full passes.
   Small orthogonalise(bool recurrence) {
-    Small sum(static_cast<std::size_t>(k_ * b_), 0.0);
-    subtract(recurrence ? std::max<PetscInt>(0, k_ - 2 * b_) : 0, sum);
+    Small sum(k_ * b_, 0.0);
+    subtract(recurrence ? std::max<Index>(0, k_ - 2 * b_) : 0, sum);
     subtract(0, sum);
     return sum;
   }
@@ -217,7 +212,7 @@ class Lanczos {
   /// taken out of it (an invariant subspace is complete), are replaced by random ones orthogonal to
   /// V, with zero rows in R.
   void orthonormalise(double size) {
-    const auto b = static_cast<std::size_t>(b_);
+    const std::size_t b = b_;
     r_.assign(b * b, 0.0);
     for (std::size_t i = 0; i < b; ++i) r_[i * b + i] = 1;
     int refills = 0;
@@ -227,7 +222,7 @@ class Lanczos {
       check(MatDenseGetArrayRead(w_, &read));
       Small gram = products(read, b_);
       check(MatDenseRestoreArrayRead(w_, &read));
-      const auto d = linalg::symmetricEigen(gram, static_cast<int>(b));
+      const auto d = linalg::symmetricEigen(gram, b);
       const double largest =
           std::max(d.back(), refills == 0 && pass == 0 ? size : 0);  // later W is scaled
       std::vector<bool> lost(b);
@@ -260,8 +255,7 @@ class Lanczos {
     PetscScalar* w = nullptr;
     check(MatDenseGetArray(w_, &w));
     old_.assign(w, w + b_ * rows_);
-    PetscBLASInt rows = static_cast<PetscBLASInt>(rows_), leading = std::max<PetscBLASInt>(rows, 1),
-                 columns = static_cast<PetscBLASInt>(b_);
+    PetscBLASInt rows = rows_, leading = std::max<PetscBLASInt>(rows, 1), columns = b_;
     const PetscScalar one = 1, zero = 0;
     if (rows > 0)
       BLASgemm_("N", "N", &rows, &columns, &columns, &one, old_.data(), &leading, x.data(),
@@ -272,15 +266,15 @@ class Lanczos {
   void refill(const std::vector<bool>& lost) {
     PetscScalar* w = nullptr;
     check(MatDenseGetArray(w_, &w));
-    for (PetscInt j = 0; j < b_; ++j)
+    for (Index j = 0; j < b_; ++j)
       if (lost[j])
-        for (PetscInt i = 0; i < rows_; ++i) w[j * rows_ + i] = uniform_(random_);
+        for (Index i = 0; i < rows_; ++i) w[j * rows_ + i] = uniform_(random_);
     check(MatDenseRestoreArray(w_, &w));
     orthogonalise(false);
   }
 
   Mat m_ = nullptr, factor_ = nullptr;
-  PetscInt b_, limit_, k_ = 0, rows_ = 0;
+  Index b_, limit_, k_ = 0, rows_ = 0;
   MPI_Comm comm_ = MPI_COMM_NULL;
   bool restarted_ = false;
   OwnedMat w_, mw_;
@@ -297,14 +291,15 @@ constexpr int restartsBeforeGrowth = 4;
 
 LanczosResult blockLanczos(Mat k, Mat m, KSP solver, int count, int blockSize, double tolerance,
                            int maxRestarts, const std::function<void(int, int)>& progress) {
-  PetscInt limit = lanczosVectors(count, blockSize), size = 0;
+  Index limit = lanczosVectors(count, blockSize);
+  PetscInt size = 0;
   check(MatGetSize(k, &size, nullptr));
   Lanczos lanczos(k, m, solver, blockSize, limit);
   LanczosResult result;
   lanczos.start();
   result.solves = blockSize;
   const int firstCheck = count + count / 2, every = std::max(2 * blockSize, count / 8);
-  for (PetscInt next = firstCheck;;) {
+  for (Index next = firstCheck;;) {
     lanczos.expand();
     result.solves += blockSize;
     if (lanczos.size() < next && !lanczos.full()) {
@@ -313,7 +308,7 @@ LanczosResult blockLanczos(Mat k, Mat m, KSP solver, int count, int blockSize, d
     }
     const auto ritz = lanczos.ritz();
     int converged = 0;
-    while (converged < std::min<int>(count, static_cast<int>(lanczos.size())) &&
+    while (converged < std::min<Index>(count, lanczos.size()) &&
            ritz.residual[converged] <= tolerance * ritz.value[converged])
       ++converged;
     progress(result.restarts, converged);

@@ -40,7 +40,7 @@ PetscInt rowsOf(Mat matrix) {
 PetscErrorCode report(EPS, PetscInt iteration, PetscInt converged, PetscScalar*, PetscScalar*,
                       PetscReal*, PetscInt, void* context) {
   static_cast<Stage*>(context)->progress(formatted(
-      "restart %d: %d modes converged", static_cast<int>(iteration), static_cast<int>(converged)));
+      "restart %" PetscInt_FMT ": %" PetscInt_FMT " modes converged", iteration, converged));
   return 0;
 }
 
@@ -55,10 +55,9 @@ OwnedEPS solver(const AssociatedSystem& system, int count, Stage& stage) {
   check(EPSSetWhichEigenpairs(eps, EPS_TARGET_MAGNITUDE));
   check(EPSSetTarget(eps, 0));
   // Half as many vectors again as modes, enlarged in portions of 100, took the fewest solves.
-  const int vectors =
-      std::min(static_cast<int>(rowsOf(k)),
-               count + std::clamp(count / 2, 50, 100));  // SLEPc wants <= count + portion
-  check(EPSSetDimensions(eps, count, vectors, std::min(vectors, 100)));
+  const PetscInt vectors = std::min<PetscInt>(
+      rowsOf(k), count + std::clamp(count / 2, 50, 100));  // SLEPc wants <= count + portion
+  check(EPSSetDimensions(eps, count, vectors, std::min<PetscInt>(vectors, 100)));
   check(EPSSetTolerances(eps, toleranceOption.get(), PETSC_DEFAULT));
   check(EPSSetPurify(eps, PETSC_FALSE));
   check(EPSMonitorSet(eps, report, &stage, nullptr));
@@ -79,7 +78,7 @@ int countBelow(Mat k, Mat m, double sigma) {
   check(MatDuplicate(k, MAT_COPY_VALUES, shifted.out()));
   check(MatAXPY(shifted, -sigma, m, DIFFERENT_NONZERO_PATTERN));
   check(MatSetOption(shifted, MAT_SYMMETRIC, PETSC_TRUE));
-  return static_cast<int>(linalg::inertia(shifted).negative);
+  return linalg::inertia(shifted).negative;
 }
 
 /// Number of modes, at most all but one, above which the widest relative gap of the topmost ten
@@ -98,11 +97,11 @@ std::size_t modesBelowGap(const std::vector<double>& w) {
 void confirmCount(Mat k, Mat m, Modes& modes) {
   const auto& w = modes.angularFrequency;
   if (w.empty()) return;
-  const std::size_t below = modesBelowGap(w);
+  const int below = modesBelowGap(w);
   modes.inertiaShift =
       below > 0 ? 0.5 * (w[below] * w[below] + w[below - 1] * w[below - 1]) : 0.5 * w[0] * w[0];
   modes.inertiaCount = countBelow(k, m, modes.inertiaShift);
-  modes.countConfirmed = modes.inertiaCount == static_cast<int>(below);
+  modes.countConfirmed = modes.inertiaCount == below;
 }
 
 void requireConverged(int converged, int count, const char* options) {
@@ -120,8 +119,7 @@ void solveByEps(const AssociatedSystem& system, int count, Stage& stage, Modes& 
   PetscInt converged = 0, iterations = 0;
   check(EPSGetConverged(eps, &converged));
   check(EPSGetIterationNumber(eps, &iterations));
-  requireConverged(static_cast<int>(converged), count,
-                   "a larger -modes_eps_max_it or -modes_eps_ncv");
+  requireConverged(converged, count, "a larger -modes_eps_max_it or -modes_eps_ncv");
   OwnedVec d;
   check(MatCreateVecs(k, d.out(), nullptr));
   check(BVCreate(PetscObjectComm(reinterpret_cast<PetscObject>(k)), modes.vectors.out()));
@@ -139,7 +137,7 @@ void solveByEps(const AssociatedSystem& system, int count, Stage& stage, Modes& 
     check(BVInsertVec(modes.vectors, i, d));
     modes.lambda.push_back(order[i].first);
   }
-  modes.iterations = static_cast<int>(iterations);
+  modes.iterations = iterations;
 }
 
 /// False if fewer have converged; `modes` is then as it was.
@@ -161,18 +159,17 @@ bool solveByLanczos(const AssociatedSystem& system, int count, int blockSize, St
 /// of the lowest modes, it gets best.
 void solveDense(const AssociatedSystem& system, int count, Modes& modes) {
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(system.k0()));
-  const int n = static_cast<int>(rowsOf(system.k0()));
+  const int n = rowsOf(system.k0());
   std::vector<double> all = linalg::gathered(system.m0()),
                       stiffness = linalg::gathered(system.k0()), vectors;
   onFirstRank(comm, "free vibration: the stiffness is not positive definite; is a body loose? ",
               [&] {
                 const auto inverse = linalg::symmetricEigen(all, stiffness, n);
                 for (int j = 0; j < count; ++j) {
-                  const auto last = static_cast<std::size_t>(n - 1 - j);
+                  const std::size_t last = n - 1 - j;
                   modes.lambda.push_back(1 / inverse[last]);
-                  for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i)
-                    vectors.push_back(all[last * static_cast<std::size_t>(n) + i] /
-                                      std::sqrt(inverse[last]));
+                  for (int i = 0; i < n; ++i)
+                    vectors.push_back(all[last * n + i] / std::sqrt(inverse[last]));
                 }
               });
   modes.lambda.resize(count);
@@ -213,11 +210,11 @@ void measureResiduals(const AssociatedSystem& system, Modes& modes) {
   check(MatGetDiagonal(system.k0(), diagonal));
   for (std::size_t i = 0; i < modes.lambda.size(); ++i) {
     Vec d = nullptr;
-    check(BVGetColumn(modes.vectors, static_cast<PetscInt>(i), &d));
+    check(BVGetColumn(modes.vectors, i, &d));
     check(MatMult(system.k0(), d, kd));
     check(MatMult(system.m0(), d, md));
     modes.rounding = std::max(modes.rounding, roundingOf(diagonal, d, modes.lambda[i]));
-    check(BVRestoreColumn(modes.vectors, static_cast<PetscInt>(i), &d));
+    check(BVRestoreColumn(modes.vectors, i, &d));
     if (!(modes.lambda[i] > 0) || modes.rounding > noise)
       throw Error(
           formatted("free vibration: eigenvalue %zu, %g, is not positive or nothing but rounding; "
@@ -241,9 +238,9 @@ bool lanczosWanted(int count, PetscInt size) {
   const std::string solver = solverOption.get();
   const bool fits = lanczosFits(count, blockOption.get(), size);
   if (solver == "block_lanczos" && !fits)
-    throw Error(formatted(
-        "option -modes_solver block_lanczos: %d modes of %d unknowns are too many for it; use eps",
-        count, static_cast<int>(size)));
+    throw Error(formatted("option -modes_solver block_lanczos: %d modes of %" PetscInt_FMT
+                          " unknowns are too many for it; use eps",
+                          count, size));
   return solver == "block_lanczos" || (solver == "auto" && fits && !solverPrefix.given());
 }
 
@@ -288,7 +285,7 @@ Modes computeBy(const AssociatedSystem& system, int count, Stage& stage) {
   if (lanczosWanted(count, size)) {
     if (computeByLanczos(system, count, stage, modes)) return modes;
     if (chosen) {
-      requireConverged(static_cast<int>(modes.lambda.size()), count,
+      requireConverged(modes.lambda.size(), count,
                        "-modes_solver eps or another -modes_block_size");
       return modes;
     }
@@ -311,9 +308,9 @@ Modes compute(const AssociatedSystem& system, int count) {
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(system.k0()));
   if (count > size) {
     if (countOption.given())
-      throw Error(formatted("option -modes_count %d: the problem has only %d unknowns", count,
-                            static_cast<int>(size)));
-    count = static_cast<int>(size);  // the default
+      throw Error(formatted(
+          "option -modes_count %d: the problem has only %" PetscInt_FMT " unknowns", count, size));
+    count = size;  // the default
   }
   Stage stage(comm, "modes");
   Modes modes = computeBy(system, count, stage);
