@@ -4,6 +4,7 @@
 
 #include "flutter/terms.hpp"
 #include "linalg/complexvector.hpp"
+#include "petsc/arrays.hpp"
 
 namespace squeal::flutter {
 namespace {
@@ -134,20 +135,18 @@ Influences::Projected Influences::project(const BodyPoint& state,
   pair.test = contactJump(contact_, pair.z);
   //   L(f) y = T y + f Nᵀ S y
   linalg::ComplexVector slips = linalg::ComplexVector::like(pair.z.real);
-  PetscScalar *real = nullptr, *imaginary = nullptr;
-  check(VecGetArray(slips.real, &real));
-  check(VecGetArray(slips.imaginary, &imaginary));
-  for (std::size_t k = 0; k < contact_.nodes.size(); ++k) {
-    if (!state.solution.closed[k]) continue;
-    const auto& slip = state.solution.slip[k];
-    Complex along = 0;
-    for (std::size_t d = 0; d < 3; ++d) along += slip.direction[d] * pair.test[k][d];
-    along *= state.at.friction * slip.law;
-    const PetscInt row = contact_.gapRow(contact_.nodes[k]) - mesh_.dimension * mesh_.firstNode;
-    real[row] = along.real(), imaginary[row] = along.imag();
+  {
+    const WriteArray real(slips.real), imaginary(slips.imaginary);
+    for (std::size_t k = 0; k < contact_.nodes.size(); ++k) {
+      if (!state.solution.closed[k]) continue;
+      const auto& slip = state.solution.slip[k];
+      Complex along = 0;
+      for (std::size_t d = 0; d < 3; ++d) along += slip.direction[d] * pair.test[k][d];
+      along *= state.at.friction * slip.law;
+      const PetscInt row = contact_.gapRow(contact_.nodes[k]) - mesh_.dimension * mesh_.firstNode;
+      real[row] = along.real(), imaginary[row] = along.imag();
+    }
   }
-  check(VecRestoreArray(slips.real, &real));
-  check(VecRestoreArray(slips.imaginary, &imaginary));
   add(pair.z, 1, product(contact_.reaction, slips, true));
   return pair;
 }

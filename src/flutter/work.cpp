@@ -1,6 +1,7 @@
 #include "flutter/work.hpp"
 
 #include "flutter/terms.hpp"
+#include "petsc/arrays.hpp"
 #include "sweep/parameters.hpp"
 
 namespace squeal::flutter {
@@ -13,17 +14,13 @@ std::vector<ComplexPoint> atPadNodes(const contact::Contact& contact,
                                      const linalg::ComplexVector& u) {
   const int dimension = contact.mesh->dimension;
   std::vector<ComplexPoint> points;
-  const PetscScalar *real = nullptr, *imaginary = nullptr;
-  check(VecGetArrayRead(u.real, &real));
-  check(VecGetArrayRead(u.imaginary, &imaginary));
+  const ReadArray real(u.real), imaginary(u.imaginary);
   for (const auto& node : contact.nodes) {
     ComplexPoint point{};
     for (int d = 0; d < dimension; ++d)
       point[d] = {real[dimension * node.node + d], imaginary[dimension * node.node + d]};
     points.push_back(point);
   }
-  check(VecRestoreArrayRead(u.real, &real));
-  check(VecRestoreArrayRead(u.imaginary, &imaginary));
   return points;
 }
 

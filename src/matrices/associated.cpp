@@ -3,6 +3,7 @@
 #include "linalg/symmetric_solver.hpp"
 #include "matrices/matrices.hpp"
 #include "pencil/pencil.hpp"
+#include "petsc/arrays.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal::matrices {
@@ -54,17 +55,15 @@ OwnedMat symmetrised(Mat matrix) {
 /// Number of rows without a positive entry on the diagonal, and the first of them.
 std::string badDiagonal(Mat matrix) {
   OwnedVec diagonal;
-  const PetscScalar* values = nullptr;
   PetscInt first = 0, end = 0, size = 0;
   check(MatCreateVecs(matrix, diagonal.out(), nullptr));
   check(MatGetDiagonal(matrix, diagonal));
   check(VecGetOwnershipRange(diagonal, &first, &end));
   check(VecGetSize(diagonal, &size));
-  check(VecGetArrayRead(diagonal, &values));
+  const ReadArray values(diagonal);
   PetscInt count = 0, lowest = size;
   for (PetscInt i = first; i < end; ++i)
     if (!(values[i - first] > 0)) ++count, lowest = std::min(lowest, i);
-  check(VecRestoreArrayRead(diagonal, &values));
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(matrix));
   check(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPIU_INT, MPI_SUM, comm));
   check(MPI_Allreduce(MPI_IN_PLACE, &lowest, 1, MPIU_INT, MPI_MIN, comm));

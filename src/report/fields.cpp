@@ -6,6 +6,7 @@
 #include "mesh/mesh.hpp"
 #include "options/options.hpp"
 #include "pencil/complex_modes.hpp"
+#include "petsc/arrays.hpp"
 #include "petsc/text.hpp"
 #include "report/hdf5.hpp"
 #include "report/report.hpp"
@@ -36,12 +37,10 @@ class Ghosts {
     check(VecScatterBegin(scatter_, u, local_, INSERT_VALUES, SCATTER_FORWARD));
     check(VecScatterEnd(scatter_, u, local_, INSERT_VALUES, SCATTER_FORWARD));
     Field field{name, 3, {}};
-    const PetscScalar* values = nullptr;
-    check(VecGetArrayRead(local_, &values));
+    const ReadArray values(local_);
     for (PetscInt node = 0; node < mesh_.localNodes(); ++node)
       for (int d = 0; d < 3; ++d)
         field.values.push_back(d < mesh_.dimension ? values[mesh_.dimension * node + d] : 0.0);
-    check(VecRestoreArrayRead(local_, &values));
     return field;
   }
   /// One component alone.

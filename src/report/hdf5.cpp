@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "output/file.hpp"
+#include "petsc/arrays.hpp"
 #include "petsc/check.hpp"
 #include "petsc/hdf5.hpp"
 #include "petsc/termination.hpp"
@@ -192,14 +193,9 @@ void Hdf5File::writeCells(const mesh::Mesh& mesh, int type) {
 }
 
 void Hdf5File::writeNodeVector(const std::string& group, const std::string& name, Vec values) {
-  PetscInt components = 1, localSize = 0;
+  PetscInt components = 1;
   check(VecGetBlockSize(values, &components));
-  check(VecGetLocalSize(values, &localSize));
-  const PetscScalar* array = nullptr;
-  check(VecGetArrayRead(values, &array));
-  const std::vector<double> copy(array, array + localSize);
-  check(VecRestoreArrayRead(values, &array));
-  writeRows<double>(group, name, components, copy);
+  writeRows<double>(group, name, components, ReadArray(values));
 }
 
 void Hdf5File::writeTable(const std::string& group, const std::string& name,

@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "contact/coupled.hpp"
+#include "petsc/arrays.hpp"
 #include "petsc/text.hpp"
 #include "steady/steady.hpp"
 #include "sweep/parameters.hpp"
@@ -51,20 +52,20 @@ Change Problem::change(const Solution& solution, const contact::CoupledSystem& s
       check(MatMult(turning, du, friction));
       check(VecScale(friction, -at.speed));
     }
-    PetscScalar* values = nullptr;
-    check(VecGetArray(friction, &values));
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      const auto& slip = solution.slip[i];
-      const double causes = direct
-                                ? (cause.friction * slip.law +
-                                   at.friction * slip.slope * cause.speed * slip.speed / at.speed) *
-                                      steadyForce[i]
-                                : 0;
-      const double along = system.closed()[i] ? at.friction * slip.law * normal[i] + causes : 0;
-      for (int d = 0; d < mesh_.dimension; ++d)
-        values[mesh_.dimension * nodes[i].node + d] += along * slip.direction[d];
+    {
+      const WriteArray values(friction);
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const auto& slip = solution.slip[i];
+        const double causes =
+            direct ? (cause.friction * slip.law +
+                      at.friction * slip.slope * cause.speed * slip.speed / at.speed) *
+                         steadyForce[i]
+                   : 0;
+        const double along = system.closed()[i] ? at.friction * slip.law * normal[i] + causes : 0;
+        for (int d = 0; d < mesh_.dimension; ++d)
+          values[mesh_.dimension * nodes[i].node + d] += along * slip.direction[d];
+      }
     }
-    check(VecRestoreArray(friction, &values));
     check(MatMultTransposeAdd(contact_.jump, friction, dr, sum));
     check(MatMultTranspose(trial, sum, result));
   };

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "options/options.hpp"
+#include "petsc/arrays.hpp"
 #include "steady/steady.hpp"
 #include "sweep/parameters.hpp"
 
@@ -77,14 +78,12 @@ double Problem::naturalResidual(const sweep::Parameters& at, Vec x) const {
   residual(at, x, f);
   PetscInt first = 0;
   check(VecGetOwnershipRange(x, &first, nullptr));
-  const PetscScalar* gaps = nullptr;
-  PetscScalar* values = nullptr;
-  check(VecGetArrayRead(x, &gaps));
-  check(VecGetArray(f, &values));
-  for (PetscInt column : transformation_.gapColumn)
-    if (gaps[column - first] <= 0) values[column - first] = std::min(values[column - first], 0.0);
-  check(VecRestoreArray(f, &values));
-  check(VecRestoreArrayRead(x, &gaps));
+  {
+    const ReadArray gaps(x);
+    const WriteArray values(f);
+    for (PetscInt column : transformation_.gapColumn)
+      if (gaps[column - first] <= 0) values[column - first] = std::min(values[column - first], 0.0);
+  }
   PetscReal size = 0;
   check(VecNorm(f, NORM_2, &size));
   return size;

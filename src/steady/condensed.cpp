@@ -8,6 +8,7 @@
 #include "contact/sliding.hpp"
 #include "linalg/symmetric_solver.hpp"
 #include "options/options.hpp"
+#include "petsc/arrays.hpp"
 
 namespace squeal::steady {
 namespace {
@@ -112,14 +113,12 @@ Compliance Condensed::dense() const {
         check(MatDenseGetColumnVecRead(x, column, &xj));
         check(MatMultTranspose(side, xj, part_));
         check(MatDenseRestoreColumnVecRead(x, column, &xj));
-        const PetscScalar* entries = nullptr;
-        check(VecGetArrayRead(part_, &entries));
+        const ReadArray entries(part_);
         for (PetscInt i = 0; i < ownedSize_; ++i)
           if (side == gaps_)
             compliance.a0[j * n + first_ + i] = entries[i];
           else
             compliance.a1[(first_ + i) * n + j] = -entries[i];
-        check(VecRestoreArrayRead(part_, &entries));
       }
     }
   }

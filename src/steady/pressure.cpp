@@ -1,5 +1,6 @@
 #include "elasticity/element.hpp"
 #include "mesh/mesh.hpp"
+#include "petsc/arrays.hpp"
 #include "steady/steady.hpp"
 
 namespace squeal::steady {
@@ -39,10 +40,7 @@ std::vector<double> consistentPressure(const mesh::Mesh& mesh, const contact::Co
   check(MatCreateSubMatrix(folded, rows, rows, MAT_INITIAL_MATRIX, mass.out()));
   OwnedVec force, pressure;
   check(MatCreateVecs(mass, force.out(), pressure.out()));
-  PetscScalar* array = nullptr;
-  check(VecGetArray(force, &array));
-  std::copy(normalForce.begin(), normalForce.end(), array);
-  check(VecRestoreArray(force, &array));
+  std::copy(normalForce.begin(), normalForce.end(), WriteArray(force).begin());
   OwnedKSP solver;
   check(KSPCreate(mesh.comm, solver.out()));
   check(KSPSetOperators(solver, mass, mass));
@@ -52,11 +50,8 @@ std::vector<double> consistentPressure(const mesh::Mesh& mesh, const contact::Co
   check(PCSetType(pc, PCJACOBI));  // face mass matrices are well conditioned
   check(KSPSetTolerances(solver, 1e-12, PETSC_DEFAULT, PETSC_DEFAULT, 1000));
   check(KSPSolve(solver, force, pressure));
-  std::vector<double> result(normalForce.size());
-  check(VecGetArray(pressure, &array));
-  std::copy(array, array + normalForce.size(), result.begin());
-  check(VecRestoreArray(pressure, &array));
-  return result;
+  const ReadArray values(pressure);
+  return {values.begin(), values.end()};
 }
 
 }  // namespace squeal::steady

@@ -5,6 +5,7 @@
 
 #include "elasticity/elasticity.hpp"
 #include "mesh/mesh.hpp"
+#include "petsc/arrays.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal::steady {
@@ -64,12 +65,10 @@ OwnedVec Problem::forces(const sweep::Parameters& at, Vec displacement) const {
 std::vector<double> Problem::normalForces(Vec forces) const {
   const OwnedVec reactions = elasticity::nodalVector(mesh_);
   check(MatMult(contact_.reaction, forces, reactions));
-  const PetscScalar* values = nullptr;
-  check(VecGetArrayRead(reactions, &values));
+  const ReadArray values(reactions);
   std::vector<double> normal;
   for (const auto& node : contact_.nodes)
     normal.push_back(values[contact_.gapRow(node) - mesh_.dimension * mesh_.firstNode]);
-  check(VecRestoreArrayRead(reactions, &values));
   return normal;
 }
 
@@ -80,13 +79,13 @@ OwnedVec Problem::test(const contact::Transformation& transformation,
                        Vec forces, const std::vector<contact::Slip>& slip) const {
   const OwnedVec friction = elasticity::nodalVector(mesh_), sum = elasticity::nodalVector(mesh_);
   const auto normal = normalForces(forces);
-  PetscScalar* values = nullptr;
-  check(VecGetArray(friction, &values));
-  for (std::size_t i = 0; i < contact_.nodes.size(); ++i)
-    for (int d = 0; d < mesh_.dimension; ++d)
-      values[mesh_.dimension * contact_.nodes[i].node + d] =
-          slides[i] ? at.friction * slip[i].law * normal[i] * slip[i].direction[d] : 0;
-  check(VecRestoreArray(friction, &values));
+  {
+    const WriteArray values(friction);
+    for (std::size_t i = 0; i < contact_.nodes.size(); ++i)
+      for (int d = 0; d < mesh_.dimension; ++d)
+        values[mesh_.dimension * contact_.nodes[i].node + d] =
+            slides[i] ? at.friction * slip[i].law * normal[i] * slip[i].direction[d] : 0;
+  }
   check(MatMultTransposeAdd(contact_.jump, friction, forces, sum));
   OwnedVec result = rightVector(transformation.trial);
   check(MatMultTranspose(transformation.trial, sum, result));
@@ -232,8 +231,7 @@ void Problem::recover(Vec x, double noise, Solution& solution) const {
 
   PetscInt first = 0;
   check(VecGetOwnershipRange(x, &first, nullptr));
-  const PetscScalar* values = nullptr;
-  check(VecGetArrayRead(x, &values));
+  const ReadArray values(x);
   double largest = 0;
   for (std::size_t i = 0; i < contact_.nodes.size(); ++i) {
     const auto& node = contact_.nodes[i];
@@ -248,7 +246,6 @@ void Problem::recover(Vec x, double noise, Solution& solution) const {
     largest = std::max(largest, std::abs(state.normalForce));
     solution.contact.push_back(state);
   }
-  check(VecRestoreArrayRead(x, &values));
   check(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, mesh_.comm));
   if (!contact_.weightsPositive) {
     const auto pressure = consistentPressure(mesh_, contact_, normal);
@@ -311,11 +308,7 @@ double Problem::imbalance(const Solution& solution, Vec nodalForces) const {
   };
   const OwnedVec load = this->load(solution.at), springs = elasticity::nodalVector(mesh_);
   if (bodies_.springs) check(VecPointwiseMult(springs, bodies_.springs, solution.displacement));
-  const PetscScalar *forces = nullptr, *loads = nullptr, *contacts = nullptr, *grounded = nullptr;
-  check(VecGetArrayRead(nodalForces, &forces));
-  check(VecGetArrayRead(load, &loads));
-  check(VecGetArrayRead(springs, &grounded));
-  check(VecGetArrayRead(contactForces, &contacts));
+  const ReadArray forces(nodalForces), loads(load), grounded(springs), contacts(contactForces);
   for (PetscInt node = 0; node < mesh_.ownedNodes; ++node)
     for (int d = 0; d < dimension; ++d) {
       const int part = mesh_.nodePart[node];
@@ -327,10 +320,6 @@ double Problem::imbalance(const Solution& solution, Vec nodalForces) const {
       at(part, 2, d) += loads[row];
       sums.back() += std::abs(contacts[row]) + std::abs(support) + std::abs(loads[row]);
     }
-  check(VecRestoreArrayRead(nodalForces, &forces));
-  check(VecRestoreArrayRead(load, &loads));
-  check(VecRestoreArrayRead(springs, &grounded));
-  check(VecRestoreArrayRead(contactForces, &contacts));
   check(MPI_Allreduce(MPI_IN_PLACE, sums.data(), sums.size(), MPI_DOUBLE, MPI_SUM, mesh_.comm));
   double worst = 0;
   for (int part = 0; part < mesh_.parts; ++part) {
