@@ -62,7 +62,7 @@ NearestPairs solveBand(NearestSolver& solver, const Band& band) {
 
 /// Returns the `-flutter_direct_count` nearest eigenvalues, and those as near as the last of them.
 NearestPairs solveCount(NearestSolver& solver) {
-  const auto count = static_cast<std::size_t>(countOption.get());
+  const std::size_t count = countOption.get();
   NearestPairs found = solver.solve(countOption.get());
   if (confirmOption.get()) addMissed(solver, countOption.get(), found);
   if (found.pairs.size() <= count) return found;

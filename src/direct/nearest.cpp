@@ -22,7 +22,6 @@ const SolverPrefix pepPrefix("flutter", "flutter_pep_",
                              "SLEPc PEP of the direct method with damping");
 const SolverPrefix stPrefix("flutter", "flutter_st_", "SLEPc ST, KSP and PC of the direct method");
 
-using Complex = std::complex<double>;
 using OwnedPEP = Owned<PEP, PEPDestroy>;
 
 /// Makes the spectral transformation shift-and-invert with one LU factorisation by MUMPS.
@@ -44,9 +43,7 @@ OwnedVec startVector(Mat matrix, int run) {
   check(MatCreateVecs(matrix, start.out(), nullptr));
   check(VecGetOwnershipRange(start, &first, &end));
   for (PetscInt i = first; i < end; ++i)
-    check(VecSetValue(start, i,
-                      std::sin(12.9898 * static_cast<double>(i + 1) +
-                               78.233 * run * std::sqrt(static_cast<double>(i + 2))),
+    check(VecSetValue(start, i, std::sin(12.9898 * (i + 1) + 78.233 * run * std::sqrt(i + 2)),
                       INSERT_VALUES));
   check(VecAssemblyBegin(start));
   check(VecAssemblyEnd(start));
@@ -102,7 +99,7 @@ bool isNew(const NearestPair& pair, const std::vector<NearestPair>& known) {
 /// further ones that have converged may leave gaps.
 double reachedBy(std::vector<double> sizes, PetscInt wanted, PetscInt all) {
   std::sort(sizes.begin(), sizes.end());
-  return wanted == all ? INFINITY : sizes.at(static_cast<std::size_t>(wanted) - 1);
+  return wanted == all ? INFINITY : sizes.at(wanted - 1);
 }
 
 void rejectUnconverged(PetscInt converged, PetscInt wanted, const sweep::Parameters& at,
@@ -255,8 +252,8 @@ NearestPairs NearestSolver::whole() const {
   PetscInt first = 0, end = 0;
   check(MatGetOwnershipRange(terms_[0], &first, &end));
   for (const auto& [s, q, left] :
-       linalg::solveTogether(comm, linalg::gathered(terms_[2]), linalg::gathered(terms_[1]),
-                             linalg::gathered(terms_[0]), static_cast<int>(size_))) {
+       linalg::solveTogether(comm, {linalg::gathered(terms_[2]), linalg::gathered(terms_[1]),
+                                    linalg::gathered(terms_[0])})) {
     NearestPair pair = emptyPair(terms_[0], s);
     for (PetscInt i = first; i < end; ++i) {
       check(VecSetValue(pair.real, i, q[i].real(), INSERT_VALUES));

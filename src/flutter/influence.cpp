@@ -9,8 +9,6 @@
 namespace squeal::flutter {
 namespace {
 
-using Complex = std::complex<double>;
-
 /// The step of central differences along the change of the steady state. It balances an error of
 /// its square against rounding divided by it.
 constexpr double step = 1e-4;

@@ -7,8 +7,6 @@
 namespace squeal::flutter {
 namespace {
 
-using Complex = std::complex<double>;
-
 /// Returns the values of a nodal vector in the rows of the pad nodes, [owned contact node].
 std::vector<ComplexPoint> atPadNodes(const contact::Contact& contact,
                                      const linalg::ComplexVector& u) {

@@ -1,10 +1,5 @@
 #include "linalg/block.hpp"
 
-#include <petscsys.h>  // first: the next header needs it
-
-#include <petscblaslapack.h>
-
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -12,115 +7,59 @@
 
 namespace squeal::linalg {
 
-void append(Block& block, const Block& other) {
-  block.values.insert(block.values.end(), other.values.begin(), other.values.end());
-  block.columns += other.columns;
-}
-
-void multiplyAdd(const double* x, PetscInt rowCount, PetscInt columnCount,
-                 const std::vector<double>& coefficients, std::vector<double>& result,
-                 double factor) {
-  PetscBLASInt rows = rowCount, inner = columnCount,
-               columns = static_cast<PetscBLASInt>(coefficients.size() /
-                                                   static_cast<std::size_t>(columnCount));
-  const PetscScalar one = 1;
-  if (rows > 0 && columns > 0)
-    BLASgemm_("N", "N", &rows, &columns, &inner, &factor, x, &rows, coefficients.data(), &inner,
-              &one, result.data(), &rows);
-}
-
-DenseMatrix transposedProduct(MPI_Comm comm, const double* x, PetscInt rowCount, PetscInt m,
-                              const double* y, PetscInt n) {
-  DenseMatrix product(static_cast<std::size_t>(m) * static_cast<std::size_t>(n), 0.0);
-  PetscBLASInt rows = rowCount, left = m, right = n;
-  const PetscScalar one = 1, zero = 0;
-  if (rows > 0 && m > 0 && n > 0)
-    BLASgemm_("T", "N", &left, &right, &rows, &one, x, &rows, y, &rows, &zero, product.data(),
-              &left);
-  const auto count = static_cast<int>(product.size());
-  check(MPI_Allreduce(MPI_IN_PLACE, product.data(), count, MPI_DOUBLE, MPI_SUM, comm));
+DenseMatrix transposedProduct(MPI_Comm comm, const DenseView& x, const DenseView& y) {
+  DenseMatrix result = transposedProduct(x, y);
+  const int count = result.size();
+  check(MPI_Allreduce(MPI_IN_PLACE, result.data(), count, MPI_DOUBLE, MPI_SUM, comm));
   // The rounding of sums over the ranks may depend on the rank; later decisions must not.
-  check(MPI_Bcast(product.data(), count, MPI_DOUBLE, 0, comm));
-  return product;
-}
-
-DenseMatrix transposedProduct(MPI_Comm comm, const Block& x, const Block& y) {
-  return transposedProduct(comm, x.values.data(), x.rows, x.columns, y.values.data(), y.columns);
-}
-
-Block combined(const Block& x, const DenseMatrix& combinations, PetscInt count) {
-  Block result(x.rows, count);
-  multiplyAdd(x.values.data(), x.rows, x.columns, combinations, result.values);
+  check(MPI_Bcast(result.data(), count, MPI_DOUBLE, 0, comm));
   return result;
 }
 
-DenseMatrix congruent(const DenseMatrix& a, PetscInt size, const DenseMatrix& c) {
-  const auto count = static_cast<PetscInt>(c.size()) / size;
-  DenseMatrix image(c.size());
-  multiplyAdd(a.data(), size, size, c, image);
-  return transposedProduct(MPI_COMM_SELF, c.data(), size, count, image.data(), count);
-}
-
-DenseMatrix rowsOf(const DenseMatrix& matrix, std::size_t height, std::size_t first,
-                   std::size_t count) {
-  DenseMatrix rows;
-  if (matrix.empty()) return rows;
-  rows.reserve(matrix.size() / height * count);
-  for (auto column = matrix.begin(); column != matrix.end();
-       column += static_cast<std::ptrdiff_t>(height)) {
-    const auto begin = column + static_cast<std::ptrdiff_t>(first);
-    rows.insert(rows.end(), begin, begin + static_cast<std::ptrdiff_t>(count));
-  }
-  return rows;
-}
-
 Block principal(MPI_Comm comm, const Block& columns, double small) {
-  if (columns.columns == 0) return columns;
+  const PetscInt n = columns.columns();
+  if (n == 0) return columns;
   DenseMatrix combinations = transposedProduct(comm, columns, columns);
-  const auto sizes = symmetricEigen(combinations, static_cast<int>(columns.columns));
-  const auto n = static_cast<std::size_t>(columns.columns);
-  std::size_t first = 0;
+  const auto sizes = symmetricEigen(combinations);
+  PetscInt first = 0;
   while (first < n && !(sizes[first] > small * small)) ++first;
-  combinations.erase(combinations.begin(), combinations.begin() + first * n);
-  return combined(columns, combinations, static_cast<PetscInt>(n - first));
+  return product(columns, combinations.columnRange(first, n));
 }
 
 Block unitColumns(MPI_Comm comm, const Block& columns) {
   std::vector<double> squares;
-  for (PetscInt j = 0; j < columns.columns; ++j)
-    squares.push_back(std::inner_product(columns.column(j), columns.column(j) + columns.rows,
-                                         columns.column(j), 0.0));
-  check(MPI_Allreduce(MPI_IN_PLACE, squares.data(), static_cast<int>(squares.size()), MPI_DOUBLE,
-                      MPI_SUM, comm));
-  check(MPI_Bcast(squares.data(), static_cast<int>(squares.size()), MPI_DOUBLE, 0, comm));
-  Block units(columns.rows);
-  for (PetscInt j = 0; j < columns.columns; ++j)
-    if (const double square = squares[j]; square > 0)
-      units.append(columns.column(j), 1 / std::sqrt(square));
+  for (PetscInt j = 0; j < columns.columns(); ++j)
+    squares.push_back(std::inner_product(columns.column(j).begin(), columns.column(j).end(),
+                                         columns.column(j).begin(), 0.0));
+  const int count = squares.size();
+  check(MPI_Allreduce(MPI_IN_PLACE, squares.data(), count, MPI_DOUBLE, MPI_SUM, comm));
+  check(MPI_Bcast(squares.data(), count, MPI_DOUBLE, 0, comm));
+  Block units(columns.rows());
+  for (PetscInt j = 0; j < columns.columns(); ++j) {
+    if (!(squares[j] > 0)) continue;
+    units.append(columns.column(j));
+    for (double& entry : units.column(units.columns() - 1)) entry /= std::sqrt(squares[j]);
+  }
   return units;
 }
 
-OwnedMat borrowed(MPI_Comm comm, PetscInt localRows, PetscInt rows, PetscInt columns,
-                  const double* values) {
+OwnedMat borrowed(MPI_Comm comm, PetscInt rows, const DenseView& block) {
   OwnedMat matrix;
-  check(MatCreateDense(comm, localRows, PETSC_DECIDE, rows, columns, const_cast<double*>(values),
-                       matrix.out()));
+  check(MatCreateDense(comm, block.rows(), PETSC_DECIDE, rows, block.columns(),
+                       const_cast<double*>(block.data()), matrix.out()));
   return matrix;
 }
 
-void appendProduct(Mat matrix, const double* columns, PetscInt count, Block& result) {
-  PetscInt localRows = 0, localColumns = 0, rows = 0, length = 0;
-  check(MatGetLocalSize(matrix, &localRows, &localColumns));
+void appendProduct(Mat matrix, const DenseView& x, Block& result) {
+  PetscInt rows = 0, length = 0;
   check(MatGetSize(matrix, &rows, &length));
+  const PetscInt first = result.columns(), count = x.columns();
   if (count == 0) return;
-  result.values.resize(result.values.size() +
-                       static_cast<std::size_t>(localRows) * static_cast<std::size_t>(count));
-  const PetscInt first = result.columns;
-  result.columns += count;
+  result.resizeColumns(first + count);
   if (rows == 0) return;
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(matrix));
-  const OwnedMat from = borrowed(comm, localColumns, length, count, columns),
-                 to = borrowed(comm, localRows, rows, count, result.column(first));
+  const OwnedMat from = borrowed(comm, length, x),
+                 to = borrowed(comm, rows, result.columnRange(first, first + count));
   PetscBool assembled = PETSC_FALSE;
   check(MatHasOperation(matrix, MATOP_GET_ROW, &assembled));
   if (assembled) {
@@ -161,20 +100,11 @@ RowSet::RowSet(Mat matrix) {
   check(ISRestoreIndices(kept, &rows));
 }
 
-std::vector<double> RowSet::of(const double* columns, PetscInt count) const {
-  if (all_) return {columns, columns + static_cast<std::ptrdiff_t>(count) * localRows_};
-  std::vector<double> values;
-  values.reserve(rows_.size() * static_cast<std::size_t>(count));
-  for (PetscInt j = 0; j < count; ++j)
-    for (PetscInt row : rows_)
-      values.push_back(columns[static_cast<std::ptrdiff_t>(j) * localRows_ + row]);
-  return values;
-}
-
-Block RowSet::of(const Block& columns, PetscInt first, PetscInt last) const {
-  Block some(size());
-  some.values = of(columns.column(first), last - first);
-  some.columns = last - first;
+Block RowSet::of(const DenseView& x) const {
+  if (all_) return Block(x);
+  Block some(size(), x.columns());
+  for (PetscInt j = 0; j < x.columns(); ++j)
+    for (PetscInt i = 0; i < some.rows(); ++i) some(i, j) = x(rows_[i], j);
   return some;
 }
 
@@ -190,29 +120,23 @@ OwnedMat RowSet::of(Mat matrix) const {
   check(MatGetOwnershipRangeColumn(matrix, &begin, &end));
   OwnedIS rows, columns;
   OwnedMat part;
-  check(ISCreateGeneral(comm, static_cast<PetscInt>(global.size()), global.data(),
-                        PETSC_COPY_VALUES, rows.out()));
+  check(ISCreateGeneral(comm, global.size(), global.data(), PETSC_COPY_VALUES, rows.out()));
   check(ISCreateStride(comm, end - begin, begin, 1, columns.out()));
   check(MatCreateSubMatrix(matrix, rows, columns, MAT_INITIAL_MATRIX, part.out()));
   return part;
 }
 
-DenseMatrix transposedProduct(MPI_Comm comm, const RowSet& rows, const double* x, PetscInt m,
-                              const double* y, PetscInt n) {
-  if (rows.all()) return transposedProduct(comm, x, rows.size(), m, y, n);
-  return transposedProduct(comm, rows.of(x, m).data(), rows.size(), m, y, n);
+DenseMatrix transposedProduct(MPI_Comm comm, const RowSet& rows, const DenseView& x,
+                              const DenseView& y) {
+  if (rows.all()) return transposedProduct(comm, x, y);
+  return transposedProduct(comm, rows.of(x), y);
 }
 
-void multiplyAdd(const RowSet& rows, const Block& x, const std::vector<double>& coefficients,
-                 std::vector<double>& y) {
-  if (rows.all()) return multiplyAdd(x.values.data(), x.rows, x.columns, coefficients, y);
-  const auto count = static_cast<PetscInt>(coefficients.size()) / x.columns;
-  Block part(x.rows, count);
-  multiplyAdd(x.values.data(), x.rows, x.columns, coefficients, part.values);
-  for (PetscInt j = 0; j < count; ++j) {
-    double* column = y.data() + static_cast<std::ptrdiff_t>(j) * rows.localRows();
-    for (PetscInt i = 0; i < x.rows; ++i) column[rows[i]] += part.column(j)[i];
-  }
+void multiplyAdd(const RowSet& rows, const DenseView& x, const DenseView& coefficients, Block& y) {
+  if (rows.all()) return multiplyAdd(x, coefficients, y);
+  const Block part = product(x, coefficients);
+  for (PetscInt j = 0; j < part.columns(); ++j)
+    for (PetscInt i = 0; i < part.rows(); ++i) y(rows[i], j) += part(i, j);
 }
 
 }  // namespace squeal::linalg

@@ -9,18 +9,16 @@ ReadColumns::ReadColumns(BV bv) : bv_(bv) {
   check(BVGetArrayRead(bv, &values_));
 }
 
-OwnedBV copiedColumns(Mat like, const PetscScalar* values, PetscInt count) {
+OwnedBV copiedColumns(Mat like, const DenseView& columns) {
   OwnedBV bv;
   OwnedVec layout;
   check(MatCreateVecs(like, layout.out(), nullptr));
   check(BVCreate(PetscObjectComm(reinterpret_cast<PetscObject>(like)), bv.out()));
-  check(BVSetSizesFromVec(bv, layout, count));
+  check(BVSetSizesFromVec(bv, layout, columns.columns()));
   check(BVSetType(bv, BVSVEC));
-  PetscInt rows = 0;
   PetscScalar* to = nullptr;
-  check(VecGetLocalSize(layout, &rows));
   check(BVGetArray(bv, &to));
-  std::copy_n(values, static_cast<std::ptrdiff_t>(count) * rows, to);
+  std::ranges::copy(columns.entries(), to);
   check(BVRestoreArray(bv, &to));
   return bv;
 }

@@ -20,7 +20,7 @@ ComplexVector ComplexVector::copied(Vec real, Vec imaginary) {
   return result;
 }
 
-std::complex<double> dot(const ComplexVector& u, const ComplexVector& v) {
+Complex dot(const ComplexVector& u, const ComplexVector& v) {
   PetscScalar rr = 0, ii = 0, ri = 0, ir = 0;
   check(VecDot(u.real, v.real, &rr));
   check(VecDot(u.imaginary, v.imaginary, &ii));
@@ -29,7 +29,7 @@ std::complex<double> dot(const ComplexVector& u, const ComplexVector& v) {
   return {rr + ii, ri - ir};
 }
 
-void add(ComplexVector& v, std::complex<double> a, const ComplexVector& u) {
+void add(ComplexVector& v, Complex a, const ComplexVector& u) {
   check(VecAXPY(v.real, a.real(), u.real));
   check(VecAXPY(v.real, -a.imag(), u.imaginary));
   check(VecAXPY(v.imaginary, a.real(), u.imaginary));

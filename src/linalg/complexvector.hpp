@@ -1,7 +1,6 @@
 #pragma once
 /// Complex vectors for a PETSc that is built with real scalars.
-#include <complex>
-
+#include "linalg/complex.hpp"
 #include "petsc/owned.hpp"
 
 namespace squeal::linalg {
@@ -17,9 +16,9 @@ struct ComplexVector {
 };
 
 /// Collective. Returns uᴴ v.
-std::complex<double> dot(const ComplexVector& u, const ComplexVector& v);
+Complex dot(const ComplexVector& u, const ComplexVector& v);
 /// Collective. Adds a u to v.
-void add(ComplexVector& v, std::complex<double> a, const ComplexVector& u);
+void add(ComplexVector& v, Complex a, const ComplexVector& u);
 /// Collective. Returns A u, or Aᵀ u if `transposed`.
 ComplexVector product(Mat a, const ComplexVector& u, bool transposed = false);
 /// Collective. Returns the 2-norm of u.

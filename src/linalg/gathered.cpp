@@ -19,21 +19,21 @@ OwnedMat onRankZero(Mat matrix) {
   return whole;
 }
 
-std::vector<double> gathered(Mat matrix) {
+DenseMatrix gathered(Mat matrix) {
   if (!matrix) return {};
   const OwnedMat whole = onRankZero(matrix);
   PetscInt n = 0;
   check(MatGetSize(whole, &n, nullptr));
-  std::vector<double> values(n * n, 0.0);
+  DenseMatrix result(n, n);
   for (PetscInt row = 0; row < n; ++row) {
     PetscInt count = 0;
     const PetscInt* columns = nullptr;
     const PetscScalar* entries = nullptr;
     check(MatGetRow(whole, row, &count, &columns, &entries));
-    for (PetscInt k = 0; k < count; ++k) values[columns[k] * n + row] = entries[k];
+    for (PetscInt k = 0; k < count; ++k) result(row, columns[k]) = entries[k];
     check(MatRestoreRow(whole, row, &count, &columns, &entries));
   }
-  return values;
+  return result;
 }
 
 }  // namespace squeal::linalg

@@ -1,7 +1,6 @@
 #pragma once
 /// Copies of small distributed matrices on rank 0.
-#include <vector>
-
+#include "linalg/dense.hpp"
 #include "petsc/owned.hpp"
 
 namespace squeal::linalg {
@@ -10,8 +9,8 @@ namespace squeal::linalg {
 /// on the other ranks.
 OwnedMat onRankZero(Mat matrix);
 
-/// Collective. Returns all entries of a square matrix on rank 0, column-major. The result is empty
-/// on the other ranks, and on all ranks for a null matrix.
-std::vector<double> gathered(Mat matrix);
+/// Collective. Returns the whole of a square matrix on rank 0, and a matrix without rows and
+/// columns on the other ranks. A null matrix has no rows on any rank.
+DenseMatrix gathered(Mat matrix);
 
 }  // namespace squeal::linalg

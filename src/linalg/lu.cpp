@@ -4,17 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <limits>
 #include <utility>
 
 // PETSc built with real scalars declares the real routines only.
 extern "C" {
-void zgetrf_(const PetscBLASInt* m, const PetscBLASInt* n, std::complex<double>* a,
+void zgetrf_(const PetscBLASInt* m, const PetscBLASInt* n, squeal::Complex* a,
              const PetscBLASInt* lda, PetscBLASInt* pivots, PetscBLASInt* info);
 void zgetrs_(const char* trans, const PetscBLASInt* n, const PetscBLASInt* columns,
-             const std::complex<double>* a, const PetscBLASInt* lda, const PetscBLASInt* pivots,
-             std::complex<double>* b, const PetscBLASInt* ldb, PetscBLASInt* info);
+             const squeal::Complex* a, const PetscBLASInt* lda, const PetscBLASInt* pivots,
+             squeal::Complex* b, const PetscBLASInt* ldb, PetscBLASInt* info);
 }
 
 namespace squeal::linalg {
@@ -25,7 +24,7 @@ void factor(PetscBLASInt n, double* a, PetscBLASInt* rows) {
   LAPACKgetrf_(&n, &n, a, &n, rows, &info);
 }
 
-void factor(PetscBLASInt n, std::complex<double>* a, PetscBLASInt* rows) {
+void factor(PetscBLASInt n, Complex* a, PetscBLASInt* rows) {
   PetscBLASInt info = 0;
   zgetrf_(&n, &n, a, &n, rows, &info);
 }
@@ -37,8 +36,8 @@ void solveWith(const char* side, PetscBLASInt n, PetscBLASInt columns, const dou
                &n, &info);
 }
 
-void solveWith(const char* side, PetscBLASInt n, PetscBLASInt columns,
-               const std::complex<double>* a, const PetscBLASInt* rows, std::complex<double>* b) {
+void solveWith(const char* side, PetscBLASInt n, PetscBLASInt columns, const Complex* a,
+               const PetscBLASInt* rows, Complex* b) {
   PetscBLASInt info = 0;
   zgetrs_(side, &n, &columns, a, &n, rows, b, &n, &info);
 }
@@ -46,13 +45,13 @@ void solveWith(const char* side, PetscBLASInt n, PetscBLASInt columns,
 }  // namespace
 
 template <class Scalar>
-Lu<Scalar>::Lu(std::vector<Scalar> matrix, int n)
-    : n_(n), factors_(std::move(matrix)), rows_(static_cast<std::size_t>(n)) {
-  if (n > 0) factor(n_, factors_.data(), rows_.data());
+Lu<Scalar>::Lu(Dense<Scalar> matrix) : factors_(std::move(matrix)), rows_(factors_.rows()) {
+  const PetscBLASInt n = factors_.rows();
+  if (n > 0) factor(n, factors_.data(), rows_.data());
   double smallest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < factors_.size(); i += static_cast<std::size_t>(n) + 1) {
-    smallest = std::min(smallest, std::abs(factors_[i]));
-    largest_ = std::max(largest_, std::abs(factors_[i]));
+  for (PetscInt i = 0; i < n; ++i) {
+    smallest = std::min(smallest, std::abs(factors_(i, i)));
+    largest_ = std::max(largest_, std::abs(factors_(i, i)));
   }
   pivotRatio_ = largest_ > 0 ? smallest / largest_ : 0;
 }
@@ -61,18 +60,28 @@ template <class Scalar>
 void Lu<Scalar>::raiseZeroPivots() {
   if (pivotRatio_ > 0) return;
   pivotRatio_ = std::numeric_limits<double>::epsilon();
-  for (std::size_t i = 0; i < factors_.size(); i += static_cast<std::size_t>(n_) + 1)
-    if (factors_[i] == 0.0) factors_[i] = pivotRatio_ * largest_;
+  for (PetscInt i = 0; i < factors_.rows(); ++i)
+    if (factors_(i, i) == 0.0) factors_(i, i) = pivotRatio_ * largest_;
 }
 
 template <class Scalar>
-void Lu<Scalar>::solve(std::vector<Scalar>& b, bool adjoint) const {
-  if (n_ > 0)
-    solveWith(adjoint ? "C" : "N", n_, static_cast<PetscBLASInt>(b.size()) / n_, factors_.data(),
-              rows_.data(), b.data());
+void Lu<Scalar>::solve(Scalar* b, PetscBLASInt columns, bool adjoint) const {
+  const PetscBLASInt n = factors_.rows();
+  if (n > 0 && columns > 0)
+    solveWith(adjoint ? "C" : "N", n, columns, factors_.data(), rows_.data(), b);
+}
+
+template <class Scalar>
+void Lu<Scalar>::solve(Dense<Scalar>& b, bool adjoint) const {
+  solve(b.data(), b.columns(), adjoint);
+}
+
+template <class Scalar>
+void Lu<Scalar>::solve(std::span<Scalar> b, bool adjoint) const {
+  solve(b.data(), 1, adjoint);
 }
 
 template class Lu<double>;
-template class Lu<std::complex<double>>;
+template class Lu<Complex>;
 
 }  // namespace squeal::linalg

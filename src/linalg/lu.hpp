@@ -1,8 +1,8 @@
 #pragma once
 /// Small dense linear systems by LAPACK's LU with partial pivoting. Not collective.
-#include <petscsys.h>
-
 #include <vector>
+
+#include "linalg/dense.hpp"
 
 namespace squeal::linalg {
 
@@ -10,20 +10,21 @@ namespace squeal::linalg {
 template <class Scalar>
 class Lu {
  public:
-  /// Factorises a matrix, n × n, column-major, which is taken.
-  Lu(std::vector<Scalar> matrix, int n);
+  /// Factorises a square matrix, which is taken.
+  explicit Lu(Dense<Scalar> matrix);
   /// Returns the smallest pivot divided by the largest, in magnitude; 0 for a singular matrix.
   double pivotRatio() const { return pivotRatio_; }
   /// Replaces pivots of zero by the machine precision times the largest pivot. Solutions then point
   /// along the null vector, as inverse iteration needs.
   void raiseZeroPivots();
-  /// Replaces b, which has any number of columns, by A⁻¹ b, or by A⁻ᴴ b if `adjoint`. A pivot of
-  /// zero gives infinite entries.
-  void solve(std::vector<Scalar>& b, bool adjoint = false) const;
+  /// Replaces B by A⁻¹ B, or by A⁻ᴴ B if `adjoint`. A pivot of zero gives infinite entries.
+  void solve(Dense<Scalar>& b, bool adjoint = false) const;
+  /// Does the same for one column.
+  void solve(std::span<Scalar> b, bool adjoint = false) const;
 
  private:
-  PetscBLASInt n_;
-  std::vector<Scalar> factors_;
+  void solve(Scalar* b, PetscBLASInt columns, bool adjoint) const;
+  Dense<Scalar> factors_;
   std::vector<PetscBLASInt> rows_;  // exchanged
   double largest_ = 0, pivotRatio_ = 0;
 };

@@ -9,7 +9,7 @@
 #include <numeric>
 #include <optional>
 
-#include "linalg/block.hpp"
+#include "linalg/lapack.hpp"
 #include "linalg/lu.hpp"
 #include "petsc/check.hpp"
 
@@ -19,19 +19,16 @@ extern "C" void dgebal_(const char* job, const PetscBLASInt* n, double* a, const
 namespace squeal::linalg {
 namespace {
 
-using Complex = std::complex<double>;
-
 struct EigenPair {
   Complex value;
   std::vector<Complex> right, left;  // left: empty unless asked for
 };
 
 /// Returns column j of LAPACK's real storage of conjugate pairs; empty for an empty matrix.
-std::vector<Complex> complexColumn(const std::vector<double>& vectors, std::size_t n, std::size_t j,
-                                   bool conjugates) {
-  std::vector<Complex> column(vectors.empty() ? 0 : n);
+std::vector<Complex> complexColumn(const DenseMatrix& vectors, PetscInt j, bool conjugates) {
+  std::vector<Complex> column(vectors.empty() ? 0 : vectors.rows());
   for (std::size_t i = 0; i < column.size(); ++i)
-    column[i] = {vectors[j * n + i], conjugates ? vectors[(j + 1) * n + i] : 0.0};
+    column[i] = {vectors(i, j), conjugates ? vectors(i, j + 1) : 0.0};
   return column;
 }
 
@@ -40,12 +37,12 @@ std::vector<Complex> conjugated(std::vector<Complex> vector) {
   return vector;
 }
 
-/// Returns the wanted eigenvalues from LAPACK's real storage of conjugate pairs (n rows) as complex
-/// numbers. Each number of a conjugate pair is tested, and listed if it is wanted.
-std::vector<EigenPair> unpacked(std::size_t n, const std::vector<double>& real,
+/// Returns the wanted eigenvalues from LAPACK's real storage of conjugate pairs as complex numbers.
+/// Each number of a conjugate pair is tested, and listed if it is wanted.
+std::vector<EigenPair> unpacked(const std::vector<double>& real,
                                 const std::vector<double>& imaginary,
-                                const std::vector<double>& beta, const std::vector<double>& right,
-                                const std::vector<double>& left, const Wanted& wanted) {
+                                const std::vector<double>& beta, const DenseMatrix& right,
+                                const DenseMatrix& left, const Wanted& wanted) {
   std::vector<EigenPair> pairs;
   for (std::size_t j = 0; j < real.size(); ++j) {
     if (beta[j] == 0 && real[j] == 0)
@@ -56,8 +53,8 @@ std::vector<EigenPair> unpacked(std::size_t n, const std::vector<double>& real,
     const bool conjugates = imaginary[j] != 0, first = wanted(value),
                second = conjugates && wanted(std::conj(value));
     if (first || second) {
-      EigenPair pair{value, complexColumn(right, n, j, conjugates),
-                     complexColumn(left, n, j, conjugates)};
+      EigenPair pair{value, complexColumn(right, j, conjugates),
+                     complexColumn(left, j, conjugates)};
       if (second)
         pairs.push_back({std::conj(value), conjugated(pair.right), conjugated(pair.left)});
       if (first) pairs.push_back(std::move(pair));
@@ -67,91 +64,68 @@ std::vector<EigenPair> unpacked(std::size_t n, const std::vector<double>& real,
   return pairs;
 }
 
-/// The arrays for the eigenvectors in a call of LAPACK, n × n each.
-struct LapackVectors {
-  LapackVectors(std::size_t n, Vectors wanted)
-      : right(n * n), left(wanted == Vectors::both ? n * n : 0) {}
-  const char* leftJob() const { return left.empty() ? "N" : "V"; }
-  std::vector<double> right, left;
-};
+/// Throws Error if a routine of LAPACK has failed.
+void requireSuccess(const char* routine, PetscBLASInt info) {
+  if (info != 0)
+    throw Error(std::string("LAPACK ") + routine + " failed on the reduced eigenproblem (info " +
+                std::to_string(info) + ")");
+}
 
 /// Returns the wanted eigenvalues, with eigenvectors, of A x = μ B x, by QZ.
-std::vector<EigenPair> generalized(DenseMatrix a, DenseMatrix b, int size, Vectors sides,
+std::vector<EigenPair> generalized(DenseMatrix a, DenseMatrix b, Vectors sides,
                                    const Wanted& wanted) {
-  const auto n = static_cast<std::size_t>(size);
-  PetscBLASInt order = size, query = -1, info = 0;
-  std::vector<double> real(n), imaginary(n), beta(n), work(1);
-  LapackVectors vectors(n, sides);
-  const auto call = [&](PetscBLASInt length) {
-    LAPACKggev_(vectors.leftJob(), "V", &order, a.data(), &order, b.data(), &order, real.data(),
-                imaginary.data(), beta.data(), vectors.left.data(), &order, vectors.right.data(),
-                &order, work.data(), &length, &info);
-  };
-  call(query);
-  work.resize(work[0]);
-  call(static_cast<PetscBLASInt>(work.size()));
-  if (info != 0)
-    throw Error("LAPACK dggev failed on the reduced eigenproblem (info " + std::to_string(info) +
-                ")");
-  return unpacked(n, real, imaginary, beta, vectors.right, vectors.left, wanted);
+  PetscBLASInt n = a.rows(), info = 0;
+  std::vector<double> real(n), imaginary(n), beta(n);
+  DenseMatrix right(n, n), left(n, sides == Vectors::both ? n : 0);
+  callWithWork([&](double* work, PetscBLASInt length) {
+    LAPACKggev_(left.empty() ? "N" : "V", "V", &n, a.data(), &n, b.data(), &n, real.data(),
+                imaginary.data(), beta.data(), left.data(), &n, right.data(), &n, work, &length,
+                &info);
+  });
+  requireSuccess("dggev", info);
+  return unpacked(real, imaginary, beta, right, left, wanted);
 }
 
 /// Returns the wanted eigenvalues, with eigenvectors, of A x = μ x, from its Schur form. Only the
 /// wanted eigenvectors are computed: computing all of them would take most of the time.
-std::vector<EigenPair> standard(DenseMatrix a, int size, Vectors sides, const Wanted& wanted) {
-  const auto n = static_cast<std::size_t>(size);
-  PetscBLASInt order = size, query = -1, info = 0, sorted = 0, low = 0, high = 0;
-  std::vector<double> real(n), imaginary(n), schur(n * n), scale(n), work(1);
-  dgebal_("S", &order, a.data(), &order, &low, &high, scale.data(),
+std::vector<EigenPair> standard(DenseMatrix a, Vectors sides, const Wanted& wanted) {
+  PetscBLASInt n = a.rows(), info = 0, sorted = 0, low = 0, high = 0;
+  std::vector<double> real(n), imaginary(n), scale(n);
+  DenseMatrix schur(n, n);
+  dgebal_("S", &n, a.data(), &n, &low, &high, scale.data(),
           &info);  // D⁻¹ A D: matrices of mixed units
-  const auto call = [&](PetscBLASInt length) {
-    LAPACKgees_("V", "N", nullptr, &order, a.data(), &order, &sorted, real.data(), imaginary.data(),
-                schur.data(), &order, work.data(), &length, nullptr, &info);
-  };
-  call(query);
-  work.resize(work[0]);
-  call(static_cast<PetscBLASInt>(work.size()));
-  if (info != 0)
-    throw Error("LAPACK dgees failed on the reduced eigenproblem (info " + std::to_string(info) +
-                ")");
+  callWithWork([&](double* work, PetscBLASInt length) {
+    LAPACKgees_("V", "N", nullptr, &n, a.data(), &n, &sorted, real.data(), imaginary.data(),
+                schur.data(), &n, work, &length, nullptr, &info);
+  });
+  requireSuccess("dgees", info);
   std::vector<PetscBLASInt> chosen(n, 0);
   std::vector<double> realParts, imaginaryParts;  // of the chosen eigenvalues
-  for (std::size_t j = 0; j < n; ++j) {
-    const std::size_t width = imaginary[j] != 0 ? 2 : 1;
+  for (PetscInt j = 0; j < n; ++j) {
+    const PetscInt width = imaginary[j] != 0 ? 2 : 1;
     const Complex value(real[j], imaginary[j]);
-    for (std::size_t k = j; k < j + width && (wanted(value) || wanted(std::conj(value))); ++k) {
+    for (PetscInt k = j; k < j + width && (wanted(value) || wanted(std::conj(value))); ++k) {
       chosen[k] = 1;
       realParts.push_back(real[k]);
       imaginaryParts.push_back(imaginary[k]);
     }
     j += width - 1;
   }
-  const std::size_t count = realParts.size();
+  PetscBLASInt count = realParts.size(), found = 0;
   if (count == 0) return {};
-  PetscBLASInt columns = static_cast<PetscBLASInt>(count), found = 0;
-  std::vector<double> right(n * count), left(sides == Vectors::both ? n * count : 1);
-  work.resize(3 * n);
-  LAPACKtrevc_(sides == Vectors::both ? "B" : "R", "S", chosen.data(), &order, a.data(), &order,
-               left.data(), &order, right.data(), &order, &columns, &found, work.data(), &info);
-  if (info != 0)
-    throw Error("LAPACK dtrevc failed on the reduced eigenproblem (info " + std::to_string(info) +
-                ")");
-  const auto turned = [&](const std::vector<double>& vectors, bool inverse) {
-    std::vector<double> result(n * count);
-    multiplyAdd(schur.data(), size, size, vectors, result);
-    for (std::size_t k = 0; k < result.size(); ++k)
-      result[k] *= inverse ? 1 / scale[k % n] : scale[k % n];
+  DenseMatrix right(n, count), left(n, sides == Vectors::both ? count : 0);
+  std::vector<double> work(3 * n);
+  LAPACKtrevc_(left.empty() ? "R" : "B", "S", chosen.data(), &n, a.data(), &n, left.data(), &n,
+               right.data(), &n, &count, &found, work.data(), &info);
+  requireSuccess("dtrevc", info);
+  const auto turned = [&](const DenseMatrix& vectors, bool inverse) {
+    DenseMatrix result = product(schur, vectors);
+    for (PetscInt j = 0; j < result.columns(); ++j)
+      for (PetscInt i = 0; i < n; ++i) result(i, j) *= inverse ? 1 / scale[i] : scale[i];
     return result;
   };
-  return unpacked(n, realParts, imaginaryParts, std::vector<double>(count, 1.0),
-                  turned(right, false),
-                  sides == Vectors::both ? turned(left, true) : std::vector<double>(), wanted);
-}
-
-DenseMatrix sideBySide(const DenseMatrix& left, const DenseMatrix& right) {
-  DenseMatrix both = left;
-  both.insert(both.end(), right.begin(), right.end());
-  return both;
+  return unpacked(realParts, imaginaryParts, std::vector<double>(count, 1.0), turned(right, false),
+                  turned(left, true), wanted);
 }
 
 /// Returns true if the inverse may be formed. With this bound, eigenvalues lose at worst half of
@@ -161,17 +135,14 @@ bool invertible(const Lu<double>& matrix) { return matrix.pivotRatio() > 1e-8; }
 /// Replaces the left vectors u of M⁻¹ A, uᴴ M⁻¹ A = μ uᴴ, by the left vectors of (A, M),
 ///   y = M⁻ᵀ u.
 void undoInverse(const Lu<double>& mass, std::vector<DensePair>& pairs) {
-  DenseMatrix columns;
-  for (const auto& pair : pairs) {
-    for (const auto& entry : pair.left) columns.push_back(entry.real());
-    for (const auto& entry : pair.left) columns.push_back(entry.imag());
-  }
-  mass.solve(columns, true);
-  auto part = columns.begin();
   for (auto& pair : pairs) {
-    const auto imaginary = part + static_cast<std::ptrdiff_t>(pair.left.size());
-    for (std::size_t i = 0; i < pair.left.size(); ++i) pair.left[i] = {part[i], imaginary[i]};
-    part = imaginary + static_cast<std::ptrdiff_t>(pair.left.size());
+    DenseMatrix parts(pair.left.size(), 2);
+    for (std::size_t i = 0; i < pair.left.size(); ++i) {
+      parts(i, 0) = pair.left[i].real();
+      parts(i, 1) = pair.left[i].imag();
+    }
+    mass.solve(parts, true);
+    for (std::size_t i = 0; i < pair.left.size(); ++i) pair.left[i] = {parts(i, 0), parts(i, 1)};
   }
 }
 
@@ -189,7 +160,7 @@ struct Leading {
   const Lu<double>& factors;
 };
 
-std::vector<DensePair> linearInSquare(const Leading& mass, const DenseMatrix& stiffness, int m,
+std::vector<DensePair> linearInSquare(const Leading& mass, const DenseMatrix& stiffness,
                                       Vectors vectors, const Wanted& wanted) {
   //   K q = μ M q,   μ = −s²
   // Both roots ±s are eigenvalues. One of them has Im s ≥ 0, or both if they are real.
@@ -200,8 +171,8 @@ std::vector<DensePair> linearInSquare(const Leading& mass, const DenseMatrix& st
   DenseMatrix product = stiffness;
   if (invertible(mass.factors)) mass.factors.solve(product);
   const auto solved = invertible(mass.factors)
-                          ? standard(std::move(product), m, vectors, either)
-                          : generalized(stiffness, mass.matrix, m, vectors, either);
+                          ? standard(std::move(product), vectors, either)
+                          : generalized(stiffness, mass.matrix, vectors, either);
   std::vector<DensePair> pairs;
   for (const auto& [mu, q, left] : solved) {
     const Complex s = rootOf(mu);
@@ -213,46 +184,49 @@ std::vector<DensePair> linearInSquare(const Leading& mass, const DenseMatrix& st
 }
 
 /// Returns [I 0; 0 M].
-DenseMatrix padded(const DenseMatrix& mass, std::size_t m) {
-  DenseMatrix b(4 * m * m, 0.0);
-  for (std::size_t j = 0; j < m; ++j) {
-    b[j * 2 * m + j] = 1;
-    std::copy_n(mass.begin() + j * m, m, b.begin() + ((m + j) * 2 * m + m));
+DenseMatrix padded(const DenseMatrix& mass) {
+  const PetscInt m = mass.rows();
+  DenseMatrix b(2 * m, 2 * m);
+  for (PetscInt j = 0; j < m; ++j) {
+    b(j, j) = 1;
+    for (PetscInt i = 0; i < m; ++i) b(m + i, m + j) = mass(i, j);
   }
   return b;
 }
 
+/// Returns the Frobenius norm.
+double norm(const DenseMatrix& x) {
+  const auto entries = x.entries();
+  return std::sqrt(std::inner_product(entries.begin(), entries.end(), entries.begin(), 0.0));
+}
+
 std::vector<DensePair> companion(const Leading& mass, const DenseMatrix& damping,
-                                 const DenseMatrix& stiffness, int size, Vectors vectors,
+                                 const DenseMatrix& stiffness, Vectors vectors,
                                  const Wanted& wanted) {
-  const auto m = static_cast<std::size_t>(size);
-  const auto norm = [](const DenseMatrix& x) {
-    return std::sqrt(std::inner_product(x.begin(), x.end(), x.begin(), 0.0));
-  };
+  const PetscInt m = stiffness.rows();
   const double unit =
       std::sqrt(norm(stiffness) / norm(mass.matrix));  // s = unit ŝ (Fan, Lin and Van Dooren 2004)
   //   [0 I; −K̂ −Ẑ] (q, ŝq) = ŝ [I 0; 0 M] (q, ŝq),   K̂ = K / unit², Ẑ = Z / unit
-  DenseMatrix lower = sideBySide(stiffness, damping);
+  DenseMatrix lower = stiffness;
+  lower.append(damping);
   if (invertible(mass.factors)) mass.factors.solve(lower);
-  DenseMatrix a(4 * m * m, 0.0);
-  for (std::size_t j = 0; j < m; ++j) {
-    a[(m + j) * 2 * m + j] = 1;
-    for (std::size_t i = 0; i < m; ++i) {
-      a[j * 2 * m + m + i] = -lower[j * m + i] / (unit * unit);
-      a[(m + j) * 2 * m + m + i] = -lower[(m + j) * m + i] / unit;
+  DenseMatrix a(2 * m, 2 * m);
+  for (PetscInt j = 0; j < m; ++j) {
+    a(j, m + j) = 1;
+    for (PetscInt i = 0; i < m; ++i) {
+      a(m + i, j) = -lower(i, j) / (unit * unit);
+      a(m + i, m + j) = -lower(i, m + j) / unit;
     }
   }
   std::vector<DensePair> pairs;
   const Wanted upper = [&](Complex value) { return value.imag() >= 0 && wanted(unit * value); };
   for (const auto& [value, right, left] :
-       invertible(mass.factors)
-           ? standard(a, 2 * size, vectors, upper)
-           : generalized(a, padded(mass.matrix, m), 2 * size, vectors, upper)) {
-    const auto half = right.begin() + (std::abs(value) > 1 ? size : 0);  // the larger of q and ŝq
+       invertible(mass.factors) ? standard(a, vectors, upper)
+                                : generalized(a, padded(mass.matrix), vectors, upper)) {
+    const auto half = right.begin() + (std::abs(value) > 1 ? m : 0);  // the larger of q and ŝq
     // The left vector of the companion form is (u, y) with u = −K̂ᵀ y / conj ŝ and yᴴ P = 0.
-    pairs.push_back({unit * value,
-                     {half, half + size},
-                     {left.begin() + (left.empty() ? 0 : size), left.end()}});
+    pairs.push_back(
+        {unit * value, {half, half + m}, {left.begin() + (left.empty() ? 0 : m), left.end()}});
   }
   if (vectors == Vectors::both && invertible(mass.factors)) undoInverse(mass.factors, pairs);
   return pairs;
@@ -275,18 +249,18 @@ void normalise(std::vector<Complex>& vector) {
 }
 
 /// Returns true if A = sign Aᵀ up to rounding: max |A_ij − sign A_ji| ≤ 1e-13 max |A_ij|.
-bool hasSymmetry(const DenseMatrix& a, std::size_t m, double sign) {
+bool hasSymmetry(const DenseMatrix& a, double sign) {
   double size = 0, difference = 0;
-  for (std::size_t j = 0; j < m; ++j)
-    for (std::size_t i = 0; i <= j; ++i) {
-      size = std::max({size, std::abs(a[j * m + i]), std::abs(a[i * m + j])});
-      difference = std::max(difference, std::abs(a[j * m + i] - sign * a[i * m + j]));
+  for (PetscInt j = 0; j < a.columns(); ++j)
+    for (PetscInt i = 0; i <= j; ++i) {
+      size = std::max({size, std::abs(a(i, j)), std::abs(a(j, i))});
+      difference = std::max(difference, std::abs(a(i, j) - sign * a(j, i)));
     }
   return difference <= 1e-13 * size;
 }
 
-bool positiveDefinite(DenseMatrix a, int m) {
-  PetscBLASInt order = m, info = 0;
+bool positiveDefinite(DenseMatrix a) {
+  PetscBLASInt order = a.rows(), info = 0;
   LAPACKpotrf_("L", &order, a.data(), &order, &info);
   return info == 0;
 }
@@ -296,10 +270,9 @@ bool positiveDefinite(DenseMatrix a, int m) {
 ///   s² m + i s g + k = 0,   m = qᴴ M q > 0,   k = qᴴ K q > 0,   i g = qᴴ Z q,
 /// has imaginary roots only.
 bool conservative(const DenseProblem& problem) {
-  const auto m = static_cast<std::size_t>(problem.m);
-  return hasSymmetry(problem.stiffness, m, 1) && hasSymmetry(problem.mass, m, 1) &&
-         hasSymmetry(problem.damping, m, -1) && positiveDefinite(problem.stiffness, problem.m) &&
-         positiveDefinite(problem.mass, problem.m);
+  return hasSymmetry(problem.stiffness, 1) && hasSymmetry(problem.mass, 1) &&
+         hasSymmetry(problem.damping, -1) && positiveDefinite(problem.stiffness) &&
+         positiveDefinite(problem.mass);
 }
 
 /// Returns the conjugate of s = 1/t for a root t of the reversed polynomial with Im t ≥ 0, so that
@@ -314,9 +287,9 @@ std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vecto
   // of the reversed polynomial are found:
   //   t² K + t Z + M,   t = 1/s
   constexpr double beyondDoubt = 0.01;
-  const Lu<double> ofStiffness(problem.stiffness, problem.m);
+  const Lu<double> ofStiffness(problem.stiffness);
   std::optional<Lu<double>> ofMass;
-  if (ofStiffness.pivotRatio() < beyondDoubt) ofMass.emplace(problem.mass, problem.m);
+  if (ofStiffness.pivotRatio() < beyondDoubt) ofMass.emplace(problem.mass);
   const bool reversed =
       !ofMass || (invertible(ofStiffness) && ofStiffness.pivotRatio() > ofMass->pivotRatio());
   const Leading leading =
@@ -326,9 +299,8 @@ std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vecto
     if (reversed && t == 0.0) return false;  // s is infinite: a motion without mass
     return !wanted || wanted(reversed ? turnedRound(t) : t);
   };
-  auto pairs = problem.damping.empty()
-                   ? linearInSquare(leading, last, problem.m, vectors, root)
-                   : companion(leading, problem.damping, last, problem.m, vectors, root);
+  auto pairs = problem.damping.empty() ? linearInSquare(leading, last, vectors, root)
+                                       : companion(leading, problem.damping, last, vectors, root);
   for (auto& pair : pairs) {
     if (!reversed) break;
     pair = {turnedRound(pair.s), conjugated(std::move(pair.q)), conjugated(std::move(pair.left))};
@@ -348,41 +320,41 @@ std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vecto
   return pairs;
 }
 
-std::vector<DensePair> solveQuadratic(const DenseMatrix& mass, const DenseMatrix& damping,
-                                      const DenseMatrix& stiffness, int m, Vectors vectors) {
-  return solveQuadratic({mass, damping, stiffness, m}, vectors);
-}
-
-std::vector<double> timesVectors(const DenseMatrix& a, int m, const std::vector<DensePair>& pairs) {
-  std::vector<double> q, result(2 * pairs.size() * static_cast<std::size_t>(m), 0.0);
-  if (a.empty()) return result;
-  for (const auto& pair : pairs) {
-    for (const auto& entry : pair.q) q.push_back(entry.real());
-    for (const auto& entry : pair.q) q.push_back(entry.imag());
-  }
-  multiplyAdd(a.data(), m, m, q, result);
+ComplexMatrix timesVectors(const DenseView& a, const std::vector<DensePair>& pairs) {
+  const PetscInt m = pairs.empty() ? 0 : pairs[0].q.size(), count = pairs.size();
+  ComplexMatrix result(m, count);
+  if (a.empty() || count == 0) return result;
+  DenseMatrix parts(m, 2 * count);  // real and imaginary
+  for (PetscInt j = 0; j < count; ++j)
+    for (PetscInt i = 0; i < m; ++i) {
+      parts(i, j) = pairs[j].q[i].real();
+      parts(i, count + j) = pairs[j].q[i].imag();
+    }
+  const DenseMatrix images = product(a, parts);
+  for (PetscInt j = 0; j < count; ++j)
+    for (PetscInt i = 0; i < m; ++i) result(i, j) = {images(i, j), images(i, count + j)};
   return result;
 }
 
-void shareFrom(int root, MPI_Comm comm, std::vector<DensePair>& pairs, int m, Vectors vectors) {
-  int count = static_cast<int>(pairs.size());
-  check(MPI_Bcast(&count, 1, MPI_INT, root, comm));
-  const auto n = static_cast<std::size_t>(m), length = 1 + n * (vectors == Vectors::both ? 2 : 1);
-  std::vector<Complex> packed;
-  packed.reserve(length * static_cast<std::size_t>(count));
-  for (const auto& pair : pairs) {
-    packed.push_back(pair.s);
-    packed.insert(packed.end(), pair.q.begin(), pair.q.end());
-    packed.insert(packed.end(), pair.left.begin(), pair.left.end());
+void shareFrom(int root, MPI_Comm comm, std::vector<DensePair>& pairs, Vectors vectors) {
+  PetscInt count = pairs.size(), m = pairs.empty() ? 0 : pairs[0].q.size();
+  check(MPI_Bcast(&count, 1, MPIU_INT, root, comm));
+  check(MPI_Bcast(&m, 1, MPIU_INT, root, comm));
+  const PetscInt length = 1 + m * (vectors == Vectors::both ? 2 : 1);
+  ComplexMatrix packed(length, count);  // s, the right vector, the left vector
+  int rank = 0;
+  check(MPI_Comm_rank(comm, &rank));
+  for (PetscInt j = 0; j < count && rank == root; ++j) {
+    const auto column = packed.column(j);
+    column[0] = pairs[j].s;
+    std::ranges::copy(pairs[j].q, column.begin() + 1);
+    if (vectors == Vectors::both) std::ranges::copy(pairs[j].left, column.begin() + 1 + m);
   }
-  packed.resize(length * static_cast<std::size_t>(count));
-  check(
-      MPI_Bcast(packed.data(), static_cast<int>(packed.size()), MPI_C_DOUBLE_COMPLEX, root, comm));
+  check(MPI_Bcast(packed.data(), packed.size(), MPI_C_DOUBLE_COMPLEX, root, comm));
   pairs.clear();
-  for (auto entry = packed.begin(); entry != packed.end();
-       entry += static_cast<std::ptrdiff_t>(length)) {
-    const auto q = entry + 1, left = q + m, end = entry + static_cast<std::ptrdiff_t>(length);
-    pairs.push_back({*entry, {q, left}, {left, end}});
+  for (PetscInt j = 0; j < count; ++j) {
+    const auto column = packed.column(j), q = column.subspan(1, m), left = column.subspan(1 + m);
+    pairs.push_back({column[0], {q.begin(), q.end()}, {left.begin(), left.end()}});
   }
 }
 
@@ -394,23 +366,18 @@ std::vector<std::vector<DensePair>> solveSpread(MPI_Comm comm,
   check(MPI_Comm_size(comm, &ranks));
   std::vector<std::vector<DensePair>> solved(problems.size());
   std::string failure;
-  for (auto i = static_cast<std::size_t>(rank); i < problems.size() && failure.empty();
-       i += static_cast<std::size_t>(ranks))
-    try {
+  for (std::size_t i = rank; i < problems.size() && failure.empty(); i += ranks) try {
       solved[i] = solveQuadratic(problems[i], vectors, wanted);
     } catch (const Error& error) {
       failure = error.what();
     }
   failTogether(comm, failure);
-  for (std::size_t i = 0; i < problems.size(); ++i)
-    shareFrom(static_cast<int>(i) % ranks, comm, solved[i], problems[i].m, vectors);
+  for (std::size_t i = 0; i < problems.size(); ++i) shareFrom(i % ranks, comm, solved[i], vectors);
   return solved;
 }
 
-std::vector<DensePair> solveTogether(MPI_Comm comm, const DenseMatrix& mass,
-                                     const DenseMatrix& damping, const DenseMatrix& stiffness,
-                                     int m, Vectors vectors) {
-  return solveSpread(comm, {{mass, damping, stiffness, m}}, vectors)[0];
+std::vector<DensePair> solveTogether(MPI_Comm comm, const DenseProblem& problem, Vectors vectors) {
+  return solveSpread(comm, {problem}, vectors)[0];
 }
 
 }  // namespace squeal::linalg

@@ -3,36 +3,34 @@
 /// LAPACK.
 #include <mpi.h>
 
-#include <complex>
 #include <functional>
 #include <vector>
 
-namespace squeal::linalg {
+#include "linalg/dense.hpp"
 
-/// A dense matrix, column-major; m × m in this header.
-using DenseMatrix = std::vector<double>;
+namespace squeal::linalg {
 
 /// The quadratic eigenproblem
 ///   (s² M + s Z + K) q = 0
-/// with real m × m matrices. An empty Z stands for zero.
+/// with real matrices of order m. An empty Z stands for zero.
 struct DenseProblem {
   DenseMatrix mass, damping, stiffness;
-  int m = 0;
+  PetscInt order() const { return stiffness.rows(); }  ///< m
 };
 
 /// An eigenvalue with its vectors.
 struct DensePair {
-  std::complex<double> s;               ///< 1/s
-  std::vector<std::complex<double>> q;  ///< right vector, [m], 2-norm 1
+  Complex s;               ///< 1/s
+  std::vector<Complex> q;  ///< right vector, [m], 2-norm 1
   /// Left vector y with yᴴ P(s) = 0, [m], 2-norm 1; empty unless it is asked for.
-  std::vector<std::complex<double>> left = {};
+  std::vector<Complex> left = {};
 };
 
 /// The eigenvectors that a solve returns: the right ones, or both the right and the left ones.
 enum class Vectors { right, both };
 
 /// Returns true for each eigenvalue s that is to be returned. An empty function selects all.
-using Wanted = std::function<bool(std::complex<double>)>;
+using Wanted = std::function<bool(Complex)>;
 
 /// Not collective. Returns the finite eigenvalues with Im s ≥ 0 that are `wanted`, by ascending
 /// Im s, then by ascending Re s.
@@ -45,30 +43,26 @@ using Wanted = std::function<bool(std::complex<double>)>;
 /// Throws Error if LAPACK fails, or if M and K have a common null vector.
 std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vectors = Vectors::right,
                                       const Wanted& wanted = {});
-std::vector<DensePair> solveQuadratic(const DenseMatrix& mass, const DenseMatrix& damping,
-                                      const DenseMatrix& stiffness, int m,
-                                      Vectors vectors = Vectors::right);
 
-/// Not collective. Returns A times the right vectors of the pairs, m rows, column-major. Columns 2j
-/// and 2j + 1 hold the real and the imaginary part for pair j. An empty A stands for zero.
-std::vector<double> timesVectors(const DenseMatrix& a, int m, const std::vector<DensePair>& pairs);
+/// Not collective. Returns A times the right vectors of the pairs, m × pairs. An empty A stands for
+/// zero.
+ComplexMatrix timesVectors(const DenseView& a, const std::vector<DensePair>& pairs);
 
 /// Collective. Solves several problems, problem i on the rank i modulo the number of ranks, which
-/// alone needs its matrices. Every rank needs m of all problems. The results are sent to all ranks,
-/// so that rounding cannot make the ranks disagree on the order or number of eigenvalues. Throws
-/// Error on all ranks if one problem fails.
+/// alone needs its matrices. The results are sent to all ranks, so that rounding cannot make the
+/// ranks disagree on the order or number of eigenvalues. Throws Error on all ranks if one problem
+/// fails.
 std::vector<std::vector<DensePair>> solveSpread(MPI_Comm comm,
                                                 const std::vector<DenseProblem>& problems,
                                                 Vectors vectors, const Wanted& wanted = {});
 
 /// Collective. Solves one problem on rank 0 and returns the results on all ranks. Throws Error on
 /// all ranks if it fails.
-std::vector<DensePair> solveTogether(MPI_Comm comm, const DenseMatrix& mass,
-                                     const DenseMatrix& damping, const DenseMatrix& stiffness,
-                                     int m, Vectors vectors = Vectors::right);
+std::vector<DensePair> solveTogether(MPI_Comm comm, const DenseProblem& problem,
+                                     Vectors vectors = Vectors::right);
 
-/// Collective. Sends the pairs of rank `root`, with vectors of m entries, to all ranks; all vectors
-/// travel in one message. `vectors` says whether left vectors are sent too.
-void shareFrom(int root, MPI_Comm comm, std::vector<DensePair>& pairs, int m, Vectors vectors);
+/// Collective. Sends the pairs of rank `root`, all with vectors of the same length, to all ranks;
+/// all vectors travel in one message. `vectors` says whether left vectors are sent too.
+void shareFrom(int root, MPI_Comm comm, std::vector<DensePair>& pairs, Vectors vectors);
 
 }  // namespace squeal::linalg

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "linalg/block.hpp"
-#include "linalg/quadratic.hpp"
 
 namespace squeal::linalg {
 
@@ -26,12 +25,12 @@ class Sketch {
   Sketch(MPI_Comm comm, const std::vector<double>& diagonal);
   /// Collective. Returns Ωᵀ X / √k above Ωᵀ D^½ X / √k, 2k × columns, the same on all ranks. X is
   /// given by this rank's rows.
-  DenseMatrix of(const double* x, PetscInt columns) const;
+  DenseMatrix of(const DenseView& x) const;
   /// Collective. Returns Ωᵀ X / √k alone, k × columns.
-  DenseMatrix unweighted(const double* x, PetscInt columns) const;
+  DenseMatrix unweighted(const DenseView& x) const;
   /// Collective. Returns the same as the first `of` for an X that is given by `rows`; its other
   /// rows are zero.
-  DenseMatrix of(const RowSet& rows, const double* x, PetscInt columns) const;
+  DenseMatrix of(const RowSet& rows, const DenseView& x) const;
 
  private:
   MPI_Comm comm_;
@@ -43,9 +42,9 @@ struct SquaredNorms {
   std::vector<double> euclidean, weighted;
 };
 /// Returns the squared norms of all columns from a sketch, 2k × columns.
-SquaredNorms squaredNorms(const DenseMatrix& sketch);
+SquaredNorms squaredNorms(const DenseView& sketch);
 /// Returns the squared Euclidean norms of all columns from an unweighted sketch, k × columns.
-std::vector<double> squaredLengths(const DenseMatrix& unweighted);
+std::vector<double> squaredLengths(const DenseView& unweighted);
 
 /// Returns the coefficients of orthogonal combinations of columns, all × count, estimated from the
 /// sketches of the columns, 2k × all. Each column is first multiplied by its factor, [column]; the
@@ -54,7 +53,7 @@ std::vector<double> squaredLengths(const DenseMatrix& unweighted);
 /// where the columns are nearly linearly dependent. If nearly k values exceed `small`, or as many
 /// as there are columns, the sketch cannot tell: the coefficients are then the diagonal matrix of
 /// the factors.
-DenseMatrix leadingCombinations(const DenseMatrix& sketches, const std::vector<double>& factors,
+DenseMatrix leadingCombinations(const DenseView& sketches, const std::vector<double>& factors,
                                 double small);
 
 }  // namespace squeal::linalg

@@ -14,14 +14,13 @@
 namespace squeal::linalg {
 namespace {
 
-using Complex = std::complex<double>;
 using Entries = std::vector<Complex>;
 
 /// Returns A x, or Aᵀ x if `transposed` is "T"; zero for an empty A.
 Entries product(const char* transposed, const DenseMatrix& a, const Entries& x) {
   const std::size_t m = x.size();
   if (a.empty()) return Entries(m);
-  const PetscBLASInt n = static_cast<PetscBLASInt>(m), two = 2;
+  const PetscBLASInt n = m, two = 2;
   const PetscScalar one = 1, zero = 0;
   Entries y(m);
   for (std::ptrdiff_t part : {0, 1})  // real and imaginary entries alternate
@@ -50,33 +49,33 @@ Entries combined(Complex a, const Entries& x, Complex b, const Entries& y) {
 class Factors {
  public:
   Factors(const DenseProblem& problem, Complex shift) {
-    const std::size_t size = problem.stiffness.size();
+    const auto &mass = problem.mass, &damping = problem.damping, &stiffness = problem.stiffness;
+    const PetscInt m = problem.order();
     const Complex square = shift * shift;
-    if (problem.damping.empty() && shift.real() == 0) {
-      DenseMatrix sum(size);
-      for (std::size_t k = 0; k < size; ++k)
-        sum[k] = square.real() * problem.mass[k] + problem.stiffness[k];
-      real_.emplace(std::move(sum), problem.m);
+    if (damping.empty() && shift.real() == 0) {
+      DenseMatrix sum = stiffness;
+      addScaled(sum, square.real(), mass);
+      real_.emplace(std::move(sum));
     } else {
-      Entries sum(size);
-      for (std::size_t k = 0; k < size; ++k)
-        sum[k] = square * problem.mass[k] +
-                 (problem.damping.empty() ? 0 : shift * problem.damping[k]) + problem.stiffness[k];
-      complex_.emplace(std::move(sum), problem.m);
+      ComplexMatrix sum(m, m);
+      for (PetscInt j = 0; j < m; ++j)
+        for (PetscInt i = 0; i < m; ++i)
+          sum(i, j) =
+              square * mass(i, j) + (damping.empty() ? 0 : shift * damping(i, j)) + stiffness(i, j);
+      complex_.emplace(std::move(sum));
     }
   }
   bool regular() const { return (real_ ? real_->pivotRatio() : complex_->pivotRatio()) > 0; }
   /// Returns P(σ)⁻¹ b, or P(σ)⁻ᴴ b if `adjoint`.
   Entries solve(Entries b, bool adjoint = false) const {
     if (!real_) {
-      complex_->solve(b, adjoint);
+      complex_->solve(std::span(b), adjoint);
       return b;
     }
-    std::vector<double> parts;
-    for (const auto& entry : b) parts.push_back(entry.real());
-    for (const auto& entry : b) parts.push_back(entry.imag());
+    DenseMatrix parts(b.size(), 2);
+    for (std::size_t i = 0; i < b.size(); ++i) parts(i, 0) = b[i].real(), parts(i, 1) = b[i].imag();
     real_->solve(parts, adjoint);
-    for (std::size_t i = 0; i < b.size(); ++i) b[i] = {parts[i], parts[b.size() + i]};
+    for (std::size_t i = 0; i < b.size(); ++i) b[i] = {parts(i, 0), parts(i, 1)};
     return b;
   }
 
@@ -115,8 +114,8 @@ class TwoSidedIteration {
   TwoSidedIteration(const DenseProblem& problem, const std::vector<DensePair>& start)
       : problem_(problem) {
     for (auto [s, x, y] : start) {
-      x.resize(problem.m, 0.0);
-      y.resize(problem.m, 0.0);
+      x.resize(problem.order());
+      y.resize(problem.order());
       right_.push_back({x, combined(s, x, 0, x)});
       left_.push_back({combined(std::conj(s), timesTransposed(problem.mass, y), 1,
                                 timesTransposed(problem.damping, y)),

@@ -8,7 +8,7 @@ namespace squeal::linalg {
 
 /// One or two eigenvalues of one invariant subspace.
 struct Cluster {
-  std::complex<double> mean;     ///< mean of the eigenvalues, 1/s
+  Complex mean;                  ///< mean of the eigenvalues, 1/s
   std::vector<DensePair> pairs;  ///< with left vectors; nearly parallel where eigenvalues meet
   bool converged = false;
 };
@@ -20,8 +20,8 @@ struct Cluster {
 /// distance of the mean from the next eigenvalue, in 1/s, within a factor of ten. Vectors of a
 /// smaller basis are extended by zeros. The result has converged = false where the iteration does
 /// not converge or P(shift) is singular.
-Cluster clusterNear(const DenseProblem& problem, const std::vector<DensePair>& start,
-                    std::complex<double> guess, double isolation);
+Cluster clusterNear(const DenseProblem& problem, const std::vector<DensePair>& start, Complex guess,
+                    double isolation);
 
 /// Eigenvalues with left and right vectors of one problem, prepared for comparison with those of a
 /// neighbouring problem. Not collective.
@@ -31,7 +31,7 @@ class Spectrum {
   Spectrum(const DenseProblem& problem, std::vector<DensePair> pairs);
   const std::vector<DensePair>& pairs() const { return pairs_; }
   /// Returns yᴴ P′(s) x of pair i, with P′ = 2 s M + Z.
-  std::complex<double> derivative(std::size_t i) const {
+  Complex derivative(std::size_t i) const {
     return linear_ ? 2.0 * pairs_[i].s * own_[i] : own_[i];
   }
   bool damped() const { return !linear_; }  ///< the problem has a term in s
@@ -39,14 +39,14 @@ class Spectrum {
   /// this problem and pair j of the other. It does not depend on the scaling of the vectors. It is
   /// 1 for the same pair and 0 for another. Its sum over all j is 1. Its sum over two groups of
   /// pairs is the dimension of the subspace that both share.
-  std::complex<double> overlap(std::size_t i, const Spectrum& other, std::size_t j) const;
+  Complex overlap(std::size_t i, const Spectrum& other, std::size_t j) const;
 
  private:
-  std::complex<double> product(std::size_t i, const DensePair& pair) const;
+  Complex product(std::size_t i, const DensePair& pair) const;
   std::vector<DensePair> pairs_;
-  bool linear_;                                          // true if the problem is linear in s²
-  std::vector<std::vector<std::complex<double>>> rows_;  // [pair]: Mᵀ y, then (s M + Z)ᴴ y
-  std::vector<std::complex<double>> own_;                // [pair]: product(i, pair i)
+  bool linear_;                             // true if the problem is linear in s²
+  std::vector<std::vector<Complex>> rows_;  // [pair]: Mᵀ y, then (s M + Z)ᴴ y
+  std::vector<Complex> own_;                // [pair]: product(i, pair i)
 };
 
 }  // namespace squeal::linalg

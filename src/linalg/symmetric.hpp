@@ -2,18 +2,20 @@
 /// Small dense symmetric eigenproblems, by LAPACK. Not collective.
 #include <vector>
 
+#include "linalg/dense.hpp"
+
 namespace squeal::linalg {
 
-/// Returns the eigenvalues of a symmetric matrix, ascending. A is n × n, column-major; only its
-/// lower triangle is read. Orthonormal eigenvectors replace it, as columns. Throws Error if LAPACK
+/// Returns the eigenvalues of a symmetric matrix, ascending. Only the lower triangle of A is
+/// read. Orthonormal eigenvectors replace it, as columns. Throws Error if LAPACK
 /// fails.
-std::vector<double> symmetricEigen(std::vector<double>& a, int n);
+std::vector<double> symmetricEigen(DenseMatrix& a);
 
 /// Returns the eigenvalues λ of
 ///   A x = λ B x,
 /// ascending, for A symmetric and B symmetric positive definite, both stored as above.
 /// B-orthonormal eigenvectors replace A, and a Cholesky factor replaces B. Throws Error if LAPACK
 /// fails or B is not positive definite.
-std::vector<double> symmetricEigen(std::vector<double>& a, std::vector<double>& b, int n);
+std::vector<double> symmetricEigen(DenseMatrix& a, DenseMatrix& b);
 
 }  // namespace squeal::linalg

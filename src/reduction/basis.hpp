@@ -10,7 +10,6 @@
 
 #include "linalg/block.hpp"
 #include "linalg/complexvector.hpp"
-#include "linalg/quadratic.hpp"
 #include "linalg/sketch.hpp"
 #include "modes/modes.hpp"
 #include "petsc/owned.hpp"
@@ -22,40 +21,40 @@ class Basis {
   /// Collective. Begins with the modes of the system, which is borrowed.
   Basis(const modes::Modes& modes, const modes::AssociatedSystem& system);
   const linalg::Block& columns() const { return columns_; }
-  PetscInt size() const { return columns_.columns; }
-  PetscInt localRows() const { return columns_.rows; }
+  PetscInt size() const { return columns_.columns(); }
+  PetscInt localRows() const { return columns_.rows(); }
   MPI_Comm comm() const { return comm_; }
   Mat stiffness() const { return stiffness_; }  ///< K0
-  /// Collective. A copy of V.
+  /// Collective. Returns a copy of V.
   OwnedBV vectors() const;
 
   /// Collective. Adds K0⁻¹ of the columns of `residuals`, solved for together; combinations that
   /// depend on others or on V are dropped. Returns the number of columns added.
   PetscInt add(const linalg::Block& residuals);
-  /// V ← V · combinations (size() × count), which has orthonormal columns.
-  void combine(const linalg::DenseMatrix& combinations, PetscInt count);
+  /// Collective. Replaces V by V · combinations, which must be orthonormal like V.
+  void combine(const linalg::DenseMatrix& combinations);
 
-  /// Collective. Adds A times columns [first, last) of V to the columns of `result`.
+  /// Collective. Appends A times the columns [first, last) of V to the columns of `result`.
   void appendProducts(Mat matrix, PetscInt first, PetscInt last, linalg::Block& result) const;
-  /// K0 times the columns last added, and VᵀK0 times them (size() × columns), where they are known
-  /// without products: no columns otherwise.
+  /// Returns K0 times the columns last added, and VᵀK0 times them, size() × columns, if these are
+  /// known without products, and otherwise matrices without columns.
   const linalg::Block& forces() const { return forces_; }
   const linalg::DenseMatrix& energies() const { return energies_; }
-  /// Collective. V q of several q; entries that one lacks are zero.
+  /// Collective. Returns V q for several q, [q]; entries that a q lacks are zero.
   std::vector<linalg::ComplexVector> expand(
-      const std::vector<const std::vector<std::complex<double>>*>& list) const;
-  /// The sketch of columns of length n, whose weighted norm is √(rᵀ diag(K0)⁻¹ r).
+      const std::vector<const std::vector<Complex>*>& list) const;
+  /// Returns the sketch of columns of length n, whose weighted norm is √(rᵀ diag(K0)⁻¹ r).
   const linalg::Sketch& sketch() const { return *sketch_; }
-  /// Unweighted sketch of V.
+  /// Returns the unweighted sketch of V.
   const linalg::DenseMatrix& sketched() const { return sketched_; }
-  /// Collective. For each block of columns, all solved for together, the largest ratio of the
-  /// energy norm √(rᵀ K0⁻¹ r) to √(rᵀ diag(K0)⁻¹ r) among its combinations: it turns the second
-  /// norm, which costs nothing, into an estimate of the first for columns like these. 0: no
-  /// columns.
+  /// Collective. Returns for each block of columns the largest ratio of the energy norm
+  /// √(rᵀ K0⁻¹ r) to √(rᵀ diag(K0)⁻¹ r) among its combinations, or 0 for a block without columns.
+  /// The ratio turns the second norm, which costs nothing, into an estimate of the first for
+  /// columns like these. All blocks are solved for together.
   std::vector<double> energyRatios(const std::vector<linalg::Block>& blocks);
   /// Returns the energy ratio of the columns last added.
   double lastEnergyRatio() const { return ratio_; }
-  /// Columns solved for so far.
+  /// Returns the number of columns solved for so far.
   long solves() const { return solves_; }
 
  private:

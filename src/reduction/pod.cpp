@@ -5,39 +5,34 @@
 
 #include <algorithm>
 
-#include "linalg/quadratic.hpp"
+#include "linalg/dense.hpp"
+#include "linalg/lapack.hpp"
 #include "reduction/reduced.hpp"
 
 namespace squeal::reduction {
 namespace {
 
-/// Orthonormal vectors that hold the columns (m high) but for parts of length `small`.
-linalg::DenseMatrix principalDirections(linalg::DenseMatrix columns, int rows, double small) {
-  PetscBLASInt m = rows, n = static_cast<PetscBLASInt>(columns.size()) / m, few = std::min(m, n),
-               one = 1, query = -1, info = 0;
-  std::vector<double> sizes(few), left(static_cast<std::size_t>(m * few)), state(1);
-  const auto call = [&](PetscBLASInt length) {
+/// Returns orthonormal vectors that hold the columns but for parts of length `small`.
+linalg::DenseMatrix principalDirections(linalg::DenseMatrix columns, double small) {
+  PetscBLASInt m = columns.rows(), n = columns.columns(), few = std::min(m, n), one = 1, info = 0;
+  std::vector<double> sizes(few);
+  linalg::DenseMatrix left(m, few);
+  linalg::callWithWork([&](double* work, PetscBLASInt length) {
     LAPACKgesvd_("S", "N", &m, &n, columns.data(), &m, sizes.data(), left.data(), &m, nullptr, &one,
-                 state.data(), &length, &info);
-  };
-  call(query);
-  state.resize(state[0]);
-  call(static_cast<PetscBLASInt>(state.size()));
+                 work, &length, &info);
+  });
   if (info != 0)
     throw Error("LAPACK dgesvd failed on the vectors of -reduction_basis pod (info " +
                 std::to_string(info) + ")");
-  const auto kept =
-      std::count_if(sizes.begin(), sizes.end(), [&](double size) { return size > small; });
-  left.resize(m * kept);
+  left.resizeColumns(std::ranges::count_if(sizes, [&](double size) { return size > small; }));
   return left;
 }
 
-/// Coordinates of the same vector in a basis V · directions.
-std::vector<std::complex<double>> turned(const linalg::DenseMatrix& directions, std::size_t m,
-                                         const std::vector<std::complex<double>>& q) {
-  std::vector<std::complex<double>> result(directions.size() / m);
+/// Returns the coordinates of the same vector in a basis V · directions.
+std::vector<Complex> turned(const linalg::DenseMatrix& directions, const std::vector<Complex>& q) {
+  std::vector<Complex> result(directions.columns());
   for (std::size_t j = 0; j < result.size(); ++j)
-    for (std::size_t i = 0; i < q.size(); ++i) result[j] += directions[j * m + i] * q[i];
+    for (std::size_t i = 0; i < q.size(); ++i) result[j] += directions(i, j) * q[i];
   return result;
 }
 
@@ -46,27 +41,26 @@ std::vector<std::complex<double>> turned(const linalg::DenseMatrix& directions, 
 /// Turns the basis to the principal directions of all vectors found so far.
 void ReducedProblem::compress() {
   constexpr double left = 1e-9;  // of a unit vector; what is lost, corrections bring back
-  const PetscInt old = basis_.size();
-  const auto m = static_cast<std::size_t>(old);
-  linalg::DenseMatrix vectors;
+  linalg::DenseMatrix vectors(basis_.size());
+  std::vector<double> column(basis_.size());
   for (const auto& pairs : solved_)
     for (const auto& pair : pairs)
       for (const bool imaginary : {false, true}) {
-        for (std::size_t i = 0; i < m; ++i) {
-          const std::complex<double> entry = i < pair.q.size() ? pair.q[i] : 0;
-          vectors.push_back(imaginary ? entry.imag() : entry.real());
+        for (std::size_t i = 0; i < column.size(); ++i) {
+          const Complex entry = i < pair.q.size() ? pair.q[i] : 0;
+          column[i] = imaginary ? entry.imag() : entry.real();
         }
+        vectors.append(std::span<const double>(column));
       }
   if (vectors.empty()) return;
-  const linalg::DenseMatrix directions = principalDirections(vectors, static_cast<int>(old), left);
-  const auto count = static_cast<PetscInt>(directions.size() / m);
-  basis_.combine(directions, count);
+  const linalg::DenseMatrix directions = principalDirections(vectors, left);
+  basis_.combine(directions);
   terms_.combine(directions);
   highestMode_ = 0;  // the modes are no longer in the basis
   for (auto& pairs : solved_)
     for (auto& pair : pairs) {
-      pair.q = turned(directions, m, pair.q);
-      pair.left = turned(directions, m, pair.left);
+      pair.q = turned(directions, pair.q);
+      pair.left = turned(directions, pair.left);
     }
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 /// Terms of a pencil on a growing basis V: their images A V, by this rank's rows, their projections
 /// VᵀAV, and sketches of A V and AᵀV for the norms of residuals.
-#include <complex>
 #include <vector>
 
 #include "linalg/block.hpp"
@@ -21,8 +20,8 @@ struct Coordinates {
 
   Coordinates(std::vector<const linalg::DensePair*> pairs, bool damped);
   bool isReal(std::size_t pair) const;
-  /// Real (and imaginary) parts of c s^power q, or c conj(s)^power y, column-major.
-  std::vector<double> times(pencil::Side side, int power, double c) const;
+  /// Returns the real and imaginary parts of c s^power q, or of c conj(s)^power y, as columns.
+  linalg::DenseMatrix times(pencil::Side side, int power, double c) const;
 };
 
 /// Pairs found at one point, borrowed.
@@ -43,8 +42,8 @@ class ProjectedTerms {
   void combine(const linalg::DenseMatrix& combinations);
   /// Adds Σ c_t VᵀA_tV to the matrices of the problem, which are empty or of the size of the basis.
   void addTo(const sweep::Parameters& at, linalg::DenseProblem& sum) const;
-  /// Adds combinations of the columns P(s) V q of all points in turn (their columns ×
-  /// result.columns), in one product per term.
+  /// Adds combinations of the columns P(s) V q of all points in turn, in one product per term.
+  /// `combinations` has a row for each of these columns, and the columns of the result.
   void addTo(const std::vector<const PointPairs*>& points, const linalg::DenseMatrix& combinations,
              linalg::Block& result) const;
   /// Adds the sketch of P(s) V q or P(s)ᴴ V y.
@@ -59,9 +58,9 @@ class ProjectedTerms {
     linalg::Block rowsOfV;           // these rows of V; none if they are all
     linalg::DenseMatrix sketch;      // of A V
     linalg::DenseMatrix leftSketch;  // of AᵀV; empty where A is symmetric
-    linalg::DenseMatrix projection;  // VᵀAV, column-major
+    linalg::DenseMatrix projection;  // VᵀAV
   };
-  Part newState(pencil::Term term) const;
+  Part partOf(pencil::Term term) const;
   void extend(Part& part) const;
   bool knownFrom(const Part& part, PetscInt old) const;
   void project(Part& part, PetscInt old) const;

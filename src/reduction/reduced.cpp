@@ -104,10 +104,10 @@ linalg::Block ReducedProblem::residualColumns(const PointState& state,
   const bool real = Coordinates({&pair}, state.damped).isReal(0);
   linalg::Block result(basis_.localRows());
   for (const Vec part : {residual.real.get(), residual.imaginary.get()}) {
-    if (real && result.columns == 1) break;
+    if (real && result.columns() == 1) break;
     const PetscScalar* entries = nullptr;
     check(VecGetArrayRead(part, &entries));
-    result.append(entries);
+    result.append(std::span(entries, result.rows()));
     check(VecRestoreArrayRead(part, &entries));
   }
   return result;
@@ -131,11 +131,10 @@ bool ReducedProblem::isAccurate(const PointState& state) const {
   return true;
 }
 
-/// Collective. Returns sketches of the residuals of one side, Sketch::size × columns.
+/// Collective. Returns sketches of the residuals of one side, 2 Sketch::size × columns.
 linalg::DenseMatrix ReducedProblem::residualSketch(const PointState& state, const PointPairs& pairs,
                                                    pencil::Side side) const {
-  linalg::DenseMatrix sketch(
-      static_cast<std::size_t>(2 * linalg::Sketch::size * pairs.pairs.columns));
+  linalg::DenseMatrix sketch(2 * linalg::Sketch::size, pairs.pairs.columns);
   for (const auto* terms : {&terms_, &state.ownTerms}) terms->addTo(pairs, side, sketch);
   return sketch;
 }
@@ -154,9 +153,8 @@ void ReducedProblem::estimateErrors(PointState& state, const linalg::DenseProble
     return squares;
   };
   const auto right = norms(pencil::Side::right), left = norms(pencil::Side::left);
-  linalg::DenseMatrix vectors(linalg::Sketch::size * coordinates.columns);
-  linalg::multiplyAdd(basis_.sketched().data(), linalg::Sketch::size, basis_.size(),
-                      coordinates.times(pencil::Side::right, 0, 1), vectors);
+  const linalg::DenseMatrix vectors =
+      linalg::product(basis_.sketched(), coordinates.times(pencil::Side::right, 0, 1));
   const auto lengths = perPair(coordinates, linalg::squaredLengths(vectors));
   const auto conditions = conditionNumbers(problem, pairs);
   state.backwardError.clear();
@@ -196,17 +194,17 @@ ReducedProblem::CorrectionRequest ReducedProblem::requestOf(const PointState& st
 /// Directions that hold the residuals of all these pairs, of length one times their weights, but
 /// for parts of length `resolution`.
 linalg::Block ReducedProblem::directions(const std::vector<CorrectionRequest>& requests) const {
-  linalg::DenseMatrix sketches, factors;
+  linalg::DenseMatrix sketches;
+  std::vector<double> factors;
   std::vector<const PointPairs*> points;
   for (const auto& request : requests) {
     const auto& pairs = request.pairs.pairs;
     const linalg::DenseMatrix sketch =
         residualSketch(*request.state, request.pairs, pencil::Side::right);
-    sketches.insert(sketches.end(), sketch.begin(), sketch.end());
+    sketches.append(sketch);
     const auto squares = perPair(pairs, linalg::squaredNorms(sketch).euclidean);
     for (std::size_t j = 0; j < squares.size(); ++j)
-      factors.insert(factors.end(),
-                     static_cast<std::size_t>(pairs.firstColumn[j + 1] - pairs.firstColumn[j]),
+      factors.insert(factors.end(), pairs.firstColumn[j + 1] - pairs.firstColumn[j],
                      squares[j] > 0 ? request.weights[j] / std::sqrt(squares[j]) : 0);
     points.push_back(&request.pairs);
   }
@@ -214,16 +212,15 @@ linalg::Block ReducedProblem::directions(const std::vector<CorrectionRequest>& r
   // Fewer columns than residuals: those of several points are much alike.
   const linalg::DenseMatrix combinations =
       linalg::leadingCombinations(sketches, factors, 0.8 * resolution);
-  const std::size_t all = factors.size(), count = combinations.size() / all;
-  if (count == 0) return linalg::Block(basis_.localRows());
-  linalg::Block columns(basis_.localRows(), static_cast<PetscInt>(count));
+  linalg::Block columns(basis_.localRows(), combinations.columns());
+  if (combinations.empty()) return columns;
   terms_.addTo(points, combinations, columns);
-  std::size_t first = 0;
+  PetscInt first = 0;
   for (const auto& request : requests) {
-    const auto own = static_cast<std::size_t>(request.pairs.pairs.columns);
-    request.state->ownTerms.addTo({&request.pairs}, linalg::rowsOf(combinations, all, first, own),
+    const PetscInt last = first + request.pairs.pairs.columns;
+    request.state->ownTerms.addTo({&request.pairs}, linalg::rowRange(combinations, first, last),
                                   columns);
-    first += own;
+    first = last;
   }
   return linalg::principal(basis_.comm(), columns, resolution);
 }
@@ -248,9 +245,7 @@ double ReducedProblem::residualRatio(const PointState& state, const linalg::Dens
     return std::accumulate(squares.begin(), squares.end(), 0.0);
   };
   const double known = sum(linalg::squaredNorms(residualSketch(state, alone, side)).weighted),
-               exact = sum(
-                   linalg::squaredNorms(basis_.sketch().of(columns.values.data(), columns.columns))
-                       .weighted);
+               exact = sum(linalg::squaredNorms(basis_.sketch().of(columns)).weighted);
   return std::max(1.0, std::sqrt(exact / known));
 }
 
@@ -331,8 +326,7 @@ std::vector<pencil::ComplexModes> ReducedProblem::solve(const std::vector<PointP
   responded_ = true;
   for (const auto& point : batch) states.push_back(newState(point, normsOf(point)));
   for (auto& state : states) open.push_back(&state);
-  const PetscInt largest =
-      std::min(basis_.size() + static_cast<PetscInt>(growthOption.get()), unknowns_);
+  const PetscInt largest = std::min(basis_.size() + PetscInt{growthOption.get()}, unknowns_);
   for (int round = 0; !open.empty(); ++round) {
     extend(open);
     solveDense(open);
@@ -359,8 +353,7 @@ pencil::ComplexModes ReducedProblem::result(const PointState& state) const {
   pencil::ComplexModes point;
   point.at = state.point->at;
   point.bandTop = bandTop_;
-  point.freeModesInBand = static_cast<int>(
-      std::count_if(modes_.begin(), modes_.end(), [&](double w) { return w <= bandTop_; }));
+  point.freeModesInBand = std::ranges::count_if(modes_, [&](double w) { return w <= bandTop_; });
   point.damped = state.damped;
   point.accuracy = pencil::accuracyAsked();
   point.tolerance = toleranceOption.get();
@@ -378,7 +371,7 @@ pencil::ComplexModes ReducedProblem::result(const PointState& state) const {
 void ReducedProblem::keepShapes(std::vector<pencil::ComplexModes>& points,
                                 const std::vector<PointState>& states, Mat trial) const {
   std::vector<std::vector<std::size_t>> wanted;
-  std::vector<const std::vector<std::complex<double>>*> list;
+  std::vector<const std::vector<Complex>*> list;
   for (std::size_t i = 0; i < points.size(); ++i) {
     wanted.push_back(pencil::shapesWanted(points[i]));
     for (std::size_t index : wanted.back()) list.push_back(&states[i].pairs[index].q);
@@ -387,7 +380,7 @@ void ReducedProblem::keepShapes(std::vector<pencil::ComplexModes>& points,
   auto all = basis_.expand(list);
   auto next = std::make_move_iterator(all.begin());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto count = static_cast<std::ptrdiff_t>(wanted[i].size());
+    const std::ptrdiff_t count = wanted[i].size();
     pencil::keepShapes(points[i], trial, wanted[i], {next, next + count});
     next += count;
   }
@@ -431,7 +424,7 @@ Improvement ReducedProblem::improve(
 
 pencil::WatchedBand ReducedProblem::band() const { return {bandTop_, 1.3, pencil::bandDamping()}; }
 
-bool ReducedProblem::inBand(std::complex<double> s) const {
+bool ReducedProblem::inBand(Complex s) const {
   return std::abs(s) <= bandTop_ && -s.real() <= pencil::bandDamping() * std::abs(s);
 }
 

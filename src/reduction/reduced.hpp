@@ -93,7 +93,7 @@ class ReducedProblem {
   void keepShapes(std::vector<pencil::ComplexModes>& points, const std::vector<PointState>& states,
                   Mat trial) const;
   void compress();
-  bool inBand(std::complex<double> s) const;
+  bool inBand(Complex s) const;
 
   PetscInt unknowns_ = 0;
   double bandTop_ = 0, lowestMode_ = 0, highestMode_ = 0;  // rad/s

@@ -31,8 +31,7 @@ Forces forcesOf(const pencil::Term& term, const sweep::Parameters& at, bool tran
 /// the forces of friction and of all else that belongs to this point: the change of the right and
 /// left vectors with them, to first order in them and to lowest order in the frequency.
 void ReducedProblem::addStaticResponses(const PointProblem& point) {
-  const auto count = static_cast<PetscInt>(
-      std::upper_bound(modes_.begin(), modes_.end(), bandTop_) - modes_.begin());
+  const PetscInt count = std::ranges::upper_bound(modes_, bandTop_) - modes_.begin();
   const auto& terms = point.pencil.terms();
   std::vector<Forces> list;
   for (const bool transposed : {false, true})
@@ -41,17 +40,17 @@ void ReducedProblem::addStaticResponses(const PointProblem& point) {
         list.push_back(forcesOf(terms[t], point.at, transposed));
   // Forces of friction are zero but at the contact: the columns are kept by the rows that any of
   // them has.
-  std::vector<PetscInt> rows, place(static_cast<std::size_t>(basis_.localRows()), -1);
+  std::vector<PetscInt> rows, place(basis_.localRows(), -1);
   for (const auto& forces : list)
     for (PetscInt i = 0; i < forces.rows.size(); ++i)
       if (auto& known = place[forces.rows[i]]; known < 0) {
-        known = static_cast<PetscInt>(rows.size());
+        known = rows.size();
         rows.push_back(forces.rows[i]);
       }
-  linalg::Block all(static_cast<PetscInt>(rows.size()));
+  linalg::Block all(rows.size());
   for (const bool transposed : {false, true})
     for (const bool imaginary : {false, true}) {  // (iω)^power
-      linalg::Block part(all.rows, count);
+      linalg::Block part(all.rows(), count);
       for (const auto& forces : list) {
         if (forces.transposed != transposed || (forces.power == 1) != imaginary) continue;
         linalg::Block images(forces.rows.size());
@@ -61,16 +60,16 @@ void ReducedProblem::addStaticResponses(const PointProblem& point) {
           const double factor = forces.coefficient * (forces.power == 0   ? 1
                                                       : forces.power == 1 ? omega
                                                                           : -omega * omega);
-          for (PetscInt i = 0; i < images.rows; ++i)
-            part.column(j)[place[forces.rows[i]]] += factor * images.column(j)[i];
+          for (PetscInt i = 0; i < images.rows(); ++i)
+            part(place[forces.rows[i]], j) += factor * images(i, j);
         }
       }
-      append(all, linalg::unitColumns(basis_.comm(), part));
+      all.append(linalg::unitColumns(basis_.comm(), part));
     }
   const linalg::Block leading = linalg::principal(basis_.comm(), all, resolution);
-  linalg::Block whole(basis_.localRows(), leading.columns);
-  for (PetscInt j = 0; j < leading.columns; ++j)
-    for (PetscInt i = 0; i < leading.rows; ++i) whole.column(j)[rows[i]] = leading.column(j)[i];
+  linalg::Block whole(basis_.localRows(), leading.columns());
+  for (PetscInt j = 0; j < leading.columns(); ++j)
+    for (PetscInt i = 0; i < leading.rows(); ++i) whole(rows[i], j) = leading(i, j);
   basis_.add(whole);
   rightRatio_ = std::max(measuredRatio_, basis_.lastEnergyRatio());
 }

@@ -8,8 +8,6 @@
 namespace squeal::sensitivity {
 namespace {
 
-using Complex = std::complex<double>;
-
 double separation(const std::vector<pencil::Eigenvalue>& eigenvalues, std::size_t index) {
   double smallest = INFINITY;
   const Complex s = eigenvalues[index].s;

@@ -12,8 +12,6 @@
 namespace squeal::sensitivity {
 namespace {
 
-using Complex = std::complex<double>;
-
 constexpr double wanted = 1e-10;
 constexpr int mostRounds = 20;
 
@@ -21,9 +19,9 @@ constexpr int mostRounds = 20;
 Complex form(const std::vector<Complex>& c, const linalg::DenseMatrix& a,
              const std::vector<Complex>& q) {
   Complex sum = 0;
-  for (std::size_t j = 0; j < q.size() && !a.empty(); ++j) {
+  for (PetscInt j = 0; j < a.columns(); ++j) {
     Complex column = 0;
-    for (std::size_t i = 0; i < q.size(); ++i) column += std::conj(c[i]) * a[j * q.size() + i];
+    for (PetscInt i = 0; i < a.rows(); ++i) column += std::conj(c[i]) * a(i, j);
     sum += column * q[j];
   }
   return sum;
@@ -34,28 +32,26 @@ Complex form(const std::vector<Complex>& c, const linalg::DenseMatrix& a,
 /// by inverse iteration. s is known to some digits only and is corrected by the two-sided Rayleigh
 /// quotient
 ///   δs = −cᴴ H q / cᴴ H′ q.
-std::vector<Complex> nullVector(const std::array<linalg::DenseMatrix, 3>& h, std::size_t m,
-                                Complex s) {
+std::vector<Complex> nullVector(const std::array<linalg::DenseMatrix, 3>& h, Complex s) {
+  const PetscInt m = h[0].rows();
   std::vector<Complex> c(m);
-  for (std::size_t i = 0; i < m; ++i) {
-    const auto at = static_cast<double>(i);
-    c[i] = {std::sin(12.9898 * (at + 1)), std::cos(78.233 * (at + 1))};
-  }
+  for (PetscInt i = 0; i < m; ++i) c[i] = {std::sin(12.9898 * (i + 1)), std::cos(78.233 * (i + 1))};
   const auto solve = [](const linalg::Lu<Complex>& factors, std::vector<Complex> x, bool adjoint) {
-    factors.solve(x, adjoint);
+    factors.solve(std::span(x), adjoint);
     double sum = 0;
     for (const auto& entry : x) sum += std::norm(entry);
     for (auto& entry : x) entry /= std::sqrt(sum);
     return x;
   };
   for (int step = 0; step < 3; ++step) {
-    std::vector<Complex> sum(m * m, 0.0);
+    linalg::ComplexMatrix sum(m, m);
     Complex power = 1;
     for (const auto& matrix : h) {
-      for (std::size_t k = 0; k < matrix.size(); ++k) sum[k] += power * matrix[k];
+      for (PetscInt j = 0; j < matrix.columns(); ++j)
+        for (PetscInt i = 0; i < m; ++i) sum(i, j) += power * matrix(i, j);
       power *= s;
     }
-    linalg::Lu<Complex> factors(std::move(sum), static_cast<int>(m));
+    linalg::Lu<Complex> factors(std::move(sum));
     factors.raiseZeroPivots();  // s may be an eigenvalue to the last digit
     auto q = c;
     for (int cycle = 0; cycle < 2; ++cycle) {
@@ -80,7 +76,7 @@ class LeftIteration {
         norms_{pencil.norm(0, at), pencil.norm(1, at), pencil.norm(2, at)},
         solver_(solver),
         projected_{start.projected.stiffness, start.projected.damping, start.projected.mass},
-        known_(start.projected.m) {
+        known_(start.projected.order()) {
     check(BVGetSizes(start.columns, nullptr, nullptr, &size_));
     check(BVDuplicateResize(start.columns, size_, basis_.out()));
     check(BVCopy(start.columns, basis_));
@@ -130,7 +126,7 @@ class LeftIteration {
   /// Returns K0⁻¹ times the real and the imaginary parts of the residuals, which are first scaled
   /// to the 2-norm 1.
   std::vector<OwnedVec> corrections(const std::vector<linalg::ComplexVector>& residuals) {
-    const auto count = static_cast<PetscInt>(2 * residuals.size());
+    const PetscInt count = 2 * residuals.size();
     PetscInt local = 0, global = 0;
     check(VecGetLocalSize(residuals[0].real, &local));
     check(VecGetSize(residuals[0].real, &global));
@@ -165,7 +161,7 @@ class LeftIteration {
   bool add(const std::vector<Vec>& vectors) {
     constexpr double dependent = 1e-6;
     const PetscInt before = size_;
-    check(BVResize(basis_, size_ + static_cast<PetscInt>(vectors.size()), PETSC_TRUE));
+    check(BVResize(basis_, size_ + std::ssize(vectors), PETSC_TRUE));
     for (Vec vector : vectors) {
       PetscReal length = 0, rest = 0;
       PetscBool lost = PETSC_FALSE;
@@ -186,29 +182,21 @@ class LeftIteration {
     const PetscInt old = known_, added = size_ - old;
     if (added == 0) return;
     const linalg::ReadColumns all(basis_);
-    const auto size = static_cast<std::size_t>(size_), o = static_cast<std::size_t>(old);
     for (int power = 0; power <= 2; ++power) {
       if (!pencil_.hasPower(power)) continue;
-      const auto image = images(power, old, false), adjoint = images(power, old, true);
-      const auto right = linalg::transposedProduct(pencil_.comm(), all.values(), all.rows(), size_,
-                                                   image.data(), added),
-                 below = linalg::transposedProduct(pencil_.comm(), adjoint.data(), all.rows(),
-                                                   added, all.values(), old);
+      const linalg::DenseView v = all.view();
+      const auto right = linalg::transposedProduct(pencil_.comm(), v, images(power, old, false)),
+                 below = linalg::transposedProduct(pencil_.comm(), images(power, old, true),
+                                                   v.columnRange(0, old));
       auto& matrix = projected_[power];
-      linalg::DenseMatrix grown(size * size);
-      for (std::size_t j = 0; j < size; ++j)
-        for (std::size_t i = 0; i < size; ++i)
-          grown[j * size + i] = j >= o   ? right[(j - o) * size + i]
-                                : i >= o ? below[j * (size - o) + i - o]
-                                         : matrix[j * o + i];
-      matrix = std::move(grown);
+      matrix = linalg::bordered(matrix, right, below);
     }
     known_ = size_;
   }
 
   /// Returns this rank's rows of A V, or of Aᵀ V, for the columns of V from `first` on.
-  linalg::DenseMatrix images(int power, PetscInt first, bool transposed) const {
-    linalg::DenseMatrix values;
+  linalg::Block images(int power, PetscInt first, bool transposed) const {
+    linalg::Block values;
     for (PetscInt j = first; j < size_; ++j) {
       Vec column = nullptr;
       OwnedVec image;
@@ -223,7 +211,7 @@ class LeftIteration {
       const PetscScalar* entries = nullptr;
       check(VecGetLocalSize(image, &rows));
       check(VecGetArrayRead(image, &entries));
-      values.insert(values.end(), entries, entries + rows);
+      values.append(linalg::DenseView(entries, rows, 1));
       check(VecRestoreArrayRead(image, &entries));
     }
     return values;
@@ -232,17 +220,14 @@ class LeftIteration {
   /// Returns the left null vectors in coordinates of the basis, [value]. The work is spread over
   /// the ranks, and all ranks get the same results, so that rounding cannot make them disagree.
   std::vector<std::vector<Complex>> nullVectors(const std::vector<Complex>& values) const {
-    const auto m = static_cast<std::size_t>(size_);
     int rank = 0, ranks = 1;
     check(MPI_Comm_rank(pencil_.comm(), &rank));
     check(MPI_Comm_size(pencil_.comm(), &ranks));
-    std::vector<std::vector<Complex>> vectors(values.size(), std::vector<Complex>(m));
-    for (std::size_t i = static_cast<std::size_t>(rank); i < values.size();
-         i += static_cast<std::size_t>(ranks))
-      vectors[i] = nullVector(projected_, m, values[i]);
+    std::vector<std::vector<Complex>> vectors(values.size(), std::vector<Complex>(size_));
+    for (std::size_t i = rank; i < values.size(); i += ranks)
+      vectors[i] = nullVector(projected_, values[i]);
     for (std::size_t i = 0; i < values.size(); ++i)
-      check(MPI_Bcast(vectors[i].data(), static_cast<int>(m), MPI_C_DOUBLE_COMPLEX,
-                      static_cast<int>(i) % ranks, pencil_.comm()));
+      check(MPI_Bcast(vectors[i].data(), size_, MPI_C_DOUBLE_COMPLEX, i % ranks, pencil_.comm()));
     return vectors;
   }
 

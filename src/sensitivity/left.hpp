@@ -1,6 +1,5 @@
 #pragma once
 /// Left eigenvectors y of the full-order problem, yᴴ P(s) = 0, for known eigenvalues.
-#include <complex>
 #include <vector>
 
 #include "linalg/complexvector.hpp"
@@ -12,7 +11,7 @@ namespace squeal::sensitivity {
 
 /// An eigenvalue and its right vector in the unknowns x.
 struct RightPair {
-  std::complex<double> s;
+  Complex s;
   const linalg::ComplexVector* vector;  ///< borrowed
 };
 
@@ -29,7 +28,7 @@ struct StartSpace {
   OwnedBV columns;      ///< V: the free modes, or the basis of the reduced problem
   Mat inner = nullptr;  ///< the matrix in which V is nearly orthonormal, M0 or K0; borrowed
   linalg::DenseProblem projected;  ///< Vᵀ P V at the point, which saves products with V, if it is
-                                   ///< known; otherwise m = 0
+                                   ///< known; otherwise empty
 };
 
 /// Collective. Returns the left vectors of all pairs, [pair], by Rayleigh–Ritz on a basis that

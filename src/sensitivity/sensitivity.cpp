@@ -12,8 +12,6 @@ const FlagOption wantedOption("flutter", "flutter_sensitivities", false,
                               "(-flutter_shapes) with respect to friction, "
                               "speed, pressure, moduli and densities: sensitivities.csv");
 
-using Complex = std::complex<double>;
-
 double massNorm(Mat mass, const linalg::ComplexVector& u) {
   return std::sqrt(std::abs(dot(u, product(mass, u))));
 }
@@ -30,7 +28,7 @@ Complex slopeForm(const pencil::Pencil& pencil, const sweep::Parameters& at,
     linalg::ComplexVector image = linalg::ComplexVector::like(triple.x.real);
     pencil.apply(power, at, triple.x.real, image.real);
     pencil.apply(power, at, triple.x.imaginary, image.imaginary);
-    sum += static_cast<double>(power) * std::pow(triple.s, power - 1) * dot(triple.y, image);
+    sum += double{1} * power * std::pow(triple.s, power - 1) * dot(triple.y, image);
   }
   return sum;
 }

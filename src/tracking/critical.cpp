@@ -16,8 +16,6 @@
 namespace squeal::tracking {
 namespace {
 
-using Complex = std::complex<double>;
-
 /// Finds the root of a continuous function in a bracket by the method of T. R. Chandrupatla
 /// (Advances in Engineering Software 28 (1997) 145–149): inverse quadratic interpolation where it
 /// is safe, otherwise bisection. The caller evaluates the function at next() and passes the value
@@ -260,8 +258,7 @@ class Roots {
   std::vector<std::size_t> open() const {
     std::vector<int> is(roots_.size(), 0);
     for (std::size_t i = 0; i < roots_.size(); ++i) is[i] = mine(i) && !roots_[i].settled() ? 1 : 0;
-    check(MPI_Allreduce(MPI_IN_PLACE, is.data(), static_cast<int>(is.size()), MPI_INT, MPI_MAX,
-                        family_.comm()));
+    check(MPI_Allreduce(MPI_IN_PLACE, is.data(), is.size(), MPI_INT, MPI_MAX, family_.comm()));
     auto list = indices(roots_.size());
     std::erase_if(list, [&](auto i) { return is[i] == 0; });
     return list;
@@ -273,10 +270,8 @@ class Roots {
     std::vector<PairsAtFriction> located;
     for (const auto i : open) {
       PairsAtFriction item = mine(i) ? roots_[i].located() : PairsAtFriction{};
-      int size = static_cast<int>(item.pairs.empty() ? 0 : item.pairs[0].q.size());
-      check(MPI_Bcast(&size, 1, MPI_INT, owner(i), family_.comm()));
       check(MPI_Bcast(&item.friction, 1, MPI_DOUBLE, owner(i), family_.comm()));
-      linalg::shareFrom(owner(i), family_.comm(), item.pairs, size, linalg::Vectors::both);
+      linalg::shareFrom(owner(i), family_.comm(), item.pairs, linalg::Vectors::both);
       located.push_back(std::move(item));
     }
     const reduction::Improvement improvement = family_.improve(located);
@@ -302,7 +297,7 @@ class Roots {
     std::iota(list.begin(), list.end(), 0);
     return list;
   }
-  int owner(std::size_t i) const { return static_cast<int>(i % static_cast<std::size_t>(ranks_)); }
+  int owner(std::size_t i) const { return i % ranks_; }
   bool mine(std::size_t i) const { return owner(i) == rank_; }
 
   void locate(const std::vector<std::size_t>& open, bool changed) {

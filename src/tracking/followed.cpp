@@ -138,8 +138,7 @@ std::vector<Followed> followSweep(reduction::ReducedProblem& reduced,
       followed.countExact =
           problem && problem->damping.empty() && modes.countConfirmed &&
           followed.branches.band.top * followed.branches.band.top <= modes.inertiaShift &&
-          below < static_cast<std::ptrdiff_t>(w.size()) &&
-          areFreeModes(stations.front(), w, static_cast<std::size_t>(below));
+          below < std::ssize(w) && areFreeModes(stations.front(), w, below);
     }
     renumber(followed.branches);
     if (criticalOption.get())

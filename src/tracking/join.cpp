@@ -15,8 +15,6 @@ namespace {
 /// Up to this |tr(Π_i Π_j)| two eigenvalues count as having nothing in common.
 constexpr double reach = 0.1;
 
-using Complex = std::complex<double>;
-
 std::size_t rootOf(std::vector<std::size_t>& parent, std::size_t i) {
   while (parent[i] != i) i = parent[i] = parent[parent[i]];
   return i;
@@ -44,7 +42,7 @@ double unshared(const linalg::Spectrum& a, const linalg::Spectrum& b) {
   Complex sum = 0;
   for (std::size_t i = 0; i < a.pairs().size(); ++i)
     for (std::size_t j = 0; j < b.pairs().size(); ++j) sum += a.overlap(i, b, j);
-  return std::abs(sum - static_cast<double>(a.pairs().size()));
+  return std::abs(sum - a.pairs().size());
 }
 
 std::optional<linalg::Spectrum> locally(const linalg::DenseProblem& problem,
@@ -125,7 +123,7 @@ std::optional<linalg::Spectrum> continuedTo(Family& family, double friction,
       failure = error.what();
     }
   failTogether(family.comm(), failure);
-  linalg::shareFrom(0, family.comm(), pairs, problem->m, linalg::Vectors::both);
+  linalg::shareFrom(0, family.comm(), pairs, linalg::Vectors::both);
   if (pairs.empty()) return {};
   return linalg::Spectrum(*problem, std::move(pairs));
 }
@@ -176,7 +174,7 @@ std::vector<Group> groups(const linalg::Spectrum& here, const linalg::Spectrum& 
     Complex sum = 0;
     for (const auto i : group.here)
       for (const auto j : group.there) sum += overlaps[i * (all - n) + j];
-    group.share = std::abs(sum - static_cast<double>(group.here.size()));
+    group.share = std::abs(sum - group.here.size());
   }
   return found;
 }
@@ -222,7 +220,7 @@ double discriminant(const std::vector<linalg::DensePair>& two, bool damped) {
 Complex mean(const std::vector<linalg::DensePair>& pairs) {
   Complex sum = 0;
   for (const auto& pair : pairs) sum += pair.s;
-  return sum / static_cast<double>(pairs.size());
+  return sum / pairs.size();
 }
 
 }  // namespace squeal::tracking

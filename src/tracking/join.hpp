@@ -25,9 +25,7 @@ struct Group {
   std::vector<std::size_t> here, there;  ///< indices of pairs
   double share = 0;  ///< |Σ tr(Π_i Π_j) − number here|, small where the subspaces are the same
   /// Returns true if both groups have the same number of members and nearly the same subspace.
-  bool joined() const {
-    return here.size() == there.size() && share < 0.25 * static_cast<double>(here.size());
-  }
+  bool joined() const { return here.size() == there.size() && share < 0.25 * here.size(); }
 };
 
 /// Not collective. Returns the smallest groups between which all |tr(Π_i Π_j)| are at most 0.1.

@@ -10,15 +10,13 @@ namespace {
 ///   sum += factor · part,
 /// where a `part` of a smaller basis is extended by zeros.
 void add(linalg::DenseProblem& sum, double factor, const linalg::DenseProblem& part) {
-  const auto m = static_cast<std::size_t>(sum.m), n = static_cast<std::size_t>(part.m);
+  const PetscInt m = sum.order();
   for (const auto matrix : {&linalg::DenseProblem::mass, &linalg::DenseProblem::damping,
                             &linalg::DenseProblem::stiffness}) {
     const linalg::DenseMatrix& from = part.*matrix;
     linalg::DenseMatrix& to = sum.*matrix;
-    if (from.empty()) continue;
-    to.resize(m * m, 0.0);
-    for (std::size_t j = 0; j < n; ++j)
-      for (std::size_t i = 0; i < n; ++i) to[j * m + i] += factor * from[j * n + i];
+    if (!from.empty() && to.empty()) to = linalg::DenseMatrix(m, m);
+    linalg::addScaled(to, factor, from);
   }
 }
 
@@ -48,7 +46,7 @@ std::optional<linalg::DenseProblem> ReducedFamily::at(double friction) {
   if (source_.local || known(friction)) return near(friction);
   const auto problem = source_.at(point(friction));
   if (!problem) return {};
-  Node node{friction, own(*problem)};
+  Node node{friction, reduced_.basisSize(), own(*problem)};
   linalg::DenseProblem sum = shared(friction);
   add(sum, 1, node.own);
   if (nodes_.size() < most) keep(std::move(node));
@@ -58,7 +56,7 @@ std::optional<linalg::DenseProblem> ReducedFamily::at(double friction) {
 /// Returns true if there is a node at this friction in the present basis.
 bool ReducedFamily::known(double friction) const {
   return std::any_of(nodes_.begin(), nodes_.end(), [&](const Node& node) {
-    return node.friction == friction && node.own.m == reduced_.basisSize();
+    return node.friction == friction && node.basisSize == reduced_.basisSize();
   });
 }
 
@@ -66,7 +64,8 @@ void ReducedFamily::know(const std::vector<double>& frictions) {
   if (source_.local) return;
   for (double friction : frictions)
     if (!known(friction))
-      if (const auto problem = source_.at(point(friction))) keep({friction, own(*problem)});
+      if (const auto problem = source_.at(point(friction)))
+        keep({friction, reduced_.basisSize(), own(*problem)});
 }
 
 /// Keeps the node; it replaces one at the same friction, which is of a smaller basis.
@@ -136,7 +135,7 @@ reduction::Improvement ReducedFamily::improve(const std::vector<PairsAtFriction>
       return std::abs(node.friction - located[place].friction) <= apart;
     });
   for (std::size_t i = 0; i < places.size(); ++i)
-    nodes_.push_back({located[places[i]].friction, own(list[i].first)});
+    nodes_.push_back({located[places[i]].friction, reduced_.basisSize(), own(list[i].first)});
   return result;
 }
 

@@ -44,6 +44,7 @@ class ReducedFamily : public Family {
   /// The terms that belong to one friction, projected on the basis at that time.
   struct Node {
     double friction;
+    PetscInt basisSize;
     linalg::DenseProblem own;
   };
   sweep::Parameters point(double friction) const;

@@ -7,7 +7,6 @@
 namespace squeal::tracking {
 namespace {
 
-using Complex = std::complex<double>;
 using Eigenvalues = std::map<int, Complex>;  // [branch] at one station
 
 constexpr double rounding = 1e-7;  // relative to |s|, as in coincide()

@@ -10,8 +10,6 @@
 namespace squeal::tracking {
 namespace {
 
-using Complex = std::complex<double>;
-
 /// Returns the slopes of the eigenvalues at one end of the step,
 ///   ds/df = −yᴴ P_f x / (yᴴ P_s x),
 /// with P_f from the difference over the step. This is exact where P is linear in f, and elsewhere
@@ -19,12 +17,10 @@ using Complex = std::complex<double>;
 std::vector<Complex> slopes(const linalg::Spectrum& spectrum, const StepEnd& low,
                             const StepEnd& high) {
   const auto& pairs = spectrum.pairs();
-  const int m = low.problem.m;
   const auto change = [&](const linalg::DenseMatrix& a, const linalg::DenseMatrix& b) {
-    linalg::DenseMatrix difference(a.empty() ? b.size() : a.size());
-    for (std::size_t k = 0; k < difference.size(); ++k)
-      difference[k] = (b.empty() ? 0 : b[k]) - (a.empty() ? 0 : a[k]);
-    return linalg::timesVectors(difference, m, pairs);
+    linalg::DenseMatrix difference = b;
+    linalg::addScaled(difference, -1, a);
+    return linalg::timesVectors(difference, pairs);
   };
   const auto stiffness = change(low.problem.stiffness, high.problem.stiffness),
              damping = change(low.problem.damping, high.problem.damping),
@@ -33,11 +29,8 @@ std::vector<Complex> slopes(const linalg::Spectrum& spectrum, const StepEnd& low
   for (std::size_t j = 0; j < pairs.size(); ++j) {
     const auto& [s, x, y] = pairs[j];
     Complex sum = 0;
-    const std::size_t n = y.size(), re = 2 * j * n, im = re + n;
-    for (std::size_t i = 0; i < n; ++i)
-      sum += std::conj(y[i]) * (Complex(stiffness[re + i], stiffness[im + i]) +
-                                s * Complex(damping[re + i], damping[im + i]) +
-                                s * s * Complex(mass[re + i], mass[im + i]));
+    for (std::size_t i = 0; i < y.size(); ++i)
+      sum += std::conj(y[i]) * (stiffness(i, j) + s * damping(i, j) + s * s * mass(i, j));
     list.push_back(-sum / (high.friction - low.friction) / spectrum.derivative(j));
   }
   return list;
@@ -56,7 +49,7 @@ struct Cubic {
     constexpr int samples = 64;
     double best = 0.5;
     for (int k = 1; k < samples; ++k) {
-      const double t = static_cast<double>(k) / samples;
+      const double t = 1.0 * k / samples;
       if ((*this)(t) < (*this)(best)) best = t;
     }
     return best;

@@ -12,8 +12,6 @@
 namespace squeal::tracking {
 namespace {
 
-using Complex = std::complex<double>;
-
 /// Two joined eigenvalues: their indices at both ends of the step, and |tr(Π Π')|.
 struct Link {
   std::size_t here, there;
@@ -59,8 +57,7 @@ class Follower {
   Branches run(const std::vector<double>& frictions) {
     int ranks = 1;
     check(MPI_Comm_size(family_.comm(), &ranks));
-    const std::size_t together =
-        std::min<std::size_t>(static_cast<std::size_t>(ranks), mostTogether);
+    const std::size_t together = std::min<std::size_t>(ranks, mostTogether);
     std::list<Solved> row;  // the last station already finished, and the next ones
     for (std::size_t first = 0; first < frictions.size(); first += together) {
       const std::vector<double> some(

@@ -1,0 +1,68 @@
+#include "linalg/dense.hpp"
+
+#include <petscblaslapack.h>
+
+namespace squeal::linalg {
+
+void multiplyAdd(const DenseView& x, const DenseView& coefficients, DenseMatrix& result,
+                 double factor) {
+  if (x.empty() || coefficients.empty()) return;
+  assert(x.columns() == coefficients.rows() && x.rows() == result.rows());
+  assert(coefficients.columns() == result.columns());
+  const PetscBLASInt rows = x.rows(), inner = x.columns(), columns = coefficients.columns();
+  const double one = 1;
+  BLASgemm_("N", "N", &rows, &columns, &inner, &factor, x.data(), &rows, coefficients.data(), &inner,
+            &one, result.data(), &rows);
+}
+
+DenseMatrix product(const DenseView& x, const DenseView& coefficients) {
+  DenseMatrix result(x.rows(), coefficients.columns());
+  multiplyAdd(x, coefficients, result);
+  return result;
+}
+
+DenseMatrix transposedProduct(const DenseView& x, const DenseView& y) {
+  assert(x.rows() == y.rows());
+  DenseMatrix result(x.columns(), y.columns());
+  const PetscBLASInt inner = x.rows(), rows = x.columns(), columns = y.columns();
+  const double one = 1, zero = 0;
+  if (inner > 0 && rows > 0 && columns > 0)
+    BLASgemm_("T", "N", &rows, &columns, &inner, &one, x.data(), &inner, y.data(), &inner, &zero,
+              result.data(), &rows);
+  return result;
+}
+
+DenseMatrix congruent(const DenseView& a, const DenseView& c) {
+  return transposedProduct(c, product(a, c));
+}
+
+DenseMatrix rowRange(const DenseView& matrix, PetscInt first, PetscInt last) {
+  DenseMatrix rows(last - first, matrix.columns());
+  for (PetscInt j = 0; j < matrix.columns(); ++j)
+    std::ranges::copy(matrix.column(j).subspan(first, last - first), rows.column(j).begin());
+  return rows;
+}
+
+DenseMatrix bordered(const DenseView& a, const DenseView& right, const DenseView& below) {
+  const PetscInt old = a.columns(), added = right.columns();
+  DenseMatrix grown(old + added);
+  grown.reserve(old + added);
+  grown.resizeColumns(old);
+  for (PetscInt j = 0; j < old; ++j) {
+    std::ranges::copy(a.column(j), grown.column(j).begin());
+    for (PetscInt i = 0; i < added; ++i)
+      grown(old + i, j) = below.empty() ? right(j, i) : below(i, j);
+  }
+  grown.append(right);
+  return grown;
+}
+
+void addScaled(DenseMatrix& sum, double factor, const DenseView& a) {
+  if (a.empty()) return;
+  if (sum.empty()) sum = DenseMatrix(a.rows(), a.columns());
+  assert(a.rows() <= sum.rows() && a.columns() <= sum.columns());
+  for (PetscInt j = 0; j < a.columns(); ++j)
+    for (PetscInt i = 0; i < a.rows(); ++i) sum(i, j) += factor * a(i, j);
+}
+
+}  // namespace squeal::linalg
