@@ -11,8 +11,8 @@ void multiplyAdd(const DenseView& x, const DenseView& coefficients, DenseMatrix&
   assert(coefficients.columns() == result.columns());
   const PetscBLASInt rows = x.rows(), inner = x.columns(), columns = coefficients.columns();
   const double one = 1;
-  BLASgemm_("N", "N", &rows, &columns, &inner, &factor, x.data(), &rows, coefficients.data(), &inner,
-            &one, result.data(), &rows);
+  BLASgemm_("N", "N", &rows, &columns, &inner, &factor, x.data(), &rows, coefficients.data(),
+            &inner, &one, result.data(), &rows);
 }
 
 DenseMatrix product(const DenseView& x, const DenseView& coefficients) {

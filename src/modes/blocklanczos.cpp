@@ -4,241 +4,204 @@
 /// the factor is read from memory once a block; SLEPc's Krylov-Schur asks for them one at a time.
 #include "modes/blocklanczos.hpp"
 
-#include <slepcsys.h>  // first: the next header needs it
-
-#include <slepcblaslapack.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <random>
 #include <vector>
 
+#include "linalg/block.hpp"
 #include "linalg/columns.hpp"
 #include "linalg/symmetric.hpp"
 
 namespace squeal::modes {
 namespace {
 
-using Small = std::vector<PetscScalar>;  // column-major
-using Index = std::ptrdiff_t;            // so that products of sizes do not overflow
+using linalg::DenseMatrix;
 
-/// The growing M-orthonormal basis V of size n × k, kept by columns, and T = Vᵀ M S V.
+/// The growing M-orthonormal basis V of size n × k and T = Vᵀ M S V.
 class Lanczos {
  public:
-  Lanczos(Mat k, Mat m, KSP solver, int blockSize, Index limit)
-      : m_(m), b_(blockSize), limit_(limit), t_(limit * limit, 0.0) {
+  Lanczos(Mat k, Mat m, KSP solver, PetscInt blockSize, PetscInt limit)
+      : m_(m), b_(blockSize), limit_(limit) {
     PC pc = nullptr;
     check(KSPGetPC(solver, &pc));
     check(PCFactorGetMatrix(pc, &factor_));
     comm_ = PetscObjectComm(reinterpret_cast<PetscObject>(k));
-    PetscInt local = 0, n = 0;
-    check(MatGetLocalSize(k, &local, nullptr));
+    PetscInt rows = 0, n = 0;
+    check(MatGetLocalSize(k, &rows, nullptr));
     check(MatGetSize(k, &n, nullptr));
-    rows_ = local;
-    check(MatCreateDense(comm_, rows_, PETSC_DECIDE, n, b_, nullptr, w_.out()));
-    check(MatZeroEntries(w_));
-    check(MatMatMult(m_, w_, MAT_INITIAL_MATRIX, PETSC_DEFAULT, mw_.out()));
-    v_.resize(rows_ * limit);
+    w_ = linalg::Block(rows, b_);
+    asMat_ = linalg::borrowed(comm_, n, w_);
+    check(MatMatMult(m_, asMat_, MAT_INITIAL_MATRIX, PETSC_DEFAULT, mw_.out()));
+    v_ = linalg::Block(rows);
+    enlarge(limit);
     // Each rank draws its own part; the seed is fixed, so that a run can be repeated.
     int rank = 0;
     check(MPI_Comm_rank(comm_, &rank));
     random_.seed(rank + 1);
   }
 
-  Index size() const { return k_; }
-  bool full() const { return k_ + b_ > limit_; }
+  PetscInt size() const { return v_.columns(); }
+  bool full() const { return size() + b_ > limit_; }
 
-  /// The first block: S applied to a random one, which damps what belongs to high frequencies.
+  /// Makes the first block: S applied to a random one, which damps what belongs to high
+  /// frequencies.
   void start() {
-    PetscScalar* w = nullptr;
-    check(MatDenseGetArray(w_, &w));
-    for (Index i = 0; i < b_ * rows_; ++i) w[i] = uniform_(random_);
-    check(MatDenseRestoreArray(w_, &w));
+    for (double& entry : w_.entries()) entry = uniform_(random_);
     apply();
-    r_.assign(b_ * b_, 0.0);
     orthonormalise(0);
     append();
   }
 
-  /// W = S (last block), orthogonal to V; T gets its columns. The new block stays in W until
-  /// append().
+  /// Computes W = S (last block), orthogonal to V, and the columns of T for it. The new block stays
+  /// in W until append().
   void expand() {
-    PetscScalar* w = nullptr;
-    check(MatDenseGetArrayWrite(w_, &w));
-    std::copy_n(column(k_ - b_), b_ * rows_, w);
-    check(MatDenseRestoreArrayWrite(w_, &w));
+    const PetscInt k = size();
+    std::ranges::copy(v_.columnRange(k - b_, k).entries(), w_.data());
     apply();
-    const Small h = orthogonalise(!restarted_);
+    const DenseMatrix h = orthogonalise(!restarted_);
     restarted_ = false;
     double size = 0;  // of W before V was taken out of it, squared
-    for (Index j = 0; j < b_; ++j) {
+    for (PetscInt j = 0; j < b_; ++j) {
       double sum = 0;
-      for (Index i = 0; i < k_; ++i) sum += std::pow(h[j * k_ + i], 2);
+      for (PetscInt i = 0; i < k; ++i) {
+        t_(i, k - b_ + j) = t_(k - b_ + j, i) = h(i, j);
+        sum += h(i, j) * h(i, j);
+      }
       size = std::max(size, sum);
     }
-    for (Index j = 0; j < b_; ++j)
-      for (Index i = 0; i < k_; ++i) t(i, k_ - b_ + j) = t(k_ - b_ + j, i) = h[j * k_ + i];
     orthonormalise(size);
   }
 
-  void append() {
-    const PetscScalar* w = nullptr;
-    check(MatDenseGetArrayRead(w_, &w));
-    std::copy_n(w, b_ * rows_, column(k_));
-    check(MatDenseRestoreArrayRead(w_, &w));
-    k_ += b_;
-  }
+  void append() { v_.append(w_); }
 
-  /// Ritz values θ descending, vectors Y (columns), and residual norms ‖R Y_last‖ of S V y − θ V y
-  /// in the norm of M.
+  /// Ritz values θ, descending, with the vectors Y as columns and the residual norms ‖R Y_last‖ of
+  /// S V y − θ V y in the norm of M.
   struct Ritz {
-    std::vector<PetscReal> value, residual;
-    Small vector;
+    std::vector<double> value, residual;
+    DenseMatrix vectors;
   };
   Ritz ritz() const {
-    Ritz ritz;
-    Small a(k_ * k_);
-    for (Index j = 0; j < k_; ++j) std::copy_n(t_.begin() + j * limit_, k_, a.begin() + j * k_);
-    const auto ascending = linalg::symmetricEigen(a, k_);
-    for (Index from = k_ - 1; from >= 0; --from) {
-      const auto y = a.begin() + from * k_;
+    const PetscInt k = size();
+    Ritz ritz{{}, {}, DenseMatrix(k)};
+    DenseMatrix a = linalg::rowRange(t_.columnRange(0, k), 0, k);
+    const auto ascending = linalg::symmetricEigen(a);
+    for (PetscInt from = k - 1; from >= 0; --from) {
       ritz.value.push_back(ascending[from]);
-      ritz.vector.insert(ritz.vector.end(), y, y + k_);
-      PetscReal sum = 0;
-      for (Index i = 0; i < b_; ++i) {
-        PetscReal entry = 0;
-        for (Index l = 0; l < b_; ++l) entry += r_[l * b_ + i] * y[k_ - b_ + l];
-        sum += entry * entry;
-      }
-      ritz.residual.push_back(std::sqrt(sum));
+      ritz.vectors.append(a.column(from));
+    }
+    const DenseMatrix last = linalg::product(r_, linalg::rowRange(ritz.vectors, k - b_, k));
+    for (PetscInt j = 0; j < k; ++j) {
+      const auto column = last.column(j);
+      ritz.residual.push_back(
+          std::sqrt(std::inner_product(column.begin(), column.end(), column.begin(), 0.0)));
     }
     return ritz;
   }
 
-  /// V ← V Y, the first `kept` columns; T diagonal.
-  void contract(const Ritz& ritz, Index kept) {
-    const Index chunk = 256;  // rows at a time: no second copy of V
-    std::vector<PetscScalar> rowsOfV(chunk * kept);
-    for (Index begin = 0; begin < rows_; begin += chunk) {
-      PetscBLASInt rows = std::min(chunk, rows_ - begin), columns = kept, inner = k_,
-                   leading = rows_;
-      const PetscScalar one = 1, zero = 0;
-      BLASgemm_("N", "N", &rows, &columns, &inner, &one, column(0) + begin, &leading,
-                ritz.vector.data(), &inner, &zero, rowsOfV.data(), &rows);
-      for (Index j = 0; j < kept; ++j)
-        std::copy_n(rowsOfV.data() + j * rows, rows, column(j) + begin);
+  /// Replaces V by V Y for the first `kept` Ritz vectors. T becomes diagonal.
+  void contract(const Ritz& ritz, PetscInt kept) {
+    constexpr PetscInt chunk = 256;  // rows at a time: no second copy of V
+    const linalg::DenseView y = ritz.vectors.columnRange(0, kept);
+    for (PetscInt begin = 0; begin < v_.rows(); begin += chunk) {
+      const PetscInt end = std::min(begin + chunk, v_.rows());
+      const DenseMatrix rows = linalg::product(linalg::rowRange(v_, begin, end), y);
+      for (PetscInt j = 0; j < kept; ++j)
+        std::ranges::copy(rows.column(j), v_.column(j).begin() + begin);
     }
-    k_ = kept;
+    v_.resizeColumns(kept);
     restarted_ = true;
-    std::fill(t_.begin(), t_.end(), 0.0);
-    for (Index j = 0; j < kept; ++j) t(j, j) = ritz.value[j];
+    t_ = DenseMatrix(limit_, limit_);
+    for (PetscInt j = 0; j < kept; ++j) t_(j, j) = ritz.value[j];
   }
 
-  /// Room for `limit` vectors, at a restart: T is diagonal then.
-  void enlarge(Index limit) {
-    Small larger(limit * limit, 0.0);
-    for (Index j = 0; j < k_; ++j) larger[j * limit + j] = t(j, j);
+  /// Makes room for `limit` vectors, before the first one or at a restart, where T is diagonal.
+  void enlarge(PetscInt limit) {
+    DenseMatrix larger(limit, limit);
+    for (PetscInt j = 0; j < size(); ++j) larger(j, j) = t_(j, j);
     t_ = std::move(larger);
     limit_ = limit;
-    v_.resize(rows_ * limit);
+    v_.reserve(limit);
   }
 
-  /// The k columns of V as a BV for vectors like those of `like`.
-  OwnedBV vectors(Mat like) { return linalg::copiedColumns(like, column(0), k_); }
+  /// Returns the k columns of V as a BV for vectors like those of `like`.
+  OwnedBV vectors(Mat like) const { return linalg::copiedColumns(like, v_); }
 
  private:
-  PetscScalar& t(Index i, Index j) { return t_[j * limit_ + i]; }
-
-  PetscScalar* column(Index j) { return v_.data() + j * rows_; }
-
+  /// Computes M W.
   void massTimesW() {
     Mat product = mw_;
-    check(MatMatMult(m_, w_, MAT_REUSE_MATRIX, PETSC_DEFAULT, &product));
+    PetscScalar* changed = nullptr;  // tells PETSc that the entries are not those of before
+    check(MatDenseGetArrayWrite(asMat_, &changed));
+    check(MatDenseRestoreArrayWrite(asMat_, &changed));
+    check(MatMatMult(m_, asMat_, MAT_REUSE_MATRIX, PETSC_DEFAULT, &product));
   }
 
-  /// W ← K⁻¹ M W.
+  /// Replaces W by K⁻¹ M W.
   void apply() {
     massTimesW();
-    check(MatMatSolve(factor_, mw_, w_));
+    check(MatMatSolve(factor_, mw_, asMat_));
   }
 
-  /// Xᵀ (M W) over all ranks for the columns X = first `count` of `x`.
-  Small products(const PetscScalar* x, Index count) {
+  /// Returns Xᵀ (M W) over all ranks, after massTimesW().
+  DenseMatrix timesMassTimesW(const linalg::DenseView& x) {
     const PetscScalar* mw = nullptr;
-    Small result(count * b_, 0.0);
     check(MatDenseGetArrayRead(mw_, &mw));
-    PetscBLASInt rows = rows_, leading = std::max<PetscBLASInt>(rows, 1), columns = b_, m = count;
-    const PetscScalar one = 1, zero = 0;
-    if (rows > 0 && m > 0)
-      BLASgemm_("T", "N", &m, &columns, &rows, &one, x, &leading, mw, &leading, &zero,
-                result.data(), &m);
+    DenseMatrix result = linalg::transposedProduct(comm_, x, {mw, w_.rows(), b_});
     check(MatDenseRestoreArrayRead(mw_, &mw));
-    check(MPI_Allreduce(MPI_IN_PLACE, result.data(), result.size(), MPIU_SCALAR, MPI_SUM, comm_));
     return result;
   }
 
-  /// W ← W − X (Xᵀ M W) for the columns X of V from `first` on; adds the coefficients to rows
-  /// `first`… of `sum` (k × b).
-  void subtract(Index first, Small& sum) {
+  /// Replaces W by W − X (Xᵀ M W) for the columns X of V from `first` on, and adds the coefficients
+  /// to the rows of `sum`, k × b, from `first` on.
+  void subtract(PetscInt first, DenseMatrix& sum) {
     massTimesW();
-    const Index count = k_ - first;
-    const Small h = products(column(first), count);
-    PetscScalar* w = nullptr;
-    check(MatDenseGetArray(w_, &w));
-    PetscBLASInt rows = rows_, leading = std::max<PetscBLASInt>(rows, 1), columns = b_,
-                 inner = count;
-    const PetscScalar minus = -1, one = 1;
-    if (rows > 0 && count > 0)
-      BLASgemm_("N", "N", &rows, &columns, &inner, &minus, column(first), &leading, h.data(),
-                &inner, &one, w, &leading);
-    check(MatDenseRestoreArray(w_, &w));
-    for (Index j = 0; j < b_; ++j)
-      for (Index i = 0; i < count; ++i) sum[j * k_ + first + i] += h[j * count + i];
+    const linalg::DenseView x = v_.columnRange(first, size());
+    const DenseMatrix h = timesMassTimesW(x);
+    linalg::multiplyAdd(x, h, w_, -1);
+    for (PetscInt j = 0; j < b_; ++j)
+      for (PetscInt i = 0; i < h.rows(); ++i) sum(first + i, j) += h(i, j);
   }
 
-  /// W made M-orthogonal to V; the summed coefficients (k × b). In exact arithmetic only the last
-  /// two blocks have a part in S V_last (three-term recurrence), so one pass over these and one
-  /// over all of V does; after a restart, and for random columns, all of V has: two full passes.
-  Small orthogonalise(bool recurrence) {
-    Small sum(k_ * b_, 0.0);
-    subtract(recurrence ? std::max<Index>(0, k_ - 2 * b_) : 0, sum);
+  /// Makes W M-orthogonal to V and returns the summed coefficients, k × b. In exact arithmetic only
+  /// the last two blocks have a part in S V_last (three-term recurrence), so one pass over these
+  /// and one over all of V does; after a restart, and for random columns, all of V has: two full
+  /// passes.
+  DenseMatrix orthogonalise(bool recurrence) {
+    DenseMatrix sum(size(), b_);
+    subtract(recurrence ? std::max<PetscInt>(0, size() - 2 * b_) : 0, sum);
     subtract(0, sum);
     return sum;
   }
 
-  /// W = Q R with Qᵀ M Q = I by the eigenvectors of WᵀMW (Stathopoulos and Wu 2002), twice; Q
-  /// replaces W. Directions that have vanished beside `size`, the square of what W was before V was
-  /// taken out of it (an invariant subspace is complete), are replaced by random ones orthogonal to
-  /// V, with zero rows in R.
+  /// Splits W = Q R with Qᵀ M Q = I by the eigenvectors of WᵀMW (Stathopoulos and Wu 2002), twice;
+  /// Q replaces W. Directions that have vanished beside `size`, the square of what W was before V
+  /// was taken out of it (an invariant subspace is complete), are replaced by random ones
+  /// orthogonal to V, with zero rows in R.
   void orthonormalise(double size) {
-    const std::size_t b = b_;
-    r_.assign(b * b, 0.0);
-    for (std::size_t i = 0; i < b; ++i) r_[i * b + i] = 1;
+    r_ = DenseMatrix(b_, b_);
+    for (PetscInt i = 0; i < b_; ++i) r_(i, i) = 1;
     int refills = 0;
     for (int pass = 0; pass < 3; ++pass) {
       massTimesW();
-      const PetscScalar* read = nullptr;
-      check(MatDenseGetArrayRead(w_, &read));
-      Small gram = products(read, b_);
-      check(MatDenseRestoreArrayRead(w_, &read));
-      const auto d = linalg::symmetricEigen(gram, b);
+      DenseMatrix u = timesMassTimesW(w_);
+      const auto d = linalg::symmetricEigen(u);
       const double largest =
           std::max(d.back(), refills == 0 && pass == 0 ? size : 0);  // later W is scaled
-      std::vector<bool> lost(b);
+      std::vector<bool> lost(b_);
       bool any = false;
-      for (std::size_t j = 0; j < b; ++j) any |= lost[j] = !(d[j] > 1e-28 * largest);
-      // W ← W U D^(−1/2), R ← D^(1/2) Uᵀ R
-      Small transform(b * b), product(b * b, 0.0);
-      for (std::size_t j = 0; j < b; ++j)
-        for (std::size_t i = 0; i < b; ++i)
-          transform[j * b + i] = lost[j] ? 0.0 : gram[j * b + i] / std::sqrt(d[j]);
-      for (std::size_t j = 0; j < b; ++j)
-        for (std::size_t i = 0; i < b; ++i)
-          for (std::size_t l = 0; l < b && !lost[i]; ++l)
-            product[j * b + i] += std::sqrt(d[i]) * gram[i * b + l] * r_[j * b + l];
-      r_ = product;
-      multiply(transform);
+      for (PetscInt j = 0; j < b_; ++j) any |= lost[j] = !(d[j] > 1e-28 * largest);
+      //   W ← W U D^(−1/2),   R ← D^(1/2) Uᵀ R
+      DenseMatrix down = u, up = u;
+      for (PetscInt j = 0; j < b_; ++j)
+        for (PetscInt i = 0; i < b_; ++i) {
+          down(i, j) *= lost[j] ? 0 : 1 / std::sqrt(d[j]);
+          up(i, j) *= lost[j] ? 0 : std::sqrt(d[j]);
+        }
+      r_ = linalg::transposedProduct(up, r_);
+      // W keeps its place in memory, as the matrix of PETSc borrows it.
+      std::ranges::copy(linalg::product(w_, down).entries(), w_.data());
       if (!any) {
         if (pass > 0) return;
         continue;
@@ -250,36 +213,20 @@ class Lanczos {
     }
   }
 
-  /// W ← W X for a b × b matrix.
-  void multiply(const Small& x) {
-    PetscScalar* w = nullptr;
-    check(MatDenseGetArray(w_, &w));
-    old_.assign(w, w + b_ * rows_);
-    PetscBLASInt rows = rows_, leading = std::max<PetscBLASInt>(rows, 1), columns = b_;
-    const PetscScalar one = 1, zero = 0;
-    if (rows > 0)
-      BLASgemm_("N", "N", &rows, &columns, &columns, &one, old_.data(), &leading, x.data(),
-                &columns, &zero, w, &leading);
-    check(MatDenseRestoreArray(w_, &w));
-  }
-
   void refill(const std::vector<bool>& lost) {
-    PetscScalar* w = nullptr;
-    check(MatDenseGetArray(w_, &w));
-    for (Index j = 0; j < b_; ++j)
+    for (PetscInt j = 0; j < b_; ++j)
       if (lost[j])
-        for (Index i = 0; i < rows_; ++i) w[j * rows_ + i] = uniform_(random_);
-    check(MatDenseRestoreArray(w_, &w));
+        for (double& entry : w_.column(j)) entry = uniform_(random_);
     orthogonalise(false);
   }
 
   Mat m_ = nullptr, factor_ = nullptr;
-  Index b_, limit_, k_ = 0, rows_ = 0;
+  PetscInt b_, limit_;
   MPI_Comm comm_ = MPI_COMM_NULL;
   bool restarted_ = false;
-  OwnedMat w_, mw_;
-  std::vector<PetscScalar> v_;
-  Small t_, r_, old_;
+  linalg::Block v_, w_;
+  OwnedMat asMat_, mw_;  // W, whose entries are borrowed, and M W
+  DenseMatrix t_, r_;
   std::mt19937 random_;
   std::uniform_real_distribution<double> uniform_{-1, 1};
 };
@@ -291,15 +238,14 @@ constexpr int restartsBeforeGrowth = 4;
 
 LanczosResult blockLanczos(Mat k, Mat m, KSP solver, int count, int blockSize, double tolerance,
                            int maxRestarts, const std::function<void(int, int)>& progress) {
-  Index limit = lanczosVectors(count, blockSize);
-  PetscInt size = 0;
+  PetscInt limit = lanczosVectors(count, blockSize), size = 0;
   check(MatGetSize(k, &size, nullptr));
   Lanczos lanczos(k, m, solver, blockSize, limit);
   LanczosResult result;
   lanczos.start();
   result.solves = blockSize;
   const int firstCheck = count + count / 2, every = std::max(2 * blockSize, count / 8);
-  for (Index next = firstCheck;;) {
+  for (PetscInt next = firstCheck;;) {
     lanczos.expand();
     result.solves += blockSize;
     if (lanczos.size() < next && !lanczos.full()) {
@@ -308,7 +254,7 @@ LanczosResult blockLanczos(Mat k, Mat m, KSP solver, int count, int blockSize, d
     }
     const auto ritz = lanczos.ritz();
     int converged = 0;
-    while (converged < std::min<Index>(count, lanczos.size()) &&
+    while (converged < std::min<PetscInt>(count, lanczos.size()) &&
            ritz.residual[converged] <= tolerance * ritz.value[converged])
       ++converged;
     progress(result.restarts, converged);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linalg/columns.hpp"
 #include "linalg/gathered.hpp"
 #include "linalg/symmetric.hpp"
 #include "linalg/symmetric_solver.hpp"
@@ -159,36 +160,25 @@ bool solveByLanczos(const AssociatedSystem& system, int count, int blockSize, St
 /// of the lowest modes, it gets best.
 void solveDense(const AssociatedSystem& system, int count, Modes& modes) {
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(system.k0()));
-  const int n = rowsOf(system.k0());
-  std::vector<double> all = linalg::gathered(system.m0()),
-                      stiffness = linalg::gathered(system.k0()), vectors;
+  const PetscInt n = rowsOf(system.k0());
+  linalg::DenseMatrix all = linalg::gathered(system.m0()),
+                      stiffness = linalg::gathered(system.k0()), vectors(n, count);
   onFirstRank(comm, "free vibration: the stiffness is not positive definite; is a body loose? ",
               [&] {
-                const auto inverse = linalg::symmetricEigen(all, stiffness, n);
-                for (int j = 0; j < count; ++j) {
-                  const std::size_t last = n - 1 - j;
+                const auto inverse = linalg::symmetricEigen(all, stiffness);
+                for (PetscInt j = 0; j < count; ++j) {
+                  const PetscInt last = n - 1 - j;
                   modes.lambda.push_back(1 / inverse[last]);
-                  for (int i = 0; i < n; ++i)
-                    vectors.push_back(all[last * n + i] / std::sqrt(inverse[last]));
+                  for (PetscInt i = 0; i < n; ++i)
+                    vectors(i, j) = all(i, last) / std::sqrt(inverse[last]);
                 }
               });
   modes.lambda.resize(count);
-  vectors.resize(n * count);
   check(MPI_Bcast(modes.lambda.data(), count, MPI_DOUBLE, 0, comm));
-  check(MPI_Bcast(vectors.data(), n * count, MPI_DOUBLE, 0, comm));
-  OwnedVec d;
+  check(MPI_Bcast(vectors.data(), vectors.size(), MPI_DOUBLE, 0, comm));
   PetscInt first = 0, end = 0;
-  check(MatCreateVecs(system.k0(), d.out(), nullptr));
-  check(VecGetOwnershipRange(d, &first, &end));
-  check(BVCreate(comm, modes.vectors.out()));
-  check(BVSetSizesFromVec(modes.vectors, d, count));
-  check(BVSetType(modes.vectors, BVSVEC));
-  PetscScalar* values = nullptr;
-  check(BVGetArray(modes.vectors, &values));
-  for (PetscInt j = 0; j < count; ++j)
-    std::copy(vectors.begin() + j * n + first, vectors.begin() + j * n + end,
-              values + j * (end - first));
-  check(BVRestoreArray(modes.vectors, &values));
+  check(MatGetOwnershipRange(system.k0(), &first, &end));
+  modes.vectors = linalg::copiedColumns(system.k0(), linalg::rowRange(vectors, first, end));
 }
 
 /// ε Σ K_jj d_j² / λ: what rounding in K, whose entries may cancel in d, makes of λ. Near one, λ

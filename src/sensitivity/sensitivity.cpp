@@ -28,7 +28,7 @@ Complex slopeForm(const pencil::Pencil& pencil, const sweep::Parameters& at,
     linalg::ComplexVector image = linalg::ComplexVector::like(triple.x.real);
     pencil.apply(power, at, triple.x.real, image.real);
     pencil.apply(power, at, triple.x.imaginary, image.imaginary);
-    sum += double{1} * power * std::pow(triple.s, power - 1) * dot(triple.y, image);
+    sum += (power == 1 ? 1.0 : 2.0 * triple.s) * dot(triple.y, image);
   }
   return sum;
 }
