@@ -69,14 +69,15 @@ RigidMotions rigidMotions(const mesh::Mesh& mesh) {
 /// Returns the Gram matrix Σ cᵀc over the rows c of all supports, applied to rigid motions. Springs
 /// count as supports however soft they are; contact counts if `contactCloses`. The null space holds
 /// the motions that nothing prevents.
-std::vector<double> gram(const mesh::Mesh& mesh, const Contact& contact, Vec springs,
+linalg::DenseMatrix gram(const mesh::Mesh& mesh, const Contact& contact, Vec springs,
                          const RigidMotions& motions, bool contactCloses) {
-  const std::size_t n = motions.size();
-  std::vector<double> g(n * n, 0.0), row(n);
+  const int n = motions.size();
+  linalg::DenseMatrix g(n, n);
+  std::vector<double> row(n);
   const auto keep = [&] {
-    for (std::size_t i = 0; i < n; ++i)
-      if (row[i] != 0)
-        for (std::size_t j = 0; j < n; ++j) g[i * n + j] += row[i] * row[j];
+    for (int j = 0; j < n; ++j)
+      if (row[j] != 0)
+        for (int i = 0; i < n; ++i) g(i, j) += row[i] * row[j];
     std::fill(row.begin(), row.end(), 0.0);
   };
   std::optional<ReadArray> spring;
@@ -113,8 +114,8 @@ std::vector<double> gram(const mesh::Mesh& mesh, const Contact& contact, Vec spr
 std::optional<LooseBody> looseBody(const mesh::Mesh& mesh, const Contact& contact, Vec springs,
                                    bool contactCloses) {
   const RigidMotions motions = rigidMotions(mesh);
-  std::vector<double> g = gram(mesh, contact, springs, motions, contactCloses);
-  const auto eigenvalues = linalg::symmetricEigen(g, motions.size());
+  linalg::DenseMatrix g = gram(mesh, contact, springs, motions, contactCloses);
+  const auto eigenvalues = linalg::symmetricEigen(g);
   // A support that extends over a thousandth of the model still holds a rotation, with 1e-6 of the
   // weight with which it holds a translation.
   if (eigenvalues.front() > 1e-12 * std::max(eigenvalues.back(), 1.0)) return std::nullopt;
@@ -123,12 +124,12 @@ std::optional<LooseBody> looseBody(const mesh::Mesh& mesh, const Contact& contac
   for (int part = 0; part < mesh.parts; ++part) {
     double weight = 0;
     for (int k = 0; k < motions.perPart(); ++k)
-      weight += g[part * motions.perPart() + k] * g[part * motions.perPart() + k];
+      weight += std::pow(g(part * motions.perPart() + k, 0), 2);
     if (weight > most) most = weight, worst = part;
   }
   std::string motion;
   for (int k = 0; k < motions.perPart(); ++k)
-    motion += formatted(k ? ", %.3g" : "%.3g", g[worst * motions.perPart() + k]);
+    motion += formatted(k ? ", %.3g" : "%.3g", g(worst * motions.perPart() + k, 0));
   return LooseBody{mesh.partName[worst],
                    (mesh.dimension == 2 ? "translation x, y, rotation z: "
                                         : "translations x, y, z, rotations x, y, z: ") +

@@ -8,6 +8,7 @@
 #include "linalg/columns.hpp"
 #include "linalg/quadratic.hpp"
 #include "linalg/symmetric.hpp"
+#include "petsc/arrays.hpp"
 
 namespace squeal::reduction {
 namespace {
@@ -66,10 +67,8 @@ Basis::Basis(const modes::Modes& modes, const modes::AssociatedSystem& system)
   check(MatCreateVecs(stiffness_, diagonal.out(), nullptr));
   check(MatGetDiagonal(stiffness_, diagonal));
   check(VecReciprocal(diagonal));
-  const PetscScalar* values = nullptr;
-  check(VecGetArrayRead(diagonal, &values));
-  inverseDiagonal_.assign(values, values + localRows());
-  check(VecRestoreArrayRead(diagonal, &values));
+  const ReadArray values(diagonal);
+  inverseDiagonal_.assign(values.begin(), values.end());
   sketch_.emplace(comm_, inverseDiagonal_);
   sketched_ = sketch_->unweighted(columns_);
 }
@@ -209,10 +208,7 @@ std::vector<linalg::ComplexVector> Basis::expand(
   const linalg::Block parts = linalg::product(columns_, coordinates);
   std::vector<linalg::ComplexVector> vectors(list.size());
   const auto copy = [&](PetscInt column, Vec to) {
-    PetscScalar* entries = nullptr;
-    check(VecGetArrayWrite(to, &entries));
-    std::ranges::copy(parts.column(column), entries);
-    check(VecRestoreArrayWrite(to, &entries));
+    std::ranges::copy(parts.column(column), WriteArray(to).begin());
   };
   for (PetscInt j = 0; j < count; ++j) {
     check(MatCreateVecs(stiffness_, vectors[j].real.out(), vectors[j].imaginary.out()));

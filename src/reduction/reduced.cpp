@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "options/options.hpp"
+#include "petsc/arrays.hpp"
 #include "reduction/condition.hpp"
 
 namespace squeal::reduction {
@@ -105,10 +106,8 @@ linalg::Block ReducedProblem::residualColumns(const PointState& state,
   linalg::Block result(basis_.localRows());
   for (const Vec part : {residual.real.get(), residual.imaginary.get()}) {
     if (real && result.columns() == 1) break;
-    const PetscScalar* entries = nullptr;
-    check(VecGetArrayRead(part, &entries));
-    result.append(std::span(entries, result.rows()));
-    check(VecRestoreArrayRead(part, &entries));
+    const ReadArray entries(part);
+    result.append(std::span(entries.begin(), entries.end()));
   }
   return result;
 }

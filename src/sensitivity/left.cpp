@@ -7,6 +7,7 @@
 #include "linalg/block.hpp"
 #include "linalg/columns.hpp"
 #include "linalg/lu.hpp"
+#include "petsc/arrays.hpp"
 #include "sweep/parameters.hpp"
 
 namespace squeal::sensitivity {
@@ -207,12 +208,8 @@ class LeftIteration {
       else
         pencil_.apply(power, at_, column, image);
       check(BVRestoreColumn(basis_, j, &column));
-      PetscInt rows = 0;
-      const PetscScalar* entries = nullptr;
-      check(VecGetLocalSize(image, &rows));
-      check(VecGetArrayRead(image, &entries));
-      values.append(linalg::DenseView(entries, rows, 1));
-      check(VecRestoreArrayRead(image, &entries));
+      const ReadArray entries(image);
+      values.append(linalg::DenseView(entries.data(), entries.size(), 1));
     }
     return values;
   }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "contact/sliding.hpp"
+#include "linalg/block.hpp"
 #include "linalg/symmetric_solver.hpp"
 #include "options/options.hpp"
 #include "petsc/arrays.hpp"
@@ -31,9 +32,9 @@ OwnedKSP factorisation(Mat matrix) {
 
 }  // namespace
 
-std::vector<double> Compliance::at(double friction) const {
-  std::vector<double> a = a0;
-  for (std::size_t i = 0; i < a.size(); ++i) a[i] += friction * a1[i];
+linalg::DenseMatrix Compliance::at(double friction) const {
+  linalg::DenseMatrix a = a0;
+  linalg::addScaled(a, friction, a1);
   return a;
 }
 
@@ -91,19 +92,16 @@ OwnedMat Condensed::block(PetscInt columns) const {
 }
 
 Compliance Condensed::dense() const {
-  const std::size_t n = size_;  // n² may exceed PetscInt
-  Compliance compliance{size_, std::vector<double>(n * n, 0.0), std::vector<double>(n * n, 0.0)};
+  Compliance compliance{linalg::DenseMatrix(size_, size_), linalg::DenseMatrix(size_, size_)};
   PetscInt firstRow = 0;
   check(MatGetOwnershipRange(stiffness_, &firstRow, nullptr));
   for (PetscInt begin = 0; begin < size_; begin += blockColumns) {
     const PetscInt width = std::min(blockColumns, size_ - begin);
-    const OwnedMat rhs = block(width), x = block(width);
-    PetscScalar* values = nullptr;
-    check(MatDenseGetArray(rhs, &values));
+    linalg::Block unit(transformation_.ownedColumns, width);
     for (PetscInt i = 0; i < ownedSize_; ++i)
       if (const PetscInt column = first_ + i - begin; column >= 0 && column < width)
-        values[column * transformation_.ownedColumns + transformation_.gapColumn[i] - firstRow] = 1;
-    check(MatDenseRestoreArray(rhs, &values));
+        unit(transformation_.gapColumn[i] - firstRow, column) = 1;
+    const OwnedMat rhs = linalg::borrowed(comm(), transformation_.columns, unit), x = block(width);
     check(KSPMatSolve(solver_, rhs, x));
     for (PetscInt column = 0; column < width; ++column) {
       const PetscInt j = begin + column;
@@ -116,17 +114,17 @@ Compliance Condensed::dense() const {
         const ReadArray entries(part_);
         for (PetscInt i = 0; i < ownedSize_; ++i)
           if (side == gaps_)
-            compliance.a0[j * n + first_ + i] = entries[i];
+            compliance.a0(first_ + i, j) = entries[i];
           else
-            compliance.a1[(first_ + i) * n + j] = -entries[i];
+            compliance.a1(j, first_ + i) = -entries[i];
       }
     }
   }
   // Every entry is on one rank and zero on the others, so that the sums are exact and the same on
   // all ranks. They are made column by column, since n² may exceed an int.
   for (auto* a : {&compliance.a0, &compliance.a1})
-    for (std::size_t j = 0; j < n; ++j)
-      check(MPI_Allreduce(MPI_IN_PLACE, a->data() + j * n, n, MPI_DOUBLE, MPI_SUM, comm()));
+    for (PetscInt j = 0; j < size_; ++j)
+      check(MPI_Allreduce(MPI_IN_PLACE, a->column(j).data(), size_, MPI_DOUBLE, MPI_SUM, comm()));
   return compliance;
 }
 

@@ -11,15 +11,15 @@
 
 #include "contact/contact.hpp"
 #include "contact/coupled.hpp"
+#include "linalg/dense.hpp"
 
 namespace squeal::steady {
 
-/// The matrices A0 and A1, size × size, m/N, column-major, with all entries on every rank.
+/// The matrices A0 and A1, m/N, with all entries on every rank.
 struct Compliance {
-  PetscInt size = 0;
-  std::vector<double> a0, a1;
+  linalg::DenseMatrix a0, a1;
   /// Returns A0 + f A1.
-  std::vector<double> at(double friction) const;
+  linalg::DenseMatrix at(double friction) const;
 };
 
 /// The condensed problem, with a factorisation of K_o.

@@ -8,81 +8,83 @@
 #include <cmath>
 #include <limits>
 
+#include "linalg/lapack.hpp"
 #include "linalg/symmetric.hpp"
 #include "petsc/check.hpp"
 
 namespace squeal::steady {
+
+using linalg::DenseMatrix;
+
 namespace {
 
 /// Relative size below which numbers count as rounding. A comes from solves with a stiffness matrix
 /// of a condition number of 1e6 and more.
 constexpr double rounding = 1e-10;
 
-std::vector<double> symmetricPart(const std::vector<double>& a, std::size_t n) {
-  std::vector<double> s(n * n);
-  for (std::size_t j = 0; j < n; ++j)
-    for (std::size_t i = 0; i < n; ++i) s[j * n + i] = 0.5 * (a[j * n + i] + a[i * n + j]);
+DenseMatrix symmetricPart(const DenseMatrix& a) {
+  DenseMatrix s(a.rows(), a.columns());
+  for (PetscInt j = 0; j < a.columns(); ++j)
+    for (PetscInt i = 0; i < a.rows(); ++i) s(i, j) = 0.5 * (a(i, j) + a(j, i));
   return s;
 }
 
 /// Returns true if all principal minors are positive, for a matrix that first has a unit diagonal.
-bool positiveMinors(const std::vector<double>& a, std::size_t n) {
-  if (!(a[0] > rounding)) return false;
-  if (n == 1) return true;
-  const std::size_t m = n - 1;
-  std::vector<double> rest(m * m), complement(m * m);
-  for (std::size_t j = 0; j < m; ++j)
-    for (std::size_t i = 0; i < m; ++i) {
-      rest[j * m + i] = a[(j + 1) * n + i + 1];
-      complement[j * m + i] = rest[j * m + i] - a[i + 1] * a[(j + 1) * n] / a[0];
+bool positiveMinors(const DenseMatrix& a) {
+  if (!(a(0, 0) > rounding)) return false;
+  const PetscInt m = a.rows() - 1;
+  if (m == 0) return true;
+  DenseMatrix rest(m, m), complement(m, m);
+  for (PetscInt j = 0; j < m; ++j)
+    for (PetscInt i = 0; i < m; ++i) {
+      rest(i, j) = a(i + 1, j + 1);
+      complement(i, j) = rest(i, j) - a(i + 1, 0) * a(0, j + 1) / a(0, 0);
     }
-  return positiveMinors(rest, m) && positiveMinors(complement, m);
+  return positiveMinors(rest) && positiveMinors(complement);
 }
 
 }  // namespace
 
-std::vector<double> symmetricEigenvalues(const std::vector<double>& a, int size) {
-  std::vector<double> s = symmetricPart(a, size);
-  return linalg::symmetricEigen(s, size);
+std::vector<double> symmetricEigenvalues(const DenseMatrix& a) {
+  DenseMatrix s = symmetricPart(a);
+  return linalg::symmetricEigen(s);
 }
 
 bool positiveDefinite(const std::vector<double>& eigenvalues) {
   return eigenvalues.front() > rounding * eigenvalues.back();
 }
 
-bool pMatrix(const std::vector<double>& a, int size) {
-  const std::size_t n = size;
-  std::vector<double> unit(n * n);
-  for (std::size_t i = 0; i < n; ++i)
-    if (!(a[i * n + i] > 0)) return false;
+bool pMatrix(const DenseMatrix& a) {
+  const PetscInt n = a.rows();
+  DenseMatrix unit(n, n);
+  for (PetscInt i = 0; i < n; ++i)
+    if (!(a(i, i) > 0)) return false;
   // Positive scaling of rows and columns keeps the signs of the minors.
-  for (std::size_t j = 0; j < n; ++j)
-    for (std::size_t i = 0; i < n; ++i)
-      unit[j * n + i] = a[j * n + i] / std::sqrt(a[i * n + i] * a[j * n + j]);
-  return positiveMinors(unit, n);
+  for (PetscInt j = 0; j < n; ++j)
+    for (PetscInt i = 0; i < n; ++i) unit(i, j) = a(i, j) / std::sqrt(a(i, i) * a(j, j));
+  return positiveMinors(unit);
 }
 
-bool surelyCopositive(const std::vector<double>& a, int size) {
-  const std::size_t n = size;
-  std::vector<double> s = symmetricPart(a, size);
-  for (std::size_t j = 0; j < n; ++j)
-    for (std::size_t i = 0; i < n; ++i)
-      if (i != j) s[j * n + i] = std::min(s[j * n + i], 0.0);
-  return positiveDefinite(symmetricEigenvalues(s, size));
+bool surelyCopositive(const DenseMatrix& a) {
+  DenseMatrix s = symmetricPart(a);
+  for (PetscInt j = 0; j < s.columns(); ++j)
+    for (PetscInt i = 0; i < s.rows(); ++i)
+      if (i != j) s(i, j) = std::min(s(i, j), 0.0);
+  return positiveDefinite(symmetricEigenvalues(s));
 }
 
-Judgement examineMatrix(const std::vector<double>& a, int n, double friction, int pMatrixLimit) {
-  const auto eigenvalues = symmetricEigenvalues(a, n);
+Judgement examineMatrix(const DenseMatrix& a, double friction, int pMatrixLimit) {
+  const auto eigenvalues = symmetricEigenvalues(a);
   const double smallest = eigenvalues.front();
   if (positiveDefinite(eigenvalues))
     return {friction, smallest, "one solution", "the condensed matrix is positive definite"};
-  const bool tested = n <= pMatrixLimit;
-  if (tested && pMatrix(a, n))
+  const bool tested = a.rows() <= pMatrixLimit;
+  if (tested && pMatrix(a))
     return {friction, smallest, "one solution", "the condensed matrix is a P-matrix"};
   const std::string notUnique =
       tested ? "no P-matrix: for some loads there is not exactly one solution"
              : "not positive definite";
-  if (surelyCopositive(a, n))
+  if (surelyCopositive(a))
     return {friction, smallest, "a solution exists",
             "the condensed matrix is strictly copositive, but " + notUnique};
   return {friction, smallest, "not decided", "the condensed matrix is " + notUnique};
@@ -93,13 +95,14 @@ double lossOfPositivity(double smallestRatio) {
   return smallestRatio < -1e-7 ? -1 / smallestRatio : std::numeric_limits<double>::infinity();
 }
 
-double lossOfPositivity(const std::vector<double>& a0, const std::vector<double>& a1, int size) {
-  std::vector<double> s0 = symmetricPart(a0, size), s1 = symmetricPart(a1, size), values(size);
-  PetscBLASInt n = size, length = 34 * n, info = 0;
-  const PetscBLASInt type = 1;
-  std::vector<double> work(length);
-  LAPACKsygv_(&type, "N", "U", &n, s1.data(), &n, s0.data(), &n, values.data(), work.data(),
-              &length, &info);
+double lossOfPositivity(const DenseMatrix& a0, const DenseMatrix& a1) {
+  DenseMatrix s0 = symmetricPart(a0), s1 = symmetricPart(a1);
+  PetscBLASInt type = 1, n = a0.rows(), info = 0;
+  std::vector<double> values(n);
+  linalg::callWithWork([&](double* work, PetscBLASInt length) {
+    LAPACKsygv_(&type, "N", "U", &n, s1.data(), &n, s0.data(), &n, values.data(), work, &length,
+                &info);
+  });
   if (info > n) return 0;
   if (info != 0)
     throw Error("LAPACK dsygv failed on the condensed matrix of the contact (info " +

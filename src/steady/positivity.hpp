@@ -2,9 +2,11 @@
 /// Small dense tests of the condensed matrix A of the contact, which decide on the solutions of the
 /// linear complementarity problem
 ///   g = A R + F,   g ≥ 0,   R ≥ 0,   g·R = 0.
-/// Matrices are n×n, column-major, the same on every rank; nothing here is collective.
+/// Matrices are the same on every rank; nothing here is collective.
 #include <string>
 #include <vector>
+
+#include "linalg/dense.hpp"
 
 namespace squeal::steady {
 
@@ -17,22 +19,22 @@ struct Judgement {
 };
 
 /// Returns the eigenvalues of sym(A), ascending. Throws Error if LAPACK fails.
-std::vector<double> symmetricEigenvalues(const std::vector<double>& a, int n);
+std::vector<double> symmetricEigenvalues(const linalg::DenseMatrix& a);
 
 /// Returns true if the smallest eigenvalue is positive beyond rounding.
 bool positiveDefinite(const std::vector<double>& eigenvalues);
 
 /// Returns true if all principal minors are positive, which is equivalent to one solution for every
 /// F. The recursion of Tsatsomeros and Li (BIT 40 (2000) 410–414) takes 2ⁿ pivots.
-bool pMatrix(const std::vector<double>& a, int n);
+bool pMatrix(const linalg::DenseMatrix& a);
 
 /// Returns true if sym(A) stays positive definite without its positive off-diagonal entries. This
 /// is sufficient for strict copositivity, and so for a solution for every F.
-bool surelyCopositive(const std::vector<double>& a, int n);
+bool surelyCopositive(const linalg::DenseMatrix& a);
 
 /// Returns the verdict on A(f), m/N. If sym(A) is not positive definite, the P-matrix test is made
 /// up to n = `pMatrixLimit`.
-Judgement examineMatrix(const std::vector<double>& a, int n, double friction, int pMatrixLimit);
+Judgement examineMatrix(const linalg::DenseMatrix& a, double friction, int pMatrixLimit);
 
 /// Returns the friction where positive definiteness is lost [M.19],
 ///   f = −1/μ,
@@ -42,6 +44,6 @@ double lossOfPositivity(double smallestRatio);
 
 /// Returns the smallest f > 0 where sym(A0 + f A1) is not positive definite; infinite if there is
 /// none, and 0 if A0 is not positive definite.
-double lossOfPositivity(const std::vector<double>& a0, const std::vector<double>& a1, int n);
+double lossOfPositivity(const linalg::DenseMatrix& a0, const linalg::DenseMatrix& a1);
 
 }  // namespace squeal::steady

@@ -33,10 +33,9 @@ Uniqueness undecided(const std::vector<double>& frictions, const std::string& re
 
 Uniqueness examineDense(const Compliance& compliance, const std::vector<double>& frictions,
                         int pMatrixLimit) {
-  Uniqueness result{{}, lossOfPositivity(compliance.a0, compliance.a1, compliance.size)};
+  Uniqueness result{{}, lossOfPositivity(compliance.a0, compliance.a1)};
   for (double friction : frictions)
-    result.judgements.push_back(
-        examineMatrix(compliance.at(friction), compliance.size, friction, pMatrixLimit));
+    result.judgements.push_back(examineMatrix(compliance.at(friction), friction, pMatrixLimit));
   return result;
 }
 
