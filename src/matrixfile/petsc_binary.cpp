@@ -55,8 +55,9 @@ void checkPattern(const std::filesystem::path& path, const Header& header) {
       fail(formatted("has more entries than the header announces in all, %lld", header.entries));
     left -= count;
     list.resize(count);
+    columns.read(reinterpret_cast<char*>(list.data()), list.size() * sizeof list[0]);
     for (auto& column : list) {
-      column = columns.number<std::int32_t>(swapped);
+      column = numberAt<std::int32_t>(reinterpret_cast<const char*>(&column), swapped);
       if (column < 0 || column >= header.columns)
         fail(formatted("has an entry in column %d of %lld", column, header.columns));
     }
