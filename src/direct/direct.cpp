@@ -33,9 +33,7 @@ const FlagOption confirmOption(
 struct Band {
   double low = 0, high = 0;  // rad/s
   bool wanted() const { return high > 0; }
-  bool holds(std::complex<double> s) const {
-    return s.imag() >= low && s.imag() <= high && std::abs(s) <= high;
-  }
+  bool holds(Complex s) const { return s.imag() >= low && s.imag() <= high && std::abs(s) <= high; }
 };
 
 Band readBand() {

@@ -105,11 +105,9 @@ double reachedBy(std::vector<double> sizes, PetscInt wanted, PetscInt all) {
 void rejectUnconverged(PetscInt converged, PetscInt wanted, const sweep::Parameters& at,
                        const std::string& prefix) {
   if (converged < wanted)
-    throw Error(
-        formatted("direct method at friction %g: only %d of %d eigenvalues converged; raise "
-                  "-%smax_it or -%sncv",
-                  at.friction, static_cast<int>(converged), static_cast<int>(wanted),
-                  prefix.c_str(), prefix.c_str()));
+    throw Error(formatted("direct method at friction %g: only %" PetscInt_FMT " of %" PetscInt_FMT
+                          " eigenvalues converged; raise -%smax_it or -%sncv",
+                          at.friction, converged, wanted, prefix.c_str(), prefix.c_str()));
 }
 
 /// The solver for

@@ -1,6 +1,5 @@
 #pragma once
 /// The eigenvalues nearest to zero of the problem on all unknowns, by SLEPc.
-#include <complex>
 #include <memory>
 #include <vector>
 
@@ -13,7 +12,7 @@ namespace squeal::direct {
 /// An eigenvalue with its right vector, which has the 2-norm 1. The imaginary part of a real vector
 /// is zero.
 struct NearestPair : linalg::ComplexVector {
-  std::complex<double> s;
+  Complex s;
 };
 
 /// Eigenvalues found near zero.

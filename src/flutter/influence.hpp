@@ -6,6 +6,7 @@
 #include "contact/coupled.hpp"
 #include "elasticity/elasticity.hpp"
 #include "flutter/work.hpp"
+#include "linalg/complex.hpp"
 #include "mesh/mesh.hpp"
 #include "pencil/complex_modes.hpp"
 #include "pencil/pencil.hpp"
@@ -47,12 +48,12 @@ class Influences {
   std::vector<Influence> influences(const BodyPoint& state);
   void followSteadyState(const BodyPoint& state, const steady::Problem& problem,
                          Influence& influence) const;
-  std::complex<double> materialForm(const Influence& influence, const BodyPoint& state,
-                                    const Projected& pair) const;
-  std::complex<double> steadyForm(const Influence& influence, const BodyPoint& state,
-                                  const Projected& pair) const;
-  std::complex<double> frictionSum(const FrictionState& friction, const BodyPoint& state,
-                                   const Projected& pair) const;
+  Complex materialForm(const Influence& influence, const BodyPoint& state,
+                       const Projected& pair) const;
+  Complex steadyForm(const Influence& influence, const BodyPoint& state,
+                     const Projected& pair) const;
+  Complex frictionSum(const FrictionState& friction, const BodyPoint& state,
+                      const Projected& pair) const;
   Projected project(const BodyPoint& state, const sensitivity::EigenTriple& triple) const;
 
   const mesh::Mesh& mesh_;

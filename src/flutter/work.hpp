@@ -2,7 +2,6 @@
 /// The motion of a mode at the contact, and the work of friction in it, which shows the part of the
 /// contact that feeds the mode.
 #include <array>
-#include <complex>
 #include <vector>
 
 #include "contact/contact.hpp"
@@ -14,7 +13,7 @@
 namespace squeal::flutter {
 
 /// The complex amplitudes of a vector in space.
-using ComplexPoint = std::array<std::complex<double>, 3>;
+using ComplexPoint = std::array<Complex, 3>;
 
 /// The nodal forces and the energy of a motion u e^{st}.
 struct MotionForces {
@@ -25,14 +24,14 @@ struct MotionForces {
 };
 
 /// Collective. Returns both. `prestress` is K_σ of the steady state; it may be null.
-MotionForces motionForces(const elasticity::Bodies& bodies, const sweep::Parameters& at,
-                          std::complex<double> s, const linalg::ComplexVector& u, Mat prestress);
+MotionForces motionForces(const elasticity::Bodies& bodies, const sweep::Parameters& at, Complex s,
+                          const linalg::ComplexVector& u, Mat prestress);
 
 /// The amplitudes of a motion at the contact nodes, [owned contact node].
 struct ContactMotion {
-  std::vector<ComplexPoint> jump;                 ///< [u]
-  std::vector<ComplexPoint> convected;            ///< D u_D; zero without convective terms
-  std::vector<std::complex<double>> normalForce;  ///< R_N* = N r*
+  std::vector<ComplexPoint> jump;       ///< [u]
+  std::vector<ComplexPoint> convected;  ///< D u_D; zero without convective terms
+  std::vector<Complex> normalForce;     ///< R_N* = N r*
 };
 /// Collective. Returns the jumps [u] at the contact nodes, [owned contact node].
 std::vector<ComplexPoint> contactJump(const contact::Contact& contact,
@@ -52,12 +51,11 @@ struct FrictionState {
 /// The form −[w]ᴴ R_T* of a contact node for a test jump [w], in two parts, with [4.7]
 ///   R_T* = −f φ R_N* τ − B (s [u] − v D u_D).
 struct FrictionForm {
-  std::complex<double> pressing;  ///< part with the change of the normal force
-  std::complex<double> turning;   ///< part with the change of the relative velocity
+  Complex pressing;  ///< part with the change of the normal force
+  Complex turning;   ///< part with the change of the relative velocity
 };
-FrictionForm frictionForm(const contact::Contact& contact, const FrictionState& state,
-                          std::complex<double> s, const ComplexPoint& test,
-                          const ContactMotion& motion, std::size_t k);
+FrictionForm frictionForm(const contact::Contact& contact, const FrictionState& state, Complex s,
+                          const ComplexPoint& test, const ContactMotion& motion, std::size_t k);
 
 /// Collective. Returns the contribution of friction at each contact node to the growth rate of the
 /// mode u e^{st}, 1/s, [owned contact node]. Where it is positive, friction feeds the mode.
@@ -71,8 +69,7 @@ FrictionForm frictionForm(const contact::Contact& contact, const FrictionState& 
 /// (π / Im s) E times the value.
 std::vector<double> frictionWork(const contact::Contact& contact, const elasticity::Bodies& bodies,
                                  const steady::Solution& solution, const sweep::Parameters& at,
-                                 std::complex<double> s, const linalg::ComplexVector& u,
-                                 Mat prestress);
+                                 Complex s, const linalg::ComplexVector& u, Mat prestress);
 
 /// Collective. Returns the data of friction from the steady state.
 FrictionState frictionState(const contact::Contact& contact, const steady::Solution& solution);

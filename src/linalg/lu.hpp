@@ -6,7 +6,7 @@
 
 namespace squeal::linalg {
 
-/// Factors of a square matrix of doubles or std::complex<double>.
+/// Factors of a square matrix of doubles or complex numbers.
 template <class Scalar>
 class Lu {
  public:

@@ -22,8 +22,8 @@ std::string failureOf(Mat factor) {
   check(MatMumpsGetInfog(factor, 1, &code));
   check(MatMumpsGetInfog(factor, 2, &detail));
   if (code >= 0) return "";
-  const std::string numbers = formatted(" (INFOG(1) = %d, INFOG(2) = %d)", static_cast<int>(code),
-                                        static_cast<int>(detail));
+  const std::string numbers =
+      formatted(" (INFOG(1) = %" PetscInt_FMT ", INFOG(2) = %" PetscInt_FMT ")", code, detail);
   constexpr PetscInt allocations[] = {-5, -7, -13, -19, -22},
                      workspace[] = {-8, -9, -11, -14, -15, -17, -20}, overflow[] = {-51, -52};
   const auto among = [&](const auto& codes) {
@@ -54,7 +54,7 @@ void compareWithMemory(Mat factor) {
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(factor));
   PetscInt megabytes = 0;
   check(MatMumpsGetInfo(factor, 15, &megabytes));
-  double needed = 1e6 * static_cast<double>(megabytes);
+  double needed = 1e6 * megabytes;
   const double free = memoryFreeOnNode(comm, needed);
   struct {
     double ratio;
@@ -147,7 +147,7 @@ KSP SymmetricSolver::get() const {
   factorise();
   PetscInt size = 0;
   check(MatGetSize(matrix_, &size, nullptr));
-  stage.finish(formatted("%s: %d unknowns", name_.c_str(), static_cast<int>(size)));
+  stage.finish(formatted("%s: %" PetscInt_FMT " unknowns", name_.c_str(), size));
   return solver_;
 }
 
@@ -178,7 +178,7 @@ double factorMemory(Mat matrix) {
   check(MatCholeskyFactorSymbolic(factor, matrix, nullptr, &info));
   PetscInt megabytes = 0;
   check(MatMumpsGetInfog(factor, 17, &megabytes));
-  return 1e6 * static_cast<double>(megabytes);
+  return 1e6 * megabytes;
 }
 
 Inertia inertia(Mat matrix, double zero) {

@@ -1,7 +1,8 @@
 #pragma once
 /// The band: the set of eigenvalues that a run lists, corrects and follows [M.27].
-#include <complex>
 #include <vector>
+
+#include "linalg/complex.hpp"
 
 namespace squeal::pencil {
 
@@ -24,14 +25,14 @@ struct WatchedBand {
   double origin = 0.1;  ///< up to this multiple of `top` all eigenvalues are watched, as a real one
                         ///< may pass through zero
   /// Returns true if s, with Im s ≥ 0, is in the band.
-  bool contains(std::complex<double> s) const { return std::abs(s) <= top && lasts(s); }
+  bool contains(Complex s) const { return std::abs(s) <= top && lasts(s); }
   /// Returns true if s, with Im s ≥ 0, is in the band or in the guard zone.
-  bool watches(std::complex<double> s) const {
+  bool watches(Complex s) const {
     return std::abs(s) <= guard * top &&
            (-s.real() <= guard * damping * std::abs(s) || std::abs(s) <= origin * top);
   }
   /// Returns true if the damping ratio of s is at most `damping`.
-  bool lasts(std::complex<double> s) const { return -s.real() <= damping * std::abs(s); }
+  bool lasts(Complex s) const { return -s.real() <= damping * std::abs(s); }
 };
 
 }  // namespace squeal::pencil

@@ -38,17 +38,16 @@ bool Sensitivity::regular() const {
 double accuracyAsked() { return accuracyOption.get(); }
 
 int ComplexModes::modesWithoutEigenvalue() const {
-  return damped ? std::max(0, freeModesInBand - static_cast<int>(eigenvalues.size())) : 0;
+  const int found = eigenvalues.size();
+  return damped ? std::max(0, freeModesInBand - found) : 0;
 }
 
 int ComplexModes::unstableCount() const {
-  return static_cast<int>(std::count_if(eigenvalues.begin(), eigenvalues.end(),
-                                        [](const auto& e) { return e.unstable; }));
+  return std::ranges::count_if(eigenvalues, [](const auto& e) { return e.unstable; });
 }
 
 int ComplexModes::uncertifiedCount() const {
-  return static_cast<int>(std::count_if(eigenvalues.begin(), eigenvalues.end(),
-                                        [](const auto& e) { return !e.certified; }));
+  return std::ranges::count_if(eigenvalues, [](const auto& e) { return !e.certified; });
 }
 
 double ComplexModes::worstBackwardError() const {
@@ -86,7 +85,7 @@ std::vector<std::size_t> shapesWanted(const ComplexModes& point) {
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return point.eigenvalues[a].s.real() > point.eigenvalues[b].s.real();
   });
-  order.resize(std::min(order.size(), static_cast<std::size_t>(shapesOption.get())));
+  order.resize(std::min<std::size_t>(order.size(), shapesOption.get()));
   return order;
 }
 

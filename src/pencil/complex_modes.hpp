@@ -1,7 +1,6 @@
 #pragma once
 /// Results of the friction-perturbed eigenproblem (paper, section 4): which modes flutter, at which
 /// friction, and how fast they grow.
-#include <complex>
 #include <limits>
 #include <optional>
 #include <string>
@@ -14,7 +13,7 @@ namespace squeal::pencil {
 
 /// An eigenvalue s of the pencil with estimates of its error.
 struct Eigenvalue {
-  std::complex<double> s;    ///< growth rate + i angular frequency, 1/s
+  Complex s;                 ///< growth rate + i angular frequency, 1/s
   double backwardError = 0;  ///< backward error of the full-order problem [M.33]
   double errorEstimate = 0;  ///< estimate of the relative error |δs|/|s|; NaN: none (direct method)
   bool certified = false;    ///< the errors that are known are as small as asked for
@@ -33,8 +32,8 @@ struct Shape {
 
 /// The derivative of an eigenvalue with respect to one parameter θ.
 struct Derivative {
-  std::string parameter;       ///< name of θ
-  std::complex<double> value;  ///< ds/dθ, 1/s per unit of the parameter
+  std::string parameter;  ///< name of θ
+  Complex value;          ///< ds/dθ, 1/s per unit of the parameter
 };
 
 /// Condition number and derivatives of one eigenvalue.

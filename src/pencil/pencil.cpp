@@ -104,7 +104,7 @@ double Pencil::norm(int power, const sweep::Parameters& at) const {
     check(VecDuplicate(image, v.out()));
     check(VecGetOwnershipRange(v, &first, &end));
     for (PetscInt i = first; i < end; ++i)
-      check(VecSetValue(v, i, std::sin(12.9898 * static_cast<double>(i + 1)), INSERT_VALUES));
+      check(VecSetValue(v, i, std::sin(12.9898 * (i + 1)), INSERT_VALUES));
     check(VecAssemblyBegin(v));
     check(VecAssemblyEnd(v));
   }
@@ -114,7 +114,7 @@ double Pencil::norm(int power, const sweep::Parameters& at) const {
     check(VecNormalize(v, nullptr));
     apply(power, at, v, image);
     check(VecNorm(image, NORM_2, &size));
-    estimate = std::max(estimate, static_cast<double>(size));
+    estimate = std::max<double>(estimate, size);
     if (size == 0) {  // the terms vanish at this friction; the next call begins anew
       v = OwnedVec();
       return 0;
@@ -124,8 +124,8 @@ double Pencil::norm(int power, const sweep::Parameters& at) const {
   return estimate;
 }
 
-linalg::ComplexVector residual(const Pencil& pencil, const sweep::Parameters& at,
-                               std::complex<double> s, const linalg::ComplexVector& d, Side side) {
+linalg::ComplexVector residual(const Pencil& pencil, const sweep::Parameters& at, Complex s,
+                               const linalg::ComplexVector& d, Side side) {
   linalg::ComplexVector sum = linalg::ComplexVector::like(d.real),
                         part = linalg::ComplexVector::like(d.real);
   for (int power = 0; power <= 2; ++power) {
@@ -141,7 +141,7 @@ linalg::ComplexVector residual(const Pencil& pencil, const sweep::Parameters& at
   return sum;
 }
 
-double backwardError(const Pencil& pencil, const sweep::Parameters& at, std::complex<double> s,
+double backwardError(const Pencil& pencil, const sweep::Parameters& at, Complex s,
                      const linalg::ComplexVector& d) {
   double scale = 0;
   for (int power = 0; power <= 2; ++power)

@@ -4,7 +4,6 @@
 /// with the friction f, the factor v on the base velocities of the bodies, and the factor c on
 /// their damping. The pencil knows nothing of finite elements: [4.15–4.16] enter as terms.
 #include <array>
-#include <complex>
 #include <memory>
 #include <vector>
 
@@ -72,12 +71,12 @@ class Pencil {
 enum class Side { right, left };
 
 /// Collective. Returns P(s) d, or P(s)ᴴ d for the left side.
-linalg::ComplexVector residual(const Pencil& pencil, const sweep::Parameters& at,
-                               std::complex<double> s, const linalg::ComplexVector& d, Side side);
+linalg::ComplexVector residual(const Pencil& pencil, const sweep::Parameters& at, Complex s,
+                               const linalg::ComplexVector& d, Side side);
 
 /// Collective. Returns the backward error of a right eigenpair [M.33],
 ///   ‖P(s) d‖ / ((|s|² ‖M̄‖ + |s| ‖Z̄‖ + ‖K̄‖) ‖d‖).
-double backwardError(const Pencil& pencil, const sweep::Parameters& at, std::complex<double> s,
+double backwardError(const Pencil& pencil, const sweep::Parameters& at, Complex s,
                      const linalg::ComplexVector& d);
 
 }  // namespace squeal::pencil

@@ -325,7 +325,7 @@ std::vector<pencil::ComplexModes> ReducedProblem::solve(const std::vector<PointP
   responded_ = true;
   for (const auto& point : batch) states.push_back(newState(point, normsOf(point)));
   for (auto& state : states) open.push_back(&state);
-  const PetscInt largest = std::min(basis_.size() + PetscInt{growthOption.get()}, unknowns_);
+  const PetscInt largest = std::min<PetscInt>(basis_.size() + growthOption.get(), unknowns_);
   for (int round = 0; !open.empty(); ++round) {
     extend(open);
     solveDense(open);

@@ -2,7 +2,6 @@
 /// Derivatives of eigenvalues by left and right vectors [M.46],
 ///   ds/dθ = −yᴴ (∂P/∂θ)(s) x / yᴴ P′(s) x,   P′ = dP/ds = 2 s M̄ + Z̄,
 /// as far as the pencil alone gives them.
-#include <complex>
 #include <string>
 #include <vector>
 
@@ -15,7 +14,7 @@ namespace squeal::sensitivity {
 
 /// An eigenvalue with its right and left vector, both borrowed.
 struct EigenTriple {
-  std::complex<double> s;
+  Complex s;
   const linalg::ComplexVector& x;  ///< right vector in the unknowns
   const linalg::ComplexVector& y;  ///< left vector in the unknowns
 };
@@ -24,14 +23,14 @@ struct EigenTriple {
 bool sensitivitiesWanted();
 
 /// Collective. Returns yᴴ P′(s) x.
-std::complex<double> slopeForm(const pencil::Pencil& pencil, const sweep::Parameters& at,
-                               const EigenTriple& triple);
+Complex slopeForm(const pencil::Pencil& pencil, const sweep::Parameters& at,
+                  const EigenTriple& triple);
 /// Collective. Returns yᴴ (∂P/∂θ)(s) x for the dependence of the coefficients of the terms on θ,
 /// which is `parameter`.
-std::complex<double> parameterForm(const pencil::Pencil& pencil, const sweep::Parameters& at,
-                                   const EigenTriple& triple, double sweep::Parameters::*parameter);
+Complex parameterForm(const pencil::Pencil& pencil, const sweep::Parameters& at,
+                      const EigenTriple& triple, double sweep::Parameters::*parameter);
 /// Collective. Returns the condition number [M.50], Sensitivity::condition, where `slope` is
 /// yᴴ P′(s) x and `mass` is M0.
-double condition(const EigenTriple& triple, std::complex<double> slope, Mat mass);
+double condition(const EigenTriple& triple, Complex slope, Mat mass);
 
 }  // namespace squeal::sensitivity

@@ -20,7 +20,7 @@ std::vector<double> consistentPressure(const mesh::Mesh& mesh, const contact::Co
       std::vector<Point> points;
       std::vector<PetscInt> rows;
       for (int i = 0; i < block.nodesPerFace; ++i) {
-        const PetscInt node = block.nodes[e * block.nodesPerFace + i];
+        const PetscInt node = block.nodesOf(e)[i];
         points.push_back(mesh.coordinates[node]);
         rows.push_back(mesh.dimension * mesh.globalNode[node]);
       }

@@ -9,9 +9,9 @@ namespace squeal::tracking {
 
 /// Returns true if |Re s| is at most 1e-6 |s|, or 1e-10 |s| in a damped problem. The first bound is
 /// larger because rounding splits multiple eigenvalues in problems in s².
-bool neutral(std::complex<double> s, bool damped);
+bool neutral(Complex s, bool damped);
 /// Returns true if |Im s| is at most 1e-6 |s|.
-bool real(std::complex<double> s);
+bool real(Complex s);
 /// Returns true if both eigenvalues are neutral or, in a problem in s², if both s² are real.
 bool neutralPair(const std::vector<linalg::DensePair>& two, bool damped);
 /// Returns true if the eigenvalues are s and −conj s, neither neutral nor real.
@@ -56,14 +56,14 @@ std::vector<std::vector<linalg::DensePair>> watchedPairs(
 /// from all eigenvalues. Returns nothing if none continue those of `from`. Throws Error if LAPACK
 /// fails.
 std::optional<linalg::Spectrum> continuedIn(const linalg::DenseProblem& problem,
-                                            const linalg::Spectrum& from,
-                                            std::complex<double> expected, double isolation);
+                                            const linalg::Spectrum& from, Complex expected,
+                                            double isolation);
 
 /// Collective. Returns the same at a friction of the family, computed on rank 0, so that rounding
 /// cannot make the ranks disagree. Returns nothing also if there is no problem at this friction.
 std::optional<linalg::Spectrum> continuedTo(Family& family, double friction,
-                                            const linalg::Spectrum& from,
-                                            std::complex<double> expected, double isolation);
+                                            const linalg::Spectrum& from, Complex expected,
+                                            double isolation);
 
 /// Returns the entries of `all` with these indices.
 std::vector<linalg::DensePair> chosen(const std::vector<linalg::DensePair>& all,
@@ -74,6 +74,6 @@ std::vector<linalg::DensePair> chosen(const std::vector<linalg::DensePair>& all,
 ///   Re[ −((s1 − s2)/2)² ],   or in a problem in s²   Re[ ((s1² − s2²)/4)² ] / |(s1 + s2)/2|².
 /// Both have the same zero.
 double discriminant(const std::vector<linalg::DensePair>& two, bool damped);
-std::complex<double> mean(const std::vector<linalg::DensePair>& pairs);
+Complex mean(const std::vector<linalg::DensePair>& pairs);
 
 }  // namespace squeal::tracking

@@ -12,8 +12,8 @@ struct ContinuedPair {
   linalg::DensePair below, above;  ///< at the lower and at the upper end
   double isolation = 0;            ///< distance from other eigenvalues, rad/s
 };
-/// One end of a step.
 
+/// One end of a step.
 struct StepEnd {
   double friction;
   const linalg::DenseProblem& problem;

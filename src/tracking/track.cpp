@@ -205,11 +205,12 @@ class Follower {
 
   void single(StepResult& step, const Solved& a, const Solved& b, const Group& group) {
     const std::size_t i = group.here[0], j = group.there[0];
+    const int branch = i;  // until all earlier steps are finished
     step.links.push_back({i, j, std::abs(a.spectrum.overlap(i, b.spectrum, j))});
     if (!matters(a, b, group)) return;
     const linalg::DensePair &p = a.spectrum.pairs()[i], &q = b.spectrum.pairs()[j];
-    step.singles.push_back({static_cast<int>(i), p, q, isolation(a, b, group)});
-    crossed(step, a.station.friction, b.station.friction, p, q, static_cast<int>(i),
+    step.singles.push_back({branch, p, q, isolation(a, b, group)});
+    crossed(step, a.station.friction, b.station.friction, p, q, branch,
             step.singles.back().isolation, a.spectrum.damped());
   }
 
@@ -234,8 +235,7 @@ class Follower {
     const auto here = chosen(a.spectrum.pairs(), group.here),
                there = chosen(b.spectrum.pairs(), group.there);
     std::vector<std::size_t> mate;
-    std::vector<int> ids;
-    for (const auto i : group.here) ids.push_back(static_cast<int>(i));
+    const std::vector<int> ids(group.here.begin(), group.here.end());
     if (coincide(here) || coincide(there)) {
       mate = ordered(here, there);
       atEnd(step, a, b, here, there, ids, mate);
@@ -383,9 +383,8 @@ class Follower {
                                           : chosen(a.spectrum.pairs(), group.here);
     step.gaps.push_back(
         {a.station.friction, b.station.friction,
-         formatted("%d eigenvalues near %.6g Hz before and %d after are joined without certainty",
-                   static_cast<int>(group.here.size()), mean(pairs).imag() / (2 * M_PI),
-                   static_cast<int>(group.there.size()))});
+         formatted("%zu eigenvalues near %.6g Hz before and %zu after are joined without certainty",
+                   group.here.size(), mean(pairs).imag() / (2 * M_PI), group.there.size())});
   }
 
   /// Returns the smallest distance of the mean of a group, at either end, from all other
@@ -413,7 +412,7 @@ class Follower {
 }  // namespace
 
 int Branches::inBandAt(const Station& station) const {
-  return static_cast<int>(std::count(station.inBand.begin(), station.inBand.end(), 1));
+  return std::ranges::count(station.inBand, 1);
 }
 
 Branches follow(Family& family, const std::vector<double>& frictions,
