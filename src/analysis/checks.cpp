@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "flutter/terms.hpp"
-#include "linalg/finite.hpp"
+#include "petsc/finite.hpp"
 
 namespace squeal::analysis {
 
@@ -13,16 +13,14 @@ void requireFiniteSweep(const elasticity::Bodies& bodies, const contact::Contact
   const double friction = std::max(1.0, frictions.back()), speed = std::max(1.0, speeds.back()),
                speed2 = speed * speed;
   const std::string swept = " times the factors of the sweep";
-  linalg::requireFinite(bodies.stiffness, "the stiffness of the bodies" + swept, friction);
-  linalg::requireFinite(bodies.mass, "the mass of the bodies" + swept, friction);
-  linalg::requireFinite(bodies.damping, "the damping of the bodies" + swept,
-                        friction * std::max(1.0, dampings.back()));
-  linalg::requireFinite(bodies.gyroscopic, "the gyroscopic matrix" + swept, friction * speed);
-  linalg::requireFinite(bodies.rotationStiffness, "the rotation stiffness" + swept,
-                        friction * speed2);
-  linalg::requireFinite(bodies.load, "the loads" + swept, std::max(pressures.back(), speed2));
-  linalg::requireFinite(contact.offset, "the displacements held" + swept,
-                        std::max(1.0, pressures.back()));
+  requireFinite(bodies.stiffness, "the stiffness of the bodies" + swept, friction);
+  requireFinite(bodies.mass, "the mass of the bodies" + swept, friction);
+  requireFinite(bodies.damping, "the damping of the bodies" + swept,
+                friction * std::max(1.0, dampings.back()));
+  requireFinite(bodies.gyroscopic, "the gyroscopic matrix" + swept, friction * speed);
+  requireFinite(bodies.rotationStiffness, "the rotation stiffness" + swept, friction * speed2);
+  requireFinite(bodies.load, "the loads" + swept, std::max(pressures.back(), speed2));
+  requireFinite(contact.offset, "the displacements held" + swept, std::max(1.0, pressures.back()));
 }
 
 void requireFiniteSweep(const std::vector<matrices::NamedTerm>& terms, const sweep::Sweep& sweep) {
@@ -30,8 +28,8 @@ void requireFiniteSweep(const std::vector<matrices::NamedTerm>& terms, const swe
     for (double friction : {sweep.frictions.front(), sweep.frictions.back()})
       for (double speed : {sweep.speeds.front(), sweep.speeds.back()})
         for (double damping : {sweep.dampings.front(), sweep.dampings.back()})
-          linalg::requireFinite(term.matrix, "matrix '" + name + "' times its factors",
-                                term.coefficient({friction, speed, 1, damping}));
+          requireFinite(term.matrix, "matrix '" + name + "' times its factors",
+                        term.coefficient({friction, speed, 1, damping}));
 }
 
 void rejectIdleFactors(const elasticity::Bodies& bodies, const contact::Contact& contact,

@@ -12,11 +12,11 @@
 #include "flutter/influence.hpp"
 #include "flutter/terms.hpp"
 #include "flutter/work.hpp"
-#include "linalg/finite.hpp"
 #include "matrices/matrices.hpp"
 #include "modes/benchmark.hpp"
 #include "modes/modes.hpp"
 #include "options/options.hpp"
+#include "petsc/finite.hpp"
 #include "petsc/text.hpp"
 #include "sensitivity/sensitivity.hpp"
 #include "session/stages.hpp"
@@ -114,7 +114,7 @@ std::vector<steady::Solution> steadySweep(const Analysis& analysis, CurrentSyste
                            solution.iterations, solution.openNodes, analysis.contact.totalNodes,
                            solution.smallestPressure, solution.residual, solution.imbalance));
     if (solution.converged)
-      linalg::requireFinite(solution.displacement, "steady sliding at " + sweep::parameterText(at));
+      requireFinite(solution.displacement, "steady sliding at " + sweep::parameterText(at));
     if (solution.converged)
       closed.back() = solution.closed;
     else

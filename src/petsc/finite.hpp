@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace squeal::linalg {
+namespace squeal {
 
 /// Collective. Throws Error if the Frobenius norm of the matrix (the 2-norm of the vector) times
 /// `factor`, or its square, is not a finite number, as where an entry is inf or nan. `what` begins
@@ -12,4 +12,4 @@ namespace squeal::linalg {
 void requireFinite(Mat matrix, const std::string& what, double factor = 1);
 void requireFinite(Vec vector, const std::string& what, double factor = 1);
 
-}  // namespace squeal::linalg
+}  // namespace squeal

@@ -1,10 +1,10 @@
-#include "linalg/finite.hpp"
+#include "petsc/finite.hpp"
 
 #include <cmath>
 
 #include "petsc/check.hpp"
 
-namespace squeal::linalg {
+namespace squeal {
 namespace {
 
 void requireFiniteNorm(PetscReal norm, const std::string& what) {
@@ -28,4 +28,4 @@ void requireFinite(Vec vector, const std::string& what, double factor) {
   requireFiniteNorm(factor * norm, what);
 }
 
-}  // namespace squeal::linalg
+}  // namespace squeal
