@@ -29,9 +29,6 @@ class MatrixSegment : public SegmentProblem {
   }
   const modes::AssociatedSystem& system() const override { return system_; }
   Mat trial() const override { return identity_; }
-  int modeCount() const override {
-    return std::min<PetscInt>(modes::wantedCount(), system_.size());
-  }
   const std::vector<sweep::Parameters>& steadyPoints() const override { return points_; }
   pencil::Pencil pencil() const override { return pencil_.with({}); }
   void examine(std::size_t, const pencil::Pencil& pencil, const sensitivity::StartSpace& start,

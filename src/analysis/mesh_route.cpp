@@ -182,7 +182,6 @@ class MeshSegment : public SegmentProblem {
   }
   const contact::CoupledSystem& system() const override { return *system_; }
   Mat trial() const override { return system_->transformation().trial; }
-  int modeCount() const override { return modes::wantedCount(); }
   const std::vector<sweep::Parameters>& steadyPoints() const override { return points_; }
   pencil::Pencil pencil() const override {
     return flutter::affineTerms(analysis_.contact, system());

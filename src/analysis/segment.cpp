@@ -73,9 +73,10 @@ class SegmentSweep {
 
   void computeModes(ModalSegment& segment) {
     const bool direct = direct::directWanted();
+    if (direct) directly_ = direct::Options::given();
     if (direct) linalg::rejectUnusedSolverOptions();
     if (direct && !sensitivity::sensitivitiesWanted()) return;
-    modes::Modes modes = modes::compute(problem_.system(), problem_.modeCount());
+    modes::Modes modes = modes::compute(problem_.system());
     if (direct) {
       forLeftVectors_ = std::move(modes);
       return;
@@ -155,7 +156,8 @@ class SegmentSweep {
     for (std::size_t i = 0; i < batch.size(); ++i) {
       auto& point = segment.points[batch[i]];
       point = reduced_ ? std::move(solved[i])
-                       : direct::solveDirect(problems[i].pencil, problems[i].at, problem_.trial());
+                       : direct::solveDirect(problems[i].pencil, problems[i].at, problem_.trial(),
+                                             *directly_);
       requireFiniteEigenvalues(point);
       stage.say(pointText(point));
     }
@@ -179,7 +181,8 @@ class SegmentSweep {
   std::vector<sweep::Parameters> points_;
   modes::Modes forLeftVectors_;  // with the direct method, which has no modes of its own
   std::unique_ptr<reduction::ReducedProblem> reduced_;
-  bool affine_ = true;  // no point has terms of its own
+  std::optional<direct::Options> directly_;  // without a reduced problem
+  bool affine_ = true;                       // no point has terms of its own
 };
 
 }  // namespace

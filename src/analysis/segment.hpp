@@ -32,29 +32,28 @@ class SegmentProblem {
  public:
   virtual ~SegmentProblem() = default;
   virtual const modes::AssociatedSystem& system() const = 0;
-  /// From the unknowns, n, to what is reported, N×n.
+  /// Returns the matrix from the unknowns, n, to what is reported, N×n.
   virtual Mat trial() const = 0;
-  /// The number of free modes wanted.
-  virtual int modeCount() const = 0;
-  /// The points, damping 1.
+  /// Returns the points, with damping 1.
   virtual const std::vector<sweep::Parameters>& steadyPoints() const = 0;
-  /// Collective. The terms that hold at all points.
+  /// Collective. Returns the terms that hold at all points.
   virtual pencil::Pencil pencil() const = 0;
-  /// Collective. The terms that belong to steadyPoints()[i] alone.
+  /// Collective. Returns the terms that belong to steadyPoints()[i] alone.
   virtual std::vector<pencil::Term> termsOf(std::size_t /*i*/) const { return {}; }
-  /// Collective. The same for a point between those of the sweep, where termsOf() gives any; none:
-  /// the point has another active set, or no steady state.
+  /// Collective. Returns the same for a point between those of the sweep, where termsOf() gives
+  /// any; nothing if the point has another active set, or no steady state.
   virtual std::optional<std::vector<pencil::Term>> termsAt(const sweep::Parameters& /*at*/) {
     return std::vector<pencil::Term>();
   }
-  /// Collective. Adds to `point`, which belongs to steadyPoints()[i], what is to be found besides
-  /// its eigenvalues; the pencil is that of the point, left vectors are looked for from `start`.
+  /// Collective. Adds to `point`, which belongs to steadyPoints()[i], its friction work and
+  /// sensitivities as far as they are wanted. The pencil is that of the point; left vectors are
+  /// looked for from `start`.
   virtual void examine(std::size_t i, const pencil::Pencil& pencil,
                        const sensitivity::StartSpace& start, pencil::ComplexModes& point) = 0;
 };
 
-/// Collective. The modes, and flutter at all steady points with all `dampings`. Errors: of the
-/// stages modes and flutter.
+/// Collective. Returns the modes, and flutter at all steady points with all `dampings`. Throws the
+/// errors of the stages modes and flutter.
 ModalSegment solveSegment(SegmentProblem& problem, const std::vector<double>& dampings);
 
 }  // namespace squeal::analysis

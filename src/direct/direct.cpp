@@ -30,70 +30,71 @@ const FlagOption confirmOption(
     "repeat the direct solve from another start until nothing new is found: one alone may miss "
     "multiple eigenvalues");
 
-struct Band {
-  double low = 0, high = 0;  // rad/s
-  bool wanted() const { return high > 0; }
-  bool holds(Complex s) const { return s.imag() >= low && s.imag() <= high && std::abs(s) <= high; }
-};
-
-Band readBand() {
-  const auto list = bandOption.get();
-  const bool off = list == std::vector<double>{0, 0};
-  if (list.size() != 2 || (!off && list[0] >= list[1]))
-    throw Error("option -" + bandOption.fullName() + ": two frequencies, the lower one first");
-  return {2 * M_PI * list[0], 2 * M_PI * list[1]};
-}
-
 /// Solves for more and more eigenvalues until the band is covered or the limit is reached.
-NearestPairs solveBand(NearestSolver& solver, const Band& band) {
-  const PetscInt limit = limitOption.get();
-  for (PetscInt count = std::min<PetscInt>(countOption.get(), limit);;
-       count = std::min(2 * count, limit)) {
+NearestPairs solveBand(NearestSolver& solver, const Options& options) {
+  const auto& [start, limit, low, high, confirmed, criteria] = options;
+  for (PetscInt count = std::min(start, limit);; count = std::min(2 * count, limit)) {
     NearestPairs found = solver.solve(count);
-    if (found.reached <= band.high && count < limit) continue;
-    if (confirmOption.get()) addMissed(solver, count, found);
-    if (found.reached <= band.high && count < limit) continue;
-    std::erase_if(found.pairs, [&](const auto& pair) { return !band.holds(pair.s); });
+    if (found.reached <= high && count < limit) continue;
+    if (confirmed) addMissed(solver, count, found);
+    if (found.reached <= high && count < limit) continue;
+    std::erase_if(found.pairs, [low = low, high = high](const auto& pair) {
+      return pair.s.imag() < low || pair.s.imag() > high || std::abs(pair.s) > high;
+    });
     return found;
   }
 }
 
-/// Returns the `-flutter_direct_count` nearest eigenvalues, and those as near as the last of them.
-NearestPairs solveCount(NearestSolver& solver) {
-  const std::size_t count = countOption.get();
-  NearestPairs found = solver.solve(countOption.get());
-  if (confirmOption.get()) addMissed(solver, countOption.get(), found);
-  if (found.pairs.size() <= count) return found;
+/// Returns the nearest eigenvalues, as many as are wanted, and those as near as the last of them.
+NearestPairs solveCount(NearestSolver& solver, const Options& options) {
+  NearestPairs found = solver.solve(options.count);
+  if (options.confirmed) addMissed(solver, options.count, found);
+  if (std::ssize(found.pairs) <= options.count) return found;
   std::vector<double> sizes;
   for (const auto& pair : found.pairs) sizes.push_back(std::abs(pair.s));
   std::sort(sizes.begin(), sizes.end());
-  std::erase_if(found.pairs,
-                [&](const auto& pair) { return std::abs(pair.s) > (1 + 1e-9) * sizes[count - 1]; });
+  const double last = (1 + 1e-9) * sizes[options.count - 1];
+  std::erase_if(found.pairs, [last](const auto& pair) { return std::abs(pair.s) > last; });
   return found;
 }
 
 }  // namespace
 
+Options Options::given() {
+  const auto band = bandOption.get();
+  const bool off = band == std::vector<double>{0, 0};
+  if (band.size() != 2 || (!off && band[0] >= band[1]))
+    throw Error("option -" + bandOption.fullName() + ": two frequencies, the lower one first");
+  Options options{};
+  options.count = countOption.get();
+  options.limit = limitOption.get();
+  options.low = 2 * M_PI * band[0];
+  options.high = 2 * M_PI * band[1];
+  options.confirmed = confirmOption.get();
+  options.criteria = pencil::Criteria::given();
+  return options;
+}
+
 bool directWanted() { return methodOption.get() == "direct"; }
 
 pencil::ComplexModes solveDirect(const pencil::Pencil& pencil, const sweep::Parameters& at,
-                                 Mat trial) {
-  const Band band = readBand();
+                                 Mat trial, const Options& options) {
+  const bool banded = options.high > 0;
   const auto solver = nearestSolver(pencil, at);
-  auto [pairs, reached] = band.wanted() ? solveBand(*solver, band) : solveCount(*solver);
+  auto [pairs, reached] = banded ? solveBand(*solver, options) : solveCount(*solver, options);
   std::sort(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) {
     return a.s.imag() != b.s.imag() ? a.s.imag() < b.s.imag() : a.s.real() < b.s.real();
   });
   pencil::ComplexModes point;
   point.at = at;
-  if (band.wanted()) point.askedTo = band.high, point.coveredTo = std::min(reached, band.high);
-  point.accuracy = pencil::accuracyAsked();
+  if (banded) point.askedTo = options.high, point.coveredTo = std::min(reached, options.high);
+  point.accuracy = options.criteria.accuracy;
   for (const auto& pair : pairs) {
     const double error = pencil::backwardError(pencil, at, pair.s, pair);
     point.eigenvalues.push_back({pair.s, error, NAN, error <= point.accuracy});
   }
-  markUnstable(point.eigenvalues);
-  const auto wanted = pencil::shapesWanted(point);
+  markUnstable(point.eigenvalues, options.criteria);
+  const auto wanted = pencil::shapesWanted(point, options.criteria);
   std::vector<linalg::ComplexVector> modes;
   for (std::size_t index : wanted)
     modes.push_back(linalg::ComplexVector::copied(pairs[index].real, pairs[index].imaginary));

@@ -13,11 +13,21 @@ bool directWanted();
 /// which alone uses them, is not asked for.
 void rejectIdleSolverOptions();
 
+/// Options of the direct method.
+struct Options {
+  PetscInt count;            ///< `-flutter_direct_count`: eigenvalues nearest to zero wanted
+  PetscInt limit;            ///< `-flutter_direct_limit`: most eigenvalues found to cover the band
+  double low = 0, high = 0;  ///< `-flutter_direct_band` in rad/s; high = 0: no band
+  bool confirmed;            ///< `-flutter_direct_confirm`
+  pencil::Criteria criteria;
+  /// Reads the options. Throws Error if the band is not two ascending frequencies.
+  static Options given();
+};
+
 /// Collective. Solves the problem on all unknowns by SLEPc with shift-and-invert at zero. Returns
-/// the `-flutter_direct_count` eigenvalues nearest to zero, or all in `-flutter_direct_band` (low ≤
-/// Im s ≤ high, |s| ≤ high) that `-flutter_direct_limit` of them reach. `trial` is T. Throws Error
-/// if the band is not two ascending frequencies, or if the solver does not converge.
+/// the `count` eigenvalues nearest to zero, or all in the band (low ≤ Im s ≤ high, |s| ≤ high) that
+/// `limit` of them reach. `trial` is T. Throws Error if the solver does not converge.
 pencil::ComplexModes solveDirect(const pencil::Pencil& pencil, const sweep::Parameters& at,
-                                 Mat trial);
+                                 Mat trial, const Options& options = Options::given());
 
 }  // namespace squeal::direct

@@ -73,9 +73,11 @@ matrixfile::Entries entriesOf(Mat matrix) {
   return entries;
 }
 
+/// Collective. Writes a matrix: in Matrix Market format if the name ends with .mtx, and otherwise
+/// in that of PETSc.
 void writeMatrix(Mat matrix, const fs::path& path) {
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(matrix));
-  if (formatOption.get() == "matrix_market") {
+  if (path.extension() == ".mtx") {
     const OwnedMat whole = linalg::onRankZero(matrix);
     onFirstRank(comm, blame(), [&] { matrixfile::writeMatrixMarket(path, entriesOf(whole)); });
     return;
@@ -175,13 +177,13 @@ void exportPencil(const pencil::Pencil& pencil, const sweep::Sweep& sweep,
   output::Folder folder(pencil.comm(), {"-report_matrices", "options.txt", isExport, formerExport},
                         folderOption.get());
   folder.stage();
+  const std::string extension = formatOption.get() == "petsc" ? ".petsc" : ".mtx";
   std::set<std::string> taken;
   std::string text =
       std::string(heading) + "; the rows are in the order of the run that wrote them\n";
   for (const auto& term : pencil.terms()) {
     const std::string name = nameOf(term, taken);
-    const auto path =
-        folder.staging() / (name + (formatOption.get() == "petsc" ? ".petsc" : ".mtx"));
+    const auto path = folder.staging() / (name + extension);
     writeMatrix(term.matrix, path);
     text += optionsOf(name, term, path.filename());
   }

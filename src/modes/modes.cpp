@@ -45,7 +45,8 @@ PetscErrorCode report(EPS, PetscInt iteration, PetscInt converged, PetscScalar*,
   return 0;
 }
 
-OwnedEPS solver(const AssociatedSystem& system, int count, Stage& stage) {
+OwnedEPS solver(const AssociatedSystem& system, const Options& options, Stage& stage) {
+  const int count = options.count;
   const Mat k = system.k0();
   OwnedEPS eps;
   check(EPSCreate(PetscObjectComm(reinterpret_cast<PetscObject>(k)), eps.out()));
@@ -59,7 +60,7 @@ OwnedEPS solver(const AssociatedSystem& system, int count, Stage& stage) {
   const PetscInt vectors = std::min<PetscInt>(
       rowsOf(k), count + std::clamp(count / 2, 50, 100));  // SLEPc wants <= count + portion
   check(EPSSetDimensions(eps, count, vectors, std::min<PetscInt>(vectors, 100)));
-  check(EPSSetTolerances(eps, toleranceOption.get(), PETSC_DEFAULT));
+  check(EPSSetTolerances(eps, options.tolerance, PETSC_DEFAULT));
   check(EPSSetPurify(eps, PETSC_FALSE));
   check(EPSMonitorSet(eps, report, &stage, nullptr));
   ST st = nullptr;
@@ -112,10 +113,12 @@ void requireConverged(int converged, int count, const char* options) {
         converged, count, options));
 }
 
-/// Eigenvalues ascending and vectors, M-orthonormal, by SLEPc.
-void solveByEps(const AssociatedSystem& system, int count, Stage& stage, Modes& modes) {
+/// Finds eigenvalues, ascending, and vectors, M-orthonormal, by SLEPc.
+void solveByEps(const AssociatedSystem& system, const Options& options, Stage& stage,
+                Modes& modes) {
+  const int count = options.count;
   const Mat k = system.k0();
-  const OwnedEPS eps = solver(system, count, stage);
+  const OwnedEPS eps = solver(system, options, stage);
   check(EPSSolve(eps));
   PetscInt converged = 0, iterations = 0;
   check(EPSGetConverged(eps, &converged));
@@ -141,11 +144,12 @@ void solveByEps(const AssociatedSystem& system, int count, Stage& stage, Modes& 
   modes.iterations = iterations;
 }
 
-/// False if fewer have converged; `modes` is then as it was.
-bool solveByLanczos(const AssociatedSystem& system, int count, int blockSize, Stage& stage,
-                    Modes& modes) {
+/// Returns false if fewer modes than wanted have converged; `modes` is then as it was.
+bool solveByLanczos(const AssociatedSystem& system, const Options& options, int blockSize,
+                    Stage& stage, Modes& modes) {
+  const int count = options.count;
   auto result = blockLanczos(system.k0(), system.m0(), system.solver(), count, blockSize,
-                             toleranceOption.get(), 20, [&](int restarts, int converged) {
+                             options.tolerance, 20, [&](int restarts, int converged) {
                                stage.progress(formatted("%d restarts: %d of %d modes converged",
                                                         restarts, converged, count));
                              });
@@ -156,8 +160,10 @@ bool solveByLanczos(const AssociatedSystem& system, int count, int blockSize, St
   return true;
 }
 
-/// By LAPACK on rank 0, so that the ranks agree: M d = (1/λ) K d, whose largest eigenvalues, those
-/// of the lowest modes, it gets best.
+/// Solves
+///   M d = (1/λ) K d
+/// by LAPACK on rank 0, so that the ranks agree. It gets the largest eigenvalues best, those of the
+/// lowest modes.
 void solveDense(const AssociatedSystem& system, int count, Modes& modes) {
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(system.k0()));
   const PetscInt n = rowsOf(system.k0());
@@ -224,37 +230,38 @@ bool lanczosFits(int count, int blockSize, PetscInt size) {
   return 2 * lanczosVectors(count, blockSize) <= size;
 }
 
-bool lanczosWanted(int count, PetscInt size) {
-  const std::string solver = solverOption.get();
-  const bool fits = lanczosFits(count, blockOption.get(), size);
-  if (solver == "block_lanczos" && !fits)
+bool lanczosWanted(const Options& options, PetscInt size) {
+  const bool fits = lanczosFits(options.count, options.blockSize, size);
+  if (options.solver == Options::Solver::blockLanczos && !fits)
     throw Error(formatted("option -modes_solver block_lanczos: %d modes of %" PetscInt_FMT
                           " unknowns are too many for it; use eps",
-                          count, size));
-  return solver == "block_lanczos" || (solver == "auto" && fits && !solverPrefix.given());
+                          options.count, size));
+  return options.solver != Options::Solver::eps && fits;
 }
 
 /// Krylov methods have no room where most of the modes are wanted.
-bool denseWanted(int count, PetscInt size) {
-  return solverOption.get() == "auto" && !solverPrefix.given() && size <= 400 && 2 * count > size;
+bool denseWanted(const Options& options, PetscInt size) {
+  return options.solver == Options::Solver::automatic && size <= 400 && 2 * options.count > size;
 }
 
-/// Residuals and, if wanted, the count by inertia. False if modes are missing.
-bool examine(const AssociatedSystem& system, Modes& modes) {
+/// Measures the residuals and, if that is wanted, counts the modes by the inertia. Returns false if
+/// modes are missing.
+bool examine(const AssociatedSystem& system, const Options& options, Modes& modes) {
   measureResiduals(system, modes);
-  if (!sturmOption.get()) return true;
+  if (!options.sturm) return true;
   confirmCount(system.k0(), system.m0(), modes);
   return modes.countConfirmed;
 }
 
 /// A block of b vectors meets b copies of a multiple eigenvalue: where some are missing, a block
-/// twice as large is taken. False: no modes, or modes of which some are missing still.
-bool computeByLanczos(const AssociatedSystem& system, int count, Stage& stage, Modes& modes) {
+/// twice as large is taken. Returns false if there are no modes, or if some are missing still.
+bool computeByLanczos(const AssociatedSystem& system, const Options& options, Stage& stage,
+                      Modes& modes) {
   const PetscInt size = rowsOf(system.k0());
-  for (int block = blockOption.get(); lanczosFits(count, block, size); block *= 2) {
+  for (int block = options.blockSize; lanczosFits(options.count, block, size); block *= 2) {
     Modes found;
-    if (!solveByLanczos(system, count, block, stage, found)) return false;
-    const bool complete = examine(system, found);
+    if (!solveByLanczos(system, options, block, stage, found)) return false;
+    const bool complete = examine(system, options, found);
     modes = std::move(found);
     if (complete) return true;
     stage.progress(formatted("the inertia counts more modes than blocks of %d have found", block));
@@ -262,30 +269,30 @@ bool computeByLanczos(const AssociatedSystem& system, int count, Stage& stage, M
   return false;
 }
 
-Modes computeBy(const AssociatedSystem& system, int count, Stage& stage) {
+Modes computeBy(const AssociatedSystem& system, const Options& options, Stage& stage) {
   constexpr PetscInt denseAtMost = 2000;
   const PetscInt size = rowsOf(system.k0());
-  const bool chosen = solverOption.get() != "auto" || solverPrefix.given();
+  const bool chosen = options.solver != Options::Solver::automatic;
   Modes modes;
-  if (denseWanted(count, size)) {
-    solveDense(system, count, modes);
-    examine(system, modes);
+  if (denseWanted(options, size)) {
+    solveDense(system, options.count, modes);
+    examine(system, options, modes);
     return modes;
   }
-  if (lanczosWanted(count, size)) {
-    if (computeByLanczos(system, count, stage, modes)) return modes;
+  if (lanczosWanted(options, size)) {
+    if (computeByLanczos(system, options, stage, modes)) return modes;
     if (chosen) {
-      requireConverged(modes.lambda.size(), count,
+      requireConverged(modes.lambda.size(), options.count,
                        "-modes_solver eps or another -modes_block_size");
       return modes;
     }
   }
   modes = {};
-  solveByEps(system, count, stage, modes);
-  if (examine(system, modes) || chosen || size > denseAtMost) return modes;
+  solveByEps(system, options, stage, modes);
+  if (examine(system, options, modes) || chosen || size > denseAtMost) return modes;
   modes = {};
-  solveDense(system, count, modes);
-  examine(system, modes);
+  solveDense(system, options.count, modes);
+  examine(system, options, modes);
   return modes;
 }
 
@@ -293,27 +300,46 @@ Modes computeBy(const AssociatedSystem& system, int count, Stage& stage) {
 
 int wantedCount() { return countOption.get(); }
 
+Options Options::given() {
+  const std::string name = solverOption.get();
+  const int block = blockOption.get();
+  const Solver solver = name == "block_lanczos"                 ? Solver::blockLanczos
+                        : name == "eps" || solverPrefix.given() ? Solver::eps
+                                                                : Solver::automatic;
+  return {wantedCount(), countOption.given(),   solver,
+          block,         toleranceOption.get(), sturmOption.get()};
+}
+
 Modes compute(const AssociatedSystem& system, int count) {
+  Options options = Options::given();
+  options.count = count;
+  options.countGiven = true;
+  return compute(system, options);
+}
+
+Modes compute(const AssociatedSystem& system, const Options& given) {
+  Options options = given;
   const PetscInt size = rowsOf(system.k0());
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(system.k0()));
-  if (count > size) {
-    if (countOption.given())
-      throw Error(formatted(
-          "option -modes_count %d: the problem has only %" PetscInt_FMT " unknowns", count, size));
-    count = size;  // the default
+  if (options.count > size) {
+    if (options.countGiven)
+      throw Error(formatted("option -modes_count %d: the problem has only %" PetscInt_FMT
+                            " unknowns",
+                            options.count, size));
+    options.count = size;  // the default
   }
   Stage stage(comm, "modes");
-  Modes modes = computeBy(system, count, stage);
+  Modes modes = computeBy(system, options, stage);
   if (modes.rounding > 1e-6)
     complain(comm, formatted("free vibration: rounding of the entries of the stiffness may change "
                              "the lowest eigenvalues by %.0e of their "
                              "size; is a body nearly loose, or a spring very stiff?",
                              modes.rounding));
   stage.finish(
-      formatted("%d modes to %.4g Hz, worst relative residual %.1e%s", count,
+      formatted("%d modes to %.4g Hz, worst relative residual %.1e%s", options.count,
                 modes.angularFrequency.back() / (2 * M_PI),
                 *std::max_element(modes.relativeResidual.begin(), modes.relativeResidual.end()),
-                !sturmOption.get()     ? ""
+                !options.sturm         ? ""
                 : modes.countConfirmed ? ", count confirmed by inertia"
                                        : ", COUNT NOT CONFIRMED BY INERTIA"));
   return modes;

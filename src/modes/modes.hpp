@@ -22,13 +22,28 @@ struct Modes {
   double rounding = 0;
 };
 
-/// `-modes_count`.
+/// Options of the free modes.
+struct Options {
+  enum class Solver { automatic, blockLanczos, eps };
+  int count;         ///< `-modes_count`
+  bool countGiven;   ///< a count that is not the default must not exceed the number of unknowns
+  Solver solver;     ///< `-modes_solver`; eps where a -modes_eps_* option is given
+  int blockSize;     ///< `-modes_block_size`
+  double tolerance;  ///< `-modes_tolerance`
+  bool sturm;        ///< `-modes_sturm`
+  /// Reads the options.
+  static Options given();
+};
+
+/// Returns the option `-modes_count`.
 int wantedCount();
 
-/// Collective. The lowest `count` modes by block Lanczos or SLEPc EPS (-modes_solver, -modes_eps_*,
-/// -modes_st_*), or by LAPACK where most of the modes of a small problem are wanted. Error: more
-/// modes wanted than there are unknowns; not converged; an eigenvalue that is not positive, or that
-/// rounding could have made.
-Modes compute(const AssociatedSystem& system, int count = wantedCount());
+/// Collective. Returns the lowest modes by block Lanczos or SLEPc EPS (-modes_eps_*, -modes_st_*),
+/// or by LAPACK where most of the modes of a small problem are wanted. Throws Error if more modes
+/// are wanted than there are unknowns, if the solver does not converge, or if an eigenvalue is not
+/// positive or could have been made by rounding.
+Modes compute(const AssociatedSystem& system, const Options& options = Options::given());
+/// Does the same for `count` modes, with the other options as they are given.
+Modes compute(const AssociatedSystem& system, int count);
 
 }  // namespace squeal::modes

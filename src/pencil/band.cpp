@@ -20,8 +20,6 @@ const RealOption bandDampingOption(
 
 double bandAsked() { return 2 * M_PI * bandOption.get(); }
 
-double bandDamping() { return bandDampingOption.get(); }
-
 double bandBelow(const std::vector<double>& w) {
   constexpr double apart = 1 + 1e-4;
   // The edge lies between two modes of different frequency, so that rounding does not decide
@@ -35,10 +33,17 @@ double bandBelow(const std::vector<double>& w) {
   };
   std::size_t last = w.size() - 1;
   while (last > 0 && !edge(last)) --last;
-  if (bandAsked() > 0) return std::min(bandAsked(), middle(last));
+  if (const double asked = bandAsked(); asked > 0) return std::min(asked, middle(last));
   std::size_t k = std::min(w.size() * 11 / 20 + 1, last);
   while (k < last && !edge(k)) ++k;
   return middle(k);
+}
+
+WatchedBand bandFor(const std::vector<double>& frequencies) {
+  WatchedBand band;
+  band.top = bandBelow(frequencies);
+  band.damping = bandDampingOption.get();
+  return band;
 }
 
 }  // namespace squeal::pencil

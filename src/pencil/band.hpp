@@ -14,8 +14,6 @@ double bandAsked();
 /// eigenvalues that have been found, so that an eigenvalue above all modes could be missed without
 /// notice.
 double bandBelow(const std::vector<double>& frequencies);
-/// Returns the option `-flutter_band_damping`, the largest damping ratio in the band.
-double bandDamping();
 
 /// The band, and the guard zone around it [M.43] whose eigenvalues are followed too.
 struct WatchedBand {
@@ -34,5 +32,9 @@ struct WatchedBand {
   /// Returns true if the damping ratio of s is at most `damping`.
   bool lasts(Complex s) const { return -s.real() <= damping * std::abs(s); }
 };
+
+/// Returns the band for the frequencies of the free modes: its top is bandBelow(), its damping the
+/// option `-flutter_band_damping`.
+WatchedBand bandFor(const std::vector<double>& frequencies);
 
 }  // namespace squeal::pencil

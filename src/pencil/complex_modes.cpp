@@ -35,7 +35,10 @@ bool Sensitivity::regular() const {
   return leftBackwardError < worstLeftError && condition < worstCondition && separation > closest;
 }
 
-double accuracyAsked() { return accuracyOption.get(); }
+Criteria Criteria::given() {
+  const int shapes = shapesOption.get();
+  return {accuracyOption.get(), toleranceOption.get(), shapes, 2 * M_PI * shapesBelowOption.get()};
+}
 
 int ComplexModes::modesWithoutEigenvalue() const {
   const int found = eigenvalues.size();
@@ -71,21 +74,20 @@ const Eigenvalue* ComplexModes::fastestGrowing() const {
   return fastest;
 }
 
-void markUnstable(std::vector<Eigenvalue>& eigenvalues) {
-  const double tolerance = toleranceOption.get();
+void markUnstable(std::vector<Eigenvalue>& eigenvalues, const Criteria& criteria) {
   for (auto& eigenvalue : eigenvalues)
-    eigenvalue.unstable = eigenvalue.s.real() > tolerance * std::abs(eigenvalue.s);
+    eigenvalue.unstable = eigenvalue.s.real() > criteria.unstable * std::abs(eigenvalue.s);
 }
 
-std::vector<std::size_t> shapesWanted(const ComplexModes& point) {
+std::vector<std::size_t> shapesWanted(const ComplexModes& point, const Criteria& criteria) {
   std::vector<std::size_t> order;
-  const double below = 2 * M_PI * shapesBelowOption.get();
   for (std::size_t i = 0; i < point.eigenvalues.size(); ++i)
-    if (point.eigenvalues[i].unstable && point.eigenvalues[i].s.imag() < below) order.push_back(i);
+    if (point.eigenvalues[i].unstable && point.eigenvalues[i].s.imag() < criteria.shapesBelow)
+      order.push_back(i);
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return point.eigenvalues[a].s.real() > point.eigenvalues[b].s.real();
   });
-  order.resize(std::min<std::size_t>(order.size(), shapesOption.get()));
+  order.resize(std::min<std::size_t>(order.size(), criteria.shapes));
   return order;
 }
 

@@ -78,16 +78,22 @@ struct ComplexModes {
   const Eigenvalue* fastestGrowing() const;
 };
 
-/// Returns the option `-flutter_accuracy`, the backward error up to which an eigenvalue is
-/// certified.
-double accuracyAsked();
+/// The options that decide what is said of an eigenvalue, and which complex modes are kept.
+struct Criteria {
+  double accuracy;     ///< `-flutter_accuracy`: backward error up to which one is certified
+  double unstable;     ///< `-flutter_unstable_tolerance`: growth rate, of |s|, of an unstable one
+  int shapes;          ///< `-flutter_shapes`: number of complex modes kept
+  double shapesBelow;  ///< `-flutter_shapes_below`: angular frequency up to which, rad/s
+  /// Reads the options.
+  static Criteria given();
+};
 
 /// Sets `unstable` of each eigenvalue by [M.24].
-void markUnstable(std::vector<Eigenvalue>& eigenvalues);
+void markUnstable(std::vector<Eigenvalue>& eigenvalues, const Criteria& criteria);
 
-/// Returns the indices of the fastest growing unstable eigenvalues below the frequency
-/// `-flutter_shapes_below`, the fastest first, `-flutter_shapes` at most.
-std::vector<std::size_t> shapesWanted(const ComplexModes& point);
+/// Returns the indices of the fastest growing unstable eigenvalues whose shapes are kept, the
+/// fastest first.
+std::vector<std::size_t> shapesWanted(const ComplexModes& point, const Criteria& criteria);
 /// Collective. Appends the shapes of the eigenvalues with these indices to the point. `modes`,
 /// which are taken, are their vectors in the unknowns x, of any length; `trial` is T.
 void keepShapes(ComplexModes& point, Mat trial, const std::vector<std::size_t>& indices,

@@ -27,8 +27,6 @@ const IntegerOption growthOption(
     "flutter", "flutter_growth", 1000, 0, 1'000'000,
     "most vectors that corrections may add to the basis at one batch of points");
 
-bool correctionsWanted() { return basisOption.get() != "modal"; }
-
 /// Backward errors below have nothing to correct.
 constexpr double rounding = 1e-14;
 
@@ -59,6 +57,13 @@ std::vector<double> perPair(const Coordinates& coordinates, const std::vector<do
 
 }  // namespace
 
+Options Options::given() {
+  const std::string basis = basisOption.get();
+  const int rounds = roundsOption.get(), growth = growthOption.get();
+  return {basis != "modal", basis == "pod", toleranceOption.get(),
+          rounds,           growth,         pencil::Criteria::given()};
+}
+
 /// The state of one point while the basis is corrected.
 struct ReducedProblem::PointState {
   const PointProblem* point;
@@ -74,19 +79,20 @@ struct ReducedProblem::PointState {
 };
 
 ReducedProblem::ReducedProblem(const pencil::Pencil& pencil, const modes::AssociatedSystem& system,
-                               const modes::Modes& modes)
-    : modes_(modes.angularFrequency),
+                               const modes::Modes& modes, const Options& options)
+    : options_(options),
+      band_(pencil::bandFor(modes.angularFrequency)),
+      modes_(modes.angularFrequency),
       basis_(modes, system),
       terms_(basis_, pencil, 0, pencil.terms().size()) {
   check(BVGetSizes(modes.vectors, nullptr, &unknowns_, nullptr));
   lowestMode_ = modes.angularFrequency.front();
   highestMode_ = modes.angularFrequency.back();
   if (basis_.size() == unknowns_) {  // the whole space: there is nothing to correct
-    bandTop_ = INFINITY;
-    return;
+    band_.top = INFINITY;
+  } else if (!options_.corrected) {
+    band_.top = 0;
   }
-  if (!correctionsWanted()) return;
-  bandTop_ = pencil::bandBelow(modes.angularFrequency);
 }
 
 /// Collective. Extends the projections of all terms to the vectors that the basis has gained.
@@ -119,9 +125,9 @@ double ReducedProblem::errorOf(const PointState& state, std::size_t pair) const 
 
 /// By how much the errors of a pair are too large; nothing can be done about those of rounding.
 double ReducedProblem::errorRatio(const PointState& state, std::size_t pair) const {
-  if (bandTop_ == 0 || state.backwardError[pair] < rounding) return 0;
-  return std::max(state.backwardError[pair] / pencil::accuracyAsked(),
-                  errorOf(state, pair) / toleranceOption.get());
+  if (band_.top == 0 || state.backwardError[pair] < rounding) return 0;
+  return std::max(state.backwardError[pair] / options_.criteria.accuracy,
+                  errorOf(state, pair) / options_.tolerance);
 }
 
 bool ReducedProblem::isAccurate(const PointState& state) const {
@@ -229,7 +235,7 @@ void ReducedProblem::solveDense(const std::vector<PointState*>& open) {
   std::vector<linalg::DenseProblem> problems;
   for (const auto* state : open) problems.push_back(project(*state));
   auto solved = linalg::solveSpread(basis_.comm(), problems, linalg::Vectors::both,
-                                    [&](auto s) { return bandTop_ == 0 || inBand(s); });
+                                    [&](auto s) { return band_.top == 0 || band_.contains(s); });
   for (std::size_t i = 0; i < open.size(); ++i) {
     open[i]->pairs = std::move(solved[i]);
     estimateErrors(*open[i], problems[i]);
@@ -256,7 +262,7 @@ std::vector<ReducedProblem::PointState*> ReducedProblem::unconfirmed(
   PointState* worst = nullptr;
   std::size_t pair = 0;
   double largest =
-      std::max(confirmed_, 1e-3 * toleranceOption.get());  // below: next to nothing, or rounding
+      std::max(confirmed_, 1e-3 * options_.tolerance);  // below: next to nothing, or rounding
   for (auto& state : states)
     for (std::size_t j = 0; j < state.pairs.size(); ++j)
       if (const double error = errorOf(state, j); std::isfinite(error) && error > largest)
@@ -320,12 +326,12 @@ std::vector<pencil::ComplexModes> ReducedProblem::solve(const std::vector<PointP
                                                         Mat trial) {
   std::vector<PointState> states;
   std::vector<PointState*> open;
-  if (!responded_ && correctionsWanted() && basis_.size() < unknowns_)
+  if (!responded_ && options_.corrected && basis_.size() < unknowns_)
     addStaticResponses(batch.front());
   responded_ = true;
   for (const auto& point : batch) states.push_back(newState(point, normsOf(point)));
   for (auto& state : states) open.push_back(&state);
-  const PetscInt largest = std::min<PetscInt>(basis_.size() + growthOption.get(), unknowns_);
+  const PetscInt largest = std::min<PetscInt>(basis_.size() + options_.growth, unknowns_);
   for (int round = 0; !open.empty(); ++round) {
     extend(open);
     solveDense(open);
@@ -334,7 +340,7 @@ std::vector<pencil::ComplexModes> ReducedProblem::solve(const std::vector<PointP
       open = unconfirmed(states);
       continue;
     }
-    if (round >= roundsOption.get() || basis_.size() >= largest) break;
+    if (round >= options_.rounds || basis_.size() >= largest) break;
     std::vector<CorrectionRequest> requests;
     for (const auto* state : open) requests.push_back(requestOf(*state));
     if (basis_.add(directions(requests)) == 0) break;  // residuals are rounding
@@ -344,25 +350,25 @@ std::vector<pencil::ComplexModes> ReducedProblem::solve(const std::vector<PointP
   for (const auto& state : states) points.push_back(result(state));
   keepShapes(points, states, trial);
   for (auto& state : states) solved_.push_back(std::move(state.pairs));
-  if (basisOption.get() == "pod") compress();
+  if (options_.compressed) compress();
   return points;
 }
 
 pencil::ComplexModes ReducedProblem::result(const PointState& state) const {
   pencil::ComplexModes point;
   point.at = state.point->at;
-  point.bandTop = bandTop_;
-  point.freeModesInBand = std::ranges::count_if(modes_, [&](double w) { return w <= bandTop_; });
+  point.bandTop = band_.top;
+  point.freeModesInBand = std::ranges::count_if(modes_, [&](double w) { return w <= band_.top; });
   point.damped = state.damped;
-  point.accuracy = pencil::accuracyAsked();
-  point.tolerance = toleranceOption.get();
+  point.accuracy = options_.criteria.accuracy;
+  point.tolerance = options_.tolerance;
   for (std::size_t j = 0; j < state.pairs.size(); ++j) {
     const double estimate = errorOf(state, j) + state.rounding[j];
     point.eigenvalues.push_back(
         {state.pairs[j].s, state.backwardError[j], estimate,
          state.backwardError[j] <= point.accuracy && estimate <= point.tolerance});
   }
-  pencil::markUnstable(point.eigenvalues);
+  pencil::markUnstable(point.eigenvalues, options_.criteria);
   return point;
 }
 
@@ -372,7 +378,7 @@ void ReducedProblem::keepShapes(std::vector<pencil::ComplexModes>& points,
   std::vector<std::vector<std::size_t>> wanted;
   std::vector<const std::vector<Complex>*> list;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    wanted.push_back(pencil::shapesWanted(points[i]));
+    wanted.push_back(pencil::shapesWanted(points[i], options_.criteria));
     for (std::size_t index : wanted.back()) list.push_back(&states[i].pairs[index].q);
   }
   if (list.empty()) return;
@@ -419,12 +425,6 @@ Improvement ReducedProblem::improve(
   result.changed = basis_.add(directions(requests)) > 0;
   terms_.extend();
   return result;
-}
-
-pencil::WatchedBand ReducedProblem::band() const { return {bandTop_, 1.3, pencil::bandDamping()}; }
-
-bool ReducedProblem::inBand(Complex s) const {
-  return std::abs(s) <= bandTop_ && -s.real() <= pencil::bandDamping() * std::abs(s);
 }
 
 }  // namespace squeal::reduction

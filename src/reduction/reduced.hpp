@@ -32,6 +32,17 @@ struct Improvement {
   std::vector<double> backwardError;
 };
 
+/// Options of the reduced problem.
+struct Options {
+  bool corrected, compressed;  ///< `-reduction_basis`: not modal; pod
+  double tolerance;            ///< `-flutter_tolerance`: estimate of |δs|/|s| asked for
+  int rounds;                  ///< `-flutter_rounds`: of corrections at a batch of points
+  int growth;                  ///< `-flutter_growth`: vectors added at a batch of points
+  pencil::Criteria criteria;
+  /// Reads the options.
+  static Options given();
+};
+
 /// Rayleigh–Ritz on the free modes and, unless `-reduction_basis modal`, on static responses to
 /// friction forces and to its own residuals. The modes alone miss unstable eigenvalues and invent
 /// others; K0⁻¹ r for the residuals r of all bad pairs, solved for together with the real symmetric
@@ -43,7 +54,7 @@ class ReducedProblem {
   /// Collective. Borrows the system; shares the terms of `pencil`, which hold at all points.
   /// `modes` are M0-orthonormal with ascending frequencies.
   ReducedProblem(const pencil::Pencil& pencil, const modes::AssociatedSystem& system,
-                 const modes::Modes& modes);
+                 const modes::Modes& modes, const Options& options = Options::given());
   /// Collective. All points at once: their dense problems are spread over the ranks, their
   /// corrections solved for together. Shapes are mapped to nodal displacements by `trial` (T).
   std::vector<pencil::ComplexModes> solve(const std::vector<PointProblem>& batch, Mat trial);
@@ -51,7 +62,7 @@ class ReducedProblem {
   linalg::DenseProblem project(const PointProblem& point) const;
   PetscInt basisSize() const { return basis_.size(); }
   const Basis& basis() const { return basis_; }
-  pencil::WatchedBand band() const;  ///< top 0: no eigenvalue is corrected
+  const pencil::WatchedBand& band() const { return band_; }  ///< top 0: none is corrected
   /// Collective. Adds corrections of the residuals of these pairs, of any points, all solved for
   /// together.
   Improvement improve(
@@ -93,15 +104,16 @@ class ReducedProblem {
   void keepShapes(std::vector<pencil::ComplexModes>& points, const std::vector<PointState>& states,
                   Mat trial) const;
   void compress();
-  bool inBand(Complex s) const;
 
+  const Options options_;
   PetscInt unknowns_ = 0;
-  double bandTop_ = 0, lowestMode_ = 0, highestMode_ = 0;  // rad/s
-  double rightRatio_ = 1, leftRatio_ = 1;                  // Basis::energyRatios of the residuals
-  double measuredRatio_ = 0;   // that of right residuals of pairs solved for
-  double confirmed_ = 0;       // the largest estimate that a solve has been made for
-  bool responded_ = false;     // static responses are in the basis
-  std::vector<double> modes_;  // rad/s
+  pencil::WatchedBand band_;
+  double lowestMode_ = 0, highestMode_ = 0;  // rad/s
+  double rightRatio_ = 1, leftRatio_ = 1;    // Basis::energyRatios of the residuals
+  double measuredRatio_ = 0;                 // that of right residuals of pairs solved for
+  double confirmed_ = 0;                     // the largest estimate that a solve has been made for
+  bool responded_ = false;                   // static responses are in the basis
+  std::vector<double> modes_;                // rad/s
   Basis basis_;
   ProjectedTerms terms_;
   std::vector<std::vector<linalg::DensePair>> solved_;

@@ -31,7 +31,7 @@ Forces forcesOf(const pencil::Term& term, const sweep::Parameters& at, bool tran
 /// the forces of friction and of all else that belongs to this point: the change of the right and
 /// left vectors with them, to first order in them and to lowest order in the frequency.
 void ReducedProblem::addStaticResponses(const PointProblem& point) {
-  const PetscInt count = std::ranges::upper_bound(modes_, bandTop_) - modes_.begin();
+  const PetscInt count = std::ranges::upper_bound(modes_, band_.top) - modes_.begin();
   const auto& terms = point.pencil.terms();
   std::vector<Forces> list;
   for (const bool transposed : {false, true})
