@@ -71,11 +71,11 @@ void appendProduct(Mat matrix, const DenseView& x, Block& result) {
     return;
   }
   for (PetscInt j = 0; j < count; ++j) {
-    Vec column = nullptr, image = nullptr;
+    Vec column = nullptr, product = nullptr;
     check(MatDenseGetColumnVecRead(from, j, &column));
-    check(MatDenseGetColumnVecWrite(to, j, &image));
-    check(MatMult(matrix, column, image));
-    check(MatDenseRestoreColumnVecWrite(to, j, &image));
+    check(MatDenseGetColumnVecWrite(to, j, &product));
+    check(MatMult(matrix, column, product));
+    check(MatDenseRestoreColumnVecWrite(to, j, &product));
     check(MatDenseRestoreColumnVecRead(from, j, &column));
   }
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// Tall matrices that are distributed by rows: the basis V and its images A V. A product of two of
-/// them is one BLAS call on the local rows and one reduction.
+/// Tall matrices that are distributed by rows: the basis V and its products A V. A product of two
+/// of them is one BLAS call on the local rows and one reduction.
 #include <vector>
 
 #include "linalg/dense.hpp"

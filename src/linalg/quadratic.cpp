@@ -330,9 +330,9 @@ ComplexMatrix timesVectors(const DenseView& a, const std::vector<DensePair>& pai
       parts(i, j) = pairs[j].q[i].real();
       parts(i, count + j) = pairs[j].q[i].imag();
     }
-  const DenseMatrix images = product(a, parts);
+  const DenseMatrix products = product(a, parts);
   for (PetscInt j = 0; j < count; ++j)
-    for (PetscInt i = 0; i < m; ++i) result(i, j) = {images(i, j), images(i, count + j)};
+    for (PetscInt i = 0; i < m; ++i) result(i, j) = {products(i, j), products(i, count + j)};
   return result;
 }
 

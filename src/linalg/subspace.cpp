@@ -130,12 +130,12 @@ class TwoSidedIteration {
     const double size = std::abs(shift);
     orthonormalise(right_, 1 / size);
     orthonormalise(left_, size);
-    std::vector<Lifted> images;  // B Z
+    std::vector<Lifted> bz;  // the columns of B Z
     for (auto& z : right_) {
-      images.push_back({z.top, times(problem_.mass, z.bottom)});
+      bz.push_back({z.top, times(problem_.mass, z.bottom)});
       //   P(σ) x = −(M v' + (Z + σM) x'),   v = x' + σ x,   (x', v') the column before the step
       const Entries old = z.top;
-      Entries rhs = combined(-1, images.back().bottom, -shift, times(problem_.mass, old));
+      Entries rhs = combined(-1, bz.back().bottom, -shift, times(problem_.mass, old));
       rhs = combined(1, rhs, -1, times(problem_.damping, old));
       z.top = factors.solve(std::move(rhs));
       z.bottom = combined(1, old, shift, z.top);
@@ -153,8 +153,7 @@ class TwoSidedIteration {
       const Entries moved = times(problem_.mass, right_[j].bottom);
       for (std::size_t i = 0; i < k; ++i) {
         gram[2 * j + i] = dot(left_[i].top, right_[j].top) + dot(left_[i].bottom, moved);
-        projected[2 * j + i] =
-            dot(left_[i].top, images[j].top) + dot(left_[i].bottom, images[j].bottom);
+        projected[2 * j + i] = dot(left_[i].top, bz[j].top) + dot(left_[i].bottom, bz[j].bottom);
       }
     }
     if (k == 1)

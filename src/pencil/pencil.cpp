@@ -96,12 +96,12 @@ double Pencil::norm(int power, const sweep::Parameters& at) const {
   if (!hasPower(power)) return 0;
   OwnedVec& v = (*singular_)[power];
   const bool fresh = !v;
-  OwnedVec image;
-  check(MatCreateVecs(terms_[0].matrix, image.out(), nullptr));
+  OwnedVec product;
+  check(MatCreateVecs(terms_[0].matrix, product.out(), nullptr));
   if (fresh) {
     // The largest eigenvalues belong to rough vectors; a fixed pseudo-random start contains them.
     PetscInt first = 0, end = 0;
-    check(VecDuplicate(image, v.out()));
+    check(VecDuplicate(product, v.out()));
     check(VecGetOwnershipRange(v, &first, &end));
     for (PetscInt i = first; i < end; ++i)
       check(VecSetValue(v, i, std::sin(12.9898 * (i + 1)), INSERT_VALUES));
@@ -112,14 +112,14 @@ double Pencil::norm(int power, const sweep::Parameters& at) const {
   for (int sweep = 0; sweep < (fresh ? 20 : 1); ++sweep) {
     PetscReal size = 0;
     check(VecNormalize(v, nullptr));
-    apply(power, at, v, image);
-    check(VecNorm(image, NORM_2, &size));
+    apply(power, at, v, product);
+    check(VecNorm(product, NORM_2, &size));
     estimate = std::max<double>(estimate, size);
     if (size == 0) {  // the terms vanish at this friction; the next call begins anew
       v = OwnedVec();
       return 0;
     }
-    applyTranspose(power, at, image, v);
+    applyTranspose(power, at, product, v);
   }
   return estimate;
 }

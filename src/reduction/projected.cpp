@@ -82,34 +82,17 @@ ProjectedTerms::ProjectedTerms(const Basis& basis, const pencil::Pencil& pencil,
 
 ProjectedTerms::Part ProjectedTerms::partOf(pencil::Term term) const {
   const linalg::RowSet rows(term.matrix);
-  OwnedMat matrix = rows.of(term.matrix);
-  linalg::Block image(rows.size());
-  image.reserve(3 * basis_.size());
-  if (isSymmetric(term.matrix))
-    return {std::move(term),
-            rows,
-            rows,
-            std::move(matrix),
-            {},
-            std::move(image),
-            linalg::Block(rows.size()),
-            {},
-            {},
-            {}};
+  Part part{std::move(term), rows, rows, {}, {}, {}, {}, {}, {}, {}};
+  const Mat whole = part.term.matrix;
+  part.matrix = rows.of(whole);
+  part.timesV = part.rowsOfV = linalg::Block(rows.size());
+  part.timesV.reserve(3 * basis_.size());
+  if (isSymmetric(whole)) return part;
   OwnedMat transposed;
-  check(MatTranspose(term.matrix, MAT_INITIAL_MATRIX, transposed.out()));
-  const linalg::RowSet leftRows(transposed);
-  OwnedMat adjoint = leftRows.of(transposed);
-  return {std::move(term),
-          rows,
-          leftRows,
-          std::move(matrix),
-          std::move(adjoint),
-          std::move(image),
-          linalg::Block(rows.size()),
-          {},
-          {},
-          {}};
+  check(MatTranspose(whole, MAT_INITIAL_MATRIX, transposed.out()));
+  part.leftRows = linalg::RowSet(transposed);
+  part.adjoint = part.leftRows.of(transposed);
+  return part;
 }
 
 void ProjectedTerms::extend() {
@@ -117,17 +100,17 @@ void ProjectedTerms::extend() {
 }
 
 void ProjectedTerms::extend(Part& part) const {
-  const PetscInt old = part.image.columns(), size = basis_.size();
+  const PetscInt old = part.timesV.columns(), size = basis_.size();
   if (old == size) return;
   if (knownFrom(part, old))
-    part.image.append(basis_.forces());
+    part.timesV.append(basis_.forces());
   else
-    basis_.appendProducts(part.matrix, old, size, part.image);
-  part.sketch.append(basis_.sketch().of(part.rows, part.image.columnRange(old, size)));
+    basis_.appendProducts(part.matrix, old, size, part.timesV);
+  part.sketch.append(basis_.sketch().of(part.rows, part.timesV.columnRange(old, size)));
   if (part.adjoint) {
-    linalg::Block images(part.leftRows.size());
-    basis_.appendProducts(part.adjoint, old, size, images);
-    part.leftSketch.append(basis_.sketch().of(part.leftRows, images));
+    linalg::Block timesV(part.leftRows.size());
+    basis_.appendProducts(part.adjoint, old, size, timesV);
+    part.leftSketch.append(basis_.sketch().of(part.leftRows, timesV));
   }
   project(part, old);
 }
@@ -144,7 +127,7 @@ void ProjectedTerms::project(Part& part, PetscInt old) const {
   const linalg::Block& v = part.rows.all() ? basis_.columns() : part.rowsOfV;
   const auto product = [&](PetscInt firstOfV, PetscInt lastOfV, PetscInt first, PetscInt last) {
     return linalg::transposedProduct(basis_.comm(), v.columnRange(firstOfV, lastOfV),
-                                     part.image.columnRange(first, last));
+                                     part.timesV.columnRange(first, last));
   };
   linalg::DenseMatrix right, below;
   if (knownFrom(part, old)) {
@@ -162,7 +145,7 @@ void ProjectedTerms::project(Part& part, PetscInt old) const {
 
 void ProjectedTerms::combine(const linalg::DenseMatrix& combinations) {
   for (auto& part : parts_) {
-    part.image = linalg::product(part.image, combinations);
+    part.timesV = linalg::product(part.timesV, combinations);
     if (!part.rows.all()) part.rowsOfV = linalg::product(part.rowsOfV, combinations);
     part.sketch = linalg::product(part.sketch, combinations);
     if (part.adjoint) part.leftSketch = linalg::product(part.leftSketch, combinations);
@@ -181,7 +164,7 @@ void ProjectedTerms::addTo(const sweep::Parameters& at, linalg::DenseProblem& su
 void ProjectedTerms::addTo(const std::vector<const PointPairs*>& points,
                            const linalg::DenseMatrix& combinations, linalg::Block& result) const {
   for (const auto& part : parts_) {
-    linalg::DenseMatrix coefficients(part.image.columns(), result.columns());
+    linalg::DenseMatrix coefficients(part.timesV.columns(), result.columns());
     PetscInt first = 0;
     for (const auto* point : points) {
       const PetscInt last = first + point->pairs.columns;
@@ -190,7 +173,7 @@ void ProjectedTerms::addTo(const std::vector<const PointPairs*>& points,
                           linalg::rowRange(combinations, first, last), coefficients);
       first = last;
     }
-    linalg::multiplyAdd(part.rows, part.image, coefficients, result);
+    linalg::multiplyAdd(part.rows, part.timesV, coefficients, result);
   }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Terms of a pencil on a growing basis V: their images A V, by this rank's rows, their projections
+/// Terms of a pencil on a growing basis V: the products A V, by this rank's rows, the projections
 /// VᵀAV, and sketches of A V and AᵀV for the norms of residuals.
 #include <vector>
 
@@ -11,8 +11,9 @@
 
 namespace squeal::reduction {
 
-/// Vectors of some eigenpairs on a basis. A pair that has real vectors and a real s², in a problem
-/// without damping, takes one column, others two.
+/// The vectors of some eigenpairs in coordinates of a basis, as columns of a real matrix. A pair
+/// that has real vectors and a real s², in a problem without damping, takes one column, others take
+/// two.
 struct Coordinates {
   std::vector<const linalg::DensePair*> pairs;
   std::vector<PetscInt> firstColumn;  ///< [pair], and the end
@@ -24,21 +25,23 @@ struct Coordinates {
   linalg::DenseMatrix times(pencil::Side side, int power, double c) const;
 };
 
-/// Pairs found at one point, borrowed.
+/// Pairs found at one point; their vectors are borrowed.
 struct PointPairs {
   sweep::Parameters at;
   Coordinates pairs;
 };
 
+/// Some terms of a pencil with their projections.
 class ProjectedTerms {
  public:
-  /// Collective. Terms [first, last) of the pencil; their matrices are shared. Borrows the basis
-  /// and its sketch.
+  /// Collective. Takes the terms [first, last) of the pencil, whose matrices are shared. Borrows
+  /// the basis and its sketch.
   ProjectedTerms(const Basis& basis, const pencil::Pencil& pencil, std::size_t first,
                  std::size_t last);
-  /// Collective. Takes in what the basis has gained.
+  /// Collective. Extends the projections to the vectors that the basis has gained.
   void extend();
-  /// The basis has become V · combinations (its former size × its size).
+  /// Turns the projections with a basis that has become V · combinations, its former size × its
+  /// size. Not collective.
   void combine(const linalg::DenseMatrix& combinations);
   /// Adds Σ c_t VᵀA_tV to the matrices of the problem, which are empty or of the size of the basis.
   void addTo(const sweep::Parameters& at, linalg::DenseProblem& sum) const;
@@ -54,7 +57,7 @@ class ProjectedTerms {
     pencil::Term term;
     linalg::RowSet rows, leftRows;   // of A and Aᵀ
     OwnedMat matrix, adjoint;        // these rows; no adjoint where A is symmetric
-    linalg::Block image;             // A V, by `rows`
+    linalg::Block timesV;            // A V, by `rows`
     linalg::Block rowsOfV;           // these rows of V; none if they are all
     linalg::DenseMatrix sketch;      // of A V
     linalg::DenseMatrix leftSketch;  // of AᵀV; empty where A is symmetric

@@ -242,7 +242,7 @@ void ReducedProblem::solveDense(const std::vector<PointState*>& open) {
   }
 }
 
-/// By how much a residual made with the matrices exceeds that made with the images of the basis.
+/// By how much a residual made with the matrices exceeds that made with the products of the basis.
 double ReducedProblem::residualRatio(const PointState& state, const linalg::DensePair& pair,
                                      const linalg::Block& columns, pencil::Side side) const {
   const PointPairs alone{state.point->at, Coordinates({&pair}, state.damped)};

@@ -186,8 +186,9 @@ class LeftIteration {
     for (int power = 0; power <= 2; ++power) {
       if (!pencil_.hasPower(power)) continue;
       const linalg::DenseView v = all.view();
-      const auto right = linalg::transposedProduct(pencil_.comm(), v, images(power, old, false)),
-                 below = linalg::transposedProduct(pencil_.comm(), images(power, old, true),
+      const auto right =
+                     linalg::transposedProduct(pencil_.comm(), v, productsWithV(power, old, false)),
+                 below = linalg::transposedProduct(pencil_.comm(), productsWithV(power, old, true),
                                                    v.columnRange(0, old));
       auto& matrix = projected_[power];
       matrix = linalg::bordered(matrix, right, below);
@@ -196,19 +197,19 @@ class LeftIteration {
   }
 
   /// Returns this rank's rows of A V, or of Aᵀ V, for the columns of V from `first` on.
-  linalg::Block images(int power, PetscInt first, bool transposed) const {
+  linalg::Block productsWithV(int power, PetscInt first, bool transposed) const {
     linalg::Block values;
     for (PetscInt j = first; j < size_; ++j) {
       Vec column = nullptr;
-      OwnedVec image;
+      OwnedVec product;
       check(BVGetColumn(basis_, j, &column));
-      check(VecDuplicate(column, image.out()));
+      check(VecDuplicate(column, product.out()));
       if (transposed)
-        pencil_.applyTranspose(power, at_, column, image);
+        pencil_.applyTranspose(power, at_, column, product);
       else
-        pencil_.apply(power, at_, column, image);
+        pencil_.apply(power, at_, column, product);
       check(BVRestoreColumn(basis_, j, &column));
-      const ReadArray entries(image);
+      const ReadArray entries(product);
       values.append(linalg::DenseView(entries.data(), entries.size(), 1));
     }
     return values;

@@ -25,10 +25,10 @@ Complex slopeForm(const pencil::Pencil& pencil, const sweep::Parameters& at,
   Complex sum = 0;
   for (int power = 1; power <= 2; ++power) {
     if (!pencil.hasPower(power)) continue;
-    linalg::ComplexVector image = linalg::ComplexVector::like(triple.x.real);
-    pencil.apply(power, at, triple.x.real, image.real);
-    pencil.apply(power, at, triple.x.imaginary, image.imaginary);
-    sum += (power == 1 ? 1.0 : 2.0 * triple.s) * dot(triple.y, image);
+    linalg::ComplexVector product = linalg::ComplexVector::like(triple.x.real);
+    pencil.apply(power, at, triple.x.real, product.real);
+    pencil.apply(power, at, triple.x.imaginary, product.imaginary);
+    sum += (power == 1 ? 1.0 : 2.0 * triple.s) * dot(triple.y, product);
   }
   return sum;
 }
