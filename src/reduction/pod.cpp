@@ -1,19 +1,19 @@
-/// Snapshots over the sweep as a basis: proper orthogonal decomposition.
+#include "reduction/pod.hpp"
+
 #include <petscsys.h>  // first: the next header needs it
 
 #include <petscblaslapack.h>
 
 #include <algorithm>
 
-#include "linalg/dense.hpp"
 #include "linalg/lapack.hpp"
-#include "reduction/reduced.hpp"
+#include "petsc/check.hpp"
 
 namespace squeal::reduction {
 namespace {
 
 /// Returns orthonormal vectors that hold the columns but for parts of length `small`.
-linalg::DenseMatrix principalDirections(linalg::DenseMatrix columns, double small) {
+linalg::DenseMatrix leadingDirections(linalg::DenseMatrix columns, double small) {
   PetscBLASInt m = columns.rows(), n = columns.columns(), few = std::min(m, n), one = 1, info = 0;
   std::vector<double> sizes(few);
   linalg::DenseMatrix left(m, few);
@@ -38,12 +38,12 @@ std::vector<Complex> turned(const linalg::DenseMatrix& directions, const std::ve
 
 }  // namespace
 
-/// Turns the basis to the principal directions of all vectors found so far.
-void ReducedProblem::compress() {
-  constexpr double left = 1e-9;  // of a unit vector; what is lost, corrections bring back
-  linalg::DenseMatrix vectors(basis_.size());
-  std::vector<double> column(basis_.size());
-  for (const auto& pairs : solved_)
+linalg::DenseMatrix principalDirections(const std::vector<std::vector<linalg::DensePair>>& solved,
+                                        PetscInt size) {
+  constexpr double left = 1e-9;  // of a unit vector
+  linalg::DenseMatrix vectors(size);
+  std::vector<double> column(size);
+  for (const auto& pairs : solved)
     for (const auto& pair : pairs)
       for (const bool imaginary : {false, true}) {
         for (std::size_t i = 0; i < column.size(); ++i) {
@@ -52,16 +52,12 @@ void ReducedProblem::compress() {
         }
         vectors.append(std::span<const double>(column));
       }
-  if (vectors.empty()) return;
-  const linalg::DenseMatrix directions = principalDirections(vectors, left);
-  basis_.combine(directions);
-  terms_.combine(directions);
-  highestMode_ = 0;  // the modes are no longer in the basis
-  for (auto& pairs : solved_)
-    for (auto& pair : pairs) {
-      pair.q = turned(directions, pair.q);
-      pair.left = turned(directions, pair.left);
-    }
+  return vectors.empty() ? vectors : leadingDirections(vectors, left);
+}
+
+void turn(const linalg::DenseMatrix& directions, linalg::DensePair& pair) {
+  pair.q = turned(directions, pair.q);
+  pair.left = turned(directions, pair.left);
 }
 
 }  // namespace squeal::reduction

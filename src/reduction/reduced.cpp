@@ -9,6 +9,8 @@
 #include "options/options.hpp"
 #include "petsc/arrays.hpp"
 #include "reduction/condition.hpp"
+#include "reduction/pod.hpp"
+#include "reduction/responses.hpp"
 
 namespace squeal::reduction {
 namespace {
@@ -320,6 +322,25 @@ ReducedProblem::Norms ReducedProblem::nearbyNorms(const PointProblem& point) {
     if (at == point.at && (!nearest || distance(&known) < distance(nearest))) nearest = &known;
   }
   return nearest ? nearest->second : normsOf(point);
+}
+
+/// Collective. Begins the basis with static responses to friction at this point.
+void ReducedProblem::addStaticResponses(const PointProblem& point) {
+  std::vector<double> inBand = modes_;
+  std::erase_if(inBand, [&](double w) { return w > band_.top; });
+  basis_.add(forcesOnModes(basis_, point.pencil, point.at, inBand, resolution));
+  rightRatio_ = std::max(measuredRatio_, basis_.lastEnergyRatio());
+}
+
+/// Collective. Turns the basis to the principal directions of all vectors found so far.
+void ReducedProblem::compress() {
+  const linalg::DenseMatrix directions = principalDirections(solved_, basis_.size());
+  if (directions.empty()) return;
+  basis_.combine(directions);
+  terms_.combine(directions);
+  highestMode_ = 0;  // the modes are no longer in the basis
+  for (auto& pairs : solved_)
+    for (auto& pair : pairs) turn(directions, pair);
 }
 
 std::vector<pencil::ComplexModes> ReducedProblem::solve(const std::vector<PointProblem>& batch,

@@ -1,10 +1,4 @@
-/// Static responses to friction as the beginning of a basis.
-#include <algorithm>
-
-#include "linalg/block.hpp"
-#include "pencil/pencil.hpp"
-#include "reduction/reduced.hpp"
-#include "sweep/parameters.hpp"
+#include "reduction/responses.hpp"
 
 namespace squeal::reduction {
 namespace {
@@ -27,20 +21,19 @@ Forces forcesOf(const pencil::Term& term, const sweep::Parameters& at, bool tran
 
 }  // namespace
 
-/// K0⁻¹ k φ_i and K0⁻¹ kᵀφ_i for the free modes of the band at their own frequencies, where k are
-/// the forces of friction and of all else that belongs to this point: the change of the right and
-/// left vectors with them, to first order in them and to lowest order in the frequency.
-void ReducedProblem::addStaticResponses(const PointProblem& point) {
-  const PetscInt count = std::ranges::upper_bound(modes_, band_.top) - modes_.begin();
-  const auto& terms = point.pencil.terms();
+linalg::Block forcesOnModes(const Basis& basis, const pencil::Pencil& pencil,
+                            const sweep::Parameters& at, const std::vector<double>& frequencies,
+                            double resolution) {
+  const PetscInt count = frequencies.size();
+  const auto& terms = pencil.terms();
   std::vector<Forces> list;
   for (const bool transposed : {false, true})
     for (std::size_t t = 0; t < terms.size(); ++t)
-      if (terms[t].frictionExponent != 0 || t >= point.pencil.affineCount())
-        list.push_back(forcesOf(terms[t], point.at, transposed));
+      if (terms[t].frictionExponent != 0 || t >= pencil.affineCount())
+        list.push_back(forcesOf(terms[t], at, transposed));
   // Forces of friction are zero but at the contact: the columns are kept by the rows that any of
   // them has.
-  std::vector<PetscInt> rows, place(basis_.localRows(), -1);
+  std::vector<PetscInt> rows, place(basis.localRows(), -1);
   for (const auto& forces : list)
     for (PetscInt i = 0; i < forces.rows.size(); ++i)
       if (auto& known = place[forces.rows[i]]; known < 0) {
@@ -53,25 +46,24 @@ void ReducedProblem::addStaticResponses(const PointProblem& point) {
       linalg::Block part(all.rows(), count);
       for (const auto& forces : list) {
         if (forces.transposed != transposed || (forces.power == 1) != imaginary) continue;
-        linalg::Block images(forces.rows.size());
-        basis_.appendProducts(forces.matrix, 0, count, images);
+        linalg::Block products(forces.rows.size());
+        basis.appendProducts(forces.matrix, 0, count, products);
         for (PetscInt j = 0; j < count; ++j) {
-          const double omega = modes_[j];
+          const double omega = frequencies[j];
           const double factor = forces.coefficient * (forces.power == 0   ? 1
                                                       : forces.power == 1 ? omega
                                                                           : -omega * omega);
-          for (PetscInt i = 0; i < images.rows(); ++i)
-            part(place[forces.rows[i]], j) += factor * images(i, j);
+          for (PetscInt i = 0; i < products.rows(); ++i)
+            part(place[forces.rows[i]], j) += factor * products(i, j);
         }
       }
-      all.append(linalg::unitColumns(basis_.comm(), part));
+      all.append(linalg::unitColumns(basis.comm(), part));
     }
-  const linalg::Block leading = linalg::principal(basis_.comm(), all, resolution);
-  linalg::Block whole(basis_.localRows(), leading.columns());
+  const linalg::Block leading = linalg::principal(basis.comm(), all, resolution);
+  linalg::Block whole(basis.localRows(), leading.columns());
   for (PetscInt j = 0; j < leading.columns(); ++j)
     for (PetscInt i = 0; i < leading.rows(); ++i) whole(rows[i], j) = leading(i, j);
-  basis_.add(whole);
-  rightRatio_ = std::max(measuredRatio_, basis_.lastEnergyRatio());
+  return whole;
 }
 
 }  // namespace squeal::reduction
