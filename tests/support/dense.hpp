@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "linalg/dense.hpp"
+#include "support/worst.hpp"
 
 namespace squeal::test {
 
@@ -42,6 +43,21 @@ inline linalg::DenseMatrix randomMatrix(PetscInt rows, PetscInt columns, std::mt
   for (double& entry : matrix.entries()) entry = uniform(generator);
   for (PetscInt i = 0; i < std::min(rows, columns); ++i) matrix(i, i) += diagonal;
   return matrix;
+}
+
+/// Returns the largest magnitude of the entries, or NaN if one of them is NaN.
+inline double largestEntry(const linalg::DenseView& matrix) {
+  double result = 0;
+  for (const double entry : matrix.entries()) result = worse(result, std::abs(entry));
+  return result;
+}
+
+/// Returns the largest magnitude of the entries of A − B, or NaN, which fails any comparison, if
+/// their sizes differ.
+inline double largestDifference(linalg::DenseMatrix a, const linalg::DenseView& b) {
+  if (a.rows() != b.rows() || a.columns() != b.columns()) return NAN;
+  linalg::addScaled(a, -1, b);
+  return largestEntry(a);
 }
 
 }  // namespace squeal::test

@@ -1,7 +1,5 @@
 #pragma once
 /// Small problems of finite elements as dense ones with all unknowns.
-#include <utility>
-
 #include "linalg/quadratic.hpp"
 #include "pencil/pencil.hpp"
 #include "support/model.hpp"
@@ -12,9 +10,7 @@ namespace squeal::test {
 /// empty if there are none.
 inline linalg::DenseMatrix fullMatrix(const pencil::Pencil& pencil, int power,
                                       const sweep::Parameters& at) {
-  if (!pencil.hasPower(power)) return {};
-  DenseCopy copy = denseCopy(pencil.assembled(power, at));
-  return {copy.rows, copy.columns, std::move(copy.values)};
+  return pencil.hasPower(power) ? denseCopy(pencil.assembled(power, at)) : linalg::DenseMatrix();
 }
 
 /// Collective. Returns the problem of all unknowns at one point of the sweep.

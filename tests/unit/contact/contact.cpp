@@ -156,7 +156,7 @@ TEST(TestFunctions, OnlySlidingNodesCarryFriction) {
   const auto friction = test::denseCopy(frictionTest(c.model.contact, part, closed));
   for (const auto& node : c.nodes) {
     double size = 0;
-    for (PetscInt j = 0; j < friction.columns; ++j)
+    for (PetscInt j = 0; j < friction.columns(); ++j)
       for (PetscInt d = 0; d < 2; ++d)
         size = test::worse(size, std::abs(friction(2 * node.pad + d, j)));
     EXPECT_EQ(size, node.position[0] < 0.75 ? 0 : 1);

@@ -20,7 +20,6 @@ namespace squeal {
 namespace {
 
 using Complex = std::complex<double>;
-using linalg::ComplexVector;
 
 linalg::ComplexVector vectorOf(Mat layout, const std::vector<Complex>& entries) {
   linalg::ComplexVector vector;
@@ -47,11 +46,11 @@ TEST(Left, VectorsAreThoseOfAllUnknowns) {
     const auto pencil = flutter::affineTerms(layers.model.contact, system);
     const auto modes = layers.modes();
     const sweep::Parameters at{0.4};
-    const auto full = linalg::solveQuadratic(
-        test::denseCopy(pencil.assembled(2, at)).values,
-        damping.empty() ? linalg::DenseMatrix() : test::denseCopy(pencil.assembled(1, at)).values,
-        test::denseCopy(pencil.assembled(0, at)).values, static_cast<int>(system.size()),
-        linalg::Vectors::both);
+    const linalg::DenseProblem problem{
+        test::denseCopy(pencil.assembled(2, at)),
+        damping.empty() ? linalg::DenseMatrix() : test::denseCopy(pencil.assembled(1, at)),
+        test::denseCopy(pencil.assembled(0, at))};
+    const auto full = linalg::solveQuadratic(problem, linalg::Vectors::both);
     std::vector<linalg::ComplexVector> right, left;
     std::vector<sensitivity::RightPair> pairs;
     for (std::size_t i = 0; i < 24; i += 4) {
