@@ -13,6 +13,7 @@
 #include "pencil/pencil.hpp"
 #include "reduction/basis.hpp"
 #include "sensitivity/sensitivity.hpp"
+#include "support/full_problem.hpp"
 #include "support/layers.hpp"
 #include "sweep/parameters.hpp"
 
@@ -46,11 +47,8 @@ TEST(Left, VectorsAreThoseOfAllUnknowns) {
     const auto pencil = flutter::affineTerms(layers.model.contact, system);
     const auto modes = layers.modes();
     const sweep::Parameters at{0.4};
-    const linalg::DenseProblem problem{
-        test::denseCopy(pencil.assembled(2, at)),
-        damping.empty() ? linalg::DenseMatrix() : test::denseCopy(pencil.assembled(1, at)),
-        test::denseCopy(pencil.assembled(0, at))};
-    const auto full = linalg::solveQuadratic(problem, linalg::Vectors::both);
+    const auto full = linalg::solveQuadratic(test::fullProblem(pencil, at), linalg::Vectors::both);
+    EXPECT_EQ(pencil.hasPower(1), !damping.empty());
     std::vector<linalg::ComplexVector> right, left;
     std::vector<sensitivity::RightPair> pairs;
     for (std::size_t i = 0; i < 24; i += 4) {
