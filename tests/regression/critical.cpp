@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "support/ranks.hpp"
+#include "support/worst.hpp"
 
 namespace squeal::test {
 namespace {
@@ -100,7 +101,7 @@ void expectZeroGrowthOfAllUnknowns(const Law& law) {
     for (std::size_t k = 0; k < all.size(); ++k)
       if (at[k] == friction[i]) nearest = std::min(nearest, std::abs(all[k] - wanted));
     EXPECT_LT(nearest, 1e-9 * std::abs(wanted)) << "friction " << friction[i];
-    worst = std::max(worst, nearest / std::abs(wanted));
+    worst = test::worse(worst, nearest / std::abs(wanted));
   }
   std::printf("%zu critical frictions: full-order eigenvalues off i omega by %.1e at most\n",
               friction.size(), worst);

@@ -42,8 +42,8 @@ TEST(Speed, FactorScalesTheMotions) {
     for (std::size_t k = 0; k < fast.contact.nodes.size(); ++k)
       for (std::size_t d = 0; d < 3; ++d) {
         const double wanted = fast.steady[i].contact[k].frictionForce[d];
-        force = std::max(force, std::abs(scaled.steady[i].contact[k].frictionForce[d] - wanted));
-        forceSize = std::max(forceSize, std::abs(wanted));
+        force = test::worse(force, std::abs(scaled.steady[i].contact[k].frictionForce[d] - wanted));
+        forceSize = test::worse(forceSize, std::abs(wanted));
       }
     force = largest(force) / largest(forceSize);
     const auto& wanted = fast.segments[0].points[i];

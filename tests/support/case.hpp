@@ -2,6 +2,7 @@
 /// Runs the method as a user would: options in, the whole analysis out.
 #include <petscsys.h>
 
+#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 #include <string>
@@ -40,10 +41,11 @@ inline analysis::Analysis runCase(const std::string& name, const std::string& ch
   va_end(arguments);
 }
 
-/// Collective. The largest value of all ranks.
+/// Collective. The largest value of all ranks; a NaN of any rank is the result.
 inline double largest(double value) {
-  check(MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD));
-  return value;
+  double both[] = {std::isnan(value) ? 1.0 : 0.0, std::isnan(value) ? 0.0 : value};
+  check(MPI_Allreduce(MPI_IN_PLACE, both, 2, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD));
+  return both[0] > 0 ? NAN : both[1];
 }
 
 /// Collective. The sum over all ranks.

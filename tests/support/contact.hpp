@@ -7,6 +7,7 @@
 #include "steady/steady.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
+#include "support/worst.hpp"
 
 namespace squeal::test {
 
@@ -34,9 +35,8 @@ inline Violations violations(const analysis::Analysis& analysis, const steady::S
   check(VecAXPY(rest, -1, analysis.bodies.load));
   double force = 0, length = 0;
   for (const auto& state : solution.contact)
-    force = std::max(force, std::abs(state.normalForce)),
-    length = std::max(length, std::abs(state.gap));
-  for (double component : u) length = std::max(length, std::abs(component));
+    force = worse(force, std::abs(state.normalForce)), length = worse(length, std::abs(state.gap));
+  for (double component : u) length = worse(length, std::abs(component));
   force = largest(force), length = largest(length);
 
   Violations worst;
@@ -58,12 +58,12 @@ inline Violations violations(const analysis::Analysis& analysis, const steady::S
         check(VecSetValue(rest, mesh.dimension * node.master + static_cast<PetscInt>(d), onPad,
                           ADD_VALUES));
     }
-    worst.gap = std::max(worst.gap, std::abs(state.gap - distance) / length);
-    worst.penetration = std::max(worst.penetration, -state.gap / length);
-    worst.tension = std::max(worst.tension, -state.normalForce / force);
+    worst.gap = worse(worst.gap, std::abs(state.gap - distance) / length);
+    worst.penetration = worse(worst.penetration, -state.gap / length);
+    worst.tension = worse(worst.tension, -state.normalForce / force);
     worst.complementarity =
-        std::max(worst.complementarity, std::abs(state.gap * state.normalForce) / (length * force));
-    worst.coulomb = std::max(worst.coulomb, slip / force);
+        worse(worst.complementarity, std::abs(state.gap * state.normalForce) / (length * force));
+    worst.coulomb = worse(worst.coulomb, slip / force);
   }
   check(VecAssemblyBegin(rest));
   check(VecAssemblyEnd(rest));
@@ -71,7 +71,7 @@ inline Violations violations(const analysis::Analysis& analysis, const steady::S
   check(VecGetArrayRead(rest, &values));
   const auto& held = contact.constraints.held;
   for (std::size_t row = 0; row < held.size(); ++row)
-    if (!held[row]) worst.equilibrium = std::max(worst.equilibrium, std::abs(values[row]) / force);
+    if (!held[row]) worst.equilibrium = worse(worst.equilibrium, std::abs(values[row]) / force);
   check(VecRestoreArrayRead(rest, &values));
   for (double* value : {&worst.gap, &worst.penetration, &worst.tension, &worst.complementarity,
                         &worst.coulomb, &worst.equilibrium})

@@ -1,10 +1,10 @@
 #pragma once
 /// Vectors as lists of all their entries, the same on every rank.
-#include <random>
 #include <vector>
 
 #include "petsc/check.hpp"
 #include "petsc/owned.hpp"
+#include "support/dense.hpp"
 #include "support/model.hpp"
 
 namespace squeal::test {
@@ -13,7 +13,7 @@ namespace squeal::test {
 inline std::vector<double> randomEntries(PetscInt size, unsigned seed) {
   std::mt19937 generator(seed);
   std::vector<double> entries;
-  for (PetscInt i = 0; i < size; ++i) entries.push_back(2.0 * generator() / 4294967295.0 - 1);
+  for (PetscInt i = 0; i < size; ++i) entries.push_back(uniform(generator));
   return entries;
 }
 

@@ -54,8 +54,8 @@ inline Comparison compare(const pencil::ComplexModes& point, const std::vector<C
     EXPECT_FALSE(std::isnan(error)) << found[i] << " is none of the full order";
     EXPECT_LT(error, 2 * estimate + directError)
         << found[i] << " at friction " << point.at.friction;
-    result.worst = std::max(result.worst, error);
-    result.worstRatio = std::max(result.worstRatio, (error - directError) / estimate);
+    result.worst = worse(result.worst, error);
+    result.worstRatio = worse(result.worstRatio, (error - directError) / estimate);
     result.certified += point.eigenvalues[i].certified;
   }
   return result;

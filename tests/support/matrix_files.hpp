@@ -56,17 +56,18 @@ std::string written(const std::string& name, const Write& write) {
   return path;
 }
 
-/// Collective. All entries by rows; that every rank reads the same is part of it.
+/// Collective. All entries by columns; that every rank reads the same is part of it.
 inline std::vector<double> valuesRead(const std::string& path, const std::string& dataset = {}) {
-  return denseCopy(matrices::read(PETSC_COMM_WORLD, path, dataset)).values;
+  const auto all = denseCopy(matrices::read(PETSC_COMM_WORLD, path, dataset));
+  return {all.entries().begin(), all.entries().end()};
 }
 
 /// Collective.
 inline void expectSample(const std::string& path, const std::string& dataset = {}) {
   const OwnedMat matrix = matrices::read(PETSC_COMM_WORLD, path, dataset);
   const auto all = denseCopy(matrix);
-  ASSERT_EQ(all.rows, 4) << path;
-  ASSERT_EQ(all.columns, 4) << path;
+  ASSERT_EQ(all.rows(), 4) << path;
+  ASSERT_EQ(all.columns(), 4) << path;
   for (PetscInt i = 0; i < 4; ++i)
     for (PetscInt j = 0; j < 4; ++j)
       EXPECT_EQ(all(i, j), sample[i][j]) << path << " " << i << " " << j;

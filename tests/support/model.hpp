@@ -12,6 +12,7 @@
 #include "contact/contact.hpp"
 #include "contact/coupled.hpp"
 #include "elasticity/elasticity.hpp"
+#include "linalg/dense.hpp"
 #include "mesh/mesh.hpp"
 #include "options/settings.hpp"
 #include "petsc/check.hpp"
@@ -74,19 +75,13 @@ inline Model buildModel() {
   return model;
 }
 
-/// Collective. All entries on every rank, column-major.
-struct DenseCopy {
-  PetscInt rows = 0, columns = 0;
-  std::vector<double> values;
-  double operator()(PetscInt i, PetscInt j) const { return values[j * rows + i]; }
-};
-
-inline DenseCopy denseCopy(Mat matrix) {
-  DenseCopy copy;
-  check(MatGetSize(matrix, &copy.rows, &copy.columns));
+/// Collective. All entries on every rank.
+inline linalg::DenseMatrix denseCopy(Mat matrix) {
+  PetscInt rowCount = 0, columnCount = 0;
+  check(MatGetSize(matrix, &rowCount, &columnCount));
   OwnedIS rows, columns;
-  check(ISCreateStride(PETSC_COMM_SELF, copy.rows, 0, 1, rows.out()));
-  check(ISCreateStride(PETSC_COMM_SELF, copy.columns, 0, 1, columns.out()));
+  check(ISCreateStride(PETSC_COMM_SELF, rowCount, 0, 1, rows.out()));
+  check(ISCreateStride(PETSC_COMM_SELF, columnCount, 0, 1, columns.out()));
   const IS rowSets[] = {rows}, columnSets[] = {columns};
   Mat* sub = nullptr;
   check(MatCreateSubMatrices(matrix, 1, rowSets, columnSets, MAT_INITIAL_MATRIX, &sub));
@@ -95,7 +90,7 @@ inline DenseCopy denseCopy(Mat matrix) {
   check(MatDestroySubMatrices(1, &sub));
   const PetscScalar* values = nullptr;
   check(MatDenseGetArrayRead(dense, &values));
-  copy.values.assign(values, values + copy.rows * copy.columns);
+  linalg::DenseMatrix copy(linalg::DenseView(values, rowCount, columnCount));
   check(MatDenseRestoreArrayRead(dense, &values));
   return copy;
 }

@@ -67,8 +67,8 @@ inline double forceDifference(const CsvTable& a, const CsvTable& b) {
     const auto twin = right.find(place);
     if (twin == right.end()) return INFINITY;
     for (std::size_t i = 0; i < forces.size(); ++i) {
-      largest = std::max(largest, std::abs(forces[i]));
-      worst = std::max(worst, std::abs(forces[i] - twin->second[i]));
+      largest = worse(largest, std::abs(forces[i]));
+      worst = worse(worst, std::abs(forces[i] - twin->second[i]));
     }
   }
   return worst / largest;
@@ -86,7 +86,7 @@ inline void expectSame(const Findings& one, const Findings& other, const std::st
   ASSERT_EQ(one.frequencies.size(), other.frequencies.size());
   double frequency = 0;
   for (std::size_t i = 0; i < one.frequencies.size(); ++i)
-    frequency = std::max(frequency, std::abs(other.frequencies[i] / one.frequencies[i] - 1));
+    frequency = worse(frequency, std::abs(other.frequencies[i] / one.frequencies[i] - 1));
   EXPECT_LT(frequency, 1e-8);  // twice the digits of the modes' residuals, which are below 1e-5
   double eigenvalue = 0, force = 0;
   ASSERT_EQ(one.eigenvalues.size(), other.eigenvalues.size());
@@ -95,8 +95,8 @@ inline void expectSame(const Findings& one, const Findings& other, const std::st
     const auto band = one.eigenvalues.at(friction);
     ASSERT_GE(5 * band.size(),
               values.size());  // the band is the lower part of the modes, not an empty one
-    eigenvalue = std::max(eigenvalue, worst(errors(band, other.eigenvalues.at(friction)).relative));
-    force = std::max(force, forceDifference(one.steady.at(friction), other.steady.at(friction)));
+    eigenvalue = worse(eigenvalue, worst(errors(band, other.eigenvalues.at(friction)).relative));
+    force = worse(force, forceDifference(one.steady.at(friction), other.steady.at(friction)));
   }
   EXPECT_LT(eigenvalue, 1e-6);
   EXPECT_LT(force, 1e-8);  // the steady problem is solved to 1e-11

@@ -18,8 +18,8 @@ template <class Table>
 double worstStep(const Table& table, const Characteristic& characteristic) {
   double worst = 0;
   for (const auto& row : table)
-    worst = std::max(worst, std::abs(exact::newtonStep(
-                                [&](Complex s) { return characteristic(row.n, s); }, row.s())));
+    worst = worse(worst, std::abs(exact::newtonStep(
+                             [&](Complex s) { return characteristic(row.n, s); }, row.s())));
   return worst;
 }
 
@@ -98,9 +98,9 @@ inline void expectSpectrum(std::vector<Complex> found, const std::vector<Charact
   for (std::size_t i = 0; i < found.size(); ++i) {
     const double error = std::abs(roots[i] - found[i]) / std::abs(found[i]);
     EXPECT_LT(error, tolerance) << found[i];  // false if NaN: no root of its own
-    modulus = std::max(modulus, error);
-    growth = std::max(growth, std::abs(roots[i].real() - found[i].real()));
-    fastest = std::max(fastest, found[i].real());
+    modulus = worse(modulus, error);
+    growth = worse(growth, std::abs(roots[i].real() - found[i].real()));
+    fastest = worse(fastest, found[i].real());
   }
   EXPECT_LT(growth, 1e-3);
   print(

@@ -12,6 +12,7 @@
 #include "modes/modes.hpp"
 #include "pencil/complex_modes.hpp"
 #include "support/case.hpp"
+#include "support/worst.hpp"
 
 namespace squeal::test {
 
@@ -83,11 +84,16 @@ inline Errors errors(const std::vector<Complex>& wanted, const std::vector<Compl
 /// The largest of the first `count`; a NaN among them is the result.
 inline double worst(const std::vector<double>& values, std::size_t count) {
   double result = 0;
-  for (std::size_t i = 0; i < count; ++i)
-    if (!std::isnan(result) && !(values.at(i) <= result)) result = values[i];
+  for (std::size_t i = 0; i < count; ++i) result = worse(result, values.at(i));
   return result;
 }
-inline double worst(const std::vector<double>& values) { return worst(values, values.size()); }
+
+/// Checks that each wanted value is found within `tolerance` of its size, and none beside them.
+inline void expectSpectrum(const std::vector<Complex>& found, const std::vector<Complex>& wanted,
+                           double tolerance) {
+  EXPECT_EQ(found.size(), wanted.size());
+  EXPECT_LT(worst(errors(wanted, found).relative), tolerance);
+}
 
 inline double rootMeanSquare(const std::vector<double>& values) {
   double sum = 0;

@@ -8,6 +8,7 @@
 #include "analysis/analysis.hpp"
 #include "steady/steady.hpp"
 #include "support/case.hpp"
+#include "support/worst.hpp"
 
 namespace squeal::test {
 
@@ -26,9 +27,9 @@ double displacementError(const analysis::Analysis& analysis, const steady::Solut
     const auto i = static_cast<std::size_t>(node);
     const auto wanted = exact(mesh.coordinates[i], mesh.partName[mesh.nodePart[i]]);
     for (std::size_t d = 0; d < static_cast<std::size_t>(mesh.dimension); ++d) {
-      error = std::max(
-          error, std::abs(values[mesh.dimension * node + static_cast<PetscInt>(d)] - wanted[d]));
-      scale = std::max(scale, std::abs(wanted[d]));
+      error = worse(error,
+                    std::abs(values[mesh.dimension * node + static_cast<PetscInt>(d)] - wanted[d]));
+      scale = worse(scale, std::abs(wanted[d]));
     }
   }
   check(VecRestoreArrayRead(solution.displacement, &values));
@@ -44,7 +45,7 @@ inline void expectUniformPressure(const analysis::Analysis& analysis,
   for (std::size_t i = 0; i < solution.contact.size(); ++i) {
     const auto& state = solution.contact[i];
     const double friction = sense * solution.at.friction * state.normalForce;
-    error = std::max(error, std::abs(state.pressure / pressure - 1));
+    error = worse(error, std::abs(state.pressure / pressure - 1));
     EXPECT_NEAR(state.gap, 0, 1e-10 * depth);
     EXPECT_NEAR(state.frictionForce[0], friction, 1e-12 * pressure * area);
     EXPECT_NEAR(state.frictionForce[1], 0, 1e-12 * pressure * area);

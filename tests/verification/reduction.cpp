@@ -68,7 +68,7 @@ void expectEstimated(const std::string& name, const std::string& changes) {
     for (std::size_t k = 0; k < found.size(); ++k) {
       EXPECT_LT(all.relative[k], 2 * estimates[k] + directError)
           << found[k] << " at friction " << points[i].at.friction;
-      ratio = std::max(ratio, (all.relative[k] - directError) / estimates[k]);
+      ratio = test::worse(ratio, (all.relative[k] - directError) / estimates[k]);
     }
     print(
         "%s %s, free modes, friction %g: %zu of %zu estimated below 1 %%, worst error %.1e, error "

@@ -15,6 +15,7 @@ namespace {
 
 using mesh::Point;
 using test::form;
+using test::largestEntry;
 
 constexpr double density = 1.7, speed = 3;
 
@@ -41,12 +42,6 @@ std::string solidRing(const std::string& set, const std::string& more = {}) {
          "-motion_ring_speed 3 -motion_convective on " + more;
 }
 
-double largestEntry(const test::DenseCopy& matrix) {
-  double largest = 0;
-  for (double value : matrix.values) largest = std::max(largest, std::abs(value));
-  return largest;
-}
-
 TEST(Convection, GyroscopicMatrixIsSkewAndRotationStiffnessNegative) {
   for (const auto& options :
        {rings(12, "recombine=1"), rings(12, "recombine=0"), rings(24, "order=2"),
@@ -56,8 +51,8 @@ TEST(Convection, GyroscopicMatrixIsSkewAndRotationStiffnessNegative) {
     const auto [mesh, bodies] = test::buildBodies(options);
     const auto g = test::denseCopy(bodies.gyroscopic),
                k = test::denseCopy(bodies.rotationStiffness);
-    for (PetscInt i = 0; i < g.rows; ++i)
-      for (PetscInt j = 0; j < g.rows; ++j)
+    for (PetscInt i = 0; i < g.rows(); ++i)
+      for (PetscInt j = 0; j < g.rows(); ++j)
         ASSERT_TRUE(g(i, j) == -g(j, i) && k(i, j) == k(j, i)) << i << " " << j;
     EXPECT_GT(largestEntry(g), 0);
     const auto values = test::symmetricEigenvalues(k);

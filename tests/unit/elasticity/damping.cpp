@@ -6,6 +6,7 @@
 
 #include "elasticity/elasticity.hpp"
 #include "support/case.hpp"
+#include "support/dense.hpp"
 #include "support/model.hpp"
 
 namespace squeal {
@@ -18,20 +19,13 @@ std::string layers(const std::string& more) {
          more;
 }
 
-double largest(const test::DenseCopy& matrix) {
-  double value = 0;
-  for (double x : matrix.values) value = std::max(value, std::abs(x));
-  return value;
-}
-
 /// Largest entry of C − α M − β K, relative to that of C.
 double deviation(Mat damping, Mat mass, double alpha, Mat stiffness, double beta) {
-  const auto c = test::denseCopy(damping), m = test::denseCopy(mass),
-             k = test::denseCopy(stiffness);
+  const auto c = test::denseCopy(damping);
   auto rest = c;
-  for (std::size_t i = 0; i < c.values.size(); ++i)
-    rest.values[i] -= alpha * m.values[i] + beta * k.values[i];
-  return largest(rest) / largest(c);
+  linalg::addScaled(rest, -alpha, test::denseCopy(mass));
+  linalg::addScaled(rest, -beta, test::denseCopy(stiffness));
+  return test::largestEntry(rest) / test::largestEntry(c);
 }
 
 constexpr double rounding = 1e-14;
@@ -101,17 +95,17 @@ TEST(Ground, IsSharedByTheNodesOfTheGroup) {
   auto k = test::denseCopy(bodies.stiffness);
   const auto c = test::denseCopy(bodies.damping), k0 = test::denseCopy(free.stiffness);
   const auto springs = test::allEntries(bodies.springs);
-  for (std::size_t i = 0; i < k.values.size(); ++i) k.values[i] -= k0.values[i];
+  linalg::addScaled(k, -1, k0);
   int supported = 0;
-  for (PetscInt i = 0; i < k.rows; ++i)
-    for (PetscInt j = 0; j < k.rows; ++j) {
+  for (PetscInt i = 0; i < k.rows(); ++i)
+    for (PetscInt j = 0; j < k.rows(); ++j) {
       const bool grounded = i == j && springs[i] > 0;
       supported += grounded;
       EXPECT_NEAR(k(i, j),
                   !grounded ? 0.0
                   : i % 2   ? 7.0 / 5
                             : 1.0,
-                  1e-14 * largest(k0));  // 5 nodes
+                  1e-14 * test::largestEntry(k0));  // 5 nodes
       EXPECT_EQ(c(i, j), !grounded ? 0.0 : i % 2 ? 0.25 / 5 : 0.1);
     }
   EXPECT_EQ(supported, 10);
@@ -129,10 +123,10 @@ TEST(Ground, CountsImagesOnce) {
 /// Angular frequencies of K u = ω² M u.
 std::vector<double> frequencies(const elasticity::Bodies& bodies) {
   auto k = test::denseCopy(bodies.stiffness), m = test::denseCopy(bodies.mass);
-  PetscBLASInt type = 1, n = k.rows, length = 40 * n, info = 0;
-  std::vector<double> values(static_cast<std::size_t>(n)), work(static_cast<std::size_t>(length));
-  LAPACKsygv_(&type, "N", "U", &n, k.values.data(), &n, m.values.data(), &n, values.data(),
-              work.data(), &length, &info);
+  PetscBLASInt type = 1, n = k.rows(), length = 40 * n, info = 0;
+  std::vector<double> values(n), work(length);
+  LAPACKsygv_(&type, "N", "U", &n, k.data(), &n, m.data(), &n, values.data(), work.data(), &length,
+              &info);
   EXPECT_EQ(info, 0);
   for (auto& value : values) value = std::sqrt(std::max(value, 0.0));
   return values;

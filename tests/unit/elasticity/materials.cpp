@@ -6,6 +6,7 @@
 #include "exact/orthotropic.hpp"
 #include "petsc/text.hpp"
 #include "support/case.hpp"
+#include "support/dense.hpp"
 #include "support/model.hpp"
 
 namespace squeal {
@@ -90,11 +91,7 @@ TEST(Orthotropy, EnergyOfAffineDisplacementsInSpace) {
 void expectSameStiffness(const std::string& one, const std::string& other) {
   const auto a = test::denseCopy(test::buildBodies(one).bodies.stiffness),
              b = test::denseCopy(test::buildBodies(other).bodies.stiffness);
-  double largest = 0, difference = 0;
-  for (std::size_t i = 0; i < a.values.size(); ++i)
-    largest = std::max(largest, std::abs(a.values[i])),
-    difference = std::max(difference, std::abs(a.values[i] - b.values[i]));
-  EXPECT_LT(difference, 1e-13 * largest) << one << " / " << other;
+  EXPECT_LT(test::largestDifference(a, b), 1e-13 * test::largestEntry(a)) << one << " / " << other;
 }
 
 TEST(Orthotropy, IsotropicLawAsEngineeringConstants) {

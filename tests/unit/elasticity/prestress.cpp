@@ -62,12 +62,12 @@ TEST(Prestress, UniformStressOnDistortedCells) {
         const double expected = uniformForm(dimension);
         EXPECT_NEAR(form(v, k, v), expected, 1e-12 * std::abs(expected));
         const auto entries = test::denseCopy(k);
-        for (PetscInt i = 0; i < entries.rows; ++i)
+        for (PetscInt i = 0; i < entries.rows(); ++i)
           for (PetscInt j = 0; j < i; ++j) ASSERT_EQ(entries(i, j), entries(j, i));
         // A rigid translation is not resisted: rows add up to zero.
-        for (PetscInt i = 0; i < entries.rows; ++i) {
+        for (PetscInt i = 0; i < entries.rows(); ++i) {
           double sum = 0;
-          for (PetscInt j = 0; j < entries.rows; ++j) sum += entries(i, j);
+          for (PetscInt j = 0; j < entries.rows(); ++j) sum += entries(i, j);
           EXPECT_NEAR(sum, 0, 1e-13);
         }
       }

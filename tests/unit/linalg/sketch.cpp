@@ -8,14 +8,16 @@
 
 #include "linalg/block.hpp"
 #include "support/case.hpp"
+#include "support/dense.hpp"
+#include "support/worst.hpp"
 
 namespace squeal {
 namespace {
 
+using linalg::DenseMatrix;
 using linalg::Sketch;
 
 constexpr PetscInt length = 3001;
-constexpr int vectors = 400;
 
 /// Rows of uneven numbers: the last rank has most of them.
 struct Layout {
@@ -28,38 +30,51 @@ struct Layout {
     first = rank * (length / (3 * size));
     end = rank + 1 < size ? (rank + 1) * (length / (3 * size)) : length;
   }
-  /// This rank's rows of columns given by all rows.
-  std::vector<double> local(const std::vector<double>& columns) const {
-    std::vector<double> result;
-    for (auto column = columns.begin(); column != columns.end(); column += length)
-      result.insert(result.end(), column + first, column + end);
-    return result;
+  /// Returns this rank's rows.
+  DenseMatrix local(const DenseMatrix& columns) const {
+    return linalg::rowRange(columns, first, end);
   }
 };
 
-double weight(PetscInt row) { return row % 7 == 0 ? 1e3 : 1.0 / (1 + static_cast<double>(row)); }
+double weight(PetscInt row) { return row % 7 == 0 ? 1e3 : 1.0 / (1 + row); }
 
-linalg::Sketch sketchOn(const Layout& layout) {
+Sketch sketchOn(const Layout& layout) {
   std::vector<double> diagonal;
-  for (auto row = layout.first; row < layout.end; ++row) diagonal.push_back(weight(row));
+  for (PetscInt row = layout.first; row < layout.end; ++row) diagonal.push_back(weight(row));
   return {layout.comm, diagonal};
 }
 
-/// The same on all ranks.
-std::vector<double> randomColumns(int count) {
+/// Returns the same columns, all rows, on all ranks.
+DenseMatrix randomColumns(PetscInt count) {
   std::mt19937 generator(7);
-  std::vector<double> values;
-  for (PetscInt i = 0; i < count * length; ++i)
-    values.push_back(2.0 * static_cast<double>(generator()) / 4294967295.0 - 1);
-  return values;
+  return test::randomMatrix(length, count, generator);
 }
 
-/// Σ weight · x² of each column.
-std::vector<double> exactSquares(const std::vector<double>& columns, bool weighted) {
-  std::vector<double> sums(columns.size() / length, 0.0);
-  for (std::size_t k = 0; k < columns.size(); ++k)
-    sums[k / length] +=
-        (weighted ? weight(static_cast<PetscInt>(k % length)) : 1) * columns[k] * columns[k];
+// Signs belong to global rows: the sketch of all ranks is that of one rank with all rows, but for
+// the order of the sums.
+TEST(Sketch, DoesNotDependOnTheRanks) {
+  const Layout layout(PETSC_COMM_WORLD), whole(PETSC_COMM_SELF);
+  const DenseMatrix columns = randomColumns(3);
+  const DenseMatrix found = sketchOn(layout).of(layout.local(columns)),
+                    wanted = sketchOn(whole).of(columns);
+  for (const auto& sketch : {found, wanted}) {
+    ASSERT_EQ(sketch.rows(), 2 * Sketch::size);
+    ASSERT_EQ(sketch.columns(), 3);
+  }
+  double size = 0, difference = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    size = std::max(size, std::abs(wanted.entries()[i]));
+    difference = test::worse(difference, std::abs(found.entries()[i] - wanted.entries()[i]));
+  }
+  EXPECT_LT(difference, 1e-13 * size);
+}
+
+/// Returns Σ weight · x² of each column.
+std::vector<double> exactSquares(const DenseMatrix& columns, bool weighted) {
+  std::vector<double> sums(columns.columns(), 0.0);
+  for (PetscInt j = 0; j < columns.columns(); ++j)
+    for (PetscInt i = 0; i < length; ++i)
+      sums[j] += (weighted ? weight(i) : 1) * columns(i, j) * columns(i, j);
   return sums;
 }
 
@@ -69,12 +84,12 @@ struct Spread {
 
 Spread spreadOf(const std::vector<double>& found, const std::vector<double>& exact) {
   Spread spread;
-  const auto n = static_cast<double>(found.size());
+  const double n = found.size();
   for (std::size_t i = 0; i < found.size(); ++i) {
-    const double error = found[i] / exact[i] - 1;
+    const double error = found[i] / exact.at(i) - 1;
     spread.mean += error / n;
     spread.deviation += error * error / n;
-    spread.largest = std::max(spread.largest, std::abs(error));
+    spread.largest = test::worse(spread.largest, std::abs(error));
   }
   spread.deviation = std::sqrt(spread.deviation);
   return spread;
@@ -86,23 +101,23 @@ Spread spreadOf(const std::vector<double>& found, const std::vector<double>& exa
 // same. Weights of a seventh of the rows that outweigh the others leave 429 independent terms.
 TEST(Sketch, NormsOfManyRandomVectors) {
   const Layout layout(PETSC_COMM_WORLD);
-  const linalg::Sketch sketch = sketchOn(layout);
-  const auto columns = randomColumns(vectors);
-  const auto norms = linalg::squaredNorms(sketch.of(layout.local(columns).data(), vectors));
-  const auto lengths =
-      linalg::squaredLengths(sketch.unweighted(layout.local(columns).data(), vectors));
+  const Sketch sketch = sketchOn(layout);
+  constexpr int vectors = 400;
+  const DenseMatrix columns = randomColumns(vectors), mine = layout.local(columns);
+  const auto norms = linalg::squaredNorms(sketch.of(mine));
+  const auto lengths = linalg::squaredLengths(sketch.unweighted(mine));
   ASSERT_EQ(lengths.size(), norms.euclidean.size());
   for (std::size_t i = 0; i < lengths.size(); ++i)
     EXPECT_NEAR(lengths[i], norms.euclidean[i], 1e-12 * norms.euclidean[i]);
-  const double expected = std::sqrt(2.0 / linalg::Sketch::size);
+  const double expected = std::sqrt(2.0 / Sketch::size);
   for (const bool weighted : {false, true}) {
     const auto& found = weighted ? norms.weighted : norms.euclidean;
-    ASSERT_EQ(found.size(), static_cast<std::size_t>(vectors));
+    ASSERT_EQ(std::ssize(found), vectors);
     const auto exact = exactSquares(columns, weighted);
     const Spread spread = spreadOf(found, exact);
     int outside = 0;
     for (std::size_t i = 0; i < found.size(); ++i)
-      outside += std::sqrt(exact[i]) > linalg::Sketch::safety * std::sqrt(found[i]) ||
+      outside += std::sqrt(exact[i]) > Sketch::safety * std::sqrt(found[i]) ||
                  found[i] > std::pow(1 + 3 * expected / 2, 2) * exact[i];
     test::print(
         "%s: mean of the squares %+.1e, deviation %.3f (expected %.3f), largest %.2f, %d of %d "
@@ -120,89 +135,73 @@ TEST(Sketch, NormsOfManyRandomVectors) {
 // constants, alternating signs and waves to within three deviations.
 TEST(Sketch, NormsOfRegularVectors) {
   const Layout layout(PETSC_COMM_WORLD);
-  const linalg::Sketch sketch = sketchOn(layout);
-  std::vector<double> columns(3 * length, 0.0);
-  for (std::size_t k = 0; k < 3; ++k) columns[k * length + 17 + 1000 * k] = 5;
-  for (const double norm :
-       linalg::squaredNorms(sketch.of(layout.local(columns).data(), 3)).euclidean)
+  const Sketch sketch = sketchOn(layout);
+  DenseMatrix units(length, 3);
+  for (PetscInt j = 0; j < 3; ++j) units(17 + 1000 * j, j) = 5;
+  for (const double norm : linalg::squaredNorms(sketch.of(layout.local(units))).euclidean)
     EXPECT_NEAR(norm, 25, 1e-12);
-  columns.clear();
-  for (const int waves : {0, 1, 2, 5, 20, 100, 500})
-    for (PetscInt i = 0; i < length; ++i)
-      columns.push_back(std::cos(2 * M_PI * waves * (static_cast<double>(i) + 0.5) / length));
-  for (PetscInt i = 0; i < length; ++i) columns.push_back(i % 2 == 0 ? 1 : -1);
-  const auto count = static_cast<PetscInt>(columns.size()) / length;
-  const auto found = linalg::squaredNorms(sketch.of(layout.local(columns).data(), count)).euclidean;
-  EXPECT_LT(spreadOf(found, exactSquares(columns, false)).largest,
-            3 * std::sqrt(2.0 / linalg::Sketch::size));
-}
-
-// Signs belong to global rows: the sketch of all ranks is that of one rank with all rows, but for
-// the order of the sums.
-TEST(Sketch, DoesNotDependOnTheRanks) {
-  const Layout layout(PETSC_COMM_WORLD), whole(PETSC_COMM_SELF);
-  const auto columns = randomColumns(3);
-  const auto found = sketchOn(layout).of(layout.local(columns).data(), 3),
-             wanted = sketchOn(whole).of(columns.data(), 3);
-  ASSERT_EQ(found.size(), static_cast<std::size_t>(3 * 2 * linalg::Sketch::size));
-  ASSERT_EQ(found.size(), wanted.size());
-  double size = 0, difference = 0;
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    size = std::max(size, std::abs(wanted[i]));
-    difference = std::max(difference, std::abs(found[i] - wanted[i]));
+  constexpr int waves[] = {0, 1, 2, 5, 20, 100, 500};
+  DenseMatrix columns(length, 8);
+  for (PetscInt i = 0; i < length; ++i) {
+    for (PetscInt j = 0; j < 7; ++j)
+      columns(i, j) = std::cos(2 * M_PI * waves[j] * (i + 0.5) / length);
+    columns(i, 7) = i % 2 == 0 ? 1 : -1;
   }
-  EXPECT_LT(difference, 1e-13 * size);
+  const auto found = linalg::squaredNorms(sketch.of(layout.local(columns))).euclidean;
+  ASSERT_EQ(found.size(), 8u);
+  EXPECT_LT(spreadOf(found, exactSquares(columns, false)).largest,
+            3 * std::sqrt(2.0 / Sketch::size));
 }
 
 // Columns that are combinations of few directions but for a small rest: as many combinations as
 // directions, and they hold the columns.
 TEST(Sketch, LeadingCombinationsHoldTheColumns) {
   const Layout layout(PETSC_COMM_WORLD);
-  const linalg::Sketch sketch = sketchOn(layout);
+  const Sketch sketch = sketchOn(layout);
   constexpr PetscInt directions = 9, count = 150;
   constexpr double rest = 1e-4;
-  auto columns = randomColumns(count);
-  const auto leading = randomColumns(directions);
+  DenseMatrix columns = randomColumns(count);
+  const DenseMatrix leading = randomColumns(directions);
   std::vector<double> factors;
   for (PetscInt j = 0; j < count; ++j) {
     for (PetscInt i = 0; i < length; ++i) {
-      auto& entry = columns[j * length + i];
-      entry *= rest;
+      columns(i, j) *= rest;
       for (PetscInt k = 0; k < directions; ++k)
-        entry += std::sin(1 + j * k) * leading[k * length + i];
+        columns(i, j) += std::sin(1 + j * k) * leading(i, k);
     }
     factors.push_back((j % 3 == 0 ? 0.5 : 1) / std::sqrt(length / 3.0));
   }
-  const auto values = layout.local(columns);
-  const auto combinations =
-      linalg::leadingCombinations(sketch.of(values.data(), count), factors, 0.03);
-  ASSERT_EQ(combinations.size(), static_cast<std::size_t>(count * directions));
+  const DenseMatrix combinations =
+      linalg::leadingCombinations(sketch.of(layout.local(columns)), factors, 0.03);
+  ASSERT_EQ(combinations.rows(), count);
+  ASSERT_EQ(combinations.columns(), directions);
   // The combinations are C F V for the columns C, their factors F and orthonormal V: they hold C F
   // V Vᵀ.
   double worst = 0;
   for (PetscInt j = 0; j < count; ++j) {
     double sum = 0;
-    std::vector<double> left(static_cast<std::size_t>(length), 0.0);
+    std::vector<double> left(length, 0.0);
     for (PetscInt l = 0; l < count; ++l) {
       double kept = 0;  // (V Vᵀ) of l and j
       for (PetscInt k = 0; k < directions; ++k)
-        kept += combinations[k * count + l] / factors[l] * combinations[k * count + j] / factors[j];
+        kept += combinations(l, k) / factors[l] * combinations(j, k) / factors[j];
       const double part = factors[l] * ((l == j ? 1 : 0) - kept);
-      for (PetscInt i = 0; i < length; ++i) left[i] += part * columns[l * length + i];
+      for (PetscInt i = 0; i < length; ++i) left[i] += part * columns(i, l);
     }
     for (const double value : left) sum += value * value;
-    worst = std::max(worst, std::sqrt(sum));
+    worst = test::worse(worst, std::sqrt(sum));
   }
   test::print("left of columns of length up to 3: %.1e\n", worst);
   // The rest of each column, 1e-4 of a length of one, and that of all 150 in the rows of V, weighed
   // by the condition of the sketch.
   EXPECT_LT(worst, 5 * rest);
   // All directions different: too many for 64 numbers to tell apart.
-  const auto all = linalg::leadingCombinations(
-      sketch.of(layout.local(randomColumns(count)).data(), count), factors, 0.03);
-  ASSERT_EQ(all.size(), static_cast<std::size_t>(count * count));
+  const DenseMatrix all =
+      linalg::leadingCombinations(sketch.of(layout.local(randomColumns(count))), factors, 0.03);
+  ASSERT_EQ(all.rows(), count);
+  ASSERT_EQ(all.columns(), count);
   for (PetscInt j = 0; j < count; ++j)
-    for (PetscInt i = 0; i < count; ++i) EXPECT_EQ(all[j * count + i], i == j ? factors[j] : 0);
+    for (PetscInt i = 0; i < count; ++i) EXPECT_EQ(all(i, j), i == j ? factors[j] : 0);
 }
 
 // Rows that are zero may be left out.
@@ -212,24 +211,26 @@ TEST(Sketch, OfSomeRows) {
   const PetscInt local = layout.end - layout.first;
   check(MatCreateAIJ(PETSC_COMM_WORLD, local, local, length, length, 1, nullptr, 0, nullptr,
                      matrix.out()));
-  auto columns = randomColumns(2);
+  DenseMatrix columns = randomColumns(2);
   for (PetscInt i = 0; i < length; ++i) {
     const bool there = i % 5 == 2;
     if (there && i >= layout.first && i < layout.end)
       check(MatSetValue(matrix, i, i, 1, INSERT_VALUES));
-    for (PetscInt j = 0; j < 2 && !there; ++j) columns[j * length + i] = 0;
+    for (PetscInt j = 0; j < 2 && !there; ++j) columns(i, j) = 0;
   }
   check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
   check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
   const linalg::RowSet rows(matrix);
   EXPECT_EQ(test::total(rows.size()), 600);  // 2, 7, … 2997
-  const linalg::Sketch sketch = sketchOn(layout);
-  const auto values = layout.local(columns);
-  const auto all = sketch.of(values.data(), 2),
-             some = sketch.of(rows, rows.of(values.data(), 2).data(), 2);
-  ASSERT_EQ(all.size(), some.size());
+  const Sketch sketch = sketchOn(layout);
+  const DenseMatrix mine = layout.local(columns), all = sketch.of(mine),
+                    some = sketch.of(rows, rows.of(mine));
+  ASSERT_EQ(all.rows(), some.rows());
+  ASSERT_EQ(all.columns(), some.columns());
   for (std::size_t i = 0; i < all.size(); ++i)
-    EXPECT_NEAR(all[i], some[i], 1e-12 * std::sqrt(exactSquares(columns, true)[0])) << i;
+    EXPECT_NEAR(all.entries()[i], some.entries()[i],
+                1e-12 * std::sqrt(exactSquares(columns, true)[0]))
+        << i;
 }
 
 }  // namespace

@@ -7,15 +7,13 @@
 #include <random>
 
 #include "linalg/block.hpp"
-#include "linalg/quadratic.hpp"
 #include "linalg/symmetric.hpp"
+#include "support/blocks.hpp"
+#include "support/dense.hpp"
 #include "support/layers.hpp"
 
 namespace squeal {
 namespace {
-
-using linalg::Block;
-using reduction::Basis;
 
 /// Twenty modes of the layers are the basis to begin with.
 struct Fixture : test::Layers {
@@ -25,39 +23,18 @@ struct Fixture : test::Layers {
     basis = std::make_unique<reduction::Basis>(free, *system);
   }
 
-  /// A X.
-  linalg::Block times(Mat matrix, const linalg::Block& x) const {
-    OwnedVec from, to;
-    check(MatCreateVecs(matrix, from.out(), to.out()));
-    linalg::Block result(x.rows);
-    for (PetscInt j = 0; j < x.columns; ++j) {
-      PetscScalar* entries = nullptr;
-      check(VecGetArray(from, &entries));
-      std::copy_n(x.column(j), x.rows, entries);
-      check(VecRestoreArray(from, &entries));
-      check(MatMult(matrix, from, to));
-      const PetscScalar* product = nullptr;
-      check(VecGetArrayRead(to, &product));
-      result.append(product);
-      check(VecRestoreArrayRead(to, &product));
-    }
-    return result;
-  }
+  /// K0 X.
+  linalg::Block forcesOf(const linalg::Block& x) const { return test::times(system->k0(), x); }
 
   /// V.
   const linalg::Block& columns() const { return basis->columns(); }
 
   /// The largest entry of VᵀK0V − I.
   double departure() const {
-    const linalg::Block v = columns();
-    EXPECT_EQ(v.columns, basis->size());
-    const auto gram = linalg::transposedProduct(basis->comm(), v, times(system->k0(), v));
-    double worst = 0;
-    for (std::size_t k = 0; k < gram.size(); ++k) {
-      const bool diagonal = k % (static_cast<std::size_t>(v.columns) + 1) == 0;
-      worst = std::max(worst, std::abs(gram[k] - (diagonal ? 1 : 0)));
-    }
-    return worst;
+    EXPECT_EQ(columns().columns(), basis->size());
+    return test::largestDifference(
+        linalg::transposedProduct(basis->comm(), columns(), forcesOf(columns())),
+        test::identity(basis->size()));
   }
 
   linalg::Block random(PetscInt count, unsigned seed) const {
@@ -65,8 +42,7 @@ struct Fixture : test::Layers {
     int rank = 0;
     check(MPI_Comm_rank(basis->comm(), &rank));
     std::mt19937 generator(seed + 100 * static_cast<unsigned>(rank));
-    for (auto& value : block.values)
-      value = 2.0 * static_cast<double>(generator()) / 4294967295.0 - 1;
+    for (double& entry : block.entries()) entry = test::uniform(generator);
     return block;
   }
 };
@@ -78,18 +54,15 @@ TEST(Basis, StaysOrthonormalInEnergy) {
   EXPECT_LT(f.departure(), 1e-10);
   for (const PetscInt count : {7, 1, 30, 12}) {
     const PetscInt before = f.basis->size();
-    EXPECT_EQ(f.basis->add(f.random(count, static_cast<unsigned>(count))), count);
+    EXPECT_EQ(f.basis->add(f.random(count, count)), count);
     EXPECT_EQ(f.basis->size(), before + count);
   }
   test::print("basis of %d: departure from orthonormality %.1e\n",
               static_cast<int>(f.basis->size()), f.departure());
   EXPECT_LT(f.departure(), 1e-10);
   EXPECT_EQ(f.basis->solves(), 50);
-  const linalg::Block v = f.columns();
-  const auto sketch = f.basis->sketch().unweighted(v.values.data(), v.columns);
-  ASSERT_EQ(sketch.size(), f.basis->sketched().size());
-  for (std::size_t k = 0; k < sketch.size(); ++k)
-    EXPECT_NEAR(f.basis->sketched()[k], sketch[k], 1e-12) << k;
+  EXPECT_LT(test::largestDifference(f.basis->sketched(), f.basis->sketch().unweighted(f.columns())),
+            1e-12);
 }
 
 // The basis gains K0⁻¹ R: K0 V Vᵀr = r for a residual that has gone in.
@@ -97,13 +70,10 @@ TEST(Basis, HoldsWhatIsAdded) {
   const Fixture f;
   const linalg::Block residuals = f.random(5, 1);
   f.basis->add(residuals);
-  const linalg::Block v = f.columns(), forces = f.times(f.system->k0(), v);
-  const auto parts = linalg::transposedProduct(f.basis->comm(), v, residuals);
   linalg::Block left = residuals;
-  linalg::multiplyAdd(forces.values.data(), forces.rows, forces.columns, parts, left.values, -1);
-  double worst = 0;
-  for (const double value : left.values) worst = std::max(worst, std::abs(value));
-  EXPECT_LT(test::largest(worst), 1e-10);  // of entries up to 1
+  linalg::multiplyAdd(f.forcesOf(f.columns()),
+                      linalg::transposedProduct(f.basis->comm(), f.columns(), residuals), left, -1);
+  EXPECT_LT(test::largestOfAll(left), 1e-10);  // of entries up to 1
 }
 
 // VᵀK0V and K0 V of what is added, known without products with K0: those of the products, to the
@@ -112,38 +82,29 @@ TEST(Basis, HoldsWhatIsAdded) {
 TEST(Basis, KnowsEnergiesAndForcesOfWhatIsAdded) {
   const Fixture f;
   const auto check = [&](bool kept, PetscInt count, double departure) {
-    const PetscInt size = f.basis->size();
-    const linalg::Block forces = f.times(f.system->k0(), f.columns());
-    ASSERT_EQ(f.basis->forces().columns, kept ? count : 0);
-    double worst = 0;
-    for (PetscInt j = 0; j < f.basis->forces().columns; ++j)
-      for (PetscInt i = 0; i < forces.rows; ++i)
-        worst = std::max(
-            worst, std::abs(f.basis->forces().column(j)[i] - forces.column(size - count + j)[i]));
-    double scale = 0;
-    for (const double value : forces.values) scale = std::max(scale, std::abs(value));
-    EXPECT_LT(test::largest(worst), 1e-10 * test::largest(scale));
-    const auto gram = linalg::transposedProduct(f.basis->comm(), f.columns(), forces);
-    const auto& energies = f.basis->energies();
-    ASSERT_EQ(energies.size(), static_cast<std::size_t>(kept ? size * count : 0));
-    double known = 0, off = 0;
-    for (PetscInt j = size - count; j < size; ++j)
-      for (PetscInt i = 0; i < size; ++i) {
-        const double entry = gram[j * size + i];
-        if (kept)
-          known = std::max(known, std::abs(energies[(j - size + count) * size + i] - entry));
-        off = std::max(off, std::abs(entry - (i == j ? 1 : 0)));
-      }
-    EXPECT_LT(known, 1e-10);
+    const PetscInt size = f.basis->size(), old = size - count;
+    const linalg::Block forces = f.forcesOf(f.columns());
+    const linalg::DenseMatrix gram =
+        linalg::transposedProduct(f.basis->comm(), f.columns(), forces);
+    ASSERT_EQ(f.basis->forces().columns(), kept ? count : 0);
+    ASSERT_EQ(f.basis->energies().columns(), kept ? count : 0);
+    if (kept) {
+      linalg::Block wrong = f.basis->forces();
+      linalg::addScaled(wrong, -1, forces.columnRange(old, size));
+      EXPECT_LT(test::largestOfAll(wrong), 1e-10 * test::largestOfAll(forces));
+      EXPECT_LT(test::largestDifference(f.basis->energies(), gram.columnRange(old, size)), 1e-10);
+    }
+    const linalg::DenseMatrix unit = test::identity(size);
+    const double off = test::largestDifference(linalg::DenseMatrix(gram.columnRange(old, size)),
+                                               unit.columnRange(old, size));
     EXPECT_LT(off, 1e-3);
     EXPECT_GT(off, departure);
   };
   linalg::Block residuals = f.random(6, 8);
-  const auto parts = linalg::transposedProduct(f.basis->comm(), f.columns(), residuals);
-  const linalg::Block forces = f.times(f.system->k0(), f.columns());
   // R − (1 − 1e-5) K0 V VᵀR: a hundred-thousandth of the part along V is left, and stays in the
   // basis.
-  linalg::multiplyAdd(forces.values.data(), forces.rows, forces.columns, parts, residuals.values,
+  linalg::multiplyAdd(f.forcesOf(f.columns()),
+                      linalg::transposedProduct(f.basis->comm(), f.columns(), residuals), residuals,
                       -1 + 1e-5);
   EXPECT_EQ(f.basis->add(residuals), 6);
   check(true, 6, 1e-8);
@@ -155,12 +116,11 @@ TEST(Basis, DropsWhatItHasAndWhatDependsOnOthers) {
   const Fixture f;
   linalg::Block twice = f.random(3, 2);
   const linalg::Block copy = twice;
-  append(twice, copy);
-  for (PetscInt i = 0; i < twice.rows; ++i)
-    twice.column(4)[i] = 2 * twice.column(0)[i] - 3 * twice.column(2)[i];
+  twice.append(copy);
+  for (PetscInt i = 0; i < twice.rows(); ++i) twice(i, 4) = 2 * twice(i, 0) - 3 * twice(i, 2);
   EXPECT_EQ(f.basis->add(twice), 3);
-  EXPECT_EQ(f.basis->add(copy), 0);                                  // they are in the basis
-  EXPECT_EQ(f.basis->add(f.times(f.system->k0(), f.columns())), 0);  // K0 V
+  EXPECT_EQ(f.basis->add(copy), 0);                     // they are in the basis
+  EXPECT_EQ(f.basis->add(f.forcesOf(f.columns())), 0);  // K0 V
   EXPECT_EQ(f.basis->add(linalg::Block(f.basis->localRows())), 0);
   EXPECT_EQ(f.basis->size(), 23);
   EXPECT_LT(f.departure(), 1e-10);
@@ -170,12 +130,12 @@ TEST(Basis, CombinationsStayOrthonormal) {
   const Fixture f;
   f.basis->add(f.random(10, 3));
   // Eigenvectors of a symmetric matrix: orthonormal. Twelve of them.
-  linalg::DenseMatrix turned(30 * 30);
-  for (std::size_t k = 0; k < turned.size(); ++k)
-    turned[k] = std::cos(static_cast<double>((k / 30 + 1) * (k % 30 + 1)));
-  linalg::symmetricEigen(turned, 30);
-  turned.resize(30 * 12);
-  f.basis->combine(turned, 12);
+  linalg::DenseMatrix turned(30, 30);
+  for (PetscInt j = 0; j < 30; ++j)
+    for (PetscInt i = 0; i < 30; ++i) turned(i, j) = std::cos((i + 1) * (j + 1));
+  linalg::symmetricEigen(turned);
+  turned.resizeColumns(12);
+  f.basis->combine(turned);
   EXPECT_EQ(f.basis->size(), 12);
   EXPECT_LT(f.departure(), 1e-10);
 }
@@ -188,35 +148,20 @@ TEST(Basis, EnergyRatiosAreWhatTheySay) {
   OwnedVec diagonal;
   check(MatCreateVecs(f.system->k0(), diagonal.out(), nullptr));
   check(MatGetDiagonal(f.system->k0(), diagonal));
+  const Mat k0 = f.system->k0();
   const auto products = [&](const linalg::Block& x) {  // XᵀK0⁻¹X and XᵀD⁻¹X
-    OwnedVec from, to;
-    check(MatCreateVecs(f.system->k0(), from.out(), to.out()));
-    linalg::Block solved(x.rows), divided(x.rows);
-    for (PetscInt j = 0; j < x.columns; ++j) {
-      for (linalg::Block* result : {&solved, &divided}) {
-        PetscScalar* entries = nullptr;
-        check(VecGetArray(from, &entries));
-        std::copy_n(x.column(j), x.rows, entries);
-        check(VecRestoreArray(from, &entries));
-        if (result == &solved)
-          test::solveDirectly(f.system->k0(), from, to);
-        else
-          check(VecPointwiseDivide(to, from, diagonal));
-        const PetscScalar* values = nullptr;
-        check(VecGetArrayRead(to, &values));
-        result->append(values);
-        check(VecRestoreArrayRead(to, &values));
-      }
-    }
+    const auto solved = test::mapped(k0, x, [&](Vec b, Vec u) { test::solveDirectly(k0, b, u); });
+    const auto divided =
+        test::mapped(k0, x, [&](Vec b, Vec u) { check(VecPointwiseDivide(u, b, diagonal)); });
     return std::pair{linalg::transposedProduct(f.basis->comm(), x, solved),
                      linalg::transposedProduct(f.basis->comm(), x, divided)};
   };
-  const auto found = f.basis->energyRatios({one, two, linalg::Block(one.rows)});
+  const auto found = f.basis->energyRatios({one, two, linalg::Block(one.rows())});
   ASSERT_EQ(found.size(), 3U);
   const auto [energy, weighted] = products(one);
-  EXPECT_NEAR(found[0], std::sqrt(energy[0] / weighted[0]), 1e-10 * found[0]);
+  EXPECT_NEAR(found[0], std::sqrt(energy(0, 0) / weighted(0, 0)), 1e-10 * found[0]);
   auto [energies, weights] = products(two);
-  const double largest = std::sqrt(linalg::symmetricEigen(energies, weights, 2).back());
+  const double largest = std::sqrt(linalg::symmetricEigen(energies, weights).back());
   EXPECT_NEAR(found[1], largest, 1e-10 * largest);
   EXPECT_EQ(found[2], 0);
   EXPECT_EQ(f.basis->size(), 20);  // nothing is added

@@ -8,26 +8,20 @@
 #include <random>
 
 #include "linalg/quadratic.hpp"
+#include "support/dense.hpp"
 #include "support/spectrum.hpp"
 
 namespace squeal {
 namespace {
 
-using linalg::DenseMatrix;
-using linalg::DensePair;
-using linalg::DenseProblem;
 using test::Complex;
 
-double uniform(std::mt19937& generator) {
-  return 2.0 * static_cast<double>(generator()) / 4294967295.0 - 1;
-}
-
-linalg::DenseMatrix randomMatrix(int m, double diagonal, double rise, double size,
+linalg::DenseMatrix randomMatrix(PetscInt m, double diagonal, double rise, double size,
                                  std::mt19937& generator) {
-  linalg::DenseMatrix matrix;
-  for (int j = 0; j < m; ++j)
-    for (int i = 0; i < m; ++i)
-      matrix.push_back((i == j ? diagonal + rise * i : 0) + size * uniform(generator));
+  linalg::DenseMatrix matrix(m, m);
+  for (PetscInt j = 0; j < m; ++j)
+    for (PetscInt i = 0; i < m; ++i)
+      matrix(i, j) = (i == j ? diagonal + rise * i : 0) + size * test::uniform(generator);
   return matrix;
 }
 
@@ -47,7 +41,7 @@ TEST(Condition, AgainstPerturbedMatrices) {
   std::mt19937 generator(11);
   for (const bool damped : {false, true}) {
     linalg::DenseProblem problem{
-        randomMatrix(m, 3, 0, 0.3, generator), {}, randomMatrix(m, 10, 7, 4, generator), m};
+        randomMatrix(m, 3, 0, 0.3, generator), {}, randomMatrix(m, 10, 7, 4, generator)};
     if (damped) problem.damping = randomMatrix(m, 0.5, 0.1, 0.5, generator);
     const auto pairs = linalg::solveQuadratic(problem, linalg::Vectors::both);
     const auto numbers = reduction::conditionNumbers(problem, pairs);
@@ -65,15 +59,14 @@ TEST(Condition, AgainstPerturbedMatrices) {
       Complex moved[2];
       for (const int side : {0, 1}) {
         linalg::DenseProblem there = problem;
-        for (std::size_t j = 0; j < d.size(); ++j)
-          for (std::size_t i = 0; i < y.size(); ++i)
-            there.stiffness[j * y.size() + i] +=
-                (side == 0 ? -step : step) * (y[i] * std::conj(d[j])).real();
+        for (PetscInt j = 0; j < m; ++j)
+          for (PetscInt i = 0; i < m; ++i)
+            there.stiffness(i, j) += (side == 0 ? -step : step) * (y[i] * std::conj(d[j])).real();
         moved[side] = nearest(linalg::solveQuadratic(there), pairs[k].s);
       }
       const double wanted =
           std::abs(moved[1] - moved[0]) / (2 * step * std::abs(pairs[k].s) * part);
-      worst = std::max(worst, std::abs(numbers[k] / wanted - 1));
+      worst = test::worse(worst, std::abs(numbers[k] / wanted - 1));
       EXPECT_NEAR(numbers[k], wanted, 1e-6 * wanted) << "s = " << pairs[k].s;
     }
     test::print("%s: condition numbers off by %.1e, %d of %d with complex vectors\n",
@@ -94,7 +87,7 @@ std::vector<Complex> unitVector(std::size_t m, std::size_t i) {
 // singular value 4 either way: 2/4/|s|. The other eigenvalue has 1/6/3.
 TEST(Condition, OfADoubleEigenvalue) {
   const linalg::DenseProblem problem{
-      {1, 0, 0, 0, 1, 0, 0, 0, 1}, {}, {4, 0, 0, 0, 4, 0, 0, 0, 9}, 3};
+      test::identity(3), {}, test::diagonal(std::vector{4., 4., 9.})};
   const auto pair = [](double w, std::size_t right, std::size_t left) {
     return linalg::DensePair{{0, w}, unitVector(3, right), unitVector(3, left)};
   };
@@ -111,13 +104,12 @@ TEST(Condition, OfADoubleEigenvalue) {
 // X diag(4, 4, 9) X⁻¹ by LAPACK: whichever vectors it finds, perturbations of norm ε move both
 // eigenvalues by κ ε |s| at most, and κ is not large: the condition number of X is about 4.
 TEST(Condition, BoundsTheMovesOfADoubleEigenvalue) {
-  const linalg::DenseMatrix x{1, 0, 0, 1, 1, 0, 0.5, -1, 1}, inverse{1, 0, 0, -1, 1, 0, -1.5, 1, 1};
-  const double lambda[] = {4, 4, 9};
-  linalg::DenseProblem problem{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {}, linalg::DenseMatrix(9, 0.0), 3};
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j)
-      for (std::size_t k = 0; k < 3; ++k)
-        problem.stiffness[3 * j + i] += x[3 * k + i] * lambda[k] * inverse[3 * j + k];
+  const auto x = test::square({1, 0, 0, 1, 1, 0, 0.5, -1, 1}),
+             inverse = test::square({1, 0, 0, -1, 1, 0, -1.5, 1, 1});
+  const linalg::DenseProblem problem{
+      test::identity(3),
+      {},
+      linalg::product(linalg::product(x, test::diagonal(std::vector{4., 4., 9.})), inverse)};
   const auto pairs = linalg::solveQuadratic(problem, linalg::Vectors::both);
   const auto numbers = reduction::conditionNumbers(problem, pairs);
   ASSERT_EQ(pairs.size(), 3U);
@@ -125,11 +117,10 @@ TEST(Condition, BoundsTheMovesOfADoubleEigenvalue) {
   const double step = 1e-7;
   for (int trial = 0; trial < 30; ++trial) {
     linalg::DenseProblem there = problem;
+    const auto change = test::randomMatrix(3, 3, generator);
     double norm = 0;  // Frobenius: at least the 2-norm
-    linalg::DenseMatrix change;
-    for (int k = 0; k < 9; ++k)
-      change.push_back(uniform(generator)), norm += change.back() * change.back();
-    for (std::size_t k = 0; k < 9; ++k) there.stiffness[k] += step * change[k] / std::sqrt(norm);
+    for (const double entry : change.entries()) norm += entry * entry;
+    linalg::addScaled(there.stiffness, step / std::sqrt(norm), change);
     const auto moved = linalg::solveQuadratic(there);
     for (std::size_t j = 0; j < 2; ++j)
       for (const auto& pair : moved)
@@ -147,7 +138,7 @@ TEST(Condition, BoundsTheMovesOfADoubleEigenvalue) {
 // K = [4 1; 0 4]: one right vector, e1, one left, e2, and e2ᵀ e1 = 0. LAPACK's vectors miss each
 // other by rounding, no more.
 TEST(Condition, OfADefectiveEigenvalueIsInfinite) {
-  const linalg::DenseProblem problem{{1, 0, 0, 1}, {}, {4, 0, 1, 4}, 2};
+  const linalg::DenseProblem problem{test::identity(2), {}, test::square({4, 0, 1, 4})};
   const linalg::DensePair pair{{0, 2}, unitVector(2, 0), unitVector(2, 1)};
   for (const double number : reduction::conditionNumbers(problem, {pair}))
     EXPECT_EQ(number, INFINITY);

@@ -9,18 +9,18 @@
 
 #include "flutter/terms.hpp"
 #include "linalg/block.hpp"
-#include "linalg/symmetric.hpp"
 #include "modes/modes.hpp"
 #include "pencil/band.hpp"
 #include "pencil/complex_modes.hpp"
 #include "pencil/pencil.hpp"
 #include "report/report.hpp"
+#include "support/blocks.hpp"
+#include "support/dense.hpp"
 #include "support/layers.hpp"
+#include "support/symmetric.hpp"
 
 namespace squeal {
 namespace {
-
-using linalg::Block;
 
 struct Fixture : test::Layers {
   pencil::Pencil pencil;
@@ -36,15 +36,6 @@ struct Fixture : test::Layers {
     std::vector<reduction::PointProblem> batch;
     batch.push_back({{friction}, pencil.with({})});
     return reduced.solve(batch, system->transformation().trial);
-  }
-
-  /// A X, or Aᵀ X.
-  static linalg::Block times(Mat matrix, const linalg::Block& x, bool transposed = false) {
-    OwnedMat kept;
-    if (transposed) check(MatTranspose(matrix, MAT_INITIAL_MATRIX, kept.out()));
-    linalg::Block result(x.rows);
-    linalg::appendProduct(transposed ? kept.get() : matrix, x.values.data(), x.columns, result);
-    return result;
   }
 };
 
@@ -86,15 +77,15 @@ TEST(Band, TheReportSaysThatTheFreeModesEndBelow) {
 /// frequencies ω; without damping real.
 linalg::Block frictionForces(const pencil::Pencil& pencil, const linalg::Block& modes,
                              const std::vector<double>& frequencies, bool transposed) {
-  linalg::Block sum(modes.rows, modes.columns);
+  linalg::Block sum(modes.rows(), modes.columns());
   for (const auto& term : pencil.terms()) {
     if (term.frictionExponent == 0) continue;
     EXPECT_NE(term.power, 1);
-    const linalg::Block image = Fixture::times(term.matrix, modes, transposed);
-    for (PetscInt j = 0; j < modes.columns; ++j)
-      for (PetscInt i = 0; i < modes.rows; ++i)
-        sum.column(j)[i] +=
-            (term.power == 0 ? 1 : -std::pow(frequencies[j], 2)) * image.column(j)[i];
+    const linalg::Block image =
+        transposed ? test::timesTransposed(term.matrix, modes) : test::times(term.matrix, modes);
+    for (PetscInt j = 0; j < modes.columns(); ++j)
+      for (PetscInt i = 0; i < modes.rows(); ++i)
+        sum(i, j) += (term.power == 0 ? 1 : -std::pow(frequencies[j], 2)) * image(i, j);
   }
   return sum;
 }
@@ -103,23 +94,19 @@ linalg::Block frictionForces(const pencil::Pencil& pencil, const linalg::Block& 
 /// energy.
 double outside(const Fixture& f, const linalg::Block& basis, const linalg::Block& forces) {
   const MPI_Comm comm = f.pencil.comm();
-  linalg::Block responses(forces.rows, forces.columns);
+  linalg::Block responses(forces.rows(), forces.columns());
   PetscInt size = 0;
   check(MatGetSize(f.system->k0(), &size, nullptr));
-  const OwnedMat from = linalg::borrowed(comm, forces.rows, size, forces.columns,
-                                         forces.values.data()),
-                 to = linalg::borrowed(comm, forces.rows, size, forces.columns,
-                                       responses.values.data());
+  const OwnedMat from = linalg::borrowed(comm, size, forces),
+                 to = linalg::borrowed(comm, size, responses);
   check(KSPMatSolve(f.system->solver(), from, to));
   const auto energy = linalg::transposedProduct(comm, forces, responses),
              parts = linalg::transposedProduct(comm, basis, forces);
-  const auto n = static_cast<std::size_t>(forces.columns),
-             m = static_cast<std::size_t>(basis.columns);
   double worst = 0;
-  for (std::size_t j = 0; j < n; ++j) {
-    double rest = energy[j * n + j];
-    for (std::size_t i = 0; i < m; ++i) rest -= parts[j * m + i] * parts[j * m + i];
-    worst = std::max(worst, std::sqrt(std::max(0.0, rest)));
+  for (PetscInt j = 0; j < forces.columns(); ++j) {
+    double rest = energy(j, j);
+    for (const double part : parts.column(j)) rest -= part * part;
+    worst = test::worse(worst, std::sqrt(test::worse(0, rest)));
   }
   return worst;
 }
@@ -132,12 +119,11 @@ TEST(StaticResponses, AreHeldByTheBasis) {
   const linalg::Block before = f.reduced.basis().columns();
   const double top = f.solve(0.5).at(0).bandTop;
   const linalg::Block after = f.reduced.basis().columns();
-  auto k0 = test::denseCopy(f.system->k0());
   const double bound =
-      0.03 / std::sqrt(linalg::symmetricEigen(k0.values, static_cast<int>(k0.rows)).front());
-  linalg::Block modes(before.rows);
+      0.03 / std::sqrt(test::symmetricEigenvalues(test::denseCopy(f.system->k0())).front());
+  linalg::Block modes(before.rows());
   for (PetscInt j = 0; f.free.angularFrequency[j] < top; ++j) modes.append(before.column(j));
-  ASSERT_GT(modes.columns, 20);
+  ASSERT_GT(modes.columns(), 20);
   for (const bool transposed : {false, true}) {
     const linalg::Block forces = linalg::unitColumns(
         f.pencil.comm(), frictionForces(f.pencil, modes, f.free.angularFrequency, transposed));
@@ -155,18 +141,14 @@ TEST(Projection, IsThatOfTheTerms) {
   Fixture f("-modes_count 80 -flutter_rounds 2 -flutter_band 0.5");
   f.solve(0.5);
   const auto& v = f.reduced.basis().columns();
-  ASSERT_GT(v.columns, 80);
+  ASSERT_GT(v.columns(), 80);
   const auto projected = f.reduced.project({{0.5}, f.pencil.with({})});
   for (const int power : {0, 2}) {
     const OwnedMat whole = f.pencil.assembled(power, {0.5});
-    const auto wanted = linalg::transposedProduct(f.pencil.comm(), v, Fixture::times(whole, v));
+    const auto wanted = linalg::transposedProduct(f.pencil.comm(), v, test::times(whole, v));
     const auto& found = power == 0 ? projected.stiffness : projected.mass;
-    ASSERT_EQ(found.size(), wanted.size());
-    double worst = 0, largest = 0;
-    for (std::size_t k = 0; k < wanted.size(); ++k) {
-      worst = std::max(worst, std::abs(found[k] - wanted[k]));
-      largest = std::max(largest, std::abs(wanted[k]));
-    }
+    const double worst = test::largestDifference(found, wanted),
+                 largest = test::largestEntry(wanted);
     test::print("s^%d: entries differ by %.1e of the largest\n", power, worst / largest);
     EXPECT_LT(worst, 1e-11 * largest);  // rounding of the solves for K0 z where that is known
                                         // without products, otherwise of sums

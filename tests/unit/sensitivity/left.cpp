@@ -13,6 +13,7 @@
 #include "pencil/pencil.hpp"
 #include "reduction/basis.hpp"
 #include "sensitivity/sensitivity.hpp"
+#include "support/full_problem.hpp"
 #include "support/layers.hpp"
 #include "sweep/parameters.hpp"
 
@@ -20,7 +21,6 @@ namespace squeal {
 namespace {
 
 using Complex = std::complex<double>;
-using linalg::ComplexVector;
 
 linalg::ComplexVector vectorOf(Mat layout, const std::vector<Complex>& entries) {
   linalg::ComplexVector vector;
@@ -47,11 +47,8 @@ TEST(Left, VectorsAreThoseOfAllUnknowns) {
     const auto pencil = flutter::affineTerms(layers.model.contact, system);
     const auto modes = layers.modes();
     const sweep::Parameters at{0.4};
-    const auto full = linalg::solveQuadratic(
-        test::denseCopy(pencil.assembled(2, at)).values,
-        damping.empty() ? linalg::DenseMatrix() : test::denseCopy(pencil.assembled(1, at)).values,
-        test::denseCopy(pencil.assembled(0, at)).values, static_cast<int>(system.size()),
-        linalg::Vectors::both);
+    const auto full = linalg::solveQuadratic(test::fullProblem(pencil, at), linalg::Vectors::both);
+    EXPECT_EQ(pencil.hasPower(1), !damping.empty());
     std::vector<linalg::ComplexVector> right, left;
     std::vector<sensitivity::RightPair> pairs;
     for (std::size_t i = 0; i < 24; i += 4) {

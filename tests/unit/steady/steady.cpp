@@ -15,6 +15,7 @@
 #include "support/model.hpp"
 #include "support/program.hpp"
 #include "support/slider.hpp"
+#include "support/worst.hpp"
 #include "sweep/parameters.hpp"
 
 namespace squeal {
@@ -121,7 +122,7 @@ void expectDerivative(const std::string& name, double scale) {
     PetscReal size = 0;
     check(VecNorm(exact, NORM_2, &size));
     const double error = distance(exact, forward), nonlinear = distance(exact, linear);
-    worst = std::max(worst, error / nonlinear);
+    worst = test::worse(worst, error / nonlinear);
     smallestShare = std::min(smallestShare, nonlinear / size);
     EXPECT_LT(error, 1e-7 * nonlinear) << name;
     EXPECT_GT(nonlinear, 1e-5 * size) << name;
@@ -227,7 +228,7 @@ void expectCoulomb(double depth) {
   }
 
   double error = 0, turning = 0, slowing = 0, largest = 0;
-  for (const auto& state : solution.contact) largest = std::max(largest, state.normalForce);
+  for (const auto& state : solution.contact) largest = test::worse(largest, state.normalForce);
   largest = test::largest(largest);
   for (std::size_t i = 0; i < solution.contact.size(); ++i) {
     const auto& node = model.contact.nodes[i];
@@ -241,11 +242,11 @@ void expectCoulomb(double depth) {
     const double normal = force[first + 1];
     for (std::size_t d = 0; d < dimension; ++d) {
       const double wanted = d == 1 ? normal : -at.friction * phi * normal * w[d] / size;
-      error = std::max(error, std::abs(force[first + d] - wanted) / largest);
+      error = test::worse(error, std::abs(force[first + d] - wanted) / largest);
     }
     EXPECT_NEAR(solution.contact[i].normalForce, normal, 1e-10 * largest);
-    turning = std::max(turning, std::abs(w[2]) / size);
-    slowing = std::max(slowing, std::abs(size / (at.speed * slider::speed) - 1));
+    turning = test::worse(turning, std::abs(w[2]) / size);
+    slowing = test::worse(slowing, std::abs(size / (at.speed * slider::speed) - 1));
   }
   error = test::largest(error), turning = test::largest(turning), slowing = test::largest(slowing);
   test::print(

@@ -15,6 +15,7 @@
 #include "steady/uniqueness.hpp"
 #include "support/case.hpp"
 #include "support/contact_cases.hpp"
+#include "support/dense.hpp"
 #include "support/gathered.hpp"
 #include "support/model.hpp"
 
@@ -24,53 +25,55 @@ namespace {
 using test::contains;
 using test::errorOf;
 using test::Model;
+using test::square;
 using test::contact_cases::layers;
 
-using Matrix = std::vector<double>;  // column-major
-
 TEST(PMatrix, KnownOnes) {
-  EXPECT_TRUE(steady::pMatrix({1, 0, 0, 1}, 2));
-  EXPECT_TRUE(steady::pMatrix({1, 0, -3, 1}, 2));  // its symmetric part has the eigenvalue 1 − 1.5
-  EXPECT_FALSE(steady::pMatrix({1, 2, 2, 1}, 2));  // determinant −3
-  EXPECT_FALSE(steady::pMatrix({0, -1, 1, 0}, 2));
-  EXPECT_FALSE(steady::pMatrix({-1}, 1));
+  EXPECT_TRUE(steady::pMatrix(square({1, 0, 0, 1})));
+  EXPECT_TRUE(
+      steady::pMatrix(square({1, 0, -3, 1})));  // its symmetric part has the eigenvalue 1 − 1.5
+  EXPECT_FALSE(steady::pMatrix(square({1, 2, 2, 1})));  // determinant −3
+  EXPECT_FALSE(steady::pMatrix(square({0, -1, 1, 0})));
+  EXPECT_FALSE(steady::pMatrix(square({-1})));
   // [1 0 −c; −c 1 0; 0 −c 1]: all minors of order two are 1, the determinant is 1 − c³.
   for (const double c : {0.99, 1.01})
-    EXPECT_EQ(steady::pMatrix({1, -c, 0, 0, 1, -c, -c, 0, 1}, 3), c < 1);
+    EXPECT_EQ(steady::pMatrix(square({1, -c, 0, 0, 1, -c, -c, 0, 1})), c < 1);
   // Tiny units are no smaller minors.
-  EXPECT_TRUE(steady::pMatrix({1e-9, 0, -3e-9, 1e-9}, 2));
-  EXPECT_TRUE(steady::pMatrix({1e-20, 0, 0, 1}, 2));
+  EXPECT_TRUE(steady::pMatrix(square({1e-9, 0, -3e-9, 1e-9})));
+  EXPECT_TRUE(steady::pMatrix(square({1e-20, 0, 0, 1})));
 }
 
 /// Product of the pivots of Gaussian elimination with row pivoting.
-double determinant(std::vector<std::vector<double>> a) {
+double determinant(linalg::DenseMatrix a) {
+  const PetscInt n = a.rows();
   double result = 1;
-  for (std::size_t k = 0; k < a.size(); ++k) {
-    std::size_t pivot = k;
-    for (std::size_t i = k + 1; i < a.size(); ++i)
-      if (std::abs(a[i][k]) > std::abs(a[pivot][k])) pivot = i;
-    if (pivot != k) std::swap(a[k], a[pivot]), result = -result;
-    if (a[k][k] == 0) return 0;
-    result *= a[k][k];
-    for (std::size_t i = k + 1; i < a.size(); ++i) {
-      const double factor = a[i][k] / a[k][k];
-      for (std::size_t j = k; j < a.size(); ++j) a[i][j] -= factor * a[k][j];
+  for (PetscInt k = 0; k < n; ++k) {
+    PetscInt pivot = k;
+    for (PetscInt i = k + 1; i < n; ++i)
+      if (std::abs(a(i, k)) > std::abs(a(pivot, k))) pivot = i;
+    if (a(pivot, k) == 0) return 0;
+    if (pivot != k) result = -result;
+    for (PetscInt j = k; j < n; ++j) std::swap(a(k, j), a(pivot, j));
+    result *= a(k, k);
+    for (PetscInt i = k + 1; i < n; ++i) {
+      const double factor = a(i, k) / a(k, k);
+      for (PetscInt j = k; j < n; ++j) a(i, j) -= factor * a(k, j);
     }
   }
   return result;
 }
 
 /// The smallest of all principal minors.
-double smallestMinor(const Matrix& a, std::size_t n) {
+double smallestMinor(const linalg::DenseMatrix& a) {
   double smallest = INFINITY;
-  for (unsigned set = 1; set < 1U << n; ++set) {
-    std::vector<std::vector<double>> part;
-    for (std::size_t i = 0; i < n; ++i) {
-      if (!(set >> i & 1U)) continue;
-      part.emplace_back();
-      for (std::size_t j = 0; j < n; ++j)
-        if (set >> j & 1U) part.back().push_back(a[j * n + i]);
-    }
+  for (unsigned set = 1; set < 1U << a.rows(); ++set) {
+    std::vector<PetscInt> kept;
+    for (PetscInt i = 0; i < a.rows(); ++i)
+      if (set >> i & 1U) kept.push_back(i);
+    const PetscInt size = std::ssize(kept);
+    linalg::DenseMatrix part(size, size);
+    for (PetscInt j = 0; j < size; ++j)
+      for (PetscInt i = 0; i < size; ++i) part(i, j) = a(kept[i], kept[j]);
     smallest = std::min(smallest, determinant(part));
   }
   return smallest;
@@ -80,13 +83,13 @@ TEST(PMatrix, AgreesWithAllMinors) {
   std::mt19937 generator(5);
   int yes = 0, no = 0, indefinite = 0;
   for (int trial = 0; trial < 200; ++trial) {
-    Matrix a(36);
-    for (double& entry : a) entry = 1.5 * (2.0 * generator() / 4294967295.0 - 1);
-    for (std::size_t i = 0; i < 6; ++i) a[7 * i] = 0.8 + std::abs(a[7 * i]);
-    const bool expected = smallestMinor(a, 6) > 0;
-    EXPECT_EQ(steady::pMatrix(a, 6), expected) << "trial " << trial;
+    linalg::DenseMatrix a(6, 6);
+    for (double& entry : a.entries()) entry = 1.5 * test::uniform(generator);
+    for (PetscInt i = 0; i < 6; ++i) a(i, i) = 0.8 + std::abs(a(i, i));
+    const bool expected = smallestMinor(a) > 0;
+    EXPECT_EQ(steady::pMatrix(a), expected) << "trial " << trial;
     ++(expected ? yes : no);
-    indefinite += expected && steady::symmetricEigenvalues(a, 6).front() < 0;
+    indefinite += expected && steady::symmetricEigenvalues(a).front() < 0;
   }
   test::print("%d P-matrices, %d of them not positive definite, %d others\n", yes, indefinite, no);
   EXPECT_GE(yes, 20);
@@ -95,8 +98,8 @@ TEST(PMatrix, AgreesWithAllMinors) {
 }
 
 TEST(Verdict, IsTheStrongestThatHolds) {
-  const auto verdict = [](const Matrix& a, int limit = 18) {
-    return steady::examineMatrix(a, 2, 0.3, limit).verdict;
+  const auto verdict = [](const std::vector<double>& a, int limit = 18) {
+    return steady::examineMatrix(square(a), 0.3, limit).verdict;
   };
   EXPECT_EQ(verdict({2, -1, -1, 2}), "one solution");
   EXPECT_EQ(verdict({2, -1, -1, 2}, 0), "one solution");
@@ -105,18 +108,21 @@ TEST(Verdict, IsTheStrongestThatHolds) {
   EXPECT_EQ(verdict({1, 2, 2, 1}), "a solution exists");  // g = A R + F with F = (−1, −1) has three
   EXPECT_EQ(verdict({1, -2, -2, 1}), "not decided");
   EXPECT_EQ(verdict({1, -1, -1, 1}), "not decided");  // on the border
-  const auto judgement = steady::examineMatrix({1, 2, 2, 1}, 2, 0.3, 18);
+  const auto judgement = steady::examineMatrix(square({1, 2, 2, 1}), 0.3, 18);
   EXPECT_EQ(judgement.friction, 0.3);
   EXPECT_NEAR(judgement.smallest, -1, 1e-14);
   EXPECT_TRUE(contains(judgement.reason, "no P-matrix")) << judgement.reason;
 }
 
 TEST(Loss, IsTheFirstFrictionWithoutPositivity) {
-  EXPECT_NEAR(steady::lossOfPositivity({1, 0, 0, 1}, {0, -2, 0, 0}, 2), 1, 1e-14);  // 1 − f² = 0
-  EXPECT_NEAR(steady::lossOfPositivity({2, 0, 0, 1}, {-1, 0, 0, 0.25}, 2), 2, 1e-14);  // 2 − f = 0
-  EXPECT_EQ(steady::lossOfPositivity({2, 0, 0, 1}, {0, -5, 5, 0}, 2), INFINITY);       // skew
-  EXPECT_EQ(steady::lossOfPositivity({2, 0, 0, 1}, {1, 0, 0, 0}, 2), INFINITY);
-  EXPECT_EQ(steady::lossOfPositivity({1, 2, 2, 1}, {1, 0, 0, 1}, 2), 0);
+  EXPECT_NEAR(steady::lossOfPositivity(square({1, 0, 0, 1}), square({0, -2, 0, 0})), 1,
+              1e-14);  // 1 − f² = 0
+  EXPECT_NEAR(steady::lossOfPositivity(square({2, 0, 0, 1}), square({-1, 0, 0, 0.25})), 2,
+              1e-14);  // 2 − f = 0
+  EXPECT_EQ(steady::lossOfPositivity(square({2, 0, 0, 1}), square({0, -5, 5, 0})),
+            INFINITY);  // skew
+  EXPECT_EQ(steady::lossOfPositivity(square({2, 0, 0, 1}), square({1, 0, 0, 0})), INFINITY);
+  EXPECT_EQ(steady::lossOfPositivity(square({1, 2, 2, 1}), square({1, 0, 0, 1})), 0);
 }
 
 // --- the condensed matrix ---
@@ -169,11 +175,9 @@ Coupled coupledOf(const Model& model) {
 }
 
 /// X of A X = B by LAPACK.
-Matrix solved(Matrix a, Matrix b, int size) {
-  PetscBLASInt n = size,
-               columns = static_cast<PetscBLASInt>(b.size() / static_cast<std::size_t>(size)),
-               info = 0;
-  std::vector<PetscBLASInt> pivots(static_cast<std::size_t>(size));
+linalg::DenseMatrix solved(linalg::DenseMatrix a, linalg::DenseMatrix b) {
+  PetscBLASInt n = a.rows(), columns = b.columns(), info = 0;
+  std::vector<PetscBLASInt> pivots(n);
   LAPACKgesv_(&n, &columns, a.data(), &n, pivots.data(), b.data(), &n, &info);
   EXPECT_EQ(info, 0);
   return b;
@@ -181,24 +185,17 @@ Matrix solved(Matrix a, Matrix b, int size) {
 
 /// The gap block of the inverse of L(f)ᵀ K T, all entries at once: no symmetry used, and none of
 /// K_o, e and U.
-Matrix gapBlock(const Coupled& coupled, double friction) {
+linalg::DenseMatrix gapBlock(const Coupled& coupled, double friction) {
   const auto gaps = test::gathered(coupled.transformation.gapColumn, MPIU_INT);
   const OwnedMat jacobian = contact::affine(coupled.k0, coupled.k1, friction);
   const auto full = test::denseCopy(jacobian);
-  const auto n = static_cast<std::size_t>(full.rows);
-  Matrix units(n * gaps.size(), 0.0), result;
-  for (std::size_t k = 0; k < gaps.size(); ++k)
-    units[k * n + static_cast<std::size_t>(gaps[k])] = 1;
-  const Matrix columns = solved(full.values, units, static_cast<int>(n));
-  for (std::size_t k = 0; k < gaps.size(); ++k)
-    for (PetscInt gap : gaps) result.push_back(columns[k * n + static_cast<std::size_t>(gap)]);
+  const PetscInt count = std::ssize(gaps);
+  linalg::DenseMatrix units(full.rows(), count), result(count, count);
+  for (PetscInt j = 0; j < count; ++j) units(gaps[j], j) = 1;
+  const auto columns = solved(full, units);
+  for (PetscInt j = 0; j < count; ++j)
+    for (PetscInt i = 0; i < count; ++i) result(i, j) = columns(gaps[i], j);
   return result;
-}
-
-double largestEntry(const Matrix& a) {
-  double largest = 0;
-  for (double entry : a) largest = std::max(largest, std::abs(entry));
-  return largest;
 }
 
 TEST(Condensed, IsTheGapBlockOfTheInverse) {
@@ -215,23 +212,23 @@ TEST(Condensed, IsTheGapBlockOfTheInverse) {
     set();
     const Model model = test::buildModel();
     const auto compliance = complianceOf(model);
-    ASSERT_EQ(compliance.size, model.contact.totalNodes);
+    ASSERT_EQ(compliance.a0.rows(), model.contact.totalNodes);
+    ASSERT_EQ(compliance.a1.rows(), model.contact.totalNodes);
     const auto coupled = coupledOf(model);
     double worst = 0;
     for (const double friction : {0.0, 0.3, 1.7}) {
-      const Matrix expected = gapBlock(coupled, friction), found = compliance.at(friction);
-      ASSERT_EQ(found.size(), expected.size());
-      const double scale = largestEntry(expected);
-      for (std::size_t i = 0; i < found.size(); ++i)
-        worst = std::max(worst, std::abs(found[i] - expected[i]) / scale);
+      const auto expected = gapBlock(coupled, friction);
+      worst = test::worse(worst, test::largestDifference(compliance.at(friction), expected) /
+                                     test::largestEntry(expected));
     }
     // The part of friction is not nothing; both inverses lose digits with the condition of K, below
     // 1e5 here.
-    EXPECT_GT(largestEntry(compliance.a1), 0.01 * largestEntry(compliance.a0));
+    const double a0 = test::largestEntry(compliance.a0), a1 = test::largestEntry(compliance.a1);
+    EXPECT_GT(a1, 0.01 * a0);
     EXPECT_LT(worst, 1e-10) << name;
     test::print(
         "%s: %d contact nodes, entries of A(f) differ by %.1e of the largest, |A1| / |A0| %.2f\n",
-        name, compliance.size, worst, largestEntry(compliance.a1) / largestEntry(compliance.a0));
+        name, static_cast<int>(compliance.a0.rows()), worst, a1 / a0);
   }
 }
 
@@ -326,7 +323,7 @@ TEST(Uniqueness, VerdictsOfABlock) {
   EXPECT_LT(result.judgements[2].smallest, 0);
   double noLonger = INFINITY;
   for (const auto& judgement : result.judgements) {
-    const bool unique = smallestMinor(compliance.at(judgement.friction), 5) > 0;
+    const bool unique = smallestMinor(compliance.at(judgement.friction)) > 0;
     EXPECT_EQ(judgement.verdict == "one solution", unique)
         << "friction " << judgement.friction << ": " << judgement.reason;
     EXPECT_EQ(judgement.smallest > 0, judgement.friction < lost);

@@ -1,0 +1,42 @@
+#pragma once
+/// Tall matrices by this rank's rows, one column after the other by PETSc's vectors.
+#include <algorithm>
+
+#include "linalg/block.hpp"
+#include "petsc/arrays.hpp"
+#include "petsc/check.hpp"
+#include "petsc/owned.hpp"
+#include "support/case.hpp"
+#include "support/dense.hpp"
+
+namespace squeal::test {
+
+/// Collective. Returns what `map(from, to)` makes of each column, with vectors distributed like
+/// those of a square matrix.
+template <class Map>
+linalg::Block mapped(Mat layout, const linalg::Block& x, const Map& map) {
+  OwnedVec from, to;
+  check(MatCreateVecs(layout, from.out(), to.out()));
+  linalg::Block result(x.rows(), x.columns());
+  for (PetscInt j = 0; j < x.columns(); ++j) {
+    std::ranges::copy(x.column(j), WriteArray(from).begin());
+    map(from.get(), to.get());
+    std::ranges::copy(ReadArray(to), result.column(j).begin());
+  }
+  return result;
+}
+
+/// Collective. Returns A X.
+inline linalg::Block times(Mat matrix, const linalg::Block& x) {
+  return mapped(matrix, x, [&](Vec from, Vec to) { check(MatMult(matrix, from, to)); });
+}
+
+/// Collective. Returns Aᵀ X.
+inline linalg::Block timesTransposed(Mat matrix, const linalg::Block& x) {
+  return mapped(matrix, x, [&](Vec from, Vec to) { check(MatMultTranspose(matrix, from, to)); });
+}
+
+/// Collective. Returns the largest magnitude of the entries on all ranks.
+inline double largestOfAll(const linalg::DenseView& block) { return largest(largestEntry(block)); }
+
+}  // namespace squeal::test
