@@ -12,11 +12,11 @@ namespace squeal::linalg {
 using Block = DenseMatrix;
 
 /// Collective. Appends A X to the columns of `result`. X and the result are given by this rank's
-/// rows.
+/// rows; the result has its rows even before its first column, and X is not a part of it.
 void appendProduct(Mat matrix, const DenseView& x, Block& result);
 
 /// Collective. Returns a dense matrix of PETSc with `rows` rows over all ranks. It borrows the
-/// entries of the block, this rank's rows.
+/// entries of the block, this rank's rows: writing to the matrix changes the block.
 OwnedMat borrowed(MPI_Comm comm, PetscInt rows, const DenseView& block);
 
 /// Collective. Returns Xᵀ Y, the same on all ranks. X and Y are given by this rank's rows.

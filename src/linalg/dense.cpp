@@ -45,6 +45,8 @@ DenseMatrix rowRange(const DenseView& matrix, PetscInt first, PetscInt last) {
 
 DenseMatrix bordered(const DenseView& a, const DenseView& right, const DenseView& below) {
   const PetscInt old = a.columns(), added = right.columns();
+  assert(a.rows() == old && right.rows() == old + added);
+  assert(below.empty() || (below.rows() == added && below.columns() == old));
   DenseMatrix grown(old + added);
   grown.reserve(old + added);
   grown.resizeColumns(old);

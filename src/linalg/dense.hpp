@@ -89,9 +89,10 @@ class Dense {
     columns_ = columnCount;
     entries_.resize(offset(columnCount));
   }
-  /// Appends columns of the same number of rows. A matrix without columns takes their number of
-  /// rows.
+  /// Appends columns of the same number of rows, which are not columns of this matrix. A matrix
+  /// without columns takes their number of rows.
   void append(const DenseView& more) {
+    if (more.columns() == 0) return;
     if (columns_ == 0) rows_ = more.rows();
     assert(more.rows() == rows_);
     entries_.insert(entries_.end(), more.entries().begin(), more.entries().end());
@@ -129,7 +130,7 @@ DenseMatrix congruent(const DenseView& a, const DenseView& c);
 /// Returns the rows [first, last).
 DenseMatrix rowRange(const DenseView& matrix, PetscInt first, PetscInt last);
 /// Returns a square matrix A that has grown: `right` holds the new columns at full height, `below`
-/// the new rows below the columns of A. If `below` is empty, the result is symmetric.
+/// the new rows below the columns of A. If `below` is empty, they mirror the new columns.
 DenseMatrix bordered(const DenseView& a, const DenseView& right, const DenseView& below);
 /// Computes
 ///   sum += factor · A.

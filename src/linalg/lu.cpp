@@ -50,10 +50,11 @@ Lu<Scalar>::Lu(Dense<Scalar> matrix) : factors_(std::move(matrix)), rows_(factor
   if (n > 0) factor(n, factors_.data(), rows_.data());
   double smallest = std::numeric_limits<double>::infinity();
   for (PetscInt i = 0; i < n; ++i) {
-    smallest = std::min(smallest, std::abs(factors_(i, i)));
-    largest_ = std::max(largest_, std::abs(factors_(i, i)));
+    const double pivot = std::abs(factors_(i, i));
+    if (!(pivot >= smallest)) smallest = pivot;  // a NaN stays, and its ratio is 0
+    largest_ = std::max(largest_, pivot);
   }
-  pivotRatio_ = largest_ > 0 ? smallest / largest_ : 0;
+  pivotRatio_ = smallest / largest_ > 0 ? smallest / largest_ : 0;
 }
 
 template <class Scalar>

@@ -12,7 +12,8 @@ class Lu {
  public:
   /// Factorises a square matrix, which is taken.
   explicit Lu(Dense<Scalar> matrix);
-  /// Returns the smallest pivot divided by the largest, in magnitude; 0 for a singular matrix.
+  /// Returns the smallest pivot divided by the largest, in magnitude; 0 for a singular matrix
+  /// and for one with an entry that is not a number.
   double pivotRatio() const { return pivotRatio_; }
   /// Replaces pivots of zero by the machine precision times the largest pivot. Solutions then point
   /// along the null vector, as inverse iteration needs.

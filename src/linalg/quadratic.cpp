@@ -94,6 +94,7 @@ std::vector<EigenPair> standard(DenseMatrix a, Vectors sides, const Wanted& want
   DenseMatrix schur(n, n);
   dgebal_("S", &n, a.data(), &n, &low, &high, scale.data(),
           &info);  // D⁻¹ A D: matrices of mixed units
+  requireSuccess("dgebal", info);
   callWithWork([&](double* work, PetscBLASInt length) {
     LAPACKgees_("V", "N", nullptr, &n, a.data(), &n, &sorted, real.data(), imaginary.data(),
                 schur.data(), &n, work, &length, nullptr, &info);
@@ -126,6 +127,12 @@ std::vector<EigenPair> standard(DenseMatrix a, Vectors sides, const Wanted& want
   };
   return unpacked(realParts, imaginaryParts, std::vector<double>(count, 1.0), turned(right, false),
                   turned(left, true), wanted);
+}
+
+/// Throws Error if an entry is inf or nan: LAPACK would return eigenvalues all the same.
+void requireFinite(const DenseMatrix& a) {
+  if (!std::ranges::all_of(a.entries(), [](double entry) { return std::isfinite(entry); }))
+    throw Error("the reduced eigenproblem has an entry that is not a finite number");
 }
 
 /// Returns true if the inverse may be formed. With this bound, eigenvalues lose at worst half of
@@ -168,10 +175,10 @@ std::vector<DensePair> linearInSquare(const Leading& mass, const DenseMatrix& st
     const Complex s = rootOf(mu);
     return wanted(s) || (s.imag() == 0 && wanted(-s));
   };
-  DenseMatrix product = stiffness;
-  if (invertible(mass.factors)) mass.factors.solve(product);
+  DenseMatrix quotient = stiffness;
+  if (invertible(mass.factors)) mass.factors.solve(quotient);
   const auto solved = invertible(mass.factors)
-                          ? standard(std::move(product), vectors, either)
+                          ? standard(std::move(quotient), vectors, either)
                           : generalized(stiffness, mass.matrix, vectors, either);
   std::vector<DensePair> pairs;
   for (const auto& [mu, q, left] : solved) {
@@ -204,8 +211,9 @@ std::vector<DensePair> companion(const Leading& mass, const DenseMatrix& damping
                                  const DenseMatrix& stiffness, Vectors vectors,
                                  const Wanted& wanted) {
   const PetscInt m = stiffness.rows();
-  const double unit =
-      std::sqrt(norm(stiffness) / norm(mass.matrix));  // s = unit ŝ (Fan, Lin and Van Dooren 2004)
+  // s = unit ŝ (Fan, Lin and Van Dooren 2004); a matrix of zeros says nothing of the unit
+  const double ratio = norm(stiffness) / norm(mass.matrix),
+               unit = ratio > 0 && std::isfinite(ratio) ? std::sqrt(ratio) : 1;
   //   [0 I; −K̂ −Ẑ] (q, ŝq) = ŝ [I 0; 0 M] (q, ŝq),   K̂ = K / unit², Ẑ = Z / unit
   DenseMatrix lower = stiffness;
   lower.append(damping);
@@ -254,7 +262,8 @@ bool hasSymmetry(const DenseMatrix& a, double sign) {
   for (PetscInt j = 0; j < a.columns(); ++j)
     for (PetscInt i = 0; i <= j; ++i) {
       size = std::max({size, std::abs(a(i, j)), std::abs(a(j, i))});
-      difference = std::max(difference, std::abs(a(i, j) - sign * a(j, i)));
+      const double here = std::abs(a(i, j) - sign * a(j, i));
+      if (!(here <= difference)) difference = here;  // a NaN stays
     }
   return difference <= 1e-13 * size;
 }
@@ -287,6 +296,9 @@ std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vecto
   // of the reversed polynomial are found:
   //   t² K + t Z + M,   t = 1/s
   constexpr double beyondDoubt = 0.01;
+  if (problem.order() == 0) return {};
+  for (const auto* matrix : {&problem.mass, &problem.damping, &problem.stiffness})
+    requireFinite(*matrix);
   const Lu<double> ofStiffness(problem.stiffness);
   std::optional<Lu<double>> ofMass;
   if (ofStiffness.pivotRatio() < beyondDoubt) ofMass.emplace(problem.mass);

@@ -113,6 +113,7 @@ class TwoSidedIteration {
  public:
   TwoSidedIteration(const DenseProblem& problem, const std::vector<DensePair>& start)
       : problem_(problem) {
+    assert(start.size() == 1 || start.size() == 2);
     for (auto [s, x, y] : start) {
       x.resize(problem.order());
       y.resize(problem.order());
@@ -238,12 +239,14 @@ Cluster clusterNear(const DenseProblem& problem, const std::vector<DensePair>& s
     for (int k = 0; k < solves; ++k) {
       iteration.step(factors, shift);
       const Complex mean = shift + iteration.mean();
-      const double change = std::max(
-          std::abs(mean - cluster.mean) / std::abs(mean),
-          start.size() == 1
-              ? 0
-              : std::abs(iteration.square() - square) /
-                    (std::abs(mean) * std::max(iteration.entries(), 1e-10 * std::abs(mean))));
+      const double inMean = std::abs(mean - cluster.mean) / std::abs(mean),
+                   inSquare = start.size() == 1
+                                  ? 0
+                                  : std::abs(iteration.square() - square) /
+                                        (std::abs(mean) *
+                                         std::max(iteration.entries(), 1e-10 * std::abs(mean)));
+      // std::max would drop a NaN that is its second argument.
+      const double change = std::isnan(inSquare) ? inSquare : std::max(inMean, inSquare);
       cluster.mean = mean;
       square = iteration.square();
       // Rounding ends the descent above the bound where eigenvalues are ill-conditioned.

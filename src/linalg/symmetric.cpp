@@ -4,12 +4,29 @@
 
 #include <slepcblaslapack.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "linalg/lapack.hpp"
 #include "petsc/check.hpp"
 
 namespace squeal::linalg {
+namespace {
+
+/// Throws Error if a routine of LAPACK has failed, or has returned what is not a number: it does so
+/// in silence where the matrix has such an entry.
+void requireEigenvalues(const char* routine, PetscBLASInt info, const std::vector<double>& values) {
+  const std::string of = std::to_string(values.size());
+  if (info != 0)
+    throw Error(std::string("LAPACK ") + routine + " failed on a matrix of order " + of +
+                " (info " + std::to_string(info) + ")");
+  if (!std::ranges::all_of(values, [](double value) { return std::isfinite(value); }))
+    throw Error("a symmetric matrix of order " + of +
+                " has an entry that is not a finite number, or too large a one");
+}
+
+}  // namespace
 
 std::vector<double> symmetricEigen(DenseMatrix& a) {
   PetscBLASInt order = a.rows(), length = -1, integers = -1, info = 0, integerLength = 0;
@@ -26,9 +43,7 @@ std::vector<double> symmetricEigen(DenseMatrix& a) {
   std::vector<PetscBLASInt> integerWork(integers);
   LAPACKsyevd_("V", "L", &order, a.data(), &order, values.data(), work.data(), &length,
                integerWork.data(), &integers, &info);
-  if (info != 0)
-    throw Error("LAPACK dsyevd failed on a matrix of order " + std::to_string(order) + " (info " +
-                std::to_string(info) + ")");
+  requireEigenvalues("dsyevd", info, values);
   return values;
 }
 
@@ -40,9 +55,7 @@ std::vector<double> symmetricEigen(DenseMatrix& a, DenseMatrix& b) {
     LAPACKsygv_(&type, "V", "L", &order, a.data(), &order, b.data(), &order, values.data(), work,
                 &length, &info);
   });
-  if (info != 0)
-    throw Error("LAPACK dsygv failed on matrices of order " + std::to_string(order) + " (info " +
-                std::to_string(info) + ")");
+  requireEigenvalues("dsygv", info, values);
   return values;
 }
 

@@ -7,8 +7,8 @@
 namespace squeal::linalg {
 
 /// Returns the eigenvalues of a symmetric matrix, ascending. Only the lower triangle of A is
-/// read. Orthonormal eigenvectors replace it, as columns. Throws Error if LAPACK
-/// fails.
+/// read. Orthonormal eigenvectors replace it, as columns. Throws Error if
+/// LAPACK fails, as on entries that are not finite numbers.
 std::vector<double> symmetricEigen(DenseMatrix& a);
 
 /// Returns the eigenvalues λ of

@@ -115,7 +115,7 @@ bool Basis::addAcross(const linalg::Block& z, const linalg::Block& residuals,
                             along = linalg::product(parts, combinations);
   for (PetscInt j = 0; j < along.columns(); ++j)
     if (!(squaredLength(along.column(j)) < little)) return false;
-  if (combinations.empty() || solutionError(z, residuals) > 1e-12) return false;
+  if (combinations.empty() || !(solutionError(z, residuals) <= 1e-12)) return false;
   const linalg::Block fresh = linalg::product(z, combinations);
   forces_ = linalg::product(residuals, combinations);
   const linalg::DenseMatrix own = linalg::transposedProduct(comm_, fresh, forces_);
@@ -185,6 +185,7 @@ double Basis::ratio(const linalg::Block& residuals, const linalg::DenseMatrix& e
 std::vector<double> Basis::energyRatios(const std::vector<linalg::Block>& blocks) {
   linalg::Block all(localRows());
   for (const auto& block : blocks) all.append(block);
+  if (all.columns() == 0) return std::vector<double>(blocks.size(), 0.0);
   const linalg::Block solved = solve(all);
   std::vector<double> ratios;
   PetscInt first = 0;

@@ -253,7 +253,7 @@ double ReducedProblem::residualRatio(const PointState& state, const linalg::Dens
   };
   const double known = sum(linalg::squaredNorms(residualSketch(state, alone, side)).weighted),
                exact = sum(linalg::squaredNorms(basis_.sketch().of(columns)).weighted);
-  return std::max(1.0, std::sqrt(exact / known));
+  return known > 0 ? std::max(1.0, std::sqrt(exact / known)) : 1.0;
 }
 
 /// Solves for the residuals of the pair with the largest estimate of all points so far. If that

@@ -17,7 +17,7 @@ namespace squeal::reduction {
 /// change of the right and left vectors with these terms, to first order in them and to lowest
 /// order in the frequency.
 linalg::Block forcesOnModes(const Basis& basis, const pencil::Pencil& pencil,
-                             const sweep::Parameters& at, const std::vector<double>& frequencies,
-                             double resolution);
+                            const sweep::Parameters& at, const std::vector<double>& frequencies,
+                            double resolution);
 
 }  // namespace squeal::reduction

@@ -6,7 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "linalg/symmetric.hpp"
 #include "support/dense.hpp"
+#include "support/model.hpp"
 
 namespace squeal {
 namespace {
@@ -210,6 +212,19 @@ TEST(Dense, OfComplexNumbers) {
   EXPECT_EQ(a(0, 0), 0.0);
   EXPECT_EQ(a.column(1)[0], Complex(3, 4));
   EXPECT_EQ(a(0, 2), Complex(5, 6));
+}
+
+TEST(Dense, KeepsItsRowsWhereNoColumnsAreAppended) {
+  DenseMatrix matrix(3);
+  matrix.append(DenseMatrix());
+  EXPECT_EQ(matrix.rows(), 3);
+  EXPECT_EQ(matrix.columns(), 0);
+}
+
+// LAPACK returns NaN for such a matrix, and no error.
+TEST(Dense, EigenvaluesOfEntriesThatAreNoNumbersAreRefused) {
+  DenseMatrix matrix = test::square({1, NAN, NAN, 1});
+  EXPECT_NE(test::errorOf([&] { linalg::symmetricEigen(matrix); }), "");
 }
 
 }  // namespace

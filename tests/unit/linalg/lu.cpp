@@ -68,5 +68,11 @@ TYPED_TEST(LuOf, GoesAlongTheNullVectorOnceZeroPivotsAreRaised) {
   EXPECT_LT(std::abs(b[0] / b[1] + 2.0), 1e-14);
 }
 
+// A comparison with a NaN is false: its place among the pivots must not matter.
+TEST(Lu, OfAnEntryThatIsNoNumberHasNoPivotRatio) {
+  EXPECT_EQ(linalg::Lu(test::square({1, 0, 0, NAN})).pivotRatio(), 0);
+  EXPECT_EQ(linalg::Lu(test::square({NAN, 0, 0, 1})).pivotRatio(), 0);
+}
+
 }  // namespace
 }  // namespace squeal

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "support/dense.hpp"
+#include "support/model.hpp"
 #include "support/quadratic.hpp"
 #include "support/spectrum.hpp"
 
@@ -138,6 +139,36 @@ TEST(Quadratic, ProportionalDampingOfMultipleModes) {
       triple.push_back(pair.q);
   EXPECT_EQ(triple.size(), 3u);
   EXPECT_GT(volume(triple), 1e-3);  // three different modes, not one thrice
+}
+
+/// Checks real eigenvalues, ascending; an error relative to zero would be no number.
+void expectReal(const DenseProblem& problem, const std::vector<double>& wanted) {
+  auto found = eigenvaluesOf(solveQuadratic(problem));
+  std::ranges::sort(found, {}, [](Complex s) { return s.real(); });
+  ASSERT_EQ(found.size(), wanted.size());
+  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_LT(std::abs(found[i] - wanted[i]), 1e-14);
+}
+
+// A matrix of zeros has no size to scale by. With M = 1 and Z = 3 the roots of s² + 3 s are 0 and
+// −3; with M = 0, s + 2 has one root alone.
+TEST(Quadratic, WithoutStiffnessOrWithoutMass) {
+  const auto one = [](double entry) { return test::square({entry}); };
+  expectReal({one(1), one(3), one(0)}, {-3, 0});
+  expectReal({one(0), one(1), one(2)}, {-2});
+  expectReal({identity(2), test::square({1, 0, 0, 2}), DenseMatrix(2, 2)}, {-2, -1, 0, 0});
+}
+
+TEST(Quadratic, OfNoUnknowns) { EXPECT_TRUE(solveQuadratic({}).empty()); }
+
+// LAPACK returns eigenvalues of such matrices without a word.
+TEST(Quadratic, EntriesThatAreNotNumbersAreRefused) {
+  for (const double entry : {NAN, INFINITY})
+    for (const auto matrix :
+         {&DenseProblem::mass, &DenseProblem::damping, &DenseProblem::stiffness}) {
+      DenseProblem problem{identity(2), identity(2), identity(2)};
+      (problem.*matrix)(0, 1) = entry;
+      EXPECT_NE(test::errorOf([&] { solveQuadratic(problem); }), "");
+    }
 }
 
 }  // namespace
