@@ -81,8 +81,10 @@ inline Errors errors(const std::vector<Complex>& wanted, const std::vector<Compl
   return result;
 }
 
-/// The largest of the first `count`; a NaN among them is the result.
+/// The largest of the first `count` errors, or NaN if one of them is; NaN as well where there is
+/// none, since an empty list shows nothing.
 inline double worst(const std::vector<double>& values, std::size_t count) {
+  if (count == 0) return NAN;
   double result = 0;
   for (std::size_t i = 0; i < count; ++i) result = worse(result, values.at(i));
   return result;
@@ -105,9 +107,11 @@ inline double rootMeanSquare(const std::vector<double>& values) {
 /// half as large.
 inline void expectOrder(double expected, double tolerance, const std::vector<double>& coarse,
                         const std::vector<double>& fine, const char* what) {
-  double low = INFINITY, high = 0;
+  ASSERT_FALSE(coarse.empty()) << what;
+  ASSERT_EQ(coarse.size(), fine.size()) << what;
+  double low = INFINITY, high = -INFINITY;
   for (std::size_t i = 0; i < coarse.size(); ++i) {
-    const double order = std::log2(coarse[i] / fine.at(i));
+    const double order = std::log2(coarse[i] / fine[i]);
     low = std::min(low, order), high = std::max(high, order);
     EXPECT_NEAR(order, expected, tolerance)
         << what << ", number " << i + 1 << ": errors " << coarse[i] << " and " << fine[i];
