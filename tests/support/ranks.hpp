@@ -79,23 +79,39 @@ inline int unstableModes(const Findings& findings, std::size_t friction) {
       findings.summary.at("frictions").at(friction).at("unstable_modes").size());
 }
 
+/// What is listed at a friction lies in the band, which is the lower part of the modes and not an
+/// empty one, and friction moves few eigenvalues across its top.
+inline void expectBand(const Findings& findings, double friction) {
+  const double top = findings.bandTop.at(friction);
+  const auto& values = findings.eigenvalues.at(friction);
+  const auto below = static_cast<std::size_t>(
+      std::count_if(findings.frequencies.begin(), findings.frequencies.end(),
+                    [&](double frequency) { return frequency <= top; }));
+  EXPECT_GE(5 * below, findings.frequencies.size()) << "friction " << friction;
+  EXPECT_GE(4 * values.size(), 3 * below) << "friction " << friction;
+  for (const Complex s : values) EXPECT_LE(std::abs(s), top) << "friction " << friction;
+}
+
 /// Frequencies, eigenvalues, contact forces and counts of `other` are those of `one`; prints the
 /// differences.
 inline void expectSame(const Findings& one, const Findings& other, const std::string& label) {
   SCOPED_TRACE(label);
+  ASSERT_FALSE(one.frequencies.empty());
   ASSERT_EQ(one.frequencies.size(), other.frequencies.size());
   double frequency = 0;
   for (std::size_t i = 0; i < one.frequencies.size(); ++i)
     frequency = worse(frequency, std::abs(other.frequencies[i] / one.frequencies[i] - 1));
   EXPECT_LT(frequency, 1e-8);  // twice the digits of the modes' residuals, which are below 1e-5
   double eigenvalue = 0, force = 0;
+  ASSERT_FALSE(one.eigenvalues.empty());
+  ASSERT_EQ(one.eigenvalues.size(), one.steady.size());
   ASSERT_EQ(one.eigenvalues.size(), other.eigenvalues.size());
   for (const auto& [friction, values] : one.eigenvalues) {
-    ASSERT_EQ(values.size(), other.eigenvalues.at(friction).size());
-    const auto band = one.eigenvalues.at(friction);
-    ASSERT_GE(5 * band.size(),
-              values.size());  // the band is the lower part of the modes, not an empty one
-    eigenvalue = worse(eigenvalue, worst(errors(band, other.eigenvalues.at(friction)).relative));
+    const auto& twins = other.eigenvalues.at(friction);
+    ASSERT_EQ(values.size(), twins.size());
+    expectBand(one, friction);
+    EXPECT_NEAR(other.bandTop.at(friction) / one.bandTop.at(friction), 1, 1e-8);
+    eigenvalue = worse(eigenvalue, worst(errors(values, twins).relative));
     force = worse(force, forceDifference(one.steady.at(friction), other.steady.at(friction)));
   }
   EXPECT_LT(eigenvalue, 1e-6);
