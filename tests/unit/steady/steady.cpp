@@ -256,7 +256,9 @@ void expectCoulomb(double depth) {
       depth, solution.iterations, static_cast<int>(solution.openNodes), turning, slowing, error);
   EXPECT_LT(error, 1e-9);    // SNES stops at 1e-11 of its first residual
   EXPECT_GT(slowing, 0.02);  // where it is measured, a slip of −V would fail by as much
-  EXPECT_GT(turning, depth > 0 ? 0.1 : -1);
+  if (depth > 0) {           // in the plane the slip has one line to lie on
+    EXPECT_GT(turning, 0.1);
+  }
 }
 
 TEST(Steady, FrictionOpposesTheSlipOfTheDeformedDisc) {
