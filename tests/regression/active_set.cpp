@@ -78,6 +78,7 @@ TEST(ActiveSet, ModesAreComputedAnewWhereItChanges) {
     const auto now =
         readCsv(sweep.folder / (before.empty() ? "modes.csv" : "modes_" + shortest(first) + ".csv"))
             .column("angular_frequency_rad_per_s");
+    ASSERT_EQ(now.size(), 21U);
     for (std::size_t i = 0; i < before.size(); ++i)
       EXPECT_LE(now[i], before[i] * (1 + 1e-9)) << "mode " << i + 1;
     EXPECT_TRUE(before.empty() || now[0] < before[0] * (1 - 1e-6));
@@ -174,6 +175,7 @@ TEST(ActiveSet, SameOnOneAndTwoRanks) {
   expectSame(findings[0], findings[1], "active sets on 2 ranks");
   const auto& one = findings[0].summary.at("active_sets");
   const auto& two = findings[1].summary.at("active_sets");
+  ASSERT_GE(one.size(), 3U);
   ASSERT_EQ(one.size(), two.size());
   for (std::size_t i = 0; i < one.size(); ++i)
     for (const char* key : {"first_friction", "last_friction", "open_nodes", "dofs"})
@@ -198,6 +200,7 @@ TEST(ActiveSet, FrictionWithoutSteadyState) {
     EXPECT_NE(contentOf(run.folder / "stability_map.csv").find("\n0.9,1,1,1,,,,,\n"),
               std::string::npos);
     const auto summary = nlohmann::json::parse(contentOf(run.folder / "summary.json"));
+    EXPECT_EQ(summary.at("frictions").size(), 3U);
     for (const auto& entry : summary.at("frictions")) {
       const bool exists = entry.at("friction") != 0.9;
       EXPECT_EQ(entry.at("steady").at("converged"), exists);

@@ -59,6 +59,7 @@ TEST(Followed, WhichSweepsAre) {
     ASSERT_EQ(analysis.segments.size(), 1U);
     const auto& followed = analysis.segments[0].followed;
     const auto lines = wanted ? analysis.sweep.speeds.size() : 0;
+    EXPECT_EQ(lines > 0, wanted);
     EXPECT_EQ(followed.size(), lines);
     for (const auto& line : followed) {
       EXPECT_EQ(sweptStations(line), analysis.sweep.frictions);

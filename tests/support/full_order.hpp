@@ -29,6 +29,7 @@ inline const Lists& fullOrder(const std::string& name, const std::string& change
               1e-12);  // at the far end, where the Krylov space ends; a thousandth of it lower down
     lists.push_back(eigenvaluesOf(point));
   }
+  EXPECT_FALSE(lists.empty()) << "no point to compare with";
   return lists;
 }
 

@@ -63,6 +63,7 @@ TEST(Track, HoldsTheEigenvaluesOfTheSweep) {
     const auto inBand = [&](const auto& station) { return followed.branches.inBandAt(station); };
     EXPECT_EQ(inBand(stations.back()),
               inBand(stations.front()) + followed.branches.entered - followed.branches.left);
+    ASSERT_EQ(segment.points.size(), 3u);
     for (const auto& point : segment.points) {
       std::vector<Complex> wanted, found;
       for (const auto& eigenvalue : point.eigenvalues) wanted.push_back(eigenvalue.s);

@@ -36,7 +36,8 @@ void expectBalance(const steady::Solution& solution, double residual) {
               solution.at.friction, solution.residual, solution.imbalance,
               solution.smallestPressure);
   EXPECT_LT(solution.residual, residual);
-  EXPECT_LT(solution.imbalance, residual);  // of every part: contact, springs and load
+  EXPECT_LT(solution.imbalance, residual);    // of every part: contact, springs and load
+  EXPECT_EQ(solution.resultants.size(), 2u);  // of both pads
   for (const auto& resultant : solution.resultants) {
     EXPECT_NEAR(std::abs(resultant.normalForce[2]) / (pressure * padArea), 1, 3e-3);
     // The friction forces, at right angles to the radius, point along nearly half the circle: their

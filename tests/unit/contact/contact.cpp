@@ -93,6 +93,7 @@ TEST(Trial, ObstacleMovesTheFace) {
 // So with Coulomb's R_T = −f R_N τ only the row of the gap is left, and it holds R_N.
 void frictionOfTheNormalForce(const Coupled& c) {
   const int dimension = c.dimension();
+  ASSERT_GT(c.nodes.size(), 0u);
   const auto dx = randomEntries(c.transformation.columns, 11),
              du = product(c.transformation.trial, dx);
   const auto pattern = randomEntries(static_cast<PetscInt>(6 * c.nodes.size()), 12);
@@ -147,6 +148,7 @@ TEST(TestFunctions, FrictionJoinsTheTangentialRows) {
 TEST(TestFunctions, OnlySlidingNodesCarryFriction) {
   setLayers();
   const auto c = coupled();
+  EXPECT_EQ(c.nodes.size(), 6u);
   std::vector<unsigned char> open, closed;
   for (const auto& node : c.model.contact.nodes)
     open.push_back(node.position[0] < 0.75), closed.push_back(!open.back());

@@ -99,6 +99,7 @@ TEST(Slip, FollowsTheRotation) {
                      "-mesh_set n_inner=2,n_outer=2,n_theta=16,order=2 -motion_inner_speed " +
                      std::to_string(speed));
     const auto c = coupled();
+    EXPECT_EQ(c.nodes.size(), 32u);
     for (const auto& node : c.nodes) {
       const double r = std::hypot(node.position[0], node.position[1]), sign = speed > 0 ? -1 : 1;
       EXPECT_NEAR(node.slip[0], sign * -node.position[1] / r, 1e-9);
@@ -108,7 +109,9 @@ TEST(Slip, FollowsTheRotation) {
     EXPECT_EQ(errorOf([&] { requireSlip(c.model.contact); }), "");
   }
   setLayers();
-  for (const auto& node : coupled().nodes) {  // V along +x
+  const auto nodes = coupled().nodes;
+  EXPECT_EQ(nodes.size(), 6u);
+  for (const auto& node : nodes) {  // V along +x
     EXPECT_NEAR(node.slip[0], -1, 1e-14);
     EXPECT_NEAR(node.slipSpeed, 1, 1e-14);
   }
