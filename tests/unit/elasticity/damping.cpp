@@ -1,5 +1,7 @@
 // C of the materials, springs and dashpots to the ground.
 #include <gtest/gtest.h>
+#include <petscsys.h>  // before the next header, which needs it
+
 #include <petscblaslapack.h>
 
 #include <cmath>
