@@ -1,6 +1,7 @@
 // The rotating disc brake at its full size: the direct solve by PEP on 1, 2 and 3 ranks, and the
 // reduced problem against it. Minutes, so not part of the usual run.
 #include "support/ranks.hpp"
+#include "support/worst.hpp"
 
 namespace squeal::test {
 namespace {
@@ -20,7 +21,7 @@ TEST(RotatingDiscBrake, SeventyEigenvaluesByPep) {
                                 at + "-flutter_method direct -flutter_direct_count 70", 900);
     ASSERT_EQ(run.exitCode, 0) << run.error;
     const auto errorsFound = readCsv(run.folder / "eigenvalues.csv").column("backward_error");
-    const double worstError = *std::max_element(errorsFound.begin(), errorsFound.end());
+    const double worstError = worst(errorsFound);
     const auto found = eigenvalues(run);
     std::printf("%d ranks: %zu eigenvalues, worst backward error %.1e\n", ranks, found.size(),
                 worstError);
@@ -34,7 +35,7 @@ TEST(RotatingDiscBrake, SeventyEigenvaluesByPep) {
   const auto run = runProgram("rotating/reduced", 2, at, 900);
   ASSERT_EQ(run.exitCode, 0) << run.error;
   double furthest = 0;
-  for (const auto& s : one) furthest = std::max(furthest, std::abs(s));
+  for (const auto& s : one) furthest = worse(furthest, std::abs(s));
   std::vector<Complex> reduced;
   for (const auto& s : eigenvalues(run))
     if (std::abs(s) < (1 - 1e-6) * furthest) reduced.push_back(s);

@@ -5,6 +5,7 @@
 #include "petsc/text.hpp"
 #include "support/case.hpp"
 #include "support/spectrum.hpp"
+#include "support/worst.hpp"
 
 namespace squeal::test {
 namespace {

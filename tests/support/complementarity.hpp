@@ -125,9 +125,9 @@ inline std::vector<Sliding> allSolutions(const Condensed& problem) {
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j < n; ++j) sliding.force[i] += problem.s[i][j] * sliding.gap[j];
     for (auto i : open) sliding.force[i] = 0;
-    const auto negative = [](double x) { return x < 0; };
-    if (std::none_of(sliding.gap.begin(), sliding.gap.end(), negative) &&
-        std::none_of(sliding.force.begin(), sliding.force.end(), negative))
+    const auto admissible = [](double x) { return x >= 0; };  // NaN, of a singular set, is not
+    if (std::all_of(sliding.gap.begin(), sliding.gap.end(), admissible) &&
+        std::all_of(sliding.force.begin(), sliding.force.end(), admissible))
       solutions.push_back(sliding);
   }
   return solutions;

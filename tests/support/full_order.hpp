@@ -10,6 +10,7 @@
 #include "pencil/complex_modes.hpp"
 #include "support/case.hpp"
 #include "support/spectrum.hpp"
+#include "support/worst.hpp"
 
 namespace squeal::test {
 

@@ -7,6 +7,7 @@
 
 #include "support/program.hpp"
 #include "support/spectrum.hpp"
+#include "support/worst.hpp"
 
 namespace squeal::test {
 

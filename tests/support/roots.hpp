@@ -7,6 +7,7 @@
 
 #include "exact/waves.hpp"
 #include "support/spectrum.hpp"
+#include "support/worst.hpp"
 
 namespace squeal::test {
 

@@ -47,7 +47,8 @@ inline std::vector<Complex> matched(const std::vector<Complex>& wanted,
   std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;
   for (std::size_t i = 0; i < wanted.size(); ++i)
     for (std::size_t j = 0; j < found.size(); ++j)
-      pairs.emplace_back(std::abs(wanted[i] - found[j]), i, j);
+      if (const double distance = std::abs(wanted[i] - found[j]); !std::isnan(distance))
+        pairs.emplace_back(distance, i, j);  // NaN has no place in an order, and is nobody's match
   std::sort(pairs.begin(), pairs.end());
   std::vector<Complex> result(wanted.size(),
                               Complex(NAN, NAN));  // too few found: every comparison fails

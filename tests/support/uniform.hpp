@@ -2,7 +2,6 @@
 /// Steady sliding of layers, whose strain and pressure are uniform, against the closed forms.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "analysis/analysis.hpp"

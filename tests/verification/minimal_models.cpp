@@ -11,6 +11,7 @@
 #include "support/case.hpp"
 #include "support/model.hpp"
 #include "support/spectrum.hpp"
+#include "support/worst.hpp"
 
 namespace squeal {
 namespace {
@@ -48,7 +49,7 @@ struct Model : exact::minimal_models::Matrices {
   std::vector<Complex> eigenvalues(double mu) const { return test::eigenvaluesOf(at(mu)); }
   double growth(double mu) const {
     double largest = -INFINITY;
-    for (const Complex s : eigenvalues(mu)) largest = std::max(largest, s.real());
+    for (const Complex s : eigenvalues(mu)) largest = test::worse(largest, s.real());
     return largest;
   }
 };

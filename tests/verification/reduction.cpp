@@ -5,6 +5,7 @@
 #include "support/case.hpp"
 #include "support/full_order.hpp"
 #include "support/spectrum.hpp"
+#include "support/worst.hpp"
 
 namespace squeal::test {
 namespace {

@@ -9,6 +9,7 @@
 #include "petsc/text.hpp"
 #include "support/model.hpp"
 #include "support/symmetric.hpp"
+#include "support/worst.hpp"
 
 namespace squeal {
 namespace {

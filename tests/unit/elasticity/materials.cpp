@@ -8,6 +8,7 @@
 #include "support/case.hpp"
 #include "support/dense.hpp"
 #include "support/model.hpp"
+#include "support/worst.hpp"
 
 namespace squeal {
 namespace {

@@ -18,6 +18,7 @@
 #include "support/dense.hpp"
 #include "support/gathered.hpp"
 #include "support/model.hpp"
+#include "support/worst.hpp"
 
 namespace squeal {
 namespace {
