@@ -9,6 +9,8 @@
 #include "analysis/segment.hpp"
 #include "contact/coupled.hpp"
 #include "elasticity/elasticity.hpp"
+#include "elasticity/ground.hpp"
+#include "elasticity/material.hpp"
 #include "flutter/influence.hpp"
 #include "flutter/terms.hpp"
 #include "flutter/work.hpp"

@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "contact/sliding.hpp"
-#include "elasticity/element.hpp"
+#include "elasticity/face.hpp"
+#include "elasticity/shape.hpp"
 #include "mesh/mesh.hpp"
 #include "options/options.hpp"
 #include "petsc/arrays.hpp"

@@ -7,7 +7,8 @@
 #include <optional>
 
 #include "elasticity/elasticity.hpp"
-#include "elasticity/element.hpp"
+#include "elasticity/face.hpp"
+#include "elasticity/shape.hpp"
 #include "mesh/mesh.hpp"
 #include "petsc/arrays.hpp"
 

@@ -1,4 +1,5 @@
-#include "elasticity/element.hpp"
+#include "elasticity/face.hpp"
+#include "elasticity/shape.hpp"
 #include "mesh/mesh.hpp"
 #include "petsc/arrays.hpp"
 #include "steady/steady.hpp"
