@@ -14,7 +14,7 @@
 #include "flutter/influence.hpp"
 #include "flutter/terms.hpp"
 #include "flutter/work.hpp"
-#include "matrices/matrices.hpp"
+#include "matrices/write.hpp"
 #include "modes/benchmark.hpp"
 #include "modes/modes.hpp"
 #include "options/options.hpp"

@@ -1,6 +1,6 @@
 #pragma once
-/// The stiffness matrices of elements: coordinates and material go in, small dense arrays come out.
-/// No PETSc object is used here. Not collective.
+/// These functions return the stiffness matrices of one element. Coordinates and material go in,
+/// and small dense arrays come out. No PETSc object is used here. None is collective.
 #include <vector>
 
 #include "elasticity/hooke.hpp"

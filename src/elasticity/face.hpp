@@ -1,6 +1,7 @@
 #pragma once
-/// Normals, masses and derivatives on one face, which is a line in the plane: coordinates go in,
-/// small dense arrays come out. Not collective.
+/// These functions return the normals, the mass matrix and the derivatives of the shape functions
+/// of one face, which is a line in the plane. Coordinates go in, and small dense arrays come out.
+/// None is collective.
 #include <vector>
 
 #include "elasticity/shape.hpp"

@@ -1,7 +1,7 @@
 #pragma once
-/// The terms of an element's inertia: its mass, its centrifugal forces and the convective terms of
-/// matter that moves through it. Coordinates and density go in, small dense arrays come out; mass()
-/// and convection() throw InvertedElement. Not collective.
+/// These functions return the terms of one element's inertia: its mass, its centrifugal forces and
+/// the convective terms of matter that moves through it. Coordinates and density go in, and small
+/// dense arrays come out. mass() and convection() throw InvertedElement. None is collective.
 #include <vector>
 
 #include "elasticity/shape.hpp"
