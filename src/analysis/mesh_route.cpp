@@ -15,6 +15,7 @@
 #include "flutter/terms.hpp"
 #include "flutter/work.hpp"
 #include "matrices/write.hpp"
+#include "mesh/read.hpp"
 #include "modes/benchmark.hpp"
 #include "modes/modes.hpp"
 #include "options/options.hpp"

@@ -13,6 +13,7 @@
 #include "contact/coupled.hpp"
 #include "elasticity/elasticity.hpp"
 #include "mesh/mesh.hpp"
+#include "mesh/read.hpp"
 #include "options/settings.hpp"
 #include "petsc/check.hpp"
 #include "petsc/owned.hpp"
