@@ -14,7 +14,7 @@
 #include "pencil/band.hpp"
 #include "pencil/complex_modes.hpp"
 #include "pencil/pencil.hpp"
-#include "report/report.hpp"
+#include "report/tables.hpp"
 #include "support/layers.hpp"
 
 namespace squeal {

@@ -12,7 +12,7 @@
 
 #include "pencil/complex_modes.hpp"
 #include "petsc/text.hpp"
-#include "report/report.hpp"
+#include "report/sensitivities.hpp"
 #include "sensitivity/left.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
