@@ -6,7 +6,7 @@
 
 #include "analysis/analysis.hpp"
 #include "analysis/dry_run.hpp"
-#include "matrices/matrices.hpp"
+#include "matrices/write.hpp"
 #include "options/options.hpp"
 #include "options/settings.hpp"
 #include "petsc/memory.hpp"

@@ -5,6 +5,7 @@
 #include "analysis/matrix_route.hpp"
 #include "analysis/mesh_route.hpp"
 #include "direct/direct.hpp"
+#include "direct/nearest.hpp"
 #include "flutter/terms.hpp"
 #include "matrices/matrices.hpp"
 #include "modes/modes.hpp"

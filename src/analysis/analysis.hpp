@@ -6,7 +6,6 @@
 
 #include "analysis/segment.hpp"
 #include "elasticity/elasticity.hpp"
-#include "matrices/matrices.hpp"
 #include "mesh/mesh.hpp"
 #include "pencil/complex_modes.hpp"
 #include "steady/steady.hpp"

@@ -8,6 +8,7 @@
 #include "analysis/analysis.hpp"
 #include "analysis/matrix_route.hpp"
 #include "contact/coupled.hpp"
+#include "elasticity/ground.hpp"
 #include "linalg/symmetric_solver.hpp"
 #include "mesh/mesh.hpp"
 #include "options/options.hpp"

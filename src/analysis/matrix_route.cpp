@@ -4,6 +4,8 @@
 
 #include "analysis/checks.hpp"
 #include "analysis/segment.hpp"
+#include "matrices/associated.hpp"
+#include "matrices/write.hpp"
 #include "modes/benchmark.hpp"
 #include "modes/modes.hpp"
 #include "options/options.hpp"

@@ -2,9 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "contact/algebra.hpp"
+#include "contact/kinematics.hpp"
+#include "contact/loose.hpp"
 #include "contact/sliding.hpp"
-#include "elasticity/element.hpp"
+#include "elasticity/face.hpp"
+#include "elasticity/shape.hpp"
 #include "mesh/mesh.hpp"
 #include "options/options.hpp"
 #include "petsc/arrays.hpp"
@@ -24,8 +29,6 @@ const RealListOption obstacleVelocityOption("contact", "contact_<interface>_obst
 const RealListOption obstacleDisplacementOption(
     "contact", "contact_<interface>_obstacle_displacement", "0,0,0", "m", anyReal,
     "displacement of the rigid obstacle, which presses the pad");
-
-std::string text(const Point& p) { return formatted("(%.6g, %.6g, %.6g)", p[0], p[1], p[2]); }
 
 /// Returns P, which copies u of primaries to their images.
 OwnedMat periodicity(const mesh::Mesh& mesh) {
@@ -125,106 +128,6 @@ std::vector<ContactNode> contactNodes(const mesh::Mesh& mesh, const elasticity::
   return nodes;
 }
 
-/// The tangents t1, t2 at a contact node, with held Cartesian directions first. In a plane problem
-/// only the first is used.
-struct Frame {
-  std::vector<Point> tangents;
-  std::vector<int> heldComponent;  ///< [tangent] Cartesian component held along it, or −1
-};
-
-Frame frameOf(const ContactNode& node, const Constraints& constraints, int dimension) {
-  Frame frame;
-  for (int d = 0; d < dimension; ++d)
-    if (constraints.held[dimension * node.node + d]) {
-      Point e{};
-      e[d] = 1;
-      if (std::abs(dot(e, node.normal)) > 1e-6)
-        throw Error("option -constraint_" +
-                    constraints.groups[constraints.heldBy[dimension * node.node + d]] +
-                    "_clamped holds component " + "xyz"[d] + " of the pad contact node at " +
-                    text(node.position) +
-                    ", which is not tangential there; contact decides the normal component");
-      frame.tangents.push_back(e);
-      frame.heldComponent.push_back(d);
-    }
-  if (dimension == 2) {
-    if (frame.tangents.empty())
-      frame.tangents.push_back({-node.normal[1], node.normal[0], 0}),
-          frame.heldComponent.push_back(-1);
-    return frame;
-  }
-  if (frame.tangents.empty()) {
-    // Any direction that is not along n will do.
-    std::size_t least = 0;
-    for (std::size_t d = 1; d < 3; ++d)
-      if (std::abs(node.normal[d]) < std::abs(node.normal[least])) least = d;
-    Point e{};
-    e[least] = 1;
-    const Point t = cross(node.normal, e);
-    frame.tangents.push_back(scaled(t, 1 / std::sqrt(dot(t, t))));
-    frame.heldComponent.push_back(-1);
-  }
-  if (frame.tangents.size() == 1)
-    frame.tangents.push_back(cross(node.normal, frame.tangents[0])),
-        frame.heldComponent.push_back(-1);
-  return frame;
-}
-
-/// Fills A (before periodicity), marks the free components of z and sets the values of the others.
-void buildKinematics(const mesh::Mesh& mesh, const std::vector<mesh::InterfaceRequest>& requests,
-                     Contact& contact, Mat a, Vec held) {
-  const Constraints& constraints = contact.constraints;
-  const int dimension = mesh.dimension;
-  const auto local = [&](PetscInt node, int d) { return dimension * node + d; };
-  contact.free.assign(constraints.held.size(), 1);
-  std::vector<unsigned char> isPad(mesh.ownedNodes, 0);
-  for (const auto& node : contact.nodes) isPad[node.node] = 1;
-  std::vector<double> values(constraints.held.size(), 0.0);
-  for (PetscInt node = 0; node < mesh.ownedNodes; ++node) {
-    if (isPad[node]) continue;
-    for (int d = 0; d < dimension; ++d) {
-      check(MatSetValue(a, dimension * (mesh.firstNode + node) + d,
-                        dimension * (mesh.firstNode + node) + d, 1, INSERT_VALUES));
-      if (!constraints.held[local(node, d)]) continue;
-      contact.free[local(node, d)] = 0;
-      values[local(node, d)] = constraints.displacement[local(node, d)];
-    }
-  }
-  std::vector<Point> obstacleDisplacement;
-  for (const auto& request : requests)
-    obstacleDisplacement.push_back(
-        obstacleDisplacementOption.components(request.name, mesh.dimension));
-  std::string failure;
-  for (const auto& node : contact.nodes) try {
-      const Frame frame = frameOf(node, constraints, dimension);
-      std::vector<double> block(dimension * dimension);
-      for (int i = 0; i < dimension; ++i) {
-        for (int t = 0; t < dimension - 1; ++t) block[i * dimension + t] = frame.tangents[t][i];
-        block[i * dimension + dimension - 1] = node.normal[i];
-      }
-      setBlock(a, dimension, node.globalNode, node.globalNode, block);
-      if (node.master >= 0)
-        setBlock(a, dimension, node.globalNode, node.master,
-                 outer(node.normal, node.normal, dimension));
-      else
-        values[local(node.node, dimension - 1)] =
-            dot(node.normal, obstacleDisplacement[node.interface]);
-      for (int t = 0; t < dimension - 1; ++t) {
-        const int component = frame.heldComponent[t];
-        if (component < 0) continue;
-        contact.free[local(node.node, t)] = 0;
-        values[local(node.node, t)] = constraints.displacement[local(node.node, component)];
-      }
-    } catch (const Error& error) {
-      failure = error.what();
-    }
-  failTogether(mesh.comm, failure);
-  for (const auto& image : mesh.images)
-    for (int d = 0; d < dimension; ++d) contact.free[local(image.node, d)] = 0;
-  assembled(a);
-  std::copy(values.begin(), values.end(), WriteArray(held).begin());
-}
-
 void requireFlatObstacles(const mesh::Mesh& mesh, const Contact& contact) {
   std::string failure;
   for (int i = 0; i < std::ssize(contact.interfaces); ++i) {
@@ -321,7 +224,11 @@ Contact build(const mesh::Mesh& mesh, const elasticity::Bodies& bodies) {
 
   OwnedMat a = nodalMatrix(mesh, 2);
   const OwnedVec held = elasticity::nodalVector(mesh);
-  buildKinematics(mesh, requests, contact, a, held);
+  std::vector<Point> obstacleDisplacement;
+  for (const auto& request : requests)
+    obstacleDisplacement.push_back(
+        obstacleDisplacementOption.components(request.name, mesh.dimension));
+  buildKinematics(obstacleDisplacement, contact, a, held);
   requireFlatObstacles(mesh, contact);
   check(
       MatMatMult(contact.periodic, a, MAT_INITIAL_MATRIX, PETSC_DEFAULT, contact.kinematics.out()));
@@ -367,6 +274,83 @@ Transformation Contact::transformation(const std::vector<unsigned char>& gapFree
                          1));  // so that T x is a nodal vector that knows its components
 
   return result;
+}
+
+PetscInt Contact::gapRow(const ContactNode& node) const {
+  return mesh->dimension * (node.globalNode + 1) - 1;
+}
+
+std::vector<Slip> Contact::slip(double speed, Vec displacement) const {
+  std::vector<Slip> result;
+  OwnedVec carried;
+  std::optional<ReadArray> values;
+  if (convected && displacement) {
+    carried = elasticity::nodalVector(*mesh);
+    check(MatMult(convected, displacement, carried));
+    values.emplace(carried);
+  }
+  for (const auto& node : nodes) {
+    Point w = scaled(node.slip, speed * node.slipSpeed);
+    if (values) {
+      Point change{};
+      for (int d = 0; d < mesh->dimension; ++d)
+        change[d] = -speed * (*values)[mesh->dimension * node.node + d];
+      const double along = dot(change, node.normal);
+      for (std::size_t d = 0; d < 3; ++d) w[d] += change[d] - along * node.normal[d];
+    }
+    Slip state;
+    state.speed = std::sqrt(dot(w, w));
+    if (state.speed <= 1e-9 * speed * node.slipSpeed)
+      state.speed = 0;  // the direction would be that of rounding
+    if (state.speed > 0) state.direction = scaled(w, 1 / state.speed);
+    state.law = law.value(state.speed);
+    state.slope = law.slope(state.speed);
+    result.push_back(state);
+  }
+  return result;
+}
+
+OwnedMat Contact::slipRows(const Transformation& transformation, const std::vector<Slip>& slip,
+                           const std::vector<unsigned char>& slides) const {
+  const OwnedMat rows = nodalMatrix(*mesh, 2);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (!slides[i]) continue;
+    for (int d = 0; d < mesh->dimension; ++d) {
+      const double entry = slip[i].law * slip[i].direction[d];
+      check(MatSetValue(rows, gapRow(nodes[i]), mesh->dimension * nodes[i].globalNode + d, entry,
+                        INSERT_VALUES));
+      if (nodes[i].master >= 0)
+        check(MatSetValue(rows, gapRow(nodes[i]), mesh->dimension * nodes[i].master + d, -entry,
+                          INSERT_VALUES));
+    }
+  }
+  assembled(rows);
+  OwnedMat result;
+  check(MatMatMult(rows, transformation.trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.out()));
+  return result;
+}
+
+VelocityResponse velocityResponse(const Slip& slip, double normalForce, double friction,
+                                  int dimension) {
+  const double force = friction * normalForce;
+  return {slip.speed > 0 && dimension == 3 ? force * slip.law / slip.speed : 0, force * slip.slope};
+}
+
+OwnedMat Contact::velocityResponse(const std::vector<Slip>& slip,
+                                   const std::vector<double>& normalForce, double friction) const {
+  const int dimension = mesh->dimension;
+  OwnedMat response = nodalMatrix(*mesh, 1);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto [across, along] =
+        contact::velocityResponse(slip[i], normalForce[i], friction, dimension);
+    std::vector<double> block = identity(dimension, across);
+    const auto alongBlock = outer(slip[i].direction, slip[i].direction, dimension, along - across),
+               normal = outer(nodes[i].normal, nodes[i].normal, dimension, -across);
+    for (std::size_t k = 0; k < block.size(); ++k) block[k] += alongBlock[k] + normal[k];
+    setBlock(response, dimension, nodes[i].globalNode, nodes[i].globalNode, block);
+  }
+  assembled(response);
+  return response;
 }
 
 void requireSlip(const Contact& contact, const std::vector<Slip>& slip,

@@ -13,7 +13,6 @@
 /// The test functions put the friction force of R_N on the tangential rows:
 ///   L(f)ᵀ r = Tᵀ r + f Sᵀ N r,
 /// that is R_T = −f φ R_N τ on the pad [3.4], and its opposite on the disc.
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -128,20 +127,5 @@ Contact build(const mesh::Mesh& mesh, const elasticity::Bodies& bodies);
 /// not slip: friction has no direction there.
 void requireSlip(const Contact& contact, const std::vector<Slip>& slip,
                  const std::vector<unsigned char>& active);
-
-/// A connected part of the mesh that can move without strain.
-struct LooseBody {
-  std::string body, motion;  ///< names of its bodies, and the rigid motion in words
-};
-
-/// Collective. Returns the part that can move most freely where neither constraints nor springs
-/// (Bodies::springs, may be null) hold it, nor, if `contactCloses`, closed contact without
-/// friction. Returns none if all parts are held.
-std::optional<LooseBody> looseBody(const mesh::Mesh& mesh, const Contact& contact, Vec springs,
-                                   bool contactCloses);
-
-/// Collective. Throws Error, naming the body, if a body can move without strain while the contact
-/// stays closed without friction.
-void rejectLooseBodies(const mesh::Mesh& mesh, const Contact& contact, Vec springs);
 
 }  // namespace squeal::contact

@@ -1,10 +1,9 @@
-/// Rigid motions that nothing prevents: a small dense problem with six unknowns per connected part
-/// of the mesh.
+#include "contact/loose.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "contact/contact.hpp"
 #include "linalg/symmetric.hpp"
 #include "mesh/mesh.hpp"
 #include "petsc/arrays.hpp"
@@ -12,6 +11,9 @@
 
 namespace squeal::contact {
 namespace {
+
+// The rigid motions are found from a small dense problem with six unknowns per connected part of
+// the mesh.
 
 /// The rigid motions of all parts: for each part 3 translations and 3 rotations (2 and 1 in the
 /// plane), with rotations in units of 1/length.

@@ -1,24 +1,16 @@
-/// Sliding at the contact nodes: the relative velocity [2.15], and the change of friction with it
-/// [4.7].
 #include "contact/sliding.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
 
+#include "contact/algebra.hpp"
 #include "elasticity/elasticity.hpp"
-#include "elasticity/element.hpp"
+#include "elasticity/face.hpp"
+#include "elasticity/shape.hpp"
 #include "mesh/mesh.hpp"
 #include "petsc/arrays.hpp"
 
 namespace squeal::contact {
 namespace {
-
-std::vector<double> identity(int dimension, double factor) {
-  std::vector<double> block(dimension * dimension, 0.0);
-  for (int d = 0; d < dimension; ++d) block[d * dimension + d] = factor;
-  return block;
-}
 
 /// Returns N, so that R_N,k = n_k · r, with the forces on periodic images added to those on their
 /// primaries.
@@ -132,116 +124,10 @@ OwnedMat convectedRows(const elasticity::Bodies& bodies, const Contact& contact)
 
 }  // namespace
 
-OwnedMat nodalMatrix(const mesh::Mesh& mesh, PetscInt blocksPerRow) {
-  OwnedMat matrix;
-  const PetscInt owned = mesh.dimension * mesh.ownedNodes, entries = blocksPerRow * mesh.dimension;
-  check(MatCreateAIJ(mesh.comm, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE, entries, nullptr,
-                     entries, nullptr, matrix.out()));
-  return matrix;
-}
-
-void assembled(Mat matrix) {
-  check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
-  check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
-}
-
-void setBlock(Mat matrix, int dimension, PetscInt rowNode, PetscInt columnNode,
-              const std::vector<double>& block) {
-  std::vector<PetscInt> rows, columns;
-  for (int d = 0; d < dimension; ++d)
-    rows.push_back(dimension * rowNode + d), columns.push_back(dimension * columnNode + d);
-  check(MatSetValues(matrix, dimension, rows.data(), dimension, columns.data(), block.data(),
-                     INSERT_VALUES));
-}
-
-std::vector<double> outer(const Point& a, const Point& b, int dimension, double factor) {
-  std::vector<double> block;
-  for (int i = 0; i < dimension; ++i)
-    for (int j = 0; j < dimension; ++j) block.push_back(factor * a[i] * b[j]);
-  return block;
-}
-
 void buildSliding(const elasticity::Bodies& bodies, Contact& contact) {
   contact.reaction = reactionRows(contact);
   contact.jump = jumpRows(contact);
   if (elasticity::convectiveTerms()) contact.convected = convectedRows(bodies, contact);
-}
-
-PetscInt Contact::gapRow(const ContactNode& node) const {
-  return mesh->dimension * (node.globalNode + 1) - 1;
-}
-
-std::vector<Slip> Contact::slip(double speed, Vec displacement) const {
-  std::vector<Slip> result;
-  OwnedVec carried;
-  std::optional<ReadArray> values;
-  if (convected && displacement) {
-    carried = elasticity::nodalVector(*mesh);
-    check(MatMult(convected, displacement, carried));
-    values.emplace(carried);
-  }
-  for (const auto& node : nodes) {
-    Point w = scaled(node.slip, speed * node.slipSpeed);
-    if (values) {
-      Point change{};
-      for (int d = 0; d < mesh->dimension; ++d)
-        change[d] = -speed * (*values)[mesh->dimension * node.node + d];
-      const double along = dot(change, node.normal);
-      for (std::size_t d = 0; d < 3; ++d) w[d] += change[d] - along * node.normal[d];
-    }
-    Slip state;
-    state.speed = std::sqrt(dot(w, w));
-    if (state.speed <= 1e-9 * speed * node.slipSpeed)
-      state.speed = 0;  // the direction would be that of rounding
-    if (state.speed > 0) state.direction = scaled(w, 1 / state.speed);
-    state.law = law.value(state.speed);
-    state.slope = law.slope(state.speed);
-    result.push_back(state);
-  }
-  return result;
-}
-
-OwnedMat Contact::slipRows(const Transformation& transformation, const std::vector<Slip>& slip,
-                           const std::vector<unsigned char>& slides) const {
-  const OwnedMat rows = nodalMatrix(*mesh, 2);
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (!slides[i]) continue;
-    for (int d = 0; d < mesh->dimension; ++d) {
-      const double entry = slip[i].law * slip[i].direction[d];
-      check(MatSetValue(rows, gapRow(nodes[i]), mesh->dimension * nodes[i].globalNode + d, entry,
-                        INSERT_VALUES));
-      if (nodes[i].master >= 0)
-        check(MatSetValue(rows, gapRow(nodes[i]), mesh->dimension * nodes[i].master + d, -entry,
-                          INSERT_VALUES));
-    }
-  }
-  assembled(rows);
-  OwnedMat result;
-  check(MatMatMult(rows, transformation.trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.out()));
-  return result;
-}
-
-VelocityResponse velocityResponse(const Slip& slip, double normalForce, double friction,
-                                  int dimension) {
-  const double force = friction * normalForce;
-  return {slip.speed > 0 && dimension == 3 ? force * slip.law / slip.speed : 0, force * slip.slope};
-}
-
-OwnedMat Contact::velocityResponse(const std::vector<Slip>& slip,
-                                   const std::vector<double>& normalForce, double friction) const {
-  const int dimension = mesh->dimension;
-  OwnedMat response = nodalMatrix(*mesh, 1);
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const auto [across, along] =
-        contact::velocityResponse(slip[i], normalForce[i], friction, dimension);
-    std::vector<double> block = identity(dimension, across);
-    const auto alongBlock = outer(slip[i].direction, slip[i].direction, dimension, along - across),
-               normal = outer(nodes[i].normal, nodes[i].normal, dimension, -across);
-    for (std::size_t k = 0; k < block.size(); ++k) block[k] += alongBlock[k] + normal[k];
-    setBlock(response, dimension, nodes[i].globalNode, nodes[i].globalNode, block);
-  }
-  assembled(response);
-  return response;
 }
 
 }  // namespace squeal::contact

@@ -9,10 +9,6 @@ namespace squeal::direct {
 /// Returns true if `-flutter_method` asks for the direct method.
 bool directWanted();
 
-/// Throws Error for -flutter_eps_*, -flutter_pep_* and -flutter_st_* options if the direct method,
-/// which alone uses them, is not asked for.
-void rejectIdleSolverOptions();
-
 /// Options of the direct method.
 struct Options {
   PetscInt count;            ///< `-flutter_direct_count`: eigenvalues nearest to zero wanted

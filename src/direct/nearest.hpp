@@ -56,4 +56,8 @@ std::unique_ptr<NearestSolver> nearestSolver(const pencil::Pencil& pencil,
 /// is not in the span of those already known with nearly the same s.
 void addMissed(NearestSolver& solver, PetscInt count, NearestPairs& found);
 
+/// Throws Error for -flutter_eps_*, -flutter_pep_* and -flutter_st_* options if the direct method,
+/// which alone uses them, is not asked for.
+void rejectIdleSolverOptions();
+
 }  // namespace squeal::direct

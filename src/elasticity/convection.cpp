@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "elasticity/assembly.hpp"
+#include "elasticity/inertia.hpp"
 #include "petsc/arrays.hpp"
 #include "petsc/text.hpp"
 

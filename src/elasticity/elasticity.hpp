@@ -24,16 +24,8 @@ struct Bodies {
   std::vector<Motion> motions;  ///< [body], base motions
 };
 
-/// Returns the volume groups with a material, from the options that give an elastic law
-/// (`-material_<group>_young`, …). Throws Error if there is none.
-std::vector<mesh::GroupRequest> materialGroups();
-/// Returns the options that give a material, for messages: "give -…".
-std::string howToGiveMaterials();
 /// Returns the surface groups with a `-load_<group>_pressure` option.
 std::vector<mesh::GroupRequest> loadedSurfaces();
-
-/// Returns the groups with a `-ground_<group>_*` option.
-std::vector<mesh::GroupRequest> groundedGroups();
 
 /// Collective. Assembles the matrices and loads of all bodies. Throws Error for a bad or missing
 /// material, for an inverted element (the message names body and cell), and for convective terms on

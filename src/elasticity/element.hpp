@@ -1,6 +1,6 @@
 #pragma once
-/// Element matrices: coordinates and material go in, small dense arrays come out. No PETSc object
-/// is used here. Not collective.
+/// These functions return the stiffness matrices of one element. Coordinates and material go in,
+/// and small dense arrays come out. No PETSc object is used here. None is collective.
 #include <vector>
 
 #include "elasticity/hooke.hpp"
@@ -9,8 +9,8 @@
 
 namespace squeal::elasticity {
 
-/// Thrown by the routines below where det J ≤ 0 at a point of their quadrature rule, and by mass()
-/// where the matrix is not positive definite.
+/// Thrown by the routines of elements where det J ≤ 0 at a point of their quadrature rule, and by
+/// mass() where the matrix is not positive definite.
 struct InvertedElement {};
 
 /// Returns true if det J ≤ 0 at a point of the rule. Such a cell can still be used where the
@@ -36,49 +36,5 @@ std::vector<double> stiffness(const ShapeTable& table, const std::vector<Point>&
 std::vector<double> geometricStiffness(const ShapeTable& table, const std::vector<Point>& nodes,
                                        const Law& law, bool incompatible,
                                        std::vector<double> displacement);
-
-enum class MassKind { consistent, higherOrder };
-/// Returns the mass
-///   m_ij = ∫ ρ φᵢ φⱼ,
-/// positive definite, row-major [node][node], kg, the same for all components. `higherOrder` is the
-/// mean of the consistent matrix and the diagonal one of the same total (diagonal scaling of
-/// Hinton, Rock and Zienkiewicz 1976, row sums on linear elements).
-std::vector<double> mass(const ShapeTable& table, const std::vector<Point>& nodes, double density,
-                         MassKind kind);
-
-/// Returns the centrifugal forces [M.4]
-///   ∫ φᵢ ρ ω² r,
-/// [node][3], N, for the `speed` ω, rad/s, about the `axis`, a unit vector, through `origin`.
-std::vector<double> centrifugal(const ShapeTable& table, const std::vector<Point>& nodes,
-                                double density, double speed, const Point& axis,
-                                const Point& origin);
-
-/// Convective terms of matter that moves through the element with the velocity V, with Dφ = V·∇φ.
-/// Matrices are row-major [node][node], the same for all components.
-struct Convection {
-  std::vector<double> gyroscopic;  ///< ∫ ρ ((Dφⱼ) φᵢ − (Dφᵢ) φⱼ), kg/s; equal to 2 ∫ ρ (Dφⱼ) φᵢ
-                                   ///< where no matter crosses the surface
-  std::vector<double> rotationStiffness;  ///< −∫ ρ (Dφⱼ)(Dφᵢ), N/m
-  std::vector<double> flux;       ///< ∫ Dφᵢ, m³/s, [node]; summed over a body: ∮ φᵢ V·n
-  std::vector<double> fluxScale;  ///< ∫ |Dφᵢ|, m³/s, [node]
-};
-/// Returns the convective terms. `velocity` is V at the nodes, m/s. It is affine in x, so that the
-/// shape functions interpolate it exactly.
-Convection convection(const ShapeTable& table, const std::vector<Point>& nodes,
-                      const std::vector<Point>& velocity, double density);
-
-/// Returns ∫ φᵢ n dA on a face (a line in the plane), [node][3], m². The unit normal n is that of
-/// the node order times `sign`.
-std::vector<double> faceNormals(const ShapeTable& table, const std::vector<Point>& nodes, int sign);
-/// Returns ∫ φᵢ φⱼ dA on a face, row-major [node][node], m².
-std::vector<double> faceMass(const ShapeTable& table, const std::vector<Point>& nodes);
-/// Returns the derivative of each shape function along the velocity at each node of the face,
-/// [at node][function], 1/s for velocities in m/s. Only the part of `velocity` in the tangent plane
-/// of the face counts.
-std::vector<double> faceDerivative(const ShapeTable& table, const std::vector<Point>& nodes,
-                                   const std::vector<Point>& velocity);
-/// Returns the unit normal of the face at each of its nodes, that of the node order times `sign`,
-/// [node].
-std::vector<Point> nodeNormals(const ShapeTable& table, const std::vector<Point>& nodes, int sign);
 
 }  // namespace squeal::elasticity

@@ -1,6 +1,6 @@
-#include <cmath>
+#include "elasticity/face.hpp"
 
-#include "elasticity/element.hpp"
+#include <cmath>
 
 namespace squeal::elasticity {
 namespace {

@@ -1,3 +1,5 @@
+#include "elasticity/inertia.hpp"
+
 #include <petscsys.h>  // first: the next header needs it
 
 #include <petscblaslapack.h>

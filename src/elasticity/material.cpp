@@ -3,8 +3,8 @@
 #include <cmath>
 #include <set>
 
-#include "elasticity/elasticity.hpp"
 #include "options/options.hpp"
+#include "petsc/check.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal::elasticity {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "elasticity/element.hpp"
+#include "elasticity/hooke.hpp"
 #include "mesh/mesh.hpp"
 
 namespace squeal::elasticity {
@@ -19,5 +19,11 @@ struct Material {
 /// option, for constants without positive strain energy, and for axes with which a plane problem
 /// would leave its plane.
 std::vector<Material> readMaterials(const mesh::Mesh& mesh);
+
+/// Returns the volume groups with a material, from the options that give an elastic law
+/// (`-material_<group>_young`, …). Throws Error if there is none.
+std::vector<mesh::GroupRequest> materialGroups();
+/// Returns the options that give a material, for messages: "give -…".
+std::string howToGiveMaterials();
 
 }  // namespace squeal::elasticity

@@ -5,6 +5,7 @@
 #include "flutter/terms.hpp"
 #include "linalg/complexvector.hpp"
 #include "petsc/arrays.hpp"
+#include "steady/change.hpp"
 
 namespace squeal::flutter {
 namespace {
@@ -117,7 +118,7 @@ void Influences::followSteadyState(const BodyPoint& state, const steady::Problem
     else
       check(MatMult(part.stiffness, state.solution.displacement, force));
   }
-  influence.change = problem.change(state.solution, state.system, cause);
+  influence.change = steady::change(problem, state.solution, state.system, cause);
   influence.responseForce =
       responseForces(contact_, state.solution.closed, influence.change.normalForce);
   if (state.prestress)

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "options/options.hpp"
+#include "steady/pressure.hpp"
 
 namespace squeal::flutter {
 namespace {

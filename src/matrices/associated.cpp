@@ -1,7 +1,8 @@
+#include "matrices/associated.hpp"
+
 #include <algorithm>
 
 #include "linalg/symmetric_solver.hpp"
-#include "matrices/matrices.hpp"
 #include "pencil/pencil.hpp"
 #include "petsc/arrays.hpp"
 #include "petsc/text.hpp"

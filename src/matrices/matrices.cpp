@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "matrices/read.hpp"
 #include "options/options.hpp"
 #include "pencil/pencil.hpp"
 #include "petsc/text.hpp"

@@ -1,7 +1,12 @@
+#include "matrices/read.hpp"
+
 #include <cmath>
 
-#include "matrices/matrices.hpp"
 #include "matrixfile/formats.hpp"
+#include "matrixfile/hdf5.hpp"
+#include "matrixfile/matlab.hpp"
+#include "matrixfile/matrix_market.hpp"
+#include "matrixfile/petsc_binary.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal::matrices {

@@ -1,3 +1,5 @@
+#include "matrices/write.hpp"
+
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -5,8 +7,8 @@
 #include <set>
 
 #include "linalg/gathered.hpp"
-#include "matrices/matrices.hpp"
 #include "matrixfile/formats.hpp"
+#include "matrixfile/matrix_market.hpp"
 #include "options/options.hpp"
 #include "options/settings.hpp"
 #include "output/file.hpp"

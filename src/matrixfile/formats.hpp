@@ -1,11 +1,11 @@
 #pragma once
-/// Matrix files. A reader accepts what its format allows and rejects all else: nothing in a file is
-/// ignored, and nothing that its header announces may be missing. Not collective: for rank 0. Every
-/// Error gives the reason; none names the file.
+/// This file holds what all readers of matrix files share. A reader accepts what its format allows
+/// and rejects all else: nothing in a file is ignored, and nothing that its header announces may be
+/// missing. No function of the room is collective; they are for rank 0. Every Error gives the
+/// reason, and none names the file.
 #include <petscsys.h>
 
 #include <filesystem>
-#include <string>
 #include <vector>
 
 namespace squeal::matrixfile {
@@ -49,33 +49,5 @@ enum class Format { matrixMarket, petscBinary, hdf5, matlab };
 /// read, is empty, or has none of the formats; the message then says what it is, where that is
 /// known.
 Format formatOf(const std::filesystem::path& path);
-
-/// Reads Matrix Market: coordinate or array; general, symmetric or skew-symmetric; real, integer or
-/// pattern (ones). Exponents may begin with D. A symmetric or skew-symmetric file holds one
-/// triangle. Throws Error, with the number of the line, for anything else.
-Entries readMatrixMarket(const std::filesystem::path& path);
-
-/// Reads a MATLAB file of version 4 or 5 (as `save -v4`, `-v6` and `-v7` write): the variable
-/// `name`, sparse or full. An empty name stands for the only square matrix of more than one row.
-/// Throws Error if there is none or several of them, and for complex or damaged content, including
-/// damaged sizes of other variables.
-Entries readMatlab(const std::filesystem::path& path, const std::string& name);
-
-/// Reads the object `name` of an HDF5 file. An empty name stands for the only matrix among the
-/// objects of the root, or the root itself. The object is a dataset of two dimensions, or a group
-/// with the datasets data, indices and indptr of a compressed matrix, as users of SciPy and anndata
-/// write it. An attribute or dataset "format", "h5sparse_format" or "encoding-type" of the group
-/// begins with csr or csc; without it only a symmetric matrix is read, which is the same by rows
-/// and by columns. MATLAB files of version 7.3 are read too: groups with data, ir and jc, and
-/// datasets of class double or single. Throws Error as readMatlab() does.
-Entries readHdf5(const std::filesystem::path& path, const std::string& name);
-
-/// Throws Error for a file that is not one square real sparse matrix in PETSc's binary format with
-/// 32-bit indices, that is cut short, or that holds row lengths, columns or values with which
-/// MatLoad() would end the program or misread it. Only one row is held in memory at a time.
-void requirePetscBinary(const std::filesystem::path& path);
-
-/// Writes all entries as Matrix Market. Throws Error if the file cannot be written.
-void writeMatrixMarket(const std::filesystem::path& path, const Entries& entries);
 
 }  // namespace squeal::matrixfile

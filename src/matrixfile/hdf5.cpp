@@ -1,8 +1,9 @@
+#include "matrixfile/hdf5.hpp"
+
 #include <algorithm>
 #include <optional>
 #include <tuple>
 
-#include "matrixfile/formats.hpp"
 #include "matrixfile/hdf5_file.hpp"
 #include "petsc/check.hpp"
 #include "petsc/child.hpp"

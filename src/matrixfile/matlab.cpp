@@ -2,6 +2,10 @@
 // follows.
 #include "matrixfile/matlab.hpp"
 
+#include "matrixfile/bytes.hpp"
+#include "matrixfile/matlab4.hpp"
+#include "matrixfile/matlab5.hpp"
+#include "matrixfile/matlab_variable.hpp"
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
 
@@ -67,13 +71,6 @@ bool claimsVersion5(BinaryFile& file) {
 }
 
 }  // namespace
-
-Entries full(const Variable& variable, const std::vector<double>& values) {
-  Entries entries(variable.shape.at(0), variable.shape.at(1));
-  for (long long j = 0, k = 0; j < variable.shape[1]; ++j)
-    for (long long i = 0; i < variable.shape[0]; ++i, ++k) entries.add(i, j, values[k]);
-  return entries;
-}
 
 Entries readMatlab(const std::filesystem::path& path, const std::string& name) {
   BinaryFile file(path);

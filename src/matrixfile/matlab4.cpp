@@ -1,10 +1,11 @@
 // MATLAB's version 4: variables one after the other, each with a header of five integers, its name
 // and its values by columns.
+#include "matrixfile/matlab4.hpp"
+
 #include <array>
 #include <cinttypes>
 #include <cmath>
 
-#include "matrixfile/matlab.hpp"
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
 

@@ -1,12 +1,13 @@
 // MATLAB's version 5: elements one after the other, each with its type and length; a variable is an
 // element of elements, packed by zlib in what -v7 writes.
+#include "matrixfile/matlab5.hpp"
+
 #include <zlib.h>
 
 #include <array>
 #include <cinttypes>
 #include <limits>
 
-#include "matrixfile/matlab.hpp"
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
 

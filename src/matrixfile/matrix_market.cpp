@@ -1,3 +1,5 @@
+#include "matrixfile/matrix_market.hpp"
+
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -6,7 +8,6 @@
 #include <fstream>
 #include <string_view>
 
-#include "matrixfile/formats.hpp"
 #include "output/file.hpp"
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"

@@ -1,3 +1,5 @@
+#include "matrixfile/petsc_binary.hpp"
+
 #include <petscmat.h>
 
 #include <cinttypes>

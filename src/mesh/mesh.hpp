@@ -118,11 +118,4 @@ struct Request {
   std::string motionOptions;       ///< "-…", for interfaces on which neither side moves
 };
 
-/// Collective. Reads `-mesh_file`, or meshes it if it is a .geo, through the gmsh library on rank
-/// 0; splits nodes shared across contact interfaces, pairs contact and periodic nodes, partitions
-/// with METIS and sends each rank its part. Only rank 0 holds the whole mesh. Throws Error on all
-/// ranks for an unreadable file, a missing group, a cell without material, a surface that bounds no
-/// body, and nodes without a partner.
-Mesh read(MPI_Comm comm, const Request& request);
-
 }  // namespace squeal::mesh

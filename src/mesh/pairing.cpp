@@ -1,11 +1,11 @@
-/// Pairs of nodes: periodic images and matching contact nodes.
+#include "mesh/pairing.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <set>
 
-#include "mesh/whole.hpp"
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
 

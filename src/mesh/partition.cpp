@@ -1,6 +1,7 @@
+#include "mesh/partition.hpp"
+
 #include <metis.h>
 
-#include "mesh/whole.hpp"
 #include "petsc/check.hpp"
 
 namespace squeal::mesh {

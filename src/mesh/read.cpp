@@ -1,10 +1,13 @@
-/// Distribution of the whole mesh on rank 0 to all ranks.
+#include "mesh/read.hpp"
+
 #include <algorithm>
 #include <limits>
 #include <numeric>
 #include <optional>
 #include <set>
 
+#include "mesh/pairing.hpp"
+#include "mesh/partition.hpp"
 #include "mesh/whole.hpp"
 #include "meshfile/format.hpp"
 #include "meshfile/geometry.hpp"

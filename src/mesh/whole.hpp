@@ -53,12 +53,4 @@ struct WholeMesh {
 WholeMesh load(const std::string& file, const std::vector<std::string>& parameters,
                const Request& request);
 
-/// Finds the partner of each periodic image and of each contact node, and fills primary, images and
-/// pairs of the mesh.
-void pairNodes(WholeMesh& mesh, const Request& request);
-
-/// Returns the rank of each cell, [cell], which METIS finds from the dual graph. Contact partners,
-/// and periodic images with their primaries, count as one node.
-std::vector<int> partition(const WholeMesh& mesh, int ranks);
-
 }  // namespace squeal::mesh

@@ -1,10 +1,13 @@
-/// The types of options: how their texts are read, and what is said of those that cannot be.
+#include "options/option_types.hpp"
+
 #include <petscsys.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <regex>
+#include <set>
 
 #include "options/options.hpp"
 #include "options/settings.hpp"
@@ -13,6 +16,111 @@
 #include "petsc/unreadable.hpp"
 
 namespace squeal {
+namespace {
+
+std::vector<const Option*>& registry() {
+  static std::vector<const Option*> options;
+  return options;
+}
+
+std::map<std::string, std::string>& recipe() {
+  static std::map<std::string, std::string> values;
+  return values;
+}
+
+/// While the options given are checked before the run, asking for one does not mean that the run
+/// uses it.
+bool validating = false;
+
+/// The value of an option that was given; none: it was not.
+std::optional<std::string> valueGiven(const std::string& name) {
+  const char* value = nullptr;
+  PetscBool set = PETSC_FALSE;
+  check(PetscOptionsFindPair(nullptr, nullptr, ("-" + name).c_str(), &value, &set));
+  // Asked for a_1_b, PETSc also takes a_b.
+  static const std::regex numbered("_[0-9]+_");
+  if (!set || (std::regex_search(name, numbered) && !givenOptions().count(name))) return {};
+  return value ? value : "";
+}
+
+}  // namespace
+
+const std::vector<std::string>& stages() {
+  static const std::vector<std::string> inOrder = {"general",    "mesh",  "matrices", "elasticity",
+                                                   "constraint", "load",  "motion",   "contact",
+                                                   "steady",     "modes", "flutter",  "report"};
+  return inOrder;
+}
+
+std::size_t stageRank(const std::string& stage) {
+  return std::find(stages().begin(), stages().end(), stage) - stages().begin();
+}
+
+Option::Option(std::string stage_, std::string name_, std::string default_, std::string unit_,
+               std::string meaning_, std::string rule_, bool required_)
+    : stage(std::move(stage_)),
+      name(std::move(name_)),
+      defaultText(std::move(default_)),
+      unit(std::move(unit_)),
+      meaning(std::move(meaning_)),
+      rule(std::move(rule_)),
+      required(required_) {
+  registry().push_back(this);
+}
+
+std::vector<const Option*> Option::all() {
+  std::vector<const Option*> options = registry();
+  std::stable_sort(options.begin(), options.end(), [](const auto* a, const auto* b) {
+    return stageRank(a->stage) < stageRank(b->stage);
+  });
+  return options;
+}
+
+std::string Option::fullName(const std::string& subject) const {
+  const auto open = name.find('<');
+  if (open == std::string::npos) return name;
+  return name.substr(0, open) + subject + name.substr(name.find('>') + 1);
+}
+
+bool Option::given(const std::string& subject) const {
+  return valueGiven(fullName(subject)).has_value();
+}
+
+bool Option::matches(const std::string& full) const {
+  const auto open = name.find('<');
+  if (open == std::string::npos) return full == name;
+  const std::string before = name.substr(0, open), after = name.substr(name.find('>') + 1);
+  return full.size() > before.size() + after.size() && full.starts_with(before) &&
+         full.compare(full.size() - after.size(), after.size(), after) == 0;
+}
+
+std::vector<std::string> Option::subjects() const {
+  const auto open = name.find('<');
+  const std::size_t around = name.size() - (name.find('>') - open + 1);
+  std::set<std::string> found;
+  for (const auto& [full, value] : givenOptions())
+    if (matches(full)) found.insert(full.substr(open, full.size() - around));
+  return {found.begin(), found.end()};
+}
+
+std::string Option::text(const std::string& subject) const {
+  const std::string full = fullName(subject);
+  const auto given = valueGiven(full);
+  if (!given && required) throw Error("option -" + full + " is missing: " + meaning);
+  const std::string value = trimmed(given.value_or(defaultText));
+  if (!validating) recipe()[full] = value;
+  return value;
+}
+
+std::string Option::named(const std::string& subject, const std::string& value) const {
+  const std::string full = fullName(subject);
+  return optionText(full, value, valueGiven(full).value_or(""));
+}
+
+void Option::reject(const std::string& subject, const std::string& value) const {
+  throw Error(named(subject, value) + ": " + meaning + (unit.empty() ? "" : " [" + unit + "]") +
+              "; must be " + rule);
+}
 
 double Option::number(const std::string& subject, const std::string& value) const {
   double x = 0;
@@ -183,5 +291,19 @@ bool FileOption::isOne(const std::string& full) {
     return dynamic_cast<const FileOption*>(option) && option->matches(full);
   });
 }
+
+void validateGivenOptions() {
+  struct Validation {
+    Validation() { validating = true; }
+    ~Validation() { validating = false; }  // after an Error as well
+  } validation;
+  for (const auto* option : Option::all())
+    for (const auto& subject : option->name.find('<') == std::string::npos
+                                   ? std::vector<std::string>{""}
+                                   : option->subjects())
+      if (option->given(subject)) option->validate(subject);
+}
+
+const std::map<std::string, std::string>& resolvedOptions() { return recipe(); }
 
 }  // namespace squeal

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <regex>
 #include <set>
 #include <sstream>
 
@@ -17,56 +16,15 @@
 namespace squeal {
 namespace {
 
-// Order in which the manual lists the stages: that of the method.
-const std::vector<std::string> stages = {"general",    "mesh",  "matrices", "elasticity",
-                                         "constraint", "load",  "motion",   "contact",
-                                         "steady",     "modes", "flutter",  "report"};
-
-std::vector<const Option*>& registry() {
-  static std::vector<const Option*> options;
-  return options;
-}
-
 std::vector<const SolverPrefix*>& prefixes() {
   static std::vector<const SolverPrefix*> list;
   return list;
-}
-
-std::map<std::string, std::string>& recipe() {
-  static std::map<std::string, std::string> values;
-  return values;
-}
-
-/// While the options given are checked before the run, asking for one does not mean that the run
-/// uses it.
-bool validating = false;
-
-std::size_t stageRank(const std::string& stage) {
-  return std::find(stages.begin(), stages.end(), stage) - stages.begin();
-}
-
-template <class Item>
-std::vector<const Item*> byStage(std::vector<const Item*> items) {
-  std::stable_sort(items.begin(), items.end(),
-                   [](auto* a, auto* b) { return stageRank(a->stage) < stageRank(b->stage); });
-  return items;
 }
 
 std::vector<std::string> namesGiven() {
   std::vector<std::string> names;
   for (const auto& [name, value] : givenOptions()) names.push_back(name);
   return names;
-}
-
-/// The value of an option that was given; none: it was not.
-std::optional<std::string> valueGiven(const std::string& name) {
-  const char* value = nullptr;
-  PetscBool set = PETSC_FALSE;
-  check(PetscOptionsFindPair(nullptr, nullptr, ("-" + name).c_str(), &value, &set));
-  // Asked for a_1_b, PETSc also takes a_b.
-  static const std::regex numbered("_[0-9]+_");
-  if (!set || (std::regex_search(name, numbered) && !givenOptions().count(name))) return {};
-  return value ? value : "";
 }
 
 std::vector<std::string> namesLeft() {
@@ -76,10 +34,6 @@ std::vector<std::string> namesLeft() {
   std::vector<std::string> left(names, names + count);
   check(PetscOptionsLeftRestore(nullptr, &count, &names, &values));
   return left;
-}
-
-bool startsWith(const std::string& text, const std::string& start) {
-  return text.compare(0, start.size(), start) == 0;
 }
 
 /// Returns true if the full name (no dash) is that of an option of this program.
@@ -93,16 +47,7 @@ bool isOurs(const std::string& name) {
 bool isOfSolver(const std::string& name) {
   const auto solvers = SolverPrefix::all();
   return std::any_of(solvers.begin(), solvers.end(),
-                     [&](const auto* solver) { return startsWith(name, solver->prefix); });
-}
-
-/// Returns "option -a 2 (case.yaml, line 3)", with the place where the value `given` stands if it
-/// stands in a file; an empty `value` is left out.
-std::string optionText(const std::string& name, const std::string& value,
-                       const std::string& given) {
-  const std::string place = origin(name, given).place();
-  return "option -" + name + (value.empty() ? "" : " " + value) +
-         (place.empty() ? "" : " (" + place + ")");
+                     [&](const auto* solver) { return name.starts_with(solver->prefix); });
 }
 
 std::size_t editDistance(const std::string& a, const std::string& b) {
@@ -144,66 +89,6 @@ std::string nearestName(const std::string& name) {
 
 }  // namespace
 
-Option::Option(std::string stage_, std::string name_, std::string default_, std::string unit_,
-               std::string meaning_, std::string rule_, bool required_)
-    : stage(std::move(stage_)),
-      name(std::move(name_)),
-      defaultText(std::move(default_)),
-      unit(std::move(unit_)),
-      meaning(std::move(meaning_)),
-      rule(std::move(rule_)),
-      required(required_) {
-  registry().push_back(this);
-}
-
-std::vector<const Option*> Option::all() { return byStage(registry()); }
-
-std::string Option::fullName(const std::string& subject) const {
-  const auto open = name.find('<');
-  if (open == std::string::npos) return name;
-  return name.substr(0, open) + subject + name.substr(name.find('>') + 1);
-}
-
-bool Option::given(const std::string& subject) const {
-  return valueGiven(fullName(subject)).has_value();
-}
-
-bool Option::matches(const std::string& full) const {
-  const auto open = name.find('<');
-  if (open == std::string::npos) return full == name;
-  const std::string before = name.substr(0, open), after = name.substr(name.find('>') + 1);
-  return full.size() > before.size() + after.size() && startsWith(full, before) &&
-         full.compare(full.size() - after.size(), after.size(), after) == 0;
-}
-
-std::vector<std::string> Option::subjects() const {
-  const auto open = name.find('<');
-  const std::size_t around = name.size() - (name.find('>') - open + 1);
-  std::set<std::string> found;
-  for (const auto& full : namesGiven())
-    if (matches(full)) found.insert(full.substr(open, full.size() - around));
-  return {found.begin(), found.end()};
-}
-
-std::string Option::text(const std::string& subject) const {
-  const std::string full = fullName(subject);
-  const auto given = valueGiven(full);
-  if (!given && required) throw Error("option -" + full + " is missing: " + meaning);
-  const std::string value = trimmed(given.value_or(defaultText));
-  if (!validating) recipe()[full] = value;
-  return value;
-}
-
-std::string Option::named(const std::string& subject, const std::string& value) const {
-  const std::string full = fullName(subject);
-  return optionText(full, value, valueGiven(full).value_or(""));
-}
-
-void Option::reject(const std::string& subject, const std::string& value) const {
-  throw Error(named(subject, value) + ": " + meaning + (unit.empty() ? "" : " [" + unit + "]") +
-              "; must be " + rule);
-}
-
 SolverPrefix::SolverPrefix(std::string stage_, std::string prefix_, std::string meaning_)
     : stage(std::move(stage_)), prefix(std::move(prefix_)), meaning(std::move(meaning_)) {
   prefixes().push_back(this);
@@ -212,18 +97,24 @@ SolverPrefix::SolverPrefix(std::string stage_, std::string prefix_, std::string 
 std::vector<std::string> SolverPrefix::names() const {
   std::vector<std::string> ours;
   for (const auto& name : namesGiven())
-    if (startsWith(name, prefix)) ours.push_back("-" + name);
+    if (name.starts_with(prefix)) ours.push_back("-" + name);
   return ours;
 }
 
-std::vector<const SolverPrefix*> SolverPrefix::all() { return byStage(prefixes()); }
+std::vector<const SolverPrefix*> SolverPrefix::all() {
+  std::vector<const SolverPrefix*> list = prefixes();
+  std::stable_sort(list.begin(), list.end(), [](const auto* a, const auto* b) {
+    return stageRank(a->stage) < stageRank(b->stage);
+  });
+  return list;
+}
 
 void SolverPrefix::rejectUnused(const std::vector<std::string>& exceptAfter) const {
   for (const auto& name : namesLeft()) {
-    if (!startsWith(name, prefix)) continue;
+    if (!name.starts_with(prefix)) continue;
     const std::string rest = name.substr(prefix.size());
     if (std::any_of(exceptAfter.begin(), exceptAfter.end(),
-                    [&](const auto& later) { return startsWith(rest, later); }))
+                    [&](const auto& later) { return rest.starts_with(later); }))
       continue;
     throw Error("option -" + name + " is unknown to the solver with prefix -" + prefix);
   }
@@ -268,21 +159,13 @@ void rejectUnknownOptions() {
                 (nearest.empty() ? "" : "; did you mean -" + nearest + "?") +
                 " (squeal -help lists all options)");
   }
-  struct Validation {
-    Validation() { validating = true; }
-    ~Validation() { validating = false; }  // after an Error as well
-  } validation;
-  for (const auto* option : Option::all())
-    for (const auto& subject : option->name.find('<') == std::string::npos
-                                   ? std::vector<std::string>{""}
-                                   : option->subjects())
-      if (option->given(subject)) option->validate(subject);
+  validateGivenOptions();
 }
 
 std::vector<std::string> unusedOptions() {
   std::vector<std::string> unused, left = namesLeft();
   for (const auto& [name, value] : givenOptions()) {
-    const bool used = isOurs(name) ? recipe().count(name) > 0
+    const bool used = isOurs(name) ? resolvedOptions().count(name) > 0
                                    : std::find(left.begin(), left.end(), name) == left.end();
     if (!used)
       unused.push_back(optionText(name, value, value) +
@@ -302,7 +185,7 @@ std::string manual() {
       "quotes.\n";
   const auto options = Option::all();
   const auto solvers = SolverPrefix::all();
-  for (const auto& stage : stages) {
+  for (const auto& stage : stages()) {
     page += "\n" + stage + "\n";
     for (const auto* option : options) {
       if (option->stage != stage) continue;
@@ -321,8 +204,6 @@ std::string manual() {
   }
   return page;
 }
-
-const std::map<std::string, std::string>& resolvedOptions() { return recipe(); }
 
 std::map<std::string, std::string> givenOptions() {
   // PETSc offers no list of names and values; its viewer prints one to a line, and neither holds a

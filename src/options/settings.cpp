@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "options/options.hpp"
+#include "options/yaml.hpp"
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
 #include "petsc/unreadable.hpp"
@@ -366,6 +367,13 @@ Setting origin(const std::string& name, const std::string& value) {
   const auto known = record().find(name);
   return known != record().end() && known->second.value == value ? known->second
                                                                  : Setting{name, value, "", 0};
+}
+
+std::string optionText(const std::string& name, const std::string& value,
+                       const std::string& given) {
+  const std::string place = origin(name, given).place();
+  return "option -" + name + (value.empty() ? "" : " " + value) +
+         (place.empty() ? "" : " (" + place + ")");
 }
 
 std::vector<std::string> replacedSettings() {

@@ -39,10 +39,6 @@ std::vector<Setting> settingsOfFile(const std::string& file);
 /// in the working folder. An empty `namedIn` says that the command line names it.
 std::string located(const std::string& path, const std::string& namedIn);
 
-/// Returns the options of a YAML text: names of nested maps are joined by `_`, items of lists by
-/// commas. Throws Error with a message that begins with `name`.
-std::vector<Setting> settingsOfYaml(const std::string& text, const std::string& name);
-
 /// Collective. Returns the settings of rank 0 on all ranks.
 std::vector<Setting> onAllRanks(MPI_Comm comm, const std::vector<Setting>& ofRankZero);
 
@@ -55,6 +51,10 @@ void insertFile(MPI_Comm comm, const std::string& file);
 /// Returns the place where the value of an option was set, if it came through insert() and is still
 /// in force; otherwise a setting without a file.
 Setting origin(const std::string& name, const std::string& value);
+
+/// Returns "option -a 2 (case.yaml, line 3)", with the place where the value `given` stands if it
+/// stands in a file; an empty `value` is left out.
+std::string optionText(const std::string& name, const std::string& value, const std::string& given);
 
 /// Returns a line for each setting of a file that a later one has replaced by another value:
 /// "option -a 2 replaces 1 (case.yaml, line 3)".

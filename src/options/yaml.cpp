@@ -1,4 +1,5 @@
-/// YAML of options files, parsed by libyaml.
+#include "options/yaml.hpp"
+
 #include <yaml.h>
 
 #include <algorithm>
@@ -6,7 +7,6 @@
 #include <new>
 #include <set>
 
-#include "options/settings.hpp"
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
 

@@ -1,8 +1,8 @@
-/// Tables of the followed eigenvalues and of the critical frictions.
+#include "report/branches.hpp"
+
 #include <cmath>
 
 #include "petsc/text.hpp"
-#include "report/report.hpp"
 #include "sweep/parameters.hpp"
 
 namespace squeal::report {

@@ -1,5 +1,5 @@
-/// Fields for ParaView and for other programs: steady displacement and pressure, free modes,
-/// complex modes and the squeal in motion.
+#include "report/fields.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +9,7 @@
 #include "petsc/arrays.hpp"
 #include "petsc/text.hpp"
 #include "report/hdf5.hpp"
-#include "report/report.hpp"
+#include "report/names.hpp"
 #include "report/vtu.hpp"
 #include "steady/steady.hpp"
 #include "sweep/parameters.hpp"

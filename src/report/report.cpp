@@ -4,6 +4,10 @@
 
 #include "options/options.hpp"
 #include "output/file.hpp"
+#include "report/fields.hpp"
+#include "report/names.hpp"
+#include "report/summary.hpp"
+#include "report/tables.hpp"
 #include "session/stages.hpp"
 #include "sweep/sweep.hpp"
 

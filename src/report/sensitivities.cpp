@@ -1,9 +1,9 @@
-/// Tables of what the complex modes kept depend on, and of what feeds them.
+#include "report/sensitivities.hpp"
+
 #include <cmath>
 
 #include "pencil/complex_modes.hpp"
 #include "petsc/text.hpp"
-#include "report/report.hpp"
 #include "sweep/parameters.hpp"
 
 namespace squeal::report {

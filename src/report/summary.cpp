@@ -1,3 +1,5 @@
+#include "report/summary.hpp"
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 

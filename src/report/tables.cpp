@@ -1,4 +1,5 @@
-/// The comma-separated tables and the terminal's stability table.
+#include "report/tables.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -9,7 +10,10 @@
 #include "pencil/band.hpp"
 #include "pencil/complex_modes.hpp"
 #include "petsc/text.hpp"
+#include "report/branches.hpp"
+#include "report/names.hpp"
 #include "report/report.hpp"
+#include "report/sensitivities.hpp"
 #include "sensitivity/sensitivity.hpp"
 #include "session/session.hpp"
 #include "steady/steady.hpp"

@@ -1,11 +1,9 @@
-/// The first-order change of the steady state with its data: the equations of steady.hpp,
-/// differentiated on one active set [M.48, M.49].
+#include "steady/change.hpp"
+
 #include <functional>
 
-#include "contact/coupled.hpp"
 #include "petsc/arrays.hpp"
 #include "petsc/text.hpp"
-#include "steady/steady.hpp"
 #include "sweep/parameters.hpp"
 
 namespace squeal::steady {
@@ -31,23 +29,25 @@ PetscErrorCode multiply(Mat matrix, Vec y, Vec result) {
 ///   dr = (K + v² K^R) du + cause,
 ///   dt = f φ τ N dr − v B D du + (df φ + f φ′ dv |w|/v) R_N τ,
 /// with B of velocityResponse().
-Change Problem::change(const Solution& solution, const contact::CoupledSystem& system,
-                       const Cause& cause) const {
+Change change(const Problem& problem, const Solution& solution,
+              const contact::CoupledSystem& system, const Cause& cause) {
+  const mesh::Mesh& mesh = problem.mesh();
+  const contact::Contact& contact = problem.contact();
   const sweep::Parameters& at = solution.at;
   const Mat trial = system.transformation().trial;
-  const auto& nodes = contact_.nodes;
+  const auto& nodes = contact.nodes;
   std::vector<double> steadyForce;
   for (const auto& state : solution.contact) steadyForce.push_back(state.normalForce);
   OwnedMat turning;  // B D
-  if (contact_.convected) {
-    const OwnedMat response = contact_.velocityResponse(solution.slip, steadyForce, at.friction);
+  if (contact.convected) {
+    const OwnedMat response = contact.velocityResponse(solution.slip, steadyForce, at.friction);
     check(
-        MatMatMult(response, contact_.convected, MAT_INITIAL_MATRIX, PETSC_DEFAULT, turning.out()));
+        MatMatMult(response, contact.convected, MAT_INITIAL_MATRIX, PETSC_DEFAULT, turning.out()));
   }
   // Computes Tᵀ (dr + Jᵀ dt) for given du and dr; if `direct`, dt has its terms in df and dv too.
   const auto test = [&](Vec du, Vec dr, bool direct, Vec result) {
-    const OwnedVec friction = elasticity::nodalVector(mesh_), sum = elasticity::nodalVector(mesh_);
-    const auto normal = normalForces(dr);
+    const OwnedVec friction = elasticity::nodalVector(mesh), sum = elasticity::nodalVector(mesh);
+    const auto normal = problem.normalForces(dr);
     if (turning) {
       check(MatMult(turning, du, friction));
       check(VecScale(friction, -at.speed));
@@ -62,24 +62,24 @@ Change Problem::change(const Solution& solution, const contact::CoupledSystem& s
                          steadyForce[i]
                    : 0;
         const double along = system.closed()[i] ? at.friction * slip.law * normal[i] + causes : 0;
-        for (int d = 0; d < mesh_.dimension; ++d)
-          values[mesh_.dimension * nodes[i].node + d] += along * slip.direction[d];
+        for (int d = 0; d < mesh.dimension; ++d)
+          values[mesh.dimension * nodes[i].node + d] += along * slip.direction[d];
       }
     }
-    check(MatMultTransposeAdd(contact_.jump, friction, dr, sum));
+    check(MatMultTransposeAdd(contact.jump, friction, dr, sum));
     check(MatMultTranspose(trial, sum, result));
   };
 
-  const OwnedVec work = elasticity::nodalVector(mesh_), explicitU = elasticity::nodalVector(mesh_);
+  const OwnedVec work = elasticity::nodalVector(mesh), explicitU = elasticity::nodalVector(mesh);
   OwnedVec y;
   check(MatCreateVecs(trial, y.out(), nullptr));
   if (cause.held) check(VecCopy(cause.held, explicitU));
-  const OwnedVec du = elasticity::nodalVector(mesh_);
+  const OwnedVec du = elasticity::nodalVector(mesh);
   const auto residual = [&](Vec changes) {
     check(MatMultAdd(trial, changes, explicitU, du));
-    const OwnedVec dr = springForces(at.speed, du);
+    const OwnedVec dr = problem.springForces(at.speed, du);
     if (cause.force) check(VecAXPY(dr, 1, cause.force));
-    Residual left{{}, rounding(du, cause.force)};
+    Residual left{{}, problem.rounding(du, cause.force)};
     check(MatCreateVecs(trial, left.vector.out(), nullptr));
     test(du, dr, true, left.vector);
     return left;
@@ -87,13 +87,13 @@ Change Problem::change(const Solution& solution, const contact::CoupledSystem& s
 
   Linearised linearised{[&](Vec in, Vec out) {
     check(MatMult(trial, in, work));
-    test(work, springForces(at.speed, work), false, out);
+    test(work, problem.springForces(at.speed, work), false, out);
   }};
   PetscInt local = 0, global = 0;
   check(VecGetLocalSize(y, &local));
   check(VecGetSize(y, &global));
   OwnedMat matrix;
-  check(MatCreateShell(mesh_.comm, local, local, global, global, &linearised, matrix.out()));
+  check(MatCreateShell(mesh.comm, local, local, global, global, &linearised, matrix.out()));
   check(MatShellSetOperation(matrix, MATOP_MULT, reinterpret_cast<void (*)()>(multiply)));
   if (const auto refinement = refine(innerSolver(matrix, system.solver()), residual, y);
       !refinement.solved())
@@ -102,12 +102,12 @@ Change Problem::change(const Solution& solution, const contact::CoupledSystem& s
                   "%g: a residual of %.1e is left",
                   at.friction, refinement.relative()));
 
-  Change change{elasticity::nodalVector(mesh_), {}};
-  check(MatMultAdd(trial, y, explicitU, change.displacement));
-  const OwnedVec forces = springForces(at.speed, change.displacement);
+  Change result{elasticity::nodalVector(mesh), {}};
+  check(MatMultAdd(trial, y, explicitU, result.displacement));
+  const OwnedVec forces = problem.springForces(at.speed, result.displacement);
   if (cause.force) check(VecAXPY(forces, 1, cause.force));
-  change.normalForce = normalForces(forces);
-  return change;
+  result.normalForce = problem.normalForces(forces);
+  return result;
 }
 
 }  // namespace squeal::steady

@@ -1,11 +1,11 @@
-/// Solution of the complementarity problem by PETSc's SNES VI.
+#include "steady/complementarity.hpp"
+
 #include <petscsnes.h>
 
 #include <algorithm>
 
 #include "options/options.hpp"
 #include "petsc/arrays.hpp"
-#include "steady/steady.hpp"
 #include "sweep/parameters.hpp"
 
 namespace squeal::steady {
@@ -70,18 +70,16 @@ PetscErrorCode differentiate(SNES, Vec x, Mat jacobian, Mat, void* context) {
   PetscFunctionReturn(0);
 }
 
-}  // namespace
-
 /// Returns the 2-norm of the natural residual, N: F(x), but min(R_N, 0) in the rows of gaps g ≤ 0.
-double Problem::naturalResidual(const sweep::Parameters& at, Vec x) const {
-  const OwnedVec f = rightVector(transformation_.trial);
-  residual(at, x, f);
+double naturalResidual(const Problem& problem, const sweep::Parameters& at, Vec x) {
+  const OwnedVec f = rightVector(problem.transformation().trial);
+  problem.residual(at, x, f);
   PetscInt first = 0;
   check(VecGetOwnershipRange(x, &first, nullptr));
   {
     const ReadArray gaps(x);
     const WriteArray values(f);
-    for (PetscInt column : transformation_.gapColumn)
+    for (PetscInt column : problem.transformation().gapColumn)
       if (gaps[column - first] <= 0) values[column - first] = std::min(values[column - first], 0.0);
   }
   PetscReal size = 0;
@@ -89,41 +87,44 @@ double Problem::naturalResidual(const sweep::Parameters& at, Vec x) const {
   return size;
 }
 
-/// Solves by SNES VI from the start x, which becomes the solution. Returns the 2-norm of its
-/// natural residual, N.
-double Problem::complementarity(OwnedVec& x, Solution& solution) const {
+}  // namespace
+
+double complementarity(const Problem& problem, OwnedVec& x, Solution& solution) {
+  const contact::Transformation& transformation = problem.transformation();
   PetscReal xUnit = 0, forceUnit = 0;
   check(VecNorm(x, NORM_INFINITY, &xUnit));
   {
-    const OwnedVec zero = rightVector(transformation_.trial),
-                   start = rightVector(transformation_.trial);
-    residual(solution.at, zero, start);
+    const OwnedVec zero = rightVector(transformation.trial),
+                   start = rightVector(transformation.trial);
+    problem.residual(solution.at, zero, start);
     check(VecNorm(start, NORM_2, &forceUnit));
   }
   if (xUnit == 0) xUnit = 1;
   if (forceUnit == 0) forceUnit = 1;
-  const OwnedMat jacobian = this->jacobian(solution.at, x);
+  const OwnedMat jacobian = problem.jacobian(solution.at, x);
   OwnedMat symmetric;
-  check(MatDuplicate(stiffness_.matrix, MAT_COPY_VALUES, symmetric.out()));
+  check(MatDuplicate(problem.stiffness().matrix, MAT_COPY_VALUES, symmetric.out()));
   for (Mat matrix : {jacobian.get(), symmetric.get()}) check(MatScale(matrix, xUnit / forceUnit));
   // The residual cannot become smaller than rounding, which grows with the displacements and with
   // the number of unknowns.
-  const double asked =
-      std::max(1e-11, 10 * rounding(displacement(solution.at, x), load(solution.at)) / forceUnit);
+  const double rounding =
+      problem.rounding(problem.displacement(solution.at, x), problem.load(solution.at));
+  const double asked = std::max(1e-11, 10 * rounding / forceUnit);
   check(VecScale(x, 1 / xUnit));
   const OwnedVec work = rightVector(jacobian);
-  Scaled scaled{*this, solution.at, xUnit, forceUnit, contact_.convected != nullptr, work};
+  Scaled scaled{problem, solution.at, xUnit, forceUnit, problem.contact().convected != nullptr,
+                work};
 
   const OwnedVec low = rightVector(jacobian), high = rightVector(jacobian);
   check(VecSet(low, PETSC_NINFINITY));
   check(VecSet(high, PETSC_INFINITY));
-  for (PetscInt column : transformation_.gapColumn)
+  for (PetscInt column : transformation.gapColumn)
     check(VecSetValue(low, column, 0, INSERT_VALUES));
   check(VecAssemblyBegin(low));
   check(VecAssemblyEnd(low));
 
   OwnedSNES snes;
-  check(SNESCreate(mesh_.comm, snes.out()));
+  check(SNESCreate(problem.mesh().comm, snes.out()));
   check(SNESSetOptionsPrefix(snes, solverPrefix.prefix.c_str()));
   check(SNESSetType(snes, SNESVINEWTONRSLS));
   const OwnedVec value = rightVector(jacobian);
@@ -159,7 +160,7 @@ double Problem::complementarity(OwnedVec& x, Solution& solution) const {
   check(SNESGetConvergedReason(snes, &reason));
   check(SNESGetIterationNumber(snes, &iterations));
   check(VecScale(x, xUnit));
-  const double left = naturalResidual(solution.at, x);
+  const double left = naturalResidual(problem, solution.at, x);
   solution.residual = left / forceUnit;
   PetscReal tolerance = 0;
   check(SNESGetTolerances(snes, &tolerance, nullptr, nullptr, nullptr, nullptr));

@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-#include "contact/sliding.hpp"
+#include "contact/algebra.hpp"
 #include "linalg/block.hpp"
 #include "linalg/symmetric_solver.hpp"
 #include "options/options.hpp"

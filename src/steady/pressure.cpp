@@ -1,7 +1,11 @@
-#include "elasticity/element.hpp"
+#include "steady/pressure.hpp"
+
+#include <algorithm>
+
+#include "elasticity/face.hpp"
+#include "elasticity/shape.hpp"
 #include "mesh/mesh.hpp"
 #include "petsc/arrays.hpp"
-#include "steady/steady.hpp"
 
 namespace squeal::steady {
 
@@ -17,7 +21,7 @@ std::vector<double> consistentPressure(const mesh::Mesh& mesh, const contact::Co
   for (const auto& block : mesh.faces)
     for (std::size_t e = 0; e < block.surface.size(); ++e) {
       if (!contact.isPadSurface(mesh.surfaces[block.surface[e]])) continue;
-      std::vector<Point> points;
+      std::vector<mesh::Point> points;
       std::vector<PetscInt> rows;
       for (int i = 0; i < block.nodesPerFace; ++i) {
         const PetscInt node = block.nodesOf(e)[i];

@@ -7,6 +7,8 @@
 #include "mesh/mesh.hpp"
 #include "petsc/arrays.hpp"
 #include "petsc/text.hpp"
+#include "steady/complementarity.hpp"
+#include "steady/pressure.hpp"
 
 namespace squeal::steady {
 namespace {
@@ -34,7 +36,6 @@ Problem::Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
                    convected_.out()));
 }
 
-/// Returns b with the pressures and the centrifugal forces of this point.
 OwnedVec Problem::load(const sweep::Parameters& at) const {
   OwnedVec b = elasticity::nodalVector(mesh_);
   check(VecAXPBYPCZ(b, at.pressure, at.speed * at.speed - at.pressure, 0, bodies_.load,
@@ -42,7 +43,6 @@ OwnedVec Problem::load(const sweep::Parameters& at) const {
   return b;
 }
 
-/// Returns (K + v² K^R) u.
 OwnedVec Problem::springForces(double speed, Vec displacement) const {
   OwnedVec r = elasticity::nodalVector(mesh_);
   check(MatMult(bodies_.stiffness, displacement, r));
@@ -61,7 +61,6 @@ OwnedVec Problem::forces(const sweep::Parameters& at, Vec displacement) const {
   return r;
 }
 
-/// Returns R_N = N r, [contact node].
 std::vector<double> Problem::normalForces(Vec forces) const {
   const OwnedVec reactions = elasticity::nodalVector(mesh_);
   check(MatMult(contact_.reaction, forces, reactions));
@@ -131,9 +130,6 @@ OwnedMat Problem::jacobian(const sweep::Parameters& at, Vec x) const {
   return sum;
 }
 
-/// Returns an estimate of the rounding error of F, N, as in the numerator of [M.16],
-///   ε (‖diag(K) u‖ + ‖b‖).
-/// `loads` b may be null.
 double Problem::rounding(Vec displacement, Vec loads) const {
   const OwnedVec magnitude = elasticity::nodalVector(mesh_);
   PetscReal springs = 0, forces = 0;
@@ -151,7 +147,7 @@ Solution Problem::solve(const sweep::Parameters& at, const contact::CoupledSyste
   double noise = 0;
   OwnedVec x = closedContact(at, system, refinement);
   if (contact_.weightsPositive) {
-    noise = complementarity(x, solution);
+    noise = complementarity(*this, x, solution);
   } else {
     noise = refinement.least;
     solution.residual = refinement.relative();

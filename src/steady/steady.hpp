@@ -49,22 +49,6 @@ struct Solution {
                          ///< the magnitudes of all nodal forces
 };
 
-/// The direct effect of a parameter on the steady equations, per unit of the parameter.
-struct Cause {
-  /// Change dr of the nodal forces r = (K + v² K^R) u − b at fixed u, N entries; null: none.
-  /// Borrowed.
-  Vec force = nullptr;
-  Vec held = nullptr;   ///< change du0 of the held displacements; null: none; borrowed
-  double friction = 0;  ///< df
-  double speed = 0;     ///< dv, as it enters the friction law
-};
-
-/// The first-order change of the steady state with a fixed active set.
-struct Change {
-  OwnedVec displacement;            ///< du, N entries
-  std::vector<double> normalForce;  ///< dR_N, [owned contact node]
-};
-
 /// The complementarity problem [3.3–3.4, M.13]: with u = T x + p u0,
 ///   r = (K + v² K^R) u − b,   b = p × pressures + v² × centrifugal forces,
 ///   F(x) = Tᵀ r + f Sᵀ N r,
@@ -81,12 +65,6 @@ class Problem {
   /// carries friction.
   Solution solve(const sweep::Parameters& at, const contact::CoupledSystem& system) const;
 
-  /// Collective. Returns the change of the converged `solution` for which dF = 0 on the active set
-  /// of `system` [M.48], by GMRES preconditioned by the factorised K0. Throws Error if that does
-  /// not converge.
-  Change change(const Solution& solution, const contact::CoupledSystem& system,
-                const Cause& cause) const;
-
   /// Collective. Sets f = F(x), n entries.
   void residual(const sweep::Parameters& at, Vec x, Vec f) const;
   /// Collective. Returns the exact derivative dF/dx [M.14], n×n, as a new matrix whose pattern is
@@ -96,23 +74,35 @@ class Problem {
   OwnedVec displacement(const sweep::Parameters& at, Vec x) const {
     return displacement(transformation_, at, x);
   }
+  /// Collective. Returns b with the pressures and the centrifugal forces of this point, N entries,
+  /// N.
+  OwnedVec load(const sweep::Parameters& at) const;
+  /// Collective. Returns (K + v² K^R) u, N entries, N.
+  OwnedVec springForces(double speed, Vec displacement) const;
+  /// Collective. Returns R_N = N r of nodal forces r, [contact node].
+  std::vector<double> normalForces(Vec forces) const;
+  /// Collective. Returns an estimate of the rounding error of F, N, as in the numerator of [M.16],
+  ///   ε (‖diag(K) u‖ + ‖b‖).
+  /// `loads` b may be null.
+  double rounding(Vec displacement, Vec loads) const;
+
+  const mesh::Mesh& mesh() const { return mesh_; }
+  const contact::Contact& contact() const { return contact_; }
+  /// Returns T with all gaps unknown.
+  const contact::Transformation& transformation() const { return transformation_; }
+  /// Returns the projections of K by this transformation.
+  const contact::Projection& stiffness() const { return stiffness_; }
 
  private:
-  OwnedVec springForces(double speed, Vec displacement) const;
-  OwnedVec load(const sweep::Parameters& at) const;
   OwnedVec displacement(const contact::Transformation& transformation, const sweep::Parameters& at,
                         Vec x) const;
   OwnedVec forces(const sweep::Parameters& at, Vec displacement) const;
-  std::vector<double> normalForces(Vec forces) const;
   OwnedVec test(const contact::Transformation& transformation,
                 const std::vector<unsigned char>& slides, const sweep::Parameters& at, Vec forces,
                 const std::vector<contact::Slip>& slip) const;
-  double rounding(Vec displacement, Vec loads) const;
-  double naturalResidual(const sweep::Parameters& at, Vec x) const;
   double largestDisplacement(const sweep::Parameters& at, Vec x) const;
   OwnedVec closedContact(const sweep::Parameters& at, const contact::CoupledSystem& system,
                          Refinement& refinement) const;
-  double complementarity(OwnedVec& x, Solution& solution) const;
   void recover(Vec x, double noise, Solution& solution) const;
   double imbalance(const Solution& solution, Vec nodalForces) const;
 
@@ -125,11 +115,5 @@ class Problem {
   OwnedVec diagonal_;           // diagonal of K, N entries
   OwnedMat jumps_, convected_;  // J T and D T, N×n; empty without convective terms
 };
-
-/// Collective. Returns the nodal pressures P, Pa, [owned contact node], with [M.12]
-///   ∫ φ_i P dA = R_N,i
-/// on the faces of the pad.
-std::vector<double> consistentPressure(const mesh::Mesh& mesh, const contact::Contact& contact,
-                                       const std::vector<double>& normalForce);
 
 }  // namespace squeal::steady

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 
+#include "contact/loose.hpp"
 #include "options/options.hpp"
 #include "steady/condensed.hpp"
 

@@ -1,5 +1,5 @@
 #include "fuzz/fuzz.hpp"
-#include "matrices/matrices.hpp"
+#include "matrices/read.hpp"
 
 namespace squeal::fuzz {
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "matrices/matrices.hpp"
+#include "matrices/read.hpp"
 #include "matrixfile/formats.hpp"
 #include "support/model.hpp"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "elasticity/element.hpp"
+#include "elasticity/face.hpp"
 #include "elasticity/shape.hpp"
 #include "mesh/mesh.hpp"
 #include "support/case.hpp"

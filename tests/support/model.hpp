@@ -14,6 +14,7 @@
 #include "elasticity/elasticity.hpp"
 #include "linalg/dense.hpp"
 #include "mesh/mesh.hpp"
+#include "mesh/read.hpp"
 #include "options/settings.hpp"
 #include "petsc/check.hpp"
 #include "petsc/owned.hpp"

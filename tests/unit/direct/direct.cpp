@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "direct/direct.hpp"
+#include "direct/nearest.hpp"
 #include "pencil/complex_modes.hpp"
 #include "support/case.hpp"
 #include "support/chains.hpp"

@@ -6,6 +6,7 @@
 
 #include "elasticity/elasticity.hpp"
 #include "elasticity/element.hpp"
+#include "elasticity/inertia.hpp"
 #include "elasticity/shape.hpp"
 #include "mesh/mesh.hpp"
 #include "support/case.hpp"

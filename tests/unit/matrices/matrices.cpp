@@ -5,6 +5,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "matrixfile/matrix_market.hpp"
 #include "petsc/text.hpp"
 #include "support/case.hpp"
 #include "support/matrix_files.hpp"

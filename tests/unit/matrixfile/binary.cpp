@@ -8,6 +8,10 @@
 #include <functional>
 #include <tuple>
 
+#include "matrices/read.hpp"
+#include "matrixfile/hdf5.hpp"
+#include "matrixfile/matrix_market.hpp"
+#include "matrixfile/petsc_binary.hpp"
 #include "support/hdf5_files.hpp"
 #include "support/matrix_files.hpp"
 

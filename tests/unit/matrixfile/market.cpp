@@ -5,6 +5,7 @@
 #include <array>
 #include <limits>
 
+#include "matrixfile/matrix_market.hpp"
 #include "support/matrix_files.hpp"
 
 namespace squeal::test {

@@ -10,6 +10,8 @@
 #include <cstdint>
 #include <tuple>
 
+#include "matrixfile/hdf5.hpp"
+#include "matrixfile/matlab.hpp"
 #include "support/hdf5_files.hpp"
 #include "support/matlab_bytes.hpp"
 #include "support/matrix_files.hpp"

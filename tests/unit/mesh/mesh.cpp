@@ -8,6 +8,8 @@
 #include <set>
 
 #include "mesh/mesh.hpp"
+#include "mesh/pairing.hpp"
+#include "mesh/partition.hpp"
 #include "mesh/whole.hpp"
 #include "support/case.hpp"
 #include "support/gathered.hpp"

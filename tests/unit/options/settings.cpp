@@ -8,6 +8,7 @@
 #include <cstdlib>
 
 #include "options/options.hpp"
+#include "options/yaml.hpp"
 #include "petsc/text.hpp"
 #include "support/model.hpp"
 

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "matrices/read.hpp"
 #include "options/options.hpp"
 #include "support/matrix_files.hpp"
 #include "support/mesh_message.hpp"

@@ -13,7 +13,7 @@
 #include "pencil/band.hpp"
 #include "pencil/complex_modes.hpp"
 #include "pencil/pencil.hpp"
-#include "report/report.hpp"
+#include "report/tables.hpp"
 #include "support/blocks.hpp"
 #include "support/dense.hpp"
 #include "support/layers.hpp"

@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "petsc/text.hpp"
-#include "report/report.hpp"
+#include "report/fields.hpp"
+#include "report/names.hpp"
+#include "report/sensitivities.hpp"
 #include "support/case.hpp"
 #include "support/hdf5.hpp"
 #include "support/report_files.hpp"

@@ -11,6 +11,7 @@
 
 #include "contact/coupled.hpp"
 #include "mesh/mesh.hpp"
+#include "mesh/read.hpp"
 #include "steady/condensed.hpp"
 #include "steady/uniqueness.hpp"
 #include "support/case.hpp"

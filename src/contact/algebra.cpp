@@ -1,0 +1,45 @@
+#include "contact/algebra.hpp"
+
+#include "petsc/check.hpp"
+#include "petsc/text.hpp"
+
+namespace squeal::contact {
+
+OwnedMat nodalMatrix(const mesh::Mesh& mesh, PetscInt blocksPerRow) {
+  OwnedMat matrix;
+  const PetscInt owned = mesh.dimension * mesh.ownedNodes, entries = blocksPerRow * mesh.dimension;
+  check(MatCreateAIJ(mesh.comm, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE, entries, nullptr,
+                     entries, nullptr, matrix.out()));
+  return matrix;
+}
+
+void assembled(Mat matrix) {
+  check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
+  check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
+}
+
+void setBlock(Mat matrix, int dimension, PetscInt rowNode, PetscInt columnNode,
+              const std::vector<double>& block) {
+  std::vector<PetscInt> rows, columns;
+  for (int d = 0; d < dimension; ++d)
+    rows.push_back(dimension * rowNode + d), columns.push_back(dimension * columnNode + d);
+  check(MatSetValues(matrix, dimension, rows.data(), dimension, columns.data(), block.data(),
+                     INSERT_VALUES));
+}
+
+std::vector<double> outer(const Point& a, const Point& b, int dimension, double factor) {
+  std::vector<double> block;
+  for (int i = 0; i < dimension; ++i)
+    for (int j = 0; j < dimension; ++j) block.push_back(factor * a[i] * b[j]);
+  return block;
+}
+
+std::vector<double> identity(int dimension, double factor) {
+  std::vector<double> block(dimension * dimension, 0.0);
+  for (int d = 0; d < dimension; ++d) block[d * dimension + d] = factor;
+  return block;
+}
+
+std::string text(const Point& p) { return formatted("(%.6g, %.6g, %.6g)", p[0], p[1], p[2]); }
+
+}  // namespace squeal::contact

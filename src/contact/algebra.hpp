@@ -1,0 +1,39 @@
+#pragma once
+/// These functions are the vector algebra for building the contact matrices: N×N matrices that
+/// consist of a block per pair of nodes.
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+#include "petsc/owned.hpp"
+
+namespace squeal::contact {
+
+using mesh::Point;
+
+inline double dot(const Point& a, const Point& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+inline Point cross(const Point& a, const Point& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+inline Point scaled(const Point& a, double s) { return {s * a[0], s * a[1], s * a[2]}; }
+
+/// Collective. Returns an N×N matrix with room for `blocksPerRow` dimension×dimension blocks per
+/// row of blocks.
+OwnedMat nodalMatrix(const mesh::Mesh& mesh, PetscInt blocksPerRow);
+/// Collective. Assembles the matrix after values have been set.
+void assembled(Mat matrix);
+/// Sets the block of two global nodes. Zeros are kept as entries, so that friction only changes
+/// values within the frictionless pattern.
+void setBlock(Mat matrix, int dimension, PetscInt rowNode, PetscInt columnNode,
+              const std::vector<double>& block);
+/// Returns factor · a bᵀ, dimension × dimension, row-major.
+std::vector<double> outer(const Point& a, const Point& b, int dimension, double factor = 1);
+/// Returns factor times the unit matrix, dimension × dimension.
+std::vector<double> identity(int dimension, double factor);
+
+/// Returns the coordinates of a point for a message.
+std::string text(const Point& p);
+
+}  // namespace squeal::contact

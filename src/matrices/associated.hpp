@@ -1,0 +1,23 @@
+#pragma once
+/// This file makes the associated system of a problem from files: K0 and M0 are sums of the terms
+/// without exponents.
+#include <vector>
+
+#include "matrices/matrices.hpp"
+#include "modes/associated.hpp"
+
+namespace squeal::matrices {
+
+/// The sums of the stiffness and of the mass terms without friction, speed and damping. The
+/// friction that such a stiffness may hold stays in the pencil.
+struct SymmetricPart {
+  modes::AssociatedSystem system;  ///< K0 is the symmetric part of the sum
+  double asymmetry;                ///< ‖K − Kᵀ‖ / ‖K‖ of the sum; 0: to printed digits
+};
+
+/// Collective. Returns the associated system of the terms. Throws Error, naming matrices, if there
+/// is no such term, if the mass is not symmetric, and if the mass or the stiffness is not positive
+/// definite to within rounding, as with massless unknowns or a loose body.
+SymmetricPart symmetricPart(const std::vector<NamedTerm>& terms);
+
+}  // namespace squeal::matrices

@@ -1,0 +1,13 @@
+#pragma once
+/// This function divides the cells among the ranks. It is for rank 0 only.
+#include <vector>
+
+#include "mesh/whole.hpp"
+
+namespace squeal::mesh {
+
+/// Returns the rank of each cell, [cell], which METIS finds from the dual graph. Contact partners,
+/// and periodic images with their primaries, count as one node.
+std::vector<int> partition(const WholeMesh& mesh, int ranks);
+
+}  // namespace squeal::mesh

@@ -1,0 +1,163 @@
+#pragma once
+/// This file holds the user interface: every option is declared once, beside the physics that uses
+/// it, with stage, default, unit, meaning and check. Names hold at most one placeholder in angle
+/// brackets, e.g. `part_<group>_length`, replaced by a name from the mesh. All values come from the
+/// PETSc options database, the same on every rank, so every Error thrown here is thrown on all
+/// ranks.
+#include <array>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace squeal {
+
+/// Returns the stages in the order of the method, in which the manual lists them.
+const std::vector<std::string>& stages();
+/// Returns the place of a stage in this order.
+std::size_t stageRank(const std::string& stage);
+
+/// A declared option, as `-help` prints it.
+class Option {
+ public:
+  const std::string stage, name, defaultText, unit, meaning, rule;
+  const bool required;  ///< it has no default: reading it throws Error unless it is given
+
+  /// Returns the full name without the dash, the placeholder replaced by `subject`.
+  std::string fullName(const std::string& subject = {}) const;
+  bool given(const std::string& subject = {}) const;
+  /// Returns the words in place of the placeholder in the options given, sorted: the <group> of
+  /// each `-part_<group>_length`.
+  std::vector<std::string> subjects() const;
+  /// Returns true if this is the full name (no dash) of this option for some subject.
+  bool matches(const std::string& fullName) const;
+  /// Throws Error if the value given for this subject breaks the rule.
+  virtual void validate(const std::string& subject) const = 0;
+  /// Returns all declared options in order of stage, then of declaration; borrowed.
+  static std::vector<const Option*> all();
+
+ protected:
+  Option(std::string stage, std::string name, std::string defaultText, std::string unit,
+         std::string meaning, std::string rule, bool required = false);
+  ~Option() = default;
+  Option(const Option&) = delete;
+  /// Returns the text given by the user, without blanks around it, or the default, and records it
+  /// for the recipe. Throws Error if an option without default is not given.
+  std::string text(const std::string& subject) const;
+  /// Returns a text such as "option -part_disc_length -1 (disc.yaml, line 3)".
+  std::string named(const std::string& subject, const std::string& value) const;
+  [[noreturn]] void reject(const std::string& subject, const std::string& value) const;
+  /// Returns the value as a number. Throws Error unless its magnitude is admissible.
+  double number(const std::string& subject, const std::string& value) const;
+};
+
+/// The magnitudes of numbers other than zero lie between these bounds: products of several of them
+/// must neither overflow nor vanish.
+inline constexpr double smallestMagnitude = 1e-50, largestMagnitude = 1e50;
+/// The largest number of values in one list.
+inline constexpr int longestList = 100'000;
+
+struct Range {
+  double low = -std::numeric_limits<double>::infinity(),
+         high = std::numeric_limits<double>::infinity();
+  bool openLow = false, openHigh = false;
+  bool holds(double x) const;
+  std::string text() const;
+};
+inline constexpr Range anyReal{};
+inline constexpr Range positive{0, std::numeric_limits<double>::infinity(), true, false};
+inline constexpr Range nonNegative{0};
+
+class RealOption : public Option {
+ public:
+  /// No default: required wherever it is asked for.
+  RealOption(std::string stage, std::string name, std::optional<double> byDefault, std::string unit,
+             Range range, std::string meaning);
+  double get(const std::string& subject = {}) const;
+  void validate(const std::string& subject) const override { get(subject); }
+
+ private:
+  Range range_;
+};
+
+class IntegerOption : public Option {
+ public:
+  IntegerOption(std::string stage, std::string name, int byDefault, int lowest, int highest,
+                std::string meaning);
+  int get(const std::string& subject = {}) const;
+  void validate(const std::string& subject) const override { get(subject); }
+
+ private:
+  int lowest_, highest_;
+};
+
+/// Reals separated by commas, with blanks allowed beside them. With `ranges`, `first:last:step`
+/// stands for an arithmetic sequence, `last` included.
+class RealListOption : public Option {
+ public:
+  RealListOption(std::string stage, std::string name, std::string byDefault, std::string unit,
+                 Range range, std::string meaning, bool ranges = false);
+  std::vector<double> get(const std::string& subject = {}) const;
+  void validate(const std::string& subject) const override { get(subject); }
+  /// Returns the values as a vector. Throws Error unless there are three; two are enough for a mesh
+  /// in the plane.
+  std::array<double, 3> components(const std::string& subject, int dimension) const;
+
+ private:
+  void requireLength(const std::string& subject, const std::string& value, double length) const;
+  Range range_;
+  bool ranges_;
+};
+
+class FlagOption : public Option {
+ public:
+  FlagOption(std::string stage, std::string name, bool byDefault, std::string meaning);
+  bool get(const std::string& subject = {}) const;
+  void validate(const std::string& subject) const override { get(subject); }
+};
+
+class ChoiceOption : public Option {
+ public:
+  ChoiceOption(std::string stage, std::string name, std::vector<std::string> choices,
+               std::string byDefault, std::string meaning);
+  std::string get(const std::string& subject = {}) const;
+  void validate(const std::string& subject) const override { get(subject); }
+
+ private:
+  std::vector<std::string> choices_;
+};
+
+class TextOption : public Option {
+ public:
+  /// No default: required wherever it is asked for.
+  TextOption(std::string stage, std::string name, std::optional<std::string> byDefault,
+             std::string meaning);
+  std::string get(const std::string& subject = {}) const;
+  void validate(const std::string& subject) const override { get(subject); }
+  /// Returns the text split at commas, without the blanks beside them; empty if the option is not
+  /// given and its default is empty. Throws Error for an empty item.
+  std::vector<std::string> list(const std::string& subject = {}) const;
+};
+
+/// A file to be read. If an options file names it, it is sought beside that file, then in the
+/// working folder; if the command line names it, in the working folder.
+class FileOption : public Option {
+ public:
+  /// No default: required wherever it is asked for.
+  FileOption(std::string stage, std::string name, std::string meaning);
+  /// Returns the path to read.
+  std::string get(const std::string& subject = {}) const { return text(subject); }
+  /// Collective. Throws Error if rank 0 finds no such file, or may not read it.
+  void validate(const std::string& subject) const override;
+  /// Returns true if this is the full name (no dash) of an option for a file.
+  static bool isOne(const std::string& fullName);
+};
+
+/// Collective. Throws Error if a given option of this program has a value that breaks its rule.
+void validateGivenOptions();
+
+/// Returns name and value of every declared option that has been read so far, defaults included.
+const std::map<std::string, std::string>& resolvedOptions();
+
+}  // namespace squeal
