@@ -2,10 +2,26 @@
 
 #include <algorithm>
 
-#include "linalg/inner.hpp"
-
 namespace squeal::steady {
 namespace {
+
+PetscErrorCode applySolver(PC pc, Vec in, Vec out) {
+  KSP solver = nullptr;
+  PetscFunctionBegin;
+  PetscCall(PCShellGetContext(pc, &solver));
+  PetscCall(KSPSolve(solver, in, out));
+  PetscFunctionReturn(0);
+}
+
+/// Collective. Makes `inner` the preconditioner of `solver`, which borrows it: `inner` must outlive
+/// the solves of `solver`.
+void preconditionBy(KSP solver, KSP inner) {
+  PC pc = nullptr;
+  check(KSPGetPC(solver, &pc));
+  check(PCSetType(pc, PCSHELL));
+  check(PCShellSetContext(pc, inner));
+  check(PCShellSetApply(pc, applySolver));
+}
 
 /// A residual below this multiple of its estimated rounding counts as rounding.
 constexpr double roundings = 10;
@@ -60,7 +76,7 @@ OwnedKSP innerSolver(Mat matrix, KSP factorised) {
   // With right preconditioning the tolerance applies to forces. Where a weakly held body moves far,
   // a tolerance on displacements would hide all other errors.
   check(KSPSetPCSide(solver, PC_RIGHT));
-  linalg::preconditionBy(solver, factorised);
+  preconditionBy(solver, factorised);
   return solver;
 }
 
