@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "report/report.hpp"
+#include "report/sensitivities.hpp"
 #include "sensitivity/sensitivity.hpp"
 #include "support/sensitivities.hpp"
 
