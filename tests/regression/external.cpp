@@ -141,6 +141,16 @@ std::string rowsOfMasses(const std::string& name, int bodies, double ground) {
   return options;
 }
 
+// More modes than unknowns are refused by name, as for a mesh, and not taken as all of them.
+TEST(External, MoreModesThanUnknowns) {
+  const ProgramRun run =
+      runProgram("external/too_many", 2, rowsOfMasses("few", 1, 1) + "-modes_count 81");
+  EXPECT_EQ(run.exitCode, 1);
+  EXPECT_NE(run.error.find("option -modes_count 81: the problem has only 80 unknowns"),
+            std::string::npos)
+      << run.error;
+}
+
 // Two equal bodies that do not touch: each eigenvalue of one, twice.
 TEST(External, TwoEqualBodies) {
   const ProgramRun one =
