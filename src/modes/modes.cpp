@@ -74,7 +74,7 @@ OwnedEPS solver(const AssociatedSystem& system, const Options& options, Stage& s
   return eps;
 }
 
-/// Number of eigenvalues of (K, M) below sigma.
+/// Collective. Returns the number of eigenvalues of (K, M) below sigma.
 int countBelow(Mat k, Mat m, double sigma) {
   OwnedMat shifted;
   check(MatDuplicate(k, MAT_COPY_VALUES, shifted.out()));
@@ -83,9 +83,9 @@ int countBelow(Mat k, Mat m, double sigma) {
   return linalg::inertia(shifted).negative;
 }
 
-/// Number of modes, at most all but one, above which the widest relative gap of the topmost ten
-/// begins, so that rounding cannot move an eigenvalue across it; below a multiple eigenvalue if
-/// these are all copies of it.
+/// Returns the number of modes, at most all but one, above which the widest relative gap of the
+/// topmost ten begins, so that rounding cannot move an eigenvalue across it. If these are all
+/// copies of one multiple eigenvalue, the gap is sought below it.
 std::size_t modesBelowGap(const std::vector<double>& w) {
   constexpr double distinct = 1e-6;
   std::size_t below = 0;
@@ -95,7 +95,7 @@ std::size_t modesBelowGap(const std::vector<double>& w) {
   return widest < distinct ? 0 : below;
 }
 
-/// Counts the eigenvalues below a shift in that gap.
+/// Collective. Counts the eigenvalues below a shift in the gap of modesBelowGap().
 void confirmCount(Mat k, Mat m, Modes& modes) {
   const auto& w = modes.angularFrequency;
   if (w.empty()) return;
@@ -187,8 +187,10 @@ void solveDense(const AssociatedSystem& system, int count, Modes& modes) {
   modes.vectors = linalg::copiedColumns(system.k0(), linalg::rowRange(vectors, first, end));
 }
 
-/// ε Σ K_jj d_j² / λ: what rounding in K, whose entries may cancel in d, makes of λ. Near one, λ
-/// says nothing.
+/// Collective. Returns [M.26]
+///   ε Σ K_jj d_j² / λ,
+/// the relative change of λ that rounding in K makes, whose entries may cancel in d. If it is near
+/// one, λ says nothing.
 double roundingOf(Vec diagonal, Vec d, double lambda) {
   OwnedVec weighted;
   PetscScalar sum = 0;
