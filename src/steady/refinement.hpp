@@ -28,9 +28,9 @@ struct Refinement {
 
 /// Collective. Improves y by the steps
 ///   y ← y − A⁻¹ F(y)
-/// until the residual F(y) is down to rounding or a step no longer halves it. `inner` solves with A
-/// to a few digits. A step that does not make the residual smaller is undone. `residual` returns
-/// F(y), in the layout of y.
+/// until the residual F(y) is down to rounding, a step no longer halves it, or 20 steps have been
+/// made. `inner` solves with A to a few digits. A step that does not make the residual smaller is
+/// undone. `residual` returns F(y), in the layout of y.
 Refinement refine(KSP inner, const std::function<Residual(Vec)>& residual, Vec y);
 
 /// Collective. Returns GMRES for A = `matrix`, with the tolerance that a step of refinement needs.
