@@ -18,7 +18,9 @@ std::string pointName(const sweep::Parameters& at);
 /// results.
 class ResultNames {
  public:
+  /// Notes the names of these points, and of their steady states.
   explicit ResultNames(const std::vector<sweep::Parameters>& points);
+  /// Returns true if a run over these points may write this path, a file or a folder.
   bool contains(const std::filesystem::path& path) const;
 
  private:
@@ -26,8 +28,9 @@ class ResultNames {
   std::set<std::string> points_;
 };
 
-/// The files in `folder` that version 0.1.0, which kept no manifest, left there, the plots of its
-/// scripts included; none unless summary.json and options.txt are of that version.
+/// Not collective. Returns the files in `folder` that version 0.1.0, which kept no manifest, left
+/// there, the plots of its scripts included; none unless summary.json and options.txt are of that
+/// version.
 output::Manifest formerResults(const std::filesystem::path& folder);
 
 }  // namespace squeal::report
