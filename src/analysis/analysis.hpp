@@ -25,8 +25,8 @@ struct SpeedUniqueness {
 struct Analysis {
   MPI_Comm comm = MPI_COMM_NULL;
   sweep::Sweep sweep;
-  /// The mesh, at a fixed address, since contact and steady sliding borrow it. It is null for
-  /// matrices from files; bodies, contact and steady states are then empty.
+  /// The mesh, at a fixed address, since contact and steady sliding borrow it; null for matrices
+  /// from files, where bodies, contact and steady states are empty.
   std::unique_ptr<mesh::Mesh> mesh;
   elasticity::Bodies bodies;
   contact::Contact contact;

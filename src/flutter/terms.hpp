@@ -1,6 +1,6 @@
 #pragma once
-/// The terms of the friction-perturbed problem [4.15, 4.16], from the coupled matrices and the
-/// steady state.
+/// The terms of the friction-perturbed problem [4.15, 4.16] are made from the coupled matrices and
+/// the steady state.
 #include "contact/coupled.hpp"
 #include "modes/modes.hpp"
 #include "pencil/pencil.hpp"
@@ -14,9 +14,8 @@ namespace squeal::flutter {
 pencil::Pencil affineTerms(const contact::Contact& contact, const contact::CoupledSystem& system);
 
 /// Collective. Returns the terms that depend on the steady state. The first of them is the friction
-/// f Sᵀ N X T where the slip follows the deformation or a friction law. The second is the change −B
-/// w* of the friction force with the relative velocity w* = [u_t] − v D u_D [4.7], which gives
-/// [M.21]
+/// f Sᵀ N X T where the slip follows the deformation or a friction law. The second is the change of
+/// the friction force with the relative velocity w* = [u_t] − v D u_D, −B w* [4.7]. It gives [M.21]
 ///   (J T)ᵀ B (J T) in Z̄, the paper's f[A],
 ///   −v (J T)ᵀ B (D T) in K̄, the paper's f[B_T] + f[B_N], with convective terms.
 /// Both are left out at f = 0. The last is `prestressChange`, N×N, the change of the geometric

@@ -1,7 +1,7 @@
 #pragma once
-/// The friction-perturbed problem from files: each matrix has a role M, Z or K, a factor, and
-/// exponents of friction, speed and damping [M.23]. Exports of other programs and published models
-/// run through the same reduction and certification as the models of meshes.
+/// The friction-perturbed problem is read from files: each matrix has a role M, Z or K, a factor,
+/// and exponents of friction, speed and damping [M.23]. Exports of other programs and published
+/// models run through the same reduction and certification as the models of meshes.
 #include <string>
 #include <vector>
 

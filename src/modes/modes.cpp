@@ -113,7 +113,8 @@ void requireConverged(int converged, int count, const char* options) {
         converged, count, options));
 }
 
-/// Finds eigenvalues, ascending, and vectors, M-orthonormal, by SLEPc.
+/// Collective. Finds eigenvalues, ascending, and vectors, M-orthonormal, by SLEPc. Throws Error if
+/// too few converge.
 void solveByEps(const AssociatedSystem& system, const Options& options, Stage& stage,
                 Modes& modes) {
   const int count = options.count;
@@ -227,7 +228,8 @@ void measureResiduals(const AssociatedSystem& system, Modes& modes) {
   }
 }
 
-/// The method keeps up to lanczosVectors() vectors; it must not run out of directions.
+/// Returns true if block Lanczos cannot run out of directions, of which it keeps up to
+/// lanczosVectors() at first.
 bool lanczosFits(int count, int blockSize, PetscInt size) {
   return 2 * lanczosVectors(count, blockSize) <= size;
 }
@@ -241,7 +243,8 @@ bool lanczosWanted(const Options& options, PetscInt size) {
   return options.solver != Options::Solver::eps && fits;
 }
 
-/// Krylov methods have no room where most of the modes are wanted.
+/// Returns true where most of the modes of a small problem are wanted, for which Krylov methods
+/// have no room.
 bool denseWanted(const Options& options, PetscInt size) {
   return options.solver == Options::Solver::automatic && size <= 400 && 2 * options.count > size;
 }
@@ -255,8 +258,9 @@ bool examine(const AssociatedSystem& system, const Options& options, Modes& mode
   return modes.countConfirmed;
 }
 
-/// A block of b vectors meets b copies of a multiple eigenvalue: where some are missing, a block
-/// twice as large is taken. Returns false if there are no modes, or if some are missing still.
+/// Collective. Computes the modes by block Lanczos. A block of b vectors meets b copies of a
+/// multiple eigenvalue: where some are missing, a block twice as large is taken. Returns false if
+/// there are no modes, or if some are missing still.
 bool computeByLanczos(const AssociatedSystem& system, const Options& options, Stage& stage,
                       Modes& modes) {
   const PetscInt size = rowsOf(system.k0());

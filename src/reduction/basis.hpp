@@ -1,6 +1,6 @@
 #pragma once
-/// A growing basis of the reduced problem, orthonormal in the energy of the stiffness K0 to a part
-/// in a thousand [M.28]:
+/// The basis of the reduced problem grows, and is orthonormal in the energy of the stiffness K0 to
+/// a part in a thousand [M.28]:
 ///   VᵀK0V ≈ I.
 ///
 /// Free modes enter as d/ω, corrections as z = K0⁻¹ r [M.31]. The residuals r of a Galerkin

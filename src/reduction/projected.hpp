@@ -1,6 +1,7 @@
 #pragma once
-/// The terms of a pencil on a growing basis V: the products A V, by this rank's rows, the
-/// projections VᵀAV, and sketches of A V and AᵀV for the norms of residuals [M.39].
+/// The terms of a pencil are projected on a growing basis V. Kept are the products A V, by this
+/// rank's rows, the projections VᵀAV, and sketches of A V and AᵀV for the norms of residuals
+/// [M.39].
 #include <vector>
 
 #include "linalg/block.hpp"
@@ -60,12 +61,12 @@ class ProjectedTerms {
  private:
   struct Part {
     pencil::Term term;
-    linalg::RowSet rows, leftRows;   // of A and Aᵀ
+    linalg::RowSet rows, leftRows;   // nonzero rows of A and Aᵀ
     OwnedMat matrix, adjoint;        // these rows; no adjoint where A is symmetric
     linalg::Block timesV;            // A V, by `rows`
     linalg::Block rowsOfV;           // these rows of V; none if they are all
-    linalg::DenseMatrix sketch;      // of A V
-    linalg::DenseMatrix leftSketch;  // of AᵀV; empty where A is symmetric
+    linalg::DenseMatrix sketch;      // sketch of A V
+    linalg::DenseMatrix leftSketch;  // sketch of AᵀV; empty where A is symmetric
     linalg::DenseMatrix projection;  // VᵀAV
   };
   Part partOf(pencil::Term term) const;

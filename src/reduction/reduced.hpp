@@ -81,7 +81,7 @@ class ReducedProblem {
     PointPairs pairs;
     std::vector<double> weights;  // [pair]
   };
-  using Norms = std::array<double, 3>;  // of K̄, Z̄, M̄
+  using Norms = std::array<double, 3>;  // 2-norms of K̄, Z̄, M̄
   /// The part of the residuals that their directions may leave unresolved. A round gains a decade,
   /// and what it need not resolve it need not solve for.
   static constexpr double resolution = 0.03;
@@ -122,7 +122,7 @@ class ReducedProblem {
   Basis basis_;
   ProjectedTerms terms_;
   std::vector<std::vector<linalg::DensePair>> solved_;
-  std::vector<std::pair<sweep::Parameters, Norms>> norms_;  // of the points solved
+  std::vector<std::pair<sweep::Parameters, Norms>> norms_;  // norms at the points solved
 };
 
 }  // namespace squeal::reduction

@@ -1,5 +1,6 @@
 #pragma once
-/// The names of the files of a run, and the files that a version without a manifest left.
+/// These functions tell the names of the files of a run, and the files that a version without a
+/// manifest left.
 #include <filesystem>
 #include <set>
 #include <string>
@@ -10,8 +11,8 @@
 
 namespace squeal::report {
 
-/// Returns a point of the sweep as part of file and group names: FRICTION, then _speed_SPEED,
-/// _pressure_… for the factors that are not 1.
+/// Returns the name of a point of the sweep as part of file and group names: FRICTION, then
+/// _speed_SPEED, _pressure_… for the factors that are not 1.
 std::string pointName(const sweep::Parameters& at);
 
 /// The names of the files and folders of a run over some points, relative to the folder of the

@@ -9,7 +9,7 @@
 namespace squeal::report {
 namespace {
 
-/// Returns the begin of a row: parameters, number, growth rate and frequency of the mode.
+/// Returns the beginning of a row: parameters, number, growth rate and frequency of the mode.
 std::string modeHead(const pencil::ComplexModes& point, const pencil::Shape& shape) {
   const auto s = point.eigenvalues[shape.index].s;
   return sweep::parameterValues(point.at) +

@@ -1,13 +1,13 @@
 #pragma once
-/// Iterative refinement: it solves nearly linear equations to rounding with an inexact solver.
+/// Iterative refinement solves nearly linear equations to rounding with an inexact solver.
 #include <functional>
 
 #include "petsc/owned.hpp"
 
 namespace squeal::steady {
 
-/// A residual, and the size of its rounding error: the machine precision times the magnitudes of
-/// the terms that cancel in it.
+/// A residual comes with the size of its rounding error: the machine precision times the magnitudes
+/// of the terms that cancel in it.
 struct Residual {
   OwnedVec vector;
   double rounding = 0;  ///< rounding error in the 2-norm
