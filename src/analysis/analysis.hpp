@@ -1,6 +1,6 @@
 #pragma once
-/// The method from mesh to flutter, one call per section of the paper. Reporting takes it from
-/// here.
+/// The stages of the method are called here in their order, from the input to flutter. Reporting
+/// takes the results from here.
 #include <memory>
 #include <vector>
 
@@ -17,14 +17,16 @@ namespace squeal::analysis {
 
 /// The number of steady states at one speed, for all frictions, as far as it is known.
 struct SpeedUniqueness {
-  double speed = 1;
+  double speed = 1;  ///< v
   steady::Uniqueness found;
 };
 
+/// All results of a run, and the problem that they belong to.
 struct Analysis {
   MPI_Comm comm = MPI_COMM_NULL;
   sweep::Sweep sweep;
-  /// At a fixed address: contact and steady borrow it; null: matrices from files
+  /// The mesh, at a fixed address, since contact and steady sliding borrow it; null for matrices
+  /// from files, where bodies, contact and steady states are empty.
   std::unique_ptr<mesh::Mesh> mesh;
   elasticity::Bodies bodies;
   contact::Contact contact;
@@ -32,25 +34,28 @@ struct Analysis {
   std::vector<SpeedUniqueness> uniqueness;  ///< one entry for all speeds where they share it; empty
                                             ///< unless -steady_uniqueness
   std::vector<ModalSegment> segments;
-  /// One factorisation and 400 blocked solves, if `-modes_benchmark`
+  /// Wall time of one factorisation and 400 blocked solves, s, for the last segment; 0 without
+  /// `-modes_benchmark`.
   double modesFloorSeconds = 0;
 
-  /// Every point has a steady solution.
+  /// Returns true if every steady point has a solution, and for matrices from files.
   bool converged() const;
-  /// Returns the complex modes at a point of the sweep; null where there is no steady solution.
+  /// Returns the complex modes at a point of the sweep, borrowed; null where there is no steady
+  /// solution.
   const pencil::ComplexModes* pointAt(const sweep::Parameters& at) const;
 };
 
-/// Collective. Error for options that are unknown, out of range or idle: all that can be told
-/// before a file is read or written.
+/// Collective. Throws Error for options that are unknown, out of range or idle: for all that can be
+/// told before a file is read or written.
 void checkOptions();
 
-/// Collective. All that comes before the first solution: sweep, and mesh, matrices of the bodies
-/// and contact; options have been checked. Errors as the stages document them.
+/// Collective. Returns all that comes before the first solution: the sweep and, for a mesh, the
+/// mesh, the matrices of the bodies and contact. Matrices from files are read later. The options
+/// must have been checked. Throws Error as the stages document it.
 Analysis prepare(MPI_Comm comm);
 
-/// Collective. Runs all stages that the options, which have been checked, ask for. Errors as the
-/// stages document them.
+/// Collective. Runs all stages that the options, which have been checked, ask for, and returns the
+/// results. Throws Error as the stages document it.
 Analysis analyse(MPI_Comm comm);
 
 }  // namespace squeal::analysis

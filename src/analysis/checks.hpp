@@ -1,5 +1,5 @@
 #pragma once
-/// Checks of a sweep before anything is solved.
+/// These functions check a sweep before anything is solved.
 #include <vector>
 
 #include "contact/contact.hpp"
@@ -9,20 +9,22 @@
 
 namespace squeal::analysis {
 
-/// Collective. Error where a matrix or a load of the bodies, times what the sweep multiplies it by,
-/// is not a number.
+/// Collective. Throws Error if a matrix, a load or the held displacements, times the largest factor
+/// that the sweep multiplies it by, has a norm that is not a finite number.
 void requireFiniteSweep(const elasticity::Bodies& bodies, const contact::Contact& contact,
                         const sweep::Sweep& sweep);
 
-/// Collective. Error where the coefficient of a matrix, at an end of the sweep, makes something of
-/// it that is not a number.
+/// Collective. Throws Error if a matrix, times its coefficient at an end of the sweep, has a norm
+/// that is not a finite number.
 void requireFiniteSweep(const std::vector<matrices::NamedTerm>& terms, const sweep::Sweep& sweep);
 
-/// Collective. Error for a sweep over a factor of nothing: all its points would be the same.
+/// Collective. Throws Error for damping or pressure factors other than 1 where there is nothing
+/// that they multiply: the results would not depend on them.
 void rejectIdleFactors(const elasticity::Bodies& bodies, const contact::Contact& contact,
                        const sweep::Sweep& sweep);
 
-/// Error for a sweep over a parameter that no matrix comes with: all its points would be the same.
+/// Not collective. Throws Error for a sweep over a parameter that no matrix comes with, since all
+/// its points would be the same, and for a pressure factor other than 1.
 void rejectIdleFactors(const std::vector<matrices::NamedTerm>& terms, const sweep::Sweep& sweep);
 
 }  // namespace squeal::analysis

@@ -23,7 +23,7 @@ const FlagOption dryRunOption("general", "dry_run", false,
                               "check the input, say what a run would do and how much memory it "
                               "would take, and solve and write nothing");
 
-/// Collective. The sum over all ranks.
+/// Collective. Returns the sum over all ranks.
 double total(MPI_Comm comm, double value) {
   check(MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, comm));
   return value;
@@ -86,9 +86,9 @@ void saySweep(MPI_Comm comm, const sweep::Sweep& sweep, bool steady) {
   say(comm, text);
 }
 
-/// Prints what is held now (mesh, matrices, libraries), the factor of K0 as the analysis of MUMPS
-/// foresees it, and the vectors of the basis with what is computed from them: about
-/// `vectorsPerMode` for each free mode, as measured of 53,151 to 225,715 unknowns in three
+/// Collective. Prints what is held now (mesh, matrices, libraries), the factor of K0 as the
+/// analysis of MUMPS foresees it, and the vectors of the basis with what is computed from them:
+/// about `vectorsPerMode` for each free mode, as measured of 53,151 to 225,715 unknowns in three
 /// dimensions and of 119,600 in the plane.
 void sayMemory(MPI_Comm comm, Mat k0) {
   constexpr double vectorsPerMode = 12;

@@ -1,14 +1,16 @@
 #pragma once
-/// `-dry_run`: what a run would do and take, without a solution and without results.
+/// The option `-dry_run` says what a run would do and take, without a solution and without results.
 #include <mpi.h>
 
 namespace squeal::analysis {
 
+/// Returns the option `-dry_run`.
 bool dryRunWanted();
 
-/// Collective. Checks the input as a run does up to its first solution, after the options, and says
-/// what was found: bodies, constraints, loads, contact (or matrices), points of the sweep, and an
-/// estimate of the memory. Errors as those of the run.
+/// Collective. Checks the input, after the options, as a run does up to its first factorisation,
+/// and says what was found: bodies, constraints, loads, contact (or matrices), points of the sweep,
+/// and an estimate of the memory. Whether matrices from files are symmetric and positive definite
+/// is not checked. Throws Error as the run does.
 void dryRun(MPI_Comm comm);
 
 }  // namespace squeal::analysis

@@ -17,10 +17,10 @@
 namespace squeal::analysis {
 namespace {
 
-/// All points of the sweep.
+/// The one segment of a problem from files: all points of the sweep.
 class MatrixSegment : public SegmentProblem {
  public:
-  /// Collective. Borrows all but the points.
+  /// Collective. Borrows the system and the pencil, and takes the points.
   MatrixSegment(const modes::AssociatedSystem& system, const pencil::Pencil& pencil,
                 std::vector<sweep::Parameters> points)
       : system_(system), pencil_(pencil), points_(std::move(points)) {

@@ -1,5 +1,6 @@
 #pragma once
-/// From matrices of files to eigenvalues: there is neither contact nor steady state [4.15].
+/// This route leads from matrices of files to eigenvalues; there is neither contact nor steady
+/// state [4.15].
 #include <vector>
 
 #include "analysis/analysis.hpp"
@@ -8,10 +9,12 @@
 
 namespace squeal::analysis {
 
-/// Collective. The matrices of files, checked against the sweep.
+/// Collective. Returns the matrices of files, checked against the sweep. Throws Error as
+/// matrices::readTerms(), rejectIdleFactors() and requireFiniteSweep() do.
 std::vector<matrices::NamedTerm> readMatrices(MPI_Comm comm, const sweep::Sweep& sweep);
 
-/// Collective. Adds to the analysis the modes, and flutter at all points of its sweep.
+/// Collective. Adds to the analysis one segment: the modes, and flutter at all points of its sweep.
+/// Throws Error as readMatrices(), matrices::symmetricPart() and the stages do.
 void solveMatrices(Analysis& analysis);
 
 }  // namespace squeal::analysis

@@ -73,7 +73,7 @@ bool sameOnAllRanks(MPI_Comm comm, const std::vector<unsigned char>& a,
   return same;
 }
 
-/// The associated system of the active set in force; made anew when the set changes.
+/// The associated system of the active set in force, which is made anew when the set changes.
 class CurrentSystem {
  public:
   CurrentSystem(const Analysis& analysis) : analysis_(analysis) {}
@@ -96,7 +96,8 @@ class CurrentSystem {
   std::unique_ptr<contact::CoupledSystem> system_;
 };
 
-/// Steady sliding at every steady point, each started from the active set of a neighbour.
+/// Collective. Returns steady sliding at every steady point, each started from the active set of a
+/// neighbour.
 std::vector<steady::Solution> steadySweep(const Analysis& analysis, CurrentSystem& system) {
   const steady::Problem problem(*analysis.mesh, analysis.bodies, analysis.contact);
   const std::vector<unsigned char> bonded(analysis.contact.nodes.size(), 1);
@@ -128,7 +129,8 @@ std::vector<steady::Solution> steadySweep(const Analysis& analysis, CurrentSyste
   return solutions;
 }
 
-/// At each speed, or once where K and the slip are the same at all; loads do not matter.
+/// Collective. Examines uniqueness at each speed, or once where K and the slip are the same at all
+/// speeds; loads do not matter.
 std::vector<SpeedUniqueness> examineUniqueness(const Analysis& analysis) {
   std::vector<double> speeds = analysis.sweep.speeds;
   if (analysis.contact.slipIsGiven()) speeds.resize(1);
@@ -144,7 +146,8 @@ std::vector<SpeedUniqueness> examineUniqueness(const Analysis& analysis) {
   return result;
 }
 
-/// Friction work of the shapes and, if wanted, the sensitivities of their eigenvalues.
+/// Collective. Computes the friction work of the shapes and, if wanted, the sensitivities of their
+/// eigenvalues.
 void examineShapes(const Analysis& analysis, const contact::CoupledSystem& system,
                    const steady::Solution& solution, const pencil::Pencil& pencil,
                    const sensitivity::StartSpace& start, flutter::Influences& influences,
@@ -168,10 +171,10 @@ void examineShapes(const Analysis& analysis, const contact::CoupledSystem& syste
                          error));
 }
 
-/// The steady points from `first` to `last`, which share one active set.
+/// The steady points [first, last), which share one active set.
 class MeshSegment : public SegmentProblem {
  public:
-  /// Collective. Borrows all.
+  /// Collective. Borrows all arguments during the life of the object.
   MeshSegment(const Analysis& analysis, std::size_t first, std::size_t last, CurrentSystem& current,
               flutter::Influences& influences)
       : analysis_(analysis), first_(first), current_(current), influences_(influences) {
@@ -210,7 +213,7 @@ class MeshSegment : public SegmentProblem {
   }
 
  private:
-  /// Its geometric stiffness is in K0.
+  /// Returns the first steady state, whose geometric stiffness is in K0.
   const steady::Solution& reference() const { return analysis_.steady[first_]; }
   std::vector<pencil::Term> termsOf(const steady::Solution& solution) const {
     OwnedMat change;

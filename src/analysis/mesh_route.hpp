@@ -1,6 +1,6 @@
 #pragma once
-/// From a mesh to eigenvalues: mesh, elasticity, contact, steady sliding, and for each active set
-/// its modes and flutter.
+/// This route leads from a mesh to eigenvalues: mesh, elasticity, contact, steady sliding, and for
+/// each active set its modes and flutter.
 #include "analysis/analysis.hpp"
 #include "mesh/mesh.hpp"
 
@@ -10,11 +10,12 @@ namespace squeal::analysis {
 mesh::Request meshRequest();
 
 /// Collective. Adds to the analysis the mesh, the matrices of the bodies and contact, checked
-/// against its sweep.
+/// against its sweep. Throws Error as these stages and the checks do.
 void prepareMesh(Analysis& analysis);
 
-/// Collective. Adds the steady states, what is known of their uniqueness, and for each active set
-/// its modes and flutter at the points that share it.
+/// Collective. Adds the steady states, the results on their uniqueness, and for each active set its
+/// modes and flutter at the points that share it. A point without a steady solution gives a warning
+/// and has no modes.
 void solveMesh(Analysis& analysis);
 
 }  // namespace squeal::analysis

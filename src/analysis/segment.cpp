@@ -51,7 +51,8 @@ std::string pointText(const pencil::ComplexModes& point) {
   return text;
 }
 
-/// Overflow within the eigenvalue problems must not become a row of the results.
+/// Throws Error if an eigenvalue is not finite: overflow within the eigenvalue problems must not
+/// become a row of the results.
 void requireFiniteEigenvalues(const pencil::ComplexModes& point) {
   for (const auto& e : point.eigenvalues)
     if (!std::isfinite(e.s.real()) || !std::isfinite(e.s.imag()) || !std::isfinite(e.backwardError))
@@ -108,7 +109,8 @@ class SegmentSweep {
     if (reduced_) segment.solves = reduced_->basis().solves();
   }
 
-  /// Eigenvalues followed from point to point, and critical frictions.
+  /// Collective. Follows the eigenvalues over the friction and finds critical frictions, if that is
+  /// wanted and there is something to follow.
   void followPoints(ModalSegment& segment) {
     if (!tracking::trackWanted()) return;
     const std::string nothing =

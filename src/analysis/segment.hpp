@@ -1,6 +1,6 @@
 #pragma once
-/// The algebraic part of the method, from K0, M0 and the terms of the pencil to the eigenvalues of
-/// a sweep: the same for a mesh and for matrices from files.
+/// The algebraic part of the method leads from K0, M0 and the terms of the pencil to the
+/// eigenvalues of a sweep. It is the same for a mesh and for matrices from files.
 #include <optional>
 #include <vector>
 
@@ -14,23 +14,26 @@
 
 namespace squeal::analysis {
 
-/// Steady points of the sweep in a row with the same active set, and the modes of that set.
+/// The results at steady points in a row that share one active set, and the modes of that set.
 struct ModalSegment {
-  PetscInt openNodes = 0;
-  PetscInt unknowns = 0;
-  modes::Modes modes;  ///< empty with the direct method
-  /// The first `-report_modes` modes in nodal displacements, largest entry 1
+  PetscInt openNodes = 0;  ///< contact nodes that are not active, over all ranks
+  PetscInt unknowns = 0;   ///< n
+  modes::Modes modes;      ///< empty with the direct method
+  /// The first `-report_modes` modes in nodal displacements, N entries each, the largest entry 1 in
+  /// magnitude.
   std::vector<OwnedVec> shapes;
   std::vector<pencil::ComplexModes> points;  ///< for each damping factor all steady points
-  std::vector<tracking::Followed> followed;  ///< for each speed, pressure and damping
+  std::vector<tracking::Followed> followed;  ///< for each speed, pressure and damping, if
+                                             ///< eigenvalues are followed
   long solves = 0;  ///< right-hand sides solved for to correct the basis and to estimate errors
 };
 
 /// The problem of one segment: steady points with one active set, of a mesh or of matrices from
-/// files. Everything it returns by reference or handle is borrowed.
+/// files. Everything that it returns by reference or handle is borrowed.
 class SegmentProblem {
  public:
   virtual ~SegmentProblem() = default;
+  /// Returns K0 and M0 with the solver of K0.
   virtual const modes::AssociatedSystem& system() const = 0;
   /// Returns the matrix from the unknowns, n, to what is reported, N×n.
   virtual Mat trial() const = 0;
@@ -41,7 +44,7 @@ class SegmentProblem {
   /// Collective. Returns the terms that belong to steadyPoints()[i] alone.
   virtual std::vector<pencil::Term> termsOf(std::size_t /*i*/) const { return {}; }
   /// Collective. Returns the same for a point between those of the sweep, where termsOf() gives
-  /// any; nothing if the point has another active set, or no steady state.
+  /// any; none if the point has another active set, or no steady state.
   virtual std::optional<std::vector<pencil::Term>> termsAt(const sweep::Parameters& /*at*/) {
     return std::vector<pencil::Term>();
   }
@@ -52,8 +55,9 @@ class SegmentProblem {
                        const sensitivity::StartSpace& start, pencil::ComplexModes& point) = 0;
 };
 
-/// Collective. Returns the modes, and flutter at all steady points with all `dampings`. Throws the
-/// errors of the stages modes and flutter.
+/// Collective. Returns the modes, flutter at all steady points with all `dampings`, and the
+/// eigenvalues followed over the friction. Throws Error as the stages modes, flutter and track do,
+/// and if an eigenvalue is not a finite number.
 ModalSegment solveSegment(SegmentProblem& problem, const std::vector<double>& dampings);
 
 }  // namespace squeal::analysis

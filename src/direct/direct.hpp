@@ -1,5 +1,5 @@
 #pragma once
-/// The direct method: the eigenproblem on all unknowns, without reduction.
+/// The direct method solves the eigenproblem on all unknowns, without reduction.
 #include "pencil/complex_modes.hpp"
 #include "pencil/pencil.hpp"
 #include "sweep/parameters.hpp"
@@ -21,8 +21,10 @@ struct Options {
 };
 
 /// Collective. Solves the problem on all unknowns by SLEPc with shift-and-invert at zero. Returns
-/// the `count` eigenvalues nearest to zero, or all in the band (low ≤ Im s ≤ high, |s| ≤ high) that
-/// `limit` of them reach. `trial` is T. Throws Error if the solver does not converge.
+/// the `count` eigenvalues nearest to zero, with others that are as near as the last of them, or
+/// all in the band (low ≤ Im s ≤ high, |s| ≤ high) that `limit` of them reach:
+/// ComplexModes::coveredTo. `trial` is T, N×n, for the shapes. Throws Error if the solver does not
+/// converge.
 pencil::ComplexModes solveDirect(const pencil::Pencil& pencil, const sweep::Parameters& at,
                                  Mat trial, const Options& options = Options::given());
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The eigenvalues nearest to zero of the problem on all unknowns, by SLEPc.
+/// The eigenvalues nearest to zero of the problem on all unknowns are found by SLEPc.
 #include <memory>
 #include <vector>
 
@@ -18,7 +18,7 @@ struct NearestPair : linalg::ComplexVector {
 /// Eigenvalues found near zero.
 struct NearestPairs {
   std::vector<NearestPair> pairs;  ///< with Im s ≥ 0
-  double reached = 0;  ///< 1/s: all eigenvalues of smaller |s| are listed; infinite: all there are
+  double reached = 0;  ///< |s| up to which all eigenvalues are listed, 1/s; infinite: all are
 };
 
 /// A solver for the eigenvalues nearest to zero at one point of the sweep.
@@ -27,10 +27,10 @@ class NearestSolver {
   /// Collective. Assembles the matrices of all powers of s at this point.
   NearestSolver(const pencil::Pencil& pencil, const sweep::Parameters& at);
   virtual ~NearestSolver() = default;
-  /// Collective. Returns at least the `count` eigenvalues nearest to zero, with conjugate pairs
-  /// counted once. Each call begins with another vector and keeps the factorisation. Where the
-  /// Krylov space would be the whole space of a small problem, LAPACK is called instead. Throws
-  /// Error if SLEPc does not converge.
+  /// Collective. Returns at least the `count` eigenvalues nearest to zero, or all if there are
+  /// fewer, with conjugate pairs counted once. Each call begins with another vector and keeps the
+  /// factorisation. Where the Krylov space would be the whole space of a small problem, LAPACK is
+  /// called instead. Throws Error if SLEPc does not converge.
   NearestPairs solve(PetscInt count);
 
  protected:

@@ -37,7 +37,7 @@ struct Influences::Influence {
   OwnedMat prestress;                 // its change
 };
 
-/// A triple on all nodal displacements, so that
+/// A triple is given on all nodal displacements, so that
 ///   yᴴ L(f)ᵀ X T x = zᴴ X u,   u = T x,   z = L(f) y.
 struct Influences::Projected {
   Complex s;

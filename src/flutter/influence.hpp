@@ -1,6 +1,6 @@
 #pragma once
-/// Derivatives of the eigenvalues with respect to the parameters of the point and to the moduli and
-/// the density of each body, from the matrices of which the pencil is made.
+/// Derivatives of the eigenvalues with respect to the parameters of the point, and to the moduli
+/// and the density of each body, are made from the matrices of which the pencil is made.
 #include <vector>
 
 #include "contact/coupled.hpp"
@@ -18,7 +18,7 @@
 
 namespace squeal::flutter {
 
-/// One point of a sweep, in the terms of the bodies; all borrowed.
+/// One point of a sweep in the terms of the bodies. System, solution and prestress are borrowed.
 struct BodyPoint {
   sweep::Parameters at;
   const contact::CoupledSystem& system;
@@ -34,11 +34,12 @@ class Influences {
              const contact::Contact& contact)
       : mesh_(mesh), bodies_(bodies), contact_(contact) {}
 
-  /// Collective. Fills ComplexModes::sensitivities for all shapes of the point, whose terms the
-  /// pencil holds. The derivatives [M.46] include the terms that follow the steady state; the
-  /// active set and the matrix of modal damping are held. The parameters are friction, speed,
+  /// Collective. Appends to ComplexModes::sensitivities an entry for each shape of the point, whose
+  /// terms the pencil holds. The derivatives [M.46] include the terms that follow the steady state;
+  /// the active set and the matrix of modal damping are held. The parameters are friction, speed,
   /// pressure and damping as in Parameters, a factor young_BODY on all moduli of a body (ds/d ln
-  /// E), and a factor density_BODY on its density (ds/d ln ρ).
+  /// E), and a factor density_BODY on its density (ds/d ln ρ). Left vectors are looked for from
+  /// `start`. Throws Error if the change of the steady state is not found.
   void derive(pencil::ComplexModes& point, const pencil::Pencil& pencil, const BodyPoint& state,
               const sensitivity::StartSpace& start);
 

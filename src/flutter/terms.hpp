@@ -1,6 +1,6 @@
 #pragma once
-/// The terms of the friction-perturbed problem [4.15, 4.16], from the coupled matrices and the
-/// steady state.
+/// The terms of the friction-perturbed problem [4.15, 4.16] are made from the coupled matrices and
+/// the steady state.
 #include "contact/coupled.hpp"
 #include "modes/modes.hpp"
 #include "pencil/pencil.hpp"
@@ -13,14 +13,14 @@ namespace squeal::flutter {
 /// arguments are not needed afterwards.
 pencil::Pencil affineTerms(const contact::Contact& contact, const contact::CoupledSystem& system);
 
-/// Collective. Returns the terms that depend on the steady state:
-/// - the friction f Sᵀ N X T where the slip follows the deformation or a friction law;
-/// - the change −B w* of the friction force with the relative velocity w* = [u_t] − v D u_D [4.7],
-///   which gives [M.21]
-///     (J T)ᵀ B (J T) in Z̄, the paper's f[A],
-///     −v (J T)ᵀ B (D T) in K̄, the paper's f[B_T] + f[B_N], with convective terms;
-/// - `prestressChange`, the change of the geometric stiffness from that in `system`; null: none.
-/// Without `-flutter_friction_damping` the friction force changes by R_T* = −f φ R_N* τ only.
+/// Collective. Returns the terms that depend on the steady state. The first of them is the friction
+/// f Sᵀ N X T where the slip follows the deformation or a friction law. The second is the change of
+/// the friction force with the relative velocity w* = [u_t] − v D u_D, −B w* [4.7]. It gives [M.21]
+///   (J T)ᵀ B (J T) in Z̄, the paper's f[A],
+///   −v (J T)ᵀ B (D T) in K̄, the paper's f[B_T] + f[B_N], with convective terms.
+/// Both are left out at f = 0. The last is `prestressChange`, N×N, the change of the geometric
+/// stiffness from that in `system`, with the friction that it causes; null: none. Without
+/// `-flutter_friction_damping` the friction force changes by R_T* = −f φ R_N* τ only.
 std::vector<pencil::Term> pointTerms(const contact::Contact& contact,
                                      const contact::CoupledSystem& system,
                                      const steady::Solution& solution, Mat prestressChange);
@@ -36,10 +36,10 @@ std::vector<double> responseForces(const contact::Contact& contact,
 
 /// Collective. Returns the term of modal damping [M.22],
 ///   c C_m,   C_m = Σ 2 ζ_i ω_i (M0 d_i)(M0 d_i)ᵀ,
-/// with the ratios of `-flutter_modal_damping`; none if these are not given. The matrix can only be
-/// multiplied.
+/// with the ratios of `-flutter_modal_damping`; none if all of these are zero. `mass` is M0, and
+/// the arguments are not needed afterwards. The matrix can only be multiplied.
 std::vector<pencil::Term> modalDamping(const modes::Modes& modes, Mat mass);
-/// Returns true if `-flutter_modal_damping` is given.
+/// Returns true if `-flutter_modal_damping` has a ratio that is positive.
 bool modalDampingWanted();
 
 }  // namespace squeal::flutter

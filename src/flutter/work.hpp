@@ -1,5 +1,5 @@
 #pragma once
-/// The motion of a mode at the contact, and the work of friction in it, which shows the part of the
+/// The motion of a mode at the contact does the work of friction, which shows the part of the
 /// contact that feeds the mode.
 #include <array>
 #include <vector>
@@ -17,13 +17,14 @@ using ComplexPoint = std::array<Complex, 3>;
 
 /// The nodal forces and the energy of a motion u e^{st}.
 struct MotionForces {
-  /// r* = (s² M + s (c C + v G) + K + v² K^R + K_σ) u, N entries.
+  /// The nodal forces r* = (s² M + s (c C + v G) + K + v² K^R + K_σ) u, N entries.
   linalg::ComplexVector forces;
-  /// E = |s|² uᴴ M u + uᴴ (K + v² K^R + K_σ) u [M.51], four times the mean energy.
+  /// The energy E = |s|² uᴴ M u + uᴴ (K + v² K^R + K_σ) u [M.51], four times the mean energy.
   double energy = 0;
 };
 
-/// Collective. Returns both. `prestress` is K_σ of the steady state; it may be null.
+/// Collective. Returns the forces and the energy of the motion u, N entries. `prestress` is K_σ of
+/// the steady state; it may be null.
 MotionForces motionForces(const elasticity::Bodies& bodies, const sweep::Parameters& at, Complex s,
                           const linalg::ComplexVector& u, Mat prestress);
 
@@ -33,7 +34,7 @@ struct ContactMotion {
   std::vector<ComplexPoint> convected;  ///< D u_D; zero without convective terms
   std::vector<Complex> normalForce;     ///< R_N* = N r*
 };
-/// Collective. Returns the jumps [u] at the contact nodes, [owned contact node].
+/// Collective. Returns the jumps [u] at the contact nodes, [owned contact node], of u, N entries.
 std::vector<ComplexPoint> contactJump(const contact::Contact& contact,
                                       const linalg::ComplexVector& u);
 /// Collective. Returns the amplitudes of the motion u with the nodal forces `forces`.
@@ -48,17 +49,19 @@ struct FrictionState {
   std::vector<double> responseForce;
 };
 
-/// The form −[w]ᴴ R_T* of a contact node for a test jump [w], in two parts, with [4.7]
+/// The form −[w]ᴴ R_T* of a contact node for a test jump [w] has two parts, with [4.7]
 ///   R_T* = −f φ R_N* τ − B (s [u] − v D u_D).
 struct FrictionForm {
   Complex pressing;  ///< part with the change of the normal force
   Complex turning;   ///< part with the change of the relative velocity
 };
+/// Not collective. Returns the form of the owned contact node k for the test jump `test`.
 FrictionForm frictionForm(const contact::Contact& contact, const FrictionState& state, Complex s,
                           const ComplexPoint& test, const ContactMotion& motion, std::size_t k);
 
 /// Collective. Returns the contribution of friction at each contact node to the growth rate of the
-/// mode u e^{st}, 1/s, [owned contact node]. Where it is positive, friction feeds the mode.
+/// mode u e^{st}, 1/s, [owned contact node]. Where it is positive, friction feeds the mode; at open
+/// nodes it is zero.
 ///
 /// The mode u = T x satisfies Tᵀ r* = (J T)ᵀ R_T*. The real part of its product with (s x)ᴴ is,
 /// with σ = Re s and E of MotionForces [M.51],

@@ -24,7 +24,8 @@ std::string namesOf(const std::vector<NamedTerm>& terms, int power) {
   return joined(names);
 }
 
-/// Sum of the terms that joins() accepts.
+/// Collective. Returns the sum of the terms that joins() accepts, with their factors. Throws Error
+/// if there is none.
 OwnedMat sum(const std::vector<NamedTerm>& terms, int power) {
   OwnedMat total;
   for (const auto& [name, term] : terms) {
@@ -53,7 +54,8 @@ OwnedMat symmetrised(Mat matrix) {
   return part;
 }
 
-/// Number of rows without a positive entry on the diagonal, and the first of them.
+/// Collective. Returns a text with the number of rows without a positive entry on the diagonal, and
+/// the first of them; it is empty if there are none.
 std::string badDiagonal(Mat matrix) {
   OwnedVec diagonal;
   PetscInt first = 0, end = 0, size = 0;
@@ -74,8 +76,9 @@ std::string badDiagonal(Mat matrix) {
                    count, lowest + 1);
 }
 
-/// A pivot of 1e-13 of the scaled matrix is what cancellation leaves of a zero one in a large
-/// model; stiff springs do not come near it, since the rows are scaled.
+/// Collective. Throws Error if the matrix is not positive definite. A pivot of 1e-13 of the scaled
+/// matrix is what cancellation leaves of a zero one in a large model; stiff springs do not come
+/// near it, since the rows are scaled.
 void requirePositiveDefinite(Mat matrix, const std::string& what, const std::string& advice) {
   PetscReal norm = 0;
   check(MatNorm(matrix, NORM_FROBENIUS, &norm));

@@ -8,16 +8,17 @@
 
 namespace squeal::matrices {
 
-/// The sums of the stiffness and of the mass terms without friction, speed and damping. The
-/// friction that such a stiffness may hold stays in the pencil.
+/// The associated system is made of the sums of the stiffness and of the mass terms without
+/// friction, speed and damping. The friction that such a stiffness may hold stays in the pencil.
 struct SymmetricPart {
   modes::AssociatedSystem system;  ///< K0 is the symmetric part of the sum
-  double asymmetry;                ///< ‖K − Kᵀ‖ / ‖K‖ of the sum; 0: to printed digits
+  double asymmetry;  ///< ‖K − Kᵀ‖ / ‖K‖ of the sum; 0 if it is 1e-10 or less
 };
 
 /// Collective. Returns the associated system of the terms. Throws Error, naming matrices, if there
-/// is no such term, if the mass is not symmetric, and if the mass or the stiffness is not positive
-/// definite to within rounding, as with massless unknowns or a loose body.
+/// is no such term of the stiffness or of the mass, if the mass is not symmetric to 1e-10, and if
+/// the mass or the stiffness is not positive definite to within rounding, as with massless unknowns
+/// or a loose body.
 SymmetricPart symmetricPart(const std::vector<NamedTerm>& terms);
 
 }  // namespace squeal::matrices

@@ -60,7 +60,8 @@ void requireEqualSizes(const std::vector<NamedTerm>& terms) {
   }
 }
 
-/// A misspelt name would leave an option without its matrix.
+/// Throws Error for an option of a name without a file: a misspelt name would leave an option
+/// without its matrix.
 void rejectOrphans() {
   const auto files = fileOption.subjects();
   const std::set<std::string> known(files.begin(), files.end());

@@ -1,7 +1,7 @@
 #pragma once
-/// The friction-perturbed problem from files: every matrix with its role M, Z or K, a factor and
-/// exponents of friction and speed. What other programs export, and published models, run through
-/// the same reduction and certification as the models of meshes.
+/// The friction-perturbed problem is read from files: each matrix has a role M, Z or K, a factor,
+/// and exponents of friction, speed and damping [M.23]. Exports of other programs and published
+/// models run through the same reduction and certification as the models of meshes.
 #include <string>
 #include <vector>
 
@@ -9,20 +9,24 @@
 
 namespace squeal::matrices {
 
-/// A `-matrices_<name>_file` is given. Error: options of the stages of a mesh are given as well.
+/// Returns true if a `-matrices_<name>_file` is given. Throws Error if options of the stages of a
+/// mesh are given as well, or if another `-matrices_<name>_*` option is given for a name without a
+/// file.
 bool wanted();
 
 /// A term of the pencil and where it comes from.
 struct NamedTerm {
-  std::string name;
+  std::string name;  ///< <name> of its options
   pencil::Term term;
 };
 
-/// Collective. The terms of all `-matrices_<name>_*`. Errors: as read(), with the option; matrices
-/// of different sizes; no mass or no stiffness.
+/// Collective. Returns the terms of all `-matrices_<name>_file`. Throws Error as read() does,
+/// naming the option, and for matrices of different sizes.
 std::vector<NamedTerm> readTerms(MPI_Comm comm);
 
-/// Relative departure from symmetry, ‖A − Aᵀ‖ / ‖A‖ (Frobenius). Collective.
+/// Collective. Returns the relative departure from symmetry in the Frobenius norm,
+///   ‖A − Aᵀ‖ / ‖A‖,
+/// which is 0 for a matrix of zeros.
 double asymmetry(Mat matrix);
 
 }  // namespace squeal::matrices

@@ -12,7 +12,8 @@
 namespace squeal::matrices {
 namespace {
 
-/// Each rank reads its rows. PETSc would take options from a file NAME.info beside it.
+/// Collective. Reads a file in PETSc's binary format; each rank reads its rows. PETSc would take
+/// options from a file NAME.info beside it, and is told not to.
 OwnedMat load(MPI_Comm comm, const std::filesystem::path& path) {
   OwnedViewer viewer;
   OwnedMat matrix;
@@ -27,8 +28,9 @@ OwnedMat load(MPI_Comm comm, const std::filesystem::path& path) {
   return matrix;
 }
 
-/// From the entries that rank 0 has. PETSc sums those of equal row and column, whatever the insert
-/// mode: it adds or replaces what the matrix had before.
+/// Collective. Returns the matrix of the entries that rank 0 has. PETSc sums those of equal row and
+/// column, whatever the insert mode, which tells only whether they are added to what the matrix had
+/// before or replace it.
 OwnedMat distribute(MPI_Comm comm, matrixfile::Entries& entries) {
   PetscInt sizes[2] = {entries.rows, entries.columns};
   check(MPI_Bcast(sizes, 2, MPIU_INT, 0, comm));
@@ -42,9 +44,9 @@ OwnedMat distribute(MPI_Comm comm, matrixfile::Entries& entries) {
   return matrix;
 }
 
-/// The memory for empty rows is asked for by the header alone. Up to ten million, that of a
-/// gigabyte, it may; beyond, one row in a thousand at the least has an entry, or the header is
-/// damaged.
+/// Throws Error if there are far too few entries for the rows. The header alone asks for the memory
+/// of empty rows. Up to ten million, that of a gigabyte, it may; beyond, one row in a thousand at
+/// the least has an entry, or the header is damaged.
 void requireFilled(const matrixfile::Entries& entries) {
   const double count = entries.value.size();
   if (entries.rows > 1e7 + 1e3 * count)

@@ -37,7 +37,8 @@ std::string roleOf(const pencil::Term& term) {
   return term.power == 2 ? "mass" : term.power == 1 ? "damping" : "stiffness";
 }
 
-/// "stiffness_friction1", and a number where several terms would have the same name.
+/// Returns a name such as "stiffness_friction1", with a number at its end where several terms would
+/// have the same one.
 std::string nameOf(const pencil::Term& term, std::set<std::string>& taken) {
   std::string name = roleOf(term);
   for (const auto& [word, exponent] : {std::pair{"friction", term.frictionExponent},
@@ -84,8 +85,8 @@ void writeMatrix(Mat matrix, const fs::path& path) {
     onFirstRank(comm, blame(), [&] { matrixfile::writeMatrixMarket(path, entriesOf(whole)); });
     return;
   }
-  // header, length and columns of the rows, values; PETSc would end the run with its own words, or
-  // not at all on other ranks than the first
+  // The bytes are those of header, length and columns of the rows, and values. On a full disc PETSc
+  // would end the run with its own words, or not at all on other ranks than the first.
   MatInfo info;
   PetscInt rows = 0;
   check(MatGetInfo(matrix, MAT_GLOBAL_SUM, &info));
@@ -138,7 +139,7 @@ void requireOnePencil(const pencil::Pencil& pencil, const sweep::Sweep& sweep,
         "slip); export one -flutter_friction, -flutter_speed and -flutter_pressure at a time");
 }
 
-/// The names of files that an export writes.
+/// Returns true if an export writes a file of this name.
 bool isExport(const fs::path& path) {
   static const std::regex matrix(
       R"((mass|damping|stiffness)(_(friction|speed|damping)-?\d+)*(_\d+)?\.(petsc|mtx))");
@@ -146,7 +147,7 @@ bool isExport(const fs::path& path) {
          std::regex_match(path.string(), matrix);
 }
 
-/// Those of version 0.1.0, which kept no manifest.
+/// Returns the files of an export by version 0.1.0, which kept no manifest.
 output::Manifest formerExport(const fs::path& folder) {
   std::string line;
   std::ifstream options(folder / "options.txt");

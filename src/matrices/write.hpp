@@ -12,8 +12,8 @@ namespace squeal::matrices {
 /// Returns true if `-report_matrices` is given.
 bool exportWanted();
 
-/// Collective; it is called before work begins. Throws Error if the folder of `-report_matrices`
-/// cannot be written, or if something in it is in the way.
+/// Collective. Call it before work begins. Throws Error if the folder of `-report_matrices` is that
+/// of the results or cannot be written, or if something in it is in the way.
 void requireExportFolder(MPI_Comm comm, const std::filesystem::path& results);
 
 /// Collective. Writes the matrices of the pencil to the folder of `-report_matrices`, and

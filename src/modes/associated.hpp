@@ -8,8 +8,8 @@
 
 namespace squeal::modes {
 
-/// K0 and M0, n×n, symmetric positive definite, and the direct solver of K0 (prefix -modes_st_),
-/// whose one factorisation serves all stages.
+/// The matrices K0 and M0, n×n, symmetric positive definite. A direct solver of K0 (prefix
+/// -modes_st_) belongs to them, whose one factorisation serves all stages.
 class AssociatedSystem {
  public:
   /// Collective. Takes both matrices; `name` stands for K0 in messages.
@@ -18,8 +18,9 @@ class AssociatedSystem {
   Mat m0() const { return m0_; }
   PetscInt size() const { return size_; }  ///< n
   MPI_Comm comm() const;
-  /// Collective. The solver, which is factorised on first use. An EPS that has used it leaves it
-  /// without its factor, so it is asked for anew each time. Error: the factorisation fails.
+  /// Collective. Returns the direct solver of K0, factorised on first use and borrowed from this
+  /// object. An EPS that has used it leaves it without its factor, so that it is asked for anew
+  /// each time. Throws Error if the factorisation fails.
   KSP solver() const { return solver_->get(); }
 
  private:

@@ -1,7 +1,8 @@
-/// Block Lanczos with full orthogonalisation and thick restart (Golub and Underwood 1977; Wu and
-/// Simon 2000) on the operator S = K⁻¹ M, which is self-adjoint in the inner product of M. A direct
-/// solver answers a block of right-hand sides many times faster than as many single ones, because
-/// the factor is read from memory once a block; SLEPc's Krylov-Schur asks for them one at a time.
+/// Block Lanczos is made with full orthogonalisation and thick restart (Golub and Underwood 1977;
+/// Wu and Simon 2000) on the operator S = K⁻¹ M, which is self-adjoint in the inner product of M. A
+/// direct solver answers a block of right-hand sides many times faster than as many single ones,
+/// because the factor is read from memory once a block; SLEPc's Krylov-Schur asks for them one at a
+/// time.
 #include "modes/blocklanczos.hpp"
 
 #include <algorithm>

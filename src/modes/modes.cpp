@@ -74,7 +74,7 @@ OwnedEPS solver(const AssociatedSystem& system, const Options& options, Stage& s
   return eps;
 }
 
-/// Number of eigenvalues of (K, M) below sigma.
+/// Collective. Returns the number of eigenvalues of (K, M) below sigma.
 int countBelow(Mat k, Mat m, double sigma) {
   OwnedMat shifted;
   check(MatDuplicate(k, MAT_COPY_VALUES, shifted.out()));
@@ -83,9 +83,9 @@ int countBelow(Mat k, Mat m, double sigma) {
   return linalg::inertia(shifted).negative;
 }
 
-/// Number of modes, at most all but one, above which the widest relative gap of the topmost ten
-/// begins, so that rounding cannot move an eigenvalue across it; below a multiple eigenvalue if
-/// these are all copies of it.
+/// Returns the number of modes, at most all but one, above which the widest relative gap of the
+/// topmost ten begins, so that rounding cannot move an eigenvalue across it. If these are all
+/// copies of one multiple eigenvalue, the gap is sought below it.
 std::size_t modesBelowGap(const std::vector<double>& w) {
   constexpr double distinct = 1e-6;
   std::size_t below = 0;
@@ -95,7 +95,7 @@ std::size_t modesBelowGap(const std::vector<double>& w) {
   return widest < distinct ? 0 : below;
 }
 
-/// Counts the eigenvalues below a shift in that gap.
+/// Collective. Counts the eigenvalues below a shift in the gap of modesBelowGap().
 void confirmCount(Mat k, Mat m, Modes& modes) {
   const auto& w = modes.angularFrequency;
   if (w.empty()) return;
@@ -113,7 +113,8 @@ void requireConverged(int converged, int count, const char* options) {
         converged, count, options));
 }
 
-/// Finds eigenvalues, ascending, and vectors, M-orthonormal, by SLEPc.
+/// Collective. Finds eigenvalues, ascending, and vectors, M-orthonormal, by SLEPc. Throws Error if
+/// too few converge.
 void solveByEps(const AssociatedSystem& system, const Options& options, Stage& stage,
                 Modes& modes) {
   const int count = options.count;
@@ -187,8 +188,10 @@ void solveDense(const AssociatedSystem& system, int count, Modes& modes) {
   modes.vectors = linalg::copiedColumns(system.k0(), linalg::rowRange(vectors, first, end));
 }
 
-/// ε Σ K_jj d_j² / λ: what rounding in K, whose entries may cancel in d, makes of λ. Near one, λ
-/// says nothing.
+/// Collective. Returns [M.26]
+///   ε Σ K_jj d_j² / λ,
+/// the relative change of λ that rounding in K makes, whose entries may cancel in d. If it is near
+/// one, λ says nothing.
 double roundingOf(Vec diagonal, Vec d, double lambda) {
   OwnedVec weighted;
   PetscScalar sum = 0;
@@ -225,7 +228,8 @@ void measureResiduals(const AssociatedSystem& system, Modes& modes) {
   }
 }
 
-/// The method keeps up to lanczosVectors() vectors; it must not run out of directions.
+/// Returns true if block Lanczos cannot run out of directions, of which it keeps up to
+/// lanczosVectors() at first.
 bool lanczosFits(int count, int blockSize, PetscInt size) {
   return 2 * lanczosVectors(count, blockSize) <= size;
 }
@@ -239,7 +243,8 @@ bool lanczosWanted(const Options& options, PetscInt size) {
   return options.solver != Options::Solver::eps && fits;
 }
 
-/// Krylov methods have no room where most of the modes are wanted.
+/// Returns true where most of the modes of a small problem are wanted, for which Krylov methods
+/// have no room.
 bool denseWanted(const Options& options, PetscInt size) {
   return options.solver == Options::Solver::automatic && size <= 400 && 2 * options.count > size;
 }
@@ -253,8 +258,9 @@ bool examine(const AssociatedSystem& system, const Options& options, Modes& mode
   return modes.countConfirmed;
 }
 
-/// A block of b vectors meets b copies of a multiple eigenvalue: where some are missing, a block
-/// twice as large is taken. Returns false if there are no modes, or if some are missing still.
+/// Collective. Computes the modes by block Lanczos. A block of b vectors meets b copies of a
+/// multiple eigenvalue: where some are missing, a block twice as large is taken. Returns false if
+/// there are no modes, or if some are missing still.
 bool computeByLanczos(const AssociatedSystem& system, const Options& options, Stage& stage,
                       Modes& modes) {
   const PetscInt size = rowsOf(system.k0());

@@ -1,5 +1,5 @@
 #pragma once
-/// The band: the set of eigenvalues that a run lists, corrects and follows [M.27].
+/// The band is the set of eigenvalues that a run lists, corrects and follows [M.27].
 #include <vector>
 
 #include "linalg/complex.hpp"
@@ -10,9 +10,9 @@ namespace squeal::pencil {
 double bandAsked();
 /// Returns the top of the band in rad/s for the angular frequencies of the free modes, rad/s,
 /// ascending and not empty. It is `-flutter_band` if that is given, and otherwise lies at 0.55 of
-/// the list. It lies below the last mode, unless all modes are equal: corrections are made for
-/// eigenvalues that have been found, so that an eigenvalue above all modes could be missed without
-/// notice.
+/// the list, but in both cases below the last mode, unless all modes are equal. Corrections are
+/// made for eigenvalues that have been found, so that an eigenvalue above all modes could be missed
+/// without notice.
 double bandBelow(const std::vector<double>& frequencies);
 
 /// The band, and the guard zone around it [M.43] whose eigenvalues are followed too.

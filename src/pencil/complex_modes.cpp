@@ -20,13 +20,13 @@ const RealOption shapesBelowOption(
     "flutter", "flutter_shapes_below", 20000, "Hz", positive,
     "complex modes of higher frequency are not kept; squeal is what can be heard");
 
-/// Largest condition number for which derivatives are given. There, relative errors of 1e-8 in the
-/// vectors are a thousandth of yᴴ P′ x.
+/// The largest condition number for which derivatives are given. There, relative errors of 1e-8 in
+/// the vectors are a thousandth of yᴴ P′ x.
 constexpr double worstCondition = 1e5;
 /// Largest backward error of a left vector for which derivatives are given.
 constexpr double worstLeftError = 1e-7;
-/// Smallest separation for which derivatives are given: a computed multiple eigenvalue is split by
-/// less.
+/// Derivatives are given for eigenvalues farther apart than this: a computed multiple eigenvalue is
+/// split by less.
 constexpr double closest = 1e-7;
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
-/// Results of the friction-perturbed eigenproblem (paper, section 4): which modes flutter, at which
-/// friction, and how fast they grow.
+/// The results of the friction-perturbed eigenproblem (paper, section 4) tell which modes flutter,
+/// at which friction, and how fast they grow.
 #include <limits>
 #include <optional>
 #include <string>
@@ -20,14 +20,14 @@ struct Eigenvalue {
   bool unstable = false;     ///< Re s exceeds |s| times flutter_unstable_tolerance [M.24]
 };
 
-/// A complex mode d = real + i imaginary in nodal displacements, N entries. The largest real or
-/// imaginary part of an entry is 1.
+/// A complex mode d = real + i imaginary in nodal displacements, N entries, is scaled so that its
+/// largest real or imaginary part of an entry is 1.
 struct Shape {
   std::size_t index;  ///< index into ComplexModes::eigenvalues
   OwnedVec real, imaginary;
   linalg::ComplexVector unknowns;    ///< the same d in the unknowns x
   std::vector<double> frictionWork;  ///< [owned contact node] contribution of friction there to the
-                                     ///< growth rate, 1/s [M.52]
+                                     ///< growth rate, 1/s [M.52]; empty without contact
 };
 
 /// The derivative of an eigenvalue with respect to one parameter θ.
@@ -39,7 +39,7 @@ struct Derivative {
 /// Condition number and derivatives of one eigenvalue.
 struct Sensitivity {
   /// Condition number [M.50], 1 for a symmetric problem and infinite at an exceptional point:
-  ///   2 |s| ‖x‖_M0 ‖y‖_M0 / |yᴴ P′(s) x|
+  ///   2 |s| ‖x‖_M0 ‖y‖_M0 / |yᴴ P′(s) x|.
   double condition = 0;
   /// Distance to the nearest of the other eigenvalues found, relative to |s|.
   double separation = 0;
@@ -57,20 +57,23 @@ struct ComplexModes {
   std::vector<Shape> shapes;               ///< the fastest growing modes: keepShapes()
   std::vector<Sensitivity> sensitivities;  ///< [shape]; empty unless they are asked for
   /// Top of the band, rad/s: eigenvalues with |s| up to here are listed and corrected. 0: none are
-  /// corrected.
+  /// corrected, as with the direct method; infinite: the basis is the whole space.
   double bandTop = 0;
   int freeModesInBand = 0;  ///< free modes up to bandTop
-  bool damped = false;      ///< the problem has terms in s
+  bool damped = false;      ///< the reduced problem has terms in s; false with the direct method
   double accuracy = 0;      ///< backward error asked for
-  double tolerance = 0;     ///< estimate of |δs|/|s| asked for
+  double tolerance = 0;     ///< estimate of |δs|/|s| asked for; 0: none (direct method)
   double askedTo = 0;       ///< upper end of the band asked of the direct method, rad/s; 0: none
   /// All eigenvalues of that band with |s| below this are listed, rad/s; 0: no band was asked for.
   double coveredTo = 0;
   /// Returns by how many the free modes in the band exceed the eigenvalues listed, for a damped
   /// problem. The missing eigenvalues are damped too strongly to be listed, or lie beyond the top.
   int modesWithoutEigenvalue() const;
+  /// Returns the number of eigenvalues that are unstable.
   int unstableCount() const;
+  /// Returns the number of eigenvalues that are not certified.
   int uncertifiedCount() const;
+  /// Returns the largest backward error; 0 if there are no eigenvalues.
   double worstBackwardError() const;
   /// Returns the largest estimate of the relative error; NaN if one of them is NaN.
   double worstErrorEstimate() const;
@@ -78,12 +81,12 @@ struct ComplexModes {
   const Eigenvalue* fastestGrowing() const;
 };
 
-/// The options that decide what is said of an eigenvalue, and which complex modes are kept.
+/// These options decide what is said of an eigenvalue, and which complex modes are kept.
 struct Criteria {
-  double accuracy;     ///< `-flutter_accuracy`: backward error up to which one is certified
-  double unstable;     ///< `-flutter_unstable_tolerance`: growth rate, of |s|, of an unstable one
-  int shapes;          ///< `-flutter_shapes`: number of complex modes kept
-  double shapesBelow;  ///< `-flutter_shapes_below`: angular frequency up to which, rad/s
+  double accuracy;     ///< `-flutter_accuracy`: backward error of a certified eigenvalue at most
+  double unstable;     ///< `-flutter_unstable_tolerance`: δ of [M.24]
+  int shapes;          ///< `-flutter_shapes`: number of complex modes kept at a point at most
+  double shapesBelow;  ///< `-flutter_shapes_below`: upper bound of their frequencies, rad/s
   /// Reads the options.
   static Criteria given();
 };
@@ -92,7 +95,7 @@ struct Criteria {
 void markUnstable(std::vector<Eigenvalue>& eigenvalues, const Criteria& criteria);
 
 /// Returns the indices of the fastest growing unstable eigenvalues whose shapes are kept, the
-/// fastest first.
+/// fastest first: `shapes` of them at most, all below `shapesBelow`.
 std::vector<std::size_t> shapesWanted(const ComplexModes& point, const Criteria& criteria);
 /// Collective. Appends the shapes of the eigenvalues with these indices to the point. `modes`,
 /// which are taken, are their vectors in the unknowns x, of any length; `trial` is T.

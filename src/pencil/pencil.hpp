@@ -1,5 +1,5 @@
 #pragma once
-/// The friction-perturbed eigenproblem as a sum of terms [M.23],
+/// The friction-perturbed eigenproblem is that of a sum of terms P [M.23],
 ///   P(s; f, v, c) d = 0,   P = Σ_t α_t f^a_t v^b_t c^d_t s^k_t A_t,
 /// with the friction f, the factor v on the base velocities of the bodies, and the factor c on
 /// their damping. The pencil knows nothing of finite elements: [4.15–4.16] enter as terms.
@@ -39,7 +39,7 @@ class Pencil {
   const std::vector<Term>& terms() const { return terms_; }
   /// Returns the number of terms that hold for all parameters.
   std::size_t affineCount() const { return affineCount_; }
-  /// Takes further terms that hold for all parameters. The pencil has no terms of a point.
+  /// Takes further terms that hold for all parameters. The pencil must not have terms of a point.
   void add(std::vector<Term> terms);
   /// Returns a pencil of these terms, whose matrices are shared, and of terms that hold at one
   /// point of the parameters only, such as those made with its steady forces.
@@ -48,16 +48,17 @@ class Pencil {
   bool hasPower(int power) const;
   MPI_Comm comm() const;
 
-  /// Collective. Returns the sum of the terms with this power of s as a new matrix; empty if there
-  /// are none.
+  /// Collective. Returns the sum of the terms with this power of s as a new matrix, n×n; null if
+  /// there are none.
   OwnedMat assembled(int power, const sweep::Parameters& at) const;
   /// Collective. Sets y = (sum of the terms with this power) x.
   void apply(int power, const sweep::Parameters& at, Vec x, Vec y) const;
   /// Collective. Sets y = (sum of the terms with this power)ᵀ x.
   void applyTranspose(int power, const sweep::Parameters& at, Vec x, Vec y) const;
-  /// Collective. Returns an estimate of the 2-norm of the sum, from below, so that a backward error
-  /// made with it is never too small. It comes from power iteration on AᵀA, which is continued from
-  /// the last call for this power, even if that was at another point of the sweep.
+  /// Collective. Returns an estimate of the 2-norm of the sum of the terms with this power of s,
+  /// from below, so that a backward error made with it is never too small; 0 if there are none. It
+  /// comes from power iteration on AᵀA, which is continued from the last call for this power, even
+  /// if that was at another point of the sweep.
   double norm(int power, const sweep::Parameters& at) const;
 
  private:

@@ -13,8 +13,8 @@
 namespace squeal::reduction {
 namespace {
 
-/// Eigenvalue of a Gram matrix, of its largest, from which on a direction counts as independent of
-/// the others: to within 1e-6.
+/// A direction counts as independent of the others, to within 1e-6, if its eigenvalue of the Gram
+/// matrix exceeds this part of the largest one.
 constexpr double independent = 1e-12;
 
 /// Returns combinations that are orthonormal in the positive semi-definite matrix `gram`. Each
@@ -79,7 +79,7 @@ void Basis::appendProducts(Mat matrix, PetscInt first, PetscInt last, linalg::Bl
   linalg::appendProduct(matrix, columns_.columnRange(first, last), result);
 }
 
-/// K0⁻¹ of all columns at once.
+/// Collective. Returns K0⁻¹ times all columns, solved for together.
 linalg::Block Basis::solve(const linalg::Block& right) {
   PetscInt global = 0;
   check(MatGetSize(stiffness_, &global, nullptr));
@@ -106,8 +106,9 @@ PetscInt Basis::add(const linalg::Block& residuals) {
   return size() - before;
 }
 
-/// Adds z = K0⁻¹ R where that is all but orthogonal to V: K0 z, VᵀK0z and zᵀK0z are then R, VᵀR and
-/// zᵀR. False: it is not, or K0⁻¹ is not good enough for that.
+/// Collective. Adds z = K0⁻¹ R where that is all but orthogonal to V: K0 z, VᵀK0z and zᵀK0z are
+/// then R, VᵀR and zᵀR. Returns false, and adds nothing, if z is not, or if K0⁻¹ is not good enough
+/// for that.
 bool Basis::addAcross(const linalg::Block& z, const linalg::Block& residuals,
                       const linalg::DenseMatrix& energy, const linalg::DenseMatrix& parts) {
   constexpr double little = 1e-6;
@@ -129,8 +130,8 @@ bool Basis::addAcross(const linalg::Block& z, const linalg::Block& residuals,
   return true;
 }
 
-/// Adds what z has orthogonal to V, `parts` being VᵀK0z: twice, since V is orthonormal to some
-/// digits alone.
+/// Collective. Adds the part of z orthogonal to V, where `parts` is VᵀK0z. V is taken out twice,
+/// since it is orthonormal to some digits alone.
 void Basis::addOrthogonalised(linalg::Block& z, const linalg::DenseMatrix& parts) {
   linalg::multiplyAdd(columns_, parts, z, -1);
   linalg::Block forces(z.rows());
@@ -145,7 +146,9 @@ void Basis::addOrthogonalised(linalg::Block& z, const linalg::DenseMatrix& parts
   if (!combinations.empty()) columns_.append(linalg::product(z, combinations));
 }
 
-/// ‖K0 z w − R w‖ / ‖R w‖ for a vector w of signs, in the norm of diag(K0)⁻¹.
+/// Collective. Returns
+///   ‖K0 z w − R w‖ / ‖R w‖
+/// for a vector w of signs, in the norm of diag(K0)⁻¹.
 double Basis::solutionError(const linalg::Block& z, const linalg::Block& residuals) const {
   linalg::DenseMatrix signs(z.columns(), 1);
   for (PetscInt j = 0; j < z.columns(); ++j) signs(j, 0) = j % 3 == 1 ? -1 : 1;

@@ -1,10 +1,12 @@
 #pragma once
-/// A growing basis of the reduced problem, orthonormal in the energy of the stiffness K0 to a part
-/// in a thousand: VᵀK0V ≈ I.
+/// The basis of the reduced problem grows, and is orthonormal in the energy of the stiffness K0 to
+/// a part in a thousand [M.28]:
+///   VᵀK0V ≈ I.
 ///
-/// Free modes enter as φ/ω, corrections as z = K0⁻¹ r. The residuals r of a Galerkin solution on V
-/// have Vᵀr = 0, so that their corrections come out orthogonal to V. VᵀK0z = Vᵀr, zᵀK0z = zᵀr and
-/// K0z = r, as closely as K0⁻¹ is known, take no product with K0.
+/// Free modes enter as d/ω, corrections as z = K0⁻¹ r [M.31]. The residuals r of a Galerkin
+/// solution on V have Vᵀr = 0, so that their corrections come out orthogonal to V. As closely as
+/// K0⁻¹ is known, the following takes no product with K0 [M.32]:
+///   VᵀK0z = Vᵀr,   zᵀK0z = zᵀr,   K0z = r.
 #include <optional>
 #include <vector>
 
@@ -16,10 +18,14 @@
 
 namespace squeal::reduction {
 
+/// The basis V, n × size, distributed by rows.
 class Basis {
  public:
-  /// Collective. Begins with the modes of the system, which is borrowed.
+  /// Collective. Begins with the modes of the system. The modes are needed during this call only,
+  /// and the system is borrowed during the life of the object. Throws Error if K0 cannot be
+  /// factorised.
   Basis(const modes::Modes& modes, const modes::AssociatedSystem& system);
+  /// Returns V by this rank's rows.
   const linalg::Block& columns() const { return columns_; }
   PetscInt size() const { return columns_.columns(); }
   PetscInt localRows() const { return columns_.rows(); }
@@ -31,19 +37,22 @@ class Basis {
   /// Collective. Adds K0⁻¹ of the columns of `residuals`, solved for together; combinations that
   /// depend on others or on V are dropped. Returns the number of columns added.
   PetscInt add(const linalg::Block& residuals);
-  /// Collective. Replaces V by V · combinations, which must be orthonormal like V.
+  /// Collective. Replaces V by V · combinations, former size × new size. The columns of
+  /// `combinations` must be orthonormal.
   void combine(const linalg::DenseMatrix& combinations);
 
-  /// Collective. Appends A times the columns [first, last) of V to the columns of `result`.
+  /// Collective. Appends A times the columns [first, last) of V to the columns of `result`, which
+  /// has this rank's rows of A.
   void appendProducts(Mat matrix, PetscInt first, PetscInt last, linalg::Block& result) const;
-  /// Returns K0 times the columns last added, and VᵀK0 times them, size() × columns, if these are
-  /// known without products, and otherwise matrices without columns.
+  /// Returns K0 times the columns last added, by this rank's rows, and VᵀK0 times them, size() ×
+  /// columns. Where these are not known without products, both have no columns.
   const linalg::Block& forces() const { return forces_; }
   const linalg::DenseMatrix& energies() const { return energies_; }
-  /// Collective. Returns V q for several q, [q]; entries that a q lacks are zero.
+  /// Collective. Returns V q, n entries, for several q, [q]. Entries that a q lacks are zero.
   std::vector<linalg::ComplexVector> expand(
       const std::vector<const std::vector<Complex>*>& list) const;
-  /// Returns the sketch of columns of length n, whose weighted norm is √(rᵀ diag(K0)⁻¹ r).
+  /// Returns the random signs Ω for columns with n entries [M.39]. The weighted norm of their
+  /// sketches is √(rᵀ diag(K0)⁻¹ r).
   const linalg::Sketch& sketch() const { return *sketch_; }
   /// Returns the unweighted sketch of V.
   const linalg::DenseMatrix& sketched() const { return sketched_; }
@@ -52,9 +61,9 @@ class Basis {
   /// The ratio turns the second norm, which costs nothing, into an estimate of the first for
   /// columns like these. All blocks are solved for together.
   std::vector<double> energyRatios(const std::vector<linalg::Block>& blocks);
-  /// Returns the energy ratio of the columns last added.
+  /// Returns the energy ratio of the residuals that add() was last given; 1 before.
   double lastEnergyRatio() const { return ratio_; }
-  /// Returns the number of columns solved for so far.
+  /// Returns the number of right-hand sides solved for so far.
   long solves() const { return solves_; }
 
  private:

@@ -1,17 +1,21 @@
 #pragma once
-/// How far residuals move eigenvalues: condition numbers by left eigenvectors.
+/// This function tells how far residuals move eigenvalues, by condition numbers from left
+/// eigenvectors.
 #include <vector>
 
 #include "linalg/quadratic.hpp"
 
 namespace squeal::reduction {
 
-/// For each pair (with left vectors) the number κ of |δs|/|s| ≤ κ ‖e‖ ‖r‖, to first order, for a
-/// residual r = P(s) d of the full problem and an error e of the left vector in energy: δs = −yᴴr /
-/// (yᴴP'(s)d), P' = 2sM + Z, and where Vᵀr = 0 only the part e of y outside of the basis counts. So
-/// κ = 1 / |s yᴴP'd|. Eigenvalues within 1e-6 of each other are taken as one cluster with one
-/// number, for p of them p over the smallest singular value of all yᴴP'd: any vectors may stand for
-/// a multiple eigenvalue. Infinite for a defective one.
+/// Returns for each pair, which must have its left vector, the number κ in [M.36]
+///   |δs|/|s| ≤ κ ‖e‖ ‖r‖,   κ = 1 / |s yᴴ P′(s) d|,   P′ = 2 s M + Z.
+/// This holds to first order for a residual r = P(s) d of the full problem and an error e of the
+/// left vector in energy. It follows from δs = −yᴴ r / (yᴴ P′(s) d): where Vᵀ r = 0, only the part
+/// e of y outside of the basis counts. Eigenvalues within 1e-6 |s| of each other are judged
+/// together, since any vectors may stand for a multiple eigenvalue. For p of them κ is p / |s| over
+/// the smallest singular value of the matrix of all yᴴ P′ d [M.38]. The number is infinite for a
+/// defective eigenvalue. Not collective; `problem` is the projection on the basis, in whose
+/// coordinates the vectors are given.
 std::vector<double> conditionNumbers(const linalg::DenseProblem& problem,
                                      const std::vector<linalg::DensePair>& pairs);
 

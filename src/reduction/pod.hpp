@@ -1,5 +1,6 @@
 #pragma once
-/// Snapshots over the sweep as a basis: proper orthogonal decomposition. Not collective.
+/// The vectors found over the sweep become a basis by proper orthogonal decomposition. Nothing here
+/// is collective.
 #include <vector>
 
 #include "linalg/quadratic.hpp"
@@ -13,7 +14,8 @@ namespace squeal::reduction {
 linalg::DenseMatrix principalDirections(const std::vector<std::vector<linalg::DensePair>>& solved,
                                         PetscInt size);
 
-/// Gives the vectors of the pair in coordinates of a basis V · directions.
+/// Replaces the vectors of the pair by their coordinates in the basis V · directions, former size ×
+/// new size. The part of a vector outside of this basis, which a left vector may have, is lost.
 void turn(const linalg::DenseMatrix& directions, linalg::DensePair& pair);
 
 }  // namespace squeal::reduction

@@ -1,6 +1,7 @@
 #pragma once
-/// Terms of a pencil on a growing basis V: the products A V, by this rank's rows, the projections
-/// VᵀAV, and sketches of A V and AᵀV for the norms of residuals.
+/// The terms of a pencil are projected on a growing basis V. Kept are the products A V, by this
+/// rank's rows, the projections VᵀAV, and sketches of A V and AᵀV for the norms of residuals
+/// [M.39].
 #include <vector>
 
 #include "linalg/block.hpp"
@@ -11,17 +12,19 @@
 
 namespace squeal::reduction {
 
-/// The vectors of some eigenpairs in coordinates of a basis, as columns of a real matrix. A pair
-/// that has real vectors and a real s², in a problem without damping, takes one column, others take
-/// two.
+/// The vectors of some eigenpairs in coordinates of a basis are the columns of a real matrix. A
+/// pair with real vectors and an s on the imaginary axis, in a problem without damping, takes one
+/// column; all others take two.
 struct Coordinates {
-  std::vector<const linalg::DensePair*> pairs;
-  std::vector<PetscInt> firstColumn;  ///< [pair], and the end
-  PetscInt columns = 0;
+  std::vector<const linalg::DensePair*> pairs;  ///< borrowed
+  std::vector<PetscInt> firstColumn;            ///< [pair], and `columns` at the end
+  PetscInt columns = 0;                         ///< columns of all pairs
 
   Coordinates(std::vector<const linalg::DensePair*> pairs, bool damped);
+  /// Returns true if the pair takes one column.
   bool isReal(std::size_t pair) const;
-  /// Returns the real and imaginary parts of c s^power q, or of c conj(s)^power y, as columns.
+  /// Returns the real and imaginary parts of c s^power q, or of c conj(s)^power y for the left
+  /// side, basis × columns. A pair of one column has the real part alone.
   linalg::DenseMatrix times(pencil::Side side, int power, double c) const;
 };
 
@@ -34,33 +37,36 @@ struct PointPairs {
 /// Some terms of a pencil with their projections.
 class ProjectedTerms {
  public:
-  /// Collective. Takes the terms [first, last) of the pencil, whose matrices are shared. Borrows
-  /// the basis and its sketch.
+  /// Collective. Projects the terms [first, last) of the pencil, whose matrices are shared with it.
+  /// Borrows the basis during the life of the object.
   ProjectedTerms(const Basis& basis, const pencil::Pencil& pencil, std::size_t first,
                  std::size_t last);
   /// Collective. Extends the projections to the vectors that the basis has gained.
   void extend();
-  /// Turns the projections with a basis that has become V · combinations, its former size × its
-  /// size. Not collective.
+  /// Not collective. Turns the projections with a basis that has become V · combinations, former
+  /// size × new size.
   void combine(const linalg::DenseMatrix& combinations);
-  /// Adds Σ c_t VᵀA_tV to the matrices of the problem, which are empty or of the size of the basis.
+  /// Not collective. Adds Σ c_t VᵀA_tV to the matrices of the problem, which are empty or of the
+  /// size of the basis.
   void addTo(const sweep::Parameters& at, linalg::DenseProblem& sum) const;
-  /// Adds combinations of the columns P(s) V q of all points in turn, in one product per term.
-  /// `combinations` has a row for each of these columns, and the columns of the result.
+  /// Not collective. Adds combinations of the columns P(s) V q of all points in turn to `result`,
+  /// which has this rank's rows, in one product per term. `combinations` has a row for each of
+  /// these columns, and the columns of the result.
   void addTo(const std::vector<const PointPairs*>& points, const linalg::DenseMatrix& combinations,
              linalg::Block& result) const;
-  /// Adds the sketch of P(s) V q or P(s)ᴴ V y.
+  /// Not collective. Adds the sketch of P(s) V q, or of P(s)ᴴ V y for the left side, to `sketch`, 2
+  /// Sketch::size × columns.
   void addTo(const PointPairs& point, pencil::Side side, linalg::DenseMatrix& sketch) const;
 
  private:
   struct Part {
     pencil::Term term;
-    linalg::RowSet rows, leftRows;   // of A and Aᵀ
+    linalg::RowSet rows, leftRows;   // nonzero rows of A and Aᵀ
     OwnedMat matrix, adjoint;        // these rows; no adjoint where A is symmetric
     linalg::Block timesV;            // A V, by `rows`
     linalg::Block rowsOfV;           // these rows of V; none if they are all
-    linalg::DenseMatrix sketch;      // of A V
-    linalg::DenseMatrix leftSketch;  // of AᵀV; empty where A is symmetric
+    linalg::DenseMatrix sketch;      // sketch of A V
+    linalg::DenseMatrix leftSketch;  // sketch of AᵀV; empty where A is symmetric
     linalg::DenseMatrix projection;  // VᵀAV
   };
   Part partOf(pencil::Term term) const;

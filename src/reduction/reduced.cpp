@@ -29,7 +29,7 @@ const IntegerOption growthOption(
     "flutter", "flutter_growth", 1000, 0, 1'000'000,
     "most vectors that corrections may add to the basis at one batch of points");
 
-/// Backward errors below have nothing to correct.
+/// Pairs with a backward error below this have nothing to correct.
 constexpr double rounding = 1e-14;
 
 std::vector<const linalg::DensePair*> pointers(const std::vector<linalg::DensePair>& pairs) {
@@ -38,8 +38,8 @@ std::vector<const linalg::DensePair*> pointers(const std::vector<linalg::DensePa
   return list;
 }
 
-/// For an undamped problem, pairs that are −s̄ and the conjugate vectors of the pair before: their
-/// errors are the same.
+/// Returns whether each pair of an undamped problem is −s̄ and the conjugate vectors of the pair
+/// before, [pair]. The errors of the two are the same.
 std::vector<bool> mirrorImages(const std::vector<linalg::DensePair>& pairs, bool damped) {
   std::vector<bool> mirrored(pairs.size(), false);
   for (std::size_t j = 1; j < pairs.size() && !damped; ++j)
@@ -48,7 +48,7 @@ std::vector<bool> mirrorImages(const std::vector<linalg::DensePair>& pairs, bool
   return mirrored;
 }
 
-/// Sums over the real and imaginary parts of each pair.
+/// Returns the sums over the real and the imaginary part of each pair, [pair].
 std::vector<double> perPair(const Coordinates& coordinates, const std::vector<double>& squares) {
   std::vector<double> sums(coordinates.pairs.size(), 0.0);
   for (std::size_t j = 0; j < sums.size(); ++j)
@@ -74,9 +74,10 @@ struct ReducedProblem::PointState {
   Norms norms;                           // of K̄, Z̄, M̄
   std::vector<linalg::DensePair> pairs;  // of the band, with left vectors
   std::vector<double> backwardError;     // [pair]
-  // |δs|/|s| is at most the product of the two, each with the norm of diag(K0)⁻¹ for that of K0⁻¹
+  // The estimate of |δs|/|s| is the product of the two, each with the norm of diag(K0)⁻¹ for that
+  // of K0⁻¹. errorOf() takes the second as 1 at most.
   std::vector<double> rightError;  // [pair] of the right vector, times the condition number of s
-  std::vector<double> leftError;   // [pair] of the left vector, 1 at most
+  std::vector<double> leftError;   // [pair] of the left vector; infinite above the modes
   std::vector<double> rounding;    // [pair] error of the dense solve
 };
 
@@ -103,7 +104,8 @@ void ReducedProblem::extend(const std::vector<PointState*>& states) {
   for (auto* state : states) state->ownTerms.extend();
 }
 
-/// Collective. The real and imaginary part of P(s) x, or of P(s)ᴴ y, from the matrices themselves.
+/// Collective. Returns the real and imaginary parts of P(s) x, or of P(s)ᴴ y, from the matrices
+/// themselves, by this rank's rows; the real part alone for a pair of one column.
 linalg::Block ReducedProblem::residualColumns(const PointState& state,
                                               const linalg::DensePair& pair,
                                               const linalg::ComplexVector& vector,
@@ -125,7 +127,8 @@ double ReducedProblem::errorOf(const PointState& state, std::size_t pair) const 
   return rightRatio_ * state.rightError[pair] * std::min(1.0, leftRatio_ * state.leftError[pair]);
 }
 
-/// By how much the errors of a pair are too large; nothing can be done about those of rounding.
+/// Returns the ratio of the errors of a pair to what is asked for. It is 0 where nothing can be
+/// done, as about errors of rounding.
 double ReducedProblem::errorRatio(const PointState& state, std::size_t pair) const {
   if (band_.top == 0 || state.backwardError[pair] < rounding) return 0;
   return std::max(state.backwardError[pair] / options_.criteria.accuracy,
@@ -138,7 +141,7 @@ bool ReducedProblem::isAccurate(const PointState& state) const {
   return true;
 }
 
-/// Collective. Returns sketches of the residuals of one side, 2 Sketch::size × columns.
+/// Not collective. Returns sketches of the residuals of one side, 2 Sketch::size × columns.
 linalg::DenseMatrix ReducedProblem::residualSketch(const PointState& state, const PointPairs& pairs,
                                                    pencil::Side side) const {
   linalg::DenseMatrix sketch(2 * linalg::Sketch::size, pairs.pairs.columns);
@@ -146,7 +149,7 @@ linalg::DenseMatrix ReducedProblem::residualSketch(const PointState& state, cons
   return sketch;
 }
 
-/// Collective. Fills in the errors of the pairs of a point.
+/// Not collective. Fills in the errors of the pairs of a point.
 void ReducedProblem::estimateErrors(PointState& state, const linalg::DenseProblem& problem) const {
   const auto& pairs = state.pairs;
   const PointPairs all{state.point->at, Coordinates(pointers(pairs), state.damped)};
@@ -183,9 +186,9 @@ void ReducedProblem::estimateErrors(PointState& state, const linalg::DenseProble
   }
 }
 
-/// The pairs of a point that are not good enough, each to be resolved but for `resolution` of its
-/// residual, or for what is good enough: half of its square for what stays unresolved, half for
-/// what the correction leaves.
+/// Returns the pairs of a point that are not good enough, each to be resolved but for `resolution`
+/// of its residual, or for what is good enough: half of its square for what stays unresolved, half
+/// for what the correction leaves.
 ReducedProblem::CorrectionRequest ReducedProblem::requestOf(const PointState& state) const {
   const auto mirrored = mirrorImages(state.pairs, state.damped);
   std::vector<const linalg::DensePair*> bad;
@@ -198,8 +201,8 @@ ReducedProblem::CorrectionRequest ReducedProblem::requestOf(const PointState& st
   return {&state, {state.point->at, Coordinates(bad, state.damped)}, weights};
 }
 
-/// Directions that hold the residuals of all these pairs, of length one times their weights, but
-/// for parts of length `resolution`.
+/// Collective. Returns directions that hold the residuals of all these pairs, of length one times
+/// their weights, but for parts of length `resolution`.
 linalg::Block ReducedProblem::directions(const std::vector<CorrectionRequest>& requests) const {
   linalg::DenseMatrix sketches;
   std::vector<double> factors;
@@ -244,7 +247,8 @@ void ReducedProblem::solveDense(const std::vector<PointState*>& open) {
   }
 }
 
-/// By how much a residual made with the matrices exceeds that made with the products of the basis.
+/// Collective. Returns the ratio of a residual made with the matrices, `columns`, to that made with
+/// the products of the basis, in the norm of diag(K0)⁻¹; 1 at the least.
 double ReducedProblem::residualRatio(const PointState& state, const linalg::DensePair& pair,
                                      const linalg::Block& columns, pencil::Side side) const {
   const PointPairs alone{state.point->at, Coordinates({&pair}, state.damped)};
@@ -256,8 +260,9 @@ double ReducedProblem::residualRatio(const PointState& state, const linalg::Dens
   return known > 0 ? std::max(1.0, std::sqrt(exact / known)) : 1.0;
 }
 
-/// Solves for the residuals of the pair with the largest estimate of all points so far. If that
-/// shows the estimates to be too small, those that are no longer good enough are left to do.
+/// Collective. Solves for the residuals of the pair with the largest estimate of all points so far,
+/// and returns the points that are no longer good enough if that shows the estimates to be too
+/// small.
 std::vector<ReducedProblem::PointState*> ReducedProblem::unconfirmed(
     std::vector<PointState>& states) {
   std::vector<PointState*> open;
@@ -309,8 +314,9 @@ ReducedProblem::Norms ReducedProblem::normsOf(const PointProblem& point) {
   return norms_.back().second;
 }
 
-/// Those of the point solved that is nearest in friction: they take many products with large
-/// matrices.
+/// Collective. Returns the norms of the point nearest in friction that has been solved with the
+/// same other parameters, since norms take many products with large matrices. If there is none,
+/// they are computed.
 ReducedProblem::Norms ReducedProblem::nearbyNorms(const PointProblem& point) {
   const std::pair<sweep::Parameters, Norms>* nearest = nullptr;
   for (const auto& known : norms_) {
@@ -324,7 +330,7 @@ ReducedProblem::Norms ReducedProblem::nearbyNorms(const PointProblem& point) {
   return nearest ? nearest->second : normsOf(point);
 }
 
-/// Collective. Begins the basis with static responses to friction at this point.
+/// Collective. Adds to the basis the static responses to friction at this point [M.29].
 void ReducedProblem::addStaticResponses(const PointProblem& point) {
   std::vector<double> inBand = modes_;
   std::erase_if(inBand, [&](double w) { return w > band_.top; });
@@ -393,7 +399,8 @@ pencil::ComplexModes ReducedProblem::result(const PointState& state) const {
   return point;
 }
 
-/// Shapes of all points, made together: each product with the basis reads the whole of it.
+/// Collective. Keeps the shapes of all points. They are made together, since each product with the
+/// basis reads the whole of it.
 void ReducedProblem::keepShapes(std::vector<pencil::ComplexModes>& points,
                                 const std::vector<PointState>& states, Mat trial) const {
   std::vector<std::vector<std::size_t>> wanted;

@@ -1,5 +1,5 @@
 #pragma once
-/// The reduced problem [4.19], corrected until its eigenvalues are those of the full one.
+/// The reduced problem [4.19] is corrected until its eigenvalues are those of the full one.
 #include <array>
 #include <utility>
 #include <vector>
@@ -25,46 +25,51 @@ struct PointProblem {
 
 /// The answer of the full problem to eigenpairs of the reduced one.
 struct Improvement {
-  /// The basis has grown, or near() is better: the pairs are to be solved for again
+  /// True if the basis has grown, or if near() is better: the pairs are then to be solved for
+  /// again.
   bool changed = false;
-  /// [located] the largest, of the large problem; NaN where there is no problem at this friction;
-  /// empty: there is no larger problem
+  /// The largest backward error of the pairs in the full problem, [located]; NaN where there is no
+  /// problem at this friction. There are no entries if there is no larger problem.
   std::vector<double> backwardError;
 };
 
 /// Options of the reduced problem.
 struct Options {
-  bool corrected, compressed;  ///< `-reduction_basis`: not modal; pod
+  bool corrected, compressed;  ///< `-reduction_basis` is not modal; it is pod
   double tolerance;            ///< `-flutter_tolerance`: estimate of |δs|/|s| asked for
-  int rounds;                  ///< `-flutter_rounds`: of corrections at a batch of points
-  int growth;                  ///< `-flutter_growth`: vectors added at a batch of points
+  int rounds;                  ///< `-flutter_rounds`: most rounds of corrections at a batch
+  int growth;  ///< `-flutter_growth`: no round begins once a batch has added so many vectors
   pencil::Criteria criteria;
   /// Reads the options.
   static Options given();
 };
 
-/// Rayleigh–Ritz on the free modes and, unless `-reduction_basis modal`, on static responses to
-/// friction forces and to its own residuals. The modes alone miss unstable eigenvalues and invent
-/// others; K0⁻¹ r for the residuals r of all bad pairs, solved for together with the real symmetric
-/// factorisation that the modes used, gains about a decade a round. A pair is certified once its
-/// full-order backward error is below `-flutter_accuracy` and the estimate of |δs|/|s| below
-/// `-flutter_tolerance`. The basis is kept over a sweep.
+/// The reduced problem makes Rayleigh–Ritz on the free modes and, unless `-reduction_basis modal`,
+/// on static responses to friction forces and to its own residuals. The modes alone miss unstable
+/// eigenvalues and invent others. A round adds K0⁻¹ r for the residuals r of all bad pairs, solved
+/// for together with the real symmetric factorisation that the modes used, and gains about a
+/// decade. A pair is certified if its full-order backward error is at most `-flutter_accuracy` and
+/// the estimate of |δs|/|s| at most `-flutter_tolerance`. The basis is kept over a sweep.
 class ReducedProblem {
  public:
-  /// Collective. Borrows the system; shares the terms of `pencil`, which hold at all points.
-  /// `modes` are M0-orthonormal with ascending frequencies.
+  /// Collective. Borrows the system during the life of the object and shares the terms of `pencil`,
+  /// which hold at all points. `modes` are M0-orthonormal with ascending frequencies; they are
+  /// copied.
   ReducedProblem(const pencil::Pencil& pencil, const modes::AssociatedSystem& system,
                  const modes::Modes& modes, const Options& options = Options::given());
-  /// Collective. All points at once: their dense problems are spread over the ranks, their
-  /// corrections solved for together. Shapes are mapped to nodal displacements by `trial` (T).
+  /// Collective. Solves all points at once and returns their complex modes, [point]: their dense
+  /// problems are spread over the ranks, and their corrections are solved for together. The static
+  /// responses are those of the first point of the first batch. Shapes are mapped to nodal
+  /// displacements by `trial` (T, N×n).
   std::vector<pencil::ComplexModes> solve(const std::vector<PointProblem>& batch, Mat trial);
-  /// Collective. The projection on the basis as it is.
+  /// Collective. Returns the projection of the problem at this point on the basis as it is.
   linalg::DenseProblem project(const PointProblem& point) const;
   PetscInt basisSize() const { return basis_.size(); }
   const Basis& basis() const { return basis_; }
-  const pencil::WatchedBand& band() const { return band_; }  ///< top 0: none is corrected
+  /// Returns the band; its top is 0 if nothing is corrected, and infinite if V is the whole space.
+  const pencil::WatchedBand& band() const { return band_; }
   /// Collective. Adds corrections of the residuals of these pairs, of any points, all solved for
-  /// together.
+  /// together. The vectors may be of an earlier, smaller basis.
   Improvement improve(
       const std::vector<std::pair<PointProblem, std::vector<linalg::DensePair>>>& located);
 
@@ -76,9 +81,9 @@ class ReducedProblem {
     PointPairs pairs;
     std::vector<double> weights;  // [pair]
   };
-  using Norms = std::array<double, 3>;  // of K̄, Z̄, M̄
-  /// The part of the residuals that their directions may leave unresolved: a round
-  /// gains a decade, and what it need not resolve it need not solve for.
+  using Norms = std::array<double, 3>;  // 2-norms of K̄, Z̄, M̄
+  /// The part of the residuals that their directions may leave unresolved. A round gains a decade,
+  /// and what it need not resolve it need not solve for.
   static constexpr double resolution = 0.03;
   void addStaticResponses(const PointProblem& point);
   Norms normsOf(const PointProblem& point);
@@ -117,7 +122,7 @@ class ReducedProblem {
   Basis basis_;
   ProjectedTerms terms_;
   std::vector<std::vector<linalg::DensePair>> solved_;
-  std::vector<std::pair<sweep::Parameters, Norms>> norms_;  // of the points solved
+  std::vector<std::pair<sweep::Parameters, Norms>> norms_;  // norms at the points solved
 };
 
 }  // namespace squeal::reduction

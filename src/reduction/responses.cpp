@@ -3,7 +3,7 @@
 namespace squeal::reduction {
 namespace {
 
-/// coefficient · matrix · s^power, or its transpose, by the rows that hold anything.
+/// One term of k, or of kᵀ, by the rows of its matrix that hold anything.
 struct Forces {
   bool transposed;
   linalg::RowSet rows;

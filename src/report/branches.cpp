@@ -20,7 +20,7 @@ const char* kindName(tracking::Event::Kind kind) {
   return "";
 }
 
-/// action(number of the active set from 1, what was followed there).
+/// Calls `action` with the number of the active set, from 1, and what was followed there.
 template <class Action>
 void forAllFollowed(const analysis::Analysis& analysis, const Action& action) {
   for (std::size_t s = 0; s < analysis.segments.size(); ++s)

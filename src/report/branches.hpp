@@ -6,13 +6,13 @@
 
 namespace squeal::report {
 
-/// Returns branches.csv.
+/// Returns the text of branches.csv: the eigenvalues followed, by branch and friction.
 std::string branchTable(const analysis::Analysis& analysis);
 
-/// Returns critical.csv.
+/// Returns the text of critical.csv, with a row for each critical friction.
 std::string criticalTable(const analysis::Analysis& analysis);
 
-/// Returns what the terminal says of both.
+/// Returns the text of the terminal on both: the critical frictions, and how complete the count is.
 std::string followedText(const analysis::Analysis& analysis);
 
 }  // namespace squeal::report

@@ -43,7 +43,7 @@ class Ghosts {
         field.values.push_back(d < mesh_.dimension ? values[mesh_.dimension * node + d] : 0.0);
     return field;
   }
-  /// One component alone.
+  /// Returns the field of one component alone.
   Field scalar(const std::string& name, Vec u, std::size_t component = 0) const {
     const Field all = vector(name, u);
     Field field{name, 1, {}};
@@ -58,8 +58,8 @@ class Ghosts {
   OwnedScatter scatter_;
 };
 
-/// Contact pressure at the pad nodes, zero elsewhere, in component 0 of a nodal vector; gap in
-/// component 1.
+/// Collective. Returns a nodal vector with the contact pressure at the pad nodes, Pa, in component
+/// 0 and the gap, m, in component 1; both are zero elsewhere.
 OwnedVec contactField(const analysis::Analysis& analysis, const steady::Solution& solution) {
   const auto& mesh = *analysis.mesh;
   OwnedVec field = elasticity::nodalVector(mesh);
@@ -73,8 +73,8 @@ OwnedVec contactField(const analysis::Analysis& analysis, const steady::Solution
   return field;
 }
 
-/// Returns a nodal vector with the contribution of friction at the pad nodes to the growth rate of
-/// a mode, 1/s, in component 0, and per area in component 1.
+/// Collective. Returns a nodal vector with the contribution of friction at the pad nodes to the
+/// growth rate of a mode, 1/s, in component 0, and per area, 1/(s·m²), in component 1.
 OwnedVec workField(const analysis::Analysis& analysis, const pencil::Shape& shape) {
   const auto& mesh = *analysis.mesh;
   OwnedVec field = elasticity::nodalVector(mesh);
@@ -112,8 +112,10 @@ std::string shapeName(const pencil::ComplexModes& point, const pencil::Shape& sh
                    point.eigenvalues[shape.index].s.imag() / (2 * M_PI));
 }
 
-/// Re(d e^{iφ}) over one period: pressing play in ParaView shows the squeal. The growth is left
-/// out, it would hide the shape.
+/// Collective. Writes
+///   Re(d e^{iφ})
+/// over one period: pressing play in ParaView shows the squeal. The growth is left out, since it
+/// would hide the shape.
 void animate(const analysis::Analysis& analysis, const Ghosts& ghosts, const Animated& item,
              const std::filesystem::path& folder) {
   const int frames = framesOption.get();

@@ -7,10 +7,11 @@
 
 namespace squeal::report {
 
-/// Collective. Writes results.h5 into `folder`.
+/// Collective. Writes results.h5 into `folder`. Throws Error as Hdf5File does.
 void writeHdf5(const analysis::Analysis& analysis, const std::filesystem::path& folder);
 
-/// Collective. Writes the VTK files of a run with a mesh into `folder`.
+/// Collective. Writes the VTK files of a run with a mesh into `folder`/vtk. Throws Error as
+/// writeVtu() does.
 void writeFields(const analysis::Analysis& analysis, const std::filesystem::path& folder);
 
 }  // namespace squeal::report

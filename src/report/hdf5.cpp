@@ -26,7 +26,7 @@ hid_t typeOf() {
   return sizeof(Number) == 4 ? H5T_NATIVE_INT32 : H5T_NATIVE_INT64;
 }
 
-/// The object of this name, a group made if there is none.
+/// Returns the object of this name, a group made if there is none; negative if that fails.
 hid_t openOrMake(hid_t file, const std::string& object) {
   for (std::size_t end = object.find('/', 1);; end = object.find('/', end + 1)) {
     const std::string path = object.substr(0, end);
@@ -40,12 +40,14 @@ hid_t openOrMake(hid_t file, const std::string& object) {
   }
 }
 
-/// On rank 0, after a call of the library. Error: output::WriteError.
+/// Throws output::WriteError, on rank 0, if the call of the library before was not `done`, or if
+/// the driver has kept an error.
 void require(bool done, const std::filesystem::path& path) {
   if (!done || keptError() != 0) throw output::WriteError(output::cannotWrite(path, keptError()));
 }
 
-/// A table [row][column] of which rows are written in turn, on one rank. Error: output::WriteError.
+/// A table [row][column] is written some rows at a time, on one rank. The constructor and write()
+/// throw output::WriteError.
 class Rows {
  public:
   Rows(hid_t file, const std::filesystem::path& path, const std::string& name, hid_t type,
@@ -111,8 +113,8 @@ void inTurn(MPI_Comm comm, std::span<const Number> mine, std::size_t columns, co
     }
 }
 
-/// Collective. The gmsh element types of the whole mesh, ascending: a rank may lack cells of a type
-/// that others have.
+/// Collective. Returns the gmsh element types of the whole mesh, ascending: a rank may lack cells
+/// of a type that others have.
 std::vector<int> elementTypes(const mesh::Mesh& mesh) {
   constexpr int most = 256;  // gmsh's type numbers end at 140
   std::vector<int> present(most, 0);
@@ -127,7 +129,8 @@ std::vector<int> elementTypes(const mesh::Mesh& mesh) {
 
 }  // namespace
 
-/// `action()` on rank 0 without a word of the library's own; false: it could not be done.
+/// Collective. Calls `action` on rank 0 without a word of the library's own. Throws Error on all
+/// ranks if it returns false or a write has failed.
 template <class Action>
 void Hdf5File::onFirst(const Action& action) {
   onFirstRank(comm_, blame, [&] {

@@ -1,5 +1,5 @@
 #pragma once
-/// The results file: mesh, fields and tables in one HDF5 file.
+/// The results file holds mesh, fields and tables in one HDF5 file.
 #include <hdf5.h>
 #include <petscvec.h>
 
@@ -12,7 +12,8 @@
 
 namespace squeal::report {
 
-/// An HDF5 file open for writing. All methods are collective. Groups are absolute ("/modes") and
+/// An HDF5 file is open for writing until close(). All methods are collective, and throw Error on
+/// all ranks, naming -report_dir, for what cannot be written. Groups are absolute ("/modes") and
 /// made when first written to.
 ///
 /// Rank 0 alone writes; the others send it their parts, a piece at a time, so that it never holds
@@ -20,30 +21,31 @@ namespace squeal::report {
 /// them would leave the others waiting inside the library.
 class Hdf5File {
  public:
-  /// Replaces the file if there is one; the folder must exist. Errors of all methods (all ranks):
-  /// what cannot be written, naming -report_dir.
+  /// Replaces the file if there is one; the folder must exist.
   Hdf5File(MPI_Comm comm, const std::filesystem::path& path);
   /// Closes the file if close() has not, whether or not all of it could be written.
   ~Hdf5File();
   Hdf5File(const Hdf5File&) = delete;
   Hdf5File& operator=(const Hdf5File&) = delete;
-  /// Writes what the library still keeps in memory.
+  /// Writes what the library still keeps in memory, and closes the file.
   void close();
 
-  /// /mesh: `coordinates` [global node][3], `node_tag` and `node_part` [global node], attributes
-  /// `dimension`, `bodies` and `parts` (names joined by commas). For each gmsh element type T of
-  /// the mesh a group cells_T: `nodes` [cell][node] global nodes in gmsh's order, `body` [cell]
-  /// index into bodies, `tag` [cell], attributes `gmsh_element_type` and `gmsh_element_name`.
+  /// Writes to /mesh `coordinates` [global node][3], `node_tag` and `node_part` [global node], and
+  /// the attributes `dimension`, `bodies` and `parts` (names joined by commas). For each gmsh
+  /// element type T of the mesh it writes a group cells_T: `nodes` [cell][node] global nodes in
+  /// gmsh's order, `body` [cell] index into bodies, `tag` [cell], and the attributes
+  /// `gmsh_element_type` and `gmsh_element_name`.
   void writeMesh(const mesh::Mesh& mesh);
-  /// A field at the nodes: dataset [global node][component]; the block size of `values` is the
-  /// number of components.
+  /// Writes a field at the nodes as a dataset [global node][component]. The block size of `values`
+  /// is the number of components.
   void writeNodeVector(const std::string& group, const std::string& name, Vec values);
-  /// A small table of reals: dataset [row][column] with attribute `columns` (names joined by
-  /// commas). Rank 0 passes the rows, the others none.
+  /// Writes a small table of reals as a dataset [row][column] with the attribute `columns` (names
+  /// joined by commas). Rank 0 passes the rows, the others none.
   void writeTable(const std::string& group, const std::string& name,
                   const std::vector<std::string>& columns,
                   const std::vector<std::vector<double>>& rows);
-  /// An attribute of the group or dataset `object`; the same value on all ranks.
+  /// Writes an attribute of the group or dataset `object`, with the same value on all ranks. A
+  /// group is made if there is none.
   void writeAttribute(const std::string& object, const std::string& name, double value);
   void writeAttribute(const std::string& object, const std::string& name, const std::string& text);
   void writeAttribute(const std::string& object, const std::string& name, PetscInt value);
@@ -61,7 +63,7 @@ class Hdf5File {
 
   MPI_Comm comm_;
   std::filesystem::path path_;
-  hid_t file_ = -1;  ///< on rank 0
+  hid_t file_ = -1;  // on rank 0; -1 on the others
 };
 
 }  // namespace squeal::report

@@ -17,7 +17,7 @@ struct File {
   H5FD_t base;  // the library's own part comes first
   int descriptor = -1;
   haddr_t allocated = 0;
-  haddr_t end = 0;  ///< of what was written
+  haddr_t end = 0;  ///< end of what was written
 };
 
 File* own(H5FD_t* file) { return reinterpret_cast<File*>(file); }

@@ -1,16 +1,18 @@
 #pragma once
-/// The driver with which HDF5 writes to the disc.
+/// HDF5 writes to the disc with this driver.
 #include <hdf5.h>
 
 namespace squeal::report {
 
+/// Not collective. Returns properties for H5Fcreate that choose this driver, to be closed with
+/// H5Pclose; negative if it cannot be chosen.
+///
 /// After a write that fails HDF5 1.10 cannot close its file, and crashes when the program ends.
 /// This driver (one rank, one file at a time) therefore tells the library that all goes well, drops
-/// what comes after the failure, and keeps the reason for us.
-///
-/// Properties for H5Fcreate, to be closed with H5Pclose.
+/// what comes after the failure, and keeps the reason for keptError().
 hid_t keepingErrorsProperties();
-/// Returns errno of the first write that failed since the file was made; 0 if none has.
+/// Not collective. Returns errno of the first call on the file that failed since it was made, be it
+/// to open, write, truncate or close it; 0 if none has.
 int keptError();
 
 }  // namespace squeal::report

@@ -37,8 +37,8 @@ bool isNumber(const std::string& text) {
   return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
 }
 
-/// NAME.pvtu beside the folder NAME with the pieces NAME_RANK.vtu: `parts` are the names from there
-/// on.
+/// Returns true for NAME.pvtu, the folder NAME beside it, and the pieces NAME_RANK.vtu in that
+/// folder. `parts` are the names of the path from there on.
 bool isGrid(const std::string& name, const std::vector<std::string>& parts) {
   if (parts.size() == 1) return parts[0] == name || parts[0] == name + ".pvtu";
   const auto rank = between(parts[1], name + "_", ".vtu");
@@ -47,8 +47,8 @@ bool isGrid(const std::string& name, const std::vector<std::string>& parts) {
 
 std::vector<std::string> partsOf(const fs::path& path) { return {path.begin(), path.end()}; }
 
-/// The names that scripts/plot_stability.py of version 0.1.0 gives its plots: one for each value of
-/// what is swept beside the axes.
+/// Returns the names that scripts/plot_stability.py of version 0.1.0 gives its plots: one for each
+/// value of what is swept beside the axes.
 std::set<std::string> plotNames(const std::vector<sweep::Parameters>& points) {
   std::set<std::string> names;
   for (const auto& at : points)
@@ -64,7 +64,7 @@ std::set<std::string> plotNames(const std::vector<sweep::Parameters>& points) {
   return names;
 }
 
-/// The points in the summary of version 0.1.0; none: the folder is not of that version.
+/// Returns the points in the summary of version 0.1.0; none if the folder is not of that version.
 std::vector<sweep::Parameters> formerPoints(const fs::path& folder) {
   std::string line;
   std::ifstream recipe(folder / "options.txt"), file(folder / "summary.json");
@@ -113,7 +113,7 @@ bool ResultNames::contains(const fs::path& path) const {
   return false;
 }
 
-/// `parts`: the names below vtk.
+/// Returns true for a field of these points; `parts` are the names of its path below vtk.
 bool ResultNames::isField(const std::vector<std::string>& parts) const {
   if (parts == std::vector<std::string>{"steady.pvd"}) return true;
   const std::string stem = parts.size() > 1 || !parts[0].ends_with(".pvtu")

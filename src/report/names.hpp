@@ -1,5 +1,6 @@
 #pragma once
-/// The names of the files of a run, and the files that a version without a manifest left.
+/// These functions tell the names of the files of a run, and the files that a version without a
+/// manifest left.
 #include <filesystem>
 #include <set>
 #include <string>
@@ -10,15 +11,17 @@
 
 namespace squeal::report {
 
-/// Returns a point of the sweep as part of file and group names: FRICTION, then _speed_SPEED,
-/// _pressure_… for the factors that are not 1.
+/// Returns the name of a point of the sweep as part of file and group names: FRICTION, then
+/// _speed_SPEED, _pressure_… for the factors that are not 1.
 std::string pointName(const sweep::Parameters& at);
 
 /// The names of the files and folders of a run over some points, relative to the folder of the
 /// results.
 class ResultNames {
  public:
+  /// Notes the names of these points, and of their steady states.
   explicit ResultNames(const std::vector<sweep::Parameters>& points);
+  /// Returns true if a run over these points may write this path, a file or a folder.
   bool contains(const std::filesystem::path& path) const;
 
  private:
@@ -26,8 +29,9 @@ class ResultNames {
   std::set<std::string> points_;
 };
 
-/// The files in `folder` that version 0.1.0, which kept no manifest, left there, the plots of its
-/// scripts included; none unless summary.json and options.txt are of that version.
+/// Not collective. Returns the files in `folder` that version 0.1.0, which kept no manifest, left
+/// there, the plots of its scripts included; none unless summary.json and options.txt are of that
+/// version.
 output::Manifest formerResults(const std::filesystem::path& folder);
 
 }  // namespace squeal::report

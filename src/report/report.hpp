@@ -17,7 +17,9 @@ class Directory : public output::Folder {
   explicit Directory(MPI_Comm comm);
 };
 
-/// Collective. Writes all reports and prints the stability table.
+/// Collective. Writes all reports, which then replace those of an earlier run, and prints the
+/// stability table. Throws Error, naming -report_dir, if a file cannot be written; the earlier
+/// results then stay.
 void write(const analysis::Analysis& analysis, Directory& directory);
 
 /// Collective. Writes the file on rank 0. Throws Error on all ranks, naming -report_dir, if that

@@ -9,14 +9,14 @@
 namespace squeal::report {
 namespace {
 
-/// Parameters, number, growth rate and frequency of the mode.
+/// Returns the beginning of a row: parameters, number, growth rate and frequency of the mode.
 std::string modeHead(const pencil::ComplexModes& point, const pencil::Shape& shape) {
   const auto s = point.eigenvalues[shape.index].s;
   return sweep::parameterValues(point.at) +
          formatted(",%zu,%.15e,%.15e,", shape.index + 1, s.real(), s.imag() / (2 * M_PI));
 }
 
-/// Sums over the nodes of each interface.
+/// Collective. Returns the sums over the nodes of each interface, [interface].
 std::vector<double> byInterface(const analysis::Analysis& analysis,
                                 const std::vector<double>& nodes) {
   std::vector<double> sums(analysis.contact.interfaces.size(), 0.0);

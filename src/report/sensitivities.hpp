@@ -6,12 +6,12 @@
 
 namespace squeal::report {
 
-/// Returns the derivatives of the eigenvalues of the complex modes kept, with a row per mode and
-/// parameter; a mode without derivatives has one row, "none".
+/// Returns sensitivities.csv: the derivatives of the eigenvalues of the complex modes kept, with a
+/// row per mode and parameter. A mode without derivatives has one row, "none".
 std::string sensitivityTable(const analysis::Analysis& analysis);
 
-/// Collective. Returns the contribution of friction on each interface to the growth rates of the
-/// complex modes kept (flutter::frictionWork).
+/// Collective. Returns friction_work.csv: the contribution of friction on each interface to the
+/// growth rates of the complex modes kept, 1/s (flutter::frictionWork).
 std::string frictionWorkTable(const analysis::Analysis& analysis);
 
 }  // namespace squeal::report

@@ -36,7 +36,7 @@ Json steadyEntry(const steady::Solution& solution) {
   return entry;
 }
 
-/// NaN and infinity have no place in JSON.
+/// Returns the number, or null for NaN and infinity, which have no place in JSON.
 Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json uniquenessEntry(double speed, const steady::Uniqueness& found) {

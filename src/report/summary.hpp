@@ -7,6 +7,7 @@
 namespace squeal::report {
 
 /// Collective. Writes summary.json into `folder`, after the last stage, since it holds the times.
+/// Throws Error as writeText() does.
 void writeSummary(const analysis::Analysis& analysis, const std::filesystem::path& folder);
 
 }  // namespace squeal::report

@@ -38,8 +38,8 @@ std::string eigenvalueTable(const analysis::Analysis& analysis) {
   return table;
 }
 
-/// A row for each point of the sweep; cells stay empty where there is nothing to say: no steady
-/// sliding, no eigenvalue, no estimate.
+/// Returns a table with a row for each point of the sweep. Cells stay empty where there is nothing
+/// to say: no steady sliding, no eigenvalue, no estimate.
 std::string stabilityMap(const analysis::Analysis& analysis) {
   const auto cell = [](const char* format, double value) {
     char text[32] = "";
@@ -69,7 +69,7 @@ std::string modeTable(const modes::Modes& modes) {
   return table;
 }
 
-/// Rows of this rank; surface data only, gathered on rank 0.
+/// Returns the rows of this rank. They hold surface data only, and are gathered on rank 0.
 std::string steadyRows(const analysis::Analysis& analysis, const steady::Solution& solution) {
   std::string rows;
   for (std::size_t i = 0; i < solution.contact.size(); ++i) {
@@ -83,7 +83,7 @@ std::string steadyRows(const analysis::Analysis& analysis, const steady::Solutio
   return rows;
 }
 
-/// Friction, and the factors that are not 1 all over the sweep.
+/// Returns friction, and the parameters that are not 1 all over the sweep.
 std::vector<sweep::Parameter> shownParameters(const analysis::Analysis& analysis) {
   const auto points = analysis.sweep.points();
   std::vector<sweep::Parameter> shown;
@@ -97,7 +97,7 @@ std::vector<sweep::Parameter> shownParameters(const analysis::Analysis& analysis
   return shown;
 }
 
-/// Head of a line of a sweep.
+/// Returns the head of a line of a sweep.
 std::string rowHead(const sweep::Parameters& at, const std::vector<sweep::Parameter>& shown) {
   std::string head = "\n";
   for (const auto& parameter : shown) head += formatted("%8g  ", at.*parameter.value);
@@ -113,7 +113,7 @@ std::string verdict(const analysis::Analysis& analysis, const analysis::ModalSeg
   return "none: steady sliding is stable";
 }
 
-/// One line for one point of a sweep: the lowest unstable modes.
+/// Returns one line for one point of a sweep, with the lowest unstable modes.
 std::string sweepRow(const analysis::Analysis& analysis, const analysis::ModalSegment& segment,
                      const pencil::ComplexModes& point,
                      const std::vector<sweep::Parameter>& shown) {
@@ -126,7 +126,7 @@ std::string sweepRow(const analysis::Analysis& analysis, const analysis::ModalSe
   return row + (count > 6 ? formatted(", and %d more in eigenvalues.csv", count - 6) : "");
 }
 
-/// The unstable modes of a single friction, a line each; modes are numbered by frequency.
+/// Returns the unstable modes of a single point, a line each; modes are numbered by frequency.
 std::string modeRows(const analysis::Analysis& analysis, const analysis::ModalSegment& segment,
                      const pencil::ComplexModes& point) {
   if (point.unstableCount() == 0)
@@ -140,8 +140,8 @@ std::string modeRows(const analysis::Analysis& analysis, const analysis::ModalSe
   return rows;
 }
 
-/// The point where strong damping has taken most free modes of the band from the eigenvalues
-/// listed; empty if there is none.
+/// Returns a text on the point where strong damping has taken most free modes of the band from the
+/// eigenvalues listed; empty if there is none.
 std::string strongDampingText(const analysis::Analysis& analysis) {
   const pencil::ComplexModes* most = nullptr;
   for (const auto& segment : analysis.segments)
@@ -171,7 +171,7 @@ std::string gathered(MPI_Comm comm, const std::string& text) {
   return all;
 }
 
-/// An -options_file that repeats the run; defaults that were in force stand in comments.
+/// Returns an -options_file that repeats the run; defaults that were in force stand in comments.
 std::string recipe(MPI_Comm comm) {
   int size = 1;
   check(MPI_Comm_size(comm, &size));

@@ -1,5 +1,6 @@
 #pragma once
-/// These functions write the comma-separated tables and the stability table of the terminal.
+/// These functions write the comma-separated tables, and return the stability table of the
+/// terminal.
 #include <filesystem>
 #include <string>
 
@@ -7,14 +8,15 @@
 
 namespace squeal::report {
 
-/// Collective. Writes the comma-separated tables into `folder`.
+/// Collective. Writes the comma-separated tables into `folder`. Throws Error as writeText() does.
 void writeTables(const analysis::Analysis& analysis, const std::filesystem::path& folder);
 
 /// Collective. Writes options.txt into `folder`, after all else, when every option has been asked
 /// for.
 void writeRecipe(const analysis::Analysis& analysis, const std::filesystem::path& folder);
 
-/// Returns the frequencies and growth rates of the unstable modes at each friction.
+/// Returns the text of the terminal: the frequencies and growth rates of the unstable modes at each
+/// point of the sweep, what is known of their errors, and critical frictions.
 std::string stabilityTable(const analysis::Analysis& analysis);
 
 }  // namespace squeal::report

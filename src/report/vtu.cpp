@@ -130,7 +130,7 @@ void requireWritable(const mesh::Mesh& mesh, const std::vector<Field>& fields) {
   failTogether(mesh.comm, message);
 }
 
-/// Returns what went wrong, empty if nothing did.
+/// Not collective. Writes the piece of this rank. Returns what went wrong, empty if nothing did.
 std::string writePiece(vtkUnstructuredGrid* grid, const fs::path& path) {
   const EndingWaits whole;
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
@@ -170,8 +170,8 @@ std::string arrayTag(const std::string& type, const std::string& name, int compo
                    type.c_str(), xmlText(name).c_str(), components);
 }
 
-/// The file that names the pieces. VTK's own writer of it cuts the stem at its last dot: steady_0.2
-/// and steady_0.4 would share, and overwrite, the pieces of steady_0.
+/// Returns the text of the file that names the pieces. VTK's own writer of it cuts the stem at its
+/// last dot: steady_0.2 and steady_0.4 would share, and overwrite, the pieces of steady_0.
 template <class Piece>
 std::string summaryText(const std::vector<Field>& fields, const fs::path& folder,
                         const Piece& piece, int pieces) {

@@ -1,5 +1,6 @@
 #pragma once
-/// Fields on the mesh as VTK files, which ParaView opens with all nodes of quadratic cells.
+/// Fields on the mesh are written as VTK files, which ParaView opens with all nodes of quadratic
+/// cells.
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -24,7 +25,7 @@ struct Field {
 void writeVtu(const mesh::Mesh& mesh, const std::filesystem::path& stem,
               const std::vector<Field>& pointFields);
 
-/// Collective. Rank 0 writes a ParaView collection of (time, file) pairs: the frames of an
+/// Collective. Writes, on rank 0, a ParaView collection of (time, file) pairs: the frames of an
 /// animation or of a sweep. The files are named relative to the folder of `path`, so that the
 /// report folder can be moved (all paths absolute, or all relative). Throws Error on all ranks,
 /// naming -report_dir, if a file cannot be written.

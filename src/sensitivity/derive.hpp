@@ -1,5 +1,5 @@
 #pragma once
-/// Sensitivities of the complex modes that are kept at a point.
+/// These functions compute the sensitivities of the complex modes that are kept at a point.
 #include <functional>
 #include <vector>
 
@@ -15,8 +15,9 @@ namespace squeal::sensitivity {
 using Forms = std::function<std::vector<pencil::Derivative>(const EigenTriple&)>;
 
 /// Collective. Appends to ComplexModes::sensitivities an entry for each shape of the point, whose
-/// terms the pencil holds. Left vectors are computed first, beginning in `start`. Where the
-/// eigenvalue has derivatives, they are the forms divided by −yᴴ P′ x [M.46].
+/// terms the pencil holds. Left vectors are computed first, beginning in `start`, with the solver
+/// of `system`. Where the eigenvalue has derivatives, they are the forms divided by −yᴴ P′ x
+/// [M.46]. The arguments are borrowed during this call.
 void deriveShapes(pencil::ComplexModes& point, const pencil::Pencil& pencil,
                   const StartSpace& start, const modes::AssociatedSystem& system,
                   const Forms& forms);

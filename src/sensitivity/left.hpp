@@ -1,5 +1,5 @@
 #pragma once
-/// Left eigenvectors y of the full-order problem, yᴴ P(s) = 0, for known eigenvalues.
+/// Left eigenvectors y of the full-order problem, yᴴ P(s) = 0, are found for known eigenvalues.
 #include <vector>
 
 #include "linalg/complexvector.hpp"
@@ -18,7 +18,7 @@ struct RightPair {
 /// A left vector and its backward error.
 struct LeftVector {
   linalg::ComplexVector y;  ///< in the unknowns, 2-norm 1
-  /// Backward error
+  /// The backward error
   ///   ‖P(s)ᴴ y‖ / ((|s|² ‖M̄‖ + |s| ‖Z̄‖ + ‖K̄‖) ‖y‖).
   double backwardError = 0;
 };

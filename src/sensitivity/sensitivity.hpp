@@ -1,5 +1,5 @@
 #pragma once
-/// Derivatives of eigenvalues by left and right vectors [M.46],
+/// Left and right vectors give the derivatives of eigenvalues [M.46],
 ///   ds/dθ = −yᴴ (∂P/∂θ)(s) x / yᴴ P′(s) x,   P′ = dP/ds = 2 s M̄ + Z̄,
 /// as far as the pencil alone gives them.
 #include <string>

@@ -24,7 +24,8 @@ PetscErrorCode multiply(Mat matrix, Vec y, Vec result) {
 
 }  // namespace
 
-/// With T of the closed contact, u = T y + u0 and t = f φ R_N τ(w) at the pad nodes [M.48, M.49]:
+/// The equations are, with T of the closed contact, u = T y + p u0 and t = f φ R_N τ(w) at the pad
+/// nodes [M.48, M.49],
 ///   F  = Tᵀ (r + Jᵀ t),
 ///   dr = (K + v² K^R) du + cause,
 ///   dt = f φ τ N dr − v B D du + (df φ + f φ′ dv |w|/v) R_N τ,

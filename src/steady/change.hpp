@@ -11,12 +11,12 @@ namespace squeal::steady {
 
 /// The direct effect of a parameter on the steady equations, per unit of the parameter.
 struct Cause {
-  /// Change dr of the nodal forces r = (K + v² K^R) u − b at fixed u, N entries; null: none.
-  /// Borrowed.
+  /// Change dr of the nodal forces r = (K + v² K^R) u − b at fixed u, N entries; borrowed; null:
+  /// none.
   Vec force = nullptr;
-  Vec held = nullptr;   ///< change du0 of the held displacements; null: none; borrowed
+  Vec held = nullptr;   ///< change of p u0, N entries; borrowed; null: none
   double friction = 0;  ///< df
-  double speed = 0;     ///< dv, as it enters the friction law
+  double speed = 0;     ///< dv, as it enters the friction law alone
 };
 
 /// The first-order change of the steady state with a fixed active set.
@@ -26,8 +26,8 @@ struct Change {
 };
 
 /// Collective. Returns the change of the converged `solution` for which dF = 0 on the active set of
-/// `system` [M.48], by GMRES preconditioned by the factorised K0. Throws Error if that does not
-/// converge.
+/// `system` [M.48], by iterative refinement with GMRES preconditioned by the factorised K0. The
+/// arguments are borrowed during this call. Throws Error if that does not converge.
 Change change(const Problem& problem, const Solution& solution,
               const contact::CoupledSystem& system, const Cause& cause);
 

@@ -38,7 +38,7 @@ class DefaultOption {
   std::string name_;
 };
 
-/// The problem as SNES sees it, scaled so that tolerances do not depend on units:
+/// The problem is scaled for SNES, so that tolerances do not depend on units:
 ///   F̂(x̂) = F(x)/forceUnit,   x = xUnit x̂.
 struct Scaled {
   const Problem& problem;

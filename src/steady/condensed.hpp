@@ -1,12 +1,14 @@
 #pragma once
-/// The steady problem condensed to the contact [3.10–3.18]: the gaps that nodal normal forces open.
+/// The steady problem is condensed to the contact [3.10–3.18]: it says which gaps nodal normal
+/// forces open.
 ///
-/// All gaps are unknowns of u = T x + u0, and K_o = Tᵀ K T is the stiffness with the contact open.
-/// R holds the normal forces, e the columns of the identity at the gaps, and U the slip rows as
-/// columns, so that Sᵀ N r = U R. Equilibrium L(f)ᵀ (K u − b) = e R reads [M.17]
-///   K_o x + f U R = Tᵀ (b − K u0) + e R,
+/// All gaps are unknowns of u = T x + p u0, and K_o = Tᵀ K T is the stiffness with the contact
+/// open. K stands for K + v² K^R. R holds the normal forces, e the columns of the identity at the
+/// gaps, and U the slip rows as columns, so that Sᵀ N r = U R. Equilibrium L(f)ᵀ (K u − b) = e R
+/// reads [M.17]
+///   K_o x + f U R = Tᵀ (b − K p u0) + e R,
 /// and the gaps are
-///   g = eᵀ x = A(f) R + F,   A(f) = A0 + f A1,   A0 = eᵀ K_o⁻¹ e,   A1 = −eᵀ K_o⁻¹ U   [M.18].
+///   g = eᵀ x = A(f) R + F0,   A(f) = A0 + f A1,   A0 = eᵀ K_o⁻¹ e,   A1 = −eᵀ K_o⁻¹ U   [M.18].
 #include <vector>
 
 #include "contact/contact.hpp"
@@ -25,9 +27,10 @@ struct Compliance {
 /// The condensed problem, with a factorisation of K_o.
 class Condensed {
  public:
-  /// Collective. Factorises K_o (prefix -steady_uniqueness_). No body may be loose with the contact
-  /// open. `stiffness` is K on all nodal displacements, symmetric, N/m. Borrows `contact` during
-  /// the life of the object.
+  /// Collective. Factorises K_o (prefix -steady_uniqueness_); factorised() tells whether that has
+  /// worked. No body may be loose with the contact open. `stiffness` is K on all nodal
+  /// displacements, N×N, symmetric, N/m, and `slip`, [owned contact node], gives U; both are needed
+  /// during this call only. Borrows `contact` during the life of the object.
   Condensed(const contact::Contact& contact, Mat stiffness, const std::vector<contact::Slip>& slip);
   /// Returns false if K_o could not be factorised; nothing else may be called then.
   bool factorised() const;

@@ -18,7 +18,7 @@ using linalg::DenseMatrix;
 
 namespace {
 
-/// Relative size below which numbers count as rounding. A comes from solves with a stiffness matrix
+/// Numbers below this relative size count as rounding. A comes from solves with a stiffness matrix
 /// of a condition number of 1e6 and more.
 constexpr double rounding = 1e-10;
 

@@ -1,6 +1,6 @@
 #pragma once
-/// Small dense tests of the condensed matrix A of the contact, which decide on the solutions of the
-/// linear complementarity problem
+/// Small dense tests of the condensed matrix A of the contact decide on the solutions of the linear
+/// complementarity problem
 ///   g = A R + F,   g ≥ 0,   R ≥ 0,   g·R = 0.
 /// Matrices are the same on every rank; nothing here is collective.
 #include <string>
@@ -21,7 +21,7 @@ struct Judgement {
 /// Returns the eigenvalues of sym(A), ascending. Throws Error if LAPACK fails.
 std::vector<double> symmetricEigenvalues(const linalg::DenseMatrix& a);
 
-/// Returns true if the smallest eigenvalue is positive beyond rounding.
+/// Returns true if the smallest of these ascending eigenvalues is positive beyond rounding.
 bool positiveDefinite(const std::vector<double>& eigenvalues);
 
 /// Returns true if all principal minors are positive, which is equivalent to one solution for every
@@ -43,7 +43,7 @@ Judgement examineMatrix(const linalg::DenseMatrix& a, double friction, int pMatr
 double lossOfPositivity(double smallestRatio);
 
 /// Returns the smallest f > 0 where sym(A0 + f A1) is not positive definite; infinite if there is
-/// none, and 0 if A0 is not positive definite.
+/// none, and 0 if A0 is not positive definite. Throws Error if LAPACK fails.
 double lossOfPositivity(const linalg::DenseMatrix& a0, const linalg::DenseMatrix& a1);
 
 }  // namespace squeal::steady

@@ -27,7 +27,8 @@ void preconditionBy(KSP solver, KSP inner) {
 constexpr double roundings = 10;
 /// A residual below this part of that of the start counts as that of a solution.
 constexpr double small = 1e-9;
-/// With convective terms, which the inner solver leaves out in part, some ten steps are needed.
+/// The largest number of steps. With convective terms, which the inner solver leaves out in part,
+/// some ten are needed.
 constexpr int mostSteps = 20;
 
 PetscReal norm(Vec vector) {

@@ -1,13 +1,13 @@
 #pragma once
-/// Iterative refinement: it solves nearly linear equations to rounding with an inexact solver.
+/// Iterative refinement solves nearly linear equations to rounding with an inexact solver.
 #include <functional>
 
 #include "petsc/owned.hpp"
 
 namespace squeal::steady {
 
-/// A residual, and the size of its rounding error: the machine precision times the magnitudes of
-/// the terms that cancel in it.
+/// A residual comes with the size of its rounding error: the machine precision times the magnitudes
+/// of the terms that cancel in it.
 struct Residual {
   OwnedVec vector;
   double rounding = 0;  ///< rounding error in the 2-norm
@@ -28,9 +28,9 @@ struct Refinement {
 
 /// Collective. Improves y by the steps
 ///   y ← y − A⁻¹ F(y)
-/// until the residual F(y) is down to rounding or a step no longer halves it. `inner` solves with A
-/// to a few digits. A step that does not make the residual smaller is undone. `residual` returns
-/// F(y), in the layout of y.
+/// until the residual F(y) is down to rounding, a step no longer halves it, or 20 steps have been
+/// made. `inner` solves with A to a few digits. A step that does not make the residual smaller is
+/// undone. `residual` returns F(y), in the layout of y.
 Refinement refine(KSP inner, const std::function<Residual(Vec)>& residual, Vec y);
 
 /// Collective. Returns GMRES for A = `matrix`, with the tolerance that a step of refinement needs.

@@ -185,9 +185,10 @@ double Problem::largestDisplacement(const sweep::Parameters& at, Vec x) const {
   return largest;
 }
 
-/// Solves the problem with the gaps of the active set held at zero. Under approximation A it is
-/// linear. With convective terms the matrix leaves out K^R and the turning of the slip, which are
-/// small and cost a few more steps of refinement.
+/// Collective. Solves the problem with the gaps of the active set held at zero, and returns the
+/// solution in the unknowns with all gaps. Under approximation A it is linear. With convective
+/// terms the matrix leaves out K^R and the turning of the slip, which are small and cost a few more
+/// steps of refinement.
 OwnedVec Problem::closedContact(const sweep::Parameters& at, const contact::CoupledSystem& system,
                                 Refinement& refinement) const {
   const auto& closed = system.transformation();

@@ -1,5 +1,5 @@
 #pragma once
-/// Steady sliding (paper, section 3): equilibrium with
+/// Steady sliding (paper, section 3) is equilibrium with
 ///   g ≥ 0,   R_N ≥ 0,   g R_N = 0   [3.3],   R_T = −f φ R_N τ   [3.4].
 #include <optional>
 #include <string>
@@ -35,7 +35,7 @@ struct Solution {
   sweep::Parameters at;
   bool converged = false;
   std::string reason;  ///< SNES converged reason, or why there is no solution
-  int iterations = 0;
+  int iterations = 0;  ///< Newton steps of SNES; 0 where it is not called
   /// Relative residual: its 2-norm divided by that without displacements [M.15].
   double residual = 0;
   OwnedVec displacement;              ///< u, N entries, m
@@ -49,7 +49,7 @@ struct Solution {
                          ///< the magnitudes of all nodal forces
 };
 
-/// The complementarity problem [3.3–3.4, M.13]: with u = T x + p u0,
+/// The complementarity problem [3.3–3.4, M.13] is, with u = T x + p u0,
 ///   r = (K + v² K^R) u − b,   b = p × pressures + v² × centrifugal forces,
 ///   F(x) = Tᵀ r + f Sᵀ N r,
 ///   0 ≤ g ⟂ F_g = R_N ≥ 0 at the gaps,   F = 0 in all other rows.
@@ -61,8 +61,9 @@ class Problem {
   Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
           const contact::Contact& contact);
   /// Collective. Solves by SNES VI (-steady_snes_*), starting from the solution with the active set
-  /// of `system` held closed, which its factorisation gives. Throws Error if |w| = 0 at a node that
-  /// carries friction.
+  /// of `system` held closed, which its factorisation gives. On tri6 and quad8 faces that solution
+  /// alone is taken, if no pressure is negative. `converged` and `reason` tell whether there is a
+  /// solution. Throws Error if f > 0 and |w| = 0 at a node that carries friction.
   Solution solve(const sweep::Parameters& at, const contact::CoupledSystem& system) const;
 
   /// Collective. Sets f = F(x), n entries.

@@ -66,7 +66,7 @@ OwnedMat shell(Condensed& condensed, PetscErrorCode (*multiply)(Mat, Vec, Vec)) 
   return matrix;
 }
 
-/// Returns the smallest μ of
+/// Collective. Returns the smallest μ of [M.19]
 ///   sym(A1) v = μ A0 v;
 /// none if SLEPc does not converge. The smallest eigenvalues of sym(A(f)) itself belong to forces
 /// that alternate from node to node: they are close together, scale with the mesh size and hardly

@@ -26,12 +26,13 @@ struct Sweep {
   std::optional<std::size_t> earlierNeighbour(std::size_t steadyPoint) const;
 };
 
-/// Returns the sweep that the options ask for. Throws Error if a list is empty, if a value is out
-/// of range or given twice, or if there are more than `mostPoints` points.
+/// Not collective. Returns the sweep that the options ask for. Throws Error if a list is empty, if
+/// a value is out of range or given twice, or if there are more than `mostPoints` points.
 Sweep readSweep();
+/// The largest number of points of a sweep.
 inline constexpr double mostPoints = 100'000;
-/// Collective. Warns, with an estimate of the time, where the eigenvalue problems of 1000 points or
-/// more take long. `modes` is the number of free modes.
+/// Collective. Warns of a sweep of 1000 points or more, with an estimate of the time that its
+/// eigenvalue problems take. `modes` is the number of free modes.
 void warnOfLongSweep(MPI_Comm comm, const Sweep& sweep, int modes);
 /// Returns the indices of the points in the order in which they are solved with one growing basis,
 /// in batches of 5, 16, 16, … points. A point of the largest friction is first; each next point is
