@@ -276,60 +276,44 @@ class Follower {
     return true;
   }
 
-  /// Appends events for three or more eigenvalues that are equal at one end and change their
-  /// stability. Returns false if a change is not found.
+  /// Appends events where three or more eigenvalues are equal at one end and change their stability
+  /// right there. Returns false if they change it elsewhere.
   bool atEnd(StepResult& step, const Solved& a, const Solved& b,
              const std::vector<linalg::DensePair>& here,
              const std::vector<linalg::DensePair>& there, const std::vector<int>& ids,
              const std::vector<std::size_t>& mate) {
     const bool damped = b.spectrum.damped(), equalBelow = coincide(here);
-    const Solved& apart = equalBelow ? b : a;
-    const double equalAt = equalBelow ? a.station.friction : b.station.friction;
-    const Complex equal = mean(equalBelow ? here : there);
+    const Solved &equal = equalBelow ? a : b, &apart = equalBelow ? b : a;
+    const Complex s = mean(equalBelow ? here : there);
     for (std::size_t k = 0; k < here.size(); ++k) {
       const int before = growthOf(here, k, damped), after = growthOf(there, mate[k], damped);
       if (!changes(before, after)) continue;
-      if (coincide(here) && coincide(there)) return false;
-      Event event{Event::Kind::coalescence, ids[k], -1, after > before, equalAt, equalAt, {here[k]},
-                  {there[mate[k]]},         0};
-      const auto& pair = equalBelow ? event.above[0] : event.below[0];
-      // Damped eigenvalues part, and one of them crosses the imaginary axis: the friction goes back
-      // towards the one where they are equal, until that one has not yet crossed.
-      const bool atOnce = meetingPoint(equal, damped);
-      if (!atOnce) event.kind = Event::Kind::crossing;
-      if (approach(event, apart, equalAt, pair, equal) != !atOnce) return false;
-      step.events.push_back(std::move(event));
+      const auto& pair = equalBelow ? there[mate[k]] : here[k];
+      if (!meetingPoint(s, damped) || !growsFrom(equal.station.friction, s, apart, pair))
+        return false;
+      step.events.push_back({Event::Kind::coalescence,
+                             ids[k],
+                             -1,
+                             after > before,
+                             equal.station.friction,
+                             equal.station.friction,
+                             {here[k]},
+                             {there[mate[k]]},
+                             0});
     }
     return true;
   }
 
-  /// Brackets the crossing of one of several eigenvalues that are equal at `equalAt`, beginning
-  /// with `pair` at the other end: at `equalAt` the vectors cannot be told apart. Returns false if
-  /// its growth keeps its sign, and none if it is not found on the way.
-  std::optional<bool> approach(Event& event, const Solved& apart, double equalAt,
-                               const linalg::DensePair& pair, Complex equal) {
-    constexpr int halvings = 16;
-    double friction = apart.station.friction;
-    linalg::Spectrum last(apart.problem, {pair});
-    for (int k = 0; k < halvings; ++k) {
-      const double next = 0.5 * (friction + equalAt);
-      const Complex expected = 0.5 * (last.pairs()[0].s + equal);
-      event.isolation = std::abs(expected - equal);  // the others lie about the mean
-      const auto found = continuedTo(family_, next, last, expected, event.isolation);
-      if (!found) return {};
-      const bool crossed = (found->pairs()[0].s.real() > 0) != (last.pairs()[0].s.real() > 0);
-      if (crossed) {
-        const bool rising = next < friction;
-        event.low = rising ? next : friction;
-        event.high = rising ? friction : next;
-        event.below = (rising ? *found : last).pairs();
-        event.above = (rising ? last : *found).pairs();
-        return true;
-      }
-      friction = next;
-      last = *found;
+  /// Returns true if a pair of `apart` grows or decays all the way from where it equals others, s.
+  bool growsFrom(double equalAt, Complex s, const Solved& apart, const linalg::DensePair& pair) {
+    const linalg::Spectrum from(apart.problem, {pair});
+    for (double part = closer; part > 1e-5; part *= closer) {
+      const double friction = equalAt + part * (apart.station.friction - equalAt);
+      const Complex step = part * (pair.s - s);
+      const auto found = continuedTo(family_, friction, from, s + step, std::abs(step));
+      if (!found || found->pairs()[0].s.real() / pair.s.real() < 0.1 * part) return false;
     }
-    return false;
+    return true;
   }
 
   /// Follows two eigenvalues from one friction to another in their common subspace. `mate` becomes
