@@ -37,10 +37,6 @@ bool counted(const linalg::DenseProblem& problem, Complex s) {
   return !problem.damping.empty() || s.imag() != 0 || s.real() >= 0;
 }
 
-/// Returns a key that puts large shares first, and those that are not known (of a defective pair,
-/// NaN) last.
-double descending(double share) { return std::isnan(share) ? INFINITY : -share; }
-
 /// Returns true if |Σ tr(Π_i Π_j) − number| over all pairs of both, with the number of pairs of
 /// `a`, is at most 0.5. Returns false also where the sum is not known.
 bool shared(const linalg::Spectrum& a, const linalg::Spectrum& b) {
@@ -71,7 +67,7 @@ std::vector<std::size_t> closest(const linalg::Spectrum& from, const linalg::Spe
   for (std::size_t j = 0; j < all.pairs().size(); ++j) {
     Complex sum = 0;
     for (std::size_t i = 0; i < from.pairs().size(); ++i) sum += from.overlap(i, all, j);
-    shares.emplace_back(descending(sum.real()), j);
+    shares.emplace_back(std::isnan(sum.real()) ? INFINITY : -sum.real(), j);
   }
   std::sort(shares.begin(), shares.end());
   std::vector<std::size_t> indices;
@@ -188,9 +184,10 @@ std::vector<std::size_t> assigned(const linalg::Spectrum& here, const linalg::Sp
                                   const Group& group) {
   std::vector<std::tuple<double, std::size_t, std::size_t>> list;
   for (std::size_t a = 0; a < group.here.size(); ++a)
-    for (std::size_t b = 0; b < group.there.size(); ++b)
-      list.emplace_back(descending(std::abs(here.overlap(group.here[a], there, group.there[b]))), a,
-                        b);
+    for (std::size_t b = 0; b < group.there.size(); ++b) {
+      const double overlap = std::abs(here.overlap(group.here[a], there, group.there[b]));
+      list.emplace_back(std::isnan(overlap) ? INFINITY : -overlap, a, b);
+    }
   std::sort(list.begin(), list.end());
   std::vector<std::size_t> mate(group.here.size(), group.there.size());
   std::vector<bool> used(group.there.size());

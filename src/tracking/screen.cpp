@@ -77,7 +77,7 @@ class Dip {
     for (int k = 0;; ++k) {
       if (!std::isfinite(middle)) return Result::unknown;
       if (middle < 0) return Result::negative;
-      if (middle < nothing_) return Result::positive;
+      if (middle <= nothing_) return Result::positive;
       if (k == most) return Result::unknown;
       const double centre = at_, low = std::max(centre - reach, 0.0),
                    high = std::min(centre + reach, 1.0);
@@ -101,15 +101,6 @@ class Dip {
       middle = value(at_);
       reach = inside ? std::clamp(std::sqrt(std::abs(middle) / curvature), 1e-6, reach) : 2 * reach;
     }
-  }
-  /// Decides by a single point, where nothing is known of the size of the values: `zero()` says
-  /// whether the value last taken counts as zero.
-  template <class Function, class Zero>
-  Result decide(double t, const Function& value, const Zero& zero) {
-    at_ = t;
-    const double middle = value(t);
-    if (!std::isfinite(middle)) return Result::unknown;
-    return middle < 0 && !zero() ? Result::negative : Result::positive;
   }
   double at() const { return at_; }
 
@@ -137,14 +128,13 @@ class Screening {
     const auto still = [&](const ContinuedPair& single) {
       return neutral(single.below.s, damped()) && neutral(single.above.s, damped());
     };
-    for (std::size_t i = 0; i < singles_.size(); ++i) {
+    for (std::size_t i = 0; i < singles_.size(); ++i)
       if (!still(singles_[i])) {
         arch(i);
-        continue;
+      } else {
+        for (std::size_t j = 0; j < i; ++j)
+          if (still(singles_[j])) merger(i, j);
       }
-      for (std::size_t j = 0; j < i; ++j)
-        if (still(singles_[j])) merger(i, j);
-    }
   }
 
  private:
@@ -196,14 +186,15 @@ class Screening {
     if (crossing) t = d0 / (d0 - d1);
     const std::vector<linalg::DensePair> below{a.below, b.below}, above{a.above, b.above};
     const double isolation = isolationOf(i, j);
-    const auto value = [&](double at) { return examine(at, below, above, isolation); };
     Dip dip(d0 * d0, d1 * d1);
     // Where they are equal at both ends, differences are rounding: only a growth that counts as
     // such tells of a merger.
     const bool equalTwice = coincide(below) && coincide(above);
-    const auto result = equalTwice
-                            ? dip.decide(0.5, value, [&] { return neutralPair(found_, damped()); })
-                            : dip.search(t, value);
+    const auto result = dip.search(equalTwice ? 0.5 : t, [&](double at) {
+      const double value = examine(at, below, above, isolation);
+      const bool nothing = equalTwice && !std::isnan(value) && neutralPair(found_, damped());
+      return nothing ? 0 : value;
+    });
     const bool lower = d0 < 0;  // a is: it becomes the growing one
     record(result, dip,
            {Event::Kind::coalescence, lower ? a.branch : b.branch, lower ? b.branch : a.branch,

@@ -263,17 +263,21 @@ class Follower {
           high{b.station.friction, linalg::Spectrum(b.problem, there)};
       const double smallest = std::ldexp(high.friction - low.friction, -14);
       if (!trace(low, high, ids, isolation(a, b, group), smallest, mate, traced)) return false;
-    } else if (coincide(here) || coincide(there)) {
-      mate = ordered(here, there);
-      if (!atEnd(traced, a, b, here, there, ids, mate)) return false;
-    } else {
+    } else if (mate = ordered(here, there); !(coincide(here) || coincide(there)) ||
+                                            !atEnd(traced, a, b, here, there, ids, mate)) {
       return false;
     }
-    for (auto& event : traced.events) step.events.push_back(std::move(event));
-    for (auto& gap : traced.gaps) step.gaps.push_back(std::move(gap));
+    step.events.insert(step.events.end(), traced.events.begin(), traced.events.end());
+    step.gaps.insert(step.gaps.end(), traced.gaps.begin(), traced.gaps.end());
     for (std::size_t k = 0; k < mate.size(); ++k)
       step.links.push_back({group.here[k], group.there[mate[k]], 1});
     return true;
+  }
+
+  /// An event where equal eigenvalues part at once.
+  static Event parting(int branch, bool loss, double friction, const linalg::DensePair& below,
+                       const linalg::DensePair& above) {
+    return {Event::Kind::coalescence, branch, -1, loss, friction, friction, {below}, {above}, 0};
   }
 
   /// Appends events where three or more eigenvalues are equal at one end and change their stability
@@ -283,35 +287,20 @@ class Follower {
              const std::vector<linalg::DensePair>& there, const std::vector<int>& ids,
              const std::vector<std::size_t>& mate) {
     const bool damped = b.spectrum.damped(), equalBelow = coincide(here);
-    const Solved &equal = equalBelow ? a : b, &apart = equalBelow ? b : a;
+    const Solved& apart = equalBelow ? b : a;
     const Complex s = mean(equalBelow ? here : there);
+    const double equalAt = (equalBelow ? a : b).station.friction,
+                 near = equalAt + closer * (apart.station.friction - equalAt);
     for (std::size_t k = 0; k < here.size(); ++k) {
       const int before = growthOf(here, k, damped), after = growthOf(there, mate[k], damped);
       if (!changes(before, after)) continue;
       const auto& pair = equalBelow ? there[mate[k]] : here[k];
-      if (!meetingPoint(s, damped) || !growsFrom(equal.station.friction, s, apart, pair))
+      const Complex way = closer * (pair.s - s);
+      const auto found = continuedTo(family_, near, linalg::Spectrum(apart.problem, {pair}),
+                                     s + way, std::abs(way));
+      if (!meetingPoint(s, damped) || !found || found->pairs()[0].s.real() / way.real() < 0.1)
         return false;
-      step.events.push_back({Event::Kind::coalescence,
-                             ids[k],
-                             -1,
-                             after > before,
-                             equal.station.friction,
-                             equal.station.friction,
-                             {here[k]},
-                             {there[mate[k]]},
-                             0});
-    }
-    return true;
-  }
-
-  /// Returns true if a pair of `apart` grows or decays all the way from where it equals others, s.
-  bool growsFrom(double equalAt, Complex s, const Solved& apart, const linalg::DensePair& pair) {
-    const linalg::Spectrum from(apart.problem, {pair});
-    for (double part = closer; part > 1e-5; part *= closer) {
-      const double friction = equalAt + part * (apart.station.friction - equalAt);
-      const Complex step = part * (pair.s - s);
-      const auto found = continuedTo(family_, friction, from, s + step, std::abs(step));
-      if (!found || found->pairs()[0].s.real() / pair.s.real() < 0.1 * part) return false;
+      step.events.push_back(parting(ids[k], after > before, equalAt, here[k], there[mate[k]]));
     }
     return true;
   }
@@ -348,26 +337,21 @@ class Follower {
       clear = clear && std::abs(low.spectrum.overlap(i, high.spectrum, mate[i]) - 1.0) < 0.25;
       clear = clear && std::abs(low.spectrum.overlap(i, high.spectrum, mate[1 - i])) < 0.25;
     }
-    const auto cross = [&] {
-      for (std::size_t i = 0; i < 2; ++i)
+    // A change of stability is sought on still smaller steps.
+    const bool changed = unstable(a, damped) != unstable(b, damped);
+    if (clear || high.friction - low.friction < (changed ? least * smallest : smallest)) {
+      for (std::size_t i = 0; i < 2 && (clear || changed);
+           ++i)  // whichever is which, as many change
         crossed(step, low.friction, high.friction, {a[i]}, {b[mate[i]]}, sign(a[i].s, damped),
                 sign(b[mate[i]].s, damped), ids[i],
                 std::min(isolation, 2 * std::abs(a[0].s - mean(a))));
-    };
-    if (clear) {
-      cross();
-      return true;
-    }
-    // A change of stability is sought on still smaller steps.
-    const bool changed = unstable(a, damped) != unstable(b, damped);
-    if (high.friction - low.friction < (changed ? leastFor(smallest) : smallest)) {
-      if (changed) cross();  // whichever is which, as many change
-      step.gaps.push_back(
-          {low.friction, high.friction,
-           formatted("two eigenvalues near %.6g Hz too close to tell apart: both are "
-                     "there, which is which is not certain",
-                     mean(a).imag() / (2 * M_PI)),
-           true});
+      if (!clear)
+        step.gaps.push_back(
+            {low.friction, high.friction,
+             formatted("two eigenvalues near %.6g Hz too close to tell apart: both are there, "
+                       "which is which is not certain",
+                       mean(a).imag() / (2 * M_PI)),
+             true});
       return true;
     }
     const double middle = 0.5 * (low.friction + high.friction);
@@ -376,10 +360,6 @@ class Follower {
     if (!found) return false;
     return traceBy({middle, *found}, low, high, ids, isolation, smallest, mate, step);
   }
-
-  /// Returns the smallest step to look for a change of stability, for that to tell two eigenvalues
-  /// apart.
-  static double leastFor(double smallest) { return std::ldexp(smallest, -16); }
 
   /// Follows two eigenvalues from `low` to `high` by a friction in between.
   bool traceBy(const PairAt& between, const PairAt& low, const PairAt& high,
@@ -394,7 +374,8 @@ class Follower {
     return true;
   }
 
-  static constexpr double closer = 1. / 16;  // part of a step, to approach equal eigenvalues
+  static constexpr double closer = 1. / 16;    // part of a step, to approach equal eigenvalues
+  static constexpr double least = 1. / 65536;  // of `smallest`, to look for a change of stability
 
   /// Returns the two eigenvalues at a part of the way from where they are equal to `apart`.
   std::optional<PairAt> within(const PairAt& equal, const PairAt& apart, double part,
@@ -412,18 +393,14 @@ class Follower {
                   std::optional<PairAt>& between) {
     const bool damped = apart.spectrum.damped();
     PairAt last = apart;
-    while (std::abs(last.friction - equal.friction) > smallest) {
+    while (!between && std::abs(last.friction - equal.friction) > smallest) {
       auto found = within(equal, last, closer, isolation);
       if (!found) return false;
-      if (coincide(found->pairs())) return true;
+      if (coincide(found->pairs())) break;
       // In a problem in s² the growth may be too small here to count as such.
-      const bool parted = damped
-                              ? unstable(found->pairs(), damped) == unstable(apart.pairs(), damped)
-                              : discriminant(found->pairs(), damped) < 0;
-      if (!parted) {
-        between = std::move(found);
-        return true;
-      }
+      if (damped ? unstable(found->pairs(), true) != unstable(apart.pairs(), true)
+                 : discriminant(found->pairs(), false) > 0)
+        between = found;
       last = std::move(*found);
     }
     return true;
@@ -440,47 +417,33 @@ class Follower {
     const bool damped = low.spectrum.damped(), equalBelow = coincide(a),
                equalTwice = equalBelow && coincide(b);
     mate = ordered(a, b);
-    std::vector<int> before, after;
-    bool changed = false;
-    for (std::size_t k = 0; k < 2; ++k) {
-      before.push_back(growthOf(a, k, damped));
-      after.push_back(growthOf(b, mate[k], damped));
-      changed = changed || changes(before[k], after[k]);
-    }
-    if (!changed) return true;
+    const auto before = [&](std::size_t k) { return growthOf(a, k, damped); };
+    const auto after = [&](std::size_t k) { return growthOf(b, mate[k], damped); };
+    if (!changes(before(0), after(0)) && !changes(before(1), after(1))) return true;
     const PairAt &equal = equalBelow ? low : high, &apart = equalBelow ? high : low;
-    const double width = high.friction - low.friction;
     if (!equalTwice && meetingPoint(mean(equal.pairs()), damped) &&
         (damped || splitPair(apart.pairs(), damped))) {
       std::optional<PairAt> between;
       if (!partAtOnce(equal, apart, isolation, smallest, between)) return false;
       if (between) return traceBy(*between, low, high, ids, isolation, smallest, mate, step);
       for (std::size_t k = 0; k < 2; ++k)
-        if (changes(before[k], after[k]))
-          step.events.push_back({Event::Kind::coalescence,
-                                 ids[k],
-                                 -1,
-                                 after[k] > before[k],
-                                 equal.friction,
-                                 equal.friction,
-                                 {a[k]},
-                                 {b[mate[k]]},
-                                 0});
+        if (changes(before(k), after(k)))
+          step.events.push_back(
+              parting(ids[k], after(k) > before(k), equal.friction, a[k], b[mate[k]]));
       return true;
     }
-    if (width < leastFor(smallest)) {
-      const double distance = std::abs(apart.pairs()[0].s - mean(apart.pairs()));
-      for (std::size_t k = 0; k < 2; ++k)
-        crossed(step, low.friction, high.friction, {a[k]}, {b[mate[k]]}, before[k], after[k],
-                ids[k], std::min(isolation, 2 * distance));
-      return true;
+    const bool last = high.friction - low.friction < least * smallest;
+    if (!last) {
+      const auto found = within(equal, apart, equalTwice ? 0.5 : closer, isolation);
+      if (!found) return false;
+      if (!equalTwice || !coincide(found->pairs()))
+        return traceBy(*found, low, high, ids, isolation, smallest, mate, step);
     }
-    const auto found = within(equal, apart, equalTwice ? 0.5 : closer, isolation);
-    if (!found) return false;
-    if (!equalTwice || !coincide(found->pairs()))
-      return traceBy(*found, low, high, ids, isolation, smallest, mate, step);
-    for (std::size_t k = 0; k < 2; ++k)  // they cross together
-      crossed(step, low.friction, high.friction, a, b, before[k], after[k], ids[k], isolation);
+    const bool together = equalTwice && !last;
+    for (std::size_t k = 0; k < 2; ++k)
+      crossed(step, low.friction, high.friction, together ? a : chosen(a, {k}),
+              together ? b : chosen(b, {mate[k]}), before(k), after(k), ids[k],
+              together ? isolation : std::abs(apart.pairs()[0].s - apart.pairs()[1].s));
     return true;
   }
 
