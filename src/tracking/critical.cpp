@@ -124,9 +124,9 @@ class Root {
       case Event::Kind::coalescence:
         return discriminant(pairs, spectrum.damped());
       case Event::Kind::divergence:
-        return throughZero_ ? pairs[0].s.real() : (pairs[0].s * pairs[0].s).real();
+        return throughZero_ ? mean(pairs).real() : (mean(pairs) * mean(pairs)).real();
       case Event::Kind::crossing:
-        return pairs[0].s.real();
+        return mean(pairs).real();  // of two equal ones, where they cross together
     }
     return NAN;
   }
@@ -192,10 +192,14 @@ class Root {
     double low = valueAt(family, event_.low), high = valueAt(family, event_.high);
     if (std::isnan(low)) low = known_[0].value;
     if (std::isnan(high)) high = known_[1].value;
-    return (low > 0) == (high > 0) ? NAN : searched(family, low, high, rootTolerance());
+    return searched(family, low, high, rootTolerance());
   }
 
+  /// Returns NaN if the values at both ends of the bracket have the same sign.
   double searched(Family& family, double low, double high, double tolerance) {
+    if (low == 0) return event_.low;
+    if (high == 0) return event_.high;
+    if ((low > 0) == (high > 0)) return NAN;
     BracketedRoot search(event_.low, low, event_.high, high, tolerance);
     while (!search.done()) {
       const double value = valueAt(family, search.next());
@@ -214,6 +218,7 @@ class Root {
     known_.push_back(start);
     const double left = std::max(event_.low, friction_ - 1e-5 * width());
     double at = std::min(event_.high, friction_ + 1e-5 * width()), last = INFINITY;
+    if (!(left < at)) return searchedAnew(family);  // the difference would be below rounding
     const double before = valueAt(family, left);
     double value = valueAt(family, at);
     slope_ = (value - before) / (at - left);

@@ -24,8 +24,9 @@ class Family {
   /// none where it does not exist, for example because the contact opens.
   virtual std::optional<linalg::DenseProblem> at(double friction) = 0;
   /// Not collective. Returns the same problem. Where at() would need other ranks, its matrices are
-  /// interpolated between the known frictions, at which they are exact. A root found so is made
-  /// exact by improve().
+  /// interpolated between the known frictions. At these they are exact for the basis in which they
+  /// became known; in one that has grown since, their new rows and columns are zero. A root found
+  /// so is made exact by improve().
   virtual std::optional<linalg::DenseProblem> near(double friction) { return at(friction); }
   /// Collective. Makes these frictions known to near().
   virtual void know(const std::vector<double>&) {}

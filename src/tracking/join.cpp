@@ -37,12 +37,13 @@ bool counted(const linalg::DenseProblem& problem, Complex s) {
   return !problem.damping.empty() || s.imag() != 0 || s.real() >= 0;
 }
 
-/// Returns |Σ tr(Π_i Π_j) − number| over all pairs of both, with the number of pairs of `a`.
-double unshared(const linalg::Spectrum& a, const linalg::Spectrum& b) {
+/// Returns true if |Σ tr(Π_i Π_j) − number| over all pairs of both, with the number of pairs of
+/// `a`, is at most 0.5. Returns false also where the sum is not known.
+bool shared(const linalg::Spectrum& a, const linalg::Spectrum& b) {
   Complex sum = 0;
   for (std::size_t i = 0; i < a.pairs().size(); ++i)
     for (std::size_t j = 0; j < b.pairs().size(); ++j) sum += a.overlap(i, b, j);
-  return std::abs(sum - a.pairs().size());
+  return std::abs(sum - a.pairs().size()) <= 0.5;  // false for NaN
 }
 
 std::optional<linalg::Spectrum> locally(const linalg::DenseProblem& problem,
@@ -56,7 +57,7 @@ std::optional<linalg::Spectrum> locally(const linalg::DenseProblem& problem,
       if (pair.s.imag() < -1e-9 * std::abs(pair.s) || (real(pair.s) && pair.s.real() < 0))
         pair.s = -pair.s;
   linalg::Spectrum found(problem, std::move(cluster.pairs));
-  if (unshared(from, found) > 0.5) return {};
+  if (!shared(from, found)) return {};
   return found;
 }
 
@@ -66,7 +67,7 @@ std::vector<std::size_t> closest(const linalg::Spectrum& from, const linalg::Spe
   for (std::size_t j = 0; j < all.pairs().size(); ++j) {
     Complex sum = 0;
     for (std::size_t i = 0; i < from.pairs().size(); ++i) sum += from.overlap(i, all, j);
-    shares.emplace_back(-sum.real(), j);
+    shares.emplace_back(std::isnan(sum.real()) ? INFINITY : -sum.real(), j);
   }
   std::sort(shares.begin(), shares.end());
   std::vector<std::size_t> indices;
@@ -86,7 +87,7 @@ std::optional<linalg::Spectrum> continuedIn(const linalg::DenseProblem& problem,
   const linalg::Spectrum all(problem, std::move(pairs));
   const auto indices = closest(from, all);
   const linalg::Spectrum whole(problem, chosen(all.pairs(), indices));
-  if (unshared(from, whole) > 0.5) return {};
+  if (!shared(from, whole)) return {};
   const Complex middle = mean(whole.pairs());
   double free = std::abs(middle);
   for (std::size_t j = 0; j < all.pairs().size(); ++j)
@@ -183,8 +184,10 @@ std::vector<std::size_t> assigned(const linalg::Spectrum& here, const linalg::Sp
                                   const Group& group) {
   std::vector<std::tuple<double, std::size_t, std::size_t>> list;
   for (std::size_t a = 0; a < group.here.size(); ++a)
-    for (std::size_t b = 0; b < group.there.size(); ++b)
-      list.emplace_back(-std::abs(here.overlap(group.here[a], there, group.there[b])), a, b);
+    for (std::size_t b = 0; b < group.there.size(); ++b) {
+      const double overlap = std::abs(here.overlap(group.here[a], there, group.there[b]));
+      list.emplace_back(std::isnan(overlap) ? INFINITY : -overlap, a, b);
+    }
   std::sort(list.begin(), list.end());
   std::vector<std::size_t> mate(group.here.size(), group.there.size());
   std::vector<bool> used(group.there.size());

@@ -61,26 +61,29 @@ struct Cubic {
 class Dip {
  public:
   enum class Result { negative, positive, unknown };
-  /// `scale` is the size of the values at the ends; 1e-10 of it counts as zero.
-  explicit Dip(double scale) : nothing_(1e-10 * scale) {}
+  /// Takes the values at the ends; 1e-10 of the larger one counts as zero.
+  Dip(double atLow, double atHigh)
+      : atLow_(atLow), atHigh_(atHigh), nothing_(1e-10 * std::max(atLow, atHigh)) {}
 
   /// Searches from t by parabolas through three points, which come closer as the minimum
-  /// approaches zero. `value(t)` is NaN where it is not known.
+  /// approaches zero. `value(t)` is NaN where it is not known. If the last parabola has not
+  /// decided, the result is unknown.
   template <class Function>
   Result search(double t, const Function& value) {
     constexpr int most = 6;
     double reach = 0.05;
     at_ = t;
     double middle = value(t);
-    for (int k = 0; k < most; ++k) {
+    for (int k = 0;; ++k) {
       if (!std::isfinite(middle)) return Result::unknown;
       if (middle < 0) return Result::negative;
-      if (middle < nothing_) return Result::positive;
-      const double centre = at_, low = std::max(centre - reach, 0.5 * centre),
-                   high = std::min(centre + reach, 0.5 * (1 + centre));
-      const double below = value(low);
+      if (middle <= nothing_) return Result::positive;
+      if (k == most) return Result::unknown;
+      const double centre = at_, low = std::max(centre - reach, 0.0),
+                   high = std::min(centre + reach, 1.0);
+      const double below = low > 0 ? value(low) : atLow_;
       if (below < 0) return at_ = low, Result::negative;
-      const double above = value(high);
+      const double above = high < 1 ? value(high) : atHigh_;
       if (above < 0) return at_ = high, Result::negative;
       if (!std::isfinite(below) || !std::isfinite(above)) return Result::unknown;
       const double left = (middle - below) / (centre - low),
@@ -88,19 +91,21 @@ class Dip {
       const double curvature = (right - left) / (high - low);
       const double vertex = 0.5 * (low + centre) - left / (2 * curvature);
       const double least = middle - curvature * (vertex - centre) * (vertex - centre);
-      if (curvature > 0 && vertex > low && vertex < high && least > 0.1 * middle)
-        return Result::positive;
-      at_ = curvature > 0 ? std::clamp(vertex, low, high) : below < above ? low : high;
+      const bool inside = curvature > 0 && vertex > low && vertex < high;
+      if (inside) {
+        if (least > 0.1 * middle) return Result::positive;
+      } else if (below < above ? low == 0 : high == 1) {
+        return Result::positive;  // it falls to an end of the step and is positive there
+      }
+      at_ = inside ? vertex : below < above ? low : high;
       middle = value(at_);
-      reach =
-          std::clamp(curvature > 0 ? std::sqrt(std::abs(middle) / curvature) : reach, 1e-6, reach);
+      reach = inside ? std::clamp(std::sqrt(std::abs(middle) / curvature), 1e-6, reach) : 2 * reach;
     }
-    return Result::positive;
   }
   double at() const { return at_; }
 
  private:
-  double nothing_, at_ = 0;
+  double atLow_, atHigh_, nothing_, at_ = 0;
 };
 
 /// The examination of one step.
@@ -120,19 +125,21 @@ class Screening {
   }
 
   void run() {
-    const bool damped = !low_.problem.damping.empty();
-    for (std::size_t i = 0; i < singles_.size(); ++i) {
-      const bool still =
-          neutral(singles_[i].below.s, damped) && neutral(singles_[i].above.s, damped);
-      if (!still) arch(i);
-      for (std::size_t j = 0; still && j < i; ++j)
-        if (neutral(singles_[j].below.s, damped) && neutral(singles_[j].above.s, damped))
-          merger(i, j);
-    }
+    const auto still = [&](const ContinuedPair& single) {
+      return neutral(single.below.s, damped()) && neutral(single.above.s, damped());
+    };
+    for (std::size_t i = 0; i < singles_.size(); ++i)
+      if (!still(singles_[i])) {
+        arch(i);
+      } else {
+        for (std::size_t j = 0; j < i; ++j)
+          if (still(singles_[j])) merger(i, j);
+      }
   }
 
  private:
   double width() const { return high_.friction - low_.friction; }
+  bool damped() const { return !low_.problem.damping.empty(); }
 
   /// Returns the discriminant of two eigenvalues, or the growth rate of one, at t; NaN if the
   /// subspace is not found.
@@ -179,9 +186,15 @@ class Screening {
     if (crossing) t = d0 / (d0 - d1);
     const std::vector<linalg::DensePair> below{a.below, b.below}, above{a.above, b.above};
     const double isolation = isolationOf(i, j);
-    Dip dip(std::max(d0 * d0, d1 * d1));
-    const auto result =
-        dip.search(t, [&](double at) { return examine(at, below, above, isolation); });
+    Dip dip(d0 * d0, d1 * d1);
+    // Where they are equal at both ends, differences are rounding: only a growth that counts as
+    // such tells of a merger.
+    const bool equalTwice = coincide(below) && coincide(above);
+    const auto result = dip.search(equalTwice ? 0.5 : t, [&](double at) {
+      const double value = examine(at, below, above, isolation);
+      const bool nothing = equalTwice && !std::isnan(value) && neutralPair(found_, damped());
+      return nothing ? 0 : value;
+    });
     const bool lower = d0 < 0;  // a is: it becomes the growing one
     record(result, dip,
            {Event::Kind::coalescence, lower ? a.branch : b.branch, lower ? b.branch : a.branch,
@@ -210,7 +223,7 @@ class Screening {
     const double t = growth.lowest();
     if (growth(t) > 0.1 * std::min(sign * g0, sign * g1)) return;
     const std::vector<linalg::DensePair> below{a.below}, above{a.above};
-    Dip dip(std::max(sign * g0, sign * g1));
+    Dip dip(sign * g0, sign * g1);
     const auto result =
         dip.search(t, [&](double at) { return sign * examine(at, below, above, a.isolation); });
     record(result, dip,

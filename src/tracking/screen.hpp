@@ -23,7 +23,8 @@ struct StepEnd {
 /// the values and slopes at both ends tells which two neutral eigenvalues may meet and which growth
 /// rate may change its sign twice. These are examined in between by their own subspace. Mergers
 /// wider than about 1e-5 of the step are found, and so are arches of the growth rate whose cubic
-/// falls to a tenth of the values at the ends. If an examination fails, a gap is appended.
+/// falls to a tenth of the values at the ends. If an examination fails or does not decide, a gap is
+/// appended.
 void screen(Family& family, const StepEnd& low, const StepEnd& high,
             const std::vector<ContinuedPair>& singles, std::vector<Event>& events,
             std::vector<Gap>& gaps);

@@ -47,6 +47,23 @@ struct PairAt {
 
 int sign(Complex s, bool damped) { return neutral(s, damped) ? 0 : s.real() > 0 ? 1 : -1; }
 
+/// Returns the sign of the growth of pair k. Where all are equal, it is that of their mean:
+/// rounding parts them like a square root.
+int growthOf(const std::vector<linalg::DensePair>& pairs, std::size_t k, bool damped) {
+  return sign(coincide(pairs) ? mean(pairs) : pairs[k].s, damped);
+}
+
+/// Returns true if one of both signs of the growth is that of an unstable eigenvalue.
+bool changes(int before, int after) { return before != after && std::max(before, after) == 1; }
+
+/// Returns true if equal eigenvalues s may part there into a growing and a decaying one: they are
+/// neutral or, in a problem in s², real.
+bool meetingPoint(Complex s, bool damped) { return neutral(s, damped) || (!damped && real(s)); }
+
+int unstable(const std::vector<linalg::DensePair>& pairs, bool damped) {
+  return std::ranges::count_if(pairs, [&](const auto& p) { return sign(p.s, damped) > 0; });
+}
+
 class Follower {
  public:
   Follower(Family& family, const pencil::WatchedBand& band, const TrackLimits& limits)
@@ -210,17 +227,21 @@ class Follower {
     if (!matters(a, b, group)) return;
     const linalg::DensePair &p = a.spectrum.pairs()[i], &q = b.spectrum.pairs()[j];
     step.singles.push_back({branch, p, q, isolation(a, b, group)});
-    crossed(step, a.station.friction, b.station.friction, p, q, branch,
-            step.singles.back().isolation, a.spectrum.damped());
+    const bool damped = a.spectrum.damped();
+    crossed(step, a.station.friction, b.station.friction, {p}, {q}, sign(p.s, damped),
+            sign(q.s, damped), branch, step.singles.back().isolation);
   }
 
-  /// Appends an event if one eigenvalue changes its stability by itself.
-  static void crossed(StepResult& step, double low, double high, const linalg::DensePair& p,
-                      const linalg::DensePair& q, int branch, double isolation, bool damped) {
-    const int before = sign(p.s, damped), after = sign(q.s, damped);
+  /// Appends an event if an eigenvalue changes its stability by itself: the pair of `below`, or the
+  /// two there, where they are equal. `before` and `after` are the signs of the growth.
+  static void crossed(StepResult& step, double low, double high,
+                      const std::vector<linalg::DensePair>& below,
+                      const std::vector<linalg::DensePair>& above, int before, int after,
+                      int branch, double isolation) {
     if (before == after) return;
-    Event event{Event::Kind::crossing, branch, -1, after > before, low, high, {p}, {q}, isolation};
-    if (real(p.s) || real(q.s)) {
+    Event event{
+        Event::Kind::crossing, branch, -1, after > before, low, high, below, above, isolation};
+    if (real(below[0].s) || real(above[0].s)) {
       event.kind = Event::Kind::divergence;
     } else if (before * after == 0) {
       if (before + after < 0) return;  // between neutral and decaying: stable on both sides
@@ -236,75 +257,52 @@ class Follower {
                there = chosen(b.spectrum.pairs(), group.there);
     std::vector<std::size_t> mate;
     const std::vector<int> ids(group.here.begin(), group.here.end());
-    if (coincide(here) || coincide(there)) {
-      mate = ordered(here, there);
-      atEnd(step, a, b, here, there, ids, mate);
-    } else if (here.size() == 2) {
-      StepResult traced;
+    StepResult traced;
+    if (here.size() == 2) {
       const PairAt low{a.station.friction, linalg::Spectrum(a.problem, here)},
           high{b.station.friction, linalg::Spectrum(b.problem, there)};
       const double smallest = std::ldexp(high.friction - low.friction, -14);
       if (!trace(low, high, ids, isolation(a, b, group), smallest, mate, traced)) return false;
-      for (auto& event : traced.events) step.events.push_back(std::move(event));
-      for (auto& gap : traced.gaps) step.gaps.push_back(std::move(gap));
-    } else {
+    } else if (mate = ordered(here, there); !(coincide(here) || coincide(there)) ||
+                                            !atEnd(traced, a, b, here, there, ids, mate)) {
       return false;
     }
+    step.events.insert(step.events.end(), traced.events.begin(), traced.events.end());
+    step.gaps.insert(step.gaps.end(), traced.gaps.begin(), traced.gaps.end());
     for (std::size_t k = 0; k < mate.size(); ++k)
       step.links.push_back({group.here[k], group.there[mate[k]], 1});
     return true;
   }
 
-  /// Appends events for eigenvalues that are equal at one end and change their stability.
-  void atEnd(StepResult& step, const Solved& a, const Solved& b,
+  /// An event where equal eigenvalues part at once.
+  static Event parting(int branch, bool loss, double friction, const linalg::DensePair& below,
+                       const linalg::DensePair& above) {
+    return {Event::Kind::coalescence, branch, -1, loss, friction, friction, {below}, {above}, 0};
+  }
+
+  /// Appends events where three or more eigenvalues are equal at one end and change their stability
+  /// right there. Returns false if they change it elsewhere.
+  bool atEnd(StepResult& step, const Solved& a, const Solved& b,
              const std::vector<linalg::DensePair>& here,
              const std::vector<linalg::DensePair>& there, const std::vector<int>& ids,
              const std::vector<std::size_t>& mate) {
     const bool damped = b.spectrum.damped(), equalBelow = coincide(here);
     const Solved& apart = equalBelow ? b : a;
-    const double equalAt = equalBelow ? a.station.friction : b.station.friction;
+    const Complex s = mean(equalBelow ? here : there);
+    const double equalAt = (equalBelow ? a : b).station.friction,
+                 near = equalAt + closer * (apart.station.friction - equalAt);
     for (std::size_t k = 0; k < here.size(); ++k) {
-      const int before = sign(here[k].s, damped), after = sign(there[mate[k]].s, damped);
-      if (std::max(before, after) < 1 || before == after)
-        continue;  // stable or unstable on both sides
-      Event event{Event::Kind::coalescence, ids[k], -1, after > before, equalAt, equalAt, {here[k]},
-                  {there[mate[k]]},         0};
-      if (before * after != 0) {
-        // Damped eigenvalues part, and one of them crosses the imaginary axis: the friction goes
-        // back towards the one where they are equal, until that one has not yet crossed.
-        event.kind = Event::Kind::crossing;
-        approach(event, apart, equalAt, equalBelow ? event.above[0] : event.below[0],
-                 mean(equalBelow ? here : there));
-      }
-      step.events.push_back(std::move(event));
+      const int before = growthOf(here, k, damped), after = growthOf(there, mate[k], damped);
+      if (!changes(before, after)) continue;
+      const auto& pair = equalBelow ? there[mate[k]] : here[k];
+      const Complex way = closer * (pair.s - s);
+      const auto found = continuedTo(family_, near, linalg::Spectrum(apart.problem, {pair}),
+                                     s + way, std::abs(way));
+      if (!meetingPoint(s, damped) || !found || found->pairs()[0].s.real() / way.real() < 0.1)
+        return false;
+      step.events.push_back(parting(ids[k], after > before, equalAt, here[k], there[mate[k]]));
     }
-  }
-
-  /// Brackets the crossing of one of several eigenvalues that are equal at `equalAt`, beginning
-  /// with `pair` at the other end: at `equalAt` the vectors cannot be told apart.
-  void approach(Event& event, const Solved& apart, double equalAt, const linalg::DensePair& pair,
-                Complex equal) {
-    constexpr int halvings = 16;
-    double friction = apart.station.friction;
-    linalg::Spectrum last(apart.problem, {pair});
-    for (int k = 0; k < halvings; ++k) {
-      const double next = 0.5 * (friction + equalAt);
-      const Complex expected = 0.5 * (last.pairs()[0].s + equal);
-      event.isolation = std::abs(expected - equal);  // the others lie about the mean
-      const auto found = continuedTo(family_, next, last, expected, event.isolation);
-      if (!found) return;
-      const bool crossed = (found->pairs()[0].s.real() > 0) != (last.pairs()[0].s.real() > 0);
-      if (crossed) {
-        const bool rising = next < friction;
-        event.low = rising ? next : friction;
-        event.high = rising ? friction : next;
-        event.below = (rising ? *found : last).pairs();
-        event.above = (rising ? last : *found).pairs();
-        return;
-      }
-      friction = next;
-      last = *found;
-    }
+    return true;
   }
 
   /// Follows two eigenvalues from one friction to another in their common subspace. `mate` becomes
@@ -313,6 +311,8 @@ class Follower {
              double smallest, std::vector<std::size_t>& mate, StepResult& step) {
     const auto& a = low.pairs();
     const auto& b = high.pairs();
+    if (coincide(a) || coincide(b))
+      return traceFromEqual(low, high, ids, isolation, smallest, mate, step);
     const bool damped = low.spectrum.damped();
     const bool merging = neutralPair(a, damped) && splitPair(b, damped),
                parting = splitPair(a, damped) && neutralPair(b, damped);
@@ -330,10 +330,6 @@ class Follower {
                              low.friction, high.friction, a, b, isolation});
       return true;
     }
-    if (coincide(a) || coincide(b)) {
-      mate = ordered(a, b);
-      return true;
-    }
     const Group both{{0, 1}, {0, 1}, 0};
     mate = assigned(low.spectrum, high.spectrum, both);
     bool clear = true;
@@ -341,32 +337,113 @@ class Follower {
       clear = clear && std::abs(low.spectrum.overlap(i, high.spectrum, mate[i]) - 1.0) < 0.25;
       clear = clear && std::abs(low.spectrum.overlap(i, high.spectrum, mate[1 - i])) < 0.25;
     }
-    if (clear) {
-      for (std::size_t i = 0; i < 2; ++i)
-        crossed(step, low.friction, high.friction, a[i], b[mate[i]], ids[i],
-                std::min(isolation, 2 * std::abs(a[0].s - mean(a))), damped);
-      return true;
-    }
-    if (high.friction - low.friction < smallest) {
-      step.gaps.push_back(
-          {low.friction, high.friction,
-           formatted("two eigenvalues near %.6g Hz too close to tell apart: both are "
-                     "there, which is which is not certain",
-                     mean(a).imag() / (2 * M_PI)),
-           true});
+    // A change of stability is sought on still smaller steps.
+    const bool changed = unstable(a, damped) != unstable(b, damped);
+    if (clear || high.friction - low.friction < (changed ? least * smallest : smallest)) {
+      for (std::size_t i = 0; i < 2 && (clear || changed);
+           ++i)  // whichever is which, as many change
+        crossed(step, low.friction, high.friction, {a[i]}, {b[mate[i]]}, sign(a[i].s, damped),
+                sign(b[mate[i]].s, damped), ids[i],
+                std::min(isolation, 2 * std::abs(a[0].s - mean(a))));
+      if (!clear)
+        step.gaps.push_back(
+            {low.friction, high.friction,
+             formatted("two eigenvalues near %.6g Hz too close to tell apart: both are there, "
+                       "which is which is not certain",
+                       mean(a).imag() / (2 * M_PI)),
+             true});
       return true;
     }
     const double middle = 0.5 * (low.friction + high.friction);
     const auto found =
         continuedTo(family_, middle, low.spectrum, 0.5 * (mean(a) + mean(b)), isolation);
     if (!found) return false;
-    const PairAt between{middle, *found};
+    return traceBy({middle, *found}, low, high, ids, isolation, smallest, mate, step);
+  }
+
+  /// Follows two eigenvalues from `low` to `high` by a friction in between.
+  bool traceBy(const PairAt& between, const PairAt& low, const PairAt& high,
+               const std::vector<int>& ids, double isolation, double smallest,
+               std::vector<std::size_t>& mate, StepResult& step) {
     std::vector<std::size_t> first, second;
     if (!trace(low, between, ids, isolation, smallest, first, step)) return false;
     std::vector<int> idsBetween(2);
     for (std::size_t i = 0; i < 2; ++i) idsBetween[first[i]] = ids[i];
     if (!trace(between, high, idsBetween, isolation, smallest, second, step)) return false;
     mate = {second[first[0]], second[first[1]]};
+    return true;
+  }
+
+  static constexpr double closer = 1. / 16;    // part of a step, to approach equal eigenvalues
+  static constexpr double least = 1. / 65536;  // of `smallest`, to look for a change of stability
+
+  /// Returns the two eigenvalues at a part of the way from where they are equal to `apart`.
+  std::optional<PairAt> within(const PairAt& equal, const PairAt& apart, double part,
+                               double isolation) {
+    const double friction = equal.friction + part * (apart.friction - equal.friction);
+    const Complex expected = (1 - part) * mean(equal.pairs()) + part * mean(apart.pairs());
+    auto found = continuedTo(family_, friction, apart.spectrum, expected, isolation);
+    if (!found) return {};
+    return PairAt{friction, std::move(*found)};
+  }
+
+  /// Finds whether two eigenvalues part right where they are equal, into those at `apart`. If not,
+  /// `between` is where they have not yet done so. Returns false if they are lost on the way.
+  bool partAtOnce(const PairAt& equal, const PairAt& apart, double isolation, double smallest,
+                  std::optional<PairAt>& between) {
+    const bool damped = apart.spectrum.damped();
+    PairAt last = apart;
+    while (!between && std::abs(last.friction - equal.friction) > smallest) {
+      auto found = within(equal, last, closer, isolation);
+      if (!found) return false;
+      if (coincide(found->pairs())) break;
+      // In a problem in s² the growth may be too small here to count as such.
+      if (damped ? unstable(found->pairs(), true) != unstable(apart.pairs(), true)
+                 : discriminant(found->pairs(), false) > 0)
+        between = found;
+      last = std::move(*found);
+    }
+    return true;
+  }
+
+  /// Does the same as trace() for two eigenvalues that are equal at an end. If one of them changes
+  /// its stability, the step is cut ever closer to that end, for the change may lie anywhere beside
+  /// it.
+  bool traceFromEqual(const PairAt& low, const PairAt& high, const std::vector<int>& ids,
+                      double isolation, double smallest, std::vector<std::size_t>& mate,
+                      StepResult& step) {
+    const auto& a = low.pairs();
+    const auto& b = high.pairs();
+    const bool damped = low.spectrum.damped(), equalBelow = coincide(a),
+               equalTwice = equalBelow && coincide(b);
+    mate = ordered(a, b);
+    const auto before = [&](std::size_t k) { return growthOf(a, k, damped); };
+    const auto after = [&](std::size_t k) { return growthOf(b, mate[k], damped); };
+    if (!changes(before(0), after(0)) && !changes(before(1), after(1))) return true;
+    const PairAt &equal = equalBelow ? low : high, &apart = equalBelow ? high : low;
+    if (!equalTwice && meetingPoint(mean(equal.pairs()), damped) &&
+        (damped || splitPair(apart.pairs(), damped))) {
+      std::optional<PairAt> between;
+      if (!partAtOnce(equal, apart, isolation, smallest, between)) return false;
+      if (between) return traceBy(*between, low, high, ids, isolation, smallest, mate, step);
+      for (std::size_t k = 0; k < 2; ++k)
+        if (changes(before(k), after(k)))
+          step.events.push_back(
+              parting(ids[k], after(k) > before(k), equal.friction, a[k], b[mate[k]]));
+      return true;
+    }
+    const bool last = high.friction - low.friction < least * smallest;
+    if (!last) {
+      const auto found = within(equal, apart, equalTwice ? 0.5 : closer, isolation);
+      if (!found) return false;
+      if (!equalTwice || !coincide(found->pairs()))
+        return traceBy(*found, low, high, ids, isolation, smallest, mate, step);
+    }
+    const bool together = equalTwice && !last;
+    for (std::size_t k = 0; k < 2; ++k)
+      crossed(step, low.friction, high.friction, together ? a : chosen(a, {k}),
+              together ? b : chosen(b, {mate[k]}), before(k), after(k), ids[k],
+              together ? isolation : std::abs(apart.pairs()[0].s - apart.pairs()[1].s));
     return true;
   }
 

@@ -29,8 +29,10 @@ struct Event {
   bool loss = true;          ///< stability is lost with rising friction; false: it is regained
   double low = 0, high = 0;  ///< bracket of the friction; if equal, the event is at this friction,
                              ///< as where a double eigenvalue splits at once
-  std::vector<linalg::DensePair> below, above;  ///< the pairs concerned at `low` and at `high`
-  double isolation = 0;                         ///< distance from other eigenvalues, rad/s
+  /// The pairs concerned at `low` and at `high`. A crossing or divergence has two where equal
+  /// eigenvalues change their stability together: then each has an event with the mean of both.
+  std::vector<linalg::DensePair> below, above;
+  double isolation = 0;  ///< distance from other eigenvalues, rad/s
 };
 
 /// A range of frictions in which a continuation is not certain.
@@ -39,8 +41,8 @@ struct Gap {
   std::string what;           ///< the reason
   bool identityOnly = false;  ///< no eigenvalue is missing, but they cannot be told apart
 };
-/// The result of following.
 
+/// The result of following.
 struct Branches {
   pencil::WatchedBand band;
   std::vector<Station> stations;  ///< ascending friction
