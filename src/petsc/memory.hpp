@@ -1,5 +1,5 @@
 #pragma once
-/// Free memory, and messages where there is too little.
+/// These functions find the free memory, and report where there is too little.
 #include <petscsys.h>
 
 namespace squeal {
