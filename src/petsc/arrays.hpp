@@ -8,8 +8,8 @@ namespace squeal {
 
 /// A BorrowedArray gives access to the entries of a vector on this rank. The vector is borrowed
 /// during the life of the object, which must end before the vector is used otherwise or destroyed.
-/// A rank may read on its own. All ranks have to make a WriteArray together, since each rank keeps
-/// the norms of a vector until its own object has ended.
+/// A rank may read on its own. All ranks have to make a WriteArray together: PETSc keeps norms of a
+/// vector, and drops them only on the ranks that wrote.
 template <class Value, PetscErrorCode (*take)(Vec, Value**),
           PetscErrorCode (*giveBack)(Vec, Value**)>
 class BorrowedArray {
