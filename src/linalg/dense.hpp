@@ -12,8 +12,8 @@
 
 namespace squeal::linalg {
 
-/// A dense matrix that lives elsewhere, rows × columns, stored column by column without gaps. It is
-/// borrowed, and can be read only.
+/// A DenseView is a dense matrix that lives elsewhere, rows × columns, stored column by column
+/// without gaps. It is borrowed, and can be read only.
 class DenseView {
  public:
   DenseView(const double* entries, PetscInt rows, PetscInt columns)
@@ -41,8 +41,8 @@ class DenseView {
   PetscInt rows_, columns_;
 };
 
-/// A dense matrix of doubles or complex numbers, rows × columns, stored column by column. It grows
-/// by columns in place, within the room that has been reserved.
+/// A Dense is a matrix of doubles or complex numbers, rows × columns, stored column by column. It
+/// grows by columns in place, within the room that has been reserved.
 template <class Scalar>
 class Dense {
  public:

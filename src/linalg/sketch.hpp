@@ -1,5 +1,5 @@
 #pragma once
-/// Norms of tall vectors from a few random combinations of their entries.
+/// These functions estimate norms of tall vectors from a few random combinations of their entries.
 ///
 /// For a matrix Ω with k columns of independent random signs [M.39],
 ///   ‖Ωᵀ r‖² / k
