@@ -33,9 +33,9 @@ class BorrowedArray {
   Value* data_ = nullptr;
 };
 
-/// Entries to read. Several objects may read one vector at the same time.
+/// A ReadArray gives entries to read. Several of them may read one vector at the same time.
 using ReadArray = BorrowedArray<const PetscScalar, VecGetArrayRead, VecRestoreArrayRead>;
-/// Entries to read and to change.
+/// A WriteArray gives entries to read and to change.
 using WriteArray = BorrowedArray<PetscScalar, VecGetArray, VecRestoreArray>;
 
 }  // namespace squeal

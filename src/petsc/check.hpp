@@ -1,5 +1,5 @@
 #pragma once
-/// Errors, and their propagation to all ranks.
+/// This file holds errors, and shares them with all ranks.
 #include <petscsys.h>
 
 #include <new>
