@@ -1,5 +1,5 @@
 #pragma once
-/// A Session is that of MPI, PETSc, SLEPc and gmsh during main().
+/// This object holds the session of MPI, PETSc, SLEPc and gmsh during main().
 #include <mpi.h>
 
 #include <string>
