@@ -32,7 +32,7 @@ Block unitColumns(MPI_Comm comm, const Block& columns);
 /// has such rows at the contact nodes only, so that products need not touch the others.
 class RowSet {
  public:
-  /// Collective. The matrix is borrowed during this call only.
+  /// Collective. Finds the rows. The matrix is borrowed during this call only.
   explicit RowSet(Mat matrix);
   PetscInt size() const { return all_ ? localRows_ : std::ssize(rows_); }
   /// Returns true if the set holds all rows of the matrix, on every rank.

@@ -1,5 +1,5 @@
 #pragma once
-/// Small dense matrices, and the blocks of rows of tall ones, stored by columns.
+/// This file holds small dense matrices, and the blocks of rows of tall ones, stored by columns.
 #include <petscsys.h>
 
 #include <algorithm>

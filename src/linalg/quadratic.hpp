@@ -1,5 +1,5 @@
 #pragma once
-/// Small dense quadratic eigenproblems (s² M + s Z + K) q = 0, real unsymmetric matrices, by
+/// These functions solve small dense quadratic eigenproblems with real unsymmetric matrices, by
 /// LAPACK.
 #include <mpi.h>
 

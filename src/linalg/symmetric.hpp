@@ -1,5 +1,5 @@
 #pragma once
-/// Small dense symmetric eigenproblems, by LAPACK. Not collective.
+/// These functions solve small dense symmetric eigenproblems by LAPACK. Not collective.
 #include <vector>
 
 #include "linalg/dense.hpp"
