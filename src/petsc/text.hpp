@@ -1,5 +1,5 @@
 #pragma once
-/// These functions make text for messages and tables.
+/// These functions make text for messages and tables. Not collective.
 #include <string>
 #include <vector>
 
