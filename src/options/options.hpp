@@ -40,8 +40,8 @@ void applySolverOptions(const std::function<PetscErrorCode()>& configure);
 /// rule.
 void rejectUnknownOptions();
 
-/// Returns, at the end of a run, a line for each given option that was never read: "option -a 2
-/// (case.yaml, line 3) was not used: …".
+/// Not collective. Returns, at the end of a run, a line for each given option that was never read:
+/// "option -a 2 (case.yaml, line 3) was not used: …".
 std::vector<std::string> unusedOptions();
 
 /// Returns the manual that `-help` prints.

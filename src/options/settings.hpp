@@ -45,7 +45,7 @@ std::string located(const std::string& path, const std::string& namedIn);
 /// Collective. Returns the settings of rank 0 on all ranks.
 std::vector<Setting> onAllRanks(MPI_Comm comm, const std::vector<Setting>& ofRankZero);
 
-/// Puts options into PETSc's database and records their places.
+/// Not collective. Puts options into PETSc's database on this rank and records their places.
 void insert(const std::vector<Setting>& settings);
 
 /// Collective. Reads an options file on rank 0 and inserts its settings on all ranks.
