@@ -44,8 +44,9 @@ void print(const std::string& text);
 int outputError();
 /// Not collective. Prints a warning on the standard error output of rank 0, also with -quiet.
 void complain(MPI_Comm comm, const std::string& text);
-/// Returns all finished stages in order. The times of a stage that was finished several times, such
-/// as once per friction, are summed; its memory is that at the last end.
+/// Not collective. Returns all finished stages in order; borrowed. The times of a stage that was
+/// finished several times, such as once per friction, are summed; its memory is that at the last
+/// end.
 const std::vector<StageRecord>& stageRecords();
 
 }  // namespace squeal
