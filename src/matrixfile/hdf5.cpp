@@ -208,7 +208,7 @@ Entries readHere(const std::filesystem::path& path, const std::string& name) {
 
 }  // namespace
 
-/// The file is read in a child process, as the HDF5 library crashes on damaged files.
+/// Reads the file in a child process, as the HDF5 library crashes on damaged files.
 Entries readHdf5(const std::filesystem::path& path, const std::string& name) {
   const ChildLimits limits{"the HDF5 file", 5 + 1e-6 * std::filesystem::file_size(path),
                            availableMemory(), "it asks for more memory than is free",
