@@ -40,7 +40,7 @@ void append(Triples& triples, const mesh::Mesh& mesh, std::span<const PetscInt> 
 void addLoad(Vec load, const mesh::Mesh& mesh, std::span<const PetscInt> nodes,
              const std::vector<double>& values, double factor);
 
-/// Returns the coordinates of local nodes, [node], m.
+/// Not collective. Returns the coordinates of local nodes, [node], m.
 std::vector<Point> pointsOf(const mesh::Mesh& mesh, std::span<const PetscInt> nodes);
 
 /// A CellName names a cell for messages, in integers only, so that ranks can send it.

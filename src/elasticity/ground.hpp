@@ -19,7 +19,7 @@ struct Ground {
 /// is shared equally by its nodes. Throws Error for fewer components than dimensions.
 Ground readGround(const mesh::Mesh& mesh);
 
-/// Returns the groups with a `-ground_<group>_*` option.
+/// Not collective. Returns the groups with a `-ground_<group>_*` option.
 std::vector<mesh::GroupRequest> groundedGroups();
 
 }  // namespace squeal::elasticity

@@ -1,5 +1,6 @@
 #pragma once
-/// These functions read the materials of the bodies from the options.
+/// These functions read the materials of the bodies from the options. None is collective; all ranks
+/// have the same options, and so the same results and Errors.
 #include <string>
 #include <vector>
 

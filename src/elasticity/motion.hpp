@@ -2,6 +2,7 @@
 /// This file gives the base motion of a body's matter (paper, section 2), a rotation or a
 /// translation [2.1]:
 ///   V = ω k × (x − x0)   or   V = const.
+/// No function is collective; all ranks have the same options, and so the same results and Errors.
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,7 +11,7 @@
 
 namespace squeal::elasticity {
 
-/// The base motion of one body; all zero for a body at rest.
+/// The base motion of one body; both velocities are zero for a body at rest.
 struct Motion {
   mesh::Point translation{};  ///< m/s
   double speed = 0;           ///< ω, rad/s
