@@ -1,6 +1,6 @@
 #pragma once
 /// These functions are the vector algebra for building the contact matrices: N×N matrices that
-/// consist of a block per pair of nodes.
+/// consist of a block per pair of nodes. Only those that say so are collective.
 #include <string>
 #include <vector>
 

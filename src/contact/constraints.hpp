@@ -7,10 +7,10 @@
 
 namespace squeal::contact {
 
-/// Returns the groups with a clamp, for the mesh reader. Throws Error for a displacement without a
-/// clamp.
+/// Not collective. Returns the groups with a clamp, for the mesh reader. Throws Error for a
+/// displacement without a clamp.
 std::vector<mesh::GroupRequest> constrainedGroups();
-/// Returns the pairs of groups of which one is the periodic image of the other.
+/// Not collective. Returns the pairs of groups of which one is the periodic image of the other.
 std::vector<mesh::PeriodicRequest> periodicPairs();
 
 /// The Cartesian components of the displacement that are held at the nodes owned by this rank.

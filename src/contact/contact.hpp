@@ -114,9 +114,9 @@ struct Contact {
                             double friction) const;
 };
 
-/// Returns the contact interfaces that the options ask for, for the mesh reader. Throws Error for
-/// an interface without a pad surface, and for one with neither or both of a disc surface and an
-/// obstacle.
+/// Not collective. Returns the contact interfaces that the options ask for, for the mesh reader.
+/// Throws Error for an interface without a pad surface, and for one with neither or both of a disc
+/// surface and an obstacle.
 std::vector<mesh::InterfaceRequest> readInterfaces();
 
 /// Collective. Builds normals, slip directions, constraints and all matrices. `mesh` is borrowed by

@@ -9,8 +9,9 @@ namespace squeal::contact {
 /// to the kinetic value, or a table.
 class FrictionLaw {
  public:
-  /// Returns the law that the options `-friction_*` ask for. Throws Error for a table whose lists
-  /// differ in length or whose speeds do not ascend, and for options of another law.
+  /// Not collective. Returns the law that the options `-friction_*` ask for. Throws Error for a
+  /// table whose lists differ in length or whose speeds do not ascend, and for options of another
+  /// law.
   static FrictionLaw read();
   bool constant() const { return kind_ == Kind::constant; }
   /// Returns φ at the sliding speed |w|, m/s.
