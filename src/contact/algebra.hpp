@@ -1,6 +1,6 @@
 #pragma once
 /// These functions are the vector algebra for building the contact matrices: N×N matrices that
-/// consist of a block per pair of nodes.
+/// consist of a block per pair of nodes. Only those that say so are collective.
 #include <string>
 #include <vector>
 
@@ -24,8 +24,8 @@ inline Point scaled(const Point& a, double s) { return {s * a[0], s * a[1], s * 
 OwnedMat nodalMatrix(const mesh::Mesh& mesh, PetscInt blocksPerRow);
 /// Collective. Assembles the matrix after values have been set.
 void assembled(Mat matrix);
-/// Sets the block of two global nodes. Zeros are kept as entries, so that friction only changes
-/// values within the frictionless pattern.
+/// Not collective. Sets the block of two global nodes, row-major. Zeros are kept as entries, so
+/// that friction only changes values within the frictionless pattern.
 void setBlock(Mat matrix, int dimension, PetscInt rowNode, PetscInt columnNode,
               const std::vector<double>& block);
 /// Returns factor · a bᵀ, dimension × dimension, row-major.

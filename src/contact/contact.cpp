@@ -44,8 +44,8 @@ OwnedMat periodicity(const mesh::Mesh& mesh) {
   return matrix;
 }
 
-/// Sums over the pad faces at each node: area-weighted normals (towards the pad) and ∫ φ dA. The
-/// sums of images are added to those of their primaries.
+/// A FaceSums holds the sums over the pad faces at each node: area-weighted normals (towards the
+/// pad) and ∫ φ dA. The sums of images are added to those of their primaries.
 struct FaceSums {
   OwnedVec normal, area;  // nodal vectors; area in component 0, lumped area in component 1
 };

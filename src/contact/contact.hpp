@@ -1,5 +1,5 @@
 #pragma once
-/// Contact as a change of variables, with trial functions T and test functions L(f):
+/// This file makes contact a change of variables, with trial functions T and test functions L(f):
 ///   u = T x + p u0,   L(f) = T + f Nᵀ S   [3.6].
 ///
 /// The variables z hold, at each contact node of the pad, tangential displacements and the gap g in
@@ -26,7 +26,8 @@ namespace squeal::contact {
 
 using mesh::Point;
 
-/// A contact node of the pad that this rank owns. Contact nodes stand in the order of Mesh::pairs.
+/// A ContactNode is a node of a pad in contact that this rank owns. Contact nodes stand in the
+/// order of Mesh::pairs.
 struct ContactNode {
   Point position;    ///< m
   Point normal;      ///< n, unit, from disc to pad
@@ -37,7 +38,7 @@ struct ContactNode {
   int interface;      ///< index into Contact::interfaces
   PetscInt node;      ///< local node
   PetscInt globalNode;  ///< global node
-  PetscInt master;      ///< global node of the disc; −1: rigid obstacle
+  PetscInt master;      ///< global node of the disc; −1 for a rigid obstacle
 };
 
 /// The sliding of a contact node in steady motion.
@@ -48,14 +49,14 @@ struct Slip {
   double slope = 0;   ///< dφ/d|w|, s/m
 };
 
-/// The change −B w* of the friction force of one contact node with a change w* of its relative
-/// velocity [4.7, M.20]:
+/// A VelocityResponse gives the change −B w* of the friction force of one contact node with a
+/// change w* of its relative velocity [4.7, M.20]:
 ///   B = across (1 − ττᵀ − nnᵀ) + along ττᵀ.
 struct VelocityResponse {
   double across = 0;  ///< f R_N φ / |w|, N·s/m; zero in the plane, which has one tangent
   double along = 0;   ///< f R_N dφ/d|w|, N·s/m
 };
-/// Returns these factors for the normal force R_N, N, and the friction f.
+/// Not collective. Returns these factors for the normal force R_N, N, and the friction f.
 VelocityResponse velocityResponse(const Slip& slip, double normalForce, double friction,
                                   int dimension);
 
@@ -100,7 +101,7 @@ struct Contact {
   bool slipIsGiven() const { return !convected && law.constant(); }
   /// Collective. Returns the slip, [contact node], at the speed factor v, from the part of
   ///   w = −v (V + D u_D)   [2.15]
-  /// in the tangent plane. If `displacement` u is null, w = −v V.
+  /// in the tangent plane. If `displacement` u is null, or without convective terms, w = −v V.
   std::vector<Slip> slip(double speed, Vec displacement) const;
   /// Collective. Returns S, N×n: φ τ·[u] of u = T x, in the rows of the gaps of the contact nodes
   /// with slides[i] set; other rows are empty.
@@ -113,14 +114,15 @@ struct Contact {
                             double friction) const;
 };
 
-/// Returns the contact interfaces that the options ask for, for the mesh reader. Throws Error for
-/// an interface with neither a disc surface nor an obstacle.
+/// Not collective. Returns the contact interfaces that the options ask for, for the mesh reader.
+/// Throws Error for an interface without a pad surface, and for one with neither or both of a disc
+/// surface and an obstacle.
 std::vector<mesh::InterfaceRequest> readInterfaces();
 
 /// Collective. Builds normals, slip directions, constraints and all matrices. `mesh` is borrowed by
-/// the result. Throws Error for a bad constraint, a held component that is not tangential at a
-/// contact node, an obstacle face that is not flat, and a body that can move rigidly with the
-/// contact closed; the message names body and motion.
+/// the result. Throws Error for a bad constraint, a pad that moves, a held component that is not
+/// tangential at a contact node, an obstacle face that is not flat, and a body that can move
+/// rigidly with the contact closed; the message names body and motion.
 Contact build(const mesh::Mesh& mesh, const elasticity::Bodies& bodies);
 
 /// Collective. Throws Error, naming position and options, if a contact node with active[i] set does

@@ -24,6 +24,7 @@ const RealListOption tableFactorOption(
     "contact", "friction_table_factor", "1", "", nonNegative,
     "factors at these speeds, linear between them and constant beyond");
 
+/// Throws Error for a given option of another law.
 void rejectIdle(const std::string& law) {
   const auto idle = [&](const Option& option, const char* owner) {
     if (option.given() && law != owner)

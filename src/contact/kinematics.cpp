@@ -12,8 +12,8 @@
 namespace squeal::contact {
 namespace {
 
-/// The tangents t1, t2 at a contact node, with held Cartesian directions first. In a plane problem
-/// only the first is used.
+/// A Frame holds the tangents t1, t2 at a contact node, with held Cartesian directions first. In a
+/// plane problem only the first is used.
 struct Frame {
   std::vector<Point> tangents;
   std::vector<int> heldComponent;  ///< [tangent] Cartesian component held along it, or −1

@@ -15,8 +15,8 @@ namespace {
 // The rigid motions are found from a small dense problem with six unknowns per connected part of
 // the mesh.
 
-/// The rigid motions of all parts: for each part 3 translations and 3 rotations (2 and 1 in the
-/// plane), with rotations in units of 1/length.
+/// A RigidMotions numbers the rigid motions of all parts: for each part 3 translations and 3
+/// rotations (2 and 1 in the plane), with rotations in units of 1/length.
 class RigidMotions {
  public:
   RigidMotions(const mesh::Mesh& mesh, Point centre, double length)
@@ -56,6 +56,8 @@ Point unit(int d) {
   return e;
 }
 
+/// Collective. Returns the rigid motions about the centre of the mesh, with its largest extent as
+/// length.
 RigidMotions rigidMotions(const mesh::Mesh& mesh) {
   double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
   for (const auto& p : mesh.coordinates)

@@ -1,5 +1,5 @@
 #pragma once
-/// These functions find bodies that can move rigidly, since nothing prevents it.
+/// These functions find bodies that can move rigidly because nothing holds them.
 #include <optional>
 #include <string>
 

@@ -28,6 +28,7 @@ OwnedMat reactionRows(const Contact& contact) {
   return result;
 }
 
+/// Returns J.
 OwnedMat jumpRows(const Contact& contact) {
   const auto& mesh = *contact.mesh;
   OwnedMat jump = nodalMatrix(mesh, 2);

@@ -60,12 +60,13 @@ std::vector<Point> pointsOf(const mesh::Mesh& mesh, std::span<const PetscInt> no
 
 namespace {
 
-/// The number of some cells of all ranks, and the first three by their tags in words. Collective.
+/// The number of some cells of all ranks, and the first three by their tags in words.
 struct CellsNamed {
   PetscInt count = 0;
   std::string words;
 };
 
+/// Collective. Returns the number and the first names of the cells that the ranks have.
 CellsNamed named(const mesh::Mesh& mesh, std::vector<CellName> cells) {
   constexpr PetscInt most = 3;
   CellsNamed result;

@@ -1,5 +1,6 @@
 #pragma once
-/// Assembly of element arrays into distributed matrices and vectors on nodal displacements.
+/// These functions assemble element arrays into distributed matrices and vectors on nodal
+/// displacements.
 #include <compare>
 #include <span>
 
@@ -10,7 +11,8 @@
 
 namespace squeal::elasticity {
 
-/// Entries of a matrix as triples (row, column, value), as MatSetPreallocationCOO takes them.
+/// A Triples holds entries of a matrix as triples (row, column, value), as MatSetPreallocationCOO
+/// takes them.
 struct Triples {
   std::vector<PetscInt> row, column;
   std::vector<PetscScalar> value;
@@ -19,27 +21,29 @@ struct Triples {
   }
 };
 
-/// The symmetry of a matrix. Contributions are summed in any order, so that a `rounded` matrix is
-/// symmetric up to rounding; `symmetric` and `skew` matrices are made exactly so.
+/// Symmetry says how symmetric a matrix is. Contributions are summed in any order, so that a
+/// `rounded` matrix is symmetric up to rounding; `symmetric` and `skew` matrices are made exactly
+/// so.
 enum class Symmetry { rounded, symmetric, skew };
 
 /// Collective. Returns the N×N matrix of the triples of all ranks, which are used up.
 OwnedMat toMatrix(const mesh::Mesh& mesh, Triples& triples, Symmetry symmetry);
 
-/// Appends the entries of one element. If `scalar`, the matrix is [node][node] and is repeated on
-/// each component; otherwise it is on all components.
+/// Not collective. Appends the entries of one element with these local nodes. If `scalar`, the
+/// matrix is [node][node] and is repeated on each component; otherwise its rows and columns are
+/// [node][component]. It is row-major.
 void append(Triples& triples, const mesh::Mesh& mesh, std::span<const PetscInt> nodes,
             const std::vector<double>& matrix, bool scalar);
 
-/// Adds the values of one element, [node][3], times `factor`. VecAssemblyBegin and VecAssemblyEnd
-/// must follow.
+/// Not collective. Adds the values of one element, [node][3], times `factor`. VecAssemblyBegin and
+/// VecAssemblyEnd must follow.
 void addLoad(Vec load, const mesh::Mesh& mesh, std::span<const PetscInt> nodes,
              const std::vector<double>& values, double factor);
 
-/// Returns the coordinates of local nodes, [node], m.
+/// Not collective. Returns the coordinates of local nodes, [node], m.
 std::vector<Point> pointsOf(const mesh::Mesh& mesh, std::span<const PetscInt> nodes);
 
-/// The name of a cell for messages, in integers only, so that ranks can send it.
+/// A CellName names a cell for messages, in integers only, so that ranks can send it.
 struct CellName {
   PetscInt tag, type, body;
   auto operator<=>(const CellName&) const = default;
@@ -49,11 +53,11 @@ inline CellName nameOf(const mesh::CellBlock& block, std::size_t e) {
 }
 
 /// Collective. Throws Error on all ranks if any rank has inverted cells. The message gives their
-/// number and names the first of them.
+/// number and names the first three of them.
 void failOnInverted(const mesh::Mesh& mesh, const std::vector<CellName>& inverted);
 
-/// Collective. Warns in one line of cells that are used although folded(): their number and the
-/// first of them.
+/// Collective. Warns in one line of cells that are used although folded(), with their number and
+/// the first three of them.
 void warnOfFoldedCells(const mesh::Mesh& mesh);
 
 /// Collective. Calls `visit(block, cell index, table, coordinates)` for each cell of this rank.

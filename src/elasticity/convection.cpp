@@ -11,7 +11,8 @@
 namespace squeal::elasticity {
 namespace {
 
-/// The flux of matter through the surface of one body at each node i, and its scale:
+/// A Crossing holds the flux of matter through the surface of one body at each node i, and its
+/// scale:
 ///   flux cᵢ = ∮ φᵢ V·n dA = Σ_cells ∫ Dφᵢ,   scale = Σ_cells ∫ |Dφᵢ|.
 struct Crossing {
   OwnedVec flux, scale;

@@ -1,5 +1,6 @@
 #pragma once
-/// Convective terms of moving bodies, in the axes of the vehicle and on Cartesian components [M.2]:
+/// This function assembles the convective terms of moving bodies, in the axes of the vehicle and on
+/// Cartesian components [M.2]:
 ///   D u = (V·∇)u.
 #include "elasticity/elasticity.hpp"
 #include "elasticity/material.hpp"

@@ -1,6 +1,7 @@
 #pragma once
-/// The uncoupled elastic bodies: their matrices and loads on all nodal displacements u. N =
-/// dimension × nodes; a component of a node has the row dimension·node + component.
+/// These functions assemble the uncoupled elastic bodies: their matrices and loads on all N nodal
+/// displacements u, N = dimension × nodes. A component of a node has the row dimension·node +
+/// component.
 #include <optional>
 
 #include "elasticity/motion.hpp"
@@ -9,6 +10,7 @@
 
 namespace squeal::elasticity {
 
+/// The matrices, loads and base motions of all bodies.
 struct Bodies {
   OwnedMat stiffness;  ///< K, N×N, symmetric, block-diagonal over the bodies, grounded springs
                        ///< included, N/m
@@ -24,7 +26,7 @@ struct Bodies {
   std::vector<Motion> motions;  ///< [body], base motions
 };
 
-/// Returns the surface groups with a `-load_<group>_pressure` option.
+/// Not collective. Returns the surface groups with a `-load_<group>_pressure` option.
 std::vector<mesh::GroupRequest> loadedSurfaces();
 
 /// Collective. Assembles the matrices and loads of all bodies. Throws Error for a bad or missing
@@ -32,22 +34,22 @@ std::vector<mesh::GroupRequest> loadedSurfaces();
 /// a body that does not keep its place as its matter moves.
 Bodies assemble(const mesh::Mesh& mesh);
 
-/// The contribution of one body to the matrices of Bodies, on all nodal displacements. These are
-/// the derivatives with respect to a factor on its moduli (K, and the part of C with K) and to one
-/// on its density (all others).
+/// A BodyPart is the contribution of one body to Bodies, on all nodal displacements. Its matrices
+/// and its vector are the derivatives with respect to a factor on its moduli (K, and the part of C
+/// with K) and to one on its density (all others).
 struct BodyPart {
   OwnedMat stiffness, mass;  ///< without grounded springs
   OwnedMat gyroscopic,
       rotationStiffness;  ///< null unless the body moves and there are convective terms
   OwnedVec centrifugal;
   double massDamping = 0;       ///< α, 1/s: C = α M + …
-  double stiffnessDamping = 0;  ///< β + η / (2π f), s: C = … + (β + η / 2πf) K
+  double stiffnessDamping = 0;  ///< β + η / (2π f), s: C = … + (β + η / (2π f)) K
 };
 /// Collective. Returns the contribution of the body with this index.
 BodyPart bodyPart(const mesh::Mesh& mesh, int body);
 
-/// Returns the option `-elasticity_prestress`: the geometric stiffness of the steady stress is then
-/// added to K.
+/// Not collective. Returns the option `-elasticity_prestress`: the geometric stiffness of the
+/// steady stress is then added to K.
 bool prestressWanted();
 /// Collective. Returns the geometric stiffness [M.6], the same on each component,
 ///   K_σ,ij = ∫ ∇φᵢ·σ ∇φⱼ,   σ = D ε,
@@ -56,8 +58,7 @@ bool prestressWanted();
 /// this body alone.
 OwnedMat geometricStiffness(const mesh::Mesh& mesh, Vec displacement, std::optional<int> body = {});
 
-/// Collective. Returns a vector of nodal displacements, with N entries and the block size
-/// `dimension`.
+/// Collective. Returns a nodal vector of zeros, with N entries and the block size `dimension`.
 OwnedVec nodalVector(const mesh::Mesh& mesh);
 
 }  // namespace squeal::elasticity

@@ -9,8 +9,8 @@
 
 namespace squeal::elasticity {
 
-/// Thrown by the routines of elements where det J ≤ 0 at a point of their quadrature rule, and by
-/// mass() where the matrix is not positive definite.
+/// An InvertedElement is thrown by routines with J⁻¹ where det J ≤ 0 at a point of their quadrature
+/// rule, and by mass() where the volume or the matrix is not positive.
 struct InvertedElement {};
 
 /// Returns true if det J ≤ 0 at a point of the rule. Such a cell can still be used where the

@@ -11,10 +11,10 @@ namespace squeal::elasticity {
 
 using mesh::Point;
 
-/// Returns ∫ φᵢ n dA on a face (a line in the plane), [node][3], m². The unit normal n is that of
-/// the node order times `sign`.
+/// Returns ∫ φᵢ n dA on a face (a line in the plane), [node][3], m² (m in the plane). The unit
+/// normal n is that of the node order times `sign`.
 std::vector<double> faceNormals(const ShapeTable& table, const std::vector<Point>& nodes, int sign);
-/// Returns ∫ φᵢ φⱼ dA on a face, row-major [node][node], m².
+/// Returns ∫ φᵢ φⱼ dA on a face, row-major [node][node], m² (m in the plane).
 std::vector<double> faceMass(const ShapeTable& table, const std::vector<Point>& nodes);
 /// Returns the derivative of each shape function along the velocity at each node of the face,
 /// [at node][function], 1/s for velocities in m/s. Only the part of `velocity` in the tangent plane

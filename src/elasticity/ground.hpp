@@ -1,5 +1,5 @@
 #pragma once
-/// Springs and dashpots between node groups and the ground.
+/// These functions read the springs and dashpots between node groups and the ground.
 #include <string>
 #include <vector>
 
@@ -8,7 +8,8 @@
 
 namespace squeal::elasticity {
 
-/// The sums over all groups at each nodal displacement, N entries; null if there are none.
+/// A Ground holds the sums over all groups at each nodal displacement, N entries. A vector is null
+/// if all its values are zero.
 struct Ground {
   OwnedVec springs;   ///< N/m
   OwnedVec dashpots;  ///< N·s/m
@@ -18,7 +19,7 @@ struct Ground {
 /// is shared equally by its nodes. Throws Error for fewer components than dimensions.
 Ground readGround(const mesh::Mesh& mesh);
 
-/// Returns the groups with a `-ground_<group>_*` option.
+/// Not collective. Returns the groups with a `-ground_<group>_*` option.
 std::vector<mesh::GroupRequest> groundedGroups();
 
 }  // namespace squeal::elasticity

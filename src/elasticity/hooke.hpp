@@ -1,6 +1,6 @@
 #pragma once
-/// Hooke's laws, in the axes of the material and of the mesh. No PETSc object is used here. Not
-/// collective.
+/// This file holds Hooke's laws, in the axes of the material and of the mesh. No PETSc object is
+/// used here. Not collective.
 #include <array>
 #include <functional>
 #include <string>
@@ -12,8 +12,8 @@ namespace squeal::elasticity {
 
 using mesh::Point;
 
-/// Hooke's law σ = D ε with engineering shear strains; row-major, 3×3 (xx, yy, xy) or 6×6 (xx, yy,
-/// zz, xy, yz, zx), Pa.
+/// A Hooke is the law σ = D ε with engineering shear strains. Its matrix D is row-major, 3×3 (xx,
+/// yy, xy) or 6×6 (xx, yy, zz, xy, yz, zx), Pa.
 struct Hooke {
   int size = 6;
   std::vector<double> matrix;
@@ -22,8 +22,8 @@ struct Hooke {
 /// Returns the law of an isotropic material, for `young` in Pa and in the given dimension.
 Hooke isotropic(double young, double poisson, int dimension, bool planeStress);
 
-/// Engineering constants of an orthotropic material, moduli in Pa. νij is the contraction along j
-/// divided by the stretch along i in tension along i, so that νij/Ei = νji/Ej.
+/// An EngineeringConstants holds those of an orthotropic material, moduli in Pa. νij is the
+/// contraction along j divided by the stretch along i in tension along i, so that νij/Ei = νji/Ej.
 struct EngineeringConstants {
   double e1, e2, e3, nu12, nu13, nu23, g12, g13, g23;
 };
@@ -38,7 +38,8 @@ using Axes = std::array<Point, 3>;
 /// Returns the law in the axes of the mesh, 6×6, from the law in the given axes, 6×6.
 Hooke rotated(const Hooke& hooke, const Axes& axes);
 
-/// Returns true if strains in the plane x, y cause no shear stress across it.
+/// Returns true if strains in the plane x, y and along z cause no shear stress across the plane, up
+/// to 1e-9 of the largest modulus.
 bool mirrorSymmetric(const Hooke& solid);
 /// Returns the law in the plane, 3×3, from a mirror-symmetric 6×6: with u_z = 0 in plane strain,
 /// and σ_zz = σ_yz = σ_zx = 0 in plane stress.

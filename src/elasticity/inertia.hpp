@@ -27,8 +27,8 @@ std::vector<double> centrifugal(const ShapeTable& table, const std::vector<Point
                                 double density, double speed, const Point& axis,
                                 const Point& origin);
 
-/// Convective terms of matter that moves through the element with the velocity V, with Dφ = V·∇φ.
-/// Matrices are row-major [node][node], the same for all components.
+/// A Convection holds the convective terms of matter that moves through the element with the
+/// velocity V, with Dφ = V·∇φ. Matrices are row-major [node][node], the same for all components.
 struct Convection {
   std::vector<double> gyroscopic;  ///< ∫ ρ ((Dφⱼ) φᵢ − (Dφᵢ) φⱼ), kg/s; equal to 2 ∫ ρ (Dφⱼ) φᵢ
                                    ///< where no matter crosses the surface

@@ -1,5 +1,6 @@
 #pragma once
-/// The map from reference to physical coordinates of one element, shared by the element routines.
+/// These functions map reference to physical coordinates of one element; the element routines share
+/// them.
 #include <array>
 #include <vector>
 

@@ -1,5 +1,6 @@
 #pragma once
-/// The materials of the bodies, from the options.
+/// These functions read the materials of the bodies from the options. None is collective; all ranks
+/// have the same options, and so the same results and Errors.
 #include <string>
 #include <vector>
 
@@ -8,11 +9,12 @@
 
 namespace squeal::elasticity {
 
+/// The elastic law, the density and the damping of a body [M.5].
 struct Material {
   Law law;
   double density;           ///< kg/m³
   double massDamping;       ///< α, 1/s: C = α M + …
-  double stiffnessDamping;  ///< β + η / (2π f), s: C = … + (β + η / 2πf) K
+  double stiffnessDamping;  ///< β + η / (2π f), s: C = … + (β + η / (2π f)) K
 };
 
 /// Returns the materials in the order of `mesh.bodies`, [body]. Throws Error for a bad or missing
@@ -21,7 +23,8 @@ struct Material {
 std::vector<Material> readMaterials(const mesh::Mesh& mesh);
 
 /// Returns the volume groups with a material, from the options that give an elastic law
-/// (`-material_<group>_young`, …). Throws Error if there is none.
+/// (`-material_<group>_young`, …). Throws Error if there is none, for a group whose other options
+/// lack a law, and for a bad or missing option of a material.
 std::vector<mesh::GroupRequest> materialGroups();
 /// Returns the options that give a material, for messages: "give -…".
 std::string howToGiveMaterials();

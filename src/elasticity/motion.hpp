@@ -1,6 +1,8 @@
 #pragma once
-/// The base motion of a body's matter (paper, section 2), a rotation or a translation [2.1]:
+/// This file gives the base motion of a body's matter (paper, section 2), a rotation or a
+/// translation [2.1]:
 ///   V = ω k × (x − x0)   or   V = const.
+/// No function is collective; all ranks have the same options, and so the same results and Errors.
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +11,7 @@
 
 namespace squeal::elasticity {
 
+/// The base motion of one body; both velocities are zero for a body at rest.
 struct Motion {
   mesh::Point translation{};  ///< m/s
   double speed = 0;           ///< ω, rad/s
@@ -29,8 +32,9 @@ std::vector<std::string> movingBodies();
 /// Returns the options that give a motion, for messages.
 inline const char* motionOptions() { return "-motion_<body>_*"; }
 /// Returns the motion of each body, [body]; a body without options is at rest. Throws Error if
-/// rotation and translation, or both units of the speed, are given together, for an axis of zero
-/// length, and for vectors whose number of components does not suit the dimension.
+/// rotation and translation, or both units of the speed, are given together, for an option of a
+/// group that is no body, for an axis of zero length, and for vectors whose number of components
+/// does not suit the dimension.
 std::vector<Motion> readMotions(const std::vector<std::string>& bodies, int dimension);
 
 }  // namespace squeal::elasticity

@@ -1,6 +1,6 @@
 #pragma once
-/// The shape functions and a quadrature rule of one element type, tabulated by the gmsh library for
-/// any nodal Lagrange or serendipity element that it knows.
+/// A ShapeTable holds the shape functions and a quadrature rule of one element type, tabulated by
+/// the gmsh library for any nodal Lagrange or serendipity element that it knows.
 #include <string>
 #include <vector>
 

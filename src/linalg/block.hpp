@@ -1,6 +1,6 @@
 #pragma once
-/// Tall matrices that are distributed by rows: the basis V and its products A V. A product of two
-/// of them is one BLAS call on the local rows and one reduction.
+/// These functions work on tall matrices that are distributed by rows: the basis V and its products
+/// A V. A product of two of them is one BLAS call on the local rows and one reduction.
 #include <vector>
 
 #include "linalg/dense.hpp"
@@ -22,17 +22,17 @@ OwnedMat borrowed(MPI_Comm comm, PetscInt rows, const DenseView& block);
 /// Collective. Returns Xᵀ Y, the same on all ranks. X and Y are given by this rank's rows.
 DenseMatrix transposedProduct(MPI_Comm comm, const DenseView& x, const DenseView& y);
 
-/// Collective. Returns orthogonal combinations of the columns, the principal directions. Those of
-/// length `small` or less are dropped.
+/// Collective. Returns orthogonal combinations of the columns, their principal directions, by
+/// ascending length. Those of length `small` or less are dropped.
 Block principal(MPI_Comm comm, const Block& columns, double small);
 /// Collective. Returns the columns scaled to the 2-norm 1. Columns of zeros are dropped.
 Block unitColumns(MPI_Comm comm, const Block& columns);
 
-/// The rows of a matrix on this rank that have nonzero entries. A friction operator has such rows
-/// at the contact nodes only, so that products need not touch the others.
+/// A RowSet holds the rows of a matrix on this rank that have nonzero entries. A friction operator
+/// has such rows at the contact nodes only, so that products need not touch the others.
 class RowSet {
  public:
-  /// Collective. The matrix is borrowed during this call only.
+  /// Collective. Finds the rows. The matrix is borrowed during this call only.
   explicit RowSet(Mat matrix);
   PetscInt size() const { return all_ ? localRows_ : std::ssize(rows_); }
   /// Returns true if the set holds all rows of the matrix, on every rank.
@@ -48,7 +48,7 @@ class RowSet {
  private:
   PetscInt localRows_ = 0, firstRow_ = 0;
   bool all_ = true;
-  std::vector<PetscInt> rows_;  // ascending; empty if all
+  std::vector<PetscInt> rows_;  // local numbers, ascending; empty if all
 };
 
 /// Collective. Returns Xᵀ Y, the same on all ranks. X is given by all local rows, and Y by `rows`;

@@ -1,12 +1,12 @@
 #pragma once
-/// Access to the columns of a SLEPc BV as matrices.
+/// This file gives access to the columns of a SLEPc BV as matrices.
 #include "linalg/dense.hpp"
 #include "petsc/owned.hpp"
 
 namespace squeal::linalg {
 
-/// Read access to this rank's rows of a BV of type svec. The BV is borrowed and locked for reading
-/// during the life of the object.
+/// A ReadColumns reads this rank's rows of a BV of type svec. The BV is borrowed and locked for
+/// reading during the life of the object.
 class ReadColumns {
  public:
   explicit ReadColumns(BV bv);

@@ -1,5 +1,5 @@
 #pragma once
-/// Small dense matrices, and the blocks of rows of tall ones, stored by columns.
+/// This file holds small dense matrices, and the blocks of rows of tall ones, stored by columns.
 #include <petscsys.h>
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 
 namespace squeal::linalg {
 
-/// A dense matrix that lives elsewhere, rows × columns, stored column by column without gaps. It is
-/// borrowed, and can be read only.
+/// A DenseView is a dense matrix that lives elsewhere, rows × columns, stored column by column
+/// without gaps. It is borrowed, and can be read only.
 class DenseView {
  public:
   DenseView(const double* entries, PetscInt rows, PetscInt columns)
@@ -41,8 +41,8 @@ class DenseView {
   PetscInt rows_, columns_;
 };
 
-/// A dense matrix of doubles or complex numbers, rows × columns, stored column by column. It grows
-/// by columns in place, within the room that has been reserved.
+/// A Dense is a matrix of doubles or complex numbers, rows × columns, stored column by column. It
+/// grows by columns in place, within the room that has been reserved.
 template <class Scalar>
 class Dense {
  public:

@@ -1,5 +1,5 @@
 #pragma once
-/// Copies of small distributed matrices on rank 0.
+/// These functions copy small distributed matrices to rank 0.
 #include "linalg/dense.hpp"
 #include "petsc/owned.hpp"
 

@@ -1,12 +1,13 @@
 #pragma once
-/// Small dense linear systems by LAPACK's LU with partial pivoting. Not collective.
+/// This file solves small dense linear systems by LAPACK's LU with partial pivoting. Not
+/// collective.
 #include <vector>
 
 #include "linalg/dense.hpp"
 
 namespace squeal::linalg {
 
-/// Factors of a square matrix of doubles or complex numbers.
+/// An Lu holds the factors of a square matrix of doubles or complex numbers.
 template <class Scalar>
 class Lu {
  public:

@@ -160,8 +160,8 @@ Complex rootOf(Complex mu) {
   return s.imag() < 0 ? -s : s;
 }
 
-/// The leading matrix M of a quadratic problem, and its factors, both borrowed. M⁻¹ A is formed
-/// where it can be, as QR takes a small part of the time of QZ.
+/// A Leading holds the leading matrix M of a quadratic problem and its factors, both borrowed. M⁻¹
+/// A is formed where it can be, as QR takes a small part of the time of QZ.
 struct Leading {
   const DenseMatrix& matrix;
   const Lu<double>& factors;

@@ -1,5 +1,5 @@
 #pragma once
-/// Small dense quadratic eigenproblems (s² M + s Z + K) q = 0, real unsymmetric matrices, by
+/// These functions solve small dense quadratic eigenproblems with real unsymmetric matrices, by
 /// LAPACK.
 #include <mpi.h>
 
@@ -10,7 +10,7 @@
 
 namespace squeal::linalg {
 
-/// The quadratic eigenproblem
+/// A DenseProblem is the quadratic eigenproblem
 ///   (s² M + s Z + K) q = 0
 /// with real matrices of order m. An empty Z stands for zero.
 struct DenseProblem {
@@ -32,15 +32,17 @@ enum class Vectors { right, both };
 /// Returns true for each eigenvalue s that is to be returned. An empty function selects all.
 using Wanted = std::function<bool(Complex)>;
 
-/// Not collective. Returns the finite eigenvalues with Im s ≥ 0 that are `wanted`, by ascending
-/// Im s, then by ascending Re s.
+/// Not collective. Returns the finite eigenvalues with Im s ≥ 0 that are `wanted`, by ascending Im
+/// s, then by ascending Re s.
 ///
 /// If Z is empty, the problem is linear in s² and is solved at size m. Otherwise its companion form
 /// of size 2m is scaled (Fan, Lin and Van Dooren 2004) and solved. The QR algorithm is applied with
-/// the inverse of M or K, whichever is better conditioned. Where neither can be inverted safely,
-/// the QZ algorithm is used, which takes ten times as long.
+/// the inverse of K where that is well conditioned, otherwise with that of M or K, whichever is
+/// better conditioned. Where neither can be inverted safely, the QZ algorithm is used, which takes
+/// ten times as long.
 ///
-/// Throws Error if LAPACK fails, or if M and K have a common null vector.
+/// Throws Error if an entry is not a finite number, if LAPACK fails, or if M and K have a common
+/// null vector.
 std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vectors = Vectors::right,
                                       const Wanted& wanted = {});
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Norms of tall vectors from a few random combinations of their entries.
+/// These functions estimate norms of tall vectors from a few random combinations of their entries.
 ///
 /// For a matrix Ω with k columns of independent random signs [M.39],
 ///   ‖Ωᵀ r‖² / k
@@ -41,18 +41,19 @@ class Sketch {
 struct SquaredNorms {
   std::vector<double> euclidean, weighted;
 };
-/// Returns the squared norms of all columns from a sketch, 2k × columns.
+/// Not collective. Returns the squared norms of all columns from a sketch, 2k × columns.
 SquaredNorms squaredNorms(const DenseView& sketch);
-/// Returns the squared Euclidean norms of all columns from an unweighted sketch, k × columns.
+/// Not collective. Returns the squared Euclidean norms of all columns from an unweighted sketch, k
+/// × columns.
 std::vector<double> squaredLengths(const DenseView& unweighted);
 
-/// Returns the coefficients of orthogonal combinations of columns, all × count, estimated from the
-/// sketches of the columns, 2k × all. Each column is first multiplied by its factor, [column]; the
-/// coefficients include the factors. They are the right singular vectors of the unweighted half of
-/// the sketch whose singular values exceed `small`; `count` is their number, a fraction of `all`
-/// where the columns are nearly linearly dependent. If nearly k values exceed `small`, or as many
-/// as there are columns, the sketch cannot tell: the coefficients are then the diagonal matrix of
-/// the factors.
+/// Not collective. Returns the coefficients of orthogonal combinations of columns, all × count,
+/// estimated from the sketches of the columns, 2k × all. Each column is first multiplied by its
+/// factor, [column]; the coefficients include the factors. They are the right singular vectors of
+/// the unweighted half of the sketch whose singular values exceed `small`; `count` is their number,
+/// a fraction of `all` where the columns are nearly linearly dependent. If nearly k values exceed
+/// `small`, or as many as there are columns, the sketch cannot tell: the coefficients are then the
+/// diagonal matrix of the factors.
 DenseMatrix leadingCombinations(const DenseView& sketches, const std::vector<double>& factors,
                                 double small);
 

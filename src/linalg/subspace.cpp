@@ -45,7 +45,8 @@ Entries combined(Complex a, const Entries& x, Complex b, const Entries& y) {
   return z;
 }
 
-/// The LU factors of P(σ). Where P(σ) is real they are real, at a quarter of the cost.
+/// A Factors holds the LU factors of P(σ). Without damping P(σ) is real for an imaginary σ; the
+/// factors are then real too, at a quarter of the cost.
 class Factors {
  public:
   Factors(const DenseProblem& problem, Complex shift) {
@@ -84,7 +85,7 @@ class Factors {
   std::optional<Lu<Complex>> complex_;
 };
 
-/// A vector of the companion form
+/// A Lifted is a vector of the companion form
 ///   [0 I; −K −Z] z = s [I 0; 0 M] z.
 /// A right vector is (x, s x), and a left vector is ((s M + Z)ᴴ y, y).
 struct Lifted {

@@ -1,7 +1,7 @@
 #pragma once
-/// One or two eigenvalues of a dense quadratic problem with their invariant subspace, continued
-/// from a neighbouring problem. This takes one to three factorisations; all eigenvalues would take
-/// a hundred times as long as one.
+/// These functions continue one or two eigenvalues of a dense quadratic problem, with their
+/// invariant subspace, from a neighbouring problem. This takes one to three factorisations; all
+/// eigenvalues would take a hundred times as long as one.
 #include "linalg/quadratic.hpp"
 
 namespace squeal::linalg {
@@ -23,8 +23,8 @@ struct Cluster {
 Cluster clusterNear(const DenseProblem& problem, const std::vector<DensePair>& start, Complex guess,
                     double isolation);
 
-/// Eigenvalues with left and right vectors of one problem, prepared for comparison with those of a
-/// neighbouring problem. Not collective.
+/// A Spectrum holds eigenvalues of one problem with left and right vectors, prepared for comparison
+/// with those of a neighbouring problem. Not collective.
 class Spectrum {
  public:
   /// The problem is read during this call only; the pairs, with left vectors, are taken.

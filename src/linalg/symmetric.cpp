@@ -33,7 +33,7 @@ std::vector<double> symmetricEigen(DenseMatrix& a) {
   std::vector<double> values(order);
   if (order == 0) return values;
   double workLength = 0;
-  // Divide and conquer: on some hundred columns several times faster than dsyev, whose rotations
+  // Divide and conquer is on some hundred columns several times faster than dsyev, whose rotations
   // (dlasr) are not blocked.
   LAPACKsyevd_("V", "L", &order, a.data(), &order, values.data(), &workLength, &length,
                &integerLength, &integers, &info);

@@ -112,7 +112,7 @@ OwnedKSP directSolver(Mat matrix, const SolverPrefix& prefix) {
   check(PCSetType(pc, PCCHOLESKY));
   check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
   applySolverOptions([&] { return KSPSetFromOptions(solver); });
-  // The number of right-hand sides that MUMPS solves for in one pass. Its default is 32, and the
+  // MUMPS solves for this number of right-hand sides in one pass. Its default is 32, and the
   // remaining few then cost a pass of their own. An option -…_mat_mumps_icntl_27 takes precedence.
   if (const Mat factor = mumpsFactor(solver)) {
     check(MatMumpsSetIcntl(factor, 27, 64));

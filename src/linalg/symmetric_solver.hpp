@@ -1,5 +1,6 @@
 #pragma once
-/// Symmetric matrices and MUMPS: solves with one LDLᵀ factorisation, and the inertia.
+/// These functions apply MUMPS to symmetric matrices, for solves with one LDLᵀ factorisation and
+/// for the inertia.
 #include <string>
 
 #include "options/options.hpp"
@@ -12,14 +13,14 @@ namespace squeal::linalg {
 /// yet factorised.
 OwnedKSP directSolver(Mat matrix, const SolverPrefix& prefix);
 /// Collective. Calls KSPSetUp. Throws Error if the analysis of MUMPS foresees more than twice the
-/// memory that is free.
+/// memory that is free, or if PETSc refuses an option of the solver.
 void factorise(KSP solver);
 /// Returns the factor, borrowed from the solver, if it is an LDLᵀ factor of MUMPS, factorised or
 /// not; otherwise null.
 Mat mumpsFactor(KSP solver);
 
-/// The direct solver of a symmetric positive definite matrix (prefix -modes_st_), which factorises
-/// it on first use.
+/// A SymmetricSolver is the direct solver of a symmetric positive definite matrix (prefix
+/// -modes_st_). It factorises the matrix on first use.
 class SymmetricSolver {
  public:
   /// Borrows the matrix during the life of the object; `name` stands for it in messages.
@@ -40,8 +41,8 @@ class SymmetricSolver {
 /// factorisation of a symmetric matrix. Only the pattern is analysed; nothing is factorised.
 double factorMemory(Mat matrix);
 
-/// Throws Error for unused -modes_st_* options: once a solver has been configured, these are typing
-/// errors.
+/// Collective. Throws Error for unused -modes_st_* options: once a solver has been configured,
+/// these are typing errors.
 void rejectUnusedSolverOptions();
 
 /// Numbers of negative and of zero eigenvalues of a symmetric matrix.

@@ -1,5 +1,5 @@
 #pragma once
-/// Numbers in binary files, of either byte order.
+/// This file reads numbers in binary files, of either byte order.
 #include <algorithm>
 #include <bit>
 #include <cstdint>

@@ -10,7 +10,8 @@
 
 namespace squeal::matrixfile {
 
-/// The entries of a sparse matrix; entries of equal row and column are summed.
+/// An Entries holds the entries of a sparse matrix, with rows and columns counted from 0. Entries
+/// of equal row and column are summed.
 struct Entries {
   Entries() = default;
   /// Throws Error if a size is negative or exceeds PetscInt.
@@ -28,8 +29,8 @@ struct Entries {
 /// Throws Error if the matrix is not square, has no rows, or has more than PetscInt can count.
 void requireSquare(long long rows, long long columns);
 
-/// A matrix in compressed rows or columns: the entries from begin[k] to begin[k + 1] belong to row
-/// (or column) k.
+/// A Compressed is a matrix in compressed rows or columns. Row (or column) k has the entries from
+/// begin[k] on, up to begin[k + 1], which is the first one of the next row (or column).
 struct Compressed {
   long long rows = 0, columns = 0;
   bool byColumns = false;

@@ -19,7 +19,7 @@ bool isCompressed(hid_t object) {
   return isGroup(object) && has(object, "data") && has(object, "indices") && has(object, "indptr");
 }
 
-/// MATLAB 7.3 marks every variable with its class, a sparse one with its number of rows.
+/// Returns the class with which MATLAB 7.3 marks every variable; empty in other files.
 std::string matlabClass(hid_t object) { return textOfAttribute(object, "MATLAB_class"); }
 bool isMatlabSparse(hid_t object) {
   return isGroup(object) && has(object, "jc") && hasAttribute(object, "MATLAB_sparse");
@@ -38,14 +38,14 @@ bool isMatrix(hid_t object) {
   return isCompressed(object) || isMatlabSparse(object) || isTable(object);
 }
 
-/// A number alone, as MATLAB saves every one, is no matrix that could be meant, if another is
-/// there.
+/// Returns true for a number alone. MATLAB saves every number so, and none can be meant if a matrix
+/// is there.
 bool isNumber(hid_t object) {
   return isTable(object) && shapeOf(object) == std::vector<hsize_t>{1, 1};
 }
 
-/// Empty if the group does not say it. scipy.sparse.save_npz keeps the format as a dataset; a copy
-/// of it in HDF5 does too.
+/// Returns true for lists by columns and false for lists by rows; none if the group does not say
+/// it. scipy.sparse.save_npz keeps the format as a dataset; a copy of it in HDF5 does too.
 std::optional<bool> byColumns(hid_t group) {
   std::string found;
   for (const std::string& text :
@@ -83,8 +83,8 @@ bool isSymmetric(const Entries& entries) {
   return sums(entries.row, entries.column) == sums(entries.column, entries.row);
 }
 
-/// Rows and columns, where they are written: in the attribute of anndata or h5sparse, or as
-/// scipy.sparse.save_npz names it.
+/// Throws Error unless rows and columns are as many as `size`, where they are written: in the
+/// attribute of anndata or h5sparse, or in the dataset of scipy.sparse.save_npz.
 void checkShape(hid_t group, long long size) {
   std::vector<long long> shape;
   for (const char* name : {"shape", "h5sparse_shape"})
@@ -117,7 +117,8 @@ Entries compressedGroup(hid_t group) {
   return entries;
 }
 
-/// Without entries there are no lists of them.
+/// Returns the entries of a sparse matrix of MATLAB 7.3. Without entries there are no lists of
+/// them.
 Entries matlabSparse(hid_t group) {
   Compressed matrix{0, 0, true, {}, {}, {}, "jc", "ir"};
   const auto rows = integersOfAttribute(group, "MATLAB_sparse");
@@ -207,7 +208,7 @@ Entries readHere(const std::filesystem::path& path, const std::string& name) {
 
 }  // namespace
 
-/// The HDF5 library crashes on damaged files.
+/// Reads the file in a child process, as the HDF5 library crashes on damaged files.
 Entries readHdf5(const std::filesystem::path& path, const std::string& name) {
   const ChildLimits limits{"the HDF5 file", 5 + 1e-6 * std::filesystem::file_size(path),
                            availableMemory(), "it asks for more memory than is free",

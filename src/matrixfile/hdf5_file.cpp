@@ -17,7 +17,7 @@ std::vector<hsize_t> extentOf(hid_t space) {
   return shape;
 }
 
-/// Error: more than memory has addresses for.
+/// Returns the product of the extents and `size`. Throws Error if 64 bits cannot count it.
 hsize_t product(const std::vector<hsize_t>& shape, hsize_t size) {
   for (const auto extent : shape)
     if (__builtin_mul_overflow(size, extent, &size))
@@ -25,7 +25,9 @@ hsize_t product(const std::vector<hsize_t>& shape, hsize_t size) {
   return size;
 }
 
-/// All filters keep something of each byte: deflate, the best at it, a thousandth.
+/// Returns the largest number of bytes that `stored` bytes can stand for; HSIZE_UNDEF with an
+/// unknown filter. All known filters keep something of each byte: deflate, the best at it, a
+/// thousandth.
 hsize_t mostUnpacked(hid_t properties, hsize_t stored) {
   const int filters = H5Pget_nfilters(properties);
   for (int k = 0; k < filters; ++k) {
@@ -40,7 +42,7 @@ hsize_t mostUnpacked(hid_t properties, hsize_t stored) {
   return filters > 0 ? 1040 * stored : stored;
 }
 
-/// The number of chunks, each of `chunk` numbers per dimension.
+/// Returns the number of chunks, each of `chunk` numbers per dimension.
 hsize_t chunksOf(const std::vector<hsize_t>& shape, const std::vector<hsize_t>& chunk) {
   hsize_t chunks = 1;
   for (std::size_t k = 0; k < shape.size(); ++k) {
@@ -50,7 +52,8 @@ hsize_t chunksOf(const std::vector<hsize_t>& shape, const std::vector<hsize_t>& 
   return chunks;
 }
 
-/// Bytes that the values take, those of whole chunks. Error: some were never written.
+/// Returns the bytes that the values take, those of whole chunks. Throws Error if some chunks were
+/// never written.
 hsize_t wantedBytes(hid_t dataset, hid_t properties, hsize_t width,
                     const std::vector<hsize_t>& shape) {
   const hsize_t wanted = product(shape, width);
@@ -67,7 +70,8 @@ hsize_t wantedBytes(hid_t dataset, hid_t properties, hsize_t width,
   return product(chunk, product({chunks}, width));
 }
 
-/// HDF5 reads zeros where nothing was written, and takes the memory that a header asks for.
+/// Throws Error unless the file holds the values: HDF5 reads zeros where nothing was written, and
+/// takes the memory that a header asks for.
 void requireStored(hid_t dataset, hid_t type, const std::vector<hsize_t>& shape) {
   const PropertiesId properties(H5Dget_create_plist(dataset));
   if (H5Pget_layout(properties) == H5D_VIRTUAL || H5Pget_external_count(properties) > 0)
@@ -127,7 +131,8 @@ std::vector<Number> valuesIn(hid_t group, const std::string& name, bool onlyInte
   }
 }
 
-/// `read(type, to)` of H5Aread or H5Dread.
+/// Returns the text of an attribute or a dataset; empty for anything else. `read(type, to)` calls
+/// H5Aread or H5Dread.
 template <class Read>
 std::string text(hid_t type, hid_t space, const Read& read) {
   if (H5Tget_class(type) != H5T_STRING || H5Sget_simple_extent_npoints(space) != 1) return "";

@@ -1,5 +1,5 @@
 #pragma once
-/// Functions that read the contents of HDF5 files, with the checks that the HDF5 library leaves to
+/// These functions read the contents of HDF5 files, with the checks that the HDF5 library leaves to
 /// its users.
 #include <string>
 #include <vector>
@@ -32,12 +32,14 @@ std::vector<hsize_t> shapeOf(hid_t dataset);
 std::vector<long long> integers(hid_t group, const std::string& name);
 std::vector<double> reals(hid_t group, const std::string& name, int dimensions = 1);
 
-/// These functions return the text of an attribute or of a dataset: a single one of up to 64
-/// characters, of fixed or variable length. Otherwise the result is empty.
+/// These functions return the text of an attribute or of a dataset that holds a single one. A text
+/// of fixed length may have up to 64 characters; one of variable length is cut to as many.
+/// Otherwise the result is empty.
 std::string textOfAttribute(hid_t object, const std::string& name);
 std::string textOfDataset(hid_t group, const std::string& name);
 
-/// Returns the integers of an attribute; empty if there is none, or one of another type.
+/// Returns the integers of an attribute; empty if there is none, one of another type, or one with
+/// more than 64 integers.
 std::vector<long long> integersOfAttribute(hid_t object, const std::string& name);
 
 }  // namespace squeal::matrixfile

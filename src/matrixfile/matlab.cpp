@@ -1,5 +1,5 @@
-// By hand: matio 1.5 fills up with zeros what a file cut short no longer holds, and leaves out what
-// follows.
+// MATLAB files are read by hand: matio 1.5 fills up with zeros what a file cut short no longer
+// holds, and leaves out what follows.
 #include "matrixfile/matlab.hpp"
 
 #include "matrixfile/bytes.hpp"
@@ -18,7 +18,7 @@ bool isSquareMatrix(const Variable& variable) {
   return isMatrix(variable) && variable.shape[0] == variable.shape[1] && variable.shape[0] > 1;
 }
 
-/// "k (2 x 2 sparse)"
+/// Returns a text such as "k (2 x 2 sparse)".
 std::string described(const Variable& variable) {
   std::vector<std::string> sizes;
   for (const auto size : variable.shape) sizes.push_back(std::to_string(size));
@@ -62,7 +62,8 @@ bool isVersion5(BinaryFile& file) {
   return (mark[0] == 'I' && mark[1] == 'M') || (mark[0] == 'M' && mark[1] == 'I');
 }
 
-/// The text at the beginning tells where the mark of the byte order is missing.
+/// Returns true if the text at the beginning is that of version 5, as it also is where the mark of
+/// the byte order is missing.
 bool claimsVersion5(BinaryFile& file) {
   char text[6] = {};
   file.seek(0);

@@ -1,5 +1,5 @@
-// MATLAB's version 4: variables one after the other, each with a header of five integers, its name
-// and its values by columns.
+// A file of MATLAB's version 4 holds variables one after the other, each with a header of five
+// integers, its name and its values by columns.
 #include "matrixfile/matlab4.hpp"
 
 #include <array>
@@ -57,8 +57,8 @@ Variable variableAt(BinaryFile& file, std::uint64_t position) {
   char bytes[headerSize];
   file.read(bytes, sizeof bytes);
   Variable variable;
-  // Thousands: the byte order, 0 for little-endian and 1 for big; so the type itself shows the
-  // order it is written in.
+  // The thousands give the byte order, 0 for little-endian and 1 for big; so the type itself shows
+  // the order it is written in.
   const auto type = [&](bool swapped) { return numberAt<std::int32_t>(bytes, swapped); };
   variable.swapped =
       type(!littleEndian) / 1000 == 0 && type(!littleEndian) >= 0 ? !littleEndian : littleEndian;
@@ -92,13 +92,15 @@ Variable variableAt(BinaryFile& file, std::uint64_t position) {
   return variable;
 }
 
-/// The size of a sparse matrix stands in its last row.
+/// Returns the value as a size or an index. Throws Error unless it is a whole number that is not
+/// negative.
 long long sizeFrom(double value) {
   if (!(value >= 0 && value < 9e15) || value != std::floor(value))
     throw Error(formatted("a size or an index of %g", value));
   return value;
 }
 
+/// Reads the size of a sparse matrix, which stands in its last row.
 void completeSparse(BinaryFile& file, Variable& variable) {
   const std::size_t rows = variable.shape[0];
   if (!variable.real) return;

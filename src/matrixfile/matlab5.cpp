@@ -1,5 +1,5 @@
-// MATLAB's version 5: elements one after the other, each with its type and length; a variable is an
-// element of elements, packed by zlib in what -v7 writes.
+// A file of MATLAB's version 5 holds elements one after the other, each with its type and length. A
+// variable is an element of elements, packed by zlib in files that -v7 writes.
 #include "matrixfile/matlab5.hpp"
 
 #include <zlib.h>
@@ -31,14 +31,15 @@ class Source {
   Source(const Source&) = delete;
   Source& operator=(const Source&) = delete;
 
-  /// Error: there are fewer.
+  /// Reads `count` bytes. Throws Error if there are fewer.
   void read(char* to, std::size_t count) {
     if (packed_) return unpack(to, count);
     if (count > left_) throw Error("it is cut short");
     file_.read(to, count);
     left_ -= count;
   }
-  /// Memory is taken as the bytes come, not as a length promises them.
+  /// Returns the next `count` bytes. Memory is taken as the bytes come, not as a length promises
+  /// them.
   std::vector<char> take(std::uint64_t count) {
     constexpr std::uint64_t step = 1 << 22;
     std::vector<char> bytes;
@@ -49,7 +50,7 @@ class Source {
     }
     return bytes;
   }
-  /// Error: packed bytes that do not end here, with their check sum.
+  /// Throws Error unless packed bytes end here, with their check sum.
   void finish() {
     if (!packed_) return;
     char surplus = 0;
@@ -126,7 +127,7 @@ class Elements {
     left_ -= padding;
     return element;
   }
-  /// All that was announced has been read.
+  /// Throws Error unless all that was announced has been read.
   void finish() {
     if (left_ != 0) throw Error("it is longer than its parts");
     source_.finish();
@@ -139,8 +140,8 @@ class Elements {
     bool small = false;
     char data[4] = {};
   };
-  /// A small element has its length in the upper half of the type, and its bytes where others have
-  /// their length.
+  /// Reads the next tag. A small element has its length in the upper half of the type, and its
+  /// bytes where others have their length.
   Tag nextTag() {
     char bytes[tagSize];
     if (left_ < tagSize) throw Error("it is cut short");
@@ -171,7 +172,7 @@ std::vector<Number> converted(const std::vector<char>& bytes, bool swapped) {
   return numbers;
 }
 
-/// MATLAB stores numbers in the smallest type that holds them all.
+/// Returns the numbers of an element, which MATLAB stores in the smallest type that holds them all.
 template <class Number>
 std::vector<Number> numbersOf(const Elements::Element& element, bool swapped) {
   const auto as = [&](auto stored) {
@@ -215,7 +216,7 @@ std::vector<long long> shapeOf(const Elements::Element& element, bool swapped) {
   return shape;
 }
 
-/// Flags, sizes (not of an opaque object) and name, with which every variable begins.
+/// Reads the flags, sizes (not of an opaque object) and name with which every variable begins.
 void readHeader(Elements& elements, Variable& variable) {
   const auto flags = elements.next();
   if (flags.type != 6 || flags.bytes.size() != 8) throw Error("its flags are damaged");

@@ -12,7 +12,7 @@ namespace squeal::matrixfile {
 struct Variable {
   std::string name;
   std::string kind;                  ///< "double", "complex sparse", "struct": for messages
-  bool real = false;                 ///< a table of real doubles or singles, full or sparse
+  bool real = false;                 ///< a table of real numbers, in version 5 doubles or singles
   bool sparse = false;               ///< full otherwise
   std::vector<long long> shape;      ///< one number per dimension
   std::uint64_t begin = 0, end = 0;  ///< the bytes that hold it

@@ -70,7 +70,7 @@ class Lines {
   std::string quoted(std::size_t i) const {
     return " '" + std::string(words_[i].substr(0, 40)) + "'";
   }
-  /// A word too many is enough to know of.
+  /// Splits the line into words. A word too many is enough to know of.
   void split() {
     const std::string_view line = line_, blanks = " \t\r\f\v";
     count_ = 0;
@@ -156,12 +156,12 @@ Header readHeader(Lines& lines) {
   return header;
 }
 
-/// Puts the entries of one triangle on both sides.
+/// A Filler adds entries to a matrix, and puts those of one triangle on both sides.
 class Filler {
  public:
   Filler(const Lines& lines, const Header& header)
       : lines_(lines), header_(header), entries_(header.rows, header.columns) {}
-  /// Counted from 0.
+  /// Adds an entry, with row and column counted from 0.
   void add(long long i, long long j, double x) {
     if (header_.oneTriangle() && i != j) requireTriangle(i, j);
     if (header_.skew && i == j && x != 0)
@@ -172,8 +172,8 @@ class Filler {
   Entries take() { return std::move(entries_); }
 
  private:
-  /// The standard asks for the lower triangle. Files of the upper one alone can mean but one thing;
-  /// both would be counted twice.
+  /// Throws Error if entries stand on both sides of the diagonal. The standard asks for the lower
+  /// triangle. Files of the upper one alone can mean but one thing; both would be counted twice.
   void requireTriangle(long long i, long long j) {
     const bool lower = i > j;
     if (lower ? upper_ : lower_)
@@ -214,8 +214,8 @@ void addCoordinate(const Lines& lines, const Header& header, Filler& filler) {
   filler.add(i, j, header.pattern ? 1 : valueOf(lines, header, 2));
 }
 
-/// Where the values of an array belong: column by column, of a symmetric one from the diagonal on,
-/// of a skew one from below it.
+/// A Place is where the next value of an array belongs. Values go column by column, of a symmetric
+/// matrix from the diagonal on, of a skew one from below it.
 class Place {
  public:
   explicit Place(const Header& header) : header_(header), row_(firstRow()) {}

@@ -11,7 +11,8 @@ namespace squeal::matrixfile {
 /// triangle. Throws Error, with the number of the line, for anything else.
 Entries readMatrixMarket(const std::filesystem::path& path);
 
-/// Writes all entries as Matrix Market. Throws Error if the file cannot be written.
+/// Writes all entries as Matrix Market. Throws output::WriteError, which names the file, if it
+/// cannot be written.
 void writeMatrixMarket(const std::filesystem::path& path, const Entries& entries);
 
 }  // namespace squeal::matrixfile

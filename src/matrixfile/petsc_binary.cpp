@@ -15,8 +15,8 @@ namespace {
 
 constexpr bool swapped = littleEndian;  // the format is big-endian
 
-/// Class, rows, columns, entries; then the length of each row, the columns row by row, and the
-/// values, without gaps.
+/// A Header holds the numbers at the beginning of a file: class, rows, columns and entries. The
+/// length of each row, the columns row by row, and the values follow without gaps.
 struct Header {
   long long rows = 0, columns = 0, entries = 0;
   std::uint64_t columnsBegin() const { return 4 * (4 + rows); }

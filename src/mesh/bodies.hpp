@@ -1,15 +1,16 @@
 #pragma once
-/// The cells of the bodies and their nodes. Not collective: for rank 0 only.
+/// These functions read the cells of the bodies and their nodes. Not collective: for rank 0 only.
 #include "mesh/gmsh_model.hpp"
 
 namespace squeal::mesh {
 
-/// The map from nodes of the gmsh model to indices into WholeMesh::points. Borrows both during the
-/// life of the object.
+/// A NodeIndex maps nodes of the gmsh model to indices into WholeMesh::points. It borrows both
+/// during the life of the object.
 class NodeIndex {
  public:
   NodeIndex(WholeMesh& mesh, const GmshModel& model)
       : mesh_(mesh), model_(model), index_(model.nodeCount(), -1) {}
+  /// Replaces nodes of the gmsh model by indices into WholeMesh::points; new ones are added there.
   void add(std::vector<PetscInt>& nodes) {
     for (auto& node : nodes) {
       auto& index = index_[node];
@@ -44,9 +45,10 @@ class NodeIndex {
   std::vector<PetscInt> index_;
 };
 
-/// Fills bodies, dimension, cells, points and tags of the mesh. Throws Error for a body that is not
-/// a volume (a surface of a plane mesh), for cells of an unsupported type, for a cell without a
-/// body or with two, and for a cell that is there twice or has a node twice.
+/// Fills bodies, dimension, cells, points and tags of the mesh. Throws Error for a missing group,
+/// for a body that is not a volume (a surface of a plane mesh), for cells of an unsupported type,
+/// for a cell without a body or with two, for a cell that is there twice or has a node twice, and
+/// for a plane mesh that does not lie in a plane z = constant.
 void readBodies(WholeMesh& mesh, const GmshModel& model, const Request& request, NodeIndex& index);
 
 }  // namespace squeal::mesh

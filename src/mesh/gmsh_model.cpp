@@ -20,6 +20,7 @@
 namespace squeal::mesh {
 namespace {
 
+/// The work for gmsh, with the contents that the checks have found in the file.
 struct Job {
   std::string file, option;  ///< the option as messages begin with it
   meshfile::FileKind kind;

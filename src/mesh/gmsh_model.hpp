@@ -1,6 +1,6 @@
 #pragma once
-/// The interface to the gmsh library: a file read or meshed, and its physical groups. Not
-/// collective: for rank 0 only.
+/// This file is the interface to the gmsh library: a file that it has read or meshed, and the
+/// physical groups. Not collective: for rank 0 only.
 #include "mesh/whole.hpp"
 #include "petsc/buffer.hpp"
 
@@ -15,8 +15,8 @@ struct GroupElements {
 /// Returns the name of a group as options use it, with underscores in place of blanks.
 std::string groupName(std::string name);
 
-/// The mesh that gmsh reads from a file or makes of a geometry. gmsh works in a child process: a
-/// crash there becomes an Error here, and its memory is freed with it.
+/// A GmshModel is the mesh that gmsh reads from a file or makes of a geometry. gmsh works in a
+/// child process: a crash there becomes an Error here, and its memory is freed with it.
 class GmshModel {
  public:
   /// Reads or meshes the file. `parameters` are the settings of a geometry, "name=value". Throws
@@ -24,8 +24,8 @@ class GmshModel {
   /// parameters that the geometry does not have or whose range the value leaves.
   GmshModel(const std::string& file, const std::vector<std::string>& parameters);
 
-  /// Returns a group. If the mesh has none of this name, throws Error, naming the group, the option
-  /// that needs it and the groups of the mesh.
+  /// Returns a group, borrowed. If the mesh has none of this name, throws Error, naming the group,
+  /// the option that needs it and the groups of the mesh.
   const GroupElements& group(const std::string& name, const std::string& wantedBy) const;
   const Point& point(PetscInt index) const { return points_[index]; }
   PetscInt tag(PetscInt index) const { return tags_[index]; }

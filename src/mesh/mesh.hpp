@@ -1,5 +1,6 @@
 #pragma once
-/// The distributed finite element mesh, with the geometry and the names for all later stages.
+/// A Mesh is the distributed finite element mesh, with the geometry and the names for all later
+/// stages.
 #include <petscsys.h>
 
 #include <array>
@@ -12,8 +13,8 @@ namespace squeal::mesh {
 
 using Point = std::array<double, 3>;
 
-/// The cells of one gmsh element type on this rank. A cell belongs to one rank, and all of its
-/// nodes are local nodes there.
+/// A CellBlock holds the cells of one gmsh element type on this rank. A cell belongs to one rank,
+/// and all of its nodes are local nodes there.
 struct CellBlock {
   int type = 0;  ///< gmsh element type
   int nodesPerCell = 0;
@@ -26,8 +27,8 @@ struct CellBlock {
   }
 };
 
-/// The boundary faces of one gmsh element type, from the surface groups that options name. A face
-/// is on the rank of the cell that it bounds.
+/// A FaceBlock holds the boundary faces of one gmsh element type, from the surface groups that
+/// options name. A face is on the rank of the cell that it bounds.
 struct FaceBlock {
   int type = 0;
   int nodesPerFace = 0;
@@ -52,15 +53,16 @@ struct Image {
 /// A contact node of the pad (slave) and the disc node at the same place (master).
 struct ContactPair {
   PetscInt node;    ///< local node of the pad side (owned)
-  PetscInt master;  ///< global node of the disc side; −1: rigid obstacle
+  PetscInt master;  ///< global node of the disc side; −1 for a rigid obstacle
   int interface;    ///< index into Request::interfaces
-  int masterBody;   ///< index into Mesh::bodies of the disc side; −1: rigid obstacle
-  int masterPart;   ///< connected part of the master node; −1: rigid obstacle
+  int masterBody;   ///< index into Mesh::bodies of the disc side; −1 for a rigid obstacle
+  int masterPart;   ///< connected part of the master node; −1 for a rigid obstacle
 };
 
+/// The part of the mesh on this rank, with the names and totals of the whole.
 struct Mesh {
   MPI_Comm comm = MPI_COMM_NULL;
-  int dimension = 3;  ///< 2: plane problem in x, y; 3: solid
+  int dimension = 3;  ///< 2 for a plane problem in x, y; 3 for a solid
   PetscInt totalNodes = 0, totalCells = 0;
   /// Number of nodes of the file in no cell, without those that gmsh makes at points.
   PetscInt unusedNodes = 0;
@@ -86,8 +88,8 @@ struct Mesh {
   PetscInt localNodes() const { return globalNode.size(); }
 };
 
-/// A group of the mesh that a later stage asks for. `option` is the option that names it, with its
-/// dash, for messages where the group is missing or unsuitable.
+/// A GroupRequest names a group of the mesh that a later stage asks for. `option` is the option
+/// that names it, with its dash, for messages where the group is missing or unsuitable.
 struct GroupRequest {
   std::string name, option;
 };
@@ -98,19 +100,20 @@ struct InterfaceRequest {
   GroupRequest pad, disc;  ///< an empty name for the disc stands for a rigid obstacle
 };
 
-/// A periodic constraint: the group `image` is the group `of`, translated.
+/// A PeriodicRequest asks for a periodic constraint: the group `image` is the group `of`,
+/// translated.
 struct PeriodicRequest {
   std::string image, of;
-  std::string option;  ///< begins messages: "option -…"
+  std::string option;  ///< the option that asks for it, with its dash, for messages
 };
 
 /// The groups that the later stages need from the mesh.
 struct Request {
   std::vector<GroupRequest> bodies;  ///< volume groups with a material
-  /// Bodies with a motion; where an interface has shared nodes, they are its disc side.
+  /// Bodies with a motion. Where an interface has shared nodes, they are its disc side.
   std::vector<std::string> moving;
   std::vector<GroupRequest> nodeGroups;  ///< groups of any dimension whose nodes are constrained
-  /// Surface groups that are loaded; those of interfaces are added.
+  /// Surface groups that are loaded. Those of interfaces are added.
   std::vector<GroupRequest> surfaces;
   std::vector<InterfaceRequest> interfaces;
   std::vector<PeriodicRequest> periodic;

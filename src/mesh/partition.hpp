@@ -7,7 +7,8 @@
 namespace squeal::mesh {
 
 /// Returns the rank of each cell, [cell], which METIS finds from the dual graph. Contact partners,
-/// and periodic images with their primaries, count as one node.
+/// and periodic images with their primaries, count as one node. Throws Error for more ranks than
+/// cells.
 std::vector<int> partition(const WholeMesh& mesh, int ranks);
 
 }  // namespace squeal::mesh

@@ -17,8 +17,8 @@
 namespace squeal::mesh {
 namespace {
 
-/// The owners and the global numbers of the nodes. The numbers of the nodes of a rank are
-/// contiguous.
+/// A Numbering holds the owners and the global numbers of the nodes. The numbers of the nodes of a
+/// rank are contiguous.
 struct Numbering {
   std::vector<int> owner;             ///< [whole node]
   std::vector<PetscInt> global;       ///< [whole node]
@@ -50,8 +50,8 @@ Numbering number(const WholeMesh& mesh, const std::vector<int>& cellRank, int ra
   return numbering;
 }
 
-/// Items of the mesh sorted by the rank that gets them, so that packing all ranks is one pass over
-/// the mesh.
+/// A Shares lists the items of the mesh by the rank that gets them, so that packing all ranks is
+/// one pass over the mesh.
 struct Shares {
   std::vector<std::vector<std::vector<PetscInt>>> cells, faces;  // [rank][block] -> element
   std::vector<std::vector<PetscInt>> images, pairs;              // [rank] -> item
@@ -102,7 +102,8 @@ std::vector<Number> picked(const std::vector<Number>& all, const std::vector<Pet
 }
 
 Buffer pack(const WholeMesh& mesh, const Numbering& numbering, const Shares& shares, int rank) {
-  // Local numbers: owned nodes in global order, then the ghosts of this rank's cells.
+  // The local numbers are those of the owned nodes in global order, then those of the ghosts of
+  // this rank's cells.
   std::vector<PetscInt> local;  // local -> global
   for (PetscInt g = numbering.firstOfRank[rank]; g < numbering.firstOfRank[rank + 1]; ++g)
     local.push_back(g);
@@ -211,7 +212,8 @@ Mesh unpack(MPI_Comm comm, Buffer& buffer) {
   return mesh;
 }
 
-/// Collective. Sends buffers[r] from rank 0 to rank r.
+/// Collective. Sends buffers[r] from rank 0 to rank r, which gets it as the result. The buffers are
+/// used up.
 Buffer scatter(MPI_Comm comm, std::vector<Buffer>& buffers) {
   int rank = 0;
   check(MPI_Comm_rank(comm, &rank));

@@ -1,5 +1,5 @@
 #pragma once
-/// Elements that a mesh holds twice. Not collective: for rank 0 only.
+/// These functions find elements that a mesh holds twice. Not collective: for rank 0 only.
 #include <optional>
 #include <utility>
 
@@ -7,6 +7,7 @@
 
 namespace squeal::mesh {
 
+/// The place of an element in a list of blocks.
 struct ElementPlace {
   std::size_t block, element;
 };

@@ -1,10 +1,11 @@
 #pragma once
-/// The whole mesh, which rank 0 holds between reading and distribution. Not collective: for rank 0
-/// only.
+/// A WholeMesh is the whole mesh, which rank 0 holds between reading and distribution. Not
+/// collective: for rank 0 only.
 #include "mesh/mesh.hpp"
 
 namespace squeal::mesh {
 
+/// The cells or faces of one gmsh element type in the whole mesh.
 struct WholeBlock {
   int type = 0, nodesPerElement = 0, corners = 0;
   std::vector<PetscInt> nodes;  ///< [element][node] index into WholeMesh::points
@@ -22,11 +23,13 @@ struct WholeBlock {
   }
 };
 
+/// The boundary faces of one gmsh element type in the whole mesh.
 struct WholeFaces : WholeBlock {
-  std::vector<PetscInt> cell;  ///< [face] the cell it bounds
+  std::vector<PetscInt> cell;  ///< [face] number over all blocks of the cell that it bounds
   std::vector<int> sign;       ///< see FaceBlock
 };
 
+/// The whole mesh, of which load() fills all but primary, images and pairs.
 struct WholeMesh {
   int dimension = 0;
   std::vector<Point> points;

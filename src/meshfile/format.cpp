@@ -22,11 +22,11 @@ const FileOption fileOption(
 
 struct Format {
   const char* ending;
-  std::vector<const char*> starts;  ///< one of these the file begins with
-  const char* part;  ///< of the gmsh library that reads it; empty: it is always there
+  std::vector<const char*> starts;  ///< beginnings, of which the file has one
+  const char* part;  ///< part of the gmsh library that reads it; empty if always there
 };
 
-// Formats of which gmsh makes physical groups.
+/// Returns the formats of which gmsh makes physical groups.
 const std::vector<Format>& formats() {
   static const std::vector<Format> list{{".msh", {"$MeshFormat"}, ""},
                                         {".unv", {"    -1"}, ""},
@@ -35,8 +35,8 @@ const std::vector<Format>& formats() {
   return list;
 }
 
-/// Returns the ending of a file name as gmsh sees it: from the last point of the path on, in small
-/// letters or in capitals throughout.
+/// Returns the ending of a file name as gmsh sees it: from the last point of the path on. An ending
+/// in capitals throughout is returned in small letters.
 std::string endingOf(const std::string& file) {
   const auto point = file.rfind('.');
   const std::string ending = point == std::string::npos ? "" : file.substr(point);

@@ -1,5 +1,5 @@
 #pragma once
-/// The files that are passed to the gmsh library, and their kinds. Not collective.
+/// These functions tell the kinds of the files that are passed to the gmsh library. Not collective.
 #include <string>
 
 namespace squeal::meshfile {
@@ -14,9 +14,9 @@ enum class FileKind {
   mesh       ///< another mesh format
 };
 
-/// Returns the kind of a file. Throws Error unless it is a geometry by its name, or a mesh by its
-/// name and its first line: gmsh runs any other file as a script. Throws Error also if an options
-/// file of gmsh lies beside it, which gmsh would run too.
+/// Returns the kind of a file. Throws Error if it cannot be read, and unless it is a geometry by
+/// its name, or a mesh by its name and its first line: gmsh runs any other file as a script. Throws
+/// Error also if an options file of gmsh lies beside it, which gmsh would run too.
 FileKind requireSound(const std::string& file);
 
 }  // namespace squeal::meshfile

@@ -27,12 +27,13 @@ std::string optionText(const Setting& setting) {
   return "option -mesh_set " + setting.name + "=" + shortest(setting.value) + ": ";
 }
 
-/// The range and step of a parameter. Where a geometry declares none, gmsh guesses them from the
-/// value for its sliders; guesses are not rules.
+/// A Range is the range of a parameter, with its step. Where a geometry declares none, gmsh guesses
+/// them from the value for its sliders; guesses are not rules.
 struct Range {
   double low, high, step;
 };
 
+/// Returns the range that gmsh guesses from a value.
 Range guessed(double value) {
   const bool whole = std::floor(value) == value;
   const double factor = whole ? 5 : 20;

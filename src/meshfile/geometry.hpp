@@ -1,5 +1,5 @@
 #pragma once
-/// The parameters of a geometry, and the size of its mesh. Not collective.
+/// These functions set the parameters of a geometry and mesh it. Not collective.
 #include <string>
 #include <vector>
 
@@ -10,6 +10,7 @@ namespace squeal::meshfile {
 /// Returns the items of the option `-mesh_set`, each "name=number".
 std::vector<std::string> geometryParameters();
 
+/// A parameter of a geometry and the value that it is given.
 struct Setting {
   std::string name;
   double value;
@@ -20,7 +21,8 @@ struct Setting {
 std::vector<Setting> readSettings(const std::vector<std::string>& parameters);
 
 /// Gives the settings to gmsh for the next time it opens the geometry that is open. Throws Error if
-/// the geometry has no parameter of a name, or if a value leaves the range or choices it declares.
+/// the geometry has no parameter of a name, if that is a text, or if a value leaves the range or
+/// choices that the geometry declares.
 void applySettings(const std::vector<Setting>& settings);
 
 /// Throws Error if the geometry has replaced the settings by other values. Call it after the
@@ -28,7 +30,8 @@ void applySettings(const std::vector<Setting>& settings);
 void requireSettingsUsed(const std::vector<Setting>& settings);
 
 /// Meshes the geometry that gmsh has open. From its edges, which are meshed first, it estimates the
-/// number of cells: throws Error if they cannot be numbered, and warns if memory is too small.
+/// number of cells. Throws Error if the displacements cannot be numbered, or if gmsh needs more
+/// than twice the memory that is free; warns if it needs more than half of that.
 void meshGeometry(const std::string& file, const Warn& warn);
 
 }  // namespace squeal::meshfile

@@ -22,7 +22,7 @@ namespace {
 
 using Integer = std::int64_t;
 
-/// The file mapped into memory, whose pages are loaded when they are read.
+/// A file that is mapped into memory; its pages are loaded when they are read.
 class Mapped {
  public:
   explicit Mapped(const std::string& file) {
@@ -83,7 +83,8 @@ class Reader {
   }
   Integer large(const char* what) { return binary ? raw<Integer>(what) : written<Integer>(what); }
   double real(const char* what) { return binary ? raw<double>(what) : written<double>(what); }
-  /// Returns a number of items, each of which takes at least `least` bytes of the file.
+  /// Returns the number of items that is promised. Throws Error if the rest of the file cannot hold
+  /// them, as each takes at least `least` bytes.
   Integer count(Integer promised, const char* what, Integer least) const {
     const Integer left = text_.size() - at_;
     if (promised < 0 ||

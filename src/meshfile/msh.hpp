@@ -1,20 +1,21 @@
 #pragma once
-/// Checks of files in gmsh's mesh format before gmsh reads them.
+/// This function checks files in gmsh's mesh format before gmsh reads them.
 #include <cstdint>
 #include <string>
 
 namespace squeal::meshfile {
 
+/// The version of a .msh file and the numbers of its nodes and elements.
 struct MshContents {
   double version = 0;
   std::int64_t nodes = 0, elements = 0;
 };
 
-/// Returns the contents of a .msh file of version 2 to 4.1, ASCII or binary. Throws Error, with the
-/// line (or the byte in a binary file), unless the sections $Nodes and $Elements hold what their
-/// headers announce: tags that are positive and given once, finite coordinates, and elements of
-/// known types on existing nodes. gmsh's reader does not check its headers: it writes beyond its
-/// arrays, stops early without a message, and takes -1 for a node. Not collective.
+/// Not collective. Returns the contents of a .msh file of version 2 to 2.2, 4 or 4.1, ASCII or
+/// binary. Throws Error, with the line (or the byte in a binary file), unless the sections $Nodes
+/// and $Elements hold what their headers announce: tags that are positive and given once, finite
+/// coordinates, and elements of known types on existing nodes. gmsh's reader does not check its
+/// headers: it writes beyond its arrays, stops early without a message, and takes -1 for a node.
 MshContents requireSoundMsh(const std::string& file);
 
 }  // namespace squeal::meshfile

@@ -63,7 +63,7 @@ class Unv {
   [[noreturn]] void fail(const std::string& what) const {
     throw Error("option -mesh_file " + file_ + ", line " + std::to_string(number_) + ": " + what);
   }
-  /// Moves to the next line that is not empty.
+  /// Moves to the next line that is not empty. Returns false at the end of the file.
   bool next() {
     do ++number_;
     while (std::getline(stream_, line_) && line_.find_first_not_of(" \t\r") == std::string::npos);

@@ -32,12 +32,12 @@ std::map<std::string, std::string>& recipe() {
 /// uses it.
 bool validating = false;
 
-/// The value of an option that was given; none: it was not.
+/// Returns the value of an option; none if it was not given.
 std::optional<std::string> valueGiven(const std::string& name) {
   const char* value = nullptr;
   PetscBool set = PETSC_FALSE;
   check(PetscOptionsFindPair(nullptr, nullptr, ("-" + name).c_str(), &value, &set));
-  // Asked for a_1_b, PETSc also takes a_b.
+  // PETSc, asked for a_1_b, also takes a_b.
   static const std::regex numbered("_[0-9]+_");
   if (!set || (std::regex_search(name, numbered) && !givenOptions().count(name))) return {};
   return value ? value : "";
@@ -203,7 +203,8 @@ std::vector<double> RealListOption::get(const std::string& subject) const {
                  step = number(subject, parts[2]);
     if (!(step > 0) || last < first) reject(subject, value);
     requireLength(subject, value, std::floor((last - first) / step) + 1);
-    // A little slack: 0:0.6:0.05 ends at 0.6 although 12 × 0.05 is not the double nearest to it.
+    // There is a little slack: 0:0.6:0.05 ends at 0.6 although 12 × 0.05 is not the double nearest
+    // to it.
     const int steps = std::floor((last - first) / step + 1e-9);
     for (int i = 0; i <= steps; ++i)
       list.push_back(std::stod(formatted("%.12g", first + i * step)));

@@ -22,10 +22,11 @@ std::size_t stageRank(const std::string& stage);
 class Option {
  public:
   const std::string stage, name, defaultText, unit, meaning, rule;
-  const bool required;  ///< it has no default: reading it throws Error unless it is given
+  const bool required;  ///< without default: reading it throws Error unless it is given
 
   /// Returns the full name without the dash, the placeholder replaced by `subject`.
   std::string fullName(const std::string& subject = {}) const;
+  /// Returns true if the option is given for this subject.
   bool given(const std::string& subject = {}) const;
   /// Returns the words in place of the placeholder in the options given, sorted: the <group> of
   /// each `-part_<group>_length`.
@@ -47,8 +48,10 @@ class Option {
   std::string text(const std::string& subject) const;
   /// Returns a text such as "option -part_disc_length -1 (disc.yaml, line 3)".
   std::string named(const std::string& subject, const std::string& value) const;
+  /// Throws Error with the value, the meaning of the option and its rule.
   [[noreturn]] void reject(const std::string& subject, const std::string& value) const;
-  /// Returns the value as a number. Throws Error unless its magnitude is admissible.
+  /// Returns the value as a number. Throws Error unless it is a finite number, and is zero or of an
+  /// admissible magnitude.
   double number(const std::string& subject, const std::string& value) const;
 };
 
@@ -58,6 +61,7 @@ inline constexpr double smallestMagnitude = 1e-50, largestMagnitude = 1e50;
 /// The largest number of values in one list.
 inline constexpr int longestList = 100'000;
 
+/// An interval of the reals, with or without its ends.
 struct Range {
   double low = -std::numeric_limits<double>::infinity(),
          high = std::numeric_limits<double>::infinity();
@@ -71,7 +75,7 @@ inline constexpr Range nonNegative{0};
 
 class RealOption : public Option {
  public:
-  /// No default: required wherever it is asked for.
+  /// Declares an option. Without `byDefault` it is required wherever it is asked for.
   RealOption(std::string stage, std::string name, std::optional<double> byDefault, std::string unit,
              Range range, std::string meaning);
   double get(const std::string& subject = {}) const;
@@ -92,16 +96,17 @@ class IntegerOption : public Option {
   int lowest_, highest_;
 };
 
-/// Reals separated by commas, with blanks allowed beside them. With `ranges`, `first:last:step`
-/// stands for an arithmetic sequence, `last` included.
+/// A RealListOption holds reals separated by commas, with blanks allowed beside them. With
+/// `ranges`, `first:last:step` stands for the arithmetic sequence up to `last`, which is included
+/// if a whole number of steps leads to it.
 class RealListOption : public Option {
  public:
   RealListOption(std::string stage, std::string name, std::string byDefault, std::string unit,
                  Range range, std::string meaning, bool ranges = false);
   std::vector<double> get(const std::string& subject = {}) const;
   void validate(const std::string& subject) const override { get(subject); }
-  /// Returns the values as a vector. Throws Error unless there are three; two are enough for a mesh
-  /// in the plane.
+  /// Returns the values as a vector, in the plane with a zero in place of a third one that is not
+  /// given. Throws Error unless there are three; two are enough for a mesh in the plane.
   std::array<double, 3> components(const std::string& subject, int dimension) const;
 
  private:
@@ -130,7 +135,7 @@ class ChoiceOption : public Option {
 
 class TextOption : public Option {
  public:
-  /// No default: required wherever it is asked for.
+  /// Declares an option. Without `byDefault` it is required wherever it is asked for.
   TextOption(std::string stage, std::string name, std::optional<std::string> byDefault,
              std::string meaning);
   std::string get(const std::string& subject = {}) const;
@@ -140,11 +145,11 @@ class TextOption : public Option {
   std::vector<std::string> list(const std::string& subject = {}) const;
 };
 
-/// A file to be read. If an options file names it, it is sought beside that file, then in the
-/// working folder; if the command line names it, in the working folder.
+/// A FileOption names a file to be read. If an options file names it, it is sought beside that
+/// file, then in the working folder; if the command line names it, in the working folder.
 class FileOption : public Option {
  public:
-  /// No default: required wherever it is asked for.
+  /// Declares an option without default: it is required wherever it is asked for.
   FileOption(std::string stage, std::string name, std::string meaning);
   /// Returns the path to read.
   std::string get(const std::string& subject = {}) const { return text(subject); }

@@ -65,8 +65,8 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
   return row[b.size()];
 }
 
-/// The option nearest to a mistyped name, its placeholder filled with the part of the name that
-/// fits best; empty if none is near.
+/// Returns the option nearest to a mistyped name, its placeholder filled with the part of the name
+/// that fits best; empty if none is near.
 std::string nearestName(const std::string& name) {
   std::string nearest;
   if (name.size() > 100) return nearest;  // not a slip of the finger, and long to compare

@@ -12,7 +12,8 @@
 
 namespace squeal {
 
-/// The prefix of a PETSc or SLEPc solver: options that begin with it belong to that solver.
+/// A SolverPrefix declares the prefix of a PETSc or SLEPc solver. Options that begin with it belong
+/// to that solver.
 class SolverPrefix {
  public:
   SolverPrefix(std::string stage, std::string prefix, std::string meaning);
@@ -24,6 +25,7 @@ class SolverPrefix {
   /// solver. Call it after the solver is configured. `exceptAfter` names sub-prefixes whose options
   /// are read later, by a factorisation for example.
   void rejectUnused(const std::vector<std::string>& exceptAfter = {}) const;
+  /// Returns all prefixes in order of stage, then of declaration; borrowed.
   static std::vector<const SolverPrefix*> all();
 };
 
@@ -38,8 +40,8 @@ void applySolverOptions(const std::function<PetscErrorCode()>& configure);
 /// rule.
 void rejectUnknownOptions();
 
-/// Returns, at the end of a run, a line for each given option that was never read: "option -a 2
-/// (case.yaml, line 3) was not used: …".
+/// Not collective. Returns, at the end of a run, a line for each given option that was never read:
+/// "option -a 2 (case.yaml, line 3) was not used: …".
 std::vector<std::string> unusedOptions();
 
 /// Returns the manual that `-help` prints.

@@ -47,8 +47,9 @@ std::string prefixed(const std::string& place, const std::string& message) {
   return place.empty() ? message : place + ": " + message;
 }
 
-/// Words separated by blanks; one that begins with a quote ends at the next one of its kind in the
-/// line. In files `#` begins a comment.
+/// Returns the words of a text, which are separated by blanks. A word that begins with a quote ends
+/// at the next one of its kind in the line. With `comments`, as in files, `#` begins a comment.
+/// Throws Error, with `name` and the line, for an open quote and for a control character.
 std::vector<Word> wordsOf(const std::string& text, const std::string& name, bool comments) {
   std::vector<Word> words;
   const auto blank = [&](std::size_t i) {
@@ -84,13 +85,14 @@ std::vector<Word> wordsOf(const std::string& text, const std::string& name, bool
   return words;
 }
 
-/// Line breaks mean no more than blanks.
+/// Returns the words as if they stood in one line: line breaks mean no more than blanks.
 std::vector<Word> onOneLine(std::vector<Word> words) {
   for (auto& word : words) word.line = 0;
   return words;
 }
 
-/// Rejects what PETSc's database, or the record of the run, would not keep as it is.
+/// Throws Error for a setting that PETSc's database, or the record of the run, would not keep as it
+/// is.
 void requireSound(const Setting& setting) {
   const auto fail = [&](const std::string& message) {
     throw Error(prefixed(setting.place(), message));
@@ -141,7 +143,7 @@ class Reader {
     for (const auto& setting : settingsOfYaml(text, name)) add(setting);
   }
 
-  /// Reads a file that PETSc reads by default, if it exists.
+  /// Reads a file that PETSc reads by default, if it exists. Throws Error if it cannot be read.
   void readIfThere(const std::string& file) {
     std::error_code unknown;
     if (readFile(file, false) || !fs::is_regular_file(file, unknown)) return;
@@ -235,7 +237,7 @@ class Reader {
   std::vector<std::string> prefixes_, open_;
 };
 
-/// Takes `-skip_petscrc [flag]` out of the words; the last one counts.
+/// Takes `-skip_petscrc [flag]` out of the words. Returns the flag; the last one counts.
 bool takeSkip(std::vector<Word>& words) {
   bool skip = false;
   for (std::size_t i = 0; i < words.size();) {
@@ -274,7 +276,7 @@ std::map<std::string, Setting>& record() {
   return settings;
 }
 
-/// Settings of files that were replaced, in the order of their names.
+/// Returns the settings of files that were replaced, by the names of their options.
 std::map<std::string, Setting>& replaced() {
   static std::map<std::string, Setting> settings;
   return settings;
@@ -292,7 +294,7 @@ std::string located(const std::string& path, const std::string& namedIn) {
   std::error_code ignored;
   // A file beside the options file is taken even if it cannot be read or is a broken link.
   if (fs::symlink_status(beside, ignored).type() == fs::file_type::not_found) return path;
-  // The short way from the working folder where the file is inside of it.
+  // A file inside of the working folder is named by the short way from there.
   const fs::path inside = fs::proximate(beside, ignored);
   return ignored || inside.empty() || *inside.begin() == ".." ? beside.string() : inside.string();
 }

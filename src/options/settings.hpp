@@ -1,10 +1,11 @@
 #pragma once
-/// Options as they are given: on the command line, in options files, in the environment. Everything
-/// is read here, by rank 0, and then put into PETSc's options database, in the order in which it
-/// stands: what comes later wins.
+/// These functions read options as they are given: on the command line, in options files, in the
+/// environment. Everything is read here, by rank 0, and then put into PETSc's options database, in
+/// the order in which it stands: the later one of two settings wins.
 ///
 /// PETSc's own readers skip words that belong to no option, stop at a NUL byte and end the run with
-/// a traceback for an error of syntax; names, files and their meaning are theirs.
+/// a traceback for an error of syntax. The names of options and files and their meaning are
+/// PETSc's.
 #include <mpi.h>
 
 #include <string>
@@ -12,10 +13,11 @@
 
 namespace squeal {
 
+/// An option as it is given once.
 struct Setting {
-  std::string name, value;  ///< name without the dash; an empty value: the bare option
-  std::string file;         ///< options file that holds it; empty: command line or environment
-  int line = 0;             ///< in the file, from 1
+  std::string name, value;  ///< name without the dash; the value is empty for a bare option
+  std::string file;         ///< options file that holds it; empty outside of files
+  int line = 0;             ///< line in the file, from 1; 0 outside of files
 
   /// Returns a text such as "disc.yaml, line 3"; empty if the setting is in no file.
   std::string place() const;
@@ -28,6 +30,7 @@ struct Setting {
 std::vector<Setting> settingsOfCall(const std::vector<std::string>& words);
 
 /// Returns the settings of a command line given as one text, with quotes around values with blanks.
+/// Throws Error for text that cannot be understood.
 std::vector<Setting> settingsOfText(const std::string& text);
 
 /// Returns the options of one file. It is YAML by its name (.yaml, .yml, .json, or `:yaml` at its
@@ -42,10 +45,10 @@ std::string located(const std::string& path, const std::string& namedIn);
 /// Collective. Returns the settings of rank 0 on all ranks.
 std::vector<Setting> onAllRanks(MPI_Comm comm, const std::vector<Setting>& ofRankZero);
 
-/// Puts options into PETSc's database and records their places.
+/// Not collective. Puts options into PETSc's database on this rank and records their places.
 void insert(const std::vector<Setting>& settings);
 
-/// Collective. Inserts the settings of an options file.
+/// Collective. Reads an options file on rank 0 and inserts its settings on all ranks.
 void insertFile(MPI_Comm comm, const std::string& file);
 
 /// Returns the place where the value of an option was set, if it came through insert() and is still

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int deepest = 64;  // an alias may hold itself
 constexpr std::size_t mostSettings =
-    10000;  // and aliases of aliases multiply; PETSc's database holds far fewer
+    10000;  // aliases of aliases multiply; PETSc's database holds far fewer
 
 struct Parser {
   explicit Parser(const std::string& text) {
@@ -37,7 +37,7 @@ struct Document {
 
 int lineOf(const yaml_mark_t& mark) { return mark.line + 1; }
 
-/// The first line up to `last` that is indented by a tab; 0: none is.
+/// Returns the first line up to `last` that is indented by a tab, from 1; 0 if none is.
 int tabbedLine(const std::string& text, int last) {
   std::size_t begin = 0;
   for (int line = 1; line <= last && begin < text.size(); ++line) {
@@ -54,7 +54,8 @@ int tabbedLine(const std::string& text, int last) {
   throw Error(formatted("%s, line %d: %s", name.c_str(), line, message.c_str()));
 }
 
-/// The parser's own words, with what a person is likely to have done.
+/// Throws Error with the parser's own words and with the mistake that a person is likely to have
+/// made.
 [[noreturn]] void failParsing(const yaml_parser_t& parser, const std::string& text,
                               const std::string& name) {
   if (parser.error == YAML_MEMORY_ERROR) throw std::bad_alloc();
@@ -117,8 +118,8 @@ class Flattening {
     bool isSection;
   };
 
-  /// YAML forbids a key that comes twice, and libyaml lets it pass. Values are left to add(), which
-  /// knows of those with the same name in other sections.
+  /// Throws Error for a section that comes twice, which YAML forbids and libyaml lets pass. Values
+  /// are left to add(), which knows of those with the same name in other sections.
   void requireFirst(std::map<std::string, Key>& keys, const std::string& name,
                     const yaml_node_t* key, bool isSection) const {
     const auto [earlier, isNew] = keys.insert({name, {lineOf(key->start_mark), isSection}});
@@ -151,7 +152,7 @@ class Flattening {
     }
   }
 
-  /// The merge key of YAML 1.1: what is given beside it counts more.
+  /// Adds the entries of the merge key of YAML 1.1; an entry that is given beside it counts more.
   void merge(const yaml_node_t* value, const std::string& prefix, int depth) {
     if (value->type == YAML_MAPPING_NODE) return addMapping(value, prefix, true, depth + 1);
     if (value->type != YAML_SEQUENCE_NODE) fail(value, "'<<' merges maps, and this is a text");

@@ -45,7 +45,7 @@ void sync(const std::filesystem::path& path) {
   if (file < 0) throw WriteError(cannotWrite(path, errno));
   const int error = fsync(file) == 0 ? 0 : errno;
   close(file);
-  // some file systems know no fsync of a folder
+  // Some file systems know no fsync of a folder.
   if (error != 0 && error != EINVAL) throw WriteError(cannotWrite(path, error));
 }
 

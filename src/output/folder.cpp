@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A folder itself, not a link to one.
+/// Returns true for a folder itself, not for a link to one.
 bool isFolder(const fs::path& path) { return fs::is_directory(fs::symlink_status(path)); }
 
 std::vector<fs::path> entriesOf(const fs::path& folder) {
@@ -25,8 +25,8 @@ std::vector<fs::path> entriesOf(const fs::path& folder) {
   return names;
 }
 
-/// mpirun ends all ranks as soon as one has ended: the first ones stay until the last one has
-/// cleared up. Then it loses patience itself.
+/// The first ranks that end stay this long, until the last one has cleared up, as mpirun ends all
+/// ranks as soon as one has ended. mpirun waits no longer than this itself.
 constexpr std::chrono::milliseconds patience(1000);
 
 std::string inTheWay(const fs::path& path) {
@@ -34,7 +34,7 @@ std::string inTheWay(const fs::path& path) {
          " lists what is); move it, or name another folder";
 }
 
-/// Never onto something that exists.
+/// Renames a file or a folder, never onto one that exists. Throws WriteError.
 void moveTo(const fs::path& from, const fs::path& to) {
   if (renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return;
   if (errno == EINVAL || errno == ENOSYS) {  // a file system without that flag, such as NFS
@@ -68,7 +68,7 @@ void removeListed(const fs::path& folder, const Manifest& manifest, const fs::pa
   for (const auto& inside : manifest.folders())  // parents come before what is in them
     if (real.contains(inside.parent_path()) && isFolder(folder / inside)) real.insert(inside);
   const auto removeFile = [&](const fs::path& file) {
-    // what has become a folder is the user's
+    // A file that has become a folder is the user's.
     if (unlink((folder / file).c_str()) != 0 && errno != ENOENT && errno != EISDIR &&
         errno != EPERM)
       throw WriteError(cannotWrite(folder / file, errno));
@@ -148,7 +148,7 @@ void Folder::make() {
   if (!fs::is_directory(path_)) throw WriteError(cannotWrite(path_, ENOTDIR));
 }
 
-/// Removes the files that a killed run has left.
+/// Removes the staging folder that a killed run has left, and finishes its commit.
 void Folder::clear() {
   if (fs::exists(fs::symlink_status(staging_)) && !isFolder(staging_))
     throw WriteError(inTheWay(staging_));
@@ -156,7 +156,7 @@ void Folder::clear() {
   if (fs::exists(fs::symlink_status(complete_))) replace();
 }
 
-/// The last rank alone, so that nothing is taken from under the hands of another one.
+/// Clears up on the last rank alone, so that nothing is taken from under the hands of another one.
 void Folder::tidy(std::chrono::milliseconds patience) {
   const EndingWaits whole;
   const auto asLast = [&] {
@@ -164,7 +164,7 @@ void Folder::tidy(std::chrono::milliseconds patience) {
     fs::remove_all(staging_, ignored);
   };
   lock_.release(asLast, patience);
-  // only what has stayed empty
+  // A folder that has not stayed empty is kept.
   for (fs::path folder = path_; made_ > 0 && rmdir(folder.c_str()) == 0; --made_)
     folder = folder.parent_path();
 }
@@ -217,7 +217,7 @@ void Folder::commit() {
   });
 }
 
-/// Puts what is in .complete into its place; each step, once done, is not found to be done again.
+/// Puts the files in .complete into their place. A step that is done is not found to be done again.
 void Folder::replace() const {
   const fs::path manifest = complete_ / Manifest::name, last = complete_ / naming_.last;
   if (!isFolder(complete_) ||

@@ -1,6 +1,6 @@
 #pragma once
-/// A folder whose content is replaced as a whole: what lies there is always one complete run, or
-/// nothing that looks like one.
+/// A folder is replaced as a whole: there is always one complete run in it, or nothing that looks
+/// like one.
 #include <mpi.h>
 
 #include <filesystem>
@@ -20,19 +20,20 @@ struct Naming {
   std::string last;    ///< the file whose presence shows that all others are there
   /// Returns true if a run may write this path, relative to the folder: a file or a subfolder.
   std::function<bool(const std::filesystem::path&)> mayWrite;
-  /// Returns the files that a version without manifests left in a folder; none if it holds no
-  /// results of such a version.
+  /// Returns the files that a version without manifests left in a folder; an empty manifest if the
+  /// folder holds no results of such a version.
   std::function<Manifest(const std::filesystem::path&)> former;
 };
 
-/// Files are written to staging() and replace those of the earlier run when all are complete; of
-/// the earlier run is what its manifest lists. Every way out but commit() leaves the folder as it
-/// was: errors, signals, MPI_Abort; after SIGKILL the next run does it.
+/// A Folder takes the files of a run in staging(); they replace those of the earlier run when all
+/// are complete. The files that the manifest lists are those of the earlier run. Every way out but
+/// commit() leaves the folder as it was: errors, signals and MPI_Abort; after SIGKILL the next run
+/// puts it in order.
 ///
-/// commit() has one moment, the renaming of .partial to .complete, before which the earlier results
-/// stand and after which the new ones are what a next run would finish putting in place. From then
-/// on: the earlier run's `last` goes first, then its other files, its manifest at the end; the new
-/// files are renamed into the folder, then the manifest, and `last` as the very last.
+/// The renaming of .partial to .complete is the one moment of commit(). Before it the earlier
+/// results stand, and after it the next run would finish to put the new ones into place. From then
+/// on the earlier run's `last` goes first, then its other files, and its manifest at the end. The
+/// new files are then renamed into the folder, then the manifest, and `last` as the very last.
 class Folder {
  public:
   /// Collective. Makes the folder if need be and locks it; finishes the commit of a run that was
@@ -45,12 +46,14 @@ class Folder {
   Folder& operator=(const Folder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-  /// Where files are written until commit().
+  /// Returns the folder in which files are written until commit(), borrowed.
   const std::filesystem::path& staging() const { return staging_; }
   /// Collective. Makes the staging folder. Throws Error if it cannot be made.
   void stage();
-  /// Collective. Call it after all ranks have written. Throws Error if a file of the user is in the
-  /// way, or if the disc is full; the earlier results then stay.
+  /// Collective. Puts the new files into the place of the earlier ones. Call it after all ranks
+  /// have written. Throws Error if a file of the user is in the way, or if the disc is full. The
+  /// earlier results stay if that happens before the renaming; after it, the next run puts the new
+  /// ones into place.
   void commit();
 
  private:
@@ -68,7 +71,7 @@ class Folder {
   Naming naming_;
   std::string head_;
   std::filesystem::path path_, staging_, complete_;
-  /// How many of the last folders of the path had to be made, this one and its parents
+  /// Number of the last folders of the path that had to be made, this one and its parents
   int made_ = 0;
   Lock lock_;
   std::unique_ptr<LastAct> lastAct_;

@@ -17,7 +17,7 @@
 namespace squeal::output {
 namespace {
 
-/// 0, or errno.
+/// Locks the file without waiting. Returns 0 or errno.
 int lockFile(int file, int kind) {
   while (flock(file, kind | LOCK_NB) != 0)
     if (errno != EINTR) return errno;
@@ -47,8 +47,9 @@ void Lock::take(MPI_Comm comm, const std::filesystem::path& folder, const std::s
   if (rank != 0 && held) join();
 }
 
-/// Exclusively at first, which tells that no other run has it; then shared, for the other ranks to
-/// join.
+/// Takes the lock exclusively at first, which tells that no other run has it, and then shared, for
+/// the other ranks to join. Sets `warning` where the file system cannot lock. Throws WriteError as
+/// take() throws Error.
 void Lock::takeAlone(const std::filesystem::path& folder, std::string& warning) {
   const EndingWaits whole;
   for (int attempt = 0; attempt < 10;
@@ -76,8 +77,8 @@ void Lock::takeAlone(const std::filesystem::path& folder, std::string& warning) 
                    ": wait for its end, or name another folder");
 }
 
-/// Rank 0 holds the lock already. Should this fail, as on a node that does not see the folder, the
-/// run has it still.
+/// Joins rank 0, which holds the lock already. If that fails, as on a node that does not see the
+/// folder, the run has the lock all the same.
 void Lock::join() {
   const EndingWaits whole;
   const int file = open(path_.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);
@@ -92,7 +93,7 @@ void Lock::join() {
 void Lock::release(const std::function<void()>& asLast, std::chrono::milliseconds patience) {
   if (state_ == State::unlockable) asLast();
   if (state_ == State::held) {
-    // Who can have it alone is the last one. The attempt gives up the shared lock.
+    // The rank that can have it alone is the last one. The attempt gives up the shared lock.
     constexpr std::chrono::milliseconds pause(10);
     int error = lockFile(file_, LOCK_EX);
     for (; error == EWOULDBLOCK && patience.count() > 0; patience -= pause) {

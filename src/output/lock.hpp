@@ -1,5 +1,5 @@
 #pragma once
-/// One run at a time in a folder.
+/// This lock admits one run at a time to a folder.
 #include <mpi.h>
 
 #include <chrono>
@@ -9,9 +9,9 @@
 
 namespace squeal::output {
 
-/// An advisory lock (flock) on a file in a folder, held by every rank of a run, so that it lasts
-/// until the last of them is gone, however it ends. One that is left behind by SIGKILL locks
-/// nothing.
+/// A Lock is an advisory lock (flock) on a file in a folder. Every rank of a run holds it, so that
+/// it lasts until the last of them is gone, however it ends. A file that SIGKILL leaves behind
+/// locks nothing.
 class Lock {
  public:
   /// The name of the file.
@@ -22,11 +22,12 @@ class Lock {
   Lock(const Lock&) = delete;
   Lock& operator=(const Lock&) = delete;
 
-  /// Collective. Error, on all ranks, that begins with `head`: another run holds the lock, or the
-  /// file cannot be made. Where the file system cannot lock, a warning says so.
+  /// Collective. Takes the lock. Throws Error on all ranks, with a message that begins with `head`,
+  /// if another run holds the lock or the file cannot be made. Where the file system cannot lock, a
+  /// warning says so.
   void take(MPI_Comm comm, const std::filesystem::path& folder, const std::string& head);
-  /// Not collective. The last rank to let go does `asLast` first and removes the file. The others
-  /// do not wait for it, or as long as `patience`, and take its part should it die.
+  /// Not collective. Releases the lock. The last rank to let go does `asLast` first and removes the
+  /// file. The others wait for it as long as `patience`, and take its part if it dies meanwhile.
   void release(
       const std::function<void()>& asLast = [] {}, std::chrono::milliseconds patience = {});
 
@@ -35,7 +36,7 @@ class Lock {
     none,
     held,
     unlockable
-  };  ///< unlockable: on rank 0, which is the last one then
+  };  ///< unlockable: only on rank 0, which is then the last one
   void takeAlone(const std::filesystem::path& folder, std::string& warning);
   void join();
 

@@ -1,5 +1,6 @@
 #pragma once
-/// The list of the files of a run, kept beside them: what a later run may remove, and nothing else.
+/// A manifest lists the files of a run and is kept beside them. A later run may remove these files,
+/// and nothing else.
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -13,12 +14,14 @@ class Manifest {
   static constexpr const char* name = "manifest.txt";
 
   Manifest() = default;
-  /// These files, by relative paths, and the manifest.
+  /// Lists these files, which are given by relative paths, and the manifest.
   explicit Manifest(const std::set<std::filesystem::path>& files);
-  /// All files below `folder`, and the manifest.
+  /// Returns the list of all files below `folder`, and of the manifest. Throws
+  /// std::filesystem::filesystem_error if the folder cannot be read.
   static Manifest of(const std::filesystem::path& folder);
-  /// The one in `folder`; none: there is none, or the file of this name is not of this program.
-  /// Error (std::runtime_error): it is damaged, or a path leads out of the folder.
+  /// Returns the manifest in `folder`; none if there is none, or if the file of this name is not of
+  /// this program. Throws std::runtime_error if it is damaged, or if a path leads out of the
+  /// folder.
   static std::optional<Manifest> read(const std::filesystem::path& folder);
 
   const std::set<std::filesystem::path>& files() const { return files_; }
@@ -27,15 +30,16 @@ class Manifest {
   bool lists(const std::filesystem::path& path) const {
     return files_.contains(path) || folders_.contains(path);
   }
-  /// Notes a folder of ours that stays for what the user has in it; in the text its path ends with
-  /// a slash.
+  /// Notes a folder of ours that stays for the files that the user has in it. In the text its path
+  /// ends with a slash.
   void keep(const std::filesystem::path& folder);
+  /// Returns the content of the file.
   std::string text() const;
 
  private:
   void add(const std::filesystem::path& file);
   std::set<std::filesystem::path> files_, folders_,
-      kept_;  ///< folders_: those that hold files, and kept_
+      kept_;  ///< folders_ are those that hold files, and kept_
 };
 
 }  // namespace squeal::output

@@ -1,14 +1,15 @@
 #pragma once
-/// Access to the entries that a vector has on this rank.
+/// This file gives access to the entries that a vector has on this rank.
 #include <petscvec.h>
 
 #include "petsc/check.hpp"
 
 namespace squeal {
 
-/// The entries of a vector on this rank, borrowed during the life of the object, which must end
-/// before that of the vector and before the vector is used otherwise. Taking them and giving them
-/// back is not collective: a rank may do so on its own.
+/// A BorrowedArray gives access to the entries of a vector on this rank. The vector is borrowed
+/// during the life of the object, which must end before the vector is used otherwise or destroyed.
+/// A rank may read on its own. All ranks have to make a WriteArray together: PETSc keeps norms of a
+/// vector, and drops them only on the ranks that wrote.
 template <class Value, PetscErrorCode (*take)(Vec, Value**),
           PetscErrorCode (*giveBack)(Vec, Value**)>
 class BorrowedArray {
@@ -32,9 +33,9 @@ class BorrowedArray {
   Value* data_ = nullptr;
 };
 
-/// Entries to read. Several objects may read one vector at the same time.
+/// A ReadArray gives entries to read. Several of them may read one vector at the same time.
 using ReadArray = BorrowedArray<const PetscScalar, VecGetArrayRead, VecRestoreArrayRead>;
-/// Entries to read and to change.
+/// A WriteArray gives entries to read and to change.
 using WriteArray = BorrowedArray<PetscScalar, VecGetArray, VecRestoreArray>;
 
 }  // namespace squeal

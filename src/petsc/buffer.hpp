@@ -1,5 +1,5 @@
 #pragma once
-/// Messages that carry meshes and matrices between processes.
+/// This file holds the messages that carry meshes and matrices between processes.
 #include <cstring>
 #include <string>
 #include <type_traits>
@@ -7,7 +7,8 @@
 
 namespace squeal {
 
-/// A flat message of numbers and texts, which are read in the order in which they were written.
+/// A Buffer is a flat message of numbers and texts. They are taken in the order and with the types
+/// in which they were put; nothing checks this.
 class Buffer {
  public:
   template <class Number>

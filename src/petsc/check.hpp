@@ -1,5 +1,5 @@
 #pragma once
-/// Errors, and their propagation to all ranks.
+/// This file holds errors, and shares them with all ranks.
 #include <petscsys.h>
 
 #include <new>
@@ -9,21 +9,22 @@
 
 namespace squeal {
 
-/// A mistake in the input or a problem without an answer, known to every rank. The message names
-/// the option or group and the rule it breaks. Thrown on all ranks of the communicator together, so
-/// that the program ends without a hang.
+/// An Error reports a mistake in the input or a problem without an answer. The message names the
+/// option or group and the rule it breaks. A collective function throws it on all ranks of the
+/// communicator together, so that the program ends without a hang. Another function throws it on
+/// its rank alone, and the caller shares it by onFirstRank() or failTogether().
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Checks the return code of a PETSc, SLEPc or MPI call. A failure there is a defect or a lack of
-/// memory, perhaps on this rank alone: one line on memory or the PETSc traceback is printed, and
-/// MPI_Abort ends all ranks.
+/// Not collective. Checks the return code of a PETSc, SLEPc or MPI call. A failure there is a
+/// defect or a lack of memory, perhaps on this rank alone: one line on memory or the PETSc
+/// traceback is printed, and MPI_Abort ends all ranks.
 void check(PetscErrorCode code, std::source_location where = std::source_location::current());
 
-/// During the life of an object, the first error of PETSc is kept as text, and PETSc prints no
-/// traceback of it.
+/// During the life of a KeptError, the first error of PETSc is kept as text, and PETSc prints no
+/// traceback of it. Only one object may live at a time.
 class KeptError {
  public:
   KeptError();
@@ -33,7 +34,8 @@ class KeptError {
   PetscErrorCode code() const { return code_; }
   /// Returns PETSc's message, such as "Unknown EPS type given: foo".
   const std::string& message() const { return message_; }
-  /// Keeps an error; for the error handler. Returns false if there is no such object.
+  /// Keeps the first error in the object that lives. The error handler calls it. Returns false if
+  /// no object lives.
   static bool keep(PetscErrorCode code, const char* message);
 
  private:
@@ -42,11 +44,11 @@ class KeptError {
 };
 
 /// Collective. Throws Error on all ranks with the message of the lowest rank whose `localMessage`
-/// is not empty; returns if all are.
+/// is not empty. Returns if all are empty.
 void failTogether(MPI_Comm comm, const std::string& localMessage);
 
-/// Collective. Runs `action()` on rank 0 only. If it throws an exception, throws Error on all ranks
-/// with its message, after `head`.
+/// Collective. Runs `action()` on rank 0 only. Throws Error on all ranks if the action throws an
+/// exception; the message is `head` and that of the exception.
 template <class Action>
 void onFirstRank(MPI_Comm comm, const std::string& head, const Action& action) {
   int rank = 0;

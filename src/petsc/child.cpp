@@ -54,7 +54,8 @@ void sayStillAtWork(int) {
   [[maybe_unused]] const auto written = write(voice, stillAtWork, std::strlen(stillAtWork));
 }
 
-/// The child: nothing of the parent's is flushed, finalised or handled here.
+/// Does the work in the child process and ends the process. Nothing of the parent's is flushed,
+/// finalised or handled here.
 [[noreturn]] void serve(int pipe, pid_t parent, const ChildLimits& limits,
                         const std::function<Buffer(const Warn&)>& work) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -87,7 +88,7 @@ void sayStillAtWork(int) {
   _exit(0);
 }
 
-/// The reading end; the child is ended with it.
+/// A Child is the reading end of the pipe from a child process, which its destructor ends.
 struct Child {
   pid_t id;
   int pipe;

@@ -1,5 +1,5 @@
 #pragma once
-/// Checks for inf and nan: products that overflow must not reach a result.
+/// These functions reject inf and nan: products that overflow must not reach a result.
 #include <petscmat.h>
 
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-/// Handles of the HDF5 library.
+/// This file holds handles of the HDF5 library.
 #include <hdf5.h>
 
 namespace squeal::hdf5 {
@@ -29,7 +29,8 @@ using AttributeId = Id<H5Aclose>;
 using TypeId = Id<H5Tclose>;
 using PropertiesId = Id<H5Pclose>;
 
-/// HDF5 prints its errors itself unless told not to; they reach the user through ours.
+/// A Silence keeps HDF5 from printing its errors during the life of the object. They reach the user
+/// through the messages of this program.
 class Silence {
  public:
   Silence() {

@@ -20,14 +20,16 @@
 namespace squeal {
 namespace {
 
-/// The first number in a file of /proc or /sys; none if there is no such file, or it says "max".
+/// Returns the first number in a file of /proc or /sys; none if there is no such file, or if it
+/// says "max".
 std::optional<double> numberIn(const std::string& path) {
   double value = 0;
   if (std::ifstream file(path); file >> value) return value;
   return {};
 }
 
-/// The number behind `name` in a table of /proc or /sys.
+/// Returns the number behind `name` in a table of /proc or /sys; none if the table has no such
+/// line.
 std::optional<double> entryOf(const std::string& path, const std::string& name) {
   std::ifstream file(path);
   for (std::string line, word; std::getline(file, line);)
@@ -37,9 +39,9 @@ std::optional<double> entryOf(const std::string& path, const std::string& name) 
 
 bool lacks = false;
 
-/// PETSc's own handler prints a trace where an allocation fails. The code alone goes up to check(),
-/// which says it in one line. The code that PetscMallocAlign of PETSc 3.18 raises is the number of
-/// a line instead of PETSC_ERR_MEM: its name tells.
+/// Handles an error of PETSc, whose own handler prints a trace where an allocation fails. The code
+/// alone goes up to check(), which says it in one line. The code that PetscMallocAlign of PETSc
+/// 3.18 raises is the number of a line instead of PETSC_ERR_MEM: the name of the function tells.
 PetscErrorCode handleError(MPI_Comm comm, int line, const char* function, const char* file,
                            PetscErrorCode code, PetscErrorType type, const char* message,
                            void* context) {
@@ -52,14 +54,14 @@ PetscErrorCode handleError(MPI_Comm comm, int line, const char* function, const 
 }  // namespace
 
 double addressSpace() {
-  // Its first number: pages in all.
+  // The first number in the file is that of all pages.
   return numberIn("/proc/self/statm").value_or(0) * sysconf(_SC_PAGESIZE);
 }
 
 double availableMemory() {
   double bytes = 1024 * entryOf("/proc/meminfo", "MemAvailable:").value_or(1e15);
-  // A batch job's own limit, in version 2 of the control groups and in version 1. What the kernel
-  // caches of files it gives back.
+  // A batch job may have a limit of its own, in version 2 of the control groups or in version 1.
+  // The kernel gives back the memory in which it caches files.
   struct Group {
     const char *most, *used, *details, *cached;
   };

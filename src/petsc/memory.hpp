@@ -1,5 +1,6 @@
 #pragma once
-/// Free memory, and messages where there is too little.
+/// These functions find the free memory, and report where there is too little. Only those that say
+/// so are collective.
 #include <petscsys.h>
 
 namespace squeal {

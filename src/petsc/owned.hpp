@@ -1,6 +1,6 @@
 #pragma once
-/// Move-only ownership of PETSc and SLEPc objects. A raw `Mat`, `Vec`, … in a parameter list means
-/// borrowed.
+/// An Owned owns a PETSc or SLEPc object and can be moved, but not copied. A raw `Mat`, `Vec`, … in
+/// a parameter list means borrowed.
 #include <slepceps.h>
 
 #include <utility>

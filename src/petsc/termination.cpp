@@ -18,8 +18,8 @@ namespace {
 
 constexpr int endings[] = {SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGXCPU, SIGUSR1, SIGUSR2};
 
-/// Held while last acts are registered or done, and while an ending has to wait. Recursive: such
-/// work may fail and abort.
+/// Returns the mutex that is held while last acts are registered or done, and while an ending has
+/// to wait. It is recursive, since such work may fail and abort.
 std::recursive_mutex& gate() {
   static std::recursive_mutex mutex;
   return mutex;
@@ -32,8 +32,8 @@ std::vector<const std::function<void()>*>& acts() {
 
 int signalPipe[2] = {-1, -1};
 
-/// All that a handler may do: memory or a lock in use by the interrupted code must not be touched
-/// here.
+/// Passes the signal on to the thread that waits. A handler may do no more: memory or a lock in use
+/// by the interrupted code must not be touched here.
 extern "C" void passOn(int signal) {
   const unsigned char byte = signal;
   [[maybe_unused]] const auto written = write(signalPipe[1], &byte, 1);

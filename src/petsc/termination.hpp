@@ -1,15 +1,16 @@
 #pragma once
-/// Endings from outside: signals, MPI_Abort after an error of a library, exit() in one. What a run
-/// must not leave behind is put away all the same.
+/// This file handles endings from outside: signals, MPI_Abort after an error of a library, and
+/// exit() in a library. The last acts put away all that a run must not leave behind.
 #include <functional>
 
 namespace squeal {
 
-/// Work that an ending from outside finds to be done, while the object lives. On a normal way out
-/// the owner does it himself.
+/// A LastAct registers work that an ending from outside still has to do while the object lives. On
+/// a normal way out its owner does that work himself.
 class LastAct {
  public:
-  /// `act` runs in a thread of its own, beside whatever the run is doing, and may not call MPI.
+  /// Registers `act`. It may run in a thread of its own, beside whatever the run is doing, and may
+  /// not call MPI.
   explicit LastAct(std::function<void()> act);
   ~LastAct();
   LastAct(const LastAct&) = delete;
@@ -19,9 +20,9 @@ class LastAct {
   std::function<void()> act_;
 };
 
-/// While one lives, an ending from outside waits; once that has begun, none comes to life. For work
-/// that is short and to be done whole, and for files that must not appear while the last acts
-/// remove them.
+/// While an EndingWaits lives, an ending from outside waits. Once that has begun, the constructor
+/// waits for it and so does not return. The object guards work that is short and has to be done
+/// whole, and files that must not appear while the last acts remove them.
 class EndingWaits {
  public:
   EndingWaits();
@@ -30,19 +31,21 @@ class EndingWaits {
   EndingWaits& operator=(const EndingWaits&) = delete;
 };
 
-/// Does all last acts; before MPI_Abort.
+/// Not collective. Performs all last acts. Call it before MPI_Abort.
 void performLastActs() noexcept;
 
-/// Signals that ask the program to end, as batch systems, mpirun and the terminal send them
-/// (SIGTERM, SIGINT, SIGHUP, …), but not those ignored already (nohup). A thread that waits for
-/// them performs the last acts, says on rank 0 which one it was in one line, and ends the process
-/// by it. A write to a closed pipe or beyond the limit of a file's size is an error of that write
-/// alone.
+/// A SignalWatch takes the signals that ask the program to end, as batch systems, mpirun and the
+/// terminal send them (SIGTERM, SIGINT, SIGHUP, …). Signals that are ignored already (nohup) stay
+/// ignored. A thread that waits for signals performs the last acts, says on rank 0 in one line
+/// which signal it was, and ends the process by it. A write to a closed pipe or beyond the limit of
+/// a file's size is an error of that write alone.
 class SignalWatch {
  public:
-  /// Before PETSc, which has handlers of its own, starts: notes what is ignored.
+  /// Notes which signals are ignored. Make the object before PETSc starts, which has handlers of
+  /// its own.
   SignalWatch();
-  /// After PETSc has started.
+  /// Takes the signals from here on. Call it after PETSc has started. Throws Error if no pipe can
+  /// be made.
   void begin(int rank);
 
  private:

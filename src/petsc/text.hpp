@@ -1,5 +1,5 @@
 #pragma once
-/// Text for messages and tables.
+/// These functions make text for messages and tables. Not collective.
 #include <string>
 #include <vector>
 
@@ -7,7 +7,9 @@ namespace squeal {
 
 /// Returns the text that printf would print.
 [[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...);
+/// Returns the words with the separator between them.
 std::string joined(const std::vector<std::string>& words, const std::string& separator = ", ");
+/// Returns the parts between the separators, empty parts included; none for an empty text.
 std::vector<std::string> split(const std::string& text, char separator);
 /// Returns the text without blanks, tabs and line ends around it.
 std::string trimmed(const std::string& text);

@@ -22,7 +22,8 @@ namespace squeal {
 
 namespace {
 
-/// Collective. The options of the call on all ranks; an error ends the program here, in one line.
+/// Collective. Returns the options of the call on all ranks. An error ends the program here, in one
+/// line.
 std::vector<Setting> readSettings(const std::vector<std::string>& words) {
   std::vector<Setting> settings;
   try {
@@ -37,8 +38,8 @@ std::vector<Setting> readSettings(const std::vector<std::string>& words) {
   }
 }
 
-/// PETSc looks at options of its own when it starts: it gets them all. What looks like a name is
-/// not passed as a value; insert() follows.
+/// Collective. Starts SLEPc and PETSc with all options, as PETSc looks at some of its own when it
+/// starts. A value that looks like a name is not passed; insert() follows and sets it.
 void startSlepc(char* program, const std::vector<Setting>& settings) {
   static std::vector<std::string> words;  // PETSc keeps pointers to them
   static std::vector<char*> pointers;

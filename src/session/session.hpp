@@ -1,5 +1,5 @@
 #pragma once
-/// The session of MPI, PETSc, SLEPc and gmsh during main().
+/// This object holds the session of MPI, PETSc, SLEPc and gmsh during main().
 #include <mpi.h>
 
 #include <string>
@@ -8,9 +8,12 @@ namespace squeal {
 
 class Session {
  public:
-  /// Collective. Starts MPI, PETSc, SLEPc and the gmsh library; the options database holds the
-  /// command line and its option files.
+  /// Collective. Starts MPI, PETSc, SLEPc and the gmsh library. The options database then holds the
+  /// options of the call: those of the command line, of options files and of the environment, or
+  /// none with `-help` and `-version`. If they cannot be read, the constructor says so in one line
+  /// and ends the program with exit code 1.
   Session(int argc, char** argv);
+  /// Collective. Ends gmsh, SLEPc, PETSc and MPI.
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -23,7 +26,7 @@ class Session {
   /// Returns true if `-version` was given.
   bool versionWanted() const { return versionWanted_; }
   /// Returns false if there is no option at all, neither on the command line nor in the environment
-  /// nor in PETSc's resource files.
+  /// nor in PETSc's resource files, and always with `-help` or `-version`.
   bool optionsGiven() const { return optionsGiven_; }
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-/// The log of a run: one line per stage with its wall time, progress within long stages, and the
-/// record for the summary.
+/// These functions write the log of a run: one line per stage with its wall time, and progress
+/// within long stages. They keep the record for the summary.
 #include <mpi.h>
 
 #include <string>
@@ -8,6 +8,7 @@
 
 namespace squeal {
 
+/// The record of a stage for the summary.
 struct StageRecord {
   std::string name;
   double seconds = 0;  ///< wall time, s, the largest of all ranks
@@ -15,16 +16,16 @@ struct StageRecord {
   double peakMemoryBytes = 0;
 };
 
-/// A stage of the method, from construction to finish(). Collective.
+/// A Stage is a stage of the method, from construction to finish(). Only finish() is collective.
 class Stage {
  public:
   Stage(MPI_Comm comm, std::string name);
-  /// Prints the result with the time (on rank 0, unless -quiet) and keeps the record.
+  /// Collective. Prints the result with the time (on rank 0, unless -quiet) and keeps the record.
   void finish(const std::string& result);
-  /// Prints the progress of long work, at most a line every two seconds. These are plain lines,
-  /// since the output of parallel jobs goes through pipes and files.
+  /// Prints the progress of long work (on rank 0, unless -quiet), at most a line every two seconds.
+  /// These are plain lines, since the output of parallel jobs goes through pipes and files.
   void progress(const std::string& text);
-  /// Prints the result of one of several tasks of the stage at once.
+  /// Prints the result of one of several tasks of the stage at once (on rank 0, unless -quiet).
   void say(const std::string& text);
 
  private:
@@ -33,18 +34,19 @@ class Stage {
   double begin_, lastProgress_;
 };
 
-/// Prints text on rank 0, unless -quiet is given.
+/// Not collective. Prints text on rank 0, unless -quiet is given.
 void say(MPI_Comm comm, const std::string& text);
 /// Not collective. Prints text on the standard output at once. A failure to write does not end the
 /// run; outputError() keeps it.
 void print(const std::string& text);
-/// Returns errno of the first output that could not be written; 0 if all could, or if its reader
-/// has gone, as `head` does.
+/// Returns errno of the first output that could not be written; 0 if all could be written, or if
+/// the reader has gone, as `head` goes.
 int outputError();
-/// Prints a warning on the standard error output of rank 0, also with -quiet.
+/// Not collective. Prints a warning on the standard error output of rank 0, also with -quiet.
 void complain(MPI_Comm comm, const std::string& text);
-/// Returns all finished stages in order. Stages that were finished several times, such as once per
-/// friction, are summed.
+/// Not collective. Returns all finished stages in order; borrowed. The times of a stage that was
+/// finished several times, such as once per friction, are summed; its memory is that at the last
+/// end.
 const std::vector<StageRecord>& stageRecords();
 
 }  // namespace squeal
