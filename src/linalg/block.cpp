@@ -1,7 +1,6 @@
 #include "linalg/block.hpp"
 
 #include <cmath>
-#include <numeric>
 
 #include "linalg/symmetric.hpp"
 
@@ -29,8 +28,7 @@ Block principal(MPI_Comm comm, const Block& columns, double small) {
 Block unitColumns(MPI_Comm comm, const Block& columns) {
   std::vector<double> squares;
   for (PetscInt j = 0; j < columns.columns(); ++j)
-    squares.push_back(std::inner_product(columns.column(j).begin(), columns.column(j).end(),
-                                         columns.column(j).begin(), 0.0));
+    squares.push_back(squaredLength(columns.column(j)));
   const int count = squares.size();
   check(MPI_Allreduce(MPI_IN_PLACE, squares.data(), count, MPI_DOUBLE, MPI_SUM, comm));
   check(MPI_Bcast(squares.data(), count, MPI_DOUBLE, 0, comm));

@@ -2,6 +2,8 @@
 
 #include <petscblaslapack.h>
 
+#include <numeric>
+
 namespace squeal::linalg {
 
 void multiplyAdd(const DenseView& x, const DenseView& coefficients, DenseMatrix& result,
@@ -30,6 +32,10 @@ DenseMatrix transposedProduct(const DenseView& x, const DenseView& y) {
     BLASgemm_("T", "N", &rows, &columns, &inner, &one, x.data(), &inner, y.data(), &inner, &zero,
               result.data(), &rows);
   return result;
+}
+
+double squaredLength(std::span<const double> x) {
+  return std::inner_product(x.begin(), x.end(), x.begin(), 0.0);
 }
 
 DenseMatrix congruent(const DenseView& a, const DenseView& c) {

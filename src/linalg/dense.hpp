@@ -125,6 +125,8 @@ void multiplyAdd(const DenseView& x, const DenseView& coefficients, DenseMatrix&
 DenseMatrix product(const DenseView& x, const DenseView& coefficients);
 /// Returns Xᵀ Y.
 DenseMatrix transposedProduct(const DenseView& x, const DenseView& y);
+/// Returns the square of the 2-norm of a column.
+double squaredLength(std::span<const double> x);
 /// Returns Cᵀ A C.
 DenseMatrix congruent(const DenseView& a, const DenseView& c);
 /// Returns the rows [first, last).

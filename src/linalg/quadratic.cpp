@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include "linalg/lapack.hpp"
@@ -202,10 +201,7 @@ DenseMatrix padded(const DenseMatrix& mass) {
 }
 
 /// Returns the Frobenius norm.
-double norm(const DenseMatrix& x) {
-  const auto entries = x.entries();
-  return std::sqrt(std::inner_product(entries.begin(), entries.end(), entries.begin(), 0.0));
-}
+double norm(const DenseMatrix& x) { return std::sqrt(squaredLength(x.entries())); }
 
 std::vector<DensePair> companion(const Leading& mass, const DenseMatrix& damping,
                                  const DenseMatrix& stiffness, Vectors vectors,

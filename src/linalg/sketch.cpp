@@ -18,10 +18,6 @@ std::uint64_t bits(std::uint64_t counter) {
   return z ^ (z >> 31);
 }
 
-double squaredLength(std::span<const double> x) {
-  return std::inner_product(x.begin(), x.end(), x.begin(), 0.0);
-}
-
 }  // namespace
 
 Sketch::Sketch(MPI_Comm comm, const std::vector<double>& diagonal)

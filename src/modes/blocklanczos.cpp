@@ -93,11 +93,8 @@ class Lanczos {
       ritz.vectors.append(a.column(from));
     }
     const DenseMatrix last = linalg::product(r_, linalg::rowRange(ritz.vectors, k - b_, k));
-    for (PetscInt j = 0; j < k; ++j) {
-      const auto column = last.column(j);
-      ritz.residual.push_back(
-          std::sqrt(std::inner_product(column.begin(), column.end(), column.begin(), 0.0)));
-    }
+    for (PetscInt j = 0; j < k; ++j)
+      ritz.residual.push_back(std::sqrt(linalg::squaredLength(last.column(j))));
     return ritz;
   }
 

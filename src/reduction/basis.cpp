@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "linalg/block.hpp"
 #include "linalg/columns.hpp"
@@ -36,15 +35,11 @@ linalg::DenseMatrix orthonormalising(linalg::DenseMatrix gram, double small) {
   return kept;
 }
 
-double squaredLength(std::span<const double> x) {
-  return std::inner_product(x.begin(), x.end(), x.begin(), 0.0);
-}
-
 /// Sets those diagonal entries to zero that are `small` times the whole energy of their column,
 /// with its `parts` along V, or less.
 void clearWhatVHolds(linalg::DenseMatrix& energy, const linalg::DenseMatrix& parts, double small) {
   for (PetscInt j = 0; j < energy.columns(); ++j)
-    if (energy(j, j) <= small * squaredLength(parts.column(j))) energy(j, j) = 0;
+    if (energy(j, j) <= small * linalg::squaredLength(parts.column(j))) energy(j, j) = 0;
 }
 
 }  // namespace
@@ -115,7 +110,7 @@ bool Basis::addAcross(const linalg::Block& z, const linalg::Block& residuals,
   const linalg::DenseMatrix combinations = orthonormalising(energy, independent),
                             along = linalg::product(parts, combinations);
   for (PetscInt j = 0; j < along.columns(); ++j)
-    if (!(squaredLength(along.column(j)) < little)) return false;
+    if (!(linalg::squaredLength(along.column(j)) < little)) return false;
   if (combinations.empty() || !(solutionError(z, residuals) <= 1e-12)) return false;
   const linalg::Block fresh = linalg::product(z, combinations);
   forces_ = linalg::product(residuals, combinations);

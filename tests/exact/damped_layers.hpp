@@ -15,7 +15,8 @@ struct Wave {
   double friction, omega;
 };
 
-/// That of wave number index n to which Newton's method in (f, ω) leads; NaN if to none.
+/// Returns the wave of wave number index n to which Newton's method in (f, ω) leads; NaN if to
+/// none.
 inline Wave waveNear(Wave at, int n) {
   const auto value = [&](double f, double omega) {
     const Complex s(0, omega);

@@ -10,7 +10,7 @@
 
 namespace squeal::test {
 
-/// What the tests need of a contact node, on whatever rank it is.
+/// The part of a contact node that the tests need, on whatever rank it is.
 struct Node {
   mesh::Point position, normal, slip;
   double slipSpeed, area;

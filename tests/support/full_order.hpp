@@ -14,7 +14,7 @@
 
 namespace squeal::test {
 
-/// Of each point of a sweep.
+/// Eigenvalues, a list for each point of a sweep.
 using Lists = std::vector<std::vector<Complex>>;
 
 /// The 80 lowest eigenvalues of the problem on all unknowns at each point of the sweep; solved
@@ -40,7 +40,7 @@ inline constexpr double directError = 3e-13;
 
 struct Comparison {
   double worst = 0;  ///< |s − s*| / |s*|
-  /// Of true error to the estimate, as far as it can be told from the error of s*
+  /// The ratio of the true error to the estimate, as far as it can be told from the error of s*
   double worstRatio = 0;
   int certified = 0;
 };

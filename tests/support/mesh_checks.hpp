@@ -1,5 +1,5 @@
 #pragma once
-/// What holds for every distributed mesh. All functions are collective.
+/// These checks hold for every distributed mesh. All functions are collective.
 #include <gtest/gtest.h>
 
 #include <map>
