@@ -1,6 +1,7 @@
 #pragma once
 /// The eigenvalues nearest to zero of the problem on all unknowns are found by SLEPc.
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "linalg/complexvector.hpp"
@@ -30,18 +31,32 @@ class NearestSolver {
   /// Collective. Returns at least the `count` eigenvalues nearest to zero, or all if there are
   /// fewer, with conjugate pairs counted once. Each call begins with another vector and keeps the
   /// factorisation. Where the Krylov space would be the whole space of a small problem, LAPACK is
-  /// called instead. Throws Error if SLEPc does not converge.
+  /// called instead. Throws Error if SLEPc does not converge, or if LAPACK fails within it from
+  /// each of several start vectors.
   NearestPairs solve(PetscInt count);
 
  protected:
-  virtual NearestPairs krylov(PetscInt count) = 0;
+  MPI_Comm comm() const;
   sweep::Parameters at_;
   OwnedMat terms_[3];  // [power of s]
   PetscInt size_ = 0;
-  int runs_ = 0;
 
  private:
+  /// Collective. Makes SLEPc's solver ready for `count` eigenvalues and for this start vector.
+  virtual void prepare(PetscInt count, Vec start) = 0;
+  /// Collective. Runs SLEPc's solver and returns its error code.
+  virtual PetscErrorCode run() = 0;
+  /// Collective. Destroys SLEPc's solver; prepare() makes another one.
+  virtual void discard() = 0;
+  /// Collective. Returns what SLEPc's solver has found. Throws Error if fewer than `count`
+  /// eigenvalues have converged.
+  virtual NearestPairs collected(PetscInt count) = 0;
+  NearestPairs krylov(PetscInt count);
+  /// Collective. Runs SLEPc's solver. Returns an empty text, or the message of a failure of LAPACK,
+  /// after which the solver is gone.
+  std::string lapackFailure();
   NearestPairs whole() const;
+  int runs_ = 0;  // start vectors taken so far
 };
 
 /// Collective. Returns a solver with shift-and-invert at zero: if there is no damping, an EPS in
