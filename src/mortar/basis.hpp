@@ -1,0 +1,65 @@
+#pragma once
+/// This file holds the shape functions φ of a face at any point, and the basis φ̃ = Eᵀφ of the slave
+/// side, whose integrals are positive. Displacements follow from those of φ̃ by u = E ũ, edge by
+/// edge with a parameter α:
+///   u_c = ũ_c at corners,   u_e = (1 − 2α) ũ_e + α (ũ_a + ũ_b) between the corners a and b,
+/// so that neighbouring faces agree on ũ wherever they agree on α. Nothing here is collective.
+/// Source: Popp, Wohlmuth, Gee and Wall, SIAM J. Sci. Comput. 34 (2012).
+#include <array>
+#include <span>
+#include <vector>
+
+namespace squeal::mortar {
+
+inline constexpr std::size_t mostNodes = 9;  ///< of a face
+
+/// Reference coordinates of a face, those of gmsh. The second one of a line is zero.
+using Reference = std::array<double, 2>;
+using NodeValues = std::array<double, mostNodes>;  ///< [node]; zero beyond the nodes of the face
+
+/// A mid-edge node with the corners of its edge.
+struct MidEdge {
+  int node;
+  std::array<int, 2> corners;
+};
+
+/// A FaceType holds what the faces of one gmsh element type have in common. Nodes come in gmsh's
+/// order: corners, mid-edge nodes, centre.
+struct FaceType {
+  int type, dimension, order, nodes, corners;
+  /// Edges with a node between their corners. A line3 has one.
+  std::vector<MidEdge> edges;
+  std::vector<Reference> reference;  ///< [node]
+
+  Reference centre() const;
+};
+
+/// Returns the type of a face: line2, line3, tri3, tri6, quad4, quad8 or quad9. The reference stays
+/// valid. Throws Error for any other type.
+const FaceType& faceType(int gmshType);
+
+/// The shape functions of a face at a point.
+struct FaceShape {
+  NodeValues value{};
+  std::array<Reference, mostNodes> gradient{};  ///< [node], with respect to the reference point
+};
+
+/// Returns the shape functions at a point, inside or outside of the face.
+FaceShape faceShape(const FaceType& type, const Reference& point);
+
+/// How much of a slave face the master faces cover.
+enum class Cover { full, partial };
+
+/// Returns α for the edges of a face, where no other type of face shares them. On fully covered
+/// faces all ∫φ̃ are then positive; on partly covered faces of the types tri6 and quad8, φ̃ itself
+/// is nowhere negative. It is 0 on line3 and quad9, where ∫φ̃ is positive only if the whole face is
+/// covered.
+double usualAlpha(const FaceType& type, Cover cover);
+
+/// Returns φ̃ from φ at the same point:
+///   φ̃_c = φ_c + Σ α_e φ_e over the edges e at the corner c,   φ̃_e = (1 − 2α_e) φ_e,
+/// and the function of a centre node stays. `alpha` is that of each edge, in the order of
+/// FaceType::edges.
+NodeValues slaveBasis(const FaceType& type, const NodeValues& shape, std::span<const double> alpha);
+
+}  // namespace squeal::mortar

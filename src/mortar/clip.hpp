@@ -1,0 +1,45 @@
+#pragma once
+/// These functions cut convex regions of a plane, which are polygons, or segments of a line. None
+/// is collective.
+#include <array>
+#include <vector>
+
+namespace squeal::mortar {
+
+using PlanePoint = std::array<double, 2>;
+/// The vertices of a convex region, anticlockwise. Two vertices are a segment.
+using Region = std::vector<PlanePoint>;
+
+/// The half-plane normal·y + offset ≥ 0.
+struct HalfPlane {
+  PlanePoint normal;
+  double offset;
+  double operator()(const PlanePoint& y) const {
+    return normal[0] * y[0] + normal[1] * y[1] + offset;
+  }
+};
+
+/// Returns the area of a polygon, or the length of a segment; 0 for fewer than two vertices.
+double measure(const Region& region);
+PlanePoint centroid(const Region& region);
+/// Returns true for polygons without a corner that points inwards, and for segments.
+bool isConvex(const Region& region);
+/// Returns the part of a region in the half-plane.
+Region clip(const Region& region, const HalfPlane& half);
+/// Returns the part of a region in another one, both polygons or both segments of one line.
+Region intersection(const Region& region, const Region& other);
+/// Returns the part of a region outside of another one, in convex pieces. Pieces of no more than
+/// this measure are left out.
+std::vector<Region> difference(const Region& region, const Region& other, double smallest);
+
+/// A point of a quadrature rule and its weight, in the unit of the area of the region, or of its
+/// length.
+struct WeightedPoint {
+  PlanePoint point;
+  double weight;
+};
+
+/// Returns a rule that integrates polynomials of this degree over the region exactly.
+std::vector<WeightedPoint> quadrature(const Region& region, int degree);
+
+}  // namespace squeal::mortar

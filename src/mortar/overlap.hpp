@@ -1,0 +1,35 @@
+#pragma once
+/// This file finds where the faces of a master surface cover a slave face.
+#include <span>
+#include <vector>
+
+#include "mortar/basis.hpp"
+#include "mortar/face.hpp"
+
+namespace squeal::mortar {
+
+/// An integration point on the covered part of a slave face.
+struct OverlapPoint {
+  Reference slave, master;  ///< where it is on both faces
+  double weight;            ///< area of the slave face that it stands for, m² (m in the plane)
+  std::size_t masterFace;   ///< index into the master faces
+  /// Signed distance of the master's point from the slave's, m, positive where open:
+  ///   x_master = x_slave + gap · normal.
+  double gap;
+  Point normal;  ///< unit normal out of the slave face at the point
+};
+
+/// Returns points with weights that integrate over the part of the slave face that the master faces
+/// cover; the weights are a part of the area of the (curved) slave face. Not collective.
+///
+/// A master face covers what it hides in the projection along the mean normal of the slave face,
+/// if both face each other and if their distance, positive or negative, is at most
+/// `searchDistance`, m. Where two master faces cover the same place, the one that is nearer counts.
+/// Between flat faces with straight edges the covered part is exact to rounding. The rules are
+/// exact for the products of two shape functions on affine faces.
+///
+/// Throws Error for a type of face that faceType() does not know.
+std::vector<OverlapPoint> overlap(const Face& slave, std::span<const Face* const> masters,
+                                  double searchDistance);
+
+}  // namespace squeal::mortar
