@@ -135,10 +135,12 @@ FaceShape faceShape(const FaceType& type, const Reference& point) {
   return shape;
 }
 
-double usualAlpha(const FaceType& type, Cover cover) {
-  if (type.type == tri6) return cover == Cover::full ? 1. / 5 : 1. / 4;
-  if (type.type == quad8) return cover == Cover::full ? 1. / 5 : 3. / 8;
-  return 0;
+double usualAlpha(const FaceType& type, Cover cover, Multiplier multiplier) {
+  const bool full = cover == Cover::full;
+  if (type.type == quad8) return full ? 1. / 5 : 3. / 8;
+  if (type.type != tri6) return 0;
+  if (!full) return 1. / 4;
+  return multiplier == Multiplier::nodes ? 1. / 5 : 1. / 12;
 }
 
 NodeValues slaveBasis(const FaceType& type, const NodeValues& shape,

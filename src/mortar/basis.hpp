@@ -47,14 +47,18 @@ struct FaceShape {
 /// Returns the shape functions at a point, inside or outside of the face.
 FaceShape faceShape(const FaceType& type, const Reference& point);
 
+/// The nodes that carry a multiplier: all, or the corners, where the multiplier is (bi)linear.
+enum class Multiplier { nodes, corners };
+
 /// How much of a slave face the master faces cover.
 enum class Cover { full, partial };
 
 /// Returns α for the edges of a face, where no other type of face shares them. On fully covered
-/// faces all ∫φ̃ are then positive; on partly covered faces of the types tri6 and quad8, φ̃ itself
-/// is nowhere negative. It is 0 on line3 and quad9, where ∫φ̃ is positive only if the whole face is
-/// covered.
-double usualAlpha(const FaceType& type, Cover cover);
+/// faces ∫φ̃ is then positive for all pivots; on partly covered faces of the types tri6 and quad8, φ̃
+/// itself is nowhere negative. It is 0 on line3 and quad9, where ∫φ̃ is positive only if the whole
+/// face is covered. With multipliers at the corners of a straight tri6, ψ_p are its linear
+/// functions.
+double usualAlpha(const FaceType& type, Cover cover, Multiplier multiplier = Multiplier::nodes);
 
 /// Returns φ̃ from φ at the same point:
 ///   φ̃_c = φ_c + Σ α_e φ_e over the edges e at the corner c,   φ̃_e = (1 − 2α_e) φ_e,

@@ -2,10 +2,10 @@
 
 #include <gmsh.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
-#include <utility>
 
 namespace squeal::mortar {
 namespace {
@@ -14,64 +14,90 @@ PlanePoint from(const PlanePoint& a, const PlanePoint& b) { return {b[0] - a[0],
 
 double cross(const PlanePoint& a, const PlanePoint& b) { return a[0] * b[1] - a[1] * b[0]; }
 
+double size(const PlanePoint& a) { return std::hypot(a[0], a[1]); }
+
 bool isSegment(const Region& region) { return region.size() == 2; }
 
 /// Returns the half-planes whose intersection is the region; for a segment, those through its ends.
+/// Rounding decides the direction of an edge that is very short. It is left out, which adds about
+/// the square of its length.
 std::vector<HalfPlane> sides(const Region& region) {
   std::vector<HalfPlane> sides;
   const std::size_t n = region.size();
+  double longest = 0;
+  for (const PlanePoint& y : region) longest = std::max(longest, size(from(region[0], y)));
   for (std::size_t i = 0; i < n; ++i) {
     const PlanePoint& a = region[i];
     const PlanePoint along = from(a, region[(i + 1) % n]);
+    if (size(along) <= 1e-8 * longest) continue;
     const PlanePoint inwards = isSegment(region) ? along : PlanePoint{-along[1], along[0]};
     sides.push_back({inwards, -(inwards[0] * a[0] + inwards[1] * a[1])});
   }
   return sides;
 }
 
-/// A rule of gmsh on its reference line or triangle.
-struct Rule {
-  std::vector<double> point;  ///< [point][3]
-  std::vector<double> weight;
-};
+/// A Gauss rule on the line from 0 to 1, or on the triangle (0, 0), (1, 0), (0, 1).
+using Rule = std::vector<WeightedPoint>;
 
-const Rule& rule(int gmshType, int degree) {
-  static std::map<std::pair<int, int>, Rule> rules;
-  auto [found, isNew] = rules.try_emplace({gmshType, degree});
-  if (isNew)
-    gmsh::model::mesh::getIntegrationPoints(gmshType, "Gauss" + std::to_string(degree),
-                                            found->second.point, found->second.weight);
-  return found->second;
+Rule makeLineRule(int degree) {
+  std::vector<double> point, weight;
+  constexpr int line = 1;  // gmsh's type, from −1 to 1
+  gmsh::model::mesh::getIntegrationPoints(line, "Gauss" + std::to_string(degree), point, weight);
+  Rule rule;
+  for (std::size_t q = 0; q < weight.size(); ++q)
+    rule.push_back({{(1 + point[3 * q]) / 2, 0}, weight[q] / 2});
+  return rule;
 }
 
-/// Appends the rule on the segment ab, ξ = −1 … 1.
-void appendSegment(std::vector<WeightedPoint>& points, const Rule& rule, const Region& ab) {
+/// Returns the rule of a square that is collapsed into a triangle, x = s and y = (1 − s) t. It is
+/// exact to rounding for any degree, whereas gmsh tabulates its rules on triangles to 12 digits
+/// from the degree 10 on.
+Rule makeTriangleRule(int degree) {
+  Rule rule;
+  const Rule line = makeLineRule(degree + 1);
+  for (const auto& [s, ws] : line)
+    for (const auto& [t, wt] : line)
+      rule.push_back({{s[0], (1 - s[0]) * t[0]}, ws * wt * (1 - s[0])});
+  return rule;
+}
+
+/// Returns a rule, made on first use.
+const Rule& ruleOf(Rule (*make)(int), std::map<int, Rule>& rules, int degree) {
+  const auto found = rules.find(degree);
+  return found != rules.end() ? found->second : rules.emplace(degree, make(degree)).first->second;
+}
+
+const Rule& lineRule(int degree) {
+  static std::map<int, Rule> rules;
+  return ruleOf(makeLineRule, rules, degree);
+}
+
+const Rule& triangleRule(int degree) {
+  static std::map<int, Rule> rules;
+  return ruleOf(makeTriangleRule, rules, degree);
+}
+
+void appendSegment(std::vector<WeightedPoint>& points, int degree, const Region& ab) {
   const PlanePoint along = from(ab[0], ab[1]);
-  const double half = measure(ab) / 2;
-  for (std::size_t q = 0; q < rule.weight.size(); ++q) {
-    const double s = (1 + rule.point[3 * q]) / 2;
-    points.push_back({{ab[0][0] + s * along[0], ab[0][1] + s * along[1]}, half * rule.weight[q]});
-  }
+  const double size = measure(ab);
+  for (const auto& [s, weight] : lineRule(degree))
+    points.push_back({{ab[0][0] + s[0] * along[0], ab[0][1] + s[0] * along[1]}, size * weight});
 }
 
-/// Appends the rule on the triangle abc; the reference triangle has the area 1/2.
-void appendTriangle(std::vector<WeightedPoint>& points, const Rule& rule, const PlanePoint& a,
+void appendTriangle(std::vector<WeightedPoint>& points, int degree, const PlanePoint& a,
                     const PlanePoint& b, const PlanePoint& c) {
   const PlanePoint ab = from(a, b), ac = from(a, c);
   const double twice = cross(ab, ac);
-  for (std::size_t q = 0; q < rule.weight.size(); ++q) {
-    const double s = rule.point[3 * q], t = rule.point[3 * q + 1];
+  for (const auto& [s, weight] : triangleRule(degree))
     points.push_back(
-        {{a[0] + s * ab[0] + t * ac[0], a[1] + s * ab[1] + t * ac[1]}, twice * rule.weight[q]});
-  }
+        {{a[0] + s[0] * ab[0] + s[1] * ac[0], a[1] + s[0] * ab[1] + s[1] * ac[1]}, twice * weight});
 }
 
 }  // namespace
 
 double measure(const Region& region) {
   if (region.size() < 2) return 0;
-  if (isSegment(region))
-    return std::hypot(region[1][0] - region[0][0], region[1][1] - region[0][1]);
+  if (isSegment(region)) return size(from(region[0], region[1]));
   double twice = 0;  // from a vertex on, so that no distance from the origin is cancelled
   for (std::size_t i = 2; i < region.size(); ++i)
     twice += cross(from(region[0], region[i - 1]), from(region[0], region[i]));
@@ -136,11 +162,10 @@ std::vector<Region> difference(const Region& region, const Region& other, double
 }
 
 std::vector<WeightedPoint> quadrature(const Region& region, int degree) {
-  constexpr int lines = 1, triangles = 2;  // of gmsh
   std::vector<WeightedPoint> points;
-  if (isSegment(region)) appendSegment(points, rule(lines, degree), region);
+  if (isSegment(region)) appendSegment(points, degree, region);
   for (std::size_t i = 2; i < region.size(); ++i)
-    appendTriangle(points, rule(triangles, degree), region[0], region[i - 1], region[i]);
+    appendTriangle(points, degree, region[0], region[i - 1], region[i]);
   return points;
 }
 

@@ -12,9 +12,6 @@
 
 namespace squeal::mortar {
 
-/// The nodes that carry a multiplier: all, or the corners, where the multiplier is (bi)linear.
-enum class Multiplier { nodes, corners };
-
 /// The functions χ_p of the pivots of a slave face, which span the dual functions; Σ χ_p = 1.
 struct Pivots {
   std::vector<int> nodes;   ///< [pivot] node of the face

@@ -19,7 +19,8 @@ constexpr double leastCosine = 0.1;
 
 /// The part of a slave facet that one master facet covers.
 struct Piece {
-  Region region;
+  Region region;   ///< inside of the slave facet
+  Region outline;  ///< of the master facet, also outside of the slave facet
   std::size_t master;
   double distance;  ///< magnitude at the centroid, m
 };
@@ -28,16 +29,17 @@ struct Piece {
 void cover(std::vector<Piece>& pieces, const Region& slave, const Frame& frame, const Facet& master,
            std::size_t index, double searchDistance) {
   if (!(dot(master.normal(), frame.normal()) < 0)) return;
-  Region region = frame.flat(master);
-  std::ranges::reverse(region);  // the master's outside is the slave's inside
-  region = intersection(slave, region);
+  Region outline = frame.flat(master);
+  std::ranges::reverse(outline);  // the master's outside is the slave's inside
   const HalfPlane distance = frame.distanceTo(master);
   const auto [slope, offset] = distance;
-  region = clip(region, {slope, searchDistance + offset});                   // g ≥ −limit
-  region = clip(region, {{-slope[0], -slope[1]}, searchDistance - offset});  // g ≤ limit
+  outline = clip(outline, {slope, searchDistance + offset});                   // g ≥ −limit
+  outline = clip(outline, {{-slope[0], -slope[1]}, searchDistance - offset});  // g ≤ limit
+  if (outline.empty()) return;
+  Region region = intersection(slave, outline);
   if (measure(region) <= sliver * measure(slave)) return;
   const double at = std::abs(distance(centroid(region)));
-  pieces.push_back({std::move(region), index, at});
+  pieces.push_back({std::move(region), std::move(outline), index, at});
 }
 
 bool boxesTouch(const Region& a, const Region& b) {
@@ -54,19 +56,20 @@ bool boxesTouch(const Region& a, const Region& b) {
 std::vector<Piece> nearest(std::vector<Piece> pieces, double smallest) {
   std::ranges::stable_sort(pieces, {}, &Piece::distance);
   std::vector<Piece> kept;
-  for (const Piece& piece : pieces) {
-    std::vector<Region> left{piece.region};
-    for (const Piece& nearer : kept) {
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    std::vector<Region> left{pieces[i].region};
+    for (std::size_t k = 0; k < i; ++k) {
+      const Region& nearer = pieces[k].outline;
       std::vector<Region> rest;
-      for (const Region& region : left)
-        if (boxesTouch(region, nearer.region) &&
-            measure(intersection(region, nearer.region)) > smallest)
-          std::ranges::move(difference(region, nearer.region, smallest), std::back_inserter(rest));
+      for (Region& region : left)
+        if (boxesTouch(region, nearer) && measure(intersection(region, nearer)) > smallest)
+          std::ranges::move(difference(region, nearer, smallest), std::back_inserter(rest));
         else
-          rest.push_back(region);
+          rest.push_back(std::move(region));
       left = std::move(rest);
     }
-    for (Region& region : left) kept.push_back({std::move(region), piece.master, piece.distance});
+    for (Region& region : left)
+      kept.push_back({std::move(region), {}, pieces[i].master, pieces[i].distance});
   }
   return kept;
 }

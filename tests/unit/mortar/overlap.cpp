@@ -1,0 +1,205 @@
+// Integration points over the part of slave faces that master faces cover: areas, polynomials,
+// gaps, and what counts as covered.
+#include "mortar/overlap.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "mortar/clip.hpp"
+#include "mortar/surface.hpp"
+#include "mortar/vector.hpp"
+#include "support/face_patch.hpp"
+
+namespace squeal {
+namespace {
+
+using namespace mortar;
+using test::FacePatch;
+using test::line2, test::line3, test::quad4, test::quad8, test::quad9, test::tri3, test::tri6;
+
+/// Returns the sum of f(x) · weight over the points of a patch, x on the slave.
+double integral(const FacePatch& slave, const FacePatch& master, double distance,
+                const std::function<double(const Point&, const OverlapPoint&)>& f) {
+  double sum = 0;
+  for (const Face& face : slave.faces)
+    for (const auto& point : overlap(face, master.pointers(), distance))
+      sum += point.weight * f(surfacePoint(face, point.slave).position, point);
+  return sum;
+}
+
+double area(const FacePatch& slave, const FacePatch& master, double distance = 1) {
+  return integral(slave, master, distance, [](const Point&, const OverlapPoint&) { return 1; });
+}
+
+std::vector<std::pair<int, int>> allPairs() {
+  std::vector<std::pair<int, int>> pairs;
+  for (const auto& types : {test::surfaceTypes, test::lineTypes})
+    for (const int slave : types)
+      for (const int master : types) pairs.emplace_back(slave, master);
+  return pairs;
+}
+
+FacePatch distorted(int type, int cells, int sign, const test::Map& map = test::asItIs) {
+  std::mt19937 generator(cells);
+  return test::facePatch(type, test::unequal(cells, 0.2, generator),
+                         test::unequal(cells, 0.2, generator), sign, 0.2 / cells, map);
+}
+
+TEST(Overlap, DistortedFlatPatchesCoverEachOther) {
+  for (const auto& [s, m] : allPairs()) {
+    SCOPED_TRACE(testing::Message() << s << " on " << m);
+    const auto slave = distorted(s, 3, 1), master = distorted(m, 4, -1);
+    EXPECT_NEAR(area(slave, master), 1, 1e-13);
+    for (const Face& face : slave.faces) {
+      double covered = 0, whole = 0;
+      for (const auto& point : overlap(face, master.pointers(), 1)) covered += point.weight;
+      const auto& type = faceType(face.type);
+      Region polygon;
+      for (int c = 0; c < type.corners; ++c)
+        polygon.push_back({face.points[c][0], face.points[c][1]});
+      whole = measure(polygon);
+      EXPECT_NEAR(covered, whole, 1e-14);
+    }
+  }
+}
+
+TEST(Overlap, PartsAreCutAtTheMastersEdges) {
+  // The master is turned by 30° and moved; the areas of all pairs of corner polygons are exact.
+  const double c = std::cos(std::numbers::pi / 6), s = std::sin(std::numbers::pi / 6);
+  const test::Map turned = [&](const Point& x) {
+    return Point{0.4 + c * x[0] - s * x[1], 0.1 + s * x[0] + c * x[1], 0};
+  };
+  // the common area of the unit square and the turned one
+  const Region other{
+      {0.4, 0.1}, {0.4 + c, 0.1 + s}, {0.4 + c - s, 0.1 + s + c}, {0.4 - s, 0.1 + c}};
+  const double exact = measure(intersection({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, other));
+  EXPECT_GT(exact, 0.3);
+  for (const int slave : test::surfaceTypes)
+    for (const int master : test::surfaceTypes)
+      EXPECT_NEAR(area(distorted(slave, 3, 1), distorted(master, 4, -1, turned)), exact, 1e-13)
+          << slave << " on " << master;
+  for (const int slave : test::lineTypes)
+    for (const int master : test::lineTypes)
+      EXPECT_NEAR(area(distorted(slave, 3, 1), distorted(master, 4, -1,
+                                                         [](const Point& x) {
+                                                           return Point{0.3 + 2 * x[0], -0.01, 0};
+                                                         })),
+                  0.7, 1e-14);
+}
+
+TEST(Overlap, PolynomialsAreIntegratedExactlyOnAffineFaces) {
+  for (const auto& [s, m] : allPairs()) {
+    const bool line = faceType(s).dimension == 1;
+    const double value = integral(test::affinePatch(s, 3, 1), test::affinePatch(m, 4, -1, 0.1), 1,
+                                  [](const Point& x, const OverlapPoint&) {
+                                    return std::pow(x[0], 3) + x[0] * x[1] * x[1] + x[1];
+                                  });
+    EXPECT_NEAR(value, line ? 0.25 : 0.25 + 1. / 6 + 0.5, 1e-14) << s << " on " << m;
+  }
+}
+
+TEST(Overlap, PointsOfBothSidesLieOnTheNormal) {
+  // Both sides are wavy, and the faces curved.
+  const test::Map below = [](const Point& x) {
+    return Point{x[0], x[1], 0.03 * std::sin(3 * x[0] + 2 * x[1])};
+  };
+  const test::Map above = [](const Point& x) {
+    return Point{x[0] * 1.2 - 0.1, x[1] * 1.2 - 0.1, 0.05 + 0.02 * std::cos(4 * x[0] - x[1])};
+  };
+  for (const int s : test::surfaceTypes)
+    for (const int m : test::surfaceTypes) {
+      const auto slave = distorted(s, 3, 1, below), master = distorted(m, 5, -1, above);
+      for (const Face& face : slave.faces)
+        for (const auto& point : overlap(face, master.pointers(), 1)) {
+          const auto here = surfacePoint(face, point.slave),
+                     there = surfacePoint(master.faces[point.masterFace], point.master);
+          const Point defect = minus(there.position, plus(here.position, point.normal, point.gap));
+          ASSERT_LT(length(defect), 1e-14) << s << " on " << m;
+          ASSERT_NEAR(dot(point.normal, here.normal), length(here.normal), 1e-14);
+          ASSERT_GT(point.gap, 0);
+        }
+    }
+}
+
+TEST(Overlap, FacesThatLookAwayOrLieFarDoNotCover) {
+  for (const int type : {tri6, quad4, line3}) {
+    const double side = faceType(type).dimension == 1 ? -1 : 1;  // of the slave's normal
+    const auto slave = test::affinePatch(type, 2, 1);
+    const auto at = [&](double height, int sign) {
+      return area(slave, test::affinePatch(type, 3, sign, side * height), 0.1);
+    };
+    EXPECT_NEAR(at(0.05, -1), 1, 1e-14);
+    EXPECT_NEAR(at(-0.05, -1), 1, 1e-14);
+    EXPECT_EQ(at(0.05, 1), 0);
+    EXPECT_EQ(at(0.2, -1), 0);
+    EXPECT_EQ(at(-0.2, -1), 0);
+  }
+}
+
+TEST(Overlap, TheDistanceCutsWhereTheGapReachesIt) {
+  // The master rises by 0.2 x: it is nearer than 0.1 for x < 1/2.
+  for (const int type : test::surfaceTypes) {
+    const auto master = distorted(type, 4, -1, [](const Point& x) {
+      return Point{x[0], x[1], 0.2 * x[0]};
+    });
+    EXPECT_NEAR(area(distorted(quad4, 3, 1), master, 0.1), 0.5, 1e-13) << type;
+  }
+}
+
+TEST(Overlap, TheNearerOfTwoMastersCounts) {
+  // Two layers that cross at x = 1/2, each nearer on one side, and a third one further away.
+  for (const int type : {tri3, tri6, quad9}) {
+    FacePatch master = test::affinePatch(type, 3, -1, 0.02);
+    for (const auto& more :
+         {test::affinePatch(type, 4, -1, -0.01), test::affinePatch(type, 2, -1, 0.05)})
+      master.faces.insert(master.faces.end(), more.faces.begin(), more.faces.end());
+    const auto slave = test::affinePatch(quad8, 3, 1);
+    EXPECT_NEAR(area(slave, master), 1, 1e-12);
+    EXPECT_NEAR(
+        integral(slave, master, 1, [](const Point&, const OverlapPoint& p) { return p.gap; }),
+        -0.01, 1e-13);
+  }
+  // A near patch with a border: the far one counts beside it.
+  FacePatch master = test::affinePatch(quad4, 3, -1, 0.02);
+  const auto part = test::facePatch(tri3, {0.2, 0.7}, {0.1, 0.9}, -1, 0, [](const Point& x) {
+    return Point{x[0], x[1], 0.01};
+  });
+  master.faces.insert(master.faces.end(), part.faces.begin(), part.faces.end());
+  const auto slave = test::affinePatch(tri6, 3, 1);
+  EXPECT_NEAR(area(slave, master), 1, 1e-12);
+  EXPECT_NEAR(integral(slave, master, 1, [](const Point&, const OverlapPoint& p) { return p.gap; }),
+              0.02 - 0.01 * 0.5 * 0.8, 1e-13);
+}
+
+/// A quarter of a cylinder of radius 1 and height 1.
+Point bent(const Point& x) {
+  const double angle = x[0] * std::numbers::pi / 2;
+  return {std::cos(angle), std::sin(angle), x[1]};
+}
+
+TEST(Overlap, CylindersOfDifferentMeshesCoverEachOther) {
+  for (const int s : test::surfaceTypes)
+    for (const int m : test::surfaceTypes) {
+      double last = 0;
+      for (const int cells : {4, 8}) {
+        SCOPED_TRACE(testing::Message() << s << " on " << m << ", " << cells << " cells");
+        const auto slave = distorted(s, cells, 1, bent),
+                   master = distorted(m, cells + cells / 2, -1, bent);
+        double largest = 0, whole = 0;
+        const double covered =
+            integral(slave, master, 0.2, [&](const Point&, const OverlapPoint& p) {
+              largest = std::max(largest, std::abs(p.gap));
+              return 1;
+            });
+        whole = area(slave, distorted(s, cells, -1, bent), 0.2);  // each face covers itself
+        printf("%d on %d cells %d: covered-whole %.2e whole-exact %.2e gap %.2e (ratio %.1f)\n", s,
+               m, cells, covered - whole, whole - std::numbers::pi / 2, largest, last / largest);
+        last = largest;
+      }
+    }
+}
+
+}  // namespace
+}  // namespace squeal
