@@ -57,12 +57,8 @@ elasticity::Bodies assembleBodies(const mesh::Mesh& mesh) {
 contact::Contact buildContact(const mesh::Mesh& mesh, const elasticity::Bodies& bodies) {
   Stage stage(mesh.comm, "contact");
   contact::Contact contact = contact::build(mesh, bodies);
-  stage.finish(formatted("%" PetscInt_FMT " contact nodes on %zu interfaces%s", contact.totalNodes,
-                         contact.interfaces.size(),
-                         contact.weightsPositive
-                             ? ""
-                             : "; faces with non-positive nodal weights: accepted only "
-                               "while contact is closed everywhere"));
+  stage.finish(formatted("%" PetscInt_FMT " contact nodes on %zu interfaces", contact.totalNodes,
+                         contact.interfaces.size()));
   return contact;
 }
 

@@ -45,9 +45,9 @@ OwnedMat periodicity(const mesh::Mesh& mesh) {
 }
 
 /// A FaceSums holds the sums over the pad faces at each node: area-weighted normals (towards the
-/// pad) and ∫ φ dA. The sums of images are added to those of their primaries.
+/// pad) and ∫ φ̃ dA. The sums of images are added to those of their primaries.
 struct FaceSums {
-  OwnedVec normal, area;  // nodal vectors; area in component 0, lumped area in component 1
+  OwnedVec normal, area;  // nodal vectors; the area stands in the component of the gap
 };
 
 FaceSums sumFaces(const mesh::Mesh& mesh, const Contact& contact) {
@@ -62,16 +62,13 @@ FaceSums sumFaces(const mesh::Mesh& mesh, const Contact& contact) {
       for (PetscInt node : nodes) points.push_back(mesh.coordinates[node]);
       const auto faceMass = elasticity::faceMass(table, points);
       const auto normals = elasticity::nodeNormals(table, points, -block.sign[e]);
-      double faceArea = 0, trace = 0;
+      double faceArea = 0;
       for (double entry : faceMass) faceArea += entry;
-      for (int i = 0; i < block.nodesPerFace; ++i) trace += faceMass[i * (block.nodesPerFace + 1)];
       for (int i = 0; i < block.nodesPerFace; ++i) {
         const PetscInt row = mesh.dimension * mesh.globalNode[nodes[i]];
         double weight = 0;
         for (int j = 0; j < block.nodesPerFace; ++j) weight += faceMass[i * block.nodesPerFace + j];
-        check(VecSetValue(local.area, row, weight, ADD_VALUES));
-        check(VecSetValue(local.area, row + 1,
-                          faceArea * faceMass[i * (block.nodesPerFace + 1)] / trace, ADD_VALUES));
+        check(VecSetValue(local.area, row + mesh.dimension - 1, weight, ADD_VALUES));
         for (int d = 0; d < mesh.dimension; ++d)
           check(VecSetValue(local.normal, row + d, faceArea * normals[i][d], ADD_VALUES));
       }
@@ -81,7 +78,30 @@ FaceSums sumFaces(const mesh::Mesh& mesh, const Contact& contact) {
     check(VecAssemblyBegin(vector)), check(VecAssemblyEnd(vector));
   check(MatMultTranspose(contact.periodic, local.normal, sums.normal));
   check(MatMultTranspose(contact.periodic, local.area, sums.area));
+  if (contact.gapBasis) {
+    //   ∫ φ̃ dA = Eᵀ ∫ φ dA
+    check(MatMultTranspose(contact.gapBasis.matrix, sums.area, local.area));
+    check(VecCopy(local.area, sums.area));
+  }
   return sums;
+}
+
+/// Returns the product of a matrix of the gap basis, or of its transpose by MatMultTranspose, with
+/// values, [contact node].
+std::vector<double> applied(const Contact& contact, PetscErrorCode (*multiply)(Mat, Vec, Vec),
+                            Mat matrix, const std::vector<double>& values) {
+  const auto& mesh = *contact.mesh;
+  const auto gapAt = [&](const ContactNode& node) { return mesh.dimension * (node.node + 1) - 1; };
+  const OwnedVec given = elasticity::nodalVector(mesh), result = elasticity::nodalVector(mesh);
+  {
+    const WriteArray entries(given);
+    for (std::size_t i = 0; i < values.size(); ++i) entries[gapAt(contact.nodes[i])] = values[i];
+  }
+  check(multiply(matrix, given, result));
+  const ReadArray entries(result);
+  std::vector<double> found;
+  for (const auto& node : contact.nodes) found.push_back(entries[gapAt(node)]);
+  return found;
 }
 
 std::vector<ContactNode> contactNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
@@ -106,8 +126,7 @@ std::vector<ContactNode> contactNodes(const mesh::Mesh& mesh, const elasticity::
     node.position = mesh.coordinates[pair.node];
     node.node = pair.node, node.globalNode = mesh.firstNode + pair.node, node.master = pair.master,
     node.interface = pair.interface;
-    node.area = area[mesh.dimension * pair.node];
-    node.lumpedArea = area[mesh.dimension * pair.node + 1];
+    node.area = area[mesh.dimension * (pair.node + 1) - 1];
     for (int d = 0; d < mesh.dimension; ++d)
       node.normal[d] = normal[mesh.dimension * pair.node + d];
     node.normal = scaled(node.normal, 1 / std::sqrt(dot(node.normal, node.normal)));
@@ -207,20 +226,10 @@ Contact build(const mesh::Mesh& mesh, const elasticity::Bodies& bodies) {
   contact.periodic = periodicity(mesh);
   requireRestingPads(mesh, bodies, contact);
   contact.law = FrictionLaw::read();
+  contact.gapBasis = gapBasis(mesh, contact.padSurfaces, contact.periodic);
   contact.nodes = contactNodes(mesh, bodies, requests, sumFaces(mesh, contact));
-  const PetscInt ownedNodes = contact.nodes.size();
-  PetscInt sums[2] = {ownedNodes, 0};
-  // ∫ φ dA is zero at tri6 corners and negative at quad8 corners: consistent nodal forces of a
-  // positive pressure are not positive there.
-  for (const auto& block : mesh.faces) {
-    const auto& table = elasticity::shapeTable(block.type);
-    const bool serendipity = table.order > 1 && (table.name == "tri6" || table.name == "quad8");
-    for (int surface : block.surface)
-      sums[1] += serendipity && contact.isPadSurface(mesh.surfaces[surface]);
-  }
-  check(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPIU_INT, MPI_SUM, mesh.comm));
-  contact.totalNodes = sums[0];
-  contact.weightsPositive = sums[1] == 0;
+  contact.totalNodes = contact.nodes.size();
+  check(MPI_Allreduce(MPI_IN_PLACE, &contact.totalNodes, 1, MPIU_INT, MPI_SUM, mesh.comm));
 
   OwnedMat a = nodalMatrix(mesh, 2);
   const OwnedVec held = elasticity::nodalVector(mesh);
@@ -232,6 +241,12 @@ Contact build(const mesh::Mesh& mesh, const elasticity::Bodies& bodies) {
   requireFlatObstacles(mesh, contact);
   check(
       MatMatMult(contact.periodic, a, MAT_INITIAL_MATRIX, PETSC_DEFAULT, contact.kinematics.out()));
+  if (contact.gapBasis) {
+    OwnedMat combined;
+    check(MatMatMult(contact.kinematics, contact.gapBasis.matrix, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
+                     combined.out()));
+    contact.kinematics = std::move(combined);
+  }
   contact.offset = elasticity::nodalVector(mesh);
   check(MatMult(contact.kinematics, held, contact.offset));
   buildSliding(bodies, contact);
@@ -310,11 +325,23 @@ std::vector<Slip> Contact::slip(double speed, Vec displacement) const {
   return result;
 }
 
+std::vector<double> Contact::nodalForce(const std::vector<double>& normalForce) const {
+  return gapBasis ? applied(*this, MatMultTranspose, gapBasis.inverse, normalForce) : normalForce;
+}
+
+std::vector<double> Contact::gapCoefficients(const std::vector<double>& nodal) const {
+  return gapBasis ? applied(*this, MatMult, gapBasis.inverse, nodal) : nodal;
+}
+
+std::vector<double> Contact::nodalGap(const std::vector<double>& gap) const {
+  return gapBasis ? applied(*this, MatMult, gapBasis.matrix, gap) : gap;
+}
+
 OwnedMat Contact::slipRows(const Transformation& transformation, const std::vector<Slip>& slip,
                            const std::vector<unsigned char>& slides) const {
-  const OwnedMat rows = nodalMatrix(*mesh, 2);
+  OwnedMat rows = nodalMatrix(*mesh, 2);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (!slides[i]) continue;
+    if (!slides[i] && !gapBasis) continue;
     for (int d = 0; d < mesh->dimension; ++d) {
       const double entry = slip[i].law * slip[i].direction[d];
       check(MatSetValue(rows, gapRow(nodes[i]), mesh->dimension * nodes[i].globalNode + d, entry,
@@ -325,32 +352,20 @@ OwnedMat Contact::slipRows(const Transformation& transformation, const std::vect
     }
   }
   assembled(rows);
+  if (gapBasis) {
+    OwnedMat combined;
+    check(MatMatMult(gapBasis.inverse, rows, MAT_INITIAL_MATRIX, PETSC_DEFAULT, combined.out()));
+    const OwnedVec sliding = elasticity::nodalVector(*mesh);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      check(VecSetValue(sliding, gapRow(nodes[i]), slides[i], INSERT_VALUES));
+    check(VecAssemblyBegin(sliding));
+    check(VecAssemblyEnd(sliding));
+    check(MatDiagonalScale(combined, sliding, nullptr));
+    rows = std::move(combined);
+  }
   OwnedMat result;
   check(MatMatMult(rows, transformation.trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.out()));
   return result;
-}
-
-VelocityResponse velocityResponse(const Slip& slip, double normalForce, double friction,
-                                  int dimension) {
-  const double force = friction * normalForce;
-  return {slip.speed > 0 && dimension == 3 ? force * slip.law / slip.speed : 0, force * slip.slope};
-}
-
-OwnedMat Contact::velocityResponse(const std::vector<Slip>& slip,
-                                   const std::vector<double>& normalForce, double friction) const {
-  const int dimension = mesh->dimension;
-  OwnedMat response = nodalMatrix(*mesh, 1);
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const auto [across, along] =
-        contact::velocityResponse(slip[i], normalForce[i], friction, dimension);
-    std::vector<double> block = identity(dimension, across);
-    const auto alongBlock = outer(slip[i].direction, slip[i].direction, dimension, along - across),
-               normal = outer(nodes[i].normal, nodes[i].normal, dimension, -across);
-    for (std::size_t k = 0; k < block.size(); ++k) block[k] += alongBlock[k] + normal[k];
-    setBlock(response, dimension, nodes[i].globalNode, nodes[i].globalNode, block);
-  }
-  assembled(response);
-  return response;
 }
 
 void requireSlip(const Contact& contact, const std::vector<Slip>& slip,

@@ -7,9 +7,12 @@
 ///   u = A z,   n·u_P = n·u_D + g   [2.13].
 /// A selection B drops held components and periodic images from z, so that T = A B.
 ///
+/// On tri6 and quad8 faces the gaps g of the nodes are combined from gaps h that have a row of
+/// their own in z, g = E h, so that the shape functions of h have positive integrals [M.54].
+///
 /// Friction is a product of two matrices with a row per contact node. N gives the normal force from
 /// the nodal forces r, and S gives the slip of u = T x, with the jump [u] = u_P − u_D:
-///   R_N = N r,   S x = φ τ·[u].
+///   R_N = N r,   S x = E⁻¹ φ τ·[u].
 /// The test functions put the friction force of R_N on the tangential rows:
 ///   L(f)ᵀ r = Tᵀ r + f Sᵀ N r,
 /// that is R_T = −f φ R_N τ on the pad [3.4], and its opposite on the disc.
@@ -18,6 +21,7 @@
 
 #include "contact/constraints.hpp"
 #include "contact/friction.hpp"
+#include "contact/gap_basis.hpp"
 #include "elasticity/elasticity.hpp"
 #include "mesh/mesh.hpp"
 #include "petsc/owned.hpp"
@@ -29,14 +33,13 @@ using mesh::Point;
 /// A ContactNode is a node of a pad in contact that this rank owns. Contact nodes stand in the
 /// order of Mesh::pairs.
 struct ContactNode {
-  Point position;    ///< m
-  Point normal;      ///< n, unit, from disc to pad
-  Point slip;        ///< τ = w/|w|, w = −V at the base motions; zero where there is no slip
-  double slipSpeed;  ///< |w| at the base motions, m/s
-  double area;  ///< ∫ φ dA, m² (m in the plane); zero at tri6 corners, negative at quad8 corners
-  double lumpedArea;  ///< share of the faces by the diagonal of their mass matrices, positive, m²
-  int interface;      ///< index into Contact::interfaces
-  PetscInt node;      ///< local node
+  Point position;       ///< m
+  Point normal;         ///< n, unit, from disc to pad
+  Point slip;           ///< τ = w/|w|, w = −V at the base motions; zero where there is no slip
+  double slipSpeed;     ///< |w| at the base motions, m/s
+  double area;          ///< ∫ φ̃ dA over the faces of the pad, positive, m² (m in the plane)
+  int interface;        ///< index into Contact::interfaces
+  PetscInt node;        ///< local node
   PetscInt globalNode;  ///< global node
   PetscInt master;      ///< global node of the disc; −1 for a rigid obstacle
 };
@@ -48,17 +51,6 @@ struct Slip {
   double law = 1;     ///< φ(|w|): the coefficient of friction is f φ
   double slope = 0;   ///< dφ/d|w|, s/m
 };
-
-/// A VelocityResponse gives the change −B w* of the friction force of one contact node with a
-/// change w* of its relative velocity [4.7, M.20]:
-///   B = across (1 − ττᵀ − nnᵀ) + along ττᵀ.
-struct VelocityResponse {
-  double across = 0;  ///< f R_N φ / |w|, N·s/m; zero in the plane, which has one tangent
-  double along = 0;   ///< f R_N dφ/d|w|, N·s/m
-};
-/// Not collective. Returns these factors for the normal force R_N, N, and the friction f.
-VelocityResponse velocityResponse(const Slip& slip, double normalForce, double friction,
-                                  int dimension);
 
 /// The trial functions T for one choice of the gaps that are unknowns.
 struct Transformation {
@@ -75,11 +67,10 @@ struct Contact {
   std::vector<std::string> padSurfaces;  ///< [interface]
   std::vector<ContactNode> nodes;
   PetscInt totalNodes = 0;  ///< contact nodes of all ranks
-  /// False on faces (tri6, quad8) where nodal forces do not tell whether a node is open.
-  bool weightsPositive = true;
   Constraints constraints;
   FrictionLaw law;
   OwnedMat periodic;  ///< P, N×N: copies u of primaries to their images; the identity elsewhere
+  GapBasis gapBasis;  ///< E
   OwnedMat reaction;  ///< N, N×N: R_N of a contact node from all nodal forces, in the row of its
                       ///< gap; other rows are empty
   OwnedMat jump;      ///< J, N×N: [u] = u_P − u_D in the rows of the pad nodes; others are empty
@@ -103,15 +94,17 @@ struct Contact {
   ///   w = −v (V + D u_D)   [2.15]
   /// in the tangent plane. If `displacement` u is null, or without convective terms, w = −v V.
   std::vector<Slip> slip(double speed, Vec displacement) const;
-  /// Collective. Returns S, N×n: φ τ·[u] of u = T x, in the rows of the gaps of the contact nodes
-  /// with slides[i] set; other rows are empty.
+  /// Collective. Returns the normal components of the nodal forces of contact, E⁻ᵀ R_N, N, from
+  /// R_N, N, both [contact node]. On faces whose E is the identity they are the same.
+  std::vector<double> nodalForce(const std::vector<double>& normalForce) const;
+  /// Collective. Returns the gaps at the nodes, E h, m, from the unknown ones, both [contact node].
+  std::vector<double> nodalGap(const std::vector<double>& gap) const;
+  /// Collective. Returns E⁻¹ v of values v at the nodes, both [contact node].
+  std::vector<double> gapCoefficients(const std::vector<double>& nodal) const;
+  /// Collective. Returns S, N×n: E⁻¹ φ τ·[u] of u = T x, in the rows of the gaps of the contact
+  /// nodes with slides[i] set; other rows are empty.
   OwnedMat slipRows(const Transformation& transformation, const std::vector<Slip>& slip,
                     const std::vector<unsigned char>& slides) const;
-  /// Collective. Returns B, N×N, N·s/m, with diagonal blocks at the pad nodes. The friction force
-  /// changes by −B w* with the relative velocity [4.7, M.20]:
-  ///   B = f R_N (φ/|w| (1 − ττᵀ − nnᵀ) + dφ/d|w| ττᵀ).
-  OwnedMat velocityResponse(const std::vector<Slip>& slip, const std::vector<double>& normalForce,
-                            double friction) const;
 };
 
 /// Not collective. Returns the contact interfaces that the options ask for, for the mesh reader.

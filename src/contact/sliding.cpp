@@ -12,8 +12,8 @@
 namespace squeal::contact {
 namespace {
 
-/// Returns N, so that R_N,k = n_k · r, with the forces on periodic images added to those on their
-/// primaries.
+/// Returns N. The normal components of the nodal forces are n_k · r, with the forces on periodic
+/// images added to those on their primaries; R_N is Eᵀ times these.
 OwnedMat reactionRows(const Contact& contact) {
   const auto& mesh = *contact.mesh;
   const OwnedMat normals = nodalMatrix(mesh, 1);
@@ -25,6 +25,12 @@ OwnedMat reactionRows(const Contact& contact) {
   OwnedMat folded, result;
   check(MatTranspose(contact.periodic, MAT_INITIAL_MATRIX, folded.out()));
   check(MatMatMult(normals, folded, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.out()));
+  if (contact.gapBasis) {
+    OwnedMat combined;
+    check(MatTransposeMatMult(contact.gapBasis.matrix, result, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
+                              combined.out()));
+    return combined;
+  }
   return result;
 }
 

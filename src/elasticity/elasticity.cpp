@@ -57,21 +57,6 @@ std::vector<double> onAllComponents(const std::vector<double>& scalar, int count
   return full;
 }
 
-/// Collective. Returns the values of a nodal vector, [local node][component], ghosts included.
-std::vector<double> localValues(const mesh::Mesh& mesh, Vec u) {
-  OwnedIS nodes;
-  OwnedVec local;
-  OwnedScatter scatter;
-  check(ISCreateBlock(PETSC_COMM_SELF, mesh.dimension, mesh.localNodes(), mesh.globalNode.data(),
-                      PETSC_COPY_VALUES, nodes.out()));
-  check(VecCreateSeq(PETSC_COMM_SELF, mesh.dimension * mesh.localNodes(), local.out()));
-  check(VecScatterCreate(u, nodes, local, nullptr, scatter.out()));
-  check(VecScatterBegin(scatter, u, local, INSERT_VALUES, SCATTER_FORWARD));
-  check(VecScatterEnd(scatter, u, local, INSERT_VALUES, SCATTER_FORWARD));
-  const ReadArray values(local);
-  return {values.begin(), values.end()};
-}
-
 /// Appends the entries of a diagonal, which may be null.
 void appendDiagonal(Triples& triples, const mesh::Mesh& mesh, Vec diagonal) {
   if (!diagonal) return;
@@ -250,6 +235,20 @@ OwnedMat geometricStiffness(const mesh::Mesh& mesh, Vec displacement, std::optio
            false);  // pattern of K
   });
   return toMatrix(mesh, k, Symmetry::symmetric);
+}
+
+std::vector<double> localValues(const mesh::Mesh& mesh, Vec u) {
+  OwnedIS nodes;
+  OwnedVec local;
+  OwnedScatter scatter;
+  check(ISCreateBlock(PETSC_COMM_SELF, mesh.dimension, mesh.localNodes(), mesh.globalNode.data(),
+                      PETSC_COPY_VALUES, nodes.out()));
+  check(VecCreateSeq(PETSC_COMM_SELF, mesh.dimension * mesh.localNodes(), local.out()));
+  check(VecScatterCreate(u, nodes, local, nullptr, scatter.out()));
+  check(VecScatterBegin(scatter, u, local, INSERT_VALUES, SCATTER_FORWARD));
+  check(VecScatterEnd(scatter, u, local, INSERT_VALUES, SCATTER_FORWARD));
+  const ReadArray values(local);
+  return {values.begin(), values.end()};
 }
 
 }  // namespace squeal::elasticity

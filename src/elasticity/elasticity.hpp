@@ -60,5 +60,7 @@ OwnedMat geometricStiffness(const mesh::Mesh& mesh, Vec displacement, std::optio
 
 /// Collective. Returns a nodal vector of zeros, with N entries and the block size `dimension`.
 OwnedVec nodalVector(const mesh::Mesh& mesh);
+/// Collective. Returns the values of a nodal vector, [local node][component], ghosts included.
+std::vector<double> localValues(const mesh::Mesh& mesh, Vec u);
 
 }  // namespace squeal::elasticity

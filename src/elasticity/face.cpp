@@ -35,16 +35,22 @@ std::vector<double> faceNormals(const ShapeTable& table, const std::vector<Point
   return load;
 }
 
+std::vector<double> areaWeights(const ShapeTable& table, const std::vector<Point>& nodes) {
+  std::vector<double> weights;
+  for (int q = 0; q < table.points(); ++q)
+    weights.push_back(table.weight[q] * norm(faceNormal(table.gradient.data() + 3 * q * table.nodes,
+                                                        nodes, table.dimension)));
+  return weights;
+}
+
 std::vector<double> faceMass(const ShapeTable& table, const std::vector<Point>& nodes) {
   const std::size_t n = table.nodes;
   std::vector<double> m(n * n, 0.0);
+  const auto weight = areaWeights(table, nodes);
   for (int q = 0; q < table.points(); ++q) {
-    const double factor =
-        table.weight[q] *
-        norm(faceNormal(table.gradient.data() + 3 * q * table.nodes, nodes, table.dimension));
     const double* value = table.value.data() + q * n;
     for (std::size_t a = 0; a < n; ++a)
-      for (std::size_t b = 0; b < n; ++b) m[a * n + b] += factor * value[a] * value[b];
+      for (std::size_t b = 0; b < n; ++b) m[a * n + b] += weight[q] * value[a] * value[b];
   }
   return m;
 }

@@ -14,6 +14,9 @@ using mesh::Point;
 /// Returns ∫ φᵢ n dA on a face (a line in the plane), [node][3], m² (m in the plane). The unit
 /// normal n is that of the node order times `sign`.
 std::vector<double> faceNormals(const ShapeTable& table, const std::vector<Point>& nodes, int sign);
+/// Returns the weights of the points of the rule for integrals over the face, [point], m² (m in the
+/// plane).
+std::vector<double> areaWeights(const ShapeTable& table, const std::vector<Point>& nodes);
 /// Returns ∫ φᵢ φⱼ dA on a face, row-major [node][node], m² (m in the plane).
 std::vector<double> faceMass(const ShapeTable& table, const std::vector<Point>& nodes);
 /// Returns the derivative of each shape function along the velocity at each node of the face,

@@ -119,8 +119,7 @@ void Influences::followSteadyState(const BodyPoint& state, const steady::Problem
       check(MatMult(part.stiffness, state.solution.displacement, force));
   }
   influence.change = steady::change(problem, state.solution, state.system, cause);
-  influence.responseForce =
-      responseForces(contact_, state.solution.closed, influence.change.normalForce);
+  influence.responseForce = responseForces(state.solution.closed, influence.change.normalForce);
   if (state.prestress)
     influence.prestress = elasticity::geometricStiffness(mesh_, influence.change.displacement);
 }
@@ -129,21 +128,28 @@ Influences::Projected Influences::project(const BodyPoint& state,
                                           const sensitivity::EigenTriple& triple) const {
   const Mat trial = state.system.transformation().trial;
   Projected pair{triple.s, product(trial, triple.x), product(trial, triple.y), {}, {}};
-  pair.motion = contactMotion(
-      contact_, pair.u, motionForces(bodies_, state.at, triple.s, pair.u, state.prestress).forces);
-  pair.test = contactJump(contact_, pair.z);
+  pair.motion =
+      contactMotion(contact_, state.solution.closed, pair.u,
+                    motionForces(bodies_, state.at, triple.s, pair.u, state.prestress).forces);
+  pair.test = atPadNodes(contact_, product(contact_.jump, pair.z));
   //   L(f) y = T y + f Nᵀ S y
-  linalg::ComplexVector slips = linalg::ComplexVector::like(pair.z.real);
+  std::vector<double> alongReal, alongImaginary;
+  for (std::size_t k = 0; k < contact_.nodes.size(); ++k) {
+    const auto& slip = state.solution.slip[k];
+    Complex along = 0;
+    for (std::size_t d = 0; d < 3; ++d) along += slip.direction[d] * pair.test[k][d];
+    along *= state.at.friction * slip.law;
+    alongReal.push_back(along.real()), alongImaginary.push_back(along.imag());
+  }
+  alongReal = contact_.gapCoefficients(alongReal);
+  alongImaginary = contact_.gapCoefficients(alongImaginary);
+  const linalg::ComplexVector slips = linalg::ComplexVector::like(pair.z.real);
   {
     const WriteArray real(slips.real), imaginary(slips.imaginary);
     for (std::size_t k = 0; k < contact_.nodes.size(); ++k) {
       if (!state.solution.closed[k]) continue;
-      const auto& slip = state.solution.slip[k];
-      Complex along = 0;
-      for (std::size_t d = 0; d < 3; ++d) along += slip.direction[d] * pair.test[k][d];
-      along *= state.at.friction * slip.law;
       const PetscInt row = contact_.gapRow(contact_.nodes[k]) - mesh_.dimension * mesh_.firstNode;
-      real[row] = along.real(), imaginary[row] = along.imag();
+      real[row] = alongReal[k], imaginary[row] = alongImaginary[k];
     }
   }
   add(pair.z, 1, product(contact_.reaction, slips, true));
@@ -178,28 +184,29 @@ Complex Influences::steadyForm(const Influence& influence, const BodyPoint& stat
   const double h = step * influence.size;
   const OwnedVec u = elasticity::nodalVector(mesh_);
   for (const double sign : {-1.0, 1.0}) {
-    FrictionState moved = frictionState(contact_, state.solution);
-    if (influence.member) moved.at.*influence.member += sign * h;
+    sweep::Parameters at = state.solution.at;
+    if (influence.member) at.*influence.member += sign * h;
     check(VecWAXPY(u, sign * h, influence.change.displacement, state.solution.displacement));
-    moved.slip = contact_.slip(moved.at.speed, u);
-    for (std::size_t k = 0; k < moved.responseForce.size(); ++k)
-      moved.responseForce[k] += sign * h * influence.responseForce[k];
-    sum += sign / (2 * h) * frictionSum(moved, state, pair);
+    std::vector<double> force;
+    for (std::size_t k = 0; k < influence.responseForce.size(); ++k)
+      force.push_back(state.solution.contact[k].normalForce);
+    force = responseForces(state.solution.closed, std::move(force));
+    for (std::size_t k = 0; k < force.size(); ++k)
+      force[k] += sign * h * influence.responseForce[k];
+    sum += sign / (2 * h) *
+           frictionSum(frictionState(contact_, at, contact_.slip(at.speed, u), force), state, pair);
   }
   return sum;
 }
 
-/// Returns the sum of frictionForm() over the contact nodes. The f that multiplies the change of
+/// Returns the sum of frictionForms() over the contact nodes. The f that multiplies the change of
 /// the normal force is held: it is a coefficient of the pencil.
 Complex Influences::frictionSum(const FrictionState& friction, const BodyPoint& state,
                                 const Projected& pair) const {
   Complex sum = 0;
   const double held = friction.at.friction > 0 ? state.at.friction / friction.at.friction : 0;
-  for (std::size_t k = 0; k < contact_.nodes.size(); ++k) {
-    if (!state.solution.closed[k]) continue;
-    const auto form = frictionForm(contact_, friction, pair.s, pair.test[k], pair.motion, k);
+  for (const auto& form : frictionForms(contact_, friction, pair.s, pair.test, pair.motion))
     sum += held * form.pressing + form.turning;
-  }
   check(MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_C_DOUBLE_COMPLEX, MPI_SUM, mesh_.comm));
   return sum;
 }

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/response.hpp"
 #include "options/options.hpp"
-#include "steady/pressure.hpp"
 
 namespace squeal::flutter {
 namespace {
@@ -46,8 +46,8 @@ void addVelocityResponse(std::vector<pencil::Term>& terms, const contact::Contac
                          const contact::CoupledSystem& system, const steady::Solution& solution) {
   std::vector<double> normalForce;
   for (const auto& state : solution.contact) normalForce.push_back(state.normalForce);
-  const OwnedMat response = contact.velocityResponse(
-      solution.slip, responseForces(contact, solution.closed, std::move(normalForce)),
+  const OwnedMat response = contact::distributedResponse(
+      contact, solution.slip, responseForces(solution.closed, std::move(normalForce)),
       solution.at.friction);
   const Mat trial = system.transformation().trial;
   OwnedMat jumps, answered, damping;
@@ -101,18 +101,9 @@ std::vector<pencil::Term> pointTerms(const contact::Contact& contact,
 
 bool frictionDampingWanted() { return dampingOption.get(); }
 
-std::vector<double> responseForces(const contact::Contact& contact,
-                                   const std::vector<unsigned char>& closed,
+std::vector<double> responseForces(const std::vector<unsigned char>& closed,
                                    std::vector<double> normalForce) {
   if (!dampingOption.get()) return std::vector<double>(normalForce.size(), 0.0);
-  // Nodal forces that are not positive under pressure (tri6, quad8) would make the damping
-  // negative. The pressure times a positive share of the faces takes their place, at the price of
-  // an error of first order in the mesh size.
-  if (!contact.weightsPositive) {
-    normalForce = steady::consistentPressure(*contact.mesh, contact, normalForce);
-    for (std::size_t i = 0; i < normalForce.size(); ++i)
-      normalForce[i] *= contact.nodes[i].lumpedArea;
-  }
   for (std::size_t i = 0; i < normalForce.size(); ++i)
     if (!closed[i]) normalForce[i] = 0;
   return normalForce;

@@ -27,11 +27,9 @@ std::vector<pencil::Term> pointTerms(const contact::Contact& contact,
 
 /// Returns the option `-flutter_friction_damping`.
 bool frictionDampingWanted();
-/// Collective. Returns the normal forces that enter B, [owned contact node], N: R_N at the `closed`
-/// nodes; on tri6 and quad8 faces the pressure times a positive share of the faces. They are linear
-/// in R_N, and zero without `-flutter_friction_damping`.
-std::vector<double> responseForces(const contact::Contact& contact,
-                                   const std::vector<unsigned char>& closed,
+/// Not collective. Returns the normal forces that enter B, [owned contact node], N: R_N at the
+/// `closed` nodes, zero at the others and without `-flutter_friction_damping`.
+std::vector<double> responseForces(const std::vector<unsigned char>& closed,
                                    std::vector<double> normalForce);
 
 /// Collective. Returns the term of modal damping [M.22],

@@ -1,33 +1,11 @@
 #include "flutter/work.hpp"
 
+#include "contact/response.hpp"
 #include "flutter/terms.hpp"
 #include "petsc/arrays.hpp"
 #include "sweep/parameters.hpp"
 
 namespace squeal::flutter {
-namespace {
-
-/// Returns the values of a nodal vector in the rows of the pad nodes, [owned contact node].
-std::vector<ComplexPoint> atPadNodes(const contact::Contact& contact,
-                                     const linalg::ComplexVector& u) {
-  const int dimension = contact.mesh->dimension;
-  std::vector<ComplexPoint> points;
-  const ReadArray real(u.real), imaginary(u.imaginary);
-  for (const auto& node : contact.nodes) {
-    ComplexPoint point{};
-    for (int d = 0; d < dimension; ++d)
-      point[d] = {real[dimension * node.node + d], imaginary[dimension * node.node + d]};
-    points.push_back(point);
-  }
-  return points;
-}
-
-Complex along(const mesh::Point& direction, const ComplexPoint& u) {
-  return direction[0] * u[0] + direction[1] * u[1] + direction[2] * u[2];
-}
-
-}  // namespace
-
 MotionForces motionForces(const elasticity::Bodies& bodies, const sweep::Parameters& at, Complex s,
                           const linalg::ComplexVector& u, Mat prestress) {
   MotionForces result{product(bodies.stiffness, u), 0};
@@ -42,63 +20,82 @@ MotionForces motionForces(const elasticity::Bodies& bodies, const sweep::Paramet
   return result;
 }
 
-std::vector<ComplexPoint> contactJump(const contact::Contact& contact,
-                                      const linalg::ComplexVector& u) {
-  return atPadNodes(contact, product(contact.jump, u));
+std::vector<ComplexPoint> atPadNodes(const contact::Contact& contact,
+                                     const linalg::ComplexVector& u) {
+  const int dimension = contact.mesh->dimension;
+  std::vector<ComplexPoint> points;
+  const ReadArray real(u.real), imaginary(u.imaginary);
+  for (const auto& node : contact.nodes) {
+    ComplexPoint point{};
+    for (int d = 0; d < dimension; ++d)
+      point[d] = {real[dimension * node.node + d], imaginary[dimension * node.node + d]};
+    points.push_back(point);
+  }
+  return points;
 }
 
-ContactMotion contactMotion(const contact::Contact& contact, const linalg::ComplexVector& u,
-                            const linalg::ComplexVector& forces) {
-  ContactMotion motion{contactJump(contact, u), {}, {}};
-  motion.convected = contact.convected
-                         ? atPadNodes(contact, product(contact.convected, u))
-                         : std::vector<ComplexPoint>(contact.nodes.size(), ComplexPoint{});
+ContactMotion contactMotion(const contact::Contact& contact,
+                            const std::vector<unsigned char>& closed,
+                            const linalg::ComplexVector& u, const linalg::ComplexVector& forces) {
+  ContactMotion motion{product(contact.jump, u), {}, {}};
+  if (contact.convected) motion.convected = product(contact.convected, u);
   const int component = contact.mesh->dimension - 1;  // the row of the gap
-  for (const auto& row : atPadNodes(contact, product(contact.reaction, forces)))
-    motion.normalForce.push_back(row[component]);
+  std::vector<double> real, imaginary;
+  const auto reactions = atPadNodes(contact, product(contact.reaction, forces));
+  for (std::size_t k = 0; k < reactions.size(); ++k) {
+    const Complex reaction = closed[k] ? reactions[k][component] : 0;
+    real.push_back(reaction.real()), imaginary.push_back(reaction.imag());
+  }
+  real = contact.nodalForce(real), imaginary = contact.nodalForce(imaginary);
+  for (std::size_t k = 0; k < real.size(); ++k)
+    motion.nodalForce.emplace_back(real[k], imaginary[k]);
   return motion;
 }
 
-FrictionForm frictionForm(const contact::Contact& contact, const FrictionState& state, Complex s,
-                          const ComplexPoint& test, const ContactMotion& motion, std::size_t k) {
-  const auto& slip = state.slip[k];
-  const auto [across, alongSlip] = contact::velocityResponse(
-      slip, state.responseForce[k], state.at.friction, contact.mesh->dimension);
-  ComplexPoint velocity, conjugate;
-  for (std::size_t d = 0; d < 3; ++d) {
-    velocity[d] = s * motion.jump[k][d] - state.at.speed * motion.convected[k][d];
-    conjugate[d] = std::conj(test[d]);
-  }
-  const Complex testAlong = along(slip.direction, conjugate),
-                velocityAlong = along(slip.direction, velocity),
-                velocityNormal = along(contact.nodes[k].normal, velocity),
-                testNormal = along(contact.nodes[k].normal, conjugate);
-  Complex product = 0;
-  for (std::size_t d = 0; d < 3; ++d) product += conjugate[d] * velocity[d];
-  return {state.at.friction * slip.law * testAlong * motion.normalForce[k],
-          across * (product - testAlong * velocityAlong - testNormal * velocityNormal) +
-              alongSlip * testAlong * velocityAlong};
+FrictionState frictionState(const contact::Contact& contact, const sweep::Parameters& at,
+                            std::vector<contact::Slip> slip,
+                            const std::vector<double>& responseForce) {
+  OwnedMat response = contact::distributedResponse(contact, slip, responseForce, at.friction);
+  return {at, std::move(slip), std::move(response)};
 }
 
 FrictionState frictionState(const contact::Contact& contact, const steady::Solution& solution) {
   std::vector<double> normalForce;
   for (const auto& state : solution.contact) normalForce.push_back(state.normalForce);
-  return {solution.at, solution.slip, responseForces(contact, solution.closed, normalForce)};
+  return frictionState(contact, solution.at, solution.slip,
+                       responseForces(solution.closed, normalForce));
+}
+
+std::vector<FrictionForm> frictionForms(const contact::Contact& contact, const FrictionState& state,
+                                        Complex s, const std::vector<ComplexPoint>& test,
+                                        const ContactMotion& motion) {
+  linalg::ComplexVector velocity = linalg::ComplexVector::like(motion.jump.real);
+  add(velocity, s, motion.jump);
+  if (motion.convected.real) add(velocity, -state.at.speed, motion.convected);
+  const auto turning = atPadNodes(contact, product(state.response, velocity));
+  std::vector<FrictionForm> forms;
+  for (std::size_t k = 0; k < contact.nodes.size(); ++k) {
+    const auto& slip = state.slip[k];
+    FrictionForm form{};
+    for (std::size_t d = 0; d < 3; ++d) {
+      form.pressing += std::conj(test[k][d]) * slip.direction[d];
+      form.turning += std::conj(test[k][d]) * turning[k][d];
+    }
+    form.pressing *= state.at.friction * slip.law * motion.nodalForce[k];
+    forms.push_back(form);
+  }
+  return forms;
 }
 
 std::vector<double> frictionWork(const contact::Contact& contact, const elasticity::Bodies& bodies,
                                  const steady::Solution& solution, const sweep::Parameters& at,
                                  Complex s, const linalg::ComplexVector& u, Mat prestress) {
   const MotionForces forces = motionForces(bodies, at, s, u, prestress);
-  const ContactMotion motion = contactMotion(contact, u, forces.forces);
-  const FrictionState state = frictionState(contact, solution);
+  const ContactMotion motion = contactMotion(contact, solution.closed, u, forces.forces);
   std::vector<double> work;
-  for (std::size_t k = 0; k < contact.nodes.size(); ++k) {
-    const FrictionForm form = frictionForm(contact, state, s, motion.jump[k], motion, k);
-    work.push_back(solution.closed[k]
-                       ? -(std::conj(s) * (form.pressing + form.turning)).real() / forces.energy
-                       : 0);
-  }
+  for (const auto& form : frictionForms(contact, frictionState(contact, solution), s,
+                                        atPadNodes(contact, motion.jump), motion))
+    work.push_back(-(std::conj(s) * (form.pressing + form.turning)).real() / forces.energy);
   return work;
 }
 

@@ -28,40 +28,52 @@ struct MotionForces {
 MotionForces motionForces(const elasticity::Bodies& bodies, const sweep::Parameters& at, Complex s,
                           const linalg::ComplexVector& u, Mat prestress);
 
-/// The amplitudes of a motion at the contact nodes, [owned contact node].
+/// The amplitudes of a motion at the contact.
 struct ContactMotion {
-  std::vector<ComplexPoint> jump;       ///< [u]
-  std::vector<ComplexPoint> convected;  ///< D u_D; zero without convective terms
-  std::vector<Complex> normalForce;     ///< R_N* = N r*
+  linalg::ComplexVector jump;       ///< [u] in the rows of the pad nodes, N entries
+  linalg::ComplexVector convected;  ///< D u_D in the same rows; null without convective terms
+  /// The normal components of the nodal forces, E⁻ᵀ N r*, with that of open gaps left out, [owned
+  /// contact node].
+  std::vector<Complex> nodalForce;
 };
-/// Collective. Returns the jumps [u] at the contact nodes, [owned contact node], of u, N entries.
-std::vector<ComplexPoint> contactJump(const contact::Contact& contact,
-                                      const linalg::ComplexVector& u);
-/// Collective. Returns the amplitudes of the motion u with the nodal forces `forces`.
-ContactMotion contactMotion(const contact::Contact& contact, const linalg::ComplexVector& u,
-                            const linalg::ComplexVector& forces);
+/// Collective. Returns the values of a nodal vector in the rows of the pad nodes, [owned contact
+/// node].
+std::vector<ComplexPoint> atPadNodes(const contact::Contact& contact,
+                                     const linalg::ComplexVector& u);
+/// Collective. Returns the amplitudes of the motion u with the nodal forces `forces`; closed[k] is
+/// set for the closed gaps.
+ContactMotion contactMotion(const contact::Contact& contact,
+                            const std::vector<unsigned char>& closed,
+                            const linalg::ComplexVector& u, const linalg::ComplexVector& forces);
 
 /// The data of friction at one point of a sweep.
 struct FrictionState {
   sweep::Parameters at;
   std::vector<contact::Slip> slip;  ///< [owned contact node]
-  /// The normal forces that enter B, N, [owned contact node]: responseForces().
-  std::vector<double> responseForce;
+  OwnedMat response;                ///< B of these, N×N
 };
+/// Collective. Returns the data of friction with B of these normal forces, responseForces().
+FrictionState frictionState(const contact::Contact& contact, const sweep::Parameters& at,
+                            std::vector<contact::Slip> slip,
+                            const std::vector<double>& responseForce);
+/// Collective. Returns the data of friction of the steady state.
+FrictionState frictionState(const contact::Contact& contact, const steady::Solution& solution);
 
 /// The form −[w]ᴴ R_T* of a contact node for a test jump [w] has two parts, with [4.7]
-///   R_T* = −f φ R_N* τ − B (s [u] − v D u_D).
+///   R_T* = −f φ r_N* τ − B (s [u] − v D u_D).
 struct FrictionForm {
   Complex pressing;  ///< part with the change of the normal force
   Complex turning;   ///< part with the change of the relative velocity
 };
-/// Not collective. Returns the form of the owned contact node k for the test jump `test`.
-FrictionForm frictionForm(const contact::Contact& contact, const FrictionState& state, Complex s,
-                          const ComplexPoint& test, const ContactMotion& motion, std::size_t k);
+/// Collective. Returns the forms of the contact nodes for the test jumps, both [owned contact
+/// node].
+std::vector<FrictionForm> frictionForms(const contact::Contact& contact, const FrictionState& state,
+                                        Complex s, const std::vector<ComplexPoint>& test,
+                                        const ContactMotion& motion);
 
 /// Collective. Returns the contribution of friction at each contact node to the growth rate of the
-/// mode u e^{st}, 1/s, [owned contact node]. Where it is positive, friction feeds the mode; at open
-/// nodes it is zero.
+/// mode u e^{st}, 1/s, [owned contact node]. Where it is positive, friction feeds the mode. At open
+/// nodes it is zero, but for tri6 and quad8 faces that are closed in part.
 ///
 /// The mode u = T x satisfies Tᵀ r* = (J T)ᵀ R_T*. The real part of its product with (s x)ᴴ is,
 /// with σ = Re s and E of MotionForces [M.51],
@@ -73,8 +85,5 @@ FrictionForm frictionForm(const contact::Contact& contact, const FrictionState& 
 std::vector<double> frictionWork(const contact::Contact& contact, const elasticity::Bodies& bodies,
                                  const steady::Solution& solution, const sweep::Parameters& at,
                                  Complex s, const linalg::ComplexVector& u, Mat prestress);
-
-/// Collective. Returns the data of friction from the steady state.
-FrictionState frictionState(const contact::Contact& contact, const steady::Solution& solution);
 
 }  // namespace squeal::flutter

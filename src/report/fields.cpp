@@ -82,7 +82,7 @@ OwnedVec workField(const analysis::Analysis& analysis, const pencil::Shape& shap
     const auto& node = analysis.contact.nodes[i];
     const PetscInt row = mesh.dimension * node.globalNode;
     check(VecSetValue(field, row, shape.frictionWork[i], INSERT_VALUES));
-    check(VecSetValue(field, row + 1, shape.frictionWork[i] / node.lumpedArea, INSERT_VALUES));
+    check(VecSetValue(field, row + 1, shape.frictionWork[i] / node.area, INSERT_VALUES));
   }
   check(VecAssemblyBegin(field));
   check(VecAssemblyEnd(field));

@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "contact/response.hpp"
 #include "petsc/arrays.hpp"
 #include "petsc/text.hpp"
 #include "sweep/parameters.hpp"
@@ -28,8 +29,8 @@ PetscErrorCode multiply(Mat matrix, Vec y, Vec result) {
 /// nodes [M.48, M.49],
 ///   F  = Tᵀ (r + Jᵀ t),
 ///   dr = (K + v² K^R) du + cause,
-///   dt = f φ τ N dr − v B D du + (df φ + f φ′ dv |w|/v) R_N τ,
-/// with B of velocityResponse().
+///   dt = f φ τ E⁻ᵀ N dr − v B D du + (df φ + f φ′ dv |w|/v) E⁻ᵀ R_N τ,
+/// with B of nodalResponse().
 Change change(const Problem& problem, const Solution& solution,
               const contact::CoupledSystem& system, const Cause& cause) {
   const mesh::Mesh& mesh = problem.mesh();
@@ -38,17 +39,23 @@ Change change(const Problem& problem, const Solution& solution,
   const Mat trial = system.transformation().trial;
   const auto& nodes = contact.nodes;
   std::vector<double> steadyForce;
-  for (const auto& state : solution.contact) steadyForce.push_back(state.normalForce);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    steadyForce.push_back(system.closed()[i] ? solution.contact[i].normalForce : 0);
+  steadyForce = contact.nodalForce(steadyForce);
   OwnedMat turning;  // B D
   if (contact.convected) {
-    const OwnedMat response = contact.velocityResponse(solution.slip, steadyForce, at.friction);
+    const OwnedMat response =
+        contact::nodalResponse(contact, solution.slip, steadyForce, at.friction);
     check(
         MatMatMult(response, contact.convected, MAT_INITIAL_MATRIX, PETSC_DEFAULT, turning.out()));
   }
   // Computes Tᵀ (dr + Jᵀ dt) for given du and dr; if `direct`, dt has its terms in df and dv too.
   const auto test = [&](Vec du, Vec dr, bool direct, Vec result) {
     const OwnedVec friction = elasticity::nodalVector(mesh), sum = elasticity::nodalVector(mesh);
-    const auto normal = problem.normalForces(dr);
+    auto sliding = problem.normalForces(dr);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      if (!system.closed()[i]) sliding[i] = 0;
+    const auto normal = contact.nodalForce(sliding);
     if (turning) {
       check(MatMult(turning, du, friction));
       check(VecScale(friction, -at.speed));
@@ -62,7 +69,7 @@ Change change(const Problem& problem, const Solution& solution,
                       at.friction * slip.slope * cause.speed * slip.speed / at.speed) *
                          steadyForce[i]
                    : 0;
-        const double along = system.closed()[i] ? at.friction * slip.law * normal[i] + causes : 0;
+        const double along = at.friction * slip.law * normal[i] + causes;
         for (int d = 0; d < mesh.dimension; ++d)
           values[mesh.dimension * nodes[i].node + d] += along * slip.direction[d];
       }

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/response.hpp"
 #include "elasticity/elasticity.hpp"
 #include "mesh/mesh.hpp"
 #include "petsc/arrays.hpp"
 #include "petsc/text.hpp"
 #include "steady/complementarity.hpp"
-#include "steady/pressure.hpp"
 
 namespace squeal::steady {
 namespace {
@@ -72,18 +72,21 @@ std::vector<double> Problem::normalForces(Vec forces) const {
 }
 
 /// Returns L(f)ᵀ r in the form
-///   Tᵀ (r + Jᵀ f φ R_N τ).
+///   Tᵀ (r + Jᵀ f φ E⁻ᵀ R_N τ).
 OwnedVec Problem::test(const contact::Transformation& transformation,
                        const std::vector<unsigned char>& slides, const sweep::Parameters& at,
                        Vec forces, const std::vector<contact::Slip>& slip) const {
   const OwnedVec friction = elasticity::nodalVector(mesh_), sum = elasticity::nodalVector(mesh_);
-  const auto normal = normalForces(forces);
+  auto sliding = normalForces(forces);
+  for (std::size_t i = 0; i < sliding.size(); ++i)
+    if (!slides[i]) sliding[i] = 0;
+  const auto normal = contact_.nodalForce(sliding);
   {
     const WriteArray values(friction);
     for (std::size_t i = 0; i < contact_.nodes.size(); ++i)
       for (int d = 0; d < mesh_.dimension; ++d)
         values[mesh_.dimension * contact_.nodes[i].node + d] =
-            slides[i] ? at.friction * slip[i].law * normal[i] * slip[i].direction[d] : 0;
+            at.friction * slip[i].law * normal[i] * slip[i].direction[d];
   }
   check(MatMultTransposeAdd(contact_.jump, friction, forces, sum));
   OwnedVec result = rightVector(transformation.trial);
@@ -106,7 +109,7 @@ void Problem::residual(const sweep::Parameters& at, Vec x, Vec f) const {
 
 /// Returns [M.14]
 ///   Tᵀ (K + v² K^R) T + f Sᵀ N (K + v² K^R) T − v (J T)ᵀ B (D T)
-/// with B of velocityResponse(). The last term, the turning of the slip, is there with convective
+/// with B of nodalResponse(). The last term, the turning of the slip, is there with convective
 /// terms only.
 OwnedMat Problem::jacobian(const sweep::Parameters& at, Vec x) const {
   const OwnedVec u = displacement(at, x);
@@ -120,8 +123,8 @@ OwnedMat Problem::jacobian(const sweep::Parameters& at, Vec x) const {
     check(MatAXPY(sum, at.speed * at.speed, moving, DIFFERENT_NONZERO_PATTERN));
   }
   if (contact_.convected) {
-    const OwnedMat response =
-        contact_.velocityResponse(slip, normalForces(forces(at, u)), at.friction);
+    const OwnedMat response = contact::nodalResponse(
+        contact_, slip, contact_.nodalForce(normalForces(forces(at, u))), at.friction);
     OwnedMat change, turning;
     check(MatMatMult(response, convected_, MAT_INITIAL_MATRIX, PETSC_DEFAULT, change.out()));
     check(MatTransposeMatMult(jumps_, change, MAT_INITIAL_MATRIX, PETSC_DEFAULT, turning.out()));
@@ -144,21 +147,8 @@ Solution Problem::solve(const sweep::Parameters& at, const contact::CoupledSyste
   Solution solution;
   solution.at = at;
   Refinement refinement;
-  double noise = 0;
   OwnedVec x = closedContact(at, system, refinement);
-  if (contact_.weightsPositive) {
-    noise = complementarity(*this, x, solution);
-  } else {
-    noise = refinement.least;
-    solution.residual = refinement.relative();
-    solution.converged = refinement.solved();
-    solution.reason =
-        solution.converged
-            ? "closed contact held (faces with non-positive nodal weights)"
-            : formatted(
-                  "the solution with closed contact was not found: a residual of %.1e is left",
-                  solution.residual);
-  }
+  const double noise = complementarity(*this, x, solution);
   if (solution.converged && solution.residual > meaningful) {
     solution.converged = false;
     solution.reason = formatted(
@@ -169,13 +159,6 @@ Solution Problem::solve(const sweep::Parameters& at, const contact::CoupledSyste
         solution.residual, largestDisplacement(at, x));
   }
   recover(x, noise, solution);
-  if (!contact_.weightsPositive && solution.converged && solution.smallestPressure < 0) {
-    solution.converged = false;
-    solution.reason =
-        "contact opens, which cannot be decided node by node on tri6 or quad8 faces; mesh the "
-        "contact faces with linear or 9-node "
-        "elements";
-  }
   return solution;
 }
 
@@ -229,11 +212,15 @@ void Problem::recover(Vec x, double noise, Solution& solution) const {
   PetscInt first = 0;
   check(VecGetOwnershipRange(x, &first, nullptr));
   const ReadArray values(x);
+  std::vector<double> gaps;
+  for (PetscInt column : transformation_.gapColumn) gaps.push_back(values[column - first]);
+  gaps = contact_.nodalGap(gaps);
   double largest = 0;
   for (std::size_t i = 0; i < contact_.nodes.size(); ++i) {
     const auto& node = contact_.nodes[i];
     ContactState state;
-    state.gap = values[transformation_.gapColumn[i] - first];
+    state.coefficient = values[transformation_.gapColumn[i] - first];
+    state.gap = gaps[i];
     state.normalForce = normal[i];
     const auto& slip = solution.slip[i];
     for (std::size_t d = 0; d < 3; ++d)
@@ -244,15 +231,11 @@ void Problem::recover(Vec x, double noise, Solution& solution) const {
     solution.contact.push_back(state);
   }
   check(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, mesh_.comm));
-  if (!contact_.weightsPositive) {
-    const auto pressure = consistentPressure(mesh_, contact_, normal);
-    for (std::size_t i = 0; i < pressure.size(); ++i) solution.contact[i].pressure = pressure[i];
-  }
   double smallest = INFINITY;
   // SNES leaves a force of the order of its tolerance at an open gap.
   const double nothing = std::max(1e-8 * largest, 10 * noise);
   for (const auto& state : solution.contact) {
-    const bool closed = !contact_.weightsPositive || state.normalForce > nothing;
+    const bool closed = state.normalForce > nothing;
     solution.closed.push_back(closed);
     solution.openNodes += !closed;
     smallest = std::min(smallest, state.pressure);
@@ -263,13 +246,16 @@ void Problem::recover(Vec x, double noise, Solution& solution) const {
   if (solution.at.friction > 0 && solution.converged)
     contact::requireSlip(contact_, solution.slip, solution.closed);
 
+  const auto nodal = contact_.nodalForce(normal);
   for (int i = 0; i < std::ssize(contact_.interfaces); ++i) {
     Resultant resultant{contact_.interfaces[i], {}, {}};
     for (std::size_t k = 0; k < contact_.nodes.size(); ++k)
       if (contact_.nodes[k].interface == i)
         for (std::size_t d = 0; d < 3; ++d) {
-          resultant.normalForce[d] += solution.contact[k].normalForce * contact_.nodes[k].normal[d];
-          resultant.frictionForce[d] += solution.contact[k].frictionForce[d];
+          const auto& slip = solution.slip[k];
+          resultant.normalForce[d] += nodal[k] * contact_.nodes[k].normal[d];
+          resultant.frictionForce[d] -=
+              solution.at.friction * slip.law * nodal[k] * slip.direction[d];
         }
     check(MPI_Allreduce(MPI_IN_PLACE, resultant.normalForce.data(), 3, MPI_DOUBLE, MPI_SUM,
                         mesh_.comm));
@@ -285,18 +271,22 @@ void Problem::recover(Vec x, double noise, Solution& solution) const {
 /// law, of supports where components are held, and loads.
 double Problem::imbalance(const Solution& solution, Vec nodalForces) const {
   const int dimension = mesh_.dimension;
-  const OwnedVec contactForces = elasticity::nodalVector(mesh_);
-  for (std::size_t i = 0; i < contact_.nodes.size(); ++i)
-    for (int d = 0; d < dimension; ++d) {
+  const OwnedVec onPads = elasticity::nodalVector(mesh_),
+                 contactForces = elasticity::nodalVector(mesh_);
+  std::vector<double> normal;
+  for (const auto& state : solution.contact) normal.push_back(state.normalForce);
+  normal = contact_.nodalForce(normal);
+  {
+    const WriteArray values(onPads);
+    for (std::size_t i = 0; i < contact_.nodes.size(); ++i) {
       const auto& node = contact_.nodes[i];
-      const double force =
-          solution.contact[i].normalForce * node.normal[d] + solution.contact[i].frictionForce[d];
-      check(VecSetValue(contactForces, dimension * node.globalNode + d, force, ADD_VALUES));
-      if (node.master >= 0)
-        check(VecSetValue(contactForces, dimension * node.master + d, -force, ADD_VALUES));
+      const auto& slip = solution.slip[i];
+      for (int d = 0; d < dimension; ++d)
+        values[dimension * node.node + d] =
+            normal[i] * (node.normal[d] - solution.at.friction * slip.law * slip.direction[d]);
     }
-  check(VecAssemblyBegin(contactForces));
-  check(VecAssemblyEnd(contactForces));
+  }
+  check(MatMultTranspose(contact_.jump, onPads, contactForces));
   // [part][contact, supports, load][component], and at the end the sum of all magnitudes. That is
   // the scale of the terms that cancel; resultants may vanish by themselves.
   std::vector<double> sums(mesh_.parts * 9 + 1, 0.0);

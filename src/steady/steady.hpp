@@ -17,10 +17,10 @@ using mesh::Point;
 
 /// The steady state of one contact node.
 struct ContactState {
-  double gap = 0;          ///< g, m
+  double gap = 0;          ///< n·[u], m
+  double coefficient = 0;  ///< h of g = E h, m, ≥ 0; the gap itself but for tri6 and quad8 faces
   double normalForce = 0;  ///< R_N, N, ≥ 0 in compression
-  double pressure = 0;     ///< Pa: R_N over the nodal area; on faces whose nodal areas are not
-                           ///< positive, consistentPressure()
+  double pressure = 0;     ///< R_N over the nodal area, Pa
   Point frictionForce{};   ///< R_T on the pad, N
 };
 
@@ -61,9 +61,8 @@ class Problem {
   Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
           const contact::Contact& contact);
   /// Collective. Solves by SNES VI (-steady_snes_*), starting from the solution with the active set
-  /// of `system` held closed, which its factorisation gives. On tri6 and quad8 faces that solution
-  /// alone is taken, if no pressure is negative. `converged` and `reason` tell whether there is a
-  /// solution. Throws Error if f > 0 and |w| = 0 at a node that carries friction.
+  /// of `system` held closed, which its factorisation gives. `converged` and `reason` tell whether
+  /// there is a solution. Throws Error if f > 0 and |w| = 0 at a node that carries friction.
   Solution solve(const sweep::Parameters& at, const contact::CoupledSystem& system) const;
 
   /// Collective. Sets f = F(x), n entries.

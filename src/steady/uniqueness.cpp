@@ -140,8 +140,6 @@ Uniqueness examine(const elasticity::Bodies& bodies, const contact::Contact& con
                    const std::vector<double>& frictions) {
   const int denseLimit = denseOption.get(), pMatrixLimit = pMatrixOption.get();
   if (contact.totalNodes == 0) return undecided(frictions, "there is no contact node");
-  if (!contact.weightsPositive)
-    return undecided(frictions, "on tri6 or quad8 faces contact cannot be decided node by node");
   if (const auto loose = contact::looseBody(*contact.mesh, contact, bodies.springs, false))
     return undecided(frictions,
                      "body '" + loose->body +

@@ -15,9 +15,9 @@ namespace squeal::test {
 /// gap, displacement or force.
 struct Violations {
   double gap = 0;          ///< the solution's gap against the distance of the displaced surfaces
-  double penetration = 0;  ///< −gap
+  double penetration = 0;  ///< −gap, at nodes and of the coefficients of the gap basis
   double tension = 0;      ///< −R_N
-  double complementarity = 0;  ///< gap · R_N
+  double complementarity = 0;  ///< gap · R_N, of the coefficients
   double coulomb = 0;          ///< |R_T − f R_N V/|V||, V the velocity of the disc
   double equilibrium = 0;  ///< K u − b less the contact forces, on all components that are not held
 };
@@ -39,6 +39,9 @@ inline Violations violations(const analysis::Analysis& analysis, const steady::S
   for (double component : u) length = worse(length, std::abs(component));
   force = largest(force), length = largest(length);
 
+  std::vector<double> nodal;
+  for (const auto& state : solution.contact) nodal.push_back(state.normalForce);
+  nodal = contact.nodalForce(nodal);
   Violations worst;
   for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
     const auto& node = contact.nodes[i];
@@ -51,7 +54,7 @@ inline Violations violations(const analysis::Analysis& analysis, const steady::S
           node.normal[d] * (u[dimension * static_cast<std::size_t>(node.globalNode) + d] - disc);
       slip += std::abs(state.frictionForce[d] -
                        (d == 0 ? solution.at.friction * state.normalForce : 0));
-      const double onPad = state.normalForce * node.normal[d] + state.frictionForce[d];
+      const double onPad = nodal[i] * (node.normal[d] + (d == 0 ? solution.at.friction : 0));
       check(VecSetValue(rest, mesh.dimension * node.globalNode + static_cast<PetscInt>(d), -onPad,
                         ADD_VALUES));
       if (node.master >= 0)
@@ -59,10 +62,10 @@ inline Violations violations(const analysis::Analysis& analysis, const steady::S
                           ADD_VALUES));
     }
     worst.gap = worse(worst.gap, std::abs(state.gap - distance) / length);
-    worst.penetration = worse(worst.penetration, -state.gap / length);
+    worst.penetration = worse(worst.penetration, -std::min(state.gap, state.coefficient) / length);
     worst.tension = worse(worst.tension, -state.normalForce / force);
-    worst.complementarity =
-        worse(worst.complementarity, std::abs(state.gap * state.normalForce) / (length * force));
+    worst.complementarity = worse(
+        worst.complementarity, std::abs(state.coefficient * state.normalForce) / (length * force));
     worst.coulomb = worse(worst.coulomb, slip / force);
   }
   check(VecAssemblyBegin(rest));

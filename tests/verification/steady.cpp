@@ -76,7 +76,7 @@ const std::string hex20 =
     "-mesh_file meshes/layer_slab.geo -constraint_layer_clamped z -mesh_set "
     "nx=6,ny=3,order=2,serendipity=1";
 
-TEST(Steady, ClosedSerendipityFacesAreAccepted) {
+TEST(Steady, ClosedSerendipityFaces) {
   const analysis::Analysis analysis = runCase("layer", hex20 + steadyOnly);
   ASSERT_EQ(analysis.steady.size(), 3U);
   for (const auto& solution : analysis.steady) {
@@ -162,7 +162,8 @@ void expectPartlyOpen(const analysis::Analysis& analysis, const steady::Solution
       EXPECT_GT(solution.contact[i].gap, 0);
     }
   }
-  EXPECT_LT(largest(lastClosed), -largest(-firstOpen));
+  // The cells of a slab have nodes at one x that open one after the other.
+  EXPECT_LE(largest(lastClosed), -largest(-firstOpen) + 1e-9);  // gmsh places nodes to 1e-11
   EXPECT_GT(solution.openNodes, 0);
 }
 
@@ -195,17 +196,14 @@ TEST(Steady, TopplingBlockHasNoSolution) {
   EXPECT_EQ(solved, (std::vector<double>{0.3, 0.35}));
 }
 
-// The same with hex20: node by node nothing can be decided where forces of both signs belong to one
-// pressure, so an opening contact is refused.
-TEST(Steady, OpeningSerendipityFacesAreRefused) {
+// The same with hex20: the nodal forces of a pressure are of both signs, those of the combined gaps
+// are not. A slab of unit depth transmits what the block in the plane does.
+TEST(Steady, SerendipityBlockOpens) {
   const analysis::Analysis analysis =
-      runOptions(plateOnBlock("0.35", "nx=8,ny=8,order=2,serendipity=1") +
+      runOptions(plateOnBlock("0.35", "nx=8,ny=8,order=2,serendipity=1,depth=1") +
                  " -mesh_file meshes/layer_slab.geo -constraint_layer_clamped z");
   ASSERT_EQ(analysis.steady.size(), 1U);
-  EXPECT_FALSE(analysis.steady[0].converged);
-  EXPECT_NE(analysis.steady[0].reason.find("quad8"), std::string::npos)
-      << analysis.steady[0].reason;
-  EXPECT_TRUE(analysis.segments.empty());
+  expectPartlyOpen(analysis, analysis.steady[0], 1);
 }
 
 // The consistent forces of a pressure on 3-node edges are positive at the ends and in the middle:

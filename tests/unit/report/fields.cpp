@@ -78,8 +78,8 @@ TEST(Fields, EigenvaluesWithErrorsAndCertification) {
 
 /// What is known of the nodes of the mesh, the same on all ranks: [global node].
 struct ContactNodes {
-  std::vector<double> interface;   ///< index from 1; 0: no contact node
-  std::vector<double> lumpedArea;  ///< m
+  std::vector<double> interface;  ///< index from 1; 0: no contact node
+  std::vector<double> area;       ///< m
 };
 
 /// Collective.
@@ -88,9 +88,9 @@ ContactNodes contactNodes(const analysis::Analysis& analysis) {
   ContactNodes nodes{std::vector<double>(total, 0.0), std::vector<double>(total, 0.0)};
   for (const auto& node : analysis.contact.nodes) {
     nodes.interface[node.globalNode] = node.interface + 1;
-    nodes.lumpedArea[node.globalNode] = node.lumpedArea;
+    nodes.area[node.globalNode] = node.area;
   }
-  for (auto* list : {&nodes.interface, &nodes.lumpedArea})
+  for (auto* list : {&nodes.interface, &nodes.area})
     check(MPI_Allreduce(MPI_IN_PLACE, list->data(), static_cast<int>(total), MPI_DOUBLE, MPI_SUM,
                         PETSC_COMM_WORLD));
   return nodes;
@@ -162,8 +162,7 @@ TEST(Fields, FrictionWorkIsThatOfTheTable) {
       for (std::size_t node = 0; node < tags.size(); ++node) {
         const auto place = static_cast<std::size_t>(nodes.interface[node]);
         sums[place] += place == 0 ? std::abs(work[2 * node]) : work[2 * node];
-        fromAreas[place] +=
-            place == 0 ? std::abs(perArea[node]) : perArea[node] * nodes.lumpedArea[node];
+        fromAreas[place] += place == 0 ? std::abs(perArea[node]) : perArea[node] * nodes.area[node];
         magnitudes += std::abs(work[2 * node]);
       }
       EXPECT_EQ(sums[0], 0);
