@@ -1,14 +1,14 @@
 #pragma once
-/// The basis of the gaps on tri6 and quad8 faces. A uniform pressure on these faces has nodal forces
-/// that are zero or negative at the corners, so that the sign of a nodal force does not tell whether
-/// the contact is pressed. The gaps g of the nodes are therefore combined from others, h, on each
-/// edge e between the corners a and b [M.54]:
+/// The basis of the gaps on tri6 and quad8 faces. A uniform pressure on these faces has nodal
+/// forces that are zero or negative at the corners, so that the sign of a nodal force does not tell
+/// whether the contact is pressed. The gaps g of the nodes are therefore combined from others, h,
+/// on each edge e between the corners a and b [M.54]:
 ///   g_a = h_a,   g_e = (1 − 2α) h_e + α (h_a + h_b),   g = E h.
 /// The shape functions of h,
 ///   φ̃_a = φ_a + α Σ φ_e,   φ̃_e = (1 − 2α) φ_e,
 /// have positive integrals, and h ≥ 0 has g ≥ 0. The forces that belong to h are Eᵀ times the nodal
-/// forces. Source: A. Popp, B.I. Wohlmuth, M.W. Gee, W.A. Wall, *Dual quadratic mortar finite element
-/// methods for 3D finite deformation contact*, SIAM J. Sci. Comput. 34 (2012) B421–B446.
+/// forces. Source: A. Popp, B.I. Wohlmuth, M.W. Gee, W.A. Wall, *Dual quadratic mortar finite
+/// element methods for 3D finite deformation contact*, SIAM J. Sci. Comput. 34 (2012) B421–B446.
 #include <set>
 #include <string>
 #include <vector>
@@ -34,8 +34,8 @@ struct FaceEdge {
 /// Returns the edges of a face whose gaps are combined, by gmsh's element type; none unless it is a
 /// tri6 or a quad8.
 std::vector<FaceEdge> combinedEdges(int gmshType);
-/// The α of these edges. The integrals of φ̃ over an affine face are then 2/15 and 1/5 of its area at
-/// corners and edges of a tri6, 1/20 and 1/5 on a quad8.
+/// The α of these edges. The integrals of φ̃ over an affine face are then 2/15 and 1/5 of its area
+/// at corners and edges of a tri6, 1/20 and 1/5 on a quad8.
 inline constexpr double edgeShare = 0.2;
 
 /// Collective. Returns E of the faces of the `surfaces`. `periodic` copies primaries to their

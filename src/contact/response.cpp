@@ -59,8 +59,7 @@ Fields fieldsOf(const Contact& contact, const std::vector<Slip>& slip,
                  }),
           spread(contact, nullptr,
                  [&](std::size_t i, auto at) {
-                   for (int d = 0; d < dimension; ++d)
-                     at[d] = slip[i].speed * slip[i].direction[d];
+                   for (int d = 0; d < dimension; ++d) at[d] = slip[i].speed * slip[i].direction[d];
                  }),
           spread(contact, nullptr, [&](std::size_t i, auto at) {
             for (int d = 0; d < dimension; ++d) at[d] = contact.nodes[i].normal[d];
@@ -147,8 +146,7 @@ OwnedMat distributedResponse(const Contact& contact, const std::vector<Slip>& sl
   }
   const OwnedMat unfolded = toMatrix(mesh, triples, elasticity::Symmetry::symmetric);
   OwnedMat response;
-  check(
-      MatPtAP(unfolded, contact.periodic, MAT_INITIAL_MATRIX, PETSC_DEFAULT, response.out()));
+  check(MatPtAP(unfolded, contact.periodic, MAT_INITIAL_MATRIX, PETSC_DEFAULT, response.out()));
   return response;
 }
 

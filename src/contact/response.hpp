@@ -28,7 +28,8 @@ OwnedMat nodalResponse(const Contact& contact, const std::vector<Slip>& slip,
 /// Collective. Returns B, N×N, N·s/m, semidefinite for a constant law, from the forces R_N ≥ 0 of
 /// the gaps, N, [contact node]. Where the gap basis is the identity it is nodalResponse(). On tri6
 /// and quad8 faces, where the nodal forces of a positive pressure may be negative, it is
-///   B_ij = ∫ f p (φ/|w| (1 − ττᵀ − nnᵀ) + dφ/d|w| ττᵀ) φᵢ φⱼ dA,   p = max(0, Σ (R_N / ∫φ̃ dA) φ̃),
+///   B_ij = ∫ f p (φ/|w| (1 − ττᵀ − nnᵀ) + dφ/d|w| ττᵀ) φᵢ φⱼ dA,
+///   p = max(0, Σ (R_N / ∫φ̃ dA) φ̃),
 /// with w and n interpolated between the nodes.
 OwnedMat distributedResponse(const Contact& contact, const std::vector<Slip>& slip,
                              const std::vector<double>& normalForce, double friction);

@@ -1,7 +1,7 @@
 #pragma once
-/// This file holds the shape functions φ of a face at any point, and the basis φ̃ = Eᵀφ of the slave
-/// side, whose integrals are positive. Displacements follow from those of φ̃ by u = E ũ, edge by
-/// edge with a parameter α:
+/// This file holds the shape functions φ of a face at any point and the basis φ̃ = Eᵀφ of the
+/// slave side, whose integrals are positive. Displacements follow from those of φ̃ by u = E ũ, edge
+/// by edge with a parameter α:
 ///   u_c = ũ_c at corners,   u_e = (1 − 2α) ũ_e + α (ũ_a + ũ_b) between the corners a and b,
 /// so that neighbouring faces agree on ũ wherever they agree on α. Nothing here is collective.
 /// Source: Popp, Wohlmuth, Gee and Wall, SIAM J. Sci. Comput. 34 (2012).
@@ -54,9 +54,9 @@ enum class Multiplier { nodes, corners };
 enum class Cover { full, partial };
 
 /// Returns α for the edges of a face, where no other type of face shares them. On fully covered
-/// faces ∫φ̃ is then positive for all pivots; on partly covered faces of the types tri6 and quad8, φ̃
-/// itself is nowhere negative. It is 0 on line3 and quad9, where ∫φ̃ is positive only if the whole
-/// face is covered. With multipliers at the corners of a straight tri6, ψ_p are its linear
+/// faces ∫φ̃ is then positive for all pivots; on partly covered faces of the types tri6 and quad8,
+/// φ̃ itself is nowhere negative. It is 0 on line3 and quad9, where ∫φ̃ is positive only if the
+/// whole face is covered. With multipliers at the corners of a straight tri6, ψ_p are its linear
 /// functions.
 double usualAlpha(const FaceType& type, Cover cover, Multiplier multiplier = Multiplier::nodes);
 

@@ -5,16 +5,16 @@
 
 #include <map>
 
-#include "support/contact_cases.hpp"
 #include "support/case.hpp"
+#include "support/contact_cases.hpp"
 #include "support/model.hpp"
 #include "support/worst.hpp"
 
 namespace squeal {
 namespace {
 
-/// A bar of 0.4 × 0.4 pressed by its end, one cell of 0.2 × 0.2 in four, with triangles of six nodes
-/// or quadrilaterals of eight.
+/// A bar of 0.4 × 0.4 pressed by its end, one cell of 0.2 × 0.2 in four, with triangles of six
+/// nodes or quadrilaterals of eight.
 test::Model bar(bool triangles) {
   test::setOptions(
       "-mesh_file meshes/beam.geo -mesh_set Lx=1,Ly=0.4,Lz=0.4,nx=2,ny=2,nz=2,order=2," +
@@ -26,7 +26,8 @@ test::Model bar(bool triangles) {
 }
 
 /// The sums over the faces of ∫ φ̃ dA on affine faces of these areas, at the nodes of this rank, by
-/// global node: 2/15 and 1/5 of a triangle for corners and middles, 1/20 and 1/5 of a parallelogram.
+/// global node: 2/15 and 1/5 of a triangle for corners and middles, 1/20 and 1/5 of a
+/// parallelogram.
 std::map<PetscInt, double> exactAreas(const mesh::Mesh& mesh) {
   std::vector<double> all(static_cast<std::size_t>(mesh.totalNodes), 0.0);
   for (const auto& block : mesh.faces)
@@ -39,8 +40,7 @@ std::map<PetscInt, double> exactAreas(const mesh::Mesh& mesh) {
   check(MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_SUM,
                       PETSC_COMM_WORLD));
   std::map<PetscInt, double> mine;
-  for (PetscInt i = 0; i < mesh.ownedNodes; ++i)
-    mine[mesh.firstNode + i] = all[mesh.firstNode + i];
+  for (PetscInt i = 0; i < mesh.ownedNodes; ++i) mine[mesh.firstNode + i] = all[mesh.firstNode + i];
   return mine;
 }
 

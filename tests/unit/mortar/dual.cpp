@@ -151,8 +151,8 @@ TEST(Dual, RowsAddUpToTheWeights) {
 }
 
 TEST(Dual, MatchingFacesArePairedNodeByNode) {
-  // ∫ ψ_p φ̃_q = d_p δ_pq, with φ̃ = Eᵀφ and M = ∫ ψ φ of the same face: M E = diag(d). Faces may be
-  // distorted or curved: the master is the slave itself, seen from the other side.
+  // ∫ ψ_p φ̃_q = d_p δ_pq, with φ̃ = Eᵀφ and M = ∫ ψ φ of the same face: M E = diag(d). Faces may
+  // be distorted or curved: the master is the slave itself, seen from the other side.
   const test::Map wavy = [](const Point& x) {
     return Point{x[0], x[1], 0.1 * std::sin(2 * x[0] + x[1])};
   };

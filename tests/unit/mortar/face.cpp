@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "mortar/box.hpp"
+#include "coupling/box.hpp"
 #include "support/mesh_checks.hpp"
 #include "support/mesh_text.hpp"
 #include "support/model.hpp"
@@ -13,8 +13,8 @@
 namespace squeal {
 namespace {
 
-using mortar::Box;
-using mortar::boxOf;
+using coupling::Box;
+using coupling::boxOf;
 using mortar::Face;
 using mortar::Point;
 using test::randomFace;

@@ -1,5 +1,5 @@
 #define BOOST_ALLOW_DEPRECATED_HEADERS  // headers of Boost 1.74 include some, and would say so
-#include "mortar/search.hpp"
+#include "coupling/search.hpp"
 
 #include <algorithm>
 #include <boost/geometry/geometries/box.hpp>
@@ -13,7 +13,7 @@
 #include "petsc/buffer.hpp"
 #include "petsc/check.hpp"
 
-namespace squeal::mortar {
+namespace squeal::coupling {
 namespace {
 
 /// The number of boxes that contain all slave faces of a rank: enough to tell faces on both sides
@@ -228,4 +228,4 @@ Candidates candidates(MPI_Comm comm, const std::vector<Face>& slaves,
   return found;
 }
 
-}  // namespace squeal::mortar
+}  // namespace squeal::coupling

@@ -1,4 +1,4 @@
-#include "mortar/box.hpp"
+#include "coupling/box.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -7,7 +7,7 @@
 
 #include "elasticity/shape.hpp"
 
-namespace squeal::mortar {
+namespace squeal::coupling {
 namespace {
 
 /// Returns the control points of the face in the Bernstein basis. Its polynomials are not negative
@@ -122,4 +122,4 @@ std::vector<Box> summary(std::vector<Box> boxes, std::size_t most) {
   return result;
 }
 
-}  // namespace squeal::mortar
+}  // namespace squeal::coupling

@@ -3,9 +3,9 @@
 /// are.
 #include <span>
 
-#include "mortar/box.hpp"
+#include "coupling/box.hpp"
 
-namespace squeal::mortar {
+namespace squeal::coupling {
 
 /// The master faces near the slave faces of this rank.
 struct Candidates {
@@ -25,4 +25,4 @@ struct Candidates {
 Candidates candidates(MPI_Comm comm, const std::vector<Face>& slaves,
                       const std::vector<Face>& masters, std::span<const double> distances);
 
-}  // namespace squeal::mortar
+}  // namespace squeal::coupling

@@ -2,7 +2,10 @@
 /// A Box bounds faces in space, so that most pairs of faces are known to be apart at little cost.
 #include "mortar/face.hpp"
 
-namespace squeal::mortar {
+namespace squeal::coupling {
+
+using mesh::Point;
+using mortar::Face;
 
 /// An axis-parallel box, m.
 struct Box {
@@ -20,4 +23,4 @@ Box widened(Box box, double distance);
 /// together.
 std::vector<Box> summary(std::vector<Box> boxes, std::size_t most);
 
-}  // namespace squeal::mortar
+}  // namespace squeal::coupling

@@ -5,17 +5,17 @@
 #include <chrono>
 #include <set>
 
-#include "mortar/search.hpp"
+#include "coupling/search.hpp"
 #include "support/case.hpp"
 #include "support/random_faces.hpp"
 
 namespace squeal {
 namespace {
 
-using mortar::Box;
-using mortar::boxOf;
-using mortar::Candidates;
-using mortar::candidates;
+using coupling::Box;
+using coupling::boxOf;
+using coupling::Candidates;
+using coupling::candidates;
 using mortar::Face;
 using test::randomFaces;
 using test::total;
