@@ -191,6 +191,14 @@ void requireRestingPads(const mesh::Mesh& mesh, const elasticity::Bodies& bodies
   failTogether(mesh.comm, failure);
 }
 
+/// Throws Error for an interface whose sides are not meshed alike.
+void requireMatching(const mesh::Mesh& mesh, const std::vector<mesh::InterfaceRequest>& requests) {
+  for (std::size_t i = 0; i < requests.size(); ++i)
+    if (!mesh.matching[i])
+      throw Error("options " + requests[i].pad.option + ", " + requests[i].disc.option + ": " +
+                  mesh.mismatch[i] + " (contact needs matching meshes)");
+}
+
 }  // namespace
 
 std::vector<mesh::InterfaceRequest> readInterfaces() {
@@ -218,6 +226,7 @@ std::vector<mesh::InterfaceRequest> readInterfaces() {
 
 Contact build(const mesh::Mesh& mesh, const elasticity::Bodies& bodies) {
   const auto requests = readInterfaces();
+  requireMatching(mesh, requests);
   Contact contact;
   contact.constraints = readConstraints(mesh);
   contact.mesh = &mesh;

@@ -113,9 +113,10 @@ struct Contact {
 std::vector<mesh::InterfaceRequest> readInterfaces();
 
 /// Collective. Builds normals, slip directions, constraints and all matrices. `mesh` is borrowed by
-/// the result. Throws Error for a bad constraint, a pad that moves, a held component that is not
-/// tangential at a contact node, an obstacle face that is not flat, and a body that can move
-/// rigidly with the contact closed; the message names body and motion.
+/// the result. Throws Error for an interface whose sides are not meshed alike, a bad constraint, a
+/// pad that moves, a held component that is not tangential at a contact node, an obstacle face that
+/// is not flat, and a body that can move rigidly with the contact closed; the message names body
+/// and motion.
 Contact build(const mesh::Mesh& mesh, const elasticity::Bodies& bodies);
 
 /// Collective. Throws Error, naming position and options, if a contact node with active[i] set does

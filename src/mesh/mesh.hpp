@@ -28,7 +28,9 @@ struct CellBlock {
 };
 
 /// A FaceBlock holds the boundary faces of one gmsh element type, from the surface groups that
-/// options name. A face is on the rank of the cell that it bounds.
+/// options name. A face is on the rank of the cell that it bounds. Where pad and disc share nodes
+/// in the file, the pad's group has the faces of the resting cells. The disc's group, if it is
+/// another one, has those of the moving cells.
 struct FaceBlock {
   int type = 0;
   int nodesPerFace = 0;
@@ -83,7 +85,13 @@ struct Mesh {
   /// [group] owned local nodes, with images replaced by their primaries
   std::map<std::string, std::vector<PetscInt>> nodeGroups;
   std::vector<Image> images;
-  std::vector<ContactPair> pairs;
+  std::vector<ContactPair> pairs;  ///< of the interfaces that match
+  /// [interface] 1 if the pad's faces lie on faces of the disc, node on node, or if the pad is on a
+  /// rigid obstacle; 0 if the two are not meshed alike, so that the interface has no pairs
+  std::vector<unsigned char> matching;
+  /// [interface] a sentence that says where and why the meshes do not match, without full stop;
+  /// empty if they match
+  std::vector<std::string> mismatch;
 
   PetscInt localNodes() const { return globalNode.size(); }
 };
@@ -113,7 +121,7 @@ struct Request {
   /// Bodies with a motion. Where an interface has shared nodes, they are its disc side.
   std::vector<std::string> moving;
   std::vector<GroupRequest> nodeGroups;  ///< groups of any dimension whose nodes are constrained
-  /// Surface groups that are loaded. Those of interfaces are added.
+  /// Surface groups that are loaded. Those of both sides of interfaces are added.
   std::vector<GroupRequest> surfaces;
   std::vector<InterfaceRequest> interfaces;
   std::vector<PeriodicRequest> periodic;

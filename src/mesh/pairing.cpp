@@ -158,44 +158,22 @@ std::string whyAlone(const WholeMesh& mesh, PetscInt node, const std::string& gr
   return "where no other body has one either: the two are not meshed alike";
 }
 
-std::string optionsOf(const InterfaceRequest& request) {
-  return "options " + request.pad.option + ", " + request.disc.option + ": ";
-}
-
-void pairContact(WholeMesh& mesh, const InterfaceRequest& request, int interface,
-                 const std::vector<int>& body, double near) {
-  const std::set<PetscInt> pad = padNodes(mesh, request.pad.name);
-  if (request.disc.name.empty()) {
-    for (PetscInt node : pad) mesh.pairs.push_back({node, -1, interface, -1, -1});
-    return;
-  }
+std::vector<PetscInt> discNodes(const WholeMesh& mesh, const InterfaceRequest& request,
+                                const std::set<PetscInt>& pad) {
   std::vector<PetscInt> disc;  // shared nodes: the group holds the twins of both sides
   for (PetscInt node : mesh.nodeGroups.at(request.disc.name))
     if (!pad.count(node)) disc.push_back(node);
   if (disc.empty())
     throw Error(
-        optionsOf(request) +
-        "pad and disc are the same surface, of one body; contact is between the surfaces of two");
-  const Locator locator(mesh, disc, near);
-  for (PetscInt node : pad) {
-    const auto found = locator.at(mesh.points[node]);
-    if (found.empty())
-      throw Error(optionsOf(request) + "the node at " + positionText(mesh.points[node]) + " of '" +
-                  request.pad.name + "' has no node of '" + request.disc.name +
-                  "' at the same place, " + whyAlone(mesh, node, request.disc.name, body, near) +
-                  " (contact needs matching meshes)");
-    const PetscInt master = found[0];
-    mesh.pairs.push_back({node, master, interface, body[master], mesh.part[master]});
-  }
+        "options " + request.pad.option + ", " + request.disc.option +
+        ": pad and disc are the same surface, of one body; contact is between the surfaces of two");
+  return disc;
 }
 
-/// Throws Error unless each face of the pad lies on one face of the disc, node on node: a finer
-/// face of the disc would have nodes without a gap.
-void requireEqualFaces(const WholeMesh& mesh, const InterfaceRequest& request, int interface) {
-  if (request.disc.name.empty()) return;
-  std::map<PetscInt, PetscInt> master;
-  for (const auto& pair : mesh.pairs)
-    if (pair.interface == interface) master[pair.node] = pair.master;
+/// Returns why the faces of the pad do not each lie on one face of the disc, node on node; empty if
+/// they do. A finer face of the disc would have nodes without a gap.
+std::string whyFacesDiffer(const WholeMesh& mesh, const InterfaceRequest& request,
+                           const std::map<PetscInt, PetscInt>& master) {
   std::set<std::vector<PetscInt>> discFaces;
   for (auto face : mesh.discFaces.at(request.disc.name)) {
     for (auto& node : face) node = mesh.primary[node];
@@ -211,11 +189,38 @@ void requireEqualFaces(const WholeMesh& mesh, const InterfaceRequest& request, i
         masters.push_back(mesh.primary[master.at(mesh.primary[node])]);
       std::sort(masters.begin(), masters.end());
       if (!discFaces.count(masters))
-        throw Error(optionsOf(request) + "the face of '" + request.pad.name + "' at " +
-                    positionText(mesh.points[block.nodesOf(e)[0]]) +
-                    " does not lie on one face of '" + request.disc.name +
-                    "': is a face missing in this group? (contact needs matching meshes)");
+        return "the face of '" + request.pad.name + "' at " +
+               positionText(mesh.points[block.nodesOf(e)[0]]) + " does not lie on one face of '" +
+               request.disc.name + "': is a face missing in this group?";
     }
+  return "";
+}
+
+/// Adds the pairs of an interface if pad and disc are meshed alike. Returns why they are not, or an
+/// empty text.
+std::string pairContact(WholeMesh& mesh, const InterfaceRequest& request, int interface,
+                        const std::vector<int>& body, double near) {
+  const std::set<PetscInt> pad = padNodes(mesh, request.pad.name);
+  if (request.disc.name.empty()) {
+    for (PetscInt node : pad) mesh.pairs.push_back({node, -1, interface, -1, -1});
+    return "";
+  }
+  const auto disc = discNodes(mesh, request, pad);
+  const Locator locator(mesh, disc, near);
+  std::map<PetscInt, PetscInt> master;
+  for (PetscInt node : pad) {
+    const auto found = locator.at(mesh.points[node]);
+    if (found.empty())
+      return "the node at " + positionText(mesh.points[node]) + " of '" + request.pad.name +
+             "' has no node of '" + request.disc.name + "' at the same place, " +
+             whyAlone(mesh, node, request.disc.name, body, near);
+    master[node] = found[0];
+  }
+  const std::string mismatch = whyFacesDiffer(mesh, request, master);
+  if (mismatch.empty())
+    for (const auto& [node, other] : master)
+      mesh.pairs.push_back({node, other, interface, body[other], mesh.part[other]});
+  return mismatch;
 }
 
 void rejectChains(const WholeMesh& mesh, const Request& request) {
@@ -240,11 +245,11 @@ void pairNodes(WholeMesh& mesh, const Request& request) {
   for (const auto& periodic : request.periodic) pairImages(mesh, periodic, near);
   resolveImages(mesh, request);
   const auto body = bodyOfNode(mesh);
-  for (int i = 0; i < std::ssize(request.interfaces); ++i)
-    pairContact(mesh, request.interfaces[i], i, body, near);
+  for (int i = 0; i < std::ssize(request.interfaces); ++i) {
+    mesh.mismatch.push_back(pairContact(mesh, request.interfaces[i], i, body, near));
+    mesh.matching.push_back(mesh.mismatch.back().empty());
+  }
   rejectChains(mesh, request);
-  for (int i = 0; i < std::ssize(request.interfaces); ++i)
-    requireEqualFaces(mesh, request.interfaces[i], i);
 }
 
 }  // namespace squeal::mesh

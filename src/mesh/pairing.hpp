@@ -6,10 +6,11 @@
 
 namespace squeal::mesh {
 
-/// Finds the partner of each periodic image and of each contact node, and fills primary, images and
-/// pairs of the mesh. Throws Error for a node without a partner, for groups and faces that are not
-/// meshed alike, for images that go round in a circle, and for a pad node that belongs to two
-/// interfaces or is a disc node too.
+/// Finds the partner of each periodic image and of each contact node, and fills primary, images,
+/// pairs, matching and mismatch of the mesh. An interface whose sides are not meshed alike gets no
+/// pairs. Throws Error for an image without a partner, for images that are not meshed alike or go
+/// round in a circle, for a pad that is its own disc, and for a pad node in pairs of two interfaces
+/// or of a disc side too.
 void pairNodes(WholeMesh& mesh, const Request& request);
 
 }  // namespace squeal::mesh

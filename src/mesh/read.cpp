@@ -173,6 +173,8 @@ Buffer pack(const WholeMesh& mesh, const Numbering& numbering, const Shares& sha
   std::sort(pairs.begin(), pairs.end(),
             [](const auto& a, const auto& b) { return a.node < b.node; });
   buffer.put(pairs);
+  buffer.put(mesh.matching);
+  buffer.put(mesh.mismatch);
   return buffer;
 }
 
@@ -209,6 +211,8 @@ Mesh unpack(MPI_Comm comm, Buffer& buffer) {
   for (const auto& name : buffer.takeTexts()) mesh.nodeGroups[name] = buffer.take<PetscInt>();
   mesh.images = buffer.take<Image>();
   mesh.pairs = buffer.take<ContactPair>();
+  mesh.matching = buffer.take<unsigned char>();
+  mesh.mismatch = buffer.takeTexts();
   return mesh;
 }
 

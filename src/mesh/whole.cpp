@@ -145,6 +145,11 @@ class Splitter {
       if (side(c) == ContactSide::resting)
         for (PetscInt& node : cells_[c].nodes()) node = twin(node, ContactSide::resting);
   }
+  /// Returns true if each of these nodes has been doubled.
+  bool isSplit(std::span<const PetscInt> nodes) const {
+    return std::all_of(nodes.begin(), nodes.end(),
+                       [&](PetscInt node) { return restingTwin_.count(node) > 0; });
+  }
   PetscInt twin(PetscInt node, ContactSide side) const {
     if (side == ContactSide::moving) return node;
     const auto found = restingTwin_.find(node);
@@ -225,38 +230,71 @@ void requireDistinctFaces(const std::string& surface, const GroupElements& group
                 " of group '" + surface + "' have the same nodes: one face, written twice");
 }
 
+/// What a surface group is asked for; it may be all three.
+struct SurfaceUse {
+  bool loaded = false, pad = false, disc = false;
+};
+
+std::map<std::string, SurfaceUse> usesOf(const Request& request) {
+  std::map<std::string, SurfaceUse> uses;
+  for (const auto& surface : request.surfaces) uses[surface.name].loaded = true;
+  for (const auto& interface : request.interfaces) {
+    uses[interface.pad.name].pad = true;
+    if (!interface.disc.name.empty()) uses[interface.disc.name].disc = true;
+  }
+  return uses;
+}
+
+/// Returns the cell that a face bounds; −1 for a face of the disc's group inside the disc or where
+/// the bodies stay joined, which cannot touch a pad. Where pad and disc share the face, the group
+/// of the pad means the face of the resting cell, and that of the disc alone means the face of the
+/// moving one. Throws Error if the cell is not unique.
+PetscInt boundedCell(const Splitter& splitter, const SurfaceUse& use, const std::string& surface,
+                     const WholeBlock& block, std::size_t face) {
+  const auto cells = splitter.adjacency().cellsHolding(block.cornersOf(face));
+  if (cells.size() == 2) {
+    const bool firstRests = splitter.side(cells[0]) == ContactSide::resting;
+    if (use.pad) return cells[firstRests ? 0 : 1];
+    if (use.disc && !use.loaded) {
+      const bool opens = splitter.side(cells[0]) != splitter.side(cells[1]) &&
+                         splitter.isSplit(block.nodesOf(face));
+      return opens ? cells[firstRests ? 1 : 0] : -1;
+    }
+  }
+  if (cells.size() != 1)
+    throw Error("surface group '" + surface + "': face " + std::to_string(block.tag[face]) +
+                " must bound one cell of a body, it bounds " + std::to_string(cells.size()));
+  return cells[0];
+}
+
+/// Returns the block for faces of this type, with a new one if there is none.
+WholeFaces& facesOfType(WholeMesh& mesh, const WholeBlock& like) {
+  for (auto& faces : mesh.faces)
+    if (faces.type == like.type) return faces;
+  auto& faces = mesh.faces.emplace_back();
+  faces.type = like.type, faces.nodesPerElement = like.nodesPerElement,
+  faces.corners = like.corners;
+  return faces;
+}
+
 void readFaces(WholeMesh& mesh, const Request& request, const NamedElements& named,
                const Splitter& splitter) {
-  std::set<std::string> pads, wanted;
-  for (const auto& surface : request.surfaces) wanted.insert(surface.name);
-  for (const auto& interface : request.interfaces) pads.insert(interface.pad.name);
-  wanted.insert(pads.begin(), pads.end());
-  mesh.surfaces.assign(wanted.begin(), wanted.end());
-  for (int s = 0; s < std::ssize(mesh.surfaces); ++s) {
-    const std::string& name = mesh.surfaces[s];
+  for (const auto& [name, use] : usesOf(request)) {
+    const int label = std::ssize(mesh.surfaces);
+    mesh.surfaces.push_back(name);
     requireDistinctFaces(name, named.groups.at(name));
     for (const auto& block : named.groups.at(name).blocks) {
-      auto known = std::find_if(mesh.faces.begin(), mesh.faces.end(),
-                                [&](const auto& f) { return f.type == block.type; });
-      if (known == mesh.faces.end()) {
-        known = mesh.faces.insert(known, WholeFaces{});
-        known->type = block.type, known->nodesPerElement = block.nodesPerElement,
-        known->corners = block.corners;
-      }
+      auto& faces = facesOfType(mesh, block);
       for (std::size_t e = 0; e < block.tag.size(); ++e) {
-        auto cells = splitter.adjacency().cellsHolding(block.cornersOf(e));
-        if (pads.count(name) && cells.size() == 2)  // shared with the disc: the pad's face is meant
-          cells = {splitter.side(cells[0]) == ContactSide::resting ? cells[0] : cells[1]};
-        if (cells.size() != 1)
-          throw Error("surface group '" + name + "': face " + std::to_string(block.tag[e]) +
-                      " must bound one cell of a body, it bounds " + std::to_string(cells.size()));
+        const PetscInt cell = boundedCell(splitter, use, name, block, e);
+        if (cell < 0) continue;
         for (PetscInt node : block.nodesOf(e))
-          known->nodes.push_back(splitter.twin(node, splitter.side(cells[0])));
-        known->label.push_back(s);
-        known->tag.push_back(block.tag[e]);
-        known->cell.push_back(cells[0]);
-        known->sign.push_back(outwardSign(mesh, block.cornersOf(e),
-                                          centroid(mesh, splitter.cell(cells[0]).corners())));
+          faces.nodes.push_back(splitter.twin(node, splitter.side(cell)));
+        faces.label.push_back(label);
+        faces.tag.push_back(block.tag[e]);
+        faces.cell.push_back(cell);
+        faces.sign.push_back(
+            outwardSign(mesh, block.cornersOf(e), centroid(mesh, splitter.cell(cell).corners())));
       }
     }
   }

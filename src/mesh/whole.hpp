@@ -29,7 +29,7 @@ struct WholeFaces : WholeBlock {
   std::vector<int> sign;       ///< see FaceBlock
 };
 
-/// The whole mesh, of which load() fills all but primary, images and pairs.
+/// The whole mesh, of which load() fills all but primary, images, pairs, matching and mismatch.
 struct WholeMesh {
   int dimension = 0;
   std::vector<Point> points;
@@ -43,9 +43,11 @@ struct WholeMesh {
       discFaces;          ///< [surface of a disc] nodes of each face, for each cell it bounds
   std::vector<int> part;  ///< [node] connected part
   std::vector<std::string> partName;
-  std::vector<PetscInt> primary;   ///< [node] the node that it repeats, itself if none
-  std::vector<Image> images;       ///< in numbers of the whole mesh
-  std::vector<ContactPair> pairs;  ///< in numbers of the whole mesh
+  std::vector<PetscInt> primary;        ///< [node] the node that it repeats, itself if none
+  std::vector<Image> images;            ///< in numbers of the whole mesh
+  std::vector<ContactPair> pairs;       ///< in numbers of the whole mesh
+  std::vector<unsigned char> matching;  ///< see Mesh
+  std::vector<std::string> mismatch;    ///< see Mesh
 
   PetscInt nodeCount() const { return points.size(); }
   PetscInt cellCount() const;

@@ -51,6 +51,15 @@ TEST(Loose, BodyIsNamed) {
   EXPECT_TRUE(contains(errorOf([] { test::buildModel(); }), "can move rigidly"));
 }
 
+TEST(Interfaces, MustBeMeshedAlike) {
+  test::setCase("two_layers", layers + " -contact_interface_pad pad_top");
+  const auto message = errorOf([] { test::buildModel(); });
+  for (const char* words :
+       {"options -contact_interface_pad pad_top, -contact_interface_disc disc_face: the node at (",
+        "no node of 'disc_face' at the same place", "(contact needs matching meshes)"})
+    EXPECT_TRUE(contains(message, words)) << message;
+}
+
 // A third component that is left out is no zero, and a fourth one means nothing.
 TEST(Vectors, HaveAsManyComponentsAsTheMesh) {
   const std::string box = "-mesh_file meshes/beam.geo -mesh_set nx=2,ny=1,nz=1 " +

@@ -235,8 +235,6 @@ TEST(Mesh, ErrorsNameGroupAndOption) {
       {"-load_sky_pressure 1", {"-load_sky_pressure", "'sky'", "pad_top"}},
       {"-material_ring_young 1 -material_ring_poisson 0 -material_ring_density 1",
        {"-material_ring_young", "'ring'", "disc"}},
-      {"-contact_interface_pad pad_top",
-       {"-contact_interface_pad", "no node of 'disc_face' at the same place", "matching"}},
       {"-constraint_pad_top_image_of disc_left",
        {"-constraint_pad_top_image_of", "no partner", "translate"}},
       {"-load_disc_pressure 1", {"-load_disc_pressure", "dimension", "'disc'"}},
