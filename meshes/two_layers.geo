@@ -1,11 +1,12 @@
 // Two elastic layers on each other, a cell of length Lx of strips periodic in x; plane mesh, y = 0 is the sliding surface.
-// The meshes match on it. Lengths in m.
+// The meshes match on it unless nx_pad is given. Lengths in m.
 DefineConstant[
   order = {1, Name "order", Choices {1, 2}},                  // 1 linear, 2 quadratic cells
   recombine = {1, Name "recombine", Choices {0, 1}},          // 1 quadrangles, 0 triangles
   serendipity = {0, Name "serendipity", Choices {0, 1}},      // 1: quadratic cells without the node in the middle (quad8)
   shared = {0, Name "shared", Choices {0, 1}},                // 1: both layers own the interface nodes, 0: each has its own there
   nx = {36, Name "nx", Min 1, Max 100000, Step 1},            // cells along x
+  nx_pad = {nx, Name "nx_pad", Min 1, Max 100000, Step 1},  // cells of the pad along x, where nodes are not shared
   ny_disc = {12, Name "ny_disc", Min 1, Max 100000, Step 1},  // cells across the disc layer
   ny_pad = {7, Name "ny_pad", Min 1, Max 100000, Step 1},     // cells across the pad layer
   Lx = {3, Name "Lx"},                                        // period
@@ -46,7 +47,8 @@ Line(14) = {11, start};
 Curve Loop(2) = {face, 12, 11, 14};
 Plane Surface(2) = {2};
 
-Transfinite Curve {1, 3, 11, face} = nx + 1;
+Transfinite Curve {1, 3} = nx + 1;
+Transfinite Curve {11, face} = (shared ? nx : nx_pad) + 1;
 Transfinite Curve {2, 4} = ny_disc + 1;
 Transfinite Curve {12, 14} = ny_pad + 1;
 Transfinite Surface {1, 2};

@@ -6,9 +6,11 @@ DefineConstant[
   serendipity = {0, Name "serendipity", Choices {0, 1}},      // 1: quadratic cells without nodes inside faces and cells (hex20)
   shared = {0, Name "shared", Choices {0, 1}},                // 1: both slabs own the interface nodes, 0: each has its own there
   nx = {36, Name "nx", Min 1, Max 100000, Step 1},            // cells along x
+  nx_pad = {nx, Name "nx_pad", Min 1, Max 100000, Step 1},    // cells of the pad along x, where nodes are not shared
   ny_disc = {12, Name "ny_disc", Min 1, Max 100000, Step 1},  // cells across the disc layer
   ny_pad = {7, Name "ny_pad", Min 1, Max 100000, Step 1},     // cells across the pad layer
   nz = {1, Name "nz", Min 1, Max 100000, Step 1},             // cells along z
+  nz_pad = {nz, Name "nz_pad", Min 1, Max 100000, Step 1},    // cells of the pad along z, where nodes are not shared
   Lx = {3, Name "Lx"},                                        // period
   h_disc = {1, Name "h_disc"},                                // thickness of the disc layer
   h_pad = {0.6, Name "h_pad"},                                // thickness of the pad layer
@@ -37,6 +39,10 @@ i = 0; k = 0;
 base = 0; j = 0;
 Call GridBlock;
 base = pad; j = 1;
+If (!shared)
+  div_1[] = {nx_pad};
+  div_3[] = {nz_pad};
+EndIf
 Call GridBlock;
 
 Physical Surface("disc_left") = {5001};

@@ -8,6 +8,7 @@
 #include "analysis/checks.hpp"
 #include "analysis/segment.hpp"
 #include "contact/coupled.hpp"
+#include "contact/interfaces.hpp"
 #include "elasticity/elasticity.hpp"
 #include "elasticity/ground.hpp"
 #include "elasticity/material.hpp"

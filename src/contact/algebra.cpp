@@ -1,5 +1,7 @@
 #include "contact/algebra.hpp"
 
+#include <algorithm>
+
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
 
@@ -10,6 +12,20 @@ OwnedMat nodalMatrix(const mesh::Mesh& mesh, PetscInt blocksPerRow) {
   const PetscInt owned = mesh.dimension * mesh.ownedNodes, entries = blocksPerRow * mesh.dimension;
   check(MatCreateAIJ(mesh.comm, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE, entries, nullptr,
                      entries, nullptr, matrix.out()));
+  return matrix;
+}
+
+OwnedMat nodalMatrix(const mesh::Mesh& mesh, const std::vector<PetscInt>& blocks) {
+  OwnedMat matrix;
+  const PetscInt owned = mesh.dimension * mesh.ownedNodes;
+  std::vector<PetscInt> own, others;  // entries of a row in the columns of this rank and of others
+  for (PetscInt count : blocks)
+    for (int d = 0; d < mesh.dimension; ++d) {
+      own.push_back(mesh.dimension * std::min(count, mesh.ownedNodes));
+      others.push_back(mesh.dimension * (count - 1));  // one block is that of the node itself
+    }
+  check(MatCreateAIJ(mesh.comm, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE, 0, own.data(), 0,
+                     others.data(), matrix.out()));
   return matrix;
 }
 

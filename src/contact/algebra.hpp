@@ -22,6 +22,9 @@ inline Point scaled(const Point& a, double s) { return {s * a[0], s * a[1], s * 
 /// Collective. Returns an N×N matrix with room for `blocksPerRow` dimension×dimension blocks per
 /// row of blocks.
 OwnedMat nodalMatrix(const mesh::Mesh& mesh, PetscInt blocksPerRow);
+/// Collective. Returns an N×N matrix with room for `blocks`[owned node] blocks in the rows of a
+/// node.
+OwnedMat nodalMatrix(const mesh::Mesh& mesh, const std::vector<PetscInt>& blocks);
 /// Collective. Assembles the matrix after values have been set.
 void assembled(Mat matrix);
 /// Not collective. Sets the block of two global nodes, row-major. Zeros are kept as entries, so

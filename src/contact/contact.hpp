@@ -22,6 +22,7 @@
 #include "contact/constraints.hpp"
 #include "contact/friction.hpp"
 #include "contact/gap_basis.hpp"
+#include "coupling/coupling.hpp"
 #include "elasticity/elasticity.hpp"
 #include "mesh/mesh.hpp"
 #include "petsc/owned.hpp"
@@ -30,18 +31,47 @@ namespace squeal::contact {
 
 using mesh::Point;
 
-/// A ContactNode is a node of a pad in contact that this rank owns. Contact nodes stand in the
-/// order of Mesh::pairs.
+/// The share of a connected part in what a contact node rests on.
+struct PartShare {
+  int part;
+  double share;
+};
+
+/// A ContactNode is a node in contact that this rank owns. It is of the slave side: the pad where
+/// the meshes match. Contact nodes stand in the order of local nodes.
 struct ContactNode {
-  Point position;       ///< m
-  Point normal;         ///< n, unit, from disc to pad
-  Point slip;           ///< τ = w/|w|, w = −V at the base motions; zero where there is no slip
-  double slipSpeed;     ///< |w| at the base motions, m/s
-  double area;          ///< ∫ φ̃ dA over the faces of the pad, positive, m² (m in the plane)
+  Point position;    ///< m
+  Point normal;      ///< n, unit, from disc to pad
+  Point slip;        ///< τ = w/|w|, w = −V at the base motions; zero where there is no slip
+  double slipSpeed;  ///< |w| at the base motions, m/s
+  double area;  ///< ∫ ψ dA over the part of the faces in contact, positive, m² (m in the plane);
+                ///< ∫ φ̃ dA where the meshes match
+  double wholeArea;     ///< ∫ φ̃ dA over the faces of the slave, m² (m)
   int interface;        ///< index into Contact::interfaces
+  int side;             ///< +1 if the slave is the pad, −1 if it is the disc
   PetscInt node;        ///< local node
   PetscInt globalNode;  ///< global node
-  PetscInt master;      ///< global node of the disc; −1 for a rigid obstacle
+  PetscInt master;      ///< global node of the disc where the meshes match; otherwise −1
+  int discBody;         ///< index into Mesh::bodies; −1 on a rigid obstacle
+  std::vector<PartShare> masterParts;  ///< parts of the master; none on a rigid obstacle
+};
+
+/// The slave side of an interface.
+struct SlaveSide {
+  std::string surface;  ///< group
+  int sign;             ///< +1 if it is the pad, −1 if it is the disc
+};
+
+/// What was found at an interface, the same on all ranks.
+struct InterfaceReport {
+  bool matching = true;  ///< node on node, or a rigid obstacle
+  std::string whyNot;    ///< a sentence that says where the meshes do not match
+  PetscInt nodes = 0;    ///< contact nodes
+  // These are zero if the meshes match.
+  coupling::SideReport slave, master;
+  double coveredArea = 0;     ///< of the slave, m² (m in the plane)
+  double largestGap = 0;      ///< largest distance of the surfaces where they touch, m
+  PetscInt droppedNodes = 0;  ///< nodes of the slave without a gap, too little covered
 };
 
 /// The sliding of a contact node in steady motion.
@@ -64,7 +94,8 @@ struct Transformation {
 /// The contact of all interfaces: its nodes and its matrices.
 struct Contact {
   std::vector<std::string> interfaces;   ///< names
-  std::vector<std::string> padSurfaces;  ///< [interface]
+  std::vector<SlaveSide> slaves;         ///< [interface]
+  std::vector<InterfaceReport> reports;  ///< [interface]
   std::vector<ContactNode> nodes;
   PetscInt totalNodes = 0;  ///< contact nodes of all ranks
   Constraints constraints;
@@ -73,16 +104,17 @@ struct Contact {
   GapBasis gapBasis;  ///< E
   OwnedMat reaction;  ///< N, N×N: R_N of a contact node from all nodal forces, in the row of its
                       ///< gap; other rows are empty
-  OwnedMat jump;      ///< J, N×N: [u] = u_P − u_D in the rows of the pad nodes; others are empty
-  OwnedMat convected;   ///< D, N×N, 1/s: (V·∇)u_D at the contact nodes, in the rows of the pad
-                        ///< nodes, for the base motions; null without convective terms
+  OwnedMat jump;  ///< J, N×N: [u] = u_P − u_D in the rows of the contact nodes; others are empty
+  OwnedMat convected;   ///< D, N×N, 1/s: (V·∇)u_D at the contact nodes, in their rows, for the
+                        ///< base motions; null without convective terms
   OwnedMat kinematics;  ///< A, N×N
   OwnedVec offset;      ///< u0, N entries, m: held displacements and displacements of obstacles
   /// [owned node · dimension + component of z] 1 if it is an unknown; gaps are counted as unknowns
   std::vector<unsigned char> free;
   const mesh::Mesh* mesh = nullptr;  ///< borrowed
 
-  bool isPadSurface(const std::string& surface) const;
+  /// Returns the slave side of which this is the surface, borrowed; null if there is none.
+  const SlaveSide* slaveOf(const std::string& surface) const;
   /// Returns the row of z and of N that belongs to the gap of a contact node.
   PetscInt gapRow(const ContactNode& node) const;
   /// Collective. Returns T, in which the gap of contact node i is an unknown if gapFree[i] is set.
@@ -107,16 +139,10 @@ struct Contact {
                     const std::vector<unsigned char>& slides) const;
 };
 
-/// Not collective. Returns the contact interfaces that the options ask for, for the mesh reader.
-/// Throws Error for an interface without a pad surface, and for one with neither or both of a disc
-/// surface and an obstacle.
-std::vector<mesh::InterfaceRequest> readInterfaces();
-
 /// Collective. Builds normals, slip directions, constraints and all matrices. `mesh` is borrowed by
-/// the result. Throws Error for an interface whose sides are not meshed alike, a bad constraint, a
-/// pad that moves, a held component that is not tangential at a contact node, an obstacle face that
-/// is not flat, and a body that can move rigidly with the contact closed; the message names body
-/// and motion.
+/// the result. Throws Error for surfaces that do not meet, a bad constraint, a pad that moves, a
+/// held component that is not tangential at a contact node, an obstacle face that is not flat, and
+/// a body that can move rigidly with the contact closed; the message names body and motion.
 Contact build(const mesh::Mesh& mesh, const elasticity::Bodies& bodies);
 
 /// Collective. Throws Error, naming position and options, if a contact node with active[i] set does

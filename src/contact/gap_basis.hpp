@@ -3,16 +3,17 @@
 /// forces that are zero or negative at the corners, so that the sign of a nodal force does not tell
 /// whether the contact is pressed. The gaps g of the nodes are therefore combined from others, h,
 /// on each edge e between the corners a and b [M.54]:
-///   g_a = h_a,   g_e = (1 − 2α) h_e + α (h_a + h_b),   g = E h.
+///   g_a = h_a,   g_e = (1 − 2α) h_e + α (h_a + h_b),   g = E h,
+/// with the α of mortar::usualAlpha().
 /// The shape functions of h,
 ///   φ̃_a = φ_a + α Σ φ_e,   φ̃_e = (1 − 2α) φ_e,
 /// have positive integrals, and h ≥ 0 has g ≥ 0. The forces that belong to h are Eᵀ times the nodal
 /// forces. Source: A. Popp, B.I. Wohlmuth, M.W. Gee, W.A. Wall, *Dual quadratic mortar finite
 /// element methods for 3D finite deformation contact*, SIAM J. Sci. Comput. 34 (2012) B421–B446.
-#include <set>
 #include <string>
 #include <vector>
 
+#include "coupling/coupling.hpp"
 #include "mesh/mesh.hpp"
 #include "petsc/owned.hpp"
 
@@ -27,19 +28,15 @@ struct GapBasis {
   explicit operator bool() const { return matrix.get() != nullptr; }
 };
 
-/// An edge of a face with three nodes: the numbers within the face of its middle and of its ends.
-struct FaceEdge {
-  int middle, ends[2];
+/// A contact node of an interface whose meshes do not match: its rows of E and of its inverse.
+struct CombinedGap {
+  PetscInt node;  ///< local node
+  std::vector<coupling::Weight> row, inverse;
 };
-/// Returns the edges of a face whose gaps are combined, by gmsh's element type; none unless it is a
-/// tri6 or a quad8.
-std::vector<FaceEdge> combinedEdges(int gmshType);
-/// The α of these edges. The integrals of φ̃ over an affine face are then 2/15 and 1/5 of its area
-/// at corners and edges of a tri6, 1/20 and 1/5 on a quad8.
-inline constexpr double edgeShare = 0.2;
 
-/// Collective. Returns E of the faces of the `surfaces`. `periodic` copies primaries to their
-/// images, N×N.
-GapBasis gapBasis(const mesh::Mesh& mesh, const std::vector<std::string>& surfaces, Mat periodic);
+/// Collective. Returns E of the faces of the `surfaces`, and of the nodes whose rows are given.
+/// `periodic` copies primaries to their images, N×N.
+GapBasis gapBasis(const mesh::Mesh& mesh, const std::vector<std::string>& surfaces,
+                  const std::vector<CombinedGap>& given, Mat periodic);
 
 }  // namespace squeal::contact

@@ -59,9 +59,10 @@ Frame frameOf(const ContactNode& node, const Constraints& constraints, int dimen
 
 }  // namespace
 
-void buildKinematics(const std::vector<Point>& obstacleDisplacement, Contact& contact, Mat a,
-                     Vec held) {
+OwnedMat buildKinematics(const std::vector<InterfaceOptions>& interfaces,
+                         const std::vector<Connection>& connections, Contact& contact, Vec held) {
   const mesh::Mesh& mesh = *contact.mesh;
+  OwnedMat a = nodalMatrix(mesh, blocksOfRows(contact, connections));
   const Constraints& constraints = contact.constraints;
   const int dimension = mesh.dimension;
   const auto local = [&](PetscInt node, int d) { return dimension * node + d; };
@@ -80,20 +81,21 @@ void buildKinematics(const std::vector<Point>& obstacleDisplacement, Contact& co
     }
   }
   std::string failure;
-  for (const auto& node : contact.nodes) try {
+  for (std::size_t k = 0; k < contact.nodes.size(); ++k) try {
+      const auto& node = contact.nodes[k];
       const Frame frame = frameOf(node, constraints, dimension);
       std::vector<double> block(dimension * dimension);
       for (int i = 0; i < dimension; ++i) {
         for (int t = 0; t < dimension - 1; ++t) block[i * dimension + t] = frame.tangents[t][i];
-        block[i * dimension + dimension - 1] = node.normal[i];
+        block[i * dimension + dimension - 1] = node.side * node.normal[i];
       }
       setBlock(a, dimension, node.globalNode, node.globalNode, block);
-      if (node.master >= 0)
-        setBlock(a, dimension, node.globalNode, node.master,
-                 outer(node.normal, node.normal, dimension));
-      else
+      for (const auto& [master, weight] : connections[k].masters)
+        setBlock(a, dimension, node.globalNode, master,
+                 outer(node.normal, node.normal, dimension, weight));
+      if (interfaces[node.interface].onObstacle())
         values[local(node.node, dimension - 1)] =
-            dot(node.normal, obstacleDisplacement[node.interface]);
+            dot(node.normal, interfaces[node.interface].obstacleDisplacement);
       for (int t = 0; t < dimension - 1; ++t) {
         const int component = frame.heldComponent[t];
         if (component < 0) continue;
@@ -108,6 +110,7 @@ void buildKinematics(const std::vector<Point>& obstacleDisplacement, Contact& co
     for (int d = 0; d < dimension; ++d) contact.free[local(image.node, d)] = 0;
   assembled(a);
   std::copy(values.begin(), values.end(), WriteArray(held).begin());
+  return a;
 }
 
 }  // namespace squeal::contact

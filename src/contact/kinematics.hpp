@@ -4,14 +4,16 @@
 #include <vector>
 
 #include "contact/contact.hpp"
+#include "contact/interfaces.hpp"
+#include "contact/nodes.hpp"
 
 namespace squeal::contact {
 
-/// Collective. Fills A as it is before periodicity, assembles it, marks the free components of z in
-/// Contact::free and sets the values of the others in `held`. `obstacleDisplacement` is that of the
-/// rigid obstacle, m, [interface]. Throws Error on all ranks for a held component that is not
+/// Collective. Returns A as it is before periodicity and with gaps at the nodes, marks the free
+/// components of z in Contact::free and sets the values of the others in `held`. The connections
+/// are those of the contact nodes. Throws Error on all ranks for a held component that is not
 /// tangential at a contact node.
-void buildKinematics(const std::vector<Point>& obstacleDisplacement, Contact& contact, Mat a,
-                     Vec held);
+OwnedMat buildKinematics(const std::vector<InterfaceOptions>& interfaces,
+                         const std::vector<Connection>& connections, Contact& contact, Vec held);
 
 }  // namespace squeal::contact

@@ -105,8 +105,10 @@ linalg::DenseMatrix gram(const mesh::Mesh& mesh, const Contact& contact, Vec spr
   for (std::size_t i = 0; contactCloses && i < contact.nodes.size(); ++i) {
     const auto& node = contact.nodes[i];
     motions.add(row, mesh.nodePart[node.node], node.position, node.normal, 1);
-    if (node.master >= 0)
-      motions.add(row, mesh.pairs[i].masterPart, node.position, node.normal, -1);
+    // Both sides move as at the place of the slave's node: the facets of a curved master would seem
+    // to hold a rotation that is free.
+    for (const auto& [part, share] : node.masterParts)
+      motions.add(row, part, node.position, node.normal, -share);
     keep();
   }
   check(MPI_Allreduce(MPI_IN_PLACE, g.data(), g.size(), MPI_DOUBLE, MPI_SUM, mesh.comm));

@@ -55,7 +55,7 @@ Fields fieldsOf(const Contact& contact, const std::vector<Slip>& slip,
   const int dimension = contact.mesh->dimension;
   return {spread(contact, contact.gapBasis.matrix,
                  [&](std::size_t i, auto at) {
-                   at[dimension - 1] = normalForce[i] / contact.nodes[i].area;
+                   at[dimension - 1] = normalForce[i] / contact.nodes[i].wholeArea;
                  }),
           spread(contact, nullptr,
                  [&](std::size_t i, auto at) {
@@ -127,7 +127,7 @@ OwnedMat distributedResponse(const Contact& contact, const std::vector<Slip>& sl
     const auto& table = elasticity::shapeTable(block.type);
     const int n = block.nodesPerFace, size = n * dimension;
     for (std::size_t e = 0; e < block.surface.size(); ++e) {
-      if (!contact.isPadSurface(mesh.surfaces[block.surface[e]])) continue;
+      if (!contact.slaveOf(mesh.surfaces[block.surface[e]])) continue;
       const auto nodes = block.nodesOf(e);
       const auto area = elasticity::areaWeights(table, elasticity::pointsOf(mesh, nodes));
       std::vector<double> sums(size * size, 0.0);

@@ -20,7 +20,7 @@ OwnedMat reactionRows(const Contact& contact) {
   for (const auto& node : contact.nodes)
     for (int d = 0; d < mesh.dimension; ++d)
       check(MatSetValue(normals, contact.gapRow(node), mesh.dimension * node.globalNode + d,
-                        node.normal[d], INSERT_VALUES));
+                        node.side * node.normal[d], INSERT_VALUES));
   assembled(normals);
   OwnedMat folded, result;
   check(MatTranspose(contact.periodic, MAT_INITIAL_MATRIX, folded.out()));
@@ -35,50 +35,55 @@ OwnedMat reactionRows(const Contact& contact) {
 }
 
 /// Returns J.
-OwnedMat jumpRows(const Contact& contact) {
+OwnedMat jumpRows(const Contact& contact, const std::vector<Connection>& connections) {
   const auto& mesh = *contact.mesh;
-  OwnedMat jump = nodalMatrix(mesh, 2);
-  for (const auto& node : contact.nodes) {
-    setBlock(jump, mesh.dimension, node.globalNode, node.globalNode, identity(mesh.dimension, 1));
-    if (node.master >= 0)
-      setBlock(jump, mesh.dimension, node.globalNode, node.master, identity(mesh.dimension, -1));
+  OwnedMat jump = nodalMatrix(mesh, blocksOfRows(contact, connections));
+  for (std::size_t k = 0; k < connections.size(); ++k) {
+    const auto& node = contact.nodes[k];
+    setBlock(jump, mesh.dimension, node.globalNode, node.globalNode,
+             identity(mesh.dimension, node.side));
+    for (const auto& [master, weight] : connections[k].masters)
+      setBlock(jump, mesh.dimension, node.globalNode, master,
+               identity(mesh.dimension, -node.side * weight));
   }
   assembled(jump);
   return jump;
 }
 
-/// Returns the matrix that gives u_D at the place of each pad node, in its rows. Images of pad
-/// nodes are treated like their primaries.
+/// Returns the matrix that gives u_D at the place of each slave node, in its rows, where the meshes
+/// match or the slave is the disc itself. Images are treated like their primaries.
 OwnedMat masterRows(const Contact& contact) {
   const auto& mesh = *contact.mesh;
   OwnedMat primaries = nodalMatrix(mesh, 1), result;
   for (const auto& node : contact.nodes)
-    if (node.master >= 0)
-      setBlock(primaries, mesh.dimension, node.globalNode, node.master,
-               identity(mesh.dimension, 1));
+    if (const PetscInt disc = node.side < 0 ? node.globalNode : node.master; disc >= 0)
+      setBlock(primaries, mesh.dimension, node.globalNode, disc, identity(mesh.dimension, 1));
   assembled(primaries);
   check(MatMatMult(contact.periodic, primaries, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.out()));
   return result;
 }
 
-/// Returns the base motion of the disc at each interface, borrowed; null for a rigid obstacle,
-/// which does not deform.
+/// Returns the base motion of the disc at each slave surface on which u_D has the values of
+/// masterRows(), borrowed; null at the others.
 std::vector<const elasticity::Motion*> discMotions(const elasticity::Bodies& bodies,
                                                    const Contact& contact) {
   const auto& mesh = *contact.mesh;
   std::vector<int> body(contact.interfaces.size(), -1);
   for (const auto& pair : mesh.pairs) body[pair.interface] = pair.masterBody;
+  for (const auto& node : contact.nodes)
+    if (node.side < 0) body[node.interface] = node.discBody;
   check(MPI_Allreduce(MPI_IN_PLACE, body.data(), body.size(), MPI_INT, MPI_MAX, mesh.comm));
   std::vector<const elasticity::Motion*> motions;
   for (int index : body) motions.push_back(index < 0 ? nullptr : &bodies.motions[index]);
   return motions;
 }
 
-/// Returns D. The faces of the pad lie on faces of the disc, node on node, so that the disc's
-/// displacement is differentiated along them with the pad's shape functions. At a node the
-/// derivative is averaged over the faces around it, weighted by area like the nodal forces R_N. On
-/// quadratic faces the leading errors at corners and mid-sides then cancel.
-OwnedMat convectedRows(const elasticity::Bodies& bodies, const Contact& contact) {
+/// Returns the rows of D where the slave's faces carry u_D at their nodes: they lie on faces of the
+/// disc, node on node, or are the disc's own. The disc's displacement is differentiated along them
+/// with their shape functions. At a node the derivative is averaged over the faces around it,
+/// weighted by area like the nodal forces R_N. On quadratic faces the leading errors at corners and
+/// mid-sides then cancel.
+OwnedMat convectedByFaces(const elasticity::Bodies& bodies, const Contact& contact) {
   const auto& mesh = *contact.mesh;
   const int dimension = mesh.dimension;
   const auto motions = discMotions(bodies, contact);
@@ -90,10 +95,8 @@ OwnedMat convectedRows(const elasticity::Bodies& bodies, const Contact& contact)
   for (const auto& block : mesh.faces) {
     const auto& table = elasticity::shapeTable(block.type);
     for (std::size_t e = 0; e < block.surface.size(); ++e) {
-      const auto found = std::find(contact.padSurfaces.begin(), contact.padSurfaces.end(),
-                                   mesh.surfaces[block.surface[e]]);
-      if (found == contact.padSurfaces.end()) continue;
-      const auto* motion = motions[found - contact.padSurfaces.begin()];
+      const SlaveSide* slave = contact.slaveOf(mesh.surfaces[block.surface[e]]);
+      const auto* motion = slave ? motions[slave - contact.slaves.data()] : nullptr;
       if (!motion) continue;
       std::vector<Point> points, velocity;
       const auto nodes = block.nodesOf(e);
@@ -129,12 +132,37 @@ OwnedMat convectedRows(const elasticity::Bodies& bodies, const Contact& contact)
   return result;
 }
 
+/// Returns D.
+OwnedMat convectedRows(const elasticity::Bodies& bodies, const std::vector<Connection>& connections,
+                       const Contact& contact) {
+  const auto& mesh = *contact.mesh;
+  OwnedMat result = convectedByFaces(bodies, contact);
+  std::vector<PetscInt> blocks(mesh.ownedNodes, 1);
+  int any = 0;
+  for (std::size_t k = 0; k < connections.size(); ++k) {
+    blocks[contact.nodes[k].node] += connections[k].convected.size();
+    any = any || !connections[k].convected.empty();
+  }
+  check(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_LOR, mesh.comm));
+  if (!any) return result;
+  const OwnedMat coupled = nodalMatrix(mesh, blocks);
+  for (std::size_t k = 0; k < connections.size(); ++k)
+    for (const auto& [master, weight] : connections[k].convected)
+      setBlock(coupled, mesh.dimension, contact.nodes[k].globalNode, master,
+               identity(mesh.dimension, weight));
+  assembled(coupled);
+  check(MatAXPY(result, 1, coupled, DIFFERENT_NONZERO_PATTERN));
+  return result;
+}
+
 }  // namespace
 
-void buildSliding(const elasticity::Bodies& bodies, Contact& contact) {
+void buildSliding(const elasticity::Bodies& bodies, const std::vector<Connection>& connections,
+                  Contact& contact) {
   contact.reaction = reactionRows(contact);
-  contact.jump = jumpRows(contact);
-  if (elasticity::convectiveTerms()) contact.convected = convectedRows(bodies, contact);
+  contact.jump = jumpRows(contact, connections);
+  if (elasticity::convectiveTerms())
+    contact.convected = convectedRows(bodies, connections, contact);
 }
 
 }  // namespace squeal::contact

@@ -1,12 +1,12 @@
 #include "coupling/coupling.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <array>
+#include <cmath>
 
-#include "mortar/dual.hpp"
 #include "coupling/exchange.hpp"
 #include "coupling/search.hpp"
+#include "mortar/dual.hpp"
 #include "petsc/arrays.hpp"
 #include "petsc/owned.hpp"
 
@@ -86,7 +86,8 @@ double sizeOf(const Face& face) {
     for (int j = 0; j < i; ++j) {
       double squared = 0;
       for (std::size_t d = 0; d < 3; ++d)
-        squared += (face.points[i][d] - face.points[j][d]) * (face.points[i][d] - face.points[j][d]);
+        squared +=
+            (face.points[i][d] - face.points[j][d]) * (face.points[i][d] - face.points[j][d]);
       size = std::max(size, std::sqrt(squared));
     }
   return size;
@@ -175,13 +176,13 @@ std::vector<double> nodalIntegrals(const NodeExchange& exchange, std::size_t nod
 }
 
 std::vector<double> coveredIntegrals(const CoveredFace& face, const Basis& basis) {
-  const Pivots all = pivots(*face.type, Multiplier::nodes,
-                            std::vector<bool>(face.face->points.size(), false));
+  const Pivots all =
+      pivots(*face.type, Multiplier::nodes, std::vector<bool>(face.face->points.size(), false));
   return integrate(*face.face, basis.alphaOf(face), all, face.masters, face.points).covered;
 }
 
-/// Collective. Returns α and the nodes to be dropped. Partly covered faces need a larger α, on which
-/// all faces at an edge agree. A dropped mid-edge node has α = 0, so that ũ = u there.
+/// Collective. Returns α and the nodes to be dropped. Partly covered faces need a larger α, on
+/// which all faces at an edge agree. A dropped mid-edge node has α = 0, so that ũ = u there.
 Basis chooseBasis(const mesh::Mesh& mesh, const NodeExchange& exchange,
                   const std::vector<CoveredFace>& faces) {
   const std::size_t nodes = mesh.localNodes();
@@ -212,10 +213,10 @@ Basis chooseBasis(const mesh::Mesh& mesh, const NodeExchange& exchange,
 
 /// The sums over the faces, by nodes of the mesh.
 struct Sums {
-  Triples masters;    ///< M − B, [pivot][node of the master or dropped node]
-  Triples convected;  ///< C
-  Triples parts;      ///< M by connected parts of the master
-  Triples bodies;     ///< M by bodies of the master
+  Triples masters;                         ///< M − B, [pivot][node of the master or dropped node]
+  Triples convected;                       ///< C
+  Triples parts;                           ///< M by connected parts of the master
+  Triples bodies;                          ///< M by bodies of the master
   std::vector<double> slave, weight, gap;  ///< D, W, G, [local node]
   PetscInt slivers = 0;
 };
@@ -225,7 +226,9 @@ void addFace(const CoveredFace& face, const Basis& basis, const BodyVelocity& ve
   const Pivots kept = pivots(*face.type, Multiplier::nodes, basis.droppedOf(face));
   mortar::Velocity at;
   if (velocity)
-    at = [&](std::size_t master, const Point& x) { return velocity(face.masters[master]->body, x); };
+    at = [&](std::size_t master, const Point& x) {
+      return velocity(face.masters[master]->body, x);
+    };
   const FaceTerms terms =
       integrate(*face.face, basis.alphaOf(face), kept, face.masters, face.points, at);
   sums.slivers += !terms.dual;
@@ -455,8 +458,8 @@ Coupling couple(const mesh::Mesh& mesh, const Interface& interface, const BodyVe
 bool masterIsFiner(const mesh::Mesh& mesh, const Interface& interface) {
   const Surfaces sides(mesh, interface);
   const auto mean = [&](const std::vector<Face>& faces, const std::vector<Face>& others) {
-    const auto report = sideReport(
-        mesh.comm, faces, nearOthers(mesh.comm, faces, others, interface.searchDistance));
+    const auto report = sideReport(mesh.comm, faces,
+                                   nearOthers(mesh.comm, faces, others, interface.searchDistance));
     return report.nearFaces > 0 ? report.nearArea / report.nearFaces : INFINITY;
   };
   // Equal faces differ by rounding, which must not decide.

@@ -2,8 +2,8 @@
 /// A Coupling ties the nodes of a slave surface to a master surface whose mesh does not match:
 ///   u_i = Σ_l P_il u_l + (G J)_i,
 /// where l are nodes of the master, and also nodes of the slave that carry no condition. J_j is the
-/// mean jump that the pivot j sees, and G combines these to jumps at nodes. Images of periodic nodes
-/// are replaced by their primaries.
+/// mean jump that the pivot j sees, and G combines these to jumps at nodes. Images of periodic
+/// nodes are replaced by their primaries.
 #include <functional>
 #include <string>
 #include <vector>
@@ -24,15 +24,15 @@ struct Weight {
 /// and M of FaceTerms summed over the faces around the pivots,
 ///   ũ_j = D_j⁻¹ (Σ M_jl u_l − Σ B_jo u_o) + (W_j / D_j) J_j,   u = E ũ.
 struct SlaveNode {
-  PetscInt node = 0;               ///< local node
-  std::vector<Weight> masters;     ///< row of P
-  std::vector<Weight> jumps;       ///< row of G, on pivots
-  std::vector<Weight> jumpsOf;     ///< row of G⁻¹, on pivots
-  std::vector<Weight> convected;   ///< (V·∇) u_D at the node, 1/s; empty without a velocity
-  std::vector<double> partShare;   ///< [connected part] share of the master's parts, sum 1
-  int masterBody = -1;             ///< index into Mesh::bodies of the largest share
-  double area = 0;       ///< W: ∫ ψ dA over the covered part, m² (m in the plane)
-  double wholeArea = 0;  ///< ∫ φ̃ dA over all faces, covered or not, m² (m)
+  PetscInt node = 0;              ///< local node
+  std::vector<Weight> masters;    ///< row of P
+  std::vector<Weight> jumps;      ///< row of G, on pivots
+  std::vector<Weight> jumpsOf;    ///< row of G⁻¹, on pivots
+  std::vector<Weight> convected;  ///< (V·∇) u_D at the node, 1/s; empty without a velocity
+  std::vector<double> partShare;  ///< [connected part] share of the master's parts, sum 1
+  int masterBody = -1;            ///< index into Mesh::bodies of the largest share
+  double area = 0;                ///< W: ∫ ψ dA over the covered part, m² (m in the plane)
+  double wholeArea = 0;           ///< ∫ φ̃ dA over all faces, covered or not, m² (m)
   double gap = 0;  ///< mean distance of the master from the slave along the slave's normal, m
 };
 
@@ -47,10 +47,10 @@ struct SideReport {
 struct Coupling {
   std::vector<SlaveNode> nodes;  ///< pivots owned by this rank, in the order of local nodes
   SideReport slave, master;
-  double coveredArea = 0;      ///< of the slave, m² (m)
-  PetscInt droppedNodes = 0;   ///< nodes of the slave of which less than a hundredth is covered
-  PetscInt sliverFaces = 0;    ///< faces covered by too little to have dual functions: lumped
-  double largestGap = 0;       ///< largest |gap| of an integration point, m
+  double coveredArea = 0;     ///< of the slave, m² (m)
+  PetscInt droppedNodes = 0;  ///< nodes of the slave of which less than a hundredth is covered
+  PetscInt sliverFaces = 0;   ///< faces covered by too little to have dual functions: lumped
+  double largestGap = 0;      ///< largest |gap| of an integration point, m
 };
 
 /// The surfaces of an interface and how far apart they may be.
