@@ -140,10 +140,10 @@ Region clip(const Region& region, const HalfPlane& half) {
   return kept.size() < fewest ? Region{} : kept;
 }
 
-Region intersection(const Region& region, const Region& other) {
+Region intersection(const Region& region, const Region& other, double margin) {
   Region kept = region;
   for (const HalfPlane& side : sides(other)) {
-    kept = clip(kept, side);
+    kept = clip(kept, {side.normal, side.offset + margin * size(side.normal)});
     if (kept.empty()) break;
   }
   return kept;

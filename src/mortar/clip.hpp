@@ -26,8 +26,9 @@ PlanePoint centroid(const Region& region);
 bool isConvex(const Region& region);
 /// Returns the part of a region in the half-plane.
 Region clip(const Region& region, const HalfPlane& half);
-/// Returns the part of a region in another one, both polygons or both segments of one line.
-Region intersection(const Region& region, const Region& other);
+/// Returns the part of a region in another one, both polygons or both segments of one line. The
+/// sides of the other one are moved outwards by `margin` first.
+Region intersection(const Region& region, const Region& other, double margin = 0);
 /// Returns the part of a region outside of another one, in convex pieces. Pieces of no more than
 /// this measure are left out.
 std::vector<Region> difference(const Region& region, const Region& other, double smallest);

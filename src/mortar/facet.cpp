@@ -95,6 +95,21 @@ std::vector<Facet> facets(const Face& face, const Point& direction) {
   return parts;
 }
 
+double sag(const Face& face, const Facet& facet, const Point& direction) {
+  double largest = 0;
+  const std::size_t n = facet.whole ? 0 : facet.corners.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t next = (i + 1) % n;
+    const Reference &a = facet.reference[i], &b = facet.reference[next];
+    const Point middle =
+                    surfacePoint(face, Reference{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2}).position,
+                chord = minus(facet.corners[next], facet.corners[i]),
+                half = minus(middle, facet.corners[i]);
+    largest = std::max(largest, std::abs(dot(cross(half, chord), direction)) / length(chord));
+  }
+  return largest;
+}
+
 Frame::Frame(const Facet& facet) : origin_(facet.centre()), normal_(facet.normal()) {
   const Point edge = minus(facet.corners[1], facet.corners[0]);
   along_ = unit(plus(edge, normal_, -dot(edge, normal_)));

@@ -28,6 +28,10 @@ Facet wholeFacet(const Face& face);
 /// quadrilaterals, which are 4 or, with mid-edge nodes, 8.
 std::vector<Facet> facets(const Face& face, const Point& direction);
 
+/// Returns how far the edges of the face leave those of its facet in the projection along a unit
+/// vector, m. Not collective.
+double sag(const Face& face, const Facet& facet, const Point& direction);
+
 /// A plane with coordinates, of which the first axis is the line of a segment.
 class Frame {
  public:

@@ -126,6 +126,20 @@ TEST(Dual, LinearFieldsAreTransferredExactly) {
     }
 }
 
+TEST(Dual, EdgesMayHaveDifferentAlpha) {
+  const auto master = test::affinePatch(tri3, 4, -1);
+  for (const int s : {tri6, quad8, quad9}) {
+    const auto slave = test::affinePatch(s, 2, 1);
+    for (const Face& face : slave.faces) {
+      Coupled c = couple(face, master);
+      for (std::size_t e = 0; e < c.alpha.size(); ++e) c.alpha[e] = 0.15 + 0.05 * e;
+      c.terms = integrate(face, c.alpha, c.pivots, master.pointers(), c.points);
+      ASSERT_TRUE(c.terms.dual) << s;
+      EXPECT_LT(largestJump(face, c, master, linear), 2e-15) << s;
+    }
+  }
+}
+
 TEST(Dual, RowsAddUpToTheWeights) {
   for (const auto multiplier : {Multiplier::nodes, Multiplier::corners})
     for (const auto& [s, m] : allPairs()) {
