@@ -46,7 +46,7 @@ struct FaceTerms {
   std::vector<double> covered;  ///< ∫ φ̃_i dA over the covered part, [node]
   std::vector<Point> normal;  ///< ∫ φ̃_i n dA over the covered part, [node], n out of the slave
   /// False if ψ would be large because the covered part is too small or too thin to tell the
-  /// functions apart. Then χ_p itself stands for ψ_p, and all of ∫ χ_p φ̃ dA is lumped on the
+  /// functions apart. Then χ_p itself stands for ψ_p, and ∫ χ_p φ̃ dA of all nodes is lumped on the
   /// pivot: D = W = ∫ χ_p dA and B = 0. Uniform pressures and displacements stay exact, and so does
   /// the total force, but linear displacements do not.
   bool dual = true;

@@ -12,6 +12,11 @@ namespace {
 /// Edges count as straight up to this part of their length, which is rounding of coordinates.
 constexpr double straightness = 1e-11;
 
+/// Number of straight pieces that stand for a curved edge. Errors of the coupling fall with its
+/// fourth power: with 4 pieces, the nodal loads of a uniform pressure between flat rings of 8 quad8
+/// a quarter are wrong by 1e-4 of a face, with 2 pieces by 2e-3.
+constexpr int splits = 4;
+
 Facet makeFacet(const Face& face, std::vector<Reference> reference, bool whole) {
   if (face.sign < 0) std::reverse(reference.begin(), reference.end());
   Facet facet{{}, std::move(reference), whole};
@@ -29,19 +34,22 @@ bool hasStraightEdges(const Face& face, const FaceType& type, const Point& direc
   });
 }
 
+/// Returns the corners of the equal triangles into which a triangle or a square is split, with
+/// `splits` of them along each edge.
 std::vector<std::vector<Reference>> triangles(const FaceType& type) {
-  const auto& x = type.reference;
-  if (type.corners == 3)  // only a tri6 has curved edges
-    return {{x[0], x[3], x[5]}, {x[3], x[1], x[4]}, {x[5], x[4], x[2]}, {x[3], x[4], x[5]}};
-  std::vector<Reference> rim;
-  for (std::size_t c = 0; c < 4; ++c) {
-    rim.push_back(x[c]);
-    if (type.order == 2) rim.push_back(x[4 + c]);
-  }
-  std::vector<std::vector<Reference>> fan;
-  for (std::size_t i = 0; i < rim.size(); ++i)
-    fan.push_back({type.centre(), rim[i], rim[(i + 1) % rim.size()]});
-  return fan;
+  const bool triangle = type.corners == 3;
+  const double low = triangle ? 0 : -1, high = 1;
+  const auto at = [&](int i, int j) {
+    return Reference{low + (high - low) * i / splits, low + (high - low) * j / splits};
+  };
+  std::vector<std::vector<Reference>> parts;
+  for (int j = 0; j < splits; ++j)
+    for (int i = 0; i < (triangle ? splits - j : splits); ++i) {
+      parts.push_back({at(i, j), at(i + 1, j), at(i, j + 1)});
+      if (!triangle || i + j + 1 < splits)
+        parts.push_back({at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  return parts;
 }
 
 /// Returns twice the area of the projection of a facet, in the sense of its order.

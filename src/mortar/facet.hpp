@@ -24,8 +24,8 @@ struct Facet {
 Facet wholeFacet(const Face& face);
 /// Returns the facets of a face to be projected along a unit vector. Not collective. That is the
 /// whole face if its edges are straight in the projection and if it is convex there. Otherwise
-/// there are triangles between its nodes: 4 on tri6, and those around the centre on
-/// quadrilaterals, which are 4 or, with mid-edge nodes, 8.
+/// there are equal triangles in the reference coordinates, 16 of a triangle and 32 of a
+/// quadrilateral.
 std::vector<Facet> facets(const Face& face, const Point& direction);
 
 /// Returns how far the edges of the face leave those of its facet in the projection along a unit

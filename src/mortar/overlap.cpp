@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "mortar/facet.hpp"
@@ -22,24 +23,40 @@ constexpr double leastCosine = 0.1;
 /// much, up to this part of the slave facet, if they are parallel to it up to 60°.
 constexpr double farthestReach = 0.1, leastParallel = 0.5;
 
+/// A master facet in the projection along the mean normal of the slave face.
+struct Shadow {
+  Region outline;
+  HalfPlane distance;  ///< from the plane of the projection to the facet
+  std::size_t master;
+  bool whole;        ///< true if the facet is all of the master face
+  double sag, tilt;  ///< of edges, m; sine of the angle to the slave face, or −1 beyond 60°
+};
+
 /// The part of a slave facet that one master facet covers.
 struct Piece {
   Region region;   ///< inside of the slave facet
   Region outline;  ///< of what the master facet covers, also outside of the slave facet
   std::size_t master;
+  bool whole;       ///< true if the facet is all of the master face
   bool beyond;      ///< true if it reaches beyond the edges of the master facet
   double distance;  ///< magnitude at the centroid, m
 };
 
-/// A flat facet of the slave face, with the plane to which master facets are projected.
-struct SlaveFacet {
-  const Face& face;
-  Facet facet;
-  Frame frame;
-  Region flat;
-  SlaveFacet(const Face& of, Facet part)
-      : face(of), facet(std::move(part)), frame(facet), flat(frame.flat(facet)) {}
-};
+std::vector<Shadow> shadows(const Frame& frame, std::span<const Face* const> masters) {
+  std::vector<Shadow> shadows;
+  for (std::size_t i = 0; i < masters.size(); ++i)
+    for (const Facet& facet : facets(*masters[i], frame.normal())) {
+      const Point normal = facet.normal();
+      const double cosine = dot(normal, frame.normal());
+      if (!(cosine < 0)) continue;
+      Region outline = frame.flat(facet);
+      std::ranges::reverse(outline);  // the master's outside is the slave's inside
+      shadows.push_back({std::move(outline), frame.distanceTo(facet), i, facet.whole,
+                         sag(*masters[i], facet, frame.normal()),
+                         cosine > -leastParallel ? -1 : length(cross(normal, frame.normal()))});
+    }
+  return shadows;
+}
 
 Region clipDistance(const Region& region, const HalfPlane& g, double limit) {
   const auto [slope, offset] = g;
@@ -48,42 +65,14 @@ Region clipDistance(const Region& region, const HalfPlane& g, double limit) {
 }
 
 /// Returns how far a master facet counts beyond its edges.
-double reach(const SlaveFacet& slave, const Face& face, const Facet& master, const Region& outline,
-             double searchDistance) {
-  const Point &n = slave.frame.normal(), m = master.normal();
-  if (dot(n, m) > -leastParallel) return 0;
-  const HalfPlane distance = slave.frame.distanceTo(master);
+double reach(const Region& slave, double slaveSag, const Shadow& shadow, double searchDistance) {
+  if (shadow.tilt < 0) return 0;
   double gap = 0, extent = 0;
-  for (const PlanePoint& y : outline) gap = std::max(gap, std::abs(distance(y)));
-  for (const PlanePoint& y : slave.flat)
-    extent = std::max(extent, std::hypot(y[0] - slave.flat[0][0], y[1] - slave.flat[0][1]));
-  const double tilt = length(cross(n, m));
-  return std::min(
-      sag(face, master, n) + sag(slave.face, slave.facet, n) + std::min(gap, searchDistance) * tilt,
-      farthestReach * extent);
-}
-
-/// Returns what the master faces cover of a slave facet within the distance. With `beyond` they
-/// reach beyond their edges.
-std::vector<Piece> pieces(const SlaveFacet& slave, std::span<const Face* const> masters,
-                          double searchDistance, bool beyond) {
-  std::vector<Piece> pieces;
-  for (std::size_t i = 0; i < masters.size(); ++i)
-    for (const Facet& facet : facets(*masters[i], slave.frame.normal())) {
-      if (!(dot(facet.normal(), slave.frame.normal()) < 0)) continue;
-      const HalfPlane distance = slave.frame.distanceTo(facet);
-      Region outline = slave.frame.flat(facet);
-      std::ranges::reverse(outline);  // the master's outside is the slave's inside
-      if (beyond)
-        outline = intersection(slave.flat, outline,
-                               reach(slave, *masters[i], facet, outline, searchDistance));
-      outline = clipDistance(outline, distance, searchDistance);
-      Region region = beyond || outline.empty() ? outline : intersection(slave.flat, outline);
-      if (measure(region) <= sliver * measure(slave.flat)) continue;
-      const double at = std::abs(distance(centroid(region)));
-      pieces.push_back({std::move(region), std::move(outline), i, beyond, at});
-    }
-  return pieces;
+  for (const PlanePoint& y : shadow.outline) gap = std::max(gap, std::abs(shadow.distance(y)));
+  for (const PlanePoint& y : slave)
+    extent = std::max(extent, std::hypot(y[0] - slave[0][0], y[1] - slave[0][1]));
+  return std::min(slaveSag + shadow.sag + std::min(gap, searchDistance) * shadow.tilt,
+                  farthestReach * extent);
 }
 
 bool boxesTouch(const Region& a, const Region& b) {
@@ -94,6 +83,29 @@ bool boxesTouch(const Region& a, const Region& b) {
     if (aHigh[d] < bLow[d] || bHigh[d] < aLow[d]) return false;
   }
   return true;
+}
+
+/// Returns what the master facets cover of a slave facet within the distance. With a slave's sag
+/// they reach beyond their edges.
+std::vector<Piece> pieces(const Region& slave, const std::vector<Shadow>& shadows,
+                          double searchDistance, std::optional<double> slaveSag) {
+  std::vector<Piece> pieces;
+  const double smallest = sliver * measure(slave);
+  for (const Shadow& shadow : shadows) {
+    Region outline = shadow.outline;
+    if (slaveSag)
+      outline = intersection(slave, outline, reach(slave, *slaveSag, shadow, searchDistance));
+    else if (!boxesTouch(slave, outline))
+      continue;
+    outline = clipDistance(outline, shadow.distance, searchDistance);
+    if (outline.empty()) continue;
+    Region region = slaveSag ? outline : intersection(slave, outline);
+    if (measure(region) <= smallest) continue;
+    const double at = std::abs(shadow.distance(centroid(region)));
+    pieces.push_back({std::move(region), std::move(outline), shadow.master, shadow.whole,
+                      slaveSag.has_value(), at});
+  }
+  return pieces;
 }
 
 /// Returns the pieces without what a nearer one covers, so that no place counts twice. Those that
@@ -115,71 +127,74 @@ std::vector<Piece> nearest(std::vector<Piece> pieces, double smallest) {
       left = std::move(rest);
     }
     for (Region& region : left)
-      kept.push_back({std::move(region), {}, pieces[i].master, false, pieces[i].distance});
+      kept.push_back(
+          {std::move(region), {}, pieces[i].master, pieces[i].whole, false, pieces[i].distance});
   }
   return kept;
 }
 
 /// Returns the pieces of a slave facet, which do not overlap.
-std::vector<Piece> tiles(const SlaveFacet& slave, std::span<const Face* const> masters,
-                         double searchDistance) {
-  const double area = measure(slave.flat);
-  auto all = pieces(slave, masters, searchDistance, false);
+std::vector<Piece> tiles(const Region& slave, const std::vector<Shadow>& shadows,
+                         double searchDistance, double slaveSag) {
+  const double area = measure(slave);
+  auto all = pieces(slave, shadows, searchDistance, {});
   auto tiles = nearest(all, sliver * area);
   double open = area;
   for (const Piece& tile : tiles) open -= measure(tile.region);
   if (tiles.empty() || open <= 10 * sliver * area) return tiles;
-  std::ranges::move(pieces(slave, masters, searchDistance, true), std::back_inserter(all));
+  std::ranges::move(pieces(slave, shadows, searchDistance, slaveSag), std::back_inserter(all));
   return nearest(std::move(all), sliver * area);
 }
 
-/// A point of the slave face and the area of the face per area of the facet there.
+/// A point of the slave face.
 struct SlavePoint {
   Reference reference;
   SurfacePoint surface;
-  double stretch;
+  double stretch;  ///< area of the face per area of the projection (length in the plane)
 };
 
-/// Returns the point of the face over a point of the facet that stands for the whole face. All
-/// points move along the mean normal, so that straight edges stay straight.
-SlavePoint above(const SlaveFacet& part, const PlanePoint& y) {
-  const Point& normal = part.frame.normal();
+[[noreturn]] void failFolded() {
+  throw Error(
+      "a face on the slave side of surfaces whose meshes do not match is so strongly curved or "
+      "distorted that its normal turns by more than 84 degrees: refine it");
+}
+
+/// Returns the point over one of the projection of the whole face. All points move along the mean
+/// normal, so that straight edges stay straight.
+SlavePoint above(const Face& slave, const Frame& frame, const PlanePoint& y) {
   SlavePoint at;
-  at.reference = project(part.face, part.frame.lifted(y), normal).reference;
-  at.surface = surfacePoint(part.face, at.reference);
-  const double cosine = dot(at.surface.normal, normal) / length(at.surface.normal);
-  if (cosine < leastCosine)
-    throw Error(
-        "a face on the slave side of surfaces whose meshes do not match is so strongly curved or "
-        "distorted that its normal turns by more than 84 degrees: refine it");
+  at.reference = project(slave, frame.lifted(y), frame.normal()).reference;
+  at.surface = surfacePoint(slave, at.reference);
+  const double cosine = dot(at.surface.normal, frame.normal()) / length(at.surface.normal);
+  if (!(cosine > leastCosine)) failFolded();
   at.stretch = 1 / cosine;
   return at;
 }
 
-/// Returns the point of the face for a point of one of its triangles. Reference coordinates are
-/// linear on the triangle, so that triangles tile the face.
-SlavePoint within(const SlaveFacet& triangle, const PlanePoint& y) {
-  const Region& flat = triangle.flat;
-  const double area = measure(flat), b = measure({flat[0], y, flat[2]}) / area,
-               c = measure({flat[0], flat[1], y}) / area;
-  const auto& corner = triangle.facet.reference;
+/// Returns the point for one of the projection of a triangle. Reference coordinates are linear on
+/// it, so that triangles tile the face also where its edges are curved.
+SlavePoint within(const Face& slave, const Facet& triangle, const Region& flat,
+                  const PlanePoint& y) {
+  const double area = measure(flat);
+  const double b = measure({flat[0], y, flat[2]}) / area, c = measure({flat[0], flat[1], y}) / area;
+  const auto& corner = triangle.reference;
   SlavePoint at;
   for (std::size_t d = 0; d < 2; ++d)
     at.reference[d] =
         corner[0][d] + b * (corner[1][d] - corner[0][d]) + c * (corner[2][d] - corner[0][d]);
-  at.surface = surfacePoint(triangle.face, at.reference);
-  const double inReference = std::abs(measure({corner[0], corner[1], corner[2]}));
-  at.stretch = length(at.surface.normal) * inReference / area;
+  at.surface = surfacePoint(slave, at.reference);
+  at.stretch =
+      length(at.surface.normal) * std::abs(measure({corner[0], corner[1], corner[2]})) / area;
   return at;
 }
 
 /// Returns the degree of the rule for products of shape functions of both faces, and some more for
-/// faces that are not affine, where these are no polynomials.
-int degree(const FaceType& slave, const FaceType& master) {
-  const auto one = [](const FaceType& type) {
-    return type.corners == 3 ? type.order : 2 * type.order;
-  };
-  return 2 * std::max(one(slave), one(master)) + 2;
+/// faces that are not affine, where these are no polynomials. On parts of faces that are split the
+/// functions are nearly polynomials of their order, and the area of a flat one has the degree 6.
+int degree(const FaceType& slave, const FaceType& master, bool whole) {
+  const int order = std::max(slave.order, master.order);
+  const bool triangles = slave.corners == 3 && master.corners == 3;
+  return 2 * (triangles || !whole ? order : 2 * order) + 2;
 }
 
 }  // namespace
@@ -187,13 +202,19 @@ int degree(const FaceType& slave, const FaceType& master) {
 std::vector<OverlapPoint> overlap(const Face& slave, std::span<const Face* const> masters,
                                   double searchDistance) {
   std::vector<OverlapPoint> points;
-  for (const Facet& facet : facets(slave, wholeFacet(slave).normal())) {
-    const SlaveFacet part(slave, facet);
-    for (const Piece& tile : tiles(part, masters, searchDistance)) {
+  const Facet whole = wholeFacet(slave);
+  const Frame frame(whole);
+  const auto projected = shadows(frame, masters);
+  for (const Facet& facet : facets(slave, frame.normal())) {
+    const Region flat = frame.flat(facet);
+    if (!(measure(flat) > 0)) failFolded();
+    const double slaveSag = sag(slave, facet, frame.normal());
+    for (const Piece& tile : tiles(flat, projected, searchDistance, slaveSag)) {
       const Face& master = *masters[tile.master];
-      const int exact = degree(faceType(slave.type), faceType(master.type));
+      const int exact =
+          degree(faceType(slave.type), faceType(master.type), facet.whole && tile.whole);
       for (const auto& [y, weight] : quadrature(tile.region, exact)) {
-        const SlavePoint at = facet.whole ? above(part, y) : within(part, y);
+        const SlavePoint at = facet.whole ? above(slave, frame, y) : within(slave, facet, flat, y);
         const Point normal = unit(at.surface.normal);
         const auto [reference, gap, met] = project(master, at.surface.position, normal);
         points.push_back({at.reference, reference, weight * at.stretch, tile.master, gap, normal});

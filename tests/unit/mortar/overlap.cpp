@@ -10,6 +10,7 @@
 #include "mortar/clip.hpp"
 #include "mortar/surface.hpp"
 #include "mortar/vector.hpp"
+#include "petsc/check.hpp"
 #include "support/face_patch.hpp"
 
 namespace squeal {
@@ -250,6 +251,35 @@ TEST(Overlap, AnOverhangIsNotCovered) {
     EXPECT_NEAR(area(distorted(s, 3, 1), distorted(m, 4, -1, half)), 0.5, 1e-13)
         << s << " on " << m;
   }
+}
+
+TEST(Overlap, LinesThatMissAFaceEndAtItsRim) {
+  const Face face = test::facePatch(quad9, {0, 1}, {0, 1}, 1, 0, [](const Point& x) {
+                      return Point{x[0], x[1], 0.1 * x[0] * x[1]};
+                    }).faces[0];
+  const auto inside = project(face, {0.5, 0.25, 2}, {0, 0, 1});
+  EXPECT_TRUE(inside.met);
+  EXPECT_NEAR(inside.reference[0], 0, 1e-14);
+  EXPECT_NEAR(inside.reference[1], -0.5, 1e-14);
+  EXPECT_NEAR(inside.distance, 0.1 * 0.125 - 2, 1e-14);
+  const auto beside = project(face, {1.1, 0.5, 0}, {0, 0, 1});
+  EXPECT_TRUE(beside.met);
+  EXPECT_NEAR(beside.reference[0], 1.2, 1e-14);
+  const auto outside = project(face, {4, 0.5, 0}, {0, 0, 1});
+  EXPECT_FALSE(outside.met);
+  EXPECT_EQ(outside.reference[0], 1);
+  const auto parallel = project(face, {4, 0.5, 7}, {0, 1, 0});
+  EXPECT_FALSE(parallel.met);
+  EXPECT_TRUE(std::isfinite(parallel.distance));
+}
+
+TEST(Overlap, FoldedSlaveFacesAreRefused) {
+  const auto arch = [](double height) {
+    return FacePatch{{Face{line3, {}, {}, {{0, 0, 0}, {1, 0, 0}, {0.5, -height, 0}}, 1, 0}}, {}};
+  };
+  const auto master = test::facePatch(line2, {0, 1}, {}, -1);
+  EXPECT_GT(area(arch(0.5), master), 1);  // longer than its chord
+  EXPECT_THROW(area(arch(5), master, 10), Error);
 }
 
 }  // namespace
