@@ -17,9 +17,9 @@ const RealListOption obstacleVelocityOption("contact", "contact_<interface>_obst
 const RealListOption obstacleDisplacementOption(
     "contact", "contact_<interface>_obstacle_displacement", "0,0,0", "m", anyReal,
     "displacement of the rigid obstacle, which presses the pad");
-const ChoiceOption slaveOption(
-    "contact", "contact_<interface>_slave", {"finer", "pad", "disc"}, "finer",
-    "where the meshes do not match: the side whose nodes have the gaps");
+const ChoiceOption slaveOption("contact", "contact_<interface>_slave", {"finer", "pad", "disc"},
+                               "finer",
+                               "where the meshes do not match: the side whose nodes have the gaps");
 const RealOption searchOption("contact", "contact_<interface>_search", 0.0, "m", nonNegative,
                               "where the meshes do not match: largest distance of faces that "
                               "touch; 0: half the size of a face");
@@ -28,9 +28,9 @@ const RealOption searchOption("contact", "contact_<interface>_search", 0.0, "m",
 
 std::vector<mesh::InterfaceRequest> readInterfaces() {
   std::vector<mesh::InterfaceRequest> requests;
-  for (const Option* option : std::vector<const Option*>{
-           &discOption, &obstacleVelocityOption, &obstacleDisplacementOption, &slaveOption,
-           &searchOption})
+  for (const Option* option :
+       std::vector<const Option*>{&discOption, &obstacleVelocityOption, &obstacleDisplacementOption,
+                                  &slaveOption, &searchOption})
     for (const auto& name : option->subjects())
       if (!padOption.given(name))
         throw Error("option -" + option->fullName(name) + " needs -" + padOption.fullName(name));

@@ -138,8 +138,7 @@ void rejectSharedNodes(const std::vector<Candidate>& nodes,
     if (nodes[i].slave.node == nodes[i - 1].slave.node)
       failure = "interfaces '" + interfaces[nodes[i - 1].interface].surfaces.name + "' and '" +
                 interfaces[nodes[i].interface].surfaces.name + "' both claim the node at " +
-                text(mesh.coordinates[nodes[i].slave.node]) +
-                " for a gap; a node has one gap";
+                text(mesh.coordinates[nodes[i].slave.node]) + " for a gap; a node has one gap";
   failTogether(mesh.comm, failure);
 }
 
@@ -252,9 +251,8 @@ std::vector<Connection> findNodes(const elasticity::Bodies& bodies,
     if (!mesh.matching[i])
       for (auto& node : coupledNodes(bodies, i, interfaces[i], contact))
         nodes.push_back(std::move(node));
-  std::stable_sort(nodes.begin(), nodes.end(), [](const auto& a, const auto& b) {
-    return a.slave.node < b.slave.node;
-  });
+  std::stable_sort(nodes.begin(), nodes.end(),
+                   [](const auto& a, const auto& b) { return a.slave.node < b.slave.node; });
   rejectSharedNodes(nodes, interfaces, mesh);
   rejectChains(nodes, interfaces, mesh);
   std::vector<Connection> connections;
