@@ -10,6 +10,7 @@
 #include "contact/coupled.hpp"
 #include "contact/interfaces.hpp"
 #include "elasticity/elasticity.hpp"
+#include "elasticity/element.hpp"
 #include "elasticity/ground.hpp"
 #include "elasticity/material.hpp"
 #include "flutter/influence.hpp"
@@ -36,14 +37,23 @@ std::string unusedText(PetscInt nodes) {
                     : "; " + std::to_string(nodes) + " nodes in no cell are not used";
 }
 
+std::string straightenedText(const mesh::Straightened& done) {
+  if (done.nodes == 0) return "";
+  return formatted("; -mesh_straighten: %" PetscInt_FMT " nodes of %" PetscInt_FMT
+                   " cells moved by up to %.3g m in %" PetscInt_FMT " rounds, %" PetscInt_FMT
+                   " cells were folded",
+                   done.nodes, done.cells, done.largestMove, done.rounds, done.folded);
+}
+
 mesh::Mesh readMesh(MPI_Comm comm) {
   const mesh::Request request = meshRequest();
   Stage stage(comm, "mesh");
   mesh::Mesh mesh = mesh::read(comm, request);
   stage.finish(formatted(
-      "%s: %" PetscInt_FMT " nodes, %" PetscInt_FMT " cells, %zu bodies in %d connected parts%s",
+      "%s: %" PetscInt_FMT " nodes, %" PetscInt_FMT " cells, %zu bodies in %d connected parts%s%s",
       resolvedOptions().at("mesh_file").c_str(), mesh.totalNodes, mesh.totalCells,
-      mesh.bodies.size(), mesh.parts, unusedText(mesh.unusedNodes).c_str()));
+      mesh.bodies.size(), mesh.parts, unusedText(mesh.unusedNodes).c_str(),
+      straightenedText(mesh.straightened).c_str()));
   return mesh;
 }
 
@@ -257,6 +267,7 @@ void solveMeshSegment(Analysis& analysis, std::size_t first, std::size_t last,
 
 mesh::Request meshRequest() {
   mesh::Request request;
+  request.geometry = {elasticity::foldedAnywhere, elasticity::straightened};
   request.bodies = elasticity::materialGroups();
   request.moving = elasticity::movingBodies();
   request.nodeGroups = contact::constrainedGroups();

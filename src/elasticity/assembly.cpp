@@ -60,7 +60,7 @@ std::vector<Point> pointsOf(const mesh::Mesh& mesh, std::span<const PetscInt> no
 
 namespace {
 
-/// The number of some cells of all ranks, and the first three by their tags in words.
+/// The number of some cells of all ranks, and the first ten by their tags in words.
 struct CellsNamed {
   PetscInt count = 0;
   std::string words;
@@ -68,7 +68,7 @@ struct CellsNamed {
 
 /// Collective. Returns the number and the first names of the cells that the ranks have.
 CellsNamed named(const mesh::Mesh& mesh, std::vector<CellName> cells) {
-  constexpr PetscInt most = 3;
+  constexpr PetscInt most = 10;
   CellsNamed result;
   result.count = cells.size();
   check(MPI_Allreduce(MPI_IN_PLACE, &result.count, 1, MPIU_INT, MPI_SUM, mesh.comm));
@@ -92,13 +92,37 @@ CellsNamed named(const mesh::Mesh& mesh, std::vector<CellName> cells) {
 
 }  // namespace
 
-void failOnInverted(const mesh::Mesh& mesh, const std::vector<CellName>& inverted) {
-  const auto [count, words] = named(mesh, inverted);
-  if (count == 1)
-    throw Error("inverted element: " + words + " has a Jacobian that is not positive");
-  if (count > 1)
-    throw Error("inverted elements: " + std::to_string(count) +
-                " cells have a Jacobian that is not positive: " + words);
+InvertedCell invertedCell(const mesh::CellBlock& block, std::size_t e,
+                          const std::vector<Point>& nodes) {
+  const ShapeTable& table = shapeTable(block.type);
+  return {nameOf(block, e), jacobianRatio(block.type, nodes),
+          table.nodes == table.corners ||
+              folded(stiffnessTable(block.type), straightened(block.type, nodes))};
+}
+
+void failOnInverted(const mesh::Mesh& mesh, const std::vector<InvertedCell>& inverted) {
+  std::vector<CellName> names;
+  double worst = 1;
+  PetscInt byCorners = 0;
+  for (const auto& cell : inverted) {
+    names.push_back(cell.name);
+    worst = std::min(worst, cell.ratio);
+    byCorners += cell.byCorners;
+  }
+  const auto [count, words] = named(mesh, names);
+  if (count == 0) return;
+  check(MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE, MPI_MIN, mesh.comm));
+  check(MPI_Allreduce(MPI_IN_PLACE, &byCorners, 1, MPIU_INT, MPI_SUM, mesh.comm));
+  const std::string least = formatted(", at worst %.2g of its largest", worst);
+  std::string message =
+      count == 1 ? "inverted element: " + words + " has a Jacobian that is not positive" + least
+                 : "inverted elements: " + std::to_string(count) +
+                       " cells have a Jacobian that is not positive" + least + ": " + words;
+  if (byCorners < count) message += "; -mesh_straighten bad straightens the edges of such cells";
+  if (byCorners > 0)
+    message += "; with straight edges too, by the corners alone, it is not in " +
+               std::to_string(byCorners) + " of them: mesh anew";
+  throw Error(message);
 }
 
 void warnOfFoldedCells(const mesh::Mesh& mesh) {
@@ -112,7 +136,8 @@ void warnOfFoldedCells(const mesh::Mesh& mesh) {
     complain(mesh.comm, "warning: " + std::to_string(count) +
                             (count == 1 ? " curved cell has" : " curved cells have") +
                             " a Jacobian that is not positive near an edge; stiffness is "
-                            "integrated at fewer points there: " +
+                            "integrated at fewer points there (-mesh_straighten bad straightens "
+                            "such cells): " +
                             words);
 }
 

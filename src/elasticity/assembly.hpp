@@ -52,25 +52,34 @@ inline CellName nameOf(const mesh::CellBlock& block, std::size_t e) {
   return {block.tag[e], block.type, block.body[e]};
 }
 
+/// A cell that cannot be integrated.
+struct InvertedCell {
+  CellName name;
+  double ratio;    ///< jacobianRatio()
+  bool byCorners;  ///< it is inverted with straight edges as well
+};
+/// Not collective. Returns the description of a cell that throws InvertedElement.
+InvertedCell invertedCell(const mesh::CellBlock& block, std::size_t e,
+                          const std::vector<Point>& nodes);
 /// Collective. Throws Error on all ranks if any rank has inverted cells. The message gives their
-/// number and names the first three of them.
-void failOnInverted(const mesh::Mesh& mesh, const std::vector<CellName>& inverted);
+/// number and the worst Jacobian, names the first ten of them, and says what helps.
+void failOnInverted(const mesh::Mesh& mesh, const std::vector<InvertedCell>& inverted);
 
 /// Collective. Warns in one line of cells that are used although folded(), with their number and
-/// the first three of them.
+/// the first ten of them.
 void warnOfFoldedCells(const mesh::Mesh& mesh);
 
 /// Collective. Calls `visit(block, cell index, table, coordinates)` for each cell of this rank.
 /// Throws Error on all ranks if a call throws InvertedElement.
 template <class Visit>
 void forEachCell(const mesh::Mesh& mesh, Visit visit) {
-  std::vector<CellName> inverted;
+  std::vector<InvertedCell> inverted;
   for (const auto& block : mesh.cells) {
     const ShapeTable& table = shapeTable(block.type);
     for (std::size_t e = 0; e < block.tag.size(); ++e) try {
         visit(block, e, table, pointsOf(mesh, block.nodesOf(e)));
       } catch (const InvertedElement&) {
-        inverted.push_back(nameOf(block, e));
+        inverted.push_back(invertedCell(block, e, pointsOf(mesh, block.nodesOf(e))));
       }
   }
   failOnInverted(mesh, inverted);

@@ -4,6 +4,9 @@
 
 #include <petscblaslapack.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "elasticity/jacobian.hpp"
 
 namespace squeal::elasticity {
@@ -142,18 +145,48 @@ Matrix3 stressAt(const StrainMatrix& strain, int q, const Hooke& hooke,
            {sigma[5], sigma[4], sigma[2]}}};
 }
 
+/// Returns det J at the points of the rule.
+std::vector<double> determinants(const ShapeTable& table, const std::vector<Point>& nodes) {
+  std::vector<double> all;
+  for (int q = 0; q < table.points(); ++q)
+    all.push_back(
+        determinant(jacobian(table.gradient.data() + 3 * q * table.nodes, nodes, table.dimension)));
+  return all;
+}
+
 }  // namespace
 
 bool folded(const ShapeTable& table, const std::vector<Point>& nodes) {
-  for (int q = 0; q < table.points(); ++q)
-    if (!(determinant(
-              jacobian(table.gradient.data() + 3 * q * table.nodes, nodes, table.dimension)) > 0))
-      return true;
-  return false;
+  const auto all = determinants(table, nodes);
+  return std::any_of(all.begin(), all.end(), [](double det) { return !(det > 0); });
 }
 
 const ShapeTable& gradientTable(const ShapeTable& table, const std::vector<Point>& nodes) {
   return folded(table, nodes) ? stiffnessTable(table.type) : table;
+}
+
+bool foldedAnywhere(int type, const std::vector<Point>& nodes) {
+  return folded(stiffnessTable(type), nodes) || folded(shapeTable(type), nodes);
+}
+
+double jacobianRatio(int type, const std::vector<Point>& nodes) {
+  auto all = determinants(stiffnessTable(type), nodes);
+  const auto strict = determinants(shapeTable(type), nodes);
+  all.insert(all.end(), strict.begin(), strict.end());
+  const auto [least, greatest] = std::minmax_element(all.begin(), all.end());
+  return *least / std::max(std::abs(*least), std::abs(*greatest));
+}
+
+std::vector<Point> straightened(int type, const std::vector<Point>& nodes) {
+  const ShapeTable& table = shapeTable(type);
+  std::vector<Point> straight = nodes;
+  for (int i = table.corners; i < table.nodes; ++i) {
+    straight[i] = {};
+    for (int c = 0; c < table.corners; ++c)
+      for (std::size_t d = 0; d < 3; ++d)
+        straight[i][d] += table.cornerValue[i * table.corners + c] * nodes[c][d];
+  }
+  return straight;
 }
 
 std::vector<double> stiffness(const ShapeTable& table, const std::vector<Point>& nodes,

@@ -21,6 +21,15 @@ bool folded(const ShapeTable& table, const std::vector<Point>& nodes);
 /// cell is folded.
 const ShapeTable& gradientTable(const ShapeTable& table, const std::vector<Point>& nodes);
 
+/// Returns true if the cell is folded on the rule of its stiffness or on the stricter one of its
+/// mass. `type` is gmsh's.
+bool foldedAnywhere(int type, const std::vector<Point>& nodes);
+/// Returns the smallest det J at the points of both rules over the largest |det J| there.
+double jacobianRatio(int type, const std::vector<Point>& nodes);
+/// Returns the nodes of the cell with straight edges: nodes other than corners are moved to where
+/// the linear cell of the same corners has them.
+std::vector<Point> straightened(int type, const std::vector<Point>& nodes);
+
 /// Returns the stiffness
 ///   K_ij = ∫ Bᵢᵀ D Bⱼ,
 /// row-major, rows and columns [node][component], N/m (per unit thickness in the plane). If

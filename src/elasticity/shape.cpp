@@ -24,6 +24,14 @@ std::string elementName(int dimension, int corners, int nodes) {
   return shape + std::to_string(nodes);
 }
 
+/// Returns the gmsh type of first order with these corners.
+int linearType(int dimension, int corners) {
+  static const std::map<std::pair<int, int>, int> types{{{0, 1}, 15}, {{1, 2}, 1}, {{2, 3}, 2},
+                                                        {{2, 4}, 3},  {{3, 4}, 4}, {{3, 8}, 5},
+                                                        {{3, 6}, 6},  {{3, 5}, 7}};
+  return types.at({dimension, corners});
+}
+
 /// Returns the table with a rule of this degree; 0 stands for 2·order + 1.
 ShapeTable tabulate(int type, int degree) {
   ShapeTable table;
@@ -44,6 +52,7 @@ ShapeTable tabulate(int type, int degree) {
     for (int d = 0; d < 3; ++d)
       nodes.push_back(d < table.dimension ? local[i * table.dimension + d] : 0.0);
   table.nodeGradient = basis(type, nodes, "GradLagrange");
+  table.cornerValue = basis(linearType(table.dimension, table.corners), nodes, "Lagrange");
   table.centreGradient = basis(type, {0, 0, 0}, "GradLagrange");
   return table;
 }

@@ -14,6 +14,7 @@ struct ShapeTable {
   std::vector<double> value;         ///< [point][node]
   std::vector<double> gradient;      ///< [point][node][3] with respect to the reference coordinates
   std::vector<double> nodeGradient;  ///< [node as a point][node][3]
+  std::vector<double> cornerValue;   ///< [node][corner] linear shape functions of the corners
   /// [node][3] at the centre of a line, quadrilateral or hexahedron
   std::vector<double> centreGradient;
 

@@ -4,6 +4,7 @@
 #include <petscsys.h>
 
 #include <array>
+#include <functional>
 #include <map>
 #include <span>
 #include <string>
@@ -61,6 +62,15 @@ struct ContactPair {
   int masterPart;   ///< connected part of the master node; −1 for a rigid obstacle
 };
 
+/// What `-mesh_straighten` has done to the whole mesh.
+struct Straightened {
+  PetscInt folded = 0;     ///< cells whose Jacobian was not positive, those of all rounds
+  PetscInt cells = 0;      ///< cells with a node that was moved
+  PetscInt nodes = 0;      ///< nodes moved
+  PetscInt rounds = 0;     ///< a round takes the cells that the one before it has folded
+  double largestMove = 0;  ///< m
+};
+
 /// The part of the mesh on this rank, with the names and totals of the whole.
 struct Mesh {
   MPI_Comm comm = MPI_COMM_NULL;
@@ -68,6 +78,7 @@ struct Mesh {
   PetscInt totalNodes = 0, totalCells = 0;
   /// Number of nodes of the file in no cell, without those that gmsh makes at points.
   PetscInt unusedNodes = 0;
+  Straightened straightened;
   PetscInt ownedNodes = 0;  ///< local nodes 0 … ownedNodes−1 are owned here, the rest are ghosts
   PetscInt firstNode = 0;   ///< global number of local node 0; owned nodes are contiguous
   std::vector<PetscInt> globalNode;  ///< [local node] global number
@@ -115,6 +126,14 @@ struct PeriodicRequest {
   std::string option;  ///< the option that asks for it, with its dash, for messages
 };
 
+/// What later stages know of a cell by its gmsh type and the places of its nodes, m.
+struct CellGeometry {
+  /// Returns true if the Jacobian is not positive at a point where the cell is integrated.
+  std::function<bool(int type, const std::vector<Point>& nodes)> isFolded;
+  /// Returns the places of the nodes with all edges straight.
+  std::function<std::vector<Point>(int type, const std::vector<Point>& nodes)> straightened;
+};
+
 /// The groups that the later stages need from the mesh.
 struct Request {
   std::vector<GroupRequest> bodies;  ///< volume groups with a material
@@ -126,6 +145,7 @@ struct Request {
   std::vector<InterfaceRequest> interfaces;
   std::vector<PeriodicRequest> periodic;
   std::string howToGiveMaterials;  ///< "give -…", for a group of cells that has none
+  CellGeometry geometry;           ///< for `-mesh_straighten`
   std::string motionOptions;       ///< "-…", for interfaces on which neither side moves
 };
 

@@ -8,6 +8,7 @@
 
 #include "mesh/pairing.hpp"
 #include "mesh/partition.hpp"
+#include "mesh/straighten.hpp"
 #include "mesh/whole.hpp"
 #include "meshfile/format.hpp"
 #include "meshfile/geometry.hpp"
@@ -130,6 +131,7 @@ Buffer pack(const WholeMesh& mesh, const Numbering& numbering, const Shares& sha
   Buffer buffer;
   buffer.put(std::vector<PetscInt>{mesh.dimension, mesh.nodeCount(), mesh.cellCount(), end - first,
                                    first, parts, mesh.unusedNodes});
+  buffer.put(std::vector{mesh.straightened});
   buffer.put(mesh.bodies);
   buffer.put(mesh.surfaces);
   buffer.put(mesh.partName);
@@ -185,6 +187,7 @@ Mesh unpack(MPI_Comm comm, Buffer& buffer) {
   mesh.dimension = sizes[0], mesh.totalNodes = sizes[1], mesh.totalCells = sizes[2];
   mesh.ownedNodes = sizes[3], mesh.firstNode = sizes[4], mesh.parts = sizes[5];
   mesh.unusedNodes = sizes[6];
+  mesh.straightened = buffer.take<Straightened>().at(0);
   mesh.bodies = buffer.takeTexts();
   mesh.surfaces = buffer.takeTexts();
   mesh.partName = buffer.takeTexts();
@@ -256,6 +259,7 @@ Mesh read(MPI_Comm comm, const Request& request) {
   if (rank == 0) try {
       WholeMesh whole = load(file, parameters, request);
       pairNodes(whole, request);
+      straighten(whole, request.geometry);
       const auto cellRank = partition(whole, size);
       const Numbering numbering = number(whole, cellRank, size);
       const Shares shares = share(whole, numbering, cellRank, size);

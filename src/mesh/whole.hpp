@@ -35,6 +35,7 @@ struct WholeMesh {
   std::vector<Point> points;
   std::vector<PetscInt> tags;
   PetscInt unusedNodes = 0;  ///< see Mesh
+  Straightened straightened;
   std::vector<std::string> bodies, surfaces;
   std::vector<WholeBlock> cells;
   std::vector<WholeFaces> faces;

@@ -104,6 +104,12 @@ void writeSummary(const analysis::Analysis& analysis, const std::filesystem::pat
   if (analysis.mesh) {
     summary["nodes"] = analysis.mesh->totalNodes;
     summary["cells"] = analysis.mesh->totalCells;
+    if (const auto& done = analysis.mesh->straightened; done.nodes > 0)
+      summary["straightened"] = {{"folded_cells", done.folded},
+                                 {"cells", done.cells},
+                                 {"nodes", done.nodes},
+                                 {"rounds", done.rounds},
+                                 {"largest_move_m", done.largestMove}};
     summary["contact_nodes"] = analysis.contact.totalNodes;
   }
   summary["method"] = direct::directWanted() ? "direct" : "reduced";

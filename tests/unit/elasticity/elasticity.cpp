@@ -242,23 +242,24 @@ TEST(Elasticity, NamesAnInvertedElementOnAllRanks) {
   }
 }
 
-/// Quadratic tetrahedra of corners 0, x, y, z, each 10 m from the last, tags 7 and 9. The node in
-/// the middle of the edge along x is moved by `inwards` along y and along z: det J falls near that
-/// edge, and the volume is (1 − 2 inwards) / 6 m³.
-std::string curvedTetrahedra(double inwards) {
+/// Quadratic tetrahedra of corners 0, x, y, z, each 10 m from the last, tags 7, 9, 11 and so on.
+/// The node in the middle of the edge along x is moved by `inwards` along y and along z: det J
+/// falls near that edge, and the volume is (1 − 2 inwards) / 6 m³.
+std::string curvedTetrahedra(double inwards, int count) {
   const double x[10][3] = {
       {0, 0, 0},     {1, 0, 0},   {0, 1, 0},   {0, 0, 1},     {0.5, inwards, inwards},
       {0.5, 0.5, 0}, {0, 0.5, 0}, {0, 0, 0.5}, {0, 0.5, 0.5}, {0.5, 0, 0.5}};
   std::string text =
       "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 1 "
-      "\"body\"\n$EndPhysicalNames\n$Nodes\n20\n";
-  for (int cell = 0; cell < 2; ++cell)
+      "\"body\"\n$EndPhysicalNames\n$Nodes\n" +
+      std::to_string(10 * count) + "\n";
+  for (int cell = 0; cell < count; ++cell)
     for (int i = 0; i < 10; ++i) {
       text += std::to_string(10 * cell + i + 1) + " " + std::to_string(x[i][0] + 10 * cell);
       text += " " + std::to_string(x[i][1]) + " " + std::to_string(x[i][2]) + "\n";
     }
-  text += "$EndNodes\n$Elements\n2\n";
-  for (int cell = 0; cell < 2; ++cell) {
+  text += "$EndNodes\n$Elements\n" + std::to_string(count) + "\n";
+  for (int cell = 0; cell < count; ++cell) {
     text += std::to_string(7 + 2 * cell) + " 11 2 1 1";
     for (int i = 0; i < 10; ++i) text += " " + std::to_string(10 * cell + i + 1);
     text += "\n";
@@ -273,9 +274,9 @@ struct CurvedCells {
 };
 
 /// Collective. The warning on rank 0 alone.
-CurvedCells assembleCurved(double inwards) {
+CurvedCells assembleCurved(double inwards, int count = 2) {
   CurvedCells cells;
-  test::setOptions("-mesh_file " + test::writeFile("curved.msh", curvedTetrahedra(inwards)) +
+  test::setOptions("-mesh_file " + test::writeFile("curved.msh", curvedTetrahedra(inwards, count)) +
                    test::material("body", std::to_string(young), std::to_string(poisson),
                                   std::to_string(density)));
   cells.mesh = test::readMesh();
@@ -296,7 +297,7 @@ TEST(CurvedTetrahedra, AreOfUseWhereTheStiffnessHasNoNegativePoint) {
     const std::string expected =
         "squeal: warning: 2 curved cells have a Jacobian that is not positive near an edge; "
         "stiffness is integrated at fewer "
-        "points there: "
+        "points there (-mesh_straighten bad straightens such cells): "
         "cell 7 (tet10) of group 'body', cell 9 (tet10) of group 'body'\n";
     EXPECT_EQ(cells.warning, rank == 0 && inwards > 0.174 ? expected : "") << inwards;
     // The mass is that of the true volume, and positive definite, which the integral with a
@@ -310,10 +311,23 @@ TEST(CurvedTetrahedra, AreOfUseWhereTheStiffnessHasNoNegativePoint) {
         << inwards;                                                // six rigid motions of each cell
     EXPECT_GT(stiffness[12], 1e-7 * stiffness.back()) << inwards;  // and no other
   }
+  // det J = 1 − 8 · 0.24 ξ, at the points of degree 5 from ξ = 0.0455 to 0.7218: −0.42 in ratio.
   EXPECT_EQ(assembleCurved(0.24).message,
-            "inverted elements: 2 cells have a Jacobian that is not positive: cell 7 (tet10) of "
-            "group 'body', cell 9 (tet10) of group "
-            "'body'");
+            "inverted elements: 2 cells have a Jacobian that is not positive, at worst -0.42 of "
+            "its largest: cell 7 (tet10) of group 'body', cell 9 (tet10) of group 'body'; "
+            "-mesh_straighten bad straightens the edges of such cells");
+}
+
+// The lists end after ten names, by tag; the count is of all.
+TEST(CurvedTetrahedra, TenAreNamed) {
+  const auto message = assembleCurved(0.24, 12).message;
+  EXPECT_TRUE(test::contains(message, "inverted elements: 12 cells")) << message;
+  EXPECT_TRUE(test::contains(message, "cell 25 (tet10) of group 'body', …;")) << message;
+  EXPECT_FALSE(test::contains(message, "cell 27 ")) << message;
+  const auto warning = assembleCurved(0.19, 12).warning;  // of rank 0
+  int rank = 0;
+  check(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
+  EXPECT_EQ(test::contains(warning, "warning: 12 curved cells have"), rank == 0) << warning;
 }
 
 // Terms with J⁻¹ take the points of the stiffness there, and G stays skew.
