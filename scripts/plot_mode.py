@@ -21,9 +21,11 @@ from results import Results  # noqa: E402
 # Corner nodes of the faces of the cell types, in gmsh's order; a plane cell is its own face.
 TETRAHEDRON = [[0, 1, 2], [0, 1, 3], [1, 2, 3], [0, 2, 3]]
 HEXAHEDRON = [[0, 1, 2, 3], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]]
+PYRAMID = [[0, 1, 2, 3], [0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]]
 WEDGE = [[0, 1, 2], [3, 4, 5], [0, 1, 4, 3], [1, 2, 5, 4], [2, 0, 3, 5]]
 FACES = {2: [[0, 1, 2]], 9: [[0, 1, 2]], 3: [[0, 1, 2, 3]], 10: [[0, 1, 2, 3]], 16: [[0, 1, 2, 3]],
-         4: TETRAHEDRON, 11: TETRAHEDRON, 5: HEXAHEDRON, 12: HEXAHEDRON, 17: HEXAHEDRON, 6: WEDGE, 13: WEDGE, 18: WEDGE}
+         4: TETRAHEDRON, 11: TETRAHEDRON, 5: HEXAHEDRON, 12: HEXAHEDRON, 17: HEXAHEDRON, 6: WEDGE, 13: WEDGE, 18: WEDGE,
+         7: PYRAMID, 14: PYRAMID, 19: PYRAMID}
 
 
 def boundary(mesh):

@@ -8,7 +8,7 @@ namespace squeal::elasticity {
 
 struct ShapeTable {
   int type = 0, dimension = 0, order = 0, nodes = 0, corners = 0;
-  std::string name;                  ///< tri3, tri6, quad4, …, hex27
+  std::string name;                  ///< tri3, tri6, quad4, …, hex27, pyramid14
   std::vector<double> weight;        ///< [point]
   std::vector<double> point;         ///< [point][3] reference coordinates
   std::vector<double> value;         ///< [point][node]
@@ -22,7 +22,10 @@ struct ShapeTable {
 };
 
 /// Returns the table of a gmsh element type, made on first use. Its rule integrates polynomials of
-/// the degree 2·order + 1 exactly. Not collective.
+/// the degree 2·order + 1 exactly. The shape functions of pyramids are rational, with the limit 0
+/// or 1 at the apex; those of (Bergot, Cohen and Duruflé 2010) are polynomials in the coordinates
+/// of the cube that collapses to the pyramid, in which its rule is a product of Gauss rules and as
+/// exact for them. Not collective.
 const ShapeTable& shapeTable(int gmshType);
 /// Returns the table with the smallest rule that the stiffness needs. tri6 has three and tet10 four
 /// points, which is exact where the cell is straight; degree 2 keeps the order of convergence

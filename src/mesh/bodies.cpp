@@ -16,7 +16,7 @@ namespace {
 /// Throws Error unless the cells are of first or second order; reports and contact support no
 /// others.
 void requireSupported(const WholeBlock& block, const std::string& body) {
-  static const std::set<int> supported = {2, 3, 4, 5, 6, 9, 10, 11, 12, 13, 16, 17, 18};
+  static const std::set<int> supported = {2, 3, 4, 5, 6, 7, 9, 10, 11, 12, 13, 14, 16, 17, 18, 19};
   if (supported.count(block.type)) return;
   std::string name;
   int dimension = 0, order = 0, nodes = 0, corners = 0;
@@ -25,7 +25,7 @@ void requireSupported(const WholeBlock& block, const std::string& body) {
                                           corners);
   throw Error("option -mesh_file: group '" + body + "' has cells '" + name +
               "'; supported are tri3, tri6, quad4, quad8, quad9, tet4, tet10, hex8, hex20, hex27, "
-              "wedge6, wedge15, wedge18");
+              "wedge6, wedge15, wedge18, pyramid5, pyramid13, pyramid14");
 }
 
 std::string cellText(const WholeMesh& mesh, const ElementPlace& place) {

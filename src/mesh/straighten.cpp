@@ -42,9 +42,7 @@ class Bundles {
 
 double length(const Point& p) { return std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]); }
 
-Point difference(const Point& a, const Point& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
+Point difference(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 class Straightener {
  public:
@@ -66,13 +64,12 @@ class Straightener {
   void run(bool all) {
     std::vector<std::vector<char>> straight;
     for (const auto& block : mesh_.cells) straight.emplace_back(block.tag.size(), 0);
-    for (bool again = true; again; ) {
+    for (bool again = true; again;) {
       std::vector<std::pair<std::size_t, std::size_t>> cells;  // (block, element)
       for (std::size_t b = 0; b < mesh_.cells.size(); ++b)
         for (std::size_t e = 0; e < mesh_.cells[b].tag.size(); ++e) {
           if (straight[b][e] || !isCurvedAndTouched(mesh_.cells[b], e)) continue;
-          const bool folded =
-              geometry_.isFolded(mesh_.cells[b].type, places(mesh_.cells[b], e));
+          const bool folded = geometry_.isFolded(mesh_.cells[b].type, places(mesh_.cells[b], e));
           mesh_.straightened.folded += folded;
           if (folded || all) cells.emplace_back(b, e);
         }
@@ -118,8 +115,8 @@ class Straightener {
     for (const auto& block : mesh_.cells)
       for (std::size_t e = 0; e < block.tag.size(); ++e) {
         const auto nodes = block.nodesOf(e);
-        mesh_.straightened.cells += std::any_of(nodes.begin(), nodes.end(),
-                                                [&](PetscInt node) { return moved_[node]; });
+        mesh_.straightened.cells +=
+            std::any_of(nodes.begin(), nodes.end(), [&](PetscInt node) { return moved_[node]; });
       }
   }
 

@@ -40,7 +40,9 @@ std::vector<int> sameOrder(int nodes) {
 
 // Corners and, in the plane, mid-side nodes have the same order in gmsh and VTK. In solids gmsh
 // sorts the mid-edge nodes by the corners of their edge, VTK walks round the base, then round the
-// top, then up the edges between (tetrahedra: base, then up). The mid-face nodes of bricks: gmsh −z
+// top, then up the edges between (tetrahedra and
+// pyramids: base, then up). VTK has no pyramid of 14 nodes: the one in the middle of the base is
+// left out. The mid-face nodes of bricks: gmsh −z
 // −y −x +x +y +z, VTK −x +x −y +y −z +z.
 const std::map<int, VtkCell>& cellsByGmshType() {
   static const std::map<int, VtkCell> cells{
@@ -49,6 +51,7 @@ const std::map<int, VtkCell>& cellsByGmshType() {
       {4, {VTK_TETRA, sameOrder(4)}},
       {5, {VTK_HEXAHEDRON, sameOrder(8)}},
       {6, {VTK_WEDGE, sameOrder(6)}},
+      {7, {VTK_PYRAMID, sameOrder(5)}},
       {9, {VTK_QUADRATIC_TRIANGLE, sameOrder(6)}},
       {10, {VTK_BIQUADRATIC_QUAD, sameOrder(9)}},
       {11, {VTK_QUADRATIC_TETRA, {0, 1, 2, 3, 4, 5, 6, 7, 9, 8}}},
@@ -57,10 +60,12 @@ const std::map<int, VtkCell>& cellsByGmshType() {
       {13,
        {VTK_BIQUADRATIC_QUADRATIC_WEDGE,
         {0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11, 15, 17, 16}}},
+      {14, {VTK_QUADRATIC_PYRAMID, {0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12}}},
       {16, {VTK_QUADRATIC_QUAD, sameOrder(8)}},
       {17, {VTK_QUADRATIC_HEXAHEDRON, {0,  1, 2,  3,  4,  5,  6,  7,  8,  11,
                                        13, 9, 16, 18, 19, 17, 10, 12, 14, 15}}},
       {18, {VTK_QUADRATIC_WEDGE, {0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11}}},
+      {19, {VTK_QUADRATIC_PYRAMID, {0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12}}},
   };
   return cells;
 }
@@ -93,8 +98,7 @@ void addCells(vtkUnstructuredGrid* grid, const mesh::Mesh& mesh, int rank) {
     const auto& [type, order] = cellsByGmshType().at(block.type);
     std::vector<vtkIdType> nodes(order.size());
     for (std::size_t cell = 0; cell < block.body.size(); ++cell) {
-      for (std::size_t i = 0; i < order.size(); ++i)
-        nodes[i] = block.nodes[cell * order.size() + order[i]];
+      for (std::size_t i = 0; i < order.size(); ++i) nodes[i] = block.nodesOf(cell)[order[i]];
       grid->InsertNextCell(type, nodes.size(), nodes.data());
     }
     bodies.insert(bodies.end(), block.body.begin(), block.body.end());

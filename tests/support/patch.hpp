@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "elasticity/elasticity.hpp"
 #include "elasticity/shape.hpp"
+#include "petsc/text.hpp"
 #include "support/model.hpp"
 
 namespace squeal::test::patch {
@@ -15,7 +17,7 @@ namespace squeal::test::patch {
 inline constexpr double young = 2.0, poisson = 0.3, density = 1.7;
 
 struct Element {
-  const char *label, *name;
+  const char *label, *names;  ///< names of its cells, with blanks between them
   int dimension;
   const char *parameters, *incompatible;
 };
@@ -36,11 +38,23 @@ inline const Element elements[] = {
     {"wedge6", "wedge6", 3, "recombine=0,wedge=1,n=2", "none"},
     {"wedge15", "wedge15", 3, "recombine=0,wedge=1,order=2,serendipity=1", "none"},
     {"wedge18", "wedge18", 3, "recombine=0,wedge=1,order=2", "none"},
+    {"mixed", "hex8 pyramid5 tet4", 3, "", "none"},
+    {"mixed_incompatible", "hex8 pyramid5 tet4", 3, "", "hex8"},
+    {"mixed_serendipity", "hex20 pyramid13 tet10", 3, "order=2,serendipity=1", "none"},
+    {"mixed_quadratic", "hex27 pyramid14 tet10", 3, "order=2", "none"},
 };
 
+inline std::string patchMesh(const Element& element) {
+  const bool mixed = contains(element.label, "mixed");
+  return std::string(" -mesh_file meshes/patch_") +
+         (mixed                    ? "mixed"
+          : element.dimension == 2 ? "2d"
+                                   : "3d") +
+         ".geo" + (*element.parameters ? std::string(" -mesh_set ") + element.parameters : "");
+}
+
 inline std::string patchOptions(const Element& element, const std::string& more = {}) {
-  return std::string("-mesh_file meshes/patch_") + (element.dimension == 2 ? "2d" : "3d") +
-         ".geo -mesh_set " + element.parameters +
+  return patchMesh(element) +
          material("body", std::to_string(young), std::to_string(poisson), std::to_string(density)) +
          "-constraint_boundary_clamped " + (element.dimension == 2 ? "xy" : "xyz") +
          " -load_boundary_pressure 0 -elasticity_incompatible_modes " + element.incompatible + " " +
@@ -57,8 +71,9 @@ class Patch : public testing::TestWithParam<Element> {
     if (!meshes.count(GetParam().label)) meshes[GetParam().label] = readMesh();
     mesh = meshes[GetParam().label];
     bodies = elasticity::assemble(mesh);
-    for (const auto& block : mesh.cells)
-      EXPECT_EQ(elasticity::shapeTable(block.type).name, GetParam().name);
+    std::set<std::string> names;
+    for (const auto& block : mesh.cells) names.insert(elasticity::shapeTable(block.type).name);
+    EXPECT_EQ(joined({names.begin(), names.end()}, " "), GetParam().names);
   }
   int dimension() const { return GetParam().dimension; }
   OwnedVec unit(int component) const {

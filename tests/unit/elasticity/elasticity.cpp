@@ -395,8 +395,30 @@ TEST(StiffnessRule, IsExactOnStraightCells) {
     for (std::size_t i = 0; i < many.size(); ++i)
       EXPECT_NEAR(few[i], many[i], 1e-11 * largest);  // gmsh's points for tetrahedra have 13 digits
   }
-  for (int type : {2, 3, 4, 5, 6, 10, 12, 13, 16, 17, 18})
+  for (int type : {2, 3, 4, 5, 6, 7, 10, 12, 13, 14, 16, 17, 18, 19})
     EXPECT_EQ(&elasticity::stiffnessTable(type), &elasticity::shapeTable(type)) << type;
+}
+
+// ∫ uᵃ vᵇ wᶜ over the pyramid |u|, |v| ≤ 1 − w, 0 ≤ w ≤ 1, and closed in Gamma functions: the
+// points are those of the collapsed cube, and their weights sum to its volume.
+TEST(PyramidRule, IntegratesPolynomialsExactly) {
+  for (int type : {7, 14, 19}) {
+    const auto& table = elasticity::shapeTable(type);
+    const int degree = 2 * table.order + 1;
+    for (int a = 0; a <= degree; ++a)
+      for (int b = 0; a + b <= degree; ++b)
+        for (int c = 0; a + b + c <= degree; ++c) {
+          double sum = 0;
+          for (int q = 0; q < table.points(); ++q) {
+            const double* u = &table.point[3 * q];
+            sum += table.weight[q] * std::pow(u[0], a) * std::pow(u[1], b) * std::pow(u[2], c);
+          }
+          const bool odd = a % 2 == 1 || b % 2 == 1;
+          const double exact = 4.0 / (a + 1) / (b + 1) * std::tgamma(c + 1) *
+                               std::tgamma(a + b + 3) / std::tgamma(a + b + c + 4);
+          EXPECT_NEAR(sum, odd ? 0 : exact, 1e-13) << table.name << " " << a << b << c;
+        }
+  }
 }
 
 }  // namespace

@@ -23,9 +23,15 @@ using mesh::Point;
 /// edge is at (0.5, 0.9), far inside the upper triangle, and that of the lower left edge at
 /// (0.25, 0.5): with the first edge straight, it lies above it.
 std::string nested() {
-  constexpr std::array<std::array<double, 2>, 9> nodes{
-      {{0, 0}, {1, 0}, {0.5, 1}, {0.5, -0.2}, {0.5, 0.9}, {0.75, 0.5}, {0.25, 0.5}, {0.25, 0.5},
-       {0.75, -0.1}}};
+  constexpr std::array<std::array<double, 2>, 9> nodes{{{0, 0},
+                                                        {1, 0},
+                                                        {0.5, 1},
+                                                        {0.5, -0.2},
+                                                        {0.5, 0.9},
+                                                        {0.75, 0.5},
+                                                        {0.25, 0.5},
+                                                        {0.25, 0.5},
+                                                        {0.75, -0.1}}};
   std::string text =
       "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 "
       "\"layer\"\n$EndPhysicalNames\n$Nodes\n9\n";
@@ -120,7 +126,8 @@ std::string bentLayers(const std::string& name, bool recombine) {
 }
 
 const char* const layerOptions =
-    " -motion_disc_velocity 1,0,0 -constraint_disc_bottom_clamped xy -constraint_pad_top_clamped xy "
+    " -motion_disc_velocity 1,0,0 -constraint_disc_bottom_clamped xy -constraint_pad_top_clamped "
+    "xy "
     "-constraint_disc_right_image_of disc_left -constraint_pad_right_image_of pad_left "
     "-contact_interface_pad pad_face -contact_interface_disc disc_face ";
 
@@ -193,7 +200,8 @@ TEST(Straighten, KeepsWhatIsStraightOnEveryElement) {
     std::vector<Point> straight;
     for (int i = 0; i < nodes; ++i) {
       const auto u = [&](int d) { return d < dimension ? local[i * dimension + d] : 0.0; };
-      straight.push_back({1 + 2 * u(0) + 0.3 * u(1) - 0.1 * u(2), 0.2 * u(0) + 3 * u(1) + 0.4 * u(2),
+      straight.push_back({1 + 2 * u(0) + 0.3 * u(1) - 0.1 * u(2),
+                          0.2 * u(0) + 3 * u(1) + 0.4 * u(2),
                           0.1 * u(0) - 0.5 * u(1) + 1.5 * u(2)});
     }
     auto bent = straight;
