@@ -8,6 +8,7 @@
 #include <functional>
 #include <set>
 
+#include "meshfile/cad.hpp"
 #include "meshfile/format.hpp"
 #include "meshfile/geometry.hpp"
 #include "meshfile/msh.hpp"
@@ -25,7 +26,11 @@ struct Job {
   std::string file, option;  ///< the option as messages begin with it
   meshfile::FileKind kind;
   std::vector<meshfile::Setting> settings;
+  meshfile::ShapeMesh shape;       ///< for a shape
   meshfile::MshContents contents;  ///< of a .msh; of a .unv the numbers of nodes and elements
+  bool isMeshedHere() const {
+    return kind == meshfile::FileKind::geometry || kind == meshfile::FileKind::shape;
+  }
   /// Returns true for a .msh file of version 2, which gives each element one group and one entity.
   /// gmsh would put all elements of an entity into all of its groups; it is told to take the groups
   /// for the entities.
@@ -116,13 +121,15 @@ void openWith(const Job& job, const Warn& warn) {
       meshfile::applySettings(job.settings);
       gmsh::clear();
     }
-    gmsh::open(job.file);
+    if (job.kind == meshfile::FileKind::shape)
+      meshfile::importShape(job.file, job.shape, warn);
+    else
+      gmsh::open(job.file);
     meshfile::requireSettingsUsed(job.settings);
     std::vector<std::size_t> tags;
     std::vector<double> coordinates, parametric;
     gmsh::model::mesh::getNodes(tags, coordinates, parametric);
-    if (tags.empty() && job.kind == meshfile::FileKind::geometry)
-      meshfile::meshGeometry(job.file, warn);
+    if (tags.empty() && job.isMeshedHere()) meshfile::meshGeometry(job.file, warn);
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {
@@ -261,14 +268,14 @@ Buffer readWithGmsh(const Job& job, const Warn& warn) {
   return buffer;
 }
 
-/// Returns the limits of the child process. A geometry may take any time and all free memory. The
+/// Returns the limits of the child process. Meshing may take any time and all free memory. The
 /// limits for a mesh file follow from its size, as it may be damaged in ways that the checks miss.
 ChildLimits limitsFor(const Job& job) {
   const std::string subject = "option -mesh_file " + job.file;
   const double free = availableMemory();
   const std::string tooLarge =
       formatted("its mesh needs more than the %.3g GB of memory that are free", free / 1e9);
-  if (job.kind == meshfile::FileKind::geometry) return {subject, {}, free, tooLarge, "gmsh"};
+  if (job.isMeshedHere()) return {subject, {}, free, tooLarge, "gmsh"};
   const double size = std::filesystem::file_size(job.file);
   const double seconds = 5 + 5e-6 * size,
                enough = 5e8 + 100 * size;  // it takes some 15 bytes for a byte of the file
@@ -290,10 +297,12 @@ GmshModel::GmshModel(const std::string& file, const std::vector<std::string>& pa
           "option -mesh_file " + file + ": ",
           meshfile::requireSound(file),
           meshfile::readSettings(parameters),
+          meshfile::shapeMesh(),
           {}};
+  if (job.kind != meshfile::FileKind::shape) meshfile::rejectShapeMesh(file);
   if (!job.settings.empty() && job.kind != meshfile::FileKind::geometry)
     throw Error("option -mesh_set: only a geometry, a .geo file, has parameters; -mesh_file " +
-                file + " is a mesh");
+                file + " is a " + (job.kind == meshfile::FileKind::shape ? "shape" : "mesh"));
   if (job.kind == meshfile::FileKind::msh) job.contents = meshfile::requireSoundMsh(file);
   if (job.kind == meshfile::FileKind::unv) {
     const meshfile::UnvContents contents = meshfile::requireSoundUnv(file);
@@ -302,6 +311,9 @@ GmshModel::GmshModel(const std::string& file, const std::vector<std::string>& pa
   Buffer buffer =
       inChild(limitsFor(job), [&](const Warn& warn) { return readWithGmsh(job, warn); });
   take(buffer);
+  const double scale = meshfile::meshScale();
+  for (auto& point : points_)
+    for (auto& x : point) x *= scale;
 }
 
 void GmshModel::take(Buffer& buffer) {
@@ -328,8 +340,12 @@ void GmshModel::take(Buffer& buffer) {
 const GroupElements& GmshModel::group(const std::string& name, const std::string& wantedBy) const {
   const auto found = groups_.find(groupName(name));
   if (found != groups_.end()) return found->second;
+  constexpr std::size_t most = 40;  // a shape has a group for each face
   std::vector<std::string> names;
-  for (const auto& [known, where] : groups_) names.push_back(known);
+  for (const auto& [known, where] : groups_)
+    if (names.size() < most) names.push_back(known);
+  if (groups_.size() > most)
+    names.push_back("and " + std::to_string(groups_.size() - most) + " more");
   throw Error(wantedBy + " names group '" + name + "', which is not in the mesh; " +
               (names.empty() ? "it has no physical groups at all: name its bodies and surfaces "
                                "(Physical Volume, Physical Surface)"

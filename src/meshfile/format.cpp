@@ -18,20 +18,33 @@ namespace {
 
 const FileOption fileOption(
     "mesh", "mesh_file",
-    "mesh (.msh, .unv) or geometry: a .geo, which is code, is run and meshed in memory");
+    "mesh (.msh, .unv), shape (.step, .iges, .brep), which is meshed in memory, or geometry: a "
+    ".geo, which is code, is run and meshed in memory");
+const RealOption scaleOption("mesh", "mesh_scale", 1.0, "", positive,
+                             "factor on all coordinates: 0.001 for a mesh in mm and all else in SI "
+                             "units");
 
 struct Format {
   const char* ending;
   std::vector<const char*> starts;  ///< beginnings, of which the file has one
   const char* part;  ///< part of the gmsh library that reads it; empty if always there
+  FileKind kind;
 };
 
-/// Returns the formats of which gmsh makes physical groups.
+/// Returns the formats that are data.
 const std::vector<Format>& formats() {
-  static const std::vector<Format> list{{".msh", {"$MeshFormat"}, ""},
-                                        {".unv", {"    -1"}, ""},
-                                        {".med", {"\x89HDF"}, "Med"},
-                                        {".cgns", {"\x89HDF", "@(#)ADF"}, "Cgns"}};
+  const std::vector<const char*> step{"ISO-10303-21"},
+      brep{"DBRep_DrawableShape", "CASCADE Topology", "\nCASCADE Topology"}, any{""};
+  static const std::vector<Format> list{
+      {".msh", {"$MeshFormat"}, "", FileKind::msh},
+      {".unv", {"    -1"}, "", FileKind::unv},
+      {".med", {"\x89HDF"}, "Med", FileKind::mesh},
+      {".cgns", {"\x89HDF", "@(#)ADF"}, "Cgns", FileKind::mesh},
+      {".step", step, "OpenCASCADE", FileKind::shape},
+      {".stp", step, "OpenCASCADE", FileKind::shape},
+      {".brep", brep, "OpenCASCADE", FileKind::shape},
+      {".iges", any, "OpenCASCADE", FileKind::shape},  // its reader takes nothing for a script
+      {".igs", any, "OpenCASCADE", FileKind::shape}};
   return list;
 }
 
@@ -69,8 +82,7 @@ bool isBuiltIn(const std::string& part) {
                 "gmsh writes Abaqus input files but cannot read them; have the mesh written in "
                 "another format: " +
                 list);
-  for (const char* shape :
-       {".step", ".stp", ".iges", ".igs", ".brep", ".stl", ".vtk", ".ply", ".bdf", ".nas", ".mesh"})
+  for (const char* shape : {".stl", ".vtk", ".ply", ".bdf", ".nas", ".mesh"})
     if (ending == shape)
       throw Error(option +
                   "gmsh makes no physical groups of such a file; write a .geo that merges it and "
@@ -82,6 +94,7 @@ bool isBuiltIn(const std::string& part) {
 }  // namespace
 
 std::string meshFile() { return fileOption.get(); }
+double meshScale() { return scaleOption.get(); }
 
 FileKind requireSound(const std::string& file) {
   const std::string option = "option -mesh_file " + file + ": ", ending = endingOf(file);
@@ -97,8 +110,8 @@ FileKind requireSound(const std::string& file) {
     if (std::none_of(format.starts.begin(), format.starts.end(),
                      [&](const char* start) { return beginsWith(file, start); }))
       throw Error(option + "not a " + ending + " file: it does not begin with '" +
-                  (ending == ".unv" || ending == ".msh" ? format.starts[0] : "HDF") + "'");
-    return ending == ".msh" ? FileKind::msh : ending == ".unv" ? FileKind::unv : FileKind::mesh;
+                  (format.kind == FileKind::mesh ? "HDF" : format.starts[0]) + "'");
+    return format.kind;
   }
   refuse(file, ending);
 }

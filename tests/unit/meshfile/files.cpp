@@ -48,9 +48,10 @@ TEST(MeshFile, OnlyAGeometryIsAScript) {
   const auto script = "SystemCall \"touch " + trace + "\";\n";
   if (rank() == 0) fs::remove(trace);
   for (const char* name :
-       {"script.msh", "script.MSH", "script.Msh", "script.txt", "script.pos", "script.py",
-        "script.opt", "script", "script.unv", "script.Unv", "script.cgns", "script.med",
-        "script.inp", "script.msh.gz", "script.geo.txt"}) {
+       {"script.msh",  "script.MSH",    "script.Msh",    "script.txt",  "script.pos",  "script.py",
+        "script.opt",  "script",        "script.unv",    "script.Unv",  "script.cgns", "script.med",
+        "script.step", "script.stp",    "script.brep",   "script.iges", "script.igs",  "script.IGS",
+        "script.inp",  "script.msh.gz", "script.geo.txt"}) {
     expectMessage(messageOf(test::writeFile(name, script)), {"-mesh_file", name});
     EXPECT_FALSE(fs::exists(trace)) << name;
   }
@@ -74,7 +75,7 @@ TEST(MeshFile, OnlyAGeometryIsAScript) {
 TEST(MeshFile, SaysWhatToDoWithOtherFormats) {
   expectMessage(messageOf(test::writeFile("abaqus.inp", "*NODE\n1, 0, 0, 0\n")),
                 {"Abaqus", "cannot read", ".unv"});
-  expectMessage(messageOf(test::writeFile("shape.step", "ISO-10303-21;\n")),
+  expectMessage(messageOf(test::writeFile("shape.stl", "solid\n")),
                 {"no physical groups", "Merge", ".geo"});
 }
 
