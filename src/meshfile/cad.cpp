@@ -146,11 +146,12 @@ void makeGroups(const std::vector<Entity>& solids, const std::vector<Entity>& fa
 ShapeMesh shapeMesh() { return {sizeOption.get(), orderOption.get()}; }
 
 void rejectShapeMesh(const std::string& file) {
-  for (const Option* option : {static_cast<const Option*>(&sizeOption),
-                               static_cast<const Option*>(&orderOption)})
+  for (const Option* option :
+       {static_cast<const Option*>(&sizeOption), static_cast<const Option*>(&orderOption)})
     if (option->given())
-      throw Error("option -" + option->name + ": it is for shapes, .step and the like; -mesh_file " +
-                  file + " is a mesh, or a geometry that sets this itself");
+      throw Error("option -" + option->name +
+                  ": it is for shapes, .step and the like; -mesh_file " + file +
+                  " is a mesh, or a geometry that sets this itself");
 }
 
 void importShape(const std::string& file, const ShapeMesh& mesh, const Warn& warn) {

@@ -21,8 +21,8 @@ void rejectShapeMesh(const std::string& file);
 /// unit, and as they are from BREP. Solids that touch are cut where they do, so that their meshes
 /// share nodes there. Each solid and face becomes a physical group by the last part of its label,
 /// entities of equal labels together. One without a label of its own is `solid_N` or `face_N`, with
-/// the number that gmsh shows for the file. Throws Error if there is no solid; warns of labels whose
-/// faces are not found again after the cuts.
+/// the number that gmsh shows for the file. Throws Error if there is no solid; warns of labels
+/// whose faces are not found again after the cuts.
 void importShape(const std::string& file, const ShapeMesh& mesh, const Warn& warn);
 
 }  // namespace squeal::meshfile

@@ -12,11 +12,11 @@
 
 namespace squeal::test {
 
-/// Collective. Writes the shape and returns its path: a plate of 100 × 100 × 10, z from 0 to 10, the
-/// solid `disc`, and on it a block of 40 × 40 × 5, the solid `brake pad`. In a STEP file the lower
-/// face of the plate has the label `bottom`, the upper one of the block `top`, and the two faces of
-/// the plate at its smallest and largest x are both `side`. gmsh numbers the upper face of the plate
-/// 6 and the lower one of the block 11. `unit` is that of the STEP file, as it writes it.
+/// Collective. Writes the shape and returns its path: a plate of 100 × 100 × 10, z from 0 to 10,
+/// the solid `disc`, and on it a block of 40 × 40 × 5, the solid `brake pad`. In a STEP file the
+/// lower face of the plate has the label `bottom`, the upper one of the block `top`, and the two
+/// faces of the plate at its smallest and largest x are both `side`. gmsh numbers the upper face of
+/// the plate 6 and the lower one of the block 11. `unit` is that of the STEP file, as it writes it.
 inline std::string plateAndBlock(const std::string& name,
                                  const std::string& unit = "SI_UNIT(.MILLI.,.METRE.)") {
   const std::string path = SQUEAL_OUTPUT_DIR "/" + name;

@@ -63,10 +63,10 @@ TEST(Cad, LabelsAreGroups) {
 
 // What has no label of its own is there by its number in the file, also after the cut.
 TEST(Cad, EntitiesWithoutLabelHaveNumbers) {
-  const auto areas = test::areaVectors(readShape(
-      test::plateAndBlock("numbers.step"),
-      "-load_face_1_pressure 1 -load_face_2_pressure 1 -load_face_4_pressure 1 "
-      "-load_face_8_pressure 1 "));
+  const auto areas = test::areaVectors(
+      readShape(test::plateAndBlock("numbers.step"),
+                "-load_face_1_pressure 1 -load_face_2_pressure 1 -load_face_4_pressure 1 "
+                "-load_face_8_pressure 1 "));
   EXPECT_NEAR(areas.at("face_1")[0], -1000, 1e-6);  // both of the label `side`
   EXPECT_NEAR(areas.at("face_2")[0], 1000, 1e-6);
   EXPECT_NEAR(areas.at("face_4")[1], 1000, 1e-6);
@@ -75,9 +75,9 @@ TEST(Cad, EntitiesWithoutLabelHaveNumbers) {
 
 TEST(Cad, SolidsThatTouchShareNodes) {
   for (const std::string size : {"", "-mesh_size 6 "}) {
-    const Mesh mesh =
-        readShape(test::plateAndBlock("touch.step"),
-                  size + "-contact_c_pad face_11 -contact_c_disc face_6 -motion_disc_velocity 1,0,0");
+    const Mesh mesh = readShape(
+        test::plateAndBlock("touch.step"),
+        size + "-contact_c_pad face_11 -contact_c_disc face_6 -motion_disc_velocity 1,0,0");
     EXPECT_EQ(mesh.parts, 2);  // the contact is cut
     EXPECT_GE(test::total(static_cast<double>(mesh.pairs.size())), 9);
     const auto places = test::allCoordinates(mesh);
@@ -173,11 +173,11 @@ TEST(Cad, ErrorsSayWhatIsThere) {
   test::expectMessage(message("meshes/beam.geo", "-mesh_order 2" + materials), {"-mesh_order"});
   test::expectMessage(message(test::writeFile("empty.step", "ISO-10303-21;\n"), materials),
                       {"-mesh_file", "empty.step", "END-ISO-10303-21", "cut off"});
-  test::expectMessage(
-      message(test::writeFile("hollow.step", "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\nENDSEC;\n"
-                                             "END-ISO-10303-21;\n"),
-              materials),
-      {"-mesh_file", "hollow.step"});
+  test::expectMessage(message(test::writeFile("hollow.step",
+                                              "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\nENDSEC;\n"
+                                              "END-ISO-10303-21;\n"),
+                              materials),
+                      {"-mesh_file", "hollow.step"});
   test::expectMessage(message(test::writeFile("text.step", "Mesh 3;\n"), materials),
                       {"text.step", "ISO-10303-21"});
   test::expectMessage(message(test::writeFile("text.igs", "Mesh 3;\n"), materials), {"text.igs"});
