@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <set>
 
 #include "meshfile/cad.hpp"
@@ -271,7 +272,7 @@ Buffer readWithGmsh(const Job& job, const Warn& warn) {
 /// Returns the limits of the child process. Meshing may take any time and all free memory. The
 /// limits for a mesh file follow from its size, as it may be damaged in ways that the checks miss.
 ChildLimits limitsFor(const Job& job) {
-  const std::string subject = "option -mesh_file " + job.file;
+  const std::string subject = job.option.substr(0, job.option.rfind(':'));
   const double free = availableMemory();
   const std::string tooLarge =
       formatted("its mesh needs more than the %.3g GB of memory that are free", free / 1e9);
@@ -304,8 +305,10 @@ GmshModel::GmshModel(const std::string& file, const std::vector<std::string>& pa
     throw Error("option -mesh_set: only a geometry, a .geo file, has parameters; -mesh_file " +
                 file + " is a " + (job.kind == meshfile::FileKind::shape ? "shape" : "mesh"));
   if (job.kind == meshfile::FileKind::msh) job.contents = meshfile::requireSoundMsh(file);
+  std::optional<meshfile::UnvCopy> copy;
   if (job.kind == meshfile::FileKind::unv) {
     const meshfile::UnvContents contents = meshfile::requireSoundUnv(file);
+    if (!contents.groupsAreRead) job.file = copy.emplace(file).path();
     job.contents.nodes = contents.nodes, job.contents.elements = contents.elements;
   }
   Buffer buffer =

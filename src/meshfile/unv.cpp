@@ -1,10 +1,15 @@
 #include "meshfile/unv.hpp"
 
 #include <petscsys.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <set>
@@ -13,6 +18,7 @@
 #include <vector>
 
 #include "petsc/check.hpp"
+#include "petsc/text.hpp"
 
 namespace squeal::meshfile {
 namespace {
@@ -37,7 +43,9 @@ Integer nodesOf(Integer type) {
 
 class Unv {
  public:
-  explicit Unv(const std::string& file) : file_(file), stream_(file, std::ios::binary) {}
+  /// If `copy` is given, the file is written to it with its groups as gmsh can read them.
+  explicit Unv(const std::string& file, std::ostream* copy = nullptr)
+      : file_(file), stream_(file, std::ios::binary), copy_(copy) {}
 
   UnvContents check() {
     while (next()) {
@@ -45,18 +53,21 @@ class Unv {
       require("the number of a section");
       if (isMark()) require("the number of a section");  // an empty section before
       const Integer section = integers(1, "number of a section")[0];
+      if (section == 2467) replace("  2477");  // the same records, which gmsh reads
+      contents_.groupsAreRead &= section != 2467;
       if (section == 2411)
         nodes();
       else if (section == 2412)
         elements();
-      else if (section == 2435 || section == 2452 || section == 2477)
+      else if (section == 2435 || section == 2452 || section == 2467 || section == 2477)
         groups();
       else
         while (require("-1, the end of the section"), !isMark()) continue;
     }
     if (nodes_.empty()) fail("there is no section 2411, of nodes, or nothing in it");
     if (elements_.empty()) fail("there is no section 2412, of elements, or nothing in it");
-    return {std::ssize(nodes_), std::ssize(elements_)};
+    contents_.nodes = std::ssize(nodes_), contents_.elements = std::ssize(elements_);
+    return contents_;
   }
 
  private:
@@ -65,9 +76,14 @@ class Unv {
   }
   /// Moves to the next line that is not empty. Returns false at the end of the file.
   bool next() {
+    if (copy_ && number_ > 0) *copy_ << line_ << '\n';
     do ++number_;
     while (std::getline(stream_, line_) && line_.find_first_not_of(" \t\r") == std::string::npos);
     return !stream_.fail();
+  }
+  /// Puts this text in the place of the line in the copy.
+  void replace(const std::string& text) {
+    if (copy_) line_ = text;
   }
   void require(const char* what) {
     if (!next()) fail(std::string("the file ends where ") + what + " should be");
@@ -145,9 +161,11 @@ class Unv {
       require("the name of a group");
       const auto name = words();
       if (name.empty()) fail("a group without a name");
-      if (!groups_.insert(name[0]).second)
-        fail("there are two groups whose names begin with '" + name[0] +
-             "', which is all that gmsh reads of a name");
+      contents_.groupsAreRead &= name.size() == 1;
+      const std::string whole = joined(name, "_");
+      if (!groups_.insert(whole).second)
+        fail("there are two groups of the name '" + whole + "', with underscores for blanks");
+      replace(whole);
       for (Integer left = head[7]; left > 0; left -= 2) {
         require("the members of a group");
         integers(left > 1 ? 8 : 4, "number");
@@ -157,6 +175,8 @@ class Unv {
 
   const std::string& file_;
   std::ifstream stream_;
+  std::ostream* copy_;
+  UnvContents contents_;
   std::string line_;
   Integer number_ = 0;
   std::unordered_set<Integer> nodes_, elements_;
@@ -166,5 +186,28 @@ class Unv {
 }  // namespace
 
 UnvContents requireSoundUnv(const std::string& file) { return Unv(file).check(); }
+
+UnvCopy::UnvCopy(const std::string& file) {
+  std::string name = std::filesystem::temp_directory_path() / "squeal_XXXXXX.unv";
+  const int descriptor = mkstemps(name.data(), 4);
+  if (descriptor < 0)
+    throw Error("option -mesh_file " + file + ": its groups must be written anew for gmsh, and " +
+                name + " cannot be made: " + std::strerror(errno));
+  close(descriptor);
+  path_ = name;
+  std::ofstream stream(path_, std::ios::binary);
+  Unv(file, &stream).check();
+  stream.close();
+  if (stream.fail()) {
+    std::filesystem::remove(path_);
+    throw Error("option -mesh_file " + file + ": its groups must be written anew for gmsh, and " +
+                path_ + " cannot be written");
+  }
+}
+
+UnvCopy::~UnvCopy() {
+  std::error_code ignored;
+  std::filesystem::remove(path_, ignored);
+}
 
 }  // namespace squeal::meshfile

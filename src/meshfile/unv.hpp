@@ -1,5 +1,5 @@
 #pragma once
-/// This function checks I-deas universal files before gmsh reads them.
+/// These functions check I-deas universal files before gmsh reads them.
 #include <cstdint>
 #include <string>
 
@@ -8,13 +8,30 @@ namespace squeal::meshfile {
 /// The numbers of nodes and elements of a .unv file.
 struct UnvContents {
   std::int64_t nodes = 0, elements = 0;
+  /// False if gmsh would leave out groups, those of the section 2467 as Salome writes it, or all
+  /// but the first word of a name: read a UnvCopy then.
+  bool groupsAreRead = true;
 };
 
 /// Not collective. Returns the contents of a .unv file. Throws Error, with the line, unless the
 /// sections of nodes (2411) and elements (2412) hold tags that are positive and given once, finite
-/// coordinates, and elements on existing nodes. Throws Error also if the names of two groups (2435,
-/// 2452, 2477) begin with the same word, which is all that gmsh reads of a name. gmsh's reader
+/// coordinates, and elements on existing nodes. Throws Error also if two groups (2435,
+/// 2452, 2467, 2477) have the same name. gmsh's reader
 /// silently leaves a section at a line that it does not understand.
 UnvContents requireSoundUnv(const std::string& file);
+
+/// A UnvCopy is a copy of a sound .unv file in the folder for temporary files, with the groups as
+/// gmsh reads them and underscores for blanks in their names. It is removed with the object.
+class UnvCopy {
+ public:
+  /// Throws Error if the copy cannot be written.
+  explicit UnvCopy(const std::string& file);
+  ~UnvCopy();
+  UnvCopy(const UnvCopy&) = delete;
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
 
 }  // namespace squeal::meshfile

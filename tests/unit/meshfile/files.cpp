@@ -13,6 +13,7 @@
 #include "mesh/gmsh_model.hpp"
 #include "petsc/child.hpp"
 #include "support/case.hpp"
+#include "support/mesh_checks.hpp"
 #include "support/mesh_message.hpp"
 #include "support/mesh_text.hpp"
 #include "support/model.hpp"
@@ -162,12 +163,38 @@ TEST(MeshFile, DamagedUnvIsToldByLine) {
       {"         3         1         1        11",
        "        -3         1         1        11",
        {"line 7", "node tag -3"}},
-      {"bottom", "top most", {"two groups whose names begin with 'top'"}},
+      {"bottom", " top ", {"two groups of the name 'top'"}},
   };
   for (const auto& [was, is, words] : damages)
     expectMessage(messageOf(test::writeFile("damaged.unv", changed(sound, was, is))), words);
   for (const std::size_t length : {sound.size() - 7, sound.size() / 2, sound.size() / 4})
     expectMessage(messageOf(test::writeFile("short.unv", sound.substr(0, length))), {"line"});
+}
+
+// gmsh knows the sections 2435, 2452 and 2477 of groups; Salome writes 2467, of the same records.
+// Of a name gmsh reads the first word.
+TEST(MeshFile, GroupsOfUnvHaveTheirWholeNames) {
+  int ranks = 1;
+  check(MPI_Comm_size(PETSC_COMM_WORLD, &ranks));
+  const fs::path folder = SQUEAL_OUTPUT_DIR "/copies_" + std::to_string(ranks);
+  fs::create_directories(folder);
+  setenv("TMPDIR", folder.c_str(), 1);
+  for (const char* section : {"2435", "2452", "2467", "2477"}) {
+    auto text = changed(test::quadranglesUnv(), "  2477\n", std::string("  ") + section + "\n");
+    text = changed(changed(text, "\nbottom\n", "\nface of it\n"), "\ntop\n", "\nface  above\r\n");
+    const auto file = test::writeFile("names.unv", text);
+    test::setOptions("-mesh_file " + file + layer +
+                     "-load_face_of_it_pressure 1 -load_face_above_pressure 1");
+    const auto mesh = test::readMesh();
+    EXPECT_EQ(mesh.totalCells, 2) << section;
+    const auto areas = test::areaVectors(mesh);
+    EXPECT_NEAR(areas.at("face_of_it")[1], -2, 1e-14) << section;
+    EXPECT_NEAR(areas.at("face_above")[1], 2, 1e-14) << section;
+    expectMessage(messageOf(file, layer + "-load_face_pressure 1"),
+                  {"its groups are: face_above, face_of_it, layer"});
+  }
+  EXPECT_TRUE(fs::is_empty(folder));  // the copies are gone
+  unsetenv("TMPDIR");
 }
 
 // The checks look at nodes and elements alone; where gmsh crashes on the rest, its process dies and
