@@ -24,10 +24,10 @@ If (chamfer_depth > 0.7 * h_lining)
 EndIf
 
 // Edge lengths. Parts that touch have different ones.
-size_disc = Min(0.0185 * size, 0.036);
-size_lining = 0.0056 * size;
+size_disc = Min(0.0210 * size, 0.030);
+size_lining = 0.0058 * size;
 size_plate = 0.0075 * size;
-size_piston = 0.0078 * size;
+size_piston = 0.0086 * size;
 size_caliper = 0.0145 * size;
 size_pin = 0.0050 * size;
 size_bracket = 0.0140 * size;
@@ -138,22 +138,31 @@ hole = newv; Cylinder(hole) = {0, 0, 0, 0, 0, z_hat - h_hat, r_hat_in};
 tools[] += {hole};
 hole = newv; Cylinder(hole) = {0, 0, 0, 0, 0, 2 * z_hat, r_bore};
 tools[] += {hole};
-For i In {1 : bolts}
-  a = 2 * Pi * i / bolts;
-  x = r_bolts * Cos(a); y = r_bolts * Sin(a); radius = 0.007; turn = 0; z_low = 0; height = 2 * z_hat;
-  Call Rod;
-  tools[] += {rod};
-EndFor
 outboard[] = BooleanDifference{ Volume{solid[]}; Delete; }{ Volume{tools[]}; Delete; };
 tools[] = {outboard[]};
 For i In {1 : vanes}
-  vane = newv; Box(vane) = {r_ring + 0.004, -0.003, h_cheek - z_face, r_disc - r_ring - 0.008, 0.006, h_disc - 2 * h_cheek};
+  vane = newv; Box(vane) = {r_ring + 0.006, -0.003, h_cheek - z_face, r_disc - r_ring - 0.012, 0.006, h_disc - 2 * h_cheek};
   Rotate{{0, 0, 1}, {0, 0, 0}, 2 * Pi * (i - 0.5) / vanes}{ Volume{vane}; }
   tools[] += {vane};
 EndFor
 disc[] = BooleanUnion{ Volume{ring[]}; Delete; }{ Volume{tools[]}; Delete; };
+radius = 0.007; turn = 0; z_low = z_hat - 2 * h_hat; height = 3 * h_hat;
+For i In {1 : bolts}
+  a = 2 * Pi * i / bolts;
+  x = r_bolts * Cos(a); y = r_bolts * Sin(a);
+  Call Rod;
+  disc[] = BooleanDifference{ Volume{disc[]}; Delete; }{ Volume{rod}; Delete; };
+EndFor
 MeshSize{ PointsOf{ Volume{disc[]}; } } = size_disc;
 body[] = disc[];
+For i In {1 : bolts}
+  a = 2 * Pi * i / bolts;
+  x0 = r_bolts * Cos(a) - 0.007; x1 = x0 + 0.014; y0 = r_bolts * Sin(a) - 0.007; y1 = y0 + 0.014;
+  z0 = z_hat - h_hat; z1 = z_hat;
+  Call Pick;
+  n_arc = quarter; n_axis = quarter - 1;
+  Call Grid;
+EndFor
 x0 = -r_disc; y0 = -r_disc; x1 = r_disc; y1 = r_disc;
 z0 = -z_face; z1 = -z_face;
 Call Pick;
@@ -343,12 +352,12 @@ Physical Surface("finger_face") = picked[];
 x0 = x_pin - r_pin; x1 = x_pin + r_pin; z0 = z_ear; z1 = z_ear + h_ear;
 y0 = -y_pin - r_pin; y1 = -y_pin + r_pin;
 Call Pick;
-n_arc = quarter; n_axis = 2 * quarter - 1;
+n_arc = quarter; n_axis = quarter + 1;
 Call Grid;
 Physical Surface("caliper_hole_leading") = picked[];
 y0 = y_pin - r_pin; y1 = y_pin + r_pin;
 Call Pick;
-n_arc = quarter; n_axis = 2 * quarter - 1;
+n_arc = quarter; n_axis = quarter + 1;
 Call Grid;
 Physical Surface("caliper_hole_trailing") = picked[];
 Physical Volume("caliper") = caliper[];
@@ -374,7 +383,7 @@ For end In {-1 : 1 : 2}
   z0 = z_step;
   Call Pick;
   picked[] -= bottom[];
-  n_arc = quarter; n_axis = 2 * quarter;
+  n_arc = quarter; n_axis = quarter + 2;
   Call Grid;
   Physical Surface(StrCat("pin_", pin, "_shank")) = picked[];
   z0 = z_end; z1 = z0;
@@ -383,7 +392,7 @@ For end In {-1 : 1 : 2}
   z1 = z_step;
   Call Pick;
   picked[] -= bottom[];
-  n_axis = 3 * quarter;
+  n_axis = 2 * quarter + 1;
   Call Grid;
   Physical Surface(StrCat("pin_", pin, "_guide")) = picked[];
   Physical Volume(StrCat("pin_", pin)) = body[];
@@ -437,12 +446,12 @@ For end In {-1 : 1 : 2}
   z0 = -z_tower - h_tower; z1 = -z_tower;
   x0 = x_pin - r_pin; x1 = x_pin + r_pin; y0 = end * y_pin - r_pin; y1 = end * y_pin + r_pin;
   Call Pick;
-  n_arc = quarter; n_axis = 2 * quarter - 1;
+  n_arc = quarter; n_axis = quarter + 1;
   Call Grid;
   Physical Surface(StrCat("bracket_hole_", pin)) = picked[];
   x0 = x_foot + 0.005; x1 = x_foot + 0.017; y0 = end * 0.060 - 0.006; y1 = end * 0.060 + 0.006;
   Call Pick;
-  n_axis = 2 * quarter - 2;
+  n_axis = quarter;
   Call Grid;
   mounting[] += picked[];
   For side In {0 : 1}
@@ -460,4 +469,5 @@ EndFor
 Physical Surface("bracket_bolts") = mounting[];
 Physical Volume("bracket") = bracket[];
 
+Mesh.MinimumCirclePoints = 12;
 Mesh.ElementOrder = order;
