@@ -17,7 +17,7 @@ DefineConstant[
   pad_angle = {48, Name "pad_angle", Min 30, Max 48},                     // sector of a lining
   chamfer_length = {0.010, Name "chamfer_length", Min 0.002, Max 0.015},  // of both ends of a lining, along the disc
   chamfer_depth = {0.004, Name "chamfer_depth", Min 0.001, Max 0.008},    // and away from it
-  r_piston = {0.027, Name "r_piston", Min 0.022, Max 0.028}               // piston and bore
+  r_piston = {0.027, Name "r_piston", Min 0.022, Max 0.0275}              // piston and bore
 ];
 If (chamfer_depth > 0.7 * h_lining)
   Error("chamfer_depth = %g: must be at most 0.7 h_lining = %g", chamfer_depth, 0.7 * h_lining);
@@ -48,13 +48,15 @@ h_hat = 0.008;
 // The pads. Ears at both ends of the back plate slide between the abutments of the bracket, on its rails.
 r_lining_in = 0.092;
 r_lining_out = 0.138;
-margin = 0.002;                 // by which the back plate juts out over the lining
+margin_in = 0.006;              // by which the back plate juts out over the lining, inwards, so that it bears the whole rim of the
+margin_out = 0.004;             // piston, outwards,
+margin_angle = 1;               // and at either end
 x_ear = 0.112;                  // lower side of the ears, on the rails
 x_ear_top = 0.128;
 y_ear = 0.068;                  // ends of the ears, on the abutments
 y_tip = 0.061;                  // from here to y_ear the ears lie on the rails
 // Piston, caliper, pins.
-x_piston = 0.113;
+x_piston = 0.114;
 x_pin = 0.110;
 y_pin = 0.084;
 r_pin = 0.006;
@@ -92,10 +94,17 @@ Return
 
 // In: x, y, radius, turn (of its seams about its axis, degrees), z_low, height. Out: rod, a cylinder whose wall is four surfaces.
 Macro Rod
+  p = newp;
+  Point(p) = {x, y, z_low};
+  For i_rod In {0 : 3}
+    a_rod = turn * Pi / 180 + i_rod * Pi / 2;
+    Point(p + 1 + i_rod) = {x + radius * Cos(a_rod), y + radius * Sin(a_rod), z_low};
+  EndFor
   c = newl;
   For i_rod In {0 : 3}
-    Circle(c + i_rod) = {x, y, z_low, radius, turn * Pi / 180 + i_rod * Pi / 2, turn * Pi / 180 + (i_rod + 1) * Pi / 2};
+    Circle(c + i_rod) = {p + 1 + i_rod, p, i_rod < 3 ? p + 2 + i_rod : p + 1};
   EndFor
+  Delete{ Point{p}; }
   loop = newll;
   Curve Loop(loop) = {c : c + 3};
   base = news;
@@ -207,7 +216,7 @@ For side In {0 : 1}
   lining[] = BooleanDifference{ Volume{sector}; Delete; }{ Volume{tools[]}; Delete; };
   MeshSize{ PointsOf{ Volume{lining[]}; } } = size_lining;
   body[] = lining[];
-  x0 = 0; y0 = -r_disc; x1 = r_disc; y1 = r_disc;
+  x0 = 0; y0 = -0.2; x1 = 0.2; y1 = 0.2;
   z0 = s * z_face; z1 = z0;
   Call Pick;
   Physical Surface(StrCat("lining_", pad, "_face")) = picked[];
@@ -219,7 +228,7 @@ For side In {0 : 1}
   // The back plate. The tips of its ears are volumes of their own within it, so that the part of an ear's lower side that lies on
   // the rail is a surface of its own.
   z_low = side ? z_lining : -z_plate;
-  height = h_plate; r_low = r_lining_in - margin; r_high = r_lining_out + margin; angle = pad_angle + 3;
+  height = h_plate; r_low = r_lining_in - margin_in; r_high = r_lining_out + margin_out; angle = pad_angle + 2 * margin_angle;
   Call Sector;
   tools[] = {};
   tips[] = {};
@@ -233,7 +242,7 @@ For side In {0 : 1}
   plate[] = BooleanFragments{ Volume{middle[]}; Delete; }{ Volume{tips[]}; Delete; };
   MeshSize{ PointsOf{ Volume{plate[]}; } } = size_plate;
   body[] = plate[];
-  x0 = 0; y0 = -r_disc; x1 = r_disc; y1 = r_disc;
+  x0 = 0; y0 = -0.2; x1 = 0.2; y1 = 0.2;
   z0 = s * z_lining; z1 = z0;
   Call Pick;
   Physical Surface(StrCat("plate_", pad, "_front")) = picked[];
