@@ -6,7 +6,7 @@
 SetFactory("OpenCASCADE");
 DefineConstant[
   order = {2, Name "order", Choices {1, 2}},                              // 1 linear, 2 quadratic tetrahedra
-  size = {1, Name "size", Min 0.3, Max 4},                                // factor on the edge lengths of all parts
+  size = {1, Name "size", Min 0.3, Max 2.5},                               // factor on the edge lengths of all parts
   quarter = {3, Name "quarter", Min 2, Max 20, Step 1},                   // edges along a quarter of pins and holes
   vanes = {30, Name "vanes", Min 3, Max 60, Step 1},                      // between the two friction rings of the disc
   bolts = {5, Name "bolts", Min 0, Max 6, Step 1},                        // holes of wheel bolts in the hat
@@ -24,7 +24,7 @@ If (chamfer_depth > 0.7 * h_lining)
 EndIf
 
 // Edge lengths. Parts that touch have different ones.
-size_disc = Min(0.0210 * size, 0.030);
+size_disc = Min(0.0210 * size, 0.027);
 size_lining = 0.0058 * size;
 size_plate = 0.0075 * size;
 size_piston = 0.0086 * size;
@@ -53,12 +53,13 @@ margin_out = 0.004;             // piston, outwards,
 margin_angle = 1;               // and at either end
 x_ear = 0.112;                  // lower side of the ears, on the rails
 x_ear_top = 0.128;
-y_ear = 0.068;                  // ends of the ears, on the abutments
+y_ear = 0.070;                  // ends of the ears, on the abutments
+c_ear = 0.002;                  // chamfer between these sides, which would share nodes without it
 y_tip = 0.061;                  // from here to y_ear the ears lie on the rails
 // Piston, caliper, pins.
 x_piston = 0.114;
 x_pin = 0.110;
-y_pin = 0.084;
+y_pin = 0.086;
 r_pin = 0.006;
 
 // In: volumes body[], box corners x0 … z1. Out: picked[], the surfaces on the boundary of the body that lie in the box, grown by e.
@@ -90,6 +91,20 @@ Macro Sector
   Cylinder(hole) = {0, 0, z_low - height, 0, 0, 3 * height, r_low};
   cut[] = BooleanDifference{ Volume{sector}; Delete; }{ Volume{hole}; Delete; };
   sector = cut[0];
+Return
+
+// In: points p, p + 1, p + 2, extrusion dx, dy, dz. Out: cutter, a volume.
+Macro Cutter
+  l = newl;
+  Line(l) = {p, p + 1};
+  Line(l + 1) = {p + 1, p + 2};
+  Line(l + 2) = {p + 2, p};
+  loop = newll;
+  Curve Loop(loop) = {l, l + 1, l + 2};
+  base = news;
+  Plane Surface(base) = {loop};
+  grown[] = Extrude{dx, dy, dz}{ Surface{base}; };
+  cutter = grown[1];
 Return
 
 // In: x, y, radius, turn (of its seams about its axis, degrees), z_low, height. Out: rod, a cylinder whose wall is four surfaces.
@@ -202,16 +217,9 @@ For side In {0 : 1}
       d = (corner == 1) ? 2 * chamfer_depth : -chamfer_depth;           // from the disc on
       Point(p + corner) = {r_lining_in / 2 * Cos(a) + end * t * Sin(a), r_lining_in / 2 * Sin(a) - end * t * Cos(a), s * (z_face + d)};
     EndFor
-    l = newl;
-    Line(l) = {p, p + 1};
-    Line(l + 1) = {p + 1, p + 2};
-    Line(l + 2) = {p + 2, p};
-    loop = newll;
-    Curve Loop(loop) = {l, l + 1, l + 2};
-    triangle = news;
-    Plane Surface(triangle) = {loop};
-    wedge[] = Extrude{r_lining_out * Cos(a), r_lining_out * Sin(a), 0}{ Surface{triangle}; };
-    tools[] += {wedge[1]};
+    dx = r_lining_out * Cos(a); dy = r_lining_out * Sin(a); dz = 0;
+    Call Cutter;
+    tools[] += {cutter};
   EndFor
   lining[] = BooleanDifference{ Volume{sector}; Delete; }{ Volume{tools[]}; Delete; };
   MeshSize{ PointsOf{ Volume{lining[]}; } } = size_lining;
@@ -236,13 +244,19 @@ For side In {0 : 1}
     ear = newv; Box(ear) = {x_ear, end < 0 ? -y_tip : 0.04, z_low, x_ear_top - x_ear, y_tip - 0.04, h_plate};
     tools[] += {ear};
     tip = newv; Box(tip) = {x_ear, end < 0 ? -y_ear : y_tip, z_low, x_ear_top - x_ear, y_ear - y_tip, h_plate};
-    tips[] += {tip};
+    p = newp;
+    Point(p) = {x_ear - c_ear, end * (y_ear - 2 * c_ear), z_low - h_plate};
+    Point(p + 1) = {x_ear + 2 * c_ear, end * (y_ear + c_ear), z_low - h_plate};
+    Point(p + 2) = {x_ear - c_ear, end * (y_ear + c_ear), z_low - h_plate};
+    dx = 0; dy = 0; dz = 3 * h_plate;
+    Call Cutter;
+    tips[] += BooleanDifference{ Volume{tip}; Delete; }{ Volume{cutter}; Delete; };
   EndFor
   middle[] = BooleanUnion{ Volume{sector}; Delete; }{ Volume{tools[]}; Delete; };
   plate[] = BooleanFragments{ Volume{middle[]}; Delete; }{ Volume{tips[]}; Delete; };
   MeshSize{ PointsOf{ Volume{plate[]}; } } = size_plate;
   body[] = plate[];
-  x0 = 0; y0 = -0.2; x1 = 0.2; y1 = 0.2;
+  x0 = 0; y0 = -y_tip; x1 = 0.2; y1 = y_tip;  // without the tips
   z0 = s * z_lining; z1 = z0;
   Call Pick;
   Physical Surface(StrCat("plate_", pad, "_front")) = picked[];
@@ -411,8 +425,8 @@ EndFor
 // on each tower an abutment for the end of an ear and a rail below it.
 z_tower = z_face + 0.004;
 h_tower = z_plate + 0.006 - z_tower;
-y_tower = 0.072;
-y_end = 0.096;
+y_tower = y_ear + 0.004;
+y_end = 0.098;
 x_foot = 0.052;
 x_arm = 0.130;
 x_arm_top = 0.146;
