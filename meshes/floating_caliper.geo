@@ -6,7 +6,7 @@
 SetFactory("OpenCASCADE");
 DefineConstant[
   order = {2, Name "order", Choices {1, 2}},                              // 1 linear, 2 quadratic tetrahedra
-  size = {1, Name "size", Min 0.3, Max 2.5},                               // factor on the edge lengths of all parts
+  size = {1, Name "size", Min 0.3, Max 2.5},                              // factor on the edge lengths of all parts
   quarter = {3, Name "quarter", Min 2, Max 20, Step 1},                   // edges along a quarter of pins and holes
   vanes = {30, Name "vanes", Min 3, Max 60, Step 1},                      // between the two friction rings of the disc
   bolts = {5, Name "bolts", Min 0, Max 6, Step 1},                        // holes of wheel bolts in the hat
@@ -21,6 +21,9 @@ DefineConstant[
 ];
 If (chamfer_depth > 0.7 * h_lining)
   Error("chamfer_depth = %g: must be at most 0.7 h_lining = %g", chamfer_depth, 0.7 * h_lining);
+EndIf
+If (h_disc - 2 * h_cheek < 0.004)
+  Error("h_disc = %g: must leave at least 0.004 for the vanes between two rings of h_cheek = %g", h_disc, h_cheek);
 EndIf
 
 // Edge lengths. Parts that touch have different ones.
@@ -49,8 +52,8 @@ h_hat = 0.008;
 r_lining_in = 0.092;
 r_lining_out = 0.138;
 margin_in = 0.006;              // by which the back plate juts out over the lining, inwards, so that it bears the whole rim of the
-margin_out = 0.004;             // piston, outwards,
-margin_angle = 1;               // and at either end
+margin_out = 0.004;             // piston, and outwards
+plate_angle = 50;               // the same for shorter linings: it bears the whole finger
 x_ear = 0.112;                  // lower side of the ears, on the rails
 x_ear_top = 0.128;
 y_ear = 0.070;                  // ends of the ears, on the abutments
@@ -236,12 +239,12 @@ For side In {0 : 1}
   // The back plate. The tips of its ears are volumes of their own within it, so that the part of an ear's lower side that lies on
   // the rail is a surface of its own.
   z_low = side ? z_lining : -z_plate;
-  height = h_plate; r_low = r_lining_in - margin_in; r_high = r_lining_out + margin_out; angle = pad_angle + 2 * margin_angle;
+  height = h_plate; r_low = r_lining_in - margin_in; r_high = r_lining_out + margin_out; angle = plate_angle;
   Call Sector;
   tools[] = {};
   tips[] = {};
   For end In {-1 : 1 : 2}
-    ear = newv; Box(ear) = {x_ear, end < 0 ? -y_tip : 0.04, z_low, x_ear_top - x_ear, y_tip - 0.04, h_plate};
+    ear = newv; Box(ear) = {x_ear, end < 0 ? -y_tip : 0.03, z_low, x_ear_top - x_ear, y_tip - 0.03, h_plate};
     tools[] += {ear};
     tip = newv; Box(tip) = {x_ear, end < 0 ? -y_ear : y_tip, z_low, x_ear_top - x_ear, y_ear - y_tip, h_plate};
     p = newp;
