@@ -45,7 +45,7 @@ void sayMesh(const mesh::Mesh& mesh) {
       cells += std::count(block.body.begin(), block.body.end(), b);
     bodies.push_back(counted(mesh.bodies[b], total(mesh.comm, cells), "cells"));
   }
-  auto held = contact::constrainedGroups();
+  auto held = interfaces::constrainedGroups();
   for (const auto& group : elasticity::groundedGroups()) held.push_back(group);
   for (const auto& [name, members] : mesh.nodeGroups)
     if (std::any_of(held.begin(), held.end(),

@@ -8,7 +8,6 @@
 #include "analysis/checks.hpp"
 #include "analysis/segment.hpp"
 #include "contact/coupled.hpp"
-#include "contact/interfaces.hpp"
 #include "elasticity/elasticity.hpp"
 #include "elasticity/element.hpp"
 #include "elasticity/ground.hpp"
@@ -16,6 +15,7 @@
 #include "flutter/influence.hpp"
 #include "flutter/terms.hpp"
 #include "flutter/work.hpp"
+#include "interfaces/interfaces.hpp"
 #include "matrices/write.hpp"
 #include "mesh/read.hpp"
 #include "modes/benchmark.hpp"
@@ -270,11 +270,11 @@ mesh::Request meshRequest() {
   request.geometry = {elasticity::foldedAnywhere, elasticity::straightened};
   request.bodies = elasticity::materialGroups();
   request.moving = elasticity::movingBodies();
-  request.nodeGroups = contact::constrainedGroups();
+  request.nodeGroups = interfaces::constrainedGroups();
   for (const auto& group : elasticity::groundedGroups()) request.nodeGroups.push_back(group);
   request.surfaces = elasticity::loadedSurfaces();
-  request.interfaces = contact::readInterfaces();
-  request.periodic = contact::periodicPairs();
+  request.interfaces = interfaces::readInterfaces();
+  request.periodic = interfaces::periodicPairs();
   request.howToGiveMaterials = elasticity::howToGiveMaterials();
   request.motionOptions = elasticity::motionOptions();
   return request;

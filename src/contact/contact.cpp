@@ -4,20 +4,24 @@
 #include <cmath>
 #include <optional>
 
-#include "contact/algebra.hpp"
-#include "contact/interfaces.hpp"
 #include "contact/kinematics.hpp"
 #include "contact/loose.hpp"
-#include "contact/nodes.hpp"
 #include "contact/sliding.hpp"
-#include "elasticity/face.hpp"
-#include "elasticity/shape.hpp"
+#include "interfaces/algebra.hpp"
+#include "interfaces/interfaces.hpp"
 #include "mesh/mesh.hpp"
 #include "options/options.hpp"
 #include "petsc/arrays.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal::contact {
+
+using interfaces::assembled;
+using interfaces::dot;
+using interfaces::nodalMatrix;
+using interfaces::scaled;
+using interfaces::text;
+
 namespace {
 
 /// Returns P, which copies u of primaries to their images.
@@ -52,8 +56,21 @@ std::vector<double> applied(const Contact& contact, PetscErrorCode (*multiply)(M
   return found;
 }
 
-void requireFlatObstacles(const mesh::Mesh& mesh, const std::vector<InterfaceOptions>& interfaces,
-                          const Contact& contact) {
+/// Returns u_g = −A g0 of the gaps g0 without load, which the unknown gaps count.
+OwnedVec gapOffset(const Contact& contact) {
+  const auto& mesh = *contact.mesh;
+  const OwnedVec gaps = elasticity::nodalVector(mesh);
+  {
+    const WriteArray values(gaps);
+    for (const auto& node : contact.nodes) values[mesh.dimension * (node.node + 1) - 1] = -node.gap;
+  }
+  OwnedVec offset = elasticity::nodalVector(mesh);
+  check(MatMult(contact.kinematics, gaps, offset));
+  return offset;
+}
+
+void requireFlatObstacles(const mesh::Mesh& mesh, const Contact& contact) {
+  const auto& interfaces = contact.options;
   std::string failure;
   for (int i = 0; i < std::ssize(interfaces); ++i) {
     if (!interfaces[i].onObstacle()) continue;
@@ -68,7 +85,7 @@ void requireFlatObstacles(const mesh::Mesh& mesh, const std::vector<InterfaceOpt
     check(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPI_DOUBLE, MPI_SUM, mesh.comm));
     for (const auto& node : contact.nodes)
       if (node.interface == i && dot(sum, node.normal) < (1 - 1e-10) * count)
-        failure = "option " + padName(interfaces[i].surfaces.name) +
+        failure = "option " + interfaces[i].surfaces.pad.option +
                   ": the face on the rigid obstacle must be flat; its normal turns at " +
                   text(node.position);
   }
@@ -77,7 +94,7 @@ void requireFlatObstacles(const mesh::Mesh& mesh, const std::vector<InterfaceOpt
 
 /// Throws Error if a pad moves: w = −V holds for a resting pad on a moving disc.
 void requireRestingPads(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
-                        const std::vector<InterfaceOptions>& interfaces) {
+                        const Contact& contact) {
   std::vector<int> moving(mesh.localNodes(),
                           -1);  // [local node] a moving body that it belongs to
   for (const auto& block : mesh.cells)
@@ -88,8 +105,9 @@ void requireRestingPads(const mesh::Mesh& mesh, const elasticity::Bodies& bodies
   for (const auto& block : mesh.faces)
     for (std::size_t e = 0; e < block.surface.size(); ++e) {
       const auto& surface = mesh.surfaces[block.surface[e]];
-      if (std::none_of(interfaces.begin(), interfaces.end(),
-                       [&](const auto& i) { return i.surfaces.pad.name == surface; }))
+      if (std::none_of(contact.options.begin(), contact.options.end(), [&](const auto& i) {
+            return i.role == Role::sliding && i.surfaces.pad.name == surface;
+          }))
         continue;
       for (PetscInt node : block.nodesOf(e))
         if (const int body = moving[node]; body >= 0)
@@ -103,18 +121,18 @@ void requireRestingPads(const mesh::Mesh& mesh, const elasticity::Bodies& bodies
 }  // namespace
 
 Contact build(const mesh::Mesh& mesh, const elasticity::Bodies& bodies) {
-  const auto interfaces = readInterfaceOptions(mesh.dimension);
   Contact contact;
-  contact.constraints = readConstraints(mesh);
+  contact.constraints = interfaces::readConstraints(mesh);
   contact.mesh = &mesh;
-  for (const auto& interface : interfaces) contact.interfaces.push_back(interface.surfaces.name);
   contact.periodic = periodicity(mesh);
-  requireRestingPads(mesh, bodies, interfaces);
   contact.law = FrictionLaw::read();
-  const auto connections = findNodes(bodies, interfaces, contact);
-  requireFlatObstacles(mesh, interfaces, contact);
+  static_cast<interfaces::Interfaces&>(contact) =
+      interfaces::findNodes(mesh, bodies, contact.constraints, contact.periodic);
+  for (const auto& options : contact.options) contact.interfaces.push_back(options.surfaces.name);
+  requireRestingPads(mesh, bodies, contact);
+  requireFlatObstacles(mesh, contact);
   const OwnedVec held = elasticity::nodalVector(mesh);
-  const OwnedMat a = buildKinematics(interfaces, connections, contact, held);
+  const OwnedMat a = buildKinematics(contact, held);
   check(
       MatMatMult(contact.periodic, a, MAT_INITIAL_MATRIX, PETSC_DEFAULT, contact.kinematics.out()));
   if (contact.gapBasis) {
@@ -125,23 +143,23 @@ Contact build(const mesh::Mesh& mesh, const elasticity::Bodies& bodies) {
   }
   contact.offset = elasticity::nodalVector(mesh);
   check(MatMult(contact.kinematics, held, contact.offset));
-  buildSliding(bodies, connections, contact);
+  contact.gapOffset = gapOffset(contact);
+  buildSliding(bodies, contact);
   rejectLooseBodies(mesh, contact, bodies.springs);
   return contact;
 }
 
-const SlaveSide* Contact::slaveOf(const std::string& surface) const {
-  const auto found = std::find_if(slaves.begin(), slaves.end(),
-                                  [&](const auto& slave) { return slave.surface == surface; });
-  return found == slaves.end() ? nullptr : &*found;
-}
-
-Transformation Contact::transformation(const std::vector<unsigned char>& gapFree) const {
+Transformation Contact::transformation(const std::vector<unsigned char>& gapFree,
+                                       const std::vector<unsigned char>& released) const {
   const int dimension = mesh->dimension;
   std::vector<unsigned char> unknown = free;
   const auto gapAt = [&](const ContactNode& node) { return dimension * (node.node + 1) - 1; };
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (!gapFree[i]) unknown[gapAt(nodes[i])] = 0;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (nodes[i].role == Role::sticking)
+      for (PetscInt t = 1; t < dimension; ++t)
+        unknown[gapAt(nodes[i]) - t] = !released.empty() && released[i];
 
   Transformation result;
   result.ownedColumns = std::count(unknown.begin(), unknown.end(), 1);
@@ -183,6 +201,10 @@ std::vector<Slip> Contact::slip(double speed, Vec displacement) const {
     values.emplace(carried);
   }
   for (const auto& node : nodes) {
+    if (node.role != Role::sliding) {
+      result.push_back({{}, 0, 0, 0});
+      continue;
+    }
     Point w = scaled(node.slip, speed * node.slipSpeed);
     if (values) {
       Point change{};
@@ -196,8 +218,9 @@ std::vector<Slip> Contact::slip(double speed, Vec displacement) const {
     if (state.speed <= 1e-9 * speed * node.slipSpeed)
       state.speed = 0;  // the direction would be that of rounding
     if (state.speed > 0) state.direction = scaled(w, 1 / state.speed);
-    state.law = law.value(state.speed);
-    state.slope = law.slope(state.speed);
+    const double factor = options[node.interface].frictionFactor;
+    state.law = factor * law.value(state.speed);
+    state.slope = factor * law.slope(state.speed);
     result.push_back(state);
   }
   return result;
@@ -209,6 +232,10 @@ std::vector<double> Contact::nodalForce(const std::vector<double>& normalForce) 
 
 std::vector<double> Contact::gapCoefficients(const std::vector<double>& nodal) const {
   return gapBasis ? applied(*this, MatMult, gapBasis.inverse, nodal) : nodal;
+}
+
+std::vector<double> Contact::gapForce(const std::vector<double>& nodal) const {
+  return gapBasis ? applied(*this, MatMultTranspose, gapBasis.matrix, nodal) : nodal;
 }
 
 std::vector<double> Contact::nodalGap(const std::vector<double>& gap) const {
@@ -247,14 +274,15 @@ void requireSlip(const Contact& contact, const std::vector<Slip>& slip,
                  const std::vector<unsigned char>& active) {
   std::string failure;
   for (std::size_t i = 0; i < slip.size(); ++i)
-    if (active[i] && slip[i].speed == 0 && failure.empty()) {
+    if (active[i] && slip[i].speed == 0 && contact.nodes[i].role == Role::sliding &&
+        failure.empty()) {
       const auto& node = contact.nodes[i];
       failure =
           "option -flutter_friction: friction needs a sliding velocity, but |w| = 0 at the contact "
           "node at " +
           text(node.position) + " of interface '" + contact.interfaces[node.interface] +
           "'; give -motion_<body>_velocity or _speed, or " +
-          obstacleVelocityName(contact.interfaces[node.interface]);
+          interfaces::obstacleVelocityName(contact.interfaces[node.interface]);
     }
   failTogether(contact.mesh->comm, failure);
 }

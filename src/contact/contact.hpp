@@ -1,6 +1,6 @@
 #pragma once
 /// This file makes contact a change of variables, with trial functions T and test functions L(f):
-///   u = T x + p u0,   L(f) = T + f Nᵀ S   [3.6].
+///   u = T x + p u0 + u_g,   L(f) = T + f Nᵀ S   [3.6].
 ///
 /// The variables z hold, at each contact node of the pad, tangential displacements and the gap g in
 /// place of the Cartesian displacement; at all other nodes they are the Cartesian displacement:
@@ -19,11 +19,9 @@
 #include <string>
 #include <vector>
 
-#include "contact/constraints.hpp"
 #include "contact/friction.hpp"
-#include "contact/gap_basis.hpp"
-#include "coupling/coupling.hpp"
 #include "elasticity/elasticity.hpp"
+#include "interfaces/nodes.hpp"
 #include "mesh/mesh.hpp"
 #include "petsc/owned.hpp"
 
@@ -31,48 +29,8 @@ namespace squeal::contact {
 
 using mesh::Point;
 
-/// The share of a connected part in what a contact node rests on.
-struct PartShare {
-  int part;
-  double share;
-};
-
-/// A ContactNode is a node in contact that this rank owns. It is of the slave side: the pad where
-/// the meshes match. Contact nodes stand in the order of local nodes.
-struct ContactNode {
-  Point position;    ///< m
-  Point normal;      ///< n, unit, from disc to pad
-  Point slip;        ///< τ = w/|w|, w = −V at the base motions; zero where there is no slip
-  double slipSpeed;  ///< |w| at the base motions, m/s
-  double area;  ///< ∫ ψ dA over the part of the faces in contact, positive, m² (m in the plane);
-                ///< ∫ φ̃ dA where the meshes match
-  double wholeArea;     ///< ∫ φ̃ dA over the faces of the slave, m² (m)
-  int interface;        ///< index into Contact::interfaces
-  int side;             ///< +1 if the slave is the pad, −1 if it is the disc
-  PetscInt node;        ///< local node
-  PetscInt globalNode;  ///< global node
-  PetscInt master;      ///< global node of the disc where the meshes match; otherwise −1
-  int discBody;         ///< index into Mesh::bodies; −1 on a rigid obstacle
-  std::vector<PartShare> masterParts;  ///< parts of the master; none on a rigid obstacle
-};
-
-/// The slave side of an interface.
-struct SlaveSide {
-  std::string surface;  ///< group
-  int sign;             ///< +1 if it is the pad, −1 if it is the disc
-};
-
-/// What was found at an interface, the same on all ranks.
-struct InterfaceReport {
-  bool matching = true;  ///< node on node, or a rigid obstacle
-  std::string whyNot;    ///< a sentence that says where the meshes do not match
-  PetscInt nodes = 0;    ///< contact nodes
-  // These are zero if the meshes match.
-  coupling::SideReport slave, master;
-  double coveredArea = 0;     ///< of the slave, m² (m in the plane)
-  double largestGap = 0;      ///< largest distance of the surfaces where they touch, m
-  PetscInt droppedNodes = 0;  ///< nodes of the slave without a gap, too little covered
-};
+using interfaces::ContactNode;
+using interfaces::Role;
 
 /// The sliding of a contact node in steady motion.
 struct Slip {
@@ -92,16 +50,11 @@ struct Transformation {
 };
 
 /// The contact of all interfaces: its nodes and its matrices.
-struct Contact {
-  std::vector<std::string> interfaces;   ///< names
-  std::vector<SlaveSide> slaves;         ///< [interface]
-  std::vector<InterfaceReport> reports;  ///< [interface]
-  std::vector<ContactNode> nodes;
-  PetscInt totalNodes = 0;  ///< contact nodes of all ranks
-  Constraints constraints;
+struct Contact : interfaces::Interfaces {
+  std::vector<std::string> interfaces;  ///< names
+  interfaces::Constraints constraints;
   FrictionLaw law;
   OwnedMat periodic;  ///< P, N×N: copies u of primaries to their images; the identity elsewhere
-  GapBasis gapBasis;  ///< E
   OwnedMat reaction;  ///< N, N×N: R_N of a contact node from all nodal forces, in the row of its
                       ///< gap; other rows are empty
   OwnedMat jump;  ///< J, N×N: [u] = u_P − u_D in the rows of the contact nodes; others are empty
@@ -109,16 +62,18 @@ struct Contact {
                         ///< base motions; null without convective terms
   OwnedMat kinematics;  ///< A, N×N
   OwnedVec offset;      ///< u0, N entries, m: held displacements and displacements of obstacles
+  OwnedVec gapOffset;   ///< u_g, N entries, m: closes the gaps that there are without load
   /// [owned node · dimension + component of z] 1 if it is an unknown; gaps are counted as unknowns
   std::vector<unsigned char> free;
   const mesh::Mesh* mesh = nullptr;  ///< borrowed
 
-  /// Returns the slave side of which this is the surface, borrowed; null if there is none.
-  const SlaveSide* slaveOf(const std::string& surface) const;
   /// Returns the row of z and of N that belongs to the gap of a contact node.
   PetscInt gapRow(const ContactNode& node) const;
   /// Collective. Returns T, in which the gap of contact node i is an unknown if gapFree[i] is set.
-  Transformation transformation(const std::vector<unsigned char>& gapFree) const;
+  /// A node of a sticking interface does not move along its master unless released[i] is set; an
+  /// empty list releases none.
+  Transformation transformation(const std::vector<unsigned char>& gapFree,
+                                const std::vector<unsigned char>& released = {}) const;
   /// Returns true if the slip is the same at all points of a sweep: there are no convective terms
   /// and the friction law is constant.
   bool slipIsGiven() const { return !convected && law.constant(); }
@@ -131,6 +86,8 @@ struct Contact {
   std::vector<double> nodalForce(const std::vector<double>& normalForce) const;
   /// Collective. Returns the gaps at the nodes, E h, m, from the unknown ones, both [contact node].
   std::vector<double> nodalGap(const std::vector<double>& gap) const;
+  /// Collective. Returns Eᵀ v of forces v at the nodes, both [contact node].
+  std::vector<double> gapForce(const std::vector<double>& nodal) const;
   /// Collective. Returns E⁻¹ v of values v at the nodes, both [contact node].
   std::vector<double> gapCoefficients(const std::vector<double>& nodal) const;
   /// Collective. Returns S, N×n: E⁻¹ φ τ·[u] of u = T x, in the rows of the gaps of the contact

@@ -49,7 +49,7 @@ Projections projectAll(const elasticity::Bodies& bodies, const Contact& contact,
   std::vector<unsigned char> open;
   for (const auto isClosed : closed) open.push_back(!isClosed);
   Projections result;
-  result.transformation = contact.transformation(open);
+  result.transformation = contact.transformation(open, open);
   OwnedMat stressed;
   if (prestress) {
     check(MatDuplicate(bodies.stiffness, MAT_COPY_VALUES, stressed.out()));

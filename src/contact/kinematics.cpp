@@ -4,12 +4,24 @@
 #include <cmath>
 #include <string>
 
-#include "contact/algebra.hpp"
+#include "interfaces/algebra.hpp"
 #include "mesh/mesh.hpp"
 #include "petsc/arrays.hpp"
 #include "petsc/check.hpp"
 
 namespace squeal::contact {
+
+using interfaces::assembled;
+using interfaces::cross;
+using interfaces::dot;
+using interfaces::identity;
+using interfaces::nodalMatrix;
+using interfaces::outer;
+using interfaces::scaled;
+using interfaces::setBlock;
+using interfaces::setDiagonal;
+using interfaces::text;
+
 namespace {
 
 /// A Frame holds the tangents t1, t2 at a contact node, with held Cartesian directions first. In a
@@ -19,12 +31,19 @@ struct Frame {
   std::vector<int> heldComponent;  ///< [tangent] Cartesian component held along it, or −1
 };
 
-Frame frameOf(const ContactNode& node, const Constraints& constraints, int dimension) {
+Frame frameOf(const ContactNode& node, const Contact& contact, int dimension) {
+  const auto& constraints = contact.constraints;
   Frame frame;
   for (int d = 0; d < dimension; ++d)
     if (constraints.held[dimension * node.node + d]) {
       Point e{};
       e[d] = 1;
+      if (node.role == Role::sticking)
+        throw Error("option -constraint_" +
+                    constraints.groups[constraints.heldBy[dimension * node.node + d]] +
+                    "_clamped holds component " + "xyz"[d] + " of a node of " +
+                    contact.options[node.interface].label() + " at " + text(node.position) +
+                    ", which sticks to the other side; let the other side be the slave");
       if (std::abs(dot(e, node.normal)) > 1e-6)
         throw Error("option -constraint_" +
                     constraints.groups[constraints.heldBy[dimension * node.node + d]] +
@@ -57,58 +76,104 @@ Frame frameOf(const ContactNode& node, const Constraints& constraints, int dimen
   return frame;
 }
 
-}  // namespace
-
-OwnedMat buildKinematics(const std::vector<InterfaceOptions>& interfaces,
-                         const std::vector<Connection>& connections, Contact& contact, Vec held) {
+/// Fills the rows of the contact nodes of this level.
+void setContactRows(int level, Contact& contact, Mat a, std::vector<double>& values) {
   const mesh::Mesh& mesh = *contact.mesh;
-  OwnedMat a = nodalMatrix(mesh, blocksOfRows(contact, connections));
-  const Constraints& constraints = contact.constraints;
   const int dimension = mesh.dimension;
   const auto local = [&](PetscInt node, int d) { return dimension * node + d; };
-  contact.free.assign(constraints.held.size(), 1);
-  std::vector<unsigned char> isPad(mesh.ownedNodes, 0);
-  for (const auto& node : contact.nodes) isPad[node.node] = 1;
-  std::vector<double> values(constraints.held.size(), 0.0);
-  for (PetscInt node = 0; node < mesh.ownedNodes; ++node) {
-    if (isPad[node]) continue;
-    for (int d = 0; d < dimension; ++d) {
-      check(MatSetValue(a, dimension * (mesh.firstNode + node) + d,
-                        dimension * (mesh.firstNode + node) + d, 1, INSERT_VALUES));
-      if (!constraints.held[local(node, d)]) continue;
-      contact.free[local(node, d)] = 0;
-      values[local(node, d)] = constraints.displacement[local(node, d)];
-    }
-  }
   std::string failure;
   for (std::size_t k = 0; k < contact.nodes.size(); ++k) try {
+      if (contact.connections[k].level != level) continue;
       const auto& node = contact.nodes[k];
-      const Frame frame = frameOf(node, constraints, dimension);
+      const bool sticks = node.role == Role::sticking;
+      const Frame frame = frameOf(node, contact, dimension);
       std::vector<double> block(dimension * dimension);
       for (int i = 0; i < dimension; ++i) {
         for (int t = 0; t < dimension - 1; ++t) block[i * dimension + t] = frame.tangents[t][i];
         block[i * dimension + dimension - 1] = node.side * node.normal[i];
       }
       setBlock(a, dimension, node.globalNode, node.globalNode, block);
-      for (const auto& [master, weight] : connections[k].masters)
+      for (const auto& [master, weight] : contact.connections[k].masters)
         setBlock(a, dimension, node.globalNode, master,
-                 outer(node.normal, node.normal, dimension, weight));
-      if (interfaces[node.interface].onObstacle())
-        values[local(node.node, dimension - 1)] =
-            dot(node.normal, interfaces[node.interface].obstacleDisplacement);
+                 sticks ? identity(dimension, weight)
+                        : outer(node.normal, node.normal, dimension, weight));
+      const auto& options = contact.options[node.interface];
+      if (options.onObstacle())
+        values[local(node.node, dimension - 1)] = dot(node.normal, options.obstacleDisplacement);
       for (int t = 0; t < dimension - 1; ++t) {
         const int component = frame.heldComponent[t];
         if (component < 0) continue;
         contact.free[local(node.node, t)] = 0;
-        values[local(node.node, t)] = constraints.displacement[local(node.node, component)];
+        values[local(node.node, t)] = contact.constraints.displacement[local(node.node, component)];
       }
     } catch (const Error& error) {
       failure = error.what();
     }
   failTogether(mesh.comm, failure);
+}
+
+/// Fills the rows of the tied nodes of this level.
+void setTiedRows(int level, Contact& contact, Mat a) {
+  const int dimension = contact.mesh->dimension;
+  for (const auto& tied : contact.tied) {
+    if (tied.connection.level != level) continue;
+    const PetscInt node = tied.connection.node;
+    for (const auto& [master, weight] : tied.connection.masters)
+      setBlock(a, dimension, contact.mesh->firstNode + node, master, identity(dimension, weight));
+    for (int d = 0; d < dimension; ++d) contact.free[dimension * node + d] = 0;
+  }
+}
+
+/// Returns the level of the owned nodes, [owned node]; 0 for those that rest on no other.
+std::vector<int> levelsOf(const Contact& contact) {
+  std::vector<int> levels(contact.mesh->ownedNodes, 0);
+  for (const auto& connection : contact.connections) levels[connection.node] = connection.level;
+  for (const auto& tied : contact.tied) levels[tied.connection.node] = tied.connection.level;
+  return levels;
+}
+
+}  // namespace
+
+std::vector<PetscInt> blocksOfRows(const Contact& contact, int level) {
+  std::vector<PetscInt> blocks(contact.mesh->ownedNodes, 1);
+  for (const auto& connection : contact.connections)
+    if (level == 0 || connection.level == level)
+      blocks[connection.node] += connection.masters.size();
+  for (const auto& tied : contact.tied)
+    if (tied.connection.level == level)
+      blocks[tied.connection.node] += tied.connection.masters.size();
+  return blocks;
+}
+
+OwnedMat buildKinematics(Contact& contact, Vec held) {
+  const mesh::Mesh& mesh = *contact.mesh;
+  const auto& constraints = contact.constraints;
+  const int dimension = mesh.dimension;
+  const auto levels = levelsOf(contact);
+  contact.free.assign(constraints.held.size(), 1);
+  std::vector<double> values(constraints.held.size(), 0.0);
+  for (PetscInt i = 0; i < dimension * mesh.ownedNodes; ++i)
+    if (levels[i / dimension] == 0 && constraints.held[i])
+      contact.free[i] = 0, values[i] = constraints.displacement[i];
+  OwnedMat a;
+  //   A = A_n … A_1, where A_i fills the rows of the slaves of level i
+  for (int level = 1; level <= contact.levels; ++level) {
+    OwnedMat factor = nodalMatrix(mesh, blocksOfRows(contact, level));
+    for (PetscInt node = 0; node < mesh.ownedNodes; ++node)
+      if (levels[node] != level) setDiagonal(factor, dimension, mesh.firstNode + node);
+    setContactRows(level, contact, factor, values);
+    setTiedRows(level, contact, factor);
+    assembled(factor);
+    if (!a) {
+      a = std::move(factor);
+      continue;
+    }
+    OwnedMat product;
+    check(MatMatMult(factor, a, MAT_INITIAL_MATRIX, PETSC_DEFAULT, product.out()));
+    a = std::move(product);
+  }
   for (const auto& image : mesh.images)
-    for (int d = 0; d < dimension; ++d) contact.free[local(image.node, d)] = 0;
-  assembled(a);
+    for (int d = 0; d < dimension; ++d) contact.free[dimension * image.node + d] = 0;
   std::copy(values.begin(), values.end(), WriteArray(held).begin());
   return a;
 }

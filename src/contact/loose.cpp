@@ -104,12 +104,28 @@ linalg::DenseMatrix gram(const mesh::Mesh& mesh, const Contact& contact, Vec spr
     }
   for (std::size_t i = 0; contactCloses && i < contact.nodes.size(); ++i) {
     const auto& node = contact.nodes[i];
+    const int sticking = node.role == Role::sticking ? mesh.dimension : 0;
+    for (int d = 0; d < sticking; ++d) {
+      motions.add(row, mesh.nodePart[node.node], node.position, unit(d), 1);
+      for (const auto& [part, share] : node.masterParts)
+        motions.add(row, part, node.position, unit(d), -share);
+      keep();
+    }
     motions.add(row, mesh.nodePart[node.node], node.position, node.normal, 1);
     // Both sides move as at the place of the slave's node: the facets of a curved master would seem
     // to hold a rotation that is free.
     for (const auto& [part, share] : node.masterParts)
       motions.add(row, part, node.position, node.normal, -share);
     keep();
+  }
+  for (const auto& tied : contact.tied) {
+    const PetscInt node = tied.connection.node;
+    for (int d = 0; d < mesh.dimension; ++d) {
+      motions.add(row, mesh.nodePart[node], mesh.coordinates[node], unit(d), 1);
+      for (const auto& [part, share] : tied.masterParts)
+        motions.add(row, part, mesh.coordinates[node], unit(d), -share);
+      keep();
+    }
   }
   check(MPI_Allreduce(MPI_IN_PLACE, g.data(), g.size(), MPI_DOUBLE, MPI_SUM, mesh.comm));
   return g;

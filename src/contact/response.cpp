@@ -3,14 +3,23 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/algebra.hpp"
 #include "elasticity/assembly.hpp"
 #include "elasticity/elasticity.hpp"
 #include "elasticity/face.hpp"
 #include "elasticity/shape.hpp"
+#include "interfaces/algebra.hpp"
 #include "petsc/arrays.hpp"
 
 namespace squeal::contact {
+
+using interfaces::assembled;
+using interfaces::dot;
+using interfaces::identity;
+using interfaces::nodalMatrix;
+using interfaces::outer;
+using interfaces::scaled;
+using interfaces::setBlock;
+
 namespace {
 
 /// Returns across (1 − ττᵀ − nnᵀ) + along ττᵀ, dimension × dimension, row-major.

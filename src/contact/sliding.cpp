@@ -2,42 +2,42 @@
 
 #include <algorithm>
 
-#include "contact/algebra.hpp"
+#include "contact/kinematics.hpp"
 #include "elasticity/elasticity.hpp"
 #include "elasticity/face.hpp"
 #include "elasticity/shape.hpp"
+#include "interfaces/algebra.hpp"
 #include "mesh/mesh.hpp"
 #include "petsc/arrays.hpp"
 
 namespace squeal::contact {
+
+using interfaces::assembled;
+using interfaces::identity;
+using interfaces::nodalMatrix;
+using interfaces::setBlock;
+
 namespace {
 
-/// Returns N. The normal components of the nodal forces are n_k · r, with the forces on periodic
-/// images added to those on their primaries; R_N is Eᵀ times these.
+/// Returns N: the columns of A that belong to the gaps, as rows. Forces on periodic images, on tied
+/// nodes and on neighbours in the gap basis go where their displacements come from.
 OwnedMat reactionRows(const Contact& contact) {
   const auto& mesh = *contact.mesh;
-  const OwnedMat normals = nodalMatrix(mesh, 1);
+  const OwnedMat gaps = nodalMatrix(mesh, 1);
   for (const auto& node : contact.nodes)
-    for (int d = 0; d < mesh.dimension; ++d)
-      check(MatSetValue(normals, contact.gapRow(node), mesh.dimension * node.globalNode + d,
-                        node.side * node.normal[d], INSERT_VALUES));
-  assembled(normals);
-  OwnedMat folded, result;
-  check(MatTranspose(contact.periodic, MAT_INITIAL_MATRIX, folded.out()));
-  check(MatMatMult(normals, folded, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.out()));
-  if (contact.gapBasis) {
-    OwnedMat combined;
-    check(MatTransposeMatMult(contact.gapBasis.matrix, result, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
-                              combined.out()));
-    return combined;
-  }
+    check(MatSetValue(gaps, contact.gapRow(node), contact.gapRow(node), 1, INSERT_VALUES));
+  assembled(gaps);
+  OwnedMat columns, result;
+  check(MatMatMult(contact.kinematics, gaps, MAT_INITIAL_MATRIX, PETSC_DEFAULT, columns.out()));
+  check(MatTranspose(columns, MAT_INITIAL_MATRIX, result.out()));
   return result;
 }
 
 /// Returns J.
-OwnedMat jumpRows(const Contact& contact, const std::vector<Connection>& connections) {
+OwnedMat jumpRows(const Contact& contact) {
+  const auto& connections = contact.connections;
   const auto& mesh = *contact.mesh;
-  OwnedMat jump = nodalMatrix(mesh, blocksOfRows(contact, connections));
+  OwnedMat jump = nodalMatrix(mesh, blocksOfRows(contact, 0));
   for (std::size_t k = 0; k < connections.size(); ++k) {
     const auto& node = contact.nodes[k];
     setBlock(jump, mesh.dimension, node.globalNode, node.globalNode,
@@ -95,7 +95,7 @@ OwnedMat convectedByFaces(const elasticity::Bodies& bodies, const Contact& conta
   for (const auto& block : mesh.faces) {
     const auto& table = elasticity::shapeTable(block.type);
     for (std::size_t e = 0; e < block.surface.size(); ++e) {
-      const SlaveSide* slave = contact.slaveOf(mesh.surfaces[block.surface[e]]);
+      const interfaces::SlaveSide* slave = contact.slaveOf(mesh.surfaces[block.surface[e]]);
       const auto* motion = slave ? motions[slave - contact.slaves.data()] : nullptr;
       if (!motion) continue;
       std::vector<Point> points, velocity;
@@ -133,8 +133,8 @@ OwnedMat convectedByFaces(const elasticity::Bodies& bodies, const Contact& conta
 }
 
 /// Returns D.
-OwnedMat convectedRows(const elasticity::Bodies& bodies, const std::vector<Connection>& connections,
-                       const Contact& contact) {
+OwnedMat convectedRows(const elasticity::Bodies& bodies, const Contact& contact) {
+  const auto& connections = contact.connections;
   const auto& mesh = *contact.mesh;
   OwnedMat result = convectedByFaces(bodies, contact);
   std::vector<PetscInt> blocks(mesh.ownedNodes, 1);
@@ -157,12 +157,10 @@ OwnedMat convectedRows(const elasticity::Bodies& bodies, const std::vector<Conne
 
 }  // namespace
 
-void buildSliding(const elasticity::Bodies& bodies, const std::vector<Connection>& connections,
-                  Contact& contact) {
+void buildSliding(const elasticity::Bodies& bodies, Contact& contact) {
   contact.reaction = reactionRows(contact);
-  contact.jump = jumpRows(contact, connections);
-  if (elasticity::convectiveTerms())
-    contact.convected = convectedRows(bodies, connections, contact);
+  contact.jump = jumpRows(contact);
+  if (elasticity::convectiveTerms()) contact.convected = convectedRows(bodies, contact);
 }
 
 }  // namespace squeal::contact

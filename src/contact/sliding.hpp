@@ -1,14 +1,12 @@
 #pragma once
 /// This function builds the matrices of sliding at the contact nodes.
 #include "contact/contact.hpp"
-#include "contact/nodes.hpp"
 #include "elasticity/elasticity.hpp"
 
 namespace squeal::contact {
 
 /// Collective. Fills Contact::reaction, Contact::jump and, with convective terms,
 /// Contact::convected.
-void buildSliding(const elasticity::Bodies& bodies, const std::vector<Connection>& connections,
-                  Contact& contact);
+void buildSliding(const elasticity::Bodies& bodies, Contact& contact);
 
 }  // namespace squeal::contact

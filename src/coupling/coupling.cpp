@@ -184,7 +184,8 @@ std::vector<double> coveredIntegrals(const CoveredFace& face, const Basis& basis
 /// Collective. Returns α and the nodes to be dropped. Partly covered faces need a larger α, on
 /// which all faces at an edge agree. A dropped mid-edge node has α = 0, so that ũ = u there.
 Basis chooseBasis(const mesh::Mesh& mesh, const NodeExchange& exchange,
-                  const std::vector<CoveredFace>& faces) {
+                  const std::vector<CoveredFace>& faces,
+                  const std::vector<unsigned char>& excluded) {
   const std::size_t nodes = mesh.localNodes();
   Basis basis{std::vector<double>(nodes, 0.0), {}, std::vector<bool>(nodes, false)};
   for (const auto& face : faces) {
@@ -203,7 +204,7 @@ Basis chooseBasis(const mesh::Mesh& mesh, const NodeExchange& exchange,
   basis.whole = nodalIntegrals(exchange, nodes, faces, wholeOf);
   for (const auto& face : faces)
     for (PetscInt node : face.local)
-      basis.dropped[node] = covered[node] < leastCover * basis.whole[node];
+      basis.dropped[node] = excluded[node] || covered[node] < leastCover * basis.whole[node];
   for (const auto& face : faces)
     for (const auto& edge : face.type->edges)
       if (basis.dropped[face.local[edge.node]]) basis.alpha[face.local[edge.node]] = 0;
@@ -410,7 +411,8 @@ std::vector<bool> nearOthers(MPI_Comm comm, const std::vector<Face>& faces,
 
 }  // namespace
 
-Coupling couple(const mesh::Mesh& mesh, const Interface& interface, const BodyVelocity& velocity) {
+Coupling couple(const mesh::Mesh& mesh, const Interface& interface, const BodyVelocity& velocity,
+                const std::vector<unsigned char>& excluded) {
   const NodeExchange exchange(mesh);
   Surfaces surfaces(mesh, interface);
   std::vector<std::vector<PetscInt>> localNodes;
@@ -423,7 +425,7 @@ Coupling couple(const mesh::Mesh& mesh, const Interface& interface, const BodyVe
   surfaces.candidates =
       candidates(mesh.comm, surfaces.slaves, surfaces.masters, surfaces.distances);
   const auto faces = cover(surfaces, localNodes);
-  const Basis basis = chooseBasis(mesh, exchange, faces);
+  const Basis basis = chooseBasis(mesh, exchange, faces, excluded);
 
   Sums sums;
   for (auto* values : {&sums.slave, &sums.weight, &sums.gap}) values->resize(mesh.localNodes());

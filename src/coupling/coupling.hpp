@@ -48,7 +48,8 @@ struct Coupling {
   std::vector<SlaveNode> nodes;  ///< pivots owned by this rank, in the order of local nodes
   SideReport slave, master;
   double coveredArea = 0;     ///< of the slave, m² (m)
-  PetscInt droppedNodes = 0;  ///< nodes of the slave of which less than a hundredth is covered
+  PetscInt droppedNodes = 0;  ///< nodes of the slave that touch the master without a condition:
+                              ///< excluded, or less than a hundredth of them is covered
   PetscInt sliverFaces = 0;   ///< faces covered by too little to have dual functions: lumped
   double largestGap = 0;      ///< largest |gap| of an integration point, m
 };
@@ -65,8 +66,10 @@ struct Interface {
 using BodyVelocity = std::function<Point(int body, const Point& x)>;
 
 /// Collective. Couples the surfaces of an interface. `velocity` is that of the convective terms; it
-/// may be empty. The same coupling results on any number of ranks, to rounding.
-Coupling couple(const mesh::Mesh& mesh, const Interface& interface, const BodyVelocity& velocity);
+/// may be empty. Nodes of the slave with excluded[local node] set carry no condition. The same
+/// coupling results on any number of ranks, to rounding.
+Coupling couple(const mesh::Mesh& mesh, const Interface& interface, const BodyVelocity& velocity,
+                const std::vector<unsigned char>& excluded);
 
 /// Collective. Returns which side has the smaller mean area of the faces that are near the other
 /// one: true if it is the master. Slaves should be the finer side.

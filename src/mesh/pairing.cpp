@@ -223,19 +223,6 @@ std::string pairContact(WholeMesh& mesh, const InterfaceRequest& request, int in
   return mismatch;
 }
 
-void rejectChains(const WholeMesh& mesh, const Request& request) {
-  std::set<PetscInt> slaves;
-  for (const auto& pair : mesh.pairs)
-    if (!slaves.insert(pair.node).second)
-      throw Error("option " + request.interfaces[pair.interface].pad.option + ": the node at " +
-                  positionText(mesh.points[pair.node]) +
-                  " is already a pad node of another interface");
-  for (const auto& pair : mesh.pairs)
-    if (slaves.count(pair.master))
-      throw Error("option " + request.interfaces[pair.interface].disc.option + ": the node at " +
-                  positionText(mesh.points[pair.master]) + " is also a pad node of an interface");
-}
-
 }  // namespace
 
 void pairNodes(WholeMesh& mesh, const Request& request) {
@@ -249,7 +236,6 @@ void pairNodes(WholeMesh& mesh, const Request& request) {
     mesh.mismatch.push_back(pairContact(mesh, request.interfaces[i], i, body, near));
     mesh.matching.push_back(mesh.mismatch.back().empty());
   }
-  rejectChains(mesh, request);
 }
 
 }  // namespace squeal::mesh

@@ -9,8 +9,7 @@ namespace squeal::mesh {
 /// Finds the partner of each periodic image and of each contact node, and fills primary, images,
 /// pairs, matching and mismatch of the mesh. An interface whose sides are not meshed alike gets no
 /// pairs. Throws Error for an image without a partner, for images that are not meshed alike or go
-/// round in a circle, for a pad that is its own disc, and for a pad node in pairs of two interfaces
-/// or of a disc side too.
+/// round in a circle, and for a pad that is its own disc.
 void pairNodes(WholeMesh& mesh, const Request& request);
 
 }  // namespace squeal::mesh

@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-#include "contact/algebra.hpp"
+#include "interfaces/algebra.hpp"
 #include "linalg/block.hpp"
 #include "linalg/symmetric_solver.hpp"
 #include "options/options.hpp"
@@ -53,7 +53,7 @@ Condensed::Condensed(const contact::Contact& contact, Mat stiffness,
                      PETSC_DETERMINE, 1, nullptr, 0, nullptr, gaps_.out()));
   for (PetscInt i = 0; i < ownedSize_; ++i)
     check(MatSetValue(gaps_, transformation_.gapColumn[i], first_ + i, 1, INSERT_VALUES));
-  contact::assembled(gaps_);
+  interfaces::assembled(gaps_);
   // The slip rows stand in the rows of the gaps, which the product B e selects.
   const OwnedMat rows = contact.slipRows(transformation_, slip, all);
   OwnedMat gapRows;
@@ -87,7 +87,7 @@ OwnedMat Condensed::block(PetscInt columns) const {
   check(MatCreateDense(comm(), transformation_.ownedColumns, PETSC_DECIDE, transformation_.columns,
                        columns, nullptr, matrix.out()));
   check(MatZeroEntries(matrix));
-  contact::assembled(matrix);
+  interfaces::assembled(matrix);
   return matrix;
 }
 

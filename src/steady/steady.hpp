@@ -21,13 +21,17 @@ struct ContactState {
   double coefficient = 0;  ///< h of g = E h, m, ≥ 0; the gap itself but for tri6 and quad8 faces
   double normalForce = 0;  ///< R_N, N, ≥ 0 in compression
   double pressure = 0;     ///< R_N over the nodal area, Pa
-  Point frictionForce{};   ///< R_T on the pad, N
+  Point frictionForce{};   ///< R_T on the pad, N; on sticking interfaces the force that holds it
 };
 
 /// The contact forces of one interface.
 struct Resultant {
   std::string interface;
   Point normalForce{}, frictionForce{};  ///< sums over the interface, on the pad, N
+  Point moment{};  ///< of both about the origin, on the pad, N·m (in the plane along z)
+  /// Largest |R_T| / R_N of the closed nodes of a sticking interface: the least coefficient of
+  /// friction that holds it; zero on other interfaces.
+  double leastFriction = 0;
 };
 
 /// The steady state at one point of the sweep.
@@ -104,7 +108,12 @@ class Problem {
   OwnedVec closedContact(const sweep::Parameters& at, const contact::CoupledSystem& system,
                          Refinement& refinement) const;
   void recover(Vec x, double noise, Solution& solution) const;
+  std::vector<Point> forcesOnPads(const Solution& solution, Vec nodalForces) const;
+  void setStickingForces(Vec nodalForces, Solution& solution) const;
+  Resultant resultantOf(int interface, const Solution& solution,
+                        const std::vector<Point>& onPads) const;
   double imbalance(const Solution& solution, Vec nodalForces) const;
+  void addTieForces(Vec nodalForces, Vec contactForces) const;
 
   const mesh::Mesh& mesh_;
   const elasticity::Bodies& bodies_;

@@ -1,5 +1,5 @@
 // The basis of the gaps on faces where nodal forces of a pressure are not positive.
-#include "contact/gap_basis.hpp"
+#include "interfaces/gap_basis.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "contact/constraints.hpp"
+#include "interfaces/constraints.hpp"
 
 #include <algorithm>
 #include <set>
@@ -7,7 +7,7 @@
 #include "petsc/check.hpp"
 #include "session/stages.hpp"
 
-namespace squeal::contact {
+namespace squeal::interfaces {
 namespace {
 
 const TextOption clampedOption(
@@ -80,4 +80,4 @@ Constraints readConstraints(const mesh::Mesh& mesh) {
   return constraints;
 }
 
-}  // namespace squeal::contact
+}  // namespace squeal::interfaces

@@ -7,7 +7,7 @@
 #include "mesh/mesh.hpp"
 #include "petsc/owned.hpp"
 
-namespace squeal::contact {
+namespace squeal::interfaces {
 
 using mesh::Point;
 
@@ -31,6 +31,8 @@ void assembled(Mat matrix);
 /// that friction only changes values within the frictionless pattern.
 void setBlock(Mat matrix, int dimension, PetscInt rowNode, PetscInt columnNode,
               const std::vector<double>& block);
+/// Not collective. Sets the diagonal of the block of a global node to one.
+void setDiagonal(Mat matrix, int dimension, PetscInt node);
 /// Returns factor · a bᵀ, dimension × dimension, row-major.
 std::vector<double> outer(const Point& a, const Point& b, int dimension, double factor = 1);
 /// Returns factor times the unit matrix, dimension × dimension.
@@ -39,4 +41,4 @@ std::vector<double> identity(int dimension, double factor);
 /// Returns the coordinates of a point for a message.
 std::string text(const Point& p);
 
-}  // namespace squeal::contact
+}  // namespace squeal::interfaces

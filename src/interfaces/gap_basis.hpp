@@ -17,7 +17,7 @@
 #include "mesh/mesh.hpp"
 #include "petsc/owned.hpp"
 
-namespace squeal::contact {
+namespace squeal::interfaces {
 
 /// The matrices of the change of basis. They act on nodal vectors whose component of the gap, the
 /// last one, holds a value per node. The other components are copied.
@@ -34,9 +34,11 @@ struct CombinedGap {
   std::vector<coupling::Weight> row, inverse;
 };
 
-/// Collective. Returns E of the faces of the `surfaces`, and of the nodes whose rows are given.
-/// `periodic` copies primaries to their images, N×N.
+/// Collective. Returns E of the faces of the `surfaces`, and of the nodes whose rows are given. An
+/// edge counts if hasGap[local node] is set at its three nodes. `periodic` copies primaries to
+/// their images, N×N.
 GapBasis gapBasis(const mesh::Mesh& mesh, const std::vector<std::string>& surfaces,
-                  const std::vector<CombinedGap>& given, Mat periodic);
+                  const std::vector<unsigned char>& hasGap, const std::vector<CombinedGap>& given,
+                  Mat periodic);
 
-}  // namespace squeal::contact
+}  // namespace squeal::interfaces

@@ -1,11 +1,11 @@
-#include "contact/algebra.hpp"
+#include "interfaces/algebra.hpp"
 
 #include <algorithm>
 
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
 
-namespace squeal::contact {
+namespace squeal::interfaces {
 
 OwnedMat nodalMatrix(const mesh::Mesh& mesh, PetscInt blocksPerRow) {
   OwnedMat matrix;
@@ -43,6 +43,11 @@ void setBlock(Mat matrix, int dimension, PetscInt rowNode, PetscInt columnNode,
                      INSERT_VALUES));
 }
 
+void setDiagonal(Mat matrix, int dimension, PetscInt node) {
+  for (int d = 0; d < dimension; ++d)
+    check(MatSetValue(matrix, dimension * node + d, dimension * node + d, 1, INSERT_VALUES));
+}
+
 std::vector<double> outer(const Point& a, const Point& b, int dimension, double factor) {
   std::vector<double> block;
   for (int i = 0; i < dimension; ++i)
@@ -58,4 +63,4 @@ std::vector<double> identity(int dimension, double factor) {
 
 std::string text(const Point& p) { return formatted("(%.6g, %.6g, %.6g)", p[0], p[1], p[2]); }
 
-}  // namespace squeal::contact
+}  // namespace squeal::interfaces

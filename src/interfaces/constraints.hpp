@@ -5,7 +5,7 @@
 
 #include "mesh/mesh.hpp"
 
-namespace squeal::contact {
+namespace squeal::interfaces {
 
 /// Not collective. Returns the groups with a clamp, for the mesh reader. Throws Error for a
 /// displacement without a clamp.
@@ -27,4 +27,4 @@ struct Constraints {
 /// displacement that is not held.
 Constraints readConstraints(const mesh::Mesh& mesh);
 
-}  // namespace squeal::contact
+}  // namespace squeal::interfaces

@@ -1,14 +1,14 @@
-#include "contact/gap_basis.hpp"
+#include "interfaces/gap_basis.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "contact/algebra.hpp"
 #include "elasticity/elasticity.hpp"
+#include "interfaces/algebra.hpp"
 #include "mortar/basis.hpp"
 #include "petsc/arrays.hpp"
 
-namespace squeal::contact {
+namespace squeal::interfaces {
 namespace {
 
 /// An edge with the local nodes at its middle and at its ends.
@@ -18,7 +18,8 @@ struct Edge {
 };
 
 /// Returns the edges of the faces whose gaps are combined.
-std::vector<Edge> combinedEdges(const mesh::Mesh& mesh, const std::vector<std::string>& surfaces) {
+std::vector<Edge> combinedEdges(const mesh::Mesh& mesh, const std::vector<std::string>& surfaces,
+                                const std::vector<unsigned char>& hasGap) {
   std::vector<Edge> found;
   for (const auto& block : mesh.faces) {
     const auto& type = mortar::faceType(block.type);
@@ -27,9 +28,11 @@ std::vector<Edge> combinedEdges(const mesh::Mesh& mesh, const std::vector<std::s
       const auto& surface = mesh.surfaces[block.surface[e]];
       if (std::find(surfaces.begin(), surfaces.end(), surface) == surfaces.end()) continue;
       const auto nodes = block.nodesOf(e);
-      for (const auto& edge : type.edges)
-        found.push_back(
-            {nodes[edge.node], {nodes[edge.corners[0]], nodes[edge.corners[1]]}, alpha});
+      for (const auto& edge : type.edges) {
+        const Edge local{nodes[edge.node], {nodes[edge.corners[0]], nodes[edge.corners[1]]}, alpha};
+        if (hasGap[local.middle] && hasGap[local.ends[0]] && hasGap[local.ends[1]])
+          found.push_back(local);
+      }
     }
   }
   return found;
@@ -46,10 +49,11 @@ bool allAreIdentity(const mesh::Mesh& mesh, const std::vector<CombinedGap>& give
 }  // namespace
 
 GapBasis gapBasis(const mesh::Mesh& mesh, const std::vector<std::string>& surfaces,
-                  const std::vector<CombinedGap>& given, Mat periodic) {
+                  const std::vector<unsigned char>& hasGap, const std::vector<CombinedGap>& given,
+                  Mat periodic) {
   const int gap = mesh.dimension - 1;
   const auto row = [&](PetscInt globalNode) { return mesh.dimension * globalNode + gap; };
-  const auto edges = combinedEdges(mesh, surfaces);
+  const auto edges = combinedEdges(mesh, surfaces, hasGap);
   GapBasis basis;
   int needed = !edges.empty() || !allAreIdentity(mesh, given);
   check(MPI_Allreduce(MPI_IN_PLACE, &needed, 1, MPI_INT, MPI_LOR, mesh.comm));
@@ -91,4 +95,4 @@ GapBasis gapBasis(const mesh::Mesh& mesh, const std::vector<std::string>& surfac
   return basis;
 }
 
-}  // namespace squeal::contact
+}  // namespace squeal::interfaces

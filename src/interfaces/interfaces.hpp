@@ -1,0 +1,55 @@
+#pragma once
+/// These functions read the contact interfaces: their surfaces, their rigid obstacles and how their
+/// sides are paired.
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+
+namespace squeal::interfaces {
+
+using mesh::Point;
+
+/// The side of an interface whose nodes have the gaps.
+enum class SlaveChoice { finer, pad, disc };
+
+/// What the two sides of an interface do to each other. All but tied ones may open.
+enum class Role {
+  sliding,       ///< friction along the sliding velocity
+  sticking,      ///< no tangential jump
+  frictionless,  ///< no tangential force
+  tied           ///< no jump at all
+};
+
+/// One interface as the options give it: contact, or a tie of two bodies.
+struct InterfaceOptions {
+  mesh::InterfaceRequest surfaces;  ///< of a tie: the slave as pad, the master as disc
+  Role role = Role::sliding;
+  Point obstacleVelocity{};      ///< m/s, of the rigid obstacle in place of a disc
+  Point obstacleDisplacement{};  ///< m
+  SlaveChoice slave = SlaveChoice::finer;
+  double searchDistance = 0;   ///< m; zero stands for half the size of a face
+  double frictionFactor = 1;   ///< times the swept coefficient of friction
+  bool gapIsMeasured = false;  ///< the gap without load is the distance of the surfaces
+  double gap = 0;  ///< gap without load if it is not measured, m; negative: interference
+
+  bool onObstacle() const { return surfaces.disc.name.empty(); }
+  /// Returns "interface 'pad'" or "tie 'lining'", for messages.
+  std::string label() const;
+};
+
+/// Not collective. Returns the contact interfaces and the ties that the options ask for, for the
+/// mesh reader. Throws Error for an interface without a pad surface, for one with neither or both
+/// of a disc surface and an obstacle, and for a tie without one of its sides.
+std::vector<mesh::InterfaceRequest> readInterfaces();
+/// Not collective. Returns the interfaces with all their options, in the same order: contact, then
+/// ties. Throws Error for options that do not go together.
+std::vector<InterfaceOptions> readInterfaceOptions(int dimension);
+/// These return names of options of an interface with their dash, for messages:
+/// `-contact_<interface>_obstacle_velocity`, `-contact_<interface>_search` or
+/// `-tie_<name>_tolerance`, and `-contact_<interface>_role`.
+std::string obstacleVelocityName(const std::string& interface);
+std::string searchName(const InterfaceOptions& interface);
+std::string roleName(const std::string& interface);
+
+}  // namespace squeal::interfaces

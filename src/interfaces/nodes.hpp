@@ -1,0 +1,106 @@
+#pragma once
+/// This file finds which nodes touch or are tied, and what they rest on: from pairs of nodes where
+/// the meshes match, and from the coupling of the surfaces where they do not.
+#include <string>
+#include <vector>
+
+#include "coupling/coupling.hpp"
+#include "elasticity/elasticity.hpp"
+#include "interfaces/constraints.hpp"
+#include "interfaces/gap_basis.hpp"
+#include "interfaces/interfaces.hpp"
+#include "mesh/mesh.hpp"
+#include "petsc/owned.hpp"
+
+namespace squeal::interfaces {
+
+/// The share of a connected part in what a node rests on.
+struct PartShare {
+  int part;
+  double share;
+};
+
+/// A ContactNode is a node in contact that this rank owns. It is of the slave side: the pad where
+/// the meshes match. Contact nodes stand in the order of local nodes.
+struct ContactNode {
+  Point position;    ///< m
+  Point normal;      ///< n, unit, from disc to pad
+  Point slip;        ///< τ = w/|w|, w = −V at the base motions; zero where there is no slip
+  double slipSpeed;  ///< |w| at the base motions, m/s
+  double area;  ///< ∫ ψ dA over the part of the faces in contact, positive, m² (m in the plane);
+                ///< ∫ φ̃ dA where the meshes match
+  double wholeArea;     ///< ∫ φ̃ dA over the faces of the slave, m² (m)
+  double gap;           ///< gap without load, m
+  int interface;        ///< index into Interfaces::options
+  Role role;            ///< never tied
+  int side;             ///< +1 if the slave is the pad, −1 if it is the disc
+  PetscInt node;        ///< local node
+  PetscInt globalNode;  ///< global node
+  PetscInt master;      ///< global node of the disc where the meshes match; otherwise −1
+  int discBody;         ///< index into Mesh::bodies; −1 on a rigid obstacle
+  std::vector<PartShare> masterParts;  ///< parts of the master; none on a rigid obstacle
+};
+
+/// A Connection couples a node i of the slave side with nodes l of the master side:
+///   u_i = Σ_l P_il u_l + jump.
+struct Connection {
+  PetscInt node;  ///< local node
+  /// 1 if no master is itself a slave, otherwise one more than the largest level of its masters
+  int level = 1;
+  std::vector<coupling::Weight> masters;    ///< row of P; empty on a rigid obstacle
+  std::vector<coupling::Weight> convected;  ///< D u_D, 1/s, where the slave is the pad and the
+                                            ///< meshes do not match
+};
+
+/// A node that is tied, owned by this rank.
+struct TiedNode {
+  int interface;  ///< index into Interfaces::options
+  Connection connection;
+  std::vector<PartShare> masterParts;
+};
+
+/// The slave side of an interface.
+struct SlaveSide {
+  std::string surface;  ///< group
+  int sign;             ///< +1 if it is the pad, −1 if it is the disc
+};
+
+/// What was found at an interface, the same on all ranks.
+struct InterfaceReport {
+  bool matching = true;  ///< node on node, or a rigid obstacle
+  std::string whyNot;    ///< a sentence that says where the meshes do not match
+  PetscInt nodes = 0;    ///< nodes in contact, or tied
+  PetscInt yielded = 0;  ///< nodes left to another interface or to a clamp
+  // These are zero if the meshes match.
+  coupling::SideReport slave, master;
+  double coveredArea = 0;  ///< of the slave, m² (m in the plane)
+  double largestGap = 0;   ///< largest distance of the surfaces where they touch, m
+  PetscInt dropped = 0;    ///< nodes that touch without a condition, among them those yielded
+};
+
+/// All interfaces with their nodes.
+struct Interfaces {
+  std::vector<InterfaceOptions> options;  ///< [interface], contact first, then ties
+  std::vector<SlaveSide> slaves;          ///< [interface]
+  std::vector<InterfaceReport> reports;   ///< [interface]
+  std::vector<ContactNode> nodes;         ///< owned by this rank
+  std::vector<Connection> connections;    ///< [contact node]
+  std::vector<TiedNode> tied;             ///< owned by this rank, in the order of local nodes
+  PetscInt totalNodes = 0;                ///< contact nodes of all ranks
+  int levels = 1;                         ///< largest level of a connection of all ranks
+  GapBasis gapBasis;                      ///< E
+
+  /// Returns the slave side of a contact interface of which this is the surface, borrowed; null if
+  /// there is none.
+  const SlaveSide* slaveOf(const std::string& surface) const;
+};
+
+/// Collective. Finds the nodes of all interfaces. A node belongs to one interface: to a tie before
+/// a sliding one, and to this before one that sticks or is free of friction. Clamped nodes are not
+/// tied. `periodic` copies u of primaries to their images, N×N. Throws Error for surfaces that do
+/// not meet, for a node that two sliding interfaces claim, and for slaves that rest on each other
+/// in a circle.
+Interfaces findNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
+                     const Constraints& constraints, Mat periodic);
+
+}  // namespace squeal::interfaces
