@@ -70,6 +70,9 @@ contact::Contact buildContact(const mesh::Mesh& mesh, const elasticity::Bodies& 
   contact::Contact contact = contact::build(mesh, bodies);
   stage.finish(formatted("%" PetscInt_FMT " contact nodes on %zu interfaces", contact.totalNodes,
                          contact.interfaces.size()));
+  for (int i = 0; i < std::ssize(contact.interfaces); ++i)
+    if (contact.interfaces.size() > 1 || !contact.reports[i].matching)
+      say(mesh.comm, "  " + interfaces::describe(contact, i));
   return contact;
 }
 

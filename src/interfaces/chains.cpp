@@ -95,8 +95,7 @@ void setLevels(const mesh::Mesh& mesh, Interfaces& all) {
     if (!changed) return;
   }
   throw Error("the slaves of these rest on each other in a circle: " +
-              interfacesAt(mesh, all, all.levels) +
-              "; exchange slave and master of one of them");
+              interfacesAt(mesh, all, all.levels) + "; exchange slave and master of one of them");
 }
 
 }  // namespace squeal::interfaces

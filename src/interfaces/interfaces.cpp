@@ -103,6 +103,13 @@ void rejectIdleOptions(const InterfaceOptions& interface) {
 
 }  // namespace
 
+std::string text(Role role) {
+  return role == Role::sticking       ? "sticking"
+         : role == Role::frictionless ? "frictionless"
+         : role == Role::tied         ? "tied"
+                                      : "sliding";
+}
+
 std::string InterfaceOptions::label() const {
   return (tieSlaveOption.given(surfaces.name) && surfaces.pad.option.starts_with("-tie_")
               ? "tie '"

@@ -21,6 +21,9 @@ enum class Role {
   tied           ///< no jump at all
 };
 
+/// Returns the value of `-contact_<interface>_role` for a role.
+std::string text(Role role);
+
 /// One interface as the options give it: contact, or a tie of two bodies.
 struct InterfaceOptions {
   mesh::InterfaceRequest surfaces;  ///< of a tie: the slave as pad, the master as disc

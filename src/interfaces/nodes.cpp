@@ -289,6 +289,25 @@ const SlaveSide* Interfaces::slaveOf(const std::string& surface) const {
   return nullptr;
 }
 
+std::string describe(const Interfaces& all, int interface) {
+  const InterfaceOptions& options = all.options[interface];
+  const InterfaceReport& report = all.reports[interface];
+  std::string line = options.label() + " " + text(options.role);
+  if (options.onObstacle())
+    line += formatted(": %" PetscInt_FMT " nodes on a rigid obstacle", report.nodes);
+  else if (report.matching)
+    line += formatted(": %" PetscInt_FMT " nodes, node on node", report.nodes);
+  else
+    line += formatted(
+        ": %" PetscInt_FMT " nodes of '%s', mortar on %" PetscInt_FMT
+        " faces; %.4g %% of its %" PetscInt_FMT " faces is covered, surfaces up to %.2g m apart",
+        report.nodes, all.slaves[interface].surface.c_str(), report.master.nearFaces,
+        100 * report.coveredArea / report.slave.area, report.slave.faces, report.largestGap);
+  if (report.dropped > 0)
+    line += formatted("; %" PetscInt_FMT " nodes at its rim carry no condition", report.dropped);
+  return line;
+}
+
 Interfaces findNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
                      const Constraints& constraints, Mat periodic) {
   Interfaces all;

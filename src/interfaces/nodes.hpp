@@ -95,6 +95,9 @@ struct Interfaces {
   const SlaveSide* slaveOf(const std::string& surface) const;
 };
 
+/// Returns a line on what was found at an interface and how its sides are coupled, for the log.
+std::string describe(const Interfaces& all, int interface);
+
 /// Collective. Finds the nodes of all interfaces. A node belongs to one interface: to a tie before
 /// a sliding one, and to this before one that sticks or is free of friction. Clamped nodes are not
 /// tied. `periodic` copies u of primaries to their images, N×N. Throws Error for surfaces that do

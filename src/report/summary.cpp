@@ -32,8 +32,38 @@ Json steadyEntry(const steady::Solution& solution) {
   for (const auto& resultant : solution.resultants)
     entry["interfaces"][resultant.interface] = {
         {"normal_force_n", point3(resultant.normalForce)},
-        {"friction_force_n", point3(resultant.frictionForce)}};
+        {"friction_force_n", point3(resultant.frictionForce)},
+        {"moment_nm", point3(resultant.moment)}};
+  for (const auto& resultant : solution.resultants)
+    if (resultant.leastFriction > 0)
+      entry["interfaces"][resultant.interface]["least_sufficient_friction"] =
+          resultant.leastFriction;
   return entry;
+}
+
+/// Returns what was found at the interfaces of a mesh, by name.
+Json interfaceEntries(const contact::Contact& contact) {
+  Json entries;
+  for (std::size_t i = 0; i < contact.options.size(); ++i) {
+    const auto& report = contact.reports[i];
+    Json entry = {{"role", interfaces::text(contact.options[i].role)},
+                  {"nodes", report.nodes},
+                  {"slave", contact.slaves[i].surface},
+                  {"slave_is", contact.slaves[i].sign > 0 ? "pad" : "disc"},
+                  {"coupling", contact.options[i].onObstacle() ? "rigid obstacle"
+                               : report.matching               ? "node on node"
+                                                               : "mortar"}};
+    if (!report.matching) {
+      entry["why_not_node_on_node"] = report.whyNot;
+      entry["slave_faces"] = report.slave.faces, entry["master_faces"] = report.master.faces;
+      entry["slave_area_m2"] = report.slave.area, entry["covered_area_m2"] = report.coveredArea;
+      entry["master_area_near_m2"] = report.master.nearArea;
+      entry["largest_gap_m"] = report.largestGap;
+      entry["nodes_without_condition"] = report.dropped;
+    }
+    entries[contact.options[i].label()] = entry;
+  }
+  return entries;
 }
 
 /// Returns the number, or null for NaN and infinity, which have no place in JSON.
@@ -111,6 +141,7 @@ void writeSummary(const analysis::Analysis& analysis, const std::filesystem::pat
                                  {"rounds", done.rounds},
                                  {"largest_move_m", done.largestMove}};
     summary["contact_nodes"] = analysis.contact.totalNodes;
+    summary["interfaces"] = interfaceEntries(analysis.contact);
   }
   summary["method"] = direct::directWanted() ? "direct" : "reduced";
   summary["dofs"] = analysis.segments.empty() ? 0 : analysis.segments.front().unknowns;
