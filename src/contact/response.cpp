@@ -90,6 +90,7 @@ std::vector<double> blockAt(const Contact& contact, const Fields& fields, const 
   const int dimension = contact.mesh->dimension;
   const double pressure =
       std::max(0.0, interpolated(value, nodes, fields.pressure, dimension)[dimension - 1]);
+  if (pressure == 0) return std::vector<double>(dimension * dimension, 0.0);
   Point normal = interpolated(value, nodes, fields.normal, dimension),
         w = interpolated(value, nodes, fields.slip, dimension);
   normal = scaled(normal, 1 / std::sqrt(dot(normal, normal)));
@@ -136,8 +137,11 @@ OwnedMat distributedResponse(const Contact& contact, const std::vector<Slip>& sl
     const auto& table = elasticity::shapeTable(block.type);
     const int n = block.nodesPerFace, size = n * dimension;
     for (std::size_t e = 0; e < block.surface.size(); ++e) {
-      if (!contact.slaveOf(mesh.surfaces[block.surface[e]])) continue;
       const auto nodes = block.nodesOf(e);
+      if (std::none_of(nodes.begin(), nodes.end(), [&](PetscInt node) {
+            return contact.hasGapOn(mesh.surfaces[block.surface[e]], node);
+          }))
+        continue;
       const auto area = elasticity::areaWeights(table, elasticity::pointsOf(mesh, nodes));
       std::vector<double> sums(size * size, 0.0);
       for (int q = 0; q < table.points(); ++q) {

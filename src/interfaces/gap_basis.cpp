@@ -19,7 +19,7 @@ struct Edge {
 
 /// Returns the edges of the faces whose gaps are combined.
 std::vector<Edge> combinedEdges(const mesh::Mesh& mesh, const std::vector<std::string>& surfaces,
-                                const std::vector<unsigned char>& hasGap) {
+                                const std::vector<int>& interfaceOf) {
   std::vector<Edge> found;
   for (const auto& block : mesh.faces) {
     const auto& type = mortar::faceType(block.type);
@@ -30,7 +30,9 @@ std::vector<Edge> combinedEdges(const mesh::Mesh& mesh, const std::vector<std::s
       const auto nodes = block.nodesOf(e);
       for (const auto& edge : type.edges) {
         const Edge local{nodes[edge.node], {nodes[edge.corners[0]], nodes[edge.corners[1]]}, alpha};
-        if (hasGap[local.middle] && hasGap[local.ends[0]] && hasGap[local.ends[1]])
+        const int interface = interfaceOf[local.middle];
+        if (interface >= 0 && interfaceOf[local.ends[0]] == interface &&
+            interfaceOf[local.ends[1]] == interface)
           found.push_back(local);
       }
     }
@@ -49,11 +51,11 @@ bool allAreIdentity(const mesh::Mesh& mesh, const std::vector<CombinedGap>& give
 }  // namespace
 
 GapBasis gapBasis(const mesh::Mesh& mesh, const std::vector<std::string>& surfaces,
-                  const std::vector<unsigned char>& hasGap, const std::vector<CombinedGap>& given,
+                  const std::vector<int>& interfaceOf, const std::vector<CombinedGap>& given,
                   Mat periodic) {
   const int gap = mesh.dimension - 1;
   const auto row = [&](PetscInt globalNode) { return mesh.dimension * globalNode + gap; };
-  const auto edges = combinedEdges(mesh, surfaces, hasGap);
+  const auto edges = combinedEdges(mesh, surfaces, interfaceOf);
   GapBasis basis;
   int needed = !edges.empty() || !allAreIdentity(mesh, given);
   check(MPI_Allreduce(MPI_IN_PLACE, &needed, 1, MPI_INT, MPI_LOR, mesh.comm));

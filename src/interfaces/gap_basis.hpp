@@ -35,10 +35,10 @@ struct CombinedGap {
 };
 
 /// Collective. Returns E of the faces of the `surfaces`, and of the nodes whose rows are given. An
-/// edge counts if hasGap[local node] is set at its three nodes. `periodic` copies primaries to
-/// their images, N×N.
+/// edge counts if its three nodes have a gap in one interface, interfaceOf[local node].
+/// `periodic` copies primaries to their images, N×N.
 GapBasis gapBasis(const mesh::Mesh& mesh, const std::vector<std::string>& surfaces,
-                  const std::vector<unsigned char>& hasGap, const std::vector<CombinedGap>& given,
+                  const std::vector<int>& interfaceOf, const std::vector<CombinedGap>& given,
                   Mat periodic);
 
 }  // namespace squeal::interfaces

@@ -177,6 +177,7 @@ FaceSums sumFaces(const mesh::Mesh& mesh, const Interfaces& all, Mat periodic) {
       const auto normals = elasticity::nodeNormals(table, points, -slave->sign * block.sign[e]);
       const double faceArea = std::accumulate(faceMass.begin(), faceMass.end(), 0.0);
       for (int i = 0; i < block.nodesPerFace; ++i) {
+        if (!all.hasGapOn(slave->surface, nodes[i])) continue;  // an edge of two surfaces
         const PetscInt row = mesh.dimension * mesh.globalNode[nodes[i]];
         double weight = 0;
         for (int j = 0; j < block.nodesPerFace; ++j) weight += faceMass[i * block.nodesPerFace + j];
@@ -261,13 +262,14 @@ void fillNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
   }
 }
 
-/// Collective. Returns which nodes have a gap, [local node], images and ghosts included.
-std::vector<unsigned char> nodesWithGap(const mesh::Mesh& mesh,
-                                        const std::vector<Candidate>& touching) {
-  std::vector<double> flags(mesh.localNodes(), 0.0);
-  for (const auto& node : touching) flags[node.slave.node] = 1;
-  coupling::NodeExchange(mesh).largest(flags);
-  return {flags.begin(), flags.end()};
+/// Collective. Returns Interfaces::interfaceOf.
+std::vector<int> interfacesOf(const mesh::Mesh& mesh, const std::vector<Candidate>& touching) {
+  std::vector<double> numbers(mesh.localNodes(), 0.0);
+  for (const auto& node : touching) numbers[node.slave.node] = node.interface + 1;
+  coupling::NodeExchange(mesh).largest(numbers);
+  std::vector<int> found;
+  for (double number : numbers) found.push_back(std::lround(number) - 1);
+  return found;
 }
 
 /// Collective. Adds up the nodes of each interface.
@@ -343,7 +345,8 @@ Interfaces findNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
   for (std::size_t i = 0; i < all.options.size(); ++i)
     if (all.reports[i].matching && all.options[i].role != Role::tied)
       paired.push_back(all.slaves[i].surface);
-  all.gapBasis = gapBasis(mesh, paired, nodesWithGap(mesh, touching), given, periodic);
+  all.interfaceOf = interfacesOf(mesh, touching);
+  all.gapBasis = gapBasis(mesh, paired, all.interfaceOf, given, periodic);
   fillNodes(mesh, bodies, touching, periodic, all);
   countNodes(mesh.comm, all);
   setLevels(mesh, all);

@@ -87,9 +87,16 @@ struct Interfaces {
   std::vector<Connection> connections;    ///< [contact node]
   std::vector<TiedNode> tied;             ///< owned by this rank, in the order of local nodes
   PetscInt totalNodes = 0;                ///< contact nodes of all ranks
-  int levels = 1;                         ///< largest level of a connection of all ranks
-  GapBasis gapBasis;                      ///< E
+  /// [local node] index into options of the contact in which the node has a gap, −1 if in none;
+  /// ghosts and periodic images included
+  std::vector<int> interfaceOf;
+  int levels = 1;     ///< largest level of a connection of all ranks
+  GapBasis gapBasis;  ///< E
 
+  /// Returns true if the local node has a gap on the slave surface of this name.
+  bool hasGapOn(const std::string& surface, PetscInt node) const {
+    return interfaceOf[node] >= 0 && slaves[interfaceOf[node]].surface == surface;
+  }
   /// Returns the slave side of a contact interface of which this is the surface, borrowed; null if
   /// there is none.
   const SlaveSide* slaveOf(const std::string& surface) const;

@@ -33,7 +33,8 @@ Json steadyEntry(const steady::Solution& solution) {
     entry["interfaces"][resultant.interface] = {
         {"normal_force_n", point3(resultant.normalForce)},
         {"friction_force_n", point3(resultant.frictionForce)},
-        {"moment_nm", point3(resultant.moment)}};
+        {"moment_nm", point3(resultant.moment)},
+        {"moment_defect_nm", resultant.momentDefect}};
   for (const auto& resultant : solution.resultants)
     if (resultant.leastFriction > 0)
       entry["interfaces"][resultant.interface]["least_sufficient_friction"] =

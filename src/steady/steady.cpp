@@ -9,6 +9,7 @@
 #include "petsc/arrays.hpp"
 #include "petsc/text.hpp"
 #include "steady/complementarity.hpp"
+#include "steady/resultants.hpp"
 
 namespace squeal::steady {
 namespace {
@@ -247,107 +248,12 @@ void Problem::recover(Vec x, double noise, Solution& solution) const {
   if (solution.at.friction > 0 && solution.converged)
     contact::requireSlip(contact_, solution.slip, solution.closed);
 
-  setStickingForces(folded, solution);
-  const auto onPads = forcesOnPads(solution, folded);
+  setStickingForces(contact_, folded, solution);
+  const auto onPads = forcesOnPads(contact_, solution, folded);
   for (int i = 0; i < std::ssize(contact_.interfaces); ++i)
     if (contact_.options[i].role != contact::Role::tied)
-      solution.resultants.push_back(resultantOf(i, solution, onPads));
+      solution.resultants.push_back(resultantOf(contact_, i, solution, onPads));
   solution.imbalance = imbalance(solution, folded);
-}
-
-/// Returns the forces on the pads at the contact nodes, [contact node], N: normal and friction
-/// forces by the law, and what holds the nodes that stick.
-std::vector<Point> Problem::forcesOnPads(const Solution& solution, Vec nodalForces) const {
-  std::vector<double> normal;
-  for (const auto& state : solution.contact) normal.push_back(state.normalForce);
-  normal = contact_.nodalForce(normal);
-  const ReadArray forces(nodalForces);
-  std::vector<Point> found;
-  for (std::size_t i = 0; i < contact_.nodes.size(); ++i) {
-    const auto& node = contact_.nodes[i];
-    const auto& slip = solution.slip[i];
-    Point force{};
-    for (int d = 0; d < mesh_.dimension; ++d)
-      force[d] =
-          node.role == contact::Role::sticking
-              ? node.side * forces[mesh_.dimension * node.node + d]
-              : normal[i] * (node.normal[d] - solution.at.friction * slip.law * slip.direction[d]);
-    found.push_back(force);
-  }
-  return found;
-}
-
-/// Sets the tangential forces of the nodes that stick, in the basis of the gaps.
-void Problem::setStickingForces(Vec nodalForces, Solution& solution) const {
-  const ReadArray forces(nodalForces);
-  for (int d = 0; d < mesh_.dimension; ++d) {
-    std::vector<double> tangential;
-    for (const auto& node : contact_.nodes) {
-      double along = 0;
-      for (int c = 0; c < mesh_.dimension; ++c)
-        along += node.normal[c] * forces[mesh_.dimension * node.node + c];
-      tangential.push_back(node.side *
-                           (forces[mesh_.dimension * node.node + d] - along * node.normal[d]));
-    }
-    tangential = contact_.gapForce(tangential);
-    for (std::size_t i = 0; i < contact_.nodes.size(); ++i)
-      if (contact_.nodes[i].role == contact::Role::sticking)
-        solution.contact[i].frictionForce[d] = tangential[i];
-  }
-}
-
-/// Collective. Returns the sums over an interface.
-Resultant Problem::resultantOf(int interface, const Solution& solution,
-                               const std::vector<Point>& onPads) const {
-  Resultant resultant{contact_.interfaces[interface], {}, {}, {}, 0};
-  for (std::size_t k = 0; k < contact_.nodes.size(); ++k) {
-    const auto& node = contact_.nodes[k];
-    if (node.interface != interface) continue;
-    const Point &x = node.position, &f = onPads[k];
-    const double along = f[0] * node.normal[0] + f[1] * node.normal[1] + f[2] * node.normal[2];
-    for (std::size_t d = 0; d < 3; ++d) {
-      const std::size_t a = (d + 1) % 3, b = (d + 2) % 3;
-      resultant.normalForce[d] += along * node.normal[d];
-      resultant.frictionForce[d] += f[d] - along * node.normal[d];
-      resultant.moment[d] += x[a] * f[b] - x[b] * f[a];
-    }
-    const auto& state = solution.contact[k];
-    const auto& t = state.frictionForce;
-    if (node.role == contact::Role::sticking && solution.closed[k])
-      resultant.leastFriction =
-          std::max(resultant.leastFriction,
-                   std::sqrt(t[0] * t[0] + t[1] * t[1] + t[2] * t[2]) / state.normalForce);
-  }
-  for (Point* sum : {&resultant.normalForce, &resultant.frictionForce, &resultant.moment})
-    check(MPI_Allreduce(MPI_IN_PLACE, sum->data(), 3, MPI_DOUBLE, MPI_SUM, mesh_.comm));
-  check(MPI_Allreduce(MPI_IN_PLACE, &resultant.leastFriction, 1, MPI_DOUBLE, MPI_MAX, mesh_.comm));
-  return resultant;
-}
-
-/// Adds the forces of ties: on the slaves those that keep them in equilibrium with `nodalForces`,
-/// and on the masters their opposites. The slaves of the highest level come first, as no other one
-/// rests on them.
-void Problem::addTieForces(Vec nodalForces, Vec contactForces) const {
-  const int dimension = mesh_.dimension;
-  for (int level = contact_.levels; level > 0; --level) {
-    const OwnedVec ties = elasticity::nodalVector(mesh_);
-    {
-      const ReadArray forces(nodalForces), others(contactForces);
-      for (const auto& [interface, connection, parts] : contact_.tied) {
-        if (connection.level != level) continue;
-        for (int d = 0; d < dimension; ++d) {
-          const PetscInt row = dimension * connection.node + d;
-          const double force = forces[row] - others[row];
-          check(VecSetValue(ties, dimension * mesh_.firstNode + row, force, ADD_VALUES));
-          for (const auto& [master, weight] : connection.masters)
-            check(VecSetValue(ties, dimension * master + d, -weight * force, ADD_VALUES));
-        }
-      }
-    }
-    check(VecAssemblyBegin(ties));
-    check(VecAssemblyEnd(ties));
-    check(VecAXPY(contactForces, 1, ties));
-  }
 }
 
 /// Returns the worst imbalance of the forces on a connected part, relative to the sum of all
@@ -357,7 +263,7 @@ double Problem::imbalance(const Solution& solution, Vec nodalForces) const {
   const int dimension = mesh_.dimension;
   const OwnedVec onPads = elasticity::nodalVector(mesh_),
                  contactForces = elasticity::nodalVector(mesh_);
-  const auto atNodes = forcesOnPads(solution, nodalForces);
+  const auto atNodes = forcesOnPads(contact_, solution, nodalForces);
   {
     const WriteArray values(onPads);
     for (std::size_t i = 0; i < contact_.nodes.size(); ++i)
@@ -365,7 +271,7 @@ double Problem::imbalance(const Solution& solution, Vec nodalForces) const {
         values[dimension * contact_.nodes[i].node + d] = atNodes[i][d];
   }
   check(MatMultTranspose(contact_.jump, onPads, contactForces));
-  addTieForces(nodalForces, contactForces);
+  addTieForces(contact_, nodalForces, contactForces);
   // [part][contact, supports, load][component], and at the end the sum of all magnitudes. That is
   // the scale of the terms that cancel; resultants may vanish by themselves.
   std::vector<double> sums(mesh_.parts * 9 + 1, 0.0);

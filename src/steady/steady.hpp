@@ -32,6 +32,9 @@ struct Resultant {
   /// Largest |R_T| / R_N of the closed nodes of a sticking interface: the least coefficient of
   /// friction that holds it; zero on other interfaces.
   double leastFriction = 0;
+  /// Magnitude of the sum of the moments on both sides, which the coupling of surfaces that lie
+  /// apart leaves, N·m.
+  double momentDefect = 0;
 };
 
 /// The steady state at one point of the sweep.
@@ -108,12 +111,7 @@ class Problem {
   OwnedVec closedContact(const sweep::Parameters& at, const contact::CoupledSystem& system,
                          Refinement& refinement) const;
   void recover(Vec x, double noise, Solution& solution) const;
-  std::vector<Point> forcesOnPads(const Solution& solution, Vec nodalForces) const;
-  void setStickingForces(Vec nodalForces, Solution& solution) const;
-  Resultant resultantOf(int interface, const Solution& solution,
-                        const std::vector<Point>& onPads) const;
   double imbalance(const Solution& solution, Vec nodalForces) const;
-  void addTieForces(Vec nodalForces, Vec contactForces) const;
 
   const mesh::Mesh& mesh_;
   const elasticity::Bodies& bodies_;
