@@ -8,7 +8,7 @@
 /// A selection B drops held components and periodic images from z, so that T = A B.
 ///
 /// On tri6 and quad8 faces the gaps g of the nodes are combined from gaps h that have a row of
-/// their own in z, g = E h, so that the shape functions of h have positive integrals [M.54].
+/// their own in z, g = E h, so that the shape functions of h have positive integrals [M.12].
 ///
 /// Friction is a product of two matrices with a row per contact node. N gives the normal force from
 /// the nodal forces r, and S gives the slip of u = T x, with the jump [u] = u_P − u_D:

@@ -2,7 +2,7 @@
 /// The basis of the gaps on tri6 and quad8 faces. A uniform pressure on these faces has nodal
 /// forces that are zero or negative at the corners, so that the sign of a nodal force does not tell
 /// whether the contact is pressed. The gaps g of the nodes are therefore combined from others, h,
-/// on each edge e between the corners a and b [M.54]:
+/// on each edge e between the corners a and b [M.12]:
 ///   g_a = h_a,   g_e = (1 − 2α) h_e + α (h_a + h_b),   g = E h,
 /// with the α of mortar::usualAlpha().
 /// The shape functions of h,
