@@ -47,11 +47,12 @@ struct SideReport {
 struct Coupling {
   std::vector<SlaveNode> nodes;  ///< pivots owned by this rank, in the order of local nodes
   SideReport slave, master;
-  double coveredArea = 0;     ///< of the slave, m² (m)
-  PetscInt droppedNodes = 0;  ///< nodes of the slave that touch the master without a condition:
-                              ///< excluded, or less than a hundredth of them is covered
-  PetscInt sliverFaces = 0;   ///< faces covered by too little to have dual functions: lumped
-  double largestGap = 0;      ///< largest |gap| of an integration point, m
+  double coveredArea = 0;  ///< of the slave, m² (m)
+  /// Nodes of slave faces that are covered in part that carry no condition: they are excluded, or
+  /// less than a hundredth of their own area is covered.
+  PetscInt droppedNodes = 0;
+  PetscInt sliverFaces = 0;  ///< faces covered by too little to have dual functions: lumped
+  double largestGap = 0;     ///< largest |gap| of an integration point, m
 };
 
 /// The surfaces of an interface and how far apart they may be.
@@ -66,8 +67,9 @@ struct Interface {
 using BodyVelocity = std::function<Point(int body, const Point& x)>;
 
 /// Collective. Couples the surfaces of an interface. `velocity` is that of the convective terms; it
-/// may be empty. Nodes of the slave with excluded[local node] set carry no condition. The same
-/// coupling results on any number of ranks, to rounding.
+/// may be empty. Nodes of the slave with excluded[local node] set, the same on all ranks that have
+/// the node, carry no condition. The same coupling results on any number of ranks, to rounding.
+/// Throws Error for a slave face whose normal turns by more than 84°.
 Coupling couple(const mesh::Mesh& mesh, const Interface& interface, const BodyVelocity& velocity,
                 const std::vector<unsigned char>& excluded);
 

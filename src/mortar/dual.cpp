@@ -179,6 +179,18 @@ FaceTerms integrate(const Face& slave, std::span<const double> alpha, const Pivo
   return terms;
 }
 
+std::vector<double> coveredIntegrals(const Face& slave, std::span<const double> alpha,
+                                     std::span<const OverlapPoint> points) {
+  const FaceType& type = faceType(slave.type);
+  NodeValues sum{};
+  for (const auto& point : points) {
+    const NodeValues value = faceShape(type, point.slave).value;
+    for (std::size_t i = 0; i < slave.points.size(); ++i) sum[i] += point.weight * value[i];
+  }
+  const NodeValues basis = slaveBasis(type, sum, alpha);  // which is linear
+  return {basis.begin(), basis.begin() + slave.points.size()};
+}
+
 std::vector<double> wholeIntegrals(const Face& slave, std::span<const double> alpha) {
   const FaceType& type = faceType(slave.type);
   const auto& table = elasticity::shapeTable(slave.type);

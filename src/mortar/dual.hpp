@@ -62,6 +62,11 @@ FaceTerms integrate(const Face& slave, std::span<const double> alpha, const Pivo
                     std::span<const Face* const> masters, std::span<const OverlapPoint> points,
                     const Velocity& velocity = {});
 
+/// Returns ∫ φ̃_i dA over the part of the face that the points cover, [node], m² (m in the plane),
+/// as in FaceTerms::covered. Not collective.
+std::vector<double> coveredIntegrals(const Face& slave, std::span<const double> alpha,
+                                     std::span<const OverlapPoint> points);
+
 /// Returns ∫ φ̃_i dA over the whole face, covered or not, [node], m² (m in the plane). Not
 /// collective.
 std::vector<double> wholeIntegrals(const Face& slave, std::span<const double> alpha);

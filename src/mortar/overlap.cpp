@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "mortar/facet.hpp"
+#include "mortar/overlap_rule.hpp"
 #include "mortar/surface.hpp"
 #include "mortar/vector.hpp"
 #include "petsc/check.hpp"
@@ -133,17 +134,24 @@ std::vector<Piece> nearest(std::vector<Piece> pieces, double smallest) {
   return kept;
 }
 
-/// Returns the pieces of a slave facet, which do not overlap.
+double openPart(const Region& slave, const std::vector<Piece>& tiles) {
+  double open = measure(slave);
+  for (const Piece& tile : tiles) open -= measure(tile.region);
+  return open;
+}
+
+/// Returns the pieces of a slave facet, which do not overlap. What is open counts as covered if
+/// masters that reach beyond their edges close all of it. Otherwise it is an overhang, which ends
+/// where the masters end.
 std::vector<Piece> tiles(const Region& slave, const std::vector<Shadow>& shadows,
                          double searchDistance, double slaveSag) {
-  const double area = measure(slave);
+  const double smallest = sliver * measure(slave);
   auto all = pieces(slave, shadows, searchDistance, {});
-  auto tiles = nearest(all, sliver * area);
-  double open = area;
-  for (const Piece& tile : tiles) open -= measure(tile.region);
-  if (tiles.empty() || open <= 10 * sliver * area) return tiles;
+  auto tiles = nearest(all, smallest);
+  if (tiles.empty() || openPart(slave, tiles) <= 10 * smallest) return tiles;
   std::ranges::move(pieces(slave, shadows, searchDistance, slaveSag), std::back_inserter(all));
-  return nearest(std::move(all), sliver * area);
+  auto reaching = nearest(std::move(all), smallest);
+  return openPart(slave, reaching) <= 10 * smallest ? reaching : tiles;
 }
 
 /// A point of the slave face.
@@ -188,15 +196,6 @@ SlavePoint within(const Face& slave, const Facet& triangle, const Region& flat,
   return at;
 }
 
-/// Returns the degree of the rule for products of shape functions of both faces, and some more for
-/// faces that are not affine, where these are no polynomials. On parts of faces that are split the
-/// functions are nearly polynomials of their order, and the area of a flat one has the degree 6.
-int degree(const FaceType& slave, const FaceType& master, bool whole) {
-  const int order = std::max(slave.order, master.order);
-  const bool triangles = slave.corners == 3 && master.corners == 3;
-  return 2 * (triangles || !whole ? order : 2 * order) + 2;
-}
-
 }  // namespace
 
 std::vector<OverlapPoint> overlap(const Face& slave, std::span<const Face* const> masters,
@@ -211,9 +210,8 @@ std::vector<OverlapPoint> overlap(const Face& slave, std::span<const Face* const
     const double slaveSag = sag(slave, facet, frame.normal());
     for (const Piece& tile : tiles(flat, projected, searchDistance, slaveSag)) {
       const Face& master = *masters[tile.master];
-      const int exact =
-          degree(faceType(slave.type), faceType(master.type), facet.whole && tile.whole);
-      for (const auto& [y, weight] : quadrature(tile.region, exact)) {
+      for (const auto& [y, weight] :
+           overlapRule(tile.region, frame, slave, master, facet.whole && tile.whole)) {
         const SlavePoint at = facet.whole ? above(slave, frame, y) : within(slave, facet, flat, y);
         const Point normal = unit(at.surface.normal);
         const auto [reference, gap, met] = project(master, at.surface.position, normal);

@@ -26,14 +26,13 @@ struct OverlapPoint {
 /// if both face each other and if their distance, positive or negative, is at most
 /// `searchDistance`, m. Where two master faces cover the same place, the one that is nearer counts.
 /// Where a rim of the slave is not covered, master faces reach beyond their edges by the sag of
-/// curved edges and by the shift that a gap between inclined faces makes in the projection, so that
-/// common rims of different meshes stay covered.
+/// curved edges and by the shift that a gap between inclined faces makes in the projection, if that
+/// closes what is open. So common rims of different meshes stay covered, and an overhang does not.
 ///
 /// Where edges are straight in the projection, faces are cut at the edges of both sides. Then the
-/// covered part is exact to rounding, and on affine faces the rules are exact for the products of
-/// two shape functions. Otherwise four straight pieces stand for each edge, the triangles between
-/// them tile the slave face exactly, and master faces are extrapolated beyond their edges by their
-/// sag.
+/// covered part is exact to rounding; for the rules see overlapRule(). Otherwise four straight
+/// pieces stand for each edge, the triangles between them tile the slave face exactly, and master
+/// faces are extrapolated beyond their edges by their sag.
 ///
 /// Throws Error for a type of face that faceType() does not know, and for a slave face whose normal
 /// turns by more than 84° from its mean.
