@@ -3,6 +3,7 @@
 DefineConstant[
   order = {1, Name "order", Choices {1, 2}},                  // 1 linear, 2 quadratic cells
   recombine = {1, Name "recombine", Choices {0, 1}},          // 1 hexahedra, 0 wedges whose triangles lie in planes z = constant
+  shape = {recombine ? 1 : 2, Name "shape", Choices {0, 1, 2, 3}},  // 0 tetrahedra, 1 hexahedra, 2 wedges as above, 3 wedges whose triangles face y
   serendipity = {0, Name "serendipity", Choices {0, 1}},      // 1: quadratic cells without nodes inside faces and cells (hex20)
   shared = {0, Name "shared", Choices {0, 1}},                // 1: both slabs own the interface nodes, 0: each has its own there
   nx = {36, Name "nx", Min 1, Max 100000, Step 1},            // cells along x
@@ -20,7 +21,7 @@ Include "grid.inc";
 
 arc_centre = 0;
 count_3 = 0;
-cells = recombine ? 1 : 2;
+cells = shape;
 div_1[] = {nx};
 div_2[] = {ny_disc, ny_pad};
 div_3[] = {nz};
