@@ -26,8 +26,8 @@ inline MeshErrors nonMatchingErrors(const std::string& name, const std::string& 
   EXPECT_TRUE(analysis.converged());
   const Errors found = errors(exact, eigenvaluesOf(analysis.segments.at(0).points.at(0)));
   const MeshErrors means{rootMeanSquare(found.frequency), rootMeanSquare(found.growth)};
-  print("%s %s: frequency %.2e, growth rate %.2e\n", name.c_str(), options.c_str(),
-        means.frequency, means.growth);
+  print("%s %s: frequency %.2e, growth rate %.2e\n", name.c_str(), options.c_str(), means.frequency,
+        means.growth);
   return means;
 }
 
