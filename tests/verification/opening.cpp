@@ -25,17 +25,16 @@ struct Block {
   double height, surface;  ///< H; y of the contact
 };
 
-const Block onDisc{
-    "meshes/two_layers.geo -mesh_set Lx=1,h_disc=0.5,h_pad=0.8,",
-    "meshes/two_slabs.geo -constraint_disc_clamped z -constraint_pad_clamped z"
-    " -mesh_set Lx=1,h_disc=0.5,h_pad=0.8,",
-    " -motion_disc_velocity 1,0,0 -constraint_disc_bottom_clamped xy"
-    " -constraint_pad_top_clamped x -load_pad_top_pressure 0.01"
-    " -contact_interface_pad pad_face -contact_interface_disc disc_face" +
-        material("disc", "1", "0.3", "1") + material("pad", "0.4", "0.25", "0.6"),
-    "pad",
-    0.8,
-    0};
+const Block onDisc{"meshes/two_layers.geo -mesh_set Lx=1,h_disc=0.5,h_pad=0.8,",
+                   "meshes/two_slabs.geo -constraint_disc_clamped z -constraint_pad_clamped z"
+                   " -mesh_set Lx=1,h_disc=0.5,h_pad=0.8,",
+                   " -motion_disc_velocity 1,0,0 -constraint_disc_bottom_clamped xy"
+                   " -constraint_pad_top_clamped x -load_pad_top_pressure 0.01"
+                   " -contact_interface_pad pad_face -contact_interface_disc disc_face" +
+                       material("disc", "1", "0.3", "1") + material("pad", "0.4", "0.25", "0.6"),
+                   "pad",
+                   0.8,
+                   0};
 
 const Block underPlate{
     "meshes/layer.geo -mesh_set Lx=1,h=1,",
@@ -148,9 +147,7 @@ TEST(Opening, OnDiscMeshedApart) {
     expectConvergence(onDisc, exact, "shape=0", slave + side);
 }
 
-TEST(Opening, TetrahedraUnderPlate) {
-  expectConvergence(underPlate, fine(underPlate), "shape=0");
-}
+TEST(Opening, TetrahedraUnderPlate) { expectConvergence(underPlate, fine(underPlate), "shape=0"); }
 
 }  // namespace
 }  // namespace squeal::test
