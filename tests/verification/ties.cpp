@@ -1,0 +1,135 @@
+// Bodies that are tied although their meshes do not match, against one body of the same shape, and
+// what the roles of interfaces have in common.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "contact/coupled.hpp"
+#include "modes/modes.hpp"
+#include "support/case.hpp"
+#include "support/model.hpp"
+#include "support/spectrum.hpp"
+
+namespace squeal::test {
+namespace {
+
+/// Two layers of one material, held at the bottom and periodic along x.
+std::string layers(const std::string& mesh) {
+  return "-mesh_file meshes/two_layers.geo -mesh_set " + mesh + material("disc", "1", "0.3", "1") +
+         material("pad", "1", "0.3", "1") +
+         "-constraint_disc_bottom_clamped xy -constraint_disc_right_image_of disc_left "
+         "-constraint_pad_right_image_of pad_left -modes_count 12 -elasticity_mass consistent ";
+}
+const std::string tie = "-tie_layers_slave pad_face -tie_layers_master disc_face ",
+                  tieOfDisc = "-tie_layers_slave disc_face -tie_layers_master pad_face ";
+
+std::vector<Complex> frequencies(const std::string& options) {
+  setOptions(options);
+  const Model model = buildModel();
+  const contact::CoupledSystem system(model.bodies, model.contact,
+                                      std::vector<unsigned char>(model.contact.nodes.size(), 1));
+  return eigenvaluesOf(modes::compute(system));
+}
+
+/// One body, finely meshed: the layers share their nodes.
+const std::vector<Complex>& reference() {
+  static const std::vector<Complex> found =
+      frequencies(layers("order=2,shared=1,nx=72,ny_disc=24,ny_pad=15"));
+  return found;
+}
+
+void expectOrder(double least, const std::string& coarse, const std::string& fine,
+                 const std::string& ties) {
+  const auto before = errors(reference(), frequencies(layers(coarse) + ties)).relative,
+             after = errors(reference(), frequencies(layers(fine) + ties)).relative;
+  const double order = std::log2(rootMeanSquare(before) / rootMeanSquare(after));
+  print("%s: errors up to %.1e and %.1e, order %.2f\n", coarse.c_str(), worst(before),
+        worst(after), order);
+  EXPECT_GT(order, least);
+}
+
+// Cells 2:3 on both sides, the slave finer and coarser than the master.
+TEST(Ties, FrequenciesConvergeWithTheOrderOfTheElements) {
+  for (const auto& ties : {tie, tieOfDisc}) {
+    expectOrder(1.9, "nx=16,nx_pad=24,ny_disc=6,ny_pad=5", "nx=32,nx_pad=48,ny_disc=12,ny_pad=10",
+                ties);
+    expectOrder(3.5, "order=2,nx=8,nx_pad=12,ny_disc=4,ny_pad=3",
+                "order=2,nx=16,nx_pad=24,ny_disc=8,ny_pad=6", ties);
+  }
+}
+
+// Node on node, a tie is the same as shared nodes.
+TEST(Ties, MatchingMeshesAreOneBody) {
+  const std::string mesh = "nx=12,ny_disc=4,ny_pad=3";
+  const auto tied = frequencies(layers(mesh) + tie),
+             shared = frequencies(layers(mesh + ",shared=1"));
+  EXPECT_LT(worst(errors(shared, tied).relative), 1e-9);  // the tolerance of the modes, squared
+}
+
+// A rigid motion of both bodies satisfies the tie, so that it stores no energy. The bodies rest on
+// springs: a body that nothing holds is an error.
+TEST(Ties, RigidMotionsAreFree) {
+  for (const std::string element : {"order=1", "order=2", "order=2,serendipity=1"}) {
+    setOptions("-mesh_file meshes/two_slabs.geo -mesh_set nx=4,nx_pad=5,ny_disc=2,ny_pad=2,nz=2,"
+               "nz_pad=3,depth=1," +
+               element + material("disc", "1", "0.3", "1") + material("pad", "1", "0.3", "1") +
+               "-ground_disc_bottom_stiffness 1,1,1 " + tie);
+    const Model model = buildModel();
+    const contact::Transformation t = model.contact.transformation({});
+    const OwnedVec turned = nodalField(*model.mesh, [](const mesh::Point& x) {
+      return mesh::Point{0.3 - 0.7 * x[1] + 0.2 * x[2], 0.1 + 0.7 * x[0] - 0.5 * x[2],
+                         -0.4 - 0.2 * x[0] + 0.5 * x[1]};
+    });
+    OwnedVec x, u = elasticity::nodalVector(*model.mesh);
+    check(MatCreateVecs(t.trial, x.out(), nullptr));
+    check(MatMultTranspose(t.selection, turned, x));  // all but the slaves
+    check(MatMult(t.trial, x, u));
+    check(VecAXPY(u, -1, turned));
+    PetscReal difference = 0;
+    check(VecNorm(u, NORM_INFINITY, &difference));
+    print("%s: %d tied nodes, a rigid motion is met to %.1e\n", element.c_str(),
+          int(total(double(model.contact.tied.size()))), double(difference));
+    EXPECT_LT(difference, 1e-10);  // gmsh places nodes to 1e-11
+  }
+}
+
+// Slaves that rest on each other.
+TEST(Ties, CirclesAreErrors) {
+  for (const std::string mesh : {"nx=4,ny_disc=2,ny_pad=2", "nx=4,nx_pad=6,ny_disc=2,ny_pad=2"}) {
+    setOptions(layers(mesh) +
+               "-tie_up_slave pad_face -tie_up_master disc_face -tie_down_slave disc_face "
+               "-tie_down_master pad_face");
+    const std::string message = errorOf([] { buildModel(); });
+    EXPECT_TRUE(contains(message, "rest on each other in a circle") &&
+                contains(message, "tie 'down'") && contains(message, "tie 'up'"))
+        << message;
+  }
+}
+
+std::vector<Complex> spectrum(const std::string& options) {
+  const analysis::Analysis analysis =
+      runCase("two_layers", "-mesh_set nx=12,nx_pad=18,ny_disc=4,ny_pad=4 -flutter_method direct "
+                            "-flutter_direct_count 20 " +
+                                options);
+  return eigenvaluesOf(analysis.segments.at(0).points.at(0));
+}
+
+// Closed contact that sticks is a tie; without friction it is sliding at f = 0; a factor is one on
+// f.
+TEST(Roles, AgreeWhereTheyMust) {
+  const std::string role = "-contact_interface_role ";
+  const auto sticking = spectrum(role + "sticking -flutter_friction 0.4"),
+             tied = spectrum(role + "tied -flutter_friction 0.4"),
+             smooth = spectrum(role + "frictionless -flutter_friction 0.4"),
+             none = spectrum("-flutter_friction 0"),
+             half = spectrum("-contact_interface_friction_factor 0.5 -flutter_friction 0.6"),
+             less = spectrum("-flutter_friction 0.3");
+  EXPECT_LT(worst(errors(tied, sticking).relative), 1e-9);
+  EXPECT_LT(worst(errors(none, smooth).relative), 1e-9);
+  EXPECT_LT(worst(errors(less, half).relative), 1e-9);
+  EXPECT_GT(worst(errors(none, tied).relative), 1e-2);
+  EXPECT_GT(worst(errors(none, less).relative), 1e-3);
+}
+
+}  // namespace
+}  // namespace squeal::test
