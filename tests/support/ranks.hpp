@@ -96,7 +96,7 @@ inline void expectBand(const Findings& findings, double friction) {
 /// Frequencies, eigenvalues, contact forces and counts of `other` are those of `one`; prints the
 /// differences. SNES takes no more than `mostIterations`.
 inline void expectSame(const Findings& one, const Findings& other, const std::string& label,
-                       int mostIterations) {
+                       int mostIterations = 6) {
   SCOPED_TRACE(label);
   ASSERT_FALSE(one.frequencies.empty());
   ASSERT_EQ(one.frequencies.size(), other.frequencies.size());
