@@ -1,11 +1,10 @@
 #include "mortar/clip.hpp"
 
-#include <gmsh.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <string>
+#include <numbers>
+#include <utility>
 
 namespace squeal::mortar {
 namespace {
@@ -39,13 +38,24 @@ std::vector<HalfPlane> sides(const Region& region) {
 /// A Gauss rule on the line from 0 to 1, or on the triangle (0, 0), (1, 0), (0, 1).
 using Rule = std::vector<WeightedPoint>;
 
+/// Returns the rule of Gauss and Legendre. gmsh has none of more than 20 points, which strongly
+/// distorted faces need. Its points are the roots of the polynomial P_n, by Newton's method from
+/// their asymptotes (Abramowitz and Stegun, 25.4.29), with
+///   k P_k = (2k − 1) x P_{k−1} − (k − 1) P_{k−2}.
 Rule makeLineRule(int degree) {
-  std::vector<double> point, weight;
-  constexpr int line = 1;  // gmsh's type, from −1 to 1
-  gmsh::model::mesh::getIntegrationPoints(line, "Gauss" + std::to_string(degree), point, weight);
+  const int n = degree / 2 + 1;
   Rule rule;
-  for (std::size_t q = 0; q < weight.size(); ++q)
-    rule.push_back({{(1 + point[3 * q]) / 2, 0}, weight[q] / 2});
+  for (int i = 0; i < n; ++i) {
+    double x = -std::cos(std::numbers::pi * (i + 0.75) / (n + 0.5)), slope = 0;
+    for (int step = 0; step < 6; ++step) {
+      double last = 1, value = x;
+      for (int k = 2; k <= n; ++k)
+        last = std::exchange(value, ((2 * k - 1) * x * value - (k - 1) * last) / k);
+      slope = n * (last - x * value) / (1 - x * x);
+      x -= value / slope;
+    }
+    rule.push_back({{(1 + x) / 2, 0}, 1 / ((1 - x * x) * slope * slope)});
+  }
   return rule;
 }
 

@@ -17,7 +17,9 @@ TEST(BadInput, OnOneRank) {
         {"unknown option -flutter_frictions"}},
        {"density", with(layer, {{"material_layer_density", "-1"}}), {"-material_layer_density -1"}},
        {"mesh_file", with(layer, {{"mesh_file", "meshes/nosuch.geo"}}), {"no such file"}},
-       {"faces", onSquares(place / "faces.geo"), {"matching meshes"}},
+       {"faces",
+        with(onSquares(place / "faces.geo"), {{"contact_face_pad", "top"}}),
+        {"no part of 'top' faces a part of 'disc_face'"}},
        {"inverted",
         with(without(layer, {"mesh_set", "constraint_right_image_of"}),
              {{"mesh_file", (place / "inverted.msh").string()}, {"modes_count", "2"}}),
@@ -33,6 +35,7 @@ TEST(BadInput, OnOneRank) {
 // Without this, a mistake in the cases themselves would pass for the mistake they are about.
 TEST(BadInput, BaseCasesAreSound) {
   const fs::path place = placeFor("bad_input/meshes");
+  writeText(place / "apart.geo", squares("4", "5"));
   writeText(place / "matching.geo", squares("4", "4"));
   writeText(place / "sound.msh", twoQuadrangles(false));
   const Options quadrangles =
@@ -42,6 +45,7 @@ TEST(BadInput, BaseCasesAreSound) {
       {"layer", layer},
       {"two_layers", twoLayers},
       {"squares", onSquares(place / "matching.geo")},
+      {"squares_apart", onSquares(place / "apart.geo")},
       {"quadrangles", quadrangles},
       {"periodic_squares", periodicSquares(place / "matching.geo")}};
   for (const auto& [name, options] : cases) {
@@ -299,7 +303,6 @@ TEST(BadInput, Constraints) {
 TEST(BadInput, Contact) {
   const fs::path place = placeFor("bad_input/meshes");
   writeText(place / "faces_4_5.geo", squares("4", "5"));
-  writeText(place / "faces_4_2.geo", squares("4", "2"));
   writeText(place / "inside.geo",
             "Point(1) = {0, -1, 0}; Point(2) = {1, -1, 0}; Point(3) = {1, 0, 0}; Point(4) = {0, 0, "
             "0}; Point(5) = {1, 1, 0}; "
@@ -313,12 +316,6 @@ TEST(BadInput, Contact) {
             "Curve(\"disc_face\") = {6};\n"
             "Physical Surface(\"disc\") = {1, 2};\n");
   writeText(place / "matching.geo", squares("4", "4"));
-  // The lower face in two halves, one of which the group leaves out.
-  std::string halves = changed(squares("2", "4"), "Line(3) = {3, 4};",
-                               "Point(9) = {0.5, 0, 0}; Line(3) = {3, 9}; Line(9) = {9, 4};");
-  halves = changed(halves, "Curve Loop(1) = {1, 2, 3, 4};",
-                   "Curve Loop(1) = {1, 2, 3, 9, 4}; Transfinite Curve {9} = 3;");
-  writeText(place / "half_missing.geo", halves);
   expectExplained({
       {"no_slip_obstacle",
        without(layer, {"contact_plate_obstacle_velocity"}),
@@ -329,20 +326,6 @@ TEST(BadInput, Contact) {
       {"no_slip_disc",
        without(onSquares(place / "matching.geo"), {"motion_disc_velocity"}),
        {"|w| = 0", "'face'", "-motion_<body>_velocity"}},
-      {"faces",
-       onSquares(place / "faces_4_5.geo"),
-       {"-contact_face_pad pad_face", "-contact_face_disc disc_face", "not meshed alike",
-        "matching meshes"}},
-      {"disc_face_finer",
-       onSquares(place / "faces_4_2.geo"),
-       {"-contact_face_pad pad_face", "-contact_face_disc disc_face", "the face of 'pad_face'",
-        "one face of 'disc_face'", "matching meshes"}},
-      {"disc_face_missing",
-       onSquares(place / "half_missing.geo"),
-       {"-contact_face_pad pad_face, -contact_face_disc disc_face: the node at (0.25, 0, 0) of "
-        "'pad_face'",
-        "no node of 'disc_face'", "body 'disc' has one",
-        "is a face missing in the group 'disc_face'?"}},
       {"held_across",
        with(layer, {{"constraint_top_clamped", "y"}}),
        {"holds component y", "not tangential", "-constraint_top_clamped"}},
@@ -375,6 +358,64 @@ TEST(BadInput, Contact) {
              {"constraint_disc_bottom_clamped", "xy"},
              {"constraint_pad_top_clamped", "xy"}}),
        {"-contact_face_pad", "share the nodes", "-motion_<body>_"}},
+  });
+}
+
+/// The squares with other cells on both faces, and the upper one moved.
+std::string movedSquares(const std::string& right, const std::string& up) {
+  const std::string text =
+      changed(squares("4", "5"),
+              "Point(5) = {0, 0, 0}; Point(6) = {1, 0, 0}; Point(7) = {1, 1, 0}; "
+              "Point(8) = {0, 1, 0};",
+              "Point(5) = {0 + x, 0 + y, 0}; Point(6) = {1 + x, 0 + y, 0}; Point(7) = {1 + x, 1 + "
+              "y, 0}; Point(8) = {0 + x, 1 + y, 0};");
+  return "x = " + right + "; y = " + up + ";\n" + text;
+}
+
+// Surfaces that are meshed apart, and that are no contact.
+TEST(BadInput, ContactOfMeshesThatDoNotMatch) {
+  const fs::path place = placeFor("bad_input/meshes_apart");
+  for (const auto& [name, right, up] :
+       {std::array{"close", "0", "0.05"}, {"far", "0", "0.2"}, {"beside", "1.5", "0"}})
+    writeText(place / (std::string(name) + ".geo"), movedSquares(right, up));
+  const Options close = onSquares(place / "close.geo"), far = onSquares(place / "far.geo"),
+                beside = onSquares(place / "beside.geo");
+  // Half a face is 0.1 on the finer side.
+  const std::vector<std::string> apart{"-contact_face_pad pad_face", "-contact_face_disc disc_face",
+                                       "no part of 'pad_face' faces a part of 'disc_face'",
+                                       "-contact_face_search"};
+  const auto together = [](std::vector<std::string> words, const std::string& more) {
+    words.push_back(more);
+    return words;
+  };
+  expectExplained({
+      {"looking_away",
+       with(close, {{"contact_face_pad", "top"}, {"contact_face_search", "3"}}),
+       {"-contact_face_pad top", "no part of 'top' faces a part of 'disc_face'",
+        "-contact_face_search 3 m"}},
+      {"too_far", far, together(apart, "half the size of a face")},
+      {"too_far_by_option", with(close, {{"contact_face_search", "0.04"}}),
+       together(apart, "-contact_face_search 0.04 m")},
+      {"side_by_side", beside, apart},
+      {"side_by_side_searched_far", with(beside, {{"contact_face_search", "9"}}), apart},
+      {"slave_held_across",
+       with(close, {{"constraint_pad_face_clamped", "y"}}),
+       {"-constraint_pad_face_clamped holds component y", "not tangential"}},
+      {"disc_held_across",
+       with(close, {{"contact_face_slave", "disc"}, {"constraint_disc_face_clamped", "y"}}),
+       {"-constraint_disc_face_clamped holds component y", "not tangential"}},
+      {"claimed_twice",
+       with(close, {{"contact_other_pad", "pad_face"}, {"contact_other_disc", "disc_face"}}),
+       {"'face'", "'other'", "both claim the node at (", "a node has one gap"}},
+      {"with_itself",
+       with(close, {{"contact_face_disc", "pad_face"}}),
+       {"-contact_face_pad pad_face", "pad and disc are the same surface"}},
+      {"slave_and_master",
+       with(close, {{"contact_face_slave", "pad"},
+                    {"contact_other_pad", "pad_face"},
+                    {"contact_other_disc", "disc_face"},
+                    {"contact_other_slave", "disc"}}),
+       {"interface '", "slave"}},
   });
 }
 

@@ -221,5 +221,16 @@ TEST(Coupling, PeriodicImagesCountAsOneNode) {
   }
 }
 
+// Only the rank that has the face can notice; all of them say so.
+TEST(Coupling, FoldedFacesAreNamedOnAllRanks) {
+  const auto arch = [](const Point& x) { return Point{x[0], x[1], x[2] - 20 * x[0] * (1 - x[0])}; };
+  const Case c = caseOf(blocksApart(file(5, 10), {10, {3, 1, 2}, {0, 0, -1}, {1, 1, 0}},
+                                    {10, {1, 1, 3}, {0, 0, 0}, {1, 1, 1}, 0, 0, arch}));
+  const std::string message = errorOf([&] { padOnDisc(c.mesh, 20); });
+  EXPECT_TRUE(contains(message, "surface 'pad_low' near (0, 0, 0): a face on the slave side") &&
+              contains(message, "refine it"))
+      << message;
+}
+
 }  // namespace
 }  // namespace squeal

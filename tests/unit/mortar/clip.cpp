@@ -116,5 +116,22 @@ TEST(Clip, CentroidIsThatOfTheArea) {
   EXPECT_NEAR(centre[1], 26. / 3 / 8, 1e-15);
 }
 
+// Distorted faces take high degrees: ∫ xⁿ = 1/(n + 1) over the interval, and over the triangle
+// ∫ xᵃ yᵇ = a! b! / (a + b + 2)!.
+TEST(Quadrature, IsExactForHighDegrees) {
+  for (const int degree : {1, 2, 3, 9, 20, 41, 90})
+    for (int n = 0; n <= degree; ++n) {
+      double line = 0, triangle = 0;
+      for (const auto& [x, weight] : quadrature({{0, 0}, {1, 0}}, degree))
+        line += weight * std::pow(x[0], n);
+      const int a = n / 3, b = n - a;
+      for (const auto& [x, weight] : quadrature({{0, 0}, {1, 0}, {0, 1}}, degree))
+        triangle += weight * std::pow(x[0], a) * std::pow(x[1], b);
+      EXPECT_NEAR(line * (n + 1), 1, 2e-14) << n << " of " << degree;
+      const double exact = std::exp(std::lgamma(a + 1) + std::lgamma(b + 1) - std::lgamma(n + 3));
+      EXPECT_NEAR(triangle / exact, 1, 1e-12) << n << " of " << degree;
+    }
+}
+
 }  // namespace
 }  // namespace squeal
