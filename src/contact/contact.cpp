@@ -282,7 +282,8 @@ void requireSlip(const Contact& contact, const std::vector<Slip>& slip,
           "node at " +
           text(node.position) + " of interface '" + contact.interfaces[node.interface] +
           "'; give -motion_<body>_velocity or _speed, or " +
-          interfaces::obstacleVelocityName(contact.interfaces[node.interface]);
+          interfaces::obstacleVelocityName(contact.interfaces[node.interface]) + ", or " +
+          interfaces::roleName(contact.interfaces[node.interface]) + " sticking or frictionless";
     }
   failTogether(contact.mesh->comm, failure);
 }

@@ -61,8 +61,7 @@ Found solve(const std::string& options, double share, bool isSphere) {
   EXPECT_FALSE(model.contact.reports.at(0).matching);
   const contact::CoupledSystem system(model.bodies, model.contact,
                                       std::vector<unsigned char>(model.contact.nodes.size(), 1));
-  const auto solution =
-      steady::Problem(*model.mesh, model.bodies, model.contact).solve({}, system);
+  const auto solution = steady::Problem(*model.mesh, model.bodies, model.contact).solve({}, system);
   EXPECT_TRUE(solution.converged) << solution.reason;
   EXPECT_GT(solution.openNodes, 0);
   Found found;
@@ -129,10 +128,9 @@ TEST(Hertz, Sphere) {
   const Hertz exact = sphere(load * M_PI * radius * radius, effective(steel, steel));
   std::vector<double> error;
   for (const double h : {2.0, 1.4}) {
-    const Found found = solve(
-        pressed("body=2,order=2,h=" + std::to_string(h), steel, load,
-                "-constraint_bottom_clamped xyz -constraint_front_clamped z"),
-        0.4, true);
+    const Found found = solve(pressed("body=2,order=2,h=" + std::to_string(h), steel, load,
+                                      "-constraint_bottom_clamped xyz -constraint_front_clamped z"),
+                              0.4, true);
     EXPECT_NEAR(found.force / (load * M_PI * radius * radius / 4), 1, 3e-4);
     expectHertz(found, exact, 0.006 * h, h);
     error.push_back(std::abs(found.size / exact.size - 1));

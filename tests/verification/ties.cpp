@@ -43,8 +43,8 @@ void expectOrder(double least, const std::string& coarse, const std::string& fin
   const auto before = errors(reference(), frequencies(layers(coarse) + ties)).relative,
              after = errors(reference(), frequencies(layers(fine) + ties)).relative;
   const double order = std::log2(rootMeanSquare(before) / rootMeanSquare(after));
-  print("%s: errors up to %.1e and %.1e, order %.2f\n", coarse.c_str(), worst(before),
-        worst(after), order);
+  print("%s: errors up to %.1e and %.1e, order %.2f\n", coarse.c_str(), worst(before), worst(after),
+        order);
   EXPECT_GT(order, least);
 }
 
@@ -70,10 +70,11 @@ TEST(Ties, MatchingMeshesAreOneBody) {
 // springs: a body that nothing holds is an error.
 TEST(Ties, RigidMotionsAreFree) {
   for (const std::string element : {"order=1", "order=2", "order=2,serendipity=1"}) {
-    setOptions("-mesh_file meshes/two_slabs.geo -mesh_set nx=4,nx_pad=5,ny_disc=2,ny_pad=2,nz=2,"
-               "nz_pad=3,depth=1," +
-               element + material("disc", "1", "0.3", "1") + material("pad", "1", "0.3", "1") +
-               "-ground_disc_bottom_stiffness 1,1,1 " + tie);
+    setOptions(
+        "-mesh_file meshes/two_slabs.geo -mesh_set nx=4,nx_pad=5,ny_disc=2,ny_pad=2,nz=2,"
+        "nz_pad=3,depth=1," +
+        element + material("disc", "1", "0.3", "1") + material("pad", "1", "0.3", "1") +
+        "-ground_disc_bottom_stiffness 1,1,1 " + tie);
     const Model model = buildModel();
     const contact::Transformation t = model.contact.transformation({});
     const OwnedVec turned = nodalField(*model.mesh, [](const mesh::Point& x) {
@@ -108,9 +109,10 @@ TEST(Ties, CirclesAreErrors) {
 
 std::vector<Complex> spectrum(const std::string& options) {
   const analysis::Analysis analysis =
-      runCase("two_layers", "-mesh_set nx=12,nx_pad=18,ny_disc=4,ny_pad=4 -flutter_method direct "
-                            "-flutter_direct_count 20 " +
-                                options);
+      runCase("two_layers",
+              "-mesh_set nx=12,nx_pad=18,ny_disc=4,ny_pad=4 -flutter_method direct "
+              "-flutter_direct_count 20 " +
+                  options);
   return eigenvaluesOf(analysis.segments.at(0).points.at(0));
 }
 
