@@ -1,6 +1,6 @@
 // Disc brake: friction ring and hat of the disc about the z axis, one pad (friction lining and steel back plate) on the upper face
 // of the ring, its middle on the x axis. The disc turns about +z, so the matter under the pad moves along +y. Disc and lining share
-// the nodes of the contact surface; the program gives each its own. Lengths in m, angles in degrees. Sources: README.md.
+// the nodes of the contact surface; the program gives each its own. With `apart` the disc has a mesh of its own there. Lengths in m, angles in degrees. Sources: README.md.
 DefineConstant[
   order = {1, Name "order", Choices {1, 2}},              // 1 linear; 2 quadratic cells, half as many along each edge
   serendipity = {0, Name "serendipity", Choices {0, 1}},  // 1: quadratic cells without nodes inside faces and cells (hex20)
@@ -21,8 +21,13 @@ DefineConstant[
   slope = {0.005, Name "slope"},  // by which the back plate juts out over the rubbing face, all round
   h_lining = {0.006, Name "h_lining"},
   h_back = {0.005, Name "h_back"},
+  // The disc has nodes of its own under the lining, where its mesh need not match.
+  apart = {0, Name "apart", Choices {0, 1}},
+  disc_turn = {0, Name "disc_turn", Min 0, Max 5},  // angle by which the sectors of the disc are turned against the pad, if apart
   // Cells.
   n_pad_theta = {Ceil(24 / order), Name "n_pad_theta", Min 1, Max 100000, Step 1},    // along the pad
+  n_disc_theta = {n_pad_theta, Name "n_disc_theta", Min 1, Max 100000, Step 1},       // along the disc under the pad, if apart
+  n_disc_r = {Ceil(10 / order), Name "n_disc_r", Min 1, Max 100000, Step 1},          // across it there, if apart
   n_free_theta = {Ceil(41 / order), Name "n_free_theta", Min 1, Max 100000, Step 1},  // along each third of the disc's rest
   n_mount = {Ceil(3 / order), Name "n_mount", Min 1, Max 100000, Step 1},             // radially: bore to r_mount
   n_plate = {Ceil(3 / order), Name "n_plate", Min 1, Max 100000, Step 1},             // r_mount to r_hat
@@ -44,9 +49,10 @@ base = 0;
 arc_centre = 9001;
 count_3 = 4;
 cells = 1;
-div_1[] = {n_mount, n_plate, n_wall, n_inside, n_pad_r, n_outside};
+pad = apart ? 10000 : 0;
+div_1[] = {n_mount, n_plate, n_wall, n_inside, apart ? n_disc_r : n_pad_r, n_outside};
 div_2[] = {n_h_plate, n_hat, n_h_ring, n_h_lining, n_h_back, n_h_back};
-div_3[] = {n_pad_theta, n_free_theta, n_free_theta, n_free_theta};
+div_3[] = {apart ? n_disc_theta : n_pad_theta, n_free_theta, n_free_theta, n_free_theta};
 
 // Radius, axis and angle are a right-handed system when the angle runs clockwise: sector 0 is the pad's, from its trailing end
 // at +pad_angle / 2 to its leading end.
@@ -60,7 +66,11 @@ For j In {0 : 6}
       // The pad stands on sector 0 alone, and the hat's plate ends at its wall.
       If ((j < 2 && i < 4) || ((j == 2 || j == 3) && i > 1) || (j > 3 && k < 2 && (i == 4 || i == 5)))
         radius = r[i] + (i == 4 ? -jut : (i == 5 ? jut : 0));
-        Point(1 + i + 10 * j + 100 * k) = {radius * Cos(angle[k] * Pi / 180), radius * Sin(angle[k] * Pi / 180), z[j]};
+        turned = (angle[k] + (apart && j < 4 ? disc_turn : 0)) * Pi / 180;
+        Point((j > 3 ? pad : 0) + 1 + i + 10 * j + 100 * k) = {radius * Cos(turned), radius * Sin(turned), z[j]};
+        If (apart && j == 3 && k < 2 && (i == 4 || i == 5))
+          Point(pad + 1 + i + 10 * j + 100 * k) = {radius * Cos(angle[k] * Pi / 180), radius * Sin(angle[k] * Pi / 180), z[j]};
+        EndIf
       EndIf
     EndFor
   EndFor
@@ -85,23 +95,36 @@ For k In {0 : 3}
     ring[] += {8000 + grid_0};
   EndFor
 EndFor
+base = pad;
+div_1[4] = n_pad_r;
+div_3[0] = n_pad_theta;
 i = 4; k = 0;
 For j In {3 : 5}
   Call GridBlock;
 EndFor
+// A turned sector is not that under the pad: the whole upper face of the ring may touch it.
+disc_face[] = {6035};
+If (apart)
+  For k In {0 : 3}
+    For i In {3 : 5}
+      disc_face[] += {6031 + i + 100 * k};
+    EndFor
+  EndFor
+  disc_face[] = Unique(disc_face[]);
+EndIf
 
 Physical Surface("mounting") = mounting[];
-Physical Surface("disc_face") = {6035};
-Physical Surface("lining_face") = {6035};
-Physical Surface("pressed") = {6065};
+Physical Surface("disc_face") = disc_face[];
+Physical Surface("lining_face") = {pad + 6035};
+Physical Surface("pressed") = {pad + 6065};
 // The ends of the back plate lie flat on the abutments; its inner side touches along its middle line and can tilt about it.
-Physical Surface("guide_trailing") = {7045, 7055};
-Physical Surface("guide_leading") = {7145, 7155};
-Physical Curve("guide_radial") = {3055};
+Physical Surface("guide_trailing") = {pad + 7045, pad + 7055};
+Physical Surface("guide_leading") = {pad + 7145, pad + 7155};
+Physical Curve("guide_radial") = {pad + 3055};
 Physical Volume("disc") = ring[];
 Physical Volume("hat") = hat_volumes[];
-Physical Volume("lining") = {8035};
-Physical Volume("back_plate") = {8045, 8055};
+Physical Volume("lining") = {pad + 8035};
+Physical Volume("back_plate") = {pad + 8045, pad + 8055};
 
 Mesh.ElementOrder = order;
 Mesh.SecondOrderIncomplete = serendipity;
