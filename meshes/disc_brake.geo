@@ -1,6 +1,7 @@
 // Disc brake: friction ring and hat of the disc about the z axis, one pad (friction lining and steel back plate) on the upper face
 // of the ring, its middle on the x axis. The disc turns about +z, so the matter under the pad moves along +y. Disc and lining share
-// the nodes of the contact surface; the program gives each its own. With `apart` the disc has a mesh of its own there. Lengths in m, angles in degrees. Sources: README.md.
+// the nodes of the contact surface; the program gives each its own. With `apart` the disc has a mesh of its own there.
+// Lengths in m, angles in degrees. Sources: README.md.
 DefineConstant[
   order = {1, Name "order", Choices {1, 2}},              // 1 linear; 2 quadratic cells, half as many along each edge
   serendipity = {0, Name "serendipity", Choices {0, 1}},  // 1: quadratic cells without nodes inside faces and cells (hex20)

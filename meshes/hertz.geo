@@ -1,6 +1,6 @@
 // A cylinder on a block, the half x > 0 of both and the lower half of the cylinder, or a sphere on a block, a quarter of both.
-// They are `lift` apart at the origin, lest gmsh unites the points there; y points from the block to the round body. Triangles are fine near the contact, and the meshes do not
-// match there. Lengths in mm, so that MPa and N go with them.
+// They are `lift` apart at the origin, lest gmsh unites the points there; y points from the block to the round body. Cells are
+// fine near the contact, and the meshes do not match there. Lengths in mm, so that MPa and N go with them.
 DefineConstant[
   order = {1, Name "order", Choices {1, 2}},              // 1 linear, 2 quadratic cells
   recombine = {0, Name "recombine", Choices {0, 1}},      // 1: quadrangles where possible, and hexahedra and wedges of a slab; else tetrahedra
