@@ -91,7 +91,7 @@ TEST(SteelBrake, OpeningContactOfWeaklyHeldPads) {
     for (const auto& state : solution.contact) largest = test::worse(largest, state.normalForce);
     largest = test::largest(largest);
     for (std::size_t i = 0; i < solution.contact.size(); ++i) {
-      const auto& [gap, normal, area, friction] = solution.contact[i];
+      const auto& [gap, coefficient, normal, area, friction] = solution.contact[i];
       EXPECT_GE(gap, 0);
       EXPECT_GT(normal, -1e-5 * largest);
       if (solution.closed[i])
