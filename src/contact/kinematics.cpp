@@ -47,7 +47,7 @@ Frame frameOf(const ContactNode& node, const Contact& contact, int dimension) {
       if (std::abs(dot(e, node.normal)) > 1e-6)
         throw Error("option -constraint_" +
                     constraints.groups[constraints.heldBy[dimension * node.node + d]] +
-                    "_clamped holds component " + "xyz"[d] + " of the pad contact node at " +
+                    "_clamped holds component " + "xyz"[d] + " of the contact node at " +
                     text(node.position) +
                     ", which is not tangential there; contact decides the normal component");
       frame.tangents.push_back(e);

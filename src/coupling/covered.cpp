@@ -57,7 +57,7 @@ std::vector<double> nodalSums(const NodeExchange& exchange, std::size_t nodes,
 /// Returns true for a face with an open part. One that nothing covers has no integrals that could
 /// be negative.
 bool isPartial(const CoveredFace& face) {
-  return face.covered > 0 && face.covered < nearlyAll * face.area;
+  return face.moments.covered > 0 && face.moments.covered < nearlyAll * face.area;
 }
 
 /// Collective. Returns α of the edges, [local node].
@@ -80,7 +80,7 @@ std::vector<double> chooseAlpha(const NodeExchange& exchange, std::size_t nodes,
 /// positive integral over the covered part and yet no positive weight.
 std::vector<double> weights(const CoveredFace& face, const Basis& basis) {
   const auto kept = pivots(*face.type, mortar::Multiplier::nodes, basis.droppedOf(face));
-  const auto terms = integrate(*face.face, basis.alphaOf(face), kept, face.masters, face.points);
+  const auto terms = integrate(face.moments, basis.alphaOf(face), kept);
   std::vector<double> values(face.local.size(), 0.0);
   for (std::size_t p = 0; p < kept.nodes.size(); ++p) values[kept.nodes[p]] = terms.weight[p];
   return values;
@@ -102,7 +102,7 @@ PetscInt countDropped(const mesh::Mesh& mesh, const NodeExchange& exchange,
                       const std::vector<CoveredFace>& faces, const Basis& basis) {
   std::vector<double> atCovered(mesh.localNodes(), 0.0);
   for (const auto& face : faces)
-    if (!face.points.empty())
+    if (face.moments.covered > 0)
       for (PetscInt node : face.local) atCovered[node] = 1;
   exchange.largest(atCovered);
   PetscInt count = 0;
@@ -144,22 +144,30 @@ Surfaces surfacesOf(const mesh::Mesh& mesh, const NodeExchange& exchange, const 
   return surfaces;
 }
 
-std::vector<CoveredFace> cover(MPI_Comm comm, const Surfaces& surfaces, const std::string& slave) {
+std::vector<CoveredFace> cover(MPI_Comm comm, const Surfaces& surfaces, const std::string& slave,
+                               const BodyVelocity& velocity) {
   std::vector<CoveredFace> faces;
+  faces.reserve(surfaces.slaves.size());
   std::string failure;
   for (std::size_t i = 0; i < surfaces.slaves.size() && failure.empty(); ++i) {
     const Face& face = surfaces.slaves[i];
     CoveredFace& found = faces.emplace_back(
-        CoveredFace{&face, &faceType(face.type), surfaces.localNodes[i], {}, {}, areaOf(face), 0});
+        CoveredFace{&face, &faceType(face.type), surfaces.localNodes[i], {}, {}, areaOf(face)});
     for (std::size_t k : surfaces.candidates.ofSlave[i])
       found.masters.push_back(&surfaces.candidates.masters[k]);
+    mortar::Velocity at;
+    if (velocity)
+      at = [&](std::size_t master, const Point& x) {
+        return velocity(found.masters[master]->body, x);
+      };
     try {
-      found.points = mortar::overlap(face, found.masters, surfaces.distances[i]);
+      const auto points = mortar::overlap(face, found.masters, surfaces.distances[i]);
+      found.moments = moments(face, found.masters, points, at);
     } catch (const Error& error) {
       failure = formatted("surface '%s' near (%g, %g, %g): %s", slave.c_str(), face.points[0][0],
                           face.points[0][1], face.points[0][2], error.what());
     }
-    for (const auto& point : found.points) found.covered += point.weight;
+    if (!isPartial(found)) found.moments.points = {};  // they take most of the memory
   }
   failTogether(comm, failure);
   return faces;
@@ -186,7 +194,7 @@ Basis chooseBasis(const mesh::Mesh& mesh, const NodeExchange& exchange,
     return wholeIntegrals(*face.face, basis.alphaOf(face));
   };
   const auto coveredOf = [&](const CoveredFace& face) {
-    return coveredIntegrals(*face.face, basis.alphaOf(face), face.points);
+    return coveredIntegrals(face.moments, basis.alphaOf(face));
   };
   const auto weightOf = [&](const CoveredFace& face) {
     return isPartial(face) ? weights(face, basis) : coveredOf(face);

@@ -3,9 +3,10 @@
 #include <string>
 #include <vector>
 
+#include "coupling/coupling.hpp"
 #include "coupling/exchange.hpp"
 #include "coupling/search.hpp"
-#include "mortar/overlap.hpp"
+#include "mortar/moments.hpp"
 
 namespace squeal::coupling {
 
@@ -34,13 +35,14 @@ struct CoveredFace {
   const mortar::FaceType* type;
   std::vector<PetscInt> local;  ///< [node] local number
   std::vector<const Face*> masters;
-  std::vector<mortar::OverlapPoint> points;  ///< none if nothing covers it
-  double area = 0, covered = 0;              ///< m² (m in the plane)
+  mortar::FaceMoments moments;
+  double area = 0;  ///< m² (m in the plane)
 };
 
-/// Collective. Returns all slave faces of this rank. Throws Error, naming the surface, if one is so
-/// strongly curved that it cannot be projected.
-std::vector<CoveredFace> cover(MPI_Comm comm, const Surfaces& surfaces, const std::string& slave);
+/// Collective. Returns all slave faces of this rank, integrated. `velocity` may be empty. Throws
+/// Error, naming the surface, if one is so strongly curved that it cannot be projected.
+std::vector<CoveredFace> cover(MPI_Comm comm, const Surfaces& surfaces, const std::string& slave,
+                               const BodyVelocity& velocity);
 
 /// The values at the nodes of the slave that decide on the basis φ̃, [local node]. They are the
 /// same on all ranks that have the node, and on its images.

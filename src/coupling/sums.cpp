@@ -31,16 +31,9 @@ void addMaster(const Pivots& pivots, const CoveredFace& face, const MasterTerms&
   }
 }
 
-void addFace(const CoveredFace& face, const Basis& basis, const BodyVelocity& velocity,
-             Sums& sums) {
+void addFace(const CoveredFace& face, const Basis& basis, Sums& sums) {
   const Pivots kept = pivots(*face.type, mortar::Multiplier::nodes, basis.droppedOf(face));
-  mortar::Velocity at;
-  if (velocity)
-    at = [&](std::size_t master, const Point& x) {
-      return velocity(face.masters[master]->body, x);
-    };
-  const FaceTerms terms =
-      integrate(*face.face, basis.alphaOf(face), kept, face.masters, face.points, at);
+  const FaceTerms terms = integrate(face.moments, basis.alphaOf(face), kept);
   sums.sliverFaces += !terms.dual;
   for (std::size_t p = 0; p < kept.nodes.size(); ++p) {
     const PetscInt local = face.local[kept.nodes[p]], row = face.face->nodes[kept.nodes[p]];
@@ -69,12 +62,11 @@ OwnedMat toMatrix(const mesh::Mesh& mesh, Triples triples, PetscInt columns) {
 }
 
 Sums sumFaces(const mesh::Mesh& mesh, const NodeExchange& exchange,
-              const std::vector<CoveredFace>& faces, const Basis& basis,
-              const BodyVelocity& velocity) {
+              const std::vector<CoveredFace>& faces, const Basis& basis) {
   Sums sums;
   for (auto* values : {&sums.slave, &sums.weight, &sums.gap}) values->resize(mesh.localNodes());
   for (const auto& face : faces)
-    if (!face.points.empty()) addFace(face, basis, velocity, sums);
+    if (face.moments.covered > 0) addFace(face, basis, sums);
   for (auto* values : {&sums.slave, &sums.weight, &sums.gap}) exchange.sum(*values);
   return sums;
 }

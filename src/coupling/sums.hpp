@@ -2,7 +2,6 @@
 /// This file adds what couples single slave faces, by nodes of the mesh.
 #include <vector>
 
-#include "coupling/coupling.hpp"
 #include "coupling/covered.hpp"
 #include "petsc/owned.hpp"
 
@@ -31,9 +30,8 @@ struct Sums {
   PetscInt sliverFaces = 0;                ///< FaceTerms without dual functions
 };
 
-/// Collective. Returns the sums. `velocity` may be empty.
+/// Collective. Returns the sums.
 Sums sumFaces(const mesh::Mesh& mesh, const NodeExchange& exchange,
-              const std::vector<CoveredFace>& faces, const Basis& basis,
-              const BodyVelocity& velocity);
+              const std::vector<CoveredFace>& faces, const Basis& basis);
 
 }  // namespace squeal::coupling

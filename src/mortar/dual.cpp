@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "elasticity/shape.hpp"
 #include "linalg/lu.hpp"
@@ -34,106 +33,61 @@ DenseMatrix baseFunctions(const FaceType& type, Multiplier multiplier) {
   return functions;
 }
 
-/// The integration points with the functions of the slave side.
-class Samples {
- public:
-  Samples(const Face& slave, std::span<const double> alpha, const Pivots& pivots,
-          std::span<const OverlapPoint> points)
-      : points_(points), basis_(slave.points.size(), points.size()) {
-    const FaceType& type = faceType(slave.type);
-    for (std::size_t q = 0; q < points.size(); ++q) {
-      const NodeValues value = slaveBasis(type, faceShape(type, points[q].slave).value, alpha);
-      std::copy_n(value.begin(), slave.points.size(), basis_.column(q).begin());
-    }
-    functions_ = linalg::product(pivots.functions, basis_);
+/// Returns the matrix of φ̃ in terms of φ.
+DenseMatrix basisInShapes(const FaceType& type, std::span<const double> alpha) {
+  DenseMatrix matrix(type.nodes, type.nodes);
+  for (PetscInt j = 0; j < type.nodes; ++j) {
+    NodeValues shape{};
+    shape[j] = 1;
+    const NodeValues basis = slaveBasis(type, shape, alpha);
+    std::copy_n(basis.begin(), type.nodes, matrix.column(j).begin());
   }
-  std::span<const OverlapPoint> points() const { return points_; }
-  const DenseMatrix& basis() const { return basis_; }          ///< φ̃, [node][point]
-  const DenseMatrix& functions() const { return functions_; }  ///< χ, [pivot][point]
-
- private:
-  std::span<const OverlapPoint> points_;
-  DenseMatrix basis_, functions_;
-};
-
-/// Returns ∫ a_i b_j dA of functions that are tabulated as [function][point].
-DenseMatrix integrals(const DenseMatrix& a, const DenseMatrix& b,
-                      std::span<const OverlapPoint> points) {
-  DenseMatrix sum(a.rows(), b.rows());
-  for (std::size_t q = 0; q < points.size(); ++q)
-    for (PetscInt j = 0; j < b.rows(); ++j)
-      for (PetscInt i = 0; i < a.rows(); ++i) sum(i, j) += points[q].weight * a(i, q) * b(j, q);
-  return sum;
+  return matrix;
 }
 
-/// Returns the dual functions at the points, [pivot][point],
+DenseMatrix transposed(const DenseMatrix& a) {
+  DenseMatrix result(a.columns(), a.rows());
+  for (PetscInt j = 0; j < a.columns(); ++j)
+    for (PetscInt i = 0; i < a.rows(); ++i) result(j, i) = a(i, j);
+  return result;
+}
+
+std::vector<double> product(const DenseMatrix& a, std::span<const double> x) {
+  std::vector<double> y(a.rows());
+  for (PetscInt j = 0; j < a.columns(); ++j)
+    for (PetscInt i = 0; i < a.rows(); ++i) y[i] += a(i, j) * x[j];
+  return y;
+}
+
+/// Returns whether functions, [function][coefficient of φ], are nowhere too large.
+bool areSmall(const DenseMatrix& functions, const FaceType& type,
+              std::span<const Reference> points) {
+  return std::ranges::all_of(points, [&](const Reference& at) {
+    const NodeValues shape = faceShape(type, at).value;
+    return std::ranges::all_of(product(functions, shape),
+                               [](double value) { return std::abs(value) <= largestDual; });
+  });
+}
+
+/// Returns the dual functions in terms of φ, [pivot][node],
 ///   ψ = diag(d) Me⁻¹ χ,   Me_ip = ∫ χ_i φ̃_p dA,   d_p = ∫ φ̃_p dA,
-/// or an empty matrix where they would be too large.
-DenseMatrix dualFunctions(const Samples& samples, const Pivots& pivots,
+/// or an empty matrix where they would be too large. `chi` are the functions χ in terms of φ, and
+/// `integrals` are ∫ χ_i φ̃_j dA of all nodes j.
+DenseMatrix dualFunctions(const DenseMatrix& chi, const DenseMatrix& integrals,
+                          const FaceMoments& moments, const Pivots& pivots,
                           std::span<const double> covered) {
-  const DenseMatrix all = integrals(samples.functions(), samples.basis(), samples.points());
   const PetscInt n = pivots.nodes.size();
-  DenseMatrix me(n, n);
-  for (PetscInt p = 0; p < n; ++p)
-    std::ranges::copy(all.column(pivots.nodes[p]), me.column(p).begin());
   // Columns relative to d, so that the pivots of a small function do not look like zero:
   //   ψ = (Me diag(d)⁻¹)⁻¹ χ
+  DenseMatrix me(n, n);
   for (PetscInt p = 0; p < n; ++p)
-    for (double& entry : me.column(p)) entry /= covered[pivots.nodes[p]];
+    for (PetscInt i = 0; i < n; ++i)
+      me(i, p) = integrals(i, pivots.nodes[p]) / covered[pivots.nodes[p]];
   const linalg::Lu<double> lu(std::move(me));
   if (!(lu.pivotRatio() > 0)) return {};
-  DenseMatrix dual = samples.functions();
+  DenseMatrix dual = chi;
   lu.solve(dual);
-  const auto small = [](double value) { return std::abs(value) <= largestDual; };
-  return std::ranges::all_of(dual.entries(), small) ? dual : DenseMatrix();
-}
-
-/// Adds the integrals of the dual functions against the master faces.
-void addMasters(FaceTerms& terms, const DenseMatrix& psi, std::span<const Face* const> masters,
-                std::span<const OverlapPoint> points, const Velocity& velocity) {
-  std::map<std::size_t, std::size_t> place;
-  for (std::size_t q = 0; q < points.size(); ++q) {
-    const std::size_t index = points[q].masterFace;
-    const Face& master = *masters[index];
-    const PetscInt n = master.points.size();
-    const auto [found, isNew] = place.try_emplace(index, terms.masters.size());
-    if (isNew)
-      terms.masters.push_back(
-          {index, DenseMatrix(psi.rows(), n), DenseMatrix(psi.rows(), velocity ? n : 0)});
-    MasterTerms& to = terms.masters[found->second];
-    const FaceShape shape = faceShape(faceType(master.type), points[q].master);
-    NodeValues along{};
-    if (velocity) {
-      const SurfacePoint at = surfacePoint(master, shape);
-      along = derivativeAlong(at, shape, velocity(index, at.position));
-    }
-    for (PetscInt p = 0; p < psi.rows(); ++p) {
-      const double factor = points[q].weight * psi(p, q);
-      for (PetscInt l = 0; l < n; ++l) to.values(p, l) += factor * shape.value[l];
-      for (PetscInt l = 0; l < to.convected.columns(); ++l) to.convected(p, l) += factor * along[l];
-    }
-  }
-}
-
-/// Sets D, W, B and G.
-void setSlave(FaceTerms& terms, const DenseMatrix& psi, const Samples& samples,
-              const Pivots& pivots) {
-  const auto points = samples.points();
-  for (std::size_t q = 0; q < points.size(); ++q)
-    for (PetscInt p = 0; p < psi.rows(); ++p) {
-      terms.weight[p] += points[q].weight * psi(p, q);
-      terms.gap[p] += points[q].weight * psi(p, q) * points[q].gap;
-    }
-  if (!terms.dual) {
-    terms.slave = terms.weight;
-    return;
-  }
-  const DenseMatrix all = integrals(psi, samples.basis(), points);
-  for (PetscInt p = 0; p < psi.rows(); ++p) {
-    terms.slave[p] = terms.covered[pivots.nodes[p]];
-    for (PetscInt o = 0; o < terms.others.columns(); ++o)
-      terms.others(p, o) = all(p, pivots.others[o]);
-  }
+  return areSmall(dual, faceType(moments.type), moments.points) ? dual : DenseMatrix();
 }
 
 }  // namespace
@@ -155,40 +109,50 @@ Pivots pivots(const FaceType& type, Multiplier multiplier, const std::vector<boo
   return result;
 }
 
-FaceTerms integrate(const Face& slave, std::span<const double> alpha, const Pivots& pivots,
-                    std::span<const Face* const> masters, std::span<const OverlapPoint> points,
-                    const Velocity& velocity) {
-  const std::size_t n = slave.points.size(), kept = pivots.nodes.size();
+FaceTerms integrate(const FaceMoments& moments, std::span<const double> alpha,
+                    const Pivots& pivots) {
+  const FaceType& type = faceType(moments.type);
+  const std::size_t kept = pivots.nodes.size();
   FaceTerms terms;
   terms.slave.resize(kept), terms.weight.resize(kept), terms.gap.resize(kept);
   terms.others = DenseMatrix(kept, pivots.others.size());
-  terms.covered.resize(n), terms.normal.resize(n);
-  const Samples samples(slave, alpha, pivots, points);
-  for (std::size_t q = 0; q < points.size(); ++q)
-    for (std::size_t i = 0; i < n; ++i) {
-      const double part = points[q].weight * samples.basis()(i, q);
-      terms.covered[i] += part;
-      terms.normal[i] = plus(terms.normal[i], points[q].normal, part);
-    }
-  if (points.empty() || kept == 0) return terms;
-  DenseMatrix psi = dualFunctions(samples, pivots, terms.covered);
+  terms.covered = coveredIntegrals(moments, alpha);
+  const DenseMatrix basis = basisInShapes(type, alpha), basisOf = transposed(basis);
+  terms.normal.resize(type.nodes);
+  for (PetscInt j = 0; j < type.nodes; ++j)
+    for (PetscInt i = 0; i < type.nodes; ++i)
+      terms.normal[i] = plus(terms.normal[i], moments.normal[j], basis(i, j));
+  if (moments.masters.empty() || kept == 0) return terms;
+  const DenseMatrix chi = linalg::product(pivots.functions, basis);
+  const auto againstBasis = [&](const DenseMatrix& functions) {
+    return linalg::product(linalg::product(functions, moments.products), basisOf);
+  };
+  DenseMatrix psi = dualFunctions(chi, againstBasis(chi), moments, pivots, terms.covered);
   terms.dual = !psi.empty();
-  if (!terms.dual) psi = samples.functions();
-  setSlave(terms, psi, samples, pivots);
-  addMasters(terms, psi, masters, points, velocity);
+  if (!terms.dual) psi = chi;
+  terms.weight = product(psi, moments.value);
+  terms.gap = product(psi, moments.gap);
+  if (terms.dual) {
+    const DenseMatrix all = againstBasis(psi);
+    for (std::size_t p = 0; p < kept; ++p) {
+      terms.slave[p] = terms.covered[pivots.nodes[p]];
+      for (std::size_t o = 0; o < pivots.others.size(); ++o)
+        terms.others(p, o) = all(p, pivots.others[o]);
+    }
+  } else {
+    terms.slave = terms.weight;
+  }
+  for (const auto& [face, values, convected] : moments.masters)
+    terms.masters.push_back({face, linalg::product(psi, values),
+                             convected.empty() ? DenseMatrix() : linalg::product(psi, convected)});
   return terms;
 }
 
-std::vector<double> coveredIntegrals(const Face& slave, std::span<const double> alpha,
-                                     std::span<const OverlapPoint> points) {
-  const FaceType& type = faceType(slave.type);
+std::vector<double> coveredIntegrals(const FaceMoments& moments, std::span<const double> alpha) {
   NodeValues sum{};
-  for (const auto& point : points) {
-    const NodeValues value = faceShape(type, point.slave).value;
-    for (std::size_t i = 0; i < slave.points.size(); ++i) sum[i] += point.weight * value[i];
-  }
-  const NodeValues basis = slaveBasis(type, sum, alpha);  // which is linear
-  return {basis.begin(), basis.begin() + slave.points.size()};
+  std::ranges::copy(moments.value, sum.begin());
+  const NodeValues basis = slaveBasis(faceType(moments.type), sum, alpha);  // which is linear
+  return {basis.begin(), basis.begin() + moments.value.size()};
 }
 
 std::vector<double> wholeIntegrals(const Face& slave, std::span<const double> alpha) {

@@ -3,12 +3,11 @@
 /// ψ_p is orthogonal to all φ̃_q of other pivots q, so that each pivot has a condition of its own.
 /// Sources: Wohlmuth, SIAM J. Numer. Anal. 38 (2000); Popp, Wohlmuth, Gee and Wall, SIAM J. Sci.
 /// Comput. 34 (2012).
-#include <functional>
 #include <span>
 #include <vector>
 
 #include "linalg/dense.hpp"
-#include "mortar/overlap.hpp"
+#include "mortar/moments.hpp"
 
 namespace squeal::mortar {
 
@@ -25,14 +24,10 @@ struct Pivots {
 /// pivots. There are no pivots if all are dropped.
 Pivots pivots(const FaceType& type, Multiplier multiplier, const std::vector<bool>& dropped);
 
-/// What couples a slave face to one master face.
-struct MasterTerms {
-  std::size_t face;            ///< index into the master faces
-  linalg::DenseMatrix values;  ///< M: ∫ ψ_p φ_l dA, [pivot][node of the master face], m² (m)
-  /// C: ∫ ψ_p V·∇_S φ_l dA with the velocity V, [pivot][node of the master face], m²/s (m/s); empty
-  /// without a velocity
-  linalg::DenseMatrix convected;
-};
+/// What couples a slave face to one master face:
+///   M: ∫ ψ_p φ_l dA and C: ∫ ψ_p V·∇_S φ_l dA with the velocity V, [pivot][node of the master
+///   face].
+using MasterTerms = MasterMoments;
 
 /// The integrals over one slave face, in m² (m in the plane) unless noted. With D = diag(slave),
 ///   D ũ_p + B ũ_o − M u_l
@@ -52,20 +47,15 @@ struct FaceTerms {
   bool dual = true;
 };
 
-/// Returns the velocity at a point of a master face, m/s.
-using Velocity = std::function<Point(std::size_t masterFace, const Point& x)>;
+/// Integrates over the covered part of a slave face. `alpha` is that of each edge, in the order of
+/// FaceType::edges. If nothing is covered or without pivots there are no terms of masters, and D
+/// and W are zero. Not collective.
+FaceTerms integrate(const FaceMoments& moments, std::span<const double> alpha,
+                    const Pivots& pivots);
 
-/// Integrates over the covered part of a slave face, whose `points` are those of overlap(). Without
-/// points or without pivots there are no terms of masters, and D and W are zero. `alpha` is that of
-/// each edge, in the order of FaceType::edges. An empty `velocity` leaves out C. Not collective.
-FaceTerms integrate(const Face& slave, std::span<const double> alpha, const Pivots& pivots,
-                    std::span<const Face* const> masters, std::span<const OverlapPoint> points,
-                    const Velocity& velocity = {});
-
-/// Returns ∫ φ̃_i dA over the part of the face that the points cover, [node], m² (m in the plane),
-/// as in FaceTerms::covered. Not collective.
-std::vector<double> coveredIntegrals(const Face& slave, std::span<const double> alpha,
-                                     std::span<const OverlapPoint> points);
+/// Returns ∫ φ̃_i dA over the covered part of a face, [node], m² (m in the plane), as in
+/// FaceTerms::covered. Not collective.
+std::vector<double> coveredIntegrals(const FaceMoments& moments, std::span<const double> alpha);
 
 /// Returns ∫ φ̃_i dA over the whole face, covered or not, [node], m² (m in the plane). Not
 /// collective.

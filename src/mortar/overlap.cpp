@@ -169,9 +169,10 @@ struct SlavePoint {
 
 /// Returns the point over one of the projection of the whole face. All points move along the mean
 /// normal, so that straight edges stay straight.
-SlavePoint above(const Face& slave, const Frame& frame, const PlanePoint& y) {
+SlavePoint above(const Face& slave, const Frame& frame, const PlanePoint& y,
+                 const Reference& start) {
   SlavePoint at;
-  at.reference = project(slave, frame.lifted(y), frame.normal()).reference;
+  at.reference = project(slave, frame.lifted(y), frame.normal(), start).reference;
   at.surface = surfacePoint(slave, at.reference);
   const double cosine = dot(at.surface.normal, frame.normal()) / length(at.surface.normal);
   if (!(cosine > leastCosine)) failFolded();
@@ -210,12 +211,17 @@ std::vector<OverlapPoint> overlap(const Face& slave, std::span<const Face* const
     const double slaveSag = sag(slave, facet, frame.normal());
     for (const Piece& tile : tiles(flat, projected, searchDistance, slaveSag)) {
       const Face& master = *masters[tile.master];
+      // The points of a tile are near each other.
+      Reference onSlave = faceType(slave.type).centre(), onMaster = faceType(master.type).centre();
       for (const auto& [y, weight] :
            overlapRule(tile.region, frame, slave, master, facet.whole && tile.whole)) {
-        const SlavePoint at = facet.whole ? above(slave, frame, y) : within(slave, facet, flat, y);
+        const SlavePoint at =
+            facet.whole ? above(slave, frame, y, onSlave) : within(slave, facet, flat, y);
         const Point normal = unit(at.surface.normal);
-        const auto [reference, gap, met] = project(master, at.surface.position, normal);
+        const auto [reference, gap, met] = project(master, at.surface.position, normal, onMaster);
         points.push_back({at.reference, reference, weight * at.stretch, tile.master, gap, normal});
+        onSlave = at.reference;
+        onMaster = met ? reference : faceType(master.type).centre();
       }
     }
   }

@@ -45,7 +45,6 @@ double largest(const Reference& x) { return std::max(std::abs(x[0]), std::abs(x[
 /// iteration does not come to rest within the margin.
 bool newton(const Face& face, const FaceType& type, const Point& from, const Point& direction,
             Projection& at) {
-  double last = std::numeric_limits<double>::infinity();
   for (int step = 0; step < mostSteps; ++step) {
     const auto point = surfacePoint(face, faceShape(type, at.reference));
     const Point offset = minus(point.position, from);
@@ -58,12 +57,11 @@ bool newton(const Face& face, const FaceType& type, const Point& from, const Poi
     const double moved = largest({at.reference[0] - before[0], at.reference[1] - before[1]});
     // Convergence is quadratic: after a step this small only rounding remains.
     const double size = largest({change[0], change[1]});
-    if (size < 1e-13 || (size < 1e-9 && size >= last / 2)) {
+    if (size < 1e-8) {
       const Reference inside = clamped(type, at.reference, margin);
       return largest({inside[0] - at.reference[0], inside[1] - at.reference[1]}) < 1e-9;
     }
     if (moved == 0) return false;  // held by the limit
-    last = size;
   }
   return false;
 }
@@ -86,10 +84,17 @@ SurfacePoint surfacePoint(const Face& face, const FaceShape& shape) {
 }
 
 Projection project(const Face& face, const Point& from, const Point& direction) {
+  return project(face, from, direction, faceType(face.type).centre());
+}
+
+Projection project(const Face& face, const Point& from, const Point& direction,
+                   const Reference& start) {
   const FaceType& type = faceType(face.type);
-  Projection at{type.centre()};
+  Projection at{start};
   if (newton(face, type, from, direction, at)) return at;
-  // Other starts, for strongly curved faces: the nodes.
+  // Other starts, for strongly curved faces: the centre and the nodes.
+  at = {type.centre()};
+  if (newton(face, type, from, direction, at)) return at;
   Projection nearest;
   double least = std::numeric_limits<double>::infinity();
   for (const Reference& node : type.reference) {

