@@ -92,7 +92,7 @@ std::vector<Candidate> coupledNodes(const mesh::Mesh& mesh, const elasticity::Bo
   return found;
 }
 
-/// The claims on nodes, [local node].
+/// The claims on nodes, [local node]: one more than the index of the interface, 0 for none.
 class Claims {
  public:
   /// Collective. Clamped nodes are claimed against ties.
@@ -109,11 +109,11 @@ class Claims {
   }
   /// Returns the nodes that an interface of this role must leave to others.
   std::vector<unsigned char> against(Role role) const {
-    std::vector<unsigned char> excluded = tied_;
+    std::vector<unsigned char> excluded(tied_.size(), 0);
     for (std::size_t i = 0; i < excluded.size(); ++i) {
-      if (role == Role::tied && clamped_[i]) excluded[i] = 1;
-      if ((role == Role::sticking || role == Role::frictionless) && (sliding_[i] || other_[i]))
-        excluded[i] = 1;
+      const bool isLast = role == Role::sticking || role == Role::frictionless;
+      excluded[i] =
+          tied_[i] || (role == Role::tied && clamped_[i]) || (isLast && (sliding_[i] || other_[i]));
     }
     return excluded;
   }
@@ -124,25 +124,27 @@ class Claims {
     std::string failure;
     auto& claimed = role == Role::tied ? tied_ : role == Role::sliding ? sliding_ : other_;
     for (const auto& node : nodes) {
-      if (role == Role::sliding && claimed[node.slave.node])
-        failure = options[interface].label() + " claims the node at " +
-                  text(mesh_.coordinates[node.slave.node]) +
-                  ", which slides on another interface already; a node slides on one surface";
-      claimed[node.slave.node] = 1;
+      const int before = claimed[node.slave.node] - 1;
+      if (role == Role::sliding && before >= 0)
+        failure = "interfaces '" + options[before].surfaces.name + "' and '" +
+                  options[interface].surfaces.name + "' both claim the node at " +
+                  text(mesh_.coordinates[node.slave.node]) + " for sliding; a node has one gap";
+      claimed[node.slave.node] = interface + 1;
     }
     failTogether(mesh_.comm, failure);
     share(claimed);
   }
 
  private:
-  void share(std::vector<unsigned char>& flags) const {
-    std::vector<double> values(flags.begin(), flags.end());
+  void share(std::vector<int>& claims) const {
+    std::vector<double> values(claims.begin(), claims.end());
     exchange_.largest(values);
-    for (std::size_t i = 0; i < flags.size(); ++i) flags[i] = values[i] > 0;
+    for (std::size_t i = 0; i < claims.size(); ++i) claims[i] = std::lround(values[i]);
   }
   const mesh::Mesh& mesh_;
   coupling::NodeExchange exchange_;
-  std::vector<unsigned char> clamped_, tied_, sliding_, other_;
+  std::vector<int> clamped_;  // 1 for a clamped node
+  std::vector<int> tied_, sliding_, other_;
 };
 
 /// Returns the interfaces in the order in which they claim nodes.

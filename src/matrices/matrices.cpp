@@ -81,7 +81,7 @@ void rejectOrphans() {
 
 void rejectMeshOptions() {
   const std::set<std::string> ofMesh{"mesh",   "elasticity", "constraint", "load",
-                                     "motion", "contact",    "steady"};
+                                     "motion", "contact",    "tie",        "steady"};
   const auto complain = [&](const std::string& name) {
     throw Error("option -" + name + ": a run is of a mesh or of matrices (-" +
                 fileOption.fullName(fileOption.subjects()[0]) + "), not of both");

@@ -46,9 +46,9 @@ std::optional<std::string> valueGiven(const std::string& name) {
 }  // namespace
 
 const std::vector<std::string>& stages() {
-  static const std::vector<std::string> inOrder = {"general",    "mesh",  "matrices", "elasticity",
-                                                   "constraint", "load",  "motion",   "contact",
-                                                   "steady",     "modes", "flutter",  "report"};
+  static const std::vector<std::string> inOrder = {
+      "general", "mesh", "matrices", "elasticity", "constraint", "load",  "motion",
+      "contact", "tie",  "steady",   "modes",      "flutter",    "report"};
   return inOrder;
 }
 

@@ -165,8 +165,12 @@ TEST(Report, SaysWhyMeshesDoNotMatch) {
   EXPECT_NEAR(report.coveredArea, 3, 1e-12);
   EXPECT_NEAR(report.largestGap, 0, 1e-12);
   EXPECT_EQ(report.slave.faces + report.master.faces, 11);
-  EXPECT_EQ(report.slave.faces, 6);  // the finer side: the disc
-  EXPECT_EQ(report.nodes, 6);        // 7, of which one is the image of another
+  EXPECT_EQ(report.slave.faces, 5);  // the pad: the disc is not finer by a fifth
+  EXPECT_EQ(report.nodes, 5);        // 6, of which one is the image of another
+  test::setCase("two_layers", test::contact_cases::layers + ",nx_pad=4");
+  const auto finer = test::buildModel();
+  EXPECT_EQ(finer.contact.reports.at(0).slave.faces, 6);  // the disc
+  EXPECT_EQ(finer.contact.slaves.at(0).sign, -1);
   test::setCase("two_layers", test::contact_cases::layers);
   EXPECT_TRUE(test::buildModel().contact.reports.at(0).matching);
 }
