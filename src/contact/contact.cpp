@@ -1,7 +1,6 @@
 #include "contact/contact.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "contact/kinematics.hpp"
@@ -10,17 +9,17 @@
 #include "interfaces/algebra.hpp"
 #include "interfaces/interfaces.hpp"
 #include "mesh/mesh.hpp"
-#include "options/options.hpp"
+#include "mesh/vector.hpp"
 #include "petsc/arrays.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal::contact {
 
 using interfaces::assembled;
-using interfaces::dot;
 using interfaces::nodalMatrix;
-using interfaces::scaled;
 using interfaces::text;
+using mesh::plus;
+using mesh::scaled;
 
 namespace {
 
@@ -78,13 +77,13 @@ void requireFlatObstacles(const mesh::Mesh& mesh, const Contact& contact) {
     double count = 0;
     for (const auto& node : contact.nodes)
       if (node.interface == i) {
-        for (std::size_t d = 0; d < 3; ++d) sum[d] += node.normal[d];
+        sum = plus(sum, node.normal);
         ++count;
       }
     check(MPI_Allreduce(MPI_IN_PLACE, sum.data(), 3, MPI_DOUBLE, MPI_SUM, mesh.comm));
     check(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPI_DOUBLE, MPI_SUM, mesh.comm));
     for (const auto& node : contact.nodes)
-      if (node.interface == i && dot(sum, node.normal) < (1 - 1e-10) * count)
+      if (node.interface == i && mesh::dot(sum, node.normal) < (1 - 1e-10) * count)
         failure = "option " + interfaces[i].surfaces.pad.option +
                   ": the face on the rigid obstacle must be flat; its normal turns at " +
                   text(node.position);
@@ -210,11 +209,10 @@ std::vector<Slip> Contact::slip(double speed, Vec displacement) const {
       Point change{};
       for (int d = 0; d < mesh->dimension; ++d)
         change[d] = -speed * (*values)[mesh->dimension * node.node + d];
-      const double along = dot(change, node.normal);
-      for (std::size_t d = 0; d < 3; ++d) w[d] += change[d] - along * node.normal[d];
+      w = plus(w, mesh::tangential(change, node.normal));
     }
     Slip state;
-    state.speed = std::sqrt(dot(w, w));
+    state.speed = mesh::length(w);
     if (state.speed <= 1e-9 * speed * node.slipSpeed)
       state.speed = 0;  // the direction would be that of rounding
     if (state.speed > 0) state.direction = scaled(w, 1 / state.speed);

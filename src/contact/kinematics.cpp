@@ -6,21 +6,21 @@
 
 #include "interfaces/algebra.hpp"
 #include "mesh/mesh.hpp"
+#include "mesh/vector.hpp"
 #include "petsc/arrays.hpp"
 #include "petsc/check.hpp"
 
 namespace squeal::contact {
 
 using interfaces::assembled;
-using interfaces::cross;
-using interfaces::dot;
 using interfaces::identity;
 using interfaces::nodalMatrix;
 using interfaces::outer;
-using interfaces::scaled;
 using interfaces::setBlock;
 using interfaces::setDiagonal;
 using interfaces::text;
+using mesh::cross;
+using mesh::dot;
 
 namespace {
 
@@ -66,8 +66,7 @@ Frame frameOf(const ContactNode& node, const Contact& contact, int dimension) {
       if (std::abs(node.normal[d]) < std::abs(node.normal[least])) least = d;
     Point e{};
     e[least] = 1;
-    const Point t = cross(node.normal, e);
-    frame.tangents.push_back(scaled(t, 1 / std::sqrt(dot(t, t))));
+    frame.tangents.push_back(mesh::unit(cross(node.normal, e)));
     frame.heldComponent.push_back(-1);
   }
   if (frame.tangents.size() == 1)

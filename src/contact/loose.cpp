@@ -6,6 +6,7 @@
 
 #include "linalg/symmetric.hpp"
 #include "mesh/mesh.hpp"
+#include "mesh/vector.hpp"
 #include "petsc/arrays.hpp"
 #include "petsc/text.hpp"
 
@@ -31,13 +32,10 @@ class RigidMotions {
   void add(std::vector<double>& row, int part, const Point& x, const Point& direction,
            double factor) const {
     double* a = row.data() + part * perPart_;
-    const Point r{(x[0] - centre_[0]) / length_, (x[1] - centre_[1]) / length_,
-                  (x[2] - centre_[2]) / length_};
+    const Point r = mesh::scaled(mesh::minus(x, centre_), 1 / length_);
     for (int d = 0; d < dimension_; ++d) a[d] += factor * direction[d];
     //   direction · (e_k × r), k = 1, 2, 3
-    const Point moment{direction[2] * r[1] - direction[1] * r[2],
-                       direction[0] * r[2] - direction[2] * r[0],
-                       direction[1] * r[0] - direction[0] * r[1]};
+    const Point moment = mesh::cross(r, direction);
     if (dimension_ == 2)
       a[2] += factor * moment[2];
     else
@@ -97,9 +95,7 @@ linalg::DenseMatrix gram(const mesh::Mesh& mesh, const Contact& contact, Vec spr
     for (int d = 0; d < mesh.dimension; ++d) {
       const auto& x = mesh.coordinates[image.node];
       motions.add(row, mesh.nodePart[image.node], x, unit(d), 1);
-      motions.add(row, image.primaryPart,
-                  {x[0] - image.shift[0], x[1] - image.shift[1], x[2] - image.shift[2]}, unit(d),
-                  -1);
+      motions.add(row, image.primaryPart, mesh::minus(x, image.shift), unit(d), -1);
       keep();
     }
   for (std::size_t i = 0; contactCloses && i < contact.nodes.size(); ++i) {

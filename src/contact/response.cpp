@@ -8,16 +8,15 @@
 #include "elasticity/face.hpp"
 #include "elasticity/shape.hpp"
 #include "interfaces/algebra.hpp"
+#include "mesh/vector.hpp"
 #include "petsc/arrays.hpp"
 
 namespace squeal::contact {
 
 using interfaces::assembled;
-using interfaces::dot;
 using interfaces::identity;
 using interfaces::nodalMatrix;
 using interfaces::outer;
-using interfaces::scaled;
 using interfaces::setBlock;
 
 namespace {
@@ -91,14 +90,11 @@ std::vector<double> blockAt(const Contact& contact, const Fields& fields, const 
   const double pressure =
       std::max(0.0, interpolated(value, nodes, fields.pressure, dimension)[dimension - 1]);
   if (pressure == 0) return std::vector<double>(dimension * dimension, 0.0);
-  Point normal = interpolated(value, nodes, fields.normal, dimension),
-        w = interpolated(value, nodes, fields.slip, dimension);
-  normal = scaled(normal, 1 / std::sqrt(dot(normal, normal)));
-  const double along = dot(w, normal);
-  for (std::size_t d = 0; d < 3; ++d) w[d] -= along * normal[d];
+  const Point normal = mesh::unit(interpolated(value, nodes, fields.normal, dimension)),
+              w = mesh::tangential(interpolated(value, nodes, fields.slip, dimension), normal);
   Slip slip;
-  slip.speed = std::sqrt(dot(w, w));
-  if (slip.speed > 0) slip.direction = scaled(w, 1 / slip.speed);
+  slip.speed = mesh::length(w);
+  if (slip.speed > 0) slip.direction = mesh::scaled(w, 1 / slip.speed);
   slip.law = contact.law.value(slip.speed), slip.slope = contact.law.slope(slip.speed);
   return responseBlock(velocityResponse(slip, pressure, friction, dimension), slip.direction,
                        normal, dimension);

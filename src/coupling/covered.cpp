@@ -1,8 +1,8 @@
 #include "coupling/covered.hpp"
 
 #include <algorithm>
-#include <cmath>
 
+#include "mesh/vector.hpp"
 #include "mortar/dual.hpp"
 #include "petsc/text.hpp"
 
@@ -25,13 +25,8 @@ double sizeOf(const Face& face) {
   double size = 0;
   const int corners = faceType(face.type).corners;
   for (int i = 0; i < corners; ++i)
-    for (int j = 0; j < i; ++j) {
-      double squared = 0;
-      for (std::size_t d = 0; d < 3; ++d)
-        squared +=
-            (face.points[i][d] - face.points[j][d]) * (face.points[i][d] - face.points[j][d]);
-      size = std::max(size, std::sqrt(squared));
-    }
+    for (int j = 0; j < i; ++j)
+      size = std::max(size, mesh::length(mesh::minus(face.points[i], face.points[j])));
   return size;
 }
 

@@ -1,8 +1,13 @@
 #include "elasticity/face.hpp"
 
-#include <cmath>
+#include "mesh/vector.hpp"
 
 namespace squeal::elasticity {
+
+using mesh::cross;
+using mesh::dot;
+using mesh::length;
+
 namespace {
 
 Point faceNormal(const double* gradient, const std::vector<Point>& nodes, int dimension) {
@@ -13,10 +18,8 @@ Point faceNormal(const double* gradient, const std::vector<Point>& nodes, int di
       a[d] += gradient[3 * i] * nodes[i][d];
       if (dimension == 2) b[d] += gradient[3 * i + 1] * nodes[i][d];
     }
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  return cross(a, b);
 }
-
-double norm(const Point& p) { return std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]); }
 
 }  // namespace
 
@@ -38,8 +41,9 @@ std::vector<double> faceNormals(const ShapeTable& table, const std::vector<Point
 std::vector<double> areaWeights(const ShapeTable& table, const std::vector<Point>& nodes) {
   std::vector<double> weights;
   for (int q = 0; q < table.points(); ++q)
-    weights.push_back(table.weight[q] * norm(faceNormal(table.gradient.data() + 3 * q * table.nodes,
-                                                        nodes, table.dimension)));
+    weights.push_back(
+        table.weight[q] *
+        length(faceNormal(table.gradient.data() + 3 * q * table.nodes, nodes, table.dimension)));
   return weights;
 }
 
@@ -58,11 +62,9 @@ std::vector<double> faceMass(const ShapeTable& table, const std::vector<Point>& 
 std::vector<Point> nodeNormals(const ShapeTable& table, const std::vector<Point>& nodes, int sign) {
   std::vector<Point> normals;
   for (int i = 0; i < table.nodes; ++i) {
-    Point normal =
+    const Point normal =
         faceNormal(table.nodeGradient.data() + 3 * i * table.nodes, nodes, table.dimension);
-    const double length = sign * norm(normal);
-    for (auto& component : normal) component /= length;
-    normals.push_back(normal);
+    normals.push_back(mesh::scaled(normal, sign / length(normal)));
   }
   return normals;
 }
@@ -79,9 +81,6 @@ std::vector<double> faceDerivative(const ShapeTable& table, const std::vector<Po
     for (std::size_t j = 0; j < n; ++j)
       for (std::size_t r = 0; r < 2; ++r)
         for (std::size_t d = 0; d < 3; ++d) tangent[r][d] += gradient[3 * j + r] * nodes[j][d];
-    const auto dot = [](const Point& a, const Point& b) {
-      return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    };
     const double aa = dot(tangent[0], tangent[0]), va = dot(velocity[i], tangent[0]);
     double c[2] = {va / aa, 0};
     if (table.dimension == 2) {

@@ -9,6 +9,7 @@
 
 #include "elasticity/element.hpp"
 #include "elasticity/jacobian.hpp"
+#include "mesh/vector.hpp"
 
 namespace squeal::elasticity {
 namespace {
@@ -83,10 +84,9 @@ std::vector<double> centrifugal(const ShapeTable& table, const std::vector<Point
     Point r{-origin[0], -origin[1], -origin[2]};
     for (std::size_t a = 0; a < n; ++a)
       for (std::size_t d = 0; d < 3; ++d) r[d] += value[a] * nodes[a][d];
-    const double along = r[0] * axis[0] + r[1] * axis[1] + r[2] * axis[2];
+    r = mesh::tangential(r, axis);
     for (std::size_t a = 0; a < n; ++a)
-      for (std::size_t d = 0; d < 3; ++d)
-        load[3 * a + d] += factor * value[a] * (r[d] - along * axis[d]);
+      for (std::size_t d = 0; d < 3; ++d) load[3 * a + d] += factor * value[a] * r[d];
   }
   return load;
 }

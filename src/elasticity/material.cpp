@@ -3,11 +3,17 @@
 #include <cmath>
 #include <set>
 
+#include "mesh/vector.hpp"
 #include "options/options.hpp"
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal::elasticity {
+
+using mesh::cross;
+using mesh::length;
+using mesh::unit;
+
 namespace {
 
 const RealOption youngOption("elasticity", "material_<group>_young", std::nullopt, "Pa", positive,
@@ -92,14 +98,6 @@ EngineeringConstants constants(const std::string& body) {
   return c;
 }
 
-double length(const Point& p) { return std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]); }
-
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Point unit(const Point& p) { return {p[0] / length(p), p[1] / length(p), p[2] / length(p)}; }
-
 /// Returns axes with axis 1 along a and with b in the plane 1-2.
 Axes axesOf(const Point& a, const Point& b) {
   const Point one = unit(a), three = unit(cross(a, b));
@@ -117,8 +115,7 @@ Axes orientation(const std::string& body) {
 
 /// Returns the cylindrical axes at x: radial, tangential, and along k.
 Axes cylindricalAxes(const Point& x, const Point& origin, const Point& k) {
-  const Point r{x[0] - origin[0], x[1] - origin[1], x[2] - origin[2]};
-  Point tangential = cross(k, r);
+  Point tangential = cross(k, mesh::minus(x, origin));
   if (!(length(tangential) > 0))
     tangential =
         std::abs(k[0]) < 0.9 ? cross(k, {1, 0, 0}) : cross(k, {0, 1, 0});  // on the axis: any

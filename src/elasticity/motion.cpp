@@ -3,6 +3,7 @@
 #include <cmath>
 #include <set>
 
+#include "mesh/vector.hpp"
 #include "options/options.hpp"
 #include "petsc/check.hpp"
 
@@ -40,10 +41,7 @@ double rotationSpeed(const std::string& body) {
 }  // namespace
 
 mesh::Point Motion::velocity(const mesh::Point& x) const {
-  const mesh::Point r{x[0] - origin[0], x[1] - origin[1], x[2] - origin[2]};
-  return {translation[0] + speed * (axis[1] * r[2] - axis[2] * r[1]),
-          translation[1] + speed * (axis[2] * r[0] - axis[0] * r[2]),
-          translation[2] + speed * (axis[0] * r[1] - axis[1] * r[0])};
+  return mesh::plus(translation, mesh::cross(axis, mesh::minus(x, origin)), speed);
 }
 
 bool Motion::moves() const { return speed != 0 || translation != mesh::Point{}; }
@@ -69,12 +67,9 @@ std::vector<Motion> readMotions(const std::vector<std::string>& bodies, int dime
   for (const auto& body : bodies) {
     Motion motion{velocityOption.components(body, dimension), rotationSpeed(body),
                   axisOption.components(body, dimension), originOption.components(body, dimension)};
-    const double length =
-        std::sqrt(motion.axis[0] * motion.axis[0] + motion.axis[1] * motion.axis[1] +
-                  motion.axis[2] * motion.axis[2]);
-    if (!(length > 0))
+    if (!(mesh::length(motion.axis) > 0))
       throw Error("option -" + axisOption.fullName(body) + ": the axis has no length");
-    for (auto& component : motion.axis) component /= length;
+    motion.axis = mesh::unit(motion.axis);
     motions.push_back(motion);
   }
   return motions;

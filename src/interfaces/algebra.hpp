@@ -1,6 +1,6 @@
 #pragma once
-/// These functions are the vector algebra for building the contact matrices: N×N matrices that
-/// consist of a block per pair of nodes. Only those that say so are collective.
+/// These functions build the contact matrices: N×N matrices that consist of a block per pair of
+/// nodes. Only those that say so are collective.
 #include <string>
 #include <vector>
 
@@ -10,14 +10,6 @@
 namespace squeal::interfaces {
 
 using mesh::Point;
-
-inline double dot(const Point& a, const Point& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-inline Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-inline Point scaled(const Point& a, double s) { return {s * a[0], s * a[1], s * a[2]}; }
 
 /// Collective. Returns an N×N matrix with room for `blocksPerRow` dimension×dimension blocks per
 /// row of blocks.

@@ -9,6 +9,7 @@
 #include "elasticity/shape.hpp"
 #include "interfaces/algebra.hpp"
 #include "interfaces/chains.hpp"
+#include "mesh/vector.hpp"
 #include "petsc/arrays.hpp"
 #include "petsc/text.hpp"
 
@@ -203,14 +204,12 @@ FaceSums sumFaces(const mesh::Mesh& mesh, const Interfaces& all, Mat periodic) {
 
 /// Sets w = −V in the tangent plane [2.15] as direction and speed.
 void setSlip(const Point& velocity, double fastest, ContactNode& node) {
-  const double along = dot(velocity, node.normal);
-  Point w{};
-  for (std::size_t d = 0; d < 3; ++d) w[d] = -(velocity[d] - along * node.normal[d]);
-  node.slipSpeed = std::sqrt(dot(w, w));
+  const Point w = mesh::scaled(mesh::tangential(velocity, node.normal), -1);
+  node.slipSpeed = mesh::length(w);
   // On the axis of a rotation, and where the velocity is normal to the contact, w is only rounding;
   // gmsh places nodes to 1e-11.
   if (node.slipSpeed > 1e-9 * fastest)
-    node.slip = scaled(w, 1 / node.slipSpeed);
+    node.slip = mesh::scaled(w, 1 / node.slipSpeed);
   else
     node.slipSpeed = 0;
 }
@@ -236,8 +235,7 @@ void fillNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
                : all.options[node.interface].obstacleVelocity;
   };
   double fastest = 0;
-  for (const auto& node : candidates)
-    fastest = std::max(fastest, std::sqrt(dot(velocityOf(node), velocityOf(node))));
+  for (const auto& node : candidates) fastest = std::max(fastest, mesh::length(velocityOf(node)));
   check(MPI_Allreduce(MPI_IN_PLACE, &fastest, 1, MPI_DOUBLE, MPI_MAX, mesh.comm));
   const ReadArray normal(sums.normal), area(sums.area);
   for (const auto& candidate : candidates) {
@@ -257,7 +255,7 @@ void fillNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
     node.masterParts = partsOf(slave);
     for (int d = 0; d < mesh.dimension; ++d)
       node.normal[d] = normal[mesh.dimension * slave.node + d];
-    node.normal = scaled(node.normal, 1 / std::sqrt(dot(node.normal, node.normal)));
+    node.normal = mesh::unit(node.normal);
     setSlip(velocityOf(candidate), fastest, node);
     all.nodes.push_back(std::move(node));
     all.connections.push_back(connectionOf(slave));

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "mesh/vector.hpp"
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
 
@@ -81,7 +82,7 @@ void pairImages(WholeMesh& mesh, const PeriodicRequest& request, double near) {
   const Locator locator(mesh, primaries, near);
   for (PetscInt image : images) {
     const auto& p = mesh.points[image];
-    const Point where{p[0] - to[0] + from[0], p[1] - to[1] + from[1], p[2] - to[2] + from[2]};
+    const Point where = plus(minus(p, to), from);
     // Two bodies may meet here at one place (a contact node on the periodic boundary): the image
     // follows its own body.
     PetscInt partner = -1;
@@ -114,8 +115,7 @@ void resolveImages(WholeMesh& mesh, const Request& request) {
     }
     mesh.primary[node] = end;
     if (end == node) continue;
-    const auto &p = mesh.points[node], &q = mesh.points[end];
-    mesh.images.push_back({node, end, {p[0] - q[0], p[1] - q[1], p[2] - q[2]}, mesh.part[end]});
+    mesh.images.push_back({node, end, minus(mesh.points[node], mesh.points[end]), mesh.part[end]});
   }
   for (auto& [name, nodes] : mesh.nodeGroups) {
     std::set<PetscInt> primaries;

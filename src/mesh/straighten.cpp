@@ -1,8 +1,8 @@
 #include "mesh/straighten.hpp"
 
 #include <algorithm>
-#include <cmath>
 
+#include "mesh/vector.hpp"
 #include "options/options.hpp"
 
 namespace squeal::mesh {
@@ -39,10 +39,6 @@ class Bundles {
   }
   std::vector<PetscInt> next_;  // [node] the next one of its ring
 };
-
-double length(const Point& p) { return std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]); }
-
-Point difference(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 class Straightener {
  public:
@@ -98,9 +94,9 @@ class Straightener {
     const auto straight = geometry_.straightened(block.type, points);
     double size = 0;
     for (int c = 1; c < block.corners; ++c)
-      size = std::max(size, length(difference(points[c], points[0])));
+      size = std::max(size, length(minus(points[c], points[0])));
     for (std::size_t i = block.corners; i < nodes.size(); ++i) {
-      const Point shift = difference(straight[i], points[i]);
+      const Point shift = minus(straight[i], points[i]);
       // An edge that is straight to the digits of a mesh file stays as it is.
       if (fixed_[nodes[i]] || length(shift) <= 1e-6 * size) continue;
       mesh_.straightened.largestMove = std::max(mesh_.straightened.largestMove, length(shift));

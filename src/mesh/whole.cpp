@@ -6,6 +6,7 @@
 
 #include "mesh/bodies.hpp"
 #include "mesh/twins.hpp"
+#include "mesh/vector.hpp"
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
 
@@ -206,15 +207,9 @@ Point centroid(const WholeMesh& mesh, std::span<const PetscInt> nodes) {
 int outwardSign(const WholeMesh& mesh, std::span<const PetscInt> corners, const Point& inside) {
   const auto at = [&](int i) { return mesh.points[corners[i]]; };
   const Point a = at(0), b = at(1), c = mesh.dimension == 3 ? at(2) : a;
-  const Point e{b[0] - a[0], b[1] - a[1], b[2] - a[2]}, g{c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-  const Point normal =
-      mesh.dimension == 3
-          ? Point{e[1] * g[2] - e[2] * g[1], e[2] * g[0] - e[0] * g[2], e[0] * g[1] - e[1] * g[0]}
-          : Point{e[1], -e[0], 0};
-  const Point centre = centroid(mesh, corners);
-  double dot = 0;
-  for (std::size_t d = 0; d < 3; ++d) dot += normal[d] * (centre[d] - inside[d]);
-  return dot > 0 ? 1 : -1;
+  const Point e = minus(b, a);
+  const Point normal = mesh.dimension == 3 ? cross(e, minus(c, a)) : Point{e[1], -e[0], 0};
+  return dot(normal, minus(centroid(mesh, corners), inside)) > 0 ? 1 : -1;
 }
 
 /// Throws Error if a face is there twice, since its pressure and contact area would be doubled.

@@ -5,10 +5,14 @@
 
 #include "elasticity/shape.hpp"
 #include "linalg/lu.hpp"
+#include "mesh/vector.hpp"
 #include "mortar/surface.hpp"
-#include "mortar/vector.hpp"
 
 namespace squeal::mortar {
+
+using mesh::length;
+using mesh::plus;
+
 namespace {
 
 using linalg::DenseMatrix;

@@ -3,10 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/vector.hpp"
 #include "mortar/surface.hpp"
-#include "mortar/vector.hpp"
 
 namespace squeal::mortar {
+
+using mesh::cross;
+using mesh::dot;
+using mesh::length;
+using mesh::minus;
+using mesh::plus;
+using mesh::scaled;
+using mesh::unit;
+
 namespace {
 
 /// Edges count as straight up to this part of their length, which is rounding of coordinates.

@@ -4,10 +4,13 @@
 #include <cmath>
 #include <map>
 
+#include "mesh/vector.hpp"
 #include "mortar/surface.hpp"
-#include "mortar/vector.hpp"
 
 namespace squeal::mortar {
+
+using mesh::plus;
+
 namespace {
 
 using linalg::DenseMatrix;

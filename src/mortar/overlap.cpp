@@ -5,13 +5,19 @@
 #include <optional>
 #include <utility>
 
+#include "mesh/vector.hpp"
 #include "mortar/facet.hpp"
 #include "mortar/overlap_rule.hpp"
 #include "mortar/surface.hpp"
-#include "mortar/vector.hpp"
 #include "petsc/check.hpp"
 
 namespace squeal::mortar {
+
+using mesh::cross;
+using mesh::dot;
+using mesh::length;
+using mesh::unit;
+
 namespace {
 
 /// Pieces below this part of a facet of the slave face are left out; rounding makes such slivers.

@@ -6,10 +6,13 @@
 #include <iterator>
 #include <span>
 
+#include "mesh/vector.hpp"
 #include "mortar/surface.hpp"
-#include "mortar/vector.hpp"
 
 namespace squeal::mortar {
+
+using mesh::dot;
+
 namespace {
 
 /// Integrals over flat faces with straight edges are wrong by at most this part of a face, as

@@ -3,10 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "mortar/vector.hpp"
+#include "mesh/vector.hpp"
 
 namespace squeal::mortar {
+
+using mesh::cross;
+using mesh::dot;
+using mesh::length;
+using mesh::minus;
+using mesh::plus;
+using mesh::scaled;
+
 namespace {
 
 /// How far outside of the face a line may meet it, in the size of the reference cell.

@@ -1,8 +1,8 @@
 #include "steady/resultants.hpp"
 
 #include <algorithm>
-#include <cmath>
 
+#include "mesh/vector.hpp"
 #include "petsc/arrays.hpp"
 
 namespace squeal::steady {
@@ -32,19 +32,20 @@ std::vector<Point> forcesOnPads(const contact::Contact& contact, const Solution&
 void setStickingForces(const contact::Contact& contact, Vec nodalForces, Solution& solution) {
   const auto& mesh = *contact.mesh;
   const ReadArray forces(nodalForces);
+  std::vector<Point> onPads;
+  for (const auto& node : contact.nodes) {
+    Point force{};
+    for (int d = 0; d < mesh.dimension; ++d)
+      force[d] = node.side * forces[mesh.dimension * node.node + d];
+    onPads.push_back(mesh::tangential(force, node.normal));
+  }
   for (int d = 0; d < mesh.dimension; ++d) {
-    std::vector<double> tangential;
-    for (const auto& node : contact.nodes) {
-      double along = 0;
-      for (int c = 0; c < mesh.dimension; ++c)
-        along += node.normal[c] * forces[mesh.dimension * node.node + c];
-      tangential.push_back(node.side *
-                           (forces[mesh.dimension * node.node + d] - along * node.normal[d]));
-    }
-    tangential = contact.gapForce(tangential);
+    std::vector<double> component;
+    for (const Point& force : onPads) component.push_back(force[d]);
+    component = contact.gapForce(component);
     for (std::size_t i = 0; i < contact.nodes.size(); ++i)
       if (contact.nodes[i].role == contact::Role::sticking)
-        solution.contact[i].frictionForce[d] = tangential[i];
+        solution.contact[i].frictionForce[d] = component[i];
   }
 }
 
@@ -72,11 +73,9 @@ Resultant resultantOf(const contact::Contact& contact, int interface, const Solu
       for (std::size_t k = 0; k < contact.nodes.size(); ++k) {
         const auto& node = contact.nodes[k];
         if (node.interface != interface) continue;
-        const Point& f = onPads[k];
-        const double along = f[0] * node.normal[0] + f[1] * node.normal[1] + f[2] * node.normal[2];
-        for (int d = 0; d < dimension; ++d)
-          values[dimension * node.node + d] =
-              tangential ? f[d] - along * node.normal[d] : along * node.normal[d];
+        const Point friction = mesh::tangential(onPads[k], node.normal),
+                    f = tangential ? friction : mesh::minus(onPads[k], friction);
+        for (int d = 0; d < dimension; ++d) values[dimension * node.node + d] = f[d];
       }
     }
     check(MatMultTranspose(contact.jump, part, forces));
@@ -84,32 +83,25 @@ Resultant resultantOf(const contact::Contact& contact, int interface, const Solu
     const ReadArray values(forces);
     for (PetscInt node = 0; node < mesh.ownedNodes; ++node) {
       const bool onPad = onObstacle || (isMaster[mesh.nodePart[node]] != 0) == (side < 0);
-      const Point& x = mesh.coordinates[node];
       Point f{};
       for (int d = 0; d < dimension; ++d) f[d] = values[dimension * node + d];
-      for (std::size_t d = 0; d < 3; ++d) {
-        const std::size_t a = (d + 1) % 3, b = (d + 2) % 3;
-        if (onPad) sum[d] += f[d];
-        moments[onPad ? 0 : 1][d] += x[a] * f[b] - x[b] * f[a];
-      }
+      if (onPad) sum = mesh::plus(sum, f);
+      Point& moment = moments[onPad ? 0 : 1];
+      moment = mesh::plus(moment, mesh::cross(mesh.coordinates[node], f));
     }
   }
   for (std::size_t k = 0; k < contact.nodes.size(); ++k) {
     const auto& node = contact.nodes[k];
-    const auto& t = solution.contact[k].frictionForce;
+    const auto& state = solution.contact[k];
     if (node.interface == interface && node.role == contact::Role::sticking && solution.closed[k])
       resultant.leastFriction =
-          std::max(resultant.leastFriction, std::sqrt(t[0] * t[0] + t[1] * t[1] + t[2] * t[2]) /
-                                                solution.contact[k].normalForce);
+          std::max(resultant.leastFriction, mesh::length(state.frictionForce) / state.normalForce);
   }
   for (Point* sum : {&resultant.normalForce, &resultant.frictionForce, &moments[0], &moments[1]})
     check(MPI_Allreduce(MPI_IN_PLACE, sum->data(), 3, MPI_DOUBLE, MPI_SUM, mesh.comm));
   check(MPI_Allreduce(MPI_IN_PLACE, &resultant.leastFriction, 1, MPI_DOUBLE, MPI_MAX, mesh.comm));
   resultant.moment = moments[0];
-  double defect = 0;
-  for (std::size_t d = 0; d < 3; ++d)
-    defect += onObstacle ? 0 : std::pow(moments[0][d] + moments[1][d], 2);
-  resultant.momentDefect = std::sqrt(defect);
+  resultant.momentDefect = onObstacle ? 0 : mesh::length(mesh::plus(moments[0], moments[1]));
   return resultant;
 }
 

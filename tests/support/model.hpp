@@ -15,6 +15,7 @@
 #include "linalg/dense.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/read.hpp"
+#include "mesh/vector.hpp"
 #include "options/settings.hpp"
 #include "petsc/check.hpp"
 #include "petsc/owned.hpp"
@@ -142,9 +143,7 @@ inline double dot(Vec x, Vec y) {
   return value;
 }
 
-inline double dot(const mesh::Point& a, const mesh::Point& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
+using mesh::dot;
 
 /// The bodies alone, without contact.
 struct Built {

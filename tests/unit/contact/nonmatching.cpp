@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "contact/coupled.hpp"
-#include "mortar/vector.hpp"
+#include "mesh/vector.hpp"
 #include "steady/steady.hpp"
 #include "support/blocks_apart.hpp"
 #include "support/case.hpp"
@@ -79,10 +79,10 @@ PatchErrors patchTest(const std::string& file, const Block& disc, const Block& p
     if (std::abs(x[plane ? 1 : 2]) > 1e-9) continue;
     Point force{};
     force[plane ? 1 : 2] = r[mesh.dimension * mesh.globalNode[i] + mesh.dimension - 1];
-    moment = mortar::plus(moment, mortar::cross(x, force));
+    moment = mesh::plus(moment, mesh::cross(x, force));
   }
   check(MPI_Allreduce(MPI_IN_PLACE, moment.data(), 3, MPI_DOUBLE, MPI_SUM, mesh.comm));
-  errors.moment = mortar::length(moment) / pressure;
+  errors.moment = mesh::length(moment) / pressure;
   errors.displacement = largest(errors.displacement), errors.pressure = largest(errors.pressure);
   return errors;
 }

@@ -9,7 +9,6 @@
 #include <numeric>
 
 #include "mortar/surface.hpp"
-#include "mortar/vector.hpp"
 #include "support/face_patch.hpp"
 
 namespace squeal {

@@ -8,10 +8,10 @@
 #include <numbers>
 #include <numeric>
 
+#include "mesh/vector.hpp"
 #include "mortar/clip.hpp"
 #include "mortar/dual.hpp"
 #include "mortar/surface.hpp"
-#include "mortar/vector.hpp"
 #include "petsc/check.hpp"
 #include "support/face_patch.hpp"
 
@@ -19,6 +19,7 @@ namespace squeal {
 namespace {
 
 using namespace mortar;
+using mesh::dot, mesh::length, mesh::minus, mesh::plus;
 using test::FacePatch;
 using test::line2, test::line3, test::quad4, test::quad8, test::quad9, test::tri3, test::tri6;
 

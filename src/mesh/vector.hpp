@@ -1,13 +1,10 @@
 #pragma once
 /// This file holds the algebra of points and vectors in space.
 #include <cmath>
-#include <cstddef>
 
 #include "mesh/mesh.hpp"
 
-namespace squeal::mortar {
-
-using mesh::Point;
+namespace squeal::mesh {
 
 inline double dot(const Point& a, const Point& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -25,5 +22,7 @@ inline Point scaled(const Point& a, double factor) {
   return {factor * a[0], factor * a[1], factor * a[2]};
 }
 inline Point unit(const Point& a) { return scaled(a, 1 / length(a)); }
+/// Returns a − (a·n) n, the part of a along the plane whose unit normal is n.
+inline Point tangential(const Point& a, const Point& n) { return plus(a, n, -dot(a, n)); }
 
-}  // namespace squeal::mortar
+}  // namespace squeal::mesh
