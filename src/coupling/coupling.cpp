@@ -33,8 +33,8 @@ std::vector<SlaveNode> slaveNodes(const mesh::Mesh& mesh, const Basis& basis,
     node.masters = rowOf(matrices.masters, row);
     node.jumps = rowOf(matrices.jumps, row), node.jumpsOf = rowOf(matrices.jumpsOf, row);
     node.convected = rowOf(matrices.convected, row);
-    node.partShare.resize(mesh.parts);
-    for (const auto& [part, share] : rowOf(matrices.parts, row)) node.partShare[part] = share;
+    for (const auto& [part, share] : rowOf(matrices.parts, row))
+      node.masterParts.push_back({int(part), share});
     double most = 0;
     for (const auto& [body, share] : rowOf(matrices.bodies, row))
       if (share > most) most = share, node.masterBody = body;
@@ -68,9 +68,8 @@ std::vector<bool> nearOthers(MPI_Comm comm, const std::vector<Face>& faces,
 
 }  // namespace
 
-Coupling couple(const mesh::Mesh& mesh, const Interface& interface, const BodyVelocity& velocity,
-                const std::vector<unsigned char>& excluded) {
-  const NodeExchange exchange(mesh);
+Coupling couple(const mesh::Mesh& mesh, const NodeExchange& exchange, const Interface& interface,
+                const BodyVelocity& velocity, const std::vector<unsigned char>& excluded) {
   const Surfaces surfaces =
       surfacesOf(mesh, exchange, interface.slave, interface.master, interface.searchDistance);
   const auto faces = cover(mesh.comm, surfaces, interface.slave, velocity);

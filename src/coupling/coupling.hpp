@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "coupling/exchange.hpp"
 #include "mesh/mesh.hpp"
 
 namespace squeal::coupling {
@@ -20,19 +21,25 @@ struct Weight {
   double value;
 };
 
+/// The share of a connected part in what a node rests on.
+struct PartShare {
+  int part;
+  double share;
+};
+
 /// A node of the slave surface that carries a condition, a pivot, owned by this rank. With D, W, B
 /// and M of FaceTerms summed over the faces around the pivots,
 ///   ũ_j = D_j⁻¹ (Σ M_jl u_l − Σ B_jo u_o) + (W_j / D_j) J_j,   u = E ũ.
 struct SlaveNode {
-  PetscInt node = 0;              ///< local node
-  std::vector<Weight> masters;    ///< row of P
-  std::vector<Weight> jumps;      ///< row of G, on pivots
-  std::vector<Weight> jumpsOf;    ///< row of G⁻¹, on pivots
-  std::vector<Weight> convected;  ///< (V·∇) u_D at the node, 1/s; empty without a velocity
-  std::vector<double> partShare;  ///< [connected part] share of the master's parts, sum 1
-  int masterBody = -1;            ///< index into Mesh::bodies of the largest share
-  double area = 0;                ///< W: ∫ ψ dA over the covered part, m² (m in the plane)
-  double wholeArea = 0;           ///< ∫ φ̃ dA over all faces, covered or not, m² (m)
+  PetscInt node = 0;                   ///< local node
+  std::vector<Weight> masters;         ///< row of P
+  std::vector<Weight> jumps;           ///< row of G, on pivots
+  std::vector<Weight> jumpsOf;         ///< row of G⁻¹, on pivots
+  std::vector<Weight> convected;       ///< (V·∇) u_D at the node, 1/s; empty without a velocity
+  std::vector<PartShare> masterParts;  ///< shares of the master's parts, none zero, sum 1
+  int masterBody = -1;                 ///< index into Mesh::bodies of the largest share
+  double area = 0;                     ///< W: ∫ ψ dA over the covered part, m² (m in the plane)
+  double wholeArea = 0;                ///< ∫ φ̃ dA over all faces, covered or not, m² (m)
   double gap = 0;  ///< mean distance of the master from the slave along the slave's normal, m
 };
 
@@ -70,8 +77,8 @@ using BodyVelocity = std::function<Point(int body, const Point& x)>;
 /// may be empty. Nodes of the slave with excluded[local node] set, the same on all ranks that have
 /// the node, carry no condition. The same coupling results on any number of ranks, to rounding.
 /// Throws Error for a slave face whose normal turns by more than 84°.
-Coupling couple(const mesh::Mesh& mesh, const Interface& interface, const BodyVelocity& velocity,
-                const std::vector<unsigned char>& excluded);
+Coupling couple(const mesh::Mesh& mesh, const NodeExchange& exchange, const Interface& interface,
+                const BodyVelocity& velocity, const std::vector<unsigned char>& excluded);
 
 /// Collective. Returns which side has the smaller mean area of the faces that are near the other
 /// one: true if it is the master. Slaves should be the finer side.

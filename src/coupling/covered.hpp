@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "coupling/coupling.hpp"
-#include "coupling/exchange.hpp"
 #include "coupling/search.hpp"
 #include "mortar/moments.hpp"
 

@@ -3,21 +3,15 @@
 #include <vector>
 
 #include "coupling/covered.hpp"
+#include "elasticity/assembly.hpp"
 #include "petsc/owned.hpp"
 
 namespace squeal::coupling {
 
-/// A matrix with a row per node of the mesh, as triples. Those of one place are added.
-struct Triples {
-  std::vector<PetscInt> row, column;
-  std::vector<PetscScalar> value;
-  void add(PetscInt i, PetscInt j, double entry) {
-    row.push_back(i), column.push_back(j), value.push_back(entry);
-  }
-};
+using elasticity::Triples;
 
-/// Collective. Returns the matrix of the triples of all ranks, which may be of any rows, with
-/// `columns` columns, or one per node.
+/// Collective. Returns the matrix with a row per node of the triples of all ranks, which may be of
+/// any rows, with `columns` columns, or one per node. Triples of one place are added.
 OwnedMat toMatrix(const mesh::Mesh& mesh, Triples triples, PetscInt columns = PETSC_DETERMINE);
 
 /// The sums over the faces of this rank. Rows and columns are primaries.

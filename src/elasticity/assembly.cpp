@@ -36,11 +36,10 @@ void append(Triples& triples, const mesh::Mesh& mesh, std::span<const PetscInt> 
       for (int j = 0; j < count; ++j)
         for (int b = 0; b < dimension; ++b) {
           if (scalar && a != b) continue;
-          triples.row.push_back(dimension * mesh.globalNode[nodes[i]] + a);
-          triples.column.push_back(dimension * mesh.globalNode[nodes[j]] + b);
-          triples.value.push_back(
-              scalar ? matrix[i * count + j]
-                     : matrix[(i * dimension + a) * count * dimension + j * dimension + b]);
+          triples.add(dimension * mesh.globalNode[nodes[i]] + a,
+                      dimension * mesh.globalNode[nodes[j]] + b,
+                      scalar ? matrix[i * count + j]
+                             : matrix[(i * dimension + a) * count * dimension + j * dimension + b]);
         }
 }
 

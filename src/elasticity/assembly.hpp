@@ -19,6 +19,9 @@ struct Triples {
   void reserve(std::size_t count) {
     row.reserve(count), column.reserve(count), value.reserve(count);
   }
+  void add(PetscInt i, PetscInt j, double entry) {
+    row.push_back(i), column.push_back(j), value.push_back(entry);
+  }
 };
 
 /// Symmetry says how symmetric a matrix is. Contributions are summed in any order, so that a

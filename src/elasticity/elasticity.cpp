@@ -61,11 +61,8 @@ std::vector<double> onAllComponents(const std::vector<double>& scalar, int count
 void appendDiagonal(Triples& triples, const mesh::Mesh& mesh, Vec diagonal) {
   if (!diagonal) return;
   const ReadArray values(diagonal);
-  for (PetscInt i = 0; i < values.size(); ++i) {
-    triples.row.push_back(mesh.dimension * mesh.firstNode + i);
-    triples.column.push_back(mesh.dimension * mesh.firstNode + i);
-    triples.value.push_back(values[i]);
-  }
+  const PetscInt first = mesh.dimension * mesh.firstNode;
+  for (PetscInt i = 0; i < values.size(); ++i) triples.add(first + i, first + i, values[i]);
 }
 
 /// Returns the number of entries of all element matrices of this rank.

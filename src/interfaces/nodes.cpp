@@ -37,8 +37,7 @@ std::vector<Candidate> pairedNodes(const mesh::Mesh& mesh, int interface,
     node.slave.node = pair.node;
     if (pair.master >= 0) {
       node.slave.masters = {{pair.master, 1}};
-      node.slave.partShare.resize(mesh.parts);
-      node.slave.partShare[pair.masterPart] = 1;
+      node.slave.masterParts = {{pair.masterPart, 1}};
     }
     found.push_back(std::move(node));
   }
@@ -55,9 +54,9 @@ std::vector<int> bodyOfNode(const mesh::Mesh& mesh) {
 }
 
 /// Collective. Couples the two sides of an interface whose meshes do not match.
-std::vector<Candidate> coupledNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
-                                    int index, const std::vector<unsigned char>& excluded,
-                                    Interfaces& all) {
+std::vector<Candidate> coupledNodes(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange,
+                                    const elasticity::Bodies& bodies, int index,
+                                    const std::vector<unsigned char>& excluded, Interfaces& all) {
   const InterfaceOptions& options = all.options[index];
   const std::string &pad = options.surfaces.pad.name, &disc = options.surfaces.disc.name;
   const coupling::Interface padIsSlave{pad, disc, options.searchDistance};
@@ -68,8 +67,9 @@ std::vector<Candidate> coupledNodes(const mesh::Mesh& mesh, const elasticity::Bo
   if (elasticity::convectiveTerms() && !discIsSlave && options.role == Role::sliding)
     velocity = [&](int body, const Point& x) { return bodies.motions[body].velocity(x); };
   auto coupled = coupling::couple(
-      mesh, discIsSlave ? coupling::Interface{disc, pad, options.searchDistance} : padIsSlave,
-      velocity, excluded);
+      mesh, exchange,
+      discIsSlave ? coupling::Interface{disc, pad, options.searchDistance} : padIsSlave, velocity,
+      excluded);
   PetscInt count = coupled.nodes.size();
   check(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPIU_INT, MPI_SUM, mesh.comm));
   if (count == 0)
@@ -84,7 +84,7 @@ std::vector<Candidate> coupledNodes(const mesh::Mesh& mesh, const elasticity::Bo
   report.coveredArea = coupled.coveredArea, report.largestGap = coupled.largestGap;
   report.dropped = coupled.droppedNodes;
   all.slaves[index] = {discIsSlave ? disc : pad, discIsSlave ? -1 : 1};
-  const auto body = bodyOfNode(mesh);
+  const auto body = discIsSlave ? bodyOfNode(mesh) : std::vector<int>{};
   std::vector<Candidate> found;
   for (auto& slave : coupled.nodes) {
     const int discBody = discIsSlave ? body[slave.node] : slave.masterBody;
@@ -96,10 +96,11 @@ std::vector<Candidate> coupledNodes(const mesh::Mesh& mesh, const elasticity::Bo
 /// The claims on nodes, [local node]: one more than the index of the interface, 0 for none.
 class Claims {
  public:
-  /// Collective. Clamped nodes are claimed against ties.
-  Claims(const mesh::Mesh& mesh, const Constraints& constraints)
+  /// Collective. Clamped nodes are claimed against ties. The exchange is borrowed.
+  Claims(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange,
+         const Constraints& constraints)
       : mesh_(mesh),
-        exchange_(mesh),
+        exchange_(exchange),
         clamped_(mesh.localNodes(), 0),
         tied_(clamped_),
         sliding_(clamped_),
@@ -143,7 +144,7 @@ class Claims {
     for (std::size_t i = 0; i < claims.size(); ++i) claims[i] = std::lround(values[i]);
   }
   const mesh::Mesh& mesh_;
-  coupling::NodeExchange exchange_;
+  const coupling::NodeExchange& exchange_;
   std::vector<int> clamped_;  // 1 for a clamped node
   std::vector<int> tied_, sliding_, other_;
 };
@@ -214,13 +215,6 @@ void setSlip(const Point& velocity, double fastest, ContactNode& node) {
     node.slipSpeed = 0;
 }
 
-std::vector<PartShare> partsOf(const coupling::SlaveNode& slave) {
-  std::vector<PartShare> parts;
-  for (int part = 0; part < std::ssize(slave.partShare); ++part)
-    if (slave.partShare[part] != 0) parts.push_back({part, slave.partShare[part]});
-  return parts;
-}
-
 Connection connectionOf(const coupling::SlaveNode& slave) {
   return {slave.node, 1, slave.masters, slave.convected};
 }
@@ -252,7 +246,7 @@ void fillNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
     node.wholeArea = paired ? area[mesh.dimension * (slave.node + 1) - 1] : slave.wholeArea;
     node.area = paired ? node.wholeArea : slave.area;
     node.gap = options.gapIsMeasured ? slave.gap : options.gap;
-    node.masterParts = partsOf(slave);
+    node.masterParts = slave.masterParts;
     for (int d = 0; d < mesh.dimension; ++d)
       node.normal[d] = normal[mesh.dimension * slave.node + d];
     node.normal = mesh::unit(node.normal);
@@ -263,10 +257,11 @@ void fillNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
 }
 
 /// Collective. Returns Interfaces::interfaceOf.
-std::vector<int> interfacesOf(const mesh::Mesh& mesh, const std::vector<Candidate>& touching) {
+std::vector<int> interfacesOf(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange,
+                              const std::vector<Candidate>& touching) {
   std::vector<double> numbers(mesh.localNodes(), 0.0);
   for (const auto& node : touching) numbers[node.slave.node] = node.interface + 1;
-  coupling::NodeExchange(mesh).largest(numbers);
+  exchange.largest(numbers);
   std::vector<int> found;
   for (double number : numbers) found.push_back(std::lround(number) - 1);
   return found;
@@ -318,16 +313,17 @@ Interfaces findNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
     all.slaves.push_back({interface.surfaces.pad.name, 1});
     all.reports.emplace_back();
   }
-  Claims claims(mesh, constraints);
+  const coupling::NodeExchange exchange(mesh);
+  Claims claims(mesh, exchange, constraints);
   std::vector<Candidate> touching;
   for (int i : orderOfClaims(all.options)) {
     const auto excluded = claims.against(all.options[i].role);
     auto found = mesh.matching[i] ? pairedNodes(mesh, i, excluded)
-                                  : coupledNodes(mesh, bodies, i, excluded, all);
+                                  : coupledNodes(mesh, exchange, bodies, i, excluded, all);
     claims.add(found, all.options, i);
     for (auto& node : found) {
       if (all.options[i].role == Role::tied)
-        all.tied.push_back({i, connectionOf(node.slave), partsOf(node.slave)});
+        all.tied.push_back({i, connectionOf(node.slave), node.slave.masterParts});
       else
         touching.push_back(std::move(node));
     }
@@ -345,7 +341,7 @@ Interfaces findNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
   for (std::size_t i = 0; i < all.options.size(); ++i)
     if (all.reports[i].matching && all.options[i].role != Role::tied)
       paired.push_back(all.slaves[i].surface);
-  all.interfaceOf = interfacesOf(mesh, touching);
+  all.interfaceOf = interfacesOf(mesh, exchange, touching);
   all.gapBasis = gapBasis(mesh, paired, all.interfaceOf, given, periodic);
   fillNodes(mesh, bodies, touching, periodic, all);
   countNodes(mesh.comm, all);

@@ -14,12 +14,6 @@
 
 namespace squeal::interfaces {
 
-/// The share of a connected part in what a node rests on.
-struct PartShare {
-  int part;
-  double share;
-};
-
 /// A ContactNode is a node in contact that this rank owns. It is of the slave side: the pad where
 /// the meshes match. Contact nodes stand in the order of local nodes.
 struct ContactNode {
@@ -38,7 +32,8 @@ struct ContactNode {
   PetscInt globalNode;  ///< global node
   PetscInt master;      ///< global node of the disc where the meshes match; otherwise −1
   int discBody;         ///< index into Mesh::bodies; −1 on a rigid obstacle
-  std::vector<PartShare> masterParts;  ///< parts of the master; none on a rigid obstacle
+  /// parts of the master; none on a rigid obstacle
+  std::vector<coupling::PartShare> masterParts;
 };
 
 /// A Connection couples a node i of the slave side with nodes l of the master side:
@@ -56,7 +51,7 @@ struct Connection {
 struct TiedNode {
   int interface;  ///< index into Interfaces::options
   Connection connection;
-  std::vector<PartShare> masterParts;
+  std::vector<coupling::PartShare> masterParts;
 };
 
 /// The slave side of an interface.

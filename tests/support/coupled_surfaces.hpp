@@ -41,8 +41,8 @@ inline Case caseOf(const std::string& options, MPI_Comm comm = PETSC_COMM_WORLD)
 }
 
 inline Coupling padOnDisc(const mesh::Mesh& mesh, double distance = 0) {
-  return coupling::couple(mesh, {"pad_low", "disc_high", distance}, {},
-                          std::vector<unsigned char>(mesh.localNodes(), 0));
+  return coupling::couple(mesh, coupling::NodeExchange(mesh), {"pad_low", "disc_high", distance},
+                          {}, std::vector<unsigned char>(mesh.localNodes(), 0));
 }
 
 /// A ring of radii 1 and 2 in place of the box [0, 1] x [0, 1] x height; it closes at x = 1.
@@ -71,7 +71,7 @@ inline Defects defectsOf(const Case& c, const Coupling& coupling) {
     for (const auto& [l, weight] : node.masters) {
       sum += weight, value += weight * linear(c.at[l]), magnitude += std::abs(weight);
     }
-    for (double part : node.partShare) share += part;
+    for (const auto& part : node.masterParts) share += part.share;
     d.rowSum = std::max(d.rowSum, std::abs(sum - 1));
     d.linear = std::max(d.linear, std::abs(value - linear(c.place(node))));
     d.share = std::max(d.share, std::abs(share - 1));

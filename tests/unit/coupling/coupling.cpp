@@ -138,8 +138,9 @@ TEST(Coupling, PadsRestOnRings) {
     for (const bool padIsSlave : {true, false}) {
       const std::string slave = padIsSlave ? "pad_low" : "disc_high",
                         master = padIsSlave ? "disc_high" : "pad_low";
-      const Coupling coupling = coupling::couple(
-          c.mesh, {slave, master}, {}, std::vector<unsigned char>(c.mesh.localNodes(), 0));
+      const Coupling coupling =
+          coupling::couple(c.mesh, coupling::NodeExchange(c.mesh), {slave, master}, {},
+                           std::vector<unsigned char>(c.mesh.localNodes(), 0));
       const Defects d = defectsOf(c, coupling);
       expectExact(d, 1e-10);
       const double exact = std::numbers::pi / 4 * (1.8 * 1.8 - 1.2 * 1.2);
