@@ -43,7 +43,7 @@ struct SlaveNode {
   double gap = 0;  ///< mean distance of the master from the slave along the slave's normal, m
 };
 
-/// What was found on one side of an interface, summed over all ranks.
+/// A SideReport tells what was found on one side of an interface, summed over all ranks.
 struct SideReport {
   PetscInt faces = 0;      ///< faces of the group
   PetscInt nearFaces = 0;  ///< those near the other side

@@ -1,7 +1,7 @@
 #include "interfaces/chains.hpp"
 
 #include <algorithm>
-#include <set>
+#include <cmath>
 
 #include "petsc/arrays.hpp"
 #include "petsc/text.hpp"

@@ -1,7 +1,6 @@
 #include "interfaces/constraints.hpp"
 
 #include <algorithm>
-#include <set>
 
 #include "options/options.hpp"
 #include "petsc/check.hpp"

@@ -1,13 +1,16 @@
 #include "interfaces/interfaces.hpp"
 
-#include <cmath>
+#include <algorithm>
 
 #include "options/options.hpp"
 #include "petsc/check.hpp"
-#include "petsc/text.hpp"
 
 namespace squeal::interfaces {
 namespace {
+
+/// The values of the options of roles and of slaves, in the order of the enumerations.
+const std::vector<std::string> roleNames{"sliding", "sticking", "frictionless", "tied"},
+    slaveNames{"finer", "pad", "disc"};
 
 const TextOption padOption("contact", "contact_<interface>_pad", "",
                            "surface group of the pad side of an interface");
@@ -20,18 +23,16 @@ const RealListOption obstacleVelocityOption("contact", "contact_<interface>_obst
 const RealListOption obstacleDisplacementOption(
     "contact", "contact_<interface>_obstacle_displacement", "0,0,0", "m", anyReal,
     "displacement of the rigid obstacle, which presses the pad");
-const ChoiceOption roleOption("contact", "contact_<interface>_role",
-                              {"sliding", "sticking", "frictionless", "tied"}, "sliding",
+const ChoiceOption roleOption("contact", "contact_<interface>_role", roleNames, "sliding",
                               "sliding: friction along the velocity; sticking: no motion along "
                               "the surface; frictionless: no force along it; tied: glued");
 const RealOption factorOption("contact", "contact_<interface>_friction_factor", 1.0, "",
                               nonNegative,
                               "times -flutter_friction: the coefficient of a sliding interface");
-const TextOption gapOption("contact", "contact_<interface>_gap", "0",
-                           "gap without load, m: measured (the distance of the surfaces) or a "
-                           "number; negative: interference");
-const ChoiceOption slaveOption("contact", "contact_<interface>_slave", {"finer", "pad", "disc"},
-                               "finer",
+const WordOrRealOption gapOption("contact", "contact_<interface>_gap", 0.0, "m", "measured",
+                                 "gap without load; measured: the distance of the surfaces; "
+                                 "negative: interference");
+const ChoiceOption slaveOption("contact", "contact_<interface>_slave", slaveNames, "finer",
                                "where the meshes do not match: the side whose nodes have the gaps");
 const RealOption searchOption("contact", "contact_<interface>_search", 0.0, "m", nonNegative,
                               "where the meshes do not match: largest distance of faces that "
@@ -58,28 +59,11 @@ void requireOption(const std::vector<const Option*>& options, const Option& need
         throw Error("option -" + option->fullName(name) + " needs -" + needed.fullName(name));
 }
 
-Role roleOf(const std::string& interface) {
-  const std::string role = roleOption.get(interface);
-  return role == "sticking"       ? Role::sticking
-         : role == "frictionless" ? Role::frictionless
-         : role == "tied"         ? Role::tied
-                                  : Role::sliding;
-}
-
-void readGap(InterfaceOptions& interface) {
-  const std::string& name = interface.surfaces.name;
-  const std::string text = gapOption.get(name);
-  interface.gapIsMeasured = text == "measured";
-  if (interface.gapIsMeasured) return;
-  std::size_t used = 0;
-  try {
-    interface.gap = std::stod(text, &used);
-  } catch (const std::exception&) {
-    used = 0;
-  }
-  if (used == 0 || used != text.size() || !std::isfinite(interface.gap))
-    throw Error("option -" + gapOption.fullName(name) + " " + text +
-                ": must be 'measured' or a number");
+/// Returns the value of an enumeration that an option gives by its name.
+template <class Enumeration>
+Enumeration valueOf(const ChoiceOption& option, const std::vector<std::string>& names,
+                    const std::string& interface) {
+  return Enumeration(std::find(names.begin(), names.end(), option.get(interface)) - names.begin());
 }
 
 /// Throws Error for options that mean nothing on this interface.
@@ -92,23 +76,17 @@ void rejectIdleOptions(const InterfaceOptions& interface) {
     const std::string why = "needs -" + discOption.fullName(name);
     for (const Option* option : std::vector<const Option*>{&slaveOption, &searchOption, &gapOption})
       reject(*option, why);
-    if (interface.role == Role::tied || interface.role == Role::sticking)
+    if (interface.isTied() || interface.role == Role::sticking)
       throw Error("option -" + roleOption.fullName(name) + " " + roleOption.get(name) + " " + why);
   }
   if (interface.role != Role::sliding)
     reject(factorOption, "needs -" + roleOption.fullName(name) + " sliding");
-  if (interface.role == Role::tied)
-    reject(gapOption, "means nothing on a tied interface, which has no gap");
+  if (interface.isTied()) reject(gapOption, "means nothing on a tied interface, which has no gap");
 }
 
 }  // namespace
 
-std::string text(Role role) {
-  return role == Role::sticking       ? "sticking"
-         : role == Role::frictionless ? "frictionless"
-         : role == Role::tied         ? "tied"
-                                      : "sliding";
-}
+std::string text(Role role) { return roleNames.at(std::size_t(role)); }
 
 std::string InterfaceOptions::label() const {
   return (tieSlaveOption.given(surfaces.name) && surfaces.pad.option.starts_with("-tie_")
@@ -149,16 +127,15 @@ std::vector<InterfaceOptions> readInterfaceOptions(int dimension) {
       interface.slave = SlaveChoice::pad;
       interface.searchDistance = toleranceOption.get(name);
     } else {
-      interface.role = roleOf(name);
+      interface.role = valueOf<Role>(roleOption, roleNames, name);
       interface.obstacleVelocity = obstacleVelocityOption.components(name, dimension);
       interface.obstacleDisplacement = obstacleDisplacementOption.components(name, dimension);
-      const std::string slave = slaveOption.get(name);
-      interface.slave = slave == "pad"    ? SlaveChoice::pad
-                        : slave == "disc" ? SlaveChoice::disc
-                                          : SlaveChoice::finer;
+      interface.slave = valueOf<SlaveChoice>(slaveOption, slaveNames, name);
       interface.searchDistance = searchOption.get(name);
       interface.frictionFactor = factorOption.get(name);
-      readGap(interface);
+      const auto gap = gapOption.get(name);
+      interface.gapIsMeasured = !gap;
+      interface.gap = gap.value_or(0);
       rejectIdleOptions(interface);
     }
     interfaces.push_back(std::move(interface));

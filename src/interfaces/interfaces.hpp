@@ -13,7 +13,7 @@ using mesh::Point;
 /// The side of an interface whose nodes have the gaps.
 enum class SlaveChoice { finer, pad, disc };
 
-/// What the two sides of an interface do to each other. All but tied ones may open.
+/// A Role tells what the two sides of an interface do to each other. All but tied ones may open.
 enum class Role {
   sliding,       ///< friction along the sliding velocity
   sticking,      ///< no tangential jump
@@ -37,6 +37,7 @@ struct InterfaceOptions {
   double gap = 0;  ///< gap without load if it is not measured, m; negative: interference
 
   bool onObstacle() const { return surfaces.disc.name.empty(); }
+  bool isTied() const { return role == Role::tied; }
   /// Returns "interface 'pad'" or "tie 'lining'", for messages.
   std::string label() const;
 };

@@ -154,7 +154,7 @@ std::vector<int> orderOfClaims(const std::vector<InterfaceOptions>& options) {
   std::vector<int> order(options.size());
   std::iota(order.begin(), order.end(), 0);
   const auto rank = [&](int i) {
-    return options[i].role == Role::tied ? 0 : options[i].role == Role::sliding ? 1 : 2;
+    return options[i].isTied() ? 0 : options[i].role == Role::sliding ? 1 : 2;
   };
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return rank(a) < rank(b); });
   return order;
@@ -274,7 +274,7 @@ void countNodes(MPI_Comm comm, Interfaces& all) {
   for (std::size_t i = 0; i < all.reports.size(); ++i) {
     PetscInt& count = all.reports[i].nodes;
     check(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPIU_INT, MPI_SUM, comm));
-    if (all.options[i].role != Role::tied) all.totalNodes += count;
+    if (!all.options[i].isTied()) all.totalNodes += count;
   }
 }
 
@@ -282,7 +282,7 @@ void countNodes(MPI_Comm comm, Interfaces& all) {
 
 const SlaveSide* Interfaces::slaveOf(const std::string& surface) const {
   for (std::size_t i = 0; i < slaves.size(); ++i)
-    if (options[i].role != Role::tied && slaves[i].surface == surface) return &slaves[i];
+    if (!options[i].isTied() && slaves[i].surface == surface) return &slaves[i];
   return nullptr;
 }
 
@@ -322,7 +322,7 @@ Interfaces findNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
                                   : coupledNodes(mesh, exchange, bodies, i, excluded, all);
     claims.add(found, all.options, i);
     for (auto& node : found) {
-      if (all.options[i].role == Role::tied)
+      if (all.options[i].isTied())
         all.tied.push_back({i, connectionOf(node.slave), node.slave.masterParts});
       else
         touching.push_back(std::move(node));
@@ -339,7 +339,7 @@ Interfaces findNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
     if (!all.reports[node.interface].matching)
       given.push_back({node.slave.node, node.slave.jumps, node.slave.jumpsOf});
   for (std::size_t i = 0; i < all.options.size(); ++i)
-    if (all.reports[i].matching && all.options[i].role != Role::tied)
+    if (all.reports[i].matching && !all.options[i].isTied())
       paired.push_back(all.slaves[i].surface);
   all.interfaceOf = interfacesOf(mesh, exchange, touching);
   all.gapBasis = gapBasis(mesh, paired, all.interfaceOf, given, periodic);

@@ -10,7 +10,6 @@
 #include "interfaces/gap_basis.hpp"
 #include "interfaces/interfaces.hpp"
 #include "mesh/mesh.hpp"
-#include "petsc/owned.hpp"
 
 namespace squeal::interfaces {
 
@@ -60,17 +59,18 @@ struct SlaveSide {
   int sign;             ///< +1 if it is the pad, −1 if it is the disc
 };
 
-/// What was found at an interface, the same on all ranks.
+/// An InterfaceReport tells what was found at an interface. It is the same on all ranks.
 struct InterfaceReport {
   bool matching = true;  ///< node on node, or a rigid obstacle
   std::string whyNot;    ///< a sentence that says where the meshes do not match
   PetscInt nodes = 0;    ///< nodes in contact, or tied
-  PetscInt yielded = 0;  ///< nodes left to another interface or to a clamp
   // These are zero if the meshes match.
   coupling::SideReport slave, master;
   double coveredArea = 0;  ///< of the slave, m² (m in the plane)
   double largestGap = 0;   ///< largest distance of the surfaces where they touch, m
-  PetscInt dropped = 0;    ///< nodes that touch without a condition, among them those yielded
+  /// Nodes that touch without a condition: they are left to another interface or to a clamp, or too
+  /// little of them is covered.
+  PetscInt dropped = 0;
 };
 
 /// All interfaces with their nodes.

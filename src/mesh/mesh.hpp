@@ -62,7 +62,7 @@ struct ContactPair {
   int masterPart;   ///< connected part of the master node; −1 for a rigid obstacle
 };
 
-/// What `-mesh_straighten` has done to the whole mesh.
+/// A Straightened tells what `-mesh_straighten` has done to the whole mesh.
 struct Straightened {
   PetscInt folded = 0;     ///< cells whose Jacobian was not positive, those of all rounds
   PetscInt cells = 0;      ///< cells with a node that was moved
@@ -126,7 +126,7 @@ struct PeriodicRequest {
   std::string option;  ///< the option that asks for it, with its dash, for messages
 };
 
-/// What later stages know of a cell by its gmsh type and the places of its nodes, m.
+/// A CellGeometry tells what later stages know of a cell by its gmsh type and its nodes, m.
 struct CellGeometry {
   /// Returns true if the Jacobian is not positive at a point where the cell is integrated.
   std::function<bool(int type, const std::vector<Point>& nodes)> isFolded;

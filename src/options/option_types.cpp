@@ -161,6 +161,17 @@ double RealOption::get(const std::string& subject) const {
   return x;
 }
 
+WordOrRealOption::WordOrRealOption(std::string stage, std::string name, double byDefault,
+                                   std::string unit, std::string word, std::string meaning)
+    : Option(std::move(stage), std::move(name), shortest(byDefault), std::move(unit),
+             std::move(meaning), "'" + word + "' or a number"),
+      word_(std::move(word)) {}
+
+std::optional<double> WordOrRealOption::get(const std::string& subject) const {
+  const std::string value = text(subject);
+  return value == word_ ? std::nullopt : std::optional(number(subject, value));
+}
+
 IntegerOption::IntegerOption(std::string stage, std::string name, int byDefault, int lowest,
                              int highest, std::string meaning)
     : Option(std::move(stage), std::move(name), std::to_string(byDefault), "", std::move(meaning),

@@ -85,6 +85,19 @@ class RealOption : public Option {
   Range range_;
 };
 
+/// A WordOrRealOption is a real, or one word in place of it.
+class WordOrRealOption : public Option {
+ public:
+  WordOrRealOption(std::string stage, std::string name, double byDefault, std::string unit,
+                   std::string word, std::string meaning);
+  /// Returns the number, or nothing for the word.
+  std::optional<double> get(const std::string& subject = {}) const;
+  void validate(const std::string& subject) const override { get(subject); }
+
+ private:
+  std::string word_;
+};
+
 class IntegerOption : public Option {
  public:
   IntegerOption(std::string stage, std::string name, int byDefault, int lowest, int highest,
