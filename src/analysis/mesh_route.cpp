@@ -166,9 +166,11 @@ void examineShapes(const Analysis& analysis, const contact::CoupledSystem& syste
   OwnedMat prestress;
   if (elasticity::prestressWanted())
     prestress = elasticity::geometricStiffness(*analysis.mesh, solution.displacement);
+  const auto friction = flutter::frictionState(analysis.contact, solution);
   for (auto& shape : point.shapes)
     shape.frictionWork = flutter::frictionWork(
-        analysis.contact, analysis.bodies, solution, point.at, point.eigenvalues[shape.index].s,
+        analysis.contact, analysis.bodies, solution.closed, friction, point.at,
+        point.eigenvalues[shape.index].s,
         linalg::ComplexVector::copied(shape.real, shape.imaginary), prestress);
   if (!sensitivity::sensitivitiesWanted()) return;
   Stage stage(analysis.mesh->comm, "flutter");

@@ -11,7 +11,6 @@
 #include "mesh/mesh.hpp"
 #include "mesh/vector.hpp"
 #include "petsc/arrays.hpp"
-#include "petsc/text.hpp"
 
 namespace squeal::contact {
 
@@ -226,6 +225,13 @@ std::vector<Slip> Contact::slip(double speed, Vec displacement) const {
 
 std::vector<double> Contact::nodalForce(const std::vector<double>& normalForce) const {
   return gapBasis ? applied(*this, MatMultTranspose, gapBasis.inverse, normalForce) : normalForce;
+}
+
+std::vector<double> Contact::nodalForce(std::vector<double> normalForce,
+                                        const std::vector<unsigned char>& closed) const {
+  for (std::size_t i = 0; i < normalForce.size(); ++i)
+    if (!closed[i]) normalForce[i] = 0;
+  return nodalForce(normalForce);
 }
 
 std::vector<double> Contact::gapCoefficients(const std::vector<double>& nodal) const {

@@ -84,6 +84,9 @@ struct Contact : interfaces::Interfaces {
   /// Collective. Returns the normal components of the nodal forces of contact, E⁻ᵀ R_N, N, from
   /// R_N, N, both [contact node]. On faces whose E is the identity they are the same.
   std::vector<double> nodalForce(const std::vector<double>& normalForce) const;
+  /// Collective. Returns the same with R_N left out where closed[contact node] is not set.
+  std::vector<double> nodalForce(std::vector<double> normalForce,
+                                 const std::vector<unsigned char>& closed) const;
   /// Collective. Returns the gaps at the nodes, E h, m, from the unknown ones, both [contact node].
   std::vector<double> nodalGap(const std::vector<double>& gap) const;
   /// Collective. Returns Eᵀ v of forces v at the nodes, both [contact node].

@@ -2,7 +2,6 @@
 /// These functions make the matrices of the coupled problem, for every matrix X of the bodies
 /// [M.11]:
 ///   L(f)ᵀ X T = Tᵀ X T + f Sᵀ N X T.
-#include <memory>
 
 #include "contact/contact.hpp"
 #include "elasticity/elasticity.hpp"

@@ -1,7 +1,6 @@
 #include "contact/response.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "elasticity/assembly.hpp"
 #include "elasticity/elasticity.hpp"

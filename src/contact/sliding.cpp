@@ -1,13 +1,10 @@
 #include "contact/sliding.hpp"
 
-#include <algorithm>
-
 #include "contact/kinematics.hpp"
 #include "elasticity/elasticity.hpp"
 #include "elasticity/face.hpp"
 #include "elasticity/shape.hpp"
 #include "interfaces/algebra.hpp"
-#include "mesh/mesh.hpp"
 #include "petsc/arrays.hpp"
 
 namespace squeal::contact {

@@ -1,7 +1,5 @@
 #include "flutter/influence.hpp"
 
-#include <cmath>
-
 #include "flutter/terms.hpp"
 #include "linalg/complexvector.hpp"
 #include "petsc/arrays.hpp"

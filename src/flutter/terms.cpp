@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/response.hpp"
+#include "flutter/work.hpp"
 #include "options/options.hpp"
 
 namespace squeal::flutter {
@@ -44,28 +44,24 @@ void addFriction(std::vector<pencil::Term>& terms, const contact::Contact& conta
 /// Appends the terms of the change −B w* of the friction force [4.7, M.21].
 void addVelocityResponse(std::vector<pencil::Term>& terms, const contact::Contact& contact,
                          const contact::CoupledSystem& system, const steady::Solution& solution) {
-  std::vector<double> normalForce;
-  for (const auto& state : solution.contact) normalForce.push_back(state.normalForce);
-  const OwnedMat response = contact::distributedResponse(
-      contact, solution.slip, responseForces(solution.closed, std::move(normalForce)),
-      solution.at.friction);
+  const FrictionState friction = frictionState(contact, solution);
   const Mat trial = system.transformation().trial;
   OwnedMat jumps, answered, damping;
   check(MatMatMult(contact.jump, trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, jumps.out()));
-  check(MatMatMult(response, jumps, MAT_INITIAL_MATRIX, PETSC_DEFAULT, answered.out()));
+  check(MatMatMult(friction.response, jumps, MAT_INITIAL_MATRIX, PETSC_DEFAULT, answered.out()));
   check(MatTransposeMatMult(jumps, answered, MAT_INITIAL_MATRIX, PETSC_DEFAULT, damping.out()));
   // With a constant law only rounding is left in the plane, and where motion across the sliding
   // direction is held.
   PetscReal size = 0, scale = 0;
   check(MatNorm(damping, NORM_FROBENIUS, &size));
-  check(MatNorm(response, NORM_FROBENIUS, &scale));
+  check(MatNorm(friction.response, NORM_FROBENIUS, &scale));
   if (size <= 1e-14 * scale) return;
   check(MatSetOption(damping, MAT_SYMMETRIC, PETSC_TRUE));
   terms.push_back({std::move(damping), 1, 0, 1.0, 0});
   if (!contact.convected) return;
   OwnedMat convected, turned, stiffness;
   check(MatMatMult(contact.convected, trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, convected.out()));
-  check(MatMatMult(response, convected, MAT_INITIAL_MATRIX, PETSC_DEFAULT, turned.out()));
+  check(MatMatMult(friction.response, convected, MAT_INITIAL_MATRIX, PETSC_DEFAULT, turned.out()));
   check(MatTransposeMatMult(jumps, turned, MAT_INITIAL_MATRIX, PETSC_DEFAULT, stiffness.out()));
   terms.push_back({std::move(stiffness), 0, 0, -solution.at.speed, 0});
 }

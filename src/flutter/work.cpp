@@ -41,12 +41,9 @@ ContactMotion contactMotion(const contact::Contact& contact,
   if (contact.convected) motion.convected = product(contact.convected, u);
   const int component = contact.mesh->dimension - 1;  // the row of the gap
   std::vector<double> real, imaginary;
-  const auto reactions = atPadNodes(contact, product(contact.reaction, forces));
-  for (std::size_t k = 0; k < reactions.size(); ++k) {
-    const Complex reaction = closed[k] ? reactions[k][component] : 0;
-    real.push_back(reaction.real()), imaginary.push_back(reaction.imag());
-  }
-  real = contact.nodalForce(real), imaginary = contact.nodalForce(imaginary);
+  for (const auto& reaction : atPadNodes(contact, product(contact.reaction, forces)))
+    real.push_back(reaction[component].real()), imaginary.push_back(reaction[component].imag());
+  real = contact.nodalForce(real, closed), imaginary = contact.nodalForce(imaginary, closed);
   for (std::size_t k = 0; k < real.size(); ++k)
     motion.nodalForce.emplace_back(real[k], imaginary[k]);
   return motion;
@@ -88,13 +85,14 @@ std::vector<FrictionForm> frictionForms(const contact::Contact& contact, const F
 }
 
 std::vector<double> frictionWork(const contact::Contact& contact, const elasticity::Bodies& bodies,
-                                 const steady::Solution& solution, const sweep::Parameters& at,
+                                 const std::vector<unsigned char>& closed,
+                                 const FrictionState& friction, const sweep::Parameters& at,
                                  Complex s, const linalg::ComplexVector& u, Mat prestress) {
   const MotionForces forces = motionForces(bodies, at, s, u, prestress);
-  const ContactMotion motion = contactMotion(contact, solution.closed, u, forces.forces);
+  const ContactMotion motion = contactMotion(contact, closed, u, forces.forces);
   std::vector<double> work;
-  for (const auto& form : frictionForms(contact, frictionState(contact, solution), s,
-                                        atPadNodes(contact, motion.jump), motion))
+  for (const auto& form :
+       frictionForms(contact, friction, s, atPadNodes(contact, motion.jump), motion))
     work.push_back(-(std::conj(s) * (form.pressing + form.turning)).real() / forces.energy);
   return work;
 }

@@ -72,8 +72,9 @@ std::vector<FrictionForm> frictionForms(const contact::Contact& contact, const F
                                         const ContactMotion& motion);
 
 /// Collective. Returns the contribution of friction at each contact node to the growth rate of the
-/// mode u e^{st}, 1/s, [owned contact node]. Where it is positive, friction feeds the mode. At open
-/// nodes it is zero, but for tri6 and quad8 faces that are closed in part.
+/// mode u e^{st}, 1/s, [owned contact node]; closed[k] is set for the closed gaps. Where it is
+/// positive, friction feeds the mode. At open nodes it is zero, but for tri6 and quad8 faces that
+/// are closed in part.
 ///
 /// The mode u = T x satisfies Tᵀ r* = (J T)ᵀ R_T*. The real part of its product with (s x)ᴴ is,
 /// with σ = Re s and E of MotionForces [M.51],
@@ -83,7 +84,8 @@ std::vector<FrictionForm> frictionForms(const contact::Contact& contact, const F
 /// All values add up to σ + |s|² c uᴴ C u / E. The mean energy is E/4, and the work over a cycle is
 /// (π / Im s) E times the value.
 std::vector<double> frictionWork(const contact::Contact& contact, const elasticity::Bodies& bodies,
-                                 const steady::Solution& solution, const sweep::Parameters& at,
+                                 const std::vector<unsigned char>& closed,
+                                 const FrictionState& friction, const sweep::Parameters& at,
                                  Complex s, const linalg::ComplexVector& u, Mat prestress);
 
 }  // namespace squeal::flutter

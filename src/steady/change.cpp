@@ -39,9 +39,8 @@ Change change(const Problem& problem, const Solution& solution,
   const Mat trial = system.transformation().trial;
   const auto& nodes = contact.nodes;
   std::vector<double> steadyForce;
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    steadyForce.push_back(system.closed()[i] ? solution.contact[i].normalForce : 0);
-  steadyForce = contact.nodalForce(steadyForce);
+  for (const auto& state : solution.contact) steadyForce.push_back(state.normalForce);
+  steadyForce = contact.nodalForce(steadyForce, system.closed());
   OwnedMat turning;  // B D
   if (contact.convected) {
     const OwnedMat response =
@@ -52,10 +51,7 @@ Change change(const Problem& problem, const Solution& solution,
   // Computes Tᵀ (dr + Jᵀ dt) for given du and dr; if `direct`, dt has its terms in df and dv too.
   const auto test = [&](Vec du, Vec dr, bool direct, Vec result) {
     const OwnedVec friction = elasticity::nodalVector(mesh), sum = elasticity::nodalVector(mesh);
-    auto sliding = problem.normalForces(dr);
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      if (!system.closed()[i]) sliding[i] = 0;
-    const auto normal = contact.nodalForce(sliding);
+    const auto normal = contact.nodalForce(problem.normalForces(dr), system.closed());
     if (turning) {
       check(MatMult(turning, du, friction));
       check(VecScale(friction, -at.speed));

@@ -78,10 +78,7 @@ OwnedVec Problem::test(const contact::Transformation& transformation,
                        const std::vector<unsigned char>& slides, const sweep::Parameters& at,
                        Vec forces, const std::vector<contact::Slip>& slip) const {
   const OwnedVec friction = elasticity::nodalVector(mesh_), sum = elasticity::nodalVector(mesh_);
-  auto sliding = normalForces(forces);
-  for (std::size_t i = 0; i < sliding.size(); ++i)
-    if (!slides[i]) sliding[i] = 0;
-  const auto normal = contact_.nodalForce(sliding);
+  const auto normal = contact_.nodalForce(normalForces(forces), slides);
   {
     const WriteArray values(friction);
     for (std::size_t i = 0; i < contact_.nodes.size(); ++i)
@@ -251,7 +248,7 @@ void Problem::recover(Vec x, double noise, Solution& solution) const {
   setStickingForces(contact_, folded, solution);
   const auto onPads = forcesOnPads(contact_, solution, folded);
   for (int i = 0; i < std::ssize(contact_.interfaces); ++i)
-    if (contact_.options[i].role != contact::Role::tied)
+    if (!contact_.options[i].isTied())
       solution.resultants.push_back(resultantOf(contact_, i, solution, onPads));
   solution.imbalance = imbalance(solution, folded);
 }

@@ -1,7 +1,6 @@
 #pragma once
 /// Steady sliding (paper, section 3) is equilibrium with
 ///   g ≥ 0,   R_N ≥ 0,   g R_N = 0   [3.3],   R_T = −f φ R_N τ   [3.4].
-#include <optional>
 #include <string>
 #include <vector>
 
