@@ -20,6 +20,15 @@ inline constexpr int line2 = 1, tri3 = 2, quad4 = 3, line3 = 8, tri6 = 9, quad9 
 inline const std::vector<int> surfaceTypes{tri3, tri6, quad4, quad8, quad9},
     lineTypes{line2, line3};
 
+/// Returns all pairs of types, of a slave and of a master, in space and in the plane.
+inline std::vector<std::pair<int, int>> allPairs() {
+  std::vector<std::pair<int, int>> pairs;
+  for (const auto& types : {surfaceTypes, lineTypes})
+    for (const int slave : types)
+      for (const int master : types) pairs.emplace_back(slave, master);
+  return pairs;
+}
+
 /// A surface; its normal is +z (−y for lines) times the sign, before it is mapped.
 struct FacePatch {
   std::vector<mortar::Face> faces;

@@ -7,26 +7,17 @@
 
 #include "mesh/mesh.hpp"
 #include "petsc/check.hpp"
+#include "support/communicator.hpp"
 #include "support/model.hpp"
 
 namespace squeal::report {
 
 using test::errorOf;
+using test::rankOf;
+using test::sizeOf;
 
 namespace fs = std::filesystem;
 using mesh::Mesh;
-
-inline int rankOf(MPI_Comm comm) {
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
-  return rank;
-}
-
-inline int sizeOf(MPI_Comm comm) {
-  int size = 1;
-  MPI_Comm_size(comm, &size);
-  return size;
-}
 
 /// A fresh folder that all ranks share, removed at the end of the test.
 class Folder {

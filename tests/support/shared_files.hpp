@@ -6,13 +6,14 @@
 #include <filesystem>
 
 #include "petsc/check.hpp"
+#include "support/communicator.hpp"
 #include "support/files.hpp"
 #include "support/report_files.hpp"
 
 namespace squeal::test::shared {
 
 /// This rank is the one that writes.
-inline bool first() { return report::rankOf(PETSC_COMM_WORLD) == 0; }
+inline bool first() { return rankOf() == 0; }
 
 inline Files filesIn(const fs::path& folder) {
   MPI_Barrier(PETSC_COMM_WORLD);

@@ -7,6 +7,7 @@
 
 #include "coupling/search.hpp"
 #include "support/case.hpp"
+#include "support/communicator.hpp"
 #include "support/random_faces.hpp"
 
 namespace squeal {
@@ -18,19 +19,9 @@ using coupling::Candidates;
 using coupling::candidates;
 using mortar::Face;
 using test::randomFaces;
+using test::rankOf;
+using test::sizeOf;
 using test::total;
-
-int rankOf() {
-  int rank = 0;
-  check(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
-  return rank;
-}
-
-int ranks() {
-  int size = 1;
-  check(MPI_Comm_size(PETSC_COMM_WORLD, &size));
-  return size;
-}
 
 bool touch(const Box& a, const Box& b, double distance = 0) {
   for (std::size_t d = 0; d < 3; ++d)
@@ -56,13 +47,13 @@ TEST(Search, FindsWhatComparisonOfAllPairsFinds) {
   std::vector<std::size_t> mine;
   std::vector<double> distances;
   for (std::size_t i = 0; i < slaves.size(); ++i)
-    if (static_cast<int>(i / 10) % ranks() == rankOf()) {
+    if (static_cast<int>(i / 10) % sizeOf() == rankOf()) {
       mine.push_back(i);
       mySlaves.push_back(slaves[i]);
       distances.push_back(0.01 * static_cast<double>(i % 4));
     }
   for (std::size_t i = 0; i < masters.size(); ++i)
-    if (static_cast<int>(i) % ranks() == rankOf()) myMasters.push_back(masters[i]);
+    if (static_cast<int>(i) % sizeOf() == rankOf()) myMasters.push_back(masters[i]);
   const Candidates found = candidates(PETSC_COMM_WORLD, mySlaves, myMasters, distances);
   EXPECT_EQ(found.ofSlave.size(), mySlaves.size());
   std::set<std::size_t> needed;
@@ -90,7 +81,7 @@ TEST(Search, FindsWhatComparisonOfAllPairsFinds) {
 TEST(Search, RanksWithoutFaces) {
   const auto faces = randomFaces(3, 7);
   const std::vector<Face> none;
-  const int last = ranks() - 1;
+  const int last = sizeOf() - 1;
   const std::vector<double> distances(faces.size(), 0.0);
   const auto empty = candidates(PETSC_COMM_WORLD, none, none, {});
   EXPECT_TRUE(empty.masters.empty() && empty.ofSlave.empty());
@@ -142,7 +133,7 @@ TEST(Search, FarFacesStayWhereTheyAre) {
   for (int i = 0; i < cells; ++i)
     for (int j = 0; j < cells; ++j) {
       const Face face = square(i, j, 0, 1);
-      if ((i + j) % ranks() == rankOf()) {
+      if ((i + j) % sizeOf() == rankOf()) {
         masters.push_back(face);
         continue;
       }
@@ -155,10 +146,10 @@ TEST(Search, FarFacesStayWhereTheyAre) {
   const auto found = candidates(PETSC_COMM_WORLD, slaves, masters, distances);
   double needed = 0;
   for (const auto& face : found.masters)
-    needed += static_cast<int>(face.points[0][0] + face.points[0][1]) % ranks() != rankOf();
+    needed += static_cast<int>(face.points[0][0] + face.points[0][1]) % sizeOf() != rankOf();
   EXPECT_EQ(static_cast<double>(found.received), near);
   EXPECT_EQ(needed, near);
-  if (ranks() > 1) {
+  if (sizeOf() > 1) {
     EXPECT_GT(near, 0);
     EXPECT_LT(near, 0.05 * foreign);
     EXPECT_GT(around, 0.9 * foreign);
@@ -172,7 +163,7 @@ TEST(Search, FarFacesStayWhereTheyAre) {
 double searchPlates(int n) {
   using Clock = std::chrono::steady_clock;
   std::vector<Face> slaves, masters;
-  const int begin = n * rankOf() / ranks(), end = n * (rankOf() + 1) / ranks();
+  const int begin = n * rankOf() / sizeOf(), end = n * (rankOf() + 1) / sizeOf();
   for (int row = begin; row < end; ++row)
     for (int i = 0; i < n; ++i) {
       slaves.push_back(square(i + 0.5, row + 0.5, 0.1, 1));

@@ -16,7 +16,7 @@ namespace {
 
 using namespace mortar;
 using linalg::DenseMatrix;
-using test::FacePatch;
+using test::allPairs, test::FacePatch;
 using test::line2, test::line3, test::quad4, test::quad8, test::quad9, test::tri3, test::tri6;
 
 std::vector<double> usual(const FaceType& type, Cover cover, Multiplier multiplier) {
@@ -48,14 +48,6 @@ Coupled couple(const Face& slave, const FacePatch& master,
   result.terms =
       integrate(moments(slave, masters, result.points, velocity), result.alpha, result.pivots);
   return result;
-}
-
-std::vector<std::pair<int, int>> allPairs() {
-  std::vector<std::pair<int, int>> pairs;
-  for (const auto& types : {test::surfaceTypes, test::lineTypes})
-    for (const int slave : types)
-      for (const int master : types) pairs.emplace_back(slave, master);
-  return pairs;
 }
 
 /// Returns the largest error of the nodal loads of a uniform pressure on the master, which the

@@ -20,7 +20,7 @@ namespace {
 
 using namespace mortar;
 using mesh::dot, mesh::length, mesh::minus, mesh::plus;
-using test::FacePatch;
+using test::allPairs, test::FacePatch;
 using test::line2, test::line3, test::quad4, test::quad8, test::quad9, test::tri3, test::tri6;
 
 /// Returns the sum of f(x) · weight over the points of a patch, x on the slave.
@@ -35,14 +35,6 @@ double integral(const FacePatch& slave, const FacePatch& master, double distance
 
 double area(const FacePatch& slave, const FacePatch& master, double distance = 1) {
   return integral(slave, master, distance, [](const Point&, const OverlapPoint&) { return 1; });
-}
-
-std::vector<std::pair<int, int>> allPairs() {
-  std::vector<std::pair<int, int>> pairs;
-  for (const auto& types : {test::surfaceTypes, test::lineTypes})
-    for (const int slave : types)
-      for (const int master : types) pairs.emplace_back(slave, master);
-  return pairs;
 }
 
 FacePatch distorted(int type, int cells, int sign, const test::Map& map = test::asItIs) {
