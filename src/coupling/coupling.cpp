@@ -5,6 +5,7 @@
 
 #include "coupling/covered.hpp"
 #include "coupling/matrices.hpp"
+#include "coupling/periodic.hpp"
 #include "coupling/sums.hpp"
 
 namespace squeal::coupling {
@@ -26,8 +27,8 @@ std::vector<SlaveNode> slaveNodes(const mesh::Mesh& mesh, const Basis& basis,
                                   const Pivoting& pivoting, const Sums& sums,
                                   const Matrices& matrices) {
   std::vector<SlaveNode> nodes;
-  for (PetscInt local : pivoting.owned) {
-    const PetscInt row = mesh.globalNode[local];
+  for (std::size_t i = 0; i < pivoting.owned.size(); ++i) {
+    const PetscInt local = pivoting.owned[i], row = mesh.globalNode[local];
     SlaveNode node;
     node.node = local;
     node.masters = rowOf(matrices.masters, row);
@@ -40,6 +41,7 @@ std::vector<SlaveNode> slaveNodes(const mesh::Mesh& mesh, const Basis& basis,
       if (share > most) most = share, node.masterBody = body;
     node.area = sums.weight[local], node.wholeArea = basis.whole[local];
     node.gap = sums.gap[local] / sums.weight[local];
+    node.offset = matrices.offsets[i];
     nodes.push_back(std::move(node));
   }
   return nodes;
@@ -85,7 +87,8 @@ Coupling couple(const mesh::Mesh& mesh, const NodeExchange& exchange, const Inte
   coupling.slave = sideReport(mesh.comm, surfaces.slaves, isNear);
   coupling.master = sideReport(
       mesh.comm, surfaces.masters,
-      nearOthers(mesh.comm, surfaces.masters, surfaces.slaves, interface.searchDistance));
+      nearOthers(mesh.comm, surfaces.masters, repeated(surfaces.slaves, surfaces.translations),
+                 interface.searchDistance));
   coupling.droppedNodes = basis.droppedNodes;
   coupling.sliverFaces = sums.sliverFaces;
   for (const auto& face : faces) {
@@ -101,9 +104,11 @@ Coupling couple(const mesh::Mesh& mesh, const NodeExchange& exchange, const Inte
 bool masterIsFiner(const mesh::Mesh& mesh, const Interface& interface) {
   const auto slaves = mortar::facesOf(mesh, interface.slave),
              masters = mortar::facesOf(mesh, interface.master);
+  const auto ways = translations(mesh, slaves, masters);
   const auto mean = [&](const std::vector<Face>& faces, const std::vector<Face>& others) {
-    const auto report = sideReport(mesh.comm, faces,
-                                   nearOthers(mesh.comm, faces, others, interface.searchDistance));
+    const auto report =
+        sideReport(mesh.comm, faces,
+                   nearOthers(mesh.comm, faces, repeated(others, ways), interface.searchDistance));
     return report.nearFaces > 0 ? report.nearArea / report.nearFaces : INFINITY;
   };
   // Cells that are about equal do not make up for a slave that overhangs its master, as a disc

@@ -41,6 +41,9 @@ struct SlaveNode {
   double area = 0;                     ///< W: ∫ ψ dA over the covered part, m² (m in the plane)
   double wholeArea = 0;                ///< ∫ φ̃ dA over all faces, covered or not, m² (m)
   double gap = 0;  ///< mean distance of the master from the slave along the slave's normal, m
+  /// Σ P_il x_l − x_i, m: the way from the node to its place on the master. Where l stands for a
+  /// periodic image, x_l is the place of the image.
+  Point offset{};
 };
 
 /// A SideReport tells what was found on one side of an interface, summed over all ranks.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "coupling/periodic.hpp"
 #include "mesh/vector.hpp"
 #include "mortar/dual.hpp"
 #include "petsc/text.hpp"
@@ -126,7 +127,7 @@ double areaOf(const Face& face) {
 
 Surfaces surfacesOf(const mesh::Mesh& mesh, const NodeExchange& exchange, const std::string& slave,
                     const std::string& master, double searchDistance) {
-  Surfaces surfaces{mortar::facesOf(mesh, slave), mortar::facesOf(mesh, master), {}, {}, {}};
+  Surfaces surfaces{mortar::facesOf(mesh, slave), mortar::facesOf(mesh, master), {}, {}, {}, {}};
   for (const auto& face : surfaces.slaves) {
     auto& local = surfaces.localNodes.emplace_back();
     for (PetscInt node : face.nodes) local.push_back(exchange.local(node));
@@ -134,8 +135,10 @@ Surfaces surfacesOf(const mesh::Mesh& mesh, const NodeExchange& exchange, const 
   fold(exchange, surfaces.slaves);
   fold(exchange, surfaces.masters);
   surfaces.distances = searchDistances(surfaces.slaves, searchDistance);
+  surfaces.translations = translations(mesh, surfaces.slaves, surfaces.masters);
   surfaces.candidates =
-      candidates(mesh.comm, surfaces.slaves, surfaces.masters, surfaces.distances);
+      candidates(mesh.comm, surfaces.slaves, repeated(surfaces.masters, surfaces.translations),
+                 surfaces.distances);
   return surfaces;
 }
 

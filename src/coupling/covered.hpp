@@ -14,7 +14,8 @@ namespace squeal::coupling {
 struct Surfaces {
   std::vector<Face> slaves, masters;
   std::vector<std::vector<PetscInt>> localNodes;  ///< [slave][node] local number, not replaced
-  std::vector<double> distances;  ///< [slave] largest distance of points that touch, m
+  std::vector<double> distances;    ///< [slave] largest distance of points that touch, m
+  std::vector<Point> translations;  ///< by which the mesh is repeated, m
   Candidates candidates;
 };
 

@@ -24,6 +24,18 @@ std::vector<double> inverted(std::vector<double> values) {
   return values;
 }
 
+/// Calls action(face, edge, middle) for each edge of each face whose mid-edge node, a pivot, is
+/// combined with the ends; `middle` is its local number.
+template <class Action>
+void forEachEdge(const std::vector<CoveredFace>& faces, const Basis& basis,
+                 const Pivoting& pivoting, const Action& action) {
+  for (const auto& face : faces)
+    for (const auto& edge : face.type->edges) {
+      const PetscInt middle = face.local[edge.node];
+      if (basis.alpha[middle] > 0 && pivoting.ratio[middle] != 0) action(face, edge, middle);
+    }
+}
+
 /// Collective. Returns the matrix with the rows
 ///   1 on the diagonal of a pivot at a corner,   (middle, end, end) of a pivot within an edge.
 OwnedMat edgeMatrix(const mesh::Mesh& mesh, const NodeExchange& exchange,
@@ -31,17 +43,11 @@ OwnedMat edgeMatrix(const mesh::Mesh& mesh, const NodeExchange& exchange,
                     const Pivoting& pivoting,
                     const std::function<std::array<double, 2>(double alpha)>& middleAndEnd) {
   std::vector<double> facesAt(mesh.localNodes(), 0.0);  // [mid-edge node]: both add to one row
-  const auto forEachEdge = [&](const auto& action) {
-    for (const auto& face : faces)
-      for (const auto& edge : face.type->edges) {
-        const PetscInt middle = face.local[edge.node];
-        if (basis.alpha[middle] > 0 && pivoting.ratio[middle] != 0) action(face, edge, middle);
-      }
-  };
-  forEachEdge([&](const auto&, const auto&, PetscInt middle) { ++facesAt[middle]; });
+  forEachEdge(faces, basis, pivoting,
+              [&](const auto&, const auto&, PetscInt middle) { ++facesAt[middle]; });
   exchange.sum(facesAt);
   Triples triples;
-  forEachEdge([&](const CoveredFace& face, const mortar::MidEdge& edge, PetscInt middle) {
+  forEachEdge(faces, basis, pivoting, [&](const auto& face, const auto& edge, PetscInt middle) {
     const auto [atMiddle, atEnd] = middleAndEnd(basis.alpha[middle]);
     const PetscInt row = face.face->nodes[edge.node];
     triples.add(row, row, atMiddle / facesAt[middle]);
@@ -57,6 +63,44 @@ OwnedMat product(Mat a, Mat b) {
   OwnedMat result;
   check(MatMatMult(a, b, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.out()));
   return result;
+}
+
+/// Collective. Returns SlaveNode::offset of the pivots of this rank. With ũ = x_j + m_j at the
+/// pivots, m_j = D_j⁻¹ Sums::offset, and x_a − x_e as the face at the edge e has it,
+///   Σ P_il x_l − x_i = Σ_j E_ij m_j + Σ_a α (x_a − x_e).
+std::vector<Point> offsetsOf(const mesh::Mesh& mesh, const NodeExchange& exchange,
+                             const std::vector<CoveredFace>& faces, const Basis& basis,
+                             const Pivoting& pivoting, const Sums& sums, Mat edges) {
+  std::vector<double> facesAt(mesh.localNodes(), 0.0);
+  std::array<std::vector<double>, 3> bow;  // of the edges, times the number of their faces
+  for (auto& values : bow) values.resize(mesh.localNodes());
+  forEachEdge(faces, basis, pivoting, [&](const auto& face, const auto& edge, PetscInt middle) {
+    ++facesAt[middle];
+    const auto& x = face.face->points;
+    for (std::size_t d = 0; d < 3; ++d)
+      for (int corner : edge.corners)
+        bow[d][middle] += basis.alpha[middle] * (x[corner][d] - x[edge.node][d]);
+  });
+  exchange.sum(facesAt);
+  std::vector<Point> offsets(pivoting.owned.size());
+  OwnedVec move, combined;
+  check(VecCreateMPI(mesh.comm, mesh.ownedNodes, PETSC_DETERMINE, move.out()));
+  check(VecDuplicate(move, combined.out()));
+  for (std::size_t d = 0; d < 3; ++d) {
+    exchange.sum(bow[d]);
+    check(VecSet(move, 0));
+    {
+      const WriteArray values(move);
+      for (PetscInt node : pivoting.owned) values[node] = sums.offset[d][node] / sums.slave[node];
+    }
+    check(MatMult(edges, move, combined));
+    const ReadArray values(combined);
+    for (std::size_t i = 0; i < offsets.size(); ++i) {
+      const PetscInt node = pivoting.owned[i];
+      offsets[i][d] = values[node] + (facesAt[node] > 0 ? bow[d][node] / facesAt[node] : 0);
+    }
+  }
+  return offsets;
 }
 
 }  // namespace
@@ -90,6 +134,7 @@ Matrices matricesOf(const mesh::Mesh& mesh, const NodeExchange& exchange,
   scale(mesh, conditions, inverted(divisors), false);
   Matrices result;
   result.masters = product(edges, conditions);
+  result.offsets = offsetsOf(mesh, exchange, faces, basis, pivoting, sums, edges);
   //   G = E W/D
   check(MatDuplicate(edges, MAT_COPY_VALUES, result.jumps.out()));
   scale(mesh, result.jumps, pivoting.ratio, true);

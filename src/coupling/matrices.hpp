@@ -21,6 +21,7 @@ Pivoting pivotsOf(const mesh::Mesh& mesh, const NodeExchange& exchange, const Ba
 struct Matrices {
   OwnedMat masters, jumps, jumpsOf, convected;  ///< P, G, G⁻¹, rows of SlaveNode::convected
   OwnedMat parts, bodies;                       ///< shares, a column per part or body
+  std::vector<Point> offsets;                   ///< SlaveNode::offset, [pivot of this rank]
 };
 
 /// Collective. Returns the matrices. The triples of the sums are used up.

@@ -7,21 +7,29 @@
 namespace squeal::coupling {
 namespace {
 
+using mesh::Point;
 using mortar::FaceTerms;
 using mortar::MasterTerms;
 using mortar::Pivots;
+
+/// Adds factor · (to − from) to the offset of a node.
+void addOffset(PetscInt local, double factor, const Point& from, const Point& to, Sums& sums) {
+  for (std::size_t d = 0; d < 3; ++d) sums.offset[d][local] += factor * (to[d] - from[d]);
+}
 
 /// Adds the rows of M that belong to one master face.
 void addMaster(const Pivots& pivots, const CoveredFace& face, const MasterTerms& terms,
                Sums& sums) {
   const Face& master = *face.masters[terms.face];
   for (std::size_t p = 0; p < pivots.nodes.size(); ++p) {
-    const PetscInt row = face.face->nodes[pivots.nodes[p]];
+    const int pivot = pivots.nodes[p];
+    const PetscInt row = face.face->nodes[pivot];
     std::map<int, double> parts;
     double all = 0;
     for (std::size_t l = 0; l < master.nodes.size(); ++l) {
       const double value = terms.values(p, l);
       sums.masters.add(row, master.nodes[l], value);
+      addOffset(face.local[pivot], value, face.face->points[pivot], master.points[l], sums);
       parts[master.parts[l]] += value;
       all += value;
       if (!terms.convected.empty()) sums.convected.add(row, master.nodes[l], terms.convected(p, l));
@@ -39,8 +47,11 @@ void addFace(const CoveredFace& face, const Basis& basis, Sums& sums) {
     const PetscInt local = face.local[kept.nodes[p]], row = face.face->nodes[kept.nodes[p]];
     sums.slave[local] += terms.slave[p], sums.weight[local] += terms.weight[p];
     sums.gap[local] += terms.gap[p];
-    for (std::size_t o = 0; o < kept.others.size(); ++o)
+    for (std::size_t o = 0; o < kept.others.size(); ++o) {
       sums.masters.add(row, face.face->nodes[kept.others[o]], -terms.others(p, o));
+      addOffset(local, -terms.others(p, o), face.face->points[kept.nodes[p]],
+                face.face->points[kept.others[o]], sums);
+    }
   }
   for (const auto& master : terms.masters) addMaster(kept, face, master, sums);
 }
@@ -64,10 +75,12 @@ OwnedMat toMatrix(const mesh::Mesh& mesh, Triples triples, PetscInt columns) {
 Sums sumFaces(const mesh::Mesh& mesh, const NodeExchange& exchange,
               const std::vector<CoveredFace>& faces, const Basis& basis) {
   Sums sums;
-  for (auto* values : {&sums.slave, &sums.weight, &sums.gap}) values->resize(mesh.localNodes());
+  const std::vector<std::vector<double>*> all{&sums.slave,     &sums.weight,    &sums.gap,
+                                              &sums.offset[0], &sums.offset[1], &sums.offset[2]};
+  for (auto* values : all) values->resize(mesh.localNodes());
   for (const auto& face : faces)
     if (face.moments.covered > 0) addFace(face, basis, sums);
-  for (auto* values : {&sums.slave, &sums.weight, &sums.gap}) exchange.sum(*values);
+  for (auto* values : all) exchange.sum(*values);
   return sums;
 }
 

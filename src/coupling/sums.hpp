@@ -1,5 +1,6 @@
 #pragma once
 /// This file adds what couples single slave faces, by nodes of the mesh.
+#include <array>
 #include <vector>
 
 #include "coupling/covered.hpp"
@@ -21,7 +22,10 @@ struct Sums {
   Triples parts;                           ///< M by connected parts of the master
   Triples bodies;                          ///< M by bodies of the master
   std::vector<double> slave, weight, gap;  ///< D, W, G, [local node], over all ranks
-  PetscInt sliverFaces = 0;                ///< FaceTerms without dual functions
+  /// Σ M_jl (x_l − x_j) − Σ B_jo (x_o − x_j), [component][local node], over all ranks; images count
+  /// where they are
+  std::array<std::vector<double>, 3> offset;
+  PetscInt sliverFaces = 0;  ///< FaceTerms without dual functions
 };
 
 /// Collective. Returns the sums.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "support/case.hpp"
 #include "support/coupled_surfaces.hpp"
 
 namespace squeal {
@@ -174,6 +175,42 @@ TEST(Coupling, WholeAreasCountFacesThatNothingCovers) {
     ASSERT_GT(covered.size(), 0U);
     for (const auto& r : covered) EXPECT_NEAR(r[7], whole.at(key(r)), 1e-14);
   }
+}
+
+// A pad that begins at another place of the period leaves the disc at one end and comes in again at
+// the other one. On what covers it there, sin(2π x) is the same as on the periodic disc, and a node
+// is as far from its place on the master, which is flat, as the surfaces are apart.
+TEST(Coupling, PeriodicSurfacesGoOnBeyondTheirEnds) {
+  for (const double shift : {0.3, -0.55})
+    for (const int cell : {3, 10, int(hex8), int(hex27)}) {
+      SCOPED_TRACE(testing::Message() << cell << ", " << shift);
+      std::string options =
+          blocksApart(file(5, cell), {cell, {12, 3, 1}, {0, 0, -1}, {1, 1, 0}, 0},
+                      {cell, {10, 4, 1}, {shift, 0, 0.01}, {1 + shift, 1, 1}, 0}) +
+          "-constraint_disc_x1_image_of disc_x0 -constraint_pad_x1_image_of pad_x0 ";
+      if (cell == hex8 || cell == hex27)
+        options += "-constraint_disc_y1_image_of disc_y0 -constraint_pad_y1_image_of pad_y0 ";
+      const Case c = caseOf(options);
+      const Coupling coupling = padOnDisc(c.mesh);
+      EXPECT_NEAR(coupling.coveredArea, 1, 1e-13);
+      EXPECT_EQ(coupling.droppedNodes, 0);
+      EXPECT_NEAR(coupling.master.nearArea, 1, 1e-13);
+      const double height = c.mesh.dimension - 1;
+      double away = 0, field = 0;
+      for (const auto& node : coupling.nodes) {
+        Point flat{};
+        flat[std::size_t(height)] = -0.01;
+        for (std::size_t d = 0; d < 3; ++d)
+          away = std::max(away, std::abs(node.offset[d] - flat[d]));
+        double value = 0;
+        for (const auto& [l, weight] : node.masters)
+          value += weight * std::sin(2 * std::numbers::pi * c.at[l][0]);
+        field =
+            std::max(field, std::abs(value - std::sin(2 * std::numbers::pi * c.place(node)[0])));
+      }
+      EXPECT_LT(largest(away), 1e-13);
+      EXPECT_LT(largest(field), cell == 3 || cell == hex8 ? 0.05 : 0.005);  // cells of 30°
+    }
 }
 
 // Blocks of period 1 whose meshes repeat twice: what belongs to x belongs to x + 1/2, also where

@@ -1,0 +1,73 @@
+#include "coupling/periodic.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "mesh/vector.hpp"
+#include "petsc/check.hpp"
+
+namespace squeal::coupling {
+namespace {
+
+using mesh::Point;
+using mortar::Face;
+
+/// Adds a translation unless it is there, up to the digits of a mesh file, or zero.
+void add(const Point& shift, double tolerance, std::vector<Point>& list) {
+  const auto same = [&](const Point& other) {
+    return mesh::length(mesh::minus(shift, other)) <= tolerance;
+  };
+  if (!same({0, 0, 0}) && std::none_of(list.begin(), list.end(), same)) list.push_back(shift);
+}
+
+/// Collective. Returns the ascending list of all ranks' translations.
+std::vector<Point> gathered(MPI_Comm comm, const std::vector<Point>& mine) {
+  int size = 1;
+  check(MPI_Comm_size(comm, &size));
+  const int count = 3 * std::ssize(mine);
+  std::vector<int> counts(size), offsets(size);
+  check(MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, comm));
+  std::exclusive_scan(counts.begin(), counts.end(), offsets.begin(), 0);
+  std::vector<Point> all((offsets.back() + counts.back()) / 3);
+  check(MPI_Allgatherv(mine.data(), count, MPI_DOUBLE, all.data(), counts.data(), offsets.data(),
+                       MPI_DOUBLE, comm));
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+}  // namespace
+
+std::vector<Point> translations(const mesh::Mesh& mesh, const std::vector<Face>& first,
+                                const std::vector<Face>& second) {
+  std::vector<int> bears(mesh.parts, 0);
+  for (const auto* faces : {&first, &second})
+    for (const auto& face : *faces)
+      for (int part : face.parts) bears[part] = 1;
+  double longest = 0;
+  for (const auto& image : mesh.images) longest = std::max(longest, mesh::length(image.shift));
+  check(MPI_Allreduce(MPI_IN_PLACE, bears.data(), bears.size(), MPI_INT, MPI_MAX, mesh.comm));
+  check(MPI_Allreduce(MPI_IN_PLACE, &longest, 1, MPI_DOUBLE, MPI_MAX, mesh.comm));
+  if (longest == 0) return {};
+  const double tolerance = 1e-4 * longest;  // pairs of nodes lie apart by less
+  std::vector<Point> mine, ways, all;
+  for (const auto& image : mesh.images)
+    if (bears[mesh.nodePart[image.node]]) add(image.shift, tolerance, mine);
+  for (const auto& shift : gathered(mesh.comm, mine)) add(shift, tolerance, ways);
+  ways.push_back({0, 0, 0});
+  for (const auto& a : ways)
+    for (const auto& b : ways) add(mesh::minus(a, b), tolerance, all);
+  return all;
+}
+
+std::vector<Face> repeated(std::vector<Face> faces, const std::vector<Point>& translations) {
+  const std::size_t count = faces.size();
+  for (const auto& shift : translations)
+    for (std::size_t i = 0; i < count; ++i) {
+      Face copy = faces[i];
+      for (auto& point : copy.points) point = mesh::plus(point, shift);
+      faces.push_back(std::move(copy));
+    }
+  return faces;
+}
+
+}  // namespace squeal::coupling
