@@ -60,6 +60,7 @@ struct ContactPair {
   int interface;    ///< index into Request::interfaces
   int masterBody;   ///< index into Mesh::bodies of the disc side; −1 for a rigid obstacle
   int masterPart;   ///< connected part of the master node; −1 for a rigid obstacle
+  Point offset;     ///< position of the master minus that of the node in the file, m
 };
 
 /// A Straightened tells what `-mesh_straighten` has done to the whole mesh.
@@ -103,6 +104,8 @@ struct Mesh {
   /// [interface] a sentence that says where and why the meshes do not match, without full stop;
   /// empty if they match
   std::vector<std::string> mismatch;
+  /// [interface] 1 if they do not match, but most nodes of the pad have a partner on the disc
+  std::vector<unsigned char> nearlyMatching;
 
   PetscInt localNodes() const { return globalNode.size(); }
 };

@@ -196,31 +196,48 @@ std::string whyFacesDiffer(const WholeMesh& mesh, const InterfaceRequest& reques
   return "";
 }
 
-/// Adds the pairs of an interface if pad and disc are meshed alike. Returns why they are not, or an
-/// empty text.
-std::string pairContact(WholeMesh& mesh, const InterfaceRequest& request, int interface,
-                        const std::vector<int>& body, double near) {
+/// Why the sides of an interface do not match; an empty text if they do.
+struct Mismatch {
+  std::string why;
+  bool isSmall = false;  ///< most nodes of the pad have a partner
+};
+
+/// Adds the pairs of an interface if pad and disc are meshed alike. Returns why they are not.
+Mismatch pairContact(WholeMesh& mesh, const InterfaceRequest& request, int interface,
+                     const std::vector<int>& body, double near) {
   const std::set<PetscInt> pad = padNodes(mesh, request.pad.name);
   if (request.disc.name.empty()) {
-    for (PetscInt node : pad) mesh.pairs.push_back({node, -1, interface, -1, -1});
-    return "";
+    for (PetscInt node : pad) mesh.pairs.push_back({node, -1, interface, -1, -1, {}});
+    return {};
   }
   const auto disc = discNodes(mesh, request, pad);
   const Locator locator(mesh, disc, near);
   std::map<PetscInt, PetscInt> master;
-  for (PetscInt node : pad) {
-    const auto found = locator.at(mesh.points[node]);
-    if (found.empty())
-      return "the node at " + positionText(mesh.points[node]) + " of '" + request.pad.name +
-             "' has no node of '" + request.disc.name + "' at the same place, " +
-             whyAlone(mesh, node, request.disc.name, body, near);
-    master[node] = found[0];
-  }
-  const std::string mismatch = whyFacesDiffer(mesh, request, master);
-  if (mismatch.empty())
-    for (const auto& [node, other] : master)
-      mesh.pairs.push_back({node, other, interface, body[other], mesh.part[other]});
-  return mismatch;
+  std::vector<PetscInt> alone;
+  for (PetscInt node : pad)
+    if (const auto found = locator.at(mesh.points[node]); found.empty())
+      alone.push_back(node);
+    else
+      master[node] = found[0];
+  if (!alone.empty())
+    return {formatted("%zu of %zu nodes of '%s' have no node of '%s' within %.2g m, first that at "
+                      "%s, %s",
+                      alone.size(), pad.size(), request.pad.name.c_str(), request.disc.name.c_str(),
+                      near, positionText(mesh.points[alone[0]]).c_str(),
+                      whyAlone(mesh, alone[0], request.disc.name, body, near).c_str()),
+            2 * alone.size() < pad.size()};
+  const std::string why = whyFacesDiffer(mesh, request, master);
+  if (why.empty())
+    for (const auto& [node, other] : master) {
+      const Point &x = mesh.points[node], &y = mesh.points[other];
+      mesh.pairs.push_back({node,
+                            other,
+                            interface,
+                            body[other],
+                            mesh.part[other],
+                            {y[0] - x[0], y[1] - x[1], y[2] - x[2]}});
+    }
+  return {why, true};
 }
 
 }  // namespace
@@ -233,8 +250,10 @@ void pairNodes(WholeMesh& mesh, const Request& request) {
   resolveImages(mesh, request);
   const auto body = bodyOfNode(mesh);
   for (int i = 0; i < std::ssize(request.interfaces); ++i) {
-    mesh.mismatch.push_back(pairContact(mesh, request.interfaces[i], i, body, near));
-    mesh.matching.push_back(mesh.mismatch.back().empty());
+    const Mismatch found = pairContact(mesh, request.interfaces[i], i, body, near);
+    mesh.mismatch.push_back(found.why);
+    mesh.matching.push_back(found.why.empty());
+    mesh.nearlyMatching.push_back(!found.why.empty() && found.isSmall);
   }
 }
 

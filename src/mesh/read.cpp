@@ -177,6 +177,7 @@ Buffer pack(const WholeMesh& mesh, const Numbering& numbering, const Shares& sha
   buffer.put(pairs);
   buffer.put(mesh.matching);
   buffer.put(mesh.mismatch);
+  buffer.put(mesh.nearlyMatching);
   return buffer;
 }
 
@@ -216,6 +217,7 @@ Mesh unpack(MPI_Comm comm, Buffer& buffer) {
   mesh.pairs = buffer.take<ContactPair>();
   mesh.matching = buffer.take<unsigned char>();
   mesh.mismatch = buffer.takeTexts();
+  mesh.nearlyMatching = buffer.take<unsigned char>();
   return mesh;
 }
 

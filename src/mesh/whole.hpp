@@ -44,11 +44,12 @@ struct WholeMesh {
       discFaces;          ///< [surface of a disc] nodes of each face, for each cell it bounds
   std::vector<int> part;  ///< [node] connected part
   std::vector<std::string> partName;
-  std::vector<PetscInt> primary;        ///< [node] the node that it repeats, itself if none
-  std::vector<Image> images;            ///< in numbers of the whole mesh
-  std::vector<ContactPair> pairs;       ///< in numbers of the whole mesh
-  std::vector<unsigned char> matching;  ///< see Mesh
-  std::vector<std::string> mismatch;    ///< see Mesh
+  std::vector<PetscInt> primary;              ///< [node] the node that it repeats, itself if none
+  std::vector<Image> images;                  ///< in numbers of the whole mesh
+  std::vector<ContactPair> pairs;             ///< in numbers of the whole mesh
+  std::vector<unsigned char> matching;        ///< see Mesh
+  std::vector<std::string> mismatch;          ///< see Mesh
+  std::vector<unsigned char> nearlyMatching;  ///< see Mesh
 
   PetscInt nodeCount() const { return points.size(); }
   PetscInt cellCount() const;
