@@ -29,8 +29,8 @@ double total(MPI_Comm comm, double value) {
   return value;
 }
 
-std::string counted(const std::string& name, double count, const char* what) {
-  return formatted("%s (%.0f %s)", name.c_str(), count, what);
+std::string counted(const std::string& name, double count, const std::string& what) {
+  return formatted("%s (%.0f %s)", name.c_str(), count, what.c_str());
 }
 
 void sayList(MPI_Comm comm, const char* head, const std::vector<std::string>& items) {
@@ -68,10 +68,13 @@ void sayMesh(const mesh::Mesh& mesh) {
 
 void sayContact(const contact::Contact& contact, MPI_Comm comm) {
   std::vector<std::string> interfaces;
-  for (int i = 0; i < std::ssize(contact.interfaces); ++i) {
-    const double count = std::count_if(contact.nodes.begin(), contact.nodes.end(),
-                                       [&](const auto& node) { return node.interface == i; });
-    interfaces.push_back(counted(contact.interfaces[i], total(comm, count), "pairs of nodes"));
+  for (std::size_t i = 0; i < contact.interfaces.size(); ++i) {
+    const auto& report = contact.reports[i];
+    std::string what = contact.options[i].onObstacle() ? "nodes on a rigid obstacle"
+                       : report.matching               ? "pairs of nodes"
+                                                       : "mortar nodes";
+    if (contact.options[i].isTied()) what += ", tied";
+    interfaces.push_back(counted(contact.interfaces[i], report.nodes, what));
   }
   sayList(comm, "contact", interfaces);
 }

@@ -16,6 +16,7 @@
 #include "flutter/terms.hpp"
 #include "flutter/work.hpp"
 #include "interfaces/interfaces.hpp"
+#include "interfaces/ties.hpp"
 #include "matrices/write.hpp"
 #include "mesh/read.hpp"
 #include "modes/benchmark.hpp"
@@ -65,9 +66,17 @@ elasticity::Bodies assembleBodies(const mesh::Mesh& mesh) {
   return bodies;
 }
 
-contact::Contact buildContact(const mesh::Mesh& mesh, const elasticity::Bodies& bodies) {
+interfaces::Interfaces findTies(mesh::Mesh& mesh) {
+  Stage stage(mesh.comm, "tie");
+  auto ties = interfaces::findTies(mesh);
+  if (const auto found = interfaces::describeTies(ties); !found.empty()) stage.finish(found);
+  return ties;
+}
+
+contact::Contact buildContact(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
+                              interfaces::Interfaces ties) {
   Stage stage(mesh.comm, "contact");
-  contact::Contact contact = contact::build(mesh, bodies);
+  contact::Contact contact = contact::build(mesh, bodies, std::move(ties));
   stage.finish(formatted("%" PetscInt_FMT " contact nodes on %zu interfaces", contact.totalNodes,
                          contact.interfaces.size()));
   for (int i = 0; i < std::ssize(contact.interfaces); ++i)
@@ -287,8 +296,9 @@ mesh::Request meshRequest() {
 
 void prepareMesh(Analysis& analysis) {
   analysis.mesh = std::make_unique<mesh::Mesh>(readMesh(analysis.comm));
+  auto ties = findTies(*analysis.mesh);  // before elements are made: it moves nodes
   analysis.bodies = assembleBodies(*analysis.mesh);
-  analysis.contact = buildContact(*analysis.mesh, analysis.bodies);
+  analysis.contact = buildContact(*analysis.mesh, analysis.bodies, std::move(ties));
   requireFiniteSweep(analysis.bodies, analysis.contact, analysis.sweep);
   rejectIdleFactors(analysis.bodies, analysis.contact, analysis.sweep);
 }

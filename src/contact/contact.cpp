@@ -118,14 +118,14 @@ void requireRestingPads(const mesh::Mesh& mesh, const elasticity::Bodies& bodies
 
 }  // namespace
 
-Contact build(const mesh::Mesh& mesh, const elasticity::Bodies& bodies) {
+Contact build(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
+              interfaces::Interfaces ties) {
   Contact contact;
-  contact.constraints = interfaces::readConstraints(mesh);
   contact.mesh = &mesh;
   contact.periodic = periodicity(mesh);
   contact.law = FrictionLaw::read();
   static_cast<interfaces::Interfaces&>(contact) =
-      interfaces::findNodes(mesh, bodies, contact.constraints, contact.periodic);
+      interfaces::findNodes(mesh, bodies, contact.periodic, std::move(ties));
   for (const auto& options : contact.options) contact.interfaces.push_back(options.surfaces.name);
   requireRestingPads(mesh, bodies, contact);
   requireFlatObstacles(mesh, contact);

@@ -52,7 +52,6 @@ struct Transformation {
 /// The contact of all interfaces: its nodes and its matrices.
 struct Contact : interfaces::Interfaces {
   std::vector<std::string> interfaces;  ///< names
-  interfaces::Constraints constraints;
   FrictionLaw law;
   OwnedMat periodic;  ///< P, N×N: copies u of primaries to their images; the identity elsewhere
   OwnedMat reaction;  ///< N, N×N: R_N of a contact node from all nodal forces, in the row of its
@@ -99,11 +98,13 @@ struct Contact : interfaces::Interfaces {
                     const std::vector<unsigned char>& slides) const;
 };
 
-/// Collective. Builds normals, slip directions, constraints and all matrices. `mesh` is borrowed by
-/// the result. Throws Error for surfaces that do not meet, a bad constraint, a pad that moves, a
-/// held component that is not tangential at a contact node, an obstacle face that is not flat, and
-/// a body that can move rigidly with the contact closed; the message names body and motion.
-Contact build(const mesh::Mesh& mesh, const elasticity::Bodies& bodies);
+/// Collective. Builds normals, slip directions, constraints and all matrices. `ties` are those of
+/// interfaces::findTies(). `mesh` is borrowed by the result. Throws Error for surfaces that do not
+/// meet, a bad constraint, a pad that moves, a held component that is not tangential at a contact
+/// node, an obstacle face that is not flat, and a body that can move rigidly with the contact
+/// closed; the message names body and motion.
+Contact build(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
+              interfaces::Interfaces ties);
 
 /// Collective. Throws Error, naming position and options, if a contact node with active[i] set does
 /// not slip: friction has no direction there.

@@ -4,6 +4,7 @@
 
 #include "options/options.hpp"
 #include "petsc/check.hpp"
+#include "petsc/text.hpp"
 
 namespace squeal::interfaces {
 namespace {
@@ -45,6 +46,9 @@ const TextOption tieMasterOption("tie", "tie_<name>_master", "",
 const RealOption toleranceOption("tie", "tie_<name>_tolerance", 0.0, "m", nonNegative,
                                  "largest distance of faces that are glued; 0: half the size of a "
                                  "face");
+const FlagOption adjustOption("tie", "tie_<name>_adjust", true,
+                              "on: tied nodes are first moved onto the master, so that the two "
+                              "turn together without strain; off: they stay where they are");
 
 mesh::GroupRequest groupOf(const TextOption& option, const std::string& name) {
   const std::string group = option.get(name);
@@ -89,17 +93,14 @@ void rejectIdleOptions(const InterfaceOptions& interface) {
 std::string text(Role role) { return roleNames.at(std::size_t(role)); }
 
 std::string InterfaceOptions::label() const {
-  return (tieSlaveOption.given(surfaces.name) && surfaces.pad.option.starts_with("-tie_")
-              ? "tie '"
-              : "interface '") +
-         surfaces.name + "'";
+  return (isTie() ? "tie '" : "interface '") + surfaces.name + "'";
 }
 
 std::vector<mesh::InterfaceRequest> readInterfaces() {
   requireOption({&discOption, &obstacleVelocityOption, &obstacleDisplacementOption, &roleOption,
                  &factorOption, &gapOption, &slaveOption, &searchOption},
                 padOption);
-  requireOption({&tieMasterOption, &toleranceOption}, tieSlaveOption);
+  requireOption({&tieMasterOption, &toleranceOption, &adjustOption}, tieSlaveOption);
   requireOption({&tieSlaveOption}, tieMasterOption);
   std::vector<mesh::InterfaceRequest> requests;
   for (const auto& name : padOption.subjects()) {
@@ -122,10 +123,11 @@ std::vector<InterfaceOptions> readInterfaceOptions(int dimension) {
     InterfaceOptions interface;
     interface.surfaces = std::move(surfaces);
     const std::string& name = interface.surfaces.name;
-    if (interface.surfaces.pad.option.starts_with("-tie_")) {
+    if (interface.isTie()) {
       interface.role = Role::tied;
       interface.slave = SlaveChoice::pad;
       interface.searchDistance = toleranceOption.get(name);
+      interface.adjust = adjustOption.get(name);
     } else {
       interface.role = valueOf<Role>(roleOption, roleNames, name);
       interface.obstacleVelocity = obstacleVelocityOption.components(name, dimension);
@@ -149,10 +151,17 @@ std::string obstacleVelocityName(const std::string& interface) {
 
 std::string searchName(const InterfaceOptions& interface) {
   const std::string& name = interface.surfaces.name;
-  return "-" + (interface.surfaces.pad.option.starts_with("-tie_") ? toleranceOption.fullName(name)
-                                                                   : searchOption.fullName(name));
+  return "-" + (interface.isTie() ? toleranceOption.fullName(name) : searchOption.fullName(name));
+}
+
+std::string searchText(const InterfaceOptions& interface) {
+  return searchName(interface) + (interface.searchDistance > 0
+                                      ? formatted(" %g m", interface.searchDistance)
+                                      : std::string(", half the size of a face"));
 }
 
 std::string roleName(const std::string& interface) { return "-" + roleOption.fullName(interface); }
+
+std::string adjustName(const std::string& tie) { return "-" + adjustOption.fullName(tie); }
 
 }  // namespace squeal::interfaces

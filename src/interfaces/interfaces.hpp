@@ -34,8 +34,11 @@ struct InterfaceOptions {
   double searchDistance = 0;   ///< m; zero stands for half the size of a face
   double frictionFactor = 1;   ///< times the swept coefficient of friction
   bool gapIsMeasured = false;  ///< the gap without load is the distance of the surfaces
-  double gap = 0;  ///< gap without load if it is not measured, m; negative: interference
+  double gap = 0;       ///< gap without load if it is not measured, m; negative: interference
+  bool adjust = false;  ///< of a tie: its nodes are moved onto the master
 
+  /// Returns true for a tie, false for contact, be its role tied or not.
+  bool isTie() const { return surfaces.pad.option.starts_with("-tie_"); }
   bool onObstacle() const { return surfaces.disc.name.empty(); }
   bool isTied() const { return role == Role::tied; }
   /// Returns "interface 'pad'" or "tie 'lining'", for messages.
@@ -51,9 +54,12 @@ std::vector<mesh::InterfaceRequest> readInterfaces();
 std::vector<InterfaceOptions> readInterfaceOptions(int dimension);
 /// These return names of options of an interface with their dash, for messages:
 /// `-contact_<interface>_obstacle_velocity`, `-contact_<interface>_search` or
-/// `-tie_<name>_tolerance`, and `-contact_<interface>_role`.
+/// `-tie_<name>_tolerance`, `-contact_<interface>_role`, and `-tie_<name>_adjust`.
 std::string obstacleVelocityName(const std::string& interface);
 std::string searchName(const InterfaceOptions& interface);
 std::string roleName(const std::string& interface);
+std::string adjustName(const std::string& tie);
+/// Returns the option of the search with its value in words, for messages.
+std::string searchText(const InterfaceOptions& interface);
 
 }  // namespace squeal::interfaces

@@ -51,6 +51,7 @@ struct TiedNode {
   int interface;  ///< index into Interfaces::options
   Connection connection;
   std::vector<coupling::PartShare> masterParts;
+  Point offset;  ///< Σ P_il x_l − x_i in the file, m: from the node to its place on the master
 };
 
 /// The slave side of an interface.
@@ -61,16 +62,19 @@ struct SlaveSide {
 
 /// An InterfaceReport tells what was found at an interface. It is the same on all ranks.
 struct InterfaceReport {
-  bool matching = true;  ///< node on node, or a rigid obstacle
-  std::string whyNot;    ///< a sentence that says where the meshes do not match
-  PetscInt nodes = 0;    ///< nodes in contact, or tied
-  // These are zero if the meshes match.
+  bool matching = true;         ///< node on node, or a rigid obstacle
+  std::string whyNot;           ///< a sentence that says where the meshes do not match
+  bool nearlyMatching = false;  ///< they do not match, but most nodes have a partner
+  PetscInt nodes = 0;           ///< nodes in contact, or tied
+  // These are zero if the meshes match, but for the slave of a tie.
   coupling::SideReport slave, master;
   double coveredArea = 0;  ///< of the slave, m² (m in the plane)
   double largestGap = 0;   ///< largest distance of the surfaces where they touch, m
-  /// Nodes that touch without a condition: they are left to another interface or to a clamp, or too
-  /// little of them is covered.
-  PetscInt dropped = 0;
+  PetscInt dropped = 0;    ///< nodes that touch without a condition: too little covered, or left
+                           ///< to another interface or to a clamp
+  // These are of ties alone.
+  PetscInt untied = 0;           ///< nodes of the slave without a condition, covered or not
+  double largestAdjustment = 0;  ///< largest way by which a tied node was moved, m
 };
 
 /// All interfaces with their nodes.
@@ -81,7 +85,8 @@ struct Interfaces {
   std::vector<ContactNode> nodes;         ///< owned by this rank
   std::vector<Connection> connections;    ///< [contact node]
   std::vector<TiedNode> tied;             ///< owned by this rank, in the order of local nodes
-  PetscInt totalNodes = 0;                ///< contact nodes of all ranks
+  Constraints constraints;
+  PetscInt totalNodes = 0;  ///< contact nodes of all ranks
   /// [local node] index into options of the contact in which the node has a gap, −1 if in none;
   /// ghosts and periodic images included
   std::vector<int> interfaceOf;
@@ -100,12 +105,12 @@ struct Interfaces {
 /// Returns a line on what was found at an interface and how its sides are coupled, for the log.
 std::string describe(const Interfaces& all, int interface);
 
-/// Collective. Finds the nodes of all interfaces. A node belongs to one interface: to a tie before
-/// a sliding one, and to this before one that sticks or is free of friction. Clamped nodes are not
-/// tied. `periodic` copies u of primaries to their images, N×N. Throws Error for surfaces that do
-/// not meet, for a node that two sliding interfaces claim, and for slaves that rest on each other
-/// in a circle.
-Interfaces findNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
-                     const Constraints& constraints, Mat periodic);
+/// Collective. Adds the nodes in contact to the `ties`, which are those of findTies(). A node
+/// belongs to one interface: to a tie before a sliding one, and to this before one that sticks or
+/// is free of friction. `periodic` copies u of primaries to their images, N×N. Throws Error for
+/// surfaces that do not meet, for a node that two sliding interfaces claim, and for slaves that
+/// rest on each other in a circle.
+Interfaces findNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, Mat periodic,
+                     Interfaces ties);
 
 }  // namespace squeal::interfaces

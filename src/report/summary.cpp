@@ -62,6 +62,12 @@ Json interfaceEntries(const contact::Contact& contact) {
       entry["largest_gap_m"] = report.largestGap;
       entry["nodes_without_condition"] = report.dropped;
     }
+    if (contact.options[i].isTied()) {
+      entry["slave_area_m2"] = report.slave.area, entry["tied_area_m2"] = report.coveredArea;
+      entry["tied_nodes"] = report.nodes, entry["untied_nodes"] = report.untied;
+      entry["adjusted"] = contact.options[i].adjust;
+      entry["largest_adjustment_m"] = report.largestAdjustment;
+    }
     entries[contact.options[i].label()] = entry;
   }
   return entries;

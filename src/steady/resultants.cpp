@@ -112,7 +112,7 @@ void addTieForces(const contact::Contact& contact, Vec nodalForces, Vec contactF
     const OwnedVec ties = elasticity::nodalVector(mesh);
     {
       const ReadArray forces(nodalForces), others(contactForces);
-      for (const auto& [interface, connection, parts] : contact.tied) {
+      for (const auto& [interface, connection, parts, offset] : contact.tied) {
         if (connection.level != level) continue;
         for (int d = 0; d < dimension; ++d) {
           const PetscInt row = dimension * connection.node + d;

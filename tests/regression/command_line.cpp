@@ -267,7 +267,7 @@ TEST(CommandLine, DryRunSaysWhatARunWouldDo) {
   expect(dry("-options_file options/layer.yaml -mesh_set nx=12,ny=4 -flutter_friction 0,0.2 "
              "-flutter_speed 1,2,3"),
          {"meshes/layer.geo: 65 nodes, 48 cells", "layer (48 cells)", "bottom (12 nodes)",
-          "plate (12 pairs of nodes)",
+          "plate (12 nodes on a rigid obstacle)",
           "6 points: 2 frictions x 3 speeds x 1 pressures x 1 dampings; 6 steady states",
           "unknowns     84", "GB on all ranks"});
   expect(dry("-options_file options/external.yaml"),

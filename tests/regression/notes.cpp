@@ -1,6 +1,9 @@
 // Notes that a run prints beside its numbers: options it had no use for, and what they do not
 // show.
+#include <nlohmann/json.hpp>
+
 #include "support/bad_input.hpp"
+#include "support/blocks_apart.hpp"
 
 namespace squeal::test {
 namespace {
@@ -94,6 +97,71 @@ TEST(Notes, OneModeIsCounted) {
       runProgram("notes/one", 1, commandLine(with(spoken, {{"modes_count", "1"}})));
   ASSERT_EQ(run.exitCode, 0) << run.error;
   EXPECT_TRUE(says(run, "count confirmed by inertia")) << run.out;
+}
+
+/// A pad of length 2 that begins at x = 1/2 and y = 1/100 above a disc of length `length`, held
+/// below; `interface` joins them.
+Options overhang(const std::string& name, double length, const Options& interface) {
+  BlockWriter writer;
+  writer.add("disc", {3, {8, 1, 2}, {0, 0, -1}, {length, 1, 0}, 0});
+  writer.add("pad", {3, {10, 1, 2}, {0.5, 0, 0.01}, {2.5, 1, 1}, 0});
+  const fs::path file = placeFor("notes") / (name + ".msh");
+  writeText(file, writer.text());
+  Options options{{"mesh_file", file.string()},
+                  {"constraint_disc_low_clamped", "xy"},
+                  {"constraint_pad_high_clamped", "xy"},
+                  {"flutter_friction", "0"},
+                  {"modes_count", "4"}};
+  for (const std::string body : {"disc", "pad"})
+    options = with(options, {{"material_" + body + "_young", "1"},
+                             {"material_" + body + "_poisson", "0.3"},
+                             {"material_" + body + "_density", "1"}});
+  return with(options, interface);
+}
+
+// A tie that holds less than half of its slave may be a mistake; contact may lie on a large disc.
+TEST(Notes, TiesThatHoldLittleOfTheirSlave) {
+  const Options tie{{"tie_glue_slave", "pad_low"}, {"tie_glue_master", "disc_high"}};
+  for (const int ranks : {1, 2}) {
+    const ProgramRun run =
+        runProgram("notes/little", ranks, commandLine(overhang("little", 0.9, tie)));
+    ASSERT_EQ(run.exitCode, 0) << run.error;
+    EXPECT_NE(run.error.find("warning: tie 'glue' ties 20 % of the area of its slave 'pad_low', "
+                             "0.4 of 2 m2; nothing of 'disc_high' faces the rest within "
+                             "-tie_glue_tolerance, half the size of a face"),
+              std::string::npos)
+        << run.error;
+    // Two of the ten cells are above the disc.
+    EXPECT_TRUE(says(run, "tie 'glue' tied: 3 nodes of 'pad_low', mortar on ")) << run.out;
+    EXPECT_TRUE(says(run,
+                     "20 % of the area of the 10 faces of 'pad_low' is covered, surfaces up "
+                     "to 0.01 m apart; 0.4 m2 are tied, 8 nodes are not; nodes were moved by "
+                     "up to 0.01 m"))
+        << run.out;
+    const auto entry =
+        nlohmann::json::parse(contentOf(run.folder / "summary.json"))["interfaces"]["tie 'glue'"];
+    EXPECT_EQ(entry["tied_nodes"], 3);
+    EXPECT_EQ(entry["untied_nodes"], 8);
+    EXPECT_NEAR(entry["tied_area_m2"].get<double>(), 0.4, 1e-12);
+    EXPECT_NEAR(entry["slave_area_m2"].get<double>(), 2, 1e-12);
+    EXPECT_NEAR(entry["largest_adjustment_m"].get<double>(), 0.01, 1e-12);
+    EXPECT_EQ(entry["adjusted"], true);
+  }
+  const ProgramRun more =
+      runProgram("notes/more", 1, commandLine(with(overhang("more", 2.1, tie), {{"dry_run", ""}})));
+  ASSERT_EQ(more.exitCode, 0) << more.error;
+  EXPECT_EQ(more.error.find("warning"), std::string::npos) << more.error;
+  EXPECT_TRUE(says(more, "glue (9 mortar nodes, tied)")) << more.out;
+  const ProgramRun contact = runProgram("notes/contact", 1,
+                                        commandLine(overhang("contact", 0.9,
+                                                             {{"contact_glue_pad", "pad_low"},
+                                                              {"contact_glue_disc", "disc_high"},
+                                                              {"contact_glue_role", "frictionless"},
+                                                              {"contact_glue_slave", "pad"},
+                                                              {"dry_run", ""}})));
+  ASSERT_EQ(contact.exitCode, 0) << contact.error;
+  EXPECT_EQ(contact.error.find("warning"), std::string::npos) << contact.error;
+  EXPECT_TRUE(says(contact, "glue (3 mortar nodes)")) << contact.out;
 }
 
 }  // namespace

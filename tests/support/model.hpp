@@ -12,6 +12,7 @@
 #include "contact/contact.hpp"
 #include "contact/coupled.hpp"
 #include "elasticity/elasticity.hpp"
+#include "interfaces/ties.hpp"
 #include "linalg/dense.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/read.hpp"
@@ -72,8 +73,9 @@ struct Model {
 inline Model buildModel() {
   Model model;
   model.mesh = std::make_unique<mesh::Mesh>(readMesh());
+  auto ties = interfaces::findTies(*model.mesh);
   model.bodies = elasticity::assemble(*model.mesh);
-  model.contact = contact::build(*model.mesh, model.bodies);
+  model.contact = contact::build(*model.mesh, model.bodies, std::move(ties));
   return model;
 }
 

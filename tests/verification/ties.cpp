@@ -90,7 +90,7 @@ TEST(Ties, RigidMotionsAreFree) {
     check(VecNorm(u, NORM_INFINITY, &difference));
     print("%s: %d tied nodes, a rigid motion is met to %.1e\n", element.c_str(),
           int(total(double(model.contact.tied.size()))), double(difference));
-    EXPECT_LT(difference, 1e-10);  // gmsh places nodes to 1e-11
+    EXPECT_LT(difference, 1e-12);  // rounding: nodes are moved onto the master
   }
 }
 

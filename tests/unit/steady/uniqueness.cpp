@@ -364,9 +364,10 @@ TEST(Uniqueness, MatrixFreeAgrees) {
 TEST(Uniqueness, DoesNotDependOnTheRanks) {
   test::setOptions(block(12, 6));
   const auto together = examined(test::buildModel(), {0.3, 1.2});
-  const mesh::Mesh mesh = mesh::read(PETSC_COMM_SELF, analysis::meshRequest());
+  mesh::Mesh mesh = mesh::read(PETSC_COMM_SELF, analysis::meshRequest());
+  auto ties = interfaces::findTies(mesh);
   const auto bodies = elasticity::assemble(mesh);
-  const auto contact = contact::build(mesh, bodies);
+  const auto contact = contact::build(mesh, bodies, std::move(ties));
   const auto alone = steady::examine(bodies, contact, 1, {0.3, 1.2});
   EXPECT_NEAR(together.lostAt / alone.lostAt, 1, 1e-9);
   for (std::size_t i = 0; i < 2; ++i) {

@@ -1,0 +1,17 @@
+#pragma once
+/// This function moves the nodes of ties onto their masters.
+#include "coupling/exchange.hpp"
+#include "interfaces/nodes.hpp"
+#include "mesh/mesh.hpp"
+
+namespace squeal::interfaces {
+
+/// Collective. Moves the tied nodes of the ties that are adjusted to Σ P_il x_l, of chains the
+/// masters first, with the P that they were coupled by: one of the moved nodes would differ by
+/// about a hundredth of the way, and would move them along the surface again and again. Nodes
+/// within edges, faces and cells follow the corners of their cells unless they are on a surface
+/// that options name. Periodic images move with their primaries. Sets
+/// InterfaceReport::largestAdjustment. Throws Error for a tie that folds a cell.
+void moveOntoMasters(mesh::Mesh& mesh, const coupling::NodeExchange& exchange, Interfaces& ties);
+
+}  // namespace squeal::interfaces
