@@ -81,8 +81,24 @@ PetscErrorCode analyse(Mat factor, Mat matrix, IS order, const MatFactorInfo* in
   PetscFunctionReturn(shortage.empty() ? 0 : PETSC_ERR_MEM);
 }
 
-/// Makes the analysis of this factor by MUMPS be followed by compareWithMemory().
-void watchMemory(Mat factor) {
+/// MUMPS foresees its workspace from the pattern alone, and pivoting may need more: then the
+/// factorisation is made anew with these percentages more (ICNTL(14)).
+constexpr PetscInt workspaces[] = {100, 400};
+
+bool lacksWorkspace(Mat factor) {
+  PetscInt code = 0;
+  check(MatMumpsGetInfog(factor, 1, &code));
+  return code == -8 || code == -9;
+}
+
+void enlargeWorkspace(Mat factor, PetscInt percent) {
+  PetscInt given = 0;
+  check(MatMumpsGetIcntl(factor, 14, &given));
+  check(MatMumpsSetIcntl(factor, 14, std::max(given, percent)));
+}
+
+/// Makes the analysis of this factor by MUMPS be followed by analyse().
+void watch(Mat factor) {
   void (*operation)() = nullptr;
   check(MatGetOperation(factor, MATOP_CHOLESKY_FACTOR_SYMBOLIC, &operation));
   analysisOfMumps = reinterpret_cast<Symbolic>(operation);
@@ -91,15 +107,6 @@ void watchMemory(Mat factor) {
 }
 
 }  // namespace
-
-void factorise(KSP solver) {
-  shortage.clear();
-  applySolverOptions([&] {
-    const PetscErrorCode code = KSPSetUp(solver);
-    if (!shortage.empty()) throw Error(shortage);
-    return code;
-  });
-}
 
 OwnedKSP directSolver(Mat matrix, const SolverPrefix& prefix) {
   OwnedKSP solver;
@@ -116,7 +123,7 @@ OwnedKSP directSolver(Mat matrix, const SolverPrefix& prefix) {
   // remaining few then cost a pass of their own. An option -…_mat_mumps_icntl_27 takes precedence.
   if (const Mat factor = mumpsFactor(solver)) {
     check(MatMumpsSetIcntl(factor, 27, 64));
-    watchMemory(factor);
+    watch(factor);
   }
   return solver;
 }
@@ -134,6 +141,37 @@ Mat mumpsFactor(KSP solver) {
   check(PCFactorSetUpMatSolverType(pc));
   check(PCFactorGetMatrix(pc, &factor));
   return factor;
+}
+
+namespace {
+
+void setUp(KSP solver) {
+  shortage.clear();
+  applySolverOptions([&] {
+    const PetscErrorCode code = KSPSetUp(solver);
+    if (!shortage.empty()) throw Error(shortage);
+    return code;
+  });
+}
+
+}  // namespace
+
+void factorise(OwnedKSP& solver, const SolverPrefix& prefix) {
+  setUp(solver);
+  for (const PetscInt percent : workspaces) {
+    const Mat factor = mumpsFactor(solver);
+    if (!factor || !lacksWorkspace(factor)) return;
+    PetscInt withInertia = 0;
+    Mat matrix = nullptr;
+    check(MatMumpsGetIcntl(factor, 13, &withInertia));
+    check(KSPGetOperators(solver, &matrix, nullptr));
+    check(PetscObjectReference(reinterpret_cast<PetscObject>(matrix)));
+    const OwnedMat kept(matrix);
+    solver = directSolver(matrix, prefix);  // PETSc does not use a factor again that has failed
+    check(MatMumpsSetIcntl(mumpsFactor(solver), 13, withInertia));
+    enlargeWorkspace(mumpsFactor(solver), percent);
+    setUp(solver);
+  }
 }
 
 KSP SymmetricSolver::get() const {
@@ -155,7 +193,7 @@ KSP SymmetricSolver::get() const {
 void SymmetricSolver::factorise() const {
   PC pc = nullptr;
   check(KSPSetOperators(solver_, matrix_, matrix_));
-  linalg::factorise(solver_);
+  linalg::factorise(solver_, factorisation);
   check(KSPGetPC(solver_, &pc));
   PCFailedReason failed;
   check(PCGetFailedReason(pc, &failed));
@@ -181,13 +219,16 @@ double factorMemory(Mat matrix) {
   return 1e6 * megabytes;
 }
 
-Inertia inertia(Mat matrix, double zero) {
-  Mat factor = nullptr;
-  check(MatGetFactor(matrix, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &factor));
-  const OwnedMat owner(factor);
+namespace {
+
+/// Returns a factor that is made with this percentage of workspace more.
+OwnedMat factorOf(Mat matrix, double zero, PetscInt percent) {
+  OwnedMat factor;
+  check(MatGetFactor(matrix, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, factor.out()));
   check(MatMumpsSetIcntl(factor, 13, 1));  // ScaLAPACK on the root would hide its pivots' signs
   check(MatMumpsSetIcntl(factor, 24, 1));
   if (zero > 0) check(MatMumpsSetCntl(factor, 3, zero));
+  if (percent > 0) enlargeWorkspace(factor, percent);
   MatFactorInfo info;
   check(MatFactorInfoInitialize(&info));
   check(MatCholeskyFactorSymbolic(factor, matrix, nullptr, &info));
@@ -195,6 +236,15 @@ Inertia inertia(Mat matrix, double zero) {
   compareWithMemory(factor);
   if (!shortage.empty()) throw Error(shortage);
   check(MatCholeskyFactorNumeric(factor, matrix, &info));
+  return factor;
+}
+
+}  // namespace
+
+Inertia inertia(Mat matrix, double zero) {
+  OwnedMat factor = factorOf(matrix, zero, 0);
+  for (const PetscInt percent : workspaces)
+    if (lacksWorkspace(factor)) factor = factorOf(matrix, zero, percent);
   MatFactorError failed = MAT_FACTOR_NOERROR;
   check(MatFactorGetError(factor, &failed));
   if (failed != MAT_FACTOR_NOERROR)

@@ -12,9 +12,10 @@ namespace squeal::linalg {
 /// unless the options with this prefix say otherwise. The matrix is shared with the solver and not
 /// yet factorised.
 OwnedKSP directSolver(Mat matrix, const SolverPrefix& prefix);
-/// Collective. Calls KSPSetUp. Throws Error if the analysis of MUMPS foresees more than twice the
-/// memory that is free, or if PETSc refuses an option of the solver.
-void factorise(KSP solver);
+/// Collective. Calls KSPSetUp. If MUMPS lacks workspace, the solver is replaced by one that has
+/// more. Throws Error if its analysis foresees more than twice the memory that is free, or if PETSc
+/// refuses an option of the solver.
+void factorise(OwnedKSP& solver, const SolverPrefix& prefix);
 /// Returns the factor, borrowed from the solver, if it is an LDLᵀ factor of MUMPS, factorised or
 /// not; otherwise null.
 Mat mumpsFactor(KSP solver);

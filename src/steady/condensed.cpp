@@ -26,7 +26,7 @@ OwnedKSP factorisation(Mat matrix) {
   OwnedKSP solver = linalg::directSolver(matrix, solverPrefix);
   if (const Mat factor = linalg::mumpsFactor(solver))
     check(MatMumpsSetIcntl(factor, 13, 1));  // the inertia is asked for
-  linalg::factorise(solver);
+  linalg::factorise(solver, solverPrefix);
   return solver;
 }
 
