@@ -299,6 +299,7 @@ void prepareMesh(Analysis& analysis) {
   auto ties = findTies(*analysis.mesh);  // before elements are made: it moves nodes
   analysis.bodies = assembleBodies(*analysis.mesh);
   analysis.contact = buildContact(*analysis.mesh, analysis.bodies, std::move(ties));
+  contact::requireMotion(analysis.contact);
   requireFiniteSweep(analysis.bodies, analysis.contact, analysis.sweep);
   rejectIdleFactors(analysis.bodies, analysis.contact, analysis.sweep);
 }

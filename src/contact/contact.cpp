@@ -274,6 +274,26 @@ OwnedMat Contact::slipRows(const Transformation& transformation, const std::vect
   return result;
 }
 
+void requireMotion(const Contact& contact) {
+  std::vector<double> fastest(contact.options.size(), 0.0);  // [interface]
+  for (const auto& node : contact.nodes)
+    fastest[node.interface] = std::max(fastest[node.interface], node.slipSpeed);
+  check(MPI_Allreduce(MPI_IN_PLACE, fastest.data(), fastest.size(), MPI_DOUBLE, MPI_MAX,
+                      contact.mesh->comm));
+  for (std::size_t i = 0; i < fastest.size(); ++i) {
+    const auto& interface = contact.options[i];
+    if (interface.role != Role::sliding || contact.reports[i].nodes == 0 || fastest[i] > 0)
+      continue;
+    const std::string& name = interface.surfaces.name;
+    throw Error(interface.label() +
+                " slides, but nothing moves along it, |w| = 0 at all its nodes; give " +
+                (interface.onObstacle() ? interfaces::obstacleVelocityName(name)
+                                        : "-motion_<body>_velocity or _speed of its disc") +
+                ", or " + interfaces::roleName(name) +
+                (interface.onObstacle() ? " frictionless" : " sticking or frictionless"));
+  }
+}
+
 void requireSlip(const Contact& contact, const std::vector<Slip>& slip,
                  const std::vector<unsigned char>& active) {
   std::string failure;

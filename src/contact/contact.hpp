@@ -106,6 +106,10 @@ struct Contact : interfaces::Interfaces {
 Contact build(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
               interfaces::Interfaces ties);
 
+/// Collective. Throws Error if nothing moves along a sliding interface, at any friction: its bodies
+/// rest on each other, and what holds or frees them along the surface is another role's matter.
+void requireMotion(const Contact& contact);
+
 /// Collective. Throws Error, naming position and options, if a contact node with active[i] set does
 /// not slip: friction has no direction there.
 void requireSlip(const Contact& contact, const std::vector<Slip>& slip,

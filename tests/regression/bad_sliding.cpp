@@ -87,7 +87,17 @@ TEST(BadSliding, Motion) {
             {"constraint_pad_top_displacement", "0,-0.01,0"},
             {"motion_disc_axis", "0,1,0"},
             {"motion_disc_origin", "1,0,0.5"}});
+  const Options still =
+      with(without(layer, {"contact_plate_obstacle_velocity"}), {{"flutter_friction", "0"}});
   expectExplained({
+      {"plate_at_rest_without_friction",
+       still,
+       {"interface 'plate' slides, but nothing moves along it", "-contact_plate_obstacle_velocity",
+        "-contact_plate_role frictionless"}},
+      {"disc_at_rest_without_friction",
+       with(without(squaresAtWork, {"motion_disc_velocity"}), {{"flutter_friction", "0"}}),
+       {"interface 'face' slides, but nothing moves along it", "-motion_<body>_velocity",
+        "-contact_face_role sticking or frictionless"}},
       {"convective_translation",
        with(squaresAtWork, {{"motion_convective", "on"}}),
        {"-motion_convective", "body 'disc' is not a figure of revolution", "surface at (",
