@@ -3,15 +3,27 @@
 #include <algorithm>
 
 #include "flutter/terms.hpp"
+#include "options/options.hpp"
 #include "petsc/finite.hpp"
 
 namespace squeal::analysis {
 
+void settleFriction(const contact::Contact& contact, sweep::Sweep& sweep) {
+  if (contact.frictionExponents() != std::vector<int>{0}) return;
+  if (givenOptions().count("flutter_friction") && sweep.frictions != std::vector<double>{0})
+    throw Error(
+        "option -flutter_friction: no interface has this coefficient of friction, since each "
+        "sliding one has a -contact_<interface>_friction; leave one of them out");
+  sweep.frictions = {0};
+}
+
 void requireFiniteSweep(const elasticity::Bodies& bodies, const contact::Contact& contact,
                         const sweep::Sweep& sweep) {
   const auto& [frictions, speeds, pressures, dampings] = sweep;
-  const double friction = std::max(1.0, frictions.back()), speed = std::max(1.0, speeds.back()),
-               speed2 = speed * speed;
+  double friction = 1;
+  for (const auto& interface : contact.options)
+    friction = std::max(friction, interface.friction.at(frictions.back()));
+  const double speed = std::max(1.0, speeds.back()), speed2 = speed * speed;
   const std::string swept = " times the factors of the sweep";
   requireFinite(bodies.stiffness, "the stiffness of the bodies" + swept, friction);
   requireFinite(bodies.mass, "the mass of the bodies" + swept, friction);

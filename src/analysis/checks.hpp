@@ -9,6 +9,10 @@
 
 namespace squeal::analysis {
 
+/// Not collective. Sets the swept friction to zero where no interface has it, since all sliding
+/// ones have a coefficient of their own. Throws Error if `-flutter_friction` gives another one.
+void settleFriction(const contact::Contact& contact, sweep::Sweep& sweep);
+
 /// Collective. Throws Error if a matrix, a load or the held displacements, times the largest factor
 /// that the sweep multiplies it by, has a norm that is not a finite number.
 void requireFiniteSweep(const elasticity::Bodies& bodies, const contact::Contact& contact,

@@ -15,6 +15,7 @@
 #include "flutter/influence.hpp"
 #include "flutter/terms.hpp"
 #include "flutter/work.hpp"
+#include "interfaces/algebra.hpp"
 #include "interfaces/interfaces.hpp"
 #include "interfaces/ties.hpp"
 #include "matrices/write.hpp"
@@ -85,8 +86,18 @@ contact::Contact buildContact(const mesh::Mesh& mesh, const elasticity::Bodies& 
   return contact;
 }
 
-bool sameOnAllRanks(MPI_Comm comm, const std::vector<unsigned char>& a,
-                    const std::vector<unsigned char>& b) {
+/// The contact nodes that are active, and those that stick no longer, [contact node].
+struct ActiveSet {
+  std::vector<unsigned char> closed, released;
+
+  bool operator==(const ActiveSet&) const = default;
+};
+
+ActiveSet activeSet(const steady::Solution& solution) {
+  return {solution.closed, solution.sticking.free()};
+}
+
+bool sameOnAllRanks(MPI_Comm comm, const ActiveSet& a, const ActiveSet& b) {
   int same = a == b;
   check(MPI_Allreduce(MPI_IN_PLACE, &same, 1, MPI_INT, MPI_LAND, comm));
   return same;
@@ -96,12 +107,13 @@ bool sameOnAllRanks(MPI_Comm comm, const std::vector<unsigned char>& a,
 class CurrentSystem {
  public:
   CurrentSystem(const Analysis& analysis) : analysis_(analysis) {}
-  const contact::CoupledSystem& of(const std::vector<unsigned char>& closed) {
-    if (!system_ || !sameOnAllRanks(analysis_.mesh->comm, system_->closed(), closed)) {
+  const contact::CoupledSystem& of(const ActiveSet& active) {
+    if (!system_ ||
+        !sameOnAllRanks(analysis_.mesh->comm, {system_->closed(), system_->released()}, active)) {
       system_.reset();  // the old factorisation's memory first
       Stage stage(analysis_.mesh->comm, "contact");
-      system_ =
-          std::make_unique<contact::CoupledSystem>(analysis_.bodies, analysis_.contact, closed);
+      system_ = std::make_unique<contact::CoupledSystem>(analysis_.bodies, analysis_.contact,
+                                                         active.closed, nullptr, active.released);
       const PetscInt nodes = analysis_.contact.totalNodes;
       stage.finish(formatted("%" PetscInt_FMT " unknowns with %" PetscInt_FMT " of %" PetscInt_FMT
                              " contact nodes closed",
@@ -115,18 +127,45 @@ class CurrentSystem {
   std::unique_ptr<contact::CoupledSystem> system_;
 };
 
+/// Collective. Tells which sticking interfaces are held by more than their limit of friction, and
+/// which slide.
+void tellSticking(const Analysis& analysis, const steady::Solution& solution) {
+  for (const auto& resultant : solution.resultants) {
+    const std::string head =
+        sweep::parameterText(solution.at) + ": interface '" + resultant.interface + "': ";
+    if (resultant.released + resultant.unheld > 0)
+      say(analysis.mesh->comm,
+          head +
+              formatted("%" PetscInt_FMT " nodes slide and %" PetscInt_FMT
+                        " touch without being held, as they open or slide when they are, after %d "
+                        "revisions",
+                        resultant.released, resultant.unheld, solution.revisions));
+    if (resultant.overLimit > 0)
+      complain(
+          analysis.mesh->comm,
+          head + formatted("%" PetscInt_FMT
+                           " nodes are held although they exceed its coefficient of friction, "
+                           "up to %.4g at %s; the tables of the steady state list them, and "
+                           "-contact_%s_release on lets them slide",
+                           resultant.overLimit, resultant.leastFriction,
+                           interfaces::text(resultant.worst).c_str(), resultant.interface.c_str()));
+  }
+}
+
 /// Collective. Returns steady sliding at every steady point, each started from the active set of a
 /// neighbour.
 std::vector<steady::Solution> steadySweep(const Analysis& analysis, CurrentSystem& system) {
   const steady::Problem problem(*analysis.mesh, analysis.bodies, analysis.contact);
-  const std::vector<unsigned char> bonded(analysis.contact.nodes.size(), 1);
-  std::vector<std::vector<unsigned char>>
-      closed;  // [steady point] its active set, or the one tried where there is no solution
+  const std::size_t nodes = analysis.contact.nodes.size();
+  const ActiveSet bonded{std::vector<unsigned char>(nodes, 1),
+                         std::vector<unsigned char>(nodes, 0)};
+  // [steady point] its active set, or the one tried where there is no solution
+  std::vector<ActiveSet> active;
   std::vector<steady::Solution> solutions;
   for (const auto& at : analysis.sweep.steadyPoints()) {
     const auto neighbour = analysis.sweep.earlierNeighbour(solutions.size());
-    closed.push_back(neighbour ? closed[*neighbour] : bonded);
-    const auto& current = system.of(closed.back());
+    active.push_back(neighbour ? active[*neighbour] : bonded);
+    const auto& current = system.of(active.back());
     current.solver();
     Stage stage(analysis.mesh->comm, "steady");
     solutions.push_back(problem.solve(at, current));
@@ -136,10 +175,12 @@ std::vector<steady::Solution> steadySweep(const Analysis& analysis, CurrentSyste
                            sweep::parameterText(at).c_str(), solution.reason.c_str(),
                            solution.iterations, solution.openNodes, analysis.contact.totalNodes,
                            solution.smallestPressure, solution.residual, solution.imbalance));
-    if (solution.converged)
+    if (solution.converged) {
       requireFinite(solution.displacement, "steady sliding at " + sweep::parameterText(at));
+      tellSticking(analysis, solution);
+    }
     if (solution.converged)
-      closed.back() = solution.closed;
+      active.back() = activeSet(solution);
     else
       complain(analysis.mesh->comm,
                formatted("no steady sliding solution found at %s: %s",
@@ -203,9 +244,10 @@ class MeshSegment : public SegmentProblem {
     if (elasticity::prestressWanted()) {
       prestress_ = elasticity::geometricStiffness(*analysis.mesh, reference().displacement);
       stressed_ = std::make_unique<contact::CoupledSystem>(analysis.bodies, analysis.contact,
-                                                           reference().closed, prestress_);
+                                                           reference().closed, prestress_,
+                                                           reference().sticking.free());
     }
-    system_ = stressed_ ? stressed_.get() : &current.of(reference().closed);
+    system_ = stressed_ ? stressed_.get() : &current.of(activeSet(reference()));
   }
   const contact::CoupledSystem& system() const override { return *system_; }
   Mat trial() const override { return system_->transformation().trial; }
@@ -225,7 +267,7 @@ class MeshSegment : public SegmentProblem {
     if (!problem_)
       problem_ =
           std::make_unique<steady::Problem>(*analysis_.mesh, analysis_.bodies, analysis_.contact);
-    return termsIfShared(problem_->solve(steady, current_.of(reference().closed)));
+    return termsIfShared(problem_->solve(steady, current_.of(activeSet(reference()))));
   }
   void examine(std::size_t i, const pencil::Pencil& pencil, const sensitivity::StartSpace& start,
                pencil::ComplexModes& point) override {
@@ -246,7 +288,7 @@ class MeshSegment : public SegmentProblem {
   }
   std::optional<std::vector<pencil::Term>> termsIfShared(const steady::Solution& solution) const {
     if (!solution.converged ||
-        !sameOnAllRanks(analysis_.mesh->comm, solution.closed, reference().closed))
+        !sameOnAllRanks(analysis_.mesh->comm, activeSet(solution), activeSet(reference())))
       return {};
     return termsOf(solution);
   }
@@ -300,6 +342,7 @@ void prepareMesh(Analysis& analysis) {
   analysis.bodies = assembleBodies(*analysis.mesh);
   analysis.contact = buildContact(*analysis.mesh, analysis.bodies, std::move(ties));
   contact::requireMotion(analysis.contact);
+  settleFriction(analysis.contact, analysis.sweep);
   requireFiniteSweep(analysis.bodies, analysis.contact, analysis.sweep);
   rejectIdleFactors(analysis.bodies, analysis.contact, analysis.sweep);
 }
@@ -315,7 +358,7 @@ void solveMesh(Analysis& analysis) {
     const auto& start = analysis.steady[first];
     if (!start.converged) continue;
     while (last < analysis.steady.size() && analysis.steady[last].converged &&
-           sameOnAllRanks(analysis.comm, analysis.steady[last].closed, start.closed))
+           sameOnAllRanks(analysis.comm, activeSet(analysis.steady[last]), activeSet(start)))
       ++last;
     solveMeshSegment(analysis, first, last, system, influences);
   }

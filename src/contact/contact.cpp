@@ -200,7 +200,7 @@ std::vector<Slip> Contact::slip(double speed, Vec displacement) const {
   }
   for (const auto& node : nodes) {
     if (node.role != Role::sliding) {
-      result.push_back({{}, 0, 0, 0});
+      result.push_back({{}, 0, 0, 0, {}});
       continue;
     }
     Point w = scaled(node.slip, speed * node.slipSpeed);
@@ -215,9 +215,9 @@ std::vector<Slip> Contact::slip(double speed, Vec displacement) const {
     if (state.speed <= 1e-9 * speed * node.slipSpeed)
       state.speed = 0;  // the direction would be that of rounding
     if (state.speed > 0) state.direction = scaled(w, 1 / state.speed);
-    const double factor = options[node.interface].frictionFactor;
-    state.law = factor * law.value(state.speed);
-    state.slope = factor * law.slope(state.speed);
+    state.law = law.value(state.speed);
+    state.slope = law.slope(state.speed);
+    state.coefficient = options[node.interface].friction;
     result.push_back(state);
   }
   return result;
@@ -246,14 +246,44 @@ std::vector<double> Contact::nodalGap(const std::vector<double>& gap) const {
   return gapBasis ? applied(*this, MatMult, gapBasis.matrix, gap) : gap;
 }
 
+std::vector<int> Contact::frictionExponents() const {
+  std::vector<int> exponents;
+  for (const int exponent : {0, 1})
+    if (std::any_of(options.begin(), options.end(),
+                    [&](const auto& one) { return one.friction.part(exponent) > 0; }))
+      exponents.push_back(exponent);
+  return exponents;
+}
+
+bool Contact::hasFriction(double swept) const {
+  return std::any_of(options.begin(), options.end(),
+                     [&](const auto& one) { return one.friction.at(swept) > 0; });
+}
+
 OwnedMat Contact::slipRows(const Transformation& transformation, const std::vector<Slip>& slip,
-                           const std::vector<unsigned char>& slides) const {
+                           const std::vector<unsigned char>& slides, int exponent) const {
+  std::vector<double> friction;
+  for (const auto& state : slip) friction.push_back(state.coefficient.part(exponent) * state.law);
+  return slipRows(transformation, slip, slides, friction);
+}
+
+OwnedMat Contact::slipRowsAt(const Transformation& transformation, const std::vector<Slip>& slip,
+                             const std::vector<unsigned char>& slides, double swept) const {
+  std::vector<double> friction;
+  for (const auto& state : slip) friction.push_back(state.friction(swept));
+  return slipRows(transformation, slip, slides, friction);
+}
+
+/// Returns the rows E⁻¹ a τ·[u] for factors a, [contact node].
+OwnedMat Contact::slipRows(const Transformation& transformation, const std::vector<Slip>& slip,
+                           const std::vector<unsigned char>& slides,
+                           const std::vector<double>& factors) const {
   const OwnedMat directions = nodalMatrix(*mesh, 1);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (!slides[i] && !gapBasis) continue;
     for (int d = 0; d < mesh->dimension; ++d)
       check(MatSetValue(directions, gapRow(nodes[i]), mesh->dimension * nodes[i].globalNode + d,
-                        slip[i].law * slip[i].direction[d], INSERT_VALUES));
+                        factors[i] * slip[i].direction[d], INSERT_VALUES));
   }
   assembled(directions);
   OwnedMat rows;
@@ -295,11 +325,10 @@ void requireMotion(const Contact& contact) {
 }
 
 void requireSlip(const Contact& contact, const std::vector<Slip>& slip,
-                 const std::vector<unsigned char>& active) {
+                 const std::vector<unsigned char>& active, double swept) {
   std::string failure;
   for (std::size_t i = 0; i < slip.size(); ++i)
-    if (active[i] && slip[i].speed == 0 && contact.nodes[i].role == Role::sliding &&
-        failure.empty()) {
+    if (active[i] && slip[i].speed == 0 && slip[i].coefficient.at(swept) > 0 && failure.empty()) {
       const auto& node = contact.nodes[i];
       failure =
           "option -flutter_friction: friction needs a sliding velocity, but |w| = 0 at the contact "

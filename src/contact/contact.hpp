@@ -15,7 +15,9 @@
 ///   R_N = N r,   S x = E⁻¹ φ τ·[u].
 /// The test functions put the friction force of R_N on the tangential rows:
 ///   L(f)ᵀ r = Tᵀ r + f Sᵀ N r,
-/// that is R_T = −f φ R_N τ on the pad [3.4], and its opposite on the disc.
+/// that is R_T = −f φ R_N τ on the pad [3.4], and its opposite on the disc. Where interfaces have
+/// coefficients of their own, f S stands for S_0 + f S_1: S_0 has the rows of those whose
+/// coefficient is fixed, times it, and S_1 those of the swept ones, times their factors [M.56].
 #include <string>
 #include <vector>
 
@@ -34,10 +36,16 @@ using interfaces::Role;
 
 /// The sliding of a contact node in steady motion.
 struct Slip {
-  Point direction{};  ///< τ = w/|w|; zero where |w| = 0
-  double speed = 0;   ///< |w|, m/s
-  double law = 1;     ///< φ(|w|): the coefficient of friction is f φ
-  double slope = 0;   ///< dφ/d|w|, s/m
+  Point direction{};                    ///< τ = w/|w|; zero where |w| = 0
+  double speed = 0;                     ///< |w|, m/s
+  double law = 1;                       ///< φ(|w|)
+  double slope = 0;                     ///< dφ/d|w|, s/m
+  interfaces::Coefficient coefficient;  ///< what φ is multiplied by; zero where nothing slides
+
+  /// Returns the coefficient of friction at the swept one, and its derivative with respect to |w|,
+  /// s/m.
+  double friction(double swept) const { return coefficient.at(swept) * law; }
+  double frictionSlope(double swept) const { return coefficient.at(swept) * slope; }
 };
 
 /// The trial functions T for one choice of the gaps that are unknowns.
@@ -92,10 +100,24 @@ struct Contact : interfaces::Interfaces {
   std::vector<double> gapForce(const std::vector<double>& nodal) const;
   /// Collective. Returns E⁻¹ v of values v at the nodes, both [contact node].
   std::vector<double> gapCoefficients(const std::vector<double>& nodal) const;
-  /// Collective. Returns S, N×n: E⁻¹ φ τ·[u] of u = T x, in the rows of the gaps of the contact
-  /// nodes with slides[i] set; other rows are empty.
+  /// Returns the powers of the swept friction with which interfaces carry friction: 0 where a
+  /// coefficient is fixed, 1 where one is swept. The same on all ranks.
+  std::vector<int> frictionExponents() const;
+  /// Returns true if any interface carries friction at the swept one. The same on all ranks.
+  bool hasFriction(double swept) const;
+  /// Collective. Returns S_a, N×n, for the power a of the swept friction: E⁻¹ c φ τ·[u] of u = T x,
+  /// with c the part of the coefficient that goes with this power, in the rows of the gaps of the
+  /// contact nodes with slides[i] set; other rows are empty.
   OwnedMat slipRows(const Transformation& transformation, const std::vector<Slip>& slip,
-                    const std::vector<unsigned char>& slides) const;
+                    const std::vector<unsigned char>& slides, int exponent) const;
+  /// Collective. Returns S_0 + f S_1 at the swept friction f.
+  OwnedMat slipRowsAt(const Transformation& transformation, const std::vector<Slip>& slip,
+                      const std::vector<unsigned char>& slides, double swept) const;
+
+ private:
+  OwnedMat slipRows(const Transformation& transformation, const std::vector<Slip>& slip,
+                    const std::vector<unsigned char>& slides,
+                    const std::vector<double>& factors) const;
 };
 
 /// Collective. Builds normals, slip directions, constraints and all matrices. `ties` are those of
@@ -110,9 +132,9 @@ Contact build(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
 /// rest on each other, and what holds or frees them along the surface is another role's matter.
 void requireMotion(const Contact& contact);
 
-/// Collective. Throws Error, naming position and options, if a contact node with active[i] set does
-/// not slip: friction has no direction there.
+/// Collective. Throws Error, naming position and options, if a contact node with active[i] set
+/// carries friction at the swept one and does not slip: friction has no direction there.
 void requireSlip(const Contact& contact, const std::vector<Slip>& slip,
-                 const std::vector<unsigned char>& active);
+                 const std::vector<unsigned char>& active, double swept);
 
 }  // namespace squeal::contact

@@ -24,13 +24,13 @@ Projection project(const Contact& contact, const Transformation& transformation,
   return projection;
 }
 
-OwnedMat affine(Mat x0, Mat x1, double f) {
+OwnedMat Projection::tested(Mat slipRows) const {
   OwnedMat sum;
-  check(MatDuplicate(x0, MAT_COPY_VALUES, sum.out()));
-  if (f == 0) return sum;
+  check(MatDuplicate(matrix, MAT_COPY_VALUES, sum.out()));
+  if (!slipRows) return sum;
   // The normal force of a contact node comes from its cells, and so do its tangential rows: the
   // pattern of Sᵀ N X T lies within that of Tᵀ X T.
-  check(MatAXPY(sum, f, x1, SUBSET_NONZERO_PATTERN));
+  check(MatAXPY(sum, 1, friction(slipRows), SUBSET_NONZERO_PATTERN));
   check(MatSetOption(sum, MAT_SYMMETRIC, PETSC_FALSE));
   return sum;
 }
@@ -45,11 +45,14 @@ PetscInt countOpen(MPI_Comm comm, const std::vector<unsigned char>& closed) {
 }
 
 Projections projectAll(const elasticity::Bodies& bodies, const Contact& contact,
-                       const std::vector<unsigned char>& closed, Mat prestress) {
+                       const std::vector<unsigned char>& closed,
+                       const std::vector<unsigned char>& released, Mat prestress) {
   std::vector<unsigned char> open;
   for (const auto isClosed : closed) open.push_back(!isClosed);
+  std::vector<unsigned char> free = open;
+  for (std::size_t i = 0; i < released.size(); ++i) free[i] = free[i] || released[i];
   Projections result;
-  result.transformation = contact.transformation(open, open);
+  result.transformation = contact.transformation(open, free);
   OwnedMat stressed;
   if (prestress) {
     check(MatDuplicate(bodies.stiffness, MAT_COPY_VALUES, stressed.out()));
@@ -68,16 +71,18 @@ Projections projectAll(const elasticity::Bodies& bodies, const Contact& contact,
 }  // namespace
 
 CoupledSystem::CoupledSystem(const elasticity::Bodies& bodies, const Contact& contact,
-                             std::vector<unsigned char> closed, Mat prestress)
-    : CoupledSystem(projectAll(bodies, contact, closed, prestress), closed,
+                             std::vector<unsigned char> closed, Mat prestress,
+                             std::vector<unsigned char> released)
+    : CoupledSystem(projectAll(bodies, contact, closed, released, prestress), closed, released,
                     countOpen(contact.mesh->comm, closed)) {}
 
 CoupledSystem::CoupledSystem(Projections projections, std::vector<unsigned char> closed,
-                             PetscInt openNodes)
+                             std::vector<unsigned char> released, PetscInt openNodes)
     : AssociatedSystem(projections.stiffness.matrix.share(), projections.mass.matrix.share(),
                        "stiffness of the closed, frictionless contact"),
       projections_(std::move(projections)),
       closed_(std::move(closed)),
+      released_(std::move(released)),
       openNodes_(openNodes) {}
 
 }  // namespace squeal::contact

@@ -1,7 +1,7 @@
 #pragma once
 /// These functions make the matrices of the coupled problem, for every matrix X of the bodies
 /// [M.11]:
-///   L(f)ᵀ X T = Tᵀ X T + f Sᵀ N X T.
+///   L(f)ᵀ X T = Tᵀ X T + Sᵀ N X T,   S = S_0 + f S_1.
 
 #include "contact/contact.hpp"
 #include "elasticity/elasticity.hpp"
@@ -17,14 +17,13 @@ struct Projection {
   explicit operator bool() const { return matrix.get() != nullptr; }
   /// Collective. Returns Sᵀ N X T, n×n, the friction of these normal forces, for the slip rows S.
   OwnedMat friction(Mat slipRows) const;
+  /// Collective. Returns Tᵀ X T + Sᵀ N X T as a new matrix, unsymmetric unless the slip rows are
+  /// null: a copy of Tᵀ X T then.
+  OwnedMat tested(Mat slipRows) const;
 };
 
 /// Collective. Returns the projections of X, which may be null, by a transformation.
 Projection project(const Contact& contact, const Transformation& transformation, Mat x);
-
-/// Collective. Returns X0 + f X1 as a new matrix, a copy of X0 if f is 0 and otherwise unsymmetric.
-/// The pattern of X1 must lie within that of X0.
-OwnedMat affine(Mat x0, Mat x1, double f);
 
 /// The matrices of the bodies in the unknowns of one active set.
 struct Projections {
@@ -45,20 +44,25 @@ class CoupledSystem : public modes::AssociatedSystem {
  public:
   /// Collective. Projects the matrices of the bodies. Contact node i is active if closed[i] is set.
   /// `prestress` is added to K, has the pattern of K and is borrowed during this call; it may be
-  /// null.
+  /// null. Sticking nodes move along the surface where they are open and where released[i] is
+  /// set; an empty list releases none.
   CoupledSystem(const elasticity::Bodies& bodies, const Contact& contact,
-                std::vector<unsigned char> closed, Mat prestress = nullptr);
+                std::vector<unsigned char> closed, Mat prestress = nullptr,
+                std::vector<unsigned char> released = {});
   const Transformation& transformation() const { return projections_.transformation; }
   const Projections& projections() const { return projections_; }
   /// Returns 1 for each contact node that is active and 0 for the others, [contact node]; borrowed.
   const std::vector<unsigned char>& closed() const { return closed_; }
+  /// Returns 1 for each contact node that is released, [contact node]; borrowed; empty if none is.
+  const std::vector<unsigned char>& released() const { return released_; }
   /// Returns the number of contact nodes that are not active, over all ranks.
   PetscInt openNodes() const { return openNodes_; }
 
  private:
-  CoupledSystem(Projections projections, std::vector<unsigned char> closed, PetscInt openNodes);
+  CoupledSystem(Projections projections, std::vector<unsigned char> closed,
+                std::vector<unsigned char> released, PetscInt openNodes);
   Projections projections_;
-  std::vector<unsigned char> closed_;
+  std::vector<unsigned char> closed_, released_;
   PetscInt openNodes_ = 0;
 };
 

@@ -72,7 +72,8 @@ RigidMotions rigidMotions(const mesh::Mesh& mesh) {
 /// count as supports however soft they are; contact counts if `contactCloses`. The null space holds
 /// the motions that nothing prevents.
 linalg::DenseMatrix gram(const mesh::Mesh& mesh, const Contact& contact, Vec springs,
-                         const RigidMotions& motions, bool contactCloses) {
+                         const RigidMotions& motions, bool contactCloses,
+                         const std::vector<unsigned char>& released) {
   const int n = motions.size();
   linalg::DenseMatrix g(n, n);
   std::vector<double> row(n);
@@ -100,7 +101,8 @@ linalg::DenseMatrix gram(const mesh::Mesh& mesh, const Contact& contact, Vec spr
     }
   for (std::size_t i = 0; contactCloses && i < contact.nodes.size(); ++i) {
     const auto& node = contact.nodes[i];
-    const int sticking = node.role == Role::sticking ? mesh.dimension : 0;
+    const bool sticks = node.role == Role::sticking && (released.empty() || !released[i]);
+    const int sticking = sticks ? mesh.dimension : 0;
     for (int d = 0; d < sticking; ++d) {
       motions.add(row, mesh.nodePart[node.node], node.position, unit(d), 1);
       for (const auto& [part, share] : node.masterParts)
@@ -130,9 +132,9 @@ linalg::DenseMatrix gram(const mesh::Mesh& mesh, const Contact& contact, Vec spr
 }  // namespace
 
 std::optional<LooseBody> looseBody(const mesh::Mesh& mesh, const Contact& contact, Vec springs,
-                                   bool contactCloses) {
+                                   bool contactCloses, const std::vector<unsigned char>& released) {
   const RigidMotions motions = rigidMotions(mesh);
-  linalg::DenseMatrix g = gram(mesh, contact, springs, motions, contactCloses);
+  linalg::DenseMatrix g = gram(mesh, contact, springs, motions, contactCloses, released);
   const auto eigenvalues = linalg::symmetricEigen(g);
   // A support that extends over a thousandth of the model still holds a rotation, with 1e-6 of the
   // weight with which it holds a translation.

@@ -15,9 +15,11 @@ struct LooseBody {
 
 /// Collective. Returns the part that can move most freely where neither constraints nor springs
 /// (Bodies::springs, may be null) hold it, nor, if `contactCloses`, closed contact without
-/// friction. Returns none if all parts are held.
+/// friction. Sticking nodes with released[i] set do not hold along the surface; an empty list
+/// releases none. Returns none if all parts are held.
 std::optional<LooseBody> looseBody(const mesh::Mesh& mesh, const Contact& contact, Vec springs,
-                                   bool contactCloses);
+                                   bool contactCloses,
+                                   const std::vector<unsigned char>& released = {});
 
 /// Collective. Throws Error, naming the body, if a body can move without strain while the contact
 /// stays closed without friction.

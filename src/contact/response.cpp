@@ -33,7 +33,8 @@ std::vector<double> responseBlock(const VelocityResponse& response, const Point&
 /// The fields that the response on a face needs, [local node][component], ghosts and periodic
 /// images included.
 struct Fields {
-  std::vector<double> pressure;  // in the component of the gap, Pa
+  std::vector<double> pressure;  // p in the component of the gap, Pa
+  std::vector<double> friction;  // f p in the same, without φ, Pa
   std::vector<double> slip;      // w, m/s
   std::vector<double> normal;
 };
@@ -58,12 +59,15 @@ std::vector<double> spread(const Contact& contact, Mat basis, const Value& value
 }
 
 Fields fieldsOf(const Contact& contact, const std::vector<Slip>& slip,
-                const std::vector<double>& normalForce) {
+                const std::vector<double>& normalForce, double friction) {
   const int dimension = contact.mesh->dimension;
-  return {spread(contact, contact.gapBasis.matrix,
-                 [&](std::size_t i, auto at) {
-                   at[dimension - 1] = normalForce[i] / contact.nodes[i].wholeArea;
-                 }),
+  const auto ofGaps = [&](const auto& factor) {
+    return spread(contact, contact.gapBasis.matrix, [&](std::size_t i, auto at) {
+      at[dimension - 1] = factor(slip[i]) * normalForce[i] / contact.nodes[i].wholeArea;
+    });
+  };
+  return {ofGaps([](const Slip&) { return 1.0; }),
+          ofGaps([&](const Slip& state) { return state.coefficient.at(friction); }),
           spread(contact, nullptr,
                  [&](std::size_t i, auto at) {
                    for (int d = 0; d < dimension; ++d) at[d] = slip[i].speed * slip[i].direction[d];
@@ -82,29 +86,30 @@ Point interpolated(const double* value, std::span<const PetscInt> nodes,
   return sum;
 }
 
-/// Returns the factor and the direction of the response per area at a point of a face.
+/// Returns the response per area at a point of a face, dimension × dimension, row-major.
 std::vector<double> blockAt(const Contact& contact, const Fields& fields, const double* value,
-                            std::span<const PetscInt> nodes, double friction) {
+                            std::span<const PetscInt> nodes) {
   const int dimension = contact.mesh->dimension;
-  const double pressure =
-      std::max(0.0, interpolated(value, nodes, fields.pressure, dimension)[dimension - 1]);
-  if (pressure == 0) return std::vector<double>(dimension * dimension, 0.0);
+  const double pressure = interpolated(value, nodes, fields.pressure, dimension)[dimension - 1],
+               friction = interpolated(value, nodes, fields.friction, dimension)[dimension - 1];
+  if (!(pressure > 0)) return std::vector<double>(dimension * dimension, 0.0);
   const Point normal = mesh::unit(interpolated(value, nodes, fields.normal, dimension)),
               w = mesh::tangential(interpolated(value, nodes, fields.slip, dimension), normal);
   Slip slip;
   slip.speed = mesh::length(w);
   if (slip.speed > 0) slip.direction = mesh::scaled(w, 1 / slip.speed);
   slip.law = contact.law.value(slip.speed), slip.slope = contact.law.slope(slip.speed);
-  return responseBlock(velocityResponse(slip, pressure, friction, dimension), slip.direction,
-                       normal, dimension);
+  slip.coefficient = {1, 0};  // that of the contact is in f p
+  return responseBlock(velocityResponse(slip, friction, 0, dimension), slip.direction, normal,
+                       dimension);
 }
 
 }  // namespace
 
 VelocityResponse velocityResponse(const Slip& slip, double normalForce, double friction,
                                   int dimension) {
-  const double force = friction * normalForce;
-  return {slip.speed > 0 && dimension == 3 ? force * slip.law / slip.speed : 0, force * slip.slope};
+  return {slip.speed > 0 && dimension == 3 ? slip.friction(friction) * normalForce / slip.speed : 0,
+          slip.frictionSlope(friction) * normalForce};
 }
 
 OwnedMat nodalResponse(const Contact& contact, const std::vector<Slip>& slip,
@@ -126,7 +131,7 @@ OwnedMat distributedResponse(const Contact& contact, const std::vector<Slip>& sl
   if (!contact.gapBasis) return nodalResponse(contact, slip, normalForce, friction);
   const auto& mesh = *contact.mesh;
   const int dimension = mesh.dimension;
-  const Fields fields = fieldsOf(contact, slip, normalForce);
+  const Fields fields = fieldsOf(contact, slip, normalForce, friction);
   elasticity::Triples triples;
   for (const auto& block : mesh.faces) {
     const auto& table = elasticity::shapeTable(block.type);
@@ -141,7 +146,7 @@ OwnedMat distributedResponse(const Contact& contact, const std::vector<Slip>& sl
       std::vector<double> sums(size * size, 0.0);
       for (int q = 0; q < table.points(); ++q) {
         const double* value = table.value.data() + q * n;
-        const auto at = blockAt(contact, fields, value, nodes, friction);
+        const auto at = blockAt(contact, fields, value, nodes);
         for (int i = 0; i < n; ++i)
           for (int j = 0; j < n; ++j)
             for (int c = 0; c < dimension; ++c)

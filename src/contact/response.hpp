@@ -14,14 +14,15 @@ struct VelocityResponse {
   double across = 0;  ///< f R_N φ / |w|, N·s/m; zero in the plane, which has one tangent
   double along = 0;   ///< f R_N dφ/d|w|, N·s/m
 };
-/// Not collective. Returns these factors for the normal force R_N, N, and the friction f.
+/// Not collective. Returns these factors for the normal force R_N, N, and the swept friction, from
+/// which the slip has the coefficient f.
 VelocityResponse velocityResponse(const Slip& slip, double normalForce, double friction,
                                   int dimension);
 
 /// Collective. Returns B, N×N, N·s/m, with diagonal blocks at the pad nodes, for the normal
 /// components r_N of the nodal forces, N, [contact node]:
-///   B = f r_N (φ/|w| (1 − ττᵀ − nnᵀ) + dφ/d|w| ττᵀ).
-/// It is the derivative of the nodal forces of friction.
+///   B = f r_N (φ/|w| (1 − ττᵀ − nnᵀ) + dφ/d|w| ττᵀ)
+/// at the swept friction. It is the derivative of the nodal forces of friction.
 OwnedMat nodalResponse(const Contact& contact, const std::vector<Slip>& slip,
                        const std::vector<double>& nodalForce, double friction);
 
@@ -29,7 +30,7 @@ OwnedMat nodalResponse(const Contact& contact, const std::vector<Slip>& slip,
 /// the gaps, N, [contact node]. Where the gap basis is the identity it is nodalResponse(). On tri6
 /// and quad8 faces, where the nodal forces of a positive pressure may be negative, it is
 ///   B_ij = ∫ f p (φ/|w| (1 − ττᵀ − nnᵀ) + dφ/d|w| ττᵀ) φᵢ φⱼ dA,
-///   p = max(0, Σ (R_N / ∫φ̃ dA) φ̃),
+///   f p = Σ (f R_N / ∫φ̃ dA) φ̃,   zero where p = Σ (R_N / ∫φ̃ dA) φ̃ is negative,
 /// with w and n interpolated between the nodes.
 OwnedMat distributedResponse(const Contact& contact, const std::vector<Slip>& slip,
                              const std::vector<double>& normalForce, double friction);

@@ -18,7 +18,7 @@ bool followsSteadyState(const contact::Contact& contact, const sweep::Parameters
                         Mat prestress) {
   const bool damping =
       frictionDampingWanted() && (contact.mesh->dimension == 3 || !contact.law.constant());
-  return prestress || (at.friction > 0 && (damping || !contact.slipIsGiven()));
+  return prestress || (contact.hasFriction(at.friction) && (damping || !contact.slipIsGiven()));
 }
 
 }  // namespace
@@ -136,7 +136,7 @@ Influences::Projected Influences::project(const BodyPoint& state,
     const auto& slip = state.solution.slip[k];
     Complex along = 0;
     for (std::size_t d = 0; d < 3; ++d) along += slip.direction[d] * pair.test[k][d];
-    along *= state.at.friction * slip.law;
+    along *= slip.friction(state.at.friction);
     alongReal.push_back(along.real()), alongImaginary.push_back(along.imag());
   }
   alongReal = contact_.gapCoefficients(alongReal);
@@ -179,6 +179,7 @@ Complex Influences::steadyForm(const Influence& influence, const BodyPoint& stat
   if (!influence.change.displacement) return 0;
   Complex sum = 0;
   if (state.prestress) sum += dot(pair.z, product(influence.prestress, pair.u));
+  Complex friction = 0;
   const double h = step * influence.size;
   const OwnedVec u = elasticity::nodalVector(mesh_);
   for (const double sign : {-1.0, 1.0}) {
@@ -191,22 +192,15 @@ Complex Influences::steadyForm(const Influence& influence, const BodyPoint& stat
     force = responseForces(state.solution.closed, std::move(force));
     for (std::size_t k = 0; k < force.size(); ++k)
       force[k] += sign * h * influence.responseForce[k];
-    sum += sign / (2 * h) *
-           frictionSum(frictionState(contact_, at, contact_.slip(at.speed, u), force), state, pair);
+    FrictionState moved = frictionState(contact_, at, contact_.slip(at.speed, u), force);
+    // The f that multiplies the change of the normal force is held: it is a coefficient of the
+    // pencil.
+    moved.at.friction = state.at.friction;
+    for (const auto& form : frictionForms(contact_, moved, pair.s, pair.test, pair.motion))
+      friction += sign / (2 * h) * (form.pressing + form.turning);
   }
-  return sum;
-}
-
-/// Returns the sum of frictionForms() over the contact nodes. The f that multiplies the change of
-/// the normal force is held: it is a coefficient of the pencil.
-Complex Influences::frictionSum(const FrictionState& friction, const BodyPoint& state,
-                                const Projected& pair) const {
-  Complex sum = 0;
-  const double held = friction.at.friction > 0 ? state.at.friction / friction.at.friction : 0;
-  for (const auto& form : frictionForms(contact_, friction, pair.s, pair.test, pair.motion))
-    sum += held * form.pressing + form.turning;
-  check(MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_C_DOUBLE_COMPLEX, MPI_SUM, mesh_.comm));
-  return sum;
+  check(MPI_Allreduce(MPI_IN_PLACE, &friction, 1, MPI_C_DOUBLE_COMPLEX, MPI_SUM, mesh_.comm));
+  return sum + friction;
 }
 
 }  // namespace squeal::flutter

@@ -53,8 +53,6 @@ class Influences {
                        const Projected& pair) const;
   Complex steadyForm(const Influence& influence, const BodyPoint& state,
                      const Projected& pair) const;
-  Complex frictionSum(const FrictionState& friction, const BodyPoint& state,
-                      const Projected& pair) const;
   Projected project(const BodyPoint& state, const sensitivity::EigenTriple& triple) const;
 
   const mesh::Mesh& mesh_;

@@ -31,14 +31,23 @@ std::vector<Role> roles(const contact::CoupledSystem& system) {
           {system.projections().rotationStiffness, 0, 2, 0}};
 }
 
-/// Appends the term f Sᵀ N X T for each matrix X.
+/// Appends the terms f^a S_aᵀ N X T of one matrix X for all powers a.
+void addFriction(std::vector<pencil::Term>& terms, const Role& role,
+                 const contact::Contact& contact, const contact::CoupledSystem& system,
+                 const std::vector<contact::Slip>& slip) {
+  for (const int exponent : contact.frictionExponents()) {
+    const OwnedMat rows =
+        contact.slipRows(system.transformation(), slip, system.closed(), exponent);
+    terms.push_back({role.projection.friction(rows), role.power, exponent, 1.0, role.speedExponent,
+                     role.dampingExponent, true});
+  }
+}
+
+/// Appends these terms for each matrix X of the bodies.
 void addFriction(std::vector<pencil::Term>& terms, const contact::Contact& contact,
                  const contact::CoupledSystem& system, const std::vector<contact::Slip>& slip) {
-  const OwnedMat rows = contact.slipRows(system.transformation(), slip, system.closed());
   for (const auto& role : roles(system))
-    if (role.projection)
-      terms.push_back({role.projection.friction(rows), role.power, 1, 1.0, role.speedExponent,
-                       role.dampingExponent});
+    if (role.projection) addFriction(terms, role, contact, system, slip);
 }
 
 /// Appends the terms of the change −B w* of the friction force [4.7, M.21].
@@ -57,13 +66,13 @@ void addVelocityResponse(std::vector<pencil::Term>& terms, const contact::Contac
   check(MatNorm(friction.response, NORM_FROBENIUS, &scale));
   if (size <= 1e-14 * scale) return;
   check(MatSetOption(damping, MAT_SYMMETRIC, PETSC_TRUE));
-  terms.push_back({std::move(damping), 1, 0, 1.0, 0});
+  terms.push_back({std::move(damping), 1, 0, 1.0, 0, 0, true});
   if (!contact.convected) return;
   OwnedMat convected, turned, stiffness;
   check(MatMatMult(contact.convected, trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, convected.out()));
   check(MatMatMult(friction.response, convected, MAT_INITIAL_MATRIX, PETSC_DEFAULT, turned.out()));
   check(MatTransposeMatMult(jumps, turned, MAT_INITIAL_MATRIX, PETSC_DEFAULT, stiffness.out()));
-  terms.push_back({std::move(stiffness), 0, 0, -solution.at.speed, 0});
+  terms.push_back({std::move(stiffness), 0, 0, -solution.at.speed, 0, 0, true});
 }
 
 }  // namespace
@@ -82,14 +91,13 @@ std::vector<pencil::Term> pointTerms(const contact::Contact& contact,
                                      const contact::CoupledSystem& system,
                                      const steady::Solution& solution, Mat prestressChange) {
   std::vector<pencil::Term> terms;
-  const bool friction = solution.at.friction > 0;
+  const bool friction = contact.hasFriction(solution.at.friction);
   if (friction && !contact.slipIsGiven()) addFriction(terms, contact, system, solution.slip);
   if (friction && dampingOption.get()) addVelocityResponse(terms, contact, system, solution);
   if (prestressChange) {
     contact::Projection change =
         contact::project(contact, system.transformation(), prestressChange);
-    const OwnedMat rows = contact.slipRows(system.transformation(), solution.slip, system.closed());
-    terms.push_back({change.friction(rows), 0, 1, 1.0, 0});
+    addFriction(terms, {change, 0, 0, 0}, contact, system, solution.slip);
     terms.push_back({std::move(change.matrix), 0, 0, 1.0, 0});
   }
   return terms;

@@ -9,17 +9,19 @@
 namespace squeal::flutter {
 
 /// Collective. Returns the terms that hold for all parameters: K0, M0, c C0, v G0, v² K^R0 and, if
-/// the slip is the same at all points, the friction f Sᵀ N X T of each of these matrices. The
-/// arguments are not needed afterwards.
+/// the slip is the same at all points, the friction f^a S_aᵀ N X T of each of these matrices for
+/// the powers a with which there is friction. The arguments are not needed afterwards.
 pencil::Pencil affineTerms(const contact::Contact& contact, const contact::CoupledSystem& system);
 
 /// Collective. Returns the terms that depend on the steady state. The first of them is the friction
-/// f Sᵀ N X T where the slip follows the deformation or a friction law. The second is the change of
-/// the friction force with the relative velocity w* = [u_t] − v D u_D, −B w* [4.7]. It gives [M.21]
+/// f^a S_aᵀ N X T where the slip follows the deformation or a friction law. The second is the
+/// change of the friction force with the relative velocity w* = [u_t] − v D u_D, −B w* [4.7]. It
+/// gives [M.21]
 ///   (J T)ᵀ B (J T) in Z̄, the paper's f[A],
 ///   −v (J T)ᵀ B (D T) in K̄, the paper's f[B_T] + f[B_N], with convective terms.
-/// Both are left out at f = 0. The last is `prestressChange`, N×N, the change of the geometric
-/// stiffness from that in `system`, with the friction that it causes; null: none. Without
+/// Both are left out where there is no friction. The last is `prestressChange`, N×N, the change of
+/// the geometric stiffness from that in `system`, with the friction that it causes; null: none.
+/// Without
 /// `-flutter_friction_damping` the friction force changes by R_T* = −f φ R_N* τ only.
 std::vector<pencil::Term> pointTerms(const contact::Contact& contact,
                                      const contact::CoupledSystem& system,

@@ -78,7 +78,7 @@ std::vector<FrictionForm> frictionForms(const contact::Contact& contact, const F
       form.pressing += std::conj(test[k][d]) * slip.direction[d];
       form.turning += std::conj(test[k][d]) * turning[k][d];
     }
-    form.pressing *= state.at.friction * slip.law * motion.nodalForce[k];
+    form.pressing *= slip.friction(state.at.friction) * motion.nodalForce[k];
     forms.push_back(form);
   }
   return forms;

@@ -48,7 +48,7 @@ ContactMotion contactMotion(const contact::Contact& contact,
 
 /// The data of friction at one point of a sweep.
 struct FrictionState {
-  sweep::Parameters at;
+  sweep::Parameters at;  ///< its friction is that of the part with the change of the normal force
   std::vector<contact::Slip> slip;  ///< [owned contact node]
   OwnedMat response;                ///< B of these, N×N
 };

@@ -30,6 +30,14 @@ const ChoiceOption roleOption("contact", "contact_<interface>_role", roleNames, 
 const RealOption factorOption("contact", "contact_<interface>_friction_factor", 1.0, "",
                               nonNegative,
                               "times -flutter_friction: the coefficient of a sliding interface");
+const RealOption frictionOption(
+    "contact", "contact_<interface>_friction", 0.0, "", nonNegative,
+    "coefficient of friction of a sliding interface, in place of "
+    "-flutter_friction, so that no sweep changes it; of a sticking one: "
+    "the limit of what holds it");
+const FlagOption releaseOption("contact", "contact_<interface>_release", false,
+                               "nodes of a sticking interface that exceed its -contact_<interface>"
+                               "_friction slide with that friction; off: they are held and told");
 const WordOrRealOption gapOption("contact", "contact_<interface>_gap", 0.0, "m", "measured",
                                  "gap without load; measured: the distance of the surfaces; "
                                  "negative: interference");
@@ -83,8 +91,16 @@ void rejectIdleOptions(const InterfaceOptions& interface) {
     if (interface.isTied() || interface.role == Role::sticking)
       throw Error("option -" + roleOption.fullName(name) + " " + roleOption.get(name) + " " + why);
   }
-  if (interface.role != Role::sliding)
-    reject(factorOption, "needs -" + roleOption.fullName(name) + " sliding");
+  const std::string role = "needs -" + roleOption.fullName(name);
+  if (interface.role != Role::sliding) reject(factorOption, role + " sliding");
+  if (interface.role != Role::sliding && interface.role != Role::sticking)
+    reject(frictionOption, role + " sliding or sticking");
+  if (interface.role != Role::sticking) reject(releaseOption, role + " sticking");
+  if (!frictionOption.given(name))
+    reject(releaseOption, "needs -" + frictionOption.fullName(name) + ", the limit");
+  if (frictionOption.given(name))
+    reject(factorOption, "is a factor on -flutter_friction, which -" +
+                             frictionOption.fullName(name) + " replaces; give one of them");
   if (interface.isTied()) reject(gapOption, "means nothing on a tied interface, which has no gap");
 }
 
@@ -97,9 +113,10 @@ std::string InterfaceOptions::label() const {
 }
 
 std::vector<mesh::InterfaceRequest> readInterfaces() {
-  requireOption({&discOption, &obstacleVelocityOption, &obstacleDisplacementOption, &roleOption,
-                 &factorOption, &gapOption, &slaveOption, &searchOption},
-                padOption);
+  requireOption(
+      {&discOption, &obstacleVelocityOption, &obstacleDisplacementOption, &roleOption,
+       &factorOption, &frictionOption, &releaseOption, &gapOption, &slaveOption, &searchOption},
+      padOption);
   requireOption({&tieMasterOption, &toleranceOption, &adjustOption}, tieSlaveOption);
   requireOption({&tieSlaveOption}, tieMasterOption);
   std::vector<mesh::InterfaceRequest> requests;
@@ -134,7 +151,12 @@ std::vector<InterfaceOptions> readInterfaceOptions(int dimension) {
       interface.obstacleDisplacement = obstacleDisplacementOption.components(name, dimension);
       interface.slave = valueOf<SlaveChoice>(slaveOption, slaveNames, name);
       interface.searchDistance = searchOption.get(name);
-      interface.frictionFactor = factorOption.get(name);
+      if (interface.role == Role::sliding)
+        interface.friction = frictionOption.given(name) ? Coefficient{frictionOption.get(name), 0}
+                                                        : Coefficient{0, factorOption.get(name)};
+      if (interface.role == Role::sticking && frictionOption.given(name))
+        interface.stickingLimit = frictionOption.get(name);
+      interface.releases = releaseOption.get(name);
       const auto gap = gapOption.get(name);
       interface.gapIsMeasured = !gap;
       interface.gap = gap.value_or(0);

@@ -1,6 +1,7 @@
 #pragma once
 /// These functions read the contact interfaces: their surfaces, their rigid obstacles and how their
 /// sides are paired.
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,15 @@ enum class Role {
 /// Returns the value of `-contact_<interface>_role` for a role.
 std::string text(Role role);
 
+/// A coefficient of friction at the swept one f: fixed + swept · f.
+struct Coefficient {
+  double fixed = 0, swept = 0;
+
+  double at(double friction) const { return fixed + swept * friction; }
+  /// Returns the factor of f^exponent: fixed for 0, swept for 1.
+  double part(int exponent) const { return exponent == 0 ? fixed : swept; }
+};
+
 /// One interface as the options give it: contact, or a tie of two bodies.
 struct InterfaceOptions {
   mesh::InterfaceRequest surfaces;  ///< of a tie: the slave as pad, the master as disc
@@ -31,8 +41,11 @@ struct InterfaceOptions {
   Point obstacleVelocity{};      ///< m/s, of the rigid obstacle in place of a disc
   Point obstacleDisplacement{};  ///< m
   SlaveChoice slave = SlaveChoice::finer;
-  double searchDistance = 0;   ///< m; zero stands for half the size of a face
-  double frictionFactor = 1;   ///< times the swept coefficient of friction
+  double searchDistance = 0;  ///< m; zero stands for half the size of a face
+  Coefficient friction;       ///< of a sliding interface; zero on others
+  /// Coefficient of friction up to which the nodes of a sticking interface may be held; none: any.
+  std::optional<double> stickingLimit;
+  bool releases = false;       ///< nodes of a sticking interface slide where they exceed this limit
   bool gapIsMeasured = false;  ///< the gap without load is the distance of the surfaces
   double gap = 0;       ///< gap without load if it is not measured, m; negative: interference
   bool adjust = false;  ///< of a tie: its nodes are moved onto the master

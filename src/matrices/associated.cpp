@@ -13,7 +13,7 @@ namespace {
 constexpr double symmetric = 1e-10;  // printed digits of exports
 
 bool joins(const pencil::Term& term, int power) {
-  return term.power == power && term.frictionExponent == 0 && term.speedExponent == 0 &&
+  return term.power == power && !term.holdsFriction() && term.speedExponent == 0 &&
          term.dampingExponent == 0;
 }
 
@@ -40,7 +40,7 @@ OwnedMat sum(const std::vector<NamedTerm>& terms, int power) {
   if (!total)
     throw Error(
         formatted("options -matrices_<name>_role: there is no %s matrix without exponents of "
-                  "friction, speed and damping",
+                  "friction, speed and damping, and without -matrices_<name>_of_friction",
                   power == 2 ? "mass" : "stiffness"));
   return total;
 }
@@ -100,7 +100,7 @@ SymmetricPart symmetricPart(const std::vector<NamedTerm>& terms) {
   if (const double departure = asymmetry(mass); departure > symmetric)
     throw Error(
         formatted("%s is not symmetric: ‖M − Mᵀ‖ is %.1e of ‖M‖; friction of inertia forces needs "
-                  "an exponent of friction",
+                  "an exponent of friction, or -matrices_<name>_of_friction",
                   massName.c_str(), departure));
   double departure = asymmetry(stiffness);
   if (departure <= symmetric) departure = 0;

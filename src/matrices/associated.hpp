@@ -9,7 +9,8 @@
 namespace squeal::matrices {
 
 /// The associated system is made of the sums of the stiffness and of the mass terms without
-/// friction, speed and damping. The friction that such a stiffness may hold stays in the pencil.
+/// exponents of friction, speed and damping, but for terms marked as friction. The friction that
+/// such a stiffness may hold all the same stays in the pencil.
 struct SymmetricPart {
   modes::AssociatedSystem system;  ///< K0 is the symmetric part of the sum
   double asymmetry;  ///< ‖K − Kᵀ‖ / ‖K‖ of the sum; 0 if it is 1e-10 or less

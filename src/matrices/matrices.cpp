@@ -28,6 +28,10 @@ const IntegerOption speedOption("matrices", "matrices_<name>_speed_exponent", 0,
                                 "power of the speed factor that the matrix is multiplied by");
 const IntegerOption dampingOption("matrices", "matrices_<name>_damping_exponent", 0, 0, 10,
                                   "power of the damping factor that the matrix is multiplied by");
+const FlagOption ofFrictionOption(
+    "matrices", "matrices_<name>_of_friction", false,
+    "it holds a friction that is not swept: part of the problem, but not of K0 and M0, whose free "
+    "modes begin the basis");
 
 int powerOf(const std::string& role) { return role == "mass" ? 2 : role == "damping" ? 1 : 0; }
 
@@ -38,6 +42,7 @@ NamedTerm readTerm(MPI_Comm comm, const std::string& name) {
   term.factor = factorOption.get(name);
   term.speedExponent = speedOption.get(name);
   term.dampingExponent = dampingOption.get(name);
+  term.ofFriction = ofFrictionOption.get(name);
   try {
     term.matrix = read(comm, fileOption.get(name), datasetOption.get(name));
   } catch (const Error& error) {
@@ -77,6 +82,7 @@ void rejectOrphans() {
   requireFile(frictionOption);
   requireFile(speedOption);
   requireFile(dampingOption);
+  requireFile(ofFrictionOption);
 }
 
 void rejectMeshOptions() {

@@ -59,6 +59,8 @@ std::string optionsOf(const std::string& name, const pencil::Term& term, const s
                                        {"damping", term.dampingExponent}})
     if (exponent != 0)
       text += formatted("-matrices_%s_%s_exponent %d\n", name.c_str(), word, exponent);
+  if (term.ofFriction && term.frictionExponent == 0)
+    text += optionLine("matrices_" + name + "_of_friction", "on");
   return text;
 }
 

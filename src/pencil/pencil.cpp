@@ -23,7 +23,8 @@ double Term::slope(const sweep::Parameters& at, double sweep::Parameters::*param
 }
 
 Term Term::share() const {
-  return {matrix.share(), power, frictionExponent, factor, speedExponent, dampingExponent};
+  return {matrix.share(), power,           frictionExponent, factor,
+          speedExponent,  dampingExponent, ofFriction};
 }
 
 Pencil::Pencil(std::vector<Term> terms)

@@ -21,7 +21,11 @@ struct Term {
   double factor = 1;         ///< α
   int speedExponent = 0;     ///< b
   int dampingExponent = 0;   ///< d
+  /// It holds friction: the basis begins with responses to it, and K0 and M0 leave it out. A term
+  /// with an exponent of friction does so in any case.
+  bool ofFriction = false;
 
+  bool holdsFriction() const { return ofFriction || frictionExponent != 0; }
   /// Returns α f^a v^b c^d.
   double coefficient(const sweep::Parameters& at) const;
   /// Returns the derivative of the coefficient with respect to one parameter.

@@ -29,7 +29,7 @@ linalg::Block forcesOnModes(const Basis& basis, const pencil::Pencil& pencil,
   std::vector<Forces> list;
   for (const bool transposed : {false, true})
     for (std::size_t t = 0; t < terms.size(); ++t)
-      if (terms[t].frictionExponent != 0 || t >= pencil.affineCount())
+      if (terms[t].holdsFriction() || t >= pencil.affineCount())
         list.push_back(forcesOf(terms[t], at, transposed));
   // Forces of friction are zero but at the contact: the columns are kept by the rows that any of
   // them has.

@@ -35,10 +35,19 @@ Json steadyEntry(const steady::Solution& solution) {
         {"friction_force_n", point3(resultant.frictionForce)},
         {"moment_nm", point3(resultant.moment)},
         {"moment_defect_nm", resultant.momentDefect}};
-  for (const auto& resultant : solution.resultants)
-    if (resultant.leastFriction > 0)
-      entry["interfaces"][resultant.interface]["least_sufficient_friction"] =
-          resultant.leastFriction;
+  for (const auto& resultant : solution.resultants) {
+    auto& found = entry["interfaces"][resultant.interface];
+    if (resultant.leastFriction > 0) {
+      found["least_sufficient_friction"] = resultant.leastFriction;
+      found["least_sufficient_friction_at_m"] = point3(resultant.worst);
+    }
+    if (resultant.unheld > 0) found["nodes_unheld"] = resultant.unheld;
+    if (!resultant.stickingLimit) continue;
+    found["friction"] = *resultant.stickingLimit;
+    found["nodes_beyond_friction"] = resultant.overLimit;
+    found["nodes_released"] = resultant.released;
+  }
+  if (solution.revisions > 0) entry["revisions_of_sticking"] = solution.revisions;
   return entry;
 }
 

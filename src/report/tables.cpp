@@ -69,6 +69,17 @@ std::string modeTable(const modes::Modes& modes) {
   return table;
 }
 
+/// Returns what a contact node does, in a word.
+std::string nodeState(const contact::Contact& contact, const steady::Solution& solution,
+                      std::size_t i) {
+  if (!solution.closed[i]) return "open";
+  if (contact.nodes[i].role != contact::Role::sticking)
+    return interfaces::text(contact.nodes[i].role);
+  if (solution.sticking.holds[i] == steady::Hold::released) return "released";
+  if (solution.sticking.holds[i] == steady::Hold::open) return "unheld";
+  return steady::exceedsLimit(contact, solution, i) ? "beyond_friction" : "sticking";
+}
+
 /// Returns the rows of this rank. They hold surface data only, and are gathered on rank 0.
 std::string steadyRows(const analysis::Analysis& analysis, const steady::Solution& solution) {
   std::string rows;
@@ -78,7 +89,8 @@ std::string steadyRows(const analysis::Analysis& analysis, const steady::Solutio
     rows += formatted("%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,", p[0], p[1], p[2],
                       state.gap, state.normalForce, state.pressure, state.frictionForce[0],
                       state.frictionForce[1], state.frictionForce[2]) +
-            analysis.contact.interfaces[analysis.contact.nodes[i].interface] + "\n";
+            analysis.contact.interfaces[analysis.contact.nodes[i].interface] + "," +
+            nodeState(analysis.contact, solution, i) + "\n";
   }
   return rows;
 }
@@ -214,7 +226,7 @@ void writeTables(const analysis::Analysis& analysis, const std::filesystem::path
     if (solution.converged)
       writeText(comm, folder / ("steady_" + pointName(solution.at) + ".csv"),
                 "x_m,y_m,z_m,gap_m,normal_force_n,pressure_pa,friction_force_x_n,friction_force_y_"
-                "n,friction_force_z_n,interface\n" +
+                "n,friction_force_z_n,interface,state\n" +
                     gathered(comm, steadyRows(analysis, solution)));
 }
 

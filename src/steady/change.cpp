@@ -30,7 +30,7 @@ PetscErrorCode multiply(Mat matrix, Vec y, Vec result) {
 ///   F  = Tᵀ (r + Jᵀ t),
 ///   dr = (K + v² K^R) du + cause,
 ///   dt = f φ τ E⁻ᵀ N dr − v B D du + (df φ + f φ′ dv |w|/v) E⁻ᵀ R_N τ,
-/// with B of nodalResponse().
+/// with B of nodalResponse(), where f is the coefficient of the node and df its change.
 Change change(const Problem& problem, const Solution& solution,
               const contact::CoupledSystem& system, const Cause& cause) {
   const mesh::Mesh& mesh = problem.mesh();
@@ -38,13 +38,13 @@ Change change(const Problem& problem, const Solution& solution,
   const sweep::Parameters& at = solution.at;
   const Mat trial = system.transformation().trial;
   const auto& nodes = contact.nodes;
+  const auto slips = withReleased(contact, solution.slip, solution.sticking);
   std::vector<double> steadyForce;
   for (const auto& state : solution.contact) steadyForce.push_back(state.normalForce);
   steadyForce = contact.nodalForce(steadyForce, system.closed());
   OwnedMat turning;  // B D
   if (contact.convected) {
-    const OwnedMat response =
-        contact::nodalResponse(contact, solution.slip, steadyForce, at.friction);
+    const OwnedMat response = contact::nodalResponse(contact, slips, steadyForce, at.friction);
     check(
         MatMatMult(response, contact.convected, MAT_INITIAL_MATRIX, PETSC_DEFAULT, turning.out()));
   }
@@ -59,13 +59,13 @@ Change change(const Problem& problem, const Solution& solution,
     {
       const WriteArray values(friction);
       for (std::size_t i = 0; i < nodes.size(); ++i) {
-        const auto& slip = solution.slip[i];
+        const auto& slip = slips[i];
         const double causes =
-            direct ? (cause.friction * slip.law +
-                      at.friction * slip.slope * cause.speed * slip.speed / at.speed) *
+            direct ? (cause.friction * slip.coefficient.swept * slip.law +
+                      slip.frictionSlope(at.friction) * cause.speed * slip.speed / at.speed) *
                          steadyForce[i]
                    : 0;
-        const double along = at.friction * slip.law * normal[i] + causes;
+        const double along = slip.friction(at.friction) * normal[i] + causes;
         for (int d = 0; d < mesh.dimension; ++d)
           values[mesh.dimension * nodes[i].node + d] += along * slip.direction[d];
       }

@@ -55,11 +55,16 @@ Condensed::Condensed(const contact::Contact& contact, Mat stiffness,
     check(MatSetValue(gaps_, transformation_.gapColumn[i], first_ + i, 1, INSERT_VALUES));
   interfaces::assembled(gaps_);
   // The slip rows stand in the rows of the gaps, which the product B e selects.
-  const OwnedMat rows = contact.slipRows(transformation_, slip, all);
   OwnedMat gapRows;
   check(MatMatMult(transformation_.selection, gaps_, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
                    gapRows.out()));
-  check(MatTransposeMatMult(rows, gapRows, MAT_INITIAL_MATRIX, PETSC_DEFAULT, friction_.out()));
+  const auto columnsOf = [&](int exponent, OwnedMat& columns) {
+    const OwnedMat rows = contact.slipRows(transformation_, slip, all, exponent);
+    check(MatTransposeMatMult(rows, gapRows, MAT_INITIAL_MATRIX, PETSC_DEFAULT, columns.out()));
+  };
+  columnsOf(1, friction_);
+  const auto exponents = contact.frictionExponents();
+  if (std::count(exponents.begin(), exponents.end(), 0)) columnsOf(0, fixedFriction_);
 
   solver_ = factorisation(stiffness_);
   rhs_ = block(2), solution_ = block(2);
@@ -106,7 +111,8 @@ Compliance Condensed::dense() const {
     for (PetscInt column = 0; column < width; ++column) {
       const PetscInt j = begin + column;
       // As K_o is symmetric, column j of A0 is eᵀ x, and row j of A1 is −xᵀ U.
-      for (Mat side : {gaps_.get(), friction_.get()}) {
+      for (Mat side : {gaps_.get(), friction_.get(), fixedFriction_.get()}) {
+        if (!side) continue;
         Vec xj = nullptr;
         check(MatDenseGetColumnVecRead(x, column, &xj));
         check(MatMultTranspose(side, xj, part_));
@@ -114,14 +120,14 @@ Compliance Condensed::dense() const {
         const ReadArray entries(part_);
         for (PetscInt i = 0; i < ownedSize_; ++i)
           if (side == gaps_)
-            compliance.a0(first_ + i, j) = entries[i];
+            compliance.a0(first_ + i, j) += entries[i];
           else
-            compliance.a1(j, first_ + i) = -entries[i];
+            (side == friction_ ? compliance.a1 : compliance.a0)(j, first_ + i) -= entries[i];
       }
     }
   }
-  // Every entry is on one rank and zero on the others, so that the sums are exact and the same on
-  // all ranks. They are made column by column, since n² may exceed an int.
+  // Every entry has one or two parts that are not zero, so that the sums are the same on all ranks.
+  // They are made column by column, since n² may exceed an int.
   for (auto* a : {&compliance.a0, &compliance.a1})
     for (PetscInt j = 0; j < size_; ++j)
       check(MPI_Allreduce(MPI_IN_PLACE, a->column(j).data(), size_, MPI_DOUBLE, MPI_SUM, comm()));

@@ -9,6 +9,7 @@
 ///   K_o x + f U R = Tᵀ (b − K p u0) + e R,
 /// and the gaps are
 ///   g = eᵀ x = A(f) R + F0,   A(f) = A0 + f A1,   A0 = eᵀ K_o⁻¹ e,   A1 = −eᵀ K_o⁻¹ U   [M.18].
+/// Interfaces whose coefficient is fixed add −eᵀ K_o⁻¹ U_0 with the slip rows U_0 of these.
 #include <vector>
 
 #include "contact/contact.hpp"
@@ -17,10 +18,11 @@
 
 namespace squeal::steady {
 
-/// The matrices A0 and A1, m/N, with all entries on every rank.
+/// The matrices of A(f), m/N, with all entries on every rank.
 struct Compliance {
-  linalg::DenseMatrix a0, a1;
-  /// Returns A0 + f A1.
+  linalg::DenseMatrix a0;  ///< at the swept friction 0: A0, and what fixed coefficients add
+  linalg::DenseMatrix a1;
+  /// Returns A(f) at the swept friction.
   linalg::DenseMatrix at(double friction) const;
 };
 
@@ -40,7 +42,9 @@ class Condensed {
   MPI_Comm comm() const { return contact_.mesh->comm; }
   PetscInt size() const { return size_; }            ///< number of contact nodes of all ranks
   PetscInt ownedSize() const { return ownedSize_; }  ///< number of contact nodes of this rank
-  /// Collective. Returns A0 and A1; all columns are solved for, in blocks.
+  /// Returns true if an interface has a coefficient that is fixed: the products below leave it out.
+  bool hasFixedFriction() const { return fixedFriction_ != nullptr; }
+  /// Collective. Returns A(f); all columns are solved for, in blocks.
   Compliance dense() const;
   /// Collective. Sets product = A0 v without forming A0. The entries of v stand in the order of
   /// Contact::nodes.
@@ -62,6 +66,7 @@ class Condensed {
   PetscInt size_ = 0, ownedSize_ = 0, first_ = 0;
   OwnedMat stiffness_;        // K_o, n×n
   OwnedMat gaps_, friction_;  // e and U, n×n_c
+  OwnedMat fixedFriction_;    // U_0, n×n_c; null without fixed coefficients
   OwnedKSP solver_;
   OwnedVec part_;                                       // n_c
   OwnedMat rhs_, solution_;                             // n×2: e v and U v, and K_o⁻¹ of them

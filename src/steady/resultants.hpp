@@ -7,14 +7,21 @@
 
 namespace squeal::steady {
 
-/// Collective. Returns the forces on the pads at the contact nodes, [contact node], N: normal and
-/// friction forces by the law, and what holds the nodes that stick, from the nodal forces of the
-/// bodies, N entries, with those of images added to those of their primaries.
-std::vector<Point> forcesOnPads(const contact::Contact& contact, const Solution& solution,
-                                Vec nodalForces);
+/// Collective. Returns the tangential forces on the pads at the contact nodes, [contact node], N:
+/// friction by the law, and what holds the nodes that stick. That is what the nodal forces r, N
+/// entries, N, and friction leave of equilibrium along the surface, in the rows of A that no
+/// unknown of T has. `slip` includes that of released nodes.
+std::vector<Point> tangentialForces(const contact::Contact& contact, const Solution& solution,
+                                    const std::vector<contact::Slip>& slip, Vec nodalForces);
 
-/// Collective. Sets the tangential forces of the nodes that stick, in the basis of the gaps.
-void setStickingForces(const contact::Contact& contact, Vec nodalForces, Solution& solution);
+/// Collective. Sets the forces of the nodes that stick from these, in the basis of the gaps.
+void setStickingForces(const contact::Contact& contact, const std::vector<Point>& tangential,
+                       Solution& solution);
+
+/// Collective. Returns the forces on the pads at the contact nodes, [contact node], N: the normal
+/// forces of the solution and the tangential ones given.
+std::vector<Point> forcesOnPads(const contact::Contact& contact, const Solution& solution,
+                                std::vector<Point> tangential);
 
 /// Collective. Returns the resultants of an interface. The forces on the nodes of the slave act on
 /// the master through J, which spreads them, and on nodes of the slave that carry no condition: the

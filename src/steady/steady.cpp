@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/loose.hpp"
 #include "contact/response.hpp"
 #include "elasticity/elasticity.hpp"
 #include "mesh/mesh.hpp"
@@ -16,20 +17,30 @@ namespace {
 
 /// The largest relative residual with which a solution is accepted.
 constexpr double meaningful = 1e-6;
+/// How often the nodes that stick are revised; a few times are usual.
+constexpr int mostRevisions = 50;
 
 }  // namespace
 
 Problem::Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
                  const contact::Contact& contact)
+    : Problem(mesh, bodies, contact, Sticking::allHeld(contact)) {}
+
+Problem::Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
+                 const contact::Contact& contact, Sticking sticking)
     : mesh_(mesh),
       bodies_(bodies),
       contact_(contact),
       all_(contact.nodes.size(), 1),
-      transformation_(contact.transformation(all_)),
+      sticking_(std::move(sticking)),
+      transformation_(contact.transformation(all_, sticking_.free())),
       stiffness_(contact::project(contact, transformation_, bodies.stiffness)),
       rotationStiffness_(contact::project(contact, transformation_, bodies.rotationStiffness)),
       diagonal_(elasticity::nodalVector(mesh)) {
   check(MatGetDiagonal(bodies.stiffness, diagonal_));
+  int released = std::count(sticking_.holds.begin(), sticking_.holds.end(), Hold::released);
+  check(MPI_Allreduce(MPI_IN_PLACE, &released, 1, MPI_INT, MPI_MAX, mesh.comm));
+  anyReleased_ = released > 0;
   if (!contact.convected) return;
   check(MatMatMult(contact.jump, transformation_.trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
                    jumps_.out()));
@@ -84,7 +95,7 @@ OwnedVec Problem::test(const contact::Transformation& transformation,
     for (std::size_t i = 0; i < contact_.nodes.size(); ++i)
       for (int d = 0; d < mesh_.dimension; ++d)
         values[mesh_.dimension * contact_.nodes[i].node + d] =
-            at.friction * slip[i].law * normal[i] * slip[i].direction[d];
+            slip[i].friction(at.friction) * normal[i] * slip[i].direction[d];
   }
   check(MatMultTransposeAdd(contact_.jump, friction, forces, sum));
   OwnedVec result = rightVector(transformation.trial);
@@ -103,24 +114,21 @@ OwnedVec Problem::displacement(const contact::Transformation& transformation,
 
 void Problem::residual(const sweep::Parameters& at, Vec x, Vec f) const {
   const OwnedVec u = displacement(at, x);
-  check(VecCopy(test(transformation_, all_, at, forces(at, u), contact_.slip(at.speed, u)), f));
+  check(VecCopy(test(transformation_, all_, at, forces(at, u), slip(at.speed, u)), f));
 }
 
 /// Returns [M.14]
-///   Tᵀ (K + v² K^R) T + f Sᵀ N (K + v² K^R) T − v (J T)ᵀ B (D T)
+///   Tᵀ (K + v² K^R) T + Sᵀ N (K + v² K^R) T − v (J T)ᵀ B (D T)
 /// with B of nodalResponse(). The last term, the turning of the slip, is there with convective
 /// terms only.
 OwnedMat Problem::jacobian(const sweep::Parameters& at, Vec x) const {
   const OwnedVec u = displacement(at, x);
-  const auto slip = contact_.slip(at.speed, u);
-  const OwnedMat rows = contact_.slipRows(transformation_, slip, all_),
-                 friction = stiffness_.friction(rows);
-  OwnedMat sum = contact::affine(stiffness_.matrix, friction, at.friction);
-  if (rotationStiffness_) {
-    const OwnedMat moving =
-        contact::affine(rotationStiffness_.matrix, rotationStiffness_.friction(rows), at.friction);
-    check(MatAXPY(sum, at.speed * at.speed, moving, DIFFERENT_NONZERO_PATTERN));
-  }
+  const auto slip = this->slip(at.speed, u);
+  const OwnedMat rows = slipRows(transformation_, slip, all_, at.friction);
+  OwnedMat sum = stiffness_.tested(rows);
+  if (rotationStiffness_)
+    check(MatAXPY(sum, at.speed * at.speed, rotationStiffness_.tested(rows),
+                  DIFFERENT_NONZERO_PATTERN));
   if (contact_.convected) {
     const OwnedMat response = contact::nodalResponse(
         contact_, slip, contact_.nodalForce(normalForces(forces(at, u))), at.friction);
@@ -132,6 +140,14 @@ OwnedMat Problem::jacobian(const sweep::Parameters& at, Vec x) const {
   return sum;
 }
 
+OwnedMat Problem::slipRows(const contact::Transformation& transformation,
+                           const std::vector<contact::Slip>& slip,
+                           const std::vector<unsigned char>& slides, double friction) const {
+  return contact_.hasFriction(friction) || anyReleased_
+             ? contact_.slipRowsAt(transformation, slip, slides, friction)
+             : OwnedMat();
+}
+
 double Problem::rounding(Vec displacement, Vec loads) const {
   const OwnedVec magnitude = elasticity::nodalVector(mesh_);
   PetscReal springs = 0, forces = 0;
@@ -141,12 +157,52 @@ double Problem::rounding(Vec displacement, Vec loads) const {
   return PETSC_MACHINE_EPSILON * (springs + forces);
 }
 
+/// Returns the slip with that of the released nodes.
+std::vector<contact::Slip> Problem::slip(double speed, Vec displacement) const {
+  return withReleased(contact_, contact_.slip(speed, displacement), sticking_);
+}
+
+/// Collective. Returns why a body is loose with these holds; an empty text if none is.
+std::string Problem::whyLoose(const Sticking& sticking) const {
+  const auto loose = contact::looseBody(mesh_, contact_, bodies_.springs, true, sticking.free());
+  return loose ? "body '" + loose->body + "' can move rigidly (" + loose->motion +
+                     ") where nodes of sticking interfaces slide or have opened; hold it otherwise"
+               : "";
+}
+
 Solution Problem::solve(const sweep::Parameters& at, const contact::CoupledSystem& system) const {
-  if (at.friction > 0) contact::requireSlip(contact_, contact_.slip(at.speed, nullptr), all_);
+  contact::requireSlip(contact_, contact_.slip(at.speed, nullptr), all_, at.friction);
+  const OwnedVec z = closedContact(at, system);
+  Solution solution = solveFrom(at, z);
+  while (solution.converged) {
+    auto next = revised(contact_, solution);
+    if (!next) break;
+    std::string failure = whyLoose(*next);
+    if (failure.empty() && solution.revisions == mostRevisions)
+      failure = formatted(
+          "what holds the nodes of sticking interfaces has not settled after %d revisions",
+          mostRevisions);
+    if (!failure.empty()) {
+      solution.converged = false;
+      solution.reason = std::move(failure);
+      break;
+    }
+    Solution better = Problem(mesh_, bodies_, contact_, std::move(*next)).solveFrom(at, z);
+    better.revisions = solution.revisions + 1;
+    better.iterations += solution.iterations;
+    solution = std::move(better);
+  }
+  return solution;
+}
+
+/// Collective. Solves with the nodes that stick as this problem holds them, from a start z, N
+/// entries, which becomes the solution.
+Solution Problem::solveFrom(const sweep::Parameters& at, Vec z) const {
   Solution solution;
   solution.at = at;
-  Refinement refinement;
-  OwnedVec x = closedContact(at, system, refinement);
+  solution.sticking = sticking_;
+  OwnedVec x = rightVector(transformation_.trial);
+  check(MatMultTranspose(transformation_.selection, z, x));
   const double noise = complementarity(*this, x, solution);
   if (solution.converged && solution.residual > meaningful) {
     solution.converged = false;
@@ -157,6 +213,7 @@ Solution Problem::solve(const sweep::Parameters& at, const contact::CoupledSyste
         "weakly for these loads; hold it by stiffer springs",
         solution.residual, largestDisplacement(at, x));
   }
+  check(MatMult(transformation_.selection, x, z));
   recover(x, noise, solution);
   return solution;
 }
@@ -168,34 +225,29 @@ double Problem::largestDisplacement(const sweep::Parameters& at, Vec x) const {
 }
 
 /// Collective. Solves the problem with the gaps of the active set held at zero, and returns the
-/// solution in the unknowns with all gaps. Under approximation A it is linear. With convective
-/// terms the matrix leaves out K^R and the turning of the slip, which are small and cost a few more
-/// steps of refinement.
-OwnedVec Problem::closedContact(const sweep::Parameters& at, const contact::CoupledSystem& system,
-                                Refinement& refinement) const {
+/// solution z, N entries. Under approximation A it is linear. With convective terms the matrix
+/// leaves out K^R and the turning of the slip, which are small and cost a few more steps of
+/// refinement.
+OwnedVec Problem::closedContact(const sweep::Parameters& at,
+                                const contact::CoupledSystem& system) const {
   const auto& closed = system.transformation();
-  const OwnedMat rows =
-      contact_.slipRows(closed, contact_.slip(at.speed, nullptr), system.closed());
-  const OwnedMat matrix =
-      contact::affine(system.k0(), system.projections().stiffness.friction(rows), at.friction);
+  const OwnedMat rows = slipRows(closed, slip(at.speed, nullptr), system.closed(), at.friction);
+  const OwnedMat matrix = system.projections().stiffness.tested(rows);
   const auto residual = [&](Vec y) {
     const OwnedVec u = displacement(closed, at, y);
-    return Residual{test(closed, system.closed(), at, forces(at, u), contact_.slip(at.speed, u)),
+    return Residual{test(closed, system.closed(), at, forces(at, u), slip(at.speed, u)),
                     rounding(u, load(at))};
   };
   const OwnedVec y = rightVector(closed.trial);
-  refinement = refine(innerSolver(matrix, system.solver()), residual, y);
-  if (refinement.relative() >
+  if (refine(innerSolver(matrix, system.solver()), residual, y).relative() >
       0.5) {  // near a friction without solution: the frictionless one to start from
     check(VecSet(y, 0));
     check(KSPSolve(system.solver(), residual(y).vector, y));
     check(VecScale(y, -1));
   }
-  const OwnedVec z = elasticity::nodalVector(mesh_);
-  OwnedVec x = rightVector(transformation_.trial);
+  OwnedVec z = elasticity::nodalVector(mesh_);
   check(MatMult(closed.selection, y, z));
-  check(MatMultTranspose(transformation_.selection, z, x));
-  return x;
+  return z;
 }
 
 void Problem::recover(Vec x, double noise, Solution& solution) const {
@@ -224,7 +276,7 @@ void Problem::recover(Vec x, double noise, Solution& solution) const {
     const auto& slip = solution.slip[i];
     for (std::size_t d = 0; d < 3; ++d)
       state.frictionForce[d] =
-          -solution.at.friction * slip.law * state.normalForce * slip.direction[d];
+          -slip.friction(solution.at.friction) * state.normalForce * slip.direction[d];
     state.pressure = state.normalForce / node.area;
     largest = std::max(largest, std::abs(state.normalForce));
     solution.contact.push_back(state);
@@ -232,9 +284,9 @@ void Problem::recover(Vec x, double noise, Solution& solution) const {
   check(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, mesh_.comm));
   double smallest = INFINITY;
   // SNES leaves a force of the order of its tolerance at an open gap.
-  const double nothing = std::max(1e-8 * largest, 10 * noise);
+  solution.negligibleForce = std::max(1e-8 * largest, 10 * noise);
   for (const auto& state : solution.contact) {
-    const bool closed = state.normalForce > nothing;
+    const bool closed = state.normalForce > solution.negligibleForce;
     solution.closed.push_back(closed);
     solution.openNodes += !closed;
     smallest = std::min(smallest, state.pressure);
@@ -242,32 +294,34 @@ void Problem::recover(Vec x, double noise, Solution& solution) const {
   check(MPI_Allreduce(MPI_IN_PLACE, &solution.openNodes, 1, MPIU_INT, MPI_SUM, mesh_.comm));
   check(MPI_Allreduce(MPI_IN_PLACE, &smallest, 1, MPI_DOUBLE, MPI_MIN, mesh_.comm));
   solution.smallestPressure = contact_.totalNodes ? smallest : 0;
-  if (solution.at.friction > 0 && solution.converged)
-    contact::requireSlip(contact_, solution.slip, solution.closed);
+  if (solution.converged)
+    contact::requireSlip(contact_, solution.slip, solution.closed, solution.at.friction);
 
-  setStickingForces(contact_, folded, solution);
-  const auto onPads = forcesOnPads(contact_, solution, folded);
+  const auto tangential =
+      tangentialForces(contact_, solution, withReleased(contact_, solution.slip, sticking_), force);
+  setStickingForces(contact_, tangential, solution);
+  const auto onPads = forcesOnPads(contact_, solution, tangential);
   for (int i = 0; i < std::ssize(contact_.interfaces); ++i)
     if (!contact_.options[i].isTied())
       solution.resultants.push_back(resultantOf(contact_, i, solution, onPads));
-  solution.imbalance = imbalance(solution, folded);
+  solution.imbalance = imbalance(solution, folded, onPads);
 }
 
 /// Returns the worst imbalance of the forces on a connected part, relative to the sum of all
 /// magnitudes, as a check of signs and solution. The forces are those of contact by the friction
 /// law, of supports where components are held, and loads.
-double Problem::imbalance(const Solution& solution, Vec nodalForces) const {
+double Problem::imbalance(const Solution& solution, Vec nodalForces,
+                          const std::vector<Point>& onPads) const {
   const int dimension = mesh_.dimension;
-  const OwnedVec onPads = elasticity::nodalVector(mesh_),
+  const OwnedVec atNodes = elasticity::nodalVector(mesh_),
                  contactForces = elasticity::nodalVector(mesh_);
-  const auto atNodes = forcesOnPads(contact_, solution, nodalForces);
   {
-    const WriteArray values(onPads);
+    const WriteArray values(atNodes);
     for (std::size_t i = 0; i < contact_.nodes.size(); ++i)
       for (int d = 0; d < dimension; ++d)
-        values[dimension * contact_.nodes[i].node + d] = atNodes[i][d];
+        values[dimension * contact_.nodes[i].node + d] = onPads[i][d];
   }
-  check(MatMultTranspose(contact_.jump, onPads, contactForces));
+  check(MatMultTranspose(contact_.jump, atNodes, contactForces));
   addTieForces(contact_, nodalForces, contactForces);
   // [part][contact, supports, load][component], and at the end the sum of all magnitudes. That is
   // the scale of the terms that cancel; resultants may vanish by themselves.

@@ -8,11 +8,10 @@
 #include "elasticity/elasticity.hpp"
 #include "mesh/mesh.hpp"
 #include "steady/refinement.hpp"
+#include "steady/sticking.hpp"
 #include "sweep/parameters.hpp"
 
 namespace squeal::steady {
-
-using mesh::Point;
 
 /// The steady state of one contact node.
 struct ContactState {
@@ -20,7 +19,7 @@ struct ContactState {
   double coefficient = 0;  ///< h of g = E h, m, ≥ 0; the gap itself but for tri6 and quad8 faces
   double normalForce = 0;  ///< R_N, N, ≥ 0 in compression
   double pressure = 0;     ///< R_N over the nodal area, Pa
-  Point frictionForce{};   ///< R_T on the pad, N; on sticking interfaces the force that holds it
+  Point frictionForce{};   ///< R_T on the pad, N; on sticking interfaces what holds it
 };
 
 /// The contact forces of one interface.
@@ -28,9 +27,14 @@ struct Resultant {
   std::string interface;
   Point normalForce{}, frictionForce{};  ///< sums over the interface, on the pad, N
   Point moment{};  ///< of both about the origin, on the pad, N·m (in the plane along z)
-  /// Largest |R_T| / R_N of the closed nodes of a sticking interface: the least coefficient of
-  /// friction that holds it; zero on other interfaces.
+  /// Largest |R_T| / R_N of the closed nodes of a sticking interface that are held: the least
+  /// coefficient of friction that holds them; zero on other interfaces.
   double leastFriction = 0;
+  Point worst{};                        ///< position of the node that needs it, m
+  std::optional<double> stickingLimit;  ///< its coefficient of friction, where it sticks
+  PetscInt overLimit = 0;  ///< held nodes that need more than the limit of the interface
+  PetscInt released = 0;   ///< closed nodes of a sticking interface that slide
+  PetscInt unheld = 0;     ///< closed nodes of a sticking interface that are free
   /// Magnitude of the sum of the moments on both sides, which the coupling of surfaces that lie
   /// apart leaves, N·m.
   double momentDefect = 0;
@@ -46,8 +50,11 @@ struct Solution {
   double residual = 0;
   OwnedVec displacement;              ///< u, N entries, m
   std::vector<ContactState> contact;  ///< [owned contact node]
-  std::vector<contact::Slip> slip;    ///< [owned contact node] sliding in this state
+  std::vector<contact::Slip> slip;    ///< [owned contact node] sliding of sliding interfaces
   std::vector<unsigned char> closed;  ///< [owned contact node] active: closed and pressed
+  Sticking sticking;                  ///< what holds the nodes of sticking interfaces
+  int revisions = 0;                  ///< how often that was changed to find this state
+  double negligibleForce = 0;         ///< forces of contact that are rounding, N
   PetscInt openNodes = 0;             ///< contact nodes that are not active, over all ranks
   double smallestPressure = 0;        ///< smallest pressure of all contact nodes, Pa
   std::vector<Resultant> resultants;  ///< [interface]
@@ -57,18 +64,20 @@ struct Solution {
 
 /// The complementarity problem [3.3–3.4, M.13] is, with u = T x + p u0,
 ///   r = (K + v² K^R) u − b,   b = p × pressures + v² × centrifugal forces,
-///   F(x) = Tᵀ r + f Sᵀ N r,
+///   F(x) = Tᵀ r + Sᵀ N r,   S = S_0 + f S_1,
 ///   0 ≤ g ⟂ F_g = R_N ≥ 0 at the gaps,   F = 0 in all other rows.
 /// Under approximation A it is linear but for the inequalities. With convective terms the slip rows
-/// S follow w = −v (V + D u_D).
+/// S follow w = −v (V + D u_D). Nodes of sticking interfaces that are free have tangential
+/// unknowns, and released ones are in S with their limit as coefficient.
 class Problem {
  public:
   /// Collective. Borrows mesh, bodies and contact during the life of the object.
   Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
           const contact::Contact& contact);
   /// Collective. Solves by SNES VI (-steady_snes_*), starting from the solution with the active set
-  /// of `system` held closed, which its factorisation gives. `converged` and `reason` tell whether
-  /// there is a solution. Throws Error if f > 0 and |w| = 0 at a node that carries friction.
+  /// of `system` held closed, which its factorisation gives. The nodes that stick are held at first
+  /// and then revised(), until nothing changes. `converged` and `reason` tell whether
+  /// there is a solution. Throws Error if |w| = 0 at a node that carries friction.
   Solution solve(const sweep::Parameters& at, const contact::CoupledSystem& system) const;
 
   /// Collective. Sets f = F(x), n entries.
@@ -94,28 +103,40 @@ class Problem {
 
   const mesh::Mesh& mesh() const { return mesh_; }
   const contact::Contact& contact() const { return contact_; }
-  /// Returns T with all gaps unknown.
+  /// Returns T with all gaps unknown, and the tangents of the nodes that stick as far as they are
+  /// free.
   const contact::Transformation& transformation() const { return transformation_; }
   /// Returns the projections of K by this transformation.
   const contact::Projection& stiffness() const { return stiffness_; }
 
  private:
+  Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, const contact::Contact& contact,
+          Sticking sticking);
+  Solution solveFrom(const sweep::Parameters& at, Vec z) const;
+  std::string whyLoose(const Sticking& sticking) const;
+  std::vector<contact::Slip> slip(double speed, Vec displacement) const;
   OwnedVec displacement(const contact::Transformation& transformation, const sweep::Parameters& at,
                         Vec x) const;
   OwnedVec forces(const sweep::Parameters& at, Vec displacement) const;
   OwnedVec test(const contact::Transformation& transformation,
                 const std::vector<unsigned char>& slides, const sweep::Parameters& at, Vec forces,
                 const std::vector<contact::Slip>& slip) const;
+  /// Returns S_0 + f S_1; null where there is no friction.
+  OwnedMat slipRows(const contact::Transformation& transformation,
+                    const std::vector<contact::Slip>& slip,
+                    const std::vector<unsigned char>& slides, double friction) const;
   double largestDisplacement(const sweep::Parameters& at, Vec x) const;
-  OwnedVec closedContact(const sweep::Parameters& at, const contact::CoupledSystem& system,
-                         Refinement& refinement) const;
+  OwnedVec closedContact(const sweep::Parameters& at, const contact::CoupledSystem& system) const;
   void recover(Vec x, double noise, Solution& solution) const;
-  double imbalance(const Solution& solution, Vec nodalForces) const;
+  double imbalance(const Solution& solution, Vec nodalForces,
+                   const std::vector<Point>& onPads) const;
 
   const mesh::Mesh& mesh_;
   const elasticity::Bodies& bodies_;
   const contact::Contact& contact_;
-  std::vector<unsigned char> all_;          // [contact node] 1
+  std::vector<unsigned char> all_;  // [contact node] 1
+  Sticking sticking_;
+  bool anyReleased_ = false;                // of all ranks
   contact::Transformation transformation_;  // all gaps unknown
   contact::Projection stiffness_, rotationStiffness_;
   OwnedVec diagonal_;           // diagonal of K, N entries

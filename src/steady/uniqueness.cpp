@@ -109,6 +109,10 @@ std::optional<double> smallestRatio(Condensed& condensed) {
 /// Examines the problem without forming A: sym(A(f)) = A0 + f sym(A1) is positive definite below
 /// the friction where that is lost.
 Uniqueness examineMatrixFree(Condensed& condensed, const std::vector<double>& frictions) {
+  if (condensed.hasFixedFriction())
+    return undecided(frictions,
+                     "with a -contact_<interface>_friction the condensed matrix must be formed; "
+                     "raise -steady_uniqueness_dense");
   if (!condensed.positiveDefinite())
     return undecided(frictions,
                      "the stiffness of the open contact is not positive definite; raise "
@@ -150,6 +154,11 @@ Uniqueness examine(const elasticity::Bodies& bodies, const contact::Contact& con
     check(MatAXPY(stiffness, speed * speed, bodies.rotationStiffness, DIFFERENT_NONZERO_PATTERN));
     check(MatSetOption(stiffness, MAT_SYMMETRIC, PETSC_TRUE));
   }
+  for (const auto& interface : contact.options)
+    if (interface.role == contact::Role::sticking)
+      return undecided(frictions, "nodes of " + interface.label() +
+                                      " are freed along it where they open, which the condensed "
+                                      "matrix does not hold");
   Condensed condensed(contact, stiffness, contact.slip(speed, nullptr));
   const bool dense = condensed.size() <= denseLimit;
   if (dense) rejectUnusedUniquenessOptions(true);

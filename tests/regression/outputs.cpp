@@ -125,12 +125,13 @@ TEST(Outputs, SteadyTables) {
     const CsvTable table = readCsv(layerRun().folder / ("steady_" + shortest(friction) + ".csv"));
     EXPECT_EQ(table.header,
               "x_m,y_m,z_m,gap_m,normal_force_n,pressure_pa,friction_force_x_n,friction_force_y_n,"
-              "friction_force_z_n,interface");
+              "friction_force_z_n,interface,state");
     const auto gap = table.column("gap_m"), normal = table.column("normal_force_n"),
                local = table.column("pressure_pa"), along = table.column("friction_force_x_n");
     ASSERT_EQ(gap.size(), 12U);
     for (std::size_t i = 0; i < gap.size(); ++i) {
-      EXPECT_EQ(table.rows[i].back(), "plate");
+      EXPECT_EQ(table.rows[i].end()[-2], "plate");
+      EXPECT_EQ(table.rows[i].back(), "sliding");
       EXPECT_EQ(gap[i], 0);
       EXPECT_NEAR(local[i], pressure, 1e-10 * pressure);  // uniform strain: in the elements' space
       EXPECT_NEAR(along[i], friction * normal[i], 1e-12 * pressure);

@@ -60,8 +60,8 @@ inline Condensed condensed(const analysis::Analysis& analysis, double friction) 
   const auto stiffness =
       contact::project(analysis.contact, transformation, analysis.bodies.stiffness);
   const OwnedMat rows =
-      analysis.contact.slipRows(transformation, analysis.contact.slip(1, nullptr), all);
-  const OwnedMat jacobian = contact::affine(stiffness.matrix, stiffness.friction(rows), friction);
+      analysis.contact.slipRowsAt(transformation, analysis.contact.slip(1, nullptr), all, friction);
+  const OwnedMat jacobian = stiffness.tested(rows);
   const OwnedVec residual = elasticity::nodalVector(*analysis.mesh),
                  reactions = elasticity::nodalVector(*analysis.mesh);
   OwnedVec constant, slope;
@@ -71,7 +71,7 @@ inline Condensed condensed(const analysis::Analysis& analysis, double friction) 
   check(MatMultTranspose(transformation.trial, residual, constant));
   check(MatMult(analysis.contact.reaction, residual, reactions));
   check(MatMultTranspose(rows, reactions, slope));
-  check(VecAXPY(constant, friction, slope));
+  check(VecAXPY(constant, 1, slope));
 
   // One more column for the constant: the Schur complement of both at once.
   const auto n = static_cast<std::size_t>(transformation.columns);

@@ -58,7 +58,7 @@ inline mesh::Point minus(const mesh::Point& a, const mesh::Point& b) {
 inline OwnedMat frictionTest(const contact::Contact& contact,
                              const contact::Transformation& transformation,
                              const std::vector<unsigned char>& slides) {
-  const OwnedMat rows = contact.slipRows(transformation, contact.slip(1, nullptr), slides);
+  const OwnedMat rows = contact.slipRows(transformation, contact.slip(1, nullptr), slides, 1);
   OwnedMat result;
   check(
       MatTransposeMatMult(contact.reaction, rows, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.out()));

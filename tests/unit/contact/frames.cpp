@@ -98,7 +98,7 @@ TEST(Frame, IsOrthonormalAndRadialOnASphere) {
 
 void requireSlip(const contact::Contact& contact) {
   contact::requireSlip(contact, contact.slip(1, nullptr),
-                       std::vector<unsigned char>(contact.nodes.size(), 1));
+                       std::vector<unsigned char>(contact.nodes.size(), 1), 0.4);
 }
 
 // Vω = ω k × r, w = −V: τ against the rotation, |w| = |ω| r, for both senses.

@@ -171,7 +171,7 @@ Coupled coupledOf(const Model& model) {
   Coupled coupled{model.contact.transformation(all), {}, {}};
   auto stiffness = contact::project(model.contact, coupled.transformation, model.bodies.stiffness);
   coupled.k1 = stiffness.friction(
-      model.contact.slipRows(coupled.transformation, model.contact.slip(1, nullptr), all));
+      model.contact.slipRows(coupled.transformation, model.contact.slip(1, nullptr), all, 1));
   coupled.k0 = std::move(stiffness.matrix);
   return coupled;
 }
@@ -189,7 +189,9 @@ linalg::DenseMatrix solved(linalg::DenseMatrix a, linalg::DenseMatrix b) {
 /// K_o, e and U.
 linalg::DenseMatrix gapBlock(const Coupled& coupled, double friction) {
   const auto gaps = test::gathered(coupled.transformation.gapColumn, MPIU_INT);
-  const OwnedMat jacobian = contact::affine(coupled.k0, coupled.k1, friction);
+  OwnedMat jacobian;
+  check(MatDuplicate(coupled.k0, MAT_COPY_VALUES, jacobian.out()));
+  check(MatAXPY(jacobian, friction, coupled.k1, SUBSET_NONZERO_PATTERN));
   const auto full = test::denseCopy(jacobian);
   const PetscInt count = std::ssize(gaps);
   linalg::DenseMatrix units(full.rows(), count), result(count, count);
