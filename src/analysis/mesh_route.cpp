@@ -27,11 +27,16 @@
 #include "petsc/text.hpp"
 #include "sensitivity/sensitivity.hpp"
 #include "session/stages.hpp"
+#include "steady/condensed_problem.hpp"
 #include "steady/steady.hpp"
 #include "steady/uniqueness.hpp"
 
 namespace squeal::analysis {
 namespace {
+
+const FlagOption fullOption("steady", "steady_full", false,
+                            "steady sliding is solved in all unknowns, as a check, where it could "
+                            "be solved in those of the contact");
 
 std::string unusedText(PetscInt nodes) {
   if (nodes == 0) return "";
@@ -162,13 +167,17 @@ std::vector<steady::Solution> steadySweep(const Analysis& analysis, CurrentSyste
   // [steady point] its active set, or the one tried where there is no solution
   std::vector<ActiveSet> active;
   std::vector<steady::Solution> solutions;
+  const bool condensable = fullOption.get() == false &&
+                           steady::CondensedProblem::serves(analysis.contact, analysis.bodies);
+  std::optional<steady::CondensedProblem> condensed;
   for (const auto& at : analysis.sweep.steadyPoints()) {
     const auto neighbour = analysis.sweep.earlierNeighbour(solutions.size());
     active.push_back(neighbour ? active[*neighbour] : bonded);
-    const auto& current = system.of(active.back());
+    const auto& current = system.of(condensable ? bonded : active.back());
     current.solver();
     Stage stage(analysis.mesh->comm, "steady");
-    solutions.push_back(problem.solve(at, current));
+    if (condensable && !condensed) condensed.emplace(problem, current);
+    solutions.push_back(condensed ? condensed->solve(at) : problem.solve(at, current));
     const auto& solution = solutions.back();
     stage.finish(formatted("%s: %s after %d iterations, %" PetscInt_FMT " of %" PetscInt_FMT
                            " nodes open, smallest pressure %.4g, residual %.0e, imbalance %.0e",

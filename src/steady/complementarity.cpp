@@ -1,7 +1,5 @@
 #include "steady/complementarity.hpp"
 
-#include <petscsnes.h>
-
 #include <algorithm>
 
 #include "options/options.hpp"
@@ -13,8 +11,6 @@ namespace {
 
 const SolverPrefix solverPrefix(
     "steady", "steady_", "PETSc SNES VI, KSP and PC of steady sliding: snes_*, ksp_*, pc_*, …");
-
-using OwnedSNES = Owned<SNES, SNESDestroy>;
 
 /// Gives an option a value while SNES reads its options, unless the user has given one: PETSc has
 /// no function that sets this value.
@@ -70,7 +66,8 @@ PetscErrorCode differentiate(SNES, Vec x, Mat jacobian, Mat, void* context) {
   PetscFunctionReturn(0);
 }
 
-/// Returns the 2-norm of the natural residual, N: F(x), but min(R_N, 0) in the rows of gaps g ≤ 0.
+}  // namespace
+
 double naturalResidual(const Problem& problem, const sweep::Parameters& at, Vec x) {
   const OwnedVec f = rightVector(problem.transformation().trial);
   problem.residual(at, x, f);
@@ -87,63 +84,32 @@ double naturalResidual(const Problem& problem, const sweep::Parameters& at, Vec 
   return size;
 }
 
-}  // namespace
-
-double complementarity(const Problem& problem, OwnedVec& x, Solution& solution) {
-  const contact::Transformation& transformation = problem.transformation();
-  PetscReal xUnit = 0, forceUnit = 0;
-  check(VecNorm(x, NORM_INFINITY, &xUnit));
-  {
-    const OwnedVec zero = rightVector(transformation.trial),
-                   start = rightVector(transformation.trial);
-    problem.residual(solution.at, zero, start);
-    check(VecNorm(start, NORM_2, &forceUnit));
-  }
-  if (xUnit == 0) xUnit = 1;
-  if (forceUnit == 0) forceUnit = 1;
-  const OwnedMat jacobian = problem.jacobian(solution.at, x);
-  OwnedMat symmetric;
-  check(MatDuplicate(problem.stiffness().matrix, MAT_COPY_VALUES, symmetric.out()));
-  for (Mat matrix : {jacobian.get(), symmetric.get()}) check(MatScale(matrix, xUnit / forceUnit));
+Accuracy accuracyNear(const Problem& problem, const sweep::Parameters& at, Vec x) {
+  Accuracy accuracy;
+  const Mat trial = problem.transformation().trial;
+  const OwnedVec zero = rightVector(trial), start = rightVector(trial);
+  problem.residual(at, zero, start);
+  check(VecNorm(start, NORM_2, &accuracy.forceUnit));
+  if (accuracy.forceUnit == 0) accuracy.forceUnit = 1;
   // The residual cannot become smaller than rounding, which grows with the displacements and with
   // the number of unknowns.
-  const double rounding =
-      problem.rounding(problem.displacement(solution.at, x), problem.load(solution.at));
-  const double asked = std::max(1e-11, 10 * rounding / forceUnit);
-  check(VecScale(x, 1 / xUnit));
-  const OwnedVec work = rightVector(jacobian);
-  Scaled scaled{problem, solution.at, xUnit, forceUnit, problem.contact().convected != nullptr,
-                work};
+  const double rounding = problem.rounding(problem.displacement(at, x), problem.load(at));
+  accuracy.asked = std::max(1e-11, 10 * rounding / accuracy.forceUnit);
+  return accuracy;
+}
 
-  const OwnedVec low = rightVector(jacobian), high = rightVector(jacobian);
-  check(VecSet(low, PETSC_NINFINITY));
-  check(VecSet(high, PETSC_INFINITY));
-  for (PetscInt column : transformation.gapColumn)
-    check(VecSetValue(low, column, 0, INSERT_VALUES));
-  check(VecAssemblyBegin(low));
-  check(VecAssemblyEnd(low));
-
+OwnedSNES newSnes(MPI_Comm comm, double asked) {
   OwnedSNES snes;
-  check(SNESCreate(problem.mesh().comm, snes.out()));
+  check(SNESCreate(comm, snes.out()));
   check(SNESSetOptionsPrefix(snes, solverPrefix.prefix.c_str()));
   check(SNESSetType(snes, SNESVINEWTONRSLS));
-  const OwnedVec value = rightVector(jacobian);
-  check(SNESSetFunction(snes, value, evaluate, &scaled));
-  check(SNESSetJacobian(snes, jacobian, symmetric, differentiate, &scaled));
-  check(SNESVISetVariableBounds(snes, low, high));
   check(SNESSetTolerances(snes, asked, 1e-14, 0, 30, 1000));
   // Newton's method corrects the error of a linear solve that stagnates; the residual decides.
   check(SNESSetMaxLinearSolveFailures(snes, 1000));
-  KSP ksp = nullptr;
-  PC pc = nullptr;
-  check(SNESGetKSP(snes, &ksp));
-  check(KSPSetType(ksp, KSPGMRES));
-  check(KSPSetTolerances(ksp, 1e-10, PETSC_DEFAULT, PETSC_DEFAULT, 100));
-  check(KSPGMRESSetRestart(ksp, 100));
-  check(KSPGetPC(ksp, &pc));
-  check(PCSetType(pc, PCCHOLESKY));
-  check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
-  check(KSPSetPCSide(ksp, PC_RIGHT));
+  return snes;
+}
+
+double solveSnes(SNES snes, Vec x, Solution& solution) {
   {
     // Even a tiny gap is open. The default, 1e-8 of the largest displacement, is too large where a
     // body moves far as a whole.
@@ -157,15 +123,57 @@ double complementarity(const Problem& problem, OwnedVec& x, Solution& solution) 
       [&] { return SNESSolve(snes, nullptr, x); });  // its parts are set up as it begins
   SNESConvergedReason reason;
   PetscInt iterations = 0;
+  PetscReal tolerance = 0;
   check(SNESGetConvergedReason(snes, &reason));
   check(SNESGetIterationNumber(snes, &iterations));
+  check(SNESGetTolerances(snes, &tolerance, nullptr, nullptr, nullptr, nullptr));
+  solution.reason = SNESConvergedReasons[reason];
+  solution.iterations += iterations;
+  return tolerance;
+}
+
+double complementarity(const Problem& problem, OwnedVec& x, Solution& solution) {
+  const contact::Transformation& transformation = problem.transformation();
+  PetscReal xUnit = 0;
+  check(VecNorm(x, NORM_INFINITY, &xUnit));
+  if (xUnit == 0) xUnit = 1;
+  const auto [forceUnit, asked] = accuracyNear(problem, solution.at, x);
+  const OwnedMat jacobian = problem.jacobian(solution.at, x);
+  OwnedMat symmetric;
+  check(MatDuplicate(problem.stiffness().matrix, MAT_COPY_VALUES, symmetric.out()));
+  for (Mat matrix : {jacobian.get(), symmetric.get()}) check(MatScale(matrix, xUnit / forceUnit));
+  check(VecScale(x, 1 / xUnit));
+  const OwnedVec work = rightVector(jacobian);
+  Scaled scaled{problem, solution.at, xUnit, forceUnit, problem.contact().convected != nullptr,
+                work};
+
+  const OwnedVec low = rightVector(jacobian), high = rightVector(jacobian);
+  check(VecSet(low, PETSC_NINFINITY));
+  check(VecSet(high, PETSC_INFINITY));
+  for (PetscInt column : transformation.gapColumn)
+    check(VecSetValue(low, column, 0, INSERT_VALUES));
+  check(VecAssemblyBegin(low));
+  check(VecAssemblyEnd(low));
+
+  const OwnedSNES snes = newSnes(problem.mesh().comm, asked);
+  const OwnedVec value = rightVector(jacobian);
+  check(SNESSetFunction(snes, value, evaluate, &scaled));
+  check(SNESSetJacobian(snes, jacobian, symmetric, differentiate, &scaled));
+  check(SNESVISetVariableBounds(snes, low, high));
+  KSP ksp = nullptr;
+  PC pc = nullptr;
+  check(SNESGetKSP(snes, &ksp));
+  check(KSPSetType(ksp, KSPGMRES));
+  check(KSPSetTolerances(ksp, 1e-10, PETSC_DEFAULT, PETSC_DEFAULT, 100));
+  check(KSPGMRESSetRestart(ksp, 100));
+  check(KSPGetPC(ksp, &pc));
+  check(PCSetType(pc, PCCHOLESKY));
+  check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  check(KSPSetPCSide(ksp, PC_RIGHT));
+  const double tolerance = solveSnes(snes, x, solution);
   check(VecScale(x, xUnit));
   const double left = naturalResidual(problem, solution.at, x);
   solution.residual = left / forceUnit;
-  PetscReal tolerance = 0;
-  check(SNESGetTolerances(snes, &tolerance, nullptr, nullptr, nullptr, nullptr));
-  solution.reason = SNESConvergedReasons[reason];
-  solution.iterations = iterations;
   // SNES also stops where steps no longer change anything; only the residual decides on success.
   solution.converged = solution.residual <= std::max<PetscReal>(tolerance, 10 * asked);
   return left;

@@ -1,9 +1,31 @@
 #pragma once
 /// This function solves the complementarity problem of steady sliding by PETSc's SNES VI.
+#include <petscsnes.h>
+
 #include "petsc/owned.hpp"
 #include "steady/steady.hpp"
 
 namespace squeal::steady {
+
+using OwnedSNES = Owned<SNES, SNESDestroy>;
+
+/// The accuracy that a steady state can be asked for.
+struct Accuracy {
+  double forceUnit = 1;  ///< 2-norm of the residual without displacements, N
+  double asked = 0;      ///< η0 [M.16], part of forceUnit
+};
+/// Collective. Returns the accuracy to ask for near the unknowns x.
+Accuracy accuracyNear(const Problem& problem, const sweep::Parameters& at, Vec x);
+/// Collective. Returns the 2-norm of the natural residual, N: F(x), but min(R_N, 0) in the rows of
+/// gaps g ≤ 0.
+double naturalResidual(const Problem& problem, const sweep::Parameters& at, Vec x);
+
+/// Collective. Returns SNES VI with bounds g ≥ 0 (prefix -steady_), for forces and gaps in units of
+/// about 1. Its function, Jacobian and KSP are still to be set, then startSnes() to be called.
+OwnedSNES newSnes(MPI_Comm comm, double asked);
+/// Collective. Applies the options and solves from x, which becomes the solution. Sets reason and
+/// iterations of `solution` and returns the tolerance in force.
+double solveSnes(SNES snes, Vec x, Solution& solution);
 
 /// Collective. Solves by SNES VI (-steady_snes_*) from the start x, which becomes the solution, and
 /// fills residual, convergence, reason and iterations of `solution` at its point of the sweep. All

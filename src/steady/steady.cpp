@@ -34,8 +34,6 @@ Problem::Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
       all_(contact.nodes.size(), 1),
       sticking_(std::move(sticking)),
       transformation_(contact.transformation(all_, sticking_.free())),
-      stiffness_(contact::project(contact, transformation_, bodies.stiffness)),
-      rotationStiffness_(contact::project(contact, transformation_, bodies.rotationStiffness)),
       diagonal_(elasticity::nodalVector(mesh)) {
   check(MatGetDiagonal(bodies.stiffness, diagonal_));
   int released = std::count(sticking_.holds.begin(), sticking_.holds.end(), Hold::released);
@@ -46,6 +44,11 @@ Problem::Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
                    jumps_.out()));
   check(MatMatMult(contact.convected, transformation_.trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
                    convected_.out()));
+}
+
+const contact::Projection& Problem::stiffness() const {
+  if (!stiffness_) stiffness_ = contact::project(contact_, transformation_, bodies_.stiffness);
+  return stiffness_;
 }
 
 OwnedVec Problem::load(const sweep::Parameters& at) const {
@@ -66,7 +69,6 @@ OwnedVec Problem::springForces(double speed, Vec displacement) const {
   return r;
 }
 
-/// Returns r = (K + v² K^R) u − b, the nodal forces of supports and contact.
 OwnedVec Problem::forces(const sweep::Parameters& at, Vec displacement) const {
   OwnedVec r = springForces(at.speed, displacement);
   check(VecAXPY(r, -1, load(at)));
@@ -125,7 +127,9 @@ OwnedMat Problem::jacobian(const sweep::Parameters& at, Vec x) const {
   const OwnedVec u = displacement(at, x);
   const auto slip = this->slip(at.speed, u);
   const OwnedMat rows = slipRows(transformation_, slip, all_, at.friction);
-  OwnedMat sum = stiffness_.tested(rows);
+  OwnedMat sum = stiffness().tested(rows);
+  if (bodies_.rotationStiffness && !rotationStiffness_)
+    rotationStiffness_ = contact::project(contact_, transformation_, bodies_.rotationStiffness);
   if (rotationStiffness_)
     check(MatAXPY(sum, at.speed * at.speed, rotationStiffness_.tested(rows),
                   DIFFERENT_NONZERO_PATTERN));
@@ -170,10 +174,20 @@ std::string Problem::whyLoose(const Sticking& sticking) const {
                : "";
 }
 
-Solution Problem::solve(const sweep::Parameters& at, const contact::CoupledSystem& system) const {
+void Problem::requireSlip(const sweep::Parameters& at) const {
   contact::requireSlip(contact_, contact_.slip(at.speed, nullptr), all_, at.friction);
+}
+
+Solution Problem::solve(const sweep::Parameters& at, const contact::CoupledSystem& system) const {
+  requireSlip(at);
   const OwnedVec z = closedContact(at, system);
-  Solution solution = solveFrom(at, z);
+  return settle(solveFrom(at, z), [&](Sticking sticking) {
+    return Problem(mesh_, bodies_, contact_, std::move(sticking)).solveFrom(at, z);
+  });
+}
+
+Solution Problem::settle(Solution solution,
+                         const std::function<Solution(Sticking)>& solveWith) const {
   while (solution.converged) {
     auto next = revised(contact_, solution);
     if (!next) break;
@@ -187,7 +201,7 @@ Solution Problem::solve(const sweep::Parameters& at, const contact::CoupledSyste
       solution.reason = std::move(failure);
       break;
     }
-    Solution better = Problem(mesh_, bodies_, contact_, std::move(*next)).solveFrom(at, z);
+    Solution better = solveWith(std::move(*next));
     better.revisions = solution.revisions + 1;
     better.iterations += solution.iterations;
     solution = std::move(better);
@@ -200,10 +214,16 @@ Solution Problem::solve(const sweep::Parameters& at, const contact::CoupledSyste
 Solution Problem::solveFrom(const sweep::Parameters& at, Vec z) const {
   Solution solution;
   solution.at = at;
-  solution.sticking = sticking_;
   OwnedVec x = rightVector(transformation_.trial);
   check(MatMultTranspose(transformation_.selection, z, x));
-  const double noise = complementarity(*this, x, solution);
+  const double left = complementarity(*this, x, solution);
+  check(MatMult(transformation_.selection, x, z));
+  conclude(x, left, solution);
+  return solution;
+}
+
+void Problem::conclude(Vec x, double left, Solution& solution) const {
+  solution.sticking = sticking_;
   if (solution.converged && solution.residual > meaningful) {
     solution.converged = false;
     solution.reason = formatted(
@@ -211,11 +231,9 @@ Solution Problem::solveFrom(const sweep::Parameters& at, Vec z) const {
         "displacements reach %.3g m: a body is held "
         "too "
         "weakly for these loads; hold it by stiffer springs",
-        solution.residual, largestDisplacement(at, x));
+        solution.residual, largestDisplacement(solution.at, x));
   }
-  check(MatMult(transformation_.selection, x, z));
-  recover(x, noise, solution);
-  return solution;
+  recover(x, left, solution);
 }
 
 double Problem::largestDisplacement(const sweep::Parameters& at, Vec x) const {

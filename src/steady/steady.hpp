@@ -44,8 +44,9 @@ struct Resultant {
 struct Solution {
   sweep::Parameters at;
   bool converged = false;
-  std::string reason;  ///< SNES converged reason, or why there is no solution
-  int iterations = 0;  ///< Newton steps of SNES; 0 where it is not called
+  std::string reason;    ///< SNES converged reason, or why there is no solution
+  double tolerance = 0;  ///< that SNES was asked for, relative
+  int iterations = 0;    ///< Newton steps of SNES; 0 where it is not called
   /// Relative residual: its 2-norm divided by that without displacements [M.15].
   double residual = 0;
   OwnedVec displacement;              ///< u, N entries, m
@@ -74,6 +75,9 @@ class Problem {
   /// Collective. Borrows mesh, bodies and contact during the life of the object.
   Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
           const contact::Contact& contact);
+  /// Collective. The same with nodes of sticking interfaces that are free or released.
+  Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, const contact::Contact& contact,
+          Sticking sticking);
   /// Collective. Solves by SNES VI (-steady_snes_*), starting from the solution with the active set
   /// of `system` held closed, which its factorisation gives. The nodes that stick are held at first
   /// and then revised(), until nothing changes. `converged` and `reason` tell whether
@@ -89,6 +93,16 @@ class Problem {
   OwnedVec displacement(const sweep::Parameters& at, Vec x) const {
     return displacement(transformation_, at, x);
   }
+  /// Collective. Returns r = (K + v² K^R) u − b, the nodal forces of supports and contact, N.
+  OwnedVec forces(const sweep::Parameters& at, Vec displacement) const;
+  /// Collective. Throws Error if f > 0 and |w| = 0 at a node that carries friction.
+  void requireSlip(const sweep::Parameters& at) const;
+  /// Collective. Revises what holds the nodes that stick, from a first solution, until nothing
+  /// changes. `solveWith` solves with given holds.
+  Solution settle(Solution solution, const std::function<Solution(Sticking)>& solveWith) const;
+  /// Collective. Fills the rest of a solution from the unknowns x, whose natural residual has the
+  /// 2-norm `left`, N.
+  void conclude(Vec x, double left, Solution& solution) const;
   /// Collective. Returns b with the pressures and the centrifugal forces of this point, N entries,
   /// N.
   OwnedVec load(const sweep::Parameters& at) const;
@@ -106,18 +120,16 @@ class Problem {
   /// Returns T with all gaps unknown, and the tangents of the nodes that stick as far as they are
   /// free.
   const contact::Transformation& transformation() const { return transformation_; }
-  /// Returns the projections of K by this transformation.
-  const contact::Projection& stiffness() const { return stiffness_; }
+  const elasticity::Bodies& bodies() const { return bodies_; }
+  /// Collective on the first call. Returns the projections of K by this transformation.
+  const contact::Projection& stiffness() const;
 
  private:
-  Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, const contact::Contact& contact,
-          Sticking sticking);
   Solution solveFrom(const sweep::Parameters& at, Vec z) const;
   std::string whyLoose(const Sticking& sticking) const;
   std::vector<contact::Slip> slip(double speed, Vec displacement) const;
   OwnedVec displacement(const contact::Transformation& transformation, const sweep::Parameters& at,
                         Vec x) const;
-  OwnedVec forces(const sweep::Parameters& at, Vec displacement) const;
   OwnedVec test(const contact::Transformation& transformation,
                 const std::vector<unsigned char>& slides, const sweep::Parameters& at, Vec forces,
                 const std::vector<contact::Slip>& slip) const;
@@ -136,10 +148,10 @@ class Problem {
   const contact::Contact& contact_;
   std::vector<unsigned char> all_;  // [contact node] 1
   Sticking sticking_;
-  bool anyReleased_ = false;                // of all ranks
-  contact::Transformation transformation_;  // all gaps unknown
-  contact::Projection stiffness_, rotationStiffness_;
-  OwnedVec diagonal_;           // diagonal of K, N entries
+  bool anyReleased_ = false;                                   // of all ranks
+  contact::Transformation transformation_;                     // all gaps unknown
+  mutable contact::Projection stiffness_, rotationStiffness_;  // made when first wanted
+  OwnedVec diagonal_;                                          // diagonal of K, N entries
   OwnedMat jumps_, convected_;  // J T and D T, N×n; empty without convective terms
 };
 

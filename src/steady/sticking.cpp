@@ -43,6 +43,12 @@ Sticking Sticking::allHeld(const contact::Contact& contact) {
           std::vector<unsigned char>(contact.nodes.size(), 0)};
 }
 
+Sticking Sticking::allFree(const contact::Contact& contact) {
+  Sticking sticking = allHeld(contact);
+  std::fill(sticking.holds.begin(), sticking.holds.end(), Hold::open);
+  return sticking;
+}
+
 std::vector<unsigned char> Sticking::free() const {
   std::vector<unsigned char> found;
   for (const Hold hold : holds) found.push_back(hold != Hold::held);

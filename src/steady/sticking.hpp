@@ -27,6 +27,8 @@ struct Sticking {
 
   /// Returns the holds with all nodes held.
   static Sticking allHeld(const contact::Contact& contact);
+  /// Returns the holds with all nodes free.
+  static Sticking allFree(const contact::Contact& contact);
   /// Returns 1 for the nodes that are not held, [owned contact node].
   std::vector<unsigned char> free() const;
 };

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "contact/coupled.hpp"
+#include "steady/condensed_problem.hpp"
 #include "steady/steady.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
@@ -69,16 +70,14 @@ std::array<double, 2> trailingEdge(const Block& block, const Model& model, Vec d
   return {total(along) / count, total(normal) / count};
 }
 
-/// Collective. `cells` are parameters of the mesh, and options may follow them. MUMPS gets twice
-/// the memory that it estimates, which is not enough for some of these meshes on 2 ranks.
+/// Collective. `cells` are parameters of the mesh, and options may follow them.
 Answer solve(const Block& block, bool slabs, const std::string& cells) {
-  setOptions("-mesh_file " + (slabs ? block.slabs : block.plane) + cells + block.options +
-             " -steady_mat_mumps_icntl_14 100");
+  setOptions("-mesh_file " + (slabs ? block.slabs : block.plane) + cells + block.options);
   const auto model = buildModel();
   const contact::CoupledSystem system(model.bodies, model.contact,
                                       std::vector<unsigned char>(model.contact.nodes.size(), 1));
-  const auto solution = steady::Problem(*model.mesh, model.bodies, model.contact)
-                            .solve({.friction = friction}, system);
+  const steady::Problem problem(*model.mesh, model.bodies, model.contact);
+  const auto solution = steady::CondensedProblem(problem, system).solve({.friction = friction});
   EXPECT_TRUE(solution.converged) << solution.reason;
   EXPECT_LT(solution.imbalance, 1e-8);
   double area = 0, open = 0, force = 0, moment = 0, dragged = 0, tension = 0, overlap = 0;

@@ -1,0 +1,64 @@
+#pragma once
+/// Steady sliding is solved in the unknowns of the contact where everything but the contact is
+/// linear [3.10–3.13, M.57].
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "impedance/contact_solver.hpp"
+#include "impedance/impedance.hpp"
+
+#include "steady/steady.hpp"
+
+namespace squeal::steady {
+
+/// The complementarity problem in the gaps alone,
+///   0 ≤ g ⟂ F(g) ≥ 0,
+/// where F(g) holds the forces at the gaps with the friction f R in balance. The one factorisation
+/// of the closed contact serves all frictions, pressures and sets of open nodes, and what one point
+/// has found out about the contact serves the next.
+class CondensedProblem {
+ public:
+  /// Returns true if the slip, and the stiffness, is the same at all points of a sweep.
+  static bool serves(const contact::Contact& contact, const elasticity::Bodies& bodies);
+  /// Collective. Borrows the problem and `closed`, the system with all contact nodes closed and
+  /// all that stick held, during the life of the object.
+  CondensedProblem(const Problem& problem, const contact::CoupledSystem& closed);
+  ~CondensedProblem();
+  /// Collective. Solves as Problem::solve() does, from the gaps and holds of the last solution.
+  Solution solve(const sweep::Parameters& at);
+  /// Collective. Returns causes and effects where the nodes with closed[i] set are closed and the
+  /// others open, whatever signs that gives. Nodes that stick are held where they are closed,
+  /// unless `sticking` says otherwise.
+  impedance::ContactSolution onSet(const sweep::Parameters& at,
+                                   const std::vector<unsigned char>& closed,
+                                   const Sticking& sticking);
+  MPI_Comm comm() const { return impedance_->comm(); }
+  /// Returns what the sweep has cost so far, for the log.
+  std::string costText() const;
+
+ private:
+  struct Loaded;
+  struct Asked;
+  Loaded relaxed(const sweep::Parameters& at, const sweep::Parameters* less);
+  Loaded loaded(const sweep::Parameters& at);
+  impedance::ContactConditions conditions(const sweep::Parameters& at,
+                                          const Sticking& sticking) const;
+  OwnedMat directFriction(const sweep::Parameters& at, const Sticking& sticking) const;
+  Solution solveWith(const sweep::Parameters& at, const Sticking& sticking);
+  impedance::ContactVector complementarity(const Asked& asked,
+                                           const impedance::ContactVector& given,
+                                           Solution& solution);
+
+  const Problem& problem_;
+  const contact::Contact& contact_;
+  std::unique_ptr<Problem> free_;  // nothing sticks; null where no interface does
+  std::unique_ptr<impedance::Impedance> impedance_;
+  std::unique_ptr<impedance::ContactSolver> solver_;
+  std::vector<double> gaps_;  // of the last solution, [contact node], m
+  Sticking sticking_;         // of the last solution, with what has been released held again
+  /// The closed contact without friction: without loads, and what p = 1 and v = 1 add.
+  std::vector<Loaded> loads_;
+};
+
+}  // namespace squeal::steady
