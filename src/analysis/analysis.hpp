@@ -9,16 +9,16 @@
 #include "mesh/mesh.hpp"
 #include "pencil/complex_modes.hpp"
 #include "steady/steady.hpp"
-#include "steady/uniqueness.hpp"
 #include "sweep/parameters.hpp"
 #include "sweep/sweep.hpp"
+#include "uniqueness/uniqueness.hpp"
 
 namespace squeal::analysis {
 
 /// The number of steady states at one speed, for all frictions, as far as it is known.
 struct SpeedUniqueness {
   double speed = 1;  ///< v
-  steady::Uniqueness found;
+  uniqueness::Uniqueness found;
 };
 
 /// All results of a run, and the problem that they belong to.

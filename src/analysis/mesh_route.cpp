@@ -29,7 +29,7 @@
 #include "session/stages.hpp"
 #include "steady/condensed_problem.hpp"
 #include "steady/steady.hpp"
-#include "steady/uniqueness.hpp"
+#include "uniqueness/uniqueness.hpp"
 
 namespace squeal::analysis {
 namespace {
@@ -206,8 +206,8 @@ std::vector<SpeedUniqueness> examineUniqueness(const Analysis& analysis) {
   std::vector<SpeedUniqueness> result;
   for (double speed : speeds) {
     Stage stage(analysis.mesh->comm, "steady");
-    result.push_back({speed, steady::examine(analysis.bodies, analysis.contact, speed,
-                                             analysis.sweep.frictions)});
+    result.push_back({speed, uniqueness::examine(analysis.bodies, analysis.contact, speed,
+                                                 analysis.sweep.frictions)});
     const auto& last = result.back().found.judgements.back();
     stage.finish(formatted("uniqueness at friction %g: %s (%s)", last.friction,
                            last.verdict.c_str(), last.reason.c_str()));
@@ -359,7 +359,7 @@ void prepareMesh(Analysis& analysis) {
 void solveMesh(Analysis& analysis) {
   CurrentSystem system(analysis);
   analysis.steady = steadySweep(analysis, system);
-  if (analysis.contact.totalNodes > 0 && steady::uniquenessWanted())
+  if (analysis.contact.totalNodes > 0 && uniqueness::uniquenessWanted())
     analysis.uniqueness = examineUniqueness(analysis);
   flutter::Influences influences(*analysis.mesh, analysis.bodies, analysis.contact);
   for (std::size_t first = 0, last = 0; first < analysis.steady.size(); first = last) {

@@ -27,7 +27,7 @@ struct ContactSolution {
   bool found = false;     ///< false where friction cannot be balanced
 };
 
-/// A ContactSolver solves [M.57]
+/// A ContactSolver solves [M.59]
 ///   (R, F) = (R, F)0 + Z (t, w),   t = c R,   F = 0 or w = 0
 /// for any choice of the unknowns that are free, any coefficients c and any given forces (R, F)0.
 /// Z stands for the responses of an Impedance. What has been learnt of Z serves all later calls:

@@ -1,6 +1,6 @@
 #pragma once
 /// The contact is condensed to its own unknowns with the factorised stiffness K0 of the closed,
-/// frictionless contact [M.56].
+/// frictionless contact [M.58].
 ///
 /// Of the unknowns x of the contact that may open, let y be those that the closed contact has, and
 /// w the others: the gaps, and the tangential displacements of the nodes that stick. With the

@@ -12,9 +12,9 @@
 
 #include "linalg/block.hpp"
 #include "linalg/complexvector.hpp"
-#include "linalg/sketch.hpp"
 #include "modes/modes.hpp"
 #include "petsc/owned.hpp"
+#include "reduction/sketch.hpp"
 
 namespace squeal::reduction {
 
@@ -53,7 +53,7 @@ class Basis {
       const std::vector<const std::vector<Complex>*>& list) const;
   /// Returns the random signs Ω for columns with n entries [M.39]. The weighted norm of their
   /// sketches is √(rᵀ diag(K0)⁻¹ r).
-  const linalg::Sketch& sketch() const { return *sketch_; }
+  const Sketch& sketch() const { return *sketch_; }
   /// Returns the unweighted sketch of V.
   const linalg::DenseMatrix& sketched() const { return sketched_; }
   /// Collective. Returns for each block of columns the largest ratio of the energy norm
@@ -81,7 +81,7 @@ class Basis {
   linalg::Block forces_;
   linalg::DenseMatrix energies_;
   std::vector<double> inverseDiagonal_;
-  std::optional<linalg::Sketch> sketch_;
+  std::optional<Sketch> sketch_;
   linalg::DenseMatrix sketched_;
   double ratio_ = 1;
   long solves_ = 0;

@@ -144,7 +144,7 @@ bool ReducedProblem::isAccurate(const PointState& state) const {
 /// Not collective. Returns sketches of the residuals of one side, 2 Sketch::size × columns.
 linalg::DenseMatrix ReducedProblem::residualSketch(const PointState& state, const PointPairs& pairs,
                                                    pencil::Side side) const {
-  linalg::DenseMatrix sketch(2 * linalg::Sketch::size, pairs.pairs.columns);
+  linalg::DenseMatrix sketch(2 * Sketch::size, pairs.pairs.columns);
   for (const auto* terms : {&terms_, &state.ownTerms}) terms->addTo(pairs, side, sketch);
   return sketch;
 }
@@ -155,17 +155,17 @@ void ReducedProblem::estimateErrors(PointState& state, const linalg::DenseProble
   const PointPairs all{state.point->at, Coordinates(pointers(pairs), state.damped)};
   const auto& coordinates = all.pairs;
   const auto norms = [&](pencil::Side side) {  // raised by what a sketch may miss
-    linalg::SquaredNorms squares = linalg::squaredNorms(residualSketch(state, all, side));
+    SquaredNorms squares = squaredNorms(residualSketch(state, all, side));
     for (auto* list : {&squares.euclidean, &squares.weighted}) {
       *list = perPair(coordinates, *list);
-      for (auto& square : *list) square *= linalg::Sketch::safety * linalg::Sketch::safety;
+      for (auto& square : *list) square *= Sketch::safety * Sketch::safety;
     }
     return squares;
   };
   const auto right = norms(pencil::Side::right), left = norms(pencil::Side::left);
   const linalg::DenseMatrix vectors =
       linalg::product(basis_.sketched(), coordinates.times(pencil::Side::right, 0, 1));
-  const auto lengths = perPair(coordinates, linalg::squaredLengths(vectors));
+  const auto lengths = perPair(coordinates, squaredLengths(vectors));
   const auto conditions = conditionNumbers(problem, pairs);
   state.backwardError.clear();
   state.rightError.clear();
@@ -212,7 +212,7 @@ linalg::Block ReducedProblem::directions(const std::vector<CorrectionRequest>& r
     const linalg::DenseMatrix sketch =
         residualSketch(*request.state, request.pairs, pencil::Side::right);
     sketches.append(sketch);
-    const auto squares = perPair(pairs, linalg::squaredNorms(sketch).euclidean);
+    const auto squares = perPair(pairs, squaredNorms(sketch).euclidean);
     for (std::size_t j = 0; j < squares.size(); ++j)
       factors.insert(factors.end(), pairs.firstColumn[j + 1] - pairs.firstColumn[j],
                      squares[j] > 0 ? request.weights[j] / std::sqrt(squares[j]) : 0);
@@ -220,8 +220,7 @@ linalg::Block ReducedProblem::directions(const std::vector<CorrectionRequest>& r
   }
   if (factors.empty()) return linalg::Block(basis_.localRows());
   // Fewer columns than residuals: those of several points are much alike.
-  const linalg::DenseMatrix combinations =
-      linalg::leadingCombinations(sketches, factors, 0.8 * resolution);
+  const linalg::DenseMatrix combinations = leadingCombinations(sketches, factors, 0.8 * resolution);
   linalg::Block columns(basis_.localRows(), combinations.columns());
   if (combinations.empty()) return columns;
   terms_.addTo(points, combinations, columns);
@@ -255,8 +254,8 @@ double ReducedProblem::residualRatio(const PointState& state, const linalg::Dens
   const auto sum = [](const std::vector<double>& squares) {
     return std::accumulate(squares.begin(), squares.end(), 0.0);
   };
-  const double known = sum(linalg::squaredNorms(residualSketch(state, alone, side)).weighted),
-               exact = sum(linalg::squaredNorms(basis_.sketch().of(columns)).weighted);
+  const double known = sum(squaredNorms(residualSketch(state, alone, side)).weighted),
+               exact = sum(squaredNorms(basis_.sketch().of(columns)).weighted);
   return known > 0 ? std::max(1.0, std::sqrt(exact / known)) : 1.0;
 }
 

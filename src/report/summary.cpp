@@ -85,7 +85,7 @@ Json interfaceEntries(const contact::Contact& contact) {
 /// Returns the number, or null for NaN and infinity, which have no place in JSON.
 Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-Json uniquenessEntry(double speed, const steady::Uniqueness& found) {
+Json uniquenessEntry(double speed, const uniqueness::Uniqueness& found) {
   Json entry = {{"speed", speed},
                 {"positive_definite_up_to_friction",
                  std::isinf(found.lostAt) ? Json("any") : finite(found.lostAt)}};

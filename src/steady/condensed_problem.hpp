@@ -1,6 +1,6 @@
 #pragma once
 /// Steady sliding is solved in the unknowns of the contact where everything but the contact is
-/// linear [3.10–3.13, M.57].
+/// linear [3.10–3.13, M.59].
 #include <memory>
 #include <string>
 #include <vector>

@@ -81,12 +81,12 @@ TEST(CondensedProblem, OpeningOnMatchingDisc) {
 // The gaps of the pad's edges count in a basis of their own.
 TEST(CondensedProblem, OpeningOnDiscMeshedApart) {
   EXPECT_GT(compare("tet10", slab("shape=0,nx_pad=9,nz_pad=2"), frictions).open, 0);
-  EXPECT_GT(compare("hex20, disc is slave",
-                    slab("shape=1,serendipity=1,nx_pad=9,nz_pad=2") +
-                        " -contact_interface_slave disc",
-                    frictions)
-                .open,
-            0);
+  EXPECT_GT(
+      compare("hex20, disc is slave",
+              slab("shape=1,serendipity=1,nx_pad=9,nz_pad=2") + " -contact_interface_slave disc",
+              frictions)
+          .open,
+      0);
 }
 
 // Pressures and centrifugal forces enter in different powers of speed and pressure.

@@ -57,9 +57,8 @@ TEST(ContactPath, NodesLiftOneByOne) {
   if (sizeOf() > 1) GTEST_SKIP() << "the dense problem is that of one rank";
   const analysis::Analysis analysis = runOptions(block + "-modes_count 5 -flutter_friction 0,0.5");
   const steady::Problem problem(*analysis.mesh, analysis.bodies, analysis.contact);
-  const contact::CoupledSystem closed(
-      analysis.bodies, analysis.contact,
-      std::vector<unsigned char>(analysis.contact.nodes.size(), 1));
+  const contact::CoupledSystem closed(analysis.bodies, analysis.contact,
+                                      std::vector<unsigned char>(analysis.contact.nodes.size(), 1));
   steady::CondensedProblem condensedProblem(problem, closed);
   const auto first = condensedProblem.solve({0});
   const auto path = steady::followContact(condensedProblem, first, {0.5});

@@ -6,9 +6,9 @@
 
 #include "contact/contact.hpp"
 #include "elasticity/elasticity.hpp"
-#include "steady/positivity.hpp"
+#include "uniqueness/positivity.hpp"
 
-namespace squeal::steady {
+namespace squeal::uniqueness {
 
 /// The result of the examination at one speed.
 struct Uniqueness {
@@ -29,4 +29,4 @@ bool uniquenessWanted();
 Uniqueness examine(const elasticity::Bodies& bodies, const contact::Contact& contact, double speed,
                    const std::vector<double>& frictions);
 
-}  // namespace squeal::steady
+}  // namespace squeal::uniqueness

@@ -10,7 +10,7 @@
 
 #include "linalg/block.hpp"
 
-namespace squeal::linalg {
+namespace squeal::reduction {
 
 /// The matrix Ω of random signs, distributed by rows.
 class Sketch {
@@ -25,16 +25,16 @@ class Sketch {
   Sketch(MPI_Comm comm, const std::vector<double>& diagonal);
   /// Collective. Returns Ωᵀ X / √k above Ωᵀ D^½ X / √k, 2k × columns, the same on all ranks. X is
   /// given by this rank's rows.
-  DenseMatrix of(const DenseView& x) const;
+  linalg::DenseMatrix of(const linalg::DenseView& x) const;
   /// Collective. Returns Ωᵀ X / √k alone, k × columns.
-  DenseMatrix unweighted(const DenseView& x) const;
+  linalg::DenseMatrix unweighted(const linalg::DenseView& x) const;
   /// Collective. Returns the same as the first `of` for an X that is given by `rows`; its other
   /// rows are zero.
-  DenseMatrix of(const RowSet& rows, const DenseView& x) const;
+  linalg::DenseMatrix of(const linalg::RowSet& rows, const linalg::DenseView& x) const;
 
  private:
   MPI_Comm comm_;
-  Block signs_;  // n × 2k, the second half times D^½
+  linalg::Block signs_;  // n × 2k, the second half times D^½
 };
 
 /// Estimates of squared norms, [column].
@@ -42,10 +42,10 @@ struct SquaredNorms {
   std::vector<double> euclidean, weighted;
 };
 /// Not collective. Returns the squared norms of all columns from a sketch, 2k × columns.
-SquaredNorms squaredNorms(const DenseView& sketch);
+SquaredNorms squaredNorms(const linalg::DenseView& sketch);
 /// Not collective. Returns the squared Euclidean norms of all columns from an unweighted sketch, k
 /// × columns.
-std::vector<double> squaredLengths(const DenseView& unweighted);
+std::vector<double> squaredLengths(const linalg::DenseView& unweighted);
 
 /// Not collective. Returns the coefficients of orthogonal combinations of columns, all × count,
 /// estimated from the sketches of the columns, 2k × all. Each column is first multiplied by its
@@ -54,7 +54,7 @@ std::vector<double> squaredLengths(const DenseView& unweighted);
 /// a fraction of `all` where the columns are nearly linearly dependent. If nearly k values exceed
 /// `small`, or as many as there are columns, the sketch cannot tell: the coefficients are then the
 /// diagonal matrix of the factors.
-DenseMatrix leadingCombinations(const DenseView& sketches, const std::vector<double>& factors,
-                                double small);
+linalg::DenseMatrix leadingCombinations(const linalg::DenseView& sketches,
+                                        const std::vector<double>& factors, double small);
 
-}  // namespace squeal::linalg
+}  // namespace squeal::reduction

@@ -16,7 +16,7 @@
 #include "contact/coupled.hpp"
 #include "linalg/dense.hpp"
 
-namespace squeal::steady {
+namespace squeal::uniqueness {
 
 /// The matrices of A(f), m/N, with all entries on every rank.
 struct Compliance {
@@ -27,13 +27,14 @@ struct Compliance {
 };
 
 /// The condensed problem, with a factorisation of K_o.
-class Condensed {
+class OpenContact {
  public:
   /// Collective. Factorises K_o (prefix -steady_uniqueness_); factorised() tells whether that has
   /// worked. No body may be loose with the contact open. `stiffness` is K on all nodal
   /// displacements, N×N, symmetric, N/m, and `slip`, [owned contact node], gives U; both are needed
   /// during this call only. Borrows `contact` during the life of the object.
-  Condensed(const contact::Contact& contact, Mat stiffness, const std::vector<contact::Slip>& slip);
+  OpenContact(const contact::Contact& contact, Mat stiffness,
+              const std::vector<contact::Slip>& slip);
   /// Returns false if K_o could not be factorised; nothing else may be called then.
   bool factorised() const;
   /// Collective. Returns false if K_o is known to have a negative eigenvalue, as with convective
@@ -80,4 +81,4 @@ class Condensed {
 /// options of the eigenvalue solver, which is not used then, count as known.
 void rejectUnusedUniquenessOptions(bool dense);
 
-}  // namespace squeal::steady
+}  // namespace squeal::uniqueness

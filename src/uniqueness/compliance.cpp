@@ -1,4 +1,4 @@
-#include "steady/condensed.hpp"
+#include "uniqueness/compliance.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -11,7 +11,7 @@
 #include "options/options.hpp"
 #include "petsc/arrays.hpp"
 
-namespace squeal::steady {
+namespace squeal::uniqueness {
 namespace {
 
 const SolverPrefix solverPrefix(
@@ -38,8 +38,8 @@ linalg::DenseMatrix Compliance::at(double friction) const {
   return a;
 }
 
-Condensed::Condensed(const contact::Contact& contact, Mat stiffness,
-                     const std::vector<contact::Slip>& slip)
+OpenContact::OpenContact(const contact::Contact& contact, Mat stiffness,
+                         const std::vector<contact::Slip>& slip)
     : contact_(contact), size_(contact.totalNodes), ownedSize_(contact.nodes.size()) {
   const std::vector<unsigned char> all(contact.nodes.size(), 1);
   transformation_ = contact.transformation(all);
@@ -72,7 +72,7 @@ Condensed::Condensed(const contact::Contact& contact, Mat stiffness,
   check(VecDuplicate(single_, answer_.out()));
 }
 
-bool Condensed::factorised() const {
+bool OpenContact::factorised() const {
   PC pc = nullptr;
   PCFailedReason failed;
   check(KSPGetPC(solver_, &pc));
@@ -80,14 +80,14 @@ bool Condensed::factorised() const {
   return failed == PC_NOERROR;
 }
 
-bool Condensed::positiveDefinite() const {
+bool OpenContact::positiveDefinite() const {
   const Mat factor = linalg::mumpsFactor(solver_);
   PetscInt negative = 0;
   if (factor) check(MatGetInertia(factor, &negative, nullptr, nullptr));
   return negative == 0;
 }
 
-OwnedMat Condensed::block(PetscInt columns) const {
+OwnedMat OpenContact::block(PetscInt columns) const {
   OwnedMat matrix;
   check(MatCreateDense(comm(), transformation_.ownedColumns, PETSC_DECIDE, transformation_.columns,
                        columns, nullptr, matrix.out()));
@@ -96,7 +96,7 @@ OwnedMat Condensed::block(PetscInt columns) const {
   return matrix;
 }
 
-Compliance Condensed::dense() const {
+Compliance OpenContact::dense() const {
   Compliance compliance{linalg::DenseMatrix(size_, size_), linalg::DenseMatrix(size_, size_)};
   PetscInt firstRow = 0;
   check(MatGetOwnershipRange(stiffness_, &firstRow, nullptr));
@@ -134,13 +134,13 @@ Compliance Condensed::dense() const {
   return compliance;
 }
 
-void Condensed::multiplyA0(Vec v, Vec product) const {
+void OpenContact::multiplyA0(Vec v, Vec product) const {
   check(MatMult(gaps_, v, single_));
   check(KSPSolve(solver_, single_, answer_));
   check(MatMultTranspose(gaps_, answer_, product));
 }
 
-void Condensed::multiplySymmetricA1(Vec v, Vec product) const {
+void OpenContact::multiplySymmetricA1(Vec v, Vec product) const {
   const Mat sides[] = {gaps_, friction_};
   Vec column = nullptr;
   for (PetscInt j = 0; j < 2; ++j) {
@@ -159,7 +159,7 @@ void Condensed::multiplySymmetricA1(Vec v, Vec product) const {
   check(VecAXPBY(product, -0.5, -0.5, part_));
 }
 
-void Condensed::close() {
+void OpenContact::close() {
   if (closedSolver_) return;
   PetscInt begin = 0, end = 0;
   check(MatGetOwnershipRange(stiffness_, &begin, &end));
@@ -180,7 +180,7 @@ void Condensed::close() {
   check(MatCreateVecs(closedStiffness_, inner_.out(), innerAnswer_.out()));
 }
 
-void Condensed::solveA0(Vec v, Vec solution) {
+void OpenContact::solveA0(Vec v, Vec solution) {
   close();
   check(MatMult(coupling_, v, inner_));
   check(KSPSolve(closedSolver_, inner_, innerAnswer_));
@@ -194,4 +194,4 @@ void rejectUnusedUniquenessOptions(bool dense) {
                                   : std::vector<std::string>{});
 }
 
-}  // namespace squeal::steady
+}  // namespace squeal::uniqueness

@@ -12,14 +12,14 @@
 #include "contact/coupled.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/read.hpp"
-#include "steady/condensed.hpp"
-#include "steady/uniqueness.hpp"
 #include "support/case.hpp"
 #include "support/contact_cases.hpp"
 #include "support/dense.hpp"
 #include "support/gathered.hpp"
 #include "support/model.hpp"
 #include "support/worst.hpp"
+#include "uniqueness/compliance.hpp"
+#include "uniqueness/uniqueness.hpp"
 
 namespace squeal {
 namespace {
@@ -31,18 +31,18 @@ using test::square;
 using test::contact_cases::layers;
 
 TEST(PMatrix, KnownOnes) {
-  EXPECT_TRUE(steady::pMatrix(square({1, 0, 0, 1})));
+  EXPECT_TRUE(uniqueness::pMatrix(square({1, 0, 0, 1})));
   EXPECT_TRUE(
-      steady::pMatrix(square({1, 0, -3, 1})));  // its symmetric part has the eigenvalue 1 − 1.5
-  EXPECT_FALSE(steady::pMatrix(square({1, 2, 2, 1})));  // determinant −3
-  EXPECT_FALSE(steady::pMatrix(square({0, -1, 1, 0})));
-  EXPECT_FALSE(steady::pMatrix(square({-1})));
+      uniqueness::pMatrix(square({1, 0, -3, 1})));  // its symmetric part has the eigenvalue 1 − 1.5
+  EXPECT_FALSE(uniqueness::pMatrix(square({1, 2, 2, 1})));  // determinant −3
+  EXPECT_FALSE(uniqueness::pMatrix(square({0, -1, 1, 0})));
+  EXPECT_FALSE(uniqueness::pMatrix(square({-1})));
   // [1 0 −c; −c 1 0; 0 −c 1]: all minors of order two are 1, the determinant is 1 − c³.
   for (const double c : {0.99, 1.01})
-    EXPECT_EQ(steady::pMatrix(square({1, -c, 0, 0, 1, -c, -c, 0, 1})), c < 1);
+    EXPECT_EQ(uniqueness::pMatrix(square({1, -c, 0, 0, 1, -c, -c, 0, 1})), c < 1);
   // Tiny units are no smaller minors.
-  EXPECT_TRUE(steady::pMatrix(square({1e-9, 0, -3e-9, 1e-9})));
-  EXPECT_TRUE(steady::pMatrix(square({1e-20, 0, 0, 1})));
+  EXPECT_TRUE(uniqueness::pMatrix(square({1e-9, 0, -3e-9, 1e-9})));
+  EXPECT_TRUE(uniqueness::pMatrix(square({1e-20, 0, 0, 1})));
 }
 
 /// Product of the pivots of Gaussian elimination with row pivoting.
@@ -89,9 +89,9 @@ TEST(PMatrix, AgreesWithAllMinors) {
     for (double& entry : a.entries()) entry = 1.5 * test::uniform(generator);
     for (PetscInt i = 0; i < 6; ++i) a(i, i) = 0.8 + std::abs(a(i, i));
     const bool expected = smallestMinor(a) > 0;
-    EXPECT_EQ(steady::pMatrix(a), expected) << "trial " << trial;
+    EXPECT_EQ(uniqueness::pMatrix(a), expected) << "trial " << trial;
     ++(expected ? yes : no);
-    indefinite += expected && steady::symmetricEigenvalues(a).front() < 0;
+    indefinite += expected && uniqueness::symmetricEigenvalues(a).front() < 0;
   }
   test::print("%d P-matrices, %d of them not positive definite, %d others\n", yes, indefinite, no);
   EXPECT_GE(yes, 20);
@@ -101,7 +101,7 @@ TEST(PMatrix, AgreesWithAllMinors) {
 
 TEST(Verdict, IsTheStrongestThatHolds) {
   const auto verdict = [](const std::vector<double>& a, int limit = 18) {
-    return steady::examineMatrix(square(a), 0.3, limit).verdict;
+    return uniqueness::examineMatrix(square(a), 0.3, limit).verdict;
   };
   EXPECT_EQ(verdict({2, -1, -1, 2}), "one solution");
   EXPECT_EQ(verdict({2, -1, -1, 2}, 0), "one solution");
@@ -110,21 +110,21 @@ TEST(Verdict, IsTheStrongestThatHolds) {
   EXPECT_EQ(verdict({1, 2, 2, 1}), "a solution exists");  // g = A R + F with F = (−1, −1) has three
   EXPECT_EQ(verdict({1, -2, -2, 1}), "not decided");
   EXPECT_EQ(verdict({1, -1, -1, 1}), "not decided");  // on the border
-  const auto judgement = steady::examineMatrix(square({1, 2, 2, 1}), 0.3, 18);
+  const auto judgement = uniqueness::examineMatrix(square({1, 2, 2, 1}), 0.3, 18);
   EXPECT_EQ(judgement.friction, 0.3);
   EXPECT_NEAR(judgement.smallest, -1, 1e-14);
   EXPECT_TRUE(contains(judgement.reason, "no P-matrix")) << judgement.reason;
 }
 
 TEST(Loss, IsTheFirstFrictionWithoutPositivity) {
-  EXPECT_NEAR(steady::lossOfPositivity(square({1, 0, 0, 1}), square({0, -2, 0, 0})), 1,
+  EXPECT_NEAR(uniqueness::lossOfPositivity(square({1, 0, 0, 1}), square({0, -2, 0, 0})), 1,
               1e-14);  // 1 − f² = 0
-  EXPECT_NEAR(steady::lossOfPositivity(square({2, 0, 0, 1}), square({-1, 0, 0, 0.25})), 2,
+  EXPECT_NEAR(uniqueness::lossOfPositivity(square({2, 0, 0, 1}), square({-1, 0, 0, 0.25})), 2,
               1e-14);  // 2 − f = 0
-  EXPECT_EQ(steady::lossOfPositivity(square({2, 0, 0, 1}), square({0, -5, 5, 0})),
+  EXPECT_EQ(uniqueness::lossOfPositivity(square({2, 0, 0, 1}), square({0, -5, 5, 0})),
             INFINITY);  // skew
-  EXPECT_EQ(steady::lossOfPositivity(square({2, 0, 0, 1}), square({1, 0, 0, 0})), INFINITY);
-  EXPECT_EQ(steady::lossOfPositivity(square({1, 2, 2, 1}), square({1, 0, 0, 1})), 0);
+  EXPECT_EQ(uniqueness::lossOfPositivity(square({2, 0, 0, 1}), square({1, 0, 0, 0})), INFINITY);
+  EXPECT_EQ(uniqueness::lossOfPositivity(square({1, 2, 2, 1}), square({1, 0, 0, 1})), 0);
 }
 
 // --- the condensed matrix ---
@@ -151,13 +151,14 @@ std::string block(int nx, int ny) {
          "1,0,0 ";
 }
 
-steady::Compliance complianceOf(const Model& model) {
-  return steady::Condensed(model.contact, model.bodies.stiffness, model.contact.slip(1, nullptr))
+uniqueness::Compliance complianceOf(const Model& model) {
+  return uniqueness::OpenContact(model.contact, model.bodies.stiffness,
+                                 model.contact.slip(1, nullptr))
       .dense();
 }
 
-steady::Uniqueness examined(const Model& model, const std::vector<double>& frictions) {
-  return steady::examine(model.bodies, model.contact, 1, frictions);
+uniqueness::Uniqueness examined(const Model& model, const std::vector<double>& frictions) {
+  return uniqueness::examine(model.bodies, model.contact, 1, frictions);
 }
 
 /// All gaps unknown, all nodes sliding.
@@ -343,7 +344,7 @@ TEST(Uniqueness, VerdictsOfABlock) {
 TEST(Uniqueness, MatrixFreeAgrees) {
   for (const auto& options :
        {block(40, 10), slabs + "-constraint_disc_left_clamped x -constraint_pad_left_clamped x "}) {
-    std::vector<steady::Uniqueness> results;
+    std::vector<uniqueness::Uniqueness> results;
     for (const std::string limit : {"1000", "0"}) {
       test::setOptions(options + "-steady_uniqueness_pmatrix 0 -steady_uniqueness_dense " + limit);
       const Model model = test::buildModel();
@@ -370,7 +371,7 @@ TEST(Uniqueness, DoesNotDependOnTheRanks) {
   auto ties = interfaces::findTies(mesh);
   const auto bodies = elasticity::assemble(mesh);
   const auto contact = contact::build(mesh, bodies, std::move(ties));
-  const auto alone = steady::examine(bodies, contact, 1, {0.3, 1.2});
+  const auto alone = uniqueness::examine(bodies, contact, 1, {0.3, 1.2});
   EXPECT_NEAR(together.lostAt / alone.lostAt, 1, 1e-9);
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_NEAR(together.judgements[i].smallest / alone.judgements[i].smallest, 1, 1e-8);

@@ -1,4 +1,4 @@
-#include "steady/positivity.hpp"
+#include "uniqueness/positivity.hpp"
 
 #include <petscsys.h>  // first: the next header needs it
 
@@ -12,7 +12,7 @@
 #include "linalg/symmetric.hpp"
 #include "petsc/check.hpp"
 
-namespace squeal::steady {
+namespace squeal::uniqueness {
 
 using linalg::DenseMatrix;
 
@@ -110,4 +110,4 @@ double lossOfPositivity(const DenseMatrix& a0, const DenseMatrix& a1) {
   return lossOfPositivity(values.front());
 }
 
-}  // namespace squeal::steady
+}  // namespace squeal::uniqueness

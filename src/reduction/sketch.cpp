@@ -1,4 +1,4 @@
-#include "linalg/sketch.hpp"
+#include "reduction/sketch.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,14 @@
 
 #include "linalg/symmetric.hpp"
 
-namespace squeal::linalg {
+namespace squeal::reduction {
+
+using linalg::DenseMatrix;
+using linalg::DenseView;
+using linalg::RowSet;
+using linalg::squaredLength;
+using linalg::transposedProduct;
+
 namespace {
 
 /// Returns 64 random bits made from a counter by Splitmix64 (Steele, Lea and Flood 2014).
@@ -92,4 +99,4 @@ DenseMatrix leadingCombinations(const DenseView& sketches, const std::vector<dou
   return combinations;
 }
 
-}  // namespace squeal::linalg
+}  // namespace squeal::reduction

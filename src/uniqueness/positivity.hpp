@@ -8,7 +8,7 @@
 
 #include "linalg/dense.hpp"
 
-namespace squeal::steady {
+namespace squeal::uniqueness {
 
 /// The result of the tests at one friction, which holds for all loads.
 struct Judgement {
@@ -46,4 +46,4 @@ double lossOfPositivity(double smallestRatio);
 /// none, and 0 if A0 is not positive definite. Throws Error if LAPACK fails.
 double lossOfPositivity(const linalg::DenseMatrix& a0, const linalg::DenseMatrix& a1);
 
-}  // namespace squeal::steady
+}  // namespace squeal::uniqueness

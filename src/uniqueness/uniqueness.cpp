@@ -1,4 +1,4 @@
-#include "steady/uniqueness.hpp"
+#include "uniqueness/uniqueness.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -6,9 +6,9 @@
 
 #include "contact/loose.hpp"
 #include "options/options.hpp"
-#include "steady/condensed.hpp"
+#include "uniqueness/compliance.hpp"
 
-namespace squeal::steady {
+namespace squeal::uniqueness {
 namespace {
 
 const FlagOption wantedOption("steady", "steady_uniqueness", true,
@@ -40,9 +40,9 @@ Uniqueness examineDense(const Compliance& compliance, const std::vector<double>&
   return result;
 }
 
-template <void (Condensed::*product)(Vec, Vec) const>
+template <void (OpenContact::*product)(Vec, Vec) const>
 PetscErrorCode multiply(Mat matrix, Vec v, Vec result) {
-  const Condensed* condensed = nullptr;
+  const OpenContact* condensed = nullptr;
   PetscFunctionBegin;
   PetscCall(MatShellGetContext(matrix, &condensed));
   (condensed->*product)(v, result);
@@ -50,14 +50,14 @@ PetscErrorCode multiply(Mat matrix, Vec v, Vec result) {
 }
 
 PetscErrorCode solveA0(PC pc, Vec v, Vec solution) {
-  Condensed* condensed = nullptr;
+  OpenContact* condensed = nullptr;
   PetscFunctionBegin;
   PetscCall(PCShellGetContext(pc, &condensed));
   condensed->solveA0(v, solution);
   PetscFunctionReturn(0);
 }
 
-OwnedMat shell(Condensed& condensed, PetscErrorCode (*multiply)(Mat, Vec, Vec)) {
+OwnedMat shell(OpenContact& condensed, PetscErrorCode (*multiply)(Mat, Vec, Vec)) {
   OwnedMat matrix;
   const PetscInt owned = condensed.ownedSize(), size = condensed.size();
   check(MatCreateShell(condensed.comm(), owned, owned, size, size, &condensed, matrix.out()));
@@ -71,9 +71,9 @@ OwnedMat shell(Condensed& condensed, PetscErrorCode (*multiply)(Mat, Vec, Vec)) 
 /// none if SLEPc does not converge. The smallest eigenvalues of sym(A(f)) itself belong to forces
 /// that alternate from node to node: they are close together, scale with the mesh size and hardly
 /// depend on friction. Relative to A0 the mesh hardly matters, and one number serves all frictions.
-std::optional<double> smallestRatio(Condensed& condensed) {
-  const OwnedMat a0 = shell(condensed, multiply<&Condensed::multiplyA0>),
-                 a1 = shell(condensed, multiply<&Condensed::multiplySymmetricA1>);
+std::optional<double> smallestRatio(OpenContact& condensed) {
+  const OwnedMat a0 = shell(condensed, multiply<&OpenContact::multiplyA0>),
+                 a1 = shell(condensed, multiply<&OpenContact::multiplySymmetricA1>);
   OwnedEPS eps;
   check(EPSCreate(condensed.comm(), eps.out()));
   check(EPSSetOptionsPrefix(eps, "steady_uniqueness_"));
@@ -108,7 +108,7 @@ std::optional<double> smallestRatio(Condensed& condensed) {
 
 /// Examines the problem without forming A: sym(A(f)) = A0 + f sym(A1) is positive definite below
 /// the friction where that is lost.
-Uniqueness examineMatrixFree(Condensed& condensed, const std::vector<double>& frictions) {
+Uniqueness examineMatrixFree(OpenContact& condensed, const std::vector<double>& frictions) {
   if (condensed.hasFixedFriction())
     return undecided(frictions,
                      "with a -contact_<interface>_friction the condensed matrix must be formed; "
@@ -159,7 +159,7 @@ Uniqueness examine(const elasticity::Bodies& bodies, const contact::Contact& con
       return undecided(frictions, "nodes of " + interface.label() +
                                       " are freed along it where they open, which the condensed "
                                       "matrix does not hold");
-  Condensed condensed(contact, stiffness, contact.slip(speed, nullptr));
+  OpenContact condensed(contact, stiffness, contact.slip(speed, nullptr));
   const bool dense = condensed.size() <= denseLimit;
   if (dense) rejectUnusedUniquenessOptions(true);
   if (!condensed.factorised())
@@ -168,4 +168,4 @@ Uniqueness examine(const elasticity::Bodies& bodies, const contact::Contact& con
                : examineMatrixFree(condensed, frictions);
 }
 
-}  // namespace squeal::steady
+}  // namespace squeal::uniqueness
