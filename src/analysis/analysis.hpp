@@ -8,6 +8,7 @@
 #include "elasticity/elasticity.hpp"
 #include "mesh/mesh.hpp"
 #include "pencil/complex_modes.hpp"
+#include "steady/contact_path.hpp"
 #include "steady/steady.hpp"
 #include "sweep/parameters.hpp"
 #include "sweep/sweep.hpp"
@@ -30,7 +31,11 @@ struct Analysis {
   std::unique_ptr<mesh::Mesh> mesh;
   elasticity::Bodies bodies;
   contact::Contact contact;
-  std::vector<steady::Solution> steady;     ///< [steady point of the sweep]
+  std::vector<steady::Solution> steady;  ///< [steady point of the sweep]
+  /// Where on the way between them contact nodes of this rank open and close, in order; and the
+  /// number of such events on all ranks.
+  std::vector<steady::ContactEvent> contactPath;
+  int contactEvents = 0;
   std::vector<SpeedUniqueness> uniqueness;  ///< one entry for all speeds where they share it; empty
                                             ///< unless -steady_uniqueness
   std::vector<ModalSegment> segments;

@@ -28,6 +28,7 @@
 #include "sensitivity/sensitivity.hpp"
 #include "session/stages.hpp"
 #include "steady/condensed_problem.hpp"
+#include "steady/contact_path.hpp"
 #include "steady/steady.hpp"
 #include "uniqueness/uniqueness.hpp"
 
@@ -37,6 +38,11 @@ namespace {
 const FlagOption fullOption("steady", "steady_full", false,
                             "steady sliding is solved in all unknowns, as a check, where it could "
                             "be solved in those of the contact");
+
+const IntegerOption pathOption(
+    "steady", "steady_path", 20, 0, 1'000'000,
+    "largest number of contact nodes that may open or close between neighbouring points of a sweep "
+    "for the parameters to be solved for at which they do; 0: none");
 
 std::string unusedText(PetscInt nodes) {
   if (nodes == 0) return "";
@@ -157,16 +163,59 @@ void tellSticking(const Analysis& analysis, const steady::Solution& solution) {
   }
 }
 
-/// Collective. Returns steady sliding at every steady point, each started from the active set of a
-/// neighbour.
-std::vector<steady::Solution> steadySweep(const Analysis& analysis, CurrentSystem& system) {
+/// Collective. Returns the number of contact nodes that are open in one state and not in the other.
+PetscInt countDifferent(MPI_Comm comm, const steady::Solution& a, const steady::Solution& b) {
+  PetscInt count = 0;
+  for (std::size_t i = 0; i < a.closed.size(); ++i) count += a.closed[i] != b.closed[i];
+  check(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPIU_INT, MPI_SUM, comm));
+  return count;
+}
+
+/// Collective. Adds the events on the way from the state at a neighbouring point to the last one,
+/// or says in `solution` where the way to it ends.
+void followPath(Analysis& analysis, steady::CondensedProblem& condensed,
+                const steady::Solution& from, steady::Solution& solution) {
+  const MPI_Comm comm = analysis.mesh->comm;
+  const std::string between = "contact between " + sweep::parameterText(from.at) + " and " +
+                              sweep::parameterText(solution.at) + ": ";
+  const int limit = pathOption.get();
+  if (!from.converged || limit == 0) return;
+  if (const PetscInt changes = solution.converged ? countDifferent(comm, from, solution) : 0;
+      changes > limit)
+    return say(comm,
+               between + formatted("%" PetscInt_FMT " nodes change; -steady_path %" PetscInt_FMT
+                                   " finds where",
+                                   changes, changes));
+  Stage stage(comm, "steady");
+  auto path = steady::followContact(condensed, from, solution.at);
+  if (!path.obstacle.empty()) {
+    const std::string end = sweep::parameterText(path.end) + ": " + path.obstacle;
+    if (solution.converged)
+      complain(comm, between + "followed up to " + end);
+    else
+      solution.reason += "; followed from " + sweep::parameterText(from.at) + " up to " + end;
+  }
+  for (auto& event : path.events) {
+    event.order += analysis.contactEvents;
+    analysis.contactPath.push_back(event);
+  }
+  analysis.contactEvents += path.count;
+  if (path.count > 0)
+    stage.finish(between +
+                 formatted("%d %s", path.count,
+                           path.count == 1 ? "node opens or closes" : "nodes open or close"));
+}
+
+/// Collective. Finds steady sliding at every steady point, each started from the active set of a
+/// neighbour, and the path of the contact between them.
+void steadySweep(Analysis& analysis, CurrentSystem& system) {
   const steady::Problem problem(*analysis.mesh, analysis.bodies, analysis.contact);
   const std::size_t nodes = analysis.contact.nodes.size();
   const ActiveSet bonded{std::vector<unsigned char>(nodes, 1),
                          std::vector<unsigned char>(nodes, 0)};
   // [steady point] its active set, or the one tried where there is no solution
   std::vector<ActiveSet> active;
-  std::vector<steady::Solution> solutions;
+  std::vector<steady::Solution>& solutions = analysis.steady;
   const bool condensable = fullOption.get() == false &&
                            steady::CondensedProblem::serves(analysis.contact, analysis.bodies);
   std::optional<steady::CondensedProblem> condensed;
@@ -178,7 +227,7 @@ std::vector<steady::Solution> steadySweep(const Analysis& analysis, CurrentSyste
     Stage stage(analysis.mesh->comm, "steady");
     if (condensable && !condensed) condensed.emplace(problem, current);
     solutions.push_back(condensed ? condensed->solve(at) : problem.solve(at, current));
-    const auto& solution = solutions.back();
+    auto& solution = solutions.back();
     stage.finish(formatted("%s: %s after %d iterations, %" PetscInt_FMT " of %" PetscInt_FMT
                            " nodes open, smallest pressure %.4g, residual %.0e, imbalance %.0e",
                            sweep::parameterText(at).c_str(), solution.reason.c_str(),
@@ -188,6 +237,7 @@ std::vector<steady::Solution> steadySweep(const Analysis& analysis, CurrentSyste
       requireFinite(solution.displacement, "steady sliding at " + sweep::parameterText(at));
       tellSticking(analysis, solution);
     }
+    if (condensed && neighbour) followPath(analysis, *condensed, solutions[*neighbour], solution);
     if (solution.converged)
       active.back() = activeSet(solution);
     else
@@ -195,7 +245,6 @@ std::vector<steady::Solution> steadySweep(const Analysis& analysis, CurrentSyste
                formatted("no steady sliding solution found at %s: %s",
                          sweep::parameterText(at).c_str(), solution.reason.c_str()));
   }
-  return solutions;
 }
 
 /// Collective. Examines uniqueness at each speed, or once where K and the slip are the same at all
@@ -358,7 +407,7 @@ void prepareMesh(Analysis& analysis) {
 
 void solveMesh(Analysis& analysis) {
   CurrentSystem system(analysis);
-  analysis.steady = steadySweep(analysis, system);
+  steadySweep(analysis, system);
   if (analysis.contact.totalNodes > 0 && uniqueness::uniquenessWanted())
     analysis.uniqueness = examineUniqueness(analysis);
   flutter::Influences influences(*analysis.mesh, analysis.bodies, analysis.contact);

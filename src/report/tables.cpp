@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <sstream>
 
 #include "modes/modes.hpp"
 #include "options/options.hpp"
@@ -80,6 +81,19 @@ std::string nodeState(const contact::Contact& contact, const steady::Solution& s
   return steady::exceedsLimit(contact, solution, i) ? "beyond_friction" : "sticking";
 }
 
+std::string gathered(MPI_Comm comm, const std::string& text) {
+  int rank = 0, size = 1, length = text.size();
+  check(MPI_Comm_rank(comm, &rank));
+  check(MPI_Comm_size(comm, &size));
+  std::vector<int> lengths(size), offsets(lengths.size(), 0);
+  check(MPI_Gather(&length, 1, MPI_INT, lengths.data(), 1, MPI_INT, 0, comm));
+  for (std::size_t r = 1; r < lengths.size(); ++r) offsets[r] = offsets[r - 1] + lengths[r - 1];
+  std::string all(rank == 0 ? offsets.back() + lengths.back() : 0, ' ');
+  check(MPI_Gatherv(text.data(), length, MPI_CHAR, all.data(), lengths.data(), offsets.data(),
+                    MPI_CHAR, 0, comm));
+  return all;
+}
+
 /// Returns the rows of this rank. They hold surface data only, and are gathered on rank 0.
 std::string steadyRows(const analysis::Analysis& analysis, const steady::Solution& solution) {
   std::string rows;
@@ -93,6 +107,26 @@ std::string steadyRows(const analysis::Analysis& analysis, const steady::Solutio
             nodeState(analysis.contact, solution, i) + "\n";
   }
   return rows;
+}
+
+/// Collective. Returns the table of the nodes that open and close, on rank 0. Rows of all ranks are
+/// put in the order of the events.
+std::string contactPathTable(const analysis::Analysis& analysis) {
+  std::string rows;
+  for (const auto& event : analysis.contactPath) {
+    const auto& node = analysis.contact.nodes[event.node];
+    rows += formatted("%012d,", event.order) +
+            formatted("%.12g,%.12g,%.12g", event.at.friction, event.at.speed, event.at.pressure) +
+            formatted(",%.12e,%.12e,%.12e,", node.position[0], node.position[1], node.position[2]) +
+            analysis.contact.interfaces[node.interface] + (event.opens ? ",opens\n" : ",closes\n");
+  }
+  std::istringstream unordered(gathered(analysis.comm, rows));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(unordered, line);) lines.push_back(line);
+  std::sort(lines.begin(), lines.end());
+  std::string table = "friction,speed,pressure,x_m,y_m,z_m,interface,change\n";
+  for (const auto& line : lines) table += line.substr(line.find(',') + 1) + "\n";
+  return table;
 }
 
 /// Returns friction, and the parameters that are not 1 all over the sweep.
@@ -170,19 +204,6 @@ std::string strongDampingText(const analysis::Analysis& analysis) {
       most->freeModesInBand);
 }
 
-std::string gathered(MPI_Comm comm, const std::string& text) {
-  int rank = 0, size = 1, length = text.size();
-  check(MPI_Comm_rank(comm, &rank));
-  check(MPI_Comm_size(comm, &size));
-  std::vector<int> lengths(size), offsets(lengths.size(), 0);
-  check(MPI_Gather(&length, 1, MPI_INT, lengths.data(), 1, MPI_INT, 0, comm));
-  for (std::size_t r = 1; r < lengths.size(); ++r) offsets[r] = offsets[r - 1] + lengths[r - 1];
-  std::string all(rank == 0 ? offsets.back() + lengths.back() : 0, ' ');
-  check(MPI_Gatherv(text.data(), length, MPI_CHAR, all.data(), lengths.data(), offsets.data(),
-                    MPI_CHAR, 0, comm));
-  return all;
-}
-
 /// Returns an -options_file that repeats the run; defaults that were in force stand in comments.
 std::string recipe(MPI_Comm comm) {
   int size = 1;
@@ -222,6 +243,8 @@ void writeTables(const analysis::Analysis& analysis, const std::filesystem::path
         s == 0 ? "modes.csv" : "modes_" + pointName(analysis.segments[s].points.at(0).at) + ".csv";
     writeText(comm, folder / name, modeTable(analysis.segments[s].modes));
   }
+  if (analysis.contactEvents > 0)
+    writeText(comm, folder / "contact_path.csv", contactPathTable(analysis));
   for (const auto& solution : analysis.steady)
     if (solution.converged)
       writeText(comm, folder / ("steady_" + pointName(solution.at) + ".csv"),

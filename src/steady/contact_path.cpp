@@ -39,6 +39,7 @@ class Follower {
 
   ContactPath follow() {
     ContactPath path;
+    path.end = to_;
     double s = 0;
     while (true) {
       Place worst = worstAt(1);
@@ -53,12 +54,12 @@ class Follower {
       }
       if (!(event > s) && path.count > 0 && last_.rank == first.rank && last_.node == first.node) {
         path.obstacle = "the node that changes there would change back at once";
-        path.end = s;
+        path.end = at(s);
         break;
       }
       if (!change(first, event, path)) {
         path.obstacle = "no active set holds behind it";
-        path.end = event;
+        path.end = at(event);
         break;
       }
       s = event;

@@ -20,7 +20,7 @@ struct ContactPath {
   int count = 0;                     ///< events of all ranks
   /// Why the path does not lead to the last point; empty if it does.
   std::string obstacle;
-  double end = 1;  ///< part of the line that has been followed
+  sweep::Parameters end;  ///< point up to which it has been followed
 };
 
 /// Collective. Follows the steady state from a solution along the line to `to`, where the friction,

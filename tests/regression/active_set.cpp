@@ -182,6 +182,22 @@ TEST(ActiveSet, SameOnOneAndTwoRanks) {
       EXPECT_EQ(one[i].at(key), two[i].at(key)) << key << " of set " << i + 1;
 }
 
+// tests/unit/steady/contact_path.cpp has the frictions by dense algebra.
+TEST(ActiveSet, PathOfTheContact) {
+  for (int ranks : {1, 2}) {
+    const ProgramRun& run = sweepOn(ranks);
+    ASSERT_EQ(run.exitCode, 0) << run.error;
+    const CsvTable path = readCsv(run.folder / "contact_path.csv");
+    const auto friction = path.column("friction"), x = path.column("x_m");
+    ASSERT_GE(friction.size(), 3U);
+    const double expected[] = {0.201354274411, 0.304739840891, 0.445639317271};
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(friction[i], expected[i], 1e-9);
+    EXPECT_TRUE(std::is_sorted(friction.begin(), friction.end()));
+    EXPECT_TRUE(std::is_sorted(x.begin(), x.end(), std::greater<>()) ||
+                std::is_sorted(x.begin(), x.end()));  // one after the other, from one end
+  }
+}
+
 TEST(ActiveSet, FrictionWithoutSteadyState) {
   for (int ranks : {1, 2}) {
     SCOPED_TRACE(std::to_string(ranks) + " ranks");
@@ -196,6 +212,8 @@ TEST(ActiveSet, FrictionWithoutSteadyState) {
     EXPECT_GE(low, 10);
     EXPECT_GE(high, 10);
     EXPECT_EQ(static_cast<long>(friction.size()), low + high);
+    EXPECT_NE(run.out.find("followed from friction 0.5 up to friction 0.723715"),
+              std::string::npos);
     EXPECT_FALSE(fs::exists(run.folder / "steady_0.9.csv"));
     EXPECT_NE(contentOf(run.folder / "stability_map.csv").find("\n0.9,1,1,1,,,,,\n"),
               std::string::npos);
