@@ -78,6 +78,38 @@ Block sumOfProducts(Mat a, const DenseView& x, Mat b, const DenseView& y, PetscI
   return sum;
 }
 
+/// Returns the matrix that picks the indices of this rank: `local` × indices, with a 1 in the row
+/// of each index.
+OwnedMat picks(MPI_Comm comm, PetscInt local, IS indices) {
+  OwnedMat matrix;
+  PetscInt count = 0, first = 0;
+  const PetscInt* rows = nullptr;
+  check(ISGetLocalSize(indices, &count));
+  check(MatCreateAIJ(comm, local, count, PETSC_DETERMINE, PETSC_DETERMINE, 1, nullptr, 0, nullptr,
+                     matrix.out()));
+  check(MatGetOwnershipRangeColumn(matrix, &first, nullptr));
+  check(ISGetIndices(indices, &rows));
+  for (PetscInt k = 0; k < count; ++k)
+    check(MatSetValue(matrix, rows[k], first + k, 1, INSERT_VALUES));
+  check(ISRestoreIndices(indices, &rows));
+  check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
+  check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
+  return matrix;
+}
+
+/// Returns a part of a matrix with few rows. MatCreateSubMatrix() asks for ascending columns, which
+/// gaps and tangents in a row are not.
+OwnedMat part(Mat matrix, IS rows, IS columns) {
+  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(matrix));
+  PetscInt localRows = 0, localColumns = 0;
+  check(MatGetLocalSize(matrix, &localRows, &localColumns));
+  const OwnedMat left = picks(comm, localRows, rows), right = picks(comm, localColumns, columns);
+  OwnedMat thin, result;
+  check(MatTransposeMatMult(left, matrix, MAT_INITIAL_MATRIX, PETSC_DEFAULT, thin.out()));
+  check(MatMatMult(thin, right, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.out()));
+  return result;
+}
+
 }  // namespace
 
 Impedance::Impedance(const contact::Contact& contact, const contact::Transformation& open,
@@ -110,12 +142,6 @@ Impedance::Impedance(const contact::Contact& contact, const contact::Transformat
 
 OwnedMat Impedance::directFriction(Mat slipRows) const {
   return transposed(part(slipRows, nodeRows_, released_));
-}
-
-OwnedMat Impedance::part(Mat matrix, IS rows, IS columns) const {
-  OwnedMat result;
-  check(MatCreateSubMatrix(matrix, rows, columns, MAT_INITIAL_MATRIX, result.out()));
-  return result;
 }
 
 /// Returns K0⁻¹ of the columns.

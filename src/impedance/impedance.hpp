@@ -49,7 +49,6 @@ class Impedance {
   long solves() const { return solves_; }  ///< right-hand sides solved for so far
 
  private:
-  OwnedMat part(Mat matrix, IS rows, IS columns) const;
   linalg::Block solved(const linalg::DenseView& forces) const;
   linalg::Block innerOf(const linalg::DenseView& t, const linalg::DenseView& w) const;
   void addInner(const linalg::Block& y, Vec x) const;
