@@ -7,6 +7,7 @@
 
 #include "analysis/checks.hpp"
 #include "analysis/segment.hpp"
+#include "analysis/steady_sweep.hpp"
 #include "contact/coupled.hpp"
 #include "elasticity/elasticity.hpp"
 #include "elasticity/element.hpp"
@@ -15,7 +16,6 @@
 #include "flutter/influence.hpp"
 #include "flutter/terms.hpp"
 #include "flutter/work.hpp"
-#include "interfaces/algebra.hpp"
 #include "interfaces/interfaces.hpp"
 #include "interfaces/ties.hpp"
 #include "matrices/write.hpp"
@@ -23,26 +23,14 @@
 #include "modes/benchmark.hpp"
 #include "modes/modes.hpp"
 #include "options/options.hpp"
-#include "petsc/finite.hpp"
 #include "petsc/text.hpp"
 #include "sensitivity/sensitivity.hpp"
 #include "session/stages.hpp"
-#include "steady/condensed_problem.hpp"
-#include "steady/contact_path.hpp"
 #include "steady/steady.hpp"
 #include "uniqueness/uniqueness.hpp"
 
 namespace squeal::analysis {
 namespace {
-
-const FlagOption fullOption("steady", "steady_full", false,
-                            "steady sliding is solved in all unknowns, as a check, where it could "
-                            "be solved in those of the contact");
-
-const IntegerOption pathOption(
-    "steady", "steady_path", 20, 0, 1'000'000,
-    "largest number of contact nodes that may open or close between neighbouring points of a sweep "
-    "for the parameters to be solved for at which they do; 0: none");
 
 std::string unusedText(PetscInt nodes) {
   if (nodes == 0) return "";
@@ -95,156 +83,6 @@ contact::Contact buildContact(const mesh::Mesh& mesh, const elasticity::Bodies& 
     if (contact.interfaces.size() > 1 || !contact.reports[i].matching)
       say(mesh.comm, "  " + interfaces::describe(contact, i));
   return contact;
-}
-
-/// The contact nodes that are active, and those that stick no longer, [contact node].
-struct ActiveSet {
-  std::vector<unsigned char> closed, released;
-
-  bool operator==(const ActiveSet&) const = default;
-};
-
-ActiveSet activeSet(const steady::Solution& solution) {
-  return {solution.closed, solution.sticking.free()};
-}
-
-bool sameOnAllRanks(MPI_Comm comm, const ActiveSet& a, const ActiveSet& b) {
-  int same = a == b;
-  check(MPI_Allreduce(MPI_IN_PLACE, &same, 1, MPI_INT, MPI_LAND, comm));
-  return same;
-}
-
-/// The associated system of the active set in force, which is made anew when the set changes.
-class CurrentSystem {
- public:
-  CurrentSystem(const Analysis& analysis) : analysis_(analysis) {}
-  const contact::CoupledSystem& of(const ActiveSet& active) {
-    if (!system_ ||
-        !sameOnAllRanks(analysis_.mesh->comm, {system_->closed(), system_->released()}, active)) {
-      system_.reset();  // the old factorisation's memory first
-      Stage stage(analysis_.mesh->comm, "contact");
-      system_ = std::make_unique<contact::CoupledSystem>(analysis_.bodies, analysis_.contact,
-                                                         active.closed, nullptr, active.released);
-      const PetscInt nodes = analysis_.contact.totalNodes;
-      stage.finish(formatted("%" PetscInt_FMT " unknowns with %" PetscInt_FMT " of %" PetscInt_FMT
-                             " contact nodes closed",
-                             system_->size(), nodes - system_->openNodes(), nodes));
-    }
-    return *system_;
-  }
-
- private:
-  const Analysis& analysis_;
-  std::unique_ptr<contact::CoupledSystem> system_;
-};
-
-/// Collective. Tells which sticking interfaces are held by more than their limit of friction, and
-/// which slide.
-void tellSticking(const Analysis& analysis, const steady::Solution& solution) {
-  for (const auto& resultant : solution.resultants) {
-    const std::string head =
-        sweep::parameterText(solution.at) + ": interface '" + resultant.interface + "': ";
-    if (resultant.released + resultant.unheld > 0)
-      say(analysis.mesh->comm,
-          head +
-              formatted("%" PetscInt_FMT " nodes slide and %" PetscInt_FMT
-                        " touch without being held, as they open or slide when they are, after %d "
-                        "revisions",
-                        resultant.released, resultant.unheld, solution.revisions));
-    if (resultant.overLimit > 0)
-      complain(
-          analysis.mesh->comm,
-          head + formatted("%" PetscInt_FMT
-                           " nodes are held although they exceed its coefficient of friction, "
-                           "up to %.4g at %s; the tables of the steady state list them, and "
-                           "-contact_%s_release on lets them slide",
-                           resultant.overLimit, resultant.leastFriction,
-                           interfaces::text(resultant.worst).c_str(), resultant.interface.c_str()));
-  }
-}
-
-/// Collective. Returns the number of contact nodes that are open in one state and not in the other.
-PetscInt countDifferent(MPI_Comm comm, const steady::Solution& a, const steady::Solution& b) {
-  PetscInt count = 0;
-  for (std::size_t i = 0; i < a.closed.size(); ++i) count += a.closed[i] != b.closed[i];
-  check(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPIU_INT, MPI_SUM, comm));
-  return count;
-}
-
-/// Collective. Adds the events on the way from the state at a neighbouring point to the last one,
-/// or says in `solution` where the way to it ends.
-void followPath(Analysis& analysis, steady::CondensedProblem& condensed,
-                const steady::Solution& from, steady::Solution& solution) {
-  const MPI_Comm comm = analysis.mesh->comm;
-  const std::string between = "contact between " + sweep::parameterText(from.at) + " and " +
-                              sweep::parameterText(solution.at) + ": ";
-  const int limit = pathOption.get();
-  if (!from.converged || limit == 0) return;
-  if (const PetscInt changes = solution.converged ? countDifferent(comm, from, solution) : 0;
-      changes > limit)
-    return say(comm,
-               between + formatted("%" PetscInt_FMT " nodes change; -steady_path %" PetscInt_FMT
-                                   " finds where",
-                                   changes, changes));
-  Stage stage(comm, "steady");
-  auto path = steady::followContact(condensed, from, solution.at);
-  if (!path.obstacle.empty()) {
-    const std::string end = sweep::parameterText(path.end) + ": " + path.obstacle;
-    if (solution.converged)
-      complain(comm, between + "followed up to " + end);
-    else
-      solution.reason += "; followed from " + sweep::parameterText(from.at) + " up to " + end;
-  }
-  for (auto& event : path.events) {
-    event.order += analysis.contactEvents;
-    analysis.contactPath.push_back(event);
-  }
-  analysis.contactEvents += path.count;
-  if (path.count > 0)
-    stage.finish(between +
-                 formatted("%d %s", path.count,
-                           path.count == 1 ? "node opens or closes" : "nodes open or close"));
-}
-
-/// Collective. Finds steady sliding at every steady point, each started from the active set of a
-/// neighbour, and the path of the contact between them.
-void steadySweep(Analysis& analysis, CurrentSystem& system) {
-  const steady::Problem problem(*analysis.mesh, analysis.bodies, analysis.contact);
-  const std::size_t nodes = analysis.contact.nodes.size();
-  const ActiveSet bonded{std::vector<unsigned char>(nodes, 1),
-                         std::vector<unsigned char>(nodes, 0)};
-  // [steady point] its active set, or the one tried where there is no solution
-  std::vector<ActiveSet> active;
-  std::vector<steady::Solution>& solutions = analysis.steady;
-  const bool condensable = fullOption.get() == false &&
-                           steady::CondensedProblem::serves(analysis.contact, analysis.bodies);
-  std::optional<steady::CondensedProblem> condensed;
-  for (const auto& at : analysis.sweep.steadyPoints()) {
-    const auto neighbour = analysis.sweep.earlierNeighbour(solutions.size());
-    active.push_back(neighbour ? active[*neighbour] : bonded);
-    const auto& current = system.of(condensable ? bonded : active.back());
-    current.solver();
-    Stage stage(analysis.mesh->comm, "steady");
-    if (condensable && !condensed) condensed.emplace(problem, current);
-    solutions.push_back(condensed ? condensed->solve(at) : problem.solve(at, current));
-    auto& solution = solutions.back();
-    stage.finish(formatted("%s: %s after %d iterations, %" PetscInt_FMT " of %" PetscInt_FMT
-                           " nodes open, smallest pressure %.4g, residual %.0e, imbalance %.0e",
-                           sweep::parameterText(at).c_str(), solution.reason.c_str(),
-                           solution.iterations, solution.openNodes, analysis.contact.totalNodes,
-                           solution.smallestPressure, solution.residual, solution.imbalance));
-    if (solution.converged) {
-      requireFinite(solution.displacement, "steady sliding at " + sweep::parameterText(at));
-      tellSticking(analysis, solution);
-    }
-    if (condensed && neighbour) followPath(analysis, *condensed, solutions[*neighbour], solution);
-    if (solution.converged)
-      active.back() = activeSet(solution);
-    else
-      complain(analysis.mesh->comm,
-               formatted("no steady sliding solution found at %s: %s",
-                         sweep::parameterText(at).c_str(), solution.reason.c_str()));
-  }
 }
 
 /// Collective. Examines uniqueness at each speed, or once where K and the slip are the same at all

@@ -255,6 +255,11 @@ std::vector<int> Contact::frictionExponents() const {
   return exponents;
 }
 
+bool Contact::hasSticking() const {
+  return std::any_of(options.begin(), options.end(),
+                     [](const auto& one) { return one.role == Role::sticking; });
+}
+
 bool Contact::hasFriction(double swept) const {
   return std::any_of(options.begin(), options.end(),
                      [&](const auto& one) { return one.friction.at(swept) > 0; });

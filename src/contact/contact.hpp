@@ -103,6 +103,8 @@ struct Contact : interfaces::Interfaces {
   /// Returns the powers of the swept friction with which interfaces carry friction: 0 where a
   /// coefficient is fixed, 1 where one is swept. The same on all ranks.
   std::vector<int> frictionExponents() const;
+  /// Returns true if any interface sticks. The same on all ranks.
+  bool hasSticking() const;
   /// Returns true if any interface carries friction at the swept one. The same on all ranks.
   bool hasFriction(double swept) const;
   /// Collective. Returns S_a, N×n, for the power a of the swept friction: E⁻¹ c φ τ·[u] of u = T x,

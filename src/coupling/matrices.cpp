@@ -36,16 +36,24 @@ void forEachEdge(const std::vector<CoveredFace>& faces, const Basis& basis,
     }
 }
 
+/// Collective. Returns the number of faces of all ranks at each mid-edge node, [local node].
+std::vector<double> facesAtEdges(const mesh::Mesh& mesh, const NodeExchange& exchange,
+                                 const std::vector<CoveredFace>& faces, const Basis& basis,
+                                 const Pivoting& pivoting) {
+  std::vector<double> count(mesh.localNodes(), 0.0);
+  forEachEdge(faces, basis, pivoting,
+              [&](const auto&, const auto&, PetscInt middle) { ++count[middle]; });
+  exchange.sum(count);
+  return count;
+}
+
 /// Collective. Returns the matrix with the rows
 ///   1 on the diagonal of a pivot at a corner,   (middle, end, end) of a pivot within an edge.
 OwnedMat edgeMatrix(const mesh::Mesh& mesh, const NodeExchange& exchange,
                     const std::vector<CoveredFace>& faces, const Basis& basis,
                     const Pivoting& pivoting,
                     const std::function<std::array<double, 2>(double alpha)>& middleAndEnd) {
-  std::vector<double> facesAt(mesh.localNodes(), 0.0);  // [mid-edge node]: both add to one row
-  forEachEdge(faces, basis, pivoting,
-              [&](const auto&, const auto&, PetscInt middle) { ++facesAt[middle]; });
-  exchange.sum(facesAt);
+  const auto facesAt = facesAtEdges(mesh, exchange, faces, basis, pivoting);  // add to one row
   Triples triples;
   forEachEdge(faces, basis, pivoting, [&](const auto& face, const auto& edge, PetscInt middle) {
     const auto [atMiddle, atEnd] = middleAndEnd(basis.alpha[middle]);
@@ -71,17 +79,15 @@ OwnedMat product(Mat a, Mat b) {
 std::vector<Point> offsetsOf(const mesh::Mesh& mesh, const NodeExchange& exchange,
                              const std::vector<CoveredFace>& faces, const Basis& basis,
                              const Pivoting& pivoting, const Sums& sums, Mat edges) {
-  std::vector<double> facesAt(mesh.localNodes(), 0.0);
+  const auto facesAt = facesAtEdges(mesh, exchange, faces, basis, pivoting);
   std::array<std::vector<double>, 3> bow;  // of the edges, times the number of their faces
   for (auto& values : bow) values.resize(mesh.localNodes());
   forEachEdge(faces, basis, pivoting, [&](const auto& face, const auto& edge, PetscInt middle) {
-    ++facesAt[middle];
     const auto& x = face.face->points;
     for (std::size_t d = 0; d < 3; ++d)
       for (int corner : edge.corners)
         bow[d][middle] += basis.alpha[middle] * (x[corner][d] - x[edge.node][d]);
   });
-  exchange.sum(facesAt);
   std::vector<Point> offsets(pivoting.owned.size());
   OwnedVec move, combined;
   check(VecCreateMPI(mesh.comm, mesh.ownedNodes, PETSC_DETERMINE, move.out()));

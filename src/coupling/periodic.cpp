@@ -1,10 +1,9 @@
 #include "coupling/periodic.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include "mesh/vector.hpp"
-#include "petsc/check.hpp"
+#include "petsc/concatenation.hpp"
 
 namespace squeal::coupling {
 namespace {
@@ -22,15 +21,7 @@ void add(const Point& shift, double tolerance, std::vector<Point>& list) {
 
 /// Collective. Returns the ascending list of all ranks' translations.
 std::vector<Point> gathered(MPI_Comm comm, const std::vector<Point>& mine) {
-  int size = 1;
-  check(MPI_Comm_size(comm, &size));
-  const int count = 3 * std::ssize(mine);
-  std::vector<int> counts(size), offsets(size);
-  check(MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, comm));
-  std::exclusive_scan(counts.begin(), counts.end(), offsets.begin(), 0);
-  std::vector<Point> all((offsets.back() + counts.back()) / 3);
-  check(MPI_Allgatherv(mine.data(), count, MPI_DOUBLE, all.data(), counts.data(), offsets.data(),
-                       MPI_DOUBLE, comm));
+  auto all = concatenated(comm, mine);
   std::sort(all.begin(), all.end());
   return all;
 }

@@ -7,11 +7,11 @@
 #include <boost/geometry/index/rtree.hpp>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <tuple>
 
 #include "petsc/buffer.hpp"
 #include "petsc/check.hpp"
+#include "petsc/concatenation.hpp"
 
 namespace squeal::coupling {
 namespace {
@@ -63,19 +63,9 @@ struct RankBoxes {
 };
 
 RankBoxes gather(MPI_Comm comm, const std::vector<Box>& mine) {
-  constexpr int numbers = sizeof(Box) / sizeof(double);
-  int size = 1;
-  check(MPI_Comm_size(comm, &size));
-  const int count = numbers * std::ssize(mine);
-  std::vector<int> counts(size), offsets(size);
-  check(MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, comm));
-  std::exclusive_scan(counts.begin(), counts.end(), offsets.begin(), 0);
-  RankBoxes all;
-  for (int r = 0; r < size; ++r) all.rank.insert(all.rank.end(), counts[r] / numbers, r);
-  all.boxes.resize(all.rank.size());
-  check(MPI_Allgatherv(mine.data(), count, MPI_DOUBLE, all.boxes.data(), counts.data(),
-                       offsets.data(), MPI_DOUBLE, comm));
-  return all;
+  int rank = 0;
+  check(MPI_Comm_rank(comm, &rank));
+  return {concatenated(comm, mine), concatenated(comm, std::vector<int>(mine.size(), rank))};
 }
 
 /// Returns for each rank with a box that one of `boxes` touches the indices of all that do.

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "linalg/block.hpp"
 #include "linalg/symmetric.hpp"
+#include "petsc/concatenation.hpp"
 
 namespace squeal::impedance {
 
@@ -25,28 +25,10 @@ constexpr double loose = 1e-12;
 /// The largest number of directions that one call adds.
 constexpr PetscInt mostDirections = 500;
 
-/// A Spread tells which entries of a replicated list belong to which rank.
-struct Spread {
-  std::vector<int> counts, offsets;  // [rank]
-  PetscInt total = 0;
-};
-
-Spread spreadOf(MPI_Comm comm, int own) {
-  int ranks = 1;
-  check(MPI_Comm_size(comm, &ranks));
-  Spread spread{std::vector<int>(ranks), std::vector<int>(ranks), 0};
-  check(MPI_Allgather(&own, 1, MPI_INT, spread.counts.data(), 1, MPI_INT, comm));
-  std::exclusive_scan(spread.counts.begin(), spread.counts.end(), spread.offsets.begin(), 0);
-  spread.total = spread.offsets.back() + spread.counts.back();
-  return spread;
-}
-
 /// Collective. Returns the rows of all ranks, on every rank.
-DenseMatrix gathered(MPI_Comm comm, const Spread& spread, const DenseView& rows) {
-  DenseMatrix all(spread.total, rows.columns());
-  for (PetscInt j = 0; j < rows.columns(); ++j)
-    check(MPI_Allgatherv(rows.column(j).data(), rows.rows(), MPI_DOUBLE, all.column(j).data(),
-                         spread.counts.data(), spread.offsets.data(), MPI_DOUBLE, comm));
+DenseMatrix gathered(const Concatenation& ranks, const DenseView& rows) {
+  DenseMatrix all(ranks.size(), rows.columns());
+  for (PetscInt j = 0; j < rows.columns(); ++j) ranks.gather(rows.column(j), all.column(j));
   return all;
 }
 
@@ -98,15 +80,16 @@ DenseMatrix leastSquares(MPI_Comm comm, const DenseView& g, const DenseView& b) 
 
 }  // namespace
 
-/// What follows from the conditions.
+/// A FreeBlock holds what the conditions decide: the stiffness of the free unknowns, and what
+/// friction does while they are free.
 struct ContactSolver::FreeBlock {
   std::vector<unsigned char> free;  // [released unknown]
   OwnedMat direct;                  // kept, so that its address stays its own
   std::vector<PetscInt> local;      // free unknowns of this rank
   std::vector<PetscInt> places;     // [free unknown of any rank] its column
-  Spread spread;
-  SymmetricInverse stiffness;    // F of w among the free unknowns
-  DenseMatrix responses, freed;  // of the friction magnitudes with the free unknowns released
+  Concatenation ranks;              // of `local`
+  SymmetricInverse stiffness;       // F of w among the free unknowns
+  DenseMatrix responses, freed;     // of the friction magnitudes with the free unknowns released
 };
 
 ContactSolver::ContactSolver(const Impedance& impedance)
@@ -126,14 +109,11 @@ void ContactSolver::learn(const std::vector<unsigned char>& free) {
   std::vector<PetscInt> wanted;
   for (std::size_t i = 0; i < free.size(); ++i)
     if (free[i] && place_.count(first_ + i) == 0) wanted.push_back(first_ + i);
-  const Spread spread = spreadOf(impedance_.comm(), wanted.size());
-  if (spread.total == 0) return;
-  std::vector<PetscInt> all(spread.total);
-  check(MPI_Allgatherv(wanted.data(), wanted.size(), MPIU_INT, all.data(), spread.counts.data(),
-                       spread.offsets.data(), MPIU_INT, impedance_.comm()));
+  const auto all = concatenated(impedance_.comm(), wanted);
+  if (all.empty()) return;
   const PetscInt n = impedance_.nodes(), m = free.size();
-  DenseMatrix units(n + m, spread.total);
-  for (PetscInt j = 0; j < spread.total; ++j) {
+  DenseMatrix units(n + m, std::ssize(all));
+  for (PetscInt j = 0; j < units.columns(); ++j) {
     if (const PetscInt i = all[j] - first_; i >= 0 && i < m) units(n + i, j) = 1;
     place_.emplace(all[j], place_.size());
   }
@@ -154,15 +134,13 @@ ContactSolver::FreeBlock& ContactSolver::blockOf(const ContactConditions& condit
   std::vector<PetscInt> local, mine;
   for (std::size_t i = 0; i < free.size(); ++i)
     if (free[i]) local.push_back(i), mine.push_back(place_.at(first_ + i));
-  const Spread spread = spreadOf(comm, local.size());
-  std::vector<PetscInt> places(spread.total);
-  check(MPI_Allgatherv(mine.data(), mine.size(), MPIU_INT, places.data(), spread.counts.data(),
-                       spread.offsets.data(), MPIU_INT, comm));
-  DenseMatrix rows(local.size(), spread.total);
-  for (PetscInt j = 0; j < spread.total; ++j)
+  const Concatenation ranks(comm, local.size());
+  auto places = ranks.gathered(mine);
+  DenseMatrix rows(local.size(), std::ssize(places));
+  for (PetscInt j = 0; j < rows.columns(); ++j)
     for (std::size_t i = 0; i < local.size(); ++i) rows(i, j) = columns_(n + local[i], places[j]);
-  DenseMatrix stiffness = gathered(comm, spread, rows);
-  for (PetscInt j = 0; j < spread.total; ++j)
+  DenseMatrix stiffness = gathered(ranks, rows);
+  for (PetscInt j = 0; j < stiffness.columns(); ++j)
     for (PetscInt i = 0; i < j; ++i)
       stiffness(i, j) = stiffness(j, i) = (stiffness(i, j) + stiffness(j, i)) / 2;
   OwnedMat direct;
@@ -170,9 +148,9 @@ ContactSolver::FreeBlock& ContactSolver::blockOf(const ContactConditions& condit
     check(PetscObjectReference(reinterpret_cast<PetscObject>(conditions.direct)));
     direct = OwnedMat(conditions.direct);
   }
-  last.reset(new FreeBlock{free, std::move(direct), std::move(local), std::move(places), spread,
+  last.reset(new FreeBlock{free, std::move(direct), std::move(local), std::move(places), ranks,
                            SymmetricInverse(std::move(stiffness)), DenseMatrix(impedance_.length()),
-                           DenseMatrix(spread.total)});
+                           DenseMatrix(ranks.size())});
   return *last;
 }
 
@@ -184,30 +162,24 @@ DenseMatrix ContactSolver::release(const FreeBlock& block, DenseMatrix& effects)
   for (PetscInt j = 0; j < effects.columns(); ++j)
     for (std::size_t i = 0; i < block.local.size(); ++i)
       rows(i, j) = -effects(n + block.local[i], j);
-  DenseMatrix freed = gathered(impedance_.comm(), block.spread, rows);
+  DenseMatrix freed = gathered(block.ranks, rows);
   block.stiffness.apply(freed);
-  DenseMatrix spread(columns_.columns(), freed.columns());
+  DenseMatrix amounts(columns_.columns(), freed.columns());
   for (PetscInt j = 0; j < freed.columns(); ++j)
-    for (PetscInt i = 0; i < freed.rows(); ++i) spread(block.places[i], j) = freed(i, j);
-  if (!spread.empty()) linalg::multiplyAdd(columns_, spread, effects);
+    for (PetscInt i = 0; i < freed.rows(); ++i) amounts(block.places[i], j) = freed(i, j);
+  if (!amounts.empty()) linalg::multiplyAdd(columns_, amounts, effects);
   return freed;
-}
-
-double ContactSolver::norm(const std::vector<double>& values) const {
-  double sum = linalg::squaredLength(values);
-  check(MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, impedance_.comm()));
-  return std::sqrt(sum);
 }
 
 /// Adds a direction to the space of friction magnitudes, unless it lies in it.
 bool ContactSolver::extend(std::vector<double> direction) {
   const PetscInt n = impedance_.nodes();
-  const double before = norm(direction);
+  const double before = linalg::length(impedance_.comm(), direction);
   DenseMatrix column(n, 1, std::move(direction));
   for (int pass = 0; pass < 2; ++pass)
     linalg::multiplyAdd(
         magnitudes_, linalg::transposedProduct(impedance_.comm(), magnitudes_, column), column, -1);
-  const double length = norm({column.entries().begin(), column.entries().end()});
+  const double length = linalg::length(impedance_.comm(), column.entries());
   if (!(length > 1e-10 * before)) return false;
   DenseMatrix cause(impedance_.length(), 1);
   for (PetscInt i = 0; i < n; ++i) column(i, 0) /= length, cause(i, 0) = column(i, 0);
@@ -225,7 +197,7 @@ ContactSolution ContactSolver::solve(const ContactConditions& conditions,
   DenseMatrix effects(length, 1, given), freed = release(block, effects);
   DenseMatrix wanted(n, 1);  // t without its own effects
   for (PetscInt i = 0; i < n; ++i) wanted(i, 0) = coefficient[i] * effects(i, 0);
-  const double size = norm({wanted.entries().begin(), wanted.entries().end()});
+  const double size = linalg::length(comm, wanted.entries());
   DenseMatrix weights;
   double left = size;
   for (PetscInt added = 0; size > 0; ++added) {
@@ -247,7 +219,7 @@ ContactSolution ContactSolver::solve(const ContactConditions& conditions,
     weights = leastSquares(comm, balance, wanted);
     DenseMatrix rest = wanted;
     linalg::multiplyAdd(balance, weights, rest, -1);
-    left = norm({rest.entries().begin(), rest.entries().end()});
+    left = linalg::length(comm, rest.entries());
     if (left <= asked * size || added == mostDirections ||
         !extend({rest.entries().begin(), rest.entries().end()}))
       break;
@@ -261,10 +233,8 @@ ContactSolution ContactSolver::solve(const ContactConditions& conditions,
     linalg::multiplyAdd(block.responses, weights, effects);
     linalg::multiplyAdd(block.freed, weights, freed);
   }
-  int rank = 0;
-  check(MPI_Comm_rank(comm, &rank));
   for (std::size_t i = 0; i < block.local.size(); ++i)
-    solution.causes[n + block.local[i]] = freed(block.spread.offsets[rank] + i, 0);
+    solution.causes[n + block.local[i]] = freed(block.ranks.ownBegin() + i, 0);
   solution.effects.assign(effects.data(), effects.data() + length);
   return solution;
 }

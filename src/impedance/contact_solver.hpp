@@ -9,7 +9,7 @@
 
 namespace squeal::impedance {
 
-/// What is asked of the condensed problem.
+/// Which unknowns are free, and how much friction there is, is asked of the condensed problem.
 struct ContactConditions {
   /// [released unknown] 1 where F = 0, as at open gaps and where nothing holds a node; w = 0 at the
   /// others
@@ -43,10 +43,6 @@ class ContactSolver {
   /// Collective. The same with all gaps given, [contact node], whatever `free` says of them.
   ContactSolution withGaps(const std::vector<double>& gaps, ContactConditions conditions,
                            const ContactVector& given);
-  /// Returns the number of unknowns, over all ranks, whose columns of Z are known.
-  PetscInt knownColumns() const { return place_.size(); }
-  /// Returns the dimension of the space of friction magnitudes.
-  PetscInt frictionSpace() const { return magnitudes_.columns(); }
 
  private:
   struct FreeBlock;
@@ -54,7 +50,6 @@ class ContactSolver {
   FreeBlock& blockOf(const ContactConditions& conditions);
   linalg::DenseMatrix release(const FreeBlock& block, linalg::DenseMatrix& effects) const;
   bool extend(std::vector<double> direction);
-  double norm(const std::vector<double>& values) const;
 
   const Impedance& impedance_;
   PetscInt first_ = 0;                            // number of this rank's first released unknown

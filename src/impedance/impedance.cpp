@@ -14,8 +14,7 @@ using linalg::DenseView;
 
 namespace {
 
-/// The number of columns solved for at once: enough for the speed of dense kernels, few enough for
-/// memory.
+/// The number of causes whose unknowns are held at once.
 constexpr PetscInt blockColumns = 64;
 
 OwnedMat transposed(Mat matrix) {
@@ -146,16 +145,8 @@ OwnedMat Impedance::directFriction(Mat slipRows) const {
 
 /// Returns K0⁻¹ of the columns.
 Block Impedance::solved(const DenseView& forces) const {
-  Block result(forces.rows(), forces.columns());
-  const KSP solver = closed_.solver();
-  for (PetscInt begin = 0; begin < forces.columns(); begin += blockColumns) {
-    const PetscInt end = std::min(begin + blockColumns, forces.columns());
-    const OwnedMat rhs = linalg::borrowed(comm(), closed_.size(), forces.columnRange(begin, end)),
-                   x = linalg::borrowed(comm(), closed_.size(), result.columnRange(begin, end));
-    check(KSPMatSolve(solver, rhs, x));
-  }
   solves_ += forces.columns();
-  return result;
+  return linalg::solved(closed_.solver(), forces);
 }
 
 /// Returns y of the causes t and w.

@@ -2,8 +2,8 @@
 /// The contact is condensed to its own unknowns with the factorised stiffness K0 of the closed,
 /// frictionless contact [M.58].
 ///
-/// Of the unknowns x of the contact that may open, let y be those that the closed contact has, and
-/// w the others: the gaps, and the tangential displacements of the nodes that stick. With the
+/// The unknowns x of the contact that may open are y, those that the closed contact has, and w, the
+/// others: the gaps, and the tangential displacements of the nodes that stick. With the
 /// friction magnitudes t = f R and the blocks of K, S and N [M.10, M.11], the nodal forces r obey
 ///   K0 y + K_yw w + S_yᵀ t = q,   R = N r,   F = K_wy y + K_ww w + S_wᵀ t,
 /// so that causes (t, w) at the contact have the responses (R, F) there, by one solve with K0 each.

@@ -1,5 +1,6 @@
 #include "linalg/block.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "linalg/symmetric.hpp"
@@ -12,6 +13,28 @@ DenseMatrix transposedProduct(MPI_Comm comm, const DenseView& x, const DenseView
   check(MPI_Allreduce(MPI_IN_PLACE, result.data(), count, MPI_DOUBLE, MPI_SUM, comm));
   // The rounding of sums over the ranks may depend on the rank; later decisions must not.
   check(MPI_Bcast(result.data(), count, MPI_DOUBLE, 0, comm));
+  return result;
+}
+
+double length(MPI_Comm comm, std::span<const double> column) {
+  const DenseView view(column.data(), std::ssize(column), 1);
+  return std::sqrt(transposedProduct(comm, view, view)(0, 0));
+}
+
+Block solved(KSP solver, const DenseView& columns) {
+  constexpr PetscInt atOnce = 64;
+  Mat matrix = nullptr;
+  PetscInt size = 0;
+  check(KSPGetOperators(solver, &matrix, nullptr));
+  check(MatGetSize(matrix, &size, nullptr));
+  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(solver));
+  Block result(columns.rows(), columns.columns());
+  for (PetscInt begin = 0; begin < columns.columns(); begin += atOnce) {
+    const PetscInt end = std::min(begin + atOnce, columns.columns());
+    const OwnedMat rhs = borrowed(comm, size, columns.columnRange(begin, end)),
+                   x = borrowed(comm, size, result.columnRange(begin, end));
+    check(KSPMatSolve(solver, rhs, x));
+  }
   return result;
 }
 

@@ -22,6 +22,14 @@ OwnedMat borrowed(MPI_Comm comm, PetscInt rows, const DenseView& block);
 /// Collective. Returns Xᵀ Y, the same on all ranks. X and Y are given by this rank's rows.
 DenseMatrix transposedProduct(MPI_Comm comm, const DenseView& x, const DenseView& y);
 
+/// Collective. Returns the 2-norm of a column, the same on all ranks. It is given by this rank's
+/// rows.
+double length(MPI_Comm comm, std::span<const double> column);
+
+/// Collective. Returns A⁻¹ times the columns, with A of the solver. They are solved for some at a
+/// time: enough for the speed of dense kernels, few enough for memory.
+Block solved(KSP solver, const DenseView& columns);
+
 /// Collective. Returns orthogonal combinations of the columns, their principal directions, by
 /// ascending length. Those of length `small` or less are dropped.
 Block principal(MPI_Comm comm, const Block& columns, double small);

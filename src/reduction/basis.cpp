@@ -74,16 +74,10 @@ void Basis::appendProducts(Mat matrix, PetscInt first, PetscInt last, linalg::Bl
   linalg::appendProduct(matrix, columns_.columnRange(first, last), result);
 }
 
-/// Collective. Returns K0⁻¹ times all columns, solved for together.
+/// Collective. Returns K0⁻¹ times all columns.
 linalg::Block Basis::solve(const linalg::Block& right) {
-  PetscInt global = 0;
-  check(MatGetSize(stiffness_, &global, nullptr));
-  linalg::Block solved(right.rows(), right.columns());
-  const OwnedMat from = linalg::borrowed(comm_, global, right),
-                 to = linalg::borrowed(comm_, global, solved);
-  check(KSPMatSolve(solver_, from, to));
   solves_ += right.columns();
-  return solved;
+  return linalg::solved(solver_, right);
 }
 
 PetscInt Basis::add(const linalg::Block& residuals) {

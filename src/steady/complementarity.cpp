@@ -109,7 +109,7 @@ OwnedSNES newSnes(MPI_Comm comm, double asked) {
   return snes;
 }
 
-double solveSnes(SNES snes, Vec x, Solution& solution) {
+void solveSnes(SNES snes, Vec x, Solution& solution) {
   {
     // Even a tiny gap is open. The default, 1e-8 of the largest displacement, is too large where a
     // body moves far as a whole.
@@ -123,13 +123,16 @@ double solveSnes(SNES snes, Vec x, Solution& solution) {
       [&] { return SNESSolve(snes, nullptr, x); });  // its parts are set up as it begins
   SNESConvergedReason reason;
   PetscInt iterations = 0;
-  PetscReal tolerance = 0;
   check(SNESGetConvergedReason(snes, &reason));
   check(SNESGetIterationNumber(snes, &iterations));
-  check(SNESGetTolerances(snes, &tolerance, nullptr, nullptr, nullptr, nullptr));
+  check(SNESGetTolerances(snes, &solution.tolerance, nullptr, nullptr, nullptr, nullptr));
   solution.reason = SNESConvergedReasons[reason];
   solution.iterations += iterations;
-  return tolerance;
+}
+
+void accept(Solution& solution, double left, const Accuracy& accuracy) {
+  solution.residual = left / accuracy.forceUnit;
+  solution.converged = solution.residual <= std::max(solution.tolerance, 10 * accuracy.asked);
 }
 
 double complementarity(const Problem& problem, OwnedVec& x, Solution& solution) {
@@ -137,15 +140,17 @@ double complementarity(const Problem& problem, OwnedVec& x, Solution& solution) 
   PetscReal xUnit = 0;
   check(VecNorm(x, NORM_INFINITY, &xUnit));
   if (xUnit == 0) xUnit = 1;
-  const auto [forceUnit, asked] = accuracyNear(problem, solution.at, x);
+  const Accuracy accuracy = accuracyNear(problem, solution.at, x);
   const OwnedMat jacobian = problem.jacobian(solution.at, x);
   OwnedMat symmetric;
   check(MatDuplicate(problem.stiffness().matrix, MAT_COPY_VALUES, symmetric.out()));
-  for (Mat matrix : {jacobian.get(), symmetric.get()}) check(MatScale(matrix, xUnit / forceUnit));
+  for (Mat matrix : {jacobian.get(), symmetric.get()})
+    check(MatScale(matrix, xUnit / accuracy.forceUnit));
   check(VecScale(x, 1 / xUnit));
   const OwnedVec work = rightVector(jacobian);
-  Scaled scaled{problem, solution.at, xUnit, forceUnit, problem.contact().convected != nullptr,
-                work};
+  Scaled scaled{
+      problem, solution.at, xUnit, accuracy.forceUnit, problem.contact().convected != nullptr,
+      work};
 
   const OwnedVec low = rightVector(jacobian), high = rightVector(jacobian);
   check(VecSet(low, PETSC_NINFINITY));
@@ -155,7 +160,7 @@ double complementarity(const Problem& problem, OwnedVec& x, Solution& solution) 
   check(VecAssemblyBegin(low));
   check(VecAssemblyEnd(low));
 
-  const OwnedSNES snes = newSnes(problem.mesh().comm, asked);
+  const OwnedSNES snes = newSnes(problem.mesh().comm, accuracy.asked);
   const OwnedVec value = rightVector(jacobian);
   check(SNESSetFunction(snes, value, evaluate, &scaled));
   check(SNESSetJacobian(snes, jacobian, symmetric, differentiate, &scaled));
@@ -170,12 +175,10 @@ double complementarity(const Problem& problem, OwnedVec& x, Solution& solution) 
   check(PCSetType(pc, PCCHOLESKY));
   check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
   check(KSPSetPCSide(ksp, PC_RIGHT));
-  const double tolerance = solveSnes(snes, x, solution);
+  solveSnes(snes, x, solution);
   check(VecScale(x, xUnit));
   const double left = naturalResidual(problem, solution.at, x);
-  solution.residual = left / forceUnit;
-  // SNES also stops where steps no longer change anything; only the residual decides on success.
-  solution.converged = solution.residual <= std::max<PetscReal>(tolerance, 10 * asked);
+  accept(solution, left, accuracy);
   return left;
 }
 

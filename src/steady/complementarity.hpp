@@ -24,12 +24,15 @@ double naturalResidual(const Problem& problem, const sweep::Parameters& at, Vec 
 /// about 1. Its function, Jacobian and KSP are still to be set, then startSnes() to be called.
 OwnedSNES newSnes(MPI_Comm comm, double asked);
 /// Collective. Applies the options and solves from x, which becomes the solution. Sets reason and
-/// iterations of `solution` and returns the tolerance in force.
-double solveSnes(SNES snes, Vec x, Solution& solution);
+/// tolerance of `solution` and adds to its iterations.
+void solveSnes(SNES snes, Vec x, Solution& solution);
+/// Sets residual and convergence of `solution` from the 2-norm of its natural residual, N. SNES
+/// also stops where steps no longer change anything; only the residual decides on success.
+void accept(Solution& solution, double left, const Accuracy& accuracy);
 
 /// Collective. Solves by SNES VI (-steady_snes_*) from the start x, which becomes the solution, and
-/// fills residual, convergence, reason and iterations of `solution` at its point of the sweep. All
-/// gaps are unknowns. Returns the 2-norm of the natural residual, N.
+/// fills residual, convergence, tolerance, reason and iterations of `solution` at its point of the
+/// sweep. All gaps are unknowns. Returns the 2-norm of the natural residual, N.
 double complementarity(const Problem& problem, OwnedVec& x, Solution& solution);
 
 }  // namespace squeal::steady

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "petsc/arrays.hpp"
-#include "petsc/text.hpp"
 #include "steady/complementarity.hpp"
 
 namespace squeal::steady {
@@ -121,11 +120,11 @@ struct CondensedProblem::Loaded {
   }
 };
 
-/// What SNES is asked for.
+/// SNES is asked for the gaps under these conditions, in these units, to this accuracy.
 struct CondensedProblem::Asked {
   ContactConditions conditions;  // closed gaps
-  double gapUnit, forceUnit, accuracy;
-  double tolerance;  // of SNES, from the options
+  Accuracy accuracy;
+  double gapUnit;
 };
 
 bool CondensedProblem::serves(const contact::Contact& contact, const elasticity::Bodies& bodies) {
@@ -137,8 +136,7 @@ CondensedProblem::CondensedProblem(const Problem& problem, const contact::Couple
       contact_(problem.contact()),
       gaps_(contact_.nodes.size(), 0.0),
       sticking_(Sticking::allHeld(contact_)) {
-  if (std::any_of(contact_.options.begin(), contact_.options.end(),
-                  [](const auto& one) { return one.role == contact::Role::sticking; }))
+  if (contact_.hasSticking())
     free_ = std::make_unique<Problem>(problem.mesh(), problem.bodies(), contact_,
                                       Sticking::allFree(contact_));
   const Problem& open = free_ ? *free_ : problem_;
@@ -149,12 +147,6 @@ CondensedProblem::CondensedProblem(const Problem& problem, const contact::Couple
 }
 
 CondensedProblem::~CondensedProblem() = default;
-
-std::string CondensedProblem::costText() const {
-  return formatted("%ld solves, %" PetscInt_FMT " columns and %" PetscInt_FMT
-                   " friction forces condensed",
-                   impedance_->solves(), solver_->knownColumns(), solver_->frictionSpace());
-}
 
 /// Returns the state under the loads of a point, with its residual balanced by one solve; the loads
 /// of `less` are taken off before.
@@ -213,24 +205,28 @@ ContactConditions CondensedProblem::conditions(const sweep::Parameters& at,
   return result;
 }
 
-/// Collective. Returns what the friction of released nodes does to them; null if there are none.
-OwnedMat CondensedProblem::directFriction(const sweep::Parameters& at,
-                                          const Sticking& sticking) const {
+/// Collective. Returns what the friction of released nodes does to them, borrowed until the next
+/// call; null if there are none.
+Mat CondensedProblem::directFriction(const Sticking& sticking) {
   int any = std::count(sticking.holds.begin(), sticking.holds.end(), Hold::released) > 0;
+  int known = directOf_.holds == sticking.holds && directOf_.direction == sticking.direction;
   check(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_LOR, comm()));
-  if (!any) return {};
-  auto slips = withReleased(contact_, contact_.slip(at.speed, nullptr), sticking);
+  check(MPI_Allreduce(MPI_IN_PLACE, &known, 1, MPI_INT, MPI_LAND, comm()));
+  if (!any) return nullptr;
+  if (known) return direct_;
+  std::vector<contact::Slip> slips(contact_.nodes.size());
   for (std::size_t i = 0; i < slips.size(); ++i)
-    if (sticking.holds[i] != Hold::released) slips[i].direction = {};
-  return impedance_->directFriction(unitSlipRows(contact_, free_->transformation(), slips));
+    if (sticking.holds[i] == Hold::released) slips[i].direction = sticking.direction[i];
+  direct_ = impedance_->directFriction(unitSlipRows(contact_, free_->transformation(), slips));
+  directOf_ = sticking;
+  return direct_;
 }
 
 impedance::ContactSolution CondensedProblem::onSet(const sweep::Parameters& at,
                                                    const std::vector<unsigned char>& closed,
                                                    const Sticking& sticking) {
   ContactConditions asked = conditions(at, sticking);
-  const OwnedMat direct = directFriction(at, sticking);
-  asked.direct = direct;
+  asked.direct = directFriction(sticking);
   const auto& nodeOf = impedance_->nodeOf();
   for (std::size_t k = 0; k < nodeOf.size(); ++k)
     if (!closed[nodeOf[k]]) asked.free[k] = 1;
@@ -243,8 +239,9 @@ ContactVector CondensedProblem::complementarity(const Asked& asked, const Contac
   const PetscInt n = impedance_->nodes();
   PetscInt end = 0;
   check(MPI_Scan(&n, &end, 1, MPIU_INT, MPI_SUM, comm()));
-  GapProblem problem{*solver_,        asked.conditions, given,   asked.gapUnit,
-                     asked.forceUnit, comm(),           end - n, std::size_t(n)};
+  GapProblem problem{
+      *solver_, asked.conditions, given,         asked.gapUnit, asked.accuracy.forceUnit,
+      comm(),   end - n,          std::size_t(n)};
   std::fill_n(problem.conditions.free.begin(), n, 1);  // where SNES asks for no part
   OwnedMat jacobian;
   check(MatCreateShell(comm(), n, n, PETSC_DETERMINE, PETSC_DETERMINE, &problem, jacobian.out()));
@@ -258,7 +255,7 @@ ContactVector CondensedProblem::complementarity(const Asked& asked, const Contac
     for (PetscInt i = 0; i < n; ++i) start[i] = gaps_[i] / asked.gapUnit;
   }
   check(VecSet(high, PETSC_INFINITY));
-  const OwnedSNES snes = newSnes(comm(), asked.accuracy);
+  const OwnedSNES snes = newSnes(comm(), asked.accuracy.asked);
   check(SNESSetFunction(snes, f, evaluate, &problem));
   check(SNESSetJacobian(snes, jacobian, jacobian, differentiate, nullptr));
   check(SNESVISetVariableBounds(snes, low, high));
@@ -270,7 +267,7 @@ ContactVector CondensedProblem::complementarity(const Asked& asked, const Contac
   check(PCSetType(pc, PCSHELL));
   check(PCShellSetContext(pc, &problem));
   check(PCShellSetApply(pc, solvePart));
-  solution.tolerance = solveSnes(snes, x, solution);
+  solveSnes(snes, x, solution);
   {
     const ReadArray values(x);
     for (PetscInt i = 0; i < n; ++i) gaps_[i] = asked.gapUnit * values[i];
@@ -309,27 +306,22 @@ Solution CondensedProblem::solveWith(const sweep::Parameters& at, const Sticking
 
   Loaded start = loaded(at);
   const OwnedVec& x = start.x;
-  const OwnedMat direct = directFriction(at, sticking);
-  Asked asked{conditions(at, sticking), 0, 1, 0, 0};
-  asked.conditions.direct = direct;
+  Asked asked{conditions(at, sticking), {}, 0};
+  asked.conditions.direct = directFriction(sticking);
   for (double gap : gaps_) asked.gapUnit = std::max(asked.gapUnit, gap);
   check(MPI_Allreduce(MPI_IN_PLACE, &asked.gapUnit, 1, MPI_DOUBLE, MPI_MAX, comm()));
   if (asked.gapUnit == 0) check(VecNorm(x, NORM_INFINITY, &asked.gapUnit));
   if (asked.gapUnit == 0) asked.gapUnit = 1;
-  // Friction may move a weakly held body far, which is known only then.
-  const auto setAccuracy = [&] {
-    const auto accuracy = accuracyNear(held, at, restricted(x));
-    asked.forceUnit = accuracy.forceUnit, asked.accuracy = accuracy.asked;
-  };
-  setAccuracy();
-  solution.tolerance = asked.accuracy;
+  asked.accuracy = accuracyNear(held, at, restricted(x));
   ContactVector causes(impedance_->length(), 0.0);
   if (impedance_->size() > 0) causes = complementarity(asked, start.given, solution);
   impedance_->addUnknowns(causes, x);
-  setAccuracy();
+  // Friction may move a weakly held body far, which is known only now.
+  asked.accuracy = accuracyNear(held, at, restricted(x));
   double left = naturalResidual(held, at, restricted(x));
   const OwnedVec residual = rightVector(openTo.trial), corrected = rightVector(openTo.trial);
-  for (int k = 0; k < mostCorrections && left > asked.accuracy * asked.forceUnit; ++k) {
+  for (int k = 0; k < mostCorrections && left > asked.accuracy.asked * asked.accuracy.forceUnit;
+       ++k) {
     // With t = c R and w as they are, y is corrected. What the contact then feels without t and w
     // is the new start.
     const auto normal = open.normalForces(open.forces(at, open.displacement(at, x)));
@@ -351,8 +343,7 @@ Solution CondensedProblem::solveWith(const sweep::Parameters& at, const Sticking
     check(VecCopy(corrected, x));
     causes = std::move(better);
   }
-  solution.residual = left / asked.forceUnit;
-  solution.converged = solution.residual <= std::max(solution.tolerance, 10 * asked.accuracy);
+  accept(solution, left, asked.accuracy);
   if (solution.reason.empty()) solution.reason = "LINEAR";
   held.conclude(restricted(x), left, solution);
   return solution;

@@ -2,12 +2,10 @@
 /// Steady sliding is solved in the unknowns of the contact where everything but the contact is
 /// linear [3.10–3.13, M.59].
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "impedance/contact_solver.hpp"
 #include "impedance/impedance.hpp"
-
 #include "steady/steady.hpp"
 
 namespace squeal::steady {
@@ -34,8 +32,8 @@ class CondensedProblem {
                                    const std::vector<unsigned char>& closed,
                                    const Sticking& sticking);
   MPI_Comm comm() const { return impedance_->comm(); }
-  /// Returns what the sweep has cost so far, for the log.
-  std::string costText() const;
+  /// Returns the number of right-hand sides solved for so far.
+  long solves() const { return impedance_->solves(); }
 
  private:
   struct Loaded;
@@ -44,7 +42,7 @@ class CondensedProblem {
   Loaded loaded(const sweep::Parameters& at);
   impedance::ContactConditions conditions(const sweep::Parameters& at,
                                           const Sticking& sticking) const;
-  OwnedMat directFriction(const sweep::Parameters& at, const Sticking& sticking) const;
+  Mat directFriction(const Sticking& sticking);
   Solution solveWith(const sweep::Parameters& at, const Sticking& sticking);
   impedance::ContactVector complementarity(const Asked& asked,
                                            const impedance::ContactVector& given,
@@ -57,6 +55,8 @@ class CondensedProblem {
   std::unique_ptr<impedance::ContactSolver> solver_;
   std::vector<double> gaps_;  // of the last solution, [contact node], m
   Sticking sticking_;         // of the last solution, with what has been released held again
+  OwnedMat direct_;           // what the friction of released nodes does to them; null: nothing
+  Sticking directOf_;         // the holds that `direct_` belongs to
   /// The closed contact without friction: without loads, and what p = 1 and v = 1 add.
   std::vector<Loaded> loads_;
 };

@@ -45,7 +45,7 @@ class Follower {
       Place worst = worstAt(1);
       if (worst.margin >= -rounding) break;
       double event = 1;
-      // Of the nodes that violate a condition ahead, the first one to do so.
+      // This is the first one of the nodes that violate a condition ahead.
       Place first;
       while (worst.margin < -rounding && event > s) {
         first = worst;

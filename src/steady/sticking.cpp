@@ -76,9 +76,7 @@ bool exceedsLimit(const contact::Contact& contact, const Solution& solution, std
 
 std::optional<Sticking> revised(const contact::Contact& contact, const Solution& solution) {
   const auto& options = contact.options;
-  if (std::none_of(options.begin(), options.end(),
-                   [](const auto& one) { return one.role == contact::Role::sticking; }))
-    return {};
+  if (!contact.hasSticking()) return {};
   const MPI_Comm comm = contact.mesh->comm;
   const auto jumps = tangentialJumps(contact, solution.displacement);
   const double nothing = slipRounding * largestLength(comm, jumps);

@@ -18,8 +18,7 @@ const SolverPrefix solverPrefix(
     "steady", "steady_uniqueness_",
     "KSP and PC of the open contact's stiffness (MUMPS LDLt), SLEPc EPS: ksp_*, pc_*, eps_*, …");
 
-/// The number of columns solved for at once: enough for the speed of dense kernels, few enough for
-/// memory.
+/// The number of columns of K_o⁻¹ that are held at once.
 constexpr PetscInt blockColumns = 64;
 
 OwnedKSP factorisation(Mat matrix) {
@@ -106,8 +105,8 @@ Compliance OpenContact::dense() const {
     for (PetscInt i = 0; i < ownedSize_; ++i)
       if (const PetscInt column = first_ + i - begin; column >= 0 && column < width)
         unit(transformation_.gapColumn[i] - firstRow, column) = 1;
-    const OwnedMat rhs = linalg::borrowed(comm(), transformation_.columns, unit), x = block(width);
-    check(KSPMatSolve(solver_, rhs, x));
+    const linalg::Block solution = linalg::solved(solver_, unit);
+    const OwnedMat x = linalg::borrowed(comm(), transformation_.columns, solution);
     for (PetscInt column = 0; column < width; ++column) {
       const PetscInt j = begin + column;
       // As K_o is symmetric, column j of A0 is eᵀ x, and row j of A1 is −xᵀ U.

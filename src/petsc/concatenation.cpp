@@ -1,0 +1,27 @@
+#include "petsc/concatenation.hpp"
+
+#include <numeric>
+
+namespace squeal {
+
+Concatenation::Concatenation(MPI_Comm comm, std::size_t own) : comm_(comm) {
+  int ranks = 1;
+  check(MPI_Comm_rank(comm, &rank_));
+  check(MPI_Comm_size(comm, &ranks));
+  counts_.resize(ranks);
+  begin_.resize(ranks);
+  const int count = own;
+  check(MPI_Allgather(&count, 1, MPI_INT, counts_.data(), 1, MPI_INT, comm));
+  std::exclusive_scan(counts_.begin(), counts_.end(), begin_.begin(), 0);
+}
+
+void Concatenation::gatherBytes(const void* own, void* all, int bytesPerEntry) const {
+  MPI_Datatype entry = MPI_DATATYPE_NULL;  // in bytes, the counts might exceed an int
+  check(MPI_Type_contiguous(bytesPerEntry, MPI_BYTE, &entry));
+  check(MPI_Type_commit(&entry));
+  check(
+      MPI_Allgatherv(own, counts_[rank_], entry, all, counts_.data(), begin_.data(), entry, comm_));
+  check(MPI_Type_free(&entry));
+}
+
+}  // namespace squeal
