@@ -78,7 +78,7 @@ void solveMatrices(Analysis& analysis) {
   const auto points = analysis.sweep.steadyPoints();
   if (matrices::exportWanted()) matrices::exportPencil(pencil, analysis.sweep, points.size());
   MatrixSegment problem(symmetric.system, pencil, points);
-  analysis.segments.push_back(solveSegment(problem, analysis.sweep.dampings));
+  analysis.segments = solveSegments(problem, analysis.sweep.dampings);
   if (modes::benchmarkWanted())
     analysis.modesFloorSeconds = modes::floorSeconds(symmetric.system.k0());
 }

@@ -6,6 +6,7 @@
 
 #include "direct/direct.hpp"
 #include "flutter/terms.hpp"
+#include "linalg/columns.hpp"
 #include "linalg/symmetric_solver.hpp"
 #include "options/options.hpp"
 #include "pencil/pencil.hpp"
@@ -40,6 +41,20 @@ std::vector<OwnedVec> reportedShapes(const modes::Modes& modes, Mat trial) {
   return shapes;
 }
 
+/// Returns modes of the interior unknowns with vectors of all unknowns.
+modes::Modes onAllUnknowns(const modes::Modes& interior, const reduction::Basis& basis) {
+  const linalg::ReadColumns vectors(interior.vectors);
+  return {interior.lambda,
+          interior.angularFrequency,
+          interior.relativeResidual,
+          linalg::copiedColumns(basis.stiffness(), basis.prolonged(vectors.view())),
+          interior.iterations,
+          interior.countConfirmed,
+          interior.inertiaCount,
+          interior.inertiaShift,
+          interior.rounding};
+}
+
 std::string pointText(const pencil::ComplexModes& point) {
   std::string text =
       formatted("%s: %d of %zu eigenvalues unstable", sweep::parameterText(point.at).c_str(),
@@ -60,88 +75,202 @@ void requireFiniteEigenvalues(const pencil::ComplexModes& point) {
                   " is not a finite number; check the magnitudes of materials and factors");
 }
 
-/// Flutter at the points of a segment, batch by batch.
+/// Flutter at the points of a problem, batch by batch, with one basis for all of them.
 class SegmentSweep {
  public:
   SegmentSweep(SegmentProblem& problem, const std::vector<double>& dampings)
-      : problem_(problem), pencil_(problem.pencil()) {
+      : problem_(problem), pencil_(problem.pencil()), segments_(1) {
+    for (auto& range : problem.ranges()) ranges_.push_back({std::move(range), pencil_.with({}), 0});
+    segments_.resize(ranges_.size());
     for (double damping : dampings)
-      for (sweep::Parameters at : problem.steadyPoints()) {
-        at.damping = damping;
-        points_.push_back(at);
+      for (std::size_t i = 0; i < problem.steadyPoints().size(); ++i) {
+        points_.push_back(problem.steadyPoints()[i]);
+        points_.back().damping = damping;
+        const auto range = std::ranges::find_if(
+            ranges_, [&](const auto& one) { return one.points.first <= i && i < one.points.last; });
+        auto& points = segments_[range - ranges_.begin()].points;
+        places_.push_back({i, std::size_t(range - ranges_.begin()), points.size()});
+        points.emplace_back();
       }
   }
 
-  void computeModes(ModalSegment& segment) {
+  std::vector<ModalSegment> solve() {
+    for (std::size_t k = 0; k < ranges_.size(); ++k) {
+      const auto& has = ranges_[k].points.has;
+      segments_[k].unknowns = problem_.system().size() + std::count(has.begin(), has.end(), 1);
+      segments_[k].openNodes = ranges_[k].points.openNodes;
+    }
+    auto modes = computeModes();
+    if (modes) pencil_.add(flutter::modalDamping(*modes, problem_.system().m0()));
+    for (auto& range : ranges_) {
+      range.pencil = pencil_.with({});
+      range.pencil.add(std::move(range.points.terms));
+    }
+    if (modes) reduce(std::move(*modes));
+    solvePoints();
+    if (ranges_.size() > 1)
+      for (std::size_t k = 0; k < ranges_.size(); ++k)
+        if (!segments_[k].points.empty()) restrictModes(k);
+    followPoints();
+    std::erase_if(segments_, [](const auto& segment) { return segment.points.empty(); });
+    return std::move(segments_);
+  }
+
+ private:
+  /// Points with one active set.
+  struct Range {
+    PointRange points;
+    pencil::Pencil pencil;
+    int set;  // in the reduced problem
+  };
+  /// Where a point of the sweep stands.
+  struct Place {
+    std::size_t steadyPoint, range, inSegment;
+  };
+
+  /// Collective. Returns the free modes of the interior unknowns; none with the direct method.
+  std::optional<modes::Modes> computeModes() {
     const bool direct = direct::directWanted();
     if (direct) directly_ = direct::Options::given();
     if (direct) linalg::rejectUnusedSolverOptions();
-    if (direct && !sensitivity::sensitivitiesWanted()) return;
+    if (direct && !sensitivity::sensitivitiesWanted()) return {};
     modes::Modes modes = modes::compute(problem_.system());
-    if (direct) {
-      forLeftVectors_ = std::move(modes);
-      return;
-    }
-    segment.modes = std::move(modes);
-    segment.shapes = reportedShapes(segment.modes, problem_.trial());
-    pencil_.add(flutter::modalDamping(segment.modes, problem_.system().m0()));
-    Stage stage(pencil_.comm(), "flutter");
-    reduced_ =
-        std::make_unique<reduction::ReducedProblem>(pencil_, problem_.system(), segment.modes);
-    stage.finish(formatted("basis of %" PetscInt_FMT " free modes", reduced_->basisSize()));
+    if (!direct) return modes;
+    forLeftVectors_ = std::move(modes);
+    return {};
   }
 
-  void solvePoints(ModalSegment& segment) {
-    segment.points.resize(points_.size());
+  void reduce(modes::Modes modes) {
+    Stage stage(pencil_.comm(), "flutter");
+    reduced_ = std::make_unique<reduction::ReducedProblem>(
+        pencil_, problem_.system(), modes, reduction::Options::given(), problem_.substructure());
+    std::string text = formatted("basis of %zu free modes", modes.angularFrequency.size());
+    if (ranges_.size() == 1) {
+      segments_[0].shapes = reportedShapes(modes, problem_.trial());
+      segments_[0].modes = std::move(modes);
+    } else {
+      for (auto& range : ranges_) range.set = reduced_->addSet(range.pencil, range.points.has);
+      interiorModes_ = std::move(modes);
+      text += formatted(" and %" PetscInt_FMT " constraint modes for %zu active sets",
+                        reduced_->basis().boundarySize(), ranges_.size());
+    }
+    stage.finish(text);
+  }
+
+  void solvePoints() {
     for (const auto& batch : sweep::batches(points_)) {
       std::vector<reduction::PointProblem> problems;
       for (std::size_t i : batch) {
-        auto terms = problem_.termsOf(i % problem_.steadyPoints().size());
+        const Range& range = ranges_[places_[i].range];
+        auto terms = problem_.termsOf(places_[i].steadyPoint);
         affine_ = affine_ && terms.empty();
-        problems.push_back({points_[i], pencil_.with(std::move(terms))});
+        problems.push_back({points_[i], range.pencil.with(std::move(terms)), range.set});
       }
-      solveBatch(batch, problems, segment);
-      for (std::size_t i = 0; i < batch.size(); ++i)
-        problem_.examine(batch[i] % problem_.steadyPoints().size(), problems[i].pencil,
-                         startSpace(problems[i], segment.points[batch[i]]),
-                         segment.points[batch[i]]);
+      solveBatch(batch, problems);
+      for (std::size_t i = 0; i < batch.size(); ++i) {
+        auto& point = pointAt(batch[i]);
+        problem_.examine(places_[batch[i]].steadyPoint, problems[i].pencil,
+                         startSpace(problems[i], point), point);
+      }
     }
-    if (reduced_) segment.solves = reduced_->basis().solves();
+    if (reduced_)
+      for (auto& segment : segments_) segment.solves = reduced_->basis().solves();
+  }
+
+  /// Collective. Finds the free modes of one active set in the basis that all have in common.
+  void restrictModes(std::size_t k) {
+    Stage stage(pencil_.comm(), "modes");
+    auto& segment = segments_[k];
+    if (std::ranges::count(ranges_[k].points.has, 1) == 0) {
+      segment.modes = onAllUnknowns(interiorModes_, reduced_->basis());
+    } else {
+      segment.modes = reduced_->freeModes(ranges_[k].set, pencil_);
+    }
+    segment.shapes = reportedShapes(segment.modes, problem_.trial());
+    const auto& residuals = segment.modes.relativeResidual;
+    stage.finish(formatted("%zu free modes with %" PetscInt_FMT " open nodes, residuals up to %.1e",
+                           residuals.size(), segment.openNodes,
+                           residuals.empty() ? 0 : std::ranges::max(residuals)));
+  }
+
+  /// Returns the lines of the sweep, with the number of the segment that each begins in.
+  std::vector<std::pair<stability::Line, std::size_t>> lines() const {
+    std::vector<std::pair<stability::Line, std::size_t>> found;
+    for (std::size_t first = 0, last = 0; first < points_.size(); first = last) {
+      stability::Line line;
+      line.at = points_[first];
+      line.modes = &segments_[places_[first].range].modes;
+      for (; last < points_.size(); ++last) {
+        sweep::Parameters at = points_[last];
+        at.friction = line.at.friction;
+        if (!(at == line.at) || (last > first && !(points_[last].friction > line.swept.back())))
+          break;
+        line.swept.push_back(points_[last].friction);
+      }
+      line.at.friction = 0;
+      const std::size_t from = places_[first].steadyPoint;
+      for (const auto& piece : problem_.path(from, last - first)) {
+        const Range& range = ranges_[piece.range];
+        const auto number =
+            std::count_if(ranges_.begin(), ranges_.begin() + piece.range + 1,
+                          [](const auto& one) { return one.points.first < one.points.last; });
+        const bool isPassed = range.points.first == range.points.last;
+        line.pieces.push_back({sourceOf(range), {piece.from}, isPassed ? 0 : int(number)});
+        auto& frictions = line.pieces.back().frictions;
+        for (double friction : line.swept)
+          if (piece.from < friction && friction < piece.to) frictions.push_back(friction);
+        if (piece.to > piece.from) frictions.push_back(piece.to);
+      }
+      found.emplace_back(std::move(line), places_[first].range);
+    }
+    return found;
+  }
+
+  tracking::ProblemSource sourceOf(const Range& range) const {
+    const auto problemAt = [this, &range](const sweep::Parameters& at) {
+      std::optional<reduction::PointProblem> problem;
+      if (affine_)
+        problem.emplace(reduction::PointProblem{at, range.pencil.with({}), range.set});
+      else if (auto terms = problem_.termsAt(at, range.points.first))
+        problem.emplace(
+            reduction::PointProblem{at, range.pencil.with(std::move(*terms)), range.set});
+      return problem;
+    };
+    return {range.pencil, problemAt, affine_, range.set};
   }
 
   /// Collective. Follows the eigenvalues over the friction and finds critical frictions, if that is
   /// wanted and there is something to follow.
-  void followPoints(ModalSegment& segment) {
-    if (!tracking::trackWanted()) return;
+  void followPoints() {
+    if (!stability::trackWanted()) return;
+    std::vector<stability::Line> all;
+    std::vector<std::size_t> begins;
+    for (auto& [line, range] : lines()) {
+      if (!stability::worthFollowing(line)) continue;
+      all.push_back(std::move(line));
+      begins.push_back(range);
+    }
     const std::string nothing =
-        reduced_ ? tracking::nothingToFollow(*reduced_, segment.points) : "-flutter_method direct";
+        reduced_ ? stability::nothingToFollow(*reduced_, all) : "-flutter_method direct";
     if (!nothing.empty()) {
-      if (tracking::trackAsked()) say(pencil_.comm(), "track: nothing to follow (" + nothing + ")");
+      if (stability::trackAsked())
+        say(pencil_.comm(), "track: nothing to follow (" + nothing + ")");
       return;
     }
-    if (!affine_ && !tracking::trackAsked())  // each friction put in between costs a steady state
-                                              // and terms of its own
+    if (!affine_ && !stability::trackAsked())  // each friction put in between costs a steady state
+                                               // and terms of its own
       return say(
           pencil_.comm(),
           "track: not done where terms follow the steady state, unless -flutter_track is given");
     Stage stage(pencil_.comm(), "track");
-    const auto problemAt = [&](const sweep::Parameters& at) {
-      std::optional<reduction::PointProblem> problem;
-      if (affine_) {
-        problem.emplace(reduction::PointProblem{at, pencil_.with({})});
-      } else if (auto terms = problem_.termsAt(at)) {
-        problem.emplace(reduction::PointProblem{at, pencil_.with(std::move(*terms))});
-      }
-      return problem;
-    };
-    segment.followed = tracking::followSweep(
-        *reduced_, segment.points, segment.modes, pencil_.comm(), {pencil_, problemAt, affine_},
-        [&](const std::string& text) { stage.progress(text); });
+    auto followed = stability::followSweep(*reduced_, all, pencil_.comm(),
+                                           [&](const std::string& text) { stage.progress(text); });
     std::size_t branches = 0, stations = 0, criticals = 0;
-    for (const auto& followed : segment.followed) {
-      branches += followed.branches.count;
-      stations += followed.branches.stations.size();
-      criticals += followed.criticals.size();
+    for (std::size_t i = 0; i < followed.size(); ++i) {
+      branches += followed[i].branches.count;
+      stations += followed[i].branches.stations.size();
+      criticals += followed[i].criticals.size();
+      segments_[begins[i]].followed.push_back(std::move(followed[i]));
     }
     stage.finish(
         formatted("%zu branches followed over %zu frictions, %zu critical frictions, basis of "
@@ -149,14 +278,13 @@ class SegmentSweep {
                   branches, stations, criticals, reduced_->basisSize()));
   }
 
- private:
   void solveBatch(const std::vector<std::size_t>& batch,
-                  const std::vector<reduction::PointProblem>& problems, ModalSegment& segment) {
+                  const std::vector<reduction::PointProblem>& problems) {
     Stage stage(pencil_.comm(), "flutter");
     std::vector<pencil::ComplexModes> solved;
     if (reduced_) solved = reduced_->solve(problems, problem_.trial());
     for (std::size_t i = 0; i < batch.size(); ++i) {
-      auto& point = segment.points[batch[i]];
+      auto& point = pointAt(batch[i]);
       point = reduced_ ? std::move(solved[i])
                        : direct::solveDirect(problems[i].pencil, problems[i].at, problem_.trial(),
                                              *directly_);
@@ -170,6 +298,10 @@ class SegmentSweep {
     stage.finish(text);
   }
 
+  pencil::ComplexModes& pointAt(std::size_t i) {
+    return segments_[places_[i].range].points[places_[i].inSegment];
+  }
+
   /// Returns where the search for the left vectors of the shapes kept begins.
   sensitivity::StartSpace startSpace(const reduction::PointProblem& problem,
                                      const pencil::ComplexModes& point) const {
@@ -179,9 +311,13 @@ class SegmentSweep {
   }
 
   SegmentProblem& problem_;
-  pencil::Pencil pencil_;
+  pencil::Pencil pencil_;  // of all points
+  std::vector<Range> ranges_;
   std::vector<sweep::Parameters> points_;
-  modes::Modes forLeftVectors_;  // with the direct method, which has no modes of its own
+  std::vector<Place> places_;           // [point]
+  std::vector<ModalSegment> segments_;  // [range]
+  modes::Modes forLeftVectors_;         // with the direct method, which has no modes of its own
+  modes::Modes interiorModes_;          // where several active sets share the basis
   std::unique_ptr<reduction::ReducedProblem> reduced_;
   std::optional<direct::Options> directly_;  // without a reduced problem
   bool affine_ = true;                       // no point has terms of its own
@@ -189,14 +325,9 @@ class SegmentSweep {
 
 }  // namespace
 
-ModalSegment solveSegment(SegmentProblem& problem, const std::vector<double>& dampings) {
-  ModalSegment segment;
-  segment.unknowns = problem.system().size();
-  SegmentSweep sweep(problem, dampings);
-  sweep.computeModes(segment);
-  sweep.solvePoints(segment);
-  sweep.followPoints(segment);
-  return segment;
+std::vector<ModalSegment> solveSegments(SegmentProblem& problem,
+                                        const std::vector<double>& dampings) {
+  return SegmentSweep(problem, dampings).solve();
 }
 
 }  // namespace squeal::analysis

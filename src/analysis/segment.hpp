@@ -8,9 +8,10 @@
 #include "modes/modes.hpp"
 #include "pencil/complex_modes.hpp"
 #include "pencil/pencil.hpp"
+#include "reduction/substructure.hpp"
 #include "sensitivity/left.hpp"
+#include "stability/followed.hpp"
 #include "sweep/parameters.hpp"
-#include "tracking/followed.hpp"
 
 namespace squeal::analysis {
 
@@ -18,24 +19,59 @@ namespace squeal::analysis {
 struct ModalSegment {
   PetscInt openNodes = 0;  ///< contact nodes that are not active, over all ranks
   PetscInt unknowns = 0;   ///< n
-  modes::Modes modes;      ///< empty with the direct method
+  modes::Modes modes;      ///< empty with the direct method; those of the band where the basis is
+                           ///< shared with other active sets
   /// The first `-report_modes` modes in nodal displacements, N entries each, the largest entry 1 in
   /// magnitude.
   std::vector<OwnedVec> shapes;
   std::vector<pencil::ComplexModes> points;  ///< for each damping factor all steady points
-  std::vector<tracking::Followed> followed;  ///< for each speed, pressure and damping, if
-                                             ///< eigenvalues are followed
+  /// For each speed, pressure and damping whose first point is one of these, if eigenvalues are
+  /// followed.
+  std::vector<stability::Followed> followed;
   long solves = 0;  ///< right-hand sides solved for to correct the basis and to estimate errors
 };
 
-/// The problem of one segment: steady points with one active set, of a mesh or of matrices from
-/// files. Everything that it returns by reference or handle is borrowed.
+/// An active set, and the steady points in a row that have it.
+struct PointRange {
+  std::size_t first = 0, last = 0;  ///< steady points [first, last); none where the active set is
+                                    ///< only passed through between points
+  PetscInt openNodes = 0;           ///< contact nodes that are not active, over all ranks
+  /// [boundary unknown of all ranks] 1 where it is an unknown of these points
+  std::vector<unsigned char> has;
+  std::vector<pencil::Term> terms;  ///< of these points, beside those of all points
+};
+
+/// A part of the way along the friction with one active set, while the other parameters are fixed.
+struct PathPiece {
+  std::size_t range = 0;    ///< of SegmentProblem::ranges()
+  double from = 0, to = 0;  ///< friction
+};
+
+/// The problem of steady points in a row whose basis has one factorisation, of a mesh or of
+/// matrices from files. Everything that it returns by reference or handle is borrowed.
 class SegmentProblem {
  public:
   virtual ~SegmentProblem() = default;
-  /// Returns K0 and M0 with the solver of K0.
+  /// Returns K0 and M0 of the interior unknowns with the solver of K0.
   virtual const modes::AssociatedSystem& system() const = 0;
-  /// Returns the matrix from the unknowns, n, to what is reported, N×n.
+  /// Returns the boundary unknowns: the gaps, and tangential displacements, of the contact nodes
+  /// that are active at some of the points alone.
+  virtual const reduction::Substructure& substructure() const {
+    static const reduction::Substructure none;
+    return none;
+  }
+  /// Collective. Returns the points by their active sets; without boundary unknowns there is one.
+  virtual std::vector<PointRange> ranges() const {
+    std::vector<PointRange> all(1);
+    all[0].last = steadyPoints().size();
+    return all;
+  }
+  /// Returns the way along the friction of the points that differ from steadyPoints()[first] in
+  /// nothing else, `count` of them.
+  virtual std::vector<PathPiece> path(std::size_t first, std::size_t count) const {
+    return {{0, steadyPoints()[first].friction, steadyPoints()[first + count - 1].friction}};
+  }
+  /// Returns the matrix from all unknowns to what is reported.
   virtual Mat trial() const = 0;
   /// Returns the points, with damping 1.
   virtual const std::vector<sweep::Parameters>& steadyPoints() const = 0;
@@ -44,8 +80,9 @@ class SegmentProblem {
   /// Collective. Returns the terms that belong to steadyPoints()[i] alone.
   virtual std::vector<pencil::Term> termsOf(std::size_t /*i*/) const { return {}; }
   /// Collective. Returns the same for a point between those of the sweep, where termsOf() gives
-  /// any; none if the point has another active set, or no steady state.
-  virtual std::optional<std::vector<pencil::Term>> termsAt(const sweep::Parameters& /*at*/) {
+  /// any; none if the point has another active set than steadyPoints()[like], or no steady state.
+  virtual std::optional<std::vector<pencil::Term>> termsAt(const sweep::Parameters& /*at*/,
+                                                           std::size_t /*like*/) {
     return std::vector<pencil::Term>();
   }
   /// Collective. Adds to `point`, which belongs to steadyPoints()[i], its friction work and
@@ -55,9 +92,10 @@ class SegmentProblem {
                        const sensitivity::StartSpace& start, pencil::ComplexModes& point) = 0;
 };
 
-/// Collective. Returns the modes, flutter at all steady points with all `dampings`, and the
-/// eigenvalues followed over the friction. Throws Error as the stages modes, flutter and track do,
-/// and if an eigenvalue is not a finite number.
-ModalSegment solveSegment(SegmentProblem& problem, const std::vector<double>& dampings);
+/// Collective. Returns for each range of points their modes, flutter at all steady points with all
+/// `dampings`, and the eigenvalues followed over the friction. Throws Error as the stages modes,
+/// flutter and track do, and if an eigenvalue is not a finite number.
+std::vector<ModalSegment> solveSegments(SegmentProblem& problem,
+                                        const std::vector<double>& dampings);
 
 }  // namespace squeal::analysis

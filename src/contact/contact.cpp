@@ -167,7 +167,10 @@ Transformation Contact::transformation(const std::vector<unsigned char>& gapFree
   std::vector<PetscInt> column(unknown.size(), -1);
   PetscInt next = end - result.ownedColumns;
   for (std::size_t i = 0; i < unknown.size(); ++i)
-    if (unknown[i]) column[i] = next++;
+    if (unknown[i]) {
+      column[i] = next++;
+      result.rows.push_back(i);
+    }
   for (const auto& node : nodes) result.gapColumn.push_back(column[gapAt(node)]);
 
   const PetscInt owned = dimension * mesh->ownedNodes, first = dimension * mesh->firstNode;

@@ -55,6 +55,9 @@ struct Transformation {
   /// [contact node] global column of its gap; −1 where it is dropped
   std::vector<PetscInt> gapColumn;
   PetscInt ownedColumns = 0, columns = 0;  ///< columns of this rank, and of all ranks (n)
+  /// [unknown of this rank] its row of B on this rank, ascending: dimension times the owned node,
+  /// plus the component of z
+  std::vector<PetscInt> rows;
 };
 
 /// The contact of all interfaces: its nodes and its matrices.

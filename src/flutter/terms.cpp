@@ -31,13 +31,12 @@ std::vector<Role> roles(const contact::CoupledSystem& system) {
           {system.projections().rotationStiffness, 0, 2, 0}};
 }
 
-/// Appends the terms f^a S_aᵀ N X T of one matrix X for all powers a.
+/// Appends the terms f^a S_aᵀ N X T of one matrix X for all powers a, at the nodes that slide.
 void addFriction(std::vector<pencil::Term>& terms, const Role& role,
                  const contact::Contact& contact, const contact::CoupledSystem& system,
-                 const std::vector<contact::Slip>& slip) {
+                 const std::vector<contact::Slip>& slip, const std::vector<unsigned char>& slides) {
   for (const int exponent : contact.frictionExponents()) {
-    const OwnedMat rows =
-        contact.slipRows(system.transformation(), slip, system.closed(), exponent);
+    const OwnedMat rows = contact.slipRows(system.transformation(), slip, slides, exponent);
     terms.push_back({role.projection.friction(rows), role.power, exponent, 1.0, role.speedExponent,
                      role.dampingExponent, true});
   }
@@ -45,9 +44,10 @@ void addFriction(std::vector<pencil::Term>& terms, const Role& role,
 
 /// Appends these terms for each matrix X of the bodies.
 void addFriction(std::vector<pencil::Term>& terms, const contact::Contact& contact,
-                 const contact::CoupledSystem& system, const std::vector<contact::Slip>& slip) {
+                 const contact::CoupledSystem& system, const std::vector<contact::Slip>& slip,
+                 const std::vector<unsigned char>& slides) {
   for (const auto& role : roles(system))
-    if (role.projection) addFriction(terms, role, contact, system, slip);
+    if (role.projection) addFriction(terms, role, contact, system, slip, slides);
 }
 
 /// Appends the terms of the change −B w* of the friction force [4.7, M.21].
@@ -83,8 +83,17 @@ pencil::Pencil affineTerms(const contact::Contact& contact, const contact::Coupl
     if (role.projection)
       terms.push_back({role.projection.matrix.share(), role.power, 0, 1.0, role.speedExponent,
                        role.dampingExponent});
-  if (contact.slipIsGiven()) addFriction(terms, contact, system, contact.slip(1, nullptr));
-  return pencil::Pencil(std::move(terms));
+  pencil::Pencil pencil(std::move(terms));
+  pencil.add(slidingTerms(contact, system, system.closed()));
+  return pencil;
+}
+
+std::vector<pencil::Term> slidingTerms(const contact::Contact& contact,
+                                       const contact::CoupledSystem& system,
+                                       const std::vector<unsigned char>& slides) {
+  std::vector<pencil::Term> terms;
+  if (contact.slipIsGiven()) addFriction(terms, contact, system, contact.slip(1, nullptr), slides);
+  return terms;
 }
 
 std::vector<pencil::Term> pointTerms(const contact::Contact& contact,
@@ -92,12 +101,13 @@ std::vector<pencil::Term> pointTerms(const contact::Contact& contact,
                                      const steady::Solution& solution, Mat prestressChange) {
   std::vector<pencil::Term> terms;
   const bool friction = contact.hasFriction(solution.at.friction);
-  if (friction && !contact.slipIsGiven()) addFriction(terms, contact, system, solution.slip);
+  if (friction && !contact.slipIsGiven())
+    addFriction(terms, contact, system, solution.slip, solution.closed);
   if (friction && dampingOption.get()) addVelocityResponse(terms, contact, system, solution);
   if (prestressChange) {
     contact::Projection change =
         contact::project(contact, system.transformation(), prestressChange);
-    addFriction(terms, {change, 0, 0, 0}, contact, system, solution.slip);
+    addFriction(terms, {change, 0, 0, 0}, contact, system, solution.slip, solution.closed);
     terms.push_back({std::move(change.matrix), 0, 0, 1.0, 0});
   }
   return terms;

@@ -13,6 +13,12 @@ namespace squeal::flutter {
 /// the powers a with which there is friction. The arguments are not needed afterwards.
 pencil::Pencil affineTerms(const contact::Contact& contact, const contact::CoupledSystem& system);
 
+/// Collective. Returns the friction among these terms of the contact nodes with slides[i] set,
+/// which may be open in `system`; none if the slip is not the same at all points.
+std::vector<pencil::Term> slidingTerms(const contact::Contact& contact,
+                                       const contact::CoupledSystem& system,
+                                       const std::vector<unsigned char>& slides);
+
 /// Collective. Returns the terms that depend on the steady state. The first of them is the friction
 /// f^a S_aᵀ N X T where the slip follows the deformation or a friction law. The second is the
 /// change of the friction force with the relative velocity w* = [u_t] − v D u_D, −B w* [4.7]. It

@@ -1,7 +1,6 @@
 #include "impedance/impedance.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <span>
 
 #include "petsc/arrays.hpp"
@@ -23,29 +22,25 @@ OwnedMat transposed(Mat matrix) {
   return result;
 }
 
-/// Returns the column of the unknown that a row of a selection has, if it has one.
-std::optional<PetscInt> columnOf(Mat selection, PetscInt row) {
-  PetscInt count = 0;
-  const PetscInt* columns = nullptr;
-  std::optional<PetscInt> found;
-  check(MatGetRow(selection, row, &count, &columns, nullptr));
-  if (count > 0) found = columns[0];
-  check(MatRestoreRow(selection, row, &count, &columns, nullptr));
-  return found;
-}
+/// The columns of x that hold y, and the released ones, with their rows of B on this rank.
+struct Columns {
+  std::vector<PetscInt> inner, released, releasedRows;
+};
 
-/// Returns the columns of x that hold y: their rows of z are unknowns of both transformations,
-/// which keep the order of the rows.
-std::vector<PetscInt> sharedColumns(const contact::Transformation& open,
-                                    const contact::Transformation& closed) {
-  std::vector<PetscInt> shared;
-  PetscInt first = 0, last = 0;
-  check(MatGetOwnershipRange(open.selection, &first, &last));
-  for (PetscInt row = first; row < last; ++row)
-    if (const auto column = columnOf(open.selection, row);
-        column && columnOf(closed.selection, row))
-      shared.push_back(*column);
-  return shared;
+Columns columnsOf(const contact::Transformation& open, const contact::Transformation& closed) {
+  Columns found;
+  PetscInt column = 0;
+  check(MatGetOwnershipRangeColumn(open.selection, &column, nullptr));
+  for (const PetscInt row : open.rows) {
+    if (std::ranges::binary_search(closed.rows, row)) {
+      found.inner.push_back(column);
+    } else {
+      found.released.push_back(column);
+      found.releasedRows.push_back(row);
+    }
+    ++column;
+  }
+  return found;
 }
 
 OwnedIS indices(MPI_Comm comm, const std::vector<PetscInt>& list) {
@@ -115,19 +110,22 @@ Impedance::Impedance(const contact::Contact& contact, const contact::Transformat
                      const contact::Projection& stiffness, Mat slipRows,
                      const contact::CoupledSystem& closed)
     : contact_(contact), closed_(closed), work_(rightVector(closed.k0())) {
-  inner_ = indices(comm(), sharedColumns(open, closed.transformation()));
+  const Columns all = columnsOf(open, closed.transformation());
+  inner_ = indices(comm(), all.inner);
   std::vector<PetscInt> rows, columns = open.gapColumn;
   for (PetscInt i = 0; i < nodes(); ++i) {
     nodeOf_.push_back(i);
     rows.push_back(contact.gapRow(contact.nodes[i]));
   }
-  for (PetscInt i = 0; i < nodes(); ++i)
-    for (PetscInt row = rows[i] - contact.mesh->dimension + 1; row < rows[i]; ++row)
-      if (const auto column = columnOf(open.selection, row);
-          column && !columnOf(closed.transformation().selection, row)) {
-        nodeOf_.push_back(i);
-        columns.push_back(*column);
-      }
+  const PetscInt dimension = contact.mesh->dimension;
+  for (PetscInt i = 0; i < nodes(); ++i) {
+    const PetscInt tangents = dimension * contact.nodes[i].node, gap = tangents + dimension - 1;
+    auto row = std::ranges::lower_bound(all.releasedRows, tangents);
+    for (; row != all.releasedRows.end() && *row < gap; ++row) {
+      nodeOf_.push_back(i);
+      columns.push_back(all.released[row - all.releasedRows.begin()]);
+    }
+  }
   released_ = indices(comm(), columns);
   nodeRows_ = indices(comm(), rows);
   innerFriction_ = transposed(part(slipRows, nodeRows_, inner_));

@@ -26,6 +26,10 @@ struct Term {
   bool ofFriction = false;
 
   bool holdsFriction() const { return ofFriction || frictionExponent != 0; }
+  /// Returns true for K0 and M0 [4.17], what is left without friction, base motions and damping.
+  bool isAssociated() const {
+    return power != 1 && !holdsFriction() && speedExponent == 0 && dampingExponent == 0;
+  }
   /// Returns α f^a v^b c^d.
   double coefficient(const sweep::Parameters& at) const;
   /// Returns the derivative of the coefficient with respect to one parameter.

@@ -8,6 +8,7 @@
 #include "linalg/quadratic.hpp"
 #include "linalg/symmetric.hpp"
 #include "petsc/arrays.hpp"
+#include "petsc/concatenation.hpp"
 
 namespace squeal::reduction {
 namespace {
@@ -42,53 +43,110 @@ void clearWhatVHolds(linalg::DenseMatrix& energy, const linalg::DenseMatrix& par
     if (energy(j, j) <= small * linalg::squaredLength(parts.column(j))) energy(j, j) = 0;
 }
 
+/// Clears the parts along the constraint modes, to which all other vectors are orthogonal.
+void clearConstraintModes(linalg::DenseMatrix& parts, PetscInt count) {
+  for (PetscInt j = 0; j < parts.columns(); ++j)
+    for (PetscInt i = 0; i < count; ++i) parts(i, j) = 0;
+}
+
 }  // namespace
 
-Basis::Basis(const modes::Modes& modes, const modes::AssociatedSystem& system)
+Basis::Basis(const modes::Modes& modes, const modes::AssociatedSystem& system,
+             Substructure substructure)
     : comm_(system.comm()),
-      stiffness_(system.k0()),
+      substructure_(std::move(substructure)),
+      isPlain_(!stiffness()),
       solver_(system.solver()),
       columns_(0),
       forces_(0) {
+  if (isPlain_) substructure_.stiffness = system.k0();
+  PetscInt rows = 0;
+  check(MatGetLocalSize(stiffness(), &rows, nullptr));
+  columns_ = linalg::Block(rows);
+  addConstraintModes();
   const linalg::ReadColumns columns(modes.vectors);
-  const linalg::DenseView shapes = columns.view();
-  columns_ = linalg::Block(shapes.rows());
-  columns_.reserve(3 * shapes.columns());  // untouched memory costs nothing, moving V does
-  for (PetscInt j = 0; j < shapes.columns(); ++j) {
-    columns_.append(shapes.column(j));
-    for (double& entry : columns_.column(j)) entry /= modes.angularFrequency[j];
-  }
+  linalg::Block shapes = prolonged(columns.view());
+  for (PetscInt j = 0; j < shapes.columns(); ++j)
+    for (double& entry : shapes.column(j)) entry /= modes.angularFrequency[j];
+  // Untouched memory costs nothing, moving V does.
+  columns_.reserve(3 * (size() + shapes.columns()));
+  columns_.append(shapes);
   OwnedVec diagonal;
-  check(MatCreateVecs(stiffness_, diagonal.out(), nullptr));
-  check(MatGetDiagonal(stiffness_, diagonal));
+  check(MatCreateVecs(stiffness(), diagonal.out(), nullptr));
+  check(MatGetDiagonal(stiffness(), diagonal));
   check(VecReciprocal(diagonal));
   const ReadArray values(diagonal);
   inverseDiagonal_.assign(values.begin(), values.end());
-  sketch_.emplace(comm_, inverseDiagonal_);
+  for (const PetscInt row : substructure_.boundary) inverseDiagonal_[row] = 0;
+  sketch_.emplace(comm_, inverseDiagonal_, substructure_.boundary);
   sketched_ = sketch_->unweighted(columns_);
 }
 
-OwnedBV Basis::vectors() const { return linalg::copiedColumns(stiffness_, columns_); }
+linalg::Block Basis::prolonged(const linalg::DenseView& interior) const {
+  if (isPlain_) return linalg::Block(interior);
+  linalg::Block all(localRows(), interior.columns());
+  for (PetscInt j = 0; j < all.columns(); ++j)
+    for (PetscInt i = 0; i < interior.rows(); ++i)
+      all(substructure_.interior[i], j) = interior(i, j);
+  return all;
+}
+
+void Basis::clearBoundary(linalg::Block& columns) const {
+  for (PetscInt j = 0; j < columns.columns(); ++j)
+    for (const PetscInt row : substructure_.boundary) columns(row, j) = 0;
+}
+
+void Basis::addConstraintModes() {
+  const auto& boundary = substructure_.boundary;
+  const Concatenation ranks(comm_, boundary.size());
+  if (ranks.size() == 0) return;
+  linalg::Block units(localRows(), ranks.size()), forces(localRows()), energies(localRows());
+  for (std::size_t i = 0; i < boundary.size(); ++i) units(boundary[i], ranks.ownBegin() + i) = 1;
+  linalg::appendProduct(stiffness(), units, forces);
+  columns_ = responses(forces);
+  linalg::addScaled(units, -1, columns_);
+  columns_ = std::move(units);
+  linalg::appendProduct(stiffness(), columns_, energies);
+  boundaryStiffness_ = linalg::transposedProduct(comm_, columns_, energies);
+}
+
+/// Sets the rows of the boundary to K z of z = K0⁻¹ r, which is −Yᵀr [M.60]; `answers` is Yᵀr.
+void Basis::answerAtBoundary(const linalg::DenseMatrix& answers, linalg::Block& residuals) const {
+  const auto& boundary = substructure_.boundary;
+  if (boundarySize() == 0) return;
+  const PetscInt first = Concatenation(comm_, boundary.size()).ownBegin();
+  for (PetscInt j = 0; j < residuals.columns(); ++j)
+    for (std::size_t i = 0; i < boundary.size(); ++i)
+      residuals(boundary[i], j) = -answers(first + i, j);
+}
+
+OwnedBV Basis::vectors() const { return linalg::copiedColumns(stiffness(), columns_); }
 
 void Basis::appendProducts(Mat matrix, PetscInt first, PetscInt last, linalg::Block& result) const {
   linalg::appendProduct(matrix, columns_.columnRange(first, last), result);
 }
 
-/// Collective. Returns K0⁻¹ times all columns.
-linalg::Block Basis::solve(const linalg::Block& right) {
-  solves_ += right.columns();
-  return linalg::solved(solver_, right);
+linalg::Block Basis::responses(const linalg::Block& forces) {
+  solves_ += forces.columns();
+  if (isPlain_) return linalg::solved(solver_, forces);
+  const auto& interior = substructure_.interior;
+  linalg::Block some(std::ssize(interior), forces.columns());
+  for (PetscInt j = 0; j < forces.columns(); ++j)
+    for (PetscInt i = 0; i < some.rows(); ++i) some(i, j) = forces(interior[i], j);
+  return prolonged(linalg::solved(solver_, some));
 }
 
-PetscInt Basis::add(const linalg::Block& residuals) {
+PetscInt Basis::add(linalg::Block residuals) {
   forces_ = linalg::Block(localRows());
   energies_ = {};
   if (residuals.columns() == 0) return 0;
-  linalg::Block z = solve(residuals);
+  clearBoundary(residuals);
+  linalg::Block z = responses(residuals);
   const linalg::DenseMatrix energy = linalg::transposedProduct(comm_, z, residuals);
   ratio_ = ratio(residuals, energy);
-  const linalg::DenseMatrix parts =
-      linalg::transposedProduct(comm_, columns_, residuals);  // VᵀK0 z
+  linalg::DenseMatrix parts = linalg::transposedProduct(comm_, columns_, residuals);  // VᵀK z
+  answerAtBoundary(linalg::rowRange(parts, 0, boundarySize()), residuals);
+  clearConstraintModes(parts, boundarySize());
   const PetscInt before = size();
   if (!addAcross(z, residuals, energy, parts)) addOrthogonalised(z, parts);
   sketched_.append(sketch_->unweighted(columns_.columnRange(before, size())));
@@ -124,8 +182,9 @@ bool Basis::addAcross(const linalg::Block& z, const linalg::Block& residuals,
 void Basis::addOrthogonalised(linalg::Block& z, const linalg::DenseMatrix& parts) {
   linalg::multiplyAdd(columns_, parts, z, -1);
   linalg::Block forces(z.rows());
-  linalg::appendProduct(stiffness_, z, forces);
-  const linalg::DenseMatrix rest = linalg::transposedProduct(comm_, columns_, forces);
+  linalg::appendProduct(stiffness(), z, forces);
+  linalg::DenseMatrix rest = linalg::transposedProduct(comm_, columns_, forces);
+  clearConstraintModes(rest, boundarySize());
   linalg::DenseMatrix energy = linalg::transposedProduct(comm_, z, forces);
   linalg::multiplyAdd(columns_, rest, z, -1);
   linalg::addScaled(energy, -1, linalg::transposedProduct(rest, rest));
@@ -143,7 +202,7 @@ double Basis::solutionError(const linalg::Block& z, const linalg::Block& residua
   for (PetscInt j = 0; j < z.columns(); ++j) signs(j, 0) = j % 3 == 1 ? -1 : 1;
   linalg::Block force(z.rows());
   const linalg::Block wanted = linalg::product(residuals, signs);
-  linalg::appendProduct(stiffness_, linalg::product(z, signs), force);
+  linalg::appendProduct(stiffness(), linalg::product(z, signs), force);
   double squares[2] = {0, 0};
   for (PetscInt i = 0; i < z.rows(); ++i) {
     squares[0] += inverseDiagonal_[i] * std::pow(force(i, 0) - wanted(i, 0), 2);
@@ -178,7 +237,7 @@ std::vector<double> Basis::energyRatios(const std::vector<linalg::Block>& blocks
   linalg::Block all(localRows());
   for (const auto& block : blocks) all.append(block);
   if (all.columns() == 0) return std::vector<double>(blocks.size(), 0.0);
-  const linalg::Block solved = solve(all);
+  const linalg::Block solved = responses(all);
   std::vector<double> ratios;
   PetscInt first = 0;
   for (const auto& block : blocks) {
@@ -204,7 +263,7 @@ std::vector<linalg::ComplexVector> Basis::expand(
     std::ranges::copy(parts.column(column), WriteArray(to).begin());
   };
   for (PetscInt j = 0; j < count; ++j) {
-    check(MatCreateVecs(stiffness_, vectors[j].real.out(), vectors[j].imaginary.out()));
+    check(MatCreateVecs(stiffness(), vectors[j].real.out(), vectors[j].imaginary.out()));
     copy(j, vectors[j].real);
     copy(count + j, vectors[j].imaginary);
   }

@@ -2,6 +2,8 @@
 /// The basis of the reduced problem grows, and is orthonormal in the energy of the stiffness K0 to
 /// a part in a thousand [M.28]:
 ///   VᵀK0V ≈ I.
+/// Where points have boundary unknowns, their constraint modes come first, which are orthogonal to
+/// all others but not to each other.
 ///
 /// Free modes enter as d/ω, corrections as z = K0⁻¹ r [M.31]. The residuals r of a Galerkin
 /// solution on V have Vᵀr = 0, so that their corrections come out orthogonal to V. As closely as
@@ -15,28 +17,44 @@
 #include "modes/modes.hpp"
 #include "petsc/owned.hpp"
 #include "reduction/sketch.hpp"
+#include "reduction/substructure.hpp"
 
 namespace squeal::reduction {
 
 /// The basis V, n × size, distributed by rows.
 class Basis {
  public:
-  /// Collective. Begins with the modes of the system. The modes are needed during this call only,
-  /// and the system is borrowed during the life of the object. Throws Error if K0 cannot be
-  /// factorised.
-  Basis(const modes::Modes& modes, const modes::AssociatedSystem& system);
+  /// Collective. Begins with the constraint modes of the boundary unknowns, if there are any, and
+  /// the modes of the system, which is that of the interior unknowns. The modes are needed during
+  /// this call only, and the system is borrowed during the life of the object. Throws Error if K0
+  /// cannot be factorised.
+  Basis(const modes::Modes& modes, const modes::AssociatedSystem& system,
+        Substructure substructure = {});
   /// Returns V by this rank's rows.
   const linalg::Block& columns() const { return columns_; }
   PetscInt size() const { return columns_.columns(); }
   PetscInt localRows() const { return columns_.rows(); }
   MPI_Comm comm() const { return comm_; }
-  Mat stiffness() const { return stiffness_; }  ///< K0
+  Mat stiffness() const { return substructure_.stiffness; }  ///< K of all unknowns
+  /// Returns the number of boundary unknowns of all ranks, which are the first vectors.
+  PetscInt boundarySize() const { return boundaryStiffness_.rows(); }
+  /// Returns S of the constraint modes, boundary × boundary [M.60].
+  const linalg::DenseMatrix& boundaryStiffness() const { return boundaryStiffness_; }
+  /// Sets the rows of the boundary unknowns to zero. Not collective.
+  void clearBoundary(linalg::Block& columns) const;
   /// Collective. Returns a copy of V.
   OwnedBV vectors() const;
+  /// Not collective. Returns columns of the interior unknowns, by this rank's rows, with zeros at
+  /// the boundary.
+  linalg::Block prolonged(const linalg::DenseView& interior) const;
 
   /// Collective. Adds K0⁻¹ of the columns of `residuals`, solved for together; combinations that
-  /// depend on others or on V are dropped. Returns the number of columns added.
-  PetscInt add(const linalg::Block& residuals);
+  /// depend on others or on V are dropped. The rows of the boundary unknowns do not count: the
+  /// constraint modes answer for them. Returns the number of columns added.
+  PetscInt add(linalg::Block residuals);
+  /// Collective. Returns K0⁻¹ of the interior rows of the columns, solved for together, with zeros
+  /// at the boundary.
+  linalg::Block responses(const linalg::Block& forces);
   /// Collective. Replaces V by V · combinations, former size × new size. The columns of
   /// `combinations` must be orthonormal.
   void combine(const linalg::DenseMatrix& combinations);
@@ -67,15 +85,19 @@ class Basis {
   long solves() const { return solves_; }
 
  private:
-  linalg::Block solve(const linalg::Block& right);
   double ratio(const linalg::Block& residuals, const linalg::DenseMatrix& energy) const;
   bool addAcross(const linalg::Block& z, const linalg::Block& residuals,
                  const linalg::DenseMatrix& energy, const linalg::DenseMatrix& parts);
   void addOrthogonalised(linalg::Block& z, const linalg::DenseMatrix& parts);
   double solutionError(const linalg::Block& z, const linalg::Block& residuals) const;
 
+  void addConstraintModes();
+  void answerAtBoundary(const linalg::DenseMatrix& answers, linalg::Block& residuals) const;
+
   MPI_Comm comm_;
-  Mat stiffness_;
+  Substructure substructure_;
+  bool isPlain_;  // K is K0
+  linalg::DenseMatrix boundaryStiffness_;
   KSP solver_;
   linalg::Block columns_;
   linalg::Block forces_;

@@ -39,8 +39,14 @@ bool isSymmetric(Mat matrix) {
 
 }  // namespace
 
-Coordinates::Coordinates(std::vector<const linalg::DensePair*> list, bool damped)
+Coordinates::Coordinates(std::vector<const linalg::DensePair*> list, bool damped,
+                         const PointSpace& space)
     : pairs(std::move(list)) {
+  if (!space.isWhole())
+    for (const auto* pair : pairs) {
+      right_.push_back(space.lifted(pair->q));
+      left_.push_back(space.lifted(pair->left));
+    }
   for (const auto* pair : pairs) {
     firstColumn.push_back(columns);
     columns += !damped && pair->s.real() == 0 && reduction::isReal(pair->q) &&
@@ -55,13 +61,20 @@ bool Coordinates::isReal(std::size_t pair) const {
   return firstColumn[pair + 1] - firstColumn[pair] == 1;
 }
 
+const std::vector<Complex>& Coordinates::vectorOf(std::size_t pair, pencil::Side side) const {
+  const bool right = side == pencil::Side::right;
+  if (right_.empty()) return right ? pairs[pair]->q : pairs[pair]->left;
+  return right ? right_[pair] : left_[pair];
+}
+
+double Weights::of(const pencil::Term& term) const {
+  return associated && !term.isAssociated() ? 0 : term.coefficient(at);
+}
+
 linalg::DenseMatrix Coordinates::times(pencil::Side side, int power, double c) const {
-  const auto vectorOf = [&](std::size_t j) -> const std::vector<Complex>& {
-    return side == pencil::Side::right ? pairs[j]->q : pairs[j]->left;
-  };
-  linalg::DenseMatrix matrix(pairs.empty() ? 0 : vectorOf(0).size(), columns);
+  linalg::DenseMatrix matrix(pairs.empty() ? 0 : vectorOf(0, side).size(), columns);
   for (std::size_t j = 0; j < pairs.size(); ++j) {
-    const auto& vector = vectorOf(j);
+    const auto& vector = vectorOf(j, side);
     const Complex factor =
         c * powerOf(side == pencil::Side::right ? pairs[j]->s : std::conj(pairs[j]->s), power);
     const PetscInt real = firstColumn[j], imaginary = real + 1;
@@ -153,12 +166,13 @@ void ProjectedTerms::combine(const linalg::DenseMatrix& combinations) {
   }
 }
 
-void ProjectedTerms::addTo(const sweep::Parameters& at, linalg::DenseProblem& sum) const {
+void ProjectedTerms::addTo(const Weights& weights, linalg::DenseProblem& sum) const {
   for (const auto& part : parts_)
-    linalg::addScaled(part.term.power == 0   ? sum.stiffness
-                      : part.term.power == 1 ? sum.damping
-                                             : sum.mass,
-                      part.term.coefficient(at), part.projection);
+    if (!weights.associated || part.term.isAssociated())
+      linalg::addScaled(part.term.power == 0   ? sum.stiffness
+                        : part.term.power == 1 ? sum.damping
+                                               : sum.mass,
+                        weights.of(part.term), part.projection);
 }
 
 void ProjectedTerms::addTo(const std::vector<const PointPairs*>& points,
@@ -168,9 +182,9 @@ void ProjectedTerms::addTo(const std::vector<const PointPairs*>& points,
     PetscInt first = 0;
     for (const auto* point : points) {
       const PetscInt last = first + point->pairs.columns;
-      linalg::multiplyAdd(point->pairs.times(pencil::Side::right, part.term.power,
-                                             part.term.coefficient(point->at)),
-                          linalg::rowRange(combinations, first, last), coefficients);
+      linalg::multiplyAdd(
+          point->pairs.times(pencil::Side::right, part.term.power, point->weights.of(part.term)),
+          linalg::rowRange(combinations, first, last), coefficients);
       first = last;
     }
     linalg::multiplyAdd(part.rows, part.timesV, coefficients, result);
@@ -180,7 +194,7 @@ void ProjectedTerms::addTo(const std::vector<const PointPairs*>& points,
 void ProjectedTerms::addTo(const PointPairs& point, pencil::Side side,
                            linalg::DenseMatrix& sketch) const {
   for (const auto& part : parts_) {
-    const double c = part.term.coefficient(point.at);
+    const double c = point.weights.of(part.term);
     const auto& known = side == pencil::Side::left && part.adjoint ? part.leftSketch : part.sketch;
     if (c != 0) linalg::multiplyAdd(known, point.pairs.times(side, part.term.power, c), sketch);
   }

@@ -8,6 +8,7 @@
 #include "linalg/quadratic.hpp"
 #include "pencil/pencil.hpp"
 #include "reduction/basis.hpp"
+#include "reduction/substructure.hpp"
 #include "sweep/parameters.hpp"
 
 namespace squeal::reduction {
@@ -15,22 +16,38 @@ namespace squeal::reduction {
 /// The vectors of some eigenpairs in coordinates of a basis are the columns of a real matrix. A
 /// pair with real vectors and an s on the imaginary axis, in a problem without damping, takes one
 /// column; all others take two.
-struct Coordinates {
+class Coordinates {
+ public:
   std::vector<const linalg::DensePair*> pairs;  ///< borrowed
   std::vector<PetscInt> firstColumn;            ///< [pair], and `columns` at the end
   PetscInt columns = 0;                         ///< columns of all pairs
 
-  Coordinates(std::vector<const linalg::DensePair*> pairs, bool damped);
+  /// The vectors of the pairs are in the coordinates of a point with this space.
+  Coordinates(std::vector<const linalg::DensePair*> pairs, bool damped, const PointSpace& space);
   /// Returns true if the pair takes one column.
   bool isReal(std::size_t pair) const;
   /// Returns the real and imaginary parts of c s^power q, or of c conj(s)^power y for the left
   /// side, basis × columns. A pair of one column has the real part alone.
   linalg::DenseMatrix times(pencil::Side side, int power, double c) const;
+
+ private:
+  const std::vector<Complex>& vectorOf(std::size_t pair, pencil::Side side) const;
+  // [pair] in the basis, where the point does not take the whole of it
+  std::vector<std::vector<Complex>> right_, left_;
+};
+
+/// What a point makes of the terms of a pencil.
+struct Weights {
+  sweep::Parameters at;
+  bool associated = false;  ///< K0 and M0 alone count
+
+  /// Returns the coefficient of a term.
+  double of(const pencil::Term& term) const;
 };
 
 /// Pairs found at one point; their vectors are borrowed.
 struct PointPairs {
-  sweep::Parameters at;
+  Weights weights;
   Coordinates pairs;
 };
 
@@ -41,6 +58,8 @@ class ProjectedTerms {
   /// Borrows the basis during the life of the object.
   ProjectedTerms(const Basis& basis, const pencil::Pencil& pencil, std::size_t first,
                  std::size_t last);
+  /// Returns the number of terms.
+  std::size_t count() const { return parts_.size(); }
   /// Collective. Extends the projections to the vectors that the basis has gained.
   void extend();
   /// Not collective. Turns the projections with a basis that has become V · combinations, former
@@ -48,7 +67,7 @@ class ProjectedTerms {
   void combine(const linalg::DenseMatrix& combinations);
   /// Not collective. Adds Σ c_t VᵀA_tV to the matrices of the problem, which are empty or of the
   /// size of the basis.
-  void addTo(const sweep::Parameters& at, linalg::DenseProblem& sum) const;
+  void addTo(const Weights& weights, linalg::DenseProblem& sum) const;
   /// Not collective. Adds combinations of the columns P(s) V q of all points in turn to `result`,
   /// which has this rank's rows, in one product per term. `combinations` has a row for each of
   /// these columns, and the columns of the result.

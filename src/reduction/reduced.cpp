@@ -6,6 +6,7 @@
 #include <iterator>
 #include <numeric>
 
+#include "linalg/columns.hpp"
 #include "options/options.hpp"
 #include "petsc/arrays.hpp"
 #include "reduction/condition.hpp"
@@ -48,6 +49,14 @@ std::vector<bool> mirrorImages(const std::vector<linalg::DensePair>& pairs, bool
   return mirrored;
 }
 
+/// Returns the terms of K and M alone.
+pencil::Pencil associatedOf(const pencil::Pencil& pencil) {
+  std::vector<pencil::Term> terms;
+  for (std::size_t t = 0; t < pencil.affineCount(); ++t)
+    if (pencil.terms()[t].isAssociated()) terms.push_back(pencil.terms()[t].share());
+  return pencil::Pencil(std::move(terms));
+}
+
 /// Returns the sums over the real and the imaginary part of each pair, [pair].
 std::vector<double> perPair(const Coordinates& coordinates, const std::vector<double>& squares) {
   std::vector<double> sums(coordinates.pairs.size(), 0.0);
@@ -69,7 +78,9 @@ Options Options::given() {
 /// The state of one point while the basis is corrected.
 struct ReducedProblem::PointState {
   const PointProblem* point;
+  const Set* set;
   ProjectedTerms ownTerms;
+  bool associated;  // it is the problem of the free modes
   bool damped;
   Norms norms;                           // of K̄, Z̄, M̄
   std::vector<linalg::DensePair> pairs;  // of the band, with left vectors
@@ -82,13 +93,17 @@ struct ReducedProblem::PointState {
 };
 
 ReducedProblem::ReducedProblem(const pencil::Pencil& pencil, const modes::AssociatedSystem& system,
-                               const modes::Modes& modes, const Options& options)
+                               const modes::Modes& modes, const Options& options,
+                               Substructure substructure)
     : options_(options),
       band_(pencil::bandFor(modes.angularFrequency)),
       modes_(modes.angularFrequency),
-      basis_(modes, system),
+      basis_(modes, system, std::move(substructure)),
       terms_(basis_, pencil, 0, pencil.terms().size()) {
-  check(BVGetSizes(modes.vectors, nullptr, &unknowns_, nullptr));
+  check(MatGetSize(basis_.stiffness(), &unknowns_, nullptr));
+  addSet(pencil, std::vector<unsigned char>(basis_.boundarySize(), 0));
+  if (basis_.boundarySize() > 0)
+    count_.emplace(basis_, modes, associatedOf(pencil).assembled(2, {}));
   lowestMode_ = modes.angularFrequency.front();
   highestMode_ = modes.angularFrequency.back();
   if (basis_.size() == unknowns_) {  // the whole space: there is nothing to correct
@@ -98,9 +113,17 @@ ReducedProblem::ReducedProblem(const pencil::Pencil& pencil, const modes::Associ
   }
 }
 
+int ReducedProblem::addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has) {
+  sets_.push_back(std::unique_ptr<Set>(
+      new Set{PointSpace(basis_.boundaryStiffness(), has),
+              ProjectedTerms(basis_, pencil, terms_.count(), pencil.affineCount())}));
+  return std::ssize(sets_) - 1;
+}
+
 /// Collective. Extends the projections of all terms to the vectors that the basis has gained.
 void ReducedProblem::extend(const std::vector<PointState*>& states) {
   terms_.extend();
+  for (auto& set : sets_) set->terms.extend();
   for (auto* state : states) state->ownTerms.extend();
 }
 
@@ -110,15 +133,16 @@ linalg::Block ReducedProblem::residualColumns(const PointState& state,
                                               const linalg::DensePair& pair,
                                               const linalg::ComplexVector& vector,
                                               pencil::Side side) const {
-  const auto& [at, pencil] = *state.point;
-  const linalg::ComplexVector residual = pencil::residual(pencil, at, pair.s, vector, side);
-  const bool real = Coordinates({&pair}, state.damped).isReal(0);
+  const linalg::ComplexVector residual =
+      pencil::residual(state.point->pencil, state.point->at, pair.s, vector, side);
+  const bool real = Coordinates({&pair}, state.damped, state.set->space).isReal(0);
   linalg::Block result(basis_.localRows());
   for (const Vec part : {residual.real.get(), residual.imaginary.get()}) {
     if (real && result.columns() == 1) break;
     const ReadArray entries(part);
     result.append(std::span(entries.begin(), entries.end()));
   }
+  basis_.clearBoundary(result);
   return result;
 }
 
@@ -141,18 +165,25 @@ bool ReducedProblem::isAccurate(const PointState& state) const {
   return true;
 }
 
+PointPairs ReducedProblem::pairsOf(const PointState& state,
+                                   std::vector<const linalg::DensePair*> pairs, bool damped) {
+  return {{state.point->at, state.associated},
+          Coordinates(std::move(pairs), damped, state.set->space)};
+}
+
 /// Not collective. Returns sketches of the residuals of one side, 2 Sketch::size × columns.
 linalg::DenseMatrix ReducedProblem::residualSketch(const PointState& state, const PointPairs& pairs,
                                                    pencil::Side side) const {
   linalg::DenseMatrix sketch(2 * Sketch::size, pairs.pairs.columns);
-  for (const auto* terms : {&terms_, &state.ownTerms}) terms->addTo(pairs, side, sketch);
+  for (const auto* terms : {&terms_, &state.set->terms, &state.ownTerms})
+    terms->addTo(pairs, side, sketch);
   return sketch;
 }
 
 /// Not collective. Fills in the errors of the pairs of a point.
 void ReducedProblem::estimateErrors(PointState& state, const linalg::DenseProblem& problem) const {
   const auto& pairs = state.pairs;
-  const PointPairs all{state.point->at, Coordinates(pointers(pairs), state.damped)};
+  const PointPairs all = pairsOf(state, pointers(pairs), state.damped);
   const auto& coordinates = all.pairs;
   const auto norms = [&](pencil::Side side) {  // raised by what a sketch may miss
     SquaredNorms squares = squaredNorms(residualSketch(state, all, side));
@@ -198,7 +229,7 @@ ReducedProblem::CorrectionRequest ReducedProblem::requestOf(const PointState& st
       bad.push_back(&state.pairs[j]);
       weights.push_back(std::min(1.0, std::sqrt(2) * resolution * tooLarge));
     }
-  return {&state, {state.point->at, Coordinates(bad, state.damped)}, weights};
+  return {&state, pairsOf(state, bad, state.damped), weights};
 }
 
 /// Collective. Returns directions that hold the residuals of all these pairs, of length one times
@@ -227,10 +258,12 @@ linalg::Block ReducedProblem::directions(const std::vector<CorrectionRequest>& r
   PetscInt first = 0;
   for (const auto& request : requests) {
     const PetscInt last = first + request.pairs.pairs.columns;
-    request.state->ownTerms.addTo({&request.pairs}, linalg::rowRange(combinations, first, last),
-                                  columns);
+    const linalg::DenseMatrix some = linalg::rowRange(combinations, first, last);
+    for (const auto* terms : {&request.state->set->terms, &request.state->ownTerms})
+      terms->addTo({&request.pairs}, some, columns);
     first = last;
   }
+  basis_.clearBoundary(columns);
   return linalg::principal(basis_.comm(), columns, resolution);
 }
 
@@ -250,7 +283,7 @@ void ReducedProblem::solveDense(const std::vector<PointState*>& open) {
 /// the products of the basis, in the norm of diag(K0)⁻¹; 1 at the least.
 double ReducedProblem::residualRatio(const PointState& state, const linalg::DensePair& pair,
                                      const linalg::Block& columns, pencil::Side side) const {
-  const PointPairs alone{state.point->at, Coordinates({&pair}, state.damped)};
+  const PointPairs alone = pairsOf(state, {&pair}, state.damped);
   const auto sum = [](const std::vector<double>& squares) {
     return std::accumulate(squares.begin(), squares.end(), 0.0);
   };
@@ -277,8 +310,10 @@ std::vector<ReducedProblem::PointState*> ReducedProblem::unconfirmed(
   confirmed_ = largest;
   worst->ownTerms.extend();  // the basis may have grown since
   linalg::DensePair& known = worst->pairs[pair];
-  for (auto* vector : {&known.q, &known.left}) vector->resize(basis_.size());
-  const auto vectors = basis_.expand({&known.q, &known.left});
+  const PointSpace& space = worst->set->space;
+  for (auto* vector : {&known.q, &known.left}) vector->resize(space.size(basis_.size()));
+  const auto q = space.lifted(known.q), y = space.lifted(known.left);
+  const auto vectors = basis_.expand({&q, &y});
   const linalg::Block right = residualColumns(*worst, known, vectors[0], pencil::Side::right),
                       left = residualColumns(*worst, known, vectors[1], pencil::Side::left);
   const auto ratios = basis_.energyRatios({right, left});
@@ -296,7 +331,9 @@ ReducedProblem::PointState ReducedProblem::newState(const PointProblem& point,
                                                     const Norms& norms) const {
   const auto& pencil = point.pencil;
   return {&point,
+          sets_[point.set].get(),
           ProjectedTerms(basis_, pencil, pencil.affineCount(), pencil.terms().size()),
+          false,
           pencil.hasPower(1),
           norms,
           {},
@@ -337,25 +374,38 @@ void ReducedProblem::addStaticResponses(const PointProblem& point) {
   rightRatio_ = std::max(measuredRatio_, basis_.lastEnergyRatio());
 }
 
-/// Collective. Turns the basis to the principal directions of all vectors found so far.
+/// Collective. Turns the basis to the principal directions of all vectors found so far. The
+/// constraint modes stay.
 void ReducedProblem::compress() {
-  const linalg::DenseMatrix directions = principalDirections(solved_, basis_.size());
+  const PetscInt boundary = basis_.boundarySize();
+  const linalg::DenseMatrix directions = principalDirections(solved_, basis_.size() - boundary);
   if (directions.empty()) return;
-  basis_.combine(directions);
-  terms_.combine(directions);
+  linalg::DenseMatrix all(basis_.size(), boundary + directions.columns());
+  for (PetscInt j = 0; j < boundary; ++j) all(j, j) = 1;
+  for (PetscInt j = 0; j < directions.columns(); ++j)
+    std::ranges::copy(directions.column(j), all.column(boundary + j).begin() + boundary);
+  basis_.combine(all);
+  terms_.combine(all);
+  for (auto& set : sets_) set->terms.combine(all);
   highestMode_ = 0;  // the modes are no longer in the basis
   for (auto& pairs : solved_)
     for (auto& pair : pairs) turn(directions, pair);
 }
 
-std::vector<pencil::ComplexModes> ReducedProblem::solve(const std::vector<PointProblem>& batch,
-                                                        Mat trial) {
-  std::vector<PointState> states;
+/// Keeps the vectors of the points, as far as they are not of constraint modes.
+void ReducedProblem::keepForCompression(std::vector<PointState>& states) {
+  for (auto& state : states) {
+    const PetscInt own = state.set->space.own();
+    for (auto& pair : state.pairs)
+      for (auto* vector : {&pair.q, &pair.left})
+        vector->erase(vector->begin(), vector->begin() + own);
+    solved_.push_back(std::move(state.pairs));
+  }
+}
+
+/// Collective. Solves at all points and corrects the basis until they are accurate.
+void ReducedProblem::correct(std::vector<PointState>& states) {
   std::vector<PointState*> open;
-  if (!responded_ && options_.corrected && basis_.size() < unknowns_)
-    addStaticResponses(batch.front());
-  responded_ = true;
-  for (const auto& point : batch) states.push_back(newState(point, normsOf(point)));
   for (auto& state : states) open.push_back(&state);
   const PetscInt largest = std::min<PetscInt>(basis_.size() + options_.growth, unknowns_);
   for (int round = 0; !open.empty(); ++round) {
@@ -372,12 +422,70 @@ std::vector<pencil::ComplexModes> ReducedProblem::solve(const std::vector<PointP
     if (basis_.add(directions(requests)) == 0) break;  // residuals are rounding
     rightRatio_ = std::max(measuredRatio_, basis_.lastEnergyRatio());
   }
+}
+
+std::vector<pencil::ComplexModes> ReducedProblem::solve(const std::vector<PointProblem>& batch,
+                                                        Mat trial) {
+  std::vector<PointState> states;
+  if (!responded_ && options_.corrected && basis_.size() < unknowns_)
+    addStaticResponses(batch.front());
+  responded_ = true;
+  for (const auto& point : batch) states.push_back(newState(point, normsOf(point)));
+  correct(states);
   std::vector<pencil::ComplexModes> points;
   for (const auto& state : states) points.push_back(result(state));
   keepShapes(points, states, trial);
-  for (auto& state : states) solved_.push_back(std::move(state.pairs));
-  if (options_.compressed) compress();
+  if (!options_.compressed) return points;
+  keepForCompression(states);
+  compress();
   return points;
+}
+
+modes::Modes ReducedProblem::freeModes(int set, const pencil::Pencil& pencil) {
+  const pencil::Pencil associated = associatedOf(pencil);
+  const PointProblem point{{}, associated.with({}), set};
+  std::vector<PointState> states;
+  states.push_back(
+      newState(point, {associated.norm(0, point.at), 0, associated.norm(2, point.at)}));
+  auto& state = states.front();
+  state.associated = true;
+  correct(states);
+  std::vector<std::vector<Complex>> lifted;
+  std::vector<const std::vector<Complex>*> list;
+  for (const auto& pair : state.pairs) lifted.push_back(state.set->space.lifted(pair.q));
+  for (const auto& vector : lifted) list.push_back(&vector);
+  linalg::Block shapes(basis_.localRows());
+  for (const auto& shape : basis_.expand(list)) {
+    const ReadArray entries(shape.real);
+    shapes.append(std::span(entries.begin(), entries.end()));
+  }
+  linalg::Block forces[2] = {linalg::Block(shapes.rows()), linalg::Block(shapes.rows())};
+  for (const auto& term : associated.terms())
+    linalg::appendProduct(term.matrix, shapes, forces[term.power / 2]);
+  auto& [stiffness, inertia] = forces;
+  modes::Modes modes;
+  const linalg::DenseMatrix masses = linalg::transposedProduct(basis_.comm(), shapes, inertia);
+  for (PetscInt j = 0; j < shapes.columns(); ++j)
+    for (auto* columns : {&shapes, &stiffness, &inertia})
+      for (double& entry : columns->column(j)) entry /= std::sqrt(masses(j, j));
+  for (auto* columns : {&stiffness, &inertia}) basis_.clearBoundary(*columns);
+  for (std::size_t j = 0; j < state.pairs.size(); ++j) {
+    const double omega = state.pairs[j].s.imag(), lambda = omega * omega;
+    modes.angularFrequency.push_back(omega);
+    modes.lambda.push_back(lambda);
+    const double size = linalg::length(basis_.comm(), inertia.column(j));
+    auto rest = stiffness.column(j);
+    for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= lambda * inertia(i, j);
+    modes.relativeResidual.push_back(linalg::length(basis_.comm(), rest) / (lambda * size));
+  }
+  modes.vectors = linalg::copiedColumns(basis_.stiffness(), shapes);
+  if (!count_) return modes;
+  // The band ends at its top: no mode lies between that and σ if the count agrees.
+  modes.inertiaShift = std::pow(band_.top * (1 + 1e-9), 2);
+  const auto below = count_->below(modes.inertiaShift, state.set->space.boundary());
+  modes.inertiaCount = below.value_or(0);
+  modes.countConfirmed = below && *below == std::ssize(modes.lambda);
+  return modes;
 }
 
 pencil::ComplexModes ReducedProblem::result(const PointState& state) const {
@@ -403,12 +511,15 @@ pencil::ComplexModes ReducedProblem::result(const PointState& state) const {
 void ReducedProblem::keepShapes(std::vector<pencil::ComplexModes>& points,
                                 const std::vector<PointState>& states, Mat trial) const {
   std::vector<std::vector<std::size_t>> wanted;
+  std::vector<std::vector<Complex>> lifted;
   std::vector<const std::vector<Complex>*> list;
   for (std::size_t i = 0; i < points.size(); ++i) {
     wanted.push_back(pencil::shapesWanted(points[i], options_.criteria));
-    for (std::size_t index : wanted.back()) list.push_back(&states[i].pairs[index].q);
+    for (std::size_t index : wanted.back())
+      lifted.push_back(states[i].set->space.lifted(states[i].pairs[index].q));
   }
-  if (list.empty()) return;
+  if (lifted.empty()) return;
+  for (const auto& vector : lifted) list.push_back(&vector);
   auto all = basis_.expand(list);
   auto next = std::make_move_iterator(all.begin());
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -422,11 +533,26 @@ linalg::DenseProblem ReducedProblem::project(const PointProblem& point) const {
   return project(newState(point, {}));
 }
 
-linalg::DenseProblem ReducedProblem::project(const PointState& state) const {
+linalg::DenseProblem ReducedProblem::projectOwn(const PointProblem& point) const {
+  const PointState state = newState(point, {});
   linalg::DenseProblem problem;
-  terms_.addTo(state.point->at, problem);
-  state.ownTerms.addTo(state.point->at, problem);
+  state.ownTerms.addTo({point.at, false}, problem);
+  return state.set->space.restricted(std::move(problem));
+}
+
+linalg::DenseProblem ReducedProblem::projectOnAll(const PointProblem& point) const {
+  return projectOnAll(newState(point, {}));
+}
+
+linalg::DenseProblem ReducedProblem::projectOnAll(const PointState& state) const {
+  linalg::DenseProblem problem;
+  for (const auto* terms : {&terms_, &state.set->terms, &state.ownTerms})
+    terms->addTo({state.point->at, state.associated}, problem);
   return problem;
+}
+
+linalg::DenseProblem ReducedProblem::project(const PointState& state) const {
+  return state.set->space.restricted(projectOnAll(state));
 }
 
 Improvement ReducedProblem::improve(
@@ -439,18 +565,18 @@ Improvement ReducedProblem::improve(
     PointState& state = states.emplace_back(newState(point, nearbyNorms(point)));
     state.pairs = pairs;
     for (auto& pair : state.pairs)  // they may be of a smaller basis
-      for (auto* vector : {&pair.q, &pair.left}) vector->resize(basis_.size());
+      for (auto* vector : {&pair.q, &pair.left})
+        vector->resize(state.set->space.size(basis_.size()));
     estimateErrors(state, project(state));
     result.backwardError.push_back(
         *std::max_element(state.backwardError.begin(), state.backwardError.end()));
     if (result.backwardError.back() < rounding) continue;
     // Both parts of a residual in units of the whole: one of them may be rounding.
-    requests.push_back({&state,
-                        {point.at, Coordinates(pointers(state.pairs), true)},
+    requests.push_back({&state, pairsOf(state, pointers(state.pairs), true),
                         std::vector<double>(pairs.size(), 1.0)});
   }
   result.changed = basis_.add(directions(requests)) > 0;
-  terms_.extend();
+  extend({});
   return result;
 }
 

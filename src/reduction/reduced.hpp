@@ -1,6 +1,8 @@
 #pragma once
 /// The reduced problem [4.19] is corrected until its eigenvalues are those of the full one.
 #include <array>
+#include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -12,15 +14,20 @@
 #include "pencil/complex_modes.hpp"
 #include "pencil/pencil.hpp"
 #include "reduction/basis.hpp"
+#include "reduction/mode_count.hpp"
 #include "reduction/projected.hpp"
+#include "reduction/substructure.hpp"
 #include "sweep/parameters.hpp"
 
 namespace squeal::reduction {
 
-/// One point of a sweep: the terms that all points share and those of this one.
+/// One point of a sweep.
 struct PointProblem {
   sweep::Parameters at;
+  /// The terms that all points share, those of the points with the same boundary unknowns, and
+  /// those of this one.
   pencil::Pencil pencil;
+  int set = 0;  ///< its boundary unknowns: the result of ReducedProblem::addSet(); 0: none
 };
 
 /// The answer of the full problem to eigenpairs of the reduced one.
@@ -52,11 +59,21 @@ struct Options {
 /// the estimate of |δs|/|s| at most `-flutter_tolerance`. The basis is kept over a sweep.
 class ReducedProblem {
  public:
-  /// Collective. Borrows the system during the life of the object and shares the terms of `pencil`,
-  /// which hold at all points. `modes` are M0-orthonormal with ascending frequencies; they are
-  /// copied.
+  /// Collective. Borrows the system, that of the interior unknowns, during the life of the object
+  /// and shares the terms of `pencil`, which hold at all points and for all unknowns. `modes` are
+  /// M0-orthonormal with ascending frequencies; they are copied.
   ReducedProblem(const pencil::Pencil& pencil, const modes::AssociatedSystem& system,
-                 const modes::Modes& modes, const Options& options = Options::given());
+                 const modes::Modes& modes, const Options& options = Options::given(),
+                 Substructure substructure = {});
+  /// Collective. Makes known the points that have the boundary unknowns with has[boundary unknown
+  /// of all ranks] set, and returns the number of this set. Of `pencil`, the terms that follow
+  /// those of the constructor and hold for all parameters hold for these points; they are shared.
+  /// Throws Error if their stiffness is not positive definite.
+  int addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has);
+  /// Collective. Returns the free modes in the band of a set, corrected as eigenvalues are. Their
+  /// vectors have the entries of all unknowns. Of `pencil`, K and M alone count. Their number is
+  /// confirmed where that of the interior is and the bounds of ModeCount agree.
+  modes::Modes freeModes(int set, const pencil::Pencil& pencil);
   /// Collective. Solves all points at once and returns their complex modes, [point]: their dense
   /// problems are spread over the ranks, and their corrections are solved for together. The static
   /// responses are those of the first point of the first batch. Shapes are mapped to nodal
@@ -64,6 +81,14 @@ class ReducedProblem {
   std::vector<pencil::ComplexModes> solve(const std::vector<PointProblem>& batch, Mat trial);
   /// Collective. Returns the projection of the problem at this point on the basis as it is.
   linalg::DenseProblem project(const PointProblem& point) const;
+  /// Collective. Returns the same with all boundary unknowns, in coordinates that all points share.
+  linalg::DenseProblem projectOnAll(const PointProblem& point) const;
+  /// Returns the coordinates in the basis of a vector in those of the points of a set.
+  std::vector<Complex> lifted(int set, const std::vector<Complex>& q) const {
+    return sets_[set]->space.lifted(q);
+  }
+  /// Collective. Returns the projection of the terms that belong to the point alone.
+  linalg::DenseProblem projectOwn(const PointProblem& point) const;
   PetscInt basisSize() const { return basis_.size(); }
   const Basis& basis() const { return basis_; }
   /// Returns the band; its top is 0 if nothing is corrected, and infinite if V is the whole space.
@@ -75,6 +100,11 @@ class ReducedProblem {
 
  private:
   struct PointState;
+  /// Points with the same boundary unknowns.
+  struct Set {
+    PointSpace space;
+    ProjectedTerms terms;
+  };
   /// Pairs of a point whose residuals are to be corrected.
   struct CorrectionRequest {
     const PointState* state;
@@ -89,7 +119,10 @@ class ReducedProblem {
   Norms normsOf(const PointProblem& point);
   Norms nearbyNorms(const PointProblem& point);
   PointState newState(const PointProblem& point, const Norms& norms) const;
+  static PointPairs pairsOf(const PointState& state, std::vector<const linalg::DensePair*> pairs,
+                            bool damped);
   linalg::DenseProblem project(const PointState& state) const;
+  linalg::DenseProblem projectOnAll(const PointState& state) const;
   void extend(const std::vector<PointState*>& states);
   linalg::Block residualColumns(const PointState& state, const linalg::DensePair& pair,
                                 const linalg::ComplexVector& vector, pencil::Side side) const;
@@ -108,6 +141,8 @@ class ReducedProblem {
   pencil::ComplexModes result(const PointState& state) const;
   void keepShapes(std::vector<pencil::ComplexModes>& points, const std::vector<PointState>& states,
                   Mat trial) const;
+  void correct(std::vector<PointState>& states);
+  void keepForCompression(std::vector<PointState>& states);
   void compress();
 
   const Options options_;
@@ -121,6 +156,8 @@ class ReducedProblem {
   std::vector<double> modes_;                // rad/s
   Basis basis_;
   ProjectedTerms terms_;
+  std::vector<std::unique_ptr<Set>> sets_;
+  std::optional<ModeCount> count_;  // with boundary unknowns
   std::vector<std::vector<linalg::DensePair>> solved_;
   std::vector<std::pair<sweep::Parameters, Norms>> norms_;  // norms at the points solved
 };

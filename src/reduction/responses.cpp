@@ -24,7 +24,7 @@ Forces forcesOf(const pencil::Term& term, const sweep::Parameters& at, bool tran
 linalg::Block forcesOnModes(const Basis& basis, const pencil::Pencil& pencil,
                             const sweep::Parameters& at, const std::vector<double>& frequencies,
                             double resolution) {
-  const PetscInt count = frequencies.size();
+  const PetscInt count = frequencies.size(), first = basis.boundarySize();
   const auto& terms = pencil.terms();
   std::vector<Forces> list;
   for (const bool transposed : {false, true})
@@ -47,7 +47,7 @@ linalg::Block forcesOnModes(const Basis& basis, const pencil::Pencil& pencil,
       for (const auto& forces : list) {
         if (forces.transposed != transposed || (forces.power == 1) != imaginary) continue;
         linalg::Block products(forces.rows.size());
-        basis.appendProducts(forces.matrix, 0, count, products);
+        basis.appendProducts(forces.matrix, first, first + count, products);
         for (PetscInt j = 0; j < count; ++j) {
           const double omega = frequencies[j];
           const double factor = forces.coefficient * (forces.power == 0   ? 1

@@ -27,7 +27,8 @@ std::uint64_t bits(std::uint64_t counter) {
 
 }  // namespace
 
-Sketch::Sketch(MPI_Comm comm, const std::vector<double>& diagonal)
+Sketch::Sketch(MPI_Comm comm, const std::vector<double>& diagonal,
+               const std::vector<PetscInt>& leftOut)
     : comm_(comm), signs_(diagonal.size(), 2 * size) {
   static_assert(size == 64, "one random word a row");
   PetscInt first = 0;
@@ -42,6 +43,8 @@ Sketch::Sketch(MPI_Comm comm, const std::vector<double>& diagonal)
       signs_(i, size + j) = weight * signs_(i, j);
     }
   }
+  for (const PetscInt row : leftOut)
+    for (PetscInt j = 0; j < signs_.columns(); ++j) signs_(row, j) = 0;
 }
 
 DenseMatrix Sketch::of(const DenseView& x) const { return transposedProduct(comm_, signs_, x); }

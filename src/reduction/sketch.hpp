@@ -21,8 +21,9 @@ class Sketch {
 
   /// Collective. Makes Ω for vectors distributed like `diagonal`, [local row], the diagonal D ≥ 0
   /// of the weighted norm √(rᵀ D r). The signs are a function of the global row, so that they do
-  /// not depend on the number of ranks.
-  Sketch(MPI_Comm comm, const std::vector<double>& diagonal);
+  /// not depend on the number of ranks. The local rows `leftOut` count in neither norm.
+  Sketch(MPI_Comm comm, const std::vector<double>& diagonal,
+         const std::vector<PetscInt>& leftOut = {});
   /// Collective. Returns Ωᵀ X / √k above Ωᵀ D^½ X / √k, 2k × columns, the same on all ranks. X is
   /// given by this rank's rows.
   linalg::DenseMatrix of(const linalg::DenseView& x) const;

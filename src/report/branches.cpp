@@ -16,15 +16,17 @@ const char* kindName(tracking::Event::Kind kind) {
       return "hopf";
     case tracking::Event::Kind::divergence:
       return "divergence";
+    case tracking::Event::Kind::contact:
+      return "contact";
   }
   return "";
 }
 
-/// Calls `action` with the number of the active set, from 1, and what was followed there.
+/// Calls `action` with all that was followed.
 template <class Action>
 void forAllFollowed(const analysis::Analysis& analysis, const Action& action) {
-  for (std::size_t s = 0; s < analysis.segments.size(); ++s)
-    for (const auto& followed : analysis.segments[s].followed) action(s + 1, followed);
+  for (const auto& segment : analysis.segments)
+    for (const auto& followed : segment.followed) action(followed);
 }
 
 std::string parametersAt(sweep::Parameters at, double friction) {
@@ -38,13 +40,13 @@ std::string branchTable(const analysis::Analysis& analysis) {
   std::string table =
       "active_set,branch," + sweep::parameterColumns() +
       ",growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,overlap,in_band,swept\n";
-  forAllFollowed(analysis, [&](std::size_t set, const tracking::Followed& followed) {
+  forAllFollowed(analysis, [&](const stability::Followed& followed) {
     for (int branch = 1; branch <= followed.branches.count; ++branch)
       for (const auto& station : followed.branches.stations)
         for (std::size_t i = 0; i < station.pairs.size(); ++i) {
           if (station.branch[i] != branch) continue;
           const auto s = station.pairs[i].s;
-          table += formatted("%zu,%d,", set, branch) +
+          table += formatted("%d,%d,", followed.activeSet[station.piece], branch) +
                    parametersAt(followed.line, station.friction) +
                    formatted(",%.15e,%.15e,%.15e,%.4f,%d,%d\n", s.real(), s.imag(),
                              s.imag() / (2 * M_PI), station.overlap[i], station.inBand[i],
@@ -57,10 +59,10 @@ std::string branchTable(const analysis::Analysis& analysis) {
 std::string criticalTable(const analysis::Analysis& analysis) {
   std::string table = "active_set,branch,partner,kind,direction," + sweep::parameterColumns() +
                       ",frequency_hz,slope,friction_error_estimate,backward_error,converged\n";
-  forAllFollowed(analysis, [&](std::size_t set, const tracking::Followed& followed) {
+  forAllFollowed(analysis, [&](const stability::Followed& followed) {
     for (const auto& c : followed.criticals)
-      table += formatted("%zu,%d,%d,%s,%s,", set, c.branch, c.partner, kindName(c.kind),
-                         c.loss ? "loss" : "regain") +
+      table += formatted("%d,%d,%d,%s,%s,", followed.activeSet[c.piece], c.branch, c.partner,
+                         kindName(c.kind), c.loss ? "loss" : "regain") +
                parametersAt(followed.line, c.friction) +
                formatted(",%.15e,%.6e,%.1e,%.1e,%d\n", c.angularFrequency / (2 * M_PI), c.slope,
                          c.errorEstimate, c.backwardError, c.converged ? 1 : 0);
@@ -71,7 +73,7 @@ std::string criticalTable(const analysis::Analysis& analysis) {
 std::string followedText(const analysis::Analysis& analysis) {
   constexpr int shown = 8;
   std::string text;
-  forAllFollowed(analysis, [&](std::size_t, const tracking::Followed& followed) {
+  forAllFollowed(analysis, [&](const stability::Followed& followed) {
     int count = 0;
     for (const auto& c : followed.criticals)
       if (++count <= shown)

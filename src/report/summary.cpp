@@ -112,7 +112,7 @@ Json unstableModes(const pencil::ComplexModes& point) {
   return list;
 }
 
-Json followedEntry(const tracking::Followed& followed) {
+Json followedEntry(const stability::Followed& followed) {
   Json entry = {{"speed", followed.line.speed},       {"pressure", followed.line.pressure},
                 {"damping", followed.line.damping},   {"branches", followed.branches.count},
                 {"complete", followed.complete()},    {"sturm_count_exact", followed.countExact},

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "linalg/quadratic.hpp"
+#include "linalg/subspace.hpp"
 #include "reduction/reduced.hpp"
 
 namespace squeal::tracking {
@@ -28,6 +29,11 @@ class Family {
   /// became known; in one that has grown since, their new rows and columns are zero. A root found
   /// so is made exact by improve().
   virtual std::optional<linalg::DenseProblem> near(double friction) { return at(friction); }
+  /// Collective. Returns the pairs of at(friction) for comparison with those of another family of
+  /// the same path: in coordinates that all of these share.
+  virtual linalg::Spectrum shared(double friction, const std::vector<linalg::DensePair>& pairs) {
+    return linalg::Spectrum(*at(friction), pairs);
+  }
   /// Collective. Makes these frictions known to near().
   virtual void know(const std::vector<double>&) {}
   /// Reports progress; called on all ranks.

@@ -28,17 +28,9 @@ sweep::Parameters ReducedFamily::point(double friction) const {
   return at;
 }
 
-linalg::DenseProblem ReducedFamily::shared(double friction) const {
-  return reduced_.project({point(friction), source_.shared.with({})});
-}
-
-/// Collective. Returns the projection of the terms that belong to the point alone.
-linalg::DenseProblem ReducedFamily::own(const reduction::PointProblem& problem) const {
-  linalg::DenseProblem sum;
-  reduction::ProjectedTerms(reduced_.basis(), problem.pencil, problem.pencil.affineCount(),
-                            problem.pencil.terms().size())
-      .addTo(problem.at, sum);
-  return sum;
+/// Returns the projection of the terms that all points of the line share.
+linalg::DenseProblem ReducedFamily::ofAll(double friction) const {
+  return reduced_.project({point(friction), source_.shared.with({}), source_.set});
 }
 
 std::optional<linalg::DenseProblem> ReducedFamily::at(double friction) {
@@ -46,11 +38,24 @@ std::optional<linalg::DenseProblem> ReducedFamily::at(double friction) {
   if (source_.local || known(friction)) return near(friction);
   const auto problem = source_.at(point(friction));
   if (!problem) return {};
-  Node node{friction, reduced_.basisSize(), own(*problem)};
-  linalg::DenseProblem sum = shared(friction);
+  Node node{friction, reduced_.basisSize(), reduced_.projectOwn(*problem)};
+  linalg::DenseProblem sum = ofAll(friction);
   add(sum, 1, node.own);
   if (nodes_.size() < most) keep(std::move(node));
   return sum;
+}
+
+linalg::Spectrum ReducedFamily::shared(double friction,
+                                       const std::vector<linalg::DensePair>& pairs) {
+  const auto problem = source_.local ? std::nullopt : source_.at(point(friction));
+  std::vector<linalg::DensePair> lifted;
+  for (const auto& pair : pairs)
+    lifted.push_back(
+        {pair.s, reduced_.lifted(source_.set, pair.q), reduced_.lifted(source_.set, pair.left)});
+  const auto whole =
+      problem ? reduced_.projectOnAll(*problem)
+              : reduced_.projectOnAll({point(friction), source_.shared.with({}), source_.set});
+  return linalg::Spectrum(whole, std::move(lifted));
 }
 
 /// Returns true if there is a node at this friction in the present basis.
@@ -65,7 +70,7 @@ void ReducedFamily::know(const std::vector<double>& frictions) {
   for (double friction : frictions)
     if (!known(friction))
       if (const auto problem = source_.at(point(friction)))
-        keep({friction, reduced_.basisSize(), own(*problem)});
+        keep({friction, reduced_.basisSize(), reduced_.projectOwn(*problem)});
 }
 
 /// Keeps the node; it replaces one at the same friction, which is of a smaller basis.
@@ -100,9 +105,9 @@ std::vector<const ReducedFamily::Node*> ReducedFamily::nodesFor(double friction)
 }
 
 std::optional<linalg::DenseProblem> ReducedFamily::near(double friction) {
-  if (source_.local) return shared(friction);
+  if (source_.local) return ofAll(friction);
   if (nodes_.empty()) return {};
-  linalg::DenseProblem sum = shared(friction);
+  linalg::DenseProblem sum = ofAll(friction);
   const auto nodes = nodesFor(friction);
   for (const Node* node : nodes) {  // Lagrange interpolation
     double weight = 1;
@@ -135,7 +140,8 @@ reduction::Improvement ReducedFamily::improve(const std::vector<PairsAtFriction>
       return std::abs(node.friction - located[place].friction) <= apart;
     });
   for (std::size_t i = 0; i < places.size(); ++i)
-    nodes_.push_back({located[places[i]].friction, reduced_.basisSize(), own(list[i].first)});
+    nodes_.push_back(
+        {located[places[i]].friction, reduced_.basisSize(), reduced_.projectOwn(list[i].first)});
   return result;
 }
 

@@ -16,11 +16,12 @@ namespace squeal::tracking {
 
 /// The terms that all points share, and those of a single point.
 struct ProblemSource {
-  const pencil::Pencil& shared;  ///< the terms of all points, borrowed
+  const pencil::Pencil& shared;  ///< the terms of all points of the line, borrowed
   /// Returns the problem of a point; none if there is no steady state with this active set.
   /// Collective, unless `local`.
   std::function<std::optional<reduction::PointProblem>(const sweep::Parameters&)> at;
   bool local = false;  ///< no point has terms of its own
+  int set = 0;         ///< boundary unknowns of the points
 };
 
 /// All frictions of one speed, pressure and damping. Where points have terms of their own, each new
@@ -36,6 +37,7 @@ class ReducedFamily : public Family {
   MPI_Comm comm() const override { return comm_; }
   std::optional<linalg::DenseProblem> at(double friction) override;
   std::optional<linalg::DenseProblem> near(double friction) override;
+  linalg::Spectrum shared(double friction, const std::vector<linalg::DensePair>& pairs) override;
   void know(const std::vector<double>& frictions) override;
   void progress(const std::string& text) override { progress_(text); }
   reduction::Improvement improve(const std::vector<PairsAtFriction>& located) override;
@@ -49,8 +51,7 @@ class ReducedFamily : public Family {
   };
   sweep::Parameters point(double friction) const;
   bool known(double friction) const;
-  linalg::DenseProblem shared(double friction) const;
-  linalg::DenseProblem own(const reduction::PointProblem& problem) const;
+  linalg::DenseProblem ofAll(double friction) const;
   void keep(Node node);
   std::vector<const Node*> nodesFor(double friction) const;
   double closest() const;

@@ -66,16 +66,27 @@ int unstable(const std::vector<linalg::DensePair>& pairs, bool damped) {
 
 class Follower {
  public:
-  Follower(Family& family, const pencil::WatchedBand& band, const TrackLimits& limits)
-      : family_(family), limits_(limits) {
+  Follower(const std::vector<Piece>& path, const pencil::WatchedBand& band,
+           const TrackLimits& limits)
+      : path_(path), limits_(limits) {
     result_.band = band;
   }
 
-  Branches run(const std::vector<double>& frictions) {
-    int ranks = 1;
-    check(MPI_Comm_size(family_.comm(), &ranks));
-    const std::size_t together = std::min<std::size_t>(ranks, mostTogether);
+  Branches run() {
     std::list<Solved> row;  // the last station already finished, and the next ones
+    for (; piece_ < path_.size(); ++piece_) run(path_[piece_].frictions, row);
+    return std::move(result_);
+  }
+
+ private:
+  static constexpr std::size_t mostTogether = 4;  // stations whose matrices are held at a time
+
+  Family& family() const { return *path_[piece_].family; }
+
+  void run(const std::vector<double>& frictions, std::list<Solved>& row) {
+    int ranks = 1;
+    check(MPI_Comm_size(family().comm(), &ranks));
+    const std::size_t together = std::min<std::size_t>(ranks, mostTogether);
     for (std::size_t first = 0; first < frictions.size(); first += together) {
       const std::vector<double> some(
           frictions.begin() + first,
@@ -88,6 +99,10 @@ class Follower {
         }
         if (!row.empty())
           found[k]->smallest = limits_.smallest * (some[k] - row.back().station.friction);
+        if (!row.empty() && row.back().station.piece != piece_) {
+          found[k]->step = jump(row.back(), *found[k]);
+          found[k]->whole = true;
+        }
         row.push_back(std::move(*found[k]));
       }
       refine(row);
@@ -97,29 +112,25 @@ class Follower {
         last = &next;
       }
       if (!row.empty())
-        family_.progress(formatted("%d branches followed to friction %g", result_.count,
-                                   row.back().station.friction));
+        family().progress(formatted("%d branches followed to friction %g", result_.count,
+                                    row.back().station.friction));
       if (!row.empty()) row.erase(row.begin(), std::prev(row.end()));
     }
-    return std::move(result_);
   }
-
- private:
-  static constexpr std::size_t mostTogether = 4;  // stations whose matrices are held at a time
 
   /// Solves the problems at these frictions together, [friction]; none where there is no problem.
   std::vector<std::optional<Solved>> solve(const std::vector<double>& frictions, bool swept) {
     std::vector<linalg::DenseProblem> problems;
     std::vector<std::size_t> places;
     for (std::size_t k = 0; k < frictions.size(); ++k)
-      if (auto problem = family_.at(frictions[k])) {
+      if (auto problem = family().at(frictions[k])) {
         problems.push_back(std::move(*problem));
         places.push_back(k);
       }
-    auto pairs = watchedPairs(family_.comm(), problems, result_.band);
+    auto pairs = watchedPairs(family().comm(), problems, result_.band);
     std::vector<std::optional<Solved>> list(frictions.size());
     for (std::size_t i = 0; i < problems.size(); ++i) {
-      Station station{frictions[places[i]], swept, std::move(pairs[i]), {}, {}, {}};
+      Station station{frictions[places[i]], swept, std::move(pairs[i]), {}, {}, {}, piece_};
       station.branch.assign(station.pairs.size(), -1);
       station.overlap.assign(station.pairs.size(), 0);
       for (const auto& pair : station.pairs)
@@ -172,12 +183,13 @@ class Follower {
         result_.entered += !a->station.inBand[link.here] && b.station.inBand[link.there];
         result_.left += a->station.inBand[link.here] && !b.station.inBand[link.there];
       }
-      screen(family_, {a->station.friction, a->problem}, {b.station.friction, b.problem},
+      screen(family(), {a->station.friction, a->problem}, {b.station.friction, b.problem},
              step.singles, step.events, step.gaps);
       const auto number = [&](int index) { return index < 0 ? index : a->station.branch[index]; };
       for (auto& event : step.events) {
         event.branch = number(event.branch);
         event.partner = number(event.partner);
+        event.piece = piece_;
         result_.events.push_back(std::move(event));
       }
       for (auto& gap : step.gaps) result_.gaps.push_back(std::move(gap));
@@ -205,6 +217,39 @@ class Follower {
            std::any_of(group.there.begin(), group.there.end(), [&](auto j) { return one(b, j); });
   }
 
+  /// Joins the last station of one piece and the first of the next.
+  StepResult jump(const Solved& a, const Solved& b) {
+    StepResult step;
+    const auto here = path_[a.station.piece].family->shared(a.station.friction, a.station.pairs),
+               there = family().shared(b.station.friction, b.station.pairs);
+    const bool damped = there.damped();
+    for (const auto& group : groups(here, there)) {
+      if (!group.joined()) {
+        unsure(step, a, b, group, matters(a, b, group), here, there);
+        continue;
+      }
+      const auto from = chosen(here.pairs(), group.here), to = chosen(there.pairs(), group.there);
+      const bool single = from.size() == 1;
+      const auto mate = single ? std::vector<std::size_t>{0} : ordered(from, to);
+      for (std::size_t k = 0; k < mate.size(); ++k) {
+        const std::size_t i = group.here[k], j = group.there[mate[k]];
+        step.links.push_back({i, j, single ? std::abs(here.overlap(i, there, j)) : 1});
+        const int before = growthOf(from, k, damped), after = growthOf(to, mate[k], damped);
+        if (changes(before, after) && matters(a, b, group))
+          step.events.push_back({Event::Kind::contact,
+                                 int(i),
+                                 -1,
+                                 after > before,
+                                 a.station.friction,
+                                 b.station.friction,
+                                 {a.station.pairs[i]},
+                                 {b.station.pairs[j]},
+                                 0});
+      }
+    }
+    return step;
+  }
+
   StepResult join(const Solved& a, const Solved& b) {
     StepResult step;
     for (const auto& group : groups(a.spectrum, b.spectrum)) {
@@ -213,7 +258,7 @@ class Follower {
         single(step, a, b, group);
       } else if (!group.joined() || !lasts(a, b, group) || !several(step, a, b, group)) {
         const bool counts = matters(a, b, group);
-        unsure(step, a, b, group, counts);
+        unsure(step, a, b, group, counts, a.spectrum, b.spectrum);
         step.sure = step.sure && !counts;
       }
     }
@@ -296,7 +341,7 @@ class Follower {
       if (!changes(before, after)) continue;
       const auto& pair = equalBelow ? there[mate[k]] : here[k];
       const Complex way = closer * (pair.s - s);
-      const auto found = continuedTo(family_, near, linalg::Spectrum(apart.problem, {pair}),
+      const auto found = continuedTo(family(), near, linalg::Spectrum(apart.problem, {pair}),
                                      s + way, std::abs(way));
       if (!meetingPoint(s, damped) || !found || found->pairs()[0].s.real() / way.real() < 0.1)
         return false;
@@ -356,7 +401,7 @@ class Follower {
     }
     const double middle = 0.5 * (low.friction + high.friction);
     const auto found =
-        continuedTo(family_, middle, low.spectrum, 0.5 * (mean(a) + mean(b)), isolation);
+        continuedTo(family(), middle, low.spectrum, 0.5 * (mean(a) + mean(b)), isolation);
     if (!found) return false;
     return traceBy({middle, *found}, low, high, ids, isolation, smallest, mate, step);
   }
@@ -382,7 +427,7 @@ class Follower {
                                double isolation) {
     const double friction = equal.friction + part * (apart.friction - equal.friction);
     const Complex expected = (1 - part) * mean(equal.pairs()) + part * mean(apart.pairs());
-    auto found = continuedTo(family_, friction, apart.spectrum, expected, isolation);
+    auto found = continuedTo(family(), friction, apart.spectrum, expected, isolation);
     if (!found) return {};
     return PairAt{friction, std::move(*found)};
   }
@@ -448,13 +493,13 @@ class Follower {
   }
 
   /// Joins a group by its largest overlaps, without certainty, and appends a gap if it `counts`.
-  void unsure(StepResult& step, const Solved& a, const Solved& b, const Group& group, bool counts) {
-    const auto mate = assigned(a.spectrum, b.spectrum, group);
+  void unsure(StepResult& step, const Solved& a, const Solved& b, const Group& group, bool counts,
+              const linalg::Spectrum& here, const linalg::Spectrum& there) {
+    const auto mate = assigned(here, there, group);
     for (std::size_t k = 0; k < mate.size(); ++k)
       if (mate[k] < group.there.size())
-        step.links.push_back(
-            {group.here[k], group.there[mate[k]],
-             std::abs(a.spectrum.overlap(group.here[k], b.spectrum, group.there[mate[k]]))});
+        step.links.push_back({group.here[k], group.there[mate[k]],
+                              std::abs(here.overlap(group.here[k], there, group.there[mate[k]]))});
     if (!counts) return;
     const auto pairs = group.here.empty() ? chosen(b.spectrum.pairs(), group.there)
                                           : chosen(a.spectrum.pairs(), group.here);
@@ -481,7 +526,8 @@ class Follower {
     return distance;
   }
 
-  Family& family_;
+  const std::vector<Piece>& path_;
+  std::size_t piece_ = 0;  // of the path
   TrackLimits limits_;
   Branches result_;
 };
@@ -492,9 +538,14 @@ int Branches::inBandAt(const Station& station) const {
   return std::ranges::count(station.inBand, 1);
 }
 
+Branches follow(const std::vector<Piece>& path, const pencil::WatchedBand& band,
+                const TrackLimits& limits) {
+  return Follower(path, band, limits).run();
+}
+
 Branches follow(Family& family, const std::vector<double>& frictions,
                 const pencil::WatchedBand& band, const TrackLimits& limits) {
-  return Follower(family, band, limits).run(frictions);
+  return follow({{&family, frictions}}, band, limits);
 }
 
 }  // namespace squeal::tracking

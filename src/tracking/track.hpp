@@ -20,11 +20,13 @@ struct Station {
   std::vector<double> overlap;  ///< [pair] |tr(Π Π')| with the station before; 1 where a group was
                                 ///< joined as a whole; 0 where the branch begins
   std::vector<unsigned char> inBand;  ///< [pair] 1 if it is in the band
+  std::size_t piece = 0;              ///< of the path
 };
 
 /// A change of stability between two frictions.
 struct Event {
-  enum class Kind { coalescence, crossing, divergence } kind = Kind::crossing;
+  /// `contact`: the eigenvalue jumps where the active set changes.
+  enum class Kind { coalescence, crossing, divergence, contact } kind = Kind::crossing;
   int branch = 0, partner = -1;
   bool loss = true;          ///< stability is lost with rising friction; false: it is regained
   double low = 0, high = 0;  ///< bracket of the friction; if equal, the event is at this friction,
@@ -32,7 +34,8 @@ struct Event {
   /// The pairs concerned at `low` and at `high`. A crossing or divergence has two where equal
   /// eigenvalues change their stability together: then each has an event with the mean of both.
   std::vector<linalg::DensePair> below, above;
-  double isolation = 0;  ///< distance from other eigenvalues, rad/s
+  double isolation = 0;   ///< distance from other eigenvalues, rad/s
+  std::size_t piece = 0;  ///< of the path; at a jump the one that begins there
 };
 
 /// A range of frictions in which a continuation is not certain.
@@ -59,6 +62,12 @@ struct TrackLimits {
   double smallest = 1. / 1024;
 };
 
+/// A part of a path on which the problem is a smooth function of the friction.
+struct Piece {
+  Family* family = nullptr;       ///< borrowed
+  std::vector<double> frictions;  ///< ascending; the next piece begins where this one ends
+};
+
 /// Collective. Follows all eigenvalues of the band over ascending frictions. A continuation is
 /// certain where the trace of the product of the spectral projectors at both ends, tr(Π Π') [M.41],
 /// is close to the number of eigenvalues joined. Other steps are halved: for two eigenvalues that
@@ -69,5 +78,10 @@ struct TrackLimits {
 /// lower frequency. Equal eigenvalues are ordered by frequency, then by growth rate.
 Branches follow(Family& family, const std::vector<double>& frictions,
                 const pencil::WatchedBand& band, const TrackLimits& limits = {});
+/// Collective. Does the same along a path. From one piece to the next eigenvalues jump; they are
+/// joined by the same projectors, in coordinates that the families share, without frictions in
+/// between. A jump over the axis is an event, and one that is not certain a gap.
+Branches follow(const std::vector<Piece>& path, const pencil::WatchedBand& band,
+                const TrackLimits& limits = {});
 
 }  // namespace squeal::tracking

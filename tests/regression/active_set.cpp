@@ -72,14 +72,17 @@ TEST(ActiveSet, ModesAreComputedAnewWhereItChanges) {
     const double first = set.at("first_friction");
     std::printf("from friction %.1f: %d open nodes, %d unknowns\n", first, open, unknowns);
     EXPECT_EQ(unknowns, closedUnknowns + open);
-    EXPECT_EQ(set.at("modes"), 21);
+    // The modes of the first set are computed; the others have those of the band, in the basis that
+    // all share.
+    const std::size_t modes = set.at("modes");
+    EXPECT_EQ(modes, before.empty() ? 21U : findings.eigenvalues.at(first).size());
     EXPECT_TRUE(set.at("sturm_count").at("confirmed"));
     // Open nodes free the structure: no frequency rises (Rayleigh), and the first falls.
     const auto now =
         readCsv(sweep.folder / (before.empty() ? "modes.csv" : "modes_" + shortest(first) + ".csv"))
             .column("angular_frequency_rad_per_s");
-    ASSERT_EQ(now.size(), 21U);
-    for (std::size_t i = 0; i < before.size(); ++i)
+    ASSERT_EQ(now.size(), modes);
+    for (std::size_t i = 0; i < std::min(now.size(), before.size()); ++i)
       EXPECT_LE(now[i], before[i] * (1 + 1e-9)) << "mode " << i + 1;
     EXPECT_TRUE(before.empty() || now[0] < before[0] * (1 - 1e-6));
     before = now;

@@ -21,7 +21,7 @@ struct Rule {
 };
 
 /// Frictions that the sweep asks for and that were followed.
-std::vector<double> sweptStations(const tracking::Followed& followed) {
+std::vector<double> sweptStations(const stability::Followed& followed) {
   std::vector<double> list;
   for (const auto& station : followed.branches.stations)
     if (station.swept) list.push_back(station.friction);

@@ -19,7 +19,7 @@ analysis::Analysis run(const std::string& changes) {
                      changes);
 }
 
-const std::vector<tracking::Critical>& criticals(const analysis::Analysis& analysis) {
+const std::vector<stability::Critical>& criticals(const analysis::Analysis& analysis) {
   return analysis.segments.at(0).followed.at(0).criticals;
 }
 

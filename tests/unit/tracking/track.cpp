@@ -7,8 +7,8 @@
 #include <tuple>
 
 #include "pencil/band.hpp"
+#include "stability/critical.hpp"
 #include "support/families.hpp"
-#include "tracking/critical.hpp"
 #include "tracking/renumber.hpp"
 
 namespace squeal {
@@ -78,7 +78,7 @@ TEST(Track, StronglyDampedOnesAreLeftAloneUntilTheyMatter) {
   pencil::WatchedBand band;
   band.top = 15;
   const auto branches = follow(family, grid(1, 5), band);
-  const auto found = criticalFrictions(family, branches, 1e-9);
+  const auto found = stability::criticalFrictions(family, branches, 1e-9);
   expectNoGaps(branches);
   EXPECT_EQ(branches.stations.front().pairs.size(), 1u);  // −2 is farther from zero than 1.5
   EXPECT_EQ(branches.stations.back().pairs.size(), 2u);

@@ -1,5 +1,5 @@
 // Critical frictions of small dense families against closed forms and brute force.
-#include "tracking/critical.hpp"
+#include "stability/critical.hpp"
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ TEST(Critical, CoalescenceOfTwo) {
   Linear family = modal({w1 * w1, 630 * 630, w2 * w2}, {{0, 2, w0 * w0}});
   for (const int steps : {1, 2, 7}) {
     const auto branches = follow(family, grid(0.5, steps), {});
-    const auto found = criticalFrictions(family, branches, 1e-9);
+    const auto found = stability::criticalFrictions(family, branches, 1e-9);
     expectNoGaps(branches);
     EXPECT_EQ(branches.count, 3);
     ASSERT_EQ(found.size(), 1u);
@@ -58,7 +58,7 @@ TEST(Critical, HopfOfDampedModes) {
         std::sqrt(a1 * a2 / a3 - std::pow(a1 / a3, 2) - std::pow(w1 * w2, 2)) / (w0 * w0);
     Linear family = modal({w1 * w1, 630 * 630, w2 * w2}, {{0, 2, w0 * w0}}, {eta1, 10, eta2});
     const auto branches = follow(family, grid(0.5, 3), {});
-    const auto found = criticalFrictions(family, branches, 1e-9);
+    const auto found = stability::criticalFrictions(family, branches, 1e-9);
     expectNoGaps(branches);
     EXPECT_EQ(branches.count, 3);
     ASSERT_EQ(found.size(), 1u);
@@ -110,7 +110,7 @@ TEST(Critical, RootOfAnInterpolatedFamily) {
   const auto branches = follow(family, grid(0.5, 1), {});
   const int before = family.solved;
   const double tolerance = 1e-6;
-  const auto found = criticalFrictions(family, branches, tolerance);
+  const auto found = stability::criticalFrictions(family, branches, tolerance);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_TRUE(found[0].converged);
   EXPECT_EQ(family.solved, before);
@@ -124,7 +124,7 @@ TEST(Critical, MergerWithinOneStep) {
   const double c = 0.02;
   Linear family = crossingModes({100, 110}, {20, 0}, {{0, 1, c}});
   const auto branches = follow(family, {0, 1}, {});
-  const auto found = criticalFrictions(family, branches, 1e-9);
+  const auto found = stability::criticalFrictions(family, branches, 1e-9);
   expectNoGaps(branches);
   ASSERT_EQ(found.size(), 2u);
   EXPECT_TRUE(found[0].loss);
@@ -153,7 +153,7 @@ int unstableAt(tracking::Family& family, double f) {
   return count;
 }
 
-int changesBetween(const std::vector<tracking::Critical>& list, double low, double high) {
+int changesBetween(const std::vector<stability::Critical>& list, double low, double high) {
   int change = 0;
   for (const auto& critical : list)
     if (critical.friction > low && critical.friction < high) change += critical.loss ? 1 : -1;
@@ -161,7 +161,7 @@ int changesBetween(const std::vector<tracking::Critical>& list, double low, doub
 }
 
 /// The number of unstable eigenvalues on a fine grid is what the critical frictions say.
-void expectCounts(tracking::Family& family, const std::vector<tracking::Critical>& found,
+void expectCounts(tracking::Family& family, const std::vector<stability::Critical>& found,
                   double top) {
   const int samples = 150;
   for (int k = 1; k <= samples; ++k) {
@@ -181,7 +181,7 @@ TEST(Critical, RandomFamiliesAgainstAFineGrid) {
       const double top = damped ? 0.8 : 1;  // beyond, a damped pair becomes two real eigenvalues:
                                             // no continuation of one by one
       const auto branches = follow(family, grid(top, 10), {});
-      const auto found = criticalFrictions(family, branches, 1e-9);
+      const auto found = stability::criticalFrictions(family, branches, 1e-9);
       print("%s family of %d: %zu stations, %d branches, %zu critical frictions, %zu gaps\n",
             damped ? "damped" : "undamped", m, branches.stations.size(), branches.count,
             found.size(), branches.gaps.size());

@@ -1,7 +1,8 @@
-#include "tracking/critical.hpp"
+#include "stability/critical.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <type_traits>
@@ -13,7 +14,14 @@
 #include "reduction/reduced.hpp"
 #include "tracking/join.hpp"
 
-namespace squeal::tracking {
+namespace squeal::stability {
+
+using tracking::continuedIn;
+using tracking::discriminant;
+using tracking::mean;
+using tracking::PairsAtFriction;
+using tracking::real;
+
 namespace {
 
 /// Finds the root of a continuous function in a bracket by the method of T. R. Chandrupatla
@@ -65,8 +73,9 @@ class Root {
   /// the basis of the last call.
   void locate(Family& family, bool changed) {
     const double before = friction_;
-    if (event_.low == event_.high) {  // at an end of a step, where equal eigenvalues part
-      friction_ = event_.low;
+    // At an end of a step equal eigenvalues part, and between two pieces of a path they jump.
+    if (event_.low == event_.high || event_.kind == Event::Kind::contact) {
+      friction_ = 0.5 * (event_.low + event_.high);
       settled_ = true;
       return;
     }
@@ -95,8 +104,11 @@ class Root {
   Critical result() const {
     Critical result{event_.kind,    event_.branch, event_.partner, friction_, 0, 0, event_.loss, 0,
                     backwardError_, true};
-    if (event_.low == event_.high) {
+    result.piece = event_.piece;
+    if (event_.low == event_.high || event_.kind == Event::Kind::contact) {
       result.angularFrequency = mean(event_.below).imag();
+      result.errorEstimate = 0.5 * (event_.high - event_.low);
+      result.converged = event_.low == event_.high;
     } else if (std::isnan(friction_)) {
       result.converged = false;
       result.friction = 0.5 * (event_.low + event_.high);
@@ -127,6 +139,8 @@ class Root {
         return throughZero_ ? mean(pairs).real() : (mean(pairs) * mean(pairs)).real();
       case Event::Kind::crossing:
         return mean(pairs).real();  // of two equal ones, where they cross together
+      case Event::Kind::contact:
+        break;  // it jumps
     }
     return NAN;
   }
@@ -253,7 +267,8 @@ class Roots {
     std::vector<double> ends;
     for (const auto& event : events) {
       roots_.emplace_back(event, tolerance);
-      if (event.low < event.high) ends.insert(ends.end(), {event.low, event.high});
+      if (event.low < event.high && event.kind != Event::Kind::contact)
+        ends.insert(ends.end(), {event.low, event.high});
     }
     family.know(ends);
     locate(indices(events.size()), true);
@@ -323,20 +338,34 @@ class Roots {
 
 }  // namespace
 
-std::vector<Critical> criticalFrictions(Family& family, const Branches& branches,
+std::vector<Critical> criticalFrictions(const std::vector<Piece>& path, const Branches& branches,
                                         double tolerance) {
   constexpr int rounds = 10;
-  Roots roots(family, branches.events, tolerance);
-  for (int round = 0; round < rounds; ++round) {
-    const auto open = roots.open();
-    family.progress(formatted("%zu of %zu critical frictions to be improved", open.size(),
-                              branches.events.size()));
-    if (open.empty() || !roots.improve(open)) break;
+  // All are located before the basis grows, beyond that of the vectors of the events.
+  std::vector<std::vector<Event>> events(path.size());
+  std::vector<std::unique_ptr<Roots>> pieces;
+  for (const auto& event : branches.events) events[event.piece].push_back(event);
+  for (std::size_t piece = 0; piece < path.size(); ++piece)
+    pieces.push_back(std::make_unique<Roots>(*path[piece].family, events[piece], tolerance));
+  std::vector<Critical> list;
+  for (std::size_t piece = 0; piece < path.size(); ++piece) {
+    Roots& roots = *pieces[piece];
+    for (int round = 0; round < rounds; ++round) {
+      const auto open = roots.open();
+      path[piece].family->progress(formatted("%zu of %zu critical frictions to be improved",
+                                             open.size(), events[piece].size()));
+      if (open.empty() || !roots.improve(open)) break;
+    }
+    for (auto& found : roots.results()) list.push_back(std::move(found));
   }
-  auto list = roots.results();
   std::stable_sort(list.begin(), list.end(),
                    [](const auto& a, const auto& b) { return a.friction < b.friction; });
   return list;
 }
 
-}  // namespace squeal::tracking
+std::vector<Critical> criticalFrictions(Family& family, const Branches& branches,
+                                        double tolerance) {
+  return criticalFrictions(std::vector<Piece>{{&family, {}}}, branches, tolerance);
+}
+
+}  // namespace squeal::stability

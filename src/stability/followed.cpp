@@ -1,13 +1,15 @@
-#include "tracking/followed.hpp"
+#include "stability/followed.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "options/options.hpp"
 #include "petsc/text.hpp"
+#include "tracking/reducedfamily.hpp"
 #include "tracking/renumber.hpp"
 
-namespace squeal::tracking {
+namespace squeal::stability {
 namespace {
 
 const FlagOption trackOption(
@@ -34,22 +36,6 @@ void dropVectors(Branches& branches) {
   branches.events.clear();
 }
 
-/// Returns the frictions to follow, [line], where the points of a line differ in friction only.
-std::vector<std::pair<sweep::Parameters, std::vector<double>>> lines(
-    const std::vector<pencil::ComplexModes>& points) {
-  std::vector<std::pair<sweep::Parameters, std::vector<double>>> found;
-  for (const auto& point : points) {
-    sweep::Parameters line = point.at;
-    line.friction = 0;
-    if (found.empty() || !(found.back().first == line)) found.push_back({line, {}});
-    found.back().second.push_back(point.at.friction);
-  }
-  std::erase_if(found, [](const auto& line) {
-    return line.second.size() == 1 && (line.second[0] == 0 || !trackAsked());
-  });
-  return found;
-}
-
 /// Returns true if the eigenvalues in the band are i ω for the `count` lowest modes, within their
 /// errors. Even at friction 0 they are not where the problem differs from that of the modes: with
 /// an unsymmetric stiffness from a file, or with the prestress of another friction.
@@ -73,10 +59,14 @@ bool trackAsked() {
   return trackOption.given() || (criticalOption.given() && criticalOption.get());
 }
 
+bool worthFollowing(const Line& line) {
+  return line.swept.size() > 1 || (line.swept.front() != 0 && trackAsked());
+}
+
 std::string nothingToFollow(const reduction::ReducedProblem& reduced,
-                            const std::vector<pencil::ComplexModes>& points) {
+                            const std::vector<Line>& lines) {
   if (reduced.band().top == 0) return "-reduction_basis modal corrects no eigenvalue";
-  return lines(points).empty() ? "single frictions" : "";
+  return std::none_of(lines.begin(), lines.end(), worthFollowing) ? "single frictions" : "";
 }
 
 bool Followed::complete() const {
@@ -98,6 +88,8 @@ std::string Followed::statement() const {
     text += formatted(
         "all followed to friction %g, where there are %d: %d entered and %d left across the edge",
         last.friction, branches.inBandAt(last), branches.entered, branches.left);
+    if (activeSet.size() > 1)
+      text += formatted(", through %zu changes of the active set", activeSet.size() - 1);
   } else {
     text += "not all followed:";
     for (const auto& gap : branches.gaps)
@@ -111,42 +103,49 @@ std::string Followed::statement() const {
 }
 
 std::vector<Followed> followSweep(reduction::ReducedProblem& reduced,
-                                  const std::vector<pencil::ComplexModes>& points,
-                                  const modes::Modes& modes, MPI_Comm comm,
-                                  const ProblemSource& source,
+                                  const std::vector<Line>& lines, MPI_Comm comm,
                                   const std::function<void(const std::string&)>& progress) {
   std::vector<Followed> result;
   PetscInt unknowns = 0;
-  check(BVGetSizes(modes.vectors, nullptr, &unknowns, nullptr));
-  for (auto [line, frictions] : lines(points)) {
-    const bool swept = frictions.front() == 0;
-    if (!swept) frictions.insert(frictions.begin(), 0);
-    ReducedFamily family(reduced, comm, line, source, progress);
+  check(MatGetSize(reduced.basis().stiffness(), &unknowns, nullptr));
+  for (const auto& line : lines) {
+    if (!worthFollowing(line)) continue;
     Followed followed;
-    followed.line = line;
+    followed.line = line.at;
     followed.wholeSpace = reduced.basisSize() == unknowns;
-    TrackLimits limits;
+    std::vector<std::unique_ptr<tracking::ReducedFamily>> families;
+    std::vector<Piece> path;
+    for (const auto& piece : line.pieces) {
+      families.push_back(std::make_unique<tracking::ReducedFamily>(reduced, comm, line.at,
+                                                                   piece.source, progress));
+      path.push_back({families.back().get(), piece.frictions});
+      followed.activeSet.push_back(piece.activeSet);
+    }
+    auto& first = path.front().frictions;
+    if (first.front() != 0) first.insert(first.begin(), 0);
+    tracking::TrackLimits limits;
     limits.smallest = std::ldexp(1.0, -halvingsOption.get());
-    followed.branches = follow(family, frictions, reduced.band(), limits);
+    followed.branches = follow(path, reduced.band(), limits);
     auto& stations = followed.branches.stations;
+    for (auto& station : stations)
+      station.swept = std::ranges::binary_search(line.swept, station.friction);
     if (!stations.empty() && stations.front().friction == 0) {
-      stations.front().swept = swept;
-      const auto& w = modes.angularFrequency;
-      const auto below = std::count_if(
-          w.begin(), w.end(), [&](double omega) { return omega <= followed.branches.band.top; });
-      const auto problem = family.at(0);
-      followed.countExact =
-          problem && problem->damping.empty() && modes.countConfirmed &&
-          followed.branches.band.top * followed.branches.band.top <= modes.inertiaShift &&
-          below < std::ssize(w) && areFreeModes(stations.front(), w, below);
+      const auto& w = line.modes->angularFrequency;
+      const double top = followed.branches.band.top;
+      const auto below =
+          std::count_if(w.begin(), w.end(), [&](double omega) { return omega <= top; });
+      const auto problem = families.front()->at(0);
+      followed.countExact = problem && problem->damping.empty() && line.modes->countConfirmed &&
+                            top * top <= line.modes->inertiaShift &&
+                            areFreeModes(stations.front(), w, below);
     }
     renumber(followed.branches);
     if (criticalOption.get())
-      followed.criticals = criticalFrictions(family, followed.branches, toleranceOption.get());
+      followed.criticals = criticalFrictions(path, followed.branches, toleranceOption.get());
     dropVectors(followed.branches);
     result.push_back(std::move(followed));
   }
   return result;
 }
 
-}  // namespace squeal::tracking
+}  // namespace squeal::stability

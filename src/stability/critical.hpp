@@ -4,7 +4,12 @@
 
 #include "tracking/track.hpp"
 
-namespace squeal::tracking {
+namespace squeal::stability {
+
+using tracking::Branches;
+using tracking::Event;
+using tracking::Family;
+using tracking::Piece;
 
 /// One critical friction.
 struct Critical {
@@ -20,6 +25,7 @@ struct Critical {
                              ///< improvement of the basis, plus the tolerance of the root
   double backwardError = 0;  ///< backward error of the large problem here; 0: there is none
   bool converged = true;     ///< the basis was improved until `friction` settled
+  std::size_t piece = 0;     ///< of the path
 };
 
 /// Collective. Returns a critical friction for each event of `branches`, by friction. Inside its
@@ -30,6 +36,10 @@ struct Critical {
 /// At a coalescence s1 and s2 themselves behave like square roots. After each root the family
 /// improves its basis for the pairs concerned, until the friction changes by at most `tolerance` of
 /// itself, relative, or after ten rounds. Throws Error if LAPACK fails.
+/// A jump where the active set changes is at the friction of that change.
 std::vector<Critical> criticalFrictions(Family& family, const Branches& branches, double tolerance);
+/// Collective. Does the same for branches of a path.
+std::vector<Critical> criticalFrictions(const std::vector<Piece>& path, const Branches& branches,
+                                        double tolerance);
 
-}  // namespace squeal::tracking
+}  // namespace squeal::stability

@@ -7,9 +7,9 @@
 
 #include "linalg/quadratic.hpp"
 #include "linalg/subspace.hpp"
+#include "stability/critical.hpp"
 #include "support/dense.hpp"
 #include "support/families.hpp"
-#include "tracking/critical.hpp"
 #include "tracking/join.hpp"
 #include "tracking/track.hpp"
 
@@ -45,10 +45,10 @@ struct Cubic : Bent {
   double power(double f) const override { return std::pow(f - 0.4, 3); }
 };
 
-std::vector<tracking::Critical> solved(tracking::Family& family, const List& frictions) {
+std::vector<stability::Critical> solved(tracking::Family& family, const List& frictions) {
   const auto branches = follow(family, frictions, {});
   expectNoGaps(branches);
-  return criticalFrictions(family, branches, 1e-9);
+  return stability::criticalFrictions(family, branches, 1e-9);
 }
 
 // Two modes of ω² = 4 and 5 with equal damping c and coupling f. The eigenvalues of K, 9/2 ± √(1/4
@@ -168,7 +168,7 @@ TEST(Equal, FlatMergerIsFoundOrTold) {
     Cubic flat(family, {}, diagonal(List{100, 0}));
     const auto branches = follow(flat, {0, 1}, {});
     if (branches.gaps.empty()) {
-      const auto found = criticalFrictions(flat, branches, 1e-9);
+      const auto found = stability::criticalFrictions(flat, branches, 1e-9);
       ASSERT_EQ(found.size(), 2u) << c;
       EXPECT_NEAR(found[0].friction, 0.4 - std::cbrt(c / 50), 1e-8);
       EXPECT_NEAR(found[1].friction, 0.4 + std::cbrt(c / 50), 1e-8);
@@ -221,7 +221,7 @@ TEST(Equal, BracketWithoutAChangeOfSign) {
   const auto branches = crossingBetween(family, 0.55, 0.6);  // the root is 0.543
   family.low = 0.55;
   family.high = 0.6;
-  const auto found = criticalFrictions(family, branches, 1e-9);
+  const auto found = stability::criticalFrictions(family, branches, 1e-9);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_FALSE(found[0].converged);
   EXPECT_NEAR(found[0].errorEstimate, 0.025, 1e-12);
@@ -233,7 +233,7 @@ TEST(Equal, NarrowBracket) {
   Linear family = modal({4, 5}, {{0, 1, 1}}, {0.1, 0.1});
   linalg::addScaled(family.base.stiffness, -offset, family.friction);
   const auto branches = crossingBetween(family, exact - 0.2 * width, exact + 0.8 * width);
-  const auto found = criticalFrictions(family, branches, 1e-9);
+  const auto found = stability::criticalFrictions(family, branches, 1e-9);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_TRUE(found[0].converged);
   EXPECT_NEAR(found[0].friction, exact, 0.05 * width);
