@@ -47,19 +47,6 @@ PetscInt countDifferent(MPI_Comm comm, const ActiveSet& a, const ActiveSet& b) {
   return count;
 }
 
-/// Returns the rows of `all` that are unknowns of `interior` too, and the others.
-reduction::Substructure compared(const contact::CoupledSystem& all,
-                                 const contact::CoupledSystem& interior) {
-  reduction::Substructure found;
-  found.stiffness = all.k0();
-  const auto& rows = all.transformation().rows;
-  for (std::size_t k = 0; k < rows.size(); ++k)
-    (std::ranges::binary_search(interior.transformation().rows, rows[k]) ? found.interior
-                                                                         : found.boundary)
-        .push_back(k);
-  return found;
-}
-
 /// Collective. Computes the friction work of the shapes and, if wanted, the sensitivities of their
 /// eigenvalues.
 void examineShapes(const Analysis& analysis, const contact::CoupledSystem& system,
@@ -88,6 +75,18 @@ void examineShapes(const Analysis& analysis, const contact::CoupledSystem& syste
 }
 
 }  // namespace
+
+subspace::Substructure substructureOf(const contact::CoupledSystem& all,
+                                      const contact::CoupledSystem& interior) {
+  subspace::Substructure found;
+  found.stiffness = all.k0();
+  const auto& rows = all.transformation().rows;
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    (std::ranges::binary_search(interior.transformation().rows, rows[k]) ? found.interior
+                                                                         : found.boundary)
+        .push_back(k);
+  return found;
+}
 
 std::size_t endOfShared(const Analysis& analysis, std::size_t first) {
   const bool alone = direct::directWanted() || sensitivity::sensitivitiesWanted() ||
@@ -123,7 +122,7 @@ MeshSegment::MeshSegment(const Analysis& analysis, std::size_t first, std::size_
   Stage stage(analysis.comm, "contact");
   released_ = systemOf(everywhere);
   all_ = released_.get();
-  substructure_ = compared(*all_, *interior_);
+  substructure_ = substructureOf(*all_, *interior_);
   stage.finish(formatted("%" PetscInt_FMT
                          " nodes open or slide in some of %zu active sets that share a basis",
                          countDifferent(analysis.comm, anywhere_, everywhere), sets_.size()));

@@ -17,6 +17,11 @@ namespace squeal::analysis {
 /// of one active set by themselves, sets that differ in few nodes, `-reduction_released`.
 std::size_t endOfShared(const Analysis& analysis, std::size_t first);
 
+/// Returns the unknowns of `all`, whose gaps and sticking nodes are free in more places, as those
+/// that `interior` has too and the others, the boundary; `all` is borrowed.
+subspace::Substructure substructureOf(const contact::CoupledSystem& all,
+                                      const contact::CoupledSystem& interior);
+
 /// The problem of the steady points [first, last).
 class MeshSegment : public SegmentProblem {
  public:
@@ -24,7 +29,7 @@ class MeshSegment : public SegmentProblem {
   MeshSegment(const Analysis& analysis, std::size_t first, std::size_t last, CurrentSystem& current,
               flutter::Influences& influences);
   const contact::CoupledSystem& system() const override { return *interior_; }
-  const reduction::Substructure& substructure() const override { return substructure_; }
+  const subspace::Substructure& substructure() const override { return substructure_; }
   std::vector<PointRange> ranges() const override;
   std::vector<PathPiece> path(std::size_t first, std::size_t count) const override;
   Mat trial() const override { return all_->transformation().trial; }
@@ -60,7 +65,7 @@ class MeshSegment : public SegmentProblem {
   std::unique_ptr<contact::CoupledSystem> stressed_, released_;
   const contact::CoupledSystem* interior_ = nullptr;  // active wherever a point is
   const contact::CoupledSystem* all_ = nullptr;       // active where all points are
-  reduction::Substructure substructure_;
+  subspace::Substructure substructure_;
   std::unique_ptr<steady::Problem> problem_;  // for points between those of the sweep
 };
 

@@ -42,7 +42,7 @@ std::vector<OwnedVec> reportedShapes(const modes::Modes& modes, Mat trial) {
 }
 
 /// Returns modes of the interior unknowns with vectors of all unknowns.
-modes::Modes onAllUnknowns(const modes::Modes& interior, const reduction::Basis& basis) {
+modes::Modes onAllUnknowns(const modes::Modes& interior, const subspace::Basis& basis) {
   const linalg::ReadColumns vectors(interior.vectors);
   return {interior.lambda,
           interior.angularFrequency,

@@ -8,9 +8,9 @@
 #include "modes/modes.hpp"
 #include "pencil/complex_modes.hpp"
 #include "pencil/pencil.hpp"
-#include "reduction/substructure.hpp"
 #include "sensitivity/left.hpp"
 #include "stability/followed.hpp"
+#include "subspace/substructure.hpp"
 #include "sweep/parameters.hpp"
 
 namespace squeal::analysis {
@@ -56,8 +56,8 @@ class SegmentProblem {
   virtual const modes::AssociatedSystem& system() const = 0;
   /// Returns the boundary unknowns: the gaps, and tangential displacements, of the contact nodes
   /// that are active at some of the points alone.
-  virtual const reduction::Substructure& substructure() const {
-    static const reduction::Substructure none;
+  virtual const subspace::Substructure& substructure() const {
+    static const subspace::Substructure none;
     return none;
   }
   /// Collective. Returns the points by their active sets; without boundary unknowns there is one.

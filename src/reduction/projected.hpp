@@ -7,11 +7,14 @@
 #include "linalg/block.hpp"
 #include "linalg/quadratic.hpp"
 #include "pencil/pencil.hpp"
-#include "reduction/basis.hpp"
-#include "reduction/substructure.hpp"
+#include "subspace/basis.hpp"
+#include "subspace/substructure.hpp"
 #include "sweep/parameters.hpp"
 
 namespace squeal::reduction {
+
+using subspace::Basis;
+using subspace::PointSpace;
 
 /// The vectors of some eigenpairs in coordinates of a basis are the columns of a real matrix. A
 /// pair with real vectors and an s on the imaginary axis, in a problem without damping, takes one

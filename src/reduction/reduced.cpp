@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "linalg/columns.hpp"
+#include "linalg/symmetric.hpp"
 #include "options/options.hpp"
 #include "petsc/arrays.hpp"
 #include "reduction/condition.hpp"
@@ -14,6 +15,9 @@
 #include "reduction/responses.hpp"
 
 namespace squeal::reduction {
+
+using subspace::Sketch;
+using subspace::SquaredNorms;
 namespace {
 
 const ChoiceOption basisOption(
@@ -186,7 +190,7 @@ void ReducedProblem::estimateErrors(PointState& state, const linalg::DenseProble
   const PointPairs all = pairsOf(state, pointers(pairs), state.damped);
   const auto& coordinates = all.pairs;
   const auto norms = [&](pencil::Side side) {  // raised by what a sketch may miss
-    SquaredNorms squares = squaredNorms(residualSketch(state, all, side));
+    SquaredNorms squares = subspace::squaredNorms(residualSketch(state, all, side));
     for (auto* list : {&squares.euclidean, &squares.weighted}) {
       *list = perPair(coordinates, *list);
       for (auto& square : *list) square *= Sketch::safety * Sketch::safety;
@@ -196,7 +200,7 @@ void ReducedProblem::estimateErrors(PointState& state, const linalg::DenseProble
   const auto right = norms(pencil::Side::right), left = norms(pencil::Side::left);
   const linalg::DenseMatrix vectors =
       linalg::product(basis_.sketched(), coordinates.times(pencil::Side::right, 0, 1));
-  const auto lengths = perPair(coordinates, squaredLengths(vectors));
+  const auto lengths = perPair(coordinates, subspace::squaredLengths(vectors));
   const auto conditions = conditionNumbers(problem, pairs);
   state.backwardError.clear();
   state.rightError.clear();
@@ -243,7 +247,7 @@ linalg::Block ReducedProblem::directions(const std::vector<CorrectionRequest>& r
     const linalg::DenseMatrix sketch =
         residualSketch(*request.state, request.pairs, pencil::Side::right);
     sketches.append(sketch);
-    const auto squares = perPair(pairs, squaredNorms(sketch).euclidean);
+    const auto squares = perPair(pairs, subspace::squaredNorms(sketch).euclidean);
     for (std::size_t j = 0; j < squares.size(); ++j)
       factors.insert(factors.end(), pairs.firstColumn[j + 1] - pairs.firstColumn[j],
                      squares[j] > 0 ? request.weights[j] / std::sqrt(squares[j]) : 0);
@@ -251,7 +255,8 @@ linalg::Block ReducedProblem::directions(const std::vector<CorrectionRequest>& r
   }
   if (factors.empty()) return linalg::Block(basis_.localRows());
   // Fewer columns than residuals: those of several points are much alike.
-  const linalg::DenseMatrix combinations = leadingCombinations(sketches, factors, 0.8 * resolution);
+  const linalg::DenseMatrix combinations =
+      subspace::leadingCombinations(sketches, factors, 0.8 * resolution);
   linalg::Block columns(basis_.localRows(), combinations.columns());
   if (combinations.empty()) return columns;
   terms_.addTo(points, combinations, columns);
@@ -287,8 +292,8 @@ double ReducedProblem::residualRatio(const PointState& state, const linalg::Dens
   const auto sum = [](const std::vector<double>& squares) {
     return std::accumulate(squares.begin(), squares.end(), 0.0);
   };
-  const double known = sum(squaredNorms(residualSketch(state, alone, side)).weighted),
-               exact = sum(squaredNorms(basis_.sketch().of(columns)).weighted);
+  const double known = sum(subspace::squaredNorms(residualSketch(state, alone, side)).weighted),
+               exact = sum(subspace::squaredNorms(basis_.sketch().of(columns)).weighted);
   return known > 0 ? std::max(1.0, std::sqrt(exact / known)) : 1.0;
 }
 
@@ -441,6 +446,31 @@ std::vector<pencil::ComplexModes> ReducedProblem::solve(const std::vector<PointP
   return points;
 }
 
+/// Collective. Confirms the number of the modes of a set, which end at the top of the band: at σ in
+/// one of the gaps above it, the modes are as many as the values of the reduced problem, which lie
+/// above those that they belong to.
+void ReducedProblem::confirmCount(const PointState& state, modes::Modes& modes) const {
+  constexpr PetscInt mostGaps = 10;
+  linalg::DenseProblem problem = project(state);
+  const auto values = linalg::symmetricEigen(problem.stiffness, problem.mass);
+  const PetscInt inBand = std::ssize(modes.lambda);
+  double shift = 0;
+  for (PetscInt i = inBand; i < std::min<PetscInt>(inBand + mostGaps, std::ssize(values)); ++i) {
+    const double low = i == inBand ? band_.top * band_.top : values[i - 1];
+    shift = 0.5 * (low + values[i]);
+    const auto below = count_->below(shift, state.set->space.boundary());
+    modes.countConfirmed = below && *below == i;
+    modes.inertiaCount = i;
+    if (modes.countConfirmed) break;
+  }
+  modes.inertiaShift = shift;
+  int confirmed = modes.countConfirmed;
+  check(MPI_Bcast(&confirmed, 1, MPI_INT, 0, basis_.comm()));
+  check(MPI_Bcast(&modes.inertiaCount, 1, MPI_INT, 0, basis_.comm()));
+  check(MPI_Bcast(&modes.inertiaShift, 1, MPI_DOUBLE, 0, basis_.comm()));
+  modes.countConfirmed = confirmed != 0;
+}
+
 modes::Modes ReducedProblem::freeModes(int set, const pencil::Pencil& pencil) {
   const pencil::Pencil associated = associatedOf(pencil);
   const PointProblem point{{}, associated.with({}), set};
@@ -479,12 +509,7 @@ modes::Modes ReducedProblem::freeModes(int set, const pencil::Pencil& pencil) {
     modes.relativeResidual.push_back(linalg::length(basis_.comm(), rest) / (lambda * size));
   }
   modes.vectors = linalg::copiedColumns(basis_.stiffness(), shapes);
-  if (!count_) return modes;
-  // The band ends at its top: no mode lies between that and σ if the count agrees.
-  modes.inertiaShift = std::pow(band_.top * (1 + 1e-9), 2);
-  const auto below = count_->below(modes.inertiaShift, state.set->space.boundary());
-  modes.inertiaCount = below.value_or(0);
-  modes.countConfirmed = below && *below == std::ssize(modes.lambda);
+  if (count_) confirmCount(state, modes);
   return modes;
 }
 

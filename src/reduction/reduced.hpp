@@ -13,13 +13,16 @@
 #include "pencil/band.hpp"
 #include "pencil/complex_modes.hpp"
 #include "pencil/pencil.hpp"
-#include "reduction/basis.hpp"
-#include "reduction/mode_count.hpp"
 #include "reduction/projected.hpp"
-#include "reduction/substructure.hpp"
+#include "subspace/basis.hpp"
+#include "subspace/mode_count.hpp"
+#include "subspace/substructure.hpp"
 #include "sweep/parameters.hpp"
 
 namespace squeal::reduction {
+
+using subspace::ModeCount;
+using subspace::Substructure;
 
 /// One point of a sweep.
 struct PointProblem {
@@ -142,6 +145,7 @@ class ReducedProblem {
   void keepShapes(std::vector<pencil::ComplexModes>& points, const std::vector<PointState>& states,
                   Mat trial) const;
   void correct(std::vector<PointState>& states);
+  void confirmCount(const PointState& state, modes::Modes& modes) const;
   void keepForCompression(std::vector<PointState>& states);
   void compress();
 

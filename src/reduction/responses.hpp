@@ -4,10 +4,12 @@
 
 #include "linalg/block.hpp"
 #include "pencil/pencil.hpp"
-#include "reduction/basis.hpp"
+#include "subspace/basis.hpp"
 #include "sweep/parameters.hpp"
 
 namespace squeal::reduction {
+
+using subspace::Basis;
 
 /// Collective. Returns orthogonal columns f, by this rank's rows, that hold the forces [M.29]
 ///   k d_i   and   kᵀ d_i,   k = Σ c (iω_i)^power A,

@@ -1,11 +1,11 @@
-#include "reduction/mode_count.hpp"
+#include "subspace/mode_count.hpp"
 
 #include <algorithm>
 
 #include "linalg/block.hpp"
 #include "linalg/symmetric.hpp"
 
-namespace squeal::reduction {
+namespace squeal::subspace {
 
 using linalg::DenseMatrix;
 
@@ -62,4 +62,4 @@ std::optional<int> ModeCount::below(double sigma, const std::vector<PetscInt>& o
   return interior + bounds[0];
 }
 
-}  // namespace squeal::reduction
+}  // namespace squeal::subspace

@@ -1,4 +1,4 @@
-#include "reduction/sketch.hpp"
+#include "subspace/sketch.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "linalg/symmetric.hpp"
 
-namespace squeal::reduction {
+namespace squeal::subspace {
 
 using linalg::DenseMatrix;
 using linalg::DenseView;
@@ -102,4 +102,4 @@ DenseMatrix leadingCombinations(const DenseView& sketches, const std::vector<dou
   return combinations;
 }
 
-}  // namespace squeal::reduction
+}  // namespace squeal::subspace

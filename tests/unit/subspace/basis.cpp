@@ -1,5 +1,5 @@
 // The growing basis of the reduced problem: orthonormal in the energy of K0, whatever is added.
-#include "reduction/basis.hpp"
+#include "subspace/basis.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,10 +17,10 @@ namespace {
 
 /// Twenty modes of the layers are the basis to begin with.
 struct Fixture : test::Layers {
-  std::unique_ptr<reduction::Basis> basis;
+  std::unique_ptr<subspace::Basis> basis;
   Fixture() : Layers("-modes_count 20") {
     const auto free = modes();  // before the solver is asked for: they leave it with other matrices
-    basis = std::make_unique<reduction::Basis>(free, *system);
+    basis = std::make_unique<subspace::Basis>(free, *system);
   }
 
   /// K0 X.

@@ -16,10 +16,10 @@
 #include "linalg/complexvector.hpp"
 #include "modes/modes.hpp"
 #include "petsc/owned.hpp"
-#include "reduction/sketch.hpp"
-#include "reduction/substructure.hpp"
+#include "subspace/sketch.hpp"
+#include "subspace/substructure.hpp"
 
-namespace squeal::reduction {
+namespace squeal::subspace {
 
 /// The basis V, n × size, distributed by rows.
 class Basis {
@@ -109,4 +109,4 @@ class Basis {
   long solves_ = 0;
 };
 
-}  // namespace squeal::reduction
+}  // namespace squeal::subspace

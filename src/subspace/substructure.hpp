@@ -15,7 +15,7 @@
 
 #include "linalg/quadratic.hpp"
 
-namespace squeal::reduction {
+namespace squeal::subspace {
 
 /// The unknowns x of a sweep on this rank, and the stiffness that belongs to all of them. Without
 /// boundary unknowns it is empty.
@@ -53,4 +53,4 @@ class PointSpace {
   linalg::DenseMatrix turn_;    // L⁻ᵀ with S = L Lᵀ of these
 };
 
-}  // namespace squeal::reduction
+}  // namespace squeal::subspace

@@ -15,9 +15,9 @@
 
 #include "linalg/dense.hpp"
 #include "modes/modes.hpp"
-#include "reduction/basis.hpp"
+#include "subspace/basis.hpp"
 
-namespace squeal::reduction {
+namespace squeal::subspace {
 
 class ModeCount {
  public:
@@ -34,4 +34,4 @@ class ModeCount {
   linalg::DenseMatrix stiffness_, mass_, modal_, rest_;  // S, YᵀM Y, P and D
 };
 
-}  // namespace squeal::reduction
+}  // namespace squeal::subspace

@@ -1,4 +1,4 @@
-#include "reduction/substructure.hpp"
+#include "subspace/substructure.hpp"
 
 #include <slepcblaslapack.h>
 
@@ -6,7 +6,7 @@
 
 #include "petsc/check.hpp"
 
-namespace squeal::reduction {
+namespace squeal::subspace {
 
 using linalg::DenseMatrix;
 
@@ -68,4 +68,4 @@ linalg::DenseProblem PointSpace::restricted(linalg::DenseProblem problem) const 
   return problem;
 }
 
-}  // namespace squeal::reduction
+}  // namespace squeal::subspace

@@ -1,5 +1,5 @@
 // Norms of vectors by their sketches.
-#include "reduction/sketch.hpp"
+#include "subspace/sketch.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace squeal {
 namespace {
 
 using linalg::DenseMatrix;
-using reduction::Sketch;
+using subspace::Sketch;
 
 constexpr PetscInt length = 3001;
 
@@ -38,7 +38,7 @@ struct Layout {
 
 double weight(PetscInt row) { return row % 7 == 0 ? 1e3 : 1.0 / (1 + row); }
 
-reduction::Sketch sketchOn(const Layout& layout) {
+subspace::Sketch sketchOn(const Layout& layout) {
   std::vector<double> diagonal;
   for (PetscInt row = layout.first; row < layout.end; ++row) diagonal.push_back(weight(row));
   return {layout.comm, diagonal};
@@ -58,7 +58,7 @@ TEST(Sketch, DoesNotDependOnTheRanks) {
   const DenseMatrix found = sketchOn(layout).of(layout.local(columns)),
                     wanted = sketchOn(whole).of(columns);
   for (const auto& sketch : {found, wanted}) {
-    ASSERT_EQ(sketch.rows(), 2 * reduction::Sketch::size);
+    ASSERT_EQ(sketch.rows(), 2 * subspace::Sketch::size);
     ASSERT_EQ(sketch.columns(), 3);
   }
   double size = 0, difference = 0;
@@ -101,15 +101,15 @@ Spread spreadOf(const std::vector<double>& found, const std::vector<double>& exa
 // same. Weights of a seventh of the rows that outweigh the others leave 429 independent terms.
 TEST(Sketch, NormsOfManyRandomVectors) {
   const Layout layout(PETSC_COMM_WORLD);
-  const reduction::Sketch sketch = sketchOn(layout);
+  const subspace::Sketch sketch = sketchOn(layout);
   constexpr int vectors = 400;
   const DenseMatrix columns = randomColumns(vectors), mine = layout.local(columns);
-  const auto norms = reduction::squaredNorms(sketch.of(mine));
-  const auto lengths = reduction::squaredLengths(sketch.unweighted(mine));
+  const auto norms = subspace::squaredNorms(sketch.of(mine));
+  const auto lengths = subspace::squaredLengths(sketch.unweighted(mine));
   ASSERT_EQ(lengths.size(), norms.euclidean.size());
   for (std::size_t i = 0; i < lengths.size(); ++i)
     EXPECT_NEAR(lengths[i], norms.euclidean[i], 1e-12 * norms.euclidean[i]);
-  const double expected = std::sqrt(2.0 / reduction::Sketch::size);
+  const double expected = std::sqrt(2.0 / subspace::Sketch::size);
   for (const bool weighted : {false, true}) {
     const auto& found = weighted ? norms.weighted : norms.euclidean;
     ASSERT_EQ(std::ssize(found), vectors);
@@ -117,7 +117,7 @@ TEST(Sketch, NormsOfManyRandomVectors) {
     const Spread spread = spreadOf(found, exact);
     int outside = 0;
     for (std::size_t i = 0; i < found.size(); ++i)
-      outside += std::sqrt(exact[i]) > reduction::Sketch::safety * std::sqrt(found[i]) ||
+      outside += std::sqrt(exact[i]) > subspace::Sketch::safety * std::sqrt(found[i]) ||
                  found[i] > std::pow(1 + 3 * expected / 2, 2) * exact[i];
     test::print(
         "%s: mean of the squares %+.1e, deviation %.3f (expected %.3f), largest %.2f, %d of %d "
@@ -135,10 +135,10 @@ TEST(Sketch, NormsOfManyRandomVectors) {
 // constants, alternating signs and waves to within three deviations.
 TEST(Sketch, NormsOfRegularVectors) {
   const Layout layout(PETSC_COMM_WORLD);
-  const reduction::Sketch sketch = sketchOn(layout);
+  const subspace::Sketch sketch = sketchOn(layout);
   DenseMatrix units(length, 3);
   for (PetscInt j = 0; j < 3; ++j) units(17 + 1000 * j, j) = 5;
-  for (const double norm : reduction::squaredNorms(sketch.of(layout.local(units))).euclidean)
+  for (const double norm : subspace::squaredNorms(sketch.of(layout.local(units))).euclidean)
     EXPECT_NEAR(norm, 25, 1e-12);
   constexpr int waves[] = {0, 1, 2, 5, 20, 100, 500};
   DenseMatrix columns(length, 8);
@@ -147,17 +147,17 @@ TEST(Sketch, NormsOfRegularVectors) {
       columns(i, j) = std::cos(2 * M_PI * waves[j] * (i + 0.5) / length);
     columns(i, 7) = i % 2 == 0 ? 1 : -1;
   }
-  const auto found = reduction::squaredNorms(sketch.of(layout.local(columns))).euclidean;
+  const auto found = subspace::squaredNorms(sketch.of(layout.local(columns))).euclidean;
   ASSERT_EQ(found.size(), 8u);
   EXPECT_LT(spreadOf(found, exactSquares(columns, false)).largest,
-            3 * std::sqrt(2.0 / reduction::Sketch::size));
+            3 * std::sqrt(2.0 / subspace::Sketch::size));
 }
 
 // Columns that are combinations of few directions but for a small rest: as many combinations as
 // directions, and they hold the columns.
 TEST(Sketch, LeadingCombinationsHoldTheColumns) {
   const Layout layout(PETSC_COMM_WORLD);
-  const reduction::Sketch sketch = sketchOn(layout);
+  const subspace::Sketch sketch = sketchOn(layout);
   constexpr PetscInt directions = 9, count = 150;
   constexpr double rest = 1e-4;
   DenseMatrix columns = randomColumns(count);
@@ -172,7 +172,7 @@ TEST(Sketch, LeadingCombinationsHoldTheColumns) {
     factors.push_back((j % 3 == 0 ? 0.5 : 1) / std::sqrt(length / 3.0));
   }
   const DenseMatrix combinations =
-      reduction::leadingCombinations(sketch.of(layout.local(columns)), factors, 0.03);
+      subspace::leadingCombinations(sketch.of(layout.local(columns)), factors, 0.03);
   ASSERT_EQ(combinations.rows(), count);
   ASSERT_EQ(combinations.columns(), directions);
   // The combinations are C F V for the columns C, their factors F and orthonormal V: they hold C F
@@ -197,7 +197,7 @@ TEST(Sketch, LeadingCombinationsHoldTheColumns) {
   EXPECT_LT(worst, 5 * rest);
   // All directions different: too many for 64 numbers to tell apart.
   const DenseMatrix all =
-      reduction::leadingCombinations(sketch.of(layout.local(randomColumns(count))), factors, 0.03);
+      subspace::leadingCombinations(sketch.of(layout.local(randomColumns(count))), factors, 0.03);
   ASSERT_EQ(all.rows(), count);
   ASSERT_EQ(all.columns(), count);
   for (PetscInt j = 0; j < count; ++j)
@@ -222,7 +222,7 @@ TEST(Sketch, OfSomeRows) {
   check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
   const linalg::RowSet rows(matrix);
   EXPECT_EQ(test::total(rows.size()), 600);  // 2, 7, … 2997
-  const reduction::Sketch sketch = sketchOn(layout);
+  const subspace::Sketch sketch = sketchOn(layout);
   const DenseMatrix mine = layout.local(columns), all = sketch.of(mine),
                     some = sketch.of(rows, rows.of(mine));
   ASSERT_EQ(all.rows(), some.rows());

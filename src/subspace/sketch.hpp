@@ -10,7 +10,7 @@
 
 #include "linalg/block.hpp"
 
-namespace squeal::reduction {
+namespace squeal::subspace {
 
 /// The matrix Ω of random signs, distributed by rows.
 class Sketch {
@@ -58,4 +58,4 @@ std::vector<double> squaredLengths(const linalg::DenseView& unweighted);
 linalg::DenseMatrix leadingCombinations(const linalg::DenseView& sketches,
                                         const std::vector<double>& factors, double small);
 
-}  // namespace squeal::reduction
+}  // namespace squeal::subspace

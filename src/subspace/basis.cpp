@@ -1,4 +1,4 @@
-#include "reduction/basis.hpp"
+#include "subspace/basis.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include "petsc/arrays.hpp"
 #include "petsc/concatenation.hpp"
 
-namespace squeal::reduction {
+namespace squeal::subspace {
 namespace {
 
 /// A direction counts as independent of the others, to within 1e-6, if its eigenvalue of the Gram
@@ -270,4 +270,4 @@ std::vector<linalg::ComplexVector> Basis::expand(
   return vectors;
 }
 
-}  // namespace squeal::reduction
+}  // namespace squeal::subspace
