@@ -1,6 +1,9 @@
 // A block clamped at its foot and pressed at its top by a sliding plate. Friction bends it and its
 // nodes lift one after the other: the active set changes within a sweep, until at some friction no
 // steady sliding state is left.
+#include <map>
+#include <set>
+
 #include "support/case.hpp"
 #include "support/complementarity.hpp"
 #include "support/ranks.hpp"
@@ -97,6 +100,84 @@ TEST(ActiveSet, ModesAreComputedAnewWhereItChanges) {
               1e-6);
     EXPECT_LT(forceDifference(findings.steady.at(first), same.steady.at(first)), 1e-8);
   }
+}
+
+// All active sets share one factorisation and one basis. Each eigenvalue is what a basis of its own
+// gives, to the sum of both error estimates.
+TEST(ActiveSet, OneBasisServesAllSets) {
+  const ProgramRun& one = sweepOn(1);
+  const ProgramRun each = runProgram("active_set/each", 1,
+                                     block +
+                                         "-modes_count 21 -flutter_friction 0:0.7:0.1 -quiet "
+                                         "-reduction_released 0");
+  ASSERT_EQ(one.exitCode, 0) << one.error;
+  ASSERT_EQ(each.exitCode, 0) << each.error;
+  const auto listOf = [](const ProgramRun& run) {
+    const CsvTable table = readCsv(run.folder / "eigenvalues.csv");
+    const auto friction = table.column("friction"), growth = table.column("growth_rate_1_per_s"),
+               frequency = table.column("angular_frequency_rad_per_s"),
+               estimate = table.column("error_estimate");
+    std::map<double, std::vector<std::pair<Complex, double>>> list;
+    for (std::size_t i = 0; i < friction.size(); ++i)
+      list[friction[i]].push_back({{growth[i], frequency[i]}, estimate[i]});
+    return list;
+  };
+  auto shared = listOf(one), alone = listOf(each);
+  ASSERT_EQ(shared.size(), alone.size());
+  std::size_t compared = 0;
+  for (const auto& [friction, list] : shared)
+    for (const auto& [s, estimate] : list) {
+      // The bands end in a gap of the free modes of the basis, which is not the same.
+      const auto& others = alone.at(friction);
+      const auto nearest = std::ranges::min_element(others, {}, [&, wanted = s](const auto& other) {
+        return std::abs(other.first - wanted);
+      });
+      const double apart = std::abs(nearest->first - s) / std::abs(s);
+      if (std::abs(s) > std::abs(others.back().first) * (1 + 1e-6)) continue;
+      ++compared;
+      EXPECT_LT(apart, estimate + nearest->second + 1e-11)  // rounding of K0, a factor for each
+          << s << " at friction " << friction;
+    }
+  EXPECT_GT(compared, 60U);
+}
+
+// The active sets follow each other: each is followed on its own interval of friction, between the
+// frictions of contact_path.csv, and a critical friction lies in the interval of its set.
+TEST(ActiveSet, BranchesRunThroughItsChanges) {
+  const ProgramRun& run = sweepOn(1);
+  ASSERT_EQ(run.exitCode, 0) << run.error;
+  const CsvTable path = readCsv(run.folder / "contact_path.csv"),
+                 branches = readCsv(run.folder / "branches.csv"),
+                 criticals = readCsv(run.folder / "critical.csv");
+  const auto events = path.column("friction");
+  ASSERT_GE(events.size(), 2U);
+  std::map<int, std::pair<double, double>> interval;  // [active set]
+  std::map<double, std::set<int>> at;                 // [friction] numbers of branches there
+  const auto set = branches.column("active_set"), friction = branches.column("friction"),
+             number = branches.column("branch");
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    auto& [low, high] = interval.try_emplace(set[i], friction[i], friction[i]).first->second;
+    low = std::min(low, friction[i]), high = std::max(high, friction[i]);
+    at[friction[i]].insert(number[i]);
+  }
+  EXPECT_GE(interval.size(), 3U);
+  constexpr double digits = 1e-9;  // of the frictions in the tables
+  for (const double event : events) {
+    for (const auto& [number, ends] : interval)  // none within the interval of an active set
+      if (number > 0)
+        EXPECT_FALSE(event > ends.first + digits && event < ends.second - digits) << event;
+    EXPECT_TRUE(std::ranges::any_of(at, [&](const auto& entry) {
+      return std::abs(entry.first - event) < digits;
+    })) << event;
+  }
+  const auto setOf = criticals.column("active_set"), where = criticals.column("friction");
+  for (std::size_t i = 0; i < where.size(); ++i) {
+    ASSERT_TRUE(interval.count(setOf[i]));
+    EXPECT_GE(where[i], interval[setOf[i]].first - digits);
+    EXPECT_LE(where[i], interval[setOf[i]].second + digits);
+  }
+  // The first branch, the lowest eigenvalue, runs from one end to the other.
+  for (const auto& [f, numbers] : at) EXPECT_TRUE(numbers.count(1)) << f;
 }
 
 TEST(ActiveSet, OpenNodesCarryNoFriction) {
