@@ -3,11 +3,13 @@
 
 plot_stability.py REPORT_DIR reads eigenvalues.csv and stability_map.csv there and writes beside them
   stability.png       frequency and growth rate of every mode against friction (or what was swept instead), one figure for each
-                      value of what else was swept: stability_speed_3.png, …
+                      value of what else was swept: stability_speed_3.png, …; with branches.csv and critical.csv, if they are there,
+                      lines along the branches, the critical frictions, and the intervals of the active sets shaded in turn
   stability_map.png   where two or more parameters were swept: largest growth rate over two of them, the stable region, and the
                       critical friction; one figure for each value of the remaining ones: stability_map_damping_2.png, …
 Eigenvalues above the band, which nobody vouches for, are left out.
 """
+import csv
 import sys
 from pathlib import Path
 
@@ -30,26 +32,82 @@ LABELS = {
 
 
 def slices(table, names):
-    """For each combination of values of the parameters `names`: a suffix for file names, a title, the selected rows."""
+    """For each combination of values of the parameters `names`: a suffix for file names, a title, and the values."""
     if not names:
-        return [("", "", np.ones(len(table["friction"]), bool))]
+        return [("", "", {})]
     columns = np.stack([table[name] for name in names], axis=1)
     return [
         (
             "".join(f"_{name}_{value:g}" for name, value in zip(names, values)),
             ", ".join(f"{name} {value:g}" for name, value in zip(names, values)),
-            np.all(columns == values, axis=1),
+            dict(zip(names, values)),
         )
         for values in np.unique(columns, axis=0)
     ]
 
 
-def draw_modes(table, name, title):
-    """Frequency and growth of every mode against the parameter `name`."""
+def at(table, values):
+    """The rows of a table with these values of parameters."""
+    selected = np.ones(len(table["friction"]), bool)
+    for name, value in values.items():
+        selected &= table[name] == value
+    return rows_where(table, selected)
+
+
+def read_followed(folder):
+    """branches.csv and critical.csv; none where eigenvalues were not followed."""
+    if not (folder / "branches.csv").exists():
+        return None
+    branches = read_table(folder / "branches.csv",
+                          ("active_set", "branch", "growth_rate_1_per_s", "frequency_hz", "in_band") + PARAMETERS)  # fmt: skip
+    with open(folder / "critical.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    names = PARAMETERS + ("frequency_hz",)
+    critical = {name: np.array([float(row[name]) for row in rows]) for name in names}
+    critical["loss"] = np.array([row["direction"] == "loss" for row in rows], bool)
+    return branches, critical
+
+
+def pieces(branches):
+    """The parts of each branch with one active set, as rows by ascending friction, and the ends of the active sets in order."""
+    order = np.lexsort((branches["friction"], branches["branch"], branches["active_set"]))
+    sorted_rows = rows_where(branches, order)
+    keys = np.stack([sorted_rows["active_set"], sorted_rows["branch"]], axis=1)
+    cuts = np.flatnonzero(np.any(keys[1:] != keys[:-1], axis=1)) + 1
+    lines = [rows_where(sorted_rows, part) for part in np.split(np.arange(len(order)), cuts)]
+    ends = []
+    for number in np.unique(branches["active_set"]):
+        # The number 0 stands for all sets that are passed through between points: they are shaded as one.
+        friction = branches["friction"][branches["active_set"] == number]
+        ends.append((friction.min(), friction.max()) if number > 0 else None)
+    return lines, sorted(end for end in ends if end)
+
+
+def draw_followed(upper, lower, scale, followed):
+    """Lines along the branches, their critical frictions, and the intervals of the active sets in turn."""
+    branches, critical = followed
+    lines, ends = pieces(rows_where(branches, branches["in_band"] > 0))
+    for line in lines:
+        style = dict(color="0.7", linewidth=0.6, zorder=1)
+        upper.plot(line["friction"], line["frequency_hz"] / scale, **style)
+        lower.plot(line["friction"], line["growth_rate_1_per_s"], **style)
+    for low, high in ends[1::2]:
+        for axes in (upper, lower):
+            axes.axvspan(low, high, color="#eef3fa", zorder=0)
+    for loss, marker, label in ((True, "x", "stability is lost"), (False, "+", "and regained")):
+        chosen = critical["loss"] == loss
+        if chosen.any():
+            upper.plot(critical["friction"][chosen], critical["frequency_hz"][chosen] / scale, marker, color="black", markersize=6,
+                       markeredgewidth=0.9, zorder=4, label=label)  # fmt: skip
+
+
+def draw_modes(table, name, title, followed=None):
+    """Frequency and growth of every mode against the parameter `name`, with what read_followed() has found for it."""
     abscissa, growth = table[name], table["growth_rate_1_per_s"]
     grows = unstable(table["s"])
     kilo = np.max(table["frequency_hz"], initial=0) >= 2000
-    frequency = table["frequency_hz"] / (1000 if kilo else 1)
+    scale = 1000 if kilo else 1
+    frequency = table["frequency_hz"] / scale
 
     figure, (upper, lower) = plt.subplots(2, 1, sharex=True, figsize=(9, 9), height_ratios=(2, 1), layout="constrained")
     colours = dict(c=growth[grows], cmap="plasma_r", vmin=0, zorder=3, edgecolors="black", linewidths=0.3)
@@ -59,6 +117,8 @@ def draw_modes(table, name, title):
             marks = axes.scatter(abscissa[grows], value[grows], s=30, label="unstable", **colours)
         axes.grid(color="0.92")
         axes.set_axisbelow(True)
+    if followed:
+        draw_followed(upper, lower, scale, followed)
     if grows.any():
         figure.colorbar(marks, ax=[upper, lower], label="growth rate of the unstable modes [1/s]", aspect=50, pad=0.02)
 
@@ -73,7 +133,7 @@ def draw_modes(table, name, title):
     scale_axis(lower.xaxis, name, abscissa)
     if np.all(np.abs(growth) <= UNSTABLE * np.abs(table["s"])):
         lower.set_ylim(-1, 1)  # no axis in units of round-off
-    upper.legend(loc="upper center", bbox_to_anchor=(0.5, 0), ncols=2, frameon=False)
+    upper.legend(loc="upper center", bbox_to_anchor=(0.5, 0), ncols=4, frameon=False)
     return figure
 
 
@@ -175,21 +235,23 @@ def main():
     try:
         table = read_eigenvalues(folder / "eigenvalues.csv")
         stability = read_table(folder / "stability_map.csv", PARAMETERS + ("unstable_modes", "largest_growth_rate_1_per_s"))
+        followed = read_followed(folder)
     except (OSError, ValueError) as error:
         sys.exit(f"plot_stability: {error}")
     if len(table["friction"]) == 0:
         sys.exit(f"plot_stability: {folder / 'eigenvalues.csv'} holds no eigenvalue")
     swept = [name for name in PARAMETERS if len(np.unique(stability[name])) > 1]
     abscissa = swept[0] if swept else "friction"
-    for suffix, title, chosen in slices(table, swept[1:]):
-        results.save(f"stability{suffix}.png", draw_modes(rows_where(table, chosen), abscissa, title), dpi=150)
+    for suffix, title, values in slices(table, swept[1:]):
+        lines = tuple(at(rows, values) for rows in followed) if followed and abscissa == "friction" else None
+        results.save(f"stability{suffix}.png", draw_modes(at(table, values), abscissa, title, lines), dpi=150)
         plt.close()
     if len(swept) < 2:
         return
     across, up = axes_of_map(stability, swept)
     largest = np.nanmax(stability["largest_growth_rate_1_per_s"], initial=0)
-    for suffix, title, chosen in slices(stability, [name for name in swept if name not in (across, up)]):
-        results.save(f"stability_map{suffix}.png", draw_map(rows_where(stability, chosen), across, up, title, largest), dpi=150)
+    for suffix, title, values in slices(stability, [name for name in swept if name not in (across, up)]):
+        results.save(f"stability_map{suffix}.png", draw_map(at(stability, values), across, up, title, largest), dpi=150)
         plt.close()
 
 

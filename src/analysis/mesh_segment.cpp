@@ -202,6 +202,14 @@ std::vector<PathPiece> MeshSegment::path(std::size_t first, std::size_t count) c
   return joined;
 }
 
+bool MeshSegment::continues(std::size_t first) const {
+  if (first > 0 || first_ == 0 || !analysis_.steady[first_ - 1].converged) return false;
+  sweep::Parameters before = analysis_.steady[first_ - 1].at;
+  const bool lower = before.friction < points_[0].friction;
+  before.friction = points_[0].friction;
+  return lower && before == points_[0];
+}
+
 std::vector<PointRange> MeshSegment::ranges() const {
   std::vector<PointRange> found;
   const auto& contact = analysis_.contact;

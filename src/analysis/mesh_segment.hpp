@@ -32,6 +32,7 @@ class MeshSegment : public SegmentProblem {
   const subspace::Substructure& substructure() const override { return substructure_; }
   std::vector<PointRange> ranges() const override;
   std::vector<PathPiece> path(std::size_t first, std::size_t count) const override;
+  bool continues(std::size_t first) const override;
   Mat trial() const override { return all_->transformation().trial; }
   const std::vector<sweep::Parameters>& steadyPoints() const override { return points_; }
   pencil::Pencil pencil() const override;

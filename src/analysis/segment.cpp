@@ -209,6 +209,7 @@ class SegmentSweep {
       }
       line.at.friction = 0;
       const std::size_t from = places_[first].steadyPoint;
+      line.continues = problem_.continues(from);
       for (const auto& piece : problem_.path(from, last - first)) {
         const Range& range = ranges_[piece.range];
         const auto number =

@@ -36,23 +36,33 @@ std::string parametersAt(sweep::Parameters at, double friction) {
 
 }  // namespace
 
+std::vector<std::vector<double>> branchRows(const analysis::Analysis& analysis) {
+  std::vector<std::vector<double>> rows;
+  forAllFollowed(analysis, [&](const stability::Followed& followed) {
+    const auto& line = followed.line;
+    for (int branch = 1; branch <= followed.branches.count; ++branch)
+      for (const auto& station : followed.branches.stations)
+        for (std::size_t i = 0; i < station.pairs.size(); ++i) {
+          if (station.branch[i] != branch || station.friction < followed.from) continue;
+          const auto s = station.pairs[i].s;
+          rows.push_back({double(followed.activeSet[station.piece]), double(branch),
+                          station.friction, line.speed, line.pressure, line.damping, s.real(),
+                          s.imag(), station.overlap[i], double(station.inBand[i]),
+                          station.swept ? 1.0 : 0.0});
+        }
+  });
+  return rows;
+}
+
 std::string branchTable(const analysis::Analysis& analysis) {
   std::string table =
       "active_set,branch," + sweep::parameterColumns() +
       ",growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,overlap,in_band,swept\n";
-  forAllFollowed(analysis, [&](const stability::Followed& followed) {
-    for (int branch = 1; branch <= followed.branches.count; ++branch)
-      for (const auto& station : followed.branches.stations)
-        for (std::size_t i = 0; i < station.pairs.size(); ++i) {
-          if (station.branch[i] != branch) continue;
-          const auto s = station.pairs[i].s;
-          table += formatted("%d,%d,", followed.activeSet[station.piece], branch) +
-                   parametersAt(followed.line, station.friction) +
-                   formatted(",%.15e,%.15e,%.15e,%.4f,%d,%d\n", s.real(), s.imag(),
-                             s.imag() / (2 * M_PI), station.overlap[i], station.inBand[i],
-                             station.swept ? 1 : 0);
-        }
-  });
+  for (const auto& row : branchRows(analysis))
+    table += formatted("%.0f,%.0f,", row[0], row[1]) +
+             sweep::parameterValues({row[2], row[3], row[4], row[5]}) +
+             formatted(",%.15e,%.15e,%.15e,%.4f,%.0f,%.0f\n", row[6], row[7], row[7] / (2 * M_PI),
+                       row[8], row[9], row[10]);
   return table;
 }
 

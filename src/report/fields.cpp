@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/contact_path.hpp"
 #include "mesh/mesh.hpp"
 #include "options/options.hpp"
 #include "pencil/complex_modes.hpp"
 #include "petsc/arrays.hpp"
 #include "petsc/text.hpp"
+#include "report/branches.hpp"
 #include "report/hdf5.hpp"
 #include "report/names.hpp"
 #include "report/vtu.hpp"
@@ -15,6 +17,7 @@
 #include "sweep/parameters.hpp"
 
 namespace squeal::report {
+
 namespace {
 
 const IntegerOption animatedOption(
@@ -143,6 +146,26 @@ void writeParameters(Hdf5File& file, const std::string& group, const sweep::Para
     file.writeAttribute(group, parameter.name, at.*parameter.value);
 }
 
+/// Collective. Writes the branches followed and the path of the contact, as far as there are any.
+void writePath(const analysis::Analysis& analysis, Hdf5File& file) {
+  if (auto rows = branchRows(analysis); !rows.empty())
+    file.writeTable(
+        "/path", "branches",
+        {"active_set", "branch", "friction", "speed", "pressure", "damping", "growth_rate_1_per_s",
+         "angular_frequency_rad_per_s", "overlap", "in_band", "swept"},
+        rows);
+  const auto events = analysis::contactPath(analysis);
+  if (events.empty()) return;
+  std::vector<std::vector<double>> rows;
+  for (const auto& [order, at, x, interface, opens] : events)
+    rows.push_back({at.friction, at.speed, at.pressure, x[0], x[1], x[2], double(interface),
+                    opens ? 1.0 : 0.0});
+  file.writeTable("/path", "contact",
+                  {"friction", "speed", "pressure", "x_m", "y_m", "z_m", "interface", "opens"},
+                  rows);
+  file.writeAttribute("/path/contact", "interfaces", joined(analysis.contact.interfaces));
+}
+
 }  // namespace
 
 void writeFields(const analysis::Analysis& analysis, const std::filesystem::path& folder) {
@@ -188,8 +211,6 @@ void writeFields(const analysis::Analysis& analysis, const std::filesystem::path
 
 void writeHdf5(const analysis::Analysis& analysis, const std::filesystem::path& folder) {
   Hdf5File file(analysis.comm, folder / "results.h5");
-  int rank = 0;
-  check(MPI_Comm_rank(analysis.comm, &rank));
   if (analysis.mesh) file.writeMesh(*analysis.mesh);
   for (const auto& solution : analysis.steady) {
     if (!solution.converged) continue;
@@ -205,7 +226,7 @@ void writeHdf5(const analysis::Analysis& analysis, const std::filesystem::path& 
     for (std::size_t i = 0; i < segment.modes.angularFrequency.size(); ++i)
       frequencies.push_back({segment.modes.angularFrequency[i], segment.modes.relativeResidual[i]});
     file.writeTable(modesGroup, "frequencies", {"angular_frequency_rad_per_s", "relative_residual"},
-                    rank == 0 ? frequencies : std::vector<std::vector<double>>{});
+                    frequencies);
     for (std::size_t i = 0; i < segment.shapes.size(); ++i)
       file.writeNodeVector(modesGroup, formatted("mode_%03zu", i + 1), segment.shapes[i]);
     for (const auto& point : segment.points) {
@@ -217,7 +238,7 @@ void writeHdf5(const analysis::Analysis& analysis, const std::filesystem::path& 
       file.writeTable(group, "eigenvalues",
                       {"growth_rate_1_per_s", "angular_frequency_rad_per_s", "backward_error",
                        "error_estimate", "certified"},
-                      rank == 0 ? rows : std::vector<std::vector<double>>{});
+                      rows);
       writeParameters(file, group, point.at);
       for (const auto& shape : point.shapes) {
         file.writeNodeVector(group, formatted("mode_%03zu_real", shape.index + 1), shape.real);
@@ -229,6 +250,7 @@ void writeHdf5(const analysis::Analysis& analysis, const std::filesystem::path& 
       }
     }
   }
+  writePath(analysis, file);
   file.close();
 }
 

@@ -206,11 +206,13 @@ void Hdf5File::writeTable(const std::string& group, const std::string& name,
                           const std::vector<std::vector<double>>& rows) {
   std::string message;
   std::vector<double> values;
+  int rank = 0;
+  check(MPI_Comm_rank(comm_, &rank));
   for (const auto& row : rows) {
     if (row.size() != columns.size())
       message = formatted("table %s: a row of %zu values for %zu columns", name.c_str(), row.size(),
                           columns.size());
-    values.insert(values.end(), row.begin(), row.end());
+    if (rank == 0) values.insert(values.end(), row.begin(), row.end());
   }
   failTogether(comm_, message);
   writeRows<double>(group, name, columns.size(), values);

@@ -40,7 +40,7 @@ class Hdf5File {
   /// is the number of components.
   void writeNodeVector(const std::string& group, const std::string& name, Vec values);
   /// Writes a small table of reals as a dataset [row][column] with the attribute `columns` (names
-  /// joined by commas). Rank 0 passes the rows, the others none.
+  /// joined by commas). The rows of rank 0 count.
   void writeTable(const std::string& group, const std::string& name,
                   const std::vector<std::string>& columns,
                   const std::vector<std::vector<double>>& rows);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "analysis/contact_path.hpp"
 #include "direct/direct.hpp"
 #include "options/options.hpp"
 #include "pencil/complex_modes.hpp"
@@ -124,6 +125,7 @@ Json followedEntry(const stability::Followed& followed) {
                                   {"to_friction", gap.to},
                                   {"what", gap.what},
                                   {"identity_only", gap.identityOnly}});
+  entry["active_sets"] = followed.activeSet;  // on the way; 0: that of no point
   entry["critical_frictions"] = Json::array();
   for (const auto& critical : followed.criticals)
     entry["critical_frictions"].push_back(critical.friction);
@@ -205,6 +207,13 @@ void writeSummary(const analysis::Analysis& analysis, const std::filesystem::pat
       entry["followed"].push_back(followedEntry(followed));
     summary["active_sets"].push_back(entry);
   }
+  for (const auto& event : analysis::contactPath(analysis))
+    summary["contact_path"].push_back({{"friction", event.at.friction},
+                                       {"speed", event.at.speed},
+                                       {"pressure", event.at.pressure},
+                                       {"position_m", event.position},
+                                       {"interface", analysis.contact.interfaces[event.interface]},
+                                       {"change", event.opens ? "opens" : "closes"}});
   double total = 0;
   for (const auto& record : stageRecords()) {
     summary["stages"][record.name] = {{"wall_s", record.seconds},

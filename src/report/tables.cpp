@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <sstream>
 
+#include "analysis/contact_path.hpp"
 #include "modes/modes.hpp"
 #include "options/options.hpp"
 #include "options/settings.hpp"
@@ -109,23 +109,13 @@ std::string steadyRows(const analysis::Analysis& analysis, const steady::Solutio
   return rows;
 }
 
-/// Collective. Returns the table of the nodes that open and close, on rank 0. Rows of all ranks are
-/// put in the order of the events.
+/// Collective. Returns the table of the nodes that open and close.
 std::string contactPathTable(const analysis::Analysis& analysis) {
-  std::string rows;
-  for (const auto& event : analysis.contactPath) {
-    const auto& node = analysis.contact.nodes[event.node];
-    rows += formatted("%012d,", event.order) +
-            formatted("%.12g,%.12g,%.12g", event.at.friction, event.at.speed, event.at.pressure) +
-            formatted(",%.12e,%.12e,%.12e,", node.position[0], node.position[1], node.position[2]) +
-            analysis.contact.interfaces[node.interface] + (event.opens ? ",opens\n" : ",closes\n");
-  }
-  std::istringstream unordered(gathered(analysis.comm, rows));
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(unordered, line);) lines.push_back(line);
-  std::sort(lines.begin(), lines.end());
   std::string table = "friction,speed,pressure,x_m,y_m,z_m,interface,change\n";
-  for (const auto& line : lines) table += line.substr(line.find(',') + 1) + "\n";
+  for (const auto& [order, at, x, interface, opens] : analysis::contactPath(analysis))
+    table += formatted("%.12g,%.12g,%.12g,%.12e,%.12e,%.12e,", at.friction, at.speed, at.pressure,
+                       x[0], x[1], x[2]) +
+             analysis.contact.interfaces[interface] + (opens ? ",opens\n" : ",closes\n");
   return table;
 }
 

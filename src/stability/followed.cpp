@@ -142,6 +142,11 @@ std::vector<Followed> followSweep(reduction::ReducedProblem& reduced,
     renumber(followed.branches);
     if (criticalOption.get())
       followed.criticals = criticalFrictions(path, followed.branches, toleranceOption.get());
+    if (line.continues) {
+      followed.from = line.swept.front();
+      std::erase_if(followed.criticals,
+                    [&](const Critical& critical) { return critical.friction < followed.from; });
+    }
     dropVectors(followed.branches);
     result.push_back(std::move(followed));
   }

@@ -27,14 +27,16 @@ struct Line {
   sweep::Parameters at;                 ///< the other parameters; its friction has no meaning
   std::vector<double> swept;            ///< frictions of the sweep, ascending
   std::vector<LinePiece> pieces;        ///< ascending
+  bool continues = false;               ///< below the first friction another active set is in force
   const modes::Modes* modes = nullptr;  ///< free modes of the first piece, borrowed
 };
 
 /// The result for all frictions of one speed, pressure and damping that share a basis.
 struct Followed {
-  sweep::Parameters line;           ///< the other parameters; its friction has no meaning
-  std::vector<int> activeSet;       ///< [piece of the path] its number in the results
-  Branches branches;                ///< numbered from 1: renumber()
+  sweep::Parameters line;      ///< the other parameters; its friction has no meaning
+  std::vector<int> activeSet;  ///< [piece of the path] its number in the results
+  double from = 0;    ///< friction below which another active set is in force; 0: there is none
+  Branches branches;  ///< numbered from 1: renumber()
   std::vector<Critical> criticals;  ///< critical frictions of these branches, ascending
   bool countExact = false;  ///< the number at the first friction, 0, is that of the Sturm count
   bool wholeSpace = false;  ///< the reduced problem is the full one: the basis spans all of it

@@ -163,9 +163,10 @@ TEST(ActiveSet, BranchesRunThroughItsChanges) {
   EXPECT_GE(interval.size(), 3U);
   constexpr double digits = 1e-9;  // of the frictions in the tables
   for (const double event : events) {
-    for (const auto& [number, ends] : interval)  // none within the interval of an active set
-      if (number > 0)
-        EXPECT_FALSE(event > ends.first + digits && event < ends.second - digits) << event;
+    for (const auto& [number, ends] : interval) {  // none within the interval of an active set
+      const bool within = event > ends.first + digits && event < ends.second - digits;
+      EXPECT_FALSE(number > 0 && within) << event;
+    }
     EXPECT_TRUE(std::ranges::any_of(at, [&](const auto& entry) {
       return std::abs(entry.first - event) < digits;
     })) << event;
@@ -176,6 +177,15 @@ TEST(ActiveSet, BranchesRunThroughItsChanges) {
     EXPECT_GE(where[i], interval[setOf[i]].first - digits);
     EXPECT_LE(where[i], interval[setOf[i]].second + digits);
   }
+  // The same is in summary.json.
+  const auto summary = findingsOf(run).summary;
+  const auto& listed = summary.at("contact_path");
+  ASSERT_EQ(listed.size(), events.size());
+  for (std::size_t i = 0; i < events.size(); ++i)
+    EXPECT_NEAR(listed.at(i).at("friction").get<double>(), events[i], digits);
+  const auto& followed = summary.at("active_sets").at(0).at("followed").at(0);
+  EXPECT_TRUE(followed.at("sturm_count_exact"));
+  EXPECT_EQ(followed.at("active_sets").at(0), 1);
   // The first branch, the lowest eigenvalue, runs from one end to the other.
   for (const auto& [f, numbers] : at) EXPECT_TRUE(numbers.count(1)) << f;
 }

@@ -105,6 +105,29 @@ class Plot(unittest.TestCase):
         names += [f"stability_speed_{v}_damping_{c}.png" for v in (1, 3, 10) for c in (0, 1)]
         self.assertEqual(self.figures([0.2, 0.4, 0.6], [1, 3, 10], [0, 1]), sorted(names))
 
+    branch_head = ("active_set,branch,friction,speed,pressure,damping,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,"
+                   "overlap,in_band,swept")  # fmt: skip
+
+    def test_lines_along_branches(self):
+        # One branch jumps at friction 0.3, where the active set changes; the other begins there and is in no band at first.
+        rows = ["1,1,0.2,1,1,1,0,6e3,955,1,1,1", "1,1,0.3,1,1,1,0,6e3,955,1,1,0", "2,1,0.3,1,1,1,5,6e3,955,1,1,0",
+                "2,1,0.6,1,1,1,9,6e3,955,1,1,1", "2,2,0.3,1,1,1,0,7e3,1114,0,0,0", "2,2,0.6,1,1,1,0,7e3,1114,1,1,1"]  # fmt: skip
+        critical = ["active_set,branch,partner,kind,direction,friction,speed,pressure,damping,frequency_hz",
+                    "2,1,0,contact,loss,0.3,1,1,1,955"]  # fmt: skip
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            self.written(folder, [0.2, 0.6], [1], [1])
+            (folder / "branches.csv").write_text("\n".join([self.branch_head] + rows))
+            (folder / "critical.csv").write_text("\n".join(critical))
+            branches, found = plot_stability.read_followed(folder)
+            lines, ends = plot_stability.pieces(branches)
+            self.assertEqual(ends, [(0.2, 0.3), (0.3, 0.6)])
+            self.assertEqual([list(line["friction"]) for line in lines], [[0.2, 0.3], [0.3, 0.6], [0.3, 0.6]])
+            self.assertEqual([line["growth_rate_1_per_s"][0] for line in lines], [0, 5, 0])
+            self.assertEqual((list(found["friction"]), list(found["loss"])), ([0.3], [True]))
+            subprocess.run(["/usr/bin/python3", str(scripts / "plot_stability.py"), name], check=True)
+            self.assertTrue((folder / "stability.png").exists())
+
     def test_critical_friction(self):
         y = np.array([0.1, 0.2, 0.3, 0.4])
         self.assertEqual(plot_stability.critical(y, np.array([0, 0, 1, 0.0])), (0.2, 0.3))
