@@ -17,7 +17,7 @@ namespace squeal::analysis {
 namespace {
 
 const IntegerOption releasedOption(
-    "flutter", "reduction_released", 400, 0, 100'000,
+    "flutter", "reduction_released", 150, 0, 100'000,
     "largest number of contact nodes by which the active sets of points that share a factorisation "
     "and a basis may differ; 0: each active set has its own");
 
