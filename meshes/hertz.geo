@@ -3,7 +3,7 @@
 // fine near the contact, and the meshes do not match there. Lengths in mm, so that MPa and N go with them.
 DefineConstant[
   order = {1, Name "order", Choices {1, 2}},              // 1 linear, 2 quadratic cells
-  recombine = {0, Name "recombine", Choices {0, 1}},      // 1: quadrangles where possible, and hexahedra and wedges of a slab; else tetrahedra
+  recombine = {0, Name "recombine", Choices {0, 1}},      // 1: quadrangles where possible, hexahedra and wedges of a slab, hexahedra of a sphere; else tetrahedra
   serendipity = {0, Name "serendipity", Choices {0, 1}},  // 1: quadratic cells without nodes inside faces and cells
   body = {0, Name "body", Choices {0, 1, 2}},             // 0 cylinder in the plane, 1 cylinder as a slab, 2 sphere
   radius = {50, Name "radius"},                           // of cylinder or sphere
@@ -56,6 +56,9 @@ Mesh.MeshSizeFromPoints = 0;
 If (recombine && body < 2)
   Recombine Surface {1, 2};
   Mesh.RecombinationAlgorithm = 0;
+EndIf
+If (recombine && body == 2)
+  Mesh.SubdivisionAlgorithm = 2;  // four hexahedra of each tetrahedron, with half its edges
 EndIf
 
 If (body == 0)

@@ -123,7 +123,7 @@ TEST(Hertz, CylinderAsSlab) {
   }
 }
 
-// A quarter of a sphere. Its surface and the pressed one are meshed by triangles.
+// A quarter of a sphere. Its surface and the pressed one are meshed by triangles: faces tri6.
 TEST(Hertz, Sphere) {
   const double load = 80;
   const Hertz exact = sphere(load * M_PI * radius * radius, effective(steel, steel));
@@ -137,6 +137,29 @@ TEST(Hertz, Sphere) {
     error.push_back(std::abs(found.size / exact.size - 1));
   }
   EXPECT_LT(error[1], error[0] / 2);
+}
+
+// The same with faces quad9 and quad8: gmsh makes four hexahedra of each tetrahedron, with half its
+// edges.
+TEST(Hertz, SphereOfHexahedra) {
+  const double load = 80;
+  const Hertz exact = sphere(load * M_PI * radius * radius, effective(steel, steel));
+  for (const std::string cells : {"", ",serendipity=1"}) {
+    std::vector<double> error;
+    for (const double h : {4.0, 2.8}) {
+      const Found found =
+          solve(pressed("body=2,order=2,recombine=1,h=" + std::to_string(h) + cells, steel, load,
+                        "-constraint_bottom_clamped xyz -constraint_front_clamped z"),
+                0.4, true);
+      EXPECT_NEAR(found.force / (load * M_PI * radius * radius / 4), 1, 3e-4);
+      EXPECT_NEAR(found.size / exact.size, 1, 0.003 * h);
+      // Nodal pressures of quad8 scatter by some percent on cells as distorted as these.
+      EXPECT_NEAR(found.pressure / exact.pressure, 1, cells.empty() ? 0.003 * h : 0.02);
+      EXPECT_NEAR(found.last, exact.size, h / 2);
+      error.push_back(std::abs(found.size / exact.size - 1));
+    }
+    EXPECT_LT(error[1], error[0]);
+  }
 }
 
 }  // namespace
