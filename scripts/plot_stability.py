@@ -77,10 +77,11 @@ def pieces(branches):
     lines = [rows_where(sorted_rows, part) for part in np.split(np.arange(len(order)), cuts)]
     ends = []
     for number in np.unique(branches["active_set"]):
-        # The number 0 stands for all sets that are passed through between points: they are shaded as one.
+        if number == 0:
+            continue  # it stands for all sets that are passed through between points
         friction = branches["friction"][branches["active_set"] == number]
-        ends.append((friction.min(), friction.max()) if number > 0 else None)
-    return lines, sorted(end for end in ends if end)
+        ends.append((friction.min(), friction.max()))
+    return lines, sorted(ends)
 
 
 def draw_followed(upper, lower, scale, followed):

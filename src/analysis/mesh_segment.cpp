@@ -24,18 +24,20 @@ const IntegerOption releasedOption(
 /// Stands for an active set that begins somewhere between two points.
 constexpr std::size_t unknownPlace = -1;
 
-/// Returns the nodes that are active in one of the sets or, if `everywhere`, in all of them.
-ActiveSet combined(const std::vector<ActiveSet>& sets, bool everywhere) {
-  ActiveSet result = sets.front();
-  for (const auto& other : sets)
-    for (std::size_t i = 0; i < other.closed.size(); ++i) {
-      const bool closed =
-          everywhere ? result.closed[i] && other.closed[i] : result.closed[i] || other.closed[i];
-      const bool released = everywhere ? result.released[i] || other.released[i]
-                                       : result.released[i] && other.released[i];
-      result.closed[i] = closed, result.released[i] = released;
-    }
-  return result;
+/// Closes the nodes that another set closes, and holds those that it holds.
+void closeLike(const ActiveSet& other, ActiveSet& set) {
+  for (std::size_t i = 0; i < set.closed.size(); ++i) {
+    set.closed[i] = set.closed[i] || other.closed[i];
+    set.released[i] = set.released[i] && other.released[i];
+  }
+}
+
+/// Opens the nodes that another set opens, and releases those that it releases.
+void openLike(const ActiveSet& other, ActiveSet& set) {
+  for (std::size_t i = 0; i < set.closed.size(); ++i) {
+    set.closed[i] = set.closed[i] && other.closed[i];
+    set.released[i] = set.released[i] || other.released[i];
+  }
 }
 
 /// Collective. Returns the number of nodes in which two sets differ.
@@ -78,25 +80,21 @@ void examineShapes(const Analysis& analysis, const contact::CoupledSystem& syste
 
 subspace::Substructure substructureOf(const contact::CoupledSystem& all,
                                       const contact::CoupledSystem& interior) {
-  subspace::Substructure found;
-  found.stiffness = all.k0();
-  const auto& rows = all.transformation().rows;
-  for (std::size_t k = 0; k < rows.size(); ++k)
-    (std::ranges::binary_search(interior.transformation().rows, rows[k]) ? found.interior
-                                                                         : found.boundary)
-        .push_back(k);
-  return found;
+  auto unknowns = contact::compared(all.transformation(), interior.transformation());
+  return {all.k0(), std::move(unknowns.shared), std::move(unknowns.released)};
 }
 
 std::size_t endOfShared(const Analysis& analysis, std::size_t first) {
   const bool alone = direct::directWanted() || sensitivity::sensitivitiesWanted() ||
                      matrices::exportWanted() || flutter::modalDampingWanted();
   const PetscInt most = alone ? 0 : releasedOption.get();
-  std::vector<ActiveSet> sets;
+  ActiveSet anywhere = activeSet(analysis.steady[first]), everywhere = anywhere;
   std::size_t last = first;
   for (; last < analysis.steady.size() && analysis.steady[last].converged; ++last) {
-    sets.push_back(activeSet(analysis.steady[last]));
-    if (countDifferent(analysis.comm, combined(sets, false), combined(sets, true)) > most) break;
+    const ActiveSet set = activeSet(analysis.steady[last]);
+    closeLike(set, anywhere);
+    openLike(set, everywhere);
+    if (countDifferent(analysis.comm, anywhere, everywhere) > most) break;
   }
   return last;
 }
@@ -112,10 +110,12 @@ MeshSegment::MeshSegment(const Analysis& analysis, std::size_t first, std::size_
     return std::make_unique<contact::CoupledSystem>(analysis.bodies, analysis.contact, set.closed,
                                                     prestress_, set.released);
   };
-  std::vector<ActiveSet> sets;
-  for (const auto& one : sets_) sets.push_back(one.set);
-  anywhere_ = combined(sets, false);
-  const ActiveSet everywhere = combined(sets, true);
+  ActiveSet everywhere = sets_.front().set;
+  anywhere_ = everywhere;
+  for (const auto& one : sets_) {
+    closeLike(one.set, anywhere_);
+    openLike(one.set, everywhere);
+  }
   if (prestress_) stressed_ = systemOf(anywhere_);
   all_ = interior_ = stressed_ ? stressed_.get() : &current.of(anywhere_);
   if (sameOnAllRanks(analysis.comm, anywhere_, everywhere)) return;
@@ -131,12 +131,8 @@ MeshSegment::MeshSegment(const Analysis& analysis, std::size_t first, std::size_
 /// Collective. Finds the active sets of the points and of the way between them.
 void MeshSegment::findSets() {
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    sweep::Parameters before = i > 0 ? points_[i - 1] : points_[i];
-    before.friction = points_[i].friction;
-    const bool begins =
-        i == 0 || !(before == points_[i]) || !(points_[i - 1].friction < points_[i].friction);
     std::vector<PathPiece> pieces;
-    if (!begins) pieces = piecesBehind(i - 1);
+    if (i > 0 && sweep::growsInFriction(points_[i - 1], points_[i])) pieces = piecesBehind(i - 1);
     const ActiveSet set = activeSet(steadyAt(i));
     const double friction = points_[i].friction,
                  from = pieces.empty() ? friction : pieces.back().to;
@@ -203,11 +199,9 @@ std::vector<PathPiece> MeshSegment::path(std::size_t first, std::size_t count) c
 }
 
 bool MeshSegment::continues(std::size_t first) const {
-  if (first > 0 || first_ == 0 || !analysis_.steady[first_ - 1].converged) return false;
-  sweep::Parameters before = analysis_.steady[first_ - 1].at;
-  const bool lower = before.friction < points_[0].friction;
-  before.friction = points_[0].friction;
-  return lower && before == points_[0];
+  if (first > 0 || first_ == 0) return false;
+  const steady::Solution& before = analysis_.steady[first_ - 1];
+  return before.converged && sweep::growsInFriction(before.at, points_[0]);
 }
 
 std::vector<PointRange> MeshSegment::ranges() const {

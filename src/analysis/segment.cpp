@@ -79,7 +79,7 @@ void requireFiniteEigenvalues(const pencil::ComplexModes& point) {
 class SegmentSweep {
  public:
   SegmentSweep(SegmentProblem& problem, const std::vector<double>& dampings)
-      : problem_(problem), pencil_(problem.pencil()), segments_(1) {
+      : problem_(problem), pencil_(problem.pencil()) {
     for (auto& range : problem.ranges()) ranges_.push_back({std::move(range), pencil_.with({}), 0});
     segments_.resize(ranges_.size());
     for (double damping : dampings)
@@ -200,13 +200,9 @@ class SegmentSweep {
       stability::Line line;
       line.at = points_[first];
       line.modes = &segments_[places_[first].range].modes;
-      for (; last < points_.size(); ++last) {
-        sweep::Parameters at = points_[last];
-        at.friction = line.at.friction;
-        if (!(at == line.at) || (last > first && !(points_[last].friction > line.swept.back())))
-          break;
-        line.swept.push_back(points_[last].friction);
-      }
+      do {
+        line.swept.push_back(points_[last++].friction);
+      } while (last < points_.size() && sweep::growsInFriction(points_[last - 1], points_[last]));
       line.at.friction = 0;
       const std::size_t from = places_[first].steadyPoint;
       line.continues = problem_.continues(from);

@@ -312,6 +312,15 @@ OwnedMat Contact::slipRows(const Transformation& transformation, const std::vect
   return result;
 }
 
+ReleasedUnknowns compared(const Transformation& open, const Transformation& closed) {
+  ReleasedUnknowns found;
+  for (std::size_t k = 0; k < open.rows.size(); ++k) {
+    const bool isShared = std::ranges::binary_search(closed.rows, open.rows[k]);
+    (isShared ? found.shared : found.released).push_back(k);
+  }
+  return found;
+}
+
 void requireMotion(const Contact& contact) {
   std::vector<double> fastest(contact.options.size(), 0.0);  // [interface]
   for (const auto& node : contact.nodes)

@@ -60,6 +60,15 @@ struct Transformation {
   std::vector<PetscInt> rows;
 };
 
+/// The unknowns of this rank of a system with open contact, by whether one with closed contact has
+/// them too. Both lists ascend and count from 0 on each rank.
+struct ReleasedUnknowns {
+  std::vector<PetscInt> shared, released;
+};
+
+/// Returns which unknowns of `open` are those of `closed`, whose unknowns are among them.
+ReleasedUnknowns compared(const Transformation& open, const Transformation& closed);
+
 /// The contact of all interfaces: its nodes and its matrices.
 struct Contact : interfaces::Interfaces {
   std::vector<std::string> interfaces;  ///< names

@@ -139,10 +139,7 @@ ContactSolver::FreeBlock& ContactSolver::blockOf(const ContactConditions& condit
   DenseMatrix rows(local.size(), std::ssize(places));
   for (PetscInt j = 0; j < rows.columns(); ++j)
     for (std::size_t i = 0; i < local.size(); ++i) rows(i, j) = columns_(n + local[i], places[j]);
-  DenseMatrix stiffness = gathered(ranks, rows);
-  for (PetscInt j = 0; j < stiffness.columns(); ++j)
-    for (PetscInt i = 0; i < j; ++i)
-      stiffness(i, j) = stiffness(j, i) = (stiffness(i, j) + stiffness(j, i)) / 2;
+  DenseMatrix stiffness = linalg::symmetricPart(gathered(ranks, rows));
   OwnedMat direct;
   if (conditions.direct) {
     check(PetscObjectReference(reinterpret_cast<PetscObject>(conditions.direct)));

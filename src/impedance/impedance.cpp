@@ -22,27 +22,6 @@ OwnedMat transposed(Mat matrix) {
   return result;
 }
 
-/// The columns of x that hold y, and the released ones, with their rows of B on this rank.
-struct Columns {
-  std::vector<PetscInt> inner, released, releasedRows;
-};
-
-Columns columnsOf(const contact::Transformation& open, const contact::Transformation& closed) {
-  Columns found;
-  PetscInt column = 0;
-  check(MatGetOwnershipRangeColumn(open.selection, &column, nullptr));
-  for (const PetscInt row : open.rows) {
-    if (std::ranges::binary_search(closed.rows, row)) {
-      found.inner.push_back(column);
-    } else {
-      found.released.push_back(column);
-      found.releasedRows.push_back(row);
-    }
-    ++column;
-  }
-  return found;
-}
-
 OwnedIS indices(MPI_Comm comm, const std::vector<PetscInt>& list) {
   OwnedIS set;
   check(ISCreateGeneral(comm, list.size(), list.data(), PETSC_COPY_VALUES, set.out()));
@@ -110,8 +89,11 @@ Impedance::Impedance(const contact::Contact& contact, const contact::Transformat
                      const contact::Projection& stiffness, Mat slipRows,
                      const contact::CoupledSystem& closed)
     : contact_(contact), closed_(closed), work_(rightVector(closed.k0())) {
-  const Columns all = columnsOf(open, closed.transformation());
-  inner_ = indices(comm(), all.inner);
+  auto [inner, free] = contact::compared(open, closed.transformation());
+  PetscInt begin = 0;
+  check(MatGetOwnershipRangeColumn(open.selection, &begin, nullptr));
+  for (PetscInt& column : inner) column += begin;
+  inner_ = indices(comm(), inner);
   std::vector<PetscInt> rows, columns = open.gapColumn;
   for (PetscInt i = 0; i < nodes(); ++i) {
     nodeOf_.push_back(i);
@@ -120,10 +102,11 @@ Impedance::Impedance(const contact::Contact& contact, const contact::Transformat
   const PetscInt dimension = contact.mesh->dimension;
   for (PetscInt i = 0; i < nodes(); ++i) {
     const PetscInt tangents = dimension * contact.nodes[i].node, gap = tangents + dimension - 1;
-    auto row = std::ranges::lower_bound(all.releasedRows, tangents);
-    for (; row != all.releasedRows.end() && *row < gap; ++row) {
+    const auto rowOf = [&](PetscInt column) { return open.rows[column]; };
+    auto column = std::ranges::lower_bound(free, tangents, {}, rowOf);
+    for (; column != free.end() && rowOf(*column) < gap; ++column) {
       nodeOf_.push_back(i);
-      columns.push_back(all.released[row - all.releasedRows.begin()]);
+      columns.push_back(begin + *column);
     }
   }
   released_ = indices(comm(), columns);

@@ -28,6 +28,13 @@ void requireEigenvalues(const char* routine, PetscBLASInt info, const std::vecto
 
 }  // namespace
 
+DenseMatrix symmetricPart(const DenseView& a) {
+  DenseMatrix s(a.rows(), a.columns());
+  for (PetscInt j = 0; j < a.columns(); ++j)
+    for (PetscInt i = 0; i < a.rows(); ++i) s(i, j) = 0.5 * (a(i, j) + a(j, i));
+  return s;
+}
+
 std::vector<double> symmetricEigen(DenseMatrix& a) {
   PetscBLASInt order = a.rows(), length = -1, integers = -1, info = 0, integerLength = 0;
   std::vector<double> values(order);

@@ -6,6 +6,9 @@
 
 namespace squeal::linalg {
 
+/// Returns (A + Aᵀ)/2.
+DenseMatrix symmetricPart(const DenseView& a);
+
 /// Returns the eigenvalues of a symmetric matrix, ascending. Only the lower triangle of A is read.
 /// Orthonormal eigenvectors replace it, as columns. Throws Error if LAPACK fails or an eigenvalue
 /// is not a finite number, as with entries that are not.

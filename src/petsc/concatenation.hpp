@@ -18,10 +18,6 @@ class Concatenation {
   Concatenation(MPI_Comm comm, std::size_t own);
   /// Returns the number of entries of all ranks.
   int size() const { return begin_.back() + counts_.back(); }
-  /// Returns the place of the first entry of a rank.
-  int begin(int rank) const { return begin_[rank]; }
-  /// Returns the number of entries of a rank.
-  int count(int rank) const { return counts_[rank]; }
   /// Returns the place of the first entry of this rank.
   int ownBegin() const { return begin_[rank_]; }
   /// Collective. Sets the size() entries of `all` from the entries of each rank.

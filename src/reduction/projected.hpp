@@ -39,7 +39,7 @@ class Coordinates {
   std::vector<std::vector<Complex>> right_, left_;
 };
 
-/// What a point makes of the terms of a pencil.
+/// A point gives each term of a pencil its weight.
 struct Weights {
   sweep::Parameters at;
   bool associated = false;  ///< K0 and M0 alone count

@@ -317,8 +317,7 @@ std::vector<ReducedProblem::PointState*> ReducedProblem::unconfirmed(
   linalg::DensePair& known = worst->pairs[pair];
   const PointSpace& space = worst->set->space;
   for (auto* vector : {&known.q, &known.left}) vector->resize(space.size(basis_.size()));
-  const auto q = space.lifted(known.q), y = space.lifted(known.left);
-  const auto vectors = basis_.expand({&q, &y});
+  const auto vectors = basis_.expand({space.lifted(known.q), space.lifted(known.left)});
   const linalg::Block right = residualColumns(*worst, known, vectors[0], pencil::Side::right),
                       left = residualColumns(*worst, known, vectors[1], pencil::Side::left);
   const auto ratios = basis_.energyRatios({right, left});
@@ -481,11 +480,9 @@ modes::Modes ReducedProblem::freeModes(int set, const pencil::Pencil& pencil) {
   state.associated = true;
   correct(states);
   std::vector<std::vector<Complex>> lifted;
-  std::vector<const std::vector<Complex>*> list;
   for (const auto& pair : state.pairs) lifted.push_back(state.set->space.lifted(pair.q));
-  for (const auto& vector : lifted) list.push_back(&vector);
   linalg::Block shapes(basis_.localRows());
-  for (const auto& shape : basis_.expand(list)) {
+  for (const auto& shape : basis_.expand(lifted)) {
     const ReadArray entries(shape.real);
     shapes.append(std::span(entries.begin(), entries.end()));
   }
@@ -537,15 +534,13 @@ void ReducedProblem::keepShapes(std::vector<pencil::ComplexModes>& points,
                                 const std::vector<PointState>& states, Mat trial) const {
   std::vector<std::vector<std::size_t>> wanted;
   std::vector<std::vector<Complex>> lifted;
-  std::vector<const std::vector<Complex>*> list;
   for (std::size_t i = 0; i < points.size(); ++i) {
     wanted.push_back(pencil::shapesWanted(points[i], options_.criteria));
     for (std::size_t index : wanted.back())
       lifted.push_back(states[i].set->space.lifted(states[i].pairs[index].q));
   }
   if (lifted.empty()) return;
-  for (const auto& vector : lifted) list.push_back(&vector);
-  auto all = basis_.expand(list);
+  auto all = basis_.expand(lifted);
   auto next = std::make_move_iterator(all.begin());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::ptrdiff_t count = wanted[i].size();

@@ -66,7 +66,7 @@ bool worthFollowing(const Line& line) {
 std::string nothingToFollow(const reduction::ReducedProblem& reduced,
                             const std::vector<Line>& lines) {
   if (reduced.band().top == 0) return "-reduction_basis modal corrects no eigenvalue";
-  return std::none_of(lines.begin(), lines.end(), worthFollowing) ? "single frictions" : "";
+  return lines.empty() ? "single frictions" : "";
 }
 
 bool Followed::complete() const {
@@ -109,7 +109,6 @@ std::vector<Followed> followSweep(reduction::ReducedProblem& reduced,
   PetscInt unknowns = 0;
   check(MatGetSize(reduced.basis().stiffness(), &unknowns, nullptr));
   for (const auto& line : lines) {
-    if (!worthFollowing(line)) continue;
     Followed followed;
     followed.line = line.at;
     followed.wholeSpace = reduced.basisSize() == unknowns;

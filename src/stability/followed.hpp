@@ -55,15 +55,15 @@ bool trackAsked();
 /// Returns true if there is something to follow on a line: single frictions are left out unless
 /// trackAsked().
 bool worthFollowing(const Line& line);
-/// Returns the reason why there is nothing to follow; empty if there is something. Nothing is
-/// followed in the basis of the free modes alone.
+/// Returns the reason why there is nothing to follow on lines that are worth it; empty if there is
+/// something. Nothing is followed in the basis of the free modes alone.
 std::string nothingToFollow(const reduction::ReducedProblem& reduced,
                             const std::vector<Line>& lines);
 
-/// Collective. Follows the eigenvalues of the lines that are worth it, from friction 0 on, in the
-/// present basis, and solves for the critical frictions (`-flutter_critical`), for which the basis
-/// may grow. Where the active set changes, eigenvalues jump and are joined. A line whose first
-/// friction is not 0 is followed from there with its first active set.
+/// Collective. Follows the eigenvalues of the lines from friction 0 on, in the present basis, and
+/// solves for the critical frictions (`-flutter_critical`), for which the basis may grow. Where the
+/// active set changes, eigenvalues jump and are joined. A line whose first friction is not 0 is
+/// followed from there with its first active set.
 std::vector<Followed> followSweep(reduction::ReducedProblem& reduced,
                                   const std::vector<Line>& lines, MPI_Comm comm,
                                   const std::function<void(const std::string&)>& progress);

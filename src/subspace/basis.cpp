@@ -100,8 +100,9 @@ void Basis::addConstraintModes() {
   const auto& boundary = substructure_.boundary;
   const Concatenation ranks(comm_, boundary.size());
   if (ranks.size() == 0) return;
+  firstBoundary_ = ranks.ownBegin();
   linalg::Block units(localRows(), ranks.size()), forces(localRows()), energies(localRows());
-  for (std::size_t i = 0; i < boundary.size(); ++i) units(boundary[i], ranks.ownBegin() + i) = 1;
+  for (std::size_t i = 0; i < boundary.size(); ++i) units(boundary[i], firstBoundary_ + i) = 1;
   linalg::appendProduct(stiffness(), units, forces);
   columns_ = responses(forces);
   linalg::addScaled(units, -1, columns_);
@@ -113,11 +114,9 @@ void Basis::addConstraintModes() {
 /// Sets the rows of the boundary to K z of z = K0⁻¹ r, which is −Yᵀr [M.60]; `answers` is Yᵀr.
 void Basis::answerAtBoundary(const linalg::DenseMatrix& answers, linalg::Block& residuals) const {
   const auto& boundary = substructure_.boundary;
-  if (boundarySize() == 0) return;
-  const PetscInt first = Concatenation(comm_, boundary.size()).ownBegin();
   for (PetscInt j = 0; j < residuals.columns(); ++j)
     for (std::size_t i = 0; i < boundary.size(); ++i)
-      residuals(boundary[i], j) = -answers(first + i, j);
+      residuals(boundary[i], j) = -answers(firstBoundary_ + i, j);
 }
 
 OwnedBV Basis::vectors() const { return linalg::copiedColumns(stiffness(), columns_); }
@@ -249,13 +248,13 @@ std::vector<double> Basis::energyRatios(const std::vector<linalg::Block>& blocks
 }
 
 std::vector<linalg::ComplexVector> Basis::expand(
-    const std::vector<const std::vector<Complex>*>& list) const {
+    const std::vector<std::vector<Complex>>& list) const {
   const PetscInt count = list.size();
   linalg::DenseMatrix coordinates(size(), 2 * count);  // real parts, then imaginary parts
   for (PetscInt j = 0; j < count; ++j)
-    for (std::size_t i = 0; i < list[j]->size(); ++i) {
-      coordinates(i, j) = (*list[j])[i].real();
-      coordinates(i, count + j) = (*list[j])[i].imag();
+    for (std::size_t i = 0; i < list[j].size(); ++i) {
+      coordinates(i, j) = list[j][i].real();
+      coordinates(i, count + j) = list[j][i].imag();
     }
   const linalg::Block parts = linalg::product(columns_, coordinates);
   std::vector<linalg::ComplexVector> vectors(list.size());

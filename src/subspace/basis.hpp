@@ -67,8 +67,7 @@ class Basis {
   const linalg::Block& forces() const { return forces_; }
   const linalg::DenseMatrix& energies() const { return energies_; }
   /// Collective. Returns V q, n entries, for several q, [q]. Entries that a q lacks are zero.
-  std::vector<linalg::ComplexVector> expand(
-      const std::vector<const std::vector<Complex>*>& list) const;
+  std::vector<linalg::ComplexVector> expand(const std::vector<std::vector<Complex>>& list) const;
   /// Returns the random signs Ω for columns with n entries [M.39]. The weighted norm of their
   /// sketches is √(rᵀ diag(K0)⁻¹ r).
   const Sketch& sketch() const { return *sketch_; }
@@ -96,7 +95,8 @@ class Basis {
 
   MPI_Comm comm_;
   Substructure substructure_;
-  bool isPlain_;  // K is K0
+  bool isPlain_;                // K is K0
+  PetscInt firstBoundary_ = 0;  // place of this rank's first boundary unknown among all
   linalg::DenseMatrix boundaryStiffness_;
   KSP solver_;
   linalg::Block columns_;

@@ -11,10 +11,10 @@ using linalg::DenseMatrix;
 
 namespace {
 
-int countNegative(DenseMatrix a) {
-  for (PetscInt j = 0; j < a.columns(); ++j)  // to rounding, it is symmetric
-    for (PetscInt i = 0; i < j; ++i) a(i, j) = a(j, i) = (a(i, j) + a(j, i)) / 2;
-  const auto values = linalg::symmetricEigen(a);
+/// Returns the number of negative eigenvalues of a matrix that is symmetric to rounding.
+int countNegative(const DenseMatrix& a) {
+  DenseMatrix symmetric = linalg::symmetricPart(a);
+  const auto values = linalg::symmetricEigen(symmetric);
   return std::ranges::count_if(values, [](double value) { return value < 0; });
 }
 

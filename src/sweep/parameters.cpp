@@ -6,6 +6,12 @@
 
 namespace squeal::sweep {
 
+bool growsInFriction(const Parameters& before, const Parameters& at) {
+  Parameters lower = at;
+  lower.friction = before.friction;
+  return lower == before && before.friction < at.friction;
+}
+
 std::string parameterColumns() {
   std::vector<std::string> names;
   for (const auto& parameter : allParameters) names.push_back(parameter.name);

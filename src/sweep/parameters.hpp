@@ -28,6 +28,9 @@ inline constexpr std::array<Parameter, 4> allParameters{{{"friction", &Parameter
                                                          {"pressure", &Parameters::pressure},
                                                          {"damping", &Parameters::damping}}};
 
+/// Returns true if `at` follows `before` on a line of ascending friction: the friction is larger,
+/// and no other parameter differs.
+bool growsInFriction(const Parameters& before, const Parameters& at);
 /// Returns the head of a comma-separated table, "friction,speed,…".
 std::string parameterColumns();
 /// Returns the values of one row of that table.

@@ -22,13 +22,6 @@ namespace {
 /// of a condition number of 1e6 and more.
 constexpr double rounding = 1e-10;
 
-DenseMatrix symmetricPart(const DenseMatrix& a) {
-  DenseMatrix s(a.rows(), a.columns());
-  for (PetscInt j = 0; j < a.columns(); ++j)
-    for (PetscInt i = 0; i < a.rows(); ++i) s(i, j) = 0.5 * (a(i, j) + a(j, i));
-  return s;
-}
-
 /// Returns true if all principal minors are positive, for a matrix that first has a unit diagonal.
 bool positiveMinors(const DenseMatrix& a) {
   if (!(a(0, 0) > rounding)) return false;
@@ -46,7 +39,7 @@ bool positiveMinors(const DenseMatrix& a) {
 }  // namespace
 
 std::vector<double> symmetricEigenvalues(const DenseMatrix& a) {
-  DenseMatrix s = symmetricPart(a);
+  DenseMatrix s = linalg::symmetricPart(a);
   return linalg::symmetricEigen(s);
 }
 
@@ -66,7 +59,7 @@ bool pMatrix(const DenseMatrix& a) {
 }
 
 bool surelyCopositive(const DenseMatrix& a) {
-  DenseMatrix s = symmetricPart(a);
+  DenseMatrix s = linalg::symmetricPart(a);
   for (PetscInt j = 0; j < s.columns(); ++j)
     for (PetscInt i = 0; i < s.rows(); ++i)
       if (i != j) s(i, j) = std::min(s(i, j), 0.0);
@@ -96,7 +89,7 @@ double lossOfPositivity(double smallestRatio) {
 }
 
 double lossOfPositivity(const DenseMatrix& a0, const DenseMatrix& a1) {
-  DenseMatrix s0 = symmetricPart(a0), s1 = symmetricPart(a1);
+  DenseMatrix s0 = linalg::symmetricPart(a0), s1 = linalg::symmetricPart(a1);
   PetscBLASInt type = 1, n = a0.rows(), info = 0;
   std::vector<double> values(n);
   linalg::callWithWork([&](double* work, PetscBLASInt length) {
