@@ -19,7 +19,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from eigenvalues import PARAMETERS, UNSTABLE, read_eigenvalues, read_table, rows_where, unstable
+from eigenvalues import NOISE, PARAMETERS, counted_unstable, read_eigenvalues, read_table, rows_where
 from results import Results
 
 READABLE = 300  # cells of a map that have room for a number
@@ -105,7 +105,7 @@ def draw_followed(upper, lower, scale, followed):
 def draw_modes(table, name, title, followed=None):
     """Frequency and growth of every mode against the parameter `name`, with what read_followed() has found for it."""
     abscissa, growth = table[name], table["growth_rate_1_per_s"]
-    grows = unstable(table["s"])
+    grows, open_ = counted_unstable(table), table["verdict"] == "undecided"
     kilo = np.max(table["frequency_hz"], initial=0) >= 2000
     scale = 1000 if kilo else 1
     frequency = table["frequency_hz"] / scale
@@ -113,9 +113,13 @@ def draw_modes(table, name, title, followed=None):
     figure, (upper, lower) = plt.subplots(2, 1, sharex=True, figsize=(9, 9), height_ratios=(2, 1), layout="constrained")
     colours = dict(c=growth[grows], cmap="plasma_r", vmin=0, zorder=3, edgecolors="black", linewidths=0.3)
     for axes, value in ((upper, frequency), (lower, growth)):
-        axes.scatter(abscissa[~grows], value[~grows], s=5, color="0.55", linewidths=0, label="stable")
+        calm = ~(grows | open_)
+        axes.scatter(abscissa[calm], value[calm], s=5, color="0.55", linewidths=0, label=calm_label(table["verdict"][calm]))
+        if open_.any():
+            axes.scatter(abscissa[open_], value[open_], s=20, facecolors="none", edgecolors="0.3", linewidths=0.8, label="undecided")
         if grows.any():
-            marks = axes.scatter(abscissa[grows], value[grows], s=30, label="unstable", **colours)
+            certain = "unstable" in table["verdict"]
+            marks = axes.scatter(abscissa[grows], value[grows], s=30, label="unstable" if certain else "growing, uncertified", **colours)
         axes.grid(color="0.92")
         axes.set_axisbelow(True)
     if followed:
@@ -123,7 +127,7 @@ def draw_modes(table, name, title, followed=None):
     if grows.any():
         figure.colorbar(marks, ax=[upper, lower], label="growth rate of the unstable modes [1/s]", aspect=50, pad=0.02)
 
-    upper.set_title((f"{title}: " if title else "") + summary(abscissa, grows, name))
+    upper.set_title((f"{title}: " if title else "") + summary(abscissa, grows, name, table["verdict"]))
     upper.set_ylabel(f"frequency [{'kHz' if kilo else 'Hz'}]")
     upper.set_ylim(bottom=0)
     lower.set_ylabel("growth rate [1/s]")
@@ -132,19 +136,28 @@ def draw_modes(table, name, title, followed=None):
     if np.ptp(abscissa) == 0:  # one value: give the axis a width
         lower.set_xlim(abscissa[0] - 0.05, abscissa[0] + 0.05)
     scale_axis(lower.xaxis, name, abscissa)
-    if np.all(np.abs(growth) <= UNSTABLE * np.abs(table["s"])):
+    if np.all(np.abs(growth) <= NOISE * np.abs(table["s"])):
         lower.set_ylim(-1, 1)  # no axis in units of round-off
     upper.legend(loc="upper center", bbox_to_anchor=(0.5, 0), ncols=4, frameon=False)
     return figure
 
 
-def summary(abscissa, grows, name):
+def calm_label(verdicts):
+    """What those eigenvalues are that neither grow nor are undecided."""
+    words = [word for word in ("stable", "neutral", "uncertified") if word in verdicts]
+    return " or ".join(words) or "stable"
+
+
+def summary(abscissa, grows, name, verdicts):
     modes, values = len(abscissa), len(np.unique(abscissa))
     text = f"{modes} eigenvalues at {values} {name} value{'s' if values != 1 else ''}: "
-    if not grows.any():
-        return text + "all stable"
-    text += f"{np.count_nonzero(grows)} unstable"
-    return text + (f", from friction {np.min(abscissa[grows]):g} on" if name == "friction" else "")
+    text += f"{np.count_nonzero(grows)} unstable" if grows.any() else "none unstable"
+    if name == "friction" and grows.any():
+        text += f", from friction {np.min(abscissa[grows]):g} on"
+    for word in ("undecided", "uncertified"):
+        if word in verdicts:
+            text += f", {np.count_nonzero(verdicts == word)} {word}"
+    return text
 
 
 def logarithmic(name, values):
@@ -235,7 +248,7 @@ def main():
     results = Results(folder)
     try:
         table = read_eigenvalues(folder / "eigenvalues.csv")
-        stability = read_table(folder / "stability_map.csv", PARAMETERS + ("unstable_modes", "largest_growth_rate_1_per_s"))
+        stability = read_table(folder / "stability_map.csv", PARAMETERS + ("unstable_modes", "largest_growth_rate_1_per_s"), ("verdict",))
         followed = read_followed(folder)
     except (OSError, ValueError) as error:
         sys.exit(f"plot_stability: {error}")

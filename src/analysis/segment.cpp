@@ -59,6 +59,9 @@ std::string pointText(const pencil::ComplexModes& point) {
   std::string text =
       formatted("%s: %d of %zu eigenvalues unstable", sweep::parameterText(point.at).c_str(),
                 point.unstableCount(), point.eigenvalues.size());
+  for (const auto verdict : {pencil::Verdict::undecided, pencil::Verdict::uncertified})
+    if (const int count = point.count(verdict); count > 0)
+      text += formatted(", %d %s", count, pencil::text(verdict));
   if (point.bandTop > 0 && std::isfinite(point.bandTop))
     text += formatted(" to %.4g Hz", point.bandTop / (2 * M_PI));
   text += formatted(", worst backward error %.1e", point.worstBackwardError());

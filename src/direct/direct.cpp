@@ -93,7 +93,7 @@ pencil::ComplexModes solveDirect(const pencil::Pencil& pencil, const sweep::Para
     const double error = pencil::backwardError(pencil, at, pair.s, pair);
     point.eigenvalues.push_back({pair.s, error, NAN, error <= point.accuracy});
   }
-  markUnstable(point.eigenvalues, options.criteria);
+  pencil::judge(point, pencil::Symmetry::none, options.criteria);
   const auto wanted = pencil::shapesWanted(point, options.criteria);
   std::vector<linalg::ComplexVector> modes;
   for (std::size_t index : wanted)

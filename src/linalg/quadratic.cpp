@@ -270,21 +270,17 @@ bool positiveDefinite(DenseMatrix a) {
   return info == 0;
 }
 
-/// Returns true if M and K are symmetric positive definite and Z is antisymmetric. Gyroscopic
-/// forces do no work, and all eigenvalues are imaginary: with q of length 1,
-///   s² m + i s g + k = 0,   m = qᴴ M q > 0,   k = qᴴ K q > 0,   i g = qᴴ Z q,
-/// has imaginary roots only.
-bool conservative(const DenseProblem& problem) {
-  return hasSymmetry(problem.stiffness, 1) && hasSymmetry(problem.mass, 1) &&
-         hasSymmetry(problem.damping, -1) && positiveDefinite(problem.stiffness) &&
-         positiveDefinite(problem.mass);
-}
-
 /// Returns the conjugate of s = 1/t for a root t of the reversed polynomial with Im t ≥ 0, so that
 /// the imaginary part of the result is not negative either.
 Complex turnedRound(Complex t) { return 1.0 / std::conj(t); }
 
 }  // namespace
+
+bool conservative(const DenseProblem& problem) {
+  return hasSymmetry(problem.stiffness, 1) && hasSymmetry(problem.mass, 1) &&
+         hasSymmetry(problem.damping, -1) && positiveDefinite(problem.stiffness) &&
+         positiveDefinite(problem.mass);
+}
 
 std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vectors,
                                       const Wanted& wanted) {

@@ -18,6 +18,12 @@ struct DenseProblem {
   PetscInt order() const { return stiffness.rows(); }  ///< m
 };
 
+/// Returns true if, up to rounding, M and K are symmetric positive definite and Z is antisymmetric.
+/// Gyroscopic forces do no work, and all eigenvalues are imaginary: with q of length 1,
+///   s² m + i s g + k = 0,   m = qᴴ M q > 0,   k = qᴴ K q > 0,   i g = qᴴ Z q,
+/// has imaginary roots only.
+bool conservative(const DenseProblem& problem);
+
 /// An eigenvalue with its vectors.
 struct DensePair {
   Complex s;               ///< 1/s

@@ -11,8 +11,10 @@ namespace {
 const RealOption accuracyOption("flutter", "flutter_accuracy", 1e-9, "", positive,
                                 "full-order backward error up to which an eigenvalue is certified, "
                                 "and to which it is corrected");
-const RealOption toleranceOption("flutter", "flutter_unstable_tolerance", 1e-6, "", nonNegative,
-                                 "unstable if the growth rate exceeds this fraction of |s|");
+const RealOption toleranceOption(
+    "flutter", "flutter_unstable_tolerance", 0, "", nonNegative,
+    "an eigenvalue is unstable if its growth rate exceeds this fraction of |s|, a negative damping "
+    "ratio, by more than the estimate of its error; critical frictions are those of growth 0");
 const IntegerOption shapesOption(
     "flutter", "flutter_shapes", 3, 0, 100'000,
     "number of fastest growing complex modes kept for the report at each friction");
@@ -20,6 +22,9 @@ const RealOption shapesBelowOption(
     "flutter", "flutter_shapes_below", 20000, "Hz", positive,
     "complex modes of higher frequency are not kept; squeal is what can be heard");
 
+/// Without an estimate of its error, a growth rate up to this fraction of |s| is taken as rounding:
+/// it splits double eigenvalues by the square root of the machine precision, and more.
+constexpr double noise = 1e-6;
 /// The largest condition number for which derivatives are given. There, relative errors of 1e-8 in
 /// the vectors are a thousandth of yᴴ P′ x.
 constexpr double worstCondition = 1e5;
@@ -28,6 +33,20 @@ constexpr double worstLeftError = 1e-7;
 /// Derivatives are given for eigenvalues farther apart than this: a computed multiple eigenvalue is
 /// split by less.
 constexpr double closest = 1e-7;
+
+double errorOf(const Eigenvalue& e) { return e.errorEstimate * std::abs(e.s); }
+
+/// Returns true if no other eigenvalue, nor the image −conj s of this one, is as near as both
+/// errors together. The band must be left by more than twice the error, since nothing is known of
+/// the eigenvalues beyond.
+bool isolated(const ComplexModes& point, const Eigenvalue& e) {
+  const double error = errorOf(e);
+  if (e.s.real() != 0 && 2 * std::abs(e.s.real()) <= 2 * error) return false;
+  if (!(std::abs(e.s) + 2 * error < point.bandTop)) return false;
+  return std::ranges::all_of(point.eigenvalues, [&](const Eigenvalue& other) {
+    return &other == &e || std::abs(other.s - e.s) > error + errorOf(other);
+  });
+}
 
 }  // namespace
 
@@ -47,6 +66,17 @@ int ComplexModes::modesWithoutEigenvalue() const {
 
 int ComplexModes::unstableCount() const {
   return std::ranges::count_if(eigenvalues, [](const auto& e) { return e.unstable; });
+}
+
+int ComplexModes::count(Verdict verdict) const {
+  return std::ranges::count(eigenvalues, verdict, &Eigenvalue::verdict);
+}
+
+Verdict ComplexModes::verdict() const {
+  for (const Verdict one : {Verdict::unstable, Verdict::uncertified, Verdict::undecided,
+                            Verdict::neutral, Verdict::stable})
+    if (count(one) > 0) return one;
+  return Verdict::uncertified;
 }
 
 int ComplexModes::uncertifiedCount() const {
@@ -74,9 +104,40 @@ const Eigenvalue* ComplexModes::fastestGrowing() const {
   return fastest;
 }
 
-void markUnstable(std::vector<Eigenvalue>& eigenvalues, const Criteria& criteria) {
-  for (auto& eigenvalue : eigenvalues)
-    eigenvalue.unstable = eigenvalue.s.real() > criteria.unstable * std::abs(eigenvalue.s);
+const char* text(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::unstable:
+      return "unstable";
+    case Verdict::stable:
+      return "stable";
+    case Verdict::undecided:
+      return "undecided";
+    case Verdict::neutral:
+      return "neutral";
+    case Verdict::uncertified:
+      return "uncertified";
+  }
+  return "";
+}
+
+void judge(ComplexModes& point, Symmetry symmetry, const Criteria& criteria) {
+  for (auto& e : point.eigenvalues) {
+    const double growth = e.s.real(), size = std::abs(e.s), error = e.errorEstimate * size,
+                 excess = growth - criteria.unstable * size;
+    if (!std::isfinite(error)) {
+      e.verdict = Verdict::uncertified;
+      e.unstable = excess > 0 && growth > noise * size;
+      continue;
+    }
+    const bool isNeutral =
+        std::abs(growth) <= error && e.s.imag() > error &&
+        (symmetry == Symmetry::conservative || (symmetry == Symmetry::even && isolated(point, e)));
+    e.verdict = isNeutral         ? Verdict::neutral
+                : excess > error  ? Verdict::unstable
+                : excess < -error ? Verdict::stable
+                                  : Verdict::undecided;
+    e.unstable = e.verdict == Verdict::unstable;
+  }
 }
 
 std::vector<std::size_t> shapesWanted(const ComplexModes& point, const Criteria& criteria) {

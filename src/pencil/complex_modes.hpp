@@ -1,6 +1,7 @@
 #pragma once
 /// The results of the friction-perturbed eigenproblem (paper, section 4) tell which modes flutter,
 /// at which friction, and how fast they grow.
+#include <array>
 #include <limits>
 #include <optional>
 #include <string>
@@ -11,13 +12,38 @@
 
 namespace squeal::pencil {
 
+/// What is certain of the growth of an eigenvalue, to within the estimate of its error [M.24].
+enum class Verdict {
+  unstable,    ///< it grows
+  stable,      ///< it decays
+  undecided,   ///< the estimate is larger than the growth rate
+  neutral,     ///< it neither grows nor decays: it lies on the imaginary axis
+  uncertified  ///< there is no estimate
+};
+/// All verdicts in the order of their numbers.
+inline constexpr std::array allVerdicts{Verdict::unstable, Verdict::stable, Verdict::undecided,
+                                        Verdict::neutral, Verdict::uncertified};
+/// Returns the word of tables and texts.
+const char* text(Verdict verdict);
+
+/// What the structure of a problem says of its eigenvalues.
+enum class Symmetry {
+  none,
+  even,         ///< real and even in s: −s is an eigenvalue with every s
+  conservative  ///< all eigenvalues are imaginary
+};
+
 /// An eigenvalue s of the pencil with estimates of its error.
 struct Eigenvalue {
   Complex s;                 ///< growth rate + i angular frequency, 1/s
   double backwardError = 0;  ///< backward error of the full-order problem [M.33]
-  double errorEstimate = 0;  ///< estimate of the relative error |δs|/|s|; NaN: none (direct method)
-  bool certified = false;    ///< the errors that are known are as small as asked for
-  bool unstable = false;     ///< Re s exceeds |s| times flutter_unstable_tolerance [M.24]
+  double errorEstimate = 0;  ///< estimate of the relative error |δs|/|s|; NaN: none (direct method,
+                             ///< free modes alone)
+  bool certified = false;  ///< the errors that are known are as small as asked for
+  Verdict verdict = Verdict::uncertified;
+  /// It counts as unstable: by its verdict or, where it is uncertified, since Re s exceeds |s|
+  /// times 1e-6 and times `-flutter_unstable_tolerance`.
+  bool unstable = false;
 };
 
 /// A complex mode d = real + i imaginary in nodal displacements, N entries, is scaled so that its
@@ -69,8 +95,13 @@ struct ComplexModes {
   /// Returns by how many the free modes in the band exceed the eigenvalues listed, for a damped
   /// problem. The missing eigenvalues are damped too strongly to be listed, or lie beyond the top.
   int modesWithoutEigenvalue() const;
-  /// Returns the number of eigenvalues that are unstable.
+  /// Returns the number of eigenvalues that count as unstable.
   int unstableCount() const;
+  /// Returns the number of eigenvalues with this verdict.
+  int count(Verdict verdict) const;
+  /// Returns the verdict on the point: the first of unstable, uncertified, undecided, neutral and
+  /// stable that an eigenvalue has; uncertified if there is none.
+  Verdict verdict() const;
   /// Returns the number of eigenvalues that are not certified.
   int uncertifiedCount() const;
   /// Returns the largest backward error; 0 if there are no eigenvalues.
@@ -84,17 +115,18 @@ struct ComplexModes {
 /// These options decide what is said of an eigenvalue, and which complex modes are kept.
 struct Criteria {
   double accuracy;     ///< `-flutter_accuracy`: backward error of a certified eigenvalue at most
-  double unstable;     ///< `-flutter_unstable_tolerance`: δ of [M.24]
+  double unstable;     ///< `-flutter_unstable_tolerance`: ζ of [M.24]
   int shapes;          ///< `-flutter_shapes`: number of complex modes kept at a point at most
   double shapesBelow;  ///< `-flutter_shapes_below`: upper bound of their frequencies, rad/s
   /// Reads the options.
   static Criteria given();
 };
 
-/// Sets `unstable` of each eigenvalue by [M.24].
-void markUnstable(std::vector<Eigenvalue>& eigenvalues, const Criteria& criteria);
+/// Sets `verdict` and `unstable` of each eigenvalue of the point by [M.24].
+void judge(ComplexModes& point, Symmetry symmetry, const Criteria& criteria);
 
-/// Returns the indices of the fastest growing unstable eigenvalues whose shapes are kept, the
+/// Returns the indices of the fastest growing eigenvalues that count as unstable and whose shapes
+/// are kept, the
 /// fastest first: `shapes` of them at most, all below `shapesBelow`.
 std::vector<std::size_t> shapesWanted(const ComplexModes& point, const Criteria& criteria);
 /// Collective. Appends the shapes of the eigenvalues with these indices to the point. `modes`,

@@ -94,6 +94,7 @@ struct ReducedProblem::PointState {
   std::vector<double> rightError;  // [pair] of the right vector, times the condition number of s
   std::vector<double> leftError;   // [pair] of the left vector; infinite above the modes
   std::vector<double> rounding;    // [pair] error of the dense solve
+  pencil::Symmetry symmetry = pencil::Symmetry::none;
 };
 
 ReducedProblem::ReducedProblem(const pencil::Pencil& pencil, const modes::AssociatedSystem& system,
@@ -202,6 +203,9 @@ void ReducedProblem::estimateErrors(PointState& state, const linalg::DenseProble
       linalg::product(basis_.sketched(), coordinates.times(pencil::Side::right, 0, 1));
   const auto lengths = perPair(coordinates, subspace::squaredLengths(vectors));
   const auto conditions = conditionNumbers(problem, pairs);
+  state.symmetry = linalg::conservative(problem) ? pencil::Symmetry::conservative
+                   : state.damped                ? pencil::Symmetry::none
+                                                 : pencil::Symmetry::even;
   state.backwardError.clear();
   state.rightError.clear();
   state.leftError.clear();
@@ -344,7 +348,8 @@ ReducedProblem::PointState ReducedProblem::newState(const PointProblem& point,
           {},
           {},
           {},
-          {}};
+          {},
+          pencil::Symmetry::none};
 }
 
 ReducedProblem::Norms ReducedProblem::normsOf(const PointProblem& point) {
@@ -510,6 +515,7 @@ modes::Modes ReducedProblem::freeModes(int set, const pencil::Pencil& pencil) {
   return modes;
 }
 
+/// Collective. Returns what is known of the eigenvalues of a point.
 pencil::ComplexModes ReducedProblem::result(const PointState& state) const {
   pencil::ComplexModes point;
   point.at = state.point->at;
@@ -519,12 +525,17 @@ pencil::ComplexModes ReducedProblem::result(const PointState& state) const {
   point.accuracy = options_.criteria.accuracy;
   point.tolerance = options_.tolerance;
   for (std::size_t j = 0; j < state.pairs.size(); ++j) {
-    const double estimate = errorOf(state, j) + state.rounding[j];
+    // Nothing has been solved for that would give the norm of K0⁻¹ to the free modes alone.
+    const double estimate = band_.top == 0 ? NAN : errorOf(state, j) + state.rounding[j];
     point.eigenvalues.push_back(
         {state.pairs[j].s, state.backwardError[j], estimate,
-         state.backwardError[j] <= point.accuracy && estimate <= point.tolerance});
+         state.backwardError[j] <= point.accuracy && !(estimate > point.tolerance)});
   }
-  pencil::markUnstable(point.eigenvalues, options_.criteria);
+  pencil::judge(point, state.symmetry, options_.criteria);
+  // The shapes are made by all ranks, which must agree on the verdicts.
+  static_assert(std::is_trivially_copyable_v<pencil::Eigenvalue>);
+  check(MPI_Bcast(point.eigenvalues.data(), point.eigenvalues.size() * sizeof(pencil::Eigenvalue),
+                  MPI_BYTE, 0, basis_.comm()));
   return point;
 }
 

@@ -4,19 +4,22 @@
 #include <cmath>
 
 #include "analysis/contact_path.hpp"
+#include "fieldfile/hdf5.hpp"
+#include "fieldfile/vtu.hpp"
 #include "mesh/mesh.hpp"
 #include "options/options.hpp"
 #include "pencil/complex_modes.hpp"
 #include "petsc/arrays.hpp"
 #include "petsc/text.hpp"
 #include "report/branches.hpp"
-#include "report/hdf5.hpp"
 #include "report/names.hpp"
-#include "report/vtu.hpp"
 #include "steady/steady.hpp"
 #include "sweep/parameters.hpp"
 
 namespace squeal::report {
+
+using fieldfile::Field;
+using fieldfile::Hdf5File;
 
 namespace {
 
@@ -135,10 +138,10 @@ void animate(const analysis::Analysis& analysis, const Ghosts& ghosts, const Ani
     check(VecScale(u, std::cos(phase)));
     check(VecAXPY(u, -std::sin(phase), item.shape->imaginary));
     const auto stem = folder / name / formatted("frame_%03d", frame);
-    writeVtu(*analysis.mesh, stem, {ghosts.vector("displacement", u)});
+    fieldfile::writeVtu(*analysis.mesh, stem, {ghosts.vector("displacement", u)}, folderOption);
     files.emplace_back(period * frame / frames, stem.string() + ".pvtu");
   }
-  writePvd(analysis.mesh->comm, folder / (name + ".pvd"), files);
+  fieldfile::writePvd(analysis.mesh->comm, folder / (name + ".pvd"), files, folderOption);
 }
 
 void writeParameters(Hdf5File& file, const std::string& group, const sweep::Parameters& at) {
@@ -176,16 +179,17 @@ void writeFields(const analysis::Analysis& analysis, const std::filesystem::path
   for (const auto& solution : analysis.steady) {
     if (!solution.converged) continue;
     const auto stem = vtk / ("steady_friction_" + pointName(solution.at));
-    writeVtu(mesh, stem,
-             {ghosts.vector("displacement", solution.displacement),
-              ghosts.scalar("contact_pressure", contactField(analysis, solution))});
+    fieldfile::writeVtu(mesh, stem,
+                        {ghosts.vector("displacement", solution.displacement),
+                         ghosts.scalar("contact_pressure", contactField(analysis, solution))},
+                        folderOption);
     // ParaView's time is the friction; where more is swept, several states would share it, and the
     // file's place in the list is the time.
     const bool frictionAlone = analysis.sweep.frictions.size() == analysis.steady.size();
     steadyFiles.emplace_back(frictionAlone ? solution.at.friction : steadyFiles.size(),
                              stem.string() + ".pvtu");
   }
-  writePvd(mesh.comm, vtk / "steady.pvd", steadyFiles);
+  fieldfile::writePvd(mesh.comm, vtk / "steady.pvd", steadyFiles, folderOption);
   for (const auto& segment : analysis.segments) {
     std::vector<Field> fields;
     for (std::size_t i = 0; i < segment.shapes.size(); ++i)
@@ -193,7 +197,9 @@ void writeFields(const analysis::Analysis& analysis, const std::filesystem::path
           formatted("mode_%03zu_%.0f_Hz", i + 1, segment.modes.angularFrequency[i] / (2 * M_PI)),
           segment.shapes[i]));
     if (!fields.empty())
-      writeVtu(mesh, vtk / ("modes_from_friction_" + pointName(segment.points.front().at)), fields);
+      fieldfile::writeVtu(mesh,
+                          vtk / ("modes_from_friction_" + pointName(segment.points.front().at)),
+                          fields, folderOption);
     for (const auto& point : segment.points) {
       std::vector<Field> shapes;
       for (const auto& shape : point.shapes) {
@@ -203,14 +209,15 @@ void writeFields(const analysis::Analysis& analysis, const std::filesystem::path
                                        workField(analysis, shape), 1));
       }
       if (!shapes.empty())
-        writeVtu(mesh, vtk / ("complex_modes_friction_" + pointName(point.at)), shapes);
+        fieldfile::writeVtu(mesh, vtk / ("complex_modes_friction_" + pointName(point.at)), shapes,
+                            folderOption);
     }
   }
   for (const auto& item : fastest(analysis)) animate(analysis, ghosts, item, vtk);
 }
 
 void writeHdf5(const analysis::Analysis& analysis, const std::filesystem::path& folder) {
-  Hdf5File file(analysis.comm, folder / "results.h5");
+  Hdf5File file(analysis.comm, folder / "results.h5", folderOption);
   if (analysis.mesh) file.writeMesh(*analysis.mesh);
   for (const auto& solution : analysis.steady) {
     if (!solution.converged) continue;
@@ -233,12 +240,15 @@ void writeHdf5(const analysis::Analysis& analysis, const std::filesystem::path& 
       const std::string group = "/flutter/friction_" + pointName(point.at);
       std::vector<std::vector<double>> rows;
       for (const auto& e : point.eigenvalues)
-        rows.push_back(
-            {e.s.real(), e.s.imag(), e.backwardError, e.errorEstimate, e.certified ? 1.0 : 0.0});
+        rows.push_back({e.s.real(), e.s.imag(), e.backwardError, e.errorEstimate,
+                        e.certified ? 1.0 : 0.0, double(e.verdict)});
       file.writeTable(group, "eigenvalues",
                       {"growth_rate_1_per_s", "angular_frequency_rad_per_s", "backward_error",
-                       "error_estimate", "certified"},
+                       "error_estimate", "certified", "verdict"},
                       rows);
+      std::vector<std::string> verdicts;
+      for (const auto verdict : pencil::allVerdicts) verdicts.push_back(text(verdict));
+      file.writeAttribute(group + "/eigenvalues", "verdicts", joined(verdicts, ","));
       writeParameters(file, group, point.at);
       for (const auto& shape : point.shapes) {
         file.writeNodeVector(group, formatted("mode_%03zu_real", shape.index + 1), shape.real);

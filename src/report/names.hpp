@@ -11,6 +11,9 @@
 
 namespace squeal::report {
 
+/// The option that names the folder of the results.
+inline constexpr char folderOption[] = "-report_dir";
+
 /// Returns the name of a point of the sweep as part of file and group names: FRICTION, then
 /// _speed_SPEED, _pressure_… for the factors that are not 1.
 std::string pointName(const sweep::Parameters& at);

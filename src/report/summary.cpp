@@ -108,7 +108,8 @@ Json unstableModes(const pencil::ComplexModes& point) {
                       {"growth_rate_1_per_s", e.s.real()},
                       {"backward_error", e.backwardError},
                       {"error_estimate", finite(e.errorEstimate)},
-                      {"certified", e.certified}});
+                      {"certified", e.certified},
+                      {"verdict", text(e.verdict)}});
   }
   return list;
 }
@@ -182,6 +183,9 @@ void writeSummary(const analysis::Analysis& analysis, const std::filesystem::pat
         entry["uncertified"] = point->uncertifiedCount();
       }
       entry["unstable_modes"] = unstableModes(*point);
+      entry["verdict"] = text(point->verdict());
+      for (const auto verdict : pencil::allVerdicts)
+        entry["verdicts"][text(verdict)] = point->count(verdict);
     }
     summary["frictions"].push_back(entry);
   }

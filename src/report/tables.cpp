@@ -26,15 +26,15 @@ namespace {
 std::string eigenvalueTable(const analysis::Analysis& analysis) {
   std::string table = sweep::parameterColumns() +
                       ",mode,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,damping_"
-                      "ratio,backward_error,error_estimate,certified\n";
+                      "ratio,backward_error,error_estimate,certified,verdict\n";
   for (const auto& segment : analysis.segments)
     for (const auto& point : segment.points)
       for (std::size_t i = 0; i < point.eigenvalues.size(); ++i) {
         const auto& e = point.eigenvalues[i];
         table += sweep::parameterValues(point.at) + "," + std::to_string(i + 1) +
-                 formatted(",%.15e,%.15e,%.15e,%.15e,%.3e,%.3e,%d\n", e.s.real(), e.s.imag(),
+                 formatted(",%.15e,%.15e,%.15e,%.15e,%.3e,%.3e,%d,%s\n", e.s.real(), e.s.imag(),
                            e.s.imag() / (2 * M_PI), -e.s.real() / std::abs(e.s), e.backwardError,
-                           e.errorEstimate, e.certified ? 1 : 0);
+                           e.errorEstimate, e.certified ? 1 : 0, text(e.verdict));
       }
   return table;
 }
@@ -49,7 +49,7 @@ std::string stabilityMap(const analysis::Analysis& analysis) {
   };
   std::string table = sweep::parameterColumns() +
                       ",unstable_modes,largest_growth_rate_1_per_s,frequency_hz,worst_backward_"
-                      "error,worst_error_estimate\n";
+                      "error,worst_error_estimate,verdict,undecided_modes\n";
   for (const auto& at : analysis.sweep.points()) {
     const auto* point = analysis.pointAt(at);
     const auto* fastest = point ? point->fastestGrowing() : nullptr;
@@ -57,7 +57,9 @@ std::string stabilityMap(const analysis::Analysis& analysis) {
              cell("%.15e", fastest ? fastest->s.real() : NAN) +
              cell("%.15e", fastest ? fastest->s.imag() / (2 * M_PI) : NAN) +
              cell("%.3e", fastest ? point->worstBackwardError() : NAN) +
-             cell("%.3e", fastest ? point->worstErrorEstimate() : NAN) + "\n";
+             cell("%.3e", fastest ? point->worstErrorEstimate() : NAN) + "," +
+             (point ? text(point->verdict()) : "") +
+             cell("%.0f", point ? point->count(pencil::Verdict::undecided) : NAN) + "\n";
   }
   return table;
 }
@@ -140,13 +142,26 @@ std::string rowHead(const sweep::Parameters& at, const std::vector<sweep::Parame
   return head;
 }
 
+/// Returns what is to be said of eigenvalues whose growth is not certain; empty if there are none.
+std::string uncertaintyText(const pencil::ComplexModes& point) {
+  const int undecided = point.count(pencil::Verdict::undecided);
+  std::string text = point.verdict() == pencil::Verdict::uncertified ? " (uncertified)" : "";
+  if (undecided > 0) text += formatted("; %d undecided", undecided);
+  return text;
+}
+
 /// Returns the text for a point where no mode is unstable.
-std::string verdict(const analysis::Analysis& analysis, const analysis::ModalSegment& segment,
-                    const pencil::ComplexModes& point) {
+std::string stableText(const analysis::Analysis& analysis, const analysis::ModalSegment& segment,
+                       const pencil::ComplexModes& point) {
   if (point.eigenvalues.empty()) return "no eigenvalue was found: nothing is known of stability";
   if (segment.openNodes > 0 && segment.openNodes == analysis.contact.totalNodes)
     return "none: no contact is closed, nothing slides";
-  return "none: steady sliding is stable";
+  if (point.verdict() == pencil::Verdict::undecided) return "none" + uncertaintyText(point);
+  const int neutral = point.count(pencil::Verdict::neutral);
+  return "none: steady sliding is stable" + uncertaintyText(point) +
+         (neutral > 0
+              ? formatted(", %d of %zu eigenvalues neutral", neutral, point.eigenvalues.size())
+              : "");
 }
 
 /// Returns one line for one point of a sweep, with the lowest unstable modes.
@@ -154,26 +169,28 @@ std::string sweepRow(const analysis::Analysis& analysis, const analysis::ModalSe
                      const pencil::ComplexModes& point,
                      const std::vector<sweep::Parameter>& shown) {
   std::string row = rowHead(point.at, shown);
-  if (point.unstableCount() == 0) return row + verdict(analysis, segment, point);
+  if (point.unstableCount() == 0) return row + stableText(analysis, segment, point);
   int count = 0;
   for (const auto& e : point.eigenvalues)
     if (e.unstable && ++count <= 6)
       row += formatted("%s%.6g (%.4g)", count > 1 ? ", " : "", e.s.imag() / (2 * M_PI), e.s.real());
-  return row + (count > 6 ? formatted(", and %d more in eigenvalues.csv", count - 6) : "");
+  return row + (count > 6 ? formatted(", and %d more in eigenvalues.csv", count - 6) : "") +
+         uncertaintyText(point);
 }
 
 /// Returns the unstable modes of a single point, a line each; modes are numbered by frequency.
 std::string modeRows(const analysis::Analysis& analysis, const analysis::ModalSegment& segment,
                      const pencil::ComplexModes& point) {
   if (point.unstableCount() == 0)
-    return formatted("\nfriction %g  ", point.at.friction) + verdict(analysis, segment, point);
+    return formatted("\nfriction %g  ", point.at.friction) + stableText(analysis, segment, point);
   std::string rows;
   for (std::size_t i = 0; i < point.eigenvalues.size(); ++i) {
     const auto& e = point.eigenvalues[i];
     if (e.unstable)
       rows += formatted("\n%4zu  %12.6g %12.5g", i + 1, e.s.imag() / (2 * M_PI), e.s.real());
   }
-  return rows;
+  const std::string uncertainty = uncertaintyText(point);
+  return uncertainty.empty() ? rows : rows + "\n     " + uncertainty;
 }
 
 /// Returns a text on the point where strong damping has taken most free modes of the band from the

@@ -31,13 +31,14 @@ TEST(Outputs, Eigenvalues) {
   EXPECT_EQ(table.header,
             "friction,speed,pressure,damping,mode,growth_rate_1_per_s,angular_frequency_rad_per_s,"
             "frequency_hz,damping_ratio,"
-            "backward_error,error_estimate,certified");
+            "backward_error,error_estimate,certified,verdict");
   const auto friction = table.column("friction"), mode = table.column("mode"),
              growth = table.column("growth_rate_1_per_s"),
              angular = table.column("angular_frequency_rad_per_s"),
              frequency = table.column("frequency_hz"), damping = table.column("damping_ratio"),
              error = table.column("backward_error");
   const auto estimate = table.column("error_estimate"), certified = table.column("certified");
+  const auto verdict = table.words("verdict");
   const auto band = findingsOf(layerRun()).bandTop;
   EXPECT_TRUE(std::is_sorted(friction.begin(), friction.end()))
       << "begins with friction " << friction[0];
@@ -63,6 +64,13 @@ TEST(Outputs, Eigenvalues) {
     EXPECT_GT(estimate[i], 0);
     EXPECT_LE(estimate[i], 1e-8);  // -flutter_tolerance
     EXPECT_EQ(certified[i], 1);
+    // Without friction the problem is symmetric. With it the eigenvalues of waves that run along
+    // the layer come in pairs of a growing and a decaying one.
+    EXPECT_EQ(verdict[i], friction[i] == 0 ? "neutral"
+                          : growth[i] > 0  ? "unstable"
+                          : growth[i] < 0  ? "stable"
+                                           : "neutral");
+    EXPECT_EQ(growth[i] == 0, verdict[i] == "neutral");
   }
 }
 
@@ -73,7 +81,9 @@ TEST(Outputs, StabilityMap) {
   EXPECT_EQ(map.header,
             "friction,speed,pressure,damping,unstable_modes,largest_growth_rate_1_per_s,frequency_"
             "hz,worst_backward_error,"
-            "worst_error_estimate");
+            "worst_error_estimate,verdict,undecided_modes");
+  EXPECT_EQ(map.words("verdict"), (std::vector<std::string>{"neutral", "unstable", "unstable"}));
+  EXPECT_EQ(map.column("undecided_modes"), (std::vector<double>{0, 0, 0}));
   EXPECT_EQ(map.column("friction"), (std::vector<double>{0, 0.2, 0.4}));
   const auto friction = all.column("friction"), growth = all.column("growth_rate_1_per_s"),
              angular = all.column("angular_frequency_rad_per_s"),
@@ -202,6 +212,9 @@ TEST(Outputs, Summary) {
     }
     EXPECT_EQ(unstable, entry.at("unstable_modes").size());
     EXPECT_EQ(entry.at("uncertified"), 0);
+    EXPECT_EQ(entry.at("verdict"), unstable > 0 ? "unstable" : "neutral");
+    EXPECT_EQ(entry.at("verdicts").at("unstable"), unstable);
+    EXPECT_EQ(entry.at("verdicts").at("undecided"), 0);
     EXPECT_EQ(entry.at("tolerance_asked"), 1e-8);
     EXPECT_NEAR(entry.at("worst_error_estimate").get<double>(), worst,
                 1e-3 * worst);                             // four digits in the table

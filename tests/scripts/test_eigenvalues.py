@@ -81,12 +81,14 @@ class Plot(unittest.TestCase):
                 for c in dampings:
                     growth = 100 * (f - 0.25 - 0.05 * c)
                     at = f"{f},{v},1,{c}"
-                    modes.append(f"{at},1,{growth},6e3,955,0,1e-10,1e-9,1")
-                    cells = f"{int(growth > 0)},{growth},955,1e-10," if (f, v) != (0.6, 3) else ",,,,"  # no steady sliding there
+                    modes.append(f"{at},1,{growth},6e3,955,0,1e-10,1e-9,1,{'unstable' if growth > 0 else 'stable'}")
+                    cells = f"{int(growth > 0)},{growth},955,1e-10,,{'unstable' if growth > 0 else 'stable'},0"
+                    if (f, v) == (0.6, 3):  # no steady sliding there
+                        cells = ",,,,,,"
                     stability.append(f"{at},{cells}")
-        names = "mode,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,damping_ratio,backward_error,error_estimate,certified"
+        names = "mode,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,damping_ratio,backward_error,error_estimate,certified,verdict"
         (folder / "eigenvalues.csv").write_text("\n".join([f"{self.head},{names}"] + modes))
-        names = "unstable_modes,largest_growth_rate_1_per_s,frequency_hz,worst_backward_error,worst_error_estimate"
+        names = "unstable_modes,largest_growth_rate_1_per_s,frequency_hz,worst_backward_error,worst_error_estimate,verdict,undecided_modes"
         (folder / "stability_map.csv").write_text("\n".join([f"{self.head},{names}"] + stability))
         (folder / "summary.json").write_text("{}")  # without it the results are not complete
 

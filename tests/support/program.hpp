@@ -99,13 +99,18 @@ struct CsvTable {
   std::vector<std::vector<std::string>> rows;
 
   std::vector<double> column(const std::string& name) const {
+    std::vector<double> values;
+    for (const auto& cell : words(name)) values.push_back(std::stod(cell));
+    return values;
+  }
+  std::vector<std::string> words(const std::string& name) const {
     const auto names = split(header, ',');
     std::size_t index = 0;
     while (index < names.size() && names[index] != name) ++index;
     if (index == names.size()) throw std::runtime_error("no column " + name + " in " + header);
-    std::vector<double> values;
-    for (const auto& row : rows) values.push_back(std::stod(row.at(index)));
-    return values;
+    std::vector<std::string> cells;
+    for (const auto& row : rows) cells.push_back(row.at(index));
+    return cells;
   }
 };
 

@@ -3,19 +3,27 @@
 
 #include <fstream>
 
-#include "report/hdf5.hpp"
+#include "fieldfile/hdf5.hpp"
 #include "support/hdf5.hpp"
 #include "support/report_files.hpp"
 
-namespace squeal::report {
+namespace squeal::fieldfile {
 namespace {
 
+using report::bar;
+using report::errorOf;
+using report::Folder;
+using report::Mesh;
+using report::rankOf;
+using report::sizeOf;
 using test::Reader;
+
+const std::string option = "-folder";
 
 TEST(Hdf5, HoldsTheMeshInGlobalOrder) {
   const Folder folder;
   const Mesh mesh = bar();
-  Hdf5File(PETSC_COMM_WORLD, folder.path / "results.h5").writeMesh(mesh);
+  Hdf5File(PETSC_COMM_WORLD, folder.path / "results.h5", option).writeMesh(mesh);
   Reader reader(folder.path / "results.h5");
   const int size = sizeOf(mesh.comm);
 
@@ -69,7 +77,7 @@ TEST(Hdf5, HoldsNodeVectors) {
   check(VecAssemblyBegin(u));
   check(VecAssemblyEnd(u));
   {
-    Hdf5File file(mesh.comm, folder.path / "results.h5");
+    Hdf5File file(mesh.comm, folder.path / "results.h5", option);
     file.writeNodeVector("/modes", "shape_0001", u);
     file.writeNodeVector("/flutter/friction_0.4", "shape_0001_real", u);
   }
@@ -93,7 +101,7 @@ TEST(Hdf5, HoldsTablesAndAttributes) {
   const bool first = rankOf(PETSC_COMM_WORLD) == 0;
   using Rows = std::vector<std::vector<double>>;
   {
-    Hdf5File file(PETSC_COMM_WORLD, folder.path / "results.h5");
+    Hdf5File file(PETSC_COMM_WORLD, folder.path / "results.h5", option);
     file.writeTable("/flutter", "eigenvalues", {"growth_rate_1_per_s", "frequency_hz"},
                     first ? Rows{{-1.5, 440}, {0, 880}, {2, 1}} : Rows{});
     file.writeTable("/flutter", "single", {"mode"}, first ? Rows{{7}, {8}} : Rows{});
@@ -122,9 +130,9 @@ TEST(Hdf5, NamesTheOptionWhereTheFileCannotBeMade) {
   const fs::path file = folder.path / "file";  // a file is no folder, for root as well
   if (rankOf(PETSC_COMM_WORLD) == 0) std::ofstream(file) << "x";
   MPI_Barrier(PETSC_COMM_WORLD);
-  EXPECT_NE(errorOf([&] { Hdf5File(PETSC_COMM_WORLD, file / "inside"); }).find("-report_dir"),
+  EXPECT_NE(errorOf([&] { Hdf5File(PETSC_COMM_WORLD, file / "inside", option); }).find("-folder"),
             std::string::npos);
 }
 
 }  // namespace
-}  // namespace squeal::report
+}  // namespace squeal::fieldfile

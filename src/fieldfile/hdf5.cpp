@@ -1,4 +1,4 @@
-#include "report/hdf5.hpp"
+#include "fieldfile/hdf5.hpp"
 
 #include <gmsh.h>
 
@@ -7,18 +7,16 @@
 #include <optional>
 #include <utility>
 
+#include "fieldfile/hdf5_driver.hpp"
 #include "output/file.hpp"
 #include "petsc/arrays.hpp"
 #include "petsc/check.hpp"
 #include "petsc/hdf5.hpp"
 #include "petsc/termination.hpp"
 #include "petsc/text.hpp"
-#include "report/hdf5_driver.hpp"
 
-namespace squeal::report {
+namespace squeal::fieldfile {
 namespace {
-
-const std::string blame = "option -report_dir: ";
 
 template <class Number>
 hid_t typeOf() {
@@ -133,14 +131,15 @@ std::vector<int> elementTypes(const mesh::Mesh& mesh) {
 /// ranks if it returns false or a write has failed.
 template <class Action>
 void Hdf5File::onFirst(const Action& action) {
-  onFirstRank(comm_, blame, [&] {
+  onFirstRank(comm_, head_, [&] {
     const hdf5::Silence silence;
     const EndingWaits whole;
     require(action(), path_);
   });
 }
 
-Hdf5File::Hdf5File(MPI_Comm comm, const std::filesystem::path& path) : comm_(comm), path_(path) {
+Hdf5File::Hdf5File(MPI_Comm comm, const std::filesystem::path& path, const std::string& option)
+    : comm_(comm), path_(path), head_("option " + option + ": ") {
   onFirst([&] {
     const hdf5::PropertiesId access(keepingErrorsProperties());
     return (file_ = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access)) >= 0;
@@ -255,7 +254,7 @@ void Hdf5File::writeRows(const std::string& group, const std::string& name, int 
   const hsize_t width = columns;
   const hdf5::Silence silence;
   std::optional<Rows> rows;
-  onFirstRank(comm_, blame, [&] {
+  onFirstRank(comm_, head_, [&] {
     rows.emplace(file_, path_, group + "/" + name, typeOf<Number>(), total / width, width);
   });
   std::string failure;  // the other ranks send all the same
@@ -263,10 +262,10 @@ void Hdf5File::writeRows(const std::string& group, const std::string& name, int 
     if (failure.empty()) try {
         rows->write(piece, entries / width);
       } catch (const output::WriteError& error) {
-        failure = blame + error.what();
+        failure = head_ + error.what();
       }
   });
   failTogether(comm_, failure);
 }
 
-}  // namespace squeal::report
+}  // namespace squeal::fieldfile

@@ -1,4 +1,4 @@
-#include "report/hdf5_driver.hpp"
+#include "fieldfile/hdf5_driver.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -8,7 +8,7 @@
 #include <cstring>
 #include <iterator>
 
-namespace squeal::report {
+namespace squeal::fieldfile {
 namespace {
 
 int firstError = 0;
@@ -139,4 +139,4 @@ hid_t keepingErrorsProperties() {
 
 int keptError() { return firstError; }
 
-}  // namespace squeal::report
+}  // namespace squeal::fieldfile

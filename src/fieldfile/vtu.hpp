@@ -8,7 +8,7 @@
 
 #include "mesh/mesh.hpp"
 
-namespace squeal::report {
+namespace squeal::fieldfile {
 
 /// Values at the nodes.
 struct Field {
@@ -17,19 +17,20 @@ struct Field {
   std::vector<double> values;  ///< [local node][component], ghosts included
 };
 
-/// Collective. Writes `stem`.pvtu and the pieces `stem`/…_RANK.vtu (a folder, so that the report
-/// folder stays readable): compressed binary, coordinates in double and fields in single precision.
+/// Collective. Writes `stem`.pvtu and the pieces `stem`/…_RANK.vtu (a folder, so that the one
+/// above stays readable): compressed binary, coordinates in double and fields in single precision.
 /// Beside the fields it holds node_tag and part of the nodes, body (index) and rank of the cells.
-/// Throws Error on all ranks if a file cannot be written, naming -report_dir, for a cell type that
-/// VTK lacks, and for a field of the wrong size.
+/// Throws Error on all ranks if a file cannot be written, naming `option`, with its dash; also for
+/// a cell type that VTK lacks, and for a field of the wrong size.
 void writeVtu(const mesh::Mesh& mesh, const std::filesystem::path& stem,
-              const std::vector<Field>& pointFields);
+              const std::vector<Field>& pointFields, const std::string& option);
 
 /// Collective. Writes, on rank 0, a ParaView collection of (time, file) pairs: the frames of an
 /// animation or of a sweep. The files are named relative to the folder of `path`, so that the
-/// report folder can be moved (all paths absolute, or all relative). Throws Error on all ranks,
-/// naming -report_dir, if a file cannot be written.
+/// folder can be moved (all paths absolute, or all relative). Throws Error on all ranks, naming
+/// `option`, if a file cannot be written.
 void writePvd(MPI_Comm comm, const std::filesystem::path& path,
-              const std::vector<std::pair<double, std::filesystem::path>>& frames);
+              const std::vector<std::pair<double, std::filesystem::path>>& frames,
+              const std::string& option);
 
-}  // namespace squeal::report
+}  // namespace squeal::fieldfile

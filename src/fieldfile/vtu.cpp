@@ -1,4 +1,4 @@
-#include "report/vtu.hpp"
+#include "fieldfile/vtu.hpp"
 
 #include <vtkCellData.h>
 #include <vtkCellType.h>
@@ -21,7 +21,7 @@
 #include "petsc/termination.hpp"
 #include "petsc/text.hpp"
 
-namespace squeal::report {
+namespace squeal::fieldfile {
 namespace {
 
 namespace fs = std::filesystem;
@@ -108,11 +108,9 @@ void addCells(vtkUnstructuredGrid* grid, const mesh::Mesh& mesh, int rank) {
       filledArray<vtkIntArray>("rank", 1, std::vector<int>(bodies.size(), rank)));
 }
 
-const std::string blame = "option -report_dir: ";
-
 /// Collective. Rank 0 makes the folder; the others wait for it.
-void makeFolder(MPI_Comm comm, const fs::path& folder) {
-  onFirstRank(comm, blame, [&] {
+void makeFolder(MPI_Comm comm, const fs::path& folder, const std::string& head) {
+  onFirstRank(comm, head, [&] {
     const EndingWaits whole;
     std::error_code error;
     if (!folder.empty()) fs::create_directories(folder, error);
@@ -150,7 +148,7 @@ std::string writePiece(vtkUnstructuredGrid* grid, const fs::path& path) {
   const bool written = writer->Write() == 1 && writer->GetErrorCode() == vtkErrorCode::NoError;
   vtkObject::SetGlobalWarningDisplay(warnings);
   return written ? ""
-                 : blame + output::cannotWrite(path, 0) + ": " +
+                 : output::cannotWrite(path, 0) + ": " +
                        vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode());
 }
 
@@ -197,7 +195,9 @@ std::string summaryText(const std::vector<Field>& fields, const fs::path& folder
 
 }  // namespace
 
-void writeVtu(const mesh::Mesh& mesh, const fs::path& stem, const std::vector<Field>& pointFields) {
+void writeVtu(const mesh::Mesh& mesh, const fs::path& stem, const std::vector<Field>& pointFields,
+              const std::string& option) {
+  const std::string head = "option " + option + ": ";
   int rank = 0, size = 1;
   check(MPI_Comm_rank(mesh.comm, &rank));
   check(MPI_Comm_size(mesh.comm, &size));
@@ -215,24 +215,26 @@ void writeVtu(const mesh::Mesh& mesh, const fs::path& stem, const std::vector<Fi
   };
   // not replace_extension: a stem such as steady_0.4 has a dot that begins no extension
   const fs::path summary = stem.string() + ".pvtu";
-  makeFolder(mesh.comm, stem);
-  failTogether(mesh.comm, writePiece(grid, piece(rank)));
-  onFirstRank(mesh.comm, blame, [&] {
+  makeFolder(mesh.comm, stem, head);
+  const std::string failure = writePiece(grid, piece(rank));
+  failTogether(mesh.comm, failure.empty() ? "" : head + failure);
+  onFirstRank(mesh.comm, head, [&] {
     output::writeFile(summary, summaryText(pointFields, stem.filename(), piece, size));
   });
 }
 
 void writePvd(MPI_Comm comm, const fs::path& path,
-              const std::vector<std::pair<double, fs::path>>& frames) {
+              const std::vector<std::pair<double, fs::path>>& frames, const std::string& option) {
+  const std::string head = "option " + option + ": ";
   const fs::path folder = path.parent_path();
-  makeFolder(comm, folder);
+  makeFolder(comm, folder, head);
   std::string text =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n";
   for (const auto& [time, file] : frames)
     text += "    <DataSet timestep=\"" + shortest(time) + "\" part=\"0\" file=\"" +
             xmlText(file.lexically_proximate(folder).generic_string()) + "\"/>\n";
   text += "  </Collection>\n</VTKFile>\n";
-  onFirstRank(comm, blame, [&] { output::writeFile(path, text); });
+  onFirstRank(comm, head, [&] { output::writeFile(path, text); });
 }
 
-}  // namespace squeal::report
+}  // namespace squeal::fieldfile

@@ -10,19 +10,20 @@
 
 #include "mesh/mesh.hpp"
 
-namespace squeal::report {
+namespace squeal::fieldfile {
 
 /// An HDF5 file is open for writing until close(). All methods are collective, and throw Error on
-/// all ranks, naming -report_dir, for what cannot be written. Groups are absolute ("/modes") and
-/// made when first written to.
+/// all ranks, naming an option, for what cannot be written. Groups are absolute ("/modes") and made
+/// when first written to.
 ///
 /// Rank 0 alone writes; the others send it their parts, a piece at a time, so that it never holds
 /// more than its own part and a piece. Were each to write its part, a disc that is full for one of
 /// them would leave the others waiting inside the library.
 class Hdf5File {
  public:
-  /// Replaces the file if there is one; the folder must exist.
-  Hdf5File(MPI_Comm comm, const std::filesystem::path& path);
+  /// Replaces the file if there is one; the folder must exist. `option`, with its dash, is the one
+  /// that names the folder.
+  Hdf5File(MPI_Comm comm, const std::filesystem::path& path, const std::string& option);
   /// Closes the file if close() has not, whether or not all of it could be written.
   ~Hdf5File();
   Hdf5File(const Hdf5File&) = delete;
@@ -63,7 +64,8 @@ class Hdf5File {
 
   MPI_Comm comm_;
   std::filesystem::path path_;
-  hid_t file_ = -1;  // on rank 0; -1 on the others
+  std::string head_;  // of messages
+  hid_t file_ = -1;   // on rank 0; -1 on the others
 };
 
-}  // namespace squeal::report
+}  // namespace squeal::fieldfile

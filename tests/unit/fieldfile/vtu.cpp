@@ -13,12 +13,22 @@
 #include <set>
 #include <sstream>
 
-#include "report/vtu.hpp"
+#include "fieldfile/vtu.hpp"
 #include "support/report_files.hpp"
 #include "support/vtu.hpp"
 
-namespace squeal::report {
+namespace squeal::fieldfile {
 namespace {
+
+using report::bar;
+using report::errorOf;
+using report::Folder;
+using report::Mesh;
+using report::rankOf;
+using report::sizeOf;
+namespace fs = report::fs;
+
+const std::string option = "-folder";
 
 using mesh::Point;
 
@@ -35,7 +45,7 @@ TEST(Vtu, HoldsFieldsOfAllRanks) {
     for (int c = 0; c < 3; ++c) vector.values.push_back(fieldValue(x, c));
   }
   const fs::path stem = folder.path / "steady_0.4";  // the dot is part of the name
-  writeVtu(mesh, stem, {scalar, vector});
+  writeVtu(mesh, stem, {scalar, vector}, option);
   EXPECT_TRUE(fs::is_directory(stem));
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()),
             2);  // steady_0.4.pvtu and the folder
@@ -73,7 +83,7 @@ TEST(Vtu, KeepsFilesOfASweepApart) {
   const Mesh mesh = bar();
   for (const double friction : {0.2, 0.4})
     writeVtu(mesh, folder.path / ("steady_" + std::to_string(friction)),
-             {{"f", 1, std::vector<double>(mesh.globalNode.size(), friction)}});
+             {{"f", 1, std::vector<double>(mesh.globalNode.size(), friction)}}, option);
   for (const double friction : {0.2, 0.4}) {
     const auto grid = readVtu(folder.path / ("steady_" + std::to_string(friction) + ".pvtu"));
     ASSERT_GT(grid->GetNumberOfPoints(), 0);
@@ -154,7 +164,7 @@ TEST_P(VtuElement, NodesAndShapeAreThoseOfGmsh) {
   const int type = GetParam();
   const Folder folder;
   const Mesh mesh = curvedCells(type);
-  writeVtu(mesh, folder.path / "cells", {});
+  writeVtu(mesh, folder.path / "cells", {}, option);
   const auto grid = readVtu(folder.path / "cells.pvtu");
   const auto reference = gmshReference(type);
   ASSERT_EQ(grid->GetNumberOfCells(), mesh.totalCells);
@@ -204,7 +214,8 @@ TEST(Vtu, WritesRanksWithoutCells) {
     mesh = Mesh();
     mesh.comm = PETSC_COMM_WORLD;
   }
-  writeVtu(mesh, folder.path / "x", {{"f", 3, std::vector<double>(3 * mesh.globalNode.size(), 5)}});
+  writeVtu(mesh, folder.path / "x", {{"f", 3, std::vector<double>(3 * mesh.globalNode.size(), 5)}},
+           option);
   const auto grid = readVtu(folder.path / "x.pvtu");
   EXPECT_EQ(grid->GetNumberOfCells(), std::max(1, size - 1));
   ASSERT_EQ(grid->GetNumberOfPoints(), 27 * std::max(1, size - 1));
@@ -216,7 +227,7 @@ TEST(Vtu, RejectsFieldOfWrongSizeOnAnyRank) {
   const Mesh mesh = bar();
   const std::size_t missing = rankOf(mesh.comm) == sizeOf(mesh.comm) - 1 ? 1 : 0;
   EXPECT_THROW(writeVtu(mesh, folder.path / "x",
-                        {{"p", 1, std::vector<double>(mesh.globalNode.size() - missing)}}),
+                        {{"p", 1, std::vector<double>(mesh.globalNode.size() - missing)}}, option),
                Error);
 }
 
@@ -224,7 +235,7 @@ TEST(Vtu, RejectsCellTypeWithoutVtkCellOnAnyRank) {
   const Folder folder;
   Mesh mesh = bar();
   if (rankOf(mesh.comm) == sizeOf(mesh.comm) - 1) mesh.cells[0].type = 29;  // tet20
-  EXPECT_THROW(writeVtu(mesh, folder.path / "x", {}), Error);
+  EXPECT_THROW(writeVtu(mesh, folder.path / "x", {}, option), Error);
 }
 TEST(Vtu, NamesTheOptionWhereAFileCannotBeMade) {
   const Folder folder;
@@ -232,12 +243,13 @@ TEST(Vtu, NamesTheOptionWhereAFileCannotBeMade) {
                  inside = file / "inside";  // a file is no folder, for root as well
   if (rankOf(PETSC_COMM_WORLD) == 0) std::ofstream(file) << "x";
   MPI_Barrier(PETSC_COMM_WORLD);
-  EXPECT_NE(errorOf([&] { writeVtu(bar(), inside, {}); }).find("-report_dir"), std::string::npos);
-  EXPECT_NE(errorOf([&] { writePvd(PETSC_COMM_WORLD, inside, {}); }).find("-report_dir"),
+  EXPECT_NE(errorOf([&] { writeVtu(bar(), inside, {}, option); }).find("-folder"),
+            std::string::npos);
+  EXPECT_NE(errorOf([&] { writePvd(PETSC_COMM_WORLD, inside, {}, option); }).find("-folder"),
             std::string::npos);
   MPI_Barrier(PETSC_COMM_WORLD);
   // the folder of the pieces cannot be made where a file has its name
-  EXPECT_NE(errorOf([&] { writeVtu(bar(), file, {}); }).find("-report_dir"), std::string::npos);
+  EXPECT_NE(errorOf([&] { writeVtu(bar(), file, {}, option); }).find("-folder"), std::string::npos);
 }
 
 TEST(Vtu, AllRanksLearnOfAPieceThatOneCannotWrite) {
@@ -247,15 +259,15 @@ TEST(Vtu, AllRanksLearnOfAPieceThatOneCannotWrite) {
   if (rankOf(PETSC_COMM_WORLD) == 0)
     fs::create_directories(piece);  // a folder in the place of the file
   MPI_Barrier(PETSC_COMM_WORLD);
-  const auto message = errorOf([&] { writeVtu(bar(), folder.path / "x", {}); });
-  EXPECT_NE(message.find("-report_dir"), std::string::npos);
+  const auto message = errorOf([&] { writeVtu(bar(), folder.path / "x", {}, option); });
+  EXPECT_NE(message.find("-folder"), std::string::npos);
   EXPECT_NE(message.find(piece.string()), std::string::npos) << message;
 }
 
 TEST(Pvd, ListsFramesRelativeToItsFolder) {
   const Folder folder;
   writePvd(PETSC_COMM_WORLD, folder.path / "mode.pvd",
-           {{0, folder.path / "mode" / "0.pvtu"}, {0.1, folder.path / "a&b.pvtu"}});
+           {{0, folder.path / "mode" / "0.pvtu"}, {0.1, folder.path / "a&b.pvtu"}}, option);
   std::ostringstream text;
   text << std::ifstream(folder.path / "mode.pvd").rdbuf();
   EXPECT_NE(text.str().find("timestep=\"0\" part=\"0\" file=\"mode/0.pvtu\""), std::string::npos)
@@ -265,4 +277,4 @@ TEST(Pvd, ListsFramesRelativeToItsFolder) {
 }
 
 }  // namespace
-}  // namespace squeal::report
+}  // namespace squeal::fieldfile

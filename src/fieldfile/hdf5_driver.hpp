@@ -2,7 +2,7 @@
 /// HDF5 writes to the disc with this driver.
 #include <hdf5.h>
 
-namespace squeal::report {
+namespace squeal::fieldfile {
 
 /// Not collective. Returns properties for H5Fcreate that choose this driver, to be closed with
 /// H5Pclose; negative if it cannot be chosen.
@@ -15,4 +15,4 @@ hid_t keepingErrorsProperties();
 /// to open, write, truncate or close it; 0 if none has.
 int keptError();
 
-}  // namespace squeal::report
+}  // namespace squeal::fieldfile
