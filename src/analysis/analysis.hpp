@@ -8,7 +8,7 @@
 #include "elasticity/elasticity.hpp"
 #include "mesh/mesh.hpp"
 #include "pencil/complex_modes.hpp"
-#include "steady/contact_path.hpp"
+#include "condensed/contact_path.hpp"
 #include "steady/steady.hpp"
 #include "sweep/parameters.hpp"
 #include "sweep/sweep.hpp"
@@ -34,7 +34,7 @@ struct Analysis {
   std::vector<steady::Solution> steady;  ///< [steady point of the sweep]
   /// Where on the way between them contact nodes of this rank open and close, in order; and the
   /// number of such events on all ranks.
-  std::vector<steady::ContactEvent> contactPath;
+  std::vector<condensed::ContactEvent> contactPath;
   int contactEvents = 0;
   std::vector<SpeedUniqueness> uniqueness;  ///< one entry for all speeds where they share it; empty
                                             ///< unless -steady_uniqueness

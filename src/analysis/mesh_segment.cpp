@@ -152,7 +152,7 @@ void MeshSegment::findSets() {
 /// on its line begins. If that is not known, it begins at the next point.
 std::vector<PathPiece> MeshSegment::piecesBehind(std::size_t point) {
   const sweep::Parameters &here = points_[point], &next = points_[point + 1];
-  std::vector<steady::ContactEvent> events;
+  std::vector<condensed::ContactEvent> events;
   for (const auto& event : analysis_.contactPath)
     if (event.at.speed == here.speed && event.at.pressure == here.pressure &&
         event.at.friction >= here.friction && event.at.friction <= next.friction)

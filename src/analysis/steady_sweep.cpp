@@ -9,8 +9,8 @@
 #include "petsc/finite.hpp"
 #include "petsc/text.hpp"
 #include "session/stages.hpp"
-#include "steady/condensed_problem.hpp"
-#include "steady/contact_path.hpp"
+#include "condensed/condensed_problem.hpp"
+#include "condensed/contact_path.hpp"
 
 namespace squeal::analysis {
 namespace {
@@ -57,30 +57,45 @@ PetscInt countDifferent(MPI_Comm comm, const steady::Solution& a, const steady::
   return count;
 }
 
-/// Collective. Adds the events on the way from the state at a neighbouring point to the last one,
-/// or says in `solution` where the way to it ends.
-void followPath(Analysis& analysis, steady::CondensedProblem& condensed,
-                const steady::Solution& from, steady::Solution& solution) {
+std::string endText(const condensed::ContactPath& path) {
+  constexpr int digits = 9;  // it is solved for to 1e-8
+  return sweep::parameterText(path.end, digits) + ": " + path.obstacle;
+}
+
+/// Collective. Follows the contact from the state at another point to one where no solution has
+/// been found, and tries again from where that leads; if it does not lead there, says why and where
+/// it ends.
+void continueTo(condensed::CondensedProblem& condensed, const steady::Solution& from,
+                steady::Solution& solution) {
+  auto path = condensed::followContact(condensed, from, solution.at);
+  const std::string way = "followed from " + sweep::parameterText(from.at);
+  if (!path.obstacle.empty()) {
+    solution.existsTo = path.end;
+    solution.reason += "; " + way + " up to " + endText(path);
+    return;
+  }
+  const std::string before = solution.reason;
+  condensed.beginWith(std::move(path.gaps), std::move(path.sticking));
+  solution = condensed.solve(solution.at);
+  solution.reason += solution.converged ? ", " + way + " after " + before : "; " + before;
+}
+
+/// Collective. Adds the events on the way between the states at neighbouring points.
+void followPath(Analysis& analysis, condensed::CondensedProblem& condensed,
+                const steady::Solution& from, const steady::Solution& solution) {
   const MPI_Comm comm = analysis.mesh->comm;
   const std::string between = "contact between " + sweep::parameterText(from.at) + " and " +
                               sweep::parameterText(solution.at) + ": ";
   const int limit = pathOption.get();
-  if (!from.converged || limit == 0) return;
-  if (const PetscInt changes = solution.converged ? countDifferent(comm, from, solution) : 0;
-      changes > limit)
+  if (!from.converged || !solution.converged || limit == 0) return;
+  if (const PetscInt changes = countDifferent(comm, from, solution); changes > limit)
     return say(comm,
                between + formatted("%" PetscInt_FMT " nodes change; -steady_path %" PetscInt_FMT
                                    " finds where",
                                    changes, changes));
   Stage stage(comm, "steady");
-  auto path = steady::followContact(condensed, from, solution.at);
-  if (!path.obstacle.empty()) {
-    const std::string end = sweep::parameterText(path.end) + ": " + path.obstacle;
-    if (solution.converged)
-      complain(comm, between + "followed up to " + end);
-    else
-      solution.reason += "; followed from " + sweep::parameterText(from.at) + " up to " + end;
-  }
+  auto path = condensed::followContact(condensed, from, solution.at);
+  if (!path.obstacle.empty()) complain(comm, between + "followed up to " + endText(path));
   for (auto& event : path.events) {
     event.order += analysis.contactEvents;
     analysis.contactPath.push_back(event);
@@ -128,8 +143,8 @@ void steadySweep(Analysis& analysis, CurrentSystem& system) {
   std::vector<ActiveSet> active;
   std::vector<steady::Solution>& solutions = analysis.steady;
   const bool condensable =
-      !fullOption.get() && steady::CondensedProblem::serves(analysis.contact, analysis.bodies);
-  std::optional<steady::CondensedProblem> condensed;
+      !fullOption.get() && condensed::CondensedProblem::serves(analysis.contact, analysis.bodies);
+  std::optional<condensed::CondensedProblem> condensed;
   for (const auto& at : analysis.sweep.steadyPoints()) {
     const auto neighbour = analysis.sweep.earlierNeighbour(solutions.size());
     active.push_back(neighbour ? active[*neighbour] : bonded);
@@ -139,6 +154,15 @@ void steadySweep(Analysis& analysis, CurrentSystem& system) {
     if (condensable && !condensed) condensed.emplace(problem, current);
     solutions.push_back(condensed ? condensed->solve(at) : problem.solve(at, current));
     auto& solution = solutions.back();
+    if (condensed && !solution.converged) {
+      auto known = neighbour;
+      while (known && !solutions[*known].converged) known = analysis.sweep.earlierNeighbour(*known);
+      if (known)
+        continueTo(*condensed, solutions[*known], solution);
+      else if (at.friction > 0)
+        if (const auto without = condensed->solve({0, at.speed, at.pressure}); without.converged)
+          continueTo(*condensed, without, solution);
+    }
     stage.finish(formatted("%s: %s after %d iterations, %" PetscInt_FMT " of %" PetscInt_FMT
                            " nodes open, smallest pressure %.4g, residual %.0e, imbalance %.0e",
                            sweep::parameterText(at).c_str(), solution.reason.c_str(),

@@ -120,6 +120,11 @@ void ContactSolver::learn(const std::vector<unsigned char>& free) {
   columns_.append(impedance_.responses(units));
 }
 
+double ContactSolver::gapStiffness(std::size_t node) const {
+  const auto place = place_.find(first_ + node);
+  return place == place_.end() ? 0 : columns_(impedance_.nodes() + node, place->second);
+}
+
 ContactSolver::FreeBlock& ContactSolver::blockOf(const ContactConditions& conditions) {
   const MPI_Comm comm = impedance_.comm();
   const auto& free = conditions.free;

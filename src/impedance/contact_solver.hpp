@@ -43,6 +43,9 @@ class ContactSolver {
   /// Collective. The same with all gaps given, [contact node], whatever `free` says of them.
   ContactSolution withGaps(const std::vector<double>& gaps, ContactConditions conditions,
                            const ContactVector& given);
+  /// Returns the force on the gap of a contact node of this rank that opening it by a unit takes,
+  /// N/m, while all others are closed; 0 if it has never been open.
+  double gapStiffness(std::size_t node) const;
 
  private:
   struct FreeBlock;

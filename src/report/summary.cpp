@@ -20,11 +20,18 @@ using Json = nlohmann::ordered_json;
 
 Json point3(const mesh::Point& p) { return Json::array({p[0], p[1], p[2]}); }
 
+Json parametersEntry(const sweep::Parameters& at) {
+  Json entry;
+  for (const auto& parameter : sweep::allParameters) entry[parameter.name] = at.*parameter.value;
+  return entry;
+}
+
 Json steadyEntry(const steady::Solution& solution) {
   Json entry;
   entry["snes_reason"] = solution.reason;
   entry["converged"] = solution.converged;
   entry["iterations"] = solution.iterations;
+  if (solution.existsTo) entry["exists_up_to"] = parametersEntry(*solution.existsTo);
   if (!solution.converged) return entry;  // where SNES stopped means nothing
   entry["open_nodes"] = solution.openNodes;
   entry["smallest_pressure_pa"] = solution.smallestPressure;
@@ -130,12 +137,6 @@ Json followedEntry(const stability::Followed& followed) {
   entry["critical_frictions"] = Json::array();
   for (const auto& critical : followed.criticals)
     entry["critical_frictions"].push_back(critical.friction);
-  return entry;
-}
-
-Json parametersEntry(const sweep::Parameters& at) {
-  Json entry;
-  for (const auto& parameter : sweep::allParameters) entry[parameter.name] = at.*parameter.value;
   return entry;
 }
 

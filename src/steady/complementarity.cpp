@@ -109,7 +109,7 @@ OwnedSNES newSnes(MPI_Comm comm, double asked) {
   return snes;
 }
 
-void solveSnes(SNES snes, Vec x, Solution& solution) {
+bool solveSnes(SNES snes, Vec x, Solution& solution) {
   {
     // Even a tiny gap is open. The default, 1e-8 of the largest displacement, is too large where a
     // body moves far as a whole.
@@ -128,6 +128,7 @@ void solveSnes(SNES snes, Vec x, Solution& solution) {
   check(SNESGetTolerances(snes, &solution.tolerance, nullptr, nullptr, nullptr, nullptr));
   solution.reason = SNESConvergedReasons[reason];
   solution.iterations += iterations;
+  return reason > 0;
 }
 
 void accept(Solution& solution, double left, const Accuracy& accuracy) {

@@ -24,8 +24,9 @@ double naturalResidual(const Problem& problem, const sweep::Parameters& at, Vec 
 /// about 1. Its function, Jacobian and KSP are still to be set, then startSnes() to be called.
 OwnedSNES newSnes(MPI_Comm comm, double asked);
 /// Collective. Applies the options and solves from x, which becomes the solution. Sets reason and
-/// tolerance of `solution` and adds to its iterations.
-void solveSnes(SNES snes, Vec x, Solution& solution);
+/// tolerance of `solution` and adds to its iterations. Returns true if SNES says that it has
+/// converged.
+bool solveSnes(SNES snes, Vec x, Solution& solution);
 /// Sets residual and convergence of `solution` from the 2-norm of its natural residual, N. SNES
 /// also stops where steps no longer change anything; only the residual decides on success.
 void accept(Solution& solution, double left, const Accuracy& accuracy);

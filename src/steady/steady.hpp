@@ -44,7 +44,10 @@ struct Resultant {
 struct Solution {
   sweep::Parameters at;
   bool converged = false;
-  std::string reason;    ///< SNES converged reason, or why there is no solution
+  std::string reason;  ///< SNES converged reason, or why there is no solution
+  /// Without a solution: the point up to which one exists, on the way from a neighbour that has
+  /// one.
+  std::optional<sweep::Parameters> existsTo;
   double tolerance = 0;  ///< that SNES was asked for, relative
   int iterations = 0;    ///< Newton steps of SNES; 0 where it is not called
   /// Relative residual: its 2-norm divided by that without displacements [M.15].

@@ -24,11 +24,11 @@ std::string parameterValues(const Parameters& at) {
   return joined(values, ",");
 }
 
-std::string parameterText(const Parameters& at) {
-  std::string text = formatted("friction %g", at.friction);
+std::string parameterText(const Parameters& at, int digits) {
+  std::string text = formatted("friction %.*g", digits, at.friction);
   for (const auto& parameter : allParameters)
     if (parameter.value != &Parameters::friction && at.*parameter.value != 1)
-      text += formatted(", %s %g", parameter.name, at.*parameter.value);
+      text += formatted(", %s %.*g", parameter.name, digits, at.*parameter.value);
   return text;
 }
 

@@ -36,6 +36,6 @@ std::string parameterColumns();
 /// Returns the values of one row of that table.
 std::string parameterValues(const Parameters& at);
 /// Returns a text for messages such as "friction 0.4, speed 2"; factors of 1 are left out.
-std::string parameterText(const Parameters& at);
+std::string parameterText(const Parameters& at, int digits = 6);
 
 }  // namespace squeal::sweep

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "contact/coupled.hpp"
-#include "steady/condensed_problem.hpp"
+#include "condensed/condensed_problem.hpp"
 #include "steady/steady.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
@@ -62,7 +62,7 @@ Found solve(const std::string& options, double share, bool isSphere) {
   const contact::CoupledSystem system(model.bodies, model.contact,
                                       std::vector<unsigned char>(model.contact.nodes.size(), 1));
   const steady::Problem problem(*model.mesh, model.bodies, model.contact);
-  const auto solution = steady::CondensedProblem(problem, system).solve({});
+  const auto solution = condensed::CondensedProblem(problem, system).solve({});
   EXPECT_TRUE(solution.converged) << solution.reason;
   EXPECT_GT(solution.openNodes, 0);
   Found found;

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "contact/coupled.hpp"
-#include "steady/condensed_problem.hpp"
+#include "condensed/condensed_problem.hpp"
 #include "steady/steady.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
@@ -77,7 +77,7 @@ Answer solve(const Block& block, bool slabs, const std::string& cells) {
   const contact::CoupledSystem system(model.bodies, model.contact,
                                       std::vector<unsigned char>(model.contact.nodes.size(), 1));
   const steady::Problem problem(*model.mesh, model.bodies, model.contact);
-  const auto solution = steady::CondensedProblem(problem, system).solve({.friction = friction});
+  const auto solution = condensed::CondensedProblem(problem, system).solve({.friction = friction});
   EXPECT_TRUE(solution.converged) << solution.reason;
   EXPECT_LT(solution.imbalance, 1e-8);
   double area = 0, open = 0, force = 0, moment = 0, dragged = 0, tension = 0, overlap = 0;

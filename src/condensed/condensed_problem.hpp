@@ -8,7 +8,11 @@
 #include "impedance/impedance.hpp"
 #include "steady/steady.hpp"
 
-namespace squeal::steady {
+namespace squeal::condensed {
+
+using steady::Problem;
+using steady::Solution;
+using steady::Sticking;
 
 /// The complementarity problem in the gaps alone,
 ///   0 ≤ g ⟂ F(g) ≥ 0,
@@ -31,6 +35,16 @@ class CondensedProblem {
   impedance::ContactSolution onSet(const sweep::Parameters& at,
                                    const std::vector<unsigned char>& closed,
                                    const Sticking& sticking);
+  /// Lets the next solve() begin with these gaps, [contact node] coefficient of the gap, m, and
+  /// holds.
+  void beginWith(std::vector<double> gaps, Sticking sticking) {
+    gaps_ = std::move(gaps);
+    sticking_ = std::move(sticking);
+  }
+  const contact::Contact& contact() const { return contact_; }
+  /// Returns the force that opens the gap of a contact node of this rank by a unit, N/m; 0 if it
+  /// has never been open.
+  double gapStiffness(std::size_t node) const { return solver_->gapStiffness(node); }
   MPI_Comm comm() const { return impedance_->comm(); }
   /// Returns the number of right-hand sides solved for so far.
   long solves() const { return impedance_->solves(); }
@@ -61,4 +75,4 @@ class CondensedProblem {
   std::vector<Loaded> loads_;
 };
 
-}  // namespace squeal::steady
+}  // namespace squeal::condensed

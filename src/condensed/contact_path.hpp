@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "steady/condensed_problem.hpp"
+#include "condensed/condensed_problem.hpp"
 
-namespace squeal::steady {
+namespace squeal::condensed {
 
 /// A contact node that opens or closes where the parameters vary along a line.
 struct ContactEvent {
@@ -21,13 +21,18 @@ struct ContactPath {
   /// Why the path does not lead to the last point; empty if it does.
   std::string obstacle;
   sweep::Parameters end;  ///< point up to which it has been followed
+  /// The state there, if it is the last point.
+  std::vector<double> gaps;  ///< [contact node] coefficient h of g = E h, m
+  Sticking sticking;
 };
 
 /// Collective. Follows the steady state from a solution along the line to `to`, where the friction,
 /// the pressure or the speed differ. On each active set the state is a smooth function of them, and
-/// the next change is its first zero of a normal force or gap, solved for to 1e-8 of the line. Two
-/// zeros of one node between the ends of what is followed at once are not seen.
+/// the next change is its first zero of a normal force or gap, solved for to 1e-8 of the line. The
+/// path ends where the equations of an active set are singular, a pole of forces and gaps, and
+/// where no active set holds behind a change. Two zeros of one node between the ends of what is
+/// followed at once are not seen.
 ContactPath followContact(CondensedProblem& problem, const Solution& from,
                           const sweep::Parameters& to);
 
-}  // namespace squeal::steady
+}  // namespace squeal::condensed

@@ -1,17 +1,22 @@
-#include "steady/condensed_problem.hpp"
+#include "condensed/condensed_problem.hpp"
 
 #include <petscsnes.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "interfaces/algebra.hpp"
 #include "petsc/arrays.hpp"
+#include "petsc/text.hpp"
 #include "steady/complementarity.hpp"
 
-namespace squeal::steady {
+namespace squeal::condensed {
 
 using impedance::ContactConditions;
 using impedance::ContactVector;
+using steady::accuracyNear;
+using steady::Hold;
+using steady::naturalResidual;
 
 namespace {
 
@@ -36,7 +41,29 @@ struct GapProblem {
   MPI_Comm comm;
   PetscInt first;  // number of the first contact node of this rank
   std::size_t nodes;
+  std::vector<unsigned char> before = {};  // `free` of the Newton step before the last
 };
+
+/// Collective. Says which nodes the last two Newton steps disagree about; empty if about none.
+std::string alternating(const GapProblem& problem, const contact::Contact& contact) {
+  int count = 0, rank = 0;
+  std::size_t one = 0;
+  for (std::size_t i = 0; i < problem.nodes && !problem.before.empty(); ++i)
+    if (problem.before[i] != problem.conditions.free[i] && count++ == 0) one = i;
+  check(MPI_Comm_rank(problem.comm, &rank));
+  struct {
+    int count, rank;
+  } most{count, rank};
+  check(MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_2INT, MPI_MAXLOC, problem.comm));
+  check(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPI_INT, MPI_SUM, problem.comm));
+  if (count == 0) return "";
+  mesh::Point position{};
+  if (rank == most.rank) position = contact.nodes[one].position;
+  check(MPI_Bcast(position.data(), 3, MPI_DOUBLE, most.rank, problem.comm));
+  return formatted("%d %s in turn, such as that at %s", count,
+                   count == 1 ? "contact node opens and closes" : "contact nodes open and close",
+                   interfaces::text(position).c_str());
+}
 
 /// Sets F(g) in units, with the friction in balance.
 void forces(GapProblem& problem, const ContactVector& given, Vec gaps, Vec f) {
@@ -80,6 +107,7 @@ PetscErrorCode openPart(Mat jacobian, IS rows, IS, MatReuse, Mat* part) {
   PetscCall(MatShellGetContext(jacobian, &problem));
   PetscCall(ISGetLocalSize(rows, &count));
   PetscCall(ISGetIndices(rows, &indices));
+  problem->before = problem->conditions.free;
   std::fill_n(problem->conditions.free.begin(), problem->nodes, 0);
   for (PetscInt i = 0; i < count; ++i) problem->conditions.free[indices[i] - problem->first] = 1;
   PetscCall(ISRestoreIndices(rows, &indices));
@@ -123,7 +151,7 @@ struct CondensedProblem::Loaded {
 /// SNES is asked for the gaps under these conditions, in these units, to this accuracy.
 struct CondensedProblem::Asked {
   ContactConditions conditions;  // closed gaps
-  Accuracy accuracy;
+  steady::Accuracy accuracy;
   double gapUnit;
 };
 
@@ -196,7 +224,8 @@ CondensedProblem::Loaded CondensedProblem::loaded(const sweep::Parameters& at) {
 ContactConditions CondensedProblem::conditions(const sweep::Parameters& at,
                                                const Sticking& sticking) const {
   ContactConditions result;
-  for (const auto& slip : withReleased(contact_, contact_.slip(at.speed, nullptr), sticking))
+  for (const auto& slip :
+       steady::withReleased(contact_, contact_.slip(at.speed, nullptr), sticking))
     result.coefficient.push_back(slip.friction(at.friction));
   const auto& nodeOf = impedance_->nodeOf();
   result.free.assign(nodeOf.size(), 0);
@@ -255,7 +284,7 @@ ContactVector CondensedProblem::complementarity(const Asked& asked, const Contac
     for (PetscInt i = 0; i < n; ++i) start[i] = gaps_[i] / asked.gapUnit;
   }
   check(VecSet(high, PETSC_INFINITY));
-  const OwnedSNES snes = newSnes(comm(), asked.accuracy.asked);
+  const steady::OwnedSNES snes = steady::newSnes(comm(), asked.accuracy.asked);
   check(SNESSetFunction(snes, f, evaluate, &problem));
   check(SNESSetJacobian(snes, jacobian, jacobian, differentiate, nullptr));
   check(SNESVISetVariableBounds(snes, low, high));
@@ -267,7 +296,9 @@ ContactVector CondensedProblem::complementarity(const Asked& asked, const Contac
   check(PCSetType(pc, PCSHELL));
   check(PCShellSetContext(pc, &problem));
   check(PCShellSetApply(pc, solvePart));
-  solveSnes(snes, x, solution);
+  if (!steady::solveSnes(snes, x, solution))
+    if (const std::string who = alternating(problem, contact_); !who.empty())
+      solution.reason += ": " + who;
   {
     const ReadArray values(x);
     for (PetscInt i = 0; i < n; ++i) gaps_[i] = asked.gapUnit * values[i];
@@ -343,10 +374,10 @@ Solution CondensedProblem::solveWith(const sweep::Parameters& at, const Sticking
     check(VecCopy(corrected, x));
     causes = std::move(better);
   }
-  accept(solution, left, asked.accuracy);
+  steady::accept(solution, left, asked.accuracy);
   if (solution.reason.empty()) solution.reason = "LINEAR";
   held.conclude(restricted(x), left, solution);
   return solution;
 }
 
-}  // namespace squeal::steady
+}  // namespace squeal::condensed

@@ -1,21 +1,50 @@
-#include "steady/contact_path.hpp"
+#include "condensed/contact_path.hpp"
 
 #include <algorithm>
+#include <array>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
+#include <optional>
 
+#include "interfaces/algebra.hpp"
 #include "petsc/text.hpp"
 
-namespace squeal::steady {
+namespace squeal::condensed {
 namespace {
 
-/// A force below minus this part of the largest one pulls, and a gap overlaps likewise; what lies
-/// between is rounding.
+/// A force below minus this part of the largest one pulls, and a gap overlaps likewise with the
+/// force that would open it so far; what lies between is rounding.
 constexpr double rounding = 1e-9;
 /// The length of the line behind an event where the new active set must hold.
 constexpr double behind = 1e-7;
 /// The largest number of nodes that may change together, beyond which SNES finds the new set.
 constexpr int mostTogether = 8;
+
+/// Where a force or a gap changes its sign.
+struct SignChange {
+  double at;                   ///< if it does so through infinity, a place shortly below
+  std::optional<double> pole;  ///< where it is infinite
+};
+
+/// Returns the pole of a function through four places near it: that of y = 0 on the polynomial
+/// through the places as a function of the reciprocals y.
+double poleNear(const std::array<double, 4>& places, const std::array<double, 4>& reciprocals) {
+  double sum = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    double term = places[i];
+    for (std::size_t j = 0; j < places.size(); ++j)
+      if (j != i) term *= reciprocals[j] / (reciprocals[j] - reciprocals[i]);
+    sum += term;
+  }
+  return sum;
+}
+
+/// What a message says of a contact node.
+struct PlaceName {
+  mesh::Point position;
+  int interface;
+  bool isClosed;
+};
 
 /// The contact node where a condition is violated most, of all ranks.
 struct Place {
@@ -29,12 +58,9 @@ class Follower {
   Follower(CondensedProblem& problem, const Solution& from, const sweep::Parameters& to)
       : problem_(problem), from_(from.at), to_(to), closed_(from.closed), sticking_(from.sticking) {
     check(MPI_Comm_rank(comm(), &rank_));
-    for (const auto& state : from.contact) {
-      forceUnit_ = std::max(forceUnit_, state.normalForce);
-      gapUnit_ = std::max(gapUnit_, state.coefficient);
-    }
-    for (double* unit : {&forceUnit_, &gapUnit_})
-      check(MPI_Allreduce(MPI_IN_PLACE, unit, 1, MPI_DOUBLE, MPI_MAX, comm()));
+    for (const auto& state : from.contact) forceUnit_ = std::max(forceUnit_, state.normalForce);
+    check(MPI_Allreduce(MPI_IN_PLACE, &forceUnit_, 1, MPI_DOUBLE, MPI_MAX, comm()));
+    if (forceUnit_ == 0) forceUnit_ = 1;  // nothing touches
   }
 
   ContactPath follow() {
@@ -47,22 +73,37 @@ class Follower {
       double event = 1;
       // This is the first one of the nodes that violate a condition ahead.
       Place first;
+      std::optional<double> pole;
       while (worst.margin < -rounding && event > s) {
         first = worst;
-        event = zero(first, s, event);
+        const SignChange found = signChange(first, s, event);
+        event = found.at, pole = found.pole;
         worst = worstAt(event, &first);
       }
+      if (pole) {
+        path.obstacle =
+            "the equations of its active set are singular there: forces and gaps grow "
+            "beyond all bounds";
+        path.end = at(*pole);
+        break;
+      }
       if (!(event > s) && path.count > 0 && last_.rank == first.rank && last_.node == first.node) {
-        path.obstacle = "the node that changes there would change back at once";
+        path.obstacle = turningPoint(first);
         path.end = at(s);
         break;
       }
       if (!change(first, event, path)) {
-        path.obstacle = "no active set holds behind it";
+        path.obstacle = turningPoint(first);
         path.end = at(event);
         break;
       }
       s = event;
+    }
+    if (path.obstacle.empty()) {
+      const auto state = problem_.onSet(to_, closed_, sticking_);
+      for (std::size_t i = 0; i < closed_.size(); ++i)
+        path.gaps.push_back(closed_[i] ? 0 : std::max(0.0, state.causes[closed_.size() + i]));
+      path.sticking = sticking_;
     }
     return path;
   }
@@ -81,14 +122,10 @@ class Follower {
     const auto state = problem_.onSet(at(s), closed_, sticking_);
     margins_.clear();
     const std::size_t n = closed_.size();
-    double widest = gapUnit_;
     for (std::size_t i = 0; i < n; ++i)
-      if (!closed_[i]) widest = std::max(widest, std::abs(state.causes[n + i]));
-    check(MPI_Allreduce(MPI_IN_PLACE, &widest, 1, MPI_DOUBLE, MPI_MAX, comm()));
-    for (std::size_t i = 0; i < n; ++i)
-      margins_.push_back(closed_[i]   ? state.effects[n + i] / forceUnit_
-                         : widest > 0 ? state.causes[n + i] / widest
-                                      : 0);
+      margins_.push_back(
+          (closed_[i] ? state.effects[n + i] : problem_.gapStiffness(i) * state.causes[n + i]) /
+          forceUnit_);
     return margins_;
   }
   /// Returns the worst place, `but` for one.
@@ -113,22 +150,48 @@ class Follower {
     check(MPI_Bcast(&value, 1, MPI_DOUBLE, place.rank, comm()));
     return value;
   }
-  /// Returns where the force or the gap of a node vanishes, between `low` and `high`, where it is
-  /// negative.
-  double zero(const Place& place, double low, double high) {
-    const double atLow = marginOf(place, low), atHigh = marginOf(place, high);
-    if (!(atLow > 0)) return low;
-    if (!(atHigh < 0)) return high;
+  /// Collective. Says that a solution cannot be continued where this node changes.
+  std::string turningPoint(const Place& place) const {
+    PlaceName name{};
+    if (rank_ == place.rank) {
+      const auto& node = problem_.contact().nodes[place.node];
+      name = {node.position, node.interface, closed_[place.node] != 0};
+    }
+    check(MPI_Bcast(&name, sizeof name, MPI_BYTE, place.rank, comm()));
+    return formatted(
+        "the contact node at %s of interface '%s' %s there, and behind that no active set holds",
+        interfaces::text(name.position).c_str(),
+        problem_.contact().interfaces[name.interface].c_str(), name.isClosed ? "opens" : "closes");
+  }
+  /// Returns where the force or the gap of a node changes its sign, between `low` and `high`, where
+  /// it is negative.
+  SignChange signChange(const Place& place, double low, double high) {
+    const double atHigh = marginOf(place, high);
+    double from = low, atLow = marginOf(place, low);
+    if (!(atLow > 0)) {  // rounding, where the node has changed right there
+      from = std::min(low + behind, high);
+      atLow = marginOf(place, from);
+    }
+    if (!(atLow > 0)) return {low, {}};
+    if (!(atHigh < 0)) return {high, {}};
     std::uintmax_t steps = 100;
     const auto [a, b] = boost::math::tools::toms748_solve(
-        [&](double s) { return marginOf(place, s); }, low, high, atLow, atHigh,
+        [&](double s) { return marginOf(place, s); }, from, high, atLow, atHigh,
         [](double x, double y) { return std::abs(x - y) <= 1e-11; }, steps);
-    return (a + b) / 2;
+    const double found = (a + b) / 2, near = 1e-3 * std::min(found - from, high - found);
+    // Towards a zero a function becomes small, towards a pole large. In the singular equations
+    // right at a pole rounding decides, hence the distance.
+    if (!(marginOf(place, found - near) > std::max(atLow, -atHigh))) return {found, {}};
+    const std::array places{found - 2 * near, found - near, found + near, found + 2 * near};
+    std::array<double, 4> reciprocals;
+    for (std::size_t i = 0; i < places.size(); ++i) reciprocals[i] = 1 / marginOf(place, places[i]);
+    return {found - near, poleNear(places, reciprocals)};
   }
   /// Opens or closes a node, and what changes together with it. Returns false if no active set
   /// holds behind the event.
   bool change(Place place, double s, ContactPath& path) {
     const auto before = closed_;
+    const Sticking heldBefore = sticking_;
     const double next = std::min(1.0, s + behind);
     last_ = place;
     for (int together = 0; together < mostTogether; ++together) {
@@ -137,7 +200,10 @@ class Follower {
       if (place.margin >= -rounding) return record(before, s, path);
     }
     const Solution found = problem_.solve(at(next));
-    if (!found.converged) return false;
+    if (!found.converged) {
+      closed_ = before, sticking_ = heldBefore;
+      return false;
+    }
     closed_ = found.closed, sticking_ = found.sticking;
     return record(before, s, path);
   }
@@ -158,7 +224,7 @@ class Follower {
   std::vector<unsigned char> closed_;
   Sticking sticking_;
   std::vector<double> margins_;
-  double forceUnit_ = 0, gapUnit_ = 0;
+  double forceUnit_ = 0;
   int rank_ = 0;
   Place last_;
 };
@@ -170,4 +236,4 @@ ContactPath followContact(CondensedProblem& problem, const Solution& from,
   return Follower(problem, from, to).follow();
 }
 
-}  // namespace squeal::steady
+}  // namespace squeal::condensed

@@ -1,6 +1,6 @@
 // Steady sliding in the unknowns of the contact against the same in all unknowns, and what a sweep
 // of it costs.
-#include "steady/condensed_problem.hpp"
+#include "condensed/condensed_problem.hpp"
 
 #include <gtest/gtest.h>
 
@@ -39,11 +39,11 @@ Largest compare(const std::string& name, const std::string& options,
                 const std::vector<sweep::Parameters>& points) {
   setOptions(options);
   const auto model = buildModel();
-  EXPECT_TRUE(steady::CondensedProblem::serves(model.contact, model.bodies));
+  EXPECT_TRUE(condensed::CondensedProblem::serves(model.contact, model.bodies));
   const contact::CoupledSystem closed(model.bodies, model.contact,
                                       std::vector<unsigned char>(model.contact.nodes.size(), 1));
   const steady::Problem problem(*model.mesh, model.bodies, model.contact);
-  steady::CondensedProblem condensed(problem, closed);
+  condensed::CondensedProblem condensed(problem, closed);
   Largest all;
   for (const auto& at : points) {
     const auto full = problem.solve(at, closed), small = condensed.solve(at);
