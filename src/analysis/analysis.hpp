@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "analysis/segment.hpp"
+#include "condensed/contact_path.hpp"
 #include "elasticity/elasticity.hpp"
 #include "mesh/mesh.hpp"
 #include "pencil/complex_modes.hpp"
-#include "condensed/contact_path.hpp"
 #include "steady/steady.hpp"
 #include "sweep/parameters.hpp"
 #include "sweep/sweep.hpp"

@@ -3,14 +3,14 @@
 #include <cmath>
 #include <optional>
 
+#include "condensed/condensed_problem.hpp"
+#include "condensed/contact_path.hpp"
 #include "interfaces/algebra.hpp"
 #include "interfaces/interfaces.hpp"
 #include "options/options.hpp"
 #include "petsc/finite.hpp"
 #include "petsc/text.hpp"
 #include "session/stages.hpp"
-#include "condensed/condensed_problem.hpp"
-#include "condensed/contact_path.hpp"
 
 namespace squeal::analysis {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "contact/coupled.hpp"
 #include "condensed/condensed_problem.hpp"
+#include "contact/coupled.hpp"
 #include "steady/steady.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"

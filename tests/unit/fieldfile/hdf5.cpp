@@ -18,6 +18,8 @@ using report::rankOf;
 using report::sizeOf;
 using test::Reader;
 
+namespace fs = report::fs;
+
 const std::string option = "-folder";
 
 TEST(Hdf5, HoldsTheMeshInGlobalOrder) {

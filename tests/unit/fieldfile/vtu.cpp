@@ -25,6 +25,7 @@ using report::errorOf;
 using report::Folder;
 using report::Mesh;
 using report::rankOf;
+using report::readVtu;
 using report::sizeOf;
 namespace fs = report::fs;
 
