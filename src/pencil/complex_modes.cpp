@@ -40,9 +40,9 @@ double errorOf(const Eigenvalue& e) { return e.errorEstimate * std::abs(e.s); }
 /// errors together. The band must be left by more than twice the error, since nothing is known of
 /// the eigenvalues beyond.
 bool isolated(const ComplexModes& point, const Eigenvalue& e) {
-  const double error = errorOf(e);
+  const double error = errorOf(e), top = point.bandTop > 0 ? point.bandTop : INFINITY;
   if (e.s.real() != 0 && 2 * std::abs(e.s.real()) <= 2 * error) return false;
-  if (!(std::abs(e.s) + 2 * error < point.bandTop)) return false;
+  if (!(std::abs(e.s) + 2 * error < top)) return false;
   return std::ranges::all_of(point.eigenvalues, [&](const Eigenvalue& other) {
     return &other == &e || std::abs(other.s - e.s) > error + errorOf(other);
   });

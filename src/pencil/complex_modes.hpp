@@ -37,9 +37,9 @@ enum class Symmetry {
 struct Eigenvalue {
   Complex s;                 ///< growth rate + i angular frequency, 1/s
   double backwardError = 0;  ///< backward error of the full-order problem [M.33]
-  double errorEstimate = 0;  ///< estimate of the relative error |δs|/|s|; NaN: none (direct method,
-                             ///< free modes alone)
-  bool certified = false;  ///< the errors that are known are as small as asked for
+  double errorEstimate = 0;  ///< estimate of the relative error |δs|/|s|; NaN: none, as with the
+                             ///< direct method
+  bool certified = false;    ///< the errors that are known are as small as asked for
   Verdict verdict = Verdict::uncertified;
   /// It counts as unstable: by its verdict or, where it is uncertified, since Re s exceeds |s|
   /// times 1e-6 and times `-flutter_unstable_tolerance`.

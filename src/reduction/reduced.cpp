@@ -525,11 +525,10 @@ pencil::ComplexModes ReducedProblem::result(const PointState& state) const {
   point.accuracy = options_.criteria.accuracy;
   point.tolerance = options_.tolerance;
   for (std::size_t j = 0; j < state.pairs.size(); ++j) {
-    // Nothing has been solved for that would give the norm of K0⁻¹ to the free modes alone.
-    const double estimate = band_.top == 0 ? NAN : errorOf(state, j) + state.rounding[j];
+    const double estimate = errorOf(state, j) + state.rounding[j];
     point.eigenvalues.push_back(
         {state.pairs[j].s, state.backwardError[j], estimate,
-         state.backwardError[j] <= point.accuracy && !(estimate > point.tolerance)});
+         state.backwardError[j] <= point.accuracy && estimate <= point.tolerance});
   }
   pencil::judge(point, state.symmetry, options_.criteria);
   // The shapes are made by all ranks, which must agree on the verdicts.

@@ -53,16 +53,18 @@ TEST(Fields, EigenvaluesWithErrorsAndCertification) {
       const std::string group = "/flutter/friction_" + pointName(point.at);
       EXPECT_EQ(reader.text(group + "/eigenvalues", "columns"),
                 "growth_rate_1_per_s,angular_frequency_rad_per_s,backward_error,error_estimate,"
-                "certified");
+                "certified,verdict");
+      EXPECT_EQ(reader.text(group + "/eigenvalues", "verdicts"),
+                "unstable,stable,undecided,neutral,uncertified");
       const auto [values, columns] = reader.reals(group, "eigenvalues");
-      EXPECT_EQ(columns, 5);
+      EXPECT_EQ(columns, 6);
       EXPECT_GE(point.eigenvalues.size(), 10U);
-      EXPECT_EQ(values.size(), 5 * point.eigenvalues.size());
-      if (rankOf(PETSC_COMM_WORLD) > 0 || values.size() != 5 * point.eigenvalues.size())
+      EXPECT_EQ(values.size(), 6 * point.eigenvalues.size());
+      if (rankOf(PETSC_COMM_WORLD) > 0 || values.size() != 6 * point.eigenvalues.size())
         continue;  // rank 0 gave the rows
       for (std::size_t i = 0; i < point.eigenvalues.size(); ++i) {
         const auto& e = point.eigenvalues[i];
-        const double* row = &values[5 * i];
+        const double* row = &values[6 * i];
         EXPECT_EQ(row[0], e.s.real());
         EXPECT_EQ(row[1], e.s.imag());
         EXPECT_EQ(row[2], e.backwardError);
@@ -71,6 +73,7 @@ TEST(Fields, EigenvaluesWithErrorsAndCertification) {
         else
           EXPECT_EQ(row[3], e.errorEstimate);
         EXPECT_EQ(row[4], certified);
+        EXPECT_EQ(pencil::allVerdicts.at(std::size_t(row[5])), e.verdict);
       }
     }
   }
