@@ -39,7 +39,7 @@ double poleNear(const std::array<double, 4>& places, const std::array<double, 4>
   return sum;
 }
 
-/// What a message says of a contact node.
+/// A PlaceName holds what a message says of a contact node.
 struct PlaceName {
   mesh::Point position;
   int interface;
@@ -87,12 +87,9 @@ class Follower {
         path.end = at(*pole);
         break;
       }
-      if (!(event > s) && path.count > 0 && last_.rank == first.rank && last_.node == first.node) {
-        path.obstacle = turningPoint(first);
-        path.end = at(s);
-        break;
-      }
-      if (!change(first, event, path)) {
+      const bool changesBack =
+          !(event > s) && path.count > 0 && last_.rank == first.rank && last_.node == first.node;
+      if (changesBack || !change(first, event, path)) {
         path.obstacle = turningPoint(first);
         path.end = at(event);
         break;
@@ -100,9 +97,8 @@ class Follower {
       s = event;
     }
     if (path.obstacle.empty()) {
-      const auto state = problem_.onSet(to_, closed_, sticking_);
       for (std::size_t i = 0; i < closed_.size(); ++i)
-        path.gaps.push_back(closed_[i] ? 0 : std::max(0.0, state.causes[closed_.size() + i]));
+        path.gaps.push_back(closed_[i] ? 0 : std::max(0.0, state_.causes[closed_.size() + i]));
       path.sticking = sticking_;
     }
     return path;
@@ -119,12 +115,12 @@ class Follower {
   }
   /// Returns the forces at closed nodes and the gaps at open ones, relative, [contact node].
   const std::vector<double>& margins(double s) {
-    const auto state = problem_.onSet(at(s), closed_, sticking_);
+    state_ = problem_.onSet(at(s), closed_, sticking_);
     margins_.clear();
     const std::size_t n = closed_.size();
     for (std::size_t i = 0; i < n; ++i)
       margins_.push_back(
-          (closed_[i] ? state.effects[n + i] : problem_.gapStiffness(i) * state.causes[n + i]) /
+          (closed_[i] ? state_.effects[n + i] : problem_.gapStiffness(i) * state_.causes[n + i]) /
           forceUnit_);
     return margins_;
   }
@@ -223,6 +219,7 @@ class Follower {
   sweep::Parameters from_, to_;
   std::vector<unsigned char> closed_;
   Sticking sticking_;
+  impedance::ContactSolution state_;  // the last one asked for
   std::vector<double> margins_;
   double forceUnit_ = 0;
   int rank_ = 0;

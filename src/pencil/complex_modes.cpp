@@ -41,7 +41,7 @@ double errorOf(const Eigenvalue& e) { return e.errorEstimate * std::abs(e.s); }
 /// the eigenvalues beyond.
 bool isolated(const ComplexModes& point, const Eigenvalue& e) {
   const double error = errorOf(e), top = point.bandTop > 0 ? point.bandTop : INFINITY;
-  if (e.s.real() != 0 && 2 * std::abs(e.s.real()) <= 2 * error) return false;
+  if (e.s.real() != 0 && std::abs(e.s.real()) <= error) return false;
   if (!(std::abs(e.s) + 2 * error < top)) return false;
   return std::ranges::all_of(point.eigenvalues, [&](const Eigenvalue& other) {
     return &other == &e || std::abs(other.s - e.s) > error + errorOf(other);

@@ -12,7 +12,7 @@
 
 namespace squeal::pencil {
 
-/// What is certain of the growth of an eigenvalue, to within the estimate of its error [M.24].
+/// A verdict says what is certain of the growth of an eigenvalue, given its error [M.24].
 enum class Verdict {
   unstable,    ///< it grows
   stable,      ///< it decays
@@ -26,7 +26,7 @@ inline constexpr std::array allVerdicts{Verdict::unstable, Verdict::stable, Verd
 /// Returns the word of tables and texts.
 const char* text(Verdict verdict);
 
-/// What the structure of a problem says of its eigenvalues.
+/// The symmetry of a problem confines its eigenvalues.
 enum class Symmetry {
   none,
   even,         ///< real and even in s: −s is an eigenvalue with every s

@@ -22,7 +22,7 @@ const FlagOption fieldsOption("report", "report_fields", true,
 
 output::Naming naming() {
   const auto names = std::make_shared<ResultNames>(sweep::readSweep().points());
-  return {"-report_dir", "summary.json",
+  return {folderOption, "summary.json",
           [names](const std::filesystem::path& path) { return names->contains(path); },
           formerResults};
 }
@@ -32,7 +32,8 @@ output::Naming naming() {
 Directory::Directory(MPI_Comm comm) : Folder(comm, naming(), directoryOption.get()) {}
 
 void writeText(MPI_Comm comm, const std::filesystem::path& path, const std::string& text) {
-  onFirstRank(comm, "option -report_dir: ", [&] { output::writeFile(path, text); });
+  onFirstRank(comm, std::string("option ") + folderOption + ": ",
+              [&] { output::writeFile(path, text); });
 }
 
 void write(const analysis::Analysis& analysis, Directory& directory) {

@@ -10,11 +10,7 @@
 #include "support/communicator.hpp"
 #include "support/model.hpp"
 
-namespace squeal::report {
-
-using test::errorOf;
-using test::rankOf;
-using test::sizeOf;
+namespace squeal::test {
 
 namespace fs = std::filesystem;
 using mesh::Mesh;
@@ -25,7 +21,7 @@ class Folder {
   Folder() {
     int id = static_cast<int>(getpid());
     MPI_Bcast(&id, 1, MPI_INT, 0, PETSC_COMM_WORLD);
-    path = fs::temp_directory_path() / ("squeal_report_" + std::to_string(id));
+    path = fs::temp_directory_path() / ("squeal_test_" + std::to_string(id));
     if (rankOf(PETSC_COMM_WORLD) == 0) fs::create_directories(path);
     MPI_Barrier(PETSC_COMM_WORLD);
   }
@@ -80,4 +76,4 @@ inline Mesh bar() {
   return mesh;
 }
 
-}  // namespace squeal::report
+}  // namespace squeal::test

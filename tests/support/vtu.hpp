@@ -6,7 +6,7 @@
 
 #include <filesystem>
 
-namespace squeal::report {
+namespace squeal::test {
 
 /// Not collective.
 inline vtkNew<vtkUnstructuredGrid> readVtu(const std::filesystem::path& file) {
@@ -18,4 +18,4 @@ inline vtkNew<vtkUnstructuredGrid> readVtu(const std::filesystem::path& file) {
   return grid;
 }
 
-}  // namespace squeal::report
+}  // namespace squeal::test

@@ -10,15 +10,7 @@
 namespace squeal::fieldfile {
 namespace {
 
-using report::bar;
-using report::errorOf;
-using report::Folder;
-using report::Mesh;
-using report::rankOf;
-using report::sizeOf;
-using test::Reader;
-
-namespace fs = report::fs;
+using namespace test;
 
 const std::string option = "-folder";
 

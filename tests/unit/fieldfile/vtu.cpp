@@ -20,14 +20,7 @@
 namespace squeal::fieldfile {
 namespace {
 
-using report::bar;
-using report::errorOf;
-using report::Folder;
-using report::Mesh;
-using report::rankOf;
-using report::readVtu;
-using report::sizeOf;
-namespace fs = report::fs;
+using namespace test;
 
 const std::string option = "-folder";
 

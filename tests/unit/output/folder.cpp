@@ -58,7 +58,7 @@ const Files fresh{
 const Files mine{{"notes.csv", "mine"}, {"vtk/mine.vtu", "mine"}, {"own/a.csv", "mine"}};
 
 TEST(Folder, ReplacesWhatAnEarlierRunListsAndNothingElse) {
-  const report::Folder place;
+  const test::Folder place;
   const fs::path folder = place.path / "made" / "for it";
   run(folder, old);
   EXPECT_EQ(without(filesIn(folder), Manifest::name), old);
@@ -74,7 +74,7 @@ TEST(Folder, ReplacesWhatAnEarlierRunListsAndNothingElse) {
 }
 
 TEST(Folder, StaysAsItWasWithoutCommit) {
-  const report::Folder place;
+  const test::Folder place;
   const fs::path folder = place.path / "results";
   {
     Folder open(PETSC_COMM_WORLD, naming(), folder);
@@ -96,7 +96,7 @@ TEST(Folder, StaysAsItWasWithoutCommit) {
 TEST(Folder, RefusesWhatIsInTheWay) {
   for (const char* name :
        {"a.csv", "summary.txt", "vtk/x.vtu", "vtk/mine.vtu", "vtk", "manifest.txt"}) {
-    const report::Folder place;
+    const test::Folder place;
     put(place.path, {{name, "mine"}});
     EXPECT_NE(errorOf([&] { run(place.path, fresh); }).find("is in the way"), std::string::npos)
         << name;
@@ -105,7 +105,7 @@ TEST(Folder, RefusesWhatIsInTheWay) {
 }
 
 TEST(Folder, RefusesWhatComesIntoTheWayDuringTheRun) {
-  const report::Folder place;
+  const test::Folder place;
   run(place.path, old);
   const Files before = filesIn(place.path);
   EXPECT_NE(errorOf([&] {
@@ -149,7 +149,7 @@ TEST(Folder, FinishesACommitThatWasCutShort) {
       {"all moved", fresh, {}, false, false}};
   for (const auto& state : states) {
     SCOPED_TRACE(state.what);
-    const report::Folder place;
+    const test::Folder place;
     put(place.path, both(mine, state.there));
     if (state.oldManifest) putManifest(place.path, oldNames);
     put(place.path / ".complete", state.waiting);
@@ -164,7 +164,7 @@ TEST(Folder, FinishesACommitThatWasCutShort) {
 }
 
 TEST(Folder, RemovesWhatAKilledRunLeft) {
-  const report::Folder place;
+  const test::Folder place;
   put(place.path / ".partial", fresh);
   put(place.path, {{Lock::name, ""}});
   { const Folder next(PETSC_COMM_WORLD, naming(), place.path); }
@@ -172,7 +172,7 @@ TEST(Folder, RemovesWhatAKilledRunLeft) {
 }
 
 TEST(Folder, RemovesNothingBehindALink) {
-  const report::Folder place;
+  const test::Folder place;
   const fs::path folder = place.path / "results", elsewhere = place.path / "elsewhere";
   run(folder, old);
   put(elsewhere, {{"x.vtu", "mine"}});
@@ -199,7 +199,7 @@ TEST(Folder, RemovesNothingBehindALink) {
 
 TEST(Folder, RemovesNothingOutsideThatAManifestNames) {
   for (const char* path : {"../mine.txt", "/etc/hostname", "vtk/../../mine.txt"}) {
-    const report::Folder place;
+    const test::Folder place;
     put(place.path, {{"mine.txt", "mine"}});
     putManifest(place.path / "results", {path});
     EXPECT_NE(errorOf([&] { run(place.path / "results", fresh); }).find("no path in this folder"),
@@ -210,7 +210,7 @@ TEST(Folder, RemovesNothingOutsideThatAManifestNames) {
 }
 
 TEST(Folder, IsForOneRunAtATime) {
-  const report::Folder place;
+  const test::Folder place;
   const int other = open((place.path / Lock::name).c_str(), O_RDWR | O_CREAT,
                          0666);  // a file of its own: another process' would do the same
   MPI_Barrier(PETSC_COMM_WORLD);

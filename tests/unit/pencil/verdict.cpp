@@ -1,4 +1,4 @@
-// What is said of the growth of eigenvalues with known errors.
+// The verdicts follow from growth rates and errors that are known.
 #include <gtest/gtest.h>
 
 #include <cmath>

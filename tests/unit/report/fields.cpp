@@ -22,7 +22,7 @@
 namespace squeal::report {
 namespace {
 
-using test::Reader;
+using namespace test;
 
 /// The pad on springs between the disc below and a plate that slides the other way above: two
 /// interfaces.
