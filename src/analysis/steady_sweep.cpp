@@ -16,8 +16,8 @@ namespace squeal::analysis {
 namespace {
 
 const FlagOption fullOption("steady", "steady_full", false,
-                            "steady sliding is solved in all unknowns, as a check, where it could "
-                            "be solved in those of the contact");
+                            "steady sliding is solved in all unknowns, as a check, instead of in "
+                            "those of the contact");
 
 const IntegerOption pathOption(
     "steady", "steady_path", 20, 0, 1'000'000,
@@ -80,6 +80,21 @@ void continueTo(condensed::CondensedProblem& condensed, const steady::Solution& 
   solution.reason += solution.converged ? ", " + way + " after " + before : "; " + before;
 }
 
+/// Collective. Continues to a point without a solution from its neighbours, or from friction 0
+/// where none of them has one.
+void continueFromNeighbour(Analysis& analysis, condensed::CondensedProblem& condensed,
+                           std::size_t point) {
+  auto& solution = analysis.steady[point];
+  auto known = analysis.sweep.earlierNeighbour(point);
+  while (known && !analysis.steady[*known].converged)
+    known = analysis.sweep.earlierNeighbour(*known);
+  if (known) return continueTo(condensed, analysis.steady[*known], solution);
+  const auto& at = solution.at;
+  if (at.friction == 0) return;
+  if (const auto without = condensed.solve({0, at.speed, at.pressure}); without.converged)
+    continueTo(condensed, without, solution);
+}
+
 /// Collective. Adds the events on the way between the states at neighbouring points.
 void followPath(Analysis& analysis, condensed::CondensedProblem& condensed,
                 const steady::Solution& from, const steady::Solution& solution) {
@@ -134,52 +149,93 @@ const contact::CoupledSystem& CurrentSystem::of(const ActiveSet& active) {
   return *system_;
 }
 
-void steadySweep(Analysis& analysis, CurrentSystem& system) {
-  const steady::Problem problem(*analysis.mesh, analysis.bodies, analysis.contact);
+namespace {
+
+ActiveSet bonded(const Analysis& analysis) {
   const std::size_t nodes = analysis.contact.nodes.size();
-  const ActiveSet bonded{std::vector<unsigned char>(nodes, 1),
-                         std::vector<unsigned char>(nodes, 0)};
-  // [steady point] its active set, or the one tried where there is no solution
-  std::vector<ActiveSet> active;
+  return {std::vector<unsigned char>(nodes, 1), std::vector<unsigned char>(nodes, 0)};
+}
+
+/// The largest number of steady points that are solved for together.
+constexpr std::size_t mostTogether = 16;
+
+/// Collective. Tells what the solution at a point is.
+void tell(const Analysis& analysis, const steady::Solution& solution) {
+  const std::string at = sweep::parameterText(solution.at);
+  if (solution.converged) {
+    requireFinite(solution.displacement, "steady sliding at " + at);
+    tellSticking(analysis, solution);
+  } else {
+    complain(analysis.mesh->comm,
+             "no steady sliding solution found at " + at + ": " + solution.reason);
+  }
+}
+
+std::string resultText(const Analysis& analysis, const steady::Solution& solution) {
+  return formatted("%s: %s after %d iterations, %" PetscInt_FMT " of %" PetscInt_FMT
+                   " nodes open, smallest pressure %.4g, residual %.0e, imbalance %.0e",
+                   sweep::parameterText(solution.at).c_str(), solution.reason.c_str(),
+                   solution.iterations, solution.openNodes, analysis.contact.totalNodes,
+                   solution.smallestPressure, solution.residual, solution.imbalance);
+}
+
+/// Collective. Solves in the unknowns of the contact, with the factorisation of the closed one.
+void condensedSweep(Analysis& analysis, const steady::Problem& problem,
+                    const contact::CoupledSystem& closed) {
+  const MPI_Comm comm = analysis.mesh->comm;
+  const auto points = analysis.sweep.steadyPoints();
+  const bool isExact = condensed::CondensedProblem::isExact(analysis.contact, analysis.bodies);
   std::vector<steady::Solution>& solutions = analysis.steady;
-  const bool condensable =
-      !fullOption.get() && condensed::CondensedProblem::serves(analysis.contact, analysis.bodies);
   std::optional<condensed::CondensedProblem> condensed;
+  closed.solver();
+  while (solutions.size() < points.size()) {
+    Stage stage(comm, "steady");
+    if (!condensed) condensed.emplace(problem, closed);
+    const long before = condensed->solves();
+    const std::size_t begin = solutions.size(), end = std::min(begin + mostTogether, points.size());
+    for (auto& solution : condensed->solveTogether({points.begin() + begin, points.begin() + end}))
+      solutions.push_back(std::move(solution));
+    for (std::size_t k = begin; k < end; ++k) {
+      if (!solutions[k].converged && isExact) continueFromNeighbour(analysis, *condensed, k);
+      if (!solutions[k].converged && !isExact) {
+        solutions[k] = problem.solve(points[k], closed);
+        solutions[k].reason += ", in all unknowns";
+      }
+      stage.say(resultText(analysis, solutions[k]));
+      tell(analysis, solutions[k]);
+    }
+    stage.finish(
+        formatted("%zu points, %ld right-hand sides", end - begin, condensed->solves() - before));
+    for (std::size_t k = begin; k < end && isExact; ++k)
+      if (const auto neighbour = analysis.sweep.earlierNeighbour(k))
+        followPath(analysis, *condensed, solutions[*neighbour], solutions[k]);
+  }
+}
+
+/// Collective. Solves in all unknowns.
+void fullSweep(Analysis& analysis, const steady::Problem& problem, CurrentSystem& system) {
+  std::vector<ActiveSet> active;  // [steady point] of its solution, or the one tried
   for (const auto& at : analysis.sweep.steadyPoints()) {
-    const auto neighbour = analysis.sweep.earlierNeighbour(solutions.size());
-    active.push_back(neighbour ? active[*neighbour] : bonded);
-    const auto& current = system.of(condensable ? bonded : active.back());
+    const auto neighbour = analysis.sweep.earlierNeighbour(active.size());
+    active.push_back(neighbour ? active[*neighbour] : bonded(analysis));
+    const auto& current = system.of(active.back());
     current.solver();
     Stage stage(analysis.mesh->comm, "steady");
-    if (condensable && !condensed) condensed.emplace(problem, current);
-    solutions.push_back(condensed ? condensed->solve(at) : problem.solve(at, current));
-    auto& solution = solutions.back();
-    if (condensed && !solution.converged) {
-      auto known = neighbour;
-      while (known && !solutions[*known].converged) known = analysis.sweep.earlierNeighbour(*known);
-      if (known)
-        continueTo(*condensed, solutions[*known], solution);
-      else if (at.friction > 0)
-        if (const auto without = condensed->solve({0, at.speed, at.pressure}); without.converged)
-          continueTo(*condensed, without, solution);
-    }
-    stage.finish(formatted("%s: %s after %d iterations, %" PetscInt_FMT " of %" PetscInt_FMT
-                           " nodes open, smallest pressure %.4g, residual %.0e, imbalance %.0e",
-                           sweep::parameterText(at).c_str(), solution.reason.c_str(),
-                           solution.iterations, solution.openNodes, analysis.contact.totalNodes,
-                           solution.smallestPressure, solution.residual, solution.imbalance));
-    if (solution.converged) {
-      requireFinite(solution.displacement, "steady sliding at " + sweep::parameterText(at));
-      tellSticking(analysis, solution);
-    }
-    if (condensed && neighbour) followPath(analysis, *condensed, solutions[*neighbour], solution);
-    if (solution.converged)
-      active.back() = activeSet(solution);
-    else
-      complain(analysis.mesh->comm,
-               formatted("no steady sliding solution found at %s: %s",
-                         sweep::parameterText(at).c_str(), solution.reason.c_str()));
+    const auto& solution = analysis.steady.emplace_back(problem.solve(at, current));
+    stage.finish(resultText(analysis, solution));
+    tell(analysis, solution);
+    if (solution.converged) active.back() = activeSet(solution);
   }
+}
+
+}  // namespace
+
+void steadySweep(Analysis& analysis, CurrentSystem& system) {
+  const steady::Problem problem(*analysis.mesh, analysis.bodies, analysis.contact);
+  if (fullOption.get())
+    fullSweep(analysis, problem, system);
+  else
+    condensedSweep(analysis, problem, system.of(bonded(analysis)));
 }
 
 }  // namespace squeal::analysis

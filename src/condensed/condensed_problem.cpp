@@ -1,19 +1,19 @@
 #include "condensed/condensed_problem.hpp"
 
-#include <petscsnes.h>
-
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
-#include "interfaces/algebra.hpp"
-#include "petsc/arrays.hpp"
-#include "petsc/text.hpp"
+#include "condensed/gaps.hpp"
+#include "linalg/block.hpp"
 #include "steady/complementarity.hpp"
 
 namespace squeal::condensed {
 
+using impedance::ContactCase;
 using impedance::ContactConditions;
 using impedance::ContactVector;
+using linalg::DenseMatrix;
 using steady::accuracyNear;
 using steady::Hold;
 using steady::naturalResidual;
@@ -29,111 +29,13 @@ OwnedMat unitSlipRows(const contact::Contact& contact,
                           std::vector<unsigned char>(contact.nodes.size(), 1), 0);
 }
 
-/// The largest number of corrections by the residual of all equations.
-constexpr int mostCorrections = 5;
+/// The largest number of corrections by the residual of all equations. Each has to halve it.
+constexpr int mostCorrections = 30;
 
-/// The context of SNES, of the Jacobian and of its parts.
-struct GapProblem {
-  impedance::ContactSolver& solver;
-  ContactConditions conditions;  // `free` says of gaps which of them SNES lets open
-  ContactVector given;           // (R, F) without friction and gaps
-  double gapUnit, forceUnit;
-  MPI_Comm comm;
-  PetscInt first;  // number of the first contact node of this rank
-  std::size_t nodes;
-  std::vector<unsigned char> before = {};  // `free` of the Newton step before the last
-};
-
-/// Collective. Says which nodes the last two Newton steps disagree about; empty if about none.
-std::string alternating(const GapProblem& problem, const contact::Contact& contact) {
-  int count = 0, rank = 0;
-  std::size_t one = 0;
-  for (std::size_t i = 0; i < problem.nodes && !problem.before.empty(); ++i)
-    if (problem.before[i] != problem.conditions.free[i] && count++ == 0) one = i;
-  check(MPI_Comm_rank(problem.comm, &rank));
-  struct {
-    int count, rank;
-  } most{count, rank};
-  check(MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_2INT, MPI_MAXLOC, problem.comm));
-  check(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPI_INT, MPI_SUM, problem.comm));
-  if (count == 0) return "";
-  mesh::Point position{};
-  if (rank == most.rank) position = contact.nodes[one].position;
-  check(MPI_Bcast(position.data(), 3, MPI_DOUBLE, most.rank, problem.comm));
-  return formatted("%d %s in turn, such as that at %s", count,
-                   count == 1 ? "contact node opens and closes" : "contact nodes open and close",
-                   interfaces::text(position).c_str());
-}
-
-/// Sets F(g) in units, with the friction in balance.
-void forces(GapProblem& problem, const ContactVector& given, Vec gaps, Vec f) {
-  std::vector<double> scaled;
-  for (const ReadArray values(gaps); double value : values)
-    scaled.push_back(problem.gapUnit * value);
-  const auto found = problem.solver.withGaps(scaled, problem.conditions, given);
-  const WriteArray values(f);
-  for (PetscInt i = 0; i < values.size(); ++i)
-    values[i] = found.effects[values.size() + i] / problem.forceUnit;
-}
-
-ContactVector nothing(const GapProblem& problem) {
-  return ContactVector(problem.given.size(), 0.0);
-}
-
-PetscErrorCode evaluate(SNES, Vec gaps, Vec f, void* context) {
-  auto& problem = *static_cast<GapProblem*>(context);
-  PetscFunctionBegin;
-  forces(problem, problem.given, gaps, f);
-  PetscFunctionReturn(0);
-}
-
-/// The Jacobian does not change.
-PetscErrorCode differentiate(SNES, Vec, Mat, Mat, void*) { return 0; }
-
-PetscErrorCode multiply(Mat jacobian, Vec gaps, Vec f) {
-  GapProblem* problem = nullptr;
-  PetscFunctionBegin;
-  PetscCall(MatShellGetContext(jacobian, &problem));
-  forces(*problem, nothing(*problem), gaps, f);
-  PetscFunctionReturn(0);
-}
-
-/// Returns the part of the Jacobian for the gaps that SNES lets open.
-PetscErrorCode openPart(Mat jacobian, IS rows, IS, MatReuse, Mat* part) {
-  GapProblem* problem = nullptr;
-  PetscInt count = 0;
-  const PetscInt* indices = nullptr;
-  PetscFunctionBegin;
-  PetscCall(MatShellGetContext(jacobian, &problem));
-  PetscCall(ISGetLocalSize(rows, &count));
-  PetscCall(ISGetIndices(rows, &indices));
-  problem->before = problem->conditions.free;
-  std::fill_n(problem->conditions.free.begin(), problem->nodes, 0);
-  for (PetscInt i = 0; i < count; ++i) problem->conditions.free[indices[i] - problem->first] = 1;
-  PetscCall(ISRestoreIndices(rows, &indices));
-  PetscCall(
-      MatCreateShell(problem->comm, count, count, PETSC_DETERMINE, PETSC_DETERMINE, problem, part));
-  PetscFunctionReturn(0);
-}
-
-/// Solves with the part of the Jacobian in use.
-PetscErrorCode solvePart(PC pc, Vec right, Vec gaps) {
-  GapProblem* problem = nullptr;
-  PetscFunctionBegin;
-  PetscCall(PCShellGetContext(pc, &problem));
-  const auto& open = problem->conditions.free;
-  ContactVector given = nothing(*problem);
-  {
-    const ReadArray values(right);
-    for (std::size_t i = 0, k = 0; i < problem->nodes; ++i)
-      if (open[i]) given[problem->nodes + i] = -problem->forceUnit * values[k++];
-  }
-  const auto found = problem->solver.solve(problem->conditions, given);
-  const WriteArray values(gaps);
-  for (std::size_t i = 0, k = 0; i < problem->nodes; ++i)
-    if (open[i]) values[k++] = found.causes[problem->nodes + i] / problem->gapUnit;
-  PetscFunctionReturn(0);
-}
+/// The active sets of the start are looked for with friction balanced to this part, in as many
+/// steps.
+constexpr double roughly = 1e-4;
+constexpr int mostSteps = 12;
 
 }  // namespace
 
@@ -148,15 +50,33 @@ struct CondensedProblem::Loaded {
   }
 };
 
-/// SNES is asked for the gaps under these conditions, in these units, to this accuracy.
-struct CondensedProblem::Asked {
-  ContactConditions conditions;  // closed gaps
-  steady::Accuracy accuracy;
-  double gapUnit;
+/// A point with the holds and the gaps from which its solution is looked for.
+struct CondensedProblem::Start {
+  sweep::Parameters at;
+  Sticking sticking;
+  std::vector<double> gaps;  // [contact node], m; those of the solution in the end
 };
 
-bool CondensedProblem::serves(const contact::Contact& contact, const elasticity::Bodies& bodies) {
-  return contact.slipIsGiven() && !bodies.rotationStiffness;
+/// A point on the way to its solution.
+struct CondensedProblem::Trial {
+  Start& start;
+  std::unique_ptr<Problem> own;  // with the holds, where something sticks
+  const Problem& held;           // that, or the problem of all points
+  OwnedMat direct;               // borrowed by the conditions
+  OwnedVec x;                    // in the unknowns of the open contact
+  ContactCase asked;             // with all gaps closed
+  double gapUnit = 0;
+  steady::Accuracy accuracy = {};
+  ContactVector causes = {};
+  Solution solution = {};
+  double left = 0;      // natural residual, N
+  bool isBest = false;  // a correction would not make that smaller
+
+  bool isAccurate() const { return left <= accuracy.asked * accuracy.forceUnit; }
+};
+
+bool CondensedProblem::isExact(const contact::Contact& contact, const elasticity::Bodies& bodies) {
+  return !contact.convected && !bodies.rotationStiffness;
 }
 
 CondensedProblem::CondensedProblem(const Problem& problem, const contact::CoupledSystem& closed)
@@ -167,57 +87,53 @@ CondensedProblem::CondensedProblem(const Problem& problem, const contact::Couple
   if (contact_.hasSticking())
     free_ = std::make_unique<Problem>(problem.mesh(), problem.bodies(), contact_,
                                       Sticking::allFree(contact_));
-  const Problem& open = free_ ? *free_ : problem_;
+  const auto& transformation = open().transformation();
   impedance_ = std::make_unique<impedance::Impedance>(
-      contact_, open.transformation(), open.stiffness(),
-      unitSlipRows(contact_, open.transformation(), contact_.slip(1, nullptr)), closed);
+      contact_, transformation, problem.bodies().stiffness,
+      unitSlipRows(contact_, transformation, contact_.slip(1, nullptr)), closed);
   solver_ = std::make_unique<impedance::ContactSolver>(*impedance_);
 }
 
 CondensedProblem::~CondensedProblem() = default;
 
-/// Returns the state under the loads of a point, with its residual balanced by one solve; the loads
-/// of `less` are taken off before.
-CondensedProblem::Loaded CondensedProblem::relaxed(const sweep::Parameters& at,
-                                                   const sweep::Parameters* less) {
-  const Problem& open = free_ ? *free_ : problem_;
-  Loaded state{rightVector(open.transformation().trial), {}};
-  const auto unmoved = [&](const sweep::Parameters& point, Vec residual) {
-    const OwnedVec forces = open.forces(point, open.displacement(point, state.x));
-    check(MatMultTranspose(open.transformation().trial, forces, residual));
-    return open.normalForces(forces);
-  };
-  const OwnedVec residual = rightVector(open.transformation().trial);
-  auto normal = unmoved(at, residual);
-  if (less) {
-    const OwnedVec other = rightVector(open.transformation().trial);
-    const auto otherNormal = unmoved(*less, other);
-    check(VecAXPY(residual, -1, other));
-    for (std::size_t i = 0; i < normal.size(); ++i) normal[i] -= otherNormal[i];
-  }
-  PetscReal size = 0;
-  check(VecNorm(residual, NORM_2, &size));
-  state.given.assign(impedance_->length(), 0.0);
-  if (size > 0) state.given = impedance_->relax(residual, state.x);
-  for (std::size_t i = 0; i < normal.size(); ++i) state.given[i] += normal[i];
-  return state;
-}
-
 /// Returns the state under the loads of a point: they are p times the pressures and held
 /// displacements, v² times the centrifugal forces, and what gaps there are without load.
 CondensedProblem::Loaded CondensedProblem::loaded(const sweep::Parameters& at) {
-  if (loads_.empty()) {
-    const sweep::Parameters none{0, 0, 0}, pressed{0, 0, 1}, turning{0, 1, 0};
-    loads_.push_back(relaxed(none, nullptr));
-    loads_.push_back(relaxed(pressed, &none));
-    loads_.push_back(relaxed(turning, &none));
-  }
+  if (loads_.empty()) findLoads();
   Loaded state{{}, ContactVector(impedance_->length(), 0.0)};
   check(VecDuplicate(loads_[0].x, state.x.out()));
   state.add(1, loads_[0]);
   state.add(at.pressure, loads_[1]);
   state.add(at.speed * at.speed, loads_[2]);
   return state;
+}
+
+/// Finds the states without loads, and what p = 1 and v = 1 add, with the residual of each balanced
+/// by one solve.
+void CondensedProblem::findLoads() {
+  const Problem& open = this->open();
+  const std::vector<sweep::Parameters> points{{0, 0, 0}, {0, 0, 1}, {0, 1, 0}};
+  std::vector<OwnedVec> residuals;
+  std::vector<std::vector<double>> normal;
+  std::vector<Vec> wanted, x;
+  for (const auto& point : points) {
+    loads_.push_back({rightVector(open.transformation().trial), {}});
+    residuals.push_back(rightVector(open.transformation().trial));
+    const OwnedVec forces = open.forces(point, open.displacement(point, loads_.back().x));
+    check(MatMultTranspose(open.transformation().trial, forces, residuals.back()));
+    normal.push_back(open.normalForces(forces));
+    wanted.push_back(residuals.back());
+    x.push_back(loads_.back().x);
+  }
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    check(VecAXPY(residuals[k], -1, residuals[0]));
+    for (std::size_t i = 0; i < normal[k].size(); ++i) normal[k][i] -= normal[0][i];
+  }
+  const auto effects = impedance_->relax(wanted, x);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    loads_[k].given.assign(effects.column(k).begin(), effects.column(k).end());
+    for (std::size_t i = 0; i < normal[k].size(); ++i) loads_[k].given[i] += normal[k][i];
+  }
 }
 
 /// Returns the conditions with all gaps closed.
@@ -234,150 +150,231 @@ ContactConditions CondensedProblem::conditions(const sweep::Parameters& at,
   return result;
 }
 
-/// Collective. Returns what the friction of released nodes does to them, borrowed until the next
-/// call; null if there are none.
-Mat CondensedProblem::directFriction(const Sticking& sticking) {
+/// Collective. Returns what the friction of released nodes does to them; null if there are none.
+OwnedMat CondensedProblem::directFriction(const Sticking& sticking) {
   int any = std::count(sticking.holds.begin(), sticking.holds.end(), Hold::released) > 0;
   int known = directOf_.holds == sticking.holds && directOf_.direction == sticking.direction;
   check(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_LOR, comm()));
   check(MPI_Allreduce(MPI_IN_PLACE, &known, 1, MPI_INT, MPI_LAND, comm()));
-  if (!any) return nullptr;
-  if (known) return direct_;
+  if (!any) return {};
+  if (known) return direct_.share();
   std::vector<contact::Slip> slips(contact_.nodes.size());
   for (std::size_t i = 0; i < slips.size(); ++i)
     if (sticking.holds[i] == Hold::released) slips[i].direction = sticking.direction[i];
   direct_ = impedance_->directFriction(unitSlipRows(contact_, free_->transformation(), slips));
   directOf_ = sticking;
-  return direct_;
+  return direct_.share();
 }
 
 impedance::ContactSolution CondensedProblem::onSet(const sweep::Parameters& at,
                                                    const std::vector<unsigned char>& closed,
                                                    const Sticking& sticking) {
-  ContactConditions asked = conditions(at, sticking);
-  asked.direct = directFriction(sticking);
+  const OwnedMat direct = directFriction(sticking);
+  ContactCase asked{conditions(at, sticking), loaded(at).given};
+  asked.conditions.direct = direct;
   const auto& nodeOf = impedance_->nodeOf();
   for (std::size_t k = 0; k < nodeOf.size(); ++k)
-    if (!closed[nodeOf[k]]) asked.free[k] = 1;
-  return solver_->solve(asked, loaded(at).given);
+    if (!closed[nodeOf[k]]) asked.conditions.free[k] = 1;
+  return solver_->solve(asked);
 }
 
-/// Returns (t, w).
-ContactVector CondensedProblem::complementarity(const Asked& asked, const ContactVector& given,
-                                                Solution& solution) {
-  const PetscInt n = impedance_->nodes();
-  PetscInt end = 0;
-  check(MPI_Scan(&n, &end, 1, MPIU_INT, MPI_SUM, comm()));
-  GapProblem problem{
-      *solver_, asked.conditions, given,         asked.gapUnit, asked.accuracy.forceUnit,
-      comm(),   end - n,          std::size_t(n)};
-  std::fill_n(problem.conditions.free.begin(), n, 1);  // where SNES asks for no part
-  OwnedMat jacobian;
-  check(MatCreateShell(comm(), n, n, PETSC_DETERMINE, PETSC_DETERMINE, &problem, jacobian.out()));
-  check(MatShellSetOperation(jacobian, MATOP_MULT, reinterpret_cast<void (*)()>(multiply)));
-  check(MatShellSetOperation(jacobian, MATOP_CREATE_SUBMATRIX,
-                             reinterpret_cast<void (*)()>(openPart)));
-  const OwnedVec x = rightVector(jacobian), low = rightVector(jacobian),
-                 high = rightVector(jacobian), f = rightVector(jacobian);
-  {
-    const WriteArray start(x);
-    for (PetscInt i = 0; i < n; ++i) start[i] = gaps_[i] / asked.gapUnit;
-  }
-  check(VecSet(high, PETSC_INFINITY));
-  const steady::OwnedSNES snes = steady::newSnes(comm(), asked.accuracy.asked);
-  check(SNESSetFunction(snes, f, evaluate, &problem));
-  check(SNESSetJacobian(snes, jacobian, jacobian, differentiate, nullptr));
-  check(SNESVISetVariableBounds(snes, low, high));
-  KSP ksp = nullptr;
-  PC pc = nullptr;
-  check(SNESGetKSP(snes, &ksp));
-  check(KSPSetType(ksp, KSPPREONLY));
-  check(KSPGetPC(ksp, &pc));
-  check(PCSetType(pc, PCSHELL));
-  check(PCShellSetContext(pc, &problem));
-  check(PCShellSetApply(pc, solvePart));
-  if (!steady::solveSnes(snes, x, solution))
-    if (const std::string who = alternating(problem, contact_); !who.empty())
-      solution.reason += ": " + who;
-  {
-    const ReadArray values(x);
-    for (PetscInt i = 0; i < n; ++i) gaps_[i] = asked.gapUnit * values[i];
-  }
-  return solver_->withGaps(gaps_, asked.conditions, given).causes;
+/// Solves for the gaps of a trial, with these forces given, and returns (t, w).
+ContactVector CondensedProblem::complementarity(Trial& trial, const ContactVector& given) {
+  if (impedance_->size() == 0) return ContactVector(impedance_->length(), 0.0);
+  ContactCase asked = trial.asked;
+  asked.given = given;
+  solveGaps(contact_, *solver_, asked, {trial.gapUnit, trial.accuracy.forceUnit},
+            trial.accuracy.asked, trial.start.gaps, trial.solution);
+  return solver_->withGaps(trial.start.gaps, asked).causes;
 }
 
-Solution CondensedProblem::solve(const sweep::Parameters& at) {
-  problem_.requireSlip(at);
-  Solution solution = problem_.settle(
-      solveWith(at, sticking_), [&](const Sticking& sticking) { return solveWith(at, sticking); });
-  if (solution.converged) {
-    sticking_ = Sticking::allHeld(contact_);
-    for (std::size_t i = 0; i < solution.closed.size(); ++i)
-      if (!solution.closed[i]) sticking_.holds[i] = solution.sticking.holds[i];
+/// Moves the gaps from which the trials start to those of the active sets to which the primal-dual
+/// active set method leads (Hintermüller, Ito and Kunisch, SIAM J. Optim. 13, 2003), with friction
+/// balanced to the part `accuracy`. All trials move at once, so that what the solver has to learn
+/// is learnt in blocks. Returns the trials whose sets hold.
+std::vector<CondensedProblem::Trial*> CondensedProblem::approach(std::vector<Trial*> moving,
+                                                                 double accuracy) {
+  const std::size_t n = impedance_->nodes();
+  std::vector<Trial*> settled;
+  for (int step = 0; step < mostSteps && !moving.empty(); ++step) {
+    std::vector<ContactCase> cases;
+    for (const Trial* trial : moving) {
+      cases.push_back(trial->asked);
+      for (std::size_t i = 0; i < n; ++i)
+        cases.back().conditions.free[i] = trial->start.gaps[i] > 0;
+    }
+    const auto found = solver_->solve(cases, accuracy);
+    std::vector<int> changes(moving.size());
+    for (std::size_t k = 0; k < moving.size(); ++k) {
+      auto& gaps = moving[k]->start.gaps;
+      for (std::size_t i = 0; i < n; ++i) {
+        const double gap = found[k].causes[n + i], force = found[k].effects[n + i];
+        const bool isOpen = cases[k].conditions.free[i], opens = isOpen ? gap > 0 : force < 0;
+        if (opens != isOpen) changes[k] = 1;
+        // The size of a gap that is new is not known yet, and only its sign is looked at.
+        gaps[i] = !opens ? 0 : isOpen ? gap : moving[k]->gapUnit;
+      }
+    }
+    check(MPI_Allreduce(MPI_IN_PLACE, changes.data(), changes.size(), MPI_INT, MPI_LOR, comm()));
+    std::vector<Trial*> still;
+    for (std::size_t k = 0; k < moving.size(); ++k)
+      if (found[k].found) (changes[k] ? still : settled).push_back(moving[k]);
+    moving = std::move(still);
   }
-  return solution;
+  return settled;
 }
 
-Solution CondensedProblem::solveWith(const sweep::Parameters& at, const Sticking& sticking) {
-  Solution solution;
-  solution.at = at;
-  const Problem& open = free_ ? *free_ : problem_;
-  std::optional<Problem> other;  // with these holds
-  if (free_) other.emplace(problem_.mesh(), problem_.bodies(), contact_, sticking);
-  const Problem& held = other ? *other : problem_;
-  const auto& openTo = open.transformation();
-  const auto& heldTo = held.transformation();
-  const auto restricted = [&](Vec x) {
-    const OwnedVec z = elasticity::nodalVector(problem_.mesh());
-    OwnedVec result = rightVector(heldTo.trial);
-    check(MatMult(openTo.selection, x, z));
-    check(MatMultTranspose(heldTo.selection, z, result));
-    return result;
-  };
+/// Returns the unknowns x of the open contact that the holds of a trial leave.
+OwnedVec CondensedProblem::unknowns(const Trial& trial, Vec x) const {
+  const OwnedVec z = elasticity::nodalVector(problem_.mesh());
+  OwnedVec result = rightVector(trial.held.transformation().trial);
+  check(MatMult(open().transformation().selection, x, z));
+  check(MatMultTranspose(trial.held.transformation().selection, z, result));
+  return result;
+}
 
-  Loaded start = loaded(at);
-  const OwnedVec& x = start.x;
-  Asked asked{conditions(at, sticking), {}, 0};
-  asked.conditions.direct = directFriction(sticking);
-  for (double gap : gaps_) asked.gapUnit = std::max(asked.gapUnit, gap);
-  check(MPI_Allreduce(MPI_IN_PLACE, &asked.gapUnit, 1, MPI_DOUBLE, MPI_MAX, comm()));
-  if (asked.gapUnit == 0) check(VecNorm(x, NORM_INFINITY, &asked.gapUnit));
-  if (asked.gapUnit == 0) asked.gapUnit = 1;
-  asked.accuracy = accuracyNear(held, at, restricted(x));
-  ContactVector causes(impedance_->length(), 0.0);
-  if (impedance_->size() > 0) causes = complementarity(asked, start.given, solution);
+CondensedProblem::Trial CondensedProblem::trialOf(Start& start) {
+  std::unique_ptr<Problem> own;
+  if (free_)
+    own = std::make_unique<Problem>(problem_.mesh(), problem_.bodies(), contact_, start.sticking);
+  const Problem& held = own ? *own : problem_;
+  Loaded state = loaded(start.at);
+  Trial trial{start,
+              std::move(own),
+              held,
+              directFriction(start.sticking),
+              std::move(state.x),
+              {conditions(start.at, start.sticking), std::move(state.given)}};
+  trial.asked.conditions.direct = trial.direct;
+  std::vector<double> friction;
+  for (PetscInt i = 0; i < impedance_->nodes(); ++i)
+    friction.push_back(trial.asked.conditions.coefficient[i] * trial.asked.given[i]);
+  trial.asked.frictionUnit = linalg::length(comm(), friction);
+  trial.solution.at = start.at;
+  for (double gap : start.gaps) trial.gapUnit = std::max(trial.gapUnit, gap);
+  check(MPI_Allreduce(MPI_IN_PLACE, &trial.gapUnit, 1, MPI_DOUBLE, MPI_MAX, comm()));
+  if (trial.gapUnit == 0) check(VecNorm(trial.x, NORM_INFINITY, &trial.gapUnit));
+  if (trial.gapUnit == 0) trial.gapUnit = 1;
+  trial.accuracy = accuracyNear(trial.held, start.at, unknowns(trial, trial.x));
+  return trial;
+}
+
+std::vector<Solution> CondensedProblem::solveFrom(std::vector<Start>& starts) {
+  std::vector<Trial> trials;
+  std::vector<Trial*> all;
+  std::vector<Vec> x;
+  DenseMatrix causes(impedance_->length());
+  trials.reserve(starts.size());
+  for (Start& start : starts) all.push_back(&trials.emplace_back(trialOf(start)));
+  if (impedance_->size() > 0) approach(approach(all, roughly), impedance::ContactSolver::balanced);
+  for (Trial& trial : trials) {
+    trial.causes = complementarity(trial, trial.asked.given);
+    causes.append(trial.causes);
+    x.push_back(trial.x);
+  }
   impedance_->addUnknowns(causes, x);
-  // Friction may move a weakly held body far, which is known only now.
-  asked.accuracy = accuracyNear(held, at, restricted(x));
-  double left = naturalResidual(held, at, restricted(x));
-  const OwnedVec residual = rightVector(openTo.trial), corrected = rightVector(openTo.trial);
-  for (int k = 0; k < mostCorrections && left > asked.accuracy.asked * asked.accuracy.forceUnit;
-       ++k) {
+  for (Trial& trial : trials) {
+    // Friction may move a weakly held body far, which is known only now.
+    trial.accuracy = accuracyNear(trial.held, trial.start.at, unknowns(trial, trial.x));
+    trial.left = naturalResidual(trial.held, trial.start.at, unknowns(trial, trial.x));
+  }
+  int corrections = 0;
+  while (corrections < mostCorrections && correct(trials)) ++corrections;
+  std::vector<Solution> solutions;
+  for (Trial& trial : trials) {
+    auto& solution = solutions.emplace_back(std::move(trial.solution));
+    steady::accept(solution, trial.left, trial.accuracy);
+    if (solution.reason.empty()) solution.reason = "LINEAR";
+    trial.held.conclude(unknowns(trial, trial.x), trial.left, solution);
+  }
+  return solutions;
+}
+
+/// Corrects the trials that are not accurate by the residual of all equations. Returns false if
+/// there is nothing to correct.
+bool CondensedProblem::correct(std::vector<Trial>& trials) {
+  std::vector<Trial*> some;
+  std::vector<OwnedVec> residuals, corrected;
+  std::vector<Vec> r, x;
+  std::vector<std::vector<double>> normal;
+  DenseMatrix causes(impedance_->length());
+  for (Trial& trial : trials) {
+    if (trial.isBest || trial.isAccurate()) continue;
     // With t = c R and w as they are, y is corrected. What the contact then feels without t and w
     // is the new start.
-    const auto normal = open.normalForces(open.forces(at, open.displacement(at, x)));
-    open.residual(at, x, residual);
-    for (std::size_t i = 0; i < normal.size(); ++i)
-      causes[i] = asked.conditions.coefficient[i] * normal[i];
-    check(VecCopy(x, corrected));
-    ContactVector given = impedance_->relax(residual, corrected);
-    for (std::size_t i = 0; i < normal.size(); ++i) given[i] += normal[i];
-    const auto known = impedance_->responses(linalg::DenseView(causes.data(), causes.size(), 1));
-    for (std::size_t i = 0; i < given.size(); ++i) given[i] -= known(i, 0);
-    ContactVector better = causes;
-    if (impedance_->size() > 0) better = complementarity(asked, given, solution);
-    for (std::size_t i = 0; i < causes.size(); ++i) causes[i] = better[i] - causes[i];
-    impedance_->addUnknowns(causes, corrected);
-    const double now = naturalResidual(held, at, restricted(corrected));
-    if (!(now < 0.5 * left)) break;
-    left = now;
-    check(VecCopy(corrected, x));
-    causes = std::move(better);
+    const auto& at = trial.start.at;
+    some.push_back(&trial);
+    residuals.push_back(rightVector(open().transformation().trial));
+    corrected.push_back(rightVector(open().transformation().trial));
+    r.push_back(residuals.back());
+    x.push_back(corrected.back());
+    open().residual(at, trial.x, r.back());
+    check(VecCopy(trial.x, x.back()));
+    normal.push_back(open().normalForces(open().forces(at, open().displacement(at, trial.x))));
+    for (std::size_t i = 0; i < normal.back().size(); ++i)
+      trial.causes[i] = trial.asked.conditions.coefficient[i] * normal.back()[i];
+    causes.append(trial.causes);
   }
-  steady::accept(solution, left, asked.accuracy);
-  if (solution.reason.empty()) solution.reason = "LINEAR";
-  held.conclude(restricted(x), left, solution);
-  return solution;
+  if (some.empty()) return false;
+  DenseMatrix given = impedance_->relax(r, x);
+  linalg::addScaled(given, -1, impedance_->responses(causes));
+  DenseMatrix steps(impedance_->length());
+  std::vector<ContactVector> better;
+  for (std::size_t k = 0; k < some.size(); ++k) {
+    const auto column = given.column(k);
+    for (std::size_t i = 0; i < normal[k].size(); ++i) column[i] += normal[k][i];
+    better.push_back(complementarity(*some[k], {column.begin(), column.end()}));
+    steps.append(better.back());
+  }
+  linalg::addScaled(steps, -1, causes);
+  impedance_->addUnknowns(steps, x);
+  for (std::size_t k = 0; k < some.size(); ++k) {
+    Trial& trial = *some[k];
+    const double now = naturalResidual(trial.held, trial.start.at, unknowns(trial, x[k]));
+    trial.isBest = !(now < 0.5 * trial.left);
+    if (trial.isBest) continue;
+    trial.left = now;
+    check(VecCopy(x[k], trial.x));
+    trial.causes = std::move(better[k]);
+  }
+  return true;
+}
+
+std::vector<Solution> CondensedProblem::solveTogether(
+    const std::vector<sweep::Parameters>& points) {
+  std::vector<Start> starts;
+  for (const auto& at : points) {
+    problem_.requireSlip(at);
+    starts.push_back({at, sticking_, gaps_});
+  }
+  auto solutions = solveFrom(starts);
+  // Points whose holds are to be revised are solved for anew, together.
+  std::vector<std::size_t> unsettled(points.size());
+  std::iota(unsettled.begin(), unsettled.end(), 0);
+  while (true) {
+    std::vector<Start> again;
+    std::erase_if(unsettled, [&](std::size_t k) {
+      auto next = problem_.nextHolds(solutions[k]);
+      if (next) again.push_back({points[k], std::move(*next), starts[k].gaps});
+      return !next;
+    });
+    if (unsettled.empty()) break;
+    auto better = solveFrom(again);
+    for (std::size_t i = 0; i < unsettled.size(); ++i) {
+      const std::size_t k = unsettled[i];
+      better[i].revisions = solutions[k].revisions + 1;
+      better[i].iterations += solutions[k].iterations;
+      solutions[k] = std::move(better[i]);
+      starts[k].gaps = std::move(again[i].gaps);
+    }
+  }
+  if (const auto& last = solutions.back(); last.converged) {
+    sticking_ = Sticking::allHeld(contact_);
+    for (std::size_t i = 0; i < last.closed.size(); ++i)
+      if (!last.closed[i]) sticking_.holds[i] = last.sticking.holds[i];
+    gaps_ = starts.back().gaps;
+  }
+  return solutions;
 }
 
 }  // namespace squeal::condensed

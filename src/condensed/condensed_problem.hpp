@@ -1,6 +1,6 @@
 #pragma once
-/// Steady sliding is solved in the unknowns of the contact where everything but the contact is
-/// linear [3.10–3.13, M.59].
+/// Steady sliding is solved in the unknowns of the contact, since everything else is linear or
+/// nearly so [3.10–3.13, M.59].
 #include <memory>
 #include <vector>
 
@@ -17,21 +17,28 @@ using steady::Sticking;
 /// The complementarity problem in the gaps alone,
 ///   0 ≤ g ⟂ F(g) ≥ 0,
 /// where F(g) holds the forces at the gaps with the friction f R in balance. The one factorisation
-/// of the closed contact serves all frictions, pressures and sets of open nodes, and what one point
-/// has found out about the contact serves the next.
+/// of the closed contact serves all frictions, pressures and sets of open nodes. Points that are
+/// solved for together share what they find out about the contact, and what they ask of the
+/// factorisation is asked in blocks, which costs a fraction of as many single solves. What
+/// convective terms add to forces and slip comes with the corrections by the residual of all
+/// equations, a modified Newton method.
 class CondensedProblem {
  public:
-  /// Returns true if the slip, and the stiffness, is the same at all points of a sweep.
-  static bool serves(const contact::Contact& contact, const elasticity::Bodies& bodies);
+  /// Returns true if everything but the contact is linear at each point: solutions then need no
+  /// corrections but for rounding, and onSet() gives them.
+  static bool isExact(const contact::Contact& contact, const elasticity::Bodies& bodies);
   /// Collective. Borrows the problem and `closed`, the system with all contact nodes closed and
   /// all that stick held, during the life of the object.
   CondensedProblem(const Problem& problem, const contact::CoupledSystem& closed);
   ~CondensedProblem();
-  /// Collective. Solves as Problem::solve() does, from the gaps and holds of the last solution.
-  Solution solve(const sweep::Parameters& at);
+  /// Collective. Solves at all points as Problem::solve() does, from the gaps and holds of the last
+  /// solution of the last call. Some vectors of all unknowns are held for each point meanwhile.
+  std::vector<Solution> solveTogether(const std::vector<sweep::Parameters>& points);
+  /// Collective. The same at one point.
+  Solution solve(const sweep::Parameters& at) { return std::move(solveTogether({at}).front()); }
   /// Collective. Returns causes and effects where the nodes with closed[i] set are closed and the
-  /// others open, whatever signs that gives. Nodes that stick are held where they are closed,
-  /// unless `sticking` says otherwise.
+  /// others open, whatever signs that gives, without convective terms. Nodes that stick are held
+  /// where they are closed, unless `sticking` says otherwise.
   impedance::ContactSolution onSet(const sweep::Parameters& at,
                                    const std::vector<unsigned char>& closed,
                                    const Sticking& sticking);
@@ -51,16 +58,21 @@ class CondensedProblem {
 
  private:
   struct Loaded;
-  struct Asked;
-  Loaded relaxed(const sweep::Parameters& at, const sweep::Parameters* less);
+  struct Start;
+  struct Trial;
+  /// Returns the problem without holds.
+  const Problem& open() const { return free_ ? *free_ : problem_; }
   Loaded loaded(const sweep::Parameters& at);
+  void findLoads();
   impedance::ContactConditions conditions(const sweep::Parameters& at,
                                           const Sticking& sticking) const;
-  Mat directFriction(const Sticking& sticking);
-  Solution solveWith(const sweep::Parameters& at, const Sticking& sticking);
-  impedance::ContactVector complementarity(const Asked& asked,
-                                           const impedance::ContactVector& given,
-                                           Solution& solution);
+  OwnedMat directFriction(const Sticking& sticking);
+  std::vector<Solution> solveFrom(std::vector<Start>& starts);
+  Trial trialOf(Start& start);
+  OwnedVec unknowns(const Trial& trial, Vec x) const;
+  std::vector<Trial*> approach(std::vector<Trial*> moving, double accuracy);
+  impedance::ContactVector complementarity(Trial& trial, const impedance::ContactVector& given);
+  bool correct(std::vector<Trial>& trials);
 
   const Problem& problem_;
   const contact::Contact& contact_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "linalg/block.hpp"
 #include "linalg/symmetric.hpp"
@@ -16,14 +17,22 @@ using linalg::DenseView;
 
 namespace {
 
-/// The friction is solved for to this part of what causes it. The residual of all equations is
-/// refined where less is not enough.
-constexpr double asked = 1e-13, accepted = 1e-8;
+/// Friction that is left unbalanced by more than this part of what causes it has no solution.
+constexpr double accepted = 1e-8;
 /// Directions of the stiffness of the open gaps that are softer than this part of the stiffest are
 /// those of a loose body.
 constexpr double loose = 1e-12;
 /// The largest number of directions that one call adds.
 constexpr PetscInt mostDirections = 500;
+/// What remains of a direction, a unit vector, must be longer: outside the space of friction
+/// magnitudes, and besides the others of its block. What is left out there comes with the next
+/// block.
+constexpr double newInSpace = 1e-10, newInBlock = 0.1;
+/// The largest number of bytes that stiffnesses of free unknowns may take, unless a single one
+/// does.
+constexpr double keptBytes = 256e6;
+/// The largest number of active sets that are kept.
+constexpr std::size_t mostBlocks = 32;
 
 /// Collective. Returns the rows of all ranks, on every rank.
 DenseMatrix gathered(const Concatenation& ranks, const DenseView& rows) {
@@ -89,7 +98,19 @@ struct ContactSolver::FreeBlock {
   std::vector<PetscInt> places;     // [free unknown of any rank] its column
   Concatenation ranks;              // of `local`
   SymmetricInverse stiffness;       // F of w among the free unknowns
-  DenseMatrix responses, freed;     // of the friction magnitudes with the free unknowns released
+  DenseMatrix normal;               // R of the friction magnitudes with the free unknowns released
+
+  double bytes() const { return 8.0 * ranks.size() * ranks.size(); }
+};
+
+/// A Search looks for the friction of one case in the space of friction magnitudes.
+struct ContactSolver::Search {
+  const ContactCase& asked;
+  std::shared_ptr<FreeBlock> block;
+  DenseMatrix wanted;        // t without its own effects, [contact node]
+  double unit = 0;           // what the part that stays unbalanced refers to, N
+  DenseMatrix weights = {};  // [direction]
+  double left = INFINITY;
 };
 
 ContactSolver::ContactSolver(const Impedance& impedance)
@@ -105,7 +126,7 @@ ContactSolver::ContactSolver(const Impedance& impedance)
 ContactSolver::~ContactSolver() = default;
 
 /// Finds the columns of unknowns that have not been free before.
-void ContactSolver::learn(const std::vector<unsigned char>& free) {
+void ContactSolver::learn(std::span<const unsigned char> free) {
   std::vector<PetscInt> wanted;
   for (std::size_t i = 0; i < free.size(); ++i)
     if (free[i] && place_.count(first_ + i) == 0) wanted.push_back(first_ + i);
@@ -125,16 +146,20 @@ double ContactSolver::gapStiffness(std::size_t node) const {
   return place == place_.end() ? 0 : columns_(impedance_.nodes() + node, place->second);
 }
 
-ContactSolver::FreeBlock& ContactSolver::blockOf(const ContactConditions& conditions) {
+std::shared_ptr<ContactSolver::FreeBlock> ContactSolver::blockOf(
+    const ContactConditions& conditions) {
   const MPI_Comm comm = impedance_.comm();
   const auto& free = conditions.free;
   const PetscInt n = impedance_.nodes();
-  int isClosed = std::none_of(free.begin(), free.begin() + n, [](unsigned char f) { return f; });
-  check(MPI_Allreduce(MPI_IN_PLACE, &isClosed, 1, MPI_INT, MPI_LAND, comm));
-  auto& last = isClosed ? closed_ : open_;
-  int same = last && last->free == free && last->direct.get() == conditions.direct;
-  check(MPI_Allreduce(MPI_IN_PLACE, &same, 1, MPI_INT, MPI_LAND, comm));
-  if (same) return *last;
+  std::vector<int> same;
+  for (const auto& block : blocks_)
+    same.push_back(block->free == free && block->direct.get() == conditions.direct);
+  check(MPI_Allreduce(MPI_IN_PLACE, same.data(), same.size(), MPI_INT, MPI_LAND, comm));
+  if (const auto known = std::ranges::find(same, 1); known != same.end()) {
+    const auto place = blocks_.begin() + (known - same.begin());
+    std::rotate(blocks_.begin(), place, place + 1);
+    return blocks_.front();
+  }
   learn(free);
   std::vector<PetscInt> local, mine;
   for (std::size_t i = 0; i < free.size(); ++i)
@@ -150,10 +175,18 @@ ContactSolver::FreeBlock& ContactSolver::blockOf(const ContactConditions& condit
     check(PetscObjectReference(reinterpret_cast<PetscObject>(conditions.direct)));
     direct = OwnedMat(conditions.direct);
   }
-  last.reset(new FreeBlock{free, std::move(direct), std::move(local), std::move(places), ranks,
-                           SymmetricInverse(std::move(stiffness)), DenseMatrix(impedance_.length()),
-                           DenseMatrix(ranks.size())});
-  return *last;
+  blocks_.insert(
+      blocks_.begin(),
+      std::make_shared<FreeBlock>(free, std::move(direct), std::move(local), std::move(places),
+                                  ranks, SymmetricInverse(std::move(stiffness)), DenseMatrix(n)));
+  double bytes = 0;
+  const auto kept =
+      std::ranges::find_if(blocks_.begin() + 1, blocks_.end(), [&](const auto& block) {
+        return (bytes += block->bytes()) + blocks_.front()->bytes() > keptBytes;
+      });
+  blocks_.erase(kept, blocks_.end());
+  if (blocks_.size() > mostBlocks) blocks_.resize(mostBlocks);
+  return blocks_.front();
 }
 
 /// Releases the free unknowns until F = 0 there. Returns them, [free unknown of any rank], and adds
@@ -173,90 +206,160 @@ DenseMatrix ContactSolver::release(const FreeBlock& block, DenseMatrix& effects)
   return freed;
 }
 
-/// Adds a direction to the space of friction magnitudes, unless it lies in it.
-bool ContactSolver::extend(std::vector<double> direction) {
+/// Adds what the friction t, which may have several columns, causes directly to the effects.
+void ContactSolver::addDirect(const FreeBlock& block, const DenseView& t,
+                              DenseMatrix& effects) const {
+  if (!block.direct) return;
   const PetscInt n = impedance_.nodes();
-  const double before = linalg::length(impedance_.comm(), direction);
-  DenseMatrix column(n, 1, std::move(direction));
+  DenseMatrix forces(impedance_.length() - n);
+  linalg::appendProduct(block.direct, t, forces);
+  for (PetscInt j = 0; j < forces.columns(); ++j)
+    for (PetscInt i = 0; i < forces.rows(); ++i) effects(n + i, j) += forces(i, j);
+}
+
+/// Brings a block up to the friction magnitudes that are known by now.
+void ContactSolver::update(FreeBlock& block) const {
+  const PetscInt known = block.normal.columns(), all = magnitudes_.columns();
+  if (known == all) return;
+  DenseMatrix fresh(responses_.columnRange(known, all));
+  addDirect(block, magnitudes_.columnRange(known, all), fresh);
+  release(block, fresh);
+  block.normal.append(linalg::rowRange(fresh, 0, impedance_.nodes()));
+}
+
+/// Adds directions, [contact node]×[direction], to the space of friction magnitudes, but for what
+/// of them lies in it. Returns false if nothing remains.
+bool ContactSolver::extend(const DenseMatrix& directions) {
+  const PetscInt n = impedance_.nodes();
+  const MPI_Comm comm = impedance_.comm();
+  DenseMatrix rest = linalg::unitColumns(comm, directions), fresh(n);
   for (int pass = 0; pass < 2; ++pass)
-    linalg::multiplyAdd(
-        magnitudes_, linalg::transposedProduct(impedance_.comm(), magnitudes_, column), column, -1);
-  const double length = linalg::length(impedance_.comm(), column.entries());
-  if (!(length > 1e-10 * before)) return false;
-  DenseMatrix cause(impedance_.length(), 1);
-  for (PetscInt i = 0; i < n; ++i) column(i, 0) /= length, cause(i, 0) = column(i, 0);
-  magnitudes_.append(column);
-  responses_.append(impedance_.responses(cause));
+    linalg::multiplyAdd(magnitudes_, linalg::transposedProduct(comm, magnitudes_, rest), rest, -1);
+  for (PetscInt j = 0; j < rest.columns(); ++j) {
+    DenseMatrix column(rest.columnRange(j, j + 1));
+    double length = linalg::length(comm, column.entries());
+    if (!(length > newInSpace)) continue;
+    for (double& entry : column.entries()) entry /= length;
+    for (int pass = 0; pass < 2; ++pass)
+      linalg::multiplyAdd(fresh, linalg::transposedProduct(comm, fresh, column), column, -1);
+    length = linalg::length(comm, column.entries());
+    if (!(length > newInBlock)) continue;
+    for (double& entry : column.entries()) entry /= length;
+    fresh.append(column);
+  }
+  if (fresh.columns() == 0) return false;
+  DenseMatrix causes(impedance_.length(), fresh.columns());
+  for (PetscInt j = 0; j < fresh.columns(); ++j)
+    std::ranges::copy(fresh.column(j), causes.column(j).begin());
+  magnitudes_.append(fresh);
+  responses_.append(impedance_.responses(causes));
   return true;
 }
 
-ContactSolution ContactSolver::solve(const ContactConditions& conditions,
-                                     const ContactVector& given) {
-  FreeBlock& block = blockOf(conditions);
-  const auto& coefficient = conditions.coefficient;
-  const PetscInt n = impedance_.nodes(), length = impedance_.length();
+/// Looks for the friction of all cases until each is balanced or nothing new is found.
+void ContactSolver::balance(std::vector<Search>& searches, double accuracy) {
+  const PetscInt n = impedance_.nodes(), most = magnitudes_.columns() + mostDirections;
   const MPI_Comm comm = impedance_.comm();
-  DenseMatrix effects(length, 1, given), freed = release(block, effects);
-  DenseMatrix wanted(n, 1);  // t without its own effects
-  for (PetscInt i = 0; i < n; ++i) wanted(i, 0) = coefficient[i] * effects(i, 0);
-  const double size = linalg::length(comm, wanted.entries());
-  DenseMatrix weights;
-  double left = size;
-  for (PetscInt added = 0; size > 0; ++added) {
-    if (const PetscInt known = block.responses.columns(); known < responses_.columns()) {
-      DenseMatrix fresh(responses_.columnRange(known, responses_.columns()));
-      if (block.direct) {
-        DenseMatrix forces(length - n);
-        linalg::appendProduct(block.direct, magnitudes_.columnRange(known, magnitudes_.columns()),
-                              forces);
-        for (PetscInt j = 0; j < forces.columns(); ++j)
-          for (PetscInt i = 0; i < forces.rows(); ++i) fresh(n + i, j) += forces(i, j);
-      }
-      block.freed.append(release(block, fresh));
-      block.responses.append(fresh);
+  DenseMatrix unbalanced(n);
+  do {
+    unbalanced.resizeColumns(0);
+    for (Search& search : searches) {
+      if (search.left <= accuracy * search.unit) continue;
+      update(*search.block);
+      const auto& coefficient = search.asked.conditions.coefficient;
+      DenseMatrix g = magnitudes_;  // t − c R
+      for (PetscInt j = 0; j < g.columns(); ++j)
+        for (PetscInt i = 0; i < n; ++i) g(i, j) -= coefficient[i] * search.block->normal(i, j);
+      search.weights = leastSquares(comm, g, search.wanted);
+      DenseMatrix rest = search.wanted;
+      linalg::multiplyAdd(g, search.weights, rest, -1);
+      search.left = linalg::length(comm, rest.entries());
+      if (!(search.left <= accuracy * search.unit)) unbalanced.append(rest);
     }
-    DenseMatrix balance = magnitudes_;  // t − c R
-    for (PetscInt j = 0; j < balance.columns(); ++j)
-      for (PetscInt i = 0; i < n; ++i) balance(i, j) -= coefficient[i] * block.responses(i, j);
-    weights = leastSquares(comm, balance, wanted);
-    DenseMatrix rest = wanted;
-    linalg::multiplyAdd(balance, weights, rest, -1);
-    left = linalg::length(comm, rest.entries());
-    if (left <= asked * size || added == mostDirections ||
-        !extend({rest.entries().begin(), rest.entries().end()}))
-      break;
-  }
-  ContactSolution solution;
-  solution.found = std::isfinite(left) && left <= accepted * size;
-  solution.causes.assign(length, 0.0);
-  if (size > 0) {
-    const DenseMatrix t = linalg::product(magnitudes_, weights);
-    std::copy(t.data(), t.data() + n, solution.causes.begin());
-    linalg::multiplyAdd(block.responses, weights, effects);
-    linalg::multiplyAdd(block.freed, weights, freed);
-  }
-  for (std::size_t i = 0; i < block.local.size(); ++i)
-    solution.causes[n + block.local[i]] = freed(block.ranks.ownBegin() + i, 0);
-  solution.effects.assign(effects.data(), effects.data() + length);
-  return solution;
+  } while (unbalanced.columns() > 0 && magnitudes_.columns() < most && extend(unbalanced));
 }
 
-ContactSolution ContactSolver::withGaps(const std::vector<double>& gaps,
-                                        ContactConditions conditions, const ContactVector& given) {
+ContactSolution ContactSolver::solution(const Search& search, double accuracy) const {
+  const PetscInt n = impedance_.nodes(), length = impedance_.length(),
+                 known = search.weights.rows();
+  const DenseMatrix t = linalg::product(magnitudes_.columnRange(0, known), search.weights);
+  DenseMatrix effects(length, 1, search.asked.given);
+  linalg::multiplyAdd(responses_.columnRange(0, known), search.weights, effects);
+  addDirect(*search.block, t, effects);
+  const DenseMatrix freed = release(*search.block, effects);
+  ContactSolution result;
+  result.found =
+      std::isfinite(search.left) && search.left <= std::max(accuracy, accepted) * search.unit;
+  result.causes.assign(length, 0.0);
+  std::ranges::copy(t.entries(), result.causes.begin());
+  const auto& local = search.block->local;
+  for (std::size_t i = 0; i < local.size(); ++i)
+    result.causes[n + local[i]] = freed(search.block->ranks.ownBegin() + i, 0);
+  result.effects.assign(effects.entries().begin(), effects.entries().end());
+  return result;
+}
+
+/// Returns the first case of each group whose stiffnesses are kept at once, and the number of
+/// cases.
+std::vector<std::size_t> ContactSolver::groups(std::span<const ContactCase> cases) const {
+  std::vector<double> orders;
+  for (const auto& one : cases) orders.push_back(std::ranges::count(one.conditions.free, 1));
+  check(MPI_Allreduce(MPI_IN_PLACE, orders.data(), orders.size(), MPI_DOUBLE, MPI_SUM,
+                      impedance_.comm()));
+  std::vector<std::size_t> begins{0};
+  double bytes = 0;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const double more = 8 * orders[i] * orders[i];
+    if (i > begins.back() && bytes + more > keptBytes) begins.push_back(i), bytes = 0;
+    bytes += more;
+  }
+  begins.push_back(cases.size());
+  return begins;
+}
+
+std::vector<ContactSolution> ContactSolver::solve(std::span<const ContactCase> cases,
+                                                  double accuracy) {
+  const PetscInt n = impedance_.nodes(), length = impedance_.length();
+  std::vector<unsigned char> free(length - n);
+  for (const auto& one : cases)
+    std::ranges::transform(free, one.conditions.free, free.begin(), std::bit_or<unsigned char>());
+  learn(free);
+  std::vector<ContactSolution> solutions;
+  const auto begins = groups(cases);
+  for (std::size_t group = 0; group + 1 < begins.size(); ++group) {
+    std::vector<Search> searches;
+    for (std::size_t k = begins[group]; k < begins[group + 1]; ++k) {
+      Search search{cases[k], blockOf(cases[k].conditions), DenseMatrix(n, 1)};
+      DenseMatrix effects(length, 1, cases[k].given);
+      release(*search.block, effects);
+      for (PetscInt i = 0; i < n; ++i)
+        search.wanted(i, 0) = cases[k].conditions.coefficient[i] * effects(i, 0);
+      search.unit = std::max(linalg::length(impedance_.comm(), search.wanted.entries()),
+                             cases[k].frictionUnit);
+      searches.push_back(std::move(search));
+    }
+    balance(searches, accuracy);
+    for (const auto& search : searches) solutions.push_back(solution(search, accuracy));
+  }
+  return solutions;
+}
+
+ContactSolution ContactSolver::withGaps(const std::vector<double>& gaps, ContactCase one) {
   const PetscInt n = impedance_.nodes();
-  std::vector<unsigned char> open(conditions.free.size(), 0);
+  std::vector<unsigned char> open(one.conditions.free.size(), 0);
   for (PetscInt i = 0; i < n; ++i) open[i] = gaps[i] != 0;
   learn(open);
-  DenseMatrix weights(columns_.columns(), 1), effects(impedance_.length(), 1, given);
+  DenseMatrix weights(columns_.columns(), 1), effects(impedance_.length(), 1, one.given);
   for (PetscInt i = 0; i < n; ++i)
     if (open[i]) weights(place_.at(first_ + i), 0) = gaps[i];
   check(MPI_Allreduce(MPI_IN_PLACE, weights.data(), weights.size(), MPI_DOUBLE, MPI_SUM,
                       impedance_.comm()));
   if (!weights.empty()) linalg::multiplyAdd(columns_, weights, effects);
-  std::fill(conditions.free.begin(), conditions.free.begin() + n, 0);
-  auto solution = solve(conditions, {effects.data(), effects.data() + effects.rows()});
-  std::copy(gaps.begin(), gaps.end(), solution.causes.begin() + n);
-  return solution;
+  std::fill_n(one.conditions.free.begin(), n, 0);
+  one.given.assign(effects.entries().begin(), effects.entries().end());
+  auto result = solve(one);
+  std::ranges::copy(gaps, result.causes.begin() + n);
+  return result;
 }
 
 }  // namespace squeal::impedance

@@ -28,9 +28,13 @@ OwnedIS indices(MPI_Comm comm, const std::vector<PetscInt>& list) {
   return set;
 }
 
-ContactVector joined(std::span<const double> first, std::span<const double> second) {
-  ContactVector result(first.begin(), first.end());
-  result.insert(result.end(), second.begin(), second.end());
+/// Returns the rows of both, those of the second below.
+DenseMatrix stacked(const DenseView& first, const DenseView& second) {
+  DenseMatrix result(first.rows() + second.rows(), first.columns());
+  for (PetscInt j = 0; j < first.columns(); ++j) {
+    const auto rest = std::ranges::copy(first.column(j), result.column(j).begin()).out;
+    std::ranges::copy(second.column(j), rest);
+  }
   return result;
 }
 
@@ -52,7 +56,8 @@ Block sumOfProducts(Mat a, const DenseView& x, Mat b, const DenseView& y, PetscI
 }
 
 /// Returns the matrix that picks the indices of this rank: `local` × indices, with a 1 in the row
-/// of each index.
+/// of each index. MatCreateSubMatrix() asks for ascending columns, which gaps and tangents in a row
+/// are not.
 OwnedMat picks(MPI_Comm comm, PetscInt local, IS indices) {
   OwnedMat matrix;
   PetscInt count = 0, first = 0;
@@ -70,24 +75,32 @@ OwnedMat picks(MPI_Comm comm, PetscInt local, IS indices) {
   return matrix;
 }
 
-/// Returns a part of a matrix with few rows. MatCreateSubMatrix() asks for ascending columns, which
-/// gaps and tangents in a row are not.
-OwnedMat part(Mat matrix, IS rows, IS columns) {
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(matrix));
-  PetscInt localRows = 0, localColumns = 0;
-  check(MatGetLocalSize(matrix, &localRows, &localColumns));
-  const OwnedMat left = picks(comm, localRows, rows), right = picks(comm, localColumns, columns);
-  OwnedMat thin, result;
-  check(MatTransposeMatMult(left, matrix, MAT_INITIAL_MATRIX, PETSC_DEFAULT, thin.out()));
-  check(MatMatMult(thin, right, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.out()));
+/// Returns A B.
+OwnedMat productOf(Mat a, Mat b) {
+  OwnedMat result;
+  check(MatMatMult(a, b, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.out()));
   return result;
+}
+
+/// Returns Aᵀ B. It costs no more than the rows of B in which A has entries.
+OwnedMat transposedProductOf(Mat a, Mat b) {
+  OwnedMat result;
+  check(MatTransposeMatMult(a, b, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.out()));
+  return result;
+}
+
+/// Returns rows of a matrix, transposed.
+OwnedMat transposedRowsOf(Mat matrix, IS rows) {
+  PetscInt local = 0;
+  check(MatGetLocalSize(matrix, &local, nullptr));
+  return transposedProductOf(
+      matrix, picks(PetscObjectComm(reinterpret_cast<PetscObject>(matrix)), local, rows));
 }
 
 }  // namespace
 
 Impedance::Impedance(const contact::Contact& contact, const contact::Transformation& open,
-                     const contact::Projection& stiffness, Mat slipRows,
-                     const contact::CoupledSystem& closed)
+                     Mat stiffness, Mat slipRows, const contact::CoupledSystem& closed)
     : contact_(contact), closed_(closed), work_(rightVector(closed.k0())) {
   auto [inner, free] = contact::compared(open, closed.transformation());
   PetscInt begin = 0;
@@ -111,17 +124,31 @@ Impedance::Impedance(const contact::Contact& contact, const contact::Transformat
   }
   released_ = indices(comm(), columns);
   nodeRows_ = indices(comm(), rows);
-  innerFriction_ = transposed(part(slipRows, nodeRows_, inner_));
-  forceFriction_ = directFriction(slipRows);
-  forceInner_ = part(stiffness.matrix, released_, inner_);
+  // Only the rows of K at the contact take part.
+  const OwnedMat friction = transposedRowsOf(slipRows, nodeRows_);
+  PetscInt unknowns = 0;
+  check(MatGetLocalSize(open.trial, nullptr, &unknowns));
+  const OwnedMat toInner = picks(comm(), unknowns, inner_),
+                 toFree = picks(comm(), unknowns, released_);
+  innerFriction_ = transposedProductOf(toInner, friction);
+  forceFriction_ = transposedProductOf(toFree, friction);
+  const OwnedMat trialInner = productOf(open.trial, toInner),
+                 trialFree = productOf(open.trial, toFree);
+  const OwnedMat freeForces = transposedProductOf(trialFree, stiffness);
+  forceInner_ = productOf(freeForces, trialInner);
+  forceReleased_ = productOf(freeForces, trialFree);
   innerReleased_ = transposed(forceInner_);
-  forceReleased_ = part(stiffness.matrix, released_, released_);
-  normalInner_ = part(stiffness.reaction, nodeRows_, inner_);
-  normalReleased_ = part(stiffness.reaction, nodeRows_, released_);
+  const OwnedMat normal = transposedRowsOf(contact.reaction, nodeRows_),
+                 normalForces = transposedProductOf(normal, stiffness);
+  normalInner_ = productOf(normalForces, trialInner);
+  normalReleased_ = productOf(normalForces, trialFree);
 }
 
 OwnedMat Impedance::directFriction(Mat slipRows) const {
-  return transposed(part(slipRows, nodeRows_, released_));
+  PetscInt unknowns = 0;
+  check(MatGetLocalSize(slipRows, nullptr, &unknowns));
+  return transposedProductOf(picks(comm(), unknowns, released_),
+                             transposedRowsOf(slipRows, nodeRows_));
 }
 
 /// Returns K0⁻¹ of the columns.
@@ -152,39 +179,48 @@ DenseMatrix Impedance::responses(const DenseView& causes) const {
     Block force = sumOfProducts(forceInner_, y, forceReleased_, w, m), friction(m);
     linalg::appendProduct(forceFriction_, t, friction);
     linalg::addScaled(force, 1, friction);
-    for (PetscInt j = 0; j < some.columns(); ++j)
-      result.append(joined(normal.column(j), force.column(j)));
+    result.append(stacked(normal, force));
   }
   return result;
 }
 
-void Impedance::addUnknowns(const ContactVector& causes, Vec x) const {
+void Impedance::addUnknowns(const DenseView& causes, const std::vector<Vec>& x) const {
   const PetscInt n = nodes();
-  const DenseView t(causes.data(), n, 1), w(causes.data() + n, length() - n, 1);
+  const DenseMatrix t = linalg::rowRange(causes, 0, n), w = linalg::rowRange(causes, n, length());
   addInner(innerOf(t, w), x);
-  const OwnedVec released = borrowedVector(comm(), w);
-  check(VecISAXPY(x, released_, 1, released));
+  for (std::size_t j = 0; j < x.size(); ++j) {
+    const OwnedVec released = borrowedVector(comm(), w.columnRange(j, j + 1));
+    check(VecISAXPY(x[j], released_, 1, released));
+  }
 }
 
-ContactVector Impedance::relax(Vec residual, Vec x) const {
-  const PetscInt n = nodes();
-  check(VecISCopy(residual, inner_, SCATTER_REVERSE, work_));
-  check(VecScale(work_, -1));
-  const ReadArray forces(work_);
-  const Block y = solved(DenseView(forces.data(), forces.size(), 1));
+DenseMatrix Impedance::relax(const std::vector<Vec>& residuals, const std::vector<Vec>& x) const {
+  const PetscInt n = nodes(), m = length() - n;
+  PetscInt local = 0;
+  check(VecGetLocalSize(work_, &local));
+  Block forces(local), given(m, std::ssize(residuals));
+  for (std::size_t j = 0; j < residuals.size(); ++j) {
+    check(VecISCopy(residuals[j], inner_, SCATTER_REVERSE, work_));
+    check(VecScale(work_, -1));
+    const ReadArray values(work_);
+    forces.append(std::span(values.data(), values.size()));
+    const OwnedVec rows = borrowedVector(comm(), given.columnRange(j, j + 1));
+    check(VecISCopy(residuals[j], released_, SCATTER_REVERSE, rows));
+  }
+  const Block y = solved(forces);
   addInner(y, x);
-  Block normal(n), force(length() - n), given(length() - n, 1);
+  Block normal(n), force(m);
   linalg::appendProduct(normalInner_, y, normal);
   linalg::appendProduct(forceInner_, y, force);
-  const OwnedVec rows = borrowedVector(comm(), given);
-  check(VecISCopy(residual, released_, SCATTER_REVERSE, rows));
   linalg::addScaled(force, 1, given);
-  return joined(normal.column(0), force.column(0));
+  return stacked(normal, force);
 }
 
-void Impedance::addInner(const Block& y, Vec x) const {
-  const OwnedVec inner = borrowedVector(comm(), y);
-  check(VecISAXPY(x, inner_, 1, inner));
+void Impedance::addInner(const Block& y, const std::vector<Vec>& x) const {
+  for (std::size_t j = 0; j < x.size(); ++j) {
+    const OwnedVec inner = borrowedVector(comm(), y.columnRange(j, j + 1));
+    check(VecISAXPY(x[j], inner_, 1, inner));
+  }
 }
 
 }  // namespace squeal::impedance

@@ -22,11 +22,10 @@ using ContactVector = std::vector<double>;
 class Impedance {
  public:
   /// Collective. `open` is the transformation with all gaps unknown and nothing that sticks,
-  /// `stiffness` holds the projections of K by it, `slipRows` is S, and `closed` is the system with
-  /// all nodes closed and held. That is borrowed during the life of the object, as is `contact`.
-  Impedance(const contact::Contact& contact, const contact::Transformation& open,
-            const contact::Projection& stiffness, Mat slipRows,
-            const contact::CoupledSystem& closed);
+  /// `stiffness` is K, symmetric, `slipRows` is S, and `closed` is the system with all nodes closed
+  /// and held. That is borrowed during the life of the object, as is `contact`.
+  Impedance(const contact::Contact& contact, const contact::Transformation& open, Mat stiffness,
+            Mat slipRows, const contact::CoupledSystem& closed);
 
   MPI_Comm comm() const { return contact_.mesh->comm; }
   PetscInt size() const { return contact_.totalNodes; }     ///< contact nodes of all ranks
@@ -38,11 +37,13 @@ class Impedance {
   PetscInt length() const { return nodes() + std::ssize(nodeOf_); }
   /// Collective. Returns the responses, a column for each of the causes.
   linalg::DenseMatrix responses(const linalg::DenseView& causes) const;
-  /// Collective. Adds to x, in the unknowns of the open contact, the y and w that the causes have.
-  void addUnknowns(const ContactVector& causes, Vec x) const;
-  /// Collective. Balances the forces in the rows of y, given by the residual in all rows of x: adds
-  /// y = −K0⁻¹ residual to x and returns N K T_y y and, for w, the residual with K_wy y added.
-  ContactVector relax(Vec residual, Vec x) const;
+  /// Collective. Adds to each x, in the unknowns of the open contact, the y and w that a column of
+  /// the causes has.
+  void addUnknowns(const linalg::DenseView& causes, const std::vector<Vec>& x) const;
+  /// Collective. Balances the forces in the rows of y, given by residuals in all rows of x: adds
+  /// y = −K0⁻¹ residual to each x. Returns, a column for each, N K T_y y and, for w, the residual
+  /// with K_wy y added.
+  linalg::DenseMatrix relax(const std::vector<Vec>& residuals, const std::vector<Vec>& x) const;
   /// Collective. Returns S_wᵀ, released unknowns × contact nodes, of slip rows S without entries
   /// for y: what friction does to the nodes that slide instead of sticking.
   OwnedMat directFriction(Mat slipRows) const;
@@ -51,7 +52,7 @@ class Impedance {
  private:
   linalg::Block solved(const linalg::DenseView& forces) const;
   linalg::Block innerOf(const linalg::DenseView& t, const linalg::DenseView& w) const;
-  void addInner(const linalg::Block& y, Vec x) const;
+  void addInner(const linalg::Block& y, const std::vector<Vec>& x) const;
 
   const contact::Contact& contact_;
   const contact::CoupledSystem& closed_;

@@ -181,32 +181,29 @@ void Problem::requireSlip(const sweep::Parameters& at) const {
 Solution Problem::solve(const sweep::Parameters& at, const contact::CoupledSystem& system) const {
   requireSlip(at);
   const OwnedVec z = closedContact(at, system);
-  return settle(solveFrom(at, z), [&](Sticking sticking) {
-    return Problem(mesh_, bodies_, contact_, std::move(sticking)).solveFrom(at, z);
-  });
-}
-
-Solution Problem::settle(Solution solution,
-                         const std::function<Solution(Sticking)>& solveWith) const {
-  while (solution.converged) {
-    auto next = revised(contact_, solution);
-    if (!next) break;
-    std::string failure = whyLoose(*next);
-    if (failure.empty() && solution.revisions == mostRevisions)
-      failure = formatted(
-          "what holds the nodes of sticking interfaces has not settled after %d revisions",
-          mostRevisions);
-    if (!failure.empty()) {
-      solution.converged = false;
-      solution.reason = std::move(failure);
-      break;
-    }
-    Solution better = solveWith(std::move(*next));
+  Solution solution = solveFrom(at, z);
+  while (auto next = nextHolds(solution)) {
+    Solution better = Problem(mesh_, bodies_, contact_, std::move(*next)).solveFrom(at, z);
     better.revisions = solution.revisions + 1;
     better.iterations += solution.iterations;
     solution = std::move(better);
   }
   return solution;
+}
+
+std::optional<Sticking> Problem::nextHolds(Solution& solution) const {
+  if (!solution.converged) return {};
+  auto next = revised(contact_, solution);
+  if (!next) return {};
+  std::string failure = whyLoose(*next);
+  if (failure.empty() && solution.revisions == mostRevisions)
+    failure =
+        formatted("what holds the nodes of sticking interfaces has not settled after %d revisions",
+                  mostRevisions);
+  if (failure.empty()) return next;
+  solution.converged = false;
+  solution.reason = std::move(failure);
+  return {};
 }
 
 /// Collective. Solves with the nodes that stick as this problem holds them, from a start z, N

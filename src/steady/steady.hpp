@@ -100,9 +100,10 @@ class Problem {
   OwnedVec forces(const sweep::Parameters& at, Vec displacement) const;
   /// Collective. Throws Error if f > 0 and |w| = 0 at a node that carries friction.
   void requireSlip(const sweep::Parameters& at) const;
-  /// Collective. Revises what holds the nodes that stick, from a first solution, until nothing
-  /// changes. `solveWith` solves with given holds.
-  Solution settle(Solution solution, const std::function<Solution(Sticking)>& solveWith) const;
+  /// Collective. Returns how the nodes that stick are to be held after a solution that holds them
+  /// otherwise; nothing if it has settled. A solution whose holds cannot be revised becomes one
+  /// that has not converged.
+  std::optional<Sticking> nextHolds(Solution& solution) const;
   /// Collective. Fills the rest of a solution from the unknowns x, whose natural residual has the
   /// 2-norm `left`, N.
   void conclude(Vec x, double left, Solution& solution) const;

@@ -41,7 +41,8 @@ TEST(Steady, NewtonConvergesQuadratically) {
   const auto run = test::runProgram(
       "steady", 2,
       options +
-          "-flutter_friction 0.4 -modes_count 2 -steady_snes_test_jacobian -steady_snes_monitor");
+          "-flutter_friction 0.4 -modes_count 2 -steady_full on -steady_snes_test_jacobian "
+          "-steady_snes_monitor");
   ASSERT_EQ(run.exitCode, 0) << run.error;
   // The preconditioner, which is tested in between, is the frictionless stiffness.
   const std::string own =
@@ -130,6 +131,24 @@ void expectDerivative(const std::string& name, double scale) {
   test::print(
       "%s: Jacobian against differences %.1e of its nonlinear part, which is %.1e of the whole\n",
       name.c_str(), worst, smallestShare);
+}
+
+// At this friction corrections with the derivative of the problem without convective terms do not
+// halve the residual.
+TEST(Steady, StrongConvectiveTermsAreSolvedForInAllUnknowns) {
+  int size = 0;
+  check(MPI_Comm_size(PETSC_COMM_WORLD, &size));
+  if (size > 1) GTEST_SKIP() << "starts the program itself";
+  for (const auto& [friction, where] :
+       {std::pair{"0.2", " after"}, {"0.8", ", in all unknowns after"}}) {
+    const auto run = test::runProgram("steady", 2,
+                                      slider::options(1, 0.6) + "-flutter_friction " + friction +
+                                          " -modes_count 2 -report_fields off");
+    ASSERT_EQ(run.exitCode, 0) << run.error;
+    EXPECT_NE(run.out.find(std::string("friction ") + friction + ": CONVERGED_FNORM_ABS" + where),
+              std::string::npos)
+        << run.out;
+  }
 }
 
 TEST(Steady, JacobianIsTheDerivative) {
