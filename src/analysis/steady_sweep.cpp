@@ -95,21 +95,50 @@ void continueFromNeighbour(Analysis& analysis, condensed::CondensedProblem& cond
     continueTo(condensed, without, solution);
 }
 
+std::string betweenText(const condensed::ContactWay& way) {
+  return "contact between " + sweep::parameterText(way.from->at) + " and " +
+         sweep::parameterText(way.to->at) + ": ";
+}
+
+/// Collective. Returns the ways to the points from `begin` on, from their neighbours, that are to
+/// be followed, and tells those that are too long.
+std::vector<condensed::ContactWay> waysToFollow(const Analysis& analysis, std::size_t begin) {
+  const MPI_Comm comm = analysis.mesh->comm;
+  const int limit = pathOption.get();
+  std::vector<condensed::ContactWay> ways;
+  for (std::size_t k = begin; k < analysis.steady.size() && limit > 0; ++k) {
+    const auto neighbour = analysis.sweep.earlierNeighbour(k);
+    if (!neighbour) continue;
+    const condensed::ContactWay way{&analysis.steady[*neighbour], &analysis.steady[k]};
+    if (!way.from->converged || !way.to->converged) continue;
+    if (const PetscInt changes = countDifferent(comm, *way.from, *way.to); changes <= limit)
+      ways.push_back(way);
+    else
+      say(comm,
+          betweenText(way) + formatted("%" PetscInt_FMT " nodes change; -steady_path %" PetscInt_FMT
+                                       " finds where",
+                                       changes, changes));
+  }
+  return ways;
+}
+
+/// Collective. Prepares followPath() on all these ways.
+void anticipate(MPI_Comm comm, condensed::CondensedProblem& condensed,
+                const std::vector<condensed::ContactWay>& ways) {
+  Stage stage(comm, "steady");
+  const long before = condensed.solves();
+  condensed::anticipateContact(condensed, ways);
+  if (const long more = condensed.solves() - before; more > 0)
+    stage.finish(formatted("contact between the points: %ld right-hand sides", more));
+}
+
 /// Collective. Adds the events on the way between the states at neighbouring points.
 void followPath(Analysis& analysis, condensed::CondensedProblem& condensed,
-                const steady::Solution& from, const steady::Solution& solution) {
+                const condensed::ContactWay& way) {
   const MPI_Comm comm = analysis.mesh->comm;
-  const std::string between = "contact between " + sweep::parameterText(from.at) + " and " +
-                              sweep::parameterText(solution.at) + ": ";
-  const int limit = pathOption.get();
-  if (!from.converged || !solution.converged || limit == 0) return;
-  if (const PetscInt changes = countDifferent(comm, from, solution); changes > limit)
-    return say(comm,
-               between + formatted("%" PetscInt_FMT " nodes change; -steady_path %" PetscInt_FMT
-                                   " finds where",
-                                   changes, changes));
+  const std::string between = betweenText(way);
   Stage stage(comm, "steady");
-  auto path = condensed::followContact(condensed, from, solution.at);
+  auto path = condensed::followContact(condensed, *way.from, way.to->at);
   if (!path.obstacle.empty()) complain(comm, between + "followed up to " + endText(path));
   for (auto& event : path.events) {
     event.order += analysis.contactEvents;
@@ -206,9 +235,10 @@ void condensedSweep(Analysis& analysis, const steady::Problem& problem,
     }
     stage.finish(
         formatted("%zu points, %ld right-hand sides", end - begin, condensed->solves() - before));
-    for (std::size_t k = begin; k < end && isExact; ++k)
-      if (const auto neighbour = analysis.sweep.earlierNeighbour(k))
-        followPath(analysis, *condensed, solutions[*neighbour], solutions[k]);
+    if (!isExact) continue;
+    const auto ways = waysToFollow(analysis, begin);
+    anticipate(comm, *condensed, ways);
+    for (const auto& way : ways) followPath(analysis, *condensed, way);
   }
 }
 

@@ -43,11 +43,6 @@ constexpr int mostSteps = 12;
 struct CondensedProblem::Loaded {
   OwnedVec x;           // in the unknowns of the open contact
   ContactVector given;  // (R, F)
-
-  void add(double factor, const Loaded& other) {
-    check(VecAXPY(x, factor, other.x));
-    for (std::size_t i = 0; i < given.size(); ++i) given[i] += factor * other.given[i];
-  }
 };
 
 /// A point with the holds and the gaps from which its solution is looked for.
@@ -96,16 +91,29 @@ CondensedProblem::CondensedProblem(const Problem& problem, const contact::Couple
 
 CondensedProblem::~CondensedProblem() = default;
 
-/// Returns the state under the loads of a point: they are p times the pressures and held
-/// displacements, v² times the centrifugal forces, and what gaps there are without load.
-CondensedProblem::Loaded CondensedProblem::loaded(const sweep::Parameters& at) {
+/// Returns what the loads of a point are made of, in the order of `loads_`: they are p times the
+/// pressures and held displacements, v² times the centrifugal forces, and what gaps there are
+/// without load.
+std::array<double, 3> CondensedProblem::loadFactors(const sweep::Parameters& at) {
   if (loads_.empty()) findLoads();
-  Loaded state{{}, ContactVector(impedance_->length(), 0.0)};
-  check(VecDuplicate(loads_[0].x, state.x.out()));
-  state.add(1, loads_[0]);
-  state.add(at.pressure, loads_[1]);
-  state.add(at.speed * at.speed, loads_[2]);
-  return state;
+  return {1, at.pressure, at.speed * at.speed};
+}
+
+/// Returns (R, F) of the closed contact without friction under the loads of a point.
+ContactVector CondensedProblem::given(const sweep::Parameters& at) {
+  const auto factors = loadFactors(at);
+  ContactVector sum(impedance_->length(), 0.0);
+  for (std::size_t k = 0; k < factors.size(); ++k)
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += factors[k] * loads_[k].given[i];
+  return sum;
+}
+
+/// Returns the displacements that belong to that, in the unknowns of the open contact.
+OwnedVec CondensedProblem::loaded(const sweep::Parameters& at) {
+  const auto factors = loadFactors(at);
+  OwnedVec x = rightVector(open().transformation().trial);
+  for (std::size_t k = 0; k < factors.size(); ++k) check(VecAXPY(x, factors[k], loads_[k].x));
+  return x;
 }
 
 /// Finds the states without loads, and what p = 1 and v = 1 add, with the residual of each balanced
@@ -166,16 +174,18 @@ OwnedMat CondensedProblem::directFriction(const Sticking& sticking) {
   return direct_.share();
 }
 
-impedance::ContactSolution CondensedProblem::onSet(const sweep::Parameters& at,
-                                                   const std::vector<unsigned char>& closed,
-                                                   const Sticking& sticking) {
-  const OwnedMat direct = directFriction(sticking);
-  ContactCase asked{conditions(at, sticking), loaded(at).given};
-  asked.conditions.direct = direct;
+std::vector<impedance::ContactSolution> CondensedProblem::onSets(
+    const std::vector<ChosenSet>& sets) {
   const auto& nodeOf = impedance_->nodeOf();
-  for (std::size_t k = 0; k < nodeOf.size(); ++k)
-    if (!closed[nodeOf[k]]) asked.conditions.free[k] = 1;
-  return solver_->solve(asked);
+  std::vector<ContactCase> cases;
+  std::vector<OwnedMat> direct;  // borrowed by the cases
+  for (const ChosenSet& set : sets) {
+    cases.push_back({conditions(set.at, set.sticking), given(set.at)});
+    cases.back().conditions.direct = direct.emplace_back(directFriction(set.sticking));
+    for (std::size_t k = 0; k < nodeOf.size(); ++k)
+      if (!set.closed[nodeOf[k]]) cases.back().conditions.free[k] = 1;
+  }
+  return solver_->solve(cases);
 }
 
 /// Solves for the gaps of a trial, with these forces given, and returns (t, w).
@@ -238,13 +248,12 @@ CondensedProblem::Trial CondensedProblem::trialOf(Start& start) {
   if (free_)
     own = std::make_unique<Problem>(problem_.mesh(), problem_.bodies(), contact_, start.sticking);
   const Problem& held = own ? *own : problem_;
-  Loaded state = loaded(start.at);
   Trial trial{start,
               std::move(own),
               held,
               directFriction(start.sticking),
-              std::move(state.x),
-              {conditions(start.at, start.sticking), std::move(state.given)}};
+              loaded(start.at),
+              {conditions(start.at, start.sticking), given(start.at)}};
   trial.asked.conditions.direct = trial.direct;
   std::vector<double> friction;
   for (PetscInt i = 0; i < impedance_->nodes(); ++i)

@@ -1,6 +1,7 @@
 #pragma once
 /// Steady sliding is solved in the unknowns of the contact, since everything else is linear or
 /// nearly so [3.10–3.13, M.59].
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -14,6 +15,15 @@ using steady::Problem;
 using steady::Solution;
 using steady::Sticking;
 
+/// A point of the sweep with a choice of closed nodes.
+struct ChosenSet {
+  sweep::Parameters at;
+  /// [contact node of this rank] 1 where it is closed; the others are open
+  std::vector<unsigned char> closed;
+  /// Nodes that stick are held where they are closed, unless this says otherwise.
+  Sticking sticking;
+};
+
 /// The complementarity problem in the gaps alone,
 ///   0 ≤ g ⟂ F(g) ≥ 0,
 /// where F(g) holds the forces at the gaps with the friction f R in balance. The one factorisation
@@ -25,7 +35,7 @@ using steady::Sticking;
 class CondensedProblem {
  public:
   /// Returns true if everything but the contact is linear at each point: solutions then need no
-  /// corrections but for rounding, and onSet() gives them.
+  /// corrections but for rounding, and onSets() gives them.
   static bool isExact(const contact::Contact& contact, const elasticity::Bodies& bodies);
   /// Collective. Borrows the problem and `closed`, the system with all contact nodes closed and
   /// all that stick held, during the life of the object.
@@ -36,12 +46,14 @@ class CondensedProblem {
   std::vector<Solution> solveTogether(const std::vector<sweep::Parameters>& points);
   /// Collective. The same at one point.
   Solution solve(const sweep::Parameters& at) { return std::move(solveTogether({at}).front()); }
-  /// Collective. Returns causes and effects where the nodes with closed[i] set are closed and the
-  /// others open, whatever signs that gives, without convective terms. Nodes that stick are held
-  /// where they are closed, unless `sticking` says otherwise.
-  impedance::ContactSolution onSet(const sweep::Parameters& at,
-                                   const std::vector<unsigned char>& closed,
-                                   const Sticking& sticking);
+  /// Collective. Returns causes and effects where these nodes are closed and the others open,
+  /// whatever signs that gives, without convective terms. Sets that are asked for together are
+  /// solved for in blocks.
+  std::vector<impedance::ContactSolution> onSets(const std::vector<ChosenSet>& sets);
+  /// Collective. The same of one set.
+  impedance::ContactSolution onSet(const ChosenSet& set) {
+    return std::move(onSets({set}).front());
+  }
   /// Lets the next solve() begin with these gaps, [contact node] coefficient of the gap, m, and
   /// holds.
   void beginWith(std::vector<double> gaps, Sticking sticking) {
@@ -62,7 +74,9 @@ class CondensedProblem {
   struct Trial;
   /// Returns the problem without holds.
   const Problem& open() const { return free_ ? *free_ : problem_; }
-  Loaded loaded(const sweep::Parameters& at);
+  std::array<double, 3> loadFactors(const sweep::Parameters& at);
+  impedance::ContactVector given(const sweep::Parameters& at);
+  OwnedVec loaded(const sweep::Parameters& at);
   void findLoads();
   impedance::ContactConditions conditions(const sweep::Parameters& at,
                                           const Sticking& sticking) const;

@@ -4,9 +4,12 @@
 #include <array>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
+#include <functional>
 #include <optional>
+#include <tuple>
 
 #include "interfaces/algebra.hpp"
+#include "petsc/concatenation.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal::condensed {
@@ -37,6 +40,45 @@ double poleNear(const std::array<double, 4>& places, const std::array<double, 4>
     sum += term;
   }
   return sum;
+}
+
+sweep::Parameters between(const sweep::Parameters& from, const sweep::Parameters& to, double s) {
+  sweep::Parameters point = from;
+  for (const auto value :
+       {&sweep::Parameters::friction, &sweep::Parameters::speed, &sweep::Parameters::pressure})
+    point.*value = (1 - s) * from.*value + s * to.*value;
+  return point;
+}
+
+/// A contact node that differs between two solutions, and where it is expected to change.
+struct ExpectedChange {
+  double at;
+  int rank, node;
+  bool operator<(const ExpectedChange& other) const {
+    return std::tie(at, rank, node) < std::tie(other.at, other.rank, other.node);
+  }
+};
+
+/// Collective. Returns the changes of all ranks between two solutions in the order that is expected
+/// from the states on the set of the first one at both ends.
+std::vector<ExpectedChange> expectedChanges(MPI_Comm comm, const ContactWay& way,
+                                            const impedance::ContactSolution& begin,
+                                            const impedance::ContactSolution& end) {
+  int rank = 0;
+  check(MPI_Comm_rank(comm, &rank));
+  std::vector<ExpectedChange> own;
+  const auto &before = way.from->closed, &after = way.to->closed;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (before[i] == after[i]) continue;
+    const auto margin = [&](const impedance::ContactSolution& state) {
+      return (before[i] ? state.effects : state.causes)[before.size() + i];
+    };
+    const double atBegin = std::max(margin(begin), 0.0), atEnd = margin(end);
+    own.push_back({atEnd < 0 ? atBegin / (atBegin - atEnd) : 1, rank, static_cast<int>(i)});
+  }
+  auto all = concatenated(comm, own);
+  std::ranges::sort(all, std::less());
+  return all;
 }
 
 /// A PlaceName holds what a message says of a contact node.
@@ -106,16 +148,10 @@ class Follower {
 
  private:
   MPI_Comm comm() const { return problem_.comm(); }
-  sweep::Parameters at(double s) const {
-    sweep::Parameters point = from_;
-    for (const auto value :
-         {&sweep::Parameters::friction, &sweep::Parameters::speed, &sweep::Parameters::pressure})
-      point.*value = (1 - s) * from_.*value + s * to_.*value;
-    return point;
-  }
+  sweep::Parameters at(double s) const { return between(from_, to_, s); }
   /// Returns the forces at closed nodes and the gaps at open ones, relative, [contact node].
   const std::vector<double>& margins(double s) {
-    state_ = problem_.onSet(at(s), closed_, sticking_);
+    state_ = problem_.onSet({at(s), closed_, sticking_});
     margins_.clear();
     const std::size_t n = closed_.size();
     for (std::size_t i = 0; i < n; ++i)
@@ -227,6 +263,30 @@ class Follower {
 };
 
 }  // namespace
+
+void anticipateContact(CondensedProblem& problem, const std::vector<ContactWay>& ways) {
+  int rank = 0;
+  check(MPI_Comm_rank(problem.comm(), &rank));
+  std::vector<ChosenSet> ends, sets;
+  for (const auto& way : ways)
+    for (const auto* solution : {way.from, way.to})
+      ends.push_back({solution->at, way.from->closed, way.from->sticking});
+  const auto states = problem.onSets(ends);
+  for (std::size_t k = 0; k < ways.size(); ++k) {
+    ChosenSet set = ends[2 * k];
+    const auto expected =
+        expectedChanges(problem.comm(), ways[k], states[2 * k], states[2 * k + 1]);
+    for (const ExpectedChange& change : expected) {
+      if (change.rank == rank) set.closed[change.node] = !set.closed[change.node];
+      // A set is asked where it begins, and at the end to see which node changes next.
+      for (double s : {change.at, 1.0}) {
+        set.at = between(ways[k].from->at, ways[k].to->at, s);
+        sets.push_back(set);
+      }
+    }
+  }
+  problem.onSets(sets);
+}
 
 ContactPath followContact(CondensedProblem& problem, const Solution& from,
                           const sweep::Parameters& to) {

@@ -26,6 +26,16 @@ struct ContactPath {
   Sticking sticking;
 };
 
+/// Two solutions between which the contact is to be followed; borrowed.
+struct ContactWay {
+  const Solution *from, *to;
+};
+
+/// Collective. Lets the problem learn in blocks what followContact() will ask for on all these
+/// ways: the states on the sets between their ends, at the changes and in the order that linear
+/// interpolation gives. That decides on nothing but costs.
+void anticipateContact(CondensedProblem& problem, const std::vector<ContactWay>& ways);
+
 /// Collective. Follows the steady state from a solution along the line to `to`, where the friction,
 /// the pressure or the speed differ. On each active set the state is a smooth function of them, and
 /// the next change is its first zero of a normal force or gap, solved for to 1e-8 of the line. The

@@ -27,7 +27,7 @@ constexpr PetscInt mostDirections = 500;
 /// What remains of a direction, a unit vector, must be longer: outside the space of friction
 /// magnitudes, and besides the others of its block. What is left out there comes with the next
 /// block.
-constexpr double newInSpace = 1e-10, newInBlock = 0.1;
+constexpr double newInSpace = 1e-10, newInBlock = 0.3;
 /// The largest number of bytes that stiffnesses of free unknowns may take, unless a single one
 /// does.
 constexpr double keptBytes = 256e6;
@@ -107,10 +107,10 @@ struct ContactSolver::FreeBlock {
 struct ContactSolver::Search {
   const ContactCase& asked;
   std::shared_ptr<FreeBlock> block;
-  DenseMatrix wanted;        // t without its own effects, [contact node]
-  double unit = 0;           // what the part that stays unbalanced refers to, N
-  DenseMatrix weights = {};  // [direction]
-  double left = INFINITY;
+  DenseMatrix wanted;         // t without its own effects, [contact node]
+  double unit = 0;            // what the part that stays unbalanced refers to, N
+  DenseMatrix weights{0, 1};  // [direction]
+  double left = 0;            // 2-norm of what is unbalanced, N
 };
 
 ContactSolver::ContactSolver(const Impedance& impedance)
@@ -334,8 +334,8 @@ std::vector<ContactSolution> ContactSolver::solve(std::span<const ContactCase> c
       release(*search.block, effects);
       for (PetscInt i = 0; i < n; ++i)
         search.wanted(i, 0) = cases[k].conditions.coefficient[i] * effects(i, 0);
-      search.unit = std::max(linalg::length(impedance_.comm(), search.wanted.entries()),
-                             cases[k].frictionUnit);
+      search.left = linalg::length(impedance_.comm(), search.wanted.entries());
+      search.unit = std::max(search.left, cases[k].frictionUnit);
       searches.push_back(std::move(search));
     }
     balance(searches, accuracy);

@@ -4,10 +4,13 @@
 #include <cmath>
 
 #include "linalg/symmetric.hpp"
+#include "petsc/work.hpp"
 
 namespace squeal::linalg {
 
 DenseMatrix transposedProduct(MPI_Comm comm, const DenseView& x, const DenseView& y) {
+  const LoggedWork work(Work::innerProduct);
+  LoggedWork::addOperations(2.0 * x.rows() * x.columns() * y.columns());
   DenseMatrix result = transposedProduct(x, y);
   const int count = result.size();
   check(MPI_Allreduce(MPI_IN_PLACE, result.data(), count, MPI_DOUBLE, MPI_SUM, comm));
@@ -23,6 +26,7 @@ double length(MPI_Comm comm, std::span<const double> column) {
 
 Block solved(KSP solver, const DenseView& columns) {
   constexpr PetscInt atOnce = 64;
+  const LoggedWork work(Work::blockSolve);
   Mat matrix = nullptr;
   PetscInt size = 0;
   check(KSPGetOperators(solver, &matrix, nullptr));
@@ -72,6 +76,7 @@ OwnedMat borrowed(MPI_Comm comm, PetscInt rows, const DenseView& block) {
 }
 
 void appendProduct(Mat matrix, const DenseView& x, Block& result) {
+  const LoggedWork work(Work::blockProduct);
   PetscInt rows = 0, length = 0;
   check(MatGetSize(matrix, &rows, &length));
   const PetscInt first = result.columns(), count = x.columns();

@@ -11,6 +11,7 @@
 #include "linalg/lapack.hpp"
 #include "linalg/lu.hpp"
 #include "petsc/check.hpp"
+#include "petsc/work.hpp"
 
 extern "C" void dgebal_(const char* job, const PetscBLASInt* n, double* a, const PetscBLASInt* lda,
                         PetscBLASInt* low, PetscBLASInt* high, double* scale, PetscBLASInt* info);
@@ -289,6 +290,7 @@ std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vecto
   //   t² K + t Z + M,   t = 1/s
   constexpr double beyondDoubt = 0.01;
   if (problem.order() == 0) return {};
+  const LoggedWork work(Work::denseEigenvalues);
   for (const auto* matrix : {&problem.mass, &problem.damping, &problem.stiffness})
     requireFinite(*matrix);
   const Lu<double> ofStiffness(problem.stiffness);

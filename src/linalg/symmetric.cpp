@@ -10,6 +10,7 @@
 
 #include "linalg/lapack.hpp"
 #include "petsc/check.hpp"
+#include "petsc/work.hpp"
 
 namespace squeal::linalg {
 namespace {
@@ -39,6 +40,7 @@ std::vector<double> symmetricEigen(DenseMatrix& a) {
   PetscBLASInt order = a.rows(), length = -1, integers = -1, info = 0, integerLength = 0;
   std::vector<double> values(order);
   if (order == 0) return values;
+  const LoggedWork logged(Work::denseEigenvalues);
   double workLength = 0;
   // Divide and conquer is on some hundred columns several times faster than dsyev, whose rotations
   // (dlasr) are not blocked.
@@ -58,6 +60,7 @@ std::vector<double> symmetricEigen(DenseMatrix& a, DenseMatrix& b) {
   PetscBLASInt type = 1, order = a.rows(), info = 0;
   std::vector<double> values(order);
   if (order == 0) return values;
+  const LoggedWork logged(Work::denseEigenvalues);
   callWithWork([&](double* work, PetscBLASInt length) {
     LAPACKsygv_(&type, "V", "L", &order, a.data(), &order, b.data(), &order, values.data(), work,
                 &length, &info);

@@ -222,7 +222,10 @@ void writeSummary(const analysis::Analysis& analysis, const std::filesystem::pat
   double total = 0;
   for (const auto& record : stageRecords()) {
     summary["stages"][record.name] = {{"wall_s", record.seconds},
-                                      {"peak_memory_bytes", record.peakMemoryBytes}};
+                                      {"peak_memory_bytes", record.peakMemoryBytes},
+                                      {"messages", record.traffic.messages},
+                                      {"message_bytes", record.traffic.bytes},
+                                      {"reductions", record.traffic.reductions}};
     total += record.seconds;
   }
   summary["wall_s"] = total;

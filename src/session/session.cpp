@@ -17,6 +17,7 @@
 #include "petsc/memory.hpp"
 #include "petsc/termination.hpp"
 #include "petsc/text.hpp"
+#include "petsc/work.hpp"
 
 namespace squeal {
 
@@ -56,6 +57,7 @@ void startSlepc(char* program, const std::vector<Setting>& settings) {
   char** arguments = pointers.data();
   if (SlepcInitialize(&count, &arguments, nullptr, nullptr) != 0) MPI_Abort(MPI_COMM_WORLD, 70);
   check(PetscOptionsClearValue(nullptr, "-skip_petscrc"));
+  registerWork();
   insert(settings);
 }
 

@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdio>
 
@@ -34,7 +35,12 @@ bool speaks(MPI_Comm comm) {
 }  // namespace
 
 Stage::Stage(MPI_Comm comm, std::string name)
-    : comm_(comm), name_(std::move(name)), begin_(MPI_Wtime()), lastProgress_(begin_) {}
+    : comm_(comm),
+      name_(std::move(name)),
+      begin_(MPI_Wtime()),
+      lastProgress_(begin_),
+      before_(trafficSoFar()),
+      logged_(name_) {}
 
 void Stage::progress(const std::string& text) {
   if (MPI_Wtime() - lastProgress_ >= 2) say(text);
@@ -47,16 +53,25 @@ void Stage::say(const std::string& text) {
 }
 
 void Stage::finish(const std::string& result) {
+  const Traffic now = trafficSoFar();
+  logged_.reset();
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  double seconds = MPI_Wtime() - begin_, memory = 1024.0 * usage.ru_maxrss;
+  const double memory = 1024.0 * usage.ru_maxrss;
+  double seconds = MPI_Wtime() - begin_;
   check(MPI_Allreduce(MPI_IN_PLACE, &seconds, 1, MPI_DOUBLE, MPI_MAX, comm_));
-  check(MPI_Allreduce(MPI_IN_PLACE, &memory, 1, MPI_DOUBLE, MPI_SUM, comm_));
+  std::array sums{memory, now.messages - before_.messages, now.bytes - before_.bytes};
+  double reductions = now.reductions - before_.reductions;
+  check(MPI_Allreduce(MPI_IN_PLACE, sums.data(), sums.size(), MPI_DOUBLE, MPI_SUM, comm_));
+  check(MPI_Allreduce(MPI_IN_PLACE, &reductions, 1, MPI_DOUBLE, MPI_MAX, comm_));
   auto known = std::find_if(records().begin(), records().end(),
                             [&](const auto& record) { return record.name == name_; });
-  if (known == records().end()) known = records().insert(known, {name_, 0, 0});
+  if (known == records().end()) known = records().insert(known, {name_, 0, 0, {}});
   known->seconds += seconds;
-  known->peakMemoryBytes = memory;
+  known->peakMemoryBytes = sums[0];
+  known->traffic.messages += sums[1];
+  known->traffic.bytes += sums[2];
+  known->traffic.reductions += reductions;
   if (!speaks(comm_)) return;
   print(formatted("%-10s %8.2f s  %s\n", name_.c_str(), seconds, result.c_str()));
 }

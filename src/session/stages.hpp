@@ -3,8 +3,11 @@
 /// within long stages. They keep the record for the summary.
 #include <mpi.h>
 
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "petsc/work.hpp"
 
 namespace squeal {
 
@@ -14,9 +17,13 @@ struct StageRecord {
   double seconds = 0;  ///< wall time, s, the largest of all ranks
   /// Peak of the resident memory at the end of the stage, bytes, summed over the ranks.
   double peakMemoryBytes = 0;
+  /// Messages sent by PETSc and this program, and their bytes, summed over the ranks; most
+  /// reductions and broadcasts of a rank. MUMPS counts none of its own.
+  Traffic traffic;
 };
 
-/// A Stage is a stage of the method, from construction to finish(). Only finish() is collective.
+/// A Stage is a stage of the method, from construction to finish(), and a stage of PETSc's log.
+/// Only finish() is collective.
 class Stage {
  public:
   Stage(MPI_Comm comm, std::string name);
@@ -32,6 +39,8 @@ class Stage {
   MPI_Comm comm_;
   std::string name_;
   double begin_, lastProgress_;
+  Traffic before_;
+  std::optional<LoggedStage> logged_;
 };
 
 /// Not collective. Prints text on rank 0, unless -quiet is given.

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "linalg/symmetric.hpp"
+#include "petsc/work.hpp"
 
 namespace squeal::subspace {
 
@@ -47,13 +48,18 @@ Sketch::Sketch(MPI_Comm comm, const std::vector<double>& diagonal,
     for (PetscInt j = 0; j < signs_.columns(); ++j) signs_(row, j) = 0;
 }
 
-DenseMatrix Sketch::of(const DenseView& x) const { return transposedProduct(comm_, signs_, x); }
+DenseMatrix Sketch::of(const DenseView& x) const {
+  const LoggedWork work(Work::sketch);
+  return transposedProduct(comm_, signs_, x);
+}
 
 DenseMatrix Sketch::unweighted(const DenseView& x) const {
+  const LoggedWork work(Work::sketch);
   return transposedProduct(comm_, signs_.columnRange(0, size), x);
 }
 
 DenseMatrix Sketch::of(const RowSet& rows, const DenseView& x) const {
+  const LoggedWork work(Work::sketch);
   return transposedProduct(comm_, rows, signs_, x);
 }
 

@@ -224,7 +224,27 @@ TEST(Outputs, Summary) {
        {"mesh", "elasticity", "contact", "steady", "modes", "flutter", "report"}) {
     EXPECT_GE(summary.at("stages").at(stage).at("wall_s"), 0) << stage;
     EXPECT_GT(summary.at("stages").at(stage).at("peak_memory_bytes"), 1e6) << stage;
+    EXPECT_GE(summary.at("stages").at(stage).at("messages"), 0) << stage;
+    EXPECT_GE(summary.at("stages").at(stage).at("message_bytes"),
+              summary.at("stages").at(stage).at("messages"))
+        << stage;
+    EXPECT_GT(summary.at("stages").at(stage).at("reductions"), 0) << stage;
   }
+}
+
+// PETSc's own profile names the stages of the method, and the kinds of work that are not PETSc's.
+TEST(Outputs, ProfileOfPetsc) {
+  const fs::path profile = placeFor("outputs") / "profile.txt";
+  fs::create_directories(profile.parent_path());
+  const auto run =
+      runProgram("outputs/profile", 2, layer + frictions + " -log_view :" + profile.string());
+  ASSERT_EQ(run.exitCode, 0) << run.error;
+  const std::string text = contentOf(profile);
+  for (const std::string stage :
+       {"mesh", "elasticity", "contact", "factor", "steady", "modes", "flutter"})
+    EXPECT_TRUE(std::regex_search(text, std::regex("\n *\\d+: +" + stage + ": "))) << stage;
+  for (const char* work : {"BlockSolve", "BlockProduct", "InnerProduct", "DenseEigen", "Sketch"})
+    EXPECT_NE(text.find("\n" + std::string(work)), std::string::npos) << work;
 }
 
 TEST(Outputs, TerminalTable) {
