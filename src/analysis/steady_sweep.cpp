@@ -49,10 +49,11 @@ void tellSticking(const Analysis& analysis, const steady::Solution& solution) {
   }
 }
 
-/// Collective. Returns the number of contact nodes that are open in one state and not in the other.
-PetscInt countDifferent(MPI_Comm comm, const steady::Solution& a, const steady::Solution& b) {
+/// Collective. Returns the number of contact nodes that are closed in one set and not in the other.
+PetscInt countDifferent(MPI_Comm comm, const std::vector<unsigned char>& a,
+                        const std::vector<unsigned char>& b) {
   PetscInt count = 0;
-  for (std::size_t i = 0; i < a.closed.size(); ++i) count += a.closed[i] != b.closed[i];
+  for (std::size_t i = 0; i < a.size(); ++i) count += a[i] != b[i];
   check(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPIU_INT, MPI_SUM, comm));
   return count;
 }
@@ -95,56 +96,79 @@ void continueFromNeighbour(Analysis& analysis, condensed::CondensedProblem& cond
     continueTo(condensed, without, solution);
 }
 
-std::string betweenText(const condensed::ContactWay& way) {
-  return "contact between " + sweep::parameterText(way.from->at) + " and " +
-         sweep::parameterText(way.to->at) + ": ";
+/// The way to a steady point from its neighbour, by their numbers.
+struct Way {
+  std::size_t from, to;
+};
+
+std::string betweenText(const Analysis& analysis, const Way& way) {
+  return "contact between " + sweep::parameterText(analysis.steady[way.from].at) + " and " +
+         sweep::parameterText(analysis.steady[way.to].at) + ": ";
 }
 
 /// Collective. Returns the ways to the points from `begin` on, from their neighbours, that are to
 /// be followed, and tells those that are too long.
-std::vector<condensed::ContactWay> waysToFollow(const Analysis& analysis, std::size_t begin) {
+std::vector<Way> waysToFollow(const Analysis& analysis, std::size_t begin) {
   const MPI_Comm comm = analysis.mesh->comm;
   const int limit = pathOption.get();
-  std::vector<condensed::ContactWay> ways;
+  std::vector<Way> ways;
   for (std::size_t k = begin; k < analysis.steady.size() && limit > 0; ++k) {
     const auto neighbour = analysis.sweep.earlierNeighbour(k);
     if (!neighbour) continue;
-    const condensed::ContactWay way{&analysis.steady[*neighbour], &analysis.steady[k]};
-    if (!way.from->converged || !way.to->converged) continue;
-    if (const PetscInt changes = countDifferent(comm, *way.from, *way.to); changes <= limit)
-      ways.push_back(way);
+    const auto &from = analysis.steady[*neighbour], &to = analysis.steady[k];
+    if (!from.converged || !to.converged) continue;
+    if (const PetscInt changes = countDifferent(comm, from.closed, to.closed); changes <= limit)
+      ways.push_back({*neighbour, k});
     else
-      say(comm,
-          betweenText(way) + formatted("%" PetscInt_FMT " nodes change; -steady_path %" PetscInt_FMT
-                                       " finds where",
-                                       changes, changes));
+      say(comm, betweenText(analysis, {*neighbour, k}) +
+                    formatted("%" PetscInt_FMT " nodes change; -steady_path %" PetscInt_FMT
+                              " finds where",
+                              changes, changes));
   }
   return ways;
 }
 
 /// Collective. Prepares followPath() on all these ways.
-void anticipate(MPI_Comm comm, condensed::CondensedProblem& condensed,
-                const std::vector<condensed::ContactWay>& ways) {
-  Stage stage(comm, "steady");
+void anticipate(const Analysis& analysis, condensed::CondensedProblem& condensed,
+                const std::vector<Way>& ways) {
+  Stage stage(analysis.mesh->comm, "steady");
   const long before = condensed.solves();
-  condensed::anticipateContact(condensed, ways);
+  std::vector<condensed::ContactWay> ends;
+  for (const Way& way : ways)
+    ends.push_back({&analysis.steady[way.from], &analysis.steady[way.to]});
+  condensed::anticipateContact(condensed, ends);
   if (const long more = condensed.solves() - before; more > 0)
     stage.finish(formatted("contact between the points: %ld right-hand sides", more));
 }
 
-/// Collective. Adds the events on the way between the states at neighbouring points.
-void followPath(Analysis& analysis, condensed::CondensedProblem& condensed,
-                const condensed::ContactWay& way) {
+/// Collective. Adds the events on the way between the states at neighbouring points. Where there
+/// are several solutions, the one to which the way leads becomes that of its end.
+void followPath(Analysis& analysis, condensed::CondensedProblem& condensed, const Way& way) {
   const MPI_Comm comm = analysis.mesh->comm;
-  const std::string between = betweenText(way);
+  const std::string between = betweenText(analysis, way);
+  steady::Solution& solution = analysis.steady[way.to];
   Stage stage(comm, "steady");
-  auto path = condensed::followContact(condensed, *way.from, way.to->at);
+  auto path = condensed::followContact(condensed, analysis.steady[way.from], solution.at);
   if (!path.obstacle.empty()) complain(comm, between + "followed up to " + endText(path));
   for (auto& event : path.events) {
     event.order += analysis.contactEvents;
     analysis.contactPath.push_back(event);
   }
   analysis.contactEvents += path.count;
+  const PetscInt others =
+      path.obstacle.empty() ? countDifferent(comm, path.closed, solution.closed) : 0;
+  if (others > 0) {
+    condensed.beginWith(std::move(path.gaps), std::move(path.sticking));
+    auto ahead = condensed.solve(solution.at);
+    if (ahead.converged && countDifferent(comm, ahead.closed, path.closed) == 0) {
+      solution = std::move(ahead);
+      complain(comm,
+               between + formatted("steady sliding is not unique at the end: in another solution "
+                                   "%" PetscInt_FMT " %s; the one that the way leads to is kept",
+                                   others,
+                                   others == 1 ? "contact node differs" : "contact nodes differ"));
+    }
+  }
   if (path.count > 0)
     stage.finish(between +
                  formatted("%d %s", path.count,
@@ -237,8 +261,8 @@ void condensedSweep(Analysis& analysis, const steady::Problem& problem,
         formatted("%zu points, %ld right-hand sides", end - begin, condensed->solves() - before));
     if (!isExact) continue;
     const auto ways = waysToFollow(analysis, begin);
-    anticipate(comm, *condensed, ways);
-    for (const auto& way : ways) followPath(analysis, *condensed, way);
+    anticipate(analysis, *condensed, ways);
+    for (const Way& way : ways) followPath(analysis, *condensed, way);
   }
 }
 

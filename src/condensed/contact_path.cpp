@@ -141,6 +141,7 @@ class Follower {
     if (path.obstacle.empty()) {
       for (std::size_t i = 0; i < closed_.size(); ++i)
         path.gaps.push_back(closed_[i] ? 0 : std::max(0.0, state_.causes[closed_.size() + i]));
+      path.closed = closed_;
       path.sticking = sticking_;
     }
     return path;

@@ -22,7 +22,8 @@ struct ContactPath {
   std::string obstacle;
   sweep::Parameters end;  ///< point up to which it has been followed
   /// The state there, if it is the last point.
-  std::vector<double> gaps;  ///< [contact node] coefficient h of g = E h, m
+  std::vector<unsigned char> closed;  ///< [contact node] 1 where it is closed
+  std::vector<double> gaps;           ///< [contact node] coefficient h of g = E h, m
   Sticking sticking;
 };
 

@@ -147,28 +147,44 @@ TEST(ContactPath, FrictionWithoutASolutionOfOneElement) {
   }
 }
 
-// A block with an inclined face on an inclined obstacle: up to the friction that is found, and not
-// beyond, one of all sets of open nodes has gaps and forces that are not negative.
+/// A block with an inclined face on an inclined obstacle that is moved by `height`, m, along y.
+class Incline {
+ public:
+  Incline()
+      : file_(std::filesystem::temp_directory_path() /
+              ("squeal_incline_" + std::to_string(getpid()) + ".geo")) {
+    std::ofstream(file_)
+        << "Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {1, 0.6, 0}; "
+           "Point(4) = {0, 1, 0};\n"
+           "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, "
+           "1};\n"
+           "Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};\n"
+           "Transfinite Curve {1, 2, 3, 4} = 5; Transfinite Surface {1}; Recombine "
+           "Surface {1};\n"
+           "Physical Curve(\"bottom\") = {1}; Physical Curve(\"face\") = {3};\n"
+           "Physical Surface(\"block\") = {1};\n";
+  }
+  ~Incline() { std::filesystem::remove(file_); }
+  std::string options(const std::string& velocity, double height) const {
+    return "-mesh_file " + file_.string() +
+           " -material_block_young 1e9 -material_block_poisson 0.3 -material_block_density 1000 "
+           "-constraint_bottom_clamped xy -contact_plate_pad face "
+           "-contact_plate_obstacle_velocity " +
+           velocity + formatted(" -contact_plate_obstacle_displacement 0,%g,0", height) +
+           " -report_fields off";
+  }
+
+ private:
+  std::filesystem::path file_;
+};
+
+// Up to the friction that is found, and not beyond, one of all sets of open nodes has gaps and
+// forces that are not negative.
 TEST(ContactPath, FrictionWithoutASolutionOnAnIncline) {
   if (sizeOf() > 1) GTEST_SKIP() << "the dense problem is that of one rank";
-  const auto file = std::filesystem::temp_directory_path() /
-                    ("squeal_incline_" + std::to_string(getpid()) + ".geo");
-  std::ofstream(file) << "Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {1, 0.6, 0}; "
-                         "Point(4) = {0, 1, 0};\n"
-                         "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};\n"
-                         "Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};\n"
-                         "Transfinite Curve {1, 2, 3, 4} = 5; Transfinite Surface {1}; Recombine "
-                         "Surface {1};\n"
-                         "Physical Curve(\"bottom\") = {1}; Physical Curve(\"face\") = {3};\n"
-                         "Physical Surface(\"block\") = {1};\n";
+  const Incline incline;
   for (const std::string velocity : {"1,-0.4,0", "-1,0.4,0"}) {
-    const Way way("-mesh_file " + file.string() +
-                      " -material_block_young 1e9 -material_block_poisson 0.3 "
-                      "-material_block_density 1000 -constraint_bottom_clamped xy "
-                      "-contact_plate_pad face -contact_plate_obstacle_velocity " +
-                      velocity +
-                      " -contact_plate_obstacle_displacement 0,-0.001,0 -report_fields off",
-                  5);
+    const Way way(incline.options(velocity, -0.001), 5);
     const double end = way.path.end.friction;
     print("sliding along %s: %d events, end at friction %.9f: %s\n", velocity.c_str(),
           way.path.count, end, way.path.obstacle.c_str());
@@ -176,7 +192,24 @@ TEST(ContactPath, FrictionWithoutASolutionOnAnIncline) {
     EXPECT_FALSE(allSolutions(condensed(way.analysis, (1 - 1e-6) * end)).empty());
     EXPECT_TRUE(allSolutions(condensed(way.analysis, (1 + 1e-6) * end)).empty());
   }
-  std::filesystem::remove(file);
+}
+
+// An obstacle that does not touch the block, which from some friction on could wedge it as well:
+// the sweep stays where it comes from.
+TEST(ContactPath, OfSeveralSolutionsTheSweepKeepsItsOwn) {
+  if (sizeOf() > 1) GTEST_SKIP() << "the dense problem is that of one rank";
+  const Incline incline;
+  const auto analysis = runOptions(incline.options("1,-0.4,0", 0.001) +
+                                   " -flutter_friction 0,1,1.5,2 -modes_count 1 "
+                                   "-flutter_method direct "
+                                   "-flutter_direct_count 1");
+  ASSERT_EQ(analysis.steady.size(), 4U);
+  EXPECT_EQ(allSolutions(condensed(analysis, 1)).size(), 1U);
+  EXPECT_GT(allSolutions(condensed(analysis, 1.5)).size(), 1U);
+  for (const auto& solution : analysis.steady) {
+    EXPECT_TRUE(solution.converged);
+    EXPECT_EQ(solution.openNodes, analysis.contact.totalNodes) << solution.at.friction;
+  }
 }
 
 // The brake without slope of its pads: between the steady states just below and just above each
