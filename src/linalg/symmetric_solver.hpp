@@ -1,8 +1,10 @@
 #pragma once
 /// These functions apply MUMPS to symmetric matrices, for solves with one LDLᵀ factorisation and
 /// for the inertia.
+#include <memory>
 #include <string>
 
+#include "linalg/mumps.hpp"
 #include "options/options.hpp"
 #include "petsc/owned.hpp"
 
@@ -12,13 +14,13 @@ namespace squeal::linalg {
 /// unless the options with this prefix say otherwise. The matrix is shared with the solver and not
 /// yet factorised.
 OwnedKSP directSolver(Mat matrix, const SolverPrefix& prefix);
-/// Collective. Calls KSPSetUp. If MUMPS lacks workspace, the solver is replaced by one that has
-/// more. Throws Error if its analysis foresees more than twice the memory that is free, or if PETSc
-/// refuses an option of the solver.
-void factorise(OwnedKSP& solver, const SolverPrefix& prefix);
-/// Returns the factor, borrowed from the solver, if it is an LDLᵀ factor of MUMPS, factorised or
-/// not; otherwise null.
-Mat mumpsFactor(KSP solver);
+/// Collective. Calls KSPSetUp. Returns the reason if the factorisation fails, otherwise nothing.
+/// Throws Error if its analysis foresees more memory than there is, or if PETSc refuses an option
+/// of the solver.
+std::string factorise(KSP solver);
+/// Returns the factor, borrowed from the solver, factorised or not; null if the options ask for
+/// another preconditioner.
+MumpsFactor* mumpsFactor(KSP solver);
 
 /// A SymmetricSolver is the direct solver of a symmetric positive definite matrix (prefix
 /// -modes_st_). It factorises the matrix on first use.
@@ -46,10 +48,11 @@ double factorMemory(Mat matrix);
 /// these are typing errors.
 void rejectUnusedSolverOptions();
 
-/// Numbers of negative and of zero eigenvalues of a symmetric matrix.
-struct Inertia {
-  PetscInt negative = 0, zero = 0;
-};
+/// Collective. Factorises a symmetric matrix that need not be definite, so that its inertia is
+/// known, see below. The matrix need not live on. `like` is a factorised solver of a matrix of the
+/// same pattern and distribution, whose order of elimination is taken, or null. Throws Error if it
+/// fails.
+std::unique_ptr<MumpsFactor> indefiniteFactor(Mat matrix, double zero = 0, KSP like = nullptr);
 
 /// Collective. Returns the inertia of a symmetric matrix from the signs of the pivots of an LDLᵀ
 /// factorisation (Sylvester's law of inertia, [M.25]). Pivots below `zero` times the norm of the

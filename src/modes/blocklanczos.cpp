@@ -1,279 +1,302 @@
-/// Block Lanczos is made with full orthogonalisation and thick restart (Golub and Underwood 1977;
-/// Wu and Simon 2000) on the operator S = K⁻¹ M, which is self-adjoint in the inner product of M. A
-/// direct solver answers a block of right-hand sides many times faster than as many single ones,
-/// because the factor is read from memory once a block; SLEPc's Krylov-Schur asks for them one at a
-/// time.
 #include "modes/blocklanczos.hpp"
+
+#include <slepc/private/epsimpl.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <random>
-#include <vector>
+#include <exception>
+#include <memory>
 
-#include "linalg/block.hpp"
-#include "linalg/columns.hpp"
-#include "linalg/symmetric.hpp"
+#include "linalg/symmetric_solver.hpp"
+#include "modes/rational_lanczos.hpp"
 
 namespace squeal::modes {
 namespace {
 
-using linalg::DenseMatrix;
+/// The part of the wanted eigenvalues that the second pole is to lie above. The fewest solves were
+/// needed with this.
+constexpr double partBelowPole = 0.88;
+/// The second pole is placed when the basis has this many vectors for each wanted eigenvalue: its
+/// Ritz values then say where the pole belongs.
+constexpr double vectorsBeforePole = 0.6;
+/// After so many vectors a further pole takes the place of the second one, amid the eigenvalues
+/// that have not converged.
+constexpr PetscInt vectorsOfPole = 300;
+/// Fewer eigenvalues than this converge before a second pole has paid for itself.
+constexpr PetscInt fewestForPole = 40;
 
-/// The growing M-orthonormal basis V of size n × k and T = Vᵀ M S V.
-class Lanczos {
- public:
-  Lanczos(Mat k, Mat m, KSP solver, PetscInt blockSize, PetscInt limit)
-      : m_(m), b_(blockSize), limit_(limit) {
-    PC pc = nullptr;
-    check(KSPGetPC(solver, &pc));
-    check(PCFactorGetMatrix(pc, &factor_));
-    comm_ = PetscObjectComm(reinterpret_cast<PetscObject>(k));
-    PetscInt rows = 0, n = 0;
-    check(MatGetLocalSize(k, &rows, nullptr));
-    check(MatGetSize(k, &n, nullptr));
-    w_ = linalg::Block(rows, b_);
-    asMat_ = linalg::borrowed(comm_, n, w_);
-    check(MatMatMult(m_, asMat_, MAT_INITIAL_MATRIX, PETSC_DEFAULT, mw_.out()));
-    v_ = linalg::Block(rows);
-    enlarge(limit);
-    // Each rank draws its own part; the seed is fixed, so that a run can be repeated.
-    int rank = 0;
-    check(MPI_Comm_rank(comm_, &rank));
-    random_.seed(rank + 1);
-  }
-
-  PetscInt size() const { return v_.columns(); }
-  bool full() const { return size() + b_ > limit_; }
-
-  /// Makes the first block: S applied to a random one, which damps what belongs to high
-  /// frequencies.
-  void start() {
-    for (double& entry : w_.entries()) entry = uniform_(random_);
-    apply();
-    orthonormalise(0);
-    append();
-  }
-
-  /// Computes W = S (last block), orthogonal to V, and the columns of T for it. The new block stays
-  /// in W until append().
-  void expand() {
-    const PetscInt k = size();
-    std::ranges::copy(v_.columnRange(k - b_, k).entries(), w_.data());
-    apply();
-    const DenseMatrix h = orthogonalise(!restarted_);
-    restarted_ = false;
-    double size = 0;  // of W before V was taken out of it, squared
-    for (PetscInt j = 0; j < b_; ++j) {
-      double sum = 0;
-      for (PetscInt i = 0; i < k; ++i) {
-        t_(i, k - b_ + j) = t_(k - b_ + j, i) = h(i, j);
-        sum += h(i, j) * h(i, j);
-      }
-      size = std::max(size, sum);
-    }
-    orthonormalise(size);
-  }
-
-  void append() { v_.append(w_); }
-
-  /// Ritz values θ, descending, with the vectors Y as columns and the residual norms ‖R Y_last‖ of
-  /// S V y − θ V y in the norm of M.
-  struct Ritz {
-    std::vector<double> value, residual;
-    DenseMatrix vectors;
-  };
-  Ritz ritz() const {
-    const PetscInt k = size();
-    Ritz ritz{{}, {}, DenseMatrix(k)};
-    DenseMatrix a = linalg::rowRange(t_.columnRange(0, k), 0, k);
-    const auto ascending = linalg::symmetricEigen(a);
-    for (PetscInt from = k - 1; from >= 0; --from) {
-      ritz.value.push_back(ascending[from]);
-      ritz.vectors.append(a.column(from));
-    }
-    const DenseMatrix last = linalg::product(r_, linalg::rowRange(ritz.vectors, k - b_, k));
-    for (PetscInt j = 0; j < k; ++j)
-      ritz.residual.push_back(std::sqrt(linalg::squaredLength(last.column(j))));
-    return ritz;
-  }
-
-  /// Replaces V by V Y for the first `kept` Ritz vectors. T becomes diagonal.
-  void contract(const Ritz& ritz, PetscInt kept) {
-    constexpr PetscInt chunk = 256;  // rows at a time: no second copy of V
-    const linalg::DenseView y = ritz.vectors.columnRange(0, kept);
-    for (PetscInt begin = 0; begin < v_.rows(); begin += chunk) {
-      const PetscInt end = std::min(begin + chunk, v_.rows());
-      const DenseMatrix rows = linalg::product(linalg::rowRange(v_, begin, end), y);
-      for (PetscInt j = 0; j < kept; ++j)
-        std::ranges::copy(rows.column(j), v_.column(j).begin() + begin);
-    }
-    v_.resizeColumns(kept);
-    restarted_ = true;
-    t_ = DenseMatrix(limit_, limit_);
-    for (PetscInt j = 0; j < kept; ++j) t_(j, j) = ritz.value[j];
-  }
-
-  /// Makes room for `limit` vectors, before the first one or at a restart, where T is diagonal.
-  void enlarge(PetscInt limit) {
-    DenseMatrix larger(limit, limit);
-    for (PetscInt j = 0; j < size(); ++j) larger(j, j) = t_(j, j);
-    t_ = std::move(larger);
-    limit_ = limit;
-    v_.reserve(limit);
-  }
-
-  /// Returns the k columns of V as a BV for vectors like those of `like`.
-  OwnedBV vectors(Mat like) const { return linalg::copiedColumns(like, v_); }
-
- private:
-  /// Computes M W.
-  void massTimesW() {
-    Mat product = mw_;
-    PetscScalar* changed = nullptr;  // tells PETSc that the entries are not those of before
-    check(MatDenseGetArrayWrite(asMat_, &changed));
-    check(MatDenseRestoreArrayWrite(asMat_, &changed));
-    check(MatMatMult(m_, asMat_, MAT_REUSE_MATRIX, PETSC_DEFAULT, &product));
-  }
-
-  /// Replaces W by K⁻¹ M W.
-  void apply() {
-    massTimesW();
-    check(MatMatSolve(factor_, mw_, asMat_));
-  }
-
-  /// Returns Xᵀ (M W) over all ranks, after massTimesW().
-  DenseMatrix timesMassTimesW(const linalg::DenseView& x) {
-    const PetscScalar* mw = nullptr;
-    check(MatDenseGetArrayRead(mw_, &mw));
-    DenseMatrix result = linalg::transposedProduct(comm_, x, {mw, w_.rows(), b_});
-    check(MatDenseRestoreArrayRead(mw_, &mw));
-    return result;
-  }
-
-  /// Replaces W by W − X (Xᵀ M W) for the columns X of V from `first` on, and adds the coefficients
-  /// to the rows of `sum`, k × b, from `first` on.
-  void subtract(PetscInt first, DenseMatrix& sum) {
-    massTimesW();
-    const linalg::DenseView x = v_.columnRange(first, size());
-    const DenseMatrix h = timesMassTimesW(x);
-    linalg::multiplyAdd(x, h, w_, -1);
-    for (PetscInt j = 0; j < b_; ++j)
-      for (PetscInt i = 0; i < h.rows(); ++i) sum(first + i, j) += h(i, j);
-  }
-
-  /// Makes W M-orthogonal to V and returns the summed coefficients, k × b. In exact arithmetic only
-  /// the last two blocks have a part in S V_last (three-term recurrence), so one pass over these
-  /// and one over all of V does; after a restart, and for random columns, all of V has: two full
-  /// passes.
-  DenseMatrix orthogonalise(bool recurrence) {
-    DenseMatrix sum(size(), b_);
-    subtract(recurrence ? std::max<PetscInt>(0, size() - 2 * b_) : 0, sum);
-    subtract(0, sum);
-    return sum;
-  }
-
-  /// Splits W = Q R with Qᵀ M Q = I by the eigenvectors of WᵀMW (Stathopoulos and Wu 2002), twice;
-  /// Q replaces W. Directions that have vanished beside `size`, the square of what W was before V
-  /// was taken out of it (an invariant subspace is complete), are replaced by random ones
-  /// orthogonal to V, with zero rows in R.
-  void orthonormalise(double size) {
-    r_ = DenseMatrix(b_, b_);
-    for (PetscInt i = 0; i < b_; ++i) r_(i, i) = 1;
-    int refills = 0;
-    for (int pass = 0; pass < 3; ++pass) {
-      massTimesW();
-      DenseMatrix u = timesMassTimesW(w_);
-      const auto d = linalg::symmetricEigen(u);
-      const double largest =
-          std::max(d.back(), refills == 0 && pass == 0 ? size : 0);  // later W is scaled
-      std::vector<bool> lost(b_);
-      bool any = false;
-      for (PetscInt j = 0; j < b_; ++j) any |= lost[j] = !(d[j] > 1e-28 * largest);
-      //   W ← W U D^(−1/2),   R ← D^(1/2) Uᵀ R
-      DenseMatrix down = u, up = u;
-      for (PetscInt j = 0; j < b_; ++j)
-        for (PetscInt i = 0; i < b_; ++i) {
-          down(i, j) *= lost[j] ? 0 : 1 / std::sqrt(d[j]);
-          up(i, j) *= lost[j] ? 0 : std::sqrt(d[j]);
-        }
-      r_ = linalg::transposedProduct(up, r_);
-      // W keeps its place in memory, as the matrix of PETSc borrows it.
-      std::ranges::copy(linalg::product(w_, down).entries(), w_.data());
-      if (!any) {
-        if (pass > 0) return;
-        continue;
-      }
-      if (++refills > 5)
-        throw Error("free vibration: block Lanczos cannot extend its basis; use -modes_solver eps");
-      refill(lost);
-      pass = -1;
-    }
-  }
-
-  void refill(const std::vector<bool>& lost) {
-    for (PetscInt j = 0; j < b_; ++j)
-      if (lost[j])
-        for (double& entry : w_.column(j)) entry = uniform_(random_);
-    orthogonalise(false);
-  }
-
-  Mat m_ = nullptr, factor_ = nullptr;
-  PetscInt b_, limit_;
-  MPI_Comm comm_ = MPI_COMM_NULL;
-  bool restarted_ = false;
-  linalg::Block v_, w_;
-  OwnedMat asMat_, mw_;  // W, whose entries are borrowed, and M W
-  DenseMatrix t_, r_;
-  std::mt19937 random_;
-  std::uniform_real_distribution<double> uniform_{-1, 1};
+/// The private part of an EPS of this type.
+struct Solver {
+  PetscInt blockSize = 8;
+  PetscBool secondPole = PETSC_TRUE;
+  BlockLanczosFacts facts;
+  std::exception_ptr failure;  // it must not pass through the C code of SLEPc
 };
 
-/// Where a basis of the usual size converges at all, it does within this many restarts.
-constexpr int restartsBeforeGrowth = 4;
+Solver& solverOf(EPS eps) { return *static_cast<Solver*>(eps->data); }
+
+/// Returns the solves with K − σ0 M by the KSP of the spectral transformation.
+Pole firstPole(EPS eps) {
+  KSP ksp = nullptr;
+  check(STGetKSP(eps->st, &ksp));
+  return {0, [ksp](Mat b, Mat x) { check(KSPMatSolve(ksp, b, x)); }};
+}
+
+/// Returns a place for the second pole from Ritz values, or the target if these say nothing. The
+/// number of eigenvalues below λ grows like
+///   N(λ) = a λ^½ + c λ^(3/2),
+/// as in plates and in solids (Weyl's law), with a and c from those that have nearly converged.
+double placeOfPole(EPS eps, const RitzPairs& ritz) {
+  constexpr double nearly = 0.1;
+  std::size_t known = 0;
+  while (known < ritz.value.size() && ritz.residual[known] < nearly * ritz.value[known]) ++known;
+  const std::size_t half = known / 2;
+  if (half < 4) return eps->target;
+  const double x = 1 / ritz.value[half - 1], y = 1 / ritz.value[known - 1];  // less the target
+  // a + c λ = N(λ) / √λ at both
+  const double atX = half / std::sqrt(x), atY = known / std::sqrt(y);
+  const double c = std::max(0.0, (atY - atX) / (y - x)), a = std::max(0.0, atY - c * y);
+  double low = y, high = y;
+  const auto number = [&](double lambda) { return std::sqrt(lambda) * (a + c * lambda); };
+  const double wanted = partBelowPole * eps->nev;
+  while (number(high) < wanted) high *= 2;
+  while (high - low > 1e-3 * high) {
+    const double middle = 0.5 * (low + high);
+    (number(middle) < wanted ? low : high) = middle;
+  }
+  return eps->target + high;
+}
+
+/// Returns the number of wanted eigenvalues that have not converged.
+PetscInt open(EPS eps) {
+  return std::count_if(eps->errest, eps->errest + eps->nev,
+                       [&](double error) { return !(error < eps->tol); });
+}
+
+/// Returns a place for a further pole, below all but half of the wanted eigenvalues that have not
+/// converged, in the middle of the widest gap near there.
+double placeOfNextPole(EPS eps, const RitzPairs& ritz) {
+  std::vector<double> rest;
+  for (PetscInt i = 0; i < eps->nev; ++i)
+    if (!(eps->errest[i] < eps->tol)) rest.push_back(1 / ritz.value[i]);
+  const double middle = rest[rest.size() / 2];
+  double place = middle, widest = 0;
+  for (PetscInt i = 0; i + 1 < eps->nev; ++i) {
+    const double low = 1 / ritz.value[i], high = 1 / ritz.value[i + 1];
+    if (std::abs(high - middle) < 0.05 * middle && high - low > widest)
+      widest = high - low, place = 0.5 * (low + high);
+  }
+  return eps->target + place;
+}
+
+/// Collective. Factorises K − σ M at σ.
+Pole poleAt(EPS eps, double sigma) {
+  Mat k = nullptr, m = nullptr;
+  KSP ksp = nullptr;
+  check(EPSGetOperators(eps, &k, &m));
+  check(STGetKSP(eps->st, &ksp));
+  OwnedMat shifted;
+  check(MatDuplicate(k, MAT_COPY_VALUES, shifted.out()));
+  check(MatAXPY(shifted, -sigma, m, UNKNOWN_NONZERO_PATTERN));
+  const std::shared_ptr<linalg::MumpsFactor> factor = linalg::indefiniteFactor(shifted, 0, ksp);
+  auto& facts = solverOf(eps).facts;
+  const int below = factor->inertia().negative;
+  ++facts.poles;
+  if (below <= eps->nev && below >= facts.below) {
+    facts.countedTo = sigma;
+    facts.below = below;
+  }
+  return {sigma - eps->target, [factor](Mat b, Mat x) { linalg::solve(*factor, b, x); }};
+}
+
+/// Collective. Hands the Ritz pairs to SLEPc, which decides what has converged.
+void judge(EPS eps, const RitzPairs& ritz, bool full) {
+  const PetscInt count = std::min<PetscInt>(std::ssize(ritz.value), eps->ncv);
+  bool all = true;
+  eps->nconv = 0;
+  for (PetscInt i = 0; i < count; ++i) {
+    eps->eigr[i] = ritz.value[i];
+    eps->eigi[i] = 0;
+    check((*eps->converged)(eps, ritz.value[i], 0, ritz.residual[i], &eps->errest[i],
+                            eps->convergedctx));
+    all = all && eps->errest[i] < eps->tol;
+    if (all) ++eps->nconv;
+  }
+  check(EPSMonitor(eps, eps->its, eps->nconv, eps->eigr, eps->eigi, eps->errest, count));
+  check((*eps->stopping)(eps, full ? eps->its : 0, eps->max_it, eps->nconv, eps->nev, &eps->reason,
+                         eps->stoppingctx));
+}
+
+void iterate(EPS eps) {
+  Solver& solver = solverOf(eps);
+  Mat m = nullptr;
+  check(EPSGetOperators(eps, nullptr, &m));
+  const PetscInt count = eps->nev, width = solver.blockSize;
+  RationalLanczos lanczos(m, eps->V, width);
+  const Pole first = firstPole(eps);
+  std::optional<Pole> second;
+  const Pole* pole = &first;
+  lanczos.start(*pole);
+  const PetscInt every = std::max(2 * width, count / 10);
+  PetscInt next = count + count / 2;
+  bool placed = !solver.secondPole || count < fewestForPole;
+  PetscInt vectorsBefore = 0;  // the second pole
+  while (true) {
+    lanczos.expand(*pole);
+    if (!placed && lanczos.size() >= vectorsBeforePole * count + width) {
+      placed = true;
+      if (const double sigma = placeOfPole(eps, lanczos.ritz()); sigma > eps->target)
+        pole = &second.emplace(poleAt(eps, sigma));
+      vectorsBefore = lanczos.size();
+    }
+    if (lanczos.size() < next && !lanczos.full()) continue;
+    const RitzPairs ritz = lanczos.ritz();
+    judge(eps, ritz, lanczos.full());
+    solver.facts.solves = lanczos.solves();
+    if (eps->reason != EPS_CONVERGED_ITERATING) {
+      lanczos.finish(ritz, eps->nconv);
+      return;
+    }
+    // The lowest that has not converged gains most by the nearer pole.
+    if (second && lanczos.size() >= vectorsBefore + vectorsOfPole && 10 * open(eps) > count) {
+      second.reset();  // its factor leaves first
+      second.emplace(poleAt(eps, placeOfNextPole(eps, ritz)));
+      vectorsBefore = lanczos.size();
+    }
+    if (second) pole = 2 / ritz.value[eps->nconv] < second->distance ? &first : &*second;
+    if (lanczos.full()) {
+      lanczos.restart(ritz, count + (eps->ncv - count) / 3);
+      vectorsBefore = lanczos.size();
+      ++solver.facts.restarts;
+      ++eps->its;
+    }
+    next = lanczos.size() + every;
+  }
+}
+
+// The functions that SLEPc calls.
+
+PetscErrorCode setUp(EPS eps) {
+  PetscFunctionBegin;
+  const PetscInt width = solverOf(eps).blockSize;
+  EPSCheckHermitianDefinite(eps);
+  EPSCheckSinvert(eps);
+  EPSCheckUnsupported(eps, EPS_FEATURE_ARBITRARY | EPS_FEATURE_REGION | EPS_FEATURE_EXTRACTION);
+  EPSCheckIgnored(eps, EPS_FEATURE_BALANCE);
+  PetscCheck(eps->isgeneralized, PetscObjectComm(reinterpret_cast<PetscObject>(eps)), PETSC_ERR_SUP,
+             "This solver is for generalized problems");
+  if (!eps->which) eps->which = EPS_TARGET_MAGNITUDE;
+  PetscCheck(eps->which == EPS_TARGET_MAGNITUDE,
+             PetscObjectComm(reinterpret_cast<PetscObject>(eps)), PETSC_ERR_SUP,
+             "This solver finds the eigenvalues nearest to a target");
+  if (eps->ncv == PETSC_DEFAULT)
+    eps->ncv = std::min<PetscInt>(eps->n, lanczosVectors(eps->nev, width));
+  PetscCheck(eps->ncv >= eps->nev + 3 * width && eps->ncv <= eps->n,
+             PetscObjectComm(reinterpret_cast<PetscObject>(eps)), PETSC_ERR_USER_INPUT,
+             "The value of ncv must be at least nev + 3 block sizes, at most the problem size");
+  if (eps->mpd == PETSC_DEFAULT) eps->mpd = eps->ncv;
+  if (eps->max_it == PETSC_DEFAULT) eps->max_it = 20;
+  PetscCall(EPSAllocateSolution(eps, 0));
+  PetscCall(EPS_SetInnerProduct(eps));
+  PetscFunctionReturn(0);
+}
+
+/// SLEPc's default order serves a DS, which this type does not use.
+PetscErrorCode setUpSort(EPS eps) {
+  PetscFunctionBegin;
+  eps->sc->comparison = SlepcCompareTargetMagnitude;
+  eps->sc->comparisonctx = &eps->target;
+  eps->sc->map = nullptr;
+  eps->sc->mapobj = nullptr;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode solve(EPS eps) {
+  PetscFunctionBegin;
+  Solver& solver = solverOf(eps);
+  solver.facts = {};
+  solver.failure = nullptr;
+  try {
+    iterate(eps);
+  } catch (...) {
+    solver.failure = std::current_exception();
+    eps->nconv = 0;
+    eps->reason = EPS_DIVERGED_BREAKDOWN;
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode transformBack(EPS eps) {
+  PetscFunctionBegin;
+  PetscCall(STBackTransform(eps->st, eps->nconv, eps->eigr, eps->eigi));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode setFromOptions(EPS eps, PetscOptionItems* PetscOptionsObject) {
+  Solver& solver = solverOf(eps);
+  PetscFunctionBegin;
+  PetscOptionsHeadBegin(PetscOptionsObject, "EPS block Lanczos options");
+  PetscCall(PetscOptionsInt("-eps_blocklanczos_blocksize",
+                            "right-hand sides that are solved for together", "", solver.blockSize,
+                            &solver.blockSize, nullptr));
+  PetscCall(PetscOptionsBool("-eps_blocklanczos_pole",
+                             "a second pole below the last wanted eigenvalue", "",
+                             solver.secondPole, &solver.secondPole, nullptr));
+  PetscOptionsHeadEnd();
+  PetscCheck(solver.blockSize > 0, PetscObjectComm(reinterpret_cast<PetscObject>(eps)),
+             PETSC_ERR_USER_INPUT, "-eps_blocklanczos_blocksize must be positive");
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode view(EPS eps, PetscViewer viewer) {
+  PetscFunctionBegin;
+  const Solver& solver = solverOf(eps);
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  block size %" PetscInt_FMT "\n", solver.blockSize));
+  if (solver.facts.countedTo > 0)
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  %d eigenvalues below %g, by the inertia\n",
+                                     solver.facts.below, solver.facts.countedTo));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode destroy(EPS eps) {
+  PetscFunctionBegin;
+  delete static_cast<Solver*>(eps->data);
+  eps->data = nullptr;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode create(EPS eps) {
+  PetscFunctionBegin;
+  eps->data = new Solver;
+  eps->categ = EPS_CATEGORY_KRYLOV;
+  eps->ops->setup = setUp;
+  eps->ops->setupsort = setUpSort;
+  eps->ops->solve = solve;
+  eps->ops->backtransform = transformBack;
+  eps->ops->setfromoptions = setFromOptions;
+  eps->ops->view = view;
+  eps->ops->destroy = destroy;
+  PetscFunctionReturn(0);
+}
 
 }  // namespace
 
-LanczosResult blockLanczos(Mat k, Mat m, KSP solver, int count, int blockSize, double tolerance,
-                           int maxRestarts, const std::function<void(int, int)>& progress) {
-  PetscInt limit = lanczosVectors(count, blockSize), size = 0;
-  check(MatGetSize(k, &size, nullptr));
-  Lanczos lanczos(k, m, solver, blockSize, limit);
-  LanczosResult result;
-  lanczos.start();
-  result.solves = blockSize;
-  const int firstCheck = count + count / 2, every = std::max(2 * blockSize, count / 8);
-  for (PetscInt next = firstCheck;;) {
-    lanczos.expand();
-    result.solves += blockSize;
-    if (lanczos.size() < next && !lanczos.full()) {
-      lanczos.append();
-      continue;
-    }
-    const auto ritz = lanczos.ritz();
-    int converged = 0;
-    while (converged < std::min<PetscInt>(count, lanczos.size()) &&
-           ritz.residual[converged] <= tolerance * ritz.value[converged])
-      ++converged;
-    progress(result.restarts, converged);
-    if (converged == count || (lanczos.full() && result.restarts == maxRestarts)) {
-      result.converged = converged;
-      lanczos.contract(ritz, converged);
-      for (int i = 0; i < converged; ++i) result.lambda.push_back(1 / ritz.value[i]);
-      if (converged > 0) result.vectors = lanczos.vectors(k);  // SLEPc knows no BV without columns
-      return result;
-    }
-    next = lanczos.size() + every;
-    if (lanczos.full()) {
-      lanczos.contract(ritz, count + (limit - count) / 3);
-      // Eigenvalues that lie close together, as those of a thin ring held at its hub, need a larger
-      // basis: more restarts do not help.
-      if (++result.restarts % restartsBeforeGrowth == 0 && 4 * limit <= size)
-        lanczos.enlarge(limit *= 2);
-      next = lanczos.size() + every;
-    }
-    lanczos.append();
-  }
+void registerBlockLanczos() {
+  static bool registered = false;
+  if (!registered) check(EPSRegister(blockLanczosType, create));
+  registered = true;
+}
+
+void setBlockLanczos(EPS eps, PetscInt blockSize, bool secondPole) {
+  solverOf(eps).blockSize = blockSize;
+  solverOf(eps).secondPole = secondPole ? PETSC_TRUE : PETSC_FALSE;
+}
+
+BlockLanczosFacts solveBlockLanczos(EPS eps) {
+  check(EPSSolve(eps));
+  const Solver& solver = solverOf(eps);
+  if (solver.failure) std::rethrow_exception(solver.failure);
+  return solver.facts;
 }
 
 }  // namespace squeal::modes

@@ -1,35 +1,44 @@
 #pragma once
-/// Block Lanczos finds the lowest modes of a symmetric pencil (K, M) by blocked solves with a
-/// factorised K.
-#include <functional>
-#include <vector>
+/// This file adds rational block Lanczos to SLEPc, as a type of EPS. It finds the eigenvalues of a
+/// symmetric definite pencil (K, M) nearest to a target below all of them.
+#include <optional>
 
 #include "petsc/owned.hpp"
 
 namespace squeal::modes {
 
-/// Returns the number of basis vectors that are kept until the basis grows. A run nearly always
-/// converges before the first restart, with 3 vectors a mode.
+/// Name of the type, for EPSSetType and -eps_type.
+constexpr const char* blockLanczosType = "blocklanczos";
+
+/// Registers the type with SLEPc, once. It takes the options of EPS (nev, ncv: most vectors of the
+/// basis, tol, max_it: most restarts), EPS monitors and convergence tests,
+/// and
+///   -eps_blocklanczos_blocksize <8>, right-hand sides that are solved for together,
+///   -eps_blocklanczos_pole <true>, whether further poles are placed amid the wanted eigenvalues,
+///     where the inertia counts those below.
+/// The spectral transformation has to be shift-and-invert.
+void registerBlockLanczos();
+
+/// Sets the defaults of the options of the type.
+void setBlockLanczos(EPS eps, PetscInt blockSize, bool secondPole);
+
+/// Returns the number of vectors that `count` eigenvalues need room for. A run nearly always
+/// converges before the first restart, with 2 to 3 vectors an eigenvalue.
 constexpr int lanczosVectors(int count, int blockSize) { return 3 * count + 8 * blockSize; }
 
-/// The pairs that have converged, and what they took.
-struct LanczosResult {
-  std::vector<double> lambda;  ///< eigenvalues ω², ascending, rad²/s²
-  OwnedBV vectors;             ///< n × converged, M-orthonormal; null if none has converged
-  int converged = 0;           ///< number of pairs, `count` at most
-  int solves = 0;              ///< right-hand sides solved for
+/// What a solve has found besides the eigenvalues.
+struct BlockLanczosFacts {
+  int solves = 0;  ///< right-hand sides solved for
   int restarts = 0;
+  int poles = 0;  ///< besides the target
+  /// A place σ and the number of eigenvalues below it, by the inertia of K − σ M; 0 if there is
+  /// none of the wanted ones.
+  double countedTo = 0;
+  int below = 0;
 };
 
-/// Collective. Returns the `count` smallest eigenvalues of
-///   K d = λ M d,
-/// or fewer if they do not converge within `maxRestarts`. K is symmetric positive definite and
-/// factorised in `solver` (MUMPS), and M is symmetric positive definite. Both have at least
-/// 2·lanczosVectors() rows; all are borrowed. A pair has converged when
-///   ‖K⁻¹M d − d/λ‖_M ≤ tolerance/λ.
-/// The basis grows, up to half of all rows, where restarts do not converge. `progress(restarts,
-/// converged)` is called on all ranks. Throws Error if the basis cannot be extended.
-LanczosResult blockLanczos(Mat k, Mat m, KSP solver, int count, int blockSize, double tolerance,
-                           int maxRestarts, const std::function<void(int, int)>& progress);
+/// Collective. Calls EPSSolve on a solver of this type and returns the facts. Throws Error if the
+/// second pole cannot be factorised or the basis cannot be extended.
+BlockLanczosFacts solveBlockLanczos(EPS eps);
 
 }  // namespace squeal::modes

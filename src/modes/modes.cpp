@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linalg/block.hpp"
 #include "linalg/columns.hpp"
 #include "linalg/gathered.hpp"
 #include "linalg/symmetric.hpp"
 #include "linalg/symmetric_solver.hpp"
 #include "modes/blocklanczos.hpp"
 #include "options/options.hpp"
+#include "petsc/arrays.hpp"
 #include "petsc/text.hpp"
 #include "session/stages.hpp"
 
@@ -18,9 +20,9 @@ namespace {
 const IntegerOption countOption("modes", "modes_count", 200, 1, 1'000'000,
                                 "number of free-vibration modes, the basis of the reduced problem");
 const ChoiceOption solverOption("modes", "modes_solver", {"auto", "block_lanczos", "eps"}, "auto",
-                                "block_lanczos: blocked solves with MUMPS; eps: SLEPc; auto: "
-                                "block_lanczos, or eps if a -modes_eps_* option is given or "
-                                "the problem is small");
+                                "block_lanczos: the EPS type blocklanczos of this program; eps: "
+                                "krylovschur, or what -modes_eps_type names; auto: block_lanczos, "
+                                "or eps if a type is given or the problem is small");
 const IntegerOption blockOption("modes", "modes_block_size", 8, 1, 1000,
                                 "right-hand sides that block_lanczos solves for together");
 const RealOption toleranceOption(
@@ -45,21 +47,19 @@ PetscErrorCode report(EPS, PetscInt iteration, PetscInt converged, PetscScalar*,
   return 0;
 }
 
-OwnedEPS solver(const AssociatedSystem& system, const Options& options, Stage& stage) {
-  const int count = options.count;
+/// Collective. Returns a solver of SLEPc for the modes nearest to zero.
+OwnedEPS solver(const AssociatedSystem& system, const Options& options, const char* type,
+                Stage& stage) {
   const Mat k = system.k0();
   OwnedEPS eps;
+  registerBlockLanczos();
   check(EPSCreate(PetscObjectComm(reinterpret_cast<PetscObject>(k)), eps.out()));
   check(EPSSetOptionsPrefix(eps, "modes_"));
   check(EPSSetOperators(eps, k, system.m0()));
   check(EPSSetProblemType(eps, EPS_GHEP));
-  check(EPSSetType(eps, EPSKRYLOVSCHUR));
+  check(EPSSetType(eps, type));
   check(EPSSetWhichEigenpairs(eps, EPS_TARGET_MAGNITUDE));
   check(EPSSetTarget(eps, 0));
-  // Half as many vectors again as modes, enlarged in portions of 100, took the fewest solves.
-  const PetscInt vectors = std::min<PetscInt>(
-      rowsOf(k), count + std::clamp(count / 2, 50, 100));  // SLEPc wants <= count + portion
-  check(EPSSetDimensions(eps, count, vectors, std::min<PetscInt>(vectors, 100)));
   check(EPSSetTolerances(eps, options.tolerance, PETSC_DEFAULT));
   check(EPSSetPurify(eps, PETSC_FALSE));
   check(EPSMonitorSet(eps, report, &stage, nullptr));
@@ -67,11 +67,15 @@ OwnedEPS solver(const AssociatedSystem& system, const Options& options, Stage& s
   check(EPSGetST(eps, &st));
   check(STSetType(st, STSINVERT));
   check(STSetKSP(st, system.solver()));  // shift 0: K0 is factorised already
+  return eps;
+}
+
+/// Collective. Reads the options of EPS and makes it ready.
+void setUp(EPS eps) {
   applySolverOptions([&] { return EPSSetFromOptions(eps); });
   solverPrefix.rejectUnused();
   applySolverOptions([&] { return EPSSetUp(eps); });
   linalg::rejectUnusedSolverOptions();
-  return eps;
 }
 
 /// Collective. Returns the number of eigenvalues of (K, M) below sigma.
@@ -95,10 +99,24 @@ std::size_t modesBelowGap(const std::vector<double>& w) {
   return widest < distinct ? 0 : below;
 }
 
-/// Collective. Counts the eigenvalues below a shift in the gap of modesBelowGap().
+/// Returns true if the modes below the shift are as many as the inertia has counted there, and the
+/// shift lies between two of them beyond doubt.
+bool isCounted(const Modes& modes) {
+  constexpr double apart = 1e-6;  // of λ
+  const double shift = modes.inertiaShift;
+  if (!(shift > 0) || !(shift < modes.lambda.back())) return false;
+  const auto near = [&](double lambda) { return std::abs(lambda - shift) < apart * shift; };
+  const auto below = [&](double lambda) { return lambda < shift; };
+  return std::ranges::none_of(modes.lambda, near) &&
+         std::ranges::count_if(modes.lambda, below) == modes.inertiaCount;
+}
+
+/// Collective. Counts the eigenvalues below a shift in the gap of modesBelowGap(), unless a count
+/// that has been made already agrees.
 void confirmCount(Mat k, Mat m, Modes& modes) {
+  modes.countConfirmed = isCounted(modes);
+  if (modes.lambda.empty() || modes.countConfirmed) return;
   const auto& w = modes.angularFrequency;
-  if (w.empty()) return;
   const int below = modesBelowGap(w);
   modes.inertiaShift =
       below > 0 ? 0.5 * (w[below] * w[below] + w[below - 1] * w[below - 1]) : 0.5 * w[0] * w[0];
@@ -113,23 +131,16 @@ void requireConverged(int converged, int count, const char* options) {
         converged, count, options));
 }
 
-/// Collective. Finds eigenvalues, ascending, and vectors, M-orthonormal, by SLEPc. Throws Error if
-/// too few converge.
-void solveByEps(const AssociatedSystem& system, const Options& options, Stage& stage,
-                Modes& modes) {
-  const int count = options.count;
-  const Mat k = system.k0();
-  const OwnedEPS eps = solver(system, options, stage);
-  check(EPSSolve(eps));
-  PetscInt converged = 0, iterations = 0;
-  check(EPSGetConverged(eps, &converged));
-  check(EPSGetIterationNumber(eps, &iterations));
-  requireConverged(converged, count, "a larger -modes_eps_max_it or -modes_eps_ncv");
-  OwnedVec d;
-  check(MatCreateVecs(k, d.out(), nullptr));
+/// Collective. Takes the eigenvalues, ascending, and the vectors, M-orthonormal, from a solver.
+void takeModes(EPS eps, int count, Modes& modes) {
+  Mat k = nullptr;
+  check(EPSGetOperators(eps, &k, nullptr));
+  const OwnedVec d = rightVector(k);
   check(BVCreate(PetscObjectComm(reinterpret_cast<PetscObject>(k)), modes.vectors.out()));
   check(BVSetSizesFromVec(modes.vectors, d, count));
   check(BVSetType(modes.vectors, BVSVEC));
+  PetscInt converged = 0;
+  check(EPSGetConverged(eps, &converged));
   std::vector<std::pair<double, PetscInt>> order;
   for (PetscInt i = 0; i < converged; ++i) {
     PetscScalar value = 0;
@@ -142,23 +153,56 @@ void solveByEps(const AssociatedSystem& system, const Options& options, Stage& s
     check(BVInsertVec(modes.vectors, i, d));
     modes.lambda.push_back(order[i].first);
   }
+}
+
+/// Collective. Finds the modes by the type of EPS that -modes_eps_type names. Throws Error if too
+/// few converge.
+void solveByEps(const AssociatedSystem& system, const Options& options, Stage& stage,
+                Modes& modes) {
+  const int count = options.count;
+  const OwnedEPS eps = solver(system, options, EPSKRYLOVSCHUR, stage);
+  // Half as many vectors again as modes, enlarged in portions of 100, took the fewest solves.
+  const PetscInt vectors =
+      std::min<PetscInt>(rowsOf(system.k0()),
+                         count + std::clamp(count / 2, 50, 100));  // SLEPc wants <= count + portion
+  check(EPSSetDimensions(eps, count, vectors, std::min<PetscInt>(vectors, 100)));
+  setUp(eps);
+  check(EPSSolve(eps));
+  PetscInt converged = 0, iterations = 0;
+  check(EPSGetConverged(eps, &converged));
+  check(EPSGetIterationNumber(eps, &iterations));
+  requireConverged(converged, count, "a larger -modes_eps_max_it or -modes_eps_ncv");
+  takeModes(eps, count, modes);
   modes.iterations = iterations;
 }
 
-/// Returns false if fewer modes than wanted have converged; `modes` is then as it was.
+/// Collective. Finds the modes by block Lanczos. Returns false if fewer than wanted have converged;
+/// `modes` is then as it was. Eigenvalues that lie close together, as those of a thin ring held at
+/// its hub, need a larger basis: more restarts do not help.
 bool solveByLanczos(const AssociatedSystem& system, const Options& options, int blockSize,
                     Stage& stage, Modes& modes) {
+  constexpr PetscInt restartsBeforeGrowth = 4, mostRestarts = 20;
   const int count = options.count;
-  auto result = blockLanczos(system.k0(), system.m0(), system.solver(), count, blockSize,
-                             options.tolerance, 20, [&](int restarts, int converged) {
-                               stage.progress(formatted("%d restarts: %d of %d modes converged",
-                                                        restarts, converged, count));
-                             });
-  if (result.converged < count) return false;
-  modes.lambda = result.lambda;
-  modes.vectors = std::move(result.vectors);
-  modes.iterations = result.restarts;
-  return true;
+  const PetscInt size = rowsOf(system.k0());
+  for (PetscInt room = lanczosVectors(count, blockSize);; room *= 2) {
+    const bool largest = 4 * room > size;
+    const OwnedEPS eps = solver(system, options, blockLanczosType, stage);
+    check(EPSSetDimensions(eps, count, room, PETSC_DEFAULT));
+    check(EPSSetTolerances(eps, options.tolerance, largest ? mostRestarts : restartsBeforeGrowth));
+    setBlockLanczos(eps, blockSize, options.sturm);
+    setUp(eps);
+    const BlockLanczosFacts facts = solveBlockLanczos(eps);
+    PetscInt converged = 0;
+    check(EPSGetConverged(eps, &converged));
+    if (converged >= count) {
+      takeModes(eps, count, modes);
+      modes.iterations = facts.restarts;
+      modes.inertiaShift = facts.countedTo;
+      modes.inertiaCount = facts.below;
+      return true;
+    }
+    if (largest) return false;
+  }
 }
 
 /// Solves
@@ -188,43 +232,46 @@ void solveDense(const AssociatedSystem& system, int count, Modes& modes) {
   modes.vectors = linalg::copiedColumns(system.k0(), linalg::rowRange(vectors, first, end));
 }
 
-/// Collective. Returns [M.26]
-///   ε Σ K_jj d_j² / λ,
+/// Collective. Measures the residuals, and by [M.26]
+///   ε Σ K_jj d_j² / λ
 /// the relative change of λ that rounding in K makes, whose entries may cancel in d. If it is near
 /// one, λ says nothing.
-double roundingOf(Vec diagonal, Vec d, double lambda) {
-  OwnedVec weighted;
-  PetscScalar sum = 0;
-  check(VecDuplicate(d, weighted.out()));
-  check(VecPointwiseMult(weighted, diagonal, d));
-  check(VecDot(weighted, d, &sum));
-  return PETSC_MACHINE_EPSILON * sum / std::abs(lambda);
-}
-
 void measureResiduals(const AssociatedSystem& system, Modes& modes) {
   constexpr double noise = 1e-3;  // of λ: three digits are no frequency
-  OwnedVec kd, md, diagonal;
-  check(MatCreateVecs(system.k0(), kd.out(), md.out()));
-  check(VecDuplicate(kd, diagonal.out()));
+  constexpr PetscInt atOnce = 32;
+  const linalg::ReadColumns vectors(modes.vectors);
+  const linalg::DenseView all = vectors.view();
+  const PetscInt count = std::ssize(modes.lambda);
+  OwnedVec diagonal = rightVector(system.k0());
   check(MatGetDiagonal(system.k0(), diagonal));
-  for (std::size_t i = 0; i < modes.lambda.size(); ++i) {
-    Vec d = nullptr;
-    check(BVGetColumn(modes.vectors, i, &d));
-    check(MatMult(system.k0(), d, kd));
-    check(MatMult(system.m0(), d, md));
-    modes.rounding = std::max(modes.rounding, roundingOf(diagonal, d, modes.lambda[i]));
-    check(BVRestoreColumn(modes.vectors, i, &d));
-    if (!(modes.lambda[i] > 0) || modes.rounding > noise)
-      throw Error(
-          formatted("free vibration: eigenvalue %zu, %g, is not positive or nothing but rounding; "
-                    "a body is loose or nearly so",
-                    i + 1, modes.lambda[i]));
-    PetscReal scale = 0, residual = 0;
-    check(VecNorm(md, NORM_2, &scale));
-    check(VecAXPY(kd, -modes.lambda[i], md));
-    check(VecNorm(kd, NORM_2, &residual));
-    modes.angularFrequency.push_back(std::sqrt(modes.lambda[i]));
-    modes.relativeResidual.push_back(residual / (modes.lambda[i] * scale));
+  const ReadArray k(diagonal);
+  linalg::DenseMatrix sums(3, count);  // d·diag(K) d, ‖M d‖² and the square of the residual
+  for (PetscInt begin = 0; begin < count; begin += atOnce) {
+    const PetscInt end = std::min(begin + atOnce, count);
+    const linalg::DenseView d = all.columnRange(begin, end);
+    linalg::Block stiffness(d.rows()), inertia(d.rows());
+    linalg::appendProduct(system.k0(), d, stiffness);
+    linalg::appendProduct(system.m0(), d, inertia);
+    for (PetscInt j = 0; j < end - begin; ++j)
+      for (PetscInt i = 0; i < d.rows(); ++i) {
+        const double rest = stiffness(i, j) - modes.lambda[begin + j] * inertia(i, j);
+        sums(0, begin + j) += k[i] * d(i, j) * d(i, j);
+        sums(1, begin + j) += inertia(i, j) * inertia(i, j);
+        sums(2, begin + j) += rest * rest;
+      }
+  }
+  check(MPI_Allreduce(MPI_IN_PLACE, sums.data(), sums.size(), MPI_DOUBLE, MPI_SUM, system.comm()));
+  for (PetscInt i = 0; i < count; ++i) {
+    const double lambda = modes.lambda[i];
+    modes.rounding =
+        std::max(modes.rounding, PETSC_MACHINE_EPSILON * sums(0, i) / std::abs(lambda));
+    if (!(lambda > 0) || modes.rounding > noise)
+      throw Error(formatted("free vibration: eigenvalue %" PetscInt_FMT
+                            ", %g, is not positive or nothing "
+                            "but rounding; a body is loose or nearly so",
+                            i + 1, lambda));
+    modes.angularFrequency.push_back(std::sqrt(lambda));
+    modes.relativeResidual.push_back(std::sqrt(sums(2, i) / sums(1, i)) / lambda);
   }
 }
 
@@ -278,7 +325,7 @@ bool computeByLanczos(const AssociatedSystem& system, const Options& options, St
 Modes computeBy(const AssociatedSystem& system, const Options& options, Stage& stage) {
   constexpr PetscInt denseAtMost = 2000;
   const PetscInt size = rowsOf(system.k0());
-  const bool chosen = options.solver != Options::Solver::automatic;
+  const bool chosen = options.solver != Options::Solver::automatic || solverPrefix.given();
   Modes modes;
   if (denseWanted(options, size)) {
     solveDense(system, options.count, modes);
@@ -309,9 +356,11 @@ int wantedCount() { return countOption.get(); }
 Options Options::given() {
   const std::string name = solverOption.get();
   const int block = blockOption.get();
-  const Solver solver = name == "block_lanczos"                 ? Solver::blockLanczos
-                        : name == "eps" || solverPrefix.given() ? Solver::eps
-                                                                : Solver::automatic;
+  PetscBool typeGiven = PETSC_FALSE;
+  check(PetscOptionsHasName(nullptr, "modes_", "-eps_type", &typeGiven));
+  const Solver solver = name == "eps" || typeGiven ? Solver::eps
+                        : name == "block_lanczos"  ? Solver::blockLanczos
+                                                   : Solver::automatic;
   return {wantedCount(), countOption.given(),   solver,
           block,         toleranceOption.get(), sturmOption.get()};
 }
@@ -341,13 +390,14 @@ Modes compute(const AssociatedSystem& system, const Options& given) {
                              "the lowest eigenvalues by %.0e of their "
                              "size; is a body nearly loose, or a spring very stiff?",
                              modes.rounding));
-  stage.finish(
-      formatted("%d modes to %.4g Hz, worst relative residual %.1e%s", options.count,
-                modes.angularFrequency.back() / (2 * M_PI),
-                *std::max_element(modes.relativeResidual.begin(), modes.relativeResidual.end()),
-                !options.sturm         ? ""
-                : modes.countConfirmed ? ", count confirmed by inertia"
-                                       : ", COUNT NOT CONFIRMED BY INERTIA"));
+  stage.finish(formatted(
+      "%d modes to %.4g Hz, worst relative residual %.1e%s", options.count,
+      modes.angularFrequency.back() / (2 * M_PI),
+      *std::max_element(modes.relativeResidual.begin(), modes.relativeResidual.end()),
+      !options.sturm ? ""
+      : modes.countConfirmed
+          ? formatted(", the lowest %d counted exactly by inertia", modes.inertiaCount).c_str()
+          : ", COUNT NOT CONFIRMED BY INERTIA"));
   return modes;
 }
 

@@ -21,14 +21,6 @@ const SolverPrefix solverPrefix(
 /// The number of columns of K_o⁻¹ that are held at once.
 constexpr PetscInt blockColumns = 64;
 
-OwnedKSP factorisation(Mat matrix) {
-  OwnedKSP solver = linalg::directSolver(matrix, solverPrefix);
-  if (const Mat factor = linalg::mumpsFactor(solver))
-    check(MatMumpsSetIcntl(factor, 13, 1));  // the inertia is asked for
-  linalg::factorise(solver, solverPrefix);
-  return solver;
-}
-
 }  // namespace
 
 linalg::DenseMatrix Compliance::at(double friction) const {
@@ -65,25 +57,17 @@ OpenContact::OpenContact(const contact::Contact& contact, Mat stiffness,
   const auto exponents = contact.frictionExponents();
   if (std::count(exponents.begin(), exponents.end(), 0)) columnsOf(0, fixedFriction_);
 
-  solver_ = factorisation(stiffness_);
+  solver_ = linalg::directSolver(stiffness_, solverPrefix);
+  if (auto* factor = linalg::mumpsFactor(solver_)) factor->wantInertia();
+  factorised_ = linalg::factorise(solver_).empty();
   rhs_ = block(2), solution_ = block(2);
   check(MatCreateVecs(gaps_, part_.out(), single_.out()));
   check(VecDuplicate(single_, answer_.out()));
 }
 
-bool OpenContact::factorised() const {
-  PC pc = nullptr;
-  PCFailedReason failed;
-  check(KSPGetPC(solver_, &pc));
-  check(PCGetFailedReason(pc, &failed));
-  return failed == PC_NOERROR;
-}
-
 bool OpenContact::positiveDefinite() const {
-  const Mat factor = linalg::mumpsFactor(solver_);
-  PetscInt negative = 0;
-  if (factor) check(MatGetInertia(factor, &negative, nullptr, nullptr));
-  return negative == 0;
+  const auto* factor = linalg::mumpsFactor(solver_);
+  return !factor || factor->inertia().negative == 0;
 }
 
 OwnedMat OpenContact::block(PetscInt columns) const {
@@ -175,7 +159,9 @@ void OpenContact::close() {
   check(MatCreateSubMatrix(stiffness_, others, gaps, MAT_INITIAL_MATRIX, coupling_.out()));
   check(MatCreateSubMatrix(stiffness_, gaps, gaps, MAT_INITIAL_MATRIX, gapStiffness_.out()));
   check(MatSetOption(closedStiffness_, MAT_SYMMETRIC, PETSC_TRUE));
-  closedSolver_ = factorisation(closedStiffness_);
+  closedSolver_ = linalg::directSolver(closedStiffness_, solverPrefix);
+  if (const std::string why = linalg::factorise(closedSolver_); !why.empty())
+    throw Error("the stiffness matrix of the closed contact cannot be factorised: " + why);
   check(MatCreateVecs(closedStiffness_, inner_.out(), innerAnswer_.out()));
 }
 

@@ -36,7 +36,7 @@ class OpenContact {
   OpenContact(const contact::Contact& contact, Mat stiffness,
               const std::vector<contact::Slip>& slip);
   /// Returns false if K_o could not be factorised; nothing else may be called then.
-  bool factorised() const;
+  bool factorised() const { return factorised_; }
   /// Collective. Returns false if K_o is known to have a negative eigenvalue, as with convective
   /// terms beyond a critical speed.
   bool positiveDefinite() const;
@@ -69,6 +69,7 @@ class OpenContact {
   OwnedMat gaps_, friction_;  // e and U, n×n_c
   OwnedMat fixedFriction_;    // U_0, n×n_c; null without fixed coefficients
   OwnedKSP solver_;
+  bool factorised_ = false;
   OwnedVec part_;                                       // n_c
   OwnedMat rhs_, solution_;                             // n×2: e v and U v, and K_o⁻¹ of them
   OwnedVec single_, answer_;                            // n

@@ -96,7 +96,7 @@ TEST(Notes, OneModeIsCounted) {
   const ProgramRun run =
       runProgram("notes/one", 1, commandLine(with(spoken, {{"modes_count", "1"}})));
   ASSERT_EQ(run.exitCode, 0) << run.error;
-  EXPECT_TRUE(says(run, "count confirmed by inertia")) << run.out;
+  EXPECT_TRUE(says(run, "counted exactly by inertia")) << run.out;
 }
 
 /// A pad of length 2 that begins at x = 1/2 and y = 1/100 above a disc of length `length`, held
