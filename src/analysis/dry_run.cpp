@@ -9,7 +9,7 @@
 #include "analysis/matrix_route.hpp"
 #include "contact/coupled.hpp"
 #include "elasticity/ground.hpp"
-#include "linalg/symmetric_solver.hpp"
+#include "factor/symmetric_solver.hpp"
 #include "mesh/mesh.hpp"
 #include "options/options.hpp"
 #include "petsc/text.hpp"
@@ -100,7 +100,7 @@ void sayMemory(MPI_Comm comm, Mat k0) {
   check(MatGetSize(k0, &unknowns, nullptr));
   check(MatGetInfo(k0, MAT_GLOBAL_SUM, &info));
   const int modes = std::min<PetscInt>(modes::wantedCount(), unknowns);
-  const double factor = linalg::factorMemory(k0);
+  const double factor = factor::factorMemory(k0);
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   const double held = total(comm, 1024.0 * usage.ru_maxrss);

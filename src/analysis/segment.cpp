@@ -5,9 +5,9 @@
 #include <memory>
 
 #include "direct/direct.hpp"
+#include "factor/symmetric_solver.hpp"
 #include "flutter/terms.hpp"
 #include "linalg/columns.hpp"
-#include "linalg/symmetric_solver.hpp"
 #include "options/options.hpp"
 #include "pencil/pencil.hpp"
 #include "petsc/text.hpp"
@@ -135,7 +135,7 @@ class SegmentSweep {
   std::optional<modes::Modes> computeModes() {
     const bool direct = direct::directWanted();
     if (direct) directly_ = direct::Options::given();
-    if (direct) linalg::rejectUnusedSolverOptions();
+    if (direct) factor::rejectUnusedSolverOptions();
     if (direct && !sensitivity::sensitivitiesWanted()) return {};
     modes::Modes modes = modes::compute(problem_.system());
     if (!direct) return modes;

@@ -18,6 +18,9 @@ Projection project(const Contact& contact, const Transformation& transformation,
                             projection.matrix.out()));
   check(MatMatMult(contact.reaction, xt, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
                    projection.reaction.out()));
+  // PETSc keeps the workspace of a product for the next one of the same pattern.
+  for (const Mat result : {projection.matrix.get(), projection.reaction.get()})
+    check(MatProductClear(result));
   PetscBool known = PETSC_FALSE, symmetric = PETSC_FALSE;
   check(MatIsSymmetricKnown(x, &known, &symmetric));
   if (known && symmetric) check(MatSetOption(projection.matrix, MAT_SYMMETRIC, PETSC_TRUE));

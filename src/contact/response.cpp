@@ -154,7 +154,7 @@ OwnedMat distributedResponse(const Contact& contact, const std::vector<Slip>& sl
                 sums[(i * dimension + c) * size + j * dimension + d] +=
                     area[q] * value[i] * value[j] * at[c * dimension + d];
       }
-      elasticity::append(triples, mesh, nodes, sums, false);
+      elasticity::append(triples, mesh, nodes, sums);
     }
   }
   const OwnedMat unfolded = toMatrix(mesh, triples, elasticity::Symmetry::symmetric);

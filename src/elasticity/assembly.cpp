@@ -2,22 +2,27 @@
 
 #include <algorithm>
 
+#include "petsc/arrays.hpp"
 #include "petsc/text.hpp"
 #include "session/stages.hpp"
 
 namespace squeal::elasticity {
 
-OwnedMat toMatrix(const mesh::Mesh& mesh, Triples& triples, Symmetry symmetry) {
+namespace {
+
+/// Collective. Returns an N×N matrix without entries.
+OwnedMat nodalMatrix(const mesh::Mesh& mesh, PetscInt dimension) {
   OwnedMat matrix;
-  const PetscInt owned = mesh.dimension * mesh.ownedNodes;
+  const PetscInt owned = dimension * mesh.ownedNodes;
   check(MatCreate(mesh.comm, matrix.out()));
   check(MatSetSizes(matrix, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE));
-  check(MatSetBlockSize(matrix, mesh.dimension));
+  check(MatSetBlockSize(matrix, dimension));
   check(MatSetType(matrix, MATAIJ));
-  check(MatSetPreallocationCOO(matrix, triples.row.size(), triples.row.data(),
-                               triples.column.data()));
-  check(MatSetValuesCOO(matrix, triples.value.data(), INSERT_VALUES));
-  triples = {};
+  return matrix;
+}
+
+/// Collective. Makes an assembled matrix as symmetric as is said.
+void makeSymmetric(Mat matrix, Symmetry symmetry) {
   if (symmetry != Symmetry::rounded) {  // (A ± Aᵀ)/2
     OwnedMat transposed;
     check(MatTranspose(matrix, MAT_INITIAL_MATRIX, transposed.out()));
@@ -25,22 +30,115 @@ OwnedMat toMatrix(const mesh::Mesh& mesh, Triples& triples, Symmetry symmetry) {
     check(MatScale(matrix, 0.5));
   }
   check(MatSetOption(matrix, MAT_SYMMETRIC, symmetry == Symmetry::skew ? PETSC_FALSE : PETSC_TRUE));
+}
+
+}  // namespace
+
+OwnedMat toMatrix(const mesh::Mesh& mesh, Triples& triples, Symmetry symmetry) {
+  OwnedMat matrix = nodalMatrix(mesh, mesh.dimension);
+  check(MatSetPreallocationCOO(matrix, triples.row.size(), triples.row.data(),
+                               triples.column.data()));
+  check(MatSetValuesCOO(matrix, triples.value.data(), INSERT_VALUES));
+  triples = {};
+  makeSymmetric(matrix, symmetry);
   return matrix;
 }
 
 void append(Triples& triples, const mesh::Mesh& mesh, std::span<const PetscInt> nodes,
-            const std::vector<double>& matrix, bool scalar) {
-  const int dimension = mesh.dimension, count = nodes.size();
-  for (int i = 0; i < count; ++i)
-    for (int a = 0; a < dimension; ++a)
-      for (int j = 0; j < count; ++j)
-        for (int b = 0; b < dimension; ++b) {
-          if (scalar && a != b) continue;
-          triples.add(dimension * mesh.globalNode[nodes[i]] + a,
-                      dimension * mesh.globalNode[nodes[j]] + b,
-                      scalar ? matrix[i * count + j]
-                             : matrix[(i * dimension + a) * count * dimension + j * dimension + b]);
-        }
+            const std::vector<double>& matrix) {
+  const int dimension = mesh.dimension, size = dimension * nodes.size();
+  const auto number = [&](int i) {
+    return dimension * mesh.globalNode[nodes[i / dimension]] + i % dimension;
+  };
+  for (int i = 0; i < size; ++i)
+    for (int j = 0; j < size; ++j) triples.add(number(i), number(j), matrix[i * size + j]);
+}
+
+NodePattern::NodePattern(const mesh::Mesh& mesh, const CellFilter& uses)
+    : own(mesh.ownedNodes), other(mesh.ownedNodes) {
+  std::vector<std::vector<PetscInt>> neighbours(mesh.localNodes());
+  for (const auto& block : mesh.cells)
+    for (std::size_t e = 0; e < block.tag.size(); ++e) {
+      if (!uses(block, e)) continue;
+      const auto nodes = block.nodesOf(e);
+      for (const PetscInt node : nodes)
+        neighbours[node].insert(neighbours[node].end(), nodes.begin(), nodes.end());
+    }
+  std::vector<PetscInt> rows, columns;
+  for (PetscInt node = 0; node < std::ssize(neighbours); ++node) {
+    auto& list = neighbours[node];
+    std::ranges::sort(list);
+    list.erase(std::ranges::unique(list).begin(), list.end());
+    for (const PetscInt neighbour : list) {
+      rows.push_back(mesh.globalNode[node]);
+      columns.push_back(mesh.globalNode[neighbour]);
+    }
+    list = {};
+  }
+  for (PetscInt i = 0; i < mesh.ownedNodes; ++i) {  // springs stand on the diagonal
+    rows.push_back(mesh.firstNode + i);
+    columns.push_back(mesh.firstNode + i);
+  }
+  const OwnedMat pairs = nodalMatrix(mesh, 1);
+  const std::vector<PetscScalar> values(rows.size());
+  check(MatSetPreallocationCOO(pairs, rows.size(), rows.data(), columns.data()));
+  check(MatSetValuesCOO(pairs, values.data(), INSERT_VALUES));
+  for (PetscInt i = 0; i < mesh.ownedNodes; ++i) {
+    PetscInt count = 0;
+    const PetscInt* list = nullptr;
+    check(MatGetRow(pairs, mesh.firstNode + i, &count, &list, nullptr));
+    own[i] = std::count_if(list, list + count, [&](PetscInt node) {
+      return node >= mesh.firstNode && node < mesh.firstNode + mesh.ownedNodes;
+    });
+    other[i] = count - own[i];
+    check(MatRestoreRow(pairs, mesh.firstNode + i, &count, &list, nullptr));
+  }
+}
+
+Assembly::Assembly(const mesh::Mesh& mesh, const NodePattern& pattern, bool diagonal)
+    : mesh_(&mesh), matrix_(nodalMatrix(mesh, mesh.dimension)) {
+  const auto perRow = [&](const std::vector<PetscInt>& perNode) {
+    std::vector<PetscInt> counts;
+    for (const PetscInt count : perNode)
+      counts.insert(counts.end(), mesh.dimension, diagonal ? count : mesh.dimension * count);
+    return counts;
+  };
+  const auto own = perRow(pattern.own), other = perRow(pattern.other);
+  check(MatSeqAIJSetPreallocation(matrix_, 0, own.data()));
+  check(MatMPIAIJSetPreallocation(matrix_, 0, own.data(), 0, other.data()));
+}
+
+void Assembly::add(std::span<const PetscInt> nodes, const std::vector<double>& matrix,
+                   bool scalar) {
+  const PetscInt count = nodes.size(), dimension = mesh_->dimension;
+  numbers_.resize(count);
+  for (PetscInt i = 0; i < count; ++i) numbers_[i] = mesh_->globalNode[nodes[i]];
+  if (!scalar) {
+    check(MatSetValuesBlocked(matrix_, count, numbers_.data(), count, numbers_.data(),
+                              matrix.data(), ADD_VALUES));
+    return;
+  }
+  for (PetscInt i = 0; i < count; ++i) numbers_[i] *= dimension;
+  for (PetscInt d = 0; d < dimension; ++d) {
+    check(MatSetValues(matrix_, count, numbers_.data(), count, numbers_.data(), matrix.data(),
+                       ADD_VALUES));
+    for (PetscInt& number : numbers_) ++number;
+  }
+}
+
+void Assembly::addDiagonal(Vec diagonal) {
+  if (!diagonal) return;
+  const ReadArray values(diagonal);
+  const PetscInt first = mesh_->dimension * mesh_->firstNode;
+  for (PetscInt i = 0; i < values.size(); ++i)
+    check(MatSetValue(matrix_, first + i, first + i, values[i], ADD_VALUES));
+}
+
+OwnedMat Assembly::finish(Symmetry symmetry) {
+  check(MatAssemblyBegin(matrix_, MAT_FINAL_ASSEMBLY));
+  check(MatAssemblyEnd(matrix_, MAT_FINAL_ASSEMBLY));
+  makeSymmetric(matrix_, symmetry);
+  return std::move(matrix_);
 }
 
 void addLoad(Vec load, const mesh::Mesh& mesh, std::span<const PetscInt> nodes,

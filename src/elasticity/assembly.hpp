@@ -2,6 +2,7 @@
 /// These functions assemble element arrays into distributed matrices and vectors on nodal
 /// displacements.
 #include <compare>
+#include <functional>
 #include <span>
 
 #include "elasticity/element.hpp"
@@ -32,11 +33,42 @@ enum class Symmetry { rounded, symmetric, skew };
 /// Collective. Returns the N×N matrix of the triples of all ranks, which are used up.
 OwnedMat toMatrix(const mesh::Mesh& mesh, Triples& triples, Symmetry symmetry);
 
-/// Not collective. Appends the entries of one element with these local nodes. If `scalar`, the
-/// matrix is [node][node] and is repeated on each component; otherwise its rows and columns are
-/// [node][component]. It is row-major.
+/// Not collective. Appends the entries of the matrix of one element with these local nodes, whose
+/// rows and columns are [node][component]. It is row-major.
 void append(Triples& triples, const mesh::Mesh& mesh, std::span<const PetscInt> nodes,
-            const std::vector<double>& matrix, bool scalar);
+            const std::vector<double>& matrix);
+
+/// Selects cells by their block and index.
+using CellFilter = std::function<bool(const mesh::CellBlock&, std::size_t)>;
+
+/// A NodePattern counts the nodes that share a cell with each node of this rank.
+struct NodePattern {
+  std::vector<PetscInt> own, other;  ///< [owned node] nodes of this rank, and of other ranks
+  /// Collective. Counts over the cells of all ranks that `uses` selects.
+  NodePattern(const mesh::Mesh& mesh, const CellFilter& uses);
+};
+
+/// An Assembly sums the matrices of elements as they come into an N×N matrix, so that they are
+/// never held together.
+class Assembly {
+ public:
+  /// Collective. Makes room for the pairs of nodes of the pattern, on all components, or on equal
+  /// components alone if `diagonal`. The mesh is borrowed during the life of the object.
+  Assembly(const mesh::Mesh& mesh, const NodePattern& pattern, bool diagonal);
+  /// Not collective. Adds the matrix of one element with these local nodes. If `scalar`, it is
+  /// [node][node] and is repeated on each component; otherwise its rows and columns are
+  /// [node][component]. It is row-major.
+  void add(std::span<const PetscInt> nodes, const std::vector<double>& matrix, bool scalar);
+  /// Not collective. Adds a diagonal, which may be null.
+  void addDiagonal(Vec diagonal);
+  /// Collective. Returns the sum over all ranks. Nothing may be added afterwards.
+  OwnedMat finish(Symmetry symmetry);
+
+ private:
+  const mesh::Mesh* mesh_;
+  OwnedMat matrix_;
+  std::vector<PetscInt> numbers_;
+};
 
 /// Not collective. Adds the values of one element, [node][3], times `factor`. VecAssemblyBegin and
 /// VecAssemblyEnd must follow.

@@ -80,7 +80,10 @@ void assembleConvection(const mesh::Mesh& mesh, const std::vector<Material>& mat
   std::vector<Crossing> crossing(mesh.bodies.size());
   for (std::size_t body = 0; body < mesh.bodies.size(); ++body)
     if (bodies.motions[body].moves()) crossing[body] = {nodeScalars(mesh), nodeScalars(mesh)};
-  Triples g, k;
+  const NodePattern pattern(mesh, [&](const mesh::CellBlock& block, std::size_t e) {
+    return bodies.motions[block.body[e]].moves();
+  });
+  Assembly g(mesh, pattern, true), k(mesh, pattern, true);
   forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table,
                         const std::vector<Point>& points) {
     const int body = block.body[e];
@@ -91,8 +94,8 @@ void assembleConvection(const mesh::Mesh& mesh, const std::vector<Material>& mat
     const Convection cell =
         convection(gradientTable(table, points), points, velocity, materials[body].density);
     const auto nodes = block.nodesOf(e);
-    append(g, mesh, nodes, cell.gyroscopic, true);
-    append(k, mesh, nodes, cell.rotationStiffness, true);
+    g.add(nodes, cell.gyroscopic, true);
+    k.add(nodes, cell.rotationStiffness, true);
     for (int i = 0; i < block.nodesPerCell; ++i) {
       const PetscInt node = mesh.globalNode[nodes[i]];
       check(VecSetValue(crossing[body].flux, node, cell.flux[i], ADD_VALUES));
@@ -102,8 +105,8 @@ void assembleConvection(const mesh::Mesh& mesh, const std::vector<Material>& mat
   for (std::size_t body = 0; body < mesh.bodies.size(); ++body)
     if (crossing[body].flux)
       rejectCrossing(mesh, mesh.bodies[body], bodies.motions[body], crossing[body]);
-  bodies.gyroscopic = toMatrix(mesh, g, Symmetry::skew);
-  bodies.rotationStiffness = toMatrix(mesh, k, Symmetry::symmetric);
+  bodies.gyroscopic = g.finish(Symmetry::skew);
+  bodies.rotationStiffness = k.finish(Symmetry::symmetric);
 }
 
 }  // namespace squeal::elasticity

@@ -57,38 +57,28 @@ std::vector<double> onAllComponents(const std::vector<double>& scalar, int count
   return full;
 }
 
-/// Appends the entries of a diagonal, which may be null.
-void appendDiagonal(Triples& triples, const mesh::Mesh& mesh, Vec diagonal) {
-  if (!diagonal) return;
-  const ReadArray values(diagonal);
-  const PetscInt first = mesh.dimension * mesh.firstNode;
-  for (PetscInt i = 0; i < values.size(); ++i) triples.add(first + i, first + i, values[i]);
-}
-
-/// Returns the number of entries of all element matrices of this rank.
-std::size_t denseEntries(const mesh::Mesh& mesh) {
-  std::size_t entries = 0;
-  for (const auto& block : mesh.cells)
-    entries += block.nodes.size() * block.nodesPerCell * mesh.dimension * mesh.dimension;
-  return entries;
-}
-
-struct CellTriples {
-  Triples stiffness, mass, damping;
+/// The matrices of all cells, or of those of one body.
+struct CellMatrices {
+  Assembly stiffness, mass;
+  std::optional<Assembly> damping;  // C = α M + (β + η / 2πf) K, dashpots
 };
 
-/// Returns the entries for all cells, or for those of one body.
-CellTriples cellTriples(const mesh::Mesh& mesh, const std::vector<Material>& materials,
-                        std::optional<int> body) {
+/// Collective. Sums over the cells. `dashpots` tells whether there are any.
+CellMatrices cellMatrices(const mesh::Mesh& mesh, const std::vector<Material>& materials,
+                          std::optional<int> body, bool dashpots) {
   const auto incompatible = incompatibleElements();
   const MassKind kind =
       massOption.get() == "consistent" ? MassKind::consistent : MassKind::higherOrder;
-  CellTriples triples;
-  auto& [k, m, c] = triples;
-  if (!body) {
-    k.reserve(denseEntries(mesh));
-    m.reserve(denseEntries(mesh) / mesh.dimension);
-  }
+  const NodePattern pattern(mesh, [&](const mesh::CellBlock& block, std::size_t e) {
+    return !body || block.body[e] == *body;
+  });
+  CellMatrices sums{{mesh, pattern, false}, {mesh, pattern, true}, {}};
+  const auto any = [&](double Material::*damping) {
+    return std::ranges::any_of(materials, [&](const auto& given) { return given.*damping > 0; });
+  };
+  const bool stiff = any(&Material::stiffnessDamping);
+  if (!body && (stiff || any(&Material::massDamping) || dashpots))
+    sums.damping.emplace(mesh, pattern, !stiff);
   forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table,
                         const std::vector<Point>& points) {
     if (body && block.body[e] != *body) return;
@@ -99,31 +89,28 @@ CellTriples cellTriples(const mesh::Mesh& mesh, const std::vector<Material>& mat
     const auto cellStiffness =
         stiffness(gradientTable(table, points), points, material.law, bubbles);
     const auto cellMass = mass(table, points, material.density, kind);
-    append(k, mesh, nodes, cellStiffness, false);
-    append(m, mesh, nodes, cellMass, true);
+    sums.stiffness.add(nodes, cellStiffness, false);
+    sums.mass.add(nodes, cellMass, true);
+    if (!sums.damping) return;
     if (material.massDamping > 0)
-      append(c, mesh, nodes, scaled(cellMass, material.massDamping), true);
+      sums.damping->add(nodes, scaled(cellMass, material.massDamping), true);
     if (material.stiffnessDamping > 0)
-      append(c, mesh, nodes, scaled(cellStiffness, material.stiffnessDamping), false);
+      sums.damping->add(nodes, scaled(cellStiffness, material.stiffnessDamping), false);
   });
-  return triples;
+  return sums;
 }
 
 void assembleMatrices(const mesh::Mesh& mesh, const std::vector<Material>& materials,
                       Bodies& bodies) {
-  auto [k, m, c] = cellTriples(mesh, materials, {});
   Ground ground = readGround(mesh);
-  appendDiagonal(k, mesh, ground.springs);
-  appendDiagonal(c, mesh, ground.dashpots);
-  bodies.stiffness = toMatrix(mesh, k, Symmetry::rounded);
-  bodies.mass = toMatrix(mesh, m, Symmetry::rounded);
+  auto sums = cellMatrices(mesh, materials, {}, ground.dashpots.get() != nullptr);
+  sums.stiffness.addDiagonal(ground.springs);
+  bodies.stiffness = sums.stiffness.finish(Symmetry::rounded);
+  bodies.mass = sums.mass.finish(Symmetry::rounded);
   bodies.springs = std::move(ground.springs);
-  const bool damped = ground.dashpots ||
-                      std::any_of(materials.begin(), materials.end(), [](const Material& material) {
-                        return material.massDamping > 0 || material.stiffnessDamping > 0;
-                      });
-  if (damped)
-    bodies.damping = toMatrix(mesh, c, Symmetry::rounded);  // C = α M + (β + η / 2πf) K, dashpots
+  if (!sums.damping) return;
+  sums.damping->addDiagonal(ground.dashpots);
+  bodies.damping = sums.damping->finish(Symmetry::rounded);
 }
 
 void assembleCentrifugal(const mesh::Mesh& mesh, const std::vector<Material>& materials,
@@ -198,12 +185,12 @@ BodyPart bodyPart(const mesh::Mesh& mesh, int body) {
   for (int i = 0; i < std::ssize(alone.motions); ++i)
     if (i != body) alone.motions[i] = {};
   const auto materials = readMaterials(mesh);
-  auto triples = cellTriples(mesh, materials, body);
+  auto sums = cellMatrices(mesh, materials, body, false);
   if (convectiveTerms()) assembleConvection(mesh, materials, alone);
   assembleCentrifugal(mesh, materials, alone);
   const Material& material = materials[body];
-  return {toMatrix(mesh, triples.stiffness, Symmetry::rounded),
-          toMatrix(mesh, triples.mass, Symmetry::rounded),
+  return {sums.stiffness.finish(Symmetry::rounded),
+          sums.mass.finish(Symmetry::rounded),
           std::move(alone.gyroscopic),
           std::move(alone.rotationStiffness),
           std::move(alone.centrifugal),
@@ -215,8 +202,10 @@ OwnedMat geometricStiffness(const mesh::Mesh& mesh, Vec displacement, std::optio
   const auto materials = readMaterials(mesh);
   const auto incompatible = incompatibleElements();
   const auto values = localValues(mesh, displacement);
-  Triples k;
-  if (!body) k.reserve(denseEntries(mesh));
+  const NodePattern pattern(mesh, [&](const mesh::CellBlock& block, std::size_t e) {
+    return !body || block.body[e] == *body;
+  });
+  Assembly k(mesh, pattern, false);
   forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table,
                         const std::vector<Point>& points) {
     if (body && block.body[e] != *body) return;
@@ -228,10 +217,9 @@ OwnedMat geometricStiffness(const mesh::Mesh& mesh, Vec displacement, std::optio
         std::find(incompatible.begin(), incompatible.end(), table.name) != incompatible.end();
     const auto cell = geometricStiffness(gradientTable(table, points), points,
                                          materials[block.body[e]].law, bubbles, u);
-    append(k, mesh, nodes, onAllComponents(cell, block.nodesPerCell, mesh.dimension),
-           false);  // pattern of K
+    k.add(nodes, onAllComponents(cell, block.nodesPerCell, mesh.dimension), false);  // pattern of K
   });
-  return toMatrix(mesh, k, Symmetry::symmetric);
+  return k.finish(Symmetry::symmetric);
 }
 
 std::vector<double> localValues(const mesh::Mesh& mesh, Vec u) {

@@ -142,15 +142,17 @@ bool invertible(const Lu<double>& matrix) { return matrix.pivotRatio() > 1e-8; }
 /// Replaces the left vectors u of M⁻¹ A, uᴴ M⁻¹ A = μ uᴴ, by the left vectors of (A, M),
 ///   y = M⁻ᵀ u.
 void undoInverse(const Lu<double>& mass, std::vector<DensePair>& pairs) {
-  for (auto& pair : pairs) {
-    DenseMatrix parts(pair.left.size(), 2);
-    for (std::size_t i = 0; i < pair.left.size(); ++i) {
-      parts(i, 0) = pair.left[i].real();
-      parts(i, 1) = pair.left[i].imag();
+  if (pairs.empty()) return;
+  const PetscInt m = pairs[0].left.size(), count = pairs.size();
+  DenseMatrix parts(m, 2 * count);
+  for (PetscInt j = 0; j < count; ++j)
+    for (PetscInt i = 0; i < m; ++i) {
+      parts(i, 2 * j) = pairs[j].left[i].real();
+      parts(i, 2 * j + 1) = pairs[j].left[i].imag();
     }
-    mass.solve(parts, true);
-    for (std::size_t i = 0; i < pair.left.size(); ++i) pair.left[i] = {parts(i, 0), parts(i, 1)};
-  }
+  mass.solve(parts, true);
+  for (PetscInt j = 0; j < count; ++j)
+    for (PetscInt i = 0; i < m; ++i) pairs[j].left[i] = {parts(i, 2 * j), parts(i, 2 * j + 1)};
 }
 
 /// Returns the root of s² = −μ with Im s ≥ 0.
@@ -326,20 +328,40 @@ std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vecto
   return pairs;
 }
 
-ComplexMatrix timesVectors(const DenseView& a, const std::vector<DensePair>& pairs) {
-  const PetscInt m = pairs.empty() ? 0 : pairs[0].q.size(), count = pairs.size();
-  ComplexMatrix result(m, count);
-  if (a.empty() || count == 0) return result;
-  DenseMatrix parts(m, 2 * count);  // real and imaginary
+namespace {
+
+/// Returns one vector of each pair by its real parts, then by its imaginary parts, m × 2 pairs.
+DenseMatrix partsOf(const std::vector<DensePair>& pairs, std::vector<Complex> DensePair::*vector) {
+  const PetscInt count = pairs.size(), m = count > 0 ? (pairs[0].*vector).size() : 0;
+  DenseMatrix parts(m, 2 * count);
   for (PetscInt j = 0; j < count; ++j)
     for (PetscInt i = 0; i < m; ++i) {
-      parts(i, j) = pairs[j].q[i].real();
-      parts(i, count + j) = pairs[j].q[i].imag();
+      parts(i, j) = (pairs[j].*vector)[i].real();
+      parts(i, count + j) = (pairs[j].*vector)[i].imag();
     }
-  const DenseMatrix products = product(a, parts);
+  return parts;
+}
+
+ComplexMatrix fromParts(const DenseMatrix& parts) {
+  const PetscInt count = parts.columns() / 2;
+  ComplexMatrix result(parts.rows(), count);
   for (PetscInt j = 0; j < count; ++j)
-    for (PetscInt i = 0; i < m; ++i) result(i, j) = {products(i, j), products(i, count + j)};
+    for (PetscInt i = 0; i < parts.rows(); ++i) result(i, j) = {parts(i, j), parts(i, count + j)};
   return result;
+}
+
+}  // namespace
+
+ComplexMatrix timesVectors(const DenseView& a, const std::vector<DensePair>& pairs) {
+  const DenseMatrix parts = partsOf(pairs, &DensePair::q);
+  if (a.empty() || parts.empty()) return ComplexMatrix(parts.rows(), parts.columns() / 2);
+  return fromParts(product(a, parts));
+}
+
+ComplexMatrix transposedTimesLeft(const DenseView& a, const std::vector<DensePair>& pairs) {
+  const DenseMatrix parts = partsOf(pairs, &DensePair::left);
+  if (a.empty() || parts.empty()) return ComplexMatrix(parts.rows(), parts.columns() / 2);
+  return fromParts(transposedProduct(a, parts));
 }
 
 void shareFrom(int root, MPI_Comm comm, std::vector<DensePair>& pairs, Vectors vectors) {

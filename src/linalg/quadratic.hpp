@@ -55,6 +55,9 @@ std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vecto
 /// Not collective. Returns A times the right vectors of the pairs, m × pairs. An empty A stands for
 /// zero.
 ComplexMatrix timesVectors(const DenseView& a, const std::vector<DensePair>& pairs);
+/// Not collective. Returns Aᵀ times the left vectors of the pairs, m × pairs. An empty A stands for
+/// zero.
+ComplexMatrix transposedTimesLeft(const DenseView& a, const std::vector<DensePair>& pairs);
 
 /// Collective. Solves several problems, problem i on the rank i modulo the number of ranks, which
 /// alone needs its matrices. The results are sent to all ranks, so that rounding cannot make the

@@ -33,11 +33,7 @@ Entries product(const char* transposed, const DenseMatrix& a, const Entries& x) 
 Entries times(const DenseMatrix& a, const Entries& x) { return product("N", a, x); }
 Entries timesTransposed(const DenseMatrix& a, const Entries& x) { return product("T", a, x); }
 
-Complex dot(const Entries& x, const Entries& y) {
-  Complex sum = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) sum += std::conj(x[i]) * y[i];
-  return sum;
-}
+Complex dot(const Entries& x, const Entries& y) { return innerProduct(x, y); }
 
 Entries combined(Complex a, const Entries& x, Complex b, const Entries& y) {
   Entries z(x.size());
@@ -262,11 +258,14 @@ Cluster clusterNear(const DenseProblem& problem, const std::vector<DensePair>& s
 
 Spectrum::Spectrum(const DenseProblem& problem, std::vector<DensePair> pairs)
     : pairs_(std::move(pairs)), linear_(problem.damping.empty()) {
+  const ComplexMatrix mass = transposedTimesLeft(problem.mass, pairs_),
+                      damping = transposedTimesLeft(problem.damping, pairs_);
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    const auto& [s, x, y] = pairs_[i];
-    Entries row = timesTransposed(problem.mass, y);
+    const auto column = mass.column(i);
+    Entries row(column.begin(), column.end());
     if (!linear_) {
-      const Entries lifted = combined(std::conj(s), row, 1, timesTransposed(problem.damping, y));
+      const auto z = damping.column(i);
+      const Entries lifted = combined(std::conj(pairs_[i].s), row, 1, Entries(z.begin(), z.end()));
       row.insert(row.end(), lifted.begin(), lifted.end());
     }
     rows_.push_back(std::move(row));
@@ -277,15 +276,11 @@ Spectrum::Spectrum(const DenseProblem& problem, std::vector<DensePair> pairs)
 /// Returns the biorthogonal product [M.42] of left vector i and the right vector of `pair`,
 ///   yᴴ ((s_i + s) M + Z) x,   or in a problem in s²   yᴴ M x.
 Complex Spectrum::product(std::size_t i, const DensePair& pair) const {
-  Complex mass = 0, lifted = 0;
-  const auto& row = rows_[i];
-  const std::size_t m = std::min(
-      pair.q.size(), linear_ ? row.size() : row.size() / 2);  // the basis may have grown in between
-  for (std::size_t k = 0; k < m; ++k) mass += std::conj(row[k]) * pair.q[k];
-  if (linear_) return mass;
-  const std::size_t half = row.size() / 2;
-  for (std::size_t k = 0; k < m; ++k) lifted += std::conj(row[half + k]) * pair.q[k];
-  return pair.s * mass + lifted;
+  const std::span<const Complex> row = rows_[i];
+  const std::size_t half = linear_ ? row.size() : row.size() / 2,
+                    m = std::min(pair.q.size(), half);  // the basis may have grown in between
+  const Complex mass = innerProduct(row.first(m), pair.q);
+  return linear_ ? mass : pair.s * mass + innerProduct(row.subspan(half, m), pair.q);
 }
 
 Complex Spectrum::overlap(std::size_t i, const Spectrum& other, std::size_t j) const {

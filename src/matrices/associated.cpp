@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "linalg/symmetric_solver.hpp"
+#include "factor/symmetric_solver.hpp"
 #include "pencil/pencil.hpp"
 #include "petsc/arrays.hpp"
 #include "petsc/text.hpp"
@@ -84,7 +84,7 @@ void requirePositiveDefinite(Mat matrix, const std::string& what, const std::str
   check(MatNorm(matrix, NORM_FROBENIUS, &norm));
   if (norm == 0) throw Error(what + " is zero");
   const std::string bad = badDiagonal(matrix);
-  const auto [negative, zero] = linalg::inertia(matrix, 1e-13);
+  const auto [negative, zero] = factor::inertia(matrix, 1e-13);
   if (negative == 0 && zero == 0) return;
   throw Error(formatted("%s is not positive definite: %" PetscInt_FMT " negative and %" PetscInt_FMT
                         " zero eigenvalues%s; %s",

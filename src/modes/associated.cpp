@@ -5,7 +5,7 @@ namespace squeal::modes {
 AssociatedSystem::AssociatedSystem(OwnedMat k0, OwnedMat m0, const std::string& name)
     : k0_(std::move(k0)),
       m0_(std::move(m0)),
-      solver_(std::make_unique<linalg::SymmetricSolver>(k0_, name)) {
+      solver_(std::make_unique<factor::SymmetricSolver>(k0_, name)) {
   check(MatGetSize(k0_, &size_, nullptr));
 }
 

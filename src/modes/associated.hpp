@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "linalg/symmetric_solver.hpp"
+#include "factor/symmetric_solver.hpp"
 #include "petsc/owned.hpp"
 
 namespace squeal::modes {
@@ -26,7 +26,7 @@ class AssociatedSystem {
  private:
   OwnedMat k0_, m0_;
   PetscInt size_ = 0;
-  std::unique_ptr<linalg::SymmetricSolver> solver_;
+  std::unique_ptr<factor::SymmetricSolver> solver_;
 };
 
 }  // namespace squeal::modes

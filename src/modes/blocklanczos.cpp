@@ -7,7 +7,7 @@
 #include <exception>
 #include <memory>
 
-#include "linalg/symmetric_solver.hpp"
+#include "factor/symmetric_solver.hpp"
 #include "modes/rational_lanczos.hpp"
 
 namespace squeal::modes {
@@ -98,15 +98,15 @@ Pole poleAt(EPS eps, double sigma) {
   OwnedMat shifted;
   check(MatDuplicate(k, MAT_COPY_VALUES, shifted.out()));
   check(MatAXPY(shifted, -sigma, m, UNKNOWN_NONZERO_PATTERN));
-  const std::shared_ptr<linalg::MumpsFactor> factor = linalg::indefiniteFactor(shifted, 0, ksp);
+  const std::shared_ptr<factor::MumpsFactor> made = factor::indefiniteFactor(shifted, 0, ksp);
   auto& facts = solverOf(eps).facts;
-  const int below = factor->inertia().negative;
+  const int below = made->inertia().negative;
   ++facts.poles;
   if (below <= eps->nev && below >= facts.below) {
     facts.countedTo = sigma;
     facts.below = below;
   }
-  return {sigma - eps->target, [factor](Mat b, Mat x) { linalg::solve(*factor, b, x); }};
+  return {sigma - eps->target, [made](Mat b, Mat x) { factor::solve(*made, b, x); }};
 }
 
 /// Collective. Hands the Ritz pairs to SLEPc, which decides what has converged.

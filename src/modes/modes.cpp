@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "factor/symmetric_solver.hpp"
 #include "linalg/block.hpp"
 #include "linalg/columns.hpp"
 #include "linalg/gathered.hpp"
 #include "linalg/symmetric.hpp"
-#include "linalg/symmetric_solver.hpp"
 #include "modes/blocklanczos.hpp"
 #include "options/options.hpp"
 #include "petsc/arrays.hpp"
@@ -75,7 +75,7 @@ void setUp(EPS eps) {
   applySolverOptions([&] { return EPSSetFromOptions(eps); });
   solverPrefix.rejectUnused();
   applySolverOptions([&] { return EPSSetUp(eps); });
-  linalg::rejectUnusedSolverOptions();
+  factor::rejectUnusedSolverOptions();
 }
 
 /// Collective. Returns the number of eigenvalues of (K, M) below sigma.
@@ -84,7 +84,7 @@ int countBelow(Mat k, Mat m, double sigma) {
   check(MatDuplicate(k, MAT_COPY_VALUES, shifted.out()));
   check(MatAXPY(shifted, -sigma, m, DIFFERENT_NONZERO_PATTERN));
   check(MatSetOption(shifted, MAT_SYMMETRIC, PETSC_TRUE));
-  return linalg::inertia(shifted).negative;
+  return factor::inertia(shifted).negative;
 }
 
 /// Returns the number of modes, at most all but one, above which the widest relative gap of the

@@ -1,5 +1,7 @@
 #include "petsc/memory.hpp"
 
+#include <malloc.h>
+
 #include <petscsys.h>  // first: the next header needs it
 
 #include <petscblaslapack.h>
@@ -87,6 +89,13 @@ double memoryFreeOnNode(MPI_Comm comm, double& needed) {
 void tellLackOfMemoryInOneLine() { check(PetscPushErrorHandler(handleError, nullptr)); }
 
 bool lacksMemory(PetscErrorCode code) { return code != 0 && (lacks || code == PETSC_ERR_MEM); }
+
+void keepFreedMemory() {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);
+  mallopt(M_TRIM_THRESHOLD, 512 << 20);
+#endif
+}
 
 void claimBlasWorkspace() {
   constexpr std::size_t workspace = 160u << 20;  // OpenBLAS takes 128 MB

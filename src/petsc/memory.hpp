@@ -26,6 +26,10 @@ void tellLackOfMemoryInOneLine();
 /// Returns true if the error code of a PETSc call means that an allocation has failed.
 bool lacksMemory(PetscErrorCode code);
 
+/// Makes the C library keep some of the memory that is freed. Blocks of columns come and go, and
+/// the kernel would clear their pages each time, which took a fortieth of a run.
+void keepFreedMemory();
+
 /// Makes OpenBLAS allocate its workspace, once for all calls of this thread, or ends the run if
 /// there is no memory. OpenBLAS itself would try again for ever.
 void claimBlasWorkspace();

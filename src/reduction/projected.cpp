@@ -13,24 +13,6 @@ bool isReal(const std::vector<Complex>& vector) {
                      [](const auto& entry) { return entry.imag() == 0; });
 }
 
-/// Returns the columns [old, size) of a symmetric matrix of order `size`. product(e, b, e) gives
-/// the columns [b, e) as far as their first e rows; what lies below is known from the columns that
-/// follow.
-template <class Product>
-linalg::DenseMatrix upperColumns(PetscInt old, PetscInt size, const Product& product) {
-  constexpr PetscInt atOnce = 64;  // enough for matrix products to be fast
-  linalg::DenseMatrix columns(size, size - old);
-  for (PetscInt begin = old, end = old; begin < size; begin = end) {
-    end = std::min(begin + atOnce, size);
-    const linalg::DenseMatrix some = product(end, begin, end);
-    for (PetscInt j = begin; j < end; ++j)
-      std::ranges::copy(some.column(j - begin), columns.column(j - old).begin());
-  }
-  for (PetscInt j = old; j < size; ++j)
-    for (PetscInt i = j + 1; i < size; ++i) columns(i, j - old) = columns(j, i - old);
-  return columns;
-}
-
 bool isSymmetric(Mat matrix) {
   PetscBool known = PETSC_FALSE, symmetric = PETSC_FALSE;
   check(MatIsSymmetricKnown(matrix, &known, &symmetric));
@@ -99,7 +81,6 @@ ProjectedTerms::Part ProjectedTerms::partOf(pencil::Term term) const {
   const Mat whole = part.term.matrix;
   part.matrix = rows.of(whole);
   part.timesV = part.rowsOfV = linalg::Block(rows.size());
-  part.timesV.reserve(3 * basis_.size());
   if (isSymmetric(whole)) return part;
   OwnedMat transposed;
   check(MatTranspose(whole, MAT_INITIAL_MATRIX, transposed.out()));
@@ -112,20 +93,45 @@ void ProjectedTerms::extend() {
   for (auto& part : parts_) extend(part);
 }
 
+/// Extends everything by the columns that V has gained, some at a time: enough for matrix products
+/// to be fast.
 void ProjectedTerms::extend(Part& part) const {
-  const PetscInt old = part.timesV.columns(), size = basis_.size();
+  constexpr PetscInt atOnce = 64;
+  const PetscInt old = part.sketch.columns(), size = basis_.size();
   if (old == size) return;
-  if (knownFrom(part, old))
-    part.timesV.append(basis_.forces());
-  else
-    basis_.appendProducts(part.matrix, old, size, part.timesV);
-  part.sketch.append(basis_.sketch().of(part.rows, part.timesV.columnRange(old, size)));
-  if (part.adjoint) {
-    linalg::Block timesV(part.leftRows.size());
-    basis_.appendProducts(part.adjoint, old, size, timesV);
-    part.leftSketch.append(basis_.sketch().of(part.leftRows, timesV));
+  const bool known = knownFrom(part, old), thin = !part.rows.all();
+  if (thin) part.rowsOfV.append(part.rows.of(basis_.columns().columnRange(old, size)));
+  const linalg::DenseView v = thin ? part.rowsOfV : basis_.columns();
+  linalg::DenseMatrix right(size, size - old), below(part.adjoint ? size - old : 0, old);
+  const auto copy = [](const linalg::DenseMatrix& from, linalg::DenseMatrix& to, PetscInt first) {
+    for (PetscInt j = 0; j < from.columns(); ++j)
+      std::ranges::copy(from.column(j), to.column(first + j).begin());
+  };
+  for (PetscInt begin = old; begin < size; begin += atOnce) {
+    const PetscInt end = std::min(begin + atOnce, size);
+    linalg::Block made(part.rows.size());
+    if (!known) basis_.appendProducts(part.matrix, begin, end, made);
+    const linalg::DenseView timesV =
+        known ? basis_.forces().columnRange(begin - old, end - old) : made;
+    part.sketch.append(basis_.sketch().of(part.rows, timesV));
+    if (thin) part.timesV.append(timesV);
+    // Below the diagonal a symmetric projection is known from the columns that follow.
+    const PetscInt last = part.adjoint ? size : end;
+    copy(known ? linalg::rowRange(basis_.energies().columnRange(begin - old, end - old), 0, size)
+               : linalg::transposedProduct(basis_.comm(), v.columnRange(0, last), timesV),
+         right, begin - old);
+    if (!part.adjoint) continue;
+    linalg::Block left(part.leftRows.size());
+    basis_.appendProducts(part.adjoint, begin, end, left);
+    part.leftSketch.append(basis_.sketch().of(part.leftRows, left));
+    const linalg::DenseMatrix some = linalg::transposedProduct(
+        basis_.comm(), part.leftRows, basis_.columns().columnRange(0, old), left);
+    for (PetscInt j = 0; j < some.columns(); ++j)
+      for (PetscInt i = 0; i < old; ++i) below(begin - old + j, i) = some(i, j);
   }
-  project(part, old);
+  for (PetscInt j = old; j < size && !part.adjoint && !known; ++j)
+    for (PetscInt i = j + 1; i < size; ++i) right(i, j - old) = right(j, i - old);
+  part.projection = linalg::bordered(part.projection, right, below);
 }
 
 /// Returns true if the basis knows K0 times the columns from `old` on, and A is K0.
@@ -133,33 +139,12 @@ bool ProjectedTerms::knownFrom(const Part& part, PetscInt old) const {
   return part.term.matrix == basis_.stiffness() && basis_.forces().columns() == basis_.size() - old;
 }
 
-/// Extends VᵀAV by the columns of V from `old` on.
-void ProjectedTerms::project(Part& part, PetscInt old) const {
-  const PetscInt size = basis_.size();
-  if (!part.rows.all()) part.rowsOfV.append(part.rows.of(basis_.columns().columnRange(old, size)));
-  const linalg::Block& v = part.rows.all() ? basis_.columns() : part.rowsOfV;
-  const auto product = [&](PetscInt firstOfV, PetscInt lastOfV, PetscInt first, PetscInt last) {
-    return linalg::transposedProduct(basis_.comm(), v.columnRange(firstOfV, lastOfV),
-                                     part.timesV.columnRange(first, last));
-  };
-  linalg::DenseMatrix right, below;
-  if (knownFrom(part, old)) {
-    right = basis_.energies();
-  } else if (part.adjoint) {
-    right = product(0, size, old, size);
-    below = product(old, size, 0, old);
-  } else {
-    right = upperColumns(old, size, [&](PetscInt lastOfV, PetscInt first, PetscInt last) {
-      return product(0, lastOfV, first, last);
-    });
-  }
-  part.projection = linalg::bordered(part.projection, right, below);
-}
-
 void ProjectedTerms::combine(const linalg::DenseMatrix& combinations) {
   for (auto& part : parts_) {
-    part.timesV = linalg::product(part.timesV, combinations);
-    if (!part.rows.all()) part.rowsOfV = linalg::product(part.rowsOfV, combinations);
+    if (!part.rows.all()) {
+      part.timesV = linalg::product(part.timesV, combinations);
+      part.rowsOfV = linalg::product(part.rowsOfV, combinations);
+    }
     part.sketch = linalg::product(part.sketch, combinations);
     if (part.adjoint) part.leftSketch = linalg::product(part.leftSketch, combinations);
     part.projection = linalg::congruent(part.projection, combinations);
@@ -178,7 +163,7 @@ void ProjectedTerms::addTo(const Weights& weights, linalg::DenseProblem& sum) co
 void ProjectedTerms::addTo(const std::vector<const PointPairs*>& points,
                            const linalg::DenseMatrix& combinations, linalg::Block& result) const {
   for (const auto& part : parts_) {
-    linalg::DenseMatrix coefficients(part.timesV.columns(), result.columns());
+    linalg::DenseMatrix coefficients(part.sketch.columns(), result.columns());
     PetscInt first = 0;
     for (const auto* point : points) {
       const PetscInt last = first + point->pairs.columns;
@@ -187,7 +172,14 @@ void ProjectedTerms::addTo(const std::vector<const PointPairs*>& points,
           linalg::rowRange(combinations, first, last), coefficients);
       first = last;
     }
-    linalg::multiplyAdd(part.rows, part.timesV, coefficients, result);
+    if (!part.rows.all()) {
+      linalg::multiplyAdd(part.rows, part.timesV, coefficients, result);
+      continue;
+    }
+    const linalg::DenseView known = basis_.columns().columnRange(0, coefficients.rows());
+    linalg::Block forces(result.rows());
+    linalg::appendProduct(part.matrix, linalg::product(known, coefficients), forces);
+    linalg::addScaled(result, 1, forces);
   }
 }
 

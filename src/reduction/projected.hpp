@@ -1,7 +1,7 @@
 #pragma once
-/// The terms of a pencil are projected on a growing basis V. Kept are the products A V, by this
-/// rank's rows, the projections VᵀAV, and sketches of A V and AᵀV for the norms of residuals
-/// [M.39].
+/// The terms of a pencil are projected on a growing basis V. Kept are the projections VᵀAV, and
+/// sketches of A V and AᵀV for the norms of residuals [M.39]. The products A V themselves are kept
+/// where A has few nonzero rows only; of the others, each would take as much memory as V.
 #include <vector>
 
 #include "linalg/block.hpp"
@@ -71,7 +71,7 @@ class ProjectedTerms {
   /// Not collective. Adds Σ c_t VᵀA_tV to the matrices of the problem, which are empty or of the
   /// size of the basis.
   void addTo(const Weights& weights, linalg::DenseProblem& sum) const;
-  /// Not collective. Adds combinations of the columns P(s) V q of all points in turn to `result`,
+  /// Collective. Adds combinations of the columns P(s) V q of all points in turn to `result`,
   /// which has this rank's rows, in one product per term. `combinations` has a row for each of
   /// these columns, and the columns of the result.
   void addTo(const std::vector<const PointPairs*>& points, const linalg::DenseMatrix& combinations,
@@ -85,7 +85,7 @@ class ProjectedTerms {
     pencil::Term term;
     linalg::RowSet rows, leftRows;   // nonzero rows of A and Aᵀ
     OwnedMat matrix, adjoint;        // these rows; no adjoint where A is symmetric
-    linalg::Block timesV;            // A V, by `rows`
+    linalg::Block timesV;            // A V, by `rows`; none if they are all
     linalg::Block rowsOfV;           // these rows of V; none if they are all
     linalg::DenseMatrix sketch;      // sketch of A V
     linalg::DenseMatrix leftSketch;  // sketch of AᵀV; empty where A is symmetric
@@ -94,7 +94,6 @@ class ProjectedTerms {
   Part partOf(pencil::Term term) const;
   void extend(Part& part) const;
   bool knownFrom(const Part& part, PetscInt old) const;
-  void project(Part& part, PetscInt old) const;
   const Basis& basis_;
   std::vector<Part> parts_;
 };

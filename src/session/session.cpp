@@ -82,6 +82,7 @@ Session::Session(int argc, char** argv) {
   startSlepc(argv[0], settings);
   tellLackOfMemoryInOneLine();
   signals.begin(rank());
+  keepFreedMemory();
   claimBlasWorkspace();
   gmsh::initialize(0, nullptr, false);
   gmsh::option::setNumber("General.Terminal", 0);  // messages reach the user through our errors

@@ -5,9 +5,9 @@
 #include <set>
 #include <string>
 
+#include "factor/symmetric_solver.hpp"
 #include "interfaces/algebra.hpp"
 #include "linalg/block.hpp"
-#include "linalg/symmetric_solver.hpp"
 #include "options/options.hpp"
 #include "petsc/arrays.hpp"
 
@@ -57,16 +57,16 @@ OpenContact::OpenContact(const contact::Contact& contact, Mat stiffness,
   const auto exponents = contact.frictionExponents();
   if (std::count(exponents.begin(), exponents.end(), 0)) columnsOf(0, fixedFriction_);
 
-  solver_ = linalg::directSolver(stiffness_, solverPrefix);
-  if (auto* factor = linalg::mumpsFactor(solver_)) factor->wantInertia();
-  factorised_ = linalg::factorise(solver_).empty();
+  solver_ = factor::directSolver(stiffness_, solverPrefix);
+  if (auto* factor = factor::mumpsFactor(solver_)) factor->wantInertia();
+  factorised_ = factor::factorise(solver_).empty();
   rhs_ = block(2), solution_ = block(2);
   check(MatCreateVecs(gaps_, part_.out(), single_.out()));
   check(VecDuplicate(single_, answer_.out()));
 }
 
 bool OpenContact::positiveDefinite() const {
-  const auto* factor = linalg::mumpsFactor(solver_);
+  const auto* factor = factor::mumpsFactor(solver_);
   return !factor || factor->inertia().negative == 0;
 }
 
@@ -159,8 +159,8 @@ void OpenContact::close() {
   check(MatCreateSubMatrix(stiffness_, others, gaps, MAT_INITIAL_MATRIX, coupling_.out()));
   check(MatCreateSubMatrix(stiffness_, gaps, gaps, MAT_INITIAL_MATRIX, gapStiffness_.out()));
   check(MatSetOption(closedStiffness_, MAT_SYMMETRIC, PETSC_TRUE));
-  closedSolver_ = linalg::directSolver(closedStiffness_, solverPrefix);
-  if (const std::string why = linalg::factorise(closedSolver_); !why.empty())
+  closedSolver_ = factor::directSolver(closedStiffness_, solverPrefix);
+  if (const std::string why = factor::factorise(closedSolver_); !why.empty())
     throw Error("the stiffness matrix of the closed contact cannot be factorised: " + why);
   check(MatCreateVecs(closedStiffness_, inner_.out(), innerAnswer_.out()));
 }

@@ -11,7 +11,7 @@
 #include "linalg/block.hpp"
 #include "petsc/owned.hpp"
 
-namespace squeal::linalg {
+namespace squeal::factor {
 
 /// Numbers of negative and of zero eigenvalues of a symmetric matrix.
 struct Inertia {
@@ -71,4 +71,4 @@ class MumpsFactor {
 /// Collective. Computes X = A⁻¹ B of dense matrices of PETSc.
 void solve(MumpsFactor& factor, Mat b, Mat x);
 
-}  // namespace squeal::linalg
+}  // namespace squeal::factor

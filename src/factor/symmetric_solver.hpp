@@ -4,11 +4,11 @@
 #include <memory>
 #include <string>
 
-#include "linalg/mumps.hpp"
+#include "factor/mumps.hpp"
 #include "options/options.hpp"
 #include "petsc/owned.hpp"
 
-namespace squeal::linalg {
+namespace squeal::factor {
 
 /// Collective. Returns a solver that applies the LDLᵀ factorisation of MUMPS once (KSPPREONLY),
 /// unless the options with this prefix say otherwise. The matrix is shared with the solver and not
@@ -60,4 +60,4 @@ std::unique_ptr<MumpsFactor> indefiniteFactor(Mat matrix, double zero = 0, KSP l
 /// factorisation fails, or if MUMPS foresees more than twice the memory that is free.
 Inertia inertia(Mat matrix, double zero = 0);
 
-}  // namespace squeal::linalg
+}  // namespace squeal::factor

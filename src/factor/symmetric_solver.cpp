@@ -1,4 +1,4 @@
-#include "linalg/symmetric_solver.hpp"
+#include "factor/symmetric_solver.hpp"
 
 #include <algorithm>
 #include <exception>
@@ -8,7 +8,7 @@
 #include "petsc/text.hpp"
 #include "session/stages.hpp"
 
-namespace squeal::linalg {
+namespace squeal::factor {
 namespace {
 
 const SolverPrefix factorisation(
@@ -166,7 +166,7 @@ KSP SymmetricSolver::get() const {
 /// Factorises the matrix, unless that has been done.
 void SymmetricSolver::factorise() const {
   check(KSPSetOperators(solver_, matrix_, matrix_));
-  if (const std::string why = linalg::factorise(solver_); !why.empty())
+  if (const std::string why = factor::factorise(solver_); !why.empty())
     throw Error("the " + name_ + " cannot be factorised: " + why);
 }
 
@@ -191,4 +191,4 @@ std::unique_ptr<MumpsFactor> indefiniteFactor(Mat matrix, double zero, KSP like)
 
 Inertia inertia(Mat matrix, double zero) { return indefiniteFactor(matrix, zero)->inertia(); }
 
-}  // namespace squeal::linalg
+}  // namespace squeal::factor

@@ -1,4 +1,4 @@
-#include "linalg/mumps.hpp"
+#include "factor/mumps.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -10,7 +10,7 @@
 #include "petsc/text.hpp"
 #include "session/stages.hpp"
 
-namespace squeal::linalg {
+namespace squeal::factor {
 namespace {
 
 /// MUMPS solves for this number of right-hand sides in one pass. Its default is 32, and the
@@ -280,4 +280,4 @@ void solve(MumpsFactor& factor, Mat b, Mat x) {
   check(MatDenseRestoreArrayRead(b, &from));
 }
 
-}  // namespace squeal::linalg
+}  // namespace squeal::factor
