@@ -11,10 +11,10 @@
 #include "elasticity/elasticity.hpp"
 #include "elasticity/element.hpp"
 #include "elasticity/ground.hpp"
-#include "elasticity/material.hpp"
 #include "flutter/influence.hpp"
 #include "interfaces/interfaces.hpp"
 #include "interfaces/ties.hpp"
+#include "material/material.hpp"
 #include "matrices/write.hpp"
 #include "mesh/read.hpp"
 #include "modes/benchmark.hpp"
@@ -121,14 +121,14 @@ void solveMeshSegment(Analysis& analysis, std::size_t first, std::size_t last,
 mesh::Request meshRequest() {
   mesh::Request request;
   request.geometry = {elasticity::foldedAnywhere, elasticity::straightened};
-  request.bodies = elasticity::materialGroups();
+  request.bodies = material::materialGroups();
   request.moving = elasticity::movingBodies();
   request.nodeGroups = interfaces::constrainedGroups();
   for (const auto& group : elasticity::groundedGroups()) request.nodeGroups.push_back(group);
   request.surfaces = elasticity::loadedSurfaces();
   request.interfaces = interfaces::readInterfaces();
   request.periodic = interfaces::periodicPairs();
-  request.howToGiveMaterials = elasticity::howToGiveMaterials();
+  request.howToGiveMaterials = material::howToGiveMaterials();
   request.motionOptions = elasticity::motionOptions();
   return request;
 }

@@ -3,7 +3,7 @@
 /// Cartesian components [M.2]:
 ///   D u = (V·∇)u.
 #include "elasticity/elasticity.hpp"
-#include "elasticity/material.hpp"
+#include "material/material.hpp"
 #include "mesh/mesh.hpp"
 
 namespace squeal::elasticity {
@@ -11,7 +11,7 @@ namespace squeal::elasticity {
 /// Collective. Fills `bodies.gyroscopic` and `bodies.rotationStiffness` [4.10] from
 /// `bodies.motions`; leaves them null if no body moves. Throws Error if matter of a moving body
 /// crosses the body's surface, so that the body does not keep its place.
-void assembleConvection(const mesh::Mesh& mesh, const std::vector<Material>& materials,
+void assembleConvection(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
                         Bodies& bodies);
 
 }  // namespace squeal::elasticity

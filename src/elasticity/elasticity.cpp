@@ -8,7 +8,7 @@
 #include "elasticity/face.hpp"
 #include "elasticity/ground.hpp"
 #include "elasticity/inertia.hpp"
-#include "elasticity/material.hpp"
+#include "material/material.hpp"
 #include "options/options.hpp"
 #include "petsc/arrays.hpp"
 
@@ -170,7 +170,7 @@ OwnedVec nodalVector(const mesh::Mesh& mesh) {
 Bodies assemble(const mesh::Mesh& mesh) {
   Bodies bodies;
   bodies.motions = readMotions(mesh.bodies, mesh.dimension);
-  const auto materials = readMaterials(mesh);
+  const auto materials = material::readMaterials(mesh);
   assembleMatrices(mesh, materials, bodies);
   warnOfFoldedCells(mesh);
   if (convectiveTerms()) assembleConvection(mesh, materials, bodies);
@@ -184,7 +184,7 @@ BodyPart bodyPart(const mesh::Mesh& mesh, int body) {
   alone.motions = readMotions(mesh.bodies, mesh.dimension);
   for (int i = 0; i < std::ssize(alone.motions); ++i)
     if (i != body) alone.motions[i] = {};
-  const auto materials = readMaterials(mesh);
+  const auto materials = material::readMaterials(mesh);
   auto sums = cellMatrices(mesh, materials, body, false);
   if (convectiveTerms()) assembleConvection(mesh, materials, alone);
   assembleCentrifugal(mesh, materials, alone);
@@ -199,7 +199,7 @@ BodyPart bodyPart(const mesh::Mesh& mesh, int body) {
 }
 
 OwnedMat geometricStiffness(const mesh::Mesh& mesh, Vec displacement, std::optional<int> body) {
-  const auto materials = readMaterials(mesh);
+  const auto materials = material::readMaterials(mesh);
   const auto incompatible = incompatibleElements();
   const auto values = localValues(mesh, displacement);
   const NodePattern pattern(mesh, [&](const mesh::CellBlock& block, std::size_t e) {

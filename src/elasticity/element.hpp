@@ -3,11 +3,16 @@
 /// and small dense arrays come out. No PETSc object is used here. None is collective.
 #include <vector>
 
-#include "elasticity/hooke.hpp"
 #include "elasticity/shape.hpp"
+#include "material/material.hpp"
 #include "mesh/mesh.hpp"
 
 namespace squeal::elasticity {
+
+using material::Hooke;
+using material::Law;
+using material::Material;
+using mesh::Point;
 
 /// An InvertedElement is thrown by routines with J⁻¹ where det J ≤ 0 at a point of their quadrature
 /// rule, and by mass() where the volume or the matrix is not positive.

@@ -5,10 +5,13 @@
 #include <vector>
 
 #include "elasticity/element.hpp"
+#include "mesh/vector.hpp"
 
 namespace squeal::elasticity {
 
-using Matrix3 = std::array<std::array<double, 3>, 3>;
+using mesh::determinant;
+using mesh::inverse;
+using mesh::Matrix3;
 
 /// Returns the Jacobian
 ///   J[r][d] = ∂x_d/∂ξ_r.
@@ -20,22 +23,6 @@ inline Matrix3 jacobian(const double* gradient, const std::vector<Point>& nodes,
     for (int r = 0; r < dimension; ++r)
       for (std::size_t d = 0; d < 3; ++d) j[r][d] += gradient[3 * i + r] * nodes[i][d];
   return j;
-}
-
-inline double determinant(const Matrix3& j) {
-  return j[0][0] * (j[1][1] * j[2][2] - j[1][2] * j[2][1]) -
-         j[0][1] * (j[1][0] * j[2][2] - j[1][2] * j[2][0]) +
-         j[0][2] * (j[1][0] * j[2][1] - j[1][1] * j[2][0]);
-}
-
-inline Matrix3 inverse(const Matrix3& j, double det) {
-  Matrix3 inv;
-  for (std::size_t a = 0; a < 3; ++a)
-    for (std::size_t b = 0; b < 3; ++b) {
-      const std::size_t p = (b + 1) % 3, q = (b + 2) % 3, r = (a + 1) % 3, s = (a + 2) % 3;
-      inv[a][b] = (j[p][r] * j[q][s] - j[p][s] * j[q][r]) / det;
-    }
-  return inv;
 }
 
 /// Returns det J. Throws InvertedElement unless it is positive.

@@ -388,7 +388,7 @@ TEST(StiffnessRule, IsExactOnStraightCells) {
   for (const auto& [type, nodes, points] : {std::tuple{11, tet10, 4}, {9, tri6, 3}}) {
     const auto& rule = elasticity::stiffnessTable(type);
     EXPECT_EQ(rule.points(), points);
-    const elasticity::Law law{elasticity::isotropic(young, poisson, rule.dimension, false), {}};
+    const material::Law law{material::isotropic(young, poisson, rule.dimension, false), {}};
     const auto few = elasticity::stiffness(rule, nodes, law, false),
                many = elasticity::stiffness(elasticity::shapeTable(type), nodes, law, false);
     const double largest = *std::max_element(many.begin(), many.end());

@@ -8,7 +8,7 @@
 
 #include "mesh/mesh.hpp"
 
-namespace squeal::elasticity {
+namespace squeal::material {
 
 using mesh::Point;
 
@@ -56,4 +56,4 @@ struct Law {
   }
 };
 
-}  // namespace squeal::elasticity
+}  // namespace squeal::material

@@ -1,12 +1,15 @@
-#include "elasticity/hooke.hpp"
+#include "material/hooke.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "elasticity/jacobian.hpp"
+#include "mesh/vector.hpp"
 #include "petsc/text.hpp"
 
-namespace squeal::elasticity {
+namespace squeal::material {
+
+using mesh::Matrix3;
+
 namespace {
 
 Hooke zeroLaw(int size) { return {size, std::vector<double>(size * size, 0.0)}; }
@@ -46,7 +49,7 @@ std::string brokenRule(const EngineeringConstants& c) {
   if (!(std::abs(c.nu12) < std::sqrt(c.e1 / c.e2))) return "|nu12| must be < sqrt(E1/E2)";
   if (!(std::abs(c.nu13) < std::sqrt(c.e1 / c.e3))) return "|nu13| must be < sqrt(E1/E3)";
   if (!(std::abs(c.nu23) < std::sqrt(c.e2 / c.e3))) return "|nu23| must be < sqrt(E2/E3)";
-  const double rest = determinant(normalCompliance(c)) * c.e1 * c.e2 * c.e3;
+  const double rest = mesh::determinant(normalCompliance(c)) * c.e1 * c.e2 * c.e3;
   if (!(rest > 0))
     return formatted(
         "1 - nu12 nu21 - nu23 nu32 - nu31 nu13 - 2 nu21 nu32 nu13 must be > 0, it is %.3g (nu_ji = "
@@ -57,7 +60,7 @@ std::string brokenRule(const EngineeringConstants& c) {
 
 Hooke orthotropic(const EngineeringConstants& c) {
   const Matrix3 compliance = normalCompliance(c),
-                normal = inverse(compliance, determinant(compliance));
+                normal = mesh::inverse(compliance, mesh::determinant(compliance));
   Hooke hooke = zeroLaw(6);
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) entry(hooke, i, j) = normal[i][j];
@@ -101,4 +104,4 @@ Hooke inPlane(const Hooke& solid, bool planeStress) {
   return plane;
 }
 
-}  // namespace squeal::elasticity
+}  // namespace squeal::material

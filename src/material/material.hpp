@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "elasticity/hooke.hpp"
+#include "material/hooke.hpp"
 #include "mesh/mesh.hpp"
 
-namespace squeal::elasticity {
+namespace squeal::material {
 
 /// The elastic law, the density and the damping of a body [M.5].
 struct Material {
@@ -29,4 +29,4 @@ std::vector<mesh::GroupRequest> materialGroups();
 /// Returns the options that give a material, for messages: "give -…".
 std::string howToGiveMaterials();
 
-}  // namespace squeal::elasticity
+}  // namespace squeal::material

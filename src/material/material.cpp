@@ -1,4 +1,4 @@
-#include "elasticity/material.hpp"
+#include "material/material.hpp"
 
 #include <cmath>
 #include <set>
@@ -8,7 +8,7 @@
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
 
-namespace squeal::elasticity {
+namespace squeal::material {
 
 using mesh::cross;
 using mesh::length;
@@ -206,4 +206,4 @@ std::vector<mesh::GroupRequest> materialGroups() {
 
 std::string howToGiveMaterials() { return "give -material_<group>_young, _poisson and _density"; }
 
-}  // namespace squeal::elasticity
+}  // namespace squeal::material
