@@ -119,6 +119,7 @@ void MumpsFactor::setEntries(Mat matrix) {
     check(MatRestoreRow(matrix, row, &count, &columns, &values));
     ownRows_.push_back(row + 1);
   }
+  entriesHeld_ = true;
   id_.n = n;
   id_.nnz_loc = std::ssize(entries_);
   id_.irn_loc = rows_.data();
@@ -167,7 +168,7 @@ void MumpsFactor::fitIntoMemory() {
 }
 
 std::string MumpsFactor::factorise(Mat matrix) {
-  if (rows_.empty()) setEntries(matrix);
+  if (matrix && !entriesHeld_) setEntries(matrix);
   fitIntoMemory();
   call(factorisation);
   for (const int percent : workspaces) {
@@ -177,6 +178,7 @@ std::string MumpsFactor::factorise(Mat matrix) {
   }
   // MUMPS needs the entries no longer.
   rows_ = {}, columns_ = {}, entries_ = {};
+  entriesHeld_ = false;
   solutionRows_.clear();
   return failure();
 }

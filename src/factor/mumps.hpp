@@ -38,11 +38,12 @@ class MumpsFactor {
   void analyse(Mat matrix, const MumpsFactor* like = nullptr);
   /// Collective. Returns the memory in bytes, summed over all ranks, that the analysis foresees.
   double memory() const { return 1e6 * id_.infog[16]; }
-  /// Collective. Factorises the matrix, after analyse(), with more workspace where pivoting needs
+  /// Collective. Factorises the matrix, or that of analyse() if none is given, which may follow
+  /// analyse() alone, with more workspace where pivoting needs
   /// it, and with the factor on disk where memory is short. Throws Error if the analysis foresees
   /// more memory than there is even so. Returns the reason of another failure, empty if there is
   /// none.
-  std::string factorise(Mat matrix);
+  std::string factorise(Mat matrix = nullptr);
   /// Collective. Computes X = A⁻¹ B, each by this rank's rows, column after column.
   void solve(const double* b, double* x, PetscInt columns);
   /// Returns the inertia, after wantInertia() and factorise().
@@ -63,6 +64,7 @@ class MumpsFactor {
   int ranks_ = 1;
   DMUMPS_STRUC_C id_{};
   PetscInt localRows_ = 0;
+  bool entriesHeld_ = false;  // since analyse()
   std::vector<MUMPS_INT> rows_, columns_, ownRows_, solutionRows_, order_;
   std::vector<double> entries_, solution_, byRows_;
   PetscSF toOwners_ = nullptr;  // from the rows of the solution that MUMPS leaves here

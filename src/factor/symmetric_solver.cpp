@@ -178,17 +178,21 @@ double factorMemory(Mat matrix) {
   return factor.memory();
 }
 
-std::unique_ptr<MumpsFactor> indefiniteFactor(Mat matrix, double zero, KSP like) {
+std::unique_ptr<MumpsFactor> indefiniteFactor(OwnedMat matrix, double zero, KSP like) {
   const MumpsFactor* order = like ? mumpsFactor(like) : nullptr;
-  auto factor =
-      std::make_unique<MumpsFactor>(PetscObjectComm(reinterpret_cast<PetscObject>(matrix)), "");
+  auto factor = std::make_unique<MumpsFactor>(
+      PetscObjectComm(reinterpret_cast<PetscObject>(matrix.get())), "");
   factor->wantInertia(zero);
   factor->analyse(matrix, order);
-  if (const std::string why = factor->factorise(matrix); !why.empty())
+  matrix = {};  // the factor has its entries
+  if (const std::string why = factor->factorise(); !why.empty())
     throw Error("the inertia of a symmetric matrix: " + why);
   return factor;
 }
 
-Inertia inertia(Mat matrix, double zero) { return indefiniteFactor(matrix, zero)->inertia(); }
+Inertia inertia(Mat matrix, double zero) {
+  check(PetscObjectReference(reinterpret_cast<PetscObject>(matrix)));
+  return indefiniteFactor(OwnedMat(matrix), zero)->inertia();
+}
 
 }  // namespace squeal::factor

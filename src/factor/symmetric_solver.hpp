@@ -49,10 +49,10 @@ double factorMemory(Mat matrix);
 void rejectUnusedSolverOptions();
 
 /// Collective. Factorises a symmetric matrix that need not be definite, so that its inertia is
-/// known, see below. The matrix need not live on. `like` is a factorised solver of a matrix of the
-/// same pattern and distribution, whose order of elimination is taken, or null. Throws Error if it
-/// fails.
-std::unique_ptr<MumpsFactor> indefiniteFactor(Mat matrix, double zero = 0, KSP like = nullptr);
+/// known, see below. The matrix is let go as soon as its entries have been handed over. `like` is a
+/// factorised solver of a matrix of the same pattern and distribution, whose order of elimination
+/// is taken, or null. Throws Error if it fails.
+std::unique_ptr<MumpsFactor> indefiniteFactor(OwnedMat matrix, double zero = 0, KSP like = nullptr);
 
 /// Collective. Returns the inertia of a symmetric matrix from the signs of the pivots of an LDLᵀ
 /// factorisation (Sylvester's law of inertia, [M.25]). Pivots below `zero` times the norm of the

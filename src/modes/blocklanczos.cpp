@@ -98,7 +98,8 @@ Pole poleAt(EPS eps, double sigma) {
   OwnedMat shifted;
   check(MatDuplicate(k, MAT_COPY_VALUES, shifted.out()));
   check(MatAXPY(shifted, -sigma, m, UNKNOWN_NONZERO_PATTERN));
-  const std::shared_ptr<factor::MumpsFactor> made = factor::indefiniteFactor(shifted, 0, ksp);
+  const std::shared_ptr<factor::MumpsFactor> made =
+      factor::indefiniteFactor(std::move(shifted), 0, ksp);
   auto& facts = solverOf(eps).facts;
   const int below = made->inertia().negative;
   ++facts.poles;
