@@ -17,9 +17,6 @@ namespace squeal::elasticity {
 struct Triples {
   std::vector<PetscInt> row, column;
   std::vector<PetscScalar> value;
-  void reserve(std::size_t count) {
-    row.reserve(count), column.reserve(count), value.reserve(count);
-  }
   void add(PetscInt i, PetscInt j, double entry) {
     row.push_back(i), column.push_back(j), value.push_back(entry);
   }

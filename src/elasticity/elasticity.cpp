@@ -57,6 +57,13 @@ std::vector<double> onAllComponents(const std::vector<double>& scalar, int count
   return full;
 }
 
+/// Selects the cells of one body, or all.
+CellFilter cellsOf(std::optional<int> body) {
+  return [body](const mesh::CellBlock& block, std::size_t e) {
+    return !body || block.body[e] == *body;
+  };
+}
+
 /// The matrices of all cells, or of those of one body.
 struct CellMatrices {
   Assembly stiffness, mass;
@@ -69,9 +76,8 @@ CellMatrices cellMatrices(const mesh::Mesh& mesh, const std::vector<Material>& m
   const auto incompatible = incompatibleElements();
   const MassKind kind =
       massOption.get() == "consistent" ? MassKind::consistent : MassKind::higherOrder;
-  const NodePattern pattern(mesh, [&](const mesh::CellBlock& block, std::size_t e) {
-    return !body || block.body[e] == *body;
-  });
+  const CellFilter uses = cellsOf(body);
+  const NodePattern pattern(mesh, uses);
   CellMatrices sums{{mesh, pattern, false}, {mesh, pattern, true}, {}};
   const auto any = [&](double Material::*damping) {
     return std::ranges::any_of(materials, [&](const auto& given) { return given.*damping > 0; });
@@ -81,7 +87,7 @@ CellMatrices cellMatrices(const mesh::Mesh& mesh, const std::vector<Material>& m
     sums.damping.emplace(mesh, pattern, !stiff);
   forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table,
                         const std::vector<Point>& points) {
-    if (body && block.body[e] != *body) return;
+    if (!uses(block, e)) return;
     const Material& material = materials[block.body[e]];
     const auto nodes = block.nodesOf(e);
     const bool bubbles =
@@ -202,13 +208,12 @@ OwnedMat geometricStiffness(const mesh::Mesh& mesh, Vec displacement, std::optio
   const auto materials = material::readMaterials(mesh);
   const auto incompatible = incompatibleElements();
   const auto values = localValues(mesh, displacement);
-  const NodePattern pattern(mesh, [&](const mesh::CellBlock& block, std::size_t e) {
-    return !body || block.body[e] == *body;
-  });
+  const CellFilter uses = cellsOf(body);
+  const NodePattern pattern(mesh, uses);
   Assembly k(mesh, pattern, false);
   forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table,
                         const std::vector<Point>& points) {
-    if (body && block.body[e] != *body) return;
+    if (!uses(block, e)) return;
     const auto nodes = block.nodesOf(e);
     std::vector<double> u;
     for (PetscInt node : nodes)

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <cstring>
 #include <iterator>
+#include <limits>
 
 #include "options/options.hpp"
 #include "petsc/memory.hpp"
@@ -120,6 +120,8 @@ void MumpsFactor::setEntries(Mat matrix) {
     ownRows_.push_back(row + 1);
   }
   entriesHeld_ = true;
+  if (n > std::numeric_limits<MUMPS_INT>::max())
+    throw Error("a factorisation: the matrix has more rows than MUMPS counts");
   id_.n = n;
   id_.nnz_loc = std::ssize(entries_);
   id_.irn_loc = rows_.data();
@@ -148,23 +150,27 @@ void MumpsFactor::fitIntoMemory() {
   double inCore = ownInCore, onDisk = ownOnDisk;
   const double free = memoryFreeOnNode(comm_, inCore);
   memoryFreeOnNode(comm_, onDisk);
+  const bool onDiskByOption = icntl(22) == 1;
   struct {
     double ratio;
     int rank;
-  } worst{inCore / std::max(free, 1.0), 0};
+  } worst{(onDiskByOption ? onDisk : inCore) / std::max(free, 1.0), 0};
   check(MPI_Comm_rank(comm_, &worst.rank));
   check(MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE_INT, MPI_MAXLOC, comm_));
-  if (worst.ratio <= 1 || icntl(22) == 1) return;
+  if (worst.ratio <= 1) return;
   double sizes[] = {inCore, onDisk, free};
   check(MPI_Bcast(sizes, 3, MPI_DOUBLE, worst.rank, comm_));
   const std::string text =
-      formatted("the factorisation needs %.3g GB on a node where %.3g GB are free", 1e-9 * sizes[0],
-                1e-9 * sizes[2]);
+      formatted("the factorisation%s needs %.3g GB on a node where %.3g GB are free",
+                onDiskByOption ? ", with its factor on disk," : "",
+                1e-9 * sizes[onDiskByOption ? 1 : 0], 1e-9 * sizes[2]);
   if (sizes[1] > hopeless * sizes[2]) throw Error(text + ": " + lessMemory);
   icntl(22) = 1;
   complain(comm_, "warning: " + text +
-                      formatted("; with the factor on disk, in %s, it needs %.3g GB",
-                                id_.ooc_tmpdir, 1e-9 * sizes[1]));
+                      (onDiskByOption ? std::string("; it is tried all the same")
+                                      : formatted("; with the factor on disk, in %s, it needs %.3g "
+                                                  "GB",
+                                                  id_.ooc_tmpdir, 1e-9 * sizes[1])));
 }
 
 std::string MumpsFactor::factorise(Mat matrix) {

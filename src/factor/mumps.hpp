@@ -39,16 +39,14 @@ class MumpsFactor {
   /// Collective. Returns the memory in bytes, summed over all ranks, that the analysis foresees.
   double memory() const { return 1e6 * id_.infog[16]; }
   /// Collective. Factorises the matrix, or that of analyse() if none is given, which may follow
-  /// analyse() alone, with more workspace where pivoting needs
-  /// it, and with the factor on disk where memory is short. Throws Error if the analysis foresees
-  /// more memory than there is even so. Returns the reason of another failure, empty if there is
-  /// none.
+  /// analyse() alone, with more workspace where pivoting needs it, and with the factor on disk
+  /// where memory is short. Throws Error if the analysis foresees more memory than there is even
+  /// so. Returns the reason of another failure, empty if there is none.
   std::string factorise(Mat matrix = nullptr);
   /// Collective. Computes X = A⁻¹ B, each by this rank's rows, column after column.
   void solve(const double* b, double* x, PetscInt columns);
   /// Returns the inertia, after wantInertia() and factorise().
   Inertia inertia() const { return {id_.infog[11], id_.infog[27]}; }
-  PetscInt localRows() const { return localRows_; }
   /// Returns INFOG(i) of MUMPS's manual.
   PetscInt infog(int i) const { return id_.infog[i - 1]; }
 

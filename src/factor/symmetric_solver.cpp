@@ -1,10 +1,12 @@
 #include "factor/symmetric_solver.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <exception>
 #include <memory>
 #include <string>
 
+#include "petsc/termination.hpp"
 #include "petsc/text.hpp"
 #include "session/stages.hpp"
 
@@ -16,7 +18,7 @@ const SolverPrefix factorisation(
     "SLEPc ST, KSP and PC with the factorisation of K (MUMPS LDLt): st_type, ksp_*, pc_*, "
     "mat_mumps_*, …");
 
-/// What a KSP keeps of its factor.
+/// A Shell is the context of a PCSHELL: the factor, and how far it is made.
 struct Shell {
   std::unique_ptr<MumpsFactor> factor;
   Mat matrix = nullptr;  // of the analysis
@@ -49,19 +51,33 @@ PetscErrorCode setUp(PC pc) {
   return 0;
 }
 
+/// Solves, and ends the run if that fails: memory or the disk is full, and an exception must not
+/// pass through the C code of PETSc.
+template <class Solve>
+void solveOrAbort(PC pc, const Solve& solve) {
+  try {
+    solve(*shellOf(pc)->factor);
+  } catch (const Error& error) {
+    int rank = 0;
+    MPI_Comm_rank(PetscObjectComm(reinterpret_cast<PetscObject>(pc)), &rank);
+    if (rank == 0) std::fprintf(stderr, "squeal: error: %s\n", error.what());
+    abortRun();
+  }
+}
+
 PetscErrorCode applyToVector(PC pc, Vec b, Vec x) {
   const PetscScalar* from = nullptr;
   PetscScalar* to = nullptr;
   check(VecGetArrayRead(b, &from));
   check(VecGetArrayWrite(x, &to));
-  shellOf(pc)->factor->solve(from, to, 1);
+  solveOrAbort(pc, [&](MumpsFactor& factor) { factor.solve(from, to, 1); });
   check(VecRestoreArrayWrite(x, &to));
   check(VecRestoreArrayRead(b, &from));
   return 0;
 }
 
 PetscErrorCode applyToBlock(PC pc, Mat b, Mat x) {
-  solve(*shellOf(pc)->factor, b, x);
+  solveOrAbort(pc, [&](MumpsFactor& factor) { solve(factor, b, x); });
   return 0;
 }
 
@@ -173,26 +189,33 @@ void SymmetricSolver::factorise() const {
 void rejectUnusedSolverOptions() { factorisation.rejectUnused(); }
 
 double factorMemory(Mat matrix) {
-  MumpsFactor factor(PetscObjectComm(reinterpret_cast<PetscObject>(matrix)), "");
+  MumpsFactor factor(PetscObjectComm(reinterpret_cast<PetscObject>(matrix)), factorisation.prefix);
   factor.analyse(matrix);
   return factor.memory();
 }
 
-std::unique_ptr<MumpsFactor> indefiniteFactor(OwnedMat matrix, double zero, KSP like) {
-  const MumpsFactor* order = like ? mumpsFactor(like) : nullptr;
-  auto factor = std::make_unique<MumpsFactor>(
-      PetscObjectComm(reinterpret_cast<PetscObject>(matrix.get())), "");
-  factor->wantInertia(zero);
-  factor->analyse(matrix, order);
-  matrix = {};  // the factor has its entries
+std::unique_ptr<MumpsFactor> shiftedFactor(Mat k, Mat m, double sigma, KSP like) {
+  auto factor = std::make_unique<MumpsFactor>(PetscObjectComm(reinterpret_cast<PetscObject>(k)),
+                                              factorisation.prefix);
+  factor->wantInertia();
+  {
+    OwnedMat shifted;
+    check(MatDuplicate(k, MAT_COPY_VALUES, shifted.out()));
+    check(MatAXPY(shifted, -sigma, m, UNKNOWN_NONZERO_PATTERN));
+    factor->analyse(shifted, like ? mumpsFactor(like) : nullptr);
+  }
   if (const std::string why = factor->factorise(); !why.empty())
-    throw Error("the inertia of a symmetric matrix: " + why);
+    throw Error("the factorisation of a shifted stiffness: " + why);
   return factor;
 }
 
 Inertia inertia(Mat matrix, double zero) {
-  check(PetscObjectReference(reinterpret_cast<PetscObject>(matrix)));
-  return indefiniteFactor(OwnedMat(matrix), zero)->inertia();
+  MumpsFactor factor(PetscObjectComm(reinterpret_cast<PetscObject>(matrix)), factorisation.prefix);
+  factor.wantInertia(zero);
+  factor.analyse(matrix);
+  if (const std::string why = factor.factorise(); !why.empty())
+    throw Error("the inertia of a symmetric matrix: " + why);
+  return factor.inertia();
 }
 
 }  // namespace squeal::factor

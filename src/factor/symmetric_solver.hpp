@@ -48,16 +48,18 @@ double factorMemory(Mat matrix);
 /// these are typing errors.
 void rejectUnusedSolverOptions();
 
-/// Collective. Factorises a symmetric matrix that need not be definite, so that its inertia is
-/// known, see below. The matrix is let go as soon as its entries have been handed over. `like` is a
-/// factorised solver of a matrix of the same pattern and distribution, whose order of elimination
-/// is taken, or null. Throws Error if it fails.
-std::unique_ptr<MumpsFactor> indefiniteFactor(OwnedMat matrix, double zero = 0, KSP like = nullptr);
+/// Collective. Factorises K − σ M of symmetric matrices, so that its inertia, the number of
+/// eigenvalues of (K, M) below σ, is known, by the options of SymmetricSolver. K − σ M itself is
+/// kept no longer than its entries take to be handed over. `like` is a factorised solver of a
+/// matrix of the same distribution, whose order of elimination is taken, or null. Throws Error if
+/// it fails.
+std::unique_ptr<MumpsFactor> shiftedFactor(Mat k, Mat m, double sigma, KSP like = nullptr);
 
 /// Collective. Returns the inertia of a symmetric matrix from the signs of the pivots of an LDLᵀ
-/// factorisation (Sylvester's law of inertia, [M.25]). Pivots below `zero` times the norm of the
-/// scaled matrix count as zero; with 0, MUMPS decides (about 1e-21). Throws Error if the
-/// factorisation fails, or if MUMPS foresees more than twice the memory that is free.
+/// factorisation (Sylvester's law of inertia, [M.25]), by the options of SymmetricSolver. Pivots
+/// below `zero` times the norm of the scaled matrix count as zero; with 0, MUMPS decides (about
+/// 1e-21). Throws Error if the factorisation fails, or if MUMPS foresees more than twice the memory
+/// that is free.
 Inertia inertia(Mat matrix, double zero = 0);
 
 }  // namespace squeal::factor

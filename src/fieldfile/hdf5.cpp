@@ -166,7 +166,7 @@ void Hdf5File::writeMesh(const mesh::Mesh& mesh) {
   writeRows<double>("/mesh", "coordinates", 3, coordinates);
   writeRows<PetscInt>("/mesh", "node_tag", 1, std::span(mesh.nodeTag).first(owned));
   writeRows<int>("/mesh", "node_part", 1, std::span(mesh.nodePart).first(owned));
-  writeAttribute("/mesh", "dimension", mesh.dimension);
+  writeAttribute("/mesh", "dimension", PetscInt{mesh.dimension});
   writeAttribute("/mesh", "bodies", joined(mesh.bodies, ","));
   writeAttribute("/mesh", "parts", joined(mesh.partName, ","));
   for (int type : elementTypes(mesh)) writeCells(mesh, type);
@@ -190,7 +190,7 @@ void Hdf5File::writeCells(const mesh::Mesh& mesh, int type) {
   writeRows<PetscInt>(group, "nodes", nodesPerCell, nodes);
   writeRows<PetscInt>(group, "body", 1, bodies);
   writeRows<PetscInt>(group, "tag", 1, tags);
-  writeAttribute(group, "gmsh_element_type", type);
+  writeAttribute(group, "gmsh_element_type", PetscInt{type});
   writeAttribute(group, "gmsh_element_name", name);
 }
 

@@ -47,12 +47,13 @@ Pole firstPole(EPS eps) {
 ///   N(λ) = a λ^½ + c λ^(3/2),
 /// as in plates and in solids (Weyl's law), with a and c from those that have nearly converged.
 double placeOfPole(EPS eps, const RitzPairs& ritz) {
-  constexpr double nearly = 0.1;
+  constexpr double nearly = 0.1, distinct = 1.001;
   std::size_t known = 0;
   while (known < ritz.value.size() && ritz.residual[known] < nearly * ritz.value[known]) ++known;
   const std::size_t half = known / 2;
   if (half < 4) return eps->target;
   const double x = 1 / ritz.value[half - 1], y = 1 / ritz.value[known - 1];  // less the target
+  if (!(y > distinct * x)) return eps->target;  // one multiple eigenvalue: a pole would meet it
   // a + c λ = N(λ) / √λ at both
   const double atX = half / std::sqrt(x), atY = known / std::sqrt(y);
   const double c = std::max(0.0, (atY - atX) / (y - x)), a = std::max(0.0, atY - c * y);
@@ -67,18 +68,17 @@ double placeOfPole(EPS eps, const RitzPairs& ritz) {
   return eps->target + high;
 }
 
-/// Returns the number of wanted eigenvalues that have not converged.
-PetscInt open(EPS eps) {
-  return std::count_if(eps->errest, eps->errest + eps->nev,
-                       [&](double error) { return !(error < eps->tol); });
-}
-
-/// Returns a place for a further pole, below all but half of the wanted eigenvalues that have not
-/// converged, in the middle of the widest gap near there.
-double placeOfNextPole(EPS eps, const RitzPairs& ritz) {
+/// Returns the wanted eigenvalues, less the target, that have not converged.
+std::vector<double> unconverged(EPS eps, const RitzPairs& ritz) {
   std::vector<double> rest;
   for (PetscInt i = 0; i < eps->nev; ++i)
     if (!(eps->errest[i] < eps->tol)) rest.push_back(1 / ritz.value[i]);
+  return rest;
+}
+
+/// Returns a place for a further pole, below all but half of the eigenvalues `rest` that have not
+/// converged, in the middle of the widest gap near there.
+double placeOfNextPole(EPS eps, const RitzPairs& ritz, const std::vector<double>& rest) {
   const double middle = rest[rest.size() / 2];
   double place = middle, widest = 0;
   for (PetscInt i = 0; i + 1 < eps->nev; ++i) {
@@ -95,14 +95,9 @@ Pole poleAt(EPS eps, double sigma) {
   KSP ksp = nullptr;
   check(EPSGetOperators(eps, &k, &m));
   check(STGetKSP(eps->st, &ksp));
-  OwnedMat shifted;
-  check(MatDuplicate(k, MAT_COPY_VALUES, shifted.out()));
-  check(MatAXPY(shifted, -sigma, m, UNKNOWN_NONZERO_PATTERN));
-  const std::shared_ptr<factor::MumpsFactor> made =
-      factor::indefiniteFactor(std::move(shifted), 0, ksp);
+  const std::shared_ptr<factor::MumpsFactor> made = factor::shiftedFactor(k, m, sigma, ksp);
   auto& facts = solverOf(eps).facts;
   const int below = made->inertia().negative;
-  ++facts.poles;
   if (below <= eps->nev && below >= facts.below) {
     facts.countedTo = sigma;
     facts.below = below;
@@ -159,9 +154,11 @@ void iterate(EPS eps) {
       return;
     }
     // The lowest that has not converged gains most by the nearer pole.
-    if (second && lanczos.size() >= vectorsBefore + vectorsOfPole && 10 * open(eps) > count) {
+    const std::vector<double> rest = unconverged(eps, ritz);
+    if (second && lanczos.size() >= vectorsBefore + vectorsOfPole &&
+        10 * std::ssize(rest) > count) {
       second.reset();  // its factor leaves first
-      second.emplace(poleAt(eps, placeOfNextPole(eps, ritz)));
+      second.emplace(poleAt(eps, placeOfNextPole(eps, ritz, rest)));
       vectorsBefore = lanczos.size();
     }
     if (second) pole = 2 / ritz.value[eps->nconv] < second->distance ? &first : &*second;

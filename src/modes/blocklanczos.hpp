@@ -26,11 +26,10 @@ void setBlockLanczos(EPS eps, PetscInt blockSize, bool secondPole);
 /// converges before the first restart, with 2 to 3 vectors an eigenvalue.
 constexpr int lanczosVectors(int count, int blockSize) { return 3 * count + 8 * blockSize; }
 
-/// What a solve has found besides the eigenvalues.
+/// The facts of a solve are what it has found besides the eigenvalues.
 struct BlockLanczosFacts {
   int solves = 0;  ///< right-hand sides solved for
   int restarts = 0;
-  int poles = 0;  ///< besides the target
   /// A place σ and the number of eigenvalues below it, by the inertia of K − σ M; 0 if there is
   /// none of the wanted ones.
   double countedTo = 0;

@@ -78,15 +78,6 @@ void setUp(EPS eps) {
   factor::rejectUnusedSolverOptions();
 }
 
-/// Collective. Returns the number of eigenvalues of (K, M) below sigma.
-int countBelow(Mat k, Mat m, double sigma) {
-  OwnedMat shifted;
-  check(MatDuplicate(k, MAT_COPY_VALUES, shifted.out()));
-  check(MatAXPY(shifted, -sigma, m, DIFFERENT_NONZERO_PATTERN));
-  check(MatSetOption(shifted, MAT_SYMMETRIC, PETSC_TRUE));
-  return factor::inertia(shifted).negative;
-}
-
 /// Returns the number of modes, at most all but one, above which the widest relative gap of the
 /// topmost ten begins, so that rounding cannot move an eigenvalue across it. If these are all
 /// copies of one multiple eigenvalue, the gap is sought below it.
@@ -120,7 +111,7 @@ void confirmCount(Mat k, Mat m, Modes& modes) {
   const int below = modesBelowGap(w);
   modes.inertiaShift =
       below > 0 ? 0.5 * (w[below] * w[below] + w[below - 1] * w[below - 1]) : 0.5 * w[0] * w[0];
-  modes.inertiaCount = countBelow(k, m, modes.inertiaShift);
+  modes.inertiaCount = factor::shiftedFactor(k, m, modes.inertiaShift)->inertia().negative;
   modes.countConfirmed = modes.inertiaCount == below;
 }
 

@@ -114,9 +114,7 @@ void outOfMemory() {
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   std::fprintf(stderr, "squeal: error: rank %d got no more memory: %s\n", rank, lessMemory);
-  performLastActs();
-  MPI_Abort(MPI_COMM_WORLD, 1);
-  _exit(1);
+  abortRun();
 }
 
 }  // namespace squeal

@@ -75,6 +75,12 @@ void performLastActs() noexcept {
     }
 }
 
+void abortRun() noexcept {
+  performLastActs();
+  MPI_Abort(MPI_COMM_WORLD, 1);
+  _exit(1);
+}
+
 SignalWatch::SignalWatch() {
   for (int signal : endings) {
     struct sigaction now {};

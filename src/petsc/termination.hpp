@@ -34,6 +34,10 @@ class EndingWaits {
 /// Not collective. Performs all last acts. Call it before MPI_Abort.
 void performLastActs() noexcept;
 
+/// Not collective. Performs all last acts and ends all ranks with exit code 1. It serves where an
+/// exception would have to pass through the C code of a library; the caller has said why.
+[[noreturn]] void abortRun() noexcept;
+
 /// A SignalWatch takes the signals that ask the program to end, as batch systems, mpirun and the
 /// terminal send them (SIGTERM, SIGINT, SIGHUP, …). Signals that are ignored already (nohup) stay
 /// ignored. A thread that waits for signals performs the last acts, says on rank 0 in one line

@@ -44,8 +44,8 @@ class LoggedStage {
   LoggedStage& operator=(const LoggedStage&) = delete;
 };
 
-/// What PETSc and this program have sent so far, from this rank. The messages of MUMPS are not
-/// among them.
+/// A Traffic counts what PETSc and this program have sent so far from this rank. The messages of
+/// MUMPS are not among them.
 struct Traffic {
   double messages = 0;
   double bytes = 0;
