@@ -12,9 +12,12 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <map>
 #include <numeric>
 #include <system_error>
+#include <type_traits>
 
 #include "output/file.hpp"
 #include "petsc/check.hpp"
@@ -70,6 +73,71 @@ const std::map<int, VtkCell>& cellsByGmshType() {
   return cells;
 }
 
+/// The part of a mesh and of its fields that goes into one file.
+struct Piece {
+  std::vector<double> coordinates;              // [node][3]
+  std::vector<PetscInt> nodeTag, nodes;         // nodes: of all cells
+  std::vector<int> nodePart, type, body, rank;  // type: VTKCellType, body and rank: [cell]
+  std::vector<std::vector<float>> fields;       // [field][node][component]
+};
+
+/// Returns the part of this rank.
+Piece ownPiece(const mesh::Mesh& mesh, const std::vector<Field>& fields, int rank) {
+  Piece piece;
+  for (const auto& x : mesh.coordinates)
+    piece.coordinates.insert(piece.coordinates.end(), x.begin(), x.end());
+  piece.nodeTag.assign(mesh.nodeTag.begin(), mesh.nodeTag.end());
+  piece.nodePart.assign(mesh.nodePart.begin(), mesh.nodePart.end());
+  for (const auto& block : mesh.cells) {
+    const auto& [type, order] = cellsByGmshType().at(block.type);
+    for (std::size_t cell = 0; cell < block.body.size(); ++cell)
+      for (const int i : order) piece.nodes.push_back(block.nodesOf(cell)[i]);
+    piece.type.insert(piece.type.end(), block.body.size(), type);
+    piece.body.insert(piece.body.end(), block.body.begin(), block.body.end());
+  }
+  piece.rank.assign(piece.body.size(), rank);
+  for (const auto& field : fields)
+    piece.fields.emplace_back(field.values.begin(), field.values.end());
+  return piece;
+}
+
+/// Collective. Puts the lists of all ranks together on rank 0, in the order of the ranks; those of
+/// the others are left empty.
+template <class Entry>
+void gatherOnFirst(MPI_Comm comm, std::vector<Entry>& list) {
+  static_assert(std::is_trivially_copyable_v<Entry>);
+  int rank = 0, ranks = 1;
+  check(MPI_Comm_rank(comm, &rank));
+  check(MPI_Comm_size(comm, &ranks));
+  const int own = list.size();
+  std::vector<int> counts(ranks), places(ranks);
+  check(MPI_Gather(&own, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, comm));
+  std::exclusive_scan(counts.begin(), counts.end(), places.begin(), 0);
+  std::vector<Entry> all(rank == 0 ? places.back() + counts.back() : 0);
+  MPI_Datatype entry = MPI_DATATYPE_NULL;
+  check(MPI_Type_contiguous(sizeof(Entry), MPI_BYTE, &entry));
+  check(MPI_Type_commit(&entry));
+  check(MPI_Gatherv(list.data(), own, entry, all.data(), counts.data(), places.data(), entry, 0,
+                    comm));
+  check(MPI_Type_free(&entry));
+  list = std::move(all);
+}
+
+/// Collective. Puts the pieces of all ranks together on rank 0.
+void gatherOnFirst(MPI_Comm comm, Piece& piece) {
+  const PetscInt own = piece.nodeTag.size();
+  PetscInt before = 0;
+  check(MPI_Exscan(&own, &before, 1, MPIU_INT, MPI_SUM, comm));
+  int rank = 0;
+  check(MPI_Comm_rank(comm, &rank));
+  for (auto& node : piece.nodes) node += rank > 0 ? before : 0;
+  gatherOnFirst(comm, piece.coordinates);
+  for (auto* list : {&piece.nodeTag, &piece.nodes}) gatherOnFirst(comm, *list);
+  for (auto* list : {&piece.nodePart, &piece.type, &piece.body, &piece.rank})
+    gatherOnFirst(comm, *list);
+  for (auto& field : piece.fields) gatherOnFirst(comm, field);
+}
+
 template <class Array, class Value>
 vtkNew<Array> filledArray(const std::string& name, int components,
                           const std::vector<Value>& values) {
@@ -81,31 +149,33 @@ vtkNew<Array> filledArray(const std::string& name, int components,
   return array;
 }
 
-void addPoints(vtkUnstructuredGrid* grid, const mesh::Mesh& mesh) {
+vtkNew<vtkUnstructuredGrid> gridOf(const Piece& piece, const std::vector<Field>& fields) {
+  vtkNew<vtkUnstructuredGrid> grid;
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(mesh.localNodes());
-  for (PetscInt node = 0; node < mesh.localNodes(); ++node)
-    points->SetPoint(node, mesh.coordinates[node].data());
+  points->SetNumberOfPoints(piece.nodeTag.size());
+  for (std::size_t node = 0; node < piece.nodeTag.size(); ++node)
+    points->SetPoint(node, &piece.coordinates[3 * node]);
   grid->SetPoints(points);
-  grid->GetPointData()->AddArray(filledArray<vtkTypeInt64Array>("node_tag", 1, mesh.nodeTag));
-  grid->GetPointData()->AddArray(filledArray<vtkIntArray>("part", 1, mesh.nodePart));
-}
-
-void addCells(vtkUnstructuredGrid* grid, const mesh::Mesh& mesh, int rank) {
-  std::vector<int> bodies;
-  for (const auto& block : mesh.cells) {
-    const auto& [type, order] = cellsByGmshType().at(block.type);
-    std::vector<vtkIdType> nodes(order.size());
-    for (std::size_t cell = 0; cell < block.body.size(); ++cell) {
-      for (std::size_t i = 0; i < order.size(); ++i) nodes[i] = block.nodesOf(cell)[order[i]];
-      grid->InsertNextCell(type, nodes.size(), nodes.data());
-    }
-    bodies.insert(bodies.end(), block.body.begin(), block.body.end());
+  grid->GetPointData()->AddArray(filledArray<vtkTypeInt64Array>("node_tag", 1, piece.nodeTag));
+  grid->GetPointData()->AddArray(filledArray<vtkIntArray>("part", 1, piece.nodePart));
+  for (std::size_t i = 0; i < fields.size(); ++i)
+    grid->GetPointData()->AddArray(
+        filledArray<vtkFloatArray>(fields[i].name, fields[i].components, piece.fields[i]));
+  std::map<int, int> nodesOfType;
+  for (const auto& [gmsh, cell] : cellsByGmshType())
+    nodesOfType[cell.type] = std::ssize(cell.order);
+  std::vector<vtkIdType> nodes;
+  std::size_t next = 0;
+  for (const int type : piece.type) {
+    const std::size_t end = next + nodesOfType[type];
+    nodes.assign(piece.nodes.begin() + next, piece.nodes.begin() + end);
+    grid->InsertNextCell(type, nodes.size(), nodes.data());
+    next = end;
   }
-  grid->GetCellData()->AddArray(filledArray<vtkIntArray>("body", 1, bodies));
-  grid->GetCellData()->AddArray(
-      filledArray<vtkIntArray>("rank", 1, std::vector<int>(bodies.size(), rank)));
+  grid->GetCellData()->AddArray(filledArray<vtkIntArray>("body", 1, piece.body));
+  grid->GetCellData()->AddArray(filledArray<vtkIntArray>("rank", 1, piece.rank));
+  return grid;
 }
 
 /// Collective. Rank 0 makes the folder; the others wait for it.
@@ -132,7 +202,7 @@ void requireWritable(const mesh::Mesh& mesh, const std::vector<Field>& fields) {
   failTogether(mesh.comm, message);
 }
 
-/// Not collective. Writes the piece of this rank. Returns what went wrong, empty if nothing did.
+/// Not collective. Writes a piece. Returns what went wrong, empty if nothing did.
 std::string writePiece(vtkUnstructuredGrid* grid, const fs::path& path) {
   const EndingWaits whole;
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
@@ -174,9 +244,9 @@ std::string arrayTag(const std::string& type, const std::string& name, int compo
 
 /// Returns the text of the file that names the pieces. VTK's own writer of it cuts the stem at its
 /// last dot: steady_0.2 and steady_0.4 would share, and overwrite, the pieces of steady_0.
-template <class Piece>
-std::string summaryText(const std::vector<Field>& fields, const fs::path& folder,
-                        const Piece& piece, int pieces) {
+template <class Path>
+std::string summaryText(const std::vector<Field>& fields, const fs::path& folder, const Path& path,
+                        int pieces) {
   std::string text =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" "
       "header_type=\"UInt64\">\n"
@@ -188,38 +258,42 @@ std::string summaryText(const std::vector<Field>& fields, const fs::path& folder
   text +=
       "    </PCellData>\n    <PPoints>\n" + arrayTag("Float64", "Points", 3) + "    </PPoints>\n";
   for (int i = 0; i < pieces; ++i)
-    text += "    <Piece Source=\"" + xmlText((folder / piece(i).filename()).generic_string()) +
-            "\"/>\n";
+    text +=
+        "    <Piece Source=\"" + xmlText((folder / path(i).filename()).generic_string()) + "\"/>\n";
   return text + "  </PUnstructuredGrid>\n</VTKFile>\n";
 }
 
 }  // namespace
 
 void writeVtu(const mesh::Mesh& mesh, const fs::path& stem, const std::vector<Field>& pointFields,
-              const std::string& option) {
+              const std::string& option, int mostPieces) {
   const std::string head = "option " + option + ": ";
   int rank = 0, size = 1;
   check(MPI_Comm_rank(mesh.comm, &rank));
   check(MPI_Comm_size(mesh.comm, &size));
   requireWritable(mesh, pointFields);
 
-  vtkNew<vtkUnstructuredGrid> grid;
-  addPoints(grid, mesh);
-  addCells(grid, mesh, rank);
-  for (const auto& field : pointFields)
-    grid->GetPointData()->AddArray(
-        filledArray<vtkFloatArray>(field.name, field.components, field.values));
-
-  const auto piece = [&stem](int index) {
+  const auto path = [&stem](int index) {
     return stem / (stem.filename().string() + "_" + std::to_string(index) + ".vtu");
   };
+  // Neighbouring ranks share a file, which the first of them writes.
+  const int pieces = std::min(size, mostPieces),
+            index = static_cast<std::int64_t>(rank) * pieces / size;
+  Piece piece = ownPiece(mesh, pointFields, rank);
+  MPI_Comm sharing = MPI_COMM_NULL;
+  check(MPI_Comm_split(mesh.comm, index, rank, &sharing));
+  gatherOnFirst(sharing, piece);
+  int place = 0;
+  check(MPI_Comm_rank(sharing, &place));
+  check(MPI_Comm_free(&sharing));
+
   // not replace_extension: a stem such as steady_0.4 has a dot that begins no extension
   const fs::path summary = stem.string() + ".pvtu";
   makeFolder(mesh.comm, stem, head);
-  const std::string failure = writePiece(grid, piece(rank));
+  const std::string failure = place == 0 ? writePiece(gridOf(piece, pointFields), path(index)) : "";
   failTogether(mesh.comm, failure.empty() ? "" : head + failure);
   onFirstRank(mesh.comm, head, [&] {
-    output::writeFile(summary, summaryText(pointFields, stem.filename(), piece, size));
+    output::writeFile(summary, summaryText(pointFields, stem.filename(), path, pieces));
   });
 }
 

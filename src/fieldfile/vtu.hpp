@@ -17,13 +17,14 @@ struct Field {
   std::vector<double> values;  ///< [local node][component], ghosts included
 };
 
-/// Collective. Writes `stem`.pvtu and the pieces `stem`/…_RANK.vtu (a folder, so that the one
-/// above stays readable): compressed binary, coordinates in double and fields in single precision.
+/// Collective. Writes `stem`.pvtu and the pieces `stem`/…_PIECE.vtu (a folder, so that the one
+/// above stays readable), one for each rank or, on more ranks, `mostPieces` of neighbouring ranks
+/// together: compressed binary, coordinates in double and fields in single precision.
 /// Beside the fields it holds node_tag and part of the nodes, body (index) and rank of the cells.
 /// Throws Error on all ranks if a file cannot be written, naming `option`, with its dash; also for
 /// a cell type that VTK lacks, and for a field of the wrong size.
 void writeVtu(const mesh::Mesh& mesh, const std::filesystem::path& stem,
-              const std::vector<Field>& pointFields, const std::string& option);
+              const std::vector<Field>& pointFields, const std::string& option, int mostPieces = 8);
 
 /// Collective. Writes, on rank 0, a ParaView collection of (time, file) pairs: the frames of an
 /// animation or of a sweep. The files are named relative to the folder of `path`, so that the

@@ -386,22 +386,29 @@ void shareFrom(int root, MPI_Comm comm, std::vector<DensePair>& pairs, Vectors v
   }
 }
 
-std::vector<std::vector<DensePair>> solveSpread(MPI_Comm comm,
-                                                const std::vector<DenseProblem>& problems,
-                                                Vectors vectors, const Wanted& wanted) {
+std::vector<std::vector<DensePair>> spread(
+    MPI_Comm comm, std::size_t count, Vectors vectors,
+    const std::function<std::vector<DensePair>(std::size_t)>& solve) {
   int rank = 0, ranks = 1;
   check(MPI_Comm_rank(comm, &rank));
   check(MPI_Comm_size(comm, &ranks));
-  std::vector<std::vector<DensePair>> solved(problems.size());
+  std::vector<std::vector<DensePair>> solved(count);
   std::string failure;
-  for (std::size_t i = rank; i < problems.size() && failure.empty(); i += ranks) try {
-      solved[i] = solveQuadratic(problems[i], vectors, wanted);
+  for (std::size_t i = rank; i < count && failure.empty(); i += ranks) try {
+      solved[i] = solve(i);
     } catch (const Error& error) {
       failure = error.what();
     }
   failTogether(comm, failure);
-  for (std::size_t i = 0; i < problems.size(); ++i) shareFrom(i % ranks, comm, solved[i], vectors);
+  for (std::size_t i = 0; i < count; ++i) shareFrom(i % ranks, comm, solved[i], vectors);
   return solved;
+}
+
+std::vector<std::vector<DensePair>> solveSpread(MPI_Comm comm,
+                                                const std::vector<DenseProblem>& problems,
+                                                Vectors vectors, const Wanted& wanted) {
+  return spread(comm, problems.size(), vectors,
+                [&](std::size_t i) { return solveQuadratic(problems[i], vectors, wanted); });
 }
 
 std::vector<DensePair> solveTogether(MPI_Comm comm, const DenseProblem& problem, Vectors vectors) {

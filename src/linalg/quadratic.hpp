@@ -59,10 +59,15 @@ ComplexMatrix timesVectors(const DenseView& a, const std::vector<DensePair>& pai
 /// zero.
 ComplexMatrix transposedTimesLeft(const DenseView& a, const std::vector<DensePair>& pairs);
 
-/// Collective. Solves several problems, problem i on the rank i modulo the number of ranks, which
-/// alone needs its matrices. The results are sent to all ranks, so that rounding cannot make the
-/// ranks disagree on the order or number of eigenvalues. Throws Error on all ranks if one problem
-/// fails.
+/// Collective. Calls solve(i) for i below `count`, each on the rank i modulo the number of ranks,
+/// and returns the pairs on all ranks, so that rounding cannot make the ranks disagree on the order
+/// or number of eigenvalues. Throws Error on all ranks if one call does.
+std::vector<std::vector<DensePair>> spread(
+    MPI_Comm comm, std::size_t count, Vectors vectors,
+    const std::function<std::vector<DensePair>(std::size_t)>& solve);
+
+/// Collective. Solves several problems by spread(). The rank that solves a problem alone needs its
+/// matrices.
 std::vector<std::vector<DensePair>> solveSpread(MPI_Comm comm,
                                                 const std::vector<DenseProblem>& problems,
                                                 Vectors vectors, const Wanted& wanted = {});

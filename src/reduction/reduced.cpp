@@ -13,6 +13,7 @@
 #include "reduction/condition.hpp"
 #include "reduction/pod.hpp"
 #include "reduction/responses.hpp"
+#include "reduction/spectrum.hpp"
 
 namespace squeal::reduction {
 
@@ -86,9 +87,10 @@ struct ReducedProblem::PointState {
   ProjectedTerms ownTerms;
   bool associated;  // it is the problem of the free modes
   bool damped;
-  Norms norms;                           // of K̄, Z̄, M̄
-  std::vector<linalg::DensePair> pairs;  // of the band, with left vectors
-  std::vector<double> backwardError;     // [pair]
+  Norms norms;  // of K̄, Z̄, M̄
+  Spectrum spectrum;
+  // Of the pairs of the band:
+  std::vector<double> backwardError;  // [pair]
   // The estimate of |δs|/|s| is the product of the two, each with the norm of diag(K0)⁻¹ for that
   // of K0⁻¹. errorOf() takes the second as 1 at most.
   std::vector<double> rightError;  // [pair] of the right vector, times the condition number of s
@@ -165,7 +167,7 @@ double ReducedProblem::errorRatio(const PointState& state, std::size_t pair) con
 }
 
 bool ReducedProblem::isAccurate(const PointState& state) const {
-  for (std::size_t j = 0; j < state.pairs.size(); ++j)
+  for (std::size_t j = 0; j < state.spectrum.band.size(); ++j)
     if (errorRatio(state, j) > 1) return false;
   return true;
 }
@@ -187,7 +189,7 @@ linalg::DenseMatrix ReducedProblem::residualSketch(const PointState& state, cons
 
 /// Not collective. Fills in the errors of the pairs of a point.
 void ReducedProblem::estimateErrors(PointState& state, const linalg::DenseProblem& problem) const {
-  const auto& pairs = state.pairs;
+  const auto& pairs = state.spectrum.band;
   const PointPairs all = pairsOf(state, pointers(pairs), state.damped);
   const auto& coordinates = all.pairs;
   const auto norms = [&](pencil::Side side) {  // raised by what a sketch may miss
@@ -229,12 +231,12 @@ void ReducedProblem::estimateErrors(PointState& state, const linalg::DenseProble
 /// of its residual, or for what is good enough: half of its square for what stays unresolved, half
 /// for what the correction leaves.
 ReducedProblem::CorrectionRequest ReducedProblem::requestOf(const PointState& state) const {
-  const auto mirrored = mirrorImages(state.pairs, state.damped);
+  const auto mirrored = mirrorImages(state.spectrum.band, state.damped);
   std::vector<const linalg::DensePair*> bad;
   std::vector<double> weights;
-  for (std::size_t j = 0; j < state.pairs.size(); ++j)
+  for (std::size_t j = 0; j < state.spectrum.band.size(); ++j)
     if (const double tooLarge = errorRatio(state, j); tooLarge > 1 && !mirrored[j]) {
-      bad.push_back(&state.pairs[j]);
+      bad.push_back(&state.spectrum.band[j]);
       weights.push_back(std::min(1.0, std::sqrt(2) * resolution * tooLarge));
     }
   return {&state, pairsOf(state, bad, state.damped), weights};
@@ -257,35 +259,76 @@ linalg::Block ReducedProblem::directions(const std::vector<CorrectionRequest>& r
                      squares[j] > 0 ? request.weights[j] / std::sqrt(squares[j]) : 0);
     points.push_back(&request.pairs);
   }
-  if (factors.empty()) return linalg::Block(basis_.localRows());
+  const auto made = [&](const linalg::DenseMatrix& combinations) {
+    linalg::Block columns(basis_.localRows(), combinations.columns());
+    if (combinations.empty()) return columns;
+    terms_.addTo(points, combinations, columns);
+    PetscInt first = 0;
+    for (const auto& request : requests) {
+      const PetscInt last = first + request.pairs.pairs.columns;
+      const linalg::DenseMatrix some = linalg::rowRange(combinations, first, last);
+      for (const auto* terms : {&request.state->set->terms, &request.state->ownTerms})
+        terms->addTo({&request.pairs}, some, columns);
+      first = last;
+    }
+    basis_.clearBoundary(columns);
+    return columns;
+  };
   // Fewer columns than residuals: those of several points are much alike.
-  const linalg::DenseMatrix combinations =
-      subspace::leadingCombinations(sketches, factors, 0.8 * resolution);
-  linalg::Block columns(basis_.localRows(), combinations.columns());
-  if (combinations.empty()) return columns;
-  terms_.addTo(points, combinations, columns);
-  PetscInt first = 0;
-  for (const auto& request : requests) {
-    const PetscInt last = first + request.pairs.pairs.columns;
-    const linalg::DenseMatrix some = linalg::rowRange(combinations, first, last);
-    for (const auto* terms : {&request.state->set->terms, &request.state->ownTerms})
-      terms->addTo({&request.pairs}, some, columns);
-    first = last;
+  if (const auto leading = subspace::leadingCombinations(sketches, factors, 0.8 * resolution))
+    return linalg::principal(basis_.comm(), made(*leading), resolution);
+  // More than the sketch can tell: random combinations, until they span the residuals.
+  constexpr PetscInt atOnce = 3 * Sketch::size;
+  const PetscInt all = factors.size();
+  linalg::Block columns(basis_.localRows());
+  for (PetscInt count = 0;;) {
+    const PetscInt more = all - count <= atOnce + atOnce / 2 ? all - count : atOnce;
+    columns.append(made(subspace::randomCombinations(factors, count, count + more)));
+    count += more;
+    // A sum of `all` columns with random signs, over √count: lengths stay as they are.
+    linalg::Block leading =
+        linalg::principal(basis_.comm(), columns, resolution * std::sqrt(count));
+    if (count == all || 5 * leading.columns() < 4 * count) return leading;
   }
-  basis_.clearBoundary(columns);
-  return linalg::principal(basis_.comm(), columns, resolution);
 }
 
 /// Collective. Solves the dense problems of the points that are not done, and estimates errors.
 void ReducedProblem::solveDense(const std::vector<PointState*>& open) {
   std::vector<linalg::DenseProblem> problems;
   for (const auto* state : open) problems.push_back(project(*state));
-  auto solved = linalg::solveSpread(basis_.comm(), problems, linalg::Vectors::both,
-                                    [&](auto s) { return band_.top == 0 || band_.contains(s); });
+  std::vector<SpectrumRequest> requests;
   for (std::size_t i = 0; i < open.size(); ++i) {
-    open[i]->pairs = std::move(solved[i]);
-    estimateErrors(*open[i], problems[i]);
+    requests.push_back({&problems[i], &open[i]->spectrum, {}});
+    for (std::size_t j = 0; j < open[i]->spectrum.band.size(); ++j)
+      requests[i].errorRatio.push_back(errorRatio(*open[i], j));
   }
+  solveSpectra(basis_.comm(), band_, requests);
+  for (std::size_t i = 0; i < open.size(); ++i) estimateErrors(*open[i], problems[i]);
+}
+
+/// Collective. Looks for eigenvalues that are missing at the points, and empties the spectra where
+/// it finds one. Returns these points.
+std::vector<ReducedProblem::PointState*> ReducedProblem::incompleteStates(
+    std::vector<PointState>& states) {
+  std::vector<PointState*> asked, open;
+  std::vector<linalg::DenseProblem> problems;
+  for (auto& state : states)
+    if (state.spectrum.improved) {
+      asked.push_back(&state);
+      state.ownTerms.extend();
+      problems.push_back(project(state));
+    }
+  std::vector<SpectrumRequest> requests;
+  for (std::size_t i = 0; i < asked.size(); ++i)
+    requests.push_back({&problems[i], &asked[i]->spectrum, {}});
+  const auto are = incomplete(basis_.comm(), band_, requests);
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    asked[i]->spectrum.improved = false;
+    if (!are[i]) continue;
+    asked[i]->spectrum = {};
+    open.push_back(asked[i]);
+  }
+  return open;
 }
 
 /// Collective. Returns the ratio of a residual made with the matrices, `columns`, to that made with
@@ -312,13 +355,13 @@ std::vector<ReducedProblem::PointState*> ReducedProblem::unconfirmed(
   double largest =
       std::max(confirmed_, 1e-3 * options_.tolerance);  // below: next to nothing, or rounding
   for (auto& state : states)
-    for (std::size_t j = 0; j < state.pairs.size(); ++j)
+    for (std::size_t j = 0; j < state.spectrum.band.size(); ++j)
       if (const double error = errorOf(state, j); std::isfinite(error) && error > largest)
         worst = &state, pair = j, largest = error;
   if (!worst) return open;
   confirmed_ = largest;
   worst->ownTerms.extend();  // the basis may have grown since
-  linalg::DensePair& known = worst->pairs[pair];
+  linalg::DensePair& known = worst->spectrum.band[pair];
   const PointSpace& space = worst->set->space;
   for (auto* vector : {&known.q, &known.left}) vector->resize(space.size(basis_.size()));
   const auto vectors = basis_.expand({space.lifted(known.q), space.lifted(known.left)});
@@ -405,10 +448,10 @@ void ReducedProblem::compress() {
 void ReducedProblem::keepForCompression(std::vector<PointState>& states) {
   for (auto& state : states) {
     const PetscInt own = state.set->space.own();
-    for (auto& pair : state.pairs)
+    for (auto& pair : state.spectrum.band)
       for (auto* vector : {&pair.q, &pair.left})
         vector->erase(vector->begin(), vector->begin() + own);
-    solved_.push_back(std::move(state.pairs));
+    solved_.push_back(std::move(state.spectrum.band));
   }
 }
 
@@ -423,6 +466,7 @@ void ReducedProblem::correct(std::vector<PointState>& states) {
     std::erase_if(open, [&](const PointState* state) { return isAccurate(*state); });
     if (open.empty()) {
       open = unconfirmed(states);
+      if (open.empty()) open = incompleteStates(states);
       continue;
     }
     if (round >= options_.rounds || basis_.size() >= largest) break;
@@ -430,6 +474,10 @@ void ReducedProblem::correct(std::vector<PointState>& states) {
     for (const auto* state : open) requests.push_back(requestOf(*state));
     if (basis_.add(directions(requests)) == 0) break;  // residuals are rounding
     rightRatio_ = std::max(measuredRatio_, basis_.lastEnergyRatio());
+  }
+  if (open = incompleteStates(states); !open.empty()) {  // corrections have ended early
+    extend(open);
+    solveDense(open);
   }
 }
 
@@ -485,7 +533,7 @@ modes::Modes ReducedProblem::freeModes(int set, const pencil::Pencil& pencil) {
   state.associated = true;
   correct(states);
   std::vector<std::vector<Complex>> lifted;
-  for (const auto& pair : state.pairs) lifted.push_back(state.set->space.lifted(pair.q));
+  for (const auto& pair : state.spectrum.band) lifted.push_back(state.set->space.lifted(pair.q));
   linalg::Block shapes(basis_.localRows());
   for (const auto& shape : basis_.expand(lifted)) {
     const ReadArray entries(shape.real);
@@ -501,8 +549,8 @@ modes::Modes ReducedProblem::freeModes(int set, const pencil::Pencil& pencil) {
     for (auto* columns : {&shapes, &stiffness, &inertia})
       for (double& entry : columns->column(j)) entry /= std::sqrt(masses(j, j));
   for (auto* columns : {&stiffness, &inertia}) basis_.clearBoundary(*columns);
-  for (std::size_t j = 0; j < state.pairs.size(); ++j) {
-    const double omega = state.pairs[j].s.imag(), lambda = omega * omega;
+  for (std::size_t j = 0; j < state.spectrum.band.size(); ++j) {
+    const double omega = state.spectrum.band[j].s.imag(), lambda = omega * omega;
     modes.angularFrequency.push_back(omega);
     modes.lambda.push_back(lambda);
     const double size = linalg::length(basis_.comm(), inertia.column(j));
@@ -524,10 +572,10 @@ pencil::ComplexModes ReducedProblem::result(const PointState& state) const {
   point.damped = state.damped;
   point.accuracy = options_.criteria.accuracy;
   point.tolerance = options_.tolerance;
-  for (std::size_t j = 0; j < state.pairs.size(); ++j) {
+  for (std::size_t j = 0; j < state.spectrum.band.size(); ++j) {
     const double estimate = errorOf(state, j) + state.rounding[j];
     point.eigenvalues.push_back(
-        {state.pairs[j].s, state.backwardError[j], estimate,
+        {state.spectrum.band[j].s, state.backwardError[j], estimate,
          state.backwardError[j] <= point.accuracy && estimate <= point.tolerance});
   }
   pencil::judge(point, state.symmetry, options_.criteria);
@@ -547,7 +595,7 @@ void ReducedProblem::keepShapes(std::vector<pencil::ComplexModes>& points,
   for (std::size_t i = 0; i < points.size(); ++i) {
     wanted.push_back(pencil::shapesWanted(points[i], options_.criteria));
     for (std::size_t index : wanted.back())
-      lifted.push_back(states[i].set->space.lifted(states[i].pairs[index].q));
+      lifted.push_back(states[i].set->space.lifted(states[i].spectrum.band[index].q));
   }
   if (lifted.empty()) return;
   auto all = basis_.expand(lifted);
@@ -593,8 +641,8 @@ Improvement ReducedProblem::improve(
   std::vector<CorrectionRequest> requests;
   for (const auto& [point, pairs] : located) {
     PointState& state = states.emplace_back(newState(point, nearbyNorms(point)));
-    state.pairs = pairs;
-    for (auto& pair : state.pairs)  // they may be of a smaller basis
+    state.spectrum.band = pairs;
+    for (auto& pair : state.spectrum.band)  // they may be of a smaller basis
       for (auto* vector : {&pair.q, &pair.left})
         vector->resize(state.set->space.size(basis_.size()));
     estimateErrors(state, project(state));
@@ -602,7 +650,7 @@ Improvement ReducedProblem::improve(
         *std::max_element(state.backwardError.begin(), state.backwardError.end()));
     if (result.backwardError.back() < rounding) continue;
     // Both parts of a residual in units of the whole: one of them may be rounding.
-    requests.push_back({&state, pairsOf(state, pointers(state.pairs), true),
+    requests.push_back({&state, pairsOf(state, pointers(state.spectrum.band), true),
                         std::vector<double>(pairs.size(), 1.0)});
   }
   result.changed = basis_.add(directions(requests)) > 0;

@@ -140,6 +140,7 @@ class ReducedProblem {
   CorrectionRequest requestOf(const PointState& state) const;
   linalg::Block directions(const std::vector<CorrectionRequest>& requests) const;
   void solveDense(const std::vector<PointState*>& open);
+  std::vector<PointState*> incompleteStates(std::vector<PointState>& states);
   std::vector<PointState*> unconfirmed(std::vector<PointState>& states);
   pencil::ComplexModes result(const PointState& state) const;
   void keepShapes(std::vector<pencil::ComplexModes>& points, const std::vector<PointState>& states,

@@ -26,7 +26,16 @@ namespace {
 const IntegerOption animatedOption(
     "report", "report_animated", 1, 0, 1000,
     "number of fastest growing modes of the whole sweep written as a time series over one period");
+const IntegerOption piecesOption(
+    "report", "report_pieces", 8, 1, 1'000'000,
+    "most files that the VTK form of one field is written into; on more ranks, neighbouring ranks "
+    "share a file");
 const IntegerOption framesOption("report", "report_frames", 16, 4, 1000, "frames of one period");
+
+void writeVtk(const mesh::Mesh& mesh, const std::filesystem::path& stem,
+              const std::vector<Field>& fields) {
+  fieldfile::writeVtu(mesh, stem, fields, folderOption, piecesOption.get());
+}
 
 /// Brings nodal values from their owners to all ranks whose cells need them.
 class Ghosts {
@@ -138,7 +147,7 @@ void animate(const analysis::Analysis& analysis, const Ghosts& ghosts, const Ani
     check(VecScale(u, std::cos(phase)));
     check(VecAXPY(u, -std::sin(phase), item.shape->imaginary));
     const auto stem = folder / name / formatted("frame_%03d", frame);
-    fieldfile::writeVtu(*analysis.mesh, stem, {ghosts.vector("displacement", u)}, folderOption);
+    writeVtk(*analysis.mesh, stem, {ghosts.vector("displacement", u)});
     files.emplace_back(period * frame / frames, stem.string() + ".pvtu");
   }
   fieldfile::writePvd(analysis.mesh->comm, folder / (name + ".pvd"), files, folderOption);
@@ -179,10 +188,9 @@ void writeFields(const analysis::Analysis& analysis, const std::filesystem::path
   for (const auto& solution : analysis.steady) {
     if (!solution.converged) continue;
     const auto stem = vtk / ("steady_friction_" + pointName(solution.at));
-    fieldfile::writeVtu(mesh, stem,
-                        {ghosts.vector("displacement", solution.displacement),
-                         ghosts.scalar("contact_pressure", contactField(analysis, solution))},
-                        folderOption);
+    writeVtk(mesh, stem,
+             {ghosts.vector("displacement", solution.displacement),
+              ghosts.scalar("contact_pressure", contactField(analysis, solution))});
     // ParaView's time is the friction; where more is swept, several states would share it, and the
     // file's place in the list is the time.
     const bool frictionAlone = analysis.sweep.frictions.size() == analysis.steady.size();
@@ -197,9 +205,7 @@ void writeFields(const analysis::Analysis& analysis, const std::filesystem::path
           formatted("mode_%03zu_%.0f_Hz", i + 1, segment.modes.angularFrequency[i] / (2 * M_PI)),
           segment.shapes[i]));
     if (!fields.empty())
-      fieldfile::writeVtu(mesh,
-                          vtk / ("modes_from_friction_" + pointName(segment.points.front().at)),
-                          fields, folderOption);
+      writeVtk(mesh, vtk / ("modes_from_friction_" + pointName(segment.points.front().at)), fields);
     for (const auto& point : segment.points) {
       std::vector<Field> shapes;
       for (const auto& shape : point.shapes) {
@@ -209,8 +215,7 @@ void writeFields(const analysis::Analysis& analysis, const std::filesystem::path
                                        workField(analysis, shape), 1));
       }
       if (!shapes.empty())
-        fieldfile::writeVtu(mesh, vtk / ("complex_modes_friction_" + pointName(point.at)), shapes,
-                            folderOption);
+        writeVtk(mesh, vtk / ("complex_modes_friction_" + pointName(point.at)), shapes);
     }
   }
   for (const auto& item : fastest(analysis)) animate(analysis, ghosts, item, vtk);

@@ -43,6 +43,15 @@ void clearWhatVHolds(linalg::DenseMatrix& energy, const linalg::DenseMatrix& par
     if (energy(j, j) <= small * linalg::squaredLength(parts.column(j))) energy(j, j) = 0;
 }
 
+/// Returns true if the parts of energy-orthonormal vectors along V leave these all but orthogonal
+/// to it.
+bool isLittle(const linalg::DenseMatrix& along) {
+  constexpr double little = 1e-6;
+  for (PetscInt j = 0; j < along.columns(); ++j)
+    if (!(linalg::squaredLength(along.column(j)) < little)) return false;
+  return true;
+}
+
 /// Clears the parts along the constraint modes, to which all other vectors are orthogonal.
 void clearConstraintModes(linalg::DenseMatrix& parts, PetscInt count) {
   for (PetscInt j = 0; j < parts.columns(); ++j)
@@ -157,27 +166,29 @@ PetscInt Basis::add(linalg::Block residuals) {
 /// for that.
 bool Basis::addAcross(const linalg::Block& z, const linalg::Block& residuals,
                       const linalg::DenseMatrix& energy, const linalg::DenseMatrix& parts) {
-  constexpr double little = 1e-6;
   const linalg::DenseMatrix combinations = orthonormalising(energy, independent),
                             along = linalg::product(parts, combinations);
-  for (PetscInt j = 0; j < along.columns(); ++j)
-    if (!(linalg::squaredLength(along.column(j)) < little)) return false;
-  if (combinations.empty() || !(solutionError(z, residuals) <= 1e-12)) return false;
-  const linalg::Block fresh = linalg::product(z, combinations);
-  forces_ = linalg::product(residuals, combinations);
-  const linalg::DenseMatrix own = linalg::transposedProduct(comm_, fresh, forces_);
-  const PetscInt old = size(), added = fresh.columns();
+  if (combinations.empty() || !isLittle(along) || !(solutionError(z, residuals) <= 1e-12))
+    return false;
+  append(linalg::product(z, combinations), linalg::product(residuals, combinations), along);
+  return true;
+}
+
+/// Collective. Appends columns z, of which `forces` is K0 z and `along` VᵀK0z.
+void Basis::append(const linalg::Block& z, linalg::Block forces, const linalg::DenseMatrix& along) {
+  forces_ = std::move(forces);
+  const linalg::DenseMatrix own = linalg::transposedProduct(comm_, z, forces_);
+  const PetscInt old = size(), added = z.columns();
   energies_ = linalg::DenseMatrix(old + added, added);
   for (PetscInt j = 0; j < added; ++j) {
     std::ranges::copy(along.column(j), energies_.column(j).begin());
     std::ranges::copy(own.column(j), energies_.column(j).begin() + old);
   }
-  columns_.append(fresh);
-  return true;
+  columns_.append(z);
 }
 
-/// Collective. Adds the part of z orthogonal to V, where `parts` is VᵀK0z. V is taken out twice,
-/// since it is orthonormal to some digits alone.
+/// Collective. Adds the part of z orthogonal to V, where `parts` is VᵀK0z. V is taken out a second
+/// time where it has to be, since it is orthonormal to some digits alone.
 void Basis::addOrthogonalised(linalg::Block& z, const linalg::DenseMatrix& parts) {
   linalg::multiplyAdd(columns_, parts, z, -1);
   linalg::Block forces(z.rows());
@@ -185,12 +196,21 @@ void Basis::addOrthogonalised(linalg::Block& z, const linalg::DenseMatrix& parts
   linalg::DenseMatrix rest = linalg::transposedProduct(comm_, columns_, forces);
   clearConstraintModes(rest, boundarySize());
   linalg::DenseMatrix energy = linalg::transposedProduct(comm_, z, forces);
+  // Columns that depend on others or on V would only add noise.
+  const auto combinations = [&] {
+    clearWhatVHolds(energy, parts, independent);
+    return orthonormalising(energy, independent);
+  };
+  const linalg::DenseMatrix once = combinations(), along = linalg::product(rest, once);
+  if (once.empty()) return;
+  if (isLittle(along)) {
+    append(linalg::product(z, once), linalg::product(forces, once), along);
+    return;
+  }
   linalg::multiplyAdd(columns_, rest, z, -1);
   linalg::addScaled(energy, -1, linalg::transposedProduct(rest, rest));
-  // Columns that depend on others or on V would only add noise.
-  clearWhatVHolds(energy, parts, independent);
-  const linalg::DenseMatrix combinations = orthonormalising(energy, independent);
-  if (!combinations.empty()) columns_.append(linalg::product(z, combinations));
+  const linalg::DenseMatrix twice = combinations();
+  if (!twice.empty()) columns_.append(linalg::product(z, twice));
 }
 
 /// Collective. Returns

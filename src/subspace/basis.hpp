@@ -87,6 +87,7 @@ class Basis {
   double ratio(const linalg::Block& residuals, const linalg::DenseMatrix& energy) const;
   bool addAcross(const linalg::Block& z, const linalg::Block& residuals,
                  const linalg::DenseMatrix& energy, const linalg::DenseMatrix& parts);
+  void append(const linalg::Block& z, linalg::Block forces, const linalg::DenseMatrix& along);
   void addOrthogonalised(linalg::Block& z, const linalg::DenseMatrix& parts);
   double solutionError(const linalg::Block& z, const linalg::Block& residuals) const;
 

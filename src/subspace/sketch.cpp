@@ -79,8 +79,8 @@ SquaredNorms squaredNorms(const DenseView& sketch) {
   return norms;
 }
 
-DenseMatrix leadingCombinations(const DenseView& sketches, const std::vector<double>& factors,
-                                double small) {
+std::optional<DenseMatrix> leadingCombinations(const DenseView& sketches,
+                                               const std::vector<double>& factors, double small) {
   constexpr PetscInt k = Sketch::size;
   const PetscInt all = factors.size();
   DenseMatrix sketch(k, all), gram(k, k);
@@ -92,7 +92,8 @@ DenseMatrix leadingCombinations(const DenseView& sketches, const std::vector<dou
   const auto squares = symmetricEigen(gram);
   const PetscInt count =
       std::ranges::count_if(squares, [&](double square) { return square > small * small; });
-  if (8 * count > 7 * k || count >= all) {
+  if (8 * count > 7 * k && all > count) return {};
+  if (count >= all) {
     DenseMatrix diagonal(all, all);
     for (PetscInt j = 0; j < all; ++j) diagonal(j, j) = factors[j];
     return diagonal;
@@ -105,6 +106,17 @@ DenseMatrix leadingCombinations(const DenseView& sketches, const std::vector<dou
           factors[j] / std::sqrt(squares[k - 1 - c]) *
           std::inner_product(direction.begin(), direction.end(), sketch.column(j).begin(), 0.0);
   }
+  return combinations;
+}
+
+DenseMatrix randomCombinations(const std::vector<double>& factors, PetscInt first, PetscInt last) {
+  const PetscInt all = factors.size();
+  DenseMatrix combinations(all, last - first);
+  for (PetscInt j = first; j < last; ++j)
+    for (PetscInt i = 0; i < all; ++i) {
+      const bool positive = bits(static_cast<std::uint64_t>(j) * all + i) & 1;
+      combinations(i, j - first) = positive ? factors[i] : -factors[i];
+    }
   return combinations;
 }
 

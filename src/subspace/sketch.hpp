@@ -6,6 +6,7 @@
 /// has the mean ‖r‖² and a relative standard deviation of √(2/k) (Johnson and Lindenstrauss 1984;
 /// Achlioptas 2003). For k = 64 the norm is found to within 9 % (one deviation). Ωᵀ A V, kept for a
 /// basis V, gives the norms of residuals A V q without their n entries.
+#include <optional>
 #include <vector>
 
 #include "linalg/block.hpp"
@@ -52,10 +53,17 @@ std::vector<double> squaredLengths(const linalg::DenseView& unweighted);
 /// estimated from the sketches of the columns, 2k × all. Each column is first multiplied by its
 /// factor, [column]; the coefficients include the factors. They are the right singular vectors of
 /// the unweighted half of the sketch whose singular values exceed `small`; `count` is their number,
-/// a fraction of `all` where the columns are nearly linearly dependent. If nearly k values exceed
-/// `small`, or as many as there are columns, the sketch cannot tell: the coefficients are then the
-/// diagonal matrix of the factors.
-linalg::DenseMatrix leadingCombinations(const linalg::DenseView& sketches,
-                                        const std::vector<double>& factors, double small);
+/// a fraction of `all` where the columns are nearly linearly dependent. If as many as there are
+/// columns exceed `small`, they are the diagonal matrix of the factors. If nearly k do, the sketch
+/// cannot tell, and nothing is returned.
+std::optional<linalg::DenseMatrix> leadingCombinations(const linalg::DenseView& sketches,
+                                                       const std::vector<double>& factors,
+                                                       double small);
+
+/// Not collective. Returns the combinations [first, last) of columns with random signs, times the
+/// factor of each column, all × (last − first). A few more of them than the columns have leading
+/// directions span these all but surely (Halko, Martinsson and Tropp 2011).
+linalg::DenseMatrix randomCombinations(const std::vector<double>& factors, PetscInt first,
+                                       PetscInt last);
 
 }  // namespace squeal::subspace

@@ -155,7 +155,7 @@ TEST(CommandLine, CasesRunFromAnywhere) {
 fs::path scriptsIn(const fs::path& place) {
   fs::create_directories(place / "scripts");
   fs::create_directories(place / "build");
-  for (const char* script : {"run", "report_dir"})
+  for (const char* script : {"run", "ranks", "report_dir"})
     fs::copy_file(fs::path(SQUEAL_SOURCE_DIR) / "scripts" / script, place / "scripts" / script);
   fs::create_symlink(SQUEAL_EXECUTABLE, place / "build/squeal");
   writeText(place / "scripts/setup",
@@ -194,6 +194,23 @@ TEST(CommandLine, ScriptRunsAnOptionsFileOfAnyFolder) {
 }
 
 // Without scripts/setup beside it, the script can neither install nor build.
+// More ranks than cores share these, unbound, and give way when they wait; fewer have BLAS threads.
+TEST(CommandLine, ScriptSharesOutTheCores) {
+  const auto holds = [](const std::string& ranks, const std::string& condition) {
+    return shell("/", "env -i PATH=\"$PATH\" NP=" + ranks +
+                          " bash -euc '. \"" SQUEAL_SOURCE_DIR
+                          "/scripts/ranks\"; cores=$(physical_cores); choose_ranks; [ " +
+                          condition + " ]'") == 0;
+  };
+  const std::string crowded =
+      "\"${OMPI_MCA_mpi_yield_when_idle:-0}${OMPI_MCA_rmaps_base_oversubscribe:-0}"
+      "${OMPI_MCA_hwloc_base_binding_policy:-0}$OPENBLAS_NUM_THREADS\" = 11none1";
+  EXPECT_TRUE(holds("100000", crowded));
+  EXPECT_TRUE(holds("1", "\"${OMPI_MCA_mpi_yield_when_idle:-0}\" = 0"));
+  EXPECT_TRUE(holds("1", "\"$OPENBLAS_NUM_THREADS\" -eq \"$cores\""));
+  EXPECT_TRUE(holds("", "\"$NP\" -le \"$cores\""));
+}
+
 TEST(CommandLine, ScriptHelpBuildsNothing) {
   const fs::path place = placeFor("command_line/help");
   fs::remove_all(place);

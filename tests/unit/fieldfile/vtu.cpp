@@ -30,21 +30,13 @@ double fieldValue(const Point& x, int component) {
   return (component + 1) * (x[0] + 2 * x[1] + 4 * x[2]);
 }
 
-TEST(Vtu, HoldsFieldsOfAllRanks) {
-  const Folder folder;
-  const Mesh mesh = bar();
-  Field scalar{"pressure", 1, {}}, vector{"displacement", 3, {}};
-  for (const auto& x : mesh.coordinates) {
-    scalar.values.push_back(fieldValue(x, 0));
-    for (int c = 0; c < 3; ++c) vector.values.push_back(fieldValue(x, c));
-  }
-  const fs::path stem = folder.path / "steady_0.4";  // the dot is part of the name
-  writeVtu(mesh, stem, {scalar, vector}, option);
-  EXPECT_TRUE(fs::is_directory(stem));
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()),
-            2);  // steady_0.4.pvtu and the folder
+int filesIn(const fs::path& folder) {
+  return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
+}
 
-  const auto grid = readVtu(folder.path / "steady_0.4.pvtu");
+/// Checks that a file holds the whole mesh, and the fields of fieldValue() at all its nodes.
+void expectFields(const Mesh& mesh, const fs::path& file) {
+  const auto grid = readVtu(file);
   const int size = sizeOf(mesh.comm);
   ASSERT_EQ(grid->GetNumberOfCells(), size + 1);
   ASSERT_EQ(grid->GetNumberOfPoints(), 8 * size);
@@ -69,6 +61,27 @@ TEST(Vtu, HoldsFieldsOfAllRanks) {
     EXPECT_EQ(box[0], std::min<vtkIdType>(i, size - 1));
     EXPECT_EQ(box[1], box[0] + 1);
   }
+}
+
+TEST(Vtu, HoldsFieldsOfAllRanks) {
+  const Folder folder;
+  const Mesh mesh = bar();
+  Field scalar{"pressure", 1, {}}, vector{"displacement", 3, {}};
+  for (const auto& x : mesh.coordinates) {
+    scalar.values.push_back(fieldValue(x, 0));
+    for (int c = 0; c < 3; ++c) vector.values.push_back(fieldValue(x, c));
+  }
+  const fs::path stem = folder.path / "steady_0.4";  // the dot is part of the name
+  writeVtu(mesh, stem, {scalar, vector}, option);
+  EXPECT_TRUE(fs::is_directory(stem));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()),
+            2);  // steady_0.4.pvtu and the folder
+  expectFields(mesh, folder.path / "steady_0.4.pvtu");
+  EXPECT_EQ(filesIn(stem), sizeOf(mesh.comm));
+  const fs::path together = folder.path / "together";
+  writeVtu(mesh, together, {scalar, vector}, option, 1);
+  expectFields(mesh, folder.path / "together.pvtu");
+  EXPECT_EQ(filesIn(together), 1);
 }
 
 // Names that differ after the last dot only must not share the files of their pieces.

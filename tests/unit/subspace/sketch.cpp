@@ -7,6 +7,7 @@
 #include <random>
 
 #include "linalg/block.hpp"
+#include "linalg/qr.hpp"
 #include "support/case.hpp"
 #include "support/dense.hpp"
 #include "support/worst.hpp"
@@ -171,8 +172,10 @@ TEST(Sketch, LeadingCombinationsHoldTheColumns) {
     }
     factors.push_back((j % 3 == 0 ? 0.5 : 1) / std::sqrt(length / 3.0));
   }
-  const DenseMatrix combinations =
+  const auto leadingOnes =
       subspace::leadingCombinations(sketch.of(layout.local(columns)), factors, 0.03);
+  ASSERT_TRUE(leadingOnes);
+  const DenseMatrix& combinations = *leadingOnes;
   ASSERT_EQ(combinations.rows(), count);
   ASSERT_EQ(combinations.columns(), directions);
   // The combinations are C F V for the columns C, their factors F and orthonormal V: they hold C F
@@ -196,12 +199,36 @@ TEST(Sketch, LeadingCombinationsHoldTheColumns) {
   // by the condition of the sketch.
   EXPECT_LT(worst, 5 * rest);
   // All directions different: too many for 64 numbers to tell apart.
-  const DenseMatrix all =
-      subspace::leadingCombinations(sketch.of(layout.local(randomColumns(count))), factors, 0.03);
-  ASSERT_EQ(all.rows(), count);
-  ASSERT_EQ(all.columns(), count);
-  for (PetscInt j = 0; j < count; ++j)
-    for (PetscInt i = 0; i < count; ++i) EXPECT_EQ(all(i, j), i == j ? factors[j] : 0);
+  EXPECT_FALSE(
+      subspace::leadingCombinations(sketch.of(layout.local(randomColumns(count))), factors, 0.03));
+  // Few columns, all different.
+  factors.resize(5);
+  const auto all =
+      subspace::leadingCombinations(sketch.of(layout.local(randomColumns(5))), factors, 0.03);
+  ASSERT_TRUE(all);
+  ASSERT_EQ(all->rows(), 5);
+  ASSERT_EQ(all->columns(), 5);
+  for (PetscInt j = 0; j < 5; ++j)
+    for (PetscInt i = 0; i < 5; ++i) EXPECT_EQ((*all)(i, j), i == j ? factors[j] : 0);
+}
+
+// 20 directions lie in 30 random combinations of 150 columns: what a least-squares fit leaves of
+// each column is rounding, times the condition of 30 random combinations, some hundreds.
+TEST(Sketch, RandomCombinationsSpanTheColumns) {
+  constexpr PetscInt directions = 20, count = 150, made = 30;
+  const std::vector<double> factors(count, 0.5);
+  std::mt19937 generator(3);
+  const DenseMatrix leading = randomColumns(directions),
+                    columns =
+                        linalg::product(leading, test::randomMatrix(directions, count, generator));
+  DenseMatrix combinations = subspace::randomCombinations(factors, 0, 20);
+  combinations.append(subspace::randomCombinations(factors, 20, made));
+  ASSERT_EQ(combinations.columns(), made);
+  const linalg::Qr qr(linalg::product(columns, combinations));
+  // The first 20 columns of Q span the directions if the combinations do.
+  linalg::DenseMatrix q(qr.q().columnRange(0, directions)), left(columns);
+  linalg::multiplyAdd(q, linalg::transposedProduct(q, columns), left, -1);
+  EXPECT_LT(test::largestEntry(left), 1e-9);
 }
 
 // Rows that are zero may be left out.
