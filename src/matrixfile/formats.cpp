@@ -90,6 +90,14 @@ std::string beginningOf(const std::string& head) {
   return text;
 }
 
+constexpr int ownIndexBits = 8 * sizeof(PetscInt);
+
+/// Returns the bits of the indices of a matrix in PETSc's binary format; 0 for anything else.
+int indexBits(const std::string& head) {
+  if (wordAt(head, 0, true) == MAT_FILE_CLASSID) return 32;
+  return wordAt(head, 0, true) == 0 && wordAt(head, 4, true) == MAT_FILE_CLASSID ? 64 : 0;
+}
+
 /// Throws Error for a file of another kind, naming that kind where it is known.
 [[noreturn]] void refuse(const std::string& head) {
   if (begins(head, "PK"))
@@ -99,9 +107,11 @@ std::string beginningOf(const std::string& head) {
   if (begins(head, "\x93NUMPY"))
     throw Error("an array of numpy: make scripts/convert_matrix a .mtx or .h5 of it");
   if (begins(head, "\x1f\x8b")) throw Error("a file packed by gzip: unpack it first");
-  if (wordAt(head, 4, true) == MAT_FILE_CLASSID && wordAt(head, 0, true) == 0)
+  if (const int bits = indexBits(head); bits > 0)
     throw Error(
-        "a matrix in PETSc's binary format with 64-bit indices: write it with 32-bit indices");
+        formatted("a matrix in PETSc's binary format with %d-bit indices: write it with %d-bit "
+                  "indices, those of this build",
+                  bits, ownIndexBits));
   if (wordAt(head, 0, false) == MAT_FILE_CLASSID)
     throw Error("a matrix in PETSc's binary format, but little-endian: the format is big-endian");
   if (wordAt(head, 0, true) == VEC_FILE_CLASSID)
@@ -179,7 +189,7 @@ Format formatOf(const std::filesystem::path& path) {
   if (beginsAsWord(head, "%%MatrixMarket")) return Format::matrixMarket;
   if (isHdf5(all)) return Format::hdf5;
   if (isMatlab5(head)) return Format::matlab;
-  if (wordAt(head, 0, true) == MAT_FILE_CLASSID) return Format::petscBinary;
+  if (indexBits(head) == ownIndexBits) return Format::petscBinary;
   if (path.extension() == ".mat" && isMatlab4(head)) return Format::matlab;
   refuse(head);
 }

@@ -15,21 +15,25 @@ namespace {
 
 constexpr bool swapped = littleEndian;  // the format is big-endian
 
+/// PETSc writes its own integers, and its MatLoad() reads no others.
+using Index = PetscInt;
+constexpr long long indexBytes = sizeof(Index);
+
 /// A Header holds the numbers at the beginning of a file: class, rows, columns and entries. The
 /// length of each row, the columns row by row, and the values follow without gaps.
 struct Header {
   long long rows = 0, columns = 0, entries = 0;
-  std::uint64_t columnsBegin() const { return 4 * (4 + rows); }
-  std::uint64_t valuesBegin() const { return 4 * (4 + rows + entries); }
+  std::uint64_t columnsBegin() const { return indexBytes * (4 + rows); }
+  std::uint64_t valuesBegin() const { return indexBytes * (4 + rows + entries); }
   std::uint64_t end() const { return valuesBegin() + 8 * entries; }
 };
 
 Header headerOf(BinaryFile& file) {
-  if (file.size() < 16 || file.number<std::int32_t>(swapped) != MAT_FILE_CLASSID)
+  if (file.size() < 4 * indexBytes || file.number<Index>(swapped) != MAT_FILE_CLASSID)
     throw Error("not a matrix in PETSc's binary format: the file is cut short");
   Header header;
   for (auto* value : {&header.rows, &header.columns, &header.entries})
-    *value = file.number<std::int32_t>(swapped);
+    *value = file.number<Index>(swapped);
   if (header.entries == -1)
     throw Error("a dense matrix in PETSc's binary format; write a sparse one");
   if (header.rows < 0 || header.columns < 0 || header.entries < 0)
@@ -42,31 +46,32 @@ Header headerOf(BinaryFile& file) {
 /// none of them twice, of which MatLoad() would keep the last.
 void checkPattern(const std::filesystem::path& path, const Header& header) {
   BinaryFile lengths(path), columns(path);
-  lengths.seek(16);
+  lengths.seek(4 * indexBytes);
   columns.seek(header.columnsBegin());
   long long left = header.entries;
-  std::vector<std::int32_t> list;
+  std::vector<Index> list;
   for (long long row = 0; row < header.rows; ++row) {
-    const auto count = lengths.number<std::int32_t>(swapped);
+    const auto count = lengths.number<Index>(swapped);
     const auto fail = [&](const std::string& why) {
       throw Error(formatted("row %lld (counted from 0) ", row) + why);
     };
     if (count < 0 || count > header.columns)
-      fail(formatted("has %d entries in %lld columns", count, header.columns));
+      fail(formatted("has %" PetscInt_FMT " entries in %lld columns", count, header.columns));
     if (count > left)
       fail(formatted("has more entries than the header announces in all, %lld", header.entries));
     left -= count;
     list.resize(count);
     columns.read(reinterpret_cast<char*>(list.data()), list.size() * sizeof list[0]);
     for (auto& column : list) {
-      column = numberAt<std::int32_t>(reinterpret_cast<const char*>(&column), swapped);
+      column = numberAt<Index>(reinterpret_cast<const char*>(&column), swapped);
       if (column < 0 || column >= header.columns)
-        fail(formatted("has an entry in column %d of %lld", column, header.columns));
+        fail(formatted("has an entry in column %" PetscInt_FMT " of %lld", column, header.columns));
     }
     std::sort(list.begin(), list.end());
     const auto twice = std::adjacent_find(list.begin(), list.end());
     if (twice != list.end())
-      fail(formatted("has two entries in column %d; this format holds each once", *twice));
+      fail(formatted("has two entries in column %" PetscInt_FMT "; this format holds each once",
+                     *twice));
   }
   if (left != 0)
     throw Error(formatted("the rows have %lld entries, the header announces %lld",
@@ -89,9 +94,9 @@ void requirePetscBinary(const std::filesystem::path& path) {
   if (file.size() != header.end())
     throw Error(
         formatted("%" PRIu64
-                  " bytes where a real matrix of %lld rows and %lld entries with 32-bit indices "
+                  " bytes where a real matrix of %lld rows and %lld entries with %lld-bit indices "
                   "takes %" PRIu64 ": cut short, or of another PETSc configuration",
-                  file.size(), header.rows, header.entries, header.end()));
+                  file.size(), header.rows, header.entries, 8 * indexBytes, header.end()));
   requireSquare(header.rows, header.columns);
   checkPattern(path, header);
   checkValues(path, header);

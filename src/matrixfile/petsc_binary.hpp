@@ -5,8 +5,8 @@
 namespace squeal::matrixfile {
 
 /// Throws Error for a file that is not one square real sparse matrix in PETSc's binary format with
-/// 32-bit indices, that is cut short, or that holds row lengths, columns or values with which
-/// MatLoad() would end the program or misread it. Only one row is held in memory at a time.
+/// the indices of this build, that is cut short, or that holds row lengths, columns or values with
+/// which MatLoad() would end the program or misread it. Only one row is held in memory at a time.
 void requirePetscBinary(const std::filesystem::path& path);
 
 }  // namespace squeal::matrixfile

@@ -1,14 +1,17 @@
 // PETSc's binary format and HDF5: whole files, and those whose parts do not fit together.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <functional>
 #include <tuple>
+#include <type_traits>
 
 #include "matrices/read.hpp"
+#include "matrixfile/bytes.hpp"
 #include "matrixfile/hdf5.hpp"
 #include "matrixfile/matrix_market.hpp"
 #include "matrixfile/petsc_binary.hpp"
@@ -20,33 +23,32 @@ namespace {
 
 // --- PETSc ---
 
-std::string bigEndian(std::int32_t number) {
-  std::string bytes;
-  for (int shift = 24; shift >= 0; shift -= 8)
-    bytes += static_cast<char>(static_cast<std::uint32_t>(number) >> shift & 0xff);
+template <class Number>
+std::string bigEndian(Number number) {
+  std::string bytes(sizeof number, '\0');
+  std::memcpy(bytes.data(), &number, sizeof number);
+  if (matrixfile::littleEndian) std::ranges::reverse(bytes);
   return bytes;
 }
 
-std::string bigEndian(double number) {
-  const auto bits = std::bit_cast<std::uint64_t>(number);
-  return bigEndian(static_cast<std::int32_t>(bits >> 32)) +
-         bigEndian(static_cast<std::int32_t>(bits & 0xffffffff));
-}
-
-struct Petsc {
-  std::int32_t rows = 2, columns = 2, entries = 3;
-  std::vector<std::int32_t> lengths{1, 2}, index{0, 0, 1};
+/// A file with indices of another width than this build's can be written too.
+template <class Index>
+struct PetscOf {
+  Index rows = 2, columns = 2, entries = 3;
+  std::vector<Index> lengths{1, 2}, index{0, 0, 1};
   std::vector<double> values{2, 1, 3};
 
   std::string bytes() const {
     std::string text =
-        bigEndian(1211216) + bigEndian(rows) + bigEndian(columns) + bigEndian(entries);
+        bigEndian(Index{1211216}) + bigEndian(rows) + bigEndian(columns) + bigEndian(entries);
     for (const auto& list : {lengths, index})
       for (const auto number : list) text += bigEndian(number);
     for (const double value : values) text += bigEndian(value);
     return text;
   }
 };
+
+using Petsc = PetscOf<PetscInt>;
 
 TEST(PetscBinary, Sample) {
   const OwnedMat matrix =
@@ -97,7 +99,7 @@ TEST(PetscBinary, WhatMatLoadWouldMisreadIsNamed) {
       {"dense", Petsc{2, 2, -1, {}, {}, {1, 2, 3, 4}}.bytes(), "a dense matrix"},
       {"rows", Petsc{-2, 2, 0, {}, {}, {}}.bytes(), "the header announces -2 rows"},
       {"huge", Petsc{2000000000, 2000000000, 2000000000, {}, {}, {}}.bytes(),
-       "16 bytes where a real matrix of 2000000000 rows"},
+       std::to_string(4 * sizeof(PetscInt)) + " bytes where a real matrix of 2000000000 rows"},
       {"long", sound + "1234", "cut short, or of another PETSc configuration"},
       {"head", sound.substr(0, 12), "cut short"},
   };
@@ -106,6 +108,15 @@ TEST(PetscBinary, WhatMatLoadWouldMisreadIsNamed) {
     EXPECT_TRUE(contains(error, name + ".petsc: ") && contains(error, message))
         << name << ": " << error;
   }
+}
+
+TEST(PetscBinary, OtherIndicesAreRefused) {
+  using Other = std::conditional_t<sizeof(PetscInt) == 4, std::int64_t, std::int32_t>;
+  const std::string error = errorReading(writeFile("other.petsc", PetscOf<Other>{}.bytes()));
+  EXPECT_TRUE(contains(error, sizeof(PetscInt) == 4
+                                  ? "with 64-bit indices: write it with 32-bit indices"
+                                  : "with 32-bit indices: write it with 64-bit indices"))
+      << error;
 }
 
 // PETSc takes options from a file beside the one it reads: nobody gave them.

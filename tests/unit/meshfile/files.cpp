@@ -92,7 +92,10 @@ TEST(MeshFile, DamagedMshIsToldByLine) {
       {"\n3\n4\n", "\n-1\n4\n", {"line 21", "node tag -1"}},
       {"\n3\n4\n", "\n0\n4\n", {"line 21", "node tag 0"}},
       {"\n3\n4\n", "\n2\n4\n", {"$Nodes has the tag 2 twice"}},
-      {"\n3\n4\n", "\n3000000000\n4\n", {"node tag 3000000000"}},
+      // beyond 32-bit indices; with 64 bits, a tag that no element refers to
+      {"\n3\n4\n",
+       "\n3000000000\n4\n",
+       {sizeof(PetscInt) == 4 ? "node tag 3000000000" : "refers to node 3"}},
       {"5 1 2 5 4", "5 1 2 -1 4", {"element 5", "node -1"}},
       {"5 1 2 5 4", "5 1 2 7 4", {"element 5", "node 7"}},
       {"5 1 2 5 4", "6 1 2 5 4", {"$Elements has the tag 6 twice"}},
