@@ -1,6 +1,7 @@
 #include "reduction/spectrum.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "petsc/check.hpp"
@@ -15,23 +16,30 @@ constexpr PetscInt smallestImproved = 400;
 /// The part of a residual that improving a pair may leave: a round of corrections gains a decade,
 /// and what is left must be small beside that; little is asked of a pair that needs little.
 constexpr double least = 0.03, enough = 0.3;
+/// A left vector counts in the product of two errors alone.
+constexpr double leastOfLeft = 0.1;
 
-/// Improves the pairs of a spectrum. Returns no pairs if they have to be computed in full.
-std::vector<linalg::DensePair> improved(const SpectrumRequest& request,
-                                        const pencil::WatchedBand& band) {
-  const auto& spectrum = *request.spectrum;
-  if (spectrum.band.empty() || request.problem->damping.empty() || !(band.top > 0) ||
-      !std::isfinite(band.top) || request.problem->order() < smallestImproved ||
-      linalg::conservative(*request.problem))
-    return {};
+bool canImprove(const SpectrumRequest& request, const pencil::WatchedBand& band) {
+  const auto& problem = *request.problem;
+  return !request.spectrum->band.empty() && !problem.damping.empty() && band.top > 0 &&
+         std::isfinite(band.top) && problem.order() >= smallestImproved &&
+         !linalg::conservative(problem);
+}
+
+/// Returns all pairs of a spectrum, those of the band first.
+std::vector<linalg::DensePair> allPairs(const Spectrum& spectrum) {
   std::vector<linalg::DensePair> pairs = spectrum.band;
-  std::vector<refinement::Open> open;
-  for (std::size_t j = 0; j < pairs.size(); ++j)
-    if (const double ratio = request.errorRatio[j]; ratio > 1)
-      open.push_back({j, std::max(least, enough / ratio)});
   pairs.insert(pairs.end(), spectrum.guard.begin(), spectrum.guard.end());
-  return refinement::improve(*request.problem, pairs, open) ? pairs
-                                                            : std::vector<linalg::DensePair>{};
+  return pairs;
+}
+
+std::vector<refinement::Open> openOf(const SpectrumRequest& request) {
+  const Spectrum& spectrum = *request.spectrum;
+  std::vector<refinement::Open> open;
+  for (std::size_t j = 0; j < spectrum.band.size(); ++j)
+    if (const double ratio = request.errorRatio[j]; ratio > 1)
+      open.push_back({j, std::max(least, enough / ratio), leastOfLeft});
+  return open;
 }
 
 /// Takes the pairs apart into those of the band and those of the guard zone.
@@ -51,41 +59,54 @@ void keep(std::vector<linalg::DensePair> pairs, const pencil::WatchedBand& band,
 
 void solveSpectra(MPI_Comm comm, const pencil::WatchedBand& band,
                   const std::vector<SpectrumRequest>& requests) {
-  std::vector<int> isImproved(requests.size(), 0);
-  auto solved = linalg::spread(comm, requests.size(), linalg::Vectors::both, [&](std::size_t i) {
-    auto pairs = improved(requests[i], band);
-    isImproved[i] = !pairs.empty();
-    if (isImproved[i]) return pairs;
-    const bool damped = !requests[i].problem->damping.empty();
-    return linalg::solveQuadratic(*requests[i].problem, linalg::Vectors::both, [&](Complex s) {
+  std::vector<const SpectrumRequest*> improvable, inFull;
+  std::vector<std::vector<linalg::DensePair>> pairs;
+  for (const auto& request : requests) {
+    (canImprove(request, band) ? improvable : inFull).push_back(&request);
+    if (improvable.size() > pairs.size()) pairs.push_back(allPairs(*request.spectrum));
+  }
+  std::vector<refinement::Task> tasks;
+  for (std::size_t i = 0; i < improvable.size(); ++i)
+    tasks.push_back({improvable[i]->problem, &pairs[i], openOf(*improvable[i])});
+  const auto improved = refinement::improve(comm, tasks);
+  for (std::size_t i = 0; i < improvable.size(); ++i) {
+    if (!improved[i]) {
+      inFull.push_back(improvable[i]);
+      continue;
+    }
+    keep(std::move(pairs[i]), band, *improvable[i]->spectrum);
+    improvable[i]->spectrum->improved = true;
+  }
+  auto solved = linalg::spread(comm, inFull.size(), linalg::Vectors::both, [&](std::size_t i) {
+    const bool damped = !inFull[i]->problem->damping.empty();
+    return linalg::solveQuadratic(*inFull[i]->problem, linalg::Vectors::both, [&](Complex s) {
       return band.top == 0 || (damped ? band.watches(s) : band.contains(s));
     });
   });
-  check(MPI_Allreduce(MPI_IN_PLACE, isImproved.data(), isImproved.size(), MPI_INT, MPI_MAX, comm));
-  for (std::size_t i = 0; i < requests.size(); ++i) {
-    keep(std::move(solved[i]), band, *requests[i].spectrum);
-    requests[i].spectrum->improved = isImproved[i] != 0;
+  for (std::size_t i = 0; i < inFull.size(); ++i) {
+    keep(std::move(solved[i]), band, *inFull[i]->spectrum);
+    inFull[i]->spectrum->improved = false;
   }
 }
 
 std::vector<bool> incomplete(MPI_Comm comm, const pencil::WatchedBand& band,
                              const std::vector<SpectrumRequest>& requests) {
-  std::vector<Complex> shifts;
-  for (const double part : {0.25, 0.75}) shifts.emplace_back(0, part * band.top);
-  const auto found =
-      linalg::spread(comm, requests.size(), linalg::Vectors::right, [&](std::size_t i) {
-        const auto& [problem, spectrum, errorRatio] = requests[i];
-        std::vector<linalg::DensePair> pairs = spectrum->band, result;
-        pairs.insert(pairs.end(), spectrum->guard.begin(), spectrum->guard.end());
+  constexpr std::array places{0.25, 0.75};  // of shifts, in parts of the band
+  const auto found = linalg::spread(
+      comm, requests.size() * places.size(), linalg::Vectors::right, [&](std::size_t i) {
+        const auto& [problem, spectrum, errorRatio] = requests[i / places.size()];
+        std::vector<linalg::DensePair> pairs = allPairs(*spectrum), result;
         for (auto& pair : pairs)  // they may be of a smaller basis
           for (auto* vector : {&pair.q, &pair.left}) vector->resize(problem->order());
-        const auto unknown = refinement::missing(*problem, pairs, shifts,
+        const Complex shift(0, places[i % places.size()] * band.top);
+        const auto unknown = refinement::missing(*problem, pairs, shift,
                                                  [&](Complex s) { return band.contains(s); });
         if (unknown) result.push_back({*unknown, {}});
         return result;
       });
-  std::vector<bool> are;
-  for (const auto& pairs : found) are.push_back(!pairs.empty());
+  std::vector<bool> are(requests.size(), false);
+  for (std::size_t i = 0; i < found.size(); ++i)
+    are[i / places.size()] = are[i / places.size()] || !found[i].empty();
   return are;
 }
 

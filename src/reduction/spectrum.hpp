@@ -29,8 +29,8 @@ struct SpectrumRequest {
 };
 
 /// Collective. Brings the spectra to their problems, whose bases begin with those of the spectra;
-/// an empty one is computed in full. Problem i is solved on the rank i modulo the number of ranks.
-/// Throws Error on all ranks if a solve fails.
+/// an empty one is computed in full. The work is spread over the ranks, which all need all
+/// problems. Throws Error on all ranks if a solve fails.
 void solveSpectra(MPI_Comm comm, const pencil::WatchedBand& band,
                   const std::vector<SpectrumRequest>& requests);
 

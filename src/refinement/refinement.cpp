@@ -10,6 +10,8 @@
 
 #include "linalg/complexdense.hpp"
 #include "linalg/lu.hpp"
+#include "petsc/check.hpp"
+#include "petsc/work.hpp"
 
 namespace squeal::refinement {
 namespace {
@@ -171,9 +173,10 @@ class Group {
   /// Borrows the companion form and the pairs, all of its order.
   Group(const Companion& companion, std::vector<DensePair>& pairs, const std::vector<Open>& open)
       : companion_(companion), pairs_(pairs) {
-    for (const auto& [pair, left] : open) {
-      members_.push_back(pair);
-      left_.push_back(left);
+    for (const auto& one : open) {
+      members_.push_back(one.pair);
+      wanted_.right.push_back(one.right);
+      wanted_.left.push_back(one.left);
     }
     double low = std::numeric_limits<double>::infinity(), high = -low, real = 0;
     for (const auto j : members_) {
@@ -191,17 +194,35 @@ class Group {
         neighbours_.push_back(j);
   }
 
+  const std::vector<std::size_t>& members() const { return members_; }
+
+  /// Steps until the residuals are small, at least once if `anew`, and at most `patience` times.
+  enum class Outcome { untouched, done, unfinished, failed };
+  Outcome iterate(bool anew) {
+    constexpr int patience = 2;
+    Outcome outcome = done() ? Outcome::untouched : Outcome::unfinished;
+    if (outcome == Outcome::untouched && !anew) return outcome;
+    for (int step = 0; step < patience && outcome != Outcome::done; ++step) {
+      if (!this->step()) return Outcome::failed;
+      outcome = done() ? Outcome::done : Outcome::unfinished;
+    }
+    inverse_.reset();  // there is one of these large matrices at a time
+    return outcome;
+  }
+
+ private:
+  static constexpr double neighbourhood = 2.5;  // of the reach of the members
+
   /// Returns true if the residuals are as small as they are to be.
   bool done() {
-    constexpr double ofLeftVectors = 0.1;
     const Residuals now = residuals();
     if (first_.right.empty()) {
       first_ = now;
       rounding_ = rounding();
     }
     for (std::size_t j = 0; j < members_.size(); ++j)
-      if ((now.right[j] > std::max(left_[j] * first_.right[j], rounding_) ||
-           now.left[j] > std::max(ofLeftVectors * first_.left[j], rounding_)))
+      if (now.right[j] > std::max(wanted_.right[j] * first_.right[j], rounding_) ||
+          now.left[j] > std::max(wanted_.left[j] * first_.left[j], rounding_))
         return false;
     return true;
   }
@@ -253,9 +274,6 @@ class Group {
     }
     return true;
   }
-
- private:
-  static constexpr double neighbourhood = 2.5;  // of the reach of the members
 
   /// The lengths of P(s) x and P(s)ᴴ y for vectors of length one, [member].
   struct Residuals {
@@ -334,11 +352,10 @@ class Group {
   const Companion& companion_;
   std::vector<DensePair>& pairs_;
   std::vector<std::size_t> members_, neighbours_;
-  std::vector<double> left_;  // [member], see Open
   Complex shift_ = 0;
   double reach_ = 0;  // largest distance of a member from the middle
   std::optional<ShiftInvert> inverse_;
-  Residuals first_;
+  Residuals wanted_, first_;  // parts of the first ones, see Open
   double rounding_ = 0;
 };
 
@@ -454,43 +471,123 @@ double largest(const std::vector<DensePair>& pairs) {
   return size > 0 ? size : 1;
 }
 
+/// A group of one of several problems.
+struct OwnedGroup {
+  std::size_t task;
+  Group group;
+};
+
+/// Collective. Sends the members of these groups from the ranks that have improved them to all.
+/// Group g is of the rank g modulo the number of ranks.
+void share(MPI_Comm comm, const std::vector<Task>& tasks, const std::vector<OwnedGroup>& groups,
+           const std::vector<bool>& improved) {
+  int rank = 0, ranks = 1;
+  check(MPI_Comm_rank(comm, &rank));
+  check(MPI_Comm_size(comm, &ranks));
+  const auto membersOf = [&](int owner, const auto& action) {
+    for (std::size_t g = owner; g < groups.size(); g += ranks)
+      if (improved[g])
+        for (const auto j : groups[g].group.members()) action((*tasks[groups[g].task].pairs)[j]);
+  };
+  const auto forAll = [](DensePair& pair, const auto& action) {
+    action(std::span(&pair.s, 1));
+    action(std::span(pair.q));
+    action(std::span(pair.left));
+  };
+  std::vector<int> counts(ranks), begins(ranks + 1);
+  for (int owner = 0; owner < ranks; ++owner) {
+    std::size_t entries = 0;
+    membersOf(owner, [&](DensePair& pair) {
+      forAll(pair, [&](std::span<Complex> part) { entries += part.size(); });
+    });
+    if (begins[owner] + entries > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+      throw Error("the eigenvectors of a batch are too many for one message: solve fewer points");
+    counts[owner] = entries;
+    begins[owner + 1] = begins[owner] + counts[owner];
+  }
+  std::vector<Complex> all(begins[ranks]);
+  auto next = all.begin() + begins[rank];
+  membersOf(rank, [&](DensePair& pair) {
+    forAll(pair, [&](std::span<Complex> part) { next = std::ranges::copy(part, next).out; });
+  });
+  check(MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, all.data(), counts.data(), begins.data(),
+                       MPI_C_DOUBLE_COMPLEX, comm));
+  auto from = all.cbegin();
+  for (int owner = 0; owner < ranks; ++owner)
+    membersOf(owner, [&](DensePair& pair) {
+      forAll(pair, [&](std::span<Complex> part) {
+        std::copy_n(from, part.size(), part.begin());
+        from += part.size();
+      });
+    });
+}
+
 }  // namespace
 
-bool improve(const DenseProblem& problem, std::vector<DensePair>& pairs,
-             const std::vector<Open>& open) {
-  constexpr int patience = 2, mostSweeps = 8;
-  for (auto& pair : pairs) {
-    pair.q.resize(problem.order());
-    pair.left.resize(problem.order());
+std::vector<bool> improve(MPI_Comm comm, const std::vector<Task>& tasks) {
+  constexpr int mostSweeps = 4;
+  int rank = 0, ranks = 1;
+  check(MPI_Comm_rank(comm, &rank));
+  check(MPI_Comm_size(comm, &ranks));
+  std::vector<Companion> companions;
+  companions.reserve(tasks.size());  // groups borrow them
+  std::vector<OwnedGroup> groups;
+  for (std::size_t t = 0; t < tasks.size(); ++t) {
+    const auto& [problem, pairs, open] = tasks[t];
+    for (auto& pair : *pairs)
+      for (auto* vector : {&pair.q, &pair.left}) vector->resize(problem->order());
+    companions.emplace_back(*problem, largest(*pairs));
+    for (const auto& group : groupsOf(*pairs, open))
+      groups.push_back({t, Group(companions.back(), *pairs, group)});
   }
-  const Companion companion(problem, largest(pairs));
-  std::vector<Group> groups;
-  for (const auto& group : groupsOf(pairs, open)) groups.emplace_back(companion, pairs, group);
-  // A group that is done goes on after some sweeps: those near it may need better neighbours.
-  for (int sweep = 0;; ++sweep) {
-    std::vector<Group*> next;
-    bool done = true;
-    for (auto& group : groups) {
-      const bool small = group.done();
-      done = done && small;
-      if (!small || sweep >= patience) next.push_back(&group);
+  std::vector<bool> good(tasks.size(), false), ended(tasks.size(), false);
+  for (int sweep = 0; sweep < mostSweeps; ++sweep) {
+    std::vector<int> outcomes(groups.size(), 0);
+    std::string failure;
+    for (std::size_t g = rank; g < groups.size() && failure.empty(); g += ranks)
+      if (!ended[groups[g].task]) try {
+          // From the second sweep on, all groups go on: those near them may need better neighbours.
+          const LoggedWork logged(Work::denseEigenvalues);
+          outcomes[g] = static_cast<int>(groups[g].group.iterate(sweep > 0));
+        } catch (const Error& error) {
+          failure = error.what();
+        }
+    failTogether(comm, failure);
+    check(MPI_Allreduce(MPI_IN_PLACE, outcomes.data(), outcomes.size(), MPI_INT, MPI_MAX, comm));
+    const auto isOutcome = [&](std::size_t g, Group::Outcome outcome) {
+      return outcomes[g] == static_cast<int>(outcome);
+    };
+    std::vector<bool> improved(groups.size()), next = ended;
+    for (std::size_t t = 0; t < tasks.size(); ++t) {
+      bool failed = false, unfinished = false;
+      for (std::size_t g = 0; g < groups.size(); ++g)
+        if (groups[g].task == t) {
+          failed = failed || isOutcome(g, Group::Outcome::failed);
+          unfinished = unfinished || isOutcome(g, Group::Outcome::unfinished);
+        }
+      for (std::size_t g = 0; g < groups.size(); ++g)
+        if (groups[g].task == t && !ended[t])
+          improved[g] = !failed && !isOutcome(g, Group::Outcome::untouched);
+      next[t] = ended[t] || failed || !unfinished;
+      if (!ended[t]) good[t] = !failed && !unfinished;
     }
-    if (done) return !haveMet(pairs);
-    if (sweep == mostSweeps) return false;
-    for (auto* group : next)
-      if (!group->step()) return false;
+    share(comm, tasks, groups, improved);
+    ended = next;
+    if (std::ranges::find(ended, false) == ended.end()) break;
   }
+  for (std::size_t t = 0; t < tasks.size(); ++t) good[t] = good[t] && !haveMet(*tasks[t].pairs);
+  return good;
 }
 
 std::optional<Complex> missing(const DenseProblem& problem, const std::vector<DensePair>& pairs,
-                               const std::vector<Complex>& shifts, const linalg::Wanted& wanted) {
+                               Complex shift, const linalg::Wanted& wanted) {
+  const LoggedWork logged(Work::denseEigenvalues);
   const Companion companion(problem, largest(pairs));
   std::vector<const DensePair*> list;
   for (const auto& pair : pairs) list.push_back(&pair);
   const Deflation deflation(companion, list);
-  for (const Complex shift : shifts)
-    for (const Complex s : arnoldi(companion, deflation, shift))
-      if (s.imag() >= 0 && wanted(s)) return s;
+  for (const Complex s : arnoldi(companion, deflation, shift))
+    if (s.imag() >= 0 && wanted(s)) return s;
   return {};
 }
 

@@ -178,7 +178,7 @@ TEST(MatrixFiles, TheFormatIsToldByTheContent) {
       {"little.petsc", std::string("\x50\x7b\x12\0", 4) + std::string(12, '\0'), "little-endian"},
       {"long.petsc",
        std::string(4, '\0') + std::string("\0\x12\x7b\x50", 4) + std::string(24, '\0'),
-       "64-bit indices"},
+       sizeof(PetscInt) == 4 ? "64-bit indices" : "a matrix without rows"},
   };
   for (const auto& [name, text, message] : cases) {
     const std::string error = errorReading(writeFile(name, text));

@@ -48,11 +48,16 @@ std::vector<DensePair> pairsOf(const DenseProblem& problem) {
                                 [](Complex s) { return std::abs(s) <= 1.3 * top; });
 }
 
-std::vector<refinement::Open> bandOpen(const std::vector<DensePair>& pairs, double left) {
+std::vector<refinement::Open> bandOpen(const std::vector<DensePair>& pairs, double part) {
   std::vector<refinement::Open> open;
   for (std::size_t j = 0; j < pairs.size(); ++j)
-    if (inBand(pairs[j].s)) open.push_back({j, left});
+    if (inBand(pairs[j].s)) open.push_back({j, part, 0.1});
   return open;
+}
+
+bool improved(const DenseProblem& problem, std::vector<DensePair>& pairs,
+              const std::vector<refinement::Open>& open) {
+  return refinement::improve(PETSC_COMM_WORLD, {{&problem, &pairs, open}})[0];
 }
 
 std::vector<DensePair> bandOf(std::vector<DensePair> pairs) {
@@ -68,7 +73,7 @@ TEST(Refinement, ImprovesPairsOfASmallerBasis) {
   for (auto& pair : pairs) pair.q.resize(order);
   for (int round = 0; round < 14; ++round) {
     const double before = worstResidual(problem, bandOf(pairs));
-    ASSERT_TRUE(refinement::improve(problem, pairs, bandOpen(pairs, 0.1))) << "round " << round;
+    ASSERT_TRUE(improved(problem, pairs, bandOpen(pairs, 0.1))) << "round " << round;
     EXPECT_LT(worstResidual(problem, bandOf(pairs)), 0.1 * before + 1e-13) << "round " << round;
   }
   EXPECT_LT(worstLeftResidual(problem, bandOf(pairs)), 1e-13);
@@ -80,7 +85,7 @@ TEST(Refinement, LeavesOtherPairs) {
   const DenseProblem problem = brake(0.02);
   auto pairs = pairsOf(leading(problem, known));
   const auto before = pairs;
-  ASSERT_TRUE(refinement::improve(problem, pairs, {{3, 0.1}, {9, 0.1}}));
+  ASSERT_TRUE(improved(problem, pairs, {{3, 0.1, 0.1}, {9, 0.1, 0.1}}));
   for (std::size_t j = 0; j < pairs.size(); ++j) {
     EXPECT_EQ(pairs[j].s == before[j].s, j != 3 && j != 9) << j;
     if (j == 3 || j == 9) continue;
@@ -95,7 +100,34 @@ TEST(Refinement, RefusesPairsThatMeet) {
   const DenseProblem problem = brake(0.02);
   auto pairs = pairsOf(problem);
   pairs.push_back(pairs[4]);
-  EXPECT_FALSE(refinement::improve(problem, pairs, {{2, 0.1}}));
+  EXPECT_FALSE(improved(problem, pairs, {{2, 0.1, 0.1}}));
+}
+
+// Several problems at once, of which one cannot be improved.
+TEST(Refinement, ImprovesProblemByProblem) {
+  const std::vector<DenseProblem> problems{brake(0.02), brake(0.021), brake(0.03)};
+  std::vector<std::vector<DensePair>> pairs;
+  std::vector<refinement::Task> tasks;
+  for (const auto& problem : problems) pairs.push_back(pairsOf(leading(problem, known)));
+  pairs[1].push_back(pairs[1][4]);  // a pair twice
+  for (std::size_t i = 0; i < problems.size(); ++i)
+    tasks.push_back({&problems[i], &pairs[i], bandOpen(pairs[i], 0.01)});
+  EXPECT_EQ(refinement::improve(PETSC_COMM_WORLD, tasks), (std::vector{true, false, true}));
+  for (const std::size_t i : {0, 2})
+    expectSpectrum(eigenvaluesOf(bandOf(pairs[i])), eigenvaluesOf(bandOf(pairsOf(problems[i]))),
+                   1e-4);
+}
+
+// All ranks have the same pairs, to the last bit.
+TEST(Refinement, RanksAgree) {
+  const DenseProblem problem = brake(0.02);
+  auto pairs = pairsOf(leading(problem, known));
+  ASSERT_TRUE(improved(problem, pairs, bandOpen(pairs, 0.1)));
+  for (const auto& pair : pairs) {
+    Complex first = pair.q[order - 1];
+    MPI_Bcast(&first, 1, MPI_C_DOUBLE_COMPLEX, 0, PETSC_COMM_WORLD);
+    EXPECT_EQ(pair.q[order - 1], first);
+  }
 }
 
 // Each eigenvalue of the band in turn is left out of the list. It is found to within a tenth of its
@@ -105,11 +137,17 @@ TEST(Refinement, FindsWhatIsMissing) {
   for (const double friction : {0.02, 0.1}) {
     const DenseProblem problem = brake(friction);
     const auto all = pairsOf(problem);
-    EXPECT_FALSE(refinement::missing(problem, all, shifts, inBand));
+    const auto missingIn = [&](const std::vector<DensePair>& pairs) {
+      std::optional<Complex> found;
+      for (const Complex shift : shifts)
+        if (!found) found = refinement::missing(problem, pairs, shift, inBand);
+      return found;
+    };
+    EXPECT_FALSE(missingIn(all));
     for (std::size_t j = 0; j < all.size(); ++j) {
       auto pairs = all;
       pairs.erase(pairs.begin() + j);
-      const auto found = refinement::missing(problem, pairs, shifts, inBand);
+      const auto found = missingIn(pairs);
       if (!inBand(all[j].s)) continue;
       ASSERT_TRUE(found) << all[j].s;
       double distance = top;
