@@ -455,6 +455,37 @@ void ReducedProblem::keepForCompression(std::vector<PointState>& states) {
   }
 }
 
+/// Keeps the pairs of the points for those who ask again, as tracking does, each on one rank.
+void ReducedProblem::keepPairs(const std::vector<PointState>& states) {
+  constexpr double most = 1e9;  // bytes on all ranks
+  if (band_.top == 0 || !std::isfinite(band_.top)) return;
+  int rank = 0, ranks = 1;
+  check(MPI_Comm_rank(basis_.comm(), &rank));
+  check(MPI_Comm_size(basis_.comm(), &ranks));
+  for (const auto& state : states) {
+    const auto& [band, guard, improved] = state.spectrum;
+    knownSize_ += 2.0 * sizeof(Complex) * basis_.size() * (band.size() + guard.size());
+    if (knownSize_ > most) return;
+    KnownPairs known{state.point->at, state.set, int(known_.size()) % ranks, {}};
+    if (rank == known.owner) {
+      known.pairs = band;
+      known.pairs.insert(known.pairs.end(), guard.begin(), guard.end());
+    }
+    known_.push_back(std::move(known));
+  }
+}
+
+std::optional<std::vector<linalg::DensePair>> ReducedProblem::watchedPairs(
+    const sweep::Parameters& at, int set) const {
+  for (const auto& known : known_)
+    if (known.at == at && known.set == sets_[set].get()) {
+      auto pairs = known.pairs;
+      linalg::shareFrom(known.owner, basis_.comm(), pairs, linalg::Vectors::both);
+      return pairs;
+    }
+  return {};
+}
+
 /// Collective. Solves at all points and corrects the basis until they are accurate.
 void ReducedProblem::correct(std::vector<PointState>& states) {
   std::vector<PointState*> open;
@@ -492,7 +523,10 @@ std::vector<pencil::ComplexModes> ReducedProblem::solve(const std::vector<PointP
   std::vector<pencil::ComplexModes> points;
   for (const auto& state : states) points.push_back(result(state));
   keepShapes(points, states, trial);
-  if (!options_.compressed) return points;
+  if (!options_.compressed) {
+    keepPairs(states);
+    return points;
+  }
   keepForCompression(states);
   compress();
   return points;

@@ -82,6 +82,12 @@ class ReducedProblem {
   /// responses are those of the first point of the first batch. Shapes are mapped to nodal
   /// displacements by `trial` (T, N×n).
   std::vector<pencil::ComplexModes> solve(const std::vector<PointProblem>& batch, Mat trial);
+  /// Collective. Returns the eigenpairs of a point of these parameters and boundary unknowns that
+  /// the band watches, with both vectors, in coordinates of the basis of the time when it was
+  /// solved: those in the band as solve() left them, those around it as exact as they were needed.
+  /// Returns none where the point has not been solved, or where there was no memory to keep them.
+  std::optional<std::vector<linalg::DensePair>> watchedPairs(const sweep::Parameters& at,
+                                                             int set) const;
   /// Collective. Returns the projection of the problem at this point on the basis as it is.
   linalg::DenseProblem project(const PointProblem& point) const;
   /// Collective. Returns the same with all boundary unknowns, in coordinates that all points share.
@@ -113,6 +119,13 @@ class ReducedProblem {
     const PointState* state;
     PointPairs pairs;
     std::vector<double> weights;  // [pair]
+  };
+  /// The watched eigenpairs of a point that has been solved, on one rank.
+  struct KnownPairs {
+    sweep::Parameters at;
+    const Set* set;
+    int owner;
+    std::vector<linalg::DensePair> pairs;
   };
   using Norms = std::array<double, 3>;  // 2-norms of K̄, Z̄, M̄
   /// The part of the residuals that their directions may leave unresolved. A round gains a decade,
@@ -147,6 +160,7 @@ class ReducedProblem {
                   Mat trial) const;
   void correct(std::vector<PointState>& states);
   void confirmCount(const PointState& state, modes::Modes& modes) const;
+  void keepPairs(const std::vector<PointState>& states);
   void keepForCompression(std::vector<PointState>& states);
   void compress();
 
@@ -164,6 +178,8 @@ class ReducedProblem {
   std::vector<std::unique_ptr<Set>> sets_;
   std::optional<ModeCount> count_;  // with boundary unknowns
   std::vector<std::vector<linalg::DensePair>> solved_;
+  std::vector<KnownPairs> known_;
+  double knownSize_ = 0;                                    // bytes on all ranks
   std::vector<std::pair<sweep::Parameters, Norms>> norms_;  // norms at the points solved
 };
 

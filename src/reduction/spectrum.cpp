@@ -78,10 +78,8 @@ void solveSpectra(MPI_Comm comm, const pencil::WatchedBand& band,
     improvable[i]->spectrum->improved = true;
   }
   auto solved = linalg::spread(comm, inFull.size(), linalg::Vectors::both, [&](std::size_t i) {
-    const bool damped = !inFull[i]->problem->damping.empty();
-    return linalg::solveQuadratic(*inFull[i]->problem, linalg::Vectors::both, [&](Complex s) {
-      return band.top == 0 || (damped ? band.watches(s) : band.contains(s));
-    });
+    return linalg::solveQuadratic(*inFull[i]->problem, linalg::Vectors::both,
+                                  [&](Complex s) { return band.top == 0 || band.watches(s); });
   });
   for (std::size_t i = 0; i < inFull.size(); ++i) {
     keep(std::move(solved[i]), band, *inFull[i]->spectrum);

@@ -13,7 +13,7 @@ namespace squeal::reduction {
 /// improved.
 struct Spectrum {
   std::vector<linalg::DensePair> band;   ///< in the band
-  std::vector<linalg::DensePair> guard;  ///< of a damped problem, in the guard zone around the band
+  std::vector<linalg::DensePair> guard;  ///< in the guard zone around the band
   /// True if the pairs have been improved since all eigenvalues were computed: an eigenvalue that
   /// has come into the band may then be missing.
   bool improved = false;

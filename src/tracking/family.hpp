@@ -3,6 +3,7 @@
 /// that may grow.
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "linalg/quadratic.hpp"
 #include "linalg/subspace.hpp"
@@ -24,6 +25,9 @@ class Family {
   /// Collective. Returns the problem at one friction in the present basis, the same on all ranks;
   /// none where it does not exist, for example because the contact opens.
   virtual std::optional<linalg::DenseProblem> at(double friction) = 0;
+  /// Collective. Returns the eigenpairs of at(friction) that the band watches, with both vectors,
+  /// if they are known; in a basis that has grown since, entries of the vectors are missing.
+  virtual std::optional<std::vector<linalg::DensePair>> watchedPairs(double) { return {}; }
   /// Not collective. Returns the same problem. Where at() would need other ranks, its matrices are
   /// interpolated between the known frictions. At these they are exact for the basis in which they
   /// became known; in one that has grown since, their new rows and columns are zero. A root found

@@ -100,13 +100,30 @@ std::optional<linalg::Spectrum> continuedIn(const linalg::DenseProblem& problem,
 }
 
 std::vector<std::vector<linalg::DensePair>> watchedPairs(
-    MPI_Comm comm, const std::vector<linalg::DenseProblem>& problems,
-    const pencil::WatchedBand& band) {
-  auto solved = linalg::solveSpread(comm, problems, linalg::Vectors::both,
-                                    [&](Complex s) { return band.watches(s); });
+    Family& family, const std::vector<double>& frictions,
+    const std::vector<linalg::DenseProblem>& problems, const pencil::WatchedBand& band) {
+  std::vector<std::vector<linalg::DensePair>> pairs(problems.size());
+  std::vector<std::size_t> open;
   for (std::size_t i = 0; i < problems.size(); ++i)
-    std::erase_if(solved[i], [&](const auto& pair) { return !counted(problems[i], pair.s); });
-  return solved;
+    if (auto known = family.watchedPairs(frictions[i])) {
+      pairs[i] = std::move(*known);
+      for (auto& pair : pairs[i])
+        for (auto* vector : {&pair.q, &pair.left}) vector->resize(problems[i].order());
+      std::ranges::sort(pairs[i], [](const auto& a, const auto& b) {
+        return a.s.imag() != b.s.imag() ? a.s.imag() < b.s.imag() : a.s.real() < b.s.real();
+      });
+    } else {
+      open.push_back(i);
+    }
+  auto solved =
+      linalg::spread(family.comm(), open.size(), linalg::Vectors::both, [&](std::size_t k) {
+        return linalg::solveQuadratic(problems[open[k]], linalg::Vectors::both,
+                                      [&](Complex s) { return band.watches(s); });
+      });
+  for (std::size_t k = 0; k < open.size(); ++k) pairs[open[k]] = std::move(solved[k]);
+  for (std::size_t i = 0; i < problems.size(); ++i)
+    std::erase_if(pairs[i], [&](const auto& pair) { return !counted(problems[i], pair.s); });
+  return pairs;
 }
 
 std::optional<linalg::Spectrum> continuedTo(Family& family, double friction,

@@ -43,12 +43,13 @@ std::vector<std::size_t> assigned(const linalg::Spectrum& here, const linalg::Sp
 std::vector<std::size_t> ordered(const std::vector<linalg::DensePair>& here,
                                  const std::vector<linalg::DensePair>& there);
 
-/// Collective. Returns the eigenvalues of several problems that the band watches, with Im s ≥ 0 and
-/// with both vectors, by solveSpread(). In a problem in s², where −s is an eigenvalue with every s,
-/// negative real ones are left out.
+/// Collective. Returns the eigenvalues that the band watches, with Im s ≥ 0, by ascending Im s, and
+/// with both vectors, of the problems at some frictions of a family, [friction]. What the family
+/// knows is taken from it, the others are spread over the ranks. In a problem in s², where −s is an
+/// eigenvalue with every s, negative real ones are left out.
 std::vector<std::vector<linalg::DensePair>> watchedPairs(
-    MPI_Comm comm, const std::vector<linalg::DenseProblem>& problems,
-    const pencil::WatchedBand& band);
+    Family& family, const std::vector<double>& frictions,
+    const std::vector<linalg::DenseProblem>& problems, const pencil::WatchedBand& band);
 
 /// Not collective. Returns the eigenvalues of this problem that continue those of `from`, one or
 /// two at a neighbouring friction. They are sought in their own subspace, from `expected` and

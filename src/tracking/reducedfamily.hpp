@@ -36,6 +36,9 @@ class ReducedFamily : public Family {
       : reduced_(reduced), comm_(comm), line_(line), source_(source), progress_(progress) {}
   MPI_Comm comm() const override { return comm_; }
   std::optional<linalg::DenseProblem> at(double friction) override;
+  std::optional<std::vector<linalg::DensePair>> watchedPairs(double friction) override {
+    return reduced_.watchedPairs(point(friction), source_.set);
+  }
   std::optional<linalg::DenseProblem> near(double friction) override;
   linalg::Spectrum shared(double friction, const std::vector<linalg::DensePair>& pairs) override;
   void know(const std::vector<double>& frictions) override;

@@ -122,12 +122,14 @@ class Follower {
   std::vector<std::optional<Solved>> solve(const std::vector<double>& frictions, bool swept) {
     std::vector<linalg::DenseProblem> problems;
     std::vector<std::size_t> places;
+    std::vector<double> solvable;
     for (std::size_t k = 0; k < frictions.size(); ++k)
       if (auto problem = family().at(frictions[k])) {
         problems.push_back(std::move(*problem));
         places.push_back(k);
+        solvable.push_back(frictions[k]);
       }
-    auto pairs = watchedPairs(family().comm(), problems, result_.band);
+    auto pairs = watchedPairs(family(), solvable, problems, result_.band);
     std::vector<std::optional<Solved>> list(frictions.size());
     for (std::size_t i = 0; i < problems.size(); ++i) {
       Station station{frictions[places[i]], swept, std::move(pairs[i]), {}, {}, {}, piece_};

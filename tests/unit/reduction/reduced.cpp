@@ -17,6 +17,7 @@
 #include "support/blocks.hpp"
 #include "support/dense.hpp"
 #include "support/layers.hpp"
+#include "support/quadratic.hpp"
 #include "support/symmetric.hpp"
 
 namespace squeal {
@@ -133,6 +134,32 @@ TEST(StaticResponses, AreHeldByTheBasis) {
     EXPECT_LT(known, bound);
     EXPECT_GT(unknown, 2 * bound);  // else the bound says nothing
   }
+}
+
+// Of a point that has been solved, those who ask again get the eigenvalues of its band, and around
+// them others up to 1.3 of its top. In the basis that a second point has made larger, the pairs of
+// the band still solve the problem to what the basis has gained, the certified error.
+TEST(KnownPairs, AreThoseOfThePoint) {
+  Fixture f("-modes_count 40");
+  const auto point = f.solve(0.3);
+  const auto& first = point.at(0);
+  const auto basis = f.reduced.basisSize();
+  f.solve(0.6);
+  ASSERT_GT(f.reduced.basisSize(), basis);
+  auto pairs = f.reduced.watchedPairs({0.3}, 0);
+  ASSERT_TRUE(pairs);
+  EXPECT_FALSE(f.reduced.watchedPairs({0.4}, 0));
+  const auto problem = f.reduced.project({{0.3}, f.pencil.with({})});
+  std::size_t inBand = 0;
+  for (auto& pair : *pairs) {
+    EXPECT_LE(std::abs(pair.s), 1.3 * first.bandTop);
+    if (!f.reduced.band().contains(pair.s)) continue;
+    EXPECT_EQ(pair.s, first.eigenvalues.at(inBand++).s);
+    pair.q.resize(problem.order());
+    EXPECT_LT(test::residual(problem, pair), first.accuracy) << pair.s;
+  }
+  EXPECT_EQ(inBand, first.eigenvalues.size());
+  EXPECT_GT(pairs->size(), inBand);
 }
 
 // Eighty modes: the projections of symmetric terms are made in two blocks, and half of them by
