@@ -1,47 +1,12 @@
-"""Tables of eigenvalues: reading them, and telling which eigenvalue of one run is which of another."""
-import csv
-
+"""Telling which eigenvalue of one run is which of another."""
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
-PARAMETERS = ("friction", "speed", "pressure", "damping")
 NOISE = 1e-6  # without an estimate of its error, a growth rate below this fraction of |s| is taken as round-off
-
-
-def read_table(path, needed, words=()):
-    """Columns of a table by name; an empty cell is NaN. `needed`: names that must be there; `words`: those of them that hold text."""
-    with open(path, newline="") as file:
-        rows = csv.reader(file)
-        header = next(rows, [])
-        missing = [name for name in (*needed, *words) if name not in header]
-        if missing:
-            raise ValueError(f"{path}: there is no column {', '.join(missing)}")
-        columns = dict(zip(header, zip(*(row for row in rows if row)))) or dict.fromkeys(header, ())
-    return {
-        name: np.array(cells, str) if name in words else np.array([float(cell or "nan") for cell in cells])
-        for name, cells in columns.items()
-    }
-
-
-def rows_where(table, selected):
-    return {name: column[selected] for name, column in table.items()}
-
-
-def read_eigenvalues(path):
-    """eigenvalues.csv with a column `s` of complex eigenvalues."""
-    needed = PARAMETERS + ("growth_rate_1_per_s", "angular_frequency_rad_per_s", "backward_error")
-    table = read_table(path, needed, ("verdict",))
-    table["s"] = table["growth_rate_1_per_s"] + 1j * table["angular_frequency_rad_per_s"]
-    return table
 
 
 def unstable(s, tolerance=NOISE):
     return s.real > tolerance * np.abs(s)
-
-
-def counted_unstable(table):
-    """Which rows count as unstable: by their verdict or, where they are uncertified, since they grow by more than round-off."""
-    return (table["verdict"] == "unstable") | ((table["verdict"] == "uncertified") & unstable(table["s"]))
 
 
 def match(wanted, found, farthest=0.02):

@@ -9,7 +9,6 @@ plot_stability.py REPORT_DIR reads eigenvalues.csv and stability_map.csv there a
                       critical friction; one figure for each value of the remaining ones: stability_map_damping_2.png, …
 Eigenvalues above the band, which nobody vouches for, are left out.
 """
-import csv
 import sys
 from pathlib import Path
 
@@ -19,8 +18,11 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from eigenvalues import NOISE, PARAMETERS, counted_unstable, read_eigenvalues, read_table, rows_where
-from results import Results
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "python"))
+
+import squeal  # noqa: E402
+from results import Results  # noqa: E402
+from squeal.results import NOISE, PARAMETERS  # noqa: E402
 
 READABLE = 300  # cells of a map that have room for a number
 LABELS = {
@@ -35,59 +37,36 @@ def slices(table, names):
     """For each combination of values of the parameters `names`: a suffix for file names, a title, and the values."""
     if not names:
         return [("", "", {})]
-    columns = np.stack([table[name] for name in names], axis=1)
     return [
         (
             "".join(f"_{name}_{value:g}" for name, value in zip(names, values)),
             ", ".join(f"{name} {value:g}" for name, value in zip(names, values)),
             dict(zip(names, values)),
         )
-        for values in np.unique(columns, axis=0)
+        for values in table[names].drop_duplicates().sort_values(names).to_numpy()
     ]
 
 
 def at(table, values):
     """The rows of a table with these values of parameters."""
-    selected = np.ones(len(table["friction"]), bool)
+    selected = np.ones(len(table), bool)
     for name, value in values.items():
         selected &= table[name] == value
-    return rows_where(table, selected)
-
-
-def read_followed(folder):
-    """branches.csv and critical.csv; none where eigenvalues were not followed."""
-    if not (folder / "branches.csv").exists():
-        return None
-    branches = read_table(folder / "branches.csv",
-                          ("active_set", "branch", "growth_rate_1_per_s", "frequency_hz", "in_band") + PARAMETERS)  # fmt: skip
-    with open(folder / "critical.csv", newline="") as file:
-        rows = list(csv.DictReader(file))
-    names = PARAMETERS + ("frequency_hz",)
-    critical = {name: np.array([float(row[name]) for row in rows]) for name in names}
-    critical["loss"] = np.array([row["direction"] == "loss" for row in rows], bool)
-    return branches, critical
+    return table[selected]
 
 
 def pieces(branches):
     """The parts of each branch with one active set, as rows by ascending friction, and the ends of the active sets in order."""
-    order = np.lexsort((branches["friction"], branches["branch"], branches["active_set"]))
-    sorted_rows = rows_where(branches, order)
-    keys = np.stack([sorted_rows["active_set"], sorted_rows["branch"]], axis=1)
-    cuts = np.flatnonzero(np.any(keys[1:] != keys[:-1], axis=1)) + 1
-    lines = [rows_where(sorted_rows, part) for part in np.split(np.arange(len(order)), cuts)]
-    ends = []
-    for number in np.unique(branches["active_set"]):
-        if number == 0:
-            continue  # it stands for all sets that are passed through between points
-        friction = branches["friction"][branches["active_set"] == number]
-        ends.append((friction.min(), friction.max()))
-    return lines, sorted(ends)
+    lines = [rows.sort_values("friction") for _, rows in branches.groupby(["active_set", "branch"])]
+    # Set 0 stands for all sets that are passed through between points.
+    friction = branches[branches["active_set"] != 0].groupby("active_set")["friction"]
+    return lines, sorted(zip(friction.min(), friction.max()))
 
 
 def draw_followed(upper, lower, scale, followed):
     """Lines along the branches, their critical frictions, and the intervals of the active sets in turn."""
     branches, critical = followed
-    lines, ends = pieces(rows_where(branches, branches["in_band"] > 0))
+    lines, ends = pieces(branches[branches["in_band"] > 0])
     for line in lines:
         style = dict(color="0.7", linewidth=0.6, zorder=1)
         upper.plot(line["friction"], line["frequency_hz"] / scale, **style)
@@ -96,16 +75,17 @@ def draw_followed(upper, lower, scale, followed):
         for axes in (upper, lower):
             axes.axvspan(low, high, color="#eef3fa", zorder=0)
     for loss, marker, label in ((True, "x", "stability is lost"), (False, "+", "and regained")):
-        chosen = critical["loss"] == loss
-        if chosen.any():
-            upper.plot(critical["friction"][chosen], critical["frequency_hz"][chosen] / scale, marker, color="black", markersize=6,
+        chosen = critical[(critical["direction"] == "loss") == loss]
+        if len(chosen):
+            upper.plot(chosen["friction"], chosen["frequency_hz"] / scale, marker, color="black", markersize=6,
                        markeredgewidth=0.9, zorder=4, label=label)  # fmt: skip
 
 
 def draw_modes(table, name, title, followed=None):
-    """Frequency and growth of every mode against the parameter `name`, with what read_followed() has found for it."""
+    """Frequency and growth of every mode against the parameter `name`, with its branches and critical frictions."""
+    table = {column: values.to_numpy() for column, values in table.items()}
     abscissa, growth = table[name], table["growth_rate_1_per_s"]
-    grows, open_ = counted_unstable(table), table["verdict"] == "undecided"
+    grows, open_ = table["grows"], table["verdict"] == "undecided"
     kilo = np.max(table["frequency_hz"], initial=0) >= 2000
     scale = 1000 if kilo else 1
     frequency = table["frequency_hz"] / scale
@@ -247,14 +227,14 @@ def main():
     folder = Path(sys.argv[1])
     results = Results(folder)
     try:
-        table = read_eigenvalues(folder / "eigenvalues.csv")
-        stability = read_table(folder / "stability_map.csv", PARAMETERS + ("unstable_modes", "largest_growth_rate_1_per_s"), ("verdict",))
-        followed = read_followed(folder)
-    except (OSError, ValueError) as error:
+        run = squeal.open(folder)
+        table, stability = run.eigenvalues, run.stability_map
+        followed = None if run.branches is None else (run.branches, run.critical)
+    except squeal.ResultsError as error:
         sys.exit(f"plot_stability: {error}")
     if len(table["friction"]) == 0:
         sys.exit(f"plot_stability: {folder / 'eigenvalues.csv'} holds no eigenvalue")
-    swept = [name for name in PARAMETERS if len(np.unique(stability[name])) > 1]
+    swept = run.swept()
     abscissa = swept[0] if swept else "friction"
     for suffix, title, values in slices(table, swept[1:]):
         lines = tuple(at(rows, values) for rows in followed) if followed and abscissa == "friction" else None
@@ -263,7 +243,7 @@ def main():
     if len(swept) < 2:
         return
     across, up = axes_of_map(stability, swept)
-    largest = np.nanmax(stability["largest_growth_rate_1_per_s"], initial=0)
+    largest = max(0, stability["largest_growth_rate_1_per_s"].max())
     for suffix, title, values in slices(stability, [name for name in swept if name not in (across, up)]):
         results.save(f"stability_map{suffix}.png", draw_map(at(stability, values), across, up, title, largest), dpi=150)
         plt.close()

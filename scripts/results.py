@@ -21,9 +21,17 @@ class Results:
 
     def save(self, name, figure, **how):
         """Writes a figure, which appears under its name when it is whole. Nothing that is not listed is overwritten."""
+        self.write(name, lambda path: figure.savefig(path, format=name.rpartition(".")[2], **how))
+
+    def save_text(self, name, text):
+        """Writes a text in the same way."""
+        self.write(name, lambda path: path.write_text(text, encoding="utf-8"))
+
+    def write(self, name, write):
+        """Calls write(path) and puts what it writes there in its place in the same way."""
         waiting = self.folder / f".{name}.{os.getpid()}"
         try:
-            figure.savefig(waiting, format=name.rpartition(".")[2], **how)
+            write(waiting)
             with waiting.open("rb") as file:
                 os.fsync(file.fileno())
             with self._lock():

@@ -1,0 +1,299 @@
+"""The report of a run: one HTML file that opens offline in a browser."""
+import base64
+import html
+import json
+import math
+import re
+import zlib
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkDataObject
+from vtkmodules.vtkFiltersCore import vtkFeatureEdges, vtkThreshold, vtkTriangleFilter
+from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
+
+from squeal.grid import add_points, grid_of
+from squeal.results import PARAMETERS, ResultsError
+
+WEB = Path(__file__).resolve().parents[2] / "web"
+# Debian's packages libjs-three and libjs-chart.js: program, controls of the view, licences.
+SCRIPTS = {
+    "three.js": ("/usr/share/javascript/three/three.min.js", "/usr/share/doc/libjs-three/copyright"),
+    "its orbit controls": ("/usr/share/javascript/three/examples/js/controls/OrbitControls.js", None),
+    "Chart.js": ("/usr/share/javascript/chart.js/chart.min.js", "/usr/share/doc/libjs-chart.js/copyright"),
+}
+MOST_BYTES = 24_000_000  # of all shapes in the file
+SMALL = 1e-300
+
+
+def build(results):
+    """Returns the text of the HTML file."""
+    template = (WEB / "report.html").read_text()
+    scripts, licences = _scripts()
+    data, blobs = _data(results, with_shapes=bool(scripts))
+    parts = {
+        "title": html.escape(f"{data['case']}: brake squeal"),
+        "style": (WEB / "report.css").read_text(),
+        "verdict": html.escape(data["verdict"]),
+        "certificate": "".join(f"<li>{html.escape(line)}</li>" for line in data["certificate"]),
+        "data": json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c"),
+        "blobs": "\n".join(f'<script type="application/octet-stream" id="blob-{name}">{text}</script>' for name, text in blobs.items()),
+        "libraries": "\n".join(f"<script>{_script_safe(text)}</script>" for text in scripts),
+        "script": _script_safe((WEB / "report.js").read_text()) if scripts else "",
+        "pictures": _pictures(results) if not scripts else "",
+        "licences": "".join(f"<h3>{html.escape(name)}</h3><pre>{html.escape(text)}</pre>" for name, text in licences),
+    }
+    return re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], template)
+
+
+def _script_safe(text):
+    """JavaScript that cannot end the script element it stands in."""
+    return text.replace("</", "<\\/").replace("<!--", "<\\!--")
+
+
+def _scripts():
+    """The libraries and their licences; none of either if one is missing."""
+    if any(not Path(program).exists() for program, _ in SCRIPTS.values()):
+        return [], []
+    programs = [Path(program).read_text() for program, _ in SCRIPTS.values()]
+    return programs, [(name, Path(text).read_text()) for name, (_, text) in SCRIPTS.items() if text and Path(text).exists()]
+
+
+def _pictures(results):
+    """The static pictures of the folder, for a report without libraries."""
+    found = sorted(results.folder.glob("stability*.png")) + sorted(results.folder.glob("mode*.png"))
+    images = "".join(
+        f'<img alt="{html.escape(path.stem)}" src="data:image/png;base64,{base64.b64encode(path.read_bytes()).decode()}">' for path in found
+    )
+    return (
+        "<p class=note>Diagrams and modes cannot be turned here: the libraries three.js and Chart.js were not installed when the report was "
+        f"made (packages libjs-three, libjs-chart.js).</p>{images}"
+    )
+
+
+def _blob(array):
+    return base64.b64encode(zlib.compress(np.ascontiguousarray(array).tobytes(), 9)).decode()
+
+
+def _columns(table):
+    """A table as lists by column, without numbers that JSON lacks."""
+    if table is None:
+        return None
+    return {
+        name: [None if isinstance(value, float) and not math.isfinite(value) else value for value in column.tolist()]
+        for name, column in table.items()
+        if not np.iscomplexobj(column)
+    }
+
+
+def _data(results, with_shapes):
+    summary, eigenvalues = results.summary, results.eigenvalues
+    kept = results.kept_modes()
+    data = {
+        "case": results.folder.resolve().name,
+        "version": summary.get("version", ""),
+        "verdict": verdict(results),
+        "certificate": certificate(results),
+        "parameters": list(PARAMETERS),
+        "swept": results.swept(),
+        "bandHz": max((point.get("band_top_hz") or 0 for point in summary.get("frictions", [])), default=0),
+        "points": _columns(results.stability_map),
+        "eigenvalues": _columns(eigenvalues),
+        "branches": _columns(results.branches),
+        "critical": _columns(results.critical),
+        "frictionWork": _columns(results.friction_work),
+        "sensitivities": _columns(results.sensitivities),
+        "steady": _steady_forces(summary),
+        "stages": {name: [stage.get("wall_s", 0), stage.get("peak_memory_bytes", 0)] for name, stage in summary.get("stages", {}).items()},
+        "wallSeconds": summary.get("wall_s", 0),
+        "sizes": {name: summary[name] for name in ("ranks", "nodes", "cells", "contact_nodes", "dofs") if name in summary},
+        "options": {name: str(value) for name, value in summary.get("options", {}).items()},
+        "colours": [[round(255 * part) for part in colour[:3]] for colour in matplotlib.colormaps["viridis"](np.linspace(0, 1, 32))],
+        "shapes": [],
+        "skin": None,
+        "left": [],
+    }
+    blobs = {}
+    if with_shapes and results.mesh is not None and len(kept):
+        _add_shapes(results, kept, data, blobs)
+    elif with_shapes and results.mesh is None:
+        data["left"].append("Matrices from files have no mesh, so that no shapes are shown.")
+    elif with_shapes:
+        data["left"].append("No shape of an unstable mode was kept (-flutter_shapes).")
+    return data, blobs
+
+
+def _steady_forces(summary):
+    """Forces of steady sliding, a row for each point and interface."""
+    rows = []
+    for point in summary.get("frictions", []):
+        for name, found in (point.get("steady") or {}).get("interfaces", {}).items():
+            normal, friction = (np.linalg.norm(found.get(key) or [0]) for key in ("normal_force_n", "friction_force_n"))
+            rows.append([*(point[key] for key in PARAMETERS), name, float(normal), float(friction), point["steady"].get("open_nodes", 0)])
+    return rows
+
+
+def verdict(results):
+    """One sentence on the stability of the sweep."""
+    table, points, critical = results.eigenvalues, results.stability_map, results.critical
+    grows = table[table["grows"]]
+    if len(points) == 0:
+        return "No point of the sweep has a steady sliding state."
+    where = "at all points of the sweep" if len(points) > 1 else f"at friction {points['friction'].iloc[0]:g}"
+    undecided = int((table["verdict"] == "undecided").sum())
+    if grows.empty:
+        rest = f"; {undecided} eigenvalues are undecided" if undecided else ""
+        return f"Stable {where}{rest}." if len(table) else f"No eigenvalue was found in the band {where}."
+    worst = grows.loc[grows["growth_rate_1_per_s"].idxmax()]
+    begins = None
+    if critical is not None and len(critical) and len(results.swept()) <= 1:
+        lost = critical[critical["direction"] == "loss"]["friction"]
+        below = points[points["unstable_modes"] > 0]["friction"].min()
+        if len(lost) and lost.min() <= below:
+            begins = f"Stable up to friction {lost.min():.6g}" if lost.min() > 0 else "Unstable as soon as there is friction"
+    if begins is None:
+        first = points[points["unstable_modes"] > 0]["friction"].min()
+        begins = f"Unstable from friction {first:g} on" if first > points["friction"].min() else f"Unstable at friction {first:g} already"
+    most = int(points["unstable_modes"].max())
+    others = "".join(f", {name} {worst[name]:g}" for name in PARAMETERS[1:] if name in results.swept())
+    return (
+        f"{begins}; above it, up to {most} unstable mode{'s' if most > 1 else ''} at once. "
+        f"The fastest grows at {worst['frequency_hz']:.6g} Hz with {worst['growth_rate_1_per_s']:.4g} 1/s "
+        f"(damping {100 * worst['damping_ratio']:.3g} %) at friction {worst['friction']:g}{others}."
+    )
+
+
+def certificate(results):
+    """What the verdict rests on, in sentences."""
+    table, summary = results.eigenvalues, results.summary
+    certified = int((table["certified"] == 1).sum()) if "certified" in table else 0
+    lines = [f"{certified} of {len(table)} eigenvalues are certified against the full-order problem"]
+    if "error_estimate" in table and len(table):
+        lines[0] += (
+            f": backward errors up to {table['backward_error'].max():.1e}, estimated errors |δs|/|s| up to {table['error_estimate'].max():.1e}"
+        )
+    lines[0] += "."
+    lines += [
+        followed["statement"][0].upper() + followed["statement"][1:] + "."
+        for active in summary.get("active_sets", [])
+        for followed in active.get("followed", [])
+        if followed.get("statement")
+    ][:3]
+    failed = [point for point in summary.get("frictions", []) if not (point.get("steady") or {"converged": True}).get("converged", True)]
+    if failed:
+        lines.append(f"{len(failed)} points of the sweep have no steady sliding state: " + ", ".join(f"{p['friction']:g}" for p in failed[:8]) + ".")
+    return lines
+
+
+class Skin:
+    """The boundary of the bodies, in triangles on corner nodes; each body has nodes of its own."""
+
+    def __init__(self, mesh):
+        grid = grid_of(mesh)
+        add_points(grid, "node", np.arange(len(mesh.coordinates), dtype=np.int64))
+        self.nodes, self.triangles, self.lines, self.bodies = [], [], [], []
+        first, triangles, lines = 0, 0, 0
+        for number, name in enumerate(mesh.bodies):
+            surface, edges = _surface_of(grid, number)
+            if surface is None:
+                continue
+            nodes = vtk_to_numpy(surface.GetPointData().GetArray("node"))
+            place = {node: index for index, node in enumerate(nodes)}
+            faces = _cells(surface.GetPolys(), 3)
+            sides = vtk_to_numpy(edges.GetPointData().GetArray("node"))[_cells(edges.GetLines(), 2)] if edges.GetNumberOfLines() else []
+            sides = np.array([[place[a], place[b]] for a, b in sides], np.int64).reshape(-1, 2)
+            self.nodes.append(nodes)
+            self.triangles.append(first + faces)
+            self.lines.append(first + sides)
+            self.bodies.append({"name": name, "nodes": [first, first + len(nodes)], "triangles": [triangles, triangles + len(faces)],
+                                "lines": [lines, lines + len(sides)]})  # fmt: skip
+            first, triangles, lines = first + len(nodes), triangles + len(faces), lines + len(sides)
+        self.nodes, self.triangles, self.lines = (np.concatenate(part) for part in (self.nodes, self.triangles, self.lines))
+
+
+def _surface_of(grid, body):
+    chosen = vtkThreshold()
+    chosen.SetInputData(grid)
+    chosen.SetInputArrayToProcess(0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_CELLS, "body")
+    chosen.SetLowerThreshold(body - 0.5)
+    chosen.SetUpperThreshold(body + 0.5)
+    outside = vtkDataSetSurfaceFilter()
+    outside.SetInputConnection(chosen.GetOutputPort())
+    outside.SetNonlinearSubdivisionLevel(0)
+    triangles = vtkTriangleFilter()
+    triangles.SetInputConnection(outside.GetOutputPort())
+    triangles.PassLinesOff()
+    triangles.PassVertsOff()
+    edges = vtkFeatureEdges()
+    edges.SetInputConnection(outside.GetOutputPort())
+    edges.SetFeatureAngle(30)
+    edges.ColoringOff()
+    edges.NonManifoldEdgesOff()
+    edges.Update()
+    triangles.Update()
+    surface = triangles.GetOutput()
+    return (surface, edges.GetOutput()) if surface.GetNumberOfPolys() else (None, None)
+
+
+def _cells(array, corners):
+    return vtk_to_numpy(array.GetConnectivityArray()).reshape(-1, corners).astype(np.int64)
+
+
+def _add_shapes(results, kept, data, blobs):
+    mesh = results.mesh
+    skin = Skin(mesh)
+    places = np.pad(mesh.coordinates, ((0, 0), (0, 3 - mesh.coordinates.shape[1])))[skin.nodes]
+    low, high = places.min(axis=0), places.max(axis=0)
+    size = max((high - low).max(), SMALL)
+    blobs["places"] = _blob(np.round((places - (low + high) / 2) / size * 65534).astype(np.int16))
+    blobs["triangles"] = _blob(skin.triangles.astype(np.uint32))
+    blobs["lines"] = _blob(skin.lines.astype(np.uint32))
+    touching, fields, points = _contact(results, skin)
+    blobs["touching"] = _blob(np.flatnonzero(touching).astype(np.uint32))
+    blobs["steady"] = _blob(fields.astype(np.float32))
+    data["skin"] = {"nodes": len(skin.nodes), "size": size, "bodies": skin.bodies, "touching": int(touching.sum()), "steady": points}
+    total = sum(len(text) for text in blobs.values())
+    order = kept.sort_values("growth_rate_1_per_s", ascending=False)
+    for row in order.itertuples():
+        mode = results.mode(int(row.mode), **{name: getattr(row, name) for name in PARAMETERS})
+        shape = np.pad(mode.shape, ((0, 0), (0, 3 - mode.shape.shape[1])))
+        largest = max(np.abs(np.concatenate([shape.real, shape.imag])).max(), SMALL)
+        parts = np.concatenate([shape.real[skin.nodes], shape.imag[skin.nodes]], axis=1) / largest
+        text = _blob(np.round(127 * parts).astype(np.int8))
+        if total + len(text) > MOST_BYTES:
+            data["left"].append(f"The shapes of {len(order) - len(data['shapes'])} slower growing modes were left out: the file would be too large.")
+            break
+        total += len(text)
+        name = f"shape{len(data['shapes'])}"
+        blobs[name] = text
+        entry = {"blob": name, "mode": int(row.mode), "at": [float(getattr(row, key)) for key in PARAMETERS], "work": None}
+        if mode.friction_work is not None and touching.any():
+            blobs[name + "work"] = _blob(mode.friction_work[skin.nodes[touching], 1].astype(np.float32))
+            entry["work"] = name + "work"
+        data["shapes"].append(entry)
+    if any(kind in (9, 10, 11, 12, 13, 14, 16, 17, 18, 19) for kind in mesh.cells):
+        data["left"].append("Nodes amid the edges of cells are not drawn.")
+    data["left"].append("Shapes are drawn to 1/127 of their largest displacement, places to 1/65534 of the size of the brake.")
+
+
+def _contact(results, skin):
+    """Which nodes of the skin are contact nodes; pressure and gap, [point, 2, contact node]; and the parameters of the points."""
+    fields, points = [], []
+    for at in results.points.to_dict("records"):
+        try:
+            field = results.fields(**at).get("contact_pressure_gap")
+        except ResultsError:  # a point without steady sliding
+            continue
+        if field is not None and field.shape[1] >= 2:
+            fields.append(field[:, :2])
+            points.append([at[name] for name in PARAMETERS])
+    if not fields:
+        return np.zeros(len(skin.nodes), bool), np.zeros((0, 2, 0)), []
+    touches = np.any([np.any(field != 0, axis=1) for field in fields], axis=0)
+    touching = touches[skin.nodes]
+    return touching, np.stack([field[skin.nodes[touching]].T for field in fields]), points
+
+
+__all__ = ["Skin", "build", "certificate", "verdict"]

@@ -1,0 +1,263 @@
+"""The folder of a run: its tables, modes and fields."""
+import dataclasses
+import functools
+import json
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pandas as pd
+
+PARAMETERS = ("friction", "speed", "pressure", "damping")
+TABLES = ("eigenvalues", "stability_map", "branches", "critical", "contact_path", "friction_work", "sensitivities")
+# Without an estimate of its error, a growth rate below this fraction of |s| is taken as round-off.
+NOISE = 1e-6
+
+
+class ResultsError(Exception):
+    """A folder holds no complete results, or not what was asked for."""
+
+
+def open(folder):  # noqa: A001
+    """Returns the results in a folder. Raises ResultsError if they are missing or not complete."""
+    return Results(folder)
+
+
+class Results:
+    """The results of one run. Files are read when they are first asked for."""
+
+    def __init__(self, folder):
+        self.folder = Path(folder)
+        try:
+            self.summary = json.loads((self.folder / "summary.json").read_text())
+        except FileNotFoundError:
+            raise ResultsError(f"{self.folder} holds no complete results: there is no summary.json") from None
+        except (OSError, ValueError) as error:
+            raise ResultsError(f"{self.folder / 'summary.json'}: {error}") from None
+
+    def __repr__(self):
+        return f"<squeal results in {self.folder}: {len(self.points)} points>"
+
+    def table(self, name):
+        """A .csv file of the folder by its name without ending; None where the run wrote none."""
+        path = self.folder / f"{name}.csv"
+        if not path.exists():
+            return None
+        try:
+            return pd.read_csv(path, float_precision="round_trip")
+        except (OSError, ValueError) as error:
+            raise ResultsError(f"{path}: {error}") from None
+
+    @functools.cached_property
+    def eigenvalues(self):
+        """All eigenvalues of the band, with a column `s` of complex numbers, 1/s, and `grows`: whether one counts as unstable, by its
+        verdict or, where that is `uncertified`, since it grows by more than round-off."""
+        table = self._needed("eigenvalues", (*PARAMETERS, "mode", "growth_rate_1_per_s", "angular_frequency_rad_per_s", "verdict"))
+        s = table["growth_rate_1_per_s"] + 1j * table["angular_frequency_rad_per_s"]
+        uncertified = (table["verdict"] == "uncertified") & (table["growth_rate_1_per_s"] > NOISE * s.abs())
+        return table.assign(s=s, grows=(table["verdict"] == "unstable") | uncertified)
+
+    @functools.cached_property
+    def stability_map(self):
+        """A row for each point of the sweep."""
+        return self._needed("stability_map", (*PARAMETERS, "unstable_modes", "largest_growth_rate_1_per_s", "verdict"))
+
+    @property
+    def points(self):
+        """The parameters of the points of the sweep."""
+        return self.stability_map[list(PARAMETERS)]
+
+    def swept(self):
+        """The names of the parameters with several values."""
+        return [name for name in PARAMETERS if self.points[name].nunique() > 1]
+
+    @functools.cached_property
+    def branches(self):
+        """The eigenvalues followed over the friction; None where they were not."""
+        return self.table("branches")
+
+    @functools.cached_property
+    def critical(self):
+        """The frictions at which stability changes; None where eigenvalues were not followed."""
+        return self.table("critical")
+
+    @functools.cached_property
+    def contact_path(self):
+        """Where contact nodes open and close between the points; None where that was not found."""
+        return self.table("contact_path")
+
+    @functools.cached_property
+    def friction_work(self):
+        """What friction on each interface adds to the growth of the modes kept; None for matrices from files."""
+        return self.table("friction_work")
+
+    @functools.cached_property
+    def sensitivities(self):
+        """Derivatives of eigenvalues; None without -flutter_sensitivities."""
+        return self.table("sensitivities")
+
+    @functools.cached_property
+    def free_modes(self):
+        """Free modes of the first active set; None where there are none, as with the direct method."""
+        return self.table("modes")
+
+    def steady(self, **at):
+        """Gap, pressure, forces and state of each contact node at a point; None where steady sliding was not found."""
+        return self.table("steady_" + self._point(at))
+
+    def kept_modes(self):
+        """The complex modes whose shapes were kept: parameters, number in the list of the point, s, verdict."""
+        rows = []
+        with self._fields() as file:
+            for group in file.get("flutter", {}).values():
+                numbers = sorted(int(name.split("_")[1]) for name in group if name.endswith("_real"))
+                rows += [{**{name: group.attrs[name] for name in PARAMETERS}, "mode": number} for number in numbers]
+        kept = pd.DataFrame(rows, columns=[*PARAMETERS, "mode"])
+        return kept.merge(self.eigenvalues, on=[*PARAMETERS, "mode"], how="left")
+
+    def mode(self, number, **at):
+        """A complex mode whose shape was kept, by its number at a point. Raises ResultsError where there is none."""
+        with self._fields() as file:
+            group = self._group(file, "flutter", at)
+            name = f"mode_{number:03d}"
+            if group is None or f"{name}_real" not in group:
+                raise ResultsError(f"{self.folder / 'results.h5'}: no shape of mode {number} was kept at {_words(at) or 'this point'}")
+            growth, angular = group["eigenvalues"][number - 1, :2]
+            shape = group[f"{name}_real"][()] + 1j * group[f"{name}_imaginary"][()]
+            work = group[f"{name}_friction_work"][()] if f"{name}_friction_work" in group else None
+            values = {name: float(group.attrs[name]) for name in PARAMETERS}
+        return Mode(self, values, number, complex(growth, angular), shape, work)
+
+    def fastest_mode(self, **at):
+        """The fastest growing mode whose shape was kept, of the points with these values of parameters; None where none was kept."""
+        kept = _rows(self.kept_modes(), at)
+        if kept.empty:
+            return None
+        row = kept.loc[kept["growth_rate_1_per_s"].idxmax()]
+        return self.mode(int(row["mode"]), **{name: row[name] for name in PARAMETERS})
+
+    def fields(self, **at):
+        """The fields of steady sliding at a point by name, node by node: `displacement` in m, `contact_pressure_gap`."""
+        with self._fields() as file:
+            group = self._group(file, "steady", at)
+            if group is None:
+                raise ResultsError(f"{self.folder / 'results.h5'}: there is no steady sliding at {_words(at) or 'this point'}")
+            return {name: data[()] for name, data in group.items()}
+
+    @functools.cached_property
+    def mesh(self):
+        """Coordinates in m, cells by gmsh's element type, and names of the bodies; None for matrices from files."""
+        with self._fields() as file:
+            if "mesh" not in file:
+                return None
+            group = file["mesh"]
+            names = group.attrs["bodies"]
+            cells = {
+                int(name.split("_")[1]): {key: data[()] for key, data in block.items()}
+                for name, block in group.items()
+                if name.startswith("cells_")
+            }
+            return Mesh(group["coordinates"][()], cells, (names.decode() if isinstance(names, bytes) else str(names)).split(","))
+
+    def grid(self):
+        """The mesh as a vtkUnstructuredGrid, with the number of the body of each cell."""
+        from squeal.grid import grid_of  # VTK takes a second to load
+
+        if self.mesh is None:
+            raise ResultsError(f"{self.folder}: results of matrices have no mesh")
+        return grid_of(self.mesh)
+
+    def _needed(self, name, columns):
+        table = self.table(name)
+        if table is None:
+            raise ResultsError(f"{self.folder / name}.csv is missing")
+        missing = [column for column in columns if column not in table]
+        if missing:
+            raise ResultsError(f"{self.folder / name}.csv: there is no column {', '.join(missing)}")
+        return table
+
+    def _fields(self):
+        path = self.folder / "results.h5"
+        try:
+            return h5py.File(path)
+        except OSError as error:
+            raise ResultsError(f"{path}: {error}") from None
+
+    def _point(self, at):
+        """The name of a point in the names of files, as the program makes it: friction, and what else is not 1."""
+        values = self._only_point(at)
+        return f"{values['friction']:g}" + "".join(f"_{name}_{values[name]:g}" for name in PARAMETERS[1:] if values[name] != 1)
+
+    def _only_point(self, at):
+        found = _rows(self.points, at)
+        if len(found) != 1:
+            raise ResultsError(f"{self.folder}: {len(found)} points of the sweep have {_words(at) or 'no given parameters'}; name one")
+        return found.iloc[0]
+
+    def _group(self, file, kind, at):
+        values = self._only_point(at)
+        for group in file.get(kind, {}).values():
+            if all(np.isclose(group.attrs[name], values[name], rtol=1e-12, atol=0) for name in PARAMETERS):
+                return group
+        return None
+
+
+@dataclasses.dataclass
+class Mesh:
+    """The mesh of a run."""
+
+    coordinates: np.ndarray  # m, [node, 3]
+    cells: dict  # by gmsh's element type: `nodes` [cell, node of the cell], `body` and `tag` [cell, 1]
+    bodies: list  # their names
+
+
+@dataclasses.dataclass
+class Mode:
+    """A complex mode: the motion is Re(shape exp(s t))."""
+
+    results: Results
+    at: dict  # parameters of its point
+    number: int  # in the list of the point, from 1
+    s: complex  # 1/s
+    shape: np.ndarray  # [node, components]; rows of the matrices for a run without mesh
+    friction_work: np.ndarray  # what friction does in a cycle, [node, 3]; None without contact
+
+    @property
+    def frequency(self):
+        """Hz"""
+        return self.s.imag / (2 * np.pi)
+
+    @property
+    def growth(self):
+        """1/s"""
+        return self.s.real
+
+    def displacement(self, phase=0.0):
+        """Re(shape exp(i phase)), of largest amplitude 1, [node, 3]."""
+        amplitude = np.sqrt((np.abs(self.shape) ** 2).sum(axis=1)).max()
+        moved = (self.shape * np.exp(1j * phase)).real / amplitude
+        return np.pad(moved, ((0, 0), (0, 3 - moved.shape[1])))
+
+    def grid(self, phase=0.0):
+        """The mesh as a vtkUnstructuredGrid with the arrays `displacement`, as displacement() gives it, and `amplitude`."""
+        from squeal.grid import add_points
+
+        grid = self.results.grid()
+        add_points(grid, "displacement", self.displacement(phase))
+        amplitude = np.sqrt((np.abs(self.shape) ** 2).sum(axis=1))
+        add_points(grid, "amplitude", amplitude / amplitude.max())
+        return grid
+
+
+def _rows(table, at):
+    unknown = [name for name in at if name not in PARAMETERS]
+    if unknown:
+        raise ResultsError(f"{', '.join(unknown)} is no parameter of a sweep: {', '.join(PARAMETERS)}")
+    chosen = np.ones(len(table), bool)
+    for name, value in at.items():
+        chosen &= np.isclose(table[name], value, rtol=1e-12, atol=1e-300)
+    return table[chosen]
+
+
+def _words(at):
+    return ", ".join(f"{name} {value:g}" for name, value in at.items())

@@ -1,0 +1,124 @@
+#!/usr/bin/python3
+"""The package squeal, on the results of two runs made here: test_results.py PROGRAM."""
+import csv
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader
+
+repository = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(repository / "python"))
+sys.dont_write_bytecode = True
+import squeal  # noqa: E402
+
+PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else str(repository / "build/squeal")
+
+
+def rows(path):
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+class Results(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(temporary.cleanup)
+        cls.folder, cls.slabs, cls.matrices = (Path(temporary.name) / name for name in ("layers", "slabs", "external"))
+        for case, folder, words in (
+            ("two_layers", cls.folder, ["-mesh_set", "nx=6,ny_disc=2,ny_pad=2,order=2", "-modes_count", "40", "-flutter_pressure", "1,2"]),
+            ("two_layers_antiplane", cls.slabs, ["-mesh_set", "nx=4,ny_disc=2,ny_pad=2,order=2", "-modes_count", "30"]),
+            ("external", cls.matrices, []),
+        ):
+            subprocess.run([PROGRAM, "-options_file", repository / f"options/{case}.yaml", "-report_dir", folder, "-quiet", *words],
+                           check=True, stdout=subprocess.DEVNULL)  # fmt: skip
+        cls.run_ = squeal.open(cls.folder)
+
+    def test_tables(self):
+        run, table = self.run_, rows(self.folder / "eigenvalues.csv")
+        self.assertEqual(len(run.eigenvalues), len(table))
+        for index in (0, len(table) // 2, -1):
+            found = run.eigenvalues.iloc[index]
+            self.assertEqual(found["s"], complex(float(table[index]["growth_rate_1_per_s"]), float(table[index]["angular_frequency_rad_per_s"])))
+            self.assertEqual(found["verdict"], table[index]["verdict"])
+        self.assertEqual(int(run.eigenvalues["grows"].sum()), sum(row["verdict"] == "unstable" for row in table))
+        self.assertEqual(run.swept(), ["friction", "pressure"])
+        self.assertEqual(len(run.points), len(rows(self.folder / "stability_map.csv")))
+        self.assertIsNone(run.sensitivities)
+        self.assertIsNone(squeal.open(self.matrices).friction_work)
+
+    def test_steady_tables_by_parameters(self):
+        table = self.run_.steady(friction=0.3, pressure=2)
+        self.assertEqual(len(table), len(rows(self.folder / "steady_0.3_pressure_2.csv")))
+        with self.assertRaisesRegex(squeal.ResultsError, "2 points of the sweep have friction 0.3; name one"):
+            self.run_.steady(friction=0.3)
+        with self.assertRaisesRegex(squeal.ResultsError, "0 points of the sweep have friction 0.7"):
+            self.run_.steady(friction=0.7)
+        with self.assertRaisesRegex(squeal.ResultsError, "temperature is no parameter of a sweep: friction, speed"):
+            self.run_.steady(temperature=20)
+
+    def test_modes(self):
+        mode = self.run_.fastest_mode(friction=0.5, pressure=2)
+        kept = self.run_.kept_modes().query("friction == 0.5 and pressure == 2")
+        self.assertEqual(mode.growth, kept["growth_rate_1_per_s"].max())
+        listed = self.run_.eigenvalues.query(f"friction == 0.5 and pressure == 2 and mode == {mode.number}").iloc[0]
+        self.assertAlmostEqual(abs(mode.s - listed["s"]), 0, delta=1e-14 * abs(mode.s))
+        self.assertAlmostEqual(mode.frequency, listed["frequency_hz"], delta=1e-12 * mode.frequency)
+        np.testing.assert_allclose(mode.displacement(np.pi), -mode.displacement(0), atol=1e-15)
+        self.assertAlmostEqual(np.linalg.norm(mode.displacement(0) + 1j * mode.displacement(-np.pi / 2), axis=1).max(), 1, delta=1e-14)
+        with self.assertRaisesRegex(squeal.ResultsError, "no shape of mode 999 was kept at friction 0.5, pressure 2"):
+            self.run_.mode(999, friction=0.5, pressure=2)
+
+    def test_grids_are_those_that_the_program_writes_for_paraview(self):
+        """Cells in VTK's order of nodes: those of the .pvtu, of elements of second order here, cell by cell."""
+        for folder, nodes in ((self.folder, 9), (self.slabs, 20)):
+            reader = vtkXMLPUnstructuredGridReader()
+            reader.SetFileName(str(next((folder / "vtk").glob("steady*.pvtu"))))
+            reader.Update()
+            found = squeal.open(folder).grid()
+            self.assertGreaterEqual(found.GetCell(0).GetNumberOfPoints(), nodes)
+            self.assertEqual(self.cells(found), self.cells(reader.GetOutput()))
+
+    @staticmethod
+    def cells(grid):
+        """Types of the cells and places of their nodes in their order."""
+        places = vtk_to_numpy(grid.GetPoints().GetData())
+        of_cell = [[grid.GetCell(i).GetPointId(k) for k in range(grid.GetCell(i).GetNumberOfPoints())] for i in range(grid.GetNumberOfCells())]
+        return sorted((grid.GetCellType(i), np.round(places[of_cell[i]], 9).tolist()) for i in range(len(of_cell)))
+
+    def test_grids_of_modes_hold_their_displacement(self):
+        mode = self.run_.fastest_mode(friction=0.5, pressure=1)
+        moved = vtk_to_numpy(mode.grid(0.3).GetPointData().GetArray("displacement"))
+        np.testing.assert_array_equal(moved, mode.displacement(0.3))
+
+    def test_matrices_have_vectors_but_no_mesh(self):
+        run = squeal.open(self.matrices)
+        mode = run.fastest_mode(friction=1.2)
+        with h5py.File(self.matrices / "results.h5") as file:
+            np.testing.assert_array_equal(mode.shape.real, file[f"flutter/friction_1.2/mode_{mode.number:03d}_real"][()])
+        self.assertIsNone(run.mesh)
+        with self.assertRaisesRegex(squeal.ResultsError, "no mesh"):
+            run.grid()
+
+    def test_incomplete_results_are_refused_by_name(self):
+        with self.assertRaisesRegex(squeal.ResultsError, "/nowhere holds no complete results: there is no summary.json"):
+            squeal.open("/nowhere")
+        copy = self.folder.parent / "copy"
+        shutil.copytree(self.folder, copy, ignore=shutil.ignore_patterns("vtk", "results.h5"))
+        (copy / "eigenvalues.csv").write_text("friction,speed\n0,1\n")
+        run = squeal.open(copy)
+        with self.assertRaisesRegex(squeal.ResultsError, "eigenvalues.csv: there is no column pressure, damping, mode"):
+            run.eigenvalues
+        with self.assertRaisesRegex(squeal.ResultsError, "results.h5"):
+            run.mesh
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,244 @@
+#!/usr/bin/python3
+"""The report of a run, made by scripts/squeal-report and opened in Chromium: test_report.py PROGRAM."""
+import csv
+import json
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy as np
+from selenium import webdriver
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+from selenium.webdriver.chrome.service import Service
+from selenium.webdriver.support.ui import WebDriverWait
+
+repository = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(repository / "python"))
+sys.dont_write_bytecode = True
+import squeal  # noqa: E402
+from squeal import report  # noqa: E402
+
+PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else str(repository / "build/squeal")
+COARSE = "n_pad_theta=8,n_free_theta=12,n_mount=2,n_plate=1,n_inside=1,n_pad_r=4,n_hat=2,n_h_ring=2"
+
+
+def browser():
+    options = webdriver.ChromeOptions()
+    for word in ("headless=new", "no-sandbox", "disable-dev-shm-usage", "window-size=1280,800", "force-prefers-reduced-motion",
+                 "use-gl=angle", "use-angle=swiftshader", "enable-unsafe-swiftshader", "ignore-gpu-blocklist"):  # fmt: skip
+        options.add_argument("--" + word)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+    return webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
+
+
+def shown(value, digits):
+    """A number as the report shows it."""
+    return f"{float(f'{value:.{digits}g}'):.15g}" if abs(value) >= 1e-6 or value == 0 else None
+
+
+class Report(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.temporary.cleanup)
+        cls.folder = Path(cls.temporary.name) / "coarse"
+        subprocess.run([PROGRAM, "-options_file", repository / "options/disc_brake.yaml", "-modes_count", "60", "-mesh_set", COARSE,
+                        "-flutter_friction", "0,0.2,0.4,0.6", "-report_dir", cls.folder, "-quiet"],
+                       check=True, stdout=subprocess.DEVNULL)  # fmt: skip
+        subprocess.run([repository / "scripts/squeal-report", cls.folder], check=True, stdout=subprocess.DEVNULL)
+        with open(cls.folder / "eigenvalues.csv", newline="") as file:
+            cls.rows = list(csv.DictReader(file))
+        cls.driver = browser()
+        cls.addClassCleanup(cls.driver.quit)
+        cls.open_page(cls.folder / "report.html")
+
+    @classmethod
+    def open_page(cls, path):
+        cls.driver.get(path.as_uri())
+        WebDriverWait(cls.driver, 60).until(lambda driver: cls.run_script("return document.documentElement.dataset.ready"))
+
+    @classmethod
+    def run_script(cls, text, *arguments):
+        return cls.driver.execute_script(text, *arguments)
+
+    def element(self, name):
+        return self.driver.find_element(By.ID, name)
+
+    def select(self, friction, mode):
+        """Selects a mode and waits for its shape."""
+        self.driver.execute_async_script(
+            "const [friction, mode, done] = arguments; select(rows.find((i) => eigen.friction[i] === friction && eigen.mode[i] === mode));"
+            "showShape().then(done);", friction, mode)  # fmt: skip
+
+    def turn_to(self, degrees, amplitude):
+        self.run_script("play(false); element('amplitude').value = arguments[1]; view.phase = arguments[0] * Math.PI / 180; move();",
+                        degrees, amplitude)  # fmt: skip
+        return self.run_script("return element('canvas').toDataURL()")
+
+    def place_of(self, diagram, row):
+        """Where the point of a row of the table of eigenvalues lies on the screen, from the middle of the diagram."""
+        return self.run_script(
+            "const chart = charts[arguments[0]].chart; for (const set of [1, 2, 3]) { const k = chart.data.datasets[set].data.findIndex((p) =>"
+            " p.row === arguments[1]); if (k >= 0) { const p = chart.getDatasetMeta(set).data[k]; return [p.x - chart.width / 2, p.y - chart.height / 2]; } }",
+            diagram, row)  # fmt: skip
+
+    def move_to(self, diagram, row):
+        x, y = self.place_of(diagram, row)
+        return ActionChains(self.driver).move_to_element_with_offset(self.element(diagram), round(x), round(y))
+
+    def row_of(self, friction, mode):
+        return next(i for i, row in enumerate(self.rows) if float(row["friction"]) == friction and int(row["mode"]) == mode)
+
+    def kept(self):
+        return [(shape["at"][0], shape["mode"]) for shape in self.run_script("return data.shapes")]
+
+    def test_asks_the_network_for_nothing_and_logs_no_error(self):
+        self.open_page(self.folder / "report.html")
+        events = [json.loads(entry["message"])["message"] for entry in self.driver.get_log("performance")]
+        asked = [event["params"]["request"]["url"] for event in events if event["method"] == "Network.requestWillBeSent"]
+        self.assertTrue(asked)  # the page itself
+        self.assertEqual([url for url in asked if not url.startswith(("file:", "data:", "blob:"))], [])
+        self.assertEqual({url for url in asked if url.startswith("file:")}, {(self.folder / "report.html").as_uri()})
+        self.assertEqual(self.driver.get_log("browser"), [])
+        self.assertNotRegex((self.folder / "report.html").read_text(), r'<(script|link|img)[^>]*(src|href)="(?!data:)')
+
+    def test_the_canvas_shows_the_mode_and_two_phases_differ(self):
+        self.select(*self.kept()[0])
+        still = [self.turn_to(degrees, 0) for degrees in (0, 90)]
+        self.assertEqual(*still)
+        moved = [self.turn_to(degrees, 0.1) for degrees in (0, 90, 180)]
+        self.assertEqual(len({*still, *moved}), 4)
+        colours = self.run_script(
+            "const copy = document.createElement('canvas'); [copy.width, copy.height] = [300, 200]; const c = copy.getContext('2d');"
+            "c.drawImage(element('canvas'), 0, 0, 300, 200); const all = new Set(), p = c.getImageData(0, 0, 300, 200).data;"
+            "for (let i = 0; i < p.length; i += 4) all.add(p[i] * 65536 + p[i + 1] * 256 + p[i + 2]); return all.size;")  # fmt: skip
+        self.assertGreater(colours, 100)  # an empty canvas has one
+
+    def test_nodes_move_as_results_h5_says(self):
+        """Re((a + ib) exp(iφ)) of the file, to the 1/127 of the quantised shapes and the 1/65534 of places."""
+        skin = report.Skin(squeal.open(self.folder).mesh)
+        with h5py.File(self.folder / "results.h5") as file:
+            places = file["mesh/coordinates"][()]
+            for friction, mode in self.kept()[:3]:
+                self.select(friction, mode)
+                group = file[f"flutter/friction_{friction:g}"]
+                shape = group[f"mode_{mode:03d}_real"][()] + 1j * group[f"mode_{mode:03d}_imaginary"][()]
+                largest = max(np.abs(shape.real).max(), np.abs(shape.imag).max())
+                size = (places[skin.nodes].max(axis=0) - places[skin.nodes].min(axis=0)).max()
+                middle = (places[skin.nodes].max(axis=0) + places[skin.nodes].min(axis=0)) / 2
+                for degrees in (0, 60, 200):
+                    self.turn_to(degrees, 0.1)
+                    wanted = (places - middle) / size + 0.1 * (shape * np.exp(1j * np.radians(degrees))).real / largest
+                    found = np.array(self.run_script("return Array.from(view.places)")).reshape(-1, 3)
+                    self.assertLess(np.abs(found - wanted[skin.nodes]).max(), 0.1 / 127 + 1e-4)
+
+    def test_hovering_tells_the_row_of_the_table(self):
+        for friction, mode in [*self.kept()[:2], (0.2, 1)]:
+            row = self.row_of(friction, mode)
+            self.move_to("frequency", row).perform()
+            WebDriverWait(self.driver, 5).until(lambda _: self.element("hover").is_displayed())
+            text, values = self.element("hover").text, self.rows[row]
+            self.assertEqual(text.split("\n")[0], f"mode {mode} at friction {friction:g}")
+            self.assertIn(f"\n{shown(float(values['frequency_hz']), 8)} Hz\n", text)
+            growth = float(re.search(r"growth (\S+) 1/s", text)[1])
+            self.assertAlmostEqual(growth, float(values["growth_rate_1_per_s"]), delta=1e-5 * abs(growth))
+            damping = float(re.search(r"damping (\S+) %", text)[1])
+            self.assertAlmostEqual(damping, 100 * float(values["damping_ratio"]), delta=1e-3 * abs(damping))
+            error = float(re.search(r"error \|δs\|/\|s\| (\S+)", text)[1])
+            self.assertAlmostEqual(error, float(values["error_estimate"]), delta=0.06 * error)
+            self.assertTrue(text.endswith("\n" + values["verdict"]))
+
+    def test_a_click_shows_another_mode(self):
+        first, second = self.kept()[0], next(one for one in self.kept() if one[0] != self.kept()[0][0])
+        self.select(*first)
+        before = self.element("canvas").get_attribute("data-mode"), self.turn_to(0, 0.1)
+        self.move_to("frequency", self.row_of(*second)).click().perform()
+        WebDriverWait(self.driver, 5).until(lambda _: self.element("canvas").get_attribute("data-mode") != before[0])
+        self.assertIn(f"mode {second[1]} at friction {second[0]:g} ", self.element("chosen").text)
+        self.assertNotEqual(self.turn_to(0, 0.1), before[1])
+        marked = self.driver.find_elements(By.CSS_SELECTOR, "#table tr.selected")
+        self.assertEqual([row.get_attribute("data-row") for row in marked], [str(self.row_of(*second))])
+
+    def test_the_keyboard_walks_among_modes(self):
+        self.select(0.2, 30)
+        self.element("sweep").send_keys(Keys.ARROW_UP)
+        self.assertIn("mode 31 at friction 0.2 ", self.element("chosen").text)
+        self.element("sweep").send_keys(Keys.ARROW_RIGHT)
+        s = {float(row["friction"]): complex(float(row["growth_rate_1_per_s"]), float(row["angular_frequency_rad_per_s"]))
+             for row in self.rows if row["mode"] == "31"}  # fmt: skip
+        nearest = min((row for row in self.rows if float(row["friction"]) == 0.4),
+                      key=lambda row: abs(complex(float(row["growth_rate_1_per_s"]), float(row["angular_frequency_rad_per_s"])) - s[0.2]))
+        self.assertIn(f"mode {nearest['mode']} at friction 0.4 ", self.element("chosen").text)
+        row = self.driver.find_element(By.CSS_SELECTOR, "#table tbody tr")
+        row.send_keys(Keys.ENTER)
+        self.assertEqual(self.run_script("return state.selected"), int(row.get_attribute("data-row")))
+
+    def test_the_table_is_sorted_and_filtered(self):
+        everything = len(self.rows)
+        self.assertEqual(self.run_script("state.filter = ''; listRows(); return listed.length"), everything)
+        self.assertEqual(self.run_script("state.filter = 'unstable'; listRows(); return listed.length"),
+                         sum(row["verdict"] in ("unstable", "undecided") for row in self.rows))  # fmt: skip
+        growth = self.run_script("return listed.map((i) => eigen.growth_rate_1_per_s[i])")
+        self.assertEqual(growth, sorted(growth, reverse=True))
+        self.driver.find_element(By.XPATH, "//table[@id='table']//th/button[starts-with(., 'frequency')]").click()
+        frequency = self.run_script("return listed.map((i) => eigen.frequency_hz[i])")
+        self.assertEqual(frequency, sorted(frequency, reverse=True))
+        self.element("find").send_keys("0.4")
+        self.assertEqual(set(self.run_script("return listed.map((i) => eigen.friction[i])")), {0.4})
+        self.element("find").send_keys(Keys.BACKSPACE * 3)
+
+    def test_contact_fields_are_those_of_results_h5(self):
+        with h5py.File(self.folder / "results.h5") as file:
+            pressure = file["steady/friction_0.4/contact_pressure_gap"][:, 0]
+        name = self.run_script("element('point').value = 2; element('field').value = 'pressure'; colour(); return element('pointname').textContent")
+        self.assertEqual(name, "friction 0.4")
+        values = self.run_script("return [Array.from(view.touching), Array.from(fieldValues('pressure'))]")
+        skin = report.Skin(squeal.open(self.folder).mesh)
+        np.testing.assert_allclose(values[1], pressure[skin.nodes[values[0]]], rtol=1e-6)
+        self.assertEqual(len(set(skin.nodes[values[0]])), np.count_nonzero(pressure))
+        self.run_script("element('field').value = 'amplitude'; colour();")
+
+    def test_fits_a_screen(self):
+        """1280 × 800: no scrolling sideways; diagrams and shape are seen at once, in both schemes."""
+        width, height = self.run_script("return [document.documentElement.scrollWidth, innerHeight]")
+        self.assertLessEqual(width, self.run_script("return innerWidth"))
+        for name in ("frequency", "view"):
+            box = self.element(name).rect
+            self.assertLess(box["y"] + box["height"], height + 20, name)
+        light = self.run_script("return getComputedStyle(document.body).backgroundColor")
+        self.element("scheme").click()
+        self.assertNotEqual(self.run_script("return getComputedStyle(document.body).backgroundColor"), light)
+        self.element("scheme").click()
+
+    def test_names_are_text_not_markup(self):
+        copy = Path(self.temporary.name) / "<b id=bad>{{data}}<!--"
+        shutil.copytree(self.folder, copy, ignore=shutil.ignore_patterns("vtk", "report.html"))
+        summary = json.loads((copy / "summary.json").read_text())
+        summary["options"]["mesh_file"] = "</script><b id=bad>"
+        (copy / "summary.json").write_text(json.dumps(summary))
+        (copy / "page.html").write_text(report.build(squeal.open(copy)))
+        self.addCleanup(self.open_page, self.folder / "report.html")
+        self.open_page(copy / "page.html")
+        self.assertEqual(self.driver.find_elements(By.ID, "bad"), [])
+        self.assertTrue(self.driver.title.startswith(copy.name))
+        self.assertEqual(self.run_script("return data.options.mesh_file"), summary["options"]["mesh_file"])
+
+    def test_without_the_libraries_the_pictures_stand_in(self):
+        known = dict(report.SCRIPTS)
+        self.addCleanup(report.SCRIPTS.update, known)
+        report.SCRIPTS["Chart.js"] = ("/nowhere.js", None)
+        text = report.build(squeal.open(self.folder))
+        self.assertIn("libjs-three, libjs-chart.js", text)
+        self.assertIn(report.verdict(squeal.open(self.folder)), text)
+        self.assertNotIn("blob-shape", text)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
