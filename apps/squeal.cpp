@@ -28,14 +28,18 @@ constexpr const char* usage =
     "loads and contact surfaces, or matrices; options that follow it replace what it says. A list "
     "is separated by commas.\n"
     "  -dry_run   checks a case, and says what its run would take\n"
-    "  -help      the manual: all options with units, defaults and ranges\n"
+    "  -help      the manual: all options with units, defaults and ranges; -help STAGE: those of "
+    "one stage\n"
+    "  -help_json the same for programs\n"
     "  -version   versions of this program and of its libraries\n"
     "Exit code: 0 done, 2 some friction has no steady solution, 1 error.\n";
 
 /// The exit code.
-int run(const squeal::Session& session) {
-  if (session.helpWanted()) {
-    if (session.rank() == 0) squeal::print(squeal::manual());
+int run(const squeal::Session& session) try {
+  if (session.helpWanted() || session.helpJsonWanted()) {
+    const std::string page =
+        session.helpJsonWanted() ? squeal::manualAsJson() : squeal::manual(session.helpStage());
+    if (session.rank() == 0) squeal::print(page);
     return 0;
   }
   if (session.versionWanted()) {
@@ -46,33 +50,31 @@ int run(const squeal::Session& session) {
     if (session.rank() == 0) std::fputs(usage, stderr);
     return 1;  // a script whose arguments went missing must not believe that it has run
   }
-  try {
-    squeal::analysis::checkOptions();  // first of all: a mistake in them touches no folder
-    for (const auto& line : squeal::replacedSettings()) squeal::say(session.comm(), line);
-    if (squeal::analysis::dryRunWanted()) {
-      squeal::analysis::dryRun(session.comm());
-      return 0;
-    }
-    squeal::report::Directory directory(session.comm());
-    if (squeal::matrices::exportWanted())
-      squeal::matrices::requireExportFolder(session.comm(), directory.path());
-    const squeal::analysis::Analysis analysis = squeal::analysis::analyse(session.comm());
-    squeal::report::write(analysis, directory);
-    for (const auto& line : squeal::unusedOptions()) squeal::say(session.comm(), line);
-    return analysis.converged()
-               ? 0
-               : 2;  // instability is a result; a friction without steady state is not
-  } catch (const squeal::Error& error) {
-    if (session.rank() == 0) std::fprintf(stderr, "squeal: error: %s\n", error.what());
-    return 1;
-  } catch (const std::bad_alloc&) {  // perhaps on this rank alone
-    squeal::outOfMemory();
-  } catch (const std::exception& error) {  // of this rank alone: the others wait for it
-    std::fprintf(stderr, "squeal: error: rank %d: %s\n", session.rank(), error.what());
-    squeal::performLastActs();
-    MPI_Abort(session.comm(), 1);
-    return 1;
+  squeal::analysis::checkOptions();  // first of all: a mistake in them touches no folder
+  for (const auto& line : squeal::replacedSettings()) squeal::say(session.comm(), line);
+  if (squeal::analysis::dryRunWanted()) {
+    squeal::analysis::dryRun(session.comm());
+    return 0;
   }
+  squeal::report::Directory directory(session.comm());
+  if (squeal::matrices::exportWanted())
+    squeal::matrices::requireExportFolder(session.comm(), directory.path());
+  const squeal::analysis::Analysis analysis = squeal::analysis::analyse(session.comm());
+  squeal::report::write(analysis, directory);
+  for (const auto& line : squeal::unusedOptions()) squeal::say(session.comm(), line);
+  return analysis.converged()
+             ? 0
+             : 2;  // instability is a result; a friction without steady state is not
+} catch (const squeal::Error& error) {
+  if (session.rank() == 0) std::fprintf(stderr, "squeal: error: %s\n", error.what());
+  return 1;
+} catch (const std::bad_alloc&) {  // perhaps on this rank alone
+  squeal::outOfMemory();
+} catch (const std::exception& error) {  // of this rank alone: the others wait for it
+  std::fprintf(stderr, "squeal: error: rank %d: %s\n", session.rank(), error.what());
+  squeal::performLastActs();
+  MPI_Abort(session.comm(), 1);
+  return 1;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
 
@@ -135,6 +136,18 @@ double Option::number(const std::string& subject, const std::string& value) cons
                 shortest(largestMagnitude));
   return x;
 }
+
+namespace {
+
+nlohmann::json schemaOf(const Range& range) {
+  nlohmann::json schema{{"type", "number"}};
+  if (std::isfinite(range.low)) schema[range.openLow ? "exclusiveMinimum" : "minimum"] = range.low;
+  if (std::isfinite(range.high))
+    schema[range.openHigh ? "exclusiveMaximum" : "maximum"] = range.high;
+  return schema;
+}
+
+}  // namespace
 
 bool Range::holds(double x) const {
   return (openLow ? x > low : x >= low) && (openHigh ? x < high : x <= high);
@@ -303,6 +316,42 @@ bool FileOption::isOne(const std::string& full) {
     return dynamic_cast<const FileOption*>(option) && option->matches(full);
   });
 }
+
+nlohmann::json RealOption::valueSchema() const { return schemaOf(range_); }
+
+nlohmann::json WordOrRealOption::valueSchema() const {
+  return {{"anyOf", {schemaOf(anyReal), {{"const", word_}}}}};
+}
+
+nlohmann::json IntegerOption::valueSchema() const {
+  return {{"type", "integer"}, {"minimum", lowest_}, {"maximum", highest_}};
+}
+
+nlohmann::json RealListOption::valueSchema() const {
+  const nlohmann::json one = schemaOf(range_);
+  return {{"anyOf",
+           {one,
+            {{"type", "string"}},
+            {{"type", "array"}, {"items", one}, {"minItems", 1}, {"maxItems", longestList}}}}};
+}
+
+nlohmann::json FlagOption::valueSchema() const {
+  // Editors differ in whether on and off are words or truth values. Without a value it is on.
+  return {{"enum", {true, false, 0, 1, "on", "off", "yes", "no", "true", "false", nullptr}}};
+}
+
+nlohmann::json ChoiceOption::valueSchema() const {
+  nlohmann::json values = choices_;
+  for (const auto& [word, truth] : {std::pair{"on", true}, {"off", false}})
+    if (std::ranges::find(choices_, word) != choices_.end()) values.push_back(truth);
+  return {{"enum", values}};
+}
+
+nlohmann::json TextOption::valueSchema() const {
+  return {{"type", {"string", "number", "boolean", "array", "null"}}};
+}
+
+nlohmann::json FileOption::valueSchema() const { return {{"type", "string"}, {"minLength", 1}}; }
 
 void validateGivenOptions() {
   struct Validation {

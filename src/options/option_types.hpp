@@ -7,6 +7,7 @@
 #include <array>
 #include <limits>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,6 +36,9 @@ class Option {
   bool matches(const std::string& fullName) const;
   /// Throws Error if the value given for this subject breaks the rule.
   virtual void validate(const std::string& subject) const = 0;
+  /// Returns the JSON Schema (draft 2020-12) of the values that an options file may hold; what it
+  /// admits may still break the rule.
+  virtual nlohmann::json valueSchema() const = 0;
   /// Returns all declared options in order of stage, then of declaration; borrowed.
   static std::vector<const Option*> all();
 
@@ -80,6 +84,7 @@ class RealOption : public Option {
              Range range, std::string meaning);
   double get(const std::string& subject = {}) const;
   void validate(const std::string& subject) const override { get(subject); }
+  nlohmann::json valueSchema() const override;
 
  private:
   Range range_;
@@ -93,6 +98,7 @@ class WordOrRealOption : public Option {
   /// Returns the number, or nothing for the word.
   std::optional<double> get(const std::string& subject = {}) const;
   void validate(const std::string& subject) const override { get(subject); }
+  nlohmann::json valueSchema() const override;
 
  private:
   std::string word_;
@@ -104,6 +110,7 @@ class IntegerOption : public Option {
                 std::string meaning);
   int get(const std::string& subject = {}) const;
   void validate(const std::string& subject) const override { get(subject); }
+  nlohmann::json valueSchema() const override;
 
  private:
   int lowest_, highest_;
@@ -118,6 +125,7 @@ class RealListOption : public Option {
                  Range range, std::string meaning, bool ranges = false);
   std::vector<double> get(const std::string& subject = {}) const;
   void validate(const std::string& subject) const override { get(subject); }
+  nlohmann::json valueSchema() const override;
   /// Returns the values as a vector, in the plane with a zero in place of a third one that is not
   /// given. Throws Error unless there are three; two are enough for a mesh in the plane.
   std::array<double, 3> components(const std::string& subject, int dimension) const;
@@ -133,6 +141,7 @@ class FlagOption : public Option {
   FlagOption(std::string stage, std::string name, bool byDefault, std::string meaning);
   bool get(const std::string& subject = {}) const;
   void validate(const std::string& subject) const override { get(subject); }
+  nlohmann::json valueSchema() const override;
 };
 
 class ChoiceOption : public Option {
@@ -141,6 +150,7 @@ class ChoiceOption : public Option {
                std::string byDefault, std::string meaning);
   std::string get(const std::string& subject = {}) const;
   void validate(const std::string& subject) const override { get(subject); }
+  nlohmann::json valueSchema() const override;
 
  private:
   std::vector<std::string> choices_;
@@ -153,6 +163,7 @@ class TextOption : public Option {
              std::string meaning);
   std::string get(const std::string& subject = {}) const;
   void validate(const std::string& subject) const override { get(subject); }
+  nlohmann::json valueSchema() const override;
   /// Returns the text split at commas, without the blanks beside them; empty if the option is not
   /// given and its default is empty. Throws Error for an empty item.
   std::vector<std::string> list(const std::string& subject = {}) const;
@@ -168,6 +179,7 @@ class FileOption : public Option {
   std::string get(const std::string& subject = {}) const { return text(subject); }
   /// Collective. Throws Error if rank 0 finds no such file, or may not read it.
   void validate(const std::string& subject) const override;
+  nlohmann::json valueSchema() const override;
   /// Returns true if this is the full name (no dash) of an option for a file.
   static bool isOne(const std::string& fullName);
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
@@ -174,7 +175,10 @@ std::vector<std::string> unusedOptions() {
   return unused;
 }
 
-std::string manual() {
+std::string manual(const std::string& wanted) {
+  const auto& all = stages();
+  if (!wanted.empty() && std::ranges::find(all, wanted) == all.end())
+    throw Error("-help " + wanted + ": there is no such stage; the stages are " + joined(all));
   std::string page =
       "squeal -options_file CASE.yaml [-option value …]: flutter of steady sliding brakes (brake "
       "squeal)\n"
@@ -185,7 +189,8 @@ std::string manual() {
       "quotes.\n";
   const auto options = Option::all();
   const auto solvers = SolverPrefix::all();
-  for (const auto& stage : stages()) {
+  for (const auto& stage : all) {
+    if (!wanted.empty() && stage != wanted) continue;
     page += "\n" + stage + "\n";
     for (const auto* option : options) {
       if (option->stage != stage) continue;
@@ -203,6 +208,31 @@ std::string manual() {
             formatted("%-52s ", ("  -" + solver->prefix + "*").c_str()) + solver->meaning + "\n";
   }
   return page;
+}
+
+std::string manualAsJson() {
+  nlohmann::ordered_json page;
+  page["stages"] = stages();
+  for (const auto* option : Option::all()) {
+    nlohmann::ordered_json entry;
+    entry["stage"] = option->stage;
+    entry["name"] = option->name;
+    entry["unit"] = option->unit;
+    if (!option->required) entry["default"] = option->defaultText;
+    entry["required"] = option->required;
+    entry["meaning"] = option->meaning;
+    entry["rule"] = option->rule;
+    entry["value"] = option->valueSchema();
+    page["options"].push_back(std::move(entry));
+  }
+  for (const auto* solver : SolverPrefix::all()) {
+    nlohmann::ordered_json entry;
+    entry["stage"] = solver->stage;
+    entry["prefix"] = solver->prefix;
+    entry["meaning"] = solver->meaning;
+    page["solvers"].push_back(std::move(entry));
+  }
+  return page.dump(1) + "\n";
 }
 
 std::map<std::string, std::string> givenOptions() {

@@ -44,8 +44,14 @@ void rejectUnknownOptions();
 /// "option -a 2 (case.yaml, line 3) was not used: …".
 std::vector<std::string> unusedOptions();
 
-/// Returns the manual that `-help` prints.
-std::string manual();
+/// Returns the manual that `-help` prints, that of one stage if its name is not empty. Throws Error
+/// for a name that no stage has.
+std::string manual(const std::string& stage = {});
+
+/// Returns the same for programs, as `-help_json` prints it: an object with the `stages`, the
+/// `options` (stage, name, unit, default unless required, meaning, rule, and `value`, a JSON
+/// Schema) and the `solvers` (stage, prefix, meaning).
+std::string manualAsJson();
 
 /// Returns name and value of every given option, those of PETSc included, whether from a file or
 /// the command line.

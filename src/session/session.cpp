@@ -73,11 +73,15 @@ Session::Session(int argc, char** argv) {
            words.end();
   };
   helpWanted_ = among({"-help", "--help", "-h"});
+  helpJsonWanted_ = among({"-help_json", "--help_json"});
+  if (const auto help = std::ranges::find(words, "-help");
+      help != words.end() && std::next(help) != words.end() && !std::next(help)->starts_with('-'))
+    helpStage_ = *std::next(help);
   versionWanted_ = among({"-version", "--version"});
   check(MPI_Init(&argc, &argv));  // before PETSc's, so that a mistake in the options is told in one
                                   // line instead of a traceback
-  const auto settings =
-      helpWanted_ || versionWanted_ ? std::vector<Setting>{} : readSettings(words);
+  const auto settings = helpWanted_ || helpJsonWanted_ || versionWanted_ ? std::vector<Setting>{}
+                                                                         : readSettings(words);
   optionsGiven_ = !settings.empty();
   startSlepc(argv[0], settings);
   tellLackOfMemoryInOneLine();

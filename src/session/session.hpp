@@ -23,6 +23,9 @@ class Session {
   int size() const;
   /// Returns true if `-help` was given: the manual is printed, and there is no run.
   bool helpWanted() const { return helpWanted_; }
+  bool helpJsonWanted() const { return helpJsonWanted_; }
+  /// Returns the word after -help, which names a stage; empty for the whole manual.
+  const std::string& helpStage() const { return helpStage_; }
   /// Returns true if `-version` was given.
   bool versionWanted() const { return versionWanted_; }
   /// Returns false if there is no option at all, neither on the command line nor in the environment
@@ -30,7 +33,8 @@ class Session {
   bool optionsGiven() const { return optionsGiven_; }
 
  private:
-  bool helpWanted_ = false, versionWanted_ = false, optionsGiven_ = false;
+  std::string helpStage_;
+  bool helpWanted_ = false, helpJsonWanted_ = false, versionWanted_ = false, optionsGiven_ = false;
 };
 
 /// Returns the version of this program, as in CMakeLists.txt.
