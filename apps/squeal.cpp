@@ -32,7 +32,8 @@ constexpr const char* usage =
     "one stage\n"
     "  -help_json the same for programs\n"
     "  -version   versions of this program and of its libraries\n"
-    "Exit code: 0 done, 2 some friction has no steady solution, 1 error.\n";
+    "Exit code: 0 done, 2 some friction has no steady solution, 3 asked to stop (SIGTERM, SIGUSR1; "
+    "-resume goes on), 1 error.\n";
 
 /// The exit code.
 int run(const squeal::Session& session) try {
@@ -59,8 +60,12 @@ int run(const squeal::Session& session) try {
   squeal::report::Directory directory(session.comm());
   if (squeal::matrices::exportWanted())
     squeal::matrices::requireExportFolder(session.comm(), directory.path());
-  const squeal::analysis::Analysis analysis = squeal::analysis::analyse(session.comm());
+  squeal::analysis::Analysis analysis =
+      squeal::analysis::analyse(session.comm(), directory.interrupted() / "checkpoint");
   squeal::report::write(analysis, directory);
+  if (analysis.interrupted) return 3;
+  analysis.checkpoint.remove();
+  squeal::report::removeInterrupted(session.comm(), directory);
   for (const auto& line : squeal::unusedOptions()) squeal::say(session.comm(), line);
   return analysis.converged()
              ? 0

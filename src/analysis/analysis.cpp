@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "analysis/identity.hpp"
 #include "analysis/matrix_route.hpp"
 #include "analysis/mesh_route.hpp"
 #include "direct/direct.hpp"
@@ -10,6 +11,7 @@
 #include "matrices/matrices.hpp"
 #include "modes/modes.hpp"
 #include "options/options.hpp"
+#include "petsc/termination.hpp"
 
 namespace squeal::analysis {
 
@@ -46,12 +48,20 @@ Analysis prepare(MPI_Comm comm) {
   return analysis;
 }
 
-Analysis analyse(MPI_Comm comm) {
+Analysis analyse(MPI_Comm comm, const std::filesystem::path& checkpointFolder) {
   Analysis analysis = prepare(comm);
-  if (analysis.mesh)
-    solveMesh(analysis);
-  else
-    solveMatrices(analysis);
+  auto identity = checkpoint::identityOfRun(comm);
+  identity.merge(identityOfInput(analysis));
+  analysis.checkpoint = {comm, checkpointFolder, std::move(identity), checkpoint::resumeWanted()};
+  try {
+    stopIfAsked(comm);
+    if (analysis.mesh)
+      solveMesh(analysis);
+    else
+      solveMatrices(analysis);
+  } catch (const Interrupted&) {
+    analysis.interrupted = true;
+  }
   return analysis;
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 /// The stages of the method are called here in their order, from the input to flutter. Reporting
 /// takes the results from here.
+#include <filesystem>
 #include <memory>
 #include <vector>
 
 #include "analysis/segment.hpp"
+#include "checkpoint/checkpoint.hpp"
 #include "condensed/contact_path.hpp"
 #include "elasticity/elasticity.hpp"
 #include "mesh/mesh.hpp"
@@ -42,6 +44,9 @@ struct Analysis {
   /// Wall time of one factorisation and 400 blocked solves, s, for the last segment; 0 without
   /// `-modes_benchmark`.
   double modesFloorSeconds = 0;
+  checkpoint::Checkpoint checkpoint;
+  /// True if the run has been asked to stop before all was found.
+  bool interrupted = false;
 
   /// Returns true if every steady point has a solution, and for matrices from files.
   bool converged() const;
@@ -60,7 +65,8 @@ void checkOptions();
 Analysis prepare(MPI_Comm comm);
 
 /// Collective. Runs all stages that the options, which have been checked, ask for, and returns the
-/// results. Throws Error as the stages document it.
-Analysis analyse(MPI_Comm comm);
+/// results; those that there are where the run has been asked to stop. The folder is for the
+/// checkpoint. Throws Error as the stages and the checkpoint document it.
+Analysis analyse(MPI_Comm comm, const std::filesystem::path& checkpointFolder);
 
 }  // namespace squeal::analysis

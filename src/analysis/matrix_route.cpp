@@ -9,6 +9,7 @@
 #include "modes/benchmark.hpp"
 #include "modes/modes.hpp"
 #include "options/options.hpp"
+#include "petsc/termination.hpp"
 #include "petsc/text.hpp"
 #include "sensitivity/derive.hpp"
 #include "sensitivity/sensitivity.hpp"
@@ -78,7 +79,9 @@ void solveMatrices(Analysis& analysis) {
   const auto points = analysis.sweep.steadyPoints();
   if (matrices::exportWanted()) matrices::exportPencil(pencil, analysis.sweep, points.size());
   MatrixSegment problem(symmetric.system, pencil, points);
-  analysis.segments = solveSegments(problem, analysis.sweep.dampings);
+  auto solved = solveSegments(problem, analysis.sweep.dampings, analysis.checkpoint, "matrices");
+  analysis.segments = std::move(solved.segments);
+  if (!solved.complete) throw Interrupted();
   if (modes::benchmarkWanted())
     analysis.modesFloorSeconds = modes::floorSeconds(symmetric.system.k0());
 }

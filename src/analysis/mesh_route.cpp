@@ -20,6 +20,7 @@
 #include "modes/benchmark.hpp"
 #include "modes/modes.hpp"
 #include "options/options.hpp"
+#include "petsc/termination.hpp"
 #include "petsc/text.hpp"
 #include "session/stages.hpp"
 #include "uniqueness/uniqueness.hpp"
@@ -87,6 +88,7 @@ std::vector<SpeedUniqueness> examineUniqueness(const Analysis& analysis) {
   if (analysis.contact.slipIsGiven()) speeds.resize(1);
   std::vector<SpeedUniqueness> result;
   for (double speed : speeds) {
+    stopIfAsked(analysis.comm);
     Stage stage(analysis.mesh->comm, "steady");
     result.push_back({speed, uniqueness::examine(analysis.bodies, analysis.contact, speed,
                                                  analysis.sweep.frictions)});
@@ -106,12 +108,15 @@ void solveMeshSegment(Analysis& analysis, std::size_t first, std::size_t last,
     matrices::exportPencil(problem.pencil().with(problem.termsOf(last - first - 1)), analysis.sweep,
                            last - first);
   const int before = std::ssize(analysis.segments);
-  for (auto& segment : solveSegments(problem, analysis.sweep.dampings)) {
+  auto solved = solveSegments(problem, analysis.sweep.dampings, analysis.checkpoint,
+                              "sets_" + std::to_string(before + 1));
+  for (auto& segment : solved.segments) {
     for (auto& followed : segment.followed)
       for (int& activeSet : followed.activeSet)
         if (activeSet > 0) activeSet += before;
     analysis.segments.push_back(std::move(segment));
   }
+  if (!solved.complete) throw Interrupted();
   if (modes::benchmarkWanted())
     analysis.modesFloorSeconds = modes::floorSeconds(problem.system().k0());
 }
@@ -153,6 +158,7 @@ void solveMesh(Analysis& analysis) {
   for (std::size_t first = 0, last = 0; first < analysis.steady.size(); first = last) {
     last = first + 1;
     if (!analysis.steady[first].converged) continue;
+    stopIfAsked(analysis.comm);
     last = endOfShared(analysis, first);
     solveMeshSegment(analysis, first, last, system, influences);
   }

@@ -8,12 +8,16 @@
 #include "factor/symmetric_solver.hpp"
 #include "flutter/terms.hpp"
 #include "linalg/columns.hpp"
+#include "modes/kept.hpp"
 #include "options/options.hpp"
+#include "pencil/kept.hpp"
 #include "pencil/pencil.hpp"
+#include "petsc/termination.hpp"
 #include "petsc/text.hpp"
 #include "reduction/reduced.hpp"
 #include "sensitivity/sensitivity.hpp"
 #include "session/stages.hpp"
+#include "stability/kept.hpp"
 #include "sweep/parameters.hpp"
 #include "sweep/sweep.hpp"
 
@@ -81,8 +85,13 @@ void requireFiniteEigenvalues(const pencil::ComplexModes& point) {
 /// Flutter at the points of a problem, batch by batch, with one basis for all of them.
 class SegmentSweep {
  public:
-  SegmentSweep(SegmentProblem& problem, const std::vector<double>& dampings)
-      : problem_(problem), pencil_(problem.pencil()) {
+  SegmentSweep(SegmentProblem& problem, const std::vector<double>& dampings,
+               checkpoint::Checkpoint& checkpoint, const std::string& name)
+      : problem_(problem),
+        pencil_(problem.pencil()),
+        checkpoint_(checkpoint),
+        name_(name),
+        begin_(MPI_Wtime()) {
     for (auto& range : problem.ranges()) ranges_.push_back({std::move(range), pencil_.with({}), 0});
     segments_.resize(ranges_.size());
     for (double damping : dampings)
@@ -97,26 +106,33 @@ class SegmentSweep {
       }
   }
 
-  std::vector<ModalSegment> solve() {
+  SolvedSegments solve() {
+    if (auto finished = checkpoint_.next(name_ + "_finished")) {
+      exchangeFinished(*finished);
+      return {std::move(segments_), true};
+    }
     for (std::size_t k = 0; k < ranges_.size(); ++k) {
       const auto& has = ranges_[k].points.has;
       segments_[k].unknowns = problem_.system().size() + std::count(has.begin(), has.end(), 1);
       segments_[k].openNodes = ranges_[k].points.openNodes;
     }
-    auto modes = computeModes();
-    if (modes) pencil_.add(flutter::modalDamping(*modes, problem_.system().m0()));
-    for (auto& range : ranges_) {
-      range.pencil = pencil_.with({});
-      range.pencil.add(std::move(range.points.terms));
+    bool complete = true;
+    try {
+      solveAll();
+    } catch (const Interrupted&) {
+      complete = false;
     }
-    if (modes) reduce(std::move(*modes));
-    solvePoints();
-    if (ranges_.size() > 1)
-      for (std::size_t k = 0; k < ranges_.size(); ++k)
-        if (!segments_[k].points.empty()) restrictModes(k);
-    followPoints();
+    // Points that have not been solved are none.
+    for (auto& segment : segments_)
+      std::erase_if(segment.points, [](const auto& point) { return point.eigenvalues.empty(); });
     std::erase_if(segments_, [](const auto& segment) { return segment.points.empty(); });
-    return std::move(segments_);
+    // What took long is not done again if a later segment is cut off.
+    if (complete && checkpoint_.isWorth(MPI_Wtime() - begin_)) {
+      checkpoint::Archive archive(pencil_.comm());
+      exchangeFinished(archive);
+      checkpoint_.write(name_ + "_finished", archive);
+    }
+    return {std::move(segments_), complete};
   }
 
  private:
@@ -131,13 +147,100 @@ class SegmentSweep {
     std::size_t steadyPoint, range, inSegment;
   };
 
+  void solveAll() {
+    auto modes = computeModes();
+    if (modes) pencil_.add(flutter::modalDamping(*modes, problem_.system().m0()));
+    for (auto& range : ranges_) {
+      range.pencil = pencil_.with({});
+      range.pencil.add(std::move(range.points.terms));
+    }
+    if (modes) reduce(std::move(*modes));
+    while (auto entry = checkpoint_.next(name_ + "_points")) exchangePoints(*entry);
+    keep();
+    stopIfAsked(pencil_.comm());
+    solvePoints();
+    if (ranges_.size() > 1)
+      for (std::size_t k = 0; k < ranges_.size(); ++k)
+        if (!segments_[k].points.empty()) restrictModes(k);
+    followPoints();
+  }
+
+  /// Collective. Writes to the checkpoint what has been found since the last entry, if it is time.
+  void keep() {
+    if (!checkpoint_.due()) return;
+    if (!modesKept_) {
+      checkpoint::Archive archive(pencil_.comm());
+      modes::exchange(archive, freeModes(), problem_.system().k0());
+      checkpoint_.write(name_ + "_modes", archive);
+      modesKept_ = true;
+    }
+    // A compressed basis does not grow: its points are found again.
+    if (reduced_ && !reduced_->grows()) return;
+    checkpoint::Archive archive(pencil_.comm());
+    exchangePoints(archive);
+    checkpoint_.write(name_ + "_points", archive);
+  }
+
+  /// Collective. Writes the basis and the points that have been found since the last call, or adds
+  /// them.
+  void exchangePoints(checkpoint::Archive& archive) {
+    archive.common(affine_, solved_);
+    if (reduced_) reduced_->exchange(archive);
+    for (const auto& order = solvedInOrder(); exchanged_ < solved_; ++exchanged_)
+      pencil::exchange(archive, pointAt(order[exchanged_]));
+  }
+
+  /// Collective. Writes all that is reported, or sets it.
+  void exchangeFinished(checkpoint::Archive& archive) {
+    const Mat all = problem_.substructure().stiffness;  // of all unknowns; null: all are interior
+    std::size_t count = segments_.size();
+    archive.common(count);
+    segments_.resize(count);
+    for (auto& segment : segments_) {
+      archive.common(segment.openNodes, segment.unknowns, segment.solves, segment.followed);
+      modes::exchange(archive, segment.modes, all ? all : problem_.system().k0());
+      std::size_t points = segment.points.size();
+      archive.common(points);
+      segment.points.resize(points);
+      for (auto& point : segment.points) pencil::exchange(archive, point);
+      if (archive.reads()) segment.shapes = reportedShapes(segment.modes, problem_.trial());
+    }
+  }
+
+  /// Returns the points in the order in which they are solved.
+  const std::vector<std::size_t>& solvedInOrder() {
+    if (order_.empty())
+      for (const auto& batch : batches()) order_.insert(order_.end(), batch.begin(), batch.end());
+    return order_;
+  }
+
+  /// Returns the points in the batches in which they are solved: one by one with the direct method.
+  std::vector<std::vector<std::size_t>> batches() const {
+    if (!directly_) return sweep::batches(points_);
+    std::vector<std::vector<std::size_t>> single;
+    for (std::size_t i = 0; i < points_.size(); ++i) single.push_back({i});
+    return single;
+  }
+
+  /// Returns the free modes of the interior unknowns.
+  modes::Modes& freeModes() {
+    if (!reduced_) return forLeftVectors_;
+    return ranges_.size() == 1 ? segments_[0].modes : interiorModes_;
+  }
+
   /// Collective. Returns the free modes of the interior unknowns; none with the direct method.
   std::optional<modes::Modes> computeModes() {
     const bool direct = direct::directWanted();
     if (direct) directly_ = direct::Options::given();
     if (direct) factor::rejectUnusedSolverOptions();
     if (direct && !sensitivity::sensitivitiesWanted()) return {};
-    modes::Modes modes = modes::compute(problem_.system());
+    modes::Modes modes;
+    if (auto entry = checkpoint_.next(name_ + "_modes")) {
+      modes::exchange(*entry, modes, problem_.system().k0());
+      modesKept_ = true;
+    } else {
+      modes = modes::compute(problem_.system());
+    }
     if (!direct) return modes;
     forLeftVectors_ = std::move(modes);
     return {};
@@ -147,6 +250,10 @@ class SegmentSweep {
     Stage stage(pencil_.comm(), "flutter");
     reduced_ = std::make_unique<reduction::ReducedProblem>(
         pencil_, problem_.system(), modes, reduction::Options::given(), problem_.substructure());
+    reduced_->afterEachRound([this] {
+      keep();
+      stopIfAsked(pencil_.comm());
+    });
     std::string text = formatted("basis of %zu free modes", modes.angularFrequency.size());
     if (ranges_.size() == 1) {
       segments_[0].shapes = reportedShapes(modes, problem_.trial());
@@ -161,7 +268,10 @@ class SegmentSweep {
   }
 
   void solvePoints() {
-    for (const auto& batch : sweep::batches(points_)) {
+    std::size_t end = 0;
+    for (const auto& batch : batches()) {
+      end += batch.size();
+      if (end <= solved_) continue;  // the checkpoint has them
       std::vector<reduction::PointProblem> problems;
       for (std::size_t i : batch) {
         const Range& range = ranges_[places_[i].range];
@@ -175,6 +285,9 @@ class SegmentSweep {
         problem_.examine(places_[batch[i]].steadyPoint, problems[i].pencil,
                          startSpace(problems[i], point), point);
       }
+      solved_ = end;
+      keep();
+      if (solved_ < points_.size()) stopIfAsked(pencil_.comm());
     }
     if (reduced_)
       for (auto& segment : segments_) segment.solves = reduced_->basis().solves();
@@ -263,8 +376,11 @@ class SegmentSweep {
           pencil_.comm(),
           "track: not done where terms follow the steady state, unless -flutter_track is given");
     Stage stage(pencil_.comm(), "track");
-    auto followed = stability::followSweep(*reduced_, all, pencil_.comm(),
-                                           [&](const std::string& text) { stage.progress(text); });
+    auto followed =
+        stability::followSweep(*reduced_, all, pencil_.comm(), [&](const std::string& text) {
+          stage.progress(text);
+          stopIfAsked(pencil_.comm());
+        });
     std::size_t branches = 0, stations = 0, criticals = 0;
     for (std::size_t i = 0; i < followed.size(); ++i) {
       branches += followed[i].branches.count;
@@ -321,13 +437,20 @@ class SegmentSweep {
   std::unique_ptr<reduction::ReducedProblem> reduced_;
   std::optional<direct::Options> directly_;  // without a reduced problem
   bool affine_ = true;                       // no point has terms of its own
+  checkpoint::Checkpoint& checkpoint_;
+  std::string name_;                // of its logs
+  double begin_;                    // s
+  bool modesKept_ = false;          // the checkpoint has the modes
+  std::size_t solved_ = 0;          // points that have been solved and examined
+  std::size_t exchanged_ = 0;       // those of them that the checkpoint has
+  std::vector<std::size_t> order_;  // of the points, as they are solved
 };
 
 }  // namespace
 
-std::vector<ModalSegment> solveSegments(SegmentProblem& problem,
-                                        const std::vector<double>& dampings) {
-  return SegmentSweep(problem, dampings).solve();
+SolvedSegments solveSegments(SegmentProblem& problem, const std::vector<double>& dampings,
+                             checkpoint::Checkpoint& checkpoint, const std::string& name) {
+  return SegmentSweep(problem, dampings, checkpoint, name).solve();
 }
 
 }  // namespace squeal::analysis

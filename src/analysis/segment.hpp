@@ -2,8 +2,10 @@
 /// The algebraic part of the method leads from K0, M0 and the terms of the pencil to the
 /// eigenvalues of a sweep. It is the same for a mesh and for matrices from files.
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "checkpoint/checkpoint.hpp"
 #include "modes/associated.hpp"
 #include "modes/modes.hpp"
 #include "pencil/complex_modes.hpp"
@@ -95,10 +97,18 @@ class SegmentProblem {
                        const sensitivity::StartSpace& start, pencil::ComplexModes& point) = 0;
 };
 
+/// The results of a problem.
+struct SolvedSegments {
+  std::vector<ModalSegment> segments;  ///< [range of points that has any]
+  /// False if the run has been asked to stop: points may be missing, and what is followed.
+  bool complete = true;
+};
+
 /// Collective. Returns for each range of points their modes, flutter at all steady points with all
-/// `dampings`, and the eigenvalues followed over the friction. Throws Error as the stages modes,
-/// flutter and track do, and if an eigenvalue is not a finite number.
-std::vector<ModalSegment> solveSegments(SegmentProblem& problem,
-                                        const std::vector<double>& dampings);
+/// `dampings`, and the eigenvalues followed over the friction. What the logs of the checkpoint
+/// whose names begin with `name` hold is taken from there, and they are continued. Throws Error as
+/// the stages modes, flutter and track do, and if an eigenvalue is not a finite number.
+SolvedSegments solveSegments(SegmentProblem& problem, const std::vector<double>& dampings,
+                             checkpoint::Checkpoint& checkpoint, const std::string& name);
 
 }  // namespace squeal::analysis

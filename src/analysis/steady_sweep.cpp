@@ -1,5 +1,6 @@
 #include "analysis/steady_sweep.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -9,8 +10,10 @@
 #include "interfaces/interfaces.hpp"
 #include "options/options.hpp"
 #include "petsc/finite.hpp"
+#include "petsc/termination.hpp"
 #include "petsc/text.hpp"
 #include "session/stages.hpp"
+#include "steady/kept.hpp"
 
 namespace squeal::analysis {
 namespace {
@@ -232,6 +235,33 @@ std::string resultText(const Analysis& analysis, const steady::Solution& solutio
                    solution.smallestPressure, solution.residual, solution.imbalance);
 }
 
+/// The steady states in the checkpoint: those of the analysis from `kept` on are not in it yet.
+class KeptStates {
+ public:
+  /// Collective. Adds to the analysis what the checkpoint has.
+  explicit KeptStates(Analysis& analysis) : analysis_(analysis) {
+    while (auto entry = analysis.checkpoint.next("steady")) exchange(*entry);
+  }
+  /// Collective. Writes what has been added since the last entry, if it is time.
+  void keep() {
+    if (!analysis_.checkpoint.due()) return;
+    checkpoint::Archive archive(analysis_.comm);
+    exchange(archive);
+    analysis_.checkpoint.write("steady", archive);
+  }
+
+ private:
+  void exchange(checkpoint::Archive& archive) {
+    std::size_t count = analysis_.steady.size();
+    archive.common(count, analysis_.contactEvents);
+    analysis_.steady.resize(count);
+    for (; kept_ < count; ++kept_) steady::exchange(archive, analysis_.steady[kept_]);
+    archive.own(analysis_.contactPath);  // of the whole path: it is short
+  }
+  Analysis& analysis_;
+  std::size_t kept_ = 0;
+};
+
 /// Collective. Solves in the unknowns of the contact, with the factorisation of the closed one.
 void condensedSweep(Analysis& analysis, const steady::Problem& problem,
                     const contact::CoupledSystem& closed) {
@@ -240,10 +270,17 @@ void condensedSweep(Analysis& analysis, const steady::Problem& problem,
   const bool isExact = condensed::CondensedProblem::isExact(analysis.contact, analysis.bodies);
   std::vector<steady::Solution>& solutions = analysis.steady;
   std::optional<condensed::CondensedProblem> condensed;
-  closed.solver();
+  KeptStates states(analysis);
+  if (solutions.size() < points.size()) closed.solver();
   while (solutions.size() < points.size()) {
+    stopIfAsked(comm);
     Stage stage(comm, "steady");
-    if (!condensed) condensed.emplace(problem, closed);
+    if (!condensed) {
+      condensed.emplace(problem, closed);
+      const auto last = std::ranges::find_if(solutions.rbegin(), solutions.rend(),
+                                             [](const auto& one) { return one.converged; });
+      if (last != solutions.rend()) condensed->continueFrom(*last);
+    }
     const long before = condensed->solves();
     const std::size_t begin = solutions.size(), end = std::min(begin + mostTogether, points.size());
     for (auto& solution : condensed->solveTogether({points.begin() + begin, points.begin() + end}))
@@ -259,19 +296,28 @@ void condensedSweep(Analysis& analysis, const steady::Problem& problem,
     }
     stage.finish(
         formatted("%zu points, %ld right-hand sides", end - begin, condensed->solves() - before));
-    if (!isExact) continue;
-    const auto ways = waysToFollow(analysis, begin);
-    anticipate(analysis, *condensed, ways);
-    for (const Way& way : ways) followPath(analysis, *condensed, way);
+    if (isExact) {
+      const auto ways = waysToFollow(analysis, begin);
+      anticipate(analysis, *condensed, ways);
+      for (const Way& way : ways) followPath(analysis, *condensed, way);
+    }
+    states.keep();
   }
 }
 
 /// Collective. Solves in all unknowns.
 void fullSweep(Analysis& analysis, const steady::Problem& problem, CurrentSystem& system) {
   std::vector<ActiveSet> active;  // [steady point] of its solution, or the one tried
+  KeptStates states(analysis);
   for (const auto& at : analysis.sweep.steadyPoints()) {
-    const auto neighbour = analysis.sweep.earlierNeighbour(active.size());
+    const std::size_t k = active.size();
+    const auto neighbour = analysis.sweep.earlierNeighbour(k);
     active.push_back(neighbour ? active[*neighbour] : bonded(analysis));
+    if (k < analysis.steady.size()) {  // the checkpoint has it
+      if (analysis.steady[k].converged) active.back() = activeSet(analysis.steady[k]);
+      continue;
+    }
+    stopIfAsked(analysis.comm);
     const auto& current = system.of(active.back());
     current.solver();
     Stage stage(analysis.mesh->comm, "steady");
@@ -279,6 +325,7 @@ void fullSweep(Analysis& analysis, const steady::Problem& problem, CurrentSystem
     stage.finish(resultText(analysis, solution));
     tell(analysis, solution);
     if (solution.converged) active.back() = activeSet(solution);
+    states.keep();
   }
 }
 

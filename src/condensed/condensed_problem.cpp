@@ -377,13 +377,19 @@ std::vector<Solution> CondensedProblem::solveTogether(
       starts[k].gaps = std::move(again[i].gaps);
     }
   }
-  if (const auto& last = solutions.back(); last.converged) {
-    sticking_ = Sticking::allHeld(contact_);
-    for (std::size_t i = 0; i < last.closed.size(); ++i)
-      if (!last.closed[i]) sticking_.holds[i] = last.sticking.holds[i];
+  if (solutions.back().converged) {
+    continueFrom(solutions.back());
     gaps_ = starts.back().gaps;
   }
   return solutions;
+}
+
+void CondensedProblem::continueFrom(const Solution& solution) {
+  sticking_ = Sticking::allHeld(contact_);
+  for (std::size_t i = 0; i < solution.closed.size(); ++i) {
+    if (!solution.closed[i]) sticking_.holds[i] = solution.sticking.holds[i];
+    gaps_[i] = solution.contact[i].coefficient;
+  }
 }
 
 }  // namespace squeal::condensed

@@ -60,6 +60,9 @@ class CondensedProblem {
     gaps_ = std::move(gaps);
     sticking_ = std::move(sticking);
   }
+  /// Lets the next solve() begin with the contact of a solution, with what it has released held
+  /// again.
+  void continueFrom(const Solution& solution);
   const contact::Contact& contact() const { return contact_; }
   /// Returns the force that opens the gap of a contact node of this rank by a unit, N/m; 0 if it
   /// has never been open.

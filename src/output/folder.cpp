@@ -217,6 +217,14 @@ void Folder::commit() {
   });
 }
 
+void Folder::discard() {
+  onFirst([&] {
+    const EndingWaits whole;
+    if (const auto old = Manifest::read(path_)) removeListed(path_, *old, naming_.last);
+  });
+  ++made_;  // it goes like a folder that this run has made
+}
+
 /// Puts the files in .complete into their place. A step that is done is not found to be done again.
 void Folder::replace() const {
   const fs::path manifest = complete_ / Manifest::name, last = complete_ / naming_.last;

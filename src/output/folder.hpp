@@ -55,6 +55,8 @@ class Folder {
   /// earlier results stay if that happens before the renaming; after it, the next run puts the new
   /// ones into place.
   void commit();
+  /// Collective. Removes the files of the earlier run, and the folder if it is empty then.
+  void discard();
 
  private:
   template <class Action>

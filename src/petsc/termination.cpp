@@ -1,10 +1,12 @@
 #include "petsc/termination.hpp"
 
+#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -39,11 +41,26 @@ extern "C" void passOn(int signal) {
   [[maybe_unused]] const auto written = write(signalPipe[1], &byte, 1);
 }
 
+std::atomic<bool> stop = false;
+
+/// Returns the next signal that ends the process; none if the pipe cannot be read.
+std::optional<int> awaitEnding(int rank) {
+  for (;;) {
+    unsigned char signal = 0;
+    while (read(signalPipe[0], &signal, 1) != 1)
+      if (errno != EINTR) return {};
+    if (signal != SIGTERM && signal != SIGUSR1) return signal;
+    // The same request may come twice, from the batch system and through mpirun.
+    if (!stop.exchange(true) && rank == 0)
+      std::fprintf(stderr, "squeal: signal %d (%s): the run stops as soon as it can\n", signal,
+                   strsignal(signal));
+  }
+}
+
 void awaitSignal(int rank) {
-  unsigned char byte = 0;
-  while (read(signalPipe[0], &byte, 1) != 1)
-    if (errno != EINTR) return;
-  const int signal = byte;
+  const auto ending = awaitEnding(rank);
+  if (!ending) return;
+  const int signal = *ending;
   const std::lock_guard lock(gate());
   performLastActs();
   if (rank == 0)
@@ -73,6 +90,14 @@ void performLastActs() noexcept {
       (*act)();
     } catch (...) {  // the run is over; what is left behind is put away by the next one
     }
+}
+
+bool stopAsked() { return stop; }
+
+void stopIfAsked(MPI_Comm comm) {
+  int asked = stop;
+  check(MPI_Allreduce(MPI_IN_PLACE, &asked, 1, MPI_INT, MPI_LOR, comm));
+  if (asked) throw Interrupted();
 }
 
 void abortRun() noexcept {

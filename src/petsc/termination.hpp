@@ -1,6 +1,8 @@
 #pragma once
 /// This file handles endings from outside: signals, MPI_Abort after an error of a library, and
 /// exit() in a library. The last acts put away all that a run must not leave behind.
+#include <mpi.h>
+
 #include <functional>
 
 namespace squeal {
@@ -38,11 +40,21 @@ void performLastActs() noexcept;
 /// exception would have to pass through the C code of a library; the caller has said why.
 [[noreturn]] void abortRun() noexcept;
 
+/// An Interrupted is thrown on all ranks together where a run that has been asked to stop does so.
+/// It is no error, and so no exception of the standard library.
+struct Interrupted {};
+
+/// Not collective. Returns true once this rank has been asked to stop, by SIGTERM or SIGUSR1.
+bool stopAsked();
+/// Collective. Throws Interrupted on all ranks once one of them has been asked to stop.
+void stopIfAsked(MPI_Comm comm);
+
 /// A SignalWatch takes the signals that ask the program to end, as batch systems, mpirun and the
-/// terminal send them (SIGTERM, SIGINT, SIGHUP, …). Signals that are ignored already (nohup) stay
-/// ignored. A thread that waits for signals performs the last acts, says on rank 0 in one line
-/// which signal it was, and ends the process by it. A write to a closed pipe or beyond the limit of
-/// a file's size is an error of that write alone.
+/// terminal send them. SIGTERM and SIGUSR1 ask the run to stop where it can: stopAsked(). At the
+/// others (SIGINT, SIGHUP, …) a thread that waits for signals performs the last acts, says on rank
+/// 0 in one line which signal it was, and ends the process by it. Signals that are ignored already
+/// (nohup) stay ignored. A write to a closed pipe or beyond the limit of a file's size is an error
+/// of that write alone.
 class SignalWatch {
  public:
   /// Notes which signals are ignored. Make the object before PETSc starts, which has handlers of

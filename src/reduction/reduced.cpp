@@ -81,22 +81,19 @@ Options Options::given() {
 }
 
 /// The state of one point while the basis is corrected.
-struct ReducedProblem::PointState {
+struct ReducedProblem::PointState : PointFound {
+  PointState(PointFound found, const PointProblem& problem, const Set& its, ProjectedTerms own,
+             bool isDamped)
+      : PointFound(std::move(found)),
+        point(&problem),
+        set(&its),
+        ownTerms(std::move(own)),
+        damped(isDamped) {}
   const PointProblem* point;
   const Set* set;
   ProjectedTerms ownTerms;
-  bool associated;  // it is the problem of the free modes
+  bool associated = false;  // it is the problem of the free modes
   bool damped;
-  Norms norms;  // of K̄, Z̄, M̄
-  Spectrum spectrum;
-  // Of the pairs of the band:
-  std::vector<double> backwardError;  // [pair]
-  // The estimate of |δs|/|s| is the product of the two, each with the norm of diag(K0)⁻¹ for that
-  // of K0⁻¹. errorOf() takes the second as 1 at most.
-  std::vector<double> rightError;  // [pair] of the right vector, times the condition number of s
-  std::vector<double> leftError;   // [pair] of the left vector; infinite above the modes
-  std::vector<double> rounding;    // [pair] error of the dense solve
-  pencil::Symmetry symmetry = pencil::Symmetry::none;
 };
 
 ReducedProblem::ReducedProblem(const pencil::Pencil& pencil, const modes::AssociatedSystem& system,
@@ -108,6 +105,7 @@ ReducedProblem::ReducedProblem(const pencil::Pencil& pencil, const modes::Associ
       basis_(modes, system, std::move(substructure)),
       terms_(basis_, pencil, 0, pencil.terms().size()) {
   check(MatGetSize(basis_.stiffness(), &unknowns_, nullptr));
+  exchanged_ = basis_.size();
   addSet(pencil, std::vector<unsigned char>(basis_.boundarySize(), 0));
   if (basis_.boundarySize() > 0)
     count_.emplace(basis_, modes, associatedOf(pencil).assembled(2, {}));
@@ -381,21 +379,14 @@ std::vector<ReducedProblem::PointState*> ReducedProblem::unconfirmed(
 ReducedProblem::PointState ReducedProblem::newState(const PointProblem& point,
                                                     const Norms& norms) const {
   const auto& pencil = point.pencil;
-  return {&point,
-          sets_[point.set].get(),
+  PointFound found;
+  found.norms = norms;
+  return {std::move(found), point, *sets_[point.set],
           ProjectedTerms(basis_, pencil, pencil.affineCount(), pencil.terms().size()),
-          false,
-          pencil.hasPower(1),
-          norms,
-          {},
-          {},
-          {},
-          {},
-          {},
-          pencil::Symmetry::none};
+          pencil.hasPower(1)};
 }
 
-ReducedProblem::Norms ReducedProblem::normsOf(const PointProblem& point) {
+Norms ReducedProblem::normsOf(const PointProblem& point) {
   const auto& pencil = point.pencil;
   norms_.emplace_back(point.at, Norms{pencil.norm(0, point.at), pencil.norm(1, point.at),
                                       pencil.norm(2, point.at)});
@@ -405,7 +396,7 @@ ReducedProblem::Norms ReducedProblem::normsOf(const PointProblem& point) {
 /// Collective. Returns the norms of the point nearest in friction that has been solved with the
 /// same other parameters, since norms take many products with large matrices. If there is none,
 /// they are computed.
-ReducedProblem::Norms ReducedProblem::nearbyNorms(const PointProblem& point) {
+Norms ReducedProblem::nearbyNorms(const PointProblem& point) {
   const std::pair<sweep::Parameters, Norms>* nearest = nullptr;
   for (const auto& known : norms_) {
     sweep::Parameters at = known.first;
@@ -466,7 +457,7 @@ void ReducedProblem::keepPairs(const std::vector<PointState>& states) {
     const auto& [band, guard, improved] = state.spectrum;
     knownSize_ += 2.0 * sizeof(Complex) * basis_.size() * (band.size() + guard.size());
     if (knownSize_ > most) return;
-    KnownPairs known{state.point->at, state.set, int(known_.size()) % ranks, {}};
+    KnownPairs known{state.point->at, state.point->set, int(known_.size()) % ranks, {}};
     if (rank == known.owner) {
       known.pairs = band;
       known.pairs.insert(known.pairs.end(), guard.begin(), guard.end());
@@ -478,7 +469,7 @@ void ReducedProblem::keepPairs(const std::vector<PointState>& states) {
 std::optional<std::vector<linalg::DensePair>> ReducedProblem::watchedPairs(
     const sweep::Parameters& at, int set) const {
   for (const auto& known : known_)
-    if (known.at == at && known.set == sets_[set].get()) {
+    if (known.at == at && known.set == set) {
       auto pairs = known.pairs;
       linalg::shareFrom(known.owner, basis_.comm(), pairs, linalg::Vectors::both);
       return pairs;
@@ -486,12 +477,33 @@ std::optional<std::vector<linalg::DensePair>> ReducedProblem::watchedPairs(
   return {};
 }
 
+BatchInHand ReducedProblem::inHand(const std::vector<PointState>& states,
+                                   const std::vector<PointState*>& open, int round,
+                                   PetscInt largest) const {
+  BatchInHand batch{round, largest, {}, {}};
+  for (const auto& state : states) {
+    batch.found.push_back(state);
+    batch.open.push_back(std::ranges::find(open, &state) != open.end());
+  }
+  return batch;
+}
+
 /// Collective. Solves at all points and corrects the basis until they are accurate.
 void ReducedProblem::correct(std::vector<PointState>& states) {
   std::vector<PointState*> open;
-  for (auto& state : states) open.push_back(&state);
-  const PetscInt largest = std::min<PetscInt>(basis_.size() + options_.growth, unknowns_);
-  for (int round = 0; !open.empty(); ++round) {
+  int round = 0;
+  PetscInt largest = std::min<PetscInt>(basis_.size() + options_.growth, unknowns_);
+  if (inHand_) {
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      static_cast<PointFound&>(states[i]) = std::move(inHand_->found[i]);
+      if (inHand_->open[i]) open.push_back(&states[i]);
+    }
+    round = inHand_->round, largest = inHand_->largest;
+    inHand_.reset();
+  } else {
+    for (auto& state : states) open.push_back(&state);
+  }
+  for (; !open.empty(); ++round) {
     extend(open);
     solveDense(open);
     std::erase_if(open, [&](const PointState* state) { return isAccurate(*state); });
@@ -505,11 +517,47 @@ void ReducedProblem::correct(std::vector<PointState>& states) {
     for (const auto* state : open) requests.push_back(requestOf(*state));
     if (basis_.add(directions(requests)) == 0) break;  // residuals are rounding
     rightRatio_ = std::max(measuredRatio_, basis_.lastEnergyRatio());
+    if (afterRound_ && !states.front().associated) {
+      inHand_ = inHand(states, open, round + 1, largest);
+      afterRound_();
+      inHand_.reset();
+    }
   }
   if (open = incompleteStates(states); !open.empty()) {  // corrections have ended early
     extend(open);
     solveDense(open);
   }
+}
+
+void ReducedProblem::exchange(checkpoint::Archive& archive) {
+  archive.common(lowestMode_, highestMode_, rightRatio_, leftRatio_, measuredRatio_, confirmed_,
+                 responded_, knownSize_, norms_);
+  double ratio = basis_.lastEnergyRatio();
+  long solves = basis_.solves();
+  archive.common(ratio, solves);
+  if (archive.reads()) {
+    linalg::DenseMatrix columns;
+    archive.own(columns);
+    basis_.restore(columns, ratio, solves);
+    extend({});
+  } else {
+    archive.own.borrow(basis_.columns().columnRange(exchanged_, basis_.size()));
+  }
+  exchanged_ = basis_.size();
+  std::size_t pairs = known_.size();
+  archive.common(pairs);
+  known_.resize(pairs);
+  for (; exchangedPairs_ < pairs; ++exchangedPairs_) {
+    auto& known = known_[exchangedPairs_];
+    archive.common(known.at, known.set, known.owner);
+    archive.own(known.pairs);
+  }
+  bool has = inHand_.has_value();
+  archive.common(has);
+  if (archive.reads()) inHand_.reset();
+  if (!has) return;
+  if (!inHand_) inHand_.emplace();
+  archive.common(inHand_->round, inHand_->largest, inHand_->found, inHand_->open);
 }
 
 std::vector<pencil::ComplexModes> ReducedProblem::solve(const std::vector<PointProblem>& batch,
@@ -518,7 +566,8 @@ std::vector<pencil::ComplexModes> ReducedProblem::solve(const std::vector<PointP
   if (!responded_ && options_.corrected && basis_.size() < unknowns_)
     addStaticResponses(batch.front());
   responded_ = true;
-  for (const auto& point : batch) states.push_back(newState(point, normsOf(point)));
+  for (const auto& point : batch)
+    states.push_back(newState(point, inHand_ ? Norms{} : normsOf(point)));
   correct(states);
   std::vector<pencil::ComplexModes> points;
   for (const auto& state : states) points.push_back(result(state));

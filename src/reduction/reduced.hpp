@@ -1,11 +1,12 @@
 #pragma once
 /// The reduced problem [4.19] is corrected until its eigenvalues are those of the full one.
-#include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "checkpoint/archive.hpp"
 #include "linalg/block.hpp"
 #include "linalg/complexvector.hpp"
 #include "linalg/quadratic.hpp"
@@ -13,6 +14,7 @@
 #include "pencil/band.hpp"
 #include "pencil/complex_modes.hpp"
 #include "pencil/pencil.hpp"
+#include "reduction/in_hand.hpp"
 #include "reduction/projected.hpp"
 #include "subspace/basis.hpp"
 #include "subspace/mode_count.hpp"
@@ -82,6 +84,14 @@ class ReducedProblem {
   /// responses are those of the first point of the first batch. Shapes are mapped to nodal
   /// displacements by `trial` (T, N×n).
   std::vector<pencil::ComplexModes> solve(const std::vector<PointProblem>& batch, Mat trial);
+  /// Returns true if vectors are only added to the basis, so that exchange() can be called.
+  bool grows() const { return !options_.compressed; }
+  /// Lets solve() call `action`, which is collective, whenever the basis has grown.
+  void afterEachRound(std::function<void()> action) { afterRound_ = std::move(action); }
+  /// Collective. Writes what has been found since the last call, and the state of the batch that
+  /// solve() has in hand, or takes both up again; the next solve() must then be of that batch. All
+  /// sets must be known. While it is written from, the archive borrows the basis.
+  void exchange(checkpoint::Archive& archive);
   /// Collective. Returns the eigenpairs of a point of these parameters and boundary unknowns that
   /// the band watches, with both vectors, in coordinates of the basis of the time when it was
   /// solved: those in the band as solve() left them, those around it as exact as they were needed.
@@ -123,11 +133,10 @@ class ReducedProblem {
   /// The watched eigenpairs of a point that has been solved, on one rank.
   struct KnownPairs {
     sweep::Parameters at;
-    const Set* set;
+    int set;  // its number
     int owner;
     std::vector<linalg::DensePair> pairs;
   };
-  using Norms = std::array<double, 3>;  // 2-norms of K̄, Z̄, M̄
   /// The part of the residuals that their directions may leave unresolved. A round gains a decade,
   /// and what it need not resolve it need not solve for.
   static constexpr double resolution = 0.03;
@@ -159,6 +168,8 @@ class ReducedProblem {
   void keepShapes(std::vector<pencil::ComplexModes>& points, const std::vector<PointState>& states,
                   Mat trial) const;
   void correct(std::vector<PointState>& states);
+  BatchInHand inHand(const std::vector<PointState>& states, const std::vector<PointState*>& open,
+                     int round, PetscInt largest) const;
   void confirmCount(const PointState& state, modes::Modes& modes) const;
   void keepPairs(const std::vector<PointState>& states);
   void keepForCompression(std::vector<PointState>& states);
@@ -181,6 +192,10 @@ class ReducedProblem {
   std::vector<KnownPairs> known_;
   double knownSize_ = 0;                                    // bytes on all ranks
   std::vector<std::pair<sweep::Parameters, Norms>> norms_;  // norms at the points solved
+  std::function<void()> afterRound_;
+  std::optional<BatchInHand> inHand_;  // between two rounds, or taken up from a checkpoint
+  PetscInt exchanged_ = 0;             // vectors of the basis that a checkpoint has, or begins with
+  std::size_t exchangedPairs_ = 0;     // entries of `known_` that it has
 };
 
 }  // namespace squeal::reduction

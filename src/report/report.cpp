@@ -27,6 +27,22 @@ output::Naming naming() {
           formerResults};
 }
 
+void writeInto(const analysis::Analysis& analysis, output::Folder& folder) {
+  folder.stage();
+  {
+    Stage stage(analysis.comm, "report");
+    writeTables(analysis, folder.staging());
+    if (fieldsOption.get()) {
+      writeHdf5(analysis, folder.staging());
+      if (analysis.mesh) writeFields(analysis, folder.staging());
+    }
+    stage.finish("results in " + folder.path().string());
+  }
+  writeRecipe(analysis, folder.staging());
+  writeSummary(analysis, folder.staging());  // after the last stage: it holds the times
+  folder.commit();
+}
+
 }  // namespace
 
 Directory::Directory(MPI_Comm comm) : Folder(comm, naming(), directoryOption.get()) {}
@@ -38,20 +54,25 @@ void writeText(MPI_Comm comm, const std::filesystem::path& path, const std::stri
 
 void write(const analysis::Analysis& analysis, Directory& directory) {
   const MPI_Comm comm = analysis.comm;
-  directory.stage();
-  {
-    Stage stage(comm, "report");
-    writeTables(analysis, directory.staging());
-    if (fieldsOption.get()) {
-      writeHdf5(analysis, directory.staging());
-      if (analysis.mesh) writeFields(analysis, directory.staging());
-    }
-    stage.finish("results in " + directory.path().string());
+  if (!analysis.interrupted) {
+    writeInto(analysis, directory);
+    say(comm, stabilityTable(analysis));
+    return;
   }
-  writeRecipe(analysis, directory.staging());
-  writeSummary(analysis, directory.staging());  // after the last stage: it holds the times
-  directory.commit();
+  const std::string how = analysis.checkpoint.exists() ? "; -resume continues it" : "";
+  if (analysis.segments.empty())
+    return complain(comm, "interrupted before the first eigenvalues" + how);
+  output::Folder part(comm, naming(), directory.interrupted());
+  writeInto(analysis, part);
   say(comm, stabilityTable(analysis));
+  complain(comm, "interrupted: what was found so far is in " + part.path().string() + how);
+}
+
+void removeInterrupted(MPI_Comm comm, const Directory& directory) {
+  int there = 0;
+  onFirstRank(comm, "", [&] { there = std::filesystem::is_directory(directory.interrupted()); });
+  check(MPI_Bcast(&there, 1, MPI_INT, 0, comm));
+  if (there) output::Folder(comm, naming(), directory.interrupted()).discard();
 }
 
 }  // namespace squeal::report

@@ -15,12 +15,19 @@ class Directory : public output::Folder {
  public:
   /// Collective. Call it when all options have been checked. Throws Error as output::Folder does.
   explicit Directory(MPI_Comm comm);
+  /// Returns the folder inside it for what a run leaves that has been asked to stop.
+  std::filesystem::path interrupted() const { return path() / "interrupted"; }
 };
 
 /// Collective. Writes all reports, which then replace those of an earlier run, and prints the
-/// stability table. Throws Error, naming -report_dir, if a file cannot be written; the earlier
-/// results then stay.
+/// stability table. Those of a run that has been asked to stop go to interrupted() instead, and the
+/// results of an earlier run stay; there are none if no eigenvalue has been found. Throws Error,
+/// naming -report_dir, if a file cannot be written; the earlier results then stay.
 void write(const analysis::Analysis& analysis, Directory& directory);
+
+/// Collective. Removes what an interrupted run has left in interrupted(), but for its checkpoint.
+/// Throws Error, naming -report_dir, if a file cannot be removed.
+void removeInterrupted(MPI_Comm comm, const Directory& directory);
 
 /// Collective. Writes the file on rank 0. Throws Error on all ranks, naming -report_dir, if that
 /// fails.

@@ -151,6 +151,8 @@ void writeSummary(const analysis::Analysis& analysis, const std::filesystem::pat
   summary["case"] =
       analysis.mesh ? std::filesystem::path(options.at("mesh_file")).stem().string() : "matrices";
   summary["ranks"] = ranks;
+  summary["complete"] = !analysis.interrupted;
+  summary["resumed"] = analysis.checkpoint.resumed();
   if (analysis.mesh) {
     summary["nodes"] = analysis.mesh->totalNodes;
     summary["cells"] = analysis.mesh->totalCells;
@@ -167,9 +169,11 @@ void writeSummary(const analysis::Analysis& analysis, const std::filesystem::pat
   summary["dofs"] = analysis.segments.empty() ? 0 : analysis.segments.front().unknowns;
   summary["frictions"] = Json::array();
   const auto points = analysis.sweep.points();
+  const std::size_t steadyPoints = analysis.sweep.steadyPoints().size();
   for (std::size_t i = 0; i < points.size(); ++i) {
     Json entry = parametersEntry(points[i]);
-    if (analysis.mesh) entry["steady"] = steadyEntry(analysis.steady[i % analysis.steady.size()]);
+    if (i % steadyPoints < analysis.steady.size())
+      entry["steady"] = steadyEntry(analysis.steady[i % steadyPoints]);
     if (const auto* point = analysis.pointAt(points[i])) {
       entry["eigenvalues"] = point->eigenvalues.size();
       entry["worst_backward_error"] = point->worstBackwardError();

@@ -161,6 +161,15 @@ PetscInt Basis::add(linalg::Block residuals) {
   return size() - before;
 }
 
+void Basis::restore(const linalg::DenseView& columns, double lastEnergyRatio, long solves) {
+  forces_ = linalg::Block(localRows());
+  energies_ = {};
+  columns_.append(columns);
+  sketched_.append(sketch_->unweighted(columns));
+  ratio_ = lastEnergyRatio;
+  solves_ = solves;
+}
+
 /// Collective. Adds z = K0⁻¹ R where that is all but orthogonal to V: K0 z, VᵀK0z and zᵀK0z are
 /// then R, VᵀR and zᵀR. Returns false, and adds nothing, if z is not, or if K0⁻¹ is not good enough
 /// for that.

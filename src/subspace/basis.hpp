@@ -52,6 +52,9 @@ class Basis {
   /// depend on others or on V are dropped. The rows of the boundary unknowns do not count: the
   /// constraint modes answer for them. Returns the number of columns added.
   PetscInt add(linalg::Block residuals);
+  /// Collective. Appends the vectors that add() has found in an earlier run, by this rank's rows,
+  /// with what it knew then.
+  void restore(const linalg::DenseView& columns, double lastEnergyRatio, long solves);
   /// Collective. Returns K0⁻¹ of the interior rows of the columns, solved for together, with zeros
   /// at the boundary.
   linalg::Block responses(const linalg::Block& forces);

@@ -1,0 +1,11 @@
+#pragma once
+/// Followed eigenvalues on their way to and from a checkpoint.
+#include "checkpoint/archive.hpp"
+#include "stability/followed.hpp"
+
+namespace squeal::stability {
+
+/// Not collective. Writes what was followed on a line, which all ranks know, or sets it.
+void fields(checkpoint::Stream& stream, Followed& followed);
+
+}  // namespace squeal::stability
