@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <cstring>
 #include <new>
+#include <nlohmann/json.hpp>
+#include <string>
 
 #include "analysis/analysis.hpp"
 #include "analysis/dry_run.hpp"
@@ -12,6 +14,7 @@
 #include "petsc/memory.hpp"
 #include "petsc/termination.hpp"
 #include "report/report.hpp"
+#include "session/events.hpp"
 #include "session/session.hpp"
 #include "session/stages.hpp"
 
@@ -35,6 +38,14 @@ constexpr const char* usage =
     "Exit code: 0 done, 2 some friction has no steady solution, 3 asked to stop (SIGTERM, SIGUSR1; "
     "-resume goes on), 1 error.\n";
 
+/// Prints an error and tells it to programs.
+void tellError(const squeal::Session& session, const std::string& message, bool onAllRanks) {
+  squeal::tellEvent("error", {{"text", message}});
+  const squeal::LineAway away;
+  if (onAllRanks && session.rank() > 0) return;
+  std::fprintf(stderr, "squeal: error: %s\n", message.c_str());
+}
+
 /// The exit code.
 int run(const squeal::Session& session) try {
   if (session.helpWanted() || session.helpJsonWanted()) {
@@ -57,6 +68,7 @@ int run(const squeal::Session& session) try {
     squeal::analysis::dryRun(session.comm());
     return 0;
   }
+  squeal::beginEvents(session.comm());
   squeal::report::Directory directory(session.comm());
   if (squeal::matrices::exportWanted())
     squeal::matrices::requireExportFolder(session.comm(), directory.path());
@@ -71,12 +83,12 @@ int run(const squeal::Session& session) try {
              ? 0
              : 2;  // instability is a result; a friction without steady state is not
 } catch (const squeal::Error& error) {
-  if (session.rank() == 0) std::fprintf(stderr, "squeal: error: %s\n", error.what());
+  tellError(session, error.what(), true);
   return 1;
 } catch (const std::bad_alloc&) {  // perhaps on this rank alone
   squeal::outOfMemory();
 } catch (const std::exception& error) {  // of this rank alone: the others wait for it
-  std::fprintf(stderr, "squeal: error: rank %d: %s\n", session.rank(), error.what());
+  tellError(session, "rank " + std::to_string(session.rank()) + ": " + error.what(), false);
   squeal::performLastActs();
   MPI_Abort(session.comm(), 1);
   return 1;
@@ -87,6 +99,7 @@ int run(const squeal::Session& session) try {
 int main(int argc, char** argv) {
   const squeal::Session session(argc, argv);
   const int code = run(session);
+  squeal::endEvents(code);
   if (squeal::outputError() == 0 || session.rank() != 0) return code;
   std::fprintf(stderr, "squeal: error: cannot write to the standard output: %s%s\n",
                std::strerror(squeal::outputError()),

@@ -12,6 +12,7 @@
 #include "modes/modes.hpp"
 #include "options/options.hpp"
 #include "petsc/termination.hpp"
+#include "session/events.hpp"
 
 namespace squeal::analysis {
 
@@ -53,6 +54,7 @@ Analysis analyse(MPI_Comm comm, const std::filesystem::path& checkpointFolder) {
   auto identity = checkpoint::identityOfRun(comm);
   identity.merge(identityOfInput(analysis));
   analysis.checkpoint = {comm, checkpointFolder, std::move(identity), checkpoint::resumeWanted()};
+  expectPoints(analysis.sweep.points().size());
   try {
     stopIfAsked(comm);
     if (analysis.mesh)

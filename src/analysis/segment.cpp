@@ -16,6 +16,7 @@
 #include "petsc/text.hpp"
 #include "reduction/reduced.hpp"
 #include "sensitivity/sensitivity.hpp"
+#include "session/events.hpp"
 #include "session/stages.hpp"
 #include "stability/kept.hpp"
 #include "sweep/parameters.hpp"
@@ -109,6 +110,7 @@ class SegmentSweep {
   SolvedSegments solve() {
     if (auto finished = checkpoint_.next(name_ + "_finished")) {
       exchangeFinished(*finished);
+      pointsDone(points_.size());
       return {std::move(segments_), true};
     }
     for (std::size_t k = 0; k < ranges_.size(); ++k) {
@@ -184,10 +186,12 @@ class SegmentSweep {
   /// Collective. Writes the basis and the points that have been found since the last call, or adds
   /// them.
   void exchangePoints(checkpoint::Archive& archive) {
+    const std::size_t before = solved_;
     archive.common(affine_, solved_);
     if (reduced_) reduced_->exchange(archive);
     for (const auto& order = solvedInOrder(); exchanged_ < solved_; ++exchanged_)
       pencil::exchange(archive, pointAt(order[exchanged_]));
+    if (archive.reads()) pointsDone(solved_ - before);
   }
 
   /// Collective. Writes all that is reported, or sets it.
@@ -286,6 +290,7 @@ class SegmentSweep {
                          startSpace(problems[i], point), point);
       }
       solved_ = end;
+      pointsDone(batch.size());
       keep();
       if (solved_ < points_.size()) stopIfAsked(pencil_.comm());
     }

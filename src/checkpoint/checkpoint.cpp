@@ -17,6 +17,7 @@
 #include "output/file.hpp"
 #include "petsc/termination.hpp"
 #include "petsc/text.hpp"
+#include "session/events.hpp"
 #include "session/session.hpp"
 #include "session/stages.hpp"
 
@@ -36,6 +37,7 @@ const FlagOption resumeOption(
     "continue the run whose checkpoint is in -report_dir; where there is none, begin anew");
 
 constexpr const char* identityName = "identity.json";
+constexpr const char* rankCount = "the number of ranks";
 constexpr std::array<char, 8> mark{'s', 'q', 'u', 'e', 'a', 'l', '0', '1'};
 
 /// What a file begins with; the sizes and checksums of the ranks follow.
@@ -112,7 +114,9 @@ std::string difference(const Identity& then, const Identity& now) {
   };
   Identity both = then;
   both.insert(now.begin(), now.end());
-  for (const auto& [name, value] : both)
+  std::vector<std::string> names{rankCount};  // first: the parts of the mesh differ with it
+  for (const auto& [name, value] : both) names.push_back(name);
+  for (const auto& name : names)
     if (text(then, name) != text(now, name))
       return name + " was " + text(then, name) + " and is " + text(now, name);
   return {};
@@ -130,7 +134,7 @@ unsigned long checksum(const void* data, std::size_t size, unsigned long before)
 Identity identityOfRun(MPI_Comm comm) {
   int ranks = 1;
   check(MPI_Comm_size(comm, &ranks));
-  Identity identity{{"the number of ranks", std::to_string(ranks)}};
+  Identity identity{{rankCount, std::to_string(ranks)}};
   unsigned long program = 0;  // entries hold the layout of its data
   onFirstRank(comm, "option -resume: ", [&] {
     std::ifstream file("/proc/self/exe", std::ios::binary);
@@ -180,10 +184,10 @@ Checkpoint::Checkpoint(MPI_Comm comm, fs::path folder, Identity identity, bool r
   }
   exists_ = true;
   if (!resumes) {
-    if (different.empty())
-      complain(comm_, "warning: " + folder_.string() +
-                          " holds the checkpoint of this case, interrupted; -resume would have "
-                          "continued it, and the first entry of this run replaces it");
+    complain(comm_, "warning: " + folder_.string() + " holds the checkpoint of " +
+                        (different.empty() ? "this case, which -resume would have continued"
+                                           : "another run") +
+                        "; this one replaces it with its first entry or its results");
     return;
   }
   resumed_ = begun_ = true;
@@ -345,6 +349,8 @@ void Checkpoint::write(const std::string& log, const Archive& archive) {
   ++count_[log];
   last_ = MPI_Wtime();
   cost_ = last_ - begin;
+  tellEvent("checkpoint",
+            {{"file", path.string()}, {"bytes", placeOf(head, parts, ranks)}, {"seconds", cost_}});
 }
 
 /// Removes what is of a checkpoint. On rank 0 alone.

@@ -6,10 +6,12 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "options/options.hpp"
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
+#include "session/events.hpp"
 
 namespace squeal {
 namespace {
@@ -29,7 +31,7 @@ int& outputErrorSlot() {
 bool speaks(MPI_Comm comm) {
   int rank = 0;
   check(MPI_Comm_rank(comm, &rank));
-  return rank == 0 && !quiet.get();
+  return rank == 0 && !isQuiet();
 }
 
 }  // namespace
@@ -40,7 +42,16 @@ Stage::Stage(MPI_Comm comm, std::string name)
       begin_(MPI_Wtime()),
       lastProgress_(begin_),
       before_(trafficSoFar()),
-      logged_(name_) {}
+      logged_(name_) {
+  tellEvent("stage_begin", {{"stage", name_}});
+  showStage(name_);
+}
+
+Stage::~Stage() {
+  if (logged_)  // it has come to nothing that is told
+    tellEvent("stage_end", {{"stage", name_}, {"seconds", MPI_Wtime() - begin_}});
+  showStage("");
+}
 
 void Stage::progress(const std::string& text) {
   if (MPI_Wtime() - lastProgress_ >= 2) say(text);
@@ -48,6 +59,7 @@ void Stage::progress(const std::string& text) {
 
 void Stage::say(const std::string& text) {
   lastProgress_ = MPI_Wtime();
+  tellEvent("progress", {{"stage", name_}, {"text", text}});
   if (!speaks(comm_)) return;
   print(formatted("%-10s %8.2f s … %s\n", name_.c_str(), lastProgress_ - begin_, text.c_str()));
 }
@@ -72,16 +84,23 @@ void Stage::finish(const std::string& result) {
   known->traffic.messages += sums[1];
   known->traffic.bytes += sums[2];
   known->traffic.reductions += reductions;
+  tellEvent(
+      "stage_end",
+      {{"stage", name_}, {"seconds", seconds}, {"peak_memory_bytes", sums[0]}, {"result", result}});
   if (!speaks(comm_)) return;
   print(formatted("%-10s %8.2f s  %s\n", name_.c_str(), seconds, result.c_str()));
 }
 
+bool isQuiet() { return quiet.get(); }
+
 void say(MPI_Comm comm, const std::string& text) {
+  tellEvent("message", {{"text", text}});
   if (!speaks(comm)) return;
   print(text + "\n");
 }
 
 void print(const std::string& text) {
+  const LineAway away;
   if ((std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0) && outputErrorSlot() == 0)
     outputErrorSlot() = errno;
 }
@@ -91,7 +110,10 @@ int outputError() { return outputErrorSlot() == EPIPE ? 0 : outputErrorSlot(); }
 void complain(MPI_Comm comm, const std::string& text) {
   int rank = 0;
   check(MPI_Comm_rank(comm, &rank));
-  if (rank == 0) std::fprintf(stderr, "squeal: %s\n", text.c_str());
+  if (rank > 0) return;
+  tellEvent("warning", {{"text", text}});
+  const LineAway away;
+  std::fprintf(stderr, "squeal: %s\n", text.c_str());
 }
 
 const std::vector<StageRecord>& stageRecords() { return records(); }

@@ -27,10 +27,12 @@ struct StageRecord {
 class Stage {
  public:
   Stage(MPI_Comm comm, std::string name);
+  ~Stage();
+  Stage(const Stage&) = delete;
+  Stage& operator=(const Stage&) = delete;
   /// Collective. Prints the result with the time (on rank 0, unless -quiet) and keeps the record.
   void finish(const std::string& result);
   /// Prints the progress of long work (on rank 0, unless -quiet), at most a line every two seconds.
-  /// These are plain lines, since the output of parallel jobs goes through pipes and files.
   void progress(const std::string& text);
   /// Prints the result of one of several tasks of the stage at once (on rank 0, unless -quiet).
   void say(const std::string& text);
@@ -43,6 +45,8 @@ class Stage {
   std::optional<LoggedStage> logged_;
 };
 
+/// Returns the option `-quiet`.
+bool isQuiet();
 /// Not collective. Prints text on rank 0, unless -quiet is given.
 void say(MPI_Comm comm, const std::string& text);
 /// Not collective. Prints text on the standard output at once. A failure to write does not end the

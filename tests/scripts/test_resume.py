@@ -1,0 +1,246 @@
+#!/usr/bin/python3
+"""Runs that are cut off and continued, and the log of events: test_resume.py PROGRAM MPIEXEC.
+
+With SQUEAL_LONG in the environment, five random moments of several kinds of runs instead of one moment of one.
+"""
+import json
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+repository = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(repository / "python"))
+sys.dont_write_bytecode = True
+import squeal  # noqa: E402
+
+MPIEXEC = sys.argv.pop() if len(sys.argv) > 2 else "mpirun -n"
+PROGRAM = sys.argv.pop() if len(sys.argv) > 1 else str(repository / "build/squeal")
+LONG = bool(os.environ.get("SQUEAL_LONG"))
+# A run that is continued takes the steps of the one that was not cut off, but for rounding: eigenvalues differ by that
+# times their condition numbers, some thousand at most here.
+SAME = 1e-10
+
+BRAKE = ["-options_file", repository / "options/disc_brake.yaml", "-modes_count", "40", "-flutter_band", "9000", "-report_fields", "off",
+         "-mesh_set", "n_pad_theta=6,n_free_theta=8,n_mount=1,n_plate=1,n_inside=1,n_pad_r=3,n_hat=1,n_h_ring=1",
+         "-flutter_friction", "0:0.6:0.03"]  # fmt: skip
+
+
+class Run:
+    """A run of the program in a folder of its own, with its events."""
+
+    def __init__(self, folder, options, ranks=2):
+        self.folder, self.log = Path(folder), Path(f"{folder}.jsonl")
+        self.output = Path(f"{folder}.log")
+        self.log.unlink(missing_ok=True)
+        words = [*MPIEXEC.split(), str(ranks), PROGRAM, *options, "-report_dir", folder, "-log_json", self.log]
+        with open(self.output, "w") as output:
+            self.process = subprocess.Popen([str(word) for word in words], stdout=output, stderr=subprocess.STDOUT)
+
+    def events(self):
+        lines = self.log.read_text().split("\n")[:-1] if self.log.exists() else []
+        return [json.loads(line) for line in lines]
+
+    def wait_for(self, wanted, seconds=60):
+        """Returns once an event is as wanted."""
+        end = time.monotonic() + seconds
+        while time.monotonic() < end and self.process.poll() is None:
+            if any(wanted(event) for event in self.events()):
+                return
+            time.sleep(0.002)
+        raise AssertionError(f"the event did not come: {self.text()}")
+
+    def kill_ranks(self):
+        """Kills the ranks outright, as a machine does that has no memory left."""
+        children = subprocess.run(["pgrep", "-P", str(self.process.pid)], capture_output=True, text=True).stdout.split()
+        for child in children:
+            try:
+                os.kill(int(child), signal.SIGKILL)
+            except ProcessLookupError:
+                pass
+
+    def finish(self, seconds=300):
+        return self.process.wait(seconds)
+
+    def text(self):
+        return self.output.read_text()
+
+    def stages(self):
+        return {event["stage"] for event in self.events() if event["event"] == "stage_end"}
+
+
+def done(folder, options, ranks=2):
+    run = Run(folder, options, ranks)
+    code = run.finish()
+    if code != 0:
+        raise AssertionError(run.text())
+    return run
+
+
+def files_of(folder):
+    """All files but the lock, which a killed run leaves and which hinders nobody."""
+    return {str(path.relative_to(folder)): path.read_bytes() for path in Path(folder).rglob("*")
+            if path.is_file() and path.name != ".squeal.lock"}  # fmt: skip
+
+
+class Resumed(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(temporary.cleanup)
+        cls.place = Path(temporary.name)
+        cls.whole = done(cls.place / "whole", BRAKE)
+
+    def setUp(self):
+        self.folder = self.place / self.id().split(".")[-1]
+
+    def expect_same(self, folder, whole):
+        """The results of two runs agree, and the second has solved for as many right-hand sides in all."""
+        ours, theirs = squeal.open(folder), squeal.open(whole)
+        self.assertEqual(len(ours.eigenvalues), len(theirs.eigenvalues))
+        error = np.abs(ours.eigenvalues["s"] - theirs.eigenvalues["s"]) / np.abs(theirs.eigenvalues["s"])
+        self.assertLess(error.max(), SAME)
+        self.assertEqual(list(ours.eigenvalues["verdict"]), list(theirs.eigenvalues["verdict"]))
+        if theirs.critical is not None:
+            self.assertEqual(len(ours.critical), len(theirs.critical))
+            self.assertLess(np.abs(ours.critical["friction"] - theirs.critical["friction"]).max(), SAME)
+        solves = [[part["solves"] for part in json.loads((Path(one) / "summary.json").read_text())["active_sets"]] for one in (folder, whole)]
+        self.assertEqual(*solves)
+        self.assertFalse((Path(folder) / "interrupted").exists())
+
+    def expect_kept(self, before):
+        after = files_of(self.folder)
+        self.assertEqual([name for name, text in before.items() if after.get(name) != text], [])
+
+    def cut_off(self, options=BRAKE, log="_points_0003"):
+        """A run that is killed once an entry of its checkpoint is written, over results of an earlier run."""
+        shutil.copytree(self.whole.folder, self.folder)
+        before = files_of(self.folder)
+        run = Run(self.folder, [*options, "-checkpoint_interval", "0"])
+        run.wait_for(lambda event: event["event"] == "checkpoint" and log in event["file"])
+        run.kill_ranks()
+        self.assertNotEqual(run.finish(), 0)
+        self.expect_kept(before)
+        return run
+
+    def test_a_killed_run_goes_on(self):
+        self.cut_off()
+        again = done(self.folder, [*BRAKE, "-resume"])
+        self.assertNotIn("modes", again.stages())
+        self.expect_same(self.folder, self.whole.folder)
+
+    def test_a_run_that_is_asked_to_stop(self):
+        shutil.copytree(self.whole.folder, self.folder)
+        before = files_of(self.folder)
+        run = Run(self.folder, BRAKE)  # a minute to the first entry: what is asked to stop writes it at once
+        run.wait_for(lambda event: event["event"] == "points" and event["done"] >= 5)
+        run.process.send_signal(signal.SIGUSR1)
+        self.assertEqual(run.finish(), 3, run.text())
+        self.assertEqual(run.events()[-1], run.events()[-1] | {"event": "end", "exit_code": 3})
+        self.expect_kept(before)
+        part = squeal.open(self.folder / "interrupted")
+        whole = squeal.open(self.whole.folder)
+        self.assertIs(part.summary["complete"], False)
+        points = sorted(set(part.eigenvalues["friction"]))
+        self.assertGreaterEqual(len(points), 5)
+        # Those points are done: their eigenvalues are those of the whole run.
+        there = whole.eigenvalues[whole.eigenvalues["friction"].isin(points)]
+        self.assertLess((np.abs(part.eigenvalues["s"].to_numpy() - there["s"].to_numpy()) / np.abs(there["s"])).max(), SAME)
+        again = done(self.folder, [*BRAKE, "-resume"])
+        self.assertNotIn("modes", again.stages())
+        self.assertIs(squeal.open(self.folder).summary["complete"], True)
+        self.expect_same(self.folder, self.whole.folder)
+
+    def test_what_cannot_be_continued(self):
+        self.cut_off()
+        before = files_of(self.folder)
+        entry = self.folder / "interrupted/checkpoint/sets_1_modes_0000.entry"
+        for ranks, words, message in (
+            (2, ["-flutter_friction", "0:0.6:0.02"], "option -flutter_friction was '0:0.6:0.03' and is '0:0.6:0.02'"),
+            (1, [], "the number of ranks was '2' and is '1'"),
+            (2, ["-mesh_scale", "1.0000001"], "option -mesh_scale was not given and is '1.0000001'"),
+        ):
+            run = Run(self.folder, [*BRAKE, "-resume", *words], ranks)
+            self.assertEqual(run.finish(), 1)
+            self.assertIn(f"squeal: error: option -resume: the checkpoint in {entry.parent} is of another run: {message}", run.text())
+            self.expect_kept(before)
+        damaged = bytearray(entry.read_bytes())
+        damaged[-100] ^= 1
+        entry.write_bytes(damaged)
+        run = Run(self.folder, [*BRAKE, "-resume"])
+        self.assertEqual(run.finish(), 1)
+        self.assertIn(f"squeal: error: the checkpoint is damaged: {entry}", run.text())
+
+    def test_nothing_to_continue(self):
+        run = done(self.folder, [*BRAKE, "-resume"])
+        self.assertIn("there is no checkpoint in", run.text())
+        self.expect_same(self.folder, self.whole.folder)
+
+    def test_events(self):
+        events = self.whole.events()
+        self.assertEqual(events[0], events[0] | {"event": "start", "ranks": 2})
+        self.assertEqual(events[-1], events[-1] | {"event": "end", "exit_code": 0})
+        times = [event["elapsed_s"] for event in events]
+        self.assertEqual(times, sorted(times))
+        counted = [event["done"] for event in events if event["event"] == "points"]
+        self.assertEqual((counted, {event["total"] for event in events if event["event"] == "points"}), ([5, 21], {21}))
+        open_stages = []
+        for event in events:  # every stage that begins ends, in order
+            if event["event"] == "stage_begin":
+                open_stages.append(event["stage"])
+            elif event["event"] == "stage_end":
+                self.assertEqual(open_stages.pop(), event["stage"])
+        self.assertEqual(open_stages, [])
+        self.assertLessEqual({"mesh", "elasticity", "contact", "steady", "modes", "flutter", "track", "report"}, self.whole.stages())
+
+    def test_line(self):
+        layer = ["-options_file", repository / "options/layer.yaml", "-report_fields", "off"]
+        shown = {how: done(self.place / f"line_{how}", [*layer, *words], 1).text().split("\r\033[K")
+                 for how, words in (("line", ["-progress", "line"]), ("auto", []), ("quiet", ["-progress", "line", "-quiet"]))}  # fmt: skip
+        self.assertRegex("|".join(shown["line"]), r"point \d+ of \d+ · \d\d:\d\d")
+        self.assertNotRegex("".join(shown["line"][1:]).split("\n")[-1], "point")  # it is gone at the end
+        self.assertEqual((len(shown["auto"]), len(shown["quiet"])), (1, 1))
+
+    def test_a_log_that_cannot_be_written(self):
+        run = subprocess.run([PROGRAM, *map(str, BRAKE), "-report_dir", self.folder, "-log_json", self.place / "no/such.jsonl"],
+                             capture_output=True, text=True)  # fmt: skip
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("squeal: error: option -log_json: cannot write", run.stderr)
+        self.assertFalse(self.folder.exists())
+
+    @unittest.skipUnless(LONG, "five random moments of each kind of run: SQUEAL_LONG")
+    def test_random_moments(self):
+        seed = random.randrange(10**6)
+        random.seed(seed)
+        kinds = {
+            "plain": (2, BRAKE),
+            "damped": (3, [*BRAKE, "-flutter_modal_damping", "0.01", "-flutter_friction", "0:0.6:0.1", "-flutter_damping", "1,2", "-flutter_sensitivities"]),
+            "speeds": (2, ["-options_file", repository / "options/two_layers_moving.yaml"]),
+            "direct": (1, ["-options_file", repository / "options/layer.yaml", "-flutter_method", "direct"]),
+            "matrices": (2, ["-options_file", repository / "options/external_chain.yaml"]),
+        }
+        for name, (ranks, options) in kinds.items():
+            begin = time.monotonic()
+            whole = done(self.place / f"whole_{name}", options, ranks)
+            takes = time.monotonic() - begin
+            for number in range(5):
+                with self.subTest(kind=name, number=number, seed=seed):
+                    folder = self.place / f"random_{name}_{number}"
+                    run = Run(folder, [*options, "-checkpoint_interval", "0"], ranks)
+                    time.sleep(random.uniform(0.1, 0.9) * takes)
+                    run.kill_ranks()
+                    run.finish()
+                    done(folder, [*options, "-resume"], ranks)
+                    self.expect_same(folder, whole.folder)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
