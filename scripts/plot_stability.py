@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3 -B
 """Plots what a sweep found.
 
 plot_stability.py REPORT_DIR reads eigenvalues.csv and stability_map.csv there and writes beside them
@@ -12,16 +12,17 @@ Eigenvalues above the band, which nobody vouches for, are left out.
 import sys
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-import numpy as np
-
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "python"))
 
+from results import Results, program  # noqa: E402, I001
+
+import matplotlib  # noqa: E402
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
+
 import squeal  # noqa: E402
-from results import Results  # noqa: E402
 from squeal.results import NOISE, PARAMETERS  # noqa: E402
 
 READABLE = 300  # cells of a map that have room for a number
@@ -222,8 +223,8 @@ def draw_map(table, across, up, title, largest):
 
 
 def main():
-    if len(sys.argv) != 2:
-        sys.exit("usage: plot_stability.py REPORT_DIR")
+    if len(sys.argv) != 2 or sys.argv[1].startswith("-"):
+        sys.exit(f"usage: {Path(sys.argv[0]).name} REPORT_DIR")
     folder = Path(sys.argv[1])
     results = Results(folder)
     try:
@@ -231,9 +232,9 @@ def main():
         table, stability = run.eigenvalues, run.stability_map
         followed = None if run.branches is None else (run.branches, run.critical)
     except squeal.ResultsError as error:
-        sys.exit(f"plot_stability: {error}")
+        sys.exit(f"{program()}: {error}")
     if len(table["friction"]) == 0:
-        sys.exit(f"plot_stability: {folder / 'eigenvalues.csv'} holds no eigenvalue")
+        sys.exit(f"{program()}: {folder / 'eigenvalues.csv'} holds no eigenvalue")
     swept = run.swept()
     abscissa = swept[0] if swept else "friction"
     for suffix, title, values in slices(table, swept[1:]):

@@ -1,4 +1,5 @@
-"""Files that a script adds to the folder of a run."""
+"""What the scripts that read the results of a run share: the files that they add to them, and what they need. To be imported first: a package
+of Python that is not installed is then told in one line."""
 import contextlib
 import errno
 import fcntl
@@ -7,6 +8,7 @@ import re
 import sys
 from pathlib import Path
 
+PACKAGES = {name: f"python3-{name}" for name in ("h5py", "matplotlib", "numpy", "pandas")} | {"vtkmodules": "python3-vtk9"}
 MANIFEST, LOCK, LAST = "manifest.txt", ".squeal.lock", "summary.json"
 
 
@@ -93,3 +95,15 @@ class Results:
 
 def program():
     return Path(sys.argv[0]).stem
+
+
+def tell(kind, error, trace):
+    """What Python calls for an exception that nobody has caught."""
+    name = (getattr(error, "name", None) or "").partition(".")[0]
+    if issubclass(kind, ModuleNotFoundError) and name in PACKAGES:
+        print(f"{program()}: Python's package {name} is not installed; Debian has it in {PACKAGES[name]}", file=sys.stderr)
+    else:
+        sys.__excepthook__(kind, error, trace)
+
+
+sys.excepthook = tell

@@ -155,13 +155,14 @@ TEST(CommandLine, CasesRunFromAnywhere) {
 fs::path scriptsIn(const fs::path& place) {
   fs::create_directories(place / "scripts");
   fs::create_directories(place / "build");
-  for (const char* script : {"run", "ranks", "report_dir"})
+  for (const char* script : {"run", "run_case", "ranks", "report_dir"})
     fs::copy_file(fs::path(SQUEAL_SOURCE_DIR) / "scripts" / script, place / "scripts" / script);
   fs::create_symlink(SQUEAL_EXECUTABLE, place / "build/squeal");
   writeText(place / "scripts/setup",
             "cd \"$(dirname \"${BASH_SOURCE[0]}\")/..\"\n"
             "mpirun() { shift; '" SQUEAL_MPIEXEC "' \"$@\"; }\n");
-  writeText(place / "scripts/plot_stability.py", "print('plotted')\n");
+  writeText(place / "scripts/plot_stability.py", "#!/bin/sh\necho plotted\n");
+  fs::permissions(place / "scripts/plot_stability.py", fs::perms::owner_all);
   return place / "scripts/run";
 }
 
@@ -215,7 +216,8 @@ TEST(CommandLine, ScriptHelpBuildsNothing) {
   const fs::path place = placeFor("command_line/help");
   fs::remove_all(place);
   fs::create_directories(place / "scripts");
-  fs::copy_file(SQUEAL_SOURCE_DIR "/scripts/run", place / "scripts/run");
+  for (const char* script : {"run", "run_case"})
+    fs::copy_file(fs::path(SQUEAL_SOURCE_DIR) / "scripts" / script, place / "scripts" / script);
   for (const char* call : {"scripts/run --help >out", "scripts/run disc_brake -h >out"}) {
     EXPECT_EQ(shell(place, call), 0) << call;
     EXPECT_NE(contentOf(place / "out").find("scripts/run [CASE]"), std::string::npos) << call;
