@@ -90,7 +90,7 @@ class Spack(unittest.TestCase):
 
     def test_class(self):
         self.assertEqual(self.recorded.recipe.__name__, "Squeal")
-        self.assertEqual(len(self.recorded.recipe.__doc__.split(".")[0]) > 20, True)
+        self.assertGreater(len(self.recorded.recipe.__doc__), 20)
         version = re.search(r"project\(squeal VERSION (\S+)", self.cmake)[1]
         self.assertEqual([words for words, _, _ in self.recorded.of("version")], [(version,)])
         least = re.search(r"cmake_minimum_required\(VERSION (\S+)\)", self.cmake)[1]
@@ -108,10 +108,9 @@ class Spack(unittest.TestCase):
         variants = {words[0] for words, _, _ in self.recorded.of("variant")}
         conditions = [condition for _, named, outer in self.recorded.of("depends_on") for condition in [named.get("when"), *outer] if condition]
         self.assertEqual({condition.lstrip("+~") for condition in conditions}, variants)
-        recipe = self.recorded.recipe()
-        for name, value in recipe.cmake_args():
-            cached = (BUILD / "CMakeCache.txt").read_text()
-            self.assertRegex(cached, rf"(?m)^{name}:BOOL=", f"CMake has no option {name}")
+        options = re.findall(r"^(\w+):BOOL=", (BUILD / "CMakeCache.txt").read_text(), re.M)
+        for name, value in self.recorded.recipe().cmake_args():
+            self.assertTrue(name in options, f"CMake has no option {name}")
             self.assertTrue(isinstance(value, bool) or value in variants, value)
 
     def test_python_of_the_commands(self):
