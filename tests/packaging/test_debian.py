@@ -27,6 +27,12 @@ mount -t proc proc "$0/proc" && mount --rbind /sys "$0/sys" && mount -t tmpfs tm
 """
 
 
+def commands_of_image(section):
+    """The lines of a section of the last stage of the Apptainer image: what installs the package there, installs it here."""
+    stage = (repository / "packaging/apptainer/squeal.def").read_text().split("Stage: final\n")[1]
+    return [line.strip() for line in re.search(rf"(?ms)^%{section}$(.*?)(?=^%|\Z)", stage)[1].splitlines() if line.strip()]
+
+
 def apt_sources():
     """The files of this machine that name archives of the release."""
     places = [Path("/etc/apt/sources.list"), *sorted(Path("/etc/apt/sources.list.d").glob("*"))]
@@ -59,7 +65,8 @@ class Package(unittest.TestCase):
         cls.package = next(cls.place.glob("*.deb"))
         cls.root = cls.place / "root"
         cls.run_here("mmdebstrap", "--mode=root", "--variant=apt", "--include=debian-archive-keyring", *apt_options(), RELEASE, cls.root, *apt_sources())
-        shutil.copy(cls.package, cls.root / "squeal.deb")
+        shutil.copy(cls.package, cls.root / "opt")
+        cls.install, cls.install_recommended = (line for line in commands_of_image("post") if line.startswith("apt-get install"))
         cls.inside("useradd --create-home engineer")
         cls.before = cls.files()
 
@@ -112,7 +119,7 @@ class Package(unittest.TestCase):
             self.assertRegex(content, rf"(?m) \./usr/{re.escape(name)}( -> .*)?$")
 
     def test_2_dependencies_alone(self):
-        self.inside("apt-get -q update && apt-get -q install --yes --no-install-recommends /squeal.deb")
+        self.inside(f"apt-get update; {self.install}")
         printed = self.by_user("mkdir work && cd work && squeal-run layer && squeal-plot results/layer && squeal-report results/layer")
         self.assertIn("friction 0.6", printed)
         self.compare("layer")
@@ -124,7 +131,8 @@ class Package(unittest.TestCase):
         print(f"Debian with the package and its dependencies: {size}", flush=True)
 
     def test_3_recommended_too(self):
-        self.inside(f"apt-get -q install --yes --no-install-recommends {self.field('Recommends').replace(',', '')}")
+        self.inside(self.install_recommended)
+        self.inside("; ".join(commands_of_image("test")))
         self.by_user("cd work; squeal-run layer; squeal-plot mode results/layer 0.4")
         self.compare("layer")
         self.assertNotIn("were not installed", self.report())
