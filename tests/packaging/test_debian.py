@@ -74,7 +74,7 @@ class Package(unittest.TestCase):
     def run_here(cls, *words):
         run = subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False, timeout=1200)
         if run.returncode:
-            sys.exit(f"test_debian: {' '.join(map(str, words))} failed:\n{run.stdout}")
+            raise RuntimeError(f"{' '.join(map(str, words))} failed:\n{run.stdout}")  # unlike sys.exit, it lets the cleanup run
         return run.stdout
 
     @classmethod
