@@ -7,18 +7,21 @@
 namespace squeal::modes {
 
 void exchange(checkpoint::Archive& archive, Modes& modes, Mat like) {
-  archive.common(modes.lambda, modes.angularFrequency, modes.relativeResidual, modes.iterations,
-                 modes.countConfirmed, modes.inertiaCount, modes.inertiaShift, modes.rounding);
-  bool has = static_cast<bool>(modes.vectors);
+  // All members are named, so that a new one does not compile until it is kept too.
+  auto& [lambda, angularFrequency, relativeResidual, vectors, iterations, countConfirmed,
+         inertiaCount, inertiaShift, rounding] = modes;
+  archive.common(lambda, angularFrequency, relativeResidual, iterations, countConfirmed,
+                 inertiaCount, inertiaShift, rounding);
+  bool has = static_cast<bool>(vectors);
   archive.common(has);
   if (!has) return;
   if (archive.reads()) {
     linalg::DenseMatrix columns;
     archive.own(columns);
-    modes.vectors = linalg::copiedColumns(like, columns);
+    vectors = linalg::copiedColumns(like, columns);
   } else {
-    const auto vectors = std::make_shared<const linalg::ReadColumns>(modes.vectors);
-    archive.own.borrow(vectors->view(), vectors);
+    const auto columns = std::make_shared<const linalg::ReadColumns>(vectors);
+    archive.own.borrow(columns->view(), columns);
   }
 }
 

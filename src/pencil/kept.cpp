@@ -6,27 +6,32 @@ namespace squeal::pencil {
 void fields(checkpoint::Stream& stream, Derivative& derivative);
 void fields(checkpoint::Stream& stream, Sensitivity& found);
 
+// All members are named, so that a new one does not compile until it is kept too.
+
 void fields(checkpoint::Stream& stream, Derivative& derivative) {
-  stream(derivative.parameter, derivative.value);
+  auto& [parameter, value] = derivative;
+  stream(parameter, value);
 }
 
 void fields(checkpoint::Stream& stream, Sensitivity& found) {
-  stream(found.condition, found.separation, found.leftBackwardError, found.derivatives);
+  auto& [condition, separation, leftBackwardError, derivatives] = found;
+  stream(condition, separation, leftBackwardError, derivatives);
 }
 
 void exchange(checkpoint::Archive& archive, ComplexModes& point) {
-  archive.common(point.at, point.eigenvalues, point.sensitivities, point.bandTop,
-                 point.freeModesInBand, point.damped, point.accuracy, point.tolerance,
-                 point.askedTo, point.coveredTo);
-  std::size_t shapes = point.shapes.size();
-  archive.common(shapes);
-  point.shapes.resize(shapes);
-  for (auto& shape : point.shapes) {
-    archive.common(shape.index);
-    archive.vector(shape.real);
-    archive.vector(shape.imaginary);
-    archive.vector(shape.unknowns);
-    archive.own(shape.frictionWork);
+  auto& [at, eigenvalues, shapes, sensitivities, bandTop, freeModesInBand, damped, accuracy,
+         tolerance, askedTo, coveredTo] = point;
+  archive.common(at, eigenvalues, sensitivities, bandTop, freeModesInBand, damped, accuracy,
+                 tolerance, askedTo, coveredTo);
+  std::size_t count = shapes.size();
+  archive.common(count);
+  shapes.resize(count);
+  for (auto& [index, real, imaginary, unknowns, frictionWork] : shapes) {
+    archive.common(index);
+    archive.vector(real);
+    archive.vector(imaginary);
+    archive.vector(unknowns);
+    archive.own(frictionWork);
   }
 }
 

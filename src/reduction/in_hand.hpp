@@ -35,8 +35,10 @@ struct BatchInHand {
 
 /// Not collective. Writes what is known of a point, the same on all ranks, or sets it.
 inline void fields(checkpoint::Stream& stream, PointFound& found) {
-  stream(found.norms, found.spectrum.band, found.spectrum.guard, found.spectrum.improved,
-         found.backwardError, found.rightError, found.leftError, found.rounding, found.symmetry);
+  // All members are named, so that a new one does not compile until it is kept too.
+  auto& [norms, spectrum, backwardError, rightError, leftError, rounding, symmetry] = found;
+  auto& [band, guard, improved] = spectrum;
+  stream(norms, band, guard, improved, backwardError, rightError, leftError, rounding, symmetry);
 }
 
 }  // namespace squeal::reduction

@@ -7,18 +7,21 @@ void fields(checkpoint::Stream& stream, Station& station);
 void fields(checkpoint::Stream& stream, Event& event);
 void fields(checkpoint::Stream& stream, Gap& gap);
 
+// All members are named, so that a new one does not compile until it is kept too.
+
 void fields(checkpoint::Stream& stream, Station& station) {
-  stream(station.friction, station.swept, station.pairs, station.branch, station.overlap,
-         station.inBand, station.piece);
+  auto& [friction, swept, pairs, branch, overlap, inBand, piece] = station;
+  stream(friction, swept, pairs, branch, overlap, inBand, piece);
 }
 
 void fields(checkpoint::Stream& stream, Event& event) {
-  stream(event.kind, event.branch, event.partner, event.loss, event.low, event.high, event.below,
-         event.above, event.isolation, event.piece);
+  auto& [kind, branch, partner, loss, low, high, below, above, isolation, piece] = event;
+  stream(kind, branch, partner, loss, low, high, below, above, isolation, piece);
 }
 
 void fields(checkpoint::Stream& stream, Gap& gap) {
-  stream(gap.from, gap.to, gap.what, gap.identityOnly);
+  auto& [from, to, what, identityOnly] = gap;
+  stream(from, to, what, identityOnly);
 }
 
 }  // namespace squeal::tracking
@@ -26,10 +29,10 @@ void fields(checkpoint::Stream& stream, Gap& gap) {
 namespace squeal::stability {
 
 void fields(checkpoint::Stream& stream, Followed& followed) {
-  auto& branches = followed.branches;
-  stream(followed.line, followed.activeSet, followed.from, branches.band, branches.stations,
-         branches.events, branches.gaps, branches.count, branches.entered, branches.left,
-         followed.criticals, followed.countExact, followed.wholeSpace);
+  auto& [line, activeSet, from, branches, criticals, countExact, wholeSpace] = followed;
+  auto& [band, stations, events, gaps, count, entered, left] = branches;
+  stream(line, activeSet, from, band, stations, events, gaps, count, entered, left, criticals,
+         countExact, wholeSpace);
 }
 
 }  // namespace squeal::stability

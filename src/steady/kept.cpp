@@ -6,23 +6,28 @@ namespace squeal::steady {
 void fields(checkpoint::Stream& stream, Resultant& resultant);
 void fields(checkpoint::Stream& stream, Sticking& sticking);
 
+// All members are named, so that a new one does not compile until it is kept too.
+
 void fields(checkpoint::Stream& stream, Resultant& resultant) {
-  stream(resultant.interface, resultant.normalForce, resultant.frictionForce, resultant.moment,
-         resultant.leastFriction, resultant.worst, resultant.stickingLimit, resultant.overLimit,
-         resultant.released, resultant.unheld, resultant.momentDefect);
+  auto& [interface, normalForce, frictionForce, moment, leastFriction, worst, stickingLimit,
+         overLimit, released, unheld, momentDefect] = resultant;
+  stream(interface, normalForce, frictionForce, moment, leastFriction, worst, stickingLimit,
+         overLimit, released, unheld, momentDefect);
 }
 
 void fields(checkpoint::Stream& stream, Sticking& sticking) {
-  stream(sticking.holds, sticking.direction, sticking.heldAgain);
+  auto& [holds, direction, heldAgain] = sticking;
+  stream(holds, direction, heldAgain);
 }
 
 void exchange(checkpoint::Archive& archive, Solution& solution) {
-  archive.common(solution.at, solution.converged, solution.reason, solution.existsTo,
-                 solution.tolerance, solution.iterations, solution.residual, solution.revisions,
-                 solution.negligibleForce, solution.openNodes, solution.smallestPressure,
-                 solution.resultants, solution.imbalance);
-  archive.own(solution.contact, solution.slip, solution.closed, solution.sticking);
-  archive.vector(solution.displacement);
+  auto& [at, converged, reason, existsTo, tolerance, iterations, residual, displacement, contact,
+         slip, closed, sticking, revisions, negligibleForce, openNodes, smallestPressure,
+         resultants, imbalance] = solution;
+  archive.common(at, converged, reason, existsTo, tolerance, iterations, residual, revisions,
+                 negligibleForce, openNodes, smallestPressure, resultants, imbalance);
+  archive.own(contact, slip, closed, sticking);
+  archive.vector(displacement);
 }
 
 }  // namespace squeal::steady
