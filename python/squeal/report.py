@@ -116,7 +116,10 @@ def _data(results, with_shapes):
         "left": [],
     }
     blobs = {}
-    if with_shapes and results.mesh is not None and len(kept):
+    if results.parts:
+        folders = ", ".join(part["folder"] for part in results.summary["parts"])
+        data["left"].append(f"These are the joined tables of several runs. Shapes of modes and contact fields are in the reports of each: {folders}.")
+    elif with_shapes and results.mesh is not None and len(kept):
         _add_shapes(results, kept, data, blobs)
     elif with_shapes and results.mesh is None:
         data["left"].append("Matrices from files have no mesh, so that no shapes are shown.")

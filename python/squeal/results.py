@@ -1,4 +1,5 @@
 """The folder of a run: its tables, modes and fields."""
+import contextlib
 import dataclasses
 import functools
 import json
@@ -105,10 +106,15 @@ class Results:
         """Gap, pressure, forces and state of each contact node at a point; None where steady sliding was not found."""
         return self.table("steady_" + self._point(at))
 
+    @property
+    def parts(self):
+        """The folders of the runs that were merged here (scripts/squeal-merge), which hold the shapes of modes; none for a run."""
+        return [self.folder / part["folder"] for part in self.summary.get("parts", [])]
+
     def kept_modes(self):
         """The complex modes whose shapes were kept: parameters, number in the list of the point, s, verdict."""
         rows = []
-        with self._fields() as file:
+        with contextlib.nullcontext({}) if self.parts else self._fields() as file:
             for group in file.get("flutter", {}).values():
                 numbers = sorted(int(name.split("_")[1]) for name in group if name.endswith("_real"))
                 rows += [{**{name: group.attrs[name] for name in PARAMETERS}, "mode": number} for number in numbers]
@@ -177,6 +183,8 @@ class Results:
         return table
 
     def _fields(self):
+        if self.parts:
+            raise ResultsError(f"{self.folder} is a merge: modes and fields are in its parts, {', '.join(map(str, self.parts))}")
         path = self.folder / "results.h5"
         try:
             return h5py.File(path)
