@@ -44,7 +44,7 @@ class Slurm:
     """A context: within it the commands of Slurm, called with `environment`, are those of this machine's cluster."""
 
     def __init__(self, folder):
-        self.folder = Path(folder).resolve()
+        self.folder = Path(folder).absolute()
         self.environment = {**os.environ, "SLURM_CONF": str(self.folder / "slurm.conf")}
         self.daemons = []
 
@@ -109,9 +109,9 @@ class Slurm:
         self.wait(self._idle, START_SECONDS, "an idle node")
 
     def _daemon(self, program, *words):
-        log = (self.folder / f"{program}.out.log").open("w")
-        self.daemons.append(subprocess.Popen([f"/usr/sbin/{program}", *words], env=self.environment, stdout=log, stderr=log,
-                                             stdin=subprocess.DEVNULL))  # fmt: skip
+        with (self.folder / f"{program}.out.log").open("w") as log:
+            command = [f"/usr/sbin/{program}", *words]
+            self.daemons.append(subprocess.Popen(command, env=self.environment, stdout=log, stderr=log, stdin=subprocess.DEVNULL))
 
     def _idle(self):
         for daemon in self.daemons:
