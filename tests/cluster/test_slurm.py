@@ -59,8 +59,8 @@ class Jobs(unittest.TestCase):
     def ended(self, job):
         text = self.slurm.call("scontrol", "--oneliner", "show", "job", job)
         states = re.findall(r" JobState=(\w+)", text)
-        if any(state in ("PENDING", "RUNNING", "COMPLETING", "REQUEUED") for state in states):
-            return None
+        if not set(states) <= {"COMPLETED", "FAILED", "CANCELLED", "TIMEOUT", "NODE_FAIL", "OUT_OF_MEMORY"}:
+            return None  # also SIGNALING, and others on the way
         return set(states), {int(code) for code in re.findall(r" ExitCode=(\d+):", text)}
 
     def log(self):
@@ -83,7 +83,7 @@ class Jobs(unittest.TestCase):
         cores = min(2, len(os.sched_getaffinity(0)))
         tables = []
         for launcher in ("srun", "mpirun"):
-            job = self.submit(f"--ntasks={cores}", "--time=5", BATCH / "job.slurm", repository / "options/layer.yaml", "-mesh_set", "nx=12,ny=4",
+            job = self.submit(f"--ntasks={cores}", "--time=20", BATCH / "job.slurm", repository / "options/layer.yaml", "-mesh_set", "nx=12,ny=4",
                               "-modes_count", "40", SQUEAL=str(spy), LAUNCHED=launcher, SQUEAL_LAUNCHER=launcher, SQUEAL_SCRATCH=str(scratch),
                               OMPI_MCA_mpi_yield_when_idle="1")  # fmt: skip
             self.done(job)
@@ -98,7 +98,7 @@ class Jobs(unittest.TestCase):
         np.testing.assert_allclose(tables[0], tables[1], rtol=1e-8)
 
     def test_job_that_cannot_run(self):
-        job = self.submit("--ntasks=1", "--time=5", BATCH / "job.slurm", "nowhere.yaml")
+        job = self.submit("--ntasks=1", "--time=20", BATCH / "job.slurm", "nowhere.yaml")
         self.assertEqual(self.end(job), ({"FAILED"}, {1}))
         self.assertIn("batch: there is no file 'nowhere.yaml'", self.log())
 
@@ -113,10 +113,10 @@ class Jobs(unittest.TestCase):
         (self.folder / "parts.txt").write_text("# speeds and pressures\n\n" + "".join(
             f"-flutter_speed {speed} -flutter_pressure {pressure}  # a part\n" for speed in speeds for pressure in pressures))  # fmt: skip
         # Two of the four parts are taken by each of the first two tasks of three, one after the other.
-        array = self.submit("--array=1-3", "--ntasks=1", "--time=10", BATCH / "array.slurm", case, "parts.txt", "parts", *common)
-        merge = self.submit(f"--dependency=afterany:{array}", "--ntasks=1", "--time=10",
+        array = self.submit("--array=1-3", "--ntasks=1", "--time=20", BATCH / "array.slurm", case, "parts.txt", "parts", *common)
+        merge = self.submit(f"--dependency=afterany:{array}", "--ntasks=1", "--time=20",
                             f"--wrap={repository}/scripts/squeal-merge parts/merged parts/part_*", "--output=merge.log")  # fmt: skip
-        whole = self.submit("--ntasks=1", "--time=10", BATCH / "job.slurm", case, *common, "-flutter_speed", "1,3", "-flutter_pressure", "0.5,2",
+        whole = self.submit("--ntasks=1", "--time=20", BATCH / "job.slurm", case, *common, "-flutter_speed", "1,3", "-flutter_pressure", "0.5,2",
                             "-report_dir", "whole")  # fmt: skip
         self.done(array)
         self.done(merge)
@@ -184,7 +184,7 @@ class Jobs(unittest.TestCase):
         """A task with two parts is warned in its second one: it goes on there, and does not do the first one again."""
         stand_in = self.script("stand_in", self.STAND_IN.format(work=5))
         (self.folder / "parts.txt").write_text("-flutter_speed 1\n-flutter_speed 2\n")
-        job = self.submit("--array=1", "--ntasks=1", "--time=5", BATCH / "array.slurm", repository / "options/layer.yaml", "parts.txt", "out",
+        job = self.submit("--array=1", "--ntasks=1", "--time=20", BATCH / "array.slurm", repository / "options/layer.yaml", "parts.txt", "out",
                           SQUEAL=str(stand_in))  # fmt: skip
         first, second = (self.folder / "out" / f"part_00{number}" for number in (1, 2))
         self.slurm.wait((second / "starts").exists, 60, f"the second part: {self.log()}")
@@ -199,7 +199,7 @@ class Jobs(unittest.TestCase):
 
     def test_restarts_are_bounded(self):
         stand_in = self.script("stand_in", self.STAND_IN.format(work=100))
-        job = self.submit("--ntasks=1", "--time=5", BATCH / "resubmit.slurm", repository / "options/layer.yaml", "-report_dir", "out",
+        job = self.submit("--ntasks=1", "--time=20", BATCH / "resubmit.slurm", repository / "options/layer.yaml", "-report_dir", "out",
                           SQUEAL=str(stand_in), SQUEAL_RESTARTS="0")  # fmt: skip
         self.slurm.wait((self.folder / "out/starts").exists, 60, self.log())
         time.sleep(1)
@@ -211,7 +211,7 @@ class Jobs(unittest.TestCase):
         """scancel sends SIGTERM to all processes of the job: the run keeps a checkpoint, by either launcher, and is not put back."""
         stand_in = self.script("stand_in", self.STAND_IN.format(work=100))
         for launcher in ("srun", "mpirun"):
-            job = self.submit("--ntasks=2" if len(os.sched_getaffinity(0)) > 1 else "--ntasks=1", "--time=5", BATCH / "resubmit.slurm",
+            job = self.submit("--ntasks=2" if len(os.sched_getaffinity(0)) > 1 else "--ntasks=1", "--time=20", BATCH / "resubmit.slurm",
                               repository / "options/layer.yaml", "-report_dir", launcher, SQUEAL=str(stand_in),
                               SQUEAL_LAUNCHER=launcher)  # fmt: skip
             self.slurm.wait((self.folder / launcher / "starts").exists, 60, self.log())
@@ -227,9 +227,9 @@ class Jobs(unittest.TestCase):
         if not self.knows_resume:
             self.skipTest("the program does not know -resume")
         words = [repository / "options/disc_brake.yaml", "-flutter_friction", "0:0.6:0.05", *COARSE]
-        plain = self.submit("--ntasks=1", "--time=5", BATCH / "job.slurm", *words, "-report_dir", "plain")
+        plain = self.submit("--ntasks=1", "--time=20", BATCH / "job.slurm", *words, "-report_dir", "plain")
         self.done(plain)
-        job = self.submit("--ntasks=1", "--time=5", BATCH / "resubmit.slurm", *words, "-report_dir", "resumed")
+        job = self.submit("--ntasks=1", "--time=20", BATCH / "resubmit.slurm", *words, "-report_dir", "resumed")
         self.slurm.wait(lambda: "flutter" in self.log(), 120, self.log())
         self.slurm.call("scancel", "--batch", "--signal=USR1", job)
         self.slurm.wait(lambda: "is put back into the queue" in self.log(), 60, self.log())
