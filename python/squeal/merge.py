@@ -15,8 +15,9 @@ from squeal.results import PARAMETERS, Results, ResultsError
 
 TABLES = ("eigenvalues", "stability_map", "branches", "critical", "friction_work", "sensitivities")
 NEEDED = ("eigenvalues", "stability_map")
-# Options of which no number depends.
-INDIFFERENT = ("report_dir", "quiet", "resume", "options_file")
+# Options on which no number depends, and beginnings of such; those of which the program says the same (src/checkpoint) are among them.
+INDIFFERENT = ("resume", "checkpoint", "checkpoint_interval", "quiet", "options_file")
+INDIFFERENT_BEGINNINGS = ("report_", "log_")
 SWEPT = tuple(f"flutter_{name}" for name in PARAMETERS)
 SAME_NUMBER = 1e-9  # relative; of eigenvalues without an estimate of their error
 SAME_CRITICAL = 1e-7  # relative; ten times -flutter_critical_tolerance by default
@@ -80,7 +81,7 @@ def merge(out, folders):
 def list_variants(out, folders):
     """Writes the folder `out` with variants.csv, a row for each of `folders`; returns what there is to say, in lines."""
     parts = _parts(folders)
-    known = sorted(set().union(*(part.options for part in parts)) - set(INDIFFERENT))
+    known = sorted(set().union(*(part.options for part in parts)))
     differing = [name for name in known if any(_differs(name, parts[0], part) for part in parts[1:])]
     rows = [
         {"part": _from(out, part.folder), **{name: part.options.get(name, "") for name in differing}, **_outcome(part)} for part in parts
@@ -138,8 +139,14 @@ def _value(text):
     return tuple(words)
 
 
+def _indifferent(name):
+    return name in INDIFFERENT or name.startswith(INDIFFERENT_BEGINNINGS)
+
+
 def _differs(name, first, part):
     """Whether an option differs. What one run has not asked for, the other may have by default."""
+    if _indifferent(name):
+        return False
     if name in first.options and name in part.options:
         return _value(first.options[name]) != _value(part.options[name])
     return name in first.given or name in part.given
@@ -154,7 +161,7 @@ def _require_alike(first, part):
     if part.summary.get("version") != first.summary.get("version"):
         differ("the version of the program differs", first.summary.get("version"), part.summary.get("version"))
     for name in sorted(first.options.keys() | part.options.keys()):
-        if name in SWEPT or name in INDIFFERENT or name == "mesh_file":
+        if name in SWEPT or name == "mesh_file":
             continue
         if _differs(name, first, part):
             differ(f"-{name} differs", first.options.get(name, "none"), part.options.get(name, "none"))
@@ -309,7 +316,7 @@ def _joined_summary(parts, taken, out, left):
         sets += [{**entry, "part": number} for entry in part.summary.get("active_sets", [])]
     frictions = list(frictions.values())
     order = ("damping", "speed", "pressure", "friction")
-    options = {name: value for name, value in first.get("options", {}).items() if name not in INDIFFERENT}
+    options = {name: value for name, value in first.get("options", {}).items() if not _indifferent(name)}
     for name in PARAMETERS:
         if f"flutter_{name}" in options:
             values = sorted({entry[name] for entry in frictions})

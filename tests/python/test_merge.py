@@ -169,6 +169,8 @@ class Merge(unittest.TestCase):
         self.refused("-flutter_st_type differs, sinvert and none", self.made / "chain", more)
         asked = self.copy("chain_damped", options_txt=lambda text: text + "# -flutter_unheard_of 1\n")  # by default, and by one run alone
         squeal.merge.merge(self.out, [self.made / "chain", asked])
+        told = self.copy("chain_damped", options_txt=lambda text: text.replace("# -report_frames 16", "-report_frames 8") + "-resume on\n-log_view\n")
+        squeal.merge.merge(self.out, [self.made / "chain", told])
         other = self.copy("chain_damped", summary_json=lambda text: text.replace('"version": "', '"version": "9'))
         self.refused("the version of the program differs, 9", self.made / "chain", other)
 
