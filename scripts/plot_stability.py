@@ -155,6 +155,8 @@ def scale_axis(axis, name, values):
 
 def cell_borders(name, values):
     """Of the cells about the values of an axis, half-way between them."""
+    if len(values) == 1:  # of a grid of which parts are missing
+        return values[0] + np.array([-0.5, 0.5]) * (abs(values[0]) or 1)
     places = np.log(values) if logarithmic(name, values) else values
     middle = (places[1:] + places[:-1]) / 2
     borders = np.concatenate(([2 * places[0] - middle[0]], middle, [2 * places[-1] - middle[-1]]))

@@ -98,6 +98,8 @@ class Slurm:
         (self.folder / "slurm.conf").write_text(
             CONFIGURATION.format(host=host, folder=self.folder, controller_port=controller_port, node_port=node_port,
                                  cores=len(os.sched_getaffinity(0)), megabytes=memory * 9 // 10))  # fmt: skip
+        # Its folders in /tmp are named after jobs, whose numbers another cluster on this machine may have as well.
+        (self.folder / "mpi.conf").write_text(f"PMIxCliTmpDirBase={self.folder}\n")
         key = self.folder / "munge.key"
         key.write_bytes(os.urandom(128))
         key.chmod(0o600)

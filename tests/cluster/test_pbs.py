@@ -53,6 +53,7 @@ class Scripts(unittest.TestCase):
         self.assertEqual(code, 0, text)
         self.assertIn("options -options_file case.yaml -flutter_speed 2 -report_dir out/part_002 -quiet\n", text)
         code, text = self.run_script("array.pbs", PBS_ARRAY_INDEX="3", **task)
+        self.assertEqual(sorted(path.name for path in (self.folder / "out").iterdir()), ["part_001", "part_002"])
         self.assertEqual((code, text), (1, "batch: parts.txt has no line 3: submit with as many tasks as it has lines\n"))
 
     def test_missing_case(self):

@@ -76,7 +76,7 @@ class Jobs(unittest.TestCase):
         scratch.mkdir()
         spy = self.script("spy", f"""
             here=${{SLURM_PROCID:-0}}; [ -z "${{OMPI_COMM_WORLD_RANK:-}}" ] || here=$OMPI_COMM_WORLD_RANK
-            {{ nproc; echo $OMP_NUM_THREADS $OPENBLAS_NUM_THREADS; ls -d "$MUMPS_OOC_TMPDIR"; env | grep -c 'yield_when_idle=1\\|oversubscribe=1'
+            {{ env -u OMP_NUM_THREADS nproc; echo $OMP_NUM_THREADS $OPENBLAS_NUM_THREADS; ls -d "$MUMPS_OOC_TMPDIR"; env | grep -c 'yield_when_idle=1\\|oversubscribe=1'
             }} >{self.folder}/rank_$here 2>&1 || true
             exec {PROGRAM} "$@" -report_dir {self.folder}/results_$LAUNCHED""")  # fmt: skip
         cores = min(2, len(os.sched_getaffinity(0)))
