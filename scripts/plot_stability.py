@@ -64,7 +64,14 @@ def pieces(branches):
     return lines, sorted(zip(friction.min(), friction.max()))
 
 
-def draw_followed(upper, lower, scale, followed):
+def damping_percent(table):
+    """The damping ratio −Re s/|s| in %, of rows with a growth rate and a frequency; negative where they grow."""
+    growth, omega = np.asarray(table["growth_rate_1_per_s"]), 2 * np.pi * np.asarray(table["frequency_hz"])
+    size = np.hypot(growth, omega)
+    return -100 * np.divide(growth, size, out=np.zeros_like(growth), where=size > 0)
+
+
+def draw_followed(upper, lower, bottom, scale, followed):
     """Lines along the branches, their critical frictions, and the intervals of the active sets in turn."""
     branches, critical = followed
     lines, ends = pieces(branches[branches["in_band"] > 0])
@@ -72,8 +79,9 @@ def draw_followed(upper, lower, scale, followed):
         style = dict(color="0.7", linewidth=0.6, zorder=1)
         upper.plot(line["friction"], line["frequency_hz"] / scale, **style)
         lower.plot(line["friction"], line["growth_rate_1_per_s"], **style)
+        bottom.plot(line["friction"], damping_percent(line), **style)
     for low, high in ends[1::2]:
-        for axes in (upper, lower):
+        for axes in (upper, lower, bottom):
             axes.axvspan(low, high, color="#eef3fa", zorder=0)
     for loss, marker, label in ((True, "x", "stability is lost"), (False, "+", "and regained")):
         chosen = critical[(critical["direction"] == "loss") == loss]
@@ -83,7 +91,7 @@ def draw_followed(upper, lower, scale, followed):
 
 
 def draw_modes(table, name, title, followed=None):
-    """Frequency and growth of every mode against the parameter `name`, with its branches and critical frictions."""
+    """Frequency, growth rate and damping ratio of every mode against the parameter `name`, with its branches and critical frictions."""
     table = {column: values.to_numpy() for column, values in table.items()}
     abscissa, growth = table[name], table["growth_rate_1_per_s"]
     grows, open_ = table["grows"], table["verdict"] == "undecided"
@@ -91,9 +99,9 @@ def draw_modes(table, name, title, followed=None):
     scale = 1000 if kilo else 1
     frequency = table["frequency_hz"] / scale
 
-    figure, (upper, lower) = plt.subplots(2, 1, sharex=True, figsize=(9, 9), height_ratios=(2, 1), layout="constrained")
+    figure, (upper, lower, bottom) = plt.subplots(3, 1, sharex=True, figsize=(9, 11), height_ratios=(2.2, 1, 1), layout="constrained")
     colours = dict(c=growth[grows], cmap="plasma_r", vmin=0, zorder=3, edgecolors="black", linewidths=0.3)
-    for axes, value in ((upper, frequency), (lower, growth)):
+    for axes, value in ((upper, frequency), (lower, growth), (bottom, damping_percent(table))):
         calm = ~(grows | open_)
         axes.scatter(abscissa[calm], value[calm], s=5, color="0.55", linewidths=0, label=calm_label(table["verdict"][calm]))
         if open_.any():
@@ -104,21 +112,24 @@ def draw_modes(table, name, title, followed=None):
         axes.grid(color="0.92")
         axes.set_axisbelow(True)
     if followed:
-        draw_followed(upper, lower, scale, followed)
+        draw_followed(upper, lower, bottom, scale, followed)
     if grows.any():
-        figure.colorbar(marks, ax=[upper, lower], label="growth rate of the unstable modes [1/s]", aspect=50, pad=0.02)
+        figure.colorbar(marks, ax=[upper, lower, bottom], label="growth rate of the unstable modes [1/s]", aspect=50, pad=0.02)
 
     upper.set_title((f"{title}: " if title else "") + summary(abscissa, grows, name, table["verdict"]))
     upper.set_ylabel(f"frequency [{'kHz' if kilo else 'Hz'}]")
     upper.set_ylim(bottom=0)
     lower.set_ylabel("growth rate [1/s]")
-    lower.axhline(0, color="black", linewidth=0.6)
-    lower.set_xlabel(LABELS[name])
+    bottom.set_ylabel("damping ratio [%]")
+    for axes in (lower, bottom):
+        axes.axhline(0, color="black", linewidth=0.6)
+    bottom.set_xlabel(LABELS[name])
     if np.ptp(abscissa) == 0:  # one value: give the axis a width
         lower.set_xlim(abscissa[0] - 0.05, abscissa[0] + 0.05)
     scale_axis(lower.xaxis, name, abscissa)
     if np.all(np.abs(growth) <= NOISE * np.abs(table["s"])):
         lower.set_ylim(-1, 1)  # no axis in units of round-off
+        bottom.set_ylim(-1, 1)
     upper.legend(loc="upper center", bbox_to_anchor=(0.5, 0), ncols=4, frameon=False)
     return figure
 

@@ -51,9 +51,11 @@ Analysis prepare(MPI_Comm comm) {
 
 Analysis analyse(MPI_Comm comm, const std::filesystem::path& checkpointFolder) {
   Analysis analysis = prepare(comm);
-  auto identity = checkpoint::identityOfRun(comm);
-  identity.merge(identityOfInput(analysis));
-  analysis.checkpoint = {comm, checkpointFolder, std::move(identity), checkpoint::resumeWanted()};
+  if (!checkpointFolder.empty()) {
+    auto identity = checkpoint::identityOfRun(comm);
+    identity.merge(identityOfInput(analysis));
+    analysis.checkpoint = {comm, checkpointFolder, std::move(identity), checkpoint::resumeWanted()};
+  }
   expectPoints(analysis.sweep.points().size());
   try {
     stopIfAsked(comm);

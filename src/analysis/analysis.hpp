@@ -66,7 +66,8 @@ Analysis prepare(MPI_Comm comm);
 
 /// Collective. Runs all stages that the options, which have been checked, ask for, and returns the
 /// results; those that there are where the run has been asked to stop. The folder is for the
-/// checkpoint. Throws Error as the stages and the checkpoint document it.
-Analysis analyse(MPI_Comm comm, const std::filesystem::path& checkpointFolder);
+/// checkpoint; an empty path: there is none. Throws Error as the stages and the checkpoint document
+/// it.
+Analysis analyse(MPI_Comm comm, const std::filesystem::path& checkpointFolder = {});
 
 }  // namespace squeal::analysis

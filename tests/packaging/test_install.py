@@ -13,7 +13,7 @@ from pathlib import Path
 repository = Path(__file__).resolve().parents[2]
 CMAKE, BUILD = (sys.argv.pop(1), Path(sys.argv.pop(1))) if len(sys.argv) > 2 else ("cmake", repository / "build")
 CASES = sorted(path.stem for path in (repository / "options").glob("*.yaml"))
-COMMANDS = {"squeal", "squeal-run", "squeal-report", "squeal-plot"}
+COMMANDS = {"squeal", "squeal-run", "squeal-report", "squeal-plot", "squeal-merge"}
 SMALL = ["-mesh_set", "nx=12,ny=4", "-modes_count", "40", "-flutter_friction", "0,0.4", "-flutter_shapes", "2"]
 
 
@@ -32,7 +32,7 @@ class Installation(unittest.TestCase):
         os.umask(0o022)
         subprocess.run([CMAKE, "--install", BUILD, "--prefix", first], check=True, stdout=subprocess.DEVNULL)
         # Whoever may write there leaves no bytecode. The folder holds no results, which the commands find when they have loaded all.
-        for command in ("squeal-report", "squeal-plot"):
+        for command in ("squeal-report", "squeal-plot", "squeal-merge"):
             subprocess.run([first / "bin" / command, first], check=False, capture_output=True, env={"PATH": "/usr/bin:/bin"})
         cls.prefix.parent.mkdir()
         first.rename(cls.prefix)
