@@ -66,7 +66,7 @@ def pieces(branches):
 
 def damping_percent(table):
     """The damping ratio −Re s/|s| in %, of rows with a growth rate and a frequency; negative where they grow."""
-    growth, omega = np.asarray(table["growth_rate_1_per_s"]), 2 * np.pi * np.asarray(table["frequency_hz"])
+    growth, omega = np.asarray(table["growth_rate_1_per_s"], float), 2 * np.pi * np.asarray(table["frequency_hz"], float)
     size = np.hypot(growth, omega)
     return -100 * np.divide(growth, size, out=np.zeros_like(growth), where=size > 0)
 

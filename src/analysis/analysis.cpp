@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "analysis/identity.hpp"
 #include "analysis/matrix_route.hpp"
 #include "analysis/mesh_route.hpp"
 #include "direct/direct.hpp"
@@ -53,7 +52,7 @@ Analysis analyse(MPI_Comm comm, const std::filesystem::path& checkpointFolder) {
   Analysis analysis = prepare(comm);
   if (!checkpointFolder.empty()) {
     auto identity = checkpoint::identityOfRun(comm);
-    identity.merge(identityOfInput(analysis));
+    if (analysis.mesh) identity["the mesh"] = mesh::checksum(*analysis.mesh);
     analysis.checkpoint = {comm, checkpointFolder, std::move(identity), checkpoint::resumeWanted()};
   }
   expectPoints(analysis.sweep.points().size());

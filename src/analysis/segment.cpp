@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 
 #include "direct/direct.hpp"
@@ -105,6 +106,12 @@ class SegmentSweep {
         places_.push_back({i, std::size_t(range - ranges_.begin()), points.size()});
         points.emplace_back();
       }
+    batches_ = sweep::batches(points_);
+    for (const auto& batch : batches_) order_.insert(order_.end(), batch.begin(), batch.end());
+    if (direct::directWanted()) {  // one by one
+      batches_.clear();
+      for (const std::size_t i : order_) batches_.push_back({i});
+    }
   }
 
   SolvedSegments solve() {
@@ -124,9 +131,7 @@ class SegmentSweep {
     } catch (const Interrupted&) {
       complete = false;
     }
-    // Points that have not been solved are none.
-    for (auto& segment : segments_)
-      std::erase_if(segment.points, [](const auto& point) { return point.eigenvalues.empty(); });
+    if (!complete) dropUnsolved();
     std::erase_if(segments_, [](const auto& segment) { return segment.points.empty(); });
     // What took long is not done again if a later segment is cut off.
     if (complete && checkpoint_.isWorth(MPI_Wtime() - begin_)) {
@@ -189,8 +194,8 @@ class SegmentSweep {
     const std::size_t before = solved_;
     archive.common(affine_, solved_);
     if (reduced_) reduced_->exchange(archive);
-    for (const auto& order = solvedInOrder(); exchanged_ < solved_; ++exchanged_)
-      pencil::exchange(archive, pointAt(order[exchanged_]));
+    for (; exchanged_ < solved_; ++exchanged_)
+      pencil::exchange(archive, pointAt(order_[exchanged_]));
     if (archive.reads()) pointsDone(solved_ - before);
   }
 
@@ -211,19 +216,14 @@ class SegmentSweep {
     }
   }
 
-  /// Returns the points in the order in which they are solved.
-  const std::vector<std::size_t>& solvedInOrder() {
-    if (order_.empty())
-      for (const auto& batch : batches()) order_.insert(order_.end(), batch.begin(), batch.end());
-    return order_;
-  }
-
-  /// Returns the points in the batches in which they are solved: one by one with the direct method.
-  std::vector<std::vector<std::size_t>> batches() const {
-    if (!directly_) return sweep::batches(points_);
-    std::vector<std::vector<std::size_t>> single;
-    for (std::size_t i = 0; i < points_.size(); ++i) single.push_back({i});
-    return single;
+  /// Removes the points that have not been solved.
+  void dropUnsolved() {
+    std::vector<std::size_t> unsolved(order_.begin() + solved_, order_.end());
+    std::ranges::sort(unsolved, std::greater());  // a place is behind those of lower numbers
+    for (const std::size_t i : unsolved) {
+      auto& points = segments_[places_[i].range].points;
+      points.erase(points.begin() + places_[i].inSegment);
+    }
   }
 
   /// Returns the free modes of the interior unknowns.
@@ -273,7 +273,7 @@ class SegmentSweep {
 
   void solvePoints() {
     std::size_t end = 0;
-    for (const auto& batch : batches()) {
+    for (const auto& batch : batches_) {
       end += batch.size();
       if (end <= solved_) continue;  // the checkpoint has them
       std::vector<reduction::PointProblem> problems;
@@ -443,12 +443,13 @@ class SegmentSweep {
   std::optional<direct::Options> directly_;  // without a reduced problem
   bool affine_ = true;                       // no point has terms of its own
   checkpoint::Checkpoint& checkpoint_;
-  std::string name_;                // of its logs
-  double begin_;                    // s
-  bool modesKept_ = false;          // the checkpoint has the modes
-  std::size_t solved_ = 0;          // points that have been solved and examined
-  std::size_t exchanged_ = 0;       // those of them that the checkpoint has
-  std::vector<std::size_t> order_;  // of the points, as they are solved
+  std::string name_;                               // of its logs
+  double begin_;                                   // s
+  bool modesKept_ = false;                         // the checkpoint has the modes
+  std::size_t solved_ = 0;                         // points that have been solved and examined
+  std::size_t exchanged_ = 0;                      // those of them that the checkpoint has
+  std::vector<std::vector<std::size_t>> batches_;  // of points, as they are solved
+  std::vector<std::size_t> order_;                 // the same without the ends of the batches
 };
 
 }  // namespace

@@ -27,14 +27,16 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const FlagOption checkpointOption("general", "checkpoint", true,
-                                  "keep a checkpoint in the folder interrupted of -report_dir");
+const FlagOption checkpointOption(
+    "general", "checkpoint", true,
+    "keep a checkpoint, in the folder interrupted of that of the results");
 const RealOption intervalOption(
     "general", "checkpoint_interval", 60, "s", nonNegative,
     "wall time from one entry of the checkpoint to the next; 0: all that is found is written");
 const FlagOption resumeOption(
     "general", "resume", false,
-    "continue the run whose checkpoint is in -report_dir; where there is none, begin anew");
+    "continue the run whose checkpoint is in the folder of the results; where there is none, begin "
+    "anew");
 
 constexpr const char* identityName = "identity.json";
 constexpr const char* rankCount = "the number of ranks";
@@ -106,6 +108,23 @@ bool isIndifferent(const std::string& name) {
          name.starts_with("log_");
 }
 
+/// Collective. Returns the checksum of a file as a text; empty if it cannot be read.
+std::string checksumOfFile(MPI_Comm comm, const std::string& path) {
+  unsigned long sum = 0;
+  int rank = 0, whole = 0;
+  check(MPI_Comm_rank(comm, &rank));
+  if (rank == 0) {
+    std::ifstream file(path, std::ios::binary);
+    std::vector<char> piece(1 << 20);
+    while (file.read(piece.data(), std::ssize(piece)) || file.gcount() > 0)
+      sum = checksum(piece.data(), file.gcount(), sum);
+    whole = file.eof();
+  }
+  check(MPI_Bcast(&sum, 1, MPI_UNSIGNED_LONG, 0, comm));
+  check(MPI_Bcast(&whole, 1, MPI_INT, 0, comm));
+  return whole ? formatted("checksum %08lx", sum) : "";
+}
+
 /// Returns a sentence on the first thing in which the two differ; empty if they agree.
 std::string difference(const Identity& then, const Identity& now) {
   const auto text = [](const Identity& of, const std::string& name) {
@@ -135,17 +154,13 @@ Identity identityOfRun(MPI_Comm comm) {
   int ranks = 1;
   check(MPI_Comm_size(comm, &ranks));
   Identity identity{{rankCount, std::to_string(ranks)}};
-  unsigned long program = 0;  // entries hold the layout of its data
-  onFirstRank(comm, "option -resume: ", [&] {
-    std::ifstream file("/proc/self/exe", std::ios::binary);
-    std::vector<char> piece(1 << 20);
-    while (file.read(piece.data(), std::ssize(piece)) || file.gcount() > 0)
-      program = checksum(piece.data(), file.gcount(), program);
-  });
-  check(MPI_Bcast(&program, 1, MPI_UNSIGNED_LONG, 0, comm));
-  identity["the program"] = std::string(version()) + formatted(", checksum %08lx", program);
+  // Entries hold the layout of the program's data.
+  identity["the program"] = std::string(version()) + ", " + checksumOfFile(comm, "/proc/self/exe");
   for (const auto& [name, value] : givenOptions())
-    if (!isIndifferent(name) && !FileOption::isOne(name)) identity["option -" + name] = value;
+    if (FileOption::isOne(name))
+      identity["the file of option -" + name] = checksumOfFile(comm, value);
+    else if (!isIndifferent(name))
+      identity["option -" + name] = value;
   return identity;
 }
 

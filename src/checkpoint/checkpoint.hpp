@@ -69,8 +69,8 @@ class Checkpoint {
 bool resumeWanted();
 
 /// Collective. Returns what this run must agree in with one that it continues: the number of ranks,
-/// the program, and the options but for those of the report and those that name files, whose
-/// content counts.
+/// the program, and the options but for those of the report. Of files the content counts, not the
+/// name.
 Identity identityOfRun(MPI_Comm comm);
 
 /// Not collective. Returns the CRC-32 of bytes, continued from that of the bytes before them.

@@ -110,6 +110,10 @@ struct Mesh {
   PetscInt localNodes() const { return globalNode.size(); }
 };
 
+/// Collective. Returns a text with the checksum of nodes and cells as they are distributed. A
+/// geometry may include other files, and gmsh may mesh it otherwise than before.
+std::string checksum(const Mesh& mesh);
+
 /// A GroupRequest names a group of the mesh that a later stage asks for. `option` is the option
 /// that names it, with its dash, for messages where the group is missing or unsuitable.
 struct GroupRequest {

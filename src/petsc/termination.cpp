@@ -1,6 +1,7 @@
 #include "petsc/termination.hpp"
 
 #include <atomic>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -43,22 +44,37 @@ extern "C" void passOn(int signal) {
 
 std::atomic<bool> stop = false;
 
+/// Returns false if SIGTERM is followed by SIGKILL before a run could stop: Open MPI's mpirun
+/// leaves its ranks a second, unless it is told otherwise.
+bool hasTimeAfterSigterm() {
+  if (!std::getenv("OMPI_COMM_WORLD_SIZE")) return true;
+  const char* seconds = std::getenv("OMPI_MCA_odls_base_sigkill_timeout");
+  return seconds && std::atoi(seconds) > 1;
+}
+
 /// Returns the next signal that ends the process; none if the pipe cannot be read.
-std::optional<int> awaitEnding(int rank) {
+std::optional<int> awaitEnding(int rank, bool hasTime) {
+  using Clock = std::chrono::steady_clock;
+  std::optional<Clock::time_point> asked;
   for (;;) {
     unsigned char signal = 0;
     while (read(signalPipe[0], &signal, 1) != 1)
       if (errno != EINTR) return {};
-    if (signal != SIGTERM && signal != SIGUSR1) return signal;
-    // The same request may come twice, from the batch system and through mpirun.
+    const bool ends = signal == SIGTERM && !hasTime;
+    if ((signal != SIGTERM && signal != SIGUSR1) || ends) return signal;
+    // The same request may come twice at once, from the batch system and through mpirun. A later
+    // one is the last before SIGKILL.
+    if (signal == SIGTERM && asked && Clock::now() - *asked > std::chrono::seconds(5))
+      return signal;
+    if (!asked) asked = Clock::now();
     if (!stop.exchange(true) && rank == 0)
       std::fprintf(stderr, "squeal: signal %d (%s): the run stops as soon as it can\n", signal,
                    strsignal(signal));
   }
 }
 
-void awaitSignal(int rank) {
-  const auto ending = awaitEnding(rank);
+void awaitSignal(int rank, bool hasTime) {
+  const auto ending = awaitEnding(rank, hasTime);
   if (!ending) return;
   const int signal = *ending;
   const std::lock_guard lock(gate());
@@ -106,7 +122,7 @@ void abortRun() noexcept {
   _exit(1);
 }
 
-SignalWatch::SignalWatch() {
+SignalWatch::SignalWatch() : hasTime_(hasTimeAfterSigterm()) {
   for (int signal : endings) {
     struct sigaction now {};
     sigaction(signal, nullptr, &now);
@@ -119,7 +135,7 @@ void SignalWatch::begin(int rank) {
   std::signal(SIGXFSZ, SIG_IGN);
   if (pipe2(signalPipe, O_CLOEXEC) != 0)
     throw Error("no pipe for signals can be made: " + std::string(std::strerror(errno)));
-  std::thread(awaitSignal, rank).detach();
+  std::thread(awaitSignal, rank, hasTime_).detach();
   gate(), acts();                // live until then
   std::atexit(performLastActs);  // as MPI ends a rank that has lost its mpirun
   struct sigaction action {};

@@ -50,15 +50,16 @@ bool stopAsked();
 void stopIfAsked(MPI_Comm comm);
 
 /// A SignalWatch takes the signals that ask the program to end, as batch systems, mpirun and the
-/// terminal send them. SIGTERM and SIGUSR1 ask the run to stop where it can: stopAsked(). At the
-/// others (SIGINT, SIGHUP, …) a thread that waits for signals performs the last acts, says on rank
-/// 0 in one line which signal it was, and ends the process by it. Signals that are ignored already
+/// terminal send them. SIGUSR1, and SIGTERM where SIGKILL does not follow at once, ask the run to
+/// stop where it can: stopAsked(). At the others (SIGINT, SIGHUP, …), and at a SIGTERM some seconds
+/// after the first, a thread that waits for signals performs the last acts, says on rank 0 in one
+/// line which signal it was, and ends the process by it. Signals that are ignored already
 /// (nohup) stay ignored. A write to a closed pipe or beyond the limit of a file's size is an error
 /// of that write alone.
 class SignalWatch {
  public:
-  /// Notes which signals are ignored. Make the object before PETSc starts, which has handlers of
-  /// its own.
+  /// Notes which signals are ignored, and whether mpirun has started the run. Make the object
+  /// before MPI and PETSc start, which set variables and handlers of their own.
   SignalWatch();
   /// Takes the signals from here on. Call it after PETSc has started. Throws Error if no pipe can
   /// be made.
@@ -66,6 +67,7 @@ class SignalWatch {
 
  private:
   unsigned long ignored_ = 0;  ///< a bit per signal
+  bool hasTime_;               ///< after SIGTERM
 };
 
 }  // namespace squeal

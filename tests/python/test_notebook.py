@@ -21,8 +21,8 @@ PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else str(repository / "build/sque
 class Notebook(unittest.TestCase):
     def test_example(self):
         with tempfile.TemporaryDirectory() as place:
-            subprocess.run([PROGRAM, "-options_file", repository / "options/two_layers.yaml", "-report_dir", place, "-quiet",
-                            "-mesh_set", "nx=6,ny_disc=2,ny_pad=2,order=2", "-modes_count", "40"], check=True, stdout=subprocess.DEVNULL)  # fmt: skip
+            subprocess.run([PROGRAM, "-options_file", repository / "options/disc_brake.yaml", "-report_dir", place, "-quiet", "-modes_count", "40",
+                            "-mesh_set", "n_pad_theta=6,n_free_theta=8,n_mount=1,n_plate=1,n_inside=1,n_pad_r=3,n_hat=1,n_h_ring=1"], check=True, stdout=subprocess.DEVNULL)  # fmt: skip
             # The kernel is started by a process that inherits this; results of the user's are not looked for.
             os.environ |= {"SQUEAL_RESULTS": place, "PYTHONDONTWRITEBYTECODE": "1", "MPLBACKEND": "agg", "PYDEVD_DISABLE_FILE_VALIDATION": "1"}
             notebook = nbformat.read(repository / "python/example.ipynb", as_version=4)

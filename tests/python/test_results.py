@@ -73,6 +73,8 @@ class Results(unittest.TestCase):
         self.assertAlmostEqual(abs(mode.s - listed["s"]), 0, delta=1e-14 * abs(mode.s))
         self.assertAlmostEqual(mode.frequency, listed["frequency_hz"], delta=1e-12 * mode.frequency)
         np.testing.assert_allclose(mode.displacement(np.pi), -mode.displacement(0), atol=1e-15)
+        size = np.linalg.norm(np.abs(mode.shape), axis=1).max()  # Re(d exp(i π/2)) = −Im d
+        np.testing.assert_allclose(mode.displacement(np.pi / 2)[:, : mode.shape.shape[1]], -mode.shape.imag / size, atol=1e-15)
         self.assertAlmostEqual(np.linalg.norm(mode.displacement(0) + 1j * mode.displacement(-np.pi / 2), axis=1).max(), 1, delta=1e-14)
         with self.assertRaisesRegex(squeal.ResultsError, "no shape of mode 999 was kept at friction 0.5, pressure 2"):
             self.run_.mode(999, friction=0.5, pressure=2)

@@ -22,16 +22,22 @@ sys.path.insert(0, str(repository / "python"))
 sys.dont_write_bytecode = True
 import squeal  # noqa: E402
 
-MPIEXEC = sys.argv.pop() if len(sys.argv) > 2 else "mpirun -n"
-PROGRAM = sys.argv.pop() if len(sys.argv) > 1 else str(repository / "build/squeal")
+PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else str(repository / "build/squeal")
+MPIEXEC = sys.argv.pop(1) if len(sys.argv) > 1 else "mpirun -n"
 LONG = bool(os.environ.get("SQUEAL_LONG"))
 # A run that is continued takes the steps of the one that was not cut off, but for rounding: eigenvalues differ by that
 # times their condition numbers, some thousand at most here.
 SAME = 1e-10
 
+SIZE = "n_pad_theta=6,n_free_theta=8,n_mount=1,n_plate=1,n_inside=1,n_pad_r=3,n_hat=1,n_h_ring=1"
 BRAKE = ["-options_file", repository / "options/disc_brake.yaml", "-modes_count", "40", "-flutter_band", "9000", "-report_fields", "off",
-         "-mesh_set", "n_pad_theta=6,n_free_theta=8,n_mount=1,n_plate=1,n_inside=1,n_pad_r=3,n_hat=1,n_h_ring=1",
+         "-mesh_set", SIZE,
          "-flutter_friction", "0:0.6:0.03"]  # fmt: skip
+# A block that a sliding plate presses from above: friction lifts its nodes one after the other.
+BLOCK = ["-mesh_file", repository / "meshes/layer.geo", "-mesh_set", "Lx=0.5,nx=12,ny=24", "-material_layer_young", "1e9", "-material_layer_poisson", "0.3",
+         "-material_layer_density", "1000", "-constraint_bottom_clamped", "xy", "-contact_plate_pad", "top", "-contact_plate_obstacle_velocity", "1,0,0",
+         "-contact_plate_obstacle_displacement", "0,-0.001,0", "-report_fields", "off", "-modes_count", "60", "-flutter_friction", "0:0.5:0.02"]  # fmt: skip
+BELT = ["-options_file", repository / "options/external.yaml", "-report_fields", "off"]
 
 
 class Run:
@@ -98,12 +104,19 @@ class Resumed(unittest.TestCase):
         cls.addClassCleanup(temporary.cleanup)
         cls.place = Path(temporary.name)
         cls.whole = done(cls.place / "whole", BRAKE)
+        # A run that is killed once an entry of its checkpoint is written, over results of an earlier run.
+        cls.cut_off = cls.place / "cut_off"
+        shutil.copytree(cls.whole.folder, cls.cut_off)
+        run = Run(cls.cut_off, [*BRAKE, "-checkpoint_interval", "0"])
+        run.wait_for(lambda event: event["event"] == "checkpoint" and "_points_0003" in event["file"])
+        run.kill_ranks()
+        assert run.finish() != 0, run.text()
 
     def setUp(self):
         self.folder = self.place / self.id().split(".")[-1]
 
     def expect_same(self, folder, whole):
-        """The results of two runs agree, and the second has solved for as many right-hand sides in all."""
+        """The results of two runs agree, and the first has solved for as many right-hand sides in all."""
         ours, theirs = squeal.open(folder), squeal.open(whole)
         self.assertEqual(len(ours.eigenvalues), len(theirs.eigenvalues))
         error = np.abs(ours.eigenvalues["s"] - theirs.eigenvalues["s"]) / np.abs(theirs.eigenvalues["s"])
@@ -111,28 +124,20 @@ class Resumed(unittest.TestCase):
         self.assertEqual(list(ours.eigenvalues["verdict"]), list(theirs.eigenvalues["verdict"]))
         if theirs.critical is not None:
             self.assertEqual(len(ours.critical), len(theirs.critical))
-            self.assertLess(np.abs(ours.critical["friction"] - theirs.critical["friction"]).max(), SAME)
+            self.assertLess(np.abs(ours.critical["friction"] - theirs.critical["friction"]).max(initial=0), SAME)
         solves = [[part["solves"] for part in json.loads((Path(one) / "summary.json").read_text())["active_sets"]] for one in (folder, whole)]
-        self.assertEqual(*solves)
+        # Rounding may decide on directions that are all but dependent on others; a batch that is solved again costs more.
+        for here, there in zip(*solves, strict=True):
+            self.assertLessEqual(abs(here - there), 0.02 * there)
         self.assertFalse((Path(folder) / "interrupted").exists())
 
     def expect_kept(self, before):
         after = files_of(self.folder)
         self.assertEqual([name for name, text in before.items() if after.get(name) != text], [])
 
-    def cut_off(self, options=BRAKE, log="_points_0003"):
-        """A run that is killed once an entry of its checkpoint is written, over results of an earlier run."""
-        shutil.copytree(self.whole.folder, self.folder)
-        before = files_of(self.folder)
-        run = Run(self.folder, [*options, "-checkpoint_interval", "0"])
-        run.wait_for(lambda event: event["event"] == "checkpoint" and log in event["file"])
-        run.kill_ranks()
-        self.assertNotEqual(run.finish(), 0)
-        self.expect_kept(before)
-        return run
-
     def test_a_killed_run_goes_on(self):
-        self.cut_off()
+        shutil.copytree(self.cut_off, self.folder)
+        self.expect_kept(files_of(self.whole.folder))
         again = done(self.folder, [*BRAKE, "-resume"])
         self.assertNotIn("modes", again.stages())
         self.expect_same(self.folder, self.whole.folder)
@@ -160,7 +165,7 @@ class Resumed(unittest.TestCase):
         self.expect_same(self.folder, self.whole.folder)
 
     def test_what_cannot_be_continued(self):
-        self.cut_off()
+        shutil.copytree(self.cut_off, self.folder)
         before = files_of(self.folder)
         entry = self.folder / "interrupted/checkpoint/sets_1_modes_0000.entry"
         for ranks, words, message in (
@@ -180,9 +185,9 @@ class Resumed(unittest.TestCase):
         self.assertIn(f"squeal: error: the checkpoint is damaged: {entry}", run.text())
 
     def test_nothing_to_continue(self):
-        run = done(self.folder, [*BRAKE, "-resume"])
+        run = done(self.folder, [*BELT, "-resume"], 1)
         self.assertIn("there is no checkpoint in", run.text())
-        self.expect_same(self.folder, self.whole.folder)
+        self.assertIs(squeal.open(self.folder).summary["resumed"], False)
 
     def test_events(self):
         events = self.whole.events()
@@ -202,8 +207,7 @@ class Resumed(unittest.TestCase):
         self.assertLessEqual({"mesh", "elasticity", "contact", "steady", "modes", "flutter", "track", "report"}, self.whole.stages())
 
     def test_line(self):
-        layer = ["-options_file", repository / "options/layer.yaml", "-report_fields", "off"]
-        shown = {how: done(self.place / f"line_{how}", [*layer, *words], 1).text().split("\r\033[K")
+        shown = {how: done(self.place / f"line_{how}", [*BELT, *words], 1).text().split("\r\033[K")
                  for how, words in (("line", ["-progress", "line"]), ("auto", []), ("quiet", ["-progress", "line", "-quiet"]))}  # fmt: skip
         self.assertRegex("|".join(shown["line"]), r"point \d+ of \d+ · \d\d:\d\d")
         self.assertNotRegex("".join(shown["line"][1:]).split("\n")[-1], "point")  # it is gone at the end
@@ -223,6 +227,9 @@ class Resumed(unittest.TestCase):
         kinds = {
             "plain": (2, BRAKE),
             "damped": (3, [*BRAKE, "-flutter_modal_damping", "0.01", "-flutter_friction", "0:0.6:0.1", "-flutter_damping", "1,2", "-flutter_sensitivities"]),
+            "opening": (2, BLOCK),
+            "sets by themselves": (2, [*BLOCK, "-reduction_released", "0"]),
+            "in all unknowns": (2, [*BLOCK, "-steady_full", "on", "-report_fields", "on"]),
             "speeds": (2, ["-options_file", repository / "options/two_layers_moving.yaml"]),
             "direct": (1, ["-options_file", repository / "options/layer.yaml", "-flutter_method", "direct"]),
             "matrices": (2, ["-options_file", repository / "options/external_chain.yaml"]),

@@ -74,8 +74,11 @@ struct OnSmallDisc {
     const std::string script =
         "mount -t tmpfs -o size=" + std::to_string(size) + "k none disc && mkdir disc/results && " +
         (before.empty() ? "" : "cp -r '" + before.string() + "'/. disc/results && ") +
-        "cd disc && ln -s '" SQUEAL_SOURCE_DIR "'/* . && " + "'" SQUEAL_MPIEXEC "' " +
-        std::to_string(ranks) + " '" SQUEAL_EXECUTABLE "' " + commandLine(options) +
+        "cd disc && find '" SQUEAL_SOURCE_DIR
+        "' -mindepth 1 -maxdepth 1 ! -name results ! -name '.*' "
+        "-exec ln -s '{}' . ';' && " +
+        "'" SQUEAL_MPIEXEC "' " + std::to_string(ranks) + " '" SQUEAL_EXECUTABLE "' " +
+        commandLine(options) +
         " -report_dir results 2>../stderr.txt >../stdout.txt; code=$?; cp -r results/. ../after; "
         "exit $code";
     writeText(place / "run.sh", script);
