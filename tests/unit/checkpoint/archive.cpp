@@ -114,6 +114,7 @@ TEST(Checkpoint, IsReadAsItWasWritten) {
   Checkpoint third(PETSC_COMM_WORLD, place, identity, true);
   for (const double value : {1., 2., 3.}) expectAsWritten(third, value);
   third.remove();
+  MPI_Barrier(PETSC_COMM_WORLD);  // rank 0 removes it
   EXPECT_FALSE(fs::exists(place));
 }
 
@@ -140,6 +141,7 @@ TEST(Checkpoint, OfAnotherRunIsRefused) {
   expectAsWritten(again, 5);
   EXPECT_FALSE(again.next("log"));
   again.remove();
+  MPI_Barrier(PETSC_COMM_WORLD);
 }
 
 TEST(Checkpoint, DamageIsFound) {
@@ -174,6 +176,7 @@ TEST(Checkpoint, DamageIsFound) {
   Checkpoint cut(PETSC_COMM_WORLD, place, identity, true);
   EXPECT_THROW(cut.next("log"), Error);
   cut.remove();
+  MPI_Barrier(PETSC_COMM_WORLD);
 }
 
 TEST(Checkpoint, WhatCannotBeWrittenDoesNotEndTheRun) {
