@@ -124,7 +124,7 @@ class Resumed(unittest.TestCase):
         self.assertEqual(list(ours.eigenvalues["verdict"]), list(theirs.eigenvalues["verdict"]))
         if theirs.critical is not None:
             self.assertEqual(len(ours.critical), len(theirs.critical))
-            self.assertLess(np.abs(ours.critical["friction"] - theirs.critical["friction"]).max(initial=0), SAME)
+            self.assertLess(np.abs(ours.critical["friction"] - theirs.critical["friction"]).to_numpy().max(initial=0), SAME)
         solves = [[part["solves"] for part in json.loads((Path(one) / "summary.json").read_text())["active_sets"]] for one in (folder, whole)]
         # Rounding may decide on directions that are all but dependent on others; a batch that is solved again costs more.
         for here, there in zip(*solves, strict=True):
