@@ -74,7 +74,15 @@ int run(const squeal::Session& session) try {
     squeal::matrices::requireExportFolder(session.comm(), directory.path());
   squeal::analysis::Analysis analysis =
       squeal::analysis::analyse(session.comm(), directory.interrupted() / "checkpoint");
-  squeal::report::write(analysis, directory);
+  try {
+    squeal::report::write(analysis, directory);
+  } catch (const squeal::Error&) {
+    if (analysis.checkpoint.exists())
+      squeal::complain(session.comm(),
+                       "the checkpoint is kept: -resume writes the results again; "
+                       "they need room beside it");
+    throw;
+  }
   if (analysis.interrupted) return 3;
   analysis.checkpoint.remove();
   squeal::report::removeInterrupted(session.comm(), directory);

@@ -146,6 +146,10 @@ def verdict(results):
         return "No point of the sweep has a steady sliding state."
     where = "at all points of the sweep" if len(points) > 1 else f"at friction {points['friction'].iloc[0]:g}"
     undecided = int((table["verdict"] == "undecided").sum())
+    if results.summary.get("complete") is False:
+        solved = int(points["unstable_modes"].notna().sum())
+        found = "all of them are stable" if grows.empty else f"the lowest friction among them with an unstable mode is {grows['friction'].min():g}"
+        return f"The run was stopped before its end: {solved} of {len(points)} points are solved, and {found}."
     if grows.empty:
         rest = f"; {undecided} eigenvalues are undecided" if undecided else ""
         return f"Stable {where}{rest}." if len(table) else f"No eigenvalue was found in the band {where}."

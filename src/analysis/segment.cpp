@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <memory>
 
 #include "direct/direct.hpp"
@@ -129,9 +128,11 @@ class SegmentSweep {
     try {
       solveAll();
     } catch (const Interrupted&) {
+      keep();  // as it is asked to stop, all that is not yet in the checkpoint
       complete = false;
     }
-    if (!complete) dropUnsolved();
+    for (auto& segment : segments_)  // points that have not been solved are of no accuracy
+      std::erase_if(segment.points, [](const auto& point) { return point.accuracy == 0; });
     std::erase_if(segments_, [](const auto& segment) { return segment.points.empty(); });
     // What took long is not done again if a later segment is cut off.
     if (complete && checkpoint_.isWorth(MPI_Wtime() - begin_)) {
@@ -213,16 +214,6 @@ class SegmentSweep {
       segment.points.resize(points);
       for (auto& point : segment.points) pencil::exchange(archive, point);
       if (archive.reads()) segment.shapes = reportedShapes(segment.modes, problem_.trial());
-    }
-  }
-
-  /// Removes the points that have not been solved.
-  void dropUnsolved() {
-    std::vector<std::size_t> unsolved(order_.begin() + solved_, order_.end());
-    std::ranges::sort(unsolved, std::greater());  // a place is behind those of lower numbers
-    for (const std::size_t i : unsolved) {
-      auto& points = segments_[places_[i].range].points;
-      points.erase(points.begin() + places_[i].inSegment);
     }
   }
 

@@ -242,9 +242,13 @@ class KeptStates {
   explicit KeptStates(Analysis& analysis) : analysis_(analysis) {
     while (auto entry = analysis.checkpoint.next("steady")) exchange(*entry);
   }
-  /// Collective. Writes what has been added since the last entry, if it is time.
-  void keep() {
-    if (!analysis_.checkpoint.due()) return;
+  /// Collective. Writes what has been added since the last entry, if it is time or, at the end, if
+  /// it has taken long.
+  void keep(bool isEnd = false) {
+    const bool isLeft = isEnd && kept_ < analysis_.steady.size();
+    if (!(isLeft && analysis_.checkpoint.isWorth(MPI_Wtime() - begin_)) &&
+        !analysis_.checkpoint.due())
+      return;
     checkpoint::Archive archive(analysis_.comm);
     exchange(archive);
     analysis_.checkpoint.write("steady", archive);
@@ -260,6 +264,7 @@ class KeptStates {
   }
   Analysis& analysis_;
   std::size_t kept_ = 0;
+  double begin_ = MPI_Wtime();  // s
 };
 
 /// Collective. Solves in the unknowns of the contact, with the factorisation of the closed one.
@@ -303,6 +308,7 @@ void condensedSweep(Analysis& analysis, const steady::Problem& problem,
     }
     states.keep();
   }
+  states.keep(true);
 }
 
 /// Collective. Solves in all unknowns.
@@ -327,6 +333,7 @@ void fullSweep(Analysis& analysis, const steady::Problem& problem, CurrentSystem
     if (solution.converged) active.back() = activeSet(solution);
     states.keep();
   }
+  states.keep(true);
 }
 
 }  // namespace

@@ -18,6 +18,10 @@
 
 namespace squeal::checkpoint {
 
+/// What is said of a checkpoint whose files do not hold what they should.
+inline constexpr const char* damaged =
+    "an entry of the checkpoint does not hold what it should; without -resume the run begins anew";
+
 /// A Stream writes values one behind the other as bytes, or reads them back in the same order. A
 /// type of several members takes part through a function `void fields(Stream&, T&)` in its own
 /// namespace, which names all of them once, for both directions.
@@ -63,7 +67,7 @@ class Stream {
       bytes_.insert(bytes_.end(), from, from + size);
       return;
     }
-    if (size > bytes_.size() - read_) throw Error("the checkpoint is damaged");
+    if (size > bytes_.size() - read_) throw Error(damaged);
     if (size > 0) std::memcpy(data, bytes_.data() + read_, size);
     read_ += size;
   }
@@ -81,7 +85,7 @@ class Stream {
     std::size_t count = values.size();
     exchange(count);
     if (reads_) {
-      if (count > bytes_.size()) throw Error("the checkpoint is damaged");
+      if (count > bytes_.size()) throw Error(damaged);
       values.resize(count);
     }
     if constexpr (std::is_trivially_copyable_v<Value> &&

@@ -102,8 +102,9 @@ Part partOf(const Stream& stream) {
 
 /// Returns true for an option that changes nothing of what is computed.
 bool isIndifferent(const std::string& name) {
-  static const std::vector<std::string> exact{"resume", "checkpoint", "checkpoint_interval",
-                                              "quiet",  "log_json",   "options_file"};
+  static const std::vector<std::string> exact{"resume",      "checkpoint", "checkpoint_interval",
+                                              "quiet",       "progress",   "log_json",
+                                              "options_file"};
   return std::ranges::find(exact, name) != exact.end() || name.starts_with("report_") ||
          name.starts_with("log_");
 }
@@ -178,11 +179,10 @@ Checkpoint::Checkpoint(MPI_Comm comm, fs::path folder, Identity identity, bool r
   onFirstRank(comm_, "option -resume: ", [&] {
     std::ifstream file(folder_ / identityName);
     if (!file) return;
-    const auto stored = nlohmann::json::parse(file, nullptr, false);
-    if (!stored.is_object()) {
+    try {
+      different = difference(nlohmann::json::parse(file).get<Identity>(), identity_);
+    } catch (const nlohmann::json::exception&) {
       different = "its " + std::string(identityName) + " is damaged";
-    } else {
-      different = difference(stored.get<Identity>(), identity_);
     }
     for (const auto& entry : fs::directory_iterator(folder_))
       if (entry.path().extension() == ".entry") ++found;
@@ -257,7 +257,9 @@ bool Checkpoint::read(const fs::path& path, std::vector<char>& common, std::vect
     }
   }
   if (opened) MPI_File_close(&file);
-  if (!onAll(comm_, good)) throw Error("the checkpoint is damaged: " + path.string());
+  if (!onAll(comm_, good))
+    throw Error("the checkpoint is damaged: " + path.string() +
+                "; without -resume the run begins anew");
   common.resize(head.commonSize);
   constexpr std::size_t most = std::size_t(1) << 30;
   for (std::size_t done = 0; done < common.size(); done += most)
@@ -379,13 +381,14 @@ void Checkpoint::clear() const {
 
 void Checkpoint::remove() {
   int rank = 0;
-  if (comm_ == MPI_COMM_NULL || !exists_) return;
+  if (comm_ == MPI_COMM_NULL) return;
   check(MPI_Comm_rank(comm_, &rank));
   exists_ = false;
   if (rank > 0) return;
   const EndingWaits whole;
   try {
-    clear();
+    if (!fs::is_directory(folder_)) return;
+    clear();                  // what a run has left that was killed in its first entry, too
     std::error_code ignored;  // what is not ours stays
     fs::remove(folder_, ignored);
     fs::remove(folder_.parent_path(), ignored);

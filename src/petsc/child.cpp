@@ -62,6 +62,8 @@ void sayStillAtWork(int) {
   if (getppid() != parent) _exit(1);
   for (int number = 1; number < NSIG; ++number)
     signal(number, SIG_DFL);  // PETSc's handlers would print a traceback
+  // The parent decides what becomes of a run that is asked to stop; mpirun asks its whole group.
+  for (const int number : {SIGTERM, SIGUSR1}) signal(number, SIG_IGN);
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_AS, addressSpace() + limits.memoryBytes);
   if (limits.processorSeconds) limit(RLIMIT_CPU, std::ceil(*limits.processorSeconds));

@@ -62,17 +62,27 @@ void write(const analysis::Analysis& analysis, Directory& directory) {
   const std::string how = analysis.checkpoint.exists() ? "; -resume continues it" : "";
   if (analysis.segments.empty())
     return complain(comm, "interrupted before the first eigenvalues" + how);
-  output::Folder part(comm, naming(), directory.interrupted());
-  writeInto(analysis, part);
+  try {
+    output::Folder part(comm, naming(), directory.interrupted());
+    writeInto(analysis, part);
+  } catch (const Error& error) {
+    return complain(comm, std::string("interrupted; what was found so far is not written: ") +
+                              error.what() + how);
+  }
   say(comm, stabilityTable(analysis));
-  complain(comm, "interrupted: what was found so far is in " + part.path().string() + how);
+  complain(comm,
+           "interrupted: what was found so far is in " + directory.interrupted().string() + how);
 }
 
 void removeInterrupted(MPI_Comm comm, const Directory& directory) {
   int there = 0;
   onFirstRank(comm, "", [&] { there = std::filesystem::is_directory(directory.interrupted()); });
   check(MPI_Bcast(&there, 1, MPI_INT, 0, comm));
-  if (there) output::Folder(comm, naming(), directory.interrupted()).discard();
+  if (there) try {
+      output::Folder(comm, naming(), directory.interrupted()).discard();
+    } catch (const Error& error) {  // the results are complete
+      complain(comm, std::string("warning: results of an interrupted run stay: ") + error.what());
+    }
 }
 
 }  // namespace squeal::report

@@ -25,8 +25,8 @@ class Directory : public output::Folder {
 /// naming -report_dir, if a file cannot be written; the earlier results then stay.
 void write(const analysis::Analysis& analysis, Directory& directory);
 
-/// Collective. Removes what an interrupted run has left in interrupted(), but for its checkpoint.
-/// Throws Error, naming -report_dir, if a file cannot be removed.
+/// Collective. Removes what an interrupted run has left in interrupted(), but for its checkpoint. A
+/// failure gives a warning.
 void removeInterrupted(MPI_Comm comm, const Directory& directory);
 
 /// Collective. Writes the file on rank 0. Throws Error on all ranks, naming -report_dir, if that

@@ -13,8 +13,11 @@
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
+#include <filesystem>
+#include <fstream>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <thread>
 
 #include "options/options.hpp"
@@ -106,6 +109,22 @@ bool wantsLine() {
   return !isLaunched && isatty(STDOUT_FILENO) == 1;
 }
 
+/// Throws Error if there is something else than a log of events in the place of the file.
+void requireLog(const std::string& path) {
+  namespace fs = std::filesystem;
+  constexpr std::string_view head = R"({"event":)";
+  std::error_code none;
+  const auto kind = fs::status(path, none).type();
+  if (kind == fs::file_type::not_found || kind == fs::file_type::character) return;
+  std::string begin(head.size(), ' ');
+  if (kind == fs::file_type::regular) {
+    std::ifstream file(path);
+    file.read(begin.data(), std::ssize(begin));
+    if (file.gcount() == 0 || begin == head) return;
+  }
+  throw Error(path + " is there already and is no log of events");
+}
+
 std::string timeText() {
   char text[32] = "";
   const std::time_t time = std::time(nullptr);
@@ -126,6 +145,7 @@ void beginEvents(MPI_Comm comm) {
   onFirstRank(comm, "option -log_json: ", [&] {
     Run& r = run();
     r.begin = now();
+    if (!path.empty()) requireLog(path);
     if (!path.empty() && !(r.file = std::fopen(path.c_str(), "ae")))
       throw Error("cannot write " + path + ": " + std::strerror(errno));
     r.hasLine = line;

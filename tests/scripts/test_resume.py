@@ -164,6 +164,16 @@ class Resumed(unittest.TestCase):
         self.assertIs(squeal.open(self.folder).summary["complete"], True)
         self.expect_same(self.folder, self.whole.folder)
 
+    def test_a_stop_in_the_first_and_in_the_last_stage(self):
+        # mpirun asks its whole process group, and so the process in which gmsh reads the geometry.
+        for stage, kept in (("mesh", False), ("track", True)):
+            folder = self.place / f"stop_in_{stage}"
+            run = Run(folder, BRAKE)
+            run.wait_for(lambda event, stage=stage: event["event"] == "stage_begin" and event["stage"] == stage)
+            run.process.send_signal(signal.SIGUSR1)
+            self.assertEqual(run.finish(), 3, run.text())
+            self.assertEqual((folder / "interrupted/checkpoint/identity.json").exists(), kept)
+
     def test_what_cannot_be_continued(self):
         shutil.copytree(self.cut_off, self.folder)
         before = files_of(self.folder)
@@ -219,6 +229,11 @@ class Resumed(unittest.TestCase):
         self.assertEqual(run.returncode, 1)
         self.assertIn("squeal: error: option -log_json: cannot write", run.stderr)
         self.assertFalse(self.folder.exists())
+        mine = self.place / "mine.txt"
+        mine.write_text("mine")
+        run = subprocess.run([PROGRAM, *map(str, BRAKE), "-report_dir", self.folder, "-log_json", mine], capture_output=True, text=True)
+        self.assertEqual((run.returncode, mine.read_text()), (1, "mine"))
+        self.assertIn("is there already and is no log of events", run.stderr)
 
     @unittest.skipUnless(LONG, "five random moments of each kind of run: SQUEAL_LONG")
     def test_random_moments(self):
