@@ -35,7 +35,16 @@ void checkOptions() {
         "option -flutter_modal_damping: damping of the free modes needs the modes of "
         "-flutter_method reduced");
   sweep::readSweep();
+  regime::checkOptions(!matrices::wanted());
   if (!matrices::wanted()) meshRequest();
+}
+
+/// Adds frictions to those of a sweep.
+static void addFrictions(sweep::Sweep& sweep, const std::vector<double>& more) {
+  for (const double friction : more)
+    if (std::ranges::find(sweep.frictions, friction) == sweep.frictions.end())
+      sweep.frictions.push_back(friction);
+  std::ranges::sort(sweep.frictions);
 }
 
 Analysis prepare(MPI_Comm comm) {
@@ -43,6 +52,7 @@ Analysis prepare(MPI_Comm comm) {
   analysis.comm = comm;
   const bool ofMesh = !matrices::wanted();
   analysis.sweep = sweep::readSweep();
+  addFrictions(analysis.sweep, regime::frictionsWanted());
   if (!direct::directWanted()) sweep::warnOfLongSweep(comm, analysis.sweep, modes::wantedCount());
   if (ofMesh) prepareMesh(analysis);
   return analysis;

@@ -5,12 +5,13 @@
 #include <memory>
 #include <vector>
 
-#include "analysis/segment.hpp"
 #include "checkpoint/checkpoint.hpp"
 #include "condensed/contact_path.hpp"
 #include "elasticity/elasticity.hpp"
 #include "mesh/mesh.hpp"
 #include "pencil/complex_modes.hpp"
+#include "regime/regime.hpp"
+#include "segment/segment.hpp"
 #include "steady/steady.hpp"
 #include "sweep/parameters.hpp"
 #include "sweep/sweep.hpp"
@@ -40,7 +41,9 @@ struct Analysis {
   int contactEvents = 0;
   std::vector<SpeedUniqueness> uniqueness;  ///< one entry for all speeds where they share it; empty
                                             ///< unless -steady_uniqueness
-  std::vector<ModalSegment> segments;
+  std::vector<segment::ModalSegment> segments;
+  std::vector<regime::ModeOnset> onsets;  ///< of the unstable modes whose shapes are kept
+  std::vector<regime::Study> regimes;     ///< after flutter, at the points of `-regime_friction`
   /// Wall time of one factorisation and 400 blocked solves, s, for the last segment; 0 without
   /// `-modes_benchmark`.
   double modesFloorSeconds = 0;

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "analysis/checks.hpp"
-#include "analysis/segment.hpp"
 #include "matrices/associated.hpp"
 #include "matrices/write.hpp"
 #include "modes/benchmark.hpp"
@@ -11,6 +10,7 @@
 #include "options/options.hpp"
 #include "petsc/termination.hpp"
 #include "petsc/text.hpp"
+#include "segment/segment.hpp"
 #include "sensitivity/derive.hpp"
 #include "sensitivity/sensitivity.hpp"
 #include "session/stages.hpp"
@@ -19,7 +19,7 @@ namespace squeal::analysis {
 namespace {
 
 /// The one segment of a problem from files: all points of the sweep.
-class MatrixSegment : public SegmentProblem {
+class MatrixSegment : public segment::SegmentProblem {
  public:
   /// Collective. Borrows the system and the pencil, and takes the points.
   MatrixSegment(const modes::AssociatedSystem& system, const pencil::Pencil& pencil,
@@ -79,7 +79,8 @@ void solveMatrices(Analysis& analysis) {
   const auto points = analysis.sweep.steadyPoints();
   if (matrices::exportWanted()) matrices::exportPencil(pencil, analysis.sweep, points.size());
   MatrixSegment problem(symmetric.system, pencil, points);
-  auto solved = solveSegments(problem, analysis.sweep.dampings, analysis.checkpoint, "matrices");
+  auto solved =
+      segment::solveSegments(problem, analysis.sweep.dampings, analysis.checkpoint, "matrices");
   analysis.segments = std::move(solved.segments);
   if (!solved.complete) throw Interrupted();
   if (modes::benchmarkWanted())

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "analysis/checks.hpp"
 #include "analysis/mesh_segment.hpp"
@@ -14,6 +15,8 @@
 #include "flutter/influence.hpp"
 #include "interfaces/interfaces.hpp"
 #include "interfaces/ties.hpp"
+#include "linalg/block.hpp"
+#include "linalg/columns.hpp"
 #include "material/material.hpp"
 #include "matrices/write.hpp"
 #include "mesh/read.hpp"
@@ -22,6 +25,7 @@
 #include "options/options.hpp"
 #include "petsc/termination.hpp"
 #include "petsc/text.hpp"
+#include "regime/regime.hpp"
 #include "session/stages.hpp"
 #include "uniqueness/uniqueness.hpp"
 
@@ -99,6 +103,55 @@ std::vector<SpeedUniqueness> examineUniqueness(const Analysis& analysis) {
   return result;
 }
 
+/// Returns the steady state of a point of the sweep.
+const steady::Solution& steadyAt(const Analysis& analysis, sweep::Parameters at) {
+  at.damping = 1;
+  return *std::ranges::find_if(analysis.steady,
+                               [&](const auto& solution) { return solution.at == at; });
+}
+
+/// Collective. Finds where the unstable modes of these segments leave the linear range.
+void findOnsets(Analysis& analysis, std::span<const segment::ModalSegment> segments) {
+  if (analysis.contact.totalNodes == 0) return;
+  for (const auto& segment : segments)
+    for (const auto& point : segment.points) {
+      if (point.unstableCount() == 0) continue;
+      const auto& solution = steadyAt(analysis, point.at);
+      OwnedMat prestress;
+      if (elasticity::prestressWanted())
+        prestress = elasticity::geometricStiffness(*analysis.mesh, solution.displacement);
+      for (auto& onset :
+           regime::onsets(analysis.bodies, analysis.contact, solution, point, prestress))
+        analysis.onsets.push_back(std::move(onset));
+    }
+}
+
+/// Collective. Follows the motion after flutter at the points of these segments where it is wanted.
+void followAfterFlutter(Analysis& analysis, const MeshSegment& problem, CurrentSystem& current,
+                        std::span<const segment::ModalSegment> segments) {
+  const auto wanted = regime::frictionsWanted();
+  const auto& sweep = analysis.sweep;
+  for (const auto& segment : segments)
+    for (const auto& point : segment.points) {
+      const auto& at = point.at;
+      if (!std::ranges::binary_search(wanted, at.friction) || at.speed != sweep.speeds.front() ||
+          at.pressure != sweep.pressures.front() || at.damping != sweep.dampings.front())
+        continue;
+      stopIfAsked(analysis.comm);
+      ActiveSet held;
+      held.closed.assign(analysis.contact.nodes.size(), 1);
+      held.released.assign(analysis.contact.nodes.size(), 0);
+      linalg::Block modes(analysis.mesh->dimension * analysis.mesh->ownedNodes);
+      {
+        const linalg::ReadColumns vectors(segment.modes.vectors);
+        linalg::appendProduct(problem.trial(), vectors.view(), modes);
+      }
+      analysis.regimes.push_back(regime::study(
+          {analysis.bodies, analysis.contact, current.of(held), steadyAt(analysis, at), at.damping},
+          std::move(modes), point));
+    }
+}
+
 void solveMeshSegment(Analysis& analysis, std::size_t first, std::size_t last,
                       CurrentSystem& current, flutter::Influences& influences) {
   MeshSegment problem(analysis, first, last, current, influences);
@@ -108,15 +161,18 @@ void solveMeshSegment(Analysis& analysis, std::size_t first, std::size_t last,
     matrices::exportPencil(problem.pencil().with(problem.termsOf(last - first - 1)), analysis.sweep,
                            last - first);
   const int before = std::ssize(analysis.segments);
-  auto solved = solveSegments(problem, analysis.sweep.dampings, analysis.checkpoint,
-                              "sets_" + std::to_string(before + 1));
+  auto solved = segment::solveSegments(problem, analysis.sweep.dampings, analysis.checkpoint,
+                                       "sets_" + std::to_string(before + 1));
   for (auto& segment : solved.segments) {
     for (auto& followed : segment.followed)
       for (int& activeSet : followed.activeSet)
         if (activeSet > 0) activeSet += before;
     analysis.segments.push_back(std::move(segment));
   }
+  const auto found = std::span(analysis.segments).subspan(before);
+  findOnsets(analysis, found);
   if (!solved.complete) throw Interrupted();
+  followAfterFlutter(analysis, problem, current, found);
   if (modes::benchmarkWanted())
     analysis.modesFloorSeconds = modes::floorSeconds(problem.system().k0());
 }
@@ -145,6 +201,8 @@ void prepareMesh(Analysis& analysis) {
   analysis.contact = buildContact(*analysis.mesh, analysis.bodies, std::move(ties));
   contact::requireMotion(analysis.contact);
   settleFriction(analysis.contact, analysis.sweep);
+  if (!regime::frictionsWanted().empty())
+    regime::requireSupported(analysis.bodies, analysis.contact);
   requireFiniteSweep(analysis.bodies, analysis.contact, analysis.sweep);
   rejectIdleFactors(analysis.bodies, analysis.contact, analysis.sweep);
 }

@@ -131,7 +131,7 @@ MeshSegment::MeshSegment(const Analysis& analysis, std::size_t first, std::size_
 /// Collective. Finds the active sets of the points and of the way between them.
 void MeshSegment::findSets() {
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    std::vector<PathPiece> pieces;
+    std::vector<segment::PathPiece> pieces;
     if (i > 0 && sweep::growsInFriction(points_[i - 1], points_[i])) pieces = piecesBehind(i - 1);
     const ActiveSet set = activeSet(steadyAt(i));
     const double friction = points_[i].friction,
@@ -150,7 +150,7 @@ void MeshSegment::findSets() {
 
 /// Collective. Returns the pieces of the path from a point to where the active set of the next one
 /// on its line begins. If that is not known, it begins at the next point.
-std::vector<PathPiece> MeshSegment::piecesBehind(std::size_t point) {
+std::vector<segment::PathPiece> MeshSegment::piecesBehind(std::size_t point) {
   const sweep::Parameters &here = points_[point], &next = points_[point + 1];
   std::vector<condensed::ContactEvent> events;
   for (const auto& event : analysis_.contactPath)
@@ -175,7 +175,7 @@ std::vector<PathPiece> MeshSegment::piecesBehind(std::size_t point) {
   const bool changes = !sameOnAllRanks(analysis_.comm, activeSet(steadyAt(point)), last);
   if (!sameOnAllRanks(analysis_.comm, set, last) || (changes && frictions.empty()))
     return {{unknownPlace, next.friction, next.friction}};
-  std::vector<PathPiece> pieces;
+  std::vector<segment::PathPiece> pieces;
   double from = here.friction;
   for (std::size_t k = 0; k < frictions.size(); ++k) {
     pieces.push_back({k == 0 ? range : sets_.size() - 1, from, frictions[k]});
@@ -186,9 +186,9 @@ std::vector<PathPiece> MeshSegment::piecesBehind(std::size_t point) {
   return pieces;
 }
 
-std::vector<PathPiece> MeshSegment::path(std::size_t first, std::size_t count) const {
+std::vector<segment::PathPiece> MeshSegment::path(std::size_t first, std::size_t count) const {
   const double friction = points_[first].friction;
-  std::vector<PathPiece> joined{{steps_[first].back().range, friction, friction}};
+  std::vector<segment::PathPiece> joined{{steps_[first].back().range, friction, friction}};
   for (std::size_t i = first + 1; i < first + count; ++i)
     for (const auto& piece : steps_[i])
       if (piece.range == joined.back().range && piece.from == joined.back().to)
@@ -204,8 +204,8 @@ bool MeshSegment::continues(std::size_t first) const {
   return before.converged && sweep::growsInFriction(before.at, points_[0]);
 }
 
-std::vector<PointRange> MeshSegment::ranges() const {
-  std::vector<PointRange> found;
+std::vector<segment::PointRange> MeshSegment::ranges() const {
+  std::vector<segment::PointRange> found;
   const auto& contact = analysis_.contact;
   const PetscInt dimension = contact.mesh->dimension;
   const auto& rows = all_->transformation().rows;
@@ -213,7 +213,7 @@ std::vector<PointRange> MeshSegment::ranges() const {
   std::vector<PetscInt> contactNode(contact.mesh->ownedNodes, -1);
   for (std::size_t i = 0; i < contact.nodes.size(); ++i) contactNode[contact.nodes[i].node] = i;
   for (const auto& [set, first, last] : sets_) {
-    PointRange range;
+    segment::PointRange range;
     range.first = first, range.last = last;
     range.openNodes = std::ranges::count(set.closed, 0);
     check(MPI_Allreduce(MPI_IN_PLACE, &range.openNodes, 1, MPIU_INT, MPI_SUM, analysis_.comm));

@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "analysis/segment.hpp"
 #include "analysis/steady_sweep.hpp"
 #include "contact/coupled.hpp"
 #include "flutter/influence.hpp"
+#include "segment/segment.hpp"
 
 namespace squeal::analysis {
 
@@ -23,15 +23,15 @@ subspace::Substructure substructureOf(const contact::CoupledSystem& all,
                                       const contact::CoupledSystem& interior);
 
 /// The problem of the steady points [first, last).
-class MeshSegment : public SegmentProblem {
+class MeshSegment : public segment::SegmentProblem {
  public:
   /// Collective. Borrows all arguments during the life of the object.
   MeshSegment(const Analysis& analysis, std::size_t first, std::size_t last, CurrentSystem& current,
               flutter::Influences& influences);
   const contact::CoupledSystem& system() const override { return *interior_; }
   const subspace::Substructure& substructure() const override { return substructure_; }
-  std::vector<PointRange> ranges() const override;
-  std::vector<PathPiece> path(std::size_t first, std::size_t count) const override;
+  std::vector<segment::PointRange> ranges() const override;
+  std::vector<segment::PathPiece> path(std::size_t first, std::size_t count) const override;
   bool continues(std::size_t first) const override;
   Mat trial() const override { return all_->transformation().trial; }
   const std::vector<sweep::Parameters>& steadyPoints() const override { return points_; }
@@ -50,7 +50,7 @@ class MeshSegment : public SegmentProblem {
   };
   const steady::Solution& steadyAt(std::size_t i) const { return analysis_.steady[first_ + i]; }
   void findSets();
-  std::vector<PathPiece> piecesBehind(std::size_t point);
+  std::vector<segment::PathPiece> piecesBehind(std::size_t point);
   std::vector<pencil::Term> termsOf(const steady::Solution& solution) const;
 
   const Analysis& analysis_;
@@ -60,7 +60,7 @@ class MeshSegment : public SegmentProblem {
   std::vector<sweep::Parameters> points_;
   std::vector<OnPath> sets_;  // [range]
   // [point] the way to it from the point before on its line, the last piece with its own set
-  std::vector<std::vector<PathPiece>> steps_;
+  std::vector<std::vector<segment::PathPiece>> steps_;
   ActiveSet anywhere_;  // of all sets
   OwnedMat prestress_;  // of the first point, which K0 contains
   std::unique_ptr<contact::CoupledSystem> stressed_, released_;

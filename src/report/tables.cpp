@@ -13,6 +13,7 @@
 #include "petsc/text.hpp"
 #include "report/branches.hpp"
 #include "report/names.hpp"
+#include "report/regimes.hpp"
 #include "report/report.hpp"
 #include "report/sensitivities.hpp"
 #include "sensitivity/sensitivity.hpp"
@@ -151,7 +152,7 @@ std::string uncertaintyText(const pencil::ComplexModes& point) {
 }
 
 /// Returns the text for a point where no mode is unstable.
-std::string stableText(const analysis::Analysis& analysis, const analysis::ModalSegment& segment,
+std::string stableText(const analysis::Analysis& analysis, const segment::ModalSegment& segment,
                        const pencil::ComplexModes& point) {
   if (point.eigenvalues.empty()) return "no eigenvalue was found: nothing is known of stability";
   if (segment.openNodes > 0 && segment.openNodes == analysis.contact.totalNodes)
@@ -165,7 +166,7 @@ std::string stableText(const analysis::Analysis& analysis, const analysis::Modal
 }
 
 /// Returns one line for one point of a sweep, with the lowest unstable modes.
-std::string sweepRow(const analysis::Analysis& analysis, const analysis::ModalSegment& segment,
+std::string sweepRow(const analysis::Analysis& analysis, const segment::ModalSegment& segment,
                      const pencil::ComplexModes& point,
                      const std::vector<sweep::Parameter>& shown) {
   std::string row = rowHead(point.at, shown);
@@ -179,7 +180,7 @@ std::string sweepRow(const analysis::Analysis& analysis, const analysis::ModalSe
 }
 
 /// Returns the unstable modes of a single point, a line each; modes are numbered by frequency.
-std::string modeRows(const analysis::Analysis& analysis, const analysis::ModalSegment& segment,
+std::string modeRows(const analysis::Analysis& analysis, const segment::ModalSegment& segment,
                      const pencil::ComplexModes& point) {
   if (point.unstableCount() == 0)
     return formatted("\nfriction %g  ", point.at.friction) + stableText(analysis, segment, point);
@@ -250,6 +251,7 @@ void writeTables(const analysis::Analysis& analysis, const std::filesystem::path
         s == 0 ? "modes.csv" : "modes_" + pointName(analysis.segments[s].points.at(0).at) + ".csv";
     writeText(comm, folder / name, modeTable(analysis.segments[s].modes));
   }
+  writeRegimes(analysis, folder);
   if (analysis.contactEvents > 0)
     writeText(comm, folder / "contact_path.csv", contactPathTable(analysis));
   for (const auto& solution : analysis.steady)
@@ -294,7 +296,7 @@ std::string stabilityTable(const analysis::Analysis& analysis) {
             "\n%s: %d eigenvalues could not be certified, see eigenvalues.csv; raise -modes_count "
             "or -flutter_rounds",
             sweep::parameterText(point.at).c_str(), point.uncertifiedCount());
-  const auto listsAny = [](const analysis::ModalSegment& segment) {
+  const auto listsAny = [](const segment::ModalSegment& segment) {
     return std::any_of(segment.points.begin(), segment.points.end(),
                        [](const auto& point) { return !point.eigenvalues.empty(); });
   };

@@ -1,4 +1,4 @@
-#include "analysis/segment.hpp"
+#include "segment/segment.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@
 #include "sweep/parameters.hpp"
 #include "sweep/sweep.hpp"
 
-namespace squeal::analysis {
+namespace squeal::segment {
 namespace {
 
 const IntegerOption modesShown("report", "report_modes", 10, 0, 100'000,
@@ -450,4 +450,4 @@ SolvedSegments solveSegments(SegmentProblem& problem, const std::vector<double>&
   return SegmentSweep(problem, dampings, checkpoint, name).solve();
 }
 
-}  // namespace squeal::analysis
+}  // namespace squeal::segment

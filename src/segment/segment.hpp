@@ -15,7 +15,7 @@
 #include "subspace/substructure.hpp"
 #include "sweep/parameters.hpp"
 
-namespace squeal::analysis {
+namespace squeal::segment {
 
 /// The results at steady points in a row that share one active set, and the modes of that set.
 struct ModalSegment {
@@ -111,4 +111,4 @@ struct SolvedSegments {
 SolvedSegments solveSegments(SegmentProblem& problem, const std::vector<double>& dampings,
                              checkpoint::Checkpoint& checkpoint, const std::string& name);
 
-}  // namespace squeal::analysis
+}  // namespace squeal::segment

@@ -1,0 +1,73 @@
+#pragma once
+/// After flutter: what the brake does once an unstable mode has grown [§ 17]. The motion is
+/// followed on a reduced model with stick, slip and separation at every contact node, and its kind
+/// is told.
+#include <string>
+#include <vector>
+
+#include "linalg/block.hpp"
+#include "pencil/complex_modes.hpp"
+#include "regime/onset.hpp"
+#include "regime/record.hpp"
+#include "regime/reduction.hpp"
+
+namespace squeal::regime {
+
+using mesh::Point;
+
+/// Returns the frictions of `-regime_friction`, ascending.
+std::vector<double> frictionsWanted();
+
+/// Throws Error for options of the stage that are idle, and for others that it cannot follow.
+void checkOptions(bool ofMesh);
+
+/// Throws Error if there is no contact, and for convective terms and prestress, which are not
+/// followed in time.
+void requireSupported(const elasticity::Bodies& bodies, const contact::Contact& contact);
+
+/// One march from one start.
+struct Run {
+  std::string start;  ///< the number of the unstable mode, or "all"
+  Complex s;          ///< of the mode, or of the fastest growing one
+  Onset onset;
+  Point onsetPosition{};    ///< m
+  double onsetKinetic = 0;  ///< largest over a cycle at the onset, J
+  Regime regime;
+};
+
+/// What was found at one point of the sweep.
+struct Study {
+  sweep::Parameters at;
+  int unstable = 0;         ///< modes that are unstable there
+  int modes = 0, rows = 0;  ///< of the reduced model
+  double modelError = 0;    ///< largest |δs|/|s| of the reduced against the certified ones
+  double step = 0;          ///< s
+  double stableStep = 0;    ///< s
+  double steadyPower = 0;   ///< heat of friction of steady sliding, W
+  std::vector<Node> nodes;
+  std::vector<Run> runs;
+};
+
+/// The first event of an unstable mode of the mesh as it grows.
+struct ModeOnset {
+  sweep::Parameters at;
+  std::size_t mode = 0;  ///< index into ComplexModes::eigenvalues
+  Complex s;             ///< 1/s
+  Onset onset;           ///< its factor is that of pencil::Shape, its node 0
+  Point position{};      ///< of the node, m
+  int interface = -1;    ///< of the node
+  double kinetic = 0;    ///< largest kinetic energy over a cycle at the event, J
+};
+
+/// Collective. Returns the first events of the unstable modes whose shapes the point has [M.75].
+/// `prestress` is K_σ of the steady state; it may be null.
+std::vector<ModeOnset> onsets(const elasticity::Bodies& bodies, const contact::Contact& contact,
+                              const steady::Solution& solution, const pencil::ComplexModes& point,
+                              Mat prestress);
+
+/// Collective. Returns the regime at one point. `free` are the free modes, nodal displacements,
+/// this rank's rows; the shapes of the unstable modes are those of the point. Throws Error where
+/// the reduced model does not have the certified eigenvalues.
+Study study(const FullModel& full, linalg::Block free, const pencil::ComplexModes& point);
+
+}  // namespace squeal::regime

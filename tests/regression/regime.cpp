@@ -1,0 +1,128 @@
+// What becomes of the unstable mode of a coarse disc brake: the reduced model has the certified
+// eigenvalue, the march its growth, and the regime does not depend on ranks or on the mass of the
+// boundary; bad input is refused by name.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/program.hpp"
+
+namespace squeal::test {
+namespace {
+
+const Options coarse = {
+    {"options_file", "options/disc_brake_regime.yaml"},
+    {"mesh_set",
+     "n_pad_theta=8,n_free_theta=12,n_mount=2,n_plate=1,n_inside=1,n_pad_r=4,n_hat=2,n_"
+     "h_ring=2"},
+    {"modes_count", "60"},
+    {"flutter_friction", "0.4"},
+    {"regime_friction", "0.4"},
+    {"report_fields", "off"}};
+
+CsvTable regimeOf(const std::string& name, int ranks, const Options& changes) {
+  const ProgramRun run = runProgram("regime_" + name, ranks, commandLine(with(coarse, changes)));
+  EXPECT_EQ(run.exitCode, 0) << run.error;
+  return readCsv(run.folder / "regime.csv");
+}
+
+double valueOf(const CsvTable& table, const std::string& column) {
+  return table.column(column).at(0);
+}
+
+// The start is a thousandth of the onset, so that all is linear. The rule is of first order: half
+// the step, half the error, but for rounding and for what the start excites besides: 10 %.
+TEST(Regime, GrowsAsCertified) {
+  std::vector<double> errors;
+  for (const std::string step : {"1e-6", "5e-7"}) {
+    const auto table = regimeOf(
+        "growth", 1,
+        {{"regime_step", step}, {"regime_time", "0.008"}, {"regime_start_factor", "0.001"}});
+    EXPECT_EQ(table.words("class").at(0), "growing");
+    // Galerkin's method with the eigenvector in its basis: only the errors of the free modes and
+    // of the certified pair are left.
+    EXPECT_LE(valueOf(table, "model_error"), 1e-8);
+    errors.push_back(valueOf(table, "growth_rate_1_per_s") -
+                     valueOf(table, "certified_growth_rate_1_per_s"));
+  }
+  EXPECT_LT(std::abs(errors[1]), 0.02 * 215.9);
+  EXPECT_NEAR(errors[0] / errors[1], 2, 0.2);
+}
+
+// Single cycles differ, as the regime is sensitive; means agree. Contact and friction hold at every
+// step to 1e-5 of the mean force.
+TEST(Regime, IsTheSameOnAnyNumberOfRanksAndWithTheMassOfTheBoundary) {
+  const auto one = regimeOf("one", 1, {{"regime_time", "0.025"}}),
+             two = regimeOf("two", 2, {{"regime_time", "0.025"}}),
+             mass = regimeOf("mass", 1, {{"regime_time", "0.025"}, {"regime_boundary", "mass"}});
+  for (const auto* table : {&one, &two, &mass}) {
+    EXPECT_NE(table->words("class").at(0), "growing");
+    EXPECT_GT(valueOf(*table, "open_nodes"), 0);
+    EXPECT_GT(valueOf(*table, "sticking_nodes"), 0);
+    EXPECT_LE(valueOf(*table, "largest_defect"), 1e-5);
+    // Part of the pad lifts off and sticks, so that it rubs less than in steady sliding.
+    EXPECT_LT(valueOf(*table, "friction_coefficient"), 0.4);
+    EXPECT_LT(valueOf(*table, "friction_power_w"), valueOf(*table, "steady_friction_power_w"));
+  }
+  const auto near = [](const CsvTable& a, const CsvTable& b, const std::string& column,
+                       double tolerance) {
+    EXPECT_NEAR(valueOf(a, column) / valueOf(b, column), 1, tolerance) << column;
+  };
+  near(one, two, "friction_power_w", 0.02);
+  near(one, two, "friction_coefficient", 0.02);
+  near(one, two, "carrier_hz", 0.01);
+  near(one, mass, "friction_power_w", 0.05);
+  near(one, mass, "friction_coefficient", 0.05);
+}
+
+// All nodes are there, and each spends its time somewhere.
+TEST(Regime, TellsWhatEachNodeDoes) {
+  const ProgramRun run =
+      runProgram("regime_nodes", 1, commandLine(with(coarse, {{"regime_time", "0.008"}})));
+  const auto nodes = readCsv(run.folder / "regime_nodes.csv");
+  ASSERT_EQ(nodes.rows.size(), 45u);
+  const auto open = nodes.column("open"), stick = nodes.column("stick"),
+             slip = nodes.column("slip");
+  for (std::size_t i = 0; i < open.size(); ++i) EXPECT_NEAR(open[i] + stick[i] + slip[i], 1, 2e-6);
+  const auto onset = readCsv(run.folder / "onset.csv");
+  ASSERT_EQ(onset.rows.size(), 1u);
+  EXPECT_EQ(onset.words("event").at(0), "opens");
+  // The onset of the full problem is that of the reduced one.
+  EXPECT_NEAR(onset.column("kinetic_energy_j").at(0) /
+                  readCsv(run.folder / "regime.csv").column("onset_kinetic_energy_j").at(0),
+              1, 1e-5);
+}
+
+TEST(Regime, SaysThatNothingIsUnstable) {
+  const ProgramRun run = runProgram(
+      "regime_stable", 2,
+      commandLine(with(coarse, {{"flutter_friction", "0.1"}, {"regime_friction", "0.1"}})));
+  EXPECT_EQ(run.exitCode, 0);
+  EXPECT_NE(run.out.find("friction 0.1: no mode is unstable"), std::string::npos);
+}
+
+TEST(Regime, NamesTheStableStep) {
+  const ProgramRun run =
+      runProgram("regime_step", 2,
+                 commandLine(with(coarse, {{"regime_step", "1e-4"}, {"regime_time", "0.02"}})));
+  EXPECT_NE(run.exitCode, 0);
+  EXPECT_NE(run.error.find("-regime_step 0.0001 s exceeds"), std::string::npos) << run.error;
+}
+
+TEST(Regime, RefusesByName) {
+  const auto refused = [](const std::string& options, const std::string& why) {
+    const ProgramRun run = runProgram("regime_refused", 1, options);
+    EXPECT_EQ(run.exitCode, 1) << options;
+    EXPECT_NE(run.error.find(why), std::string::npos) << run.error;
+  };
+  refused(commandLine(with(coarse, {{"flutter_friction_damping", "off"}})),
+          "-flutter_friction_damping must be on");
+  refused(commandLine(with(coarse, {{"flutter_method", "direct"}})), "-flutter_method reduced");
+  refused(commandLine(with(coarse, {{"flutter_modal_damping", "0.01"}})), "-flutter_modal_damping");
+  refused(commandLine(with(coarse, {{"motion_convective", "on"}})), "convective terms");
+  refused("-options_file options/external.yaml -regime_friction 0.9", "matrices from files");
+  refused("-options_file options/external.yaml -regime_time 1", "without -regime_friction");
+}
+
+}  // namespace
+}  // namespace squeal::test
