@@ -16,7 +16,7 @@ from squeal.results import PARAMETERS, Results, ResultsError
 TABLES = ("eigenvalues", "stability_map", "branches", "critical", "friction_work", "sensitivities")
 NEEDED = ("eigenvalues", "stability_map")
 # Options on which no number depends, and beginnings of such; those of which the program says the same (src/checkpoint) are among them.
-INDIFFERENT = ("resume", "checkpoint", "checkpoint_interval", "quiet", "options_file")
+INDIFFERENT = ("resume", "checkpoint", "checkpoint_interval", "quiet", "progress", "options_file")
 INDIFFERENT_BEGINNINGS = ("report_", "log_")
 SWEPT = tuple(f"flutter_{name}" for name in PARAMETERS)
 SAME_NUMBER = 1e-9  # relative; of eigenvalues without an estimate of their error

@@ -38,6 +38,8 @@ class Scheme {
   int sweeps() const { return sweeps_; }  ///< of the last step
   /// Returns the kinetic and elastic energy of the motion about steady sliding, J.
   virtual double energy() const = 0;
+  /// Returns d of StepSolver in the last step, [row], m.
+  const std::vector<double>& increments() const { return increments_; }
   /// Returns the defect of the last step, N.
   double lastDefect() const;
 

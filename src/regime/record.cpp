@@ -72,9 +72,10 @@ const char* text(Kind kind) {
   return "";
 }
 
-Recorder::Recorder(const ReducedModel& model, double frequency, double step, double linearTo)
+Recorder::Recorder(const ReducedModel& model, Complex s, double step, double linearTo)
     : model_(model),
-      period_(1 / frequency),
+      period_(2 * M_PI / s.imag()),
+      growthTime_(1 / s.real()),
       step_(step),
       linearTo_(linearTo),
       cycleEnd_(period_),
@@ -179,8 +180,9 @@ bool Recorder::settled() const {
   if (windows_.size() > 1 && windows_.back().means.peakKinetic < 1e-6 * linearTo_ &&
       windows_.back().means.peakKinetic < 0.5 * windows_.front().means.peakKinetic)
     return true;  // it has died away
+  // What is left when the growth of the mode has ended changes no faster than it grew.
   const std::size_t third = nonlinearWindows() / 3;
-  if (third < 3) return false;
+  if (third < 3 || third * windowCycles * period_ < growthTime_) return false;
   // The last third is like the one before.
   const auto near = [&](double Means::*value, double tolerance) {
     double before = 0, after = 0;
@@ -194,7 +196,7 @@ bool Recorder::settled() const {
   // do not remember each other, taken as one in eight.
   const auto last = std::span(peaks_).last(third * windowCycles);
   const double error = 3 * deviation(last) / mean(last) / std::sqrt(last.size() / 8.0);
-  return near(&Means::peakKinetic, std::max(0.02, std::min(0.2, error))) &&
+  return near(&Means::peakKinetic, std::max(0.02, std::min(0.1, error))) &&
          near(&Means::frictionPower, 0.02) && near(&Means::frictionCoefficient, 0.02);
 }
 
@@ -223,7 +225,14 @@ Kind Recorder::classify(Regime& regime) const {
   // Peaks of cycles are sampled some 16 times a swing at least, which alone makes 1e-3 of scatter.
   if (regime.peakDeviation < 0.01) return Kind::periodic;
   std::vector<double> power, swing(peaks.begin(), peaks.end());
-  for (double& x : swing) x -= level;
+  // A slow drift is no modulation: the straight line through the peaks is taken out.
+  double drift = 0, spread = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double place = i - (count - 1) / 2.0;
+    drift += place * swing[i], spread += place * place;
+  }
+  for (std::size_t i = 0; i < count; ++i)
+    swing[i] -= level + drift / spread * (i - (count - 1) / 2.0);
   addPower(swing, power);
   const double place = peakPlace(power, 1);
   // The part of the variance that repeats after one period of the modulation.

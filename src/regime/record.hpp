@@ -75,9 +75,9 @@ void share(MPI_Comm comm, int root, Regime& regime);
 /// A Recorder looks at each step of a march.
 class Recorder {
  public:
-  /// Cycles are those of the period 1/`frequency`, Hz. The motion starts on a mode whose first
-  /// event, opening or sticking, comes at the kinetic energy `linearTo`, J.
-  Recorder(const ReducedModel& model, double frequency, double step, double linearTo);
+  /// The motion starts on a mode u e^{st}, whose period is that of the cycles and whose first event
+  /// comes at the kinetic energy `linearTo`, J.
+  Recorder(const ReducedModel& model, Complex s, double step, double linearTo);
   void look(const Scheme& scheme);
   /// Returns true once a window has ended since the last call.
   bool windowEnded();
@@ -101,7 +101,7 @@ class Recorder {
   };
   static constexpr int windowCycles = 32;
   const ReducedModel& model_;
-  double period_, step_, linearTo_, meanForce_ = 0;
+  double period_, growthTime_, step_, linearTo_, meanForce_ = 0;
   double cycleEnd_, highest_ = 0;  // of the cycle in hand
   std::vector<double> peaks_, peakTimes_;
   std::vector<Window> windows_;  // complete ones

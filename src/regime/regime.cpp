@@ -73,11 +73,10 @@ Run runOf(const ReducedModel& model, const Task& task) {
 }
 
 Regime follow(const ReducedModel& model, const Task& task, double step, double time, Stage& stage) {
-  const double period = 2 * M_PI / task.mode.s.imag();
   const auto start = march::startOn(task.mode, startOption.get());
   const auto scheme = boundaryOption.get() == "mass" ? march::moreauScheme(model, start, step)
                                                      : march::masslessScheme(model, start, step);
-  Recorder recorder(model, 1 / period, step, largestKinetic(task.mode));
+  Recorder recorder(model, task.mode.s, step, largestKinetic(task.mode));
   while (scheme->state().time < time) {
     scheme->step();
     recorder.look(*scheme);

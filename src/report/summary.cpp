@@ -140,6 +140,30 @@ Json followedEntry(const stability::Followed& followed) {
   return entry;
 }
 
+Json regimeEntry(const regime::Study& study, const regime::Run& run) {
+  Json entry = parametersEntry(study.at);
+  entry["start"] = run.start;
+  entry["class"] = text(run.regime.kind);
+  entry["settled"] = run.regime.settled;
+  entry["carrier_hz"] = finite(run.regime.carrier);
+  entry["flutter_frequency_hz"] = run.s.imag() / (2 * M_PI);
+  entry["modulation_hz"] = run.regime.modulation > 0 ? Json(run.regime.modulation) : Json();
+  entry["growth_rate_1_per_s"] = finite(run.regime.growth);
+  entry["certified_growth_rate_1_per_s"] = run.s.real();
+  entry["friction_coefficient"] = run.regime.means.frictionCoefficient;
+  entry["friction_power_w"] = run.regime.means.frictionPower;
+  entry["steady_friction_power_w"] = study.steadyPower;
+  entry["open_nodes"] = run.regime.means.open;
+  entry["sticking_nodes"] = run.regime.means.sticking;
+  entry["largest_kinetic_energy_j"] = run.regime.largestKinetic;
+  entry["largest_defect"] = run.regime.largestDefect;
+  entry["model_error"] = study.modelError;
+  entry["modes"] = study.modes;
+  entry["gaps_and_slips"] = study.rows;
+  entry["step_s"] = study.step;
+  return entry;
+}
+
 }  // namespace
 
 void writeSummary(const analysis::Analysis& analysis, const std::filesystem::path& folder) {
@@ -223,6 +247,8 @@ void writeSummary(const analysis::Analysis& analysis, const std::filesystem::pat
                                        {"position_m", event.position},
                                        {"interface", analysis.contact.interfaces[event.interface]},
                                        {"change", event.opens ? "opens" : "closes"}});
+  for (const auto& study : analysis.regimes)
+    for (const auto& run : study.runs) summary["regimes"].push_back(regimeEntry(study, run));
   double total = 0;
   for (const auto& record : stageRecords()) {
     summary["stages"][record.name] = {{"wall_s", record.seconds},

@@ -219,14 +219,18 @@ std::string recipe(MPI_Comm comm) {
   std::string text = formatted(
       "# squeal %s, %d ranks: the options of this run; defaults in comments\n", version(), size);
   const auto given = givenOptions();
+  // What belongs to one run alone: a replay writes elsewhere and begins anew.
+  const auto ofThisRun = [](const std::string& name) {
+    return name == "report_dir" || name == "resume" || name == "progress" || name == "log_json";
+  };
   for (const auto& [name, value] : given) {
-    if (name == "report_dir") continue;
+    if (ofThisRun(name)) continue;
     text += optionLine(name, FileOption::isOne(name)
                                  ? std::filesystem::absolute(value).lexically_normal().string()
                                  : value);
   }
   for (const auto& [name, value] : resolvedOptions())
-    if (!given.count(name) && name != "report_dir") text += "# " + optionLine(name, value);
+    if (!given.count(name) && !ofThisRun(name)) text += "# " + optionLine(name, value);
   return text;
 }
 

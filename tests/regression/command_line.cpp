@@ -190,7 +190,7 @@ TEST(CommandLine, ScriptRunsAnOptionsFileOfAnyFolder) {
           .find("option -report_dir ./results/with folder replaces mine (./with folder.yaml, line"),
       std::string::npos)
       << contentOf(place / "out");
-  EXPECT_EQ(shell(place, "'" + run.string() + "' nosuch.yaml 2>err"), 2);
+  EXPECT_EQ(shell(place, "'" + run.string() + "' nosuch.yaml 2>err"), 1);
   EXPECT_NE(contentOf(place / "err").find("no options file 'nosuch.yaml'"), std::string::npos);
 }
 
