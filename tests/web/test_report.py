@@ -9,33 +9,25 @@ import sys
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import h5py
 import numpy as np
-from selenium import webdriver
+from PIL import Image
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
-from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.support.ui import WebDriverWait
 
 repository = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(repository / "python"))
+sys.path[:0] = [str(repository / "python"), str(repository / "scripts")]
 sys.dont_write_bytecode = True
 import squeal  # noqa: E402
+from report_picture import browser  # noqa: E402
 from squeal import report  # noqa: E402
 
 PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else str(repository / "build/squeal")
 COARSE = "n_pad_theta=8,n_free_theta=12,n_mount=2,n_plate=1,n_inside=1,n_pad_r=4,n_hat=2,n_h_ring=2"
-
-
-def browser():
-    options = webdriver.ChromeOptions()
-    for word in ("headless=new", "no-sandbox", "disable-dev-shm-usage", "window-size=1280,800", "force-prefers-reduced-motion",
-                 "use-gl=angle", "use-angle=swiftshader", "enable-unsafe-swiftshader", "ignore-gpu-blocklist"):  # fmt: skip
-        options.add_argument("--" + word)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-    return webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
 
 
 def shown(value, digits):
@@ -55,7 +47,7 @@ class Report(unittest.TestCase):
         subprocess.run([repository / "scripts/squeal-report", cls.folder], check=True, stdout=subprocess.DEVNULL)
         with open(cls.folder / "eigenvalues.csv", newline="") as file:
             cls.rows = list(csv.DictReader(file))
-        cls.driver = browser()
+        cls.driver = browser(browser="ALL", performance="ALL")
         cls.addClassCleanup(cls.driver.quit)
         cls.open_page(cls.folder / "report.html")
 
@@ -229,6 +221,36 @@ class Report(unittest.TestCase):
         self.assertEqual(self.driver.find_elements(By.ID, "bad"), [])
         self.assertTrue(self.driver.title.startswith(copy.name))
         self.assertEqual(self.run_script("return data.options.mesh_file"), summary["options"]["mesh_file"])
+
+    def test_picture(self):
+        """scripts/report_picture.py shows the mode; a report that shows none is refused, and no picture written."""
+
+        def drawn(name, text):
+            folder = Path(self.temporary.name) / name
+            folder.mkdir()
+            if text:
+                (folder / "report.html").write_text(text)
+            done = subprocess.run([repository / "scripts/report_picture.py", folder, folder / "out.png"], capture_output=True, text=True)
+            return done.returncode, done.stderr, folder / "out.png"
+
+        text = (self.folder / "report.html").read_text()
+        code, said, picture = drawn("whole", text)
+        self.assertEqual((code, said), (0, ""))
+        with Image.open(picture) as image:
+            self.assertEqual((image.format, image.size), ("PNG", (1280, 657)))
+            view = image.convert("RGB").crop((700, 220, 1100, 580))  # left of the scale
+        colours = view.getcolors(1 << 24)
+        self.assertGreater(len(colours), 40)
+        self.assertLess(max(count for count, _ in colours) / (view.width * view.height), 0.8)
+        nothing = text.replace("view.renderer.render(view.scene, view.camera);", "")
+        self.assertNotEqual(nothing, text)
+        with mock.patch.dict(report.SCRIPTS, {"Chart.js": ("/nowhere.js", None)}):
+            bare = report.build(squeal.open(self.folder))
+        for name, text, message in (("empty", nothing, "is empty: it has 1 colours"), ("bare", bare, "shows no mode"), ("none", "", "there is no ")):
+            code, said, picture = drawn(name, text)
+            self.assertEqual((code, len(said.splitlines())), (1, 1), said)
+            self.assertIn(message, said)
+            self.assertFalse(picture.exists())
 
     def test_without_the_libraries_the_pictures_stand_in(self):
         known = dict(report.SCRIPTS)
