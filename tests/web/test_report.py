@@ -270,17 +270,37 @@ class Report(unittest.TestCase):
         self.element("scheme").click()
 
     def test_names_are_text_not_markup(self):
+        """Whatever a user may name: the folder, bodies, interfaces, options, what they are set to; and texts of others."""
+        bad = "<img id=bad src=x onerror=window.bad=1>"
         copy = Path(self.temporary.name) / "<b id=bad>{{data}}<!--"
         shutil.copytree(self.folder, copy, ignore=shutil.ignore_patterns("vtk", "report.html"))
         summary = json.loads((copy / "summary.json").read_text())
-        summary["options"]["mesh_file"] = "</script><b id=bad>"
+        summary["options"].update({"mesh_file": "</script><b id=bad>", "mesh_" + bad: bad})
+        summary["version"] = bad
+        summary["stages"][bad] = {"wall_s": 1.0}
+        for point in summary["frictions"]:
+            point["steady"]["interfaces"] = {bad: point["steady"]["interfaces"]["pad"]}
+        summary["active_sets"][0]["followed"][0]["statement"] = bad
         (copy / "summary.json").write_text(json.dumps(summary))
-        (copy / "page.html").write_text(report.build(squeal.open(copy)))
+        work = (copy / "friction_work.csv").read_text()
+        (copy / "friction_work.csv").write_text(work.replace(",pad,", f",{bad},"))
+        with h5py.File(copy / "results.h5", "r+") as file:
+            file["mesh"].attrs["bodies"] = np.bytes_(file["mesh"].attrs["bodies"].replace(b"disc", bad.encode()))
+        licence = Path(self.temporary.name) / "licence"
+        licence.write_text(bad)
+        with mock.patch.dict(report.SCRIPTS, {"Chart.js": (report.SCRIPTS["Chart.js"][0], licence)}):
+            (copy / "page.html").write_text(report.build(squeal.open(copy)))
         self.addCleanup(self.open_page, self.folder / "report.html")
         self.open_page(copy / "page.html")
         self.assertEqual(self.driver.find_elements(By.ID, "bad"), [])
+        self.assertIsNone(self.run_script("return window.bad"))
         self.assertTrue(self.driver.title.startswith(copy.name))
         self.assertEqual(self.run_script("return data.options.mesh_file"), summary["options"]["mesh_file"])
+        said = {place: self.run_script("return element(arguments[0]).textContent", place) for place in ("certificate", "bodies", "more", "recipe")}
+        for place, text in {**said, "licences": self.run_script("return document.querySelector('footer').textContent")}.items():
+            self.assertIn(bad, text, place)
+        self.assertEqual(said["more"].count(bad) - work.count(",pad,"), len(summary["frictions"]) + 1)  # friction work; forces, a stage
+        self.assertEqual(said["recipe"].count(bad), 3)
 
     def test_picture(self):
         """scripts/report_picture.py shows the mode; a report that shows none is refused, and no picture written."""
@@ -313,13 +333,28 @@ class Report(unittest.TestCase):
             self.assertFalse(picture.exists())
 
     def test_without_the_libraries_the_pictures_stand_in(self):
-        known = dict(report.SCRIPTS)
-        self.addCleanup(report.SCRIPTS.update, known)
-        report.SCRIPTS["Chart.js"] = ("/nowhere.js", None)
-        text = report.build(squeal.open(self.folder))
-        self.assertIn("libjs-three, libjs-chart.js", text)
-        self.assertIn(report.verdict(squeal.open(self.folder)), text)
-        self.assertNotIn("blob-shape", text)
+        run = squeal.open(self.folder)
+        picture, other = self.folder / 'stability_"><b id=bad>.png', self.folder / "mode.png"
+        self.addCleanup(self.open_page, self.folder / "report.html")
+        for path, size in ((picture, (30, 20)), (other, (7, 5))):
+            self.addCleanup(path.unlink)
+            Image.new("RGB", size).save(path)
+        for name in report.SCRIPTS:
+            with self.subTest(name), mock.patch.dict(report.SCRIPTS, {name: ("/nowhere.js", None)}):
+                text = report.build(run)
+                self.assertIn("libjs-three, libjs-chart.js", text)
+                self.assertIn(report.verdict(run), text)
+                self.assertNotIn("blob-shape", text)
+                self.assertNotIn("new THREE", text)  # not one library without the other
+                self.assertNotIn("new Chart", text)
+        page = Path(self.temporary.name) / "bare.html"
+        page.write_text(text)
+        self.driver.get_log("browser")
+        self.driver.get(page.as_uri())
+        self.assertEqual(self.run_script("return [...document.images].map((image) => [image.naturalWidth, image.naturalHeight])"), [[30, 20], [7, 5]])
+        self.assertEqual(self.driver.find_elements(By.ID, "bad"), [])
+        self.assertIn(report.verdict(run), self.driver.find_element(By.TAG_NAME, "body").text)
+        self.assertEqual(self.driver.get_log("browser"), [])
 
 
 if __name__ == "__main__":
