@@ -9,16 +9,14 @@ import sys
 from pathlib import Path
 
 PACKAGES = {name: f"python3-{name}" for name in ("h5py", "matplotlib", "numpy", "pandas")} | {"vtkmodules": "python3-vtk9"}
-MANIFEST, LOCK, LAST = "manifest.txt", ".squeal.lock", "summary.json"
+MANIFEST, LOCK = "manifest.txt", ".squeal.lock"
 
 
 class Results:
-    """The results of a run. What save() adds to them is listed in their manifest, so that a later run removes it with them."""
+    """The files of a run; squeal.open() tells whether they are results. What save() adds to them is listed in their manifest, so that a later run removes it with them."""
 
     def __init__(self, folder):
         self.folder = Path(folder)
-        if not (self.folder / LAST).exists():
-            sys.exit(f"{program()}: {self.folder} holds no complete results: there is no {LAST}")
         self.manifest = self._manifest()
 
     def save(self, name, figure, **how):
@@ -48,7 +46,7 @@ class Results:
         """Its lines; none in results of version 0.1.0, which kept none."""
         try:
             lines = (self.folder / MANIFEST).read_text().splitlines()
-        except FileNotFoundError:
+        except (FileNotFoundError, NotADirectoryError):
             return None
         return lines if lines and lines[0].startswith("# squeal ") else None
 

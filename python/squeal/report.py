@@ -9,13 +9,9 @@ from pathlib import Path
 
 import matplotlib
 import numpy as np
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkDataObject
-from vtkmodules.vtkFiltersCore import vtkFeatureEdges, vtkThreshold, vtkTriangleFilter
-from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 
-from squeal.grid import add_points, grid_of
 from squeal.results import PARAMETERS, ResultsError
+from squeal.skin import Skin
 
 WEB = Path(__file__).resolve().parents[2] / "web"
 # Debian's packages libjs-three and libjs-chart.js: program, controls of the view, licences.
@@ -24,7 +20,7 @@ SCRIPTS = {
     "its orbit controls": ("/usr/share/javascript/three/examples/js/controls/OrbitControls.js", None),
     "Chart.js": ("/usr/share/javascript/chart.js/chart.min.js", "/usr/share/doc/libjs-chart.js/copyright"),
 }
-MOST_BYTES = 24_000_000  # of all shapes in the file
+MOST_BYTES = 22_000_000  # of the skin, fields and shapes in the file
 SMALL = 1e-300
 
 
@@ -194,60 +190,6 @@ def certificate(results):
     return lines
 
 
-class Skin:
-    """The boundary of the bodies, in triangles on corner nodes; each body has nodes of its own."""
-
-    def __init__(self, mesh):
-        grid = grid_of(mesh)
-        add_points(grid, "node", np.arange(len(mesh.coordinates), dtype=np.int64))
-        self.nodes, self.triangles, self.lines, self.bodies = [], [], [], []
-        first, triangles, lines = 0, 0, 0
-        for number, name in enumerate(mesh.bodies):
-            surface, edges = _surface_of(grid, number)
-            if surface is None:
-                continue
-            nodes = vtk_to_numpy(surface.GetPointData().GetArray("node"))
-            place = {node: index for index, node in enumerate(nodes)}
-            faces = _cells(surface.GetPolys(), 3)
-            sides = vtk_to_numpy(edges.GetPointData().GetArray("node"))[_cells(edges.GetLines(), 2)] if edges.GetNumberOfLines() else []
-            sides = np.array([[place[a], place[b]] for a, b in sides], np.int64).reshape(-1, 2)
-            self.nodes.append(nodes)
-            self.triangles.append(first + faces)
-            self.lines.append(first + sides)
-            self.bodies.append({"name": name, "nodes": [first, first + len(nodes)], "triangles": [triangles, triangles + len(faces)],
-                                "lines": [lines, lines + len(sides)]})  # fmt: skip
-            first, triangles, lines = first + len(nodes), triangles + len(faces), lines + len(sides)
-        self.nodes, self.triangles, self.lines = (np.concatenate(part) for part in (self.nodes, self.triangles, self.lines))
-
-
-def _surface_of(grid, body):
-    chosen = vtkThreshold()
-    chosen.SetInputData(grid)
-    chosen.SetInputArrayToProcess(0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_CELLS, "body")
-    chosen.SetLowerThreshold(body - 0.5)
-    chosen.SetUpperThreshold(body + 0.5)
-    outside = vtkDataSetSurfaceFilter()
-    outside.SetInputConnection(chosen.GetOutputPort())
-    outside.SetNonlinearSubdivisionLevel(0)
-    triangles = vtkTriangleFilter()
-    triangles.SetInputConnection(outside.GetOutputPort())
-    triangles.PassLinesOff()
-    triangles.PassVertsOff()
-    edges = vtkFeatureEdges()
-    edges.SetInputConnection(outside.GetOutputPort())
-    edges.SetFeatureAngle(30)
-    edges.ColoringOff()
-    edges.NonManifoldEdgesOff()
-    edges.Update()
-    triangles.Update()
-    surface = triangles.GetOutput()
-    return (surface, edges.GetOutput()) if surface.GetNumberOfPolys() else (None, None)
-
-
-def _cells(array, corners):
-    return vtk_to_numpy(array.GetConnectivityArray()).reshape(-1, corners).astype(np.int64)
-
-
 def _add_shapes(results, kept, data, blobs):
     mesh = results.mesh
     skin = Skin(mesh)
@@ -260,6 +202,12 @@ def _add_shapes(results, kept, data, blobs):
     touching, fields, points = _contact(results, skin)
     blobs["touching"] = _blob(np.flatnonzero(touching).astype(np.uint32))
     blobs["steady"] = _blob(fields.astype(np.float32))
+    every = len(points)
+    while len(blobs["steady"]) > MOST_BYTES // 4 and len(points) > 1:
+        fields, points = fields[::2], points[::2]
+        blobs["steady"] = _blob(fields.astype(np.float32))
+    if len(points) < every:
+        data["left"].append(f"Contact fields are shown at {len(points)} of the {every} points of the sweep: the file would be too large.")
     data["skin"] = {"nodes": len(skin.nodes), "size": size, "bodies": skin.bodies, "touching": int(touching.sum()), "steady": points}
     total = sum(len(text) for text in blobs.values())
     order = kept.sort_values("growth_rate_1_per_s", ascending=False)
@@ -269,17 +217,24 @@ def _add_shapes(results, kept, data, blobs):
         largest = max(np.abs(np.concatenate([shape.real, shape.imag])).max(), SMALL)
         parts = np.concatenate([shape.real[skin.nodes], shape.imag[skin.nodes]], axis=1) / largest
         text = _blob(np.round(127 * parts).astype(np.int8))
-        if total + len(text) > MOST_BYTES:
+        worked = mode.friction_work is not None and touching.any()
+        work = _blob(mode.friction_work[skin.nodes[touching], 1].astype(np.float32)) if worked else ""
+        total += len(text) + len(work)
+        if total > MOST_BYTES:
             data["left"].append(f"The shapes of {len(order) - len(data['shapes'])} slower growing modes were left out: the file would be too large.")
             break
-        total += len(text)
         name = f"shape{len(data['shapes'])}"
         blobs[name] = text
         entry = {"blob": name, "mode": int(row.mode), "at": [float(getattr(row, key)) for key in PARAMETERS], "work": None}
-        if mode.friction_work is not None and touching.any():
-            blobs[name + "work"] = _blob(mode.friction_work[skin.nodes[touching], 1].astype(np.float32))
+        if work:
+            blobs[name + "work"] = work
             entry["work"] = name + "work"
         data["shapes"].append(entry)
+    if skin.detail:
+        data["left"].append(
+            f"The surface has {skin.whole} triangles and is drawn with {len(skin.triangles)}, on {len(skin.nodes)} of its nodes: "
+            f"details below {skin.detail:.2g} m are not seen."
+        )
     if any(kind in (9, 10, 11, 12, 13, 14, 16, 17, 18, 19) for kind in mesh.cells):
         data["left"].append("Nodes amid the edges of cells are not drawn.")
     data["left"].append("Shapes are drawn to 1/127 of their largest displacement, places to 1/65534 of the size of the brake.")
@@ -287,20 +242,19 @@ def _add_shapes(results, kept, data, blobs):
 
 def _contact(results, skin):
     """Which nodes of the skin are contact nodes; pressure and gap, [point, 2, contact node]; and the parameters of the points."""
-    fields, points = [], []
+    touching, fields, points = np.zeros(len(skin.nodes), bool), [], []
     for at in results.points.to_dict("records"):
         try:
             field = results.fields(**at).get("contact_pressure_gap")
         except ResultsError:  # a point without steady sliding
             continue
         if field is not None and field.shape[1] >= 2:
-            fields.append(field[:, :2])
+            touching |= np.any(field[skin.nodes] != 0, axis=1)
+            fields.append(field[skin.nodes, :2])  # not the whole field: there may be many points
             points.append([at[name] for name in PARAMETERS])
     if not fields:
-        return np.zeros(len(skin.nodes), bool), np.zeros((0, 2, 0)), []
-    touches = np.any([np.any(field != 0, axis=1) for field in fields], axis=0)
-    touching = touches[skin.nodes]
-    return touching, np.stack([field[skin.nodes[touching]].T for field in fields]), points
+        return touching, np.zeros((0, 2, 0)), []
+    return touching, np.stack([field[touching].T for field in fields]), points
 
 
-__all__ = ["Skin", "build", "certificate", "verdict"]
+__all__ = ["build", "certificate", "verdict"]

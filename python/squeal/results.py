@@ -1,7 +1,10 @@
 """The folder of a run: its tables, modes and fields."""
+import collections
 import contextlib
+import csv
 import dataclasses
 import functools
+import io
 import json
 from pathlib import Path
 
@@ -29,12 +32,7 @@ class Results:
 
     def __init__(self, folder):
         self.folder = Path(folder)
-        try:
-            self.summary = json.loads((self.folder / "summary.json").read_text())
-        except FileNotFoundError:
-            raise ResultsError(f"{self.folder} holds no complete results: there is no summary.json") from None
-        except (OSError, ValueError) as error:
-            raise ResultsError(f"{self.folder / 'summary.json'}: {error}") from None
+        self.summary = _summary(self.folder / "summary.json")
 
     def __repr__(self):
         return f"<squeal results in {self.folder}: {len(self.points)} points>"
@@ -42,18 +40,14 @@ class Results:
     def table(self, name):
         """A .csv file of the folder by its name without ending; None where the run wrote none."""
         path = self.folder / f"{name}.csv"
-        if not path.exists():
-            return None
-        try:
-            return pd.read_csv(path, float_precision="round_trip")
-        except (OSError, ValueError) as error:
-            raise ResultsError(f"{path}: {error}") from None
+        return read_table(path, float_precision="round_trip") if path.exists() else None
 
     @functools.cached_property
     def eigenvalues(self):
         """All eigenvalues of the band, with a column `s` of complex numbers, 1/s, and `grows`: whether one counts as unstable, by its
         verdict or, where that is `uncertified`, since it grows by more than round-off."""
         table = self._needed("eigenvalues", (*PARAMETERS, "mode", "growth_rate_1_per_s", "angular_frequency_rad_per_s", "verdict"))
+        self._require_whole(table, "eigenvalues", lambda point: point.get("eigenvalues", 0))
         s = table["growth_rate_1_per_s"] + 1j * table["angular_frequency_rad_per_s"]
         uncertified = (table["verdict"] == "uncertified") & (table["growth_rate_1_per_s"] > NOISE * s.abs())
         return table.assign(s=s, grows=(table["verdict"] == "unstable") | uncertified)
@@ -61,7 +55,9 @@ class Results:
     @functools.cached_property
     def stability_map(self):
         """A row for each point of the sweep."""
-        return self._needed("stability_map", (*PARAMETERS, "unstable_modes", "largest_growth_rate_1_per_s", "verdict"))
+        table = self._needed("stability_map", (*PARAMETERS, "unstable_modes", "largest_growth_rate_1_per_s", "verdict"))
+        self._require_whole(table, "stability_map", lambda point: int("eigenvalues" in point))
+        return table
 
     @property
     def points(self):
@@ -182,6 +178,15 @@ class Results:
             raise ResultsError(f"{self.folder / name}.csv: there is no column {', '.join(missing)}")
         return table
 
+    def _require_whole(self, table, name, rows_of):
+        """A table of which the end is lost looks like one of a run with fewer points or eigenvalues."""
+        there = collections.Counter(map(key_of, table[list(PARAMETERS)].to_numpy()))
+        for point in self.summary.get("frictions", []):
+            found, written = there[key_of(point[key] for key in PARAMETERS)], rows_of(point)
+            if found < written:
+                raise ResultsError(f"{self.folder / name}.csv is cut: it has {found} rows at {_words({key: point[key] for key in PARAMETERS})}, "
+                                   f"summary.json tells of {written}")  # fmt: skip
+
     def _fields(self):
         if self.parts:
             raise ResultsError(f"{self.folder} is a merge: modes and fields are in its parts, {', '.join(map(str, self.parts))}")
@@ -255,6 +260,49 @@ class Mode:
         amplitude = np.sqrt((np.abs(self.shape) ** 2).sum(axis=1))
         add_points(grid, "amplitude", amplitude / amplitude.max())
         return grid
+
+
+def _summary(path):
+    """What summary.json says, if it is the summary of a run or of a merge."""
+    try:
+        summary = json.loads(path.read_text())
+    except FileNotFoundError:
+        raise ResultsError(f"{path.parent} holds no complete results: there is no summary.json") from None
+    except (OSError, ValueError, RecursionError) as error:
+        raise ResultsError(f"{path}: {error}") from None
+    if not isinstance(summary, dict):
+        raise ResultsError(f"{path} is no summary of a run: it holds no object")
+    for name, kind, what in (("version", str, "text"), ("complete", bool, "true or false")):
+        if not isinstance(summary.get(name), kind):
+            raise ResultsError(f"{path} is no summary of a run: `{name}` is {'not ' + what if name in summary else 'missing'}")
+    for name in ("frictions", "active_sets", "parts"):
+        found = summary.get(name, [])
+        if not isinstance(found, list) or not all(isinstance(entry, dict) for entry in found):
+            raise ResultsError(f"{path} is no summary of a run: `{name}` is no list of objects")
+    for entry in summary.get("frictions", []):
+        if not all(isinstance(entry.get(name), (int, float)) for name in PARAMETERS):
+            raise ResultsError(f"{path} is no summary of a run: a point in `frictions` lacks one of {', '.join(PARAMETERS)}")
+    return summary
+
+
+def read_table(path, **how):
+    """A .csv file. Raises ResultsError where its end, or a field, is lost, which pandas takes for an empty one."""
+    try:
+        with path.open(newline="", encoding="utf-8") as file:
+            text = file.read()
+        table = pd.read_csv(io.StringIO(text), **how)
+    except (OSError, ValueError) as error:
+        raise ResultsError(f"{path}: {error}") from None
+    rows = list(csv.reader(io.StringIO(text)))
+    short = next((number for number, row in enumerate(rows, 1) if len(row) != len(rows[0])), len(rows) if not text.endswith("\n") else None)
+    if short:
+        raise ResultsError(f"{path}: line {short} is cut")
+    return table
+
+
+def key_of(values):
+    """Parameters in a form in which equal ones are equal, whether counted up to or written: 0.1 + 0.2 is 0.3."""
+    return tuple(float(f"{float(value):.12g}") for value in values)
 
 
 def _rows(table, at):

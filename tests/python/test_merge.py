@@ -116,7 +116,7 @@ class Merge(unittest.TestCase):
         said = self.merge("chain_low", "chain_damped")
         self.assertIn("13 of the 14 points of the grid of all values are there", said)
         # On a map, one damping of another pressure may be all that is there.
-        pressed = self.copy("chain_damped")
+        pressed = self.copy("chain_damped", summary_json=lambda text: text.replace('"pressure": 1.0', '"pressure": 2.0'))
         for name in ("eigenvalues", "stability_map", "branches", "critical"):
             table = pd.read_csv(pressed / f"{name}.csv", dtype=str, keep_default_na=False)
             table.assign(pressure="2").to_csv(pressed / f"{name}.csv", index=False)
@@ -212,7 +212,13 @@ class Merge(unittest.TestCase):
         self.refused("have different results at friction 1: mode [0-9]+ is .* and .* 1/s", exact, far)
         verdict = self.copy("chain_high", eigenvalues_csv=lambda text: text.replace("unstable", "stable"))
         self.refused("have different results at friction .*unstable.* and .*stable", self.made / "chain_high", verdict)
-        shorter = self.copy("chain_high", eigenvalues_csv=lambda text: text.rsplit("\n", 2)[0] + "\n")
+
+        def fewer(text):
+            summary = json.loads(text)
+            summary["frictions"][-1]["eigenvalues"] -= 1
+            return json.dumps(summary)
+
+        shorter = self.copy("chain_high", eigenvalues_csv=lambda text: text.rsplit("\n", 2)[0] + "\n", summary_json=fewer)
         self.refused("have different results at friction 1.2: [0-9]+ and [0-9]+ eigenvalues", self.made / "chain_high", shorter)
 
     def test_incomplete_parts(self):
@@ -226,6 +232,47 @@ class Merge(unittest.TestCase):
         self.refused("is a merge itself", self.out, "chain")
         self.refused("is named twice", "chain", "chain")
         self.assertEqual(len(squeal.open(self.out).points), 14)
+
+    def test_cut_tables(self):
+        """A table of which the end is lost: within its last number, within its last row, by rows, or by a field of some row."""
+        ends = {
+            "within the last field": (lambda text: text[:-3], "line [0-9]+ is cut"),
+            "without the end of the last line": (lambda text: text[:-1], "line [0-9]+ is cut"),
+            "within the last row": (lambda text: text[: text.rindex(",")] + "\n", "line [0-9]+ is cut"),
+            "within a row": (lambda text: "\n".join(row.rpartition(",")[0] if n == 2 else row for n, row in enumerate(text.split("\n"))), "line 3 is cut"),
+            "by a row": (lambda text: text[:-1].rpartition("\n")[0] + "\n", r"is cut: it has [0-9]+ rows.*, summary.json tells of [0-9]+"),
+            "by all rows": (lambda text: text.partition("\n")[0] + "\n", r"is cut: it has 0 rows.*, summary.json tells of [0-9]+"),
+        }  # fmt: skip
+        for table in ("eigenvalues", "stability_map", "critical"):
+            for where, (change, message) in ends.items():
+                with self.subTest(table=table, where=where):
+                    cut = self.copy("chain_high", **{f"{table}_csv": change})
+                    self.refused(f"{cut}/{table}.csv:? {message}", self.made / "chain_low", cut)
+        self.assertFalse(self.out.exists())
+
+    def test_summaries_of_no_run(self):
+        for change, message in (
+            (lambda _: "[1, 2]", "it holds no object"),
+            (lambda _: "{}", "`version` is missing"),
+            (lambda text: text.replace('"complete": true', '"complete": 1'), "`complete` is not true or false"),
+            (lambda text: text.replace('"frictions": [', '"frictions": [7, '), "`frictions` is no list of objects"),
+            (lambda text: text.replace('"friction": 1.0,', '', 1), "a point in `frictions` lacks one of friction, speed"),
+        ):  # fmt: skip
+            with self.subTest(message):
+                other = self.copy("chain_high", summary_json=change)
+                self.refused(f"{other}/summary.json is no summary of a run: .*{message}", "chain", other)
+        bad = self.copy("chain_high", summary_json=lambda text: text[:100])
+        self.refused(f"{bad}/summary.json: ", "chain", bad)
+        self.assertFalse(self.out.exists())
+
+    def test_out_inside_a_part(self):
+        run = self.copy("chain")
+        before = sorted(run.rglob("*"))
+        (self.folder / "link").symlink_to(run)
+        for out in (run / "out", run / "deep" / "out", self.folder / "link" / "out", self.folder / "other" / ".." / run.name / "out"):
+            for join in (squeal.merge.merge, squeal.merge.list_variants):
+                self.refused("out is inside .*chain_0, one of its parts: name a folder outside", call=lambda: join(out, [run, self.made / "chain_damped"]))
+        self.assertEqual(sorted(run.rglob("*")), before)
 
     def test_folders_that_are_no_merge_stay(self):
         self.out.mkdir()
@@ -274,6 +321,10 @@ class Merge(unittest.TestCase):
         failed = subprocess.run([*command, self.made / "chain_band"], capture_output=True, text=True)
         self.assertEqual((failed.returncode, len(failed.stderr.splitlines())), (1, 1))
         self.assertTrue(failed.stderr.startswith("squeal-merge: "))
+        listed = self.copy("chain", summary_json=lambda _: "[]")
+        failed = subprocess.run([repository / "scripts/squeal-merge", self.folder / "new", listed], capture_output=True, text=True)
+        self.assertEqual((failed.returncode, failed.stderr), (1, f"squeal-merge: {listed}/summary.json is no summary of a run: it holds no object\n"))
+        self.assertFalse((self.folder / "new").exists())
 
 
 if __name__ == "__main__":

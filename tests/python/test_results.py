@@ -113,8 +113,23 @@ class Results(unittest.TestCase):
     def test_incomplete_results_are_refused_by_name(self):
         with self.assertRaisesRegex(squeal.ResultsError, "/nowhere holds no complete results: there is no summary.json"):
             squeal.open("/nowhere")
+        for text, message in (("{}", "`version` is missing"), ("[]", "it holds no object"), ('{"version": "0.1.0"}', "`complete` is missing")):
+            with tempfile.TemporaryDirectory() as empty:
+                (Path(empty) / "summary.json").write_text(text)
+                with self.assertRaisesRegex(squeal.ResultsError, f"summary.json is no summary of a run: {message}"):
+                    squeal.open(empty)
+                # The commands that read results say the same in one line, and add no file.
+                for command in ("squeal-report", "plot_stability.py", "plot_mode.py"):
+                    failed = subprocess.run([repository / "scripts" / command, empty], capture_output=True, text=True)
+                    self.assertEqual((failed.returncode, len(failed.stderr.splitlines())), (1, 1), failed.stderr)
+                    self.assertIn(message, failed.stderr)
+                self.assertEqual([path.name for path in Path(empty).iterdir()], ["summary.json"])
         copy = self.folder.parent / "copy"
         shutil.copytree(self.folder, copy, ignore=shutil.ignore_patterns("vtk", "results.h5"))
+        whole = (copy / "eigenvalues.csv").read_text()
+        (copy / "eigenvalues.csv").write_text(whole[: len(whole) // 2])
+        with self.assertRaisesRegex(squeal.ResultsError, "eigenvalues.csv: line [0-9]+ is cut"):
+            squeal.open(copy).eigenvalues
         (copy / "eigenvalues.csv").write_text("friction,speed\n0,1\n")
         run = squeal.open(copy)
         with self.assertRaisesRegex(squeal.ResultsError, "eigenvalues.csv: there is no column pressure, damping, mode"):

@@ -77,11 +77,11 @@ class Lists(unittest.TestCase):
         source = (ROOT / "src" / "checkpoint" / "checkpoint.cpp").read_text()
         exact = re.search(r"exact\{(.*?)\};", source, re.S).group(1)
         sys.path.insert(0, str(ROOT / "python"))
-        from squeal import merge
+        from squeal import parts
         names = set(re.findall(r'"(\w+)"', exact))
         self.assertGreater(len(names), 4)
         for name in names:
-            self.assertTrue(merge._indifferent(name), name)
+            self.assertTrue(parts.indifferent(name), name)
 
 
 if __name__ == "__main__":

@@ -9,33 +9,26 @@ import sys
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import h5py
 import numpy as np
-from selenium import webdriver
+from PIL import Image
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
-from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.support.ui import WebDriverWait
 
 repository = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(repository / "python"))
+sys.path[:0] = [str(repository / "python"), str(repository / "scripts")]
 sys.dont_write_bytecode = True
 import squeal  # noqa: E402
+from report_picture import browser  # noqa: E402
 from squeal import report  # noqa: E402
+from squeal.skin import Skin  # noqa: E402
 
 PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else str(repository / "build/squeal")
 COARSE = "n_pad_theta=8,n_free_theta=12,n_mount=2,n_plate=1,n_inside=1,n_pad_r=4,n_hat=2,n_h_ring=2"
-
-
-def browser():
-    options = webdriver.ChromeOptions()
-    for word in ("headless=new", "no-sandbox", "disable-dev-shm-usage", "window-size=1280,800", "force-prefers-reduced-motion",
-                 "use-gl=angle", "use-angle=swiftshader", "enable-unsafe-swiftshader", "ignore-gpu-blocklist"):  # fmt: skip
-        options.add_argument("--" + word)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-    return webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
 
 
 def shown(value, digits):
@@ -55,7 +48,7 @@ class Report(unittest.TestCase):
         subprocess.run([repository / "scripts/squeal-report", cls.folder], check=True, stdout=subprocess.DEVNULL)
         with open(cls.folder / "eigenvalues.csv", newline="") as file:
             cls.rows = list(csv.DictReader(file))
-        cls.driver = browser()
+        cls.driver = browser(browser="ALL", performance="ALL")
         cls.addClassCleanup(cls.driver.quit)
         cls.open_page(cls.folder / "report.html")
 
@@ -100,6 +93,7 @@ class Report(unittest.TestCase):
         return [(shape["at"][0], shape["mode"]) for shape in self.run_script("return data.shapes")]
 
     def test_asks_the_network_for_nothing_and_logs_no_error(self):
+        self.driver.get_log("performance")  # of other tests
         self.open_page(self.folder / "report.html")
         events = [json.loads(entry["message"])["message"] for entry in self.driver.get_log("performance")]
         asked = [event["params"]["request"]["url"] for event in events if event["method"] == "Network.requestWillBeSent"]
@@ -121,12 +115,11 @@ class Report(unittest.TestCase):
             "for (let i = 0; i < p.length; i += 4) all.add(p[i] * 65536 + p[i + 1] * 256 + p[i + 2]); return all.size;")  # fmt: skip
         self.assertGreater(colours, 100)  # an empty canvas has one
 
-    def test_nodes_move_as_results_h5_says(self):
+    def check_motion(self, skin, modes):
         """Re((a + ib) exp(iφ)) of the file, to the 1/127 of the quantised shapes and the 1/65534 of places."""
-        skin = report.Skin(squeal.open(self.folder).mesh)
         with h5py.File(self.folder / "results.h5") as file:
             places = file["mesh/coordinates"][()]
-            for friction, mode in self.kept()[:3]:
+            for friction, mode in modes:
                 self.select(friction, mode)
                 group = file[f"flutter/friction_{friction:g}"]
                 shape = group[f"mode_{mode:03d}_real"][()] + 1j * group[f"mode_{mode:03d}_imaginary"][()]
@@ -138,6 +131,65 @@ class Report(unittest.TestCase):
                     wanted = (places - middle) / size + 0.1 * (shape * np.exp(1j * np.radians(degrees))).real / largest
                     found = np.array(self.run_script("return Array.from(view.places)")).reshape(-1, 3)
                     self.assertLess(np.abs(found - wanted[skin.nodes]).max(), 0.1 / 127 + 1e-4)
+
+    def test_nodes_move_as_results_h5_says(self):
+        self.check_motion(Skin(squeal.open(self.folder).mesh), self.kept()[:3])
+
+    def test_a_large_skin_is_drawn_coarser(self):
+        """On some of its nodes, which move as all do; no place of it, on flat faces either, is far from one of them."""
+        run = squeal.open(self.folder)
+        whole, places = Skin(run.mesh), run.mesh.coordinates
+        self.assertEqual((whole.whole, whole.detail), (len(whole.triangles), 0))
+        page = Path(self.temporary.name) / "coarser.html"
+        with mock.patch("squeal.skin.MOST_TRIANGLES", 1000):
+            coarse = Skin(run.mesh)
+            page.write_text(report.build(run))
+        self.assertLessEqual(len(coarse.triangles), 1000)
+        self.assertGreater(len(coarse.triangles), 300)
+        self.assertEqual([body["name"] for body in coarse.bodies], [body["name"] for body in whole.bodies])
+        for part, body in zip(coarse.bodies, whole.bodies):
+            mine, all_of_it = coarse.nodes[slice(*part["nodes"])], whole.nodes[slice(*body["nodes"])]
+            self.assertLessEqual(set(mine), set(all_of_it))
+            far = np.linalg.norm(places[all_of_it][:, None] - places[mine][None], axis=2).min(axis=1).max()
+            self.assertLessEqual(far, 2 * np.sqrt(3) * coarse.detail)
+            for cells, kind in ((coarse.triangles, "triangles"), (coarse.lines, "lines")):
+                used = cells[slice(*part[kind])]
+                self.assertTrue(((used >= part["nodes"][0]) & (used < part["nodes"][1])).all())
+
+        def longest(skin):
+            corners = places[skin.nodes[skin.triangles]]
+            return np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max()
+
+        # A triangle joins the cubes in which the corners of one of the whole skin lie.
+        self.assertLessEqual(longest(coarse), longest(whole) + 2 * np.sqrt(3) * coarse.detail)
+        self.addCleanup(self.open_page, self.folder / "report.html")
+        self.driver.get_log("browser")
+        self.open_page(page)
+        self.check_motion(coarse, self.kept()[:1])
+        self.assertGreater(self.run_script("return new Set(view.colours).size"), 20)
+        self.assertEqual(self.driver.get_log("browser"), [])
+        self.assertIn(f"The surface has {whole.whole} triangles and is drawn with {len(coarse.triangles)}, on {len(coarse.nodes)} of its nodes",
+                      self.element("more").text)  # fmt: skip
+
+    def test_a_large_file_leaves_out_shapes_and_fields(self):
+        def blobs(text):
+            return {name: len(content) for name, content in re.findall(r'id="blob-(\w+)">([^<]*)<', text)}
+
+        whole = blobs((self.folder / "report.html").read_text())
+        shapes = [name for name in whole if re.fullmatch(r"shape\d+", name)]
+        most = sum(whole.values()) // 2
+        with mock.patch.object(report, "MOST_BYTES", most):
+            text = report.build(squeal.open(self.folder))
+        less = blobs(text)
+        there = [name for name in less if re.fullmatch(r"shape\d+", name)]
+        self.assertLessEqual(sum(less.values()), most)
+        self.assertEqual(there, shapes[: len(there)])  # the fastest growing ones
+        self.assertGreater(len(there), 0)
+        self.assertIn(f"The shapes of {len(shapes) - len(there)} slower growing modes were left out", text)
+        with mock.patch.object(report, "MOST_BYTES", 4 * whole["steady"] - 4):
+            text = report.build(squeal.open(self.folder))
+        self.assertLess(blobs(text)["steady"], whole["steady"])
+        self.assertIn("Contact fields are shown at 2 of the 4 points of the sweep", text)
 
     def test_hovering_tells_the_row_of_the_table(self):
         for friction, mode in [*self.kept()[:2], (0.2, 1)]:
@@ -200,7 +252,7 @@ class Report(unittest.TestCase):
         name = self.run_script("element('point').value = 2; element('field').value = 'pressure'; colour(); return element('pointname').textContent")
         self.assertEqual(name, "friction 0.4")
         values = self.run_script("return [Array.from(view.touching), Array.from(fieldValues('pressure'))]")
-        skin = report.Skin(squeal.open(self.folder).mesh)
+        skin = Skin(squeal.open(self.folder).mesh)
         np.testing.assert_allclose(values[1], pressure[skin.nodes[values[0]]], rtol=1e-6)
         self.assertEqual(len(set(skin.nodes[values[0]])), np.count_nonzero(pressure))
         self.run_script("element('field').value = 'amplitude'; colour();")
@@ -218,26 +270,91 @@ class Report(unittest.TestCase):
         self.element("scheme").click()
 
     def test_names_are_text_not_markup(self):
+        """Whatever a user may name: the folder, bodies, interfaces, options, what they are set to; and texts of others."""
+        bad = "<img id=bad src=x onerror=window.bad=1>"
         copy = Path(self.temporary.name) / "<b id=bad>{{data}}<!--"
         shutil.copytree(self.folder, copy, ignore=shutil.ignore_patterns("vtk", "report.html"))
         summary = json.loads((copy / "summary.json").read_text())
-        summary["options"]["mesh_file"] = "</script><b id=bad>"
+        summary["options"].update({"mesh_file": "</script><b id=bad>", "mesh_" + bad: bad})
+        summary["version"] = bad
+        summary["stages"][bad] = {"wall_s": 1.0}
+        for point in summary["frictions"]:
+            point["steady"]["interfaces"] = {bad: point["steady"]["interfaces"]["pad"]}
+        summary["active_sets"][0]["followed"][0]["statement"] = bad
         (copy / "summary.json").write_text(json.dumps(summary))
-        (copy / "page.html").write_text(report.build(squeal.open(copy)))
+        work = (copy / "friction_work.csv").read_text()
+        (copy / "friction_work.csv").write_text(work.replace(",pad,", f",{bad},"))
+        with h5py.File(copy / "results.h5", "r+") as file:
+            file["mesh"].attrs["bodies"] = np.bytes_(file["mesh"].attrs["bodies"].replace(b"disc", bad.encode()))
+        licence = Path(self.temporary.name) / "licence"
+        licence.write_text(bad)
+        with mock.patch.dict(report.SCRIPTS, {"Chart.js": (report.SCRIPTS["Chart.js"][0], licence)}):
+            (copy / "page.html").write_text(report.build(squeal.open(copy)))
         self.addCleanup(self.open_page, self.folder / "report.html")
         self.open_page(copy / "page.html")
         self.assertEqual(self.driver.find_elements(By.ID, "bad"), [])
+        self.assertIsNone(self.run_script("return window.bad"))
         self.assertTrue(self.driver.title.startswith(copy.name))
         self.assertEqual(self.run_script("return data.options.mesh_file"), summary["options"]["mesh_file"])
+        said = {place: self.run_script("return element(arguments[0]).textContent", place) for place in ("certificate", "bodies", "more", "recipe")}
+        for place, text in {**said, "licences": self.run_script("return document.querySelector('footer').textContent")}.items():
+            self.assertIn(bad, text, place)
+        self.assertEqual(said["more"].count(bad) - work.count(",pad,"), len(summary["frictions"]) + 1)  # friction work; forces, a stage
+        self.assertEqual(said["recipe"].count(bad), 3)
+
+    def test_picture(self):
+        """scripts/report_picture.py shows the mode; a report that shows none is refused, and no picture written."""
+
+        def drawn(name, text):
+            folder = Path(self.temporary.name) / name
+            folder.mkdir()
+            if text:
+                (folder / "report.html").write_text(text)
+            done = subprocess.run([repository / "scripts/report_picture.py", folder, folder / "out.png"], capture_output=True, text=True)
+            return done.returncode, done.stderr, folder / "out.png"
+
+        text = (self.folder / "report.html").read_text()
+        code, said, picture = drawn("whole", text)
+        self.assertEqual((code, said), (0, ""))
+        with Image.open(picture) as image:
+            self.assertEqual((image.format, image.size), ("PNG", (1280, 657)))
+            view = image.convert("RGB").crop((700, 220, 1100, 580))  # left of the scale
+        colours = view.getcolors(1 << 24)
+        self.assertGreater(len(colours), 40)
+        self.assertLess(max(count for count, _ in colours) / (view.width * view.height), 0.8)
+        nothing = text.replace("view.renderer.render(view.scene, view.camera);", "")
+        self.assertNotEqual(nothing, text)
+        with mock.patch.dict(report.SCRIPTS, {"Chart.js": ("/nowhere.js", None)}):
+            bare = report.build(squeal.open(self.folder))
+        for name, text, message in (("empty", nothing, "is empty: it has 1 colours"), ("bare", bare, "shows no mode"), ("none", "", "there is no ")):
+            code, said, picture = drawn(name, text)
+            self.assertEqual((code, len(said.splitlines())), (1, 1), said)
+            self.assertIn(message, said)
+            self.assertFalse(picture.exists())
 
     def test_without_the_libraries_the_pictures_stand_in(self):
-        known = dict(report.SCRIPTS)
-        self.addCleanup(report.SCRIPTS.update, known)
-        report.SCRIPTS["Chart.js"] = ("/nowhere.js", None)
-        text = report.build(squeal.open(self.folder))
-        self.assertIn("libjs-three, libjs-chart.js", text)
-        self.assertIn(report.verdict(squeal.open(self.folder)), text)
-        self.assertNotIn("blob-shape", text)
+        run = squeal.open(self.folder)
+        picture, other = self.folder / 'stability_"><b id=bad>.png', self.folder / "mode.png"
+        self.addCleanup(self.open_page, self.folder / "report.html")
+        for path, size in ((picture, (30, 20)), (other, (7, 5))):
+            self.addCleanup(path.unlink)
+            Image.new("RGB", size).save(path)
+        for name in report.SCRIPTS:
+            with self.subTest(name), mock.patch.dict(report.SCRIPTS, {name: ("/nowhere.js", None)}):
+                text = report.build(run)
+                self.assertIn("libjs-three, libjs-chart.js", text)
+                self.assertIn(report.verdict(run), text)
+                self.assertNotIn("blob-shape", text)
+                self.assertNotIn("new THREE", text)  # not one library without the other
+                self.assertNotIn("new Chart", text)
+        page = Path(self.temporary.name) / "bare.html"
+        page.write_text(text)
+        self.driver.get_log("browser")
+        self.driver.get(page.as_uri())
+        self.assertEqual(self.run_script("return [...document.images].map((image) => [image.naturalWidth, image.naturalHeight])"), [[30, 20], [7, 5]])
+        self.assertEqual(self.driver.find_elements(By.ID, "bad"), [])
+        self.assertIn(report.verdict(run), self.driver.find_element(By.TAG_NAME, "body").text)
+        self.assertEqual(self.driver.get_log("browser"), [])
 
 
 if __name__ == "__main__":
