@@ -33,7 +33,7 @@ constexpr const char* usage =
     "  -dry_run   checks a case, and says what its run would take\n"
     "  -help      the manual: all options with units, defaults and ranges; -help STAGE: those of "
     "one stage\n"
-    "  -help_json the same for programs\n"
+    "  -help_json the same for programs; -help_json STAGE\n"
     "  -version   versions of this program and of its libraries\n"
     "Exit code: 0 done, 2 some friction has no steady solution, 3 asked to stop (SIGTERM, SIGUSR1; "
     "-resume goes on), 1 error.\n";
@@ -49,8 +49,8 @@ void tellError(const squeal::Session& session, const std::string& message, bool 
 /// The exit code.
 int run(const squeal::Session& session) try {
   if (session.helpWanted() || session.helpJsonWanted()) {
-    const std::string page =
-        session.helpJsonWanted() ? squeal::manualAsJson() : squeal::manual(session.helpStage());
+    const std::string page = session.helpJsonWanted() ? squeal::manualAsJson(session.helpStage())
+                                                      : squeal::manual(session.helpStage());
     if (session.rank() == 0) squeal::print(page);
     return 0;
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "analysis/checks.hpp"
 #include "analysis/matrix_route.hpp"
 #include "analysis/mesh_route.hpp"
 #include "direct/direct.hpp"
@@ -53,8 +54,10 @@ Analysis prepare(MPI_Comm comm) {
   const bool ofMesh = !matrices::wanted();
   analysis.sweep = sweep::readSweep();
   addFrictions(analysis.sweep, regime::frictionsWanted());
-  if (!direct::directWanted()) sweep::warnOfLongSweep(comm, analysis.sweep, modes::wantedCount());
-  if (ofMesh) prepareMesh(analysis);
+  if (ofMesh) {
+    prepareMesh(analysis);
+    warnOfDenseWork(comm, analysis.sweep, analysis.mesh->dimension * analysis.mesh->totalNodes);
+  }
   return analysis;
 }
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "direct/direct.hpp"
 #include "flutter/terms.hpp"
+#include "modes/modes.hpp"
 #include "options/options.hpp"
 #include "petsc/finite.hpp"
 
@@ -85,6 +87,12 @@ void rejectIdleFactors(const std::vector<matrices::NamedTerm>& terms, const swee
             [](const pencil::Term& term) { return term.dampingExponent; });
   if (sweep.pressures != std::vector<double>{1})
     throw Error("option -flutter_pressure: no matrix from a file depends on the pressure");
+}
+
+void warnOfDenseWork(MPI_Comm comm, const sweep::Sweep& sweep, PetscInt unknowns) {
+  if (direct::directWanted()) return;
+  const int modes = std::min<PetscInt>(modes::wantedCount(), unknowns);
+  sweep::warnOfLongSweep(comm, sweep, modes);
 }
 
 }  // namespace squeal::analysis

@@ -31,4 +31,8 @@ void rejectIdleFactors(const elasticity::Bodies& bodies, const contact::Contact&
 /// its points would be the same, and for a pressure factor other than 1.
 void rejectIdleFactors(const std::vector<matrices::NamedTerm>& terms, const sweep::Sweep& sweep);
 
+/// Collective. Warns of a sweep whose dense eigenvalue problems take long, by the number of free
+/// modes, which is not above that of the unknowns.
+void warnOfDenseWork(MPI_Comm comm, const sweep::Sweep& sweep, PetscInt unknowns);
+
 }  // namespace squeal::analysis

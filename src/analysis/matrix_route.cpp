@@ -73,6 +73,7 @@ void solveMatrices(Analysis& analysis) {
                       symmetric.asymmetry)
                 .c_str()
           : ""));
+  warnOfDenseWork(analysis.comm, analysis.sweep, symmetric.system.size());
   std::vector<pencil::Term> terms;
   for (auto& item : named) terms.push_back(std::move(item.term));
   const pencil::Pencil pencil(std::move(terms));

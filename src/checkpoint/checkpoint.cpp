@@ -9,6 +9,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <set>
 #include <vector>
 
 #include <unistd.h>
@@ -126,7 +127,7 @@ std::string checksumOfFile(MPI_Comm comm, const std::string& path) {
   return whole ? formatted("checksum %08lx", sum) : "";
 }
 
-/// Returns a sentence on the first thing in which the two differ; empty if they agree.
+/// Returns a sentence on the first three things in which the two differ; empty if they agree.
 std::string difference(const Identity& then, const Identity& now) {
   const auto text = [](const Identity& of, const std::string& name) {
     const auto found = of.find(name);
@@ -136,10 +137,19 @@ std::string difference(const Identity& then, const Identity& now) {
   both.insert(now.begin(), now.end());
   std::vector<std::string> names{rankCount};  // first: the parts of the mesh differ with it
   for (const auto& [name, value] : both) names.push_back(name);
+  // What is computed, in front of how: the case, its files, the mesh.
+  std::ranges::stable_partition(names, [](const std::string& name) {
+    return name == rankCount || !name.starts_with("option -");
+  });
+  std::set<std::string> told;
+  std::string sentence;
+  constexpr std::size_t most = 3;
   for (const auto& name : names)
-    if (text(then, name) != text(now, name))
-      return name + " was " + text(then, name) + " and is " + text(now, name);
-  return {};
+    if (text(then, name) != text(now, name) && told.insert(name).second && told.size() <= most)
+      sentence += (sentence.empty() ? "" : "; ") + name + " was " + text(then, name) + " and is " +
+                  text(now, name);
+  if (told.size() > most) sentence += formatted("; and %zu more", told.size() - most);
+  return sentence;
 }
 
 }  // namespace

@@ -175,10 +175,16 @@ std::vector<std::string> unusedOptions() {
   return unused;
 }
 
-std::string manual(const std::string& wanted) {
+/// Throws Error for a word that is no stage; an empty one stands for all of them.
+static void requireStage(const std::string& wanted) {
   const auto& all = stages();
   if (!wanted.empty() && std::ranges::find(all, wanted) == all.end())
     throw Error("-help " + wanted + ": there is no such stage; the stages are " + joined(all));
+}
+
+std::string manual(const std::string& wanted) {
+  const auto& all = stages();
+  requireStage(wanted);
   std::string page =
       "squeal -options_file CASE.yaml [-option value …]: flutter of steady sliding brakes (brake "
       "squeal)\n"
@@ -210,10 +216,12 @@ std::string manual(const std::string& wanted) {
   return page;
 }
 
-std::string manualAsJson() {
+std::string manualAsJson(const std::string& wanted) {
+  requireStage(wanted);
   nlohmann::ordered_json page;
-  page["stages"] = stages();
+  page["stages"] = wanted.empty() ? stages() : std::vector<std::string>{wanted};
   for (const auto* option : Option::all()) {
+    if (!wanted.empty() && option->stage != wanted) continue;
     nlohmann::ordered_json entry;
     entry["stage"] = option->stage;
     entry["name"] = option->name;
@@ -226,6 +234,7 @@ std::string manualAsJson() {
     page["options"].push_back(std::move(entry));
   }
   for (const auto* solver : SolverPrefix::all()) {
+    if (!wanted.empty() && solver->stage != wanted) continue;
     nlohmann::ordered_json entry;
     entry["stage"] = solver->stage;
     entry["prefix"] = solver->prefix;

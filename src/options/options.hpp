@@ -50,8 +50,9 @@ std::string manual(const std::string& stage = {});
 
 /// Returns the same for programs, as `-help_json` prints it: an object with the `stages`, the
 /// `options` (stage, name, unit, default unless required, meaning, rule, and `value`, a JSON
-/// Schema) and the `solvers` (stage, prefix, meaning).
-std::string manualAsJson();
+/// Schema) and the `solvers` (stage, prefix, meaning). Of one stage alone unless `stage` is empty;
+/// throws Error for a word that is none.
+std::string manualAsJson(const std::string& stage = {});
 
 /// Returns name and value of every given option, those of PETSc included, whether from a file or
 /// the command line.

@@ -60,8 +60,11 @@ void write(const analysis::Analysis& analysis, Directory& directory) {
     return;
   }
   const std::string how = analysis.checkpoint.exists() ? "; -resume continues it" : "";
-  if (analysis.segments.empty())
+  if (analysis.segments.empty()) {
+    removeInterrupted(comm,
+                      directory);  // tables of an earlier run, beside a checkpoint of this one
     return complain(comm, "interrupted before the first eigenvalues" + how);
+  }
   try {
     output::Folder part(comm, naming(), directory.interrupted());
     writeInto(analysis, part);

@@ -106,7 +106,9 @@ const bool isLaunched =
 bool wantsLine() {
   if (isQuiet()) return false;
   if (progressOption.get() != "auto") return progressOption.get() == "line";
-  return !isLaunched && isatty(STDOUT_FILENO) == 1;
+  // A terminal that cannot erase a line, as in editors, says so.
+  const char* kind = std::getenv("TERM");
+  return !isLaunched && isatty(STDOUT_FILENO) == 1 && kind && std::string_view(kind) != "dumb";
 }
 
 /// Throws Error if there is something else than a log of events in the place of the file.

@@ -74,9 +74,9 @@ Session::Session(int argc, char** argv) {
   };
   helpWanted_ = among({"-help", "--help", "-h"});
   helpJsonWanted_ = among({"-help_json", "--help_json"});
-  if (const auto help = std::ranges::find(words, "-help");
-      help != words.end() && std::next(help) != words.end() && !std::next(help)->starts_with('-'))
-    helpStage_ = *std::next(help);
+  for (std::size_t i = 0; i + 1 < words.size(); ++i)
+    for (const char* help : {"-help", "--help", "-h", "-help_json", "--help_json"})
+      if (words[i] == help && !words[i + 1].starts_with('-')) helpStage_ = words[i + 1];
   versionWanted_ = among({"-version", "--version"});
   check(MPI_Init(&argc, &argv));  // before PETSc's, so that a mistake in the options is told in one
                                   // line instead of a traceback

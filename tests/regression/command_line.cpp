@@ -324,12 +324,30 @@ TEST(CommandLine, VersionManualAndUsage) {
     EXPECT_NE(contentOf(place / "out").find("-material_<group>_young [Pa]"), std::string::npos)
         << word;
   }
+  // Of one stage alone: what belongs to others is not there.
+  for (const char* word : {"--help modes", "-help modes", "-help_json modes"}) {
+    ASSERT_EQ(shell(place, alone + " " + word + to), 0);
+    const std::string page = contentOf(place / "out");
+    EXPECT_NE(page.find("modes_count"), std::string::npos) << word;
+    EXPECT_EQ(page.find("material_<group>_young"), std::string::npos) << word;
+  }
+  for (const char* word : {"-help nosuch", "-help_json nosuch"})
+    EXPECT_EQ(shell(place, alone + " " + word + to), 1) << word;
   // Without any option: a script whose arguments went missing must not believe that it has run.
   ASSERT_EQ(shell(place, alone + to), 1);
   const std::string out = contentOf(place / "out");
   EXPECT_EQ(out.rfind("usage: squeal", 0), 0U) << out;
   EXPECT_LE(std::count(out.begin(), out.end(), '\n'), 12);
   EXPECT_FALSE(fs::exists(place / "results"));
+}
+
+// Two unknowns have two modes, not the 200 of the default: 1001 problems of order 4 take no time.
+TEST(CommandLine, LongSweepsAreEstimatedByTheModesThereAre) {
+  const ProgramRun run = runProgram(
+      "command_line/long", 1, "-options_file options/external.yaml -flutter_friction 0:0.1:0.0001");
+  EXPECT_EQ(run.exitCode, 0);
+  EXPECT_NE(run.error.find("a sweep of 1001 points"), std::string::npos) << run.error;
+  EXPECT_NE(run.error.find("(2 free modes)"), std::string::npos) << run.error;
 }
 
 }  // namespace
