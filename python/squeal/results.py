@@ -45,11 +45,12 @@ class Results:
     @functools.cached_property
     def eigenvalues(self):
         """All eigenvalues of the band, with a column `s` of complex numbers, 1/s, and `grows`: whether one counts as unstable, by its
-        verdict or, where that is `uncertified`, since it grows by more than round-off."""
+        verdict or, where that is `uncertified`, since it grows by more than round-off and -flutter_unstable_tolerance, as in the program."""
         table = self._needed("eigenvalues", (*PARAMETERS, "mode", "growth_rate_1_per_s", "angular_frequency_rad_per_s", "verdict"))
         self._require_whole(table, "eigenvalues", lambda point: point.get("eigenvalues", 0))
         s = table["growth_rate_1_per_s"] + 1j * table["angular_frequency_rad_per_s"]
-        uncertified = (table["verdict"] == "uncertified") & (table["growth_rate_1_per_s"] > NOISE * s.abs())
+        least = max(NOISE, float(self.summary.get("options", {}).get("flutter_unstable_tolerance", 0)))
+        uncertified = (table["verdict"] == "uncertified") & (table["growth_rate_1_per_s"] > least * s.abs())
         return table.assign(s=s, grows=(table["verdict"] == "unstable") | uncertified)
 
     @functools.cached_property
@@ -275,6 +276,11 @@ def _summary(path):
     for name, kind, what in (("version", str, "text"), ("complete", bool, "true or false")):
         if not isinstance(summary.get(name), kind):
             raise ResultsError(f"{path} is no summary of a run: `{name}` is {'not ' + what if name in summary else 'missing'}")
+    options = summary.get("options", {})
+    try:
+        float(options.get("flutter_unstable_tolerance", 0))
+    except (AttributeError, TypeError, ValueError):
+        raise ResultsError(f"{path} is no summary of a run: `flutter_unstable_tolerance` in `options` is no number") from None
     for name in ("frictions", "active_sets", "parts"):
         found = summary.get(name, [])
         if not isinstance(found, list) or not all(isinstance(entry, dict) for entry in found):

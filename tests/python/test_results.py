@@ -31,11 +31,12 @@ class Results(unittest.TestCase):
     def setUpClass(cls):
         temporary = tempfile.TemporaryDirectory()
         cls.addClassCleanup(temporary.cleanup)
-        cls.folder, cls.slabs, cls.matrices = (Path(temporary.name) / name for name in ("layers", "slabs", "external"))
+        cls.folder, cls.slabs, cls.matrices, cls.chain = (Path(temporary.name) / name for name in ("layers", "slabs", "external", "chain"))
         for case, folder, words in (
             ("two_layers", cls.folder, ["-mesh_set", "nx=6,ny_disc=2,ny_pad=2,order=2", "-modes_count", "40", "-flutter_pressure", "1,2"]),
             ("two_layers_antiplane", cls.slabs, ["-mesh_set", "nx=4,ny_disc=2,ny_pad=2,order=2", "-modes_count", "30"]),
             ("external", cls.matrices, []),
+            ("external_chain", cls.chain, ["-flutter_method", "direct", "-flutter_unstable_tolerance", "0.1"]),
         ):
             subprocess.run([PROGRAM, "-options_file", repository / f"options/{case}.yaml", "-report_dir", folder, "-quiet", *words],
                            check=True, stdout=subprocess.DEVNULL)  # fmt: skip
@@ -53,6 +54,19 @@ class Results(unittest.TestCase):
         self.assertEqual(len(run.points), len(rows(self.folder / "stability_map.csv")))
         self.assertIsNone(run.sensitivities)
         self.assertIsNone(squeal.open(self.matrices).friction_work)
+
+    def test_what_grows_is_what_the_program_counts_as_unstable(self):
+        """Of uncertified eigenvalues too, of which some grow by less than -flutter_unstable_tolerance."""
+        for folder in (self.folder, self.matrices, self.chain):
+            run = squeal.open(folder)
+            counted = run.eigenvalues.groupby(list(squeal.PARAMETERS))["grows"].sum()
+            self.assertEqual(counted.tolist(), run.stability_map.set_index(list(squeal.PARAMETERS))["unstable_modes"][counted.index].tolist())
+            listed = [len(point["unstable_modes"]) for point in run.summary["frictions"]]
+            self.assertEqual(sorted(counted), sorted(listed))
+        table = squeal.open(self.chain).eigenvalues  # the last of them
+        self.assertEqual(set(table["verdict"]), {"uncertified"})
+        slow = ~table["grows"] & (table["growth_rate_1_per_s"] > 1e-3 * table["s"].abs())
+        self.assertTrue(slow.any() and table["grows"].any())
 
     def test_steady_tables_by_parameters(self):
         table = self.run_.steady(friction=0.3, pressure=2)
@@ -113,10 +127,15 @@ class Results(unittest.TestCase):
     def test_incomplete_results_are_refused_by_name(self):
         with self.assertRaisesRegex(squeal.ResultsError, "/nowhere holds no complete results: there is no summary.json"):
             squeal.open("/nowhere")
-        for text, message in (("{}", "`version` is missing"), ("[]", "it holds no object"), ('{"version": "0.1.0"}', "`complete` is missing")):
+        for text, message in (
+            ("{}", "`version` is missing"),
+            ("[]", "it holds no object"),
+            ('{"version": "0.1.0"}', "`complete` is missing"),
+            ('{"version": "0.1.0", "complete": true, "options": {"flutter_unstable_tolerance": "x"}}', "is no number"),
+        ):
             with tempfile.TemporaryDirectory() as empty:
                 (Path(empty) / "summary.json").write_text(text)
-                with self.assertRaisesRegex(squeal.ResultsError, f"summary.json is no summary of a run: {message}"):
+                with self.assertRaisesRegex(squeal.ResultsError, f"summary.json is no summary of a run: .*{message}"):
                     squeal.open(empty)
                 # The commands that read results say the same in one line, and add no file.
                 for command in ("squeal-report", "plot_stability.py", "plot_mode.py"):

@@ -87,10 +87,10 @@ class Plot(unittest.TestCase):
                         cells = ",,,,,,"
                     stability.append(f"{at},{cells}")
         names = "mode,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,damping_ratio,backward_error,error_estimate,certified,verdict"
-        (folder / "eigenvalues.csv").write_text("\n".join([f"{self.head},{names}"] + modes))
+        (folder / "eigenvalues.csv").write_text("\n".join([f"{self.head},{names}", *modes, ""]))
         names = "unstable_modes,largest_growth_rate_1_per_s,frequency_hz,worst_backward_error,worst_error_estimate,verdict,undecided_modes"
-        (folder / "stability_map.csv").write_text("\n".join([f"{self.head},{names}"] + stability))
-        (folder / "summary.json").write_text("{}")  # without it the results are not complete
+        (folder / "stability_map.csv").write_text("\n".join([f"{self.head},{names}", *stability, ""]))
+        (folder / "summary.json").write_text('{"version": "0.1.0", "complete": true}')  # without it the results are not complete
 
     def figures(self, *sweep):
         with tempfile.TemporaryDirectory() as name:
@@ -119,8 +119,8 @@ class Plot(unittest.TestCase):
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
             self.written(folder, [0.2, 0.6], [1], [1])
-            (folder / "branches.csv").write_text("\n".join([self.branch_head] + rows))
-            (folder / "critical.csv").write_text("\n".join(critical))
+            (folder / "branches.csv").write_text("\n".join([self.branch_head, *rows, ""]))
+            (folder / "critical.csv").write_text("\n".join([*critical, ""]))
             lines, ends = plot_stability.pieces(plot_stability.squeal.open(folder).branches)
             self.assertEqual(ends, [(0.2, 0.3), (0.3, 0.6)])
             self.assertEqual([list(line["friction"]) for line in lines], [[0.2, 0.3], [0.3, 0.6], [0.3, 0.6]])
