@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "analysis/analysis.hpp"
+#include "analysis/checks.hpp"
 #include "analysis/matrix_route.hpp"
 #include "contact/coupled.hpp"
 #include "elasticity/ground.hpp"
@@ -135,6 +136,9 @@ void ofMatrices(const Analysis& analysis) {
       check(MatAXPY(pattern, 1, term.matrix, DIFFERENT_NONZERO_PATTERN));
   }
   saySweep(analysis.comm, analysis.sweep, false);
+  PetscInt unknowns = 0;
+  check(MatGetSize(named.front().term.matrix, &unknowns, nullptr));
+  warnOfDenseWork(analysis.comm, analysis.sweep, unknowns);
   if (pattern) sayMemory(analysis.comm, pattern);
 }
 
