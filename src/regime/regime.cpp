@@ -187,6 +187,11 @@ Study study(const FullModel& full, linalg::Block free, const pencil::ComplexMode
     if (point.eigenvalues[shape.index].unstable) shapes.push_back(&shape);
   if (shapes.empty())
     throw Error("option -regime_friction: the unstable modes are not kept; raise -flutter_shapes");
+  if (std::ssize(shapes) < result.unstable)
+    say(comm,
+        formatted("%s: %zu of %d unstable modes have kept shapes (-flutter_shapes), and these "
+                  "are held exactly by the reduced model of the regime",
+                  sweep::parameterText(point.at).c_str(), shapes.size(), result.unstable));
   linalg::Block unstable(free.rows());
   for (const auto* shape : shapes)
     for (const Vec part : {shape->real.get(), shape->imaginary.get()}) {
