@@ -153,7 +153,7 @@ def _joined_summary(parts, taken, out, left):
         "complete": all(part.summary["complete"] for part in parts),
         "parts": [_entry(part, out) for part in parts],
         "branches_joined": "no: a branch ends where its part does; numbers are unique on a line of equal speed, pressure and damping",
-        "not_merged": {"results.h5": "mode shapes and fields are in the parts", "modes.csv, steady_*.csv, contact_path.csv": "in the parts", **{f"{name}.csv": "not in all parts" for name in left}},
+        "not_merged": {"results.h5": "mode shapes and fields are in the parts", "modes.csv, steady_*.csv, contact_path.csv, onset.csv, regime*.csv": "in the parts", **{f"{name}.csv": "not in all parts" for name in left}},
         "frictions": sorted(frictions, key=lambda entry: [entry[name] for name in order]),
         "active_sets": sets,
         "wall_s": sum(part.summary.get("wall_s", 0) for part in parts),
