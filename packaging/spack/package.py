@@ -29,6 +29,7 @@ class Squeal(CMakePackage):
     depends_on("slepc@3.18:")
     depends_on("mumps@5.5:+mpi+double+shared")
     depends_on("hdf5+mpi")
+    depends_on("fftw@3.3:")
     depends_on("lapack")
     depends_on("gmsh@4.8:+shared+opencascade")
     depends_on("vtk@9.1:")

@@ -135,7 +135,7 @@ class Installation(unittest.TestCase):
         self.assertEqual([path.name for path in self.work.iterdir()], ["results"])
 
     def test_refusals(self):
-        printed = self.call("squeal-run", "nosuch", status=2)
+        printed = self.call("squeal-run", "nosuch", status=1)
         self.assertIn("squeal-run: there is no case 'nosuch'", printed)
         self.assertEqual(printed.split()[-len(CASES):], CASES)  # which ones there are
         closed = self.prefix / "share"  # not writable

@@ -16,7 +16,7 @@ BUILD = Path(sys.argv.pop(1)) if len(sys.argv) > 1 else repository / "build"
 RECIPE = repository / "packaging/spack/package.py"
 DEFINITION = repository / "packaging/apptainer/squeal.def"
 # Of Spack's dependencies the ones that each requirement of CMakeLists.txt means.
-MEANING = {"MPI": "mpi", "PkgConfig": "pkgconfig", "PETSC": "petsc", "HDF5": "hdf5", "Boost": "boost", "LAPACK": "lapack",
+MEANING = {"MPI": "mpi", "PkgConfig": "pkgconfig", "PETSC": "petsc", "HDF5": "hdf5", "FFTW": "fftw", "Boost": "boost", "LAPACK": "lapack",
            "nlohmann_json": "nlohmann-json", "ZLIB": "zlib-api", "VTK": "vtk", "METIS": "metis", "GMSH": "gmsh", "YAML": "libyaml",
            "MUMPS": "mumps", "GTest": "googletest", "MATIO": "matio"}  # fmt: skip
 
