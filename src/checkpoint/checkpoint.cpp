@@ -137,10 +137,6 @@ std::string difference(const Identity& then, const Identity& now) {
   both.insert(now.begin(), now.end());
   std::vector<std::string> names{rankCount};  // first: the parts of the mesh differ with it
   for (const auto& [name, value] : both) names.push_back(name);
-  // What is computed, in front of how: the case, its files, the mesh.
-  std::ranges::stable_partition(names, [](const std::string& name) {
-    return name == rankCount || !name.starts_with("option -");
-  });
   std::set<std::string> told;
   std::string sentence;
   constexpr std::size_t most = 3;
