@@ -1,34 +1,13 @@
 // What becomes of the unstable mode of a coarse disc brake: the reduced model has the certified
-// eigenvalue, the march its growth, and the regime does not depend on ranks or on the mass of the
-// boundary; bad input is refused by name.
+// eigenvalue, and the march its growth; bad input is refused by name.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "support/program.hpp"
+#include "support/regime_runs.hpp"
 
 namespace squeal::test {
 namespace {
-
-const Options coarse = {
-    {"options_file", "options/disc_brake_regime.yaml"},
-    {"mesh_set",
-     "n_pad_theta=8,n_free_theta=12,n_mount=2,n_plate=1,n_inside=1,n_pad_r=4,n_hat=2,n_"
-     "h_ring=2"},
-    {"modes_count", "60"},
-    {"flutter_friction", "0.4"},
-    {"regime_friction", "0.4"},
-    {"report_fields", "off"}};
-
-CsvTable regimeOf(const std::string& name, int ranks, const Options& changes) {
-  const ProgramRun run = runProgram("regime_" + name, ranks, commandLine(with(coarse, changes)));
-  EXPECT_EQ(run.exitCode, 0) << run.error;
-  return readCsv(run.folder / "regime.csv");
-}
-
-double valueOf(const CsvTable& table, const std::string& column) {
-  return table.column(column).at(0);
-}
 
 // The start is a thousandth of the onset, so that all is linear. The rule is of first order: half
 // the step, half the error, but for rounding and for what the start excites besides: 10 %.
@@ -47,32 +26,6 @@ TEST(Regime, GrowsAsCertified) {
   }
   EXPECT_LT(std::abs(errors[1]), 0.02 * 215.9);
   EXPECT_NEAR(errors[0] / errors[1], 2, 0.2);
-}
-
-// Single cycles differ, as the regime is sensitive; means agree. Contact and friction hold at every
-// step to 1e-5 of the mean force.
-TEST(Regime, IsTheSameOnAnyNumberOfRanksAndWithTheMassOfTheBoundary) {
-  const auto one = regimeOf("one", 1, {{"regime_time", "0.025"}}),
-             two = regimeOf("two", 2, {{"regime_time", "0.025"}}),
-             mass = regimeOf("mass", 1, {{"regime_time", "0.025"}, {"regime_boundary", "mass"}});
-  for (const auto* table : {&one, &two, &mass}) {
-    EXPECT_NE(table->words("class").at(0), "growing");
-    EXPECT_GT(valueOf(*table, "open_nodes"), 0);
-    EXPECT_GT(valueOf(*table, "sticking_nodes"), 0);
-    EXPECT_LE(valueOf(*table, "largest_defect"), 1e-5);
-    // Part of the pad lifts off and sticks, so that it rubs less than in steady sliding.
-    EXPECT_LT(valueOf(*table, "friction_coefficient"), 0.4);
-    EXPECT_LT(valueOf(*table, "friction_power_w"), valueOf(*table, "steady_friction_power_w"));
-  }
-  const auto near = [](const CsvTable& a, const CsvTable& b, const std::string& column,
-                       double tolerance) {
-    EXPECT_NEAR(valueOf(a, column) / valueOf(b, column), 1, tolerance) << column;
-  };
-  near(one, two, "friction_power_w", 0.02);
-  near(one, two, "friction_coefficient", 0.02);
-  near(one, two, "carrier_hz", 0.01);
-  near(one, mass, "friction_power_w", 0.05);
-  near(one, mass, "friction_coefficient", 0.05);
 }
 
 // All nodes are there, and each spends its time somewhere.
