@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 from squeal.parts import SWEPT, TABLES, differs, indifferent, keys_of, owners_of, read_parts, require_alike
-from squeal.results import PARAMETERS, ResultsError, key_of
+from squeal.results import PARAMETERS, ResultsError, key_of, read_summary
 
 SAME_CRITICAL = 1e-7  # relative; ten times -flutter_critical_tolerance by default
 GRAVITY = ("unstable", "undecided", "uncertified", "stable", "neutral")  # verdicts, the gravest first
@@ -240,10 +240,10 @@ def _require_replaceable(out):
     if not os.path.lexists(out):
         return
     try:
-        merged = "parts" in json.loads((out / "summary.json").read_text())
+        merged = "parts" in read_summary(out / "summary.json")
         listed = set((out / "manifest.txt").read_text().splitlines()[1:])
         others = sorted(path.name for path in out.iterdir() if path.name not in listed)
-    except (OSError, ValueError):
+    except (OSError, ValueError, ResultsError):
         merged, others = False, []
     if not merged:
         raise ResultsError(f"{out} exists and is no merge: name another folder, or move it")

@@ -16,6 +16,27 @@ PARAMETERS = ("friction", "speed", "pressure", "damping")
 TABLES = ("eigenvalues", "stability_map", "branches", "critical", "contact_path", "friction_work", "sensitivities")
 # Without an estimate of its error, a growth rate below this fraction of |s| is taken as round-off.
 NOISE = 1e-6
+NUMBER = (float, int)
+# What is read of summary.json, as the program writes it: a name with ? may be missing, * stands for all names.
+SUMMARY = {
+    "version": str,
+    "complete": bool,
+    "options?": {"*": str},
+    "frictions?": [
+        {
+            **dict.fromkeys(PARAMETERS, NUMBER),
+            "eigenvalues?": int,
+            "band_top_hz?": (*NUMBER, type(None)),
+            "steady?": {"converged?": bool, "open_nodes?": int,
+                        "interfaces?": {"*": {"normal_force_n?": [NUMBER], "friction_force_n?": [NUMBER]}}},
+        }
+    ],
+    "active_sets?": [{"followed?": [{"critical_frictions?": [NUMBER], "statement?": str}]}],
+    "stages?": {"*": {"wall_s?": NUMBER, "peak_memory_bytes?": NUMBER}},
+    "wall_s?": NUMBER,
+    "parts?": [{"folder": str}],
+}  # fmt: skip
+KINDS = {bool: "not true or false", str: "no text", float: "no number", int: "no whole number", dict: "no object", list: "no list"}
 
 
 class ResultsError(Exception):
@@ -32,7 +53,7 @@ class Results:
 
     def __init__(self, folder):
         self.folder = Path(folder)
-        self.summary = _summary(self.folder / "summary.json")
+        self.summary = read_summary(self.folder / "summary.json")
 
     def __repr__(self):
         return f"<squeal results in {self.folder}: {len(self.points)} points>"
@@ -49,7 +70,7 @@ class Results:
         table = self._needed("eigenvalues", (*PARAMETERS, "mode", "growth_rate_1_per_s", "angular_frequency_rad_per_s", "verdict"))
         self._require_whole(table, "eigenvalues", lambda point: point.get("eigenvalues", 0))
         s = table["growth_rate_1_per_s"] + 1j * table["angular_frequency_rad_per_s"]
-        least = max(NOISE, float(self.summary.get("options", {}).get("flutter_unstable_tolerance", 0)))
+        least = max(NOISE, float(self.summary.get("options", {}).get("flutter_unstable_tolerance", "0")))
         uncertified = (table["verdict"] == "uncertified") & (table["growth_rate_1_per_s"] > least * s.abs())
         return table.assign(s=s, grows=(table["verdict"] == "unstable") | uncertified)
 
@@ -263,7 +284,7 @@ class Mode:
         return grid
 
 
-def _summary(path):
+def read_summary(path):
     """What summary.json says, if it is the summary of a run or of a merge."""
     try:
         summary = json.loads(path.read_text())
@@ -271,24 +292,31 @@ def _summary(path):
         raise ResultsError(f"{path.parent} holds no complete results: there is no summary.json") from None
     except (OSError, ValueError, RecursionError) as error:
         raise ResultsError(f"{path}: {error}") from None
-    if not isinstance(summary, dict):
-        raise ResultsError(f"{path} is no summary of a run: it holds no object")
-    for name, kind, what in (("version", str, "text"), ("complete", bool, "true or false")):
-        if not isinstance(summary.get(name), kind):
-            raise ResultsError(f"{path} is no summary of a run: `{name}` is {'not ' + what if name in summary else 'missing'}")
-    options = summary.get("options", {})
+    for wrong in _departures(summary, SUMMARY, ""):
+        raise ResultsError(f"{path} is no summary of a run: {wrong}")
     try:
-        float(options.get("flutter_unstable_tolerance", 0))
-    except (AttributeError, TypeError, ValueError):
-        raise ResultsError(f"{path} is no summary of a run: `flutter_unstable_tolerance` in `options` is no number") from None
-    for name in ("frictions", "active_sets", "parts"):
-        found = summary.get(name, [])
-        if not isinstance(found, list) or not all(isinstance(entry, dict) for entry in found):
-            raise ResultsError(f"{path} is no summary of a run: `{name}` is no list of objects")
-    for entry in summary.get("frictions", []):
-        if not all(isinstance(entry.get(name), (int, float)) for name in PARAMETERS):
-            raise ResultsError(f"{path} is no summary of a run: a point in `frictions` lacks one of {', '.join(PARAMETERS)}")
+        float(summary.get("options", {}).get("flutter_unstable_tolerance", "0"))
+    except ValueError:
+        raise ResultsError(f"{path} is no summary of a run: `options.flutter_unstable_tolerance` is no number") from None
     return summary
+
+
+def _departures(found, form, place):
+    """Where a value departs from a form, in words."""
+    kinds = form if isinstance(form, tuple) else (form if isinstance(form, type) else type(form),)
+    if not isinstance(found, kinds) or (isinstance(found, bool) and bool not in kinds):
+        yield f"{f'`{place}`' if place else 'it'} is {KINDS[kinds[0]]}"
+    elif isinstance(form, list):
+        for number, entry in enumerate(found):
+            yield from _departures(entry, form[0], f"{place}[{number}]")
+    elif isinstance(form, dict):
+        for name, inner in form.items():
+            for key in found if name == "*" else [name.rstrip("?")]:
+                below = f"{place}.{key}" if place else key
+                if key in found:
+                    yield from _departures(found[key], inner, below)
+                elif not name.endswith("?"):
+                    yield f"`{below}` is missing"
 
 
 def read_table(path, **how):

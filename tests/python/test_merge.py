@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 """The merge of runs over parts of one grid, on runs made here: test_merge.py PROGRAM."""
+import functools
 import json
 import shutil
 import subprocess
@@ -18,7 +19,8 @@ sys.path.insert(0, str(repository / "python"))
 sys.dont_write_bytecode = True
 import squeal  # noqa: E402
 import squeal.merge  # noqa: E402
-from squeal.report import build  # noqa: E402
+from squeal.parts import Part  # noqa: E402
+from squeal.report import build, certificate, verdict  # noqa: E402
 
 PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else str(repository / "build/squeal")
 PARAMETERS = list(squeal.PARAMETERS)
@@ -251,19 +253,53 @@ class Merge(unittest.TestCase):
         self.assertFalse(self.out.exists())
 
     def test_summaries_of_no_run(self):
-        for change, message in (
-            (lambda _: "[1, 2]", "it holds no object"),
-            (lambda _: "{}", "`version` is missing"),
-            (lambda text: text.replace('"complete": true', '"complete": 1'), "`complete` is not true or false"),
-            (lambda text: text.replace('"frictions": [', '"frictions": [7, '), "`frictions` is no list of objects"),
-            (lambda text: text.replace('"friction": 1.0,', '', 1), "a point in `frictions` lacks one of friction, speed"),
+        """Whatever value of summary.json is lost or is of another kind, it is named, or not read; nothing is written."""
+
+        def parts_of(value, place=()):
+            inside = value.items() if isinstance(value, dict) else enumerate(value[:1]) if isinstance(value, list) else ()
+            for name, entry in inside:
+                yield (*place, name)
+                yield from parts_of(entry, (*place, name))
+
+        def changed(place, *new):
+            summary = json.loads(whole)
+            holder = functools.reduce(lambda value, name: value[name], place[:-1], summary)
+            holder.pop(place[-1])
+            if new:
+                holder.insert(*place[-1:], *new) if isinstance(holder, list) else holder.update({place[-1]: new[0]})
+            return json.dumps(summary)
+
+        damaged = self.copy("chain_high")
+        whole = (damaged / "summary.json").read_text()
+        for text, message in (
+            ("[1, 2]", "it is no object"),
+            ("{}", "`version` is missing"),
+            (changed(("complete",), 1), "`complete` is not true or false"),
+            (changed(("frictions", 0), 7), r"`frictions\[0\]` is no object"),
+            (changed(("frictions", 0, "friction")), r"`frictions\[0\].friction` is missing"),
+            (changed(("frictions", 0, "friction"), True), r"`frictions\[0\].friction` is no number"),
+            (changed(("frictions", 0, "eigenvalues"), "10"), r"`frictions\[0\].eigenvalues` is no whole number"),
+            (changed(("active_sets", 0, "followed", 0, "critical_frictions"), None), r"`active_sets\[0\].followed\[0\].critical_frictions` is no list"),
+            (changed(("stages", "flutter"), 7), "`stages.flutter` is no object"),
         ):  # fmt: skip
             with self.subTest(message):
-                other = self.copy("chain_high", summary_json=change)
-                self.refused(f"{other}/summary.json is no summary of a run: .*{message}", "chain", other)
-        bad = self.copy("chain_high", summary_json=lambda text: text[:100])
-        self.refused(f"{bad}/summary.json: ", "chain", bad)
+                (damaged / "summary.json").write_text(text)
+                self.refused(f"{damaged}/summary.json is no summary of a run: {message}", "chain", damaged)
+        (damaged / "summary.json").write_text(whole[:100])
+        self.refused(f"{damaged}/summary.json: ", "chain", damaged)
         self.assertFalse(self.out.exists())
+        said = 0
+        for place in (place for place in parts_of(json.loads(whole)) if place[:-1] != ("options",)):
+            for new in ((), (["x"],)):
+                (damaged / "summary.json").write_text(changed(place, *new))
+                try:
+                    read = squeal.open(damaged)
+                    Part(damaged)
+                    verdict(read), certificate(read)
+                except squeal.ResultsError as error:
+                    self.assertRegex(str(error), f"^[^\n]*{damaged}[^\n]*$")
+                    said += 1
+        self.assertGreater(said, 20)
 
     def test_out_inside_a_part(self):
         run = self.copy("chain")
@@ -278,6 +314,12 @@ class Merge(unittest.TestCase):
         self.out.mkdir()
         (self.out / "mine.txt").write_text("mine")
         self.refused("exists and is no merge", "chain", "chain_damped")
+        for text in ("7", '["parts"]', '{"parts": []}'):
+            (self.out / "summary.json").write_text(text)
+            (self.out / "manifest.txt").write_text("# squeal\nmanifest.txt\nmine.txt\nsummary.json\n")
+            self.refused("exists and is no merge", "chain", "chain_damped")
+        for name in ("summary.json", "manifest.txt"):
+            (self.out / name).unlink()
         run = self.copy("chain")
         self.refused("exists and is no merge", call=lambda: squeal.merge.merge(run, [self.made / "chain", self.made / "chain_damped"]))
         self.assertTrue((run / "options.txt").exists())
@@ -323,7 +365,7 @@ class Merge(unittest.TestCase):
         self.assertTrue(failed.stderr.startswith("squeal-merge: "))
         listed = self.copy("chain", summary_json=lambda _: "[]")
         failed = subprocess.run([repository / "scripts/squeal-merge", self.folder / "new", listed], capture_output=True, text=True)
-        self.assertEqual((failed.returncode, failed.stderr), (1, f"squeal-merge: {listed}/summary.json is no summary of a run: it holds no object\n"))
+        self.assertEqual((failed.returncode, failed.stderr), (1, f"squeal-merge: {listed}/summary.json is no summary of a run: it is no object\n"))
         self.assertFalse((self.folder / "new").exists())
 
 

@@ -129,7 +129,7 @@ class Results(unittest.TestCase):
             squeal.open("/nowhere")
         for text, message in (
             ("{}", "`version` is missing"),
-            ("[]", "it holds no object"),
+            ("[]", "it is no object"),
             ('{"version": "0.1.0"}', "`complete` is missing"),
             ('{"version": "0.1.0", "complete": true, "options": {"flutter_unstable_tolerance": "x"}}', "is no number"),
         ):
