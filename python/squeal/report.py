@@ -235,6 +235,8 @@ def _add_shapes(results, kept, data, blobs):
             f"The surface has {skin.whole} triangles and is drawn with {len(skin.triangles)}, on {len(skin.nodes)} of its nodes: "
             f"details below {skin.detail:.2g} m are not seen."
         )
+    if skin.unseen:
+        data["left"].append(f"Bodies that are smaller are not drawn: {', '.join(skin.unseen)}.")
     if any(kind in (9, 10, 11, 12, 13, 14, 16, 17, 18, 19) for kind in mesh.cells):
         data["left"].append("Nodes amid the edges of cells are not drawn.")
     data["left"].append("Shapes are drawn to 1/127 of their largest displacement, places to 1/65534 of the size of the brake.")

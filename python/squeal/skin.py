@@ -26,9 +26,12 @@ class Skin:
         self.detail = 0.0  # m; what is smaller is not drawn
         if self.whole > MOST_TRIANGLES:
             surfaces, self.detail = _coarser(surfaces)
+        self.unseen = [name for name, surface in surfaces.items() if not surface.GetNumberOfPolys()]  # bodies below that detail
         self.nodes, self.triangles, self.lines, self.bodies = [], [], [], []
         first, triangles, lines = 0, 0, 0
         for name, surface in surfaces.items():
+            if name in self.unseen:
+                continue
             nodes = _nodes(surface)
             faces = _cells(surface.GetPolys(), 3)
             sides = _sides(surface, nodes)
@@ -67,7 +70,7 @@ def _coarser(surfaces):
         coarse = {name: _clustered(surface, side) for name, surface in surfaces.items()}
         count = sum(surface.GetNumberOfPolys() for surface in coarse.values())
         if count <= MOST_TRIANGLES:
-            return {name: surface for name, surface in coarse.items() if surface.GetNumberOfPolys()}, side
+            return coarse, side
         side *= max(1.05, math.sqrt(count / MOST_TRIANGLES))
 
 

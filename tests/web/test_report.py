@@ -14,6 +14,7 @@ from unittest import mock
 import h5py
 import numpy as np
 from PIL import Image
+from scipy.spatial.transform import Rotation
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
@@ -170,6 +171,34 @@ class Report(unittest.TestCase):
         self.assertEqual(self.driver.get_log("browser"), [])
         self.assertIn(f"The surface has {whole.whole} triangles and is drawn with {len(coarse.triangles)}, on {len(coarse.nodes)} of its nodes",
                       self.element("more").text)  # fmt: skip
+
+    def test_bodies_below_the_detail_are_named(self):
+        """A cube of one cell beside a plate of 800 is smaller than what is drawn of the plate's surface."""
+        run = squeal.open(self.folder)
+        places, blocks, bodies = [], [], []
+        for body, (count, size, at) in enumerate((((20, 20, 2), (1, 1, 0.1), 0), ((1, 1, 1), (1e-3,) * 3, 2.001))):
+            corners = np.indices([n + 1 for n in count]).reshape(3, -1).T
+            first = np.ravel_multi_index(np.indices(count).reshape(3, -1), [n + 1 for n in count])
+            steps = np.ravel_multi_index(np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]).T,
+                                         [n + 1 for n in count])  # fmt: skip
+            blocks.append(sum(map(len, places)) + first[:, None] + steps)
+            places.append(at + corners * size / count)
+            bodies.append(np.full((len(first), 1), body))
+        cells = {5: {"nodes": np.concatenate(blocks), "body": np.concatenate(bodies)}}
+        mesh = squeal.results.Mesh(np.concatenate(places), cells, ["plate", "pin"])
+        self.assertEqual((Skin(mesh).unseen, Skin(mesh).whole), ([], 2 * (2 * 400 + 4 * 40) + 12))
+        turned = squeal.results.Mesh(mesh.coordinates @ Rotation.from_euler("xyz", [40, 35, 20], degrees=True).as_matrix(), cells, mesh.bodies)
+        for each in (mesh, turned):  # what is oblique to the cubes of space goes through more of them
+            with mock.patch("squeal.skin.MOST_TRIANGLES", 200):
+                skin = Skin(each)
+            self.assertEqual(([body["name"] for body in skin.bodies], skin.unseen), (["plate"], ["pin"]))
+            self.assertLessEqual(len(skin.triangles), 200)
+            self.assertGreater(len(skin.triangles), 60)
+        whole = Skin(run.mesh)
+        whole.unseen = ["pin", "shim"]
+        with mock.patch.object(report, "Skin", return_value=whole):
+            self.assertIn("Bodies that are smaller are not drawn: pin, shim.", report.build(run))
+        self.assertNotIn("Bodies that are smaller", report.build(run))
 
     def test_a_large_file_leaves_out_shapes_and_fields(self):
         def blobs(text):
