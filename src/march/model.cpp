@@ -23,7 +23,7 @@ class Linearised {
       for (int c = 0; c < model.dimension; ++c) {
         const Node& node = model.nodes[i];
         const PetscInt row = i * model.dimension + c;
-        const bool held = node.pressed() && (c == 0 || (node.sticks() && node.friction > 0));
+        const bool held = node.pressed() && (c == 0 || (node.sticks() && node.rubs()));
         if (held || !model.moves[row])
           held_.push_back(row);
         else
@@ -106,22 +106,28 @@ class Linearised {
               z[column];
   }
 
-  /// Adds the friction of a node that slides, R_T* = −f R_N* t_1 − s b y_⊥ t_2, to its virtual
-  /// work.
+  /// Adds the friction of a node that slides,
+  ///   R_T* = −f R_N* t_1 − s R_N (df/d|w| y_∥ t_1 + f/|w| y_⊥ t_2),
+  /// to its virtual work.
   void addFriction(PetscInt i, Complex s, const ComplexMatrix& h, ComplexMatrix& a) const {
     const Node& node = model_.nodes[i];
-    if (!node.pressed() || node.sticks() || node.friction == 0) return;
+    if (!node.pressed() || node.sticks() || !node.rubs()) return;
     const PetscInt normal = i * model_.dimension, along = normal + 1, across = normal + 2;
     const PetscInt k = model_.modes();
     const double speed = std::hypot(node.velocity[0], node.velocity[1]);
+    addDamping(along, s * node.frictionSlope * node.normalForce, a);
     for (PetscInt j = 0; j < a.columns(); ++j) {
       const Complex normalForce = h(k + normal, j);
       addVirtual(along, node.friction * normalForce, a.column(j));
     }
-    if (model_.dimension < 3 || !model_.moves[across]) return;
-    const Complex b = s * node.friction * node.normalForce / speed;
-    for (PetscInt j = 0; j < k; ++j) addVirtual(across, b * model_.jump(across, j), a.column(j));
-    addVirtual(across, b, a.column(k + place(across)));
+    if (model_.dimension == 3) addDamping(across, s * node.friction * node.normalForce / speed, a);
+  }
+  /// Adds the virtual work δy_row b y_row of a row that moves freely.
+  void addDamping(PetscInt row, Complex b, ComplexMatrix& a) const {
+    if (!model_.moves[row]) return;
+    const PetscInt k = model_.modes();
+    for (PetscInt j = 0; j < k; ++j) addVirtual(row, b * model_.jump(row, j), a.column(j));
+    addVirtual(row, b, a.column(k + place(row)));
   }
   /// Adds the virtual work δy_row · value to a column.
   void addVirtual(PetscInt row, Complex value, std::span<Complex> column) const {

@@ -27,12 +27,15 @@ struct Node {
   Point normal{};                    ///< unit, from disc to pad
   std::array<Point, 2> tangents{};   ///< unit; the first along τ where the node slides
   double friction = 0;               ///< coefficient of friction, at the steady sliding velocity
+  double lawCoefficient = 0;         ///< what the law is multiplied by; 0: no law applies
+  double frictionSlope = 0;          ///< derivative of `friction` by the speed of sliding, s/m
   double area = 0;                   ///< m²
   double gap = 0;                    ///< steady gap, m; 0 where it is pressed
   double normalForce = 0;            ///< steady R_N, N, ≥ 0
   std::array<double, 2> shear{};     ///< steady friction force on the pad along the tangents, N
   std::array<double, 2> velocity{};  ///< steady relative velocity of the pad, m/s; 0: it sticks
   bool pressed() const { return normalForce > 0; }
+  bool rubs() const { return friction > 0 || lawCoefficient > 0; }
   bool sticks() const { return velocity[0] == 0 && velocity[1] == 0; }
 };
 
@@ -49,7 +52,7 @@ struct ReducedModel {
   DenseMatrix couplingStiffness;  ///< K_zq
   /// [row] false for a slip that supports hold, or that no friction acts on: it has no z.
   std::vector<unsigned char> moves;
-  /// The factor on a node's coefficient of friction at a sliding speed, m/s; empty: 1.
+  /// φ, the law of the sliding speed, m/s; empty: coefficients do not depend on it.
   std::function<double(double)> law;
 
   PetscInt modes() const { return std::ssize(stiffness); }
@@ -66,7 +69,7 @@ struct LinearMode {
 
 /// Not collective. Returns the eigenpair of the model linearised about steady sliding that Newton's
 /// method finds from s: pressed nodes stay closed, sliding ones obey
-///   R_T* = −f R_N* τ − (f R_N / |w|) (1 − ττᵀ) ẏ_T   [4.7],
+///   R_T* = −f R_N* τ − R_N ((f/|w|) (1 − ττᵀ) + (df/d|w|) ττᵀ) ẏ_T   [4.7],
 /// sticking ones stick, open ones are free. Throws Error if the method does not converge.
 LinearMode nearestMode(const ReducedModel& model, Complex s);
 

@@ -30,13 +30,16 @@ Scheme::Scheme(const ReducedModel& model)
   state_.rate = steadyVelocity_;
 }
 
-/// Sets the coefficients of friction by the sliding velocities of the step before.
+/// Sets the coefficients of friction by the sliding velocities of the step before: the error is of
+/// the order of the step. A node at rest has φ(0).
 void Scheme::updateFriction() {
   if (!model_.law) return;
   for (std::size_t i = 0; i < model_.nodes.size(); ++i) {
     const PetscInt row = i * model_.dimension;
+    if (model_.nodes[i].lawCoefficient == 0) continue;
     const double across = model_.dimension > 2 ? state_.rate[row + 2] : 0;
-    friction_[i] = model_.nodes[i].friction * model_.law(std::hypot(state_.rate[row + 1], across));
+    friction_[i] =
+        model_.nodes[i].lawCoefficient * model_.law(std::hypot(state_.rate[row + 1], across));
   }
 }
 

@@ -40,6 +40,8 @@ class Scheme {
   virtual double energy() const = 0;
   /// Returns d of StepSolver in the last step, [row], m.
   const std::vector<double>& increments() const { return increments_; }
+  /// Returns the coefficients of friction in the last step, [node].
+  const std::vector<double>& friction() const { return friction_; }
   /// Returns the defect of the last step, N.
   double lastDefect() const;
 

@@ -63,7 +63,7 @@ Onset firstEvent(std::span<const Node> nodes, std::span<const NodeMotion> motion
     if (!node.pressed()) continue;
     if (const double size = std::abs(motion[i].normalForce); size > 0)
       consider(node.normalForce / size, Event::opens, i);
-    if (node.friction == 0) continue;
+    if (!node.rubs()) continue;
     if (node.sticks()) {
       consider(slides(node, motion[i]), Event::slides, i);
     } else if (const double size = std::abs(motion[i].rate[0]); size > 0) {

@@ -110,11 +110,11 @@ void Recorder::look(const Scheme& scheme) {
     }
     // A node that slides has its friction on the cone, up to the accuracy of the forces.
     const bool open = normal == 0,
-               sticks = !open && node.friction > 0 &&
-                        std::sqrt(shear) < node.friction * (normal - 1e-5 * meanForce_);
+               sticks = !open && node.rubs() &&
+                        std::sqrt(shear) < scheme.friction()[i] * (normal - 1e-5 * meanForce_);
     means.open += open, means.stick += sticks, means.slip += !open && !sticks;
     all.open += open, all.sticking += sticks;
-    if (open == node.pressed() || (!open && node.friction > 0 && sticks != node.sticks()))
+    if (open == node.pressed() || (!open && node.rubs() && sticks != node.sticks()))
       all.linear = false;
     means.pressure += normal;
     means.largestGap = std::max(means.largestGap, node.gap + state.jump[row]);

@@ -255,6 +255,8 @@ std::vector<Node> ownNodes(const contact::Contact& contact, const steady::Soluti
     node.normalForce = solution.closed[i] ? state.normalForce : 0;
     if (from.role == contact::Role::sliding) {
       node.friction = slip[i].friction(solution.at.friction);
+      node.lawCoefficient = slip[i].coefficient.at(solution.at.friction);
+      node.frictionSlope = slip[i].frictionSlope(solution.at.friction);
       node.velocity = {slip[i].speed, 0};
       node.shear = {-node.friction * node.normalForce, 0};
     } else if (from.role == contact::Role::sticking) {
@@ -277,6 +279,7 @@ Reduction reduce(const FullModel& full, Block free, const Block& unstable) {
   ReducedModel& model = result.model;
   model.dimension = dimension;
   model.nodes = order.nodes();
+  if (!contact.law.constant()) model.law = [law = contact.law](double w) { return law.value(w); };
   result.contactNode = order.own();
   result.modes = std::move(free);
   Block& v = result.modes;
@@ -301,8 +304,7 @@ Reduction reduce(const FullModel& full, Block free, const Block& unstable) {
   std::vector<PetscInt> kept;
   for (PetscInt i = 0; i < rows; ++i) {
     const bool isSlip = i % dimension > 0;
-    if (isSlip &&
-        (model.nodes[i / dimension].friction == 0 || size[i] <= 1e-10 * largest[i % dimension]))
+    if (isSlip && (!model.nodes[i / dimension].rubs() || size[i] <= 1e-10 * largest[i % dimension]))
       model.moves[i] = 0;
     else
       kept.push_back(i);

@@ -5,6 +5,7 @@
 
 #include "direct/direct.hpp"
 #include "flutter/terms.hpp"
+#include "march/law.hpp"
 #include "options/options.hpp"
 #include "petsc/arrays.hpp"
 #include "petsc/termination.hpp"
@@ -122,6 +123,29 @@ void warn(const FullModel& full, double step, double stable) {
     complain(comm,
              "warning: the bodies are undamped: nothing bounds what grows without touching the "
              "contact after flutter; give -material_<group>_loss_factor");
+}
+
+/// Collective. Refuses a law of friction that slips of a boundary without mass do not follow, and
+/// says where one may make them alternate.
+void checkLaw(MPI_Comm comm, const ReducedModel& model, double step) {
+  if (!model.law || boundaryOption.get() != "massless") return;
+  const auto slopes = march::steadySlopes(model);
+  if (const double gain = march::lawGain(model, step, slopes); !(gain < 1))
+    throw Error(
+        formatted("option -regime_friction: the coefficient of friction changes with the speed "
+                  "%.3g times faster than slips of the massless boundary follow at the time step "
+                  "%g s (-friction_law); give -regime_boundary mass",
+                  gain, step));
+  if (!(march::lawGain(model, 0, slopes) < 1))
+    complain(comm,
+             "warning: the coefficient of friction falls with the speed faster than the damping of "
+             "the massless boundary holds its slips, so that the motion does not converge with "
+             "-regime_step; give the materials at the contact damping, or -regime_boundary mass");
+  for (const bool lowest : {true, false})
+    if (!(march::lawGain(model, step, march::steepestSlopes(model, lowest)) < 1))
+      complain(comm,
+               "warning: near the steepest part of -friction_law slips of the massless boundary "
+               "may alternate from step to step; compare with -regime_boundary mass");
 }
 
 }  // namespace
@@ -242,6 +266,7 @@ Study study(const FullModel& full, linalg::Block free, const pencil::ComplexMode
                       sweep::parameterText(point.at).c_str(), result.modes, result.rows,
                       result.modelError));
   warn(full, result.step, result.stableStep);
+  checkLaw(comm, model, result.step);
   const auto regimes = followAll(comm, model, tasks, result.step, time, stage);
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     result.runs.push_back(runOf(model, tasks[i]));

@@ -28,6 +28,28 @@ TEST(Regime, GrowsAsCertified) {
   EXPECT_NEAR(errors[0] / errors[1], 2, 0.2);
 }
 
+// The same under a coefficient that falls with the speed: the growth is higher, and the coefficient
+// follows a step late, which is of first order too.
+TEST(Regime, GrowsAsCertifiedUnderALawOfFriction) {
+  std::vector<double> errors;
+  for (const std::string step : {"1e-6", "5e-7"}) {
+    const auto table = regimeOf("law", 1,
+                                {{"friction_law", "exponential"},
+                                 {"friction_static_ratio", "1.04"},
+                                 {"friction_decay_speed", "0.5"},
+                                 {"regime_step", step},
+                                 {"regime_time", "0.008"},
+                                 {"regime_start_factor", "0.001"}});
+    EXPECT_EQ(table.words("class").at(0), "growing");
+    EXPECT_LE(valueOf(table, "model_error"), 1e-8);
+    EXPECT_NEAR(valueOf(table, "certified_growth_rate_1_per_s"), 228.96, 0.1);
+    errors.push_back(valueOf(table, "growth_rate_1_per_s") -
+                     valueOf(table, "certified_growth_rate_1_per_s"));
+  }
+  EXPECT_LT(std::abs(errors[1]), 0.02 * 228.96);
+  EXPECT_NEAR(errors[0] / errors[1], 2, 0.2);
+}
+
 // All nodes are there, and each spends its time somewhere.
 TEST(Regime, TellsWhatEachNodeDoes) {
   const ProgramRun run =
@@ -73,6 +95,11 @@ TEST(Regime, RefusesByName) {
   refused(commandLine(with(coarse, {{"flutter_method", "direct"}})), "-flutter_method reduced");
   refused(commandLine(with(coarse, {{"flutter_modal_damping", "0.01"}})), "-flutter_modal_damping");
   refused(commandLine(with(coarse, {{"motion_convective", "on"}})), "convective terms");
+  refused(commandLine(with(coarse, {{"friction_law", "exponential"},
+                                    {"friction_static_ratio", "1.3"},
+                                    {"friction_decay_speed", "0.5"},
+                                    {"regime_step", "1e-6"}})),
+          "give -regime_boundary mass");
   refused("-options_file options/external.yaml -regime_friction 0.9", "matrices from files");
   refused("-options_file options/external.yaml -regime_time 1", "without -regime_friction");
 }

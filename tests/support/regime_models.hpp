@@ -32,7 +32,7 @@ inline ReducedModel emptyModel(PetscInt modes, PetscInt nodes) {
 
 /// Sets a node that slides with the velocity v against a friction force.
 inline void slide(march::Node& node, double friction, double normalForce, double v) {
-  node.friction = friction, node.normalForce = normalForce;
+  node.friction = node.lawCoefficient = friction, node.normalForce = normalForce;
   node.shear[0] = -friction * normalForce, node.velocity[0] = v;
 }
 
