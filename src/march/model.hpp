@@ -27,6 +27,7 @@ struct Node {
   Point normal{};                    ///< unit, from disc to pad
   std::array<Point, 2> tangents{};   ///< unit; the first along τ where the node slides
   double friction = 0;               ///< coefficient of friction, at the steady sliding velocity
+  double sweptFriction = 0;          ///< its derivative by the swept coefficient
   double area = 0;                   ///< m²
   double gap = 0;                    ///< steady gap, m; 0 where it is pressed
   double normalForce = 0;            ///< steady R_N, N, ≥ 0

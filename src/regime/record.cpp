@@ -170,7 +170,6 @@ std::size_t Recorder::nonlinearWindows() const {
   return last - windows_.rbegin();
 }
 
-/// Returns the number of windows, the last ones, over which averages are taken.
 std::size_t Recorder::windowsUsed() const {
   const std::size_t nonlinear = nonlinearWindows();
   return nonlinear == 0 ? std::min<std::size_t>(1, windows_.size()) : (2 * nonlinear + 2) / 3;

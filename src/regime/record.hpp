@@ -84,6 +84,9 @@ class Recorder {
   /// Returns true if the regime has settled, or the motion has died away.
   bool settled() const;
   int cycles() const { return std::ssize(peaks_); }
+  /// Returns the number of windows, the last ones, over which averages are taken: two thirds of
+  /// those since the last linear one.
+  std::size_t windowsUsed() const;
   Regime result(const Scheme& scheme) const;
 
  private:
@@ -91,7 +94,6 @@ class Recorder {
   Kind classify(Regime& regime) const;
   double carrier(Regime& regime) const;
   std::size_t nonlinearWindows() const;
-  std::size_t windowsUsed() const;
 
   /// What one window holds.
   struct Window {

@@ -255,6 +255,7 @@ std::vector<Node> ownNodes(const contact::Contact& contact, const steady::Soluti
     node.normalForce = solution.closed[i] ? state.normalForce : 0;
     if (from.role == contact::Role::sliding) {
       node.friction = slip[i].friction(solution.at.friction);
+      node.sweptFriction = slip[i].friction(solution.at.friction + 1) - node.friction;
       node.velocity = {slip[i].speed, 0};
       node.shear = {-node.friction * node.normalForce, 0};
     } else if (from.role == contact::Role::sticking) {

@@ -7,6 +7,7 @@
 
 #include "linalg/block.hpp"
 #include "pencil/complex_modes.hpp"
+#include "regime/cycle.hpp"
 #include "regime/onset.hpp"
 #include "regime/record.hpp"
 #include "regime/reduction.hpp"
@@ -33,6 +34,7 @@ struct Run {
   Point onsetPosition{};    ///< m
   double onsetKinetic = 0;  ///< largest over a cycle at the onset, J
   Regime regime;
+  Cycles cycles;  ///< where `-regime_cycle` asks for them
 };
 
 /// What was found at one point of the sweep.

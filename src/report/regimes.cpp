@@ -102,6 +102,48 @@ std::string spectrumTable(const analysis::Analysis& analysis) {
   return table;
 }
 
+std::string periodicTable(const analysis::Analysis& analysis) {
+  std::string table = head(
+      ",motion,motion_friction,converged,frequency_hz,change,largest_kinetic_energy_j,friction_"
+      "coefficient,friction_power_w,opening_nodes,sticking_nodes,trivial_multiplier,largest_"
+      "multiplier,stable");
+  forEachRun(analysis, [&](const auto&, const auto& run, const std::string& first) {
+    int number = 0;
+    for (const auto& motion : run.cycles.motions) {
+      table += first + formatted(",%d,%.12e,%d,%.12e,%.3e", ++number, motion.friction,
+                                 motion.converged ? 1 : 0, 1 / motion.period, motion.change);
+      const auto& measures = motion.measures;
+      table +=
+          formatted(",%.9e,%.9e,%.9e,%d,%d", measures.largestKinetic, measures.frictionCoefficient,
+                    measures.frictionPower, measures.opening, measures.sticking);
+      table += motion.converged
+                   ? formatted(",%.9e,%.9e,%d\n", std::abs(motion.trivialMultiplier()),
+                               std::abs(motion.largestMultiplier()), motion.stable() ? 1 : 0)
+                   : ",,,\n";
+    }
+  });
+  return table;
+}
+
+std::string floquetTable(const analysis::Analysis& analysis) {
+  std::string table = head(
+      ",motion,motion_friction,real,imaginary,modulus,frequency_hz,growth_rate_1_per_s,trivial");
+  forEachRun(analysis, [&](const auto&, const auto& run, const std::string& first) {
+    int number = 0;
+    for (const auto& motion : run.cycles.motions) {
+      ++number;
+      for (std::size_t i = 0; i < motion.multipliers.values.size(); ++i) {
+        const Complex m = motion.multipliers.values[i], rate = std::log(m) / motion.period;
+        table +=
+            first + formatted(",%d,%.12e,%.9e,%.9e,%.9e,%.9e,%.9e,%d\n", number, motion.friction,
+                              m.real(), m.imag(), std::abs(m), rate.imag() / (2 * M_PI),
+                              rate.real(), i == motion.multipliers.trivial);
+      }
+    }
+  });
+  return table;
+}
+
 }  // namespace
 
 void writeRegimes(const analysis::Analysis& analysis, const std::filesystem::path& folder) {
@@ -112,6 +154,9 @@ void writeRegimes(const analysis::Analysis& analysis, const std::filesystem::pat
   writeText(comm, folder / "regime_nodes.csv", nodeTable(analysis));
   writeText(comm, folder / "regime_cycles.csv", cycleTable(analysis));
   writeText(comm, folder / "regime_spectrum.csv", spectrumTable(analysis));
+  if (!regime::cyclesWanted()) return;
+  writeText(comm, folder / "periodic.csv", periodicTable(analysis));
+  writeText(comm, folder / "floquet.csv", floquetTable(analysis));
 }
 
 }  // namespace squeal::report
