@@ -64,6 +64,8 @@ Complex PeriodicMotion::largestMultiplier() const {
 
 bool cyclesWanted() { return cycleOption.get(); }
 
+bool branchWanted() { return !rangeOption.get().empty(); }
+
 void checkCycleOptions(bool followed, bool massless) {
   const auto options = {
       static_cast<const Option*>(&cycleOption), static_cast<const Option*>(&stepsOption),

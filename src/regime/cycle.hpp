@@ -35,6 +35,8 @@ struct Cycles {
 
 /// Returns true if `-regime_cycle` asks for periodic motions.
 bool cyclesWanted();
+/// Returns true if their branch is to be followed.
+bool branchWanted();
 /// Throws Error for options of periodic motions that are idle or that exclude each other;
 /// `massless` tells whether marches have a massless boundary.
 void checkCycleOptions(bool followed, bool massless);

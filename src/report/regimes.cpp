@@ -125,6 +125,22 @@ std::string periodicTable(const analysis::Analysis& analysis) {
   return table;
 }
 
+/// Returns a row for each fold of the branch, and one where there is none.
+std::string branchTable(const analysis::Analysis& analysis) {
+  std::string table = head(",towards,fold_friction,end_friction,reason");
+  forEachRun(analysis, [&](const auto&, const auto& run, const std::string& first) {
+    const auto& ways = run.cycles.ways;
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+      auto folds = ways[i].folds;
+      if (folds.empty()) folds.push_back(NAN);
+      for (const double fold : folds)
+        table += first + (i == 0 ? ",smaller" : ",larger") + cell(fold) + cell(ways[i].end) + "," +
+                 ways[i].reason + "\n";
+    }
+  });
+  return table;
+}
+
 std::string floquetTable(const analysis::Analysis& analysis) {
   std::string table = head(
       ",motion,motion_friction,real,imaginary,modulus,frequency_hz,growth_rate_1_per_s,trivial");
@@ -157,6 +173,8 @@ void writeRegimes(const analysis::Analysis& analysis, const std::filesystem::pat
   if (!regime::cyclesWanted()) return;
   writeText(comm, folder / "periodic.csv", periodicTable(analysis));
   writeText(comm, folder / "floquet.csv", floquetTable(analysis));
+  if (regime::branchWanted())
+    writeText(comm, folder / "periodic_branch.csv", branchTable(analysis));
 }
 
 }  // namespace squeal::report
