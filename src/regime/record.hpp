@@ -11,6 +11,7 @@
 
 namespace squeal::regime {
 
+using linalg::DenseMatrix;
 using march::ReducedModel;
 using march::Scheme;
 
@@ -85,6 +86,10 @@ class Recorder {
   bool settled() const;
   int cycles() const { return std::ssize(peaks_); }
   Regime result(const Scheme& scheme) const;
+  /// Returns the modal velocities of which the spectrum is made, samples × modes, and the time from
+  /// sample to sample, s.
+  DenseMatrix velocities() const;
+  double sampleTime() const { return stride_ * step_; }
 
  private:
   void endCycle(double time);
@@ -92,6 +97,7 @@ class Recorder {
   double carrier(Regime& regime) const;
   std::size_t nonlinearWindows() const;
   std::size_t windowsUsed() const;
+  std::size_t samplesUsed() const;
 
   /// What one window holds.
   struct Window {

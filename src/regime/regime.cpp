@@ -72,34 +72,40 @@ Run runOf(const ReducedModel& model, const Task& task) {
   return run;
 }
 
-Regime follow(const ReducedModel& model, const Task& task, double step, double time, Stage& stage) {
+Regime follow(const ReducedModel& model, const Task& task, double step, double time, Stage& stage,
+              Trace& trace) {
   const auto start = march::startOn(task.mode, startOption.get());
   const auto scheme = boundaryOption.get() == "mass" ? march::moreauScheme(model, start, step)
                                                      : march::masslessScheme(model, start, step);
   Recorder recorder(model, task.mode.s, step, largestKinetic(task.mode));
+  Latest latest(model, 2 * M_PI / task.mode.s.imag(), step);
   while (scheme->state().time < time) {
     scheme->step();
     recorder.look(*scheme);
+    latest.look(*scheme);
     if (!recorder.windowEnded()) continue;
     stage.progress(formatted("start on mode %s: %.1f of at most %.1f ms", task.start.c_str(),
                              1e3 * scheme->state().time, 1e3 * time));
     if (stopAsked() || (timeOption.get() == 0 && recorder.settled())) break;
   }
+  trace = {recorder.velocities(), recorder.sampleTime(), latest.samples()};
   return recorder.result(*scheme);
 }
 
-/// Collective. Returns the regimes of the tasks, each marched by one rank, on all ranks.
+/// Collective. Returns the regimes of the tasks, each marched by one rank, on all ranks; sets the
+/// traces, [task], of those that this rank has marched.
 std::vector<Regime> followAll(MPI_Comm comm, const ReducedModel& model,
                               const std::vector<Task>& tasks, double step, double time,
-                              Stage& stage) {
+                              Stage& stage, std::vector<Trace>& traces) {
   int rank = 0, size = 1;
   check(MPI_Comm_rank(comm, &rank));
   check(MPI_Comm_size(comm, &size));
   std::vector<Regime> regimes(tasks.size());
+  traces.resize(tasks.size());
   std::string failure;
   try {
     for (std::size_t i = rank; i < tasks.size(); i += size)
-      regimes[i] = follow(model, tasks[i], step, time, stage);
+      regimes[i] = follow(model, tasks[i], step, time, stage, traces[i]);
   } catch (const Error& error) {
     failure = "stage regime, -regime_step " + formatted("%g s: ", step) + error.what();
   }
@@ -134,15 +140,16 @@ std::vector<double> frictionsWanted() {
 
 void checkOptions(bool ofMesh) {
   if (frictionOption.get().empty()) {
-    for (const Option* option :
-         {static_cast<const Option*>(&timeOption), static_cast<const Option*>(&stepOption),
-          static_cast<const Option*>(&startOption), static_cast<const Option*>(&startsOption),
-          static_cast<const Option*>(&boundaryOption)})
+    auto idle = outsideOptions();
+    idle.insert(idle.end(),
+                {&timeOption, &stepOption, &startOption, &startsOption, &boundaryOption});
+    for (const Option* option : idle)
       if (option->given())
         throw Error("option -" + option->name +
                     ": nothing is followed after flutter without -regime_friction");
     return;
   }
+  checkOutsideOptions();
   if (!ofMesh)
     throw Error(
         "option -regime_friction: matrices from files do not say what lifts off and sticks; the "
@@ -202,7 +209,7 @@ Study study(const FullModel& full, linalg::Block free, const pencil::ComplexMode
   const Reduction reduction = reduce(full, std::move(free), unstable);
   const ReducedModel& model = reduction.model;
   result.modes = model.modes(), result.rows = model.rows();
-  result.nodes = model.nodes;
+  result.nodes = model.nodes, result.contactNode = reduction.contactNode;
   result.steadyPower = steadyPower(model);
   std::vector<Task> tasks;
   for (const auto* shape : shapes) {
@@ -242,10 +249,15 @@ Study study(const FullModel& full, linalg::Block free, const pencil::ComplexMode
                       sweep::parameterText(point.at).c_str(), result.modes, result.rows,
                       result.modelError));
   warn(full, result.step, result.stableStep);
-  const auto regimes = followAll(comm, model, tasks, result.step, time, stage);
+  std::vector<Trace> traces;
+  const auto regimes = followAll(comm, model, tasks, result.step, time, stage, traces);
+  const Observer observer(full.contact, reduction);
+  int ranks = 1;
+  check(MPI_Comm_size(comm, &ranks));
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     result.runs.push_back(runOf(model, tasks[i]));
     result.runs.back().regime = regimes[i];
+    result.runs.back().outside = observer.of(i % ranks, traces[i]);
   }
   const Regime& regime = result.runs.front().regime;
   if (std::abs(regime.growth - s.real()) > 0.2 * s.real())

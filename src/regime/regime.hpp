@@ -8,6 +8,7 @@
 #include "linalg/block.hpp"
 #include "pencil/complex_modes.hpp"
 #include "regime/onset.hpp"
+#include "regime/outside.hpp"
 #include "regime/record.hpp"
 #include "regime/reduction.hpp"
 
@@ -33,6 +34,7 @@ struct Run {
   Point onsetPosition{};    ///< m
   double onsetKinetic = 0;  ///< largest over a cycle at the onset, J
   Regime regime;
+  Outside outside;
 };
 
 /// What was found at one point of the sweep.
@@ -45,6 +47,8 @@ struct Study {
   double stableStep = 0;    ///< s
   double steadyPower = 0;   ///< heat of friction of steady sliding, W
   std::vector<Node> nodes;
+  /// [node] its place among the contact nodes of this rank; −1 on other ranks
+  std::vector<PetscInt> contactNode;
   std::vector<Run> runs;
 };
 
