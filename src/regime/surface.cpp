@@ -16,14 +16,25 @@ namespace {
 using elasticity::shapeTable;
 using Marks = std::vector<unsigned char>;  // [local node]
 
-/// Collective. Returns marks at the nodes whose global numbers any rank has given.
-Marks marked(const mesh::Mesh& mesh, const std::vector<PetscInt>& globalNodes) {
+/// Collective. Returns nodal values, [local node][component], with those of primaries at their
+/// images too.
+std::vector<double> withImages(const contact::Contact& contact, Vec values) {
+  if (!contact.periodic) return elasticity::localValues(*contact.mesh, values);
+  const OwnedVec copied = elasticity::nodalVector(*contact.mesh);
+  check(MatMult(contact.periodic, values, copied));
+  return elasticity::localValues(*contact.mesh, copied);
+}
+
+/// Collective. Returns marks at the nodes whose global numbers any rank has given and, of a
+/// contact, at their images.
+Marks marked(const mesh::Mesh& mesh, const std::vector<PetscInt>& globalNodes,
+             const contact::Contact* contact = nullptr) {
   const OwnedVec marks = elasticity::nodalVector(mesh);
   for (const PetscInt node : globalNodes)
     check(VecSetValue(marks, mesh.dimension * node, 1, INSERT_VALUES));
   check(VecAssemblyBegin(marks));
   check(VecAssemblyEnd(marks));
-  const auto values = elasticity::localValues(mesh, marks);
+  const auto values = contact ? withImages(*contact, marks) : elasticity::localValues(mesh, marks);
   Marks result(mesh.localNodes());
   for (std::size_t i = 0; i < result.size(); ++i) result[i] = values[mesh.dimension * i] != 0;
   return result;
@@ -41,10 +52,7 @@ Marks nodesOf(const mesh::Mesh& mesh, const contact::Contact& contact, int inter
     if (contact.nodes[i].interface == interface) add(contact.connections[i], contact.nodes[i].node);
   for (const auto& tied : contact.tied)
     if (tied.interface == interface) add(tied.connection, tied.connection.node);
-  Marks marks = marked(mesh, nodes);
-  for (std::size_t i = 0; i < marks.size(); ++i)
-    if (contact.interfaceOf[i] == interface) marks[i] = 1;  // images of nodes in contact too
-  return marks;
+  return marked(mesh, nodes, &contact);
 }
 
 /// Collective. Returns lists of marks: a face whose nodes all have those of one list is hidden.
@@ -68,7 +76,7 @@ std::vector<double> heldComponents(const mesh::Mesh& mesh, const contact::Contac
     const WriteArray values(held);
     for (PetscInt i = 0; i < values.size(); ++i) values[i] = contact.constraints.held[i];
   }
-  return elasticity::localValues(mesh, held);
+  return withImages(contact, held);
 }
 
 /// A face with its normals at the nodes.
