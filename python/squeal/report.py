@@ -10,6 +10,7 @@ from pathlib import Path
 import matplotlib
 import numpy as np
 
+from squeal import regime
 from squeal.results import PARAMETERS, ResultsError
 from squeal.skin import Skin
 
@@ -33,11 +34,15 @@ def build(results):
         "title": html.escape(f"{data['case']}: brake squeal"),
         "style": (WEB / "report.css").read_text(),
         "verdict": html.escape(data["verdict"]),
+        "regimes": "".join(f'<p class="note after">{html.escape(line)}</p>' for line in regime.sentences(results)),
         "certificate": "".join(f"<li>{html.escape(line)}</li>" for line in data["certificate"]),
         "data": json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c"),
         "blobs": "\n".join(f'<script type="application/octet-stream" id="blob-{name}">{text}</script>' for name, text in blobs.items()),
         "libraries": "\n".join(f"<script>{_script_safe(text)}</script>" for text in scripts),
-        "script": _script_safe((WEB / "report.js").read_text()) if scripts else "",
+        **{
+            name: _script_safe((WEB / file).read_text()) if scripts else ""
+            for name, file in (("script", "report.js"), ("regimescript", "regime.js"))
+        },
         "pictures": _pictures(results) if not scripts else "",
         "licences": "".join(f"<h3>{html.escape(name)}</h3><pre>{html.escape(text)}</pre>" for name, text in licences),
     }
@@ -102,6 +107,7 @@ def _data(results, with_shapes):
         "frictionWork": _columns(results.friction_work),
         "sensitivities": _columns(results.sensitivities),
         "steady": _steady_forces(summary),
+        "regimes": regime.diagrams(results),
         "stages": {name: [stage.get("wall_s", 0), stage.get("peak_memory_bytes", 0)] for name, stage in summary.get("stages", {}).items()},
         "wallSeconds": summary.get("wall_s", 0),
         "sizes": {name: summary[name] for name in ("ranks", "nodes", "cells", "contact_nodes", "dofs") if name in summary},
