@@ -34,7 +34,6 @@ def build(results):
         "title": html.escape(f"{data['case']}: brake squeal"),
         "style": (WEB / "report.css").read_text(),
         "verdict": html.escape(data["verdict"]),
-        "regimes": "".join(f'<p class="note after">{html.escape(line)}</p>' for line in regime.sentences(results)),
         "certificate": "".join(f"<li>{html.escape(line)}</li>" for line in data["certificate"]),
         "data": json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c"),
         "blobs": "\n".join(f'<script type="application/octet-stream" id="blob-{name}">{text}</script>' for name, text in blobs.items()),
@@ -43,7 +42,7 @@ def build(results):
             name: _script_safe((WEB / file).read_text()) if scripts else ""
             for name, file in (("script", "report.js"), ("regimescript", "regime.js"))
         },
-        "pictures": _pictures(results) if not scripts else "",
+        "pictures": _after_flutter(results) + _pictures(results) if not scripts else "",
         "licences": "".join(f"<h3>{html.escape(name)}</h3><pre>{html.escape(text)}</pre>" for name, text in licences),
     }
     return re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], template)
@@ -64,7 +63,7 @@ def _scripts():
 
 def _pictures(results):
     """The static pictures of the folder, for a report without libraries."""
-    found = sorted(results.folder.glob("stability*.png")) + sorted(results.folder.glob("mode*.png"))
+    found = sorted(results.folder.glob("stability*.png")) + sorted(results.folder.glob("mode*.png")) + sorted(results.folder.glob("regime.png"))
     images = "".join(
         f'<img alt="{html.escape(path.stem)}" src="data:image/png;base64,{base64.b64encode(path.read_bytes()).decode()}">' for path in found
     )
@@ -72,6 +71,11 @@ def _pictures(results):
         "<p class=note>Diagrams and modes cannot be turned here: the libraries three.js and Chart.js were not installed when the report was "
         f"made (packages libjs-three, libjs-chart.js).</p>{images}"
     )
+
+
+def _after_flutter(results):
+    """What became of the flutter in words, for a report without libraries."""
+    return "".join(f"<p>{html.escape(line)}</p>" for line in regime.sentences(results))
 
 
 def _blob(array):

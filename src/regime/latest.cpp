@@ -28,14 +28,16 @@ std::vector<double> staticPart(const ReducedModel& model, const march::State& st
 
 }  // namespace
 
-Latest::Latest(const ReducedModel& model, double period, double step)
+Latest::Latest(const ReducedModel& model, double period)
     : model_(model),
       frames_(framesOption.get()),
-      stride_(std::max(1L, std::lround(period / frames_ / step))),
-      most_(keptOption.get() > 0 ? frames_ * keptOption.get() + 1 : 0) {}
+      most_(keptOption.get() > 0 ? frames_ * keptOption.get() + 1 : 0),
+      interval_(period / frames_),
+      next_(interval_) {}
 
 void Latest::look(const Scheme& scheme) {
-  if (++seen_ % stride_ != 0 || most_ == 0) return;
+  if (most_ == 0 || scheme.state().time < next_) return;
+  next_ += interval_;
   if (std::ssize(states_) == most_) states_.pop_front();
   states_.push_back(scheme.state());
 }

@@ -36,17 +36,18 @@ void share(MPI_Comm comm, int root, std::vector<Sample>& samples);
 /// Latest keeps the samples of the latest `-regime_cycles_kept` periods, and forgets earlier ones.
 class Latest {
  public:
-  /// The period is that of a mode, s; `step` is the time step, s. The model is borrowed.
-  Latest(const ReducedModel& model, double period, double step);
+  /// The period is that of a mode, s. The model is borrowed.
+  Latest(const ReducedModel& model, double period);
   void look(const Scheme& scheme);
   /// Returns the samples in the order of time, the first and the last of them a whole number of
-  /// periods apart; fewer periods if the march was shorter.
+  /// periods apart to a time step; fewer periods if the march was shorter.
   std::vector<Sample> samples() const;
 
  private:
   const ReducedModel& model_;
   int frames_;  // of a period
-  long stride_, most_, seen_ = 0;
+  long most_;
+  double interval_, next_;  // from frame to frame, and the time of the next one, s
   std::deque<march::State> states_;
 };
 

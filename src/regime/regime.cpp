@@ -78,7 +78,7 @@ Regime follow(const ReducedModel& model, const Task& task, double step, double t
   const auto scheme = boundaryOption.get() == "mass" ? march::moreauScheme(model, start, step)
                                                      : march::masslessScheme(model, start, step);
   Recorder recorder(model, task.mode.s, step, largestKinetic(task.mode));
-  Latest latest(model, 2 * M_PI / task.mode.s.imag(), step);
+  Latest latest(model, 2 * M_PI / task.mode.s.imag());
   while (scheme->state().time < time) {
     scheme->step();
     recorder.look(*scheme);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "petsc/arrays.hpp"
+#include "regime/regime.hpp"
 #include "support/model.hpp"
 
 namespace squeal {
@@ -119,13 +120,28 @@ TEST(Spectrum, AtPointsAskedFor) {
   EXPECT_NEAR(points[1].amplitude[cycles][3], atSecond, 1e-9);
 }
 
-TEST(Spectrum, PointsThatAreNone) {
-  for (const std::string points : {"1", "1,2,x", "1,2,3,4", "1,2,3;", "1,,3", "1,inf,2"}) {
-    test::setOptions("-regime_spectrum_points '" + points + "'");
-    EXPECT_TRUE(test::contains(test::errorOf([] { regime::checkOutsideOptions(); }),
-                               "option -regime_spectrum_points"))
+std::string refusal(const std::string& options) {
+  test::setOptions(options);
+  return test::errorOf([] { regime::checkOptions(true); });
+}
+
+TEST(Options, PointsThatAreNone) {
+  for (const std::string points : {"1", "1,2,x", "1,2,3,4", "1,2,3;", "1,,3", "1,inf,2"})
+    EXPECT_TRUE(test::contains(
+        refusal("-regime_friction 0.4 -regime_spectrum_points '" + points + "'"), "is no point"))
         << points;
-  }
+  EXPECT_EQ(refusal("-regime_friction 0.4 -regime_spectrum_points '1,2,3; 4,-5e-1'"), "");
+}
+
+TEST(Options, IdleOnesAreRefusedByName) {
+  for (const std::string option :
+       {"-regime_cycles_kept 3", "-regime_frames 8", "-regime_air_impedance 400",
+        "-regime_spectrum_points 0,0,0", "-regime_time 1"})
+    EXPECT_TRUE(test::contains(
+        refusal(option), "option " + option.substr(0, option.find(' ')) + ": nothing is followed"))
+        << option;
+  EXPECT_TRUE(test::contains(refusal("-regime_friction 0.4 -regime_frames 8 -regime_cycles_kept 0"),
+                             "option -regime_frames: no period is kept"));
 }
 
 // u = V q + Ψ z: q = (t, 3) and z = 5 give (t, 3 x, 5).
@@ -177,7 +193,7 @@ TEST(Latest, KeepsTheLatestPeriods) {
   model.moves = {1, 0};
   for (const auto& [periods, expected] : {std::pair{10, 33}, {1, 1}, {0, 0}}) {
     ByHand motion(model, 1.0 / 128);
-    regime::Latest latest(model, 1, 1.0 / 128);
+    regime::Latest latest(model, 1);
     for (int i = 0; i < 128 * periods; ++i) motion.step(), latest.look(motion);
     const auto samples = latest.samples();
     ASSERT_EQ(samples.size(), std::size_t(expected));
