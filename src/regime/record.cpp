@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "petsc/check.hpp"
-#include "regime/spectrum.hpp"
+#include "sound/spectrum.hpp"
 
 namespace squeal::regime {
 namespace {
@@ -16,6 +16,7 @@ namespace {
 using march::Node;
 using march::State;
 using march::Work;
+using sound::addPower;
 
 double mean(std::span<const double> x) {
   return std::accumulate(x.begin(), x.end(), 0.0) / std::max<std::size_t>(1, x.size());

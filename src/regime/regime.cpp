@@ -73,12 +73,12 @@ Run runOf(const ReducedModel& model, const Task& task) {
 }
 
 Regime follow(const ReducedModel& model, const Task& task, double step, double time, Stage& stage,
-              Trace& trace) {
+              sound::Trace& trace) {
   const auto start = march::startOn(task.mode, startOption.get());
   const auto scheme = boundaryOption.get() == "mass" ? march::moreauScheme(model, start, step)
                                                      : march::masslessScheme(model, start, step);
   Recorder recorder(model, task.mode.s, step, largestKinetic(task.mode));
-  Latest latest(model, 2 * M_PI / task.mode.s.imag());
+  sound::Latest latest(model, 2 * M_PI / task.mode.s.imag());
   while (scheme->state().time < time) {
     scheme->step();
     recorder.look(*scheme);
@@ -96,7 +96,7 @@ Regime follow(const ReducedModel& model, const Task& task, double step, double t
 /// traces, [task], of those that this rank has marched.
 std::vector<Regime> followAll(MPI_Comm comm, const ReducedModel& model,
                               const std::vector<Task>& tasks, double step, double time,
-                              Stage& stage, std::vector<Trace>& traces) {
+                              Stage& stage, std::vector<sound::Trace>& traces) {
   int rank = 0, size = 1;
   check(MPI_Comm_rank(comm, &rank));
   check(MPI_Comm_size(comm, &size));
@@ -140,7 +140,7 @@ std::vector<double> frictionsWanted() {
 
 void checkOptions(bool ofMesh) {
   if (frictionOption.get().empty()) {
-    auto idle = outsideOptions();
+    auto idle = sound::outsideOptions();
     idle.insert(idle.end(),
                 {&timeOption, &stepOption, &startOption, &startsOption, &boundaryOption});
     for (const Option* option : idle)
@@ -149,7 +149,7 @@ void checkOptions(bool ofMesh) {
                     ": nothing is followed after flutter without -regime_friction");
     return;
   }
-  checkOutsideOptions();
+  sound::checkOutsideOptions();
   if (!ofMesh)
     throw Error(
         "option -regime_friction: matrices from files do not say what lifts off and sticks; the "
@@ -249,9 +249,10 @@ Study study(const FullModel& full, linalg::Block free, const pencil::ComplexMode
                       sweep::parameterText(point.at).c_str(), result.modes, result.rows,
                       result.modelError));
   warn(full, result.step, result.stableStep);
-  std::vector<Trace> traces;
+  std::vector<sound::Trace> traces;
   const auto regimes = followAll(comm, model, tasks, result.step, time, stage, traces);
-  const Observer observer(full.contact, reduction);
+  const sound::Observer observer(full.contact,
+                                 {reduction.modes, reduction.responses, reduction.contactNode});
   int ranks = 1;
   check(MPI_Comm_size(comm, &ranks));
   for (std::size_t i = 0; i < tasks.size(); ++i) {

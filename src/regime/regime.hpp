@@ -8,9 +8,9 @@
 #include "linalg/block.hpp"
 #include "pencil/complex_modes.hpp"
 #include "regime/onset.hpp"
-#include "regime/outside.hpp"
 #include "regime/record.hpp"
 #include "regime/reduction.hpp"
+#include "sound/outside.hpp"
 
 namespace squeal::regime {
 
@@ -34,7 +34,7 @@ struct Run {
   Point onsetPosition{};    ///< m
   double onsetKinetic = 0;  ///< largest over a cycle at the onset, J
   Regime regime;
-  Outside outside;
+  sound::Outside outside;
 };
 
 /// What was found at one point of the sweep.

@@ -42,7 +42,7 @@ std::string onsetTable(const analysis::Analysis& analysis) {
 
 std::string cell(double value) { return std::isfinite(value) ? formatted(",%.9e", value) : ","; }
 
-std::string soundCells(const regime::Sound& sound) {
+std::string soundCells(const sound::Sound& sound) {
   return cell(sound.meanSquareVelocity) + cell(sound.area) + cell(sound.power) + cell(sound.level);
 }
 

@@ -1,4 +1,4 @@
-#include "regime/outside.hpp"
+#include "sound/outside.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,9 @@
 #include "options/options.hpp"
 #include "petsc/concatenation.hpp"
 #include "petsc/text.hpp"
-#include "regime/spectrum.hpp"
+#include "sound/spectrum.hpp"
 
-namespace squeal::regime {
+namespace squeal::sound {
 namespace {
 
 const RealOption airOption("regime", "regime_air_impedance", 415, "N s/m3", positive,
@@ -73,11 +73,11 @@ void checkOutsideOptions() {
   pointsWanted();
 }
 
-Observer::Observer(const contact::Contact& contact, const Reduction& reduction)
-    : contact_(contact), reduction_(reduction), surface_(visibleSurface(*contact.mesh, contact)) {
-  linalg::Block product(reduction.modes.rows());
-  linalg::appendProduct(surface_.normalMass, reduction.modes, product);
-  radiation_ = linalg::transposedProduct(contact.mesh->comm, reduction.modes, product);
+Observer::Observer(const contact::Contact& contact, const Shapes& shapes)
+    : contact_(contact), shapes_(shapes), surface_(visibleSurface(*contact.mesh, contact)) {
+  linalg::Block product(shapes.modes.rows());
+  linalg::appendProduct(surface_.normalMass, shapes.modes, product);
+  radiation_ = linalg::transposedProduct(contact.mesh->comm, shapes.modes, product);
 }
 
 /// Returns the estimate of the sound power [M.76],
@@ -99,10 +99,10 @@ Sound Observer::soundOf(const DenseMatrix& meanSquares) const {
 /// Returns the rows of V of some owned nodes, all components of a node after each other.
 DenseMatrix Observer::rowsOf(std::span<const PetscInt> nodes) const {
   const int dimension = contact_.mesh->dimension;
-  DenseMatrix rows(std::ssize(nodes) * dimension, reduction_.modes.columns());
+  DenseMatrix rows(std::ssize(nodes) * dimension, shapes_.modes.columns());
   for (PetscInt j = 0; j < rows.columns(); ++j)
     for (PetscInt i = 0; i < rows.rows(); ++i)
-      rows(i, j) = reduction_.modes(dimension * nodes[i / dimension] + i % dimension, j);
+      rows(i, j) = shapes_.modes(dimension * nodes[i / dimension] + i % dimension, j);
   return rows;
 }
 
@@ -159,7 +159,7 @@ SurfacePoint Observer::pointOf(const std::vector<Choice>& own, double tolerance,
   const Concatenation ranks(mesh.comm, best.size());
   const auto all = ranks.gathered(best);
   SurfacePoint point;
-  shape = DenseMatrix(mesh.dimension, reduction_.modes.columns());
+  shape = DenseMatrix(mesh.dimension, shapes_.modes.columns());
   if (all.empty()) return point;
   const auto first = std::ranges::min_element(all, {}, &Choice::position);
   point.position = first->position;
@@ -211,14 +211,14 @@ void Observer::addSpectra(int root, const Trace& trace, const DenseMatrix& meanS
 /// Collective. Returns displacements, gaps and pressures of samples that all ranks have.
 Frames Observer::framesOf(const std::vector<Sample>& samples) const {
   Frames frames;
-  DenseMatrix q(reduction_.modes.columns()), z(reduction_.responses.columns());
+  DenseMatrix q(shapes_.modes.columns()), z(shapes_.responses.columns());
   for (const Sample& sample : samples) {
     frames.time.push_back(sample.time);
     q.append(std::span<const double>(sample.q));
     z.append(std::span<const double>(sample.z));
     std::vector<double> gap(contact_.nodes.size()), pressure(contact_.nodes.size());
-    for (std::size_t i = 0; i < reduction_.contactNode.size(); ++i)
-      if (const PetscInt own = reduction_.contactNode[i]; own >= 0) {
+    for (std::size_t i = 0; i < shapes_.contactNode.size(); ++i)
+      if (const PetscInt own = shapes_.contactNode[i]; own >= 0) {
         gap[own] = sample.gap[i];
         pressure[own] = sample.force[i] / contact_.nodes[own].area;
       }
@@ -226,15 +226,15 @@ Frames Observer::framesOf(const std::vector<Sample>& samples) const {
     frames.pressure.push_back(std::move(pressure));
   }
   if (samples.empty()) return frames;
-  frames.displacement = linalg::product(reduction_.modes, q);
-  linalg::multiplyAdd(reduction_.responses, z, frames.displacement);
+  frames.displacement = linalg::product(shapes_.modes, q);
+  linalg::multiplyAdd(shapes_.responses, z, frames.displacement);
   return frames;
 }
 
 Outside Observer::of(int root, const Trace& trace) const {
   const MPI_Comm comm = contact_.mesh->comm;
   Outside outside;
-  const auto meanSquares = meanSquaresOf(comm, root, trace, reduction_.modes.columns());
+  const auto meanSquares = meanSquaresOf(comm, root, trace, shapes_.modes.columns());
   outside.sound = soundOf(meanSquares);
   addSpectra(root, trace, meanSquares, outside.points);
   auto samples = trace.samples;
@@ -243,4 +243,4 @@ Outside Observer::of(int root, const Trace& trace) const {
   return outside;
 }
 
-}  // namespace squeal::regime
+}  // namespace squeal::sound

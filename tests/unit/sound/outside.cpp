@@ -1,5 +1,5 @@
 // What is heard and seen outside of motions that are made by hand.
-#include "regime/outside.hpp"
+#include "sound/outside.hpp"
 
 #include <gtest/gtest.h>
 
@@ -23,14 +23,16 @@ const std::string box =
 /// uniform motion along z.
 struct Box {
   test::Model model;
-  regime::Reduction reduction;
+  linalg::Block modes, responses;
+  std::vector<PetscInt> contactNode;
   explicit Box(const std::string& options = {}) {
     test::setOptions(box + options);
     model = test::buildModel();
-    append(reduction.modes, [](const Point&) { return Point{1, 0, 0}; });
-    append(reduction.modes, [](const Point& x) { return Point{0, x[0], 0}; });
-    append(reduction.responses, [](const Point&) { return Point{0, 0, 1}; });
+    append(modes, [](const Point&) { return Point{1, 0, 0}; });
+    append(modes, [](const Point& x) { return Point{0, x[0], 0}; });
+    append(responses, [](const Point&) { return Point{0, 0, 1}; });
   }
+  sound::Observer observer() const { return {model.contact, {modes, responses, contactNode}}; }
   template <class Field>
   void append(linalg::Block& block, const Field& field) {
     const OwnedVec u = nodalField(*model.mesh, field);
@@ -43,12 +45,12 @@ constexpr int samples = 640, cycles = 20;  // whole cycles: amplitudes are exact
 constexpr double atFirst = 0.3, atSecond = 0.2;
 
 /// Velocities a cos ωt of the first and b sin ωt of the second mode, of the last rank alone.
-regime::Trace traceOf(int& root) {
+sound::Trace traceOf(int& root) {
   int rank = 0, size = 1;
   check(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
   check(MPI_Comm_size(PETSC_COMM_WORLD, &size));
   root = size - 1;
-  regime::Trace trace;
+  sound::Trace trace;
   if (rank != root) return trace;
   trace.velocities = linalg::DenseMatrix(samples, 2);
   for (int i = 0; i < samples; ++i) {
@@ -65,7 +67,7 @@ TEST(Sound, OfTwoModes) {
   const Box made("-regime_air_impedance 400");
   int root = 0;
   const auto trace = traceOf(root);
-  const auto sound = regime::Observer(made.model.contact, made.reduction).of(root, trace).sound;
+  const auto sound = made.observer().of(root, trace).sound;
   const double integral =
                    atFirst * atFirst / 2 * 0.3 * 0.5 + atSecond * atSecond / 2 * 2 * 0.5 * 8 / 3.0,
                area = 0.3 * 0.5 + 2 * 2 * (0.3 + 0.5);
@@ -77,7 +79,7 @@ TEST(Sound, OfTwoModes) {
 
 TEST(Sound, OfNoSamplesIsUnknown) {
   const Box made;
-  const auto outside = regime::Observer(made.model.contact, made.reduction).of(0, regime::Trace());
+  const auto outside = made.observer().of(0, sound::Trace());
   EXPECT_TRUE(std::isnan(outside.sound.power) && std::isnan(outside.sound.level));
   EXPECT_EQ(outside.points.at(0).amplitude.size(), 0u);
   EXPECT_EQ(outside.frames.time.size(), 0u);
@@ -88,7 +90,7 @@ TEST(Spectrum, AtTheNodeThatMovesMost) {
   const Box made;
   int root = 0;
   const auto trace = traceOf(root);
-  const auto outside = regime::Observer(made.model.contact, made.reduction).of(root, trace);
+  const auto outside = made.observer().of(root, trace);
   ASSERT_EQ(outside.points.size(), 1u);
   const auto& point = outside.points[0];
   EXPECT_EQ(point.name, "largest");
@@ -109,7 +111,7 @@ TEST(Spectrum, AtPointsAskedFor) {
   const Box made("-regime_spectrum_points '2.1,0.01,0; 1.02, -0.4, 0'");
   int root = 0;
   const auto trace = traceOf(root);
-  const auto points = regime::Observer(made.model.contact, made.reduction).of(root, trace).points;
+  const auto points = made.observer().of(root, trace).points;
   ASSERT_EQ(points.size(), 2u);
   EXPECT_EQ(points[1].name, "2");
   EXPECT_NEAR(points[0].position[0], 2, 1e-12);
@@ -149,7 +151,7 @@ TEST(Frames, AreDisplacements) {
   const Box made;
   int root = 0;
   const auto trace = traceOf(root);
-  const auto frames = regime::Observer(made.model.contact, made.reduction).of(root, trace).frames;
+  const auto frames = made.observer().of(root, trace).frames;
   ASSERT_EQ(frames.time, (std::vector<double>{1, 2}));
   for (int k = 0; k < 2; ++k) {
     const OwnedVec exact = nodalField(*made.model.mesh, [&](const Point& x) {
@@ -193,7 +195,7 @@ TEST(Latest, KeepsTheLatestPeriods) {
   model.moves = {1, 0};
   for (const auto& [periods, expected] : {std::pair{10, 33}, {1, 1}, {0, 0}}) {
     ByHand motion(model, 1.0 / 128);
-    regime::Latest latest(model, 1);
+    sound::Latest latest(model, 1);
     for (int i = 0; i < 128 * periods; ++i) motion.step(), latest.look(motion);
     const auto samples = latest.samples();
     ASSERT_EQ(samples.size(), std::size_t(expected));

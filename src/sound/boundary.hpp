@@ -4,7 +4,7 @@
 
 #include "mesh/mesh.hpp"
 
-namespace squeal::regime {
+namespace squeal::sound {
 
 /// A face of one cell that bounds the bodies; a line in the plane.
 struct BoundaryFace {
@@ -18,4 +18,4 @@ struct BoundaryFace {
 /// are not known.
 std::vector<BoundaryFace> boundaryFaces(const mesh::Mesh& mesh);
 
-}  // namespace squeal::regime
+}  // namespace squeal::sound

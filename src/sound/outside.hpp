@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "contact/contact.hpp"
 #include "linalg/block.hpp"
 #include "options/option_types.hpp"
-#include "regime/latest.hpp"
-#include "regime/reduction.hpp"
-#include "regime/surface.hpp"
+#include "sound/latest.hpp"
+#include "sound/surface.hpp"
 
-namespace squeal::regime {
+namespace squeal::sound {
 
 /// An estimate of the sound power; NaN where there are no samples.
 struct Sound {
@@ -30,7 +30,7 @@ struct SurfacePoint {
   std::string name;  ///< "largest", or "1", "2", … of -regime_spectrum_points
   Point position{}, normal{};
   double meanSquareVelocity = 0;      ///< of all components, m²/s²
-  std::vector<Amplitudes> amplitude;  ///< [line] of the lines of Regime::spectrum
+  std::vector<Amplitudes> amplitude;  ///< [line] by frequency, as amplitudes() has them
 };
 
 /// The motion of the latest cycles about steady sliding.
@@ -52,11 +52,19 @@ std::vector<const Option*> outsideOptions();
 /// Throws Error for options of what is seen outside that have no meaning.
 void checkOutsideOptions();
 
+/// What leads from a reduced model back to the mesh; all of it is borrowed.
+struct Shapes {
+  const linalg::Block& modes;      ///< V, nodal displacements, this rank's rows
+  const linalg::Block& responses;  ///< Ψ, as V
+  /// [node of the model] its place among the contact nodes of this rank; −1 on other ranks
+  const std::vector<PetscInt>& contactNode;
+};
+
 /// An Observer sees marches of one reduced model from outside. All of its methods are collective.
 class Observer {
  public:
-  /// All is borrowed.
-  Observer(const contact::Contact& contact, const Reduction& reduction);
+  /// The contact is borrowed.
+  Observer(const contact::Contact& contact, const Shapes& shapes);
   /// Returns what is seen of a march, of which the rank `root` has the trace.
   Outside of(int root, const Trace& trace) const;
 
@@ -78,9 +86,9 @@ class Observer {
   Frames framesOf(const std::vector<Sample>& samples) const;
 
   const contact::Contact& contact_;
-  const Reduction& reduction_;
+  Shapes shapes_;
   Surface surface_;
   DenseMatrix radiation_;  // ∫ (n·φ_i)(n·φ_j) dA of the modes
 };
 
-}  // namespace squeal::regime
+}  // namespace squeal::sound

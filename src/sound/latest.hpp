@@ -9,7 +9,7 @@
 #include "march/scheme.hpp"
 #include "options/option_types.hpp"
 
-namespace squeal::regime {
+namespace squeal::sound {
 
 using linalg::DenseMatrix;
 using march::ReducedModel;
@@ -56,4 +56,4 @@ std::vector<const Option*> latestOptions();
 /// Throws Error for options of this file that are idle beside each other.
 void checkLatestOptions();
 
-}  // namespace squeal::regime
+}  // namespace squeal::sound

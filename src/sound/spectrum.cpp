@@ -1,10 +1,10 @@
-#include "regime/spectrum.hpp"
+#include "sound/spectrum.hpp"
 
 #include <fftw3.h>
 
 #include <cmath>
 
-namespace squeal::regime {
+namespace squeal::sound {
 
 void addPower(std::span<const double> signal, std::vector<double>& power) {
   const int n = signal.size();
@@ -27,4 +27,4 @@ std::vector<double> amplitudes(std::span<const double> signal) {
   return result;
 }
 
-}  // namespace squeal::regime
+}  // namespace squeal::sound

@@ -1,4 +1,4 @@
-#include "regime/latest.hpp"
+#include "sound/latest.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include "options/options.hpp"
 #include "petsc/check.hpp"
 
-namespace squeal::regime {
+namespace squeal::sound {
 namespace {
 
 const IntegerOption keptOption(
@@ -79,4 +79,4 @@ void checkLatestOptions() {
     throw Error("option -" + framesOption.name + ": no period is kept (-" + keptOption.name + ")");
 }
 
-}  // namespace squeal::regime
+}  // namespace squeal::sound

@@ -1,4 +1,4 @@
-#include "regime/boundary.hpp"
+#include "sound/boundary.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include "mesh/vector.hpp"
 #include "petsc/concatenation.hpp"
 
-namespace squeal::regime {
+namespace squeal::sound {
 namespace {
 
 using elasticity::ShapeTable;
@@ -157,4 +157,4 @@ std::vector<BoundaryFace> boundaryFaces(const mesh::Mesh& mesh) {
   return result;
 }
 
-}  // namespace squeal::regime
+}  // namespace squeal::sound

@@ -1,4 +1,4 @@
-#include "regime/surface.hpp"
+#include "sound/surface.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 #include "elasticity/face.hpp"
 #include "mesh/vector.hpp"
 #include "petsc/arrays.hpp"
-#include "regime/boundary.hpp"
+#include "sound/boundary.hpp"
 
-namespace squeal::regime {
+namespace squeal::sound {
 namespace {
 
 using elasticity::shapeTable;
@@ -147,4 +147,4 @@ Surface visibleSurface(const mesh::Mesh& mesh, const contact::Contact& contact) 
   return surface;
 }
 
-}  // namespace squeal::regime
+}  // namespace squeal::sound

@@ -5,7 +5,7 @@
 #include "mesh/mesh.hpp"
 #include "petsc/owned.hpp"
 
-namespace squeal::regime {
+namespace squeal::sound {
 
 using mesh::Point;
 
@@ -22,4 +22,4 @@ struct Surface {
 /// slaves or masters, whether or not they are pressed.
 Surface visibleSurface(const mesh::Mesh& mesh, const contact::Contact& contact);
 
-}  // namespace squeal::regime
+}  // namespace squeal::sound
