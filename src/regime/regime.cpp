@@ -260,6 +260,10 @@ Study study(const FullModel& full, linalg::Block free, const pencil::ComplexMode
     result.runs.back().regime = regimes[i];
     result.runs.back().outside = observer.of(i % ranks, traces[i]);
   }
+  const sound::Sound& heard = result.runs.front().outside.sound;
+  stage.say(formatted("%s: sound power about %.3g W (%.1f dB) from %.4g m2 of visible surface",
+                      sweep::parameterText(point.at).c_str(), heard.power, heard.level,
+                      heard.area));
   const Regime& regime = result.runs.front().regime;
   if (std::abs(regime.growth - s.real()) > 0.2 * s.real())
     complain(comm,

@@ -9,6 +9,7 @@
 #include "options/options.hpp"
 #include "petsc/concatenation.hpp"
 #include "petsc/text.hpp"
+#include "session/stages.hpp"
 #include "sound/spectrum.hpp"
 
 namespace squeal::sound {
@@ -78,6 +79,10 @@ Observer::Observer(const contact::Contact& contact, const Shapes& shapes)
   linalg::Block product(shapes.modes.rows());
   linalg::appendProduct(surface_.normalMass, shapes.modes, product);
   radiation_ = linalg::transposedProduct(contact.mesh->comm, shapes.modes, product);
+  if (surface_.area == 0)
+    complain(contact.mesh->comm,
+             "warning: no face of the bodies is visible after flutter: all are in contact, tied, "
+             "cut or held; there is no sound, and no spectrum at a point");
 }
 
 /// Returns the estimate of the sound power [M.76],
@@ -160,7 +165,6 @@ SurfacePoint Observer::pointOf(const std::vector<Choice>& own, double tolerance,
   const auto all = ranks.gathered(best);
   SurfacePoint point;
   shape = DenseMatrix(mesh.dimension, shapes_.modes.columns());
-  if (all.empty()) return point;
   const auto first = std::ranges::min_element(all, {}, &Choice::position);
   point.position = first->position;
   if (first - all.begin() == ranks.ownBegin() && !best.empty()) {
@@ -180,6 +184,7 @@ void Observer::addSpectra(int root, const Trace& trace, const DenseMatrix& meanS
   const MPI_Comm comm = contact_.mesh->comm;
   const int dimension = contact_.mesh->dimension;
   const auto wanted = pointsWanted();
+  if (surface_.area == 0) return;
   for (std::size_t i = 0; i < std::max<std::size_t>(1, wanted.size()); ++i) {
     DenseMatrix shape;
     points.push_back(wanted.empty() ? pointOf(byVelocity(meanSquares), 1e-6, meanSquares, shape)

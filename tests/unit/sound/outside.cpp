@@ -85,6 +85,19 @@ TEST(Sound, OfNoSamplesIsUnknown) {
   EXPECT_EQ(outside.frames.time.size(), 0u);
 }
 
+// Clamped all round, a body is silent, and has no point to be looked at.
+TEST(Sound, OfNothingVisible) {
+  const Box made(
+      "-constraint_tip_clamped xyz -constraint_right_clamped xyz -constraint_left_clamped xyz "
+      "-constraint_top_clamped xyz -constraint_bottom_clamped xyz");
+  int root = 0;
+  const auto trace = traceOf(root);
+  const auto outside = made.observer().of(root, trace);
+  EXPECT_EQ(outside.sound.area, 0);
+  EXPECT_TRUE(std::isnan(outside.sound.power));
+  EXPECT_EQ(outside.points.size(), 0u);
+}
+
 // The tip moves most, by a²/2 + (b L)²/2; of its nodes, alike, the first by its coordinates counts.
 TEST(Spectrum, AtTheNodeThatMovesMost) {
   const Box made;
