@@ -93,8 +93,9 @@ def _line(table, x, y):
     logarithmic axis."""
     if table is None or y not in table:
         return []
-    table = table[np.isfinite(table[y]) & (table[y] > 0)]
     xs, ys = table[x].to_numpy(float), table[y].to_numpy(float)
+    drawn = np.isfinite(ys) & (ys > 0)
+    xs, ys = xs[drawn], ys[drawn]
     group = max(1, math.ceil(len(xs) / MOST_POINTS))
     best = [begin + int(np.argmax(ys[begin : begin + group])) for begin in range(0, len(xs), group)]
     return [[float(xs[i]), float(ys[i])] for i in best]

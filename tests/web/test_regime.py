@@ -117,6 +117,20 @@ class AfterFlutter(unittest.TestCase):
             self.assertEqual(self.driver.find_elements(By.ID, "bad"), [])
             self.assertEqual(self.driver.get_log("browser"), [])
 
+    def test_a_march_too_short_for_means_has_empty_diagrams(self):
+        copy = Path(self.temporary.name) / "short"
+        shutil.copytree(self.folder, copy)
+        for name in ("spectrum", "nodes", "cycles"):
+            path = copy / f"regime_{name}.csv"
+            path.write_text(path.read_text().splitlines()[0] + "\n")
+        (run,) = regime.diagrams(squeal.open(copy))
+        self.assertEqual((run["cycles"], run["nodes"], set(map(len, run["spectrum"].values()))), ([], None, {0}))
+        (copy / "report.html").write_text(report.build(squeal.open(copy)))
+        self.addCleanup(self.open_page, self.folder / "report.html")
+        self.open_page(copy / "report.html")
+        self.assertTrue(self.element("regime").is_displayed())
+        self.assertEqual(self.driver.get_log("browser"), [])
+
     def test_without_the_libraries_the_sentence_stands(self):
         results = squeal.open(self.folder)
         with mock.patch.dict(report.SCRIPTS, {"Chart.js": ("/nowhere.js", None)}):
