@@ -1,6 +1,6 @@
 #pragma once
 /// A branch of periodic motions is followed over the friction, through folds, where the branch
-/// turns back and its motions lose or regain stability [M.77].
+/// turns back and its motions lose or regain stability [M.78].
 #include <functional>
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
 /// A passage is a march over a single period, from what its first step finds to what its last step
-/// hands on [M.76].
+/// hands on [M.77].
 #include <mpi.h>
 
 #include <vector>

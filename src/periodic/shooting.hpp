@@ -1,6 +1,6 @@
 #pragma once
 /// Shooting finds periodic motions of the reduced model, stable or not, and Floquet multipliers
-/// tell which of them a brake can keep [M.76].
+/// tell which of them a brake can keep [M.77].
 #include <functional>
 #include <memory>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
 /// The periodic motions after flutter, stable or not, are found by shooting from a march, and
-/// followed over the friction [M.76, M.77].
+/// followed over the friction [M.77, M.78].
 #include <string>
 #include <vector>
 

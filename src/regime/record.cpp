@@ -1,7 +1,5 @@
 #include "regime/record.hpp"
 
-#include <fftw3.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -10,6 +8,7 @@
 #include <utility>
 
 #include "petsc/check.hpp"
+#include "sound/spectrum.hpp"
 
 namespace squeal::regime {
 namespace {
@@ -17,6 +16,7 @@ namespace {
 using march::Node;
 using march::State;
 using march::Work;
+using sound::addPower;
 
 double mean(std::span<const double> x) {
   return std::accumulate(x.begin(), x.end(), 0.0) / std::max<std::size_t>(1, x.size());
@@ -27,21 +27,6 @@ double deviation(std::span<const double> x) {
   double sum = 0;
   for (const double a : x) sum += (a - m) * (a - m);
   return std::sqrt(sum / std::max<std::size_t>(1, x.size()));
-}
-
-/// Adds the squared amplitudes of a signal, by a Hann window, to `power`, [line].
-void addPower(std::span<const double> signal, std::vector<double>& power) {
-  const int n = signal.size();
-  std::vector<double> in(n);
-  std::vector<fftw_complex> out(n / 2 + 1);
-  fftw_plan plan = fftw_plan_dft_r2c_1d(n, in.data(), out.data(), FFTW_ESTIMATE);
-  for (int i = 0; i < n; ++i) in[i] = signal[i] * (0.5 - 0.5 * std::cos(2 * M_PI * i / n));
-  fftw_execute(plan);
-  fftw_destroy_plan(plan);
-  power.resize(n / 2 + 1);
-  // A sine of amplitude a gives n a / 4 in its line.
-  for (int i = 0; i <= n / 2; ++i)
-    power[i] += (out[i][0] * out[i][0] + out[i][1] * out[i][1]) * 16.0 / n / n;
 }
 
 /// Returns the place of the largest entry of [first, end), refined by a parabola through its
@@ -199,14 +184,26 @@ bool Recorder::settled() const {
          near(&Means::frictionPower, 0.02) && near(&Means::frictionCoefficient, 0.02);
 }
 
+/// Returns the number of latest samples over which spectra and mean squares are taken.
+std::size_t Recorder::samplesUsed() const {
+  const std::size_t wanted = windowsUsed() * windowCycles * period_ / sampleTime(),
+                    count = signals_.empty() ? 0 : std::min(wanted, signals_[0].size());
+  return count < 8 ? 0 : count;
+}
+
+DenseMatrix Recorder::velocities() const {
+  DenseMatrix result(samplesUsed());
+  for (const auto& signal : signals_) result.append(std::span(signal).last(samplesUsed()));
+  return result;
+}
+
 /// Sets spectrum and returns the carrier.
 double Recorder::carrier(Regime& regime) const {
-  const std::size_t wanted = windowsUsed() * windowCycles * period_ / (stride_ * step_),
-                    count = signals_.empty() ? 0 : std::min(wanted, signals_[0].size());
-  if (count < 8) return 0;
+  const std::size_t count = samplesUsed();
+  if (count == 0) return 0;
   std::vector<double> power;
   for (const auto& signal : signals_) addPower(std::span(signal).last(count), power);
-  const double line = 1 / (count * stride_ * step_);
+  const double line = 1 / (count * sampleTime());
   for (std::size_t i = 0; i < power.size(); ++i)
     regime.spectrum.push_back({i * line, std::sqrt(power[i])});
   return line * peakPlace(power, 2);

@@ -77,6 +77,7 @@ Run runOf(const ReducedModel& model, const Task& task) {
 struct Followed {
   Regime regime;
   periodic::Passes passes;  // where periodic motions are wanted
+  sound::Trace trace;       // on the rank that marched
 };
 
 Followed follow(const ReducedModel& model, const Task& task, double step, double time,
@@ -85,11 +86,13 @@ Followed follow(const ReducedModel& model, const Task& task, double step, double
   const auto scheme = boundaryOption.get() == "mass" ? march::moreauScheme(model, start, step)
                                                      : march::masslessScheme(model, start, step);
   Recorder recorder(model, task.mode.s, step, largestKinetic(task.mode));
+  sound::Latest latest(model, 2 * M_PI / task.mode.s.imag());
   std::optional<SectionRecord> section;
   if (cyclesWanted()) section.emplace(model, task.mode);
   while (scheme->state().time < time) {
     scheme->step();
     recorder.look(*scheme);
+    latest.look(*scheme);
     if (section) section->look(*scheme);
     if (!recorder.windowEnded()) continue;
     if (section) section->endWindow();
@@ -97,12 +100,15 @@ Followed follow(const ReducedModel& model, const Task& task, double step, double
                              1e3 * scheme->state().time, 1e3 * time));
     if (stopAsked() || (timeOption.get() == 0 && recorder.settled())) break;
   }
-  Followed followed{recorder.result(*scheme), {}};
+  Followed followed{recorder.result(*scheme),
+                    {},
+                    {recorder.velocities(), recorder.sampleTime(), latest.samples()}};
   if (section) followed.passes = section->last(recorder.windowsUsed());
   return followed;
 }
 
-/// Collective. Returns the regimes of the tasks, each marched by one rank, on all ranks.
+/// Collective. Returns the regimes of the tasks, each marched by one rank, on all ranks;
+/// traces are on the rank that marched.
 std::vector<Followed> followAll(MPI_Comm comm, const ReducedModel& model,
                                 const std::vector<Task>& tasks, double step, double time,
                                 Stage& stage) {
@@ -152,15 +158,16 @@ std::vector<double> frictionsWanted() {
 void checkOptions(bool ofMesh) {
   checkCycleOptions(!frictionOption.get().empty(), boundaryOption.get() == "massless");
   if (frictionOption.get().empty()) {
-    for (const Option* option :
-         {static_cast<const Option*>(&timeOption), static_cast<const Option*>(&stepOption),
-          static_cast<const Option*>(&startOption), static_cast<const Option*>(&startsOption),
-          static_cast<const Option*>(&boundaryOption)})
+    auto idle = sound::outsideOptions();
+    idle.insert(idle.end(),
+                {&timeOption, &stepOption, &startOption, &startsOption, &boundaryOption});
+    for (const Option* option : idle)
       if (option->given())
         throw Error("option -" + option->name +
                     ": nothing is followed after flutter without -regime_friction");
     return;
   }
+  sound::checkOutsideOptions();
   if (!ofMesh)
     throw Error(
         "option -regime_friction: matrices from files do not say what lifts off and sticks; the "
@@ -220,7 +227,7 @@ Study study(const FullModel& full, linalg::Block free, const pencil::ComplexMode
   const Reduction reduction = reduce(full, std::move(free), unstable);
   const ReducedModel& model = reduction.model;
   result.modes = model.modes(), result.rows = model.rows();
-  result.nodes = model.nodes;
+  result.nodes = model.nodes, result.contactNode = reduction.contactNode;
   result.steadyPower = steadyPower(model);
   std::vector<Task> tasks;
   for (const auto* shape : shapes) {
@@ -261,10 +268,19 @@ Study study(const FullModel& full, linalg::Block free, const pencil::ComplexMode
                       result.modelError));
   warn(full, result.step, result.stableStep);
   auto followed = followAll(comm, model, tasks, result.step, time, stage);
+  const sound::Observer observer(full.contact,
+                                 {reduction.modes, reduction.responses, reduction.contactNode});
+  int ranks = 1;
+  check(MPI_Comm_size(comm, &ranks));
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     result.runs.push_back(runOf(model, tasks[i]));
     result.runs.back().regime = std::move(followed[i].regime);
+    result.runs.back().outside = observer.of(i % ranks, followed[i].trace);
   }
+  const sound::Sound& heard = result.runs.front().outside.sound;
+  stage.say(formatted("%s: sound power about %.3g W (%.1f dB) from %.4g m2 of visible surface",
+                      sweep::parameterText(point.at).c_str(), heard.power, heard.level,
+                      heard.area));
   const Regime& regime = result.runs.front().regime;
   if (std::abs(regime.growth - s.real()) > 0.2 * s.real())
     complain(comm,

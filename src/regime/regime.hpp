@@ -11,6 +11,7 @@
 #include "regime/onset.hpp"
 #include "regime/record.hpp"
 #include "regime/reduction.hpp"
+#include "sound/outside.hpp"
 
 namespace squeal::regime {
 
@@ -35,6 +36,7 @@ struct Run {
   double onsetKinetic = 0;  ///< largest over a cycle at the onset, J
   Regime regime;
   Cycles cycles;  ///< where `-regime_cycle` asks for them
+  sound::Outside outside;
 };
 
 /// What was found at one point of the sweep.
@@ -47,6 +49,8 @@ struct Study {
   double stableStep = 0;    ///< s
   double steadyPower = 0;   ///< heat of friction of steady sliding, W
   std::vector<Node> nodes;
+  /// [node] its place among the contact nodes of this rank; −1 on other ranks
+  std::vector<PetscInt> contactNode;
   std::vector<Run> runs;
 };
 

@@ -1,5 +1,6 @@
 #include "report/regimes.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "petsc/text.hpp"
@@ -41,13 +42,19 @@ std::string onsetTable(const analysis::Analysis& analysis) {
 
 std::string cell(double value) { return std::isfinite(value) ? formatted(",%.9e", value) : ","; }
 
+std::string soundCells(const sound::Sound& sound) {
+  return cell(sound.meanSquareVelocity) + cell(sound.area) + cell(sound.power) + cell(sound.level);
+}
+
 std::string regimeTable(const analysis::Analysis& analysis) {
   std::string table = head(
       ",class,settled,duration_s,step_s,carrier_hz,flutter_frequency_hz,modulation_hz,growth_rate_"
       "1_per_s,certified_growth_rate_1_per_s,largest_kinetic_energy_j,mean_kinetic_energy_j,peak_"
       "deviation,largest_slip_velocity_m_per_s,largest_gap_change_m,friction_coefficient,friction_"
       "power_w,steady_friction_power_w,open_nodes,sticking_nodes,contact_nodes,onset_kinetic_"
-      "energy_j,largest_defect,energy_imbalance,model_error");
+      "energy_j,largest_defect,energy_imbalance,model_error,mean_square_velocity_m2_per_s2,"
+      "radiating_"
+      "area_m2,sound_power_estimate_w,sound_power_level_db");
   forEachRun(analysis, [&](const auto& study, const auto& run, const std::string& first) {
     const regime::Regime& regime = run.regime;
     const bool averaged = !regime.nodes.empty();  // a whole window at least
@@ -61,7 +68,8 @@ std::string regimeTable(const analysis::Analysis& analysis) {
              mean(regime.means.frictionCoefficient) + mean(regime.means.frictionPower) +
              cell(study.steadyPower) + mean(regime.means.open) + mean(regime.means.sticking) +
              formatted(",%zu", study.nodes.size()) + cell(run.onsetKinetic) +
-             cell(regime.largestDefect) + cell(regime.imbalance) + cell(study.modelError) + "\n";
+             cell(regime.largestDefect) + cell(regime.imbalance) + cell(study.modelError) +
+             soundCells(run.outside.sound) + "\n";
   });
   return table;
 }
@@ -93,11 +101,44 @@ std::string cycleTable(const analysis::Analysis& analysis) {
   return table;
 }
 
+/// Returns the names of the columns of the points; all runs have as many.
+std::string pointColumns(const analysis::Analysis& analysis) {
+  std::size_t count = 0;
+  forEachRun(analysis, [&](const auto&, const auto& run, const std::string&) {
+    count = std::max(count, run.outside.points.size());
+  });
+  std::string columns;
+  for (std::size_t k = 1; k <= count; ++k)
+    for (const char* component : {"x", "y", "z", "normal"})
+      columns += formatted(",velocity_%zu_%s_m_per_s", k, component);
+  return columns;
+}
+
 std::string spectrumTable(const analysis::Analysis& analysis) {
-  std::string table = head(",frequency_hz,velocity_sqrt_kg_m_per_s");
+  std::string table = head(",frequency_hz,velocity_sqrt_kg_m_per_s" + pointColumns(analysis));
   forEachRun(analysis, [&](const auto&, const auto& run, const std::string& first) {
-    for (const auto& line : run.regime.spectrum)
-      table += first + formatted(",%.9e,%.9e\n", line.frequency, line.whole);
+    const auto& lines = run.regime.spectrum;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      table += first + formatted(",%.9e,%.9e", lines[i].frequency, lines[i].whole);
+      for (const auto& point : run.outside.points)
+        for (const double value : point.amplitude.at(i)) table += formatted(",%.9e", value);
+      table += "\n";
+    }
+  });
+  return table;
+}
+
+std::string pointTable(const analysis::Analysis& analysis) {
+  std::string table =
+      head(",point,name,x_m,y_m,z_m,normal_x,normal_y,normal_z,mean_square_velocity_m2_per_s2");
+  forEachRun(analysis, [&](const auto&, const auto& run, const std::string& first) {
+    std::size_t number = 0;
+    for (const auto& point : run.outside.points) {
+      table += first + formatted(",%zu,%s", ++number, point.name.c_str());
+      for (const double x : point.position) table += formatted(",%.12e", x);
+      for (const double n : point.normal) table += formatted(",%.9f", n);
+      table += cell(point.meanSquareVelocity) + "\n";
+    }
   });
   return table;
 }
@@ -170,6 +211,7 @@ void writeRegimes(const analysis::Analysis& analysis, const std::filesystem::pat
   writeText(comm, folder / "regime_nodes.csv", nodeTable(analysis));
   writeText(comm, folder / "regime_cycles.csv", cycleTable(analysis));
   writeText(comm, folder / "regime_spectrum.csv", spectrumTable(analysis));
+  writeText(comm, folder / "regime_points.csv", pointTable(analysis));
   if (!regime::cyclesWanted()) return;
   writeText(comm, folder / "periodic.csv", periodicTable(analysis));
   writeText(comm, folder / "floquet.csv", floquetTable(analysis));
