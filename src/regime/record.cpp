@@ -231,16 +231,18 @@ Kind Recorder::classify(Regime& regime) const {
     swing[i] -= level + drift / spread * (i - (count - 1) / 2.0);
   addPower(swing, power);
   const double place = peakPlace(power, 1);
-  // The part of the variance that repeats after one period of the modulation.
-  const double lag = count / place;
+  // The part of the variance that repeats at some later time, once cycles have ceased to be like
+  // those before them: of a modulation by several frequencies too.
   double best = 0;
-  for (int shift = std::max(2.0, 0.8 * lag); shift <= std::min(1.2 * lag, count / 2.0); ++shift) {
+  bool forgotten = false;
+  for (std::size_t shift = 1; shift <= count / 3; ++shift) {
     double both = 0, a = 0, b = 0;
     for (std::size_t i = 0; i + shift < count; ++i) {
       both += swing[i] * swing[i + shift];
       a += swing[i] * swing[i], b += swing[i + shift] * swing[i + shift];
     }
-    best = std::max(best, both / std::sqrt(a * b));
+    if (both < 0) forgotten = true;
+    if (forgotten) best = std::max(best, both / std::sqrt(a * b));
   }
   if (best < 0.5) return Kind::irregular;
   regime.modulation = place / (count * period_);
