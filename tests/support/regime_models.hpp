@@ -1,6 +1,7 @@
 #pragma once
 /// Reduced models made by hand, and the tube on a shaft whose stick-slip waves are known exactly
 /// (after Moirot, Nguyen and Oueslati, Eur. J. Mech. A/Solids 22, 2003).
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
@@ -127,7 +128,8 @@ inline Wave waveOf(const Tube& tube, int k, double f, double omega, double stick
   return wave;
 }
 
-/// One wavelength of a tube with linear cells and lumped masses: U and V of all nodes are z.
+/// One wavelength of a tube with linear cells and lumped masses: U and V of all nodes are z. A
+/// viscosity η adds −η U̇″ and −η V̇″ to the left sides of its equations.
 struct TubeModel {
   ReducedModel model;
   double spacing;
@@ -148,6 +150,8 @@ inline TubeModel tubeModel(const Tube& tube, int k, double f, double delta, int 
         const double sign = p == q ? 1 : -1;
         stiff(u[p], u[q]) += sign * tube.b / s;
         stiff(u[p] + 1, u[q] + 1) += sign * tube.a / s;
+        for (int c = 0; c < 2; ++c)
+          model.boundaryDamping(u[p] + c, u[q] + c) += sign * viscosity / s;
         // −d ∫ (V δU′ + U′ δV), with V the mean of its ends in a cell, and −V the unknown.
         const double slope = (p == 0 ? -1 : 1) / s;
         stiff(u[p], u[q] + 1) += tube.d * slope * s / 2;
@@ -155,8 +159,6 @@ inline TubeModel tubeModel(const Tube& tube, int k, double f, double delta, int 
       }
     }
   }
-  for (std::size_t i = 0; i < model.boundaryStiffness.size(); ++i)
-    model.boundaryDamping.data()[i] = viscosity * model.boundaryStiffness.data()[i];
   for (auto& node : model.nodes) slide(node, f, tube.g * delta * s, 1), node.area = s;
   return result;
 }
@@ -172,6 +174,8 @@ inline std::complex<double> harmonic(const std::vector<double>& jump, int row) {
 struct Marched {
   double omega = 0, stick = 0, open = 0;
 };
+/// A node is open that carries no force and lies above the shaft: in a scheme with conditions on
+/// velocities, one that is a rounding of the step below it may carry its force in some steps alone.
 inline Marched marched(const ReducedModel& model, const Start& start, double h, double settle,
                        double measure) {
   const auto scheme = march::moreauScheme(model, start, h);
@@ -187,7 +191,7 @@ inline Marched marched(const ReducedModel& model, const Start& start, double h, 
     turned += std::arg(now / before);
     before = now;
     for (std::size_t i = 0; i < model.nodes.size(); ++i, ++nodes) {
-      const bool open = scheme->state().force[2 * i] == 0;
+      const bool open = scheme->state().force[2 * i] == 0 && scheme->state().jump[2 * i] >= 0;
       result.open += open;
       result.stick += !open && std::abs(scheme->state().rate[2 * i + 1]) < 1e-6;
     }
