@@ -582,6 +582,7 @@ function setScheme(dark) {
   document.documentElement.classList.toggle("dark", dark);
   element("scheme").textContent = dark ? "Light" : "Dark";
   drawCharts();
+  drawRegime();
   if (view.bodies) outlines();
 }
 
@@ -590,6 +591,7 @@ async function begin() {
   makeCharts();
   makeLines();
   makeTable();
+  makeRegime();
   makeRest();
   element("scheme").addEventListener("click", () => setScheme(!document.documentElement.classList.contains("dark")));
   setScheme(matchMedia("(prefers-color-scheme: dark)").matches);

@@ -10,6 +10,7 @@ from pathlib import Path
 import matplotlib
 import numpy as np
 
+from squeal import regime
 from squeal.results import PARAMETERS, ResultsError
 from squeal.skin import Skin
 
@@ -37,8 +38,11 @@ def build(results):
         "data": json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c"),
         "blobs": "\n".join(f'<script type="application/octet-stream" id="blob-{name}">{text}</script>' for name, text in blobs.items()),
         "libraries": "\n".join(f"<script>{_script_safe(text)}</script>" for text in scripts),
-        "script": _script_safe((WEB / "report.js").read_text()) if scripts else "",
-        "pictures": _pictures(results) if not scripts else "",
+        **{
+            name: _script_safe((WEB / file).read_text()) if scripts else ""
+            for name, file in (("script", "report.js"), ("regimescript", "regime.js"))
+        },
+        "pictures": _after_flutter(results) + _pictures(results) if not scripts else "",
         "licences": "".join(f"<h3>{html.escape(name)}</h3><pre>{html.escape(text)}</pre>" for name, text in licences),
     }
     return re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], template)
@@ -59,7 +63,7 @@ def _scripts():
 
 def _pictures(results):
     """The static pictures of the folder, for a report without libraries."""
-    found = sorted(results.folder.glob("stability*.png")) + sorted(results.folder.glob("mode*.png"))
+    found = sorted(results.folder.glob("stability*.png")) + sorted(results.folder.glob("mode*.png")) + sorted(results.folder.glob("regime.png"))
     images = "".join(
         f'<img alt="{html.escape(path.stem)}" src="data:image/png;base64,{base64.b64encode(path.read_bytes()).decode()}">' for path in found
     )
@@ -67,6 +71,11 @@ def _pictures(results):
         "<p class=note>Diagrams and modes cannot be turned here: the libraries three.js and Chart.js were not installed when the report was "
         f"made (packages libjs-three, libjs-chart.js).</p>{images}"
     )
+
+
+def _after_flutter(results):
+    """What became of the flutter in words, for a report without libraries."""
+    return "".join(f"<p>{html.escape(line)}</p>" for line in regime.sentences(results))
 
 
 def _blob(array):
@@ -102,6 +111,7 @@ def _data(results, with_shapes):
         "frictionWork": _columns(results.friction_work),
         "sensitivities": _columns(results.sensitivities),
         "steady": _steady_forces(summary),
+        "regimes": regime.diagrams(results),
         "stages": {name: [stage.get("wall_s", 0), stage.get("peak_memory_bytes", 0)] for name, stage in summary.get("stages", {}).items()},
         "wallSeconds": summary.get("wall_s", 0),
         "sizes": {name: summary[name] for name in ("ranks", "nodes", "cells", "contact_nodes", "dofs") if name in summary},

@@ -59,6 +59,22 @@ std::vector<double> faceMass(const ShapeTable& table, const std::vector<Point>& 
   return m;
 }
 
+std::vector<double> normalMass(const ShapeTable& table, const std::vector<Point>& nodes,
+                               int components) {
+  const int size = table.nodes * components;
+  std::vector<double> m(std::size_t(size) * size, 0.0), row(size);
+  for (int q = 0; q < table.points(); ++q) {
+    const Point normal =
+        faceNormal(table.gradient.data() + 3 * q * table.nodes, nodes, table.dimension);
+    const double area = length(normal);
+    for (int i = 0; i < size; ++i)
+      row[i] = table.value[q * table.nodes + i / components] * normal[i % components] / area;
+    for (int i = 0; i < size; ++i)
+      for (int j = 0; j < size; ++j) m[i * size + j] += table.weight[q] * area * row[i] * row[j];
+  }
+  return m;
+}
+
 std::vector<Point> nodeNormals(const ShapeTable& table, const std::vector<Point>& nodes, int sign) {
   std::vector<Point> normals;
   for (int i = 0; i < table.nodes; ++i) {

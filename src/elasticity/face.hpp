@@ -19,6 +19,10 @@ std::vector<double> faceNormals(const ShapeTable& table, const std::vector<Point
 std::vector<double> areaWeights(const ShapeTable& table, const std::vector<Point>& nodes);
 /// Returns ∫ φᵢ φⱼ dA on a face, row-major [node][node], m² (m in the plane).
 std::vector<double> faceMass(const ShapeTable& table, const std::vector<Point>& nodes);
+/// Returns ∫ (n·eᵢ φ_a)(n·eⱼ φ_b) dA on a face, row-major, rows and columns [node][component], m²
+/// (m in the plane).
+std::vector<double> normalMass(const ShapeTable& table, const std::vector<Point>& nodes,
+                               int components);
 /// Returns the derivative of each shape function along the velocity at each node of the face,
 /// [at node][function], 1/s for velocities in m/s. Only the part of `velocity` in the tangent plane
 /// of the face counts.

@@ -7,7 +7,7 @@
 
 namespace squeal::march {
 
-/// Not collective. Returns μ [M.76], the largest eigenvalue of
+/// Not collective. Returns μ [M.79], the largest eigenvalue of
 ///   −(h K_z + C_z)⁻¹ B   and   (h K_z/2 + C_z)⁻¹ B,   B = R_N df/d|w| ττᵀ,
 /// in the rows that are free in steady sliding, from slopes df/d|w|, [node], s/m. The slips of the
 /// massless boundary follow a coefficient that is a step old without growing where μ < 1. Without

@@ -29,6 +29,7 @@ struct Node {
   double friction = 0;               ///< coefficient of friction, at the steady sliding velocity
   double lawCoefficient = 0;         ///< what the law is multiplied by; 0: no law applies
   double frictionSlope = 0;          ///< derivative of `friction` by the speed of sliding, s/m
+  double sweptFriction = 0;          ///< derivative of `friction` by the swept one
   double area = 0;                   ///< m²
   double gap = 0;                    ///< steady gap, m; 0 where it is pressed
   double normalForce = 0;            ///< steady R_N, N, ≥ 0

@@ -24,8 +24,7 @@ Scheme::Scheme(const ReducedModel& model)
       steadyForce_[row + c] = node.shear[c - 1], steadyVelocity_[row + c] = node.velocity[c - 1];
     sum += node.normalForce, pressed += node.pressed();
   }
-  // Each sweep of the solver costs as much; forces are said to hold to 1e-5 of their mean.
-  tolerance_ = 1e-6 * sum / std::max(1, pressed);
+  tolerance_ = accuracy * sum / std::max(1, pressed);
   state_.force = steadyForce_;
   state_.rate = steadyVelocity_;
 }

@@ -46,6 +46,9 @@ class Scheme {
   double lastDefect() const;
 
  protected:
+  /// Contact forces of a step hold to this part of the mean steady force. Each sweep of the solver
+  /// costs as much; they are said to hold to ten times this.
+  static constexpr double accuracy = 1e-6;
   explicit Scheme(const ReducedModel& model);
   void updateFriction();
   const ReducedModel& model_;
@@ -66,8 +69,7 @@ struct Start {
 /// Returns the motion of a linear mode at its phase 0, with this factor.
 Start startOn(const LinearMode& mode, double factor);
 
-/// Returns the scheme of the massless boundary [M.72]: the leapfrog rule for q, the backward Euler
-/// rule for z. The model is borrowed; h is the step, s.
+/// Returns the scheme of the massless boundary (Massless). The model is borrowed; h is the step, s.
 std::unique_ptr<Scheme> masslessScheme(const ReducedModel& model, const Start& start, double h);
 /// Returns the scheme of Moreau and Jean with θ = 1/2 and with the mass of the boundary [M.73]:
 /// contact conditions on velocities, no restitution. Rows whose mass is zero keep them on

@@ -1,7 +1,5 @@
 #include "regime/record.hpp"
 
-#include <fftw3.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -10,6 +8,7 @@
 #include <utility>
 
 #include "petsc/check.hpp"
+#include "sound/spectrum.hpp"
 
 namespace squeal::regime {
 namespace {
@@ -17,6 +16,7 @@ namespace {
 using march::Node;
 using march::State;
 using march::Work;
+using sound::addPower;
 
 double mean(std::span<const double> x) {
   return std::accumulate(x.begin(), x.end(), 0.0) / std::max<std::size_t>(1, x.size());
@@ -27,21 +27,6 @@ double deviation(std::span<const double> x) {
   double sum = 0;
   for (const double a : x) sum += (a - m) * (a - m);
   return std::sqrt(sum / std::max<std::size_t>(1, x.size()));
-}
-
-/// Adds the squared amplitudes of a signal, by a Hann window, to `power`, [line].
-void addPower(std::span<const double> signal, std::vector<double>& power) {
-  const int n = signal.size();
-  std::vector<double> in(n);
-  std::vector<fftw_complex> out(n / 2 + 1);
-  fftw_plan plan = fftw_plan_dft_r2c_1d(n, in.data(), out.data(), FFTW_ESTIMATE);
-  for (int i = 0; i < n; ++i) in[i] = signal[i] * (0.5 - 0.5 * std::cos(2 * M_PI * i / n));
-  fftw_execute(plan);
-  fftw_destroy_plan(plan);
-  power.resize(n / 2 + 1);
-  // A sine of amplitude a gives n a / 4 in its line.
-  for (int i = 0; i <= n / 2; ++i)
-    power[i] += (out[i][0] * out[i][0] + out[i][1] * out[i][1]) * 16.0 / n / n;
 }
 
 /// Returns the place of the largest entry of [first, end), refined by a parabola through its
@@ -170,7 +155,6 @@ std::size_t Recorder::nonlinearWindows() const {
   return last - windows_.rbegin();
 }
 
-/// Returns the number of windows, the last ones, over which averages are taken.
 std::size_t Recorder::windowsUsed() const {
   const std::size_t nonlinear = nonlinearWindows();
   return nonlinear == 0 ? std::min<std::size_t>(1, windows_.size()) : (2 * nonlinear + 2) / 3;
@@ -200,14 +184,26 @@ bool Recorder::settled() const {
          near(&Means::frictionPower, 0.02) && near(&Means::frictionCoefficient, 0.02);
 }
 
+/// Returns the number of latest samples over which spectra and mean squares are taken.
+std::size_t Recorder::samplesUsed() const {
+  const std::size_t wanted = windowsUsed() * windowCycles * period_ / sampleTime(),
+                    count = signals_.empty() ? 0 : std::min(wanted, signals_[0].size());
+  return count < 8 ? 0 : count;
+}
+
+DenseMatrix Recorder::velocities() const {
+  DenseMatrix result(samplesUsed());
+  for (const auto& signal : signals_) result.append(std::span(signal).last(samplesUsed()));
+  return result;
+}
+
 /// Sets spectrum and returns the carrier.
 double Recorder::carrier(Regime& regime) const {
-  const std::size_t wanted = windowsUsed() * windowCycles * period_ / (stride_ * step_),
-                    count = signals_.empty() ? 0 : std::min(wanted, signals_[0].size());
-  if (count < 8) return 0;
+  const std::size_t count = samplesUsed();
+  if (count == 0) return 0;
   std::vector<double> power;
   for (const auto& signal : signals_) addPower(std::span(signal).last(count), power);
-  const double line = 1 / (count * stride_ * step_);
+  const double line = 1 / (count * sampleTime());
   for (std::size_t i = 0; i < power.size(); ++i)
     regime.spectrum.push_back({i * line, std::sqrt(power[i])});
   return line * peakPlace(power, 2);
@@ -235,16 +231,18 @@ Kind Recorder::classify(Regime& regime) const {
     swing[i] -= level + drift / spread * (i - (count - 1) / 2.0);
   addPower(swing, power);
   const double place = peakPlace(power, 1);
-  // The part of the variance that repeats after one period of the modulation.
-  const double lag = count / place;
+  // The part of the variance that repeats at some later time, once cycles have ceased to be like
+  // those before them: of a modulation by several frequencies too.
   double best = 0;
-  for (int shift = std::max(2.0, 0.8 * lag); shift <= std::min(1.2 * lag, count / 2.0); ++shift) {
+  bool forgotten = false;
+  for (std::size_t shift = 1; shift <= count / 3; ++shift) {
     double both = 0, a = 0, b = 0;
     for (std::size_t i = 0; i + shift < count; ++i) {
       both += swing[i] * swing[i + shift];
       a += swing[i] * swing[i], b += swing[i + shift] * swing[i + shift];
     }
-    best = std::max(best, both / std::sqrt(a * b));
+    if (both < 0) forgotten = true;
+    if (forgotten) best = std::max(best, both / std::sqrt(a * b));
   }
   if (best < 0.5) return Kind::irregular;
   regime.modulation = place / (count * period_);

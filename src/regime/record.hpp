@@ -11,6 +11,7 @@
 
 namespace squeal::regime {
 
+using linalg::DenseMatrix;
 using march::ReducedModel;
 using march::Scheme;
 
@@ -84,14 +85,21 @@ class Recorder {
   /// Returns true if the regime has settled, or the motion has died away.
   bool settled() const;
   int cycles() const { return std::ssize(peaks_); }
+  /// Returns the number of windows, the last ones, over which averages are taken: two thirds of
+  /// those since the last linear one.
+  std::size_t windowsUsed() const;
   Regime result(const Scheme& scheme) const;
+  /// Returns the modal velocities of which the spectrum is made, samples × modes, and the time from
+  /// sample to sample, s.
+  DenseMatrix velocities() const;
+  double sampleTime() const { return stride_ * step_; }
 
  private:
   void endCycle(double time);
   Kind classify(Regime& regime) const;
   double carrier(Regime& regime) const;
   std::size_t nonlinearWindows() const;
-  std::size_t windowsUsed() const;
+  std::size_t samplesUsed() const;
 
   /// What one window holds.
   struct Window {

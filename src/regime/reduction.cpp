@@ -257,6 +257,7 @@ std::vector<Node> ownNodes(const contact::Contact& contact, const steady::Soluti
       node.friction = slip[i].friction(solution.at.friction);
       node.lawCoefficient = slip[i].coefficient.at(solution.at.friction);
       node.frictionSlope = slip[i].frictionSlope(solution.at.friction);
+      node.sweptFriction = slip[i].friction(solution.at.friction + 1) - node.friction;
       node.velocity = {slip[i].speed, 0};
       node.shear = {-node.friction * node.normalForce, 0};
     } else if (from.role == contact::Role::sticking) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "direct/direct.hpp"
 #include "flutter/terms.hpp"
@@ -73,41 +74,63 @@ Run runOf(const ReducedModel& model, const Task& task) {
   return run;
 }
 
-Regime follow(const ReducedModel& model, const Task& task, double step, double time, Stage& stage) {
+/// What a march leaves behind.
+struct Followed {
+  Regime regime;
+  periodic::Passes passes;  // where periodic motions are wanted
+  sound::Trace trace;       // on the rank that marched
+};
+
+Followed follow(const ReducedModel& model, const Task& task, double step, double time,
+                Stage& stage) {
   const auto start = march::startOn(task.mode, startOption.get());
   const auto scheme = boundaryOption.get() == "mass" ? march::moreauScheme(model, start, step)
                                                      : march::masslessScheme(model, start, step);
   Recorder recorder(model, task.mode.s, step, largestKinetic(task.mode));
+  sound::Latest latest(model, 2 * M_PI / task.mode.s.imag());
+  std::optional<SectionRecord> section;
+  if (cyclesWanted()) section.emplace(model, task.mode);
   while (scheme->state().time < time) {
     scheme->step();
     recorder.look(*scheme);
+    latest.look(*scheme);
+    if (section) section->look(*scheme);
     if (!recorder.windowEnded()) continue;
+    if (section) section->endWindow();
     stage.progress(formatted("start on mode %s: %.1f of at most %.1f ms", task.start.c_str(),
                              1e3 * scheme->state().time, 1e3 * time));
     if (stopAsked() || (timeOption.get() == 0 && recorder.settled())) break;
   }
-  return recorder.result(*scheme);
+  Followed followed{recorder.result(*scheme),
+                    {},
+                    {recorder.velocities(), recorder.sampleTime(), latest.samples()}};
+  if (section) followed.passes = section->last(recorder.windowsUsed());
+  return followed;
 }
 
-/// Collective. Returns the regimes of the tasks, each marched by one rank, on all ranks.
-std::vector<Regime> followAll(MPI_Comm comm, const ReducedModel& model,
-                              const std::vector<Task>& tasks, double step, double time,
-                              Stage& stage) {
+/// Collective. Returns the regimes of the tasks, each marched by one rank, on all ranks;
+/// traces are on the rank that marched.
+std::vector<Followed> followAll(MPI_Comm comm, const ReducedModel& model,
+                                const std::vector<Task>& tasks, double step, double time,
+                                Stage& stage) {
   int rank = 0, size = 1;
   check(MPI_Comm_rank(comm, &rank));
   check(MPI_Comm_size(comm, &size));
-  std::vector<Regime> regimes(tasks.size());
+  std::vector<Followed> all(tasks.size());
   std::string failure;
   try {
     for (std::size_t i = rank; i < tasks.size(); i += size)
-      regimes[i] = follow(model, tasks[i], step, time, stage);
+      all[i] = follow(model, tasks[i], step, time, stage);
   } catch (const Error& error) {
     failure = "stage regime, -regime_step " + formatted("%g s: ", step) + error.what();
   }
   failTogether(comm, failure);
   stopIfAsked(comm);
-  for (std::size_t i = 0; i < tasks.size(); ++i) share(comm, i % size, regimes[i]);
-  return regimes;
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    share(comm, i % size, all[i].regime);
+    share(comm, i % size, all[i].passes);
+  }
+  return all;
 }
 
 /// Collective. Says where a step is longer than is safe, and where nothing but friction damps.
@@ -157,16 +180,18 @@ std::vector<double> frictionsWanted() {
 }
 
 void checkOptions(bool ofMesh) {
+  checkCycleOptions(!frictionOption.get().empty(), boundaryOption.get() == "massless");
   if (frictionOption.get().empty()) {
-    for (const Option* option :
-         {static_cast<const Option*>(&timeOption), static_cast<const Option*>(&stepOption),
-          static_cast<const Option*>(&startOption), static_cast<const Option*>(&startsOption),
-          static_cast<const Option*>(&boundaryOption)})
+    auto idle = sound::outsideOptions();
+    idle.insert(idle.end(),
+                {&timeOption, &stepOption, &startOption, &startsOption, &boundaryOption});
+    for (const Option* option : idle)
       if (option->given())
         throw Error("option -" + option->name +
                     ": nothing is followed after flutter without -regime_friction");
     return;
   }
+  sound::checkOutsideOptions();
   if (!ofMesh)
     throw Error(
         "option -regime_friction: matrices from files do not say what lifts off and sticks; the "
@@ -194,6 +219,10 @@ void requireSupported(const elasticity::Bodies& bodies, const contact::Contact& 
     refuse("convective terms (-motion_convective) are not followed in time; leave them out");
   if (elasticity::prestressWanted())
     refuse("the geometric stiffness of the steady stress is not followed in time; leave it out");
+  if (cyclesWanted() && !contact.law.constant())
+    refuse(
+        "the derivative of a step leaves out -friction_law, so that no periodic motions are found "
+        "under it; leave out -regime_cycle");
 }
 
 Study study(const FullModel& full, linalg::Block free, const pencil::ComplexModes& point) {
@@ -226,7 +255,7 @@ Study study(const FullModel& full, linalg::Block free, const pencil::ComplexMode
   const Reduction reduction = reduce(full, std::move(free), unstable);
   const ReducedModel& model = reduction.model;
   result.modes = model.modes(), result.rows = model.rows();
-  result.nodes = model.nodes;
+  result.nodes = model.nodes, result.contactNode = reduction.contactNode;
   result.steadyPower = steadyPower(model);
   std::vector<Task> tasks;
   for (const auto* shape : shapes) {
@@ -267,11 +296,20 @@ Study study(const FullModel& full, linalg::Block free, const pencil::ComplexMode
                       result.modelError));
   warn(full, result.step, result.stableStep);
   checkLaw(comm, model, result.step);
-  const auto regimes = followAll(comm, model, tasks, result.step, time, stage);
+  auto followed = followAll(comm, model, tasks, result.step, time, stage);
+  const sound::Observer observer(full.contact,
+                                 {reduction.modes, reduction.responses, reduction.contactNode});
+  int ranks = 1;
+  check(MPI_Comm_size(comm, &ranks));
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     result.runs.push_back(runOf(model, tasks[i]));
-    result.runs.back().regime = regimes[i];
+    result.runs.back().regime = std::move(followed[i].regime);
+    result.runs.back().outside = observer.of(i % ranks, followed[i].trace);
   }
+  const sound::Sound& heard = result.runs.front().outside.sound;
+  stage.say(formatted("%s: sound power about %.3g W (%.1f dB) from %.4g m2 of visible surface",
+                      sweep::parameterText(point.at).c_str(), heard.power, heard.level,
+                      heard.area));
   const Regime& regime = result.runs.front().regime;
   if (std::abs(regime.growth - s.real()) > 0.2 * s.real())
     complain(comm,
@@ -279,6 +317,10 @@ Study study(const FullModel& full, linalg::Block free, const pencil::ComplexMode
                        "%.4g 1/s: the error of the step, which a shorter -regime_step makes "
                        "smaller in proportion",
                        regime.growth, s.real()));
+  if (cyclesWanted())
+    for (std::size_t i = 0; i < tasks.size(); ++i)
+      result.runs[i].cycles =
+          findCycles(comm, model, point.at.friction, followed[i].passes, result.step, stage);
   stage.finish(formatted(
       "%s: %s%s, carrier %.5g Hz (flutter %.5g Hz), friction %.4g, %.4g W (steady sliding %.4g W), "
       "open %.3g, sticking %.3g of %zu nodes, largest kinetic energy %.4g J, defect %.1e, "

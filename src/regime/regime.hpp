@@ -7,9 +7,11 @@
 
 #include "linalg/block.hpp"
 #include "pencil/complex_modes.hpp"
+#include "regime/cycle.hpp"
 #include "regime/onset.hpp"
 #include "regime/record.hpp"
 #include "regime/reduction.hpp"
+#include "sound/outside.hpp"
 
 namespace squeal::regime {
 
@@ -33,6 +35,8 @@ struct Run {
   Point onsetPosition{};    ///< m
   double onsetKinetic = 0;  ///< largest over a cycle at the onset, J
   Regime regime;
+  Cycles cycles;  ///< where `-regime_cycle` asks for them
+  sound::Outside outside;
 };
 
 /// What was found at one point of the sweep.
@@ -45,6 +49,8 @@ struct Study {
   double stableStep = 0;    ///< s
   double steadyPower = 0;   ///< heat of friction of steady sliding, W
   std::vector<Node> nodes;
+  /// [node] its place among the contact nodes of this rank; −1 on other ranks
+  std::vector<PetscInt> contactNode;
   std::vector<Run> runs;
 };
 

@@ -13,6 +13,8 @@
 #include "petsc/text.hpp"
 #include "report/branches.hpp"
 #include "report/names.hpp"
+#include "report/nodal_fields.hpp"
+#include "report/regime_fields.hpp"
 #include "steady/steady.hpp"
 #include "sweep/parameters.hpp"
 
@@ -31,47 +33,6 @@ const IntegerOption piecesOption(
     "most files that the VTK form of one field is written into; on more ranks, neighbouring ranks "
     "share a file");
 const IntegerOption framesOption("report", "report_frames", 16, 4, 1000, "frames of one period");
-
-void writeVtk(const mesh::Mesh& mesh, const std::filesystem::path& stem,
-              const std::vector<Field>& fields) {
-  fieldfile::writeVtu(mesh, stem, fields, folderOption, piecesOption.get());
-}
-
-/// Brings nodal values from their owners to all ranks whose cells need them.
-class Ghosts {
- public:
-  explicit Ghosts(const mesh::Mesh& mesh) : mesh_(mesh) {
-    OwnedIS from;
-    check(ISCreateBlock(mesh.comm, mesh.dimension, mesh.localNodes(), mesh.globalNode.data(),
-                        PETSC_COPY_VALUES, from.out()));
-    check(VecCreateSeq(PETSC_COMM_SELF, mesh.dimension * mesh.localNodes(), local_.out()));
-    const OwnedVec global = elasticity::nodalVector(mesh);
-    check(VecScatterCreate(global, from, local_, nullptr, scatter_.out()));
-  }
-  Field vector(const std::string& name, Vec u) const {
-    check(VecScatterBegin(scatter_, u, local_, INSERT_VALUES, SCATTER_FORWARD));
-    check(VecScatterEnd(scatter_, u, local_, INSERT_VALUES, SCATTER_FORWARD));
-    Field field{name, 3, {}};
-    const ReadArray values(local_);
-    for (PetscInt node = 0; node < mesh_.localNodes(); ++node)
-      for (int d = 0; d < 3; ++d)
-        field.values.push_back(d < mesh_.dimension ? values[mesh_.dimension * node + d] : 0.0);
-    return field;
-  }
-  /// Returns the field of one component alone.
-  Field scalar(const std::string& name, Vec u, std::size_t component = 0) const {
-    const Field all = vector(name, u);
-    Field field{name, 1, {}};
-    for (std::size_t i = component; i < all.values.size(); i += 3)
-      field.values.push_back(all.values[i]);
-    return field;
-  }
-
- private:
-  const mesh::Mesh& mesh_;
-  OwnedVec local_;
-  OwnedScatter scatter_;
-};
 
 /// Collective. Returns a nodal vector with the contact pressure at the pad nodes, Pa, in component
 /// 0 and the gap, m, in component 1; both are zero elsewhere.
@@ -180,6 +141,11 @@ void writePath(const analysis::Analysis& analysis, Hdf5File& file) {
 
 }  // namespace
 
+void writeVtk(const mesh::Mesh& mesh, const std::filesystem::path& stem,
+              const std::vector<Field>& fields) {
+  fieldfile::writeVtu(mesh, stem, fields, folderOption, piecesOption.get());
+}
+
 void writeFields(const analysis::Analysis& analysis, const std::filesystem::path& folder) {
   const auto& mesh = *analysis.mesh;
   const auto vtk = folder / "vtk";
@@ -219,6 +185,7 @@ void writeFields(const analysis::Analysis& analysis, const std::filesystem::path
     }
   }
   for (const auto& item : fastest(analysis)) animate(analysis, ghosts, item, vtk);
+  writeRegimeFields(analysis, ghosts, vtk);
 }
 
 void writeHdf5(const analysis::Analysis& analysis, const std::filesystem::path& folder) {
@@ -266,6 +233,7 @@ void writeHdf5(const analysis::Analysis& analysis, const std::filesystem::path& 
     }
   }
   writePath(analysis, file);
+  writeRegimeFields(analysis, file);
   file.close();
 }
 

@@ -12,24 +12,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::set<std::string> fixedNames{"eigenvalues.csv",
-                                       "branches.csv",
-                                       "critical.csv",
-                                       "contact_path.csv",
-                                       "onset.csv",
-                                       "regime.csv",
-                                       "regime_nodes.csv",
-                                       "regime_cycles.csv",
-                                       "regime_spectrum.csv",
-                                       "modes.csv",
-                                       "sensitivities.csv",
-                                       "friction_work.csv",
-                                       "stability_map.csv",
-                                       "summary.json",
-                                       "options.txt",
-                                       "results.h5",
-                                       "vtk",
-                                       output::Manifest::name};
+const std::set<std::string> fixedNames{
+    "eigenvalues.csv",     "branches.csv",      "critical.csv",
+    "contact_path.csv",    "onset.csv",         "regime.csv",
+    "regime_nodes.csv",    "regime_cycles.csv", "regime_spectrum.csv",
+    "regime_points.csv",   "periodic.csv",      "periodic_branch.csv",
+    "floquet.csv",         "modes.csv",         "sensitivities.csv",
+    "friction_work.csv",   "stability_map.csv", "summary.json",
+    "options.txt",         "results.h5",        "vtk",
+    output::Manifest::name};
 
 /// Returns the text between `begin` and `end`; none if the text does not begin and end with them.
 std::optional<std::string> between(const std::string& text, const std::string& begin,
@@ -128,10 +119,15 @@ bool ResultNames::isField(const std::vector<std::string>& parts) const {
   for (const char* begin : {"steady_friction_", "modes_from_friction_", "complex_modes_friction_"})
     if (const auto point = between(stem, begin, ""); point && points_.contains(*point))
       return isGrid(stem, parts);
-  static const std::regex animation(R"((squeal_friction_(.+)_mode_\d{3,}_\d+_Hz)(\.pvd)?)"),
-      frame(R"((frame_\d{3,})(\.pvtu)?)");
+  static const std::regex squeal(R"((squeal_friction_(.+)_mode_\d{3,}_\d+_Hz)(\.pvd)?)"),
+      cycles(R"((regime_friction_(.+)_start_(?:\d+|all))(\.pvd)?)"),
+      means(R"(regime_means_friction_(.+)_start_(?:\d+|all))"), frame(R"((frame_\d{3,})(\.pvtu)?)");
   std::smatch match;
-  if (!std::regex_match(parts[0], match, animation) || !points_.contains(match[2])) return false;
+  if (std::regex_match(stem, match, means))
+    return points_.contains(match[1]) && isGrid(stem, parts);
+  if (!std::regex_match(parts[0], match, squeal) && !std::regex_match(parts[0], match, cycles))
+    return false;
+  if (!points_.contains(match[2])) return false;
   if (parts.size() == 1) return true;
   return !match[3].matched && std::regex_match(parts[1], match, frame) &&
          isGrid(match[1], {parts.begin() + 1, parts.end()});

@@ -156,6 +156,8 @@ Json regimeEntry(const regime::Study& study, const regime::Run& run) {
   entry["open_nodes"] = run.regime.means.open;
   entry["sticking_nodes"] = run.regime.means.sticking;
   entry["largest_kinetic_energy_j"] = run.regime.largestKinetic;
+  entry["sound_power_estimate_w"] = finite(run.outside.sound.power);
+  entry["sound_power_level_db"] = finite(run.outside.sound.level);
   entry["largest_defect"] = run.regime.largestDefect;
   entry["model_error"] = study.modelError;
   entry["modes"] = study.modes;

@@ -100,6 +100,8 @@ TEST(Regime, RefusesByName) {
                                     {"friction_decay_speed", "0.5"},
                                     {"regime_step", "1e-6"}})),
           "give -regime_boundary mass");
+  refused(commandLine(with(coarse, {{"friction_law", "exponential"}, {"regime_cycle", "on"}})),
+          "leave out -regime_cycle");
   refused("-options_file options/external.yaml -regime_friction 0.9", "matrices from files");
   refused("-options_file options/external.yaml -regime_time 1", "without -regime_friction");
 }

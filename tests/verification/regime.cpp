@@ -19,6 +19,7 @@ using march::Start;
 using test::emptyModel;
 using test::Marched;
 using test::marched;
+using test::massOnBelt;
 using test::onWave;
 using test::slide;
 using test::Tube;
@@ -27,26 +28,6 @@ using test::tubeModel;
 using test::tubeOf;
 using test::Wave;
 using test::waveOf;
-
-/// The mass on a belt of Hoffmann, Fischer, Allgaier and Gaul (2002),
-///   ẍ + 0.05 ẋ + 2 x + y = F,   ÿ + 0.05 ẏ + x + 2 y = 0,
-/// with the contact spring k₃ = 4/3 among the stiffnesses of y. Its end, which has no mass, lifts
-/// off where the spring would pull; F* = −R_T* of the belt, which runs with v, under the preload 1.
-/// The modes are (1, ±1)/√2 with Λ = 3 and 1; the gap z compresses the spring: K_z = k₃, K_zq = k₃
-/// y.
-ReducedModel massOnBelt(double v) {
-  constexpr double spring = 4.0 / 3, root = 0.70710678118654752440;
-  ReducedModel model = emptyModel(2, 1);
-  model.stiffness = {3, 1};
-  model.damping(0, 0) = model.damping(1, 1) = 0.05;
-  model.boundaryStiffness(0, 0) = spring;
-  model.couplingStiffness(0, 0) = spring * root, model.couplingStiffness(0, 1) = -spring * root;
-  // The slip is −x; a stiff spring in series stands for none.
-  model.jump(1, 0) = model.jump(1, 1) = -root;
-  model.boundaryStiffness(1, 1) = 1e9;
-  slide(model.nodes[0], 0.9, 1, v);
-  return model;
-}
 
 struct Cycle {
   double period = 0, open = 0, stick = 0;

@@ -1,0 +1,179 @@
+#include "regime/cycle.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "march/massless.hpp"
+#include "options/options.hpp"
+#include "periodic/branch.hpp"
+#include "petsc/check.hpp"
+#include "petsc/termination.hpp"
+#include "petsc/text.hpp"
+
+namespace squeal::regime {
+namespace {
+
+const FlagOption cycleOption(
+    "regime", "regime_cycle", false,
+    "periodic motions, stable or not, by shooting from the mean of the march, with their Floquet "
+    "multipliers");
+const IntegerOption stepsOption("regime", "regime_cycle_steps", 256, 16, 100'000,
+                                "time steps of the period of such a motion");
+const RealOption toleranceOption(
+    "regime", "regime_cycle_tolerance", 1e-6, "", Range{1e-10, 1e-2},
+    "change of displacements and velocities over a period, relative and in the energy norm, below "
+    "which a motion is periodic");
+const RealListOption rangeOption(
+    "regime", "regime_cycle_range", "", "", nonNegative,
+    "two frictions between which the branch of periodic motions is followed, folds included");
+const IntegerOption mostOption("regime", "regime_cycle_motions", 20, 1, 10'000,
+                               "most motions of the branch in each direction");
+
+PeriodicMotion motionOf(const periodic::Found& found) {
+  PeriodicMotion motion;
+  motion.friction = found.orbit.friction;
+  motion.period = found.orbit.period;
+  motion.converged = found.converged;
+  motion.change = found.change;
+  motion.measures = found.measures;
+  if (!found.converged) return motion;
+  motion.multipliers = found.linearisation->multipliers();
+  std::erase_if(motion.multipliers.values, [](Complex m) { return std::abs(m) < 0.1; });
+  return motion;
+}
+
+std::string describe(const PeriodicMotion& motion) {
+  const Complex largest = motion.largestMultiplier();
+  return formatted(
+      "friction %.6g: periodic at %.6g Hz, %.4g W, %d nodes open and %d stick in turn, trivial "
+      "multiplier %.5f, largest of the others %.4f at %.4g Hz: %s",
+      motion.friction, 1 / motion.period, motion.measures.frictionPower, motion.measures.opening,
+      motion.measures.sticking, motion.trivialMultiplier().real(), std::abs(largest),
+      std::abs(std::arg(largest)) / (2 * M_PI * motion.period),
+      motion.stable() ? "stable" : "unstable");
+}
+
+}  // namespace
+
+Complex PeriodicMotion::largestMultiplier() const {
+  for (std::size_t i = 0; i < multipliers.values.size(); ++i)
+    if (i != multipliers.trivial) return multipliers.values[i];
+  return 0;
+}
+
+bool cyclesWanted() { return cycleOption.get(); }
+
+bool branchWanted() { return !rangeOption.get().empty(); }
+
+void checkCycleOptions(bool followed, bool massless) {
+  const auto options = {
+      static_cast<const Option*>(&cycleOption), static_cast<const Option*>(&stepsOption),
+      static_cast<const Option*>(&toleranceOption), static_cast<const Option*>(&rangeOption),
+      static_cast<const Option*>(&mostOption)};
+  for (const Option* option : options) {
+    if (!option->given()) continue;
+    if (!followed)
+      throw Error("option -" + option->name +
+                  ": nothing is followed after flutter without -regime_friction");
+    if (!cyclesWanted() && option != &cycleOption)
+      throw Error("option -" + option->name +
+                  ": periodic motions are not looked for without -regime_cycle");
+  }
+  if (!cyclesWanted()) return;
+  if (!massless)
+    throw Error(
+        "option -regime_cycle: periodic motions are found with -regime_boundary massless only");
+  const auto range = rangeOption.get();
+  if (range.empty()) {
+    if (mostOption.given())
+      throw Error(
+          "option -regime_cycle_motions: no branch is followed without "
+          "-regime_cycle_range");
+  } else if (range.size() != 2 || !(range[0] < range[1])) {
+    throw Error("option -regime_cycle_range: two frictions, the smaller one first");
+  }
+}
+
+SectionRecord::SectionRecord(const march::ReducedModel& model, const march::LinearMode& mode)
+    : section_(model, mode.q, 2 * M_PI / mode.s.imag()) {}
+
+void SectionRecord::look(const march::Scheme& scheme) {
+  if (const auto* massless = dynamic_cast<const march::Massless*>(&scheme))
+    section_.look(*massless);
+}
+
+periodic::Passes SectionRecord::last(std::size_t windows) const {
+  periodic::Passes result;
+  for (std::size_t i = windows_.size() - std::min(windows, windows_.size()); i < windows_.size();
+       ++i)
+    result.add(windows_[i]);
+  return result;
+}
+
+void share(MPI_Comm comm, int root, periodic::Passes& passes) {
+  check(MPI_Bcast(&passes.count, 1, MPI_INT, root, comm));
+  check(MPI_Bcast(&passes.change, 1, MPI_DOUBLE, root, comm));
+  for (periodic::Pass* pass : {&passes.sum, &passes.nearest}) {
+    check(MPI_Bcast(&pass->period, 1, MPI_DOUBLE, root, comm));
+    for (auto* part : {&pass->state.q, &pass->state.v, &pass->state.z, &pass->acceleration}) {
+      PetscInt64 size = std::ssize(*part);
+      check(MPI_Bcast(&size, 1, MPIU_INT64, root, comm));
+      part->resize(size);
+      check(MPI_Bcast(part->data(), size, MPI_DOUBLE, root, comm));
+    }
+  }
+}
+
+Cycles findCycles(MPI_Comm comm, const march::ReducedModel& model, double friction,
+                  const periodic::Passes& passes, double step, Stage& stage) {
+  Cycles cycles;
+  if (passes.count == 0) {
+    complain(comm,
+             "warning: -regime_cycle: the march has not touched a limit of the contact for a whole "
+             "window, and shooting has nothing to begin with");
+    return cycles;
+  }
+  const double tolerance = toleranceOption.get();
+  periodic::Period period(comm, model, friction, stepsOption.get());
+  const auto told = [&](const periodic::Iteration& now) {
+    stage.progress(formatted("shooting: change over a period %.1e, %d linearisations", now.change,
+                             now.derivatives));
+    stopIfAsked(comm);
+  };
+  periodic::Found first;
+  for (periodic::Orbit guess : periodic::firstOrbits(passes, step, period.steps())) {
+    guess.friction = friction;
+    // Slips that stick at the start are unknowns of their own: the fewest of them are best.
+    guess.start = period.pass(guess, period.pass(guess).quietest).end;
+    first = periodic::shoot(period, guess, tolerance, told);
+    if (first.converged) break;
+  }
+  cycles.motions.push_back(motionOf(first));
+  if (!first.converged) {
+    complain(comm, formatted("warning: -regime_cycle: no periodic motion is found near "
+                             "the march: Newton's method ends with a change of %.1e over a period, "
+                             "more than the %.1e of -regime_cycle_tolerance",
+                             first.change, tolerance));
+    return cycles;
+  }
+  stage.say(describe(cycles.motions.back()));
+  const auto range = rangeOption.get();
+  if (range.empty()) return cycles;
+  const periodic::Reach reach{range[0], range[1], int(mostOption.get()), tolerance};
+  for (const bool upwards : {false, true}) {
+    cycles.ways.push_back(
+        periodic::follow(period, first, upwards, reach, told, [&](const periodic::Found& found) {
+          cycles.motions.push_back(motionOf(found));
+          stage.say(describe(cycles.motions.back()));
+        }));
+    const auto& way = cycles.ways.back();
+    for (const double fold : way.folds)
+      stage.say(formatted("the branch of periodic motions turns back at friction %.6g", fold));
+    stage.say(formatted("towards %s friction the branch ends at %.6g: %s",
+                        upwards ? "larger" : "smaller", way.end, way.reason.c_str()));
+  }
+  return cycles;
+}
+
+}  // namespace squeal::regime
