@@ -51,12 +51,21 @@ function nodeSets(run) {
     backgroundColor: values.map((value) => `rgb(${colour(value).join(",")})`) }];
 }
 
+/** Periodic motions over the friction: filled where they are stable. */
+function periodicSets(run) {
+  const colour = css("--accent");
+  const text = (motion) => `friction ${digits(motion[0], 5)}, ${digits(motion[1], 4)} J, ${digits(motion[3], 6)} Hz, ${motion[2] ? "stable" : "unstable"}`;
+  return [{ data: run.periodic.map((motion) => ({ x: motion[0], y: motion[1], text: text(motion) })), pointRadius: 5, borderColor: colour, borderWidth: 1.5,
+    backgroundColor: run.periodic.map((motion) => (motion[2] ? colour : "transparent")) }];
+}
+
 /** Draws the run that is chosen; nothing where no motion was followed. */
 function drawRegime() {
   const run = data.regimes[regime.run];
   if (!run || !regime.charts.cycles) return;
   element("regimesentence").textContent = run.sentence;
-  const sets = { cycles: growthSets(run), spectrum: spectrumSets(run), nodes: nodeSets(run) };
+  const sets = { cycles: growthSets(run), spectrum: spectrumSets(run), nodes: nodeSets(run), periodic: periodicSets(run) };
+  element("branch").hidden = !run.periodic.length;
   regime.charts.spectrum.options.scales.y.title.text = Object.keys(run.spectrum)[regime.line] || "";
   if (run.nodes) [regime.charts.nodes.options.scales.x.title.text, regime.charts.nodes.options.scales.y.title.text] = run.nodes.axes.map((axis) => `${axis} [mm]`);
   for (const [id, one] of Object.entries(regime.charts)) {
@@ -83,6 +92,7 @@ function makeRegime() {
   regimeChart("cycles", "time [ms]", "largest kinetic energy of a cycle [J]", true);
   regimeChart("spectrum", "frequency [kHz]", "", true);
   regimeChart("nodes", "", "", false);
+  regimeChart("periodic", "friction", "largest kinetic energy [J]", false);
   const runs = data.regimes, shown = runs.find((run) => run.nodes);
   regimeMenu("regimerun", runs.map((run) => run.name), "run");
   regimeMenu("regimeline", Object.keys(runs[0].spectrum), "line");

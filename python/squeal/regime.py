@@ -61,21 +61,49 @@ def diagrams(results):
     if table is None:
         return []
     tables = {name: results.table(f"regime_{name}") for name in ("cycles", "spectrum", "nodes")}
+    tables |= {name: results.table(name) for name in ("periodic", "periodic_branch")}
     runs = []
     for run, sentence in zip(table.to_dict("records"), sentences(results)):
         rows = {name: _rows_of(part, run) for name, part in tables.items()}
         runs.append(
             {
                 "name": f"friction {run['friction']:g}, start {run['start']}",
-                "sentence": sentence,
+                "sentence": " ".join([sentence, *_periodic_sentences(rows["periodic"], rows["periodic_branch"])]),
                 "onset": _number(run["onset_kinetic_energy_j"]),
                 "flutter": _number(run["flutter_frequency_hz"]),
                 "cycles": _line(rows["cycles"], "time_s", "largest_kinetic_energy_j"),
                 "spectrum": _spectrum(rows["spectrum"], run),
                 "nodes": _nodes(rows["nodes"]),
+                "periodic": _motions(rows["periodic"]),
             }
         )
     return runs
+
+
+def _periodic_sentences(motions, ways):
+    """What is said of the periodic motions that were looked for."""
+    if motions is None or motions.empty:
+        return []
+    first = motions.iloc[0]
+    if not first["converged"]:
+        return ["No periodic motion was found near it."]
+    kind = "stable" if first["stable"] else "unstable, so that the march swings about it"
+    said = [f"A periodic motion of {first['frequency_hz']:.6g} Hz is {kind} (largest Floquet multiplier {first['largest_multiplier']:.4g})."]
+    folds = [] if ways is None else ways["fold_friction"].dropna().tolist()
+    if folds:
+        said.append(f"The branch of such motions turns back at friction {min(folds):.4g}: vibration that has begun can stay down to there.")
+    return said
+
+
+def _motions(table):
+    """Periodic motions that were found: friction, largest kinetic energy, stable or not, frequency."""
+    if table is None:
+        return []
+    table = table[table["converged"] == 1]
+    return [
+        [float(row["motion_friction"]), float(row["largest_kinetic_energy_j"]), bool(row["stable"]), float(row["frequency_hz"])]
+        for row in table.to_dict("records")
+    ]
 
 
 def _rows_of(table, run):

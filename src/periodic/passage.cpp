@@ -31,7 +31,7 @@ class Meter {
       sticking += rests;
       if (open) opened_[node] = 1;
       if (rests) rested_[node] = 1;
-      if (open == at.pressed() || (!open && at.friction > 0 && rests != at.sticks()))
+      if (open == at.pressed() || (!open && at.rubs() && rests != at.sticks()))
         measures_.linear = false;
       normal_ += state.force[row];
       if (!at.sticks()) along_ -= state.force[row + 1];

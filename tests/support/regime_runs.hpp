@@ -14,6 +14,7 @@ inline const Options coarse = {
      "n_pad_theta=8,n_free_theta=12,n_mount=2,n_plate=1,n_inside=1,n_pad_r=4,n_hat=2,n_"
      "h_ring=2"},
     {"modes_count", "60"},
+    {"flutter_band", "9000"},  // holds the unstable mode; a wider one costs seconds
     {"flutter_friction", "0.4"},
     {"regime_friction", "0.4"},
     {"report_fields", "off"}};

@@ -35,8 +35,9 @@ class AfterFlutter(unittest.TestCase):
         cls.temporary = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.temporary.cleanup)
         cls.folder = Path(cls.temporary.name) / "coarse"
-        subprocess.run([PROGRAM, "-options_file", repository / "options/disc_brake_regime.yaml", "-modes_count", "60", "-mesh_set", COARSE,
-                        "-flutter_friction", "0.4", "-regime_time", "0.008", "-regime_cycles_kept", "0", "-regime_spectrum_points",
+        subprocess.run([PROGRAM, "-options_file", repository / "options/disc_brake_regime.yaml", "-modes_count", "60", "-flutter_band", "9000", "-mesh_set", COARSE,
+                        "-flutter_friction", "0.4", "-regime_time", "0.016", "-regime_start_factor", "1", "-regime_cycle", "on", "-regime_cycle_steps", "128",
+                        "-regime_cycle_range", "0.39,0.41", "-regime_cycles_kept", "0", "-regime_spectrum_points",
                         "0.15,0,0;-0.15,0,0", "-report_dir", cls.folder, "-quiet"], check=True, stdout=subprocess.DEVNULL)  # fmt: skip
         subprocess.run([repository / "scripts/squeal-report", cls.folder], check=True, stdout=subprocess.DEVNULL)
         cls.run_row = rows(cls.folder / "regime.csv")[0]
@@ -74,6 +75,17 @@ class AfterFlutter(unittest.TestCase):
         for place, column in enumerate(("velocity_sqrt_kg_m_per_s", "velocity_1_normal_m_per_s", "velocity_2_normal_m_per_s")):
             menu.select_by_index(place)
             self.assertEqual([point["y"] for point in self.drawn("spectrum")], [float(row[column]) for row in spectrum])
+
+    def test_periodic_motions_are_those_of_the_table(self):
+        motions = rows(self.folder / "periodic.csv")
+        self.assertGreater(len(motions), 1)
+        self.assertEqual([(point["x"], point["y"]) for point in self.drawn("periodic")],
+                         [(float(row["motion_friction"]), float(row["largest_kinetic_energy_j"])) for row in motions])  # fmt: skip
+        filled = self.driver.execute_script("return regime.charts.periodic.data.datasets[0].backgroundColor.map((colour) => colour !== 'transparent')")
+        self.assertEqual(filled, [row["stable"] == "1" for row in motions])
+        said = self.element("regimesentence").text
+        self.assertIn(f"A periodic motion of {float(motions[0]['frequency_hz']):.6g} Hz is unstable", said)
+        self.assertTrue(self.element("branch").is_displayed())
 
     def test_nodes_are_coloured_by_what_is_chosen(self):
         nodes = rows(self.folder / "regime_nodes.csv")
