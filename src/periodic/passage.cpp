@@ -94,18 +94,26 @@ march::Massless Period::schemeOf(const Orbit& orbit) {
   return scheme;
 }
 
-Passage Period::pass(const Orbit& orbit, int steps) {
+/// Collective. Calls march(), and throws on all ranks what it throws on one.
+template <class March>
+void Period::together(const March& march) {
   std::string failure;
-  Passage passage;
   try {
-    march::Massless scheme = schemeOf(orbit);
-    Meter meter(model_);
-    for (int i = 0; i < steps; ++i) scheme.step(), meter.look(scheme);
-    passage = meter.result(scheme, steps * orbit.period / steps_);
+    march();
   } catch (const Error& error) {
     failure = error.what();
   }
   failTogether(comm_, failure);
+}
+
+Passage Period::pass(const Orbit& orbit, int steps) {
+  Passage passage;
+  together([&] {
+    march::Massless scheme = schemeOf(orbit);
+    Meter meter(model_);
+    for (int i = 0; i < steps; ++i) scheme.step(), meter.look(scheme);
+    passage = meter.result(scheme, steps * orbit.period / steps_);
+  });
   // Rounding may differ between ranks; all go on from the same end.
   for (auto* part : {&passage.end.q, &passage.end.v, &passage.end.z})
     check(MPI_Bcast(part->data(), part->size(), MPI_DOUBLE, 0, comm_));
@@ -114,19 +122,23 @@ Passage Period::pass(const Orbit& orbit, int steps) {
 }
 
 Monodromy Period::derivative(const Orbit& orbit) {
-  // Which slips stick at the start follows from the last step before it.
-  march::Massless scheme = schemeOf(orbit);
   const PetscInt k = model_.modes(), rows = model_.rows();
   Monodromy result;
-  {
-    // A periodic motion ends as it starts.
+  // Which slips stick at the start follows from the last step before it: a periodic motion ends as
+  // it starts.
+  together([&] {
     march::Massless before = schemeOf(orbit);
     for (int i = 0; i < steps_; ++i) before.step();
     const auto stuck = before.stuck();
     for (PetscInt row = 0; row < rows; ++row)
       if (stuck[row]) result.stuck.push_back(row);
-  }
-  const PetscInt order = 2 * k + std::ssize(result.stuck);
+  });
+  // Rounding may differ between ranks; all go on with the same slips.
+  PetscMPIInt count = std::ssize(result.stuck);
+  check(MPI_Bcast(&count, 1, MPI_INT, 0, comm_));
+  result.stuck.resize(count);
+  check(MPI_Bcast(result.stuck.data(), count, MPIU_INT, 0, comm_));
+  const PetscInt order = 2 * k + count;
   int rank = 0, size = 1;
   check(MPI_Comm_rank(comm_, &rank));
   check(MPI_Comm_size(comm_, &size));
@@ -141,7 +153,10 @@ Monodromy Period::derivative(const Orbit& orbit) {
     else
       x.z(result.stuck[entry - 2 * k], j) = 1;
   }
-  for (int i = 0; i < steps_; ++i) scheme.step(), scheme.propagate(x);
+  together([&] {
+    march::Massless scheme = schemeOf(orbit);
+    for (int i = 0; i < steps_; ++i) scheme.step(), scheme.propagate(x);
+  });
   DenseMatrix part(2 * k + rows, own);
   for (PetscInt j = 0; j < own; ++j) {
     std::ranges::copy(x.q.column(j), part.column(j).begin());

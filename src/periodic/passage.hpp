@@ -70,6 +70,8 @@ class Period {
   Monodromy derivative(const Orbit& orbit);
 
  private:
+  template <class March>
+  void together(const March& march);
   march::Massless schemeOf(const Orbit& orbit);
   MPI_Comm comm_;
   ReducedModel model_;

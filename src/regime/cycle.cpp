@@ -145,10 +145,15 @@ Cycles findCycles(MPI_Comm comm, const march::ReducedModel& model, double fricti
   for (periodic::Orbit guess : periodic::firstOrbits(passes, step, period.steps())) {
     guess.friction = friction;
     // Slips that stick at the start are unknowns of their own: the fewest of them are best.
-    guess.start = period.pass(guess, period.pass(guess).quietest).end;
-    first = periodic::shoot(period, guess, tolerance, told);
+    try {
+      guess.start = period.pass(guess, period.pass(guess).quietest).end;
+      first = periodic::shoot(period, guess, tolerance, told);
+    } catch (const Error& error) {
+      complain(comm, std::string("warning: -regime_cycle: ") + error.what());
+    }
     if (first.converged) break;
   }
+  if (first.orbit.period == 0) return cycles;  // no march over a period came to its end
   cycles.motions.push_back(motionOf(first));
   if (!first.converged) {
     complain(comm, formatted("warning: -regime_cycle: no periodic motion is found near "

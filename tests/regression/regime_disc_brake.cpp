@@ -14,7 +14,8 @@ const Options full = {{"options_file", "options/disc_brake_regime.yaml"},
                       {"report_fields", "off"}};
 
 ProgramRun followed(const std::string& name, const Options& changes) {
-  const ProgramRun run = runProgram("regime_full_" + name, 2, commandLine(with(full, changes)));
+  const ProgramRun run =
+      runProgram("regime_full_" + name, 2, commandLine(with(full, changes)), 1200);
   EXPECT_EQ(run.exitCode, 0) << run.error;
   return run;
 }
