@@ -10,7 +10,7 @@
 
 namespace squeal::march {
 
-/// What a step hands on to the next one: q_n, v_{n−1/2} and z_{n−1}.
+/// A step hands these on to the next one: q_n, v_{n−1/2} and z_{n−1}.
 struct Handed {
   std::vector<double> q, v, z;
 };

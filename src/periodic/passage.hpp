@@ -21,7 +21,7 @@ struct Orbit {
   double friction = 0;  ///< the swept coefficient
 };
 
-/// What happens over one period.
+/// Measures tell what happens over one period.
 struct Measures {
   double largestKinetic = 0;       ///< J
   double frictionPower = 0;        ///< heat of friction, W

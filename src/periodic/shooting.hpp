@@ -76,7 +76,7 @@ struct Found {
   std::shared_ptr<const Linearisation> linearisation;  ///< about the orbit, where it has converged
 };
 
-/// What Newton's method has come to.
+/// An Iteration tells what Newton's method has come to.
 struct Iteration {
   double change = 0;    ///< over a period
   int derivatives = 0;  ///< linearisations made

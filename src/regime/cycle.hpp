@@ -26,7 +26,7 @@ struct PeriodicMotion {
   bool stable() const { return std::abs(largestMultiplier()) < 1; }
 };
 
-/// What shooting from one march has found.
+/// Cycles hold what shooting from one march has found.
 struct Cycles {
   std::vector<PeriodicMotion> motions;  ///< the first at the friction of the march, then the branch
   /// Where the branch goes from the first motion, towards smaller and towards larger friction.

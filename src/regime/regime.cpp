@@ -74,7 +74,7 @@ Run runOf(const ReducedModel& model, const Task& task) {
   return run;
 }
 
-/// What a march leaves behind.
+/// A march leaves these behind.
 struct Followed {
   Regime regime;
   periodic::Passes passes;  // where periodic motions are wanted
