@@ -3,13 +3,16 @@
 #include <complex>
 #include <span>
 
+#include "petsc/check.hpp"
+
 namespace squeal {
 
 using Complex = std::complex<double>;
 
-/// Returns xᴴ y, over the entries of x. The parts are multiplied by hand: the product of the
-/// library looks for infinities in each factor.
+/// Returns xᴴ y, over the entries of x; y may be longer. The parts are multiplied by hand: the
+/// product of the library looks for infinities in each factor.
 inline Complex innerProduct(std::span<const Complex> x, std::span<const Complex> y) {
+  ensure(x.size() <= y.size(), "the second vector is as long as the first");
   double real = 0, imaginary = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     real += x[i].real() * y[i].real() + x[i].imag() * y[i].imag();

@@ -47,6 +47,8 @@ ComplexMatrix multiplied(const char* sideOfX, PetscBLASInt rows, const ComplexMa
                          const ComplexMatrix& y) {
   ComplexMatrix result(rows, y.columns());
   const PetscBLASInt columns = y.columns(), inner = y.rows(), ldx = x.rows();
+  ensure((*sideOfX == 'N' ? x.columns() : x.rows()) == inner,
+         "the inner sizes of a product are equal");
   const Complex one = 1, zero = 0;
   if (!result.empty() && inner > 0)
     zgemm_(sideOfX, "N", &rows, &columns, &inner, &one, x.data(), &ldx, y.data(), &inner, &zero,
@@ -60,6 +62,7 @@ ComplexMatrix product(const DenseMatrix& a, const ComplexMatrix& x, bool transpo
   const PetscInt m = x.rows(), count = x.columns();
   ComplexMatrix result(m, count);
   if (a.empty() || count == 0) return result;
+  ensure(a.rows() == m && a.columns() == m, "a square matrix has the order of its vectors");
   DenseMatrix parts(m, 2 * count);  // all real parts, then all imaginary ones
   for (PetscInt j = 0; j < count; ++j)
     for (PetscInt i = 0; i < m; ++i) {

@@ -5,12 +5,18 @@
 #include <numeric>
 
 namespace squeal::linalg {
+namespace {
+
+constexpr const char *factorsFit = "the inner sizes of a product are equal",
+                     *sumsFit = "a sum is of matrices of the same size";
+
+}  // namespace
 
 void multiplyAdd(const DenseView& x, const DenseView& coefficients, DenseMatrix& result,
                  double factor) {
   if (x.empty() || coefficients.empty()) return;
-  assert(x.columns() == coefficients.rows() && x.rows() == result.rows());
-  assert(coefficients.columns() == result.columns());
+  ensure(x.columns() == coefficients.rows(), factorsFit);
+  ensure(x.rows() == result.rows() && coefficients.columns() == result.columns(), sumsFit);
   const PetscBLASInt rows = x.rows(), inner = x.columns(), columns = coefficients.columns();
   const double one = 1;
   BLASgemm_("N", "N", &rows, &columns, &inner, &factor, x.data(), &rows, coefficients.data(),
@@ -24,7 +30,7 @@ DenseMatrix product(const DenseView& x, const DenseView& coefficients) {
 }
 
 DenseMatrix transposedProduct(const DenseView& x, const DenseView& y) {
-  assert(x.rows() == y.rows());
+  ensure(x.rows() == y.rows(), factorsFit);
   DenseMatrix result(x.columns(), y.columns());
   const PetscBLASInt inner = x.rows(), rows = x.columns(), columns = y.columns();
   const double one = 1, zero = 0;
@@ -43,6 +49,7 @@ DenseMatrix congruent(const DenseView& a, const DenseView& c) {
 }
 
 DenseMatrix rowRange(const DenseView& matrix, PetscInt first, PetscInt last) {
+  ensure(0 <= first && first <= last && last <= matrix.rows(), "a range of rows is in the matrix");
   DenseMatrix rows(last - first, matrix.columns());
   for (PetscInt j = 0; j < matrix.columns(); ++j)
     std::ranges::copy(matrix.column(j).subspan(first, last - first), rows.column(j).begin());
@@ -51,8 +58,9 @@ DenseMatrix rowRange(const DenseView& matrix, PetscInt first, PetscInt last) {
 
 DenseMatrix bordered(const DenseView& a, const DenseView& right, const DenseView& below) {
   const PetscInt old = a.columns(), added = right.columns();
-  assert(a.rows() == old && right.rows() == old + added);
-  assert(below.empty() || (below.rows() == added && below.columns() == old));
+  ensure(a.rows() == old && right.rows() == old + added, "new columns have the full height");
+  ensure(below.empty() || (below.rows() == added && below.columns() == old),
+         "new rows lie below the old columns");
   DenseMatrix grown(old + added);
   grown.reserve(old + added);
   grown.resizeColumns(old);
@@ -66,11 +74,20 @@ DenseMatrix bordered(const DenseView& a, const DenseView& right, const DenseView
 }
 
 void addScaled(DenseMatrix& sum, double factor, const DenseView& a) {
+  ensure(a.empty() || sum.empty() || (a.rows() == sum.rows() && a.columns() == sum.columns()),
+         sumsFit);
+  addExtended(sum, factor, a);
+}
+
+void addExtended(DenseMatrix& sum, double factor, const DenseView& a) {
   if (a.empty()) return;
   if (sum.empty()) sum = DenseMatrix(a.rows(), a.columns());
-  assert(a.rows() <= sum.rows() && a.columns() <= sum.columns());
-  for (PetscInt j = 0; j < a.columns(); ++j)
-    for (PetscInt i = 0; i < a.rows(); ++i) sum(i, j) += factor * a(i, j);
+  ensure(a.rows() <= sum.rows() && a.columns() <= sum.columns(), sumsFit);
+  for (PetscInt j = 0; j < a.columns(); ++j) {
+    const auto from = a.column(j);
+    const auto to = sum.column(j);
+    for (std::size_t i = 0; i < from.size(); ++i) to[i] += factor * from[i];
+  }
 }
 
 }  // namespace squeal::linalg

@@ -3,12 +3,12 @@
 #include <petscsys.h>
 
 #include <algorithm>
-#include <cassert>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "linalg/complex.hpp"
+#include "petsc/check.hpp"
 
 namespace squeal::linalg {
 
@@ -53,7 +53,7 @@ class Dense {
   /// Takes the entries, column by column.
   Dense(PetscInt rows, PetscInt columns, std::vector<Scalar> entries)
       : rows_(rows), columns_(columns), entries_(std::move(entries)) {
-    assert(std::ssize(entries_) == offset(columns_));
+    ensure(std::ssize(entries_) == offset(columns_), "a matrix has rows × columns entries");
   }
   explicit Dense(const DenseView& other)
       : rows_(other.rows()),
@@ -94,12 +94,12 @@ class Dense {
   void append(const DenseView& more) {
     if (more.columns() == 0) return;
     if (columns_ == 0) rows_ = more.rows();
-    assert(more.rows() == rows_);
+    ensure(more.rows() == rows_, "appended columns have the rows of the matrix");
     entries_.insert(entries_.end(), more.entries().begin(), more.entries().end());
     columns_ += more.columns();
   }
   void append(std::span<const Scalar> column) {
-    assert(std::ssize(column) == rows_);
+    ensure(std::ssize(column) == rows_, "an appended column has the rows of the matrix");
     entries_.insert(entries_.end(), column.begin(), column.end());
     ++columns_;
   }
@@ -135,9 +135,11 @@ DenseMatrix rowRange(const DenseView& matrix, PetscInt first, PetscInt last);
 /// the new rows below the columns of A. If `below` is empty, they mirror the new columns.
 DenseMatrix bordered(const DenseView& a, const DenseView& right, const DenseView& below);
 /// Computes
-///   sum += factor · A.
-/// An A with fewer rows and columns is extended by zeros. A `sum` or an A without entries stands
-/// for zero.
+///   sum += factor · A
+/// for matrices of the same size. A `sum` or an A without entries stands for zero.
 void addScaled(DenseMatrix& sum, double factor, const DenseView& a);
+/// Computes the same for an A of an earlier, smaller basis: it may have fewer rows and columns, and
+/// is extended by zeros. Both bases must begin with the same vectors.
+void addExtended(DenseMatrix& sum, double factor, const DenseView& a);
 
 }  // namespace squeal::linalg

@@ -19,6 +19,8 @@ void zgetrs_(const char* trans, const PetscBLASInt* n, const PetscBLASInt* colum
 namespace squeal::linalg {
 namespace {
 
+constexpr const char* sizesFit = "a right-hand side has the rows of the matrix";
+
 void factor(PetscBLASInt n, double* a, PetscBLASInt* rows) {
   PetscBLASInt info = 0;
   LAPACKgetrf_(&n, &n, a, &n, rows, &info);
@@ -46,6 +48,7 @@ void solveWith(const char* side, PetscBLASInt n, PetscBLASInt columns, const Com
 
 template <class Scalar>
 Lu<Scalar>::Lu(Dense<Scalar> matrix) : factors_(std::move(matrix)), rows_(factors_.rows()) {
+  ensure(factors_.rows() == factors_.columns(), "a matrix to be factored is square");
   const PetscBLASInt n = factors_.rows();
   if (n > 0) factor(n, factors_.data(), rows_.data());
   double smallest = std::numeric_limits<double>::infinity();
@@ -74,11 +77,13 @@ void Lu<Scalar>::solve(Scalar* b, PetscBLASInt columns, bool adjoint) const {
 
 template <class Scalar>
 void Lu<Scalar>::solve(Dense<Scalar>& b, bool adjoint) const {
+  ensure(b.rows() == factors_.rows(), sizesFit);
   solve(b.data(), b.columns(), adjoint);
 }
 
 template <class Scalar>
 void Lu<Scalar>::solve(std::span<Scalar> b, bool adjoint) const {
+  ensure(std::ssize(b) == factors_.rows(), sizesFit);
   solve(b.data(), 1, adjoint);
 }
 

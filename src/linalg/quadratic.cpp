@@ -172,7 +172,8 @@ struct Leading {
 std::vector<DensePair> linearInSquare(const Leading& mass, const DenseMatrix& stiffness,
                                       Vectors vectors, const Wanted& wanted) {
   //   K q = μ M q,   μ = −s²
-  // Both roots ±s are eigenvalues. One of them has Im s ≥ 0, or both if they are real.
+  // Both roots ±s are eigenvalues. One of them has Im s ≥ 0, or both if they are real. The double
+  // root of μ = 0 is listed once.
   const Wanted either = [&](Complex mu) {
     const Complex s = rootOf(mu);
     return wanted(s) || (s.imag() == 0 && wanted(-s));
@@ -186,7 +187,7 @@ std::vector<DensePair> linearInSquare(const Leading& mass, const DenseMatrix& st
   for (const auto& [mu, q, left] : solved) {
     const Complex s = rootOf(mu);
     if (wanted(s)) pairs.push_back({s, q, left});
-    if (s.imag() == 0 && wanted(-s)) pairs.push_back({-s, q, left});
+    if (s.imag() == 0 && s != 0.0 && wanted(-s)) pairs.push_back({-s, q, left});
   }
   if (vectors == Vectors::both && invertible(mass.factors)) undoInverse(mass.factors, pairs);
   return pairs;
@@ -334,6 +335,8 @@ namespace {
 DenseMatrix partsOf(const std::vector<DensePair>& pairs, std::vector<Complex> DensePair::*vector) {
   const PetscInt count = pairs.size(), m = count > 0 ? (pairs[0].*vector).size() : 0;
   DenseMatrix parts(m, 2 * count);
+  for (PetscInt j = 0; j < count; ++j)
+    ensure(std::ssize(pairs[j].*vector) == m, "the vectors of pairs have one length");
   for (PetscInt j = 0; j < count; ++j)
     for (PetscInt i = 0; i < m; ++i) {
       parts(i, j) = (pairs[j].*vector)[i].real();

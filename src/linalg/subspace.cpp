@@ -110,7 +110,7 @@ class TwoSidedIteration {
  public:
   TwoSidedIteration(const DenseProblem& problem, const std::vector<DensePair>& start)
       : problem_(problem) {
-    assert(start.size() == 1 || start.size() == 2);
+    ensure(start.size() == 1 || start.size() == 2, "a cluster has one or two eigenvalues");
     for (auto [s, x, y] : start) {
       x.resize(problem.order());
       y.resize(problem.order());

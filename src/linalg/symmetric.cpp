@@ -37,6 +37,7 @@ DenseMatrix symmetricPart(const DenseView& a) {
 }
 
 std::vector<double> symmetricEigen(DenseMatrix& a) {
+  ensure(a.rows() == a.columns(), "a symmetric matrix is square");
   PetscBLASInt order = a.rows(), length = -1, integers = -1, info = 0, integerLength = 0;
   std::vector<double> values(order);
   if (order == 0) return values;
@@ -57,6 +58,8 @@ std::vector<double> symmetricEigen(DenseMatrix& a) {
 }
 
 std::vector<double> symmetricEigen(DenseMatrix& a, DenseMatrix& b) {
+  ensure(a.rows() == a.columns() && b.rows() == a.rows() && b.columns() == a.rows(),
+         "both matrices of an eigenproblem are square, of one order");
   PetscBLASInt type = 1, order = a.rows(), info = 0;
   std::vector<double> values(order);
   if (order == 0) return values;

@@ -1,5 +1,8 @@
 #include "petsc/check.hpp"
 
+#include <cstdio>
+#include <cstdlib>
+
 #include "petsc/memory.hpp"
 #include "petsc/termination.hpp"
 
@@ -34,6 +37,14 @@ void check(PetscErrorCode code, std::source_location where) {
              kept.empty() ? " " : kept.c_str());
   performLastActs();
   MPI_Abort(PETSC_COMM_WORLD, 70);
+}
+
+void reportDefect(const char* rule, std::source_location where) {
+  std::fprintf(stderr, "squeal: error: a defect of the program: %s (%s, %s:%u); please report it\n",
+               rule, where.function_name(), where.file_name(), unsigned(where.line()));
+  performLastActs();
+  MPI_Abort(MPI_COMM_WORLD, 70);
+  std::abort();
 }
 
 void failTogether(MPI_Comm comm, const std::string& localMessage) {

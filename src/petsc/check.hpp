@@ -23,6 +23,19 @@ class Error : public std::runtime_error {
 /// traceback is printed, and MPI_Abort ends all ranks.
 void check(PetscErrorCode code, std::source_location where = std::source_location::current());
 
+/// Not collective. Ends all ranks by MPI_Abort with one line on stderr if `holds` is false. Checks
+/// what the code itself guarantees, such as the sizes of matrices: a failure is a defect of the
+/// program. It is in force in every build, so use it only where it costs little.
+inline void ensure(bool holds, const char* rule,
+                   std::source_location where = std::source_location::current());
+/// Not collective. Reports a broken rule of the program and ends all ranks.
+[[noreturn]] void reportDefect(const char* rule, std::source_location where);
+
+inline void ensure(bool holds, const char* rule, std::source_location where) {
+  if (!holds) [[unlikely]]
+    reportDefect(rule, where);
+}
+
 /// During the life of a KeptError, the first error of PETSc is kept as text, and PETSc prints no
 /// traceback of it. Only one object may live at a time.
 class KeptError {

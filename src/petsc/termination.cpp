@@ -42,6 +42,40 @@ extern "C" void passOn(int signal) {
   [[maybe_unused]] const auto written = write(signalPipe[1], &byte, 1);
 }
 
+/// Writes one line and ends this process by the signal; mpirun then ends the other ranks. The
+/// handlers of MPI and PETSc allocate memory, and wait forever where the heap is damaged. For the
+/// same reason no last acts are performed.
+extern "C" void endByDefect(int signal) {
+  const auto print = [](const char* text) {
+    [[maybe_unused]] const auto written = write(STDERR_FILENO, text, std::strlen(text));
+  };
+  print("squeal: error: a defect of the program, or of a library, ended it by ");
+  print(signal == SIGABRT   ? "SIGABRT"
+        : signal == SIGSEGV ? "SIGSEGV"
+        : signal == SIGBUS  ? "SIGBUS"
+        : signal == SIGFPE  ? "SIGFPE"
+                            : "SIGILL");
+  print("; please report it with the file of options\n");
+  std::signal(signal, SIG_DFL);
+  raise(signal);
+}
+
+constexpr int defects[] = {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL};
+
+void endByDefects() {
+  // The stack itself may have overflowed.
+  static unsigned char alternative[1 << 16];
+  stack_t stack{};
+  stack.ss_sp = alternative;
+  stack.ss_size = sizeof alternative;
+  sigaltstack(&stack, nullptr);
+  struct sigaction action {};
+  action.sa_flags = SA_ONSTACK | SA_RESETHAND | SA_NODEFER;
+  sigemptyset(&action.sa_mask);
+  action.sa_handler = endByDefect;
+  for (int signal : defects) sigaction(signal, &action, nullptr);
+}
+
 std::atomic<bool> stop = false;
 
 /// Returns false if SIGTERM is followed by SIGKILL before a run could stop: Open MPI's mpirun
@@ -138,6 +172,7 @@ void SignalWatch::begin(int rank) {
   std::thread(awaitSignal, rank, hasTime_).detach();
   gate(), acts();                // live until then
   std::atexit(performLastActs);  // as MPI ends a rank that has lost its mpirun
+  endByDefects();
   struct sigaction action {};
   action.sa_flags = SA_RESTART;
   sigemptyset(&action.sa_mask);

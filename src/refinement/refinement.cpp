@@ -53,6 +53,8 @@ ComplexMatrix stacked(const ComplexMatrix& top, const ComplexMatrix& bottom) {
 
 /// Computes sum += factor X.
 void addScaled(ComplexMatrix& sum, Complex factor, const ComplexMatrix& x) {
+  ensure(sum.rows() == x.rows() && sum.columns() == x.columns(),
+         "a sum is of matrices of the same size");
   for (std::size_t i = 0; i < sum.size(); ++i) {
     const Complex entry = x.data()[i];
     sum.data()[i] += Complex(factor.real() * entry.real() - factor.imag() * entry.imag(),

@@ -16,7 +16,7 @@ void add(linalg::DenseProblem& sum, double factor, const linalg::DenseProblem& p
     const linalg::DenseMatrix& from = part.*matrix;
     linalg::DenseMatrix& to = sum.*matrix;
     if (!from.empty() && to.empty()) to = linalg::DenseMatrix(m, m);
-    linalg::addScaled(to, factor, from);
+    linalg::addExtended(to, factor, from);
   }
 }
 

@@ -185,8 +185,10 @@ class Follower {
         result_.entered += !a->station.inBand[link.here] && b.station.inBand[link.there];
         result_.left += a->station.inBand[link.here] && !b.station.inBand[link.there];
       }
-      screen(family(), {a->station.friction, a->problem}, {b.station.friction, b.problem},
-             step.singles, step.events, step.gaps);
+      // At a jump the problems at both ends have other unknowns, and nothing lies in between.
+      if (a->station.piece == b.station.piece)
+        screen(family(), {a->station.friction, a->problem}, {b.station.friction, b.problem},
+               step.singles, step.events, step.gaps);
       const auto number = [&](int index) { return index < 0 ? index : a->station.branch[index]; };
       for (auto& event : step.events) {
         event.branch = number(event.branch);
@@ -285,13 +287,12 @@ class Follower {
                       const std::vector<linalg::DensePair>& below,
                       const std::vector<linalg::DensePair>& above, int before, int after,
                       int branch, double isolation) {
-    if (before == after) return;
+    if (!changes(before, after)) return;  // between neutral and decaying: stable on both sides
     Event event{
         Event::Kind::crossing, branch, -1, after > before, low, high, below, above, isolation};
     if (real(below[0].s) || real(above[0].s)) {
       event.kind = Event::Kind::divergence;
     } else if (before * after == 0) {
-      if (before + after < 0) return;  // between neutral and decaying: stable on both sides
       (before == 0 ? event.high : event.low) = before == 0 ? event.low : event.high;
     }
     step.events.push_back(std::move(event));
