@@ -39,7 +39,7 @@ enum class Vectors { right, both };
 using Wanted = std::function<bool(Complex)>;
 
 /// Not collective. Returns the finite eigenvalues with Im s ≥ 0 that are `wanted`, by ascending Im
-/// s, then by ascending Re s.
+/// s, then by ascending Re s. If Z is empty, s = 0 is double for each vector and is listed once.
 ///
 /// If Z is empty, the problem is linear in s² and is solved at size m. Otherwise its companion form
 /// of size 2m is scaled (Fan, Lin and Van Dooren 2004) and solved. The QR algorithm is applied with

@@ -34,17 +34,15 @@ constexpr double worstLeftError = 1e-7;
 /// split by less.
 constexpr double closest = 1e-7;
 
-double errorOf(const Eigenvalue& e) { return e.errorEstimate * std::abs(e.s); }
-
 /// Returns true if no other eigenvalue, nor the image −conj s of this one, is as near as both
 /// errors together. The band must be left by more than twice the error, since nothing is known of
 /// the eigenvalues beyond.
 bool isolated(const ComplexModes& point, const Eigenvalue& e) {
-  const double error = errorOf(e), top = point.bandTop > 0 ? point.bandTop : INFINITY;
+  const double error = e.error, top = point.bandTop > 0 ? point.bandTop : INFINITY;
   if (e.s.real() != 0 && std::abs(e.s.real()) <= error) return false;
   if (!(std::abs(e.s) + 2 * error < top)) return false;
   return std::ranges::all_of(point.eigenvalues, [&](const Eigenvalue& other) {
-    return &other == &e || std::abs(other.s - e.s) > error + errorOf(other);
+    return &other == &e || std::abs(other.s - e.s) > error + other.error;
   });
 }
 
@@ -92,8 +90,8 @@ double ComplexModes::worstBackwardError() const {
 double ComplexModes::worstErrorEstimate() const {
   double worst = 0;
   for (const auto& eigenvalue : eigenvalues)
-    if (!std::isnan(worst) && !(eigenvalue.errorEstimate <= worst))
-      worst = eigenvalue.errorEstimate;
+    if (!std::isnan(worst) && !(eigenvalue.errorEstimate() <= worst))
+      worst = eigenvalue.errorEstimate();
   return worst;
 }
 
@@ -122,7 +120,7 @@ const char* text(Verdict verdict) {
 
 void judge(ComplexModes& point, Symmetry symmetry, const Criteria& criteria) {
   for (auto& e : point.eigenvalues) {
-    const double growth = e.s.real(), size = std::abs(e.s), error = e.errorEstimate * size,
+    const double growth = e.s.real(), size = std::abs(e.s), error = e.error,
                  excess = growth - criteria.unstable * size;
     if (!std::isfinite(error)) {
       e.verdict = Verdict::uncertified;

@@ -37,13 +37,20 @@ enum class Symmetry {
 struct Eigenvalue {
   Complex s;                 ///< growth rate + i angular frequency, 1/s
   double backwardError = 0;  ///< backward error of the full-order problem [M.33]
-  double errorEstimate = 0;  ///< estimate of the relative error |δs|/|s|; NaN: none, as with the
-                             ///< direct method
+  double error = 0;          ///< estimate of |δs|, 1/s; NaN: none, as with the direct method
   bool certified = false;    ///< the errors that are known are as small as asked for
   Verdict verdict = Verdict::uncertified;
   /// It counts as unstable: by its verdict or, where it is uncertified, since Re s exceeds |s|
   /// times 1e-6 and times `-flutter_unstable_tolerance`.
   bool unstable = false;
+
+  /// Returns −Re s/|s|, or 0 for s = 0.
+  double dampingRatio() const { return s == 0.0 ? 0 : -s.real() / std::abs(s); }
+  /// Returns true if s is zero within its error.
+  bool mayBeZero() const { return std::abs(s) <= error; }
+  /// Returns the estimate of the relative error |δs|/|s|: 1 where s is zero within its error, NaN
+  /// where there is none.
+  double errorEstimate() const { return mayBeZero() ? 1 : error / std::abs(s); }
 };
 
 /// A complex mode d = real + i imaginary in nodal displacements, N entries, is scaled so that its

@@ -27,21 +27,41 @@ Term Term::share() const {
           speedExponent,  dampingExponent, ofFriction};
 }
 
+namespace {
+
+/// Collective. Returns true for a term in s whose matrix is zero. What kind of problem a pencil is,
+/// with terms in s or without, is decided by its matrices and not by the options that were given.
+bool vanishes(const Term& term) {
+  if (term.power != 1) return false;
+  PetscBool known = PETSC_FALSE;
+  check(MatHasOperation(term.matrix, MATOP_NORM, &known));
+  if (!known) return false;
+  PetscReal norm = 0;
+  check(MatNorm(term.matrix, NORM_FROBENIUS, &norm));
+  return norm == 0;
+}
+
+std::vector<Term> withoutZeros(std::vector<Term> terms) {
+  std::erase_if(terms, vanishes);
+  return terms;
+}
+
+}  // namespace
+
 Pencil::Pencil(std::vector<Term> terms)
-    : terms_(std::move(terms)),
+    : terms_(withoutZeros(std::move(terms))),
       affineCount_(terms_.size()),
       singular_(std::make_shared<std::array<OwnedVec, 3>>()) {}
 
 void Pencil::add(std::vector<Term> terms) {
-  std::move(terms.begin(), terms.end(), std::back_inserter(terms_));
+  std::ranges::move(withoutZeros(std::move(terms)), std::back_inserter(terms_));
   affineCount_ = terms_.size();
 }
 
 Pencil Pencil::with(std::vector<Term> pointTerms) const {
-  std::vector<Term> all;
-  for (const auto& term : terms_) all.push_back(term.share());
-  std::move(pointTerms.begin(), pointTerms.end(), std::back_inserter(all));
-  Pencil pencil(std::move(all));
+  Pencil pencil({});
+  for (const auto& term : terms_) pencil.terms_.push_back(term.share());
+  std::ranges::move(withoutZeros(std::move(pointTerms)), std::back_inserter(pencil.terms_));
   pencil.affineCount_ = affineCount_;
   pencil.singular_ = singular_;
   return pencil;

@@ -41,16 +41,19 @@ struct Term {
 /// The sum of terms P.
 class Pencil {
  public:
-  /// Takes the terms, which hold for all parameters.
+  /// Collective. Takes the terms, which hold for all parameters. Terms in s whose matrix is zero
+  /// are left out.
   explicit Pencil(std::vector<Term> terms);
   /// Returns all terms, those of the point last.
   const std::vector<Term>& terms() const { return terms_; }
   /// Returns the number of terms that hold for all parameters.
   std::size_t affineCount() const { return affineCount_; }
-  /// Takes further terms that hold for all parameters. The pencil must not have terms of a point.
+  /// Collective. Takes further terms that hold for all parameters. The pencil must not have terms
+  /// of a point.
   void add(std::vector<Term> terms);
   /// Returns a pencil of these terms, whose matrices are shared, and of terms that hold at one
-  /// point of the parameters only, such as those made with its steady forces.
+  /// point of the parameters only, such as those made with its steady forces. Collective if there
+  /// are any.
   Pencil with(std::vector<Term> pointTerms) const;
   /// Returns true if there are terms with this power of s.
   bool hasPower(int power) const;

@@ -38,16 +38,19 @@ double smallestSingularValue(const linalg::ComplexMatrix& g) {
 }  // namespace
 
 std::vector<double> conditionNumbers(const linalg::DenseProblem& problem,
-                                     const std::vector<linalg::DensePair>& pairs) {
+                                     const std::vector<linalg::DensePair>& pairs, double least) {
   const auto massTimes = linalg::timesVectors(problem.mass, pairs),
              dampingTimes = linalg::timesVectors(problem.damping, pairs);
   std::vector<double> numbers;
   for (std::size_t j = 0; j < pairs.size(); ++j) {
-    const Complex s = pairs[j].s;
+    const double size = std::max(std::abs(pairs[j].s), least);
+    const Complex s = size == std::abs(pairs[j].s) ? pairs[j].s
+                      : pairs[j].s == 0.0          ? size
+                                                   : pairs[j].s * (size / std::abs(pairs[j].s));
     const double alone = 1 / std::abs(pairing(pairs[j].left, s, massTimes, dampingTimes, j));
     std::vector<std::size_t> cluster;
     for (std::size_t k = 0; k < pairs.size(); ++k)
-      if (std::abs(pairs[k].s - s) <= oneCluster * std::abs(s)) cluster.push_back(k);
+      if (std::abs(pairs[k].s - pairs[j].s) <= oneCluster * size) cluster.push_back(k);
     double number = alone;
     if (cluster.size() > 1) {
       const PetscInt p = cluster.size();
@@ -59,7 +62,7 @@ std::vector<double> conditionNumbers(const linalg::DenseProblem& problem,
       // nothing of it: of a multiple eigenvalue its vectors are any of many.
       number = p / smallestSingularValue(g);
     }
-    number /= std::abs(s);
+    number /= size;
     numbers.push_back(std::isfinite(number) ? number : INFINITY);
   }
   return numbers;

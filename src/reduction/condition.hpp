@@ -14,9 +14,11 @@ namespace squeal::reduction {
 /// e of y outside of the basis counts. Eigenvalues within 1e-6 |s| of each other are judged
 /// together, since any vectors may stand for a multiple eigenvalue. For p of them κ is p / |s| over
 /// the smallest singular value of the matrix of all yᴴ P′ d [M.38]. The number is infinite for a
-/// defective eigenvalue. Not collective; `problem` is the projection on the basis, in whose
-/// coordinates the vectors are given.
+/// defective eigenvalue. An eigenvalue smaller than `least`, rad/s, is treated as one of that size,
+/// and its errors are relative to it: s = 0 has no relative error, and is defective in a problem in
+/// s². Not collective; `problem` is the projection on the basis, in whose coordinates the vectors
+/// are given.
 std::vector<double> conditionNumbers(const linalg::DenseProblem& problem,
-                                     const std::vector<linalg::DensePair>& pairs);
+                                     const std::vector<linalg::DensePair>& pairs, double least = 0);
 
 }  // namespace squeal::reduction

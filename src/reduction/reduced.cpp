@@ -37,6 +37,9 @@ const IntegerOption growthOption(
 
 /// Pairs with a backward error below this have nothing to correct.
 constexpr double rounding = 1e-14;
+/// Errors of an eigenvalue that is smaller than this part of the lowest free mode are relative to
+/// that part: round-off moves a double zero by about as much.
+constexpr double leastSize = 1e-8;
 
 std::vector<const linalg::DensePair*> pointers(const std::vector<linalg::DensePair>& pairs) {
   std::vector<const linalg::DensePair*> list;
@@ -52,6 +55,11 @@ std::vector<bool> mirrorImages(const std::vector<linalg::DensePair>& pairs, bool
     mirrored[j] =
         !mirrored[j - 1] && pairs[j].s.real() != 0 && pairs[j].s == -std::conj(pairs[j - 1].s);
   return mirrored;
+}
+
+/// Returns true if all entries are zero, as where the factors of all damping terms are.
+bool isZero(const linalg::DenseView& a) {
+  return std::ranges::all_of(a.entries(), [](double entry) { return entry == 0; });
 }
 
 /// Returns the terms of K and M alone.
@@ -151,6 +159,29 @@ linalg::Block ReducedProblem::residualColumns(const PointState& state,
   return result;
 }
 
+/// Returns the unit of the relative errors of an eigenvalue: |s|, unless that is all but zero.
+double ReducedProblem::unitOf(Complex s) const {
+  return std::max(std::abs(s), leastSize * lowestMode_);
+}
+
+/// Returns the estimate of |δs|, 1/s. In a problem in s², an error δ of s² moves s by |δ|/(2 |s|),
+/// but at most by √|δ|.
+double ReducedProblem::absoluteError(const PointState& state, std::size_t pair) const {
+  const Complex s = state.spectrum.band[pair].s;
+  const double unit = unitOf(s), relative = errorOf(state, pair) + state.rounding[pair];
+  if (state.symmetry == pencil::Symmetry::none) return unit * relative;
+  const double ofRoot = unit * std::sqrt(2 * relative);
+  return std::abs(s) < unit ? ofRoot : std::min(unit * relative, ofRoot);
+}
+
+/// Returns true if the error is as small as asked for. Where s is zero within its error, that is
+/// relative to the lowest free mode: in s itself, or in s² where the problem is one in s².
+bool ReducedProblem::isExactEnough(const PointState& state, const pencil::Eigenvalue& e) const {
+  if (!e.mayBeZero()) return e.errorEstimate() <= options_.tolerance;
+  const double ratio = e.error / lowestMode_;
+  return (state.symmetry == pencil::Symmetry::none ? ratio : ratio * ratio) <= options_.tolerance;
+}
+
 /// Returns the estimate of |δs|/|s| that comes from what the basis lacks.
 double ReducedProblem::errorOf(const PointState& state, std::size_t pair) const {
   return rightRatio_ * state.rightError[pair] * std::min(1.0, leftRatio_ * state.leftError[pair]);
@@ -202,10 +233,16 @@ void ReducedProblem::estimateErrors(PointState& state, const linalg::DenseProble
   const linalg::DenseMatrix vectors =
       linalg::product(basis_.sketched(), coordinates.times(pencil::Side::right, 0, 1));
   const auto lengths = perPair(coordinates, subspace::squaredLengths(vectors));
-  const auto conditions = conditionNumbers(problem, pairs);
+  const auto rigidity = [&](pencil::Side side) {
+    return perPair(coordinates, subspace::squaredLengths(linalg::product(
+                                    basis_.sketchedRigidity(), coordinates.times(side, 0, 1))));
+  };
+  const auto rightRigidity = rigidity(pencil::Side::right),
+             leftRigidity = rigidity(pencil::Side::left);
+  const auto conditions = conditionNumbers(problem, pairs, leastSize * lowestMode_);
   state.symmetry = linalg::conservative(problem) ? pencil::Symmetry::conservative
-                   : state.damped                ? pencil::Symmetry::none
-                                                 : pencil::Symmetry::even;
+                   : isZero(problem.damping)     ? pencil::Symmetry::even
+                                                 : pencil::Symmetry::none;
   state.backwardError.clear();
   state.rightError.clear();
   state.leftError.clear();
@@ -213,11 +250,14 @@ void ReducedProblem::estimateErrors(PointState& state, const linalg::DenseProble
   for (std::size_t j = 0; j < pairs.size(); ++j) {
     const double size = std::abs(pairs[j].s),
                  scale = state.norms[0] + size * state.norms[1] + size * size * state.norms[2];
-    state.backwardError.push_back(std::sqrt(right.euclidean[j] / lengths[j]) / scale);
+    // Where s and K̄ are zero, P(s) is, and has no residual.
+    state.backwardError.push_back(scale > 0 ? std::sqrt(right.euclidean[j] / lengths[j]) / scale
+                                            : 0);
     // Backward errors ε of the dense matrices, in norm: VᵀK̄V is of the order of 1, VᵀM̄V of the
-    // lowest 1/ω².
-    state.rounding.push_back(PETSC_MACHINE_EPSILON * conditions[j] *
-                             (1 + std::pow(size / lowestMode_, 2)));
+    // lowest 1/ω²; and of the entries of K, which cancel where a stiff body moves all but rigidly.
+    state.rounding.push_back(
+        PETSC_MACHINE_EPSILON * conditions[j] *
+        (1 + std::pow(size / lowestMode_, 2) + std::sqrt(rightRigidity[j] * leftRigidity[j])));
     state.rightError.push_back(conditions[j] * std::sqrt(right.weighted[j]));
     state.leftError.push_back(size < highestMode_ ? std::sqrt(left.weighted[j]) /
                                                         (1 - std::pow(size / highestMode_, 2))
@@ -656,10 +696,11 @@ pencil::ComplexModes ReducedProblem::result(const PointState& state) const {
   point.accuracy = options_.criteria.accuracy;
   point.tolerance = options_.tolerance;
   for (std::size_t j = 0; j < state.spectrum.band.size(); ++j) {
-    const double estimate = errorOf(state, j) + state.rounding[j];
-    point.eigenvalues.push_back(
-        {state.spectrum.band[j].s, state.backwardError[j], estimate,
-         state.backwardError[j] <= point.accuracy && estimate <= point.tolerance});
+    auto& e =
+        point.eigenvalues.emplace_back(pencil::Eigenvalue{.s = state.spectrum.band[j].s,
+                                                          .backwardError = state.backwardError[j],
+                                                          .error = absoluteError(state, j)});
+    e.certified = e.backwardError <= point.accuracy && isExactEnough(state, e);
   }
   pencil::judge(point, state.symmetry, options_.criteria);
   // The shapes are made by all ranks, which must agree on the verdicts.

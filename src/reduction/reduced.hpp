@@ -155,6 +155,9 @@ class ReducedProblem {
                        const linalg::Block& columns, pencil::Side side) const;
   linalg::DenseMatrix residualSketch(const PointState& state, const PointPairs& pairs,
                                      pencil::Side side) const;
+  double unitOf(Complex s) const;
+  double absoluteError(const PointState& state, std::size_t pair) const;
+  bool isExactEnough(const PointState& state, const pencil::Eigenvalue& e) const;
   double errorOf(const PointState& state, std::size_t pair) const;
   double errorRatio(const PointState& state, std::size_t pair) const;
   void estimateErrors(PointState& state, const linalg::DenseProblem& problem) const;

@@ -212,7 +212,7 @@ void writeHdf5(const analysis::Analysis& analysis, const std::filesystem::path& 
       const std::string group = "/flutter/friction_" + pointName(point.at);
       std::vector<std::vector<double>> rows;
       for (const auto& e : point.eigenvalues)
-        rows.push_back({e.s.real(), e.s.imag(), e.backwardError, e.errorEstimate,
+        rows.push_back({e.s.real(), e.s.imag(), e.backwardError, e.errorEstimate(),
                         e.certified ? 1.0 : 0.0, double(e.verdict)});
       file.writeTable(group, "eigenvalues",
                       {"growth_rate_1_per_s", "angular_frequency_rad_per_s", "backward_error",

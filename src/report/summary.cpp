@@ -114,7 +114,7 @@ Json unstableModes(const pencil::ComplexModes& point) {
                       {"frequency_hz", e.s.imag() / (2 * M_PI)},
                       {"growth_rate_1_per_s", e.s.real()},
                       {"backward_error", e.backwardError},
-                      {"error_estimate", finite(e.errorEstimate)},
+                      {"error_estimate", finite(e.errorEstimate())},
                       {"certified", e.certified},
                       {"verdict", text(e.verdict)}});
   }
@@ -135,8 +135,13 @@ Json followedEntry(const stability::Followed& followed) {
                                   {"identity_only", gap.identityOnly}});
   entry["active_sets"] = followed.activeSet;  // on the way; 0: that of no point
   entry["critical_frictions"] = Json::array();
-  for (const auto& critical : followed.criticals)
-    entry["critical_frictions"].push_back(critical.friction);
+  for (const auto& critical : followed.criticals) {
+    if (critical.converged)
+      entry["critical_frictions"].push_back(critical.friction);
+    else
+      entry["critical_frictions_between"].push_back(
+          {critical.friction - critical.errorEstimate, critical.friction + critical.errorEstimate});
+  }
   return entry;
 }
 
@@ -220,6 +225,7 @@ void writeSummary(const analysis::Analysis& analysis, const std::filesystem::pat
     }
     summary["frictions"].push_back(entry);
   }
+  if (!analysis.failures.empty()) summary["failures"] = analysis.failures;
   for (const auto& [speed, found] : analysis.uniqueness)
     summary["steady_uniqueness"].push_back(uniquenessEntry(speed, found));
   summary["active_sets"] = Json::array();

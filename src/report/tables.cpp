@@ -34,8 +34,8 @@ std::string eigenvalueTable(const analysis::Analysis& analysis) {
         const auto& e = point.eigenvalues[i];
         table += sweep::parameterValues(point.at) + "," + std::to_string(i + 1) +
                  formatted(",%.15e,%.15e,%.15e,%.15e,%.3e,%.3e,%d,%s\n", e.s.real(), e.s.imag(),
-                           e.s.imag() / (2 * M_PI), -e.s.real() / std::abs(e.s), e.backwardError,
-                           e.errorEstimate, e.certified ? 1 : 0, text(e.verdict));
+                           e.s.imag() / (2 * M_PI), e.dampingRatio(), e.backwardError,
+                           e.errorEstimate(), e.certified ? 1 : 0, text(e.verdict));
       }
   return table;
 }

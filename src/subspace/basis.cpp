@@ -88,7 +88,21 @@ Basis::Basis(const modes::Modes& modes, const modes::AssociatedSystem& system,
   inverseDiagonal_.assign(values.begin(), values.end());
   for (const PetscInt row : substructure_.boundary) inverseDiagonal_[row] = 0;
   sketch_.emplace(comm_, inverseDiagonal_, substructure_.boundary);
-  sketched_ = sketch_->unweighted(columns_);
+  sketchColumns(0);
+}
+
+/// Collective. Appends the sketches of the columns from `first` on.
+void Basis::sketchColumns(PetscInt first) {
+  // An order of magnitude needs few random combinations; blocks bound the memory of the copy.
+  constexpr PetscInt few = 16, atOnce = 64;
+  sketched_.append(sketch_->unweighted(columns_.columnRange(first, size())));
+  for (; first < size(); first += atOnce) {
+    linalg::Block scaled(columns_.columnRange(first, std::min(first + atOnce, size())));
+    for (PetscInt j = 0; j < scaled.columns(); ++j)
+      for (PetscInt i = 0; i < scaled.rows(); ++i)
+        scaled(i, j) *= inverseDiagonal_[i] > 0 ? 1 / std::sqrt(inverseDiagonal_[i]) : 0;
+    rigidity_.append(sketch_->unweighted(scaled, few));
+  }
 }
 
 linalg::Block Basis::prolonged(const linalg::DenseView& interior) const {
@@ -157,15 +171,16 @@ PetscInt Basis::add(linalg::Block residuals) {
   clearConstraintModes(parts, boundarySize());
   const PetscInt before = size();
   if (!addAcross(z, residuals, energy, parts)) addOrthogonalised(z, parts);
-  sketched_.append(sketch_->unweighted(columns_.columnRange(before, size())));
+  sketchColumns(before);
   return size() - before;
 }
 
 void Basis::restore(const linalg::DenseView& columns, double lastEnergyRatio, long solves) {
   forces_ = linalg::Block(localRows());
   energies_ = {};
+  const PetscInt before = size();
   columns_.append(columns);
-  sketched_.append(sketch_->unweighted(columns));
+  sketchColumns(before);
   ratio_ = lastEnergyRatio;
   solves_ = solves;
 }
@@ -244,7 +259,8 @@ double Basis::solutionError(const linalg::Block& z, const linalg::Block& residua
 void Basis::combine(const linalg::DenseMatrix& combinations) {
   columns_ = linalg::product(columns_, combinations);
   forces_ = {};
-  sketched_ = sketch_->unweighted(columns_);
+  sketched_ = linalg::product(sketched_, combinations);
+  rigidity_ = linalg::product(rigidity_, combinations);
   energies_ = {};
 }
 

@@ -76,6 +76,10 @@ class Basis {
   const Sketch& sketch() const { return *sketch_; }
   /// Returns the unweighted sketch of V.
   const linalg::DenseMatrix& sketched() const { return sketched_; }
+  /// Returns a sketch of D^½ V with D = diag(K0), few × size(), whose columns estimate the
+  /// round-off of the stiffness: ε √(yᵀDy) √(xᵀDx) bounds what the round-off of its entries adds to
+  /// yᵀK0x, up to the number of entries that a row shares with others [M.26].
+  const linalg::DenseMatrix& sketchedRigidity() const { return rigidity_; }
   /// Collective. Returns for each block of columns the largest ratio of the energy norm
   /// √(rᵀ K0⁻¹ r) to √(rᵀ diag(K0)⁻¹ r) among its combinations, or 0 for a block without columns.
   /// The ratio turns the second norm, which costs nothing, into an estimate of the first for
@@ -93,6 +97,7 @@ class Basis {
   void append(const linalg::Block& z, linalg::Block forces, const linalg::DenseMatrix& along);
   void addOrthogonalised(linalg::Block& z, const linalg::DenseMatrix& parts);
   double solutionError(const linalg::Block& z, const linalg::Block& residuals) const;
+  void sketchColumns(PetscInt first);
 
   void addConstraintModes();
   void answerAtBoundary(const linalg::DenseMatrix& answers, linalg::Block& residuals) const;
@@ -108,7 +113,7 @@ class Basis {
   linalg::DenseMatrix energies_;
   std::vector<double> inverseDiagonal_;
   std::optional<Sketch> sketch_;
-  linalg::DenseMatrix sketched_;
+  linalg::DenseMatrix sketched_, rigidity_;
   double ratio_ = 1;
   long solves_ = 0;
 };

@@ -53,9 +53,13 @@ DenseMatrix Sketch::of(const DenseView& x) const {
   return transposedProduct(comm_, signs_, x);
 }
 
-DenseMatrix Sketch::unweighted(const DenseView& x) const {
+DenseMatrix Sketch::unweighted(const DenseView& x, PetscInt count) const {
   const LoggedWork work(Work::sketch);
-  return transposedProduct(comm_, signs_.columnRange(0, size), x);
+  DenseMatrix result = transposedProduct(comm_, signs_.columnRange(0, count), x);
+  const double factor = std::sqrt(double(size) / count);
+  if (count < size)
+    for (double& entry : result.entries()) entry *= factor;
+  return result;
 }
 
 DenseMatrix Sketch::of(const RowSet& rows, const DenseView& x) const {

@@ -28,8 +28,8 @@ class Sketch {
   /// Collective. Returns Ωᵀ X / √k above Ωᵀ D^½ X / √k, 2k × columns, the same on all ranks. X is
   /// given by this rank's rows.
   linalg::DenseMatrix of(const linalg::DenseView& x) const;
-  /// Collective. Returns Ωᵀ X / √k alone, k × columns.
-  linalg::DenseMatrix unweighted(const linalg::DenseView& x) const;
+  /// Collective. Returns only Ωᵀ X / √k, with the first `count` ≤ k columns of Ω, count × columns.
+  linalg::DenseMatrix unweighted(const linalg::DenseView& x, PetscInt count = size) const;
   /// Collective. Returns the same as the first `of` for an X that is given by `rows`; its other
   /// rows are zero.
   linalg::DenseMatrix of(const linalg::RowSet& rows, const linalg::DenseView& x) const;

@@ -234,6 +234,7 @@ std::vector<linalg::DensePair> chosen(const std::vector<linalg::DensePair>& all,
 double discriminant(const std::vector<linalg::DensePair>& two, bool damped) {
   const Complex half = 0.5 * (two[0].s - two[1].s), middle = mean(two);
   if (damped) return -(half * half).real();
+  if (middle == 0.0) return 0;  // both are zero
   return (half * half * middle * middle).real() / std::norm(middle);
 }
 

@@ -52,7 +52,7 @@ inline Comparison compare(const pencil::ComplexModes& point, const std::vector<C
   const auto match = matched(found, exact);
   for (std::size_t i = 0; i < found.size(); ++i) {
     const double error = std::abs(found[i] - match[i]) / std::abs(match[i]),
-                 estimate = point.eigenvalues[i].errorEstimate;
+                 estimate = point.eigenvalues[i].errorEstimate();
     EXPECT_FALSE(std::isnan(error)) << found[i] << " is none of the full order";
     EXPECT_LT(error, 2 * estimate + directError)
         << found[i] << " at friction " << point.at.friction;

@@ -62,8 +62,8 @@ void expectEstimated(const std::string& name, const std::string& changes) {
     std::vector<Complex> found;
     std::vector<double> estimates;
     for (const auto& eigenvalue : points[i].eigenvalues)
-      if (eigenvalue.errorEstimate < 0.01)
-        found.push_back(eigenvalue.s), estimates.push_back(eigenvalue.errorEstimate);
+      if (eigenvalue.errorEstimate() < 0.01)
+        found.push_back(eigenvalue.s), estimates.push_back(eigenvalue.errorEstimate());
     const Errors all = errors(found, exact[i]);
     double ratio = 0;
     for (std::size_t k = 0; k < found.size(); ++k) {
@@ -79,7 +79,7 @@ void expectEstimated(const std::string& name, const std::string& changes) {
     EXPECT_GE(found.size(), 10U);
     EXPECT_GT(worst(all.relative), 1e-6);  // there is an error to estimate
     for (const auto& eigenvalue : points[i].eigenvalues)
-      EXPECT_FALSE(eigenvalue.certified && eigenvalue.errorEstimate > 1e-8);
+      EXPECT_FALSE(eigenvalue.certified && eigenvalue.errorEstimate() > 1e-8);
   }
 }
 

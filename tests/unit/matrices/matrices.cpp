@@ -182,7 +182,7 @@ TEST(Matrices, AStiffSpringDoesNotSpoilTheOthers) {
     // much of s is right.
     EXPECT_TRUE(found[i].certified);
     EXPECT_LT(std::abs(found[i].s - exact[i]),
-              std::max(found[i].errorEstimate, 1e-9) * std::abs(exact[i]))
+              std::max(found[i].errorEstimate(), 1e-9) * std::abs(exact[i]))
         << i;
   }
   // All modes of a smaller one at once, by LAPACK, against block Lanczos or SLEPc.

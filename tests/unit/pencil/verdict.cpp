@@ -17,7 +17,7 @@ std::vector<Verdict> verdicts(const std::vector<Complex>& values, double estimat
                               Symmetry symmetry, const Criteria& criteria = plain) {
   ComplexModes point;
   point.bandTop = 1000;
-  for (const Complex s : values) point.eigenvalues.push_back({s, 0, estimate, true});
+  for (const Complex s : values) point.eigenvalues.push_back({s, 0, estimate * std::abs(s), true});
   judge(point, symmetry, criteria);
   std::vector<Verdict> found;
   for (const auto& e : point.eigenvalues) {

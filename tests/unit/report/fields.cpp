@@ -68,10 +68,10 @@ TEST(Fields, EigenvaluesWithErrorsAndCertification) {
         EXPECT_EQ(row[0], e.s.real());
         EXPECT_EQ(row[1], e.s.imag());
         EXPECT_EQ(row[2], e.backwardError);
-        if (std::isnan(e.errorEstimate))
+        if (std::isnan(e.errorEstimate()))
           EXPECT_TRUE(std::isnan(row[3]) && change.find("direct") != std::string::npos);
         else
-          EXPECT_EQ(row[3], e.errorEstimate);
+          EXPECT_EQ(row[3], e.errorEstimate());
         EXPECT_EQ(row[4], certified);
         EXPECT_EQ(pencil::allVerdicts.at(std::size_t(row[5])), e.verdict);
       }

@@ -91,7 +91,7 @@ TEST(Substructure, EigenvaluesAreThoseOfEachActiveSet) {
       for (std::size_t i = 0; i < found.size(); ++i) {
         const double error = std::abs(found[i] - match[i]) / std::abs(match[i]);
         // LAPACK's rounding grows with the norm of the matrices, some 1e-12 of the lowest s.
-        EXPECT_LT(error, 2 * point.eigenvalues[i].errorEstimate + 1e-11);
+        EXPECT_LT(error, 2 * point.eigenvalues[i].errorEstimate() + 1e-11);
         EXPECT_TRUE(point.eigenvalues[i].certified);
         worst = test::worse(worst, error);
       }
