@@ -17,8 +17,8 @@
 namespace squeal::analysis {
 
 bool Analysis::converged() const {
-  return std::all_of(steady.begin(), steady.end(),
-                     [](const auto& solution) { return solution.converged; });
+  return failures.empty() && std::all_of(steady.begin(), steady.end(),
+                                         [](const auto& solution) { return solution.converged; });
 }
 
 const pencil::ComplexModes* Analysis::pointAt(const sweep::Parameters& at) const {
@@ -26,6 +26,11 @@ const pencil::ComplexModes* Analysis::pointAt(const sweep::Parameters& at) const
     for (const auto& point : segment.points)
       if (point.at == at) return &point;
   return nullptr;
+}
+
+void addFailure(Analysis& analysis, const std::string& reason) {
+  complain(analysis.comm, reason);
+  analysis.failures.push_back(reason);
 }
 
 void checkOptions() {

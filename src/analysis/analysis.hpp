@@ -3,6 +3,7 @@
 /// takes the results from here.
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "checkpoint/checkpoint.hpp"
@@ -47,16 +48,22 @@ struct Analysis {
   /// Wall time of one factorisation and 400 blocked solves, s, for the last segment; 0 without
   /// `-modes_benchmark`.
   double modesFloorSeconds = 0;
+  /// Why a stage has no result, or lacks one, with the points concerned, [failure]; the results of
+  /// all other points and stages stay.
+  std::vector<std::string> failures;
   checkpoint::Checkpoint checkpoint;
   /// True if the run has been asked to stop before all was found.
   bool interrupted = false;
 
-  /// Returns true if every steady point has a solution, and for matrices from files.
+  /// Returns true if every steady point has a solution, and no stage has failed.
   bool converged() const;
   /// Returns the complex modes at a point of the sweep, borrowed; null where there is no steady
   /// solution.
   const pencil::ComplexModes* pointAt(const sweep::Parameters& at) const;
 };
+
+/// Collective. Adds the reason why a stage has no result, and prints it.
+void addFailure(Analysis& analysis, const std::string& reason);
 
 /// Collective. Throws Error for options that are unknown, out of range or idle: for all that can be
 /// told before a file is read or written.

@@ -152,6 +152,13 @@ void followAfterFlutter(Analysis& analysis, const MeshSegment& problem, CurrentS
     }
 }
 
+/// Returns the steady points [first, last) in words.
+std::string pointsText(const Analysis& analysis, std::size_t first, std::size_t last) {
+  const std::string begin = sweep::parameterText(analysis.steady[first].at);
+  return last - first == 1 ? begin
+                           : begin + " to " + sweep::parameterText(analysis.steady[last - 1].at);
+}
+
 void solveMeshSegment(Analysis& analysis, std::size_t first, std::size_t last,
                       CurrentSystem& current, flutter::Influences& influences) {
   MeshSegment problem(analysis, first, last, current, influences);
@@ -169,6 +176,8 @@ void solveMeshSegment(Analysis& analysis, std::size_t first, std::size_t last,
         if (activeSet > 0) activeSet += before;
     analysis.segments.push_back(std::move(segment));
   }
+  if (!solved.failure.empty())
+    addFailure(analysis, pointsText(analysis, first, last) + ": " + solved.failure);
   const auto found = std::span(analysis.segments).subspan(before);
   findOnsets(analysis, found);
   if (!solved.complete) throw Interrupted();
@@ -212,14 +221,21 @@ void solveMesh(Analysis& analysis) {
   steadySweep(analysis, system);
   if (analysis.contact.totalNodes > 0 && uniqueness::uniquenessWanted())
     analysis.uniqueness = examineUniqueness(analysis);
+  std::vector<std::string> failures;
   flutter::Influences influences(*analysis.mesh, analysis.bodies, analysis.contact);
   for (std::size_t first = 0, last = 0; first < analysis.steady.size(); first = last) {
     last = first + 1;
     if (!analysis.steady[first].converged) continue;
     stopIfAsked(analysis.comm);
     last = endOfShared(analysis, first);
-    solveMeshSegment(analysis, first, last, system, influences);
+    try {
+      solveMeshSegment(analysis, first, last, system, influences);
+    } catch (const Error& error) {  // the other points may have results
+      failures.push_back(pointsText(analysis, first, last) + ": " + error.what());
+    }
   }
+  if (!failures.empty() && analysis.segments.empty()) throw Error(failures.front());
+  for (const auto& failure : failures) addFailure(analysis, failure);
 }
 
 }  // namespace squeal::analysis

@@ -81,7 +81,10 @@ void continueTo(condensed::CondensedProblem& condensed, const steady::Solution& 
   const std::string before = solution.reason;
   condensed.beginWith(std::move(path.gaps), std::move(path.sticking));
   solution = condensed.solve(solution.at);
-  solution.reason += solution.converged ? ", " + way + " after " + before : "; " + before;
+  if (solution.converged)
+    solution.reason += ", " + way + " after " + before;
+  else if (solution.reason != before)
+    solution.reason += "; " + before;
 }
 
 /// Collective. Continues to a point without a solution from its neighbours, or from friction 0

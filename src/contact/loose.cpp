@@ -69,11 +69,9 @@ RigidMotions rigidMotions(const mesh::Mesh& mesh) {
 }
 
 /// Returns the Gram matrix Σ cᵀc over the rows c of all supports, applied to rigid motions. Springs
-/// count as supports however soft they are; contact counts if `contactCloses`. The null space holds
-/// the motions that nothing prevents.
+/// count as supports however soft they are. The null space holds the motions that nothing prevents.
 linalg::DenseMatrix gram(const mesh::Mesh& mesh, const Contact& contact, Vec springs,
-                         const RigidMotions& motions, bool contactCloses,
-                         const std::vector<unsigned char>& released) {
+                         const RigidMotions& motions, const HoldingContact& holding) {
   const int n = motions.size();
   linalg::DenseMatrix g(n, n);
   std::vector<double> row(n);
@@ -99,9 +97,11 @@ linalg::DenseMatrix gram(const mesh::Mesh& mesh, const Contact& contact, Vec spr
       motions.add(row, image.primaryPart, mesh::minus(x, image.shift), unit(d), -1);
       keep();
     }
-  for (std::size_t i = 0; contactCloses && i < contact.nodes.size(); ++i) {
+  for (std::size_t i = 0; holding.any && i < contact.nodes.size(); ++i) {
     const auto& node = contact.nodes[i];
-    const bool sticks = node.role == Role::sticking && (released.empty() || !released[i]);
+    if (!holding.closed.empty() && !holding.closed[i]) continue;
+    const bool sticks =
+        node.role == Role::sticking && (holding.released.empty() || !holding.released[i]);
     const int sticking = sticks ? mesh.dimension : 0;
     for (int d = 0; d < sticking; ++d) {
       motions.add(row, mesh.nodePart[node.node], node.position, unit(d), 1);
@@ -132,9 +132,9 @@ linalg::DenseMatrix gram(const mesh::Mesh& mesh, const Contact& contact, Vec spr
 }  // namespace
 
 std::optional<LooseBody> looseBody(const mesh::Mesh& mesh, const Contact& contact, Vec springs,
-                                   bool contactCloses, const std::vector<unsigned char>& released) {
+                                   const HoldingContact& holding) {
   const RigidMotions motions = rigidMotions(mesh);
-  linalg::DenseMatrix g = gram(mesh, contact, springs, motions, contactCloses, released);
+  linalg::DenseMatrix g = gram(mesh, contact, springs, motions, holding);
   const auto eigenvalues = linalg::symmetricEigen(g);
   // A support that extends over a thousandth of the model still holds a rotation, with 1e-6 of the
   // weight with which it holds a translation.
@@ -147,17 +147,22 @@ std::optional<LooseBody> looseBody(const mesh::Mesh& mesh, const Contact& contac
       weight += std::pow(g(part * motions.perPart() + k, 0), 2);
     if (weight > most) most = weight, worst = part;
   }
+  static constexpr const char* plane[] = {"translation x", "translation y", "rotation z"};
+  static constexpr const char* space[] = {"translation x", "translation y", "translation z",
+                                          "rotation x",    "rotation y",    "rotation z"};
+  const char* const* names = mesh.dimension == 2 ? plane : space;
   std::string motion;
+  double sign = 0;  // an eigenvector has none; the first part listed is positive
   for (int k = 0; k < motions.perPart(); ++k)
-    motion += formatted(k ? ", %.3g" : "%.3g", g(worst * motions.perPart() + k, 0));
-  return LooseBody{mesh.partName[worst],
-                   (mesh.dimension == 2 ? "translation x, y, rotation z: "
-                                        : "translations x, y, z, rotations x, y, z: ") +
-                       motion};
+    if (const double part = g(worst * motions.perPart() + k, 0); std::abs(part) > 1e-6) {
+      if (sign == 0) sign = std::copysign(1, part);
+      motion += formatted(motion.empty() ? "%s: %.3g" : ", %s: %.3g", names[k], sign * part);
+    }
+  return LooseBody{mesh.partName[worst], motion};
 }
 
 void rejectLooseBodies(const mesh::Mesh& mesh, const Contact& contact, Vec springs) {
-  if (const auto loose = looseBody(mesh, contact, springs, true))
+  if (const auto loose = looseBody(mesh, contact, springs, {}))
     throw Error("singular problem: body '" + loose->body +
                 "' can move rigidly while contact stays closed without friction (" + loose->motion +
                 "); hold it with -constraint_<group>_clamped or -ground_<group>_stiffness");

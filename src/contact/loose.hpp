@@ -2,6 +2,7 @@
 /// These functions find bodies that can move rigidly because nothing holds them.
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "contact/contact.hpp"
 #include "mesh/mesh.hpp"
@@ -13,13 +14,19 @@ struct LooseBody {
   std::string body, motion;  ///< names of its bodies, and the rigid motion in words
 };
 
-/// Collective. Returns the part that can move most freely where neither constraints nor springs
-/// (Bodies::springs, may be null) hold it, nor, if `contactCloses`, closed contact without
-/// friction. Sticking nodes with released[i] set do not hold along the surface; an empty list
-/// releases none. Returns none if all parts are held.
+/// The contact, without friction, that holds bodies in place.
+struct HoldingContact {
+  bool any = true;  ///< false: contact holds nothing
+  std::vector<unsigned char> closed =
+      {};  ///< [contact node] 0 where it is open; empty: all are closed
+  std::vector<unsigned char> released = {};  ///< [contact node] 1 where a sticking node does not
+                                             ///< hold along the surface; empty: all hold
+};
+
+/// Collective. Returns the part that can move most freely where neither constraints, springs
+/// (Bodies::springs, may be null) nor this contact hold it. Returns none if all parts are held.
 std::optional<LooseBody> looseBody(const mesh::Mesh& mesh, const Contact& contact, Vec springs,
-                                   bool contactCloses,
-                                   const std::vector<unsigned char>& released = {});
+                                   const HoldingContact& holding);
 
 /// Collective. Throws Error, naming the body, if a body can move without strain while the contact
 /// stays closed without friction.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 
 #include "direct/direct.hpp"
@@ -83,6 +84,13 @@ void requireFiniteEigenvalues(const pencil::ComplexModes& point) {
                   " is not a finite number; check the magnitudes of materials and factors");
 }
 
+/// Points that have not been solved are of no accuracy.
+bool isSolved(const pencil::ComplexModes& point) { return point.accuracy > 0; }
+
+bool hasResults(const ModalSegment& segment) {
+  return std::ranges::any_of(segment.points, isSolved);
+}
+
 /// Flutter at the points of a problem, batch by batch, with one basis for all of them.
 class SegmentSweep {
  public:
@@ -125,22 +133,25 @@ class SegmentSweep {
       segments_[k].openNodes = ranges_[k].points.openNodes;
     }
     bool complete = true;
+    std::string failure;
     try {
       solveAll();
     } catch (const Interrupted&) {
       keep();  // as it is asked to stop, all that is not yet in the checkpoint
       complete = false;
+    } catch (const Error& error) {
+      if (std::ranges::none_of(segments_, hasResults)) throw;
+      failure = error.what();
     }
-    for (auto& segment : segments_)  // points that have not been solved are of no accuracy
-      std::erase_if(segment.points, [](const auto& point) { return point.accuracy == 0; });
+    for (auto& segment : segments_) std::erase_if(segment.points, std::not_fn(isSolved));
     std::erase_if(segments_, [](const auto& segment) { return segment.points.empty(); });
     // What took long is not done again if a later segment is cut off.
-    if (complete && checkpoint_.isWorth(MPI_Wtime() - begin_)) {
+    if (complete && failure.empty() && checkpoint_.isWorth(MPI_Wtime() - begin_)) {
       checkpoint::Archive archive(pencil_.comm());
       exchangeFinished(archive);
       checkpoint_.write(name_ + "_finished", archive);
     }
-    return {std::move(segments_), complete};
+    return {std::move(segments_), complete, std::move(failure)};
   }
 
  private:

@@ -102,12 +102,15 @@ struct SolvedSegments {
   std::vector<ModalSegment> segments;  ///< [range of points that has any]
   /// False if the run has been asked to stop: points may be missing, and what is followed.
   bool complete = true;
+  /// Why points are missing, or what is followed; empty if nothing has failed.
+  std::string failure = {};
 };
 
 /// Collective. Returns for each range of points their modes, flutter at all steady points with all
 /// `dampings`, and the eigenvalues followed over the friction. What the logs of the checkpoint
-/// whose names begin with `name` hold is taken from there, and they are continued. Throws Error as
-/// the stages modes, flutter and track do, and if an eigenvalue is not a finite number.
+/// whose names begin with `name` hold is taken from there, and they are continued. If a stage fails
+/// after points have been solved, these are returned with the reason. Throws Error if it fails
+/// before.
 SolvedSegments solveSegments(SegmentProblem& problem, const std::vector<double>& dampings,
                              checkpoint::Checkpoint& checkpoint, const std::string& name);
 

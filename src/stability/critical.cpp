@@ -136,7 +136,8 @@ class Root {
       case Event::Kind::coalescence:
         return discriminant(pairs, spectrum.damped());
       case Event::Kind::divergence:
-        return throughZero_ ? mean(pairs).real() : (mean(pairs) * mean(pairs)).real();
+        return throughZero_ && spectrum.damped() ? mean(pairs).real()
+                                                 : (mean(pairs) * mean(pairs)).real();
       case Event::Kind::crossing:
         return mean(pairs).real();  // of two equal ones, where they cross together
       case Event::Kind::contact:
@@ -168,15 +169,48 @@ class Root {
   /// at this friction, or if the eigenvalues are not found in it. It is zero, without a sample,
   /// where two eigenvalues have met so closely that they cannot be told apart.
   double valueAt(Family& family, double friction) {
-    const auto problem = family.near(friction);
-    auto found = problem ? continuedIn(*problem, nearest(friction).spectrum, expected(friction),
-                                       event_.isolation)
-                         : std::nullopt;
+    if (reach(family, friction)) return known_.back().value;
     const bool met = event_.kind == Event::Kind::coalescence &&
                      std::abs(friction - nearest(friction).friction) <= 1e-9 * width();
-    if (!found) return problem && met ? 0 : NAN;
-    known_.push_back({friction, measure(*found), std::move(*found)});
-    return known_.back().value;
+    return met && family.near(friction) ? 0 : NAN;
+  }
+
+  /// Returns the samples to continue from, the best first. Two eigenvalues that meet are known best
+  /// on the side where they have parted into a growing and a decaying one: on the other side a
+  /// third one may pass by and exchange its vector with one of them.
+  std::vector<const Sample*> starts(double friction) const {
+    const Sample *split = nullptr, *closest = &nearest(friction);
+    for (const auto& sample : known_)
+      if (event_.kind == Event::Kind::coalescence && sample.value < 0 &&
+          (!split || std::abs(sample.friction - friction) < std::abs(split->friction - friction)))
+        split = &sample;
+    if (!split || split == closest) return {closest};
+    return {split, closest};
+  }
+
+  /// Appends a sample at a friction, which continues a known one. Where the subspace turns too much
+  /// on the way, it goes there in smaller steps. Returns false if that fails, and if there is no
+  /// problem on the way.
+  bool reach(Family& family, double friction) {
+    constexpr int most = 24;  // attempts
+    double next = friction;
+    for (int attempt = 0; attempt < most; ++attempt) {
+      const auto problem = family.near(next);
+      if (!problem) return false;
+      std::optional<linalg::Spectrum> found;
+      for (const Sample* start : starts(next)) {
+        found = continuedIn(*problem, start->spectrum, expected(next), event_.isolation);
+        if (found) break;
+      }
+      if (!found) {
+        next = 0.5 * (nearest(next).friction + next);
+        continue;
+      }
+      known_.push_back({next, measure(*found), std::move(*found)});
+      if (next == friction) return true;
+      next = friction;
+    }
+    return false;
   }
 
   double rootTolerance() const {
@@ -252,7 +286,7 @@ class Root {
 
   const Event& event_;
   double tolerance_;
-  bool throughZero_;  // the eigenvalue is real at both ends
+  bool throughZero_;  // s is real at both ends; in a problem in s², only s² is analytic there
   double friction_ = NAN, moved_ = 0, backwardError_ = 0, slope_ = 0;
   bool settled_ = false, lost_ = false;
   std::vector<Sample> known_;  // the two ends of the bracket first

@@ -96,6 +96,9 @@ std::string Followed::statement() const {
       if (!gap.identityOnly)
         text += formatted(" [%g to %g: %s]", gap.from, gap.to, gap.what.c_str());
   }
+  if (const auto open = std::ranges::count(criticals, false, &Critical::converged); open > 0)
+    text += formatted("; %td of %zu changes of stability %s located only within their bounds", open,
+                      criticals.size(), open == 1 ? "is" : "are");
   return wholeSpace ? text
                     : text +
                           "; assumed: the basis holds every eigenvalue of the full problem that "

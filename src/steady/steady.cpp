@@ -168,7 +168,8 @@ std::vector<contact::Slip> Problem::slip(double speed, Vec displacement) const {
 
 /// Collective. Returns why a body is loose with these holds; an empty text if none is.
 std::string Problem::whyLoose(const Sticking& sticking) const {
-  const auto loose = contact::looseBody(mesh_, contact_, bodies_.springs, true, sticking.free());
+  const auto loose =
+      contact::looseBody(mesh_, contact_, bodies_.springs, {.released = sticking.free()});
   return loose ? "body '" + loose->body + "' can move rigidly (" + loose->motion +
                      ") where nodes of sticking interfaces slide or have opened; hold it otherwise"
                : "";
@@ -176,6 +177,22 @@ std::string Problem::whyLoose(const Sticking& sticking) const {
 
 void Problem::requireSlip(const sweep::Parameters& at) const {
   contact::requireSlip(contact_, contact_.slip(at.speed, nullptr), all_, at.friction);
+}
+
+/// Collective. Takes a solution back whose open contact leaves a body loose: its position is
+/// arbitrary, and no stiffness matrix of this active set is positive definite.
+void Problem::requireHeld(Solution& solution) const {
+  if (!solution.converged || solution.openNodes == 0) return;
+  const auto loose =
+      contact::looseBody(mesh_, contact_, bodies_.springs,
+                         {.closed = solution.closed, .released = solution.sticking.free()});
+  if (!loose) return;
+  solution.converged = false;
+  solution.reason = formatted(
+      "body '%s' is loose (%s): %" PetscInt_FMT " of %" PetscInt_FMT
+      " contact nodes are open, and nothing else holds it; begin the sweep at a friction that "
+      "presses it, or hold it with -constraint_<group>_clamped or -ground_<group>_stiffness",
+      loose->body.c_str(), loose->motion.c_str(), solution.openNodes, contact_.totalNodes);
 }
 
 Solution Problem::solve(const sweep::Parameters& at, const contact::CoupledSystem& system) const {
@@ -231,6 +248,7 @@ void Problem::conclude(Vec x, double left, Solution& solution) const {
         solution.residual, largestDisplacement(solution.at, x));
   }
   recover(x, left, solution);
+  requireHeld(solution);
 }
 
 double Problem::largestDisplacement(const sweep::Parameters& at, Vec x) const {

@@ -144,7 +144,7 @@ Uniqueness examine(const elasticity::Bodies& bodies, const contact::Contact& con
                    const std::vector<double>& frictions) {
   const int denseLimit = denseOption.get(), pMatrixLimit = pMatrixOption.get();
   if (contact.totalNodes == 0) return undecided(frictions, "there is no contact node");
-  if (const auto loose = contact::looseBody(*contact.mesh, contact, bodies.springs, false))
+  if (const auto loose = contact::looseBody(*contact.mesh, contact, bodies.springs, {.any = false}))
     return undecided(frictions,
                      "body '" + loose->body +
                          "' is held by the contact alone, so the condensed matrix does not exist");

@@ -1,0 +1,198 @@
+// Features that meet: contact that closes within a step, a third eigenvalue beside two that merge,
+// eigenvalues that are exactly zero, a body that is held weakly or at some frictions only. Nothing
+// crashes, and no verdict stands without a result behind it.
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "support/case.hpp"
+#include "support/program.hpp"
+#include "support/ranks.hpp"
+
+namespace squeal::test {
+namespace {
+
+const std::string inputs = SQUEAL_SOURCE_DIR "/tests/inputs/";
+
+std::string caseFile(const std::string& name) {
+  return "-options_file " + inputs + name + ".yaml ";
+}
+
+/// Writes a matrix, given by rows, as a Matrix Market file, and returns its option.
+std::string matrix(const std::string& test, const std::string& name,
+                   const std::vector<std::vector<double>>& rows, const std::string& role) {
+  std::string entries;
+  int count = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t j = 0; j < rows[i].size(); ++j)
+      if (rows[i][j] != 0) {
+        entries += formatted("%zu %zu %.17g\n", i + 1, j + 1, rows[i][j]);
+        ++count;
+      }
+  const fs::path path = placeFor("verdicts_matrices") / (test + "_" + name + ".mtx");
+  writeText(path, "%%MatrixMarket matrix coordinate real general\n" +
+                      formatted("%zu %zu %d\n", rows.size(), rows.size(), count) + entries);
+  const std::string option = " -matrices_" + name;
+  return option + "_file " + path.string() + option + "_role " + role;
+}
+
+std::vector<std::vector<double>> diagonal(const std::vector<double>& entries) {
+  std::vector<std::vector<double>> rows(entries.size(), std::vector<double>(entries.size()));
+  for (std::size_t i = 0; i < entries.size(); ++i) rows[i][i] = entries[i];
+  return rows;
+}
+
+void expectFinite(const ProgramRun& run) {
+  const std::string table = contentOf(run.folder / "eigenvalues.csv");
+  EXPECT_EQ(table.find("nan"), std::string::npos) << table;
+  EXPECT_EQ(table.find("inf"), std::string::npos) << table;
+}
+
+// Nodes open between frictions 0 and 0.2: the reduced problems at both ends of the step have
+// different orders.
+TEST(Verdicts, ContactThatChangesWithinAStep) {
+  for (const int ranks : {1, 2}) {
+    const auto run = runProgram("verdicts_contact_" + std::to_string(ranks), ranks,
+                                caseFile("closing_contact/case"), 60);
+    ASSERT_EQ(run.exitCode, 0) << run.error;
+    EXPECT_EQ(run.error.find("defect"), std::string::npos) << run.error;
+    const auto alone = runProgram("verdicts_contact_alone", ranks,
+                                  caseFile("closing_contact/case") + "-flutter_track off", 60);
+    EXPECT_EQ(contentOf(run.folder / "eigenvalues.csv"),
+              contentOf(alone.folder / "eigenvalues.csv"));
+  }
+}
+
+// Two eigenvalues merge at 0.029666628 while a third one passes by. The same model with the slave
+// of its tie named by fewer faces has the same critical friction, and so has the exchange of slave
+// and master.
+TEST(Verdicts, CriticalFrictionBesideAThirdEigenvalue) {
+  for (const char* name : {"skin", "bottom"}) {
+    const auto run = runProgram(std::string("verdicts_critical_") + name, 2,
+                                caseFile(std::string("passing_eigenvalue/") + name));
+    ASSERT_EQ(run.exitCode, 0) << run.error;
+    const auto table = readCsv(run.folder / "critical.csv");
+    ASSERT_EQ(table.rows.size(), 6U);
+    // -flutter_critical_tolerance is 1e-8.
+    EXPECT_NEAR(table.column("friction")[0], 0.029666628, 2e-9);
+    for (const double converged : table.column("converged")) EXPECT_EQ(converged, 1);
+  }
+}
+
+// K = diag(1 − f, 2), M = I: at f = 1 the double root s = 0 has one vector. With damping 0.1 it is
+// simple, s = 0 and s = −0.1.
+TEST(Verdicts, ZeroIsAnEigenvalue) {
+  const std::string undamped = matrix("zero", "m", diagonal({1, 1}), "mass") +
+                               matrix("zero", "k", diagonal({1, 2}), "stiffness") +
+                               matrix("zero", "d", diagonal({-1, 0}), "stiffness") +
+                               " -matrices_d_friction_exponent 1 -flutter_friction 0,1,2",
+                    damped = undamped + matrix("zero", "c", diagonal({0.1, 0.1}), "damping");
+  for (const auto& [name, options] : {std::pair{"undamped", undamped}, {"damped", damped}}) {
+    SCOPED_TRACE(name);
+    const auto run = runProgram(std::string("verdicts_zero_") + name, 2, options);
+    ASSERT_EQ(run.exitCode, 0) << run.error;
+    expectFinite(run);
+    const auto critical = readCsv(run.folder / "critical.csv");
+    ASSERT_EQ(critical.rows.size(), 1U);
+    EXPECT_NEAR(critical.column("friction")[0], 1, 1e-12);
+    EXPECT_EQ(critical.words("kind")[0], "divergence");
+    EXPECT_EQ(critical.words("direction")[0], "loss");
+    const auto table = readCsv(run.folder / "eigenvalues.csv");
+    const auto friction = table.column("friction"), growth = table.column("growth_rate_1_per_s"),
+               angular = table.column("angular_frequency_rad_per_s");
+    const auto verdict = table.words("verdict");
+    int zeros = 0;
+    for (std::size_t i = 0; i < friction.size(); ++i)
+      if (friction[i] == 1 && angular[i] == 0 && growth[i] == 0) {
+        ++zeros;
+        EXPECT_EQ(verdict[i], "undecided");  // any small change of K may make it grow or not
+      }
+    EXPECT_EQ(zeros, 1);
+    EXPECT_NE(run.out.find("all followed"), std::string::npos) << run.out;
+  }
+}
+
+// A string that rotates at its critical speed has no stiffness: for K = (1 − v²) diag(1, 1, 4, 4)
+// and gyroscopic forces 2 v n, its eigenvalues are i n (1 ± v), of which two for each n vanish at
+// v = 1.
+TEST(Verdicts, StiffnessVanishesAtOnePoint) {
+  std::vector<std::vector<double>> g = diagonal({0, 0, 0, 0});
+  for (const int k : {0, 1}) {
+    g[2 * k][2 * k + 1] = 2 * (k + 1);
+    g[2 * k + 1][2 * k] = -2 * (k + 1);
+  }
+  const auto run = runProgram(
+      "verdicts_string", 1,
+      matrix("string", "m", diagonal({1, 1, 1, 1}), "mass") +
+          matrix("string", "k", diagonal({1, 1, 4, 4}), "stiffness") +
+          matrix("string", "kv", diagonal({-1, -1, -4, -4}), "stiffness") +
+          matrix("string", "g", g, "damping") +
+          " -matrices_kv_speed_exponent 2 -matrices_g_speed_exponent 1 -flutter_speed 0.5,1,1.5");
+  ASSERT_EQ(run.exitCode, 0) << run.error;
+  expectFinite(run);
+  const auto table = readCsv(run.folder / "eigenvalues.csv");
+  const auto speed = table.column("speed"), angular = table.column("angular_frequency_rad_per_s");
+  const std::map<double, std::vector<double>> exact{
+      {0.5, {0.5, 1, 1.5, 3}}, {1, {0, 0, 0, 0, 2, 4}}, {1.5, {0.5, 1, 2.5, 5}}};
+  for (const auto& [at, wanted] : exact) {
+    std::vector<double> found;
+    for (std::size_t i = 0; i < speed.size(); ++i)
+      if (speed[i] == at) found.push_back(angular[i]);
+    ASSERT_EQ(found.size(), wanted.size()) << at;
+    for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], wanted[i], 1e-13);
+  }
+}
+
+// ω = √(k/m) of a rigid block on a spring that is 1e13 times softer than its own entries of K: the
+// error estimate holds what their round-off may change.
+TEST(Verdicts, EstimateContainsTheRoundOffOfTheStiffness) {
+  constexpr double exact = 2.523773;
+  const auto run = runProgram("verdicts_weak", 1, caseFile("weak_ground/case"));
+  const auto table = readCsv(run.folder / "eigenvalues.csv");
+  const double found = table.column("angular_frequency_rad_per_s").at(0),
+               estimate = table.column("error_estimate").at(0);
+  std::printf("rigid block: error %.2e, estimate %.2e\n", std::abs(found / exact - 1), estimate);
+  EXPECT_LE(std::abs(found / exact - 1), estimate);
+  EXPECT_LE(estimate, 1e-3);  // ε ΣK_ii / (2 k): an estimate that says nothing is none
+  EXPECT_EQ(table.column("certified").at(0), 0);
+}
+
+// A damping matrix of zeros is no damping.
+TEST(Verdicts, DampingWithoutEntriesIsNone) {
+  const std::string options =
+      matrix("none", "m", diagonal({1, 1, 1}), "mass") +
+      matrix("none", "k", {{2, -1, 0}, {-1, 3, -1}, {0, -1, 4}}, "stiffness") +
+      matrix("none", "n", {{0, 0.1, 0}, {-0.1, 0, 0}, {0, 0, 0}}, "stiffness") +
+      " -matrices_n_friction_exponent 1 -flutter_friction 0,0.1";
+  const auto without = runProgram("verdicts_without", 1, options),
+             with = runProgram("verdicts_zero_damping", 1,
+                               options + matrix("none", "c", diagonal({0, 0, 0}), "damping"));
+  ASSERT_EQ(with.exitCode, 0) << with.error;
+  EXPECT_EQ(contentOf(with.folder / "eigenvalues.csv"),
+            contentOf(without.folder / "eigenvalues.csv"));
+  EXPECT_NE(with.out.find("3 of 3 eigenvalues neutral"), std::string::npos);
+  EXPECT_EQ(with.out.find("undecided"), std::string::npos) << with.out;
+}
+
+// At friction 0 nothing presses the pad against its abutment, and nothing holds it along x. The
+// other frictions have solutions.
+TEST(Verdicts, PointWhereABodyIsLooseFailsForItself) {
+  for (const int ranks : {1, 2}) {
+    const auto run = runProgram("verdicts_loose_" + std::to_string(ranks), ranks,
+                                caseFile("open_abutment/case")),
+               others = runProgram("verdicts_held", ranks,
+                                   caseFile("open_abutment/case") + "-flutter_friction 0.3,0.6");
+    EXPECT_EQ(run.exitCode, 2) << run.error;
+    EXPECT_EQ(others.exitCode, 0) << others.error;
+    EXPECT_NE(run.error.find("friction 0: body 'pad' is loose (translation x: 1)"),
+              std::string::npos)
+        << run.error;
+    const auto found = eigenvaluesOf(readCsv(run.folder / "eigenvalues.csv")),
+               wanted = eigenvaluesOf(readCsv(others.folder / "eigenvalues.csv"));
+    ASSERT_EQ(found.size(), wanted.size());
+    for (std::size_t i = 0; i < found.size(); ++i)
+      EXPECT_LE(std::abs(found[i] - wanted[i]), 2e-8 * std::abs(wanted[i]));  // -flutter_tolerance
+  }
+}
+
+}  // namespace
+}  // namespace squeal::test
