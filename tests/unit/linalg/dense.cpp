@@ -190,9 +190,9 @@ TEST(Dense, AddScaled) {
   DenseMatrix sum = square({1, 2, 3, 4});
   linalg::addScaled(sum, 2, square({10, 20, 30, 40}));
   expectMatrix(sum, 2, 2, {21, 42, 63, 84});
-  linalg::addScaled(sum, -1, square({1}));  // extended by zeros
+  linalg::addExtended(sum, -1, square({1}));  // extended by zeros
   expectMatrix(sum, 2, 2, {20, 42, 63, 84});
-  linalg::addScaled(sum, 3, DenseMatrix(1, 2, {1, 1}));
+  linalg::addExtended(sum, 3, DenseMatrix(1, 2, {1, 1}));
   expectMatrix(sum, 2, 2, {23, 42, 66, 84});
   linalg::addScaled(sum, 5, DenseMatrix());  // zero
   expectMatrix(sum, 2, 2, {23, 42, 66, 84});
