@@ -81,9 +81,11 @@ def _require_map(path, table, points):
 
 def _require_directions(path, table):
     """Stability is lost where what decides on it rises with the friction (docs/results.md), and regained where it falls."""
-    if "slope" not in table:
+    if not {"slope", "converged"} <= set(table):
         return
-    wrong = (table["kind"] != "contact") & (((table["direction"] == "loss") & (table["slope"] < 0)) | ((table["direction"] == "regain") & (table["slope"] > 0)))
+    solved = (table["kind"] != "contact") & (table["converged"] == 1)
+    wrong = solved & (((table["direction"] == "loss") & (table["slope"] < 0)) | ((table["direction"] == "regain") & (table["slope"] > 0)))
+    wrong |= solved & (table["direction"] == "regain") & (table["friction"] == 0)  # there is no smaller one at which it was lost
     if wrong.any():
         at = int(np.argmax(wrong.to_numpy()))
         raise ResultsError(f"{path}, line {at + 2}: {table['direction'].iloc[at]} of stability, with the slope {table['slope'].iloc[at]:g}")

@@ -17,8 +17,8 @@ namespace squeal::report {
 namespace {
 
 const TextOption directoryOption("report", "report_dir", "results",
-                                 "folder for the results; those of an earlier run in it are "
-                                 "replaced when the new ones are complete");
+                                 "folder for the results: a new or empty one, or one with earlier "
+                                 "results, which are replaced when the new ones are complete");
 const FlagOption fieldsOption("report", "report_fields", true,
                               "write fields: results.h5 and the VTK files");
 
