@@ -182,7 +182,8 @@ void Folder::tidy(std::chrono::milliseconds patience) {
   const EndingWaits whole;
   const auto asLast = [&] {
     std::error_code ignored;
-    fs::remove_all(staging_, ignored);
+    if (isFolder(staging_))
+      fs::remove_all(staging_, ignored);  // what else has its name is not ours
   };
   lock_.release(asLast, patience);
   // A folder that has not stayed empty is kept.

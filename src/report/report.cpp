@@ -1,5 +1,6 @@
 #include "report/report.hpp"
 
+#include <algorithm>
 #include <memory>
 
 #include "options/options.hpp"
@@ -26,11 +27,12 @@ const FlagOption fieldsOption("report", "report_fields", true,
 /// own name: results/NAME for the case NAME.yaml.
 bool isOfCase(const std::filesystem::path& folder) {
   if (!origin("report_dir", folder.string()).file.empty()) return true;
-  const auto given = givenOptions();
-  const auto options = given.find("options_file");
   const auto place = (std::filesystem::absolute(folder) / "").lexically_normal().parent_path();
-  return options != given.end() && place.parent_path().filename() == "results" &&
-         place.filename() == std::filesystem::path(options->second).stem();
+  if (place.parent_path().filename() != "results") return false;
+  return std::ranges::any_of(givenOptions(), [&](const auto& option) {
+    const std::filesystem::path file = origin(option.first, option.second).file;
+    return !file.empty() && file.stem() == place.filename();
+  });
 }
 
 output::Naming naming() {
