@@ -1,5 +1,5 @@
-"""What the tables of a run and its summary say of the same things must be the same: a table of which the end is lost looks like one of
-a run with fewer points, and one word of a table may stand in the place of another."""
+"""The tables of a run agree with each other and with its summary. A table that has lost its end looks like the table of a run with fewer
+points, and a wrong word may be another word of the schema."""
 import collections
 
 import numpy as np
@@ -22,8 +22,8 @@ def require_agreement(folder, summary, tables):
         _require_classes(folder / "regime.csv", tables["regime"], summary["regimes"])
 
 
-def _differ(path, at, found, told):
-    return ResultsError(f"{path}: it has {found} at {words_of(dict(zip(PARAMETERS, at)))}, summary.json tells of {told}")
+def _differ(path, at, found, listed):
+    return ResultsError(f"{path}: it has {found} at {words_of(dict(zip(PARAMETERS, at)))}, summary.json lists {listed}")
 
 
 def _keys(table):
@@ -47,7 +47,7 @@ def _require_eigenvalues(path, table, points):
 def _require_known(path, keys, points):
     unknown = next((number for number, key in enumerate(keys, 2) if key not in points), None)
     if unknown:
-        raise ResultsError(f"{path}, line {unknown}: summary.json tells of no such point of the sweep")
+        raise ResultsError(f"{path}, line {unknown}: summary.json does not list this point of the sweep")
 
 
 def _require_growth(path, table, summary):
@@ -72,11 +72,11 @@ def _require_map(path, table, points):
     if points:
         _require_known(path, keys, points)
         for key, row in zip(keys, table.to_dict("records")):
-            told = points[key]
-            if "verdict" in told and row["verdict"] != told["verdict"]:
-                raise _differ(path, key, f"the verdict {row['verdict']}", told["verdict"])
-            if "unstable_modes" in told and row["unstable_modes"] != len(told["unstable_modes"]):
-                raise _differ(path, key, f"{row['unstable_modes']:g} unstable modes", len(told["unstable_modes"]))
+            point = points[key]
+            if "verdict" in point and row["verdict"] != point["verdict"]:
+                raise _differ(path, key, f"the verdict {row['verdict']}", point["verdict"])
+            if "unstable_modes" in point and row["unstable_modes"] != len(point["unstable_modes"]):
+                raise _differ(path, key, f"{row['unstable_modes']:g} unstable modes", len(point["unstable_modes"]))
 
 
 def _require_directions(path, table):
@@ -85,18 +85,18 @@ def _require_directions(path, table):
         return
     solved = (table["kind"] != "contact") & (table["converged"] == 1)
     wrong = solved & (((table["direction"] == "loss") & (table["slope"] < 0)) | ((table["direction"] == "regain") & (table["slope"] > 0)))
-    wrong |= solved & (table["direction"] == "regain") & (table["friction"] == 0)  # there is no smaller one at which it was lost
+    wrong |= solved & (table["direction"] == "regain") & (table["friction"] == 0)  # no smaller friction at which it was lost
     if wrong.any():
         at = int(np.argmax(wrong.to_numpy()))
         raise ResultsError(f"{path}, line {at + 2}: {table['direction'].iloc[at]} of stability, with the slope {table['slope'].iloc[at]:g}")
 
 
-def _require_classes(path, table, told):
-    if len(table) != len(told):
-        raise ResultsError(f"{path} is cut: it has {len(table)} rows, summary.json tells of {len(told)}")
-    for number, (row, entry) in enumerate(zip(table.to_dict("records"), told), 2):
+def _require_classes(path, table, runs):
+    if len(table) != len(runs):
+        raise ResultsError(f"{path} is cut: it has {len(table)} rows, summary.json tells of {len(runs)}")
+    for number, (row, entry) in enumerate(zip(table.to_dict("records"), runs), 2):
         if (row["class"], row["start"]) != (entry["class"], entry["start"]):
-            raise ResultsError(f"{path}, line {number}: start {row['start']} is {row['class']}, summary.json tells of {entry['start']}, {entry['class']}")
+            raise ResultsError(f"{path}, line {number}: start {row['start']} is {row['class']}, summary.json lists {entry['start']}, {entry['class']}")
 
 
 __all__ = ["require_agreement"]

@@ -1,4 +1,4 @@
-"""Files in a folder of results. Neither links are followed nor pipes opened: another program may have put them under names of ours."""
+"""Opens files in a folder of results only if they are regular files: a link of the same name leads to a foreign file, and a pipe blocks."""
 import errno
 import os
 import stat
@@ -39,11 +39,11 @@ def open_regular(path, flags=os.O_RDONLY):
         file = os.open(path, (flags & ~os.O_TRUNC) | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, 0o666)
     except OSError as error:
         if error.errno in (errno.ELOOP, errno.ENXIO):  # put there meanwhile
-            raise ResultsError(f"{path} is no regular file") from None
+            raise ResultsError(f"{path} is not a regular file") from None
         raise
     try:
         if not stat.S_ISREG(os.fstat(file).st_mode):
-            raise ResultsError(f"{path} is no regular file")
+            raise ResultsError(f"{path} is not a regular file")
         if flags & os.O_TRUNC:
             os.ftruncate(file, 0)
     except BaseException:
@@ -62,7 +62,7 @@ def read_text(path):
     except OSError as error:
         raise ResultsError(f"{path}: {error.strerror}") from None
     except UnicodeDecodeError as error:
-        raise ResultsError(f"{path} is no text: byte {error.start} is not UTF-8") from None
+        raise ResultsError(f"{path} is not text: byte {error.start} is not UTF-8") from None
 
 
 def make_new(path):

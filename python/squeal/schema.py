@@ -1,6 +1,6 @@
-"""What the tables of a run hold: their columns, the units, and what may stand in each; and how they are read.
+"""The schema of the tables of a run (columns, units, allowed values), and the reader that checks tables against it.
 
-To add a column, add it here and to the writer (src/report); tests/python/test_schema.py compares the two, and docs/results.md explains it.
+To add a column, add it here and to the writer (src/report). tests/python/test_schema.py compares the two; docs/results.md lists the columns.
 """
 import csv
 import dataclasses
@@ -24,7 +24,7 @@ LONGEST = 40  # of a cell in a message
 
 @dataclasses.dataclass(frozen=True)
 class Column:
-    """What may stand in a column. `read`: the programs here read it, so that it is needed in tables of any version."""
+    """A column and its allowed values. Columns with `read` are needed in tables of any version, since programs here read them."""
 
     name: str  # with {} for a number: velocity_{}_x_m_per_s
     unit: str = ""
@@ -158,8 +158,8 @@ def schema_of(name):
 
 
 def read_table(path, shape=None):
-    """A table as its text has it, and with numbers in the place of their texts. `shape` are its columns and number of rows, as the summary
-    of its run tells them. Raises ResultsError, which names the file, the line, the column and the rule, where it breaks its schema."""
+    """A table as its text has it, and with numbers in the place of their texts. `shape` holds its columns and number of rows from the
+    summary of the run. Raises ResultsError, which names the file, the line, the column and the rule, where it breaks its schema."""
     texts = _texts_of(path)
     _require_shape(path, texts, shape)
     table = schema_of(path.stem)
@@ -183,7 +183,7 @@ def _texts_of(path):
     except csv.Error as error:
         raise ResultsError(f"{path}: {error}") from None
     if not rows or not rows[0]:
-        raise ResultsError(f"{path}: there is no line with the names of columns")
+        raise ResultsError(f"{path}: the line with the names of the columns is missing")
     short = next((number for number, row in enumerate(rows, 1) if len(row) != len(rows[0])), len(rows) if not text.endswith("\n") else None)
     if short:
         raise ResultsError(f"{path}: line {short} is cut: it has {len(rows[short - 1])} of {len(rows[0])} fields, or no end")
@@ -198,9 +198,9 @@ def _require_shape(path, texts, shape):
         return
     missing = [name for name in shape["columns"] if name not in texts]
     if missing:
-        raise ResultsError(f"{path}: there is no column {', '.join(missing)}, which its run has written")
+        raise ResultsError(f"{path}: there is no column {', '.join(missing)}, which the run has written")
     if list(texts) != shape["columns"]:
-        raise ResultsError(f"{path}: its columns are not those that its run has written, {', '.join(shape['columns'])}")
+        raise ResultsError(f"{path}: its columns are not those that the run has written, {', '.join(shape['columns'])}")
     if len(texts) != shape["rows"]:
         raise ResultsError(f"{path} is cut: it has {len(texts)} rows, summary.json tells of {shape['rows']}")
 

@@ -107,9 +107,11 @@ bool isEntry(const fs::path& path) {
 /// is, or is to go: it would be read, overwritten or removed elsewhere.
 void requireOurs(const fs::path& folder) {
   for (const auto& place : {folder.parent_path(), folder}) {
+    const fs::file_status named = fs::symlink_status(place);
+    // With a file of the user there, the run goes on without checkpoints, and a warning says so.
+    if (!fs::exists(named) || fs::is_regular_file(named)) return;
     if (const std::string why = whyNoFolder(place); !why.empty())
       throw Error("the checkpoint cannot be there: " + why);
-    if (!fs::exists(place)) return;
   }
   for (const auto& entry : fs::directory_iterator(folder))
     if (isEntry(entry.path()))
@@ -316,10 +318,8 @@ void Checkpoint::write(const std::string& log, const Archive& archive) {
     });
   } catch (const Error& error) {
     complain(comm_, std::string("warning: no more checkpoints: ") + error.what());
-    if (rank == 0) {
-      std::error_code ignored;
-      fs::remove(partial, ignored);
-    }
+    std::error_code ignored;
+    if (rank == 0 && whyNotRegular(partial).empty()) fs::remove(partial, ignored);
     enabled_ = false;
     return;
   }
