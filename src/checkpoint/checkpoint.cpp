@@ -134,7 +134,7 @@ Checkpoint::Checkpoint(MPI_Comm comm, fs::path folder, Identity identity, bool r
   int found = 0;
   std::string different;
   std::vector<char> names;  // of the logs, once for each entry
-  onFirstRank(comm_, "option -report_dir: ", [&] { requireOurs(folder_); });
+  onFirstRank(comm_, "option -checkpoint: ", [&] { requireOurs(folder_); });
   onFirstRank(comm_, "option -resume: ", [&] {
     const auto text = contentOfRegular(folder_ / identityName);
     if (!text) return;

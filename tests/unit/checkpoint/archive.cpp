@@ -211,7 +211,7 @@ TEST(Checkpoint, IsWrittenNeitherThroughALinkNorIntoAPipe) {
     for (const bool resumes : {false, true}) {
       const std::string message =
           test::errorOf([&] { Checkpoint(PETSC_COMM_WORLD, entries, identity, resumes); });
-      EXPECT_EQ(message, "option -report_dir: no file of a checkpoint: " + partial.string() +
+      EXPECT_EQ(message, "option -checkpoint: no file of a checkpoint: " + partial.string() +
                              " is " + kind + ", not a regular file");
     }
     EXPECT_EQ(contentOfRegular(foreign), "foreign");
