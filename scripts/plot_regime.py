@@ -6,26 +6,30 @@ regime, the spectrum of the velocity, and what share of the time each contact no
 """
 import argparse
 import sys
+from pathlib import Path
 
-from results import Results, program  # noqa: I001
-import matplotlib
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "python"))
+
+from results import Results, program  # noqa: E402, I001
+import matplotlib  # noqa: E402
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
-import pandas as pd  # noqa: E402
+
+import squeal  # noqa: E402
 
 KEYS = ["friction", "speed", "pressure", "damping", "start"]
 
 
 def run_asked(table, start):
     if start is not None:
-        table = table[table["start"].astype(str) == start]
+        table = table[table["start"] == start]
     return None if table.empty else table.iloc[0]
 
 
 def rows_of(table, run):
-    return table[np.logical_and.reduce([table[key].astype(str) == str(run[key]) for key in KEYS])]
+    return table[np.logical_and.reduce([table[key] == run[key] for key in KEYS])]
 
 
 def plane_of(points):
@@ -67,15 +71,28 @@ def title_of(run):
     return words + f"; carrier {run['carrier_hz']:.6g} Hz, flutter {run['flutter_frequency_hz']:.6g} Hz"
 
 
+def tables_of(folder):
+    """The tables that are drawn, by the ends of their names."""
+    try:
+        found = squeal.open(folder)
+        if found.table("regime") is None:
+            sys.exit(f"{program()}: {folder} has no regime.csv: nothing was followed after flutter (-regime_friction)")
+        tables = {name: found.table(f"regime{name}") for name in ("", "_nodes", "_cycles", "_spectrum")}
+    except squeal.ResultsError as error:
+        sys.exit(f"{program()}: {error}")
+    missing = next((name for name, table in tables.items() if table is None), None)
+    if missing:
+        sys.exit(f"{program()}: {folder / f'regime{missing}.csv'} is missing")
+    return tables
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.partition(":")[0])
     parser.add_argument("report_dir")
     parser.add_argument("start", nargs="?")
     arguments = parser.parse_args()
     results = Results(arguments.report_dir)
-    if not (results.folder / "regime.csv").exists():
-        sys.exit(f"{program()}: {results.folder} has no regime.csv: nothing was followed after flutter (-regime_friction)")
-    tables = {name: pd.read_csv(results.folder / f"regime{name}.csv") for name in ("", "_nodes", "_cycles", "_spectrum")}
+    tables = tables_of(results.folder)
     run = run_asked(tables[""], arguments.start)
     if run is None:
         which = "" if arguments.start is None else f" of start {arguments.start}"

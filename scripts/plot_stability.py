@@ -23,7 +23,8 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
 import squeal  # noqa: E402
-from squeal.results import NOISE, PARAMETERS  # noqa: E402
+from squeal import PARAMETERS
+from squeal.results import NOISE  # noqa: E402
 
 READABLE = 300  # cells of a map that have room for a number
 LABELS = {

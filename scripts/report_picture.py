@@ -19,11 +19,12 @@ WIDTH, HEIGHT = 1280, 657
 FEWEST_COLOURS = 100  # in the view of the mode; an empty one has its ground
 
 
-def browser(**log):
-    """Chromium without a screen, which draws in software and does not move what it shows."""
+def browser(webgl=True, **log):
+    """Chromium without a screen, which draws in software, or has no WebGL, and does not move what it shows."""
     options = webdriver.ChromeOptions()
+    drawing = ("use-gl=angle", "use-angle=swiftshader", "enable-unsafe-swiftshader", "ignore-gpu-blocklist")
     for word in ("headless=new", "no-sandbox", "disable-dev-shm-usage", "window-size=1280,800", "force-prefers-reduced-motion",
-                 "use-gl=angle", "use-angle=swiftshader", "enable-unsafe-swiftshader", "ignore-gpu-blocklist"):  # fmt: skip
+                 *(drawing if webgl else ("disable-gpu", "disable-3d-apis"))):  # fmt: skip
         options.add_argument("--" + word)
     options.set_capability("goog:loggingPrefs", log)
     return webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
@@ -38,6 +39,9 @@ def picture_of(page):
         driver.get(page.resolve().as_uri())
         if not driver.execute_script("return Boolean(window.Chart) && data.shapes.length > 0"):
             sys.exit(f"{program()}: {page} shows no mode: it holds no shape, or was made without its libraries")
+        WebDriverWait(driver, 60).until(lambda driver: driver.execute_script("return document.documentElement.dataset.ready"))
+        if driver.execute_script("return Boolean(document.getElementById('noview'))"):
+            sys.exit(f"{program()}: {page}: {driver.execute_script('return document.getElementById(`noview`).textContent')}")
         WebDriverWait(driver, 60).until(lambda driver: driver.execute_script("return document.getElementById('canvas').dataset.mode"))
         picture = Image.open(io.BytesIO(driver.get_screenshot_as_png())).convert("RGB")
         view = driver.execute_script("return document.getElementById('canvas').toDataURL()").partition(",")[2]  # without the scale above it

@@ -9,7 +9,26 @@ import sys
 from pathlib import Path
 
 PACKAGES = {name: f"python3-{name}" for name in ("h5py", "matplotlib", "numpy", "pandas")} | {"vtkmodules": "python3-vtk9"}
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "python"))
 MANIFEST, LOCK = "manifest.txt", ".squeal.lock"
+
+
+def program():
+    return Path(sys.argv[0]).stem
+
+
+def tell(kind, error, trace):
+    """What Python calls for an exception that nobody has caught."""
+    name = (getattr(error, "name", None) or "").partition(".")[0]
+    if issubclass(kind, ModuleNotFoundError) and name in PACKAGES:
+        print(f"{program()}: Python's package {name} is not installed; Debian has it in {PACKAGES[name]}", file=sys.stderr)
+    else:
+        sys.__excepthook__(kind, error, trace)
+
+
+sys.excepthook = tell
+
+from squeal.files import ResultsError, is_there, make_new, open_regular, read_text  # noqa: E402
 
 
 class Results:
@@ -29,25 +48,38 @@ class Results:
 
     def write(self, name, write):
         """Calls write(path) and puts what it writes there in its place in the same way."""
-        waiting = self.folder / f".{name}.{os.getpid()}"
         try:
-            write(waiting)
-            with waiting.open("rb") as file:
-                os.fsync(file.fileno())
-            with self._lock():
-                self._add(name)
-                os.replace(waiting, self.folder / name)
+            with self._waiting(name) as waiting:
+                write(waiting)
+                with waiting.open("rb") as file:
+                    os.fsync(file.fileno())
+                with self._lock():
+                    self._add(name)
+                    is_there(self.folder / name)
+                    os.replace(waiting, self.folder / name)
+        except ResultsError as error:
+            sys.exit(f"{program()}: {error}")
         except OSError as error:
             sys.exit(f"{program()}: cannot write {self.folder / name}: {error.strerror}")
+
+    @contextlib.contextmanager
+    def _waiting(self, name):
+        """A new file beside the one that it becomes; it goes if it does not."""
+        path = self.folder / f".{name}.{os.getpid()}"
+        make_new(path)  # another's link of this name would lead elsewhere
+        try:
+            yield path
         finally:
-            waiting.unlink(missing_ok=True)
+            path.unlink(missing_ok=True)
 
     def _manifest(self):
         """Its lines; none in results of version 0.1.0, which kept none."""
         try:
-            lines = (self.folder / MANIFEST).read_text().splitlines()
+            lines = read_text(self.folder / MANIFEST).splitlines()
         except (FileNotFoundError, NotADirectoryError):
             return None
+        except ResultsError as error:
+            sys.exit(f"{program()}: {error}")
         return lines if lines and lines[0].startswith("# squeal ") else None
 
     def _add(self, name):
@@ -61,22 +93,19 @@ class Results:
         paths = sorted([*paths, name])
         count = sum(not path.endswith("/") for path in paths)
         lines = [re.sub(r"the \d+ files", f"the {count} files", head), *paths]
-        waiting = self.folder / f".{MANIFEST}.{os.getpid()}"
-        try:
+        with self._waiting(MANIFEST) as waiting:
             with waiting.open("w") as file:
                 file.write("\n".join(lines) + "\n")
                 file.flush()
                 os.fsync(file.fileno())
             os.replace(waiting, self.folder / MANIFEST)
-        finally:
-            waiting.unlink(missing_ok=True)
         self.manifest = lines
 
     @contextlib.contextmanager
     def _lock(self):
         """As the program locks (src/output/lock.cpp): one that writes at a time."""
         path = self.folder / LOCK
-        file = os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
+        file = open_regular(path, os.O_RDWR | os.O_CREAT)
         try:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError as error:
@@ -86,22 +115,6 @@ class Results:
         try:
             yield
         finally:
-            if path.exists() and os.path.samestat(os.stat(path), os.fstat(file)):
+            if os.path.lexists(path) and os.path.samestat(os.lstat(path), os.fstat(file)):
                 path.unlink()
             os.close(file)
-
-
-def program():
-    return Path(sys.argv[0]).stem
-
-
-def tell(kind, error, trace):
-    """What Python calls for an exception that nobody has caught."""
-    name = (getattr(error, "name", None) or "").partition(".")[0]
-    if issubclass(kind, ModuleNotFoundError) and name in PACKAGES:
-        print(f"{program()}: Python's package {name} is not installed; Debian has it in {PACKAGES[name]}", file=sys.stderr)
-    else:
-        sys.__excepthook__(kind, error, trace)
-
-
-sys.excepthook = tell

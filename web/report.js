@@ -25,7 +25,7 @@ function wordsOf(i) {
     `mode ${e.mode[i]} at ${nameOfPoint(e, i)}`,
     `${digits(e.frequency_hz[i], 8)} Hz`,
     `growth ${digits(e.growth_rate_1_per_s[i], 6)} 1/s`,
-    `damping ${digits(100 * e.damping_ratio[i], 4)} %`,
+    `damping ${e.damping_ratio[i] === null ? "unknown" : `${digits(100 * e.damping_ratio[i], 4)} %`}`,
     `error |δs|/|s| ${e.error_estimate && e.error_estimate[i] !== null ? e.error_estimate[i].toExponential(1) : "unknown"}`,
     e.verdict[i],
   ].join("\n");
@@ -234,7 +234,7 @@ function makeLines() {
 const columns = [
   ...data.parameters.filter((name) => name === across || data.swept.includes(name)).map((name) => [name, name, (v) => digits(v)]),
   ["mode", "mode", String], ["frequency_hz", "frequency Hz", (v) => digits(v, 8)], ["growth_rate_1_per_s", "growth 1/s", (v) => digits(v, 6)],
-  ["damping_ratio", "damping %", (v) => digits(100 * v, 4)], ["error_estimate", "error |δs|/|s|", (v) => (v === null ? "" : v.toExponential(1))],
+  ["damping_ratio", "damping %", (v) => (v === null ? "" : digits(100 * v, 4))], ["error_estimate", "error |δs|/|s|", (v) => (v === null ? "" : v.toExponential(1))],
   ["verdict", "verdict", String],
 ].filter(([name]) => eigen[name]);
 const mostRows = 2000;
@@ -303,20 +303,51 @@ async function bytes(name) {
   return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"))).arrayBuffer();
 }
 
-const view = { phase: 0, playing: !matchMedia("(prefers-reduced-motion: reduce)").matches, parts: null, asked: 0 };
+const view = { phase: 0, playing: !matchMedia("(prefers-reduced-motion: reduce)").matches, bodies: null, parts: null, asked: 0 };
+
+/** Why this browser cannot draw shapes; null where it can. three.js would end the script, and with it tables and diagrams. */
+function whyNoShapes() {
+  const probe = document.createElement("canvas");
+  if (!probe.getContext("webgl2") && !probe.getContext("webgl")) return "this browser offers no WebGL: it is turned off, or has no driver here";
+  return typeof DecompressionStream === "undefined" ? "this browser is too old to unpack them (it has no DecompressionStream)" : null;
+}
+
+/** Says why no shape is drawn, in the place of the view. */
+function withoutView(why) {
+  const note = document.createElement("p");
+  note.id = "noview";
+  note.className = "note";
+  note.setAttribute("role", "status");
+  note.textContent = `The shapes of the modes are not drawn: ${why}. Diagrams and tables are complete.`;
+  element("view").replaceWith(note);
+  document.querySelector("#shape .controls").remove();
+  view.bodies = null;
+}
 
 async function makeView() {
-  const skin = data.skin;
-  if (!skin) {
+  if (!data.skin) {
     element("view").remove();
     document.querySelector("#shape .controls").remove();
     return;
   }
+  let why = whyNoShapes();
+  if (!why) {
+    try {
+      await fillView(data.skin);
+    } catch (error) {
+      why = error.message;
+    }
+  }
+  if (why) withoutView(why);
+}
+
+async function fillView(skin) {
   const rest = Float32Array.from(new Int16Array(await bytes("places")), (v) => v / 65534);
   const triangles = new Uint32Array(await bytes("triangles")), edges = new Uint32Array(await bytes("lines"));
   const steady = new Float32Array(await bytes("steady"));
   Object.assign(view, { rest, touching: new Uint32Array(await bytes("touching")), places: rest.slice(), colours: new Float32Array(rest.length), steady });
   view.renderer = new THREE.WebGLRenderer({ canvas: element("canvas"), antialias: true, preserveDrawingBuffer: true });
+  element("canvas").addEventListener("webglcontextlost", () => { play(false); withoutView("the browser has taken WebGL away from this page; load it again"); });
   view.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
   view.scene = new THREE.Scene();
   view.camera = new THREE.PerspectiveCamera(32, 1, 0.01, 20);
@@ -364,6 +395,7 @@ async function makeView() {
 }
 
 function fit() {
+  if (!view.bodies) return;  // WebGL is lost
   const { clientWidth, clientHeight } = element("view");
   view.renderer.setSize(clientWidth, clientHeight, false);
   view.camera.aspect = clientWidth / clientHeight;
@@ -467,11 +499,11 @@ function colour() {
 
 /** Fills the view with the shape of the selected mode, or says why there is none. */
 async function showShape() {
-  if (!data.skin) return;
+  if (!view.bodies) return;
   const asked = ++view.asked, row = state.selected;
   const shape = data.shapes.find((one) => one.mode === eigen.mode[row] && data.parameters.every((name, k) => one.at[k] === eigen[name][row]));
   const parts = shape ? new Int8Array(await bytes(shape.blob)) : null, work = shape && shape.work ? new Float32Array(await bytes(shape.work)) : null;
-  if (asked !== view.asked) return;  // another mode has been chosen meanwhile
+  if (asked !== view.asked || !view.bodies) return;  // another mode has been chosen meanwhile
   Object.assign(view, { parts, work });
   element("canvas").dataset.mode = shape ? shape.blob : "";
   if (!shape) element("chosen").textContent += " · its shape was not kept (-flutter_shapes)";

@@ -6,6 +6,8 @@
     mode = run.fastest_mode(friction=0.4)
     grid = mode.grid(phase=0.5)
 """
-from squeal.results import PARAMETERS, Mode, ResultsError, Results, open  # noqa: A004
+from squeal.files import ResultsError
+from squeal.keys import PARAMETERS
+from squeal.results import Mode, Results, open  # noqa: A004
 
 __all__ = ["PARAMETERS", "Mode", "Results", "ResultsError", "open"]

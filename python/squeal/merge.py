@@ -10,10 +10,12 @@ import numpy as np
 import pandas as pd
 
 from squeal.parts import SWEPT, TABLES, differs, indifferent, keys_of, owners_of, read_parts, require_alike
-from squeal.results import PARAMETERS, ResultsError, key_of, read_summary
+from squeal.files import ResultsError, read_text
+from squeal.keys import PARAMETERS, key_of
+from squeal.results import read_summary
+from squeal.schema import VERDICTS as GRAVITY
 
 SAME_CRITICAL = 1e-7  # relative; ten times -flutter_critical_tolerance by default
-GRAVITY = ("unstable", "undecided", "uncertified", "stable", "neutral")  # verdicts, the gravest first
 
 
 def merge(out, folders):
@@ -31,7 +33,8 @@ def merge(out, folders):
     with _new_folder(out) as new:
         for name, table in tables.items():
             table.to_csv(new / f"{name}.csv", index=False, lineterminator="\n")
-        _write_summary(new, _joined_summary(parts, taken, out, left))
+        shapes = {name: {"rows": len(table), "columns": list(table.columns)} for name, table in tables.items()}
+        _write_summary(new, {**_joined_summary(parts, taken, out, left), "tables": shapes})
     said.append(f"{points} points of {len(parts)} parts in {out}; mode shapes and fields stay in the parts")
     return said
 
@@ -241,7 +244,7 @@ def _require_replaceable(out):
         return
     try:
         merged = "parts" in read_summary(out / "summary.json")
-        listed = set((out / "manifest.txt").read_text().splitlines()[1:])
+        listed = set(read_text(out / "manifest.txt").splitlines()[1:])
         others = sorted(path.name for path in out.iterdir() if path.name not in listed)
     except (OSError, ValueError, ResultsError):
         merged, others = False, []

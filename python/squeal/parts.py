@@ -6,7 +6,9 @@ import numpy as np
 import pandas as pd
 from scipy.spatial import cKDTree
 
-from squeal.results import PARAMETERS, Results, ResultsError, key_of, read_table
+from squeal.files import ResultsError, read_text
+from squeal.keys import PARAMETERS, key_of
+from squeal.results import Results
 
 TABLES = ("eigenvalues", "stability_map", "branches", "critical", "friction_work", "sensitivities")
 NEEDED = ("eigenvalues", "stability_map")
@@ -31,15 +33,11 @@ class Part:
         if not self.summary["complete"]:
             raise ResultsError(f"{folder} holds no complete results: its run was interrupted")
         self.given, self.options = _recipe(self.folder / "options.txt")
-        self.tables = {}
-        for name in TABLES:
-            path = self.folder / f"{name}.csv"
-            if path.exists():
-                self.tables[name] = read_table(path, dtype=str, keep_default_na=False)
-            elif name in NEEDED:
-                raise ResultsError(f"{path} is missing")
+        self.tables = {name: self.results.texts[name] for name in TABLES if name in self.results.texts}
+        for name in NEEDED:
+            if name not in self.tables:
+                raise ResultsError(f"{self.folder / name}.csv is missing")
         self.points = keys_of(self.results.stability_map)
-        self.results.eigenvalues  # noqa: B018: refused here where its end is lost
         solved = sum(len(line.get("critical_frictions", [])) for entry in self.summary.get("active_sets", []) for line in entry.get("followed", []))
         if "critical" in self.tables and len(self.tables["critical"]) < solved:
             raise ResultsError(f"{self.folder / 'critical.csv'} is cut: it has {len(self.tables['critical'])} rows, summary.json tells of {solved}")
@@ -66,9 +64,9 @@ def read_parts(folders, out):
 def _recipe(path):
     """Options of a run, as options.txt keeps them: the names of those that were given, and the values of all, defaults too."""
     try:
-        lines = path.read_text().splitlines()
-    except OSError as error:
-        raise ResultsError(f"{path}: {error.strerror}; it tells the options of the run") from None
+        lines = read_text(path).splitlines()
+    except FileNotFoundError:
+        raise ResultsError(f"{path} is missing; it tells the options of the run") from None
     found = [re.fullmatch(r"(# )?-(\w+) ?(.*)", line) for line in lines[1:]]
     options = {match[2]: match[3].strip("\"'") for match in found if match}
     return {match[2] for match in found if match and not match[1]}, options

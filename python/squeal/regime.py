@@ -3,7 +3,7 @@ import math
 
 import numpy as np
 
-from squeal.results import PARAMETERS
+from squeal.keys import PARAMETERS
 
 KEYS = [*PARAMETERS, "start"]
 MOST_POINTS = 2000  # of a line in a diagram
@@ -109,7 +109,7 @@ def _motions(table):
 def _rows_of(table, run):
     if table is None:
         return None
-    return table[np.logical_and.reduce([table[key].astype(str) == str(run[key]) for key in KEYS])]
+    return table[np.logical_and.reduce([table[key] == run[key] for key in KEYS])]
 
 
 def _number(value):

@@ -3,6 +3,7 @@ import base64
 import html
 import json
 import math
+import os
 import re
 import zlib
 from pathlib import Path
@@ -11,7 +12,8 @@ import matplotlib
 import numpy as np
 
 from squeal import regime
-from squeal.results import PARAMETERS, ResultsError
+from squeal.files import ResultsError, open_regular
+from squeal.keys import PARAMETERS
 from squeal.skin import Skin
 
 WEB = Path(__file__).resolve().parents[2] / "web"
@@ -65,12 +67,17 @@ def _pictures(results):
     """The static pictures of the folder, for a report without libraries."""
     found = sorted(results.folder.glob("stability*.png")) + sorted(results.folder.glob("mode*.png")) + sorted(results.folder.glob("regime.png"))
     images = "".join(
-        f'<img alt="{html.escape(path.stem)}" src="data:image/png;base64,{base64.b64encode(path.read_bytes()).decode()}">' for path in found
+        f'<img alt="{html.escape(path.stem)}" src="data:image/png;base64,{base64.b64encode(_bytes_of(path)).decode()}">' for path in found
     )
     return (
         "<p class=note>Diagrams and modes cannot be turned here: the libraries three.js and Chart.js were not installed when the report was "
         f"made (packages libjs-three, libjs-chart.js).</p>{images}"
     )
+
+
+def _bytes_of(path):
+    with os.fdopen(open_regular(path), "rb") as file:
+        return file.read()
 
 
 def _after_flutter(results):

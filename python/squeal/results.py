@@ -1,19 +1,20 @@
 """The folder of a run: its tables, modes and fields."""
-import collections
 import contextlib
-import csv
 import dataclasses
 import functools
-import io
 import json
+import os
 from pathlib import Path
 
 import h5py
 import numpy as np
 import pandas as pd
 
-PARAMETERS = ("friction", "speed", "pressure", "damping")
-TABLES = ("eigenvalues", "stability_map", "branches", "critical", "contact_path", "friction_work", "sensitivities")
+from squeal import schema
+from squeal.agreement import require_agreement
+from squeal.files import ResultsError, is_there, open_regular, read_text
+from squeal.keys import PARAMETERS, key_of, words_of
+
 # Without an estimate of its error, a growth rate below this fraction of |s| is taken as round-off.
 NOISE = 1e-6
 NUMBER = (float, int)
@@ -26,6 +27,9 @@ SUMMARY = {
         {
             **dict.fromkeys(PARAMETERS, NUMBER),
             "eigenvalues?": int,
+            "verdict?": str,
+            "verdicts?": {"*": int},
+            "unstable_modes?": [dict],
             "band_top_hz?": (*NUMBER, type(None)),
             "steady?": {"converged?": bool, "open_nodes?": int,
                         "interfaces?": {"*": {"normal_force_n?": [NUMBER], "friction_force_n?": [NUMBER]}}},
@@ -35,40 +39,54 @@ SUMMARY = {
     "stages?": {"*": {"wall_s?": NUMBER, "peak_memory_bytes?": NUMBER}},
     "wall_s?": NUMBER,
     "parts?": [{"folder": str}],
+    "tables?": {"*": {"rows": int, "columns": [str]}},
+    "regimes?": [{**dict.fromkeys(PARAMETERS, NUMBER), "start": str, "class": str}],
 }  # fmt: skip
 KINDS = {bool: "not true or false", str: "no text", float: "no number", int: "no whole number", dict: "no object", list: "no list"}
 
 
-class ResultsError(Exception):
-    """A folder holds no complete results, or not what was asked for."""
-
-
 def open(folder):  # noqa: A001
-    """Returns the results in a folder. Raises ResultsError if they are missing or not complete."""
+    """Returns the results in a folder. Raises ResultsError if they are missing, not complete, or not as a run writes them."""
     return Results(folder)
 
 
 class Results:
-    """The results of one run. Files are read when they are first asked for."""
+    """The results of one run. Its tables are read, and checked, at once; results.h5 when it is first asked for."""
 
     def __init__(self, folder):
         self.folder = Path(folder)
         self.summary = read_summary(self.folder / "summary.json")
+        shapes = self.summary.get("tables", {})
+        self.texts, self._tables = {}, {}  # by the names of the tables: cells as texts, and with numbers
+        for name in sorted({*shapes, *self._found()}):
+            self.texts[name], self._tables[name] = schema.read_table(self.folder / f"{name}.csv", shapes.get(name))
+        require_agreement(self.folder, self.summary, self._tables)
+
+    def _found(self):
+        """The names of the tables in the folder that a run may have written; other files are the user's."""
+        try:
+            paths = sorted(self.folder.glob("*.csv"))
+            return [path.stem for path in paths if schema.schema_of(path.stem) and (path.stem in schema.TABLES or self._lists(path)) and is_there(path)]
+        except OSError as error:
+            raise ResultsError(f"{self.folder}: {error.strerror}") from None
+
+    def _lists(self, path):
+        """Whether a table of one point is of this run: a file steady_notes.csv is the user's."""
+        return path.stem in self.summary.get("tables", {}) or any(path.stem.endswith(f"_{point['friction']:g}") for point in self.summary.get("frictions", []))
 
     def __repr__(self):
         return f"<squeal results in {self.folder}: {len(self.points)} points>"
 
     def table(self, name):
         """A .csv file of the folder by its name without ending; None where the run wrote none."""
-        path = self.folder / f"{name}.csv"
-        return read_table(path, float_precision="round_trip") if path.exists() else None
+        table = self._tables.get(name)
+        return None if table is None else table.copy()
 
     @functools.cached_property
     def eigenvalues(self):
         """All eigenvalues of the band, with a column `s` of complex numbers, 1/s, and `grows`: whether one counts as unstable, by its
         verdict or, where that is `uncertified`, since it grows by more than round-off and -flutter_unstable_tolerance, as in the program."""
-        table = self._needed("eigenvalues", (*PARAMETERS, "mode", "growth_rate_1_per_s", "angular_frequency_rad_per_s", "verdict"))
-        self._require_whole(table, "eigenvalues", lambda point: point.get("eigenvalues", 0))
+        table = self._needed("eigenvalues")
         s = table["growth_rate_1_per_s"] + 1j * table["angular_frequency_rad_per_s"]
         least = max(NOISE, float(self.summary.get("options", {}).get("flutter_unstable_tolerance", "0")))
         uncertified = (table["verdict"] == "uncertified") & (table["growth_rate_1_per_s"] > least * s.abs())
@@ -77,9 +95,7 @@ class Results:
     @functools.cached_property
     def stability_map(self):
         """A row for each point of the sweep."""
-        table = self._needed("stability_map", (*PARAMETERS, "unstable_modes", "largest_growth_rate_1_per_s", "verdict"))
-        self._require_whole(table, "stability_map", lambda point: int("eigenvalues" in point))
-        return table
+        return self._needed("stability_map")
 
     @property
     def points(self):
@@ -145,7 +161,7 @@ class Results:
             group = self._group(file, "flutter", at)
             name = f"mode_{number:03d}"
             if group is None or f"{name}_real" not in group:
-                raise ResultsError(f"{self.folder / 'results.h5'}: no shape of mode {number} was kept at {_words(at) or 'this point'}")
+                raise ResultsError(f"{self.folder / 'results.h5'}: no shape of mode {number} was kept at {words_of(at) or 'this point'}")
             growth, angular = group["eigenvalues"][number - 1, :2]
             shape = group[f"{name}_real"][()] + 1j * group[f"{name}_imaginary"][()]
             work = group[f"{name}_friction_work"][()] if f"{name}_friction_work" in group else None
@@ -165,7 +181,7 @@ class Results:
         with self._fields() as file:
             group = self._group(file, "steady", at)
             if group is None:
-                raise ResultsError(f"{self.folder / 'results.h5'}: there is no steady sliding at {_words(at) or 'this point'}")
+                raise ResultsError(f"{self.folder / 'results.h5'}: there is no steady sliding at {words_of(at) or 'this point'}")
             return {name: data[()] for name, data in group.items()}
 
     @functools.cached_property
@@ -191,32 +207,27 @@ class Results:
             raise ResultsError(f"{self.folder}: results of matrices have no mesh")
         return grid_of(self.mesh)
 
-    def _needed(self, name, columns):
+    def _needed(self, name):
         table = self.table(name)
         if table is None:
             raise ResultsError(f"{self.folder / name}.csv is missing")
-        missing = [column for column in columns if column not in table]
-        if missing:
-            raise ResultsError(f"{self.folder / name}.csv: there is no column {', '.join(missing)}")
         return table
 
-    def _require_whole(self, table, name, rows_of):
-        """A table of which the end is lost looks like one of a run with fewer points or eigenvalues."""
-        there = collections.Counter(map(key_of, table[list(PARAMETERS)].to_numpy()))
-        for point in self.summary.get("frictions", []):
-            found, written = there[key_of(point[key] for key in PARAMETERS)], rows_of(point)
-            if found < written:
-                raise ResultsError(f"{self.folder / name}.csv is cut: it has {found} rows at {_words({key: point[key] for key in PARAMETERS})}, "
-                                   f"summary.json tells of {written}")  # fmt: skip
-
+    @contextlib.contextmanager
     def _fields(self):
+        """results.h5. What is damaged in it shows where it is read."""
         if self.parts:
             raise ResultsError(f"{self.folder} is a merge: modes and fields are in its parts, {', '.join(map(str, self.parts))}")
         path = self.folder / "results.h5"
         try:
-            return h5py.File(path)
-        except OSError as error:
-            raise ResultsError(f"{path}: {error}") from None
+            with os_closing(open_regular(path)), h5py.File(path) as file:
+                yield file
+        except ResultsError:
+            raise
+        except FileNotFoundError:
+            raise ResultsError(f"{path} is missing: fields were not written (-report_fields off), or it has been removed") from None
+        except (OSError, KeyError, IndexError, ValueError, TypeError, AttributeError, RuntimeError) as error:
+            raise ResultsError(f"{path} is damaged: {' '.join(str(error).split())}") from None
 
     def _point(self, at):
         """The name of a point in the names of files, as the program makes it: friction, and what else is not 1."""
@@ -226,7 +237,7 @@ class Results:
     def _only_point(self, at):
         found = _rows(self.points, at)
         if len(found) != 1:
-            raise ResultsError(f"{self.folder}: {len(found)} points of the sweep have {_words(at) or 'no given parameters'}; name one")
+            raise ResultsError(f"{self.folder}: {len(found)} points of the sweep have {words_of(at) or 'no given parameters'}; name one")
         return found.iloc[0]
 
     def _group(self, file, kind, at):
@@ -284,13 +295,24 @@ class Mode:
         return grid
 
 
+@contextlib.contextmanager
+def os_closing(file):
+    """A file that is no pipe stays open while a library opens it by its name."""
+    try:
+        yield
+    finally:
+        os.close(file)
+
+
 def read_summary(path):
     """What summary.json says, if it is the summary of a run or of a merge."""
     try:
-        summary = json.loads(path.read_text())
-    except FileNotFoundError:
+        summary = json.loads(read_text(path))
+    except ResultsError:
+        raise
+    except (FileNotFoundError, NotADirectoryError):
         raise ResultsError(f"{path.parent} holds no complete results: there is no summary.json") from None
-    except (OSError, ValueError, RecursionError) as error:
+    except (ValueError, RecursionError) as error:
         raise ResultsError(f"{path}: {error}") from None
     for wrong in _departures(summary, SUMMARY, ""):
         raise ResultsError(f"{path} is no summary of a run: {wrong}")
@@ -319,26 +341,6 @@ def _departures(found, form, place):
                     yield f"`{below}` is missing"
 
 
-def read_table(path, **how):
-    """A .csv file. Raises ResultsError where its end, or a field, is lost, which pandas takes for an empty one."""
-    try:
-        with path.open(newline="", encoding="utf-8") as file:
-            text = file.read()
-        table = pd.read_csv(io.StringIO(text), **how)
-    except (OSError, ValueError) as error:
-        raise ResultsError(f"{path}: {error}") from None
-    rows = list(csv.reader(io.StringIO(text)))
-    short = next((number for number, row in enumerate(rows, 1) if len(row) != len(rows[0])), len(rows) if not text.endswith("\n") else None)
-    if short:
-        raise ResultsError(f"{path}: line {short} is cut")
-    return table
-
-
-def key_of(values):
-    """Parameters in a form in which equal ones are equal, whether counted up to or written: 0.1 + 0.2 is 0.3."""
-    return tuple(float(f"{float(value):.12g}") for value in values)
-
-
 def _rows(table, at):
     unknown = [name for name in at if name not in PARAMETERS]
     if unknown:
@@ -347,7 +349,3 @@ def _rows(table, at):
     for name, value in at.items():
         chosen &= np.isclose(table[name], value, rtol=1e-12, atol=1e-300)
     return table[chosen]
-
-
-def _words(at):
-    return ", ".join(f"{name} {value:g}" for name, value in at.items())

@@ -1,25 +1,22 @@
 #include "checkpoint/checkpoint.hpp"
 
-#include <zlib.h>
+#include <fcntl.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdint>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numeric>
-#include <set>
 #include <vector>
-
-#include <unistd.h>
 
 #include "options/options.hpp"
 #include "output/file.hpp"
+#include "petsc/regular_file.hpp"
 #include "petsc/termination.hpp"
 #include "petsc/text.hpp"
 #include "session/events.hpp"
-#include "session/session.hpp"
 #include "session/stages.hpp"
 
 namespace squeal::checkpoint {
@@ -40,7 +37,6 @@ const FlagOption resumeOption(
     "anew");
 
 constexpr const char* identityName = "identity.json";
-constexpr const char* rankCount = "the number of ranks";
 constexpr std::array<char, 8> mark{'s', 'q', 'u', 'e', 'a', 'l', '0', '1'};
 
 /// What a file begins with; the sizes and checksums of the ranks follow.
@@ -101,75 +97,31 @@ Part partOf(const Stream& stream) {
   return part;
 }
 
-/// Returns true for an option that changes nothing of what is computed.
-bool isIndifferent(const std::string& name) {
-  static const std::vector<std::string> exact{"resume",      "checkpoint", "checkpoint_interval",
-                                              "quiet",       "progress",   "log_json",
-                                              "options_file"};
-  return std::ranges::find(exact, name) != exact.end() || name.starts_with("report_") ||
-         name.starts_with("log_");
+/// Returns true for the name of a file of a checkpoint.
+bool isEntry(const fs::path& path) {
+  return path.filename() == identityName || path.extension() == ".entry" ||
+         path.extension() == ".partial";
 }
 
-/// Collective. Returns the checksum of a file as a text; empty if it cannot be read.
-std::string checksumOfFile(MPI_Comm comm, const std::string& path) {
-  unsigned long sum = 0;
-  int rank = 0, whole = 0;
-  check(MPI_Comm_rank(comm, &rank));
-  if (rank == 0) {
-    std::ifstream file(path, std::ios::binary);
-    std::vector<char> piece(1 << 20);
-    while (file.read(piece.data(), std::ssize(piece)) || file.gcount() > 0)
-      sum = checksum(piece.data(), file.gcount(), sum);
-    whole = file.eof();
+/// Throws Error if a link, or something else than folders and regular files, is where a checkpoint
+/// is, or is to go: it would be read, overwritten or removed elsewhere.
+void requireOurs(const fs::path& folder) {
+  for (const auto& place : {folder.parent_path(), folder}) {
+    const fs::file_status named = fs::symlink_status(place);
+    // With a file of the user there, the run goes on without checkpoints, and a warning says so.
+    if (!fs::exists(named) || fs::is_regular_file(named)) return;
+    if (const std::string why = whyNoFolder(place); !why.empty())
+      throw Error("the checkpoint cannot be there: " + why);
   }
-  check(MPI_Bcast(&sum, 1, MPI_UNSIGNED_LONG, 0, comm));
-  check(MPI_Bcast(&whole, 1, MPI_INT, 0, comm));
-  return whole ? formatted("checksum %08lx", sum) : "";
-}
-
-/// Returns a sentence on the first three things in which the two differ; empty if they agree.
-std::string difference(const Identity& then, const Identity& now) {
-  const auto text = [](const Identity& of, const std::string& name) {
-    const auto found = of.find(name);
-    return found == of.end() ? std::string("not given") : "'" + found->second + "'";
-  };
-  Identity both = then;
-  both.insert(now.begin(), now.end());
-  std::vector<std::string> names{rankCount};  // first: the parts of the mesh differ with it
-  for (const auto& [name, value] : both) names.push_back(name);
-  std::set<std::string> told;
-  std::string sentence;
-  constexpr std::size_t most = 3;
-  for (const auto& name : names)
-    if (text(then, name) != text(now, name) && told.insert(name).second && told.size() <= most)
-      sentence += (sentence.empty() ? "" : "; ") + name + " was " + text(then, name) + " and is " +
-                  text(now, name);
-  if (told.size() > most) sentence += formatted("; and %zu more", told.size() - most);
-  return sentence;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (isEntry(entry.path()))
+      if (const std::string why = whyNotRegular(entry.path()); !why.empty())
+        throw Error("no file of a checkpoint: " + why);
 }
 
 }  // namespace
 
 bool resumeWanted() { return resumeOption.get(); }
-
-unsigned long checksum(const void* data, std::size_t size, unsigned long before) {
-  // For a null pointer, as that of no bytes may be, zlib begins anew.
-  return size == 0 ? before : crc32_z(before, static_cast<const Bytef*>(data), size);
-}
-
-Identity identityOfRun(MPI_Comm comm) {
-  int ranks = 1;
-  check(MPI_Comm_size(comm, &ranks));
-  Identity identity{{rankCount, std::to_string(ranks)}};
-  // Entries hold the layout of the program's data.
-  identity["the program"] = std::string(version()) + ", " + checksumOfFile(comm, "/proc/self/exe");
-  for (const auto& [name, value] : givenOptions())
-    if (FileOption::isOne(name))
-      identity["the file of option -" + name] = checksumOfFile(comm, value);
-    else if (!isIndifferent(name))
-      identity["option -" + name] = value;
-  return identity;
-}
 
 Checkpoint::Checkpoint(MPI_Comm comm, fs::path folder, Identity identity, bool resumes)
     : comm_(comm),
@@ -182,11 +134,12 @@ Checkpoint::Checkpoint(MPI_Comm comm, fs::path folder, Identity identity, bool r
   int found = 0;
   std::string different;
   std::vector<char> names;  // of the logs, once for each entry
+  onFirstRank(comm_, "option -checkpoint: ", [&] { requireOurs(folder_); });
   onFirstRank(comm_, "option -resume: ", [&] {
-    std::ifstream file(folder_ / identityName);
-    if (!file) return;
+    const auto text = contentOfRegular(folder_ / identityName);
+    if (!text) return;
     try {
-      different = difference(nlohmann::json::parse(file).get<Identity>(), identity_);
+      different = difference(nlohmann::json::parse(*text).get<Identity>(), identity_);
     } catch (const nlohmann::json::exception&) {
       different = "its " + std::string(identityName) + " is damaged";
     }
@@ -226,7 +179,10 @@ bool Checkpoint::read(const fs::path& path, std::vector<char>& common, std::vect
   int rank = 0, ranks = 1, there = 0;
   check(MPI_Comm_rank(comm_, &rank));
   check(MPI_Comm_size(comm_, &ranks));
-  if (rank == 0) there = fs::exists(path);
+  onFirstRank(comm_, "", [&] {
+    there = fs::exists(fs::symlink_status(path));
+    if (there) close(openRegular(path, O_RDONLY, "cannot read " + path.string()));
+  });
   check(MPI_Bcast(&there, 1, MPI_INT, 0, comm_));
   if (!there) return false;
   MPI_File file = MPI_FILE_NULL;
@@ -301,6 +257,7 @@ bool Checkpoint::isWorth(double seconds) const {
 /// Removes the checkpoint of an earlier run and begins that of this one. On rank 0 alone.
 void Checkpoint::beginAnew() {
   const EndingWaits whole;
+  requireOurs(folder_);
   fs::create_directories(folder_);
   clear();
   output::writeFile(folder_ / identityName, nlohmann::json(identity_).dump(1) + "\n");
@@ -361,10 +318,8 @@ void Checkpoint::write(const std::string& log, const Archive& archive) {
     });
   } catch (const Error& error) {
     complain(comm_, std::string("warning: no more checkpoints: ") + error.what());
-    if (rank == 0) {
-      std::error_code ignored;
-      fs::remove(partial, ignored);
-    }
+    std::error_code ignored;
+    if (rank == 0 && whyNotRegular(partial).empty()) fs::remove(partial, ignored);
     enabled_ = false;
     return;
   }
@@ -381,8 +336,7 @@ void Checkpoint::clear() const {
   // Its identity goes first: entries without one are of no use to anybody.
   fs::remove(folder_ / identityName);
   for (const auto& entry : std::vector<fs::directory_entry>(fs::directory_iterator(folder_), {}))
-    if (entry.path().extension() == ".entry" || entry.path().extension() == ".partial")
-      fs::remove(entry.path());
+    if (isEntry(entry.path())) fs::remove(entry.path());
 }
 
 void Checkpoint::remove() {
@@ -393,12 +347,13 @@ void Checkpoint::remove() {
   if (rank > 0) return;
   const EndingWaits whole;
   try {
-    if (!fs::is_directory(folder_)) return;
+    requireOurs(folder_);
+    if (!fs::exists(folder_)) return;
     clear();                  // what a run has left that was killed in its first entry, too
     std::error_code ignored;  // what is not ours stays
     fs::remove(folder_, ignored);
     fs::remove(folder_.parent_path(), ignored);
-  } catch (const fs::filesystem_error& error) {
+  } catch (const std::exception& error) {
     complain(comm_, std::string("warning: a checkpoint is left behind: ") + error.what());
   }
 }

@@ -8,11 +8,9 @@
 #include <string>
 
 #include "checkpoint/archive.hpp"
+#include "checkpoint/identity.hpp"
 
 namespace squeal::checkpoint {
-
-/// What a checkpoint must agree in with the run that continues it, by names for messages.
-using Identity = std::map<std::string, std::string>;
 
 /// A Checkpoint is a folder with a file for each entry of some logs, which are told apart by names.
 /// A run writes what it has found since the last entry, and reads the entries in the same order
@@ -67,13 +65,5 @@ class Checkpoint {
 
 /// Returns the option `-resume`.
 bool resumeWanted();
-
-/// Collective. Returns what this run must agree in with one that it continues: the number of ranks,
-/// the program, and the options but for those of the report. Of files the content counts, not the
-/// name.
-Identity identityOfRun(MPI_Comm comm);
-
-/// Not collective. Returns the CRC-32 of bytes, continued from that of the bytes before them.
-unsigned long checksum(const void* data, std::size_t size, unsigned long before = 0);
 
 }  // namespace squeal::checkpoint

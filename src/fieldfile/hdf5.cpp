@@ -39,8 +39,9 @@ hid_t openOrMake(hid_t file, const std::string& object) {
 }
 
 /// Throws output::WriteError, on rank 0, if the call of the library before was not `done`, or if
-/// the driver has kept an error.
+/// the driver has kept an error. It has refused to open something else than a regular file.
 void require(bool done, const std::filesystem::path& path) {
+  if (!done && !keptRefusal().empty()) throw output::WriteError(keptRefusal());
   if (!done || keptError() != 0) throw output::WriteError(output::cannotWrite(path, keptError()));
 }
 

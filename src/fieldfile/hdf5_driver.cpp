@@ -8,10 +8,13 @@
 #include <cstring>
 #include <iterator>
 
+#include "output/file.hpp"
+
 namespace squeal::fieldfile {
 namespace {
 
 int firstError = 0;
+std::string refusal;
 
 struct File {
   H5FD_t base;  // the library's own part comes first
@@ -30,9 +33,12 @@ void note(int error) {
 H5FD_t* openFile(const char* name, unsigned flags, hid_t, haddr_t) {
   if (!(flags & H5F_ACC_CREAT)) return nullptr;  // it only writes new files
   firstError = 0;
-  const int descriptor = open(name, O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor < 0) {
-    note(errno);
+  refusal.clear();
+  int descriptor = -1;
+  try {
+    descriptor = output::openToWrite(name, O_RDWR);
+  } catch (const output::WriteError& error) {  // it may not pass through the library
+    refusal = error.what();
     return nullptr;
   }
   auto* file = new File{};
@@ -138,5 +144,7 @@ hid_t keepingErrorsProperties() {
 }
 
 int keptError() { return firstError; }
+
+const std::string& keptRefusal() { return refusal; }
 
 }  // namespace squeal::fieldfile

@@ -2,6 +2,8 @@
 /// HDF5 writes to the disc with this driver.
 #include <hdf5.h>
 
+#include <string>
+
 namespace squeal::fieldfile {
 
 /// Not collective. Returns properties for H5Fcreate that choose this driver, to be closed with
@@ -12,7 +14,9 @@ namespace squeal::fieldfile {
 /// what comes after the failure, and keeps the reason for keptError().
 hid_t keepingErrorsProperties();
 /// Not collective. Returns errno of the first call on the file that failed since it was made, be it
-/// to open, write, truncate or close it; 0 if none has.
+/// to write, truncate or close it; 0 if none has.
 int keptError();
+/// Not collective. Returns why the file could not be opened; empty if it was.
+const std::string& keptRefusal();
 
 }  // namespace squeal::fieldfile

@@ -21,6 +21,7 @@
 
 #include "output/file.hpp"
 #include "petsc/check.hpp"
+#include "petsc/regular_file.hpp"
 #include "petsc/termination.hpp"
 #include "petsc/text.hpp"
 
@@ -183,6 +184,7 @@ void makeFolder(MPI_Comm comm, const fs::path& folder, const std::string& head) 
   onFirstRank(comm, head, [&] {
     const EndingWaits whole;
     std::error_code error;
+    if (const std::string why = whyNoFolder(folder); !why.empty()) throw output::WriteError(why);
     if (!folder.empty()) fs::create_directories(folder, error);
     if (error) throw output::WriteError(output::cannotWrite(folder, error.value()));
   });
@@ -205,6 +207,11 @@ void requireWritable(const mesh::Mesh& mesh, const std::vector<Field>& fields) {
 /// Not collective. Writes a piece. Returns what went wrong, empty if nothing did.
 std::string writePiece(vtkUnstructuredGrid* grid, const fs::path& path) {
   const EndingWaits whole;
+  try {
+    output::reserve(path, 0);  // VTK would follow a link, and wait for the reader of a pipe
+  } catch (const output::WriteError& error) {
+    return error.what();
+  }
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
   writer->SetInputData(grid);
   writer->SetFileName(path.c_str());

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <regex>
 #include <set>
+#include <sstream>
 
 #include "linalg/gathered.hpp"
 #include "matrixfile/formats.hpp"
@@ -14,6 +14,7 @@
 #include "output/file.hpp"
 #include "output/folder.hpp"
 #include "pencil/pencil.hpp"
+#include "petsc/regular_file.hpp"
 #include "petsc/text.hpp"
 #include "session/stages.hpp"
 #include "sweep/sweep.hpp"
@@ -151,14 +152,23 @@ bool isExport(const fs::path& path) {
 
 /// Returns the files of an export by version 0.1.0, which kept no manifest.
 output::Manifest formerExport(const fs::path& folder) {
+  const fs::path path = folder / "options.txt";
+  if (!whyNotRegular(path).empty()) return {};
   std::string line;
-  std::ifstream options(folder / "options.txt");
+  std::istringstream options(contentOfRegular(path).value_or(""));
   if (!std::getline(options, line) || !line.starts_with(heading)) return {};
   std::set<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder))
     if (const auto name = entry.path().filename(); isExport(name) && !entry.is_directory())
       files.insert(name);
   return output::Manifest(files);
+}
+
+output::Naming naming() {
+  const std::string folder = folderOption.get();
+  output::Naming naming{"-report_matrices", "options.txt", isExport, formerExport};
+  naming.ofCase = !origin("report_matrices", folder).file.empty();
+  return naming;
 }
 
 }  // namespace
@@ -171,16 +181,14 @@ void requireExportFolder(MPI_Comm comm, const fs::path& results) {
   };
   if (place(results) == place(folderOption.get()))  // it has an options.txt of its own
     throw Error(blame() + "is the folder of the results; name another one");
-  const output::Folder folder(comm, {"-report_matrices", "options.txt", isExport, formerExport},
-                              folderOption.get());
+  const output::Folder folder(comm, naming(), folderOption.get());
 }
 
 void exportPencil(const pencil::Pencil& pencil, const sweep::Sweep& sweep,
                   std::size_t steadyPoints) {
   requireOnePencil(pencil, sweep, steadyPoints);
   Stage stage(pencil.comm(), "matrices");
-  output::Folder folder(pencil.comm(), {"-report_matrices", "options.txt", isExport, formerExport},
-                        folderOption.get());
+  output::Folder folder(pencil.comm(), naming(), folderOption.get());
   folder.stage();
   const std::string extension = formatOption.get() == "petsc" ? ".petsc" : ".mtx";
   std::set<std::string> taken;

@@ -263,6 +263,7 @@ Entries readMatrixMarket(const std::filesystem::path& path) {
 }
 
 void writeMatrixMarket(const std::filesystem::path& path, const Entries& entries) {
+  output::reserve(path, 0);  // it is no link and no pipe
   errno = 0;
   std::ofstream file(path);
   file << "%%MatrixMarket matrix coordinate real general\n"

@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <cstring>
 
+#include "petsc/check.hpp"
+#include "petsc/regular_file.hpp"
 #include "petsc/termination.hpp"
 
 namespace squeal::output {
@@ -16,10 +18,23 @@ std::string cannotWrite(const std::filesystem::path& path, int error) {
   return "cannot write " + path.string() + (error ? std::string(": ") + std::strerror(error) : "");
 }
 
+int openToWrite(const std::filesystem::path& path, int flags) {
+  try {
+    return openRegular(path, flags | O_CREAT | O_TRUNC, cannotWrite(path, 0));
+  } catch (const Error& error) {
+    throw WriteError(error.what());
+  }
+}
+
 void writeFile(const std::filesystem::path& path, const std::string& text) {
   const EndingWaits whole;
-  std::FILE* file = std::fopen(path.c_str(), "wb");
-  if (!file) throw WriteError(cannotWrite(path, errno));
+  const int descriptor = openToWrite(path);
+  std::FILE* file = fdopen(descriptor, "wb");
+  if (!file) {
+    const int error = errno;
+    close(descriptor);
+    throw WriteError(cannotWrite(path, error));
+  }
   int error =
       std::fwrite(text.data(), 1, text.size(), file) == text.size() && std::fflush(file) == 0
           ? 0
@@ -31,8 +46,7 @@ void writeFile(const std::filesystem::path& path, const std::string& text) {
 void reserve(const std::filesystem::path& path, unsigned long long bytes) {
   const EndingWaits whole;
   rlimit most{};
-  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (file < 0) throw WriteError(cannotWrite(path, errno));
+  const int file = openToWrite(path);
   int error = getrlimit(RLIMIT_FSIZE, &most) == 0 && bytes > most.rlim_cur ? EFBIG : 0;
   if (error == 0 && bytes > 0 && fallocate(file, FALLOC_FL_KEEP_SIZE, 0, bytes) != 0) error = errno;
   close(file);
@@ -41,7 +55,7 @@ void reserve(const std::filesystem::path& path, unsigned long long bytes) {
 }
 
 void sync(const std::filesystem::path& path) {
-  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int file = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (file < 0) throw WriteError(cannotWrite(path, errno));
   const int error = fsync(file) == 0 ? 0 : errno;
   close(file);

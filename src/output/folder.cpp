@@ -7,8 +7,10 @@
 #include <cstdio>
 #include <vector>
 
+#include "output/claim.hpp"
 #include "output/file.hpp"
 #include "petsc/check.hpp"
+#include "petsc/regular_file.hpp"
 
 namespace squeal::output {
 
@@ -83,6 +85,13 @@ void removeListed(const fs::path& folder, const Manifest& manifest, const fs::pa
   removeFile(Manifest::name);
 }
 
+/// Throws WriteError if anything but folders and regular files is below the folder.
+void requireRegularFiles(const fs::path& folder) {
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (!isFolder(entry.path()))
+      if (const std::string why = whyNotRegular(entry.path()); !why.empty()) throw WriteError(why);
+}
+
 /// Returns true if a folder of an earlier run holds files that are not of that run.
 bool holdsMore(const fs::path& folder, const fs::path& inside, const Manifest& ours) {
   for (const auto& name : entriesOf(folder / inside)) {
@@ -112,9 +121,10 @@ Folder::Folder(MPI_Comm comm, Naming naming, fs::path path)
     : comm_(comm),
       naming_(std::move(naming)),
       head_("option " + naming_.option + ": "),
-      path_(path.has_filename() ? std::move(path) : path.parent_path()),
+      path_(path.has_filename() || path == path.root_path() ? std::move(path) : path.parent_path()),
       staging_(path_ / ".partial"),
       complete_(path_ / ".complete") {
+  if (path_.empty()) throw Error(head_ + "the name of the folder is empty");
   lastAct_ = std::make_unique<LastAct>([this] { tidy(patience); });
   try {
     onFirst([&] { make(); });
@@ -137,21 +147,32 @@ Folder::~Folder() {
   tidy();
 }
 
+/// Throws WriteError unless this run may take the folder.
+void Folder::requireOurs() const {
+  const Manifest old = earlier();
+  try {
+    requireTakable(path_, naming_, !old.files().empty());
+  } catch (const WriteError&) {
+    requireFree(naming_.mayWrite, old);  // a file that is in the way says more than the rule
+    throw;
+  }
+}
+
 void Folder::make() {
   const EndingWaits whole;
+  requireReachable(path_, naming_.inside);
   std::vector<fs::path> missing;
   for (fs::path folder = path_; !folder.empty() && !fs::exists(folder);
        folder = folder.parent_path())
     missing.push_back(folder);
+  if (missing.empty() && !naming_.inside) requireOurs();
   for (auto folder = missing.rbegin(); folder != missing.rend(); ++folder)
     made_ += fs::create_directory(*folder);
-  if (!fs::is_directory(path_)) throw WriteError(cannotWrite(path_, ENOTDIR));
 }
 
 /// Removes the staging folder that a killed run has left, and finishes its commit.
 void Folder::clear() {
-  if (fs::exists(fs::symlink_status(staging_)) && !isFolder(staging_))
-    throw WriteError(inTheWay(staging_));
+  if (!whyNoFolder(staging_).empty()) throw WriteError(inTheWay(staging_));
   fs::remove_all(staging_);
   if (fs::exists(fs::symlink_status(complete_))) replace();
 }
@@ -161,7 +182,8 @@ void Folder::tidy(std::chrono::milliseconds patience) {
   const EndingWaits whole;
   const auto asLast = [&] {
     std::error_code ignored;
-    fs::remove_all(staging_, ignored);
+    if (isFolder(staging_))
+      fs::remove_all(staging_, ignored);  // what else has its name is not ours
   };
   lock_.release(asLast, patience);
   // A folder that has not stayed empty is kept.
@@ -201,7 +223,11 @@ void Folder::commit() {
     for (const auto& folder : old.folders())
       if (isFolder(path_ / folder) && holdsMore(path_, folder, old)) fresh.keep(folder);
     writeFile(staging_ / Manifest::name, fresh.text());
-    for (const auto& file : fresh.files()) sync(staging_ / file);
+    for (const auto& file : fresh.files()) {
+      if (const std::string why = whyNotRegular(staging_ / file); !why.empty())
+        throw WriteError(why);
+      sync(staging_ / file);
+    }
     sync(staging_);
     const EndingWaits whole;
     requireFree([&](const fs::path& path) { return fresh.lists(path); }, old);
@@ -231,6 +257,7 @@ void Folder::replace() const {
   if (!isFolder(complete_) ||
       (!Manifest::read(complete_) && !fs::exists(last) && !fs::is_empty(complete_)))
     throw WriteError(inTheWay(complete_));
+  requireRegularFiles(complete_);
   if (fs::exists(manifest)) {
     if (const auto old = Manifest::read(path_)) removeListed(path_, *old, naming_.last);
     moveAll(complete_, path_,

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "output/lock.hpp"
 #include "output/manifest.hpp"
@@ -23,6 +24,13 @@ struct Naming {
   /// Returns the files that a version without manifests left in a folder; an empty manifest if the
   /// folder holds no results of such a version.
   std::function<Manifest(const std::filesystem::path&)> former;
+  /// Files whose presence marks a folder as one of ours, beside the manifest and what a killed run
+  /// leaves; relative to the folder.
+  std::vector<std::filesystem::path> marks = {};
+  /// Files that this run has opened already, and that may lie in the folder.
+  std::vector<std::filesystem::path> opened = {};
+  bool ofCase = false;  ///< a case names the folder, so that it may hold anything
+  bool inside = false;  ///< it is a subfolder of one of ours, and no link may lead out of that
 };
 
 /// A Folder takes the files of a run in staging(); they replace those of the earlier run when all
@@ -37,9 +45,9 @@ struct Naming {
 class Folder {
  public:
   /// Collective. Makes the folder if need be and locks it; finishes the commit of a run that was
-  /// killed in it, and removes the files that such a run left. Throws Error if the folder cannot be
-  /// written, if another run is writing to it, or if a file that belongs to no run has a name that
-  /// this run may write.
+  /// killed in it, and removes the files that such a run left. Throws Error if the folder may not
+  /// be taken (claim.hpp) or cannot be written, if another run is writing to it, or if a file that
+  /// belongs to no run has a name that this run may write.
   Folder(MPI_Comm comm, Naming naming, std::filesystem::path path);
   ~Folder();
   Folder(const Folder&) = delete;
@@ -61,6 +69,7 @@ class Folder {
  private:
   template <class Action>
   void onFirst(const Action& action) const;
+  void requireOurs() const;
   void make();
   void clear();
   void tidy(std::chrono::milliseconds patience = {});

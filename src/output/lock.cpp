@@ -11,6 +11,7 @@
 
 #include "output/file.hpp"
 #include "petsc/check.hpp"
+#include "petsc/regular_file.hpp"
 #include "petsc/termination.hpp"
 #include "session/stages.hpp"
 
@@ -28,7 +29,7 @@ int lockFile(int file, int kind) {
 bool isStill(const std::filesystem::path& path, int file) {
   struct stat named {
   }, open{};
-  return stat(path.c_str(), &named) == 0 && fstat(file, &open) == 0 &&
+  return lstat(path.c_str(), &named) == 0 && fstat(file, &open) == 0 &&
          named.st_ino == open.st_ino && named.st_dev == open.st_dev;
 }
 
@@ -48,14 +49,13 @@ void Lock::take(MPI_Comm comm, const std::filesystem::path& folder, const std::s
 }
 
 /// Takes the lock exclusively at first, which tells that no other run has it, and then shared, for
-/// the other ranks to join. Sets `warning` where the file system cannot lock. Throws WriteError as
-/// take() throws Error.
+/// the other ranks to join. Sets `warning` where the file system cannot lock. Throws Error or
+/// WriteError as take() throws Error.
 void Lock::takeAlone(const std::filesystem::path& folder, std::string& warning) {
   const EndingWaits whole;
   for (int attempt = 0; attempt < 10;
        ++attempt) {  // a run that ends at this moment takes its file with it
-    const int file = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
-    if (file < 0) throw WriteError(cannotWrite(path_, errno));
+    const int file = openRegular(path_, O_RDWR | O_CREAT, cannotWrite(path_, 0));
     int error = lockFile(file, LOCK_EX);
     const bool gone = error == 0 && !isStill(path_, file);
     if (error == 0 && !gone) error = lockFile(file, LOCK_SH);
@@ -81,7 +81,7 @@ void Lock::takeAlone(const std::filesystem::path& folder, std::string& warning) 
 /// folder, the run has the lock all the same.
 void Lock::join() {
   const EndingWaits whole;
-  const int file = open(path_.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);
+  const int file = open(path_.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
   if (file < 0) return;
   if (lockFile(file, LOCK_SH) == 0) {
     file_ = file;

@@ -1,8 +1,9 @@
 #include "output/manifest.hpp"
 
-#include <fstream>
+#include <sstream>
 #include <stdexcept>
 
+#include "petsc/regular_file.hpp"
 #include "session/session.hpp"
 
 namespace squeal::output {
@@ -41,11 +42,10 @@ Manifest Manifest::of(const fs::path& folder) {
 
 std::optional<Manifest> Manifest::read(const fs::path& folder) {
   const fs::path path = folder / name;
-  std::ifstream file(path);
+  if (!whyNotRegular(path).empty()) return {};
+  std::istringstream file(contentOfRegular(path).value_or(""));
   std::string line;
-  if (!fs::is_regular_file(fs::symlink_status(path)) || !std::getline(file, line) ||
-      !line.starts_with(firstWord))
-    return {};
+  if (!std::getline(file, line) || !line.starts_with(firstWord)) return {};
   const std::string head = line;
   Manifest manifest;
   std::size_t count = 0;

@@ -1,9 +1,10 @@
 #include "report/names.hpp"
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <sstream>
 
+#include "petsc/regular_file.hpp"
 #include "petsc/text.hpp"
 
 namespace squeal::report {
@@ -63,10 +64,13 @@ std::set<std::string> plotNames(const std::vector<sweep::Parameters>& points) {
 
 /// Returns the points in the summary of version 0.1.0; none if the folder is not of that version.
 std::vector<sweep::Parameters> formerPoints(const fs::path& folder) {
+  const fs::path optionsFile = folder / "options.txt", summaryFile = folder / "summary.json";
+  if (!whyNotRegular(optionsFile).empty() || !whyNotRegular(summaryFile).empty()) return {};
   std::string line;
-  std::ifstream recipe(folder / "options.txt"), file(folder / "summary.json");
+  std::istringstream recipe(contentOfRegular(optionsFile).value_or(""));
   if (!std::getline(recipe, line) || !line.starts_with("# squeal 0.1.0,")) return {};
-  const auto summary = nlohmann::json::parse(file, nullptr, false);
+  const auto summary =
+      nlohmann::json::parse(contentOfRegular(summaryFile).value_or(""), nullptr, false);
   if (!summary.is_object() || summary.value("version", nlohmann::json()) != "0.1.0" ||
       !summary.contains("case") || !summary.contains("options") || !summary.contains("frictions"))
     return {};

@@ -8,6 +8,7 @@
 #include "options/options.hpp"
 #include "pencil/complex_modes.hpp"
 #include "report/report.hpp"
+#include "report/table_shapes.hpp"
 #include "session/session.hpp"
 #include "session/stages.hpp"
 #include "steady/steady.hpp"
@@ -269,6 +270,7 @@ void writeSummary(const analysis::Analysis& analysis, const std::filesystem::pat
   summary["wall_s"] = total;
   if (analysis.modesFloorSeconds > 0) summary["modes_floor_s"] = analysis.modesFloorSeconds;
   summary["options"] = options;
+  summary["tables"] = tableShapes(analysis.comm, folder);
   writeText(analysis.comm, folder / "summary.json", summary.dump(2) + "\n");
 }
 

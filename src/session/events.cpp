@@ -1,5 +1,6 @@
 #include "session/events.hpp"
 
+#include <fcntl.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -14,7 +15,6 @@
 #include <cstring>
 #include <ctime>
 #include <filesystem>
-#include <fstream>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -22,6 +22,7 @@
 
 #include "options/options.hpp"
 #include "petsc/check.hpp"
+#include "petsc/regular_file.hpp"
 #include "petsc/text.hpp"
 #include "session/session.hpp"
 #include "session/stages.hpp"
@@ -111,20 +112,28 @@ bool wantsLine() {
   return !isLaunched && isatty(STDOUT_FILENO) == 1 && kind && std::string_view(kind) != "dumb";
 }
 
-/// Throws Error if there is something else than a log of events in the place of the file.
-void requireLog(const std::string& path) {
-  namespace fs = std::filesystem;
+/// Opens the file to append to it. Throws Error if something else than a log of events has its
+/// name. A device, such as /dev/stderr, may be named by a link; a file may not, since the link may
+/// lead to one that is not ours.
+std::FILE* openLog(const std::string& path) {
   constexpr std::string_view head = R"({"event":)";
+  const std::string failure = "cannot write " + path;
   std::error_code none;
-  const auto kind = fs::status(path, none).type();
-  if (kind == fs::file_type::not_found || kind == fs::file_type::character) return;
-  std::string begin(head.size(), ' ');
-  if (kind == fs::file_type::regular) {
-    std::ifstream file(path);
-    file.read(begin.data(), std::ssize(begin));
-    if (file.gcount() == 0 || begin == head) return;
+  int file = -1;
+  if (std::filesystem::is_character_file(std::filesystem::status(path, none)))
+    file = open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+  else {
+    file = openRegular(path, O_RDWR | O_APPEND | O_CREAT, failure);
+    std::string begin(head.size(), ' ');
+    const auto count = pread(file, begin.data(), begin.size(), 0);
+    if (count != 0 && begin != head) {
+      close(file);
+      throw Error(path + " is there already and is no log of events");
+    }
   }
-  throw Error(path + " is there already and is no log of events");
+  std::FILE* stream = file < 0 ? nullptr : fdopen(file, "a");
+  if (!stream) throw Error(failure + ": " + std::strerror(errno));
+  return stream;
 }
 
 std::string timeText() {
@@ -147,9 +156,7 @@ void beginEvents(MPI_Comm comm) {
   onFirstRank(comm, "option -log_json: ", [&] {
     Run& r = run();
     r.begin = now();
-    if (!path.empty()) requireLog(path);
-    if (!path.empty() && !(r.file = std::fopen(path.c_str(), "ae")))
-      throw Error("cannot write " + path + ": " + std::strerror(errno));
+    if (!path.empty()) r.file = openLog(path);
     r.hasLine = line;
     if (line)
       r.clock = std::jthread([](const std::stop_token& stop) {
@@ -161,6 +168,8 @@ void beginEvents(MPI_Comm comm) {
   });
   tellEvent("start", {{"version", version()}, {"ranks", ranks}});
 }
+
+std::string eventsFile() { return fileOption.get(); }
 
 void endEvents(int exitCode) {
   tellEvent("end", {{"exit_code", exitCode}});

@@ -9,8 +9,10 @@ namespace squeal {
 
 /// Collective. Opens the file of -log_json, if it is given, to append to it, and begins the moving
 /// line if the run has a terminal (-progress). The first event is `start`. Throws Error if the file
-/// cannot be opened.
+/// cannot be opened, or is neither a log of events, nor empty, nor a device.
 void beginEvents(MPI_Comm comm);
+/// Returns the path of -log_json; empty if it is not given.
+std::string eventsFile();
 /// Not collective. Ends the line, and writes the event `end` with the exit code.
 void endEvents(int exitCode);
 

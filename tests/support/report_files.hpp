@@ -1,8 +1,11 @@
 #pragma once
 /// What the tests of the field writers share: a folder to write to and a small distributed mesh.
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
+#include <stdexcept>
 #include <string>
 
 #include "mesh/mesh.hpp"
@@ -31,6 +34,21 @@ class Folder {
   }
   fs::path path;
 };
+
+/// Collective. Puts a link to a foreign file, a named pipe, or a folder where a file is to be
+/// written; `foreign` holds its own name.
+inline void plant(const std::string& kind, const fs::path& path, const fs::path& foreign) {
+  if (rankOf(PETSC_COMM_WORLD) == 0) {
+    std::ofstream(foreign) << foreign.filename().string();
+    if (kind == "a link")
+      fs::create_symlink(foreign, path);
+    else if (kind == "a named pipe" && mkfifo(path.c_str(), 0666) != 0)
+      throw std::runtime_error("cannot make " + path.string());
+    else if (kind == "a folder")
+      fs::create_directory(path);
+  }
+  MPI_Barrier(PETSC_COMM_WORLD);
+}
 
 /// A bar along x: a brick of unit length on each rank, the last one made of two wedges; the plane
 /// of nodes between two ranks is owned by the lower one. With two ranks each has an element type

@@ -331,6 +331,54 @@ class Report(unittest.TestCase):
         self.assertEqual(said["more"].count(bad) - work.count(",pad,"), len(summary["frictions"]) + 1)  # friction work; forces, a stage
         self.assertEqual(said["recipe"].count(bad), 3)
 
+    def check_alive(self, driver, why):
+        """Without shapes the report says why; diagrams and tables are complete and answer to clicks and keys."""
+        def script(text, *arguments):
+            return driver.execute_script(text, *arguments)
+
+        note = driver.find_element(By.ID, "noview")
+        self.assertTrue(note.is_displayed())
+        self.assertIn(f"The shapes of the modes are not drawn: {why}", note.text)
+        self.assertEqual(driver.find_elements(By.ID, "view") + driver.find_elements(By.ID, "play"), [])
+        drawn = script("return Object.values(charts).map((one) => one.chart.data.datasets.slice(1, 4).reduce((sum, set) => sum + set.data.length, 0))")
+        self.assertEqual(drawn, [len(self.rows)] * 3)
+        self.assertGreater(script("const c = element('frequency').getContext('2d'), p = c.getImageData(0, 0, c.canvas.width, c.canvas.height).data;"
+                                  "const all = new Set(); for (let i = 0; i < p.length; i += 4) all.add(p[i] * 65536 + p[i + 1] * 256 + p[i + 2]); return all.size;"), 10)  # fmt: skip
+        self.assertEqual(script("state.filter = ''; listRows(); return element('table').tBodies[0].rows.length"), len(self.rows))
+        self.assertIn("Points of the sweep", [one.text for one in driver.find_elements(By.CSS_SELECTOR, "#more summary")])
+        before = driver.find_element(By.ID, "chosen").text
+        driver.find_element(By.ID, "sweep").send_keys(Keys.ARROW_DOWN)
+        self.assertNotEqual(driver.find_element(By.ID, "chosen").text, before)
+        driver.find_elements(By.CSS_SELECTOR, "#table tbody tr")[7].click()
+        self.assertEqual(script("return state.selected"), script("return listed[7]"))
+        driver.find_element(By.ID, "scheme").click()
+        self.assertEqual(script("return charts.frequency.chart.options.scales.x.title.color"), script("return css('--ink')"))
+        self.assertEqual([entry for entry in driver.get_log("browser") if entry["level"] == "SEVERE"], [])
+
+    def test_without_webgl_diagrams_and_tables_live(self):
+        for webgl, hook, why in (
+            (False, "", "this browser offers no WebGL"),
+            (True, "delete window.DecompressionStream", "this browser is too old to unpack them"),
+        ):
+            with self.subTest(why):
+                driver = browser(webgl, browser="ALL")
+                try:
+                    driver.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": hook})
+                    driver.get((self.folder / "report.html").as_uri())
+                    WebDriverWait(driver, 60).until(lambda driver: driver.execute_script("return document.documentElement.dataset.ready"))
+                    self.check_alive(driver, why)
+                finally:
+                    driver.quit()
+
+    def test_webgl_that_is_lost(self):
+        """A driver may be restarted, or the browser may have too many views."""
+        self.addCleanup(self.open_page, self.folder / "report.html")
+        self.open_page(self.folder / "report.html")
+        self.driver.get_log("browser")
+        self.run_script("view.renderer.forceContextLoss()")
+        WebDriverWait(self.driver, 10).until(lambda driver: driver.find_elements(By.ID, "noview"))
+        self.check_alive(self.driver, "the browser has taken WebGL away from this page")
+
     def test_picture(self):
         """scripts/report_picture.py shows the mode; a report that shows none is refused, and no picture written."""
 

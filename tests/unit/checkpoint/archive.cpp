@@ -7,7 +7,9 @@
 #include "checkpoint/checkpoint.hpp"
 #include "options/settings.hpp"
 #include "petsc/arrays.hpp"
+#include "petsc/regular_file.hpp"
 #include "support/communicator.hpp"
+#include "support/report_files.hpp"
 
 namespace squeal::checkpoint {
 namespace {
@@ -190,6 +192,31 @@ TEST(Checkpoint, WhatCannotBeWrittenDoesNotEndTheRun) {
   EXPECT_FALSE(checkpoint.due());  // it is given up
   MPI_Barrier(PETSC_COMM_WORLD);
   if (rankHere() == 0) fs::remove(file);
+}
+
+// A link in the place of the next entry let it overwrite a foreign file, and a pipe blocked it.
+TEST(Checkpoint, IsWrittenNeitherThroughALinkNorIntoAPipe) {
+  const EveryEntry all;
+  for (const std::string kind : {"a link", "a named pipe", "a folder"}) {
+    const test::Folder place;
+    const fs::path entries = place.path / "interrupted" / "checkpoint",
+                   partial = entries / "log_0001.entry.partial", foreign = place.path / "foreign";
+    const Identity identity{{"a", "1"}};
+    Checkpoint checkpoint(PETSC_COMM_WORLD, entries, identity, false);
+    write(checkpoint, 1);
+    EXPECT_TRUE(checkpoint.exists());
+    test::plant(kind, partial, foreign);
+    EXPECT_NO_THROW(write(checkpoint, 2));
+    EXPECT_FALSE(checkpoint.due());  // it is given up
+    for (const bool resumes : {false, true}) {
+      const std::string message =
+          test::errorOf([&] { Checkpoint(PETSC_COMM_WORLD, entries, identity, resumes); });
+      EXPECT_EQ(message, "option -checkpoint: no file of a checkpoint: " + partial.string() +
+                             " is " + kind + ", not a regular file");
+    }
+    EXPECT_EQ(contentOfRegular(foreign), "foreign");
+    MPI_Barrier(PETSC_COMM_WORLD);
+  }
 }
 
 }  // namespace

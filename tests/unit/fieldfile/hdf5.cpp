@@ -5,6 +5,7 @@
 
 #include "fieldfile/hdf5.hpp"
 #include "support/hdf5.hpp"
+#include "support/program.hpp"
 #include "support/report_files.hpp"
 
 namespace squeal::fieldfile {
@@ -126,6 +127,18 @@ TEST(Hdf5, NamesTheOptionWhereTheFileCannotBeMade) {
   MPI_Barrier(PETSC_COMM_WORLD);
   EXPECT_NE(errorOf([&] { Hdf5File(PETSC_COMM_WORLD, file / "inside", option); }).find("-folder"),
             std::string::npos);
+}
+
+TEST(Hdf5, IsWrittenNeitherThroughALinkNorIntoAPipe) {
+  for (const std::string kind : {"a link", "a named pipe", "a folder"}) {
+    const Folder folder;
+    const fs::path path = folder.path / "results.h5", foreign = folder.path / "foreign";
+    plant(kind, path, foreign);
+    const auto message = errorOf([&] { Hdf5File(PETSC_COMM_WORLD, path, option); });
+    EXPECT_EQ(message, "option -folder: " + path.string() + " is " + kind + ", not a regular file");
+    EXPECT_EQ(contentOf(foreign), "foreign");
+    MPI_Barrier(PETSC_COMM_WORLD);
+  }
 }
 
 }  // namespace

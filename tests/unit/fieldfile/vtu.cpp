@@ -14,6 +14,7 @@
 #include <sstream>
 
 #include "fieldfile/vtu.hpp"
+#include "support/program.hpp"
 #include "support/report_files.hpp"
 #include "support/vtu.hpp"
 
@@ -269,6 +270,23 @@ TEST(Vtu, AllRanksLearnOfAPieceThatOneCannotWrite) {
   const auto message = errorOf([&] { writeVtu(bar(), folder.path / "x", {}, option); });
   EXPECT_NE(message.find("-folder"), std::string::npos);
   EXPECT_NE(message.find(piece.string()), std::string::npos) << message;
+}
+
+TEST(Vtu, IsWrittenNeitherThroughALinkNorIntoAPipe) {
+  for (const std::string kind : {"a link", "a named pipe", "a folder"}) {
+    for (const bool ofPiece : {true, false}) {
+      const Folder folder;
+      const fs::path path = folder.path / (ofPiece ? "x/x_0.vtu" : "x.pvtu"),
+                     foreign = folder.path / "foreign";
+      if (rankOf(PETSC_COMM_WORLD) == 0) fs::create_directories(path.parent_path());
+      plant(kind, path, foreign);
+      const auto message = errorOf([&] { writeVtu(bar(), folder.path / "x", {}, option); });
+      EXPECT_EQ(message,
+                "option -folder: " + path.string() + " is " + kind + ", not a regular file");
+      EXPECT_EQ(contentOf(foreign), "foreign");
+      MPI_Barrier(PETSC_COMM_WORLD);
+    }
+  }
 }
 
 TEST(Pvd, ListsFramesRelativeToItsFolder) {

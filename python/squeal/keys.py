@@ -1,0 +1,15 @@
+"""The parameters of a sweep, as keys of points."""
+
+PARAMETERS = ("friction", "speed", "pressure", "damping")
+
+
+def key_of(values):
+    """Parameters in a form in which equal ones are equal, whether counted up to or written: 0.1 + 0.2 is 0.3."""
+    return tuple(float(f"{float(value):.12g}") for value in values)
+
+
+def words_of(at):
+    return ", ".join(f"{name} {value:g}" for name, value in at.items())
+
+
+__all__ = ["PARAMETERS", "key_of", "words_of"]
