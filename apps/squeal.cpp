@@ -35,7 +35,7 @@ constexpr const char* usage =
     "one stage\n"
     "  -help_json the same for programs; -help_json STAGE\n"
     "  -version   versions of this program and of its libraries\n"
-    "Exit code: 0 done, 2 some friction has no steady solution, 3 asked to stop (SIGTERM, SIGUSR1; "
+    "Exit code: 0 done, 2 some point or stage has no result, 3 asked to stop (SIGTERM, SIGUSR1; "
     "-resume goes on), 1 error.\n";
 
 /// Prints an error and tells it to programs.

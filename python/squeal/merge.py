@@ -192,7 +192,7 @@ def _outcome(part):
     row["worst_frequency_hz"] = "" if worst is None or "frequency_hz" not in worst else worst["frequency_hz"]
     row["worst_friction"] = "" if worst is None else worst["friction"]
     critical = part.results.critical
-    lost = [] if critical is None else critical[critical["direction"] == "loss"]["friction"]
+    lost = [] if critical is None else critical[(critical["direction"] == "loss") & (critical["converged"] == 1)]["friction"]
     row["critical_friction"] = min(lost, default="")
     verdicts = set(points["verdict"])
     row["verdict"] = next((verdict for verdict in GRAVITY if verdict in verdicts), "")

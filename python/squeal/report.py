@@ -169,7 +169,7 @@ def verdict(results):
     worst = grows.loc[grows["growth_rate_1_per_s"].idxmax()]
     begins = None
     if critical is not None and len(critical) and len(results.swept()) <= 1:
-        lost = critical[critical["direction"] == "loss"]["friction"]
+        lost = critical[(critical["direction"] == "loss") & (critical["converged"] == 1)]["friction"]
         below = points[points["unstable_modes"] > 0]["friction"].min()
         if len(lost) and lost.min() <= below:
             begins = f"Stable up to friction {lost.min():.6g}" if lost.min() > 0 else "Unstable as soon as there is friction"
