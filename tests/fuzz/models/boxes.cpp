@@ -19,7 +19,7 @@ double coordinate(const std::vector<double>& cuts, int place) {
 Vector positionOf(const BoxMesh& mesh, const Box& box, const Place& place) {
   Vector x{};
   for (int a = 0; a < mesh.dimension; ++a) x[a] = coordinate(box.cuts[a], place[a]);
-  if (mesh.ring) return {x[1] * std::cos(x[0]), x[1] * std::sin(x[0]), x[2]};
+  if (mesh.ring) return {x[1] * std::cos(x[0]), -x[1] * std::sin(x[0]), x[2]};
   x[0] += mesh.skew * x[mesh.up()];
   return x;
 }

@@ -32,7 +32,7 @@ struct Side {
 struct BoxMesh {
   int dimension = 3;
   double skew = 0;    ///< the first coordinate grows by this part of the last one
-  bool ring = false;  ///< the first coordinate is an angle, the second one a radius
+  bool ring = false;  ///< the first coordinate is an angle about −z, the second one a radius
   std::vector<Box> boxes;
   std::vector<Side> sides;
   int up() const { return dimension - 1; }

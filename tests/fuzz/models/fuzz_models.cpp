@@ -18,6 +18,7 @@
 #include "fuzz/models/compare.hpp"
 #include "fuzz/models/paths.hpp"
 #include "petsc/check.hpp"
+#include "petsc/text.hpp"
 #include "session/session.hpp"
 
 namespace squeal::fuzz {
@@ -27,7 +28,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
-constexpr double longestSeconds = 60;    // for a model with all its ways
+constexpr double longestSeconds = 20;    // for a model with all its ways
 constexpr std::uint64_t batchSize = 100;  // models of a process
 constexpr std::uint64_t rankStride = 4;   // of the models that are solved on two ranks too
 constexpr int mostFailures = 20;
@@ -216,7 +217,7 @@ class Driver {
       if (const auto now = fs::file_size(results); now != size) size = now, since = Clock::now();
       if (std::chrono::duration<double>(Clock::now() - since).count() < longestSeconds) continue;
       kill(child, SIGTERM);  // mpirun ends its ranks
-      usleep(5000000);
+      usleep(1000000);
       kill(-child, SIGKILL);
       waitpid(child, &status, 0);
       return "takes longer than " + std::to_string(int(longestSeconds)) + " s";
@@ -227,14 +228,20 @@ class Driver {
     const std::string failure = line.value("failure", ""), refusal = line.value("refusal", "");
     if (const double seconds = line.value("seconds", 0.0); seconds > slowestSeconds_)
       slowestSeconds_ = seconds, slowest_ = seed;
-    for (const auto& path : line.value("paths", std::vector<std::string>())) ++paths_[path];
+    for (const auto& path : line.value("paths", json::array())) ++paths_[path[0]];
+    if (std::getenv("SQUEAL_FUZZ_LIST")) std::printf("%s\n", summary(seed, line).c_str());
     if (!failure.empty()) return fail(seed, failure);
     ++(refusal.empty() ? accepted_ : refused_);
-    if (refusal.empty()) return;
-    ++refusals_[refusal.substr(0, 60)];
-    if (std::getenv("SQUEAL_FUZZ_REFUSALS"))
-      std::printf("refused: model %llu: %s\n", static_cast<unsigned long long>(seed),
-                  refusal.c_str());
+    if (!refusal.empty()) ++refusals_[refusal.substr(0, 60)];
+  }
+
+  /// A line on a model: `SQUEAL_FUZZ_LIST`.
+  static std::string summary(std::uint64_t seed, const json& line) {
+    std::string text = "model " + std::to_string(seed) + ": ";
+    for (const auto& feature : modelOf(seed).features) text += feature + ", ";
+    for (const auto& path : line.value("paths", json::array()))
+      text += formatted("%s %.2f s, ", path[0].get<std::string>().c_str(), path[1].get<double>());
+    return text + formatted("all %.2f s; ", line.value("seconds", 0.0)) + line.value("refusal", "");
   }
 
   void fail(std::uint64_t seed, const std::string& failure) {
@@ -294,6 +301,7 @@ int main(int argc, char** argv) {
                  argv[0], argv[0]);
     return 2;
   }
+  setenv("OPENBLAS_NUM_THREADS", "1", 0);  // two threads on small matrices take twice as long
   const auto program = std::filesystem::read_symlink("/proc/self/exe").string();
   return Driver(program, all).run(numbers > 1 ? number(argv[2]) : 0,
                                   numbers > 0 ? number(argv[1]) : 2000);

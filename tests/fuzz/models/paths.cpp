@@ -93,8 +93,7 @@ class Paths {
     const Bond own = model_.glue->form;
     std::vector<Bond> others;
     for (int i = 0; i < bondForms; ++i)
-      if (Bond(i) != own && (Bond(i) != Bond::slaveIsSecond || model_.glue->secondCanFollow))
-        others.push_back(Bond(i));
+      if (Bond(i) != own && model_.glue->canBe(Bond(i))) others.push_back(Bond(i));
     const Bond form = others[random_.below(others.size())];
     auto found = compared({false, 0, form}, {}, {});
     return found.empty() ? "" : std::string(text(own)) + " against " + text(form) + ": " + found;
@@ -166,11 +165,12 @@ Outcome run(const Model& model, const Form& form, const Changes& changes,
   Outcome outcome;
   try {
     check(PetscOptionsClear(nullptr));
-    std::vector<Setting> settings{{"quiet", ""}, {"mesh_file", mesh.string()}};
+    std::vector<Setting> settings{{"quiet", "", "", 0},
+                                  {"mesh_file", mesh.string(), "", 0}};
     for (const auto* list : {&files.options, &changes})
       for (const auto& [name, value] : *list) {
         std::erase_if(settings, [&](const auto& one) { return one.name == name; });
-        settings.push_back({name, value});
+        settings.push_back({name, value, "", 0});
       }
     insert(settings);
     analysis::checkOptions();
@@ -191,8 +191,9 @@ Judgement judge(const Model& model, bool allPaths, const std::filesystem::path& 
     while (all.size() > 3) all.erase(all.begin() + random.below(all.size()));
   if (!judgement.base.refusal.empty()) all.resize(std::min<std::size_t>(all.size(), 1));
   for (const auto& path : all) {
-    judgement.paths.push_back(path.name);
+    const double begin = MPI_Wtime();
     const std::string difference = path.difference();
+    judgement.paths.emplace_back(path.name, MPI_Wtime() - begin);
     if (difference.empty()) continue;
     judgement.failure += (judgement.failure.empty() ? "" : "\n") + path.name + ": " + difference;
     if (!allPaths) break;

@@ -14,7 +14,8 @@ namespace squeal::fuzz {
 struct Judgement {
   std::string failure;  ///< the path and the difference; empty: all agree
   Outcome base;         ///< of the model as it is
-  std::vector<std::string> paths;  ///< that it was compared by
+  /// By which it was compared, and the wall time of each, s.
+  std::vector<std::pair<std::string, double>> paths;
 };
 
 /// Collective. Runs a model in one of its forms with some options changed. Files are written to the
