@@ -126,6 +126,7 @@ class PointComparison {
 
 std::string steadyDifference(const FoundSteady& a, const FoundSteady& b, const Extent& extent) {
   const std::string where = "steady sliding at " + sweep::parameterText(a.at) + ": ";
+  if (a.converged && !b.converged && extent.mayMiss) return "";
   if (a.converged != b.converged) return where + "only one of the runs finds it";
   if (!a.converged) return "";
   if (extent.sameUnknowns && a.open != b.open)
@@ -186,7 +187,8 @@ std::string difference(const Outcome& first, const Outcome& second, const Extent
       if (auto found = PointComparison(a, b, first.stiffest).difference(); !found.empty())
         return found;
     }
-  if (common < second.points.size() || (extent.sameSweep && common < first.points.size()))
+  if (common < second.points.size() ||
+      (extent.sameSweep && !extent.mayMiss && common < first.points.size()))
     return "the runs have other points";
   if (commonSteady < second.steady.size()) return "the runs have other steady points";
   if (!extent.criticals || !first.followed || !second.followed) return "";

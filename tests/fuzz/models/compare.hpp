@@ -8,9 +8,10 @@ namespace squeal::fuzz {
 
 /// What two runs have in common.
 struct Extent {
-  bool sameSweep = true;       ///< all points; otherwise those of `second` are some of `first`
-  bool criticals = true;       ///< both solve for critical frictions
-  bool sameUnknowns = true;    ///< the numbers of open nodes agree
+  bool sameSweep = true;     ///< all points; otherwise those of `second` are some of `first`
+  bool criticals = true;     ///< both solve for critical frictions
+  bool sameUnknowns = true;  ///< the numbers of open nodes agree
+  bool mayMiss = false;      ///< the second run may find no steady state where the first one does
 };
 
 /// Returns the first difference between two results, in a line; empty if there is none.

@@ -142,9 +142,11 @@ class Driver {
       const auto other = alone.find(seed);
       if (line.contains("failure")) fail(seed, "2 ranks: " + line["failure"].get<std::string>());
       if (!line.contains("base") || other == alone.end() || !other->second.contains("base")) continue;
+      const Outcome onTwo = fromJson(line["base"]);
+      if (onTwo.refusal.starts_with("the mesh has ")) continue;  // fewer cells than ranks
       ++onTwoRanks_;
       const auto found =
-          difference(fromJson(other->second["base"]), fromJson(line["base"]), Extent{});
+          difference(fromJson(other->second["base"]), onTwo, Extent{});
       if (!found.empty()) fail(seed, "2 ranks: " + found);
     }
   }

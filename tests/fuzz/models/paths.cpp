@@ -52,8 +52,12 @@ class Paths {
       add("direct_band", [this] { return directBand(); });
     }
     add("own_basis", [this] { return compared({}, {{"reduction_released", "0"}}, {}); });
-    add("steady_full", [this] { return compared({}, {{"steady_full", "on"}}, {}); });
-    add("alone", [this] { return alone(); });
+    // It has no path of the contact, and SNES may miss a solution that the condensed problem finds.
+    add("steady_full", [this] {
+      return compared({}, {{"steady_full", "on"}}, {true, false, true, true});
+    });
+    // The matrix of modal damping is made of the free modes of the first point, prestress included.
+    if (!model_.modalDamping || !model_.has("prestress")) add("alone", [this] { return alone(); });
     add("shuffled", [this] { return compared({true, 0, {}}, {}, {}); });
     if (model_.mesh.dimension == 3)
       add("turned", [this] { return compared({false, random_.between(1, 2), {}}, {}, {}); });
