@@ -13,7 +13,8 @@ using Vector = std::array<double, 3>;
 /// A body: a box cut into cells, those into elements. In the plane the third list is {0}.
 struct Box {
   std::string name;
-  std::array<std::vector<double>, 3> cuts;  ///< [axis] ascending places, m; on a ring angle, radius, z
+  std::array<std::vector<double>, 3>
+      cuts;  ///< [axis] ascending places, m; on a ring angle, radius, z
   Shape shape = Shape::hex8;
   bool closed = false;  ///< the first axis goes round: its last cut is its first
 
@@ -42,7 +43,7 @@ struct BoxMesh {
 struct Writing {
   bool shuffled = false;  ///< nodes, cells and bodies in another order
   int turn = 0;           ///< the axes change places: x becomes y, y z, z x, so often
-  int weldedTo = -1;      ///< this box shares the nodes of its faces with the box `welded`; -1: none
+  int weldedTo = -1;  ///< this box shares the nodes of its faces with the box `welded`; -1: none
   int welded = -1;
 };
 

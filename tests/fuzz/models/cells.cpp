@@ -8,10 +8,10 @@ using Corners = std::vector<std::vector<int>>;  // [element or face][corner]
 /// A family of elements by its corners; numbers are gmsh's.
 struct Family {
   int cornerCount;
-  Corners inCell;           ///< corners of the lattice's cell that its elements have
-  Corners edges;            ///< in gmsh's order
-  Corners quadrangles;      ///< faces of four corners, in gmsh's order
-  Corners triangles;        ///< faces of three corners
+  Corners inCell;       ///< corners of the lattice's cell that its elements have
+  Corners edges;        ///< in gmsh's order
+  Corners quadrangles;  ///< faces of four corners, in gmsh's order
+  Corners triangles;    ///< faces of three corners
   bool edgesAreFaces = false;
 };
 
@@ -22,43 +22,34 @@ constexpr int cellCorner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
 const Family triangle{3, {{0, 1, 2}, {0, 2, 3}}, {{0, 1}, {1, 2}, {2, 0}}, {}, {}, true};
 const Family quadrangle{4, {{0, 1, 2, 3}}, {{0, 1}, {1, 2}, {2, 3}, {3, 0}}, {}, {}, true};
 // Six tetrahedra about the diagonal from corner 0 to corner 6 (Kuhn): neighbouring cells match.
-const Family tetrahedron{4,
-                         {{0, 1, 2, 6},
-                          {0, 2, 3, 6},
-                          {0, 3, 7, 6},
-                          {0, 7, 4, 6},
-                          {0, 4, 5, 6},
-                          {0, 5, 1, 6}},
-                         {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}},
-                         {},
-                         {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
-const Family wedge{
-    6,
-    {{0, 1, 2, 4, 5, 6}, {0, 2, 3, 4, 6, 7}},
-    {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 4}, {2, 5}, {3, 4}, {3, 5}, {4, 5}},
-    {{0, 1, 4, 3}, {0, 2, 5, 3}, {1, 2, 5, 4}},
-    {{0, 1, 2}, {3, 4, 5}}};
-const Family hexahedron{8,
-                        {{0, 1, 2, 3, 4, 5, 6, 7}},
-                        {{0, 1},
-                         {0, 3},
-                         {0, 4},
-                         {1, 2},
-                         {1, 5},
-                         {2, 3},
-                         {2, 6},
-                         {3, 7},
-                         {4, 5},
-                         {4, 7},
-                         {5, 6},
-                         {6, 7}},
-                        {{0, 3, 2, 1},
-                         {0, 1, 5, 4},
-                         {0, 4, 7, 3},
-                         {1, 2, 6, 5},
-                         {2, 3, 7, 6},
-                         {4, 5, 6, 7}},
-                        {}};
+const Family tetrahedron{
+    4,
+    {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6}, {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}},
+    {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}},
+    {},
+    {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+const Family wedge{6,
+                   {{0, 1, 2, 4, 5, 6}, {0, 2, 3, 4, 6, 7}},
+                   {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 4}, {2, 5}, {3, 4}, {3, 5}, {4, 5}},
+                   {{0, 1, 4, 3}, {0, 2, 5, 3}, {1, 2, 5, 4}},
+                   {{0, 1, 2}, {3, 4, 5}}};
+const Family hexahedron{
+    8,
+    {{0, 1, 2, 3, 4, 5, 6, 7}},
+    {{0, 1},
+     {0, 3},
+     {0, 4},
+     {1, 2},
+     {1, 5},
+     {2, 3},
+     {2, 6},
+     {3, 7},
+     {4, 5},
+     {4, 7},
+     {5, 6},
+     {6, 7}},
+    {{0, 3, 2, 1}, {0, 1, 5, 4}, {0, 4, 7, 3}, {1, 2, 6, 5}, {2, 3, 7, 6}, {4, 5, 6, 7}},
+    {}};
 
 /// What a shape is made of. Faces: gmsh's numbers of the types with 2, 3 and 4 corners.
 struct Pattern {
@@ -70,19 +61,18 @@ struct Pattern {
   bool middles;  ///< nodes in the middle of quadrangles and hexahedra
 };
 
-const std::vector<Pattern> patterns{
-    {Shape::tri3, "tri3", 2, 1, &triangle, 2, 1, 0, 0, false},
-    {Shape::tri6, "tri6", 2, 2, &triangle, 9, 8, 0, 0, false},
-    {Shape::quad4, "quad4", 2, 1, &quadrangle, 3, 1, 0, 0, false},
-    {Shape::quad8, "quad8", 2, 2, &quadrangle, 16, 8, 0, 0, false},
-    {Shape::quad9, "quad9", 2, 2, &quadrangle, 10, 8, 0, 0, true},
-    {Shape::tet4, "tet4", 3, 1, &tetrahedron, 4, 0, 2, 0, false},
-    {Shape::tet10, "tet10", 3, 2, &tetrahedron, 11, 0, 9, 0, false},
-    {Shape::wedge6, "wedge6", 3, 1, &wedge, 6, 0, 2, 3, false},
-    {Shape::wedge15, "wedge15", 3, 2, &wedge, 18, 0, 9, 16, false},
-    {Shape::hex8, "hex8", 3, 1, &hexahedron, 5, 0, 0, 3, false},
-    {Shape::hex20, "hex20", 3, 2, &hexahedron, 17, 0, 0, 16, false},
-    {Shape::hex27, "hex27", 3, 2, &hexahedron, 12, 0, 0, 10, true}};
+const std::vector<Pattern> patterns{{Shape::tri3, "tri3", 2, 1, &triangle, 2, 1, 0, 0, false},
+                                    {Shape::tri6, "tri6", 2, 2, &triangle, 9, 8, 0, 0, false},
+                                    {Shape::quad4, "quad4", 2, 1, &quadrangle, 3, 1, 0, 0, false},
+                                    {Shape::quad8, "quad8", 2, 2, &quadrangle, 16, 8, 0, 0, false},
+                                    {Shape::quad9, "quad9", 2, 2, &quadrangle, 10, 8, 0, 0, true},
+                                    {Shape::tet4, "tet4", 3, 1, &tetrahedron, 4, 0, 2, 0, false},
+                                    {Shape::tet10, "tet10", 3, 2, &tetrahedron, 11, 0, 9, 0, false},
+                                    {Shape::wedge6, "wedge6", 3, 1, &wedge, 6, 0, 2, 3, false},
+                                    {Shape::wedge15, "wedge15", 3, 2, &wedge, 18, 0, 9, 16, false},
+                                    {Shape::hex8, "hex8", 3, 1, &hexahedron, 5, 0, 0, 3, false},
+                                    {Shape::hex20, "hex20", 3, 2, &hexahedron, 17, 0, 0, 16, false},
+                                    {Shape::hex27, "hex27", 3, 2, &hexahedron, 12, 0, 0, 10, true}};
 
 const Pattern& patternOf(Shape shape) {
   for (const auto& pattern : patterns)
@@ -142,10 +132,9 @@ std::vector<Element> elementsOf(Shape shape, const Place& low) {
       for (int a = 0; a < 3; ++a) corner[a] += 2 * cellCorner[n][a];
       corners.push_back(corner);
     }
-    elements.push_back(completed(pattern.type, std::move(corners),
-                                 quadratic ? pattern.family->edges : Corners{},
-                                 pattern.middles ? pattern.family->quadrangles : Corners{},
-                                 pattern.middles));
+    elements.push_back(
+        completed(pattern.type, std::move(corners), quadratic ? pattern.family->edges : Corners{},
+                  pattern.middles ? pattern.family->quadrangles : Corners{}, pattern.middles));
   }
   return elements;
 }

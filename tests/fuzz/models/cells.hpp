@@ -6,8 +6,8 @@
 
 namespace squeal::fuzz {
 
-/// A place of the lattice: corners of its cells have even coordinates, nodes in the middle of edges,
-/// faces and cells odd ones.
+/// A place of the lattice: corners of its cells have even coordinates, nodes in the middle of
+/// edges, faces and cells odd ones.
 using Place = std::array<int, 3>;
 
 /// The element types of a mesh whose cells are cut into elements.

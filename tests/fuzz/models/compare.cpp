@@ -14,8 +14,8 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 /// Rounding of both runs. A stiffness that is known to ε of its entries moves s by
 ///   |δs|/|s| ≤ κ ε (1 + Ω²/|s|²),
 /// with Ω the bound of the frequencies of the mesh; sums of some hundred entries, in another order,
-/// make it a few times as much. Near another eigenvalue at the distance d the condition κ is at most
-/// about |s|/d, and as d is of the order of δs where two meet, |δs| max(d, |δs|) is bounded.
+/// make it a few times as much. Near another eigenvalue at the distance d the condition κ is at
+/// most about |s|/d, and as d is of the order of δs where two meet, |δs| max(d, |δs|) is bounded.
 constexpr double safety = 20;
 
 /// An eigenvalue, the distance to its nearest neighbour, and the error that it is allowed.

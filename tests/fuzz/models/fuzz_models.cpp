@@ -1,5 +1,6 @@
 /// main() of the program that solves random models. A process of its own, which is started anew
-/// where it crashes or hangs, solves a batch of them; every fourth model is solved on two ranks too.
+/// where it crashes or hangs, solves a batch of them; every fourth model is solved on two ranks
+/// too.
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -28,13 +29,14 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
-constexpr double longestSeconds = 20;    // for a model with all its ways
+constexpr double longestSeconds = 20;     // for a model with all its ways
 constexpr std::uint64_t batchSize = 100;  // models of a process
 constexpr std::uint64_t rankStride = 4;   // of the models that are solved on two ranks too
 constexpr int mostFailures = 20;
 
 fs::path folder() {
-  const fs::path path = fs::path(SQUEAL_OUTPUT_DIR) / "fuzz" / ("models_" + std::to_string(getpid()));
+  const fs::path path =
+      fs::path(SQUEAL_OUTPUT_DIR) / "fuzz" / ("models_" + std::to_string(getpid()));
   fs::create_directories(path);
   return path;
 }
@@ -141,12 +143,12 @@ class Driver {
     for (const auto& [seed, line] : solved(begin, count, 2)) {
       const auto other = alone.find(seed);
       if (line.contains("failure")) fail(seed, "2 ranks: " + line["failure"].get<std::string>());
-      if (!line.contains("base") || other == alone.end() || !other->second.contains("base")) continue;
+      if (!line.contains("base") || other == alone.end() || !other->second.contains("base"))
+        continue;
       const Outcome onTwo = fromJson(line["base"]);
       if (onTwo.refusal.starts_with("the mesh has ")) continue;  // fewer cells than ranks
       ++onTwoRanks_;
-      const auto found =
-          difference(fromJson(other->second["base"]), onTwo, Extent{});
+      const auto found = difference(fromJson(other->second["base"]), onTwo, Extent{});
       if (!found.empty()) fail(seed, "2 ranks: " + found);
     }
   }
@@ -168,8 +170,13 @@ class Driver {
   Batch solvedByOne(std::uint64_t begin, std::uint64_t count, int ranks) {
     const fs::path results = place_ / "results", printed = place_ / "printed";
     std::ofstream(results).close();
-    std::vector<std::string> words{program_,   "--solve", results, place_, std::to_string(begin),
-                                   std::to_string(count), allPaths_ ? "all" : "some"};
+    std::vector<std::string> words{program_,
+                                   "--solve",
+                                   results,
+                                   place_,
+                                   std::to_string(begin),
+                                   std::to_string(count),
+                                   allPaths_ ? "all" : "some"};
     if (ranks > 1) words.insert(words.begin(), {SQUEAL_MPIEXEC, std::to_string(ranks)});
     const pid_t child = start(words, printed);
     std::string end = watch(child, results);
@@ -212,9 +219,8 @@ class Driver {
       int status = 0;
       if (waitpid(child, &status, WNOHANG) == child) {
         if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return "";
-        return WIFSIGNALED(status)
-                   ? std::string("ends by signal ") + strsignal(WTERMSIG(status))
-                   : "ends with exit code " + std::to_string(WEXITSTATUS(status));
+        return WIFSIGNALED(status) ? std::string("ends by signal ") + strsignal(WTERMSIG(status))
+                                   : "ends with exit code " + std::to_string(WEXITSTATUS(status));
       }
       if (const auto now = fs::file_size(results); now != size) size = now, since = Clock::now();
       if (std::chrono::duration<double>(Clock::now() - since).count() < longestSeconds) continue;
@@ -260,10 +266,11 @@ class Driver {
     std::printf(" 2 ranks %d\n", onTwoRanks_);
     for (const auto& [refusal, number] : refusals_)
       std::printf("refused %d times: %s\n", number, refusal.c_str());
-    std::printf("models: %llu inputs, %d accepted, %d refused, %d failures; slowest %.3f s (model "
-                "%llu)\n",
-                static_cast<unsigned long long>(count), accepted_, refused_, failures_,
-                slowestSeconds_, static_cast<unsigned long long>(slowest_));
+    std::printf(
+        "models: %llu inputs, %d accepted, %d refused, %d failures; slowest %.3f s (model "
+        "%llu)\n",
+        static_cast<unsigned long long>(count), accepted_, refused_, failures_, slowestSeconds_,
+        static_cast<unsigned long long>(slowest_));
   }
 
   std::string program_;
@@ -305,6 +312,6 @@ int main(int argc, char** argv) {
   }
   setenv("OPENBLAS_NUM_THREADS", "1", 0);  // two threads on small matrices take twice as long
   const auto program = std::filesystem::read_symlink("/proc/self/exe").string();
-  return Driver(program, all).run(numbers > 1 ? number(argv[2]) : 0,
-                                  numbers > 0 ? number(argv[1]) : 2000);
+  return Driver(program, all)
+      .run(numbers > 1 ? number(argv[2]) : 0, numbers > 0 ? number(argv[1]) : 2000);
 }

@@ -1,5 +1,5 @@
-/// What a model is made of: a pad on something that moves, and beside or above it, at random, a back
-/// plate, a holder and a second pad.
+/// What a model is made of: a pad on something that moves, and beside or above it, at random, a
+/// back plate, a holder and a second pad.
 #include <algorithm>
 #include <cmath>
 
@@ -22,8 +22,7 @@ std::vector<double> evenCuts(double low, double high, int cells) {
 
 class Generator {
  public:
-  Generator(std::uint64_t seed, std::uint64_t attempt)
-      : random_(attempt * 0x2545f4914f6cdd1d + 1) {
+  Generator(std::uint64_t seed, std::uint64_t attempt) : random_(attempt * 0x2545f4914f6cdd1d + 1) {
     model_.seed = seed;
   }
 
@@ -43,7 +42,6 @@ class Generator {
     note(std::to_string(model_.mesh.boxes.size()) + " bodies");
     return model_;
   }
-
 
   /// Not many more than the unknowns of the model.
   int unknowns() const {
@@ -87,9 +85,10 @@ class Generator {
     model_.mesh.dimension = random_.chance(0.3) ? 2 : 3;
     note(plane() ? "plane" : "solid");
     const double kind = random_.fraction();
-    disc_ = kind < 0.25 ? Disc::obstacle
-                        : kind < 0.65 ? Disc::plate
-                                      : kind < 0.85 || plane() ? Disc::periodic : Disc::ring;
+    disc_ = kind < 0.25              ? Disc::obstacle
+            : kind < 0.65            ? Disc::plate
+            : kind < 0.85 || plane() ? Disc::periodic
+                                     : Disc::ring;
     note(std::vector<std::string>{"obstacle", "plate", "periodic", "ring"}[int(disc_)]);
     model_.mesh.ring = ring();
     if (!ring() && disc_ != Disc::periodic && random_.chance(0.2))
@@ -103,8 +102,9 @@ class Generator {
   }
   int cells(Shape shape, int axis) {
     const bool linear = orderOf(shape) == 1;
-    if (plane()) return axis == 0 ? random_.between(linear ? 2 : 1, linear ? 5 : 3)
-                                  : random_.between(1, linear ? 2 : 1);
+    if (plane())
+      return axis == 0 ? random_.between(linear ? 2 : 1, linear ? 5 : 3)
+                       : random_.between(1, linear ? 2 : 1);
     if (axis == 0) return random_.between(linear ? 2 : 1, linear ? 3 : 2);
     return random_.chance(linear ? 0.4 : 0.1) ? 2 : 1;
   }
@@ -175,10 +175,12 @@ class Generator {
     const bool carries = (disc_ == Disc::periodic || ring()) && random_.chance(0.5);
     if (carries) settings.set("motion_convective", "on"), note("convective");
     if (disc_ == Disc::periodic)
-      return settings.setVector("motion_disc_velocity",
-                                {random_.logarithmic(0.5, 50) * (random_.chance(0.5) ? 1 : -1), 0, 0});
+      return settings.setVector(
+          "motion_disc_velocity",
+          {random_.logarithmic(0.5, 50) * (random_.chance(0.5) ? 1 : -1), 0, 0});
     const bool turns = ring() || (!plane() && random_.chance(0.3));
-    if (!turns) return settings.setVector("motion_disc_velocity", alongSurface(random_.uniform(0.5, 5)));
+    if (!turns)
+      return settings.setVector("motion_disc_velocity", alongSurface(random_.uniform(0.5, 5)));
     note("turning");
     settings.set("motion_disc_speed", random_.logarithmic(5, 500) * (random_.chance(0.5) ? 1 : -1));
     settings.setVector("motion_disc_axis", {0, 0, 1});
@@ -190,7 +192,8 @@ class Generator {
   /// How a body rests on another one: glued to it, or by the role of an interface.
   /// Returns true if it is held along the surface.
   bool join(const std::string& name, std::size_t first, const std::string& firstSide,
-            std::size_t second, const std::string& secondSide, bool matching, bool firstCanFollow, bool secondCanFollow) {
+            std::size_t second, const std::string& secondSide, bool matching, bool firstCanFollow,
+            bool secondCanFollow) {
     auto& settings = model_.settings;
     const double kind = random_.fraction();
     if (kind < 0.55) {
@@ -198,8 +201,8 @@ class Generator {
           {Bond::slaveIsSecond, Bond::slaveIsFirst, Bond::tiedRole, Bond::welded});
       note("bond");
       if (matching && !model_.glue) {
-        model_.glue = Glue{first, second, firstSide, secondSide, form, firstCanFollow,
-                           secondCanFollow};
+        model_.glue =
+            Glue{first, second, firstSide, secondSide, form, firstCanFollow, secondCanFollow};
         if (!model_.glue->canBe(form)) model_.glue->form = Bond::welded;
         return true;
       }
@@ -250,8 +253,8 @@ class Generator {
       matching = matching && heights.size() == box(pad_).cuts[up()].size() - above;
     }
     holder_ = addBox("holder", shape, cuts);
-    padIsHeld_ = join("side", *holder_, side(*holder_, 0, false), pad_, side(pad_, 0, true), matching,
-                      true, above || !avoidKnown);
+    padIsHeld_ = join("side", *holder_, side(*holder_, 0, false), pad_, side(pad_, 0, true),
+                      matching, true, above || !avoidKnown);
     note("holder");
   }
 
@@ -350,7 +353,8 @@ class Generator {
     press(plate_.value_or(pad_), "main", true);
     if (second_) press(*second_, "other", false);
     if (random_.chance(0.15) && holder_) {
-      model_.settings.set("load_" + side(pad_, 0, false) + "_pressure", random_.logarithmic(1e4, 1e6));
+      model_.settings.set("load_" + side(pad_, 0, false) + "_pressure",
+                          random_.logarithmic(1e4, 1e6));
       note("pushed sideways");
     }
   }
@@ -362,8 +366,9 @@ class Generator {
     const double young = random_.logarithmic(5e9, 2.1e11);
     if (!plane() && random_.chance(0.1)) {
       settings.setList(key + "_engineering_constants",
-                   {young, 0.8 * young, 0.3 * young, 0.2, 0.25, 0.3, 0.35 * young, 0.12 * young,
-                    0.1 * young});
+                       {young, 0.8 * young, 0.3 * young, 0.2, 0.25, 0.3, 0.35 * young, 0.12 * young,
+                        0.1 * young});
+      settings.setPair(key + "_orientation", {1, 0, 0}, {0, 1, 0});
       return;
     }
     settings.set(key + "_young", young);
@@ -372,15 +377,19 @@ class Generator {
 
   void damp() {
     auto& settings = model_.settings;
-    if (random_.chance(0.5)) settings.set("flutter_friction_damping", "off");
-    else note("friction damping");
+    if (random_.chance(0.5))
+      settings.set("flutter_friction_damping", "off");
+    else
+      note("friction damping");
     if (random_.chance(0.45)) {
       note("damped");
       for (const auto& box : model_.mesh.boxes) {
         const std::string key = "material_" + box.name;
         const double kind = random_.fraction();
-        if (kind < 0.4) settings.set(key + "_rayleigh_stiffness", random_.logarithmic(1e-9, 3e-7));
-        else if (kind < 0.6) settings.set(key + "_rayleigh_mass", random_.logarithmic(10, 3000));
+        if (kind < 0.4)
+          settings.set(key + "_rayleigh_stiffness", random_.logarithmic(1e-9, 3e-7));
+        else if (kind < 0.6)
+          settings.set(key + "_rayleigh_mass", random_.logarithmic(10, 3000));
         else if (kind < 0.75) {
           settings.set(key + "_loss_factor", random_.uniform(0.001, 0.05));
           settings.set(key + "_loss_frequency", 20000.0);
@@ -406,7 +415,8 @@ class Generator {
     const double last = random_.uniform(0.2, 0.9);
     double first = random_.chance(0.7) ? 0 : random_.uniform(0.02, 0.15);
     for (int i = 0; i < count; ++i)
-      model_.frictions.push_back(std::round(1e4 * (first + (last - first) * i / (count - 1))) / 1e4);
+      model_.frictions.push_back(std::round(1e4 * (first + (last - first) * i / (count - 1))) /
+                                 1e4);
     settings.setList("flutter_friction", model_.frictions);
     if (random_.chance(0.08)) settings.setList("flutter_speed", {1, 3}), note("speeds");
     if (random_.chance(0.08)) settings.setList("flutter_pressure", {0.5, 2}), note("pressures");

@@ -88,8 +88,8 @@ Outcome outcomeOf(const analysis::Analysis& analysis) {
         sweep::Parameters at = followed.line;
         at.friction = critical.friction;
         outcome.criticals.push_back({at, critical.errorEstimate, critical.angularFrequency,
-                                     critical.slope, static_cast<int>(critical.kind),
-                                     critical.loss, critical.converged});
+                                     critical.slope, static_cast<int>(critical.kind), critical.loss,
+                                     critical.converged});
       }
     }
   outcome.followed = any && !gaps;
@@ -111,12 +111,11 @@ json toJson(const Outcome& outcome) {
     steady.push_back({of(one.at), one.converged, one.open, one.interfaces, forces});
   }
   for (const auto& c : outcome.criticals)
-    criticals.push_back({of(c.at),
-                         numbers({c.error, c.angularFrequency, c.slope, double(c.kind),
-                                  double(c.loss), double(c.converged)})});
-  return {{"refusal", outcome.refusal},  {"stiffest", numberText(outcome.stiffest)},
-          {"points", points},            {"steady", steady},
-          {"criticals", criticals},      {"followed", outcome.followed}};
+    criticals.push_back({of(c.at), numbers({c.error, c.angularFrequency, c.slope, double(c.kind),
+                                            double(c.loss), double(c.converged)})});
+  return {{"refusal", outcome.refusal}, {"stiffest", numberText(outcome.stiffest)},
+          {"points", points},           {"steady", steady},
+          {"criticals", criticals},     {"followed", outcome.followed}};
 }
 
 Outcome fromJson(const json& all) {

@@ -12,6 +12,10 @@ std::string number(double value) {
   return text;
 }
 
+std::string vectorText(const Vector& x) {
+  return number(x[0]) + "," + number(x[1]) + "," + number(x[2]);
+}
+
 }  // namespace
 
 void Settings::put(Entry entry) {
@@ -37,6 +41,10 @@ void Settings::setVector(const std::string& name, const Vector& value) {
   put({name, "", true, false, value});
 }
 
+void Settings::setPair(const std::string& name, const Vector& first, const Vector& second) {
+  put({name, "", true, false, first, second});
+}
+
 void Settings::addVector(const std::string& name, const Vector& value) {
   Vector sum = value;
   for (const auto& entry : entries_)
@@ -55,10 +63,8 @@ std::vector<std::pair<std::string, std::string>> Settings::turnedBy(int turn) co
     std::string text = entry.text;
     if (entry.isComponents)
       for (char& c : text) c = static_cast<char>('x' + (c - 'x' + turn) % 3);
-    if (entry.isVector) {
-      const Vector x = turned(entry.vector, turn);
-      text = number(x[0]) + "," + number(x[1]) + "," + number(x[2]);
-    }
+    if (entry.isVector) text = vectorText(turned(entry.vector, turn));
+    if (entry.second) text += "," + vectorText(turned(*entry.second, turn));
     result.emplace_back(entry.name, text);
   }
   return result;

@@ -1,5 +1,6 @@
 #pragma once
 /// The options of a generated model, which turn with its axes.
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +17,8 @@ class Settings {
   void setList(const std::string& name, const std::vector<double>& values);
   /// Components along the axes.
   void setVector(const std::string& name, const Vector& value);
+  /// Two vectors.
+  void setPair(const std::string& name, const Vector& first, const Vector& second);
   /// Adds to what the option has.
   void addVector(const std::string& name, const Vector& value);
   /// Some of "xyz".
@@ -28,6 +31,7 @@ class Settings {
     std::string name, text;
     bool isVector = false, isComponents = false;
     Vector vector{};
+    std::optional<Vector> second{};
   };
   void put(Entry entry);
   std::vector<Entry> entries_;
