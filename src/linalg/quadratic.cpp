@@ -368,7 +368,9 @@ ComplexMatrix transposedTimesLeft(const DenseView& a, const std::vector<DensePai
 }
 
 void shareFrom(int root, MPI_Comm comm, std::vector<DensePair>& pairs, Vectors vectors) {
-  PetscInt count = pairs.size(), m = pairs.empty() ? 0 : pairs[0].q.size();
+  PetscInt count = pairs.size(), m = 0;
+  for (const auto& pair : pairs)
+    m = std::max<PetscInt>(m, std::max(pair.q.size(), pair.left.size()));
   check(MPI_Bcast(&count, 1, MPIU_INT, root, comm));
   check(MPI_Bcast(&m, 1, MPIU_INT, root, comm));
   const PetscInt length = 1 + m * (vectors == Vectors::both ? 2 : 1);

@@ -77,8 +77,9 @@ std::vector<std::vector<DensePair>> solveSpread(MPI_Comm comm,
 std::vector<DensePair> solveTogether(MPI_Comm comm, const DenseProblem& problem,
                                      Vectors vectors = Vectors::right);
 
-/// Collective. Sends the pairs of rank `root`, all with vectors of the same length, to all ranks;
-/// all vectors travel in one message. `vectors` says whether left vectors are sent too.
+/// Collective. Sends the pairs of rank `root` to all ranks; all vectors travel in one message.
+/// Vectors of a smaller basis are extended by zeros to the length of the longest one. `vectors`
+/// says whether left vectors are sent too.
 void shareFrom(int root, MPI_Comm comm, std::vector<DensePair>& pairs, Vectors vectors);
 
 }  // namespace squeal::linalg

@@ -5,26 +5,10 @@
 #include <bit>
 #include <cstring>
 
+#include "fuzz/random.hpp"
+
 namespace squeal::fuzz {
 namespace {
-
-/// splitmix64: the standard library promises the numbers of its generators, but not those of its
-/// distributions.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
-  std::uint64_t next() {
-    std::uint64_t z = state_ += 0x9e3779b97f4a7c15;
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9;
-    z = (z ^ z >> 27) * 0x94d049bb133111eb;
-    return z ^ z >> 31;
-  }
-  /// From 0 to `bound` - 1; `bound` > 0.
-  std::size_t below(std::size_t bound) { return static_cast<std::size_t>(next() % bound); }
-
- private:
-  std::uint64_t state_;
-};
 
 const std::array<const char*, 26> awkwardNumbers{"-1",
                                                  "0",

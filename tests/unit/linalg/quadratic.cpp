@@ -160,6 +160,25 @@ TEST(Quadratic, WithoutStiffnessOrWithoutMass) {
 
 TEST(Quadratic, OfNoUnknowns) { EXPECT_TRUE(solveQuadratic({}).empty()); }
 
+// Pairs that were found in bases of different sizes: the shorter vectors end with zeros.
+TEST(Quadratic, SharedVectorsOfDifferentLengths) {
+  using Vector = std::vector<Complex>;
+  int rank = 0;
+  check(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
+  std::vector<linalg::DensePair> pairs;
+  for (const std::size_t length : {1, 400, 2})
+    if (rank == 0) pairs.push_back({double(length), Vector(length, 2.0), Vector(length, 3.0)});
+  linalg::shareFrom(0, PETSC_COMM_WORLD, pairs, linalg::Vectors::both);
+  ASSERT_EQ(pairs.size(), 3u);
+  for (const auto& pair : pairs) {
+    Vector right(400), left(400);
+    std::fill_n(right.begin(), std::size_t(pair.s.real()), 2.0);
+    std::fill_n(left.begin(), std::size_t(pair.s.real()), 3.0);
+    EXPECT_EQ(pair.q, right);
+    EXPECT_EQ(pair.left, left);
+  }
+}
+
 // LAPACK returns eigenvalues of such matrices without a word.
 TEST(Quadratic, EntriesThatAreNotNumbersAreRefused) {
   for (const double entry : {NAN, INFINITY})
