@@ -112,15 +112,46 @@ void setContactRows(int level, Contact& contact, Mat a, std::vector<double>& val
 }
 
 /// Fills the rows of the tied nodes of this level.
-void setTiedRows(int level, Contact& contact, Mat a) {
+void setTiedRows(int level, Contact& contact, Mat a, std::vector<double>& values) {
   const int dimension = contact.mesh->dimension;
   for (const auto& tied : contact.tied) {
     if (tied.connection.level != level) continue;
-    const PetscInt node = tied.connection.node;
-    for (const auto& [master, weight] : tied.connection.masters)
-      setBlock(a, dimension, contact.mesh->firstNode + node, master, identity(dimension, weight));
-    for (int d = 0; d < dimension; ++d) contact.free[dimension * node + d] = 0;
+    const PetscInt node = tied.connection.node, global = contact.mesh->firstNode + node;
+    for (const auto& [master, weight] : tied.connection.masters) {
+      auto block = identity(dimension, weight);
+      for (int d = 0; d < dimension; ++d)
+        if (tied.apart[d]) block[d * dimension + d] = 0;
+      setBlock(a, dimension, global, master, block);
+    }
+    for (int d = 0; d < dimension; ++d) {
+      const PetscInt row = dimension * node + d;
+      contact.free[row] = 0;
+      if (!tied.apart[d]) continue;
+      check(MatSetValue(a, dimension * global + d, dimension * global + d, 1, INSERT_VALUES));
+      values[row] = contact.constraints.displacement[row];
+    }
   }
+}
+
+/// Collective. Returns A_0, which fills the rows of components that follow from others.
+OwnedMat combinedRows(Contact& contact, std::vector<double>& values) {
+  const mesh::Mesh& mesh = *contact.mesh;
+  const int dimension = mesh.dimension;
+  std::vector<PetscInt> blocks(mesh.ownedNodes, 1);
+  for (const auto& combined : contact.constraints.combined)
+    blocks[combined.node] += combined.others.size();
+  OwnedMat rows = nodalMatrix(mesh, blocks);
+  for (PetscInt node = 0; node < mesh.ownedNodes; ++node)
+    setDiagonal(rows, dimension, mesh.firstNode + node);
+  for (const auto& [node, component, others, constant] : contact.constraints.combined) {
+    for (const auto& [other, weight] : others)
+      check(MatSetValue(rows, dimension * (mesh.firstNode + node) + component,
+                        dimension * other + component, weight, INSERT_VALUES));
+    contact.free[dimension * node + component] = 0;
+    values[dimension * node + component] = constant;
+  }
+  assembled(rows);
+  return rows;
 }
 
 /// Returns the level of the owned nodes, [owned node]; 0 for those that rest on no other.
@@ -155,13 +186,14 @@ OwnedMat buildKinematics(Contact& contact, Vec held) {
     if (levels[i / dimension] == 0 && constraints.held[i])
       contact.free[i] = 0, values[i] = constraints.displacement[i];
   OwnedMat a;
-  //   A = A_n … A_1, where A_i fills the rows of the slaves of level i
+  //   A = A_n … A_1 A_0, where A_i fills the rows of the slaves of level i
+  if (constraints.anyCombined) a = combinedRows(contact, values);
   for (int level = 1; level <= contact.levels; ++level) {
     OwnedMat factor = nodalMatrix(mesh, blocksOfRows(contact, level));
     for (PetscInt node = 0; node < mesh.ownedNodes; ++node)
       if (levels[node] != level) setDiagonal(factor, dimension, mesh.firstNode + node);
     setContactRows(level, contact, factor, values);
-    setTiedRows(level, contact, factor);
+    setTiedRows(level, contact, factor, values);
     assembled(factor);
     if (!a) {
       a = std::move(factor);

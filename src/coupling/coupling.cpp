@@ -90,6 +90,8 @@ Coupling couple(const mesh::Mesh& mesh, const NodeExchange& exchange, const Inte
       nearOthers(mesh.comm, surfaces.masters, repeated(surfaces.slaves, surfaces.translations),
                  interface.searchDistance));
   coupling.droppedNodes = basis.droppedNodes;
+  for (const PetscInt node : basis.droppedOwned)
+    if (excluded[node]) coupling.excluded.push_back(node);
   coupling.sliverFaces = sums.sliverFaces;
   for (const auto& face : faces) {
     coupling.coveredArea += face.moments.covered;

@@ -61,6 +61,8 @@ struct Coupling {
   /// Nodes of slave faces that are covered in part that carry no condition: they are excluded, or
   /// less than a hundredth of their own area is covered.
   PetscInt droppedNodes = 0;
+  /// Those of this rank that are excluded, local nodes.
+  std::vector<PetscInt> excluded;
   PetscInt sliverFaces = 0;  ///< faces covered by too little to have dual functions: lumped
   double largestGap = 0;     ///< largest |gap| of an integration point, m
 };

@@ -93,20 +93,20 @@ bool drop(const std::vector<double>& covered, Basis& basis) {
   return any;
 }
 
-/// Collective. Returns the number of dropped nodes at faces that are covered in part.
-PetscInt countDropped(const mesh::Mesh& mesh, const NodeExchange& exchange,
-                      const std::vector<CoveredFace>& faces, const Basis& basis) {
+/// Collective. Returns the dropped nodes of this rank at faces that are covered in part.
+std::vector<PetscInt> droppedOwned(const mesh::Mesh& mesh, const NodeExchange& exchange,
+                                   const std::vector<CoveredFace>& faces, const Basis& basis) {
   std::vector<double> atCovered(mesh.localNodes(), 0.0);
   for (const auto& face : faces)
     if (face.moments.covered > 0)
       for (PetscInt node : face.local) atCovered[node] = 1;
   exchange.largest(atCovered);
-  PetscInt count = 0;
+  std::vector<PetscInt> owned;
   for (PetscInt node = 0; node < mesh.ownedNodes; ++node)
-    count += basis.dropped[node] && atCovered[node] > 0 &&
-             exchange.primary(node) == mesh.globalNode[node];
-  check(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPIU_INT, MPI_SUM, mesh.comm));
-  return count;
+    if (basis.dropped[node] && atCovered[node] > 0 &&
+        exchange.primary(node) == mesh.globalNode[node])
+      owned.push_back(node);
+  return owned;
 }
 
 }  // namespace
@@ -187,7 +187,7 @@ Basis chooseBasis(const mesh::Mesh& mesh, const NodeExchange& exchange,
                   const std::vector<CoveredFace>& faces,
                   const std::vector<unsigned char>& excluded) {
   const std::size_t nodes = mesh.localNodes();
-  Basis basis{chooseAlpha(exchange, nodes, faces), {}, std::vector<bool>(nodes, false), 0};
+  Basis basis{chooseAlpha(exchange, nodes, faces), {}, std::vector<bool>(nodes, false), 0, {}};
   const auto wholeOf = [&](const CoveredFace& face) {
     return wholeIntegrals(*face.face, basis.alphaOf(face));
   };
@@ -208,7 +208,9 @@ Basis chooseBasis(const mesh::Mesh& mesh, const NodeExchange& exchange,
     again = drop(nodalSums(exchange, nodes, faces, weightOf), basis) || again;
     check(MPI_Allreduce(MPI_IN_PLACE, &again, 1, MPI_INT, MPI_LOR, mesh.comm));
   }
-  basis.droppedNodes = countDropped(mesh, exchange, faces, basis);
+  basis.droppedOwned = droppedOwned(mesh, exchange, faces, basis);
+  basis.droppedNodes = basis.droppedOwned.size();
+  check(MPI_Allreduce(MPI_IN_PLACE, &basis.droppedNodes, 1, MPIU_INT, MPI_SUM, mesh.comm));
   return basis;
 }
 

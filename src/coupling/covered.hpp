@@ -51,6 +51,7 @@ struct Basis {
   std::vector<double> whole;  ///< ∫ φ̃ dA over all faces of the slave; zero elsewhere
   std::vector<bool> dropped;  ///< nodes of the slave that carry no condition: too little covered
   PetscInt droppedNodes = 0;  ///< those at faces that are covered in part, on all ranks
+  std::vector<PetscInt> droppedOwned;  ///< local numbers of those that this rank owns
 
   std::vector<double> alphaOf(const CoveredFace& face) const;  ///< [edge]
   std::vector<bool> droppedOf(const CoveredFace& face) const;  ///< [node]

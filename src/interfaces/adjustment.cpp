@@ -89,7 +89,7 @@ Moves movesOfTied(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange
   MasterMoves masters(mesh, ties.tied);
   for (int level = 1; level <= ties.levels; ++level) {
     masters.set(moves);
-    for (const auto& [interface, connection, parts, offset] : ties.tied)
+    for (const auto& [interface, connection, parts, offset, apart] : ties.tied)
       if (connection.level == level && ties.options[interface].adjust)
         moves[connection.node] = plus(offset, masters.mean(connection));
   }

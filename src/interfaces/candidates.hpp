@@ -21,9 +21,8 @@ struct Candidate {
 /// The claims on nodes, [local node]: one more than the index of the interface, 0 for none.
 class Claims {
  public:
-  /// Collective. Clamped nodes are claimed against ties. The exchange is borrowed.
-  Claims(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange,
-         const Constraints& constraints);
+  /// Collective. The exchange is borrowed.
+  Claims(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange);
   /// Returns the nodes that an interface of this role must leave to others.
   std::vector<unsigned char> against(Role role) const;
   /// Collective. Claims these local nodes of an interface. Throws Error if one of them slides on
@@ -35,13 +34,19 @@ class Claims {
   void share(std::vector<int>& claims) const;
   const mesh::Mesh& mesh_;
   const coupling::NodeExchange& exchange_;
-  std::vector<int> clamped_;  // 1 for a clamped node
   std::vector<int> tied_, sliding_, other_;
 };
 
+/// Collective. Returns the surface whose nodes the interface couples to the other one.
+std::string slaveSurface(const mesh::Mesh& mesh, const InterfaceOptions& options);
+
+/// Collective. Returns the owned nodes of a surface that are not periodic images.
+std::vector<PetscInt> slaveNodesOf(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange,
+                                   const std::string& surface);
+
 /// Collective. Returns the nodes that an interface has apart from excluded[local node], from pairs
-/// or from the coupling of its surfaces. Fills its report and its slave side. `bodies` may be null
-/// for a tie. Throws Error for surfaces that do not meet.
+/// or from the coupling of its surfaces. Fills its report, its slave side and Interfaces::lost.
+/// `bodies` may be null for a tie. Throws Error for surfaces that do not meet.
 std::vector<Candidate> candidatesOf(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange,
                                     const elasticity::Bodies* bodies, int interface,
                                     const std::vector<unsigned char>& excluded, Interfaces& all);

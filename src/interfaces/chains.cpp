@@ -79,8 +79,9 @@ void setLevels(const mesh::Mesh& mesh, Interfaces& all) {
   for (auto& connection : all.connections) slaves.push_back(&connection);
   for (auto& node : all.tied) slaves.push_back(&node.connection);
   MasterLevels masters(mesh, mastersOf(slaves));
-  // A chain without a circle passes each interface once.
-  for (int pass = 0; pass <= std::ssize(all.options); ++pass) {
+  // A chain without a circle passes each interface once, or there and back where pairs of nodes are
+  // tied.
+  for (int pass = 0; pass <= 2 * std::ssize(all.options); ++pass) {
     masters.set(slaves);
     int changed = 0;
     all.levels = 1;

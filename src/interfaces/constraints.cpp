@@ -76,6 +76,7 @@ Constraints readConstraints(const mesh::Mesh& mesh) {
       }
   }
   failTogether(mesh.comm, failure);
+  constraints.supported = constraints.held;
   return constraints;
 }
 

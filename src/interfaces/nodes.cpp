@@ -10,7 +10,9 @@
 #include "elasticity/shape.hpp"
 #include "interfaces/algebra.hpp"
 #include "interfaces/candidates.hpp"
+#include "interfaces/carried.hpp"
 #include "interfaces/chains.hpp"
+#include "interfaces/lost.hpp"
 #include "mesh/vector.hpp"
 #include "petsc/arrays.hpp"
 #include "petsc/text.hpp"
@@ -163,6 +165,9 @@ std::string describe(const Interfaces& all, int interface) {
                       report.untied);
   else if (report.dropped > 0)
     line += formatted("; %" PetscInt_FMT " nodes at its rim carry no condition", report.dropped);
+  if (report.carried > 0)
+    line += formatted("; %" PetscInt_FMT " held components of tied nodes are held on the master",
+                      report.carried);
   if (options.adjust)
     line += formatted("; nodes were moved by up to %.2g m", report.largestAdjustment);
   if (report.nearlyMatching) line += "; not node on node: " + report.whyNot;
@@ -173,7 +178,7 @@ Interfaces findNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, M
                      Interfaces ties) {
   Interfaces all = std::move(ties);
   const coupling::NodeExchange exchange(mesh);
-  Claims claims(mesh, exchange, all.constraints);
+  Claims claims(mesh, exchange);
   std::vector<std::vector<PetscInt>> tied(all.options.size());
   for (const auto& node : all.tied) tied[node.interface].push_back(node.connection.node);
   for (int i = 0; i < std::ssize(all.options); ++i)
@@ -202,6 +207,8 @@ Interfaces findNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, M
   fillNodes(mesh, bodies, touching, periodic, all);
   countNodes(mesh.comm, all);
   setLevels(mesh, all);
+  warnOfLost(mesh, exchange, all, Role::sliding);
+  carryHeld(mesh, all);
   return all;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// This file finds which nodes touch or are tied, and what they rest on: from pairs of nodes where
 /// the meshes match, and from the coupling of the surfaces where they do not.
+#include <array>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,9 @@ struct TiedNode {
   Connection connection;
   std::vector<coupling::PartShare> masterParts;
   Point offset;  ///< Σ P_il x_l − x_i in the file, m: from the node to its place on the master
+  /// [component] 1 if a support holds it and the tie does not: what the support asks of the masters
+  /// follows from the conditions of other nodes
+  std::array<unsigned char, 3> apart{};
 };
 
 /// The slave side of an interface.
@@ -71,10 +75,17 @@ struct InterfaceReport {
   double coveredArea = 0;  ///< of the slave, m² (m in the plane)
   double largestGap = 0;   ///< largest distance of the surfaces where they touch, m
   PetscInt dropped = 0;    ///< nodes that touch without a condition: too little covered, or left
-                           ///< to another interface or to a clamp
-  // These are of ties alone.
+                           ///< to another interface
+  // These are of ties only.
+  PetscInt carried = 0;          ///< held components of tied nodes that the master carries
   PetscInt untied = 0;           ///< nodes of the slave without a condition, covered or not
   double largestAdjustment = 0;  ///< largest way by which a tied node was moved, m
+};
+
+/// A node that an interface leaves to another one, owned by this rank.
+struct LostNode {
+  int interface;  ///< the one that does without it, index into Interfaces::options
+  PetscInt node;  ///< local node
 };
 
 /// All interfaces with their nodes.
@@ -85,6 +96,7 @@ struct Interfaces {
   std::vector<ContactNode> nodes;         ///< owned by this rank
   std::vector<Connection> connections;    ///< [contact node]
   std::vector<TiedNode> tied;             ///< owned by this rank, in the order of local nodes
+  std::vector<LostNode> lost;             ///< owned by this rank
   Constraints constraints;
   PetscInt totalNodes = 0;  ///< contact nodes of all ranks
   /// [local node] index into options of the contact in which the node has a gap, −1 if in none;

@@ -7,6 +7,8 @@
 #include "interfaces/adjustment.hpp"
 #include "interfaces/candidates.hpp"
 #include "interfaces/chains.hpp"
+#include "interfaces/lost.hpp"
+#include "interfaces/matched.hpp"
 #include "mortar/face.hpp"
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
@@ -17,14 +19,16 @@ namespace {
 
 /// Collective. Fills the tied nodes, with their levels, and the reports of the ties.
 void coupleTies(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange, Interfaces& all) {
-  Claims claims(mesh, exchange, all.constraints);
+  // A node that rests on several nodes of a master has no choice, those of pairs have.
+  Claims claims(mesh, exchange);
   for (int i = 0; i < std::ssize(all.options); ++i) {
-    if (!all.options[i].isTied()) continue;
+    if (!all.options[i].isTied() || mesh.matching[i]) continue;
     const auto found = candidatesOf(mesh, exchange, nullptr, i, claims.against(Role::tied), all);
     claims.add(nodesOf(found), all.options, i);
     for (const auto& [interface, discBody, partner, slave] : found)
-      all.tied.push_back({i, connectionOf(slave), slave.masterParts, slave.offset});
+      all.tied.push_back({i, connectionOf(slave), slave.masterParts, slave.offset, {}});
   }
+  tieMatched(mesh, exchange, all);
   std::stable_sort(all.tied.begin(), all.tied.end(), [](const auto& a, const auto& b) {
     return a.connection.node < b.connection.node;
   });
@@ -36,23 +40,20 @@ void report(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange, Inte
   for (int i = 0; i < std::ssize(all.options); ++i) {
     if (!all.options[i].isTied()) continue;
     InterfaceReport& report = all.reports[i];
-    std::vector<double> isSlave(mesh.localNodes(), 0.0);
     double sums[] = {0, 0};  // faces and their area
-    for (const auto& face : mortar::facesOf(mesh, all.slaves[i].surface)) {
+    for (const auto& face : mortar::facesOf(mesh, all.slaves[i].surface))
       sums[0] += 1, sums[1] += coupling::areaOf(face);
-      for (PetscInt node : face.nodes) isSlave[exchange.local(node)] = 1;
-    }
-    exchange.largest(isSlave);
-    PetscInt counts[] = {0, 0};  // nodes of the slave, tied nodes
-    for (PetscInt node = 0; node < mesh.ownedNodes; ++node)
-      counts[0] += isSlave[node] > 0 && exchange.primary(node) == mesh.globalNode[node];
+    // nodes of the slave, tied nodes
+    PetscInt counts[] = {std::ssize(slaveNodesOf(mesh, exchange, all.slaves[i].surface)), 0};
     for (const auto& node : all.tied) counts[1] += node.interface == i;
     check(MPI_Allreduce(MPI_IN_PLACE, counts, 2, MPIU_INT, MPI_SUM, mesh.comm));
     check(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, mesh.comm));
-    report.nodes = counts[1], report.untied = counts[0] - counts[1];
+    if (!report.matching) report.nodes = counts[1];
+    report.untied = counts[0] - report.nodes;
     if (!report.matching) continue;
     report.slave.faces = report.slave.nearFaces = PetscInt(sums[0]);
-    report.slave.area = report.slave.nearArea = report.coveredArea = sums[1];
+    report.slave.area = report.slave.nearArea = sums[1];
+    report.coveredArea = sums[1] - areaOfLost(mesh, exchange, all, i);
   }
 }
 
@@ -84,6 +85,7 @@ Interfaces findTies(mesh::Mesh& mesh) {
   if (std::any_of(all.options.begin(), all.options.end(), adjusted))
     moveOntoMasters(mesh, exchange, all);
   report(mesh, exchange, all);
+  warnOfLost(mesh, exchange, all, Role::tied);
   warnOfLittleCover(mesh, all);
   return all;
 }

@@ -8,7 +8,8 @@
 namespace squeal::interfaces {
 
 /// Collective. Returns the options of all interfaces, the constraints and the tied nodes. A node
-/// belongs to the first tie that claims it; clamped nodes are not tied. The nodes of ties that are
+/// follows by one tie: the first that claims it where the meshes do not match, otherwise by
+/// tieMatched(). The nodes of ties that are
 /// adjusted are moved so that the equation above holds to rounding with the P that is returned.
 /// Warns of ties of which less than half of the slave is covered. Throws Error for surfaces that do
 /// not meet, for ties that rest on each other in a circle, and for a tie that folds a cell.

@@ -183,9 +183,10 @@ void addTieForces(const contact::Contact& contact, Vec nodalForces, Vec contactF
     const OwnedVec ties = elasticity::nodalVector(mesh);
     {
       const ReadArray forces(nodalForces), others(contactForces);
-      for (const auto& [interface, connection, parts, offset] : contact.tied) {
+      for (const auto& [interface, connection, parts, offset, apart] : contact.tied) {
         if (connection.level != level) continue;
         for (int d = 0; d < dimension; ++d) {
+          if (apart[d]) continue;
           const PetscInt row = dimension * connection.node + d;
           const double force = forces[row] - others[row];
           check(VecSetValue(ties, dimension * mesh.firstNode + row, force, ADD_VALUES));

@@ -370,7 +370,7 @@ double Problem::imbalance(const Solution& solution, Vec nodalForces,
       const int part = mesh_.nodePart[node];
       const PetscInt row = dimension * node + d;
       const double support =
-          (contact_.constraints.held[row] ? forces[row] - contacts[row] : 0) - grounded[row];
+          (contact_.constraints.supported[row] ? forces[row] - contacts[row] : 0) - grounded[row];
       at(part, 0, d) += contacts[row];
       at(part, 1, d) += support;
       at(part, 2, d) += loads[row];
