@@ -35,8 +35,9 @@ constexpr const char* usage =
     "one stage\n"
     "  -help_json the same for programs; -help_json STAGE\n"
     "  -version   versions of this program and of its libraries\n"
-    "Exit code: 0 done, 2 some friction has no steady solution, 3 asked to stop (SIGTERM, SIGUSR1; "
-    "-resume goes on), 1 error.\n";
+    "Exit code: 0 done, 2 some point has no result (no steady sliding, or not followed after "
+    "flutter),\n"
+    "3 asked to stop (SIGTERM, SIGUSR1; -resume goes on), 1 error.\n";
 
 /// Prints an error and tells it to programs.
 void tellError(const squeal::Session& session, const std::string& message, bool onAllRanks) {
@@ -89,7 +90,7 @@ int run(const squeal::Session& session) try {
   for (const auto& line : squeal::unusedOptions()) squeal::say(session.comm(), line);
   return analysis.converged()
              ? 0
-             : 2;  // instability is a result; a friction without steady state is not
+             : 2;  // instability is a result; a point without steady state or a failed one is not
 } catch (const squeal::Error& error) {
   tellError(session, error.what(), true);
   return 1;
