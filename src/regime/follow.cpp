@@ -18,7 +18,7 @@ Followed follow(const ReducedModel& model, const Task& task, const StopAsked& as
                                            : march::moreauScheme(model, start, task.step);
   scheme->setStop(asked);
   Recorder recorder(model, task.mode.s, task.step, largestKinetic(task.mode));
-  sound::Latest latest(model, 2 * M_PI / task.mode.s.imag());
+  sound::Latest latest(model, 2 * M_PI / task.mode.s.imag(), task.step);
   std::optional<SectionRecord> section;
   if (cyclesWanted()) section.emplace(model, task.mode);
   while (scheme->state().time < task.time) {

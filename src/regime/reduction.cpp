@@ -14,6 +14,7 @@
 #include "mesh/vector.hpp"
 #include "petsc/arrays.hpp"
 #include "petsc/concatenation.hpp"
+#include "petsc/termination.hpp"
 
 namespace squeal::regime {
 namespace {
@@ -111,6 +112,7 @@ DenseMatrix ownJumps(const contact::Contact& contact, const std::vector<Node>& n
   DenseMatrix rows(std::ssize(nodes) * dimension);
   OwnedVec jump = elasticity::nodalVector(*contact.mesh);
   for (PetscInt j = 0; j < u.columns(); ++j) {
+    if (j % blockColumns == 0) stopIfAsked(contact.mesh->comm);
     check(MatMult(contact.jump, borrowedVector(contact.mesh->comm, u.column(j)), jump));
     std::vector<double> column(nodes.size() * dimension);
     const ReadArray values(jump);
@@ -162,6 +164,7 @@ class StaticResponses {
     for (int c = 0; c < dimension; ++c) {
       const auto& impedance = *impedances_[std::max(0, c - 1)];
       for (std::size_t begin = 0; begin < order.size(); begin += blockColumns) {
+        stopIfAsked(comm);
         const std::size_t end = std::min<std::size_t>(order.size(), begin + blockColumns);
         DenseMatrix causes(impedance.length(), end - begin);
         for (std::size_t i = begin; i < end; ++i)
@@ -214,6 +217,7 @@ std::vector<double> orthonormalise(const FullModel& full, MPI_Comm comm, Block& 
     linalg::multiplyAdd(v, along, x, -1);
   };
   for (PetscInt j = 0; j < further.columns(); ++j) {
+    stopIfAsked(comm);
     Block column{DenseView(further.columnRange(j, j + 1))};
     const auto length = [&] {
       return std::sqrt(linalg::transposedProduct(comm, column, productOf(mass, column))(0, 0));
@@ -352,6 +356,7 @@ Reduction reduce(const FullModel& full, Block free, const Block& unstable) {
   model.boundaryMass = model.boundaryDamping = model.boundaryStiffness = DenseMatrix(rows);
   DenseMatrix dampedModes(k), stiffModes(k);
   for (PetscInt begin = 0; begin < rows; begin += blockColumns) {
+    stopIfAsked(comm);
     const DenseView some = z.columnRange(begin, std::min(rows, begin + blockColumns));
     const Block stiff = productOf(full.bodies.stiffness, some);
     model.boundaryStiffness.append(linalg::transposedProduct(comm, z, stiff));

@@ -36,9 +36,16 @@ double steadyPower(const ReducedModel& model) {
 /// Collective. Warns where steps are longer than is safe, and where friction alone damps.
 void warn(const FullModel& full, std::span<const Task> tasks, double stable) {
   const MPI_Comm comm = full.contact.mesh->comm;
-  double step = 0;
-  for (const Task& task : tasks)
-    if (task.failure.empty()) step = std::max(step, task.step);
+  double step = 0;  // the longest
+  for (const Task& task : tasks) {
+    if (!task.failure.empty()) continue;
+    step = std::max(step, task.step);
+    if (const int frames = sound::framesOfPeriod(task.shortestPeriod, task.step);
+        frames < sound::framesWanted())
+      complain(comm, formatted("warning: -regime_frames %d: a period of %.5g Hz has %d steps, and "
+                               "as many frames are written",
+                               sound::framesWanted(), 1 / task.shortestPeriod, frames));
+  }
   if (boundaryIsMassless() && step > stable)
     complain(comm, formatted("warning: -regime_step %g s exceeds %.3g s, the stable step while all "
                              "contact sticks; the motion may grow without bound",
@@ -247,17 +254,16 @@ void addRuns(const Work& work, linalg::Block free) {
   if (std::ranges::any_of(tasks, [](const Task& task) { return task.failure.empty(); }))
     observer.emplace(work.full.contact,
                      sound::Shapes{reduction.modes, reduction.responses, reduction.contactNode});
-  std::string last;
+  std::string last;  // what the stage ends with
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     stopIfAsked(comm);
-    if (!last.empty()) stage.say(last);
     result.runs.push_back(runOf(model, tasks[i]));
     Run& run = result.runs.back();
-    last = work.nameOf(run.start) + ": " + text(Kind::unmeasured);
     if (!tasks[i].failure.empty()) {
       work.fail(run, tasks[i].failure);
       continue;
     }
+    if (!last.empty()) stage.say(last);
     run.regime = followed[i].regime;
     run.outside = observer->of(rankOf(comm, i), followed[i].trace);
     sayHeard(work, run, stage);
@@ -265,7 +271,7 @@ void addRuns(const Work& work, linalg::Block free) {
     addCycles(work, model, followed[i], run, stage);
     last = describe(work, run);
   }
-  stage.finish(last);
+  stage.finish(last.empty() ? work.name() + ": " + text(Kind::unmeasured) : last);
 }
 
 }  // namespace

@@ -88,8 +88,8 @@ Task taskOn(const ReducedModel& model, const NumberedMode& one) {
   Task task{std::to_string(one.number), one.mode, {}, 0, 0, 0, ""};
   if (!(task.mode.s.imag() > 1e-9 * std::abs(task.mode.s))) {
     task.failure =
-        "the mode grows without oscillation (divergence), and a march counts cycles; flutter modes "
-        "are followed with -regime_starts each";
+        "the mode grows without oscillation (divergence), and a march counts cycles; give "
+        "-regime_starts each, and more -flutter_shapes, to follow flutter modes";
     return task;
   }
   task.shortestPeriod = 1 / frequencyOf(task);
@@ -133,7 +133,7 @@ Task sumOf(const std::vector<Task>& tasks) {
   if (count > 0)
     scale(sum.mode, 1.0 / count);
   else
-    sum.failure = "none of its modes can be followed";
+    sum = tasks.front(), sum.failure = "none of its modes can be followed";
   sum.start = "all";
   return sum;
 }

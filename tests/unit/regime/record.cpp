@@ -73,6 +73,15 @@ TEST(Recorder, LinearGrowthIsMeasured) {
   EXPECT_NEAR(regime.growth, 10, 0.01);
 }
 
+// A window has 32 cycles, 0.032 s.
+TEST(Recorder, LessThanAWindowMeasuresNothing) {
+  const auto regime = recorded([](double t) { return 1e-3 * std::exp(10 * t); }, 0.03);
+  EXPECT_FALSE(regime.measured());
+  EXPECT_STREQ(regime::text(regime.kind), "nothing measured");
+  EXPECT_TRUE(regime.nodes.empty() && regime.cyclePeaks.empty() && regime.spectrum.empty());
+  EXPECT_TRUE(recorded([](double t) { return 1e-3 * std::exp(10 * t); }, 0.0325).measured());
+}
+
 TEST(Recorder, DecayIsSteady) {
   EXPECT_EQ(recorded([](double t) { return 1e-1 * std::exp(-50 * t); }, 0.4).kind,
             regime::Kind::steady);
