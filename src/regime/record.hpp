@@ -52,8 +52,7 @@ struct SpectralLine {
   double whole = 0;      ///< √(2 kinetic energy / mass of the model), m/s·√kg
 };
 
-/// The result of a march. Of one that has measured nothing, no figure but the duration has a
-/// meaning.
+/// The result of a march; only the duration where it has measured nothing.
 struct Regime {
   Kind kind = Kind::unmeasured;
   bool measured() const { return kind != Kind::unmeasured; }

@@ -236,6 +236,15 @@ std::vector<double> orthonormalise(const FullModel& full, MPI_Comm comm, Block& 
   return lambda;
 }
 
+/// Collective. Returns the largest magnitude in each column of all ranks' rows.
+std::vector<double> largestOfColumns(MPI_Comm comm, const DenseMatrix& own) {
+  std::vector<double> largest(own.columns());
+  for (PetscInt j = 0; j < own.columns(); ++j)
+    for (const double x : own.column(j)) largest[j] = std::max(largest[j], std::abs(x));
+  check(MPI_Allreduce(MPI_IN_PLACE, largest.data(), largest.size(), MPI_DOUBLE, MPI_MAX, comm));
+  return largest;
+}
+
 }  // namespace
 
 std::vector<Node> ownNodes(const contact::Contact& contact, const steady::Solution& solution) {
@@ -293,6 +302,7 @@ Reduction reduce(const FullModel& full, Block free, const Block& unstable) {
 
   Block psi = StaticResponses(full, own).all(order.own());
   const PetscInt count = std::ssize(model.nodes), rows = count * dimension;
+  const auto before = largestOfColumns(comm, ownJumps(contact, own, psi));
   const Block massModes = productOf(full.bodies.mass, v);
   linalg::multiplyAdd(v, linalg::transposedProduct(comm, massModes, psi), psi, -1);
 
@@ -321,12 +331,12 @@ Reduction reduce(const FullModel& full, Block free, const Block& unstable) {
   DenseMatrix scale(kept.size(), kept.size());  // J Ψ of what moves
   for (std::size_t j = 0; j < kept.size(); ++j)
     for (std::size_t i = 0; i < kept.size(); ++i) scale(i, j) = jumps(kept[i], columnOf(kept[j]));
-  // Columns in their own units do not hide a jump that the modes carry alone.
+  // Columns in the units that they had with the part that the modes carry: where nothing but that
+  // part was there, the rounding that is left stays small.
   std::vector<double> unit(kept.size());
   for (std::size_t j = 0; j < kept.size(); ++j) {
-    double sum = 0;
-    for (const double x : scale.column(j)) sum = std::max(sum, std::abs(x));
-    unit[j] = sum > 0 ? 1 / sum : 1;
+    const double size = before[columnOf(kept[j])];
+    unit[j] = size > 0 ? 1 / size : 1;
     for (double& x : scale.column(j)) x *= unit[j];
   }
   const linalg::Lu<double> lu(std::move(scale));

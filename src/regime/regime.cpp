@@ -20,11 +20,14 @@
 namespace squeal::regime {
 namespace {
 
+using march::Event;
+
 const RealListOption frictionOption(
     "regime", "regime_friction", "", "", nonNegative,
     "frictions at which the motion after flutter is followed: stick, slip and separation; added "
     "to those of -flutter_friction where they are not among them",
     true);
+
 /// Returns the steady sliding power.
 double steadyPower(const ReducedModel& model) {
   double power = 0;
@@ -62,7 +65,7 @@ void warn(const FullModel& full, std::span<const Task> tasks, double stable) {
 /// says where one may make them alternate.
 void checkLaw(MPI_Comm comm, const ReducedModel& model, std::span<const Task> tasks) {
   if (!model.law || !boundaryIsMassless()) return;
-  double step = INFINITY;  // the shortest, which is the hardest to follow
+  double step = INFINITY;  // the shortest: its slips follow least
   for (const Task& task : tasks)
     if (task.failure.empty()) step = std::min(step, task.step);
   if (!std::isfinite(step)) return;
@@ -346,7 +349,7 @@ Study study(const FullModel& full, linalg::Block free, const pencil::ComplexMode
   try {
     addRuns(work, std::move(free));
   } catch (const Error& error) {
-    work.fail(work.name() + ": not followed after flutter: " + error.what());
+    work.fail(work.name() + ": not followed after flutter (nothing measured): " + error.what());
     const auto starts = work.starts();
     for (std::size_t i = result.runs.size(); i < starts.size(); ++i) {
       Run run;

@@ -1,21 +1,21 @@
 #pragma once
-/// After flutter: what the brake does once an unstable mode has grown [§ 17]. The motion is
-/// followed on a reduced model with stick, slip and separation at every contact node, and its kind
-/// is told.
+/// After flutter [§ 17]: the motion of an unstable mode that has grown is followed on a reduced
+/// model with stick, slip and separation at every contact node, and classified.
 #include <cmath>
 #include <string>
 #include <vector>
 
 #include "linalg/block.hpp"
+#include "march/onset.hpp"
 #include "pencil/complex_modes.hpp"
 #include "regime/cycle.hpp"
-#include "regime/onset.hpp"
 #include "regime/record.hpp"
 #include "regime/reduction.hpp"
 #include "sound/outside.hpp"
 
 namespace squeal::regime {
 
+using march::Onset;
 using mesh::Point;
 
 /// Returns the frictions of `-regime_friction`, ascending.

@@ -11,6 +11,8 @@
 namespace squeal::regime {
 namespace {
 
+using march::Event;
+
 /// A march of the largest default time, 4000 cycles of 128 steps, takes 5e5 steps.
 constexpr double mostSteps = 1e8;
 /// Peaks of cycles and spectra need as many steps in a period.
@@ -51,7 +53,11 @@ std::string stepsBroken(double step, double time) {
 
 /// Returns the bound that step or time of a task break; empty: none.
 std::string boundBroken(const ReducedModel& model, const Task& task, double stableStep) {
-  if (const auto broken = stepsBroken(task.step, task.time); !broken.empty()) return broken;
+  if (const auto broken = stepsBroken(task.step, task.time); !broken.empty())
+    return broken + (stepOption.get() > 0 || task.step > 0.01 * task.shortestPeriod / 128
+                         ? ""
+                         : "; the stable step of the reduced model is short, and fewer "
+                           "-modes_count make it longer");
   if (boundaryIsMassless() && task.step > stableStep)
     if (const double longest = march::longestStep(model); task.step > longest)
       return formatted(

@@ -5,10 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "march/onset.hpp"
 #include "options/option_types.hpp"
-#include "regime/onset.hpp"
 
 namespace squeal::regime {
+
+using march::LinearMode;
+using march::Onset;
+using march::ReducedModel;
 
 /// A march to be done.
 struct Task {

@@ -30,7 +30,7 @@ std::string onsetTable(const analysis::Analysis& analysis) {
     table += sweep::parameterValues(mode.at) + formatted(",%zu,%.15e,%.15e,%s", mode.mode + 1,
                                                          mode.s.real(), mode.s.imag() / (2 * M_PI),
                                                          text(mode.onset.event));
-    if (mode.onset.event == regime::Event::none)
+    if (mode.onset.event == march::Event::none)
       table += ",,,,,,\n";
     else
       table += formatted(",%.12e,%.12e,%.12e,%s,%.9e,%.6e\n", mode.position[0], mode.position[1],
