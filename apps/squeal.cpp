@@ -89,7 +89,7 @@ int run(const squeal::Session& session) try {
   for (const auto& line : squeal::unusedOptions()) squeal::say(session.comm(), line);
   return analysis.converged()
              ? 0
-             : 2;  // instability is a result; a friction without steady state is not
+             : 2;  // instability is a result; a point without steady state or a failed one is not
 } catch (const squeal::Error& error) {
   tellError(session, error.what(), true);
   return 1;

@@ -1,7 +1,7 @@
 #!/usr/bin/python3 -B
 """Picture of the motion after flutter: plot_regime.py REPORT_DIR [START]
 
-Draws regime.png of the first run of regime.csv, or of that with this START: the largest kinetic energy of each cycle from growth to the
+Draws regime.png of the first run of regime.csv that has measured anything, or of that with this START: the largest kinetic energy of each cycle from growth to the
 regime, the spectrum of the velocity, and what share of the time each contact node is open, sticks and slides.
 """
 import argparse
@@ -22,10 +22,14 @@ import squeal  # noqa: E402
 KEYS = ["friction", "speed", "pressure", "damping", "start"]
 
 
+UNMEASURED = "nothing measured"
+
+
 def run_asked(table, start):
     if start is not None:
-        table = table[table["start"] == start]
-    return None if table.empty else table.iloc[0]
+        table = table[table["start"].astype(str) == start]
+    measured = table[table["class"] != UNMEASURED]
+    return None if table.empty else table.iloc[0] if measured.empty else measured.iloc[0]
 
 
 def rows_of(table, run):
@@ -97,6 +101,8 @@ def main():
     if run is None:
         which = "" if arguments.start is None else f" of start {arguments.start}"
         sys.exit(f"{program()}: regime.csv of {results.folder} has no run{which}")
+    if run["class"] == UNMEASURED:
+        sys.exit(f"{program()}: friction {run['friction']:g}, start on mode {run['start']}: {UNMEASURED}, and there is nothing to draw")
     figure = plt.figure(figsize=(12, 8.5), layout="constrained")
     upper, lower = figure.subfigures(2, 1, height_ratios=(1, 1.2))
     growth, spectrum = upper.subplots(1, 2)

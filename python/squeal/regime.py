@@ -8,7 +8,9 @@ from squeal.keys import PARAMETERS
 KEYS = [*PARAMETERS, "start"]
 MOST_POINTS = 2000  # of a line in a diagram
 SHOWN_TO = 4  # times the frequency of the flutter mode
+UNMEASURED = "nothing measured"
 KINDS = {
+    UNMEASURED: "was not measured",
     "growing": "still grows",
     "steady": "dies away",
     "periodic": "becomes periodic",
@@ -37,7 +39,7 @@ def _sentence(results, run):
     kind = KINDS.get(run["class"], run["class"])
     start = "the sum of all unstable modes" if str(run["start"]) == "all" else f"mode {run['start']}"
     text = f"At friction {run['friction']:g}{others} the motion from {start} {kind}"
-    if not run["settled"] and run["class"] not in ("growing", "steady"):
+    if not run["settled"] and run["class"] not in ("growing", "steady", UNMEASURED):
         text += ", not settled when the run ended"
     said = []
     if _known(run["carrier_hz"]):

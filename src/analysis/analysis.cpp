@@ -17,8 +17,7 @@
 namespace squeal::analysis {
 
 bool Analysis::converged() const {
-  return failures.empty() && std::all_of(steady.begin(), steady.end(),
-                                         [](const auto& solution) { return solution.converged; });
+  return failures.empty() && std::ranges::all_of(steady, &steady::Solution::converged);
 }
 
 const pencil::ComplexModes* Analysis::pointAt(const sweep::Parameters& at) const {

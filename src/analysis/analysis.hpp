@@ -45,17 +45,18 @@ struct Analysis {
   std::vector<segment::ModalSegment> segments;
   std::vector<regime::ModeOnset> onsets;  ///< of the unstable modes whose shapes are kept
   std::vector<regime::Study> regimes;     ///< after flutter, at the points of `-regime_friction`
+  /// Failures of late stages, by point and remedy: they leave all other results as they are. They
+  /// have been printed.
+  std::vector<std::string> failures;
   /// Wall time of one factorisation and 400 blocked solves, s, for the last segment; 0 without
   /// `-modes_benchmark`.
   double modesFloorSeconds = 0;
-  /// Why a stage has no result, or lacks one, with the points concerned, [failure]; the results of
-  /// all other points and stages stay.
-  std::vector<std::string> failures;
   checkpoint::Checkpoint checkpoint;
   /// True if the run has been asked to stop before all was found.
   bool interrupted = false;
 
-  /// Returns true if every steady point has a solution, and no stage has failed.
+  /// Returns true if every steady point has a solution, as for matrices from files, and no late
+  /// stage has failed.
   bool converged() const;
   /// Returns the complex modes at a point of the sweep, borrowed; null where there is no steady
   /// solution.

@@ -110,46 +110,64 @@ const steady::Solution& steadyAt(const Analysis& analysis, sweep::Parameters at)
                                [&](const auto& solution) { return solution.at == at; });
 }
 
-/// Collective. Finds where the unstable modes of these segments leave the linear range.
-void findOnsets(Analysis& analysis, std::span<const segment::ModalSegment> segments) {
-  if (analysis.contact.totalNodes == 0) return;
-  for (const auto& segment : segments)
-    for (const auto& point : segment.points) {
-      if (point.unstableCount() == 0) continue;
-      const auto& solution = steadyAt(analysis, point.at);
-      OwnedMat prestress;
-      if (elasticity::prestressWanted())
-        prestress = elasticity::geometricStiffness(*analysis.mesh, solution.displacement);
-      for (auto& onset :
-           regime::onsets(analysis.bodies, analysis.contact, solution, point, prestress))
-        analysis.onsets.push_back(std::move(onset));
-    }
+/// Collective. Finds where the unstable modes of a point leave the linear range.
+void findOnsets(Analysis& analysis, const pencil::ComplexModes& point) try {
+  const auto& solution = steadyAt(analysis, point.at);
+  OwnedMat prestress;
+  if (elasticity::prestressWanted())
+    prestress = elasticity::geometricStiffness(*analysis.mesh, solution.displacement);
+  for (auto& onset : regime::onsets(analysis.bodies, analysis.contact, solution, point, prestress))
+    analysis.onsets.push_back(std::move(onset));
+} catch (const Error& error) {
+  addFailure(analysis, sweep::parameterText(point.at) + ": no first events: " + error.what());
 }
 
-/// Collective. Follows the motion after flutter at the points of these segments where it is wanted.
+/// Returns true if the motion after flutter is wanted at a point of the sweep.
+bool isFollowed(const sweep::Sweep& sweep, const sweep::Parameters& at) {
+  return std::ranges::binary_search(regime::frictionsWanted(), at.friction) &&
+         at.speed == sweep.speeds.front() && at.pressure == sweep.pressures.front() &&
+         at.damping == sweep.dampings.front();
+}
+
+/// Collective. Returns the free modes of a segment as nodal displacements, this rank's rows.
+linalg::Block nodalModes(const Analysis& analysis, const MeshSegment& problem,
+                         const segment::ModalSegment& segment) {
+  linalg::Block modes(analysis.mesh->dimension * analysis.mesh->ownedNodes);
+  const linalg::ReadColumns vectors(segment.modes.vectors);
+  linalg::appendProduct(problem.trial(), vectors.view(), modes);
+  return modes;
+}
+
+/// Collective. Follows the motion after flutter at a point. What fails there leaves other points as
+/// they are.
 void followAfterFlutter(Analysis& analysis, const MeshSegment& problem, CurrentSystem& current,
-                        std::span<const segment::ModalSegment> segments) {
-  const auto wanted = regime::frictionsWanted();
-  const auto& sweep = analysis.sweep;
-  for (const auto& segment : segments)
-    for (const auto& point : segment.points) {
-      const auto& at = point.at;
-      if (!std::ranges::binary_search(wanted, at.friction) || at.speed != sweep.speeds.front() ||
-          at.pressure != sweep.pressures.front() || at.damping != sweep.dampings.front())
-        continue;
-      stopIfAsked(analysis.comm);
-      ActiveSet held;
-      held.closed.assign(analysis.contact.nodes.size(), 1);
-      held.released.assign(analysis.contact.nodes.size(), 0);
-      linalg::Block modes(analysis.mesh->dimension * analysis.mesh->ownedNodes);
-      {
-        const linalg::ReadColumns vectors(segment.modes.vectors);
-        linalg::appendProduct(problem.trial(), vectors.view(), modes);
-      }
-      analysis.regimes.push_back(regime::study(
-          {analysis.bodies, analysis.contact, current.of(held), steadyAt(analysis, at), at.damping},
-          std::move(modes), point));
-    }
+                        const segment::ModalSegment& segment,
+                        const pencil::ComplexModes& point) try {
+  stopIfAsked(analysis.comm);
+  ActiveSet held;
+  held.closed.assign(analysis.contact.nodes.size(), 1);
+  held.released.assign(analysis.contact.nodes.size(), 0);
+  analysis.regimes.push_back(regime::study({analysis.bodies, analysis.contact, current.of(held),
+                                            steadyAt(analysis, point.at), point.at.damping},
+                                           nodalModes(analysis, problem, segment), point));
+  const auto& failures = analysis.regimes.back().failures;
+  analysis.failures.insert(analysis.failures.end(), failures.begin(), failures.end());
+} catch (const Error& error) {
+  addFailure(analysis,
+             sweep::parameterText(point.at) + ": not followed after flutter: " + error.what());
+}
+
+/// Collective. Names the points that were to be followed and have no steady state to start from.
+void nameUnfollowed(Analysis& analysis) {
+  for (const auto& solution : analysis.steady) {
+    auto at = solution.at;
+    at.damping = analysis.sweep.dampings.front();
+    if (!solution.converged && isFollowed(analysis.sweep, at))
+      addFailure(analysis,
+                 sweep::parameterText(at) +
+                     ": not followed after flutter (-regime_friction): there is no steady "
+                     "sliding to start from");
+  }
 }
 
 /// Returns the steady points [first, last) in words.
@@ -179,9 +197,14 @@ void solveMeshSegment(Analysis& analysis, std::size_t first, std::size_t last,
   if (!solved.failure.empty())
     addFailure(analysis, pointsText(analysis, first, last) + ": " + solved.failure);
   const auto found = std::span(analysis.segments).subspan(before);
-  findOnsets(analysis, found);
+  for (const auto& segment : found)
+    for (const auto& point : segment.points)
+      if (analysis.contact.totalNodes > 0 && point.unstableCount() > 0) findOnsets(analysis, point);
   if (!solved.complete) throw Interrupted();
-  followAfterFlutter(analysis, problem, current, found);
+  for (const auto& segment : found)
+    for (const auto& point : segment.points)
+      if (isFollowed(analysis.sweep, point.at))
+        followAfterFlutter(analysis, problem, current, segment, point);
   if (modes::benchmarkWanted())
     analysis.modesFloorSeconds = modes::floorSeconds(problem.system().k0());
 }
@@ -236,6 +259,7 @@ void solveMesh(Analysis& analysis) {
   }
   if (!failures.empty() && analysis.segments.empty()) throw Error(failures.front());
   for (const auto& failure : failures) addFailure(analysis, failure);
+  nameUnfollowed(analysis);
 }
 
 }  // namespace squeal::analysis

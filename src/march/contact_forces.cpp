@@ -69,8 +69,10 @@ double StepSolver::sweep(const std::vector<double>& friction,
 }
 
 int StepSolver::solve(const std::vector<double>& friction, const std::vector<unsigned char>& active,
-                      double tolerance, std::vector<double>& r, std::vector<double>& d) const {
+                      double tolerance, std::vector<double>& r, std::vector<double>& d,
+                      const StopAsked& asked) const {
   for (int count = 1; count <= mostSweeps; ++count) {
+    if (asked && asked()) throw Interrupted();
     // Forces far above those of steady sliding have rounding of their own.
     double largest = 0;
     for (const double force : r) largest = std::max(largest, std::abs(force));

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "march/model.hpp"
+#include "petsc/termination.hpp"
 
 namespace squeal::march {
 
@@ -21,9 +22,11 @@ class StepSolver {
 
   /// Improves forces R, of which d = b + W R is given, to a `tolerance`, N, and d with them.
   /// active[node] is false for a node that is known to be open, whose forces are zero. Returns the
-  /// number of sweeps of the projected Gauss–Seidel method; throws Error after `mostSweeps`.
+  /// number of sweeps of the projected Gauss–Seidel method; throws Error after `mostSweeps`, and
+  /// Interrupted, on this rank alone, once asked() is true.
   int solve(const std::vector<double>& friction, const std::vector<unsigned char>& active,
-            double tolerance, std::vector<double>& r, std::vector<double>& d) const;
+            double tolerance, std::vector<double>& r, std::vector<double>& d,
+            const StopAsked& asked = {}) const;
 
  private:
   double sweep(const std::vector<double>& friction, const std::vector<unsigned char>& active,

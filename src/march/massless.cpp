@@ -94,7 +94,7 @@ void Massless::step() {
     increments_[i] = jump[i] + (isNormal(i) ? steadyGap_[i] : h_ * steadyVelocity_[i] - jump_[i]);
   }
   before_ = std::exchange(state_.force, std::move(guess));
-  sweeps_ = solver_.solve(friction_, active_, tolerance_, state_.force, increments_);
+  sweeps_ = solver_.solve(friction_, active_, tolerance_, state_.force, increments_, stopAsked_);
   std::vector<double> change(m), rate(m), z(m);  // R*, ż
   for (PetscInt i = 0; i < m; ++i) {
     jump[i] = increments_[i] - (isNormal(i) ? steadyGap_[i] : h_ * steadyVelocity_[i] - jump_[i]);
@@ -122,8 +122,7 @@ void Massless::step() {
   std::vector<double> resisting(k);  // of damping
   addProduct(model_.damping, mean, resisting, -1);
   addProduct(model_.couplingDamping, rate, resisting, -1, true);
-  if (!std::isfinite(kinetic))
-    throw Error("the motion is no finite number: the time step is too long");
+  if (!std::isfinite(kinetic)) throw Error("the motion is not finite: the time step is too long");
   // Damping works on q and z; what it does to z is C_z ż + C_zq v.
   std::vector<double> onBoundary(m);
   addProduct(model_.couplingDamping, v_, onBoundary);

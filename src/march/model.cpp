@@ -163,7 +163,7 @@ void normalise(std::vector<Complex>& x) {
 
 }  // namespace
 
-LinearMode nearestMode(const ReducedModel& model, Complex s) {
+LinearMode nearestMode(const ReducedModel& model, Complex s, const StopAsked& asked) {
   const Linearised linearised(model);
   // A(s) is quadratic in s: three values give it, at the magnitude of s so that nothing cancels.
   const double scale0 = std::abs(s);
@@ -172,6 +172,7 @@ LinearMode nearestMode(const ReducedModel& model, Complex s) {
   const PetscInt n = constant.rows();
   std::vector<Complex> right(n, 1), left(n, 1);
   for (int step = 0; step < 30; ++step) {
+    if (asked && asked()) throw Interrupted();
     const Complex ratio = s / scale0;
     ComplexMatrix a(n, n), slope(n, n);
     for (std::size_t i = 0; i < a.size(); ++i) {
@@ -195,7 +196,7 @@ LinearMode nearestMode(const ReducedModel& model, Complex s) {
       return mode;
     }
   }
-  throw Error("Newton's method finds no eigenvalue of the reduced model of the regime");
+  throw Error("Newton's method finds no such eigenvalue of the reduced model");
 }
 
 double stableStep(const ReducedModel& model) {
@@ -207,8 +208,18 @@ double stableStep(const ReducedModel& model) {
   for (PetscInt j = 0; j < k; ++j)
     for (PetscInt i = 0; i < k; ++i) stiffness(i, j) -= coupled(i, j) + coupled(j, i);
   linalg::addScaled(stiffness, 1, linalg::congruent(model.boundaryStiffness, model.jump));
-  const double largest = linalg::symmetricEigen(stiffness).back();
-  return 2 / std::sqrt(largest);
+  return 2 / std::sqrt(linalg::symmetricEigen(stiffness).back());
+}
+
+double longestStep(const ReducedModel& model) {
+  // Without contact forces z = −K_z⁻¹ K_zq q.
+  DenseMatrix response = model.couplingStiffness;
+  linalg::Lu<double>(DenseMatrix(model.boundaryStiffness)).solve(response);
+  DenseMatrix stiffness = linalg::transposedProduct(model.couplingStiffness, response);
+  for (double& entry : stiffness.entries()) entry = -entry;
+  for (PetscInt i = 0; i < model.modes(); ++i) stiffness(i, i) += model.stiffness[i];
+  stiffness = linalg::symmetricPart(stiffness);
+  return 2 / std::sqrt(linalg::symmetricEigen(stiffness).back());
 }
 
 }  // namespace squeal::march

@@ -13,6 +13,7 @@
 
 #include "linalg/dense.hpp"
 #include "mesh/mesh.hpp"
+#include "petsc/termination.hpp"
 
 namespace squeal::march {
 
@@ -71,11 +72,15 @@ struct LinearMode {
 /// Not collective. Returns the eigenpair of the model linearised about steady sliding that Newton's
 /// method finds from s: pressed nodes stay closed, sliding ones obey
 ///   R_T* = −f R_N* τ − R_N ((f/|w|) (1 − ττᵀ) + (df/d|w|) ττᵀ) ẏ_T   [4.7],
-/// sticking ones stick, open ones are free. Throws Error if the method does not converge.
-LinearMode nearestMode(const ReducedModel& model, Complex s);
+/// sticking ones stick, open ones are free. Throws Error if the method does not converge, and
+/// Interrupted, on this rank alone, once asked() is true.
+LinearMode nearestMode(const ReducedModel& model, Complex s, const StopAsked& asked = {});
 
 /// Not collective. Returns the largest step, s, at which the leapfrog rule is stable with all nodes
 /// held: 2/ω of its fastest motion.
 double stableStep(const ReducedModel& model);
+/// Not collective. Returns the same with all nodes free. More nodes in contact make the model
+/// stiffer: a longer step is unstable whatever the contact does.
+double longestStep(const ReducedModel& model);
 
 }  // namespace squeal::march

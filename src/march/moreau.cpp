@@ -105,7 +105,7 @@ class Moreau : public Scheme {
         increments_[i] += steadyGap_[i] + state_.jump[i];
     }
     state_.force = guess;
-    sweeps_ = solver_->solve(friction_, active, tolerance_, state_.force, increments_);
+    sweeps_ = solver_->solve(friction_, active, tolerance_, state_.force, increments_, stopAsked_);
     for (PetscInt i = 0; i < m; ++i) force[i] = state_.force[i] - guess[i];
     std::vector<double> correction(order_);
     addProduct(jumps_, force, correction, h_);
@@ -138,7 +138,7 @@ class Moreau : public Scheme {
     addProduct(mass_, v_, momentum);
     state_.kinetic = dot(momentum, v_) / 2;
     if (!std::isfinite(state_.kinetic))
-      throw Error("the motion is no finite number: the time step is too long");
+      throw Error("the motion is not finite: the time step is too long");
     state_.time += h_;
   }
 

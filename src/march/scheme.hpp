@@ -1,6 +1,7 @@
 #pragma once
 /// The reduced model is integrated in time with the conditions of contact at the end of each step.
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "march/contact_forces.hpp"
@@ -31,8 +32,11 @@ struct Work {
 class Scheme {
  public:
   virtual ~Scheme() = default;
-  /// Takes one step. Throws Error if the contact forces do not converge.
+  /// Takes one step. Throws Error if the contact forces do not converge or the motion is not
+  /// finite, and Interrupted, on this rank alone, once setStop() says so.
   virtual void step() = 0;
+  /// Lets a step end once asked() is true.
+  void setStop(StopAsked asked) { stopAsked_ = std::move(asked); }
   const State& state() const { return state_; }
   const Work& work() const { return work_; }
   int sweeps() const { return sweeps_; }  ///< of the last step
@@ -60,6 +64,7 @@ class Scheme {
   std::vector<double> steadyForce_, steadyVelocity_, steadyGap_;  // [row], zero in the other rows
   std::vector<double> increments_;                                // d of the last step
   std::vector<double> stiffness_;  // [node] that weighs gaps in a defect, N/m
+  StopAsked stopAsked_;            // empty: never
 };
 
 /// The start of a march: q, z and their rates at one instant, and the accelerations of q; none: 0.

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+
+#include "petsc/check.hpp"
 
 namespace squeal::periodic {
 namespace {
@@ -34,12 +37,16 @@ Way follow(Period& period, const Found& first, bool upwards, const Reach& reach,
     const double step = length * norm(period.model(), last.orbit.start);
     const Orbit guess = last.linearisation->along(last.orbit, tangent, step);
     Found next;
-    if (guess.friction > 0)
-      next = shoot(period, guess, reach.tolerance, told, tangent, last.linearisation);
+    std::string failure;
+    if (guess.friction > 0) try {
+        next = shoot(period, guess, reach.tolerance, told, tangent, last.linearisation);
+      } catch (const Error& error) {  // a motion without bound: a shorter step may find one
+        next = {}, failure = std::string(": ") + error.what();
+      }
     if (!next.converged) {
       length /= 2;
       if (length >= shortest) continue;
-      way.reason = "Newton's method fails";
+      way.reason = "Newton's method fails" + failure;
       return way;
     }
     if (next.orbit.friction < reach.lowest || next.orbit.friction > reach.highest) {

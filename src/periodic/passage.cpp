@@ -83,7 +83,7 @@ Period::Period(MPI_Comm comm, ReducedModel model, double friction, int steps)
   for (const auto& node : model_.nodes) nodeFriction_.push_back(node.friction);
 }
 
-march::Massless Period::schemeOf(const Orbit& orbit) {
+march::Massless Period::schemeOf(const Orbit& orbit, const StopAsked& asked) {
   for (std::size_t i = 0; i < nodeFriction_.size(); ++i) {
     auto& node = model_.nodes[i];
     const double change = orbit.friction - modelFriction_;
@@ -91,25 +91,14 @@ march::Massless Period::schemeOf(const Orbit& orbit) {
   }
   march::Massless scheme(model_, orbit.start, orbit.period / steps_);
   scheme.setAccuracy(forceAccuracy);
+  scheme.setStop(asked);
   return scheme;
-}
-
-/// Collective. Calls march(), and throws on all ranks what it throws on one.
-template <class March>
-void Period::together(const March& march) {
-  std::string failure;
-  try {
-    march();
-  } catch (const Error& error) {
-    failure = error.what();
-  }
-  failTogether(comm_, failure);
 }
 
 Passage Period::pass(const Orbit& orbit, int steps) {
   Passage passage;
-  together([&] {
-    march::Massless scheme = schemeOf(orbit);
+  workApart(comm_, [&](const StopAsked& asked) {
+    march::Massless scheme = schemeOf(orbit, asked);
     Meter meter(model_);
     for (int i = 0; i < steps; ++i) scheme.step(), meter.look(scheme);
     passage = meter.result(scheme, steps * orbit.period / steps_);
@@ -126,8 +115,8 @@ Monodromy Period::derivative(const Orbit& orbit) {
   Monodromy result;
   // Which slips stick at the start follows from the last step before it: a periodic motion ends as
   // it starts.
-  together([&] {
-    march::Massless before = schemeOf(orbit);
+  workApart(comm_, [&](const StopAsked& asked) {
+    march::Massless before = schemeOf(orbit, asked);
     for (int i = 0; i < steps_; ++i) before.step();
     const auto stuck = before.stuck();
     for (PetscInt row = 0; row < rows; ++row)
@@ -153,8 +142,8 @@ Monodromy Period::derivative(const Orbit& orbit) {
     else
       x.z(result.stuck[entry - 2 * k], j) = 1;
   }
-  together([&] {
-    march::Massless scheme = schemeOf(orbit);
+  workApart(comm_, [&](const StopAsked& asked) {
+    march::Massless scheme = schemeOf(orbit, asked);
     for (int i = 0; i < steps_; ++i) scheme.step(), scheme.propagate(x);
   });
   DenseMatrix part(2 * k + rows, own);

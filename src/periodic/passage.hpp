@@ -63,16 +63,14 @@ class Period {
   int steps() const { return steps_; }
 
   /// Collective. Returns the end of a period, or of its first `steps` steps. Throws Error where the
-  /// contact forces of a step do not converge.
+  /// contact forces of a step do not converge or the motion is not finite.
   Passage pass(const Orbit& orbit, int steps);
   Passage pass(const Orbit& orbit) { return pass(orbit, steps_); }
   /// Collective. Returns the derivative of pass().
   Monodromy derivative(const Orbit& orbit);
 
  private:
-  template <class March>
-  void together(const March& march);
-  march::Massless schemeOf(const Orbit& orbit);
+  march::Massless schemeOf(const Orbit& orbit, const StopAsked& asked);
   MPI_Comm comm_;
   ReducedModel model_;
   double modelFriction_;

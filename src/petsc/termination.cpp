@@ -119,6 +119,61 @@ void awaitSignal(int rank, bool hasTime) {
   raise(signal);
 }
 
+/// Ranks that work apart learn by a SharedStop that one of them has been asked to stop. They count
+/// in rounds, each a nonblocking sum over all ranks, how many have been asked and how many are
+/// done, until all are done or one has been asked.
+class SharedStop {
+ public:
+  explicit SharedStop(MPI_Comm comm) : comm_(comm) {
+    check(MPI_Comm_size(comm, &size_));
+    if (size_ > 1) begin(false);
+  }
+  SharedStop(const SharedStop&) = delete;
+  SharedStop& operator=(const SharedStop&) = delete;
+
+  /// Not collective. Returns true once any rank is known to have been asked.
+  bool asked() {
+    if (stop || asked_) return true;
+    if (over_ || size_ == 1) return false;
+    constexpr std::chrono::milliseconds interval{20};
+    if (const auto now = Clock::now(); now >= next_) {
+      next_ = now + interval;
+      int complete = 0;
+      check(MPI_Test(&request_, &complete, MPI_STATUS_IGNORE));
+      if (complete) end(false);
+    }
+    return asked_;
+  }
+  /// Collective. Waits for the other ranks. Returns true if any has been asked.
+  bool join() {
+    if (size_ == 1) return stop;
+    while (!over_) {
+      check(MPI_Wait(&request_, MPI_STATUS_IGNORE));
+      end(true);
+    }
+    return asked_;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void begin(bool done) {
+    own_[0] = stop, own_[1] = done;
+    check(MPI_Iallreduce(own_, all_, 2, MPI_INT, MPI_SUM, comm_, &request_));
+  }
+  void end(bool done) {
+    asked_ = all_[0] > 0;
+    over_ = asked_ || all_[1] == size_;
+    if (!over_) begin(done);
+  }
+
+  MPI_Comm comm_;
+  int size_ = 1;
+  MPI_Request request_ = MPI_REQUEST_NULL;
+  int own_[2] = {}, all_[2] = {};  // ranks that have been asked, and that are done
+  bool asked_ = false, over_ = false;
+  Clock::time_point next_;
+};
+
 }  // namespace
 
 LastAct::LastAct(std::function<void()> act) : act_(std::move(act)) {
@@ -148,6 +203,19 @@ void stopIfAsked(MPI_Comm comm) {
   int asked = stop;
   check(MPI_Allreduce(MPI_IN_PLACE, &asked, 1, MPI_INT, MPI_LOR, comm));
   if (asked) throw Interrupted();
+}
+
+void workApart(MPI_Comm comm, const std::function<void(const StopAsked& asked)>& work) {
+  SharedStop shared(comm);
+  std::string failure;
+  try {
+    work([&] { return shared.asked(); });
+  } catch (const Error& error) {
+    failure = error.what();
+  } catch (const Interrupted&) {  // join() knows why
+  }
+  if (shared.join()) throw Interrupted();
+  failTogether(comm, failure);
 }
 
 void abortRun() noexcept {

@@ -49,6 +49,16 @@ bool stopAsked();
 /// Collective. Throws Interrupted on all ranks once one of them has been asked to stop.
 void stopIfAsked(MPI_Comm comm);
 
+/// Returns true once a rank has been asked to stop.
+using StopAsked = std::function<bool()>;
+
+/// Collective. Runs work(asked) on each rank apart from the others: the work makes no collective
+/// calls, and may take longer on one rank than on another. It calls asked() at short intervals, at
+/// little cost, and returns or throws Interrupted once that is true on any rank. Throws Interrupted
+/// on all ranks if one has been asked to stop, else Error on all ranks if the work of one throws
+/// it.
+void workApart(MPI_Comm comm, const std::function<void(const StopAsked& asked)>& work);
+
 /// A SignalWatch takes the signals that ask the program to end, as batch systems, mpirun and the
 /// terminal send them. SIGUSR1, and SIGTERM where SIGKILL does not follow at once, ask the run to
 /// stop where it can: stopAsked(). At the others (SIGINT, SIGHUP, …), and at a SIGTERM some seconds

@@ -54,6 +54,55 @@ std::string describe(const PeriodicMotion& motion) {
       motion.stable() ? "stable" : "unstable");
 }
 
+/// Returns why a period cannot be marched with the steps of `-regime_cycle_steps`; empty: it can.
+std::string stepBroken(const march::ReducedModel& model, double period) {
+  const int steps = stepsOption.get();
+  const double longest = march::longestStep(model);
+  if (period / steps <= longest) return "";
+  return formatted(
+      "-regime_cycle_steps %d: their length, %.3g s, exceeds the stable step while all contact is "
+      "open, %.3g s; give at least %.0f",
+      steps, period / steps, longest, std::ceil(1.05 * period / longest));
+}
+
+/// Collective. Returns the first periodic motion that is found from the orbits, else the last
+/// attempt; its period is 0 where no march over a period came to its end. Sets the failure of the
+/// last one that did not.
+periodic::Found shootFrom(periodic::Period& period, const std::vector<periodic::Orbit>& orbits,
+                          const periodic::Told& told, std::string& failure) {
+  periodic::Found found;
+  for (periodic::Orbit guess : orbits) {
+    try {
+      // Slips that stick at the start are unknowns of their own: the fewest of them are best.
+      guess.start = period.pass(guess, period.pass(guess).quietest).end;
+      found = periodic::shoot(period, guess, toleranceOption.get(), told);
+    } catch (const Error& error) {
+      failure = std::string(error.what()) + "; give more -regime_cycle_steps";
+    }
+    if (found.converged) break;
+  }
+  return found;
+}
+
+/// Collective. Adds the motions of the branch through the first one.
+void followBranch(periodic::Period& period, const periodic::Found& first,
+                  const periodic::Told& told, Stage& stage, Cycles& cycles) {
+  const auto range = rangeOption.get();
+  const periodic::Reach reach{range[0], range[1], int(mostOption.get()), toleranceOption.get()};
+  for (const bool upwards : {false, true}) {
+    cycles.ways.push_back(
+        periodic::follow(period, first, upwards, reach, told, [&](const periodic::Found& found) {
+          cycles.motions.push_back(motionOf(found));
+          stage.say(describe(cycles.motions.back()));
+        }));
+    const auto& way = cycles.ways.back();
+    for (const double fold : way.folds)
+      stage.say(formatted("the branch of periodic motions turns back at friction %.6g", fold));
+    stage.say(formatted("towards %s friction the branch ends at %.6g: %s",
+                        upwards ? "larger" : "smaller", way.end, way.reason.c_str()));
+  }
+}
+
 }  // namespace
 
 Complex PeriodicMotion::largestMultiplier() const {
@@ -129,54 +178,38 @@ Cycles findCycles(MPI_Comm comm, const march::ReducedModel& model, double fricti
                   const periodic::Passes& passes, double step, Stage& stage) {
   Cycles cycles;
   if (passes.count == 0) {
-    complain(comm,
-             "warning: -regime_cycle: the march has not touched a limit of the contact for a whole "
-             "window, and shooting has nothing to begin with");
+    complain(
+        comm,
+        "warning: -regime_cycle: no node separated or stuck during a full window of the march, "
+        "so shooting has no starting point");
     return cycles;
   }
-  const double tolerance = toleranceOption.get();
   periodic::Period period(comm, model, friction, stepsOption.get());
+  auto orbits = periodic::firstOrbits(passes, step, period.steps());
+  for (auto& orbit : orbits) orbit.friction = friction;
+  cycles.failure = stepBroken(model, orbits.front().period);
+  if (!cycles.failure.empty()) return cycles;
   const auto told = [&](const periodic::Iteration& now) {
     stage.progress(formatted("shooting: change over a period %.1e, %d linearisations", now.change,
                              now.derivatives));
     stopIfAsked(comm);
   };
-  periodic::Found first;
-  for (periodic::Orbit guess : periodic::firstOrbits(passes, step, period.steps())) {
-    guess.friction = friction;
-    // Slips that stick at the start are unknowns of their own: the fewest of them are best.
-    try {
-      guess.start = period.pass(guess, period.pass(guess).quietest).end;
-      first = periodic::shoot(period, guess, tolerance, told);
-    } catch (const Error& error) {
-      complain(comm, std::string("warning: -regime_cycle: ") + error.what());
-    }
-    if (first.converged) break;
-  }
+  const periodic::Found first = shootFrom(period, orbits, told, cycles.failure);
   if (first.orbit.period == 0) return cycles;  // no march over a period came to its end
-  cycles.motions.push_back(motionOf(first));
-  if (!first.converged) {
-    complain(comm, formatted("warning: -regime_cycle: no periodic motion is found near "
-                             "the march: Newton's method ends with a change of %.1e over a period, "
-                             "more than the %.1e of -regime_cycle_tolerance",
-                             first.change, tolerance));
-    return cycles;
-  }
-  stage.say(describe(cycles.motions.back()));
-  const auto range = rangeOption.get();
-  if (range.empty()) return cycles;
-  const periodic::Reach reach{range[0], range[1], int(mostOption.get()), tolerance};
-  for (const bool upwards : {false, true}) {
-    cycles.ways.push_back(
-        periodic::follow(period, first, upwards, reach, told, [&](const periodic::Found& found) {
-          cycles.motions.push_back(motionOf(found));
-          stage.say(describe(cycles.motions.back()));
-        }));
-    const auto& way = cycles.ways.back();
-    for (const double fold : way.folds)
-      stage.say(formatted("the branch of periodic motions turns back at friction %.6g", fold));
-    stage.say(formatted("towards %s friction the branch ends at %.6g: %s",
-                        upwards ? "larger" : "smaller", way.end, way.reason.c_str()));
+  cycles.failure.clear();                      // it belongs to another orbit
+  try {
+    cycles.motions.push_back(motionOf(first));
+    if (first.converged)
+      stage.say(describe(cycles.motions.back()));
+    else
+      complain(comm,
+               formatted("warning: -regime_cycle: no periodic motion is found near the march: "
+                         "Newton's method ends with a change of %.1e over a period, more than "
+                         "the %.1e of -regime_cycle_tolerance",
+                         first.change, toleranceOption.get()));
+    if (first.converged && branchWanted()) followBranch(period, first, told, stage, cycles);
+  } catch (const Error& error) {
+    cycles.failure = error.what();
   }
   return cycles;
 }

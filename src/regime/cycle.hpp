@@ -31,6 +31,8 @@ struct Cycles {
   std::vector<PeriodicMotion> motions;  ///< the first at the friction of the march, then the branch
   /// Where the branch goes from the first motion, towards smaller and towards larger friction.
   std::vector<periodic::Way> ways;
+  /// The error by which the search has ended, with option and remedy; empty: none.
+  std::string failure;
 };
 
 /// Returns true if `-regime_cycle` asks for periodic motions.
@@ -61,7 +63,7 @@ class SectionRecord {
 void share(MPI_Comm comm, int root, periodic::Passes& passes);
 
 /// Collective. Returns the periodic motions of the model, which was made at this friction, from
-/// the passes of a march with this step, s.
+/// the passes of a march with this step, s. An Error ends the search and is returned in the result.
 Cycles findCycles(MPI_Comm comm, const march::ReducedModel& model, double friction,
                   const periodic::Passes& passes, double step, Stage& stage);
 

@@ -10,6 +10,8 @@ namespace squeal::regime {
 namespace {
 
 using flutter::ComplexPoint;
+using march::Event;
+using march::NodeMotion;
 
 /// Collective. Returns E⁻¹ v of complex values v at the nodes.
 std::vector<Complex> coefficients(const contact::Contact& contact,

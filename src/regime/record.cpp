@@ -43,6 +43,8 @@ double peakPlace(std::span<const double> power, std::size_t first) {
 
 const char* text(Kind kind) {
   switch (kind) {
+    case Kind::unmeasured:
+      return "nothing measured";
     case Kind::growing:
       return "growing";
     case Kind::steady:
@@ -209,8 +211,7 @@ double Recorder::carrier(Regime& regime) const {
   return line * peakPlace(power, 2);
 }
 
-Kind Recorder::classify(Regime& regime) const {
-  if (windows_.empty()) return Kind::growing;
+Kind Recorder::classify(Regime& regime, const StopAsked& asked) const {
   const std::size_t count = windowsUsed() * windowCycles;
   const auto peaks = std::span(peaks_).first(windows_.size() * windowCycles).last(count);
   const double level = mean(peaks);
@@ -236,6 +237,7 @@ Kind Recorder::classify(Regime& regime) const {
   double best = 0;
   bool forgotten = false;
   for (std::size_t shift = 1; shift <= count / 3; ++shift) {
+    if (asked && asked()) throw Interrupted();  // a long march has many cycles
     double both = 0, a = 0, b = 0;
     for (std::size_t i = 0; i + shift < count; ++i) {
       both += swing[i] * swing[i + shift];
@@ -249,48 +251,53 @@ Kind Recorder::classify(Regime& regime) const {
   return Kind::modulated;
 }
 
-Regime Recorder::result(const Scheme& scheme) const {
-  Regime regime;
-  regime.duration = scheme.state().time;
-  regime.settled = settled();
-  regime.carrier = carrier(regime);
-  regime.kind = classify(regime);
-  regime.cyclePeaks = peaks_;
-  // The linear range: while no cycle has come near the first event.
+/// Returns the growth rate in the linear range: while no cycle has come near the first event.
+double Recorder::linearGrowth() const {
   std::vector<double> t, logarithm;
   for (std::size_t i = 0; i < peaks_.size() && peaks_[i] < 0.9 * linearTo_; ++i)
     t.push_back(peakTimes_[i]), logarithm.push_back(0.5 * std::log(peaks_[i]));
-  regime.growth = NAN;
-  if (t.size() >= 4) {
-    const double tm = mean(t), lm = mean(logarithm);
-    double above = 0, below = 0;
-    for (std::size_t i = 0; i < t.size(); ++i)
-      above += (t[i] - tm) * (logarithm[i] - lm), below += (t[i] - tm) * (t[i] - tm);
-    regime.growth = above / below;
-  }
-  if (const std::size_t used = windowsUsed(); used > 0) {
-    const auto span = std::span(windows_).last(used);
-    regime.nodes.resize(model_.nodes.size());
-    regime.means.from = span.front().means.from, regime.means.to = span.back().means.to;
-    regime.means.linear = span.back().means.linear;
-    for (const Window& window : span) {
-      for (double Means::*value :
-           {&Means::kinetic, &Means::peakKinetic, &Means::frictionCoefficient,
-            &Means::frictionPower, &Means::open, &Means::sticking})
-        regime.means.*value += window.means.*value / used;
-      for (std::size_t i = 0; i < regime.nodes.size(); ++i) {
-        for (double NodeMeans::*value : {&NodeMeans::open, &NodeMeans::stick, &NodeMeans::slip,
-                                         &NodeMeans::pressure, &NodeMeans::power})
-          regime.nodes[i].*value += window.nodes[i].*value / used;
-        regime.nodes[i].largestGap =
-            std::max(regime.nodes[i].largestGap, window.nodes[i].largestGap);
-      }
-      regime.largestVelocity = std::max(regime.largestVelocity, window.largestVelocity);
-      regime.largestJump = std::max(regime.largestJump, window.largestJump);
+  if (t.size() < 4) return NAN;
+  const double tm = mean(t), lm = mean(logarithm);
+  double above = 0, below = 0;
+  for (std::size_t i = 0; i < t.size(); ++i)
+    above += (t[i] - tm) * (logarithm[i] - lm), below += (t[i] - tm) * (t[i] - tm);
+  return above / below;
+}
+
+/// Sets the means over the windows that are used, of which there is at least one.
+void Recorder::addMeans(Regime& regime) const {
+  const std::size_t used = windowsUsed();
+  const auto span = std::span(windows_).last(used);
+  regime.nodes.resize(model_.nodes.size());
+  regime.means.from = span.front().means.from, regime.means.to = span.back().means.to;
+  regime.means.linear = span.back().means.linear;
+  for (const Window& window : span) {
+    for (double Means::*value : {&Means::kinetic, &Means::peakKinetic, &Means::frictionCoefficient,
+                                 &Means::frictionPower, &Means::open, &Means::sticking})
+      regime.means.*value += window.means.*value / used;
+    for (std::size_t i = 0; i < regime.nodes.size(); ++i) {
+      for (double NodeMeans::*value : {&NodeMeans::open, &NodeMeans::stick, &NodeMeans::slip,
+                                       &NodeMeans::pressure, &NodeMeans::power})
+        regime.nodes[i].*value += window.nodes[i].*value / used;
+      regime.nodes[i].largestGap = std::max(regime.nodes[i].largestGap, window.nodes[i].largestGap);
     }
-    regime.largestKinetic = *std::ranges::max_element(
-        std::span(peaks_).first(windows_.size() * windowCycles).last(used * windowCycles));
+    regime.largestVelocity = std::max(regime.largestVelocity, window.largestVelocity);
+    regime.largestJump = std::max(regime.largestJump, window.largestJump);
   }
+  regime.largestKinetic = *std::ranges::max_element(
+      std::span(peaks_).first(windows_.size() * windowCycles).last(used * windowCycles));
+}
+
+Regime Recorder::result(const Scheme& scheme, const StopAsked& asked) const {
+  Regime regime;
+  regime.duration = scheme.state().time;
+  if (windows_.empty()) return regime;
+  regime.settled = settled();
+  regime.carrier = carrier(regime);
+  regime.kind = classify(regime, asked);
+  regime.cyclePeaks = peaks_;
+  regime.growth = linearGrowth();
+  addMeans(regime);
   regime.largestDefect = largestDefect_;
   const Work& work = scheme.work();
   regime.imbalance = std::abs(scheme.energy() - energyAtStart_ - work.contact + work.damping) /

@@ -8,6 +8,7 @@
 
 #include "march/model.hpp"
 #include "march/scheme.hpp"
+#include "petsc/termination.hpp"
 
 namespace squeal::regime {
 
@@ -17,11 +18,12 @@ using march::Scheme;
 
 /// The kind of the motion that is left after a march.
 enum class Kind {
-  growing,    ///< it still grows, linearly: nothing has opened or stuck
-  steady,     ///< it has died away
-  periodic,   ///< all cycles are alike
-  modulated,  ///< cycles differ, and their differences repeat
-  irregular   ///< cycles differ without repetition
+  unmeasured,  ///< the march has not come to the end of its first window
+  growing,     ///< it still grows, linearly: nothing has opened or stuck
+  steady,      ///< it has died away
+  periodic,    ///< all cycles are alike
+  modulated,   ///< cycles differ, and their differences repeat
+  irregular    ///< cycles differ without repetition
 };
 const char* text(Kind kind);
 
@@ -50,9 +52,10 @@ struct SpectralLine {
   double whole = 0;      ///< √(2 kinetic energy / mass of the model), m/s·√kg
 };
 
-/// The result of a march.
+/// The result of a march; only the duration where it has measured nothing.
 struct Regime {
-  Kind kind = Kind::growing;
+  Kind kind = Kind::unmeasured;
+  bool measured() const { return kind != Kind::unmeasured; }
   bool settled = false;        ///< means and peaks no longer change from window to window
   double duration = 0;         ///< s
   double carrier = 0;          ///< Hz
@@ -88,15 +91,20 @@ class Recorder {
   /// Returns the number of windows, the last ones, over which averages are taken: two thirds of
   /// those since the last linear one.
   std::size_t windowsUsed() const;
-  Regime result(const Scheme& scheme) const;
+  /// Throws Interrupted, on this rank alone, once asked() is true.
+  Regime result(const Scheme& scheme, const StopAsked& asked = {}) const;
   /// Returns the modal velocities of which the spectrum is made, samples × modes, and the time from
   /// sample to sample, s.
   DenseMatrix velocities() const;
   double sampleTime() const { return stride_ * step_; }
+  /// The number of cycles of a window.
+  static constexpr int windowCycles = 32;
 
  private:
   void endCycle(double time);
-  Kind classify(Regime& regime) const;
+  Kind classify(Regime& regime, const StopAsked& asked) const;
+  void addMeans(Regime& regime) const;
+  double linearGrowth() const;
   double carrier(Regime& regime) const;
   std::size_t nonlinearWindows() const;
   std::size_t samplesUsed() const;
@@ -107,7 +115,6 @@ class Recorder {
     std::vector<NodeMeans> nodes;
     double largestVelocity = 0, largestJump = 0;
   };
-  static constexpr int windowCycles = 32;
   const ReducedModel& model_;
   double period_, growthTime_, step_, linearTo_, meanForce_ = 0;
   double cycleEnd_, highest_ = 0;  // of the cycle in hand

@@ -14,6 +14,7 @@
 #include "mesh/vector.hpp"
 #include "petsc/arrays.hpp"
 #include "petsc/concatenation.hpp"
+#include "petsc/termination.hpp"
 
 namespace squeal::regime {
 namespace {
@@ -111,6 +112,7 @@ DenseMatrix ownJumps(const contact::Contact& contact, const std::vector<Node>& n
   DenseMatrix rows(std::ssize(nodes) * dimension);
   OwnedVec jump = elasticity::nodalVector(*contact.mesh);
   for (PetscInt j = 0; j < u.columns(); ++j) {
+    if (j % blockColumns == 0) stopIfAsked(contact.mesh->comm);
     check(MatMult(contact.jump, borrowedVector(contact.mesh->comm, u.column(j)), jump));
     std::vector<double> column(nodes.size() * dimension);
     const ReadArray values(jump);
@@ -162,6 +164,7 @@ class StaticResponses {
     for (int c = 0; c < dimension; ++c) {
       const auto& impedance = *impedances_[std::max(0, c - 1)];
       for (std::size_t begin = 0; begin < order.size(); begin += blockColumns) {
+        stopIfAsked(comm);
         const std::size_t end = std::min<std::size_t>(order.size(), begin + blockColumns);
         DenseMatrix causes(impedance.length(), end - begin);
         for (std::size_t i = begin; i < end; ++i)
@@ -214,6 +217,7 @@ std::vector<double> orthonormalise(const FullModel& full, MPI_Comm comm, Block& 
     linalg::multiplyAdd(v, along, x, -1);
   };
   for (PetscInt j = 0; j < further.columns(); ++j) {
+    stopIfAsked(comm);
     Block column{DenseView(further.columnRange(j, j + 1))};
     const auto length = [&] {
       return std::sqrt(linalg::transposedProduct(comm, column, productOf(mass, column))(0, 0));
@@ -230,6 +234,15 @@ std::vector<double> orthonormalise(const FullModel& full, MPI_Comm comm, Block& 
   auto lambda = linalg::symmetricEigen(k, m);
   v = linalg::product(v, k);
   return lambda;
+}
+
+/// Collective. Returns the largest magnitude in each column of all ranks' rows.
+std::vector<double> largestOfColumns(MPI_Comm comm, const DenseMatrix& own) {
+  std::vector<double> largest(own.columns());
+  for (PetscInt j = 0; j < own.columns(); ++j)
+    for (const double x : own.column(j)) largest[j] = std::max(largest[j], std::abs(x));
+  check(MPI_Allreduce(MPI_IN_PLACE, largest.data(), largest.size(), MPI_DOUBLE, MPI_MAX, comm));
+  return largest;
 }
 
 }  // namespace
@@ -289,6 +302,7 @@ Reduction reduce(const FullModel& full, Block free, const Block& unstable) {
 
   Block psi = StaticResponses(full, own).all(order.own());
   const PetscInt count = std::ssize(model.nodes), rows = count * dimension;
+  const auto before = largestOfColumns(comm, ownJumps(contact, own, psi));
   const Block massModes = productOf(full.bodies.mass, v);
   linalg::multiplyAdd(v, linalg::transposedProduct(comm, massModes, psi), psi, -1);
 
@@ -317,12 +331,12 @@ Reduction reduce(const FullModel& full, Block free, const Block& unstable) {
   DenseMatrix scale(kept.size(), kept.size());  // J Ψ of what moves
   for (std::size_t j = 0; j < kept.size(); ++j)
     for (std::size_t i = 0; i < kept.size(); ++i) scale(i, j) = jumps(kept[i], columnOf(kept[j]));
-  // Columns in their own units do not hide a jump that the modes carry alone.
+  // Columns in the units that they had with the part that the modes carry: where nothing but that
+  // part was there, the rounding that is left stays small.
   std::vector<double> unit(kept.size());
   for (std::size_t j = 0; j < kept.size(); ++j) {
-    double sum = 0;
-    for (const double x : scale.column(j)) sum = std::max(sum, std::abs(x));
-    unit[j] = sum > 0 ? 1 / sum : 1;
+    const double size = before[columnOf(kept[j])];
+    unit[j] = size > 0 ? 1 / size : 1;
     for (double& x : scale.column(j)) x *= unit[j];
   }
   const linalg::Lu<double> lu(std::move(scale));
@@ -352,6 +366,7 @@ Reduction reduce(const FullModel& full, Block free, const Block& unstable) {
   model.boundaryMass = model.boundaryDamping = model.boundaryStiffness = DenseMatrix(rows);
   DenseMatrix dampedModes(k), stiffModes(k);
   for (PetscInt begin = 0; begin < rows; begin += blockColumns) {
+    stopIfAsked(comm);
     const DenseView some = z.columnRange(begin, std::min(rows, begin + blockColumns));
     const Block stiff = productOf(full.bodies.stiffness, some);
     model.boundaryStiffness.append(linalg::transposedProduct(comm, z, stiff));

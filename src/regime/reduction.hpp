@@ -37,7 +37,8 @@ struct Reduction {
 
 /// Collective. Returns the reduced model. `free` are the free modes, `unstable` are the real and
 /// imaginary parts of the unstable modes, nodal displacements, this rank's rows. Throws Error where
-/// the modes carry all of the motion of the contact, so that there is nothing massless.
+/// the modes carry all of the motion of the contact, so that there is nothing massless, and
+/// Interrupted once the run has been asked to stop.
 Reduction reduce(const FullModel& full, linalg::Block free, const linalg::Block& unstable);
 
 }  // namespace squeal::regime

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
+#include <utility>
 
 #include "direct/direct.hpp"
 #include "flutter/terms.hpp"
@@ -11,32 +13,20 @@
 #include "petsc/arrays.hpp"
 #include "petsc/termination.hpp"
 #include "petsc/text.hpp"
+#include "regime/follow.hpp"
+#include "regime/task.hpp"
 #include "session/stages.hpp"
 
 namespace squeal::regime {
 namespace {
+
+using march::Event;
 
 const RealListOption frictionOption(
     "regime", "regime_friction", "", "", nonNegative,
     "frictions at which the motion after flutter is followed: stick, slip and separation; added "
     "to those of -flutter_friction where they are not among them",
     true);
-const RealOption timeOption("regime", "regime_time", 0, "s", nonNegative,
-                            "longest time that is followed; 0: 400 cycles or 10 times the time in "
-                            "which the mode grows by e, what is longer, 4000 cycles at most");
-const RealOption stepOption("regime", "regime_step", 0, "s", nonNegative,
-                            "time step; 0: a 128th of the period of the fastest growing mode, 0.8 "
-                            "of the stable step at most");
-const RealOption startOption("regime", "regime_start_factor", 0.5, "", Range{0, 100, true, false},
-                             "amplitude at the start, over that at which the first node opens or "
-                             "comes to rest");
-const ChoiceOption startsOption("regime", "regime_starts", {"fastest", "each", "all"}, "fastest",
-                                "starts of the motion: on the fastest growing unstable mode, on "
-                                "each of them, or on each and on their sum");
-const ChoiceOption boundaryOption(
-    "regime", "regime_boundary", {"massless", "mass"}, "massless",
-    "boundary of the reduced model: massless with the leapfrog rule, or with its mass by the "
-    "scheme of Moreau and Jean, to check the first");
 
 /// Returns the steady sliding power.
 double steadyPower(const ReducedModel& model) {
@@ -46,97 +36,20 @@ double steadyPower(const ReducedModel& model) {
   return power;
 }
 
-/// A march to be done.
-struct Task {
-  std::string start;
-  LinearMode mode;  // scaled to its onset
-  Onset onset;
-};
-
-/// Adds a to b.
-void add(std::vector<Complex>& a, const std::vector<Complex>& b) {
-  for (std::size_t i = 0; i < a.size(); ++i) a[i] += b[i];
-}
-
-void scale(LinearMode& mode, double factor) {
-  for (auto* part : {&mode.q, &mode.z, &mode.jump, &mode.force})
-    for (Complex& entry : *part) entry *= factor;
-}
-
-/// Returns a run of which nothing is known but how it starts.
-Run runOf(const ReducedModel& model, const Task& task) {
-  Run run;
-  run.start = task.start;
-  run.s = task.mode.s;
-  run.onset = task.onset;
-  run.onsetPosition = model.nodes[task.onset.node].position;
-  run.onsetKinetic = largestKinetic(task.mode);
-  return run;
-}
-
-/// A march leaves these behind.
-struct Followed {
-  Regime regime;
-  periodic::Passes passes;  // where periodic motions are wanted
-  sound::Trace trace;       // on the rank that marched
-};
-
-Followed follow(const ReducedModel& model, const Task& task, double step, double time,
-                Stage& stage) {
-  const auto start = march::startOn(task.mode, startOption.get());
-  const auto scheme = boundaryOption.get() == "mass" ? march::moreauScheme(model, start, step)
-                                                     : march::masslessScheme(model, start, step);
-  Recorder recorder(model, task.mode.s, step, largestKinetic(task.mode));
-  sound::Latest latest(model, 2 * M_PI / task.mode.s.imag());
-  std::optional<SectionRecord> section;
-  if (cyclesWanted()) section.emplace(model, task.mode);
-  while (scheme->state().time < time) {
-    scheme->step();
-    recorder.look(*scheme);
-    latest.look(*scheme);
-    if (section) section->look(*scheme);
-    if (!recorder.windowEnded()) continue;
-    if (section) section->endWindow();
-    stage.progress(formatted("start on mode %s: %.1f of at most %.1f ms", task.start.c_str(),
-                             1e3 * scheme->state().time, 1e3 * time));
-    if (stopAsked() || (timeOption.get() == 0 && recorder.settled())) break;
-  }
-  Followed followed{recorder.result(*scheme),
-                    {},
-                    {recorder.velocities(), recorder.sampleTime(), latest.samples()}};
-  if (section) followed.passes = section->last(recorder.windowsUsed());
-  return followed;
-}
-
-/// Collective. Returns the regimes of the tasks, each marched by one rank, on all ranks;
-/// traces are on the rank that marched.
-std::vector<Followed> followAll(MPI_Comm comm, const ReducedModel& model,
-                                const std::vector<Task>& tasks, double step, double time,
-                                Stage& stage) {
-  int rank = 0, size = 1;
-  check(MPI_Comm_rank(comm, &rank));
-  check(MPI_Comm_size(comm, &size));
-  std::vector<Followed> all(tasks.size());
-  std::string failure;
-  try {
-    for (std::size_t i = rank; i < tasks.size(); i += size)
-      all[i] = follow(model, tasks[i], step, time, stage);
-  } catch (const Error& error) {
-    failure = "stage regime, -regime_step " + formatted("%g s: ", step) + error.what();
-  }
-  failTogether(comm, failure);
-  stopIfAsked(comm);
-  for (std::size_t i = 0; i < tasks.size(); ++i) {
-    share(comm, i % size, all[i].regime);
-    share(comm, i % size, all[i].passes);
-  }
-  return all;
-}
-
-/// Collective. Says where a step is longer than is safe, and where nothing but friction damps.
-void warn(const FullModel& full, double step, double stable) {
+/// Collective. Warns where steps are longer than is safe, and where friction alone damps.
+void warn(const FullModel& full, std::span<const Task> tasks, double stable) {
   const MPI_Comm comm = full.contact.mesh->comm;
-  if (boundaryOption.get() == "massless" && step > stable)
+  double step = 0;  // the longest
+  for (const Task& task : tasks) {
+    if (!task.failure.empty()) continue;
+    step = std::max(step, task.step);
+    if (const int frames = sound::framesOfPeriod(task.shortestPeriod, task.step);
+        frames < sound::framesWanted())
+      complain(comm, formatted("warning: -regime_frames %d: a period of %.5g Hz has %d steps, and "
+                               "as many frames are written",
+                               sound::framesWanted(), 1 / task.shortestPeriod, frames));
+  }
+  if (boundaryIsMassless() && step > stable)
     complain(comm, formatted("warning: -regime_step %g s exceeds %.3g s, the stable step while all "
                              "contact sticks; the motion may grow without bound",
                              step, stable));
@@ -144,14 +57,18 @@ void warn(const FullModel& full, double step, double stable) {
   if (full.bodies.damping) check(MatNorm(full.bodies.damping, NORM_FROBENIUS, &size));
   if (size * full.damping == 0)
     complain(comm,
-             "warning: the bodies are undamped: nothing bounds what grows without touching the "
-             "contact after flutter; give -material_<group>_loss_factor");
+             "warning: the bodies are undamped, so that a motion that never separates or sticks "
+             "grows without bound; give -material_<group>_loss_factor");
 }
 
 /// Collective. Refuses a law of friction that slips of a boundary without mass do not follow, and
 /// says where one may make them alternate.
-void checkLaw(MPI_Comm comm, const ReducedModel& model, double step) {
-  if (!model.law || boundaryOption.get() != "massless") return;
+void checkLaw(MPI_Comm comm, const ReducedModel& model, std::span<const Task> tasks) {
+  if (!model.law || !boundaryIsMassless()) return;
+  double step = INFINITY;  // the shortest: its slips follow least
+  for (const Task& task : tasks)
+    if (task.failure.empty()) step = std::min(step, task.step);
+  if (!std::isfinite(step)) return;
   const auto slopes = march::steadySlopes(model);
   if (const double gain = march::lawGain(model, step, slopes); !(gain < 1))
     throw Error(
@@ -171,6 +88,195 @@ void checkLaw(MPI_Comm comm, const ReducedModel& model, double step) {
                "may alternate from step to step; compare with -regime_boundary mass");
 }
 
+/// Returns the shapes of the unstable modes of a point, the fastest growing one first.
+std::vector<const pencil::Shape*> unstableShapes(const pencil::ComplexModes& point) {
+  std::vector<const pencil::Shape*> shapes;
+  for (const auto& shape : point.shapes)
+    if (point.eigenvalues[shape.index].unstable) shapes.push_back(&shape);
+  return shapes;
+}
+
+/// Returns the real and imaginary parts of the shapes as columns, this rank's rows.
+linalg::Block columnsOf(PetscInt rows, std::span<const pencil::Shape* const> shapes) {
+  linalg::Block columns(rows);
+  for (const auto* shape : shapes)
+    for (const Vec part : {shape->real.get(), shape->imaginary.get()}) {
+      const ReadArray values(part);
+      columns.append(std::span(values.data(), values.size()));
+    }
+  return columns;
+}
+
+/// What a study has in hand: the point of the sweep, its modes, and the result as far as it is.
+struct Work {
+  const FullModel& full;
+  const pencil::ComplexModes& point;
+  std::vector<const pencil::Shape*> shapes;
+  Study& result;
+
+  MPI_Comm comm() const { return full.contact.mesh->comm; }
+  std::string name() const { return sweep::parameterText(point.at); }
+  /// Returns the starts that are wanted, with the certified eigenvalue of the mode of each.
+  std::vector<std::pair<std::string, Complex>> starts() const {
+    std::vector<std::size_t> numbers;
+    for (const auto* shape : shapes) numbers.push_back(shape->index + 1);
+    std::vector<std::pair<std::string, Complex>> result;
+    for (auto& start : startsOn(numbers)) {
+      const std::size_t place = start == "all" ? 0 : result.size();
+      result.emplace_back(std::move(start), point.eigenvalues[shapes[place]->index].s);
+    }
+    return result;
+  }
+  /// Collective. Prints a failure and keeps it.
+  void fail(const std::string& what) const {
+    complain(comm(), what);
+    result.failures.push_back(what);
+  }
+  std::string nameOf(const std::string& start) const {
+    return name() + (start == "all" ? ", start on all modes" : ", start on mode " + start);
+  }
+  /// Returns the name of a run, without its start where there is one start only.
+  std::string nameOf(const Run& run) const {
+    return starts().size() > 1 ? nameOf(run.start) : name();
+  }
+  void fail(Run& run, const std::string& why) const {
+    run.failure = why;
+    fail(nameOf(run.start) + ": nothing measured: " + why);
+  }
+};
+
+/// Collective. Returns the unstable modes of the reduced model, and sets the error of the model.
+std::vector<NumberedMode> modesOf(const Work& work, const ReducedModel& model) {
+  const auto& point = work.point;
+  std::vector<NumberedMode> modes;
+  work.result.modelError = 0;
+  for (const auto* shape : work.shapes) {
+    const Complex certified = point.eigenvalues[shape->index].s;
+    const std::string name =
+        formatted("mode %zu (%.5g Hz)", shape->index + 1, certified.imag() / (2 * M_PI));
+    NumberedMode one{shape->index + 1, {}};
+    try {
+      workApart(work.comm(), [&](const StopAsked& asked) {
+        one.mode = march::nearestMode(model, certified, asked);
+      });
+    } catch (const Error& error) {
+      throw Error(name + ": " + error.what() +
+                  "; give more -modes_count, or a smaller -flutter_tolerance");
+    }
+    const double relative = std::abs(one.mode.s - certified) / std::abs(certified);
+    work.result.modelError = std::max(work.result.modelError, relative);
+    if (!(relative <= point.tolerance))
+      throw Error(
+          formatted("%s: the reduced model has this unstable eigenvalue to %.1e only, not "
+                    "to the %.1e of -flutter_tolerance; give more -modes_count, or a "
+                    "smaller -flutter_tolerance",
+                    name.c_str(), relative, point.tolerance));
+    modes.push_back(std::move(one));
+  }
+  return modes;
+}
+
+/// Returns the run of a task that nothing is known of but how it starts.
+Run runOf(const ReducedModel& model, const Task& task) {
+  Run run;
+  run.start = task.start;
+  run.s = task.mode.s;
+  if (task.onset.event == Event::none || !(task.onset.factor > 0)) return run;
+  run.onset = task.onset;
+  run.onsetPosition = model.nodes[task.onset.node].position;
+  run.onsetKinetic = largestKinetic(task.mode);
+  run.step = task.step;
+  return run;
+}
+
+/// Returns a sentence on what a run has measured.
+std::string describe(const Work& work, const Run& run) {
+  const Regime& regime = run.regime;
+  return formatted(
+      "%s: %s%s, carrier %.5g Hz (flutter %.5g Hz), friction %.4g, %.4g W (steady sliding %.4g W), "
+      "open %.3g, sticking %.3g of %zu nodes, largest kinetic energy %.4g J, defect %.1e, "
+      "energy %.1e",
+      work.nameOf(run).c_str(), text(regime.kind), regime.settled ? "" : " (not settled)",
+      regime.carrier, run.s.imag() / (2 * M_PI), regime.means.frictionCoefficient,
+      regime.means.frictionPower, work.result.steadyPower, regime.means.open, regime.means.sticking,
+      work.result.nodes.size(), regime.largestKinetic, regime.largestDefect, regime.imbalance);
+}
+
+/// Says what is heard of a run.
+void sayHeard(const Work& work, const Run& run, Stage& stage) {
+  const sound::Sound& heard = run.outside.sound;
+  if (std::isfinite(heard.power))
+    stage.say(formatted("%s: sound power about %.3g W (%.1f dB) from %.4g m2 of visible surface",
+                        work.nameOf(run).c_str(), heard.power, heard.level, heard.area));
+}
+
+/// Collective. Warns where the march does not grow as the mode does.
+void checkGrowth(const Work& work, const Run& run) {
+  const double growth = run.s.real();
+  if (run.start == "all") return;  // several modes grow, each by its own rate
+  if (std::abs(run.regime.growth - growth) > 0.2 * growth)
+    complain(work.comm(),
+             formatted("warning: in the linear range the march grows by %.4g 1/s, the mode by "
+                       "%.4g 1/s: the error of the step, which a shorter -regime_step makes "
+                       "smaller in proportion",
+                       run.regime.growth, growth));
+}
+
+/// Collective. Finds the periodic motions of a run; what fails there leaves the march as it is.
+void addCycles(const Work& work, const ReducedModel& model, const Followed& followed, Run& run,
+               Stage& stage) {
+  if (!cyclesWanted()) return;
+  run.cycles =
+      findCycles(work.comm(), model, work.point.at.friction, followed.passes, run.step, stage);
+  if (!run.cycles.failure.empty())
+    work.fail(work.nameOf(run.start) + ": no periodic motions: " + run.cycles.failure);
+}
+
+/// Collective. Adds the runs of a point to the result. What throws Error here is a failure of the
+/// whole point.
+void addRuns(const Work& work, linalg::Block free) {
+  const MPI_Comm comm = work.comm();
+  Study& result = work.result;
+  if (work.shapes.empty()) throw Error("the unstable modes are not kept; raise -flutter_shapes");
+  Stage stage(comm, "regime");
+  linalg::Block unstable = columnsOf(free.rows(), work.shapes);
+  const Reduction reduction = reduce(work.full, std::move(free), unstable);
+  const ReducedModel& model = reduction.model;
+  result.modes = model.modes(), result.rows = model.rows();
+  result.nodes = model.nodes, result.contactNode = reduction.contactNode;
+  result.steadyPower = steadyPower(model);
+  const auto modes = modesOf(work, model);
+  result.stableStep = march::stableStep(model);
+  std::vector<Task> tasks = tasksOn(model, modes, result.stableStep);
+  stage.say(formatted("%s: %d modes, %d gaps and slips; unstable eigenvalues to %.1e",
+                      work.name().c_str(), result.modes, result.rows, result.modelError));
+  warn(work.full, tasks, result.stableStep);
+  checkLaw(comm, model, tasks);
+  const auto followed = followAll(comm, model, tasks, stage);
+  std::optional<sound::Observer> observer;
+  if (std::ranges::any_of(tasks, [](const Task& task) { return task.failure.empty(); }))
+    observer.emplace(work.full.contact,
+                     sound::Shapes{reduction.modes, reduction.responses, reduction.contactNode});
+  std::string last;  // what the stage ends with
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    stopIfAsked(comm);
+    result.runs.push_back(runOf(model, tasks[i]));
+    Run& run = result.runs.back();
+    if (!tasks[i].failure.empty()) {
+      work.fail(run, tasks[i].failure);
+      continue;
+    }
+    if (!last.empty()) stage.say(last);
+    run.regime = followed[i].regime;
+    run.outside = observer->of(rankOf(comm, i), followed[i].trace);
+    sayHeard(work, run, stage);
+    checkGrowth(work, run);
+    addCycles(work, model, followed[i], run, stage);
+    last = describe(work, run);
+  }
+  stage.finish(last.empty() ? work.name() + ": " + text(Kind::unmeasured) : last);
+}
+
 }  // namespace
 
 std::vector<double> frictionsWanted() {
@@ -180,11 +286,11 @@ std::vector<double> frictionsWanted() {
 }
 
 void checkOptions(bool ofMesh) {
-  checkCycleOptions(!frictionOption.get().empty(), boundaryOption.get() == "massless");
+  checkCycleOptions(!frictionOption.get().empty(), boundaryIsMassless());
   if (frictionOption.get().empty()) {
     auto idle = sound::outsideOptions();
-    idle.insert(idle.end(),
-                {&timeOption, &stepOption, &startOption, &startsOption, &boundaryOption});
+    const auto more = taskOptions();
+    idle.insert(idle.end(), more.begin(), more.end());
     for (const Option* option : idle)
       if (option->given())
         throw Error("option -" + option->name +
@@ -192,6 +298,7 @@ void checkOptions(bool ofMesh) {
     return;
   }
   sound::checkOutsideOptions();
+  checkTaskOptions();
   if (!ofMesh)
     throw Error(
         "option -regime_friction: matrices from files do not say what lifts off and sticks; the "
@@ -226,110 +333,30 @@ void requireSupported(const elasticity::Bodies& bodies, const contact::Contact& 
 }
 
 Study study(const FullModel& full, linalg::Block free, const pencil::ComplexModes& point) {
-  const MPI_Comm comm = full.contact.mesh->comm;
   Study result;
+  const Work work{full, point, unstableShapes(point), result};
   result.at = point.at;
   result.unstable = point.unstableCount();
   if (result.unstable == 0) {
-    say(comm, sweep::parameterText(point.at) +
-                  ": no mode is unstable, and none is followed after flutter");
+    say(work.comm(), work.name() + ": no mode is unstable, and none is followed after flutter");
     return result;
   }
-  std::vector<const pencil::Shape*> shapes;
-  for (const auto& shape : point.shapes)
-    if (point.eigenvalues[shape.index].unstable) shapes.push_back(&shape);
-  if (shapes.empty())
-    throw Error("option -regime_friction: the unstable modes are not kept; raise -flutter_shapes");
-  if (std::ssize(shapes) < result.unstable)
-    say(comm,
+  if (!work.shapes.empty() && std::ssize(work.shapes) < result.unstable)
+    say(work.comm(),
         formatted("%s: %zu of %d unstable modes have kept shapes (-flutter_shapes), and these "
                   "are held exactly by the reduced model of the regime",
-                  sweep::parameterText(point.at).c_str(), shapes.size(), result.unstable));
-  linalg::Block unstable(free.rows());
-  for (const auto* shape : shapes)
-    for (const Vec part : {shape->real.get(), shape->imaginary.get()}) {
-      const ReadArray values(part);
-      unstable.append(std::span(values.data(), values.size()));
+                  work.name().c_str(), work.shapes.size(), result.unstable));
+  try {
+    addRuns(work, std::move(free));
+  } catch (const Error& error) {
+    work.fail(work.name() + ": not followed after flutter (nothing measured): " + error.what());
+    const auto starts = work.starts();
+    for (std::size_t i = result.runs.size(); i < starts.size(); ++i) {
+      Run run;
+      run.start = starts[i].first, run.s = starts[i].second, run.failure = error.what();
+      result.runs.push_back(std::move(run));
     }
-  Stage stage(comm, "regime");
-  const Reduction reduction = reduce(full, std::move(free), unstable);
-  const ReducedModel& model = reduction.model;
-  result.modes = model.modes(), result.rows = model.rows();
-  result.nodes = model.nodes, result.contactNode = reduction.contactNode;
-  result.steadyPower = steadyPower(model);
-  std::vector<Task> tasks;
-  for (const auto* shape : shapes) {
-    const Complex certified = point.eigenvalues[shape->index].s;
-    Task task{std::to_string(shape->index + 1), march::nearestMode(model, certified), {}};
-    result.modelError =
-        std::max(result.modelError, std::abs(task.mode.s - certified) / std::abs(certified));
-    task.onset = firstEvent(model.nodes, motionAt(model, task.mode));
-    scale(task.mode, task.onset.factor);
-    tasks.push_back(std::move(task));
   }
-  if (result.modelError > point.tolerance)
-    throw Error(
-        formatted("stage regime: the reduced model has the unstable eigenvalues to %.1e "
-                  "only, not to the %.1e of -flutter_tolerance",
-                  result.modelError, point.tolerance));
-  if (startsOption.get() == "all" && tasks.size() > 1) {
-    Task sum = tasks.front();
-    sum.start = "all";
-    for (std::size_t i = 1; i < tasks.size(); ++i) {
-      add(sum.mode.q, tasks[i].mode.q), add(sum.mode.z, tasks[i].mode.z);
-      add(sum.mode.jump, tasks[i].mode.jump), add(sum.mode.force, tasks[i].mode.force);
-    }
-    scale(sum.mode, 1.0 / tasks.size());
-    tasks.push_back(std::move(sum));
-  } else if (startsOption.get() == "fastest") {
-    tasks.resize(1);
-  }
-  const Complex s = tasks.front().mode.s;
-  const double period = 2 * M_PI / s.imag();
-  result.stableStep = march::stableStep(model);
-  result.step = stepOption.get();
-  if (result.step == 0) result.step = std::min(period / 128, 0.8 * result.stableStep);
-  double time = timeOption.get();
-  if (time == 0) time = std::min(4000 * period, std::max(400 * period, 10 / s.real()));
-  stage.say(formatted("%s: %d modes, %d gaps and slips; unstable eigenvalues to %.1e",
-                      sweep::parameterText(point.at).c_str(), result.modes, result.rows,
-                      result.modelError));
-  warn(full, result.step, result.stableStep);
-  checkLaw(comm, model, result.step);
-  auto followed = followAll(comm, model, tasks, result.step, time, stage);
-  const sound::Observer observer(full.contact,
-                                 {reduction.modes, reduction.responses, reduction.contactNode});
-  int ranks = 1;
-  check(MPI_Comm_size(comm, &ranks));
-  for (std::size_t i = 0; i < tasks.size(); ++i) {
-    result.runs.push_back(runOf(model, tasks[i]));
-    result.runs.back().regime = std::move(followed[i].regime);
-    result.runs.back().outside = observer.of(i % ranks, followed[i].trace);
-  }
-  const sound::Sound& heard = result.runs.front().outside.sound;
-  stage.say(formatted("%s: sound power about %.3g W (%.1f dB) from %.4g m2 of visible surface",
-                      sweep::parameterText(point.at).c_str(), heard.power, heard.level,
-                      heard.area));
-  const Regime& regime = result.runs.front().regime;
-  if (std::abs(regime.growth - s.real()) > 0.2 * s.real())
-    complain(comm,
-             formatted("warning: in the linear range the march grows by %.4g 1/s, the mode by "
-                       "%.4g 1/s: the error of the step, which a shorter -regime_step makes "
-                       "smaller in proportion",
-                       regime.growth, s.real()));
-  if (cyclesWanted())
-    for (std::size_t i = 0; i < tasks.size(); ++i)
-      result.runs[i].cycles =
-          findCycles(comm, model, point.at.friction, followed[i].passes, result.step, stage);
-  stage.finish(formatted(
-      "%s: %s%s, carrier %.5g Hz (flutter %.5g Hz), friction %.4g, %.4g W (steady sliding %.4g W), "
-      "open %.3g, sticking %.3g of %zu nodes, largest kinetic energy %.4g J, defect %.1e, "
-      "energy %.1e",
-      sweep::parameterText(point.at).c_str(), text(regime.kind),
-      regime.settled ? "" : " (not settled)", regime.carrier, s.imag() / (2 * M_PI),
-      regime.means.frictionCoefficient, regime.means.frictionPower, result.steadyPower,
-      regime.means.open, regime.means.sticking, model.nodes.size(), regime.largestKinetic,
-      regime.largestDefect, regime.imbalance));
   return result;
 }
 

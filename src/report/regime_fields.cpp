@@ -92,7 +92,7 @@ void animate(const analysis::Analysis& analysis, const Ghosts& ghosts, const Run
 void writeRegimeFields(const analysis::Analysis& analysis, const Ghosts& ghosts,
                        const std::filesystem::path& vtk) {
   forEachRun(analysis, [&](const Study& study, const Run& run, const std::string& name) {
-    if (!run.regime.nodes.empty()) {
+    if (run.regime.measured()) {
       std::vector<Field> fields;
       for (const auto& mean : meanFields)
         fields.push_back(ghosts.scalar(mean.name, meansOf(analysis, study, run, mean)));
@@ -103,11 +103,12 @@ void writeRegimeFields(const analysis::Analysis& analysis, const Ghosts& ghosts,
 }
 
 void writeRegimeFields(const analysis::Analysis& analysis, fieldfile::Hdf5File& file) {
-  for (const auto& study : analysis.regimes)
+  for (const auto& study : analysis.regimes) {
+    const std::string point = "/regime/friction_" + pointName(study.at);
+    bool named = false;  // once: starts share the point
     for (const auto& run : study.runs) {
-      if (run.regime.nodes.empty()) continue;
-      const std::string point = "/regime/friction_" + pointName(study.at),
-                        group = point + "/start_" + run.start;
+      if (!run.regime.measured()) continue;
+      const std::string group = point + "/start_" + run.start;
       for (const auto& mean : meanFields) {
         OwnedVec all = meansOf(analysis, study, run, mean), one;
         check(VecCreateMPI(analysis.comm, analysis.mesh->ownedNodes, PETSC_DETERMINE, one.out()));
@@ -115,9 +116,13 @@ void writeRegimeFields(const analysis::Analysis& analysis, fieldfile::Hdf5File& 
         check(VecStrideGather(all, 0, one, INSERT_VALUES));
         file.writeNodeVector(group, mean.name, one);
       }
-      for (const auto& parameter : sweep::allParameters)
-        file.writeAttribute(point, parameter.name, study.at.*parameter.value);
+      for (const auto& parameter : sweep::allParameters) {
+        file.writeAttribute(group, parameter.name, study.at.*parameter.value);
+        if (!named) file.writeAttribute(point, parameter.name, study.at.*parameter.value);
+      }
+      named = true;
     }
+  }
 }
 
 }  // namespace squeal::report

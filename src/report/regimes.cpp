@@ -30,7 +30,7 @@ std::string onsetTable(const analysis::Analysis& analysis) {
     table += sweep::parameterValues(mode.at) + formatted(",%zu,%.15e,%.15e,%s", mode.mode + 1,
                                                          mode.s.real(), mode.s.imag() / (2 * M_PI),
                                                          text(mode.onset.event));
-    if (mode.onset.event == regime::Event::none)
+    if (mode.onset.event == march::Event::none)
       table += ",,,,,,\n";
     else
       table += formatted(",%.12e,%.12e,%.12e,%s,%.9e,%.6e\n", mode.position[0], mode.position[1],
@@ -57,19 +57,21 @@ std::string regimeTable(const analysis::Analysis& analysis) {
       "area_m2,sound_power_estimate_w,sound_power_level_db");
   forEachRun(analysis, [&](const auto& study, const auto& run, const std::string& first) {
     const regime::Regime& regime = run.regime;
-    const bool averaged = !regime.nodes.empty();  // a whole window at least
-    const auto mean = [&](double value) { return cell(averaged ? value : NAN); };
-    table += first + formatted(",%s,%d", text(regime.kind), regime.settled ? 1 : 0) +
-             cell(regime.duration) + cell(study.step) +
-             cell(regime.carrier > 0 ? regime.carrier : NAN) + cell(run.s.imag() / (2 * M_PI)) +
-             cell(regime.modulation > 0 ? regime.modulation : NAN) + cell(regime.growth) +
-             cell(run.s.real()) + mean(regime.largestKinetic) + mean(regime.means.kinetic) +
-             mean(regime.peakDeviation) + mean(regime.largestVelocity) + mean(regime.largestJump) +
-             mean(regime.means.frictionCoefficient) + mean(regime.means.frictionPower) +
-             cell(study.steadyPower) + mean(regime.means.open) + mean(regime.means.sticking) +
-             formatted(",%zu", study.nodes.size()) + cell(run.onsetKinetic) +
-             cell(regime.largestDefect) + cell(regime.imbalance) + cell(study.modelError) +
-             soundCells(run.outside.sound) + "\n";
+    // A march that has measured nothing has no figures.
+    const auto measured = [&](double value) { return cell(regime.measured() ? value : NAN); };
+    const auto size =
+        study.nodes.empty() ? std::string(",") : formatted(",%zu", study.nodes.size());
+    table += first + "," + text(regime.kind) + (regime.settled ? ",1" : ",0") +
+             measured(regime.duration) + cell(run.step) +
+             measured(regime.carrier > 0 ? regime.carrier : NAN) + cell(run.s.imag() / (2 * M_PI)) +
+             measured(regime.modulation > 0 ? regime.modulation : NAN) + measured(regime.growth) +
+             cell(run.s.real()) + measured(regime.largestKinetic) + measured(regime.means.kinetic) +
+             measured(regime.peakDeviation) + measured(regime.largestVelocity) +
+             measured(regime.largestJump) + measured(regime.means.frictionCoefficient) +
+             measured(regime.means.frictionPower) + cell(study.steadyPower) +
+             measured(regime.means.open) + measured(regime.means.sticking) + size +
+             cell(run.onsetKinetic) + measured(regime.largestDefect) + measured(regime.imbalance) +
+             cell(study.modelError) + soundCells(run.outside.sound) + "\n";
   });
   return table;
 }

@@ -147,28 +147,32 @@ Json followedEntry(const stability::Followed& followed) {
 }
 
 Json regimeEntry(const regime::Study& study, const regime::Run& run) {
+  const regime::Regime& regime = run.regime;
+  // A march that has measured nothing has no figures.
+  const auto measured = [&](double value) { return regime.measured() ? finite(value) : Json(); };
   Json entry = parametersEntry(study.at);
   entry["start"] = run.start;
-  entry["class"] = text(run.regime.kind);
-  entry["settled"] = run.regime.settled;
-  entry["carrier_hz"] = finite(run.regime.carrier);
+  entry["class"] = text(regime.kind);
+  entry["failure"] = run.failure.empty() ? Json() : Json(run.failure);
+  entry["settled"] = regime.settled;
+  entry["carrier_hz"] = regime.carrier > 0 ? measured(regime.carrier) : Json();
   entry["flutter_frequency_hz"] = run.s.imag() / (2 * M_PI);
-  entry["modulation_hz"] = run.regime.modulation > 0 ? Json(run.regime.modulation) : Json();
-  entry["growth_rate_1_per_s"] = finite(run.regime.growth);
+  entry["modulation_hz"] = regime.modulation > 0 ? measured(regime.modulation) : Json();
+  entry["growth_rate_1_per_s"] = measured(regime.growth);
   entry["certified_growth_rate_1_per_s"] = run.s.real();
-  entry["friction_coefficient"] = run.regime.means.frictionCoefficient;
-  entry["friction_power_w"] = run.regime.means.frictionPower;
-  entry["steady_friction_power_w"] = study.steadyPower;
-  entry["open_nodes"] = run.regime.means.open;
-  entry["sticking_nodes"] = run.regime.means.sticking;
-  entry["largest_kinetic_energy_j"] = run.regime.largestKinetic;
+  entry["friction_coefficient"] = measured(regime.means.frictionCoefficient);
+  entry["friction_power_w"] = measured(regime.means.frictionPower);
+  entry["steady_friction_power_w"] = finite(study.steadyPower);
+  entry["open_nodes"] = measured(regime.means.open);
+  entry["sticking_nodes"] = measured(regime.means.sticking);
+  entry["largest_kinetic_energy_j"] = measured(regime.largestKinetic);
   entry["sound_power_estimate_w"] = finite(run.outside.sound.power);
   entry["sound_power_level_db"] = finite(run.outside.sound.level);
-  entry["largest_defect"] = run.regime.largestDefect;
-  entry["model_error"] = study.modelError;
-  entry["modes"] = study.modes;
-  entry["gaps_and_slips"] = study.rows;
-  entry["step_s"] = study.step;
+  entry["largest_defect"] = measured(regime.largestDefect);
+  entry["model_error"] = finite(study.modelError);
+  entry["modes"] = study.modes > 0 ? Json(study.modes) : Json();
+  entry["gaps_and_slips"] = study.rows > 0 ? Json(study.rows) : Json();
+  entry["step_s"] = finite(run.step);
   return entry;
 }
 
@@ -226,7 +230,6 @@ void writeSummary(const analysis::Analysis& analysis, const std::filesystem::pat
     }
     summary["frictions"].push_back(entry);
   }
-  if (!analysis.failures.empty()) summary["failures"] = analysis.failures;
   for (const auto& [speed, found] : analysis.uniqueness)
     summary["steady_uniqueness"].push_back(uniquenessEntry(speed, found));
   summary["active_sets"] = Json::array();
@@ -258,6 +261,7 @@ void writeSummary(const analysis::Analysis& analysis, const std::filesystem::pat
                                        {"change", event.opens ? "opens" : "closes"}});
   for (const auto& study : analysis.regimes)
     for (const auto& run : study.runs) summary["regimes"].push_back(regimeEntry(study, run));
+  if (!analysis.failures.empty()) summary["failures"] = analysis.failures;
   double total = 0;
   for (const auto& record : stageRecords()) {
     summary["stages"][record.name] = {{"wall_s", record.seconds},

@@ -28,9 +28,16 @@ std::vector<double> staticPart(const ReducedModel& model, const march::State& st
 
 }  // namespace
 
-Latest::Latest(const ReducedModel& model, double period)
+int framesWanted() { return keptOption.get() > 0 ? int(framesOption.get()) : 0; }
+
+int framesOfPeriod(double period, double step) {
+  const double steps = std::floor(period / step + 1e-6);
+  return int(std::clamp(steps, 1.0, double(framesOption.get())));
+}
+
+Latest::Latest(const ReducedModel& model, double period, double step)
     : model_(model),
-      frames_(framesOption.get()),
+      frames_(framesOfPeriod(period, step)),
       most_(keptOption.get() > 0 ? frames_ * keptOption.get() + 1 : 0),
       interval_(period / frames_),
       next_(interval_) {}

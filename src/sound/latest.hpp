@@ -36,8 +36,8 @@ void share(MPI_Comm comm, int root, std::vector<Sample>& samples);
 /// Latest keeps the samples of the latest `-regime_cycles_kept` periods, and forgets earlier ones.
 class Latest {
  public:
-  /// The period is that of a mode, s. The model is borrowed.
-  Latest(const ReducedModel& model, double period);
+  /// The period is that of a mode, s, and the step that of the march. The model is borrowed.
+  Latest(const ReducedModel& model, double period, double step);
   void look(const Scheme& scheme);
   /// Returns the samples in the order of time, the first and the last of them a whole number of
   /// periods apart to a time step; fewer periods if the march was shorter.
@@ -50,6 +50,11 @@ class Latest {
   double interval_, next_;  // from frame to frame, and the time of the next one, s
   std::deque<march::State> states_;
 };
+
+/// Returns the number of frames of a period that are wanted, 0 where no period is kept.
+int framesWanted();
+/// Returns the number of frames of a period, s, that a march with this step, s, can give.
+int framesOfPeriod(double period, double step);
 
 /// Returns the options of this file.
 std::vector<const Option*> latestOptions();

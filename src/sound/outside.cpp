@@ -91,10 +91,7 @@ Sound Observer::soundOf(const DenseMatrix& meanSquares) const {
   Sound sound;
   sound.area = surface_.area;
   const double integral = trace(radiation_, meanSquares);
-  if (!(integral > 0)) {  // no samples, or nothing to be seen
-    sound.meanSquareVelocity = sound.power = sound.level = NAN;
-    return sound;
-  }
+  if (!(integral > 0)) return sound;  // no samples, or nothing to be seen
   sound.meanSquareVelocity = integral / sound.area;
   sound.power = airOption.get() * integral;
   sound.level = 10 * std::log10(sound.power / 1e-12);

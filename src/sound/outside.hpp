@@ -2,6 +2,7 @@
 /// What a regime does outside the contact [M.76]: the sound that the visible surface radiates,
 /// spectra of the velocity at points of it, and displacements of the latest cycles.
 #include <array>
+#include <cmath>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,12 +15,12 @@
 
 namespace squeal::sound {
 
-/// An estimate of the sound power; NaN where there are no samples.
+/// An estimate of the sound power; NaN where there is none, without samples or a visible surface.
 struct Sound {
-  double meanSquareVelocity = 0;  ///< ⟨v_n²⟩ over the surface and the time, m²/s²
-  double area = 0;                ///< of the visible surface, m² (m in the plane)
-  double power = 0;               ///< ρc S ⟨v_n²⟩, W (W/m in the plane)
-  double level = 0;               ///< dB re 1e-12 W
+  double meanSquareVelocity = NAN;  ///< ⟨v_n²⟩ over the surface and the time, m²/s²
+  double area = NAN;                ///< of the visible surface, m² (m in the plane)
+  double power = NAN;               ///< ρc S ⟨v_n²⟩, W (W/m in the plane)
+  double level = NAN;               ///< dB re 1e-12 W
 };
 
 /// The amplitudes of one line: components x, y, z and the one along the normal, 0 to peak, m/s.

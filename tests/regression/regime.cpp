@@ -84,6 +84,19 @@ TEST(Regime, NamesTheStableStep) {
   EXPECT_NE(run.error.find("-regime_step 0.0001 s exceeds"), std::string::npos) << run.error;
 }
 
+// The law is judged at a step and a steady state: what is found before it stays.
+TEST(Regime, RefusesALawOfFrictionAtItsPoint) {
+  const ProgramRun run = runProgram("regime_steep_law", 1,
+                                    commandLine(with(coarse, {{"friction_law", "exponential"},
+                                                              {"friction_static_ratio", "1.3"},
+                                                              {"friction_decay_speed", "0.5"},
+                                                              {"regime_step", "1e-6"}})));
+  EXPECT_EQ(run.exitCode, 2);
+  EXPECT_NE(run.error.find("friction 0.4: not followed after flutter"), std::string::npos);
+  EXPECT_NE(run.error.find("give -regime_boundary mass"), std::string::npos) << run.error;
+  EXPECT_TRUE(fs::exists(run.folder / "eigenvalues.csv"));
+}
+
 TEST(Regime, RefusesByName) {
   const auto refused = [](const std::string& options, const std::string& why) {
     const ProgramRun run = runProgram("regime_refused", 1, options);
@@ -95,11 +108,6 @@ TEST(Regime, RefusesByName) {
   refused(commandLine(with(coarse, {{"flutter_method", "direct"}})), "-flutter_method reduced");
   refused(commandLine(with(coarse, {{"flutter_modal_damping", "0.01"}})), "-flutter_modal_damping");
   refused(commandLine(with(coarse, {{"motion_convective", "on"}})), "convective terms");
-  refused(commandLine(with(coarse, {{"friction_law", "exponential"},
-                                    {"friction_static_ratio", "1.3"},
-                                    {"friction_decay_speed", "0.5"},
-                                    {"regime_step", "1e-6"}})),
-          "give -regime_boundary mass");
   refused(commandLine(with(coarse, {{"friction_law", "exponential"}, {"regime_cycle", "on"}})),
           "leave out -regime_cycle");
   refused("-options_file options/external.yaml -regime_friction 0.9", "matrices from files");

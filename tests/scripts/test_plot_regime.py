@@ -21,9 +21,10 @@ class Picture(unittest.TestCase):
     def write(self, name, text):
         (self.folder / name).write_text(text)
 
-    def tables(self, starts):
+    def tables(self, starts, unmeasured=()):
         columns = "class,settled,carrier_hz,flutter_frequency_hz,onset_kinetic_energy_j"
-        self.write("regime.csv", f"{KEYS},{columns}\n" + "".join(f"{POINT},{start},periodic,1,990,1000,0.05\n" for start in starts))
+        self.write("regime.csv", f"{KEYS},{columns}\n" + "".join(f"{POINT},{start},nothing measured,0,,1000,0.05\n" for start in unmeasured)
+                   + "".join(f"{POINT},{start},periodic,1,990,1000,0.05\n" for start in starts))
         rows = {"nodes": ("x_m,y_m,z_m,interface,open,stick,slip", [f"{i},{i % 3},0.1,pad,0.{i},0,{1 - i / 10}" for i in range(9)]),
                 "cycles": ("cycle,time_s,largest_kinetic_energy_j", [f"{i},{i / 1000},{math.exp(i)}" for i in range(1, 9)]),
                 "spectrum": ("frequency_hz,velocity_sqrt_kg_m_per_s", [f"{100 * i},{1 / (1 + i)}" for i in range(30)])}
@@ -40,6 +41,15 @@ class Picture(unittest.TestCase):
             self.assertEqual((run.returncode, run.stderr), (0, ""))
             self.assertEqual((self.folder / "regime.png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
             self.assertIn("regime.png\n", (self.folder / "manifest.txt").read_text())
+
+    def test_runs_that_have_measured_nothing_are_passed_over(self):
+        self.tables(["28"], unmeasured=["12"])
+        self.assertEqual(self.plot().returncode, 0)
+        for words, starts in ((("12",), ["28"]), ((), [])):
+            self.tables(starts, unmeasured=["12"])
+            run = self.plot(*words)
+            self.assertEqual(run.returncode, 1)
+            self.assertIn("start on mode 12: nothing measured", run.stderr)
 
     def test_what_is_not_there_is_told(self):
         self.assertIn("no regime.csv", self.plot().stderr)

@@ -198,5 +198,22 @@ TEST(Regime, TubeKeepsItsStickSlipWave) {
   EXPECT_EQ(result.open, 0);
 }
 
+// With the contact open, the mass on the belt is [2 1; 1 2/3]: the spring of its end is free. Its
+// largest eigenvalue is (4 + √13)/3, and the leapfrog rule is stable up to 2/ω.
+TEST(LongestStep, IsThatOfTheOpenContact) {
+  auto model = massOnBelt(1);
+  const double longest = march::longestStep(model);
+  EXPECT_NEAR(longest, 2 / std::sqrt((4 + std::sqrt(13.0)) / 3), 1e-12);
+  EXPECT_GT(longest, march::stableStep(model));
+  auto& node = model.nodes[0];
+  node.normalForce = 0, node.shear = {0, 0}, node.gap = 1e9;
+  for (const double factor : {0.99, 1.01}) {
+    const auto scheme =
+        march::masslessScheme(model, {{0.1, 0.1}, {0, 0}, {0, 0}, {0, 0}}, factor * longest);
+    for (int i = 0; i < 60; ++i) scheme->step();
+    EXPECT_EQ(scheme->state().kinetic > 1, factor > 1) << scheme->state().kinetic;
+  }
+}
+
 }  // namespace
 }  // namespace squeal

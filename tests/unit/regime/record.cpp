@@ -7,7 +7,7 @@
 #include <functional>
 #include <random>
 
-#include "regime/onset.hpp"
+#include "march/onset.hpp"
 #include "support/dense.hpp"
 
 namespace squeal {
@@ -73,6 +73,15 @@ TEST(Recorder, LinearGrowthIsMeasured) {
   EXPECT_NEAR(regime.growth, 10, 0.01);
 }
 
+// A window has 32 cycles, 0.032 s.
+TEST(Recorder, LessThanAWindowMeasuresNothing) {
+  const auto regime = recorded([](double t) { return 1e-3 * std::exp(10 * t); }, 0.03);
+  EXPECT_FALSE(regime.measured());
+  EXPECT_STREQ(regime::text(regime.kind), "nothing measured");
+  EXPECT_TRUE(regime.nodes.empty() && regime.cyclePeaks.empty() && regime.spectrum.empty());
+  EXPECT_TRUE(recorded([](double t) { return 1e-3 * std::exp(10 * t); }, 0.0325).measured());
+}
+
 TEST(Recorder, DecayIsSteady) {
   EXPECT_EQ(recorded([](double t) { return 1e-1 * std::exp(-50 * t); }, 0.4).kind,
             regime::Kind::steady);
@@ -119,17 +128,17 @@ TEST(Onset, IsTheFirstEventOfAllNodes) {
     node.friction = 0.4, node.normalForce = 10;
     node.shear = {-4, 0}, node.velocity = {1, 0};
   }
-  std::vector<regime::NodeMotion> motion(2);
+  std::vector<march::NodeMotion> motion(2);
   motion[0].rate = {Complex(0.3, 0.4), Complex(0, 0.1)};
   motion[1].normalForce = Complex(30, -40);
-  auto first = regime::firstEvent(nodes, motion);
-  EXPECT_EQ(first.event, regime::Event::opens);
+  auto first = march::firstEvent(nodes, motion);
+  EXPECT_EQ(first.event, march::Event::opens);
   EXPECT_EQ(first.node, 1u);
   EXPECT_NEAR(first.factor, 0.2, 1e-15);
   EXPECT_NEAR(first.turning, 0.02, 1e-15);
   motion[1].normalForce = 1;
-  first = regime::firstEvent(nodes, motion);
-  EXPECT_EQ(first.event, regime::Event::rests);
+  first = march::firstEvent(nodes, motion);
+  EXPECT_EQ(first.event, march::Event::rests);
   EXPECT_NEAR(first.factor, 2, 1e-15);
 }
 
@@ -138,13 +147,13 @@ TEST(Onset, IsTheFirstEventOfAllNodes) {
 TEST(Onset, OfANodeThatSticks) {
   std::vector<march::Node> nodes(1);
   nodes[0].friction = 0.5, nodes[0].normalForce = 10, nodes[0].shear = {3, 0};
-  std::vector<regime::NodeMotion> motion(1);
+  std::vector<march::NodeMotion> motion(1);
   motion[0].shear = {Complex(1), Complex(0)};
-  auto first = regime::firstEvent(nodes, motion);
-  EXPECT_EQ(first.event, regime::Event::slides);
+  auto first = march::firstEvent(nodes, motion);
+  EXPECT_EQ(first.event, march::Event::slides);
   EXPECT_NEAR(first.factor, 2, 1e-12);
   motion[0].normalForce = -2;
-  EXPECT_NEAR(regime::firstEvent(nodes, motion).factor, 1, 1e-12);
+  EXPECT_NEAR(march::firstEvent(nodes, motion).factor, 1, 1e-12);
 }
 
 }  // namespace

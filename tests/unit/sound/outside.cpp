@@ -208,7 +208,7 @@ TEST(Latest, KeepsTheLatestPeriods) {
   model.moves = {1, 0};
   for (const auto& [periods, expected] : {std::pair{10, 33}, {1, 1}, {0, 0}}) {
     ByHand motion(model, 1.0 / 128);
-    sound::Latest latest(model, 1);
+    sound::Latest latest(model, 1, 1.0 / 128);
     for (int i = 0; i < 128 * periods; ++i) motion.step(), latest.look(motion);
     const auto samples = latest.samples();
     ASSERT_EQ(samples.size(), std::size_t(expected));

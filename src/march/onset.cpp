@@ -1,9 +1,9 @@
-#include "regime/onset.hpp"
+#include "march/onset.hpp"
 
 #include <cmath>
 #include <limits>
 
-namespace squeal::regime {
+namespace squeal::march {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
@@ -100,4 +100,4 @@ double largestKinetic(const LinearMode& mode) {
   return (squares + std::abs(product)) / 4;
 }
 
-}  // namespace squeal::regime
+}  // namespace squeal::march

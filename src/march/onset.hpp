@@ -8,11 +8,7 @@
 #include "linalg/complex.hpp"
 #include "march/model.hpp"
 
-namespace squeal::regime {
-
-using march::LinearMode;
-using march::Node;
-using march::ReducedModel;
+namespace squeal::march {
 
 /// The complex amplitudes of a mode at one contact node.
 struct NodeMotion {
@@ -42,4 +38,4 @@ std::vector<NodeMotion> motionAt(const ReducedModel& model, const LinearMode& mo
 /// Returns the largest kinetic energy over a cycle of the mode of the reduced model, J.
 double largestKinetic(const LinearMode& mode);
 
-}  // namespace squeal::regime
+}  // namespace squeal::march
