@@ -14,7 +14,6 @@
 #include "elasticity/ground.hpp"
 #include "flutter/influence.hpp"
 #include "interfaces/interfaces.hpp"
-#include "interfaces/ties.hpp"
 #include "linalg/block.hpp"
 #include "linalg/columns.hpp"
 #include "material/material.hpp"
@@ -27,6 +26,7 @@
 #include "petsc/text.hpp"
 #include "regime/regime.hpp"
 #include "session/stages.hpp"
+#include "ties/ties.hpp"
 #include "uniqueness/uniqueness.hpp"
 
 namespace squeal::analysis {
@@ -68,8 +68,8 @@ elasticity::Bodies assembleBodies(const mesh::Mesh& mesh) {
 
 interfaces::Interfaces findTies(mesh::Mesh& mesh) {
   Stage stage(mesh.comm, "tie");
-  auto ties = interfaces::findTies(mesh);
-  if (const auto found = interfaces::describeTies(ties); !found.empty()) stage.finish(found);
+  auto ties = ties::findTies(mesh);
+  if (const auto found = ties::describeTies(ties); !found.empty()) stage.finish(found);
   return ties;
 }
 

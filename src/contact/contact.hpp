@@ -135,7 +135,7 @@ struct Contact : interfaces::Interfaces {
 };
 
 /// Collective. Builds normals, slip directions, constraints and all matrices. `ties` are those of
-/// interfaces::findTies(). `mesh` is borrowed by the result. Throws Error for surfaces that do not
+/// ties::findTies(). `mesh` is borrowed by the result. Throws Error for surfaces that do not
 /// meet, a bad constraint, a pad that moves, a held component that is not tangential at a contact
 /// node, an obstacle face that is not flat, and a body that can move rigidly with the contact
 /// closed; the message names body and motion.

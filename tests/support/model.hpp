@@ -12,7 +12,6 @@
 #include "contact/contact.hpp"
 #include "contact/coupled.hpp"
 #include "elasticity/elasticity.hpp"
-#include "interfaces/ties.hpp"
 #include "linalg/dense.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/read.hpp"
@@ -20,6 +19,7 @@
 #include "options/settings.hpp"
 #include "petsc/check.hpp"
 #include "petsc/owned.hpp"
+#include "ties/ties.hpp"
 
 namespace squeal::test {
 
@@ -73,7 +73,7 @@ struct Model {
 inline Model buildModel() {
   Model model;
   model.mesh = std::make_unique<mesh::Mesh>(readMesh());
-  auto ties = interfaces::findTies(*model.mesh);
+  auto ties = ties::findTies(*model.mesh);
   model.bodies = elasticity::assemble(*model.mesh);
   model.contact = contact::build(*model.mesh, model.bodies, std::move(ties));
   return model;

@@ -368,7 +368,7 @@ TEST(Uniqueness, DoesNotDependOnTheRanks) {
   test::setOptions(block(12, 6));
   const auto together = examined(test::buildModel(), {0.3, 1.2});
   mesh::Mesh mesh = mesh::read(PETSC_COMM_SELF, analysis::meshRequest());
-  auto ties = interfaces::findTies(mesh);
+  auto ties = ties::findTies(mesh);
   const auto bodies = elasticity::assemble(mesh);
   const auto contact = contact::build(mesh, bodies, std::move(ties));
   const auto alone = uniqueness::examine(bodies, contact, 1, {0.3, 1.2});

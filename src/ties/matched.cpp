@@ -1,4 +1,4 @@
-#include "interfaces/matched.hpp"
+#include "ties/matched.hpp"
 
 #include <algorithm>
 #include <deque>
@@ -10,7 +10,10 @@
 #include "petsc/concatenation.hpp"
 #include "petsc/text.hpp"
 
-namespace squeal::interfaces {
+namespace squeal::ties {
+
+using namespace interfaces;
+
 namespace {
 
 /// A pair of nodes with equal displacements, u_node = u_master.
@@ -214,4 +217,4 @@ void tieMatched(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange, 
   }
 }
 
-}  // namespace squeal::interfaces
+}  // namespace squeal::ties

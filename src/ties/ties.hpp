@@ -5,7 +5,7 @@
 #include "interfaces/nodes.hpp"
 #include "mesh/mesh.hpp"
 
-namespace squeal::interfaces {
+namespace squeal::ties {
 
 /// Collective. Returns the options of all interfaces, the constraints and the tied nodes. A node
 /// follows by one tie: the first that claims it where the meshes do not match, otherwise by
@@ -13,9 +13,9 @@ namespace squeal::interfaces {
 /// adjusted are moved so that the equation above holds to rounding with the P that is returned.
 /// Warns of ties of which less than half of the slave is covered. Throws Error for surfaces that do
 /// not meet, for ties that rest on each other in a circle, and for a tie that folds a cell.
-Interfaces findTies(mesh::Mesh& mesh);
+interfaces::Interfaces findTies(mesh::Mesh& mesh);
 
 /// Returns a line on the ties of all ranks, for the log; empty if there are none.
-std::string describeTies(const Interfaces& ties);
+std::string describeTies(const interfaces::Interfaces& ties);
 
-}  // namespace squeal::interfaces
+}  // namespace squeal::ties

@@ -1,20 +1,23 @@
-#include "interfaces/ties.hpp"
+#include "ties/ties.hpp"
 
 #include <algorithm>
 
 #include "coupling/covered.hpp"
 #include "coupling/exchange.hpp"
-#include "interfaces/adjustment.hpp"
 #include "interfaces/candidates.hpp"
 #include "interfaces/chains.hpp"
 #include "interfaces/lost.hpp"
-#include "interfaces/matched.hpp"
 #include "mortar/face.hpp"
 #include "petsc/check.hpp"
 #include "petsc/text.hpp"
 #include "session/stages.hpp"
+#include "ties/adjustment.hpp"
+#include "ties/matched.hpp"
 
-namespace squeal::interfaces {
+namespace squeal::ties {
+
+using namespace interfaces;
+
 namespace {
 
 /// Collective. Fills the tied nodes, with their levels, and the reports of the ties.
@@ -104,4 +107,4 @@ std::string describeTies(const Interfaces& ties) {
                    count == 1 ? "tie" : "ties", largest);
 }
 
-}  // namespace squeal::interfaces
+}  // namespace squeal::ties

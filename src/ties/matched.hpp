@@ -6,13 +6,14 @@
 #include "interfaces/nodes.hpp"
 #include "mesh/mesh.hpp"
 
-namespace squeal::interfaces {
+namespace squeal::ties {
 
 /// Collective. Adds the tied nodes of all ties whose meshes match to Interfaces::tied, after those
 /// of the other ties. In each set of nodes with equal displacements, one node is independent: one
 /// that rests on several nodes, otherwise one on the slave side of a contact, otherwise a master.
 /// Sets InterfaceReport::nodes and InterfaceReport::lost of these ties. Throws Error for a tie all
 /// of whose nodes are tied by others.
-void tieMatched(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange, Interfaces& all);
+void tieMatched(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange,
+                interfaces::Interfaces& all);
 
-}  // namespace squeal::interfaces
+}  // namespace squeal::ties

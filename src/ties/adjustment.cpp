@@ -1,4 +1,4 @@
-#include "interfaces/adjustment.hpp"
+#include "ties/adjustment.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,10 @@
 #include "petsc/arrays.hpp"
 #include "petsc/text.hpp"
 
-namespace squeal::interfaces {
+namespace squeal::ties {
+
+using namespace interfaces;
+
 namespace {
 
 using mesh::length;
@@ -192,4 +195,4 @@ void moveOntoMasters(mesh::Mesh& mesh, const coupling::NodeExchange& exchange, I
   rejectFolded(mesh, exchange, file, moves, ties);
 }
 
-}  // namespace squeal::interfaces
+}  // namespace squeal::ties

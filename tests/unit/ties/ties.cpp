@@ -1,5 +1,5 @@
 // Nodes of ties that are moved onto their masters.
-#include "interfaces/ties.hpp"
+#include "ties/ties.hpp"
 
 #include <gtest/gtest.h>
 
@@ -34,7 +34,7 @@ Case caseOf(const std::string& options, MPI_Comm comm = PETSC_COMM_WORLD) {
   test::setOptions(options);
   mesh::Mesh mesh = mesh::read(comm, analysis::meshRequest());
   const mesh::Mesh file = mesh;
-  Interfaces ties = interfaces::findTies(mesh);
+  Interfaces ties = ties::findTies(mesh);
   return {file, std::move(mesh), std::move(ties)};
 }
 

@@ -4,7 +4,7 @@
 #include "interfaces/nodes.hpp"
 #include "mesh/mesh.hpp"
 
-namespace squeal::interfaces {
+namespace squeal::ties {
 
 /// Collective. Moves the tied nodes of the ties that are adjusted to Σ P_il x_l, of chains the
 /// masters first, with the P that they were coupled by: one of the moved nodes would differ by
@@ -12,6 +12,7 @@ namespace squeal::interfaces {
 /// within edges, faces and cells follow the corners of their cells unless they are on a surface
 /// that options name. Periodic images move with their primaries. Sets
 /// InterfaceReport::largestAdjustment. Throws Error for a tie that folds a cell.
-void moveOntoMasters(mesh::Mesh& mesh, const coupling::NodeExchange& exchange, Interfaces& ties);
+void moveOntoMasters(mesh::Mesh& mesh, const coupling::NodeExchange& exchange,
+                     interfaces::Interfaces& ties);
 
-}  // namespace squeal::interfaces
+}  // namespace squeal::ties
