@@ -194,5 +194,33 @@ TEST(Verdicts, PointWhereABodyIsLooseFailsForItself) {
   }
 }
 
+// Where the nodes of a tie match, slave and master are one model however they are named: with a
+// held component on the slave's nodes, and with nodes of the slave in contact.
+TEST(Verdicts, SlaveAndMasterOfATieMayBeExchanged) {
+  for (const std::string name : {"tie_clamped_slave", "tie_slave_in_contact"}) {
+    SCOPED_TRACE(name);
+    const auto run = runProgram("verdicts_" + name, 2, caseFile(name + "/reference")),
+               exchanged =
+                   runProgram("verdicts_" + name + "_exchanged", 2, caseFile(name + "/exchanged"));
+    ASSERT_EQ(run.exitCode, 0) << run.error;
+    ASSERT_EQ(exchanged.exitCode, 0) << exchanged.error;
+    const auto modes = readCsv(run.folder / "modes.csv").column("frequency_hz"),
+               others = readCsv(exchanged.folder / "modes.csv").column("frequency_hz");
+    ASSERT_EQ(modes.size(), others.size());
+    for (std::size_t i = 0; i < modes.size() / 2; ++i)  // the upper ones are solved for to less
+      EXPECT_LE(std::abs(others[i] / modes[i] - 1), 1e-9) << i;
+    const auto wanted = eigenvaluesOf(readCsv(run.folder / "eigenvalues.csv")),
+               found = eigenvaluesOf(readCsv(exchanged.folder / "eigenvalues.csv"));
+    ASSERT_EQ(found.size(), wanted.size());
+    for (std::size_t i = 0; i < found.size(); ++i)  // each is correct to -flutter_tolerance, 1e-8
+      EXPECT_LE(std::abs(found[i] - wanted[i]), 2e-8 * std::abs(wanted[i]));
+  }
+  // The plate and pad with the nodes of both merged, by other hex8 elements.
+  const auto modes = readCsv(placeFor("verdicts_tie_clamped_slave_exchanged") / "results/modes.csv")
+                         .column("frequency_hz");
+  const double exact[] = {6682.01, 12469.9, 19296.7};
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(modes[i] / exact[i], 1, 5e-6);
+}
+
 }  // namespace
 }  // namespace squeal::test
