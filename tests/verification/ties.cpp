@@ -101,7 +101,10 @@ TEST(Ties, CirclesAreErrors) {
                "-tie_up_slave pad_face -tie_up_master disc_face -tie_down_slave disc_face "
                "-tie_down_master pad_face");
     const std::string message = errorOf([] { buildModel(); });
-    EXPECT_TRUE(contains(message, "rest on each other in a circle") &&
+    // Where nodes match, the second tie says nothing new.
+    const bool matching = mesh.find("nx_pad") == std::string::npos;
+    EXPECT_TRUE(contains(message, matching ? "tied by tie 'up' already"
+                                           : "rest on each other in a circle") &&
                 contains(message, "tie 'down'") && contains(message, "tie 'up'"))
         << message;
   }
