@@ -29,7 +29,8 @@ std::vector<FoundPoint> pointsOf(const analysis::Analysis& analysis) {
       FoundPoint found{point.at, point.bandTop, {}};
       if (point.askedTo > 0) found.top = point.coveredTo;
       for (const auto& e : point.eigenvalues)
-        found.eigenvalues.push_back({e.s, e.errorEstimate, e.backwardError, e.verdict, e.unstable});
+        found.eigenvalues.push_back(
+            {e.s, e.errorEstimate(), e.backwardError, e.verdict, e.unstable});
       points.push_back(std::move(found));
     }
   return points;
