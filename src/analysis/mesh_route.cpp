@@ -245,6 +245,7 @@ void solveMesh(Analysis& analysis) {
   if (analysis.contact.totalNodes > 0 && uniqueness::uniquenessWanted())
     analysis.uniqueness = examineUniqueness(analysis);
   std::vector<std::string> failures;
+  std::string firstReason;
   flutter::Influences influences(*analysis.mesh, analysis.bodies, analysis.contact);
   for (std::size_t first = 0, last = 0; first < analysis.steady.size(); first = last) {
     last = first + 1;
@@ -254,10 +255,11 @@ void solveMesh(Analysis& analysis) {
     try {
       solveMeshSegment(analysis, first, last, system, influences);
     } catch (const Error& error) {  // the other points may have results
+      if (failures.empty()) firstReason = error.what();
       failures.push_back(pointsText(analysis, first, last) + ": " + error.what());
     }
   }
-  if (!failures.empty() && analysis.segments.empty()) throw Error(failures.front());
+  if (!failures.empty() && analysis.segments.empty()) throw Error(firstReason);
   for (const auto& failure : failures) addFailure(analysis, failure);
   nameUnfollowed(analysis);
 }
