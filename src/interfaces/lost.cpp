@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "interfaces/algebra.hpp"
 #include "mortar/basis.hpp"
@@ -50,16 +51,17 @@ class Owners {
       if (tied.connection.masters.size() == 1)
         links.push_back({mesh.firstNode + tied.connection.node, tied.connection.masters[0].node});
     for (const auto& link : concatenated(mesh.comm, links)) leader_[link.node] = link.leader;
-    std::vector<Face> faces;
+    std::set<std::pair<int, int>> sides;  // interface and part, once each
     for (int i = 0; i < std::ssize(all.options); ++i)
       for (const auto* side : {&all.options[i].surfaces.pad, &all.options[i].surfaces.disc})
         if (side->name != all.slaves[i].surface && !side->name.empty())
           for (const auto& face : mortar::facesOf(mesh, side->name))
             for (const auto node : face.nodes)
               if (node >= mesh.firstNode && node < mesh.firstNode + mesh.ownedNodes)
-                faces.push_back({i, mesh.nodePart[node - mesh.firstNode]});
-    for (const auto& face : concatenated(mesh.comm, faces))
-      parts_[face.interface].insert(face.part);
+                sides.insert({i, mesh.nodePart[node - mesh.firstNode]});
+    std::vector<Side> own;
+    for (const auto& [interface, part] : sides) own.push_back({interface, part});
+    for (const auto& side : concatenated(mesh.comm, own)) parts_[side.interface].insert(side.part);
   }
   /// Returns the interface that has the node, −1 if none has.
   int of(PetscInt node) const {
@@ -91,7 +93,7 @@ class Owners {
   struct Link {
     PetscInt node, leader;
   };
-  struct Face {
+  struct Side {
     int interface, part;
   };
   std::string surfaceBelow(int interface) const {
@@ -150,6 +152,9 @@ double areaOfLost(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange
 
 void warnOfLost(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange, Interfaces& all,
                 Role role) {
+  int any = !all.lost.empty();
+  check(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_LOR, mesh.comm));
+  if (!any) return;  // as nearly always: the owners of all nodes are not gathered
   const Owners owners(mesh, all);
   for (int i = 0; i < std::ssize(all.options); ++i) {
     const auto& options = all.options[i];

@@ -335,13 +335,13 @@ namespace {
 DenseMatrix partsOf(const std::vector<DensePair>& pairs, std::vector<Complex> DensePair::*vector) {
   const PetscInt count = pairs.size(), m = count > 0 ? (pairs[0].*vector).size() : 0;
   DenseMatrix parts(m, 2 * count);
-  for (PetscInt j = 0; j < count; ++j)
+  for (PetscInt j = 0; j < count; ++j) {
     ensure(std::ssize(pairs[j].*vector) == m, "the vectors of pairs have one length");
-  for (PetscInt j = 0; j < count; ++j)
     for (PetscInt i = 0; i < m; ++i) {
       parts(i, j) = (pairs[j].*vector)[i].real();
       parts(i, count + j) = (pairs[j].*vector)[i].imag();
     }
+  }
   return parts;
 }
 

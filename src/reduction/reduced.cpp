@@ -230,15 +230,14 @@ void ReducedProblem::estimateErrors(PointState& state, const linalg::DenseProble
     return squares;
   };
   const auto right = norms(pencil::Side::right), left = norms(pencil::Side::left);
-  const linalg::DenseMatrix vectors =
-      linalg::product(basis_.sketched(), coordinates.times(pencil::Side::right, 0, 1));
-  const auto lengths = perPair(coordinates, subspace::squaredLengths(vectors));
-  const auto rigidity = [&](pencil::Side side) {
-    return perPair(coordinates, subspace::squaredLengths(linalg::product(
-                                    basis_.sketchedRigidity(), coordinates.times(side, 0, 1))));
+  const auto lengthsBy = [&](const linalg::DenseMatrix& sketch, const linalg::DenseMatrix& q) {
+    return perPair(coordinates, subspace::squaredLengths(linalg::product(sketch, q)));
   };
-  const auto rightRigidity = rigidity(pencil::Side::right),
-             leftRigidity = rigidity(pencil::Side::left);
+  const auto x = coordinates.times(pencil::Side::right, 0, 1);
+  const auto lengths = lengthsBy(basis_.sketched(), x),
+             rightRigidity = lengthsBy(basis_.sketchedRigidity(), x),
+             leftRigidity =
+                 lengthsBy(basis_.sketchedRigidity(), coordinates.times(pencil::Side::left, 0, 1));
   const auto conditions = conditionNumbers(problem, pairs, leastSize * lowestMode_);
   state.symmetry = linalg::conservative(problem) ? pencil::Symmetry::conservative
                    : isZero(problem.damping)     ? pencil::Symmetry::even

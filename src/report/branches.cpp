@@ -84,21 +84,29 @@ std::string followedText(const analysis::Analysis& analysis) {
   constexpr int shown = 8;
   std::string text;
   forAllFollowed(analysis, [&](const stability::Followed& followed) {
-    int count = 0;
-    for (const auto& c : followed.criticals)
-      if (c.converged && ++count <= shown)
-        text += (count > 1 ? ", " : "\nStability changes at friction ") +
-                formatted("%.8g (%s, %.6g Hz%s)", c.friction, kindName(c.kind),
-                          c.angularFrequency / (2 * M_PI), c.loss ? "" : ", regained");
-    if (count > shown) text += formatted(", and at %d more in critical.csv", count - shown);
-    count = 0;
-    for (const auto& c : followed.criticals)
-      if (!c.converged && ++count <= shown)
-        text += (count > 1 ? ", " : "\nStability also changes, at a friction not solved for, ") +
-                formatted("between %.6g and %.6g (%s near %.4g Hz%s)", c.friction - c.errorEstimate,
-                          c.friction + c.errorEstimate, kindName(c.kind),
-                          c.angularFrequency / (2 * M_PI), c.loss ? "" : ", regained");
-    if (count > shown) text += formatted(", and %d more in critical.csv", count - shown);
+    const auto list = [&](bool converged, const char* head, const auto& item, const char* more) {
+      int count = 0;
+      for (const auto& c : followed.criticals)
+        if (c.converged == converged && ++count <= shown)
+          text += (count > 1 ? ", " : head) + item(c);
+      if (count > shown) text += formatted(more, count - shown);
+    };
+    list(
+        true, "\nStability changes at friction ",
+        [](const stability::Critical& c) {
+          return formatted("%.8g (%s, %.6g Hz%s)", c.friction, kindName(c.kind),
+                           c.angularFrequency / (2 * M_PI), c.loss ? "" : ", regained");
+        },
+        ", and at %d more in critical.csv");
+    list(
+        false, "\nStability also changes, at a friction not solved for, ",
+        [](const stability::Critical& c) {
+          return formatted("between %.6g and %.6g (%s near %.4g Hz%s)",
+                           c.friction - c.errorEstimate, c.friction + c.errorEstimate,
+                           kindName(c.kind), c.angularFrequency / (2 * M_PI),
+                           c.loss ? "" : ", regained");
+        },
+        ", and %d more in critical.csv");
     text += "\nCompleteness";
     for (const auto& parameter : sweep::allParameters)
       if (parameter.value != &sweep::Parameters::friction && followed.line.*parameter.value != 1)

@@ -10,6 +10,7 @@
 
 #include "output/file.hpp"
 #include "petsc/regular_file.hpp"
+#include "support/output_folder.hpp"
 #include "support/report_files.hpp"
 #include "support/shared_files.hpp"
 
@@ -34,16 +35,7 @@ Naming naming() {
           [](const fs::path&) { return Manifest(); }};
 }
 
-/// All ranks have left the folder at the end.
-void run(const fs::path& folder, const Files& results) {
-  {
-    Folder open(PETSC_COMM_WORLD, naming(), folder);
-    open.stage();
-    put(open.staging(), results);
-    open.commit();
-  }
-  MPI_Barrier(PETSC_COMM_WORLD);
-}
+void run(const fs::path& folder, const Files& results) { test::replace(naming(), folder, results); }
 
 const Files old{{"a.csv", "old"}, {"summary.txt", "old"}};
 const Files fresh{{"a.csv", "new"}, {"summary.txt", "new"}};

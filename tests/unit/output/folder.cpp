@@ -9,6 +9,7 @@
 
 #include <set>
 
+#include "support/output_folder.hpp"
 #include "support/report_files.hpp"
 #include "support/shared_files.hpp"
 
@@ -35,16 +36,7 @@ Naming naming() {
           [](const fs::path&) { return Manifest(); }};
 }
 
-/// All ranks have left the folder at the end.
-void run(const fs::path& folder, const Files& results) {
-  {
-    Folder open(PETSC_COMM_WORLD, naming(), folder);
-    open.stage();
-    put(open.staging(), results);
-    open.commit();
-  }
-  MPI_Barrier(PETSC_COMM_WORLD);
-}
+void run(const fs::path& folder, const Files& results) { test::replace(naming(), folder, results); }
 
 Files without(Files files, const std::string& name) {
   files.erase(name);

@@ -1,0 +1,23 @@
+#pragma once
+/// A folder of results, as a run replaces it.
+#include <filesystem>
+
+#include "output/folder.hpp"
+#include "support/report_files.hpp"
+#include "support/shared_files.hpp"
+
+namespace squeal::test {
+
+/// Collective. Replaces the results in a folder by these. All ranks have left it at the end.
+inline void replace(const output::Naming& naming, const std::filesystem::path& folder,
+                    const Files& results) {
+  {
+    output::Folder open(PETSC_COMM_WORLD, naming, folder);
+    open.stage();
+    shared::put(open.staging(), results);
+    open.commit();
+  }
+  MPI_Barrier(PETSC_COMM_WORLD);
+}
+
+}  // namespace squeal::test
