@@ -47,7 +47,8 @@ void report(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange, Inte
     for (const auto& face : mortar::facesOf(mesh, all.slaves[i].surface))
       sums[0] += 1, sums[1] += coupling::areaOf(face);
     // nodes of the slave, tied nodes
-    PetscInt counts[] = {std::ssize(slaveNodesOf(mesh, exchange, all.slaves[i].surface)), 0};
+    const auto slaveNodes = slaveNodesOf(mesh, exchange, all.slaves[i].surface);
+    PetscInt counts[] = {PetscInt(slaveNodes.size()), 0};
     for (const auto& node : all.tied) counts[1] += node.interface == i;
     check(MPI_Allreduce(MPI_IN_PLACE, counts, 2, MPIU_INT, MPI_SUM, mesh.comm));
     check(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, mesh.comm));
