@@ -85,6 +85,8 @@ subspace::Substructure substructureOf(const contact::CoupledSystem& all,
 }
 
 std::size_t endOfShared(const Analysis& analysis, std::size_t first) {
+  // Modal damping is that of the free modes of a point, which prestress changes.
+  if (flutter::modalDampingWanted() && elasticity::prestressWanted()) return first + 1;
   const bool alone = direct::directWanted() || sensitivity::sensitivitiesWanted() ||
                      matrices::exportWanted() || flutter::modalDampingWanted();
   const PetscInt most = alone ? 0 : releasedOption.get();
@@ -198,10 +200,11 @@ std::vector<segment::PathPiece> MeshSegment::path(std::size_t first, std::size_t
   return joined;
 }
 
-bool MeshSegment::continues(std::size_t first) const {
-  if (first > 0 || first_ == 0) return false;
+std::optional<double> MeshSegment::frictionBefore(std::size_t first) const {
+  if (first > 0 || first_ == 0) return {};
   const steady::Solution& before = analysis_.steady[first_ - 1];
-  return before.converged && sweep::growsInFriction(before.at, points_[0]);
+  if (!before.converged || !sweep::growsInFriction(before.at, points_[0])) return {};
+  return before.at.friction;
 }
 
 std::vector<segment::PointRange> MeshSegment::ranges() const {

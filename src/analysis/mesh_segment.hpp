@@ -32,7 +32,7 @@ class MeshSegment : public segment::SegmentProblem {
   const subspace::Substructure& substructure() const override { return substructure_; }
   std::vector<segment::PointRange> ranges() const override;
   std::vector<segment::PathPiece> path(std::size_t first, std::size_t count) const override;
-  bool continues(std::size_t first) const override;
+  std::optional<double> frictionBefore(std::size_t first) const override;
   Mat trial() const override { return all_->transformation().trial; }
   const std::vector<sweep::Parameters>& steadyPoints() const override { return points_; }
   pencil::Pencil pencil() const override;

@@ -46,7 +46,7 @@ sweep::Parameters between(const sweep::Parameters& from, const sweep::Parameters
   sweep::Parameters point = from;
   for (const auto value :
        {&sweep::Parameters::friction, &sweep::Parameters::speed, &sweep::Parameters::pressure})
-    point.*value = (1 - s) * from.*value + s * to.*value;
+    point.*value = std::lerp(from.*value, to.*value, s);  // exact where both are equal
   return point;
 }
 

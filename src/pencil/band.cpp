@@ -8,10 +8,11 @@
 namespace squeal::pencil {
 namespace {
 
-const RealOption bandOption("flutter", "flutter_band", 0, "Hz", nonNegative,
-                            "|s|/(2 pi), for little damping the frequency, up to which eigenvalues "
-                            "are corrected and listed, as far as "
-                            "the free modes reach; 0: that of the free mode 0.55 up the list");
+const RealOption bandOption(
+    "flutter", "flutter_band", 0, "Hz", nonNegative,
+    "|s|/(2 pi), for little damping the frequency, up to which eigenvalues "
+    "are corrected and listed, as far as "
+    "the free modes of the active set reach; 0: that of the free mode 0.55 up their list");
 const RealOption bandDampingOption(
     "flutter", "flutter_band_damping", 0.5, "", positive,
     "eigenvalues of a larger damping ratio, which die away within a cycle, are not listed");

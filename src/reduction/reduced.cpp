@@ -114,9 +114,6 @@ ReducedProblem::ReducedProblem(const pencil::Pencil& pencil, const modes::Associ
       terms_(basis_, pencil, 0, pencil.terms().size()) {
   check(MatGetSize(basis_.stiffness(), &unknowns_, nullptr));
   exchanged_ = basis_.size();
-  addSet(pencil, std::vector<unsigned char>(basis_.boundarySize(), 0));
-  if (basis_.boundarySize() > 0)
-    count_.emplace(basis_, modes, associatedOf(pencil).assembled(2, {}));
   lowestMode_ = modes.angularFrequency.front();
   highestMode_ = modes.angularFrequency.back();
   if (basis_.size() == unknowns_) {  // the whole space: there is nothing to correct
@@ -124,12 +121,16 @@ ReducedProblem::ReducedProblem(const pencil::Pencil& pencil, const modes::Associ
   } else if (!options_.corrected) {
     band_.top = 0;
   }
+  addSet(pencil, std::vector<unsigned char>(basis_.boundarySize(), 0));
+  if (basis_.boundarySize() > 0)
+    count_.emplace(basis_, modes, associatedOf(pencil).assembled(2, {}));
 }
 
 int ReducedProblem::addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has) {
   sets_.push_back(std::unique_ptr<Set>(
       new Set{PointSpace(basis_.boundaryStiffness(), has),
-              ProjectedTerms(basis_, pencil, terms_.count(), pencil.affineCount())}));
+              ProjectedTerms(basis_, pencil, terms_.count(), pencil.affineCount()), band_.top,
+              int(std::ranges::count_if(modes_, [&](double w) { return w <= band_.top; }))}));
   return std::ssize(sets_) - 1;
 }
 
@@ -456,6 +457,27 @@ void ReducedProblem::addStaticResponses(const PointProblem& point) {
   rightRatio_ = std::max(measuredRatio_, basis_.lastEnergyRatio());
 }
 
+/// Moves the pairs of a point above the band of its set out of those that are listed.
+void ReducedProblem::leaveBand(PointState& state) const {
+  const double top = state.set->top;
+  if (top == band_.top) return;
+  auto& [band, guard, improved] = state.spectrum;
+  std::size_t kept = 0;
+  for (std::size_t j = 0; j < band.size(); ++j) {
+    if (std::abs(band[j].s) > top) {
+      guard.push_back(std::move(band[j]));
+      continue;
+    }
+    for (auto* list : {&state.backwardError, &state.rightError, &state.leftError, &state.rounding})
+      (*list)[kept] = (*list)[j];
+    if (kept != j) band[kept] = std::move(band[j]);
+    ++kept;
+  }
+  band.resize(kept);
+  for (auto* list : {&state.backwardError, &state.rightError, &state.leftError, &state.rounding})
+    list->resize(kept);
+}
+
 /// Collective. Turns the basis to the principal directions of all vectors found so far. The
 /// constraint modes stay.
 void ReducedProblem::compress() {
@@ -571,6 +593,7 @@ void ReducedProblem::correct(std::vector<PointState>& states) {
 void ReducedProblem::exchange(checkpoint::Archive& archive) {
   archive.common(lowestMode_, highestMode_, rightRatio_, leftRatio_, measuredRatio_, confirmed_,
                  responded_, knownSize_, norms_);
+  for (auto& set : sets_) archive.common(set->top, set->modesInBand, set->settled);
   double ratio = basis_.lastEnergyRatio();
   long solves = basis_.solves();
   archive.common(ratio, solves);
@@ -608,6 +631,7 @@ std::vector<pencil::ComplexModes> ReducedProblem::solve(const std::vector<PointP
   for (const auto& point : batch)
     states.push_back(newState(point, inHand_ ? Norms{} : normsOf(point)));
   correct(states);
+  for (auto& state : states) leaveBand(state);
   std::vector<pencil::ComplexModes> points;
   for (const auto& state : states) points.push_back(result(state));
   keepShapes(points, states, trial);
@@ -645,15 +669,37 @@ void ReducedProblem::confirmCount(const PointState& state, modes::Modes& modes) 
   modes.countConfirmed = confirmed != 0;
 }
 
+/// Collective. Returns the problem of the free modes of a set, solved and corrected; `point` has
+/// the terms of K and M alone.
+ReducedProblem::PointState ReducedProblem::associatedState(const PointProblem& point) {
+  std::vector<PointState> states;
+  states.push_back(
+      newState(point, {point.pencil.norm(0, point.at), 0, point.pencil.norm(2, point.at)}));
+  states.front().associated = true;
+  correct(states);
+  return std::move(states.front());
+}
+
+double ReducedProblem::settleBand(int set, const pencil::Pencil& pencil) {
+  Set& its = *sets_[set];
+  if (its.settled || band_.top == 0 || !std::isfinite(band_.top)) return its.top;
+  its.settled = true;
+  const PointProblem point{{}, associatedOf(pencil), set};
+  linalg::DenseProblem problem = project(associatedState(point));
+  auto frequencies = linalg::symmetricEigen(problem.stiffness, problem.mass);
+  for (double& value : frequencies) value = std::sqrt(std::max(value, 0.0));
+  frequencies.resize(std::min(frequencies.size(), modes_.size()));
+  its.top = std::min(band_.top, pencil::bandBelow(frequencies));
+  check(MPI_Bcast(&its.top, 1, MPI_DOUBLE, 0, basis_.comm()));
+  its.modesInBand = std::ranges::count_if(frequencies, [&](double w) { return w <= its.top; });
+  check(MPI_Bcast(&its.modesInBand, 1, MPI_INT, 0, basis_.comm()));
+  return its.top;
+}
+
 modes::Modes ReducedProblem::freeModes(int set, const pencil::Pencil& pencil) {
   const pencil::Pencil associated = associatedOf(pencil);
   const PointProblem point{{}, associated.with({}), set};
-  std::vector<PointState> states;
-  states.push_back(
-      newState(point, {associated.norm(0, point.at), 0, associated.norm(2, point.at)}));
-  auto& state = states.front();
-  state.associated = true;
-  correct(states);
+  const PointState state = associatedState(point);
   std::vector<std::vector<Complex>> lifted;
   for (const auto& pair : state.spectrum.band) lifted.push_back(state.set->space.lifted(pair.q));
   linalg::Block shapes(basis_.localRows());
@@ -689,8 +735,8 @@ modes::Modes ReducedProblem::freeModes(int set, const pencil::Pencil& pencil) {
 pencil::ComplexModes ReducedProblem::result(const PointState& state) const {
   pencil::ComplexModes point;
   point.at = state.point->at;
-  point.bandTop = band_.top;
-  point.freeModesInBand = std::ranges::count_if(modes_, [&](double w) { return w <= band_.top; });
+  point.bandTop = state.set->top;
+  point.freeModesInBand = state.set->modesInBand;
   point.damped = state.damped;
   point.accuracy = options_.criteria.accuracy;
   point.tolerance = options_.tolerance;

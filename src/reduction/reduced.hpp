@@ -79,6 +79,10 @@ class ReducedProblem {
   /// vectors have the entries of all unknowns. Of `pencil`, K and M alone count. Their number is
   /// confirmed where that of the interior is and the bounds of ModeCount agree.
   modes::Modes freeModes(int set, const pencil::Pencil& pencil);
+  /// Collective. Lets what solve() lists at the points of a set end where the set's own free modes
+  /// place the top of the band, so that it does not depend on the sets that share the basis.
+  /// Returns that top, rad/s.
+  double settleBand(int set, const pencil::Pencil& pencil);
   /// Collective. Solves all points at once and returns their complex modes, [point]: their dense
   /// problems are spread over the ranks, and their corrections are solved for together. The static
   /// responses are those of the first point of the first batch. Shapes are mapped to nodal
@@ -110,7 +114,8 @@ class ReducedProblem {
   linalg::DenseProblem projectOwn(const PointProblem& point) const;
   PetscInt basisSize() const { return basis_.size(); }
   const Basis& basis() const { return basis_; }
-  /// Returns the band; its top is 0 if nothing is corrected, and infinite if V is the whole space.
+  /// Returns the band of all sets; its top is 0 if nothing is corrected, and infinite if V is the
+  /// whole space.
   const pencil::WatchedBand& band() const { return band_; }
   /// Collective. Adds corrections of the residuals of these pairs, of any points, all solved for
   /// together. The vectors may be of an earlier, smaller basis.
@@ -123,6 +128,9 @@ class ReducedProblem {
   struct Set {
     PointSpace space;
     ProjectedTerms terms;
+    double top;            // of what is listed, rad/s
+    int modesInBand;       // free modes up to there
+    bool settled = false;  // `top` is that of its own free modes
   };
   /// Pairs of a point whose residuals are to be corrected.
   struct CorrectionRequest {
@@ -171,6 +179,8 @@ class ReducedProblem {
   void keepShapes(std::vector<pencil::ComplexModes>& points, const std::vector<PointState>& states,
                   Mat trial) const;
   void correct(std::vector<PointState>& states);
+  PointState associatedState(const PointProblem& point);
+  void leaveBand(PointState& state) const;
   BatchInHand inHand(const std::vector<PointState>& states, const std::vector<PointState*>& open,
                      int round, PetscInt largest) const;
   void confirmCount(const PointState& state, modes::Modes& modes) const;

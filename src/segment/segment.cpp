@@ -177,6 +177,7 @@ class SegmentSweep {
     while (auto entry = checkpoint_.next(name_ + "_points")) exchangePoints(*entry);
     keep();
     stopIfAsked(pencil_.comm());
+    if (ranges_.size() > 1) settleBands();
     solvePoints();
     if (ranges_.size() > 1)
       for (std::size_t k = 0; k < ranges_.size(); ++k)
@@ -273,6 +274,20 @@ class SegmentSweep {
     stage.finish(text);
   }
 
+  /// Collective. Finds where the band of each active set ends.
+  void settleBands() {
+    Stage stage(pencil_.comm(), "modes");
+    double low = INFINITY, high = 0;
+    for (std::size_t k = 0; k < ranges_.size(); ++k) {
+      if (segments_[k].points.empty()) continue;
+      const double top = reduced_->settleBand(ranges_[k].set, pencil_);
+      low = std::min(low, top), high = std::max(high, top);
+    }
+    if (high > 0 && std::isfinite(high))
+      stage.finish(formatted("bands of %zu active sets end at %.4g to %.4g Hz", ranges_.size(),
+                             low / (2 * M_PI), high / (2 * M_PI)));
+  }
+
   void solvePoints() {
     std::size_t end = 0;
     for (const auto& batch : batches_) {
@@ -328,7 +343,7 @@ class SegmentSweep {
       } while (last < points_.size() && sweep::growsInFriction(points_[last - 1], points_[last]));
       line.at.friction = 0;
       const std::size_t from = places_[first].steadyPoint;
-      line.continues = problem_.continues(from);
+      line.before = problem_.frictionBefore(from);
       for (const auto& piece : problem_.path(from, last - first)) {
         const Range& range = ranges_[piece.range];
         const auto number =

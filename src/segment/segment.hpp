@@ -73,9 +73,9 @@ class SegmentProblem {
   virtual std::vector<PathPiece> path(std::size_t first, std::size_t count) const {
     return {{0, steadyPoints()[first].friction, steadyPoints()[first + count - 1].friction}};
   }
-  /// Returns true if the points before steadyPoints()[first], which differ in friction alone, are
-  /// in another problem.
-  virtual bool continues(std::size_t /*first*/) const { return false; }
+  /// Returns the friction of the point before steadyPoints()[first] if the two differ in friction
+  /// alone and that point is in another problem.
+  virtual std::optional<double> frictionBefore(std::size_t /*first*/) const { return {}; }
   /// Returns the matrix from all unknowns to what is reported.
   virtual Mat trial() const = 0;
   /// Returns the points, with damping 1.

@@ -60,7 +60,7 @@ bool trackAsked() {
 }
 
 bool worthFollowing(const Line& line) {
-  return line.swept.size() > 1 || (line.swept.front() != 0 && trackAsked());
+  return line.swept.size() > 1 || line.before || (line.swept.front() != 0 && trackAsked());
 }
 
 std::string nothingToFollow(const reduction::ReducedProblem& reduced,
@@ -144,8 +144,13 @@ std::vector<Followed> followSweep(reduction::ReducedProblem& reduced,
     renumber(followed.branches);
     if (criticalOption.get())
       followed.criticals = criticalFrictions(path, followed.branches, toleranceOption.get());
-    if (line.continues) {
+    if (line.before) {
       followed.from = line.swept.front();
+      auto& gaps = followed.branches.gaps;
+      std::erase_if(gaps, [&](const Gap& gap) { return gap.to <= followed.from; });
+      gaps.push_back({*line.before, followed.from,
+                      "the active set changes, and the two sets have a basis each "
+                      "(-reduction_released)"});
       std::erase_if(followed.criticals,
                     [&](const Critical& critical) { return critical.friction < followed.from; });
     }

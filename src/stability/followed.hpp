@@ -1,6 +1,7 @@
 #pragma once
 /// A whole sweep over friction: its eigenvalues followed from point to point, their critical
 /// frictions, and a statement on the completeness of their number.
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,10 +25,12 @@ struct LinePiece {
 
 /// The points of one speed, pressure and damping.
 struct Line {
-  sweep::Parameters at;                 ///< the other parameters; its friction has no meaning
-  std::vector<double> swept;            ///< frictions of the sweep, ascending
-  std::vector<LinePiece> pieces;        ///< ascending
-  bool continues = false;               ///< below the first friction another active set is in force
+  sweep::Parameters at;           ///< the other parameters; its friction has no meaning
+  std::vector<double> swept;      ///< frictions of the sweep, ascending
+  std::vector<LinePiece> pieces;  ///< ascending
+  /// The friction of the point before the first one, of another basis: between the two, another
+  /// active set takes over.
+  std::optional<double> before;
   const modes::Modes* modes = nullptr;  ///< free modes of the first piece, borrowed
 };
 
@@ -52,8 +55,8 @@ bool trackWanted();
 /// Returns true if `-flutter_track` is given, or `-flutter_critical` is given and on. The user is
 /// then told if there is nothing to follow.
 bool trackAsked();
-/// Returns true if there is something to follow on a line: single frictions are left out unless
-/// trackAsked().
+/// Returns true if there is something to follow on a line: frictions that are not part of a sweep
+/// are left out unless trackAsked().
 bool worthFollowing(const Line& line);
 /// Returns the reason why there is nothing to follow on lines that are worth it; empty if there is
 /// something. Nothing is followed in the basis of the free modes alone.

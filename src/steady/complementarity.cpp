@@ -161,22 +161,34 @@ double complementarity(const Problem& problem, OwnedVec& x, Solution& solution) 
   check(VecAssemblyBegin(low));
   check(VecAssemblyEnd(low));
 
-  const OwnedSNES snes = newSnes(problem.mesh().comm, accuracy.asked);
-  const OwnedVec value = rightVector(jacobian);
-  check(SNESSetFunction(snes, value, evaluate, &scaled));
-  check(SNESSetJacobian(snes, jacobian, symmetric, differentiate, &scaled));
-  check(SNESVISetVariableBounds(snes, low, high));
-  KSP ksp = nullptr;
-  PC pc = nullptr;
-  check(SNESGetKSP(snes, &ksp));
-  check(KSPSetType(ksp, KSPGMRES));
-  check(KSPSetTolerances(ksp, 1e-10, PETSC_DEFAULT, PETSC_DEFAULT, 100));
-  check(KSPGMRESSetRestart(ksp, 100));
-  check(KSPGetPC(ksp, &pc));
-  check(PCSetType(pc, PCCHOLESKY));
-  check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
-  check(KSPSetPCSide(ksp, PC_RIGHT));
-  solveSnes(snes, x, solution);
+  const auto solve = [&] {
+    const OwnedSNES snes = newSnes(problem.mesh().comm, accuracy.asked);
+    const OwnedVec value = rightVector(jacobian);
+    check(SNESSetFunction(snes, value, evaluate, &scaled));
+    check(SNESSetJacobian(snes, jacobian, symmetric, differentiate, &scaled));
+    check(SNESVISetVariableBounds(snes, low, high));
+    KSP ksp = nullptr;
+    PC pc = nullptr;
+    check(SNESGetKSP(snes, &ksp));
+    check(KSPSetType(ksp, KSPGMRES));
+    check(KSPSetTolerances(ksp, 1e-10, PETSC_DEFAULT, PETSC_DEFAULT, 100));
+    check(KSPGMRESSetRestart(ksp, 100));
+    check(KSPGetPC(ksp, &pc));
+    check(PCSetType(pc, PCCHOLESKY));
+    check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+    check(KSPSetPCSide(ksp, PC_RIGHT));
+    return solveSnes(snes, x, solution);
+  };
+  const OwnedVec start = rightVector(jacobian);
+  check(VecCopy(x, start));
+  if (!solve()) {
+    // Where a body is held by the contact alone, the first steps must pass through states of larger
+    // residuals, which the line search does not let through.
+    const std::string searched = solution.reason;
+    const DefaultOption fullSteps("-" + solverPrefix.prefix + "snes_linesearch_type", "basic");
+    check(VecCopy(start, x));
+    if (!solve()) solution.reason = searched + ", in full steps " + solution.reason;
+  }
   check(VecScale(x, xUnit));
   const double left = naturalResidual(problem, solution.at, x);
   accept(solution, left, accuracy);

@@ -44,9 +44,10 @@ void clearWhatVHolds(linalg::DenseMatrix& energy, const linalg::DenseMatrix& par
 }
 
 /// Returns true if the parts of energy-orthonormal vectors along V leave these all but orthogonal
-/// to it.
+/// to it. If V is orthonormal within δ, a vector that depends on it keeps the part δ² of its length
+/// when V is taken out twice, which must be less than what counts as independent.
 bool isLittle(const linalg::DenseMatrix& along) {
-  constexpr double little = 1e-6;
+  constexpr double little = 1e-8;  // δ²
   for (PetscInt j = 0; j < along.columns(); ++j)
     if (!(linalg::squaredLength(along.column(j)) < little)) return false;
   return true;
@@ -232,7 +233,11 @@ void Basis::addOrthogonalised(linalg::Block& z, const linalg::DenseMatrix& parts
     return;
   }
   linalg::multiplyAdd(columns_, rest, z, -1);
-  linalg::addScaled(energy, -1, linalg::transposedProduct(rest, rest));
+  // Not `energy` less the squares of `rest`: it is off by δ³ of what V holds, which may be more
+  // than is left.
+  forces = linalg::Block(z.rows());
+  linalg::appendProduct(stiffness(), z, forces);
+  energy = linalg::transposedProduct(comm_, z, forces);
   const linalg::DenseMatrix twice = combinations();
   if (!twice.empty()) columns_.append(linalg::product(z, twice));
 }

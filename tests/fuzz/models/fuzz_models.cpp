@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -53,15 +54,28 @@ std::string contentOf(const fs::path& path) {
   return text.str();
 }
 
-/// Writes the mesh file and the options file of a model.
-void writeModel(const Model& model, const fs::path& place) {
+void writeForm(const Model& model, const Form& form, const fs::path& place) {
   fs::create_directories(place);
-  const Written files = written(model, {});
+  const Written files = written(model, form);
   std::string features;
   for (const auto& feature : model.features) features += " " + feature + ",";
   writeText(place / "model.msh", files.mesh);
   writeText(place / "case.yaml",
             caseText(files, "model.msh", "model " + std::to_string(model.seed) + ":" + features));
+}
+
+/// Writes the mesh file and the options file of a model, and those of its other forms in folders
+/// beside them.
+void writeModel(const Model& model, const fs::path& place) {
+  writeForm(model, {}, place);
+  writeForm(model, {true, 0, {}}, place / "shuffled");
+  for (int turn = 1; turn <= 2 && model.mesh.dimension == 3; ++turn)
+    writeForm(model, {false, turn, {}}, place / ("turned_" + std::to_string(turn)));
+  for (int i = 0; i < bondForms && model.glue; ++i) {
+    std::string name = text(Bond(i));
+    std::ranges::replace(name, ' ', '_');
+    writeForm(model, {false, 0, Bond(i)}, place / name);
+  }
 }
 
 // --- the process that solves ---

@@ -9,9 +9,6 @@
 namespace squeal::fuzz {
 namespace {
 
-/// True as long as these are known faults: nodes of the contact that are slaves of a tie.
-constexpr bool avoidKnown = true;
-
 enum class Disc { obstacle, plate, periodic, ring };
 
 std::vector<double> evenCuts(double low, double high, int cells) {
@@ -192,8 +189,7 @@ class Generator {
   /// How a body rests on another one: glued to it, or by the role of an interface.
   /// Returns true if it is held along the surface.
   bool join(const std::string& name, std::size_t first, const std::string& firstSide,
-            std::size_t second, const std::string& secondSide, bool matching, bool firstCanFollow,
-            bool secondCanFollow) {
+            std::size_t second, const std::string& secondSide, bool matching) {
     auto& settings = model_.settings;
     const double kind = random_.fraction();
     if (kind < 0.55) {
@@ -201,12 +197,10 @@ class Generator {
           {Bond::slaveIsSecond, Bond::slaveIsFirst, Bond::tiedRole, Bond::welded});
       note("bond");
       if (matching && !model_.glue) {
-        model_.glue =
-            Glue{first, second, firstSide, secondSide, form, firstCanFollow, secondCanFollow};
-        if (!model_.glue->canBe(form)) model_.glue->form = Bond::welded;
+        model_.glue = Glue{first, second, firstSide, secondSide, form};
         return true;
       }
-      const bool swapped = firstCanFollow && (random_.chance(0.5) || !secondCanFollow);
+      const bool swapped = random_.chance(0.5);
       settings.set("tie_" + name + "_slave", swapped ? firstSide : secondSide);
       settings.set("tie_" + name + "_master", swapped ? secondSide : firstSide);
       note("tie apart");
@@ -236,8 +230,7 @@ class Generator {
       matching = matching && cuts[0] == box(pad_).cuts[0];
     }
     plate_ = addBox("plate", shape, cuts);
-    plateIsHeld_ = join("back", pad_, top(pad_), *plate_, bottom(*plate_), matching,
-                        !holder_ || !avoidKnown, true);
+    plateIsHeld_ = join("back", pad_, top(pad_), *plate_, bottom(*plate_), matching);
   }
 
   void makeHolder() {
@@ -253,8 +246,8 @@ class Generator {
       matching = matching && heights.size() == box(pad_).cuts[up()].size() - above;
     }
     holder_ = addBox("holder", shape, cuts);
-    padIsHeld_ = join("side", *holder_, side(*holder_, 0, false), pad_, side(pad_, 0, true),
-                      matching, true, above || !avoidKnown);
+    padIsHeld_ =
+        join("side", *holder_, side(*holder_, 0, false), pad_, side(pad_, 0, true), matching);
     note("holder");
   }
 

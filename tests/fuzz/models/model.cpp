@@ -25,8 +25,8 @@ Written written(const Model& model, const Form& form) {
       writing.weldedTo = static_cast<int>(std::min(glue.firstBox, glue.secondBox));
       writing.welded = static_cast<int>(std::max(glue.firstBox, glue.secondBox));
     } else if (bond == Bond::tiedRole) {
-      settings.set("contact_bond_pad", glue.secondCanFollow ? glue.secondSide : glue.firstSide);
-      settings.set("contact_bond_disc", glue.secondCanFollow ? glue.firstSide : glue.secondSide);
+      settings.set("contact_bond_pad", glue.secondSide);
+      settings.set("contact_bond_disc", glue.firstSide);
       settings.set("contact_bond_role", "tied");
     } else {
       const bool second = bond == Bond::slaveIsSecond;

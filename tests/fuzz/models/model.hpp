@@ -25,11 +25,6 @@ struct Glue {
   std::size_t firstBox = 0, secondBox = 0;
   std::string firstSide, secondSide;
   Bond form = Bond::slaveIsSecond;
-  bool firstCanFollow = true, secondCanFollow = true;  ///< false for a side with nodes of a contact
-  bool canBe(Bond other) const {
-    return (other != Bond::slaveIsFirst || firstCanFollow) &&
-           (other != Bond::slaveIsSecond || secondCanFollow);
-  }
 };
 
 /// A model: its mesh and its options.

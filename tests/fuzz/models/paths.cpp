@@ -50,16 +50,11 @@ class Paths {
       add("direct", [this] { return compared({}, direct, {true, false, true}); });
       add("direct_band", [this] { return directBand(); });
     }
-    // Between the points of two bases nothing is followed.
     add("own_basis", [this] {
-      return compared({}, {{"reduction_released", "0"}}, {true, false, true});
+      return compared({}, {{"reduction_released", "0"}}, {true, true, true});
     });
-    // It has no path of the contact, and SNES may miss a solution that the condensed problem finds.
-    add("steady_full", [this] {
-      return compared({}, {{"steady_full", "on"}}, {true, false, true, true});
-    });
-    // The matrix of modal damping is made of the free modes of the first point, prestress included.
-    if (!model_.modalDamping || !model_.has("prestress")) add("alone", [this] { return alone(); });
+    add("steady_full", [this] { return steadyFull(); });
+    add("alone", [this] { return alone(); });
     add("shuffled", [this] { return compared({true, 0, {}}, {}, {}); });
     if (model_.mesh.dimension == 3)
       add("turned", [this] { return compared({false, random_.between(1, 2), {}}, {}, {}); });
@@ -72,6 +67,16 @@ class Paths {
  private:
   std::string compared(const Form& form, const Changes& changes, const Extent& extent) {
     return difference(base_, run(model_, form, changes, folder_), extent);
+  }
+
+  /// Where steady sliding is not unique, the way of the contact decides, which is not followed in
+  /// all unknowns. SNES may end without a solution, and says so; the state that the default finds
+  /// is judged by its residual in all unknowns.
+  std::string steadyFull() {
+    const auto found = [&](const std::string& full) {
+      return run(model_, {}, {{"steady_path", "0"}, {"steady_full", full}}, folder_);
+    };
+    return difference(found("off"), found("on"), {true, false, true, true});
   }
 
   std::string directBand() {
@@ -101,7 +106,7 @@ class Paths {
     const Bond own = model_.glue->form;
     std::vector<Bond> others;
     for (int i = 0; i < bondForms; ++i)
-      if (Bond(i) != own && model_.glue->canBe(Bond(i))) others.push_back(Bond(i));
+      if (Bond(i) != own) others.push_back(Bond(i));
     const Bond form = others[random_.below(others.size())];
     auto found = compared({false, 0, form}, {}, {});
     return found.empty() ? "" : std::string(text(own)) + " against " + text(form) + ": " + found;

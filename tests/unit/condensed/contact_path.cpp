@@ -66,8 +66,9 @@ TEST(ContactPath, NodesLiftOneByOne) {
   const contact::CoupledSystem closed(analysis.bodies, analysis.contact,
                                       std::vector<unsigned char>(analysis.contact.nodes.size(), 1));
   condensed::CondensedProblem condensedProblem(problem, closed);
-  const auto first = condensedProblem.solve({0});
-  const auto path = condensed::followContact(condensedProblem, first, {0.5});
+  const sweep::Parameters begin{.friction = 0, .speed = 3}, end{.friction = 0.5, .speed = 3};
+  const auto first = condensedProblem.solve(begin);
+  const auto path = condensed::followContact(condensedProblem, first, end);
   EXPECT_EQ(path.obstacle, "");
   EXPECT_EQ(path.count, static_cast<int>(path.events.size()));
   std::vector<bool> open(first.closed.size(), false);
@@ -76,13 +77,14 @@ TEST(ContactPath, NodesLiftOneByOne) {
     // The program solves to 1e-13 of the forces, and they change by their own size over the sweep.
     EXPECT_NEAR(event.at.friction, zeroNear(analysis, event.at.friction, open, event.node), 1e-9);
     EXPECT_GT(event.at.friction, before);
+    EXPECT_EQ(event.at.speed, end.speed);  // to the last bit: points are told apart by it
     EXPECT_EQ(event.opens, !open[event.node]);
     std::printf("friction %.12f: node %zu %s\n", event.at.friction, event.node,
                 event.opens ? "opens" : "closes");
     open[event.node] = event.opens;
     before = event.at.friction;
   }
-  const auto last = condensedProblem.solve({0.5});
+  const auto last = condensedProblem.solve(end);
   for (std::size_t i = 0; i < open.size(); ++i) EXPECT_EQ(open[i], last.closed[i] == 0);
   EXPECT_GE(path.count, 2);
 }

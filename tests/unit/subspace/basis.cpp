@@ -124,6 +124,24 @@ TEST(Basis, DropsWhatItHasAndWhatDependsOnOthers) {
   EXPECT_LT(f.departure(), 1e-10);
 }
 
+// Nothing is left of K0 V where V is orthonormal to some digits alone, so that the basis never
+// holds more vectors than there are unknowns.
+TEST(Basis, DropsWhatItHasWhereItIsLessOrthonormal) {
+  for (const double along : {3e-5, 1e-4, 3e-4, 1e-3}) {
+    const Fixture f;
+    for (unsigned batch = 0; batch < 5; ++batch) {
+      linalg::Block residuals = f.random(4, 8 + batch);
+      linalg::multiplyAdd(f.forcesOf(f.columns()),
+                          linalg::transposedProduct(f.basis->comm(), f.columns(), residuals),
+                          residuals, -1 + along);
+      f.basis->add(residuals);
+    }
+    test::print("departure from orthonormality %.1e\n", f.departure());
+    EXPECT_EQ(f.basis->size(), 40);
+    EXPECT_EQ(f.basis->add(f.forcesOf(f.columns())), 0);
+  }
+}
+
 TEST(Basis, CombinationsStayOrthonormal) {
   const Fixture f;
   f.basis->add(f.random(10, 3));
