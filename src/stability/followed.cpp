@@ -149,8 +149,7 @@ std::vector<Followed> followSweep(reduction::ReducedProblem& reduced,
       auto& gaps = followed.branches.gaps;
       std::erase_if(gaps, [&](const Gap& gap) { return gap.to <= followed.from; });
       gaps.push_back({*line.before, followed.from,
-                      "the active set changes, and the two sets have a basis each "
-                      "(-reduction_released)"});
+                      "the active set changes, and the two sets have a basis each"});
       std::erase_if(followed.criticals,
                     [&](const Critical& critical) { return critical.friction < followed.from; });
     }
