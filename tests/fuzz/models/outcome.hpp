@@ -27,6 +27,7 @@ struct FoundSteady {
   sweep::Parameters at;
   bool converged = false;
   PetscInt open = 0;
+  double imbalance = 0;                 ///< of its forces, a part of them
   std::vector<std::string> interfaces;  ///< [resultant]
   std::vector<double> forces;           ///< [resultant][normal, friction] magnitudes, N
 };
