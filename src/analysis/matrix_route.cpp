@@ -83,7 +83,7 @@ void solveMatrices(Analysis& analysis) {
   auto solved =
       segment::solveSegments(problem, analysis.sweep.dampings, analysis.checkpoint, "matrices");
   analysis.segments = std::move(solved.segments);
-  if (!solved.failure.empty()) addFailure(analysis, "flutter: " + solved.failure);
+  for (const auto& failure : solved.failures) addFailure(analysis, "flutter: " + failure);
   if (!solved.complete) throw Interrupted();
   if (modes::benchmarkWanted())
     analysis.modesFloorSeconds = modes::floorSeconds(symmetric.system.k0());

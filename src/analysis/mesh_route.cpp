@@ -194,8 +194,8 @@ void solveMeshSegment(Analysis& analysis, std::size_t first, std::size_t last,
         if (activeSet > 0) activeSet += before;
     analysis.segments.push_back(std::move(segment));
   }
-  if (!solved.failure.empty())
-    addFailure(analysis, pointsText(analysis, first, last) + ": " + solved.failure);
+  for (const auto& failure : solved.failures)
+    addFailure(analysis, pointsText(analysis, first, last) + ": " + failure);
   const auto found = std::span(analysis.segments).subspan(before);
   for (const auto& segment : found)
     for (const auto& point : segment.points)

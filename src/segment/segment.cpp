@@ -133,7 +133,6 @@ class SegmentSweep {
       segments_[k].openNodes = ranges_[k].points.openNodes;
     }
     bool complete = true;
-    std::string failure;
     try {
       solveAll();
     } catch (const Interrupted&) {
@@ -141,17 +140,18 @@ class SegmentSweep {
       complete = false;
     } catch (const Error& error) {
       if (std::ranges::none_of(segments_, hasResults)) throw;
-      failure = error.what();
+      failures_.push_back(error.what());
     }
+    if (complete && std::ranges::none_of(segments_, hasResults)) throw Error(failures_.front());
     for (auto& segment : segments_) std::erase_if(segment.points, std::not_fn(isSolved));
     std::erase_if(segments_, [](const auto& segment) { return segment.points.empty(); });
     // What took long is not done again if a later segment is cut off.
-    if (complete && failure.empty() && checkpoint_.isWorth(MPI_Wtime() - begin_)) {
+    if (complete && failures_.empty() && checkpoint_.isWorth(MPI_Wtime() - begin_)) {
       checkpoint::Archive archive(pencil_.comm());
       exchangeFinished(archive);
       checkpoint_.write(name_ + "_finished", archive);
     }
-    return {std::move(segments_), complete, std::move(failure)};
+    return {std::move(segments_), complete, std::move(failures_)};
   }
 
  private:
@@ -205,7 +205,7 @@ class SegmentSweep {
   /// them.
   void exchangePoints(checkpoint::Archive& archive) {
     const std::size_t before = solved_;
-    archive.common(affine_, solved_);
+    archive.common(affine_, solved_, failures_);
     if (reduced_) reduced_->exchange(archive);
     for (; exchanged_ < solved_; ++exchanged_)
       pencil::exchange(archive, pointAt(order_[exchanged_]));
@@ -303,6 +303,7 @@ class SegmentSweep {
       solveBatch(batch, problems);
       for (std::size_t i = 0; i < batch.size(); ++i) {
         auto& point = pointAt(batch[i]);
+        if (!isSolved(point)) continue;
         problem_.examine(places_[batch[i]].steadyPoint, problems[i].pencil,
                          startSpace(problems[i], point), point);
       }
@@ -416,19 +417,39 @@ class SegmentSweep {
                   branches, stations, criticals, reduced_->basisSize()));
   }
 
+  /// Collective. Solves points together, or throws Error.
+  std::vector<pencil::ComplexModes> solved(const std::vector<reduction::PointProblem>& problems) {
+    std::vector<pencil::ComplexModes> points;
+    if (reduced_)
+      points = reduced_->solve(problems, problem_.trial());
+    else
+      for (const auto& problem : problems)
+        points.push_back(
+            direct::solveDirect(problem.pencil, problem.at, problem_.trial(), *directly_));
+    for (const auto& point : points) requireFiniteEigenvalues(point);
+    return points;
+  }
+
+  /// Collective. Solves points together, or, if that fails, one by one, so that one of them does
+  /// not take the others with it.
   void solveBatch(const std::vector<std::size_t>& batch,
                   const std::vector<reduction::PointProblem>& problems) {
     Stage stage(pencil_.comm(), "flutter");
-    std::vector<pencil::ComplexModes> solved;
-    if (reduced_) solved = reduced_->solve(problems, problem_.trial());
-    for (std::size_t i = 0; i < batch.size(); ++i) {
-      auto& point = pointAt(batch[i]);
-      point = reduced_ ? std::move(solved[i])
-                       : direct::solveDirect(problems[i].pencil, problems[i].at, problem_.trial(),
-                                             *directly_);
-      requireFiniteEigenvalues(point);
-      stage.say(pointText(point));
+    try {
+      auto points = solved(problems);
+      for (std::size_t i = 0; i < batch.size(); ++i) pointAt(batch[i]) = std::move(points[i]);
+    } catch (const Error& error) {
+      if (batch.size() == 1 && points_.size() == 1) throw;
+      for (std::size_t i = 0; i < batch.size(); ++i) try {
+          std::vector<reduction::PointProblem> alone;
+          alone.push_back({problems[i].at, problems[i].pencil.with({}), problems[i].set});
+          pointAt(batch[i]) = std::move(solved(alone).front());
+        } catch (const Error& own) {
+          failures_.push_back(sweep::parameterText(problems[i].at) + ": " + own.what());
+        }
     }
+    for (const std::size_t i : batch)
+      if (isSolved(pointAt(i))) stage.say(pointText(pointAt(i)));
     std::string text = formatted("%zu points", batch.size());
     if (reduced_)
       text += formatted(", basis of %" PetscInt_FMT ", %ld solves", reduced_->basisSize(),
@@ -459,6 +480,7 @@ class SegmentSweep {
   std::unique_ptr<reduction::ReducedProblem> reduced_;
   std::optional<direct::Options> directly_;  // without a reduced problem
   bool affine_ = true;                       // no point has terms of its own
+  std::vector<std::string> failures_;        // of points and stages
   checkpoint::Checkpoint& checkpoint_;
   std::string name_;                               // of its logs
   double begin_;                                   // s

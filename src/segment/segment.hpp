@@ -102,15 +102,15 @@ struct SolvedSegments {
   std::vector<ModalSegment> segments;  ///< [range of points that has any]
   /// False if the run has been asked to stop: points may be missing, and what is followed.
   bool complete = true;
-  /// Why points are missing, or what is followed; empty if nothing has failed.
-  std::string failure = {};
+  /// Why points, or what is followed, are missing: a line for each point or stage that failed.
+  std::vector<std::string> failures = {};
 };
 
 /// Collective. Returns for each range of points their modes, flutter at all steady points with all
 /// `dampings`, and the eigenvalues followed over the friction. What the logs of the checkpoint
-/// whose names begin with `name` hold is taken from there, and they are continued. If a stage fails
-/// after points have been solved, these are returned with the reason. Throws Error if it fails
-/// before.
+/// whose names begin with `name` hold is taken from there, and they are continued. A point
+/// that fails leaves the others as they are, and so does a stage behind points that have been
+/// solved: the reasons are returned. Throws Error if no point is solved.
 SolvedSegments solveSegments(SegmentProblem& problem, const std::vector<double>& dampings,
                              checkpoint::Checkpoint& checkpoint, const std::string& name);
 

@@ -115,7 +115,8 @@ class Root {
       result.errorEstimate = 0.5 * (event_.high - event_.low);
       result.angularFrequency = 0.5 * (mean(event_.below) + mean(event_.above)).imag();
     } else {
-      result.converged = moved_ <= tolerance_ * friction_;
+      result.converged = moved_ <= tolerance_ * friction_ &&
+                         rootTolerance() <= std::max(tolerance_ * friction_, 1e-12);
       result.errorEstimate = moved_ + rootTolerance();
       result.angularFrequency = mean(nearest(friction_).pairs()).imag();
       result.slope = event_.kind == Event::Kind::coalescence ? -slope_ : slope_;

@@ -65,6 +65,24 @@ TEST(Verdicts, ContactThatChangesWithinAStep) {
   }
 }
 
+// The default band follows from the free modes of a point's own active set, not from those of the
+// sets that share its basis.
+TEST(Verdicts, PointListsTheSameAloneAndInASweep) {
+  const auto eigenvaluesAt = [](const std::string& name, const std::string& frictions) {
+    const auto run =
+        runProgram("verdicts_band_" + name, 1,
+                   caseFile("closing_contact/case") + "-flutter_friction " + frictions, 60);
+    EXPECT_EQ(run.exitCode, 0) << run.error;
+    return eigenvaluesOf(readCsv(run.folder / "eigenvalues.csv"));
+  };
+  const auto swept = eigenvaluesAt("sweep", "0,0.2");
+  auto alone = eigenvaluesAt("first", "0");
+  for (const auto& s : eigenvaluesAt("second", "0.2")) alone.push_back(s);
+  ASSERT_EQ(swept.size(), alone.size());
+  for (std::size_t i = 0; i < swept.size(); ++i)  // -flutter_tolerance is 1e-8
+    EXPECT_LE(std::abs(swept[i] - alone[i]), 2e-8 * std::abs(alone[i]));
+}
+
 // Two eigenvalues merge at 0.029666628 while a third one passes by. The same model with the slave
 // of its tie named by fewer faces has the same critical friction, and so has the exchange of slave
 // and master.
@@ -111,6 +129,28 @@ TEST(Verdicts, ZeroIsAnEigenvalue) {
       }
     EXPECT_EQ(zeros, 1);
     EXPECT_NE(run.out.find("all followed"), std::string::npos) << run.out;
+  }
+}
+
+// K = [1, f³; −f³, 4]: the eigenvalues meet where 2 f³ = 3. Between points too far apart that is
+// not resolved, and is not said to be.
+TEST(Verdicts, CriticalFrictionBetweenPointsFarApart) {
+  const double exact = std::cbrt(1.5);
+  for (const char* last : {"10", "1e12", "1e50"}) {
+    const auto run =
+        runProgram(std::string("verdicts_far_") + last, 1,
+                   matrix("far", "m", diagonal({1, 1}), "mass") +
+                       matrix("far", "k", diagonal({1, 4}), "stiffness") +
+                       matrix("far", "f", {{0, 1}, {-1, 0}}, "stiffness") +
+                       " -matrices_f_friction_exponent 3 -flutter_friction 0,0.1," + last);
+    ASSERT_EQ(run.exitCode, 0) << run.error;
+    const auto table = readCsv(run.folder / "critical.csv");
+    ASSERT_EQ(table.rows.size(), 1U);
+    const double found = table.column("friction")[0],
+                 estimate = table.column("friction_error_estimate")[0];
+    EXPECT_LE(std::abs(found - exact), estimate);
+    // -flutter_critical_tolerance is 1e-8.
+    EXPECT_EQ(table.column("converged")[0], estimate <= 1e-8 * exact ? 1 : 0);
   }
 }
 
