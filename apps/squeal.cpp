@@ -13,6 +13,7 @@
 #include "options/settings.hpp"
 #include "petsc/memory.hpp"
 #include "petsc/termination.hpp"
+#include "petsc/text.hpp"
 #include "report/report.hpp"
 #include "session/events.hpp"
 #include "session/session.hpp"
@@ -43,7 +44,7 @@ void tellError(const squeal::Session& session, const std::string& message, bool 
   squeal::tellEvent("error", {{"text", message}});
   const squeal::LineAway away;
   if (onAllRanks && session.rank() > 0) return;
-  std::fprintf(stderr, "squeal: error: %s\n", message.c_str());
+  std::fprintf(stderr, "squeal: error: %s\n", squeal::escaped(message).c_str());
 }
 
 /// The exit code.

@@ -11,6 +11,8 @@
 #include "material/material.hpp"
 #include "options/options.hpp"
 #include "petsc/arrays.hpp"
+#include "petsc/text.hpp"
+#include "session/stages.hpp"
 
 namespace squeal::elasticity {
 namespace {
@@ -62,6 +64,28 @@ CellFilter cellsOf(std::optional<int> body) {
   return [body](const mesh::CellBlock& block, std::size_t e) {
     return !body || block.body[e] == *body;
   };
+}
+
+/// Collective. Warns of bodies that hardly change their volume and have linear cells, which then
+/// lock: such a cell cannot keep the volume at each point of its rule and deform otherwise.
+/// Incompatible modes give the cell this freedom.
+void warnOfLocking(const mesh::Mesh& mesh, const std::vector<Material>& materials) {
+  constexpr double least = 0.49;  // the bulk modulus is 50 times the shear modulus
+  const auto incompatible = incompatibleElements();
+  std::vector<PetscInt> counts(materials.size(), 0);
+  forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table,
+                        const std::vector<Point>&) {
+    if (table.order == 1 && std::ranges::find(incompatible, table.name) == incompatible.end())
+      ++counts[block.body[e]];
+  });
+  check(MPI_Allreduce(MPI_IN_PLACE, counts.data(), counts.size(), MPIU_INT, MPI_SUM, mesh.comm));
+  for (std::size_t b = 0; b < counts.size(); ++b)
+    if (counts[b] > 0 && materials[b].poisson > least)
+      complain(mesh.comm,
+               formatted("warning: body '%s', with a Poisson's ratio of %.6g, has %" PetscInt_FMT
+                         " linear cells, which lock above %g: they are too stiff; use a mesh of "
+                         "second order",
+                         mesh.bodies[b].c_str(), materials[b].poisson, counts[b], least));
 }
 
 /// The matrices of all cells, or of those of one body.
@@ -179,6 +203,7 @@ Bodies assemble(const mesh::Mesh& mesh) {
   const auto materials = material::readMaterials(mesh);
   assembleMatrices(mesh, materials, bodies);
   warnOfFoldedCells(mesh);
+  warnOfLocking(mesh, materials);
   if (convectiveTerms()) assembleConvection(mesh, materials, bodies);
   assembleCentrifugal(mesh, materials, bodies);
   assembleLoad(mesh, bodies);

@@ -12,6 +12,7 @@
 #include "interfaces/candidates.hpp"
 #include "interfaces/carried.hpp"
 #include "interfaces/chains.hpp"
+#include "interfaces/crossing.hpp"
 #include "interfaces/lost.hpp"
 #include "mesh/vector.hpp"
 #include "petsc/arrays.hpp"
@@ -206,6 +207,7 @@ Interfaces findNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, M
   all.gapBasis = gapBasis(mesh, paired, all.interfaceOf, given, periodic);
   fillNodes(mesh, bodies, touching, periodic, all);
   countNodes(mesh.comm, all);
+  checkCrossing(mesh, exchange, bodies, all);
   setLevels(mesh, all);
   warnOfLost(mesh, exchange, all, Role::sliding);
   carryHeld(mesh, all);

@@ -168,9 +168,24 @@ Law readLaw(const std::string& body, int dimension, bool planeStress) {
   return {inPlane(turned, planeStress), {}};
 }
 
+/// Returns Material::poisson.
+double poissonRatio(const std::string& body, int dimension, bool planeStress) {
+  if (dimension == 2 && planeStress) return 0;
+  if (!engineeringOption.given(body) && !transverseOption.given(body))
+    return poissonOption.get(body);
+  const Hooke solid = orthotropic(constants(body));
+  double bulk = 0, shear = 0;
+  for (int i = 0; i < 3; ++i) {
+    shear += solid(3 + i, 3 + i) / 3;
+    for (int j = 0; j < 3; ++j) bulk += solid(i, j) / 9;
+  }
+  return (3 * bulk - 2 * shear) / (6 * bulk + 2 * shear);
+}
+
 Material readMaterial(const std::string& body, int dimension, bool planeStress) {
   return {readLaw(body, dimension, planeStress), densityOption.get(body),
-          rayleighMassOption.get(body), stiffnessDamping(body)};
+          rayleighMassOption.get(body), stiffnessDamping(body),
+          poissonRatio(body, dimension, planeStress)};
 }
 
 }  // namespace

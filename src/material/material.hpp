@@ -15,6 +15,9 @@ struct Material {
   double density;           ///< kg/m³
   double massDamping;       ///< α, 1/s: C = α M + …
   double stiffnessDamping;  ///< β + η / (2π f), s: C = … + (β + η / (2π f)) K
+  /// Poisson's ratio; that of the mean bulk and shear moduli of an orthotropic body. Zero in plane
+  /// stress, in which the thickness gives way.
+  double poisson;
 };
 
 /// Returns the materials in the order of `mesh.bodies`, [body]. Throws Error for a bad or missing

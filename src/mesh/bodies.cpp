@@ -45,17 +45,27 @@ void requireDistinctCells(const WholeMesh& mesh) {
                 cellText(mesh, twins->second) + " have the same nodes: one cell, written twice");
 }
 
-/// Throws Error unless every cell of the largest dimension belongs to a body.
+/// Throws Error unless every cell of the largest dimension belongs to a body. A file of version 2
+/// repeats a cell for each further group that it is in.
 void requireMaterials(const WholeMesh& mesh, const GmshModel& model,
-                      const std::map<PetscInt, int>& bodyOf, const Request& request) {
+                      const std::map<PetscInt, int>& bodyOf, const Request& request,
+                      const NodeIndex& index) {
   if (model.largestDimension() != mesh.dimension) return;
   std::map<PetscInt, std::vector<std::string>> without;  // cell -> its groups
   for (PetscInt tag : model.ungrouped()) without[tag];
+  std::set<std::vector<PetscInt>> known;  // sorted nodes of the cells of bodies
   for (const auto& [name, group] : model.groups())
-    if (group.dimension == mesh.dimension)
-      for (const auto& block : group.blocks)
-        for (PetscInt tag : block.tag)
-          if (!bodyOf.count(tag)) without[tag].push_back(name);
+    for (const auto& block : group.blocks)
+      for (std::size_t e = 0; e < block.tag.size() && group.dimension == mesh.dimension; ++e) {
+        if (bodyOf.count(block.tag[e])) continue;
+        if (known.empty())
+          for (const auto& cells : mesh.cells)
+            for (std::size_t c = 0; c < cells.tag.size(); ++c)
+              known.insert(sorted(cells.nodesOf(c)));
+        auto nodes = sorted(block.nodesOf(e));
+        if (!index.translate(nodes) || !known.count(sorted(nodes)))
+          without[block.tag[e]].push_back(name);
+      }
   if (without.empty()) return;
   const auto& [tag, groups] = *without.begin();
   if (groups.empty())
@@ -100,7 +110,7 @@ void readBodies(WholeMesh& mesh, const GmshModel& model, const Request& request,
       known->label.insert(known->label.end(), block.tag.size(), b);
     }
   }
-  requireMaterials(mesh, model, bodyOf, request);
+  requireMaterials(mesh, model, bodyOf, request, index);
   requireDistinctCells(mesh);
   if (mesh.dimension == 2)
     for (const auto& point : mesh.points)

@@ -5,13 +5,14 @@
 #include <tuple>
 
 namespace squeal::mesh {
-namespace {
 
 std::vector<PetscInt> sorted(std::span<const PetscInt> nodes) {
   std::vector<PetscInt> list(nodes.begin(), nodes.end());
   std::sort(list.begin(), list.end());
   return list;
 }
+
+namespace {
 
 /// Returns a hash, which is equal for equal nodes and rarely equal for others.
 std::uint64_t hashed(const std::vector<PetscInt>& nodes) {

@@ -21,4 +21,7 @@ std::optional<std::pair<ElementPlace, ElementPlace>> findTwins(
 /// Returns the element of the smallest tag that has a node twice; none if there is none.
 std::optional<ElementPlace> findRepeatedNode(const std::vector<WholeBlock>& blocks);
 
+/// Returns the nodes in ascending order.
+std::vector<PetscInt> sorted(std::span<const PetscInt> nodes);
+
 }  // namespace squeal::mesh

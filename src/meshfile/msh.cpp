@@ -153,6 +153,8 @@ class Msh {
       const std::string name(word.substr(1));
       if (name == "Nodes")
         section(name, nodes_, version_ < 4 ? &Msh::nodes2 : &Msh::nodes4);
+      else if (name == "ParametricNodes" && version_ < 4)
+        section(name, nodes_, &Msh::parametricNodes2);
       else if (name == "Elements")
         section(name, elements_, version_ < 4 ? &Msh::elements2 : &Msh::elements4);
       else
@@ -223,16 +225,27 @@ class Msh {
     return nodesOf(type);
   }
 
-  /// Reads the nodes of version 2: their number as text, then tag and coordinates of each.
-  void nodes2() {
-    const Integer count =
-        in_.count(in_.written<Integer>("number of nodes"), "nodes", in_.binary ? 28 : 8);
+  /// Reads the nodes of version 2: their number as text, then tag and coordinates of each. With
+  /// `parametric`, dimension and tag of the entity of each follow, and a coordinate on it for each
+  /// dimension of a curve or a surface.
+  void readNodes2(bool parametric) {
+    const Integer least = in_.binary ? 28 + 8 * parametric : 8 + 4 * parametric;
+    const Integer count = in_.count(in_.written<Integer>("number of nodes"), "nodes", least);
     if (in_.binary) in_.skipLine();
     for (Integer i = 0; i < count; ++i) {
       add(nodes_, in_.small("node tag"), "node");
       coordinates(nodes_.back());
+      if (!parametric) continue;
+      const Integer dimension = in_.small("dimension");
+      if (dimension < 0 || dimension > 3)
+        in_.fail("node " + std::to_string(nodes_.back()) + " is on an entity of dimension " +
+                 std::to_string(dimension) + ": must be 0 to 3");
+      in_.small("entity");
+      for (Integer d = 0; d < dimension && dimension < 3; ++d) in_.real("parametric coordinate");
     }
   }
+  void nodes2() { readNodes2(false); }
+  void parametricNodes2() { readNodes2(true); }
   /// Reads the elements of version 2: tag, type, number of labels, labels, nodes. In a binary file
   /// a block holds all elements of one type and number of labels.
   void elements2() {

@@ -154,6 +154,9 @@ void applySolverOptions(const std::function<PetscErrorCode()>& configure) {
 void rejectUnknownOptions() {
   for (const auto& name : namesLeft()) {
     if (isOurs(name) || isOfSolver(name)) continue;
+    for (const auto* option : Option::all())
+      if (option->fullName("") == name && option->name != name)
+        throw Error("option -" + name + ": the name in it is empty; it should be -" + option->name);
     const std::string nearest = nearestName(name);
     const auto given = givenOptions();
     throw Error("unknown " + optionText(name, "", given.count(name) ? given.at(name) : "") +

@@ -91,6 +91,26 @@ std::vector<Word> onOneLine(std::vector<Word> words) {
   return words;
 }
 
+/// Returns the rule for names of options, and of groups and interfaces in them, that a name (no
+/// dash) breaks; empty if none.
+std::string brokenRule(const std::string& name) {
+  for (const unsigned char c : name) {
+    if (c == ' ') return "it holds a blank; write _ for a blank in the name of a group";
+    if (std::iscntrl(c))
+      return formatted("it holds the control character \\u%04x; rename the group", c);
+    if (std::strchr("\"'#,", c))
+      return formatted("it holds %c, which no name may hold; rename the group", c);
+  }
+  return isName("-" + name) ? "" : "it must begin with a letter";
+}
+
+/// Returns the text with line breaks and tabs as escapes.
+std::string withoutBreaks(const std::string& text) {
+  std::string line;
+  for (const char c : text) line += c == '\n' ? "\\n" : c == '\t' ? "\\t" : std::string(1, c);
+  return line;
+}
+
 /// Throws Error for a setting that PETSc's database, or the record of the run, would not keep as it
 /// is.
 void requireSound(const Setting& setting) {
@@ -101,15 +121,11 @@ void requireSound(const Setting& setting) {
   if (const auto equals = name.find('='); equals != std::string::npos)
     fail("option -" + name + ": a blank separates name and value: -" + name.substr(0, equals) +
          " " + name.substr(equals + 1));
-  const bool plain = std::none_of(name.begin(), name.end(), [](unsigned char c) {
-    return std::isspace(c) || std::iscntrl(c) || std::strchr("\"'#,", c);
-  });
-  if (!plain || !isName("-" + name))
-    fail("'" + name +
-         "' is not the name of an option: it begins with a letter and holds no blank; write _ for "
-         "a blank in the name of a group");
+  if (const std::string broken = brokenRule(name); !broken.empty())
+    fail("'" + withoutBreaks(name) + "' is not the name of an option: " + broken);
   if (name.size() >= PETSC_MAX_OPTION_NAME)
-    fail("the name of option -" + name.substr(0, 40) + "… is too long");
+    fail(formatted("the name of option -%s… is too long: %zu characters, at most %d are allowed",
+                   name.substr(0, 40).c_str(), name.size(), PETSC_MAX_OPTION_NAME - 1));
   const std::string& value = setting.value;
   if (std::any_of(value.begin(), value.end(),
                   [](unsigned char c) { return std::iscntrl(c) && c != '\t'; }))

@@ -76,8 +76,9 @@ void sayStillAtWork(int) {
   signal(SIGALRM, sayStillAtWork);
   alarm(patience);
   try {
-    Buffer result = work(
-        [&](const std::string& text) { dprintf(voice, "squeal: warning: %s\n", text.c_str()); });
+    Buffer result = work([&](const std::string& text) {
+      dprintf(voice, "squeal: warning: %s\n", escaped(text).c_str());
+    });
     answer(pipe, Outcome::result, result.bytes().data(), result.bytes().size());
   } catch (const std::bad_alloc&) {
     answer(pipe, Outcome::noMemory, "", 0);

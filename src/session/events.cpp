@@ -194,9 +194,9 @@ void tellEvent(const std::string& event, nlohmann::ordered_json members) {
                              {"time", timeText()},
                              {"elapsed_s", std::round(1e3 * (now() - r.begin)) / 1e3}};
   all.update(members);
-  // Text of other libraries may be no UTF-8.
+  // Text of other libraries may be no UTF-8. The escapes of hidden characters are those of JSON.
   const std::string text =
-      all.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+      escaped(all.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) + "\n";
   if (std::fputs(text.c_str(), r.file) >= 0 && std::fflush(r.file) == 0) return;
   std::fprintf(stderr, "squeal: warning: -log_json ends here: %s\n", std::strerror(errno));
   std::fclose(r.file);

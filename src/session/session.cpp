@@ -33,7 +33,7 @@ std::vector<Setting> readSettings(const std::vector<std::string>& words) {
   } catch (const Error& error) {
     int rank = 0;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-    if (rank == 0) std::fprintf(stderr, "squeal: error: %s\n", error.what());
+    if (rank == 0) std::fprintf(stderr, "squeal: error: %s\n", escaped(error.what()).c_str());
     MPI_Finalize();
     std::exit(1);
   }

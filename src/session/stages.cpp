@@ -101,7 +101,8 @@ void say(MPI_Comm comm, const std::string& text) {
 
 void print(const std::string& text) {
   const LineAway away;
-  if ((std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0) && outputErrorSlot() == 0)
+  if ((std::fputs(escaped(text).c_str(), stdout) < 0 || std::fflush(stdout) != 0) &&
+      outputErrorSlot() == 0)
     outputErrorSlot() = errno;
 }
 
@@ -113,7 +114,7 @@ void complain(MPI_Comm comm, const std::string& text) {
   if (rank > 0) return;
   tellEvent("warning", {{"text", text}});
   const LineAway away;
-  std::fprintf(stderr, "squeal: %s\n", text.c_str());
+  std::fprintf(stderr, "squeal: %s\n", escaped(text).c_str());
 }
 
 const std::vector<StageRecord>& stageRecords() { return records(); }

@@ -4,6 +4,7 @@
 
 #include "options/options.hpp"
 #include "petsc/arrays.hpp"
+#include "petsc/text.hpp"
 #include "sweep/parameters.hpp"
 
 namespace squeal::steady {
@@ -132,8 +133,16 @@ bool solveSnes(SNES snes, Vec x, Solution& solution) {
 }
 
 void accept(Solution& solution, double left, const Accuracy& accuracy) {
+  const double accepted = std::max(solution.tolerance, 10 * accuracy.asked);
   solution.residual = left / accuracy.forceUnit;
-  solution.converged = solution.residual <= std::max(solution.tolerance, 10 * accuracy.asked);
+  solution.converged = solution.residual <= accepted;
+  // The reason of a solver that has converged for its own function would contradict the verdict.
+  if (!solution.converged && !solution.reason.starts_with("DIVERGED"))
+    solution.reason = formatted(
+        "the relative residual of all equations is %.2g, more than the accepted %.2g, where the "
+        "solver of the contact stopped%s",
+        solution.residual, accepted,
+        solution.reason.empty() ? "" : (" (" + solution.reason + ")").c_str());
 }
 
 double complementarity(const Problem& problem, OwnedVec& x, Solution& solution) {

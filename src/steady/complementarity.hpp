@@ -28,7 +28,8 @@ OwnedSNES newSnes(MPI_Comm comm, double asked);
 /// converged.
 bool solveSnes(SNES snes, Vec x, Solution& solution);
 /// Sets residual and convergence of `solution` from the 2-norm of its natural residual, N. SNES
-/// also stops where steps no longer change anything; only the residual decides on success.
+/// also stops where steps no longer change anything; only the residual decides on success. Where it
+/// refuses what SNES reports as converged, the reason gives the residual and the accepted one.
 void accept(Solution& solution, double left, const Accuracy& accuracy);
 
 /// Collective. Solves by SNES VI (-steady_snes_*) from the start x, which becomes the solution, and

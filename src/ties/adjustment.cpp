@@ -9,7 +9,9 @@
 #include "interfaces/algebra.hpp"
 #include "mesh/vector.hpp"
 #include "petsc/arrays.hpp"
+#include "petsc/concatenation.hpp"
 #include "petsc/text.hpp"
+#include "session/stages.hpp"
 
 namespace squeal::ties {
 
@@ -154,11 +156,8 @@ std::vector<Folded> foldedCells(const mesh::Mesh& mesh, const std::vector<Point>
 }
 
 /// Collective. Throws Error for a tie that has folded cells.
-void rejectFolded(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange,
-                  const std::vector<Point>& file, const Moves& moves, const Interfaces& ties) {
-  std::vector<double> tieOf(mesh.localNodes(), 0.0);  // one more than the index of the tie
-  for (const auto& node : ties.tied) tieOf[node.connection.node] = node.interface + 1;
-  exchange.largest(tieOf);
+void rejectFolded(const mesh::Mesh& mesh, const std::vector<Point>& file, const Moves& moves,
+                  const std::vector<double>& tieOf, const Interfaces& ties) {
   auto folded = foldedCells(mesh, file, moves, tieOf, ties.options.size());
   for (std::size_t i = 0; i < folded.size(); ++i) {
     PetscInt count = folded[i].count, first = folded[i].first;
@@ -178,6 +177,72 @@ void rejectFolded(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange
   }
 }
 
+/// The cell of one rank that a tie has stretched or compressed most.
+struct Strain {
+  double change = 0;   ///< largest change of a distance of two corners, relative to it
+  Point where{};       ///< their middle in the file, m
+  PetscInt count = 0;  ///< cells with a change that is worth a warning
+};
+
+constexpr double largestChange = 0.1;  // of a distance; round cuts leave less on usual meshes
+
+/// Returns the strains by the tie, [interface], of the node that has moved most in each cell.
+std::vector<Strain> strainsOf(const mesh::Mesh& mesh, const std::vector<Point>& file,
+                              const Moves& moves, const std::vector<double>& tieOf,
+                              std::size_t interfaces) {
+  std::vector<Strain> strains(interfaces);
+  const auto way = [&](PetscInt node) { return tieOf[node] > 0 ? length(moves[node]) : 0; };
+  for (const auto& block : mesh.cells) {
+    const std::size_t corners = elasticity::shapeTable(block.type).corners;
+    for (std::size_t e = 0; e < block.tag.size(); ++e) {
+      const auto nodes = block.nodesOf(e);
+      const PetscInt most = *std::max_element(
+          nodes.begin(), nodes.end(), [&](PetscInt a, PetscInt b) { return way(a) < way(b); });
+      if (way(most) == 0) continue;
+      double largest = 0;
+      Point middle{};
+      for (std::size_t i = 0; i < corners; ++i)
+        for (std::size_t j = 0; j < i; ++j) {
+          const auto between = [&](const std::vector<Point>& points) {
+            return length(mesh::minus(points[nodes[i]], points[nodes[j]]));
+          };
+          const double change = std::abs(between(mesh.coordinates) / between(file) - 1);
+          if (change <= largest) continue;
+          largest = change;
+          middle = mesh::scaled(plus(file[nodes[i]], file[nodes[j]]), 0.5);
+        }
+      Strain& strain = strains[std::lround(tieOf[most]) - 1];
+      strain.count += largest > largestChange;
+      if (largest > strain.change) strain.change = largest, strain.where = middle;
+    }
+  }
+  return strains;
+}
+
+/// Collective. Warns of ties that have stretched or compressed cells.
+void warnOfStrain(const mesh::Mesh& mesh, const std::vector<Point>& file, const Moves& moves,
+                  const std::vector<double>& tieOf, const Interfaces& ties) {
+  const auto strains = strainsOf(mesh, file, moves, tieOf, ties.options.size());
+  for (std::size_t i = 0; i < strains.size(); ++i) {
+    const auto all = concatenated(mesh.comm, std::vector<Strain>{strains[i]});
+    const Strain& worst = *std::max_element(
+        all.begin(), all.end(), [](const auto& a, const auto& b) { return a.change < b.change; });
+    PetscInt count = 0;
+    for (const Strain& strain : all) count += strain.count;
+    if (count == 0) continue;
+    const auto& options = ties.options[i];
+    const std::string adjust = adjustName(options.surfaces.name);
+    complain(mesh.comm,
+             formatted("warning: %s: moving '%s' onto '%s' changes distances in %" PetscInt_FMT
+                       " cells by more than %g %%, at most by %.3g %% at %s; give a smaller %s, "
+                       "or %s off",
+                       options.label().c_str(), options.surfaces.pad.name.c_str(),
+                       options.surfaces.disc.name.c_str(), count, 100 * largestChange,
+                       100 * worst.change, text(worst.where).c_str(), searchName(options).c_str(),
+                       adjust.c_str()));
+  }
+}
+
 }  // namespace
 
 void moveOntoMasters(mesh::Mesh& mesh, const coupling::NodeExchange& exchange, Interfaces& ties) {
@@ -192,7 +257,11 @@ void moveOntoMasters(mesh::Mesh& mesh, const coupling::NodeExchange& exchange, I
         MPI_Allreduce(MPI_IN_PLACE, &report.largestAdjustment, 1, MPI_DOUBLE, MPI_MAX, mesh.comm));
   follow(mesh, exchange, moves);
   for (std::size_t i = 0; i < moves.size(); ++i) mesh.coordinates[i] = plus(file[i], moves[i]);
-  rejectFolded(mesh, exchange, file, moves, ties);
+  std::vector<double> tieOf(mesh.localNodes(), 0.0);  // one more than the index of the tie
+  for (const auto& node : ties.tied) tieOf[node.connection.node] = node.interface + 1;
+  exchange.largest(tieOf);
+  rejectFolded(mesh, file, moves, tieOf, ties);
+  warnOfStrain(mesh, file, moves, tieOf, ties);
 }
 
 }  // namespace squeal::ties

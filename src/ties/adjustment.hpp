@@ -11,7 +11,8 @@ namespace squeal::ties {
 /// about a hundredth of the way, and would move them along the surface again and again. Nodes
 /// within edges, faces and cells follow the corners of their cells unless they are on a surface
 /// that options name. Periodic images move with their primaries. Sets
-/// InterfaceReport::largestAdjustment. Throws Error for a tie that folds a cell.
+/// InterfaceReport::largestAdjustment. Throws Error for a tie that folds a cell, and warns
+/// of one that changes a distance of corners of a cell by more than a tenth.
 void moveOntoMasters(mesh::Mesh& mesh, const coupling::NodeExchange& exchange,
                      interfaces::Interfaces& ties);
 

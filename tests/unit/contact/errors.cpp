@@ -4,6 +4,7 @@
 
 #include "support/contact_cases.hpp"
 #include "support/model.hpp"
+#include "support/warnings.hpp"
 
 namespace squeal {
 namespace {
@@ -114,6 +115,49 @@ TEST(Contact, BadInputIsNamed) {
                    "-constraint_inner_bore_clamped xy -contact_rim_pad outer_rim "
                    "-contact_rim_obstacle_velocity 1,0,0");
   EXPECT_TRUE(contains(errorOf([] { test::buildModel(); }), "must be flat"));
+}
+
+// A drum that turns about a point beside it; the facets of a linear mesh about the true axis are no
+// such motion.
+TEST(Sliding, SurfaceThatMovesThroughItself) {
+  const std::string drum =
+      "-options_file " SQUEAL_SOURCE_DIR "/tests/inputs/axis_beside_drum/case.yaml ";
+  const auto warnings = [&](const std::string& more) {
+    test::setOptions(drum + more);
+    return test::warningsOf([] { test::buildModel(); });
+  };
+  const auto beside = warnings("");
+  EXPECT_TRUE(contains(beside,
+                       "warning: interface 'lining': body 'drum' moves through its own contact "
+                       "surface: the component of its velocity along the normal is 62 % of its "
+                       "magnitude on average, 96 % at (0.35, -0.113397, 0); check "
+                       "-motion_drum_origin and _axis\n"))
+      << beside;
+  for (const char* mesh : {"-mesh_set order=1,cells=12 ", "-mesh_set cells=12 "})
+    EXPECT_EQ(warnings(mesh + std::string("-motion_drum_origin 0.3,-0.2,0")), "");
+  const auto nearly = warnings("-mesh_set order=1 -motion_drum_origin 0.305,-0.2,0");
+  EXPECT_TRUE(contains(nearly, "along the normal is 3.1 % of its magnitude on average")) << nearly;
+  test::setOptions(drum + "-motion_drum_origin 0.304,-0.2,0 -motion_convective on");
+  const auto convective = errorOf([] { test::buildModel(); });
+  EXPECT_TRUE(contains(convective,
+                       "option -motion_convective: interface 'lining': body 'drum' moves through "
+                       "its own contact surface: ") &&
+              contains(convective, "use -motion_convective off"))
+      << convective;
+}
+
+TEST(Sliding, ObstacleThatMovesIntoThePad) {
+  test::setOptions("-mesh_file meshes/layer.geo -mesh_set nx=6,ny=3 " +
+                   test::material("layer", "1", "0.3", "1") +
+                   "-constraint_bottom_clamped xy -contact_plate_pad top "
+                   "-contact_plate_obstacle_velocity 1,-0.05");
+  const auto warning = test::warningsOf([] { test::buildModel(); });
+  EXPECT_TRUE(contains(warning,
+                       "warning: interface 'plate': the rigid obstacle moves through its own "
+                       "contact surface: the component of its velocity along the normal is 5 % of "
+                       "its magnitude on average, 5 % at (") &&
+              contains(warning, "; check -contact_plate_obstacle_velocity\n"))
+      << warning;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "support/case.hpp"
 #include "support/dense.hpp"
 #include "support/model.hpp"
+#include "support/warnings.hpp"
 #include "support/worst.hpp"
 
 namespace squeal {
@@ -126,6 +127,27 @@ TEST(Orthotropy, TransverseIsotropyAsEngineeringConstants) {
 // u = x e_x stretches radially by cos², tangentially by sin², and shears by −2 sin cos: the mean of
 // its energy over all directions is 3/8 (D11 + D22) + 1/4 D12 + 1/2 D66. On 12 equal sectors the
 // sum over quadrature points is the exact mean, harmonics being of order 4 at most.
+// Linear cells of a nearly incompressible body lock.
+TEST(Incompressible, LinearCellsAreToldWithTheRatio) {
+  const auto warning = [](const std::string& material, const std::string& more) {
+    return test::warningsOf([&] {
+      test::buildBodies("-mesh_file meshes/beam.geo -mesh_set nx=2,ny=1,nz=1" + more +
+                        " -material_beam_density 1 " + material);
+    });
+  };
+  const std::string rubber = "-material_beam_young 1 -material_beam_poisson 0.4999",
+                    modes = " -elasticity_incompatible_modes ";
+  EXPECT_EQ(warning(rubber, modes + "none"),
+            "squeal: warning: body 'beam', with a Poisson's ratio of 0.4999, has 2 linear cells, "
+            "which lock above 0.49: they are too stiff; use a mesh of second order\n");
+  EXPECT_EQ(warning(rubber, modes + "hex8"), "");
+  EXPECT_EQ(warning(rubber, ",order=2"), "");
+  EXPECT_EQ(warning("-material_beam_young 1 -material_beam_poisson 0.49", modes + "none"), "");
+  const std::string orthotropic =
+      "-material_beam_engineering_constants 1,1,1,0.4999,0.4999,0.4999,0.3334,0.3334,0.3334";
+  EXPECT_TRUE(test::contains(warning(orthotropic, modes + "none"), "a Poisson's ratio of 0.4999"));
+}
+
 TEST(Orthotropy, CylindricalAxesOnARing) {
   const auto [d11, d22, d12] = exact::orthotropic::planeStrain();
   const double stretch = 3.0 / 8 * (d11 + d22) + d12 / 4 + g12 / 2, swelling = d11 + d22 + 2 * d12;

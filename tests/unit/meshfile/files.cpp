@@ -141,6 +141,61 @@ TEST(MeshFile, DamagedMshIsToldByLine) {
         words);
 }
 
+// Version 2 may give the nodes with their coordinates on the geometry.
+TEST(MeshFile, ParametricNodesOfVersion2AreRead) {
+  auto text = changed(changed(test::quadranglesMsh2(), "$Nodes", "$ParametricNodes"), "$EndNodes",
+                      "$EndParametricNodes");
+  text = changed(changed(text, "1 0 0 0\n", "1 0 0 0 0 1\n"), "2 1 0 0\n", "2 1 0 0 1 1 0.5\n");
+  text = changed(changed(text, "3 2 0 0\n", "3 2 0 0 0 2\n"), "4 0 1 0\n", "4 0 1 0 0 3\n");
+  text = changed(changed(text, "5 1 1 0\n", "5 1 1 0 2 1 0.5 1\n"), "6 2 1 0\n", "6 2 1 0 3 1\n");
+  const auto file = test::writeFile("parametric.msh", text);
+  const std::string binary = SQUEAL_OUTPUT_DIR "/parametric_binary.msh";
+  if (rank() == 0) {
+    gmsh::clear();
+    gmsh::open("meshes/ring.geo");
+    gmsh::model::mesh::generate(3);
+    gmsh::option::setNumber("Mesh.SaveParametric", 1);
+    gmsh::option::setNumber("Mesh.MshFileVersion", 2.2);
+    gmsh::option::setNumber("Mesh.Binary", 1);
+    gmsh::write(binary);
+    gmsh::clear();
+    gmsh::option::setNumber("Mesh.SaveParametric", 0);
+  }
+  check(MPI_Barrier(PETSC_COMM_WORLD));
+  test::setOptions("-mesh_file " + file + layer + "-load_top_pressure 1");
+  const auto mesh = test::readMesh();
+  EXPECT_EQ(mesh.totalNodes, 6);
+  EXPECT_NEAR(test::areaVectors(mesh).at("top")[1], 2, 1e-14);
+  const auto ring = [](const std::string& name) {
+    test::setOptions("-mesh_file " + name + test::material("ring", "1", "0.3", "1"));
+    return test::readMesh();
+  };
+  const auto written = ring(binary), made = ring("meshes/ring.geo");
+  EXPECT_EQ(written.totalCells, made.totalCells);
+  EXPECT_EQ(written.totalNodes, made.totalNodes);
+  expectMessage(messageOf(test::writeFile("parametric_damaged.msh",
+                                          changed(text, "0 2 1 0.5 1\n", "0 7 1 0.5 1\n"))),
+                {"node 5 is on an entity of dimension 7: must be 0 to 3"});
+  expectMessage(messageOf(test::writeFile("parametric_short.msh",
+                                          changed(text, "0 2 1 0.5 1\n", "0 2 1 0.5\n"))),
+                {"line 18", "'$EndParametricNodes'"});
+}
+
+// Version 2 repeats a cell for each of its groups.
+TEST(MeshFile, GroupsOfVersion2MayOverlap) {
+  auto text =
+      changed(test::quadranglesMsh2(), "$PhysicalNames\n3\n", "$PhysicalNames\n4\n2 4 \"right\"\n");
+  text = changed(changed(text, "$Elements\n6", "$Elements\n7"), "$EndElements",
+                 "7 3 2 4 1 2 3 6 5\n$EndElements");
+  const auto file = test::writeFile("overlap.msh", text);
+  test::setOptions("-mesh_file " + file + layer);
+  EXPECT_EQ(test::readMesh().totalCells, 2);
+  expectMessage(messageOf(file, layer + test::material("right", "1", "0.3", "1")),
+                {"cells 6 of group 'layer' and 7 of group 'right' have the same nodes"});
+  expectMessage(messageOf(file, test::material("right", "1", "0.3", "1")),
+                {"group 'layer' has no material", "(cell 5)"});
+}
+
 // gmsh's reader leaves a section at the first line that it does not understand, and the rest of the
 // cells with it.
 TEST(MeshFile, DamagedUnvIsToldByLine) {

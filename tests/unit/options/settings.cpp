@@ -10,7 +10,9 @@
 #include "options/options.hpp"
 #include "options/yaml.hpp"
 #include "petsc/text.hpp"
+#include "session/stages.hpp"
 #include "support/model.hpp"
+#include "support/warnings.hpp"
 
 namespace squeal {
 namespace {
@@ -133,6 +135,44 @@ TEST(Words, NamesAndValues) {
             (Pairs{{"a_b", "1"}, {"c", "2"}}));
 }
 
+// The name of a group, too, is part of the name of an option.
+TEST(Words, RefusedNamesAreGivenWithTheirRule) {
+  const auto message = [](const std::string& name) {
+    return errorOf([&] { settingsOfCall({name, "1"}); });
+  };
+  const std::string is = "' is not the name of an option: ";
+  EXPECT_EQ(message("-contact_a,b_pad"),
+            "'contact_a,b_pad" + is + "it holds ,, which no name may hold; rename the group");
+  EXPECT_EQ(message("-material_disc#1_young"),
+            "'material_disc#1_young" + is + "it holds #, which no name may hold; rename the group");
+  EXPECT_EQ(message("-material_a\x1b[31m_young"),
+            "'material_a\x1b[31m_young" + is +
+                "it holds the control character \\u001b; rename the group");
+  EXPECT_EQ(yamlError("material:\n  disc:\n    young: 1\n"), "");
+  const auto file = fileWith("material:\n  the disc:\n    young: 1\n", ".yaml");
+  EXPECT_EQ(errorOf([&] { settingsOfFile(file); }),
+            file + ", line 3: 'material_the disc_young" + is +
+                "it holds a blank; write _ for a blank in the name of a group");
+  EXPECT_TRUE(contains(message("-" + std::string(600, 'a')),
+                       "is too long: 600 characters, at most 511 are allowed"));
+  test::setOptions("-contact__pad top");
+  EXPECT_EQ(errorOf(rejectUnknownOptions),
+            "option -contact__pad: the name in it is empty; it should be "
+            "-contact_<interface>_pad");
+}
+
+// Characters that would turn or hide parts of a line are printed as escapes, letters as they are.
+TEST(Text, HiddenCharactersAreEscaped) {
+  EXPECT_EQ(escaped("disc \u00e4\u05d0\u4e2d\U0001f600\n\t1"),
+            "disc \u00e4\u05d0\u4e2d\U0001f600\n\t1");
+  EXPECT_EQ(escaped("a\u202eb\u200bc\ufeffd\u2066e"), "a\\u202eb\\u200bc\\ufeffd\\u2066e");
+  EXPECT_EQ(escaped("a\x1b[31m\x7f\u009b\r"), "a\\u001b[31m\\u007f\\u009b\\u000d");
+  EXPECT_EQ(escaped("\U000e0041"), "\\udb40\\udc41");
+  EXPECT_EQ(escaped("\xff\xe4\xc3"), "\\xff\\xe4\\xc3");
+  const auto printed = test::warningsOf([] { complain(PETSC_COMM_WORLD, "group 'a\u202eb'"); });
+  EXPECT_EQ(printed, "squeal: group 'a\\u202eb'\n");
+}
+
 TEST(Words, StrayOnesAreNamedWithTheOptionBeforeThem) {
   const auto message = [](const std::vector<std::string>& words) {
     return errorOf([&] { settingsOfCall(words); });
@@ -150,7 +190,7 @@ TEST(Words, StrayOnesAreNamedWithTheOptionBeforeThem) {
               contains(first, "-options_file disc_brake"))
       << first;
   EXPECT_TRUE(contains(message({"-a=1"}), "-a 1"));
-  EXPECT_TRUE(contains(message({"-my disc_young", "1"}), "no blank"));
+  EXPECT_TRUE(contains(message({"-my disc_young", "1"}), "it holds a blank"));
   EXPECT_TRUE(contains(message({"-a", "1\n2"}), "line break"));
   EXPECT_TRUE(contains(message({"-a", "'\""}), "both kinds of quotes"));
   EXPECT_TRUE(contains(message({"-prefix_pop"}), "without -prefix_push"));

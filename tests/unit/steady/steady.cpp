@@ -10,6 +10,7 @@
 
 #include "contact/coupled.hpp"
 #include "petsc/text.hpp"
+#include "steady/complementarity.hpp"
 #include "steady/steady.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
@@ -149,6 +150,22 @@ TEST(Steady, StrongConvectiveTermsAreSolvedForInAllUnknowns) {
               std::string::npos)
         << run.out;
   }
+}
+
+// A solver that has converged for its own function although the equations are not fulfilled.
+TEST(Steady, RefusedResidualIsTheReason) {
+  steady::Solution solution;
+  solution.reason = "CONVERGED_FNORM_ABS";
+  solution.tolerance = 1e-11;
+  steady::accept(solution, 3.5e-7, {.forceUnit = 100, .asked = 1e-11});
+  EXPECT_FALSE(solution.converged);
+  EXPECT_EQ(solution.reason,
+            "the relative residual of all equations is 3.5e-09, more than the accepted 1e-10, "
+            "where the solver of the contact stopped (CONVERGED_FNORM_ABS)");
+  solution.reason = "CONVERGED_FNORM_ABS";
+  steady::accept(solution, 9e-9, {.forceUnit = 100, .asked = 1e-11});
+  EXPECT_TRUE(solution.converged);
+  EXPECT_EQ(solution.reason, "CONVERGED_FNORM_ABS");
 }
 
 TEST(Steady, JacobianIsTheDerivative) {

@@ -12,6 +12,7 @@
 #include "support/blocks_apart.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
+#include "support/warnings.hpp"
 
 namespace squeal {
 namespace {
@@ -193,6 +194,27 @@ TEST(Ties, NodesMoveAlikeOnAnyNumberOfRanks) {
     EXPECT_EQ(a.untied, b.untied);
     EXPECT_NEAR(a.largestAdjustment, b.largestAdjustment, 1e-14);
   }
+}
+
+// The lowest cells of the pad are 0.098 high, and come down by 0.02; with a pad of one cell the
+// same way is 2 % of its height.
+TEST(Ties, CellsThatAreStretchedAreToldWithTheFigure) {
+  const auto options = [](int cellsUp) {
+    return tied(layers("ties_strained.msh", quad4, 6, 8,
+                       {quad4, {0, 0, cellsUp}, {0.25, 0, gap}, {2.25, 0, 1}}));
+  };
+  const std::string warning = test::warningsOf([&] { caseOf(options(10)); });
+  for (const char* part : {"warning: tie 'low': moving 'pad_low' onto 'disc_high' changes "
+                           "distances in 4 cells by more "
+                           "than 10 %, at most by 20.4 % at (",
+                           "; give a smaller -tie_low_tolerance, or -tie_low_adjust off\n"})
+    EXPECT_TRUE(test::contains(warning, part)) << warning;
+  EXPECT_EQ(test::warningsOf([&] { caseOf(options(1)); }).find("changes distances"),
+            std::string::npos);
+  EXPECT_EQ(test::warningsOf([&] {
+              caseOf(options(10) + "-tie_low_adjust off");
+            }).find("changes distances"),
+            std::string::npos);
 }
 
 // The pad reaches further into the disc than its lowest cells are high.
