@@ -168,6 +168,7 @@ void followPath(Analysis& analysis, condensed::CondensedProblem& condensed, cons
     auto ahead = condensed.solve(solution.at);
     if (ahead.converged && countDifferent(comm, ahead.closed, path.closed) == 0) {
       solution = std::move(ahead);
+      solution.nodesOfAnother = others;
       complain(comm,
                between + formatted("steady sliding is not unique at the end: in another solution "
                                    "%" PetscInt_FMT " %s; the one that the way leads to is kept",

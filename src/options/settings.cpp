@@ -99,7 +99,7 @@ std::string brokenRule(const std::string& name) {
     if (std::iscntrl(c))
       return formatted("it holds the control character \\u%04x; rename the group", c);
     if (std::strchr("\"'#,", c))
-      return formatted("it holds %c, which no name may hold; rename the group", c);
+      return formatted("it holds '%c', which no name may hold; rename the group", c);
   }
   return isName("-" + name) ? "" : "it must begin with a letter";
 }

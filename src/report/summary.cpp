@@ -38,6 +38,7 @@ Json steadyEntry(const steady::Solution& solution) {
   entry["smallest_pressure_pa"] = solution.smallestPressure;
   entry["relative_residual"] = solution.residual;
   entry["relative_imbalance"] = solution.imbalance;
+  if (solution.nodesOfAnother > 0) entry["nodes_of_another_solution"] = solution.nodesOfAnother;
   for (const auto& resultant : solution.resultants)
     entry["interfaces"][resultant.interface] = {
         {"normal_force_n", point3(resultant.normalForce)},

@@ -23,9 +23,10 @@ void fields(checkpoint::Stream& stream, Sticking& sticking) {
 void exchange(checkpoint::Archive& archive, Solution& solution) {
   auto& [at, converged, reason, existsTo, tolerance, iterations, residual, displacement, contact,
          slip, closed, sticking, revisions, negligibleForce, openNodes, smallestPressure,
-         resultants, imbalance] = solution;
+         resultants, imbalance, nodesOfAnother] = solution;
   archive.common(at, converged, reason, existsTo, tolerance, iterations, residual, revisions,
-                 negligibleForce, openNodes, smallestPressure, resultants, imbalance);
+                 negligibleForce, openNodes, smallestPressure, resultants, imbalance,
+                 nodesOfAnother);
   archive.own(contact, slip, closed, sticking);
   archive.vector(displacement);
 }

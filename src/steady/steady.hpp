@@ -64,6 +64,9 @@ struct Solution {
   std::vector<Resultant> resultants;  ///< [interface]
   double imbalance = 0;  ///< worst |contact + supports + load| of a connected part over the sum of
                          ///< the magnitudes of all nodal forces
+  /// Contact nodes, over all ranks, by which another solution at these parameters differs; 0: none
+  /// is known.
+  PetscInt nodesOfAnother = 0;
 };
 
 /// The complementarity problem [3.3–3.4, M.13] is, with u = T x + p u0,

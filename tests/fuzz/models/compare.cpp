@@ -173,6 +173,7 @@ std::string difference(const Outcome& first, const Outcome& second, const Extent
   if (first.refusal.empty() != second.refusal.empty())
     return "only one run is refused: " + first.refusal + second.refusal;
   if (!first.refusal.empty()) return "";
+  if (!extent.sameWay && !std::ranges::all_of(first.steady, &FoundSteady::unique)) return "";
   double top = INFINITY;
   std::size_t common = 0, commonSteady = 0;
   for (const auto& a : first.steady)

@@ -11,6 +11,7 @@ struct Extent {
   bool sameSweep = true;     ///< all points; otherwise those of `second` are some of `first`
   bool criticals = true;     ///< both solve for critical frictions
   bool sameUnknowns = true;  ///< the numbers of open nodes agree
+  bool sameWay = true;       ///< of the contact, which chooses where steady sliding is not unique
   bool mayMiss = false;      ///< the second run may find no steady state where the first one does
 };
 

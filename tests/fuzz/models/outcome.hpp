@@ -28,6 +28,7 @@ struct FoundSteady {
   bool converged = false;
   PetscInt open = 0;
   double imbalance = 0;                 ///< of its forces, a part of them
+  bool unique = true;                   ///< no other solution has been met
   std::vector<std::string> interfaces;  ///< [resultant]
   std::vector<double> forces;           ///< [resultant][normal, friction] magnitudes, N
 };

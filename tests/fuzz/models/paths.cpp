@@ -47,12 +47,10 @@ class Paths {
       paths.push_back({name, std::move(difference)});
     };
     if (!model_.modalDamping) {
-      add("direct", [this] { return compared({}, direct, {true, false, true}); });
+      add("direct", [this] { return compared({}, direct, {.criticals = false}); });
       add("direct_band", [this] { return directBand(); });
     }
-    add("own_basis", [this] {
-      return compared({}, {{"reduction_released", "0"}}, {true, true, true});
-    });
+    add("own_basis", [this] { return compared({}, {{"reduction_released", "0"}}, {}); });
     add("steady_full", [this] { return steadyFull(); });
     add("alone", [this] { return alone(); });
     add("shuffled", [this] { return compared({true, 0, {}}, {}, {}); });
@@ -73,10 +71,11 @@ class Paths {
   /// all unknowns. SNES may end without a solution, and says so; the state that the default finds
   /// is judged by its residual in all unknowns.
   std::string steadyFull() {
+    if (!std::ranges::all_of(base_.steady, &FoundSteady::unique)) return "";
     const auto found = [&](const std::string& full) {
       return run(model_, {}, {{"steady_path", "0"}, {"steady_full", full}}, folder_);
     };
-    return difference(found("off"), found("on"), {true, false, true, true});
+    return difference(found("off"), found("on"), {.criticals = false, .mayMiss = true});
   }
 
   std::string directBand() {
@@ -89,15 +88,15 @@ class Paths {
     const Outcome found = run(model_, {}, changes, folder_);
     // Where SLEPc does not converge, that point is missing, or, if it is the only one, all.
     if (found.refusal.starts_with("direct method at ")) return "";
-    return difference(base_, found, {true, false, true, true});
+    return difference(base_, found, {.criticals = false, .mayMiss = true});
   }
 
   /// Each friction by itself; two of them, since each is a run.
   std::string alone() {
     for (const double friction :
          {model_.frictions.back(), model_.frictions[random_.below(model_.frictions.size())]}) {
-      auto found =
-          compared({}, {{"flutter_friction", formatted("%.9g", friction)}}, {false, false, true});
+      auto found = compared({}, {{"flutter_friction", formatted("%.9g", friction)}},
+                            {.sameSweep = false, .criticals = false, .sameWay = false});
       if (!found.empty()) return found;
     }
     return "";

@@ -212,6 +212,8 @@ TEST(ContactPath, OfSeveralSolutionsTheSweepKeepsItsOwn) {
     EXPECT_TRUE(solution.converged);
     EXPECT_EQ(solution.openNodes, analysis.contact.totalNodes) << solution.at.friction;
   }
+  EXPECT_EQ(analysis.steady[1].nodesOfAnother, 0);
+  EXPECT_EQ(analysis.steady[2].nodesOfAnother, analysis.contact.totalNodes);
 }
 
 // The brake without slope of its pads: between the steady states just below and just above each

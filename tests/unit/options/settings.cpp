@@ -142,9 +142,10 @@ TEST(Words, RefusedNamesAreGivenWithTheirRule) {
   };
   const std::string is = "' is not the name of an option: ";
   EXPECT_EQ(message("-contact_a,b_pad"),
-            "'contact_a,b_pad" + is + "it holds ,, which no name may hold; rename the group");
-  EXPECT_EQ(message("-material_disc#1_young"),
-            "'material_disc#1_young" + is + "it holds #, which no name may hold; rename the group");
+            "'contact_a,b_pad" + is + "it holds ',', which no name may hold; rename the group");
+  EXPECT_EQ(
+      message("-material_disc#1_young"),
+      "'material_disc#1_young" + is + "it holds '#', which no name may hold; rename the group");
   EXPECT_EQ(message("-material_a\x1b[31m_young"),
             "'material_a\x1b[31m_young" + is +
                 "it holds the control character \\u001b; rename the group");
