@@ -10,7 +10,7 @@ TEST(BadSliding, FrictionLaw) {
                 table = with(layer, {{"friction_law", "table"},
                                      {"friction_table_speed", "0,1"},
                                      {"friction_table_factor", "2,1"}});
-  expectExplained({
+  expectRefused({
       {"law",
        with(layer, {{"friction_law", "stribeck"}}),
        {"-friction_law stribeck", "must be constant or exponential or table"}},
@@ -39,7 +39,7 @@ TEST(BadSliding, FrictionLaw) {
 }
 
 TEST(BadSliding, Speed) {
-  expectExplained({
+  expectRefused({
       {"speed_zero", with(layer, {{"flutter_speed", "0"}}), {"-flutter_speed 0", "a number > 0"}},
       {"speed_negative",
        with(layer, {{"flutter_speed", "1,-2"}}),
@@ -51,7 +51,7 @@ TEST(BadSliding, Speed) {
 
 TEST(BadSliding, FactorOfNothing) {
   const Options unpressed = with(layer, {{"contact_plate_obstacle_displacement", "0,0,0"}});
-  expectExplained({
+  expectRefused({
       {"damping_of_none",
        with(layer, {{"flutter_damping", "1,2"}}),
        {"-flutter_damping", "there is none", "rayleigh"}},
@@ -72,7 +72,7 @@ TEST(BadSliding, FactorOfNothing) {
 
 TEST(BadSliding, Motion) {
   const fs::path place = placeFor("bad_sliding");
-  writeText(place / "matching.geo", squares("4", "4"));
+  writeOnce(place / "matching.geo", squares("4", "4"));
   const Options squaresAtWork = onSquares(place / "matching.geo"),
                 turning = with(without(squaresAtWork, {"motion_disc_velocity"}),
                                {{"motion_disc_speed", "1"}});
@@ -89,7 +89,7 @@ TEST(BadSliding, Motion) {
             {"motion_disc_origin", "1,0,0.5"}});
   const Options still =
       with(without(layer, {"contact_plate_obstacle_velocity"}), {{"flutter_friction", "0"}});
-  expectExplained({
+  expectRefused({
       {"plate_at_rest_without_friction",
        still,
        {"interface 'plate' slides, but nothing moves along it", "-contact_plate_obstacle_velocity",

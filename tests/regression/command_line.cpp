@@ -13,7 +13,7 @@ TEST(CommandLine, OptionsFilesThatCannotBeRead) {
     writeText(place / name, text);
     return with({}, {{"options_file", (place / name).string()}});
   };
-  expectExplained({
+  expectRefused({
       {"yaml_tab", file("tab.yaml", "mesh:\n\tfile: x\n"), {"tab.yaml, line 2", "tab"}},
       {"yaml_quote",
        file("quote.yaml", "mesh:\n  file: \"x\nquiet:\n"),
@@ -47,6 +47,45 @@ TEST(CommandLine, OptionsFilesThatCannotBeRead) {
        with({}, {{"options_file", place.string()}}),
        {"-options_file " + place.string(), "folder"}},
   });
+}
+
+// Of each stage one mistake: the others are in bad_input.cpp.
+TEST(CommandLine, MistakesEndTheRun) {
+  const fs::path place = placeFor("command_line/meshes");
+  writeText(place / "inverted.msh", twoQuadrangles(true));
+  writeText(place / "faces.geo", squares("4", "5"));
+  const std::vector<BadInput> mistakes{
+      {"unknown",
+       with(layer, {{"flutter_frictions", "0.2"}}),
+       {"unknown option -flutter_frictions"}},
+      {"density", with(layer, {{"material_layer_density", "-1"}}), {"-material_layer_density -1"}},
+      {"mesh_file", with(layer, {{"mesh_file", "meshes/nosuch.geo"}}), {"no such file"}},
+      {"faces",
+       with(onSquares(place / "faces.geo"), {{"contact_face_pad", "top"}}),
+       {"no part of 'top' faces a part of 'disc_face'"}},
+      {"inverted",
+       with(without(layer, {"mesh_set", "constraint_right_image_of"}),
+            {{"mesh_file", (place / "inverted.msh").string()}, {"modes_count", "2"}}),
+       {"inverted element"}},
+      {"loose", without(layer, {"constraint_bottom_clamped"}), {"body 'layer' can move rigidly"}},
+      {"no_slip", without(layer, {"contact_plate_obstacle_velocity"}), {"|w| = 0"}},
+      {"steady_solver", with(layer, {{"steady_snes_foo", "1"}}), {"-steady_snes_foo"}},
+      {"modes_solver", with(layer, {{"modes_eps_foo", "1"}}), {"-modes_eps_foo"}},
+      {"count_too_large", with(layer, {{"modes_count", "100000"}}), {"30 unknowns"}}};
+  for (const int ranks : {1, 2}) expectExplained(mistakes, ranks);
+}
+
+TEST(CommandLine, FileInTheWayOfTheResults) {
+  for (int ranks : {1, 2}) {
+    const std::string name = "bad_input/unwritable_np" + std::to_string(ranks);
+    fs::remove_all(placeFor(name));
+    writeText(placeFor(name) / "results", "not a folder\n");
+    const ProgramRun run = runAgain(name, ranks, commandLine(layer), 60);
+    EXPECT_EQ(run.exitCode, 1);
+    EXPECT_NE(messageOf(run).find("option -report_dir"), std::string::npos) << run.error;
+    EXPECT_NE(messageOf(run).find(run.folder.string()), std::string::npos) << run.error;
+    EXPECT_EQ(contentOf(run.folder), "not a folder\n");
+  }
 }
 
 TEST(CommandLine, StrayWords) {

@@ -132,6 +132,8 @@ TEST(ResultsKept, WhenARunIsEnded) {
   for (const Ending& ending :
        {Ending{"kill_rank_0", SIGKILL, 0, "report"},
         Ending{"kill_rank_1", SIGKILL, 1, "elasticity"}, Ending{"terminate", SIGTERM, -1, "modes"},
+        Ending{"abort", SIGABRT, 1,
+               "modes"},  // as the allocator does where it finds a damaged heap
         Ending{"interrupt", SIGINT, -1, "report"}})
     runs.push_back(std::async(std::launch::async, expectKept, ending));
   for (auto& run : runs) run.get();

@@ -6,6 +6,9 @@
 #include <atomic>
 #include <future>
 
+#include "analysis/analysis.hpp"
+#include "options/settings.hpp"
+#include "petsc/check.hpp"
 #include "support/program.hpp"
 
 namespace squeal::test {
@@ -95,6 +98,42 @@ struct BadInput {
   Options options;
   std::vector<std::string> message;  ///< pieces that the message must hold
 };
+
+/// Collective. Writes a file on rank 0, before any rank goes on.
+inline void writeOnce(const fs::path& path, const std::string& text) {
+  onFirstRank(PETSC_COMM_WORLD, "", [&] { writeText(path, text); });
+}
+
+/// Collective. Runs in this process, and returns the message of the error; empty if there is none.
+inline std::string refusalOf(Options options) {
+  std::vector<std::string> words;
+  const auto add = [&](const std::string& name, const std::string& value) {
+    words.push_back("-" + name);
+    if (!value.empty()) words.push_back(value);
+  };
+  if (const auto file = options.extract("options_file")) add("options_file", file.mapped());
+  for (const auto& [name, value] : options) add(name, value);
+  try {
+    check(PetscOptionsClear(nullptr));
+    insert(settingsOfCall(words));
+    analysis::checkOptions();
+    analysis::analyse(PETSC_COMM_WORLD);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// Collective. A mistake that one rank alone notices leaves the others waiting.
+inline void expectRefused(const std::vector<BadInput>& inputs) {
+  for (const auto& input : inputs) {
+    const std::string message = refusalOf(input.options);
+    SCOPED_TRACE(input.name + ": " + message);
+    EXPECT_NE(message, "");
+    for (const auto& piece : input.message)
+      EXPECT_NE(message.find(piece), std::string::npos) << "missing from the message: " << piece;
+  }
+}
 
 struct Outcome {
   const BadInput* input;

@@ -92,6 +92,9 @@ inline void expectKept(const Ending& ending) {
   EXPECT_NE(ended.exitCode, 0);
   EXPECT_NE(ended.exitCode, 124) << "it hangs";
   EXPECT_EQ(ended.error.find("PETSC ERROR"), std::string::npos) << ended.error;
+  EXPECT_EQ(ended.error.find("a defect of the program") != std::string::npos,
+            ending.signal == SIGABRT)
+      << ended.error;
   Files after = filesIn(folder);
   std::erase_if(after, [](const auto& file) { return file.first.starts_with("interrupted/"); });
   EXPECT_EQ(differing(before, after), none);
