@@ -593,7 +593,7 @@ void ReducedProblem::correct(std::vector<PointState>& states) {
 void ReducedProblem::exchange(checkpoint::Archive& archive) {
   archive.common(lowestMode_, highestMode_, rightRatio_, leftRatio_, measuredRatio_, confirmed_,
                  responded_, knownSize_, norms_);
-  for (auto& set : sets_) archive.common(set->top, set->modesInBand, set->settled);
+  for (auto& set : sets_) archive.common(set->top, set->modesInBand);
   double ratio = basis_.lastEnergyRatio();
   long solves = basis_.solves();
   archive.common(ratio, solves);
@@ -644,19 +644,18 @@ std::vector<pencil::ComplexModes> ReducedProblem::solve(const std::vector<PointP
   return points;
 }
 
-/// Collective. Confirms the number of the modes of a set, which end at the top of the band: at σ in
-/// one of the gaps above it, the modes are as many as the values of the reduced problem, which lie
-/// above those that they belong to.
-void ReducedProblem::confirmCount(const PointState& state, modes::Modes& modes) const {
+/// Collective. Confirms the number of the modes of a set, which end at the top of the band of all
+/// sets: at σ in one of the gaps above it, the modes are as many as the `values` ω² of the reduced
+/// problem, which lie above those that they belong to.
+void ReducedProblem::confirmCount(const std::vector<double>& values, const Set& set,
+                                  modes::Modes& modes) const {
   constexpr PetscInt mostGaps = 10;
-  linalg::DenseProblem problem = project(state);
-  const auto values = linalg::symmetricEigen(problem.stiffness, problem.mass);
   const PetscInt inBand = std::ssize(modes.lambda);
   double shift = 0;
   for (PetscInt i = inBand; i < std::min<PetscInt>(inBand + mostGaps, std::ssize(values)); ++i) {
     const double low = i == inBand ? band_.top * band_.top : values[i - 1];
     shift = 0.5 * (low + values[i]);
-    const auto below = count_->below(shift, state.set->space.boundary());
+    const auto below = count_->below(shift, set.space.boundary());
     modes.countConfirmed = below && *below == i;
     modes.inertiaCount = i;
     if (modes.countConfirmed) break;
@@ -680,20 +679,15 @@ ReducedProblem::PointState ReducedProblem::associatedState(const PointProblem& p
   return std::move(states.front());
 }
 
-double ReducedProblem::settleBand(int set, const pencil::Pencil& pencil) {
-  Set& its = *sets_[set];
-  if (its.settled || band_.top == 0 || !std::isfinite(band_.top)) return its.top;
-  its.settled = true;
-  const PointProblem point{{}, associatedOf(pencil), set};
-  linalg::DenseProblem problem = project(associatedState(point));
-  auto frequencies = linalg::symmetricEigen(problem.stiffness, problem.mass);
-  for (double& value : frequencies) value = std::sqrt(std::max(value, 0.0));
-  frequencies.resize(std::min(frequencies.size(), modes_.size()));
-  its.top = std::min(band_.top, pencil::bandBelow(frequencies));
-  check(MPI_Bcast(&its.top, 1, MPI_DOUBLE, 0, basis_.comm()));
-  its.modesInBand = std::ranges::count_if(frequencies, [&](double w) { return w <= its.top; });
-  check(MPI_Bcast(&its.modesInBand, 1, MPI_INT, 0, basis_.comm()));
-  return its.top;
+/// Collective. Places the top of the band of a set by the eigenvalues ω² of its free modes.
+void ReducedProblem::settleBand(std::vector<double> values, Set& set) const {
+  if (band_.top == 0 || !std::isfinite(band_.top)) return;
+  values.resize(std::min(values.size(), modes_.size()));
+  for (double& value : values) value = std::sqrt(std::max(value, 0.0));
+  set.top = std::min(band_.top, pencil::bandBelow(values));
+  set.modesInBand = std::ranges::count_if(values, [&](double w) { return w <= set.top; });
+  check(MPI_Bcast(&set.top, 1, MPI_DOUBLE, 0, basis_.comm()));
+  check(MPI_Bcast(&set.modesInBand, 1, MPI_INT, 0, basis_.comm()));
 }
 
 modes::Modes ReducedProblem::freeModes(int set, const pencil::Pencil& pencil) {
@@ -727,7 +721,10 @@ modes::Modes ReducedProblem::freeModes(int set, const pencil::Pencil& pencil) {
     modes.relativeResidual.push_back(linalg::length(basis_.comm(), rest) / (lambda * size));
   }
   modes.vectors = linalg::copiedColumns(basis_.stiffness(), shapes);
-  if (count_) confirmCount(state, modes);
+  linalg::DenseProblem problem = project(state);
+  const auto values = linalg::symmetricEigen(problem.stiffness, problem.mass);
+  settleBand(values, *sets_[set]);
+  if (count_) confirmCount(values, *sets_[set], modes);
   return modes;
 }
 

@@ -77,12 +77,10 @@ class ReducedProblem {
   int addSet(const pencil::Pencil& pencil, const std::vector<unsigned char>& has);
   /// Collective. Returns the free modes in the band of a set, corrected as eigenvalues are. Their
   /// vectors have the entries of all unknowns. Of `pencil`, K and M alone count. Their number is
-  /// confirmed where that of the interior is and the bounds of ModeCount agree.
+  /// confirmed where that of the interior is and the bounds of ModeCount agree. From then on, what
+  /// solve() lists at the points of the set ends where these modes place the top of the band, so
+  /// that it does not depend on the sets that share the basis.
   modes::Modes freeModes(int set, const pencil::Pencil& pencil);
-  /// Collective. Lets what solve() lists at the points of a set end where the set's own free modes
-  /// place the top of the band, so that it does not depend on the sets that share the basis.
-  /// Returns that top, rad/s.
-  double settleBand(int set, const pencil::Pencil& pencil);
   /// Collective. Solves all points at once and returns their complex modes, [point]: their dense
   /// problems are spread over the ranks, and their corrections are solved for together. The static
   /// responses are those of the first point of the first batch. Shapes are mapped to nodal
@@ -128,9 +126,8 @@ class ReducedProblem {
   struct Set {
     PointSpace space;
     ProjectedTerms terms;
-    double top;            // of what is listed, rad/s
-    int modesInBand;       // free modes up to there
-    bool settled = false;  // `top` is that of its own free modes
+    double top;       // of what is listed, rad/s
+    int modesInBand;  // free modes up to there
   };
   /// Pairs of a point whose residuals are to be corrected.
   struct CorrectionRequest {
@@ -183,7 +180,8 @@ class ReducedProblem {
   void leaveBand(PointState& state) const;
   BatchInHand inHand(const std::vector<PointState>& states, const std::vector<PointState*>& open,
                      int round, PetscInt largest) const;
-  void confirmCount(const PointState& state, modes::Modes& modes) const;
+  void settleBand(std::vector<double> values, Set& set) const;
+  void confirmCount(const std::vector<double>& values, const Set& set, modes::Modes& modes) const;
   void keepPairs(const std::vector<PointState>& states);
   void keepForCompression(std::vector<PointState>& states);
   void compress();

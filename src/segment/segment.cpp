@@ -177,11 +177,8 @@ class SegmentSweep {
     while (auto entry = checkpoint_.next(name_ + "_points")) exchangePoints(*entry);
     keep();
     stopIfAsked(pencil_.comm());
-    if (ranges_.size() > 1) settleBands();
+    if (ranges_.size() > 1) findModes();
     solvePoints();
-    if (ranges_.size() > 1)
-      for (std::size_t k = 0; k < ranges_.size(); ++k)
-        if (!segments_[k].points.empty()) restrictModes(k);
     followPoints();
   }
 
@@ -207,6 +204,14 @@ class SegmentSweep {
     const std::size_t before = solved_;
     archive.common(affine_, solved_, failures_);
     if (reduced_) reduced_->exchange(archive);
+    bool withModes = setModesFound_ && !setModesKept_;
+    archive.common(withModes);
+    if (withModes) {
+      for (auto& segment : segments_)
+        if (!segment.points.empty())
+          modes::exchange(archive, segment.modes, problem_.substructure().stiffness);
+      setModesFound_ = setModesKept_ = true;
+    }
     for (; exchanged_ < solved_; ++exchanged_)
       pencil::exchange(archive, pointAt(order_[exchanged_]));
     if (archive.reads()) pointsDone(solved_ - before);
@@ -274,18 +279,16 @@ class SegmentSweep {
     stage.finish(text);
   }
 
-  /// Collective. Finds where the band of each active set ends.
-  void settleBands() {
-    Stage stage(pencil_.comm(), "modes");
-    double low = INFINITY, high = 0;
+  /// Collective. Finds the free modes of each active set, and with them where its band ends, unless
+  /// the checkpoint has them.
+  void findModes() {
     for (std::size_t k = 0; k < ranges_.size(); ++k) {
-      if (segments_[k].points.empty()) continue;
-      const double top = reduced_->settleBand(ranges_[k].set, pencil_);
-      low = std::min(low, top), high = std::max(high, top);
+      auto& segment = segments_[k];
+      if (segment.points.empty()) continue;
+      if (!setModesFound_) restrictModes(k);
+      segment.shapes = reportedShapes(segment.modes, problem_.trial());
     }
-    if (high > 0 && std::isfinite(high))
-      stage.finish(formatted("bands of %zu active sets end at %.4g to %.4g Hz", ranges_.size(),
-                             low / (2 * M_PI), high / (2 * M_PI)));
+    setModesFound_ = true;
   }
 
   void solvePoints() {
@@ -325,7 +328,6 @@ class SegmentSweep {
     } else {
       segment.modes = reduced_->freeModes(ranges_[k].set, pencil_);
     }
-    segment.shapes = reportedShapes(segment.modes, problem_.trial());
     const auto& residuals = segment.modes.relativeResidual;
     stage.finish(formatted("%zu free modes with %" PetscInt_FMT " open nodes, residuals up to %.1e",
                            residuals.size(), segment.openNodes,
@@ -482,9 +484,11 @@ class SegmentSweep {
   bool affine_ = true;                       // no point has terms of its own
   std::vector<std::string> failures_;        // of points and stages
   checkpoint::Checkpoint& checkpoint_;
-  std::string name_;                               // of its logs
-  double begin_;                                   // s
-  bool modesKept_ = false;                         // the checkpoint has the modes
+  std::string name_;        // of its logs
+  double begin_;            // s
+  bool modesKept_ = false;  // the checkpoint has the modes
+  // Those of the active sets, where these share the basis:
+  bool setModesFound_ = false, setModesKept_ = false;
   std::size_t solved_ = 0;                         // points that have been solved and examined
   std::size_t exchanged_ = 0;                      // those of them that the checkpoint has
   std::vector<std::vector<std::size_t>> batches_;  // of points, as they are solved

@@ -196,17 +196,17 @@ class Driver {
     std::string end = watch(child, results);
     Batch batch;
     std::istringstream lines(contentOf(results));
-    std::optional<std::uint64_t> begun;
+    std::uint64_t next = begin;
     for (std::string text; std::getline(lines, text);) {
       const json line = json::parse(text, nullptr, false);
       if (line.is_discarded()) continue;
-      if (line.contains("begin")) begun = line["begin"].get<std::uint64_t>();
+      if (line.contains("begin")) next = line["begin"].get<std::uint64_t>();
       if (!line.contains("seed")) continue;
       batch.lines[line["seed"].get<std::uint64_t>()] = line;
-      begun.reset();
+      next = line["seed"].get<std::uint64_t>() + 1;
     }
     if (end.empty()) return batch;
-    batch.stopped = begun.value_or(begin);
+    batch.stopped = std::min(next, begin + count - 1);
     const std::string said = contentOf(printed);
     batch.end = end + "\n" + said.substr(said.size() > 1500 ? said.size() - 1500 : 0);
     return batch;
