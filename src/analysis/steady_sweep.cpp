@@ -102,6 +102,29 @@ void continueFromNeighbour(Analysis& analysis, condensed::CondensedProblem& cond
     continueTo(condensed, without, solution);
 }
 
+/// Collective. Solves again for a point without a solution, from the states at the nearest points
+/// before and behind it that have one.
+void solveFromBeside(Analysis& analysis, condensed::CondensedProblem& condensed,
+                     std::size_t point) {
+  auto& all = analysis.steady;
+  const auto before = std::find_if(all.rbegin() + (all.size() - point), all.rend(),
+                                   [](const auto& one) { return one.converged; });
+  const auto behind =
+      std::find_if(all.begin() + point, all.end(), [](const auto& one) { return one.converged; });
+  std::vector<const steady::Solution*> starts;
+  if (before != all.rend()) starts.push_back(&*before);
+  if (behind != all.end()) starts.push_back(&*behind);
+  for (const auto* start : starts) {
+    condensed.continueFrom(*start);
+    auto again = condensed.solve(all[point].at);
+    if (!again.converged) continue;
+    again.reason +=
+        ", from the state at " + sweep::parameterText(start->at) + ", after " + all[point].reason;
+    all[point] = std::move(again);
+    return;
+  }
+}
+
 /// The way to a steady point from its neighbour, by their numbers.
 struct Way {
   std::size_t from, to;
@@ -296,9 +319,11 @@ void condensedSweep(Analysis& analysis, const steady::Problem& problem,
       solutions.push_back(std::move(solution));
     for (std::size_t k = begin; k < end; ++k) {
       if (!solutions[k].converged && isExact) continueFromNeighbour(analysis, *condensed, k);
+      if (!solutions[k].converged && !isExact) solveFromBeside(analysis, *condensed, k);
       if (!solutions[k].converged && !isExact) {
+        const std::string before = solutions[k].reason;
         solutions[k] = problem.solve(points[k], closed);
-        solutions[k].reason += ", in all unknowns";
+        solutions[k].reason += ", in all unknowns, after " + before;
       }
       stage.say(resultText(analysis, solutions[k]));
       tell(analysis, solutions[k]);
