@@ -66,6 +66,38 @@ TEST(Ties, MatchingMeshesAreOneBody) {
   EXPECT_LT(worst(errors(shared, tied).relative), 1e-9);  // the tolerance of the modes, squared
 }
 
+// Slaves that are held in one component stay tied in the other, and what is held is carried to the
+// master: at the ends of the tie, and all along it. If either were lost, the frequencies would
+// converge with the first order, or not to those of one body.
+TEST(Ties, HeldComponentsOfSlavesAreCarried) {
+  const auto held = [](const std::string& mesh, const std::vector<std::string>& groups) {
+    std::string options = "-mesh_file meshes/two_layers.geo -mesh_set " + mesh +
+                          material("disc", "1", "0.3", "1") + material("pad", "1", "0.3", "1") +
+                          "-constraint_disc_bottom_clamped xy -modes_count 8 "
+                          "-elasticity_mass consistent ";
+    for (const auto& group : groups) options += "-constraint_" + group + "_clamped x ";
+    return options;
+  };
+  const std::string role =
+      "-contact_layers_pad pad_face -contact_layers_disc disc_face -contact_layers_role tied ";
+  const std::vector<std::string> sides{"disc_left", "disc_right", "pad_left", "pad_right"};
+  std::vector<std::string> all = sides;
+  all.push_back("pad_face");
+  for (const auto& groups : {sides, all}) {
+    const auto one = frequencies(held("order=2,shared=1,nx=48,ny_disc=16,ny_pad=10", groups));
+    for (const auto& ties : {tie, tieOfDisc, role}) {
+      const auto error = [&](const std::string& mesh) {
+        return rootMeanSquare(errors(one, frequencies(held(mesh, groups) + ties)).relative);
+      };
+      const double coarse = error("nx=16,nx_pad=24,ny_disc=6,ny_pad=5"),
+                   fine = error("nx=32,nx_pad=48,ny_disc=12,ny_pad=10");
+      print("held %s, %s: errors %.1e and %.1e, order %.2f\n", groups.back().c_str(), ties.c_str(),
+            coarse, fine, std::log2(coarse / fine));
+      EXPECT_GT(std::log2(coarse / fine), 1.9);
+    }
+  }
+}
+
 // A rigid motion of both bodies satisfies the tie, so that it stores no energy. The bodies rest on
 // springs: a body that nothing holds is an error.
 TEST(Ties, RigidMotionsAreFree) {
