@@ -9,6 +9,7 @@
 #include "support/case.hpp"
 #include "support/model.hpp"
 #include "support/spectrum.hpp"
+#include "support/warnings.hpp"
 
 namespace squeal::test {
 namespace {
@@ -96,6 +97,26 @@ TEST(Ties, HeldComponentsOfSlavesAreCarried) {
       EXPECT_GT(std::log2(coarse / fine), 1.9);
     }
   }
+}
+
+// The lowest node of the pad's side, 1/10 of its area, follows from the master of a tie whose
+// meshes do not match. As the master it has its gap.
+TEST(Ties, GapsThatATieTakesAreToldWithTheirArea) {
+  const std::string wall =
+      "-contact_wall_pad pad_left -contact_wall_obstacle_velocity 0,1,0 "
+      "-contact_wall_obstacle_displacement 1e-3,0,0 ";
+  const auto warning = [&](const std::string& ties) {
+    setOptions("-mesh_file meshes/two_layers.geo -mesh_set nx=16,nx_pad=24,ny_disc=6,ny_pad=5" +
+               material("disc", "1", "0.3", "1") + material("pad", "1", "0.3", "1") +
+               "-constraint_disc_bottom_clamped xy " + wall + ties);
+    return warningsOf([] { buildModel(); });
+  };
+  const std::string found = warning(tie);
+  for (const char* part :
+       {"warning: interface 'wall': 1 nodes of 'pad_left', ", "follow from tie 'layers'",
+        "have no gap here", "exchange its slave and master"})
+    EXPECT_NE(found.find(part), std::string::npos) << found;
+  EXPECT_EQ(warning(tieOfDisc), "");
 }
 
 // A rigid motion of both bodies satisfies the tie, so that it stores no energy. The bodies rest on
