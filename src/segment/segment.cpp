@@ -447,7 +447,8 @@ class SegmentSweep {
           alone.push_back({problems[i].at, problems[i].pencil.with({}), problems[i].set});
           pointAt(batch[i]) = std::move(solved(alone).front());
         } catch (const Error& own) {
-          failures_.push_back(sweep::parameterText(problems[i].at) + ": " + own.what());
+          const std::string at = sweep::parameterText(problems[i].at), what = own.what();
+          failures_.push_back(what.find(at) == std::string::npos ? at + ": " + what : what);
         }
     }
     for (const std::size_t i : batch)

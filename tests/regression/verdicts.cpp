@@ -3,6 +3,7 @@
 // crashes, and no verdict stands without a result behind it.
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "support/case.hpp"
 #include "support/program.hpp"
@@ -234,6 +235,27 @@ TEST(Verdicts, PointWhereABodyIsLooseFailsForItself) {
     ASSERT_EQ(found.size(), wanted.size());
     for (std::size_t i = 0; i < found.size(); ++i)
       EXPECT_LE(std::abs(found[i] - wanted[i]), 2e-8 * std::abs(wanted[i]));  // -flutter_tolerance
+  }
+}
+
+// Too small a subspace for the direct method at some of the points: these are named, and the others
+// have their eigenvalues.
+TEST(Verdicts, PointThatDoesNotConvergeFailsForItself) {
+  const auto run =
+      runProgram("verdicts_unconverged", 1,
+                 "-options_file options/two_layers.yaml -mesh_set nx=30,ny_disc=10,ny_pad=8 "
+                 "-flutter_friction 0,0.2,0.5,0.9,1.5 -flutter_method direct "
+                 "-flutter_direct_count 12 -flutter_eps_max_it 1 -flutter_eps_ncv 44");
+  EXPECT_EQ(run.exitCode, 2) << run.error;
+  std::set<double> solved;
+  for (const double friction : readCsv(run.folder / "eigenvalues.csv").column("friction"))
+    solved.insert(friction);
+  EXPECT_FALSE(solved.empty());
+  for (const double friction : {0.0, 0.2, 0.5, 0.9, 1.5}) {
+    const std::string named = formatted("direct method at friction %g: only", friction);
+    EXPECT_EQ(run.error.find(named) == std::string::npos, solved.count(friction) > 0)
+        << named << "\n"
+        << run.error;
   }
 }
 

@@ -84,7 +84,9 @@ void expectAsWritten(Checkpoint& checkpoint, double first) {
   EXPECT_EQ(matrix(1, 2), first + rank);
   EXPECT_EQ(large.rows(), 100 * rank);
   EXPECT_EQ(large.columns(), 5);
-  if (rank > 0) EXPECT_EQ(large(99, 4), rank);
+  if (rank > 0) {
+    EXPECT_EQ(large(99, 4), rank);
+  }
   OwnedVec vector, null;
   archive->vector(vector);
   archive->vector(null);
