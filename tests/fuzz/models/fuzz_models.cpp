@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
-constexpr double longestSeconds = 20;     // for a model with all its ways
+constexpr double longestSeconds = 60;     // for a model with all its ways
 constexpr std::uint64_t batchSize = 100;  // models of a process
 constexpr std::uint64_t rankStride = 4;   // of the models that are solved on two ranks too
 constexpr int mostFailures = 20;
