@@ -319,11 +319,13 @@ void condensedSweep(Analysis& analysis, const steady::Problem& problem,
       solutions.push_back(std::move(solution));
     for (std::size_t k = begin; k < end; ++k) {
       if (!solutions[k].converged && isExact) continueFromNeighbour(analysis, *condensed, k);
-      if (!solutions[k].converged && !isExact) solveFromBeside(analysis, *condensed, k);
       if (!solutions[k].converged && !isExact) {
-        const std::string before = solutions[k].reason;
-        solutions[k] = problem.solve(points[k], closed);
-        solutions[k].reason += ", in all unknowns, after " + before;
+        solveFromBeside(analysis, *condensed, k);
+        if (!solutions[k].converged) {
+          const std::string condensedReason = solutions[k].reason;
+          solutions[k] = problem.solve(points[k], closed);
+          solutions[k].reason += ", in all unknowns, after " + condensedReason;
+        }
       }
       stage.say(resultText(analysis, solutions[k]));
       tell(analysis, solutions[k]);

@@ -53,19 +53,21 @@ void requireMaterials(const WholeMesh& mesh, const GmshModel& model,
   if (model.largestDimension() != mesh.dimension) return;
   std::map<PetscInt, std::vector<std::string>> without;  // cell -> its groups
   for (PetscInt tag : model.ungrouped()) without[tag];
-  std::set<std::vector<PetscInt>> known;  // sorted nodes of the cells of bodies
-  for (const auto& [name, group] : model.groups())
+  std::set<std::vector<PetscInt>> known;  // made when a cell is first looked for
+  const auto isOfABody = [&](std::span<const PetscInt> cell) {
+    if (known.empty())
+      for (const auto& block : mesh.cells)
+        for (std::size_t e = 0; e < block.tag.size(); ++e) known.insert(sorted(block.nodesOf(e)));
+    std::vector<PetscInt> nodes(cell.begin(), cell.end());
+    return index.translate(nodes) && known.count(sorted(nodes)) > 0;
+  };
+  for (const auto& [name, group] : model.groups()) {
+    if (group.dimension != mesh.dimension) continue;
     for (const auto& block : group.blocks)
-      for (std::size_t e = 0; e < block.tag.size() && group.dimension == mesh.dimension; ++e) {
-        if (bodyOf.count(block.tag[e])) continue;
-        if (known.empty())
-          for (const auto& cells : mesh.cells)
-            for (std::size_t c = 0; c < cells.tag.size(); ++c)
-              known.insert(sorted(cells.nodesOf(c)));
-        auto nodes = sorted(block.nodesOf(e));
-        if (!index.translate(nodes) || !known.count(sorted(nodes)))
+      for (std::size_t e = 0; e < block.tag.size(); ++e)
+        if (!bodyOf.count(block.tag[e]) && !isOfABody(block.nodesOf(e)))
           without[block.tag[e]].push_back(name);
-      }
+  }
   if (without.empty()) return;
   const auto& [tag, groups] = *without.begin();
   if (groups.empty())

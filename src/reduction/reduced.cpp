@@ -461,21 +461,21 @@ void ReducedProblem::addStaticResponses(const PointProblem& point) {
 void ReducedProblem::leaveBand(PointState& state) const {
   const double top = state.set->top;
   if (top == band_.top) return;
-  auto& [band, guard, improved] = state.spectrum;
+  auto& band = state.spectrum.band;
+  const std::array ofPairs{&state.backwardError, &state.rightError, &state.leftError,
+                           &state.rounding};
   std::size_t kept = 0;
   for (std::size_t j = 0; j < band.size(); ++j) {
     if (std::abs(band[j].s) > top) {
-      guard.push_back(std::move(band[j]));
+      state.spectrum.guard.push_back(std::move(band[j]));
       continue;
     }
-    for (auto* list : {&state.backwardError, &state.rightError, &state.leftError, &state.rounding})
-      (*list)[kept] = (*list)[j];
+    for (auto* list : ofPairs) (*list)[kept] = (*list)[j];
     if (kept != j) band[kept] = std::move(band[j]);
     ++kept;
   }
   band.resize(kept);
-  for (auto* list : {&state.backwardError, &state.rightError, &state.leftError, &state.rounding})
-    list->resize(kept);
+  for (auto* list : ofPairs) list->resize(kept);
 }
 
 /// Collective. Turns the basis to the principal directions of all vectors found so far. The

@@ -432,6 +432,20 @@ class SegmentSweep {
     return points;
   }
 
+  void noteFailure(const sweep::Parameters& point, const std::string& what) {
+    const std::string at = sweep::parameterText(point);
+    failures_.push_back(what.find(at) == std::string::npos ? at + ": " + what : what);
+  }
+
+  /// Collective. Solves a point, or notes why it has no result.
+  void solveAlone(std::size_t i, const reduction::PointProblem& problem) try {
+    std::vector<reduction::PointProblem> alone;
+    alone.push_back({problem.at, problem.pencil.with({}), problem.set});
+    pointAt(i) = std::move(solved(alone).front());
+  } catch (const Error& error) {
+    noteFailure(problem.at, error.what());
+  }
+
   /// Collective. Solves points together, or, if that fails, one by one, so that one of them does
   /// not take the others with it.
   void solveBatch(const std::vector<std::size_t>& batch,
@@ -441,15 +455,12 @@ class SegmentSweep {
       auto points = solved(problems);
       for (std::size_t i = 0; i < batch.size(); ++i) pointAt(batch[i]) = std::move(points[i]);
     } catch (const Error& error) {
-      if (batch.size() == 1 && points_.size() == 1) throw;
-      for (std::size_t i = 0; i < batch.size(); ++i) try {
-          std::vector<reduction::PointProblem> alone;
-          alone.push_back({problems[i].at, problems[i].pencil.with({}), problems[i].set});
-          pointAt(batch[i]) = std::move(solved(alone).front());
-        } catch (const Error& own) {
-          const std::string at = sweep::parameterText(problems[i].at), what = own.what();
-          failures_.push_back(what.find(at) == std::string::npos ? at + ": " + what : what);
-        }
+      if (points_.size() == 1) throw;
+      if (batch.size() == 1) {
+        noteFailure(problems.front().at, error.what());
+      } else {
+        for (std::size_t i = 0; i < batch.size(); ++i) solveAlone(batch[i], problems[i]);
+      }
     }
     for (const std::size_t i : batch)
       if (isSolved(pointAt(i))) stage.say(pointText(pointAt(i)));

@@ -6,9 +6,7 @@
 #include <atomic>
 #include <future>
 
-#include "analysis/analysis.hpp"
-#include "options/settings.hpp"
-#include "petsc/check.hpp"
+#include "support/case.hpp"
 #include "support/program.hpp"
 
 namespace squeal::test {
@@ -105,19 +103,9 @@ inline void writeOnce(const fs::path& path, const std::string& text) {
 }
 
 /// Collective. Runs in this process, and returns the message of the error; empty if there is none.
-inline std::string refusalOf(Options options) {
-  std::vector<std::string> words;
-  const auto add = [&](const std::string& name, const std::string& value) {
-    words.push_back("-" + name);
-    if (!value.empty()) words.push_back(value);
-  };
-  if (const auto file = options.extract("options_file")) add("options_file", file.mapped());
-  for (const auto& [name, value] : options) add(name, value);
+inline std::string refusalOf(const Options& options) {
   try {
-    check(PetscOptionsClear(nullptr));
-    insert(settingsOfCall(words));
-    analysis::checkOptions();
-    analysis::analyse(PETSC_COMM_WORLD);
+    runOptions(commandLine(options));
   } catch (const Error& error) {
     return error.what();
   }

@@ -134,7 +134,7 @@ std::string steadyDifference(const FoundSteady& a, const FoundSteady& b, const E
   double largest = 0;
   for (double force : a.forces) largest = std::max(largest, std::abs(force));
   // The residual is accepted in units of the largest forces of the problem, such as those of an
-  // interference before the parts give way; the imbalance tells what it is of the forces in force.
+  // interference before the parts give way. The imbalance relates it to the forces of this state.
   const double allowed = (1e-7 + 10 * (a.imbalance + b.imbalance)) * largest;
   for (std::size_t i = 0; i < a.interfaces.size(); ++i)
     for (std::size_t j = 0; j < b.interfaces.size(); ++j) {

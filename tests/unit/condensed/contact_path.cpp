@@ -77,7 +77,7 @@ TEST(ContactPath, NodesLiftOneByOne) {
     // The program solves to 1e-13 of the forces, and they change by their own size over the sweep.
     EXPECT_NEAR(event.at.friction, zeroNear(analysis, event.at.friction, open, event.node), 1e-9);
     EXPECT_GT(event.at.friction, before);
-    EXPECT_EQ(event.at.speed, end.speed);  // to the last bit: points are told apart by it
+    EXPECT_EQ(event.at.speed, end.speed);  // to the last bit: it identifies the point
     EXPECT_EQ(event.opens, !open[event.node]);
     std::printf("friction %.12f: node %zu %s\n", event.at.friction, event.node,
                 event.opens ? "opens" : "closes");
