@@ -324,7 +324,9 @@ void condensedSweep(Analysis& analysis, const steady::Problem& problem,
         if (!solutions[k].converged) {
           const std::string condensedReason = solutions[k].reason;
           solutions[k] = problem.solve(points[k], closed);
-          solutions[k].reason += ", in all unknowns, after " + condensedReason;
+          solutions[k].reason += ", in all unknowns";
+          if (!solutions[k].converged)
+            solutions[k].reason += "; in those of the contact: " + condensedReason;
         }
       }
       stage.say(resultText(analysis, solutions[k]));
