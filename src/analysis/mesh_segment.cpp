@@ -172,7 +172,11 @@ std::vector<segment::PathPiece> MeshSegment::piecesBehind(std::size_t point) {
     behind.push_back(set);
   }
   const ActiveSet last = activeSet(steadyAt(point + 1));
-  set.released = last.released;  // what holds sticking nodes is settled at the points
+  // What holds nodes that stick is settled at the points. Of the nodes that open or close it is
+  // known with that; where others begin to slide or are held again is not.
+  const std::vector<unsigned char>& closedBefore = steadyAt(point).closed;
+  for (std::size_t i = 0; i < set.released.size(); ++i)
+    if (!closedBefore[i] || !last.closed[i]) set.released[i] = last.released[i];
   const std::size_t range = steps_[point].back().range;
   const bool changes = !sameOnAllRanks(analysis_.comm, activeSet(steadyAt(point)), last);
   if (!sameOnAllRanks(analysis_.comm, set, last) || (changes && frictions.empty()))

@@ -98,7 +98,8 @@ void continueFromNeighbour(Analysis& analysis, condensed::CondensedProblem& cond
   if (known) return continueTo(condensed, analysis.steady[*known], solution);
   const auto& at = solution.at;
   if (at.friction == 0) return;
-  if (const auto without = condensed.solve({0, at.speed, at.pressure}); without.converged)
+  if (const auto without = condensed.solveWithPivots({0, at.speed, at.pressure});
+      without.converged)
     continueTo(condensed, without, solution);
 }
 
@@ -123,6 +124,14 @@ void solveFromBeside(Analysis& analysis, condensed::CondensedProblem& condensed,
     all[point] = std::move(again);
     return;
   }
+}
+
+/// Collective. Solves again for a point without a solution, with complementary pivots.
+void solveWithPivots(condensed::CondensedProblem& condensed, steady::Solution& solution) {
+  auto again = condensed.solveWithPivots(solution.at);
+  if (!again.converged) return;
+  again.reason += " with complementary pivots (without: " + solution.reason + ")";
+  solution = std::move(again);
 }
 
 /// The way to a steady point from its neighbour, by their numbers.
@@ -319,15 +328,14 @@ void condensedSweep(Analysis& analysis, const steady::Problem& problem,
       solutions.push_back(std::move(solution));
     for (std::size_t k = begin; k < end; ++k) {
       if (!solutions[k].converged && isExact) continueFromNeighbour(analysis, *condensed, k);
+      if (!solutions[k].converged && !isExact) solveFromBeside(analysis, *condensed, k);
+      if (!solutions[k].converged) solveWithPivots(*condensed, solutions[k]);
       if (!solutions[k].converged && !isExact) {
-        solveFromBeside(analysis, *condensed, k);
-        if (!solutions[k].converged) {
-          const std::string condensedReason = solutions[k].reason;
-          solutions[k] = problem.solve(points[k], closed);
-          solutions[k].reason += ", in all unknowns";
-          if (!solutions[k].converged)
-            solutions[k].reason += "; in those of the contact: " + condensedReason;
-        }
+        const std::string condensedReason = solutions[k].reason;
+        solutions[k] = problem.solve(points[k], closed);
+        solutions[k].reason += ", in all unknowns";
+        if (!solutions[k].converged)
+          solutions[k].reason += "; in those of the contact: " + condensedReason;
       }
       stage.say(resultText(analysis, solutions[k]));
       tell(analysis, solutions[k]);

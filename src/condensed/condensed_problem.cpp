@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "condensed/gaps.hpp"
+#include "condensed/pivots.hpp"
 #include "linalg/block.hpp"
 #include "steady/complementarity.hpp"
 
@@ -50,6 +51,7 @@ struct CondensedProblem::Start {
   sweep::Parameters at;
   Sticking sticking;
   std::vector<double> gaps;  // [contact node], m; those of the solution in the end
+  bool withPivots = false;   // where SNES finds no gaps
 };
 
 /// A point on the way to its solution.
@@ -193,9 +195,13 @@ ContactVector CondensedProblem::complementarity(Trial& trial, const ContactVecto
   if (impedance_->size() == 0) return ContactVector(impedance_->length(), 0.0);
   ContactCase asked = trial.asked;
   asked.given = given;
-  solveGaps(contact_, *solver_, asked, {trial.gapUnit, trial.accuracy.forceUnit},
-            trial.accuracy.asked, trial.start.gaps, trial.solution);
-  return solver_->withGaps(trial.start.gaps, asked).causes;
+  auto& gaps = trial.start.gaps;
+  const auto solve = [&] {
+    return solveGaps(contact_, *solver_, asked, {trial.gapUnit, trial.accuracy.forceUnit},
+                     trial.accuracy.asked, gaps, trial.solution);
+  };
+  if (!solve() && trial.start.withPivots && pivotGaps(*solver_, comm(), asked, gaps)) solve();
+  return solver_->withGaps(gaps, asked).causes;
 }
 
 /// Moves the gaps from which the trials start to those of the active sets to which the primal-dual
@@ -349,12 +355,12 @@ bool CondensedProblem::correct(std::vector<Trial>& trials) {
   return true;
 }
 
-std::vector<Solution> CondensedProblem::solveTogether(
-    const std::vector<sweep::Parameters>& points) {
+std::vector<Solution> CondensedProblem::solveTogether(const std::vector<sweep::Parameters>& points,
+                                                      bool withPivots) {
   std::vector<Start> starts;
   for (const auto& at : points) {
     problem_.requireSlip(at);
-    starts.push_back({at, sticking_, gaps_});
+    starts.push_back({at, sticking_, gaps_, withPivots});
   }
   auto solutions = solveFrom(starts);
   // Points whose holds are to be revised are solved for anew, together.
@@ -364,7 +370,7 @@ std::vector<Solution> CondensedProblem::solveTogether(
     std::vector<Start> again;
     std::erase_if(unsettled, [&](std::size_t k) {
       auto next = problem_.nextHolds(solutions[k]);
-      if (next) again.push_back({points[k], std::move(*next), starts[k].gaps});
+      if (next) again.push_back({points[k], std::move(*next), starts[k].gaps, withPivots});
       return !next;
     });
     if (unsettled.empty()) break;

@@ -43,9 +43,15 @@ class CondensedProblem {
   ~CondensedProblem();
   /// Collective. Solves at all points as Problem::solve() does, from the gaps and holds of the last
   /// solution of the last call. Some vectors of all unknowns are held for each point meanwhile.
-  std::vector<Solution> solveTogether(const std::vector<sweep::Parameters>& points);
+  std::vector<Solution> solveTogether(const std::vector<sweep::Parameters>& points) {
+    return solveTogether(points, false);
+  }
   /// Collective. The same at one point.
   Solution solve(const sweep::Parameters& at) { return std::move(solveTogether({at}).front()); }
+  /// Collective. The same at one point, with complementary pivots where SNES finds no gaps.
+  Solution solveWithPivots(const sweep::Parameters& at) {
+    return std::move(solveTogether({at}, true).front());
+  }
   /// Collective. Returns causes and effects where these nodes are closed and the others open,
   /// whatever signs that gives, without convective terms. Sets that are asked for together are
   /// solved for in blocks.
@@ -84,6 +90,8 @@ class CondensedProblem {
   impedance::ContactConditions conditions(const sweep::Parameters& at,
                                           const Sticking& sticking) const;
   OwnedMat directFriction(const Sticking& sticking);
+  std::vector<Solution> solveTogether(const std::vector<sweep::Parameters>& points,
+                                      bool withPivots);
   std::vector<Solution> solveFrom(std::vector<Start>& starts);
   Trial trialOf(Start& start);
   OwnedVec unknowns(const Trial& trial, Vec x) const;

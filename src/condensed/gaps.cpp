@@ -123,7 +123,7 @@ PetscErrorCode solvePart(PC pc, Vec right, Vec gaps) {
 
 }  // namespace
 
-void solveGaps(const contact::Contact& contact, impedance::ContactSolver& solver,
+bool solveGaps(const contact::Contact& contact, impedance::ContactSolver& solver,
                const ContactCase& asked, const GapUnits& units, double accuracy,
                std::vector<double>& gaps, steady::Solution& solution) {
   const MPI_Comm comm = contact.mesh->comm;
@@ -156,11 +156,13 @@ void solveGaps(const contact::Contact& contact, impedance::ContactSolver& solver
   check(PCSetType(pc, PCSHELL));
   check(PCShellSetContext(pc, &problem));
   check(PCShellSetApply(pc, solvePart));
-  if (!steady::solveSnes(snes, x, solution))
+  const bool isFound = steady::solveSnes(snes, x, solution);
+  if (!isFound)
     if (const std::string who = alternating(problem, contact); !who.empty())
       solution.reason += ": " + who;
   const ReadArray values(x);
   for (PetscInt i = 0; i < n; ++i) gaps[i] = units.gap * values[i];
+  return isFound;
 }
 
 }  // namespace squeal::condensed

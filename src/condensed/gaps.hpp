@@ -18,9 +18,9 @@ struct GapUnits {
 /// from the start `gaps`, [contact node of this rank], m, which become the solution. F holds the
 /// forces of the case `asked` at the gaps, with its friction in balance, and SNES is asked for
 /// `accuracy`, a part of the unit of forces. Sets reason and tolerance of `solution`, adds to its
-/// iterations, and says which nodes alternate where SNES finds no solution. There has to be a
-/// contact node on some rank.
-void solveGaps(const contact::Contact& contact, impedance::ContactSolver& solver,
+/// iterations, and says which nodes alternate where SNES finds no solution, which makes it return
+/// false. There has to be a contact node on some rank.
+bool solveGaps(const contact::Contact& contact, impedance::ContactSolver& solver,
                const impedance::ContactCase& asked, const GapUnits& units, double accuracy,
                std::vector<double>& gaps, steady::Solution& solution);
 
