@@ -82,6 +82,7 @@ sweep::Parameters parameters(const json& list) {
 
 Outcome outcomeOf(const analysis::Analysis& analysis) {
   Outcome outcome;
+  outcome.failures = analysis.failures;
   outcome.points = pointsOf(analysis);
   outcome.steady = steadyOf(analysis);
   outcome.stiffest = std::sqrt(largestDiagonal(analysis.bodies.stiffness, false) /
@@ -121,9 +122,13 @@ json toJson(const Outcome& outcome) {
   for (const auto& c : outcome.criticals)
     criticals.push_back({of(c.at), numbers({c.error, c.angularFrequency, c.slope, double(c.kind),
                                             double(c.loss), double(c.converged)})});
-  return {{"refusal", outcome.refusal}, {"stiffest", numberText(outcome.stiffest)},
-          {"points", points},           {"steady", steady},
-          {"criticals", criticals},     {"followed", outcome.followed}};
+  return {{"refusal", outcome.refusal},
+          {"stiffest", numberText(outcome.stiffest)},
+          {"points", points},
+          {"steady", steady},
+          {"criticals", criticals},
+          {"followed", outcome.followed},
+          {"failures", outcome.failures}};
 }
 
 Outcome fromJson(const json& all) {
@@ -131,6 +136,7 @@ Outcome fromJson(const json& all) {
   outcome.refusal = all["refusal"];
   outcome.stiffest = number(all["stiffest"]);
   outcome.followed = all["followed"];
+  outcome.failures = all["failures"].get<std::vector<std::string>>();
   for (const auto& point : all["points"]) {
     FoundPoint found{parameters(point[0]), number(point[1]), {}};
     for (const auto& e : point[2])

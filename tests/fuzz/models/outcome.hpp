@@ -41,8 +41,9 @@ struct FoundCritical {
 };
 
 struct Outcome {
-  std::string refusal;  ///< the message of the Error; empty: there are results
-  double stiffest = 0;  ///< bound of the angular frequencies of the mesh, rad/s
+  std::string refusal;                ///< the message of the Error; empty: there are results
+  std::vector<std::string> failures;  ///< of points and stages beside results
+  double stiffest = 0;                ///< bound of the angular frequencies of the mesh, rad/s
   std::vector<FoundPoint> points;
   std::vector<FoundSteady> steady;
   std::vector<FoundCritical> criticals;
