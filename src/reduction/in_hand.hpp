@@ -21,6 +21,7 @@ struct PointFound {
   // of K0⁻¹. The second counts as 1 at most.
   std::vector<double> rightError;  ///< [pair] of the right vector, times the condition number of s
   std::vector<double> leftError;   ///< [pair] of the left vector; infinite above the modes
+  std::vector<double> roundOff;    ///< [pair] what it adds at most to yᴴP(s)x of unit vectors
   std::vector<double> rounding;    ///< [pair] error of the dense solve
   pencil::Symmetry symmetry = pencil::Symmetry::none;
 };
@@ -36,9 +37,11 @@ struct BatchInHand {
 /// Not collective. Writes what is known of a point, the same on all ranks, or sets it.
 inline void fields(checkpoint::Stream& stream, PointFound& found) {
   // All members are named, so that a new one does not compile until it is kept too.
-  auto& [norms, spectrum, backwardError, rightError, leftError, rounding, symmetry] = found;
+  auto& [norms, spectrum, backwardError, rightError, leftError, roundOff, rounding, symmetry] =
+      found;
   auto& [band, guard, improved] = spectrum;
-  stream(norms, band, guard, improved, backwardError, rightError, leftError, rounding, symmetry);
+  stream(norms, band, guard, improved, backwardError, rightError, leftError, roundOff, rounding,
+         symmetry);
 }
 
 }  // namespace squeal::reduction

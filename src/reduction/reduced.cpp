@@ -246,6 +246,7 @@ void ReducedProblem::estimateErrors(PointState& state, const linalg::DenseProble
   state.backwardError.clear();
   state.rightError.clear();
   state.leftError.clear();
+  state.roundOff.clear();
   state.rounding.clear();
   for (std::size_t j = 0; j < pairs.size(); ++j) {
     const double size = std::abs(pairs[j].s),
@@ -255,9 +256,10 @@ void ReducedProblem::estimateErrors(PointState& state, const linalg::DenseProble
                                             : 0);
     // Backward errors ε of the dense matrices, in norm: VᵀK̄V is of the order of 1, VᵀM̄V of the
     // lowest 1/ω²; and of the entries of K, which cancel where a stiff body moves all but rigidly.
-    state.rounding.push_back(
-        PETSC_MACHINE_EPSILON * conditions[j] *
+    state.roundOff.push_back(
+        PETSC_MACHINE_EPSILON *
         (1 + std::pow(size / lowestMode_, 2) + std::sqrt(rightRigidity[j] * leftRigidity[j])));
+    state.rounding.push_back(conditions[j] * state.roundOff.back());
     state.rightError.push_back(conditions[j] * std::sqrt(right.weighted[j]));
     state.leftError.push_back(size < highestMode_ ? std::sqrt(left.weighted[j]) /
                                                         (1 - std::pow(size / highestMode_, 2))
@@ -814,6 +816,7 @@ Improvement ReducedProblem::improve(
     estimateErrors(state, project(state));
     result.backwardError.push_back(
         *std::max_element(state.backwardError.begin(), state.backwardError.end()));
+    result.roundOff.push_back(*std::max_element(state.roundOff.begin(), state.roundOff.end()));
     if (result.backwardError.back() < rounding) continue;
     // Both parts of a residual in units of the whole: one of them may be rounding.
     requests.push_back({&state, pairsOf(state, pointers(state.spectrum.band), true),

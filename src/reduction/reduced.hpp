@@ -43,6 +43,9 @@ struct Improvement {
   /// The largest backward error of the pairs in the full problem, [located]; NaN where there is no
   /// problem at this friction. There are no entries if there is no larger problem.
   std::vector<double> backwardError;
+  /// What round-off adds at most to yᴴP(s)x with unit vectors x and y of the reduced problem,
+  /// likewise.
+  std::vector<double> roundOff;
 };
 
 /// Options of the reduced problem.

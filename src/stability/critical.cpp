@@ -95,10 +95,11 @@ class Root {
     pairs[0].s = s;
     return {friction_, pairs};
   }
-  /// Notes the backward error; NaN says that there is no problem at the located friction.
-  void setBackwardError(double error) {
-    lost_ = std::isnan(error);
-    if (!lost_) backwardError_ = error;
+  /// Notes the backward error, NaN if there is no problem at the located friction, and what
+  /// round-off adds to yᴴP(s)x of unit vectors.
+  void setErrors(double backwardError, double roundOff) {
+    lost_ = std::isnan(backwardError);
+    if (!lost_) backwardError_ = backwardError, roundOff_ = roundOff;
   }
 
   Critical result() const {
@@ -117,7 +118,7 @@ class Root {
     } else {
       result.converged = moved_ <= tolerance_ * friction_ &&
                          rootTolerance() <= std::max(tolerance_ * friction_, 1e-12);
-      result.errorEstimate = moved_ + rootTolerance();
+      result.errorEstimate = moved_ + rootTolerance() + roundOffError();
       result.angularFrequency = mean(nearest(friction_).pairs()).imag();
       result.slope = event_.kind == Event::Kind::coalescence ? -slope_ : slope_;
     }
@@ -218,6 +219,23 @@ class Root {
     return 1e-13 * std::max(std::abs(event_.high), std::abs(event_.low));
   }
 
+  /// Returns how far round-off moves the root: what it does to the function, over its slope.
+  /// Towards a coalescence the half distance d of two eigenvalues becomes zero, and the condition
+  /// of each grows by 1/d, so that d² changes by a finite 2 d δs.
+  double roundOffError() const {
+    if (!(std::abs(slope_) > 0)) return 0;
+    const Sample& sample = nearest(friction_);
+    double change = 0;  // of s
+    for (std::size_t i = 0; i < sample.pairs().size(); ++i)
+      change = std::max(change, roundOff_ / std::abs(sample.spectrum.derivative(i)));
+    double perChange = 1;
+    if (event_.kind == Event::Kind::coalescence) perChange = 2 * std::sqrt(std::abs(sample.value));
+    if (event_.kind == Event::Kind::divergence && !(throughZero_ && sample.spectrum.damped()))
+      perChange = 2 * std::abs(mean(sample.pairs()));
+    const double error = perChange * change / std::abs(slope_);
+    return std::isfinite(error) ? error : 0;
+  }
+
   double width() const { return event_.high - event_.low; }
   /// Returns the tolerance of a root in a basis that is still to be improved. It is small enough
   /// not to hide how far the root moves with the basis.
@@ -288,10 +306,32 @@ class Root {
   const Event& event_;
   double tolerance_;
   bool throughZero_;  // s is real at both ends; in a problem in s², only s² is analytic there
-  double friction_ = NAN, moved_ = 0, backwardError_ = 0, slope_ = 0;
+  double friction_ = NAN, moved_ = 0, backwardError_ = 0, roundOff_ = 0, slope_ = 0;
   bool settled_ = false, lost_ = false;
   std::vector<Sample> known_;  // the two ends of the bracket first
 };
+
+/// Takes out of a list, ordered by friction, what two coalescences of the same eigenvalues undo: a
+/// growth that lies within the errors of both ends is rounding where the two cross.
+void removeTouching(std::vector<Critical>& list) {
+  for (auto one = list.begin(); one != list.end();) {
+    const auto undoes = [&](const Critical& other) {
+      return other.kind == one->kind && other.loss != one->loss && other.piece == one->piece &&
+             std::minmax(other.branch, other.partner) == std::minmax(one->branch, one->partner);
+    };
+    const auto next = std::find_if(one + 1, list.end(), undoes);
+    const bool isRounding =
+        one->kind == Event::Kind::coalescence && next != list.end() && one->converged &&
+        next->converged &&
+        next->friction - one->friction <= one->errorEstimate + next->errorEstimate;
+    if (!isRounding) {
+      ++one;
+      continue;
+    }
+    list.erase(next);
+    one = list.erase(one);
+  }
+}
 
 /// The searches for all events, spread over the ranks.
 class Roots {
@@ -331,7 +371,7 @@ class Roots {
     }
     const reduction::Improvement improvement = family_.improve(located);
     for (std::size_t k = 0; k < improvement.backwardError.size(); ++k)
-      roots_[open[k]].setBackwardError(improvement.backwardError[k]);
+      roots_[open[k]].setErrors(improvement.backwardError[k], improvement.roundOff[k]);
     locate(open, improvement.changed);
     return improvement.changed;
   }
@@ -395,6 +435,7 @@ std::vector<Critical> criticalFrictions(const std::vector<Piece>& path, const Br
   }
   std::stable_sort(list.begin(), list.end(),
                    [](const auto& a, const auto& b) { return a.friction < b.friction; });
+  removeTouching(list);
   return list;
 }
 

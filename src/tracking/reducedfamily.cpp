@@ -129,9 +129,12 @@ reduction::Improvement ReducedFamily::improve(const std::vector<PairsAtFriction>
     }
   const reduction::Improvement found = reduced_.improve(list);
   reduction::Improvement result{found.changed || !source_.local,
+                                std::vector<double>(located.size(), NAN),
                                 std::vector<double>(located.size(), NAN)};
-  for (std::size_t i = 0; i < places.size(); ++i)
+  for (std::size_t i = 0; i < places.size(); ++i) {
     result.backwardError[places[i]] = found.backwardError[i];
+    result.roundOff[places[i]] = found.roundOff[i];
+  }
   if (source_.local) return result;
   const double apart =
       closest();  // older nodes must not stand beside these; these may stand beside each other

@@ -96,7 +96,8 @@ struct Interpolated : Linear {
   }
   reduction::Improvement improve(const std::vector<tracking::PairsAtFriction>& located) override {
     for (const auto& item : located) know({item.friction});
-    return {true, std::vector<double>(located.size(), 0.0)};
+    return {true, std::vector<double>(located.size(), 0.0),
+            std::vector<double>(located.size(), 0.0)};
   }
 };
 
