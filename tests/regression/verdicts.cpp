@@ -1,6 +1,7 @@
 // Features that meet: contact that closes within a step, a third eigenvalue beside two that merge,
 // eigenvalues that are exactly zero, a body that is held weakly or at some frictions only. Nothing
 // crashes, and no verdict stands without a result behind it.
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -236,6 +237,41 @@ TEST(Verdicts, PointWhereABodyIsLooseFailsForItself) {
     for (std::size_t i = 0; i < found.size(); ++i)
       EXPECT_LE(std::abs(found[i] - wanted[i]), 2e-8 * std::abs(wanted[i]));  // -flutter_tolerance
   }
+}
+
+// A pad that the contact and a spring along it alone hold: without friction SNES opens all its
+// nodes and stops. Complementary pivots find the state, in which three nodes are open.
+TEST(Verdicts, PadHeldByTheContactAloneSlidesWithoutFriction) {
+  for (const int ranks : {1, 2}) {
+    const auto run = runProgram("verdicts_floating_" + std::to_string(ranks), ranks,
+                                caseFile("floating_pad/case"));
+    EXPECT_EQ(run.exitCode, 0) << run.error;
+    for (const char* friction : {"0", "0.1538", "0.3075"}) {
+      const auto gaps =
+          readCsv(run.folder / (std::string("steady_") + friction + ".csv")).column("gap_m");
+      EXPECT_EQ(gaps.size(), 8U);
+      EXPECT_EQ(std::ranges::count_if(gaps, [](double gap) { return gap > 0; }), 3);
+    }
+  }
+}
+
+// At friction 0.2 none of the nodes of a sticking interface slides, at 0.205 and beyond one does.
+// Where that begins between two points is not solved for: no critical friction of the later set is
+// listed before it, and the change of stability lies between the points.
+TEST(Verdicts, NodesThatBeginToSlideBetweenPoints) {
+  const auto run = runProgram("verdicts_release", 1, caseFile("sliding_back/case"));
+  EXPECT_EQ(run.exitCode, 0) << run.error;
+  const auto table = readCsv(run.folder / "critical.csv");
+  ASSERT_EQ(table.rows.size(), 2U);
+  for (const double converged : table.column("converged")) EXPECT_EQ(converged, 0);
+  for (const double friction : table.column("friction")) EXPECT_DOUBLE_EQ(friction, 0.2068 / 2);
+  for (const double error : table.column("friction_error_estimate"))
+    EXPECT_NEAR(error, 0.2068 / 2, 5e-3);  // written with two digits
+  const auto before = runProgram(
+      "verdicts_release_before", 1,
+      caseFile("sliding_back/case") + "-flutter_friction 0.145,0.2 -flutter_method direct");
+  for (const auto& s : eigenvaluesOf(readCsv(before.folder / "eigenvalues.csv")))
+    EXPECT_LT(s.real(), s.imag() < 3e5 ? 1e-6 * std::abs(s) : INFINITY);
 }
 
 // Too small a subspace for the direct method at some of the points: these are named, and the others

@@ -72,6 +72,42 @@ TEST(Critical, HopfOfDampedModes) {
   }
 }
 
+/// Round-off adds `roundOff` to the entries of the problem.
+struct Rounded : Linear {
+  double roundOff;
+  Rounded(Linear linear, double amount) : Linear(std::move(linear)), roundOff(amount) {}
+  reduction::Improvement improve(const std::vector<tracking::PairsAtFriction>& located) override {
+    return {true, std::vector<double>(located.size(), 0.0),
+            std::vector<double>(located.size(), roundOff)};
+  }
+};
+
+// Two modes cross at f = 0.1 with s² = −11000, where the entries b and −c couple them: they are
+// unstable while |10⁴ (f − 0.1)| < √(bc), which round-off r of the entries moves by b r/(2 √(bc)).
+// A growth that this may undo is not listed.
+TEST(Critical, GrowthWithinTheRoundOffOfACrossing) {
+  const double b = 1e3, c = 1e-5, root = std::sqrt(b * c);
+  Linear modes = crossingModes({1e4, 1.2e4}, {1e4, -1e4}, {});
+  modes.base.stiffness(0, 1) = b;
+  modes.base.stiffness(1, 0) = -c;
+  for (const double roundOff : {1e-8, 1e-6, 1e-4}) {
+    Rounded family(modes, roundOff);
+    const auto branches = follow(family, grid(0.2, 2), {});
+    const auto found = stability::criticalFrictions(family, branches, 1e-9);
+    const double error = b * roundOff / (2 * root) / 1e4;
+    if (error > root / 1e4) {
+      EXPECT_TRUE(found.empty());
+      continue;
+    }
+    ASSERT_EQ(found.size(), 2u);
+    for (const auto& one : found) {
+      EXPECT_NEAR(one.friction, 0.1 + (one.loss ? -1 : 1) * root / 1e4, 1e-11);
+      // The vectors are all but parallel to the axis of b.
+      EXPECT_NEAR(one.errorEstimate, error, 0.1 * error);
+    }
+  }
+}
+
 /// Coupling f (1 + f²) where f stands elsewhere, and near() by straight lines between the frictions
 /// known.
 struct Interpolated : Linear {
