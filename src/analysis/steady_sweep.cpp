@@ -98,8 +98,7 @@ void continueFromNeighbour(Analysis& analysis, condensed::CondensedProblem& cond
   if (known) return continueTo(condensed, analysis.steady[*known], solution);
   const auto& at = solution.at;
   if (at.friction == 0) return;
-  if (const auto without = condensed.solveWithPivots({0, at.speed, at.pressure});
-      without.converged)
+  if (const auto without = condensed.solveWithPivots({0, at.speed, at.pressure}); without.converged)
     continueTo(condensed, without, solution);
 }
 
