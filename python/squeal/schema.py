@@ -216,27 +216,29 @@ def _require_columns(path, texts, table, whole):
 
 
 def _values(path, name, texts, column):
-    """The values of a column of cells that are as they may be."""
-    kind = {"whole": WHOLE, "flag": re.compile("[01]")}.get(column.kind, NUMBER)
-    blank = texts == ""
+    """The values of a column of cells that are as they may be. Most tables are short: plain lists take a tenth of the time of Series."""
+    cells = texts.tolist()
+    blank = np.array([text == "" for text in cells], bool)
     if column.kind == "word":
-        wrong = blank if not column.empty else texts.isna()
+        wrong = np.zeros(len(cells), bool) if column.empty else blank
         if column.words:
-            wrong = wrong | ~(texts.isin(column.words) | blank)
+            wrong = wrong | ~(np.array([text in column.words for text in cells], bool) | blank)
         _refuse(path, texts, wrong, column, f"is none of the words {', '.join(column.words)}" if column.words else "is empty")
-        return texts.where(~blank, np.nan)
-    good = texts.map(lambda text: bool(kind.fullmatch(text) or (column.open and OPEN.fullmatch(text)))).astype(bool)
+        return texts.where(~blank, np.nan) if blank.any() else texts
+    kind = {"whole": WHOLE, "flag": re.compile("[01]")}.get(column.kind, NUMBER)
+    unbounded = np.array([bool(column.open and OPEN.fullmatch(text)) for text in cells], bool)
+    good = np.array([kind.fullmatch(text) is not None for text in cells], bool) | unbounded
     _refuse(path, texts, ~good & ~(blank & column.empty), column, f"is not {KINDS[column.kind]}")
-    values = texts.where(~blank, "nan").map(float).astype(float)
-    _refuse(path, texts, pd.Series(np.isinf(values), values.index) & texts.map(lambda text: not OPEN.fullmatch(text)).astype(bool), column, "is beyond the largest number")
+    values = np.array([float(text or "nan") for text in cells], float)
+    _refuse(path, texts, np.isinf(values) & ~unbounded, column, "is beyond the largest number")
     _refuse(path, texts, values < column.least, column, f"is below {column.least:g}")
     _refuse(path, texts, values > column.most, column, f"is above {column.most:g}")
-    return values.astype(int) if column.kind != "number" and not blank.any() else values
+    return pd.Series(values.astype(int) if column.kind != "number" and not blank.any() else values, texts.index)
 
 
 def _refuse(path, texts, wrong, column, rule):
     if wrong.any():
-        at = int(np.argmax(wrong.to_numpy()))
+        at = int(np.argmax(wrong))
         unit = f" in {column.unit}" if column.unit else ""
         raise ResultsError(f"{path}, line {at + 2}, column {texts.name}{unit}: {_shown(texts.iloc[at])} {rule}")
 
