@@ -13,14 +13,18 @@ namespace {
 const SolverPrefix solverPrefix(
     "steady", "steady_", "PETSc SNES VI, KSP and PC of steady sliding: snes_*, ksp_*, pc_*, …");
 
+bool isGiven(const std::string& option) {
+  PetscBool given = PETSC_FALSE;
+  check(PetscOptionsHasName(nullptr, nullptr, option.c_str(), &given));
+  return given;
+}
+
 /// Gives an option a value while SNES reads its options, unless the user has given one: PETSc has
 /// no function that sets this value.
 class DefaultOption {
  public:
   DefaultOption(std::string name, const char* value) : name_(std::move(name)) {
-    PetscBool given = PETSC_FALSE;
-    check(PetscOptionsHasName(nullptr, nullptr, name_.c_str(), &given));
-    if (given)
+    if (isGiven(name_))
       name_.clear();
     else
       check(PetscOptionsSetValue(nullptr, name_.c_str(), value));
@@ -190,11 +194,12 @@ double complementarity(const Problem& problem, OwnedVec& x, Solution& solution) 
   };
   const OwnedVec start = rightVector(jacobian);
   check(VecCopy(x, start));
-  if (!solve()) {
+  const std::string lineSearch = "-" + solverPrefix.prefix + "snes_linesearch_type";
+  if (!solve() && !isGiven(lineSearch)) {
     // Where a body is held by the contact alone, the first steps must pass through states of larger
     // residuals, which the line search does not let through.
     const std::string searched = solution.reason;
-    const DefaultOption fullSteps("-" + solverPrefix.prefix + "snes_linesearch_type", "basic");
+    const DefaultOption fullSteps(lineSearch, "basic");
     check(VecCopy(start, x));
     if (!solve()) solution.reason = searched + ", in full steps " + solution.reason;
   }

@@ -30,8 +30,8 @@ ProgramRun runLimited(const Limited& limited) {
 // ever, has its 128 MB before anything else.
 TEST(Memory, TooLittleIsToldInOneLine) {
   for (const Limited& limited : {Limited{1, 500, "no more memory"},
-                                 {1, 800, "no more memory"},
-                                 {1, 920, "MUMPS got no more memory"},
+                                 {1, 850, "MUMPS got no more memory"},
+                                 {1, 1000, "no more memory"},
                                  {2, 800, "no more memory"}}) {
     SCOPED_TRACE(std::to_string(limited.ranks) + " ranks of " + std::to_string(limited.megabytes) +
                  " MB");

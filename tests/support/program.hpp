@@ -76,9 +76,9 @@ inline ProgramRun runAgain(const std::string& name, int ranks, const std::string
   const fs::path out = placeFor(name) / "stdout.txt", error = placeFor(name) / "stderr.txt";
   const std::string command = "cd '" SQUEAL_SOURCE_DIR "' && exec timeout -k 5 " +
                               std::to_string(seconds) + " '" SQUEAL_MPIEXEC "' " +
-                              std::to_string(ranks) + " '" + program + "' " + options +
-                              " -report_dir '" + run.folder.string() + "' >'" + out.string() +
-                              "' 2>'" + error.string() + "'";
+                              (ranks == 1 ? "alone" : std::to_string(ranks)) + " '" + program +
+                              "' " + options + " -report_dir '" + run.folder.string() + "' >'" +
+                              out.string() + "' 2>'" + error.string() + "'";
   const int status = std::system(command.c_str());
   run.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
   run.out = contentOf(out);
