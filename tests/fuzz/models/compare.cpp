@@ -45,8 +45,8 @@ std::string text(Complex s) { return formatted("%.12g%+.12gi", s.real(), s.imag(
 
 class PointComparison {
  public:
-  PointComparison(const FoundPoint& first, const FoundPoint& second, double stiffest)
-      : first_(first), second_(second), stiffest_(stiffest) {
+  PointComparison(const FoundPoint& first, const FoundPoint& second, double stiffest, double state)
+      : first_(first), second_(second), stiffest_(stiffest), state_(state) {
     top_ = std::min(reach(first), reach(second));
   }
 
@@ -104,7 +104,7 @@ class PointComparison {
     // |δs| max(d, |δs|) ≤ unit |s|²
     const double ofRounding =
         std::min(unit * size * size / std::max(isolation, 1e-300), std::sqrt(unit) * size);
-    return one.estimate + two.estimate + ofRounding;
+    return one.estimate + two.estimate + ofRounding + state_ * size;
   }
   static std::string verdictDifference(const FoundEigenvalue& a, const FoundEigenvalue& b,
                                        double allowed) {
@@ -121,7 +121,7 @@ class PointComparison {
   }
 
   const FoundPoint &first_, &second_;
-  double stiffest_, top_ = INFINITY;
+  double stiffest_, state_, top_ = INFINITY;
 };
 
 std::string steadyDifference(const FoundSteady& a, const FoundSteady& b, const Extent& extent) {
@@ -188,7 +188,8 @@ std::string difference(const Outcome& first, const Outcome& second, const Extent
       ++common;
       for (const auto* point : {&a, &b})
         if (point->top > 0) top = std::min(top, point->top);
-      if (auto found = PointComparison(a, b, first.stiffest).difference(); !found.empty())
+      if (auto found = PointComparison(a, b, first.stiffest, extent.state).difference();
+          !found.empty())
         return found;
     }
   if (common < second.points.size() ||

@@ -13,6 +13,7 @@ struct Extent {
   bool sameUnknowns = true;  ///< the numbers of open nodes agree
   bool sameWay = true;       ///< of the contact, which chooses where steady sliding is not unique
   bool mayMiss = false;      ///< the second run may find no steady state where the first one does
+  double state = 0;          ///< what else the steady states may change of |s|, relative
 };
 
 /// Returns the first difference between two results, in a line; empty if there is none.

@@ -42,11 +42,13 @@ std::vector<FoundSteady> steadyOf(const analysis::Analysis& analysis) {
     FoundSteady found{solution.at,
                       solution.converged,
                       solution.openNodes,
+                      0,
                       solution.imbalance,
                       solution.nodesOfAnother == 0,
                       {},
                       {}};
     for (const auto& resultant : solution.resultants) {
+      found.released += resultant.released;
       found.interfaces.push_back(resultant.interface);
       found.forces.push_back(length(resultant.normalForce));
       found.forces.push_back(length(resultant.frictionForce));
@@ -116,8 +118,8 @@ json toJson(const Outcome& outcome) {
   for (const auto& one : outcome.steady) {
     json forces = json::array();
     for (double force : one.forces) forces.push_back(numberText(force));
-    steady.push_back({of(one.at), one.converged, one.open, numberText(one.imbalance), one.unique,
-                      one.interfaces, forces});
+    steady.push_back({of(one.at), one.converged, one.open, one.released, numberText(one.imbalance),
+                      one.unique, one.interfaces, forces});
   }
   for (const auto& c : outcome.criticals)
     criticals.push_back({of(c.at), numbers({c.error, c.angularFrequency, c.slope, double(c.kind),
@@ -148,8 +150,9 @@ Outcome fromJson(const json& all) {
     outcome.points.push_back(std::move(found));
   }
   for (const auto& one : all["steady"]) {
-    FoundSteady found{parameters(one[0]), one[1], one[2], number(one[3]), one[4], one[5], {}};
-    for (const auto& force : one[6]) found.forces.push_back(number(force));
+    FoundSteady found{parameters(one[0]), one[1], one[2], one[3],
+                      number(one[4]),     one[5], one[6], {}};
+    for (const auto& force : one[7]) found.forces.push_back(number(force));
     outcome.steady.push_back(std::move(found));
   }
   for (const auto& c : all["criticals"])

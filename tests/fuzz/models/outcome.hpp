@@ -26,7 +26,7 @@ struct FoundPoint {
 struct FoundSteady {
   sweep::Parameters at;
   bool converged = false;
-  PetscInt open = 0;
+  PetscInt open = 0, released = 0;      ///< nodes of all ranks
   double imbalance = 0;                 ///< of its forces, a part of them
   bool unique = true;                   ///< no other solution has been met
   std::vector<std::string> interfaces;  ///< [resultant]
