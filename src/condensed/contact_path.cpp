@@ -230,7 +230,7 @@ class Follower {
     for (int together = 0; together < mostTogether; ++together) {
       if (rank_ == place.rank) closed_[place.node] = !closed_[place.node];
       place = worstAt(next);
-      if (place.margin >= -rounding) return record(before, s, path);
+      if (place.margin >= -rounding && state_.found) return record(before, s, path);
     }
     const Solution found = problem_.solve(at(next));
     if (!found.converged) {

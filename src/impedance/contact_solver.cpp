@@ -19,6 +19,8 @@ namespace {
 
 /// Friction that is left unbalanced by more than this part of what causes it has no solution.
 constexpr double accepted = 1e-8;
+/// Forces on free unknowns above this part of the largest given one are left by a loose body.
+constexpr double balancedForces = 1e-6;
 /// Directions of the stiffness of the open gaps that are softer than this part of the stiffest are
 /// those of a loose body.
 constexpr double loose = 1e-12;
@@ -288,8 +290,16 @@ ContactSolution ContactSolver::solution(const Search& search, double accuracy) c
   addDirect(*search.block, t, effects);
   const DenseMatrix freed = release(*search.block, effects);
   ContactSolution result;
-  result.found =
-      std::isfinite(search.left) && search.left <= std::max(accuracy, accepted) * search.unit;
+  // Nothing balances forces on a body that is loose.
+  const auto& free = search.block->local;
+  double unbalanced = 0, size = 0;
+  for (const PetscInt i : free) unbalanced = std::max(unbalanced, std::abs(effects(n + i, 0)));
+  for (const double force : search.asked.given) size = std::max(size, std::abs(force));
+  double largest[2] = {unbalanced, size};
+  check(MPI_Allreduce(MPI_IN_PLACE, largest, 2, MPI_DOUBLE, MPI_MAX, impedance_.comm()));
+  result.found = std::isfinite(search.left) &&
+                 search.left <= std::max(accuracy, accepted) * search.unit &&
+                 largest[0] <= balancedForces * largest[1];
   result.causes.assign(length, 0.0);
   std::ranges::copy(t.entries(), result.causes.begin());
   const auto& local = search.block->local;

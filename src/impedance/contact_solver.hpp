@@ -34,7 +34,9 @@ struct ContactCase {
 struct ContactSolution {
   ContactVector causes;   ///< (t, w)
   ContactVector effects;  ///< (R, F), those given included
-  bool found = false;     ///< false where friction cannot be balanced
+  /// False where friction cannot be balanced, or where the free unknowns leave a body loose that
+  /// forces act on: F is not zero then.
+  bool found = false;
 };
 
 /// A ContactSolver solves [M.59]

@@ -255,6 +255,19 @@ TEST(Verdicts, PadHeldByTheContactAloneSlidesWithoutFriction) {
   }
 }
 
+// Where a node of the other pad opens, that one is loose, and no state follows: 0.647318251 on any
+// number of ranks. What the equations of a loose body leave is no state.
+TEST(Verdicts, SteadySlidingEndsAtTheSameFrictionOnAnyNumberOfRanks) {
+  for (const int ranks : {1, 2, 3}) {
+    const auto run = runProgram("verdicts_floating_end_" + std::to_string(ranks), ranks,
+                                caseFile("floating_pad/case") + "-flutter_friction 0.5,1");
+    EXPECT_EQ(run.exitCode, 2) << run.error;
+    EXPECT_NE(run.error.find("followed from friction 0.5 up to friction 0.64731825"),
+              std::string::npos)
+        << run.error;
+  }
+}
+
 // At friction 0.2 none of the nodes of a sticking interface slides, at 0.205 and beyond one does.
 // Where that begins between two points is not solved for: no critical friction of the later set is
 // listed before it, and the change of stability lies between the points.
