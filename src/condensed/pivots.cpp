@@ -155,7 +155,7 @@ class Lemke {
     }
     return true;
   }
-  /// Collective. Returns the first end of the forces and gaps, but for the pivot node's.
+  /// Collective. Returns the first end of the forces and gaps of all nodes except the pivot node.
   std::pair<double, Place> firstEnd() const {
     double first = INFINITY;
     Place place{rank_, 0};

@@ -290,19 +290,17 @@ ContactSolution ContactSolver::solution(const Search& search, double accuracy) c
   addDirect(*search.block, t, effects);
   const DenseMatrix freed = release(*search.block, effects);
   ContactSolution result;
-  // Nothing balances forces on a body that is loose.
-  const auto& free = search.block->local;
-  double unbalanced = 0, size = 0;
-  for (const PetscInt i : free) unbalanced = std::max(unbalanced, std::abs(effects(n + i, 0)));
-  for (const double force : search.asked.given) size = std::max(size, std::abs(force));
-  double largest[2] = {unbalanced, size};
+  const auto& local = search.block->local;
+  // Nothing balances forces on a loose body.
+  double largest[2] = {0, 0};  // of the forces on free unknowns, and of the given ones
+  for (const PetscInt i : local) largest[0] = std::max(largest[0], std::abs(effects(n + i, 0)));
+  for (const double force : search.asked.given) largest[1] = std::max(largest[1], std::abs(force));
   check(MPI_Allreduce(MPI_IN_PLACE, largest, 2, MPI_DOUBLE, MPI_MAX, impedance_.comm()));
   result.found = std::isfinite(search.left) &&
                  search.left <= std::max(accuracy, accepted) * search.unit &&
                  largest[0] <= balancedForces * largest[1];
   result.causes.assign(length, 0.0);
   std::ranges::copy(t.entries(), result.causes.begin());
-  const auto& local = search.block->local;
   for (std::size_t i = 0; i < local.size(); ++i)
     result.causes[n + local[i]] = freed(search.block->ranks.ownBegin() + i, 0);
   result.effects.assign(effects.entries().begin(), effects.entries().end());

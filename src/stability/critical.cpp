@@ -95,8 +95,8 @@ class Root {
     pairs[0].s = s;
     return {friction_, pairs};
   }
-  /// Notes the backward error, NaN if there is no problem at the located friction, and what
-  /// round-off adds to yᴴP(s)x of unit vectors.
+  /// Keeps the backward error, NaN if there is no problem at the located friction, and the bound on
+  /// the round-off in yᴴP(s)x of unit vectors.
   void setErrors(double backwardError, double roundOff) {
     lost_ = std::isnan(backwardError);
     if (!lost_) backwardError_ = backwardError, roundOff_ = roundOff;

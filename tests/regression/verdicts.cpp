@@ -256,7 +256,7 @@ TEST(Verdicts, PadHeldByTheContactAloneSlidesWithoutFriction) {
 }
 
 // Where a node of the other pad opens, that one is loose, and no state follows: 0.647318251 on any
-// number of ranks. What the equations of a loose body leave is no state.
+// number of ranks. The equations of a loose body have no solution.
 TEST(Verdicts, SteadySlidingEndsAtTheSameFrictionOnAnyNumberOfRanks) {
   for (const int ranks : {1, 2, 3}) {
     const auto run = runProgram("verdicts_floating_end_" + std::to_string(ranks), ranks,

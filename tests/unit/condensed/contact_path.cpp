@@ -17,17 +17,13 @@
 #include "support/complementarity.hpp"
 #include "support/gathered.hpp"
 #include "support/model.hpp"
+#include "support/pressed_block.hpp"
 #include "support/worst.hpp"
 
 namespace squeal::test {
 namespace {
 
-// A block clamped at its foot, which a sliding plate presses: friction lifts its nodes one by one.
-const std::string block =
-    "-mesh_file meshes/layer.geo -mesh_set Lx=0.5,nx=4,ny=8 -material_layer_young 1e9 "
-    "-material_layer_poisson 0.3 -material_layer_density 1000"
-    " -constraint_bottom_clamped xy -contact_plate_pad top -contact_plate_obstacle_velocity 1,0,0 "
-    "-contact_plate_obstacle_displacement 0,-0.001,0 -report_fields off ";
+const std::string block = pressedBlock + " -report_fields off ";
 
 /// The normal force of a closed node or the gap of an open one, for a given set of open nodes.
 double stateOf(const analysis::Analysis& analysis, double friction, const std::vector<bool>& open,

@@ -9,17 +9,11 @@
 #include "contact/coupled.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
+#include "support/pressed_block.hpp"
 #include "support/worst.hpp"
 
 namespace squeal::test {
 namespace {
-
-// A block clamped at its foot, which a sliding plate presses: friction lifts its nodes one by one.
-const std::string block =
-    "-mesh_file meshes/layer.geo -mesh_set Lx=0.5,nx=4,ny=8 -material_layer_young 1e9 "
-    "-material_layer_poisson 0.3 -material_layer_density 1000"
-    " -constraint_bottom_clamped xy -contact_plate_pad top -contact_plate_obstacle_velocity 1,0,0 "
-    "-contact_plate_obstacle_displacement 0,-0.001,0";
 
 // Two pads on a disc, one of which the contact and a spring along it alone hold: without friction
 // the Newton method of SNES opens all its nodes and stops there.
@@ -90,9 +84,9 @@ void expectTheSolution(const std::string& options, double friction, PetscInt ope
   EXPECT_LE(error, 1e-9 * size);  // the full solution is accurate to 1e-11 of the loads
 }
 
-TEST(Pivots, NodesThatFrictionLifts) { expectTheSolution(block, 0.5, 3); }
+TEST(Pivots, NodesThatFrictionLifts) { expectTheSolution(pressedBlock, 0.5, 3); }
 
-TEST(Pivots, ClosedContactNeedsNone) { expectTheSolution(block, 0, 0); }
+TEST(Pivots, ClosedContactNeedsNone) { expectTheSolution(pressedBlock, 0, 0); }
 
 TEST(Pivots, PadHeldByTheContactAlone) {
   for (double friction : {0.0, 0.3}) expectTheSolution(floatingPad, friction, 3);
