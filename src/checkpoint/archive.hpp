@@ -10,9 +10,6 @@
 #include <type_traits>
 #include <vector>
 
-#include "linalg/complexvector.hpp"
-#include "linalg/dense.hpp"
-#include "linalg/quadratic.hpp"
 #include "petsc/check.hpp"
 #include "petsc/owned.hpp"
 
@@ -42,26 +39,15 @@ class Stream {
     all.emplace_back(bytes_);
     return all;
   }
-  /// Not collective. Writes the entries of a matrix without a copy: they are borrowed, and `owner`
-  /// is kept, during the life of the stream. They are read as a matrix.
-  void borrow(const linalg::DenseView& matrix, std::shared_ptr<const void> owner = {}) {
-    PetscInt rows = matrix.rows(), columns = matrix.columns();
-    exchange(rows);
-    exchange(columns);
-    const auto entries = matrix.entries();
-    const std::span bytes(reinterpret_cast<const char*>(entries.data()), entries.size_bytes());
+  /// Not collective. Writes bytes without a copy: they are borrowed, and `owner` is kept, during the
+  /// life of the stream.
+  void borrow(std::span<const char> bytes, std::shared_ptr<const void> owner = {}) {
     written_.push_back({std::move(bytes_), bytes, std::move(owner)});
     bytes_.clear();
   }
-  /// Not collective. Writes or sets these values. Throws Error where there are fewer bytes than
-  /// they take.
-  template <class... Values>
-  void operator()(Values&... values) {
-    (exchange(values), ...);
-  }
-
- private:
-  void copy(void* data, std::size_t size) {
+  /// Not collective. Writes `size` bytes from `data`, or reads them to it. Throws Error where fewer
+  /// are left.
+  void raw(void* data, std::size_t size) {
     if (!reads_) {
       const auto* from = static_cast<const char*>(data);
       bytes_.insert(bytes_.end(), from, from + size);
@@ -71,13 +57,21 @@ class Stream {
     if (size > 0) std::memcpy(data, bytes_.data() + read_, size);
     read_ += size;
   }
+  /// Not collective. Writes or sets these values. Throws Error where there are fewer bytes than
+  /// they take.
+  template <class... Values>
+  void operator()(Values&... values) {
+    (exchange(values), ...);
+  }
+
+ private:
   template <class Value>
   void exchange(Value& value) {
     if constexpr (requires { fields(*this, value); }) {
       fields(*this, value);
     } else {
       static_assert(std::is_trivially_copyable_v<Value> && !std::is_pointer_v<Value>);
-      copy(&value, sizeof value);
+      raw(&value, sizeof value);
     }
   }
   template <class Value>
@@ -90,7 +84,7 @@ class Stream {
     }
     if constexpr (std::is_trivially_copyable_v<Value> &&
                   !requires(Stream & stream, Value & value) { fields(stream, value); })
-      copy(values.data(), count * sizeof(Value));
+      raw(values.data(), count * sizeof(Value));
     else
       for (auto& value : values) exchange(value);
   }
@@ -111,19 +105,6 @@ class Stream {
   void exchange(std::pair<First, Second>& both) {
     exchange(both.first);
     exchange(both.second);
-  }
-  template <class Scalar>
-  void exchange(linalg::Dense<Scalar>& matrix) {
-    PetscInt rows = matrix.rows(), columns = matrix.columns();
-    exchange(rows);
-    exchange(columns);
-    if (reads_) matrix = linalg::Dense<Scalar>(rows, columns);
-    copy(matrix.data(), matrix.size() * sizeof(Scalar));
-  }
-  void exchange(linalg::DensePair& pair) {
-    exchange(pair.s);
-    exchange(pair.q);
-    exchange(pair.left);
   }
 
   /// Bytes, and those that lie elsewhere and follow them.
@@ -151,10 +132,6 @@ class Archive {
   MPI_Comm comm() const { return comm_; }
   /// Collective. Writes a vector, or makes one with the layout that it had; null stays null.
   void vector(OwnedVec& values);
-  void vector(linalg::ComplexVector& values) {
-    vector(values.real);
-    vector(values.imaginary);
-  }
 
   Stream common;  ///< the same on all ranks; that of rank 0 is kept
   Stream own;     ///< of this rank

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "linalg/columns.hpp"
+#include "linalg/serialization.hpp"
 
 namespace squeal::modes {
 
@@ -21,7 +22,7 @@ void exchange(checkpoint::Archive& archive, Modes& modes, Mat like) {
     vectors = linalg::copiedColumns(like, columns);
   } else {
     const auto columns = std::make_shared<const linalg::ReadColumns>(vectors);
-    archive.own.borrow(columns->view(), columns);
+    linalg::borrow(archive.own, columns->view(), columns);
   }
 }
 

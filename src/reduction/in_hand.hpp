@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "checkpoint/archive.hpp"
+#include "linalg/serialization.hpp"
 #include "pencil/complex_modes.hpp"
 #include "reduction/spectrum.hpp"
 

@@ -605,7 +605,7 @@ void ReducedProblem::exchange(checkpoint::Archive& archive) {
     basis_.restore(columns, ratio, solves);
     extend({});
   } else {
-    archive.own.borrow(basis_.columns().columnRange(exchanged_, basis_.size()));
+    linalg::borrow(archive.own, basis_.columns().columnRange(exchanged_, basis_.size()));
   }
   exchanged_ = basis_.size();
   std::size_t pairs = known_.size();

@@ -1,6 +1,7 @@
 #pragma once
 /// Followed eigenvalues on their way to and from a checkpoint.
 #include "checkpoint/archive.hpp"
+#include "linalg/serialization.hpp"
 #include "stability/followed.hpp"
 
 namespace squeal::stability {

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "checkpoint/checkpoint.hpp"
+#include "linalg/serialization.hpp"
 #include "options/settings.hpp"
 #include "petsc/arrays.hpp"
 #include "petsc/regular_file.hpp"
@@ -48,7 +49,7 @@ void write(Checkpoint& checkpoint, double first) {
   matrix(1, 2) = first + rank;
   if (rank > 0) large(99, 4) = rank;
   archive.own(matrix);
-  archive.own.borrow(large);
+  linalg::borrow(archive.own, large);
   OwnedVec vector, null;
   VecCreate(PETSC_COMM_WORLD, vector.out());
   VecSetSizes(vector, 3 * (rank + 1), PETSC_DETERMINE);
