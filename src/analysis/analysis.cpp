@@ -11,7 +11,7 @@
 #include "matrices/matrices.hpp"
 #include "modes/modes.hpp"
 #include "options/options.hpp"
-#include "petsc/termination.hpp"
+#include "system/termination.hpp"
 #include "session/events.hpp"
 
 namespace squeal::analysis {
@@ -35,7 +35,7 @@ void addFailure(Analysis& analysis, const std::string& reason) {
 void checkOptions() {
   rejectUnknownOptions();
   direct::rejectIdleSolverOptions();
-  if (direct::directWanted() && flutter::modalDampingWanted())
+  if (direct::directWanted() && pencil::modalDampingWanted())
     throw Error(
         "option -flutter_modal_damping: damping of the free modes needs the modes of "
         "-flutter_method reduced");

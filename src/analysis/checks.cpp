@@ -51,7 +51,7 @@ void rejectIdleFactors(const elasticity::Bodies& bodies, const contact::Contact&
   const auto given = [](const std::vector<double>& factors) {
     return factors != std::vector<double>{1};
   };
-  if (given(sweep.dampings) && !bodies.damping && !flutter::modalDampingWanted())
+  if (given(sweep.dampings) && !bodies.damping && !pencil::modalDampingWanted())
     throw Error(
         "option -flutter_damping scales the damping of the bodies, and there is none: give "
         "-material_<group>_rayleigh_*, "
@@ -82,7 +82,7 @@ void rejectIdleFactors(const std::vector<matrices::NamedTerm>& terms, const swee
   require(sweep.frictions, "friction",
           [](const pencil::Term& term) { return term.frictionExponent; });
   require(sweep.speeds, "speed", [](const pencil::Term& term) { return term.speedExponent; });
-  if (!flutter::modalDampingWanted())
+  if (!pencil::modalDampingWanted())
     require(sweep.dampings, "damping",
             [](const pencil::Term& term) { return term.dampingExponent; });
   if (sweep.pressures != std::vector<double>{1})

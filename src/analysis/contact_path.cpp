@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "petsc/concatenation.hpp"
+#include "system/concatenation.hpp"
 
 namespace squeal::analysis {
 

@@ -13,7 +13,7 @@
 #include "factor/symmetric_solver.hpp"
 #include "mesh/mesh.hpp"
 #include "options/options.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "session/stages.hpp"
 #include "sweep/sweep.hpp"
 

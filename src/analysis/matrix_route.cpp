@@ -8,8 +8,8 @@
 #include "modes/benchmark.hpp"
 #include "modes/modes.hpp"
 #include "options/options.hpp"
-#include "petsc/termination.hpp"
-#include "petsc/text.hpp"
+#include "system/termination.hpp"
+#include "system/text.hpp"
 #include "segment/segment.hpp"
 #include "sensitivity/derive.hpp"
 #include "sensitivity/sensitivity.hpp"
@@ -22,7 +22,7 @@ namespace {
 class MatrixSegment : public segment::SegmentProblem {
  public:
   /// Collective. Borrows the system and the pencil, and takes the points.
-  MatrixSegment(const modes::AssociatedSystem& system, const pencil::Pencil& pencil,
+  MatrixSegment(const factor::AssociatedSystem& system, const pencil::Pencil& pencil,
                 std::vector<sweep::Parameters> points)
       : system_(system), pencil_(pencil), points_(std::move(points)) {
     PetscInt local = 0;
@@ -30,7 +30,7 @@ class MatrixSegment : public segment::SegmentProblem {
     check(MatCreateConstantDiagonal(system.comm(), local, local, PETSC_DETERMINE, PETSC_DETERMINE,
                                     1, identity_.out()));
   }
-  const modes::AssociatedSystem& system() const override { return system_; }
+  const factor::AssociatedSystem& system() const override { return system_; }
   Mat trial() const override { return identity_; }
   const std::vector<sweep::Parameters>& steadyPoints() const override { return points_; }
   pencil::Pencil pencil() const override { return pencil_.with({}); }
@@ -41,7 +41,7 @@ class MatrixSegment : public segment::SegmentProblem {
   }
 
  private:
-  const modes::AssociatedSystem& system_;
+  const factor::AssociatedSystem& system_;
   const pencil::Pencil& pencil_;
   std::vector<sweep::Parameters> points_;
   OwnedMat identity_;

@@ -22,8 +22,8 @@
 #include "modes/benchmark.hpp"
 #include "modes/modes.hpp"
 #include "options/options.hpp"
-#include "petsc/termination.hpp"
-#include "petsc/text.hpp"
+#include "system/termination.hpp"
+#include "system/text.hpp"
 #include "regime/regime.hpp"
 #include "session/stages.hpp"
 #include "ties/ties.hpp"
@@ -144,7 +144,7 @@ void followAfterFlutter(Analysis& analysis, const MeshSegment& problem, CurrentS
                         const segment::ModalSegment& segment,
                         const pencil::ComplexModes& point) try {
   stopIfAsked(analysis.comm);
-  ActiveSet held;
+  contact::ActiveSet held;
   held.closed.assign(analysis.contact.nodes.size(), 1);
   held.released.assign(analysis.contact.nodes.size(), 0);
   analysis.regimes.push_back(regime::study({analysis.bodies, analysis.contact, current.of(held),

@@ -8,8 +8,8 @@
 #include "flutter/work.hpp"
 #include "matrices/write.hpp"
 #include "options/options.hpp"
-#include "petsc/concatenation.hpp"
-#include "petsc/text.hpp"
+#include "system/concatenation.hpp"
+#include "system/text.hpp"
 #include "sensitivity/sensitivity.hpp"
 #include "session/stages.hpp"
 
@@ -25,7 +25,7 @@ const IntegerOption releasedOption(
 constexpr std::size_t unknownPlace = -1;
 
 /// Closes the nodes that another set closes, and holds those that it holds.
-void closeLike(const ActiveSet& other, ActiveSet& set) {
+void closeLike(const contact::ActiveSet& other, contact::ActiveSet& set) {
   for (std::size_t i = 0; i < set.closed.size(); ++i) {
     set.closed[i] = set.closed[i] || other.closed[i];
     set.released[i] = set.released[i] && other.released[i];
@@ -33,7 +33,7 @@ void closeLike(const ActiveSet& other, ActiveSet& set) {
 }
 
 /// Opens the nodes that another set opens, and releases those that it releases.
-void openLike(const ActiveSet& other, ActiveSet& set) {
+void openLike(const contact::ActiveSet& other, contact::ActiveSet& set) {
   for (std::size_t i = 0; i < set.closed.size(); ++i) {
     set.closed[i] = set.closed[i] && other.closed[i];
     set.released[i] = set.released[i] || other.released[i];
@@ -41,7 +41,7 @@ void openLike(const ActiveSet& other, ActiveSet& set) {
 }
 
 /// Collective. Returns the number of nodes in which two sets differ.
-PetscInt countDifferent(MPI_Comm comm, const ActiveSet& a, const ActiveSet& b) {
+PetscInt countDifferent(MPI_Comm comm, const contact::ActiveSet& a, const contact::ActiveSet& b) {
   PetscInt count = 0;
   for (std::size_t i = 0; i < a.closed.size(); ++i)
     count += a.closed[i] != b.closed[i] || a.released[i] != b.released[i];
@@ -86,14 +86,14 @@ subspace::Substructure substructureOf(const contact::CoupledSystem& all,
 
 std::size_t endOfShared(const Analysis& analysis, std::size_t first) {
   // Modal damping is that of the free modes of a point, which prestress changes.
-  if (flutter::modalDampingWanted() && elasticity::prestressWanted()) return first + 1;
+  if (pencil::modalDampingWanted() && elasticity::prestressWanted()) return first + 1;
   const bool alone = direct::directWanted() || sensitivity::sensitivitiesWanted() ||
-                     matrices::exportWanted() || flutter::modalDampingWanted();
+                     matrices::exportWanted() || pencil::modalDampingWanted();
   const PetscInt most = alone ? 0 : releasedOption.get();
-  ActiveSet anywhere = activeSet(analysis.steady[first]), everywhere = anywhere;
+  contact::ActiveSet anywhere = steady::activeSet(analysis.steady[first]), everywhere = anywhere;
   std::size_t last = first;
   for (; last < analysis.steady.size() && analysis.steady[last].converged; ++last) {
-    const ActiveSet set = activeSet(analysis.steady[last]);
+    const contact::ActiveSet set = steady::activeSet(analysis.steady[last]);
     closeLike(set, anywhere);
     openLike(set, everywhere);
     if (countDifferent(analysis.comm, anywhere, everywhere) > most) break;
@@ -108,11 +108,11 @@ MeshSegment::MeshSegment(const Analysis& analysis, std::size_t first, std::size_
   findSets();
   if (elasticity::prestressWanted())
     prestress_ = elasticity::geometricStiffness(*analysis.mesh, steadyAt(0).displacement);
-  const auto systemOf = [&](const ActiveSet& set) {
+  const auto systemOf = [&](const contact::ActiveSet& set) {
     return std::make_unique<contact::CoupledSystem>(analysis.bodies, analysis.contact, set.closed,
                                                     prestress_, set.released);
   };
-  ActiveSet everywhere = sets_.front().set;
+  contact::ActiveSet everywhere = sets_.front().set;
   anywhere_ = everywhere;
   for (const auto& one : sets_) {
     closeLike(one.set, anywhere_);
@@ -120,7 +120,7 @@ MeshSegment::MeshSegment(const Analysis& analysis, std::size_t first, std::size_
   }
   if (prestress_) stressed_ = systemOf(anywhere_);
   all_ = interior_ = stressed_ ? stressed_.get() : &current.of(anywhere_);
-  if (sameOnAllRanks(analysis.comm, anywhere_, everywhere)) return;
+  if (contact::sameOnAllRanks(analysis.comm, anywhere_, everywhere)) return;
   Stage stage(analysis.comm, "contact");
   released_ = systemOf(everywhere);
   all_ = released_.get();
@@ -135,10 +135,10 @@ void MeshSegment::findSets() {
   for (std::size_t i = 0; i < points_.size(); ++i) {
     std::vector<segment::PathPiece> pieces;
     if (i > 0 && sweep::growsInFriction(points_[i - 1], points_[i])) pieces = piecesBehind(i - 1);
-    const ActiveSet set = activeSet(steadyAt(i));
+    const contact::ActiveSet set = steady::activeSet(steadyAt(i));
     const double friction = points_[i].friction,
                  from = pieces.empty() ? friction : pieces.back().to;
-    if (i > 0 && sameOnAllRanks(analysis_.comm, set, activeSet(steadyAt(i - 1)))) {
+    if (i > 0 && contact::sameOnAllRanks(analysis_.comm, set, steady::activeSet(steadyAt(i - 1)))) {
       const std::size_t range = steps_.back().back().range;
       sets_[range].last = i + 1;
       pieces.push_back({range, from, friction});
@@ -164,22 +164,22 @@ std::vector<segment::PathPiece> MeshSegment::piecesBehind(std::size_t point) {
   std::vector<double> frictions = concatenated(analysis_.comm, own);
   std::ranges::sort(frictions);
   frictions.erase(std::ranges::unique(frictions).begin(), frictions.end());
-  ActiveSet set = activeSet(steadyAt(point));
-  std::vector<ActiveSet> behind;  // each of these frictions
+  contact::ActiveSet set = steady::activeSet(steadyAt(point));
+  std::vector<contact::ActiveSet> behind;  // each of these frictions
   for (const double friction : frictions) {
     for (const auto& event : events)
       if (event.at.friction == friction) set.closed[event.node] = !event.opens;
     behind.push_back(set);
   }
-  const ActiveSet last = activeSet(steadyAt(point + 1));
+  const contact::ActiveSet last = steady::activeSet(steadyAt(point + 1));
   // What holds nodes that stick is settled at the points. Of the nodes that open or close it is
   // known with that; where others begin to slide or are held again is not.
   const std::vector<unsigned char>& closedBefore = steadyAt(point).closed;
   for (std::size_t i = 0; i < set.released.size(); ++i)
     if (!closedBefore[i] || !last.closed[i]) set.released[i] = last.released[i];
   const std::size_t range = steps_[point].back().range;
-  const bool changes = !sameOnAllRanks(analysis_.comm, activeSet(steadyAt(point)), last);
-  if (!sameOnAllRanks(analysis_.comm, set, last) || (changes && frictions.empty()))
+  const bool changes = !contact::sameOnAllRanks(analysis_.comm, steady::activeSet(steadyAt(point)), last);
+  if (!contact::sameOnAllRanks(analysis_.comm, set, last) || (changes && frictions.empty()))
     return {{unknownPlace, next.friction, next.friction}};
   std::vector<segment::PathPiece> pieces;
   double from = here.friction;
@@ -258,10 +258,10 @@ std::optional<std::vector<pencil::Term>> MeshSegment::termsAt(const sweep::Param
                                                               std::size_t like) {
   sweep::Parameters steady = at;
   steady.damping = 1;
-  const ActiveSet set = activeSet(steadyAt(like));
+  const contact::ActiveSet set = steady::activeSet(steadyAt(like));
   const auto ifShared = [&](const steady::Solution& solution) {
     std::optional<std::vector<pencil::Term>> terms;
-    if (solution.converged && sameOnAllRanks(analysis_.comm, activeSet(solution), set))
+    if (solution.converged && contact::sameOnAllRanks(analysis_.comm, steady::activeSet(solution), set))
       terms = termsOf(solution);
     return terms;
   };

@@ -45,7 +45,7 @@ class MeshSegment : public segment::SegmentProblem {
  private:
   /// An active set of the points [first, last), or one that is passed through between points.
   struct OnPath {
-    ActiveSet set;
+    contact::ActiveSet set;
     std::size_t first = 0, last = 0;
   };
   const steady::Solution& steadyAt(std::size_t i) const { return analysis_.steady[first_ + i]; }
@@ -61,7 +61,7 @@ class MeshSegment : public segment::SegmentProblem {
   std::vector<OnPath> sets_;  // [range]
   // [point] the way to it from the point before on its line, the last piece with its own set
   std::vector<std::vector<segment::PathPiece>> steps_;
-  ActiveSet anywhere_;  // of all sets
+  contact::ActiveSet anywhere_;  // of all sets
   OwnedMat prestress_;  // of the first point, which K0 contains
   std::unique_ptr<contact::CoupledSystem> stressed_, released_;
   const contact::CoupledSystem* interior_ = nullptr;  // active wherever a point is

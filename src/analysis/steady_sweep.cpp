@@ -10,8 +10,8 @@
 #include "interfaces/interfaces.hpp"
 #include "options/options.hpp"
 #include "petsc/finite.hpp"
-#include "petsc/termination.hpp"
-#include "petsc/text.hpp"
+#include "system/termination.hpp"
+#include "system/text.hpp"
 #include "session/stages.hpp"
 #include "steady/kept.hpp"
 
@@ -215,19 +215,9 @@ void followPath(Analysis& analysis, condensed::CondensedProblem& condensed, cons
 
 }  // namespace
 
-ActiveSet activeSet(const steady::Solution& solution) {
-  return {solution.closed, solution.sticking.free()};
-}
-
-bool sameOnAllRanks(MPI_Comm comm, const ActiveSet& a, const ActiveSet& b) {
-  int same = a == b;
-  check(MPI_Allreduce(MPI_IN_PLACE, &same, 1, MPI_INT, MPI_LAND, comm));
-  return same;
-}
-
-const contact::CoupledSystem& CurrentSystem::of(const ActiveSet& active) {
+const contact::CoupledSystem& CurrentSystem::of(const contact::ActiveSet& active) {
   if (system_ &&
-      sameOnAllRanks(analysis_.mesh->comm, {system_->closed(), system_->released()}, active))
+      contact::sameOnAllRanks(analysis_.mesh->comm, {system_->closed(), system_->released()}, active))
     return *system_;
   system_.reset();  // the old factorisation's memory first
   Stage stage(analysis_.mesh->comm, "contact");
@@ -242,7 +232,7 @@ const contact::CoupledSystem& CurrentSystem::of(const ActiveSet& active) {
 
 namespace {
 
-ActiveSet bonded(const Analysis& analysis) {
+contact::ActiveSet bonded(const Analysis& analysis) {
   const std::size_t nodes = analysis.contact.nodes.size();
   return {std::vector<unsigned char>(nodes, 1), std::vector<unsigned char>(nodes, 0)};
 }
@@ -353,14 +343,14 @@ void condensedSweep(Analysis& analysis, const steady::Problem& problem,
 
 /// Collective. Solves in all unknowns.
 void fullSweep(Analysis& analysis, const steady::Problem& problem, CurrentSystem& system) {
-  std::vector<ActiveSet> active;  // [steady point] of its solution, or the one tried
+  std::vector<contact::ActiveSet> active;  // [steady point] of its solution, or the one tried
   KeptStates states(analysis);
   for (const auto& at : analysis.sweep.steadyPoints()) {
     const std::size_t k = active.size();
     const auto neighbour = analysis.sweep.earlierNeighbour(k);
     active.push_back(neighbour ? active[*neighbour] : bonded(analysis));
     if (k < analysis.steady.size()) {  // the checkpoint has it
-      if (analysis.steady[k].converged) active.back() = activeSet(analysis.steady[k]);
+      if (analysis.steady[k].converged) active.back() = steady::activeSet(analysis.steady[k]);
       continue;
     }
     stopIfAsked(analysis.comm);
@@ -370,7 +360,7 @@ void fullSweep(Analysis& analysis, const steady::Problem& problem, CurrentSystem
     const auto& solution = analysis.steady.emplace_back(problem.solve(at, current));
     stage.finish(resultText(analysis, solution));
     tell(analysis, solution);
-    if (solution.converged) active.back() = activeSet(solution);
+    if (solution.converged) active.back() = steady::activeSet(solution);
     states.keep();
   }
   states.keep(true);

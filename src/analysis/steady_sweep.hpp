@@ -4,23 +4,11 @@
 #include <vector>
 
 #include "analysis/analysis.hpp"
+#include "contact/active_set.hpp"
 #include "contact/coupled.hpp"
 #include "steady/steady.hpp"
 
 namespace squeal::analysis {
-
-/// The contact nodes that are active, and those that stick no longer.
-struct ActiveSet {
-  std::vector<unsigned char> closed;    ///< [contact node of this rank]
-  std::vector<unsigned char> released;  ///< [contact node of this rank]
-
-  bool operator==(const ActiveSet&) const = default;
-};
-
-/// Returns the active set of a steady state.
-ActiveSet activeSet(const steady::Solution& solution);
-/// Collective. Returns true if the sets agree on all ranks.
-bool sameOnAllRanks(MPI_Comm comm, const ActiveSet& a, const ActiveSet& b);
 
 /// The associated system of the active set in force, which is made anew when the set changes.
 class CurrentSystem {
@@ -29,7 +17,7 @@ class CurrentSystem {
   explicit CurrentSystem(const Analysis& analysis) : analysis_(analysis) {}
   /// Collective. Returns the system of an active set, borrowed until the next call. Its K0 is
   /// factorised when that is first asked for.
-  const contact::CoupledSystem& of(const ActiveSet& active);
+  const contact::CoupledSystem& of(const contact::ActiveSet& active);
 
  private:
   const Analysis& analysis_;

@@ -13,9 +13,9 @@
 
 #include "options/options.hpp"
 #include "output/file.hpp"
-#include "petsc/regular_file.hpp"
-#include "petsc/termination.hpp"
-#include "petsc/text.hpp"
+#include "system/regular_file.hpp"
+#include "system/termination.hpp"
+#include "system/text.hpp"
 #include "session/events.hpp"
 #include "session/stages.hpp"
 
@@ -256,7 +256,7 @@ bool Checkpoint::isWorth(double seconds) const {
 
 /// Removes the checkpoint of an earlier run and begins that of this one. On rank 0 alone.
 void Checkpoint::beginAnew() {
-  const EndingWaits whole;
+  const SignalsBlocked whole;
   requireOurs(folder_);
   fs::create_directories(folder_);
   clear();
@@ -311,7 +311,7 @@ void Checkpoint::write(const std::string& log, const Archive& archive) {
     if (opened) good = MPI_File_close(&file) == MPI_SUCCESS && good;
     if (!onAll(comm_, good)) throw Error(output::cannotWrite(partial, ENOSPC));
     onFirstRank(comm_, "", [&] {
-      const EndingWaits whole;
+      const SignalsBlocked whole;
       output::sync(partial);
       fs::rename(partial, path);
       output::sync(folder_);
@@ -345,7 +345,7 @@ void Checkpoint::remove() {
   check(MPI_Comm_rank(comm_, &rank));
   exists_ = false;
   if (rank > 0) return;
-  const EndingWaits whole;
+  const SignalsBlocked whole;
   try {
     requireOurs(folder_);
     if (!fs::exists(folder_)) return;

@@ -9,7 +9,7 @@
 
 #include "options/options.hpp"
 #include "petsc/check.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "session/session.hpp"
 
 namespace squeal::checkpoint {

@@ -9,8 +9,8 @@
 #include <tuple>
 
 #include "interfaces/algebra.hpp"
-#include "petsc/concatenation.hpp"
-#include "petsc/text.hpp"
+#include "system/concatenation.hpp"
+#include "system/text.hpp"
 
 namespace squeal::condensed {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "interfaces/algebra.hpp"
 #include "petsc/arrays.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "steady/complementarity.hpp"
 
 namespace squeal::condensed {

@@ -5,7 +5,7 @@
 
 #include "contact/contact.hpp"
 #include "elasticity/elasticity.hpp"
-#include "modes/associated.hpp"
+#include "factor/associated.hpp"
 
 namespace squeal::contact {
 
@@ -40,7 +40,7 @@ struct Projections {
 ///   K0 = Tᵀ K T,   M0 = Tᵀ M T.
 /// The one factorisation of K0 serves the steady problem, the modes and the corrections of this
 /// active set.
-class CoupledSystem : public modes::AssociatedSystem {
+class CoupledSystem : public factor::AssociatedSystem {
  public:
   /// Collective. Projects the matrices of the bodies. Contact node i is active if closed[i] is set.
   /// `prestress` is added to K, has the pattern of K and is borrowed during this call; it may be

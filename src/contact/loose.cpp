@@ -8,7 +8,7 @@
 #include "mesh/mesh.hpp"
 #include "mesh/vector.hpp"
 #include "petsc/arrays.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 
 namespace squeal::contact {
 namespace {

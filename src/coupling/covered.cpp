@@ -5,7 +5,7 @@
 #include "coupling/periodic.hpp"
 #include "mesh/vector.hpp"
 #include "mortar/dual.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 
 namespace squeal::coupling {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "mesh/vector.hpp"
-#include "petsc/concatenation.hpp"
+#include "system/concatenation.hpp"
 
 namespace squeal::coupling {
 namespace {

@@ -9,9 +9,9 @@
 #include <map>
 #include <tuple>
 
-#include "petsc/buffer.hpp"
+#include "system/buffer.hpp"
 #include "petsc/check.hpp"
-#include "petsc/concatenation.hpp"
+#include "system/concatenation.hpp"
 
 namespace squeal::coupling {
 namespace {

@@ -6,7 +6,7 @@
 #include "direct/nearest.hpp"
 #include "linalg/complexvector.hpp"
 #include "options/options.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 
 namespace squeal::direct {
 namespace {

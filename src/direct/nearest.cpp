@@ -10,7 +10,7 @@
 #include "linalg/quadratic.hpp"
 #include "options/options.hpp"
 #include "pencil/complex_modes.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "sweep/parameters.hpp"
 
 namespace squeal::direct {

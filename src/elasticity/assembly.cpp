@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "petsc/arrays.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "session/stages.hpp"
 
 namespace squeal::elasticity {

@@ -6,7 +6,7 @@
 #include "elasticity/assembly.hpp"
 #include "elasticity/inertia.hpp"
 #include "petsc/arrays.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 
 namespace squeal::elasticity {
 namespace {

@@ -11,7 +11,7 @@
 #include "material/material.hpp"
 #include "options/options.hpp"
 #include "petsc/arrays.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "session/stages.hpp"
 
 namespace squeal::elasticity {

@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "options/options.hpp"
-#include "petsc/memory.hpp"
-#include "petsc/text.hpp"
+#include "system/memory.hpp"
+#include "system/text.hpp"
 #include "session/stages.hpp"
 
 namespace squeal::factor {

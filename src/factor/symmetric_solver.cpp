@@ -6,8 +6,8 @@
 #include <memory>
 #include <string>
 
-#include "petsc/termination.hpp"
-#include "petsc/text.hpp"
+#include "system/termination.hpp"
+#include "system/text.hpp"
 #include "session/stages.hpp"
 
 namespace squeal::factor {

@@ -12,8 +12,8 @@
 #include "petsc/arrays.hpp"
 #include "petsc/check.hpp"
 #include "petsc/hdf5.hpp"
-#include "petsc/termination.hpp"
-#include "petsc/text.hpp"
+#include "system/termination.hpp"
+#include "system/text.hpp"
 
 namespace squeal::fieldfile {
 namespace {
@@ -56,7 +56,7 @@ class Rows {
   }
   void write(const void* values, hsize_t rows) {
     if (rows == 0) return;
-    const EndingWaits whole;
+    const SignalsBlocked whole;
     const std::array<hsize_t, 2> begin{done_, 0}, count{rows, columns_};
     const hdf5::SpaceId here(H5Screate_simple(2, count.data(), nullptr)),
         there(H5Dget_space(dataset_));
@@ -134,7 +134,7 @@ template <class Action>
 void Hdf5File::onFirst(const Action& action) {
   onFirstRank(comm_, head_, [&] {
     const hdf5::Silence silence;
-    const EndingWaits whole;
+    const SignalsBlocked whole;
     require(action(), path_);
   });
 }

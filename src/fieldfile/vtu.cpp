@@ -21,9 +21,9 @@
 
 #include "output/file.hpp"
 #include "petsc/check.hpp"
-#include "petsc/regular_file.hpp"
-#include "petsc/termination.hpp"
-#include "petsc/text.hpp"
+#include "system/regular_file.hpp"
+#include "system/termination.hpp"
+#include "system/text.hpp"
 
 namespace squeal::fieldfile {
 namespace {
@@ -182,7 +182,7 @@ vtkNew<vtkUnstructuredGrid> gridOf(const Piece& piece, const std::vector<Field>&
 /// Collective. Rank 0 makes the folder; the others wait for it.
 void makeFolder(MPI_Comm comm, const fs::path& folder, const std::string& head) {
   onFirstRank(comm, head, [&] {
-    const EndingWaits whole;
+    const SignalsBlocked whole;
     std::error_code error;
     if (const std::string why = whyNoFolder(folder); !why.empty()) throw output::WriteError(why);
     if (!folder.empty()) fs::create_directories(folder, error);
@@ -206,7 +206,7 @@ void requireWritable(const mesh::Mesh& mesh, const std::vector<Field>& fields) {
 
 /// Not collective. Writes a piece. Returns what went wrong, empty if nothing did.
 std::string writePiece(vtkUnstructuredGrid* grid, const fs::path& path) {
-  const EndingWaits whole;
+  const SignalsBlocked whole;
   try {
     output::reserve(path, 0);  // VTK would follow a link, and wait for the reader of a pipe
   } catch (const output::WriteError& error) {

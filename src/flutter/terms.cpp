@@ -1,8 +1,5 @@
 #include "flutter/terms.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "flutter/work.hpp"
 #include "options/options.hpp"
 
@@ -13,9 +10,6 @@ const FlagOption dampingOption("flutter", "flutter_friction_damping", true,
                                "the friction force turns with the relative velocity and follows "
                                "the friction law: friction-induced "
                                "damping and, with convective terms, stiffness");
-const RealListOption modalOption("flutter", "flutter_modal_damping", "0", "", nonNegative,
-                                 "damping ratios of the free modes in order, the last one for all "
-                                 "that follow; reduced method alone");
 
 /// The exponents of s, of the speed and of the damping factor for a matrix of the bodies.
 struct Role {
@@ -121,37 +115,6 @@ std::vector<double> responseForces(const std::vector<unsigned char>& closed,
   for (std::size_t i = 0; i < normalForce.size(); ++i)
     if (!closed[i]) normalForce[i] = 0;
   return normalForce;
-}
-
-bool modalDampingWanted() {
-  const auto ratios = modalOption.get();
-  return std::any_of(ratios.begin(), ratios.end(), [](double ratio) { return ratio > 0; });
-}
-
-std::vector<pencil::Term> modalDamping(const modes::Modes& modes, Mat mass) {
-  std::vector<pencil::Term> terms;
-  if (!modalDampingWanted()) return terms;
-  const auto ratios = modalOption.get();
-  PetscInt local = 0, global = 0;
-  const PetscInt count = modes.angularFrequency.size();
-  check(BVGetSizes(modes.vectors, &local, &global, nullptr));
-  OwnedMat factors, product;
-  check(MatCreateDense(PetscObjectComm(reinterpret_cast<PetscObject>(mass)), local, PETSC_DECIDE,
-                       global, count, nullptr, factors.out()));
-  for (PetscInt i = 0; i < count; ++i) {
-    Vec d = nullptr, column = nullptr;
-    check(BVGetColumn(modes.vectors, i, &d));
-    check(MatDenseGetColumnVecWrite(factors, i, &column));
-    check(MatMult(mass, d, column));
-    check(VecScale(column, std::sqrt(2 * ratios[std::min<std::size_t>(i, ratios.size() - 1)] *
-                                     modes.angularFrequency[i])));
-    check(MatDenseRestoreColumnVecWrite(factors, i, &column));
-    check(BVRestoreColumn(modes.vectors, i, &d));
-  }
-  check(MatCreateLRC(nullptr, factors, nullptr, nullptr, product.out()));
-  check(MatSetOption(product, MAT_SYMMETRIC, PETSC_TRUE));
-  terms.push_back({std::move(product), 1, 0, 1.0, 0, 1});
-  return terms;
 }
 
 }  // namespace squeal::flutter

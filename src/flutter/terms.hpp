@@ -2,7 +2,6 @@
 /// The terms of the friction-perturbed problem [4.15, 4.16] are made from the coupled matrices and
 /// the steady state.
 #include "contact/coupled.hpp"
-#include "modes/modes.hpp"
 #include "pencil/pencil.hpp"
 #include "steady/steady.hpp"
 
@@ -39,13 +38,5 @@ bool frictionDampingWanted();
 /// `closed` nodes, zero at the others and without `-flutter_friction_damping`.
 std::vector<double> responseForces(const std::vector<unsigned char>& closed,
                                    std::vector<double> normalForce);
-
-/// Collective. Returns the term of modal damping [M.22],
-///   c C_m,   C_m = Σ 2 ζ_i ω_i (M0 d_i)(M0 d_i)ᵀ,
-/// with the ratios of `-flutter_modal_damping`; none if all of these are zero. `mass` is M0, and
-/// the arguments are not needed afterwards. The matrix can only be multiplied.
-std::vector<pencil::Term> modalDamping(const modes::Modes& modes, Mat mass);
-/// Returns true if `-flutter_modal_damping` has a ratio that is positive.
-bool modalDampingWanted();
 
 }  // namespace squeal::flutter

@@ -8,7 +8,7 @@
 
 #include "linalg/block.hpp"
 #include "linalg/symmetric.hpp"
-#include "petsc/concatenation.hpp"
+#include "system/concatenation.hpp"
 
 namespace squeal::impedance {
 

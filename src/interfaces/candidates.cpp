@@ -6,7 +6,7 @@
 #include "elasticity/face.hpp"
 #include "interfaces/algebra.hpp"
 #include "mortar/face.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 
 namespace squeal::interfaces {
 namespace {

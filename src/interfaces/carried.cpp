@@ -6,8 +6,8 @@
 #include <set>
 
 #include "interfaces/algebra.hpp"
-#include "petsc/concatenation.hpp"
-#include "petsc/text.hpp"
+#include "system/concatenation.hpp"
+#include "system/text.hpp"
 
 namespace squeal::interfaces {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "petsc/arrays.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 
 namespace squeal::interfaces {
 namespace {

@@ -10,7 +10,7 @@
 #include "interfaces/algebra.hpp"
 #include "mesh/vector.hpp"
 #include "petsc/check.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "session/stages.hpp"
 
 namespace squeal::interfaces {

@@ -4,7 +4,7 @@
 
 #include "options/options.hpp"
 #include "petsc/check.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 
 namespace squeal::interfaces {
 namespace {

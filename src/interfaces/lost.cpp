@@ -10,8 +10,8 @@
 #include "mortar/basis.hpp"
 #include "mortar/dual.hpp"
 #include "mortar/face.hpp"
-#include "petsc/concatenation.hpp"
-#include "petsc/text.hpp"
+#include "system/concatenation.hpp"
+#include "system/text.hpp"
 #include "session/stages.hpp"
 
 namespace squeal::interfaces {

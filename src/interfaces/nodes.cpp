@@ -16,7 +16,7 @@
 #include "interfaces/lost.hpp"
 #include "mesh/vector.hpp"
 #include "petsc/arrays.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 
 namespace squeal::interfaces {
 namespace {

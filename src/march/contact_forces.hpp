@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "march/model.hpp"
-#include "petsc/termination.hpp"
+#include "system/termination.hpp"
 
 namespace squeal::march {
 

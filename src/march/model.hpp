@@ -13,7 +13,7 @@
 
 #include "linalg/dense.hpp"
 #include "mesh/mesh.hpp"
-#include "petsc/termination.hpp"
+#include "system/termination.hpp"
 
 namespace squeal::march {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "mesh/vector.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 
 namespace squeal::material {
 

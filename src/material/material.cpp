@@ -6,7 +6,7 @@
 #include "mesh/vector.hpp"
 #include "options/options.hpp"
 #include "petsc/check.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 
 namespace squeal::material {
 

@@ -5,7 +5,7 @@
 #include "factor/symmetric_solver.hpp"
 #include "pencil/pencil.hpp"
 #include "petsc/arrays.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 
 namespace squeal::matrices {
 namespace {
@@ -110,7 +110,7 @@ SymmetricPart symmetricPart(const std::vector<NamedTerm>& terms) {
   requirePositiveDefinite(stiffness,
                           stiffnessName + (departure > 0 ? ", by its symmetric part," : ""),
                           "is a body loose? Hold it by weak springs if it is");
-  return {modes::AssociatedSystem(std::move(stiffness), std::move(mass),
+  return {factor::AssociatedSystem(std::move(stiffness), std::move(mass),
                                   "associated symmetric stiffness"),
           departure};
 }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "matrices/matrices.hpp"
-#include "modes/associated.hpp"
+#include "factor/associated.hpp"
 
 namespace squeal::matrices {
 
@@ -12,7 +12,7 @@ namespace squeal::matrices {
 /// exponents of friction, speed and damping, but for terms marked as friction. The friction that
 /// such a stiffness may hold all the same stays in the pencil.
 struct SymmetricPart {
-  modes::AssociatedSystem system;  ///< K0 is the symmetric part of the sum
+  factor::AssociatedSystem system;  ///< K0 is the symmetric part of the sum
   double asymmetry;  ///< ‖K − Kᵀ‖ / ‖K‖ of the sum; 0 if it is 1e-10 or less
 };
 

@@ -5,7 +5,7 @@
 #include "matrices/read.hpp"
 #include "options/options.hpp"
 #include "pencil/pencil.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "session/stages.hpp"
 
 namespace squeal::matrices {

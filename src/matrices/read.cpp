@@ -7,7 +7,7 @@
 #include "matrixfile/matlab.hpp"
 #include "matrixfile/matrix_market.hpp"
 #include "matrixfile/petsc_binary.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 
 namespace squeal::matrices {
 namespace {

@@ -14,8 +14,8 @@
 #include "output/file.hpp"
 #include "output/folder.hpp"
 #include "pencil/pencil.hpp"
-#include "petsc/regular_file.hpp"
-#include "petsc/text.hpp"
+#include "system/regular_file.hpp"
+#include "system/text.hpp"
 #include "session/stages.hpp"
 #include "sweep/sweep.hpp"
 

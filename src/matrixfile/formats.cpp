@@ -10,8 +10,8 @@
 
 #include "matrixfile/bytes.hpp"
 #include "petsc/check.hpp"
-#include "petsc/text.hpp"
-#include "petsc/unreadable.hpp"
+#include "system/text.hpp"
+#include "system/unreadable.hpp"
 
 namespace squeal::matrixfile {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "matrixfile/hdf5_file.hpp"
 #include "petsc/check.hpp"
-#include "petsc/child.hpp"
-#include "petsc/memory.hpp"
-#include "petsc/text.hpp"
+#include "system/child.hpp"
+#include "system/memory.hpp"
+#include "system/text.hpp"
 
 namespace squeal::matrixfile {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "petsc/check.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 
 namespace squeal::matrixfile {
 namespace {

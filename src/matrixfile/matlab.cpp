@@ -7,7 +7,7 @@
 #include "matrixfile/matlab5.hpp"
 #include "matrixfile/matlab_variable.hpp"
 #include "petsc/check.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 
 namespace squeal::matrixfile {
 namespace {

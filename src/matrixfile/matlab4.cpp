@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "petsc/check.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 
 namespace squeal::matrixfile {
 namespace {

@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "petsc/check.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 
 namespace squeal::matrixfile {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "output/file.hpp"
 #include "petsc/check.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 
 namespace squeal::matrixfile {
 namespace {

@@ -8,7 +8,7 @@
 #include "matrixfile/bytes.hpp"
 #include "matrixfile/formats.hpp"
 #include "petsc/check.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 
 namespace squeal::matrixfile {
 namespace {

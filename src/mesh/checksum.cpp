@@ -1,7 +1,7 @@
 #include "checkpoint/checkpoint.hpp"
 #include "mesh/mesh.hpp"
-#include "petsc/concatenation.hpp"
-#include "petsc/text.hpp"
+#include "system/concatenation.hpp"
+#include "system/text.hpp"
 
 namespace squeal::mesh {
 

@@ -15,9 +15,9 @@
 #include "meshfile/msh.hpp"
 #include "meshfile/unv.hpp"
 #include "petsc/check.hpp"
-#include "petsc/child.hpp"
-#include "petsc/memory.hpp"
-#include "petsc/text.hpp"
+#include "system/child.hpp"
+#include "system/memory.hpp"
+#include "system/text.hpp"
 
 namespace squeal::mesh {
 namespace {

@@ -2,7 +2,7 @@
 /// This file is the interface to the gmsh library: a file that it has read or meshed, and the
 /// physical groups. Not collective: for rank 0 only.
 #include "mesh/whole.hpp"
-#include "petsc/buffer.hpp"
+#include "system/buffer.hpp"
 
 namespace squeal::mesh {
 

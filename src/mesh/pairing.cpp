@@ -8,7 +8,7 @@
 
 #include "mesh/vector.hpp"
 #include "petsc/check.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 
 namespace squeal::mesh {
 namespace {

@@ -12,7 +12,7 @@
 #include "mesh/whole.hpp"
 #include "meshfile/format.hpp"
 #include "meshfile/geometry.hpp"
-#include "petsc/buffer.hpp"
+#include "system/buffer.hpp"
 #include "petsc/check.hpp"
 
 namespace squeal::mesh {

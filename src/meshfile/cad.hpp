@@ -2,7 +2,7 @@
 /// These functions read and mesh shapes of CAD programs: STEP, IGES and BREP. Not collective.
 #include <string>
 
-#include "petsc/child.hpp"
+#include "system/child.hpp"
 
 namespace squeal::meshfile {
 

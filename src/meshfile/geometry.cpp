@@ -11,8 +11,8 @@
 
 #include "options/options.hpp"
 #include "petsc/check.hpp"
-#include "petsc/memory.hpp"
-#include "petsc/text.hpp"
+#include "system/memory.hpp"
+#include "system/text.hpp"
 
 namespace squeal::meshfile {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "petsc/child.hpp"
+#include "system/child.hpp"
 
 namespace squeal::meshfile {
 

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "petsc/check.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 
 namespace squeal::meshfile {
 namespace {

@@ -1,7 +1,7 @@
 #include "modes/benchmark.hpp"
 
 #include "options/options.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "session/stages.hpp"
 
 namespace squeal::modes {

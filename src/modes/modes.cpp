@@ -11,7 +11,7 @@
 #include "modes/blocklanczos.hpp"
 #include "options/options.hpp"
 #include "petsc/arrays.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "session/stages.hpp"
 
 namespace squeal::modes {
@@ -48,7 +48,7 @@ PetscErrorCode report(EPS, PetscInt iteration, PetscInt converged, PetscScalar*,
 }
 
 /// Collective. Returns a solver of SLEPc for the modes nearest to zero.
-OwnedEPS solver(const AssociatedSystem& system, const Options& options, const char* type,
+OwnedEPS solver(const factor::AssociatedSystem& system, const Options& options, const char* type,
                 Stage& stage) {
   const Mat k = system.k0();
   OwnedEPS eps;
@@ -148,7 +148,7 @@ void takeModes(EPS eps, int count, Modes& modes) {
 
 /// Collective. Finds the modes by the type of EPS that -modes_eps_type names. Throws Error if too
 /// few converge.
-void solveByEps(const AssociatedSystem& system, const Options& options, Stage& stage,
+void solveByEps(const factor::AssociatedSystem& system, const Options& options, Stage& stage,
                 Modes& modes) {
   const int count = options.count;
   const OwnedEPS eps = solver(system, options, EPSKRYLOVSCHUR, stage);
@@ -170,7 +170,7 @@ void solveByEps(const AssociatedSystem& system, const Options& options, Stage& s
 /// Collective. Finds the modes by block Lanczos. Returns false if fewer than wanted have converged;
 /// `modes` is then as it was. Eigenvalues that lie close together, as those of a thin ring held at
 /// its hub, need a larger basis: more restarts do not help.
-bool solveByLanczos(const AssociatedSystem& system, const Options& options, int blockSize,
+bool solveByLanczos(const factor::AssociatedSystem& system, const Options& options, int blockSize,
                     Stage& stage, Modes& modes) {
   constexpr PetscInt restartsBeforeGrowth = 4, mostRestarts = 20;
   const int count = options.count;
@@ -200,7 +200,7 @@ bool solveByLanczos(const AssociatedSystem& system, const Options& options, int 
 ///   M d = (1/λ) K d
 /// by LAPACK on rank 0, so that the ranks agree. It gets the largest eigenvalues best, those of the
 /// lowest modes.
-void solveDense(const AssociatedSystem& system, int count, Modes& modes) {
+void solveDense(const factor::AssociatedSystem& system, int count, Modes& modes) {
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(system.k0()));
   const PetscInt n = rowsOf(system.k0());
   linalg::DenseMatrix all = linalg::gathered(system.m0()),
@@ -227,7 +227,7 @@ void solveDense(const AssociatedSystem& system, int count, Modes& modes) {
 ///   ε Σ K_jj d_j² / λ
 /// the relative change of λ that rounding in K makes, whose entries may cancel in d. If it is near
 /// one, λ says nothing.
-void measureResiduals(const AssociatedSystem& system, Modes& modes) {
+void measureResiduals(const factor::AssociatedSystem& system, Modes& modes) {
   constexpr double noise = 1e-3;  // of λ: three digits are no frequency
   constexpr PetscInt atOnce = 32;
   const linalg::ReadColumns vectors(modes.vectors);
@@ -289,7 +289,7 @@ bool denseWanted(const Options& options, PetscInt size) {
 
 /// Measures the residuals and, if that is wanted, counts the modes by the inertia. Returns false if
 /// modes are missing.
-bool examine(const AssociatedSystem& system, const Options& options, Modes& modes) {
+bool examine(const factor::AssociatedSystem& system, const Options& options, Modes& modes) {
   measureResiduals(system, modes);
   if (!options.sturm) return true;
   confirmCount(system.k0(), system.m0(), modes);
@@ -299,7 +299,7 @@ bool examine(const AssociatedSystem& system, const Options& options, Modes& mode
 /// Collective. Computes the modes by block Lanczos. A block of b vectors meets b copies of a
 /// multiple eigenvalue: where some are missing, a block twice as large is taken. Returns false if
 /// there are no modes, or if some are missing still.
-bool computeByLanczos(const AssociatedSystem& system, const Options& options, Stage& stage,
+bool computeByLanczos(const factor::AssociatedSystem& system, const Options& options, Stage& stage,
                       Modes& modes) {
   const PetscInt size = rowsOf(system.k0());
   for (int block = options.blockSize; lanczosFits(options.count, block, size); block *= 2) {
@@ -313,7 +313,7 @@ bool computeByLanczos(const AssociatedSystem& system, const Options& options, St
   return false;
 }
 
-Modes computeBy(const AssociatedSystem& system, const Options& options, Stage& stage) {
+Modes computeBy(const factor::AssociatedSystem& system, const Options& options, Stage& stage) {
   constexpr PetscInt denseAtMost = 2000;
   const PetscInt size = rowsOf(system.k0());
   const bool chosen = options.solver != Options::Solver::automatic || solverPrefix.given();
@@ -356,14 +356,14 @@ Options Options::given() {
           block,         toleranceOption.get(), sturmOption.get()};
 }
 
-Modes compute(const AssociatedSystem& system, int count) {
+Modes compute(const factor::AssociatedSystem& system, int count) {
   Options options = Options::given();
   options.count = count;
   options.countGiven = true;
   return compute(system, options);
 }
 
-Modes compute(const AssociatedSystem& system, const Options& given) {
+Modes compute(const factor::AssociatedSystem& system, const Options& given) {
   Options options = given;
   const PetscInt size = rowsOf(system.k0());
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(system.k0()));

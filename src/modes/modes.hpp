@@ -4,7 +4,7 @@
 /// whose modes are the basis of the reduced problem.
 #include <vector>
 
-#include "modes/associated.hpp"
+#include "factor/associated.hpp"
 #include "petsc/owned.hpp"
 
 namespace squeal::modes {
@@ -48,8 +48,8 @@ int wantedCount();
 /// unknowns. A count that is not confirmed is no error. Throws Error if a count that is given
 /// exceeds the number of unknowns, if the solver does not converge, or if an eigenvalue is not
 /// positive or could have been made by rounding.
-Modes compute(const AssociatedSystem& system, const Options& options = Options::given());
+Modes compute(const factor::AssociatedSystem& system, const Options& options = Options::given());
 /// Collective. Does the same for `count` modes, with the other options as they are given.
-Modes compute(const AssociatedSystem& system, int count);
+Modes compute(const factor::AssociatedSystem& system, int count);
 
 }  // namespace squeal::modes

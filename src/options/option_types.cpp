@@ -13,8 +13,8 @@
 #include "options/options.hpp"
 #include "options/settings.hpp"
 #include "petsc/check.hpp"
-#include "petsc/text.hpp"
-#include "petsc/unreadable.hpp"
+#include "system/text.hpp"
+#include "system/unreadable.hpp"
 
 namespace squeal {
 namespace {

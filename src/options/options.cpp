@@ -12,7 +12,7 @@
 #include "options/settings.hpp"
 #include "petsc/check.hpp"
 #include "petsc/owned.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 
 namespace squeal {
 namespace {

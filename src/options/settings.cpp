@@ -14,8 +14,8 @@
 #include "options/options.hpp"
 #include "options/yaml.hpp"
 #include "petsc/check.hpp"
-#include "petsc/text.hpp"
-#include "petsc/unreadable.hpp"
+#include "system/text.hpp"
+#include "system/unreadable.hpp"
 
 namespace squeal {
 namespace {

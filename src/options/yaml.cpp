@@ -8,7 +8,7 @@
 #include <set>
 
 #include "petsc/check.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 
 namespace squeal {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "output/file.hpp"
 #include "output/lock.hpp"
-#include "petsc/regular_file.hpp"
+#include "system/regular_file.hpp"
 
 namespace squeal::output {
 

@@ -9,8 +9,8 @@
 #include <cstring>
 
 #include "petsc/check.hpp"
-#include "petsc/regular_file.hpp"
-#include "petsc/termination.hpp"
+#include "system/regular_file.hpp"
+#include "system/termination.hpp"
 
 namespace squeal::output {
 
@@ -27,7 +27,7 @@ int openToWrite(const std::filesystem::path& path, int flags) {
 }
 
 void writeFile(const std::filesystem::path& path, const std::string& text) {
-  const EndingWaits whole;
+  const SignalsBlocked whole;
   const int descriptor = openToWrite(path);
   std::FILE* file = fdopen(descriptor, "wb");
   if (!file) {
@@ -44,7 +44,7 @@ void writeFile(const std::filesystem::path& path, const std::string& text) {
 }
 
 void reserve(const std::filesystem::path& path, unsigned long long bytes) {
-  const EndingWaits whole;
+  const SignalsBlocked whole;
   rlimit most{};
   const int file = openToWrite(path);
   int error = getrlimit(RLIMIT_FSIZE, &most) == 0 && bytes > most.rlim_cur ? EFBIG : 0;

@@ -1,6 +1,6 @@
 #pragma once
 /// These functions write files on one rank. Once the run is being ended from outside, none is begun
-/// (EndingWaits), since the clearing up must not be undone.
+/// (SignalsBlocked), since the clearing up must not be undone.
 #include <fcntl.h>
 
 #include <filesystem>

@@ -10,7 +10,7 @@
 #include "output/claim.hpp"
 #include "output/file.hpp"
 #include "petsc/check.hpp"
-#include "petsc/regular_file.hpp"
+#include "system/regular_file.hpp"
 
 namespace squeal::output {
 
@@ -125,13 +125,13 @@ Folder::Folder(MPI_Comm comm, Naming naming, fs::path path)
       staging_(path_ / ".partial"),
       complete_(path_ / ".complete") {
   if (path_.empty()) throw Error(head_ + "the name of the folder is empty");
-  lastAct_ = std::make_unique<LastAct>([this] { tidy(patience); });
+  lastAct_ = std::make_unique<AtTermination>([this] { tidy(patience); });
   try {
     onFirst([&] { make(); });
     check(MPI_Bcast(&made_, 1, MPI_INT, 0, comm_));
     lock_.take(comm_, path_, head_);
     onFirst([&] {
-      const EndingWaits whole;
+      const SignalsBlocked whole;
       clear();
       requireFree(naming_.mayWrite, earlier());
     });
@@ -142,7 +142,7 @@ Folder::Folder(MPI_Comm comm, Naming naming, fs::path path)
 }
 
 Folder::~Folder() {
-  const EndingWaits whole;
+  const SignalsBlocked whole;
   lastAct_.reset();
   tidy();
 }
@@ -159,7 +159,7 @@ void Folder::requireOurs() const {
 }
 
 void Folder::make() {
-  const EndingWaits whole;
+  const SignalsBlocked whole;
   requireReachable(path_, naming_.inside);
   std::vector<fs::path> missing;
   for (fs::path folder = path_; !folder.empty() && !fs::exists(folder);
@@ -179,7 +179,7 @@ void Folder::clear() {
 
 /// Clears up on the last rank alone, so that nothing is taken from under the hands of another one.
 void Folder::tidy(std::chrono::milliseconds patience) {
-  const EndingWaits whole;
+  const SignalsBlocked whole;
   const auto asLast = [&] {
     std::error_code ignored;
     if (isFolder(staging_))
@@ -211,7 +211,7 @@ void Folder::requireFree(const std::function<bool(const fs::path&)>& writes, con
 
 void Folder::stage() {
   onFirst([&] {
-    const EndingWaits whole;
+    const SignalsBlocked whole;
     fs::create_directory(staging_);
   });
 }
@@ -229,7 +229,7 @@ void Folder::commit() {
       sync(staging_ / file);
     }
     sync(staging_);
-    const EndingWaits whole;
+    const SignalsBlocked whole;
     requireFree([&](const fs::path& path) { return fresh.lists(path); }, old);
     if (!old.files().empty() && !fs::exists(path_ / Manifest::name)) {
       // Files of a version without manifests are listed, so that their removal can be resumed.
@@ -245,7 +245,7 @@ void Folder::commit() {
 
 void Folder::discard() {
   onFirst([&] {
-    const EndingWaits whole;
+    const SignalsBlocked whole;
     if (const auto old = Manifest::read(path_)) removeListed(path_, *old, naming_.last);
   });
   ++made_;  // it goes like a folder that this run has made

@@ -11,7 +11,7 @@
 
 #include "output/lock.hpp"
 #include "output/manifest.hpp"
-#include "petsc/termination.hpp"
+#include "system/termination.hpp"
 
 namespace squeal::output {
 
@@ -85,7 +85,7 @@ class Folder {
   /// Number of the last folders of the path that had to be made, this one and its parents
   int made_ = 0;
   Lock lock_;
-  std::unique_ptr<LastAct> lastAct_;
+  std::unique_ptr<AtTermination> lastAct_;
 };
 
 }  // namespace squeal::output

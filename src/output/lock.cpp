@@ -11,8 +11,8 @@
 
 #include "output/file.hpp"
 #include "petsc/check.hpp"
-#include "petsc/regular_file.hpp"
-#include "petsc/termination.hpp"
+#include "system/regular_file.hpp"
+#include "system/termination.hpp"
 #include "session/stages.hpp"
 
 namespace squeal::output {
@@ -52,7 +52,7 @@ void Lock::take(MPI_Comm comm, const std::filesystem::path& folder, const std::s
 /// the other ranks to join. Sets `warning` where the file system cannot lock. Throws Error or
 /// WriteError as take() throws Error.
 void Lock::takeAlone(const std::filesystem::path& folder, std::string& warning) {
-  const EndingWaits whole;
+  const SignalsBlocked whole;
   for (int attempt = 0; attempt < 10;
        ++attempt) {  // a run that ends at this moment takes its file with it
     const int file = openRegular(path_, O_RDWR | O_CREAT, cannotWrite(path_, 0));
@@ -80,7 +80,7 @@ void Lock::takeAlone(const std::filesystem::path& folder, std::string& warning) 
 /// Joins rank 0, which holds the lock already. If that fails, as on a node that does not see the
 /// folder, the run has the lock all the same.
 void Lock::join() {
-  const EndingWaits whole;
+  const SignalsBlocked whole;
   const int file = open(path_.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
   if (file < 0) return;
   if (lockFile(file, LOCK_SH) == 0) {

@@ -3,7 +3,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "petsc/regular_file.hpp"
+#include "system/regular_file.hpp"
 #include "session/session.hpp"
 
 namespace squeal::output {

@@ -6,7 +6,7 @@
 
 #include "march/products.hpp"
 #include "petsc/check.hpp"
-#include "petsc/concatenation.hpp"
+#include "system/concatenation.hpp"
 
 namespace squeal::periodic {
 namespace {

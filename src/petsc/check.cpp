@@ -1,16 +1,32 @@
 #include "petsc/check.hpp"
 
-#include <cstdio>
-#include <cstdlib>
+#include <petscblaslapack.h>
 
-#include "petsc/memory.hpp"
-#include "petsc/termination.hpp"
+#include <cstdlib>
+#include <vector>
+
+#include "system/memory.hpp"
+#include "system/termination.hpp"
 
 namespace squeal {
 
 namespace {
 
 KeptError* keeper = nullptr;
+
+bool lacks = false;
+
+/// Handles an error of PETSc, whose own handler prints a trace where an allocation fails. The code
+/// alone goes up to check(), which says it in one line. The code that PetscMallocAlign of PETSc
+/// 3.18 raises is the number of a line instead of PETSC_ERR_MEM: the name of the function tells.
+PetscErrorCode handleError(MPI_Comm comm, int line, const char* function, const char* file,
+                           PetscErrorCode code, PetscErrorType type, const char* message,
+                           void* context) {
+  if (type == PETSC_ERROR_INITIAL)
+    lacks = code == PETSC_ERR_MEM || (function && std::string(function) == "PetscMallocAlign");
+  if (lacks || KeptError::keep(code, message)) return code;
+  return PetscTraceBackErrorHandler(comm, line, function, file, code, type, message, context);
+}
 
 }  // namespace
 
@@ -39,27 +55,21 @@ void check(PetscErrorCode code, std::source_location where) {
   MPI_Abort(PETSC_COMM_WORLD, 70);
 }
 
-void reportDefect(const char* rule, std::source_location where) {
-  std::fprintf(stderr, "squeal: error: a defect of the program: %s (%s, %s:%u); please report it\n",
-               rule, where.function_name(), where.file_name(), unsigned(where.line()));
-  performLastActs();
-  MPI_Abort(MPI_COMM_WORLD, 70);
-  std::abort();
-}
+void reportLackOfMemoryInOneLine() { check(PetscPushErrorHandler(handleError, nullptr)); }
 
-void failTogether(MPI_Comm comm, const std::string& localMessage) {
-  int rank = 0, size = 1;
-  check(MPI_Comm_rank(comm, &rank));
-  check(MPI_Comm_size(comm, &size));
-  int mine = localMessage.empty() ? size : rank, first = size;
-  check(MPI_Allreduce(&mine, &first, 1, MPI_INT, MPI_MIN, comm));
-  if (first == size) return;
-  int length = localMessage.size();
-  check(MPI_Bcast(&length, 1, MPI_INT, first, comm));
-  std::string message = localMessage;
-  message.resize(length);
-  check(MPI_Bcast(message.data(), length, MPI_CHAR, first, comm));
-  throw Error(message);
+bool lacksMemory(PetscErrorCode code) { return code != 0 && (lacks || code == PETSC_ERR_MEM); }
+
+void claimBlasWorkspace() {
+  constexpr std::size_t workspace = 160u << 20;  // OpenBLAS takes 128 MB
+  if (void* room = std::malloc(workspace))
+    std::free(room);
+  else
+    outOfMemory();
+  PetscBLASInt n = 128;  // smaller products may do without
+  const PetscScalar one = 1;
+  const std::vector<PetscScalar> a(n * n, 1.0);
+  std::vector<PetscScalar> product(a.size(), 0.0);
+  BLASgemm_("N", "N", &n, &n, &n, &one, a.data(), &n, a.data(), &n, &one, product.data(), &n);
 }
 
 }  // namespace squeal

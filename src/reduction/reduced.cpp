@@ -104,7 +104,7 @@ struct ReducedProblem::PointState : PointFound {
   bool damped;
 };
 
-ReducedProblem::ReducedProblem(const pencil::Pencil& pencil, const modes::AssociatedSystem& system,
+ReducedProblem::ReducedProblem(const pencil::Pencil& pencil, const factor::AssociatedSystem& system,
                                const modes::Modes& modes, const Options& options,
                                Substructure substructure)
     : options_(options),

@@ -70,7 +70,7 @@ class ReducedProblem {
   /// Collective. Borrows the system, that of the interior unknowns, during the life of the object
   /// and shares the terms of `pencil`, which hold at all points and for all unknowns. `modes` are
   /// M0-orthonormal with ascending frequencies; they are copied.
-  ReducedProblem(const pencil::Pencil& pencil, const modes::AssociatedSystem& system,
+  ReducedProblem(const pencil::Pencil& pencil, const factor::AssociatedSystem& system,
                  const modes::Modes& modes, const Options& options = Options::given(),
                  Substructure substructure = {});
   /// Collective. Makes known the points that have the boundary unknowns with has[boundary unknown

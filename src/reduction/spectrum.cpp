@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "petsc/check.hpp"
-#include "refinement/refinement.hpp"
+#include "reduction/eigenpair_correction.hpp"
 
 namespace squeal::reduction {
 namespace {
@@ -33,9 +33,9 @@ std::vector<linalg::DensePair> allPairs(const Spectrum& spectrum) {
   return pairs;
 }
 
-std::vector<refinement::Open> openOf(const SpectrumRequest& request) {
+std::vector<UnconvergedPair> openOf(const SpectrumRequest& request) {
   const Spectrum& spectrum = *request.spectrum;
-  std::vector<refinement::Open> open;
+  std::vector<UnconvergedPair> open;
   for (std::size_t j = 0; j < spectrum.band.size(); ++j)
     if (const double ratio = request.errorRatio[j]; ratio > 1)
       open.push_back({j, std::max(least, enough / ratio), leastOfLeft});
@@ -65,10 +65,10 @@ void solveSpectra(MPI_Comm comm, const pencil::WatchedBand& band,
     (canImprove(request, band) ? improvable : inFull).push_back(&request);
     if (improvable.size() > pairs.size()) pairs.push_back(allPairs(*request.spectrum));
   }
-  std::vector<refinement::Task> tasks;
+  std::vector<CorrectionTask> tasks;
   for (std::size_t i = 0; i < improvable.size(); ++i)
     tasks.push_back({improvable[i]->problem, &pairs[i], openOf(*improvable[i])});
-  const auto improved = refinement::improve(comm, tasks);
+  const auto improved = correctPairs(comm, tasks);
   for (std::size_t i = 0; i < improvable.size(); ++i) {
     if (!improved[i]) {
       inFull.push_back(improvable[i]);
@@ -97,7 +97,7 @@ std::vector<bool> incomplete(MPI_Comm comm, const pencil::WatchedBand& band,
         for (auto& pair : pairs)  // they may be of a smaller basis
           for (auto* vector : {&pair.q, &pair.left}) vector->resize(problem->order());
         const Complex shift(0, places[i % places.size()] * band.top);
-        const auto unknown = refinement::missing(*problem, pairs, shift,
+        const auto unknown = findMissing(*problem, pairs, shift,
                                                  [&](Complex s) { return band.contains(s); });
         if (unknown) result.push_back({*unknown, {}});
         return result;

@@ -35,7 +35,7 @@ void solveSpectra(MPI_Comm comm, const pencil::WatchedBand& band,
                   const std::vector<SpectrumRequest>& requests);
 
 /// Collective. Returns whether an eigenvalue of the band is missing in the spectrum, [request], as
-/// refinement::missing() finds. Throws Error on all ranks if that fails.
+/// findMissing() finds. Throws Error on all ranks if that fails.
 std::vector<bool> incomplete(MPI_Comm comm, const pencil::WatchedBand& band,
                              const std::vector<SpectrumRequest>& requests);
 

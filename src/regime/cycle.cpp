@@ -8,8 +8,8 @@
 #include "options/options.hpp"
 #include "periodic/branch.hpp"
 #include "petsc/check.hpp"
-#include "petsc/termination.hpp"
-#include "petsc/text.hpp"
+#include "system/termination.hpp"
+#include "system/text.hpp"
 
 namespace squeal::regime {
 namespace {

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "petsc/check.hpp"
-#include "petsc/termination.hpp"
-#include "petsc/text.hpp"
+#include "system/termination.hpp"
+#include "system/text.hpp"
 #include "regime/cycle.hpp"
 
 namespace squeal::regime {

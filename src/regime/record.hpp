@@ -8,7 +8,7 @@
 
 #include "march/model.hpp"
 #include "march/scheme.hpp"
-#include "petsc/termination.hpp"
+#include "system/termination.hpp"
 
 namespace squeal::regime {
 

@@ -13,8 +13,8 @@
 #include "linalg/symmetric.hpp"
 #include "mesh/vector.hpp"
 #include "petsc/arrays.hpp"
-#include "petsc/concatenation.hpp"
-#include "petsc/termination.hpp"
+#include "system/concatenation.hpp"
+#include "system/termination.hpp"
 
 namespace squeal::regime {
 namespace {

@@ -11,8 +11,8 @@
 #include "march/law.hpp"
 #include "options/options.hpp"
 #include "petsc/arrays.hpp"
-#include "petsc/termination.hpp"
-#include "petsc/text.hpp"
+#include "system/termination.hpp"
+#include "system/text.hpp"
 #include "regime/follow.hpp"
 #include "regime/task.hpp"
 #include "session/stages.hpp"
@@ -307,7 +307,7 @@ void checkOptions(bool ofMesh) {
     throw Error(
         "option -regime_friction: the motion after flutter needs the free modes and the estimates "
         "of -flutter_method reduced");
-  if (flutter::modalDampingWanted())
+  if (pencil::modalDampingWanted())
     throw Error(
         "option -regime_friction: -flutter_modal_damping is not followed in time; give the damping "
         "to the materials");

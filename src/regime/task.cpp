@@ -5,7 +5,7 @@
 
 #include "options/options.hpp"
 #include "petsc/check.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "regime/record.hpp"
 
 namespace squeal::regime {

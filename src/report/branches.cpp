@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "sweep/parameters.hpp"
 
 namespace squeal::report {

@@ -10,7 +10,7 @@
 #include "options/options.hpp"
 #include "pencil/complex_modes.hpp"
 #include "petsc/arrays.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "report/branches.hpp"
 #include "report/names.hpp"
 #include "report/nodal_fields.hpp"

@@ -4,8 +4,8 @@
 #include <regex>
 #include <sstream>
 
-#include "petsc/regular_file.hpp"
-#include "petsc/text.hpp"
+#include "system/regular_file.hpp"
+#include "system/text.hpp"
 
 namespace squeal::report {
 

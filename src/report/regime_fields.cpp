@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "report/names.hpp"
 #include "sweep/parameters.hpp"
 

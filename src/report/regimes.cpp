@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "report/report.hpp"
 #include "sweep/parameters.hpp"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "pencil/complex_modes.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "sweep/parameters.hpp"
 
 namespace squeal::report {

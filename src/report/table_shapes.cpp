@@ -5,8 +5,8 @@
 #include <string>
 
 #include "petsc/check.hpp"
-#include "petsc/regular_file.hpp"
-#include "petsc/text.hpp"
+#include "system/regular_file.hpp"
+#include "system/text.hpp"
 #include "report/names.hpp"
 
 namespace squeal::report {

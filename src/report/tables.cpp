@@ -10,7 +10,7 @@
 #include "options/settings.hpp"
 #include "pencil/band.hpp"
 #include "pencil/complex_modes.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "report/branches.hpp"
 #include "report/names.hpp"
 #include "report/regimes.hpp"

@@ -7,14 +7,14 @@
 
 #include "direct/direct.hpp"
 #include "factor/symmetric_solver.hpp"
-#include "flutter/terms.hpp"
+#include "pencil/modal_damping.hpp"
 #include "linalg/columns.hpp"
 #include "modes/kept.hpp"
 #include "options/options.hpp"
 #include "pencil/kept.hpp"
 #include "pencil/pencil.hpp"
-#include "petsc/termination.hpp"
-#include "petsc/text.hpp"
+#include "system/termination.hpp"
+#include "system/text.hpp"
 #include "reduction/reduced.hpp"
 #include "sensitivity/sensitivity.hpp"
 #include "session/events.hpp"
@@ -168,7 +168,7 @@ class SegmentSweep {
 
   void solveAll() {
     auto modes = computeModes();
-    if (modes) pencil_.add(flutter::modalDamping(*modes, problem_.system().m0()));
+    if (modes) pencil_.add(pencil::modalDamping(*modes, problem_.system().m0()));
     for (auto& range : ranges_) {
       range.pencil = pencil_.with({});
       range.pencil.add(std::move(range.points.terms));

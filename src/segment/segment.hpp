@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "checkpoint/checkpoint.hpp"
-#include "modes/associated.hpp"
+#include "factor/associated.hpp"
 #include "modes/modes.hpp"
 #include "pencil/complex_modes.hpp"
 #include "pencil/pencil.hpp"
@@ -55,7 +55,7 @@ class SegmentProblem {
  public:
   virtual ~SegmentProblem() = default;
   /// Returns K0 and M0 of the interior unknowns with the solver of K0.
-  virtual const modes::AssociatedSystem& system() const = 0;
+  virtual const factor::AssociatedSystem& system() const = 0;
   /// Returns the boundary unknowns: the gaps, and tangential displacements, of the contact nodes
   /// that are active at some of the points alone.
   virtual const subspace::Substructure& substructure() const {

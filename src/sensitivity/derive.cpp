@@ -19,7 +19,7 @@ double separation(const std::vector<pencil::Eigenvalue>& eigenvalues, std::size_
 }  // namespace
 
 void deriveShapes(pencil::ComplexModes& point, const pencil::Pencil& pencil,
-                  const StartSpace& start, const modes::AssociatedSystem& system,
+                  const StartSpace& start, const factor::AssociatedSystem& system,
                   const Forms& forms) {
   if (point.shapes.empty()) return;
   std::vector<RightPair> pairs;
@@ -40,7 +40,7 @@ void deriveShapes(pencil::ComplexModes& point, const pencil::Pencil& pencil,
 }
 
 void deriveParameters(pencil::ComplexModes& point, const pencil::Pencil& pencil,
-                      const StartSpace& start, const modes::AssociatedSystem& system) {
+                      const StartSpace& start, const factor::AssociatedSystem& system) {
   deriveShapes(point, pencil, start, system, [&](const EigenTriple& triple) {
     std::vector<pencil::Derivative> found;
     for (const auto& parameter : sweep::allParameters)

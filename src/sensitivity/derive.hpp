@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "modes/associated.hpp"
+#include "factor/associated.hpp"
 #include "pencil/complex_modes.hpp"
 #include "pencil/pencil.hpp"
 #include "sensitivity/left.hpp"
@@ -19,12 +19,12 @@ using Forms = std::function<std::vector<pencil::Derivative>(const EigenTriple&)>
 /// of `system`. Where the eigenvalue has derivatives, they are the forms divided by −yᴴ P′ x
 /// [M.46]. The arguments are borrowed during this call.
 void deriveShapes(pencil::ComplexModes& point, const pencil::Pencil& pencil,
-                  const StartSpace& start, const modes::AssociatedSystem& system,
+                  const StartSpace& start, const factor::AssociatedSystem& system,
                   const Forms& forms);
 
 /// Collective. Does the same for friction, speed and damping, as far as the coefficients of the
 /// terms depend on them.
 void deriveParameters(pencil::ComplexModes& point, const pencil::Pencil& pencil,
-                      const StartSpace& start, const modes::AssociatedSystem& system);
+                      const StartSpace& start, const factor::AssociatedSystem& system);
 
 }  // namespace squeal::sensitivity

@@ -22,8 +22,8 @@
 
 #include "options/options.hpp"
 #include "petsc/check.hpp"
-#include "petsc/regular_file.hpp"
-#include "petsc/text.hpp"
+#include "system/regular_file.hpp"
+#include "system/text.hpp"
 #include "session/session.hpp"
 #include "session/stages.hpp"
 

@@ -14,9 +14,9 @@
 
 #include "options/settings.hpp"
 #include "petsc/check.hpp"
-#include "petsc/memory.hpp"
-#include "petsc/termination.hpp"
-#include "petsc/text.hpp"
+#include "system/memory.hpp"
+#include "system/termination.hpp"
+#include "system/text.hpp"
 #include "petsc/work.hpp"
 
 namespace squeal {
@@ -84,7 +84,7 @@ Session::Session(int argc, char** argv) {
                                                                          : readSettings(words);
   optionsGiven_ = !settings.empty();
   startSlepc(argv[0], settings);
-  tellLackOfMemoryInOneLine();
+  reportLackOfMemoryInOneLine();
   signals.begin(rank());
   keepFreedMemory();
   claimBlasWorkspace();

@@ -10,7 +10,7 @@
 
 #include "options/options.hpp"
 #include "petsc/check.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "session/events.hpp"
 
 namespace squeal {

@@ -8,7 +8,7 @@
 #include "elasticity/face.hpp"
 #include "elasticity/shape.hpp"
 #include "mesh/vector.hpp"
-#include "petsc/concatenation.hpp"
+#include "system/concatenation.hpp"
 
 namespace squeal::sound {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "mesh/vector.hpp"
 #include "options/options.hpp"
-#include "petsc/concatenation.hpp"
-#include "petsc/text.hpp"
+#include "system/concatenation.hpp"
+#include "system/text.hpp"
 #include "session/stages.hpp"
 #include "sound/spectrum.hpp"
 

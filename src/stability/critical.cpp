@@ -10,7 +10,7 @@
 #include "linalg/quadratic.hpp"
 #include "linalg/subspace.hpp"
 #include "petsc/check.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "reduction/reduced.hpp"
 #include "tracking/join.hpp"
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "options/options.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "tracking/reducedfamily.hpp"
 #include "tracking/renumber.hpp"
 

@@ -4,7 +4,7 @@
 
 #include "options/options.hpp"
 #include "petsc/arrays.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "sweep/parameters.hpp"
 
 namespace squeal::steady {

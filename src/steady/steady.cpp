@@ -8,7 +8,7 @@
 #include "elasticity/elasticity.hpp"
 #include "mesh/mesh.hpp"
 #include "petsc/arrays.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "steady/complementarity.hpp"
 #include "steady/resultants.hpp"
 
@@ -21,6 +21,10 @@ constexpr double meaningful = 1e-6;
 constexpr int mostRevisions = 50;
 
 }  // namespace
+
+contact::ActiveSet activeSet(const Solution& solution) {
+  return {solution.closed, solution.sticking.free()};
+}
 
 Problem::Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
                  const contact::Contact& contact)

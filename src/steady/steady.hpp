@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "contact/active_set.hpp"
 #include "contact/coupled.hpp"
 #include "elasticity/elasticity.hpp"
 #include "mesh/mesh.hpp"
@@ -68,6 +69,9 @@ struct Solution {
   /// is known.
   PetscInt nodesOfAnother = 0;
 };
+
+/// Returns the active set of a steady state.
+contact::ActiveSet activeSet(const Solution& solution);
 
 /// The complementarity problem [3.3–3.4, M.13] is, with u = T x + p u0,
 ///   r = (K + v² K^R) u − b,   b = p × pressures + v² × centrifugal forces,

@@ -8,7 +8,7 @@
 #include "linalg/quadratic.hpp"
 #include "linalg/symmetric.hpp"
 #include "petsc/arrays.hpp"
-#include "petsc/concatenation.hpp"
+#include "system/concatenation.hpp"
 
 namespace squeal::subspace {
 namespace {
@@ -60,7 +60,7 @@ void clearConstraintModes(linalg::DenseMatrix& parts, PetscInt count) {
 
 }  // namespace
 
-Basis::Basis(const modes::Modes& modes, const modes::AssociatedSystem& system,
+Basis::Basis(const modes::Modes& modes, const factor::AssociatedSystem& system,
              Substructure substructure)
     : comm_(system.comm()),
       substructure_(std::move(substructure)),

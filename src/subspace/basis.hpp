@@ -28,7 +28,7 @@ class Basis {
   /// the modes of the system, which is that of the interior unknowns. The modes are needed during
   /// this call only, and the system is borrowed during the life of the object. Throws Error if K0
   /// cannot be factorised.
-  Basis(const modes::Modes& modes, const modes::AssociatedSystem& system,
+  Basis(const modes::Modes& modes, const factor::AssociatedSystem& system,
         Substructure substructure = {});
   /// Returns V by this rank's rows.
   const linalg::Block& columns() const { return columns_; }

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 
 namespace squeal::sweep {
 

@@ -6,7 +6,7 @@
 
 #include "options/options.hpp"
 #include "petsc/check.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "session/stages.hpp"
 
 namespace squeal::sweep {

@@ -9,8 +9,8 @@
 #include "interfaces/algebra.hpp"
 #include "mesh/vector.hpp"
 #include "petsc/arrays.hpp"
-#include "petsc/concatenation.hpp"
-#include "petsc/text.hpp"
+#include "system/concatenation.hpp"
+#include "system/text.hpp"
 #include "session/stages.hpp"
 
 namespace squeal::ties {

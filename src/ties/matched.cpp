@@ -7,8 +7,8 @@
 
 #include "interfaces/candidates.hpp"
 #include "mesh/vector.hpp"
-#include "petsc/concatenation.hpp"
-#include "petsc/text.hpp"
+#include "system/concatenation.hpp"
+#include "system/text.hpp"
 
 namespace squeal::ties {
 

@@ -9,7 +9,7 @@
 #include "interfaces/lost.hpp"
 #include "mortar/face.hpp"
 #include "petsc/check.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "session/stages.hpp"
 #include "ties/adjustment.hpp"
 #include "ties/matched.hpp"

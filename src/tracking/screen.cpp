@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "linalg/subspace.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "tracking/join.hpp"
 
 namespace squeal::tracking {

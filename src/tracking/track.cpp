@@ -5,7 +5,7 @@
 #include <list>
 
 #include "petsc/check.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "tracking/join.hpp"
 #include "tracking/screen.hpp"
 

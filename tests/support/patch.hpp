@@ -9,7 +9,7 @@
 
 #include "elasticity/elasticity.hpp"
 #include "elasticity/shape.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "support/model.hpp"
 
 namespace squeal::test::patch {

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 
 namespace squeal::test {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "pencil/complex_modes.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
 #include "support/spectrum.hpp"

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "pencil/complex_modes.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "support/case.hpp"
 #include "support/spectrum.hpp"
 #include "support/worst.hpp"

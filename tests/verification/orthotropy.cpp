@@ -7,7 +7,7 @@
 #include "contact/coupled.hpp"
 #include "exact/orthotropic.hpp"
 #include "modes/modes.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
 #include "support/worst.hpp"

@@ -7,7 +7,7 @@
 #include "contact/coupled.hpp"
 #include "contact/response.hpp"
 #include "options/settings.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "steady/steady.hpp"
 #include "support/case.hpp"
 #include "support/communicator.hpp"

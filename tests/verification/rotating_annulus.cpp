@@ -11,7 +11,7 @@
 #include "flutter/terms.hpp"
 #include "mesh/mesh.hpp"
 #include "pencil/complex_modes.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
 #include "support/spectrum.hpp"

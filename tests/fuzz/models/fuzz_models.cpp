@@ -20,7 +20,7 @@
 #include "fuzz/models/compare.hpp"
 #include "fuzz/models/paths.hpp"
 #include "petsc/check.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "session/session.hpp"
 
 namespace squeal::fuzz {

@@ -10,7 +10,7 @@
 #include "fuzz/random.hpp"
 #include "options/settings.hpp"
 #include "petsc/check.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 
 namespace squeal::fuzz {
 namespace {

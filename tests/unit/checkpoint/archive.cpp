@@ -8,7 +8,7 @@
 #include "linalg/serialization.hpp"
 #include "options/settings.hpp"
 #include "petsc/arrays.hpp"
-#include "petsc/regular_file.hpp"
+#include "system/regular_file.hpp"
 #include "support/communicator.hpp"
 #include "support/report_files.hpp"
 

@@ -11,7 +11,7 @@
 
 #include "condensed/condensed_problem.hpp"
 #include "contact/coupled.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "support/case.hpp"
 #include "support/communicator.hpp"
 #include "support/complementarity.hpp"

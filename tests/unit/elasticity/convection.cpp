@@ -6,7 +6,7 @@
 
 #include "elasticity/elasticity.hpp"
 #include "mesh/mesh.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "support/model.hpp"
 #include "support/symmetric.hpp"
 #include "support/worst.hpp"

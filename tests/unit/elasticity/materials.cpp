@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "exact/orthotropic.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "support/case.hpp"
 #include "support/dense.hpp"
 #include "support/model.hpp"

@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "matrixfile/matrix_market.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "support/case.hpp"
 #include "support/matrix_files.hpp"
 #include "support/spectrum.hpp"

@@ -11,7 +11,7 @@
 
 #include "elasticity/element.hpp"
 #include "mesh/gmsh_model.hpp"
-#include "petsc/child.hpp"
+#include "system/child.hpp"
 #include "support/case.hpp"
 #include "support/mesh_checks.hpp"
 #include "support/mesh_message.hpp"

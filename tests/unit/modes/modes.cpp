@@ -231,7 +231,7 @@ TEST(Modes, EigenvaluesOfHighMultiplicity) {
     check(MatSetOption(sparse, MAT_SYMMETRIC, PETSC_TRUE));
     *matrix = std::move(sparse);
   }
-  const modes::AssociatedSystem system(k.share(), m.share(), "stiffness");
+  const factor::AssociatedSystem system(k.share(), m.share(), "stiffness");
   const auto modes = modes::compute(system, 40);
   for (double lambda : modes.lambda) EXPECT_NEAR(lambda, 1, 1e-12);
   EXPECT_LT(departureFromOrthonormal(modes.vectors, m), 1e-12);

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "support/model.hpp"
 
 namespace squeal {

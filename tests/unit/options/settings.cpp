@@ -9,7 +9,7 @@
 
 #include "options/options.hpp"
 #include "options/yaml.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "session/stages.hpp"
 #include "support/model.hpp"
 #include "support/warnings.hpp"

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "output/file.hpp"
-#include "petsc/regular_file.hpp"
+#include "system/regular_file.hpp"
 #include "support/output_folder.hpp"
 #include "support/report_files.hpp"
 #include "support/shared_files.hpp"

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "report/fields.hpp"
 #include "report/names.hpp"
 #include "report/sensitivities.hpp"

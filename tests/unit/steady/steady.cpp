@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "contact/coupled.hpp"
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 #include "steady/complementarity.hpp"
 #include "steady/steady.hpp"
 #include "support/case.hpp"

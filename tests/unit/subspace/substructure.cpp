@@ -11,7 +11,7 @@
 #include "analysis/mesh_segment.hpp"
 #include "flutter/terms.hpp"
 #include "linalg/symmetric.hpp"
-#include "petsc/concatenation.hpp"
+#include "system/concatenation.hpp"
 #include "reduction/reduced.hpp"
 #include "support/blocks.hpp"
 #include "support/dense.hpp"

@@ -1,4 +1,4 @@
-#include "petsc/text.hpp"
+#include "system/text.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -1,6 +1,6 @@
 // Eigenpairs of a problem of a smaller basis improved in a larger one, and eigenvalues that are
 // missing in a list. The answers are those of LAPACK for the whole problem.
-#include "refinement/refinement.hpp"
+#include "reduction/eigenpair_correction.hpp"
 
 #include <gtest/gtest.h>
 
@@ -48,16 +48,16 @@ std::vector<DensePair> pairsOf(const DenseProblem& problem) {
                                 [](Complex s) { return std::abs(s) <= 1.3 * top; });
 }
 
-std::vector<refinement::Open> bandOpen(const std::vector<DensePair>& pairs, double part) {
-  std::vector<refinement::Open> open;
+std::vector<UnconvergedPair> bandOpen(const std::vector<DensePair>& pairs, double part) {
+  std::vector<UnconvergedPair> open;
   for (std::size_t j = 0; j < pairs.size(); ++j)
     if (inBand(pairs[j].s)) open.push_back({j, part, 0.1});
   return open;
 }
 
 bool improved(const DenseProblem& problem, std::vector<DensePair>& pairs,
-              const std::vector<refinement::Open>& open) {
-  return refinement::improve(PETSC_COMM_WORLD, {{&problem, &pairs, open}})[0];
+              const std::vector<UnconvergedPair>& open) {
+  return correctPairs(PETSC_COMM_WORLD, {{&problem, &pairs, open}})[0];
 }
 
 std::vector<DensePair> bandOf(std::vector<DensePair> pairs) {
@@ -107,12 +107,12 @@ TEST(Refinement, RefusesPairsThatMeet) {
 TEST(Refinement, ImprovesProblemByProblem) {
   const std::vector<DenseProblem> problems{brake(0.02), brake(0.021), brake(0.03)};
   std::vector<std::vector<DensePair>> pairs;
-  std::vector<refinement::Task> tasks;
+  std::vector<CorrectionTask> tasks;
   for (const auto& problem : problems) pairs.push_back(pairsOf(leading(problem, known)));
   pairs[1].push_back(pairs[1][4]);  // a pair twice
   for (std::size_t i = 0; i < problems.size(); ++i)
     tasks.push_back({&problems[i], &pairs[i], bandOpen(pairs[i], 0.01)});
-  EXPECT_EQ(refinement::improve(PETSC_COMM_WORLD, tasks), (std::vector{true, false, true}));
+  EXPECT_EQ(correctPairs(PETSC_COMM_WORLD, tasks), (std::vector{true, false, true}));
   for (const std::size_t i : {0, 2})
     expectSpectrum(eigenvaluesOf(bandOf(pairs[i])), eigenvaluesOf(bandOf(pairsOf(problems[i]))),
                    1e-4);
@@ -140,7 +140,7 @@ TEST(Refinement, FindsWhatIsMissing) {
     const auto missingIn = [&](const std::vector<DensePair>& pairs) {
       std::optional<Complex> found;
       for (const Complex shift : shifts)
-        if (!found) found = refinement::missing(problem, pairs, shift, inBand);
+        if (!found) found = findMissing(problem, pairs, shift, inBand);
       return found;
     };
     EXPECT_FALSE(missingIn(all));

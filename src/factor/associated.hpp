@@ -6,7 +6,7 @@
 #include "factor/symmetric_solver.hpp"
 #include "petsc/owned.hpp"
 
-namespace squeal::modes {
+namespace squeal::factor {
 
 /// The matrices K0 and M0, n×n, symmetric positive definite. A direct solver of K0 (prefix
 /// -modes_st_) belongs to them, whose one factorisation serves all stages.
@@ -26,7 +26,7 @@ class AssociatedSystem {
  private:
   OwnedMat k0_, m0_;
   PetscInt size_ = 0;
-  std::unique_ptr<factor::SymmetricSolver> solver_;
+  std::unique_ptr<SymmetricSolver> solver_;
 };
 
-}  // namespace squeal::modes
+}  // namespace squeal::factor

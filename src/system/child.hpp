@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "petsc/buffer.hpp"
+#include "system/buffer.hpp"
 
 namespace squeal {
 

@@ -1,4 +1,4 @@
-#include "petsc/regular_file.hpp"
+#include "system/regular_file.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "petsc/check.hpp"
+#include "system/error.hpp"
 
 namespace squeal {
 namespace {

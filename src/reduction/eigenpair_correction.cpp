@@ -1,4 +1,4 @@
-#include "refinement/refinement.hpp"
+#include "reduction/eigenpair_correction.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@
 #include "petsc/check.hpp"
 #include "petsc/work.hpp"
 
-namespace squeal::refinement {
+namespace squeal::reduction {
 namespace {
 
 using linalg::ComplexMatrix;
@@ -173,7 +173,7 @@ class ShiftInvert {
 class Group {
  public:
   /// Borrows the companion form and the pairs, all of its order.
-  Group(const Companion& companion, std::vector<DensePair>& pairs, const std::vector<Open>& open)
+  Group(const Companion& companion, std::vector<DensePair>& pairs, const std::vector<UnconvergedPair>& open)
       : companion_(companion), pairs_(pairs) {
     for (const auto& one : open) {
       members_.push_back(one.pair);
@@ -357,22 +357,22 @@ class Group {
   Complex shift_ = 0;
   double reach_ = 0;  // largest distance of a member from the middle
   std::optional<ShiftInvert> inverse_;
-  Residuals wanted_, first_;  // parts of the first ones, see Open
+  Residuals wanted_, first_;  // parts of the first ones, see UnconvergedPair
   double rounding_ = 0;
 };
 
 /// Returns the open pairs in groups of neighbours, none wider than a part of all pairs.
-std::vector<std::vector<Open>> groupsOf(const std::vector<DensePair>& pairs,
-                                        std::vector<Open> open) {
+std::vector<std::vector<UnconvergedPair>> groupsOf(const std::vector<DensePair>& pairs,
+                                        std::vector<UnconvergedPair> open) {
   constexpr double widestPart = 0.2;
   double low = std::numeric_limits<double>::infinity(), high = 0;
   for (const auto& pair : pairs) {
     low = std::min(low, pair.s.imag());
     high = std::max(high, pair.s.imag());
   }
-  const auto place = [&](const Open& one) { return pairs[one.pair].s.imag(); };
+  const auto place = [&](const UnconvergedPair& one) { return pairs[one.pair].s.imag(); };
   std::ranges::sort(open, {}, place);
-  std::vector<std::vector<Open>> groups;
+  std::vector<std::vector<UnconvergedPair>> groups;
   for (const auto& one : open) {
     if (groups.empty() || place(one) - place(groups.back().front()) > widestPart * (high - low))
       groups.emplace_back();
@@ -481,7 +481,7 @@ struct OwnedGroup {
 
 /// Collective. Sends the members of these groups from the ranks that have improved them to all.
 /// Group g is of the rank g modulo the number of ranks.
-void share(MPI_Comm comm, const std::vector<Task>& tasks, const std::vector<OwnedGroup>& groups,
+void share(MPI_Comm comm, const std::vector<CorrectionTask>& tasks, const std::vector<OwnedGroup>& groups,
            const std::vector<bool>& improved) {
   int rank = 0, ranks = 1;
   check(MPI_Comm_rank(comm, &rank));
@@ -526,7 +526,7 @@ void share(MPI_Comm comm, const std::vector<Task>& tasks, const std::vector<Owne
 
 }  // namespace
 
-std::vector<bool> improve(MPI_Comm comm, const std::vector<Task>& tasks) {
+std::vector<bool> correctPairs(MPI_Comm comm, const std::vector<CorrectionTask>& tasks) {
   constexpr int mostSweeps = 4;
   int rank = 0, ranks = 1;
   check(MPI_Comm_rank(comm, &rank));
@@ -581,7 +581,7 @@ std::vector<bool> improve(MPI_Comm comm, const std::vector<Task>& tasks) {
   return good;
 }
 
-std::optional<Complex> missing(const DenseProblem& problem, const std::vector<DensePair>& pairs,
+std::optional<Complex> findMissing(const DenseProblem& problem, const std::vector<DensePair>& pairs,
                                Complex shift, const linalg::Wanted& wanted) {
   const LoggedWork logged(Work::denseEigenvalues);
   const Companion companion(problem, largest(pairs));
@@ -593,4 +593,4 @@ std::optional<Complex> missing(const DenseProblem& problem, const std::vector<De
   return {};
 }
 
-}  // namespace squeal::refinement
+}  // namespace squeal::reduction

@@ -1,4 +1,4 @@
-#include "petsc/child.hpp"
+#include "system/child.hpp"
 
 #include <fcntl.h>
 #include <sys/prctl.h>
@@ -13,9 +13,9 @@
 #include <cstdio>
 #include <new>
 
-#include "petsc/check.hpp"
-#include "petsc/memory.hpp"
-#include "petsc/text.hpp"
+#include "system/error.hpp"
+#include "system/memory.hpp"
+#include "system/text.hpp"
 
 namespace squeal {
 namespace {

@@ -1,10 +1,7 @@
-#include "petsc/memory.hpp"
+#include "system/memory.hpp"
 
 #include <malloc.h>
 
-#include <petscsys.h>  // first: the next header needs it
-
-#include <petscblaslapack.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,10 +11,9 @@
 #include <optional>
 #include <sstream>
 #include <string>
-#include <vector>
 
-#include "petsc/check.hpp"
-#include "petsc/termination.hpp"
+#include "system/mpi.hpp"
+#include "system/termination.hpp"
 
 namespace squeal {
 namespace {
@@ -37,20 +33,6 @@ std::optional<double> entryOf(const std::string& path, const std::string& name) 
   for (std::string line, word; std::getline(file, line);)
     if (double value = 0; std::istringstream(line) >> word >> value && word == name) return value;
   return {};
-}
-
-bool lacks = false;
-
-/// Handles an error of PETSc, whose own handler prints a trace where an allocation fails. The code
-/// alone goes up to check(), which says it in one line. The code that PetscMallocAlign of PETSc
-/// 3.18 raises is the number of a line instead of PETSC_ERR_MEM: the name of the function tells.
-PetscErrorCode handleError(MPI_Comm comm, int line, const char* function, const char* file,
-                           PetscErrorCode code, PetscErrorType type, const char* message,
-                           void* context) {
-  if (type == PETSC_ERROR_INITIAL)
-    lacks = code == PETSC_ERR_MEM || (function && std::string(function) == "PetscMallocAlign");
-  if (lacks || KeptError::keep(code, message)) return code;
-  return PetscTraceBackErrorHandler(comm, line, function, file, code, type, message, context);
 }
 
 }  // namespace
@@ -80,15 +62,11 @@ double availableMemory() {
 
 double memoryFreeOnNode(MPI_Comm comm, double& needed) {
   MPI_Comm node = MPI_COMM_NULL;
-  check(MPI_Comm_split_type(comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node));
-  check(MPI_Allreduce(MPI_IN_PLACE, &needed, 1, MPI_DOUBLE, MPI_SUM, node));
-  check(MPI_Comm_free(&node));
+  MPI_Comm_split_type(comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node);
+  needed = mpi::sum(node, needed);
+  MPI_Comm_free(&node);
   return availableMemory();
 }
-
-void tellLackOfMemoryInOneLine() { check(PetscPushErrorHandler(handleError, nullptr)); }
-
-bool lacksMemory(PetscErrorCode code) { return code != 0 && (lacks || code == PETSC_ERR_MEM); }
 
 void keepFreedMemory() {
 #ifdef __GLIBC__
@@ -97,23 +75,9 @@ void keepFreedMemory() {
 #endif
 }
 
-void claimBlasWorkspace() {
-  constexpr std::size_t workspace = 160u << 20;  // OpenBLAS takes 128 MB
-  if (void* room = std::malloc(workspace))
-    std::free(room);
-  else
-    outOfMemory();
-  PetscBLASInt n = 128;  // smaller products may do without
-  const PetscScalar one = 1;
-  const std::vector<PetscScalar> a(n * n, 1.0);
-  std::vector<PetscScalar> product(a.size(), 0.0);
-  BLASgemm_("N", "N", &n, &n, &n, &one, a.data(), &n, a.data(), &n, &one, product.data(), &n);
-}
-
 void outOfMemory() {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  std::fprintf(stderr, "squeal: error: rank %d got no more memory: %s\n", rank, lessMemory);
+  std::fprintf(stderr, "squeal: error: rank %d got no more memory: %s\n", mpi::rank(MPI_COMM_WORLD),
+               lessMemory);
   abortRun();
 }
 

@@ -1,4 +1,4 @@
-#include "petsc/unreadable.hpp"
+#include "system/unreadable.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>

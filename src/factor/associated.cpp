@@ -1,11 +1,11 @@
-#include "modes/associated.hpp"
+#include "factor/associated.hpp"
 
-namespace squeal::modes {
+namespace squeal::factor {
 
 AssociatedSystem::AssociatedSystem(OwnedMat k0, OwnedMat m0, const std::string& name)
     : k0_(std::move(k0)),
       m0_(std::move(m0)),
-      solver_(std::make_unique<factor::SymmetricSolver>(k0_, name)) {
+      solver_(std::make_unique<SymmetricSolver>(k0_, name)) {
   check(MatGetSize(k0_, &size_, nullptr));
 }
 
@@ -13,4 +13,4 @@ MPI_Comm AssociatedSystem::comm() const {
   return PetscObjectComm(reinterpret_cast<PetscObject>(k0_.get()));
 }
 
-}  // namespace squeal::modes
+}  // namespace squeal::factor

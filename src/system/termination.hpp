@@ -7,30 +7,30 @@
 
 namespace squeal {
 
-/// A LastAct registers work that an ending from outside still has to do while the object lives. On
+/// A AtTermination registers work that an ending from outside still has to do while the object lives. On
 /// a normal way out its owner does that work himself.
-class LastAct {
+class AtTermination {
  public:
   /// Registers `act`. It may run in a thread of its own, beside whatever the run is doing, and may
   /// not call MPI.
-  explicit LastAct(std::function<void()> act);
-  ~LastAct();
-  LastAct(const LastAct&) = delete;
-  LastAct& operator=(const LastAct&) = delete;
+  explicit AtTermination(std::function<void()> act);
+  ~AtTermination();
+  AtTermination(const AtTermination&) = delete;
+  AtTermination& operator=(const AtTermination&) = delete;
 
  private:
   std::function<void()> act_;
 };
 
-/// While an EndingWaits lives, an ending from outside waits. Once that has begun, the constructor
+/// While an SignalsBlocked lives, an ending from outside waits. Once that has begun, the constructor
 /// waits for it and so does not return. The object guards work that is short and has to be done
 /// whole, and files that must not appear while the last acts remove them.
-class EndingWaits {
+class SignalsBlocked {
  public:
-  EndingWaits();
-  ~EndingWaits();
-  EndingWaits(const EndingWaits&) = delete;
-  EndingWaits& operator=(const EndingWaits&) = delete;
+  SignalsBlocked();
+  ~SignalsBlocked();
+  SignalsBlocked(const SignalsBlocked&) = delete;
+  SignalsBlocked& operator=(const SignalsBlocked&) = delete;
 };
 
 /// Not collective. Performs all last acts. Call it before MPI_Abort.

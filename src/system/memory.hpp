@@ -1,7 +1,7 @@
 #pragma once
 /// These functions find the free memory, and report where there is too little. Only those that say
 /// so are collective.
-#include <petscsys.h>
+#include <mpi.h>
 
 namespace squeal {
 
@@ -20,19 +20,9 @@ double addressSpace();
 /// this rank needs, becomes the sum over all ranks of the node.
 double memoryFreeOnNode(MPI_Comm comm, double& needed);
 
-/// Makes PETSc print no traceback of failed allocations from here on.
-void tellLackOfMemoryInOneLine();
-
-/// Returns true if the error code of a PETSc call means that an allocation has failed.
-bool lacksMemory(PetscErrorCode code);
-
 /// Makes the C library keep some of the memory that is freed. Blocks of columns come and go, and
 /// the kernel would clear their pages each time, which took a fortieth of a run.
 void keepFreedMemory();
-
-/// Makes OpenBLAS allocate its workspace, once for all calls of this thread, or ends the run if
-/// there is no memory. OpenBLAS itself would try again for ever.
-void claimBlasWorkspace();
 
 /// Prints in one line that this rank has no memory, and ends all ranks.
 [[noreturn]] void outOfMemory();

@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "petsc/check.hpp"
+#include "system/mpi.hpp"
 
 namespace squeal {
 
@@ -37,7 +37,7 @@ class Concatenation {
  private:
   void gatherBytes(const void* own, void* all, int bytesPerEntry) const;
   MPI_Comm comm_;
-  int rank_ = 0;
+  int rank_;
   std::vector<int> counts_, begin_;  // [rank]
 };
 

@@ -1,4 +1,4 @@
-#include "petsc/termination.hpp"
+#include "system/termination.hpp"
 
 #include <atomic>
 #include <chrono>
@@ -14,7 +14,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "petsc/check.hpp"
+#include "system/error.hpp"
 
 namespace squeal {
 namespace {
@@ -124,8 +124,7 @@ void awaitSignal(int rank, bool hasTime) {
 /// done, until all are done or one has been asked.
 class SharedStop {
  public:
-  explicit SharedStop(MPI_Comm comm) : comm_(comm) {
-    check(MPI_Comm_size(comm, &size_));
+  explicit SharedStop(MPI_Comm comm) : comm_(comm), size_(mpi::size(comm)) {
     if (size_ > 1) begin(false);
   }
   SharedStop(const SharedStop&) = delete;
@@ -139,7 +138,7 @@ class SharedStop {
     if (const auto now = Clock::now(); now >= next_) {
       next_ = now + interval;
       int complete = 0;
-      check(MPI_Test(&request_, &complete, MPI_STATUS_IGNORE));
+      MPI_Test(&request_, &complete, MPI_STATUS_IGNORE);
       if (complete) end(false);
     }
     return asked_;
@@ -148,7 +147,7 @@ class SharedStop {
   bool join() {
     if (size_ == 1) return stop;
     while (!over_) {
-      check(MPI_Wait(&request_, MPI_STATUS_IGNORE));
+      MPI_Wait(&request_, MPI_STATUS_IGNORE);
       end(true);
     }
     return asked_;
@@ -158,7 +157,7 @@ class SharedStop {
   using Clock = std::chrono::steady_clock;
   void begin(bool done) {
     own_[0] = stop, own_[1] = done;
-    check(MPI_Iallreduce(own_, all_, 2, MPI_INT, MPI_SUM, comm_, &request_));
+    MPI_Iallreduce(own_, all_, 2, MPI_INT, MPI_SUM, comm_, &request_);
   }
   void end(bool done) {
     asked_ = all_[0] > 0;
@@ -167,7 +166,7 @@ class SharedStop {
   }
 
   MPI_Comm comm_;
-  int size_ = 1;
+  int size_;
   MPI_Request request_ = MPI_REQUEST_NULL;
   int own_[2] = {}, all_[2] = {};  // ranks that have been asked, and that are done
   bool asked_ = false, over_ = false;
@@ -176,18 +175,18 @@ class SharedStop {
 
 }  // namespace
 
-LastAct::LastAct(std::function<void()> act) : act_(std::move(act)) {
+AtTermination::AtTermination(std::function<void()> act) : act_(std::move(act)) {
   const std::lock_guard lock(gate());
   acts().push_back(&act_);
 }
 
-LastAct::~LastAct() {
+AtTermination::~AtTermination() {
   const std::lock_guard lock(gate());
   std::erase(acts(), &act_);
 }
 
-EndingWaits::EndingWaits() { gate().lock(); }
-EndingWaits::~EndingWaits() { gate().unlock(); }
+SignalsBlocked::SignalsBlocked() { gate().lock(); }
+SignalsBlocked::~SignalsBlocked() { gate().unlock(); }
 
 void performLastActs() noexcept {
   const std::lock_guard lock(gate());
@@ -200,9 +199,7 @@ void performLastActs() noexcept {
 bool stopAsked() { return stop; }
 
 void stopIfAsked(MPI_Comm comm) {
-  int asked = stop;
-  check(MPI_Allreduce(MPI_IN_PLACE, &asked, 1, MPI_INT, MPI_LOR, comm));
-  if (asked) throw Interrupted();
+  if (mpi::any(comm, stop)) throw Interrupted();
 }
 
 void workApart(MPI_Comm comm, const std::function<void(const StopAsked& asked)>& work) {
