@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <string>
 
-#include "session/session.hpp"
+#include "base/session/session.hpp"
 
 namespace {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "system/text.hpp"
+#include "base/system/text.hpp"
 
 namespace squeal::test {
 
