@@ -21,7 +21,7 @@ Target target() {
   };
   return {
       "msh", ".msh", {two, four, binary(two, 2.2), binary(four, 4.1)}, [](const std::string& path) {
-        mesh::GmshModel(path, {}).group("layer", "the fuzzer");
+        mesh::GmshModel({.file = path, .parameters = {}, .shape = {}}).group("layer", "the fuzzer");
       }};
 }
 

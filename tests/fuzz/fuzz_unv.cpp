@@ -5,9 +5,10 @@
 namespace squeal::fuzz {
 
 Target target() {
-  return {"unv", ".unv", {test::quadranglesUnv()}, [](const std::string& path) {
-            mesh::GmshModel(path, {}).group("layer", "the fuzzer");
-          }};
+  return {
+      "unv", ".unv", {test::quadranglesUnv()}, [](const std::string& path) {
+        mesh::GmshModel({.file = path, .parameters = {}, .shape = {}}).group("layer", "the fuzzer");
+      }};
 }
 
 }  // namespace squeal::fuzz

@@ -40,7 +40,7 @@ TEST(Speed, FactorScalesTheMotions) {
   }
   for (std::size_t i = 0; i < 2; ++i) {
     double force = 0, forceSize = 0;
-    for (std::size_t k = 0; k < fast.contact.nodes.size(); ++k)
+    for (std::size_t k = 0; k < fast.contact.interfaces.nodes.size(); ++k)
       for (std::size_t d = 0; d < 3; ++d) {
         const double wanted = fast.steady[i].contact[k].frictionForce[d];
         force = test::worse(force, std::abs(scaled.steady[i].contact[k].frictionForce[d] - wanted));

@@ -55,8 +55,8 @@ struct Condensed {
 
 /// On one rank. From the program's own matrices, by other algebra than its solver's.
 inline Condensed condensed(const analysis::Analysis& analysis, double friction) {
-  const std::vector<unsigned char> all(analysis.contact.nodes.size(), 1);
-  const auto transformation = analysis.contact.transformation(all);
+  const std::vector<unsigned char> all(analysis.contact.interfaces.nodes.size(), 1);
+  const auto transformation = analysis.contact.transformation(contact::ActiveSet::open(all.size()));
   const auto stiffness =
       contact::project(analysis.contact, transformation, analysis.bodies.stiffness);
   const OwnedMat rows =
@@ -66,10 +66,10 @@ inline Condensed condensed(const analysis::Analysis& analysis, double friction) 
                  reactions = elasticity::nodalVector(*analysis.mesh);
   OwnedVec constant, slope;
   check(MatCreateVecs(jacobian, constant.out(), slope.out()));
-  check(MatMult(analysis.bodies.stiffness, analysis.contact.offset, residual));
+  check(MatMult(analysis.bodies.stiffness, analysis.contact.kinematics.offset, residual));
   check(VecAXPY(residual, -1, analysis.bodies.load));
   check(MatMultTranspose(transformation.trial, residual, constant));
-  check(MatMult(analysis.contact.reaction, residual, reactions));
+  check(MatMult(analysis.contact.sliding.reaction, residual, reactions));
   check(MatMultTranspose(rows, reactions, slope));
   check(VecAXPY(constant, 1, slope));
 

@@ -43,8 +43,8 @@ inline Violations violations(const analysis::Analysis& analysis, const steady::S
   for (const auto& state : solution.contact) nodal.push_back(state.normalForce);
   nodal = contact.nodalForce(nodal);
   Violations worst;
-  for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
-    const auto& node = contact.nodes[i];
+  for (std::size_t i = 0; i < contact.interfaces.nodes.size(); ++i) {
+    const auto& node = contact.interfaces.nodes[i];
     const auto& state = solution.contact[i];
     double distance = node.master < 0 ? -obstacle * node.normal[1] : 0, slip = 0;
     for (std::size_t d = 0; d < dimension; ++d) {
@@ -72,7 +72,7 @@ inline Violations violations(const analysis::Analysis& analysis, const steady::S
   check(VecAssemblyEnd(rest));
   const PetscScalar* values = nullptr;
   check(VecGetArrayRead(rest, &values));
-  const auto& held = contact.constraints.held;
+  const auto& held = contact.interfaces.constraints.held;
   for (std::size_t row = 0; row < held.size(); ++row)
     if (!held[row]) worst.equilibrium = worse(worst.equilibrium, std::abs(values[row]) / force);
   check(VecRestoreArrayRead(rest, &values));
@@ -96,7 +96,8 @@ inline Transmitted transmitted(const analysis::Analysis& analysis,
   for (std::size_t i = 0; i < solution.contact.size(); ++i) {
     sums.normal += solution.contact[i].normalForce;
     sums.friction += solution.contact[i].frictionForce[0];
-    sums.centre += solution.contact[i].normalForce * analysis.contact.nodes[i].position[0];
+    sums.centre +=
+        solution.contact[i].normalForce * analysis.contact.interfaces.nodes[i].position[0];
   }
   sums.normal = total(sums.normal), sums.friction = total(sums.friction),
   sums.centre = total(sums.centre) / sums.normal;

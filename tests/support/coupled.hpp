@@ -22,8 +22,8 @@ inline std::vector<Node> allNodes(const contact::Contact& contact,
                                   const std::vector<PetscInt>& gapColumn) {
   constexpr int width = 14;
   std::vector<double> mine;
-  for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
-    const auto& node = contact.nodes[i];
+  for (std::size_t i = 0; i < contact.interfaces.nodes.size(); ++i) {
+    const auto& node = contact.interfaces.nodes[i];
     for (const mesh::Point& p : {node.position, node.normal, node.slip})
       mine.insert(mine.end(), p.begin(), p.end());
     mine.insert(mine.end(), {node.slipSpeed, node.area, double(node.globalNode),
@@ -60,8 +60,8 @@ inline OwnedMat frictionTest(const contact::Contact& contact,
                              const std::vector<unsigned char>& slides) {
   const OwnedMat rows = contact.slipRows(transformation, contact.slip(1, nullptr), slides, 1);
   OwnedMat result;
-  check(
-      MatTransposeMatMult(contact.reaction, rows, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.out()));
+  check(MatTransposeMatMult(contact.sliding.reaction, rows, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
+                            result.out()));
   return result;
 }
 
@@ -81,8 +81,8 @@ struct Coupled {
 /// Collective. All gaps unknown, all nodes sliding, from the options in force.
 inline Coupled coupled() {
   Coupled c{buildModel(), {}, {}, {}};
-  const std::vector<unsigned char> all(c.model.contact.nodes.size(), 1);
-  c.transformation = c.model.contact.transformation(all);
+  const std::vector<unsigned char> all(c.model.contact.interfaces.nodes.size(), 1);
+  c.transformation = c.model.contact.transformation(contact::ActiveSet::open(all.size()));
   c.friction = frictionTest(c.model.contact, c.transformation, all);
   c.nodes = allNodes(c.model.contact, c.transformation.gapColumn);
   return c;

@@ -32,7 +32,7 @@ struct Case {
 /// Collective on the communicator.
 inline Case caseOf(const std::string& options, MPI_Comm comm = PETSC_COMM_WORLD) {
   setOptions(options);
-  Case c{mesh::read(comm, analysis::meshRequest()), {}};
+  Case c{readMesh(comm), {}};
   c.at.resize(c.mesh.totalNodes);
   for (PetscInt i = 0; i < c.mesh.ownedNodes; ++i)
     c.at[c.mesh.globalNode[i]] = c.mesh.coordinates[i];

@@ -19,7 +19,8 @@ struct Layers {
     setCase("two_layers", "-mesh_set nx=12,ny_disc=4,ny_pad=3 " + options);
     model = buildModel();
     system = std::make_unique<contact::CoupledSystem>(
-        model.bodies, model.contact, std::vector<unsigned char>(model.contact.nodes.size(), 1));
+        model.bodies, model.contact,
+        contact::ActiveSet::bonded(model.contact.interfaces.nodes.size()));
   }
   modes::Modes modes() const { return modes::compute(*system); }
 };

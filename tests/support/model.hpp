@@ -11,15 +11,18 @@
 #include "base/options/settings.hpp"
 #include "base/petsc/check.hpp"
 #include "base/petsc/owned.hpp"
+#include "model/contact/build.hpp"
 #include "model/contact/contact.hpp"
 #include "model/contact/coupled.hpp"
 #include "model/elasticity/elasticity.hpp"
+#include "model/elasticity/element.hpp"
 #include "model/mesh/mesh.hpp"
 #include "model/mesh/read.hpp"
 #include "model/mesh/vector.hpp"
 #include "model/ties/ties.hpp"
 #include "run/analysis/analysis.hpp"
 #include "run/analysis/mesh_route.hpp"
+#include "run/analysis/model_settings.hpp"
 
 namespace squeal::test {
 
@@ -58,8 +61,22 @@ inline bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-/// Collective.
-inline mesh::Mesh readMesh() { return mesh::read(PETSC_COMM_WORLD, analysis::meshRequest()); }
+/// Collective on the communicator. From the options in force.
+inline mesh::Mesh readMesh(MPI_Comm comm = PETSC_COMM_WORLD) {
+  const auto settings = analysis::ModelSettings::given();
+  return mesh::read(comm, analysis::meshRequest(settings), settings.file, settings.mesh,
+                    {elasticity::foldedAnywhere, elasticity::straightened});
+}
+
+/// Collective. From the options in force.
+inline elasticity::Bodies assembleBodies(const mesh::Mesh& mesh) {
+  return elasticity::assemble(mesh, material::Settings::given(), elasticity::Settings::given());
+}
+
+/// Collective. From the options in force.
+inline interfaces::Interfaces findTies(mesh::Mesh& mesh) {
+  return ties::findTies(mesh, interfaces::Settings::given());
+}
 
 /// The stages before the first solution. Contact borrows the mesh, which therefore keeps its
 /// address.
@@ -73,9 +90,10 @@ struct Model {
 inline Model buildModel() {
   Model model;
   model.mesh = std::make_unique<mesh::Mesh>(readMesh());
-  auto ties = ties::findTies(*model.mesh);
-  model.bodies = elasticity::assemble(*model.mesh);
-  model.contact = contact::build(*model.mesh, model.bodies, std::move(ties));
+  auto ties = findTies(*model.mesh);
+  model.bodies = assembleBodies(*model.mesh);
+  model.contact =
+      contact::build(*model.mesh, model.bodies, std::move(ties), contact::Settings::given());
   return model;
 }
 
@@ -157,7 +175,7 @@ struct Built {
 inline Built buildBodies(const std::string& options) {
   setOptions(options);
   Built built{readMesh(), {}};
-  built.bodies = elasticity::assemble(built.mesh);
+  built.bodies = assembleBodies(built.mesh);
   return built;
 }
 

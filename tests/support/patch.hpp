@@ -70,7 +70,7 @@ class Patch : public testing::TestWithParam<Element> {
         meshes;  // of all tests: gmsh takes longer than they do
     if (!meshes.count(GetParam().label)) meshes[GetParam().label] = readMesh();
     mesh = meshes[GetParam().label];
-    bodies = elasticity::assemble(mesh);
+    bodies = assembleBodies(mesh);
     std::set<std::string> names;
     for (const auto& block : mesh.cells) names.insert(elasticity::shapeTable(block.type).name);
     EXPECT_EQ(joined({names.begin(), names.end()}, " "), GetParam().names);

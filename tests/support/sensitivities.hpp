@@ -10,6 +10,7 @@
 
 #include "base/system/text.hpp"
 #include "eigen/pencil/complex_modes.hpp"
+#include "steady/steady/prestress.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
 #include "support/spectrum.hpp"
@@ -73,9 +74,7 @@ inline double hermitian(Mat a, const pencil::Shape& shape) {
 /// times a power of the condition.
 inline void expectBalance(const analysis::Analysis& analysis, const pencil::ComplexModes& point) {
   const auto& bodies = analysis.bodies;
-  OwnedMat prestress;
-  if (elasticity::prestressWanted())
-    prestress = elasticity::geometricStiffness(*analysis.mesh, analysis.steady.at(0).displacement);
+  const OwnedMat prestress = steady::prestressOf(*analysis.mesh, bodies, analysis.steady.at(0));
   for (const auto& shape : point.shapes) {
     const Complex s = point.eigenvalues[shape.index].s;
     const double energy =

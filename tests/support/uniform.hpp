@@ -58,7 +58,7 @@ inline void expectUniformPressure(const analysis::Analysis& analysis,
               1e-10 * pressure * area);
   EXPECT_NEAR(solution.resultants[0].frictionForce[0],
               sense * solution.at.friction * pressure * area, 1e-10 * pressure * area);
-  EXPECT_GT(analysis.contact.totalNodes, 0);
+  EXPECT_GT(analysis.contact.interfaces.totalNodes, 0);
 }
 
 }  // namespace squeal::test

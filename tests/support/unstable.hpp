@@ -16,7 +16,8 @@ inline std::vector<Complex> unstable(const std::string& mesh, const std::string&
   const analysis::Analysis analysis =
       runCase("disc_brake", "-flutter_friction 0.4 -mesh_set " + mesh + options);
   EXPECT_TRUE(analysis.converged());
-  EXPECT_EQ(analysis.contact.reports.at(0).matching, mesh.find("apart=1") == std::string::npos);
+  EXPECT_EQ(analysis.contact.interfaces.reports.at(0).matching,
+            mesh.find("apart=1") == std::string::npos);
   std::vector<Complex> found;
   for (Complex s : eigenvaluesOf(analysis.segments.at(0).points.at(0)))
     if (s.real() > 1) found.push_back(s);  // 1/s: others are stable but for rounding

@@ -132,7 +132,7 @@ double error(int cell, const Cells& cells, const std::string& tie) {
   const contact::CoupledSystem system(model.bodies, model.contact, {});
   const auto found = errors(exactFrequencies(10), eigenvaluesOf(modes::compute(system))).relative;
   print("cell %d, %d:%d around: errors up to %.1e; moved %.1e\n", cell, cells.inner, cells.outer,
-        worst(found), model.contact.reports.at(0).largestAdjustment);
+        worst(found), model.contact.interfaces.reports.at(0).largestAdjustment);
   return rootMeanSquare(found);
 }
 

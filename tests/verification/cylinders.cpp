@@ -47,8 +47,9 @@ Deviation solve(const std::string& shape, int refinement, const std::string& pad
       " -contact_ring_pad " +
       pad + "_face -contact_ring_disc " + disc + "_face");
   const auto model = test::buildModel();
-  const contact::CoupledSystem system(model.bodies, model.contact,
-                                      std::vector<unsigned char>(model.contact.nodes.size(), 1));
+  const contact::CoupledSystem system(
+      model.bodies, model.contact,
+      contact::ActiveSet::bonded(model.contact.interfaces.nodes.size()));
   const auto solution = steady::Problem(*model.mesh, model.bodies, model.contact).solve({}, system);
   EXPECT_TRUE(solution.converged) << solution.reason;
   EXPECT_EQ(solution.openNodes, 0);
@@ -58,7 +59,7 @@ Deviation solve(const std::string& shape, int refinement, const std::string& pad
   double force = 0, length = 0;
   check(VecGetArrayRead(solution.displacement, &values));
   for (std::size_t i = 0; i < solution.contact.size(); ++i) {
-    const auto& node = model.contact.nodes[i];
+    const auto& node = model.contact.interfaces.nodes[i];
     const double r = std::hypot(node.position[0], node.position[1]);
     EXPECT_NEAR(r, b, 1e-10);
     const double radial =

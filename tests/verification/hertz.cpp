@@ -58,9 +58,10 @@ struct Found {
 Found solve(const std::string& options, double share, bool isSphere) {
   setOptions(options);
   const auto model = buildModel();
-  EXPECT_FALSE(model.contact.reports.at(0).matching);
-  const contact::CoupledSystem system(model.bodies, model.contact,
-                                      std::vector<unsigned char>(model.contact.nodes.size(), 1));
+  EXPECT_FALSE(model.contact.interfaces.reports.at(0).matching);
+  const contact::CoupledSystem system(
+      model.bodies, model.contact,
+      contact::ActiveSet::bonded(model.contact.interfaces.nodes.size()));
   const steady::Problem problem(*model.mesh, model.bodies, model.contact);
   const auto solution = condensed::CondensedProblem(problem, system).solve({});
   EXPECT_TRUE(solution.converged) << solution.reason;
@@ -68,7 +69,7 @@ Found solve(const std::string& options, double share, bool isSphere) {
   Found found;
   double square = 0;
   for (std::size_t i = 0; i < solution.contact.size(); ++i) {
-    const auto& x = model.contact.nodes[i].position;
+    const auto& x = model.contact.interfaces.nodes[i].position;
     const auto& state = solution.contact[i];
     const double r = std::hypot(x[0], isSphere ? x[2] : 0);
     found.force += state.normalForce, square += r * r * state.normalForce;
@@ -79,7 +80,7 @@ Found solve(const std::string& options, double share, bool isSphere) {
   found.pressure = largest(found.pressure), found.last = largest(found.last);
   print("force %.2f, a %.4f, furthest closed node %.3f, p0 %.1f; %d of %d nodes open\n",
         found.force, found.size, found.last, found.pressure, static_cast<int>(solution.openNodes),
-        static_cast<int>(model.contact.totalNodes));
+        static_cast<int>(model.contact.interfaces.totalNodes));
   return found;
 }
 

@@ -74,15 +74,16 @@ std::array<double, 2> trailingEdge(const Block& block, const Model& model, Vec d
 Answer solve(const Block& block, bool slabs, const std::string& cells) {
   setOptions("-mesh_file " + (slabs ? block.slabs : block.plane) + cells + block.options);
   const auto model = buildModel();
-  const contact::CoupledSystem system(model.bodies, model.contact,
-                                      std::vector<unsigned char>(model.contact.nodes.size(), 1));
+  const contact::CoupledSystem system(
+      model.bodies, model.contact,
+      contact::ActiveSet::bonded(model.contact.interfaces.nodes.size()));
   const steady::Problem problem(*model.mesh, model.bodies, model.contact);
   const auto solution = condensed::CondensedProblem(problem, system).solve({.friction = friction});
   EXPECT_TRUE(solution.converged) << solution.reason;
   EXPECT_LT(solution.imbalance, 1e-8);
   double area = 0, open = 0, force = 0, moment = 0, dragged = 0, tension = 0, overlap = 0;
   for (std::size_t i = 0; i < solution.contact.size(); ++i) {
-    const auto& node = model.contact.nodes[i];
+    const auto& node = model.contact.interfaces.nodes[i];
     const auto& state = solution.contact[i];
     area += node.wholeArea, open += solution.closed[i] ? 0 : node.wholeArea;
     force += state.normalForce, moment += state.normalForce * node.position[0];
@@ -98,8 +99,8 @@ Answer solve(const Block& block, bool slabs, const std::string& cells) {
   EXPECT_NEAR(answer.centre, 0.5 - friction * block.height, 1e-8);
   print("%s: %d steps, %d of %d open, centre %.10f, open length %.4f, trailing edge %.8e %.8e\n",
         cells.c_str(), solution.iterations, static_cast<int>(solution.openNodes),
-        static_cast<int>(model.contact.totalNodes), answer.centre, answer.openLength, answer.along,
-        answer.normal);
+        static_cast<int>(model.contact.interfaces.totalNodes), answer.centre, answer.openLength,
+        answer.along, answer.normal);
   return answer;
 }
 

@@ -76,8 +76,8 @@ TEST(FixedFriction, CountsOnQuadraticFaces) {
   const auto damping = [&](const std::string& options) {
     setOptions(options);
     const Model model = buildModel();
-    const std::vector<unsigned char> all(model.contact.nodes.size(), 1);
-    const contact::CoupledSystem system(model.bodies, model.contact, all);
+    const std::vector<unsigned char> all(model.contact.interfaces.nodes.size(), 1);
+    const contact::CoupledSystem system(model.bodies, model.contact, {all, {}});
     const auto solution = steady::Problem(*model.mesh, model.bodies, model.contact)
                               .solve({std::stod(options.substr(options.rfind(' ')))}, system);
     EXPECT_TRUE(solution.converged) << solution.reason;
@@ -259,7 +259,8 @@ TEST(Sticking, TellsTheLeastFriction) {
       EXPECT_NEAR(dot(resultant.frictionForce, layers.pull()) / (traction * layers.area()), -1,
                   1e-9)
           << layers.mesh;
-      EXPECT_EQ(resultant.overLimit, part < 1 ? analysis.contact.totalNodes : 0) << layers.mesh;
+      EXPECT_EQ(resultant.overLimit, part < 1 ? analysis.contact.interfaces.totalNodes : 0)
+          << layers.mesh;
       EXPECT_EQ(resultant.released, 0);
       EXPECT_EQ(solution.revisions, 0);
     }
@@ -277,17 +278,17 @@ TEST(Sticking, ReleasedNodesCarryTheirFriction) {
     ASSERT_TRUE(solution.converged) << solution.reason;
     const auto& resultant = solution.resultants.at(0);
     const double press = exact.pressure() * layers.area();
-    EXPECT_EQ(resultant.released, analysis.contact.totalNodes) << layers.mesh;
+    EXPECT_EQ(resultant.released, analysis.contact.interfaces.totalNodes) << layers.mesh;
     EXPECT_NEAR(dot(resultant.frictionForce, layers.pull()) / (friction * press), -1, 1e-9)
         << layers.mesh;
     EXPECT_NEAR(resultant.normalForce[1] / press, 1, 1e-9) << layers.mesh;
     EXPECT_LT(solution.imbalance, 1e-10);
     const OwnedVec jump = elasticity::nodalVector(*analysis.mesh);
-    check(MatMult(analysis.contact.jump, solution.displacement, jump));
+    check(MatMult(analysis.contact.sliding.jump, solution.displacement, jump));
     const auto jumps = allEntries(jump);
     const double slid = layers.aside() - friction * exact.pressure() * exact.shear;
     const int dimension = analysis.mesh->dimension;
-    for (const auto& node : analysis.contact.nodes)
+    for (const auto& node : analysis.contact.interfaces.nodes)
       EXPECT_NEAR(dot(at(jumps, node.globalNode, dimension), layers.pull()) / slid, 1, 1e-8)
           << layers.mesh;
     const auto smooth = layers.run(direct + "-contact_interface_role frictionless");
@@ -324,7 +325,7 @@ TEST(Sticking, WholeBlockSlides) {
     const auto& resultant = solution.resultants.at(0);
     print("%s: %d revisions, friction %.12f, imbalance %.1e\n", mesh.c_str(), solution.revisions,
           resultant.frictionForce[0] / 0.001, solution.imbalance);
-    EXPECT_EQ(resultant.released, analysis.contact.totalNodes - solution.openNodes);
+    EXPECT_EQ(resultant.released, analysis.contact.interfaces.totalNodes - solution.openNodes);
     EXPECT_NEAR(resultant.frictionForce[0], -0.1 * 0.01, 1e-12);
     EXPECT_NEAR(resultant.normalForce[1], 0.01, 1e-11);
     EXPECT_LT(solution.imbalance, 1e-10);
@@ -347,19 +348,20 @@ TEST(Sticking, PartOfABlockSlides) {
     ASSERT_TRUE(solution.converged) << solution.reason;
     const auto& resultant = solution.resultants.at(0);
     print("%s: %d of %d nodes slide, %d open, %d unheld, %d revisions, imbalance %.1e\n",
-          mesh.c_str(), int(resultant.released), int(analysis.contact.totalNodes),
+          mesh.c_str(), int(resultant.released), int(analysis.contact.interfaces.totalNodes),
           int(solution.openNodes), int(resultant.unheld), solution.revisions, solution.imbalance);
     EXPECT_GT(resultant.released, 0);
-    EXPECT_LT(resultant.released, analysis.contact.totalNodes - solution.openNodes);
+    EXPECT_LT(resultant.released, analysis.contact.interfaces.totalNodes - solution.openNodes);
     EXPECT_EQ(resultant.overLimit, 0);
     EXPECT_NEAR(resultant.frictionForce[0], -0.4 * 0.0025, 1e-12);
     EXPECT_LT(solution.imbalance, 1e-10);
     const OwnedVec jump = elasticity::nodalVector(*analysis.mesh);
-    check(MatMult(analysis.contact.jump, solution.displacement, jump));
+    check(MatMult(analysis.contact.sliding.jump, solution.displacement, jump));
     const auto jumps = allEntries(jump);
     for (std::size_t i = 0; i < solution.contact.size(); ++i) {
       const auto& state = solution.contact[i];
-      const double slid = jumps[2 * static_cast<std::size_t>(analysis.contact.nodes[i].globalNode)];
+      const double slid =
+          jumps[2 * static_cast<std::size_t>(analysis.contact.interfaces.nodes[i].globalNode)];
       EXPECT_LE(std::abs(state.frictionForce[0]), 0.12 * state.normalForce + 1e-9) << mesh;
       EXPECT_LE(slid * state.frictionForce[0], 1e-15) << mesh;
       if (solution.sticking.holds[i] == steady::Hold::held) EXPECT_LT(std::abs(slid), 1e-14);
@@ -379,11 +381,11 @@ TEST(Sticking, OpenNodesAreFree) {
     double left = 0;
     for (std::size_t i = 0; i < solution.contact.size(); ++i) {
       const auto& state = solution.contact[i];
-      if (!solution.closed[i] && !analysis.contact.gapBasis)
+      if (!solution.closed[i] && !analysis.contact.interfaces.gapBasis)
         left = worse(left, std::abs(state.frictionForce[0]));
     }
     print("%s: %d of %d nodes open, %d unheld, %d revisions, T/N %.4f, imbalance %.1e\n",
-          mesh.c_str(), int(solution.openNodes), int(analysis.contact.totalNodes),
+          mesh.c_str(), int(solution.openNodes), int(analysis.contact.interfaces.totalNodes),
           int(solution.resultants.at(0).unheld), solution.revisions, sums.friction / sums.normal,
           solution.imbalance);
     EXPECT_GT(solution.openNodes, 0);

@@ -137,7 +137,7 @@ void expectPartlyOpen(const analysis::Analysis& analysis, const steady::Solution
       "f = %g: %d iterations, %d of %d nodes open, centre of pressure %.9f, equilibrium %.1e, "
       "imbalance %.1e\n",
       solution.at.friction, solution.iterations, static_cast<int>(solution.openNodes),
-      static_cast<int>(analysis.contact.totalNodes), sums.centre, violation.equilibrium,
+      static_cast<int>(analysis.contact.interfaces.totalNodes), sums.centre, violation.equilibrium,
       solution.imbalance);
   EXPECT_LE(solution.iterations, 6);
   EXPECT_LT(violation.gap, 1e-12);
@@ -154,7 +154,7 @@ void expectPartlyOpen(const analysis::Analysis& analysis, const steady::Solution
 
   double lastClosed = 0, firstOpen = blockLength;
   for (std::size_t i = 0; i < solution.contact.size(); ++i) {
-    const double x = analysis.contact.nodes[i].position[0];
+    const double x = analysis.contact.interfaces.nodes[i].position[0];
     if (solution.closed[i]) {
       lastClosed = std::max(lastClosed, x);
     } else {

@@ -22,8 +22,9 @@ std::vector<steady::Solution> solutions(const std::string& options,
                                         const std::vector<double>& frictions) {
   test::setOptions(options);
   const test::Model model = test::buildModel();
-  const contact::CoupledSystem system(model.bodies, model.contact,
-                                      std::vector<unsigned char>(model.contact.nodes.size(), 1));
+  const contact::CoupledSystem system(
+      model.bodies, model.contact,
+      contact::ActiveSet::bonded(model.contact.interfaces.nodes.size()));
   const steady::Problem problem(*model.mesh, model.bodies, model.contact);
   std::vector<steady::Solution> all;
   for (double friction : frictions) all.push_back(problem.solve({friction}, system));

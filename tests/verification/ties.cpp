@@ -27,8 +27,9 @@ const std::string tie = "-tie_layers_slave pad_face -tie_layers_master disc_face
 std::vector<Complex> frequencies(const std::string& options) {
   setOptions(options);
   const Model model = buildModel();
-  const contact::CoupledSystem system(model.bodies, model.contact,
-                                      std::vector<unsigned char>(model.contact.nodes.size(), 1));
+  const contact::CoupledSystem system(
+      model.bodies, model.contact,
+      contact::ActiveSet::bonded(model.contact.interfaces.nodes.size()));
   return eigenvaluesOf(modes::compute(system));
 }
 
@@ -142,7 +143,7 @@ TEST(Ties, RigidMotionsAreFree) {
     PetscReal difference = 0;
     check(VecNorm(u, NORM_INFINITY, &difference));
     print("%s: %d tied nodes, a rigid motion is met to %.1e\n", element.c_str(),
-          int(total(double(model.contact.tied.size()))), double(difference));
+          int(total(double(model.contact.interfaces.tied.size()))), double(difference));
     EXPECT_LT(difference, 1e-12);  // rounding: nodes are moved onto the master
   }
 }

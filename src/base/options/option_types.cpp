@@ -242,12 +242,15 @@ std::vector<double> RealListOption::get(const std::string& subject) const {
   return list;
 }
 
-std::array<double, 3> RealListOption::components(const std::string& subject, int dimension) const {
-  const auto values = get(subject);
-  if (values.size() != 3 && (values.size() != 2 || dimension != 2))
-    throw Error(named(subject, text(subject)) + ": " + meaning + "; must have " +
+VectorValue RealListOption::vector(const std::string& subject) const {
+  return {get(subject), named(subject, text(subject)) + ": " + meaning};
+}
+
+std::array<double, 3> VectorValue::in(int dimension) const {
+  if (values_.size() != 3 && (values_.size() != 2 || dimension != 2))
+    throw Error(text_ + "; must have " +
                 (dimension == 2 ? "2 components in the plane, or 3" : "3 components"));
-  return {values[0], values[1], values.size() == 3 ? values[2] : 0.0};
+  return {values_[0], values_[1], values_.size() == 3 ? values_[2] : 0.0};
 }
 
 FlagOption::FlagOption(std::string stage, std::string name, bool byDefault, std::string meaning)

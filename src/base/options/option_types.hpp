@@ -116,6 +116,23 @@ class IntegerOption : public Option {
   int lowest_, highest_;
 };
 
+/// A vector as an option gives it. How many components it must have depends on the dimension of the
+/// mesh, which is known later than the options.
+class VectorValue {
+ public:
+  VectorValue() = default;
+  /// Returns the components; in the plane the third one is zero if it is not given. Throws Error
+  /// unless there are three; two are enough for a mesh in the plane.
+  std::array<double, 3> in(int dimension) const;
+
+ private:
+  friend class RealListOption;
+  VectorValue(std::vector<double> values, std::string text)
+      : values_(std::move(values)), text_(std::move(text)) {}
+  std::vector<double> values_{0, 0, 0};
+  std::string text_;  // option and meaning, for the message
+};
+
 /// A RealListOption holds reals separated by commas, with blanks allowed beside them. With
 /// `ranges`, `first:last:step` stands for the arithmetic sequence up to `last`, which is included
 /// if a whole number of steps leads to it.
@@ -126,9 +143,8 @@ class RealListOption : public Option {
   std::vector<double> get(const std::string& subject = {}) const;
   void validate(const std::string& subject) const override { get(subject); }
   nlohmann::json valueSchema() const override;
-  /// Returns the values as a vector, in the plane with a zero in place of a third one that is not
-  /// given. Throws Error unless there are three; two are enough for a mesh in the plane.
-  std::array<double, 3> components(const std::string& subject, int dimension) const;
+  /// Returns the values as a vector.
+  VectorValue vector(const std::string& subject = {}) const;
 
  private:
   void requireLength(const std::string& subject, const std::string& value, double length) const;

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <new>
 
 #include "base/system/error.hpp"
@@ -56,8 +57,7 @@ void sayStillAtWork(int) {
 
 /// Does the work in the child process and ends the process. Nothing of the parent's is flushed,
 /// finalised or handled here.
-[[noreturn]] void serve(int pipe, pid_t parent, const ChildLimits& limits,
-                        const std::function<Buffer(const Warn&)>& work) {
+[[noreturn]] void serve(int pipe, pid_t parent, const ChildLimits& limits, const ChildWork& work) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(1);
   for (int number = 1; number < NSIG; ++number)
@@ -76,10 +76,10 @@ void sayStillAtWork(int) {
   signal(SIGALRM, sayStillAtWork);
   alarm(patience);
   try {
-    Buffer result = work([&](const std::string& text) {
+    const std::vector<char> result = work([&](const std::string& text) {
       dprintf(voice, "squeal: warning: %s\n", escaped(text).c_str());
     });
-    answer(pipe, Outcome::result, result.bytes().data(), result.bytes().size());
+    answer(pipe, Outcome::result, result.data(), result.size());
   } catch (const std::bad_alloc&) {
     answer(pipe, Outcome::noMemory, "", 0);
   } catch (const std::length_error&) {  // a vector of more elements than there are addresses
@@ -117,7 +117,7 @@ struct Child {
   }
 };
 
-Child start(const ChildLimits& limits, const std::function<Buffer(const Warn&)>& work) {
+Child start(const ChildLimits& limits, const ChildWork& work) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0)
     throw Error(limits.subject + ": no pipe to a child process: " + std::strerror(errno));
@@ -145,21 +145,20 @@ std::string endOf(int status, const ChildLimits& limits) {
 
 }  // namespace
 
-Buffer inChild(const ChildLimits& limits, const std::function<Buffer(const Warn&)>& work) {
+std::vector<char> inChild(const ChildLimits& limits, const ChildWork& work) {
   Child child = start(limits, work);
   Outcome outcome{};
   std::size_t count = 0;
-  Buffer result;
+  std::vector<char> result;
   bool whole = child.take(&outcome, 1) && child.take(&count, sizeof count);
   if (whole) {
-    result.bytes().resize(count);
-    whole = child.take(result.bytes().data(), count);
+    result.resize(count);
+    whole = child.take(result.data(), count);
   }
   const int status = child.wait();
   if (!whole) throw Error(limits.subject + ": " + endOf(status, limits));
   if (outcome == Outcome::noMemory) throw Error(limits.subject + ": " + limits.noMemory);
-  if (outcome == Outcome::failure)
-    throw Error(std::string(result.bytes().begin(), result.bytes().end()));
+  if (outcome == Outcome::failure) throw Error(std::string(result.begin(), result.end()));
   return result;
 }
 

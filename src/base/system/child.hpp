@@ -3,8 +3,7 @@
 #include <functional>
 #include <optional>
 #include <string>
-
-#include "base/system/buffer.hpp"
+#include <vector>
 
 namespace squeal {
 
@@ -20,10 +19,13 @@ struct ChildLimits {
   std::string program;                     ///< the library that works, for messages: "gmsh"
 };
 
+/// Work whose result is bytes, such as those of a Stream.
+using ChildWork = std::function<std::vector<char>(const Warn&)>;
+
 /// Not collective. Runs `work` in a child process and returns its result. The child inherits a copy
 /// of this process, and its memory is freed when it ends; `work` must not call MPI. Throws Error if
 /// the child cannot be started, crashes or reaches a limit, and with the message of what `work`
 /// throws.
-Buffer inChild(const ChildLimits& limits, const std::function<Buffer(const Warn&)>& work);
+std::vector<char> inChild(const ChildLimits& limits, const ChildWork& work);
 
 }  // namespace squeal

@@ -2,6 +2,7 @@
 /// The state of each contact node, and whether the ranks agree on it.
 #include <mpi.h>
 
+#include <cstddef>
 #include <vector>
 
 namespace squeal::contact {
@@ -12,7 +13,12 @@ using Mask = std::vector<unsigned char>;
 /// The contact nodes that are closed, and the sticking ones that have been released to slide.
 struct ActiveSet {
   Mask closed;
-  Mask released;
+  Mask released;  ///< empty: none
+
+  /// Returns the set with all nodes closed and none released.
+  static ActiveSet bonded(std::size_t nodes) { return {Mask(nodes, 1), Mask(nodes, 0)}; }
+  /// Returns the set with all gaps open and none released.
+  static ActiveSet open(std::size_t nodes) { return {Mask(nodes, 0), {}}; }
 
   bool operator==(const ActiveSet&) const = default;
 };

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 
+#include "base/system/mpi.hpp"
+
 namespace squeal::contact {
+
 OwnedMat Projection::friction(Mat slipRows) const {
   OwnedMat result;
   check(MatTransposeMatMult(slipRows, reaction, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.out()));
@@ -16,7 +19,7 @@ Projection project(const Contact& contact, const Transformation& transformation,
   check(MatMatMult(x, transformation.trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, xt.out()));
   check(MatTransposeMatMult(transformation.trial, xt, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
                             projection.matrix.out()));
-  check(MatMatMult(contact.reaction, xt, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
+  check(MatMatMult(contact.sliding.reaction, xt, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
                    projection.reaction.out()));
   // PETSc keeps the workspace of a product for the next one of the same pattern.
   for (const Mat result : {projection.matrix.get(), projection.reaction.get()})
@@ -41,21 +44,18 @@ OwnedMat Projection::tested(Mat slipRows) const {
 namespace {
 
 /// Collective. Returns the number of contact nodes that are not closed, over all ranks.
-PetscInt countOpen(MPI_Comm comm, const std::vector<unsigned char>& closed) {
-  PetscInt open = std::count(closed.begin(), closed.end(), 0);
-  check(MPI_Allreduce(MPI_IN_PLACE, &open, 1, MPIU_INT, MPI_SUM, comm));
-  return open;
+PetscInt countOpen(MPI_Comm comm, const Mask& closed) {
+  return mpi::sum(comm, PetscInt(std::ranges::count(closed, 0)));
 }
 
 Projections projectAll(const elasticity::Bodies& bodies, const Contact& contact,
-                       const std::vector<unsigned char>& closed,
-                       const std::vector<unsigned char>& released, Mat prestress) {
-  std::vector<unsigned char> open;
-  for (const auto isClosed : closed) open.push_back(!isClosed);
-  std::vector<unsigned char> free = open;
-  for (std::size_t i = 0; i < released.size(); ++i) free[i] = free[i] || released[i];
+                       const ActiveSet& set, Mat prestress) {
+  ActiveSet free{set.closed, {}};  // open nodes are free along the surface as well
+  for (const auto isClosed : set.closed) free.released.push_back(!isClosed);
+  for (std::size_t i = 0; i < set.released.size(); ++i)
+    free.released[i] = free.released[i] || set.released[i];
   Projections result;
-  result.transformation = contact.transformation(open, free);
+  result.transformation = contact.transformation(free);
   OwnedMat stressed;
   if (prestress) {
     check(MatDuplicate(bodies.stiffness, MAT_COPY_VALUES, stressed.out()));
@@ -74,18 +74,15 @@ Projections projectAll(const elasticity::Bodies& bodies, const Contact& contact,
 }  // namespace
 
 CoupledSystem::CoupledSystem(const elasticity::Bodies& bodies, const Contact& contact,
-                             std::vector<unsigned char> closed, Mat prestress,
-                             std::vector<unsigned char> released)
-    : CoupledSystem(projectAll(bodies, contact, closed, released, prestress), closed, released,
-                    countOpen(contact.mesh->comm, closed)) {}
+                             ActiveSet set, Mat prestress)
+    : CoupledSystem(projectAll(bodies, contact, set, prestress), set,
+                    countOpen(contact.mesh->comm, set.closed)) {}
 
-CoupledSystem::CoupledSystem(Projections projections, std::vector<unsigned char> closed,
-                             std::vector<unsigned char> released, PetscInt openNodes)
+CoupledSystem::CoupledSystem(Projections projections, ActiveSet set, PetscInt openNodes)
     : AssociatedSystem(projections.stiffness.matrix.share(), projections.mass.matrix.share(),
                        "stiffness of the closed, frictionless contact"),
       projections_(std::move(projections)),
-      closed_(std::move(closed)),
-      released_(std::move(released)),
+      activeSet_(std::move(set)),
       openNodes_(openNodes) {}
 
 }  // namespace squeal::contact

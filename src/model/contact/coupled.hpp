@@ -1,5 +1,5 @@
 #pragma once
-/// These functions make the matrices of the coupled problem, for every matrix X of the bodies
+/// The matrices of the coupled problem, for every matrix X of the bodies
 /// [M.11]:
 ///   L(f)ᵀ X T = Tᵀ X T + Sᵀ N X T,   S = S_0 + f S_1.
 
@@ -42,27 +42,23 @@ struct Projections {
 /// active set.
 class CoupledSystem : public factor::AssociatedSystem {
  public:
-  /// Collective. Projects the matrices of the bodies. Contact node i is active if closed[i] is set.
-  /// `prestress` is added to K, has the pattern of K and is borrowed during this call; it may be
-  /// null. Sticking nodes move along the surface where they are open and where released[i] is
-  /// set; an empty list releases none.
-  CoupledSystem(const elasticity::Bodies& bodies, const Contact& contact,
-                std::vector<unsigned char> closed, Mat prestress = nullptr,
-                std::vector<unsigned char> released = {});
+  /// Collective. Projects the matrices of the bodies. Sticking nodes move along the surface where
+  /// they are open or released; an empty mask releases none. `prestress` is added to K, has the
+  /// pattern of K and is borrowed during this call; it may be null.
+  CoupledSystem(const elasticity::Bodies& bodies, const Contact& contact, ActiveSet set,
+                Mat prestress = nullptr);
   const Transformation& transformation() const { return projections_.transformation; }
   const Projections& projections() const { return projections_; }
-  /// Returns 1 for each contact node that is active and 0 for the others, [contact node]; borrowed.
-  const std::vector<unsigned char>& closed() const { return closed_; }
-  /// Returns 1 for each contact node that is released, [contact node]; borrowed; empty if none is.
-  const std::vector<unsigned char>& released() const { return released_; }
+  /// Returns the active set; borrowed.
+  const ActiveSet& activeSet() const { return activeSet_; }
+  const Mask& closed() const { return activeSet_.closed; }
   /// Returns the number of contact nodes that are not active, over all ranks.
   PetscInt openNodes() const { return openNodes_; }
 
  private:
-  CoupledSystem(Projections projections, std::vector<unsigned char> closed,
-                std::vector<unsigned char> released, PetscInt openNodes);
+  CoupledSystem(Projections projections, ActiveSet set, PetscInt openNodes);
   Projections projections_;
-  std::vector<unsigned char> closed_, released_;
+  ActiveSet activeSet_;
   PetscInt openNodes_ = 0;
 };
 

@@ -2,62 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "base/options/options.hpp"
-#include "base/petsc/check.hpp"
+#include <utility>
 
 namespace squeal::contact {
-namespace {
 
-const ChoiceOption lawOption("contact", "friction_law", {"constant", "exponential", "table"},
-                             "constant",
-                             "coefficient of friction at the sliding speed |w|: -flutter_friction "
-                             "times 1, times 1 + (r - 1) exp(-|w|/v), "
-                             "or times a table's factor");
-const RealOption ratioOption("contact", "friction_static_ratio", 1, "", nonNegative,
-                             "r, exponential law: coefficient at rest over that at high speed");
-const RealOption decayOption("contact", "friction_decay_speed", 1, "m/s", positive,
-                             "v, exponential law: speed of the decay");
-const RealListOption tableSpeedOption("contact", "friction_table_speed", "0", "m/s", nonNegative,
-                                      "ascending sliding speeds of the table");
-const RealListOption tableFactorOption(
-    "contact", "friction_table_factor", "1", "", nonNegative,
-    "factors at these speeds, linear between them and constant beyond");
-
-/// Throws Error for a given option of another law.
-void rejectIdle(const std::string& law) {
-  const auto idle = [&](const Option& option, const char* owner) {
-    if (option.given() && law != owner)
-      throw Error("option -" + option.fullName() + " is used by -friction_law " + owner +
-                  " alone, not by '" + law + "'");
-  };
-  idle(ratioOption, "exponential");
-  idle(decayOption, "exponential");
-  idle(tableSpeedOption, "table");
-  idle(tableFactorOption, "table");
+FrictionLaw FrictionLaw::exponential(double staticRatio, double decaySpeed) {
+  FrictionLaw law;
+  law.kind_ = Kind::exponential;
+  law.staticRatio_ = staticRatio;
+  law.decaySpeed_ = decaySpeed;
+  return law;
 }
 
-}  // namespace
-
-FrictionLaw FrictionLaw::read() {
+FrictionLaw FrictionLaw::table(std::vector<double> speeds, std::vector<double> factors) {
   FrictionLaw law;
-  const std::string name = lawOption.get();
-  rejectIdle(name);
-  if (name == "exponential") {
-    law.kind_ = Kind::exponential;
-    law.staticRatio_ = ratioOption.get();
-    law.decaySpeed_ = decayOption.get();
-  } else if (name == "table") {
-    law.kind_ = Kind::table;
-    law.speeds_ = tableSpeedOption.get();
-    law.factors_ = tableFactorOption.get();
-    if (law.speeds_.empty() || law.speeds_.size() != law.factors_.size())
-      throw Error("options -" + tableSpeedOption.fullName() + " and -" +
-                  tableFactorOption.fullName() + ": the lists must have the same length");
-    for (std::size_t i = 0; i + 1 < law.speeds_.size(); ++i)
-      if (!(law.speeds_[i] < law.speeds_[i + 1]))
-        throw Error("option -" + tableSpeedOption.fullName() + ": the speeds must ascend");
-  }
+  law.kind_ = Kind::table;
+  law.speeds_ = std::move(speeds);
+  law.factors_ = std::move(factors);
   return law;
 }
 

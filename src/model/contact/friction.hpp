@@ -1,18 +1,20 @@
 #pragma once
-/// This file holds Coulomb friction with the coefficient f φ(|w|): f is swept, and options give the
-/// law φ of the sliding speed.
+/// Coulomb friction with the coefficient f φ(|w|): f is swept, and φ is a law of the sliding speed.
 #include <vector>
 
 namespace squeal::contact {
 
-/// A FrictionLaw is the law φ(|w|), dimensionless: constant 1, an exponential decay from a static
+/// The law φ(|w|), dimensionless: constant 1, an exponential decay from a static
 /// to the kinetic value, or a table.
 class FrictionLaw {
  public:
-  /// Not collective. Returns the law that the options `-friction_*` ask for. Throws Error for a
-  /// table whose lists differ in length or whose speeds do not ascend, and for options of another
-  /// law.
-  static FrictionLaw read();
+  /// Makes the constant law.
+  FrictionLaw() = default;
+  /// Returns 1 + (r − 1) exp(−|w|/v) for the static ratio r and the decay speed v, m/s.
+  static FrictionLaw exponential(double staticRatio, double decaySpeed);
+  /// Returns the law that is linear between these factors at these speeds, m/s, which ascend, and
+  /// constant beyond.
+  static FrictionLaw table(std::vector<double> speeds, std::vector<double> factors);
   bool constant() const { return kind_ == Kind::constant; }
   /// Returns φ at the sliding speed |w|, m/s.
   double value(double speed) const;

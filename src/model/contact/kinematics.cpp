@@ -13,9 +13,11 @@
 namespace squeal::contact {
 
 using interfaces::assembled;
+using interfaces::ContactNode;
 using interfaces::identity;
 using interfaces::nodalMatrix;
 using interfaces::outer;
+using interfaces::Role;
 using interfaces::setBlock;
 using interfaces::setDiagonal;
 using interfaces::text;
@@ -24,15 +26,15 @@ using mesh::dot;
 
 namespace {
 
-/// A Frame holds the tangents t1, t2 at a contact node, with held Cartesian directions first. In a
+/// The tangents t1, t2 at a contact node, with held Cartesian directions first. In a
 /// plane problem only the first is used.
 struct Frame {
   std::vector<Point> tangents;
   std::vector<int> heldComponent;  ///< [tangent] Cartesian component held along it, or −1
 };
 
-Frame frameOf(const ContactNode& node, const Contact& contact, int dimension) {
-  const auto& constraints = contact.constraints;
+Frame frameOf(const ContactNode& node, const interfaces::Interfaces& all, int dimension) {
+  const auto& constraints = all.constraints;
   Frame frame;
   for (int d = 0; d < dimension; ++d)
     if (constraints.held[dimension * node.node + d]) {
@@ -42,7 +44,7 @@ Frame frameOf(const ContactNode& node, const Contact& contact, int dimension) {
         throw Error("option -constraint_" +
                     constraints.groups[constraints.heldBy[dimension * node.node + d]] +
                     "_clamped holds component " + "xyz"[d] + " of a node of " +
-                    contact.options[node.interface].label() + " at " + text(node.position) +
+                    all.options[node.interface].label() + " at " + text(node.position) +
                     ", which sticks to the other side; let the other side be the slave");
       if (std::abs(dot(e, node.normal)) > 1e-6)
         throw Error("option -constraint_" +
@@ -75,138 +77,188 @@ Frame frameOf(const ContactNode& node, const Contact& contact, int dimension) {
   return frame;
 }
 
-/// Fills the rows of the contact nodes of this level.
-void setContactRows(int level, Contact& contact, Mat a, std::vector<double>& values) {
-  const mesh::Mesh& mesh = *contact.mesh;
-  const int dimension = mesh.dimension;
-  const auto local = [&](PetscInt node, int d) { return dimension * node + d; };
+/// A = A_n … A_1 A_0, where A_i fills the rows of the slaves of level i and A_0 those of components
+/// that follow from others.
+class Factors {
+ public:
+  Factors(const mesh::Mesh& mesh, const interfaces::Interfaces& all);
+  /// Collective. Returns A before periodicity and with gaps at the nodes.
+  OwnedMat product();
+  /// Collective. Returns the values of the components of z that are no unknowns, N entries.
+  OwnedVec held() const;
+  /// Returns Kinematics::free.
+  const std::vector<unsigned char>& free() const { return free_; }
+
+ private:
+  void setContactRow(std::size_t k, Mat a);
+  void setContactRows(int level, Mat a);
+  void setTiedRows(int level, Mat a);
+  OwnedMat combinedRows();
+  PetscInt row(PetscInt node, int d) const { return dimension_ * node + d; }
+
+  const mesh::Mesh& mesh_;
+  const interfaces::Interfaces& all_;
+  int dimension_;
+  std::vector<int> levels_;  // [owned node] level of a slave; 0: it rests on no other node
+  std::vector<unsigned char> free_;
+  std::vector<double> values_;  // of components of z
+};
+
+Factors::Factors(const mesh::Mesh& mesh, const interfaces::Interfaces& all)
+    : mesh_(mesh),
+      all_(all),
+      dimension_(mesh.dimension),
+      levels_(mesh.ownedNodes, 0),
+      free_(all.constraints.held.size(), 1),
+      values_(all.constraints.held.size(), 0.0) {
+  for (const auto& connection : all.connections) levels_[connection.node] = connection.level;
+  for (const auto& tied : all.tied) levels_[tied.connection.node] = tied.connection.level;
+  for (PetscInt i = 0; i < dimension_ * mesh.ownedNodes; ++i)
+    if (levels_[i / dimension_] == 0 && all.constraints.held[i])
+      free_[i] = 0, values_[i] = all.constraints.displacement[i];
+}
+
+/// Fills the rows of contact node k.
+void Factors::setContactRow(std::size_t k, Mat a) {
+  const auto& node = all_.nodes[k];
+  const bool sticks = node.role == Role::sticking;
+  const Frame frame = frameOf(node, all_, dimension_);
+  std::vector<double> block(dimension_ * dimension_);
+  for (int i = 0; i < dimension_; ++i) {
+    for (int t = 0; t < dimension_ - 1; ++t) block[i * dimension_ + t] = frame.tangents[t][i];
+    block[i * dimension_ + dimension_ - 1] = node.side * node.normal[i];
+  }
+  setBlock(a, dimension_, node.globalNode, node.globalNode, block);
+  for (const auto& [master, weight] : all_.connections[k].masters)
+    setBlock(a, dimension_, node.globalNode, master,
+             sticks ? identity(dimension_, weight)
+                    : outer(node.normal, node.normal, dimension_, weight));
+  if (all_.options[node.interface].onObstacle())
+    values_[row(node.node, dimension_ - 1)] =
+        dot(node.normal, all_.obstacles[node.interface].displacement);
+  for (int t = 0; t < dimension_ - 1; ++t) {
+    const int component = frame.heldComponent[t];
+    if (component < 0) continue;
+    free_[row(node.node, t)] = 0;
+    values_[row(node.node, t)] = all_.constraints.displacement[row(node.node, component)];
+  }
+}
+
+/// Collective. Fills the rows of the contact nodes of this level.
+void Factors::setContactRows(int level, Mat a) {
   std::string failure;
-  for (std::size_t k = 0; k < contact.nodes.size(); ++k) try {
-      if (contact.connections[k].level != level) continue;
-      const auto& node = contact.nodes[k];
-      const bool sticks = node.role == Role::sticking;
-      const Frame frame = frameOf(node, contact, dimension);
-      std::vector<double> block(dimension * dimension);
-      for (int i = 0; i < dimension; ++i) {
-        for (int t = 0; t < dimension - 1; ++t) block[i * dimension + t] = frame.tangents[t][i];
-        block[i * dimension + dimension - 1] = node.side * node.normal[i];
-      }
-      setBlock(a, dimension, node.globalNode, node.globalNode, block);
-      for (const auto& [master, weight] : contact.connections[k].masters)
-        setBlock(a, dimension, node.globalNode, master,
-                 sticks ? identity(dimension, weight)
-                        : outer(node.normal, node.normal, dimension, weight));
-      const auto& options = contact.options[node.interface];
-      if (options.onObstacle())
-        values[local(node.node, dimension - 1)] = dot(node.normal, options.obstacleDisplacement);
-      for (int t = 0; t < dimension - 1; ++t) {
-        const int component = frame.heldComponent[t];
-        if (component < 0) continue;
-        contact.free[local(node.node, t)] = 0;
-        values[local(node.node, t)] = contact.constraints.displacement[local(node.node, component)];
-      }
+  for (std::size_t k = 0; k < all_.nodes.size(); ++k) try {
+      if (all_.connections[k].level == level) setContactRow(k, a);
     } catch (const Error& error) {
       failure = error.what();
     }
-  failTogether(mesh.comm, failure);
+  failTogether(mesh_.comm, failure);
 }
 
 /// Fills the rows of the tied nodes of this level.
-void setTiedRows(int level, Contact& contact, Mat a, std::vector<double>& values) {
-  const int dimension = contact.mesh->dimension;
-  for (const auto& tied : contact.tied) {
+void Factors::setTiedRows(int level, Mat a) {
+  for (const auto& tied : all_.tied) {
     if (tied.connection.level != level) continue;
-    const PetscInt node = tied.connection.node, global = contact.mesh->firstNode + node;
+    const PetscInt node = tied.connection.node, global = mesh_.firstNode + node;
     for (const auto& [master, weight] : tied.connection.masters) {
-      auto block = identity(dimension, weight);
-      for (int d = 0; d < dimension; ++d)
-        if (tied.apart[d]) block[d * dimension + d] = 0;
-      setBlock(a, dimension, global, master, block);
+      auto block = identity(dimension_, weight);
+      for (int d = 0; d < dimension_; ++d)
+        if (tied.apart[d]) block[d * dimension_ + d] = 0;
+      setBlock(a, dimension_, global, master, block);
     }
-    for (int d = 0; d < dimension; ++d) {
-      const PetscInt row = dimension * node + d;
-      contact.free[row] = 0;
+    for (int d = 0; d < dimension_; ++d) {
+      const PetscInt i = row(node, d);
+      free_[i] = 0;
       if (!tied.apart[d]) continue;
-      check(MatSetValue(a, dimension * global + d, dimension * global + d, 1, INSERT_VALUES));
-      values[row] = contact.constraints.displacement[row];
+      check(MatSetValue(a, row(global, d), row(global, d), 1, INSERT_VALUES));
+      values_[i] = all_.constraints.displacement[i];
     }
   }
 }
 
 /// Collective. Returns A_0, which fills the rows of components that follow from others.
-OwnedMat combinedRows(Contact& contact, std::vector<double>& values) {
-  const mesh::Mesh& mesh = *contact.mesh;
-  const int dimension = mesh.dimension;
-  std::vector<PetscInt> blocks(mesh.ownedNodes, 1);
-  for (const auto& combined : contact.constraints.combined)
+OwnedMat Factors::combinedRows() {
+  std::vector<PetscInt> blocks(mesh_.ownedNodes, 1);
+  for (const auto& combined : all_.constraints.combined)
     blocks[combined.node] += combined.others.size();
-  OwnedMat rows = nodalMatrix(mesh, blocks);
-  for (PetscInt node = 0; node < mesh.ownedNodes; ++node)
-    setDiagonal(rows, dimension, mesh.firstNode + node);
-  for (const auto& [node, component, others, constant] : contact.constraints.combined) {
+  OwnedMat rows = nodalMatrix(mesh_, blocks);
+  for (PetscInt node = 0; node < mesh_.ownedNodes; ++node)
+    setDiagonal(rows, dimension_, mesh_.firstNode + node);
+  for (const auto& [node, component, others, constant] : all_.constraints.combined) {
     for (const auto& [other, weight] : others)
-      check(MatSetValue(rows, dimension * (mesh.firstNode + node) + component,
-                        dimension * other + component, weight, INSERT_VALUES));
-    contact.free[dimension * node + component] = 0;
-    values[dimension * node + component] = constant;
+      check(MatSetValue(rows, row(mesh_.firstNode + node, component), row(other, component), weight,
+                        INSERT_VALUES));
+    free_[row(node, component)] = 0;
+    values_[row(node, component)] = constant;
   }
   assembled(rows);
   return rows;
 }
 
-/// Returns the level of the owned nodes, [owned node]; 0 for those that rest on no other.
-std::vector<int> levelsOf(const Contact& contact) {
-  std::vector<int> levels(contact.mesh->ownedNodes, 0);
-  for (const auto& connection : contact.connections) levels[connection.node] = connection.level;
-  for (const auto& tied : contact.tied) levels[tied.connection.node] = tied.connection.level;
-  return levels;
+OwnedMat Factors::product() {
+  OwnedMat a;
+  if (all_.constraints.anyCombined) a = combinedRows();
+  for (int level = 1; level <= all_.levels; ++level) {
+    OwnedMat factor = nodalMatrix(mesh_, blocksOfRows(mesh_, all_, level));
+    for (PetscInt node = 0; node < mesh_.ownedNodes; ++node)
+      if (levels_[node] != level) setDiagonal(factor, dimension_, mesh_.firstNode + node);
+    setContactRows(level, factor);
+    setTiedRows(level, factor);
+    assembled(factor);
+    a = a ? interfaces::product(factor, a) : std::move(factor);
+  }
+  for (const auto& image : mesh_.images)
+    for (int d = 0; d < dimension_; ++d) free_[row(image.node, d)] = 0;
+  return a;
+}
+
+OwnedVec Factors::held() const {
+  OwnedVec vector = elasticity::nodalVector(mesh_);
+  std::copy(values_.begin(), values_.end(), WriteArray(vector).begin());
+  return vector;
+}
+
+/// Returns u_g = −A g0 of the gaps g0 without load, which the unknown gaps count.
+OwnedVec gapOffset(const mesh::Mesh& mesh, const interfaces::Interfaces& all, Mat a) {
+  const OwnedVec gaps = elasticity::nodalVector(mesh);
+  {
+    const WriteArray values(gaps);
+    for (const auto& node : all.nodes) values[mesh.dimension * (node.node + 1) - 1] = -node.gap;
+  }
+  OwnedVec offset = elasticity::nodalVector(mesh);
+  check(MatMult(a, gaps, offset));
+  return offset;
 }
 
 }  // namespace
 
-std::vector<PetscInt> blocksOfRows(const Contact& contact, int level) {
-  std::vector<PetscInt> blocks(contact.mesh->ownedNodes, 1);
-  for (const auto& connection : contact.connections)
+PetscInt gapRow(const mesh::Mesh& mesh, const ContactNode& node) {
+  return mesh.dimension * (node.globalNode + 1) - 1;
+}
+
+std::vector<PetscInt> blocksOfRows(const mesh::Mesh& mesh, const interfaces::Interfaces& all,
+                                   int level) {
+  std::vector<PetscInt> blocks(mesh.ownedNodes, 1);
+  for (const auto& connection : all.connections)
     if (level == 0 || connection.level == level)
       blocks[connection.node] += connection.masters.size();
-  for (const auto& tied : contact.tied)
+  for (const auto& tied : all.tied)
     if (tied.connection.level == level)
       blocks[tied.connection.node] += tied.connection.masters.size();
   return blocks;
 }
 
-OwnedMat buildKinematics(Contact& contact, Vec held) {
-  const mesh::Mesh& mesh = *contact.mesh;
-  const auto& constraints = contact.constraints;
-  const int dimension = mesh.dimension;
-  const auto levels = levelsOf(contact);
-  contact.free.assign(constraints.held.size(), 1);
-  std::vector<double> values(constraints.held.size(), 0.0);
-  for (PetscInt i = 0; i < dimension * mesh.ownedNodes; ++i)
-    if (levels[i / dimension] == 0 && constraints.held[i])
-      contact.free[i] = 0, values[i] = constraints.displacement[i];
-  OwnedMat a;
-  //   A = A_n … A_1 A_0, where A_i fills the rows of the slaves of level i
-  if (constraints.anyCombined) a = combinedRows(contact, values);
-  for (int level = 1; level <= contact.levels; ++level) {
-    OwnedMat factor = nodalMatrix(mesh, blocksOfRows(contact, level));
-    for (PetscInt node = 0; node < mesh.ownedNodes; ++node)
-      if (levels[node] != level) setDiagonal(factor, dimension, mesh.firstNode + node);
-    setContactRows(level, contact, factor, values);
-    setTiedRows(level, contact, factor, values);
-    assembled(factor);
-    if (!a) {
-      a = std::move(factor);
-      continue;
-    }
-    OwnedMat product;
-    check(MatMatMult(factor, a, MAT_INITIAL_MATRIX, PETSC_DEFAULT, product.out()));
-    a = std::move(product);
-  }
-  for (const auto& image : mesh.images)
-    for (int d = 0; d < dimension; ++d) contact.free[dimension * image.node + d] = 0;
-  std::copy(values.begin(), values.end(), WriteArray(held).begin());
-  return a;
+Kinematics kinematicsOf(const mesh::Mesh& mesh, const interfaces::Interfaces& all, Mat periodic) {
+  Factors factors(mesh, all);
+  const OwnedMat a = factors.product();
+  Kinematics kinematics;
+  kinematics.matrix = interfaces::product(periodic, a);
+  if (all.gapBasis) kinematics.matrix = interfaces::product(kinematics.matrix, all.gapBasis.matrix);
+  kinematics.offset = elasticity::nodalVector(mesh);
+  check(MatMult(kinematics.matrix, factors.held(), kinematics.offset));
+  kinematics.gapOffset = gapOffset(mesh, all, kinematics.matrix);
+  kinematics.free = factors.free();
+  return kinematics;
 }
 
 }  // namespace squeal::contact

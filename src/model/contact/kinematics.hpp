@@ -1,21 +1,36 @@
 #pragma once
-/// This function builds the kinematics u = A z of contact, with a normal and tangents at each
-/// contact node.
+/// The kinematics u = A z of contact, with a normal and tangents at each contact node.
 #include <vector>
 
-#include "model/contact/contact.hpp"
+#include "base/petsc/owned.hpp"
+#include "model/contact/active_set.hpp"
+#include "model/interfaces/nodes.hpp"
+#include "model/mesh/mesh.hpp"
 
 namespace squeal::contact {
 
-/// Returns the number of blocks in each row of blocks of a matrix that connects the slaves of this
-/// level with themselves and their masters, [owned node], at least one. The level 0 stands for the
-/// contact nodes of all levels.
-std::vector<PetscInt> blocksOfRows(const Contact& contact, int level);
+using mesh::Point;
 
-/// Collective. Returns A as it is before periodicity and with gaps at the nodes, marks the free
-/// components of z in Contact::free and sets the values of the others in `held`. Throws Error on
-/// all ranks for a held component that is not tangential at a contact node, and for any at a node
-/// that sticks.
-OwnedMat buildKinematics(Contact& contact, Vec held);
+struct Kinematics {
+  OwnedMat matrix;     ///< A, N×N
+  OwnedVec offset;     ///< u0, N entries, m: held displacements and displacements of obstacles
+  OwnedVec gapOffset;  ///< u_g, N entries, m: closes the gaps that there are without load
+  /// [owned node · dimension + component of z] 1 if it is an unknown; gaps are counted as unknowns
+  std::vector<unsigned char> free;
+};
+
+/// Returns the row of z and of N that belongs to the gap of a contact node.
+PetscInt gapRow(const mesh::Mesh& mesh, const interfaces::ContactNode& node);
+
+/// Returns the number of blocks in each row of blocks of a matrix that connects the slaves of this
+/// level with themselves and their masters, [owned node], at least one. Level 0 means the contact
+/// nodes of all levels.
+std::vector<PetscInt> blocksOfRows(const mesh::Mesh& mesh, const interfaces::Interfaces& all,
+                                   int level);
+
+/// Collective. Returns the kinematics, with periodicity P and the gap basis E. Throws Error on all
+/// ranks for a held component that is not tangential at a contact node, and for any at a node that
+/// sticks.
+Kinematics kinematicsOf(const mesh::Mesh& mesh, const interfaces::Interfaces& all, Mat periodic);
 
 }  // namespace squeal::contact

@@ -86,7 +86,7 @@ linalg::DenseMatrix gram(const mesh::Mesh& mesh, const Contact& contact, Vec spr
   for (PetscInt node = 0; node < mesh.ownedNodes; ++node)
     for (int d = 0; d < mesh.dimension; ++d)
       if (const PetscInt i = mesh.dimension * node + d;
-          contact.constraints.held[i] || (spring && (*spring)[i] > 0)) {
+          contact.interfaces.constraints.held[i] || (spring && (*spring)[i] > 0)) {
         motions.add(row, mesh.nodePart[node], mesh.coordinates[node], unit(d), 1);
         keep();
       }
@@ -97,8 +97,8 @@ linalg::DenseMatrix gram(const mesh::Mesh& mesh, const Contact& contact, Vec spr
       motions.add(row, image.primaryPart, mesh::minus(x, image.shift), unit(d), -1);
       keep();
     }
-  for (std::size_t i = 0; holding.any && i < contact.nodes.size(); ++i) {
-    const auto& node = contact.nodes[i];
+  for (std::size_t i = 0; holding.any && i < contact.interfaces.nodes.size(); ++i) {
+    const auto& node = contact.interfaces.nodes[i];
     if (!holding.closed.empty() && !holding.closed[i]) continue;
     const bool sticks =
         node.role == Role::sticking && (holding.released.empty() || !holding.released[i]);
@@ -116,7 +116,7 @@ linalg::DenseMatrix gram(const mesh::Mesh& mesh, const Contact& contact, Vec spr
       motions.add(row, part, node.position, node.normal, -share);
     keep();
   }
-  for (const auto& tied : contact.tied) {
+  for (const auto& tied : contact.interfaces.tied) {
     const PetscInt node = tied.connection.node;
     for (int d = 0; d < mesh.dimension; ++d) {
       motions.add(row, mesh.nodePart[node], mesh.coordinates[node], unit(d), 1);

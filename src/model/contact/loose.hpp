@@ -1,5 +1,5 @@
 #pragma once
-/// These functions find bodies that can move rigidly because nothing holds them.
+/// Rigid-body modes of bodies that nothing holds.
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,11 +16,10 @@ struct LooseBody {
 
 /// The contact, without friction, that holds bodies in place.
 struct HoldingContact {
-  bool any = true;  ///< false: contact holds nothing
-  std::vector<unsigned char> closed =
-      {};  ///< [contact node] 0 where it is open; empty: all are closed
-  std::vector<unsigned char> released = {};  ///< [contact node] 1 where a sticking node does not
-                                             ///< hold along the surface; empty: all hold
+  bool any = true;     ///< false: contact holds nothing
+  Mask closed = {};    ///< [contact node] 0 where it is open; empty: all are closed
+  Mask released = {};  ///< [contact node] 1 where a sticking node does not
+                       ///< hold along the surface; empty: all hold
 };
 
 /// Collective. Returns the part that can move most freely where neither constraints, springs

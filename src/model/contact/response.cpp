@@ -47,8 +47,8 @@ std::vector<double> spread(const Contact& contact, Mat basis, const Value& value
   OwnedVec field = elasticity::nodalVector(mesh), moved = elasticity::nodalVector(mesh);
   {
     const WriteArray values(field);
-    for (std::size_t i = 0; i < contact.nodes.size(); ++i)
-      value(i, values.begin() + mesh.dimension * contact.nodes[i].node);
+    for (std::size_t i = 0; i < contact.interfaces.nodes.size(); ++i)
+      value(i, values.begin() + mesh.dimension * contact.interfaces.nodes[i].node);
   }
   if (basis) {
     check(MatMult(basis, field, moved));
@@ -62,8 +62,8 @@ Fields fieldsOf(const Contact& contact, const std::vector<Slip>& slip,
                 const std::vector<double>& normalForce, double friction) {
   const int dimension = contact.mesh->dimension;
   const auto ofGaps = [&](const auto& factor) {
-    return spread(contact, contact.gapBasis.matrix, [&](std::size_t i, auto at) {
-      at[dimension - 1] = factor(slip[i]) * normalForce[i] / contact.nodes[i].wholeArea;
+    return spread(contact, contact.interfaces.gapBasis.matrix, [&](std::size_t i, auto at) {
+      at[dimension - 1] = factor(slip[i]) * normalForce[i] / contact.interfaces.nodes[i].wholeArea;
     });
   };
   return {ofGaps([](const Slip&) { return 1.0; }),
@@ -73,7 +73,7 @@ Fields fieldsOf(const Contact& contact, const std::vector<Slip>& slip,
                    for (int d = 0; d < dimension; ++d) at[d] = slip[i].speed * slip[i].direction[d];
                  }),
           spread(contact, nullptr, [&](std::size_t i, auto at) {
-            for (int d = 0; d < dimension; ++d) at[d] = contact.nodes[i].normal[d];
+            for (int d = 0; d < dimension; ++d) at[d] = contact.interfaces.nodes[i].normal[d];
           })};
 }
 
@@ -116,8 +116,8 @@ OwnedMat nodalResponse(const Contact& contact, const std::vector<Slip>& slip,
                        const std::vector<double>& nodalForce, double friction) {
   const int dimension = contact.mesh->dimension;
   OwnedMat response = nodalMatrix(*contact.mesh, 1);
-  for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
-    const auto& node = contact.nodes[i];
+  for (std::size_t i = 0; i < contact.interfaces.nodes.size(); ++i) {
+    const auto& node = contact.interfaces.nodes[i];
     setBlock(response, dimension, node.globalNode, node.globalNode,
              responseBlock(velocityResponse(slip[i], nodalForce[i], friction, dimension),
                            slip[i].direction, node.normal, dimension));
@@ -128,7 +128,7 @@ OwnedMat nodalResponse(const Contact& contact, const std::vector<Slip>& slip,
 
 OwnedMat distributedResponse(const Contact& contact, const std::vector<Slip>& slip,
                              const std::vector<double>& normalForce, double friction) {
-  if (!contact.gapBasis) return nodalResponse(contact, slip, normalForce, friction);
+  if (!contact.interfaces.gapBasis) return nodalResponse(contact, slip, normalForce, friction);
   const auto& mesh = *contact.mesh;
   const int dimension = mesh.dimension;
   const Fields fields = fieldsOf(contact, slip, normalForce, friction);
@@ -139,7 +139,7 @@ OwnedMat distributedResponse(const Contact& contact, const std::vector<Slip>& sl
     for (std::size_t e = 0; e < block.surface.size(); ++e) {
       const auto nodes = block.nodesOf(e);
       if (std::none_of(nodes.begin(), nodes.end(), [&](PetscInt node) {
-            return contact.hasGapOn(mesh.surfaces[block.surface[e]], node);
+            return contact.interfaces.hasGapOn(mesh.surfaces[block.surface[e]], node);
           }))
         continue;
       const auto area = elasticity::areaWeights(table, elasticity::pointsOf(mesh, nodes));
@@ -157,7 +157,7 @@ OwnedMat distributedResponse(const Contact& contact, const std::vector<Slip>& sl
       elasticity::append(triples, mesh, nodes, sums);
     }
   }
-  const OwnedMat unfolded = toMatrix(mesh, triples, elasticity::Symmetry::symmetric);
+  const OwnedMat unfolded = toMatrix(mesh, triples, elasticity::SymmetryClass::symmetric);
   OwnedMat response;
   check(MatPtAP(unfolded, contact.periodic, MAT_INITIAL_MATRIX, PETSC_DEFAULT, response.out()));
   return response;

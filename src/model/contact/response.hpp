@@ -1,5 +1,5 @@
 #pragma once
-/// This file makes the matrix B of the change −B w* of the friction forces with a change w* of the
+/// The matrix B of the change −B w* of the friction forces with a change w* of the
 /// relative velocity [4.7, M.20].
 #include <vector>
 

@@ -1,7 +1,7 @@
 #include "model/contact/sliding.hpp"
 
 #include "base/petsc/arrays.hpp"
-#include "model/contact/kinematics.hpp"
+#include "base/system/mpi.hpp"
 #include "model/elasticity/elasticity.hpp"
 #include "model/elasticity/face.hpp"
 #include "model/elasticity/shape.hpp"
@@ -13,30 +13,32 @@ using interfaces::assembled;
 using interfaces::identity;
 using interfaces::nodalMatrix;
 using interfaces::setBlock;
+using mesh::Point;
 
 namespace {
 
 /// Returns N: the columns of A that belong to the gaps, as rows. Forces on periodic images, on tied
 /// nodes and on neighbours in the gap basis go where their displacements come from.
-OwnedMat reactionRows(const Contact& contact) {
-  const auto& mesh = *contact.mesh;
+OwnedMat reactionRows(const SlidingInput& input) {
+  const auto& mesh = input.mesh;
   const OwnedMat gaps = nodalMatrix(mesh, 1);
-  for (const auto& node : contact.nodes)
-    check(MatSetValue(gaps, contact.gapRow(node), contact.gapRow(node), 1, INSERT_VALUES));
+  for (const auto& node : input.interfaces.nodes)
+    check(MatSetValue(gaps, gapRow(mesh, node), gapRow(mesh, node), 1, INSERT_VALUES));
   assembled(gaps);
   OwnedMat columns, result;
-  check(MatMatMult(contact.kinematics, gaps, MAT_INITIAL_MATRIX, PETSC_DEFAULT, columns.out()));
+  check(
+      MatMatMult(input.kinematics.matrix, gaps, MAT_INITIAL_MATRIX, PETSC_DEFAULT, columns.out()));
   check(MatTranspose(columns, MAT_INITIAL_MATRIX, result.out()));
   return result;
 }
 
 /// Returns J.
-OwnedMat jumpRows(const Contact& contact) {
-  const auto& connections = contact.connections;
-  const auto& mesh = *contact.mesh;
-  OwnedMat jump = nodalMatrix(mesh, blocksOfRows(contact, 0));
+OwnedMat jumpRows(const SlidingInput& input) {
+  const auto& connections = input.interfaces.connections;
+  const auto& mesh = input.mesh;
+  OwnedMat jump = nodalMatrix(mesh, blocksOfRows(mesh, input.interfaces, 0));
   for (std::size_t k = 0; k < connections.size(); ++k) {
-    const auto& node = contact.nodes[k];
+    const auto& node = input.interfaces.nodes[k];
     setBlock(jump, mesh.dimension, node.globalNode, node.globalNode,
              identity(mesh.dimension, node.side));
     for (const auto& [master, weight] : connections[k].masters)
@@ -49,29 +51,28 @@ OwnedMat jumpRows(const Contact& contact) {
 
 /// Returns the matrix that gives u_D at the place of each slave node, in its rows, where the meshes
 /// match or the slave is the disc itself. Images are treated like their primaries.
-OwnedMat masterRows(const Contact& contact) {
-  const auto& mesh = *contact.mesh;
+OwnedMat masterRows(const SlidingInput& input) {
+  const auto& mesh = input.mesh;
   OwnedMat primaries = nodalMatrix(mesh, 1), result;
-  for (const auto& node : contact.nodes)
+  for (const auto& node : input.interfaces.nodes)
     if (const PetscInt disc = node.side < 0 ? node.globalNode : node.master; disc >= 0)
       setBlock(primaries, mesh.dimension, node.globalNode, disc, identity(mesh.dimension, 1));
   assembled(primaries);
-  check(MatMatMult(contact.periodic, primaries, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.out()));
+  check(MatMatMult(input.periodic, primaries, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.out()));
   return result;
 }
 
 /// Returns the base motion of the disc at each slave surface on which u_D has the values of
 /// masterRows(), borrowed; null at the others.
-std::vector<const elasticity::Motion*> discMotions(const elasticity::Bodies& bodies,
-                                                   const Contact& contact) {
-  const auto& mesh = *contact.mesh;
-  std::vector<int> body(contact.interfaces.size(), -1);
+std::vector<const elasticity::Motion*> discMotions(const SlidingInput& input) {
+  const auto& mesh = input.mesh;
+  std::vector<int> body(input.interfaces.options.size(), -1);
   for (const auto& pair : mesh.pairs) body[pair.interface] = pair.masterBody;
-  for (const auto& node : contact.nodes)
+  for (const auto& node : input.interfaces.nodes)
     if (node.side < 0) body[node.interface] = node.discBody;
-  check(MPI_Allreduce(MPI_IN_PLACE, body.data(), body.size(), MPI_INT, MPI_MAX, mesh.comm));
+  mpi::reduce<int>(mesh.comm, body, MPI_MAX);
   std::vector<const elasticity::Motion*> motions;
-  for (int index : body) motions.push_back(index < 0 ? nullptr : &bodies.motions[index]);
+  for (int index : body) motions.push_back(index < 0 ? nullptr : &input.bodies.motions[index]);
   return motions;
 }
 
@@ -80,20 +81,21 @@ std::vector<const elasticity::Motion*> discMotions(const elasticity::Bodies& bod
 /// with their shape functions. At a node the derivative is averaged over the faces around it,
 /// weighted by area like the nodal forces R_N. On quadratic faces the leading errors at corners and
 /// mid-sides then cancel.
-OwnedMat convectedByFaces(const elasticity::Bodies& bodies, const Contact& contact) {
-  const auto& mesh = *contact.mesh;
+OwnedMat convectedByFaces(const SlidingInput& input) {
+  const auto& mesh = input.mesh;
   const int dimension = mesh.dimension;
-  const auto motions = discMotions(bodies, contact);
+  const auto motions = discMotions(input);
   const OwnedVec area = elasticity::nodalVector(mesh), folded = elasticity::nodalVector(mesh);
   OwnedMat sums;
-  check(MatDuplicate(bodies.stiffness, MAT_DO_NOT_COPY_VALUES,
+  check(MatDuplicate(input.bodies.stiffness, MAT_DO_NOT_COPY_VALUES,
                      sums.out()));  // nodes of a face share a cell
   check(MatSetOption(sums, MAT_SYMMETRIC, PETSC_FALSE));
   for (const auto& block : mesh.faces) {
     const auto& table = elasticity::shapeTable(block.type);
     for (std::size_t e = 0; e < block.surface.size(); ++e) {
-      const interfaces::SlaveSide* slave = contact.slaveOf(mesh.surfaces[block.surface[e]]);
-      const auto* motion = slave ? motions[slave - contact.slaves.data()] : nullptr;
+      const interfaces::SlaveSide* slave =
+          input.interfaces.slaveOf(mesh.surfaces[block.surface[e]]);
+      const auto* motion = slave ? motions[slave - input.interfaces.slaves.data()] : nullptr;
       if (!motion) continue;
       std::vector<Point> points, velocity;
       const auto nodes = block.nodesOf(e);
@@ -118,34 +120,33 @@ OwnedMat convectedByFaces(const elasticity::Bodies& bodies, const Contact& conta
   assembled(sums);
   check(VecAssemblyBegin(area));
   check(VecAssemblyEnd(area));
-  check(MatMultTranspose(contact.periodic, area, folded));
+  check(MatMultTranspose(input.periodic, area, folded));
   for (double& value : WriteArray(folded)) value = value > 0 ? 1 / value : 0;
-  const OwnedMat masters = masterRows(contact);
+  const OwnedMat masters = masterRows(input);
   OwnedMat atFaces, result;
   check(MatMatMult(sums, masters, MAT_INITIAL_MATRIX, PETSC_DEFAULT, atFaces.out()));
-  check(MatTransposeMatMult(contact.periodic, atFaces, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
+  check(MatTransposeMatMult(input.periodic, atFaces, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
                             result.out()));
   check(MatDiagonalScale(result, folded, nullptr));
   return result;
 }
 
 /// Returns D.
-OwnedMat convectedRows(const elasticity::Bodies& bodies, const Contact& contact) {
-  const auto& connections = contact.connections;
-  const auto& mesh = *contact.mesh;
-  OwnedMat result = convectedByFaces(bodies, contact);
+OwnedMat convectedRows(const SlidingInput& input) {
+  const auto& connections = input.interfaces.connections;
+  const auto& mesh = input.mesh;
+  OwnedMat result = convectedByFaces(input);
   std::vector<PetscInt> blocks(mesh.ownedNodes, 1);
-  int any = 0;
+  bool any = false;
   for (std::size_t k = 0; k < connections.size(); ++k) {
-    blocks[contact.nodes[k].node] += connections[k].convected.size();
+    blocks[input.interfaces.nodes[k].node] += connections[k].convected.size();
     any = any || !connections[k].convected.empty();
   }
-  check(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_LOR, mesh.comm));
-  if (!any) return result;
+  if (!mpi::any(mesh.comm, any)) return result;
   const OwnedMat coupled = nodalMatrix(mesh, blocks);
   for (std::size_t k = 0; k < connections.size(); ++k)
     for (const auto& [master, weight] : connections[k].convected)
-      setBlock(coupled, mesh.dimension, contact.nodes[k].globalNode, master,
+      setBlock(coupled, mesh.dimension, input.interfaces.nodes[k].globalNode, master,
                identity(mesh.dimension, weight));
   assembled(coupled);
   check(MatAXPY(result, 1, coupled, DIFFERENT_NONZERO_PATTERN));
@@ -154,10 +155,12 @@ OwnedMat convectedRows(const elasticity::Bodies& bodies, const Contact& contact)
 
 }  // namespace
 
-void buildSliding(const elasticity::Bodies& bodies, Contact& contact) {
-  contact.reaction = reactionRows(contact);
-  contact.jump = jumpRows(contact);
-  if (elasticity::convectiveTerms()) contact.convected = convectedRows(bodies, contact);
+Sliding slidingOf(const SlidingInput& input) {
+  Sliding sliding;
+  sliding.reaction = reactionRows(input);
+  sliding.jump = jumpRows(input);
+  if (input.bodies.settings.convective) sliding.convected = convectedRows(input);
+  return sliding;
 }
 
 }  // namespace squeal::contact

@@ -1,12 +1,31 @@
 #pragma once
-/// This function builds the matrices of sliding at the contact nodes.
-#include "model/contact/contact.hpp"
+/// The matrices of sliding at the contact nodes.
+#include "base/petsc/owned.hpp"
+#include "model/contact/kinematics.hpp"
 #include "model/elasticity/elasticity.hpp"
+#include "model/interfaces/nodes.hpp"
+#include "model/mesh/mesh.hpp"
 
 namespace squeal::contact {
 
-/// Collective. Fills Contact::reaction, Contact::jump and, with convective terms,
-/// Contact::convected.
-void buildSliding(const elasticity::Bodies& bodies, Contact& contact);
+/// The matrices of sliding, N×N. Rows without an entry here are empty.
+struct Sliding {
+  OwnedMat reaction;   ///< N: R_N of a contact node from all nodal forces, in the row of its gap
+  OwnedMat jump;       ///< J: [u] = u_P − u_D in the rows of the contact nodes
+  OwnedMat convected;  ///< D, 1/s: (V·∇)u_D at the contact nodes, in their rows, for the base
+                       ///< motions; null without convective terms
+};
+
+/// The matrices are made from these, all borrowed.
+struct SlidingInput {
+  const mesh::Mesh& mesh;
+  const elasticity::Bodies& bodies;
+  const interfaces::Interfaces& interfaces;
+  const Kinematics& kinematics;
+  Mat periodic;  ///< P
+};
+
+/// Collective. Returns the matrices.
+Sliding slidingOf(const SlidingInput& input);
 
 }  // namespace squeal::contact

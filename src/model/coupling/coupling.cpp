@@ -23,7 +23,7 @@ std::vector<Weight> rowOf(Mat matrix, PetscInt row) {
   return weights;
 }
 
-std::vector<SlaveNode> slaveNodes(const mesh::Mesh& mesh, const Basis& basis,
+std::vector<SlaveNode> slaveNodes(const mesh::Mesh& mesh, const SlaveBasis& basis,
                                   const Pivoting& pivoting, const Sums& sums,
                                   const Matrices& matrices) {
   std::vector<SlaveNode> nodes;
@@ -75,7 +75,7 @@ Coupling couple(const mesh::Mesh& mesh, const NodeExchange& exchange, const Inte
   const Surfaces surfaces =
       surfacesOf(mesh, exchange, interface.slave, interface.master, interface.searchDistance);
   const auto faces = cover(mesh.comm, surfaces, interface.slave, velocity);
-  const Basis basis = chooseBasis(mesh, exchange, faces, excluded);
+  const SlaveBasis basis = chooseBasis(mesh, exchange, faces, excluded);
   Sums sums = sumFaces(mesh, exchange, faces, basis);
   const Pivoting pivoting = pivotsOf(mesh, exchange, basis, sums);
   const Matrices matrices = matricesOf(mesh, exchange, faces, basis, pivoting, sums);

@@ -46,7 +46,7 @@ struct SlaveNode {
   Point offset{};
 };
 
-/// A SideReport tells what was found on one side of an interface, summed over all ranks.
+/// The faces found on one side of an interface, summed over all ranks.
 struct SideReport {
   PetscInt faces = 0;      ///< faces of the group
   PetscInt nearFaces = 0;  ///< those near the other side

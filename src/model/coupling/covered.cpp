@@ -74,7 +74,7 @@ std::vector<double> chooseAlpha(const NodeExchange& exchange, std::size_t nodes,
 
 /// Returns W, [node], of a face: φ̃ of quad9 and line3 changes its sign, so that a node may have a
 /// positive integral over the covered part and yet no positive weight.
-std::vector<double> weights(const CoveredFace& face, const Basis& basis) {
+std::vector<double> weights(const CoveredFace& face, const SlaveBasis& basis) {
   const auto kept = pivots(*face.type, mortar::Multiplier::nodes, basis.droppedOf(face));
   const auto terms = integrate(face.moments, basis.alphaOf(face), kept);
   std::vector<double> values(face.local.size(), 0.0);
@@ -83,7 +83,7 @@ std::vector<double> weights(const CoveredFace& face, const Basis& basis) {
 }
 
 /// Drops nodes of which too little is covered. Returns true if there were any.
-bool drop(const std::vector<double>& covered, Basis& basis) {
+bool drop(const std::vector<double>& covered, SlaveBasis& basis) {
   bool any = false;
   for (std::size_t node = 0; node < covered.size(); ++node) {
     if (basis.dropped[node] || !(covered[node] < leastCover * basis.whole[node])) continue;
@@ -95,7 +95,7 @@ bool drop(const std::vector<double>& covered, Basis& basis) {
 
 /// Collective. Returns the dropped nodes of this rank at faces that are covered in part.
 std::vector<PetscInt> droppedOwned(const mesh::Mesh& mesh, const NodeExchange& exchange,
-                                   const std::vector<CoveredFace>& faces, const Basis& basis) {
+                                   const std::vector<CoveredFace>& faces, const SlaveBasis& basis) {
   std::vector<double> atCovered(mesh.localNodes(), 0.0);
   for (const auto& face : faces)
     if (face.moments.covered > 0)
@@ -171,23 +171,23 @@ std::vector<CoveredFace> cover(MPI_Comm comm, const Surfaces& surfaces, const st
   return faces;
 }
 
-std::vector<double> Basis::alphaOf(const CoveredFace& face) const {
+std::vector<double> SlaveBasis::alphaOf(const CoveredFace& face) const {
   std::vector<double> values;
   for (const auto& edge : face.type->edges) values.push_back(alpha[face.local[edge.node]]);
   return values;
 }
 
-std::vector<bool> Basis::droppedOf(const CoveredFace& face) const {
+std::vector<bool> SlaveBasis::droppedOf(const CoveredFace& face) const {
   std::vector<bool> values;
   for (PetscInt node : face.local) values.push_back(dropped[node]);
   return values;
 }
 
-Basis chooseBasis(const mesh::Mesh& mesh, const NodeExchange& exchange,
-                  const std::vector<CoveredFace>& faces,
-                  const std::vector<unsigned char>& excluded) {
+SlaveBasis chooseBasis(const mesh::Mesh& mesh, const NodeExchange& exchange,
+                       const std::vector<CoveredFace>& faces,
+                       const std::vector<unsigned char>& excluded) {
   const std::size_t nodes = mesh.localNodes();
-  Basis basis{chooseAlpha(exchange, nodes, faces), {}, std::vector<bool>(nodes, false), 0, {}};
+  SlaveBasis basis{chooseAlpha(exchange, nodes, faces), {}, std::vector<bool>(nodes, false), 0, {}};
   const auto wholeOf = [&](const CoveredFace& face) {
     return wholeIntegrals(*face.face, basis.alphaOf(face));
   };

@@ -1,5 +1,5 @@
 #pragma once
-/// This file holds what covers the faces of a slave surface, and the basis that follows from it.
+/// The covered parts of the faces of a slave surface, and the basis that follows from them.
 #include <string>
 #include <vector>
 
@@ -46,7 +46,7 @@ std::vector<CoveredFace> cover(MPI_Comm comm, const Surfaces& surfaces, const st
 
 /// The values at the nodes of the slave that decide on the basis φ̃, [local node]. They are the
 /// same on all ranks that have the node, and on its images.
-struct Basis {
+struct SlaveBasis {
   std::vector<double> alpha;  ///< of the edge of a mid-edge node
   std::vector<double> whole;  ///< ∫ φ̃ dA over all faces of the slave; zero elsewhere
   std::vector<bool> dropped;  ///< nodes of the slave that carry no condition: too little covered
@@ -59,10 +59,10 @@ struct Basis {
 
 /// Collective. Returns α and the nodes to be dropped, the excluded ones, [local node], among them.
 /// Partly covered faces need a larger α, on which all faces at an edge agree. A dropped mid-edge
-/// node has α = 0, so that ũ = u there; Basis::whole still has the α before nodes are dropped, with
-/// which it is positive.
-Basis chooseBasis(const mesh::Mesh& mesh, const NodeExchange& exchange,
-                  const std::vector<CoveredFace>& faces,
-                  const std::vector<unsigned char>& excluded);
+/// node has α = 0, so that ũ = u there; SlaveBasis::whole still has the α before nodes are dropped,
+/// with which it is positive.
+SlaveBasis chooseBasis(const mesh::Mesh& mesh, const NodeExchange& exchange,
+                       const std::vector<CoveredFace>& faces,
+                       const std::vector<unsigned char>& excluded);
 
 }  // namespace squeal::coupling

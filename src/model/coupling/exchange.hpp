@@ -15,7 +15,7 @@ class NodeExchange {
   explicit NodeExchange(const mesh::Mesh& mesh);
   /// Returns the local number of a global node of this rank's cells.
   PetscInt local(PetscInt globalNode) const;
-  /// Returns the global number of the primary of a local node, its own if it is no image.
+  /// Returns the global number of the primary of a local node, its own if it is not an image.
   PetscInt primary(PetscInt localNode) const { return primary_[localNode]; }
   /// Collective. Replaces the values, [local node], by the sums over all ranks and images.
   void sum(std::vector<double>& values) const { combine(values, ADD_VALUES); }

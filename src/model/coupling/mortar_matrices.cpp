@@ -27,7 +27,7 @@ std::vector<double> inverted(std::vector<double> values) {
 /// Calls action(face, edge, middle) for each edge of each face whose mid-edge node, a pivot, is
 /// combined with the ends; `middle` is its local number.
 template <class Action>
-void forEachEdge(const std::vector<CoveredFace>& faces, const Basis& basis,
+void forEachEdge(const std::vector<CoveredFace>& faces, const SlaveBasis& basis,
                  const Pivoting& pivoting, const Action& action) {
   for (const auto& face : faces)
     for (const auto& edge : face.type->edges) {
@@ -38,7 +38,7 @@ void forEachEdge(const std::vector<CoveredFace>& faces, const Basis& basis,
 
 /// Collective. Returns the number of faces of all ranks at each mid-edge node, [local node].
 std::vector<double> facesAtEdges(const mesh::Mesh& mesh, const NodeExchange& exchange,
-                                 const std::vector<CoveredFace>& faces, const Basis& basis,
+                                 const std::vector<CoveredFace>& faces, const SlaveBasis& basis,
                                  const Pivoting& pivoting) {
   std::vector<double> count(mesh.localNodes(), 0.0);
   forEachEdge(faces, basis, pivoting,
@@ -50,7 +50,7 @@ std::vector<double> facesAtEdges(const mesh::Mesh& mesh, const NodeExchange& exc
 /// Collective. Returns the matrix with the rows
 ///   1 on the diagonal of a pivot at a corner,   (middle, end, end) of a pivot within an edge.
 OwnedMat edgeMatrix(const mesh::Mesh& mesh, const NodeExchange& exchange,
-                    const std::vector<CoveredFace>& faces, const Basis& basis,
+                    const std::vector<CoveredFace>& faces, const SlaveBasis& basis,
                     const Pivoting& pivoting,
                     const std::function<std::array<double, 2>(double alpha)>& middleAndEnd) {
   const auto facesAt = facesAtEdges(mesh, exchange, faces, basis, pivoting);  // add to one row
@@ -73,14 +73,14 @@ OwnedMat product(Mat a, Mat b) {
   return result;
 }
 
-/// Collective. Returns SlaveNode::offset of the pivots of this rank. With ũ = x_j + m_j at the
-/// pivots, m_j = D_j⁻¹ Sums::offset, and x_a − x_e as the face at the edge e has it,
-///   Σ P_il x_l − x_i = Σ_j E_ij m_j + Σ_a α (x_a − x_e).
-std::vector<Point> offsetsOf(const mesh::Mesh& mesh, const NodeExchange& exchange,
-                             const std::vector<CoveredFace>& faces, const Basis& basis,
-                             const Pivoting& pivoting, const Sums& sums, Mat edges) {
-  const auto facesAt = facesAtEdges(mesh, exchange, faces, basis, pivoting);
-  std::array<std::vector<double>, 3> bow;  // of the edges, times the number of their faces
+/// One list for each Cartesian component, [local node].
+using Components = std::array<std::vector<double>, 3>;
+
+/// Collective. Returns Σ_a α (x_a − x_e) at the edges e, summed over their faces.
+Components bowsOf(const mesh::Mesh& mesh, const NodeExchange& exchange,
+                  const std::vector<CoveredFace>& faces, const SlaveBasis& basis,
+                  const Pivoting& pivoting) {
+  Components bow;
   for (auto& values : bow) values.resize(mesh.localNodes());
   forEachEdge(faces, basis, pivoting, [&](const auto& face, const auto& edge, PetscInt middle) {
     const auto& x = face.face->points;
@@ -88,12 +88,21 @@ std::vector<Point> offsetsOf(const mesh::Mesh& mesh, const NodeExchange& exchang
       for (int corner : edge.corners)
         bow[d][middle] += basis.alpha[middle] * (x[corner][d] - x[edge.node][d]);
   });
+  for (auto& values : bow) exchange.sum(values);
+  return bow;
+}
+
+/// Collective. Returns SlaveNode::offset of the pivots of this rank, from means `bow` over the
+/// faces of each edge. With ũ = x_j + m_j at the pivots, m_j = D_j⁻¹ Sums::offset, and x_a − x_e as
+/// the face at the edge e has it,
+///   Σ P_il x_l − x_i = Σ_j E_ij m_j + Σ_a α (x_a − x_e).
+std::vector<Point> offsetsOf(const mesh::Mesh& mesh, const Pivoting& pivoting, const Sums& sums,
+                             const Components& bow, Mat edges) {
   std::vector<Point> offsets(pivoting.owned.size());
   OwnedVec move, combined;
   check(VecCreateMPI(mesh.comm, mesh.ownedNodes, PETSC_DETERMINE, move.out()));
   check(VecDuplicate(move, combined.out()));
   for (std::size_t d = 0; d < 3; ++d) {
-    exchange.sum(bow[d]);
     check(VecSet(move, 0));
     {
       const WriteArray values(move);
@@ -101,17 +110,15 @@ std::vector<Point> offsetsOf(const mesh::Mesh& mesh, const NodeExchange& exchang
     }
     check(MatMult(edges, move, combined));
     const ReadArray values(combined);
-    for (std::size_t i = 0; i < offsets.size(); ++i) {
-      const PetscInt node = pivoting.owned[i];
-      offsets[i][d] = values[node] + (facesAt[node] > 0 ? bow[d][node] / facesAt[node] : 0);
-    }
+    for (std::size_t i = 0; i < offsets.size(); ++i)
+      offsets[i][d] = values[pivoting.owned[i]] + bow[d][pivoting.owned[i]];
   }
   return offsets;
 }
 
 }  // namespace
 
-Pivoting pivotsOf(const mesh::Mesh& mesh, const NodeExchange& exchange, const Basis& basis,
+Pivoting pivotsOf(const mesh::Mesh& mesh, const NodeExchange& exchange, const SlaveBasis& basis,
                   const Sums& sums) {
   Pivoting found{{}, std::vector<double>(mesh.localNodes(), 0.0)};
   for (PetscInt node = 0; node < mesh.localNodes(); ++node) {
@@ -124,7 +131,7 @@ Pivoting pivotsOf(const mesh::Mesh& mesh, const NodeExchange& exchange, const Ba
 }
 
 Matrices matricesOf(const mesh::Mesh& mesh, const NodeExchange& exchange,
-                    const std::vector<CoveredFace>& faces, const Basis& basis,
+                    const std::vector<CoveredFace>& faces, const SlaveBasis& basis,
                     const Pivoting& pivoting, Sums& sums) {
   const OwnedMat edges = edgeMatrix(mesh, exchange, faces, basis, pivoting, [](double alpha) {
     return std::array{1 - 2 * alpha, alpha};
@@ -140,7 +147,12 @@ Matrices matricesOf(const mesh::Mesh& mesh, const NodeExchange& exchange,
   scale(mesh, conditions, inverted(divisors), false);
   Matrices result;
   result.masters = product(edges, conditions);
-  result.offsets = offsetsOf(mesh, exchange, faces, basis, pivoting, sums, edges);
+  const auto facesAt = facesAtEdges(mesh, exchange, faces, basis, pivoting);
+  auto bow = bowsOf(mesh, exchange, faces, basis, pivoting);
+  for (auto& values : bow)
+    for (std::size_t i = 0; i < values.size(); ++i)
+      values[i] = facesAt[i] > 0 ? values[i] / facesAt[i] : 0;
+  result.offsets = offsetsOf(mesh, pivoting, sums, bow, edges);
   //   G = E W/D
   check(MatDuplicate(edges, MAT_COPY_VALUES, result.jumps.out()));
   scale(mesh, result.jumps, pivoting.ratio, true);

@@ -1,5 +1,5 @@
 #pragma once
-/// This file makes the matrices of a coupling from sums over its faces.
+/// The matrices of a coupling, from sums over its faces.
 #include <vector>
 
 #include "model/coupling/sums.hpp"
@@ -14,7 +14,7 @@ struct Pivoting {
 };
 
 /// Returns the nodes that carry a condition. Not collective.
-Pivoting pivotsOf(const mesh::Mesh& mesh, const NodeExchange& exchange, const Basis& basis,
+Pivoting pivotsOf(const mesh::Mesh& mesh, const NodeExchange& exchange, const SlaveBasis& basis,
                   const Sums& sums);
 
 /// The matrices of one coupling, with a row per node that is empty unless the node is a pivot.
@@ -26,7 +26,7 @@ struct Matrices {
 
 /// Collective. Returns the matrices. The triples of the sums are used up.
 Matrices matricesOf(const mesh::Mesh& mesh, const NodeExchange& exchange,
-                    const std::vector<CoveredFace>& faces, const Basis& basis,
+                    const std::vector<CoveredFace>& faces, const SlaveBasis& basis,
                     const Pivoting& pivoting, Sums& sums);
 
 }  // namespace squeal::coupling

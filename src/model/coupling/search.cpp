@@ -5,13 +5,15 @@
 #include <boost/geometry/geometries/box.hpp>
 #include <boost/geometry/geometries/point.hpp>
 #include <boost/geometry/index/rtree.hpp>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <tuple>
 
 #include "base/petsc/check.hpp"
-#include "base/system/buffer.hpp"
 #include "base/system/concatenation.hpp"
+#include "base/system/mpi.hpp"
+#include "base/system/stream.hpp"
 
 namespace squeal::coupling {
 namespace {
@@ -81,57 +83,36 @@ std::map<int, std::vector<std::size_t>> wantedBy(const RankBoxes& all,
   return wanted;
 }
 
-Buffer pack(const std::vector<Face>& faces, const std::vector<std::size_t>& which) {
-  std::vector<int> kinds, parts;
-  std::vector<PetscInt> nodes;
-  std::vector<Point> points;
-  for (std::size_t i : which) {
-    const Face& face = faces[i];
-    const int count = std::ssize(face.points);
-    kinds.insert(kinds.end(), {face.type, face.sign, face.body, count});
-    nodes.insert(nodes.end(), face.nodes.begin(), face.nodes.end());
-    parts.insert(parts.end(), face.parts.begin(), face.parts.end());
-    points.insert(points.end(), face.points.begin(), face.points.end());
-  }
-  Buffer buffer;
-  buffer.put(kinds);
-  buffer.put(nodes);
-  buffer.put(parts);
-  buffer.put(points);
-  return buffer;
+/// Returns these faces as a message.
+std::vector<char> packed(const std::vector<Face>& faces, const std::vector<std::size_t>& which) {
+  std::vector<Face> some;
+  for (const std::size_t i : which) some.push_back(faces[i]);
+  Stream stream;
+  stream(some);
+  return std::move(stream).bytes();
 }
 
 /// Adds the faces of a message to the list.
-void unpack(Buffer& buffer, std::vector<Face>& faces) {
-  const auto kinds = buffer.take<int>();
-  const auto nodes = buffer.take<PetscInt>();
-  const auto parts = buffer.take<int>();
-  const auto points = buffer.take<Point>();
-  std::size_t begin = 0;
-  for (std::size_t k = 0; k < kinds.size(); k += 4) {
-    const std::size_t end = begin + kinds[k + 3];
-    faces.push_back({kinds[k],
-                     {nodes.begin() + begin, nodes.begin() + end},
-                     {parts.begin() + begin, parts.begin() + end},
-                     {points.begin() + begin, points.begin() + end},
-                     kinds[k + 1],
-                     kinds[k + 2]});
-    begin = end;
-  }
+void unpack(std::vector<char> message, std::vector<Face>& faces) {
+  std::vector<Face> more;
+  Stream stream(std::move(message));
+  stream(more);
+  std::ranges::move(more, std::back_inserter(faces));
 }
 
 /// Collective. Sends each message to its rank and returns what other ranks send here. No rank needs
 /// to know before who sends to it, and none has a list of all ranks.
-std::vector<Buffer> exchange(MPI_Comm comm, std::map<int, Buffer>& outgoing) {
+std::vector<std::vector<char>> messagesTo(MPI_Comm comm,
+                                          const std::map<int, std::vector<char>>& outgoing) {
   std::vector<PetscMPIInt> to, lengths;
   std::string failure;
-  for (auto& [rank, message] : outgoing) {
-    if (message.bytes().size() > std::numeric_limits<PetscMPIInt>::max())
+  for (const auto& [rank, message] : outgoing) {
+    if (message.size() > std::numeric_limits<PetscMPIInt>::max())
       failure =
           "the master faces of an interface near the slave faces of one process take more than a "
           "message holds (2 GiB); run with more processes";
     to.push_back(rank);
-    lengths.push_back(message.bytes().size());
+    lengths.push_back(message.size());
   }
   failTogether(comm, failure);
   PetscMPIInt count = 0, tag = 0, *from = nullptr, *sizes = nullptr;
@@ -139,16 +120,16 @@ std::vector<Buffer> exchange(MPI_Comm comm, std::map<int, Buffer>& outgoing) {
                                &from, &sizes));
   MPI_Comm inner = MPI_COMM_NULL;  // PETSc's copy, where no message of anyone else has this tag
   check(PetscCommDuplicate(comm, &inner, &tag));
-  std::vector<Buffer> incoming(count);
+  std::vector<std::vector<char>> incoming(count);
   std::vector<MPI_Request> requests;
   for (int i = 0; i < count; ++i) {
-    auto& bytes = incoming[i].bytes();
+    auto& bytes = incoming[i];
     bytes.resize(sizes[i]);
     check(
         MPI_Irecv(bytes.data(), sizes[i], MPI_BYTE, from[i], tag, inner, &requests.emplace_back()));
   }
-  for (auto& [rank, message] : outgoing)
-    check(MPI_Isend(message.bytes().data(), message.bytes().size(), MPI_BYTE, rank, tag, inner,
+  for (const auto& [rank, message] : outgoing)
+    check(MPI_Isend(message.data(), message.size(), MPI_BYTE, rank, tag, inner,
                     &requests.emplace_back()));
   check(MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE));
   check(PetscCommDestroy(&inner));
@@ -160,18 +141,17 @@ std::vector<Buffer> exchange(MPI_Comm comm, std::map<int, Buffer>& outgoing) {
 /// Collective. Returns the master faces of all ranks that touch one of the boxes of this rank.
 std::vector<Face> nearby(MPI_Comm comm, const std::vector<Face>& masters,
                          const std::vector<Box>& slaveBoxes, std::size_t& received) {
-  int rank = 0;
-  check(MPI_Comm_rank(comm, &rank));
+  const int rank = mpi::rank(comm);
   const RankBoxes all = gather(comm, summary(slaveBoxes, mostBoxes));
   std::vector<Face> faces;
-  std::map<int, Buffer> outgoing;
+  std::map<int, std::vector<char>> outgoing;
   for (const auto& [to, which] : wantedBy(all, boxesOf(masters)))
     if (to == rank)
       for (std::size_t i : which) faces.push_back(masters[i]);
     else
-      outgoing[to] = pack(masters, which);
+      outgoing[to] = packed(masters, which);
   const std::size_t own = faces.size();
-  for (auto& message : exchange(comm, outgoing)) unpack(message, faces);
+  for (auto& message : messagesTo(comm, outgoing)) unpack(std::move(message), faces);
   received = faces.size() - own;
   return faces;
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// This file finds, for each slave face, the master faces that may touch it, on whichever rank they
+/// For each slave face, the master faces that may touch it, on whichever rank they
 /// are.
 #include <span>
 

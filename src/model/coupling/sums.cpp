@@ -39,7 +39,7 @@ void addMaster(const Pivots& pivots, const CoveredFace& face, const MasterTerms&
   }
 }
 
-void addFace(const CoveredFace& face, const Basis& basis, Sums& sums) {
+void addFace(const CoveredFace& face, const SlaveBasis& basis, Sums& sums) {
   const Pivots kept = pivots(*face.type, mortar::Multiplier::nodes, basis.droppedOf(face));
   const FaceTerms terms = integrate(face.moments, basis.alphaOf(face), kept);
   sums.sliverFaces += !terms.dual;
@@ -73,7 +73,7 @@ OwnedMat toMatrix(const mesh::Mesh& mesh, Triples triples, PetscInt columns) {
 }
 
 Sums sumFaces(const mesh::Mesh& mesh, const NodeExchange& exchange,
-              const std::vector<CoveredFace>& faces, const Basis& basis) {
+              const std::vector<CoveredFace>& faces, const SlaveBasis& basis) {
   Sums sums;
   const std::vector<std::vector<double>*> all{&sums.slave,     &sums.weight,    &sums.gap,
                                               &sums.offset[0], &sums.offset[1], &sums.offset[2]};

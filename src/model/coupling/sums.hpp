@@ -1,5 +1,5 @@
 #pragma once
-/// This file adds what couples single slave faces, by nodes of the mesh.
+/// Sums of the couplings of single slave faces, by nodes of the mesh.
 #include <array>
 #include <vector>
 
@@ -30,6 +30,6 @@ struct Sums {
 
 /// Collective. Returns the sums.
 Sums sumFaces(const mesh::Mesh& mesh, const NodeExchange& exchange,
-              const std::vector<CoveredFace>& faces, const Basis& basis);
+              const std::vector<CoveredFace>& faces, const SlaveBasis& basis);
 
 }  // namespace squeal::coupling

@@ -22,19 +22,21 @@ OwnedMat nodalMatrix(const mesh::Mesh& mesh, PetscInt dimension) {
 }
 
 /// Collective. Makes an assembled matrix as symmetric as is said.
-void makeSymmetric(Mat matrix, Symmetry symmetry) {
-  if (symmetry != Symmetry::rounded) {  // (A ± Aᵀ)/2
+void makeSymmetric(Mat matrix, SymmetryClass symmetry) {
+  if (symmetry != SymmetryClass::rounded) {  // (A ± Aᵀ)/2
     OwnedMat transposed;
     check(MatTranspose(matrix, MAT_INITIAL_MATRIX, transposed.out()));
-    check(MatAXPY(matrix, symmetry == Symmetry::skew ? -1 : 1, transposed, SAME_NONZERO_PATTERN));
+    check(MatAXPY(matrix, symmetry == SymmetryClass::skew ? -1 : 1, transposed,
+                  SAME_NONZERO_PATTERN));
     check(MatScale(matrix, 0.5));
   }
-  check(MatSetOption(matrix, MAT_SYMMETRIC, symmetry == Symmetry::skew ? PETSC_FALSE : PETSC_TRUE));
+  check(MatSetOption(matrix, MAT_SYMMETRIC,
+                     symmetry == SymmetryClass::skew ? PETSC_FALSE : PETSC_TRUE));
 }
 
 }  // namespace
 
-OwnedMat toMatrix(const mesh::Mesh& mesh, Triples& triples, Symmetry symmetry) {
+OwnedMat toMatrix(const mesh::Mesh& mesh, Triples& triples, SymmetryClass symmetry) {
   OwnedMat matrix = nodalMatrix(mesh, mesh.dimension);
   check(MatSetPreallocationCOO(matrix, triples.row.size(), triples.row.data(),
                                triples.column.data()));
@@ -134,7 +136,7 @@ void Assembly::addDiagonal(Vec diagonal) {
     check(MatSetValue(matrix_, first + i, first + i, values[i], ADD_VALUES));
 }
 
-OwnedMat Assembly::finish(Symmetry symmetry) {
+OwnedMat Assembly::finish(SymmetryClass symmetry) {
   check(MatAssemblyBegin(matrix_, MAT_FINAL_ASSEMBLY));
   check(MatAssemblyEnd(matrix_, MAT_FINAL_ASSEMBLY));
   makeSymmetric(matrix_, symmetry);
@@ -217,8 +219,8 @@ void failOnInverted(const mesh::Mesh& mesh, const std::vector<InvertedCell>& inv
                        " cells have a Jacobian that is not positive" + least + ": " + words;
   if (byCorners < count) message += "; -mesh_straighten bad straightens the edges of such cells";
   if (byCorners > 0)
-    message += "; with straight edges too, by the corners alone, it is not in " +
-               std::to_string(byCorners) + " of them: mesh anew";
+    message += "; with straight edges too, by only the corners, it is not in " +
+               std::to_string(byCorners) + " of them: mesh again";
   throw Error(message);
 }
 

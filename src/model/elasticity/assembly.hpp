@@ -1,5 +1,5 @@
 #pragma once
-/// These functions assemble element arrays into distributed matrices and vectors on nodal
+/// Assembly of element arrays into distributed matrices and vectors on nodal
 /// displacements.
 #include <compare>
 #include <functional>
@@ -22,13 +22,13 @@ struct Triples {
   }
 };
 
-/// Symmetry says how symmetric a matrix is. Contributions are summed in any order, so that a
+/// SymmetryClass says how symmetric a matrix is. Contributions are summed in any order, so that a
 /// `rounded` matrix is symmetric up to rounding; `symmetric` and `skew` matrices are made exactly
 /// so.
-enum class Symmetry { rounded, symmetric, skew };
+enum class SymmetryClass { rounded, symmetric, skew };
 
 /// Collective. Returns the N×N matrix of the triples of all ranks, which are used up.
-OwnedMat toMatrix(const mesh::Mesh& mesh, Triples& triples, Symmetry symmetry);
+OwnedMat toMatrix(const mesh::Mesh& mesh, Triples& triples, SymmetryClass symmetry);
 
 /// Not collective. Appends the entries of the matrix of one element with these local nodes, whose
 /// rows and columns are [node][component]. It is row-major.
@@ -59,7 +59,7 @@ class Assembly {
   /// Not collective. Adds a diagonal, which may be null.
   void addDiagonal(Vec diagonal);
   /// Collective. Returns the sum over all ranks. Nothing may be added afterwards.
-  OwnedMat finish(Symmetry symmetry);
+  OwnedMat finish(SymmetryClass symmetry);
 
  private:
   const mesh::Mesh* mesh_;

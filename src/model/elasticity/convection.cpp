@@ -72,22 +72,20 @@ void rejectCrossing(const mesh::Mesh& mesh, const std::string& body, const Motio
 
 }  // namespace
 
-void assembleConvection(const mesh::Mesh& mesh, const std::vector<Material>& materials,
-                        Bodies& bodies) {
-  if (std::none_of(bodies.motions.begin(), bodies.motions.end(),
-                   [](const Motion& motion) { return motion.moves(); }))
-    return;
+ConvectiveTerms convectiveTerms(const mesh::Mesh& mesh, const std::vector<Material>& materials,
+                                const std::vector<Motion>& motions) {
+  if (std::ranges::none_of(motions, &Motion::moves)) return {};
   std::vector<Crossing> crossing(mesh.bodies.size());
   for (std::size_t body = 0; body < mesh.bodies.size(); ++body)
-    if (bodies.motions[body].moves()) crossing[body] = {nodeScalars(mesh), nodeScalars(mesh)};
+    if (motions[body].moves()) crossing[body] = {nodeScalars(mesh), nodeScalars(mesh)};
   const NodePattern pattern(mesh, [&](const mesh::CellBlock& block, std::size_t e) {
-    return bodies.motions[block.body[e]].moves();
+    return motions[block.body[e]].moves();
   });
   Assembly g(mesh, pattern, true), k(mesh, pattern, true);
   forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table,
                         const std::vector<Point>& points) {
     const int body = block.body[e];
-    const Motion& motion = bodies.motions[body];
+    const Motion& motion = motions[body];
     if (!motion.moves()) return;
     std::vector<Point> velocity;
     for (const auto& x : points) velocity.push_back(motion.velocity(x));
@@ -103,10 +101,11 @@ void assembleConvection(const mesh::Mesh& mesh, const std::vector<Material>& mat
     }
   });
   for (std::size_t body = 0; body < mesh.bodies.size(); ++body)
-    if (crossing[body].flux)
-      rejectCrossing(mesh, mesh.bodies[body], bodies.motions[body], crossing[body]);
-  bodies.gyroscopic = g.finish(Symmetry::skew);
-  bodies.rotationStiffness = k.finish(Symmetry::symmetric);
+    if (crossing[body].flux) rejectCrossing(mesh, mesh.bodies[body], motions[body], crossing[body]);
+  ConvectiveTerms terms;
+  terms.gyroscopic = g.finish(SymmetryClass::skew);
+  terms.rotationStiffness = k.finish(SymmetryClass::symmetric);
+  return terms;
 }
 
 }  // namespace squeal::elasticity

@@ -1,17 +1,25 @@
 #pragma once
-/// This function assembles the convective terms of moving bodies, in the axes of the vehicle and on
-/// Cartesian components [M.2]:
+/// Convective terms of moving bodies, in the axes of the vehicle and on Cartesian components [M.2]:
 ///   D u = (V·∇)u.
-#include "model/elasticity/elasticity.hpp"
+#include <vector>
+
+#include "base/petsc/owned.hpp"
+#include "model/elasticity/motion.hpp"
 #include "model/material/material.hpp"
 #include "model/mesh/mesh.hpp"
 
 namespace squeal::elasticity {
 
-/// Collective. Fills `bodies.gyroscopic` and `bodies.rotationStiffness` [4.10] from
-/// `bodies.motions`; leaves them null if no body moves. Throws Error if matter of a moving body
-/// crosses the body's surface, so that the body does not keep its place.
-void assembleConvection(const mesh::Mesh& mesh, const std::vector<material::Material>& materials,
-                        Bodies& bodies);
+/// The matrices of the convective terms [4.10], N×N; null if no body moves.
+struct ConvectiveTerms {
+  OwnedMat gyroscopic;         ///< G, N·s/m
+  OwnedMat rotationStiffness;  ///< K^R, N/m
+};
+
+/// Collective. Assembles the terms of these materials and motions, [body]. Throws Error if matter
+/// of a moving body crosses the body's surface, so that the body does not keep its place.
+ConvectiveTerms convectiveTerms(const mesh::Mesh& mesh,
+                                const std::vector<material::Material>& materials,
+                                const std::vector<Motion>& motions);
 
 }  // namespace squeal::elasticity

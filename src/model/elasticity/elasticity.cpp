@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "base/options/options.hpp"
 #include "base/petsc/arrays.hpp"
 #include "base/session/stages.hpp"
+#include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
 #include "model/elasticity/assembly.hpp"
 #include "model/elasticity/convection.hpp"
@@ -16,31 +16,6 @@
 
 namespace squeal::elasticity {
 namespace {
-
-const ChoiceOption massOption("elasticity", "elasticity_mass", {"consistent", "higher_order"},
-                              "consistent",
-                              "mass matrix; higher_order: mean of consistent and lumped, "
-                              "fourth-order frequencies on linear elements");
-const TextOption incompatibleOption(
-    "elasticity", "elasticity_incompatible_modes", "hex8",
-    "element types (quad4, hex8) given incompatible bending modes, or none");
-const FlagOption prestressOption(
-    "elasticity", "elasticity_prestress", false,
-    "on: the stress of steady sliding stiffens or softens the vibrations (geometric stiffness)");
-const RealOption pressureOption("load", "load_<group>_pressure", 0.0, "Pa", anyReal,
-                                "pressure on a surface group, positive inwards");
-const FlagOption centrifugalOption("load", "load_centrifugal", true,
-                                   "centrifugal forces on rotating bodies");
-
-std::vector<std::string> incompatibleElements() {
-  auto names = incompatibleOption.list();
-  if (names == std::vector<std::string>{"none"}) names.clear();
-  for (const auto& name : names)
-    if (name != "quad4" && name != "hex8")
-      throw Error("option -elasticity_incompatible_modes " + incompatibleOption.get() +
-                  ": must be none or a list of quad4, hex8");
-  return names;
-}
 
 std::vector<double> scaled(std::vector<double> values, double factor) {
   for (auto& value : values) value *= factor;
@@ -69,16 +44,15 @@ CellFilter cellsOf(std::optional<int> body) {
 /// Collective. Warns of bodies that hardly change their volume and have linear cells, which then
 /// lock: such a cell cannot keep the volume at each point of its rule and deform otherwise.
 /// Incompatible modes give the cell this freedom.
-void warnOfLocking(const mesh::Mesh& mesh, const std::vector<Material>& materials) {
+void warnOfLocking(const mesh::Mesh& mesh, const Bodies& bodies) {
   constexpr double least = 0.49;  // the bulk modulus is 50 times the shear modulus
-  const auto incompatible = incompatibleElements();
+  const auto& materials = bodies.materials;
   std::vector<PetscInt> counts(materials.size(), 0);
   forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table,
                         const std::vector<Point>&) {
-    if (table.order == 1 && std::ranges::find(incompatible, table.name) == incompatible.end())
-      ++counts[block.body[e]];
+    if (table.order == 1 && !bodies.settings.isIncompatible(table.name)) ++counts[block.body[e]];
   });
-  check(MPI_Allreduce(MPI_IN_PLACE, counts.data(), counts.size(), MPIU_INT, MPI_SUM, mesh.comm));
+  mpi::reduce<PetscInt>(mesh.comm, counts, MPI_SUM);
   for (std::size_t b = 0; b < counts.size(); ++b)
     if (counts[b] > 0 && materials[b].poisson > least)
       complain(mesh.comm,
@@ -94,12 +68,11 @@ struct CellMatrices {
   std::optional<Assembly> damping;  // C = α M + (β + η / 2πf) K, dashpots
 };
 
-/// Collective. Sums over the cells. `dashpots` tells whether there are any.
-CellMatrices cellMatrices(const mesh::Mesh& mesh, const std::vector<Material>& materials,
-                          std::optional<int> body, bool dashpots) {
-  const auto incompatible = incompatibleElements();
-  const MassKind kind =
-      massOption.get() == "consistent" ? MassKind::consistent : MassKind::higherOrder;
+/// Collective. Sums over the cells, with room for `dashpots` in the damping matrix if there are
+/// any.
+CellMatrices cellMatrices(const mesh::Mesh& mesh, const Bodies& bodies, std::optional<int> body,
+                          bool dashpots) {
+  const auto& materials = bodies.materials;
   const CellFilter uses = cellsOf(body);
   const NodePattern pattern(mesh, uses);
   CellMatrices sums{{mesh, pattern, false}, {mesh, pattern, true}, {}};
@@ -114,11 +87,10 @@ CellMatrices cellMatrices(const mesh::Mesh& mesh, const std::vector<Material>& m
     if (!uses(block, e)) return;
     const Material& material = materials[block.body[e]];
     const auto nodes = block.nodesOf(e);
-    const bool bubbles =
-        std::find(incompatible.begin(), incompatible.end(), table.name) != incompatible.end();
+    const bool bubbles = bodies.settings.isIncompatible(table.name);
     const auto cellStiffness =
         stiffness(gradientTable(table, points), points, material.law, bubbles);
-    const auto cellMass = mass(table, points, material.density, kind);
+    const auto cellMass = mass(table, points, material.density, bodies.settings.mass);
     sums.stiffness.add(nodes, cellStiffness, false);
     sums.mass.add(nodes, cellMass, true);
     if (!sums.damping) return;
@@ -130,63 +102,58 @@ CellMatrices cellMatrices(const mesh::Mesh& mesh, const std::vector<Material>& m
   return sums;
 }
 
-void assembleMatrices(const mesh::Mesh& mesh, const std::vector<Material>& materials,
-                      Bodies& bodies) {
-  Ground ground = readGround(mesh);
-  auto sums = cellMatrices(mesh, materials, {}, ground.dashpots.get() != nullptr);
+void assembleMatrices(const mesh::Mesh& mesh, Bodies& bodies) {
+  Ground ground = groundOf(mesh, bodies.settings.ground);
+  auto sums = cellMatrices(mesh, bodies, {}, ground.dashpots.get() != nullptr);
   sums.stiffness.addDiagonal(ground.springs);
-  bodies.stiffness = sums.stiffness.finish(Symmetry::rounded);
-  bodies.mass = sums.mass.finish(Symmetry::rounded);
+  bodies.stiffness = sums.stiffness.finish(SymmetryClass::rounded);
+  bodies.mass = sums.mass.finish(SymmetryClass::rounded);
   bodies.springs = std::move(ground.springs);
   if (!sums.damping) return;
   sums.damping->addDiagonal(ground.dashpots);
-  bodies.damping = sums.damping->finish(Symmetry::rounded);
+  bodies.damping = sums.damping->finish(SymmetryClass::rounded);
 }
 
-void assembleCentrifugal(const mesh::Mesh& mesh, const std::vector<Material>& materials,
-                         Bodies& bodies) {
-  bodies.centrifugal = nodalVector(mesh);
-  if (centrifugalOption.get())
+/// Collective. Returns the centrifugal forces of these motions, [body].
+OwnedVec centrifugalForces(const mesh::Mesh& mesh, const Bodies& bodies,
+                           const std::vector<Motion>& motions) {
+  OwnedVec forces = nodalVector(mesh);
+  if (bodies.settings.centrifugal)
     forEachCell(mesh, [&](const mesh::CellBlock& block, std::size_t e, const ShapeTable& table,
                           const std::vector<Point>& points) {
-      const Motion& motion = bodies.motions[block.body[e]];
+      const Motion& motion = motions[block.body[e]];
       if (motion.speed != 0)
-        addLoad(bodies.centrifugal, mesh, block.nodesOf(e),
-                centrifugal(table, points, materials[block.body[e]].density, motion.speed,
-                            motion.axis, motion.origin),
-                1);
+        addLoad(forces, mesh, block.nodesOf(e),
+                centrifugal(table, points, bodies.materials[block.body[e]].density, motion), 1);
     });
-  check(VecAssemblyBegin(bodies.centrifugal));
-  check(VecAssemblyEnd(bodies.centrifugal));
+  check(VecAssemblyBegin(forces));
+  check(VecAssemblyEnd(forces));
+  return forces;
 }
 
-void assembleLoad(const mesh::Mesh& mesh, Bodies& bodies) {
-  bodies.load = nodalVector(mesh);
+/// Collective. Returns pressures and centrifugal forces.
+OwnedVec loadOf(const mesh::Mesh& mesh, const Bodies& bodies) {
+  OwnedVec load = nodalVector(mesh);
   std::vector<double> pressure;
-  for (const auto& surface : mesh.surfaces) pressure.push_back(pressureOption.get(surface));
+  for (const auto& surface : mesh.surfaces) {
+    const auto given = bodies.settings.pressure.find(surface);
+    pressure.push_back(given == bodies.settings.pressure.end() ? 0 : given->second);
+  }
   for (const auto& block : mesh.faces)
     for (std::size_t e = 0; e < block.surface.size(); ++e) {
       const double p = pressure[block.surface[e]];
       const auto nodes = block.nodesOf(e);
       if (p != 0)
-        addLoad(bodies.load, mesh, nodes,
+        addLoad(load, mesh, nodes,
                 faceNormals(shapeTable(block.type), pointsOf(mesh, nodes), block.sign[e]), -p);
     }
-  check(VecAssemblyBegin(bodies.load));
-  check(VecAssemblyEnd(bodies.load));
-  check(VecAXPY(bodies.load, 1, bodies.centrifugal));
+  check(VecAssemblyBegin(load));
+  check(VecAssemblyEnd(load));
+  check(VecAXPY(load, 1, bodies.centrifugal));
+  return load;
 }
 
 }  // namespace
-
-std::vector<mesh::GroupRequest> loadedSurfaces() {
-  std::vector<mesh::GroupRequest> requests;
-  for (const auto& surface : pressureOption.subjects())
-    requests.push_back({surface, "-" + pressureOption.fullName(surface)});
-  return requests;
-}
-
-bool prestressWanted() { return prestressOption.get(); }
 
 OwnedVec nodalVector(const mesh::Mesh& mesh) {
   OwnedVec vector;
@@ -197,41 +164,44 @@ OwnedVec nodalVector(const mesh::Mesh& mesh) {
   return vector;
 }
 
-Bodies assemble(const mesh::Mesh& mesh) {
+Bodies assemble(const mesh::Mesh& mesh, const material::Settings& materials,
+                const Settings& settings) {
   Bodies bodies;
-  bodies.motions = readMotions(mesh.bodies, mesh.dimension);
-  const auto materials = material::readMaterials(mesh);
-  assembleMatrices(mesh, materials, bodies);
+  bodies.settings = settings;
+  bodies.motions = motionsOf(mesh.bodies, mesh.dimension, settings.motions);
+  bodies.materials = material::materialsOf(mesh, materials);
+  assembleMatrices(mesh, bodies);
   warnOfFoldedCells(mesh);
-  warnOfLocking(mesh, materials);
-  if (convectiveTerms()) assembleConvection(mesh, materials, bodies);
-  assembleCentrifugal(mesh, materials, bodies);
-  assembleLoad(mesh, bodies);
+  warnOfLocking(mesh, bodies);
+  if (settings.convective) {
+    auto terms = convectiveTerms(mesh, bodies.materials, bodies.motions);
+    bodies.gyroscopic = std::move(terms.gyroscopic);
+    bodies.rotationStiffness = std::move(terms.rotationStiffness);
+  }
+  bodies.centrifugal = centrifugalForces(mesh, bodies, bodies.motions);
+  bodies.load = loadOf(mesh, bodies);
   return bodies;
 }
 
-BodyPart bodyPart(const mesh::Mesh& mesh, int body) {
-  Bodies alone;
-  alone.motions = readMotions(mesh.bodies, mesh.dimension);
-  for (int i = 0; i < std::ssize(alone.motions); ++i)
-    if (i != body) alone.motions[i] = {};
-  const auto materials = material::readMaterials(mesh);
-  auto sums = cellMatrices(mesh, materials, body, false);
-  if (convectiveTerms()) assembleConvection(mesh, materials, alone);
-  assembleCentrifugal(mesh, materials, alone);
-  const Material& material = materials[body];
-  return {sums.stiffness.finish(Symmetry::rounded),
-          sums.mass.finish(Symmetry::rounded),
-          std::move(alone.gyroscopic),
-          std::move(alone.rotationStiffness),
-          std::move(alone.centrifugal),
-          material.massDamping,
-          material.stiffnessDamping};
+BodyPart bodyPart(const mesh::Mesh& mesh, const Bodies& bodies, int body) {
+  std::vector<Motion> motions(bodies.motions.size());
+  motions[body] = bodies.motions[body];
+  auto sums = cellMatrices(mesh, bodies, body, false);
+  ConvectiveTerms terms;
+  if (bodies.settings.convective) terms = convectiveTerms(mesh, bodies.materials, motions);
+  BodyPart part;
+  part.gyroscopic = std::move(terms.gyroscopic);
+  part.rotationStiffness = std::move(terms.rotationStiffness);
+  part.centrifugal = centrifugalForces(mesh, bodies, motions);
+  part.stiffness = sums.stiffness.finish(SymmetryClass::rounded);
+  part.mass = sums.mass.finish(SymmetryClass::rounded);
+  part.massDamping = bodies.materials[body].massDamping;
+  part.stiffnessDamping = bodies.materials[body].stiffnessDamping;
+  return part;
 }
 
-OwnedMat geometricStiffness(const mesh::Mesh& mesh, Vec displacement, std::optional<int> body) {
-  const auto materials = material::readMaterials(mesh);
-  const auto incompatible = incompatibleElements();
+OwnedMat geometricStiffness(const mesh::Mesh& mesh, const Bodies& bodies, Vec displacement,
+                            std::optional<int> body) {
   const auto values = localValues(mesh, displacement);
   const CellFilter uses = cellsOf(body);
   const NodePattern pattern(mesh, uses);
@@ -243,13 +213,12 @@ OwnedMat geometricStiffness(const mesh::Mesh& mesh, Vec displacement, std::optio
     std::vector<double> u;
     for (PetscInt node : nodes)
       for (int d = 0; d < mesh.dimension; ++d) u.push_back(values[mesh.dimension * node + d]);
-    const bool bubbles =
-        std::find(incompatible.begin(), incompatible.end(), table.name) != incompatible.end();
+    const bool bubbles = bodies.settings.isIncompatible(table.name);
     const auto cell = geometricStiffness(gradientTable(table, points), points,
-                                         materials[block.body[e]].law, bubbles, u);
+                                         bodies.materials[block.body[e]].law, bubbles, u);
     k.add(nodes, onAllComponents(cell, block.nodesPerCell, mesh.dimension), false);  // pattern of K
   });
-  return k.finish(Symmetry::symmetric);
+  return k.finish(SymmetryClass::symmetric);
 }
 
 std::vector<double> localValues(const mesh::Mesh& mesh, Vec u) {

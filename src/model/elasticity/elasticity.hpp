@@ -1,16 +1,18 @@
 #pragma once
-/// These functions assemble the uncoupled elastic bodies: their matrices and loads on all N nodal
+/// Assembly of the uncoupled elastic bodies: their matrices and loads on all N nodal
 /// displacements u, N = dimension × nodes. A component of a node has the row dimension·node +
 /// component.
 #include <optional>
 
 #include "base/petsc/owned.hpp"
 #include "model/elasticity/motion.hpp"
+#include "model/elasticity/settings.hpp"
+#include "model/material/material.hpp"
 #include "model/mesh/mesh.hpp"
 
 namespace squeal::elasticity {
 
-/// The matrices, loads and base motions of all bodies.
+/// The matrices, loads and base motions of all bodies, and what they were made from.
 struct Bodies {
   OwnedMat stiffness;  ///< K, N×N, symmetric, block-diagonal over the bodies, grounded springs
                        ///< included, N/m
@@ -23,16 +25,16 @@ struct Bodies {
   OwnedVec load;         ///< b, N entries, N: pressures, and centrifugal forces of the base motions
   OwnedVec centrifugal;  ///< the centrifugal part of b, N entries, N
   OwnedVec springs;      ///< stiffness of grounded springs, N entries, N/m; null if none
-  std::vector<Motion> motions;  ///< [body], base motions
+  std::vector<Motion> motions;                ///< [body], base motions
+  std::vector<material::Material> materials;  ///< [body]
+  Settings settings;
 };
 
-/// Not collective. Returns the surface groups with a `-load_<group>_pressure` option.
-std::vector<mesh::GroupRequest> loadedSurfaces();
-
-/// Collective. Assembles the matrices and loads of all bodies. Throws Error for a bad or missing
-/// material, for an inverted element (the message names body and cell), and for convective terms on
-/// a body that does not keep its place as its matter moves.
-Bodies assemble(const mesh::Mesh& mesh);
+/// Collective. Assembles the matrices and loads of all bodies. Throws Error for materials and
+/// motions that do not suit the mesh, for an inverted element (the message names body and cell),
+/// and for convective terms on a body that does not keep its place as its matter moves.
+Bodies assemble(const mesh::Mesh& mesh, const material::Settings& materials,
+                const Settings& settings);
 
 /// A BodyPart is the contribution of one body to Bodies, on all nodal displacements. Its matrices
 /// and its vector are the derivatives with respect to a factor on its moduli (K, and the part of C
@@ -46,17 +48,15 @@ struct BodyPart {
   double stiffnessDamping = 0;  ///< β + η / (2π f), s: C = … + (β + η / (2π f)) K
 };
 /// Collective. Returns the contribution of the body with this index.
-BodyPart bodyPart(const mesh::Mesh& mesh, int body);
+BodyPart bodyPart(const mesh::Mesh& mesh, const Bodies& bodies, int body);
 
-/// Not collective. Returns the option `-elasticity_prestress`: the geometric stiffness of the
-/// steady stress is then added to K.
-bool prestressWanted();
 /// Collective. Returns the geometric stiffness [M.6], the same on each component,
 ///   K_σ,ij = ∫ ∇φᵢ·σ ∇φⱼ,   σ = D ε,
 /// for the stress of the given nodal displacements and of the incompatible modes that go with them.
-/// It is N×N, N/m, exactly symmetric and has the pattern of K. If `body` is given, it is that of
-/// this body alone.
-OwnedMat geometricStiffness(const mesh::Mesh& mesh, Vec displacement, std::optional<int> body = {});
+/// It is N×N, N/m, exactly symmetric and has the pattern of K. If `body` is given, only this body
+/// contributes.
+OwnedMat geometricStiffness(const mesh::Mesh& mesh, const Bodies& bodies, Vec displacement,
+                            std::optional<int> body = {});
 
 /// Collective. Returns a nodal vector of zeros, with N entries and the block size `dimension`.
 OwnedVec nodalVector(const mesh::Mesh& mesh);

@@ -1,5 +1,5 @@
 #pragma once
-/// These functions return the stiffness matrices of one element. Coordinates and material go in,
+/// Stiffness matrices of one element. Coordinates and material go in,
 /// and small dense arrays come out. No PETSc object is used here. None is collective.
 #include <vector>
 

@@ -1,5 +1,5 @@
 #pragma once
-/// These functions return the normals, the mass matrix and the derivatives of the shape functions
+/// The normals, the mass matrix and the derivatives of the shape functions
 /// of one face, which is a line in the plane. Coordinates go in, and small dense arrays come out.
 /// None is collective.
 #include <vector>

@@ -1,25 +1,23 @@
 #pragma once
-/// These functions read the springs and dashpots between node groups and the ground.
+/// Springs and dashpots between node groups and the ground.
+#include <map>
 #include <string>
-#include <vector>
 
 #include "base/petsc/owned.hpp"
+#include "model/elasticity/settings.hpp"
 #include "model/mesh/mesh.hpp"
 
 namespace squeal::elasticity {
 
-/// A Ground holds the sums over all groups at each nodal displacement, N entries. A vector is null
-/// if all its values are zero.
+/// The sums over all groups at each nodal displacement, N entries. A vector is null if all its
+/// values are zero.
 struct Ground {
   OwnedVec springs;   ///< N/m
   OwnedVec dashpots;  ///< N·s/m
 };
 
-/// Collective. Returns the springs and dashpots that the options ask for. The total of each group
-/// is shared equally by its nodes. Throws Error for fewer components than dimensions.
-Ground readGround(const mesh::Mesh& mesh);
-
-/// Not collective. Returns the groups with a `-ground_<group>_*` option.
-std::vector<mesh::GroupRequest> groundedGroups();
+/// Collective. Returns the springs and dashpots. The nodes of each group share its total equally.
+/// Throws Error for fewer components than dimensions.
+Ground groundOf(const mesh::Mesh& mesh, const std::map<std::string, GroundSettings>& settings);
 
 }  // namespace squeal::elasticity

@@ -72,8 +72,8 @@ std::vector<double> mass(const ShapeTable& table, const std::vector<Point>& node
 }
 
 std::vector<double> centrifugal(const ShapeTable& table, const std::vector<Point>& nodes,
-                                double density, double speed, const Point& axis,
-                                const Point& origin) {
+                                double density, const Motion& motion) {
+  const auto& [translation, speed, axis, origin] = motion;
   const std::size_t n = table.nodes;
   std::vector<double> load(3 * n, 0.0);
   for (int q = 0; q < table.points(); ++q) {

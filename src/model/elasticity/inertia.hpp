@@ -1,9 +1,11 @@
 #pragma once
-/// These functions return the terms of one element's inertia: its mass, its centrifugal forces and
+/// The terms of one element's inertia: its mass, its centrifugal forces and
 /// the convective terms of matter that moves through it. Coordinates and density go in, and small
 /// dense arrays come out. mass() and convection() throw InvertedElement. None is collective.
 #include <vector>
 
+#include "model/elasticity/motion.hpp"
+#include "model/elasticity/settings.hpp"
 #include "model/elasticity/shape.hpp"
 #include "model/mesh/mesh.hpp"
 
@@ -11,7 +13,6 @@ namespace squeal::elasticity {
 
 using mesh::Point;
 
-enum class MassKind { consistent, higherOrder };
 /// Returns the mass
 ///   m_ij = ∫ ρ φᵢ φⱼ,
 /// positive definite, row-major [node][node], kg, the same for all components. `higherOrder` is the
@@ -22,10 +23,9 @@ std::vector<double> mass(const ShapeTable& table, const std::vector<Point>& node
 
 /// Returns the centrifugal forces [M.4]
 ///   ∫ φᵢ ρ ω² r,
-/// [node][3], N, for the `speed` ω, rad/s, about the `axis`, a unit vector, through `origin`.
+/// [node][3], N, of a rotation.
 std::vector<double> centrifugal(const ShapeTable& table, const std::vector<Point>& nodes,
-                                double density, double speed, const Point& axis,
-                                const Point& origin);
+                                double density, const Motion& motion);
 
 /// A Convection holds the convective terms of matter that moves through the element with the
 /// velocity V, with Dφ = V·∇φ. Matrices are row-major [node][node], the same for all components.

@@ -1,5 +1,5 @@
 #pragma once
-/// These functions map reference to physical coordinates of one element; the element routines share
+/// Maps from reference to physical coordinates of one element; the element routines share
 /// them.
 #include <array>
 #include <vector>

@@ -1,12 +1,12 @@
 #pragma once
-/// This file gives the base motion of a body's matter (paper, section 2), a rotation or a
-/// translation [2.1]:
+/// Base motion of a body's matter (paper, section 2), a rotation or a translation [2.1]:
 ///   V = ω k × (x − x0)   or   V = const.
 /// No function is collective; all ranks have the same options, and so the same results and Errors.
-#include <optional>
+#include <map>
 #include <string>
 #include <vector>
 
+#include "model/elasticity/settings.hpp"
 #include "model/mesh/mesh.hpp"
 
 namespace squeal::elasticity {
@@ -23,18 +23,10 @@ struct Motion {
   bool moves() const;
 };
 
-/// Returns the option -motion_convective: the matter of moving bodies then carries its displacement
-/// along,
-///   D u = (V·∇)u.
-bool convectiveTerms();
-/// Returns the bodies with a `-motion_<body>_*` option.
-std::vector<std::string> movingBodies();
-/// Returns the options that give a motion, for messages.
-inline const char* motionOptions() { return "-motion_<body>_*"; }
-/// Returns the motion of each body, [body]; a body without options is at rest. Throws Error if
-/// rotation and translation, or both units of the speed, are given together, for an option of a
-/// group that is no body, for an axis of zero length, and for vectors whose number of components
-/// does not suit the dimension.
-std::vector<Motion> readMotions(const std::vector<std::string>& bodies, int dimension);
+/// Returns the motion of each body, [body]; a body without options is at rest. Throws Error for an
+/// option of a group that is not a body, for an axis of zero length, and for vectors whose number
+/// of components does not suit the dimension.
+std::vector<Motion> motionsOf(const std::vector<std::string>& bodies, int dimension,
+                              const std::map<std::string, MotionSettings>& settings);
 
 }  // namespace squeal::elasticity

@@ -63,4 +63,10 @@ std::vector<double> identity(int dimension, double factor) {
 
 std::string text(const Point& p) { return formatted("(%.6g, %.6g, %.6g)", p[0], p[1], p[2]); }
 
+OwnedMat product(Mat a, Mat b) {
+  OwnedMat result;
+  check(MatMatMult(a, b, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.out()));
+  return result;
+}
+
 }  // namespace squeal::interfaces

@@ -1,5 +1,5 @@
 #pragma once
-/// These functions build the contact matrices: N×N matrices that consist of a block per pair of
+/// The contact matrices: N×N matrices that consist of a block per pair of
 /// nodes. Only those that say so are collective.
 #include <string>
 #include <vector>
@@ -32,5 +32,8 @@ std::vector<double> identity(int dimension, double factor);
 
 /// Returns the coordinates of a point for a message.
 std::string text(const Point& p);
+
+/// Collective. Returns the product of two matrices.
+OwnedMat product(Mat a, Mat b);
 
 }  // namespace squeal::interfaces

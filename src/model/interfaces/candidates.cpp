@@ -11,7 +11,7 @@
 namespace squeal::interfaces {
 namespace {
 
-std::string optionsOf(const InterfaceOptions& interface) {
+std::string optionsOf(const InterfaceSettings& interface) {
   return "options " + interface.surfaces.pad.option + ", " + interface.surfaces.disc.option + ": ";
 }
 
@@ -63,11 +63,11 @@ std::string earlierOwners(const mesh::Mesh& mesh, const coupling::NodeExchange& 
 std::vector<Candidate> coupledNodes(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange,
                                     const elasticity::Bodies* bodies, int index,
                                     const std::vector<unsigned char>& excluded, Interfaces& all) {
-  const InterfaceOptions& options = all.options[index];
+  const InterfaceSettings& options = all.options[index];
   const std::string &pad = options.surfaces.pad.name, &disc = options.surfaces.disc.name;
   const bool discIsSlave = slaveSurface(mesh, options) != pad;
   coupling::BodyVelocity velocity;
-  if (bodies && elasticity::convectiveTerms() && !discIsSlave && options.role == Role::sliding)
+  if (bodies && bodies->settings.convective && !discIsSlave && options.role == Role::sliding)
     velocity = [&](int body, const Point& x) { return bodies->motions[body].velocity(x); };
   auto coupled =
       coupling::couple(mesh, exchange,
@@ -86,7 +86,8 @@ std::vector<Candidate> coupledNodes(const mesh::Mesh& mesh, const coupling::Node
                 "' within " + searchText(options));
   InterfaceReport& report = all.reports[index];
   report.matching = false;
-  report.whyNot = mesh.mismatch[index], report.nearlyMatching = mesh.nearlyMatching[index];
+  report.whyNot = mesh.interfaces[index].mismatch;
+  report.nearlyMatching = mesh.interfaces[index].nearlyMatching;
   report.slave = coupled.slave, report.master = coupled.master;
   report.coveredArea = coupled.coveredArea, report.largestGap = coupled.largestGap;
   report.dropped = coupled.droppedNodes;
@@ -103,7 +104,7 @@ std::vector<Candidate> coupledNodes(const mesh::Mesh& mesh, const coupling::Node
 
 }  // namespace
 
-std::string slaveSurface(const mesh::Mesh& mesh, const InterfaceOptions& options) {
+std::string slaveSurface(const mesh::Mesh& mesh, const InterfaceSettings& options) {
   const std::string &pad = options.surfaces.pad.name, &disc = options.surfaces.disc.name;
   const bool discIsSlave =
       options.slave == SlaveChoice::disc ||
@@ -140,7 +141,7 @@ std::vector<unsigned char> Claims::against(Role role) const {
   return excluded;
 }
 
-void Claims::add(const std::vector<PetscInt>& nodes, const std::vector<InterfaceOptions>& options,
+void Claims::add(const std::vector<PetscInt>& nodes, const std::vector<InterfaceSettings>& options,
                  int interface) {
   const Role role = options[interface].role;
   std::string failure;
@@ -166,8 +167,9 @@ void Claims::share(std::vector<int>& claims) const {
 std::vector<Candidate> candidatesOf(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange,
                                     const elasticity::Bodies* bodies, int interface,
                                     const std::vector<unsigned char>& excluded, Interfaces& all) {
-  return mesh.matching[interface] ? pairedNodes(mesh, interface, excluded, all)
-                                  : coupledNodes(mesh, exchange, bodies, interface, excluded, all);
+  return mesh.interfaces[interface].matching
+             ? pairedNodes(mesh, interface, excluded, all)
+             : coupledNodes(mesh, exchange, bodies, interface, excluded, all);
 }
 
 std::vector<PetscInt> nodesOf(const std::vector<Candidate>& candidates) {

@@ -1,5 +1,5 @@
 #pragma once
-/// This file finds the nodes that an interface would have, and which of them it must leave to
+/// The nodes that an interface would have, and which of them it must leave to
 /// others.
 #include <string>
 #include <vector>
@@ -27,7 +27,7 @@ class Claims {
   std::vector<unsigned char> against(Role role) const;
   /// Collective. Claims these local nodes of an interface. Throws Error if one of them slides on
   /// another interface.
-  void add(const std::vector<PetscInt>& nodes, const std::vector<InterfaceOptions>& options,
+  void add(const std::vector<PetscInt>& nodes, const std::vector<InterfaceSettings>& options,
            int interface);
 
  private:
@@ -38,7 +38,7 @@ class Claims {
 };
 
 /// Collective. Returns the surface whose nodes the interface couples to the other one.
-std::string slaveSurface(const mesh::Mesh& mesh, const InterfaceOptions& options);
+std::string slaveSurface(const mesh::Mesh& mesh, const InterfaceSettings& options);
 
 /// Collective. Returns the owned nodes of a surface that are not periodic images.
 std::vector<PetscInt> slaveNodesOf(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange,

@@ -8,8 +8,8 @@ namespace squeal::interfaces {
 
 /// Collective. Solves these equations for components of the masters. Those with a value of their
 /// own are held: Constraints::held. Others follow from components of further masters:
-/// Constraints::combined. Where an equation follows from those of other nodes but for less than
-/// `leastPivot`, the support holds the tied node and asks nothing of the masters:
+/// Constraints::combined. Where an equation follows from those of other nodes up to less than
+/// `leastPivot`, the support holds the tied node and constrains no master:
 /// TiedNode::apart. Sets InterfaceReport::carried. Throws Error, naming support, tie and place, for
 /// displacements that contradict each other, and for a component that would follow from those of
 /// contact nodes.

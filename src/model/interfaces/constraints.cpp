@@ -2,73 +2,54 @@
 
 #include <algorithm>
 
-#include "base/options/options.hpp"
 #include "base/petsc/check.hpp"
 #include "base/session/stages.hpp"
 
 namespace squeal::interfaces {
 namespace {
 
-const TextOption clampedOption(
-    "constraint", "constraint_<group>_clamped", "",
-    "components (some of xyz) of displacement held on the group's nodes");
-const RealListOption displacementOption("constraint", "constraint_<group>_displacement", "0,0,0",
-                                        "m", anyReal, "values of the clamped components");
-const TextOption imageOption("constraint", "constraint_<group>_image_of", "",
-                             "the group is the periodic image of this one, its translate");
+/// Throws Error unless the held components are those of the dimension, each once.
+void requireComponents(const std::string& group, const std::string& components, int dimension) {
+  const std::string allowed = std::string("xyz").substr(0, dimension),
+                    head = "option " + clampedName(group) + " '" + components + "': ";
+  if (components.empty() || components.find_first_not_of(allowed) != std::string::npos)
+    throw Error(head + "must be some of the letters " + allowed);
+  for (const char letter : components)
+    if (std::count(components.begin(), components.end(), letter) > 1)
+      throw Error(head + letter + " twice; must be some of the letters " + allowed + ", each once");
+}
+
+/// Collective. Warns of displacements of components that are not held.
+void warnOfUnheld(MPI_Comm comm, const std::string& group, const std::string& components,
+                  const mesh::Point& displacement) {
+  for (const char letter : std::string("xyz"))
+    if (displacement[letter - 'x'] != 0 && components.find(letter) == std::string::npos)
+      complain(comm, "option " + displacementName(group) + ": the displacement of " + letter +
+                         " was not used, as " + clampedName(group) + " " + components +
+                         " does not hold it");
+}
 
 }  // namespace
 
-std::vector<mesh::GroupRequest> constrainedGroups() {
-  for (const auto& group : displacementOption.subjects())
-    if (!clampedOption.given(group))
-      throw Error("option -" + displacementOption.fullName(group) + " needs -" +
-                  clampedOption.fullName(group));
-  std::vector<mesh::GroupRequest> requests;
-  for (const auto& group : clampedOption.subjects())
-    requests.push_back({group, "-" + clampedOption.fullName(group)});
-  return requests;
-}
-
-std::vector<mesh::PeriodicRequest> periodicPairs() {
-  std::vector<mesh::PeriodicRequest> pairs;
-  for (const auto& image : imageOption.subjects()) {
-    const std::string primary = imageOption.get(image);
-    pairs.push_back({image, primary, "-" + imageOption.fullName(image) + " " + primary});
-  }
-  return pairs;
-}
-
-Constraints readConstraints(const mesh::Mesh& mesh) {
+Constraints constraintsOf(const mesh::Mesh& mesh,
+                          const std::map<std::string, ClampSettings>& clamps) {
   const int dimension = mesh.dimension;
   Constraints constraints;
   constraints.held.assign(dimension * mesh.ownedNodes, 0);
   constraints.heldBy.assign(constraints.held.size(), -1);
   constraints.displacement.assign(constraints.held.size(), 0.0);
   std::string failure;
-  for (const auto& group : clampedOption.subjects()) {
+  for (const auto& [group, clamp] : clamps) {
     constraints.groups.push_back(group);
-    const std::string components = clampedOption.get(group),
-                      allowed = std::string("xyz").substr(0, dimension);
-    const auto values = displacementOption.components(group, dimension);
-    if (components.empty() || components.find_first_not_of(allowed) != std::string::npos)
-      throw Error("option -" + clampedOption.fullName(group) + " '" + components +
-                  "': must be some of the letters " + allowed);
-    for (const char letter : components)
-      if (std::count(components.begin(), components.end(), letter) > 1)
-        throw Error("option -" + clampedOption.fullName(group) + " '" + components + "': " +
-                    letter + " twice; must be some of the letters " + allowed + ", each once");
-    for (const char letter : std::string("xyz"))
-      if (values[letter - 'x'] != 0 && components.find(letter) == std::string::npos)
-        complain(mesh.comm, "option -" + displacementOption.fullName(group) +
-                                ": the displacement of " + letter + " was not used, as -" +
-                                clampedOption.fullName(group) + " " + components +
-                                " does not hold it");
+    const std::string& components = clamp.components;
+    const auto values = clamp.displacement.in(dimension);
+    requireComponents(group, components, dimension);
+    warnOfUnheld(mesh.comm, group, components, values);
     for (PetscInt node : mesh.nodeGroups.at(group))
       for (char letter : components) {
         const PetscInt component = letter - 'x', at = dimension * node + component;
         if (constraints.held[at] && constraints.displacement[at] != values[component])
-          failure = "option -" + displacementOption.fullName(group) +
+          failure = "option " + displacementName(group) +
                     ": a node of this group is displaced differently by another group";
         constraints.held[at] = 1;
         constraints.heldBy[at] = constraints.groups.size() - 1;

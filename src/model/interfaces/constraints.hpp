@@ -1,19 +1,14 @@
 #pragma once
-/// These functions read the constraints: clamped, guided and displaced surfaces, and periodic
-/// images.
+/// Constraints: clamped, guided and displaced groups of nodes.
+#include <map>
 #include <string>
 #include <vector>
 
 #include "model/coupling/coupling.hpp"
+#include "model/interfaces/settings.hpp"
 #include "model/mesh/mesh.hpp"
 
 namespace squeal::interfaces {
-
-/// Not collective. Returns the groups with a clamp, for the mesh reader. Throws Error for a
-/// displacement without a clamp.
-std::vector<mesh::GroupRequest> constrainedGroups();
-/// Not collective. Returns the pairs of groups of which one is the periodic image of the other.
-std::vector<mesh::PeriodicRequest> periodicPairs();
 
 /// A component of a master that follows from others, as a support holds a tied node between them:
 ///   u_c = constant + Σ w u_c of the others.
@@ -38,9 +33,10 @@ struct Constraints {
   std::vector<unsigned char> supported;
 };
 
-/// Collective. Returns the constraints that the options ask for. Throws Error for a component that
+/// Collective. Returns the constraints of these clamps, [group]. Throws Error for a component that
 /// the dimension does not have or that is given twice, and for two groups that disagree. Warns of a
 /// displacement that is not held.
-Constraints readConstraints(const mesh::Mesh& mesh);
+Constraints constraintsOf(const mesh::Mesh& mesh,
+                          const std::map<std::string, ClampSettings>& clamps);
 
 }  // namespace squeal::interfaces

@@ -58,7 +58,7 @@ Around integrals(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange,
       double flux = 0, magnitude = 0, speed = 0;
       for (std::size_t i = 0; i < points.size(); ++i) {
         const Point v = body > 0 ? bodies.motions[std::lround(body) - 1].velocity(points[i])
-                                 : all.options[interface].obstacleVelocity;
+                                 : all.obstacles[interface].velocity;
         const double across = mesh::dot(v, normals[i]);
         flux += share * across;
         magnitude += share * std::abs(across);
@@ -136,7 +136,7 @@ void checkCrossing(const mesh::Mesh& mesh, const coupling::NodeExchange& exchang
     }
     const std::string &name = mesh.bodies[crossing.body], option = "-motion_" + name;
     const std::string what = describe(crossing, "body '" + name + "'", options.label());
-    if (elasticity::convectiveTerms())
+    if (bodies.settings.convective)
       throw Error("option -motion_convective: " + what +
                   "; use -motion_convective off (approximation A)");
     complain(mesh.comm, "warning: " + what + "; check " +

@@ -1,5 +1,5 @@
 #pragma once
-/// This function checks that the surfaces on which bodies slide do not move through themselves.
+/// Check that the surfaces on which bodies slide do not move through themselves.
 #include "model/coupling/exchange.hpp"
 #include "model/elasticity/elasticity.hpp"
 #include "model/interfaces/nodes.hpp"

@@ -24,7 +24,7 @@ namespace {
 /// A FaceSums holds the sums over the slave faces at each node: area-weighted normals (from disc to
 /// pad) and ∫ φ̃ dA. The sums of images are added to those of their primaries.
 struct FaceSums {
-  OwnedVec normal, area;  // nodal vectors; the area stands in the component of the gap
+  OwnedVec normal, area;  // nodal vectors; the area is in the component of the gap
 };
 
 FaceSums sumFaces(const mesh::Mesh& mesh, const Interfaces& all, Mat periodic) {
@@ -83,7 +83,7 @@ void fillNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
   const auto velocityOf = [&](const Candidate& node) {
     return node.discBody >= 0
                ? bodies.motions[node.discBody].velocity(mesh.coordinates[node.slave.node])
-               : all.options[node.interface].obstacleVelocity;
+               : all.obstacles[node.interface].velocity;
   };
   double fastest = 0;
   for (const auto& node : candidates) fastest = std::max(fastest, mesh::length(velocityOf(node)));
@@ -144,7 +144,7 @@ const SlaveSide* Interfaces::slaveOf(const std::string& surface) const {
 }
 
 std::string describe(const Interfaces& all, int interface) {
-  const InterfaceOptions& options = all.options[interface];
+  const InterfaceSettings& options = all.options[interface];
   const InterfaceReport& report = all.reports[interface];
   const std::string &slave = all.slaves[interface].surface,
                     &master = slave == options.surfaces.pad.name ? options.surfaces.disc.name

@@ -1,5 +1,5 @@
 #pragma once
-/// This file finds which nodes touch or are tied, and what they rest on: from pairs of nodes where
+/// The nodes that touch or are tied, and their masters: from pairs of nodes where
 /// the meshes match, and from the coupling of the surfaces where they do not.
 #include <array>
 #include <string>
@@ -9,7 +9,7 @@
 #include "model/elasticity/elasticity.hpp"
 #include "model/interfaces/constraints.hpp"
 #include "model/interfaces/gap_basis.hpp"
-#include "model/interfaces/interfaces.hpp"
+#include "model/interfaces/settings.hpp"
 #include "model/mesh/mesh.hpp"
 
 namespace squeal::interfaces {
@@ -64,13 +64,13 @@ struct SlaveSide {
   int sign;             ///< +1 if it is the pad, −1 if it is the disc
 };
 
-/// An InterfaceReport tells what was found at an interface. It is the same on all ranks.
+/// The findings at an interface, the same on all ranks.
 struct InterfaceReport {
   bool matching = true;         ///< node on node, or a rigid obstacle
   std::string whyNot;           ///< a sentence that says where the meshes do not match
   bool nearlyMatching = false;  ///< they do not match, but most nodes have a partner
   PetscInt nodes = 0;           ///< nodes in contact, or tied
-  // These are zero if the meshes match, but for the slave of a tie.
+  // These are zero if the meshes match, except for the slave of a tie.
   coupling::SideReport slave, master;
   double coveredArea = 0;  ///< of the slave, m² (m in the plane)
   double largestGap = 0;   ///< largest distance of the surfaces where they touch, m
@@ -88,15 +88,23 @@ struct LostNode {
   PetscInt node;  ///< local node
 };
 
-/// All interfaces with their nodes.
+/// The rigid obstacle of an interface; at rest on others.
+struct Obstacle {
+  Point velocity{};      ///< m/s
+  Point displacement{};  ///< m
+};
+
+/// All interfaces with their nodes. [interface] counts as in Mesh::interfaces.
 struct Interfaces {
-  std::vector<InterfaceOptions> options;  ///< [interface], contact first, then ties
-  std::vector<SlaveSide> slaves;          ///< [interface]
-  std::vector<InterfaceReport> reports;   ///< [interface]
-  std::vector<ContactNode> nodes;         ///< owned by this rank
-  std::vector<Connection> connections;    ///< [contact node]
-  std::vector<TiedNode> tied;             ///< owned by this rank, in the order of local nodes
-  std::vector<LostNode> lost;             ///< owned by this rank
+  std::vector<std::string> names;          ///< [interface]
+  std::vector<InterfaceSettings> options;  ///< [interface], contact first, then ties
+  std::vector<Obstacle> obstacles;         ///< [interface]
+  std::vector<SlaveSide> slaves;           ///< [interface]
+  std::vector<InterfaceReport> reports;    ///< [interface]
+  std::vector<ContactNode> nodes;          ///< owned by this rank
+  std::vector<Connection> connections;     ///< [contact node]
+  std::vector<TiedNode> tied;              ///< owned by this rank, in the order of local nodes
+  std::vector<LostNode> lost;              ///< owned by this rank
   Constraints constraints;
   PetscInt totalNodes = 0;  ///< contact nodes of all ranks
   /// [local node] index into options of the contact in which the node has a gap, −1 if in none;

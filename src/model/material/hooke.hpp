@@ -1,5 +1,5 @@
 #pragma once
-/// This file holds Hooke's laws, in the axes of the material and of the mesh. No PETSc object is
+/// Hooke's laws, in the axes of the material and of the mesh. No PETSc object is
 /// used here. Not collective.
 #include <array>
 #include <functional>

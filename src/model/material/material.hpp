@@ -1,10 +1,9 @@
 #pragma once
-/// These functions read the materials of the bodies from the options. None is collective; all ranks
-/// have the same options, and so the same results and Errors.
-#include <string>
+/// Materials of the bodies: elastic law, density and damping.
 #include <vector>
 
 #include "model/material/hooke.hpp"
+#include "model/material/settings.hpp"
 #include "model/mesh/mesh.hpp"
 
 namespace squeal::material {
@@ -20,16 +19,8 @@ struct Material {
   double poisson;
 };
 
-/// Returns the materials in the order of `mesh.bodies`, [body]. Throws Error for a bad or missing
-/// option, for constants without positive strain energy, and for axes with which a plane problem
-/// would leave its plane.
-std::vector<Material> readMaterials(const mesh::Mesh& mesh);
-
-/// Returns the volume groups with a material, from the options that give an elastic law
-/// (`-material_<group>_young`, …). Throws Error if there is none, for a group whose other options
-/// lack a law, and for a bad or missing option of a material.
-std::vector<mesh::GroupRequest> materialGroups();
-/// Returns the options that give a material, for messages: "give -…".
-std::string howToGiveMaterials();
+/// Not collective. Returns the materials in the order of `mesh.bodies`, [body]. Throws Error for
+/// axes with which a plane problem would leave its plane.
+std::vector<Material> materialsOf(const mesh::Mesh& mesh, const Settings& settings);
 
 }  // namespace squeal::material

@@ -1,5 +1,5 @@
 #pragma once
-/// These functions read the cells of the bodies and their nodes. Not collective: for rank 0 only.
+/// The cells of the bodies and their nodes. Not collective: for rank 0 only.
 #include "model/mesh/gmsh_model.hpp"
 
 namespace squeal::mesh {

@@ -26,14 +26,14 @@ namespace {
 struct Job {
   std::string file, option;  ///< the option as messages begin with it
   meshfile::FileKind kind;
-  std::vector<meshfile::Setting> settings;
+  std::vector<meshfile::GeometryParameter> parameters;
   meshfile::ShapeMesh shape;       ///< for a shape
   meshfile::MshContents contents;  ///< of a .msh; of a .unv the numbers of nodes and elements
   bool isMeshedHere() const {
     return kind == meshfile::FileKind::geometry || kind == meshfile::FileKind::shape;
   }
   /// Returns true for a .msh file of version 2, which gives each element one group and one entity.
-  /// gmsh would put all elements of an entity into all of its groups; it is told to take the groups
+  /// gmsh would put all elements of an entity into all of its groups; it must take the groups
   /// for the entities.
   bool groupsAreEntities() const { return kind == meshfile::FileKind::msh && contents.version < 4; }
 };
@@ -117,16 +117,16 @@ void openWith(const Job& job, const Warn& warn) {
   gmsh::logger::start();
   std::string failure;
   try {
-    if (!job.settings.empty()) {
+    if (!job.parameters.empty()) {
       gmsh::open(job.file);  // once with its own values, to learn the names it knows
-      meshfile::applySettings(job.settings);
+      meshfile::applyParameters(job.parameters);
       gmsh::clear();
     }
     if (job.kind == meshfile::FileKind::shape)
       meshfile::importShape(job.file, job.shape, warn);
     else
       gmsh::open(job.file);
-    meshfile::requireSettingsUsed(job.settings);
+    meshfile::requireParametersUsed(job.parameters);
     std::vector<std::size_t> tags;
     std::vector<double> coordinates, parametric;
     gmsh::model::mesh::getNodes(tags, coordinates, parametric);
@@ -151,11 +151,11 @@ void openWith(const Job& job, const Warn& warn) {
     if (line.rfind("Warning", 0) == 0) warnings.insert(line.substr(line.find(' ') + 1));
   }
   if (!failure.empty())
-    throw Error(job.option + "gmsh says: " + failure.substr(0, failure.find('\n')));
-  std::size_t said = 0;
+    throw Error(job.option + "gmsh reports: " + failure.substr(0, failure.find('\n')));
+  std::size_t printed = 0;
   for (const auto& line : warnings)
-    if (++said <= 5) warn(job.option + "gmsh says: " + line.substr(0, line.find('\n')));
-  if (said > 5) warn(job.option + std::to_string(said - 5) + " more warnings of gmsh");
+    if (++printed <= 5) warn(job.option + "gmsh reports: " + line.substr(0, line.find('\n')));
+  if (printed > 5) warn(job.option + std::to_string(printed - 5) + " more warnings of gmsh");
 }
 
 /// Returns the dimensions and tags of groups by the names that options use.
@@ -238,35 +238,22 @@ void requireAllElements(const Job& job) {
 }
 
 /// Reads the mesh in the child process.
-Buffer readWithGmsh(const Job& job, const Warn& warn) {
+GmshContents readWithGmsh(const Job& job, const Warn& warn) {
   openWith(job, warn);
   requireAllElements(job);
-  const Nodes nodes(job);
+  Nodes nodes(job);
   if (nodes.points.empty()) throw Error(job.option + "the mesh is empty");
-  Buffer buffer;
-  buffer.put(nodes.points);
-  buffer.put(nodes.tags);
-  buffer.put(std::vector<int>{gmsh::model::getDimension()});
-  buffer.put(ungroupedElements(job, gmsh::model::getDimension()));
-  buffer.put(nodes.atPoints());
+  GmshContents contents;
+  contents.dimension = gmsh::model::getDimension();
+  contents.ungrouped = ungroupedElements(job, contents.dimension);
+  contents.atPoint = nodes.atPoints();
   const std::int64_t kept = nodes.points.size();
-  const PetscInt dropped = std::max(job.contents.nodes - kept, std::int64_t{0});
-  buffer.put(std::vector{dropped});
-  const auto groups = namedGroups(job);
-  std::vector<std::string> names;
-  for (const auto& [name, group] : groups) names.push_back(name);
-  buffer.put(names);
-  for (const auto& [name, group] : groups) {
-    const GroupElements elements = elementsOfGroup(job, group, nodes);
-    const int blocks = elements.blocks.size();
-    buffer.put(std::vector{elements.dimension, blocks});
-    for (const auto& block : elements.blocks) {
-      buffer.put(std::vector<int>{block.type, block.nodesPerElement, block.corners});
-      buffer.put(block.nodes);
-      buffer.put(block.tag);
-    }
-  }
-  return buffer;
+  contents.droppedNodes = std::max(job.contents.nodes - kept, std::int64_t{0});
+  for (const auto& [name, group] : namedGroups(job))
+    contents.groups[name] = elementsOfGroup(job, group, nodes);
+  contents.points = std::move(nodes.points);
+  contents.tags = std::move(nodes.tags);
+  return contents;
 }
 
 /// Returns the limits of the child process. Meshing may take any time and all free memory. The
@@ -287,21 +274,29 @@ ChildLimits limitsFor(const Job& job) {
 
 }  // namespace
 
+void fields(Stream& stream, GroupElements& group) { stream(group.dimension, group.blocks); }
+
+void fields(Stream& stream, GmshContents& contents) {
+  auto& [points, tags, groups, dimension, ungrouped, atPoint, droppedNodes] = contents;
+  stream(points, tags, groups, dimension, ungrouped, atPoint, droppedNodes);
+}
+
 std::string groupName(std::string name) {
   const auto isBlank = [](unsigned char c) { return std::isspace(c); };
   std::replace_if(name.begin(), name.end(), isBlank, '_');
   return name;
 }
 
-GmshModel::GmshModel(const std::string& file, const std::vector<std::string>& parameters) {
-  Job job{file,
-          "option -mesh_file " + file + ": ",
-          meshfile::requireSound(file),
-          meshfile::readSettings(parameters),
-          meshfile::shapeMesh(),
-          {}};
-  if (job.kind != meshfile::FileKind::shape) meshfile::rejectShapeMesh(file);
-  if (!job.settings.empty() && job.kind != meshfile::FileKind::geometry)
+GmshModel::GmshModel(const meshfile::Settings& settings) {
+  const std::string& file = settings.file;
+  Job job{.file = file,
+          .option = "option -mesh_file " + file + ": ",
+          .kind = meshfile::requireSound(file),
+          .parameters = settings.parameters,
+          .shape = settings.shape,
+          .contents = {}};
+  if (job.kind != meshfile::FileKind::shape) meshfile::rejectShapeMesh(file, job.shape);
+  if (!job.parameters.empty() && job.kind != meshfile::FileKind::geometry)
     throw Error("option -mesh_set: only a geometry, a .geo file, has parameters; -mesh_file " +
                 file + " is a " + (job.kind == meshfile::FileKind::shape ? "shape" : "mesh"));
   if (job.kind == meshfile::FileKind::msh) job.contents = meshfile::requireSoundMsh(file);
@@ -311,44 +306,26 @@ GmshModel::GmshModel(const std::string& file, const std::vector<std::string>& pa
     if (!contents.groupsAreRead) job.file = copy.emplace(file).path();
     job.contents.nodes = contents.nodes, job.contents.elements = contents.elements;
   }
-  Buffer buffer =
-      inChild(limitsFor(job), [&](const Warn& warn) { return readWithGmsh(job, warn); });
-  take(buffer);
-  const double scale = meshfile::meshScale();
-  for (auto& point : points_)
-    for (auto& x : point) x *= scale;
-}
-
-void GmshModel::take(Buffer& buffer) {
-  points_ = buffer.take<Point>();
-  tags_ = buffer.take<PetscInt>();
-  dimension_ = buffer.take<int>().at(0);
-  ungrouped_ = buffer.take<PetscInt>();
-  atPoint_ = buffer.take<char>();
-  droppedNodes_ = buffer.take<PetscInt>().at(0);
-  for (const auto& name : buffer.takeTexts()) {
-    const auto sizes = buffer.take<int>();
-    GroupElements& group = groups_[name];
-    group.dimension = sizes.at(0);
-    group.blocks.resize(sizes.at(1));
-    for (auto& block : group.blocks) {
-      const auto kind = buffer.take<int>();
-      block.type = kind.at(0), block.nodesPerElement = kind.at(1), block.corners = kind.at(2);
-      block.nodes = buffer.take<PetscInt>();
-      block.tag = buffer.take<PetscInt>();
-    }
-  }
+  Stream stream(inChild(limitsFor(job), [&](const Warn& warn) {
+    GmshContents contents = readWithGmsh(job, warn);
+    Stream result;
+    result(contents);
+    return std::move(result).bytes();
+  }));
+  stream(contents_);
+  for (auto& point : contents_.points)
+    for (auto& x : point) x *= settings.scale;
 }
 
 const GroupElements& GmshModel::group(const std::string& name, const std::string& wantedBy) const {
-  const auto found = groups_.find(groupName(name));
-  if (found != groups_.end()) return found->second;
+  const auto found = contents_.groups.find(groupName(name));
+  if (found != contents_.groups.end()) return found->second;
   constexpr std::size_t most = 40;  // a shape has a group for each face
   std::vector<std::string> names;
-  for (const auto& [known, where] : groups_)
+  for (const auto& [known, where] : contents_.groups)
     if (names.size() < most) names.push_back(known);
-  if (groups_.size() > most)
-    names.push_back("and " + std::to_string(groups_.size() - most) + " more");
+  if (contents_.groups.size() > most)
+    names.push_back("and " + std::to_string(contents_.groups.size() - most) + " more");
   throw Error(wantedBy + " names group '" + name + "', which is not in the mesh; " +
               (names.empty() ? "it has no physical groups at all: name its bodies and surfaces "
                                "(Physical Volume, Physical Surface)"

@@ -4,7 +4,6 @@
 #include <petscsys.h>
 
 #include <array>
-#include <functional>
 #include <map>
 #include <span>
 #include <string>
@@ -57,13 +56,23 @@ struct Image {
 struct ContactPair {
   PetscInt node;    ///< local node of the pad side (owned)
   PetscInt master;  ///< global node of the disc side; −1 for a rigid obstacle
-  int interface;    ///< index into Request::interfaces
+  int interface;    ///< index into Mesh::interfaces
   int masterBody;   ///< index into Mesh::bodies of the disc side; −1 for a rigid obstacle
   int masterPart;   ///< connected part of the master node; −1 for a rigid obstacle
   Point offset;     ///< position of the master minus that of the node in the file, m
 };
 
-/// A Straightened tells what `-mesh_straighten` has done to the whole mesh.
+/// How the meshes of the two sides of an interface fit together.
+struct InterfaceMatch {
+  std::string label;  ///< of the request, the key of the interface
+  /// The pad's faces lie on faces of the disc, node on node, or the pad is on a rigid obstacle.
+  /// Otherwise the interface has no pairs.
+  bool matching = true;
+  std::string mismatch;  ///< where and why they do not match, without full stop; empty if they do
+  bool nearlyMatching = false;  ///< they do not match, but most nodes of the pad have a partner
+};
+
+/// What `-mesh_straighten` has done to the whole mesh.
 struct Straightened {
   PetscInt folded = 0;     ///< cells whose Jacobian was not positive, those of all rounds
   PetscInt cells = 0;      ///< cells with a node that was moved
@@ -97,15 +106,8 @@ struct Mesh {
   /// [group] owned local nodes, with images replaced by their primaries
   std::map<std::string, std::vector<PetscInt>> nodeGroups;
   std::vector<Image> images;
-  std::vector<ContactPair> pairs;  ///< of the interfaces that match
-  /// [interface] 1 if the pad's faces lie on faces of the disc, node on node, or if the pad is on a
-  /// rigid obstacle; 0 if the two are not meshed alike, so that the interface has no pairs
-  std::vector<unsigned char> matching;
-  /// [interface] a sentence that says where and why the meshes do not match, without full stop;
-  /// empty if they match
-  std::vector<std::string> mismatch;
-  /// [interface] 1 if they do not match, but most nodes of the pad have a partner on the disc
-  std::vector<unsigned char> nearlyMatching;
+  std::vector<ContactPair> pairs;          ///< of the interfaces that match
+  std::vector<InterfaceMatch> interfaces;  ///< in the order of the request
 
   PetscInt localNodes() const { return globalNode.size(); }
 };
@@ -123,6 +125,7 @@ struct GroupRequest {
 /// One contact interface as the mesh sees it: two surface groups, or a pad on a rigid obstacle.
 struct InterfaceRequest {
   std::string name;
+  std::string label;       ///< the kind of interface and its name: unique, for messages
   GroupRequest pad, disc;  ///< an empty name for the disc stands for a rigid obstacle
 };
 
@@ -131,14 +134,6 @@ struct InterfaceRequest {
 struct PeriodicRequest {
   std::string image, of;
   std::string option;  ///< the option that asks for it, with its dash, for messages
-};
-
-/// A CellGeometry tells what later stages know of a cell by its gmsh type and its nodes, m.
-struct CellGeometry {
-  /// Returns true if the Jacobian is not positive at a point where the cell is integrated.
-  std::function<bool(int type, const std::vector<Point>& nodes)> isFolded;
-  /// Returns the places of the nodes with all edges straight.
-  std::function<std::vector<Point>(int type, const std::vector<Point>& nodes)> straightened;
 };
 
 /// The groups that the later stages need from the mesh.
@@ -152,7 +147,6 @@ struct Request {
   std::vector<InterfaceRequest> interfaces;
   std::vector<PeriodicRequest> periodic;
   std::string howToGiveMaterials;  ///< "give -…", for a group of cells that has none
-  CellGeometry geometry;           ///< for `-mesh_straighten`
   std::string motionOptions;       ///< "-…", for interfaces on which neither side moves
 };
 

@@ -147,8 +147,8 @@ std::set<PetscInt> padNodes(const WholeMesh& mesh, const std::string& surface) {
 }
 
 /// Returns the reason why a node of the pad has no partner in the group of the disc.
-std::string whyAlone(const WholeMesh& mesh, PetscInt node, const std::string& group,
-                     const std::vector<int>& body, double near) {
+std::string whyUnpaired(const WholeMesh& mesh, PetscInt node, const std::string& group,
+                        const std::vector<int>& body, double near) {
   const auto& place = mesh.points[node];
   for (std::size_t other = 0; other < mesh.points.size(); ++other)
     if (mesh.part[other] != mesh.part[node] && body[other] >= 0 &&
@@ -213,19 +213,20 @@ Mismatch pairContact(WholeMesh& mesh, const InterfaceRequest& request, int inter
   const auto disc = discNodes(mesh, request, pad);
   const Locator locator(mesh, disc, near);
   std::map<PetscInt, PetscInt> master;
-  std::vector<PetscInt> alone;
+  std::vector<PetscInt> unpaired;
   for (PetscInt node : pad)
     if (const auto found = locator.at(mesh.points[node]); found.empty())
-      alone.push_back(node);
+      unpaired.push_back(node);
     else
       master[node] = found[0];
-  if (!alone.empty())
-    return {formatted("%zu of %zu nodes of '%s' have no node of '%s' within %.2g m, first that at "
-                      "%s, %s",
-                      alone.size(), pad.size(), request.pad.name.c_str(), request.disc.name.c_str(),
-                      near, positionText(mesh.points[alone[0]]).c_str(),
-                      whyAlone(mesh, alone[0], request.disc.name, body, near).c_str()),
-            2 * alone.size() < pad.size()};
+  if (!unpaired.empty())
+    return {
+        formatted("%zu of %zu nodes of '%s' have no node of '%s' within %.2g m, first that at "
+                  "%s, %s",
+                  unpaired.size(), pad.size(), request.pad.name.c_str(), request.disc.name.c_str(),
+                  near, positionText(mesh.points[unpaired[0]]).c_str(),
+                  whyUnpaired(mesh, unpaired[0], request.disc.name, body, near).c_str()),
+        2 * unpaired.size() < pad.size()};
   const std::string why = whyFacesDiffer(mesh, request, master);
   if (why.empty())
     for (const auto& [node, other] : master) {
@@ -251,9 +252,10 @@ void pairNodes(WholeMesh& mesh, const Request& request) {
   const auto body = bodyOfNode(mesh);
   for (int i = 0; i < std::ssize(request.interfaces); ++i) {
     const Mismatch found = pairContact(mesh, request.interfaces[i], i, body, near);
-    mesh.mismatch.push_back(found.why);
-    mesh.matching.push_back(found.why.empty());
-    mesh.nearlyMatching.push_back(!found.why.empty() && found.isSmall);
+    mesh.interfaces.push_back({.label = request.interfaces[i].label,
+                               .matching = found.why.empty(),
+                               .mismatch = found.why,
+                               .nearlyMatching = !found.why.empty() && found.isSmall});
   }
 }
 

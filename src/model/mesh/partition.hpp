@@ -1,5 +1,5 @@
 #pragma once
-/// This function divides the cells among the ranks. It is for rank 0 only.
+/// Division of the cells among the ranks. For rank 0 only.
 #include <vector>
 
 #include "model/mesh/whole.hpp"

@@ -7,19 +7,18 @@
 #include <set>
 
 #include "base/petsc/check.hpp"
-#include "base/system/buffer.hpp"
+#include "base/system/mpi.hpp"
 #include "model/mesh/pairing.hpp"
 #include "model/mesh/partition.hpp"
+#include "model/mesh/serialization.hpp"
 #include "model/mesh/straighten.hpp"
 #include "model/mesh/whole.hpp"
-#include "model/meshfile/format.hpp"
-#include "model/meshfile/geometry.hpp"
 
 namespace squeal::mesh {
 namespace {
 
-/// A Numbering holds the owners and the global numbers of the nodes. The numbers of the nodes of a
-/// rank are contiguous.
+/// The owners and the global numbers of the nodes. The numbers of the nodes of a rank are
+/// contiguous.
 struct Numbering {
   std::vector<int> owner;             ///< [whole node]
   std::vector<PetscInt> global;       ///< [whole node]
@@ -51,8 +50,8 @@ Numbering number(const WholeMesh& mesh, const std::vector<int>& cellRank, int ra
   return numbering;
 }
 
-/// A Shares lists the items of the mesh by the rank that gets them, so that packing all ranks is
-/// one pass over the mesh.
+/// The items of the mesh by the rank that gets them, so that all parts are
+/// made in one pass over the mesh.
 struct Shares {
   std::vector<std::vector<std::vector<PetscInt>>> cells, faces;  // [rank][block] -> element
   std::vector<std::vector<PetscInt>> images, pairs;              // [rank] -> item
@@ -102,176 +101,163 @@ std::vector<Number> picked(const std::vector<Number>& all, const std::vector<Pet
   return some;
 }
 
-Buffer pack(const WholeMesh& mesh, const Numbering& numbering, const Shares& shares, int rank) {
-  // The local numbers are those of the owned nodes in global order, then those of the ghosts of
-  // this rank's cells.
-  std::vector<PetscInt> local;  // local -> global
-  for (PetscInt g = numbering.firstOfRank[rank]; g < numbering.firstOfRank[rank + 1]; ++g)
-    local.push_back(g);
-  const PetscInt first = numbering.firstOfRank[rank], end = numbering.firstOfRank[rank + 1];
-  std::set<PetscInt> ghosts;
-  for (std::size_t b = 0; b < mesh.cells.size(); ++b)
-    for (PetscInt node : elementNodes(mesh.cells[b], shares.cells[rank][b])) {
-      const PetscInt g = numbering.global[node];
-      if (g < first || g >= end) ghosts.insert(g);
-    }
-  local.insert(local.end(), ghosts.begin(), ghosts.end());
-  const auto toLocal = [&](PetscInt node) -> PetscInt {
-    const PetscInt g = numbering.global[node];
-    if (g >= first && g < end) return g - first;
-    return std::lower_bound(local.begin() + (end - first), local.end(), g) - local.begin();
-  };
-  const auto allToLocal = [&](std::vector<PetscInt> nodes) {
-    for (auto& node : nodes) node = toLocal(node);
+/// The local numbers of one rank: those of the owned nodes in global order, then those of the
+/// ghosts of its cells.
+class LocalNumbers {
+ public:
+  LocalNumbers(const WholeMesh& mesh, const Numbering& numbering,
+               const std::vector<std::vector<PetscInt>>& cells, int rank)
+      : numbering_(numbering),
+        first_(numbering.firstOfRank[rank]),
+        end_(numbering.firstOfRank[rank + 1]) {
+    for (PetscInt g = first_; g < end_; ++g) global_.push_back(g);
+    std::set<PetscInt> ghosts;
+    for (std::size_t b = 0; b < mesh.cells.size(); ++b)
+      for (PetscInt node : elementNodes(mesh.cells[b], cells[b])) {
+        const PetscInt g = numbering.global[node];
+        if (g < first_ || g >= end_) ghosts.insert(g);
+      }
+    global_.insert(global_.end(), ghosts.begin(), ghosts.end());
+  }
+  PetscInt first() const { return first_; }
+  PetscInt owned() const { return end_ - first_; }
+  /// Returns the global numbers, [local node].
+  const std::vector<PetscInt>& global() const { return global_; }
+  PetscInt of(PetscInt node) const {
+    const PetscInt g = numbering_.global[node];
+    if (g >= first_ && g < end_) return g - first_;
+    return std::lower_bound(global_.begin() + owned(), global_.end(), g) - global_.begin();
+  }
+  std::vector<PetscInt> of(std::vector<PetscInt> nodes) const {
+    for (auto& node : nodes) node = of(node);
     return nodes;
-  };
+  }
 
-  const PetscInt parts = mesh.partName.size(), cellBlocks = mesh.cells.size(),
-                 faceBlocks = mesh.faces.size();
-  Buffer buffer;
-  buffer.put(std::vector<PetscInt>{mesh.dimension, mesh.nodeCount(), mesh.cellCount(), end - first,
-                                   first, parts, mesh.unusedNodes});
-  buffer.put(std::vector{mesh.straightened});
-  buffer.put(mesh.bodies);
-  buffer.put(mesh.surfaces);
-  buffer.put(mesh.partName);
-  buffer.put(local);
-  std::vector<PetscInt> whole;
-  for (PetscInt g : local) whole.push_back(numbering.whole[g]);
-  buffer.put(picked(mesh.points, whole));
-  buffer.put(picked(mesh.tags, whole));
-  buffer.put(picked(mesh.part, whole));
-  buffer.put(std::vector{cellBlocks});
-  for (std::size_t b = 0; b < mesh.cells.size(); ++b) {
-    const auto& block = mesh.cells[b];
-    buffer.put(std::vector<PetscInt>{block.type, block.nodesPerElement});
-    buffer.put(allToLocal(elementNodes(block, shares.cells[rank][b])));
-    buffer.put(picked(block.label, shares.cells[rank][b]));
-    buffer.put(picked(block.tag, shares.cells[rank][b]));
-  }
-  buffer.put(std::vector{faceBlocks});
-  for (std::size_t b = 0; b < mesh.faces.size(); ++b) {
-    const auto& block = mesh.faces[b];
-    buffer.put(std::vector<PetscInt>{block.type, block.nodesPerElement});
-    buffer.put(allToLocal(elementNodes(block, shares.faces[rank][b])));
-    buffer.put(picked(block.label, shares.faces[rank][b]));
-    buffer.put(picked(block.sign, shares.faces[rank][b]));
-  }
-  std::vector<std::string> names;
-  for (const auto& [name, nodes] : mesh.nodeGroups) names.push_back(name);
-  buffer.put(names);
-  for (const auto& nodes : shares.groups[rank]) buffer.put(allToLocal(nodes));
-  auto images = picked(mesh.images, shares.images[rank]);
-  for (auto& image : images)
-    image.node = toLocal(image.node), image.primary = numbering.global[image.primary];
-  buffer.put(images);
-  auto pairs = picked(mesh.pairs, shares.pairs[rank]);
-  for (auto& pair : pairs) {
-    pair.node = toLocal(pair.node);
+ private:
+  const Numbering& numbering_;
+  PetscInt first_, end_;
+  std::vector<PetscInt> global_;
+};
+
+/// Adds the contact pairs of a rank, in the order of local nodes, so that all data per contact node
+/// (gap columns of T, reports) have the same order.
+void addPairs(const WholeMesh& mesh, const std::vector<PetscInt>& which, const Numbering& numbering,
+              const LocalNumbers& local, Mesh& part) {
+  part.pairs = picked(mesh.pairs, which);
+  for (auto& pair : part.pairs) {
+    pair.node = local.of(pair.node);
     if (pair.master >= 0) pair.master = numbering.global[pair.master];
   }
-  // Pairs stand in local order, so that all data per contact node (gap columns of T, reports) have
-  // the same order.
-  std::sort(pairs.begin(), pairs.end(),
+  std::sort(part.pairs.begin(), part.pairs.end(),
             [](const auto& a, const auto& b) { return a.node < b.node; });
-  buffer.put(pairs);
-  buffer.put(mesh.matching);
-  buffer.put(mesh.mismatch);
-  buffer.put(mesh.nearlyMatching);
-  return buffer;
 }
 
-Mesh unpack(MPI_Comm comm, Buffer& buffer) {
-  Mesh mesh;
-  mesh.comm = comm;
-  const auto sizes = buffer.take<PetscInt>();
-  mesh.dimension = sizes[0], mesh.totalNodes = sizes[1], mesh.totalCells = sizes[2];
-  mesh.ownedNodes = sizes[3], mesh.firstNode = sizes[4], mesh.parts = sizes[5];
-  mesh.unusedNodes = sizes[6];
-  mesh.straightened = buffer.take<Straightened>().at(0);
-  mesh.bodies = buffer.takeTexts();
-  mesh.surfaces = buffer.takeTexts();
-  mesh.partName = buffer.takeTexts();
-  mesh.globalNode = buffer.take<PetscInt>();
-  mesh.coordinates = buffer.take<Point>();
-  mesh.nodeTag = buffer.take<PetscInt>();
-  mesh.nodePart = buffer.take<int>();
-  mesh.cells.resize(buffer.take<PetscInt>().at(0));
-  for (auto& block : mesh.cells) {
-    const auto kind = buffer.take<PetscInt>();
-    block.type = kind[0], block.nodesPerCell = kind[1];
-    block.nodes = buffer.take<PetscInt>();
-    block.body = buffer.take<int>();
-    block.tag = buffer.take<PetscInt>();
+/// Adds the cells and faces of a rank.
+void addElements(const WholeMesh& mesh, const Shares& shares, int rank, const LocalNumbers& local,
+                 Mesh& part) {
+  for (std::size_t b = 0; b < mesh.cells.size(); ++b) {
+    const auto& block = mesh.cells[b];
+    const auto& which = shares.cells[rank][b];
+    part.cells.push_back({.type = block.type,
+                          .nodesPerCell = block.nodesPerElement,
+                          .nodes = local.of(elementNodes(block, which)),
+                          .body = picked(block.label, which),
+                          .tag = picked(block.tag, which)});
   }
-  mesh.faces.resize(buffer.take<PetscInt>().at(0));
-  for (auto& block : mesh.faces) {
-    const auto kind = buffer.take<PetscInt>();
-    block.type = kind[0], block.nodesPerFace = kind[1];
-    block.nodes = buffer.take<PetscInt>();
-    block.surface = buffer.take<int>();
-    block.sign = buffer.take<int>();
+  for (std::size_t b = 0; b < mesh.faces.size(); ++b) {
+    const auto& block = mesh.faces[b];
+    const auto& which = shares.faces[rank][b];
+    part.faces.push_back({.type = block.type,
+                          .nodesPerFace = block.nodesPerElement,
+                          .nodes = local.of(elementNodes(block, which)),
+                          .surface = picked(block.label, which),
+                          .sign = picked(block.sign, which)});
   }
-  for (const auto& name : buffer.takeTexts()) mesh.nodeGroups[name] = buffer.take<PetscInt>();
-  mesh.images = buffer.take<Image>();
-  mesh.pairs = buffer.take<ContactPair>();
-  mesh.matching = buffer.take<unsigned char>();
-  mesh.mismatch = buffer.takeTexts();
-  mesh.nearlyMatching = buffer.take<unsigned char>();
-  return mesh;
 }
 
-/// Collective. Sends buffers[r] from rank 0 to rank r, which gets it as the result. The buffers are
-/// used up.
-Buffer scatter(MPI_Comm comm, std::vector<Buffer>& buffers) {
-  int rank = 0;
-  check(MPI_Comm_rank(comm, &rank));
+/// Returns the part of a rank.
+Mesh partOf(const WholeMesh& mesh, const Numbering& numbering, const Shares& shares, int rank) {
+  const LocalNumbers local(mesh, numbering, shares.cells[rank], rank);
+  Mesh part;
+  part.dimension = mesh.dimension;
+  part.totalNodes = mesh.nodeCount(), part.totalCells = mesh.cellCount();
+  part.unusedNodes = mesh.unusedNodes;
+  part.straightened = mesh.straightened;
+  part.ownedNodes = local.owned(), part.firstNode = local.first();
+  part.globalNode = local.global();
+  std::vector<PetscInt> whole;
+  for (PetscInt g : local.global()) whole.push_back(numbering.whole[g]);
+  part.coordinates = picked(mesh.points, whole);
+  part.nodeTag = picked(mesh.tags, whole);
+  part.nodePart = picked(mesh.part, whole);
+  part.parts = std::ssize(mesh.partName);
+  part.partName = mesh.partName;
+  part.bodies = mesh.bodies, part.surfaces = mesh.surfaces;
+  addElements(mesh, shares, rank, local, part);
+  std::size_t g = 0;
+  for (const auto& [name, nodes] : mesh.nodeGroups)
+    part.nodeGroups[name] = local.of(shares.groups[rank][g++]);
+  part.images = picked(mesh.images, shares.images[rank]);
+  for (auto& image : part.images)
+    image.node = local.of(image.node), image.primary = numbering.global[image.primary];
+  addPairs(mesh, shares.pairs[rank], numbering, local, part);
+  part.interfaces = mesh.interfaces;
+  return part;
+}
+
+/// Collective. Sends messages[r] from rank 0 to rank r, which gets it as the result. The messages
+/// are used up.
+std::vector<char> scatter(MPI_Comm comm, std::vector<std::vector<char>>& messages) {
   std::vector<int> counts, offsets;
   std::vector<char> all;
   std::string failure;
   constexpr std::size_t most = std::numeric_limits<int>::max();
-  for (auto& buffer : buffers) {
-    if (all.size() + buffer.bytes().size() > most)
-      failure = "the mesh is too large for one rank to hand out (2 GiB of message)";
-    counts.push_back(buffer.bytes().size());
+  for (auto& message : messages) {
+    if (all.size() + message.size() > most)
+      failure = "the mesh is too large for one rank to distribute (2 GiB of message)";
+    counts.push_back(message.size());
     offsets.push_back(all.size());
-    all.insert(all.end(), buffer.bytes().begin(), buffer.bytes().end());
-    std::vector<char>().swap(buffer.bytes());
+    all.insert(all.end(), message.begin(), message.end());
+    std::vector<char>().swap(message);
   }
   failTogether(comm, failure);
   int count = 0;
   check(MPI_Scatter(counts.data(), 1, MPI_INT, &count, 1, MPI_INT, 0, comm));
-  Buffer mine;
-  mine.bytes().resize(count);
-  check(MPI_Scatterv(all.data(), counts.data(), offsets.data(), MPI_CHAR, mine.bytes().data(),
-                     count, MPI_CHAR, 0, comm));
+  std::vector<char> mine(count);
+  check(MPI_Scatterv(all.data(), counts.data(), offsets.data(), MPI_CHAR, mine.data(), count,
+                     MPI_CHAR, 0, comm));
   return mine;
 }
 
 }  // namespace
 
-Mesh read(MPI_Comm comm, const Request& request) {
-  const std::string file = meshfile::meshFile();
-  const auto parameters = meshfile::geometryParameters();
-  int rank = 0, size = 1;
-  check(MPI_Comm_rank(comm, &rank));
-  check(MPI_Comm_size(comm, &size));
-  std::vector<Buffer> buffers;
+Mesh read(MPI_Comm comm, const Request& request, const meshfile::Settings& file,
+          const Settings& settings, const CellGeometry& geometry) {
+  const int size = mpi::size(comm);
+  std::vector<std::vector<char>> messages;
   std::string failure;
-  if (rank == 0) try {
-      WholeMesh whole = load(file, parameters, request);
+  if (mpi::rank(comm) == 0) try {
+      WholeMesh whole = load(file, request);
       pairNodes(whole, request);
-      straighten(whole, request.geometry);
+      straighten(whole, geometry, settings.straightening);
       const auto cellRank = partition(whole, size);
       const Numbering numbering = number(whole, cellRank, size);
       const Shares shares = share(whole, numbering, cellRank, size);
-      for (int r = 0; r < size; ++r) buffers.push_back(pack(whole, numbering, shares, r));
+      for (int r = 0; r < size; ++r) {
+        Mesh part = partOf(whole, numbering, shares, r);
+        Stream stream;
+        stream(part);
+        messages.push_back(std::move(stream).bytes());
+      }
     } catch (const std::exception& error) {
       failure = error.what();
     }
   failTogether(comm, failure);
-  Buffer mine = scatter(comm, buffers);
-  return unpack(comm, mine);
+  Mesh mesh;
+  Stream stream(scatter(comm, messages));
+  stream(mesh);
+  mesh.comm = comm;
+  return mesh;
 }
 
 }  // namespace squeal::mesh

@@ -1,14 +1,19 @@
 #pragma once
-/// This function reads the mesh and hands each rank its part.
+/// Reads the mesh and distributes it over the ranks.
 #include "model/mesh/mesh.hpp"
+#include "model/mesh/settings.hpp"
+#include "model/mesh/straighten.hpp"
+#include "model/meshfile/settings.hpp"
 
 namespace squeal::mesh {
 
-/// Collective. Reads `-mesh_file`, or meshes it if it is a .geo, through the gmsh library on rank
+/// Collective. Reads the file, or meshes it if it is a .geo, through the gmsh library on rank
 /// 0; splits nodes shared across contact interfaces, pairs contact and periodic nodes, partitions
 /// with METIS and sends each rank its part. Only rank 0 holds the whole mesh. Throws Error on all
 /// ranks for an unreadable file, a missing group, a cell without material, a surface that bounds no
 /// body, and periodic nodes without a partner. Contact sides that do not match are marked.
-Mesh read(MPI_Comm comm, const Request& request);
+/// `geometry` is for Settings::straightening.
+Mesh read(MPI_Comm comm, const Request& request, const meshfile::Settings& file,
+          const Settings& settings, const CellGeometry& geometry);
 
 }  // namespace squeal::mesh

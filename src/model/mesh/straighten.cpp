@@ -2,15 +2,10 @@
 
 #include <algorithm>
 
-#include "base/options/options.hpp"
 #include "model/mesh/vector.hpp"
 
 namespace squeal::mesh {
 namespace {
-
-const ChoiceOption straightenOption(
-    "mesh", "mesh_straighten", {"none", "bad", "all"}, "none",
-    "bad: straightens the edges of curved cells whose Jacobian is not positive; all: of all cells");
 
 /// The nodes that keep their places relative to each other: images, primaries and partners in
 /// contact.
@@ -126,9 +121,8 @@ class Straightener {
 
 }  // namespace
 
-void straighten(WholeMesh& mesh, const CellGeometry& geometry) {
-  const std::string which = straightenOption.get();
-  if (which != "none") Straightener(mesh, geometry).run(which == "all");
+void straighten(WholeMesh& mesh, const CellGeometry& geometry, Straightening which) {
+  if (which != Straightening::none) Straightener(mesh, geometry).run(which == Straightening::all);
 }
 
 }  // namespace squeal::mesh

@@ -1,5 +1,5 @@
 #pragma once
-/// These functions find elements that a mesh holds twice. Not collective: for rank 0 only.
+/// Duplicate elements of a mesh. Not collective: for rank 0 only.
 #include <optional>
 #include <utility>
 

@@ -1,5 +1,5 @@
 #pragma once
-/// This file holds the algebra of points, vectors and small matrices in space.
+/// Algebra of points, vectors and small matrices in space.
 #include <array>
 #include <cmath>
 

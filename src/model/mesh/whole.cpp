@@ -324,15 +324,19 @@ void findParts(WholeMesh& mesh) {
 
 }  // namespace
 
+void fields(Stream& stream, WholeBlock& block) {
+  auto& [type, nodesPerElement, corners, nodes, label, tag] = block;
+  stream(type, nodesPerElement, corners, nodes, label, tag);
+}
+
 PetscInt WholeMesh::cellCount() const {
   PetscInt count = 0;
   for (const auto& block : cells) count += block.tag.size();
   return count;
 }
 
-WholeMesh load(const std::string& file, const std::vector<std::string>& parameters,
-               const Request& request) {
-  const GmshModel model(file, parameters);
+WholeMesh load(const meshfile::Settings& file, const Request& request) {
+  const GmshModel model(file);
   WholeMesh mesh;
   NodeIndex index(mesh, model);
   readBodies(mesh, model, request, index);

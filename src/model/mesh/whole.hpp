@@ -1,7 +1,9 @@
 #pragma once
-/// A WholeMesh is the whole mesh, which rank 0 holds between reading and distribution. Not
+/// The whole mesh, which rank 0 keeps between reading and distribution. Not
 /// collective: for rank 0 only.
+#include "base/system/stream.hpp"
 #include "model/mesh/mesh.hpp"
+#include "model/meshfile/settings.hpp"
 
 namespace squeal::mesh {
 
@@ -23,13 +25,15 @@ struct WholeBlock {
   }
 };
 
+void fields(Stream& stream, WholeBlock& block);
+
 /// The boundary faces of one gmsh element type in the whole mesh.
 struct WholeFaces : WholeBlock {
   std::vector<PetscInt> cell;  ///< [face] number over all blocks of the cell that it bounds
   std::vector<int> sign;       ///< see FaceBlock
 };
 
-/// The whole mesh, of which load() fills all but primary, images, pairs, matching and mismatch.
+/// The whole mesh, of which load() fills all but primary, images, pairs and interfaces.
 struct WholeMesh {
   int dimension = 0;
   std::vector<Point> points;
@@ -44,20 +48,17 @@ struct WholeMesh {
       discFaces;          ///< [surface of a disc] nodes of each face, for each cell it bounds
   std::vector<int> part;  ///< [node] connected part
   std::vector<std::string> partName;
-  std::vector<PetscInt> primary;              ///< [node] the node that it repeats, itself if none
-  std::vector<Image> images;                  ///< in numbers of the whole mesh
-  std::vector<ContactPair> pairs;             ///< in numbers of the whole mesh
-  std::vector<unsigned char> matching;        ///< see Mesh
-  std::vector<std::string> mismatch;          ///< see Mesh
-  std::vector<unsigned char> nearlyMatching;  ///< see Mesh
+  std::vector<PetscInt> primary;           ///< [node] the node that it repeats, itself if none
+  std::vector<Image> images;               ///< in numbers of the whole mesh
+  std::vector<ContactPair> pairs;          ///< in numbers of the whole mesh
+  std::vector<InterfaceMatch> interfaces;  ///< see Mesh
 
   PetscInt nodeCount() const { return points.size(); }
   PetscInt cellCount() const;
 };
 
-/// Reads or meshes `file` with gmsh, splits nodes shared across contact interfaces, and finds parts
-/// and faces. `parameters` are the settings of a .geo file, "name=value".
-WholeMesh load(const std::string& file, const std::vector<std::string>& parameters,
-               const Request& request);
+/// Reads or meshes a file with gmsh, splits nodes shared across contact interfaces, and finds parts
+/// and faces.
+WholeMesh load(const meshfile::Settings& file, const Request& request);
 
 }  // namespace squeal::mesh

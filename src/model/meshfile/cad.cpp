@@ -10,20 +10,12 @@
 #include <map>
 #include <set>
 
-#include "base/options/options.hpp"
 #include "base/petsc/check.hpp"
 
 namespace squeal::meshfile {
 namespace {
 
-const RealOption sizeOption(
-    "mesh", "mesh_size", 0.0, "", nonNegative,
-    "length of the edges of the mesh of a shape (.step, …), in its unit (mm), before -mesh_scale; "
-    "0: gmsh's choice, a tenth of the diagonal");
-const IntegerOption orderOption("mesh", "mesh_order", 2, 1, 2,
-                                "1: linear, 2: quadratic tetrahedra in the mesh of a shape");
-
-/// Has OpenCASCADE read the names of faces, not of solids alone. gmsh has no option for it, and to
+/// Has OpenCASCADE read the names of faces, not only of solids. gmsh has no option for it, and to
 /// link with OpenCASCADE for the sake of one parameter is not worth while: its functions are looked
 /// up among those that gmsh has brought along. Without them faces have no labels.
 void readNamesOfFaces() {
@@ -143,15 +135,10 @@ void makeGroups(const std::vector<Entity>& solids, const std::vector<Entity>& fa
 
 }  // namespace
 
-ShapeMesh shapeMesh() { return {sizeOption.get(), orderOption.get()}; }
-
-void rejectShapeMesh(const std::string& file) {
-  for (const Option* option :
-       {static_cast<const Option*>(&sizeOption), static_cast<const Option*>(&orderOption)})
-    if (option->given())
-      throw Error("option -" + option->name +
-                  ": it is for shapes, .step and the like; -mesh_file " + file +
-                  " is a mesh, or a geometry that sets this itself");
+void rejectShapeMesh(const std::string& file, const ShapeMesh& shape) {
+  for (const auto& option : shape.given)
+    throw Error("option " + option + ": it is for shapes, .step and the like; -mesh_file " + file +
+                " is a mesh, or a geometry that sets this itself");
 }
 
 void importShape(const std::string& file, const ShapeMesh& mesh, const Warn& warn) {

@@ -1,21 +1,14 @@
 #pragma once
-/// These functions read and mesh shapes of CAD programs: STEP, IGES and BREP. Not collective.
+/// Shapes of CAD programs: STEP, IGES and BREP. Not collective.
 #include <string>
 
 #include "base/system/child.hpp"
+#include "model/meshfile/settings.hpp"
 
 namespace squeal::meshfile {
 
-/// How a shape is meshed.
-struct ShapeMesh {
-  double size = 0;  ///< length of edges in the unit of the shape; 0 leaves it to gmsh
-  int order = 2;    ///< of the tetrahedra
-};
-
-/// Returns the options `-mesh_size` and `-mesh_order`.
-ShapeMesh shapeMesh();
-/// Throws Error if one of these options is given, for a file that is no shape.
-void rejectShapeMesh(const std::string& file);
+/// Throws Error if an option for shapes is given, for a file that is none.
+void rejectShapeMesh(const std::string& file, const ShapeMesh& shape);
 
 /// Makes a shape the model of gmsh. Lengths come in millimetres from STEP and IGES, whatever their
 /// unit, and as they are from BREP. Solids that touch are cut where they do, so that their meshes

@@ -8,21 +8,12 @@
 #include <fstream>
 #include <vector>
 
-#include "base/options/options.hpp"
 #include "base/petsc/check.hpp"
 #include "base/system/text.hpp"
 #include "base/system/unreadable.hpp"
 
 namespace squeal::meshfile {
 namespace {
-
-const FileOption fileOption(
-    "mesh", "mesh_file",
-    "mesh (.msh, .unv), shape (.step, .iges, .brep), which is meshed in memory, or geometry: a "
-    ".geo, which is code, is run and meshed in memory");
-const RealOption scaleOption("mesh", "mesh_scale", 1.0, "", positive,
-                             "factor on all coordinates: 0.001 for a mesh in mm and all else in SI "
-                             "units");
 
 struct Format {
   const char* ending;
@@ -93,17 +84,13 @@ bool isBuiltIn(const std::string& part) {
 
 }  // namespace
 
-std::string meshFile() { return fileOption.get(); }
-double meshScale() { return scaleOption.get(); }
-
 FileKind requireSound(const std::string& file) {
   const std::string option = "option -mesh_file " + file + ": ", ending = endingOf(file);
   if (const auto why = whyUnreadable(file); !why.empty()) throw Error(option + why);
   if (!std::filesystem::is_regular_file(file)) throw Error(option + "not a regular file");
   const std::string beside = file + ".opt";
   if (std::filesystem::exists(beside))
-    throw Error(option + "gmsh would run the file '" + beside +
-                "' beside it, a script; take it away");
+    throw Error(option + "gmsh would run the script '" + beside + "' next to it; remove it");
   if (ending == ".geo" || ending == ".geo_unrolled") return FileKind::geometry;
   for (const auto& format : formats()) {
     if (ending != format.ending || !isBuiltIn(format.part)) continue;

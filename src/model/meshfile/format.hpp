@@ -1,13 +1,8 @@
 #pragma once
-/// These functions tell the kinds of the files that are passed to the gmsh library. Not collective.
+/// Kinds of the files that are passed to the gmsh library. Not collective.
 #include <string>
 
 namespace squeal::meshfile {
-
-/// Returns the option `-mesh_file`, the path to read.
-std::string meshFile();
-/// Returns the option `-mesh_scale`, the factor on all coordinates.
-double meshScale();
 
 enum class FileKind {
   geometry,  ///< a script: it may read other files and start programs

@@ -4,12 +4,10 @@
 #include <petscsys.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "base/options/options.hpp"
 #include "base/petsc/check.hpp"
 #include "base/system/memory.hpp"
 #include "base/system/text.hpp"
@@ -17,14 +15,10 @@
 namespace squeal::meshfile {
 namespace {
 
-const TextOption setOption(
-    "mesh", "mesh_set", "",
-    "parameters of a .geo file by their DefineConstant names: name=number,…");
-
 using Json = nlohmann::json;
 
-std::string optionText(const Setting& setting) {
-  return "option -mesh_set " + setting.name + "=" + shortest(setting.value) + ": ";
+std::string optionText(const GeometryParameter& given) {
+  return "option -mesh_set " + given.name + "=" + shortest(given.value) + ": ";
 }
 
 /// A Range is the range of a parameter, with its step. Where a geometry declares none, gmsh guesses
@@ -65,9 +59,9 @@ std::vector<std::string> knownNames() {
 
 /// Returns the rule that a geometry declares for a parameter and that the value breaks; empty if
 /// there is none.
-std::string brokenRule(const Setting& setting) {
+std::string brokenRule(const GeometryParameter& given) {
   std::string text;
-  gmsh::onelab::get(text, setting.name);
+  gmsh::onelab::get(text, given.name);
   const Json parameter = Json::parse(text, nullptr, false);
   if (parameter.is_discarded()) return "";  // a value that is not finite
   if (parameter.value("type", "") != "number") return "a text, which cannot be set";
@@ -75,7 +69,7 @@ std::string brokenRule(const Setting& setting) {
     return parameter.contains(name) ? parameter.at(name).get<std::vector<double>>()
                                     : std::vector<double>{};
   };
-  const double x = setting.value;
+  const double x = given.value;
   if (const auto choices = numbers("choices");
       !choices.empty() && std::find(choices.begin(), choices.end(), x) == choices.end()) {
     std::vector<std::string> words;
@@ -86,8 +80,7 @@ std::string brokenRule(const Setting& setting) {
                     parameter.value("step", 0.0)};
   if (const auto values = numbers("values"); values.size() == 1 && alike(range, guessed(values[0])))
     return "";
-  // A step is the increment of a slider, but 1 from a whole number on tells that whole numbers are
-  // meant.
+  // A step is the increment of a slider, but 1 from a whole number on means whole numbers.
   const bool whole = range.step == 1 && std::floor(range.low) == range.low;
   if (x >= range.low && x <= range.high && (!whole || std::floor(x) == x)) return "";
   std::string rule = whole ? "a whole number" : "a number";
@@ -145,49 +138,26 @@ double cellsByEdges() {
 
 }  // namespace
 
-std::vector<std::string> geometryParameters() { return setOption.list(); }
-
-std::vector<Setting> readSettings(const std::vector<std::string>& parameters) {
-  std::vector<Setting> settings;
-  for (const auto& parameter : parameters) {
-    const auto parts = split(parameter, '=');
-    double value = 0;
-    bool sound = parts.size() == 2 && !parts[0].empty() && !parts[1].empty();
-    if (sound) {
-      const char *first = parts[1].data() + (parts[1][0] == '+'),
-                 *last = parts[1].data() + parts[1].size();
-      const auto [stop, error] = std::from_chars(first, last, value);
-      sound = error == std::errc() && stop == last && std::isfinite(value);
-    }
-    if (!sound)
-      throw Error("option -mesh_set " + parameter + ": must be a list of name=number, finite");
-    for (const auto& earlier : settings)
-      if (earlier.name == parts[0]) throw Error("option -mesh_set: gives '" + parts[0] + "' twice");
-    settings.push_back({parts[0], value});
-  }
-  return settings;
-}
-
-void applySettings(const std::vector<Setting>& settings) {
+void applyParameters(const std::vector<GeometryParameter>& parameters) {
   const auto known = knownNames();
-  for (const auto& setting : settings) {
-    if (std::find(known.begin(), known.end(), setting.name) == known.end())
-      throw Error(optionText(setting) + "the geometry has no parameter '" + setting.name + "'; " +
+  for (const auto& given : parameters) {
+    if (std::find(known.begin(), known.end(), given.name) == known.end())
+      throw Error(optionText(given) + "the geometry has no parameter '" + given.name + "'; " +
                   (known.empty() ? "it has none" : "it has: " + joined(known)));
-    if (const std::string rule = brokenRule(setting); !rule.empty())
-      throw Error(optionText(setting) + "must be " + rule + ", as the geometry declares");
+    if (const std::string rule = brokenRule(given); !rule.empty())
+      throw Error(optionText(given) + "must be " + rule + ", as the geometry declares");
   }
   gmsh::onelab::clear();  // a default computed from other parameters must follow the values given
                           // here
-  for (const auto& setting : settings) gmsh::onelab::setNumber(setting.name, {setting.value});
+  for (const auto& given : parameters) gmsh::onelab::setNumber(given.name, {given.value});
 }
 
-void requireSettingsUsed(const std::vector<Setting>& settings) {
-  for (const auto& setting : settings) {
+void requireParametersUsed(const std::vector<GeometryParameter>& parameters) {
+  for (const auto& given : parameters) {
     std::vector<double> used;
-    gmsh::onelab::getNumber(setting.name, used);
-    if (used != std::vector<double>{setting.value})
-      throw Error(optionText(setting) + "the geometry takes " +
+    gmsh::onelab::getNumber(given.name, used);
+    if (used != std::vector<double>{given.value})
+      throw Error(optionText(given) + "the geometry takes " +
                   (used.empty() ? "none" : shortest(used[0])) + " in its place");
   }
 }
@@ -207,11 +177,11 @@ void meshGeometry(const std::string& file, const Warn& warn) {
   if (numbers > PETSC_MAX_INT)
     throw Error(expected + formatted(", more displacements than indices of %zu bits can number",
                                      8 * sizeof(PetscInt)));
-  constexpr double bytesPerCell = 200;  // of gmsh alone, at least
+  constexpr double bytesPerCell = 200;  // only of gmsh, at least
   const double needed = cells * bytesPerCell, free = availableMemory();
   const std::string need =
-      expected + formatted(", for which gmsh alone needs %.2g GB or more; there are %.2g GB",
-                           needed / 1e9, free / 1e9);
+      expected + formatted(", for which gmsh needs %.2g GB or more; %.2g GB are free", needed / 1e9,
+                           free / 1e9);
   if (needed > 2 * free) throw Error(need);
   if (needed > free / 2) warn(need);
   gmsh::model::mesh::generate(dimension);

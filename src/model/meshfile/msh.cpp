@@ -74,7 +74,7 @@ class Reader {
     const auto [stop, error] = std::from_chars(first, last, value);
     if (token.empty() || error != std::errc() || stop != last)
       fail(token.empty() ? "the file ends where " + std::string(what) + " should be"
-                         : "'" + std::string(token.substr(0, 40)) + "' is no " + what);
+                         : "'" + std::string(token.substr(0, 40)) + "' is not a " + what);
     return value;
   }
   /// Returns an integer, which has 4 bytes (small) or 8 bytes (large) in a binary file.

@@ -1,5 +1,5 @@
 #pragma once
-/// This function checks files in gmsh's mesh format before gmsh reads them.
+/// Checks of files in gmsh's mesh format before gmsh reads them.
 #include <cstdint>
 #include <string>
 

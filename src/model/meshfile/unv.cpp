@@ -106,7 +106,8 @@ class Unv {
       Number value{};
       const char *first = word.data() + (word[0] == '+'), *last = word.data() + word.size();
       const auto [stop, error] = std::from_chars(first, last, value);
-      if (error != std::errc() || stop != last) fail("'" + word.substr(0, 40) + "' is no " + what);
+      if (error != std::errc() || stop != last)
+        fail("'" + word.substr(0, 40) + "' is not a " + what);
       list.push_back(value);
     }
     if (list.size() != count)
@@ -191,7 +192,7 @@ UnvCopy::UnvCopy(const std::string& file) {
   std::string name = std::filesystem::temp_directory_path() / "squeal_XXXXXX.unv";
   const int descriptor = mkstemps(name.data(), 4);
   if (descriptor < 0)
-    throw Error("option -mesh_file " + file + ": its groups must be written anew for gmsh, and " +
+    throw Error("option -mesh_file " + file + ": its groups must be rewritten for gmsh, and " +
                 name + " cannot be made: " + std::strerror(errno));
   close(descriptor);
   path_ = name;
@@ -200,7 +201,7 @@ UnvCopy::UnvCopy(const std::string& file) {
   stream.close();
   if (stream.fail()) {
     std::filesystem::remove(path_);
-    throw Error("option -mesh_file " + file + ": its groups must be written anew for gmsh, and " +
+    throw Error("option -mesh_file " + file + ": its groups must be rewritten for gmsh, and " +
                 path_ + " cannot be written");
   }
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// These functions check I-deas universal files before gmsh reads them.
+/// Checks of I-deas universal files before gmsh reads them.
 #include <cstdint>
 #include <string>
 

@@ -1,5 +1,5 @@
 #pragma once
-/// This file holds the shape functions φ of a face at any point, and the basis φ̃ = Eᵀφ of the
+/// The shape functions φ of a face at any point, and the basis φ̃ = Eᵀφ of the
 /// slave side, whose integrals are positive. Displacements follow from those of φ̃ by u = E ũ, edge
 /// by edge with a parameter α:
 ///   u_c = ũ_c at corners,   u_e = (1 − 2α) ũ_e + α (ũ_a + ũ_b) between the corners a and b,

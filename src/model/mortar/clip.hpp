@@ -1,5 +1,5 @@
 #pragma once
-/// These functions cut convex regions of a plane, which are polygons, or segments of a line. None
+/// Cuts of convex regions of a plane, which are polygons, or segments of a line. None
 /// is collective.
 #include <array>
 #include <vector>

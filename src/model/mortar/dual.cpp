@@ -165,7 +165,7 @@ std::vector<double> wholeIntegrals(const Face& slave, std::span<const double> al
   std::vector<double> sum(slave.points.size());
   for (int q = 0; q < table.points(); ++q) {
     const FaceShape shape = faceShape(type, {table.point[3 * q], table.point[3 * q + 1]});
-    const double area = table.weight[q] * length(surfacePoint(slave, shape).normal);
+    const double area = table.weight[q] * length(facePoint(slave, shape).normal);
     const NodeValues basis = slaveBasis(type, shape.value, alpha);
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += area * basis[i];
   }

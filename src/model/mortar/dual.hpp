@@ -1,5 +1,5 @@
 #pragma once
-/// This file integrates the dual functions of one slave face against both sides. A dual function
+/// Integrals of the dual functions of one slave face against both sides. A dual function
 /// ψ_p is orthogonal to all φ̃_q of other pivots q, so that each pivot has a condition of its own.
 /// Sources: Wohlmuth, SIAM J. Numer. Anal. 38 (2000); Popp, Wohlmuth, Gee and Wall, SIAM J. Sci.
 /// Comput. 34 (2012).

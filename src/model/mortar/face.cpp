@@ -44,6 +44,11 @@ class CellFinder {
 
 }  // namespace
 
+void fields(Stream& stream, Face& face) {
+  auto& [type, nodes, parts, points, sign, body] = face;
+  stream(type, nodes, parts, points, sign, body);
+}
+
 std::vector<Face> facesOf(const mesh::Mesh& mesh, const std::string& surface) {
   const auto named = std::find(mesh.surfaces.begin(), mesh.surfaces.end(), surface);
   if (named == mesh.surfaces.end()) throw Error("no option names the surface '" + surface + "'");

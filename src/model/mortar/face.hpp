@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/system/stream.hpp"
 #include "model/mesh/mesh.hpp"
 
 namespace squeal::mortar {
@@ -18,6 +19,8 @@ struct Face {
   int sign = 1;  ///< +1 if the normal by node order points out of the body, −1 if it points into it
   int body = -1;  ///< index into Mesh::bodies
 };
+
+void fields(Stream& stream, Face& face);
 
 /// Returns the faces of a surface group on this rank, each with the body of the cell that it
 /// bounds. Images of periodic nodes keep their own numbers. Not collective. Throws Error if options

@@ -30,7 +30,7 @@ Facet makeFacet(const Face& face, std::vector<Reference> reference, bool whole) 
   if (face.sign < 0) std::reverse(reference.begin(), reference.end());
   Facet facet{{}, std::move(reference), whole};
   for (const Reference& corner : facet.reference)
-    facet.corners.push_back(surfacePoint(face, corner).position);
+    facet.corners.push_back(facePoint(face, corner).position);
   return facet;
 }
 
@@ -118,8 +118,7 @@ double sag(const Face& face, const Facet& facet, const Point& direction) {
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t next = (i + 1) % n;
     const Reference &a = facet.reference[i], &b = facet.reference[next];
-    const Point middle =
-                    surfacePoint(face, Reference{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2}).position,
+    const Point middle = facePoint(face, Reference{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2}).position,
                 chord = minus(facet.corners[next], facet.corners[i]),
                 half = minus(middle, facet.corners[i]);
     largest = std::max(largest, std::abs(dot(cross(half, chord), direction)) / length(chord));

@@ -1,5 +1,5 @@
 #pragma once
-/// These functions replace a face by flat facets, which can be projected and cut.
+/// Replacement of a face by flat facets, which can be projected and cut.
 #include <vector>
 
 #include "model/mortar/basis.hpp"

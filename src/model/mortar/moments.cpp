@@ -34,7 +34,7 @@ void addMaster(MasterMoments& to, const NodeValues& phi, const OverlapPoint& poi
   const FaceShape shape = faceShape(faceType(master.type), point.master);
   NodeValues along{};
   if (velocity) {
-    const SurfacePoint at = surfacePoint(master, shape);
+    const FacePoint at = facePoint(master, shape);
     along = derivativeAlong(at, shape, velocity(to.face, at.position));
   }
   for (PetscInt l = 0; l < to.values.columns(); ++l)

@@ -1,5 +1,5 @@
 #pragma once
-/// This file integrates products of the shape functions of a slave face and of its masters. All
+/// Integrals of products of the shape functions of a slave face and of its masters. All
 /// terms of the coupling are linear in these, whatever the basis and the pivots, so that nobody
 /// needs to keep the integration points.
 #include <functional>

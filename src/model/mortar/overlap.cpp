@@ -163,7 +163,7 @@ std::vector<Piece> tiles(const Region& slave, const std::vector<Shadow>& shadows
 /// A point of the slave face.
 struct SlavePoint {
   Reference reference;
-  SurfacePoint surface;
+  FacePoint surface;
   double stretch;  ///< area of the face per area of the projection (length in the plane)
 };
 
@@ -179,7 +179,7 @@ SlavePoint above(const Face& slave, const Frame& frame, const PlanePoint& y,
                  const Reference& start) {
   SlavePoint at;
   at.reference = project(slave, frame.lifted(y), frame.normal(), start).reference;
-  at.surface = surfacePoint(slave, at.reference);
+  at.surface = facePoint(slave, at.reference);
   const double cosine = dot(at.surface.normal, frame.normal()) / length(at.surface.normal);
   if (!(cosine > leastCosine)) failFolded();
   at.stretch = 1 / cosine;
@@ -197,7 +197,7 @@ SlavePoint within(const Face& slave, const Facet& triangle, const Region& flat,
   for (std::size_t d = 0; d < 2; ++d)
     at.reference[d] =
         corner[0][d] + b * (corner[1][d] - corner[0][d]) + c * (corner[2][d] - corner[0][d]);
-  at.surface = surfacePoint(slave, at.reference);
+  at.surface = facePoint(slave, at.reference);
   at.stretch =
       length(at.surface.normal) * std::abs(measure({corner[0], corner[1], corner[2]})) / area;
   return at;

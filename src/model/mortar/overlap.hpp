@@ -1,5 +1,5 @@
 #pragma once
-/// This file finds where the faces of a master surface cover a slave face.
+/// The parts of a slave face that the faces of a master surface cover.
 #include <span>
 #include <vector>
 

@@ -39,7 +39,7 @@ double spread(std::span<const double> values) {
 
 /// Returns the area of the projection per unit of the reference coordinates.
 double projectedJacobian(const Face& face, const Reference& at, const Point& direction) {
-  return dot(surfacePoint(face, at).normal, direction);
+  return dot(facePoint(face, at).normal, direction);
 }
 
 /// Returns whether the reference coordinates of a face are linear in the projection. Otherwise

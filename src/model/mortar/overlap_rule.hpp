@@ -1,5 +1,5 @@
 #pragma once
-/// This file chooses how many integration points a part of a slave face takes.
+/// The number of integration points of a part of a slave face.
 #include <vector>
 
 #include "model/mortar/clip.hpp"

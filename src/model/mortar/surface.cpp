@@ -51,9 +51,9 @@ double largest(const Reference& x) { return std::max(std::abs(x[0]), std::abs(x[
 /// margin, so that a distorted face cannot send the iteration far away. Returns false if the
 /// iteration does not come to rest within the margin.
 bool newton(const Face& face, const FaceType& type, const Point& from, const Point& direction,
-            Projection& at) {
+            Foot& at) {
   for (int step = 0; step < mostSteps; ++step) {
-    const auto point = surfacePoint(face, faceShape(type, at.reference));
+    const auto point = facePoint(face, faceShape(type, at.reference));
     const Point offset = minus(point.position, from);
     const Point change = solve(point.tangent[0], point.tangent[1], direction, offset);
     if (!std::isfinite(change[0] + change[1] + change[2])) return false;
@@ -75,8 +75,8 @@ bool newton(const Face& face, const FaceType& type, const Point& from, const Poi
 
 }  // namespace
 
-SurfacePoint surfacePoint(const Face& face, const FaceShape& shape) {
-  SurfacePoint point;
+FacePoint facePoint(const Face& face, const FaceShape& shape) {
+  FacePoint point;
   for (std::size_t i = 0; i < face.points.size(); ++i) {
     const Point& x = face.points[i];
     for (std::size_t d = 0; d < 3; ++d) {
@@ -90,25 +90,24 @@ SurfacePoint surfacePoint(const Face& face, const FaceShape& shape) {
   return point;
 }
 
-Projection project(const Face& face, const Point& from, const Point& direction) {
+Foot project(const Face& face, const Point& from, const Point& direction) {
   return project(face, from, direction, faceType(face.type).centre());
 }
 
-Projection project(const Face& face, const Point& from, const Point& direction,
-                   const Reference& start) {
+Foot project(const Face& face, const Point& from, const Point& direction, const Reference& start) {
   const FaceType& type = faceType(face.type);
-  Projection at{start};
+  Foot at{start};
   if (newton(face, type, from, direction, at)) return at;
   // Other starts, for strongly curved faces: the centre and the nodes.
   at = {type.centre()};
   if (newton(face, type, from, direction, at)) return at;
-  Projection nearest;
+  Foot nearest;
   double least = std::numeric_limits<double>::infinity();
   for (const Reference& node : type.reference) {
     at = {node};
     if (newton(face, type, from, direction, at)) return at;
     const Reference rim = clamped(type, at.reference, 0);
-    const Point offset = minus(surfacePoint(face, rim).position, from);
+    const Point offset = minus(facePoint(face, rim).position, from);
     const double along = dot(offset, direction), aside = length(plus(offset, direction, -along));
     if (aside < least) {
       least = aside;
@@ -118,8 +117,7 @@ Projection project(const Face& face, const Point& from, const Point& direction,
   return nearest;
 }
 
-NodeValues derivativeAlong(const SurfacePoint& point, const FaceShape& shape,
-                           const Point& velocity) {
+NodeValues derivativeAlong(const FacePoint& point, const FaceShape& shape, const Point& velocity) {
   // V = c_0 a_0 + c_1 a_1 + normal part,   (V·∇)φ = c_0 ∂φ/∂ξ_0 + c_1 ∂φ/∂ξ_1
   const Point c = solve(point.tangent[0], point.tangent[1], point.normal, velocity);
   NodeValues derivative{};

@@ -1,5 +1,5 @@
 #pragma once
-/// This function moves the nodes of ties onto their masters.
+/// Moves the nodes of ties onto their masters.
 #include "model/coupling/exchange.hpp"
 #include "model/interfaces/nodes.hpp"
 #include "model/mesh/mesh.hpp"

@@ -58,7 +58,7 @@ std::vector<Wish> wishesOf(const mesh::Mesh& mesh, const coupling::NodeExchange&
                      pair.master});
   for (int i = 0; i < std::ssize(all.options); ++i) {
     const Role role = all.options[i].role;
-    if (mesh.matching[i] || role == Role::tied) continue;
+    if (mesh.interfaces[i].matching || role == Role::tied) continue;
     for (const PetscInt node : slaveNodesOf(mesh, exchange, slaveSurface(mesh, all.options[i])))
       own.push_back(
           {mesh.firstNode + node, role == Role::sliding ? Wish::slides : Wish::other, -1});

@@ -25,7 +25,7 @@ void coupleTies(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange, 
   // A node that rests on several nodes of a master has no choice, those of pairs have.
   Claims claims(mesh, exchange);
   for (int i = 0; i < std::ssize(all.options); ++i) {
-    if (!all.options[i].isTied() || mesh.matching[i]) continue;
+    if (!all.options[i].isTied() || mesh.interfaces[i].matching) continue;
     const auto found = candidatesOf(mesh, exchange, nullptr, i, claims.against(Role::tied), all);
     claims.add(nodesOf(found), all.options, i);
     for (const auto& [interface, discBody, partner, slave] : found)
@@ -77,15 +77,20 @@ void warnOfLittleCover(const mesh::Mesh& mesh, const Interfaces& all) {
 
 }  // namespace
 
-Interfaces findTies(mesh::Mesh& mesh) {
+Interfaces findTies(mesh::Mesh& mesh, const interfaces::Settings& settings) {
   Interfaces all;
-  all.options = readInterfaceOptions(mesh.dimension);
-  all.constraints = readConstraints(mesh);
+  for (const auto& match : mesh.interfaces) {
+    const auto& options = all.options.emplace_back(settings.interface(match.label));
+    all.names.push_back(options.surfaces.name);
+    all.obstacles.push_back({options.obstacleVelocity.in(mesh.dimension),
+                             options.obstacleDisplacement.in(mesh.dimension)});
+  }
+  all.constraints = constraintsOf(mesh, settings.clamps);
   for (const auto& interface : all.options) all.slaves.push_back({interface.surfaces.pad.name, 1});
   all.reports.resize(all.options.size());
   const coupling::NodeExchange exchange(mesh);
   coupleTies(mesh, exchange, all);
-  const auto adjusted = [](const InterfaceOptions& options) { return options.adjust; };
+  const auto adjusted = [](const InterfaceSettings& options) { return options.adjust; };
   if (std::any_of(all.options.begin(), all.options.end(), adjusted))
     moveOntoMasters(mesh, exchange, all);
   report(mesh, exchange, all);

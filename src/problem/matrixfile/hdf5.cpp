@@ -7,6 +7,7 @@
 #include "base/petsc/check.hpp"
 #include "base/system/child.hpp"
 #include "base/system/memory.hpp"
+#include "base/system/stream.hpp"
 #include "base/system/text.hpp"
 #include "problem/matrixfile/hdf5_file.hpp"
 
@@ -213,20 +214,20 @@ Entries readHdf5(const std::filesystem::path& path, const std::string& name) {
   const ChildLimits limits{"the HDF5 file", 5 + 1e-6 * std::filesystem::file_size(path),
                            availableMemory(), "it asks for more memory than is free",
                            "the HDF5 library"};
-  Buffer buffer = inChild(limits, [&](const Warn&) {
-    const Entries entries = readHere(path, name);
-    Buffer packed;
-    packed.put(std::vector<PetscInt>{entries.rows, entries.columns});
-    packed.put(entries.row);
-    packed.put(entries.column);
-    packed.put(entries.value);
-    return packed;
-  });
-  const auto sizes = buffer.take<PetscInt>();
-  Entries entries(sizes.at(0), sizes.at(1));
-  entries.row = buffer.take<PetscInt>();
-  entries.column = buffer.take<PetscInt>();
-  entries.value = buffer.take<double>();
+  const auto exchange = [](Stream& stream, Entries& entries) {
+    stream(entries.row, entries.column, entries.value);
+  };
+  Stream result(inChild(limits, [&](const Warn&) {
+    Entries entries = readHere(path, name);
+    Stream stream;
+    stream(entries.rows, entries.columns);
+    exchange(stream, entries);
+    return std::move(stream).bytes();
+  }));
+  PetscInt rows = 0, columns = 0;
+  result(rows, columns);
+  Entries entries(rows, columns);
+  exchange(result, entries);
   return entries;
 }
 

@@ -25,7 +25,7 @@ std::vector<ComplexPoint> atPadNodes(const contact::Contact& contact,
   const int dimension = contact.mesh->dimension;
   std::vector<ComplexPoint> points;
   const ReadArray real(u.real), imaginary(u.imaginary);
-  for (const auto& node : contact.nodes) {
+  for (const auto& node : contact.interfaces.nodes) {
     ComplexPoint point{};
     for (int d = 0; d < dimension; ++d)
       point[d] = {real[dimension * node.node + d], imaginary[dimension * node.node + d]};
@@ -37,11 +37,11 @@ std::vector<ComplexPoint> atPadNodes(const contact::Contact& contact,
 ContactMotion contactMotion(const contact::Contact& contact,
                             const std::vector<unsigned char>& closed,
                             const linalg::ComplexVector& u, const linalg::ComplexVector& forces) {
-  ContactMotion motion{product(contact.jump, u), {}, {}};
-  if (contact.convected) motion.convected = product(contact.convected, u);
+  ContactMotion motion{product(contact.sliding.jump, u), {}, {}};
+  if (contact.sliding.convected) motion.convected = product(contact.sliding.convected, u);
   const int component = contact.mesh->dimension - 1;  // the row of the gap
   std::vector<double> real, imaginary;
-  for (const auto& reaction : atPadNodes(contact, product(contact.reaction, forces)))
+  for (const auto& reaction : atPadNodes(contact, product(contact.sliding.reaction, forces)))
     real.push_back(reaction[component].real()), imaginary.push_back(reaction[component].imag());
   real = contact.nodalForce(real, closed), imaginary = contact.nodalForce(imaginary, closed);
   for (std::size_t k = 0; k < real.size(); ++k)
@@ -71,7 +71,7 @@ std::vector<FrictionForm> frictionForms(const contact::Contact& contact, const F
   if (motion.convected.real) add(velocity, -state.at.speed, motion.convected);
   const auto turning = atPadNodes(contact, product(state.response, velocity));
   std::vector<FrictionForm> forms;
-  for (std::size_t k = 0; k < contact.nodes.size(); ++k) {
+  for (std::size_t k = 0; k < contact.interfaces.nodes.size(); ++k) {
     const auto& slip = state.slip[k];
     FrictionForm form{};
     for (std::size_t d = 0; d < 3; ++d) {

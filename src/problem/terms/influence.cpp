@@ -65,7 +65,7 @@ void Influences::derive(pencil::ComplexModes& point, const pencil::Pencil& penci
 
 std::vector<Influences::Influence> Influences::influences(const BodyPoint& state) {
   for (int body = parts_.size(); body < std::ssize(mesh_.bodies); ++body)
-    parts_.push_back(elasticity::bodyPart(mesh_, body));
+    parts_.push_back(elasticity::bodyPart(mesh_, bodies_, body));
   std::vector<Influence> list;
   for (const auto& parameter : sweep::allParameters) {
     list.emplace_back();
@@ -107,7 +107,7 @@ void Influences::followSteadyState(const BodyPoint& state, const steady::Problem
   if (influence.member == &sweep::Parameters::pressure) {
     check(VecAXPY(force, -1, bodies_.load));
     check(VecAXPY(force, 1, bodies_.centrifugal));
-    cause.held = contact_.offset;
+    cause.held = contact_.kinematics.offset;
   }
   if (!influence.member) {
     const auto& part = parts_[influence.body];
@@ -119,7 +119,8 @@ void Influences::followSteadyState(const BodyPoint& state, const steady::Problem
   influence.change = steady::change(problem, state.solution, state.system, cause);
   influence.responseForce = responseForces(state.solution.closed, influence.change.normalForce);
   if (state.prestress)
-    influence.prestress = elasticity::geometricStiffness(mesh_, influence.change.displacement);
+    influence.prestress =
+        elasticity::geometricStiffness(mesh_, bodies_, influence.change.displacement);
 }
 
 Influences::Projected Influences::project(const BodyPoint& state,
@@ -129,10 +130,10 @@ Influences::Projected Influences::project(const BodyPoint& state,
   pair.motion =
       contactMotion(contact_, state.solution.closed, pair.u,
                     motionForces(bodies_, state.at, triple.s, pair.u, state.prestress).forces);
-  pair.test = atPadNodes(contact_, product(contact_.jump, pair.z));
+  pair.test = atPadNodes(contact_, product(contact_.sliding.jump, pair.z));
   //   L(f) y = T y + f Nᵀ S y
   std::vector<double> alongReal, alongImaginary;
-  for (std::size_t k = 0; k < contact_.nodes.size(); ++k) {
+  for (std::size_t k = 0; k < contact_.interfaces.nodes.size(); ++k) {
     const auto& slip = state.solution.slip[k];
     Complex along = 0;
     for (std::size_t d = 0; d < 3; ++d) along += slip.direction[d] * pair.test[k][d];
@@ -144,13 +145,14 @@ Influences::Projected Influences::project(const BodyPoint& state,
   const linalg::ComplexVector slips = linalg::ComplexVector::like(pair.z.real);
   {
     const WriteArray real(slips.real), imaginary(slips.imaginary);
-    for (std::size_t k = 0; k < contact_.nodes.size(); ++k) {
+    for (std::size_t k = 0; k < contact_.interfaces.nodes.size(); ++k) {
       if (!state.solution.closed[k]) continue;
-      const PetscInt row = contact_.gapRow(contact_.nodes[k]) - mesh_.dimension * mesh_.firstNode;
+      const PetscInt row =
+          contact_.gapRow(contact_.interfaces.nodes[k]) - mesh_.dimension * mesh_.firstNode;
       real[row] = alongReal[k], imaginary[row] = alongImaginary[k];
     }
   }
-  add(pair.z, 1, product(contact_.reaction, slips, true));
+  add(pair.z, 1, product(contact_.sliding.reaction, slips, true));
   return pair;
 }
 
@@ -168,7 +170,8 @@ Complex Influences::materialForm(const Influence& influence, const BodyPoint& st
            v * v * form(part.rotationStiffness);
   Complex sum = (1.0 + s * c * part.stiffnessDamping) * form(part.stiffness);
   if (state.prestress)
-    sum += form(elasticity::geometricStiffness(mesh_, state.solution.displacement, influence.body));
+    sum += form(elasticity::geometricStiffness(mesh_, bodies_, state.solution.displacement,
+                                               influence.body));
   return sum;
 }
 

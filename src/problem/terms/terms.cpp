@@ -50,7 +50,7 @@ void addVelocityResponse(std::vector<pencil::Term>& terms, const contact::Contac
   const FrictionState friction = frictionState(contact, solution);
   const Mat trial = system.transformation().trial;
   OwnedMat jumps, answered, damping;
-  check(MatMatMult(contact.jump, trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, jumps.out()));
+  check(MatMatMult(contact.sliding.jump, trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, jumps.out()));
   check(MatMatMult(friction.response, jumps, MAT_INITIAL_MATRIX, PETSC_DEFAULT, answered.out()));
   check(MatTransposeMatMult(jumps, answered, MAT_INITIAL_MATRIX, PETSC_DEFAULT, damping.out()));
   // With a constant law only rounding is left in the plane, and where motion across the sliding
@@ -61,9 +61,10 @@ void addVelocityResponse(std::vector<pencil::Term>& terms, const contact::Contac
   if (size <= 1e-14 * scale) return;
   check(MatSetOption(damping, MAT_SYMMETRIC, PETSC_TRUE));
   terms.push_back({std::move(damping), 1, 0, 1.0, 0, 0, true});
-  if (!contact.convected) return;
+  if (!contact.sliding.convected) return;
   OwnedMat convected, turned, stiffness;
-  check(MatMatMult(contact.convected, trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, convected.out()));
+  check(MatMatMult(contact.sliding.convected, trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
+                   convected.out()));
   check(MatMatMult(friction.response, convected, MAT_INITIAL_MATRIX, PETSC_DEFAULT, turned.out()));
   check(MatTransposeMatMult(jumps, turned, MAT_INITIAL_MATRIX, PETSC_DEFAULT, stiffness.out()));
   terms.push_back({std::move(stiffness), 0, 0, -solution.at.speed, 0, 0, true});

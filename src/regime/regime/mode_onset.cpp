@@ -28,9 +28,9 @@ std::vector<Complex> coefficients(const contact::Contact& contact,
 std::vector<NodeMotion> motionAt(const contact::Contact& contact, const std::vector<Node>& nodes,
                                  Complex s, const linalg::ComplexVector& u,
                                  const linalg::ComplexVector& r) {
-  const auto forces = terms::atPadNodes(contact, product(contact.reaction, r)),
+  const auto forces = terms::atPadNodes(contact, product(contact.sliding.reaction, r)),
              nodal = terms::atPadNodes(contact, r),
-             jumps = terms::atPadNodes(contact, product(contact.jump, u));
+             jumps = terms::atPadNodes(contact, product(contact.sliding.jump, u));
   std::vector<NodeMotion> motion(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i)
     motion[i].normalForce = forces[i][contact.mesh->dimension - 1];

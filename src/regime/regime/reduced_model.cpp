@@ -113,7 +113,7 @@ DenseMatrix ownJumps(const contact::Contact& contact, const std::vector<Node>& n
   OwnedVec jump = elasticity::nodalVector(*contact.mesh);
   for (PetscInt j = 0; j < u.columns(); ++j) {
     if (j % blockColumns == 0) stopIfAsked(contact.mesh->comm);
-    check(MatMult(contact.jump, borrowedVector(contact.mesh->comm, u.column(j)), jump));
+    check(MatMult(contact.sliding.jump, borrowedVector(contact.mesh->comm, u.column(j)), jump));
     std::vector<double> column(nodes.size() * dimension);
     const ReadArray values(jump);
     for (int c = 0; c < dimension; ++c) {
@@ -122,7 +122,7 @@ DenseMatrix ownJumps(const contact::Contact& contact, const std::vector<Node>& n
         const Point& direction = c == 0 ? nodes[i].normal : nodes[i].tangents[c - 1];
         double sum = 0;
         for (int d = 0; d < dimension; ++d)
-          sum += direction[d] * values[dimension * contact.nodes[i].node + d];
+          sum += direction[d] * values[dimension * contact.interfaces.nodes[i].node + d];
         component.push_back(sum);
       }
       component = contact.gapCoefficients(component);
@@ -138,8 +138,8 @@ class StaticResponses {
  public:
   StaticResponses(const FullModel& full, const std::vector<Node>& own)
       : full_(full),
-        open_(full.contact.transformation(std::vector<unsigned char>(own.size(), 1),
-                                          std::vector<unsigned char>(own.size(), 1))) {
+        open_(full.contact.transformation(
+            {contact::Mask(own.size(), 0), contact::Mask(own.size(), 1)})) {
     const std::vector<unsigned char> all(own.size(), 1);
     for (int a = 0; a + 1 < full.contact.mesh->dimension; ++a) {
       std::vector<contact::Slip> along(own.size());
@@ -255,8 +255,8 @@ std::vector<Node> ownNodes(const contact::Contact& contact, const steady::Soluti
     shear[d] = contact.gapForce(shear[d]);
   }
   std::vector<Node> nodes;
-  for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
-    const auto& from = contact.nodes[i];
+  for (std::size_t i = 0; i < contact.interfaces.nodes.size(); ++i) {
+    const auto& from = contact.interfaces.nodes[i];
     const auto& state = solution.contact[i];
     Node node;
     node.interface = from.interface;
@@ -274,7 +274,7 @@ std::vector<Node> ownNodes(const contact::Contact& contact, const steady::Soluti
       node.velocity = {slip[i].speed, 0};
       node.shear = {-node.friction * node.normalForce, 0};
     } else if (from.role == contact::Role::sticking) {
-      node.friction = contact.options[from.interface].stickingLimit.value_or(INFINITY);
+      node.friction = contact.interfaces.options[from.interface].stickingLimit.value_or(INFINITY);
       for (int a = 0; a < 2; ++a)
         for (int d = 0; d < 3; ++d) node.shear[a] += node.tangents[a][d] * shear[d][i];
     }

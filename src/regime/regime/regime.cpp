@@ -322,10 +322,10 @@ void requireSupported(const elasticity::Bodies& bodies, const contact::Contact& 
   const auto refuse = [](const std::string& why) {
     throw Error("option -regime_friction: " + why);
   };
-  if (contact.totalNodes == 0) refuse("there is no contact");
-  if (bodies.gyroscopic || bodies.rotationStiffness || contact.convected)
+  if (contact.interfaces.totalNodes == 0) refuse("there is no contact");
+  if (bodies.gyroscopic || bodies.rotationStiffness || contact.sliding.convected)
     refuse("convective terms (-motion_convective) are not followed in time; leave them out");
-  if (elasticity::prestressWanted())
+  if (bodies.settings.prestress)
     refuse("the geometric stiffness of the steady stress is not followed in time; leave it out");
   if (cyclesWanted() && !contact.law.constant())
     refuse(

@@ -218,11 +218,12 @@ Frames Observer::framesOf(const std::vector<Sample>& samples) const {
     frames.time.push_back(sample.time);
     q.append(std::span<const double>(sample.q));
     z.append(std::span<const double>(sample.z));
-    std::vector<double> gap(contact_.nodes.size()), pressure(contact_.nodes.size());
+    std::vector<double> gap(contact_.interfaces.nodes.size()),
+        pressure(contact_.interfaces.nodes.size());
     for (std::size_t i = 0; i < shapes_.contactNode.size(); ++i)
       if (const PetscInt own = shapes_.contactNode[i]; own >= 0) {
         gap[own] = sample.gap[i];
-        pressure[own] = sample.force[i] / contact_.nodes[own].area;
+        pressure[own] = sample.force[i] / contact_.interfaces.nodes[own].area;
       }
     frames.gap.push_back(contact_.nodalGap(gap));
     frames.pressure.push_back(std::move(pressure));

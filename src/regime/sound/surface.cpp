@@ -48,9 +48,10 @@ Marks nodesOf(const mesh::Mesh& mesh, const contact::Contact& contact, int inter
     for (const auto& master : connection.masters)
       if (master.value != 0) nodes.push_back(master.node);
   };
-  for (std::size_t i = 0; i < contact.nodes.size(); ++i)
-    if (contact.nodes[i].interface == interface) add(contact.connections[i], contact.nodes[i].node);
-  for (const auto& tied : contact.tied)
+  for (std::size_t i = 0; i < contact.interfaces.nodes.size(); ++i)
+    if (contact.interfaces.nodes[i].interface == interface)
+      add(contact.interfaces.connections[i], contact.interfaces.nodes[i].node);
+  for (const auto& tied : contact.interfaces.tied)
     if (tied.interface == interface) add(tied.connection, tied.connection.node);
   return marked(mesh, nodes, &contact);
 }
@@ -58,7 +59,7 @@ Marks nodesOf(const mesh::Mesh& mesh, const contact::Contact& contact, int inter
 /// Collective. Returns lists of marks: a face whose nodes all have those of one list is hidden.
 std::vector<Marks> hiddenNodes(const mesh::Mesh& mesh, const contact::Contact& contact) {
   std::vector<Marks> lists;
-  for (std::size_t i = 0; i < contact.options.size(); ++i)
+  for (std::size_t i = 0; i < contact.interfaces.options.size(); ++i)
     lists.push_back(nodesOf(mesh, contact, i));
   std::vector<PetscInt> images, primaries;
   for (const auto& image : mesh.images) {
@@ -74,7 +75,7 @@ std::vector<double> heldComponents(const mesh::Mesh& mesh, const contact::Contac
   const OwnedVec held = elasticity::nodalVector(mesh);
   {
     const WriteArray values(held);
-    for (PetscInt i = 0; i < values.size(); ++i) values[i] = contact.constraints.held[i];
+    for (PetscInt i = 0; i < values.size(); ++i) values[i] = contact.interfaces.constraints.held[i];
   }
   return withImages(contact, held);
 }
@@ -142,7 +143,7 @@ Surface visibleSurface(const mesh::Mesh& mesh, const contact::Contact& contact) 
                           ADD_VALUES));
   }
   check(MPI_Allreduce(MPI_IN_PLACE, &surface.area, 1, MPI_DOUBLE, MPI_SUM, mesh.comm));
-  surface.normalMass = elasticity::toMatrix(mesh, triples, elasticity::Symmetry::rounded);
+  surface.normalMass = elasticity::toMatrix(mesh, triples, elasticity::SymmetryClass::rounded);
   surface.normals = unitNormals(mesh, sums);
   return surface;
 }

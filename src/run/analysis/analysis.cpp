@@ -13,6 +13,7 @@
 #include "run/analysis/checks.hpp"
 #include "run/analysis/matrix_route.hpp"
 #include "run/analysis/mesh_route.hpp"
+#include "run/analysis/model_settings.hpp"
 
 namespace squeal::analysis {
 
@@ -41,7 +42,7 @@ void checkOptions() {
         "-flutter_method reduced");
   sweep::readSweep();
   regime::checkOptions(!matrices::wanted());
-  if (!matrices::wanted()) meshRequest();
+  if (!matrices::wanted()) ModelSettings::given();
 }
 
 /// Adds frictions to those of a sweep.

@@ -23,7 +23,7 @@ void requireFiniteSweep(const elasticity::Bodies& bodies, const contact::Contact
                         const sweep::Sweep& sweep) {
   const auto& [frictions, speeds, pressures, dampings] = sweep;
   double friction = 1;
-  for (const auto& interface : contact.options)
+  for (const auto& interface : contact.interfaces.options)
     friction = std::max(friction, interface.friction.at(frictions.back()));
   const double speed = std::max(1.0, speeds.back()), speed2 = speed * speed;
   const std::string swept = " times the factors of the sweep";
@@ -34,7 +34,8 @@ void requireFiniteSweep(const elasticity::Bodies& bodies, const contact::Contact
   requireFinite(bodies.gyroscopic, "the gyroscopic matrix" + swept, friction * speed);
   requireFinite(bodies.rotationStiffness, "the rotation stiffness" + swept, friction * speed2);
   requireFinite(bodies.load, "the loads" + swept, std::max(pressures.back(), speed2));
-  requireFinite(contact.offset, "the displacements held" + swept, std::max(1.0, pressures.back()));
+  requireFinite(contact.kinematics.offset, "the displacements held" + swept,
+                std::max(1.0, pressures.back()));
 }
 
 void requireFiniteSweep(const std::vector<matrices::NamedTerm>& terms, const sweep::Sweep& sweep) {
@@ -62,7 +63,7 @@ void rejectIdleFactors(const elasticity::Bodies& bodies, const contact::Contact&
   check(VecWAXPY(pressures, -1, bodies.centrifugal, bodies.load));
   PetscReal load = 0, displacement = 0;
   check(VecNorm(pressures, NORM_INFINITY, &load));
-  check(VecNorm(contact.offset, NORM_INFINITY, &displacement));
+  check(VecNorm(contact.kinematics.offset, NORM_INFINITY, &displacement));
   if (load == 0 && displacement == 0)
     throw Error(
         "option -flutter_pressure scales what presses, and nothing does: give "

@@ -11,7 +11,6 @@
 #include "base/system/text.hpp"
 #include "eigen/sweep/sweep.hpp"
 #include "model/contact/coupled.hpp"
-#include "model/elasticity/ground.hpp"
 #include "model/mesh/mesh.hpp"
 #include "run/analysis/analysis.hpp"
 #include "run/analysis/checks.hpp"
@@ -38,7 +37,8 @@ void sayList(MPI_Comm comm, const char* head, const std::vector<std::string>& it
   say(comm, formatted("%-12s %s", head, items.empty() ? "none" : joined(items).c_str()));
 }
 
-void sayMesh(const mesh::Mesh& mesh) {
+void sayMesh(const mesh::Mesh& mesh, const elasticity::Settings& settings,
+             std::vector<std::string> held) {
   std::vector<std::string> bodies, nodes, loads;
   for (int b = 0; b < std::ssize(mesh.bodies); ++b) {
     double cells = 0;
@@ -46,17 +46,12 @@ void sayMesh(const mesh::Mesh& mesh) {
       cells += std::count(block.body.begin(), block.body.end(), b);
     bodies.push_back(counted(mesh.bodies[b], total(mesh.comm, cells), "cells"));
   }
-  auto held = interfaces::constrainedGroups();
-  for (const auto& group : elasticity::groundedGroups()) held.push_back(group);
+  for (const auto& [group, ground] : settings.ground) held.push_back(group);
   for (const auto& [name, members] : mesh.nodeGroups)
-    if (std::any_of(held.begin(), held.end(),
-                    [&, &group = name](const auto& request) { return request.name == group; }))
+    if (std::ranges::find(held, name) != held.end())
       nodes.push_back(counted(name, total(mesh.comm, members.size()), "nodes"));
-  const auto loaded = elasticity::loadedSurfaces();
   for (int i = 0; i < std::ssize(mesh.surfaces); ++i) {
-    if (std::none_of(loaded.begin(), loaded.end(),
-                     [&](const auto& request) { return request.name == mesh.surfaces[i]; }))
-      continue;
+    if (!settings.pressure.contains(mesh.surfaces[i])) continue;
     double faces = 0;
     for (const auto& block : mesh.faces)
       faces += std::count(block.surface.begin(), block.surface.end(), i);
@@ -69,13 +64,13 @@ void sayMesh(const mesh::Mesh& mesh) {
 
 void sayContact(const contact::Contact& contact, MPI_Comm comm) {
   std::vector<std::string> interfaces;
-  for (std::size_t i = 0; i < contact.interfaces.size(); ++i) {
-    const auto& report = contact.reports[i];
-    std::string what = contact.options[i].onObstacle() ? "nodes on a rigid obstacle"
-                       : report.matching               ? "pairs of nodes"
-                                                       : "mortar nodes";
-    if (contact.options[i].isTied()) what += ", tied";
-    interfaces.push_back(counted(contact.interfaces[i], report.nodes, what));
+  for (std::size_t i = 0; i < contact.interfaces.names.size(); ++i) {
+    const auto& report = contact.interfaces.reports[i];
+    std::string what = contact.interfaces.options[i].onObstacle() ? "nodes on a rigid obstacle"
+                       : report.matching                          ? "pairs of nodes"
+                                                                  : "mortar nodes";
+    if (contact.interfaces.options[i].isTied()) what += ", tied";
+    interfaces.push_back(counted(contact.interfaces.names[i], report.nodes, what));
   }
   sayList(comm, "contact", interfaces);
 }
@@ -151,12 +146,13 @@ void dryRun(MPI_Comm comm) {
   if (!analysis.mesh) {
     ofMatrices(analysis);
   } else {
-    sayMesh(*analysis.mesh);
+    sayMesh(*analysis.mesh, analysis.bodies.settings,
+            analysis.contact.interfaces.constraints.groups);
     sayContact(analysis.contact, comm);
     saySweep(comm, analysis.sweep, true);
     const contact::CoupledSystem system(
         analysis.bodies, analysis.contact,
-        std::vector<unsigned char>(analysis.contact.nodes.size(), 1));
+        contact::ActiveSet::bonded(analysis.contact.interfaces.nodes.size()));
     sayMemory(comm, system.k0());
   }
   say(comm,

@@ -14,11 +14,9 @@
 #include "base/system/text.hpp"
 #include "eigen/modes/benchmark.hpp"
 #include "eigen/modes/modes.hpp"
+#include "model/contact/build.hpp"
 #include "model/elasticity/elasticity.hpp"
 #include "model/elasticity/element.hpp"
-#include "model/elasticity/ground.hpp"
-#include "model/interfaces/interfaces.hpp"
-#include "model/material/material.hpp"
 #include "model/mesh/read.hpp"
 #include "model/ties/ties.hpp"
 #include "problem/matrices/write.hpp"
@@ -26,7 +24,9 @@
 #include "regime/regime/regime.hpp"
 #include "run/analysis/checks.hpp"
 #include "run/analysis/mesh_sweep.hpp"
+#include "run/analysis/model_settings.hpp"
 #include "run/analysis/steady_sweep.hpp"
+#include "steady/steady/prestress.hpp"
 #include "steady/uniqueness/uniqueness.hpp"
 
 namespace squeal::analysis {
@@ -46,48 +46,49 @@ std::string straightenedText(const mesh::Straightened& done) {
                    done.nodes, done.cells, done.largestMove, done.rounds, done.folded);
 }
 
-mesh::Mesh readMesh(MPI_Comm comm) {
-  const mesh::Request request = meshRequest();
+mesh::Mesh readMesh(MPI_Comm comm, const ModelSettings& settings) {
+  const mesh::Request request = meshRequest(settings);
   Stage stage(comm, "mesh");
-  mesh::Mesh mesh = mesh::read(comm, request);
+  mesh::Mesh mesh = mesh::read(comm, request, settings.file, settings.mesh,
+                               {elasticity::foldedAnywhere, elasticity::straightened});
   stage.finish(formatted(
       "%s: %" PetscInt_FMT " nodes, %" PetscInt_FMT " cells, %zu bodies in %d connected parts%s%s",
-      resolvedOptions().at("mesh_file").c_str(), mesh.totalNodes, mesh.totalCells,
-      mesh.bodies.size(), mesh.parts, unusedText(mesh.unusedNodes).c_str(),
-      straightenedText(mesh.straightened).c_str()));
+      settings.file.file.c_str(), mesh.totalNodes, mesh.totalCells, mesh.bodies.size(), mesh.parts,
+      unusedText(mesh.unusedNodes).c_str(), straightenedText(mesh.straightened).c_str()));
   return mesh;
 }
 
-elasticity::Bodies assembleBodies(const mesh::Mesh& mesh) {
+elasticity::Bodies assembleBodies(const mesh::Mesh& mesh, const ModelSettings& settings) {
   Stage stage(mesh.comm, "elasticity");
-  elasticity::Bodies bodies = elasticity::assemble(mesh);
+  elasticity::Bodies bodies = elasticity::assemble(mesh, settings.materials, settings.elasticity);
   stage.finish(formatted("stiffness, mass and loads on %" PetscInt_FMT " displacements",
                          mesh.dimension * mesh.totalNodes));
   return bodies;
 }
 
-interfaces::Interfaces findTies(mesh::Mesh& mesh) {
+interfaces::Interfaces findTies(mesh::Mesh& mesh, const interfaces::Settings& settings) {
   Stage stage(mesh.comm, "tie");
-  auto ties = ties::findTies(mesh);
+  auto ties = ties::findTies(mesh, settings);
   if (const auto found = ties::describeTies(ties); !found.empty()) stage.finish(found);
   return ties;
 }
 
 contact::Contact buildContact(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
-                              interfaces::Interfaces ties) {
+                              interfaces::Interfaces ties, const contact::Settings& settings) {
   Stage stage(mesh.comm, "contact");
-  contact::Contact contact = contact::build(mesh, bodies, std::move(ties));
-  stage.finish(formatted("%" PetscInt_FMT " contact nodes on %zu interfaces", contact.totalNodes,
-                         contact.interfaces.size()));
-  for (int i = 0; i < std::ssize(contact.interfaces); ++i)
-    if (contact.interfaces.size() > 1 || !contact.reports[i].matching)
-      say(mesh.comm, "  " + interfaces::describe(contact, i));
+  contact::Contact contact = contact::build(mesh, bodies, std::move(ties), settings);
+  stage.finish(formatted("%" PetscInt_FMT " contact nodes on %zu interfaces",
+                         contact.interfaces.totalNodes, contact.interfaces.names.size()));
+  for (int i = 0; i < std::ssize(contact.interfaces.names); ++i)
+    if (contact.interfaces.names.size() > 1 || !contact.interfaces.reports[i].matching)
+      say(mesh.comm, "  " + interfaces::describe(contact.interfaces, i));
   return contact;
 }
 
 /// Collective. Examines uniqueness at each speed, or once where K and the slip are the same at all
 /// speeds; loads do not matter.
-std::vector<SpeedUniqueness> examineUniqueness(const Analysis& analysis) {
+std::vector<SpeedUniqueness> examineUniqueness(const Analysis& analysis,
+                                               const uniqueness::Settings& settings) {
   std::vector<double> speeds = analysis.sweep.speeds;
   if (analysis.contact.slipIsGiven()) speeds.resize(1);
   std::vector<SpeedUniqueness> result;
@@ -95,7 +96,7 @@ std::vector<SpeedUniqueness> examineUniqueness(const Analysis& analysis) {
     stopIfAsked(analysis.comm);
     Stage stage(analysis.mesh->comm, "steady");
     result.push_back({speed, uniqueness::examine(analysis.bodies, analysis.contact, speed,
-                                                 analysis.sweep.frictions)});
+                                                 analysis.sweep.frictions, settings)});
     const auto& last = result.back().found.judgements.back();
     stage.finish(formatted("uniqueness at friction %g: %s (%s)", last.friction,
                            last.verdict.c_str(), last.reason.c_str()));
@@ -113,9 +114,7 @@ const steady::Solution& steadyAt(const Analysis& analysis, sweep::Parameters at)
 /// Collective. Finds where the unstable modes of a point leave the linear range.
 void findOnsets(Analysis& analysis, const pencil::ComplexModes& point) try {
   const auto& solution = steadyAt(analysis, point.at);
-  OwnedMat prestress;
-  if (elasticity::prestressWanted())
-    prestress = elasticity::geometricStiffness(*analysis.mesh, solution.displacement);
+  const OwnedMat prestress = steady::prestressOf(*analysis.mesh, analysis.bodies, solution);
   for (auto& onset : regime::onsets(analysis.bodies, analysis.contact, solution, point, prestress))
     analysis.onsets.push_back(std::move(onset));
 } catch (const Error& error) {
@@ -145,8 +144,8 @@ void followAfterFlutter(Analysis& analysis, const MeshSegment& problem, CurrentS
                         const pencil::ComplexModes& point) try {
   stopIfAsked(analysis.comm);
   contact::ActiveSet held;
-  held.closed.assign(analysis.contact.nodes.size(), 1);
-  held.released.assign(analysis.contact.nodes.size(), 0);
+  held.closed.assign(analysis.contact.interfaces.nodes.size(), 1);
+  held.released.assign(analysis.contact.interfaces.nodes.size(), 0);
   analysis.regimes.push_back(regime::study({analysis.bodies, analysis.contact, current.of(held),
                                             steadyAt(analysis, point.at), point.at.damping},
                                            nodalModes(analysis, problem, segment), point));
@@ -199,7 +198,8 @@ void solveMeshSegment(Analysis& analysis, std::size_t first, std::size_t last,
   const auto found = std::span(analysis.segments).subspan(before);
   for (const auto& segment : found)
     for (const auto& point : segment.points)
-      if (analysis.contact.totalNodes > 0 && point.unstableCount() > 0) findOnsets(analysis, point);
+      if (analysis.contact.interfaces.totalNodes > 0 && point.unstableCount() > 0)
+        findOnsets(analysis, point);
   if (!solved.complete) throw Interrupted();
   for (const auto& segment : found)
     for (const auto& point : segment.points)
@@ -211,26 +211,14 @@ void solveMeshSegment(Analysis& analysis, std::size_t first, std::size_t last,
 
 }  // namespace
 
-mesh::Request meshRequest() {
-  mesh::Request request;
-  request.geometry = {elasticity::foldedAnywhere, elasticity::straightened};
-  request.bodies = material::materialGroups();
-  request.moving = elasticity::movingBodies();
-  request.nodeGroups = interfaces::constrainedGroups();
-  for (const auto& group : elasticity::groundedGroups()) request.nodeGroups.push_back(group);
-  request.surfaces = elasticity::loadedSurfaces();
-  request.interfaces = interfaces::readInterfaces();
-  request.periodic = interfaces::periodicPairs();
-  request.howToGiveMaterials = material::howToGiveMaterials();
-  request.motionOptions = elasticity::motionOptions();
-  return request;
-}
-
 void prepareMesh(Analysis& analysis) {
-  analysis.mesh = std::make_unique<mesh::Mesh>(readMesh(analysis.comm));
-  auto ties = findTies(*analysis.mesh);  // before elements are made: it moves nodes
-  analysis.bodies = assembleBodies(*analysis.mesh);
-  analysis.contact = buildContact(*analysis.mesh, analysis.bodies, std::move(ties));
+  const ModelSettings settings = ModelSettings::given();
+  analysis.mesh = std::make_unique<mesh::Mesh>(readMesh(analysis.comm, settings));
+  // before elements are made: it moves nodes
+  auto ties = findTies(*analysis.mesh, settings.interfaces);
+  analysis.bodies = assembleBodies(*analysis.mesh, settings);
+  analysis.contact =
+      buildContact(*analysis.mesh, analysis.bodies, std::move(ties), settings.contact);
   contact::requireMotion(analysis.contact);
   settleFriction(analysis.contact, analysis.sweep);
   if (!regime::frictionsWanted().empty())
@@ -242,8 +230,9 @@ void prepareMesh(Analysis& analysis) {
 void solveMesh(Analysis& analysis) {
   CurrentSystem system(analysis);
   steadySweep(analysis, system);
-  if (analysis.contact.totalNodes > 0 && uniqueness::uniquenessWanted())
-    analysis.uniqueness = examineUniqueness(analysis);
+  if (analysis.contact.interfaces.totalNodes > 0)
+    if (const auto settings = uniqueness::Settings::given(); settings.wanted)
+      analysis.uniqueness = examineUniqueness(analysis, settings);
   std::vector<std::string> failures;
   std::string firstReason;
   terms::Influences influences(*analysis.mesh, analysis.bodies, analysis.contact);

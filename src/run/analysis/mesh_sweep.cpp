@@ -13,6 +13,7 @@
 #include "problem/matrices/write.hpp"
 #include "problem/terms/friction_work.hpp"
 #include "problem/terms/terms.hpp"
+#include "steady/steady/prestress.hpp"
 
 namespace squeal::analysis {
 namespace {
@@ -57,9 +58,7 @@ void examineShapes(const Analysis& analysis, const contact::CoupledSystem& syste
                    const sensitivity::StartSpace& start, terms::Influences& influences,
                    pencil::ComplexModes& point) {
   if (point.shapes.empty()) return;
-  OwnedMat prestress;
-  if (elasticity::prestressWanted())
-    prestress = elasticity::geometricStiffness(*analysis.mesh, solution.displacement);
+  const OwnedMat prestress = steady::prestressOf(*analysis.mesh, analysis.bodies, solution);
   const auto friction = terms::frictionState(analysis.contact, solution);
   for (auto& shape : point.shapes)
     shape.frictionWork =
@@ -87,7 +86,7 @@ subspace::Substructure substructureOf(const contact::CoupledSystem& all,
 
 std::size_t endOfShared(const Analysis& analysis, std::size_t first) {
   // Modal damping is that of the free modes of a point, which prestress changes.
-  if (pencil::modalDampingWanted() && elasticity::prestressWanted()) return first + 1;
+  if (pencil::modalDampingWanted() && analysis.bodies.settings.prestress) return first + 1;
   const bool alone = direct::directWanted() || sensitivity::sensitivitiesWanted() ||
                      matrices::exportWanted() || pencil::modalDampingWanted();
   const PetscInt most = alone ? 0 : releasedOption.get();
@@ -107,11 +106,10 @@ MeshSegment::MeshSegment(const Analysis& analysis, std::size_t first, std::size_
     : analysis_(analysis), first_(first), current_(current), influences_(influences) {
   for (std::size_t i = first; i < last; ++i) points_.push_back(analysis.steady[i].at);
   findSets();
-  if (elasticity::prestressWanted())
-    prestress_ = elasticity::geometricStiffness(*analysis.mesh, steadyAt(0).displacement);
+  prestress_ = steady::prestressOf(*analysis.mesh, analysis.bodies, steadyAt(0));
   const auto systemOf = [&](const contact::ActiveSet& set) {
-    return std::make_unique<contact::CoupledSystem>(analysis.bodies, analysis.contact, set.closed,
-                                                    prestress_, set.released);
+    return std::make_unique<contact::CoupledSystem>(analysis.bodies, analysis.contact, set,
+                                                    prestress_);
   };
   contact::ActiveSet everywhere = sets_.front().set;
   anywhere_ = everywhere;
@@ -220,7 +218,8 @@ std::vector<sweep_solver::PointRange> MeshSegment::ranges() const {
   const auto& rows = all_->transformation().rows;
   const Concatenation ranks(analysis_.comm, substructure_.boundary.size());
   std::vector<PetscInt> contactNode(contact.mesh->ownedNodes, -1);
-  for (std::size_t i = 0; i < contact.nodes.size(); ++i) contactNode[contact.nodes[i].node] = i;
+  for (std::size_t i = 0; i < contact.interfaces.nodes.size(); ++i)
+    contactNode[contact.interfaces.nodes[i].node] = i;
   for (const auto& [set, first, last] : sets_) {
     sweep_solver::PointRange range;
     range.first = first, range.last = last;
@@ -248,7 +247,7 @@ std::vector<pencil::Term> MeshSegment::termsOf(std::size_t i) const { return ter
 std::vector<pencil::Term> MeshSegment::termsOf(const steady::Solution& solution) const {
   OwnedMat change;
   if (prestress_ && &solution != &steadyAt(0)) {
-    change = elasticity::geometricStiffness(*analysis_.mesh, solution.displacement);
+    change = steady::prestressOf(*analysis_.mesh, analysis_.bodies, solution);
     check(MatAXPY(change, -1, prestress_, SAME_NONZERO_PATTERN));
   }
   return terms::pointTerms(analysis_.contact, *all_, solution, change);

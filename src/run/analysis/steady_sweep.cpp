@@ -10,7 +10,7 @@
 #include "base/system/termination.hpp"
 #include "base/system/text.hpp"
 #include "model/interfaces/algebra.hpp"
-#include "model/interfaces/interfaces.hpp"
+#include "model/interfaces/settings.hpp"
 #include "steady/condensed/condensed_problem.hpp"
 #include "steady/condensed/contact_path.hpp"
 #include "steady/steady/serialization.hpp"
@@ -216,14 +216,12 @@ void followPath(Analysis& analysis, condensed::CondensedProblem& condensed, cons
 }  // namespace
 
 const contact::CoupledSystem& CurrentSystem::of(const contact::ActiveSet& active) {
-  if (system_ && contact::sameOnAllRanks(analysis_.mesh->comm,
-                                         {system_->closed(), system_->released()}, active))
+  if (system_ && contact::sameOnAllRanks(analysis_.mesh->comm, system_->activeSet(), active))
     return *system_;
   system_.reset();  // the old factorisation's memory first
   Stage stage(analysis_.mesh->comm, "contact");
-  system_ = std::make_unique<contact::CoupledSystem>(analysis_.bodies, analysis_.contact,
-                                                     active.closed, nullptr, active.released);
-  const PetscInt nodes = analysis_.contact.totalNodes;
+  system_ = std::make_unique<contact::CoupledSystem>(analysis_.bodies, analysis_.contact, active);
+  const PetscInt nodes = analysis_.contact.interfaces.totalNodes;
   stage.finish(formatted("%" PetscInt_FMT " unknowns with %" PetscInt_FMT " of %" PetscInt_FMT
                          " contact nodes closed",
                          system_->size(), nodes - system_->openNodes(), nodes));
@@ -233,7 +231,7 @@ const contact::CoupledSystem& CurrentSystem::of(const contact::ActiveSet& active
 namespace {
 
 contact::ActiveSet bonded(const Analysis& analysis) {
-  const std::size_t nodes = analysis.contact.nodes.size();
+  const std::size_t nodes = analysis.contact.interfaces.nodes.size();
   return {std::vector<unsigned char>(nodes, 1), std::vector<unsigned char>(nodes, 0)};
 }
 
@@ -256,7 +254,7 @@ std::string resultText(const Analysis& analysis, const steady::Solution& solutio
   return formatted("%s: %s after %d iterations, %" PetscInt_FMT " of %" PetscInt_FMT
                    " nodes open, smallest pressure %.4g, residual %.0e, imbalance %.0e",
                    sweep::parameterText(solution.at).c_str(), solution.reason.c_str(),
-                   solution.iterations, solution.openNodes, analysis.contact.totalNodes,
+                   solution.iterations, solution.openNodes, analysis.contact.interfaces.totalNodes,
                    solution.smallestPressure, solution.residual, solution.imbalance);
 }
 

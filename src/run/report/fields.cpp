@@ -40,7 +40,7 @@ OwnedVec contactField(const analysis::Analysis& analysis, const steady::Solution
   const auto& mesh = *analysis.mesh;
   OwnedVec field = elasticity::nodalVector(mesh);
   for (std::size_t i = 0; i < solution.contact.size(); ++i) {
-    const PetscInt row = mesh.dimension * analysis.contact.nodes[i].globalNode;
+    const PetscInt row = mesh.dimension * analysis.contact.interfaces.nodes[i].globalNode;
     check(VecSetValue(field, row, solution.contact[i].pressure, INSERT_VALUES));
     check(VecSetValue(field, row + 1, solution.contact[i].gap, INSERT_VALUES));
   }
@@ -55,7 +55,7 @@ OwnedVec workField(const analysis::Analysis& analysis, const pencil::Shape& shap
   const auto& mesh = *analysis.mesh;
   OwnedVec field = elasticity::nodalVector(mesh);
   for (std::size_t i = 0; i < shape.frictionWork.size(); ++i) {
-    const auto& node = analysis.contact.nodes[i];
+    const auto& node = analysis.contact.interfaces.nodes[i];
     const PetscInt row = mesh.dimension * node.globalNode;
     check(VecSetValue(field, row, shape.frictionWork[i], INSERT_VALUES));
     check(VecSetValue(field, row + 1, shape.frictionWork[i] / node.area, INSERT_VALUES));
@@ -136,7 +136,7 @@ void writePath(const analysis::Analysis& analysis, Hdf5File& file) {
   file.writeTable("/path", "contact",
                   {"friction", "speed", "pressure", "x_m", "y_m", "z_m", "interface", "opens"},
                   rows);
-  file.writeAttribute("/path/contact", "interfaces", joined(analysis.contact.interfaces));
+  file.writeAttribute("/path/contact", "interfaces", joined(analysis.contact.interfaces.names));
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ using Value = std::function<double(std::size_t)>;
 /// 0, zero elsewhere.
 OwnedVec atContactNodes(const analysis::Analysis& analysis, const Value& value) {
   OwnedVec field = elasticity::nodalVector(*analysis.mesh);
-  const auto& nodes = analysis.contact.nodes;
+  const auto& nodes = analysis.contact.interfaces.nodes;
   for (std::size_t i = 0; i < nodes.size(); ++i)
     check(VecSetValue(field, analysis.mesh->dimension * nodes[i].globalNode, value(i),
                       INSERT_VALUES));
@@ -44,7 +44,7 @@ constexpr MeanField meanFields[] = {{"open", &regime::NodeMeans::open, false},
 /// Collective. Returns one of the means of a run as a nodal vector.
 OwnedVec meansOf(const analysis::Analysis& analysis, const Study& study, const Run& run,
                  const MeanField& mean) {
-  std::vector<double> own(analysis.contact.nodes.size());
+  std::vector<double> own(analysis.contact.interfaces.nodes.size());
   for (std::size_t i = 0; i < study.contactNode.size(); ++i)
     if (const PetscInt place = study.contactNode[i]; place >= 0)
       own[place] = run.regime.nodes[i].*mean.value / (mean.perArea ? study.nodes[i].area : 1);

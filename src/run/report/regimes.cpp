@@ -33,9 +33,10 @@ std::string onsetTable(const analysis::Analysis& analysis) {
     if (mode.onset.event == march::Event::none)
       table += ",,,,,,\n";
     else
-      table += formatted(",%.12e,%.12e,%.12e,%s,%.9e,%.6e\n", mode.position[0], mode.position[1],
-                         mode.position[2], analysis.contact.interfaces[mode.interface].c_str(),
-                         mode.kinetic, mode.onset.turning);
+      table +=
+          formatted(",%.12e,%.12e,%.12e,%s,%.9e,%.6e\n", mode.position[0], mode.position[1],
+                    mode.position[2], analysis.contact.interfaces.names[mode.interface].c_str(),
+                    mode.kinetic, mode.onset.turning);
   }
   return table;
 }
@@ -83,10 +84,11 @@ std::string nodeTable(const analysis::Analysis& analysis) {
     for (std::size_t i = 0; i < run.regime.nodes.size(); ++i) {
       const auto& x = study.nodes[i].position;
       const auto& means = run.regime.nodes[i];
-      table += first +
-               formatted(",%.12e,%.12e,%.12e,%s,%.6f,%.6f,%.6f,%.9e,%.9e,%.9e\n", x[0], x[1], x[2],
-                         analysis.contact.interfaces[study.nodes[i].interface].c_str(), means.open,
-                         means.stick, means.slip, means.pressure, means.largestGap, means.power);
+      table +=
+          first +
+          formatted(",%.12e,%.12e,%.12e,%s,%.6f,%.6f,%.6f,%.9e,%.9e,%.9e\n", x[0], x[1], x[2],
+                    analysis.contact.interfaces.names[study.nodes[i].interface].c_str(), means.open,
+                    means.stick, means.slip, means.pressure, means.largestGap, means.power);
     }
   });
   return table;

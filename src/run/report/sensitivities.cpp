@@ -19,9 +19,9 @@ std::string modeHead(const pencil::ComplexModes& point, const pencil::Shape& sha
 /// Collective. Returns the sums over the nodes of each interface, [interface].
 std::vector<double> byInterface(const analysis::Analysis& analysis,
                                 const std::vector<double>& nodes) {
-  std::vector<double> sums(analysis.contact.interfaces.size(), 0.0);
+  std::vector<double> sums(analysis.contact.interfaces.names.size(), 0.0);
   for (std::size_t k = 0; k < nodes.size(); ++k)
-    sums[analysis.contact.nodes[k].interface] += nodes[k];
+    sums[analysis.contact.interfaces.nodes[k].interface] += nodes[k];
   check(MPI_Allreduce(MPI_IN_PLACE, sums.data(), sums.size(), MPI_DOUBLE, MPI_SUM, analysis.comm));
   return sums;
 }
@@ -56,7 +56,7 @@ std::string frictionWorkTable(const analysis::Analysis& analysis) {
       for (const auto& shape : point.shapes) {
         const auto sums = byInterface(analysis, shape.frictionWork);
         for (std::size_t i = 0; i < sums.size(); ++i)
-          table += modeHead(point, shape) + analysis.contact.interfaces[i] +
+          table += modeHead(point, shape) + analysis.contact.interfaces.names[i] +
                    formatted(",%.9e\n", sums[i]);
       }
   return table;

@@ -64,15 +64,15 @@ Json steadyEntry(const steady::Solution& solution) {
 /// Returns what was found at the interfaces of a mesh, by name.
 Json interfaceEntries(const contact::Contact& contact) {
   Json entries;
-  for (std::size_t i = 0; i < contact.options.size(); ++i) {
-    const auto& report = contact.reports[i];
-    Json entry = {{"role", interfaces::text(contact.options[i].role)},
+  for (std::size_t i = 0; i < contact.interfaces.options.size(); ++i) {
+    const auto& report = contact.interfaces.reports[i];
+    Json entry = {{"role", interfaces::text(contact.interfaces.options[i].role)},
                   {"nodes", report.nodes},
-                  {"slave", contact.slaves[i].surface},
-                  {"slave_is", contact.slaves[i].sign > 0 ? "pad" : "disc"},
-                  {"coupling", contact.options[i].onObstacle() ? "rigid obstacle"
-                               : report.matching               ? "node on node"
-                                                               : "mortar"}};
+                  {"slave", contact.interfaces.slaves[i].surface},
+                  {"slave_is", contact.interfaces.slaves[i].sign > 0 ? "pad" : "disc"},
+                  {"coupling", contact.interfaces.options[i].onObstacle() ? "rigid obstacle"
+                               : report.matching                          ? "node on node"
+                                                                          : "mortar"}};
     if (!report.matching) {
       entry["why_not_node_on_node"] = report.whyNot;
       entry["slave_faces"] = report.slave.faces, entry["master_faces"] = report.master.faces;
@@ -81,13 +81,13 @@ Json interfaceEntries(const contact::Contact& contact) {
       entry["largest_gap_m"] = report.largestGap;
       entry["nodes_without_condition"] = report.dropped;
     }
-    if (contact.options[i].isTied()) {
+    if (contact.interfaces.options[i].isTied()) {
       entry["slave_area_m2"] = report.slave.area, entry["tied_area_m2"] = report.coveredArea;
       entry["tied_nodes"] = report.nodes, entry["untied_nodes"] = report.untied;
-      entry["adjusted"] = contact.options[i].adjust;
+      entry["adjusted"] = contact.interfaces.options[i].adjust;
       entry["largest_adjustment_m"] = report.largestAdjustment;
     }
-    entries[contact.options[i].label()] = entry;
+    entries[contact.interfaces.options[i].label()] = entry;
   }
   return entries;
 }
@@ -199,7 +199,7 @@ void writeSummary(const analysis::Analysis& analysis, const std::filesystem::pat
                                  {"nodes", done.nodes},
                                  {"rounds", done.rounds},
                                  {"largest_move_m", done.largestMove}};
-    summary["contact_nodes"] = analysis.contact.totalNodes;
+    summary["contact_nodes"] = analysis.contact.interfaces.totalNodes;
     summary["interfaces"] = interfaceEntries(analysis.contact);
   }
   summary["method"] = direct::directWanted() ? "direct" : "reduced";
@@ -254,12 +254,13 @@ void writeSummary(const analysis::Analysis& analysis, const std::filesystem::pat
     summary["active_sets"].push_back(entry);
   }
   for (const auto& event : analysis::contactPath(analysis))
-    summary["contact_path"].push_back({{"friction", event.at.friction},
-                                       {"speed", event.at.speed},
-                                       {"pressure", event.at.pressure},
-                                       {"position_m", event.position},
-                                       {"interface", analysis.contact.interfaces[event.interface]},
-                                       {"change", event.opens ? "opens" : "closes"}});
+    summary["contact_path"].push_back(
+        {{"friction", event.at.friction},
+         {"speed", event.at.speed},
+         {"pressure", event.at.pressure},
+         {"position_m", event.position},
+         {"interface", analysis.contact.interfaces.names[event.interface]},
+         {"change", event.opens ? "opens" : "closes"}});
   for (const auto& study : analysis.regimes)
     for (const auto& run : study.runs) summary["regimes"].push_back(regimeEntry(study, run));
   if (!analysis.failures.empty()) summary["failures"] = analysis.failures;

@@ -77,8 +77,8 @@ std::string modeTable(const modes::Modes& modes) {
 std::string nodeState(const contact::Contact& contact, const steady::Solution& solution,
                       std::size_t i) {
   if (!solution.closed[i]) return "open";
-  if (contact.nodes[i].role != contact::Role::sticking)
-    return interfaces::text(contact.nodes[i].role);
+  if (contact.interfaces.nodes[i].role != contact::Role::sticking)
+    return interfaces::text(contact.interfaces.nodes[i].role);
   if (solution.sticking.holds[i] == steady::Hold::released) return "released";
   if (solution.sticking.holds[i] == steady::Hold::open) return "unheld";
   return steady::exceedsLimit(contact, solution, i) ? "beyond_friction" : "sticking";
@@ -101,13 +101,13 @@ std::string gathered(MPI_Comm comm, const std::string& text) {
 std::string steadyRows(const analysis::Analysis& analysis, const steady::Solution& solution) {
   std::string rows;
   for (std::size_t i = 0; i < solution.contact.size(); ++i) {
-    const auto& p = analysis.contact.nodes[i].position;
+    const auto& p = analysis.contact.interfaces.nodes[i].position;
     const auto& state = solution.contact[i];
     rows += formatted("%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,%.12e,", p[0], p[1], p[2],
                       state.gap, state.normalForce, state.pressure, state.frictionForce[0],
                       state.frictionForce[1], state.frictionForce[2]) +
-            analysis.contact.interfaces[analysis.contact.nodes[i].interface] + "," +
-            nodeState(analysis.contact, solution, i) + "\n";
+            analysis.contact.interfaces.names[analysis.contact.interfaces.nodes[i].interface] +
+            "," + nodeState(analysis.contact, solution, i) + "\n";
   }
   return rows;
 }
@@ -118,7 +118,7 @@ std::string contactPathTable(const analysis::Analysis& analysis) {
   for (const auto& [order, at, x, interface, opens] : analysis::contactPath(analysis))
     table += formatted("%.12g,%.12g,%.12g,%.12e,%.12e,%.12e,", at.friction, at.speed, at.pressure,
                        x[0], x[1], x[2]) +
-             analysis.contact.interfaces[interface] + (opens ? ",opens\n" : ",closes\n");
+             analysis.contact.interfaces.names[interface] + (opens ? ",opens\n" : ",closes\n");
   return table;
 }
 
@@ -156,7 +156,7 @@ std::string stableText(const analysis::Analysis& analysis,
                        const sweep_solver::ModalSegment& segment,
                        const pencil::ComplexModes& point) {
   if (point.eigenvalues.empty()) return "no eigenvalue was found: nothing is known of stability";
-  if (segment.openNodes > 0 && segment.openNodes == analysis.contact.totalNodes)
+  if (segment.openNodes > 0 && segment.openNodes == analysis.contact.interfaces.totalNodes)
     return "none: no contact is closed, nothing slides";
   if (point.verdict() == pencil::Verdict::undecided) return "none" + uncertaintyText(point);
   const int neutral = point.count(pencil::Verdict::neutral);

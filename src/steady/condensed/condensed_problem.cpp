@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "algebra/linalg/block.hpp"
+#include "base/system/mpi.hpp"
 #include "steady/condensed/gaps.hpp"
 #include "steady/condensed/pivots.hpp"
 #include "steady/steady/complementarity.hpp"
@@ -26,8 +27,8 @@ OwnedMat unitSlipRows(const contact::Contact& contact,
                       const contact::Transformation& transformation,
                       std::vector<contact::Slip> slips) {
   for (auto& slip : slips) slip.coefficient = {1, 0}, slip.law = 1;
-  return contact.slipRows(transformation, slips,
-                          std::vector<unsigned char>(contact.nodes.size(), 1), 0);
+  return contact.slipRows(transformation, slips, contact::Mask(contact.interfaces.nodes.size(), 1),
+                          0);
 }
 
 /// The largest number of corrections by the residual of all equations. Each has to halve it.
@@ -39,12 +40,6 @@ constexpr double roughly = 1e-4;
 constexpr int mostSteps = 12;
 
 }  // namespace
-
-/// A state of the closed contact without friction.
-struct CondensedProblem::Loaded {
-  OwnedVec x;           // in the unknowns of the open contact
-  ContactVector given;  // (R, F)
-};
 
 /// A point with the holds and the gaps from which its solution is looked for.
 struct CondensedProblem::Start {
@@ -73,13 +68,13 @@ struct CondensedProblem::Trial {
 };
 
 bool CondensedProblem::isExact(const contact::Contact& contact, const elasticity::Bodies& bodies) {
-  return !contact.convected && !bodies.rotationStiffness;
+  return !contact.sliding.convected && !bodies.rotationStiffness;
 }
 
 CondensedProblem::CondensedProblem(const Problem& problem, const contact::CoupledSystem& closed)
     : problem_(problem),
       contact_(problem.contact()),
-      gaps_(contact_.nodes.size(), 0.0),
+      gaps_(contact_.interfaces.nodes.size(), 0.0),
       sticking_(Sticking::allHeld(contact_)) {
   if (contact_.hasSticking())
     free_ = std::make_unique<Problem>(problem.mesh(), problem.bodies(), contact_,
@@ -93,57 +88,9 @@ CondensedProblem::CondensedProblem(const Problem& problem, const contact::Couple
 
 CondensedProblem::~CondensedProblem() = default;
 
-/// Returns what the loads of a point are made of, in the order of `loads_`: they are p times the
-/// pressures and held displacements, v² times the centrifugal forces, and what gaps there are
-/// without load.
-std::array<double, 3> CondensedProblem::loadFactors(const sweep::Parameters& at) {
-  if (loads_.empty()) findLoads();
-  return {1, at.pressure, at.speed * at.speed};
-}
-
-/// Returns (R, F) of the closed contact without friction under the loads of a point.
-ContactVector CondensedProblem::given(const sweep::Parameters& at) {
-  const auto factors = loadFactors(at);
-  ContactVector sum(impedance_->length(), 0.0);
-  for (std::size_t k = 0; k < factors.size(); ++k)
-    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += factors[k] * loads_[k].given[i];
-  return sum;
-}
-
-/// Returns the displacements that belong to that, in the unknowns of the open contact.
-OwnedVec CondensedProblem::loaded(const sweep::Parameters& at) {
-  const auto factors = loadFactors(at);
-  OwnedVec x = rightVector(open().transformation().trial);
-  for (std::size_t k = 0; k < factors.size(); ++k) check(VecAXPY(x, factors[k], loads_[k].x));
-  return x;
-}
-
-/// Finds the states without loads, and what p = 1 and v = 1 add, with the residual of each balanced
-/// by one solve.
-void CondensedProblem::findLoads() {
-  const Problem& open = this->open();
-  const std::vector<sweep::Parameters> points{{0, 0, 0}, {0, 0, 1}, {0, 1, 0}};
-  std::vector<OwnedVec> residuals;
-  std::vector<std::vector<double>> normal;
-  std::vector<Vec> wanted, x;
-  for (const auto& point : points) {
-    loads_.push_back({rightVector(open.transformation().trial), {}});
-    residuals.push_back(rightVector(open.transformation().trial));
-    const OwnedVec forces = open.forces(point, open.displacement(point, loads_.back().x));
-    check(MatMultTranspose(open.transformation().trial, forces, residuals.back()));
-    normal.push_back(open.normalForces(forces));
-    wanted.push_back(residuals.back());
-    x.push_back(loads_.back().x);
-  }
-  for (std::size_t k = 1; k < points.size(); ++k) {
-    check(VecAXPY(residuals[k], -1, residuals[0]));
-    for (std::size_t i = 0; i < normal[k].size(); ++i) normal[k][i] -= normal[0][i];
-  }
-  const auto effects = impedance_->relax(wanted, x);
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    loads_[k].given.assign(effects.column(k).begin(), effects.column(k).end());
-    for (std::size_t i = 0; i < normal[k].size(); ++i) loads_[k].given[i] += normal[k][i];
-  }
+const Loads& CondensedProblem::loads() {
+  if (!loads_) loads_ = std::make_unique<Loads>(open(), *impedance_);
+  return *loads_;
 }
 
 /// Returns the conditions with all gaps closed.
@@ -155,20 +102,19 @@ ContactConditions CondensedProblem::conditions(const sweep::Parameters& at,
     result.coefficient.push_back(slip.friction(at.friction));
   const auto& nodeOf = impedance_->nodeOf();
   result.free.assign(nodeOf.size(), 0);
-  for (std::size_t k = contact_.nodes.size(); k < nodeOf.size(); ++k)
+  for (std::size_t k = contact_.interfaces.nodes.size(); k < nodeOf.size(); ++k)
     result.free[k] = sticking.holds[nodeOf[k]] != Hold::held;
   return result;
 }
 
 /// Collective. Returns what the friction of released nodes does to them; null if there are none.
 OwnedMat CondensedProblem::directFriction(const Sticking& sticking) {
-  int any = std::count(sticking.holds.begin(), sticking.holds.end(), Hold::released) > 0;
-  int known = directOf_.holds == sticking.holds && directOf_.direction == sticking.direction;
-  check(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_LOR, comm()));
-  check(MPI_Allreduce(MPI_IN_PLACE, &known, 1, MPI_INT, MPI_LAND, comm()));
+  const bool any = mpi::any(comm(), std::ranges::count(sticking.holds, Hold::released) > 0);
+  const bool known = mpi::all(
+      comm(), directOf_.holds == sticking.holds && directOf_.direction == sticking.direction);
   if (!any) return {};
   if (known) return direct_.share();
-  std::vector<contact::Slip> slips(contact_.nodes.size());
+  std::vector<contact::Slip> slips(contact_.interfaces.nodes.size());
   for (std::size_t i = 0; i < slips.size(); ++i)
     if (sticking.holds[i] == Hold::released) slips[i].direction = sticking.direction[i];
   direct_ = impedance_->directFriction(unitSlipRows(contact_, free_->transformation(), slips));
@@ -182,7 +128,7 @@ std::vector<impedance::ContactSolution> CondensedProblem::onSets(
   std::vector<ContactCase> cases;
   std::vector<OwnedMat> direct;  // borrowed by the cases
   for (const ChosenSet& set : sets) {
-    cases.push_back({conditions(set.at, set.sticking), given(set.at)});
+    cases.push_back({conditions(set.at, set.sticking), loads().forces(set.at)});
     cases.back().conditions.direct = direct.emplace_back(directFriction(set.sticking));
     for (std::size_t k = 0; k < nodeOf.size(); ++k)
       if (!set.closed[nodeOf[k]]) cases.back().conditions.free[k] = 1;
@@ -197,8 +143,13 @@ ContactVector CondensedProblem::complementarity(Trial& trial, const ContactVecto
   asked.given = given;
   auto& gaps = trial.start.gaps;
   const auto solve = [&] {
-    return solveGaps(contact_, *solver_, asked, {trial.gapUnit, trial.accuracy.forceUnit},
-                     trial.accuracy.asked, gaps, trial.solution);
+    return solveGaps({.contact = contact_,
+                      .solver = *solver_,
+                      .asked = asked,
+                      .gapUnit = trial.gapUnit,
+                      .forceUnit = trial.accuracy.forceUnit,
+                      .accuracy = trial.accuracy.asked},
+                     gaps, trial.solution);
   };
   if (!solve() && trial.start.withPivots && pivotGaps(*solver_, comm(), asked, gaps)) solve();
   return solver_->withGaps(gaps, asked).causes;
@@ -207,7 +158,7 @@ ContactVector CondensedProblem::complementarity(Trial& trial, const ContactVecto
 /// Moves the gaps from which the trials start to those of the active sets to which the primal-dual
 /// active set method leads (Hintermüller, Ito and Kunisch, SIAM J. Optim. 13, 2003), with friction
 /// balanced to the part `accuracy`. All trials move at once, so that what the solver has to learn
-/// is learnt in blocks. Returns the trials whose sets hold.
+/// is learned in blocks. Returns the trials whose sets hold.
 std::vector<CondensedProblem::Trial*> CondensedProblem::approach(std::vector<Trial*> moving,
                                                                  double accuracy) {
   const std::size_t n = impedance_->nodes();
@@ -231,7 +182,7 @@ std::vector<CondensedProblem::Trial*> CondensedProblem::approach(std::vector<Tri
         gaps[i] = !opens ? 0 : isOpen ? gap : moving[k]->gapUnit;
       }
     }
-    check(MPI_Allreduce(MPI_IN_PLACE, changes.data(), changes.size(), MPI_INT, MPI_LOR, comm()));
+    mpi::reduce<int>(comm(), changes, MPI_LOR);
     std::vector<Trial*> still;
     for (std::size_t k = 0; k < moving.size(); ++k)
       if (found[k].found) (changes[k] ? still : settled).push_back(moving[k]);
@@ -258,8 +209,8 @@ CondensedProblem::Trial CondensedProblem::trialOf(Start& start) {
               std::move(own),
               held,
               directFriction(start.sticking),
-              loaded(start.at),
-              {conditions(start.at, start.sticking), given(start.at)}};
+              loads().unknowns(start.at),
+              {conditions(start.at, start.sticking), loads().forces(start.at)}};
   trial.asked.conditions.direct = trial.direct;
   std::vector<double> friction;
   for (PetscInt i = 0; i < impedance_->nodes(); ++i)
@@ -267,7 +218,7 @@ CondensedProblem::Trial CondensedProblem::trialOf(Start& start) {
   trial.asked.frictionUnit = linalg::length(comm(), friction);
   trial.solution.at = start.at;
   for (double gap : start.gaps) trial.gapUnit = std::max(trial.gapUnit, gap);
-  check(MPI_Allreduce(MPI_IN_PLACE, &trial.gapUnit, 1, MPI_DOUBLE, MPI_MAX, comm()));
+  trial.gapUnit = mpi::max(comm(), trial.gapUnit);
   if (trial.gapUnit == 0) check(VecNorm(trial.x, NORM_INFINITY, &trial.gapUnit));
   if (trial.gapUnit == 0) trial.gapUnit = 1;
   trial.accuracy = accuracyNear(trial.held, start.at, unknowns(trial, trial.x));
@@ -363,7 +314,7 @@ std::vector<Solution> CondensedProblem::solveTogether(const std::vector<sweep::P
     starts.push_back({at, sticking_, gaps_, withPivots});
   }
   auto solutions = solveFrom(starts);
-  // Points whose holds are to be revised are solved for anew, together.
+  // Points whose holds are to be revised are solved again, together.
   std::vector<std::size_t> unsettled(points.size());
   std::iota(unsettled.begin(), unsettled.end(), 0);
   while (true) {

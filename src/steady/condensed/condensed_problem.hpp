@@ -1,10 +1,10 @@
 #pragma once
 /// Steady sliding is solved in the unknowns of the contact, since everything else is linear or
 /// nearly so [3.10–3.13, M.59].
-#include <array>
 #include <memory>
 #include <vector>
 
+#include "steady/condensed/loads.hpp"
 #include "steady/impedance/contact_solver.hpp"
 #include "steady/impedance/impedance.hpp"
 #include "steady/steady/steady.hpp"
@@ -19,12 +19,12 @@ using steady::Sticking;
 struct ChosenSet {
   sweep::Parameters at;
   /// [contact node of this rank] 1 where it is closed; the others are open
-  std::vector<unsigned char> closed;
+  contact::Mask closed;
   /// Nodes that stick are held where they are closed, unless this says otherwise.
   Sticking sticking;
 };
 
-/// The complementarity problem in the gaps alone,
+/// The complementarity problem in only the gaps,
 ///   0 ≤ g ⟂ F(g) ≥ 0,
 /// where F(g) holds the forces at the gaps with the friction f R in balance. The one factorisation
 /// of the closed contact serves all frictions, pressures and sets of open nodes. Points that are
@@ -35,7 +35,7 @@ struct ChosenSet {
 class CondensedProblem {
  public:
   /// Returns true if everything but the contact is linear at each point: solutions then need no
-  /// corrections but for rounding, and onSets() gives them.
+  /// corrections except for round-off, and onSets() gives them.
   static bool isExact(const contact::Contact& contact, const elasticity::Bodies& bodies);
   /// Collective. Borrows the problem and `closed`, the system with all contact nodes closed and
   /// all that stick held, during the life of the object.
@@ -78,15 +78,11 @@ class CondensedProblem {
   long solves() const { return impedance_->solves(); }
 
  private:
-  struct Loaded;
   struct Start;
   struct Trial;
   /// Returns the problem without holds.
   const Problem& open() const { return free_ ? *free_ : problem_; }
-  std::array<double, 3> loadFactors(const sweep::Parameters& at);
-  impedance::ContactVector given(const sweep::Parameters& at);
-  OwnedVec loaded(const sweep::Parameters& at);
-  void findLoads();
+  const Loads& loads();
   impedance::ContactConditions conditions(const sweep::Parameters& at,
                                           const Sticking& sticking) const;
   OwnedMat directFriction(const Sticking& sticking);
@@ -104,12 +100,11 @@ class CondensedProblem {
   std::unique_ptr<Problem> free_;  // nothing sticks; null where no interface does
   std::unique_ptr<impedance::Impedance> impedance_;
   std::unique_ptr<impedance::ContactSolver> solver_;
-  std::vector<double> gaps_;  // of the last solution, [contact node], m
-  Sticking sticking_;         // of the last solution, with what has been released held again
-  OwnedMat direct_;           // what the friction of released nodes does to them; null: nothing
-  Sticking directOf_;         // the holds that `direct_` belongs to
-  /// The closed contact without friction: without loads, and what p = 1 and v = 1 add.
-  std::vector<Loaded> loads_;
+  std::vector<double> gaps_;      // of the last solution, [contact node], m
+  Sticking sticking_;             // of the last solution, with what has been released held again
+  OwnedMat direct_;               // what the friction of released nodes does to them; null: nothing
+  Sticking directOf_;             // the holds that `direct_` belongs to
+  std::unique_ptr<Loads> loads_;  // of the problem without holds, made when first needed
 };
 
 }  // namespace squeal::condensed

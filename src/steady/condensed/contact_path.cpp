@@ -187,14 +187,15 @@ class Follower {
   std::string turningPoint(const Place& place) const {
     PlaceName name{};
     if (rank_ == place.rank) {
-      const auto& node = problem_.contact().nodes[place.node];
+      const auto& node = problem_.contact().interfaces.nodes[place.node];
       name = {node.position, node.interface, closed_[place.node] != 0};
     }
     check(MPI_Bcast(&name, sizeof name, MPI_BYTE, place.rank, comm()));
     return formatted(
         "the contact node at %s of interface '%s' %s there, and behind that no active set holds",
         interfaces::text(name.position).c_str(),
-        problem_.contact().interfaces[name.interface].c_str(), name.isClosed ? "opens" : "closes");
+        problem_.contact().interfaces.names[name.interface].c_str(),
+        name.isClosed ? "opens" : "closes");
   }
   /// Returns where the force or the gap of a node changes its sign, between `low` and `high`, where
   /// it is negative.
@@ -240,7 +241,7 @@ class Follower {
     closed_ = found.closed, sticking_ = found.sticking;
     return record(before, s, path);
   }
-  bool record(const std::vector<unsigned char>& before, double s, ContactPath& path) {
+  bool record(const contact::Mask& before, double s, ContactPath& path) {
     int own = 0;
     for (std::size_t i = 0; i < before.size(); ++i)
       if (before[i] != closed_[i]) {
@@ -254,7 +255,7 @@ class Follower {
 
   CondensedProblem& problem_;
   sweep::Parameters from_, to_;
-  std::vector<unsigned char> closed_;
+  contact::Mask closed_;
   Sticking sticking_;
   impedance::ContactSolution state_;  // the last one asked for
   std::vector<double> margins_;

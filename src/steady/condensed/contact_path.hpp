@@ -1,5 +1,5 @@
 #pragma once
-/// The path of the contact tells at which points between those of a sweep nodes open and close.
+/// The path of the contact: the points between those of a sweep at which nodes open and close.
 #include <string>
 #include <vector>
 
@@ -22,8 +22,8 @@ struct ContactPath {
   std::string obstacle;
   sweep::Parameters end;  ///< point up to which it has been followed
   /// The state there, if it is the last point.
-  std::vector<unsigned char> closed;  ///< [contact node] 1 where it is closed
-  std::vector<double> gaps;           ///< [contact node] coefficient h of g = E h, m
+  contact::Mask closed;      ///< [contact node] 1 where it is closed
+  std::vector<double> gaps;  ///< [contact node] coefficient h of g = E h, m
   Sticking sticking;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/petsc/arrays.hpp"
+#include "base/system/mpi.hpp"
 #include "base/system/text.hpp"
 #include "model/interfaces/algebra.hpp"
 #include "steady/steady/complementarity.hpp"
@@ -18,30 +19,31 @@ namespace {
 /// The context of SNES, of the Jacobian and of its parts.
 struct GapProblem {
   impedance::ContactSolver& solver;
-  ContactCase asked;  // `free` says of gaps which of them SNES lets open
-  GapUnits units;
+  ContactCase asked;          // `free` says of gaps which of them SNES lets open
+  double gapUnit, forceUnit;  // m, N
   MPI_Comm comm;
   PetscInt first;  // number of the first contact node of this rank
   std::size_t nodes;
   std::vector<unsigned char> before = {};  // `free` of the Newton step before the last
 };
 
-/// Collective. Says which nodes the last two Newton steps disagree about; empty if about none.
+/// Collective. Names the nodes that the last two Newton steps disagree about; empty if there are
+/// none.
 std::string alternating(const GapProblem& problem, const contact::Contact& contact) {
-  int count = 0, rank = 0;
+  const int rank = mpi::rank(problem.comm);
+  int count = 0;
   std::size_t one = 0;
   for (std::size_t i = 0; i < problem.nodes && !problem.before.empty(); ++i)
     if (problem.before[i] != problem.asked.conditions.free[i] && count++ == 0) one = i;
-  check(MPI_Comm_rank(problem.comm, &rank));
   struct {
     int count, rank;
   } most{count, rank};
   check(MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_2INT, MPI_MAXLOC, problem.comm));
-  check(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPI_INT, MPI_SUM, problem.comm));
+  count = mpi::sum(problem.comm, count);
   if (count == 0) return "";
   mesh::Point position{};
-  if (rank == most.rank) position = contact.nodes[one].position;
-  check(MPI_Bcast(position.data(), 3, MPI_DOUBLE, most.rank, problem.comm));
+  if (rank == most.rank) position = contact.interfaces.nodes[one].position;
+  mpi::broadcast(problem.comm, position, most.rank);
   return formatted("%d %s in turn, such as that at %s", count,
                    count == 1 ? "contact node opens and closes" : "contact nodes open and close",
                    interfaces::text(position).c_str());
@@ -51,11 +53,11 @@ std::string alternating(const GapProblem& problem, const contact::Contact& conta
 void forces(GapProblem& problem, const ContactCase& asked, Vec gaps, Vec f) {
   std::vector<double> scaled;
   for (const ReadArray values(gaps); double value : values)
-    scaled.push_back(problem.units.gap * value);
+    scaled.push_back(problem.gapUnit * value);
   const auto found = problem.solver.withGaps(scaled, asked);
   const WriteArray values(f);
   for (PetscInt i = 0; i < values.size(); ++i)
-    values[i] = found.effects[values.size() + i] / problem.units.force;
+    values[i] = found.effects[values.size() + i] / problem.forceUnit;
 }
 
 /// The case with other forces given, zero so far.
@@ -112,42 +114,29 @@ PetscErrorCode solvePart(PC pc, Vec right, Vec gaps) {
   {
     const ReadArray values(right);
     for (std::size_t i = 0, k = 0; i < problem->nodes; ++i)
-      if (open[i]) asked.given[problem->nodes + i] = -problem->units.force * values[k++];
+      if (open[i]) asked.given[problem->nodes + i] = -problem->forceUnit * values[k++];
   }
   const auto found = problem->solver.solve(asked);
   const WriteArray values(gaps);
   for (std::size_t i = 0, k = 0; i < problem->nodes; ++i)
-    if (open[i]) values[k++] = found.causes[problem->nodes + i] / problem->units.gap;
+    if (open[i]) values[k++] = found.causes[problem->nodes + i] / problem->gapUnit;
   PetscFunctionReturn(0);
 }
 
-}  // namespace
-
-bool solveGaps(const contact::Contact& contact, impedance::ContactSolver& solver,
-               const ContactCase& asked, const GapUnits& units, double accuracy,
-               std::vector<double>& gaps, steady::Solution& solution) {
-  const MPI_Comm comm = contact.mesh->comm;
-  const PetscInt n = gaps.size();
-  PetscInt end = 0;
-  check(MPI_Scan(&n, &end, 1, MPIU_INT, MPI_SUM, comm));
-  GapProblem problem{solver, asked, units, comm, end - n, gaps.size()};
-  std::fill_n(problem.asked.conditions.free.begin(), n, 1);  // where SNES asks for no part
+/// Collective. Returns the Jacobian of F(g) in units, whose context is the problem.
+OwnedMat jacobianOf(GapProblem& problem) {
+  const PetscInt n = problem.nodes;
   OwnedMat jacobian;
-  check(MatCreateShell(comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, &problem, jacobian.out()));
+  check(MatCreateShell(problem.comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, &problem,
+                       jacobian.out()));
   check(MatShellSetOperation(jacobian, MATOP_MULT, reinterpret_cast<void (*)()>(multiply)));
   check(MatShellSetOperation(jacobian, MATOP_CREATE_SUBMATRIX,
                              reinterpret_cast<void (*)()>(openPart)));
-  const OwnedVec x = rightVector(jacobian), low = rightVector(jacobian),
-                 high = rightVector(jacobian), f = rightVector(jacobian);
-  {
-    const WriteArray start(x);
-    for (PetscInt i = 0; i < n; ++i) start[i] = gaps[i] / units.gap;
-  }
-  check(VecSet(high, PETSC_INFINITY));
-  const steady::OwnedSNES snes = steady::newSnes(comm, accuracy);
-  check(SNESSetFunction(snes, f, evaluate, &problem));
-  check(SNESSetJacobian(snes, jacobian, jacobian, differentiate, nullptr));
-  check(SNESVISetVariableBounds(snes, low, high));
+  return jacobian;
+}
+
+/// Makes the solver of the parts of the Jacobian exact.
+void setPartSolver(SNES snes, GapProblem& problem) {
   KSP ksp = nullptr;
   PC pc = nullptr;
   check(SNESGetKSP(snes, &ksp));
@@ -156,12 +145,42 @@ bool solveGaps(const contact::Contact& contact, impedance::ContactSolver& solver
   check(PCSetType(pc, PCSHELL));
   check(PCShellSetContext(pc, &problem));
   check(PCShellSetApply(pc, solvePart));
+}
+
+}  // namespace
+
+bool solveGaps(const GapTask& task, std::vector<double>& gaps, steady::Solution& solution) {
+  const MPI_Comm comm = task.contact.mesh->comm;
+  const PetscInt n = gaps.size();
+  PetscInt end = 0;
+  check(MPI_Scan(&n, &end, 1, MPIU_INT, MPI_SUM, comm));
+  GapProblem problem{.solver = task.solver,
+                     .asked = task.asked,
+                     .gapUnit = task.gapUnit,
+                     .forceUnit = task.forceUnit,
+                     .comm = comm,
+                     .first = end - n,
+                     .nodes = gaps.size()};
+  std::fill_n(problem.asked.conditions.free.begin(), n, 1);  // where SNES asks for no part
+  const OwnedMat jacobian = jacobianOf(problem);
+  const OwnedVec x = rightVector(jacobian), low = rightVector(jacobian),
+                 high = rightVector(jacobian), f = rightVector(jacobian);
+  {
+    const WriteArray start(x);
+    for (PetscInt i = 0; i < n; ++i) start[i] = gaps[i] / task.gapUnit;
+  }
+  check(VecSet(high, PETSC_INFINITY));
+  const steady::OwnedSNES snes = steady::newSnes(comm, task.accuracy);
+  check(SNESSetFunction(snes, f, evaluate, &problem));
+  check(SNESSetJacobian(snes, jacobian, jacobian, differentiate, nullptr));
+  check(SNESVISetVariableBounds(snes, low, high));
+  setPartSolver(snes, problem);
   const bool isFound = steady::solveSnes(snes, x, solution);
   if (!isFound)
-    if (const std::string who = alternating(problem, contact); !who.empty())
+    if (const std::string who = alternating(problem, task.contact); !who.empty())
       solution.reason += ": " + who;
   const ReadArray values(x);
-  for (PetscInt i = 0; i < n; ++i) gaps[i] = units.gap * values[i];
+  for (PetscInt i = 0; i < n; ++i) gaps[i] = task.gapUnit * values[i];
   return isFound;
 }
 

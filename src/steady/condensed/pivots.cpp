@@ -181,11 +181,11 @@ class Lemke {
   MPI_Comm comm_;
   const ContactCase& asked_;
   int rank_ = 0;
-  PetscInt total_ = 0;               // contact nodes of all ranks
-  std::vector<unsigned char> open_;  // [contact node]
-  std::vector<double> cover_;        // [contact node] d, N
-  Place pivot_;                      // where gap and force are zero and one of them is to grow
-  bool opens_ = true;                // it is the gap
+  PetscInt total_ = 0;         // contact nodes of all ranks
+  contact::Mask open_;         // [contact node]
+  std::vector<double> cover_;  // [contact node] d, N
+  Place pivot_;                // where gap and force are zero and one of them is to grow
+  bool opens_ = true;          // it is the gap
   Line lambda_{};
   double lambdaSize_ = 0;
   std::vector<Line> lines_;    // [contact node] gap where it is open, force where it is closed

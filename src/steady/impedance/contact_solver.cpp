@@ -229,8 +229,8 @@ void ContactSolver::update(FreeBlock& block) const {
   block.normal.append(linalg::rowRange(fresh, 0, impedance_.nodes()));
 }
 
-/// Adds directions, [contact node]×[direction], to the space of friction magnitudes, but for what
-/// of them lies in it. Returns false if nothing remains.
+/// Adds directions, [contact node]×[direction], to the space of friction magnitudes, without
+/// their parts that lie in it. Returns false if nothing remains.
 bool ContactSolver::extend(const DenseMatrix& directions) {
   const PetscInt n = impedance_.nodes();
   const MPI_Comm comm = impedance_.comm();

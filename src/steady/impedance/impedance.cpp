@@ -110,11 +110,12 @@ Impedance::Impedance(const contact::Contact& contact, const contact::Transformat
   std::vector<PetscInt> rows, columns = open.gapColumn;
   for (PetscInt i = 0; i < nodes(); ++i) {
     nodeOf_.push_back(i);
-    rows.push_back(contact.gapRow(contact.nodes[i]));
+    rows.push_back(contact.gapRow(contact.interfaces.nodes[i]));
   }
   const PetscInt dimension = contact.mesh->dimension;
   for (PetscInt i = 0; i < nodes(); ++i) {
-    const PetscInt tangents = dimension * contact.nodes[i].node, gap = tangents + dimension - 1;
+    const PetscInt tangents = dimension * contact.interfaces.nodes[i].node,
+                   gap = tangents + dimension - 1;
     const auto rowOf = [&](PetscInt column) { return open.rows[column]; };
     auto column = std::ranges::lower_bound(free, tangents, {}, rowOf);
     for (; column != free.end() && rowOf(*column) < gap; ++column) {
@@ -138,7 +139,7 @@ Impedance::Impedance(const contact::Contact& contact, const contact::Transformat
   forceInner_ = productOf(freeForces, trialInner);
   forceReleased_ = productOf(freeForces, trialFree);
   innerReleased_ = transposed(forceInner_);
-  const OwnedMat normal = transposedRowsOf(contact.reaction, nodeRows_),
+  const OwnedMat normal = transposedRowsOf(contact.sliding.reaction, nodeRows_),
                  normalForces = transposedProductOf(normal, stiffness);
   normalInner_ = productOf(normalForces, trialInner);
   normalReleased_ = productOf(normalForces, trialFree);

@@ -28,8 +28,10 @@ class Impedance {
             Mat slipRows, const contact::CoupledSystem& closed);
 
   MPI_Comm comm() const { return contact_.mesh->comm; }
-  PetscInt size() const { return contact_.totalNodes; }     ///< contact nodes of all ranks
-  PetscInt nodes() const { return contact_.nodes.size(); }  ///< contact nodes of this rank
+  PetscInt size() const { return contact_.interfaces.totalNodes; }  ///< contact nodes of all ranks
+  PetscInt nodes() const {
+    return contact_.interfaces.nodes.size();
+  }  ///< contact nodes of this rank
   /// Returns the contact node of each entry of w, [released unknown of this rank]. The first
   /// nodes() entries are the gaps of all nodes in their order.
   const std::vector<PetscInt>& nodeOf() const { return nodeOf_; }

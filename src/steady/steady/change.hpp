@@ -1,5 +1,5 @@
 #pragma once
-/// This file differentiates the equations of steady.hpp on one active set: the first-order change
+/// The equations of steady.hpp differentiated on one active set: the first-order change
 /// of the steady state with its data [M.48, M.49].
 #include <vector>
 

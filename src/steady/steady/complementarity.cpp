@@ -162,9 +162,12 @@ double complementarity(const Problem& problem, OwnedVec& x, Solution& solution) 
     check(MatScale(matrix, xUnit / accuracy.forceUnit));
   check(VecScale(x, 1 / xUnit));
   const OwnedVec work = rightVector(jacobian);
-  Scaled scaled{
-      problem, solution.at, xUnit, accuracy.forceUnit, problem.contact().convected != nullptr,
-      work};
+  Scaled scaled{problem,
+                solution.at,
+                xUnit,
+                accuracy.forceUnit,
+                problem.contact().sliding.convected != nullptr,
+                work};
 
   const OwnedVec low = rightVector(jacobian), high = rightVector(jacobian);
   check(VecSet(low, PETSC_NINFINITY));
@@ -196,7 +199,7 @@ double complementarity(const Problem& problem, OwnedVec& x, Solution& solution) 
   check(VecCopy(x, start));
   const std::string lineSearch = "-" + solverPrefix.prefix + "snes_linesearch_type";
   if (!solve() && !isGiven(lineSearch)) {
-    // Where a body is held by the contact alone, the first steps must pass through states of larger
+    // Where only the contact holds a body, the first steps must pass through states of larger
     // residuals, which the line search does not let through.
     const std::string searched = solution.reason;
     const DefaultOption fullSteps(lineSearch, "basic");

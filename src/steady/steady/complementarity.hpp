@@ -1,5 +1,5 @@
 #pragma once
-/// This function solves the complementarity problem of steady sliding by PETSc's SNES VI.
+/// The complementarity problem of steady sliding, solved by PETSc's SNES VI.
 #include <petscsnes.h>
 
 #include "base/petsc/owned.hpp"

@@ -13,7 +13,7 @@ struct Residual {
   double rounding = 0;  ///< rounding error in the 2-norm
 };
 
-/// The result of a refinement. It rests on residuals that are computed anew, not on the convergence
+/// The result of a refinement. It rests on recomputed residuals, not on the convergence
 /// reported by the inner solver.
 struct Refinement {
   PetscReal first = 0;     ///< 2-norm of the residual of the start

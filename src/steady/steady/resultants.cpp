@@ -17,8 +17,8 @@ Point alongSurface(const contact::Contact& contact, const contact::ContactNode& 
   std::vector<PetscInt> entries;
   for (int d = 0; d < dimension; ++d) entries.push_back(dimension * node.globalNode + d);
   std::vector<double> block(dimension * dimension);
-  check(MatGetValues(contact.kinematics, dimension, entries.data(), dimension, entries.data(),
-                     block.data()));
+  check(MatGetValues(contact.kinematics.matrix, dimension, entries.data(), dimension,
+                     entries.data(), block.data()));
   Point force{};
   for (int d = 0; d < dimension; ++d)
     for (int t = 0; t < dimension - 1; ++t) force[d] += block[d * dimension + t] * z[t];
@@ -43,13 +43,13 @@ Point firstOf(MPI_Comm comm, std::vector<Point> positions) {
 void addSticking(const contact::Contact& contact, int interface, const Solution& solution,
                  Resultant& resultant) {
   const MPI_Comm comm = contact.mesh->comm;
-  resultant.stickingLimit = contact.options[interface].stickingLimit;
+  resultant.stickingLimit = contact.interfaces.options[interface].stickingLimit;
   const auto ratio = [&](std::size_t k) {
     return mesh::length(solution.contact[k].frictionForce) / solution.contact[k].normalForce;
   };
   std::vector<std::size_t> held;
-  for (std::size_t k = 0; k < contact.nodes.size(); ++k) {
-    if (contact.nodes[k].interface != interface || !solution.closed[k]) continue;
+  for (std::size_t k = 0; k < contact.interfaces.nodes.size(); ++k) {
+    if (contact.interfaces.nodes[k].interface != interface || !solution.closed[k]) continue;
     if (solution.sticking.holds[k] == Hold::released) ++resultant.released;
     if (solution.sticking.holds[k] == Hold::open) ++resultant.unheld;
     if (solution.sticking.holds[k] == Hold::held) held.push_back(k);
@@ -61,7 +61,7 @@ void addSticking(const contact::Contact& contact, int interface, const Solution&
   std::vector<Point> worst;
   for (const std::size_t k : held)
     if (ratio(k) >= (1 - 1e-9) * resultant.leastFriction)
-      worst.push_back(contact.nodes[k].position);
+      worst.push_back(contact.interfaces.nodes[k].position);
   resultant.worst = firstOf(comm, worst);
   for (PetscInt* count : {&resultant.released, &resultant.unheld, &resultant.overLimit})
     check(MPI_Allreduce(MPI_IN_PLACE, count, 1, MPIU_INT, MPI_SUM, comm));
@@ -81,21 +81,21 @@ std::vector<Point> tangentialForces(const contact::Contact& contact, const Solut
                  left = elasticity::nodalVector(mesh);
   {
     const WriteArray values(friction);
-    for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
+    for (std::size_t i = 0; i < contact.interfaces.nodes.size(); ++i) {
       Point force{};
       for (int d = 0; d < dimension; ++d) {
         force[d] = -slip[i].friction(solution.at.friction) * normal[i] * slip[i].direction[d];
-        values[dimension * contact.nodes[i].node + d] = -force[d];
+        values[dimension * contact.interfaces.nodes[i].node + d] = -force[d];
       }
       found.push_back(force);
     }
   }
   //   Aᵀ (r + Jᵀ f φ E⁻ᵀ R_N τ)
-  check(MatMultTransposeAdd(contact.jump, friction, nodalForces, rest));
-  check(MatMultTranspose(contact.kinematics, rest, left));
+  check(MatMultTransposeAdd(contact.sliding.jump, friction, nodalForces, rest));
+  check(MatMultTranspose(contact.kinematics.matrix, rest, left));
   const ReadArray values(left);
-  for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
-    const auto& node = contact.nodes[i];
+  for (std::size_t i = 0; i < contact.interfaces.nodes.size(); ++i) {
+    const auto& node = contact.interfaces.nodes[i];
     if (node.role != contact::Role::sticking) continue;
     const Point held = alongSurface(contact, node, values.begin() + dimension * node.node);
     for (std::size_t d = 0; d < 3; ++d) found[i][d] += node.side * held[d];
@@ -109,8 +109,8 @@ void setStickingForces(const contact::Contact& contact, const std::vector<Point>
     std::vector<double> component;
     for (const auto& force : tangential) component.push_back(force[d]);
     component = contact.gapForce(component);
-    for (std::size_t i = 0; i < contact.nodes.size(); ++i)
-      if (contact.nodes[i].role == contact::Role::sticking)
+    for (std::size_t i = 0; i < contact.interfaces.nodes.size(); ++i)
+      if (contact.interfaces.nodes[i].role == contact::Role::sticking)
         solution.contact[i].frictionForce[d] = component[i];
   }
 }
@@ -120,8 +120,8 @@ std::vector<Point> forcesOnPads(const contact::Contact& contact, const Solution&
   std::vector<double> normal;
   for (const auto& state : solution.contact) normal.push_back(state.normalForce);
   normal = contact.nodalForce(normal);
-  for (std::size_t i = 0; i < contact.nodes.size(); ++i)
-    tangential[i] = mesh::plus(tangential[i], contact.nodes[i].normal, normal[i]);
+  for (std::size_t i = 0; i < contact.interfaces.nodes.size(); ++i)
+    tangential[i] = mesh::plus(tangential[i], contact.interfaces.nodes[i].normal, normal[i]);
   return tangential;
 }
 
@@ -130,10 +130,10 @@ Resultant resultantOf(const contact::Contact& contact, int interface, const Solu
   const auto& mesh = *contact.mesh;
   const int dimension = mesh.dimension;
   Resultant resultant;
-  resultant.interface = contact.interfaces[interface];
+  resultant.interface = contact.interfaces.names[interface];
   std::vector<unsigned char> isMaster(mesh.parts, 0);
   int side = 1;
-  for (const auto& node : contact.nodes) {
+  for (const auto& node : contact.interfaces.nodes) {
     if (node.interface != interface) continue;
     side = node.side;
     for (const auto& [part, share] : node.masterParts) isMaster[part] = 1;
@@ -141,21 +141,21 @@ Resultant resultantOf(const contact::Contact& contact, int interface, const Solu
   check(MPI_Allreduce(MPI_IN_PLACE, isMaster.data(), isMaster.size(), MPI_UNSIGNED_CHAR, MPI_MAX,
                       mesh.comm));
   check(MPI_Allreduce(MPI_IN_PLACE, &side, 1, MPI_INT, MPI_MIN, mesh.comm));
-  const bool onObstacle = contact.options[interface].onObstacle();
+  const bool onObstacle = contact.interfaces.options[interface].onObstacle();
   Point moments[2]{};  // about the origin, on pad and disc
   for (const bool tangential : {false, true}) {
     const OwnedVec part = elasticity::nodalVector(mesh), forces = elasticity::nodalVector(mesh);
     {
       const WriteArray values(part);
-      for (std::size_t k = 0; k < contact.nodes.size(); ++k) {
-        const auto& node = contact.nodes[k];
+      for (std::size_t k = 0; k < contact.interfaces.nodes.size(); ++k) {
+        const auto& node = contact.interfaces.nodes[k];
         if (node.interface != interface) continue;
         const Point friction = mesh::tangential(onPads[k], node.normal),
                     f = tangential ? friction : mesh::minus(onPads[k], friction);
         for (int d = 0; d < dimension; ++d) values[dimension * node.node + d] = f[d];
       }
     }
-    check(MatMultTranspose(contact.jump, part, forces));
+    check(MatMultTranspose(contact.sliding.jump, part, forces));
     Point& sum = tangential ? resultant.frictionForce : resultant.normalForce;
     const ReadArray values(forces);
     for (PetscInt node = 0; node < mesh.ownedNodes; ++node) {
@@ -167,7 +167,7 @@ Resultant resultantOf(const contact::Contact& contact, int interface, const Solu
       moment = mesh::plus(moment, mesh::cross(mesh.coordinates[node], f));
     }
   }
-  if (contact.options[interface].role == contact::Role::sticking)
+  if (contact.interfaces.options[interface].role == contact::Role::sticking)
     addSticking(contact, interface, solution, resultant);
   for (Point* sum : {&resultant.normalForce, &resultant.frictionForce, &moments[0], &moments[1]})
     check(MPI_Allreduce(MPI_IN_PLACE, sum->data(), 3, MPI_DOUBLE, MPI_SUM, mesh.comm));
@@ -179,11 +179,11 @@ Resultant resultantOf(const contact::Contact& contact, int interface, const Solu
 void addTieForces(const contact::Contact& contact, Vec nodalForces, Vec contactForces) {
   const auto& mesh = *contact.mesh;
   const int dimension = mesh.dimension;
-  for (int level = contact.levels; level > 0; --level) {
+  for (int level = contact.interfaces.levels; level > 0; --level) {
     const OwnedVec ties = elasticity::nodalVector(mesh);
     {
       const ReadArray forces(nodalForces), others(contactForces);
-      for (const auto& [interface, connection, parts, offset, apart] : contact.tied) {
+      for (const auto& [interface, connection, parts, offset, apart] : contact.interfaces.tied) {
         if (connection.level != level) continue;
         for (int d = 0; d < dimension; ++d) {
           if (apart[d]) continue;

@@ -1,5 +1,5 @@
 #pragma once
-/// These functions find the forces at the interfaces of a steady state, and their sums.
+/// The forces at the interfaces of a steady state, and their sums.
 #include <vector>
 
 #include "model/contact/contact.hpp"

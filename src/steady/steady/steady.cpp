@@ -5,6 +5,7 @@
 
 #include "base/petsc/arrays.hpp"
 #include "base/system/text.hpp"
+#include "model/contact/build.hpp"
 #include "model/contact/loose.hpp"
 #include "model/contact/response.hpp"
 #include "model/elasticity/elasticity.hpp"
@@ -35,19 +36,20 @@ Problem::Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
     : mesh_(mesh),
       bodies_(bodies),
       contact_(contact),
-      all_(contact.nodes.size(), 1),
+      all_(contact.interfaces.nodes.size(), 1),
       sticking_(std::move(sticking)),
-      transformation_(contact.transformation(all_, sticking_.free())),
+      transformation_(contact.transformation(
+          {contact::Mask(contact.interfaces.nodes.size(), 0), sticking_.free()})),
       diagonal_(elasticity::nodalVector(mesh)) {
   check(MatGetDiagonal(bodies.stiffness, diagonal_));
   int released = std::count(sticking_.holds.begin(), sticking_.holds.end(), Hold::released);
   check(MPI_Allreduce(MPI_IN_PLACE, &released, 1, MPI_INT, MPI_MAX, mesh.comm));
   anyReleased_ = released > 0;
-  if (!contact.convected) return;
-  check(MatMatMult(contact.jump, transformation_.trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
+  if (!contact.sliding.convected) return;
+  check(MatMatMult(contact.sliding.jump, transformation_.trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
                    jumps_.out()));
-  check(MatMatMult(contact.convected, transformation_.trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
-                   convected_.out()));
+  check(MatMatMult(contact.sliding.convected, transformation_.trial, MAT_INITIAL_MATRIX,
+                   PETSC_DEFAULT, convected_.out()));
 }
 
 const contact::Projection& Problem::stiffness() const {
@@ -81,29 +83,29 @@ OwnedVec Problem::forces(const sweep::Parameters& at, Vec displacement) const {
 
 std::vector<double> Problem::normalForces(Vec forces) const {
   const OwnedVec reactions = elasticity::nodalVector(mesh_);
-  check(MatMult(contact_.reaction, forces, reactions));
+  check(MatMult(contact_.sliding.reaction, forces, reactions));
   const ReadArray values(reactions);
   std::vector<double> normal;
-  for (const auto& node : contact_.nodes)
+  for (const auto& node : contact_.interfaces.nodes)
     normal.push_back(values[contact_.gapRow(node) - mesh_.dimension * mesh_.firstNode]);
   return normal;
 }
 
 /// Returns L(f)ᵀ r in the form
 ///   Tᵀ (r + Jᵀ f φ E⁻ᵀ R_N τ).
-OwnedVec Problem::test(const contact::Transformation& transformation,
-                       const std::vector<unsigned char>& slides, const sweep::Parameters& at,
-                       Vec forces, const std::vector<contact::Slip>& slip) const {
+OwnedVec Problem::test(const contact::Transformation& transformation, const contact::Mask& slides,
+                       const sweep::Parameters& at, Vec forces,
+                       const std::vector<contact::Slip>& slip) const {
   const OwnedVec friction = elasticity::nodalVector(mesh_), sum = elasticity::nodalVector(mesh_);
   const auto normal = contact_.nodalForce(normalForces(forces), slides);
   {
     const WriteArray values(friction);
-    for (std::size_t i = 0; i < contact_.nodes.size(); ++i)
+    for (std::size_t i = 0; i < contact_.interfaces.nodes.size(); ++i)
       for (int d = 0; d < mesh_.dimension; ++d)
-        values[mesh_.dimension * contact_.nodes[i].node + d] =
+        values[mesh_.dimension * contact_.interfaces.nodes[i].node + d] =
             slip[i].friction(at.friction) * normal[i] * slip[i].direction[d];
   }
-  check(MatMultTransposeAdd(contact_.jump, friction, forces, sum));
+  check(MatMultTransposeAdd(contact_.sliding.jump, friction, forces, sum));
   OwnedVec result = rightVector(transformation.trial);
   check(MatMultTranspose(transformation.trial, sum, result));
   return result;
@@ -113,8 +115,8 @@ OwnedVec Problem::displacement(const contact::Transformation& transformation,
                                const sweep::Parameters& at, Vec x) const {
   OwnedVec u = elasticity::nodalVector(mesh_);
   check(MatMult(transformation.trial, x, u));
-  check(VecAXPY(u, at.pressure, contact_.offset));
-  check(VecAXPY(u, 1, contact_.gapOffset));
+  check(VecAXPY(u, at.pressure, contact_.kinematics.offset));
+  check(VecAXPY(u, 1, contact_.kinematics.gapOffset));
   return u;
 }
 
@@ -137,7 +139,7 @@ OwnedMat Problem::jacobian(const sweep::Parameters& at, Vec x) const {
   if (rotationStiffness_)
     check(MatAXPY(sum, at.speed * at.speed, rotationStiffness_.tested(rows),
                   DIFFERENT_NONZERO_PATTERN));
-  if (contact_.convected) {
+  if (contact_.sliding.convected) {
     const OwnedMat response = contact::nodalResponse(
         contact_, slip, contact_.nodalForce(normalForces(forces(at, u))), at.friction);
     OwnedMat change, turning;
@@ -149,8 +151,8 @@ OwnedMat Problem::jacobian(const sweep::Parameters& at, Vec x) const {
 }
 
 OwnedMat Problem::slipRows(const contact::Transformation& transformation,
-                           const std::vector<contact::Slip>& slip,
-                           const std::vector<unsigned char>& slides, double friction) const {
+                           const std::vector<contact::Slip>& slip, const contact::Mask& slides,
+                           double friction) const {
   return contact_.hasFriction(friction) || anyReleased_
              ? contact_.slipRowsAt(transformation, slip, slides, friction)
              : OwnedMat();
@@ -196,7 +198,8 @@ void Problem::requireHeld(Solution& solution) const {
       "body '%s' is loose (%s): %" PetscInt_FMT " of %" PetscInt_FMT
       " contact nodes are open, and nothing else holds it; begin the sweep at a friction that "
       "presses it, or hold it with -constraint_<group>_clamped or -ground_<group>_stiffness",
-      loose->body.c_str(), loose->motion.c_str(), solution.openNodes, contact_.totalNodes);
+      loose->body.c_str(), loose->motion.c_str(), solution.openNodes,
+      contact_.interfaces.totalNodes);
 }
 
 Solution Problem::solve(const sweep::Parameters& at, const contact::CoupledSystem& system) const {
@@ -304,8 +307,8 @@ void Problem::recover(Vec x, double noise, Solution& solution) const {
   for (PetscInt column : transformation_.gapColumn) gaps.push_back(values[column - first]);
   gaps = contact_.nodalGap(gaps);
   double largest = 0;
-  for (std::size_t i = 0; i < contact_.nodes.size(); ++i) {
-    const auto& node = contact_.nodes[i];
+  for (std::size_t i = 0; i < contact_.interfaces.nodes.size(); ++i) {
+    const auto& node = contact_.interfaces.nodes[i];
     ContactState state;
     state.coefficient = values[transformation_.gapColumn[i] - first];
     state.gap = gaps[i];
@@ -330,7 +333,7 @@ void Problem::recover(Vec x, double noise, Solution& solution) const {
   }
   check(MPI_Allreduce(MPI_IN_PLACE, &solution.openNodes, 1, MPIU_INT, MPI_SUM, mesh_.comm));
   check(MPI_Allreduce(MPI_IN_PLACE, &smallest, 1, MPI_DOUBLE, MPI_MIN, mesh_.comm));
-  solution.smallestPressure = contact_.totalNodes ? smallest : 0;
+  solution.smallestPressure = contact_.interfaces.totalNodes ? smallest : 0;
   if (solution.converged)
     contact::requireSlip(contact_, solution.slip, solution.closed, solution.at.friction);
 
@@ -338,8 +341,8 @@ void Problem::recover(Vec x, double noise, Solution& solution) const {
       tangentialForces(contact_, solution, withReleased(contact_, solution.slip, sticking_), force);
   setStickingForces(contact_, tangential, solution);
   const auto onPads = forcesOnPads(contact_, solution, tangential);
-  for (int i = 0; i < std::ssize(contact_.interfaces); ++i)
-    if (!contact_.options[i].isTied())
+  for (int i = 0; i < std::ssize(contact_.interfaces.names); ++i)
+    if (!contact_.interfaces.options[i].isTied())
       solution.resultants.push_back(resultantOf(contact_, i, solution, onPads));
   solution.imbalance = imbalance(solution, folded, onPads);
 }
@@ -354,11 +357,11 @@ double Problem::imbalance(const Solution& solution, Vec nodalForces,
                  contactForces = elasticity::nodalVector(mesh_);
   {
     const WriteArray values(atNodes);
-    for (std::size_t i = 0; i < contact_.nodes.size(); ++i)
+    for (std::size_t i = 0; i < contact_.interfaces.nodes.size(); ++i)
       for (int d = 0; d < dimension; ++d)
-        values[dimension * contact_.nodes[i].node + d] = onPads[i][d];
+        values[dimension * contact_.interfaces.nodes[i].node + d] = onPads[i][d];
   }
-  check(MatMultTranspose(contact_.jump, atNodes, contactForces));
+  check(MatMultTranspose(contact_.sliding.jump, atNodes, contactForces));
   addTieForces(contact_, nodalForces, contactForces);
   // [part][contact, supports, load][component], and at the end the sum of all magnitudes. That is
   // the scale of the terms that cancel; resultants may vanish by themselves.
@@ -374,7 +377,8 @@ double Problem::imbalance(const Solution& solution, Vec nodalForces,
       const int part = mesh_.nodePart[node];
       const PetscInt row = dimension * node + d;
       const double support =
-          (contact_.constraints.supported[row] ? forces[row] - contacts[row] : 0) - grounded[row];
+          (contact_.interfaces.constraints.supported[row] ? forces[row] - contacts[row] : 0) -
+          grounded[row];
       at(part, 0, d) += contacts[row];
       at(part, 1, d) += support;
       at(part, 2, d) += loads[row];

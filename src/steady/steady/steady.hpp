@@ -17,7 +17,7 @@ namespace squeal::steady {
 /// The steady state of one contact node.
 struct ContactState {
   double gap = 0;          ///< n·[u], m
-  double coefficient = 0;  ///< h of g = E h, m, ≥ 0; the gap itself but for tri6 and quad8 faces
+  double coefficient = 0;  ///< h of g = E h, m, ≥ 0; the gap itself except on tri6 and quad8
   double normalForce = 0;  ///< R_N, N, ≥ 0 in compression
   double pressure = 0;     ///< R_N over the nodal area, Pa
   Point frictionForce{};   ///< R_T on the pad, N; on sticking interfaces what holds it
@@ -56,7 +56,7 @@ struct Solution {
   OwnedVec displacement;              ///< u, N entries, m
   std::vector<ContactState> contact;  ///< [owned contact node]
   std::vector<contact::Slip> slip;    ///< [owned contact node] sliding of sliding interfaces
-  std::vector<unsigned char> closed;  ///< [owned contact node] active: closed and pressed
+  contact::Mask closed;               ///< [owned contact node] active: closed and pressed
   Sticking sticking;                  ///< what holds the nodes of sticking interfaces
   int revisions = 0;                  ///< how often that was changed to find this state
   double negligibleForce = 0;         ///< forces of contact that are rounding, N
@@ -77,8 +77,8 @@ contact::ActiveSet activeSet(const Solution& solution);
 ///   r = (K + v² K^R) u − b,   b = p × pressures + v² × centrifugal forces,
 ///   F(x) = Tᵀ r + Sᵀ N r,   S = S_0 + f S_1,
 ///   0 ≤ g ⟂ F_g = R_N ≥ 0 at the gaps,   F = 0 in all other rows.
-/// Under approximation A it is linear but for the inequalities. With convective terms the slip rows
-/// S follow w = −v (V + D u_D). Nodes of sticking interfaces that are free have tangential
+/// Under approximation A it is linear except for the inequalities. With convective terms the slip
+/// rows S follow w = −v (V + D u_D). Nodes of sticking interfaces that are free have tangential
 /// unknowns, and released ones are in S with their limit as coefficient.
 class Problem {
  public:
@@ -142,13 +142,13 @@ class Problem {
   std::vector<contact::Slip> slip(double speed, Vec displacement) const;
   OwnedVec displacement(const contact::Transformation& transformation, const sweep::Parameters& at,
                         Vec x) const;
-  OwnedVec test(const contact::Transformation& transformation,
-                const std::vector<unsigned char>& slides, const sweep::Parameters& at, Vec forces,
+  OwnedVec test(const contact::Transformation& transformation, const contact::Mask& slides,
+                const sweep::Parameters& at, Vec forces,
                 const std::vector<contact::Slip>& slip) const;
   /// Returns S_0 + f S_1; null where there is no friction.
   OwnedMat slipRows(const contact::Transformation& transformation,
-                    const std::vector<contact::Slip>& slip,
-                    const std::vector<unsigned char>& slides, double friction) const;
+                    const std::vector<contact::Slip>& slip, const contact::Mask& slides,
+                    double friction) const;
   double largestDisplacement(const sweep::Parameters& at, Vec x) const;
   OwnedVec closedContact(const sweep::Parameters& at, const contact::CoupledSystem& system) const;
   void recover(Vec x, double noise, Solution& solution) const;
@@ -158,7 +158,7 @@ class Problem {
   const mesh::Mesh& mesh_;
   const elasticity::Bodies& bodies_;
   const contact::Contact& contact_;
-  std::vector<unsigned char> all_;  // [contact node] 1
+  contact::Mask all_;  // [contact node] 1
   Sticking sticking_;
   bool anyReleased_ = false;                                   // of all ranks
   contact::Transformation transformation_;                     // all gaps unknown

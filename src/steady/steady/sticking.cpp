@@ -17,10 +17,10 @@ constexpr double slipRounding = 1e-8;
 std::vector<Point> tangentialJumps(const contact::Contact& contact, Vec displacement) {
   const auto& mesh = *contact.mesh;
   const OwnedVec jump = elasticity::nodalVector(mesh);
-  check(MatMult(contact.jump, displacement, jump));
+  check(MatMult(contact.sliding.jump, displacement, jump));
   const ReadArray values(jump);
   std::vector<Point> found;
-  for (const auto& node : contact.nodes) {
+  for (const auto& node : contact.interfaces.nodes) {
     Point u{};
     for (int d = 0; d < mesh.dimension; ++d) u[d] = values[mesh.dimension * node.node + d];
     found.push_back(mesh::tangential(u, node.normal));
@@ -38,9 +38,9 @@ double largestLength(MPI_Comm comm, const std::vector<Point>& points) {
 }  // namespace
 
 Sticking Sticking::allHeld(const contact::Contact& contact) {
-  return {std::vector<Hold>(contact.nodes.size(), Hold::held),
-          std::vector<Point>(contact.nodes.size(), Point{}),
-          std::vector<unsigned char>(contact.nodes.size(), 0)};
+  return {std::vector<Hold>(contact.interfaces.nodes.size(), Hold::held),
+          std::vector<Point>(contact.interfaces.nodes.size(), Point{}),
+          contact::Mask(contact.interfaces.nodes.size(), 0)};
 }
 
 Sticking Sticking::allFree(const contact::Contact& contact) {
@@ -49,8 +49,8 @@ Sticking Sticking::allFree(const contact::Contact& contact) {
   return sticking;
 }
 
-std::vector<unsigned char> Sticking::free() const {
-  std::vector<unsigned char> found;
+contact::Mask Sticking::free() const {
+  contact::Mask found;
   for (const Hold hold : holds) found.push_back(hold != Hold::held);
   return found;
 }
@@ -59,30 +59,32 @@ std::vector<contact::Slip> withReleased(const contact::Contact& contact,
                                         std::vector<contact::Slip> slip, const Sticking& sticking) {
   for (std::size_t i = 0; i < slip.size(); ++i)
     if (sticking.holds[i] == Hold::released)
-      slip[i] = {sticking.direction[i],
-                 0,
-                 1,
-                 0,
-                 {*contact.options[contact.nodes[i].interface].stickingLimit, 0}};
+      slip[i] = {
+          sticking.direction[i],
+          0,
+          1,
+          0,
+          {*contact.interfaces.options[contact.interfaces.nodes[i].interface].stickingLimit, 0}};
   return slip;
 }
 
 bool exceedsLimit(const contact::Contact& contact, const Solution& solution, std::size_t i) {
-  const auto& limit = contact.options[contact.nodes[i].interface].stickingLimit;
+  const auto& limit =
+      contact.interfaces.options[contact.interfaces.nodes[i].interface].stickingLimit;
   const auto& state = solution.contact[i];
   return limit && solution.closed[i] && solution.sticking.holds[i] == Hold::held &&
          mesh::length(state.frictionForce) > *limit * state.normalForce + solution.negligibleForce;
 }
 
 std::optional<Sticking> revised(const contact::Contact& contact, const Solution& solution) {
-  const auto& options = contact.options;
+  const auto& options = contact.interfaces.options;
   if (!contact.hasSticking()) return {};
   const MPI_Comm comm = contact.mesh->comm;
   const auto jumps = tangentialJumps(contact, solution.displacement);
   const double nothing = slipRounding * largestLength(comm, jumps);
   Sticking next = solution.sticking;
-  for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
-    const auto& node = contact.nodes[i];
+  for (std::size_t i = 0; i < contact.interfaces.nodes.size(); ++i) {
+    const auto& node = contact.interfaces.nodes[i];
     Hold& hold = next.holds[i];
     if (node.role != contact::Role::sticking) continue;
     const bool slidesBack =

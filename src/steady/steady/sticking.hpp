@@ -21,16 +21,16 @@ enum class Hold : unsigned char {
 
 /// The holds of all contact nodes. On other interfaces they mean nothing.
 struct Sticking {
-  std::vector<Hold> holds;               ///< [owned contact node]
-  std::vector<Point> direction;          ///< [owned contact node] d, unit, where released
-  std::vector<unsigned char> heldAgain;  ///< [owned contact node] 1 once it has been held again
+  std::vector<Hold> holds;       ///< [owned contact node]
+  std::vector<Point> direction;  ///< [owned contact node] d, unit, where released
+  contact::Mask heldAgain;       ///< [owned contact node] 1 once it has been held again
 
   /// Returns the holds with all nodes held.
   static Sticking allHeld(const contact::Contact& contact);
   /// Returns the holds with all nodes free.
   static Sticking allFree(const contact::Contact& contact);
   /// Returns 1 for the nodes that are not held, [owned contact node].
-  std::vector<unsigned char> free() const;
+  contact::Mask free() const;
 };
 
 /// Returns the slip, [owned contact node], with that of the released nodes: the direction d and

@@ -31,9 +31,11 @@ linalg::DenseMatrix Compliance::at(double friction) const {
 
 OpenContact::OpenContact(const contact::Contact& contact, Mat stiffness,
                          const std::vector<contact::Slip>& slip)
-    : contact_(contact), size_(contact.totalNodes), ownedSize_(contact.nodes.size()) {
-  const std::vector<unsigned char> all(contact.nodes.size(), 1);
-  transformation_ = contact.transformation(all);
+    : contact_(contact),
+      size_(contact.interfaces.totalNodes),
+      ownedSize_(contact.interfaces.nodes.size()) {
+  const contact::Mask all(contact.interfaces.nodes.size(), 1);
+  transformation_ = contact.transformation(contact::ActiveSet::open(all.size()));
   check(MPI_Scan(&ownedSize_, &first_, 1, MPIU_INT, MPI_SUM, contact.mesh->comm));
   first_ -= ownedSize_;
 

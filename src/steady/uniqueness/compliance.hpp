@@ -29,7 +29,7 @@ struct Compliance {
 /// The condensed problem, with a factorisation of K_o.
 class OpenContact {
  public:
-  /// Collective. Factorises K_o (prefix -steady_uniqueness_); factorised() tells whether that has
+  /// Collective. Factorises K_o (prefix -steady_uniqueness_); factorised() returns whether that has
   /// worked. No body may be loose with the contact open. `stiffness` is K on all nodal
   /// displacements, N×N, symmetric, N/m, and `slip`, [owned contact node], gives U; both are needed
   /// during this call only. Borrows `contact` during the life of the object.

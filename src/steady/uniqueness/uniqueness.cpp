@@ -11,18 +11,6 @@
 namespace squeal::uniqueness {
 namespace {
 
-const FlagOption wantedOption("steady", "steady_uniqueness", true,
-                              "examine existence and uniqueness of the steady state: one more "
-                              "factorisation, a solve per contact "
-                              "node");
-const IntegerOption denseOption("steady", "steady_uniqueness_dense", 1000, 0, 40'000,
-                                "contact nodes up to which the condensed matrix is formed; beyond, "
-                                "the friction where it ceases to be "
-                                "positive definite is found iteratively");
-const IntegerOption pMatrixOption(
-    "steady", "steady_uniqueness_pmatrix", 18, 0, 30,
-    "contact nodes n up to which the P-matrix test is made, 2^n pivots");
-
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 Uniqueness undecided(const std::vector<double>& frictions, const std::string& reason) {
@@ -138,33 +126,30 @@ Uniqueness examineMatrixFree(OpenContact& condensed, const std::vector<double>& 
 
 }  // namespace
 
-bool uniquenessWanted() { return wantedOption.get(); }
-
 Uniqueness examine(const elasticity::Bodies& bodies, const contact::Contact& contact, double speed,
-                   const std::vector<double>& frictions) {
-  const int denseLimit = denseOption.get(), pMatrixLimit = pMatrixOption.get();
-  if (contact.totalNodes == 0) return undecided(frictions, "there is no contact node");
+                   const std::vector<double>& frictions, const Settings& settings) {
+  if (contact.interfaces.totalNodes == 0) return undecided(frictions, "there is no contact node");
   if (const auto loose = contact::looseBody(*contact.mesh, contact, bodies.springs, {.any = false}))
     return undecided(frictions,
                      "body '" + loose->body +
-                         "' is held by the contact alone, so the condensed matrix does not exist");
+                         "' is held only by the contact, so the condensed matrix does not exist");
   OwnedMat stiffness = bodies.stiffness.share();
   if (bodies.rotationStiffness) {
     check(MatDuplicate(bodies.stiffness, MAT_COPY_VALUES, stiffness.out()));
     check(MatAXPY(stiffness, speed * speed, bodies.rotationStiffness, DIFFERENT_NONZERO_PATTERN));
     check(MatSetOption(stiffness, MAT_SYMMETRIC, PETSC_TRUE));
   }
-  for (const auto& interface : contact.options)
+  for (const auto& interface : contact.interfaces.options)
     if (interface.role == contact::Role::sticking)
       return undecided(frictions, "nodes of " + interface.label() +
                                       " are freed along it where they open, which the condensed "
                                       "matrix does not hold");
   OpenContact condensed(contact, stiffness, contact.slip(speed, nullptr));
-  const bool dense = condensed.size() <= denseLimit;
+  const bool dense = condensed.size() <= settings.dense;
   if (dense) rejectUnusedUniquenessOptions(true);
   if (!condensed.factorised())
     return undecided(frictions, "the stiffness matrix of the open contact cannot be factorised");
-  return dense ? examineDense(condensed.dense(), frictions, pMatrixLimit)
+  return dense ? examineDense(condensed.dense(), frictions, settings.pMatrix)
                : examineMatrixFree(condensed, frictions);
 }
 

@@ -7,6 +7,7 @@
 #include "model/contact/contact.hpp"
 #include "model/elasticity/elasticity.hpp"
 #include "steady/uniqueness/positivity.hpp"
+#include "steady/uniqueness/settings.hpp"
 
 namespace squeal::uniqueness {
 
@@ -17,9 +18,6 @@ struct Uniqueness {
   double lostAt = 0;
 };
 
-/// Returns the option -steady_uniqueness.
-bool uniquenessWanted();
-
 /// Collective. Examines the problem with K + v² K^R and with the slip of w = −v V at the speed
 /// factor v, at all `frictions`. A is formed up to -steady_uniqueness_dense contact nodes. Beyond,
 /// SLEPc finds `lostAt` by solves with the stiffness of the open and of the closed contact, and no
@@ -27,6 +25,6 @@ bool uniquenessWanted();
 /// decided", with the reason. Throws Error for an unknown -steady_uniqueness_* option, and if
 /// LAPACK fails.
 Uniqueness examine(const elasticity::Bodies& bodies, const contact::Contact& contact, double speed,
-                   const std::vector<double>& frictions);
+                   const std::vector<double>& frictions, const Settings& settings);
 
 }  // namespace squeal::uniqueness

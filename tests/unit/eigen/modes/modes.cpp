@@ -56,7 +56,8 @@ class Layer : public testing::Test {
     check(PetscOptionsInsertString(nullptr, "-quiet"));
     model_ = buildModel();
     system_ = std::make_unique<contact::CoupledSystem>(
-        model_.bodies, model_.contact, std::vector<unsigned char>(model_.contact.nodes.size(), 1));
+        model_.bodies, model_.contact,
+        contact::ActiveSet::bonded(model_.contact.interfaces.nodes.size()));
   }
   Model model_;
   std::unique_ptr<contact::CoupledSystem> system_;

@@ -82,7 +82,7 @@ void expectDerivativesOfOpenContact(const Configuration& model) {
   const analysis::Analysis analysis = run(model, "", 1);
   const auto open = analysis.segments.at(0).openNodes;
   EXPECT_GT(open, 0);
-  EXPECT_LT(open, analysis.contact.totalNodes);
+  EXPECT_LT(open, analysis.contact.interfaces.totalNodes);
   expectBalance(analysis, analysis.segments[0].points.at(0));
   expectDifferences(model, analysis);
 }

@@ -92,7 +92,7 @@ TEST(Sensitivity, InTables) {
   const auto full = lines(report::sensitivityTable(analysis)),
              work = lines(report::frictionWorkTable(analysis));
   EXPECT_EQ(full.size(), 1 + 3 * first.derivatives.size());
-  EXPECT_EQ(work.size(), 1 + 3 * analysis.contact.interfaces.size());
+  EXPECT_EQ(work.size(), 1 + 3 * analysis.contact.interfaces.names.size());
   for (const auto* table : {&full, &work})
     for (const auto& line : *table)
       EXPECT_EQ(std::count(line.begin(), line.end(), ','),

@@ -33,8 +33,8 @@ struct Fixture : test::Layers {
 
   Fixture() : Layers("-modes_count 60 -mesh_set nx=12,ny_disc=4,ny_pad=3") {
     const auto free = modes();
-    all =
-        std::make_unique<contact::CoupledSystem>(model.bodies, model.contact, closedBut(0.9, 2.1));
+    all = std::make_unique<contact::CoupledSystem>(model.bodies, model.contact,
+                                                   contact::ActiveSet{closedBut(0.9, 2.1), {}});
     terms = std::make_unique<pencil::Pencil>(terms::affineTerms(model.contact, *all));
     substructure = analysis::substructureOf(*all, *system);
     reduced = std::make_unique<reduction::ReducedProblem>(
@@ -44,7 +44,7 @@ struct Fixture : test::Layers {
   /// The nodes outside of this range of x.
   Nodes closedBut(double from, double to) const {
     Nodes closed;
-    for (const auto& node : model.contact.nodes)
+    for (const auto& node : model.contact.interfaces.nodes)
       closed.push_back(!(node.position[0] > from && node.position[0] < to));
     return closed;
   }
@@ -58,7 +58,7 @@ struct Fixture : test::Layers {
     const int dimension = model.mesh->dimension;
     for (const PetscInt k : substructure.boundary)
       for (std::size_t i = 0; i < closed.size(); ++i)
-        if (model.contact.nodes[i].node == all->transformation().rows[k] / dimension)
+        if (model.contact.interfaces.nodes[i].node == all->transformation().rows[k] / dimension)
           mine.push_back(!closed[i]);
     return reduced->addSet(own, concatenated(model.mesh->comm, mine));
   }
@@ -77,7 +77,8 @@ TEST(Substructure, EigenvaluesAreThoseOfEachActiveSet) {
     std::vector<reduction::PointProblem> batch;
     for (const double friction : {0.0, 0.3, 0.6}) batch.push_back({{friction}, own.with({}), set});
     const auto points = f.reduced->solve(batch, f.all->transformation().trial);
-    const contact::CoupledSystem alone(f.model.bodies, f.model.contact, f.closedBut(from, to));
+    const contact::CoupledSystem alone(f.model.bodies, f.model.contact,
+                                       {f.closedBut(from, to), {}});
     const auto whole = terms::affineTerms(f.model.contact, alone);
     for (const auto& point : points) {
       std::vector<Complex> exact;
@@ -109,7 +110,8 @@ TEST(Substructure, FreeModesAreCountedWithoutAnotherFactorisation) {
     const int set = f.add(from, to, own);
     const auto modes = f.reduced->freeModes(set, *f.terms);
     EXPECT_TRUE(modes.countConfirmed);
-    const contact::CoupledSystem alone(f.model.bodies, f.model.contact, f.closedBut(from, to));
+    const contact::CoupledSystem alone(f.model.bodies, f.model.contact,
+                                       {f.closedBut(from, to), {}});
     linalg::DenseMatrix stiffness = test::denseCopy(alone.k0()), mass = test::denseCopy(alone.m0());
     const auto exact = linalg::symmetricEigen(stiffness, mass);
     ASSERT_LT(modes.lambda.size(), exact.size());

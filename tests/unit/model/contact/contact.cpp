@@ -34,7 +34,7 @@ void gapIsTheUnknown(const Coupled& c) {
   }
   const auto gap = c.model.contact.nodalGap(unknown);
   for (std::size_t i = 0; i < gap.size(); ++i) {
-    const auto& node = c.model.contact.nodes[i];
+    const auto& node = c.model.contact.interfaces.nodes[i];
     Point jump = at(u, node.globalNode, c.dimension());
     if (node.master >= 0) jump = test::minus(jump, at(u, node.master, c.dimension()));
     EXPECT_NEAR(test::dot(node.normal, jump), gap[i], 1e-14);
@@ -64,7 +64,7 @@ TEST(Trial, GapIsTheUnknownOnLayers) {
   for (const auto& image : mesh.images)
     for (int d = 0; d < 2; ++d)
       EXPECT_EQ(u[2 * (mesh.firstNode + image.node) + d], u[2 * image.primary + d]);
-  const auto offset = test::allEntries(c.model.contact.offset);
+  const auto offset = test::allEntries(c.model.contact.kinematics.offset);
   for (const char* group : {"disc_bottom", "pad_top"})
     for (PetscInt node : mesh.nodeGroups.at(group)) {
       EXPECT_EQ(at(u, mesh.firstNode + node, 2), (Point{}));
@@ -87,7 +87,7 @@ TEST(Trial, ObstacleMovesTheFace) {
   test::setCase("layer", "-mesh_set nx=6,ny=3 -contact_plate_obstacle_displacement 0.3,-0.02,0");
   const auto c = coupled();
   gapIsTheUnknown(c);
-  const auto offset = test::allEntries(c.model.contact.offset);
+  const auto offset = test::allEntries(c.model.contact.kinematics.offset);
   for (const auto& node : c.nodes) {
     EXPECT_NEAR(node.normal[1], -1, 1e-14);  // from the plate to the layer
     EXPECT_NEAR(at(offset, node.pad, 2)[1], -0.02, 1e-16);
@@ -158,9 +158,9 @@ TEST(TestFunctions, OnlySlidingNodesCarryFriction) {
   const auto c = coupled();
   EXPECT_EQ(c.nodes.size(), 6u);
   std::vector<unsigned char> open, closed;
-  for (const auto& node : c.model.contact.nodes)
+  for (const auto& node : c.model.contact.interfaces.nodes)
     open.push_back(node.position[0] < 0.75), closed.push_back(!open.back());
-  const auto part = c.model.contact.transformation(open);
+  const auto part = c.model.contact.transformation({closed, {}});
   EXPECT_EQ(part.columns, 54 + 2);  // nodes at x = 0 and 0.5 keep their gaps
   for (std::size_t i = 0; i < open.size(); ++i) EXPECT_EQ(part.gapColumn[i] >= 0, open[i] == 1);
   const auto friction = test::denseCopy(frictionTest(c.model.contact, part, closed));

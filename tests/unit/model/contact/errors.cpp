@@ -63,7 +63,7 @@ TEST(Interfaces, MustFaceEachOther) {
     EXPECT_TRUE(contains(message, words)) << message;
 }
 
-// A third component that is left out is no zero, and a fourth one means nothing.
+// A third component that is left out is not a zero, and a fourth one means nothing.
 TEST(Vectors, HaveAsManyComponentsAsTheMesh) {
   const std::string box = "-mesh_file meshes/beam.geo -mesh_set nx=2,ny=1,nz=1 " +
                           test::material("beam", "1", "0.3", "1") +

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "model/contact/build.hpp"
 #include "model/contact/coupled.hpp"
 #include "support/case.hpp"
 #include "support/contact_cases.hpp"
@@ -33,12 +34,12 @@ mesh::Point gapColumn(const std::vector<double>& block, int dimension) {
 void orthonormalFrames(const Coupled& c, double tolerance) {
   const auto& model = c.model;
   const int dimension = c.dimension();
-  for (const auto& node : model.contact.nodes) {
+  for (const auto& node : model.contact.interfaces.nodes) {
     std::vector<PetscInt> places;
     for (int d = 0; d < dimension; ++d) places.push_back(dimension * node.globalNode + d);
     std::vector<double> frame(static_cast<std::size_t>(dimension * dimension));
-    check(MatGetValues(model.contact.kinematics, dimension, places.data(), dimension, places.data(),
-                       frame.data()));
+    check(MatGetValues(model.contact.kinematics.matrix, dimension, places.data(), dimension,
+                       places.data(), frame.data()));
     const double factor = std::abs(test::dot(node.normal, gapColumn(frame, dimension)));
     EXPECT_NEAR(factor, factor < 0.8 ? 0.6 : 1, 1e-13);
     for (int i = 0; i < dimension; ++i) frame[i * dimension + dimension - 1] /= factor;
@@ -98,7 +99,7 @@ TEST(Frame, IsOrthonormalAndRadialOnASphere) {
 
 void requireSlip(const contact::Contact& contact) {
   contact::requireSlip(contact, contact.slip(1, nullptr),
-                       std::vector<unsigned char>(contact.nodes.size(), 1), 0.4);
+                       std::vector<unsigned char>(contact.interfaces.nodes.size(), 1), 0.4);
 }
 
 // Vω = ω k × r, w = −V: τ against the rotation, |w| = |ω| r, for both senses.

@@ -49,12 +49,12 @@ TEST(GapBasis, IntegralsArePositive) {
     const test::Model model = bar(triangles);
     const auto exact = exactAreas(*model.mesh);
     double sum = 0;
-    for (const auto& node : model.contact.nodes) {
+    for (const auto& node : model.contact.interfaces.nodes) {
       EXPECT_NEAR(node.area, exact.at(node.globalNode), 1e-12);  // gmsh places nodes to 1e-11
       sum += node.area;
     }
     EXPECT_NEAR(test::total(sum), 0.16, 1e-12);
-    EXPECT_EQ(model.contact.totalNodes, triangles ? 25 : 21);
+    EXPECT_EQ(model.contact.interfaces.totalNodes, triangles ? 25 : 21);
   }
 }
 
@@ -65,7 +65,7 @@ TEST(GapBasis, LinearGapsAndForces) {
     const test::Model model = bar(triangles);
     const auto& contact = model.contact;
     std::vector<double> linear, any, force;
-    for (const auto& node : contact.nodes) {
+    for (const auto& node : contact.interfaces.nodes) {
       linear.push_back(0.3 + 0.7 * node.position[1] - 1.1 * node.position[2]);
       any.push_back(std::sin(40 * node.position[1] + 70 * node.position[2]));
       force.push_back(std::cos(30 * node.position[1] - 50 * node.position[2]));
@@ -85,7 +85,7 @@ TEST(GapBasis, LinearGapsAndForces) {
 // Linear faces and those with a node in the middle have positive integrals as they are.
 TEST(GapBasis, OtherFacesHaveNone) {
   test::contact_cases::setLayers();
-  EXPECT_FALSE(test::buildModel().contact.gapBasis);
+  EXPECT_FALSE(test::buildModel().contact.interfaces.gapBasis);
 }
 
 }  // namespace

@@ -39,9 +39,9 @@ PatchErrors patchTest(const std::string& file, const Block& disc, const Block& p
                    (plane ? "0,-0.01" : "0,0,-0.01") + " -flutter_friction 0 " + more);
   const auto model = test::buildModel();
   const mesh::Mesh& mesh = *model.mesh;
-  EXPECT_FALSE(model.contact.reports.at(0).matching);
-  const std::vector<unsigned char> bonded(model.contact.nodes.size(), 1);
-  const contact::CoupledSystem system(model.bodies, model.contact, bonded);
+  EXPECT_FALSE(model.contact.interfaces.reports.at(0).matching);
+  const std::vector<unsigned char> bonded(model.contact.interfaces.nodes.size(), 1);
+  const contact::CoupledSystem system(model.bodies, model.contact, {bonded, {}});
   const steady::Problem problem(mesh, model.bodies, model.contact);
   const auto solution = problem.solve({}, system);
   EXPECT_TRUE(solution.converged) << solution.reason;
@@ -157,7 +157,7 @@ TEST(PatchTest, UniformPressureOnStronglyDistortedFaces) {
 TEST(Report, SaysWhyMeshesDoNotMatch) {
   test::setCase("two_layers", test::contact_cases::layers + ",nx_pad=5");
   const auto model = test::buildModel();
-  const auto& report = model.contact.reports.at(0);
+  const auto& report = model.contact.interfaces.reports.at(0);
   EXPECT_FALSE(report.matching);
   EXPECT_TRUE(test::contains(report.whyNot, "pad_face") &&
               test::contains(report.whyNot, "disc_face"))
@@ -169,10 +169,10 @@ TEST(Report, SaysWhyMeshesDoNotMatch) {
   EXPECT_EQ(report.nodes, 5);        // 6, of which one is the image of another
   test::setCase("two_layers", test::contact_cases::layers + ",nx_pad=4");
   const auto finer = test::buildModel();
-  EXPECT_EQ(finer.contact.reports.at(0).slave.faces, 6);  // the disc
-  EXPECT_EQ(finer.contact.slaves.at(0).sign, -1);
+  EXPECT_EQ(finer.contact.interfaces.reports.at(0).slave.faces, 6);  // the disc
+  EXPECT_EQ(finer.contact.interfaces.slaves.at(0).sign, -1);
   test::setCase("two_layers", test::contact_cases::layers);
-  EXPECT_TRUE(test::buildModel().contact.reports.at(0).matching);
+  EXPECT_TRUE(test::buildModel().contact.interfaces.reports.at(0).matching);
 }
 
 }  // namespace

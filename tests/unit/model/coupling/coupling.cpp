@@ -99,8 +99,8 @@ TEST(Coupling, PartlyCoveredSlavesStayExact) {
 /// Expects on all ranks together what one rank finds.
 void expectSameOnOneRank(const std::string& options, double distance = 0) {
   const Case many = caseOf(options), one = caseOf(options, PETSC_COMM_SELF);
-  const Coupling found = padOnDisc(many.mesh, distance), alone = padOnDisc(one.mesh, distance);
-  const auto a = records(many, found), b = records(one, alone);
+  const Coupling found = padOnDisc(many.mesh, distance), single = padOnDisc(one.mesh, distance);
+  const auto a = records(many, found), b = records(one, single);
   ASSERT_EQ(a.size(), b.size());
   ASSERT_GT(a.size(), 0U);
   double worst = 0;
@@ -108,12 +108,12 @@ void expectSameOnOneRank(const std::string& options, double distance = 0) {
     for (std::size_t k = 0; k < a[i].size(); ++k)
       worst = std::max(worst, std::abs(a[i][k] - b[i][k]));
   EXPECT_LT(worst, 1e-12);
-  EXPECT_EQ(found.droppedNodes, alone.droppedNodes);
-  EXPECT_EQ(found.sliverFaces, alone.sliverFaces);
-  EXPECT_EQ(found.slave.nearFaces, alone.slave.nearFaces);
-  EXPECT_EQ(found.master.nearFaces, alone.master.nearFaces);
-  EXPECT_NEAR(found.coveredArea, alone.coveredArea, 1e-13);
-  EXPECT_NEAR(found.largestGap, alone.largestGap, 1e-13);
+  EXPECT_EQ(found.droppedNodes, single.droppedNodes);
+  EXPECT_EQ(found.sliverFaces, single.sliverFaces);
+  EXPECT_EQ(found.slave.nearFaces, single.slave.nearFaces);
+  EXPECT_EQ(found.master.nearFaces, single.master.nearFaces);
+  EXPECT_NEAR(found.coveredArea, single.coveredArea, 1e-13);
+  EXPECT_NEAR(found.largestGap, single.largestGap, 1e-13);
 }
 
 // With overhangs, so that nodes are dropped, and with a slave of two types of faces.

@@ -212,14 +212,14 @@ TEST(Convection, IsThereOnlyIfWantedAndMoving) {
 
 TEST(Motion, RevolutionsPerMinute) {
   test::setOptions("-motion_disc_rpm 90 ");
-  EXPECT_NEAR(elasticity::readMotions({"disc"}, 2).front().speed, 3 * M_PI, 1e-14);
-  EXPECT_EQ(elasticity::movingBodies(), std::vector<std::string>{"disc"});
+  const auto settings = elasticity::Settings::given();
+  EXPECT_NEAR(elasticity::motionsOf({"disc"}, 2, settings.motions).front().speed, 3 * M_PI, 1e-14);
+  EXPECT_EQ(elasticity::movingBodies(settings), std::vector<std::string>{"disc"});
   test::setOptions("-motion_disc_rpm 90 -motion_disc_speed 3");
-  EXPECT_TRUE(test::contains(test::errorOf([] { elasticity::readMotions({"disc"}, 2); }),
-                             "-motion_disc_rpm"));
-  test::setOptions("-motion_disc_rpm 90 -motion_disc_velocity 1,0");
   EXPECT_TRUE(
-      test::contains(test::errorOf([] { elasticity::readMotions({"disc"}, 2); }), "not both"));
+      test::contains(test::errorOf([] { elasticity::Settings::given(); }), "-motion_disc_rpm"));
+  test::setOptions("-motion_disc_rpm 90 -motion_disc_velocity 1,0");
+  EXPECT_TRUE(test::contains(test::errorOf([] { elasticity::Settings::given(); }), "not both"));
 }
 
 }  // namespace

@@ -190,7 +190,7 @@ TEST(Load, PressureOnOneFace) {
     test::setOptions("-mesh_file meshes/beam.geo -mesh_set Lx=2,Ly=0.5,Lz=0.3,nx=4,ny=2,nz=1," +
                      set + test::material("beam", "1", "0.3", "1") + "-load_top_pressure 7");
     const auto mesh = test::readMesh();
-    const auto bodies = elasticity::assemble(mesh);
+    const auto bodies = test::assembleBodies(mesh);
     const auto work = [&](const auto& field) {
       return test::dot(test::nodalField(mesh, field), bodies.load);
     };
@@ -231,7 +231,7 @@ TEST(Elasticity, NamesAnInvertedElementOnAllRanks) {
         test::writeFile(inverted ? "inverted.msh" : "four_cells.msh", fourCells(inverted));
     test::setOptions("-mesh_file " + file + test::material("lining", "1", "0.3", "1"));
     const auto mesh = test::readMesh();
-    const auto message = test::errorOf([&] { elasticity::assemble(mesh); });
+    const auto message = test::errorOf([&] { test::assembleBodies(mesh); });
     if (!inverted) {
       EXPECT_EQ(message, "");
       continue;
@@ -273,7 +273,7 @@ struct CurvedCells {
   elasticity::Bodies bodies;
 };
 
-/// Collective. The warning on rank 0 alone.
+/// Collective. The warning, only on rank 0.
 CurvedCells assembleCurved(double inwards, int count = 2) {
   CurvedCells cells;
   test::setOptions("-mesh_file " + test::writeFile("curved.msh", curvedTetrahedra(inwards, count)) +
@@ -281,7 +281,7 @@ CurvedCells assembleCurved(double inwards, int count = 2) {
                                   std::to_string(density)));
   cells.mesh = test::readMesh();
   testing::internal::CaptureStderr();
-  cells.message = test::errorOf([&] { cells.bodies = elasticity::assemble(cells.mesh); });
+  cells.message = test::errorOf([&] { cells.bodies = test::assembleBodies(cells.mesh); });
   cells.warning = testing::internal::GetCapturedStderr();
   return cells;
 }
@@ -354,7 +354,7 @@ TEST(CurvedTetrahedra, ConvectionAndStressTakeTheSamePoints) {
 
 // ρ V (1 + δᵢⱼ) / ((d + 1) (d + 2)), the closed formula of linear simplices (Zienkiewicz and
 // Taylor, The Finite Element Method). The rules of gmsh for them have a point of negative weight,
-// which is no fold.
+// which is not a fold.
 TEST(Mass, LinearSimplicesHaveTheClosedFormula) {
   const std::vector<Point> triangle{{0, 0, 0}, {1.2, 0.1, 0}, {0.2, 0.8, 0}},
       tetrahedron{{0, 0, 0}, {2, 0, 0}, {1, 3, 0}, {0, 1, 4}};

@@ -41,8 +41,9 @@ TEST(Interfaces, HaveTheFacesOfBothSides) {
       EXPECT_NEAR(area[1], up, 1e-12);
       for (const auto& part : partsOf(mesh, side + "_face")) EXPECT_EQ(part, side);
     }
-    EXPECT_EQ(mesh.matching, std::vector<unsigned char>{1});
-    EXPECT_EQ(mesh.mismatch, std::vector<std::string>{""});
+    ASSERT_EQ(mesh.interfaces.size(), 1u);
+    EXPECT_TRUE(mesh.interfaces[0].matching);
+    EXPECT_EQ(mesh.interfaces[0].mismatch, "");
   }
 }
 
@@ -71,7 +72,7 @@ TEST(Interfaces, FacesInsideTheDiscAreLeftOut) {
 }
 
 // Two bodies share three nodes, and the group of the pad has one of the two faces between: the
-// bodies stay joined along the other, which is no face of the disc.
+// bodies stay joined along the other, which is not a face of the disc.
 TEST(Interfaces, JoinedFacesAreLeftOut) {
   const std::string text =
       "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n1 1 \"pad_face\"\n1 2 "
@@ -87,7 +88,7 @@ TEST(Interfaces, JoinedFacesAreLeftOut) {
                    "-contact_face_pad pad_face -contact_face_disc disc_face");
   const Mesh mesh = test::readMesh();
   EXPECT_EQ(mesh.totalNodes, 11);
-  EXPECT_EQ(mesh.matching, std::vector<unsigned char>{1});
+  EXPECT_TRUE(mesh.interfaces.at(0).matching);
   const auto areas = test::areaVectors(mesh);
   EXPECT_EQ(areas.at("disc_face")[1], 1);
   EXPECT_EQ(areas.at("pad_face")[1], -1);
@@ -107,30 +108,34 @@ Mesh squaresMesh(const std::string& disc, const std::string& pad) {
 
 TEST(Interfaces, MismatchIsMarkedAndLeavesNoPairs) {
   const Mesh alike = squaresMesh("4", "4");
-  EXPECT_EQ(alike.matching, (std::vector<unsigned char>{1, 0}));
-  ASSERT_EQ(alike.mismatch.size(), 2u);
-  EXPECT_EQ(alike.mismatch[0], "");
-  EXPECT_TRUE(contains(alike.mismatch[1], "of 'pad_left' have no node of 'left' within "))
-      << alike.mismatch[1];
+  ASSERT_EQ(alike.interfaces.size(), 2u);
+  EXPECT_EQ(alike.interfaces[0].label, "interface 'face'");
+  EXPECT_TRUE(alike.interfaces[0].matching);
+  EXPECT_FALSE(alike.interfaces[1].matching);
+  EXPECT_EQ(alike.interfaces[0].mismatch, "");
+  EXPECT_TRUE(
+      contains(alike.interfaces[1].mismatch, "of 'pad_left' have no node of 'left' within "))
+      << alike.interfaces[1].mismatch;
   EXPECT_EQ(total(static_cast<double>(alike.pairs.size())), 5);
   for (const auto& pair : alike.pairs) EXPECT_EQ(pair.interface, 0);
 
-  // 1/5 is no node of the four cells of the disc; the pad's nodes at 0, 1/2 and 1 are.
+  // 1/5 is not a node of the four cells of the disc; the pad's nodes at 0, 1/2 and 1 are.
   const Mesh finer = squaresMesh("4", "5"), coarser = squaresMesh("4", "2");
   for (const Mesh* mesh : {&finer, &coarser}) {
-    EXPECT_EQ(mesh->matching, (std::vector<unsigned char>{0, 0}));
+    for (const auto& interface : mesh->interfaces) EXPECT_FALSE(interface.matching);
     EXPECT_EQ(total(static_cast<double>(mesh->pairs.size())), 0);
     const auto areas = test::areaVectors(*mesh);
     EXPECT_NEAR(areas.at("disc_face")[1], 1, 1e-12);
     EXPECT_NEAR(areas.at("pad_face")[1], -1, 1e-12);
   }
-  EXPECT_TRUE(
-      contains(finer.mismatch.at(0), "4 of 6 nodes of 'pad_face' have no node of 'disc_face'") &&
-      contains(finer.mismatch.at(0),
-               ", 0, 0), where no other body has one either: the two are not meshed alike"))
-      << finer.mismatch.at(0);
-  EXPECT_EQ(finer.nearlyMatching, (std::vector<unsigned char>{0, 0}));  // fewer than half have one
-  EXPECT_EQ(coarser.mismatch.at(0),
+  EXPECT_TRUE(contains(finer.interfaces.at(0).mismatch,
+                       "4 of 6 nodes of 'pad_face' have no node of 'disc_face'") &&
+              contains(finer.interfaces.at(0).mismatch,
+                       ", 0, 0), where no other body has one either: the two are not meshed alike"))
+      << finer.interfaces.at(0).mismatch;
+  for (const auto& interface : finer.interfaces)
+    EXPECT_FALSE(interface.nearlyMatching);  // fewer than half have one
+  EXPECT_EQ(coarser.interfaces.at(0).mismatch,
             "the face of 'pad_face' at (0, 0, 0) does not lie on one face of 'disc_face': is a "
             "face missing in this group?");
 }

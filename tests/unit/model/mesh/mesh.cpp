@@ -177,10 +177,11 @@ TEST(Partition, NoRankIsEmpty) {
   int rank = 0;
   check(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
   test::setCase("two_layers", "-mesh_set nx=12,ny_disc=4,ny_pad=3");
-  const auto request = analysis::meshRequest();
+  const auto settings = analysis::ModelSettings::given();
+  const auto request = analysis::meshRequest(settings);
   std::string failure;
   if (rank == 0) {
-    auto whole = mesh::load("meshes/two_layers.geo", {"nx=12", "ny_disc=4", "ny_pad=3"}, request);
+    auto whole = mesh::load(settings.file, request);
     mesh::pairNodes(whole, request);
     for (const int parts : {1, 2, 3, 4, 7, 16}) {
       const auto rankOfCell = mesh::partition(whole, parts);
@@ -211,7 +212,9 @@ TEST(Partition, NoRankIsEmptyOnAFewCells) {
   for (const auto& [file, set, body] : meshes) {
     mesh::Request request;
     request.bodies = {{body, "the test"}};
-    auto whole = mesh::load(file, set, request);
+    auto whole = mesh::load(
+        {.file = file, .parameters = meshfile::parametersOf(set), .shape = {}, .scale = 1},
+        request);
     mesh::pairNodes(whole, request);
     for (int parts = 2; parts <= whole.cellCount() / 4; ++parts) {
       const auto rankOfCell = mesh::partition(whole, parts);
@@ -226,7 +229,7 @@ struct Wrong {
   const char *change, *words[3];
 };
 
-// Each mistake is told on all ranks, with the names that help.
+// Each mistake is reported on all ranks, with the names that help.
 TEST(Mesh, ErrorsNameGroupAndOption) {
   const Wrong mistakes[] = {
       {"-mesh_file meshes/nowhere.geo", {"-mesh_file meshes/nowhere.geo", "no such file", ""}},

@@ -1,5 +1,5 @@
 // Files that are handed to gmsh: none is taken for a script that is none by its name, none brings
-// the program down, and what a damaged or doubtful one holds is told.
+// the program down, and the contents of a damaged or doubtful one are reported.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -111,7 +111,7 @@ TEST(MeshFile, DamagedMshIsToldByLine) {
       {"1 6 1 6\n2 1 0 6", "0 6 1 6\n2 1 0 6", {"6 fewer nodes"}},
       {"3 6 1 6\n1 1 1 2", "2 6 1 6\n1 1 1 2", {"2 fewer elements"}},
       {"2 1 3 2\n", "2 1 77 2\n", {"element type 77"}},
-      {"2 1 3 2\n", "2 9 3 2\n", {"gmsh says", "entity 9"}},
+      {"2 1 3 2\n", "2 9 3 2\n", {"gmsh reports", "entity 9"}},
       {"$EndElements\n", "", {"$EndElements", "nothing"}},
       {"2 3 6 5\n$EndElements\n", "2 3", {"the file ends"}},
       {"4.1 0 8", "7 0 8", {"version 7"}},
@@ -206,7 +206,7 @@ TEST(MeshFile, DamagedUnvIsToldByLine) {
   EXPECT_EQ(mesh.totalCells, 2);
   EXPECT_EQ(mesh.totalNodes, 6);
   const Damage damages[] = {
-      {"         6        44", "         x        44", {"line 32", "'x' is no number"}},
+      {"         6        44", "         x        44", {"line 32", "'x' is not a number"}},
       {"         6        44", "         6       999", {"line 32", "element 6 is of type 999"}},
       {"         6        44", "         6        45", {"element 6 of type 45 has 8 nodes, not 4"}},
       {"         6        44", "         5        44", {"two elements with the tag 5"}},
@@ -255,7 +255,7 @@ TEST(MeshFile, GroupsOfUnvHaveTheirWholeNames) {
   unsetenv("TMPDIR");
 }
 
-// The checks look at nodes and elements alone; where gmsh crashes on the rest, its process dies and
+// The checks look only at nodes and elements; where gmsh crashes on the rest, its process dies and
 // not this one.
 TEST(MeshFile, ACrashOfGmshIsAnError) {
   const auto text = changed(test::quadranglesMsh4(), "1 1 \"bottom\"", "900000000 1 \"bottom\"");
@@ -315,7 +315,7 @@ TEST(MeshFile, ASurfaceWithTwoNamesIsNotDoubled) {
   for (const std::string surface : {"top", "roof"}) {
     test::setOptions("-mesh_file " + file + layer + "-load_" + surface + "_pressure 1");
     const auto mesh = test::readMesh();
-    const auto bodies = elasticity::assemble(mesh);
+    const auto bodies = test::assembleBodies(mesh);
     EXPECT_NEAR(test::dot(test::nodalField(mesh,
                                            [](const mesh::Point&) {
                                              return mesh::Point{0, 1, 0};
@@ -433,7 +433,8 @@ std::string square(const std::string& declarations) {
 }
 
 TEST(MeshParameters, RangesOfOtherGeometries) {
-  // gmsh makes up a range for its sliders where none is declared, here 7 to 180: that is no rule.
+  // gmsh makes up a range for its sliders where none is declared, here 7 to 180: that is not a
+  // rule.
   const auto free = test::writeFile("free.geo", square("n = {36, Name \"n\"}"));
   test::setOptions("-mesh_file " + free + layer + "-mesh_set n=3");
   EXPECT_EQ(test::readMesh().totalCells, 6);
@@ -448,7 +449,7 @@ TEST(MeshParameters, RangesOfOtherGeometries) {
   expectMessage(messageOf(none, layer + "-mesh_set n=5"), {"no parameter 'n'", "it has none"});
 }
 
-// 10¹⁰ cells: told from the numbers on the edges, before gmsh asks for them.
+// 10¹⁰ cells: estimated from the numbers on the edges, before gmsh asks for them.
 TEST(MeshParameters, AMeshTooLargeIsToldBeforeItIsMade) {
   expectMessage(messageOf("meshes/layer.geo", layer + "-mesh_set nx=100000,ny=100000"),
                 {"about 1e+10 cells"});
@@ -464,7 +465,7 @@ TEST(Child, ItsEndIsAnErrorHere) {
     return test::errorOf([&] {
       inChild(limits, [&](const Warn&) {
         work();
-        return Buffer();
+        return std::vector<char>();
       });
     });
   };
@@ -487,14 +488,16 @@ TEST(Child, ItsMemoryIsLimitedAndItsResultWhole) {
     return [count](const Warn&) {
       std::vector<double> values(count);
       for (std::size_t i = 0; i < count; ++i) values[i] = static_cast<double>(i);
-      Buffer buffer;
-      buffer.put(values);
-      return buffer;
+      Stream stream;
+      stream(values);
+      return std::move(stream).bytes();
     };
   };
   const ChildLimits limits{"the work", {}, 1e8, "it is too large", "the worker"};
-  auto buffer = inChild(limits, numbers(1000000));  // 8 MB, many times what a pipe holds
-  const auto values = buffer.take<double>();
+  // 8 MB, many times what a pipe holds
+  Stream stream(inChild(limits, numbers(1000000)));
+  std::vector<double> values;
+  stream(values);
   ASSERT_EQ(values.size(), 1000000u);
   EXPECT_EQ(values[999999], 999999);
 #if !defined(__SANITIZE_ADDRESS__)  // which has an end of its own for this

@@ -29,7 +29,7 @@ double integral(const FacePatch& slave, const FacePatch& master, double distance
   double sum = 0;
   for (const Face& face : slave.faces)
     for (const auto& point : overlap(face, master.pointers(), distance))
-      sum += point.weight * f(surfacePoint(face, point.slave).position, point);
+      sum += point.weight * f(facePoint(face, point.slave).position, point);
   return sum;
 }
 
@@ -109,8 +109,8 @@ TEST(Overlap, PointsOfBothSidesLieOnTheNormal) {
       const auto slave = distorted(s, 3, 1, below), master = distorted(m, 5, -1, above);
       for (const Face& face : slave.faces)
         for (const auto& point : overlap(face, master.pointers(), 1)) {
-          const auto here = surfacePoint(face, point.slave),
-                     there = surfacePoint(master.faces[point.masterFace], point.master);
+          const auto here = facePoint(face, point.slave),
+                     there = facePoint(master.faces[point.masterFace], point.master);
           const Point defect = minus(there.position, plus(here.position, point.normal, point.gap));
           ASSERT_LT(length(defect), 1e-14) << s << " on " << m;
           ASSERT_NEAR(dot(point.normal, here.normal), length(here.normal), 1e-14);

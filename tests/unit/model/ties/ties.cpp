@@ -33,9 +33,9 @@ struct Case {
 /// Collective on the communicator.
 Case caseOf(const std::string& options, MPI_Comm comm = PETSC_COMM_WORLD) {
   test::setOptions(options);
-  mesh::Mesh mesh = mesh::read(comm, analysis::meshRequest());
+  mesh::Mesh mesh = test::readMesh(comm);
   const mesh::Mesh file = mesh;
-  Interfaces ties = ties::findTies(mesh);
+  Interfaces ties = test::findTies(mesh);
   return {file, std::move(mesh), std::move(ties)};
 }
 
@@ -181,12 +181,12 @@ TEST(Ties, ChainsMoveTheMastersFirst) {
 TEST(Ties, NodesMoveAlikeOnAnyNumberOfRanks) {
   const std::string options = chain("ties_chain.msh");
   const Case many = caseOf(options), one = caseOf(options, PETSC_COMM_SELF);
-  std::map<PetscInt, Point> alone;
+  std::map<PetscInt, Point> single;
   for (PetscInt i = 0; i < one.mesh.localNodes(); ++i)
-    alone[one.mesh.nodeTag[i]] = one.mesh.coordinates[i];
+    single[one.mesh.nodeTag[i]] = one.mesh.coordinates[i];
   double worst = 0;
   for (PetscInt i = 0; i < many.mesh.localNodes(); ++i)
-    worst = std::max(worst, distance(many.mesh.coordinates[i], alone.at(many.mesh.nodeTag[i])));
+    worst = std::max(worst, distance(many.mesh.coordinates[i], single.at(many.mesh.nodeTag[i])));
   EXPECT_LT(test::largest(worst), 1e-14);
   for (std::size_t i = 0; i < 3; ++i) {
     const auto &a = many.ties.reports.at(i), &b = one.ties.reports.at(i);

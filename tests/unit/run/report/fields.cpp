@@ -89,7 +89,7 @@ struct ContactNodes {
 ContactNodes contactNodes(const analysis::Analysis& analysis) {
   const auto total = static_cast<std::size_t>(analysis.mesh->totalNodes);
   ContactNodes nodes{std::vector<double>(total, 0.0), std::vector<double>(total, 0.0)};
-  for (const auto& node : analysis.contact.nodes) {
+  for (const auto& node : analysis.contact.interfaces.nodes) {
     nodes.interface[node.globalNode] = node.interface + 1;
     nodes.area[node.globalNode] = node.area;
   }
@@ -172,7 +172,7 @@ TEST(Fields, FrictionWorkIsThatOfTheTable) {
       EXPECT_EQ(fromAreas[0], 0);
       for (std::size_t i = 0; i < 2; ++i) {
         const double wanted =
-            table.at({point.at.friction, mode}).at(analysis.contact.interfaces.at(i));
+            table.at({point.at.friction, mode}).at(analysis.contact.interfaces.names.at(i));
         growth += wanted;
         EXPECT_NEAR(sums[i + 1], wanted,
                     1e-9 * std::abs(wanted) + 1e-14 * magnitudes);  // ten digits in the table
@@ -180,8 +180,8 @@ TEST(Fields, FrictionWorkIsThatOfTheTable) {
         EXPECT_GT(std::abs(wanted), 1e-4 * magnitudes);
       }
       test::print("friction %g, mode %d: %s %.6g, %s %.6g, growth rate %.6g\n", point.at.friction,
-                  mode, analysis.contact.interfaces[0].c_str(), sums[1],
-                  analysis.contact.interfaces[1].c_str(), sums[2],
+                  mode, analysis.contact.interfaces.names[0].c_str(), sums[1],
+                  analysis.contact.interfaces.names[1].c_str(), sums[2],
                   point.eigenvalues[shape.index].s.real());
       const auto s = point.eigenvalues[shape.index].s;
       EXPECT_NEAR(growth, s.real(), 1e-8 * std::abs(s));

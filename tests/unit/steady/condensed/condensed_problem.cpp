@@ -63,15 +63,16 @@ Largest compare(const std::string& name, const std::string& options,
   setOptions(options);
   const auto model = buildModel();
   const bool isExact = condensed::CondensedProblem::isExact(model.contact, model.bodies);
-  EXPECT_EQ(isExact, !model.contact.convected);
-  const contact::CoupledSystem closed(model.bodies, model.contact,
-                                      std::vector<unsigned char>(model.contact.nodes.size(), 1));
+  EXPECT_EQ(isExact, !model.contact.sliding.convected);
+  const contact::CoupledSystem closed(
+      model.bodies, model.contact,
+      contact::ActiveSet::bonded(model.contact.interfaces.nodes.size()));
   const steady::Problem problem(*model.mesh, model.bodies, model.contact);
-  condensed::CondensedProblem alone(problem, closed), together(problem, closed);
+  condensed::CondensedProblem single(problem, closed), together(problem, closed);
   const auto atOnce = together.solveTogether(points);
   Largest all;
   for (std::size_t k = 0; k < points.size(); ++k) {
-    const auto full = problem.solve(points[k], closed), one = alone.solve(points[k]);
+    const auto full = problem.solve(points[k], closed), one = single.solve(points[k]);
     for (const auto* small : {&one, &atOnce[k]}) {
       const Largest errors = compare(full, *small);
       all.open = std::max(all.open, errors.open);
@@ -82,13 +83,13 @@ Largest compare(const std::string& name, const std::string& options,
   // The matrix Z of causes and effects has two columns a node where nothing sticks, each of which
   // is solved for once. Further solves are for the loads and for the corrections at each point.
   const int tangents = model.contact.hasSticking() ? model.mesh->dimension - 1 : 0;
-  for (const auto* condensed : {&alone, &together}) {
+  for (const auto* condensed : {&single, &together}) {
     if (!isExact) continue;
     EXPECT_LE(condensed->solves(),
-              (2 + tangents) * model.contact.totalNodes + 12 * std::ssize(points) + 3);
+              (2 + tangents) * model.contact.interfaces.totalNodes + 12 * std::ssize(points) + 3);
   }
   print("%s: forces to %.1e, gaps to %.1e, up to %d open; %ld solves, %ld together\n", name.c_str(),
-        all.forceError, all.gapError, static_cast<int>(all.open), alone.solves(),
+        all.forceError, all.gapError, static_cast<int>(all.open), single.solves(),
         together.solves());
   return all;
 }
@@ -126,19 +127,20 @@ TEST(CondensedProblem, ConvectiveTermsAndAFrictionLaw) {
 TEST(CondensedProblem, FrictionsOfAClosedContactShareASpace) {
   setOptions(steel_brake::options(1, 0.022, 1e7));
   const auto model = buildModel();
-  const contact::CoupledSystem closed(model.bodies, model.contact,
-                                      std::vector<unsigned char>(model.contact.nodes.size(), 1));
+  const contact::CoupledSystem closed(
+      model.bodies, model.contact,
+      contact::ActiveSet::bonded(model.contact.interfaces.nodes.size()));
   const steady::Problem problem(*model.mesh, model.bodies, model.contact);
-  condensed::CondensedProblem alone(problem, closed), together(problem, closed);
+  condensed::CondensedProblem single(problem, closed), together(problem, closed);
   std::vector<sweep::Parameters> points;
   for (int k = 1; k <= 12; ++k) points.push_back({0.01 * k});
-  EXPECT_EQ(alone.solve(points.back()).openNodes, 0);
+  EXPECT_EQ(single.solve(points.back()).openNodes, 0);
   for (const auto& solution : together.solveTogether(points)) EXPECT_EQ(solution.openNodes, 0);
   // Each point has a solve for its displacements. Friction is balanced to a part of its own size,
   // which may take the others one step more.
-  print("%ld solves for the largest friction, %ld for 12 of them\n", alone.solves(),
+  print("%ld solves for the largest friction, %ld for 12 of them\n", single.solves(),
         together.solves());
-  EXPECT_LE(together.solves(), alone.solves() + 11 + 1);
+  EXPECT_LE(together.solves(), single.solves() + 11 + 1);
 }
 
 TEST(CondensedProblem, PadsHeldBySprings) {

@@ -59,8 +59,9 @@ TEST(ContactPath, NodesLiftOneByOne) {
   if (sizeOf() > 1) GTEST_SKIP() << "the dense problem is that of one rank";
   const analysis::Analysis analysis = runOptions(block + "-modes_count 5 -flutter_friction 0,0.5");
   const steady::Problem problem(*analysis.mesh, analysis.bodies, analysis.contact);
-  const contact::CoupledSystem closed(analysis.bodies, analysis.contact,
-                                      std::vector<unsigned char>(analysis.contact.nodes.size(), 1));
+  const contact::CoupledSystem closed(
+      analysis.bodies, analysis.contact,
+      contact::ActiveSet::bonded(analysis.contact.interfaces.nodes.size()));
   condensed::CondensedProblem condensedProblem(problem, closed);
   const sweep::Parameters begin{.friction = 0, .speed = 3}, end{.friction = 0.5, .speed = 3};
   const auto first = condensedProblem.solve(begin);
@@ -93,7 +94,7 @@ struct Way {
       : analysis(std::move(found)),
         problem(*analysis.mesh, analysis.bodies, analysis.contact),
         closed(analysis.bodies, analysis.contact,
-               std::vector<unsigned char>(analysis.contact.nodes.size(), 1)),
+               contact::ActiveSet::bonded(analysis.contact.interfaces.nodes.size())),
         condensedProblem(problem, closed),
         path(condensed::followContact(condensedProblem, condensedProblem.solve({0}), {friction})) {}
   analysis::Analysis analysis;
@@ -206,7 +207,7 @@ TEST(ContactPath, OfSeveralSolutionsTheSweepKeepsItsOwn) {
   EXPECT_GT(allSolutions(condensed(analysis, 1.5)).size(), 1U);
   for (const auto& solution : analysis.steady) {
     EXPECT_TRUE(solution.converged);
-    EXPECT_EQ(solution.openNodes, analysis.contact.totalNodes) << solution.at.friction;
+    EXPECT_EQ(solution.openNodes, analysis.contact.interfaces.totalNodes) << solution.at.friction;
   }
   EXPECT_EQ(analysis.steady[1].nodesOfAnother, 0);
   EXPECT_GT(analysis.steady[2].nodesOfAnother, 0);

@@ -33,14 +33,14 @@ const std::string floatingPad =
 struct Condensed {
   explicit Condensed(const std::string& options)
       : model((setOptions(options), buildModel())),
-        closed(model.bodies, model.contact, allClosed()),
+        closed(model.bodies, model.contact, {allClosed(), {}}),
         problem(*model.mesh, model.bodies, model.contact),
         impedance(model.contact, problem.transformation(), model.bodies.stiffness,
                   model.contact.slipRows(problem.transformation(), unitSlip(), allClosed(), 0),
                   closed),
         solver(impedance) {}
   std::vector<unsigned char> allClosed() const {
-    return std::vector<unsigned char>(model.contact.nodes.size(), 1);
+    return std::vector<unsigned char>(model.contact.interfaces.nodes.size(), 1);
   }
   std::vector<contact::Slip> unitSlip() const {
     auto slips = model.contact.slip(1, nullptr);
@@ -66,7 +66,7 @@ struct Condensed {
 
 void expectTheSolution(const std::string& options, double friction, PetscInt open) {
   Condensed condensed(options);
-  std::vector<double> gaps(condensed.model.contact.nodes.size(), 0.0);
+  std::vector<double> gaps(condensed.model.contact.interfaces.nodes.size(), 0.0);
   ASSERT_TRUE(condensed::pivotGaps(condensed.solver, condensed.model.mesh->comm,
                                    condensed.asked(friction), gaps));
   const auto full = condensed.problem.solve({friction}, condensed.closed);
@@ -80,7 +80,8 @@ void expectTheSolution(const std::string& options, double friction, PetscInt ope
   }
   size = largest(size), error = largest(error);
   print("%d of %d nodes open, gaps to %.1e\n", static_cast<int>(open),
-        static_cast<int>(condensed.model.contact.totalNodes), size > 0 ? error / size : 0);
+        static_cast<int>(condensed.model.contact.interfaces.totalNodes),
+        size > 0 ? error / size : 0);
   EXPECT_LE(error, 1e-9 * size);  // the full solution is accurate to 1e-11 of the loads
 }
 
@@ -95,7 +96,7 @@ TEST(Pivots, PadHeldByTheContactAlone) {
 // The pressure pulls the pad away from the disc. The path goes on for ever.
 TEST(Pivots, NoSolutionWhereThePadIsPulledOff) {
   Condensed condensed(floatingPad + " -load_second_y0_part_pressure -8e6");
-  std::vector<double> gaps(condensed.model.contact.nodes.size(), 0.25);
+  std::vector<double> gaps(condensed.model.contact.interfaces.nodes.size(), 0.25);
   EXPECT_FALSE(
       condensed::pivotGaps(condensed.solver, condensed.model.mesh->comm, condensed.asked(0), gaps));
   for (double gap : gaps) EXPECT_EQ(gap, 0.25);

@@ -67,7 +67,7 @@ TEST(Steady, NewtonConvergesQuadratically) {
 /// Random ones up to `scale`.
 OwnedVec unknowns(const contact::Contact& contact, double scale, unsigned long seed) {
   const auto transformation =
-      contact.transformation(std::vector<unsigned char>(contact.nodes.size(), 1));
+      contact.transformation(contact::ActiveSet::open(contact.interfaces.nodes.size()));
   OwnedVec x;
   check(MatCreateVecs(transformation.trial, x.out(), nullptr));
   PetscRandom random = nullptr;
@@ -102,7 +102,7 @@ OwnedVec product(const OwnedMat& matrix, Vec x) {
 void expectDerivative(const std::string& name, double scale) {
   const test::Model model = test::buildModel();
   const steady::Problem problem(*model.mesh, model.bodies, model.contact);
-  ASSERT_TRUE(model.contact.convected);
+  ASSERT_TRUE(model.contact.sliding.convected);
   const sweep::Parameters at{0.4, 1.3};
   double worst = 0, smallestShare = INFINITY;
   for (unsigned long seed = 1; seed <= 3; ++seed) {
@@ -234,8 +234,9 @@ void expectCoulomb(double depth) {
   const test::Model model = test::buildModel();
   const auto& mesh = *model.mesh;
   const auto dimension = static_cast<std::size_t>(mesh.dimension);
-  const contact::CoupledSystem system(model.bodies, model.contact,
-                                      std::vector<unsigned char>(model.contact.nodes.size(), 1));
+  const contact::CoupledSystem system(
+      model.bodies, model.contact,
+      contact::ActiveSet::bonded(model.contact.interfaces.nodes.size()));
   const sweep::Parameters at{0.4, 1.3};
   const auto solution = steady::Problem(mesh, model.bodies, model.contact).solve(at, system);
   ASSERT_TRUE(solution.converged) << solution.reason;
@@ -252,7 +253,7 @@ void expectCoulomb(double depth) {
   const auto force = test::allEntries(residual);
   // The disc's nodes under the pad, on all ranks: masters are known where the contact node is.
   std::vector<double> master(field.u.size() / dimension, 0.0);
-  for (const auto& node : model.contact.nodes) master[node.master] = 1;
+  for (const auto& node : model.contact.interfaces.nodes) master[node.master] = 1;
   check(MPI_Allreduce(MPI_IN_PLACE, master.data(), static_cast<int>(master.size()), MPI_DOUBLE,
                       MPI_MAX, PETSC_COMM_WORLD));
   std::map<std::pair<int, int>, std::size_t> disc;
@@ -267,7 +268,7 @@ void expectCoulomb(double depth) {
   for (const auto& state : solution.contact) largest = test::worse(largest, state.normalForce);
   largest = test::largest(largest);
   for (std::size_t i = 0; i < solution.contact.size(); ++i) {
-    const auto& node = model.contact.nodes[i];
+    const auto& node = model.contact.interfaces.nodes[i];
     Point w = slope(field, disc, node.position);
     for (double& component : w) component *= -at.speed * slider::speed;
     w[0] -= at.speed * slider::speed;

@@ -158,7 +158,8 @@ uniqueness::Compliance complianceOf(const Model& model) {
 }
 
 uniqueness::Uniqueness examined(const Model& model, const std::vector<double>& frictions) {
-  return uniqueness::examine(model.bodies, model.contact, 1, frictions);
+  return uniqueness::examine(model.bodies, model.contact, 1, frictions,
+                             uniqueness::Settings::given());
 }
 
 /// All gaps unknown, all nodes sliding.
@@ -168,8 +169,8 @@ struct Coupled {
 };
 
 Coupled coupledOf(const Model& model) {
-  const std::vector<unsigned char> all(model.contact.nodes.size(), 1);
-  Coupled coupled{model.contact.transformation(all), {}, {}};
+  const std::vector<unsigned char> all(model.contact.interfaces.nodes.size(), 1);
+  Coupled coupled{model.contact.transformation(contact::ActiveSet::open(all.size())), {}, {}};
   auto stiffness = contact::project(model.contact, coupled.transformation, model.bodies.stiffness);
   coupled.k1 = stiffness.friction(
       model.contact.slipRows(coupled.transformation, model.contact.slip(1, nullptr), all, 1));
@@ -217,8 +218,8 @@ TEST(Condensed, IsTheGapBlockOfTheInverse) {
     set();
     const Model model = test::buildModel();
     const auto compliance = complianceOf(model);
-    ASSERT_EQ(compliance.a0.rows(), model.contact.totalNodes);
-    ASSERT_EQ(compliance.a1.rows(), model.contact.totalNodes);
+    ASSERT_EQ(compliance.a0.rows(), model.contact.interfaces.totalNodes);
+    ASSERT_EQ(compliance.a1.rows(), model.contact.interfaces.totalNodes);
     const auto coupled = coupledOf(model);
     double worst = 0;
     for (const double friction : {0.0, 0.3, 1.7}) {
@@ -280,7 +281,7 @@ TEST(Uniqueness, OneNodeLosesItAtTheKnownFriction) {
     for (const std::string limit : {"1000", "0"}) {
       test::setOptions(oneNode(velocity) + "-steady_uniqueness_dense " + limit);
       const Model model = test::buildModel();
-      ASSERT_EQ(model.contact.totalNodes, 1);
+      ASSERT_EQ(model.contact.interfaces.totalNodes, 1);
       const double a = (velocity > 0 ? 1 : -1) * kxy;
       const auto result = examined(model, {0, 0.3, 4.66, 4.67});
       for (const auto& judgement : result.judgements) {
@@ -363,19 +364,20 @@ TEST(Uniqueness, MatrixFreeAgrees) {
   }
 }
 
-// The same on one rank as on all: every rank examines the block alone as well.
+// The same on one rank as on all: every rank examines the block on its own as well.
 TEST(Uniqueness, DoesNotDependOnTheRanks) {
   test::setOptions(block(12, 6));
   const auto together = examined(test::buildModel(), {0.3, 1.2});
-  mesh::Mesh mesh = mesh::read(PETSC_COMM_SELF, analysis::meshRequest());
-  auto ties = ties::findTies(mesh);
-  const auto bodies = elasticity::assemble(mesh);
-  const auto contact = contact::build(mesh, bodies, std::move(ties));
-  const auto alone = uniqueness::examine(bodies, contact, 1, {0.3, 1.2});
-  EXPECT_NEAR(together.lostAt / alone.lostAt, 1, 1e-9);
+  mesh::Mesh mesh = test::readMesh(PETSC_COMM_SELF);
+  auto ties = test::findTies(mesh);
+  const auto bodies = test::assembleBodies(mesh);
+  const auto contact = contact::build(mesh, bodies, std::move(ties), contact::Settings::given());
+  const auto single =
+      uniqueness::examine(bodies, contact, 1, {0.3, 1.2}, uniqueness::Settings::given());
+  EXPECT_NEAR(together.lostAt / single.lostAt, 1, 1e-9);
   for (std::size_t i = 0; i < 2; ++i) {
-    EXPECT_NEAR(together.judgements[i].smallest / alone.judgements[i].smallest, 1, 1e-8);
-    EXPECT_EQ(together.judgements[i].verdict, alone.judgements[i].verdict);
+    EXPECT_NEAR(together.judgements[i].smallest / single.judgements[i].smallest, 1, 1e-8);
+    EXPECT_EQ(together.judgements[i].verdict, single.judgements[i].verdict);
   }
 }
 
@@ -389,7 +391,7 @@ TEST(Uniqueness, IsNotDecidedWithoutTheMatrix) {
     EXPECT_TRUE(std::isnan(judgement.smallest));
     EXPECT_EQ(judgement.verdict, "not decided");
     EXPECT_EQ(judgement.reason,
-              "body 'pad' is held by the contact alone, so the condensed matrix does not exist");
+              "body 'pad' is held only by the contact, so the condensed matrix does not exist");
   }
 }
 
@@ -408,7 +410,8 @@ TEST(Uniqueness, IsDecidedOnTri6) {
 }
 
 // Beyond a critical speed, here K − σ M with σ = 1e7: the lowest eigenvalue of the cantilever is
-// about 3.5² E h² / (12 ρ L⁴) = 3e5. A0 is no inner product that the eigenvalue solver could use.
+// about 3.5² E h² / (12 ρ L⁴) = 3e5. A0 is not an inner product that the eigenvalue solver could
+// use.
 TEST(Uniqueness, IndefiniteStiffnessNeedsTheMatrixFormed) {
   test::setOptions(block(4, 8) + "-steady_uniqueness_dense 0");
   const Model model = test::buildModel();

@@ -1,10 +1,12 @@
 #pragma once
-/// These functions read the contact interfaces: their surfaces, their rigid obstacles and how their
-/// sides are paired.
+/// Settings of the contact interfaces, ties and constraints. None of this is collective; all ranks
+/// have the same options, and so the same results and Errors.
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "base/options/option_types.hpp"
 #include "model/mesh/mesh.hpp"
 
 namespace squeal::interfaces {
@@ -14,7 +16,7 @@ using mesh::Point;
 /// The side of an interface whose nodes have the gaps.
 enum class SlaveChoice { finer, pad, disc };
 
-/// A Role tells what the two sides of an interface do to each other. All but tied ones may open.
+/// What the two sides of an interface do to each other. All except tied ones may separate.
 enum class Role {
   sliding,       ///< friction along the sliding velocity
   sticking,      ///< no tangential jump
@@ -34,14 +36,14 @@ struct Coefficient {
   double part(int exponent) const { return exponent == 0 ? fixed : swept; }
 };
 
-/// One interface as the options give it: contact, or a tie of two bodies.
-struct InterfaceOptions {
+/// One interface: contact, or a tie of two bodies.
+struct InterfaceSettings {
   mesh::InterfaceRequest surfaces;  ///< of a tie: the slave as pad, the master as disc
   Role role = Role::sliding;
-  Point obstacleVelocity{};      ///< m/s, of the rigid obstacle in place of a disc
-  Point obstacleDisplacement{};  ///< m
+  VectorValue obstacleVelocity;      ///< m/s, of the rigid obstacle in place of a disc
+  VectorValue obstacleDisplacement;  ///< m
   SlaveChoice slave = SlaveChoice::finer;
-  double searchDistance = 0;  ///< m; zero stands for half the size of a face
+  double searchDistance = 0;  ///< m; 0: half the size of a face
   Coefficient friction;       ///< of a sliding interface; zero on others
   /// Coefficient of friction up to which the nodes of a sticking interface may be held; none: any.
   std::optional<double> stickingLimit;
@@ -50,29 +52,51 @@ struct InterfaceOptions {
   double gap = 0;       ///< gap without load if it is not measured, m; negative: interference
   bool adjust = false;  ///< of a tie: its nodes are moved onto the master
 
-  /// Returns true for a tie, false for contact, be its role tied or not.
+  /// Returns true for a tie, false for contact, whether its role is tied or not.
   bool isTie() const { return surfaces.pad.option.starts_with("-tie_"); }
   bool onObstacle() const { return surfaces.disc.name.empty(); }
   bool isTied() const { return role == Role::tied; }
   /// Returns "interface 'pad'" or "tie 'lining'", for messages.
-  std::string label() const;
+  const std::string& label() const { return surfaces.label; }
 };
 
-/// Not collective. Returns the contact interfaces and the ties that the options ask for, for the
-/// mesh reader. Throws Error for an interface without a pad surface, for one with neither or both
-/// of a disc surface and an obstacle, and for a tie without one of its sides.
-std::vector<mesh::InterfaceRequest> readInterfaces();
-/// Not collective. Returns the interfaces with all their options, in the same order: contact, then
-/// ties. Throws Error for options that do not go together.
-std::vector<InterfaceOptions> readInterfaceOptions(int dimension);
+/// The clamp of one group.
+struct ClampSettings {
+  std::string components;    ///< held ones, some of xyz
+  VectorValue displacement;  ///< of the held components, m
+};
+
+struct Settings {
+  std::vector<InterfaceSettings> interfaces;    ///< contact, then ties, each sorted by name
+  std::map<std::string, ClampSettings> clamps;  ///< [group]
+  std::map<std::string, std::string> imageOf;   ///< [group] the group that it is the image of
+
+  /// Reads the options. Throws Error for an interface without a pad surface, for one with neither
+  /// or both of a disc surface and an obstacle, for a tie without one of its sides, for a
+  /// displacement without a clamp, and for options that do not go together.
+  static Settings given();
+  /// Returns the interface with this label, borrowed; there must be one.
+  const InterfaceSettings& interface(const std::string& label) const;
+};
+
+/// These return groups and interfaces for the mesh reader: groups with a clamp, pairs of groups
+/// that are periodic images, and the surfaces of the interfaces.
+std::vector<mesh::GroupRequest> clampedGroups(const Settings& settings);
+std::vector<mesh::PeriodicRequest> periodicPairs(const Settings& settings);
+std::vector<mesh::InterfaceRequest> interfaceRequests(const Settings& settings);
+
 /// These return names of options of an interface with their dash, for messages:
 /// `-contact_<interface>_obstacle_velocity`, `-contact_<interface>_search` or
 /// `-tie_<name>_tolerance`, `-contact_<interface>_role`, and `-tie_<name>_adjust`.
 std::string obstacleVelocityName(const std::string& interface);
-std::string searchName(const InterfaceOptions& interface);
+std::string searchName(const InterfaceSettings& interface);
 std::string roleName(const std::string& interface);
 std::string adjustName(const std::string& tie);
 /// Returns the option of the search with its value in words, for messages.
-std::string searchText(const InterfaceOptions& interface);
+std::string searchText(const InterfaceSettings& interface);
+/// These return names of options of a constraint with their dash, for messages:
+/// `-constraint_<group>_clamped` and `-constraint_<group>_displacement`.
+std::string clampedName(const std::string& group);
+std::string displacementName(const std::string& group);
 
 }  // namespace squeal::interfaces

@@ -1,0 +1,58 @@
+#include "model/contact/settings.hpp"
+
+#include "base/options/options.hpp"
+#include "base/petsc/check.hpp"
+
+namespace squeal::contact {
+namespace {
+
+const ChoiceOption lawOption("contact", "friction_law", {"constant", "exponential", "table"},
+                             "constant",
+                             "factor on -flutter_friction at the sliding speed |w|: 1, or "
+                             "1 + (r - 1) exp(-|w|/v), or that of a table");
+const RealOption ratioOption("contact", "friction_static_ratio", 1, "", nonNegative,
+                             "ratio r of the exponential law: coefficient at rest over that at "
+                             "high speed");
+const RealOption decayOption("contact", "friction_decay_speed", 1, "m/s", positive,
+                             "decay speed v of the exponential law");
+const RealListOption tableSpeedOption("contact", "friction_table_speed", "0", "m/s", nonNegative,
+                                      "ascending sliding speeds of the table");
+const RealListOption tableFactorOption(
+    "contact", "friction_table_factor", "1", "", nonNegative,
+    "factors at the speeds of the table, linear between them and constant beyond");
+
+/// Throws Error for a given option of another law.
+void rejectIdle(const std::string& law) {
+  const auto idle = [&](const Option& option, const char* owner) {
+    if (option.given() && law != owner)
+      throw Error("option -" + option.fullName() + " is used only by -friction_law " + owner +
+                  ", not by '" + law + "'");
+  };
+  idle(ratioOption, "exponential");
+  idle(decayOption, "exponential");
+  idle(tableSpeedOption, "table");
+  idle(tableFactorOption, "table");
+}
+
+FrictionLaw tableGiven() {
+  auto speeds = tableSpeedOption.get(), factors = tableFactorOption.get();
+  if (speeds.empty() || speeds.size() != factors.size())
+    throw Error("options -" + tableSpeedOption.fullName() + " and -" +
+                tableFactorOption.fullName() + ": the lists must have the same length");
+  for (std::size_t i = 0; i + 1 < speeds.size(); ++i)
+    if (!(speeds[i] < speeds[i + 1]))
+      throw Error("option -" + tableSpeedOption.fullName() + ": the speeds must ascend");
+  return FrictionLaw::table(std::move(speeds), std::move(factors));
+}
+
+}  // namespace
+
+Settings Settings::given() {
+  const std::string law = lawOption.get();
+  rejectIdle(law);
+  if (law == "exponential") return {FrictionLaw::exponential(ratioOption.get(), decayOption.get())};
+  if (law == "table") return {tableGiven()};
+  return {};
+}
+
+}  // namespace squeal::contact

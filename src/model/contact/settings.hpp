@@ -1,0 +1,15 @@
+#pragma once
+/// Settings of contact. Not collective.
+#include "model/contact/friction.hpp"
+
+namespace squeal::contact {
+
+struct Settings {
+  FrictionLaw law;
+
+  /// Reads the options `-friction_*`. Throws Error for a table whose lists differ in length or
+  /// whose speeds do not ascend, and for options of another law.
+  static Settings given();
+};
+
+}  // namespace squeal::contact

@@ -1,0 +1,40 @@
+#pragma once
+/// The trial functions T, and the unknowns that two active sets share.
+#include <vector>
+
+#include "base/petsc/owned.hpp"
+#include "model/contact/active_set.hpp"
+#include "model/contact/kinematics.hpp"
+#include "model/interfaces/nodes.hpp"
+#include "model/mesh/mesh.hpp"
+
+namespace squeal::contact {
+
+/// The trial functions T for one choice of the gaps that are unknowns.
+struct Transformation {
+  OwnedMat selection;  ///< B, N×n
+  OwnedMat trial;      ///< T = A B, N×n
+  /// [contact node] global column of its gap; −1 where it is dropped
+  std::vector<PetscInt> gapColumn;
+  PetscInt ownedColumns = 0, columns = 0;  ///< columns of this rank, and of all ranks (n)
+  /// [unknown of this rank] its row of B on this rank, ascending: dimension times the owned node,
+  /// plus the component of z
+  std::vector<PetscInt> rows;
+};
+
+/// The unknowns of this rank of a system with open contact, by whether one with closed contact has
+/// them too. Both lists ascend and count from 0 on each rank.
+struct ReleasedUnknowns {
+  std::vector<PetscInt> shared, released;
+};
+
+/// Returns which unknowns of `open` are those of `closed`, whose unknowns are among them.
+ReleasedUnknowns compared(const Transformation& open, const Transformation& closed);
+
+/// Collective. Returns T, in which the gaps of closed contact nodes are no unknowns. A node of a
+/// sticking interface does not move along its master unless it is released; an empty mask releases
+/// none.
+Transformation transformationOf(const mesh::Mesh& mesh, const interfaces::Interfaces& all,
+                                const Kinematics& kinematics, const ActiveSet& set);
+
+}  // namespace squeal::contact

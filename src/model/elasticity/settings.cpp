@@ -1,0 +1,141 @@
+#include "model/elasticity/settings.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/options/options.hpp"
+#include "base/petsc/check.hpp"
+
+namespace squeal::elasticity {
+namespace {
+
+const ChoiceOption massOption("elasticity", "elasticity_mass", {"consistent", "higher_order"},
+                              "consistent",
+                              "mass matrix; higher_order: mean of consistent and lumped, with "
+                              "fourth-order frequencies on linear elements");
+const TextOption incompatibleOption(
+    "elasticity", "elasticity_incompatible_modes", "hex8",
+    "element types (quad4, hex8) with incompatible bending modes, or none");
+const FlagOption prestressOption(
+    "elasticity", "elasticity_prestress", false,
+    "geometric stiffness: the stress of steady sliding stiffens or softens the vibrations");
+const RealListOption stiffnessOption("constraint", "ground_<group>_stiffness", "0,0,0", "N/m",
+                                     nonNegative,
+                                     "springs along x, y, z to the ground, total of the group, "
+                                     "shared equally by its nodes (per m of depth in the plane)");
+const RealListOption dampingOption("constraint", "ground_<group>_damping", "0,0,0", "N s/m",
+                                   nonNegative,
+                                   "dashpots along x, y, z to the ground, shared like springs");
+const RealOption pressureOption("load", "load_<group>_pressure", 0.0, "Pa", anyReal,
+                                "pressure on a surface group, positive inwards");
+const FlagOption centrifugalOption("load", "load_centrifugal", true,
+                                   "centrifugal forces on rotating bodies");
+const RealListOption velocityOption("motion", "motion_<body>_velocity", "0,0,0", "m/s", anyReal,
+                                    "velocity of translation of the body's matter");
+const RealOption speedOption("motion", "motion_<body>_speed", 0.0, "rad/s", anyReal,
+                             "speed of rotation of the body's matter");
+const RealOption rpmOption("motion", "motion_<body>_rpm", 0.0, "1/min", anyReal,
+                           "speed of rotation in revolutions per minute, instead of _speed");
+const RealListOption axisOption("motion", "motion_<body>_axis", "0,0,1", "", anyReal,
+                                "direction of the rotation axis, right-handed");
+const RealListOption originOption("motion", "motion_<body>_origin", "0,0,0", "m", anyReal,
+                                  "point on the rotation axis");
+const FlagOption convectiveOption("motion", "motion_convective", false,
+                                  "convective terms (gyroscopic and rotation stiffness) of the "
+                                  "matter of moving bodies; off: approximation A");
+
+std::vector<std::string> incompatibleGiven() {
+  auto names = incompatibleOption.list();
+  if (names == std::vector<std::string>{"none"}) names.clear();
+  for (const auto& name : names)
+    if (name != "quad4" && name != "hex8")
+      throw Error("option -elasticity_incompatible_modes " + incompatibleOption.get() +
+                  ": must be none or a list of quad4, hex8");
+  return names;
+}
+
+/// Returns ω, rad/s, from the option that gives it.
+double rotationSpeed(const std::string& body) {
+  const bool inRpm = rpmOption.given(body);
+  if (inRpm && speedOption.given(body))
+    throw Error("options -" + speedOption.fullName(body) + " and -" + rpmOption.fullName(body) +
+                ": give the speed once");
+  if (velocityOption.given(body) && (inRpm || speedOption.given(body)))
+    throw Error("options -" + velocityOption.fullName(body) + " and -" +
+                (inRpm ? rpmOption : speedOption).fullName(body) +
+                ": a body translates or rotates, not both");
+  return inRpm ? rpmOption.get(body) * 2 * M_PI / 60 : speedOption.get(body);
+}
+
+std::map<std::string, MotionSettings> motionsGiven() {
+  std::map<std::string, MotionSettings> motions;
+  for (const Option* option : std::vector<const Option*>{&velocityOption, &speedOption, &rpmOption,
+                                                         &axisOption, &originOption})
+    for (const auto& body : option->subjects())
+      motions.try_emplace(body, MotionSettings{.option = "-" + option->fullName(body)});
+  for (auto& [body, motion] : motions) {
+    motion.moves = velocityOption.given(body) || speedOption.given(body) || rpmOption.given(body);
+    motion.velocity = velocityOption.vector(body);
+    motion.speed = rotationSpeed(body);
+    motion.axis = axisOption.vector(body);
+    motion.origin = originOption.vector(body);
+  }
+  return motions;
+}
+
+std::map<std::string, GroundSettings> groundGiven() {
+  std::map<std::string, GroundSettings> ground;
+  for (const auto& group : stiffnessOption.subjects()) {
+    ground[group].springs = true;
+    ground[group].stiffness = stiffnessOption.vector(group);
+  }
+  for (const auto& group : dampingOption.subjects()) {
+    ground[group].dashpots = true;
+    ground[group].damping = dampingOption.vector(group);
+  }
+  return ground;
+}
+
+}  // namespace
+
+Settings Settings::given() {
+  Settings settings;
+  settings.mass = massOption.get() == "consistent" ? MassKind::consistent : MassKind::higherOrder;
+  settings.incompatible = incompatibleGiven();
+  settings.prestress = prestressOption.get();
+  settings.centrifugal = centrifugalOption.get();
+  settings.convective = convectiveOption.get();
+  for (const auto& surface : pressureOption.subjects())
+    settings.pressure[surface] = pressureOption.get(surface);
+  settings.motions = motionsGiven();
+  settings.ground = groundGiven();
+  return settings;
+}
+
+bool Settings::isIncompatible(const std::string& cellType) const {
+  return std::ranges::find(incompatible, cellType) != incompatible.end();
+}
+
+std::vector<std::string> movingBodies(const Settings& settings) {
+  std::vector<std::string> bodies;
+  for (const auto& [body, motion] : settings.motions)
+    if (motion.moves) bodies.push_back(body);
+  return bodies;
+}
+
+std::vector<mesh::GroupRequest> loadedSurfaces(const Settings& settings) {
+  std::vector<mesh::GroupRequest> requests;
+  for (const auto& [surface, pressure] : settings.pressure)
+    requests.push_back({surface, "-" + pressureOption.fullName(surface)});
+  return requests;
+}
+
+std::vector<mesh::GroupRequest> groundedGroups(const Settings& settings) {
+  std::vector<mesh::GroupRequest> requests;
+  for (const auto& [group, ground] : settings.ground)
+    requests.push_back(
+        {group, "-" + (ground.springs ? stiffnessOption : dampingOption).fullName(group)});
+  return requests;
+}
+
+}  // namespace squeal::elasticity

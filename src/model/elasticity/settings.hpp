@@ -1,0 +1,59 @@
+#pragma once
+/// Settings of the elements, loads, base motions and supports of the bodies. None of this is
+/// collective; all ranks have the same options, and so the same results and Errors.
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/options/option_types.hpp"
+#include "model/mesh/mesh.hpp"
+
+namespace squeal::elasticity {
+
+enum class MassKind { consistent, higherOrder };
+
+/// The base motion of one body.
+struct MotionSettings {
+  std::string option;    ///< an option that gives it, with its dash, for messages
+  bool moves = false;    ///< a velocity or a speed is given
+  VectorValue velocity;  ///< of a translation, m/s
+  double speed = 0;      ///< of a rotation, rad/s
+  VectorValue axis;      ///< direction of the rotation axis
+  VectorValue origin;    ///< a point of the rotation axis, m
+};
+
+/// Springs and dashpots from the nodes of one group to the ground, totals of the group.
+struct GroundSettings {
+  VectorValue stiffness;                   ///< N/m
+  VectorValue damping;                     ///< N·s/m
+  bool springs = false, dashpots = false;  ///< which of them are given
+};
+
+struct Settings {
+  MassKind mass = MassKind::consistent;
+  std::vector<std::string> incompatible{"hex8"};  ///< cell types with incompatible modes
+  bool prestress = false;   ///< the geometric stiffness of the steady stress is added to K
+  bool centrifugal = true;  ///< centrifugal forces act on rotating bodies
+  /// The matter of moving bodies carries its displacement along, D u = (V·∇)u.
+  bool convective = false;
+  std::map<std::string, double> pressure;         ///< [surface group], Pa, positive inwards
+  std::map<std::string, MotionSettings> motions;  ///< [body], those with an option
+  std::map<std::string, GroundSettings> ground;   ///< [group]
+
+  /// Reads the options. Throws Error if rotation and translation, or both units of the speed, are
+  /// given for one body, and for an unknown cell type.
+  static Settings given();
+  /// Returns true if cells of this type have incompatible modes.
+  bool isIncompatible(const std::string& cellType) const;
+};
+
+/// Returns the bodies that a velocity or a speed is given for.
+std::vector<std::string> movingBodies(const Settings& settings);
+/// These return groups for the mesh reader: surfaces with a pressure, and groups with springs or
+/// dashpots.
+std::vector<mesh::GroupRequest> loadedSurfaces(const Settings& settings);
+std::vector<mesh::GroupRequest> groundedGroups(const Settings& settings);
+/// Returns the options that give a motion, for messages.
+inline const char* motionOptions() { return "-motion_<body>_*"; }
+
+}  // namespace squeal::elasticity

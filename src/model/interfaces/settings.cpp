@@ -1,0 +1,251 @@
+#include "model/interfaces/settings.hpp"
+
+#include <algorithm>
+
+#include "base/options/options.hpp"
+#include "base/petsc/check.hpp"
+#include "base/system/text.hpp"
+
+namespace squeal::interfaces {
+namespace {
+
+/// The values of the options of roles and of slaves, in the order of the enumerations.
+const std::vector<std::string> roleNames{"sliding", "sticking", "frictionless", "tied"},
+    slaveNames{"finer", "pad", "disc"};
+
+const TextOption padOption("contact", "contact_<interface>_pad", "",
+                           "surface group of the pad side of an interface");
+const TextOption discOption("contact", "contact_<interface>_disc", "",
+                            "surface group of the disc side; the two may be meshed apart");
+const RealListOption obstacleVelocityOption("contact", "contact_<interface>_obstacle_velocity",
+                                            "0,0,0", "m/s", anyReal,
+                                            "sliding velocity of a rigid flat obstacle in the "
+                                            "plane of the pad face, instead of a disc");
+const RealListOption obstacleDisplacementOption(
+    "contact", "contact_<interface>_obstacle_displacement", "0,0,0", "m", anyReal,
+    "displacement of the rigid obstacle, which presses the pad");
+const ChoiceOption roleOption("contact", "contact_<interface>_role", roleNames, "sliding",
+                              "role of an interface; sliding: friction along the velocity; "
+                              "sticking: no motion along the surface; frictionless: no force along "
+                              "it; tied: glued");
+const RealOption factorOption("contact", "contact_<interface>_friction_factor", 1.0, "",
+                              nonNegative, "factor on -flutter_friction of a sliding interface");
+const RealOption frictionOption(
+    "contact", "contact_<interface>_friction", 0.0, "", nonNegative,
+    "coefficient of friction of a sliding interface, fixed during a sweep, in place of "
+    "-flutter_friction; of a sticking one: the largest coefficient that may hold it");
+const FlagOption releaseOption("contact", "contact_<interface>_release", false,
+                               "release of nodes of a sticking interface that exceed its "
+                               "-contact_<interface>_friction: they slide with it; off: they stay "
+                               "stuck and are reported");
+const WordOrRealOption gapOption("contact", "contact_<interface>_gap", 0.0, "m", "measured",
+                                 "gap without load; measured: the distance of the surfaces; "
+                                 "negative: interference");
+const ChoiceOption slaveOption("contact", "contact_<interface>_slave", slaveNames, "finer",
+                               "side whose nodes have the gaps where the meshes do not match");
+const RealOption searchOption("contact", "contact_<interface>_search", 0.0, "m", nonNegative,
+                              "largest distance of touching faces where the meshes do not match; "
+                              "0 = automatic (half the size of a face)");
+const TextOption tieSlaveOption(
+    "tie", "tie_<name>_slave", "",
+    "surface group that follows the master of a tie, preferably the finer one");
+const TextOption tieMasterOption("tie", "tie_<name>_master", "",
+                                 "surface group to which the slave of a tie is glued");
+const RealOption toleranceOption("tie", "tie_<name>_tolerance", 0.0, "m", nonNegative,
+                                 "largest distance of glued faces; 0 = automatic (half the size "
+                                 "of a face)");
+const FlagOption adjustOption("tie", "tie_<name>_adjust", true,
+                              "initial move of tied nodes onto the master, so that the two rotate "
+                              "together without strain; off: nodes keep their places");
+const TextOption clampedOption(
+    "constraint", "constraint_<group>_clamped", "",
+    "components (some of xyz) of displacement held on the group's nodes");
+const RealListOption displacementOption("constraint", "constraint_<group>_displacement", "0,0,0",
+                                        "m", anyReal, "values of the clamped components");
+const TextOption imageOption("constraint", "constraint_<group>_image_of", "",
+                             "group of which this group is the periodic image, its translate");
+
+mesh::GroupRequest groupOf(const TextOption& option, const std::string& name) {
+  const std::string group = option.get(name);
+  return {group, "-" + option.fullName(name) + " " + group};
+}
+
+/// Throws Error for options of this list whose subject lacks the option that they need.
+void requireOption(const std::vector<const Option*>& options, const Option& needed) {
+  for (const Option* option : options)
+    for (const auto& name : option->subjects())
+      if (!needed.given(name))
+        throw Error("option -" + option->fullName(name) + " needs -" + needed.fullName(name));
+}
+
+/// Returns the value of an enumeration that an option gives by its name.
+template <class Enumeration>
+Enumeration valueOf(const ChoiceOption& option, const std::vector<std::string>& names,
+                    const std::string& interface) {
+  return Enumeration(std::find(names.begin(), names.end(), option.get(interface)) - names.begin());
+}
+
+/// Throws Error for options that mean nothing on this interface.
+void rejectIdleOptions(const InterfaceSettings& interface) {
+  const std::string& name = interface.surfaces.name;
+  const auto reject = [&](const Option& option, const std::string& why) {
+    if (option.given(name)) throw Error("option -" + option.fullName(name) + " " + why);
+  };
+  if (interface.onObstacle()) {
+    const std::string why = "needs -" + discOption.fullName(name);
+    for (const Option* option : std::vector<const Option*>{&slaveOption, &searchOption, &gapOption})
+      reject(*option, why);
+    if (interface.isTied() || interface.role == Role::sticking)
+      throw Error("option -" + roleOption.fullName(name) + " " + roleOption.get(name) + " " + why);
+  }
+  const std::string role = "needs -" + roleOption.fullName(name);
+  if (interface.role != Role::sliding) reject(factorOption, role + " sliding");
+  if (interface.role != Role::sliding && interface.role != Role::sticking)
+    reject(frictionOption, role + " sliding or sticking");
+  if (interface.role != Role::sticking) reject(releaseOption, role + " sticking");
+  if (!frictionOption.given(name))
+    reject(releaseOption, "needs -" + frictionOption.fullName(name) + ", the limit");
+  if (frictionOption.given(name))
+    reject(factorOption, "is a factor on -flutter_friction, which -" +
+                             frictionOption.fullName(name) + " replaces; give one of them");
+  if (interface.isTied()) reject(gapOption, "means nothing on a tied interface, which has no gap");
+}
+
+/// Throws Error for options of an interface or a tie that lacks a surface.
+void requireSurfaces() {
+  requireOption(
+      {&discOption, &obstacleVelocityOption, &obstacleDisplacementOption, &roleOption,
+       &factorOption, &frictionOption, &releaseOption, &gapOption, &slaveOption, &searchOption},
+      padOption);
+  requireOption({&tieMasterOption, &toleranceOption, &adjustOption}, tieSlaveOption);
+  requireOption({&tieSlaveOption}, tieMasterOption);
+}
+
+/// Returns the surfaces of a contact interface. Throws Error unless it has either a disc or an
+/// obstacle.
+mesh::InterfaceRequest surfacesOf(const std::string& name) {
+  const bool disc = discOption.given(name), obstacle = obstacleVelocityOption.given(name) ||
+                                                       obstacleDisplacementOption.given(name);
+  if (disc == obstacle)
+    throw Error("option -" + padOption.fullName(name) + ": give either -" +
+                discOption.fullName(name) + " or -" + obstacleVelocityOption.fullName(name));
+  return {name, "interface '" + name + "'", groupOf(padOption, name),
+          disc ? groupOf(discOption, name) : mesh::GroupRequest{}};
+}
+
+InterfaceSettings tieGiven(const std::string& name) {
+  InterfaceSettings tie;
+  tie.surfaces = {name, "tie '" + name + "'", groupOf(tieSlaveOption, name),
+                  groupOf(tieMasterOption, name)};
+  tie.role = Role::tied;
+  tie.slave = SlaveChoice::pad;
+  tie.searchDistance = toleranceOption.get(name);
+  tie.adjust = adjustOption.get(name);
+  return tie;
+}
+
+/// Reads the options of a contact interface with these surfaces.
+InterfaceSettings contactGiven(mesh::InterfaceRequest surfaces) {
+  InterfaceSettings interface;
+  interface.surfaces = std::move(surfaces);
+  const std::string& name = interface.surfaces.name;
+  interface.role = valueOf<Role>(roleOption, roleNames, name);
+  interface.obstacleVelocity = obstacleVelocityOption.vector(name);
+  interface.obstacleDisplacement = obstacleDisplacementOption.vector(name);
+  interface.slave = valueOf<SlaveChoice>(slaveOption, slaveNames, name);
+  interface.searchDistance = searchOption.get(name);
+  if (interface.role == Role::sliding)
+    interface.friction = frictionOption.given(name) ? Coefficient{frictionOption.get(name), 0}
+                                                    : Coefficient{0, factorOption.get(name)};
+  if (interface.role == Role::sticking && frictionOption.given(name))
+    interface.stickingLimit = frictionOption.get(name);
+  interface.releases = releaseOption.get(name);
+  const auto gap = gapOption.get(name);
+  interface.gapIsMeasured = !gap;
+  interface.gap = gap.value_or(0);
+  rejectIdleOptions(interface);
+  return interface;
+}
+
+std::vector<InterfaceSettings> interfacesGiven() {
+  requireSurfaces();
+  std::vector<mesh::InterfaceRequest> contacts;
+  for (const auto& name : padOption.subjects()) contacts.push_back(surfacesOf(name));
+  std::vector<InterfaceSettings> interfaces;
+  for (auto& surfaces : contacts) interfaces.push_back(contactGiven(std::move(surfaces)));
+  for (const auto& name : tieSlaveOption.subjects()) interfaces.push_back(tieGiven(name));
+  return interfaces;
+}
+
+std::map<std::string, ClampSettings> clampsGiven() {
+  requireOption({&displacementOption}, clampedOption);
+  std::map<std::string, ClampSettings> clamps;
+  for (const auto& group : clampedOption.subjects())
+    clamps[group] = {clampedOption.get(group), displacementOption.vector(group)};
+  return clamps;
+}
+
+}  // namespace
+
+Settings Settings::given() {
+  Settings settings;
+  settings.clamps = clampsGiven();
+  settings.interfaces = interfacesGiven();
+  for (const auto& image : imageOption.subjects()) settings.imageOf[image] = imageOption.get(image);
+  return settings;
+}
+
+const InterfaceSettings& Settings::interface(const std::string& label) const {
+  const auto found = std::ranges::find(interfaces, label, &InterfaceSettings::label);
+  ensure(found != interfaces.end(), "the mesh has the interfaces of its request");
+  return *found;
+}
+
+std::vector<mesh::GroupRequest> clampedGroups(const Settings& settings) {
+  std::vector<mesh::GroupRequest> requests;
+  for (const auto& [group, clamp] : settings.clamps)
+    requests.push_back({group, clampedName(group)});
+  return requests;
+}
+
+std::vector<mesh::PeriodicRequest> periodicPairs(const Settings& settings) {
+  std::vector<mesh::PeriodicRequest> pairs;
+  for (const auto& [image, primary] : settings.imageOf)
+    pairs.push_back({image, primary, "-" + imageOption.fullName(image) + " " + primary});
+  return pairs;
+}
+
+std::vector<mesh::InterfaceRequest> interfaceRequests(const Settings& settings) {
+  std::vector<mesh::InterfaceRequest> requests;
+  for (const auto& interface : settings.interfaces) requests.push_back(interface.surfaces);
+  return requests;
+}
+
+std::string text(Role role) { return roleNames.at(std::size_t(role)); }
+
+std::string obstacleVelocityName(const std::string& interface) {
+  return "-" + obstacleVelocityOption.fullName(interface);
+}
+
+std::string searchName(const InterfaceSettings& interface) {
+  const std::string& name = interface.surfaces.name;
+  return "-" + (interface.isTie() ? toleranceOption.fullName(name) : searchOption.fullName(name));
+}
+
+std::string searchText(const InterfaceSettings& interface) {
+  return searchName(interface) + (interface.searchDistance > 0
+                                      ? formatted(" %g m", interface.searchDistance)
+                                      : std::string(", half the size of a face"));
+}
+
+std::string roleName(const std::string& interface) { return "-" + roleOption.fullName(interface); }
+
+std::string adjustName(const std::string& tie) { return "-" + adjustOption.fullName(tie); }
+
+std::string clampedName(const std::string& group) { return "-" + clampedOption.fullName(group); }
+
+std::string displacementName(const std::string& group) {
+  return "-" + displacementOption.fullName(group);
+}
+
+}  // namespace squeal::interfaces

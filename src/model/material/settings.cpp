@@ -1,0 +1,211 @@
+#include "model/material/settings.hpp"
+
+#include <cmath>
+#include <set>
+
+#include "base/options/options.hpp"
+#include "base/petsc/check.hpp"
+#include "model/mesh/vector.hpp"
+
+namespace squeal::material {
+
+using mesh::cross;
+using mesh::length;
+using mesh::unit;
+
+namespace {
+
+const RealOption youngOption("elasticity", "material_<group>_young", std::nullopt, "Pa", positive,
+                             "Young's modulus of the body");
+const RealOption poissonOption("elasticity", "material_<group>_poisson", std::nullopt, "",
+                               {-1, 0.5, true, true}, "Poisson's ratio of the body");
+const RealListOption engineeringOption(
+    "elasticity", "material_<group>_engineering_constants", "", "Pa", anyReal,
+    "constants of an orthotropic body, instead of _young and _poisson: "
+    "E1,E2,E3,nu12,nu13,nu23,G12,G13,G23; nu_ij is the contraction along j per stretch along i, "
+    "nu_ij/Ei = nu_ji/Ej");
+const RealListOption transverseOption(
+    "elasticity", "material_<group>_transverse", "", "Pa", anyReal,
+    "constants of a transversely isotropic body, instead of _young and _poisson: "
+    "Ep,Et,nup,nupt,Gt; Ep and nup in the isotropic plane 1-2, Et along axis 3, nupt the "
+    "contraction along 3 per stretch in the plane, Gt the shear modulus between 3 and the plane");
+const RealListOption orientationOption(
+    "elasticity", "material_<group>_orientation", "1,0,0,0,1,0", "", anyReal,
+    "axes of an orthotropic body: a1,a2,a3,b1,b2,b3 with axis 1 along a and b in the plane 1-2");
+const RealListOption cylindricalOption(
+    "elasticity", "material_<group>_cylindrical", "", "m", anyReal,
+    "axis of a body with cylindrical orthotropy, instead of _orientation: ox,oy,oz,kx,ky,kz, a "
+    "point and a direction; axis 1 radial, 2 tangential, 3 along k");
+const RealOption densityOption("elasticity", "material_<group>_density", std::nullopt, "kg/m3",
+                               positive, "mass density of the body");
+const RealOption rayleighMassOption("elasticity", "material_<group>_rayleigh_mass", 0.0, "1/s",
+                                    nonNegative,
+                                    "alpha of the damping matrix C = alpha M + beta K of the body");
+const RealOption rayleighStiffnessOption(
+    "elasticity", "material_<group>_rayleigh_stiffness", 0.0, "s", nonNegative,
+    "beta of the damping matrix C = alpha M + beta K of the body");
+const RealOption lossFactorOption(
+    "elasticity", "material_<group>_loss_factor", 0.0, "", nonNegative,
+    "loss factor eta, as equivalent viscous damping C = eta / (2 pi f) K; exact only at the "
+    "frequency f = _loss_frequency, larger above it and smaller below");
+const RealOption lossFrequencyOption("elasticity", "material_<group>_loss_frequency", std::nullopt,
+                                     "Hz", positive, "frequency at which _loss_factor applies");
+const ChoiceOption planeOption("elasticity", "elasticity_plane", {"strain", "stress"}, "strain",
+                               "assumption of plane problems: plane strain or plane stress");
+
+/// Returns β + η / (2π f), s [M.5].
+double stiffnessDamping(const std::string& body) {
+  const double beta = rayleighStiffnessOption.get(body);
+  if (lossFactorOption.given(body))
+    return beta + lossFactorOption.get(body) / (2 * M_PI * lossFrequencyOption.get(body));
+  if (lossFrequencyOption.given(body))
+    throw Error("option -" + lossFrequencyOption.fullName(body) + " needs -" +
+                lossFactorOption.fullName(body));
+  return beta;
+}
+
+/// Returns the numbers of the option. Throws Error unless there are `count`.
+std::vector<double> numbers(const RealListOption& option, const std::string& body,
+                            std::size_t count) {
+  auto values = option.get(body);
+  if (values.size() != count)
+    throw Error("option -" + option.fullName(body) + ": " + std::to_string(count) +
+                " numbers are required, " + std::to_string(values.size()) + " are given");
+  return values;
+}
+
+/// Returns the constants of an orthotropic or transversely isotropic body.
+EngineeringConstants constants(const std::string& body) {
+  const bool transverse = transverseOption.given(body);
+  const auto& option = transverse ? transverseOption : engineeringOption;
+  const auto v = numbers(option, body, transverse ? 5 : 9);
+  EngineeringConstants c{};
+  if (transverse)
+    c = {v[0], v[0], v[1], v[2], v[3], v[3], v[0] / (2 * (1 + v[2])), v[4], v[4]};
+  else
+    c = {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8]};
+  const std::string rule = brokenRule(c);
+  if (!rule.empty())
+    throw Error("option -" + option.fullName(body) +
+                ": the strain energy is not positive for every strain: " + rule +
+                (transverse ? " (E1 = E2 = Ep, E3 = Et, nu12 = nup, nu13 = nu23 = nupt, G12 = Ep / "
+                              "2(1 + nup), G13 = G23 = Gt)"
+                            : ""));
+  return c;
+}
+
+/// Returns axes with axis 1 along a and with b in the plane 1-2.
+Axes axesOf(const Point& a, const Point& b) {
+  const Point one = unit(a), three = unit(cross(a, b));
+  return {one, cross(three, one), three};
+}
+
+Axes orientation(const std::string& body) {
+  const auto v = numbers(orientationOption, body, 6);
+  const Point a{v[0], v[1], v[2]}, b{v[3], v[4], v[5]};
+  if (!(length(cross(a, b)) > 1e-9 * length(a) * length(b)))
+    throw Error("option " + orientationName(body) +
+                ": the two directions must be neither parallel nor zero");
+  return axesOf(a, b);
+}
+
+CylinderAxis cylinderAxis(const std::string& body) {
+  const auto v = numbers(cylindricalOption, body, 6);
+  const Point origin{v[0], v[1], v[2]}, direction{v[3], v[4], v[5]};
+  if (!(length(direction) > 0))
+    throw Error("option " + cylindricalName(body) + ": the axis has no length");
+  return {origin, unit(direction)};
+}
+
+/// Throws Error if both options are given.
+void exclude(const std::string& body, const Option& one, const Option& other) {
+  if (one.given(body) && other.given(body))
+    throw Error("options -" + one.fullName(body) + " and -" + other.fullName(body) +
+                " exclude each other");
+}
+
+/// Throws Error if options of different laws are given.
+void rejectSecondLaw(const std::string& body) {
+  for (const Option* elastic : std::vector<const Option*>{&engineeringOption, &transverseOption}) {
+    exclude(body, *elastic, youngOption);
+    exclude(body, *elastic, poissonOption);
+  }
+  exclude(body, engineeringOption, transverseOption);
+  exclude(body, orientationOption, cylindricalOption);
+}
+
+/// Reads the elastic law of a body.
+void readLaw(const std::string& body, BodySettings& settings) {
+  rejectSecondLaw(body);
+  if (engineeringOption.given(body) || transverseOption.given(body)) {
+    settings.orthotropy.emplace(Orthotropy{constants(body), {}});
+    if (cylindricalOption.given(body))
+      settings.orthotropy->axes = cylinderAxis(body);
+    else
+      settings.orthotropy->axes = orientation(body);
+    return;
+  }
+  for (const auto* option : {&orientationOption, &cylindricalOption})
+    if (option->given(body))
+      throw Error("option -" + option->fullName(body) + " needs -" +
+                  engineeringOption.fullName(body) + " or -" + transverseOption.fullName(body));
+  settings.poisson = poissonOption.get(body);
+  settings.young = youngOption.get(body);
+}
+
+BodySettings bodyGiven(const std::string& body) {
+  BodySettings settings;
+  readLaw(body, settings);
+  settings.density = densityOption.get(body);
+  settings.massDamping = rayleighMassOption.get(body);
+  settings.stiffnessDamping = stiffnessDamping(body);
+  return settings;
+}
+
+/// Returns the groups with an elastic law. Throws Error if there is none, and for a group whose
+/// other options lack one.
+std::set<std::string> groupsGiven() {
+  std::set<std::string> groups;
+  for (const Option* option :
+       std::vector<const Option*>{&youngOption, &engineeringOption, &transverseOption})
+    for (const auto& group : option->subjects()) groups.insert(group);
+  for (const Option* option : std::vector<const Option*>{
+           &poissonOption, &densityOption, &rayleighMassOption, &rayleighStiffnessOption,
+           &lossFactorOption, &lossFrequencyOption, &orientationOption, &cylindricalOption})
+    for (const auto& group : option->subjects())
+      if (!groups.count(group))
+        throw Error("option -" + youngOption.fullName(group) +
+                    " (or _engineering_constants, _transverse) is missing, but -" +
+                    option->fullName(group) + " is given");
+  if (groups.empty())
+    throw Error("no body: " + howToGiveMaterials() + " for each volume group of the mesh");
+  return groups;
+}
+
+}  // namespace
+
+Settings Settings::given() {
+  Settings settings;
+  for (const auto& group : groupsGiven()) settings.bodies[group] = bodyGiven(group);
+  settings.planeStress = planeOption.get() == "stress";
+  return settings;
+}
+
+std::vector<mesh::GroupRequest> groupRequests(const Settings& settings) {
+  std::vector<mesh::GroupRequest> requests;
+  for (const auto& [group, body] : settings.bodies)
+    requests.push_back({group, "-" + youngOption.fullName(group)});
+  return requests;
+}
+
+std::string howToGiveMaterials() { return "give -material_<group>_young, _poisson and _density"; }
+
+std::string orientationName(const std::string& body) {
+  return "-" + orientationOption.fullName(body);
+}
+
+std::string cylindricalName(const std::string& body) {
+  return "-" + cylindricalOption.fullName(body);
+}
+
+}  // namespace squeal::material

@@ -1,0 +1,31 @@
+#include "model/mesh/serialization.hpp"
+
+namespace squeal::mesh {
+
+// A structured binding names all members: one that is missing here does not compile.
+
+void fields(Stream& stream, CellBlock& block) {
+  auto& [type, nodesPerCell, nodes, body, tag] = block;
+  stream(type, nodesPerCell, nodes, body, tag);
+}
+
+void fields(Stream& stream, FaceBlock& block) {
+  auto& [type, nodesPerFace, nodes, surface, sign] = block;
+  stream(type, nodesPerFace, nodes, surface, sign);
+}
+
+void fields(Stream& stream, InterfaceMatch& match) {
+  auto& [label, matching, mismatch, nearlyMatching] = match;
+  stream(label, matching, mismatch, nearlyMatching);
+}
+
+void fields(Stream& stream, Mesh& mesh) {
+  auto& [comm, dimension, totalNodes, totalCells, unusedNodes, straightened, ownedNodes, firstNode,
+         globalNode, coordinates, nodeTag, nodePart, parts, partName, bodies, cells, surfaces,
+         faces, nodeGroups, images, pairs, interfaces] = mesh;
+  stream(dimension, totalNodes, totalCells, unusedNodes, straightened, ownedNodes, firstNode,
+         globalNode, coordinates, nodeTag, nodePart, parts, partName, bodies, cells, surfaces,
+         faces, nodeGroups, images, pairs, interfaces);
+}
+
+}  // namespace squeal::mesh

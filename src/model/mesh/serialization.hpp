@@ -1,0 +1,14 @@
+#pragma once
+/// Serialisation of a mesh, for its distribution.
+#include "base/system/stream.hpp"
+#include "model/mesh/mesh.hpp"
+
+namespace squeal::mesh {
+
+void fields(Stream& stream, CellBlock& block);
+void fields(Stream& stream, FaceBlock& block);
+void fields(Stream& stream, InterfaceMatch& match);
+/// Exchanges all members except the communicator.
+void fields(Stream& stream, Mesh& mesh);
+
+}  // namespace squeal::mesh

@@ -1,0 +1,21 @@
+#include "model/mesh/settings.hpp"
+
+#include "base/options/options.hpp"
+
+namespace squeal::mesh {
+namespace {
+
+const ChoiceOption straightenOption(
+    "mesh", "mesh_straighten", {"none", "bad", "all"}, "none",
+    "curved cells whose edges are straightened; bad: those whose Jacobian is not positive");
+
+}  // namespace
+
+Settings Settings::given() {
+  const std::string which = straightenOption.get();
+  return {which == "none"  ? Straightening::none
+          : which == "bad" ? Straightening::folded
+                           : Straightening::all};
+}
+
+}  // namespace squeal::mesh

@@ -1,0 +1,35 @@
+#pragma once
+/// Settings of the file that the mesh is read from or made of. Not collective.
+#include <string>
+#include <vector>
+
+namespace squeal::meshfile {
+
+/// A parameter of a geometry and the value that it is given.
+struct GeometryParameter {
+  std::string name;
+  double value;
+};
+
+/// How a shape is meshed.
+struct ShapeMesh {
+  double size = 0;                 ///< length of edges in the unit of the shape; 0: gmsh chooses it
+  int order = 2;                   ///< of the tetrahedra
+  std::vector<std::string> given;  ///< options given for shapes, with their dash
+};
+
+struct Settings {
+  std::string file;                           ///< path of the mesh, shape or geometry
+  std::vector<GeometryParameter> parameters;  ///< of a geometry
+  ShapeMesh shape;                            ///< for a shape
+  double scale = 1;                           ///< factor on all coordinates
+
+  /// Reads the options. Throws Error unless each parameter is name=number with a finite number, and
+  /// no name is given twice.
+  static Settings given();
+};
+
+/// Returns the parameters in items "name=number". Throws Error as Settings::given() does.
+std::vector<GeometryParameter> parametersOf(const std::vector<std::string>& items);
+
+}  // namespace squeal::meshfile

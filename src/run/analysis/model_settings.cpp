@@ -1,0 +1,29 @@
+#include "run/analysis/model_settings.hpp"
+
+namespace squeal::analysis {
+
+ModelSettings ModelSettings::given() {
+  return {.materials = material::Settings::given(),
+          .interfaces = interfaces::Settings::given(),
+          .elasticity = elasticity::Settings::given(),
+          .file = meshfile::Settings::given(),
+          .mesh = mesh::Settings::given(),
+          .contact = contact::Settings::given()};
+}
+
+mesh::Request meshRequest(const ModelSettings& settings) {
+  mesh::Request request;
+  request.bodies = material::groupRequests(settings.materials);
+  request.moving = elasticity::movingBodies(settings.elasticity);
+  request.nodeGroups = interfaces::clampedGroups(settings.interfaces);
+  for (const auto& group : elasticity::groundedGroups(settings.elasticity))
+    request.nodeGroups.push_back(group);
+  request.surfaces = elasticity::loadedSurfaces(settings.elasticity);
+  request.interfaces = interfaces::interfaceRequests(settings.interfaces);
+  request.periodic = interfaces::periodicPairs(settings.interfaces);
+  request.howToGiveMaterials = material::howToGiveMaterials();
+  request.motionOptions = elasticity::motionOptions();
+  return request;
+}
+
+}  // namespace squeal::analysis

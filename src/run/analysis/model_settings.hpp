@@ -1,0 +1,28 @@
+#pragma once
+/// Settings of all rooms of the floor `model`, and what they ask of the mesh. Not collective.
+#include "model/contact/settings.hpp"
+#include "model/elasticity/settings.hpp"
+#include "model/interfaces/settings.hpp"
+#include "model/material/settings.hpp"
+#include "model/mesh/mesh.hpp"
+#include "model/mesh/settings.hpp"
+#include "model/meshfile/settings.hpp"
+
+namespace squeal::analysis {
+
+struct ModelSettings {
+  material::Settings materials;
+  interfaces::Settings interfaces;
+  elasticity::Settings elasticity;
+  meshfile::Settings file;
+  mesh::Settings mesh;
+  contact::Settings contact;
+
+  /// Reads the options. Throws Error as these rooms document it.
+  static ModelSettings given();
+};
+
+/// Returns the groups and interfaces that the settings need from the mesh.
+mesh::Request meshRequest(const ModelSettings& settings);
+
+}  // namespace squeal::analysis

@@ -1,0 +1,15 @@
+#pragma once
+/// The geometric stiffness of a steady state.
+#include "base/petsc/owned.hpp"
+#include "model/elasticity/elasticity.hpp"
+#include "model/mesh/mesh.hpp"
+#include "steady/steady/steady.hpp"
+
+namespace squeal::steady {
+
+/// Collective. Returns K_σ of the stress of the steady state [M.6], N×N; null unless it is part of
+/// the stiffness of vibrations (-elasticity_prestress).
+OwnedMat prestressOf(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
+                     const Solution& solution);
+
+}  // namespace squeal::steady

@@ -1,0 +1,30 @@
+#include "steady/uniqueness/settings.hpp"
+
+#include "base/options/options.hpp"
+
+namespace squeal::uniqueness {
+namespace {
+
+const FlagOption wantedOption("steady", "steady_uniqueness", true,
+                              "examination of existence and uniqueness of the steady state, at "
+                              "the cost of one factorisation and a solve per contact node");
+const IntegerOption denseOption("steady", "steady_uniqueness_dense", 1000, 0, 40'000,
+                                "largest number of contact nodes with which the condensed matrix "
+                                "is formed; beyond, an iteration finds the friction at which it "
+                                "ceases to be positive definite");
+const IntegerOption pMatrixOption(
+    "steady", "steady_uniqueness_pmatrix", 18, 0, 30,
+    "largest number n of contact nodes for the P-matrix test, which takes 2^n pivots");
+
+}  // namespace
+
+Settings Settings::given() {
+  Settings settings;
+  settings.wanted = wantedOption.get();
+  if (!settings.wanted) return settings;
+  settings.dense = denseOption.get();
+  settings.pMatrix = pMatrixOption.get();
+  return settings;
+}
+
+}  // namespace squeal::uniqueness

@@ -1,0 +1,15 @@
+#pragma once
+/// Settings of the examination of existence and uniqueness. Not collective.
+
+namespace squeal::uniqueness {
+
+struct Settings {
+  bool wanted = true;
+  int dense = 1000;  ///< contact nodes up to which the condensed matrix A is formed
+  int pMatrix = 18;  ///< contact nodes n up to which the P-matrix test is made, with 2^n pivots
+
+  /// Reads the options; the limits only if the examination is wanted.
+  static Settings given();
+};
+
+}  // namespace squeal::uniqueness
