@@ -1,4 +1,4 @@
-# Completion of the options of squeal for bash, made by scripts/generate_options.
+# Completion of the options of squeal for bash, made by scripts/dev/generate_options.
 _squeal() {
   local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]}
   case $before in

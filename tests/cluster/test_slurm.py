@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The job scripts of scripts/batch under Slurm on this machine: test_slurm.py PROGRAM FOLDER. As root; scripts/test_cluster calls it."""
+"""The job scripts of scripts/batch under Slurm on this machine: test_slurm.py PROGRAM FOLDER. As root; scripts/dev/test_cluster calls it."""
 import json
 import os
 import re

@@ -15,9 +15,9 @@ import unittest
 from pathlib import Path
 
 repository = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(repository / "scripts"))
+sys.path.insert(0, str(repository / "python"))
 
-from eigenvalues import match  # noqa: E402
+from squeal.matching import match  # noqa: E402
 
 BUILD = Path(sys.argv.pop(1)).resolve() if len(sys.argv) > 1 else repository / "build"
 RELEASE = "bookworm"

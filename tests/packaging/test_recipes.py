@@ -125,7 +125,7 @@ class Spack(unittest.TestCase):
         recipe.use_python_of_spack()
         pattern = {pattern for pattern, _ in self.recorded.filtered}.pop()
         installed = re.search(r"set\(commands (.*?)\)", (repository / "packaging/CMakeLists.txt").read_text())[1].split()
-        installed += re.findall(r"\.\./scripts/([\w.-]+)", (repository / "packaging/CMakeLists.txt").read_text())
+        installed += re.findall(r"\.\./scripts/([\w./-]+)", (repository / "packaging/CMakeLists.txt").read_text())
         installed = [name for name in installed if (repository / "scripts" / name).is_file()]
         wanted = {name for name in installed if re.search(pattern, (repository / "scripts" / name).read_text())}
         self.assertEqual({Path(file).name for _, files in self.recorded.filtered for file in files}, wanted)

@@ -9,45 +9,45 @@ from pathlib import Path
 import numpy as np
 
 scripts = Path(__file__).resolve().parents[2] / "scripts"
-sys.path.insert(0, str(scripts))
+sys.path[:0] = [str(scripts), str(scripts.parent / "python")]
 sys.dont_write_bytecode = True
-import eigenvalues  # noqa: E402
 import plot_stability  # noqa: E402
+from squeal import matching  # noqa: E402
 
 
 class Match(unittest.TestCase):
     def test_order_does_not_matter(self):
         wanted = np.array([1j, 2j, 3j])
-        np.testing.assert_array_equal(eigenvalues.match(wanted, wanted[[2, 0, 1]]), [1, 2, 0])
+        np.testing.assert_array_equal(matching.match(wanted, wanted[[2, 0, 1]]), [1, 2, 0])
 
     def test_flutter_pair_of_equal_frequency(self):
         """By frequency alone the two exchange their places: rounding decides which comes first."""
         wanted = np.array([-0.1 + (1 - 1e-12) * 1j, 0.1 + 1j])
         found = np.array([0.1 + (1 - 1e-12) * 1j, -0.1 + 1j])
-        np.testing.assert_array_equal(eigenvalues.match(wanted, found), [1, 0])
+        np.testing.assert_array_equal(matching.match(wanted, found), [1, 0])
 
     def test_nearest_first_is_not_enough(self):
         """Each alone would take the second found one; together they are closest in their order."""
         wanted, found = np.array([1.000j, 1.004j]), np.array([0.997j, 1.001j])
-        np.testing.assert_array_equal(eigenvalues.match(wanted, found), [0, 1])
+        np.testing.assert_array_equal(matching.match(wanted, found), [0, 1])
 
     def test_none_is_used_twice(self):
-        partner = eigenvalues.match([1j, 1j], [1j, 2j])
+        partner = matching.match([1j, 1j], [1j, 2j])
         self.assertEqual(sorted(partner), [-1, 0])
 
     def test_missing_one_takes_none_from_the_others(self):
-        np.testing.assert_array_equal(eigenvalues.match([1j, 1.1j, 1.2j], [1.1j, 1.2j]), [-1, 0, 1])
+        np.testing.assert_array_equal(matching.match([1j, 1.1j, 1.2j], [1.1j, 1.2j]), [-1, 0, 1])
 
     def test_empty(self):
-        self.assertEqual(len(eigenvalues.match([], [1j])), 0)
-        np.testing.assert_array_equal(eigenvalues.match([1j], []), [-1])
+        self.assertEqual(len(matching.match([], [1j])), 0)
+        np.testing.assert_array_equal(matching.match([1j], []), [-1])
 
 
 class Compare(unittest.TestCase):
     exact = np.array([1j, 2j, -0.01 + 3j, 0.01 + 3j, 0.02 + 4j])
 
     def test_equal(self):
-        result = eigenvalues.compare(self.exact, self.exact[::-1], 5)
+        result = matching.compare(self.exact, self.exact[::-1], 5)
         self.assertEqual((result["exact"], result["found"], result["exact_unstable"], result["found_unstable"]), (5, 5, 2, 2))
         self.assertEqual((result["missed"], result["invented"], result["without_partner"]), (0, 0, 0))
         self.assertEqual((result["relative_error"], result["growth_error"]), (0, 0))
@@ -55,7 +55,7 @@ class Compare(unittest.TestCase):
     def test_missed_and_invented(self):
         """The pair at 3 is taken for two stable modes, the one at 2 for a flutter mode; as many unstable ones are counted."""
         found = np.array([1j, 0.01 + 2j, 2.99j, 3.01j, 0.02 + 4j])
-        result = eigenvalues.compare(self.exact, found, 5)
+        result = matching.compare(self.exact, found, 5)
         self.assertEqual((result["exact_unstable"], result["found_unstable"]), (2, 2))
         self.assertEqual((result["missed"], result["invented"], result["without_partner"]), (1, 1, 0))
         self.assertAlmostEqual(result["growth_error"], 0.01)
@@ -63,11 +63,11 @@ class Compare(unittest.TestCase):
 
     def test_edge(self):
         """What lies beyond the edge counts as partner only."""
-        result = eigenvalues.compare([1j, 1.9999j, 5j], [1j, 2.0001j], 2)
+        result = matching.compare([1j, 1.9999j, 5j], [1j, 2.0001j], 2)
         self.assertEqual((result["exact"], result["found"], result["without_partner"]), (2, 1, 0))
 
     def test_lost_mode(self):
-        result = eigenvalues.compare(self.exact, self.exact[:4], 5)
+        result = matching.compare(self.exact, self.exact[:4], 5)
         self.assertEqual((result["without_partner"], result["missed"], result["invented"]), (1, 1, 0))
 
 

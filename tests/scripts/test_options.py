@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What scripts/generate_options makes of the options of the program: test_options.py PROGRAM."""
+"""What scripts/dev/generate_options makes of the options of the program: test_options.py PROGRAM."""
 import json
 import re
 import shutil
@@ -41,7 +41,7 @@ class Generated(unittest.TestCase):
         return [error.message for error in self.validator.iter_errors(yaml.load(text, Words))]
 
     def test_files_are_those_of_the_program(self):
-        subprocess.run([repository / "scripts/generate_options", "--check", PROGRAM], check=True)
+        subprocess.run([repository / "scripts/dev/generate_options", "--check", PROGRAM], check=True)
 
     def test_cases_of_the_repository_pass_and_name_the_schema(self):
         for case in sorted((repository / "options").glob("*.yaml")):

@@ -98,9 +98,9 @@ class Benchmark(unittest.TestCase):
         with tempfile.TemporaryDirectory() as place:
             place = Path(place)
             scripts = place / "scripts"
-            scripts.mkdir()
-            for name in ("benchmark", "report_dir"):
-                shutil.copy(SCRIPTS / name, scripts)
+            for name in ("bench/stages", "lib/report_dir"):
+                (scripts / name).parent.mkdir(parents=True)
+                shutil.copy(SCRIPTS / name, scripts / name)
             (scripts / "run").write_text(RUN % SUMMARY)  # in the place of a run of minutes
             (scripts / "run").chmod(0o755)
             earlier = place / "results" / "benchmark_disc_brake"
@@ -108,7 +108,7 @@ class Benchmark(unittest.TestCase):
             (earlier / "summary.json").write_text(json.dumps({**SUMMARY, "case": "an earlier run"}))
             elsewhere = ["-report_dir", "first", "-flutter_friction", "0.2", "-report_dir", str(place / "two words")]
             for options in (elsewhere, []):
-                run = subprocess.run([scripts / "benchmark", *options], capture_output=True, text=True, check=True, cwd=place)
+                run = subprocess.run([scripts / "bench/stages", *options], capture_output=True, text=True, check=True, cwd=place)
                 self.assertIn("this run", run.stdout)
                 self.assertNotIn("an earlier run", run.stdout)
             self.assertFalse((place / "first").exists())

@@ -21,7 +21,7 @@ from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import WebDriverWait
 
 repository = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(repository / "python"), str(repository / "scripts")]
+sys.path[:0] = [str(repository / folder) for folder in ("python", "scripts/dev", "scripts")]
 sys.dont_write_bytecode = True
 import squeal  # noqa: E402
 from report_picture import browser  # noqa: E402
@@ -380,14 +380,14 @@ class Report(unittest.TestCase):
         self.check_alive(self.driver, "the browser has taken WebGL away from this page")
 
     def test_picture(self):
-        """scripts/report_picture.py shows the mode; a report that shows none is refused, and no picture written."""
+        """scripts/dev/report_picture.py shows the mode; a report that shows none is refused, and no picture written."""
 
         def drawn(name, text):
             folder = Path(self.temporary.name) / name
             folder.mkdir()
             if text:
                 (folder / "report.html").write_text(text)
-            done = subprocess.run([repository / "scripts/report_picture.py", folder, folder / "out.png"], capture_output=True, text=True)
+            done = subprocess.run([repository / "scripts/dev/report_picture.py", folder, folder / "out.png"], capture_output=True, text=True)
             return done.returncode, done.stderr, folder / "out.png"
 
         text = (self.folder / "report.html").read_text()

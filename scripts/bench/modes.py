@@ -1,4 +1,4 @@
-"""Called by scripts/benchmark_modes: the free modes by SciPy, and the comparison of all runs."""
+"""Called by scripts/bench/modes: the free modes by SciPy, and the comparison of all runs."""
 import csv
 import json
 import pathlib

@@ -8,12 +8,14 @@ import io
 import sys
 from pathlib import Path
 
-from results import program  # noqa: I001
 from PIL import Image
 from selenium import webdriver
 from selenium.common.exceptions import WebDriverException
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.support.ui import WebDriverWait
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from results import program  # noqa: E402
 
 WIDTH, HEIGHT = 1280, 657
 FEWEST_COLOURS = 100  # in the view of the mode; an empty one has its ground

@@ -1,8 +1,8 @@
-"""Telling which eigenvalue of one run is which of another."""
+"""Pairs the eigenvalues of one run with those of another."""
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
-NOISE = 1e-6  # without an estimate of its error, a growth rate below this fraction of |s| is taken as round-off
+from squeal.results import NOISE
 
 
 def unstable(s, tolerance=NOISE):
