@@ -63,7 +63,7 @@ class Squeal(CMakePackage):
         if "+report" not in self.spec:
             return
         scripts = join_path(self.prefix.share, "squeal", "scripts")
-        for name in ("squeal-report", "squeal-plot", "squeal-merge", "plot_stability.py", "plot_mode.py", "plot_regime.py", "convert_matrix"):
+        for name in ("squeal-report", "squeal-plot", "squeal-merge", "convert_matrix"):
             filter_file(r"^#!/usr/bin/python3", "#!" + self.spec["python"].command.path, join_path(scripts, name))
 
     def setup_run_environment(self, env):

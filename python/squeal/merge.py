@@ -1,17 +1,18 @@
 """Joins the results of several runs over parts of one grid of parameters, or lists those of variants."""
-import contextlib
+import argparse
 import json
 import os
-import shutil
-import tempfile
+import signal
+import sys
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
-from squeal.parts import SWEPT, TABLES, differs, indifferent, keys_of, owners_of, read_parts, require_alike
-from squeal.files import ResultsError, read_text
+from squeal.files import ResultsError
+from squeal.folder import new_folder, read_manifest, write_manifest
 from squeal.keys import PARAMETERS, key_of
+from squeal.parts import SWEPT, TABLES, differs, indifferent, keys_of, owners_of, read_parts, require_alike
 from squeal.results import read_summary
 from squeal.schema import VERDICTS as GRAVITY
 
@@ -30,7 +31,8 @@ def merge(out, folders):
     points = len(tables["stability_map"])
     if points < grid:
         said.append(f"{points} of the {grid} points of the grid of all values are there")
-    with _new_folder(out) as new:
+    _require_replaceable(out)
+    with new_folder(out) as new:
         for name, table in tables.items():
             table.to_csv(new / f"{name}.csv", index=False, lineterminator="\n")
         shapes = {name: {"rows": len(table), "columns": list(table.columns)} for name, table in tables.items()}
@@ -47,7 +49,8 @@ def list_variants(out, folders):
     rows = [
         {"part": _from(out, part.folder), **{name: part.options.get(name, "") for name in differing}, **_outcome(part)} for part in parts
     ]
-    with _new_folder(out) as new:
+    _require_replaceable(out)
+    with new_folder(out) as new:
         pd.DataFrame(rows).to_csv(new / "variants.csv", index=False, lineterminator="\n")
         _write_summary(new, {"version": parts[0].summary.get("version", ""), "complete": True, "variants": True,
                              "options_that_differ": differing, "parts": [_entry(part, out) for part in parts]})  # fmt: skip
@@ -201,57 +204,50 @@ def _outcome(part):
 
 def _write_summary(folder, summary):
     (folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n")
-    names = sorted([*(path.name for path in folder.iterdir()), "manifest.txt"])
-    head = f"# squeal {summary.get('version', '')}: the {len(names)} files of a run"  # the program and scripts/results.py read it
-    (folder / "manifest.txt").write_text("\n".join([head, *names]) + "\n")
-
-
-@contextlib.contextmanager
-def _new_folder(out):
-    """A folder beside `out` that takes its place when it is complete; an earlier merge there goes then, and nothing else ever does."""
-    out = Path(out)
-    _require_replaceable(out)
-    try:
-        out.parent.mkdir(parents=True, exist_ok=True)
-        new = Path(tempfile.mkdtemp(prefix=f".{out.name}.", dir=out.parent))
-    except OSError as error:
-        raise ResultsError(f"cannot write {out}: {error.strerror}") from None
-    try:
-        yield new
-        new.chmod(0o777 & ~_mask())
-        for path in new.iterdir():
-            with path.open("rb") as file:
-                os.fsync(file.fileno())
-        earlier = new.with_name(new.name + ".earlier")
-        if out.exists():
-            out.rename(earlier)
-        new.rename(out)
-        shutil.rmtree(earlier, ignore_errors=True)
-    except OSError as error:
-        raise ResultsError(f"cannot write {out}: {error.strerror}") from None
-    finally:
-        shutil.rmtree(new, ignore_errors=True)
-
-
-def _mask():
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
+    write_manifest(folder, summary.get("version", ""))
 
 
 def _require_replaceable(out):
+    """Raises ResultsError unless `out` is free, or holds an earlier merge and nothing else."""
+    out = Path(out)
     if not os.path.lexists(out):
         return
     try:
         merged = "parts" in read_summary(out / "summary.json")
-        listed = set(read_text(out / "manifest.txt").splitlines()[1:])
+        listed = read_manifest(out) or []
         others = sorted(path.name for path in out.iterdir() if path.name not in listed)
     except (OSError, ValueError, ResultsError):
         merged, others = False, []
     if not merged:
-        raise ResultsError(f"{out} exists and is no merge: name another folder, or move it")
+        raise ResultsError(f"{out} exists and is not a merge: name another folder, or move it")
     if others:
-        raise ResultsError(f"{out} holds a file that no merge has written, {others[0]}: move it")
+        raise ResultsError(f"{out} holds {others[0]}, which no merge has written: move it")
 
 
-__all__ = ["list_variants", "merge"]
+HELP = """squeal-merge [--variants] OUT DIR...: joins the results of several runs.
+
+The folders DIR hold the results of runs over parts of one grid of parameters. The new folder OUT
+holds summary.json and the tables that all parts have; squeal-plot, squeal-report and squeal.open()
+read it. Mode shapes and fields stay in the parts. The parts may differ only in -flutter_friction,
+_speed, _pressure and _damping.
+--variants: the parts may differ in any option. OUT holds variants.csv, with a row for each part and
+a column for each option that differs.
+The command replaces an earlier merge in OUT and refuses to replace anything else.
+"""
+
+
+def main(words):
+    parser = argparse.ArgumentParser(
+        prog="squeal-merge", description=HELP, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--variants", action="store_true", help="list variants of a case")
+    parser.add_argument("out", metavar="OUT")
+    parser.add_argument("folders", metavar="DIR", nargs="+")
+    arguments = parser.parse_args(words)
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # so that new_folder() removes its folder
+    join = list_variants if arguments.variants else merge
+    for line in join(arguments.out, arguments.folders):
+        print(f"merge: {line}")
+
+
+__all__ = ["list_variants", "main", "merge"]

@@ -5,6 +5,7 @@ import json
 import math
 import os
 import re
+import sys
 import zlib
 from pathlib import Path
 
@@ -13,7 +14,9 @@ import numpy as np
 
 from squeal import regime
 from squeal.files import ResultsError, open_regular
+from squeal.folder import Folder
 from squeal.keys import PARAMETERS
+from squeal.results import Results
 from squeal.skin import Skin
 
 WEB = Path(__file__).resolve().parents[2] / "web"
@@ -276,4 +279,19 @@ def _contact(results, skin):
     return touching, np.stack([field[touching].T for field in fields]), points
 
 
-__all__ = ["build", "certificate", "verdict"]
+HELP = """squeal-report DIR: writes report.html into the folder of results DIR.
+
+The report is one file that any browser opens without a network."""
+
+
+def main(words):
+    if words in (["-h"], ["--help"]):
+        print(HELP)
+        return
+    if len(words) != 1 or words[0].startswith("-"):
+        sys.exit(HELP)
+    folder = Folder(words[0])
+    print(folder.save_text("report.html", build(Results(words[0]))))
+
+
+__all__ = ["build", "certificate", "main", "verdict"]

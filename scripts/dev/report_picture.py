@@ -14,9 +14,6 @@ from selenium.common.exceptions import WebDriverException
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.support.ui import WebDriverWait
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-from results import program  # noqa: E402
-
 WIDTH, HEIGHT = 1280, 657
 FEWEST_COLOURS = 100  # in the view of the mode; an empty one has its ground
 
@@ -40,10 +37,10 @@ def picture_of(page):
         driver.execute_cdp_cmd("Emulation.setScrollbarsHidden", {"hidden": True})
         driver.get(page.resolve().as_uri())
         if not driver.execute_script("return Boolean(window.Chart) && data.shapes.length > 0"):
-            sys.exit(f"{program()}: {page} shows no mode: it holds no shape, or was made without its libraries")
+            sys.exit(f"report_picture.py: {page} shows no mode: it holds no shape, or was made without its libraries")
         WebDriverWait(driver, 60).until(lambda driver: driver.execute_script("return document.documentElement.dataset.ready"))
         if driver.execute_script("return Boolean(document.getElementById('noview'))"):
-            sys.exit(f"{program()}: {page}: {driver.execute_script('return document.getElementById(`noview`).textContent')}")
+            sys.exit(f"report_picture.py: {page}: {driver.execute_script('return document.getElementById(`noview`).textContent')}")
         WebDriverWait(driver, 60).until(lambda driver: driver.execute_script("return document.getElementById('canvas').dataset.mode"))
         picture = Image.open(io.BytesIO(driver.get_screenshot_as_png())).convert("RGB")
         view = driver.execute_script("return document.getElementById('canvas').toDataURL()").partition(",")[2]  # without the scale above it
@@ -51,7 +48,7 @@ def picture_of(page):
         driver.quit()
     colours = len(Image.open(io.BytesIO(base64.b64decode(view))).getcolors(1 << 24))
     if colours < FEWEST_COLOURS:
-        sys.exit(f"{program()}: the view of the mode in {page} is empty: it has {colours} colours")
+        sys.exit(f"report_picture.py: the view of the mode in {page} is empty: it has {colours} colours")
     return picture.quantize(256, dither=Image.Dither.NONE)
 
 
@@ -60,13 +57,13 @@ def main():
         sys.exit(__doc__)
     page = Path(sys.argv[1]) / "report.html"
     if not page.is_file():
-        sys.exit(f"{program()}: there is no {page}; scripts/squeal-report {sys.argv[1]} writes it")
+        sys.exit(f"report_picture.py: there is no {page}; scripts/squeal-report {sys.argv[1]} writes it")
     try:
         picture_of(page).save(sys.argv[2], format="PNG", optimize=True)
     except WebDriverException as error:
-        sys.exit(f"{program()}: Chromium: {(error.msg or type(error).__name__).splitlines()[0]}")
+        sys.exit(f"report_picture.py: Chromium: {(error.msg or type(error).__name__).splitlines()[0]}")
     except OSError as error:
-        sys.exit(f"{program()}: cannot write {sys.argv[2]}: {error.strerror}")
+        sys.exit(f"report_picture.py: cannot write {sys.argv[2]}: {error.strerror}")
     print(sys.argv[2])
 
 

@@ -125,7 +125,7 @@ class Merge(unittest.TestCase):
             table = pd.read_csv(pressed / f"{name}.csv", dtype=str, keep_default_na=False)
             table.assign(pressure="2").to_csv(pressed / f"{name}.csv", index=False)
         squeal.merge.merge(self.out, [self.made / "chain_low", self.made / "chain_damped", pressed])
-        subprocess.run([sys.executable, repository / "scripts/plot_stability.py", self.out], check=True)
+        subprocess.run([repository / "scripts/squeal-plot", self.out], check=True)
 
     def test_branches_of_one_line_keep_numbers_of_their_own(self):
         said = self.merge("chain_low", "chain_high")
@@ -157,7 +157,7 @@ class Merge(unittest.TestCase):
 
     def test_is_plotted_and_reported(self):
         self.merge("layers_1", "layers_2")
-        subprocess.run([sys.executable, repository / "scripts/plot_stability.py", self.out], check=True)
+        subprocess.run([repository / "scripts/squeal-plot", self.out], check=True)
         listed = (self.out / "manifest.txt").read_text().splitlines()
         self.assertTrue({"stability_speed_1.png", "stability_speed_2.png", "stability_map.png"} <= set(listed), listed)
         self.assertIn(f"the {len(listed) - 1} files", listed[0])
@@ -328,21 +328,21 @@ class Merge(unittest.TestCase):
     def test_folders_that_are_no_merge_stay(self):
         self.out.mkdir()
         (self.out / "mine.txt").write_text("mine")
-        self.refused("exists and is no merge", "chain", "chain_damped")
+        self.refused("exists and is not a merge", "chain", "chain_damped")
         for text in ("7", '["parts"]', '{"parts": []}'):
             (self.out / "summary.json").write_text(text)
             (self.out / "manifest.txt").write_text("# squeal\nmanifest.txt\nmine.txt\nsummary.json\n")
-            self.refused("exists and is no merge", "chain", "chain_damped")
+            self.refused("exists and is not a merge", "chain", "chain_damped")
         for name in ("summary.json", "manifest.txt"):
             (self.out / name).unlink()
         run = self.copy("chain")
-        self.refused("exists and is no merge", call=lambda: squeal.merge.merge(run, [self.made / "chain", self.made / "chain_damped"]))
+        self.refused("exists and is not a merge", call=lambda: squeal.merge.merge(run, [self.made / "chain", self.made / "chain_damped"]))
         self.assertTrue((run / "options.txt").exists())
         (self.out / "mine.txt").unlink()
         self.out.rmdir()
         self.merge("chain", "chain_damped")
         (self.out / "mine.txt").write_text("mine")
-        self.refused("holds a file that no merge has written, mine.txt", "chain", "chain_damped")
+        self.refused("holds mine.txt, which no merge has written", "chain", "chain_damped")
         self.assertEqual((self.out / "mine.txt").read_text(), "mine")
 
     def test_appears_whole_or_not_at_all(self):

@@ -138,8 +138,9 @@ class Results(unittest.TestCase):
                 with self.assertRaisesRegex(squeal.ResultsError, f"summary.json is no summary of a run: .*{message}"):
                     squeal.open(empty)
                 # The commands that read results say the same in one line, and add no file.
-                for command in ("squeal-report", "plot_stability.py", "plot_mode.py"):
-                    failed = subprocess.run([repository / "scripts" / command, empty], capture_output=True, text=True)
+                for command in (["squeal-report"], ["squeal-plot"], ["squeal-plot", "mode"]):
+                    name, *words = command
+                    failed = subprocess.run([repository / "scripts" / name, *words, empty], capture_output=True, text=True)
                     self.assertEqual((failed.returncode, len(failed.stderr.splitlines())), (1, 1), failed.stderr)
                     self.assertIn(message, failed.stderr)
                 self.assertEqual([path.name for path in Path(empty).iterdir()], ["summary.json"])

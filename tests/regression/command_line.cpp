@@ -200,8 +200,8 @@ fs::path scriptsIn(const fs::path& place) {
   writeText(place / "scripts/setup",
             "cd \"$(dirname \"${BASH_SOURCE[0]}\")/..\"\n"
             "mpirun() { shift; '" SQUEAL_MPIEXEC "' \"$@\"; }\n");
-  writeText(place / "scripts/plot_stability.py", "#!/bin/sh\necho plotted\n");
-  fs::permissions(place / "scripts/plot_stability.py", fs::perms::owner_all);
+  writeText(place / "scripts/squeal-plot", "#!/bin/sh\necho plotted\n");
+  fs::permissions(place / "scripts/squeal-plot", fs::perms::owner_all);
   return place / "scripts/run";
 }
 

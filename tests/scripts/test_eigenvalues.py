@@ -9,10 +9,11 @@ from pathlib import Path
 import numpy as np
 
 scripts = Path(__file__).resolve().parents[2] / "scripts"
-sys.path[:0] = [str(scripts), str(scripts.parent / "python")]
+sys.path.insert(0, str(scripts.parent / "python"))
 sys.dont_write_bytecode = True
-import plot_stability  # noqa: E402
+import squeal  # noqa: E402
 from squeal import matching  # noqa: E402
+from squeal.plot import stability  # noqa: E402
 
 
 class Match(unittest.TestCase):
@@ -75,7 +76,7 @@ class Plot(unittest.TestCase):
     head = "friction,speed,pressure,damping"
 
     def written(self, folder, frictions, speeds, dampings):
-        modes, stability = [], []
+        modes, points = [], []
         for f in frictions:
             for v in speeds:
                 for c in dampings:
@@ -85,17 +86,17 @@ class Plot(unittest.TestCase):
                     cells = f"{int(growth > 0)},{growth},955,1e-10,,{'unstable' if growth > 0 else 'stable'},0"
                     if (f, v) == (0.6, 3):  # no steady sliding there
                         cells = ",,,,,,"
-                    stability.append(f"{at},{cells}")
+                    points.append(f"{at},{cells}")
         names = "mode,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,damping_ratio,backward_error,error_estimate,certified,verdict"
         (folder / "eigenvalues.csv").write_text("\n".join([f"{self.head},{names}", *modes, ""]))
         names = "unstable_modes,largest_growth_rate_1_per_s,frequency_hz,worst_backward_error,worst_error_estimate,verdict,undecided_modes"
-        (folder / "stability_map.csv").write_text("\n".join([f"{self.head},{names}", *stability, ""]))
+        (folder / "stability_map.csv").write_text("\n".join([f"{self.head},{names}", *points, ""]))
         (folder / "summary.json").write_text('{"version": "0.1.0", "complete": true}')  # without it the results are not complete
 
     def figures(self, *sweep):
         with tempfile.TemporaryDirectory() as name:
             self.written(Path(name), *sweep)
-            subprocess.run(["/usr/bin/python3", str(scripts / "plot_stability.py"), name], check=True)
+            subprocess.run([scripts / "squeal-plot", name], check=True)
             return sorted(path.name for path in Path(name).glob("*.png"))
 
     def test_one_parameter_needs_no_map(self):
@@ -121,19 +122,19 @@ class Plot(unittest.TestCase):
             self.written(folder, [0.2, 0.6], [1], [1])
             (folder / "branches.csv").write_text("\n".join([self.branch_head, *rows, ""]))
             (folder / "critical.csv").write_text("\n".join([*critical, ""]))
-            lines, ends = plot_stability.pieces(plot_stability.squeal.open(folder).branches)
+            lines, ends = stability.pieces(squeal.open(folder).branches)
             self.assertEqual(ends, [(0.2, 0.3), (0.3, 0.6)])
             self.assertEqual([list(line["friction"]) for line in lines], [[0.2, 0.3], [0.3, 0.6], [0.3, 0.6]])
             self.assertEqual([line["growth_rate_1_per_s"].iloc[0] for line in lines], [0, 5, 0])
-            subprocess.run(["/usr/bin/python3", str(scripts / "plot_stability.py"), name], check=True)
+            subprocess.run([scripts / "squeal-plot", name], check=True)
             self.assertTrue((folder / "stability.png").exists())
 
     def test_critical_friction(self):
         y = np.array([0.1, 0.2, 0.3, 0.4])
-        self.assertEqual(plot_stability.critical(y, np.array([0, 0, 1, 0.0])), (0.2, 0.3))
-        self.assertEqual(plot_stability.critical(y, np.array([0, np.nan, 1, 2])), (0.1, 0.3))
-        self.assertIsNone(plot_stability.critical(y, np.zeros(4)))
-        self.assertIsNone(plot_stability.critical(y, np.ones(4)))
+        self.assertEqual(stability.critical(y, np.array([0, 0, 1, 0.0])), (0.2, 0.3))
+        self.assertEqual(stability.critical(y, np.array([0, np.nan, 1, 2])), (0.1, 0.3))
+        self.assertIsNone(stability.critical(y, np.zeros(4)))
+        self.assertIsNone(stability.critical(y, np.ones(4)))
 
 
 if __name__ == "__main__":

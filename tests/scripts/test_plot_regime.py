@@ -1,5 +1,6 @@
 """The picture of the motion after flutter, from tables made by hand."""
 import math
+import os
 import shutil
 import subprocess
 import tempfile
@@ -41,6 +42,13 @@ class Picture(unittest.TestCase):
             self.assertEqual((run.returncode, run.stderr), (0, ""))
             self.assertEqual((self.folder / "regime.png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
             self.assertIn("regime.png\n", (self.folder / "manifest.txt").read_text())
+
+    def test_the_package_is_a_command_too(self):
+        self.tables(["28"])
+        environment = {**os.environ, "PYTHONPATH": str(ROOT / "python"), "PYTHONDONTWRITEBYTECODE": "1"}
+        command = ["/usr/bin/python3", "-m", "squeal.plot", "regime", self.folder]
+        run = subprocess.run(command, capture_output=True, text=True, env=environment)
+        self.assertEqual((run.returncode, run.stdout, run.stderr), (0, f"{self.folder}/regime.png\n", ""))
 
     def test_runs_that_have_measured_nothing_are_passed_over(self):
         self.tables(["28"], unmeasured=["12"])

@@ -1,4 +1,4 @@
-"""What scripts add to the folder of a run, and where they look for it."""
+"""Files that commands add to the folder of a run, and the folder that a benchmark reads."""
 import fcntl
 import json
 import os
@@ -10,9 +10,10 @@ import unittest
 from pathlib import Path
 
 SCRIPTS = Path(__file__).parents[2] / "scripts"
-sys.path.insert(0, str(SCRIPTS))
+sys.path.insert(0, str(SCRIPTS.parent / "python"))
 
-from results import LOCK, MANIFEST, Results  # noqa: E402
+from squeal import ResultsError  # noqa: E402
+from squeal.folder import LOCK, MANIFEST, Folder  # noqa: E402
 
 
 class Figure:
@@ -44,13 +45,13 @@ class ResultsOfARun(unittest.TestCase):
         return sorted(os.listdir(self.folder))
 
     def refused(self, action):
-        with self.assertRaises(SystemExit) as end:
+        with self.assertRaises(ResultsError) as end:
             action()
         return str(end.exception)
 
     def test_enters_the_manifest_once(self):
         for text in ("first", "second"):
-            Results(self.folder).save("stability.png", Figure(text))
+            Folder(self.folder).save("stability.png", Figure(text))
             self.assertEqual((self.folder / "stability.png").read_text(), text)
         lines = (self.folder / MANIFEST).read_text().splitlines()
         # the program checks the number of files; a folder kept for the user is none
@@ -59,13 +60,13 @@ class ResultsOfARun(unittest.TestCase):
 
     def test_overwrites_nothing_of_the_user(self):
         (self.folder / "stability.png").write_text("mine")
-        self.assertIn("is in the way", self.refused(lambda: Results(self.folder).save("stability.png", Figure("plot"))))
+        self.assertIn("is in the way", self.refused(lambda: Folder(self.folder).save("stability.png", Figure("plot"))))
         self.assertEqual((self.folder / "stability.png").read_text(), "mine")
         self.assertNotIn("stability.png", (self.folder / MANIFEST).read_text())
         self.assertEqual(self.names(), [MANIFEST, "stability.png", "summary.json"])
 
     def test_keeps_out_of_a_run(self):
-        results = Results(self.folder)
+        results = Folder(self.folder)
         with (self.folder / LOCK).open("w") as lock:
             fcntl.flock(lock, fcntl.LOCK_SH)  # as the ranks of a run hold it
             self.assertIn("a run is writing", self.refused(lambda: results.save("stability.png", Figure("plot"))))
@@ -74,8 +75,8 @@ class ResultsOfARun(unittest.TestCase):
         self.assertFalse((self.folder / "stability.png").exists())
 
     def test_disc_full(self):
-        Results(self.folder).save("stability.png", Figure("before"))
-        message = self.refused(lambda: Results(self.folder).save("stability.png", Full("half of it")))
+        Folder(self.folder).save("stability.png", Figure("before"))
+        message = self.refused(lambda: Folder(self.folder).save("stability.png", Full("half of it")))
         self.assertIn("stability.png: No space left on device", message)
         self.assertEqual((self.folder / "stability.png").read_text(), "before")
         self.assertEqual(self.names(), [MANIFEST, "stability.png", "summary.json"])

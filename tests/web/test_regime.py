@@ -14,7 +14,7 @@ from selenium.webdriver.common.by import By
 from selenium.webdriver.support.ui import Select, WebDriverWait
 
 repository = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(repository / folder) for folder in ("python", "scripts/dev", "scripts", "tests/support")]
+sys.path[:0] = [str(repository / folder) for folder in ("python", "scripts/dev", "tests/support")]
 sys.dont_write_bytecode = True
 import squeal  # noqa: E402
 from report_picture import browser  # noqa: E402

@@ -21,7 +21,7 @@ from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import WebDriverWait
 
 repository = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(repository / folder) for folder in ("python", "scripts/dev", "scripts")]
+sys.path[:0] = [str(repository / folder) for folder in ("python", "scripts/dev")]
 sys.dont_write_bytecode = True
 import squeal  # noqa: E402
 from report_picture import browser  # noqa: E402

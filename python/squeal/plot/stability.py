@@ -1,30 +1,22 @@
-#!/usr/bin/python3 -B
-"""Plots what a sweep found.
+"""Draws what a sweep has found.
 
-plot_stability.py REPORT_DIR reads eigenvalues.csv and stability_map.csv there and writes beside them
-  stability.png       frequency and growth rate of every mode against friction (or what was swept instead), one figure for each
-                      value of what else was swept: stability_speed_3.png, …; with branches.csv and critical.csv, if they are there,
-                      lines along the branches, the critical frictions, and the intervals of the active sets shaded in turn
-  stability_map.png   where two or more parameters were swept: largest growth rate over two of them, the stable region, and the
-                      critical friction; one figure for each value of the remaining ones: stability_map_damping_2.png, …
-Eigenvalues above the band, which nobody vouches for, are left out.
+stability.png: frequency, growth rate and damping ratio of every mode against the friction, or against
+the parameter that was swept instead; one figure for each value of the other swept parameters:
+stability_speed_3.png, … If branches.csv and critical.csv are there, it shows lines along the branches,
+the critical frictions, and the intervals of the active sets, every second one shaded.
+stability_map.png, if two or more parameters were swept: largest growth rate over two of them, the
+stable region, and the critical friction; one figure for each value of the other parameters:
+stability_map_damping_2.png, … Eigenvalues above the band are not certified and not drawn.
 """
 import sys
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "python"))
+import numpy as np
+from matplotlib.colors import ListedColormap
+from matplotlib.figure import Figure
 
-from results import Results, program  # noqa: E402, I001
-
-import matplotlib  # noqa: E402
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-
-import squeal  # noqa: E402
-from squeal import PARAMETERS
-from squeal.results import NOISE  # noqa: E402
+from squeal.files import ResultsError
+from squeal.folder import Folder
+from squeal.results import NOISE, Results
 
 READABLE = 300  # cells of a map that have room for a number
 LABELS = {
@@ -100,7 +92,8 @@ def draw_modes(table, name, title, followed=None):
     scale = 1000 if kilo else 1
     frequency = table["frequency_hz"] / scale
 
-    figure, (upper, lower, bottom) = plt.subplots(3, 1, sharex=True, figsize=(9, 11), height_ratios=(2.2, 1, 1), layout="constrained")
+    figure = Figure(figsize=(9, 11), layout="constrained")
+    upper, lower, bottom = figure.subplots(3, 1, sharex=True, height_ratios=(2.2, 1, 1))
     colours = dict(c=growth[grows], cmap="plasma_r", vmin=0, zorder=3, edgecolors="black", linewidths=0.3)
     for axes, value in ((upper, frequency), (lower, growth), (bottom, damping_percent(table))):
         calm = ~(grows | open_)
@@ -205,10 +198,11 @@ def critical(y, unstable_modes):
 def draw_map(table, across, up, title, largest):
     x, y, growth = grid_of(table, across, up, "largest_growth_rate_1_per_s")
     _, _, modes = grid_of(table, across, up, "unstable_modes")
-    figure, axes = plt.subplots(figsize=(9, 6), layout="constrained")
+    figure = Figure(figsize=(9, 6), layout="constrained")
+    axes = figure.subplots()
     borders = cell_borders(across, x), cell_borders(up, y)
     axes.set_facecolor("white")
-    axes.pcolormesh(*borders, np.where(modes == 0, 0.0, np.nan), cmap=matplotlib.colors.ListedColormap(["#dcebdc"]))
+    axes.pcolormesh(*borders, np.where(modes == 0, 0.0, np.nan), cmap=ListedColormap(["#dcebdc"]))
     grows = np.where(modes > 0, growth, np.nan)
     if np.any(modes > 0):
         cells = axes.pcolormesh(*borders, grows, cmap="plasma_r", vmin=0, vmax=largest)
@@ -236,33 +230,28 @@ def draw_map(table, across, up, title, largest):
     return figure
 
 
-def main():
-    if len(sys.argv) != 2 or sys.argv[1].startswith("-"):
-        sys.exit(f"usage: {Path(sys.argv[0]).name} REPORT_DIR")
-    folder = Path(sys.argv[1])
-    results = Results(folder)
-    try:
-        run = squeal.open(folder)
-        table, stability = run.eigenvalues, run.stability_map
-        followed = None if run.branches is None else (run.branches, run.critical)
-    except squeal.ResultsError as error:
-        sys.exit(f"{program()}: {error}")
-    if len(table["friction"]) == 0:
-        sys.exit(f"{program()}: {folder / 'eigenvalues.csv'} holds no eigenvalue")
-    swept = run.swept()
+def figures(results):
+    """Yields the name and the figure of each picture."""
+    table, stability = results.eigenvalues, results.stability_map
+    followed = None if results.branches is None else (results.branches, results.critical)
+    if len(table) == 0:
+        raise ResultsError(f"{results.folder / 'eigenvalues.csv'} holds no eigenvalue")
+    swept = results.swept()
     abscissa = swept[0] if swept else "friction"
     for suffix, title, values in slices(table, swept[1:]):
         lines = tuple(at(rows, values) for rows in followed) if followed and abscissa == "friction" else None
-        results.save(f"stability{suffix}.png", draw_modes(at(table, values), abscissa, title, lines), dpi=150)
-        plt.close()
+        yield f"stability{suffix}.png", draw_modes(at(table, values), abscissa, title, lines)
     if len(swept) < 2:
         return
     across, up = axes_of_map(stability, swept)
     largest = max(0, stability["largest_growth_rate_1_per_s"].max())
     for suffix, title, values in slices(stability, [name for name in swept if name not in (across, up)]):
-        results.save(f"stability_map{suffix}.png", draw_map(at(stability, values), across, up, title, largest), dpi=150)
-        plt.close()
+        yield f"stability_map{suffix}.png", draw_map(at(stability, values), across, up, title, largest)
 
 
-if __name__ == "__main__":
-    main()
+def main(words):
+    if len(words) != 1 or words[0].startswith("-"):
+        sys.exit("usage: squeal-plot [stability] DIR")
+    folder = Folder(words[0])
+    for name, figure in figures(Results(words[0])):
+        folder.save(name, figure, dpi=150)

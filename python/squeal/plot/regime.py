@@ -1,28 +1,13 @@
-#!/usr/bin/python3 -B
-"""Picture of the motion after flutter: plot_regime.py REPORT_DIR [START]
-
-Draws regime.png of the first run of regime.csv that has measured anything, or of that with this START: the largest kinetic energy of each cycle from growth to the
-regime, the spectrum of the velocity, and what share of the time each contact node is open, sticks and slides.
-"""
+"""Draws the motion after flutter: growth, spectrum and state of the contact nodes."""
 import argparse
-import sys
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "python"))
+import numpy as np
+from matplotlib.figure import Figure
 
-from results import Results, program  # noqa: E402, I001
-import matplotlib  # noqa: E402
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-
-import squeal  # noqa: E402
-
-KEYS = ["friction", "speed", "pressure", "damping", "start"]
-
-
-UNMEASURED = "nothing measured"
+from squeal.files import ResultsError
+from squeal.folder import Folder
+from squeal.regime import KEYS, UNMEASURED
+from squeal.results import Results
 
 
 def run_asked(table, start):
@@ -75,35 +60,28 @@ def title_of(run):
     return words + f"; carrier {run['carrier_hz']:.6g} Hz, flutter {run['flutter_frequency_hz']:.6g} Hz"
 
 
-def tables_of(folder):
+def tables_of(results):
     """The tables that are drawn, by the ends of their names."""
-    try:
-        found = squeal.open(folder)
-        if found.table("regime") is None:
-            sys.exit(f"{program()}: {folder} has no regime.csv: nothing was followed after flutter (-regime_friction)")
-        tables = {name: found.table(f"regime{name}") for name in ("", "_nodes", "_cycles", "_spectrum")}
-    except squeal.ResultsError as error:
-        sys.exit(f"{program()}: {error}")
+    folder = results.folder
+    if results.table("regime") is None:
+        raise ResultsError(f"{folder} has no regime.csv: no motion after flutter was computed (-regime_friction)")
+    tables = {name: results.table(f"regime{name}") for name in ("", "_nodes", "_cycles", "_spectrum")}
     missing = next((name for name, table in tables.items() if table is None), None)
     if missing:
-        sys.exit(f"{program()}: {folder / f'regime{missing}.csv'} is missing")
+        raise ResultsError(f"{folder / f'regime{missing}.csv'} is missing")
     return tables
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.partition(":")[0])
-    parser.add_argument("report_dir")
-    parser.add_argument("start", nargs="?")
-    arguments = parser.parse_args()
-    results = Results(arguments.report_dir)
-    tables = tables_of(results.folder)
-    run = run_asked(tables[""], arguments.start)
+def draw(results, start=None):
+    """The figure of the first run that has measured anything, or of the run with this start."""
+    tables = tables_of(results)
+    run = run_asked(tables[""], start)
     if run is None:
-        which = "" if arguments.start is None else f" of start {arguments.start}"
-        sys.exit(f"{program()}: regime.csv of {results.folder} has no run{which}")
+        which = "" if start is None else f" of start {start}"
+        raise ResultsError(f"regime.csv of {results.folder} has no run{which}")
     if run["class"] == UNMEASURED:
-        sys.exit(f"{program()}: friction {run['friction']:g}, start on mode {run['start']}: {UNMEASURED}, and there is nothing to draw")
-    figure = plt.figure(figsize=(12, 8.5), layout="constrained")
+        raise ResultsError(f"friction {run['friction']:g}, start on mode {run['start']}: {UNMEASURED}, and there is nothing to draw")
+    figure = Figure(figsize=(12, 8.5), layout="constrained")
     upper, lower = figure.subfigures(2, 1, height_ratios=(1, 1.2))
     growth, spectrum = upper.subplots(1, 2)
     draw_growth(growth, rows_of(tables["_cycles"], run), run)
@@ -112,9 +90,13 @@ def main():
     if not nodes.empty:
         draw_nodes(lower, lower.subplots(1, 3), nodes)
     figure.suptitle(title_of(run))
-    results.save("regime.png", figure, dpi=110)
-    print(results.folder / "regime.png")
+    return figure
 
 
-if __name__ == "__main__":
-    main()
+def main(words):
+    parser = argparse.ArgumentParser(prog="squeal-plot regime", description="Draws the motion after flutter.")
+    parser.add_argument("report_dir", metavar="DIR")
+    parser.add_argument("start", nargs="?", metavar="START")
+    arguments = parser.parse_args(words)
+    folder = Folder(arguments.report_dir)
+    print(folder.save("regime.png", draw(Results(arguments.report_dir), arguments.start), dpi=110))

@@ -1,0 +1,4 @@
+"""python3 -m squeal.plot: the command squeal-plot."""
+from squeal.command import run
+
+run("squeal.plot", "squeal-plot")
