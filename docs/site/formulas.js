@@ -1,3 +1,4 @@
 // Sets the formulas of a page by KaTeX.
 for (const place of document.querySelectorAll(".math"))
-  katex.render(place.textContent, place, { displayMode: place.tagName === "DIV", throwOnError: false });
+  katex.render(
+      place.textContent, place, {displayMode: place.tagName === "DIV", throwOnError: false});

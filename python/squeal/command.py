@@ -10,8 +10,8 @@ PACKAGES["vtkmodules"] = "python3-vtk9"
 
 
 def run(module, name):
-    """Calls main(words) of a module with the words of the command line. The command reports an error
-    of the results, or a missing Python package, in one line and exits with code 1."""
+    """Calls main(words) of a module with the words of the command line. The command reports an
+    error of the results, or a missing Python package, in one line and exits with code 1."""
     try:
         importlib.import_module(module).main(sys.argv[1:])
     except ResultsError as error:

@@ -1,10 +1,16 @@
-"""Opens files in a folder of results only if they are regular files: a link of the same name leads to a foreign file, and a pipe blocks."""
+"""Opens files in a folder of results only if they are regular files: a link of the same name leads
+to a foreign file, and a pipe blocks."""
 import errno
 import os
 import stat
 from pathlib import Path
 
-KINDS = ((stat.S_ISLNK, "a link"), (stat.S_ISDIR, "a folder"), (stat.S_ISFIFO, "a named pipe"), (stat.S_ISSOCK, "a socket"))
+KINDS = (
+    (stat.S_ISLNK, "a link"),
+    (stat.S_ISDIR, "a folder"),
+    (stat.S_ISFIFO, "a named pipe"),
+    (stat.S_ISSOCK, "a socket"),
+)
 
 
 class ResultsError(Exception):
@@ -12,14 +18,18 @@ class ResultsError(Exception):
 
 
 def why_not_regular(path):
-    """A sentence such as "PATH is a link, not a regular file"; none where nothing, or a regular file, has this name."""
+    """A sentence such as "PATH is a link, not a regular file"; none where nothing, or a regular
+    file, has this name."""
     try:
         mode = os.lstat(path).st_mode
     except OSError:
         return None
     if stat.S_ISREG(mode):
         return None
-    return f"{path} is {next((kind for is_one, kind in KINDS if is_one(mode)), 'a device')}, not a regular file"
+    return (
+        f"{path} is {next((kind for is_one, kind in KINDS if is_one(mode)), 'a device')}, not a"
+        " regular file"
+    )
 
 
 def is_there(path):
@@ -31,12 +41,15 @@ def is_there(path):
 
 
 def open_regular(path, flags=os.O_RDONLY):
-    """Opens a regular file as os.open does, and never waits. Raises ResultsError where something else has its name, and OSError."""
+    """Opens a regular file as os.open does, and never waits. Raises ResultsError where something
+    else has its name, and OSError."""
     why = why_not_regular(path)
     if why:
         raise ResultsError(why)
     try:
-        file = os.open(path, (flags & ~os.O_TRUNC) | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, 0o666)
+        file = os.open(
+            path, (flags & ~os.O_TRUNC) | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, 0o666
+        )
     except OSError as error:
         if error.errno in (errno.ELOOP, errno.ENXIO):  # put there meanwhile
             raise ResultsError(f"{path} is not a regular file") from None
@@ -53,7 +66,8 @@ def open_regular(path, flags=os.O_RDONLY):
 
 
 def read_text(path):
-    """The text of a file. Raises ResultsError where it cannot be read, or is no text; FileNotFoundError where there is none."""
+    """The text of a file. Raises ResultsError where it cannot be read, or is no text;
+    FileNotFoundError where there is none."""
     try:
         with os.fdopen(open_regular(path), "rb") as file:
             return file.read().decode("utf-8")
@@ -66,8 +80,13 @@ def read_text(path):
 
 
 def make_new(path):
-    """Makes an empty file, of which nothing has the name yet: what is written to it goes nowhere else."""
-    os.close(os.open(Path(path), os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC, 0o666))
+    """Makes an empty file, of which nothing has the name yet: what is written to it goes nowhere
+    else."""
+    os.close(
+        os.open(
+            Path(path), os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC, 0o666
+        )
+    )
 
 
 __all__ = ["ResultsError", "is_there", "make_new", "open_regular", "read_text", "why_not_regular"]

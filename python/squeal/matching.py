@@ -10,9 +10,11 @@ def unstable(s, tolerance=NOISE):
 
 
 def match(wanted, found, farthest=0.02):
-    """For each wanted eigenvalue the index of the found one that belongs to it, -1 if there is none, by the assignment with the
-    least sum of relative distances. Pairs further apart than `farthest` are none. Where two eigenvalues meet, their order in a sorted
-    list says nothing; the assignment uses none twice, so that a double eigenvalue found once shows."""
+    """For each wanted eigenvalue the index of the found one that belongs to it, -1 if there is
+    none, by the assignment with the least sum of relative distances. Pairs further apart than
+    `farthest` are none. Where two eigenvalues meet, their order in a sorted list says nothing; the
+    assignment uses none twice, so that a double eigenvalue found once shows.
+    """
     wanted, found = np.asarray(wanted), np.asarray(found)
     partner = np.full(len(wanted), -1)
     if len(wanted) == 0 or len(found) == 0:
@@ -26,7 +28,8 @@ def match(wanted, found, farthest=0.02):
 
 
 def compare(exact, found, top, tolerance=NOISE):
-    """How far `found` is from `exact` up to |s| = top. Both lists should reach a little further, for partners at the edge."""
+    """How far `found` is from `exact` up to |s| = top. Both lists should reach a little further,
+    for partners at the edge."""
     exact, found = np.asarray(exact), np.asarray(found)
     low, mine = exact[np.abs(exact) <= top], found[np.abs(found) <= top]
     forward, backward = match(low, found), match(mine, exact)

@@ -1,4 +1,5 @@
-"""Joins the results of several runs over parts of one grid of parameters, or lists those of variants."""
+"""Joins the results of several runs over parts of one grid of parameters, or lists those of
+variants."""
 import argparse
 import json
 import os
@@ -12,7 +13,16 @@ import pandas as pd
 from squeal.files import ResultsError
 from squeal.folder import new_folder, read_manifest, write_manifest
 from squeal.keys import PARAMETERS, key_of
-from squeal.parts import SWEPT, TABLES, differs, indifferent, keys_of, owners_of, read_parts, require_alike
+from squeal.parts import (
+    SWEPT,
+    TABLES,
+    differs,
+    indifferent,
+    keys_of,
+    owners_of,
+    read_parts,
+    require_alike,
+)
 from squeal.results import read_summary
 from squeal.schema import VERDICTS as GRAVITY
 
@@ -20,13 +30,17 @@ SAME_CRITICAL = 1e-7  # relative; ten times -flutter_critical_tolerance by defau
 
 
 def merge(out, folders):
-    """Writes the folder `out` with the joined results of `folders`; returns what there is to say, in lines. Raises ResultsError."""
+    """Writes the folder `out` with the joined results of `folders`; returns what there is to say,
+    in lines. Raises ResultsError."""
     parts = read_parts(folders, out)
     for part in parts[1:]:
         require_alike(parts[0], part)
     taken, said = owners_of(parts)
     tables, left = _joined_tables(parts, taken)
-    said += [f"{name}.csv is not merged: {', '.join(map(str, folders))} have none" for name, folders in left.items()]
+    said += [
+        f"{name}.csv is not merged: {', '.join(map(str, folders))} have none"
+        for name, folders in left.items()
+    ]
     grid = np.prod([tables["stability_map"][name].astype(float).nunique() for name in PARAMETERS])
     points = len(tables["stability_map"])
     if points < grid:
@@ -35,30 +49,53 @@ def merge(out, folders):
     with new_folder(out) as new:
         for name, table in tables.items():
             table.to_csv(new / f"{name}.csv", index=False, lineterminator="\n")
-        shapes = {name: {"rows": len(table), "columns": list(table.columns)} for name, table in tables.items()}
+        shapes = {
+            name: {"rows": len(table), "columns": list(table.columns)}
+            for name, table in tables.items()
+        }
         _write_summary(new, {**_joined_summary(parts, taken, out, left), "tables": shapes})
-    said.append(f"{points} points of {len(parts)} parts in {out}; mode shapes and fields stay in the parts")
+    said.append(
+        f"{points} points of {len(parts)} parts in {out}; mode shapes and fields stay in the parts"
+    )
     return said
 
 
 def list_variants(out, folders):
-    """Writes the folder `out` with variants.csv, a row for each of `folders`; returns what there is to say, in lines."""
+    """Writes the folder `out` with variants.csv, a row for each of `folders`; returns what there is
+    to say, in lines."""
     parts = read_parts(folders, out)
     known = sorted(set().union(*(part.options for part in parts)))
     differing = [name for name in known if any(differs(name, parts[0], part) for part in parts[1:])]
     rows = [
-        {"part": _from(out, part.folder), **{name: part.options.get(name, "") for name in differing}, **_outcome(part)} for part in parts
+        {
+            "part": _from(out, part.folder),
+            **{name: part.options.get(name, "") for name in differing},
+            **_outcome(part),
+        }
+        for part in parts
     ]
     _require_replaceable(out)
     with new_folder(out) as new:
         pd.DataFrame(rows).to_csv(new / "variants.csv", index=False, lineterminator="\n")
-        _write_summary(new, {"version": parts[0].summary.get("version", ""), "complete": True, "variants": True,
-                             "options_that_differ": differing, "parts": [_entry(part, out) for part in parts]})  # fmt: skip
-    return [f"{len(parts)} variants, which differ in {', '.join(differing) or 'nothing'}, in {Path(out) / 'variants.csv'}"]
+        _write_summary(
+            new,
+            {
+                "version": parts[0].summary.get("version", ""),
+                "complete": True,
+                "variants": True,
+                "options_that_differ": differing,
+                "parts": [_entry(part, out) for part in parts],
+            },
+        )
+    return [
+        f"{len(parts)} variants, which differ in {', '.join(differing) or 'nothing'}, in"
+        f" {Path(out) / 'variants.csv'}"
+    ]
 
 
 def _joined_tables(parts, taken):
-    """The tables that all parts have, row by row as the parts have them; and the folders that lack one that others have."""
+    """The tables that all parts have, row by row as the parts have them; and the folders that lack
+    one that others have."""
     left = {}
     for name in TABLES:
         without = [part.folder for part in parts if name not in part.tables]
@@ -78,7 +115,9 @@ def _joined_tables(parts, taken):
         columns = list(pieces[0].columns)
         for part, piece in zip(parts, pieces):
             if list(piece.columns) != columns:
-                raise ResultsError(f"{part.folder / name}.csv has other columns than {parts[0].folder / name}.csv")
+                raise ResultsError(
+                    f"{part.folder / name}.csv has other columns than {parts[0].folder / name}.csv"
+                )
         tables[name] = _in_order(pd.concat(pieces, ignore_index=True), name)
     return tables, left
 
@@ -92,9 +131,12 @@ def _in_order(table, name):
 
 
 def _renumbered(parts):
-    """branches.csv and critical.csv of each part. Branches are numbered along a line of equal speed, pressure and damping; where two parts
-    follow the same line, the numbers of the later one go on after those of the earlier one, and no branch of one part is joined to one of
-    another. Active sets are numbered through all parts; 0 stays 0. A critical friction that both parts have found is taken once."""
+    """branches.csv and critical.csv of each part. Branches are numbered along a line of equal
+    speed, pressure and damping; where two parts follow the same line, the numbers of the later one
+    go on after those of the earlier one, and no branch of one part is joined to one of another.
+    Active sets are numbered through all parts; 0 stays 0. A critical friction that both parts have
+    found is taken once.
+    """
     last, sets, found, results = {}, 0, [], []
     for part in parts:
         made = {}
@@ -107,7 +149,9 @@ def _renumbered(parts):
         for name, table in (("branches", branches), ("critical", critical)):
             if table is None:
                 continue
-            shift = pd.Series([last.get(line, 0) for line in _line(table)], index=table.index, dtype=int)
+            shift = pd.Series(
+                [last.get(line, 0) for line in _line(table)], index=table.index, dtype=int
+            )
             made[name] = table.copy()
             for column in ("branch", "partner"):
                 if column in table:
@@ -116,7 +160,13 @@ def _renumbered(parts):
             numbers = table["active_set"].astype(int)
             made[name]["active_set"] = numbers.where(numbers <= 0, numbers + sets).astype(str)
         if critical is not None:
-            fresh = np.array([not any(_same_critical(row, known) for known in found) for row in critical.to_dict("records")], bool)
+            fresh = np.array(
+                [
+                    not any(_same_critical(row, known) for known in found)
+                    for row in critical.to_dict("records")
+                ],
+                bool,
+            )
             found += critical[fresh].to_dict("records")
             made["critical"] = made["critical"][fresh]
         for line, count in counts.items():
@@ -132,8 +182,14 @@ def _line(table):
 
 def _same_critical(one, other):
     same = [one[name] == other[name] for name in ("kind", "direction")]
-    same += [key_of(one[name] for name in PARAMETERS[1:]) == key_of(other[name] for name in PARAMETERS[1:])]
-    same += [np.isclose(float(one[name]), float(other[name]), rtol=SAME_CRITICAL, atol=SAME_CRITICAL) for name in ("friction", "frequency_hz")]
+    same += [
+        key_of(one[name] for name in PARAMETERS[1:])
+        == key_of(other[name] for name in PARAMETERS[1:])
+    ]
+    same += [
+        np.isclose(float(one[name]), float(other[name]), rtol=SAME_CRITICAL, atol=SAME_CRITICAL)
+        for name in ("friction", "frequency_hz")
+    ]
     return all(same)
 
 
@@ -143,23 +199,46 @@ def _joined_summary(parts, taken, out, left):
     for number, (part, fresh) in enumerate(zip(parts, taken), 1):
         for entry in part.summary.get("frictions", []):
             point = key_of(entry[name] for name in PARAMETERS)
-            if point in fresh or point not in frictions:  # a point without steady sliding is in no table
+            # A point without steady sliding is in no table
+            if point in fresh or point not in frictions:
                 frictions[point] = {**entry, "part": number}
         sets += [{**entry, "part": number} for entry in part.summary.get("active_sets", [])]
     frictions = list(frictions.values())
     order = ("damping", "speed", "pressure", "friction")
-    options = {name: value for name, value in first.get("options", {}).items() if not indifferent(name)}
+    options = {
+        name: value for name, value in first.get("options", {}).items() if not indifferent(name)
+    }
     for name in PARAMETERS:
         if f"flutter_{name}" in options:
             values = sorted({entry[name] for entry in frictions})
             options[f"flutter_{name}"] = ",".join(f"{value:.15g}" for value in values)
-    shared = {name: first[name] for name in ("version", "case", "nodes", "cells", "contact_nodes", "interfaces", "method", "dofs") if name in first}
+    shared = {
+        name: first[name]
+        for name in (
+            "version",
+            "case",
+            "nodes",
+            "cells",
+            "contact_nodes",
+            "interfaces",
+            "method",
+            "dofs",
+        )
+        if name in first
+    }
     return {
         **shared,
         "complete": all(part.summary["complete"] for part in parts),
         "parts": [_entry(part, out) for part in parts],
-        "branches_joined": "no: a branch ends where its part does; numbers are unique on a line of equal speed, pressure and damping",
-        "not_merged": {"results.h5": "mode shapes and fields are in the parts", "modes.csv, steady_*.csv, contact_path.csv, onset.csv, regime*.csv": "in the parts", **{f"{name}.csv": "not in all parts" for name in left}},
+        "branches_joined": (
+            "no: a branch ends where its part does; numbers are unique on a line of equal speed,"
+            " pressure and damping"
+        ),
+        "not_merged": {
+            "results.h5": "mode shapes and fields are in the parts",
+            "modes.csv, steady_*.csv, contact_path.csv, onset.csv, regime*.csv": "in the parts",
+            **{f"{name}.csv": "not in all parts" for name in left},
+        },
         "frictions": sorted(frictions, key=lambda entry: [entry[name] for name in order]),
         "active_sets": sets,
         "wall_s": sum(part.summary.get("wall_s", 0) for part in parts),
@@ -192,10 +271,16 @@ def _outcome(part):
     growth = points["largest_growth_rate_1_per_s"]
     worst = points.loc[growth.idxmax()] if growth.notna().any() else None
     row["worst_growth_rate_1_per_s"] = "" if worst is None else worst["largest_growth_rate_1_per_s"]
-    row["worst_frequency_hz"] = "" if worst is None or "frequency_hz" not in worst else worst["frequency_hz"]
+    row["worst_frequency_hz"] = (
+        "" if worst is None or "frequency_hz" not in worst else worst["frequency_hz"]
+    )
     row["worst_friction"] = "" if worst is None else worst["friction"]
     critical = part.results.critical
-    lost = [] if critical is None else critical[(critical["direction"] == "loss") & (critical["converged"] == 1)]["friction"]
+    lost = (
+        []
+        if critical is None
+        else critical[(critical["direction"] == "loss") & (critical["converged"] == 1)]["friction"]
+    )
     row["critical_friction"] = min(lost, default="")
     verdicts = set(points["verdict"])
     row["verdict"] = next((verdict for verdict in GRAVITY if verdict in verdicts), "")
@@ -244,7 +329,8 @@ def main(words):
     parser.add_argument("out", metavar="OUT")
     parser.add_argument("folders", metavar="DIR", nargs="+")
     arguments = parser.parse_args(words)
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # so that new_folder() removes its folder
+    # So that new_folder() removes its folder
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
     join = list_variants if arguments.variants else merge
     for line in join(arguments.out, arguments.folders):
         print(f"merge: {line}")

@@ -1,7 +1,9 @@
 #!/usr/bin/python3 -B
-"""report_picture.py REPORT_DIR OUT.png: a picture of report.html there, as Chromium shows it with its fastest growing mode.
+"""report_picture.py REPORT_DIR OUT.png: a picture of report.html there, as Chromium shows it with
+its fastest growing mode.
 
-docs/report.png is made of results of options/disc_brake.yaml with it. Takes Debian's packages chromium-driver and python3-selenium.
+docs/report.png is made of results of options/disc_brake.yaml with it. Takes Debian's packages
+chromium-driver and python3-selenium.
 """
 import base64
 import io
@@ -19,11 +21,23 @@ FEWEST_COLOURS = 100  # in the view of the mode; an empty one has its ground
 
 
 def browser(webgl=True, **log):
-    """Chromium without a screen, which draws in software, or has no WebGL, and does not move what it shows."""
+    """Chromium without a screen, which draws in software, or has no WebGL, and does not move what
+    it shows."""
     options = webdriver.ChromeOptions()
-    drawing = ("use-gl=angle", "use-angle=swiftshader", "enable-unsafe-swiftshader", "ignore-gpu-blocklist")
-    for word in ("headless=new", "no-sandbox", "disable-dev-shm-usage", "window-size=1280,800", "force-prefers-reduced-motion",
-                 *(drawing if webgl else ("disable-gpu", "disable-3d-apis"))):  # fmt: skip
+    drawing = (
+        "use-gl=angle",
+        "use-angle=swiftshader",
+        "enable-unsafe-swiftshader",
+        "ignore-gpu-blocklist",
+    )
+    for word in (
+        "headless=new",
+        "no-sandbox",
+        "disable-dev-shm-usage",
+        "window-size=1280,800",
+        "force-prefers-reduced-motion",
+        *(drawing if webgl else ("disable-gpu", "disable-3d-apis")),
+    ):
         options.add_argument("--" + word)
     options.set_capability("goog:loggingPrefs", log)
     return webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
@@ -33,22 +47,42 @@ def picture_of(page):
     """The picture of a report, once its mode is drawn."""
     driver = browser()
     try:
-        driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": WIDTH, "height": HEIGHT, "deviceScaleFactor": 1, "mobile": False})
+        driver.execute_cdp_cmd(
+            "Emulation.setDeviceMetricsOverride",
+            {"width": WIDTH, "height": HEIGHT, "deviceScaleFactor": 1, "mobile": False},
+        )
         driver.execute_cdp_cmd("Emulation.setScrollbarsHidden", {"hidden": True})
         driver.get(page.resolve().as_uri())
         if not driver.execute_script("return Boolean(window.Chart) && data.shapes.length > 0"):
-            sys.exit(f"report_picture.py: {page} shows no mode: it holds no shape, or was made without its libraries")
-        WebDriverWait(driver, 60).until(lambda driver: driver.execute_script("return document.documentElement.dataset.ready"))
+            sys.exit(
+                f"report_picture.py: {page} shows no mode: it holds no shape, or was made without"
+                " its libraries"
+            )
+        WebDriverWait(driver, 60).until(
+            lambda driver: driver.execute_script("return document.documentElement.dataset.ready")
+        )
         if driver.execute_script("return Boolean(document.getElementById('noview'))"):
-            sys.exit(f"report_picture.py: {page}: {driver.execute_script('return document.getElementById(`noview`).textContent')}")
-        WebDriverWait(driver, 60).until(lambda driver: driver.execute_script("return document.getElementById('canvas').dataset.mode"))
+            sys.exit(
+                f"report_picture.py: {page}:"
+                f" {driver.execute_script('return document.getElementById(`noview`).textContent')}"
+            )
+        WebDriverWait(driver, 60).until(
+            lambda driver: driver.execute_script(
+                "return document.getElementById('canvas').dataset.mode"
+            )
+        )
         picture = Image.open(io.BytesIO(driver.get_screenshot_as_png())).convert("RGB")
-        view = driver.execute_script("return document.getElementById('canvas').toDataURL()").partition(",")[2]  # without the scale above it
+        # Without the scale above it
+        view = driver.execute_script(
+            "return document.getElementById('canvas').toDataURL()"
+        ).partition(",")[2]
     finally:
         driver.quit()
     colours = len(Image.open(io.BytesIO(base64.b64decode(view))).getcolors(1 << 24))
     if colours < FEWEST_COLOURS:
-        sys.exit(f"report_picture.py: the view of the mode in {page} is empty: it has {colours} colours")
+        sys.exit(
+            f"report_picture.py: the view of the mode in {page} is empty: it has {colours} colours"
+        )
     return picture.quantize(256, dither=Image.Dither.NONE)
 
 
@@ -57,11 +91,15 @@ def main():
         sys.exit(__doc__)
     page = Path(sys.argv[1]) / "report.html"
     if not page.is_file():
-        sys.exit(f"report_picture.py: there is no {page}; scripts/squeal-report {sys.argv[1]} writes it")
+        sys.exit(
+            f"report_picture.py: there is no {page}; scripts/squeal-report {sys.argv[1]} writes it"
+        )
     try:
         picture_of(page).save(sys.argv[2], format="PNG", optimize=True)
     except WebDriverException as error:
-        sys.exit(f"report_picture.py: Chromium: {(error.msg or type(error).__name__).splitlines()[0]}")
+        sys.exit(
+            f"report_picture.py: Chromium: {(error.msg or type(error).__name__).splitlines()[0]}"
+        )
     except OSError as error:
         sys.exit(f"report_picture.py: cannot write {sys.argv[2]}: {error.strerror}")
     print(sys.argv[2])

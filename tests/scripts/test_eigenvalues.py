@@ -11,9 +11,9 @@ import numpy as np
 scripts = Path(__file__).resolve().parents[2] / "scripts"
 sys.path.insert(0, str(scripts.parent / "python"))
 sys.dont_write_bytecode = True
-import squeal  # noqa: E402
-from squeal import matching  # noqa: E402
-from squeal.plot import stability  # noqa: E402
+import squeal
+from squeal import matching
+from squeal.plot import stability
 
 
 class Match(unittest.TestCase):
@@ -49,16 +49,24 @@ class Compare(unittest.TestCase):
 
     def test_equal(self):
         result = matching.compare(self.exact, self.exact[::-1], 5)
-        self.assertEqual((result["exact"], result["found"], result["exact_unstable"], result["found_unstable"]), (5, 5, 2, 2))
-        self.assertEqual((result["missed"], result["invented"], result["without_partner"]), (0, 0, 0))
+        self.assertEqual(
+            (result["exact"], result["found"], result["exact_unstable"], result["found_unstable"]),
+            (5, 5, 2, 2),
+        )
+        self.assertEqual(
+            (result["missed"], result["invented"], result["without_partner"]), (0, 0, 0)
+        )
         self.assertEqual((result["relative_error"], result["growth_error"]), (0, 0))
 
     def test_missed_and_invented(self):
-        """The pair at 3 is taken for two stable modes, the one at 2 for a flutter mode; as many unstable ones are counted."""
+        """The pair at 3 is taken for two stable modes, the one at 2 for a flutter mode; as many
+        unstable ones are counted."""
         found = np.array([1j, 0.01 + 2j, 2.99j, 3.01j, 0.02 + 4j])
         result = matching.compare(self.exact, found, 5)
         self.assertEqual((result["exact_unstable"], result["found_unstable"]), (2, 2))
-        self.assertEqual((result["missed"], result["invented"], result["without_partner"]), (1, 1, 0))
+        self.assertEqual(
+            (result["missed"], result["invented"], result["without_partner"]), (1, 1, 0)
+        )
         self.assertAlmostEqual(result["growth_error"], 0.01)
         self.assertAlmostEqual(result["relative_error"], 0.005)
 
@@ -69,7 +77,9 @@ class Compare(unittest.TestCase):
 
     def test_lost_mode(self):
         result = matching.compare(self.exact, self.exact[:4], 5)
-        self.assertEqual((result["without_partner"], result["missed"], result["invented"]), (1, 1, 0))
+        self.assertEqual(
+            (result["without_partner"], result["missed"], result["invented"]), (1, 1, 0)
+        )
 
 
 class Plot(unittest.TestCase):
@@ -82,16 +92,24 @@ class Plot(unittest.TestCase):
                 for c in dampings:
                     growth = 100 * (f - 0.25 - 0.05 * c)
                     at = f"{f},{v},1,{c}"
-                    modes.append(f"{at},1,{growth},6e3,955,0,1e-10,1e-9,1,{'unstable' if growth > 0 else 'stable'}")
-                    cells = f"{int(growth > 0)},{growth},955,1e-10,,{'unstable' if growth > 0 else 'stable'},0"
+                    verdict = "unstable" if growth > 0 else "stable"
+                    modes.append(f"{at},1,{growth},6e3,955,0,1e-10,1e-9,1,{verdict}")
+                    cells = f"{int(growth > 0)},{growth},955,1e-10,,{verdict},0"
                     if (f, v) == (0.6, 3):  # no steady sliding there
                         cells = ",,,,,,"
                     points.append(f"{at},{cells}")
-        names = "mode,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,damping_ratio,backward_error,error_estimate,certified,verdict"
+        names = (
+            "mode,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,damping_ratio,"
+            "backward_error,error_estimate,certified,verdict"
+        )
         (folder / "eigenvalues.csv").write_text("\n".join([f"{self.head},{names}", *modes, ""]))
-        names = "unstable_modes,largest_growth_rate_1_per_s,frequency_hz,worst_backward_error,worst_error_estimate,verdict,undecided_modes"
+        names = (
+            "unstable_modes,largest_growth_rate_1_per_s,frequency_hz,worst_backward_error,"
+            "worst_error_estimate,verdict,undecided_modes"
+        )
         (folder / "stability_map.csv").write_text("\n".join([f"{self.head},{names}", *points, ""]))
-        (folder / "summary.json").write_text('{"version": "0.1.0", "complete": true}')  # without it the results are not complete
+        # Without it the results are not complete
+        (folder / "summary.json").write_text('{"version": "0.1.0", "complete": true}')
 
     def figures(self, *sweep):
         with tempfile.TemporaryDirectory() as name:
@@ -108,15 +126,26 @@ class Plot(unittest.TestCase):
         names += [f"stability_speed_{v}_damping_{c}.png" for v in (1, 3, 10) for c in (0, 1)]
         self.assertEqual(self.figures([0.2, 0.4, 0.6], [1, 3, 10], [0, 1]), sorted(names))
 
-    branch_head = ("active_set,branch,friction,speed,pressure,damping,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,"
-                   "overlap,in_band,swept")  # fmt: skip
+    branch_head = (
+        "active_set,branch,friction,speed,pressure,damping,growth_rate_1_per_s,"
+        "angular_frequency_rad_per_s,frequency_hz,overlap,in_band,swept"
+    )
 
     def test_lines_along_branches(self):
-        # One branch jumps at friction 0.3, where the active set changes; the other begins there and is in no band at first.
-        rows = ["1,1,0.2,1,1,1,0,6e3,955,1,1,1", "1,1,0.3,1,1,1,0,6e3,955,1,1,0", "2,1,0.3,1,1,1,5,6e3,955,1,1,0",
-                "2,1,0.6,1,1,1,9,6e3,955,1,1,1", "2,2,0.3,1,1,1,0,7e3,1114,0,0,0", "2,2,0.6,1,1,1,0,7e3,1114,1,1,1"]  # fmt: skip
-        critical = ["active_set,branch,partner,kind,direction,friction,speed,pressure,damping,frequency_hz",
-                    "2,1,0,contact,loss,0.3,1,1,1,955"]  # fmt: skip
+        # One branch jumps at friction 0.3, where the active set changes; the other begins there and
+        # is in no band at first.
+        rows = [
+            "1,1,0.2,1,1,1,0,6e3,955,1,1,1",
+            "1,1,0.3,1,1,1,0,6e3,955,1,1,0",
+            "2,1,0.3,1,1,1,5,6e3,955,1,1,0",
+            "2,1,0.6,1,1,1,9,6e3,955,1,1,1",
+            "2,2,0.3,1,1,1,0,7e3,1114,0,0,0",
+            "2,2,0.6,1,1,1,0,7e3,1114,1,1,1",
+        ]
+        critical = [
+            "active_set,branch,partner,kind,direction,friction,speed,pressure,damping,frequency_hz",
+            "2,1,0,contact,loss,0.3,1,1,1,955",
+        ]
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
             self.written(folder, [0.2, 0.6], [1], [1])
@@ -124,7 +153,9 @@ class Plot(unittest.TestCase):
             (folder / "critical.csv").write_text("\n".join([*critical, ""]))
             lines, ends = stability.pieces(squeal.open(folder).branches)
             self.assertEqual(ends, [(0.2, 0.3), (0.3, 0.6)])
-            self.assertEqual([list(line["friction"]) for line in lines], [[0.2, 0.3], [0.3, 0.6], [0.3, 0.6]])
+            self.assertEqual(
+                [list(line["friction"]) for line in lines], [[0.2, 0.3], [0.3, 0.6], [0.3, 0.6]]
+            )
             self.assertEqual([line["growth_rate_1_per_s"].iloc[0] for line in lines], [0, 5, 0])
             subprocess.run([scripts / "squeal-plot", name], check=True)
             self.assertTrue((folder / "stability.png").exists())

@@ -39,8 +39,7 @@ def write(folder, mode, grid, output):
     from squeal.plot.picture import write_picture  # it imports the windows of VTK
 
     title = (
-        f"{mode.frequency:.6g} Hz, growth {mode.growth:.4g} 1/s "
-        f"at friction {mode.at['friction']:g}"
+        f"{mode.frequency:.6g} Hz, growth {mode.growth:.4g} 1/s at friction {mode.at['friction']:g}"
     )
     where, name = os.path.split(output)
     if os.path.realpath(where) == os.path.realpath(folder.path):

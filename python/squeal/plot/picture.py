@@ -1,4 +1,5 @@
-"""A mode rendered by VTK. VTK opens a window for it, so that a screen is needed, as that of xvfb."""
+"""A mode rendered by VTK. VTK opens a window for it, so that a screen is needed, as that of
+xvfb."""
 import matplotlib
 import numpy as np
 import vtkmodules.vtkInteractionStyle  # noqa: F401
@@ -10,14 +11,22 @@ from vtkmodules.vtkFiltersGeneral import vtkWarpVector
 from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
-from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkTextActor, vtkWindowToImageFilter
+from vtkmodules.vtkRenderingCore import (
+    vtkActor,
+    vtkPolyDataMapper,
+    vtkRenderer,
+    vtkRenderWindow,
+    vtkTextActor,
+    vtkWindowToImageFilter,
+)
 
 SIZE = 1200, 800  # pixels
 LARGEST = 0.05  # drawn displacement, in parts of the largest extent of the mesh
 
 
 def write_picture(grid, title, path):
-    """Writes a PNG of a grid with the arrays `displacement`, of largest amplitude 1, and `amplitude`, as Mode.grid() gives it."""
+    """Writes a PNG of a grid with the arrays `displacement`, of largest amplitude 1, and
+    `amplitude`, as Mode.grid() gives it."""
     low, high = np.reshape(grid.GetBounds(), (3, 2)).T
     grid.GetPointData().SetActiveVectors("displacement")
     grid.GetPointData().SetActiveScalars("amplitude")
@@ -51,7 +60,11 @@ def write_picture(grid, title, path):
     words = vtkTextActor()
     words.SetInput(title)
     words.SetPosition(24, SIZE[1] - 48)
-    for style, size in ((words.GetTextProperty(), 26), (bar.GetTitleTextProperty(), 18), (bar.GetLabelTextProperty(), 18)):
+    for style, size in (
+        (words.GetTextProperty(), 26),
+        (bar.GetTitleTextProperty(), 18),
+        (bar.GetLabelTextProperty(), 18),
+    ):
         style.SetColor(0.1, 0.1, 0.1)
         style.SetFontSize(size)
         style.ItalicOff()

@@ -22,7 +22,8 @@ def rows_of(table, run):
 
 
 def plane_of(points):
-    """Two coordinates of points on a surface that is nearly flat: along its two longest directions."""
+    """Two coordinates of points on a surface that is nearly flat: along its two longest
+    directions."""
     centred = points - points.mean(axis=0)
     spread = np.ptp(centred, axis=0)
     axes = sorted(np.argsort(spread)[-2:])
@@ -31,7 +32,13 @@ def plane_of(points):
 
 def draw_growth(axes, cycles, run):
     axes.semilogy(1e3 * cycles["time_s"], cycles["largest_kinetic_energy_j"], color="C0", lw=1)
-    axes.axhline(run["onset_kinetic_energy_j"], color="0.5", ls="--", lw=1, label="first node opens or comes to rest")
+    axes.axhline(
+        run["onset_kinetic_energy_j"],
+        color="0.5",
+        ls="--",
+        lw=1,
+        label="first node opens or comes to rest",
+    )
     axes.set(xlabel="time, ms", ylabel="largest kinetic energy of a cycle, J")
     axes.legend(fontsize=8)
 
@@ -39,8 +46,12 @@ def draw_growth(axes, cycles, run):
 def draw_spectrum(axes, spectrum, run):
     top = 4 * run["flutter_frequency_hz"]
     shown = spectrum[(spectrum["frequency_hz"] > 0) & (spectrum["frequency_hz"] < top)]
-    axes.semilogy(1e-3 * shown["frequency_hz"], shown["velocity_sqrt_kg_m_per_s"], color="C0", lw=0.8)
-    axes.axvline(1e-3 * run["flutter_frequency_hz"], color="C1", ls="--", lw=1, label="flutter mode")
+    axes.semilogy(
+        1e-3 * shown["frequency_hz"], shown["velocity_sqrt_kg_m_per_s"], color="C0", lw=0.8
+    )
+    axes.axvline(
+        1e-3 * run["flutter_frequency_hz"], color="C1", ls="--", lw=1, label="flutter mode"
+    )
     axes.set(xlabel="frequency, kHz", ylabel="velocity, √kg m/s")
     axes.legend(fontsize=8)
 
@@ -50,22 +61,34 @@ def draw_nodes(figure, places, nodes):
     for axes, column in zip(places, ("open", "stick", "slip")):
         drawn = axes.scatter(*(1e3 * points.T), c=100 * nodes[column], s=18, cmap="cividis", vmin=0)
         figure.colorbar(drawn, ax=axes, shrink=0.8)
-        axes.set(aspect="equal", xlabel=f"{names[0]}, mm", ylabel=f"{names[1]}, mm", title=f"{column}, % of the time")
+        axes.set(
+            aspect="equal",
+            xlabel=f"{names[0]}, mm",
+            ylabel=f"{names[1]}, mm",
+            title=f"{column}, % of the time",
+        )
 
 
 def title_of(run):
     words = f"friction {run['friction']:g}, start on mode {run['start']}: {run['class']}"
     if not run["settled"]:
         words += ", not settled"
-    return words + f"; carrier {run['carrier_hz']:.6g} Hz, flutter {run['flutter_frequency_hz']:.6g} Hz"
+    return (
+        words
+        + f"; carrier {run['carrier_hz']:.6g} Hz, flutter {run['flutter_frequency_hz']:.6g} Hz"
+    )
 
 
 def tables_of(results):
     """The tables that are drawn, by the ends of their names."""
     folder = results.folder
     if results.table("regime") is None:
-        raise ResultsError(f"{folder} has no regime.csv: no motion after flutter was computed (-regime_friction)")
-    tables = {name: results.table(f"regime{name}") for name in ("", "_nodes", "_cycles", "_spectrum")}
+        raise ResultsError(
+            f"{folder} has no regime.csv: no motion after flutter was computed (-regime_friction)"
+        )
+    tables = {
+        name: results.table(f"regime{name}") for name in ("", "_nodes", "_cycles", "_spectrum")
+    }
     missing = next((name for name, table in tables.items() if table is None), None)
     if missing:
         raise ResultsError(f"{folder / f'regime{missing}.csv'} is missing")
@@ -80,7 +103,10 @@ def draw(results, start=None):
         which = "" if start is None else f" of start {start}"
         raise ResultsError(f"regime.csv of {results.folder} has no run{which}")
     if run["class"] == UNMEASURED:
-        raise ResultsError(f"friction {run['friction']:g}, start on mode {run['start']}: {UNMEASURED}, and there is nothing to draw")
+        raise ResultsError(
+            f"friction {run['friction']:g}, start on mode {run['start']}: {UNMEASURED}, and there"
+            " is nothing to draw"
+        )
     figure = Figure(figsize=(12, 8.5), layout="constrained")
     upper, lower = figure.subfigures(2, 1, height_ratios=(1, 1.2))
     growth, spectrum = upper.subplots(1, 2)
@@ -94,7 +120,9 @@ def draw(results, start=None):
 
 
 def main(words):
-    parser = argparse.ArgumentParser(prog="squeal-plot regime", description="Draws the motion after flutter.")
+    parser = argparse.ArgumentParser(
+        prog="squeal-plot regime", description="Draws the motion after flutter."
+    )
     parser.add_argument("report_dir", metavar="DIR")
     parser.add_argument("start", nargs="?", metavar="START")
     arguments = parser.parse_args(words)

@@ -1,12 +1,13 @@
 """Draws what a sweep has found.
 
-stability.png: frequency, growth rate and damping ratio of every mode against the friction, or against
-the parameter that was swept instead; one figure for each value of the other swept parameters:
-stability_speed_3.png, … If branches.csv and critical.csv are there, it shows lines along the branches,
-the critical frictions, and the intervals of the active sets, every second one shaded.
-stability_map.png, if two or more parameters were swept: largest growth rate over two of them, the
-stable region, and the critical friction; one figure for each value of the other parameters:
-stability_map_damping_2.png, … Eigenvalues above the band are not certified and not drawn.
+stability.png: frequency, growth rate and damping ratio of every mode against the friction, or
+against the parameter that was swept instead; one figure for each value of the other swept
+parameters: stability_speed_3.png, … If branches.csv and critical.csv are there, it shows lines
+along the branches, the critical frictions, and the intervals of the active sets, every second one
+shaded. stability_map.png, if two or more parameters were swept: largest growth rate over two of
+them, the stable region, and the critical friction; one figure for each value of the other
+parameters: stability_map_damping_2.png, … Eigenvalues above the band are not certified and not
+drawn.
 """
 import sys
 
@@ -28,7 +29,8 @@ LABELS = {
 
 
 def slices(table, names):
-    """For each combination of values of the parameters `names`: a suffix for file names, a title, and the values."""
+    """For each combination of values of the parameters `names`: a suffix for file names, a title,
+    and the values."""
     if not names:
         return [("", "", {})]
     return [
@@ -50,7 +52,8 @@ def at(table, values):
 
 
 def pieces(branches):
-    """The parts of each branch with one active set, as rows by ascending friction, and the ends of the active sets in order."""
+    """The parts of each branch with one active set, as rows by ascending friction, and the ends of
+    the active sets in order."""
     lines = [rows.sort_values("friction") for _, rows in branches.groupby(["active_set", "branch"])]
     # Set 0 stands for all sets that are passed through between points.
     friction = branches[branches["active_set"] != 0].groupby("active_set")["friction"]
@@ -58,14 +61,18 @@ def pieces(branches):
 
 
 def damping_percent(table):
-    """The damping ratio −Re s/|s| in %, of rows with a growth rate and a frequency; negative where they grow."""
-    growth, omega = np.asarray(table["growth_rate_1_per_s"], float), 2 * np.pi * np.asarray(table["frequency_hz"], float)
+    """The damping ratio −Re s/|s| in %, of rows with a growth rate and a frequency; negative where
+    they grow."""
+    growth, omega = np.asarray(table["growth_rate_1_per_s"], float), 2 * np.pi * np.asarray(
+        table["frequency_hz"], float
+    )
     size = np.hypot(growth, omega)
     return -100 * np.divide(growth, size, out=np.zeros_like(growth), where=size > 0)
 
 
 def draw_followed(upper, lower, bottom, scale, followed):
-    """Lines along the branches, their critical frictions, and the intervals of the active sets in turn."""
+    """Lines along the branches, their critical frictions, and the intervals of the active sets in
+    turn."""
     branches, critical = followed
     lines, ends = pieces(branches[branches["in_band"] > 0])
     for line in lines:
@@ -79,12 +86,21 @@ def draw_followed(upper, lower, bottom, scale, followed):
     for loss, marker, label in ((True, "x", "stability is lost"), (False, "+", "and regained")):
         chosen = critical[(critical["direction"] == "loss") == loss]
         if len(chosen):
-            upper.plot(chosen["friction"], chosen["frequency_hz"] / scale, marker, color="black", markersize=6,
-                       markeredgewidth=0.9, zorder=4, label=label)  # fmt: skip
+            upper.plot(
+                chosen["friction"],
+                chosen["frequency_hz"] / scale,
+                marker,
+                color="black",
+                markersize=6,
+                markeredgewidth=0.9,
+                zorder=4,
+                label=label,
+            )
 
 
 def draw_modes(table, name, title, followed=None):
-    """Frequency, growth rate and damping ratio of every mode against the parameter `name`, with its branches and critical frictions."""
+    """Frequency, growth rate and damping ratio of every mode against the parameter `name`, with its
+    branches and critical frictions."""
     table = {column: values.to_numpy() for column, values in table.items()}
     abscissa, growth = table[name], table["growth_rate_1_per_s"]
     grows, open_ = table["grows"], table["verdict"] == "undecided"
@@ -94,23 +110,54 @@ def draw_modes(table, name, title, followed=None):
 
     figure = Figure(figsize=(9, 11), layout="constrained")
     upper, lower, bottom = figure.subplots(3, 1, sharex=True, height_ratios=(2.2, 1, 1))
-    colours = dict(c=growth[grows], cmap="plasma_r", vmin=0, zorder=3, edgecolors="black", linewidths=0.3)
+    colours = dict(
+        c=growth[grows], cmap="plasma_r", vmin=0, zorder=3, edgecolors="black", linewidths=0.3
+    )
     for axes, value in ((upper, frequency), (lower, growth), (bottom, damping_percent(table))):
         calm = ~(grows | open_)
-        axes.scatter(abscissa[calm], value[calm], s=5, color="0.55", linewidths=0, label=calm_label(table["verdict"][calm]))
+        axes.scatter(
+            abscissa[calm],
+            value[calm],
+            s=5,
+            color="0.55",
+            linewidths=0,
+            label=calm_label(table["verdict"][calm]),
+        )
         if open_.any():
-            axes.scatter(abscissa[open_], value[open_], s=20, facecolors="none", edgecolors="0.3", linewidths=0.8, label="undecided")
+            axes.scatter(
+                abscissa[open_],
+                value[open_],
+                s=20,
+                facecolors="none",
+                edgecolors="0.3",
+                linewidths=0.8,
+                label="undecided",
+            )
         if grows.any():
             certain = "unstable" in table["verdict"]
-            marks = axes.scatter(abscissa[grows], value[grows], s=30, label="unstable" if certain else "growing, uncertified", **colours)
+            marks = axes.scatter(
+                abscissa[grows],
+                value[grows],
+                s=30,
+                label="unstable" if certain else "growing, uncertified",
+                **colours,
+            )
         axes.grid(color="0.92")
         axes.set_axisbelow(True)
     if followed:
         draw_followed(upper, lower, bottom, scale, followed)
     if grows.any():
-        figure.colorbar(marks, ax=[upper, lower, bottom], label="growth rate of the unstable modes [1/s]", aspect=50, pad=0.02)
+        figure.colorbar(
+            marks,
+            ax=[upper, lower, bottom],
+            label="growth rate of the unstable modes [1/s]",
+            aspect=50,
+            pad=0.02,
+        )
 
-    upper.set_title((f"{title}: " if title else "") + summary(abscissa, grows, name, table["verdict"]))
+    upper.set_title(
+        (f"{title}: " if title else "") + summary(abscissa, grows, name, table["verdict"])
+    )
     upper.set_ylabel(f"frequency [{'kHz' if kilo else 'Hz'}]")
     upper.set_ylim(bottom=0)
     lower.set_ylabel("growth rate [1/s]")
@@ -151,7 +198,8 @@ def logarithmic(name, values):
 
 
 def scale_axis(axis, name, values):
-    """Logarithmic where the values call for it, and then with ticks at them: few powers of ten lie within a sweep."""
+    """Logarithmic where the values call for it, and then with ticks at them: few powers of ten lie
+    within a sweep."""
     if logarithmic(name, values):
         axis.axes.set(**{f"{axis.axis_name}scale": "log"})
         axis.set_ticks(np.unique(values), [f"{value:g}" for value in np.unique(values)])
@@ -169,7 +217,8 @@ def cell_borders(name, values):
 
 
 def axes_of_map(table, swept):
-    """The two swept parameters that make the map, across and up: friction goes up, the one with most values across."""
+    """The two swept parameters that make the map, across and up: friction goes up, the one with
+    most values across."""
     up = swept[0]
     across = max(swept[1:], key=lambda name: len(np.unique(table[name])))
     return across, up
@@ -185,7 +234,8 @@ def grid_of(table, across, up, name):
 
 
 def critical(y, unstable_modes):
-    """Last stable and first unstable value of one column of the map; None if it is stable all the way, or nowhere."""
+    """Last stable and first unstable value of one column of the map; None if it is stable all the
+    way, or nowhere."""
     known = ~np.isnan(unstable_modes)
     grows = known & (np.nan_to_num(unstable_modes) > 0)
     if not grows.any():
@@ -210,22 +260,42 @@ def draw_map(table, across, up, title, largest):
     for row, column in np.argwhere(modes > 0) if modes.size <= READABLE else ():
         colour = "white" if growth[row, column] > 0.5 * largest else "black"
         beside = dict(xytext=(9, 0), textcoords="offset points", ha="center", va="center")
-        axes.annotate(f"{modes[row, column]:.0f}", (x[column], y[row]), fontsize=7, color=colour, **beside)
+        axes.annotate(
+            f"{modes[row, column]:.0f}", (x[column], y[row]), fontsize=7, color=colour, **beside
+        )
     for row, column in np.argwhere(np.isnan(modes)):
-        axes.annotate("no steady\nsliding", (x[column], y[row]), ha="center", va="center", fontsize=7, color="0.5")
+        axes.annotate(
+            "no steady\nsliding",
+            (x[column], y[row]),
+            ha="center",
+            va="center",
+            fontsize=7,
+            color="0.5",
+        )
     if up == "friction":
         marks = [(value, critical(y, modes[:, column])) for column, value in enumerate(x)]
         marks = [(value, *limits) for value, limits in marks if limits]
         if marks:
             place, low, high = np.array(marks).T
-            axes.errorbar(place, (low + high) / 2, (high - low) / 2, fmt="o-", color="black", markersize=4, linewidth=1, capsize=3,
-                          label="critical friction: between the last stable and the first unstable one")  # fmt: skip
+            axes.errorbar(
+                place,
+                (low + high) / 2,
+                (high - low) / 2,
+                fmt="o-",
+                color="black",
+                markersize=4,
+                linewidth=1,
+                capsize=3,
+                label="critical friction: between the last stable and the first unstable one",
+            )
     axes.plot([], [], "s", color="#dcebdc", label="stable")
     scale_axis(axes.xaxis, across, x)
     scale_axis(axes.yaxis, up, y)
     axes.set_xlabel(LABELS[across])
     axes.set_ylabel(LABELS[up])
-    axes.set_title((f"{title}: " if title else "") + "largest growth rate, and how many modes are unstable")
+    axes.set_title(
+        (f"{title}: " if title else "") + "largest growth rate, and how many modes are unstable"
+    )
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1), ncols=2, frameon=False)
     return figure
 
@@ -239,14 +309,22 @@ def figures(results):
     swept = results.swept()
     abscissa = swept[0] if swept else "friction"
     for suffix, title, values in slices(table, swept[1:]):
-        lines = tuple(at(rows, values) for rows in followed) if followed and abscissa == "friction" else None
+        lines = (
+            tuple(at(rows, values) for rows in followed)
+            if followed and abscissa == "friction"
+            else None
+        )
         yield f"stability{suffix}.png", draw_modes(at(table, values), abscissa, title, lines)
     if len(swept) < 2:
         return
     across, up = axes_of_map(stability, swept)
     largest = max(0, stability["largest_growth_rate_1_per_s"].max())
-    for suffix, title, values in slices(stability, [name for name in swept if name not in (across, up)]):
-        yield f"stability_map{suffix}.png", draw_map(at(stability, values), across, up, title, largest)
+    for suffix, title, values in slices(
+        stability, [name for name in swept if name not in (across, up)]
+    ):
+        yield f"stability_map{suffix}.png", draw_map(
+            at(stability, values), across, up, title, largest
+        )
 
 
 def main(words):
