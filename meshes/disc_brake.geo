@@ -64,7 +64,7 @@ For j In {0 : 6}
   angle[] = {half, -half, -half - (360 - pad_angle) / 3, half + (360 - pad_angle) / 3};
   For k In {0 : 3}
     For i In {0 : 6}
-      // The pad stands on sector 0 alone, and the hat's plate ends at its wall.
+      // The pad is only on sector 0, and the hat's plate ends at its wall.
       If ((j < 2 && i < 4) || ((j == 2 || j == 3) && i > 1) || (j > 3 && k < 2 && (i == 4 || i == 5)))
         radius = r[i] + (i == 4 ? -jut : (i == 5 ? jut : 0));
         turned = (angle[k] + (apart && j < 4 ? disc_turn : 0)) * Pi / 180;

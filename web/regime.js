@@ -139,7 +139,7 @@ function drawRegime() {
   }
 }
 
-/** Fills a menu and draws anew when another entry is chosen. */
+/** Fills a menu and redraws when another entry is chosen. */
 function regimeMenu(id, titles, key) {
   element(id).replaceChildren(...titles.map((title, i) => new Option(title, i)));
   element(id).hidden = titles.length === 0;

@@ -19,7 +19,7 @@ endif()
 
 file(COPY_FILE ${CPACK_SQUEAL_DEBIAN_DIR}/changelog ${doc}/changelog.Debian)
 file(COPY_FILE ${CPACK_SQUEAL_DEBIAN_DIR}/copyright ${doc}/copyright)
-file(REMOVE ${doc}/LICENSE)  # its text stands in copyright
+file(REMOVE ${doc}/LICENSE)  # copyright contains its text
 # The policy gives this name to the changes of the program itself.
 file(RENAME ${doc}/CHANGELOG.md ${doc}/changelog)
 file(GLOB compressed ${usr}/share/man/man1/*.1 ${doc}/changelog.Debian ${doc}/changelog)

@@ -1,6 +1,6 @@
 # Copyright (c) The squeal developers
 # SPDX-License-Identifier: BSD-2-Clause
-"""Recipe of squeal for Spack. It stands in the folder packages/squeal of a Spack repository;
+"""Recipe of squeal for Spack. Copy it to the folder packages/squeal of a Spack repository;
 packaging/README.md says how."""
 
 from spack.package import *

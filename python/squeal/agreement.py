@@ -44,7 +44,7 @@ def _require_eigenvalues(path, table, points):
             cut = " is cut" if there[key] < point.get("eigenvalues", 0) else ""
             raise ResultsError(
                 f"{path}{cut}: it has {there[key]} rows at {words_of(dict(zip(PARAMETERS, key)))},"
-                f" summary.json tells of {point.get('eigenvalues', 0)}"
+                f" summary.json lists {point.get('eigenvalues', 0)}"
             )
         for word, count in point.get("verdicts", {}).items():
             if words[key, word] != count:
@@ -93,7 +93,7 @@ def _require_map(path, table, points):
         if "eigenvalues" in point and not there[key]:
             raise ResultsError(
                 f"{path} is cut: it has 0 rows at {words_of(dict(zip(PARAMETERS, key)))},"
-                " summary.json tells of 1"
+                " summary.json lists 1"
             )
     if points:
         _require_known(path, keys, points)
@@ -133,7 +133,7 @@ def _require_directions(path, table):
 def _require_classes(path, table, runs):
     if len(table) != len(runs):
         raise ResultsError(
-            f"{path} is cut: it has {len(table)} rows, summary.json tells of {len(runs)}"
+            f"{path} is cut: it has {len(table)} rows, summary.json lists {len(runs)}"
         )
     for number, (row, entry) in enumerate(zip(table.to_dict("records"), runs), 2):
         if (row["class"], row["start"]) != (entry["class"], entry["start"]):

@@ -66,7 +66,7 @@ def open_regular(path, flags=os.O_RDONLY):
 
 
 def read_text(path):
-    """The text of a file. Raises ResultsError where it cannot be read, or is no text;
+    """The text of a file. Raises ResultsError where it cannot be read, or is not text;
     FileNotFoundError where there is none."""
     try:
         with os.fdopen(open_regular(path), "rb") as file:

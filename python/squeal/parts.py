@@ -49,7 +49,7 @@ class Part:
         if "critical" in self.tables and len(self.tables["critical"]) < solved:
             raise ResultsError(
                 f"{self.folder / 'critical.csv'} is cut: it has"
-                f" {len(self.tables['critical'])} rows, summary.json tells of {solved}"
+                f" {len(self.tables['critical'])} rows, summary.json lists {solved}"
             )
 
     def eigenvalues(self, point):
@@ -65,8 +65,8 @@ class Part:
 
 
 def read_parts(folders, out):
-    """The runs in `folders`, of which none may hold the folder `out` of their merge: it is no file
-    of that run, and would go with it."""
+    """The runs in `folders`. None may contain the folder `out` of their merge: its next run would
+    remove it."""
     places = [Path(folder).resolve() for folder in folders]
     for place, folder in zip(places, folders):
         if places.count(place) > 1:
@@ -82,7 +82,7 @@ def _recipe(path):
     try:
         lines = read_text(path).splitlines()
     except FileNotFoundError:
-        raise ResultsError(f"{path} is missing; it tells the options of the run") from None
+        raise ResultsError(f"{path} is missing; it lists the options of the run") from None
     found = [re.fullmatch(r"(# )?-(\w+) ?(.*)", line) for line in lines[1:]]
     options = {match[2]: match[3].strip("\"'") for match in found if match}
     return {match[2] for match in found if match and not match[1]}, options
@@ -117,11 +117,11 @@ def differs(name, first, part):
 
 
 def require_alike(first, part):
-    """Throws unless two parts differ in swept parameters alone."""
+    """Raises ResultsError if two parts differ in more than swept parameters."""
 
     def differ(what, one, other):
         raise ResultsError(
-            f"{part.folder} is no part of the same grid as {first.folder}: {what}, {other} and"
+            f"{part.folder} is not part of the same grid as {first.folder}: {what}, {other} and"
             f" {one}; see --variants"
         )
 

@@ -68,7 +68,7 @@ def build(results):
 
 
 def _script_safe(text):
-    """JavaScript that cannot end the script element it stands in."""
+    """JavaScript that cannot end the script element that contains it."""
     return text.replace("</", "<\\/").replace("<!--", "<\\!--")
 
 

@@ -48,11 +48,11 @@ SUMMARY = {
 }
 KINDS = {
     bool: "not true or false",
-    str: "no text",
-    float: "no number",
-    int: "no whole number",
-    dict: "no object",
-    list: "no list",
+    str: "not a text",
+    float: "not a number",
+    int: "not a whole number",
+    dict: "not an object",
+    list: "not a list",
 }
 
 
@@ -381,7 +381,7 @@ class Mode:
 
 @contextlib.contextmanager
 def os_closing(file):
-    """A file that is no pipe stays open while a library opens it by its name."""
+    """Keeps a regular file open while a library opens it by its name."""
     try:
         yield
     finally:
@@ -401,12 +401,13 @@ def read_summary(path):
     except (ValueError, RecursionError) as error:
         raise ResultsError(f"{path}: {error}") from None
     for wrong in _departures(summary, SUMMARY, ""):
-        raise ResultsError(f"{path} is no summary of a run: {wrong}")
+        raise ResultsError(f"{path} is not a summary of a run: {wrong}")
     try:
         float(summary.get("options", {}).get("flutter_unstable_tolerance", "0"))
     except ValueError:
         raise ResultsError(
-            f"{path} is no summary of a run: `options.flutter_unstable_tolerance` is no number"
+            f"{path} is not a summary of a run:"
+            " `options.flutter_unstable_tolerance` is not a number"
         ) from None
     return summary
 
@@ -433,7 +434,7 @@ def _rows(table, at):
     unknown = [name for name in at if name not in PARAMETERS]
     if unknown:
         raise ResultsError(
-            f"{', '.join(unknown)} is no parameter of a sweep: {', '.join(PARAMETERS)}"
+            f"{', '.join(unknown)} is not a parameter of a sweep: {', '.join(PARAMETERS)}"
         )
     chosen = np.ones(len(table), bool)
     for name, value in at.items():

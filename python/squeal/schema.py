@@ -415,7 +415,7 @@ def _require_shape(path, texts, shape):
         )
     if len(texts) != shape["rows"]:
         raise ResultsError(
-            f"{path} is cut: it has {len(texts)} rows, summary.json tells of {shape['rows']}"
+            f"{path} is cut: it has {len(texts)} rows, summary.json lists {shape['rows']}"
         )
 
 

@@ -1,4 +1,4 @@
-"""Slurm on this machine alone, without systemd and cgroups, in a folder of its own, on free ports,
+"""Slurm only on this machine, without systemd and cgroups, in a folder of its own, on free ports,
 for as long as a test runs."""
 import contextlib
 import os

@@ -128,8 +128,10 @@ class Jobs(unittest.TestCase):
             )
             self.done(job)
             for rank in range(cores):
-                told = (self.folder / f"rank_{rank}").read_text().split("\n")
-                self.assertEqual(told[:4], ["1", "1 1", f"{scratch}/squeal_{job}", "0"], launcher)
+                printed = (self.folder / f"rank_{rank}").read_text().split("\n")
+                self.assertEqual(
+                    printed[:4], ["1", "1 1", f"{scratch}/squeal_{job}", "0"], launcher
+                )
                 (self.folder / f"rank_{rank}").unlink()
             self.assertEqual(list(scratch.iterdir()), [])
             results = squeal.open(self.folder / f"results_{launcher}")

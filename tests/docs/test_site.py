@@ -16,7 +16,7 @@ from selenium.webdriver.support.ui import WebDriverWait
 
 repository = Path(__file__).resolve().parents[2]
 PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else str(repository / "build/squeal")
-# What a browser loads by itself. A link that a reader may follow (`a`) is no such thing.
+# What a browser loads by itself. A link that a reader may follow (`a`) is not loaded.
 LOADED = {
     "script": ["src"],
     "img": ["src", "srcset"],

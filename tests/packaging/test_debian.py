@@ -2,8 +2,8 @@
 """The Debian package: made of a build, installed and used in a clean Debian 12, removed again:
 test_debian.py BUILD_FOLDER, as root.
 
-The chroot is made from the package sources of this machine. Installed are first the dependencies
-alone, then what is recommended as well.
+The chroot is made from the package sources of this machine. The test first
+installs only the dependencies, then the recommended packages too.
 """
 import csv
 import os
@@ -161,8 +161,8 @@ class Package(unittest.TestCase):
 
     @classmethod
     def files(cls):
-        """All names in the chroot that hold the name of the program, but for what the user and apt
-        keep."""
+        """All names in the chroot that hold the name of the program, except those that the user and
+        apt keep."""
         found = subprocess.run(
             ["find", cls.root, "-xdev", "-iname", "*squeal*", "-printf", "/%P\n"],
             check=True,

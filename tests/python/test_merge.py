@@ -243,7 +243,8 @@ class Merge(unittest.TestCase):
     def test_other_options(self):
         self.refused(
             (
-                r"chain_band is no part of the same grid as .*chain: -flutter_band differs, 0.5 and"
+                r"chain_band is not part of the same grid as .*chain:"
+                r" -flutter_band differs, 0.5 and"
                 r" 0; see --variants"
             ),
             "chain",
@@ -265,12 +266,12 @@ class Merge(unittest.TestCase):
             "chain_damped", options_txt=lambda text: text + "# -flutter_unheard_of 1\n"
         )
         squeal.merge.merge(self.out, [self.made / "chain", asked])
-        told = self.copy(
+        changed_run = self.copy(
             "chain_damped",
             options_txt=lambda text: text.replace("# -report_frames 16", "-report_frames 8")
             + "-resume on\n-log_view\n",
         )
-        squeal.merge.merge(self.out, [self.made / "chain", told])
+        squeal.merge.merge(self.out, [self.made / "chain", changed_run])
         other = self.copy(
             "chain_damped", summary_json=lambda text: text.replace('"version": "', '"version": "9')
         )
@@ -391,11 +392,11 @@ class Merge(unittest.TestCase):
             ),
             "by a row": (
                 lambda text: text[:-1].rpartition("\n")[0] + "\n",
-                r"is cut: it has [0-9]+ rows.*, summary.json tells of [0-9]+",
+                r"is cut: it has [0-9]+ rows.*, summary.json lists [0-9]+",
             ),
             "by all rows": (
                 lambda text: text.partition("\n")[0] + "\n",
-                r"is cut: it has 0 rows.*, summary.json tells of [0-9]+",
+                r"is cut: it has 0 rows.*, summary.json lists [0-9]+",
             ),
         }
         for table in ("eigenvalues", "stability_map", "critical"):
@@ -436,29 +437,29 @@ class Merge(unittest.TestCase):
         damaged = self.copy("chain_high")
         whole = (damaged / "summary.json").read_text()
         for text, message in (
-            ("[1, 2]", "it is no object"),
+            ("[1, 2]", "it is not an object"),
             ("{}", "`version` is missing"),
             (changed(("complete",), 1), "`complete` is not true or false"),
-            (changed(("frictions", 0), 7), r"`frictions\[0\]` is no object"),
+            (changed(("frictions", 0), 7), r"`frictions\[0\]` is not an object"),
             (changed(("frictions", 0, "friction")), r"`frictions\[0\].friction` is missing"),
             (
                 changed(("frictions", 0, "friction"), True),
-                r"`frictions\[0\].friction` is no number",
+                r"`frictions\[0\].friction` is not a number",
             ),
             (
                 changed(("frictions", 0, "eigenvalues"), "10"),
-                r"`frictions\[0\].eigenvalues` is no whole number",
+                r"`frictions\[0\].eigenvalues` is not a whole number",
             ),
             (
                 changed(("active_sets", 0, "followed", 0, "critical_frictions"), None),
-                r"`active_sets\[0\].followed\[0\].critical_frictions` is no list",
+                r"`active_sets\[0\].followed\[0\].critical_frictions` is not a list",
             ),
-            (changed(("stages", "flutter"), 7), "`stages.flutter` is no object"),
+            (changed(("stages", "flutter"), 7), "`stages.flutter` is not an object"),
         ):
             with self.subTest(message):
                 (damaged / "summary.json").write_text(text)
                 self.refused(
-                    f"{damaged}/summary.json is no summary of a run: {message}", "chain", damaged
+                    f"{damaged}/summary.json is not a summary of a run: {message}", "chain", damaged
                 )
         (damaged / "summary.json").write_text(whole[:100])
         self.refused(f"{damaged}/summary.json: ", "chain", damaged)
@@ -582,7 +583,11 @@ class Merge(unittest.TestCase):
         )
         self.assertEqual(
             (failed.returncode, failed.stderr),
-            (1, f"squeal-merge: {listed}/summary.json is no summary of a run: it is no object\n"),
+            (
+                1,
+                f"squeal-merge: {listed}/summary.json is not a summary of a run:"
+                " it is not an object\n",
+            ),
         )
         self.assertFalse((self.folder / "new").exists())
 

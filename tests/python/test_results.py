@@ -124,7 +124,7 @@ class Results(unittest.TestCase):
         with self.assertRaisesRegex(squeal.ResultsError, "0 points of the sweep have friction 0.7"):
             self.run_.steady(friction=0.7)
         with self.assertRaisesRegex(
-            squeal.ResultsError, "temperature is no parameter of a sweep: friction, speed"
+            squeal.ResultsError, "temperature is not a parameter of a sweep: friction, speed"
         ):
             self.run_.steady(temperature=20)
 
@@ -204,20 +204,20 @@ class Results(unittest.TestCase):
             squeal.open("/nowhere")
         for text, message in (
             ("{}", "`version` is missing"),
-            ("[]", "it is no object"),
+            ("[]", "it is not an object"),
             ('{"version": "0.1.0"}', "`complete` is missing"),
             (
                 (
                     '{"version": "0.1.0", "complete": true, "options":'
                     ' {"flutter_unstable_tolerance": "x"}}'
                 ),
-                "is no number",
+                "is not a number",
             ),
         ):
             with tempfile.TemporaryDirectory() as empty:
                 (Path(empty) / "summary.json").write_text(text)
                 with self.assertRaisesRegex(
-                    squeal.ResultsError, f"summary.json is no summary of a run: .*{message}"
+                    squeal.ResultsError, f"summary.json is not a summary of a run: .*{message}"
                 ):
                     squeal.open(empty)
                 # The commands that read results say the same in one line, and add no file.

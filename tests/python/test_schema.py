@@ -257,7 +257,7 @@ class Tables(unittest.TestCase):
                 "brake",
                 "regime_cycles",
                 lambda text: "".join(text.splitlines(True)[: len(text.splitlines()) // 2]),
-                r"is cut: it has \d+ rows, summary.json tells of \d+",
+                r"is cut: it has \d+ rows, summary.json lists \d+",
             ),
             ("brake", "regime_cycles", lambda text: text[: len(text) // 2], r"line \d+ is cut"),
             ("chain", "eigenvalues", lambda text: text + "x\0,\n", r"line \d+ is cut|NUL"),

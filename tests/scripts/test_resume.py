@@ -26,7 +26,7 @@ import squeal
 PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else str(repository / "build/squeal")
 MPIEXEC = sys.argv.pop(1) if len(sys.argv) > 1 else "mpirun -n"
 LONG = bool(os.environ.get("SQUEAL_LONG"))
-# A run that is continued takes the steps of the one that was not cut off, but for rounding:
+# A run that is continued takes the steps of the one that was not cut off, except for round-off:
 # eigenvalues differ by that times their condition numbers, some thousand at most here.
 SAME = 1e-10
 
@@ -140,7 +140,7 @@ def done(folder, options, ranks=2):
 
 
 def files_of(folder):
-    """All files but the lock, which a killed run leaves and which hinders nobody."""
+    """All files but the lock, which a killed run leaves and later runs ignore."""
     return {
         str(path.relative_to(folder)): path.read_bytes()
         for path in Path(folder).rglob("*")

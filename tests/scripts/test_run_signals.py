@@ -1,5 +1,5 @@
-"""Signals sent to squeal-run, not to the program: the run stops in order, or at once, and the exit
-code tells which. To be called with the program as argument."""
+"""Signals sent to squeal-run, not to the program: the run stops in order or at once, and
+returns another exit code for each. Call: test_run_signals.py PROGRAM."""
 import json
 import os
 import shutil
