@@ -1,6 +1,6 @@
 "use strict";
-// The motion after flutter: growth to saturation, spectrum, and what each contact node does. One
-// run is shown at a time.
+// The motion after flutter: growth to saturation, spectrum, and state of the contact nodes. One run
+// is shown at a time.
 
 const regime = {
   charts: {},
@@ -12,8 +12,15 @@ const regime = {
 /** Points of [x, y] as Chart.js takes them. */
 const pointsOf = (line) => line.map(([x, y]) => ({x, y}));
 
+/** The words of a point: those that it has, or its coordinates. */
+function labelOf(context) {
+  const {text, x, y} = context.raw;
+  return text || `${digits(x, 5)}, ${digits(y, 4)}`;
+}
+
 function regimeChart(id, xTitle, yTitle, logarithmic) {
   const axis = (text) => ({title: {display: true, text}});
+  const y = logarithmic ? {...axis(yTitle), type: "logarithmic"} : axis(yTitle);
   regime.charts[id] = new Chart(element(id), {
     type: "scatter",
     data: {datasets: []},
@@ -21,22 +28,13 @@ function regimeChart(id, xTitle, yTitle, logarithmic) {
       animation: false,
       maintainAspectRatio: false,
       normalized: true,
-      plugins: {
-        legend: {display: false},
-        tooltip: {
-          callbacks: {
-            label: (context) =>
-                context.raw.text || `${digits(context.raw.x, 5)}, ${digits(context.raw.y, 4)}`
-          }
-        }
-      },
-      scales:
-          {x: axis(xTitle), y: logarithmic ? {...axis(yTitle), type: "logarithmic"} : axis(yTitle)},
+      plugins: {legend: {display: false}, tooltip: {callbacks: {label: labelOf}}},
+      scales: {x: axis(xTitle), y},
     },
   });
 }
 
-/** A dashed line through the diagram, where there is one to draw. */
+/** A dashed line through the diagram. */
 function guide(from, to) {
   return {
     data: [from, to],
@@ -85,23 +83,24 @@ function nodeSets(run) {
   if (!run.nodes) return [];
   const {title, unit, values} = run.nodes.fields[regime.field];
   const most = values.reduce((a, b) => Math.max(a, b), 0) || 1;
-  const colour = (value) =>
-      data.colours[Math.min(31, Math.max(0, Math.floor((32 * value) / most)))];
   element("nodescale").textContent = `dark: 0, bright: ${digits(most, 3)} ${unit}`;
   return [{
     data: run.nodes.places.map(
         ([x, y], i) => ({x, y, text: `${title} ${digits(values[i], 4)} ${unit}`})),
     pointRadius: 5,
     borderWidth: 0,
-    backgroundColor: values.map((value) => `rgb(${colour(value).join(",")})`)
+    backgroundColor: values.map((value) => rgb(colourAt(value / most)))
   }];
 }
 
 /** Periodic motions over the friction: filled where they are stable. */
 function periodicSets(run) {
   const colour = css("--accent");
-  const text = (motion) => `friction ${digits(motion[0], 5)}, ${digits(motion[1], 4)} J, ${
-      digits(motion[3], 6)} Hz, ${motion[2] ? "stable" : "unstable"}`;
+  const text =
+      ([friction, energy, stable,
+        frequency]) => [`friction ${digits(friction, 5)}`, `${digits(energy, 4)} J`,
+                        `${digits(frequency, 6)} Hz`, stable ? "stable" : "unstable"]
+                           .join(", ");
   return [{
     data: run.periodic.map((motion) => ({x: motion[0], y: motion[1], text: text(motion)})),
     pointRadius: 5,
@@ -111,7 +110,7 @@ function periodicSets(run) {
   }];
 }
 
-/** Draws the run that is chosen; nothing where no motion was followed. */
+/** Draws the chosen run, if there is one. */
 function drawRegime() {
   const run = data.regimes[regime.run];
   if (!run || !regime.charts.cycles) return;
@@ -123,17 +122,13 @@ function drawRegime() {
     periodic: periodicSets(run)
   };
   element("branch").hidden = !run.periodic.length;
-  regime.charts.spectrum.options.scales.y.title.text = Object.keys(run.spectrum)[regime.line] || "";
+  const spectrum = regime.charts.spectrum.options.scales,
+        nodes = regime.charts.nodes.options.scales;
+  spectrum.y.title.text = Object.keys(run.spectrum)[regime.line] || "";
   if (run.nodes)
-    [regime.charts.nodes.options.scales.x.title.text,
-     regime.charts.nodes.options.scales.y.title.text] =
-        run.nodes.axes.map((axis) => `${axis} [mm]`);
+    [nodes.x.title.text, nodes.y.title.text] = run.nodes.axes.map((axis) => `${axis} [mm]`);
   for (const [id, one] of Object.entries(regime.charts)) {
-    for (const axis of Object.values(one.options.scales)) {
-      axis.grid = {color: css("--line")};
-      axis.ticks = {...axis.ticks, color: css("--ink")};
-      axis.title.color = css("--ink");
-    }
+    colourAxes(one.options);
     one.data.datasets = sets[id];
     one.update("none");
   }

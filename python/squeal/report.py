@@ -35,6 +35,18 @@ SCRIPTS = {
         "/usr/share/doc/libjs-chart.js/copyright",
     ),
 }
+# Of web/, in the order in which the browser runs them: the last one starts the report.
+OWN_SCRIPTS = (
+    "state",
+    "plots",
+    "selection",
+    "table",
+    "shape",
+    "fields",
+    "regime",
+    "sections",
+    "report",
+)
 MOST_BYTES = 22_000_000  # of the skin, fields and shapes in the file
 SMALL = 1e-300
 
@@ -42,8 +54,9 @@ SMALL = 1e-300
 def build(results):
     """Returns the text of the HTML file."""
     template = (WEB / "report.html").read_text()
-    scripts, licences = _scripts()
-    data, blobs = _data(results, with_shapes=bool(scripts))
+    libraries, licences = _libraries()
+    data, blobs = _data(results, with_shapes=bool(libraries))
+    own = [(WEB / f"{name}.js").read_text() for name in OWN_SCRIPTS] if libraries else []
     parts = {
         "title": html.escape(f"{data['case']}: brake squeal"),
         "style": (WEB / "report.css").read_text(),
@@ -54,12 +67,9 @@ def build(results):
             f'<script type="application/octet-stream" id="blob-{name}">{text}</script>'
             for name, text in blobs.items()
         ),
-        "libraries": "\n".join(f"<script>{_script_safe(text)}</script>" for text in scripts),
-        **{
-            name: _script_safe((WEB / file).read_text()) if scripts else ""
-            for name, file in (("script", "report.js"), ("regimescript", "regime.js"))
-        },
-        "pictures": _after_flutter(results) + _pictures(results) if not scripts else "",
+        "libraries": "\n".join(map(_script_element, libraries)),
+        "scripts": "\n".join(map(_script_element, own)),
+        "pictures": _after_flutter(results) + _pictures(results) if not libraries else "",
         "licences": "".join(
             f"<h3>{html.escape(name)}</h3><pre>{html.escape(text)}</pre>" for name, text in licences
         ),
@@ -67,12 +77,13 @@ def build(results):
     return re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], template)
 
 
-def _script_safe(text):
-    """JavaScript that cannot end the script element that contains it."""
-    return text.replace("</", "<\\/").replace("<!--", "<\\!--")
+def _script_element(text):
+    """A script element with JavaScript that cannot end it."""
+    safe = text.replace("</", "<\\/").replace("<!--", "<\\!--")
+    return f"<script>\n{safe}</script>"
 
 
-def _scripts():
+def _libraries():
     """The libraries and their licences; none of either if one is missing."""
     if any(not Path(program).exists() for program, _ in SCRIPTS.values()):
         return [], []
