@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 /// squeal: flutter of the steady sliding state of brakes. The method itself is
 /// squeal::analysis::analyse (src/analysis/analysis.cpp).
 #include <cstdio>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-2-Clause
 """Settings of Sphinx for the documentation site, which scripts/docs builds.
 
 The folder of sources is the repository, so that a link from one Markdown file to another is the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Disc brake: friction ring and hat of the disc about the z axis, one pad (friction lining and steel back plate) on the upper face
 // of the ring, its middle on the x axis. The disc turns about +z, so the matter under the pad moves along +y. Disc and lining share
 // the nodes of the contact surface; the program gives each its own. With `apart` the disc has a mesh of its own there.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Disc brake with a floating caliper: ventilated disc with hat, two pads (friction lining and steel back plate), piston, caliper, two
 // guide pins and bracket. Every part is meshed for itself: where two touch, their faces lie on one another with a gap of zero but
 // are different surfaces with cells of different size, so that no two meshes match. Booleans only join shapes of one part.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-2-Clause
 # Completion of squeal-run for bash: names of cases and files first, then the options of squeal,
 # whose completion stands beside this file.
 # shellcheck source=packaging/squeal.bash

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 "use strict";
 // Diagrams of the eigenvalues by Chart.js: over the swept parameter, and the root locus.
 

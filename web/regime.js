@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 "use strict";
 // The motion after flutter: growth to saturation, spectrum, and state of the contact nodes. One run
 // is shown at a time.

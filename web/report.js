@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 "use strict";
 // Starts the report of a run. One mode is selected at a time, in the diagrams, the table and the
 // view.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 "use strict";
 // The selected eigenvalue, and the line of the sweep that is shown.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 "use strict";
 // The shape of the selected mode by three.js, which moves with the phase.
 

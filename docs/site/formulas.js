@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 // Sets the formulas of a page by KaTeX.
 for (const place of document.querySelectorAll(".math"))
   katex.render(

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-2-Clause
 # Run by cpack when the files are installed in its staging folder, before they are packed: what
 # Debian's policy asks for beyond them.
 cmake_minimum_required(VERSION 3.25)

@@ -1,5 +1,5 @@
-# Copyright (c) The squeal developers
 # SPDX-License-Identifier: BSD-2-Clause
+# Copyright (c) The squeal developers
 """Recipe of squeal for Spack. Copy it to the folder packages/squeal of a Spack repository;
 packaging/README.md says how."""
 

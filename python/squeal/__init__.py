@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-2-Clause
 """Results of squeal, the program for brake squeal: pandas tables, modes and contact fields as numpy
 arrays and VTK grids.
 

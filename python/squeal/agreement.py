@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-2-Clause
 """The tables of a run agree with each other and with its summary. A table that has lost its end
 looks like the table of a run with fewer points, and a wrong word may be another word of the
 schema."""

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-2-Clause
 """Starts the commands squeal-plot, squeal-report and squeal-merge."""
 import importlib
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-2-Clause
 """Opens files in a folder of results only if they are regular files: a link of the same name leads
 to a foreign file, and a pipe blocks."""
 import errno

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-2-Clause
 """Writes to folders of results, by the rules of the program (src/output).
 
 manifest.txt lists the files of a run, so that a later run removes no others. Whoever writes to the

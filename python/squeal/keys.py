@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-2-Clause
 """The parameters of a sweep, as keys of points."""
 
 PARAMETERS = ("friction", "speed", "pressure", "damping")

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-2-Clause
 """Pairs the eigenvalues of one run with those of another."""
 import numpy as np
 from scipy.optimize import linear_sum_assignment

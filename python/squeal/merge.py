@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-2-Clause
 """Joins the results of several runs over parts of one grid of parameters, or lists those of
 variants."""
 import argparse

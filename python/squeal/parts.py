@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-2-Clause
 """The parts of a merge: runs over parts of one grid of parameters, read, and held against each
 other."""
 import re

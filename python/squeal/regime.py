@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-2-Clause
 """The motion after flutter, as the report shows it."""
 import math
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-2-Clause
 """The report of a run: one HTML file that opens offline in a browser."""
 import base64
 import html

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-2-Clause
 """The folder of a run: its tables, modes and fields."""
 import contextlib
 import dataclasses

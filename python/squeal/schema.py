@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-2-Clause
 """The schema of the tables of a run (columns, units, allowed values), and the reader that checks
 tables against it.
 

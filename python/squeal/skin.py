@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-2-Clause
 """The surface of a mesh, as the report draws it."""
 import math
 

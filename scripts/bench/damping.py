@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-2-Clause
 """Called by scripts/bench/damping: reads summary.json of the runs and prints the figures."""
 import json
 import statistics

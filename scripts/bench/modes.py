@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-2-Clause
 """Called by scripts/bench/modes: the free modes by SciPy, and the comparison of all runs."""
 import csv
 import json

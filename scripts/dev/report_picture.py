@@ -1,4 +1,5 @@
 #!/usr/bin/python3 -B
+# SPDX-License-Identifier: BSD-2-Clause
 """report_picture.py REPORT_DIR OUT.png: a picture of report.html there, as Chromium shows it with
 its fastest growing mode.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-2-Clause
 """Slurm only on this machine, without systemd and cgroups, in a folder of its own, on free ports,
 for as long as a test runs."""
 import contextlib

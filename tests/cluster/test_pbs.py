@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-2-Clause
 """The PBS scripts of scripts/batch, run by hand with the variables that PBS would set: there is no
 PBS in Debian to submit them to."""
 import os

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-2-Clause
 """The job scripts of scripts/batch under Slurm on this machine: test_slurm.py PROGRAM FOLDER. As
 root; scripts/dev/test_cluster calls it."""
 import json

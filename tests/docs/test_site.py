@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-2-Clause
 """The documentation site, built by scripts/docs, and the README: test_site.py PROGRAM."""
 import json
 import re

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-2-Clause
 """The Debian package: made of a build, installed and used in a clean Debian 12, removed again:
 test_debian.py BUILD_FOLDER, as root.
 

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-2-Clause
 """What `cmake --install` puts in place works elsewhere, read-only, for another user:
 test_install.py CMAKE BUILD_FOLDER."""
 import os

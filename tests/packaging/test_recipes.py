@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-2-Clause
 """The recipes for Spack and Apptainer, as far as that can be checked without these programs:
 test_recipes.py BUILD_FOLDER.
 

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-2-Clause
 """The merge of runs over parts of one grid, on runs made here: test_merge.py PROGRAM."""
 import functools
 import json

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-2-Clause
 """The example notebook, run from its first cell to its last on results made here: test_notebook.py
 PROGRAM."""
 import os

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-2-Clause
 """The package squeal, on the results of two runs made here: test_results.py PROGRAM."""
 import csv
 import shutil

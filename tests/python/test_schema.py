@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-2-Clause
 """Tables of runs against their schema, and damaged ones, which are refused: test_schema.py PROGRAM.
 
 With SQUEAL_LONG in the environment, ten times as many damaged tables.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-2-Clause
 """scripts/convert_matrix: what comes out is what went in, bit for bit, and what is damaged is
 refused in one line."""
 import subprocess

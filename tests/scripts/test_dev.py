@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-2-Clause
 """The checks of scripts/dev, on small repositories and sources made here."""
 import os
 import shutil

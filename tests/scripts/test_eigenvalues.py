@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-2-Clause
 """Pairing of eigenvalues, and the plots of a sweep from tables written here."""
 import subprocess
 import sys

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-2-Clause
 """Folders that a run does not take, and what it does not open there: test_folders.py PROGRAM
 MPIEXEC."""
 import concurrent.futures

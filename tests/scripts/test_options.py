@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-2-Clause
 """What scripts/dev/generate_options makes of the options of the program: test_options.py
 PROGRAM."""
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-2-Clause
 """The picture of the motion after flutter, from tables made by hand."""
 import math
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-2-Clause
 """Files that commands add to the folder of a run, and the folder that a benchmark reads."""
 import fcntl
 import json

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-2-Clause
 """Runs that are cut off and continued, and the log of events: test_resume.py PROGRAM MPIEXEC.
 
 With SQUEAL_LONG in the environment, five random moments of several kinds of runs instead of one

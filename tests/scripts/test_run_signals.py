@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-2-Clause
 """Signals sent to squeal-run, not to the program: the run stops in order or at once, and
 returns another exit code for each. Call: test_run_signals.py PROGRAM."""
 import json

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-2-Clause
 """The motion after flutter in the report, opened in Chromium: test_regime.py PROGRAM."""
 import csv
 import json

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-2-Clause
 """The report of a run, made by scripts/squeal-report and opened in Chromium: test_report.py
 PROGRAM."""
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-2-Clause
 """Pictures of results: squeal-plot, or python3 -m squeal.plot."""
 import importlib
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-2-Clause
 """python3 -m squeal.plot: the command squeal-plot."""
 from squeal.command import run
 

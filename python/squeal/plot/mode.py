@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-2-Clause
 """Draws a complex mode, by VTK.
 
 The picture shows the boundary of the mesh, deformed by the real part of the mode and coloured by

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-2-Clause
 """A mode rendered by VTK. VTK opens a window for it, so that a screen is needed, as that of
 xvfb."""
 import matplotlib

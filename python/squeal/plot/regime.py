@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-2-Clause
 """Draws the motion after flutter: growth, spectrum and state of the contact nodes."""
 import argparse
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-2-Clause
 """Draws what a sweep has found.
 
 stability.png: frequency, growth rate and damping ratio of every mode against the friction, or
