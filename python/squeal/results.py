@@ -15,6 +15,7 @@ from squeal import schema
 from squeal.agreement import require_agreement
 from squeal.files import ResultsError, is_there, open_regular, read_text
 from squeal.keys import PARAMETERS, words_of
+from squeal.tables import read_table
 
 # Without an estimate of its error, a growth rate below this fraction of |s| is taken as round-off.
 NOISE = 1e-6
@@ -77,7 +78,7 @@ class Results:
             {},
         )
         for name in sorted({*shapes, *self._found()}):
-            self.texts[name], self._tables[name] = schema.read_table(
+            self.texts[name], self._tables[name] = read_table(
                 self.folder / f"{name}.csv", shapes.get(name)
             )
         require_agreement(self.folder, self.summary, self._tables)

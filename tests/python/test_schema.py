@@ -22,6 +22,7 @@ sys.dont_write_bytecode = True
 import squeal
 from squeal import schema
 from squeal.agreement import require_agreement
+from squeal.tables import read_table
 
 PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else str(repository / "build/squeal")
 LONG = bool(os.environ.get("SQUEAL_LONG"))
@@ -442,7 +443,7 @@ class Tables(unittest.TestCase):
             damaged.parent.mkdir(exist_ok=True)
             damaged.write_text(text, newline="")
             try:  # as squeal.open() does it
-                _, values = schema.read_table(damaged, results.summary["tables"][name])
+                _, values = read_table(damaged, results.summary["tables"][name])
                 # The others are as they were
                 require_agreement(damaged.parent, results.summary, {name: values})
                 self.assertFalse(
