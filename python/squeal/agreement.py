@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-2-Clause
-"""The tables of a run agree with each other and with its summary. A table that has lost its end
-looks like the table of a run with fewer points, and a wrong word may be another word of the
-schema."""
+"""Checks that the tables of a run agree with each other and with summary.json.
+
+A table that has lost its end looks like the table of a run with fewer points, and a wrong word
+may be another word of the schema.
+"""
 import collections
 
 import numpy as np
@@ -11,7 +13,7 @@ from squeal.keys import PARAMETERS, key_of, words_of
 
 
 def require_agreement(folder, summary, tables):
-    """Raises ResultsError where two of them differ."""
+    """Raises ResultsError if two of them differ."""
     points = {
         key_of(point[name] for name in PARAMETERS): point for point in summary.get("frictions", [])
     }
@@ -63,8 +65,8 @@ def _require_known(path, keys, points):
 
 
 def _require_growth(path, table, summary):
-    """An eigenvalue is called unstable only where it grows, and stable only where it does not by
-    more than is asked for."""
+    """Requires that unstable eigenvalues grow, and that stable ones grow by no more than
+    -flutter_unstable_tolerance."""
     growth, size = table["growth_rate_1_per_s"], np.hypot(
         table["growth_rate_1_per_s"], table["angular_frequency_rad_per_s"]
     )
@@ -112,8 +114,8 @@ def _require_map(path, table, points):
 
 
 def _require_directions(path, table):
-    """Stability is lost where what decides on it rises with the friction (docs/results.md), and
-    regained where it falls."""
+    """Requires that the slope (docs/results.md) is positive where stability is lost, and
+    negative where it is regained."""
     if not {"slope", "converged"} <= set(table):
         return
     solved = (table["kind"] != "contact") & (table["converged"] == 1)
@@ -121,7 +123,7 @@ def _require_directions(path, table):
         ((table["direction"] == "loss") & (table["slope"] < 0))
         | ((table["direction"] == "regain") & (table["slope"] > 0))
     )
-    # No smaller friction at which it was lost
+    # There is no smaller friction at which it could have been lost.
     wrong |= solved & (table["direction"] == "regain") & (table["friction"] == 0)
     if wrong.any():
         at = int(np.argmax(wrong.to_numpy()))

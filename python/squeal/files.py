@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-2-Clause
-"""Opens files in a folder of results only if they are regular files: a link of the same name leads
-to a foreign file, and a pipe blocks."""
+"""Opens only regular files in a folder of results.
+
+A link of the same name would lead to another file, and a named pipe would block.
+"""
 import errno
 import os
 import stat
@@ -15,12 +17,12 @@ KINDS = (
 
 
 class ResultsError(Exception):
-    """A folder holds no complete results, or not what was asked for."""
+    """A folder holds no complete results, or not the results that were requested."""
 
 
 def why_not_regular(path):
-    """A sentence such as "PATH is a link, not a regular file"; none where nothing, or a regular
-    file, has this name."""
+    """Returns a sentence such as "PATH is a link, not a regular file"; None for a regular file,
+    or if there is no file."""
     try:
         mode = os.lstat(path).st_mode
     except OSError:
@@ -34,7 +36,8 @@ def why_not_regular(path):
 
 
 def is_there(path):
-    """Whether a regular file has this name. Raises ResultsError where something else has it."""
+    """Returns whether there is a regular file. Raises ResultsError if something else has its
+    name."""
     why = why_not_regular(path)
     if why:
         raise ResultsError(why)
@@ -42,7 +45,7 @@ def is_there(path):
 
 
 def open_regular(path, flags=os.O_RDONLY):
-    """Opens a regular file as os.open does, and never waits. Raises ResultsError where something
+    """Opens a regular file as os.open does, but never blocks. Raises ResultsError if something
     else has its name, and OSError."""
     why = why_not_regular(path)
     if why:
@@ -52,7 +55,7 @@ def open_regular(path, flags=os.O_RDONLY):
             path, (flags & ~os.O_TRUNC) | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, 0o666
         )
     except OSError as error:
-        if error.errno in (errno.ELOOP, errno.ENXIO):  # put there meanwhile
+        if error.errno in (errno.ELOOP, errno.ENXIO):  # somebody has put it there meanwhile
             raise ResultsError(f"{path} is not a regular file") from None
         raise
     try:
@@ -67,8 +70,8 @@ def open_regular(path, flags=os.O_RDONLY):
 
 
 def read_text(path):
-    """The text of a file. Raises ResultsError where it cannot be read, or is not text;
-    FileNotFoundError where there is none."""
+    """Returns the text of a file. Raises FileNotFoundError if there is no file, and ResultsError
+    if it cannot be read or is not text."""
     try:
         with os.fdopen(open_regular(path), "rb") as file:
             return file.read().decode("utf-8")
@@ -81,8 +84,8 @@ def read_text(path):
 
 
 def make_new(path):
-    """Makes an empty file, of which nothing has the name yet: what is written to it goes nowhere
-    else."""
+    """Creates an empty file under a name that is still free, so that nothing is written
+    elsewhere."""
     os.close(
         os.open(
             Path(path), os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC, 0o666

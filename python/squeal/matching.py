@@ -11,17 +11,19 @@ def unstable(s, tolerance=NOISE):
 
 
 def match(wanted, found, farthest=0.02):
-    """For each wanted eigenvalue the index of the found one that belongs to it, -1 if there is
-    none, by the assignment with the least sum of relative distances. Pairs further apart than
-    `farthest` are none. Where two eigenvalues meet, their order in a sorted list says nothing; the
-    assignment uses none twice, so that a double eigenvalue found once shows.
+    """Returns for each wanted eigenvalue the index of its partner among the found ones, or -1.
+
+    The assignment minimises the sum of relative distances, and pairs no eigenvalues further
+    apart than `farthest`. It uses none twice, so that a double eigenvalue found once is noticed.
+    The order in sorted lists does not help where two eigenvalues meet.
     """
     wanted, found = np.asarray(wanted), np.asarray(found)
     partner = np.full(len(wanted), -1)
     if len(wanted) == 0 or len(found) == 0:
         return partner
     distance = np.abs(wanted[:, None] - found[None, :]) / np.abs(wanted)[:, None]
-    # Beyond `farthest` all are equally bad: one without partner takes none from the others.
+    # Beyond `farthest` all distances count the same: an eigenvalue without partner takes none from
+    # the others.
     rows, columns = linear_sum_assignment(np.minimum(distance, farthest))
     close = distance[rows, columns] < farthest
     partner[rows[close]] = columns[close]
@@ -29,8 +31,8 @@ def match(wanted, found, farthest=0.02):
 
 
 def compare(exact, found, top, tolerance=NOISE):
-    """How far `found` is from `exact` up to |s| = top. Both lists should reach a little further,
-    for partners at the edge."""
+    """Compares `found` with `exact` up to |s| = top. Both lists should reach a little further,
+    so that eigenvalues at the edge find their partners."""
     exact, found = np.asarray(exact), np.asarray(found)
     low, mine = exact[np.abs(exact) <= top], found[np.abs(found) <= top]
     forward, backward = match(low, found), match(mine, exact)

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-2-Clause
-"""Joins the results of several runs over parts of one grid of parameters, or lists those of
-variants."""
+"""Joins the results of several runs over parts of one grid of parameters, or lists variants."""
 import argparse
 import json
 import os
@@ -31,8 +30,8 @@ SAME_CRITICAL = 1e-7  # relative; ten times -flutter_critical_tolerance by defau
 
 
 def merge(out, folders):
-    """Writes the folder `out` with the joined results of `folders`; returns what there is to say,
-    in lines. Raises ResultsError."""
+    """Writes the folder `out` with the joined results of `folders`. Returns messages, one per
+    line. Raises ResultsError."""
     parts = read_parts(folders, out)
     for part in parts[1:]:
         require_alike(parts[0], part)
@@ -62,8 +61,8 @@ def merge(out, folders):
 
 
 def list_variants(out, folders):
-    """Writes the folder `out` with variants.csv, a row for each of `folders`; returns what there is
-    to say, in lines."""
+    """Writes the folder `out` with variants.csv, which has a row for each of `folders`. Returns
+    messages, one per line."""
     parts = read_parts(folders, out)
     known = sorted(set().union(*(part.options for part in parts)))
     differing = [name for name in known if any(differs(name, parts[0], part) for part in parts[1:])]
@@ -95,8 +94,8 @@ def list_variants(out, folders):
 
 
 def _joined_tables(parts, taken):
-    """The tables that all parts have, row by row as the parts have them; and the folders that lack
-    one that others have."""
+    """Returns the tables that all parts have, and for each table that only some have, the
+    folders without it."""
     left = {}
     for name in TABLES:
         without = [part.folder for part in parts if name not in part.tables]
@@ -124,7 +123,7 @@ def _joined_tables(parts, taken):
 
 
 def _in_order(table, name):
-    """The rows in the order in which one run over the whole grid writes them."""
+    """Sorts the rows as one run over the whole grid would write them."""
     keys = ["damping", "speed", "pressure"]
     keys += ["branch", "friction"] if name == "branches" else ["friction"]
     order = table[keys].astype(float).sort_values(keys, kind="stable").index
@@ -132,11 +131,12 @@ def _in_order(table, name):
 
 
 def _renumbered(parts):
-    """branches.csv and critical.csv of each part. Branches are numbered along a line of equal
-    speed, pressure and damping; where two parts follow the same line, the numbers of the later one
-    go on after those of the earlier one, and no branch of one part is joined to one of another.
-    Active sets are numbered through all parts; 0 stays 0. A critical friction that both parts have
-    found is taken once.
+    """Renumbers the branches and active sets in branches.csv and critical.csv of each part.
+
+    Branches are numbered along a line of equal speed, pressure and damping. If two parts follow
+    the same line, the numbers of the later part continue those of the earlier one; branches of
+    different parts are not joined. Active sets are numbered through all parts; 0 stays 0. A
+    critical friction that both parts have found appears once.
     """
     last, sets, found, results = {}, 0, [], []
     for part in parts:
@@ -200,7 +200,7 @@ def _joined_summary(parts, taken, out, left):
     for number, (part, fresh) in enumerate(zip(parts, taken), 1):
         for entry in part.summary.get("frictions", []):
             point = key_of(entry[name] for name in PARAMETERS)
-            # A point without steady sliding is in no table
+            # A point without steady sliding is in no table.
             if point in fresh or point not in frictions:
                 frictions[point] = {**entry, "part": number}
         sets += [{**entry, "part": number} for entry in part.summary.get("active_sets", [])]
@@ -266,7 +266,7 @@ def _from(out, path):
 
 
 def _outcome(part):
-    """What became of a variant, at its worst."""
+    """Returns the worst results of a variant."""
     points = part.results.stability_map
     row = {"points": len(points), "unstable_points": int((points["unstable_modes"] > 0).sum())}
     growth = points["largest_growth_rate_1_per_s"]
@@ -330,7 +330,7 @@ def main(words):
     parser.add_argument("out", metavar="OUT")
     parser.add_argument("folders", metavar="DIR", nargs="+")
     arguments = parser.parse_args(words)
-    # So that new_folder() removes its folder
+    # The exception lets new_folder() remove its folder.
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
     join = list_variants if arguments.variants else merge
     for line in join(arguments.out, arguments.folders):

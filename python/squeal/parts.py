@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-2-Clause
-"""The parts of a merge: runs over parts of one grid of parameters, read, and held against each
-other."""
+"""Reads the parts of a merge, runs over parts of one grid of parameters, and compares them."""
 import re
 from pathlib import Path
 
@@ -13,8 +12,8 @@ from squeal.results import Results
 
 TABLES = ("eigenvalues", "stability_map", "branches", "critical", "friction_work", "sensitivities")
 NEEDED = ("eigenvalues", "stability_map")
-# Options on which no number depends, and beginnings of such; those of which the program says the
-# same (src/checkpoint) are among them.
+# Options that change no number, and beginnings of their names. They include those that the program
+# ignores when it resumes a run (src/checkpoint).
 INDIFFERENT = ("resume", "checkpoint", "checkpoint_interval", "quiet", "progress", "options_file")
 INDIFFERENT_BEGINNINGS = ("report_", "log_")
 SWEPT = tuple(f"flutter_{name}" for name in PARAMETERS)
@@ -24,7 +23,7 @@ LARGEST_REPORT = 8  # points named in one line
 
 
 class Part:
-    """The results of one run, its tables as texts: they are handed on as they are."""
+    """The results of one run. Its tables are texts, so that the merge writes the same digits."""
 
     def __init__(self, folder):
         self.folder = Path(folder)
@@ -54,7 +53,8 @@ class Part:
             )
 
     def eigenvalues(self, point):
-        """Those of a point as complex numbers, their estimated errors, and their verdicts."""
+        """Returns the eigenvalues of a point as complex numbers, their estimated errors, and
+        their verdicts."""
         rows = self.results.eigenvalues
         rows = rows[np.array([key == point for key in keys_of(rows)], bool)]
         errors = (
@@ -78,8 +78,8 @@ def read_parts(folders, out):
 
 
 def _recipe(path):
-    """Options of a run, as options.txt keeps them: the names of those that were given, and the
-    values of all, defaults too."""
+    """Returns the options in options.txt: the names of those that were given, and the values of
+    all, including defaults."""
     try:
         lines = read_text(path).splitlines()
     except FileNotFoundError:
@@ -94,7 +94,7 @@ def keys_of(table, names=PARAMETERS):
 
 
 def _value(text):
-    """The value of an option in a form in which equal values are equal: 1.0e6 is 1e6."""
+    """Returns the value of an option in a form in which equal values are equal: 1.0e6 is 1e6."""
     words = []
     for word in text.split(","):
         try:
@@ -109,7 +109,8 @@ def indifferent(name):
 
 
 def differs(name, first, part):
-    """Whether an option differs. What one run has not asked for, the other may have by default."""
+    """Returns whether an option differs. If only one run lists it, it differs only if that run
+    gave it, since defaults are the same."""
     if indifferent(name):
         return False
     if name in first.options and name in part.options:
@@ -143,7 +144,7 @@ def require_alike(first, part):
 
 
 def _require_same_mesh(first, part, differ):
-    # Unknowns of a mesh depend on the nodes that are open.
+    # The number of unknowns of a mesh depends on the open nodes.
     for name in ("nodes", "cells", "contact_nodes") if "nodes" in first.summary else ("dofs",):
         if first.summary.get(name) != part.summary.get(name):
             differ(
@@ -155,14 +156,14 @@ def _require_same_mesh(first, part, differ):
         one, other = first.results.mesh, part.results.mesh
     except ResultsError:  # -report_fields off
         one = other = None
-    part.results.__dict__.pop("mesh", None)  # one large mesh is held, not all
+    part.results.__dict__.pop("mesh", None)  # only one large mesh stays in memory
     if one is None or other is None:
         names = [Path(each.options.get("mesh_file", "none")).name for each in (first, part)]
         if names[0] != names[1]:
             differ("-mesh_file differs", *names)
         return
-    # The numbers of nodes follow the ranks; a file of the same name may have changed, and one mesh
-    # may lie in two places.
+    # The numbering of the nodes depends on the ranks. A file of the same name may have changed, and
+    # there may be two copies of one mesh.
     size = np.ptp(one.coordinates, axis=0).max()
     apart = (
         cKDTree(one.coordinates).query(other.coordinates)[0].max() if len(one.coordinates) else 0
@@ -184,8 +185,8 @@ def _require_same_mesh(first, part, differ):
 
 
 def owners_of(parts):
-    """For each part, which of its points are taken from it: all but those that an earlier part has
-    with the same numbers."""
+    """Returns for each part the points that the merge takes from it: all except those that an
+    earlier part has with the same numbers."""
     taken, said, seen = [], [], {}
     for part in parts:
         fresh = set()
@@ -209,8 +210,8 @@ def owners_of(parts):
 
 
 def _require_same_numbers(first, part, point):
-    """Eigenvalues of one point from two runs: each is known to its estimated error, and to
-    SAME_NUMBER at best."""
+    """Compares the eigenvalues of one point from two runs, within their estimated errors but at
+    best SAME_NUMBER."""
     (one, one_error, one_verdict), (other, other_error, other_verdict) = first.eigenvalues(
         point
     ), part.eigenvalues(point)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-2-Clause
-"""The motion after flutter, as the report shows it."""
+"""The motion after flutter, for the report."""
 import math
 
 import numpy as np
@@ -18,7 +18,7 @@ KINDS = {
     "modulated": "becomes modulated",
     "irregular": "becomes irregular",
 }
-# What the map of the contact nodes shows: column, title, unit, factor.
+# Columns of the map of the contact nodes: column, title, unit, factor.
 NODES = [
     ("open", "open", "% of the time", 100),
     ("stick", "sticking", "% of the time", 100),
@@ -30,7 +30,7 @@ NODES = [
 
 
 def sentences(results):
-    """One sentence on each run of regime.csv."""
+    """Returns one sentence on each run of regime.csv."""
     table = results.table("regime")
     return [] if table is None else [_sentence(results, run) for run in table.to_dict("records")]
 
@@ -70,8 +70,8 @@ def _known(value):
 
 
 def diagrams(results):
-    """Growth, spectrum and contact nodes of each run of regime.csv; an empty list where nothing was
-    followed."""
+    """Returns growth, spectrum and contact nodes of each run of regime.csv; an empty list
+    without such runs."""
     table = results.table("regime")
     if table is None:
         return []
@@ -98,7 +98,7 @@ def diagrams(results):
 
 
 def _periodic_sentences(motions, ways):
-    """What is said of the periodic motions that were looked for."""
+    """Returns sentences on the periodic motions."""
     if motions is None or motions.empty:
         return []
     first = motions.iloc[0]
@@ -119,8 +119,7 @@ def _periodic_sentences(motions, ways):
 
 
 def _motions(table):
-    """Periodic motions that were found: friction, largest kinetic energy, stable or not,
-    frequency."""
+    """Returns the periodic motions: friction, largest kinetic energy, stable or not, frequency."""
     if table is None:
         return []
     table = table[table["converged"] == 1]
@@ -146,8 +145,8 @@ def _number(value):
 
 
 def _line(table, x, y):
-    """Points of a line, at most MOST_POINTS: of neighbours the largest, so that peaks stay. What is
-    not positive has no place on a logarithmic axis."""
+    """Returns at most MOST_POINTS points of a line: the largest of each group of neighbours, so
+    that peaks stay. Values that are not positive have no place on a logarithmic axis."""
     if table is None or y not in table:
         return []
     xs, ys = table[x].to_numpy(float), table[y].to_numpy(float)
@@ -159,7 +158,8 @@ def _line(table, x, y):
 
 
 def _spectrum(table, run):
-    """By title: the whole, mass-weighted, and the velocity along the normal at each point."""
+    """Returns lines by title: the mass-weighted velocity of all nodes, and the normal velocity
+    at each point."""
     if table is None:
         return {}
     table = table[
@@ -173,7 +173,8 @@ def _spectrum(table, run):
 
 
 def _nodes(table):
-    """Places in the plane of the two longest directions, mm, and values by title and unit."""
+    """Returns the places in the plane of the two longest directions, in mm, and the values by
+    title and unit."""
     if table is None or table.empty:
         return None
     points = table[["x_m", "y_m", "z_m"]].to_numpy(float)

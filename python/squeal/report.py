@@ -85,7 +85,7 @@ def _script_element(text):
 
 
 def _libraries():
-    """The libraries and their licences; none of either if one is missing."""
+    """Returns the libraries and their licences; neither if a library is missing."""
     if any(not Path(program).exists() for program, _ in SCRIPTS.values()):
         return [], []
     programs = [Path(program).read_text() for program, _ in SCRIPTS.values()]
@@ -97,7 +97,7 @@ def _libraries():
 
 
 def _pictures(results):
-    """The static pictures of the folder, for a report without libraries."""
+    """Returns the pictures of the folder, for a report without libraries."""
     found = (
         sorted(results.folder.glob("stability*.png"))
         + sorted(results.folder.glob("mode*.png"))
@@ -121,7 +121,7 @@ def _bytes_of(path):
 
 
 def _after_flutter(results):
-    """What became of the flutter in words, for a report without libraries."""
+    """Returns sentences on the motion after flutter, for a report without libraries."""
     return "".join(f"<p>{html.escape(line)}</p>" for line in regime.sentences(results))
 
 
@@ -130,7 +130,7 @@ def _blob(array):
 
 
 def _columns(table):
-    """A table as lists by column, without numbers that JSON lacks."""
+    """Returns a table as lists by column, without the numbers that JSON lacks."""
     if table is None:
         return None
     return {
@@ -200,7 +200,7 @@ def _data(results, with_shapes):
 
 
 def _steady_forces(summary):
-    """Forces of steady sliding, a row for each point and interface."""
+    """Returns the forces of steady sliding, a row for each point and interface."""
     rows = []
     for point in summary.get("frictions", []):
         for name, found in (point.get("steady") or {}).get("interfaces", {}).items():
@@ -221,7 +221,7 @@ def _steady_forces(summary):
 
 
 def verdict(results):
-    """One sentence on the stability of the sweep."""
+    """Returns one sentence on the stability of the sweep."""
     table, points, critical = results.eigenvalues, results.stability_map, results.critical
     grows = table[table["grows"]]
     if len(points) == 0:
@@ -286,7 +286,7 @@ def verdict(results):
 
 
 def certificate(results):
-    """What the verdict rests on, in sentences."""
+    """Returns the grounds of the verdict, in sentences."""
     table, summary = results.eigenvalues, results.summary
     certified = int((table["certified"] == 1).sum()) if "certified" in table else 0
     lines = [
@@ -393,8 +393,8 @@ def _add_shapes(results, kept, data, blobs):
 
 
 def _contact(results, skin):
-    """Which nodes of the skin are contact nodes; pressure and gap, [point, 2, contact node]; and
-    the parameters of the points."""
+    """Returns which nodes of the skin are contact nodes, pressure and gap as [point, 2, contact
+    node], and the parameters of the points."""
     touching, fields, points = np.zeros(len(skin.nodes), bool), [], []
     for at in results.points.to_dict("records"):
         try:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-2-Clause
-"""The folder of a run: its tables, modes and fields."""
+"""The results of a run: tables, modes and fields."""
 import contextlib
 import dataclasses
 import functools
@@ -20,7 +20,7 @@ from squeal.tables import read_table
 # Without an estimate of its error, a growth rate below this fraction of |s| is taken as round-off.
 NOISE = 1e-6
 NUMBER = (float, int)
-# What is read of summary.json, as the program writes it: a name with ? may be missing, * stands for
+# The form of summary.json, as far as this package reads it: a name with ? may be missing, * means
 # all names.
 SUMMARY = {
     "version": str,
@@ -59,20 +59,20 @@ KINDS = {
 
 
 def open(folder):
-    """Returns the results in a folder. Raises ResultsError if they are missing, not complete, or
-    not as a run writes them."""
+    """Returns the results in a folder. Raises ResultsError if they are missing, incomplete or
+    damaged."""
     return Results(folder)
 
 
 class Results:
-    """The results of one run. Its tables are read, and checked, at once; results.h5 when it is
-    first asked for."""
+    """The results of one run. The constructor reads and checks its tables; results.h5 is opened
+    at the first use."""
 
     def __init__(self, folder):
         self.folder = Path(folder)
         self.summary = read_summary(self.folder / "summary.json")
         shapes = self.summary.get("tables", {})
-        # By the names of the tables: cells as texts, and with numbers
+        # Tables by name: cells as texts, and as numbers.
         self.texts, self._tables = (
             {},
             {},
@@ -84,7 +84,7 @@ class Results:
         require_agreement(self.folder, self.summary, self._tables)
 
     def _found(self):
-        """The names of the tables in the folder that a run may have written; other files are the
+        """Returns the names of the tables that a run may have written; other files are the
         user's."""
         try:
             paths = sorted(self.folder.glob("*.csv"))
@@ -99,7 +99,8 @@ class Results:
             raise ResultsError(f"{self.folder}: {error.strerror}") from None
 
     def _lists(self, path):
-        """Whether a table of one point is of this run: a file steady_notes.csv is the user's."""
+        """Returns whether a table of one point is of this run: a file steady_notes.csv is the
+        user's."""
         return path.stem in self.summary.get("tables", {}) or any(
             path.stem.endswith(f"_{point['friction']:g}")
             for point in self.summary.get("frictions", [])
@@ -109,15 +110,18 @@ class Results:
         return f"<squeal results in {self.folder}: {len(self.points)} points>"
 
     def table(self, name):
-        """A .csv file of the folder by its name without ending; None where the run wrote none."""
+        """Returns a .csv file of the folder by its name without ending; None if the run wrote
+        none."""
         table = self._tables.get(name)
         return None if table is None else table.copy()
 
     @functools.cached_property
     def eigenvalues(self):
-        """All eigenvalues of the band, with a column `s` of complex numbers, 1/s, and `grows`:
-        whether one counts as unstable, by its verdict or, where that is `uncertified`, since it
-        grows by more than round-off and -flutter_unstable_tolerance, as in the program.
+        """All eigenvalues of the band, with two more columns.
+
+        `s` is the complex eigenvalue in 1/s. `grows` is true if a mode counts as unstable: by
+        its verdict or, for `uncertified`, if it grows by more than round-off and
+        -flutter_unstable_tolerance, by the rule of the program.
         """
         table = self._needed("eigenvalues")
         s = table["growth_rate_1_per_s"] + 1j * table["angular_frequency_rad_per_s"]
@@ -145,23 +149,24 @@ class Results:
 
     @functools.cached_property
     def branches(self):
-        """The eigenvalues followed over the friction; None where they were not."""
+        """The eigenvalues followed over the friction; None if the run did not follow them."""
         return self.table("branches")
 
     @functools.cached_property
     def critical(self):
-        """The frictions at which stability changes; None where eigenvalues were not followed."""
+        """The frictions at which stability changes; None if the run did not follow eigenvalues."""
         return self.table("critical")
 
     @functools.cached_property
     def contact_path(self):
-        """Where contact nodes open and close between the points; None where that was not found."""
+        """The places where contact nodes separate and close between the points; None if not
+        computed."""
         return self.table("contact_path")
 
     @functools.cached_property
     def friction_work(self):
-        """What friction on each interface adds to the growth of the modes kept; None for matrices
-        from files."""
+        """The growth that the friction of each interface adds to the stored modes; None for
+        matrices from files."""
         return self.table("friction_work")
 
     @functools.cached_property
@@ -171,24 +176,23 @@ class Results:
 
     @functools.cached_property
     def free_modes(self):
-        """Free modes of the first active set; None where there are none, as with the direct
-        method."""
+        """Free modes of the first active set; None without them, as with the direct method."""
         return self.table("modes")
 
     def steady(self, **at):
-        """Gap, pressure, forces and state of each contact node at a point; None where steady
-        sliding was not found."""
+        """Returns gap, pressure, forces and state of each contact node at a point; None without
+        steady sliding."""
         return self.table("steady_" + self._point(at))
 
     @property
     def parts(self):
-        """The folders of the runs that were merged here (scripts/squeal-merge), which hold the
-        shapes of modes; none for a run."""
+        """The folders of the merged runs (scripts/squeal-merge), which hold the shapes of modes;
+        empty for a run."""
         return [self.folder / part["folder"] for part in self.summary.get("parts", [])]
 
     def kept_modes(self):
-        """The complex modes whose shapes were kept: parameters, number in the list of the point, s,
-        verdict."""
+        """Returns the complex modes whose shapes were stored: parameters, number at the point,
+        s, verdict."""
         rows = []
         with contextlib.nullcontext({}) if self.parts else self._fields() as file:
             for group in file.get("flutter", {}).values():
@@ -203,8 +207,8 @@ class Results:
         return kept.merge(self.eigenvalues, on=[*PARAMETERS, "mode"], how="left")
 
     def mode(self, number, **at):
-        """A complex mode whose shape was kept, by its number at a point. Raises ResultsError where
-        there is none."""
+        """Returns a complex mode whose shape was stored, by its number at a point. Raises
+        ResultsError if there is none."""
         with self._fields() as file:
             group = self._group(file, "flutter", at)
             name = f"mode_{number:03d}"
@@ -220,8 +224,8 @@ class Results:
         return Mode(self, values, number, complex(growth, angular), shape, work)
 
     def fastest_mode(self, **at):
-        """The fastest growing mode whose shape was kept, of the points with these values of
-        parameters; None where none was kept."""
+        """Returns the fastest growing mode whose shape was stored, of the points with these
+        values of parameters; None if there is none."""
         kept = _rows(self.kept_modes(), at)
         if kept.empty:
             return None
@@ -229,8 +233,8 @@ class Results:
         return self.mode(int(row["mode"]), **{name: row[name] for name in PARAMETERS})
 
     def fields(self, **at):
-        """The fields of steady sliding at a point by name, node by node: `displacement` in m,
-        `contact_pressure_gap`."""
+        """Returns the fields of steady sliding at a point by name, node by node: `displacement`
+        in m, `contact_pressure_gap`."""
         with self._fields() as file:
             group = self._group(file, "steady", at)
             if group is None:
@@ -276,7 +280,7 @@ class Results:
 
     @contextlib.contextmanager
     def _fields(self):
-        """results.h5. What is damaged in it shows where it is read."""
+        """Opens results.h5. Damage in it shows where it is read."""
         if self.parts:
             raise ResultsError(
                 f"{self.folder} is a merge: modes and fields are in its parts,"
@@ -305,8 +309,8 @@ class Results:
             raise ResultsError(f"{path} is damaged: {' '.join(str(error).split())}") from None
 
     def _point(self, at):
-        """The name of a point in the names of files, as the program makes it: friction, and what
-        else is not 1."""
+        """Returns the name of a point in names of files, by the rule of the program: friction,
+        and other parameters that are not 1."""
         values = self._only_point(at)
         return f"{values['friction']:g}" + "".join(
             f"_{name}_{values[name]:g}" for name in PARAMETERS[1:] if values[name] != 1
@@ -351,7 +355,7 @@ class Mode:
     number: int  # in the list of the point, from 1
     s: complex  # 1/s
     shape: np.ndarray  # [node, components]; rows of the matrices for a run without mesh
-    friction_work: np.ndarray  # what friction does in a cycle, [node, 3]; None without contact
+    friction_work: np.ndarray  # work of friction in a cycle, [node, 3]; None without contact
 
     @property
     def frequency(self):
@@ -391,7 +395,7 @@ def os_closing(file):
 
 
 def read_summary(path):
-    """What summary.json says, if it is the summary of a run or of a merge."""
+    """Returns the content of summary.json, of a run or of a merge."""
     try:
         summary = json.loads(read_text(path))
     except ResultsError:
@@ -415,7 +419,7 @@ def read_summary(path):
 
 
 def _departures(found, form, place):
-    """Where a value departs from a form, in words."""
+    """Yields in words each difference between a value and a form."""
     kinds = form if isinstance(form, tuple) else (form if isinstance(form, type) else type(form),)
     if not isinstance(found, kinds) or (isinstance(found, bool) and bool not in kinds):
         yield f"{f'`{place}`' if place else 'it'} is {KINDS[kinds[0]]}"

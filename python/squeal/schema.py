@@ -14,8 +14,8 @@ CLASSES = ("growing", "steady", "periodic", "modulated", "irregular", "nothing m
 
 @dataclasses.dataclass(frozen=True)
 class Column:
-    """A column and its allowed values. Columns with `read` are needed in tables of any version,
-    since programs here read them."""
+    """A column and its allowed values. Tables of all versions must have the columns with `read`,
+    which programs here read."""
 
     name: str  # with {} for a number: velocity_{}_x_m_per_s
     unit: str = ""
@@ -33,8 +33,7 @@ class Column:
 
 @dataclasses.dataclass(frozen=True)
 class Table:
-    """The columns of a table, and which cells depend on each other: `together` are empty, or full,
-    at once."""
+    """The columns of a table. The cells of columns in `together` are all empty or all full."""
 
     columns: tuple
     together: tuple = ()
@@ -62,7 +61,7 @@ def word(name, *words, **more):
 
 
 def numbers(text, **more):
-    """Columns by their names, of which the ends are their units."""
+    """Returns columns by their names, which end with their units."""
     return tuple(Column(name, unit_of(name), **more) for name in text.split())
 
 
@@ -332,8 +331,8 @@ TABLES = {
 
 
 def schema_of(name):
-    """The schema of a table by its name without ending; none for a table that no run writes.
-    modes_POINT is one of modes."""
+    """Returns the schema of a table by its name without ending, modes_POINT as modes; None for
+    tables that no run writes."""
     if name in TABLES:
         return TABLES[name]
     return TABLES.get(

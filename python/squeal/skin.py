@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-2-Clause
-"""The surface of a mesh, as the report draws it."""
+"""The surface of a mesh, for the report."""
 import math
 
 import numpy as np
@@ -20,8 +20,8 @@ MOST_TRIANGLES = 200_000  # which a processor without a graphics card still draw
 
 
 class Skin:
-    """The boundary of the bodies, in triangles on corner nodes; each body has nodes of its own. One
-    of more than MOST_TRIANGLES is drawn coarser, on some of its nodes."""
+    """The boundary of the bodies: triangles on corner nodes, with separate nodes for each body.
+    A boundary of more than MOST_TRIANGLES is coarsened."""
 
     def __init__(self, mesh):
         grid = grid_of(mesh)
@@ -30,12 +30,11 @@ class Skin:
         surfaces = {
             name: surface for name, surface in surfaces.items() if surface.GetNumberOfPolys()
         }
-        # Its triangles
         self.whole = sum(surface.GetNumberOfPolys() for surface in surfaces.values())
-        self.detail = 0.0  # m; what is smaller is not drawn
+        self.detail = 0.0  # m; smaller details are not drawn
         if self.whole > MOST_TRIANGLES:
             surfaces, self.detail = _coarser(surfaces)
-        # Bodies below that detail
+        # Bodies smaller than that detail.
         self.unseen = [name for name, surface in surfaces.items() if not surface.GetNumberOfPolys()]
         self.nodes, self.triangles, self.lines, self.bodies = [], [], [], []
         first, triangles, lines = 0, 0, 0
@@ -80,8 +79,8 @@ def _surface_of(grid, body):
 
 
 def _coarser(surfaces):
-    """Surfaces with a node for each cube of space that they pass through, and the side of the
-    cubes: flat faces keep nodes, since modes bend them."""
+    """Returns surfaces with one node for each cube of space that they pass through, and the side
+    of the cubes. Flat faces keep nodes, since modes bend them."""
     area = sum(
         np.linalg.norm(np.cross(*_edges_of(surface)), axis=1).sum() / 2
         for surface in surfaces.values()
@@ -110,7 +109,7 @@ def _clustered(surface, side):
     cubes.UseInputPointsOn()
     cubes.Update()
     coarse = cubes.GetOutput()
-    # It keeps points but not their arrays
+    # The filter keeps points but not their arrays.
     _, nearest = cKDTree(_places(surface)).query(_places(coarse))
     add_points(coarse, "node", _nodes(surface)[nearest])
     return coarse

@@ -18,9 +18,10 @@ LONGEST = 40  # of a cell in a message
 
 
 def read_table(path, shape=None):
-    """A table as its text has it, and with numbers in the place of their texts. `shape` holds its
-    columns and number of rows from the summary of the run. Raises ResultsError, which names the
-    file, the line, the column and the rule, where it breaks its schema.
+    """Returns a table with its cells as texts, and as numbers.
+
+    `shape` holds the columns and the number of rows, from the summary of the run. Raises
+    ResultsError, with file, line, column and rule, for a table that breaks its schema.
     """
     texts = _texts_of(path)
     _require_shape(path, texts, shape)
@@ -38,7 +39,7 @@ def read_table(path, shape=None):
 
 
 def _texts_of(path):
-    """The cells as texts. A field that is lost would be taken for an empty one."""
+    """Returns the cells as texts. A lost field would look like an empty one."""
     try:
         text = read_text(path)
     except FileNotFoundError:
@@ -98,8 +99,8 @@ def _require_columns(path, texts, table, whole):
 
 
 def _values(path, name, texts, column):
-    """The values of a column of cells that are as they may be. Most tables are short: plain lists
-    take a tenth of the time of Series."""
+    """Returns the values of a column and checks them. Most tables are short: plain lists take a
+    tenth of the time of Series."""
     cells = texts.tolist()
     blank = np.array([text == "" for text in cells], bool)
     if column.kind == "word":

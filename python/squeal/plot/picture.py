@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-2-Clause
-"""A mode rendered by VTK. VTK opens a window for it, so that a screen is needed, as that of
-xvfb."""
+"""Renders a mode by VTK, which needs a screen, such as that of xvfb, for its window."""
 import matplotlib
 import numpy as np
 import vtkmodules.vtkInteractionStyle  # noqa: F401
@@ -27,7 +26,7 @@ LARGEST = 0.05  # drawn displacement, in parts of the largest extent of the mesh
 
 def write_picture(grid, title, path):
     """Writes a PNG of a grid with the arrays `displacement`, of largest amplitude 1, and
-    `amplitude`, as Mode.grid() gives it."""
+    `amplitude`, as made by Mode.grid()."""
     low, high = np.reshape(grid.GetBounds(), (3, 2)).T
     grid.GetPointData().SetActiveVectors("displacement")
     grid.GetPointData().SetActiveScalars("amplitude")

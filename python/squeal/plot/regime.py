@@ -23,8 +23,8 @@ def rows_of(table, run):
 
 
 def plane_of(points):
-    """Two coordinates of points on a surface that is nearly flat: along its two longest
-    directions."""
+    """Returns the coordinates of the points along their two longest directions, for a nearly
+    flat surface, and the names of these axes."""
     centred = points - points.mean(axis=0)
     spread = np.ptp(centred, axis=0)
     axes = sorted(np.argsort(spread)[-2:])
@@ -81,7 +81,7 @@ def title_of(run):
 
 
 def tables_of(results):
-    """The tables that are drawn, by the ends of their names."""
+    """Returns the tables that are drawn, by the ends of their names."""
     folder = results.folder
     if results.table("regime") is None:
         raise ResultsError(
@@ -97,7 +97,7 @@ def tables_of(results):
 
 
 def draw(results, start=None):
-    """The figure of the first run that has measured anything, or of the run with this start."""
+    """Draws the first run that has measured anything, or the run with this start."""
     tables = tables_of(results)
     run = run_asked(tables[""], start)
     if run is None:

@@ -30,8 +30,8 @@ LABELS = {
 
 
 def slices(table, names):
-    """For each combination of values of the parameters `names`: a suffix for file names, a title,
-    and the values."""
+    """Returns for each combination of values of the parameters `names` a suffix for file names,
+    a title, and the values."""
     if not names:
         return [("", "", {})]
     return [
@@ -45,7 +45,7 @@ def slices(table, names):
 
 
 def at(table, values):
-    """The rows of a table with these values of parameters."""
+    """Returns the rows of a table with these values of parameters."""
     selected = np.ones(len(table), bool)
     for name, value in values.items():
         selected &= table[name] == value
@@ -53,17 +53,16 @@ def at(table, values):
 
 
 def pieces(branches):
-    """The parts of each branch with one active set, as rows by ascending friction, and the ends of
-    the active sets in order."""
+    """Returns the parts of each branch with one active set, by ascending friction, and the ends
+    of the active sets in order."""
     lines = [rows.sort_values("friction") for _, rows in branches.groupby(["active_set", "branch"])]
-    # Set 0 stands for all sets that are passed through between points.
+    # Set 0 means all sets between two points.
     friction = branches[branches["active_set"] != 0].groupby("active_set")["friction"]
     return lines, sorted(zip(friction.min(), friction.max()))
 
 
 def damping_percent(table):
-    """The damping ratio −Re s/|s| in %, of rows with a growth rate and a frequency; negative where
-    they grow."""
+    """Returns the damping ratio −Re s/|s| of each row in %; negative for growing modes."""
     growth, omega = np.asarray(table["growth_rate_1_per_s"], float), 2 * np.pi * np.asarray(
         table["frequency_hz"], float
     )
@@ -72,8 +71,8 @@ def damping_percent(table):
 
 
 def draw_followed(upper, lower, bottom, scale, followed):
-    """Lines along the branches, their critical frictions, and the intervals of the active sets in
-    turn."""
+    """Draws lines along the branches, the critical frictions, and shades every second active
+    set."""
     branches, critical = followed
     lines, ends = pieces(branches[branches["in_band"] > 0])
     for line in lines:
@@ -100,8 +99,8 @@ def draw_followed(upper, lower, bottom, scale, followed):
 
 
 def draw_modes(table, name, title, followed=None):
-    """Frequency, growth rate and damping ratio of every mode against the parameter `name`, with its
-    branches and critical frictions."""
+    """Draws frequency, growth rate and damping ratio of every mode against the parameter `name`,
+    with branches and critical frictions."""
     table = {column: values.to_numpy() for column, values in table.items()}
     abscissa, growth = table[name], table["growth_rate_1_per_s"]
     grows, open_ = table["grows"], table["verdict"] == "undecided"
@@ -177,7 +176,7 @@ def draw_modes(table, name, title, followed=None):
 
 
 def calm_label(verdicts):
-    """What those eigenvalues are that neither grow nor are undecided."""
+    """Returns a label for the eigenvalues that neither grow nor are undecided."""
     words = [word for word in ("stable", "neutral", "uncertified") if word in verdicts]
     return " or ".join(words) or "stable"
 
@@ -199,8 +198,8 @@ def logarithmic(name, values):
 
 
 def scale_axis(axis, name, values):
-    """Logarithmic where the values call for it, and then with ticks at them: few powers of ten lie
-    within a sweep."""
+    """Makes an axis logarithmic if its values span a decade, with ticks at the values: a sweep
+    has few powers of ten."""
     if logarithmic(name, values):
         axis.axes.set(**{f"{axis.axis_name}scale": "log"})
         axis.set_ticks(np.unique(values), [f"{value:g}" for value in np.unique(values)])
@@ -208,8 +207,9 @@ def scale_axis(axis, name, values):
 
 
 def cell_borders(name, values):
-    """Of the cells about the values of an axis, half-way between them."""
-    if len(values) == 1:  # of a grid of which parts are missing
+    """Returns the borders of the cells around the values of an axis, half-way between the
+    values."""
+    if len(values) == 1:  # parts of the grid are missing
         return values[0] + np.array([-0.5, 0.5]) * (abs(values[0]) or 1)
     places = np.log(values) if logarithmic(name, values) else values
     middle = (places[1:] + places[:-1]) / 2
@@ -218,15 +218,15 @@ def cell_borders(name, values):
 
 
 def axes_of_map(table, swept):
-    """The two swept parameters that make the map, across and up: friction goes up, the one with
-    most values across."""
+    """Returns the two swept parameters of the map, across and up: friction goes up, the
+    parameter with the most values across."""
     up = swept[0]
     across = max(swept[1:], key=lambda name: len(np.unique(table[name])))
     return across, up
 
 
 def grid_of(table, across, up, name):
-    """Values of column `name`, [up][across]; NaN where there are none."""
+    """Returns the values of column `name` as [up][across]; NaN where there are none."""
     x, x_index = np.unique(table[across], return_inverse=True)
     y, y_index = np.unique(table[up], return_inverse=True)
     grid = np.full((len(y), len(x)), np.nan)
@@ -235,8 +235,8 @@ def grid_of(table, across, up, name):
 
 
 def critical(y, unstable_modes):
-    """Last stable and first unstable value of one column of the map; None if it is stable all the
-    way, or nowhere."""
+    """Returns the last stable and the first unstable value of one column of the map; None if the
+    column is stable or unstable all the way."""
     known = ~np.isnan(unstable_modes)
     grows = known & (np.nan_to_num(unstable_modes) > 0)
     if not grows.any():
