@@ -1,10 +1,9 @@
 #!/usr/bin/python3 -B
 # SPDX-License-Identifier: BSD-2-Clause
-"""report_picture.py REPORT_DIR OUT.png: a picture of report.html there, as Chromium shows it with
-its fastest growing mode.
+"""report_picture.py REPORT_DIR OUT.png: takes a picture of report.html in Chromium.
 
-docs/report.png is made of results of options/disc_brake.yaml with it. Takes Debian's packages
-chromium-driver and python3-selenium.
+The report shows its fastest growing mode. docs/report.png shows the report of the case disc_brake.
+Needs Debian's packages chromium-driver and python3-selenium.
 """
 import base64
 import io
@@ -18,12 +17,12 @@ from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.support.ui import WebDriverWait
 
 WIDTH, HEIGHT = 1280, 657
-FEWEST_COLOURS = 100  # in the view of the mode; an empty one has its ground
+FEWEST_COLOURS = 100  # in the view of the mode; an empty view has few
 
 
 def browser(webgl=True, **log):
-    """Chromium without a screen, which draws in software, or has no WebGL, and does not move what
-    it shows."""
+    """Starts Chromium without a screen, with WebGL in software or without WebGL, and without
+    animation."""
     options = webdriver.ChromeOptions()
     drawing = (
         "use-gl=angle",
