@@ -7,18 +7,18 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "analysis/analysis.hpp"
-#include "analysis/dry_run.hpp"
-#include "matrices/write.hpp"
-#include "options/options.hpp"
-#include "options/settings.hpp"
-#include "petsc/memory.hpp"
-#include "petsc/termination.hpp"
-#include "petsc/text.hpp"
-#include "report/report.hpp"
-#include "session/events.hpp"
-#include "session/session.hpp"
-#include "session/stages.hpp"
+#include "base/options/options.hpp"
+#include "base/options/settings.hpp"
+#include "base/session/events.hpp"
+#include "base/session/session.hpp"
+#include "base/session/stages.hpp"
+#include "base/system/memory.hpp"
+#include "base/system/termination.hpp"
+#include "base/system/text.hpp"
+#include "problem/matrices/write.hpp"
+#include "run/analysis/analysis.hpp"
+#include "run/analysis/dry_run.hpp"
+#include "run/report/report.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <string>
 
-#include "session/session.hpp"
+#include "base/session/session.hpp"
 
 namespace {
 

@@ -1,8 +1,8 @@
 #pragma once
 /// Anti-plane waves u_z(x, y) exp(ikx + st) in the two layers of two_layers.hpp, across the
 /// direction of sliding: friction damps them, as its force turns with the relative velocity.
+#include "eigen/pencil/complex_modes.hpp"
 #include "exact/two_layers.hpp"
-#include "pencil/complex_modes.hpp"
 
 namespace squeal::exact::antiplane {
 

@@ -1,8 +1,8 @@
 #pragma once
 /// The two layers of two_layers.hpp with the full terms of moving matter: the disc's matter travels
 /// along +x at W = 0.05, and D u = W ∂u/∂x.
+#include "eigen/pencil/complex_modes.hpp"
 #include "exact/two_layers.hpp"
-#include "pencil/complex_modes.hpp"
 
 namespace squeal::exact::moving_layers {
 

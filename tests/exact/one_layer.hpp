@@ -1,8 +1,8 @@
 #pragma once
 /// One elastic layer −h ≤ y ≤ 0, clamped at y = −h, under a rigid plate at y = 0 that slides along
 /// +x: Moirot and Nguyen (2000), section 5. E = 1, ν = 0.3, ρ = 1, h = 1, Lx = 3, plane strain.
+#include "eigen/pencil/complex_modes.hpp"
 #include "exact/waves.hpp"
-#include "pencil/complex_modes.hpp"
 
 namespace squeal::exact::one_layer {
 

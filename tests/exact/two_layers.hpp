@@ -3,8 +3,8 @@
 /// ≤ 0, clamped at y = −1, whose matter moves along +x, and the pad, 0 ≤ y ≤ 0.6, held at y = 0.6.
 /// In the tables the speed enters the direction of friction alone (approximation A); the
 /// characteristic equation holds for moving matter and for friction that follows the speed as well.
+#include "eigen/pencil/complex_modes.hpp"
 #include "exact/waves.hpp"
-#include "pencil/complex_modes.hpp"
 
 namespace squeal::exact::two_layers {
 

@@ -14,7 +14,7 @@
 #include <complex>
 #include <utility>
 
-#include "pencil/complex_modes.hpp"
+#include "eigen/pencil/complex_modes.hpp"
 
 namespace squeal::exact {
 

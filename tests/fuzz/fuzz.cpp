@@ -20,9 +20,9 @@
 #include <new>
 #include <sstream>
 
+#include "base/petsc/check.hpp"
+#include "base/session/session.hpp"
 #include "fuzz/mutator.hpp"
-#include "petsc/check.hpp"
-#include "session/session.hpp"
 
 #if defined(__SANITIZE_ADDRESS__)
 // An allocation of more than this is by a header's word alone: no input is longer than some

@@ -1,7 +1,7 @@
 #include <hdf5.h>
 
 #include "fuzz/fuzz.hpp"
-#include "matrices/read.hpp"
+#include "problem/matrices/read.hpp"
 
 namespace squeal::fuzz {
 namespace {

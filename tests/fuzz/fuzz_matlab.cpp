@@ -1,7 +1,7 @@
 #include <matio.h>
 
 #include "fuzz/fuzz.hpp"
-#include "matrices/read.hpp"
+#include "problem/matrices/read.hpp"
 #include "support/matlab_bytes.hpp"
 
 namespace squeal::fuzz {

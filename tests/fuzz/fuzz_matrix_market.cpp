@@ -1,5 +1,5 @@
 #include "fuzz/fuzz.hpp"
-#include "matrices/read.hpp"
+#include "problem/matrices/read.hpp"
 
 namespace squeal::fuzz {
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "mesh/gmsh_model.hpp"
+#include "model/mesh/gmsh_model.hpp"
 #include "support/mesh_text.hpp"
 
 namespace squeal::fuzz {

@@ -1,5 +1,5 @@
 #include "fuzz/fuzz.hpp"
-#include "mesh/gmsh_model.hpp"
+#include "model/mesh/gmsh_model.hpp"
 #include "support/mesh_text.hpp"
 
 namespace squeal::fuzz {

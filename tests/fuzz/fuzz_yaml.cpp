@@ -1,7 +1,7 @@
+#include "base/options/options.hpp"
+#include "base/options/settings.hpp"
+#include "base/petsc/check.hpp"
 #include "fuzz/fuzz.hpp"
-#include "options/options.hpp"
-#include "options/settings.hpp"
-#include "petsc/check.hpp"
 
 namespace squeal::fuzz {
 

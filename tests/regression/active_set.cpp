@@ -276,7 +276,7 @@ TEST(ActiveSet, SameOnOneAndTwoRanks) {
       EXPECT_EQ(one[i].at(key), two[i].at(key)) << key << " of set " << i + 1;
 }
 
-// tests/unit/steady/contact_path.cpp has the frictions by dense algebra.
+// tests/unit/steady/condensed/contact_path.cpp has the frictions by dense algebra.
 TEST(ActiveSet, PathOfTheContact) {
   for (int ranks : {1, 2}) {
     const ProgramRun& run = sweepOn(ranks);

@@ -4,8 +4,8 @@
 #include <numeric>
 #include <regex>
 
-#include "options/options.hpp"
-#include "session/session.hpp"
+#include "base/options/options.hpp"
+#include "base/session/session.hpp"
 #include "support/ranks.hpp"
 #include "support/worst.hpp"
 

@@ -1,8 +1,8 @@
 // The speed enters by the product of -flutter_speed and the motions in the options alone.
 #include <gtest/gtest.h>
 
-#include "pencil/complex_modes.hpp"
-#include "petsc/text.hpp"
+#include "base/system/text.hpp"
+#include "eigen/pencil/complex_modes.hpp"
 #include "support/case.hpp"
 #include "support/spectrum.hpp"
 #include "support/worst.hpp"

@@ -1,12 +1,12 @@
 // A point of a sweep over four parameters is what a run with these values in the options gives.
 #include <gtest/gtest.h>
 
-#include "pencil/complex_modes.hpp"
-#include "petsc/text.hpp"
+#include "base/system/text.hpp"
+#include "eigen/pencil/complex_modes.hpp"
+#include "eigen/sweep/parameters.hpp"
+#include "eigen/sweep/sweep.hpp"
 #include "support/case.hpp"
 #include "support/spectrum.hpp"
-#include "sweep/parameters.hpp"
-#include "sweep/sweep.hpp"
 
 namespace squeal::test {
 namespace {

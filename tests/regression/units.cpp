@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "petsc/text.hpp"
+#include "base/system/text.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
 #include "support/spectrum.hpp"

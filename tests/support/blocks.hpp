@@ -2,10 +2,10 @@
 /// Tall matrices by this rank's rows, one column after the other by PETSc's vectors.
 #include <algorithm>
 
-#include "linalg/block.hpp"
-#include "petsc/arrays.hpp"
-#include "petsc/check.hpp"
-#include "petsc/owned.hpp"
+#include "algebra/linalg/block.hpp"
+#include "base/petsc/arrays.hpp"
+#include "base/petsc/check.hpp"
+#include "base/petsc/owned.hpp"
 #include "support/case.hpp"
 #include "support/dense.hpp"
 

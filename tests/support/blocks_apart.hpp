@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "mortar/basis.hpp"
+#include "model/mortar/basis.hpp"
 #include "support/dense.hpp"
 #include "support/model.hpp"
 

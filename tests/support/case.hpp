@@ -7,9 +7,9 @@
 #include <cstdio>
 #include <string>
 
-#include "analysis/analysis.hpp"
-#include "options/settings.hpp"
-#include "petsc/check.hpp"
+#include "base/options/settings.hpp"
+#include "base/petsc/check.hpp"
+#include "run/analysis/analysis.hpp"
 
 namespace squeal::test {
 

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "pencil/pencil.hpp"
-#include "petsc/check.hpp"
-#include "petsc/owned.hpp"
+#include "base/petsc/check.hpp"
+#include "base/petsc/owned.hpp"
+#include "eigen/pencil/pencil.hpp"
 #include "support/spectrum.hpp"
 
 namespace squeal::test {

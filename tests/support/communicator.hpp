@@ -2,7 +2,7 @@
 /// The place of a process among all.
 #include <petscsys.h>
 
-#include "petsc/check.hpp"
+#include "base/petsc/check.hpp"
 
 namespace squeal::test {
 

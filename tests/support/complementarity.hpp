@@ -6,11 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/analysis.hpp"
-#include "contact/coupled.hpp"
-#include "elasticity/elasticity.hpp"
-#include "petsc/check.hpp"
-#include "petsc/owned.hpp"
+#include "base/petsc/check.hpp"
+#include "base/petsc/owned.hpp"
+#include "model/contact/coupled.hpp"
+#include "model/elasticity/elasticity.hpp"
+#include "run/analysis/analysis.hpp"
 
 namespace squeal::test {
 

@@ -3,8 +3,8 @@
 /// stiffness and the laws of contact.
 #include <vector>
 
-#include "analysis/analysis.hpp"
-#include "steady/steady.hpp"
+#include "run/analysis/analysis.hpp"
+#include "steady/steady/steady.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
 #include "support/worst.hpp"

@@ -2,9 +2,9 @@
 /// The change of variables that carries contact, with all gaps unknown and all nodes sliding.
 #include <vector>
 
-#include "contact/contact.hpp"
-#include "contact/coupled.hpp"
-#include "mesh/mesh.hpp"
+#include "model/contact/contact.hpp"
+#include "model/contact/coupled.hpp"
+#include "model/mesh/mesh.hpp"
 #include "support/gathered.hpp"
 #include "support/model.hpp"
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "coupling/coupling.hpp"
-#include "elasticity/face.hpp"
-#include "elasticity/shape.hpp"
+#include "model/coupling/coupling.hpp"
+#include "model/elasticity/face.hpp"
+#include "model/elasticity/shape.hpp"
 #include "support/blocks_apart.hpp"
 #include "support/model.hpp"
 

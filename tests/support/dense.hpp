@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "linalg/dense.hpp"
+#include "algebra/linalg/dense.hpp"
 #include "support/worst.hpp"
 
 namespace squeal::test {

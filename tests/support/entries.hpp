@@ -2,8 +2,8 @@
 /// Vectors as lists of all their entries, the same on every rank.
 #include <vector>
 
-#include "petsc/check.hpp"
-#include "petsc/owned.hpp"
+#include "base/petsc/check.hpp"
+#include "base/petsc/owned.hpp"
 #include "support/dense.hpp"
 #include "support/model.hpp"
 

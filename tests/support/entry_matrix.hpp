@@ -3,8 +3,8 @@
 #include <tuple>
 #include <vector>
 
-#include "petsc/check.hpp"
-#include "petsc/owned.hpp"
+#include "base/petsc/check.hpp"
+#include "base/petsc/owned.hpp"
 
 namespace squeal::test {
 

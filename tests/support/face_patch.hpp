@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "mortar/basis.hpp"
-#include "mortar/face.hpp"
+#include "model/mortar/basis.hpp"
+#include "model/mortar/face.hpp"
 #include "support/dense.hpp"
 
 namespace squeal::test {

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "linalg/quadratic.hpp"
+#include "algebra/linalg/quadratic.hpp"
+#include "eigen/tracking/family.hpp"
+#include "eigen/tracking/track.hpp"
 #include "support/dense.hpp"
-#include "tracking/family.hpp"
-#include "tracking/track.hpp"
 
 namespace squeal::test {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "petsc/text.hpp"
+#include "base/system/text.hpp"
 
 namespace squeal::test {
 

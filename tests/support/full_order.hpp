@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "pencil/complex_modes.hpp"
+#include "eigen/pencil/complex_modes.hpp"
 #include "support/case.hpp"
 #include "support/spectrum.hpp"
 #include "support/worst.hpp"

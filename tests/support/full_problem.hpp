@@ -1,7 +1,7 @@
 #pragma once
 /// Small problems of finite elements as dense ones with all unknowns.
-#include "linalg/quadratic.hpp"
-#include "pencil/pencil.hpp"
+#include "algebra/linalg/quadratic.hpp"
+#include "eigen/pencil/pencil.hpp"
 #include "support/model.hpp"
 
 namespace squeal::test {

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <vector>
 
-#include "petsc/check.hpp"
+#include "base/petsc/check.hpp"
 
 namespace squeal::test {
 

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "petsc/check.hpp"
-#include "petsc/owned.hpp"
+#include "base/petsc/check.hpp"
+#include "base/petsc/owned.hpp"
 
 namespace squeal::test {
 

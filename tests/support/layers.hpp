@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "contact/coupled.hpp"
-#include "modes/modes.hpp"
+#include "eigen/modes/modes.hpp"
+#include "model/contact/coupled.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
 

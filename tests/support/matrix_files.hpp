@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "matrices/read.hpp"
-#include "matrixfile/formats.hpp"
+#include "problem/matrices/read.hpp"
+#include "problem/matrixfile/formats.hpp"
 #include "support/model.hpp"
 
 namespace squeal::test {

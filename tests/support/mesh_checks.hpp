@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "elasticity/face.hpp"
-#include "elasticity/shape.hpp"
-#include "mesh/mesh.hpp"
+#include "model/elasticity/face.hpp"
+#include "model/elasticity/shape.hpp"
+#include "model/mesh/mesh.hpp"
 #include "support/case.hpp"
 #include "support/gathered.hpp"
 

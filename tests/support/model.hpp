@@ -7,19 +7,19 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/analysis.hpp"
-#include "analysis/mesh_route.hpp"
-#include "contact/contact.hpp"
-#include "contact/coupled.hpp"
-#include "elasticity/elasticity.hpp"
-#include "linalg/dense.hpp"
-#include "mesh/mesh.hpp"
-#include "mesh/read.hpp"
-#include "mesh/vector.hpp"
-#include "options/settings.hpp"
-#include "petsc/check.hpp"
-#include "petsc/owned.hpp"
-#include "ties/ties.hpp"
+#include "algebra/linalg/dense.hpp"
+#include "base/options/settings.hpp"
+#include "base/petsc/check.hpp"
+#include "base/petsc/owned.hpp"
+#include "model/contact/contact.hpp"
+#include "model/contact/coupled.hpp"
+#include "model/elasticity/elasticity.hpp"
+#include "model/mesh/mesh.hpp"
+#include "model/mesh/read.hpp"
+#include "model/mesh/vector.hpp"
+#include "model/ties/ties.hpp"
+#include "run/analysis/analysis.hpp"
+#include "run/analysis/mesh_route.hpp"
 
 namespace squeal::test {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "linalg/dense.hpp"
+#include "algebra/linalg/dense.hpp"
 #include "support/dense.hpp"
 
 namespace squeal::test {

@@ -2,7 +2,7 @@
 /// A folder of results, as a run replaces it.
 #include <filesystem>
 
-#include "output/folder.hpp"
+#include "base/output/folder.hpp"
 #include "support/report_files.hpp"
 #include "support/shared_files.hpp"
 

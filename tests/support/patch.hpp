@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "elasticity/elasticity.hpp"
-#include "elasticity/shape.hpp"
-#include "petsc/text.hpp"
+#include "base/system/text.hpp"
+#include "model/elasticity/elasticity.hpp"
+#include "model/elasticity/shape.hpp"
 #include "support/model.hpp"
 
 namespace squeal::test::patch {

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "petsc/text.hpp"
+#include "base/system/text.hpp"
 
 namespace squeal::test {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "linalg/quadratic.hpp"
+#include "algebra/linalg/quadratic.hpp"
 #include "support/dense.hpp"
 #include "support/worst.hpp"
 

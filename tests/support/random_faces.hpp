@@ -5,8 +5,8 @@
 #include <random>
 #include <vector>
 
-#include "elasticity/shape.hpp"
-#include "mortar/face.hpp"
+#include "model/elasticity/shape.hpp"
+#include "model/mortar/face.hpp"
 
 namespace squeal::test {
 

@@ -7,8 +7,8 @@
 #include <complex>
 #include <vector>
 
-#include "march/model.hpp"
-#include "march/scheme.hpp"
+#include "regime/march/model.hpp"
+#include "regime/march/scheme.hpp"
 
 namespace squeal::test {
 

@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "mesh/mesh.hpp"
-#include "petsc/check.hpp"
+#include "base/petsc/check.hpp"
+#include "model/mesh/mesh.hpp"
 #include "support/communicator.hpp"
 #include "support/model.hpp"
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "pencil/complex_modes.hpp"
-#include "petsc/text.hpp"
+#include "base/system/text.hpp"
+#include "eigen/pencil/complex_modes.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
 #include "support/spectrum.hpp"

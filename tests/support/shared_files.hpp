@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "petsc/check.hpp"
+#include "base/petsc/check.hpp"
 #include "support/communicator.hpp"
 #include "support/files.hpp"
 #include "support/report_files.hpp"

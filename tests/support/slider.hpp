@@ -3,7 +3,7 @@
 /// change its length; friction follows the speed.
 #include <string>
 
-#include "petsc/text.hpp"
+#include "base/system/text.hpp"
 #include "support/model.hpp"
 
 namespace squeal::test::slider {

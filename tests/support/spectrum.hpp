@@ -8,9 +8,9 @@
 #include <tuple>
 #include <vector>
 
-#include "analysis/analysis.hpp"
-#include "modes/modes.hpp"
-#include "pencil/complex_modes.hpp"
+#include "eigen/modes/modes.hpp"
+#include "eigen/pencil/complex_modes.hpp"
+#include "run/analysis/analysis.hpp"
 #include "support/case.hpp"
 #include "support/worst.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "petsc/text.hpp"
+#include "base/system/text.hpp"
 #include "support/model.hpp"
 
 namespace squeal::test::steel_brake {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "analysis/analysis.hpp"
-#include "steady/steady.hpp"
+#include "run/analysis/analysis.hpp"
+#include "steady/steady/steady.hpp"
 #include "support/case.hpp"
 #include "support/worst.hpp"
 

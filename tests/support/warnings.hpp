@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "petsc/check.hpp"
+#include "base/petsc/check.hpp"
 
 namespace squeal::test {
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "contact/coupled.hpp"
+#include "eigen/modes/modes.hpp"
 #include "exact/annulus.hpp"
-#include "modes/modes.hpp"
+#include "model/contact/coupled.hpp"
 #include "support/blocks_apart.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"

@@ -2,8 +2,8 @@
 // solve; structural damping against closed forms; the speed sweep.
 #include <gtest/gtest.h>
 
-#include "pencil/complex_modes.hpp"
-#include "petsc/text.hpp"
+#include "base/system/text.hpp"
+#include "eigen/pencil/complex_modes.hpp"
 #include "support/case.hpp"
 #include "support/spectrum.hpp"
 #include "support/worst.hpp"

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "march/law.hpp"
+#include "regime/march/law.hpp"
 #include "support/regime_models.hpp"
 
 namespace squeal {

@@ -2,8 +2,8 @@
 // waves.
 #include <gtest/gtest.h>
 
+#include "eigen/pencil/complex_modes.hpp"
 #include "exact/one_layer.hpp"
-#include "pencil/complex_modes.hpp"
 #include "support/case.hpp"
 #include "support/roots.hpp"
 #include "support/spectrum.hpp"

@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "direct/direct.hpp"
+#include "eigen/direct/direct.hpp"
+#include "eigen/pencil/complex_modes.hpp"
+#include "eigen/pencil/pencil.hpp"
 #include "exact/minimal_models.hpp"
-#include "pencil/complex_modes.hpp"
-#include "pencil/pencil.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
 #include "support/spectrum.hpp"

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "condensed/condensed_problem.hpp"
-#include "contact/coupled.hpp"
-#include "steady/steady.hpp"
+#include "model/contact/coupled.hpp"
+#include "steady/condensed/condensed_problem.hpp"
+#include "steady/steady/steady.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
 #include "support/worst.hpp"

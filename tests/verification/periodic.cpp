@@ -4,17 +4,17 @@
 
 #include <cmath>
 
-#include "periodic/branch.hpp"
-#include "periodic/section.hpp"
-#include "periodic/shooting.hpp"
+#include "regime/cycles/branch.hpp"
+#include "regime/cycles/section.hpp"
+#include "regime/cycles/shooting.hpp"
 #include "support/regime_models.hpp"
 
 namespace squeal {
 namespace {
 
-using periodic::Found;
-using periodic::Orbit;
-using periodic::Period;
+using cycles::Found;
+using cycles::Orbit;
+using cycles::Period;
 using test::massOnBelt;
 
 constexpr double flutter = 2 * M_PI / 1.422701;  // period of the unstable mode at friction 0.9
@@ -24,15 +24,15 @@ constexpr double tolerance = 1e-9;
 Orbit guessOf(const march::ReducedModel& model, int steps) {
   const double h = flutter / 1024;
   march::Massless scheme(model, march::handedAt({{0.05, 0.02}, {0, 0}, {0, 0}, {0, 0}}, h), h);
-  periodic::Section section(model, {1, -1}, flutter);
+  cycles::Section section(model, {1, -1}, flutter);
   while (scheme.state().time < 60) scheme.step(), section.look(scheme);
-  Orbit orbit = periodic::firstOrbits(section.take(), h, steps).at(0);
+  Orbit orbit = cycles::firstOrbits(section.take(), h, steps).at(0);
   orbit.friction = 0.9;
   return orbit;
 }
 
 Found shot(Period& period) {
-  return periodic::shoot(period, guessOf(period.model(), period.steps()), tolerance);
+  return cycles::shoot(period, guessOf(period.model(), period.steps()), tolerance);
 }
 
 Complex product(const std::vector<Complex>& values) {
@@ -119,8 +119,8 @@ TEST(Periodic, BranchEndsAtTheOnsetOfFlutter) {
   const Found found = shot(period);
   ASSERT_TRUE(found.converged);
   std::vector<Orbit> motions;
-  const auto way = periodic::follow(period, found, false, {0.1, 2, 40, tolerance}, {},
-                                    [&](const Found& motion) { motions.push_back(motion.orbit); });
+  const auto way = cycles::follow(period, found, false, {0.1, 2, 40, tolerance}, {},
+                                  [&](const Found& motion) { motions.push_back(motion.orbit); });
   EXPECT_EQ(way.reason, "the motion touches no limit of the contact");
   EXPECT_NEAR(way.end, 0.75375, 1e-4);
   EXPECT_TRUE(way.folds.empty());
@@ -133,7 +133,7 @@ TEST(Periodic, BranchEndsAtTheOnsetOfFlutter) {
   Period there(PETSC_COMM_SELF, model, motions[1].friction, 1024);
   Orbit guess = guessOf(model, 1024);
   guess.friction = motions[1].friction;
-  const Found same = periodic::shoot(there, guess, tolerance);
+  const Found same = cycles::shoot(there, guess, tolerance);
   ASSERT_TRUE(same.converged);
   // Both begin where the phase condition puts them; the step makes a period depend on that.
   EXPECT_NEAR(same.orbit.period, motions[1].period, 1e-4);

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "petsc/text.hpp"
+#include "base/system/text.hpp"
 #include "support/case.hpp"
 
 namespace squeal {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <vector>
 
-#include "linalg/symmetric.hpp"
-#include "march/model.hpp"
-#include "march/scheme.hpp"
+#include "algebra/linalg/symmetric.hpp"
+#include "regime/march/model.hpp"
+#include "regime/march/scheme.hpp"
 #include "support/regime_models.hpp"
 
 namespace squeal {

@@ -4,11 +4,11 @@
 
 #include <cmath>
 
-#include "contact/coupled.hpp"
-#include "contact/response.hpp"
-#include "options/settings.hpp"
-#include "petsc/text.hpp"
-#include "steady/steady.hpp"
+#include "base/options/settings.hpp"
+#include "base/system/text.hpp"
+#include "model/contact/coupled.hpp"
+#include "model/contact/response.hpp"
+#include "steady/steady/steady.hpp"
 #include "support/case.hpp"
 #include "support/communicator.hpp"
 #include "support/contact.hpp"

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <map>
 
-#include "contact/coupled.hpp"
-#include "direct/nearest.hpp"
+#include "base/system/text.hpp"
+#include "eigen/direct/nearest.hpp"
+#include "eigen/pencil/complex_modes.hpp"
 #include "exact/annulus.hpp"
-#include "flutter/terms.hpp"
-#include "mesh/mesh.hpp"
-#include "pencil/complex_modes.hpp"
-#include "petsc/text.hpp"
+#include "model/contact/coupled.hpp"
+#include "model/mesh/mesh.hpp"
+#include "problem/terms/terms.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
 #include "support/spectrum.hpp"
@@ -133,7 +133,7 @@ Waves computed(int cells, double omega) {
   test::setOptions(turning(cells, omega));
   const auto model = test::buildModel();
   const contact::CoupledSystem system(model.bodies, model.contact, {});
-  const auto pencil = flutter::affineTerms(model.contact, system);
+  const auto pencil = terms::affineTerms(model.contact, system);
   const auto solver = direct::nearestSolver(pencil, {0, 1});
   const auto found = solver->solve(40);
   EXPECT_GT(found.reached, top);

@@ -3,7 +3,7 @@
 
 #include "exact/one_layer.hpp"
 #include "exact/two_layers.hpp"
-#include "steady/steady.hpp"
+#include "steady/steady/steady.hpp"
 #include "support/case.hpp"
 #include "support/contact.hpp"
 #include "support/uniform.hpp"

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "contact/coupled.hpp"
-#include "steady/steady.hpp"
+#include "model/contact/coupled.hpp"
+#include "steady/steady/steady.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
 #include "support/steel_brake.hpp"

@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "contact/coupled.hpp"
+#include "base/system/text.hpp"
+#include "eigen/modes/modes.hpp"
 #include "exact/beam.hpp"
-#include "modes/modes.hpp"
-#include "petsc/text.hpp"
+#include "model/contact/coupled.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
 

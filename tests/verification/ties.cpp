@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "contact/coupled.hpp"
-#include "modes/modes.hpp"
+#include "eigen/modes/modes.hpp"
+#include "model/contact/coupled.hpp"
 #include "support/case.hpp"
 #include "support/model.hpp"
 #include "support/spectrum.hpp"

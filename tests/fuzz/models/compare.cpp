@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "petsc/text.hpp"
+#include "base/system/text.hpp"
 
 namespace squeal::fuzz {
 namespace {

@@ -17,11 +17,11 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "base/petsc/check.hpp"
+#include "base/session/session.hpp"
+#include "base/system/text.hpp"
 #include "fuzz/models/compare.hpp"
 #include "fuzz/models/paths.hpp"
-#include "petsc/check.hpp"
-#include "petsc/text.hpp"
-#include "session/session.hpp"
 
 namespace squeal::fuzz {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "petsc/check.hpp"
+#include "base/petsc/check.hpp"
 
 namespace squeal::fuzz {
 namespace {

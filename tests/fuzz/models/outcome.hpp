@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/analysis.hpp"
-#include "linalg/complex.hpp"
+#include "algebra/linalg/complex.hpp"
+#include "run/analysis/analysis.hpp"
 
 namespace squeal::fuzz {
 

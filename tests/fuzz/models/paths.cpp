@@ -5,12 +5,12 @@
 #include <fstream>
 #include <functional>
 
-#include "analysis/analysis.hpp"
+#include "base/options/settings.hpp"
+#include "base/petsc/check.hpp"
+#include "base/system/text.hpp"
 #include "fuzz/models/compare.hpp"
 #include "fuzz/random.hpp"
-#include "options/settings.hpp"
-#include "petsc/check.hpp"
-#include "petsc/text.hpp"
+#include "run/analysis/analysis.hpp"
 
 namespace squeal::fuzz {
 namespace {

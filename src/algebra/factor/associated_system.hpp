@@ -1,0 +1,32 @@
+#pragma once
+/// The ideal associated system [4.17] that the modes, the reduction and the corrections share.
+#include <memory>
+#include <string>
+
+#include "algebra/factor/symmetric_solver.hpp"
+#include "base/petsc/owned.hpp"
+
+namespace squeal::factor {
+
+/// The matrices K0 and M0, n×n, symmetric positive definite. A direct solver of K0 (prefix
+/// -modes_st_) belongs to them, whose one factorisation serves all stages.
+class AssociatedSystem {
+ public:
+  /// Collective. Takes both matrices; `name` stands for K0 in messages.
+  AssociatedSystem(OwnedMat k0, OwnedMat m0, const std::string& name);
+  Mat k0() const { return k0_; }
+  Mat m0() const { return m0_; }
+  PetscInt size() const { return size_; }  ///< n
+  MPI_Comm comm() const;
+  /// Collective. Returns the direct solver of K0, factorised on first use and borrowed from this
+  /// object. An EPS that has used it leaves it without its factor, so that it is asked for anew
+  /// each time. Throws Error if the factorisation fails.
+  KSP solver() const { return solver_->get(); }
+
+ private:
+  OwnedMat k0_, m0_;
+  PetscInt size_ = 0;
+  std::unique_ptr<SymmetricSolver> solver_;
+};
+
+}  // namespace squeal::factor

@@ -1,0 +1,291 @@
+#include "algebra/factor/mumps.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <iterator>
+#include <limits>
+
+#include "base/options/options.hpp"
+#include "base/session/stages.hpp"
+#include "base/system/memory.hpp"
+#include "base/system/text.hpp"
+
+namespace squeal::factor {
+namespace {
+
+/// MUMPS solves for this number of right-hand sides in one pass. Its default is 32, and the
+/// remaining few then cost a pass of their own. An option -…_mat_mumps_icntl_27 takes precedence.
+constexpr int atOnce = 64;
+
+/// MUMPS foresees its workspace from the pattern alone, and pivoting may need more: then the
+/// factorisation is made anew with these percentages more (ICNTL(14)).
+constexpr int workspaces[] = {100, 400};
+
+/// The ratio of the memory foreseen to the free memory above which the factorisation is not tried.
+constexpr double hopeless = 2;
+
+/// The jobs of MUMPS.
+enum Job { begin = -1, end = -2, analysis = 1, factorisation = 2, solution = 3 };
+
+/// These entries of ICNTL are settled by the way in which matrix and right-hand sides are handed
+/// over.
+bool isSettled(int i) { return i == 5 || (i >= 18 && i <= 21) || i == 26 || i == 30; }
+
+/// Reads the options of ICNTL and CNTL.
+PetscErrorCode readOptions(const char* prefix, DMUMPS_STRUC_C& id) {
+  for (int i = 1; i <= 60; ++i) {
+    if (isSettled(i)) continue;
+    const std::string name = formatted("-mat_mumps_icntl_%d", i);
+    PetscInt value = id.icntl[i - 1];
+    PetscBool given = PETSC_FALSE;
+    PetscCall(PetscOptionsGetInt(nullptr, prefix, name.c_str(), &value, &given));
+    if (!given) continue;
+    PetscCheck(i != 7 || (value >= 0 && value <= 7 && value != 1), PETSC_COMM_SELF,
+               PETSC_ERR_ARG_OUTOFRANGE, "ICNTL(7) of MUMPS is 0 or 2 to 7");
+    id.icntl[i - 1] = value;
+  }
+  for (int i = 1; i <= 15; ++i) {
+    const std::string name = formatted("-mat_mumps_cntl_%d", i);
+    PetscCall(PetscOptionsGetReal(nullptr, prefix, name.c_str(), &id.cntl[i - 1], nullptr));
+  }
+  for (const char* variable : {"TMPDIR", "MUMPS_OOC_TMPDIR"})
+    if (const char* folder = std::getenv(variable))
+      std::snprintf(id.ooc_tmpdir, sizeof id.ooc_tmpdir, "%s", folder);
+  PetscCall(PetscOptionsGetString(nullptr, prefix, "-mat_mumps_ooc_tmpdir", id.ooc_tmpdir,
+                                  sizeof id.ooc_tmpdir, nullptr));
+  return 0;
+}
+
+}  // namespace
+
+MumpsFactor::MumpsFactor(MPI_Comm comm, const std::string& prefix) {
+  check(MPI_Comm_dup(comm, &comm_));
+  check(MPI_Comm_size(comm_, &ranks_));
+  id_.comm_fortran = MPI_Comm_c2f(comm_);
+  id_.par = 1;
+  id_.sym = 2;
+  call(begin);
+  for (int i = 1; i <= 4; ++i) icntl(i) = i < 4 ? -1 : 0;  // MUMPS prints nothing
+  icntl(18) = 3;                                           // the matrix is distributed
+  icntl(27) = atOnce;
+  std::snprintf(id_.ooc_tmpdir, sizeof id_.ooc_tmpdir, "/tmp");
+  applySolverOptions([&] { return readOptions(prefix.empty() ? nullptr : prefix.c_str(), id_); });
+  if (icntl(4) > 0) icntl(1) = icntl(2) = icntl(3) = 6;  // the option asks for what it prints
+}
+
+MumpsFactor::~MumpsFactor() {
+  int finalised = 0;
+  MPI_Finalized(&finalised);
+  if (finalised) return;
+  call(end);
+  PetscSFDestroy(&toOwners_);
+  MPI_Comm_free(&comm_);
+}
+
+void MumpsFactor::call(int job) {
+  id_.job = job;
+  dmumps_c(&id_);
+}
+
+void MumpsFactor::wantInertia(double zero) {
+  icntl(13) = 1;  // ScaLAPACK on the root would hide its pivots' signs
+  icntl(24) = 1;
+  if (zero > 0) id_.cntl[2] = zero;
+}
+
+/// Hands over the upper triangle of the rows of this rank.
+void MumpsFactor::setEntries(Mat matrix) {
+  PetscInt n = 0, first = 0, last = 0;
+  check(MatGetSize(matrix, &n, nullptr));
+  check(MatGetOwnershipRange(matrix, &first, &last));
+  localRows_ = last - first;
+  rows_.clear(), columns_.clear(), entries_.clear();
+  ownRows_.clear();
+  MatInfo info;
+  check(MatGetInfo(matrix, MAT_LOCAL, &info));
+  const std::size_t upper = 0.5 * info.nz_used + localRows_;
+  rows_.reserve(upper), columns_.reserve(upper), entries_.reserve(upper);
+  for (PetscInt row = first; row < last; ++row) {
+    PetscInt count = 0;
+    const PetscInt* columns = nullptr;
+    const PetscScalar* values = nullptr;
+    check(MatGetRow(matrix, row, &count, &columns, &values));
+    for (PetscInt j = 0; j < count; ++j)
+      if (columns[j] >= row) {
+        rows_.push_back(row + 1);
+        columns_.push_back(columns[j] + 1);
+        entries_.push_back(values[j]);
+      }
+    check(MatRestoreRow(matrix, row, &count, &columns, &values));
+    ownRows_.push_back(row + 1);
+  }
+  entriesHeld_ = true;
+  if (n > std::numeric_limits<MUMPS_INT>::max())
+    throw Error("a factorisation: the matrix has more rows than MUMPS counts");
+  id_.n = n;
+  id_.nnz_loc = std::ssize(entries_);
+  id_.irn_loc = rows_.data();
+  id_.jcn_loc = columns_.data();
+  id_.a_loc = entries_.data();
+}
+
+void MumpsFactor::analyse(Mat matrix, const MumpsFactor* like) {
+  setEntries(matrix);
+  int rank = 0;
+  check(MPI_Comm_rank(comm_, &rank));
+  if (like) {
+    if (rank == 0) order_.assign(like->id_.sym_perm, like->id_.sym_perm + id_.n);
+    id_.perm_in = order_.data();
+    icntl(7) = 1;
+    icntl(28) = 1;
+  }
+  call(analysis);
+  if (const std::string why = failure(); !why.empty()) throw Error("a factorisation: " + why);
+}
+
+/// Compares the memory that the analysis foresees with the free memory, before the machine begins
+/// to swap or the kernel ends the process. Where it is short, the factor is to be kept on disk.
+void MumpsFactor::fitIntoMemory() {
+  const double ownInCore = 1e6 * id_.info[14], ownOnDisk = 1e6 * id_.info[16];
+  double inCore = ownInCore, onDisk = ownOnDisk;
+  const double free = memoryFreeOnNode(comm_, inCore);
+  memoryFreeOnNode(comm_, onDisk);
+  const bool onDiskByOption = icntl(22) == 1;
+  struct {
+    double ratio;
+    int rank;
+  } worst{(onDiskByOption ? onDisk : inCore) / std::max(free, 1.0), 0};
+  check(MPI_Comm_rank(comm_, &worst.rank));
+  check(MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE_INT, MPI_MAXLOC, comm_));
+  if (worst.ratio <= 1) return;
+  double sizes[] = {inCore, onDisk, free};
+  check(MPI_Bcast(sizes, 3, MPI_DOUBLE, worst.rank, comm_));
+  const std::string text =
+      formatted("the factorisation%s needs %.3g GB on a node where %.3g GB are free",
+                onDiskByOption ? ", with its factor on disk," : "",
+                1e-9 * sizes[onDiskByOption ? 1 : 0], 1e-9 * sizes[2]);
+  if (sizes[1] > hopeless * sizes[2]) throw Error(text + ": " + lessMemory);
+  icntl(22) = 1;
+  complain(comm_, "warning: " + text +
+                      (onDiskByOption ? std::string("; it is tried all the same")
+                                      : formatted("; with the factor on disk, in %s, it needs %.3g "
+                                                  "GB",
+                                                  id_.ooc_tmpdir, 1e-9 * sizes[1])));
+}
+
+std::string MumpsFactor::factorise(Mat matrix) {
+  if (matrix && !entriesHeld_) setEntries(matrix);
+  fitIntoMemory();
+  call(factorisation);
+  for (const int percent : workspaces) {
+    if (infog(1) != -8 && infog(1) != -9) break;
+    icntl(14) = std::max<MUMPS_INT>(icntl(14), percent);
+    call(factorisation);
+  }
+  // MUMPS needs the entries no longer.
+  rows_ = {}, columns_ = {}, entries_ = {};
+  entriesHeld_ = false;
+  solutionRows_.clear();
+  return failure();
+}
+
+void MumpsFactor::solve(const double* b, double* x, PetscInt columns) {
+  if (columns == 0) return;
+  id_.nrhs = columns;
+  if (ranks_ == 1) {
+    icntl(20) = icntl(21) = 0;
+    std::copy(b, b + static_cast<std::ptrdiff_t>(columns) * localRows_, x);
+    id_.rhs = x;
+    id_.lrhs = localRows_;
+    call(solution);
+  } else {
+    icntl(20) = 10;
+    icntl(21) = 1;
+    id_.rhs_loc = const_cast<double*>(b);  // it is read only
+    id_.irhs_loc = ownRows_.data();
+    id_.nloc_rhs = localRows_;
+    id_.lrhs_loc = std::max<PetscInt>(localRows_, 1);
+    id_.lsol_loc = std::max<MUMPS_INT>(id_.info[22], 1);
+    solution_.resize(static_cast<std::size_t>(id_.lsol_loc) * columns);
+    id_.sol_loc = solution_.data();
+    std::vector<MUMPS_INT> rows(id_.lsol_loc);
+    id_.isol_loc = rows.data();
+    call(solution);
+    rows.resize(id_.info[22]);
+    int same = rows == solutionRows_;
+    if (!toOwners_ || solutionRows_.empty()) same = 0;
+    check(MPI_Allreduce(MPI_IN_PLACE, &same, 1, MPI_INT, MPI_LAND, comm_));
+    if (!same) {
+      solutionRows_ = std::move(rows);
+      std::vector<PetscInt> global;
+      for (const MUMPS_INT row : solutionRows_) global.push_back(row - 1);
+      PetscLayout layout = nullptr;
+      check(PetscSFDestroy(&toOwners_));
+      check(PetscLayoutCreateFromSizes(comm_, localRows_, id_.n, 1, &layout));
+      check(PetscSFCreate(comm_, &toOwners_));
+      check(PetscSFSetGraphLayout(toOwners_, layout, global.size(), nullptr, PETSC_COPY_VALUES,
+                                  global.data()));
+      check(PetscLayoutDestroy(&layout));
+    }
+    scatterSolution(x, columns);
+  }
+  if (infog(1) < 0) throw Error("a solve by MUMPS: " + failure());
+}
+
+/// Sends the rows of the solution to their owners, those of all columns in one message.
+void MumpsFactor::scatterSolution(double* x, PetscInt columns) {
+  const std::size_t here = solutionRows_.size(), own = localRows_;
+  byRows_.resize((here + own) * columns);
+  double* const leaves = byRows_.data();
+  double* const roots = leaves + here * columns;
+  for (PetscInt j = 0; j < columns; ++j)
+    for (std::size_t i = 0; i < here; ++i)
+      leaves[i * columns + j] = solution_[static_cast<std::size_t>(id_.lsol_loc) * j + i];
+  MPI_Datatype row = MPI_DATATYPE_NULL;
+  check(MPI_Type_contiguous(columns, MPI_DOUBLE, &row));
+  check(MPI_Type_commit(&row));
+  check(PetscSFReduceBegin(toOwners_, row, leaves, roots, MPI_REPLACE));
+  check(PetscSFReduceEnd(toOwners_, row, leaves, roots, MPI_REPLACE));
+  check(MPI_Type_free(&row));
+  for (PetscInt j = 0; j < columns; ++j)
+    for (std::size_t i = 0; i < own; ++i) x[own * j + i] = roots[i * columns + j];
+}
+
+/// Returns the reason why MUMPS failed, from INFOG(1) and INFOG(2) of its manual; empty if it did
+/// not fail.
+std::string MumpsFactor::failure() const {
+  const int code = id_.infog[0];
+  if (code >= 0) return "";
+  const std::string numbers =
+      formatted(" (INFOG(1) = %d, INFOG(2) = %d)", code, static_cast<int>(id_.infog[1]));
+  constexpr int allocations[] = {-5, -7, -13, -19, -22},
+                workspace[] = {-8, -9, -11, -14, -15, -17, -20}, overflow[] = {-51, -52};
+  const auto among = [&](const auto& codes) {
+    return std::find(std::begin(codes), std::end(codes), code) != std::end(codes);
+  };
+  if (among(allocations)) return "MUMPS got no more memory" + numbers + ": " + lessMemory;
+  if (among(workspace))
+    return "MUMPS needs a larger workspace than it foresaw" + numbers +
+           ": raise -…_mat_mumps_icntl_14, percent, for example to 50";
+  if (among(overflow))
+    return "the factor has more entries than 32-bit integers count" + numbers + ": take more ranks";
+  if (code == -6 || code == -10) return "the matrix is singular" + numbers + ": is a body loose?";
+  if (code <= -90 && code > -100)
+    return "MUMPS cannot keep its factor in the folder " + std::string(id_.ooc_tmpdir) + numbers +
+           ": name another by -…_mat_mumps_ooc_tmpdir";
+  return "MUMPS fails" + numbers;
+}
+
+void solve(MumpsFactor& factor, Mat b, Mat x) {
+  const PetscScalar* from = nullptr;
+  PetscScalar* to = nullptr;
+  PetscInt columns = 0;
+  check(MatGetSize(b, nullptr, &columns));
+  check(MatDenseGetArrayRead(b, &from));
+  check(MatDenseGetArrayWrite(x, &to));
+  factor.solve(from, to, columns);
+  check(MatDenseRestoreArrayWrite(x, &to));
+  check(MatDenseRestoreArrayRead(b, &from));
+}
+
+}  // namespace squeal::factor

@@ -1,0 +1,168 @@
+#include "algebra/linalg/block.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "algebra/linalg/symmetric.hpp"
+#include "base/petsc/log_events.hpp"
+
+namespace squeal::linalg {
+
+DenseMatrix transposedProduct(MPI_Comm comm, const DenseView& x, const DenseView& y) {
+  const LoggedWork work(Work::innerProduct);
+  LoggedWork::addOperations(2.0 * x.rows() * x.columns() * y.columns());
+  DenseMatrix result = transposedProduct(x, y);
+  const int count = result.size();
+  check(MPI_Allreduce(MPI_IN_PLACE, result.data(), count, MPI_DOUBLE, MPI_SUM, comm));
+  // The rounding of sums over the ranks may depend on the rank; later decisions must not.
+  check(MPI_Bcast(result.data(), count, MPI_DOUBLE, 0, comm));
+  return result;
+}
+
+double length(MPI_Comm comm, std::span<const double> column) {
+  const DenseView view(column.data(), std::ssize(column), 1);
+  return std::sqrt(transposedProduct(comm, view, view)(0, 0));
+}
+
+Block solved(KSP solver, const DenseView& columns) {
+  constexpr PetscInt atOnce = 64;
+  const LoggedWork work(Work::blockSolve);
+  Mat matrix = nullptr;
+  PetscInt size = 0;
+  check(KSPGetOperators(solver, &matrix, nullptr));
+  check(MatGetSize(matrix, &size, nullptr));
+  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(solver));
+  Block result(columns.rows(), columns.columns());
+  for (PetscInt begin = 0; begin < columns.columns(); begin += atOnce) {
+    const PetscInt end = std::min(begin + atOnce, columns.columns());
+    const OwnedMat rhs = borrowed(comm, size, columns.columnRange(begin, end)),
+                   x = borrowed(comm, size, result.columnRange(begin, end));
+    check(KSPMatSolve(solver, rhs, x));
+  }
+  return result;
+}
+
+Block principal(MPI_Comm comm, const Block& columns, double small) {
+  const PetscInt n = columns.columns();
+  if (n == 0) return columns;
+  DenseMatrix combinations = transposedProduct(comm, columns, columns);
+  const auto sizes = symmetricEigen(combinations);
+  PetscInt first = 0;
+  while (first < n && !(sizes[first] > small * small)) ++first;
+  return product(columns, combinations.columnRange(first, n));
+}
+
+Block unitColumns(MPI_Comm comm, const Block& columns) {
+  std::vector<double> squares;
+  for (PetscInt j = 0; j < columns.columns(); ++j)
+    squares.push_back(squaredLength(columns.column(j)));
+  const int count = squares.size();
+  check(MPI_Allreduce(MPI_IN_PLACE, squares.data(), count, MPI_DOUBLE, MPI_SUM, comm));
+  check(MPI_Bcast(squares.data(), count, MPI_DOUBLE, 0, comm));
+  Block units(columns.rows());
+  for (PetscInt j = 0; j < columns.columns(); ++j) {
+    if (!(squares[j] > 0)) continue;
+    units.append(columns.column(j));
+    for (double& entry : units.column(units.columns() - 1)) entry /= std::sqrt(squares[j]);
+  }
+  return units;
+}
+
+OwnedMat borrowed(MPI_Comm comm, PetscInt rows, const DenseView& block) {
+  OwnedMat matrix;
+  check(MatCreateDense(comm, block.rows(), PETSC_DECIDE, rows, block.columns(),
+                       const_cast<double*>(block.data()), matrix.out()));
+  return matrix;
+}
+
+void appendProduct(Mat matrix, const DenseView& x, Block& result) {
+  const LoggedWork work(Work::blockProduct);
+  PetscInt rows = 0, length = 0;
+  check(MatGetSize(matrix, &rows, &length));
+  const PetscInt first = result.columns(), count = x.columns();
+  if (count == 0) return;
+  result.resizeColumns(first + count);
+  if (rows == 0) return;
+  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(matrix));
+  const OwnedMat from = borrowed(comm, length, x),
+                 to = borrowed(comm, rows, result.columnRange(first, first + count));
+  PetscBool assembled = PETSC_FALSE;
+  check(MatHasOperation(matrix, MATOP_GET_ROW, &assembled));
+  if (assembled) {
+    check(MatProductCreateWithMat(matrix, from, nullptr, to));
+    check(MatProductSetType(to, MATPRODUCT_AB));
+    check(MatProductSetFromOptions(to));
+    check(MatProductSymbolic(to));
+    check(MatProductNumeric(to));
+    return;
+  }
+  for (PetscInt j = 0; j < count; ++j) {
+    Vec column = nullptr, product = nullptr;
+    check(MatDenseGetColumnVecRead(from, j, &column));
+    check(MatDenseGetColumnVecWrite(to, j, &product));
+    check(MatMult(matrix, column, product));
+    check(MatDenseRestoreColumnVecWrite(to, j, &product));
+    check(MatDenseRestoreColumnVecRead(from, j, &column));
+  }
+}
+
+RowSet::RowSet(Mat matrix) {
+  PetscInt end = 0;
+  check(MatGetOwnershipRange(matrix, &firstRow_, &end));
+  localRows_ = end - firstRow_;
+  PetscBool known = PETSC_FALSE;
+  check(MatHasOperation(matrix, MATOP_FIND_NONZERO_ROWS, &known));
+  if (!known) return;
+  IS kept = nullptr;
+  check(MatFindNonzeroRows(matrix, &kept));
+  if (!kept) return;
+  const OwnedIS owner(kept);
+  all_ = false;
+  PetscInt count = 0;
+  const PetscInt* rows = nullptr;
+  check(ISGetLocalSize(kept, &count));
+  check(ISGetIndices(kept, &rows));
+  for (PetscInt i = 0; i < count; ++i) rows_.push_back(rows[i] - firstRow_);
+  check(ISRestoreIndices(kept, &rows));
+}
+
+Block RowSet::of(const DenseView& x) const {
+  if (all_) return Block(x);
+  Block some(size(), x.columns());
+  for (PetscInt j = 0; j < x.columns(); ++j)
+    for (PetscInt i = 0; i < some.rows(); ++i) some(i, j) = x(rows_[i], j);
+  return some;
+}
+
+OwnedMat RowSet::of(Mat matrix) const {
+  if (all_) {
+    check(PetscObjectReference(reinterpret_cast<PetscObject>(matrix)));
+    return OwnedMat(matrix);
+  }
+  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(matrix));
+  std::vector<PetscInt> global;
+  for (PetscInt row : rows_) global.push_back(firstRow_ + row);
+  PetscInt begin = 0, end = 0;
+  check(MatGetOwnershipRangeColumn(matrix, &begin, &end));
+  OwnedIS rows, columns;
+  OwnedMat part;
+  check(ISCreateGeneral(comm, global.size(), global.data(), PETSC_COPY_VALUES, rows.out()));
+  check(ISCreateStride(comm, end - begin, begin, 1, columns.out()));
+  check(MatCreateSubMatrix(matrix, rows, columns, MAT_INITIAL_MATRIX, part.out()));
+  return part;
+}
+
+DenseMatrix transposedProduct(MPI_Comm comm, const RowSet& rows, const DenseView& x,
+                              const DenseView& y) {
+  if (rows.all()) return transposedProduct(comm, x, y);
+  return transposedProduct(comm, rows.of(x), y);
+}
+
+void multiplyAdd(const RowSet& rows, const DenseView& x, const DenseView& coefficients, Block& y) {
+  if (rows.all()) return multiplyAdd(x, coefficients, y);
+  const Block part = product(x, coefficients);
+  for (PetscInt j = 0; j < part.columns(); ++j)
+    for (PetscInt i = 0; i < part.rows(); ++i) y(rows[i], j) += part(i, j);
+}
+
+}  // namespace squeal::linalg

@@ -1,0 +1,71 @@
+#pragma once
+/// These functions work on tall matrices that are distributed by rows: the basis V and its products
+/// A V. A product of two of them is one BLAS call on the local rows and one reduction.
+#include <vector>
+
+#include "algebra/linalg/dense.hpp"
+#include "base/petsc/owned.hpp"
+
+namespace squeal::linalg {
+
+/// This rank's rows of a tall matrix with n rows over all ranks.
+using Block = DenseMatrix;
+
+/// Collective. Appends A X to the columns of `result`. X and the result are given by this rank's
+/// rows; the result has its rows even before its first column, and X is not a part of it.
+void appendProduct(Mat matrix, const DenseView& x, Block& result);
+
+/// Collective. Returns a dense matrix of PETSc with `rows` rows over all ranks. It borrows the
+/// entries of the block, this rank's rows: writing to the matrix changes the block.
+OwnedMat borrowed(MPI_Comm comm, PetscInt rows, const DenseView& block);
+
+/// Collective. Returns Xᵀ Y, the same on all ranks. X and Y are given by this rank's rows.
+DenseMatrix transposedProduct(MPI_Comm comm, const DenseView& x, const DenseView& y);
+
+/// Collective. Returns the 2-norm of a column, the same on all ranks. It is given by this rank's
+/// rows.
+double length(MPI_Comm comm, std::span<const double> column);
+
+/// Collective. Returns A⁻¹ times the columns, with A of the solver. They are solved for some at a
+/// time: enough for the speed of dense kernels, few enough for memory.
+Block solved(KSP solver, const DenseView& columns);
+
+/// Collective. Returns orthogonal combinations of the columns, their principal directions, by
+/// ascending length. Those of length `small` or less are dropped.
+Block principal(MPI_Comm comm, const Block& columns, double small);
+/// Collective. Returns the columns scaled to the 2-norm 1. Columns of zeros are dropped.
+Block unitColumns(MPI_Comm comm, const Block& columns);
+
+/// A RowSet holds the rows of a matrix on this rank that have nonzero entries. A friction operator
+/// has such rows at the contact nodes only, so that products need not touch the others.
+class RowSet {
+ public:
+  /// Collective. Finds the rows. The matrix is borrowed during this call only.
+  explicit RowSet(Mat matrix);
+  PetscInt size() const { return all_ ? localRows_ : std::ssize(rows_); }
+  /// Returns true if the set holds all rows of the matrix, on every rank.
+  bool all() const { return all_; }
+  PetscInt localRows() const { return localRows_; }
+  PetscInt operator[](PetscInt i) const { return all_ ? i : rows_[i]; }
+  /// Returns these rows of X, which is given by all local rows.
+  Block of(const DenseView& x) const;
+  /// Collective. Returns these rows of the matrix, with all columns. If the set holds all rows, the
+  /// matrix itself is returned, shared.
+  OwnedMat of(Mat matrix) const;
+
+ private:
+  PetscInt localRows_ = 0, firstRow_ = 0;
+  bool all_ = true;
+  std::vector<PetscInt> rows_;  // local numbers, ascending; empty if all
+};
+
+/// Collective. Returns Xᵀ Y, the same on all ranks. X is given by all local rows, and Y by `rows`;
+/// its other rows are zero.
+DenseMatrix transposedProduct(MPI_Comm comm, const RowSet& rows, const DenseView& x,
+                              const DenseView& y);
+/// Not collective. Computes
+///   Y += X · C
+/// with X given by `rows`, its other rows being zero, and Y by all local rows.
+void multiplyAdd(const RowSet& rows, const DenseView& x, const DenseView& coefficients, Block& y);
+
+}  // namespace squeal::linalg

@@ -1,0 +1,28 @@
+#pragma once
+/// This file gives access to the columns of a SLEPc BV as matrices.
+#include "algebra/linalg/dense.hpp"
+#include "base/petsc/owned.hpp"
+
+namespace squeal::linalg {
+
+/// A ReadColumns reads this rank's rows of a BV of type svec. The BV is borrowed and locked for
+/// reading during the life of the object.
+class ReadColumns {
+ public:
+  explicit ReadColumns(BV bv);
+  ~ReadColumns() { BVRestoreArrayRead(bv_, &values_); }
+  ReadColumns(const ReadColumns&) = delete;
+  ReadColumns& operator=(const ReadColumns&) = delete;
+  DenseView view() const { return {values_, rows_, columns_}; }
+
+ private:
+  BV bv_;
+  PetscInt rows_ = 0, columns_ = 0;
+  const PetscScalar* values_ = nullptr;
+};
+
+/// Collective. Returns a BV of type svec with a copy of the columns, which are given by this rank's
+/// rows and laid out like the columns of `like`.
+OwnedBV copiedColumns(Mat like, const DenseView& columns);
+
+}  // namespace squeal::linalg

@@ -1,0 +1,24 @@
+#pragma once
+/// The complex number of all rooms: PETSc is built with real scalars.
+#include <complex>
+#include <span>
+
+#include "base/petsc/check.hpp"
+
+namespace squeal {
+
+using Complex = std::complex<double>;
+
+/// Returns xᴴ y, over the entries of x; y may be longer. The parts are multiplied by hand: the
+/// product of the library looks for infinities in each factor.
+inline Complex innerProduct(std::span<const Complex> x, std::span<const Complex> y) {
+  ensure(x.size() <= y.size(), "the second vector is as long as the first");
+  double real = 0, imaginary = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    real += x[i].real() * y[i].real() + x[i].imag() * y[i].imag();
+    imaginary += x[i].real() * y[i].imag() - x[i].imag() * y[i].real();
+  }
+  return {real, imaginary};
+}
+
+}  // namespace squeal

@@ -1,0 +1,34 @@
+#pragma once
+/// This file solves small dense linear systems by LAPACK's LU with partial pivoting. Not
+/// collective.
+#include <vector>
+
+#include "algebra/linalg/dense.hpp"
+
+namespace squeal::linalg {
+
+/// An Lu holds the factors of a square matrix of doubles or complex numbers.
+template <class Scalar>
+class Lu {
+ public:
+  /// Factorises a square matrix, which is taken.
+  explicit Lu(Dense<Scalar> matrix);
+  /// Returns the smallest pivot divided by the largest, in magnitude; 0 for a singular matrix
+  /// and for one with an entry that is not a number.
+  double pivotRatio() const { return pivotRatio_; }
+  /// Replaces pivots of zero by the machine precision times the largest pivot. Solutions then point
+  /// along the null vector, as inverse iteration needs.
+  void raiseZeroPivots();
+  /// Replaces B by A⁻¹ B, or by A⁻ᴴ B if `adjoint`. A pivot of zero gives infinite entries.
+  void solve(Dense<Scalar>& b, bool adjoint = false) const;
+  /// Does the same for one column.
+  void solve(std::span<Scalar> b, bool adjoint = false) const;
+
+ private:
+  void solve(Scalar* b, PetscBLASInt columns, bool adjoint) const;
+  Dense<Scalar> factors_;
+  std::vector<PetscBLASInt> rows_;  // exchanged
+  double largest_ = 0, pivotRatio_ = 0;
+};
+
+}  // namespace squeal::linalg

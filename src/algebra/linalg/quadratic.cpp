@@ -1,0 +1,423 @@
+#include "algebra/linalg/quadratic.hpp"
+
+#include <slepcsys.h>  // first: the next header needs it
+
+#include <slepcblaslapack.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "algebra/linalg/lapack.hpp"
+#include "algebra/linalg/lu.hpp"
+#include "base/petsc/check.hpp"
+#include "base/petsc/log_events.hpp"
+
+extern "C" void dgebal_(const char* job, const PetscBLASInt* n, double* a, const PetscBLASInt* lda,
+                        PetscBLASInt* low, PetscBLASInt* high, double* scale, PetscBLASInt* info);
+
+namespace squeal::linalg {
+namespace {
+
+struct EigenPair {
+  Complex value;
+  std::vector<Complex> right, left;  // left: empty unless asked for
+};
+
+/// Returns column j of LAPACK's real storage of conjugate pairs; empty for an empty matrix.
+std::vector<Complex> complexColumn(const DenseMatrix& vectors, PetscInt j, bool conjugates) {
+  std::vector<Complex> column(vectors.empty() ? 0 : vectors.rows());
+  for (std::size_t i = 0; i < column.size(); ++i)
+    column[i] = {vectors(i, j), conjugates ? vectors(i, j + 1) : 0.0};
+  return column;
+}
+
+std::vector<Complex> conjugated(std::vector<Complex> vector) {
+  for (auto& entry : vector) entry = std::conj(entry);
+  return vector;
+}
+
+/// Returns the wanted eigenvalues from LAPACK's real storage of conjugate pairs as complex numbers.
+/// Each number of a conjugate pair is tested, and listed if it is wanted.
+std::vector<EigenPair> unpacked(const std::vector<double>& real,
+                                const std::vector<double>& imaginary,
+                                const std::vector<double>& beta, const DenseMatrix& right,
+                                const DenseMatrix& left, const Wanted& wanted) {
+  std::vector<EigenPair> pairs;
+  for (std::size_t j = 0; j < real.size(); ++j) {
+    if (beta[j] == 0 && real[j] == 0)
+      throw Error(
+          "the reduced eigenproblem is singular: mass and stiffness have a common null vector");
+    if (beta[j] == 0) continue;  // infinite: a motion without mass
+    const Complex value = Complex(real[j], imaginary[j]) / beta[j];
+    const bool conjugates = imaginary[j] != 0, first = wanted(value),
+               second = conjugates && wanted(std::conj(value));
+    if (first || second) {
+      EigenPair pair{value, complexColumn(right, j, conjugates),
+                     complexColumn(left, j, conjugates)};
+      if (second)
+        pairs.push_back({std::conj(value), conjugated(pair.right), conjugated(pair.left)});
+      if (first) pairs.push_back(std::move(pair));
+    }
+    if (conjugates) ++j;
+  }
+  return pairs;
+}
+
+/// Throws Error if a routine of LAPACK has failed.
+void requireSuccess(const char* routine, PetscBLASInt info) {
+  if (info != 0)
+    throw Error(std::string("LAPACK ") + routine + " failed on the reduced eigenproblem (info " +
+                std::to_string(info) + ")");
+}
+
+/// Returns the wanted eigenvalues, with eigenvectors, of A x = μ B x, by QZ.
+std::vector<EigenPair> generalized(DenseMatrix a, DenseMatrix b, Vectors sides,
+                                   const Wanted& wanted) {
+  PetscBLASInt n = a.rows(), info = 0;
+  std::vector<double> real(n), imaginary(n), beta(n);
+  DenseMatrix right(n, n), left(n, sides == Vectors::both ? n : 0);
+  callWithWork([&](double* work, PetscBLASInt length) {
+    LAPACKggev_(left.empty() ? "N" : "V", "V", &n, a.data(), &n, b.data(), &n, real.data(),
+                imaginary.data(), beta.data(), left.data(), &n, right.data(), &n, work, &length,
+                &info);
+  });
+  requireSuccess("dggev", info);
+  return unpacked(real, imaginary, beta, right, left, wanted);
+}
+
+/// Returns the wanted eigenvalues, with eigenvectors, of A x = μ x, from its Schur form. Only the
+/// wanted eigenvectors are computed: computing all of them would take most of the time.
+std::vector<EigenPair> standard(DenseMatrix a, Vectors sides, const Wanted& wanted) {
+  PetscBLASInt n = a.rows(), info = 0, sorted = 0, low = 0, high = 0;
+  std::vector<double> real(n), imaginary(n), scale(n);
+  DenseMatrix schur(n, n);
+  dgebal_("S", &n, a.data(), &n, &low, &high, scale.data(),
+          &info);  // D⁻¹ A D: matrices of mixed units
+  requireSuccess("dgebal", info);
+  callWithWork([&](double* work, PetscBLASInt length) {
+    LAPACKgees_("V", "N", nullptr, &n, a.data(), &n, &sorted, real.data(), imaginary.data(),
+                schur.data(), &n, work, &length, nullptr, &info);
+  });
+  requireSuccess("dgees", info);
+  std::vector<PetscBLASInt> chosen(n, 0);
+  std::vector<double> realParts, imaginaryParts;  // of the chosen eigenvalues
+  for (PetscInt j = 0; j < n; ++j) {
+    const PetscInt width = imaginary[j] != 0 ? 2 : 1;
+    const Complex value(real[j], imaginary[j]);
+    for (PetscInt k = j; k < j + width && (wanted(value) || wanted(std::conj(value))); ++k) {
+      chosen[k] = 1;
+      realParts.push_back(real[k]);
+      imaginaryParts.push_back(imaginary[k]);
+    }
+    j += width - 1;
+  }
+  PetscBLASInt count = realParts.size(), found = 0;
+  if (count == 0) return {};
+  DenseMatrix right(n, count), left(n, sides == Vectors::both ? count : 0);
+  std::vector<double> work(3 * n);
+  LAPACKtrevc_(left.empty() ? "R" : "B", "S", chosen.data(), &n, a.data(), &n, left.data(), &n,
+               right.data(), &n, &count, &found, work.data(), &info);
+  requireSuccess("dtrevc", info);
+  const auto turned = [&](const DenseMatrix& vectors, bool inverse) {
+    DenseMatrix result = product(schur, vectors);
+    for (PetscInt j = 0; j < result.columns(); ++j)
+      for (PetscInt i = 0; i < n; ++i) result(i, j) *= inverse ? 1 / scale[i] : scale[i];
+    return result;
+  };
+  return unpacked(realParts, imaginaryParts, std::vector<double>(count, 1.0), turned(right, false),
+                  turned(left, true), wanted);
+}
+
+/// Throws Error if an entry is inf or nan: LAPACK would return eigenvalues all the same.
+void requireFinite(const DenseMatrix& a) {
+  if (!std::ranges::all_of(a.entries(), [](double entry) { return std::isfinite(entry); }))
+    throw Error("the reduced eigenproblem has an entry that is not a finite number");
+}
+
+/// Returns true if the inverse may be formed. With this bound, eigenvalues lose at worst half of
+/// their digits, the largest ones none.
+bool invertible(const Lu<double>& matrix) { return matrix.pivotRatio() > 1e-8; }
+
+/// Replaces the left vectors u of M⁻¹ A, uᴴ M⁻¹ A = μ uᴴ, by the left vectors of (A, M),
+///   y = M⁻ᵀ u.
+void undoInverse(const Lu<double>& mass, std::vector<DensePair>& pairs) {
+  if (pairs.empty()) return;
+  const PetscInt m = pairs[0].left.size(), count = pairs.size();
+  DenseMatrix parts(m, 2 * count);
+  for (PetscInt j = 0; j < count; ++j)
+    for (PetscInt i = 0; i < m; ++i) {
+      parts(i, 2 * j) = pairs[j].left[i].real();
+      parts(i, 2 * j + 1) = pairs[j].left[i].imag();
+    }
+  mass.solve(parts, true);
+  for (PetscInt j = 0; j < count; ++j)
+    for (PetscInt i = 0; i < m; ++i) pairs[j].left[i] = {parts(i, 2 * j), parts(i, 2 * j + 1)};
+}
+
+/// Returns the root of s² = −μ with Im s ≥ 0.
+Complex rootOf(Complex mu) {
+  const Complex s =
+      mu.imag() == 0 && mu.real() >= 0 ? Complex(0, std::sqrt(mu.real())) : std::sqrt(-mu);
+  return s.imag() < 0 ? -s : s;
+}
+
+/// A Leading holds the leading matrix M of a quadratic problem and its factors, both borrowed. M⁻¹
+/// A is formed where it can be, as QR takes a small part of the time of QZ.
+struct Leading {
+  const DenseMatrix& matrix;
+  const Lu<double>& factors;
+};
+
+std::vector<DensePair> linearInSquare(const Leading& mass, const DenseMatrix& stiffness,
+                                      Vectors vectors, const Wanted& wanted) {
+  //   K q = μ M q,   μ = −s²
+  // Both roots ±s are eigenvalues. One of them has Im s ≥ 0, or both if they are real. The double
+  // root of μ = 0 is listed once.
+  const Wanted either = [&](Complex mu) {
+    const Complex s = rootOf(mu);
+    return wanted(s) || (s.imag() == 0 && wanted(-s));
+  };
+  DenseMatrix quotient = stiffness;
+  if (invertible(mass.factors)) mass.factors.solve(quotient);
+  const auto solved = invertible(mass.factors)
+                          ? standard(std::move(quotient), vectors, either)
+                          : generalized(stiffness, mass.matrix, vectors, either);
+  std::vector<DensePair> pairs;
+  for (const auto& [mu, q, left] : solved) {
+    const Complex s = rootOf(mu);
+    if (wanted(s)) pairs.push_back({s, q, left});
+    if (s.imag() == 0 && s != 0.0 && wanted(-s)) pairs.push_back({-s, q, left});
+  }
+  if (vectors == Vectors::both && invertible(mass.factors)) undoInverse(mass.factors, pairs);
+  return pairs;
+}
+
+/// Returns [I 0; 0 M].
+DenseMatrix padded(const DenseMatrix& mass) {
+  const PetscInt m = mass.rows();
+  DenseMatrix b(2 * m, 2 * m);
+  for (PetscInt j = 0; j < m; ++j) {
+    b(j, j) = 1;
+    for (PetscInt i = 0; i < m; ++i) b(m + i, m + j) = mass(i, j);
+  }
+  return b;
+}
+
+/// Returns the Frobenius norm.
+double norm(const DenseMatrix& x) { return std::sqrt(squaredLength(x.entries())); }
+
+std::vector<DensePair> companion(const Leading& mass, const DenseMatrix& damping,
+                                 const DenseMatrix& stiffness, Vectors vectors,
+                                 const Wanted& wanted) {
+  const PetscInt m = stiffness.rows();
+  // s = unit ŝ (Fan, Lin and Van Dooren 2004); a matrix of zeros says nothing of the unit
+  const double ratio = norm(stiffness) / norm(mass.matrix),
+               unit = ratio > 0 && std::isfinite(ratio) ? std::sqrt(ratio) : 1;
+  //   [0 I; −K̂ −Ẑ] (q, ŝq) = ŝ [I 0; 0 M] (q, ŝq),   K̂ = K / unit², Ẑ = Z / unit
+  DenseMatrix lower = stiffness;
+  lower.append(damping);
+  if (invertible(mass.factors)) mass.factors.solve(lower);
+  DenseMatrix a(2 * m, 2 * m);
+  for (PetscInt j = 0; j < m; ++j) {
+    a(j, m + j) = 1;
+    for (PetscInt i = 0; i < m; ++i) {
+      a(m + i, j) = -lower(i, j) / (unit * unit);
+      a(m + i, m + j) = -lower(i, m + j) / unit;
+    }
+  }
+  std::vector<DensePair> pairs;
+  const Wanted upper = [&](Complex value) { return value.imag() >= 0 && wanted(unit * value); };
+  for (const auto& [value, right, left] :
+       invertible(mass.factors) ? standard(a, vectors, upper)
+                                : generalized(a, padded(mass.matrix), vectors, upper)) {
+    const auto half = right.begin() + (std::abs(value) > 1 ? m : 0);  // the larger of q and ŝq
+    // The left vector of the companion form is (u, y) with u = −K̂ᵀ y / conj ŝ and yᴴ P = 0.
+    pairs.push_back(
+        {unit * value, {half, half + m}, {left.begin() + (left.empty() ? 0 : m), left.end()}});
+  }
+  if (vectors == Vectors::both && invertible(mass.factors)) undoInverse(mass.factors, pairs);
+  return pairs;
+}
+
+/// Scales a vector to the 2-norm 1, with its largest entry real.
+void normalise(std::vector<Complex>& vector) {
+  double sum = 0;
+  std::size_t largest = 0;
+  for (std::size_t i = 0; i < vector.size(); ++i) {
+    sum += std::norm(vector[i]);
+    if (std::norm(vector[i]) > std::norm(vector[largest])) largest = i;
+  }
+  if (sum == 0) return;
+  const Complex entry = vector[largest],
+                factor =
+                    (entry.imag() == 0 ? 1 : std::conj(entry) / std::abs(entry)) / std::sqrt(sum);
+  for (auto& value : vector) value *= factor;
+  vector[largest] = vector[largest].real();
+}
+
+/// Returns true if A = sign Aᵀ up to rounding: max |A_ij − sign A_ji| ≤ 1e-13 max |A_ij|.
+bool hasSymmetry(const DenseMatrix& a, double sign) {
+  double size = 0, difference = 0;
+  for (PetscInt j = 0; j < a.columns(); ++j)
+    for (PetscInt i = 0; i <= j; ++i) {
+      size = std::max({size, std::abs(a(i, j)), std::abs(a(j, i))});
+      const double here = std::abs(a(i, j) - sign * a(j, i));
+      if (!(here <= difference)) difference = here;  // a NaN stays
+    }
+  return difference <= 1e-13 * size;
+}
+
+bool positiveDefinite(DenseMatrix a) {
+  PetscBLASInt order = a.rows(), info = 0;
+  LAPACKpotrf_("L", &order, a.data(), &order, &info);
+  return info == 0;
+}
+
+/// Returns the conjugate of s = 1/t for a root t of the reversed polynomial with Im t ≥ 0, so that
+/// the imaginary part of the result is not negative either.
+Complex turnedRound(Complex t) { return 1.0 / std::conj(t); }
+
+}  // namespace
+
+bool conservative(const DenseProblem& problem) {
+  return hasSymmetry(problem.stiffness, 1) && hasSymmetry(problem.mass, 1) &&
+         hasSymmetry(problem.damping, -1) && positiveDefinite(problem.stiffness) &&
+         positiveDefinite(problem.mass);
+}
+
+std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vectors,
+                                      const Wanted& wanted) {
+  // Where K is the better matrix to invert, as in a basis that is orthonormal in energy, the roots
+  // of the reversed polynomial are found:
+  //   t² K + t Z + M,   t = 1/s
+  constexpr double beyondDoubt = 0.01;
+  if (problem.order() == 0) return {};
+  const LoggedWork work(Work::denseEigenvalues);
+  for (const auto* matrix : {&problem.mass, &problem.damping, &problem.stiffness})
+    requireFinite(*matrix);
+  const Lu<double> ofStiffness(problem.stiffness);
+  std::optional<Lu<double>> ofMass;
+  if (ofStiffness.pivotRatio() < beyondDoubt) ofMass.emplace(problem.mass);
+  const bool reversed =
+      !ofMass || (invertible(ofStiffness) && ofStiffness.pivotRatio() > ofMass->pivotRatio());
+  const Leading leading =
+      reversed ? Leading{problem.stiffness, ofStiffness} : Leading{problem.mass, *ofMass};
+  const auto& last = reversed ? problem.mass : problem.stiffness;
+  const Wanted root = [&](Complex t) {
+    if (reversed && t == 0.0) return false;  // s is infinite: a motion without mass
+    return !wanted || wanted(reversed ? turnedRound(t) : t);
+  };
+  auto pairs = problem.damping.empty() ? linearInSquare(leading, last, vectors, root)
+                                       : companion(leading, problem.damping, last, vectors, root);
+  for (auto& pair : pairs) {
+    if (!reversed) break;
+    pair = {turnedRound(pair.s), conjugated(std::move(pair.q)), conjugated(std::move(pair.left))};
+  }
+  // Growth rates are exactly zero here. If rounding errors stayed in them, eigenvalues that a small
+  // friction makes unstable would be reported as unstable at friction 0.
+  if (!problem.damping.empty() && conservative(problem))
+    for (auto& pair : pairs)
+      if (std::abs(pair.s.real()) <= 1e-6 * std::abs(pair.s)) pair.s = {0, pair.s.imag()};
+  for (auto& pair : pairs) {
+    normalise(pair.q);
+    normalise(pair.left);
+  }
+  std::sort(pairs.begin(), pairs.end(), [](const DensePair& a, const DensePair& b) {
+    return a.s.imag() != b.s.imag() ? a.s.imag() < b.s.imag() : a.s.real() < b.s.real();
+  });
+  return pairs;
+}
+
+namespace {
+
+/// Returns one vector of each pair by its real parts, then by its imaginary parts, m × 2 pairs.
+DenseMatrix partsOf(const std::vector<DensePair>& pairs, std::vector<Complex> DensePair::*vector) {
+  const PetscInt count = pairs.size(), m = count > 0 ? (pairs[0].*vector).size() : 0;
+  DenseMatrix parts(m, 2 * count);
+  for (PetscInt j = 0; j < count; ++j) {
+    ensure(std::ssize(pairs[j].*vector) == m, "the vectors of pairs have one length");
+    for (PetscInt i = 0; i < m; ++i) {
+      parts(i, j) = (pairs[j].*vector)[i].real();
+      parts(i, count + j) = (pairs[j].*vector)[i].imag();
+    }
+  }
+  return parts;
+}
+
+ComplexMatrix fromParts(const DenseMatrix& parts) {
+  const PetscInt count = parts.columns() / 2;
+  ComplexMatrix result(parts.rows(), count);
+  for (PetscInt j = 0; j < count; ++j)
+    for (PetscInt i = 0; i < parts.rows(); ++i) result(i, j) = {parts(i, j), parts(i, count + j)};
+  return result;
+}
+
+}  // namespace
+
+ComplexMatrix timesVectors(const DenseView& a, const std::vector<DensePair>& pairs) {
+  const DenseMatrix parts = partsOf(pairs, &DensePair::q);
+  if (a.empty() || parts.empty()) return ComplexMatrix(parts.rows(), parts.columns() / 2);
+  return fromParts(product(a, parts));
+}
+
+ComplexMatrix transposedTimesLeft(const DenseView& a, const std::vector<DensePair>& pairs) {
+  const DenseMatrix parts = partsOf(pairs, &DensePair::left);
+  if (a.empty() || parts.empty()) return ComplexMatrix(parts.rows(), parts.columns() / 2);
+  return fromParts(transposedProduct(a, parts));
+}
+
+void shareFrom(int root, MPI_Comm comm, std::vector<DensePair>& pairs, Vectors vectors) {
+  PetscInt count = pairs.size(), m = 0;
+  for (const auto& pair : pairs)
+    m = std::max<PetscInt>(m, std::max(pair.q.size(), pair.left.size()));
+  check(MPI_Bcast(&count, 1, MPIU_INT, root, comm));
+  check(MPI_Bcast(&m, 1, MPIU_INT, root, comm));
+  const PetscInt length = 1 + m * (vectors == Vectors::both ? 2 : 1);
+  ComplexMatrix packed(length, count);  // s, the right vector, the left vector
+  int rank = 0;
+  check(MPI_Comm_rank(comm, &rank));
+  for (PetscInt j = 0; j < count && rank == root; ++j) {
+    const auto column = packed.column(j);
+    column[0] = pairs[j].s;
+    std::ranges::copy(pairs[j].q, column.begin() + 1);
+    if (vectors == Vectors::both) std::ranges::copy(pairs[j].left, column.begin() + 1 + m);
+  }
+  check(MPI_Bcast(packed.data(), packed.size(), MPI_C_DOUBLE_COMPLEX, root, comm));
+  pairs.clear();
+  for (PetscInt j = 0; j < count; ++j) {
+    const auto column = packed.column(j), q = column.subspan(1, m), left = column.subspan(1 + m);
+    pairs.push_back({column[0], {q.begin(), q.end()}, {left.begin(), left.end()}});
+  }
+}
+
+std::vector<std::vector<DensePair>> spread(
+    MPI_Comm comm, std::size_t count, Vectors vectors,
+    const std::function<std::vector<DensePair>(std::size_t)>& solve) {
+  int rank = 0, ranks = 1;
+  check(MPI_Comm_rank(comm, &rank));
+  check(MPI_Comm_size(comm, &ranks));
+  std::vector<std::vector<DensePair>> solved(count);
+  std::string failure;
+  for (std::size_t i = rank; i < count && failure.empty(); i += ranks) try {
+      solved[i] = solve(i);
+    } catch (const Error& error) {
+      failure = error.what();
+    }
+  failTogether(comm, failure);
+  for (std::size_t i = 0; i < count; ++i) shareFrom(i % ranks, comm, solved[i], vectors);
+  return solved;
+}
+
+std::vector<std::vector<DensePair>> solveSpread(MPI_Comm comm,
+                                                const std::vector<DenseProblem>& problems,
+                                                Vectors vectors, const Wanted& wanted) {
+  return spread(comm, problems.size(), vectors,
+                [&](std::size_t i) { return solveQuadratic(problems[i], vectors, wanted); });
+}
+
+std::vector<DensePair> solveTogether(MPI_Comm comm, const DenseProblem& problem, Vectors vectors) {
+  return solveSpread(comm, {problem}, vectors)[0];
+}
+
+}  // namespace squeal::linalg

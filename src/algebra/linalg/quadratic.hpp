@@ -1,0 +1,85 @@
+#pragma once
+/// These functions solve small dense quadratic eigenproblems with real unsymmetric matrices, by
+/// LAPACK.
+#include <mpi.h>
+
+#include <functional>
+#include <vector>
+
+#include "algebra/linalg/dense.hpp"
+
+namespace squeal::linalg {
+
+/// A DenseProblem is the quadratic eigenproblem
+///   (s² M + s Z + K) q = 0
+/// with real matrices of order m. An empty Z stands for zero.
+struct DenseProblem {
+  DenseMatrix mass, damping, stiffness;
+  PetscInt order() const { return stiffness.rows(); }  ///< m
+};
+
+/// Returns true if, up to rounding, M and K are symmetric positive definite and Z is antisymmetric.
+/// Gyroscopic forces do no work, and all eigenvalues are imaginary: with q of length 1,
+///   s² m + i s g + k = 0,   m = qᴴ M q > 0,   k = qᴴ K q > 0,   i g = qᴴ Z q,
+/// has imaginary roots only.
+bool conservative(const DenseProblem& problem);
+
+/// An eigenvalue with its vectors.
+struct DensePair {
+  Complex s;               ///< 1/s
+  std::vector<Complex> q;  ///< right vector, [m], 2-norm 1
+  /// Left vector y with yᴴ P(s) = 0, [m], 2-norm 1; empty unless it is asked for.
+  std::vector<Complex> left = {};
+};
+
+/// The eigenvectors that a solve returns: the right ones, or both the right and the left ones.
+enum class Vectors { right, both };
+
+/// Returns true for each eigenvalue s that is to be returned. An empty function selects all.
+using Wanted = std::function<bool(Complex)>;
+
+/// Not collective. Returns the finite eigenvalues with Im s ≥ 0 that are `wanted`, by ascending Im
+/// s, then by ascending Re s. If Z is empty, s = 0 is double for each vector and is listed once.
+///
+/// If Z is empty, the problem is linear in s² and is solved at size m. Otherwise its companion form
+/// of size 2m is scaled (Fan, Lin and Van Dooren 2004) and solved. The QR algorithm is applied with
+/// the inverse of K where that is well conditioned, otherwise with that of M or K, whichever is
+/// better conditioned. Where neither can be inverted safely, the QZ algorithm is used, which takes
+/// ten times as long.
+///
+/// Throws Error if an entry is not a finite number, if LAPACK fails, or if M and K have a common
+/// null vector.
+std::vector<DensePair> solveQuadratic(const DenseProblem& problem, Vectors vectors = Vectors::right,
+                                      const Wanted& wanted = {});
+
+/// Not collective. Returns A times the right vectors of the pairs, m × pairs. An empty A stands for
+/// zero.
+ComplexMatrix timesVectors(const DenseView& a, const std::vector<DensePair>& pairs);
+/// Not collective. Returns Aᵀ times the left vectors of the pairs, m × pairs. An empty A stands for
+/// zero.
+ComplexMatrix transposedTimesLeft(const DenseView& a, const std::vector<DensePair>& pairs);
+
+/// Collective. Calls solve(i) for i below `count`, each on the rank i modulo the number of ranks,
+/// and returns the pairs on all ranks, so that rounding cannot make the ranks disagree on the order
+/// or number of eigenvalues. Throws Error on all ranks if one call does.
+std::vector<std::vector<DensePair>> spread(
+    MPI_Comm comm, std::size_t count, Vectors vectors,
+    const std::function<std::vector<DensePair>(std::size_t)>& solve);
+
+/// Collective. Solves several problems by spread(). The rank that solves a problem alone needs its
+/// matrices.
+std::vector<std::vector<DensePair>> solveSpread(MPI_Comm comm,
+                                                const std::vector<DenseProblem>& problems,
+                                                Vectors vectors, const Wanted& wanted = {});
+
+/// Collective. Solves one problem on rank 0 and returns the results on all ranks. Throws Error on
+/// all ranks if it fails.
+std::vector<DensePair> solveTogether(MPI_Comm comm, const DenseProblem& problem,
+                                     Vectors vectors = Vectors::right);
+
+/// Collective. Sends the pairs of rank `root` to all ranks; all vectors travel in one message.
+/// Vectors of a smaller basis are extended by zeros to the length of the longest one. `vectors`
+/// says whether left vectors are sent too.
+void shareFrom(int root, MPI_Comm comm, std::vector<DensePair>& pairs, Vectors vectors);
+
+}  // namespace squeal::linalg

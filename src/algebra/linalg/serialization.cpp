@@ -1,0 +1,29 @@
+#include "algebra/linalg/serialization.hpp"
+
+#include <span>
+#include <utility>
+
+namespace squeal::linalg {
+
+void fields(checkpoint::Stream& stream, DensePair& pair) {
+  // All members are named, so that a new one does not compile until it is written too.
+  auto& [s, q, left] = pair;
+  stream(s, q, left);
+}
+
+void borrow(checkpoint::Stream& stream, const DenseView& matrix,
+            std::shared_ptr<const void> owner) {
+  PetscInt rows = matrix.rows(), columns = matrix.columns();
+  stream(rows, columns);
+  const auto entries = matrix.entries();
+  stream.borrow({reinterpret_cast<const char*>(entries.data()), entries.size_bytes()},
+                std::move(owner));
+}
+
+void exchange(checkpoint::Archive& archive, ComplexVector& vector) {
+  auto& [real, imaginary] = vector;
+  archive.vector(real);
+  archive.vector(imaginary);
+}
+
+}  // namespace squeal::linalg

@@ -1,0 +1,370 @@
+#include "base/options/option_types.hpp"
+
+#include <petscsys.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+
+#include "base/options/options.hpp"
+#include "base/options/settings.hpp"
+#include "base/petsc/check.hpp"
+#include "base/system/text.hpp"
+#include "base/system/unreadable.hpp"
+
+namespace squeal {
+namespace {
+
+std::vector<const Option*>& registry() {
+  static std::vector<const Option*> options;
+  return options;
+}
+
+std::map<std::string, std::string>& recipe() {
+  static std::map<std::string, std::string> values;
+  return values;
+}
+
+/// While the options given are checked before the run, asking for one does not mean that the run
+/// uses it.
+bool validating = false;
+
+/// Returns the value of an option; none if it was not given.
+std::optional<std::string> valueGiven(const std::string& name) {
+  const char* value = nullptr;
+  PetscBool set = PETSC_FALSE;
+  check(PetscOptionsFindPair(nullptr, nullptr, ("-" + name).c_str(), &value, &set));
+  // PETSc, asked for a_1_b, also takes a_b.
+  static const std::regex numbered("_[0-9]+_");
+  if (!set || (std::regex_search(name, numbered) && !givenOptions().count(name))) return {};
+  return value ? value : "";
+}
+
+}  // namespace
+
+const std::vector<std::string>& stages() {
+  static const std::vector<std::string> inOrder = {
+      "general", "mesh", "matrices", "elasticity", "constraint", "load",   "motion",
+      "contact", "tie",  "steady",   "modes",      "flutter",    "regime", "report"};
+  return inOrder;
+}
+
+std::size_t stageRank(const std::string& stage) {
+  return std::find(stages().begin(), stages().end(), stage) - stages().begin();
+}
+
+Option::Option(std::string stage_, std::string name_, std::string default_, std::string unit_,
+               std::string meaning_, std::string rule_, bool required_)
+    : stage(std::move(stage_)),
+      name(std::move(name_)),
+      defaultText(std::move(default_)),
+      unit(std::move(unit_)),
+      meaning(std::move(meaning_)),
+      rule(std::move(rule_)),
+      required(required_) {
+  registry().push_back(this);
+}
+
+std::vector<const Option*> Option::all() {
+  std::vector<const Option*> options = registry();
+  std::stable_sort(options.begin(), options.end(), [](const auto* a, const auto* b) {
+    return stageRank(a->stage) < stageRank(b->stage);
+  });
+  return options;
+}
+
+std::string Option::fullName(const std::string& subject) const {
+  const auto open = name.find('<');
+  if (open == std::string::npos) return name;
+  return name.substr(0, open) + subject + name.substr(name.find('>') + 1);
+}
+
+bool Option::given(const std::string& subject) const {
+  return valueGiven(fullName(subject)).has_value();
+}
+
+bool Option::matches(const std::string& full) const {
+  const auto open = name.find('<');
+  if (open == std::string::npos) return full == name;
+  const std::string before = name.substr(0, open), after = name.substr(name.find('>') + 1);
+  return full.size() > before.size() + after.size() && full.starts_with(before) &&
+         full.compare(full.size() - after.size(), after.size(), after) == 0;
+}
+
+std::vector<std::string> Option::subjects() const {
+  const auto open = name.find('<');
+  const std::size_t around = name.size() - (name.find('>') - open + 1);
+  std::set<std::string> found;
+  for (const auto& [full, value] : givenOptions())
+    if (matches(full)) found.insert(full.substr(open, full.size() - around));
+  return {found.begin(), found.end()};
+}
+
+std::string Option::text(const std::string& subject) const {
+  const std::string full = fullName(subject);
+  const auto given = valueGiven(full);
+  if (!given && required) throw Error("option -" + full + " is missing: " + meaning);
+  const std::string value = trimmed(given.value_or(defaultText));
+  if (!validating) recipe()[full] = value;
+  return value;
+}
+
+std::string Option::named(const std::string& subject, const std::string& value) const {
+  const std::string full = fullName(subject);
+  return optionText(full, value, valueGiven(full).value_or(""));
+}
+
+void Option::reject(const std::string& subject, const std::string& value) const {
+  throw Error(named(subject, value) + ": " + meaning + (unit.empty() ? "" : " [" + unit + "]") +
+              "; must be " + rule);
+}
+
+double Option::number(const std::string& subject, const std::string& value) const {
+  double x = 0;
+  const std::string digits = trimmed(value);
+  const char* begin = digits.c_str() + (digits[0] == '+' ? 1 : 0);
+  const char* end = digits.c_str() + digits.size();
+  const auto [stop, error] = std::from_chars(begin, end, x);
+  if (error != std::errc() || stop != end || !std::isfinite(x)) reject(subject, "'" + digits + "'");
+  if (x != 0 && (std::abs(x) > largestMagnitude || std::abs(x) < smallestMagnitude))
+    throw Error(named(subject, digits) + ": " + meaning + "; must be " + rule +
+                ", and zero or of a magnitude between " + shortest(smallestMagnitude) + " and " +
+                shortest(largestMagnitude));
+  return x;
+}
+
+namespace {
+
+nlohmann::json schemaOf(const Range& range) {
+  nlohmann::json schema{{"type", "number"}};
+  if (std::isfinite(range.low)) schema[range.openLow ? "exclusiveMinimum" : "minimum"] = range.low;
+  if (std::isfinite(range.high))
+    schema[range.openHigh ? "exclusiveMaximum" : "maximum"] = range.high;
+  return schema;
+}
+
+}  // namespace
+
+bool Range::holds(double x) const {
+  return (openLow ? x > low : x >= low) && (openHigh ? x < high : x <= high);
+}
+
+std::string Range::text() const {
+  std::string words;
+  if (std::isfinite(low)) words += (openLow ? "> " : ">= ") + shortest(low);
+  if (std::isfinite(high))
+    words += (words.empty() ? "" : " and ") + std::string(openHigh ? "< " : "<= ") + shortest(high);
+  return words.empty() ? "a number" : "a number " + words;
+}
+
+RealOption::RealOption(std::string stage, std::string name, std::optional<double> byDefault,
+                       std::string unit, Range range, std::string meaning)
+    : Option(std::move(stage), std::move(name), byDefault ? shortest(*byDefault) : "",
+             std::move(unit), std::move(meaning), range.text(), !byDefault),
+      range_(range) {}
+
+double RealOption::get(const std::string& subject) const {
+  const std::string value = text(subject);
+  const double x = number(subject, value);
+  if (!range_.holds(x)) reject(subject, value);
+  return x;
+}
+
+WordOrRealOption::WordOrRealOption(std::string stage, std::string name, double byDefault,
+                                   std::string unit, std::string word, std::string meaning)
+    : Option(std::move(stage), std::move(name), shortest(byDefault), std::move(unit),
+             std::move(meaning), "'" + word + "' or a number"),
+      word_(std::move(word)) {}
+
+std::optional<double> WordOrRealOption::get(const std::string& subject) const {
+  const std::string value = text(subject);
+  return value == word_ ? std::nullopt : std::optional(number(subject, value));
+}
+
+IntegerOption::IntegerOption(std::string stage, std::string name, int byDefault, int lowest,
+                             int highest, std::string meaning)
+    : Option(std::move(stage), std::move(name), std::to_string(byDefault), "", std::move(meaning),
+             "an integer >= " + std::to_string(lowest) + " and <= " + std::to_string(highest)),
+      lowest_(lowest),
+      highest_(highest) {}
+
+int IntegerOption::get(const std::string& subject) const {
+  const std::string value = text(subject);
+  int x = 0;
+  const auto [stop, error] = std::from_chars(value.data(), value.data() + value.size(), x);
+  if (error != std::errc() || stop != value.data() + value.size() || x < lowest_ || x > highest_)
+    reject(subject, value);
+  return x;
+}
+
+RealListOption::RealListOption(std::string stage, std::string name, std::string byDefault,
+                               std::string unit, Range range, std::string meaning, bool ranges)
+    : Option(std::move(stage), std::move(name), std::move(byDefault), std::move(unit),
+             std::move(meaning),
+             std::string(ranges ? "first:last:step or " : "") + "a comma-separated list, each " +
+                 range.text()),
+      range_(range),
+      ranges_(ranges) {}
+
+void RealListOption::requireLength(const std::string& subject, const std::string& value,
+                                   double length) const {
+  if (length > longestList)
+    throw Error(formatted("%s: %.0f values; a list holds %d at most",
+                          named(subject, value.substr(0, 40)).c_str(), length, longestList));
+}
+
+std::vector<double> RealListOption::get(const std::string& subject) const {
+  const std::string value = text(subject);
+  std::vector<double> list;
+  const auto parts = split(value, ':');
+  if (ranges_ && parts.size() > 1) {
+    if (parts.size() != 3) reject(subject, value);
+    const double first = number(subject, parts[0]), last = number(subject, parts[1]),
+                 step = number(subject, parts[2]);
+    if (!(step > 0) || last < first) reject(subject, value);
+    requireLength(subject, value, std::floor((last - first) / step) + 1);
+    // There is a little slack: 0:0.6:0.05 ends at 0.6 although 12 × 0.05 is not the double nearest
+    // to it.
+    const int steps = std::floor((last - first) / step + 1e-9);
+    for (int i = 0; i <= steps; ++i)
+      list.push_back(std::stod(formatted("%.12g", first + i * step)));
+  } else {
+    const auto items = split(value, ',');
+    requireLength(subject, value, items.size());
+    for (const auto& item : items) list.push_back(number(subject, item));
+  }
+  for (double x : list)
+    if (!range_.holds(x)) reject(subject, value);
+  return list;
+}
+
+std::array<double, 3> RealListOption::components(const std::string& subject, int dimension) const {
+  const auto values = get(subject);
+  if (values.size() != 3 && (values.size() != 2 || dimension != 2))
+    throw Error(named(subject, text(subject)) + ": " + meaning + "; must have " +
+                (dimension == 2 ? "2 components in the plane, or 3" : "3 components"));
+  return {values[0], values[1], values.size() == 3 ? values[2] : 0.0};
+}
+
+FlagOption::FlagOption(std::string stage, std::string name, bool byDefault, std::string meaning)
+    : Option(std::move(stage), std::move(name), byDefault ? "on" : "off", "", std::move(meaning),
+             "on or off") {}
+
+bool FlagOption::get(const std::string& subject) const {
+  const std::string value = text(subject);
+  if (value.empty() || value == "on" || value == "true" || value == "yes" || value == "1")
+    return true;
+  if (value == "off" || value == "false" || value == "no" || value == "0") return false;
+  reject(subject, value);
+}
+
+ChoiceOption::ChoiceOption(std::string stage, std::string name, std::vector<std::string> choices,
+                           std::string byDefault, std::string meaning)
+    : Option(std::move(stage), std::move(name), std::move(byDefault), "", std::move(meaning),
+             joined(choices, " or ")),
+      choices_(std::move(choices)) {}
+
+std::string ChoiceOption::get(const std::string& subject) const {
+  const std::string value = text(subject);
+  if (std::find(choices_.begin(), choices_.end(), value) == choices_.end()) reject(subject, value);
+  return value;
+}
+
+TextOption::TextOption(std::string stage, std::string name, std::optional<std::string> byDefault,
+                       std::string meaning)
+    : Option(std::move(stage), std::move(name), byDefault.value_or(""), "", std::move(meaning),
+             "text", !byDefault) {}
+
+std::string TextOption::get(const std::string& subject) const {
+  const std::string value = text(subject);
+  if (value.empty() && given(subject)) reject(subject, "without a value");
+  return value;
+}
+
+std::vector<std::string> TextOption::list(const std::string& subject) const {
+  const std::string value = get(subject);
+  auto items = split(value, ',');
+  for (auto& item : items)
+    if (item = trimmed(item); item.empty())
+      throw Error(named(subject, value) + ": an item of the list is empty");
+  return items;
+}
+
+FileOption::FileOption(std::string stage, std::string name, std::string meaning)
+    : Option(std::move(stage), std::move(name), "", "", std::move(meaning), "a file", true) {}
+
+void FileOption::validate(const std::string& subject) const {
+  const std::string path = text(subject);
+  onFirstRank(PETSC_COMM_WORLD, named(subject, path) + ": ", [&] {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored)) throw Error("this is a folder");
+    const std::string why = whyUnreadable(path);
+    if (why.empty()) return;
+    const std::string file = origin(fullName(subject), path).file;
+    if (why != noSuchFile || file.empty()) throw Error(why);
+    throw Error(why + ", neither beside " + file + " nor in the working folder");
+  });
+}
+
+bool FileOption::isOne(const std::string& full) {
+  const auto options = all();
+  return std::any_of(options.begin(), options.end(), [&](const auto* option) {
+    return dynamic_cast<const FileOption*>(option) && option->matches(full);
+  });
+}
+
+nlohmann::json RealOption::valueSchema() const { return schemaOf(range_); }
+
+nlohmann::json WordOrRealOption::valueSchema() const {
+  return {{"anyOf", {schemaOf(anyReal), {{"const", word_}}}}};
+}
+
+nlohmann::json IntegerOption::valueSchema() const {
+  return {{"type", "integer"}, {"minimum", lowest_}, {"maximum", highest_}};
+}
+
+nlohmann::json RealListOption::valueSchema() const {
+  const nlohmann::json one = schemaOf(range_);
+  return {{"anyOf",
+           {one,
+            {{"type", "string"}},
+            {{"type", "array"}, {"items", one}, {"minItems", 1}, {"maxItems", longestList}}}}};
+}
+
+nlohmann::json FlagOption::valueSchema() const {
+  // Editors differ in whether on and off are words or truth values. Without a value it is on.
+  return {{"enum", {true, false, 0, 1, "on", "off", "yes", "no", "true", "false", nullptr}}};
+}
+
+nlohmann::json ChoiceOption::valueSchema() const {
+  nlohmann::json values = choices_;
+  for (const auto& [word, truth] : {std::pair{"on", true}, {"off", false}})
+    if (std::ranges::find(choices_, word) != choices_.end()) values.push_back(truth);
+  return {{"enum", values}};
+}
+
+nlohmann::json TextOption::valueSchema() const {
+  return {{"type", {"string", "number", "boolean", "array", "null"}}};
+}
+
+nlohmann::json FileOption::valueSchema() const { return {{"type", "string"}, {"minLength", 1}}; }
+
+void validateGivenOptions() {
+  struct Validation {
+    Validation() { validating = true; }
+    ~Validation() { validating = false; }  // after an Error as well
+  } validation;
+  for (const auto* option : Option::all())
+    for (const auto& subject : option->name.find('<') == std::string::npos
+                                   ? std::vector<std::string>{""}
+                                   : option->subjects())
+      if (option->given(subject)) option->validate(subject);
+}
+
+const std::map<std::string, std::string>& resolvedOptions() { return recipe(); }
+
+}  // namespace squeal

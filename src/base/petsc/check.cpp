@@ -1,0 +1,75 @@
+#include "base/petsc/check.hpp"
+
+#include <petscblaslapack.h>
+
+#include <cstdlib>
+#include <vector>
+
+#include "base/system/memory.hpp"
+#include "base/system/termination.hpp"
+
+namespace squeal {
+
+namespace {
+
+KeptError* keeper = nullptr;
+
+bool lacks = false;
+
+/// Handles an error of PETSc, whose own handler prints a trace where an allocation fails. The code
+/// alone goes up to check(), which says it in one line. The code that PetscMallocAlign of PETSc
+/// 3.18 raises is the number of a line instead of PETSC_ERR_MEM: the name of the function tells.
+PetscErrorCode handleError(MPI_Comm comm, int line, const char* function, const char* file,
+                           PetscErrorCode code, PetscErrorType type, const char* message,
+                           void* context) {
+  if (type == PETSC_ERROR_INITIAL)
+    lacks = code == PETSC_ERR_MEM || (function && std::string(function) == "PetscMallocAlign");
+  if (lacks || KeptError::keep(code, message)) return code;
+  return PetscTraceBackErrorHandler(comm, line, function, file, code, type, message, context);
+}
+
+}  // namespace
+
+KeptError::KeptError() { keeper = this; }
+
+KeptError::~KeptError() { keeper = nullptr; }
+
+bool KeptError::keep(PetscErrorCode code, const char* message) {
+  if (!keeper) return false;
+  if (keeper->code_ == 0) {  // functions on the way up repeat it
+    keeper->code_ = code;
+    keeper->message_ = message ? message : "";
+  }
+  return true;
+}
+
+void check(PetscErrorCode code, std::source_location where) {
+  if (code == 0) return;
+  if (lacksMemory(code)) outOfMemory();
+  const std::string kept = keeper ? keeper->message() : "";  // what has not been printed yet
+  keeper = nullptr;
+  PetscError(PETSC_COMM_SELF, where.line(), where.function_name(), where.file_name(), code,
+             kept.empty() ? PETSC_ERROR_REPEAT : PETSC_ERROR_INITIAL, "%s",
+             kept.empty() ? " " : kept.c_str());
+  performLastActs();
+  MPI_Abort(PETSC_COMM_WORLD, 70);
+}
+
+void reportLackOfMemoryInOneLine() { check(PetscPushErrorHandler(handleError, nullptr)); }
+
+bool lacksMemory(PetscErrorCode code) { return code != 0 && (lacks || code == PETSC_ERR_MEM); }
+
+void claimBlasWorkspace() {
+  constexpr std::size_t workspace = 160u << 20;  // OpenBLAS takes 128 MB
+  if (void* room = std::malloc(workspace))
+    std::free(room);
+  else
+    outOfMemory();
+  PetscBLASInt n = 128;  // smaller products may do without
+  const PetscScalar one = 1;
+  const std::vector<PetscScalar> a(n * n, 1.0);
+  std::vector<PetscScalar> product(a.size(), 0.0);
+  BLASgemm_("N", "N", &n, &n, &n, &one, a.data(), &n, a.data(), &n, &one, product.data(), &n);
+}
+
+}  // namespace squeal

@@ -1,0 +1,138 @@
+#include "base/session/session.hpp"
+
+#include <dmumps_c.h>
+#include <gmsh.h>
+#include <hdf5.h>
+#include <slepcsys.h>
+#include <vtkVersionMacros.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "base/options/settings.hpp"
+#include "base/petsc/check.hpp"
+#include "base/petsc/log_events.hpp"
+#include "base/system/memory.hpp"
+#include "base/system/termination.hpp"
+#include "base/system/text.hpp"
+
+namespace squeal {
+
+namespace {
+
+/// Collective. Returns the options of the call on all ranks. An error ends the program here, in one
+/// line.
+std::vector<Setting> readSettings(const std::vector<std::string>& words) {
+  std::vector<Setting> settings;
+  try {
+    onFirstRank(MPI_COMM_WORLD, "", [&] { settings = settingsOfCall(words); });
+    return onAllRanks(MPI_COMM_WORLD, settings);
+  } catch (const Error& error) {
+    int rank = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    if (rank == 0) std::fprintf(stderr, "squeal: error: %s\n", escaped(error.what()).c_str());
+    MPI_Finalize();
+    std::exit(1);
+  }
+}
+
+/// Collective. Starts SLEPc and PETSc with all options, as PETSc looks at some of its own when it
+/// starts. A value that looks like a name is not passed; insert() follows and sets it.
+void startSlepc(char* program, const std::vector<Setting>& settings) {
+  static std::vector<std::string> words;  // PETSc keeps pointers to them
+  static std::vector<char*> pointers;
+  words = {program, "-skip_petscrc"};  // read already, as are the variables
+  unsetenv("PETSC_OPTIONS");
+  unsetenv("PETSC_OPTIONS_YAML");
+  for (const auto& setting : settings) {
+    words.push_back("-" + setting.name);
+    if (!setting.value.empty() && setting.value[0] != '-') words.push_back(setting.value);
+  }
+  for (auto& word : words) pointers.push_back(word.data());
+  int count = pointers.size();
+  pointers.push_back(nullptr);
+  char** arguments = pointers.data();
+  if (SlepcInitialize(&count, &arguments, nullptr, nullptr) != 0) MPI_Abort(MPI_COMM_WORLD, 70);
+  check(PetscOptionsClearValue(nullptr, "-skip_petscrc"));
+  registerWork();
+  insert(settings);
+}
+
+}  // namespace
+
+Session::Session(int argc, char** argv) {
+  SignalWatch signals;
+  // PETSc's own -help lists several hundred options of its parts; ours is the manual of this
+  // program and replaces it.
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  const auto among = [&](const std::vector<std::string>& names) {
+    return std::find_first_of(words.begin(), words.end(), names.begin(), names.end()) !=
+           words.end();
+  };
+  helpWanted_ = among({"-help", "--help", "-h"});
+  helpJsonWanted_ = among({"-help_json", "--help_json"});
+  for (std::size_t i = 0; i + 1 < words.size(); ++i)
+    for (const char* help : {"-help", "--help", "-h", "-help_json", "--help_json"})
+      if (words[i] == help && !words[i + 1].starts_with('-')) helpStage_ = words[i + 1];
+  versionWanted_ = among({"-version", "--version"});
+  check(MPI_Init(&argc, &argv));  // before PETSc's, so that a mistake in the options is told in one
+                                  // line instead of a traceback
+  const auto settings = helpWanted_ || helpJsonWanted_ || versionWanted_ ? std::vector<Setting>{}
+                                                                         : readSettings(words);
+  optionsGiven_ = !settings.empty();
+  startSlepc(argv[0], settings);
+  reportLackOfMemoryInOneLine();
+  signals.begin(rank());
+  keepFreedMemory();
+  claimBlasWorkspace();
+  gmsh::initialize(0, nullptr, false);
+  gmsh::option::setNumber("General.Terminal", 0);  // messages reach the user through our errors
+}
+
+Session::~Session() {
+  PetscOptionsSetValue(nullptr, "-options_left",
+                       "no");  // rejectUnknownOptions says it before the run, not after
+  gmsh::finalize();
+  SlepcFinalize();
+  MPI_Finalize();
+}
+
+MPI_Comm Session::comm() const { return PETSC_COMM_WORLD; }
+
+int Session::rank() const {
+  int rank = 0;
+  check(MPI_Comm_rank(comm(), &rank));
+  return rank;
+}
+
+int Session::size() const {
+  int size = 1;
+  check(MPI_Comm_size(comm(), &size));
+  return size;
+}
+
+const char* version() { return SQUEAL_VERSION; }
+
+std::string versions() {
+  char petsc[256] = "", slepc[256] = "", mpi[MPI_MAX_LIBRARY_VERSION_STRING] = "";
+  int length = 0;
+  unsigned hdf5[3] = {};
+  check(PetscGetVersion(petsc, sizeof petsc));
+  check(SlepcGetVersion(slepc, sizeof slepc));
+  check(MPI_Get_library_version(mpi, &length));
+  H5get_libversion(&hdf5[0], &hdf5[1], &hdf5[2]);
+  const auto firstPart = [](const std::string& text) {
+    return text.substr(0, text.find_first_of(",\n"));
+  };
+  return formatted(
+      "squeal %s\n%s\n%s\nMUMPS %s\n%s\nHDF5 %u.%u.%u, gmsh %s, VTK %s\nscalars: %s, %zu bits; "
+      "indices: %zu bits\n",
+      version(), firstPart(petsc).c_str(), firstPart(slepc).c_str(), MUMPS_VERSION,
+      firstPart(mpi).c_str(), hdf5[0], hdf5[1], hdf5[2], GMSH_API_VERSION, VTK_VERSION,
+      PetscDefined(USE_COMPLEX) ? "complex" : "real", 8 * sizeof(PetscReal), 8 * sizeof(PetscInt));
+}
+
+}  // namespace squeal

@@ -1,0 +1,50 @@
+#pragma once
+/// The parts of a list that the ranks hold are put together on every rank.
+#include <mpi.h>
+
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include "base/system/mpi.hpp"
+
+namespace squeal {
+
+/// A Concatenation tells where the part of each rank lies in the list of all ranks, which has the
+/// order of the ranks.
+class Concatenation {
+ public:
+  /// Collective. `own` is the number of entries of this rank.
+  Concatenation(MPI_Comm comm, std::size_t own);
+  /// Returns the number of entries of all ranks.
+  int size() const { return begin_.back() + counts_.back(); }
+  /// Returns the place of the first entry of this rank.
+  int ownBegin() const { return begin_[rank_]; }
+  /// Collective. Sets the size() entries of `all` from the entries of each rank.
+  template <class Entry>
+  void gather(std::span<const Entry> own, std::span<Entry> all) const {
+    static_assert(std::is_trivially_copyable_v<Entry>);
+    gatherBytes(own.data(), all.data(), sizeof(Entry));
+  }
+  /// Collective. Returns the entries of all ranks.
+  template <class Entry>
+  std::vector<Entry> gathered(const std::vector<Entry>& own) const {
+    std::vector<Entry> all(size());
+    gather<Entry>(own, all);
+    return all;
+  }
+
+ private:
+  void gatherBytes(const void* own, void* all, int bytesPerEntry) const;
+  MPI_Comm comm_;
+  int rank_;
+  std::vector<int> counts_, begin_;  // [rank]
+};
+
+/// Collective. Returns the entries of all ranks in the order of the ranks.
+template <class Entry>
+std::vector<Entry> concatenated(MPI_Comm comm, const std::vector<Entry>& own) {
+  return Concatenation(comm, own.size()).gathered(own);
+}
+
+}  // namespace squeal

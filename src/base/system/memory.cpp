@@ -1,0 +1,84 @@
+#include "base/system/memory.hpp"
+
+#include <malloc.h>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <string>
+
+#include "base/system/mpi.hpp"
+#include "base/system/termination.hpp"
+
+namespace squeal {
+namespace {
+
+/// Returns the first number in a file of /proc or /sys; none if there is no such file, or if it
+/// says "max".
+std::optional<double> numberIn(const std::string& path) {
+  double value = 0;
+  if (std::ifstream file(path); file >> value) return value;
+  return {};
+}
+
+/// Returns the number behind `name` in a table of /proc or /sys; none if the table has no such
+/// line.
+std::optional<double> entryOf(const std::string& path, const std::string& name) {
+  std::ifstream file(path);
+  for (std::string line, word; std::getline(file, line);)
+    if (double value = 0; std::istringstream(line) >> word >> value && word == name) return value;
+  return {};
+}
+
+}  // namespace
+
+double addressSpace() {
+  // The first number in the file is that of all pages.
+  return numberIn("/proc/self/statm").value_or(0) * sysconf(_SC_PAGESIZE);
+}
+
+double availableMemory() {
+  double bytes = 1024 * entryOf("/proc/meminfo", "MemAvailable:").value_or(1e15);
+  // A batch job may have a limit of its own, in version 2 of the control groups or in version 1.
+  // The kernel gives back the memory in which it caches files.
+  struct Group {
+    const char *most, *used, *details, *cached;
+  };
+  for (const auto& [most, used, details, cached] :
+       {Group{"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory.current",
+              "/sys/fs/cgroup/memory.stat", "file"},
+        Group{"/sys/fs/cgroup/memory/memory.limit_in_bytes",
+              "/sys/fs/cgroup/memory/memory.usage_in_bytes", "/sys/fs/cgroup/memory/memory.stat",
+              "cache"}})
+    if (const auto all = numberIn(most), now = numberIn(used); all && now)
+      bytes = std::min(bytes, std::max(0.0, *all - *now + entryOf(details, cached).value_or(0)));
+  return bytes;
+}
+
+double memoryFreeOnNode(MPI_Comm comm, double& needed) {
+  MPI_Comm node = MPI_COMM_NULL;
+  MPI_Comm_split_type(comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node);
+  needed = mpi::sum(node, needed);
+  MPI_Comm_free(&node);
+  return availableMemory();
+}
+
+void keepFreedMemory() {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);
+  mallopt(M_TRIM_THRESHOLD, 512 << 20);
+#endif
+}
+
+void outOfMemory() {
+  std::fprintf(stderr, "squeal: error: rank %d got no more memory: %s\n", mpi::rank(MPI_COMM_WORLD),
+               lessMemory);
+  abortRun();
+}
+
+}  // namespace squeal

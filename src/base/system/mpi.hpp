@@ -1,0 +1,86 @@
+#pragma once
+/// Collective operations of MPI on single values, lists and texts. A call of MPI that fails ends
+/// the run: the error handler of a communicator is MPI_ERRORS_ARE_FATAL.
+#include <mpi.h>
+
+#include <complex>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace squeal::mpi {
+
+/// The datatype of MPI for a number.
+template <class Number>
+MPI_Datatype typeOf() {
+  if constexpr (std::is_same_v<Number, double>) return MPI_DOUBLE;
+  if constexpr (std::is_same_v<Number, std::complex<double>>) return MPI_CXX_DOUBLE_COMPLEX;
+  if constexpr (std::is_same_v<Number, char>) return MPI_CHAR;
+  if constexpr (std::is_integral_v<Number> && !std::is_same_v<Number, char>) {
+    if constexpr (sizeof(Number) == 1)
+      return std::is_signed_v<Number> ? MPI_INT8_T : MPI_UINT8_T;
+    else if constexpr (sizeof(Number) == 4)
+      return std::is_signed_v<Number> ? MPI_INT32_T : MPI_UINT32_T;
+    else
+      return std::is_signed_v<Number> ? MPI_INT64_T : MPI_UINT64_T;
+  }
+}
+
+/// Not collective. Returns the number of this rank.
+int rank(MPI_Comm comm);
+/// Not collective. Returns the number of ranks.
+int size(MPI_Comm comm);
+
+/// Collective. Replaces each value by what `operation` makes of those of all ranks.
+template <class Number>
+void reduce(MPI_Comm comm, std::span<Number> values, MPI_Op operation) {
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), int(values.size()), typeOf<Number>(), operation, comm);
+}
+
+/// Collective. Returns the sum of the values of all ranks.
+template <class Number>
+Number sum(MPI_Comm comm, Number value) {
+  reduce<Number>(comm, {&value, 1}, MPI_SUM);
+  return value;
+}
+/// Collective. Returns the largest of the values of all ranks.
+template <class Number>
+Number max(MPI_Comm comm, Number value) {
+  reduce<Number>(comm, {&value, 1}, MPI_MAX);
+  return value;
+}
+/// Collective. Returns the smallest of the values of all ranks.
+template <class Number>
+Number min(MPI_Comm comm, Number value) {
+  reduce<Number>(comm, {&value, 1}, MPI_MIN);
+  return value;
+}
+/// Collective. Returns true if the value is true on any rank.
+bool any(MPI_Comm comm, bool value);
+/// Collective. Returns true if the value is true on all ranks.
+bool all(MPI_Comm comm, bool value);
+
+/// Collective. Sets these bytes, any number of them, on all ranks to those on rank `root`.
+void broadcastBytes(MPI_Comm comm, void* bytes, std::size_t count, int root);
+/// Collective. Sets the value on all ranks to that on rank `root`.
+template <class Value>
+void broadcast(MPI_Comm comm, Value& value, int root = 0) {
+  static_assert(std::is_trivially_copyable_v<Value> && !std::is_pointer_v<Value>);
+  broadcastBytes(comm, &value, sizeof value, root);
+}
+/// Collective. Sets the list, its length included, on all ranks to that on rank `root`.
+template <class Value>
+void broadcast(MPI_Comm comm, std::vector<Value>& values, int root = 0) {
+  static_assert(std::is_trivially_copyable_v<Value> && !std::is_pointer_v<Value>);
+  std::size_t count = values.size();
+  broadcast(comm, count, root);
+  values.resize(count);
+  broadcastBytes(comm, values.data(), count * sizeof(Value), root);
+}
+/// Collective. Sets the text on all ranks to that on rank `root`.
+void broadcast(MPI_Comm comm, std::string& text, int root = 0);
+
+}  // namespace squeal::mpi

@@ -1,0 +1,78 @@
+#pragma once
+/// The eigenvalues nearest to zero of the problem on all unknowns are found by SLEPc.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "algebra/linalg/complexvector.hpp"
+#include "eigen/pencil/pencil.hpp"
+#include "eigen/sweep/parameters.hpp"
+
+namespace squeal::direct {
+
+/// An eigenvalue with its right vector, which has the 2-norm 1. The imaginary part of a real vector
+/// is zero.
+struct NearestPair : linalg::ComplexVector {
+  Complex s;
+};
+
+/// Eigenvalues found near zero.
+struct NearestPairs {
+  std::vector<NearestPair> pairs;  ///< with Im s ≥ 0
+  double reached = 0;  ///< |s| up to which all eigenvalues are listed, 1/s; infinite: all are
+};
+
+/// A solver for the eigenvalues nearest to zero at one point of the sweep.
+class NearestSolver {
+ public:
+  /// Collective. Assembles the matrices of all powers of s at this point.
+  NearestSolver(const pencil::Pencil& pencil, const sweep::Parameters& at);
+  virtual ~NearestSolver() = default;
+  /// Collective. Returns at least the `count` eigenvalues nearest to zero, or all if there are
+  /// fewer, with conjugate pairs counted once. Each call begins with another vector and keeps the
+  /// factorisation. Where the Krylov space would be the whole space of a small problem, LAPACK is
+  /// called instead. Throws Error if SLEPc does not converge, or if LAPACK fails within it from
+  /// each of several start vectors.
+  NearestPairs solve(PetscInt count);
+
+ protected:
+  MPI_Comm comm() const;
+  sweep::Parameters at_;
+  OwnedMat terms_[3];  // [power of s]
+  PetscInt size_ = 0;
+
+ private:
+  /// Collective. Makes SLEPc's solver ready for `count` eigenvalues and for this start vector.
+  virtual void prepare(PetscInt count, Vec start) = 0;
+  /// Collective. Runs SLEPc's solver and returns its error code.
+  virtual PetscErrorCode run() = 0;
+  /// Collective. Destroys SLEPc's solver; prepare() makes another one.
+  virtual void discard() = 0;
+  /// Collective. Returns what SLEPc's solver has found. Throws Error if fewer than `count`
+  /// eigenvalues have converged.
+  virtual NearestPairs collected(PetscInt count) = 0;
+  NearestPairs krylov(PetscInt count);
+  /// Collective. Runs SLEPc's solver. Returns an empty text, or the message of a failure of LAPACK,
+  /// after which the solver is gone.
+  std::string lapackFailure();
+  NearestPairs whole() const;
+  int runs_ = 0;  // start vectors taken so far
+};
+
+/// Collective. Returns a solver with shift-and-invert at zero: if there is no damping, an EPS in
+/// μ = −s² [M.40] (-flutter_eps_*), otherwise the PEP solver TOAR (-flutter_pep_*). The options
+/// -flutter_st_* configure the factorisation of both.
+std::unique_ptr<NearestSolver> nearestSolver(const pencil::Pencil& pencil,
+                                             const sweep::Parameters& at);
+
+/// Collective. Adds to `found`, the result of solver.solve(count), the pairs that further solves
+/// from other start vectors find, until a solve finds no new one. A Krylov space from one vector
+/// holds only one vector of a multiple eigenvalue, except for rounding. A pair is new if its vector
+/// is not in the span of those already known with nearly the same s.
+void addMissed(NearestSolver& solver, PetscInt count, NearestPairs& found);
+
+/// Throws Error for -flutter_eps_*, -flutter_pep_* and -flutter_st_* options if the direct method,
+/// which alone uses them, is not asked for.
+void rejectIdleSolverOptions();
+
+}  // namespace squeal::direct

@@ -1,0 +1,395 @@
+#include "eigen/modes/modes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "algebra/factor/symmetric_solver.hpp"
+#include "algebra/linalg/block.hpp"
+#include "algebra/linalg/columns.hpp"
+#include "algebra/linalg/gathered.hpp"
+#include "algebra/linalg/symmetric.hpp"
+#include "base/options/options.hpp"
+#include "base/petsc/arrays.hpp"
+#include "base/session/stages.hpp"
+#include "base/system/text.hpp"
+#include "eigen/modes/blocklanczos.hpp"
+
+namespace squeal::modes {
+namespace {
+
+const IntegerOption countOption("modes", "modes_count", 200, 1, 1'000'000,
+                                "number of free-vibration modes, the basis of the reduced problem");
+const ChoiceOption solverOption("modes", "modes_solver", {"auto", "block_lanczos", "eps"}, "auto",
+                                "block_lanczos: the EPS type blocklanczos of this program; eps: "
+                                "krylovschur, or what -modes_eps_type names; auto: block_lanczos, "
+                                "or eps if a type is given or the problem is small");
+const IntegerOption blockOption("modes", "modes_block_size", 8, 1, 1000,
+                                "right-hand sides that block_lanczos solves for together");
+const RealOption toleranceOption(
+    "modes", "modes_tolerance", 1e-8, "", {0, 1e-2, true, false},
+    "relative error of the eigenvalues of S = inverse(K) M (of eps: -modes_eps_tol)");
+const FlagOption sturmOption(
+    "modes", "modes_sturm", true,
+    "confirm by the inertia of K - sigma M that no mode is missing (one more factorisation)");
+const SolverPrefix solverPrefix("modes", "modes_eps_",
+                                "SLEPc EPS of the free vibrations: tol, ncv, mpd, type, …");
+
+PetscInt rowsOf(Mat matrix) {
+  PetscInt rows = 0;
+  check(MatGetSize(matrix, &rows, nullptr));
+  return rows;
+}
+
+PetscErrorCode report(EPS, PetscInt iteration, PetscInt converged, PetscScalar*, PetscScalar*,
+                      PetscReal*, PetscInt, void* context) {
+  static_cast<Stage*>(context)->progress(formatted(
+      "restart %" PetscInt_FMT ": %" PetscInt_FMT " modes converged", iteration, converged));
+  return 0;
+}
+
+/// Collective. Returns a solver of SLEPc for the modes nearest to zero.
+OwnedEPS solver(const factor::AssociatedSystem& system, const Options& options, const char* type,
+                Stage& stage) {
+  const Mat k = system.k0();
+  OwnedEPS eps;
+  registerBlockLanczos();
+  check(EPSCreate(PetscObjectComm(reinterpret_cast<PetscObject>(k)), eps.out()));
+  check(EPSSetOptionsPrefix(eps, "modes_"));
+  check(EPSSetOperators(eps, k, system.m0()));
+  check(EPSSetProblemType(eps, EPS_GHEP));
+  check(EPSSetType(eps, type));
+  check(EPSSetWhichEigenpairs(eps, EPS_TARGET_MAGNITUDE));
+  check(EPSSetTarget(eps, 0));
+  check(EPSSetTolerances(eps, options.tolerance, PETSC_DEFAULT));
+  check(EPSSetPurify(eps, PETSC_FALSE));
+  check(EPSMonitorSet(eps, report, &stage, nullptr));
+  ST st = nullptr;
+  check(EPSGetST(eps, &st));
+  check(STSetType(st, STSINVERT));
+  check(STSetKSP(st, system.solver()));  // shift 0: K0 is factorised already
+  return eps;
+}
+
+/// Collective. Reads the options of EPS and makes it ready.
+void setUp(EPS eps) {
+  applySolverOptions([&] { return EPSSetFromOptions(eps); });
+  solverPrefix.rejectUnused();
+  applySolverOptions([&] { return EPSSetUp(eps); });
+  factor::rejectUnusedSolverOptions();
+}
+
+/// Returns the number of modes, at most all but one, above which the widest relative gap of the
+/// topmost ten begins, so that rounding cannot move an eigenvalue across it. If these are all
+/// copies of one multiple eigenvalue, the gap is sought below it.
+std::size_t modesBelowGap(const std::vector<double>& w) {
+  constexpr double distinct = 1e-6;
+  std::size_t below = 0;
+  double widest = 0;
+  for (std::size_t i = w.size() - 1; i >= 1 && (i + 10 >= w.size() || widest < distinct); --i)
+    if (const double gap = w[i] / w[i - 1] - 1; gap > widest) widest = gap, below = i;
+  return widest < distinct ? 0 : below;
+}
+
+/// Returns true if the modes below the shift are as many as the inertia has counted there, and the
+/// shift lies between two of them beyond doubt.
+bool isCounted(const Modes& modes) {
+  constexpr double apart = 1e-6;  // of λ
+  const double shift = modes.inertiaShift;
+  if (!(shift > 0) || !(shift < modes.lambda.back())) return false;
+  const auto near = [&](double lambda) { return std::abs(lambda - shift) < apart * shift; };
+  const auto below = [&](double lambda) { return lambda < shift; };
+  return std::ranges::none_of(modes.lambda, near) &&
+         std::ranges::count_if(modes.lambda, below) == modes.inertiaCount;
+}
+
+/// Collective. Counts the eigenvalues below a shift in the gap of modesBelowGap(), unless a count
+/// that has been made already agrees.
+void confirmCount(Mat k, Mat m, Modes& modes) {
+  modes.countConfirmed = isCounted(modes);
+  if (modes.lambda.empty() || modes.countConfirmed) return;
+  const auto& w = modes.angularFrequency;
+  const int below = modesBelowGap(w);
+  modes.inertiaShift =
+      below > 0 ? 0.5 * (w[below] * w[below] + w[below - 1] * w[below - 1]) : 0.5 * w[0] * w[0];
+  modes.inertiaCount = factor::shiftedFactor(k, m, modes.inertiaShift)->inertia().negative;
+  modes.countConfirmed = modes.inertiaCount == below;
+}
+
+void requireConverged(int converged, int count, const char* options) {
+  if (converged < count)
+    throw Error(formatted(
+        "free vibration: only %d of %d modes converged; try %s, or loosen -modes_tolerance",
+        converged, count, options));
+}
+
+/// Collective. Takes the eigenvalues, ascending, and the vectors, M-orthonormal, from a solver.
+void takeModes(EPS eps, int count, Modes& modes) {
+  Mat k = nullptr;
+  check(EPSGetOperators(eps, &k, nullptr));
+  const OwnedVec d = rightVector(k);
+  check(BVCreate(PetscObjectComm(reinterpret_cast<PetscObject>(k)), modes.vectors.out()));
+  check(BVSetSizesFromVec(modes.vectors, d, count));
+  check(BVSetType(modes.vectors, BVSVEC));
+  PetscInt converged = 0;
+  check(EPSGetConverged(eps, &converged));
+  std::vector<std::pair<double, PetscInt>> order;
+  for (PetscInt i = 0; i < converged; ++i) {
+    PetscScalar value = 0;
+    check(EPSGetEigenvalue(eps, i, &value, nullptr));
+    order.emplace_back(value, i);
+  }
+  std::sort(order.begin(), order.end());
+  for (int i = 0; i < count; ++i) {
+    check(EPSGetEigenvector(eps, order[i].second, d, nullptr));
+    check(BVInsertVec(modes.vectors, i, d));
+    modes.lambda.push_back(order[i].first);
+  }
+}
+
+/// Collective. Finds the modes by the type of EPS that -modes_eps_type names. Throws Error if too
+/// few converge.
+void solveByEps(const factor::AssociatedSystem& system, const Options& options, Stage& stage,
+                Modes& modes) {
+  const int count = options.count;
+  const OwnedEPS eps = solver(system, options, EPSKRYLOVSCHUR, stage);
+  // Half as many vectors again as modes, enlarged in portions of 100, took the fewest solves.
+  const PetscInt vectors =
+      std::min<PetscInt>(rowsOf(system.k0()),
+                         count + std::clamp(count / 2, 50, 100));  // SLEPc wants <= count + portion
+  check(EPSSetDimensions(eps, count, vectors, std::min<PetscInt>(vectors, 100)));
+  setUp(eps);
+  check(EPSSolve(eps));
+  PetscInt converged = 0, iterations = 0;
+  check(EPSGetConverged(eps, &converged));
+  check(EPSGetIterationNumber(eps, &iterations));
+  requireConverged(converged, count, "a larger -modes_eps_max_it or -modes_eps_ncv");
+  takeModes(eps, count, modes);
+  modes.iterations = iterations;
+}
+
+/// Collective. Finds the modes by block Lanczos. Returns false if fewer than wanted have converged;
+/// `modes` is then as it was. Eigenvalues that lie close together, as those of a thin ring held at
+/// its hub, need a larger basis: more restarts do not help.
+bool solveByLanczos(const factor::AssociatedSystem& system, const Options& options, int blockSize,
+                    Stage& stage, Modes& modes) {
+  constexpr PetscInt restartsBeforeGrowth = 4, mostRestarts = 20;
+  const int count = options.count;
+  const PetscInt size = rowsOf(system.k0());
+  for (PetscInt room = lanczosVectors(count, blockSize);; room *= 2) {
+    const bool largest = 4 * room > size;
+    const OwnedEPS eps = solver(system, options, blockLanczosType, stage);
+    check(EPSSetDimensions(eps, count, room, PETSC_DEFAULT));
+    check(EPSSetTolerances(eps, options.tolerance, largest ? mostRestarts : restartsBeforeGrowth));
+    setBlockLanczos(eps, blockSize, options.sturm);
+    setUp(eps);
+    const BlockLanczosFacts facts = solveBlockLanczos(eps);
+    PetscInt converged = 0;
+    check(EPSGetConverged(eps, &converged));
+    if (converged >= count) {
+      takeModes(eps, count, modes);
+      modes.iterations = facts.restarts;
+      modes.inertiaShift = facts.countedTo;
+      modes.inertiaCount = facts.below;
+      return true;
+    }
+    if (largest) return false;
+  }
+}
+
+/// Solves
+///   M d = (1/λ) K d
+/// by LAPACK on rank 0, so that the ranks agree. It gets the largest eigenvalues best, those of the
+/// lowest modes.
+void solveDense(const factor::AssociatedSystem& system, int count, Modes& modes) {
+  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(system.k0()));
+  const PetscInt n = rowsOf(system.k0());
+  linalg::DenseMatrix all = linalg::gathered(system.m0()),
+                      stiffness = linalg::gathered(system.k0()), vectors(n, count);
+  onFirstRank(comm, "free vibration: the stiffness is not positive definite; is a body loose? ",
+              [&] {
+                const auto inverse = linalg::symmetricEigen(all, stiffness);
+                for (PetscInt j = 0; j < count; ++j) {
+                  const PetscInt last = n - 1 - j;
+                  modes.lambda.push_back(1 / inverse[last]);
+                  for (PetscInt i = 0; i < n; ++i)
+                    vectors(i, j) = all(i, last) / std::sqrt(inverse[last]);
+                }
+              });
+  modes.lambda.resize(count);
+  check(MPI_Bcast(modes.lambda.data(), count, MPI_DOUBLE, 0, comm));
+  check(MPI_Bcast(vectors.data(), vectors.size(), MPI_DOUBLE, 0, comm));
+  PetscInt first = 0, end = 0;
+  check(MatGetOwnershipRange(system.k0(), &first, &end));
+  modes.vectors = linalg::copiedColumns(system.k0(), linalg::rowRange(vectors, first, end));
+}
+
+/// Collective. Measures the residuals, and by [M.26]
+///   ε Σ K_jj d_j² / λ
+/// the relative change of λ that rounding in K makes, whose entries may cancel in d. If it is near
+/// one, λ says nothing.
+void measureResiduals(const factor::AssociatedSystem& system, Modes& modes) {
+  constexpr double noise = 1e-3;  // of λ: three digits are no frequency
+  constexpr PetscInt atOnce = 32;
+  const linalg::ReadColumns vectors(modes.vectors);
+  const linalg::DenseView all = vectors.view();
+  const PetscInt count = std::ssize(modes.lambda);
+  OwnedVec diagonal = rightVector(system.k0());
+  check(MatGetDiagonal(system.k0(), diagonal));
+  const ReadArray k(diagonal);
+  linalg::DenseMatrix sums(3, count);  // d·diag(K) d, ‖M d‖² and the square of the residual
+  for (PetscInt begin = 0; begin < count; begin += atOnce) {
+    const PetscInt end = std::min(begin + atOnce, count);
+    const linalg::DenseView d = all.columnRange(begin, end);
+    linalg::Block stiffness(d.rows()), inertia(d.rows());
+    linalg::appendProduct(system.k0(), d, stiffness);
+    linalg::appendProduct(system.m0(), d, inertia);
+    for (PetscInt j = 0; j < end - begin; ++j)
+      for (PetscInt i = 0; i < d.rows(); ++i) {
+        const double rest = stiffness(i, j) - modes.lambda[begin + j] * inertia(i, j);
+        sums(0, begin + j) += k[i] * d(i, j) * d(i, j);
+        sums(1, begin + j) += inertia(i, j) * inertia(i, j);
+        sums(2, begin + j) += rest * rest;
+      }
+  }
+  check(MPI_Allreduce(MPI_IN_PLACE, sums.data(), sums.size(), MPI_DOUBLE, MPI_SUM, system.comm()));
+  for (PetscInt i = 0; i < count; ++i) {
+    const double lambda = modes.lambda[i];
+    modes.rounding =
+        std::max(modes.rounding, PETSC_MACHINE_EPSILON * sums(0, i) / std::abs(lambda));
+    if (!(lambda > 0) || modes.rounding > noise)
+      throw Error(formatted("free vibration: eigenvalue %" PetscInt_FMT
+                            ", %g, is not positive or nothing "
+                            "but rounding; a body is loose or nearly so",
+                            i + 1, lambda));
+    modes.angularFrequency.push_back(std::sqrt(lambda));
+    modes.relativeResidual.push_back(std::sqrt(sums(2, i) / sums(1, i)) / lambda);
+  }
+}
+
+/// Returns true if block Lanczos cannot run out of directions, of which it keeps up to
+/// lanczosVectors() at first.
+bool lanczosFits(int count, int blockSize, PetscInt size) {
+  return 2 * lanczosVectors(count, blockSize) <= size;
+}
+
+bool lanczosWanted(const Options& options, PetscInt size) {
+  const bool fits = lanczosFits(options.count, options.blockSize, size);
+  if (options.solver == Options::Solver::blockLanczos && !fits)
+    throw Error(formatted("option -modes_solver block_lanczos: %d modes of %" PetscInt_FMT
+                          " unknowns are too many for it; use eps",
+                          options.count, size));
+  return options.solver != Options::Solver::eps && fits;
+}
+
+/// Returns true where most of the modes of a small problem are wanted, for which Krylov methods
+/// have no room.
+bool denseWanted(const Options& options, PetscInt size) {
+  return options.solver == Options::Solver::automatic && size <= 400 && 2 * options.count > size;
+}
+
+/// Measures the residuals and, if that is wanted, counts the modes by the inertia. Returns false if
+/// modes are missing.
+bool examine(const factor::AssociatedSystem& system, const Options& options, Modes& modes) {
+  measureResiduals(system, modes);
+  if (!options.sturm) return true;
+  confirmCount(system.k0(), system.m0(), modes);
+  return modes.countConfirmed;
+}
+
+/// Collective. Computes the modes by block Lanczos. A block of b vectors meets b copies of a
+/// multiple eigenvalue: where some are missing, a block twice as large is taken. Returns false if
+/// there are no modes, or if some are missing still.
+bool computeByLanczos(const factor::AssociatedSystem& system, const Options& options, Stage& stage,
+                      Modes& modes) {
+  const PetscInt size = rowsOf(system.k0());
+  for (int block = options.blockSize; lanczosFits(options.count, block, size); block *= 2) {
+    Modes found;
+    if (!solveByLanczos(system, options, block, stage, found)) return false;
+    const bool complete = examine(system, options, found);
+    modes = std::move(found);
+    if (complete) return true;
+    stage.progress(formatted("the inertia counts more modes than blocks of %d have found", block));
+  }
+  return false;
+}
+
+Modes computeBy(const factor::AssociatedSystem& system, const Options& options, Stage& stage) {
+  constexpr PetscInt denseAtMost = 2000;
+  const PetscInt size = rowsOf(system.k0());
+  const bool chosen = options.solver != Options::Solver::automatic || solverPrefix.given();
+  Modes modes;
+  if (denseWanted(options, size)) {
+    solveDense(system, options.count, modes);
+    examine(system, options, modes);
+    return modes;
+  }
+  if (lanczosWanted(options, size)) {
+    if (computeByLanczos(system, options, stage, modes)) return modes;
+    if (chosen) {
+      requireConverged(modes.lambda.size(), options.count,
+                       "-modes_solver eps or another -modes_block_size");
+      return modes;
+    }
+  }
+  modes = {};
+  solveByEps(system, options, stage, modes);
+  if (examine(system, options, modes) || chosen || size > denseAtMost) return modes;
+  modes = {};
+  solveDense(system, options.count, modes);
+  examine(system, options, modes);
+  return modes;
+}
+
+}  // namespace
+
+int wantedCount() { return countOption.get(); }
+
+Options Options::given() {
+  const std::string name = solverOption.get();
+  const int block = blockOption.get();
+  PetscBool typeGiven = PETSC_FALSE;
+  check(PetscOptionsHasName(nullptr, "modes_", "-eps_type", &typeGiven));
+  const Solver solver = name == "eps" || typeGiven ? Solver::eps
+                        : name == "block_lanczos"  ? Solver::blockLanczos
+                                                   : Solver::automatic;
+  return {wantedCount(), countOption.given(),   solver,
+          block,         toleranceOption.get(), sturmOption.get()};
+}
+
+Modes compute(const factor::AssociatedSystem& system, int count) {
+  Options options = Options::given();
+  options.count = count;
+  options.countGiven = true;
+  return compute(system, options);
+}
+
+Modes compute(const factor::AssociatedSystem& system, const Options& given) {
+  Options options = given;
+  const PetscInt size = rowsOf(system.k0());
+  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(system.k0()));
+  if (options.count > size) {
+    if (options.countGiven)
+      throw Error(formatted("option -modes_count %d: the problem has only %" PetscInt_FMT
+                            " unknowns",
+                            options.count, size));
+    options.count = size;  // the default
+  }
+  Stage stage(comm, "modes");
+  Modes modes = computeBy(system, options, stage);
+  if (modes.rounding > 1e-6)
+    complain(comm, formatted("free vibration: rounding of the entries of the stiffness may change "
+                             "the lowest eigenvalues by %.0e of their "
+                             "size; is a body nearly loose, or a spring very stiff?",
+                             modes.rounding));
+  stage.finish(formatted(
+      "%d modes to %.4g Hz, worst relative residual %.1e%s", options.count,
+      modes.angularFrequency.back() / (2 * M_PI),
+      *std::max_element(modes.relativeResidual.begin(), modes.relativeResidual.end()),
+      !options.sturm ? ""
+      : modes.countConfirmed
+          ? formatted(", the lowest %d counted exactly by inertia", modes.inertiaCount).c_str()
+          : ", COUNT NOT CONFIRMED BY INERTIA"));
+  return modes;
+}
+
+}  // namespace squeal::modes

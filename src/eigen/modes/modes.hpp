@@ -1,0 +1,55 @@
+#pragma once
+/// This file computes the free vibration of the ideal associated system [4.17],
+///   (K0 − ω² M0) d = 0,
+/// whose modes are the basis of the reduced problem.
+#include <vector>
+
+#include "algebra/factor/associated_system.hpp"
+#include "base/petsc/owned.hpp"
+
+namespace squeal::modes {
+
+/// The lowest free modes.
+struct Modes {
+  std::vector<double> lambda;            ///< ω², ascending, rad²/s²
+  std::vector<double> angularFrequency;  ///< ω, rad/s
+  std::vector<double> relativeResidual;  ///< [mode] ‖K0 d − ω² M0 d‖ / (ω² ‖M0 d‖)
+  OwnedBV vectors;                       ///< n × count, M0-orthonormal
+  int iterations = 0;                    ///< restarts of the eigensolver; 0 with LAPACK
+  /// True if the number of modes below σ is that of the inertia of K0 − σ M0 [M.25]; false without
+  /// `-modes_sturm`.
+  bool countConfirmed = false;
+  int inertiaCount = 0;     ///< number of eigenvalues of (K0, M0) below σ
+  double inertiaShift = 0;  ///< σ, in the widest gap of the topmost modes, rad²/s²
+  /// The largest relative error that rounding of the entries of K0 may make in a λ [M.26].
+  double rounding = 0;
+};
+
+/// Options of the free modes.
+struct Options {
+  enum class Solver { automatic, blockLanczos, eps };
+  int count;         ///< `-modes_count`
+  bool countGiven;   ///< a count that is not the default must not exceed the number of unknowns
+  Solver solver;     ///< `-modes_solver`; automatic becomes eps where a -modes_eps_* option is
+                     ///< given
+  int blockSize;     ///< `-modes_block_size`
+  double tolerance;  ///< `-modes_tolerance`
+  bool sturm;        ///< `-modes_sturm`
+  /// Reads the options.
+  static Options given();
+};
+
+/// Returns the option `-modes_count`.
+int wantedCount();
+
+/// Collective. Returns the lowest modes by block Lanczos or SLEPc EPS (-modes_eps_*, -modes_st_*).
+/// Unless `-modes_solver` chooses one of them, LAPACK takes their place where most of the modes of
+/// a small problem are wanted, or where EPS too has missed modes of a problem of at most 2000
+/// unknowns. A count that is not confirmed is no error. Throws Error if a count that is given
+/// exceeds the number of unknowns, if the solver does not converge, or if an eigenvalue is not
+/// positive or could have been made by rounding.
+Modes compute(const factor::AssociatedSystem& system, const Options& options = Options::given());
+/// Collective. Does the same for `count` modes, with the other options as they are given.
+Modes compute(const factor::AssociatedSystem& system, int count);
+
+}  // namespace squeal::modes

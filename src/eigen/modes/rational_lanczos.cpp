@@ -1,0 +1,255 @@
+/// A direct solver answers a block of right-hand sides many times faster than as many single ones,
+/// because the factor is read from memory once a block; SLEPc's Krylov-Schur asks for them one at a
+/// time.
+#include "eigen/modes/rational_lanczos.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "algebra/linalg/columns.hpp"
+#include "algebra/linalg/qr.hpp"
+#include "algebra/linalg/symmetric.hpp"
+#include "base/petsc/log_events.hpp"
+
+namespace squeal::modes {
+
+using linalg::DenseMatrix;
+using linalg::DenseView;
+
+RationalLanczos::RationalLanczos(Mat m, BV basis, PetscInt blockSize)
+    : m_(m),
+      basis_(basis),
+      comm_(PetscObjectComm(reinterpret_cast<PetscObject>(m))),
+      width_(blockSize) {
+  PetscInt n = 0;
+  check(BVGetSizes(basis, &rows_, &n, &limit_));
+  w_ = linalg::Block(rows_, width_);
+  asMat_ = linalg::borrowed(comm_, n, w_);
+  check(MatMatMult(m_, asMat_, MAT_INITIAL_MATRIX, PETSC_DEFAULT, mw_.out()));
+  a_ = b_ = DenseMatrix(limit_, limit_);
+  check(BVGetArray(basis_, &columns_));
+  // Each rank draws its own part; the seed is fixed, so that a run can be repeated.
+  int rank = 0;
+  check(MPI_Comm_rank(comm_, &rank));
+  random_.seed(rank + 1);
+}
+
+DenseView RationalLanczos::columnRange(PetscInt first, PetscInt last) const {
+  return DenseView(columns_, rows_, size_).columnRange(first, last);
+}
+
+void RationalLanczos::start(const Pole& pole) {
+  for (double& entry : w_.entries()) entry = uniform_(random_);
+  massTimesW();
+  solve(pole);
+  orthogonalise(false);
+  orthonormalise(0);
+  append();
+}
+
+void RationalLanczos::expand(const Pole& pole) {
+  const PetscInt k = size_, known = k - width_;
+  if (pole.distance != distance_) sinceChange_ = 0;
+  distance_ = pole.distance;
+  if (!massIsOfLast_) {
+    std::ranges::copy(columnRange(known, k).entries(), w_.data());
+    massTimesW();
+  }
+  solve(pole);
+  // In exact arithmetic only the last two blocks have a part in W, but for the first two steps with
+  // a pole.
+  const DenseMatrix h = orthogonalise(sinceChange_ >= 2);
+  ++sinceChange_;
+  double size = 0;  // of W before V was taken out of it, squared
+  for (PetscInt j = 0; j < width_; ++j) size = std::max(size, linalg::squaredLength(h.column(j)));
+  orthonormalise(size);
+  append();
+  for (PetscInt j = 0; j < width_; ++j) {
+    const auto a = a_.column(known + j), b = b_.column(known + j);
+    std::ranges::copy(h.column(j), b.begin());
+    std::ranges::copy(r_.column(j), b.begin() + k);
+    for (PetscInt i = 0; i < size_; ++i) a[i] = pole.distance * b[i];
+    a[known + j] += 1;
+    foreign_.push_back(pole.distance != 0);
+    const double length = std::sqrt(linalg::squaredLength(a));
+    for (PetscInt i = 0; i < size_; ++i) a[i] /= length, b[i] /= length;
+  }
+}
+
+RitzPairs RationalLanczos::ritz() const {
+  const PetscInt k = size_, known = k - width_;
+  //   A = Q [R; 0],   QᵀB R⁻¹ = [T; C],   T = Tᵀ:  S V Q₁ = V Q₁ T + V Q₂ C
+  // The steps with other poles than σ0 come first. Their columns of A may be nearly parallel, and
+  // so must not meet the rounding of those of B that hold the largest θ.
+  DenseMatrix a(k), b(k);
+  for (const bool foreign : {true, false})
+    for (PetscInt j = 0; j < known; ++j)
+      if (foreign_[j] == foreign) {
+        a.append(std::span<const double>(a_.column(j)).first(k));
+        b.append(std::span<const double>(b_.column(j)).first(k));
+      }
+  const linalg::Qr qr(a);
+  qr.divideByR(b);
+  const DenseMatrix products = linalg::transposedProduct(qr.q(), b);
+  DenseMatrix vectors = linalg::symmetricPart(linalg::rowRange(products, 0, known));
+  const auto ascending = linalg::symmetricEigen(vectors);
+  DenseMatrix turned(known);  // by descending value
+  RitzPairs pairs;
+  for (PetscInt from = known - 1; from >= 0; --from) {
+    pairs.value.push_back(ascending[from]);
+    turned.append(vectors.column(from));
+  }
+  pairs.coupling = linalg::product(linalg::rowRange(products, known, k), turned);
+  pairs.vectors = linalg::product(qr.q().columnRange(0, known), turned);
+  pairs.vectors.append(qr.q().columnRange(known, k));
+  // The ranks must not disagree on what has converged.
+  for (auto entries : {std::span(pairs.value), pairs.coupling.entries(), pairs.vectors.entries()})
+    check(MPI_Bcast(entries.data(), entries.size(), MPI_DOUBLE, 0, comm_));
+  for (PetscInt j = 0; j < known; ++j)
+    pairs.residual.push_back(std::sqrt(linalg::squaredLength(pairs.coupling.column(j))));
+  return pairs;
+}
+
+void RationalLanczos::restart(const RitzPairs& ritz, PetscInt kept) {
+  const PetscInt pairs = std::ssize(ritz.value);
+  DenseMatrix some(ritz.vectors.columnRange(0, kept));
+  some.append(ritz.vectors.columnRange(pairs, pairs + width_));
+  rotate(some);
+  a_ = b_ = DenseMatrix(limit_, limit_);
+  for (PetscInt j = 0; j < kept; ++j) {
+    a_(j, j) = 1;
+    b_(j, j) = ritz.value[j];
+    std::ranges::copy(ritz.coupling.column(j), b_.column(j).begin() + kept);
+  }
+  foreign_.assign(kept, false);
+  sinceChange_ = 0;
+  massIsOfLast_ = false;
+}
+
+void RationalLanczos::finish(const RitzPairs& ritz, PetscInt count) {
+  rotate(DenseMatrix(ritz.vectors.columnRange(0, count)));
+}
+
+/// Replaces V by V C.
+void RationalLanczos::rotate(const DenseMatrix& combinations) {
+  constexpr PetscInt chunk = 256;  // rows at a time: no second copy of V
+  const PetscInt count = combinations.columns();
+  const DenseView v = columnRange(0, size_);
+  for (PetscInt begin = 0; begin < rows_; begin += chunk) {
+    const PetscInt end = std::min(begin + chunk, rows_);
+    const DenseMatrix rows = linalg::product(linalg::rowRange(v, begin, end), combinations);
+    for (PetscInt j = 0; j < count; ++j)
+      std::ranges::copy(rows.column(j), columns_ + static_cast<std::ptrdiff_t>(j) * rows_ + begin);
+  }
+  size_ = count;
+}
+
+void RationalLanczos::append() {
+  std::ranges::copy(w_.entries(), columns_ + static_cast<std::ptrdiff_t>(size_) * rows_);
+  size_ += width_;
+}
+
+/// Computes M W.
+void RationalLanczos::massTimesW() {
+  const LoggedWork work(Work::blockProduct);
+  Mat product = mw_;
+  PetscScalar* changed = nullptr;  // tells PETSc that the entries are not those of before
+  check(MatDenseGetArrayWrite(asMat_, &changed));
+  check(MatDenseRestoreArrayWrite(asMat_, &changed));
+  check(MatMatMult(m_, asMat_, MAT_REUSE_MATRIX, PETSC_DEFAULT, &product));
+}
+
+/// Replaces W by (K − σ M)⁻¹ M W, after massTimesW().
+void RationalLanczos::solve(const Pole& pole) {
+  const LoggedWork work(Work::blockSolve);
+  pole.solve(mw_, asMat_);
+  solves_ += width_;
+}
+
+/// Returns Xᵀ (M W) over all ranks, after massTimesW().
+DenseMatrix RationalLanczos::timesMassTimesW(const DenseView& x) const {
+  const PetscScalar* mw = nullptr;
+  check(MatDenseGetArrayRead(mw_, &mw));
+  DenseMatrix result = linalg::transposedProduct(comm_, x, {mw, rows_, width_});
+  check(MatDenseRestoreArrayRead(mw_, &mw));
+  return result;
+}
+
+/// Replaces W by W − X (Xᵀ M W) for the columns X of V from `first` on, and adds the coefficients
+/// to the rows of `sum`, k × b, from `first` on. M W is left as it was.
+void RationalLanczos::subtract(PetscInt first, DenseMatrix& sum) {
+  massTimesW();
+  const DenseView x = columnRange(first, size_);
+  const DenseMatrix h = timesMassTimesW(x);
+  linalg::multiplyAdd(x, h, w_, -1);
+  for (PetscInt j = 0; j < width_; ++j)
+    for (PetscInt i = 0; i < h.rows(); ++i) sum(first + i, j) += h(i, j);
+}
+
+/// Makes W M-orthogonal to V and returns the summed coefficients, k × b: one pass over the last two
+/// blocks, where the recurrence says that these have a part in W alone, and one over all of V;
+/// otherwise two over all of V.
+DenseMatrix RationalLanczos::orthogonalise(bool recurrence) {
+  DenseMatrix sum(size_, width_);
+  subtract(recurrence ? std::max<PetscInt>(0, size_ - 2 * width_) : 0, sum);
+  subtract(0, sum);
+  return sum;
+}
+
+/// Splits W = Q R with Qᵀ M Q = I by the eigenvectors of WᵀMW (Stathopoulos and Wu 2002), twice; Q
+/// replaces W. Directions that have vanished beside `size`, the square of what W was before V was
+/// taken out of it (an invariant subspace is complete), are replaced by random ones orthogonal to
+/// V, with zero rows in R. It follows orthogonalise(), whose last M W serves: W, orthogonal to V,
+/// has the same products with it as with M W. In the end M W is that of Q.
+void RationalLanczos::orthonormalise(double size) {
+  r_ = DenseMatrix(width_, width_);
+  for (PetscInt i = 0; i < width_; ++i) r_(i, i) = 1;
+  int refills = 0;
+  for (int pass = 0; pass < 3; ++pass) {
+    if (pass > 0) massTimesW();
+    DenseMatrix u = linalg::symmetricPart(timesMassTimesW(w_));
+    const auto d = linalg::symmetricEigen(u);
+    const double largest =
+        std::max(d.back(), refills == 0 && pass == 0 ? size : 0);  // later W is scaled
+    std::vector<bool> lost(width_);
+    bool any = false;
+    for (PetscInt j = 0; j < width_; ++j) any |= lost[j] = !(d[j] > 1e-28 * largest);
+    //   W ← W U D^(−1/2),   R ← D^(1/2) Uᵀ R
+    DenseMatrix down = u, up = u;
+    for (PetscInt j = 0; j < width_; ++j)
+      for (PetscInt i = 0; i < width_; ++i) {
+        down(i, j) *= lost[j] ? 0 : 1 / std::sqrt(d[j]);
+        up(i, j) *= lost[j] ? 0 : std::sqrt(d[j]);
+      }
+    r_ = linalg::transposedProduct(up, r_);
+    // W keeps its place in memory, as the matrix of PETSc borrows it.
+    std::ranges::copy(linalg::product(w_, down).entries(), w_.data());
+    if (any) {
+      if (++refills > 5)
+        throw Error("free vibration: block Lanczos cannot extend its basis; use -modes_solver eps");
+      refill(lost);
+      pass = -1;
+    } else if (pass == 0 && d.front() < 1e-8 * largest) {
+      // What is left of V in W has grown with the directions that were small.
+      DenseMatrix rest(size_, width_);
+      subtract(0, rest);
+    } else if (pass > 0) {
+      PetscScalar* mw = nullptr;
+      check(MatDenseGetArray(mw_, &mw));
+      const DenseMatrix turned = linalg::product({mw, rows_, width_}, down);
+      std::ranges::copy(turned.entries(), mw);
+      check(MatDenseRestoreArray(mw_, &mw));
+      massIsOfLast_ = true;
+      return;
+    }
+  }
+}
+
+void RationalLanczos::refill(const std::vector<bool>& lost) {
+  for (PetscInt j = 0; j < width_; ++j)
+    if (lost[j])
+      for (double& entry : w_.column(j)) entry = uniform_(random_);
+  orthogonalise(false);
+}
+
+}  // namespace squeal::modes

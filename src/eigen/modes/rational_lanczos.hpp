@@ -1,0 +1,91 @@
+#pragma once
+/// Rational block Lanczos makes a basis by solves with several shifted matrices (Ruhe 1984, 1998;
+/// Grimes, Lewis and Simon 1994).
+#include <functional>
+#include <random>
+#include <vector>
+
+#include "algebra/linalg/block.hpp"
+#include "base/petsc/owned.hpp"
+
+namespace squeal::modes {
+
+/// A pole σ of the rational functions of S whose vectors make the basis.
+struct Pole {
+  double distance;  ///< δ = σ − σ0
+  /// Collective. Computes X = (K − σ M)⁻¹ B, both n × b.
+  std::function<void(Mat b, Mat x)> solve;
+};
+
+/// Ritz pairs of S = (K − σ0 M)⁻¹ M in a basis V of k vectors.
+struct RitzPairs {
+  std::vector<double> value;     ///< θ, descending
+  std::vector<double> residual;  ///< ‖S x − θ x‖_M
+  /// [k × k]: coordinates of the M-orthonormal Ritz vectors x, then of the b directions, orthogonal
+  /// to these, in which their residuals lie.
+  linalg::DenseMatrix vectors;
+  linalg::DenseMatrix coupling;  ///< [b × pairs] coordinates of the residuals in these directions
+};
+
+/// A RationalLanczos is a growing M-orthonormal basis V. A step from its last block V_l,
+///   W = (K − σ M)⁻¹ M V_l = V h + Q R,
+/// appends Q. With S it means
+///   S (V_l + δ W) = W,
+/// so that all steps together say  S V A = V B  with small matrices A and B of b rows more than
+/// columns, whatever the poles are. Rayleigh–Ritz is made on V A, where the residuals are known
+/// without a further solve. With δ = 0 this is block Lanczos with full orthogonalisation and thick
+/// restart (Golub and Underwood 1977; Wu and Simon 2000).
+class RationalLanczos {
+ public:
+  /// Collective. Borrows M, symmetric positive definite, and the columns of a BV of type svec,
+  /// which it fills, during the life of the object. `blockSize` is b.
+  RationalLanczos(Mat m, BV basis, PetscInt blockSize);
+  ~RationalLanczos() { BVRestoreArray(basis_, &columns_); }
+  RationalLanczos(const RationalLanczos&) = delete;
+  RationalLanczos& operator=(const RationalLanczos&) = delete;
+
+  PetscInt size() const { return size_; }  ///< k, number of vectors of V
+  bool full() const { return size_ + width_ > limit_; }
+  int solves() const { return solves_; }  ///< right-hand sides solved for
+  /// Collective. Makes the first block: S applied to a random one, which damps what belongs to high
+  /// frequencies. The pole is σ0.
+  void start(const Pole& pole);
+  /// Collective. Appends a block by a step with this pole. Throws Error if it cannot.
+  void expand(const Pole& pole);
+  /// Collective. Returns k − b Ritz pairs, the same on all ranks.
+  RitzPairs ritz() const;
+  /// Collective. Replaces V by the first `kept` Ritz vectors and the directions of the residuals.
+  void restart(const RitzPairs& ritz, PetscInt kept);
+  /// Collective. Replaces V by the first `count` Ritz vectors, in the first columns of the BV.
+  void finish(const RitzPairs& ritz, PetscInt count);
+
+ private:
+  linalg::DenseView columnRange(PetscInt first, PetscInt last) const;
+  void massTimesW();
+  void solve(const Pole& pole);
+  linalg::DenseMatrix timesMassTimesW(const linalg::DenseView& x) const;
+  void subtract(PetscInt first, linalg::DenseMatrix& sum);
+  linalg::DenseMatrix orthogonalise(bool recurrence);
+  void orthonormalise(double size);
+  void refill(const std::vector<bool>& lost);
+  void append();
+  void rotate(const linalg::DenseMatrix& combinations);
+
+  Mat m_;
+  BV basis_;
+  MPI_Comm comm_;
+  PetscInt width_, limit_ = 0, rows_ = 0, size_ = 0;  // width: b
+  int solves_ = 0;
+  PetscScalar* columns_ = nullptr;  // of V
+  int sinceChange_ = 0;             // steps with this pole since the last restart
+  double distance_ = 0;             // of the last pole
+  bool massIsOfLast_ = false;       // M W is M times the last block
+  linalg::Block w_;
+  OwnedMat asMat_, mw_;            // W, whose entries are borrowed, and M W
+  std::vector<bool> foreign_;      // [column of A] of a step with another pole than σ0
+  linalg::DenseMatrix a_, b_, r_;  // A, B and the last R
+  std::mt19937 random_;
+  std::uniform_real_distribution<double> uniform_{-1, 1};
+};
+
+}  // namespace squeal::modes

@@ -1,0 +1,40 @@
+#pragma once
+/// The band is the set of eigenvalues that a run lists, corrects and follows [M.27].
+#include <vector>
+
+#include "algebra/linalg/complex.hpp"
+
+namespace squeal::pencil {
+
+/// Returns the option `-flutter_band` in rad/s; 0 if it is not given.
+double bandAsked();
+/// Returns the top of the band in rad/s for the angular frequencies of the free modes, rad/s,
+/// ascending and not empty. It is `-flutter_band` if that is given, and otherwise lies at 0.55 of
+/// the list, but in both cases below the last mode, unless all modes are equal. Corrections are
+/// made for eigenvalues that have been found, so that an eigenvalue above all modes could be missed
+/// without notice.
+double bandBelow(const std::vector<double>& frequencies);
+
+/// The band, and the guard zone around it [M.43] whose eigenvalues are followed too.
+struct WatchedBand {
+  double top = 1e300;    ///< largest |s| in the band, rad/s
+  double guard = 1.3;    ///< eigenvalues are watched up to this multiple of `top` and of `damping`
+  double damping = 0.5;  ///< largest damping ratio in the band
+  double origin = 0.1;  ///< up to this multiple of `top` all eigenvalues are watched, as a real one
+                        ///< may pass through zero
+  /// Returns true if s, with Im s ≥ 0, is in the band.
+  bool contains(Complex s) const { return std::abs(s) <= top && lasts(s); }
+  /// Returns true if s, with Im s ≥ 0, is in the band or in the guard zone.
+  bool watches(Complex s) const {
+    return std::abs(s) <= guard * top &&
+           (-s.real() <= guard * damping * std::abs(s) || std::abs(s) <= origin * top);
+  }
+  /// Returns true if the damping ratio of s is at most `damping`.
+  bool lasts(Complex s) const { return -s.real() <= damping * std::abs(s); }
+};
+
+/// Returns the band for the frequencies of the free modes: its top is bandBelow(), its damping the
+/// option `-flutter_band_damping`.
+WatchedBand bandFor(const std::vector<double>& frequencies);
+
+}  // namespace squeal::pencil

@@ -1,0 +1,173 @@
+#include "eigen/pencil/complex_modes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/options/options.hpp"
+
+namespace squeal::pencil {
+namespace {
+
+const RealOption accuracyOption("flutter", "flutter_accuracy", 1e-9, "", positive,
+                                "full-order backward error up to which an eigenvalue is certified, "
+                                "and to which it is corrected");
+const RealOption toleranceOption(
+    "flutter", "flutter_unstable_tolerance", 0, "", nonNegative,
+    "an eigenvalue is unstable if its growth rate exceeds this fraction of |s|, a negative damping "
+    "ratio, by more than the estimate of its error; critical frictions are those of growth 0");
+const IntegerOption shapesOption(
+    "flutter", "flutter_shapes", 3, 0, 100'000,
+    "number of fastest growing complex modes kept for the report at each friction");
+const RealOption shapesBelowOption(
+    "flutter", "flutter_shapes_below", 20000, "Hz", positive,
+    "complex modes of higher frequency are not kept; squeal is what can be heard");
+
+/// Without an estimate of its error, a growth rate up to this fraction of |s| is taken as rounding:
+/// it splits double eigenvalues by the square root of the machine precision, and more.
+constexpr double noise = 1e-6;
+/// The largest condition number for which derivatives are given. There, relative errors of 1e-8 in
+/// the vectors are a thousandth of yᴴ P′ x.
+constexpr double worstCondition = 1e5;
+/// Largest backward error of a left vector for which derivatives are given.
+constexpr double worstLeftError = 1e-7;
+/// Derivatives are given for eigenvalues farther apart than this: a computed multiple eigenvalue is
+/// split by less.
+constexpr double closest = 1e-7;
+
+/// Returns true if no other eigenvalue, nor the image −conj s of this one, is as near as both
+/// errors together. The band must be left by more than twice the error, since nothing is known of
+/// the eigenvalues beyond.
+bool isolated(const ComplexModes& point, const Eigenvalue& e) {
+  const double error = e.error, top = point.bandTop > 0 ? point.bandTop : INFINITY;
+  if (e.s.real() != 0 && std::abs(e.s.real()) <= error) return false;
+  if (!(std::abs(e.s) + 2 * error < top)) return false;
+  return std::ranges::all_of(point.eigenvalues, [&](const Eigenvalue& other) {
+    return &other == &e || std::abs(other.s - e.s) > error + other.error;
+  });
+}
+
+}  // namespace
+
+bool Sensitivity::regular() const {
+  return leftBackwardError < worstLeftError && condition < worstCondition && separation > closest;
+}
+
+Criteria Criteria::given() {
+  const int shapes = shapesOption.get();
+  return {accuracyOption.get(), toleranceOption.get(), shapes, 2 * M_PI * shapesBelowOption.get()};
+}
+
+int ComplexModes::modesWithoutEigenvalue() const {
+  const int found = eigenvalues.size();
+  return damped ? std::max(0, freeModesInBand - found) : 0;
+}
+
+int ComplexModes::unstableCount() const {
+  return std::ranges::count_if(eigenvalues, [](const auto& e) { return e.unstable; });
+}
+
+int ComplexModes::count(Verdict verdict) const {
+  return std::ranges::count(eigenvalues, verdict, &Eigenvalue::verdict);
+}
+
+Verdict ComplexModes::verdict() const {
+  for (const Verdict one : {Verdict::unstable, Verdict::uncertified, Verdict::undecided,
+                            Verdict::neutral, Verdict::stable})
+    if (count(one) > 0) return one;
+  return Verdict::uncertified;
+}
+
+int ComplexModes::uncertifiedCount() const {
+  return std::ranges::count_if(eigenvalues, [](const auto& e) { return !e.certified; });
+}
+
+double ComplexModes::worstBackwardError() const {
+  double worst = 0;
+  for (const auto& eigenvalue : eigenvalues) worst = std::max(worst, eigenvalue.backwardError);
+  return worst;
+}
+
+double ComplexModes::worstErrorEstimate() const {
+  double worst = 0;
+  for (const auto& eigenvalue : eigenvalues)
+    if (!std::isnan(worst) && !(eigenvalue.errorEstimate() <= worst))
+      worst = eigenvalue.errorEstimate();
+  return worst;
+}
+
+const Eigenvalue* ComplexModes::fastestGrowing() const {
+  const Eigenvalue* fastest = nullptr;
+  for (const auto& eigenvalue : eigenvalues)
+    if (!fastest || eigenvalue.s.real() > fastest->s.real()) fastest = &eigenvalue;
+  return fastest;
+}
+
+const char* text(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::unstable:
+      return "unstable";
+    case Verdict::stable:
+      return "stable";
+    case Verdict::undecided:
+      return "undecided";
+    case Verdict::neutral:
+      return "neutral";
+    case Verdict::uncertified:
+      return "uncertified";
+  }
+  return "";
+}
+
+void judge(ComplexModes& point, Symmetry symmetry, const Criteria& criteria) {
+  for (auto& e : point.eigenvalues) {
+    const double growth = e.s.real(), size = std::abs(e.s), error = e.error,
+                 excess = growth - criteria.unstable * size;
+    if (!std::isfinite(error)) {
+      e.verdict = Verdict::uncertified;
+      e.unstable = excess > 0 && growth > noise * size;
+      continue;
+    }
+    const bool isNeutral =
+        std::abs(growth) <= error && e.s.imag() > error &&
+        (symmetry == Symmetry::conservative || (symmetry == Symmetry::even && isolated(point, e)));
+    e.verdict = isNeutral         ? Verdict::neutral
+                : excess > error  ? Verdict::unstable
+                : excess < -error ? Verdict::stable
+                                  : Verdict::undecided;
+    e.unstable = e.verdict == Verdict::unstable;
+  }
+}
+
+std::vector<std::size_t> shapesWanted(const ComplexModes& point, const Criteria& criteria) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < point.eigenvalues.size(); ++i)
+    if (point.eigenvalues[i].unstable && point.eigenvalues[i].s.imag() < criteria.shapesBelow)
+      order.push_back(i);
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return point.eigenvalues[a].s.real() > point.eigenvalues[b].s.real();
+  });
+  order.resize(std::min<std::size_t>(order.size(), criteria.shapes));
+  return order;
+}
+
+void keepShapes(ComplexModes& point, Mat trial, const std::vector<std::size_t>& indices,
+                std::vector<linalg::ComplexVector> modes) {
+  for (std::size_t k = 0; k < indices.size(); ++k) {
+    Shape shape{};
+    shape.index = indices[k];
+    shape.unknowns = std::move(modes[k]);
+    check(MatCreateVecs(trial, nullptr, shape.real.out()));
+    check(VecDuplicate(shape.real, shape.imaginary.out()));
+    check(MatMult(trial, shape.unknowns.real, shape.real));
+    check(MatMult(trial, shape.unknowns.imaginary, shape.imaginary));
+    PetscReal a = 0, b = 0;
+    check(VecNorm(shape.real, NORM_INFINITY, &a));
+    check(VecNorm(shape.imaginary, NORM_INFINITY, &b));
+    for (Vec part : {shape.real.get(), shape.imaginary.get(), shape.unknowns.real.get(),
+                     shape.unknowns.imaginary.get()})
+      check(VecScale(part, 1 / std::max(a, b)));
+    point.shapes.push_back(std::move(shape));
+  }
+}
+
+}  // namespace squeal::pencil

@@ -1,0 +1,144 @@
+#pragma once
+/// The results of the friction-perturbed eigenproblem (paper, section 4) tell which modes flutter,
+/// at which friction, and how fast they grow.
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "algebra/linalg/complexvector.hpp"
+#include "eigen/sweep/parameters.hpp"
+
+namespace squeal::pencil {
+
+/// A verdict says what is certain of the growth of an eigenvalue, given its error [M.24].
+enum class Verdict {
+  unstable,    ///< it grows
+  stable,      ///< it decays
+  undecided,   ///< the estimate is larger than the growth rate
+  neutral,     ///< it neither grows nor decays: it lies on the imaginary axis
+  uncertified  ///< there is no estimate
+};
+/// All verdicts in the order of their numbers.
+inline constexpr std::array allVerdicts{Verdict::unstable, Verdict::stable, Verdict::undecided,
+                                        Verdict::neutral, Verdict::uncertified};
+/// Returns the word of tables and texts.
+const char* text(Verdict verdict);
+
+/// The symmetry of a problem confines its eigenvalues.
+enum class Symmetry {
+  none,
+  even,         ///< real and even in s: −s is an eigenvalue with every s
+  conservative  ///< all eigenvalues are imaginary
+};
+
+/// An eigenvalue s of the pencil with estimates of its error.
+struct Eigenvalue {
+  Complex s;                 ///< growth rate + i angular frequency, 1/s
+  double backwardError = 0;  ///< backward error of the full-order problem [M.33]
+  double error = 0;          ///< estimate of |δs|, 1/s; NaN: none, as with the direct method
+  bool certified = false;    ///< the errors that are known are as small as asked for
+  Verdict verdict = Verdict::uncertified;
+  /// It counts as unstable: by its verdict or, where it is uncertified, since Re s exceeds |s|
+  /// times 1e-6 and times `-flutter_unstable_tolerance`.
+  bool unstable = false;
+
+  /// Returns −Re s/|s|, or 0 for s = 0.
+  double dampingRatio() const { return s == 0.0 ? 0 : -s.real() / std::abs(s); }
+  /// Returns true if s is zero within its error.
+  bool mayBeZero() const { return std::abs(s) <= error; }
+  /// Returns the estimate of the relative error |δs|/|s|: 1 where s is zero within its error, NaN
+  /// where there is none.
+  double errorEstimate() const { return mayBeZero() ? 1 : error / std::abs(s); }
+};
+
+/// A complex mode d = real + i imaginary in nodal displacements, N entries, is scaled so that its
+/// largest real or imaginary part of an entry is 1.
+struct Shape {
+  std::size_t index;  ///< index into ComplexModes::eigenvalues
+  OwnedVec real, imaginary;
+  linalg::ComplexVector unknowns;    ///< the same d in the unknowns x
+  std::vector<double> frictionWork;  ///< [owned contact node] contribution of friction there to the
+                                     ///< growth rate, 1/s [M.52]; empty without contact
+};
+
+/// The derivative of an eigenvalue with respect to one parameter θ.
+struct Derivative {
+  std::string parameter;  ///< name of θ
+  Complex value;          ///< ds/dθ, 1/s per unit of the parameter
+};
+
+/// Condition number and derivatives of one eigenvalue.
+struct Sensitivity {
+  /// Condition number [M.50], 1 for a symmetric problem and infinite at an exceptional point:
+  ///   2 |s| ‖x‖_M0 ‖y‖_M0 / |yᴴ P′(s) x|.
+  double condition = 0;
+  /// Distance to the nearest of the other eigenvalues found, relative to |s|.
+  double separation = 0;
+  double leftBackwardError = 0;         ///< backward error of the left vector
+  std::vector<Derivative> derivatives;  ///< empty if not regular()
+  /// Returns true if the eigenvalue has derivatives and its left vector was found. Where
+  /// eigenvalues meet they have no derivatives.
+  bool regular() const;
+};
+
+/// Everything found at one point of the sweep.
+struct ComplexModes {
+  sweep::Parameters at;
+  std::vector<Eigenvalue> eigenvalues;     ///< Im s ≥ 0, by ascending frequency
+  std::vector<Shape> shapes;               ///< the fastest growing modes: keepShapes()
+  std::vector<Sensitivity> sensitivities;  ///< [shape]; empty unless they are asked for
+  /// Top of the band, rad/s: eigenvalues with |s| up to here are listed and corrected. 0: none are
+  /// corrected, as with the direct method; infinite: the basis is the whole space.
+  double bandTop = 0;
+  int freeModesInBand = 0;  ///< free modes up to bandTop
+  bool damped = false;      ///< the reduced problem has terms in s; false with the direct method
+  double accuracy = 0;      ///< backward error asked for
+  double tolerance = 0;     ///< estimate of |δs|/|s| asked for; 0: none (direct method)
+  double askedTo = 0;       ///< upper end of the band asked of the direct method, rad/s; 0: none
+  /// All eigenvalues of that band with |s| below this are listed, rad/s; 0: no band was asked for.
+  double coveredTo = 0;
+  /// Returns by how many the free modes in the band exceed the eigenvalues listed, for a damped
+  /// problem. The missing eigenvalues are damped too strongly to be listed, or lie beyond the top.
+  int modesWithoutEigenvalue() const;
+  /// Returns the number of eigenvalues that count as unstable.
+  int unstableCount() const;
+  /// Returns the number of eigenvalues with this verdict.
+  int count(Verdict verdict) const;
+  /// Returns the verdict on the point: the first of unstable, uncertified, undecided, neutral and
+  /// stable that an eigenvalue has; uncertified if there is none.
+  Verdict verdict() const;
+  /// Returns the number of eigenvalues that are not certified.
+  int uncertifiedCount() const;
+  /// Returns the largest backward error; 0 if there are no eigenvalues.
+  double worstBackwardError() const;
+  /// Returns the largest estimate of the relative error; NaN if one of them is NaN.
+  double worstErrorEstimate() const;
+  /// Returns the eigenvalue of the largest growth rate, borrowed; null if there are none.
+  const Eigenvalue* fastestGrowing() const;
+};
+
+/// These options decide what is said of an eigenvalue, and which complex modes are kept.
+struct Criteria {
+  double accuracy;     ///< `-flutter_accuracy`: backward error of a certified eigenvalue at most
+  double unstable;     ///< `-flutter_unstable_tolerance`: ζ of [M.24]
+  int shapes;          ///< `-flutter_shapes`: number of complex modes kept at a point at most
+  double shapesBelow;  ///< `-flutter_shapes_below`: upper bound of their frequencies, rad/s
+  /// Reads the options.
+  static Criteria given();
+};
+
+/// Sets `verdict` and `unstable` of each eigenvalue of the point by [M.24].
+void judge(ComplexModes& point, Symmetry symmetry, const Criteria& criteria);
+
+/// Returns the indices of the fastest growing eigenvalues that count as unstable and whose shapes
+/// are kept, the
+/// fastest first: `shapes` of them at most, all below `shapesBelow`.
+std::vector<std::size_t> shapesWanted(const ComplexModes& point, const Criteria& criteria);
+/// Collective. Appends the shapes of the eigenvalues with these indices to the point. `modes`,
+/// which are taken, are their vectors in the unknowns x, of any length; `trial` is T.
+void keepShapes(ComplexModes& point, Mat trial, const std::vector<std::size_t>& indices,
+                std::vector<linalg::ComplexVector> modes);
+
+}  // namespace squeal::pencil

@@ -1,0 +1,94 @@
+#pragma once
+/// The friction-perturbed eigenproblem is that of a sum of terms P [M.23],
+///   P(s; f, v, c) d = 0,   P = Σ_t α_t f^a_t v^b_t c^d_t s^k_t A_t,
+/// with the friction f, the factor v on the base velocities of the bodies, and the factor c on
+/// their damping. The pencil knows nothing of finite elements: [4.15–4.16] enter as terms.
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "algebra/linalg/complexvector.hpp"
+#include "base/petsc/owned.hpp"
+#include "eigen/sweep/parameters.hpp"
+
+namespace squeal::pencil {
+
+/// One term of P.
+struct Term {
+  OwnedMat matrix;           ///< A, n×n
+  int power = 0;             ///< k, power of s: 0 stiffness, 1 damping, 2 mass
+  int frictionExponent = 0;  ///< a
+  double factor = 1;         ///< α
+  int speedExponent = 0;     ///< b
+  int dampingExponent = 0;   ///< d
+  /// It holds friction: the basis begins with responses to it, and K0 and M0 leave it out. A term
+  /// with an exponent of friction does so in any case.
+  bool ofFriction = false;
+
+  bool holdsFriction() const { return ofFriction || frictionExponent != 0; }
+  /// Returns true for K0 and M0 [4.17], what is left without friction, base motions and damping.
+  bool isAssociated() const {
+    return power != 1 && !holdsFriction() && speedExponent == 0 && dampingExponent == 0;
+  }
+  /// Returns α f^a v^b c^d.
+  double coefficient(const sweep::Parameters& at) const;
+  /// Returns the derivative of the coefficient with respect to one parameter.
+  double slope(const sweep::Parameters& at, double sweep::Parameters::*parameter) const;
+  /// Returns the same term, its matrix shared.
+  Term share() const;
+};
+
+/// The sum of terms P.
+class Pencil {
+ public:
+  /// Collective. Takes the terms, which hold for all parameters. Terms in s whose matrix is zero
+  /// are left out.
+  explicit Pencil(std::vector<Term> terms);
+  /// Returns all terms, those of the point last.
+  const std::vector<Term>& terms() const { return terms_; }
+  /// Returns the number of terms that hold for all parameters.
+  std::size_t affineCount() const { return affineCount_; }
+  /// Collective. Takes further terms that hold for all parameters. The pencil must not have terms
+  /// of a point.
+  void add(std::vector<Term> terms);
+  /// Returns a pencil of these terms, whose matrices are shared, and of terms that hold at one
+  /// point of the parameters only, such as those made with its steady forces. Collective if there
+  /// are any.
+  Pencil with(std::vector<Term> pointTerms) const;
+  /// Returns true if there are terms with this power of s.
+  bool hasPower(int power) const;
+  MPI_Comm comm() const;
+
+  /// Collective. Returns the sum of the terms with this power of s as a new matrix, n×n; null if
+  /// there are none.
+  OwnedMat assembled(int power, const sweep::Parameters& at) const;
+  /// Collective. Sets y = (sum of the terms with this power) x.
+  void apply(int power, const sweep::Parameters& at, Vec x, Vec y) const;
+  /// Collective. Sets y = (sum of the terms with this power)ᵀ x.
+  void applyTranspose(int power, const sweep::Parameters& at, Vec x, Vec y) const;
+  /// Collective. Returns an estimate of the 2-norm of the sum of the terms with this power of s,
+  /// from below, so that a backward error made with it is never too small; 0 if there are none. It
+  /// comes from power iteration on AᵀA, which is continued from the last call for this power, even
+  /// if that was at another point of the sweep.
+  double norm(int power, const sweep::Parameters& at) const;
+
+ private:
+  std::vector<Term> terms_;
+  std::size_t affineCount_;
+  std::shared_ptr<std::array<OwnedVec, 3>>
+      singular_;  // [power] start vector of the next power iteration, shared by `with`
+};
+
+/// The side of an eigenvector: right with P(s) d = 0, or left with P(s)ᴴ d = 0.
+enum class Side { right, left };
+
+/// Collective. Returns P(s) d, or P(s)ᴴ d for the left side.
+linalg::ComplexVector residual(const Pencil& pencil, const sweep::Parameters& at, Complex s,
+                               const linalg::ComplexVector& d, Side side);
+
+/// Collective. Returns the backward error of a right eigenpair [M.33],
+///   ‖P(s) d‖ / ((|s|² ‖M̄‖ + |s| ‖Z̄‖ + ‖K̄‖) ‖d‖).
+double backwardError(const Pencil& pencil, const sweep::Parameters& at, Complex s,
+                     const linalg::ComplexVector& d);
+
+}  // namespace squeal::pencil

@@ -1,0 +1,40 @@
+#include "eigen/pencil/serialization.hpp"
+
+#include "algebra/linalg/serialization.hpp"
+
+namespace squeal::pencil {
+
+/// The streams find these two by their arguments.
+void fields(checkpoint::Stream& stream, Derivative& derivative);
+void fields(checkpoint::Stream& stream, Sensitivity& found);
+
+// All members are named, so that a new one does not compile until it is kept too.
+
+void fields(checkpoint::Stream& stream, Derivative& derivative) {
+  auto& [parameter, value] = derivative;
+  stream(parameter, value);
+}
+
+void fields(checkpoint::Stream& stream, Sensitivity& found) {
+  auto& [condition, separation, leftBackwardError, derivatives] = found;
+  stream(condition, separation, leftBackwardError, derivatives);
+}
+
+void exchange(checkpoint::Archive& archive, ComplexModes& point) {
+  auto& [at, eigenvalues, shapes, sensitivities, bandTop, freeModesInBand, damped, accuracy,
+         tolerance, askedTo, coveredTo] = point;
+  archive.common(at, eigenvalues, sensitivities, bandTop, freeModesInBand, damped, accuracy,
+                 tolerance, askedTo, coveredTo);
+  std::size_t count = shapes.size();
+  archive.common(count);
+  shapes.resize(count);
+  for (auto& [index, real, imaginary, unknowns, frictionWork] : shapes) {
+    archive.common(index);
+    archive.vector(real);
+    archive.vector(imaginary);
+    linalg::exchange(archive, unknowns);
+    archive.own(frictionWork);
+  }
+}
+
+}  // namespace squeal::pencil

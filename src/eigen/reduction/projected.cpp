@@ -1,0 +1,195 @@
+#include "eigen/reduction/projected.hpp"
+
+#include <algorithm>
+
+namespace squeal::reduction {
+namespace {
+
+/// Returns s^power without the rounding of std::pow: the square of an imaginary number is real.
+Complex powerOf(Complex s, int power) { return power == 0 ? 1.0 : power == 1 ? s : s * s; }
+
+bool isReal(const std::vector<Complex>& vector) {
+  return std::all_of(vector.begin(), vector.end(),
+                     [](const auto& entry) { return entry.imag() == 0; });
+}
+
+bool isSymmetric(Mat matrix) {
+  PetscBool known = PETSC_FALSE, symmetric = PETSC_FALSE;
+  check(MatIsSymmetricKnown(matrix, &known, &symmetric));
+  return known && symmetric;
+}
+
+}  // namespace
+
+Coordinates::Coordinates(std::vector<const linalg::DensePair*> list, bool damped,
+                         const PointSpace& space)
+    : pairs(std::move(list)) {
+  if (!space.isWhole())
+    for (const auto* pair : pairs) {
+      right_.push_back(space.lifted(pair->q));
+      left_.push_back(space.lifted(pair->left));
+    }
+  for (const auto* pair : pairs) {
+    firstColumn.push_back(columns);
+    columns += !damped && pair->s.real() == 0 && reduction::isReal(pair->q) &&
+                       reduction::isReal(pair->left)
+                   ? 1
+                   : 2;
+  }
+  firstColumn.push_back(columns);
+}
+
+bool Coordinates::isReal(std::size_t pair) const {
+  return firstColumn[pair + 1] - firstColumn[pair] == 1;
+}
+
+const std::vector<Complex>& Coordinates::vectorOf(std::size_t pair, pencil::Side side) const {
+  const bool right = side == pencil::Side::right;
+  if (right_.empty()) return right ? pairs[pair]->q : pairs[pair]->left;
+  return right ? right_[pair] : left_[pair];
+}
+
+double Weights::of(const pencil::Term& term) const {
+  return associated && !term.isAssociated() ? 0 : term.coefficient(at);
+}
+
+linalg::DenseMatrix Coordinates::times(pencil::Side side, int power, double c) const {
+  linalg::DenseMatrix matrix(pairs.empty() ? 0 : vectorOf(0, side).size(), columns);
+  for (std::size_t j = 0; j < pairs.size(); ++j) {
+    const auto& vector = vectorOf(j, side);
+    const Complex factor =
+        c * powerOf(side == pencil::Side::right ? pairs[j]->s : std::conj(pairs[j]->s), power);
+    const PetscInt real = firstColumn[j], imaginary = real + 1;
+    for (PetscInt i = 0; i < matrix.rows(); ++i) {
+      matrix(i, real) = (factor * vector[i]).real();
+      if (!isReal(j)) matrix(i, imaginary) = (factor * vector[i]).imag();
+    }
+  }
+  return matrix;
+}
+
+ProjectedTerms::ProjectedTerms(const Basis& basis, const pencil::Pencil& pencil, std::size_t first,
+                               std::size_t last)
+    : basis_(basis) {
+  for (std::size_t t = first; t < last; ++t) parts_.push_back(partOf(pencil.terms()[t].share()));
+  extend();
+}
+
+ProjectedTerms::Part ProjectedTerms::partOf(pencil::Term term) const {
+  const linalg::RowSet rows(term.matrix);
+  Part part{std::move(term), rows, rows, {}, {}, {}, {}, {}, {}, {}};
+  const Mat whole = part.term.matrix;
+  part.matrix = rows.of(whole);
+  part.timesV = part.rowsOfV = linalg::Block(rows.size());
+  if (isSymmetric(whole)) return part;
+  OwnedMat transposed;
+  check(MatTranspose(whole, MAT_INITIAL_MATRIX, transposed.out()));
+  part.leftRows = linalg::RowSet(transposed);
+  part.adjoint = part.leftRows.of(transposed);
+  return part;
+}
+
+void ProjectedTerms::extend() {
+  for (auto& part : parts_) extend(part);
+}
+
+/// Extends everything by the columns that V has gained, some at a time: enough for matrix products
+/// to be fast.
+void ProjectedTerms::extend(Part& part) const {
+  constexpr PetscInt atOnce = 64;
+  const PetscInt old = part.sketch.columns(), size = basis_.size();
+  if (old == size) return;
+  const bool known = knownFrom(part, old), thin = !part.rows.all();
+  if (thin) part.rowsOfV.append(part.rows.of(basis_.columns().columnRange(old, size)));
+  const linalg::DenseView v = thin ? part.rowsOfV : basis_.columns();
+  linalg::DenseMatrix right(size, size - old), below(part.adjoint ? size - old : 0, old);
+  const auto copy = [](const linalg::DenseMatrix& from, linalg::DenseMatrix& to, PetscInt first) {
+    for (PetscInt j = 0; j < from.columns(); ++j)
+      std::ranges::copy(from.column(j), to.column(first + j).begin());
+  };
+  for (PetscInt begin = old; begin < size; begin += atOnce) {
+    const PetscInt end = std::min(begin + atOnce, size);
+    linalg::Block made(part.rows.size());
+    if (!known) basis_.appendProducts(part.matrix, begin, end, made);
+    const linalg::DenseView timesV =
+        known ? basis_.forces().columnRange(begin - old, end - old) : made;
+    part.sketch.append(basis_.sketch().of(part.rows, timesV));
+    if (thin) part.timesV.append(timesV);
+    // Below the diagonal a symmetric projection is known from the columns that follow.
+    const PetscInt last = part.adjoint ? size : end;
+    copy(known ? linalg::rowRange(basis_.energies().columnRange(begin - old, end - old), 0, size)
+               : linalg::transposedProduct(basis_.comm(), v.columnRange(0, last), timesV),
+         right, begin - old);
+    if (!part.adjoint) continue;
+    linalg::Block left(part.leftRows.size());
+    basis_.appendProducts(part.adjoint, begin, end, left);
+    part.leftSketch.append(basis_.sketch().of(part.leftRows, left));
+    const linalg::DenseMatrix some = linalg::transposedProduct(
+        basis_.comm(), part.leftRows, basis_.columns().columnRange(0, old), left);
+    for (PetscInt j = 0; j < some.columns(); ++j)
+      for (PetscInt i = 0; i < old; ++i) below(begin - old + j, i) = some(i, j);
+  }
+  for (PetscInt j = old; j < size && !part.adjoint && !known; ++j)
+    for (PetscInt i = j + 1; i < size; ++i) right(i, j - old) = right(j, i - old);
+  part.projection = linalg::bordered(part.projection, right, below);
+}
+
+/// Returns true if the basis knows K0 times the columns from `old` on, and A is K0.
+bool ProjectedTerms::knownFrom(const Part& part, PetscInt old) const {
+  return part.term.matrix == basis_.stiffness() && basis_.forces().columns() == basis_.size() - old;
+}
+
+void ProjectedTerms::combine(const linalg::DenseMatrix& combinations) {
+  for (auto& part : parts_) {
+    if (!part.rows.all()) {
+      part.timesV = linalg::product(part.timesV, combinations);
+      part.rowsOfV = linalg::product(part.rowsOfV, combinations);
+    }
+    part.sketch = linalg::product(part.sketch, combinations);
+    if (part.adjoint) part.leftSketch = linalg::product(part.leftSketch, combinations);
+    part.projection = linalg::congruent(part.projection, combinations);
+  }
+}
+
+void ProjectedTerms::addTo(const Weights& weights, linalg::DenseProblem& sum) const {
+  for (const auto& part : parts_)
+    if (!weights.associated || part.term.isAssociated())
+      linalg::addScaled(part.term.power == 0   ? sum.stiffness
+                        : part.term.power == 1 ? sum.damping
+                                               : sum.mass,
+                        weights.of(part.term), part.projection);
+}
+
+void ProjectedTerms::addTo(const std::vector<const PointPairs*>& points,
+                           const linalg::DenseMatrix& combinations, linalg::Block& result) const {
+  for (const auto& part : parts_) {
+    linalg::DenseMatrix coefficients(part.sketch.columns(), result.columns());
+    PetscInt first = 0;
+    for (const auto* point : points) {
+      const PetscInt last = first + point->pairs.columns;
+      linalg::multiplyAdd(
+          point->pairs.times(pencil::Side::right, part.term.power, point->weights.of(part.term)),
+          linalg::rowRange(combinations, first, last), coefficients);
+      first = last;
+    }
+    if (!part.rows.all()) {
+      linalg::multiplyAdd(part.rows, part.timesV, coefficients, result);
+      continue;
+    }
+    const linalg::DenseView known = basis_.columns().columnRange(0, coefficients.rows());
+    linalg::Block forces(result.rows());
+    linalg::appendProduct(part.matrix, linalg::product(known, coefficients), forces);
+    linalg::addScaled(result, 1, forces);
+  }
+}
+
+void ProjectedTerms::addTo(const PointPairs& point, pencil::Side side,
+                           linalg::DenseMatrix& sketch) const {
+  for (const auto& part : parts_) {
+    const double c = point.weights.of(part.term);
+    const auto& known = side == pencil::Side::left && part.adjoint ? part.leftSketch : part.sketch;
+    if (c != 0) linalg::multiplyAdd(known, point.pairs.times(side, part.term.power, c), sketch);
+  }
+}
+
+}  // namespace squeal::reduction

@@ -1,0 +1,111 @@
+#include "eigen/reduction/spectrum.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/petsc/check.hpp"
+#include "eigen/reduction/eigenpair_correction.hpp"
+
+namespace squeal::reduction {
+namespace {
+
+/// Smaller problems are solved in full, in no more time than improving would take.
+constexpr PetscInt smallestImproved = 400;
+
+/// The part of a residual that improving a pair may leave: a round of corrections gains a decade,
+/// and what is left must be small beside that; little is asked of a pair that needs little.
+constexpr double least = 0.03, enough = 0.3;
+/// A left vector counts in the product of two errors alone.
+constexpr double leastOfLeft = 0.1;
+
+bool canImprove(const SpectrumRequest& request, const pencil::WatchedBand& band) {
+  const auto& problem = *request.problem;
+  return !request.spectrum->band.empty() && !problem.damping.empty() && band.top > 0 &&
+         std::isfinite(band.top) && problem.order() >= smallestImproved &&
+         !linalg::conservative(problem);
+}
+
+/// Returns all pairs of a spectrum, those of the band first.
+std::vector<linalg::DensePair> allPairs(const Spectrum& spectrum) {
+  std::vector<linalg::DensePair> pairs = spectrum.band;
+  pairs.insert(pairs.end(), spectrum.guard.begin(), spectrum.guard.end());
+  return pairs;
+}
+
+std::vector<UnconvergedPair> openOf(const SpectrumRequest& request) {
+  const Spectrum& spectrum = *request.spectrum;
+  std::vector<UnconvergedPair> open;
+  for (std::size_t j = 0; j < spectrum.band.size(); ++j)
+    if (const double ratio = request.errorRatio[j]; ratio > 1)
+      open.push_back({j, std::max(least, enough / ratio), leastOfLeft});
+  return open;
+}
+
+/// Takes the pairs apart into those of the band and those of the guard zone.
+void keep(std::vector<linalg::DensePair> pairs, const pencil::WatchedBand& band,
+          Spectrum& spectrum) {
+  std::ranges::sort(pairs, [](const auto& a, const auto& b) {
+    return a.s.imag() != b.s.imag() ? a.s.imag() < b.s.imag() : a.s.real() < b.s.real();
+  });
+  spectrum.band.clear();
+  spectrum.guard.clear();
+  for (auto& pair : pairs)
+    (band.top == 0 || band.contains(pair.s) ? spectrum.band : spectrum.guard)
+        .push_back(std::move(pair));
+}
+
+}  // namespace
+
+void solveSpectra(MPI_Comm comm, const pencil::WatchedBand& band,
+                  const std::vector<SpectrumRequest>& requests) {
+  std::vector<const SpectrumRequest*> improvable, inFull;
+  std::vector<std::vector<linalg::DensePair>> pairs;
+  for (const auto& request : requests) {
+    (canImprove(request, band) ? improvable : inFull).push_back(&request);
+    if (improvable.size() > pairs.size()) pairs.push_back(allPairs(*request.spectrum));
+  }
+  std::vector<CorrectionTask> tasks;
+  for (std::size_t i = 0; i < improvable.size(); ++i)
+    tasks.push_back({improvable[i]->problem, &pairs[i], openOf(*improvable[i])});
+  const auto improved = correctPairs(comm, tasks);
+  for (std::size_t i = 0; i < improvable.size(); ++i) {
+    if (!improved[i]) {
+      inFull.push_back(improvable[i]);
+      continue;
+    }
+    keep(std::move(pairs[i]), band, *improvable[i]->spectrum);
+    improvable[i]->spectrum->improved = true;
+  }
+  auto solved = linalg::spread(comm, inFull.size(), linalg::Vectors::both, [&](std::size_t i) {
+    return linalg::solveQuadratic(*inFull[i]->problem, linalg::Vectors::both,
+                                  [&](Complex s) { return band.top == 0 || band.watches(s); });
+  });
+  for (std::size_t i = 0; i < inFull.size(); ++i) {
+    keep(std::move(solved[i]), band, *inFull[i]->spectrum);
+    inFull[i]->spectrum->improved = false;
+  }
+}
+
+std::vector<bool> incomplete(MPI_Comm comm, const pencil::WatchedBand& band,
+                             const std::vector<SpectrumRequest>& requests) {
+  constexpr std::array places{0.25, 0.75};  // of shifts, in parts of the band
+  const auto found = linalg::spread(
+      comm, requests.size() * places.size(), linalg::Vectors::right, [&](std::size_t i) {
+        const auto& [problem, spectrum, errorRatio] = requests[i / places.size()];
+        std::vector<linalg::DensePair> pairs = allPairs(*spectrum), result;
+        for (auto& pair : pairs)  // they may be of a smaller basis
+          for (auto* vector : {&pair.q, &pair.left}) vector->resize(problem->order());
+        const Complex shift(0, places[i % places.size()] * band.top);
+        const auto unknown =
+            findMissing(*problem, pairs, shift, [&](Complex s) { return band.contains(s); });
+        if (unknown) result.push_back({*unknown, {}});
+        return result;
+      });
+  std::vector<bool> are(requests.size(), false);
+  for (std::size_t i = 0; i < found.size(); ++i)
+    are[i / places.size()] = are[i / places.size()] || !found[i].empty();
+  return are;
+}
+
+}  // namespace squeal::reduction

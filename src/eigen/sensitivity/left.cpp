@@ -1,0 +1,265 @@
+#include "eigen/sensitivity/left.hpp"
+
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "algebra/linalg/block.hpp"
+#include "algebra/linalg/columns.hpp"
+#include "algebra/linalg/lu.hpp"
+#include "base/petsc/arrays.hpp"
+#include "eigen/sweep/parameters.hpp"
+
+namespace squeal::sensitivity {
+namespace {
+
+constexpr double wanted = 1e-10;
+constexpr int mostRounds = 20;
+
+/// Returns cᴴ A q; zero for an empty A.
+Complex form(const std::vector<Complex>& c, const linalg::DenseMatrix& a,
+             const std::vector<Complex>& q) {
+  Complex sum = 0;
+  for (PetscInt j = 0; j < a.columns(); ++j) {
+    Complex column = 0;
+    for (PetscInt i = 0; i < a.rows(); ++i) column += std::conj(c[i]) * a(i, j);
+    sum += column * q[j];
+  }
+  return sum;
+}
+
+/// Returns c with
+///   cᴴ H(s) = 0,   H = Σ s^p h_p,
+/// by inverse iteration. s is known to some digits only and is corrected by the two-sided Rayleigh
+/// quotient
+///   δs = −cᴴ H q / cᴴ H′ q.
+std::vector<Complex> nullVector(const std::array<linalg::DenseMatrix, 3>& h, Complex s) {
+  const PetscInt m = h[0].rows();
+  std::vector<Complex> c(m);
+  for (PetscInt i = 0; i < m; ++i) c[i] = {std::sin(12.9898 * (i + 1)), std::cos(78.233 * (i + 1))};
+  const auto solve = [](const linalg::Lu<Complex>& factors, std::vector<Complex> x, bool adjoint) {
+    factors.solve(std::span(x), adjoint);
+    double sum = 0;
+    for (const auto& entry : x) sum += std::norm(entry);
+    for (auto& entry : x) entry /= std::sqrt(sum);
+    return x;
+  };
+  for (int step = 0; step < 3; ++step) {
+    linalg::ComplexMatrix sum(m, m);
+    Complex power = 1;
+    for (const auto& matrix : h) {
+      for (PetscInt j = 0; j < matrix.columns(); ++j)
+        for (PetscInt i = 0; i < m; ++i) sum(i, j) += power * matrix(i, j);
+      power *= s;
+    }
+    linalg::Lu<Complex> factors(std::move(sum));
+    factors.raiseZeroPivots();  // s may be an eigenvalue to the last digit
+    auto q = c;
+    for (int cycle = 0; cycle < 2; ++cycle) {
+      q = solve(factors, std::move(q), false);
+      c = solve(factors, q, true);
+      if (cycle == 0) q = c;
+    }
+    const Complex value = form(c, h[0], q) + s * form(c, h[1], q) + s * s * form(c, h[2], q),
+                  slope = form(c, h[1], q) + 2.0 * s * form(c, h[2], q), change = -value / slope;
+    if (!(std::abs(change) > 1e-14 * std::abs(s) && std::abs(change) < 1e-6 * std::abs(s))) break;
+    s += change;
+  }
+  return c;
+}
+
+class LeftIteration {
+ public:
+  LeftIteration(const pencil::Pencil& pencil, const sweep::Parameters& at, const StartSpace& start,
+                KSP solver)
+      : pencil_(pencil),
+        at_(at),
+        norms_{pencil.norm(0, at), pencil.norm(1, at), pencil.norm(2, at)},
+        solver_(solver),
+        projected_{start.projected.stiffness, start.projected.damping, start.projected.mass},
+        known_(start.projected.order()) {
+    check(BVGetSizes(start.columns, nullptr, nullptr, &size_));
+    check(BVDuplicateResize(start.columns, size_, basis_.out()));
+    check(BVCopy(start.columns, basis_));
+    check(BVSetMatrix(basis_, start.inner, PETSC_FALSE));
+  }
+
+  std::vector<LeftVector> vectors(const std::vector<RightPair>& pairs) {
+    add(partsOf(pairs));
+    std::vector<LeftVector> found(pairs.size());
+    std::vector<std::size_t> open(pairs.size());
+    std::iota(open.begin(), open.end(), 0);
+    for (int round = 0;; ++round) {
+      std::vector<Complex> values;
+      for (std::size_t i : open) values.push_back(pairs[i].s);
+      const auto coordinates = nullVectors(values);
+      std::vector<std::size_t> bad;
+      std::vector<linalg::ComplexVector> residuals;
+      for (std::size_t k = 0; k < open.size(); ++k) {
+        auto& left = found[open[k]];
+        left.y = expand(coordinates[k]);
+        linalg::ComplexVector residual =
+            pencil::residual(pencil_, at_, values[k], left.y, pencil::Side::left);
+        left.backwardError = length(residual) / (scale(values[k]) * length(left.y));
+        if (left.backwardError > wanted)
+          bad.push_back(open[k]), residuals.push_back(std::move(residual));
+      }
+      if (bad.empty() || round == mostRounds) return found;
+      const auto solved = corrections(residuals);
+      if (!add({solved.begin(), solved.end()})) return found;
+      open = std::move(bad);
+    }
+  }
+
+ private:
+  static std::vector<Vec> partsOf(const std::vector<RightPair>& pairs) {
+    std::vector<Vec> parts;
+    for (const auto& pair : pairs)
+      parts.insert(parts.end(), {pair.vector->real.get(), pair.vector->imaginary.get()});
+    return parts;
+  }
+
+  double scale(Complex s) const {
+    const double size = std::abs(s);
+    return norms_[0] + size * norms_[1] + size * size * norms_[2];
+  }
+
+  /// Returns K0⁻¹ times the real and the imaginary parts of the residuals, which are first scaled
+  /// to the 2-norm 1.
+  std::vector<OwnedVec> corrections(const std::vector<linalg::ComplexVector>& residuals) {
+    const PetscInt count = 2 * residuals.size();
+    PetscInt local = 0, global = 0;
+    check(VecGetLocalSize(residuals[0].real, &local));
+    check(VecGetSize(residuals[0].real, &global));
+    OwnedMat rhs, solution;
+    check(MatCreateDense(pencil_.comm(), local, PETSC_DECIDE, global, count, nullptr, rhs.out()));
+    check(MatCreateDense(pencil_.comm(), local, PETSC_DECIDE, global, count, nullptr,
+                         solution.out()));
+    for (PetscInt j = 0; j < count; ++j) {
+      const auto& residual = residuals[j / 2];
+      Vec column = nullptr;
+      check(MatDenseGetColumnVecWrite(rhs, j, &column));
+      check(VecCopy(j % 2 == 0 ? residual.real : residual.imaginary, column));
+      check(VecScale(column, 1 / length(residual)));
+      check(MatDenseRestoreColumnVecWrite(rhs, j, &column));
+    }
+    check(KSPMatSolve(solver_, rhs, solution));
+    std::vector<OwnedVec> parts;
+    for (PetscInt j = 0; j < count; ++j) {
+      Vec column = nullptr;
+      OwnedVec part;
+      check(VecDuplicate(residuals[0].real, part.out()));
+      check(MatDenseGetColumnVecRead(solution, j, &column));
+      check(VecCopy(column, part));
+      check(MatDenseRestoreColumnVecRead(solution, j, &column));
+      parts.push_back(std::move(part));
+    }
+    return parts;
+  }
+
+  /// Adds vectors to the basis, those apart that depend on it, and projects the pencil on the new
+  /// columns. Returns true if the basis has grown.
+  bool add(const std::vector<Vec>& vectors) {
+    constexpr double dependent = 1e-6;
+    const PetscInt before = size_;
+    check(BVResize(basis_, size_ + std::ssize(vectors), PETSC_TRUE));
+    for (Vec vector : vectors) {
+      PetscReal length = 0, rest = 0;
+      PetscBool lost = PETSC_FALSE;
+      check(BVInsertVec(basis_, size_, vector));
+      check(BVNormColumn(basis_, size_, NORM_2, &length));
+      check(BVSetActiveColumns(basis_, 0, size_ + 1));
+      if (length > 0) check(BVOrthonormalizeColumn(basis_, size_, PETSC_FALSE, &rest, &lost));
+      if (!lost && rest > dependent * length) ++size_;
+    }
+    check(BVResize(basis_, size_, PETSC_TRUE));
+    check(BVSetActiveColumns(basis_, 0, size_));
+    extend();
+    return size_ > before;
+  }
+
+  /// Extends Vᵀ A V of each power of s by the columns that V has gained.
+  void extend() {
+    const PetscInt old = known_, added = size_ - old;
+    if (added == 0) return;
+    const linalg::ReadColumns all(basis_);
+    for (int power = 0; power <= 2; ++power) {
+      if (!pencil_.hasPower(power)) continue;
+      const linalg::DenseView v = all.view();
+      const auto right =
+                     linalg::transposedProduct(pencil_.comm(), v, productsWithV(power, old, false)),
+                 below = linalg::transposedProduct(pencil_.comm(), productsWithV(power, old, true),
+                                                   v.columnRange(0, old));
+      auto& matrix = projected_[power];
+      matrix = linalg::bordered(matrix, right, below);
+    }
+    known_ = size_;
+  }
+
+  /// Returns this rank's rows of A V, or of Aᵀ V, for the columns of V from `first` on.
+  linalg::Block productsWithV(int power, PetscInt first, bool transposed) const {
+    linalg::Block values;
+    for (PetscInt j = first; j < size_; ++j) {
+      Vec column = nullptr;
+      OwnedVec product;
+      check(BVGetColumn(basis_, j, &column));
+      check(VecDuplicate(column, product.out()));
+      if (transposed)
+        pencil_.applyTranspose(power, at_, column, product);
+      else
+        pencil_.apply(power, at_, column, product);
+      check(BVRestoreColumn(basis_, j, &column));
+      const ReadArray entries(product);
+      values.append(linalg::DenseView(entries.data(), entries.size(), 1));
+    }
+    return values;
+  }
+
+  /// Returns the left null vectors in coordinates of the basis, [value]. The work is spread over
+  /// the ranks, and all ranks get the same results, so that rounding cannot make them disagree.
+  std::vector<std::vector<Complex>> nullVectors(const std::vector<Complex>& values) const {
+    int rank = 0, ranks = 1;
+    check(MPI_Comm_rank(pencil_.comm(), &rank));
+    check(MPI_Comm_size(pencil_.comm(), &ranks));
+    std::vector<std::vector<Complex>> vectors(values.size(), std::vector<Complex>(size_));
+    for (std::size_t i = rank; i < values.size(); i += ranks)
+      vectors[i] = nullVector(projected_, values[i]);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      check(MPI_Bcast(vectors[i].data(), size_, MPI_C_DOUBLE_COMPLEX, i % ranks, pencil_.comm()));
+    return vectors;
+  }
+
+  /// Returns V c, scaled to the 2-norm 1.
+  linalg::ComplexVector expand(const std::vector<Complex>& c) const {
+    linalg::ComplexVector y;
+    check(MatCreateVecs(pencil_.terms().at(0).matrix, y.real.out(), y.imaginary.out()));
+    std::vector<double> real, imaginary;
+    for (const auto& entry : c) real.push_back(entry.real()), imaginary.push_back(entry.imag());
+    check(BVMultVec(basis_, 1, 0, y.real, real.data()));
+    check(BVMultVec(basis_, 1, 0, y.imaginary, imaginary.data()));
+    const double size = length(y);
+    check(VecScale(y.real, 1 / size));
+    check(VecScale(y.imaginary, 1 / size));
+    return y;
+  }
+
+  const pencil::Pencil& pencil_;
+  const sweep::Parameters at_;
+  const std::array<double, 3> norms_;  // [power of s] 2-norms of the full matrices
+  KSP solver_;
+  OwnedBV basis_;
+  PetscInt size_ = 0;
+  std::array<linalg::DenseMatrix, 3> projected_;  // [power of s] Vᵀ A V
+  PetscInt known_ = 0;                            // columns of V in it
+};
+
+}  // namespace
+
+std::vector<LeftVector> leftVectors(const pencil::Pencil& pencil, const sweep::Parameters& at,
+                                    const StartSpace& start, KSP solver,
+                                    const std::vector<RightPair>& pairs) {
+  if (pairs.empty()) return {};
+  return LeftIteration(pencil, at, start, solver).vectors(pairs);
+}
+
+}  // namespace squeal::sensitivity

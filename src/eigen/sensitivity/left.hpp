@@ -1,0 +1,44 @@
+#pragma once
+/// Left eigenvectors y of the full-order problem, yᴴ P(s) = 0, are found for known eigenvalues.
+#include <vector>
+
+#include "algebra/linalg/complexvector.hpp"
+#include "algebra/linalg/quadratic.hpp"
+#include "eigen/pencil/pencil.hpp"
+#include "eigen/sweep/parameters.hpp"
+
+namespace squeal::sensitivity {
+
+/// An eigenvalue and its right vector in the unknowns x.
+struct RightPair {
+  Complex s;
+  const linalg::ComplexVector* vector;  ///< borrowed
+};
+
+/// A left vector and its backward error.
+struct LeftVector {
+  linalg::ComplexVector y;  ///< in the unknowns, 2-norm 1
+  /// The backward error
+  ///   ‖P(s)ᴴ y‖ / ((|s|² ‖M̄‖ + |s| ‖Z̄‖ + ‖K̄‖) ‖y‖).
+  double backwardError = 0;
+};
+
+/// The space in which the search for left vectors begins.
+struct StartSpace {
+  OwnedBV columns;      ///< V: the free modes, or the basis of the reduced problem
+  Mat inner = nullptr;  ///< the matrix in which V is nearly orthonormal, M0 or K0; borrowed
+  linalg::DenseProblem projected;  ///< Vᵀ P V at the point, which saves products with V, if it is
+                                   ///< known; otherwise empty
+};
+
+/// Collective. Returns the left vectors of all pairs, [pair], by Rayleigh–Ritz on a basis that
+/// begins with V and the right vectors. Each round extends it by
+///   K0⁻¹ Re l, K0⁻¹ Im l,   l = P(s)ᴴ y,
+/// for the left residuals l of all pairs together, with `solver`, a factorisation of K0, borrowed.
+/// A round gains about a decade. The rounds end when all backward errors are at most 1e-10, when
+/// the basis no longer grows, or after 20 rounds; the caller judges the error that is left.
+std::vector<LeftVector> leftVectors(const pencil::Pencil& pencil, const sweep::Parameters& at,
+                                    const StartSpace& start, KSP solver,
+                                    const std::vector<RightPair>& pairs);
+
+}  // namespace squeal::sensitivity

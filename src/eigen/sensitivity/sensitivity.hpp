@@ -1,0 +1,36 @@
+#pragma once
+/// Left and right vectors give the derivatives of eigenvalues [M.46],
+///   ds/dθ = −yᴴ (∂P/∂θ)(s) x / yᴴ P′(s) x,   P′ = dP/ds = 2 s M̄ + Z̄,
+/// as far as the pencil alone gives them.
+#include <string>
+#include <vector>
+
+#include "algebra/linalg/complexvector.hpp"
+#include "eigen/pencil/complex_modes.hpp"
+#include "eigen/pencil/pencil.hpp"
+#include "eigen/sweep/parameters.hpp"
+
+namespace squeal::sensitivity {
+
+/// An eigenvalue with its right and left vector, both borrowed.
+struct EigenTriple {
+  Complex s;
+  const linalg::ComplexVector& x;  ///< right vector in the unknowns
+  const linalg::ComplexVector& y;  ///< left vector in the unknowns
+};
+
+/// Returns the option `-flutter_sensitivities`.
+bool sensitivitiesWanted();
+
+/// Collective. Returns yᴴ P′(s) x.
+Complex slopeForm(const pencil::Pencil& pencil, const sweep::Parameters& at,
+                  const EigenTriple& triple);
+/// Collective. Returns yᴴ (∂P/∂θ)(s) x for the dependence of the coefficients of the terms on θ,
+/// which is `parameter`.
+Complex parameterForm(const pencil::Pencil& pencil, const sweep::Parameters& at,
+                      const EigenTriple& triple, double sweep::Parameters::*parameter);
+/// Collective. Returns the condition number [M.50], Sensitivity::condition, where `slope` is
+/// yᴴ P′(s) x and `mass` is M0.
+double condition(const EigenTriple& triple, Complex slope, Mat mass);
+
+}  // namespace squeal::sensitivity

@@ -1,0 +1,47 @@
+#pragma once
+/// Critical frictions: the frictions at which stability changes, as roots of analytic functions.
+#include <vector>
+
+#include "eigen/tracking/track.hpp"
+
+namespace squeal::stability {
+
+using tracking::Branches;
+using tracking::Event;
+using tracking::Family;
+using tracking::Piece;
+
+/// One critical friction.
+struct Critical {
+  Event::Kind kind = Event::Kind::crossing;
+  int branch = 0, partner = -1;
+  double friction = 0;
+  double angularFrequency = 0;  ///< rad/s
+  /// Slope over the friction. Crossing: d Re s/df, 1/s. Coalescence: d (Re s)²/df, 1/s².
+  /// Divergence: d Re s²/df, 1/s², or ds/df, 1/s, where s is real on both sides.
+  double slope = 0;
+  bool loss = true;          ///< stability is lost with rising friction; false: it is regained
+  double errorEstimate = 0;  ///< estimate of the error of `friction`: its change with the last
+                             ///< improvement of the basis, the tolerance of the root, and what
+                             ///< round-off does to the function over its slope
+  double backwardError = 0;  ///< backward error of the large problem here; 0: there is none
+  bool converged = true;     ///< the basis was improved until `friction` settled
+  std::size_t piece = 0;     ///< of the path
+};
+
+/// Collective. Returns a critical friction for each event of `branches`, by friction. Inside its
+/// bracket it is the zero of a function that is analytic in f [M.44]:
+///   crossing (Hopf):   Re s of one eigenvalue
+///   coalescence:       −((s1 − s2)/2)² of the two-dimensional invariant subspace
+///   divergence:        Re s², or s where it is real at both ends
+/// At a coalescence s1 and s2 themselves behave like square roots. After each root the family
+/// improves its basis for the pairs concerned, until the friction changes by at most `tolerance` of
+/// itself, relative, or after ten rounds. Throws Error if LAPACK fails.
+/// A jump where the active set changes is at the friction of that change. Two coalescences of the
+/// same eigenvalues that undo each other within their errors are not in the list: the two cross.
+std::vector<Critical> criticalFrictions(Family& family, const Branches& branches, double tolerance);
+/// Collective. Does the same for branches of a path.
+std::vector<Critical> criticalFrictions(const std::vector<Piece>& path, const Branches& branches,
+                                        double tolerance);
+
+}  // namespace squeal::stability

@@ -1,0 +1,162 @@
+#include "eigen/stability/followed.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "base/options/options.hpp"
+#include "base/system/text.hpp"
+#include "eigen/tracking/reducedfamily.hpp"
+#include "eigen/tracking/renumber.hpp"
+
+namespace squeal::stability {
+namespace {
+
+const FlagOption trackOption(
+    "flutter", "flutter_track", true,
+    "follow the eigenvalues of the band over the friction by left and right vectors, through "
+    "crossings and "
+    "mergers: branches.csv; reduced method alone; a single friction, from friction 0 on, and "
+    "sweeps with terms that follow the "
+    "steady state (friction damping, prestress) only if this or -flutter_critical is given");
+const FlagOption criticalOption(
+    "flutter", "flutter_critical", true,
+    "solve for the frictions at which stability changes: critical.csv; needs -flutter_track");
+const RealOption toleranceOption("flutter", "flutter_critical_tolerance", 1e-8, "", positive,
+                                 "the basis is improved for a critical friction until it moves by "
+                                 "less than this part of itself");
+const IntegerOption halvingsOption(
+    "flutter", "flutter_track_halvings", 10, 0, 50,
+    "how often a step of the sweep may be halved where a continuation is not certain");
+
+/// Drops the vectors, which take much memory and are no longer needed, and the events.
+void dropVectors(Branches& branches) {
+  for (auto& station : branches.stations)
+    for (auto& pair : station.pairs) pair = {pair.s, {}};
+  branches.events.clear();
+}
+
+/// Returns true if the eigenvalues in the band are i ω for the `count` lowest modes, within their
+/// errors. Even at friction 0 they are not where the problem differs from that of the modes: with
+/// an unsymmetric stiffness from a file, or with the prestress of another friction.
+bool areFreeModes(const Station& station, const std::vector<double>& angularFrequency,
+                  std::size_t count) {
+  constexpr double near = 1e-6;
+  std::vector<double> found;
+  for (std::size_t i = 0; i < station.pairs.size(); ++i)
+    if (station.inBand[i]) found.push_back(station.pairs[i].s.imag());
+  std::sort(found.begin(), found.end());
+  return found.size() == count &&
+         std::equal(found.begin(), found.end(), angularFrequency.begin(),
+                    [&](double s, double w) { return std::abs(s - w) <= near * w; });
+}
+
+}  // namespace
+
+bool trackWanted() { return trackOption.get(); }
+
+bool trackAsked() {
+  return trackOption.given() || (criticalOption.given() && criticalOption.get());
+}
+
+bool worthFollowing(const Line& line) {
+  return line.swept.size() > 1 || line.before || (line.swept.front() != 0 && trackAsked());
+}
+
+std::string nothingToFollow(const reduction::ReducedProblem& reduced,
+                            const std::vector<Line>& lines) {
+  if (reduced.band().top == 0) return "-reduction_basis modal corrects no eigenvalue";
+  return lines.empty() ? "single frictions" : "";
+}
+
+bool Followed::complete() const {
+  return std::all_of(branches.gaps.begin(), branches.gaps.end(),
+                     [](const Gap& gap) { return gap.identityOnly; });
+}
+
+std::string Followed::statement() const {
+  const auto& stations = branches.stations;
+  if (stations.empty()) return "completeness not shown: no reduced problem";
+  const auto& first = stations.front();
+  const auto& last = stations.back();
+  std::string text = formatted(
+      "%d eigenvalues in the band at friction %g (%s); ", branches.inBandAt(first), first.friction,
+      wholeSpace   ? "of the full problem: the basis is the whole space"
+      : countExact ? "Sturm count, exact"
+                   : "of the reduced problem, not confirmed by a Sturm count");
+  if (complete()) {
+    text += formatted(
+        "all followed to friction %g, where there are %d: %d entered and %d left across the edge",
+        last.friction, branches.inBandAt(last), branches.entered, branches.left);
+    if (activeSet.size() > 1)
+      text += formatted(", through %zu changes of the active set", activeSet.size() - 1);
+  } else {
+    text += "not all followed:";
+    for (const auto& gap : branches.gaps)
+      if (!gap.identityOnly)
+        text += formatted(" [%g to %g: %s]", gap.from, gap.to, gap.what.c_str());
+  }
+  if (const auto open = std::ranges::count(criticals, false, &Critical::converged); open > 0)
+    text += formatted("; %td of %zu changes of stability %s located only within their bounds", open,
+                      criticals.size(), open == 1 ? "is" : "are");
+  return wholeSpace ? text
+                    : text +
+                          "; assumed: the basis holds every eigenvalue of the full problem that "
+                          "crosses the edge of the band";
+}
+
+std::vector<Followed> followSweep(reduction::ReducedProblem& reduced,
+                                  const std::vector<Line>& lines, MPI_Comm comm,
+                                  const std::function<void(const std::string&)>& progress) {
+  std::vector<Followed> result;
+  PetscInt unknowns = 0;
+  check(MatGetSize(reduced.basis().stiffness(), &unknowns, nullptr));
+  for (const auto& line : lines) {
+    Followed followed;
+    followed.line = line.at;
+    followed.wholeSpace = reduced.basisSize() == unknowns;
+    std::vector<std::unique_ptr<tracking::ReducedFamily>> families;
+    std::vector<Piece> path;
+    for (const auto& piece : line.pieces) {
+      families.push_back(std::make_unique<tracking::ReducedFamily>(reduced, comm, line.at,
+                                                                   piece.source, progress));
+      path.push_back({families.back().get(), piece.frictions});
+      followed.activeSet.push_back(piece.activeSet);
+    }
+    auto& first = path.front().frictions;
+    if (first.front() != 0) first.insert(first.begin(), 0);
+    tracking::TrackLimits limits;
+    limits.smallest = std::ldexp(1.0, -halvingsOption.get());
+    followed.branches = follow(path, reduced.band(), limits);
+    auto& stations = followed.branches.stations;
+    for (auto& station : stations)
+      station.swept = std::ranges::binary_search(line.swept, station.friction);
+    if (!stations.empty() && stations.front().friction == 0) {
+      const auto& w = line.modes->angularFrequency;
+      const double top = followed.branches.band.top;
+      const auto below =
+          std::count_if(w.begin(), w.end(), [&](double omega) { return omega <= top; });
+      const auto problem = families.front()->at(0);
+      followed.countExact = problem && problem->damping.empty() && line.modes->countConfirmed &&
+                            top * top <= line.modes->inertiaShift &&
+                            areFreeModes(stations.front(), w, below);
+    }
+    renumber(followed.branches);
+    if (criticalOption.get())
+      followed.criticals = criticalFrictions(path, followed.branches, toleranceOption.get());
+    if (line.before) {
+      followed.from = line.swept.front();
+      auto& gaps = followed.branches.gaps;
+      std::erase_if(gaps, [&](const Gap& gap) { return gap.to <= followed.from; });
+      gaps.push_back({*line.before, followed.from,
+                      "the active set changes, and the two sets have a basis each"});
+      std::erase_if(followed.criticals,
+                    [&](const Critical& critical) { return critical.friction < followed.from; });
+    }
+    dropVectors(followed.branches);
+    result.push_back(std::move(followed));
+  }
+  return result;
+}
+
+}  // namespace squeal::stability

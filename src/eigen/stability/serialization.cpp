@@ -1,0 +1,38 @@
+#include "eigen/stability/serialization.hpp"
+
+namespace squeal::tracking {
+
+/// The streams find these by their arguments.
+void fields(checkpoint::Stream& stream, Station& station);
+void fields(checkpoint::Stream& stream, Event& event);
+void fields(checkpoint::Stream& stream, Gap& gap);
+
+// All members are named, so that a new one does not compile until it is kept too.
+
+void fields(checkpoint::Stream& stream, Station& station) {
+  auto& [friction, swept, pairs, branch, overlap, inBand, piece] = station;
+  stream(friction, swept, pairs, branch, overlap, inBand, piece);
+}
+
+void fields(checkpoint::Stream& stream, Event& event) {
+  auto& [kind, branch, partner, loss, low, high, below, above, isolation, piece] = event;
+  stream(kind, branch, partner, loss, low, high, below, above, isolation, piece);
+}
+
+void fields(checkpoint::Stream& stream, Gap& gap) {
+  auto& [from, to, what, identityOnly] = gap;
+  stream(from, to, what, identityOnly);
+}
+
+}  // namespace squeal::tracking
+
+namespace squeal::stability {
+
+void fields(checkpoint::Stream& stream, Followed& followed) {
+  auto& [line, activeSet, from, branches, criticals, countExact, wholeSpace] = followed;
+  auto& [band, stations, events, gaps, count, entered, left] = branches;
+  stream(line, activeSet, from, band, stations, events, gaps, count, entered, left, criticals,
+         countExact, wholeSpace);
+}
+
+}  // namespace squeal::stability

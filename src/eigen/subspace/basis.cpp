@@ -1,0 +1,316 @@
+#include "eigen/subspace/basis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "algebra/linalg/block.hpp"
+#include "algebra/linalg/columns.hpp"
+#include "algebra/linalg/quadratic.hpp"
+#include "algebra/linalg/symmetric.hpp"
+#include "base/petsc/arrays.hpp"
+#include "base/system/concatenation.hpp"
+
+namespace squeal::subspace {
+namespace {
+
+/// A direction counts as independent of the others, to within 1e-6, if its eigenvalue of the Gram
+/// matrix exceeds this part of the largest one.
+constexpr double independent = 1e-12;
+
+/// Returns combinations that are orthonormal in the positive semi-definite matrix `gram`. Each
+/// column of the matrix is first taken as of unit size, and combinations whose eigenvalue is
+/// `small` times the largest or less are left out.
+linalg::DenseMatrix orthonormalising(linalg::DenseMatrix gram, double small) {
+  const PetscInt n = gram.rows();
+  std::vector<double> scale(n);
+  for (PetscInt j = 0; j < n; ++j) scale[j] = gram(j, j) > 0 ? 1 / std::sqrt(gram(j, j)) : 0;
+  for (PetscInt j = 0; j < n; ++j)
+    for (PetscInt i = 0; i < n; ++i) gram(i, j) *= scale[i] * scale[j];
+  const auto eigenvalues = linalg::symmetricEigen(gram);
+  linalg::DenseMatrix kept(n);
+  for (PetscInt j = 0; j < n; ++j) {
+    if (!(eigenvalues[j] > small * eigenvalues.back())) continue;
+    for (PetscInt i = 0; i < n; ++i) gram(i, j) *= scale[i] / std::sqrt(eigenvalues[j]);
+    kept.append(gram.column(j));
+  }
+  return kept;
+}
+
+/// Sets those diagonal entries to zero that are `small` times the whole energy of their column,
+/// with its `parts` along V, or less.
+void clearWhatVHolds(linalg::DenseMatrix& energy, const linalg::DenseMatrix& parts, double small) {
+  for (PetscInt j = 0; j < energy.columns(); ++j)
+    if (energy(j, j) <= small * linalg::squaredLength(parts.column(j))) energy(j, j) = 0;
+}
+
+/// Returns true if the parts of energy-orthonormal vectors along V leave these all but orthogonal
+/// to it.
+bool isLittle(const linalg::DenseMatrix& along) {
+  constexpr double little = 1e-8;  // 1e-4 of their length
+  for (PetscInt j = 0; j < along.columns(); ++j)
+    if (!(linalg::squaredLength(along.column(j)) < little)) return false;
+  return true;
+}
+
+/// Clears the parts along the constraint modes, to which all other vectors are orthogonal.
+void clearConstraintModes(linalg::DenseMatrix& parts, PetscInt count) {
+  for (PetscInt j = 0; j < parts.columns(); ++j)
+    for (PetscInt i = 0; i < count; ++i) parts(i, j) = 0;
+}
+
+}  // namespace
+
+Basis::Basis(const modes::Modes& modes, const factor::AssociatedSystem& system,
+             Substructure substructure)
+    : comm_(system.comm()),
+      substructure_(std::move(substructure)),
+      isPlain_(!stiffness()),
+      solver_(system.solver()),
+      columns_(0),
+      forces_(0) {
+  if (isPlain_) substructure_.stiffness = system.k0();
+  PetscInt rows = 0;
+  check(MatGetLocalSize(stiffness(), &rows, nullptr));
+  columns_ = linalg::Block(rows);
+  addConstraintModes();
+  const linalg::ReadColumns columns(modes.vectors);
+  linalg::Block shapes = prolonged(columns.view());
+  for (PetscInt j = 0; j < shapes.columns(); ++j)
+    for (double& entry : shapes.column(j)) entry /= modes.angularFrequency[j];
+  // Untouched memory costs nothing, moving V does.
+  columns_.reserve(3 * (size() + shapes.columns()));
+  columns_.append(shapes);
+  OwnedVec diagonal;
+  check(MatCreateVecs(stiffness(), diagonal.out(), nullptr));
+  check(MatGetDiagonal(stiffness(), diagonal));
+  check(VecReciprocal(diagonal));
+  const ReadArray values(diagonal);
+  inverseDiagonal_.assign(values.begin(), values.end());
+  for (const PetscInt row : substructure_.boundary) inverseDiagonal_[row] = 0;
+  sketch_.emplace(comm_, inverseDiagonal_, substructure_.boundary);
+  sketchColumns(0);
+}
+
+/// Collective. Appends the sketches of the columns from `first` on.
+void Basis::sketchColumns(PetscInt first) {
+  // An order of magnitude needs few random combinations; blocks bound the memory of the copy.
+  constexpr PetscInt few = 16, atOnce = 64;
+  sketched_.append(sketch_->unweighted(columns_.columnRange(first, size())));
+  for (; first < size(); first += atOnce) {
+    linalg::Block scaled(columns_.columnRange(first, std::min(first + atOnce, size())));
+    for (PetscInt j = 0; j < scaled.columns(); ++j)
+      for (PetscInt i = 0; i < scaled.rows(); ++i)
+        scaled(i, j) *= inverseDiagonal_[i] > 0 ? 1 / std::sqrt(inverseDiagonal_[i]) : 0;
+    rigidity_.append(sketch_->unweighted(scaled, few));
+  }
+}
+
+linalg::Block Basis::prolonged(const linalg::DenseView& interior) const {
+  if (isPlain_) return linalg::Block(interior);
+  linalg::Block all(localRows(), interior.columns());
+  for (PetscInt j = 0; j < all.columns(); ++j)
+    for (PetscInt i = 0; i < interior.rows(); ++i)
+      all(substructure_.interior[i], j) = interior(i, j);
+  return all;
+}
+
+void Basis::clearBoundary(linalg::Block& columns) const {
+  for (PetscInt j = 0; j < columns.columns(); ++j)
+    for (const PetscInt row : substructure_.boundary) columns(row, j) = 0;
+}
+
+void Basis::addConstraintModes() {
+  const auto& boundary = substructure_.boundary;
+  const Concatenation ranks(comm_, boundary.size());
+  if (ranks.size() == 0) return;
+  firstBoundary_ = ranks.ownBegin();
+  linalg::Block units(localRows(), ranks.size()), forces(localRows()), energies(localRows());
+  for (std::size_t i = 0; i < boundary.size(); ++i) units(boundary[i], firstBoundary_ + i) = 1;
+  linalg::appendProduct(stiffness(), units, forces);
+  columns_ = responses(forces);
+  linalg::addScaled(units, -1, columns_);
+  columns_ = std::move(units);
+  linalg::appendProduct(stiffness(), columns_, energies);
+  boundaryStiffness_ = linalg::transposedProduct(comm_, columns_, energies);
+}
+
+/// Sets the rows of the boundary to K z of z = K0⁻¹ r, which is −Yᵀr [M.60]; `answers` is Yᵀr.
+void Basis::answerAtBoundary(const linalg::DenseMatrix& answers, linalg::Block& residuals) const {
+  const auto& boundary = substructure_.boundary;
+  for (PetscInt j = 0; j < residuals.columns(); ++j)
+    for (std::size_t i = 0; i < boundary.size(); ++i)
+      residuals(boundary[i], j) = -answers(firstBoundary_ + i, j);
+}
+
+OwnedBV Basis::vectors() const { return linalg::copiedColumns(stiffness(), columns_); }
+
+void Basis::appendProducts(Mat matrix, PetscInt first, PetscInt last, linalg::Block& result) const {
+  linalg::appendProduct(matrix, columns_.columnRange(first, last), result);
+}
+
+linalg::Block Basis::responses(const linalg::Block& forces) {
+  solves_ += forces.columns();
+  if (isPlain_) return linalg::solved(solver_, forces);
+  const auto& interior = substructure_.interior;
+  linalg::Block some(std::ssize(interior), forces.columns());
+  for (PetscInt j = 0; j < forces.columns(); ++j)
+    for (PetscInt i = 0; i < some.rows(); ++i) some(i, j) = forces(interior[i], j);
+  return prolonged(linalg::solved(solver_, some));
+}
+
+PetscInt Basis::add(linalg::Block residuals) {
+  forces_ = linalg::Block(localRows());
+  energies_ = {};
+  if (residuals.columns() == 0) return 0;
+  clearBoundary(residuals);
+  linalg::Block z = responses(residuals);
+  const linalg::DenseMatrix energy = linalg::transposedProduct(comm_, z, residuals);
+  ratio_ = ratio(residuals, energy);
+  linalg::DenseMatrix parts = linalg::transposedProduct(comm_, columns_, residuals);  // VᵀK z
+  answerAtBoundary(linalg::rowRange(parts, 0, boundarySize()), residuals);
+  clearConstraintModes(parts, boundarySize());
+  const PetscInt before = size();
+  if (!addAcross(z, residuals, energy, parts)) addOrthogonalised(z, parts);
+  sketchColumns(before);
+  return size() - before;
+}
+
+void Basis::restore(const linalg::DenseView& columns, double lastEnergyRatio, long solves) {
+  forces_ = linalg::Block(localRows());
+  energies_ = {};
+  const PetscInt before = size();
+  columns_.append(columns);
+  sketchColumns(before);
+  ratio_ = lastEnergyRatio;
+  solves_ = solves;
+}
+
+/// Collective. Adds z = K0⁻¹ R where that is all but orthogonal to V: K0 z, VᵀK0z and zᵀK0z are
+/// then R, VᵀR and zᵀR. Returns false, and adds nothing, if z is not, or if K0⁻¹ is not good enough
+/// for that.
+bool Basis::addAcross(const linalg::Block& z, const linalg::Block& residuals,
+                      const linalg::DenseMatrix& energy, const linalg::DenseMatrix& parts) {
+  const linalg::DenseMatrix combinations = orthonormalising(energy, independent),
+                            along = linalg::product(parts, combinations);
+  if (combinations.empty() || !isLittle(along) || !(solutionError(z, residuals) <= 1e-12))
+    return false;
+  append(linalg::product(z, combinations), linalg::product(residuals, combinations), along);
+  return true;
+}
+
+/// Collective. Appends columns z, of which `forces` is K0 z and `along` VᵀK0z.
+void Basis::append(const linalg::Block& z, linalg::Block forces, const linalg::DenseMatrix& along) {
+  forces_ = std::move(forces);
+  const linalg::DenseMatrix own = linalg::transposedProduct(comm_, z, forces_);
+  const PetscInt old = size(), added = z.columns();
+  energies_ = linalg::DenseMatrix(old + added, added);
+  for (PetscInt j = 0; j < added; ++j) {
+    std::ranges::copy(along.column(j), energies_.column(j).begin());
+    std::ranges::copy(own.column(j), energies_.column(j).begin() + old);
+  }
+  columns_.append(z);
+}
+
+/// Collective. Adds the part of z orthogonal to V, where `parts` is VᵀK0z. Where V is orthonormal
+/// within δ, what is taken out leaves the part δ of itself, and is taken out again until that is
+/// little beside what remains. Of columns that depend on others or on V nothing remains in the end;
+/// they would only add noise.
+void Basis::addOrthogonalised(linalg::Block& z, const linalg::DenseMatrix& parts) {
+  // From 1e-6 of a column to 1e-4 of what remains takes four passes if δ is a thousandth.
+  constexpr int mostPasses = 6;
+  linalg::DenseMatrix rest = parts;
+  for (int pass = 0; pass < mostPasses; ++pass) {
+    linalg::multiplyAdd(columns_, rest, z, -1);
+    linalg::Block forces(z.rows());
+    linalg::appendProduct(stiffness(), z, forces);
+    rest = linalg::transposedProduct(comm_, columns_, forces);
+    clearConstraintModes(rest, boundarySize());
+    linalg::DenseMatrix energy = linalg::transposedProduct(comm_, z, forces);
+    clearWhatVHolds(energy, parts, independent);
+    const linalg::DenseMatrix combinations = orthonormalising(energy, independent),
+                              along = linalg::product(rest, combinations);
+    if (combinations.empty()) return;
+    if (!isLittle(along)) continue;
+    append(linalg::product(z, combinations), linalg::product(forces, combinations), along);
+    return;
+  }
+}
+
+/// Collective. Returns
+///   ‖K0 z w − R w‖ / ‖R w‖
+/// for a vector w of signs, in the norm of diag(K0)⁻¹.
+double Basis::solutionError(const linalg::Block& z, const linalg::Block& residuals) const {
+  linalg::DenseMatrix signs(z.columns(), 1);
+  for (PetscInt j = 0; j < z.columns(); ++j) signs(j, 0) = j % 3 == 1 ? -1 : 1;
+  linalg::Block force(z.rows());
+  const linalg::Block wanted = linalg::product(residuals, signs);
+  linalg::appendProduct(stiffness(), linalg::product(z, signs), force);
+  double squares[2] = {0, 0};
+  for (PetscInt i = 0; i < z.rows(); ++i) {
+    squares[0] += inverseDiagonal_[i] * std::pow(force(i, 0) - wanted(i, 0), 2);
+    squares[1] += inverseDiagonal_[i] * std::pow(wanted(i, 0), 2);
+  }
+  check(MPI_Allreduce(MPI_IN_PLACE, squares, 2, MPI_DOUBLE, MPI_SUM, comm_));
+  check(MPI_Bcast(squares, 2, MPI_DOUBLE, 0, comm_));
+  return std::sqrt(squares[0] / squares[1]);
+}
+
+void Basis::combine(const linalg::DenseMatrix& combinations) {
+  columns_ = linalg::product(columns_, combinations);
+  forces_ = {};
+  sketched_ = linalg::product(sketched_, combinations);
+  rigidity_ = linalg::product(rigidity_, combinations);
+  energies_ = {};
+}
+
+/// Returns the largest ratio of the energy norm to that of the diagonal among all combinations of
+/// the columns, where `energy` is RᵀK0⁻¹R.
+double Basis::ratio(const linalg::Block& residuals, const linalg::DenseMatrix& energy) const {
+  linalg::Block scaled = residuals;
+  for (PetscInt j = 0; j < scaled.columns(); ++j)
+    for (PetscInt i = 0; i < scaled.rows(); ++i) scaled(i, j) *= inverseDiagonal_[i];
+  const linalg::DenseMatrix combinations =
+      orthonormalising(linalg::transposedProduct(comm_, residuals, scaled), 1e-8);
+  if (combinations.empty()) return 0;
+  linalg::DenseMatrix projected = linalg::congruent(energy, combinations);
+  return std::sqrt(linalg::symmetricEigen(projected).back());
+}
+
+std::vector<double> Basis::energyRatios(const std::vector<linalg::Block>& blocks) {
+  linalg::Block all(localRows());
+  for (const auto& block : blocks) all.append(block);
+  if (all.columns() == 0) return std::vector<double>(blocks.size(), 0.0);
+  const linalg::Block solved = responses(all);
+  std::vector<double> ratios;
+  PetscInt first = 0;
+  for (const auto& block : blocks) {
+    const linalg::DenseView solutions = solved.columnRange(first, first + block.columns());
+    first += block.columns();
+    ratios.push_back(ratio(block, linalg::transposedProduct(comm_, solutions, block)));
+  }
+  return ratios;
+}
+
+std::vector<linalg::ComplexVector> Basis::expand(
+    const std::vector<std::vector<Complex>>& list) const {
+  const PetscInt count = list.size();
+  linalg::DenseMatrix coordinates(size(), 2 * count);  // real parts, then imaginary parts
+  for (PetscInt j = 0; j < count; ++j)
+    for (std::size_t i = 0; i < list[j].size(); ++i) {
+      coordinates(i, j) = list[j][i].real();
+      coordinates(i, count + j) = list[j][i].imag();
+    }
+  const linalg::Block parts = linalg::product(columns_, coordinates);
+  std::vector<linalg::ComplexVector> vectors(list.size());
+  const auto copy = [&](PetscInt column, Vec to) {
+    std::ranges::copy(parts.column(column), WriteArray(to).begin());
+  };
+  for (PetscInt j = 0; j < count; ++j) {
+    check(MatCreateVecs(stiffness(), vectors[j].real.out(), vectors[j].imaginary.out()));
+    copy(j, vectors[j].real);
+    copy(count + j, vectors[j].imaginary);
+  }
+  return vectors;
+}
+
+}  // namespace squeal::subspace

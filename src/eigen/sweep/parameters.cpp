@@ -1,0 +1,35 @@
+#include "eigen/sweep/parameters.hpp"
+
+#include <vector>
+
+#include "base/system/text.hpp"
+
+namespace squeal::sweep {
+
+bool growsInFriction(const Parameters& before, const Parameters& at) {
+  Parameters lower = at;
+  lower.friction = before.friction;
+  return lower == before && before.friction < at.friction;
+}
+
+std::string parameterColumns() {
+  std::vector<std::string> names;
+  for (const auto& parameter : allParameters) names.push_back(parameter.name);
+  return joined(names, ",");
+}
+
+std::string parameterValues(const Parameters& at) {
+  std::vector<std::string> values;
+  for (const auto& parameter : allParameters) values.push_back(shortest(at.*parameter.value));
+  return joined(values, ",");
+}
+
+std::string parameterText(const Parameters& at, int digits) {
+  std::string text = formatted("friction %.*g", digits, at.friction);
+  for (const auto& parameter : allParameters)
+    if (parameter.value != &Parameters::friction && at.*parameter.value != 1)
+      text += formatted(", %s %.*g", parameter.name, digits, at.*parameter.value);
+  return text;
+}
+
+}  // namespace squeal::sweep

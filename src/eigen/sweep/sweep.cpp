@@ -1,0 +1,132 @@
+#include "eigen/sweep/sweep.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/options/options.hpp"
+#include "base/petsc/check.hpp"
+#include "base/session/stages.hpp"
+#include "base/system/text.hpp"
+
+namespace squeal::sweep {
+namespace {
+
+const RealListOption frictionOption("flutter", "flutter_friction", "0.4", "", nonNegative,
+                                    "friction coefficients", true);
+const RealListOption speedOption("flutter", "flutter_speed", "1", "", positive,
+                                 "factors on all -motion_* and obstacle velocities, swept", true);
+const RealListOption pressureOption(
+    "flutter", "flutter_pressure", "1", "", positive,
+    "factors on all that presses, swept: surface pressures, held displacements and those of "
+    "obstacles; not on centrifugal forces",
+    true);
+const RealListOption dampingOption(
+    "flutter", "flutter_damping", "1", "", nonNegative,
+    "factors on the damping of materials, of dashpots to the ground and of free "
+    "modes, swept; not on that of friction",
+    true);
+
+}  // namespace
+
+Sweep readSweep() {
+  const auto ascending = [](const RealListOption& option) {
+    auto list = option.get();
+    if (list.empty()) throw Error("option -" + option.fullName() + ": the list is empty");
+    std::sort(list.begin(), list.end());  // each steady solution starts from a neighbour
+    if (std::adjacent_find(list.begin(), list.end()) != list.end())
+      throw Error("option -" + option.fullName() + ": a value is given twice");
+    return list;
+  };
+  Sweep sweep{ascending(frictionOption), ascending(speedOption), ascending(pressureOption),
+              ascending(dampingOption)};
+  const double points = sweep.pointCount();
+  if (points > mostPoints)
+    throw Error(
+        formatted("options -flutter_friction, -flutter_speed, -flutter_pressure and "
+                  "-flutter_damping: %zu x %zu x %zu x %zu = %.0f "
+                  "points; a sweep has %.0f at most",
+                  sweep.frictions.size(), sweep.speeds.size(), sweep.pressures.size(),
+                  sweep.dampings.size(), points, mostPoints));
+  return sweep;
+}
+
+double Sweep::pointCount() const {
+  return 1.0 * frictions.size() * speeds.size() * pressures.size() * dampings.size();
+}
+
+void warnOfLongSweep(MPI_Comm comm, const Sweep& sweep, int modes) {
+  constexpr double many = 1000, perSecond = 1e10;
+  if (sweep.pointCount() < many) return;
+  // QZ on the linearised problem takes some 25 (2 m)³ operations for a basis of m vectors; m is
+  // taken as twice the number of modes.
+  const double hours = sweep.pointCount() * 25 * std::pow(4.0 * modes, 3) / perSecond / 3600;
+  complain(comm,
+           formatted("a sweep of %.0f points, %.0f steady states: about %.2g hours for their "
+                     "dense eigenvalue problems alone (%d free modes)",
+                     sweep.pointCount(), sweep.pointCount() / sweep.dampings.size(), hours, modes));
+}
+
+std::vector<Parameters> Sweep::steadyPoints() const {
+  std::vector<Parameters> points;
+  for (double speed : speeds)
+    for (double pressure : pressures)
+      for (double friction : frictions) points.push_back({friction, speed, pressure, 1});
+  return points;
+}
+
+std::vector<Parameters> Sweep::points() const {
+  std::vector<Parameters> points;
+  for (double damping : dampings)
+    for (Parameters at : steadyPoints()) {
+      at.damping = damping;
+      points.push_back(at);
+    }
+  return points;
+}
+
+std::optional<std::size_t> Sweep::earlierNeighbour(std::size_t steadyPoint) const {
+  const std::size_t row = frictions.size(), plane = row * pressures.size();
+  if (steadyPoint % row >= 1) return steadyPoint - 1;
+  if (steadyPoint % plane >= row) return steadyPoint - row;
+  if (steadyPoint >= plane) return steadyPoint - plane;
+  return std::nullopt;
+}
+
+std::vector<std::vector<std::size_t>> batches(const std::vector<Parameters>& points) {
+  // The ends of a range, its middle and its quarters give most of the basis; later points need one
+  // or two rounds of corrections.
+  constexpr std::size_t first = 5, later = 16;
+  std::array<double, allParameters.size()> ranges{};
+  for (std::size_t k = 0; k < ranges.size() && !points.empty(); ++k) {
+    const auto value = allParameters[k].value;
+    const auto [low, high] =
+        std::minmax_element(points.begin(), points.end(),
+                            [&](const auto& p, const auto& q) { return p.*value < q.*value; });
+    ranges[k] = (*high).*value - (*low).*value;
+  }
+  const auto apart = [&](std::size_t a, std::size_t b) {
+    double sum = 0;
+    for (std::size_t k = 0; k < ranges.size(); ++k) {
+      const auto value = allParameters[k].value;
+      if (ranges[k] > 0) sum += std::pow((points[a].*value - points[b].*value) / ranges[k], 2);
+    }
+    return sum;
+  };
+  std::vector<double> distance(points.size(), INFINITY);  // to the nearest point already chosen
+  std::vector<std::vector<std::size_t>> result;
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (points[i].friction > points[next].friction) next = i;
+  for (std::size_t chosen = 0; chosen < points.size(); ++chosen) {
+    if (chosen == 0 || (chosen >= first && (chosen - first) % later == 0)) result.emplace_back();
+    result.back().push_back(next);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      distance[i] = std::min(distance[i], apart(i, next));
+    distance[next] = -1;
+    next = std::max_element(distance.begin(), distance.end()) - distance.begin();
+  }
+  return result;
+}
+
+}  // namespace squeal::sweep

@@ -1,0 +1,44 @@
+#pragma once
+/// The grid of parameters of a run, and the order in which its points are solved.
+#include <mpi.h>
+
+#include <optional>
+#include <vector>
+
+#include "eigen/sweep/parameters.hpp"
+
+namespace squeal::sweep {
+
+/// The sweep is the grid of `-flutter_friction` × `-flutter_speed` × `-flutter_pressure` ×
+/// `-flutter_damping`. Steady sliding does not depend on damping, so that one steady state belongs
+/// to all damping factors.
+struct Sweep {
+  std::vector<double> frictions, speeds, pressures, dampings;  ///< ascending
+  /// Returns the points of the steady states, with damping 1. The friction varies fastest, the
+  /// speed slowest.
+  std::vector<Parameters> steadyPoints() const;
+  /// Returns all points: for each damping, those of all steady states.
+  std::vector<Parameters> points() const;
+  /// Returns the number of points.
+  double pointCount() const;
+  /// Returns the index of an earlier steady state that differs in one parameter by one step; none
+  /// for the first.
+  std::optional<std::size_t> earlierNeighbour(std::size_t steadyPoint) const;
+};
+
+/// Not collective. Returns the sweep that the options ask for. Throws Error if a list is empty, if
+/// a value is out of range or given twice, or if there are more than `mostPoints` points.
+Sweep readSweep();
+/// The largest number of points of a sweep.
+inline constexpr double mostPoints = 100'000;
+/// Collective. Warns of a sweep of 1000 points or more, with an estimate of the time that its
+/// eigenvalue problems take. `modes` is the number of free modes.
+void warnOfLongSweep(MPI_Comm comm, const Sweep& sweep, int modes);
+/// Returns the indices of the points in the order in which they are solved with one growing basis,
+/// in batches of 5, 16, 16, … points. A point of the largest friction is first; each next point is
+/// the one farthest from all before, with every parameter scaled to its range. In a sweep over
+/// friction alone these are the ends, the middle and the quarters. The order does not depend on the
+/// number of ranks.
+std::vector<std::vector<std::size_t>> batches(const std::vector<Parameters>& points);
+
+}  // namespace squeal::sweep

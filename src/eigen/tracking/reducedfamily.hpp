@@ -1,0 +1,70 @@
+#pragma once
+/// A sweep over the friction in the reduced basis, as a Family.
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "algebra/linalg/quadratic.hpp"
+#include "eigen/pencil/pencil.hpp"
+#include "eigen/reduction/reduced.hpp"
+#include "eigen/sweep/parameters.hpp"
+#include "eigen/tracking/family.hpp"
+
+namespace squeal::tracking {
+
+/// The terms that all points share, and those of a single point.
+struct ProblemSource {
+  const pencil::Pencil& shared;  ///< the terms of all points of the line, borrowed
+  /// Returns the problem of a point; none if there is no steady state with this active set.
+  /// Collective, unless `local`.
+  std::function<std::optional<reduction::PointProblem>(const sweep::Parameters&)> at;
+  bool local = false;  ///< no point has terms of its own
+  int set = 0;         ///< boundary unknowns of the points
+};
+
+/// All frictions of one speed, pressure and damping. Where points have terms of their own, each new
+/// friction costs a steady state and a projection on all ranks; near() then interpolates the
+/// projections of these terms.
+class ReducedFamily : public Family {
+ public:
+  using Progress = std::function<void(const std::string&)>;
+  /// Borrows everything but `line`, which is copied.
+  ReducedFamily(reduction::ReducedProblem& reduced, MPI_Comm comm, const sweep::Parameters& line,
+                const ProblemSource& source, const Progress& progress)
+      : reduced_(reduced), comm_(comm), line_(line), source_(source), progress_(progress) {}
+  MPI_Comm comm() const override { return comm_; }
+  std::optional<linalg::DenseProblem> at(double friction) override;
+  std::optional<std::vector<linalg::DensePair>> watchedPairs(double friction) override {
+    return reduced_.watchedPairs(point(friction), source_.set);
+  }
+  std::optional<linalg::DenseProblem> near(double friction) override;
+  linalg::Spectrum shared(double friction, const std::vector<linalg::DensePair>& pairs) override;
+  void know(const std::vector<double>& frictions) override;
+  void progress(const std::string& text) override { progress_(text); }
+  reduction::Improvement improve(const std::vector<PairsAtFriction>& located) override;
+
+ private:
+  /// The terms that belong to one friction, projected on the basis at that time.
+  struct Node {
+    double friction;
+    PetscInt basisSize;
+    linalg::DenseProblem own;
+  };
+  sweep::Parameters point(double friction) const;
+  bool known(double friction) const;
+  linalg::DenseProblem ofAll(double friction) const;
+  void keep(Node node);
+  std::vector<const Node*> nodesFor(double friction) const;
+  double closest() const;
+
+  reduction::ReducedProblem& reduced_;
+  MPI_Comm comm_;
+  sweep::Parameters line_;
+  const ProblemSource& source_;
+  const Progress& progress_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace squeal::tracking

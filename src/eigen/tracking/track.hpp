@@ -1,0 +1,87 @@
+#pragma once
+/// Eigenvalues followed over the friction, through crossings and mergers, by their left and right
+/// vectors.
+#include <string>
+#include <vector>
+
+#include "algebra/linalg/quadratic.hpp"
+#include "algebra/linalg/rayleigh_ritz.hpp"
+#include "eigen/pencil/band.hpp"
+#include "eigen/tracking/family.hpp"
+
+namespace squeal::tracking {
+
+/// One friction of a followed sweep.
+struct Station {
+  double friction = 0;
+  bool swept = true;                     ///< false: added in between to make a continuation certain
+  std::vector<linalg::DensePair> pairs;  ///< in the band or in its guard zone, with left vectors
+  std::vector<int> branch;               ///< [pair] number of its branch
+  std::vector<double> overlap;  ///< [pair] |tr(Π Π')| with the station before; 1 where a group was
+                                ///< joined as a whole; 0 where the branch begins
+  std::vector<unsigned char> inBand;  ///< [pair] 1 if it is in the band
+  std::size_t piece = 0;              ///< of the path
+};
+
+/// A change of stability between two frictions.
+struct Event {
+  /// `contact`: the eigenvalue jumps where the active set changes.
+  enum class Kind { coalescence, crossing, divergence, contact } kind = Kind::crossing;
+  int branch = 0, partner = -1;
+  bool loss = true;          ///< stability is lost with rising friction; false: it is regained
+  double low = 0, high = 0;  ///< bracket of the friction; if equal, the event is at this friction,
+                             ///< as where a double eigenvalue splits at once
+  /// The pairs concerned at `low` and at `high`. A crossing or divergence has two where equal
+  /// eigenvalues change their stability together: then each has an event with the mean of both.
+  std::vector<linalg::DensePair> below, above;
+  double isolation = 0;   ///< distance from other eigenvalues, rad/s
+  std::size_t piece = 0;  ///< of the path; at a jump the one that begins there
+};
+
+/// A range of frictions in which a continuation is not certain.
+struct Gap {
+  double from = 0, to = 0;
+  std::string what;           ///< the reason
+  bool identityOnly = false;  ///< no eigenvalue is missing, but they cannot be told apart
+};
+
+/// The result of following.
+struct Branches {
+  pencil::WatchedBand band;
+  std::vector<Station> stations;  ///< ascending friction
+  std::vector<Event> events;
+  std::vector<Gap> gaps;
+  int count = 0;              ///< number of branches
+  int entered = 0, left = 0;  ///< numbers of eigenvalues that have crossed the edge of the band
+  int inBandAt(const Station& station) const;
+};
+
+/// Limits of the refinement of steps.
+struct TrackLimits {
+  /// Smallest step in which all eigenvalues are solved for, as a part of a step of the sweep.
+  double smallest = 1. / 1024;
+};
+
+/// A part of a path on which the problem is a smooth function of the friction.
+struct Piece {
+  Family* family = nullptr;       ///< borrowed
+  std::vector<double> frictions;  ///< ascending; the next piece begins where this one ends
+};
+
+/// Collective. Follows all eigenvalues of the band over ascending frictions. A continuation is
+/// certain where the trace of the product of the spectral projectors at both ends, tr(Π Π') [M.41],
+/// is close to the number of eigenvalues joined. Other steps are halved: for two eigenvalues that
+/// mix, in their common subspace only; otherwise with all eigenvalues.
+///
+/// By convention, where two neutral branches merge, the one of lower frequency becomes the growing
+/// one; where a growing and a decaying branch become neutral, the growing one becomes the one of
+/// lower frequency. Equal eigenvalues are ordered by frequency, then by growth rate.
+Branches follow(Family& family, const std::vector<double>& frictions,
+                const pencil::WatchedBand& band, const TrackLimits& limits = {});
+/// Collective. Does the same along a path. From one piece to the next eigenvalues jump; they are
+/// joined by the same projectors, in coordinates that the families share, without frictions in
+/// between. A jump over the axis is an event, and one that is not certain a gap.
+Branches follow(const std::vector<Piece>& path, const pencil::WatchedBand& band,
+                const TrackLimits& limits = {});
+
+}  // namespace squeal::tracking

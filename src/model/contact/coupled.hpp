@@ -1,0 +1,69 @@
+#pragma once
+/// These functions make the matrices of the coupled problem, for every matrix X of the bodies
+/// [M.11]:
+///   L(f)ᵀ X T = Tᵀ X T + Sᵀ N X T,   S = S_0 + f S_1.
+
+#include "algebra/factor/associated_system.hpp"
+#include "model/contact/contact.hpp"
+#include "model/elasticity/elasticity.hpp"
+
+namespace squeal::contact {
+
+/// The projections of one matrix X of the bodies on the unknowns; both are null where X is.
+struct Projection {
+  OwnedMat matrix;    ///< Tᵀ X T, n×n
+  OwnedMat reaction;  ///< N X T, N×n: the normal forces that X exerts, in the rows of the gaps
+
+  explicit operator bool() const { return matrix.get() != nullptr; }
+  /// Collective. Returns Sᵀ N X T, n×n, the friction of these normal forces, for the slip rows S.
+  OwnedMat friction(Mat slipRows) const;
+  /// Collective. Returns Tᵀ X T + Sᵀ N X T as a new matrix, unsymmetric unless the slip rows are
+  /// null: a copy of Tᵀ X T then.
+  OwnedMat tested(Mat slipRows) const;
+};
+
+/// Collective. Returns the projections of X, which may be null, by a transformation.
+Projection project(const Contact& contact, const Transformation& transformation, Mat x);
+
+/// The matrices of the bodies in the unknowns of one active set.
+struct Projections {
+  Transformation transformation;
+  Projection stiffness;          ///< projections of K, prestress included
+  Projection mass;               ///< projections of M
+  Projection damping;            ///< projections of C
+  Projection gyroscopic;         ///< projections of G for the base motions
+  Projection rotationStiffness;  ///< projections of K^R for the base motions
+};
+
+/// A CoupledSystem is the coupled problem with the contact closed at the active nodes. Without
+/// friction and rotation it is the associated system [4.17],
+///   K0 = Tᵀ K T,   M0 = Tᵀ M T.
+/// The one factorisation of K0 serves the steady problem, the modes and the corrections of this
+/// active set.
+class CoupledSystem : public factor::AssociatedSystem {
+ public:
+  /// Collective. Projects the matrices of the bodies. Contact node i is active if closed[i] is set.
+  /// `prestress` is added to K, has the pattern of K and is borrowed during this call; it may be
+  /// null. Sticking nodes move along the surface where they are open and where released[i] is
+  /// set; an empty list releases none.
+  CoupledSystem(const elasticity::Bodies& bodies, const Contact& contact,
+                std::vector<unsigned char> closed, Mat prestress = nullptr,
+                std::vector<unsigned char> released = {});
+  const Transformation& transformation() const { return projections_.transformation; }
+  const Projections& projections() const { return projections_; }
+  /// Returns 1 for each contact node that is active and 0 for the others, [contact node]; borrowed.
+  const std::vector<unsigned char>& closed() const { return closed_; }
+  /// Returns 1 for each contact node that is released, [contact node]; borrowed; empty if none is.
+  const std::vector<unsigned char>& released() const { return released_; }
+  /// Returns the number of contact nodes that are not active, over all ranks.
+  PetscInt openNodes() const { return openNodes_; }
+
+ private:
+  CoupledSystem(Projections projections, std::vector<unsigned char> closed,
+                std::vector<unsigned char> released, PetscInt openNodes);
+  Projections projections_;
+  std::vector<unsigned char> closed_, released_;
+  PetscInt openNodes_ = 0;
+};
+
+}  // namespace squeal::contact

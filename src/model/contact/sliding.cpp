@@ -1,0 +1,163 @@
+#include "model/contact/sliding.hpp"
+
+#include "base/petsc/arrays.hpp"
+#include "model/contact/kinematics.hpp"
+#include "model/elasticity/elasticity.hpp"
+#include "model/elasticity/face.hpp"
+#include "model/elasticity/shape.hpp"
+#include "model/interfaces/algebra.hpp"
+
+namespace squeal::contact {
+
+using interfaces::assembled;
+using interfaces::identity;
+using interfaces::nodalMatrix;
+using interfaces::setBlock;
+
+namespace {
+
+/// Returns N: the columns of A that belong to the gaps, as rows. Forces on periodic images, on tied
+/// nodes and on neighbours in the gap basis go where their displacements come from.
+OwnedMat reactionRows(const Contact& contact) {
+  const auto& mesh = *contact.mesh;
+  const OwnedMat gaps = nodalMatrix(mesh, 1);
+  for (const auto& node : contact.nodes)
+    check(MatSetValue(gaps, contact.gapRow(node), contact.gapRow(node), 1, INSERT_VALUES));
+  assembled(gaps);
+  OwnedMat columns, result;
+  check(MatMatMult(contact.kinematics, gaps, MAT_INITIAL_MATRIX, PETSC_DEFAULT, columns.out()));
+  check(MatTranspose(columns, MAT_INITIAL_MATRIX, result.out()));
+  return result;
+}
+
+/// Returns J.
+OwnedMat jumpRows(const Contact& contact) {
+  const auto& connections = contact.connections;
+  const auto& mesh = *contact.mesh;
+  OwnedMat jump = nodalMatrix(mesh, blocksOfRows(contact, 0));
+  for (std::size_t k = 0; k < connections.size(); ++k) {
+    const auto& node = contact.nodes[k];
+    setBlock(jump, mesh.dimension, node.globalNode, node.globalNode,
+             identity(mesh.dimension, node.side));
+    for (const auto& [master, weight] : connections[k].masters)
+      setBlock(jump, mesh.dimension, node.globalNode, master,
+               identity(mesh.dimension, -node.side * weight));
+  }
+  assembled(jump);
+  return jump;
+}
+
+/// Returns the matrix that gives u_D at the place of each slave node, in its rows, where the meshes
+/// match or the slave is the disc itself. Images are treated like their primaries.
+OwnedMat masterRows(const Contact& contact) {
+  const auto& mesh = *contact.mesh;
+  OwnedMat primaries = nodalMatrix(mesh, 1), result;
+  for (const auto& node : contact.nodes)
+    if (const PetscInt disc = node.side < 0 ? node.globalNode : node.master; disc >= 0)
+      setBlock(primaries, mesh.dimension, node.globalNode, disc, identity(mesh.dimension, 1));
+  assembled(primaries);
+  check(MatMatMult(contact.periodic, primaries, MAT_INITIAL_MATRIX, PETSC_DEFAULT, result.out()));
+  return result;
+}
+
+/// Returns the base motion of the disc at each slave surface on which u_D has the values of
+/// masterRows(), borrowed; null at the others.
+std::vector<const elasticity::Motion*> discMotions(const elasticity::Bodies& bodies,
+                                                   const Contact& contact) {
+  const auto& mesh = *contact.mesh;
+  std::vector<int> body(contact.interfaces.size(), -1);
+  for (const auto& pair : mesh.pairs) body[pair.interface] = pair.masterBody;
+  for (const auto& node : contact.nodes)
+    if (node.side < 0) body[node.interface] = node.discBody;
+  check(MPI_Allreduce(MPI_IN_PLACE, body.data(), body.size(), MPI_INT, MPI_MAX, mesh.comm));
+  std::vector<const elasticity::Motion*> motions;
+  for (int index : body) motions.push_back(index < 0 ? nullptr : &bodies.motions[index]);
+  return motions;
+}
+
+/// Returns the rows of D where the slave's faces carry u_D at their nodes: they lie on faces of the
+/// disc, node on node, or are the disc's own. The disc's displacement is differentiated along them
+/// with their shape functions. At a node the derivative is averaged over the faces around it,
+/// weighted by area like the nodal forces R_N. On quadratic faces the leading errors at corners and
+/// mid-sides then cancel.
+OwnedMat convectedByFaces(const elasticity::Bodies& bodies, const Contact& contact) {
+  const auto& mesh = *contact.mesh;
+  const int dimension = mesh.dimension;
+  const auto motions = discMotions(bodies, contact);
+  const OwnedVec area = elasticity::nodalVector(mesh), folded = elasticity::nodalVector(mesh);
+  OwnedMat sums;
+  check(MatDuplicate(bodies.stiffness, MAT_DO_NOT_COPY_VALUES,
+                     sums.out()));  // nodes of a face share a cell
+  check(MatSetOption(sums, MAT_SYMMETRIC, PETSC_FALSE));
+  for (const auto& block : mesh.faces) {
+    const auto& table = elasticity::shapeTable(block.type);
+    for (std::size_t e = 0; e < block.surface.size(); ++e) {
+      const interfaces::SlaveSide* slave = contact.slaveOf(mesh.surfaces[block.surface[e]]);
+      const auto* motion = slave ? motions[slave - contact.slaves.data()] : nullptr;
+      if (!motion) continue;
+      std::vector<Point> points, velocity;
+      const auto nodes = block.nodesOf(e);
+      for (PetscInt node : nodes) {
+        points.push_back(mesh.coordinates[node]);
+        velocity.push_back(motion->velocity(points.back()));
+      }
+      double faceArea = 0;
+      for (double entry : elasticity::faceMass(table, points)) faceArea += entry;
+      const auto derivative = elasticity::faceDerivative(table, points, velocity);
+      for (int i = 0; i < block.nodesPerFace; ++i) {
+        const PetscInt row = dimension * mesh.globalNode[nodes[i]];
+        for (int d = 0; d < dimension; ++d) {
+          check(VecSetValue(area, row + d, faceArea, ADD_VALUES));
+          for (int j = 0; j < block.nodesPerFace; ++j)
+            check(MatSetValue(sums, row + d, dimension * mesh.globalNode[nodes[j]] + d,
+                              faceArea * derivative[i * block.nodesPerFace + j], ADD_VALUES));
+        }
+      }
+    }
+  }
+  assembled(sums);
+  check(VecAssemblyBegin(area));
+  check(VecAssemblyEnd(area));
+  check(MatMultTranspose(contact.periodic, area, folded));
+  for (double& value : WriteArray(folded)) value = value > 0 ? 1 / value : 0;
+  const OwnedMat masters = masterRows(contact);
+  OwnedMat atFaces, result;
+  check(MatMatMult(sums, masters, MAT_INITIAL_MATRIX, PETSC_DEFAULT, atFaces.out()));
+  check(MatTransposeMatMult(contact.periodic, atFaces, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
+                            result.out()));
+  check(MatDiagonalScale(result, folded, nullptr));
+  return result;
+}
+
+/// Returns D.
+OwnedMat convectedRows(const elasticity::Bodies& bodies, const Contact& contact) {
+  const auto& connections = contact.connections;
+  const auto& mesh = *contact.mesh;
+  OwnedMat result = convectedByFaces(bodies, contact);
+  std::vector<PetscInt> blocks(mesh.ownedNodes, 1);
+  int any = 0;
+  for (std::size_t k = 0; k < connections.size(); ++k) {
+    blocks[contact.nodes[k].node] += connections[k].convected.size();
+    any = any || !connections[k].convected.empty();
+  }
+  check(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_LOR, mesh.comm));
+  if (!any) return result;
+  const OwnedMat coupled = nodalMatrix(mesh, blocks);
+  for (std::size_t k = 0; k < connections.size(); ++k)
+    for (const auto& [master, weight] : connections[k].convected)
+      setBlock(coupled, mesh.dimension, contact.nodes[k].globalNode, master,
+               identity(mesh.dimension, weight));
+  assembled(coupled);
+  check(MatAXPY(result, 1, coupled, DIFFERENT_NONZERO_PATTERN));
+  return result;
+}
+
+}  // namespace
+
+void buildSliding(const elasticity::Bodies& bodies, Contact& contact) {
+  contact.reaction = reactionRows(contact);
+  contact.jump = jumpRows(contact);
+  if (elasticity::convectiveTerms()) contact.convected = convectedRows(bodies, contact);
+}
+
+}  // namespace squeal::contact

@@ -1,0 +1,35 @@
+#pragma once
+/// A NodeExchange combines values that several ranks have at the same nodes.
+#include <vector>
+
+#include "base/petsc/owned.hpp"
+#include "model/mesh/mesh.hpp"
+
+namespace squeal::coupling {
+
+/// The values of a node are those of its periodic primary: images and their primaries count as one
+/// node.
+class NodeExchange {
+ public:
+  /// Collective.
+  explicit NodeExchange(const mesh::Mesh& mesh);
+  /// Returns the local number of a global node of this rank's cells.
+  PetscInt local(PetscInt globalNode) const;
+  /// Returns the global number of the primary of a local node, its own if it is no image.
+  PetscInt primary(PetscInt localNode) const { return primary_[localNode]; }
+  /// Collective. Replaces the values, [local node], by the sums over all ranks and images.
+  void sum(std::vector<double>& values) const { combine(values, ADD_VALUES); }
+  /// Collective. Replaces the values, [local node], which are not negative, by the largest over all
+  /// ranks and images.
+  void largest(std::vector<double>& values) const { combine(values, MAX_VALUES); }
+
+ private:
+  void combine(std::vector<double>& values, InsertMode mode) const;
+  void connect();
+  const mesh::Mesh& mesh_;
+  std::vector<PetscInt> primary_;  // [local node]
+  OwnedVec global_, local_;        // a value per node
+  OwnedScatter scatter_;           // from global_ to local_
+};
+
+}  // namespace squeal::coupling

@@ -1,0 +1,32 @@
+#pragma once
+/// This file makes the matrices of a coupling from sums over its faces.
+#include <vector>
+
+#include "model/coupling/sums.hpp"
+
+namespace squeal::coupling {
+
+/// The pivots of this rank and, on all local nodes, the factors W/D of their jumps, which are zero
+/// at nodes that are no pivots.
+struct Pivoting {
+  std::vector<PetscInt> owned;  ///< local nodes, ascending
+  std::vector<double> ratio;    ///< [local node]
+};
+
+/// Returns the nodes that carry a condition. Not collective.
+Pivoting pivotsOf(const mesh::Mesh& mesh, const NodeExchange& exchange, const Basis& basis,
+                  const Sums& sums);
+
+/// The matrices of one coupling, with a row per node that is empty unless the node is a pivot.
+struct Matrices {
+  OwnedMat masters, jumps, jumpsOf, convected;  ///< P, G, G⁻¹, rows of SlaveNode::convected
+  OwnedMat parts, bodies;                       ///< shares, a column per part or body
+  std::vector<Point> offsets;                   ///< SlaveNode::offset, [pivot of this rank]
+};
+
+/// Collective. Returns the matrices. The triples of the sums are used up.
+Matrices matricesOf(const mesh::Mesh& mesh, const NodeExchange& exchange,
+                    const std::vector<CoveredFace>& faces, const Basis& basis,
+                    const Pivoting& pivoting, Sums& sums);
+
+}  // namespace squeal::coupling

@@ -1,0 +1,35 @@
+#pragma once
+/// This file adds what couples single slave faces, by nodes of the mesh.
+#include <array>
+#include <vector>
+
+#include "base/petsc/owned.hpp"
+#include "model/coupling/covered.hpp"
+#include "model/elasticity/assembly.hpp"
+
+namespace squeal::coupling {
+
+using elasticity::Triples;
+
+/// Collective. Returns the matrix with a row per node of the triples of all ranks, which may be of
+/// any rows, with `columns` columns, or one per node. Triples of one place are added.
+OwnedMat toMatrix(const mesh::Mesh& mesh, Triples triples, PetscInt columns = PETSC_DETERMINE);
+
+/// The sums over the faces of this rank. Rows and columns are primaries.
+struct Sums {
+  Triples masters;                         ///< M − B, [pivot][node of the master or dropped node]
+  Triples convected;                       ///< C
+  Triples parts;                           ///< M by connected parts of the master
+  Triples bodies;                          ///< M by bodies of the master
+  std::vector<double> slave, weight, gap;  ///< D, W, G, [local node], over all ranks
+  /// Σ M_jl (x_l − x_j) − Σ B_jo (x_o − x_j), [component][local node], over all ranks; images count
+  /// where they are
+  std::array<std::vector<double>, 3> offset;
+  PetscInt sliverFaces = 0;  ///< FaceTerms without dual functions
+};
+
+/// Collective. Returns the sums.
+Sums sumFaces(const mesh::Mesh& mesh, const NodeExchange& exchange,
+              const std::vector<CoveredFace>& faces, const Basis& basis);
+
+}  // namespace squeal::coupling

@@ -1,0 +1,120 @@
+#pragma once
+/// These functions assemble element arrays into distributed matrices and vectors on nodal
+/// displacements.
+#include <compare>
+#include <functional>
+#include <span>
+
+#include "base/petsc/owned.hpp"
+#include "model/elasticity/element.hpp"
+#include "model/elasticity/shape.hpp"
+#include "model/mesh/mesh.hpp"
+
+namespace squeal::elasticity {
+
+/// A Triples holds entries of a matrix as triples (row, column, value), as MatSetPreallocationCOO
+/// takes them.
+struct Triples {
+  std::vector<PetscInt> row, column;
+  std::vector<PetscScalar> value;
+  void add(PetscInt i, PetscInt j, double entry) {
+    row.push_back(i), column.push_back(j), value.push_back(entry);
+  }
+};
+
+/// Symmetry says how symmetric a matrix is. Contributions are summed in any order, so that a
+/// `rounded` matrix is symmetric up to rounding; `symmetric` and `skew` matrices are made exactly
+/// so.
+enum class Symmetry { rounded, symmetric, skew };
+
+/// Collective. Returns the N×N matrix of the triples of all ranks, which are used up.
+OwnedMat toMatrix(const mesh::Mesh& mesh, Triples& triples, Symmetry symmetry);
+
+/// Not collective. Appends the entries of the matrix of one element with these local nodes, whose
+/// rows and columns are [node][component]. It is row-major.
+void append(Triples& triples, const mesh::Mesh& mesh, std::span<const PetscInt> nodes,
+            const std::vector<double>& matrix);
+
+/// Selects cells by their block and index.
+using CellFilter = std::function<bool(const mesh::CellBlock&, std::size_t)>;
+
+/// A NodePattern counts the nodes that share a cell with each node of this rank.
+struct NodePattern {
+  std::vector<PetscInt> own, other;  ///< [owned node] nodes of this rank, and of other ranks
+  /// Collective. Counts over the cells of all ranks that `uses` selects.
+  NodePattern(const mesh::Mesh& mesh, const CellFilter& uses);
+};
+
+/// An Assembly sums the matrices of elements as they come into an N×N matrix, so that they are
+/// never held together.
+class Assembly {
+ public:
+  /// Collective. Makes room for the pairs of nodes of the pattern, on all components, or on equal
+  /// components alone if `diagonal`. The mesh is borrowed during the life of the object.
+  Assembly(const mesh::Mesh& mesh, const NodePattern& pattern, bool diagonal);
+  /// Not collective. Adds the matrix of one element with these local nodes. If `scalar`, it is
+  /// [node][node] and is repeated on each component; otherwise its rows and columns are
+  /// [node][component]. It is row-major.
+  void add(std::span<const PetscInt> nodes, const std::vector<double>& matrix, bool scalar);
+  /// Not collective. Adds a diagonal, which may be null.
+  void addDiagonal(Vec diagonal);
+  /// Collective. Returns the sum over all ranks. Nothing may be added afterwards.
+  OwnedMat finish(Symmetry symmetry);
+
+ private:
+  const mesh::Mesh* mesh_;
+  OwnedMat matrix_;
+  std::vector<PetscInt> numbers_;
+};
+
+/// Not collective. Adds the values of one element, [node][3], times `factor`. VecAssemblyBegin and
+/// VecAssemblyEnd must follow.
+void addLoad(Vec load, const mesh::Mesh& mesh, std::span<const PetscInt> nodes,
+             const std::vector<double>& values, double factor);
+
+/// Not collective. Returns the coordinates of local nodes, [node], m.
+std::vector<Point> pointsOf(const mesh::Mesh& mesh, std::span<const PetscInt> nodes);
+
+/// A CellName names a cell for messages, in integers only, so that ranks can send it.
+struct CellName {
+  PetscInt tag, type, body;
+  auto operator<=>(const CellName&) const = default;
+};
+inline CellName nameOf(const mesh::CellBlock& block, std::size_t e) {
+  return {block.tag[e], block.type, block.body[e]};
+}
+
+/// A cell that cannot be integrated.
+struct InvertedCell {
+  CellName name;
+  double ratio;    ///< jacobianRatio()
+  bool byCorners;  ///< it is inverted with straight edges as well
+};
+/// Not collective. Returns the description of a cell that throws InvertedElement.
+InvertedCell invertedCell(const mesh::CellBlock& block, std::size_t e,
+                          const std::vector<Point>& nodes);
+/// Collective. Throws Error on all ranks if any rank has inverted cells. The message gives their
+/// number and the worst Jacobian, names the first ten of them, and says what helps.
+void failOnInverted(const mesh::Mesh& mesh, const std::vector<InvertedCell>& inverted);
+
+/// Collective. Warns in one line of cells that are used although folded(), with their number and
+/// the first ten of them.
+void warnOfFoldedCells(const mesh::Mesh& mesh);
+
+/// Collective. Calls `visit(block, cell index, table, coordinates)` for each cell of this rank.
+/// Throws Error on all ranks if a call throws InvertedElement.
+template <class Visit>
+void forEachCell(const mesh::Mesh& mesh, Visit visit) {
+  std::vector<InvertedCell> inverted;
+  for (const auto& block : mesh.cells) {
+    const ShapeTable& table = shapeTable(block.type);
+    for (std::size_t e = 0; e < block.tag.size(); ++e) try {
+        visit(block, e, table, pointsOf(mesh, block.nodesOf(e)));
+      } catch (const InvertedElement&) {
+        inverted.push_back(invertedCell(block, e, pointsOf(mesh, block.nodesOf(e))));
+      }
+  }
+  failOnInverted(mesh, inverted);
+}
+
+}  // namespace squeal::elasticity

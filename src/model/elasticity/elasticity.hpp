@@ -1,0 +1,66 @@
+#pragma once
+/// These functions assemble the uncoupled elastic bodies: their matrices and loads on all N nodal
+/// displacements u, N = dimension × nodes. A component of a node has the row dimension·node +
+/// component.
+#include <optional>
+
+#include "base/petsc/owned.hpp"
+#include "model/elasticity/motion.hpp"
+#include "model/mesh/mesh.hpp"
+
+namespace squeal::elasticity {
+
+/// The matrices, loads and base motions of all bodies.
+struct Bodies {
+  OwnedMat stiffness;  ///< K, N×N, symmetric, block-diagonal over the bodies, grounded springs
+                       ///< included, N/m
+  OwnedMat mass;       ///< M, N×N, symmetric positive definite, kg
+  OwnedMat damping;  ///< C, N×N, symmetric, acting on rates in axes at rest, N·s/m; null if none
+  OwnedMat gyroscopic;  ///< G = 2∫ρ(Dφⱼ)·φᵢ for the base motions [4.10], N×N, exactly skew, N·s/m;
+                        ///< null without convective terms
+  OwnedMat rotationStiffness;  ///< K^R = −∫ρ(Dφⱼ)·(Dφᵢ) for the base motions [4.10], N×N, exactly
+                               ///< symmetric, N/m; null where G is
+  OwnedVec load;         ///< b, N entries, N: pressures, and centrifugal forces of the base motions
+  OwnedVec centrifugal;  ///< the centrifugal part of b, N entries, N
+  OwnedVec springs;      ///< stiffness of grounded springs, N entries, N/m; null if none
+  std::vector<Motion> motions;  ///< [body], base motions
+};
+
+/// Not collective. Returns the surface groups with a `-load_<group>_pressure` option.
+std::vector<mesh::GroupRequest> loadedSurfaces();
+
+/// Collective. Assembles the matrices and loads of all bodies. Throws Error for a bad or missing
+/// material, for an inverted element (the message names body and cell), and for convective terms on
+/// a body that does not keep its place as its matter moves.
+Bodies assemble(const mesh::Mesh& mesh);
+
+/// A BodyPart is the contribution of one body to Bodies, on all nodal displacements. Its matrices
+/// and its vector are the derivatives with respect to a factor on its moduli (K, and the part of C
+/// with K) and to one on its density (all others).
+struct BodyPart {
+  OwnedMat stiffness, mass;  ///< without grounded springs
+  OwnedMat gyroscopic,
+      rotationStiffness;  ///< null unless the body moves and there are convective terms
+  OwnedVec centrifugal;
+  double massDamping = 0;       ///< α, 1/s: C = α M + …
+  double stiffnessDamping = 0;  ///< β + η / (2π f), s: C = … + (β + η / (2π f)) K
+};
+/// Collective. Returns the contribution of the body with this index.
+BodyPart bodyPart(const mesh::Mesh& mesh, int body);
+
+/// Not collective. Returns the option `-elasticity_prestress`: the geometric stiffness of the
+/// steady stress is then added to K.
+bool prestressWanted();
+/// Collective. Returns the geometric stiffness [M.6], the same on each component,
+///   K_σ,ij = ∫ ∇φᵢ·σ ∇φⱼ,   σ = D ε,
+/// for the stress of the given nodal displacements and of the incompatible modes that go with them.
+/// It is N×N, N/m, exactly symmetric and has the pattern of K. If `body` is given, it is that of
+/// this body alone.
+OwnedMat geometricStiffness(const mesh::Mesh& mesh, Vec displacement, std::optional<int> body = {});
+
+/// Collective. Returns a nodal vector of zeros, with N entries and the block size `dimension`.
+OwnedVec nodalVector(const mesh::Mesh& mesh);
+/// Collective. Returns the values of a nodal vector, [local node][component], ghosts included.
+std::vector<double> localValues(const mesh::Mesh& mesh, Vec u);
+
+}  // namespace squeal::elasticity

@@ -1,0 +1,35 @@
+#pragma once
+/// These functions return the normals, the mass matrix and the derivatives of the shape functions
+/// of one face, which is a line in the plane. Coordinates go in, and small dense arrays come out.
+/// None is collective.
+#include <vector>
+
+#include "model/elasticity/shape.hpp"
+#include "model/mesh/mesh.hpp"
+
+namespace squeal::elasticity {
+
+using mesh::Point;
+
+/// Returns ∫ φᵢ n dA on a face (a line in the plane), [node][3], m² (m in the plane). The unit
+/// normal n is that of the node order times `sign`.
+std::vector<double> faceNormals(const ShapeTable& table, const std::vector<Point>& nodes, int sign);
+/// Returns the weights of the points of the rule for integrals over the face, [point], m² (m in the
+/// plane).
+std::vector<double> areaWeights(const ShapeTable& table, const std::vector<Point>& nodes);
+/// Returns ∫ φᵢ φⱼ dA on a face, row-major [node][node], m² (m in the plane).
+std::vector<double> faceMass(const ShapeTable& table, const std::vector<Point>& nodes);
+/// Returns ∫ (n·eᵢ φ_a)(n·eⱼ φ_b) dA on a face, row-major, rows and columns [node][component], m²
+/// (m in the plane).
+std::vector<double> normalMass(const ShapeTable& table, const std::vector<Point>& nodes,
+                               int components);
+/// Returns the derivative of each shape function along the velocity at each node of the face,
+/// [at node][function], 1/s for velocities in m/s. Only the part of `velocity` in the tangent plane
+/// of the face counts.
+std::vector<double> faceDerivative(const ShapeTable& table, const std::vector<Point>& nodes,
+                                   const std::vector<Point>& velocity);
+/// Returns the unit normal of the face at each of its nodes, that of the node order times `sign`,
+/// [node].
+std::vector<Point> nodeNormals(const ShapeTable& table, const std::vector<Point>& nodes, int sign);
+
+}  // namespace squeal::elasticity

@@ -1,0 +1,44 @@
+#pragma once
+/// These functions return the terms of one element's inertia: its mass, its centrifugal forces and
+/// the convective terms of matter that moves through it. Coordinates and density go in, and small
+/// dense arrays come out. mass() and convection() throw InvertedElement. None is collective.
+#include <vector>
+
+#include "model/elasticity/shape.hpp"
+#include "model/mesh/mesh.hpp"
+
+namespace squeal::elasticity {
+
+using mesh::Point;
+
+enum class MassKind { consistent, higherOrder };
+/// Returns the mass
+///   m_ij = ∫ ρ φᵢ φⱼ,
+/// positive definite, row-major [node][node], kg, the same for all components. `higherOrder` is the
+/// mean of the consistent matrix and the diagonal one of the same total (diagonal scaling of
+/// Hinton, Rock and Zienkiewicz 1976, row sums on linear elements).
+std::vector<double> mass(const ShapeTable& table, const std::vector<Point>& nodes, double density,
+                         MassKind kind);
+
+/// Returns the centrifugal forces [M.4]
+///   ∫ φᵢ ρ ω² r,
+/// [node][3], N, for the `speed` ω, rad/s, about the `axis`, a unit vector, through `origin`.
+std::vector<double> centrifugal(const ShapeTable& table, const std::vector<Point>& nodes,
+                                double density, double speed, const Point& axis,
+                                const Point& origin);
+
+/// A Convection holds the convective terms of matter that moves through the element with the
+/// velocity V, with Dφ = V·∇φ. Matrices are row-major [node][node], the same for all components.
+struct Convection {
+  std::vector<double> gyroscopic;  ///< ∫ ρ ((Dφⱼ) φᵢ − (Dφᵢ) φⱼ), kg/s; equal to 2 ∫ ρ (Dφⱼ) φᵢ
+                                   ///< where no matter crosses the surface
+  std::vector<double> rotationStiffness;  ///< −∫ ρ (Dφⱼ)(Dφᵢ), N/m
+  std::vector<double> flux;       ///< ∫ Dφᵢ, m³/s, [node]; summed over a body: ∮ φᵢ V·n
+  std::vector<double> fluxScale;  ///< ∫ |Dφᵢ|, m³/s, [node]
+};
+/// Returns the convective terms. `velocity` is V at the nodes, m/s. It is affine in x, so that the
+/// shape functions interpolate it exactly.
+Convection convection(const ShapeTable& table, const std::vector<Point>& nodes,
+                      const std::vector<Point>& velocity, double density);
+
+}  // namespace squeal::elasticity

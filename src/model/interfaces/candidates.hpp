@@ -1,0 +1,60 @@
+#pragma once
+/// This file finds the nodes that an interface would have, and which of them it must leave to
+/// others.
+#include <string>
+#include <vector>
+
+#include "model/coupling/coupling.hpp"
+#include "model/coupling/exchange.hpp"
+#include "model/interfaces/nodes.hpp"
+
+namespace squeal::interfaces {
+
+/// A node as its interface gives it.
+struct Candidate {
+  int interface;
+  int discBody;      ///< index into Mesh::bodies; −1 on a rigid obstacle
+  PetscInt partner;  ///< global node of the master where the meshes match, otherwise −1
+  coupling::SlaveNode slave;
+};
+
+/// The claims on nodes, [local node]: one more than the index of the interface, 0 for none.
+class Claims {
+ public:
+  /// Collective. The exchange is borrowed.
+  Claims(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange);
+  /// Returns the nodes that an interface of this role must leave to others.
+  std::vector<unsigned char> against(Role role) const;
+  /// Collective. Claims these local nodes of an interface. Throws Error if one of them slides on
+  /// another interface.
+  void add(const std::vector<PetscInt>& nodes, const std::vector<InterfaceOptions>& options,
+           int interface);
+
+ private:
+  void share(std::vector<int>& claims) const;
+  const mesh::Mesh& mesh_;
+  const coupling::NodeExchange& exchange_;
+  std::vector<int> tied_, sliding_, other_;
+};
+
+/// Collective. Returns the surface whose nodes the interface couples to the other one.
+std::string slaveSurface(const mesh::Mesh& mesh, const InterfaceOptions& options);
+
+/// Collective. Returns the owned nodes of a surface that are not periodic images.
+std::vector<PetscInt> slaveNodesOf(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange,
+                                   const std::string& surface);
+
+/// Collective. Returns the nodes that an interface has apart from excluded[local node], from pairs
+/// or from the coupling of its surfaces. Fills its report, its slave side and Interfaces::lost.
+/// `bodies` may be null for a tie. Throws Error for surfaces that do not meet.
+std::vector<Candidate> candidatesOf(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange,
+                                    const elasticity::Bodies* bodies, int interface,
+                                    const std::vector<unsigned char>& excluded, Interfaces& all);
+
+/// Returns the local nodes of these candidates.
+std::vector<PetscInt> nodesOf(const std::vector<Candidate>& candidates);
+
+/// Returns what a node rests on, in the words of Interfaces.
+Connection connectionOf(const coupling::SlaveNode& slave);
+
+}  // namespace squeal::interfaces

@@ -1,0 +1,177 @@
+#include "model/interfaces/lost.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "base/session/stages.hpp"
+#include "base/system/concatenation.hpp"
+#include "base/system/text.hpp"
+#include "model/interfaces/algebra.hpp"
+#include "model/mortar/basis.hpp"
+#include "model/mortar/dual.hpp"
+#include "model/mortar/face.hpp"
+
+namespace squeal::interfaces {
+namespace {
+
+/// Collective. Returns the area of a surface that belongs to marked nodes, [local node], and the
+/// whole of it.
+std::array<double, 2> areasOf(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange,
+                              const std::string& surface, std::vector<double> marks) {
+  exchange.largest(marks);
+  std::array<double, 2> areas{};
+  for (const auto& face : mortar::facesOf(mesh, surface)) {
+    const auto& type = mortar::faceType(face.type);
+    const std::vector<double> alpha(type.edges.size(),
+                                    mortar::usualAlpha(type, mortar::Cover::full));
+    const auto integrals = mortar::wholeIntegrals(face, alpha);
+    for (std::size_t i = 0; i < integrals.size(); ++i) {
+      areas[1] += integrals[i];
+      if (marks[exchange.local(face.nodes[i])] > 0) areas[0] += integrals[i];
+    }
+  }
+  check(MPI_Allreduce(MPI_IN_PLACE, areas.data(), 2, MPI_DOUBLE, MPI_SUM, mesh.comm));
+  return areas;
+}
+
+/// What becomes of the lost nodes of this rank.
+class Owners {
+ public:
+  /// Collective.
+  Owners(const mesh::Mesh& mesh, const Interfaces& all) : mesh_(mesh), all_(all) {
+    std::vector<Gap> gaps;
+    for (const auto& node : all.nodes) gaps.push_back({node.globalNode, node.interface});
+    for (const auto& gap : concatenated(mesh.comm, gaps)) gaps_[gap.node] = gap.interface;
+    for (const auto& tied : all.tied) tied_[tied.connection.node] = &tied;
+    std::vector<Link> links;
+    for (const auto& tied : all.tied)
+      if (tied.connection.masters.size() == 1)
+        links.push_back({mesh.firstNode + tied.connection.node, tied.connection.masters[0].node});
+    for (const auto& link : concatenated(mesh.comm, links)) leader_[link.node] = link.leader;
+    std::set<std::pair<int, int>> sides;  // interface and part, once each
+    for (int i = 0; i < std::ssize(all.options); ++i)
+      for (const auto* side : {&all.options[i].surfaces.pad, &all.options[i].surfaces.disc})
+        if (side->name != all.slaves[i].surface && !side->name.empty())
+          for (const auto& face : mortar::facesOf(mesh, side->name))
+            for (const auto node : face.nodes)
+              if (node >= mesh.firstNode && node < mesh.firstNode + mesh.ownedNodes)
+                sides.insert({i, mesh.nodePart[node - mesh.firstNode]});
+    std::vector<Side> own;
+    for (const auto& [interface, part] : sides) own.push_back({interface, part});
+    for (const auto& side : concatenated(mesh.comm, own)) parts_[side.interface].insert(side.part);
+  }
+  /// Returns the interface that has the node, −1 if none has.
+  int of(PetscInt node) const {
+    if (const auto found = tied_.find(node); found != tied_.end()) return found->second->interface;
+    const auto found = gaps_.find(mesh_.firstNode + node);
+    return found == gaps_.end() ? -1 : found->second;
+  }
+  /// Returns true if the contact has the gap of the lost node all the same.
+  bool isMet(const LostNode& lost) const {
+    const auto tied = tied_.find(lost.node);
+    if (tied == tied_.end() || all_.options[lost.interface].isTied()) return false;
+    if (const auto other = parts_.find(lost.interface); other != parts_.end())
+      if (std::ranges::all_of(tied->second->masterParts, [&](const auto& share) {
+            return other->second.count(share.part) > 0;
+          }))
+        return true;
+    PetscInt leader = mesh_.firstNode + lost.node;
+    for (auto at = leader_.find(leader); at != leader_.end(); at = leader_.find(leader))
+      leader = at->second;
+    const auto gap = gaps_.find(leader);
+    return gap != gaps_.end() && surfaceBelow(gap->second) == surfaceBelow(lost.interface);
+  }
+
+ private:
+  struct Gap {
+    PetscInt node;
+    int interface;
+  };
+  struct Link {
+    PetscInt node, leader;
+  };
+  struct Side {
+    int interface, part;
+  };
+  std::string surfaceBelow(int interface) const {
+    const auto& disc = all_.options[interface].surfaces.disc.name;
+    return disc.empty() ? "an obstacle of " + all_.options[interface].label() : disc;
+  }
+  const mesh::Mesh& mesh_;
+  const Interfaces& all_;
+  std::map<PetscInt, int> gaps_;              // [global node] interface of all contact nodes
+  std::map<PetscInt, const TiedNode*> tied_;  // [local node]
+  std::map<PetscInt, PetscInt> leader_;       // [global node] the one that it follows
+  std::map<int, std::set<int>> parts_;        // [interface] parts of its master side
+};
+
+/// The lost nodes of an interface, of all ranks.
+struct Loss {
+  PetscInt count = 0;
+  Point first{};
+  std::vector<std::string> owners;
+  std::array<double, 2> areas{};  // of the lost nodes, of the slave, m² (m)
+};
+
+/// Collective.
+Loss lossOf(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange, const Interfaces& all,
+            int interface, const Owners& owners) {
+  std::vector<Point> places;
+  std::vector<int> owns(all.options.size(), 0);
+  std::vector<double> marks(mesh.localNodes(), 0.0);
+  for (const auto& lost : all.lost) {
+    if (lost.interface != interface || owners.isMet(lost)) continue;
+    places.push_back(mesh.coordinates[lost.node]);
+    marks[lost.node] = 1;
+    if (const int owner = owners.of(lost.node); owner >= 0) owns[owner] = 1;
+  }
+  Loss loss;
+  places = concatenated(mesh.comm, places);
+  check(MPI_Allreduce(MPI_IN_PLACE, owns.data(), owns.size(), MPI_INT, MPI_MAX, mesh.comm));
+  loss.count = places.size();
+  if (loss.count == 0) return loss;
+  loss.first = *std::min_element(places.begin(), places.end());
+  loss.areas = areasOf(mesh, exchange, all.slaves[interface].surface, marks);
+  for (std::size_t i = 0; i < owns.size(); ++i)
+    if (owns[i]) loss.owners.push_back(all.options[i].label());
+  return loss;
+}
+
+}  // namespace
+
+double areaOfLost(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange,
+                  const Interfaces& all, int interface) {
+  std::vector<double> marks(mesh.localNodes(), 0.0);
+  for (const auto& lost : all.lost)
+    if (lost.interface == interface) marks[lost.node] = 1;
+  return areasOf(mesh, exchange, all.slaves[interface].surface, marks)[0];
+}
+
+void warnOfLost(const mesh::Mesh& mesh, const coupling::NodeExchange& exchange, Interfaces& all,
+                Role role) {
+  int any = !all.lost.empty();
+  check(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_LOR, mesh.comm));
+  if (!any) return;  // as nearly always: the owners of all nodes are not gathered
+  const Owners owners(mesh, all);
+  for (int i = 0; i < std::ssize(all.options); ++i) {
+    const auto& options = all.options[i];
+    if (options.isTied() != (role == Role::tied)) continue;
+    const Loss loss = lossOf(mesh, exchange, all, i, owners);
+    if (loss.count == 0) continue;
+    if (all.reports[i].matching && !options.isTied()) all.reports[i].dropped = loss.count;
+    complain(
+        mesh.comm,
+        formatted("warning: %s: %" PetscInt_FMT " nodes of '%s', %.3g of %.4g m2, first that "
+                  "at %s, follow from %s and %s; %s",
+                  options.label().c_str(), loss.count, all.slaves[i].surface.c_str(), loss.areas[0],
+                  loss.areas[1], text(loss.first).c_str(), joined(loss.owners, " and ").c_str(),
+                  options.isTied() ? "are not tied here" : "have no gap here",
+                  options.isTied() ? "exchange slave and master of one of the ties"
+                                   : "if that is a tie, exchange its slave and master"));
+  }
+}
+
+}  // namespace squeal::interfaces

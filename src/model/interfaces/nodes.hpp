@@ -1,0 +1,128 @@
+#pragma once
+/// This file finds which nodes touch or are tied, and what they rest on: from pairs of nodes where
+/// the meshes match, and from the coupling of the surfaces where they do not.
+#include <array>
+#include <string>
+#include <vector>
+
+#include "model/coupling/coupling.hpp"
+#include "model/elasticity/elasticity.hpp"
+#include "model/interfaces/constraints.hpp"
+#include "model/interfaces/gap_basis.hpp"
+#include "model/interfaces/interfaces.hpp"
+#include "model/mesh/mesh.hpp"
+
+namespace squeal::interfaces {
+
+/// A ContactNode is a node in contact that this rank owns. It is of the slave side: the pad where
+/// the meshes match. Contact nodes stand in the order of local nodes.
+struct ContactNode {
+  Point position;    ///< m
+  Point normal;      ///< n, unit, from disc to pad
+  Point slip;        ///< τ = w/|w|, w = −V at the base motions; zero where there is no slip
+  double slipSpeed;  ///< |w| at the base motions, m/s
+  double area;  ///< ∫ ψ dA over the part of the faces in contact, positive, m² (m in the plane);
+                ///< ∫ φ̃ dA where the meshes match
+  double wholeArea;     ///< ∫ φ̃ dA over the faces of the slave, m² (m)
+  double gap;           ///< gap without load, m
+  int interface;        ///< index into Interfaces::options
+  Role role;            ///< never tied
+  int side;             ///< +1 if the slave is the pad, −1 if it is the disc
+  PetscInt node;        ///< local node
+  PetscInt globalNode;  ///< global node
+  PetscInt master;      ///< global node of the disc where the meshes match; otherwise −1
+  int discBody;         ///< index into Mesh::bodies; −1 on a rigid obstacle
+  /// parts of the master; none on a rigid obstacle
+  std::vector<coupling::PartShare> masterParts;
+};
+
+/// A Connection couples a node i of the slave side with nodes l of the master side:
+///   u_i = Σ_l P_il u_l + jump.
+struct Connection {
+  PetscInt node;  ///< local node
+  /// 1 if no master is itself a slave, otherwise one more than the largest level of its masters
+  int level = 1;
+  std::vector<coupling::Weight> masters;    ///< row of P; empty on a rigid obstacle
+  std::vector<coupling::Weight> convected;  ///< D u_D, 1/s, where the slave is the pad and the
+                                            ///< meshes do not match
+};
+
+/// A node that is tied, owned by this rank.
+struct TiedNode {
+  int interface;  ///< index into Interfaces::options
+  Connection connection;
+  std::vector<coupling::PartShare> masterParts;
+  Point offset;  ///< Σ P_il x_l − x_i in the file, m: from the node to its place on the master
+  /// [component] 1 if a support holds it and the tie does not: what the support asks of the masters
+  /// follows from the conditions of other nodes
+  std::array<unsigned char, 3> apart{};
+};
+
+/// The slave side of an interface.
+struct SlaveSide {
+  std::string surface;  ///< group
+  int sign;             ///< +1 if it is the pad, −1 if it is the disc
+};
+
+/// An InterfaceReport tells what was found at an interface. It is the same on all ranks.
+struct InterfaceReport {
+  bool matching = true;         ///< node on node, or a rigid obstacle
+  std::string whyNot;           ///< a sentence that says where the meshes do not match
+  bool nearlyMatching = false;  ///< they do not match, but most nodes have a partner
+  PetscInt nodes = 0;           ///< nodes in contact, or tied
+  // These are zero if the meshes match, but for the slave of a tie.
+  coupling::SideReport slave, master;
+  double coveredArea = 0;  ///< of the slave, m² (m in the plane)
+  double largestGap = 0;   ///< largest distance of the surfaces where they touch, m
+  PetscInt dropped = 0;    ///< nodes that touch without a condition: too little covered, or left
+                           ///< to another interface
+  // These are of ties only.
+  PetscInt carried = 0;          ///< held components of tied nodes that the master carries
+  PetscInt untied = 0;           ///< nodes of the slave without a condition, covered or not
+  double largestAdjustment = 0;  ///< largest way by which a tied node was moved, m
+};
+
+/// A node that an interface leaves to another one, owned by this rank.
+struct LostNode {
+  int interface;  ///< the one that does without it, index into Interfaces::options
+  PetscInt node;  ///< local node
+};
+
+/// All interfaces with their nodes.
+struct Interfaces {
+  std::vector<InterfaceOptions> options;  ///< [interface], contact first, then ties
+  std::vector<SlaveSide> slaves;          ///< [interface]
+  std::vector<InterfaceReport> reports;   ///< [interface]
+  std::vector<ContactNode> nodes;         ///< owned by this rank
+  std::vector<Connection> connections;    ///< [contact node]
+  std::vector<TiedNode> tied;             ///< owned by this rank, in the order of local nodes
+  std::vector<LostNode> lost;             ///< owned by this rank
+  Constraints constraints;
+  PetscInt totalNodes = 0;  ///< contact nodes of all ranks
+  /// [local node] index into options of the contact in which the node has a gap, −1 if in none;
+  /// ghosts and periodic images included
+  std::vector<int> interfaceOf;
+  int levels = 1;     ///< largest level of a connection of all ranks
+  GapBasis gapBasis;  ///< E
+
+  /// Returns true if the local node has a gap on the slave surface of this name.
+  bool hasGapOn(const std::string& surface, PetscInt node) const {
+    return interfaceOf[node] >= 0 && slaves[interfaceOf[node]].surface == surface;
+  }
+  /// Returns the slave side of a contact interface of which this is the surface, borrowed; null if
+  /// there is none.
+  const SlaveSide* slaveOf(const std::string& surface) const;
+};
+
+/// Returns a line on what was found at an interface and how its sides are coupled, for the log.
+std::string describe(const Interfaces& all, int interface);
+
+/// Collective. Adds the nodes in contact to the `ties`, which are those of findTies(). A node
+/// belongs to one interface: to a tie before a sliding one, and to this before one that sticks or
+/// is free of friction. `periodic` copies u of primaries to their images, N×N. Throws Error for
+/// surfaces that do not meet, for a node that two sliding interfaces claim, and for slaves that
+/// rest on each other in a circle.
+Interfaces findNodes(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, Mat periodic,
+                     Interfaces ties);
+
+}  // namespace squeal::interfaces

@@ -1,0 +1,15 @@
+#pragma once
+/// This function pairs nodes: periodic images with their primaries, and contact nodes of pad and
+/// disc. It is for rank 0 only.
+#include "model/mesh/mesh.hpp"
+#include "model/mesh/whole.hpp"
+
+namespace squeal::mesh {
+
+/// Finds the partner of each periodic image and of each contact node, and fills primary, images,
+/// pairs, matching and mismatch of the mesh. An interface whose sides are not meshed alike gets no
+/// pairs. Throws Error for an image without a partner, for images that are not meshed alike or go
+/// round in a circle, and for a pad that is its own disc.
+void pairNodes(WholeMesh& mesh, const Request& request);
+
+}  // namespace squeal::mesh

@@ -1,0 +1,28 @@
+#pragma once
+/// These functions read and mesh shapes of CAD programs: STEP, IGES and BREP. Not collective.
+#include <string>
+
+#include "base/system/child.hpp"
+
+namespace squeal::meshfile {
+
+/// How a shape is meshed.
+struct ShapeMesh {
+  double size = 0;  ///< length of edges in the unit of the shape; 0 leaves it to gmsh
+  int order = 2;    ///< of the tetrahedra
+};
+
+/// Returns the options `-mesh_size` and `-mesh_order`.
+ShapeMesh shapeMesh();
+/// Throws Error if one of these options is given, for a file that is no shape.
+void rejectShapeMesh(const std::string& file);
+
+/// Makes a shape the model of gmsh. Lengths come in millimetres from STEP and IGES, whatever their
+/// unit, and as they are from BREP. Solids that touch are cut where they do, so that their meshes
+/// share nodes there. Each solid and face becomes a physical group by the last part of its label,
+/// entities of equal labels together. One without a label of its own is `solid_N` or `face_N`, with
+/// the number that gmsh shows for the file. Throws Error if there is no solid; warns of labels
+/// whose faces are not found again after the cuts.
+void importShape(const std::string& file, const ShapeMesh& mesh, const Warn& warn);
+
+}  // namespace squeal::meshfile

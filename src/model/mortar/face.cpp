@@ -1,0 +1,71 @@
+#include "model/mortar/face.hpp"
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "base/petsc/check.hpp"
+#include "model/elasticity/shape.hpp"
+
+namespace squeal::mortar {
+namespace {
+
+/// A CellFinder finds the cell of this rank that a face bounds. One pass over the cells lists those
+/// at the first node of each face; a face then compares itself with these few.
+class CellFinder {
+ public:
+  CellFinder(const mesh::Mesh& mesh, int surface) {
+    for (const auto& block : mesh.faces)
+      for (std::size_t e = 0; e < block.surface.size(); ++e)
+        if (block.surface[e] == surface) cells_[block.nodesOf(e)[0]];
+    if (cells_.empty()) return;
+    for (const auto& block : mesh.cells)
+      for (std::size_t e = 0; e < block.body.size(); ++e)
+        for (PetscInt node : block.nodesOf(e))
+          if (const auto found = cells_.find(node); found != cells_.end())
+            found->second.push_back({block.nodesOf(e), block.body[e]});
+  }
+  /// Returns the body of the cell that has all of these nodes.
+  int bodyAt(std::span<const PetscInt> nodes) const {
+    for (const auto& cell : cells_.at(nodes[0]))
+      if (std::all_of(nodes.begin(), nodes.end(), [&](PetscInt node) {
+            return std::find(cell.nodes.begin(), cell.nodes.end(), node) != cell.nodes.end();
+          }))
+        return cell.body;
+    throw Error("a face of the mesh bounds no cell of its process");
+  }
+
+ private:
+  struct Cell {
+    std::span<const PetscInt> nodes;
+    int body;
+  };
+  std::unordered_map<PetscInt, std::vector<Cell>> cells_;  // [first local node of a face]
+};
+
+}  // namespace
+
+std::vector<Face> facesOf(const mesh::Mesh& mesh, const std::string& surface) {
+  const auto named = std::find(mesh.surfaces.begin(), mesh.surfaces.end(), surface);
+  if (named == mesh.surfaces.end()) throw Error("no option names the surface '" + surface + "'");
+  const int label = named - mesh.surfaces.begin();
+  const CellFinder finder(mesh, label);
+  std::vector<Face> faces;
+  for (const auto& block : mesh.faces)
+    for (std::size_t e = 0; e < block.surface.size(); ++e) {
+      if (block.surface[e] != label) continue;
+      const auto nodes = block.nodesOf(e);
+      const std::size_t corners = elasticity::shapeTable(block.type).corners;
+      Face& face = faces.emplace_back();
+      face.type = block.type;
+      face.sign = block.sign[e];
+      face.body = finder.bodyAt(nodes.first(corners));
+      for (PetscInt node : nodes) {
+        face.nodes.push_back(mesh.globalNode[node]);
+        face.parts.push_back(mesh.nodePart[node]);
+        face.points.push_back(mesh.coordinates[node]);
+      }
+    }
+  return faces;
+}
+
+}  // namespace squeal::mortar

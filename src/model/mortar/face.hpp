@@ -1,0 +1,27 @@
+#pragma once
+/// A Face is a boundary face of the mesh with its geometry, apart from the mesh, so that it can be
+/// sent to the rank that integrates over it.
+#include <string>
+#include <vector>
+
+#include "model/mesh/mesh.hpp"
+
+namespace squeal::mortar {
+
+using mesh::Point;
+
+struct Face {
+  int type = 0;                 ///< gmsh element type: a line in the plane, otherwise a surface
+  std::vector<PetscInt> nodes;  ///< [node] global number, in gmsh's order
+  std::vector<int> parts;       ///< [node] connected part of the mesh
+  std::vector<Point> points;    ///< [node] coordinates, m
+  int sign = 1;  ///< +1 if the normal by node order points out of the body, −1 if it points into it
+  int body = -1;  ///< index into Mesh::bodies
+};
+
+/// Returns the faces of a surface group on this rank, each with the body of the cell that it
+/// bounds. Images of periodic nodes keep their own numbers. Not collective. Throws Error if options
+/// name no such surface.
+std::vector<Face> facesOf(const mesh::Mesh& mesh, const std::string& surface);
+
+}  // namespace squeal::mortar

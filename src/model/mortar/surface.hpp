@@ -1,0 +1,45 @@
+#pragma once
+/// These functions map between the reference coordinates of a face and space. None is collective.
+#include "model/mortar/basis.hpp"
+#include "model/mortar/face.hpp"
+
+namespace squeal::mortar {
+
+/// A point of a face.
+struct SurfacePoint {
+  Point position{};                ///< m
+  std::array<Point, 2> tangent{};  ///< ∂x/∂ξ, m; the second one of a line is the unit vector of z
+  /// Normal out of the body. Its length is the area (the length in the plane) per unit of the
+  /// reference coordinates, m² (m).
+  Point normal{};
+};
+
+SurfacePoint surfacePoint(const Face& face, const FaceShape& shape);
+inline SurfacePoint surfacePoint(const Face& face, const Reference& at) {
+  return surfacePoint(face, faceShape(faceType(face.type), at));
+}
+
+/// Where a straight line meets a face.
+struct Projection {
+  Reference reference{};
+  double distance = 0;  ///< from the start of the line along its direction, m
+  /// False if the line misses the face, or passes it at more than a quarter of its size. Then
+  /// `reference` is a point on the rim, and `distance` is that of its foot on the line.
+  bool met = true;
+};
+
+/// Returns where the line through `from` along the unit vector `direction` meets the face,
+///   x(ξ) = from + distance · direction,
+/// to rounding. Points outside of the face count up to a quarter of its size: cells of straight
+/// edges end there where the rim is curved.
+Projection project(const Face& face, const Point& from, const Point& direction);
+/// The same, where the point is known to be near `start`.
+Projection project(const Face& face, const Point& from, const Point& direction,
+                   const Reference& start);
+
+/// Returns Σ V_S · ∇_S φ_i, the derivative of each shape function along a velocity, 1/s for m/s, as
+/// far as the velocity is tangential to the face.
+NodeValues derivativeAlong(const SurfacePoint& point, const FaceShape& shape,
+                           const Point& velocity);
+
+}  // namespace squeal::mortar

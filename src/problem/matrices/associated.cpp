@@ -1,0 +1,118 @@
+#include "problem/matrices/associated.hpp"
+
+#include <algorithm>
+
+#include "algebra/factor/symmetric_solver.hpp"
+#include "base/petsc/arrays.hpp"
+#include "base/system/text.hpp"
+#include "eigen/pencil/pencil.hpp"
+
+namespace squeal::matrices {
+namespace {
+
+constexpr double symmetric = 1e-10;  // printed digits of exports
+
+bool joins(const pencil::Term& term, int power) {
+  return term.power == power && !term.holdsFriction() && term.speedExponent == 0 &&
+         term.dampingExponent == 0;
+}
+
+std::string namesOf(const std::vector<NamedTerm>& terms, int power) {
+  std::vector<std::string> names;
+  for (const auto& [name, term] : terms)
+    if (joins(term, power)) names.push_back("'" + name + "'");
+  return joined(names);
+}
+
+/// Collective. Returns the sum of the terms that joins() accepts, with their factors. Throws Error
+/// if there is none.
+OwnedMat sum(const std::vector<NamedTerm>& terms, int power) {
+  OwnedMat total;
+  for (const auto& [name, term] : terms) {
+    if (!joins(term, power)) continue;
+    if (!total) {
+      check(MatDuplicate(term.matrix, MAT_COPY_VALUES, total.out()));
+      check(MatScale(total, term.factor));
+    } else {
+      check(MatAXPY(total, term.factor, term.matrix, DIFFERENT_NONZERO_PATTERN));
+    }
+  }
+  if (!total)
+    throw Error(
+        formatted("options -matrices_<name>_role: there is no %s matrix without exponents of "
+                  "friction, speed and damping, and without -matrices_<name>_of_friction",
+                  power == 2 ? "mass" : "stiffness"));
+  return total;
+}
+
+OwnedMat symmetrised(Mat matrix) {
+  OwnedMat part;
+  check(MatTranspose(matrix, MAT_INITIAL_MATRIX, part.out()));
+  check(MatAXPY(part, 1, matrix, DIFFERENT_NONZERO_PATTERN));
+  check(MatScale(part, 0.5));
+  check(MatSetOption(part, MAT_SYMMETRIC, PETSC_TRUE));
+  return part;
+}
+
+/// Collective. Returns a text with the number of rows without a positive entry on the diagonal, and
+/// the first of them; it is empty if there are none.
+std::string badDiagonal(Mat matrix) {
+  OwnedVec diagonal;
+  PetscInt first = 0, end = 0, size = 0;
+  check(MatCreateVecs(matrix, diagonal.out(), nullptr));
+  check(MatGetDiagonal(matrix, diagonal));
+  check(VecGetOwnershipRange(diagonal, &first, &end));
+  check(VecGetSize(diagonal, &size));
+  const ReadArray values(diagonal);
+  PetscInt count = 0, lowest = size;
+  for (PetscInt i = first; i < end; ++i)
+    if (!(values[i - first] > 0)) ++count, lowest = std::min(lowest, i);
+  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(matrix));
+  check(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPIU_INT, MPI_SUM, comm));
+  check(MPI_Allreduce(MPI_IN_PLACE, &lowest, 1, MPIU_INT, MPI_MIN, comm));
+  if (count == 0) return "";
+  return formatted(" (diagonal entries that are not positive: %" PetscInt_FMT
+                   ", the first in row %" PetscInt_FMT ")",
+                   count, lowest + 1);
+}
+
+/// Collective. Throws Error if the matrix is not positive definite. A pivot of 1e-13 of the scaled
+/// matrix is what cancellation leaves of a zero one in a large model; stiff springs do not come
+/// near it, since the rows are scaled.
+void requirePositiveDefinite(Mat matrix, const std::string& what, const std::string& advice) {
+  PetscReal norm = 0;
+  check(MatNorm(matrix, NORM_FROBENIUS, &norm));
+  if (norm == 0) throw Error(what + " is zero");
+  const std::string bad = badDiagonal(matrix);
+  const auto [negative, zero] = factor::inertia(matrix, 1e-13);
+  if (negative == 0 && zero == 0) return;
+  throw Error(formatted("%s is not positive definite: %" PetscInt_FMT " negative and %" PetscInt_FMT
+                        " zero eigenvalues%s; %s",
+                        what.c_str(), negative, zero, bad.c_str(), advice.c_str()));
+}
+
+}  // namespace
+
+SymmetricPart symmetricPart(const std::vector<NamedTerm>& terms) {
+  OwnedMat stiffness = sum(terms, 0), mass = sum(terms, 2);
+  const std::string massName = "the mass " + namesOf(terms, 2),
+                    stiffnessName = "the stiffness " + namesOf(terms, 0);
+  if (const double departure = asymmetry(mass); departure > symmetric)
+    throw Error(
+        formatted("%s is not symmetric: ‖M − Mᵀ‖ is %.1e of ‖M‖; friction of inertia forces needs "
+                  "an exponent of friction, or -matrices_<name>_of_friction",
+                  massName.c_str(), departure));
+  double departure = asymmetry(stiffness);
+  if (departure <= symmetric) departure = 0;
+  mass = symmetrised(mass);
+  stiffness = symmetrised(stiffness);
+  requirePositiveDefinite(mass, massName, "condense unknowns without mass");
+  requirePositiveDefinite(stiffness,
+                          stiffnessName + (departure > 0 ? ", by its symmetric part," : ""),
+                          "is a body loose? Hold it by weak springs if it is");
+  return {factor::AssociatedSystem(std::move(stiffness), std::move(mass),
+                                   "associated symmetric stiffness"),
+          departure};
+}
+
+}  // namespace squeal::matrices

@@ -1,0 +1,32 @@
+#pragma once
+/// The friction-perturbed problem is read from files: each matrix has a role M, Z or K, a factor,
+/// and exponents of friction, speed and damping [M.23]. Exports of other programs and published
+/// models run through the same reduction and certification as the models of meshes.
+#include <string>
+#include <vector>
+
+#include "eigen/pencil/pencil.hpp"
+
+namespace squeal::matrices {
+
+/// Returns true if a `-matrices_<name>_file` is given. Throws Error if options of the stages of a
+/// mesh are given as well, or if another `-matrices_<name>_*` option is given for a name without a
+/// file.
+bool wanted();
+
+/// A term of the pencil and where it comes from.
+struct NamedTerm {
+  std::string name;  ///< <name> of its options
+  pencil::Term term;
+};
+
+/// Collective. Returns the terms of all `-matrices_<name>_file`. Throws Error as read() does,
+/// naming the option, and for matrices of different sizes.
+std::vector<NamedTerm> readTerms(MPI_Comm comm);
+
+/// Collective. Returns the relative departure from symmetry in the Frobenius norm,
+///   ‖A − Aᵀ‖ / ‖A‖,
+/// which is 0 for a matrix of zeros.
+double asymmetry(Mat matrix);
+
+}  // namespace squeal::matrices

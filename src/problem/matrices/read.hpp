@@ -1,0 +1,19 @@
+#pragma once
+/// This function reads one matrix from a file and distributes it over the ranks.
+#include <filesystem>
+#include <string>
+
+#include "base/petsc/owned.hpp"
+
+namespace squeal::matrices {
+
+/// Collective. Returns a square matrix from a file of any known format, which its content tells. It
+/// is distributed by rows, AIJ. `dataset` names a variable or object within the file; an empty name
+/// stands for the only matrix there. Rank 0 reads the whole file, except for PETSc's binary format,
+/// of which each rank reads its rows. Throws Error on all ranks, naming file and cause, for what
+/// the readers of `matrixfile` reject, for a name in a file of a single matrix, for a matrix that
+/// is not square or has far more rows than entries, and for entries that are not finite or whose
+/// squares overflow.
+OwnedMat read(MPI_Comm comm, const std::filesystem::path& path, const std::string& dataset = {});
+
+}  // namespace squeal::matrices

@@ -1,0 +1,28 @@
+#pragma once
+/// These functions write the matrices of a pencil to the folder of `-report_matrices`, from which
+/// another run can read them.
+#include <cstddef>
+#include <filesystem>
+
+#include "eigen/pencil/pencil.hpp"
+#include "eigen/sweep/sweep.hpp"
+
+namespace squeal::matrices {
+
+/// Returns true if `-report_matrices` is given.
+bool exportWanted();
+
+/// Collective. Call it before work begins. Throws Error if the folder of `-report_matrices` is that
+/// of the results or cannot be written, or if something in it is in the way.
+void requireExportFolder(MPI_Comm comm, const std::filesystem::path& results);
+
+/// Collective. Writes the matrices of the pencil to the folder of `-report_matrices`, and
+/// options.txt, an -options_file that solves it again. Terms that belong to one point of the
+/// parameters, made with its steady forces, are frozen at it. `steadyPoints` is the number of
+/// steady states of the sweep that the pencil is for. Throws Error if that is not all of them, if
+/// there are such terms and a sweep of several points, and if the folder or a file cannot be
+/// written.
+void exportPencil(const pencil::Pencil& pencil, const sweep::Sweep& sweep,
+                  std::size_t steadyPoints);
+
+}  // namespace squeal::matrices

@@ -1,0 +1,20 @@
+#pragma once
+/// This function reads a matrix from an HDF5 file, which MATLAB files of version 7.3 are too.
+#include <filesystem>
+#include <string>
+
+#include "problem/matrixfile/formats.hpp"
+
+namespace squeal::matrixfile {
+
+/// Reads the object `name` of an HDF5 file. An empty name stands for the only matrix among the
+/// objects of the root, or the root itself; a 1 × 1 dataset counts only where there is no other.
+/// The object is a dataset of two dimensions, or a group with the datasets data, indices and indptr
+/// of a compressed matrix, as users of SciPy and anndata write it. The attribute "format",
+/// "h5sparse_format" or "encoding-type" of the group, or its dataset "format", begins with csr or
+/// csc; without it only a symmetric matrix is read, which is the same by rows and by columns.
+/// MATLAB files of version 7.3 are read too: groups with data, ir and jc, and datasets of class
+/// double or single. Throws Error as readMatlab() does.
+Entries readHdf5(const std::filesystem::path& path, const std::string& name);
+
+}  // namespace squeal::matrixfile

@@ -1,0 +1,45 @@
+#pragma once
+/// These functions read the contents of HDF5 files, with the checks that the HDF5 library leaves to
+/// its users.
+#include <string>
+#include <vector>
+
+#include "base/petsc/hdf5.hpp"
+
+namespace squeal::matrixfile {
+
+using hdf5::AttributeId;
+using hdf5::DatasetId;
+using hdf5::FileId;
+using hdf5::ObjectId;
+using hdf5::PropertiesId;
+using hdf5::Silence;
+using hdf5::SpaceId;
+using hdf5::TypeId;
+
+/// Returns the cause of HDF5's last failure, such as " (truncated file: ...)"; empty if unknown.
+std::string cause();
+
+bool has(hid_t group, const std::string& name);
+bool hasAttribute(hid_t object, const std::string& name);
+
+/// Returns the extents of a dataset; empty for a scalar and for a dataset without extent.
+std::vector<hsize_t> shapeOf(hid_t dataset);
+
+/// These functions return the values of a dataset. They throw Error if it has another type or
+/// number of dimensions, or if the file does not hold its values, since they were never written or
+/// lie in other files.
+std::vector<long long> integers(hid_t group, const std::string& name);
+std::vector<double> reals(hid_t group, const std::string& name, int dimensions = 1);
+
+/// These functions return the text of an attribute or of a dataset that holds a single one. A text
+/// of fixed length may have up to 64 characters; one of variable length is cut to as many.
+/// Otherwise the result is empty.
+std::string textOfAttribute(hid_t object, const std::string& name);
+std::string textOfDataset(hid_t group, const std::string& name);
+
+/// Returns the integers of an attribute; empty if there is none, one of another type, or one with
+/// more than 64 integers.
+std::vector<long long> integersOfAttribute(hid_t object, const std::string& name);
+
+}  // namespace squeal::matrixfile

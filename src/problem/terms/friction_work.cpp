@@ -1,0 +1,100 @@
+#include "problem/terms/friction_work.hpp"
+
+#include "base/petsc/arrays.hpp"
+#include "eigen/sweep/parameters.hpp"
+#include "model/contact/response.hpp"
+#include "problem/terms/terms.hpp"
+
+namespace squeal::terms {
+MotionForces motionForces(const elasticity::Bodies& bodies, const sweep::Parameters& at, Complex s,
+                          const linalg::ComplexVector& u, Mat prestress) {
+  MotionForces result{product(bodies.stiffness, u), 0};
+  auto& r = result.forces;
+  if (prestress) add(r, 1, product(prestress, u));
+  if (bodies.rotationStiffness) add(r, at.speed * at.speed, product(bodies.rotationStiffness, u));
+  const linalg::ComplexVector inertia = product(bodies.mass, u);
+  result.energy = std::norm(s) * dot(u, inertia).real() + dot(u, r).real();
+  add(r, s * s, inertia);
+  if (bodies.damping) add(r, s * at.damping, product(bodies.damping, u));
+  if (bodies.gyroscopic) add(r, s * at.speed, product(bodies.gyroscopic, u));
+  return result;
+}
+
+std::vector<ComplexPoint> atPadNodes(const contact::Contact& contact,
+                                     const linalg::ComplexVector& u) {
+  const int dimension = contact.mesh->dimension;
+  std::vector<ComplexPoint> points;
+  const ReadArray real(u.real), imaginary(u.imaginary);
+  for (const auto& node : contact.nodes) {
+    ComplexPoint point{};
+    for (int d = 0; d < dimension; ++d)
+      point[d] = {real[dimension * node.node + d], imaginary[dimension * node.node + d]};
+    points.push_back(point);
+  }
+  return points;
+}
+
+ContactMotion contactMotion(const contact::Contact& contact,
+                            const std::vector<unsigned char>& closed,
+                            const linalg::ComplexVector& u, const linalg::ComplexVector& forces) {
+  ContactMotion motion{product(contact.jump, u), {}, {}};
+  if (contact.convected) motion.convected = product(contact.convected, u);
+  const int component = contact.mesh->dimension - 1;  // the row of the gap
+  std::vector<double> real, imaginary;
+  for (const auto& reaction : atPadNodes(contact, product(contact.reaction, forces)))
+    real.push_back(reaction[component].real()), imaginary.push_back(reaction[component].imag());
+  real = contact.nodalForce(real, closed), imaginary = contact.nodalForce(imaginary, closed);
+  for (std::size_t k = 0; k < real.size(); ++k)
+    motion.nodalForce.emplace_back(real[k], imaginary[k]);
+  return motion;
+}
+
+FrictionState frictionState(const contact::Contact& contact, const sweep::Parameters& at,
+                            std::vector<contact::Slip> slip,
+                            const std::vector<double>& responseForce) {
+  OwnedMat response = contact::distributedResponse(contact, slip, responseForce, at.friction);
+  return {at, std::move(slip), std::move(response)};
+}
+
+FrictionState frictionState(const contact::Contact& contact, const steady::Solution& solution) {
+  std::vector<double> normalForce;
+  for (const auto& state : solution.contact) normalForce.push_back(state.normalForce);
+  return frictionState(contact, solution.at, solution.slip,
+                       responseForces(solution.closed, normalForce));
+}
+
+std::vector<FrictionForm> frictionForms(const contact::Contact& contact, const FrictionState& state,
+                                        Complex s, const std::vector<ComplexPoint>& test,
+                                        const ContactMotion& motion) {
+  linalg::ComplexVector velocity = linalg::ComplexVector::like(motion.jump.real);
+  add(velocity, s, motion.jump);
+  if (motion.convected.real) add(velocity, -state.at.speed, motion.convected);
+  const auto turning = atPadNodes(contact, product(state.response, velocity));
+  std::vector<FrictionForm> forms;
+  for (std::size_t k = 0; k < contact.nodes.size(); ++k) {
+    const auto& slip = state.slip[k];
+    FrictionForm form{};
+    for (std::size_t d = 0; d < 3; ++d) {
+      form.pressing += std::conj(test[k][d]) * slip.direction[d];
+      form.turning += std::conj(test[k][d]) * turning[k][d];
+    }
+    form.pressing *= slip.friction(state.at.friction) * motion.nodalForce[k];
+    forms.push_back(form);
+  }
+  return forms;
+}
+
+std::vector<double> frictionWork(const contact::Contact& contact, const elasticity::Bodies& bodies,
+                                 const std::vector<unsigned char>& closed,
+                                 const FrictionState& friction, const sweep::Parameters& at,
+                                 Complex s, const linalg::ComplexVector& u, Mat prestress) {
+  const MotionForces forces = motionForces(bodies, at, s, u, prestress);
+  const ContactMotion motion = contactMotion(contact, closed, u, forces.forces);
+  std::vector<double> work;
+  for (const auto& form :
+       frictionForms(contact, friction, s, atPadNodes(contact, motion.jump), motion))
+    work.push_back(-(std::conj(s) * (form.pressing + form.turning)).real() / forces.energy);
+  return work;
+}
+
+}  // namespace squeal::terms

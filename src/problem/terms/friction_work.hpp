@@ -1,0 +1,91 @@
+#pragma once
+/// The motion of a mode at the contact does the work of friction, which shows the part of the
+/// contact that feeds the mode.
+#include <array>
+#include <vector>
+
+#include "algebra/linalg/complexvector.hpp"
+#include "eigen/sweep/parameters.hpp"
+#include "model/contact/contact.hpp"
+#include "model/elasticity/elasticity.hpp"
+#include "steady/steady/steady.hpp"
+
+namespace squeal::terms {
+
+/// The complex amplitudes of a vector in space.
+using ComplexPoint = std::array<Complex, 3>;
+
+/// The nodal forces and the energy of a motion u e^{st}.
+struct MotionForces {
+  /// The nodal forces r* = (s² M + s (c C + v G) + K + v² K^R + K_σ) u, N entries.
+  linalg::ComplexVector forces;
+  /// The energy E = |s|² uᴴ M u + uᴴ (K + v² K^R + K_σ) u [M.51], four times the mean energy.
+  double energy = 0;
+};
+
+/// Collective. Returns the forces and the energy of the motion u, N entries. `prestress` is K_σ of
+/// the steady state; it may be null.
+MotionForces motionForces(const elasticity::Bodies& bodies, const sweep::Parameters& at, Complex s,
+                          const linalg::ComplexVector& u, Mat prestress);
+
+/// The amplitudes of a motion at the contact.
+struct ContactMotion {
+  linalg::ComplexVector jump;       ///< [u] in the rows of the pad nodes, N entries
+  linalg::ComplexVector convected;  ///< D u_D in the same rows; null without convective terms
+  /// The normal components of the nodal forces, E⁻ᵀ N r*, with that of open gaps left out, [owned
+  /// contact node].
+  std::vector<Complex> nodalForce;
+};
+/// Collective. Returns the values of a nodal vector in the rows of the pad nodes, [owned contact
+/// node].
+std::vector<ComplexPoint> atPadNodes(const contact::Contact& contact,
+                                     const linalg::ComplexVector& u);
+/// Collective. Returns the amplitudes of the motion u with the nodal forces `forces`; closed[k] is
+/// set for the closed gaps.
+ContactMotion contactMotion(const contact::Contact& contact,
+                            const std::vector<unsigned char>& closed,
+                            const linalg::ComplexVector& u, const linalg::ComplexVector& forces);
+
+/// The data of friction at one point of a sweep.
+struct FrictionState {
+  sweep::Parameters at;  ///< its friction is that of the part with the change of the normal force
+  std::vector<contact::Slip> slip;  ///< [owned contact node]
+  OwnedMat response;                ///< B of these, N×N
+};
+/// Collective. Returns the data of friction with B of these normal forces, responseForces().
+FrictionState frictionState(const contact::Contact& contact, const sweep::Parameters& at,
+                            std::vector<contact::Slip> slip,
+                            const std::vector<double>& responseForce);
+/// Collective. Returns the data of friction of the steady state.
+FrictionState frictionState(const contact::Contact& contact, const steady::Solution& solution);
+
+/// The form −[w]ᴴ R_T* of a contact node for a test jump [w] has two parts, with [4.7]
+///   R_T* = −f φ r_N* τ − B (s [u] − v D u_D).
+struct FrictionForm {
+  Complex pressing;  ///< part with the change of the normal force
+  Complex turning;   ///< part with the change of the relative velocity
+};
+/// Collective. Returns the forms of the contact nodes for the test jumps, both [owned contact
+/// node].
+std::vector<FrictionForm> frictionForms(const contact::Contact& contact, const FrictionState& state,
+                                        Complex s, const std::vector<ComplexPoint>& test,
+                                        const ContactMotion& motion);
+
+/// Collective. Returns the contribution of friction at each contact node to the growth rate of the
+/// mode u e^{st}, 1/s, [owned contact node]; closed[k] is set for the closed gaps. Where it is
+/// positive, friction feeds the mode. At open nodes it is zero, but for tri6 and quad8 faces that
+/// are closed in part.
+///
+/// The mode u = T x satisfies Tᵀ r* = (J T)ᵀ R_T*. The real part of its product with (s x)ᴴ is,
+/// with σ = Re s and E of MotionForces [M.51],
+///   σ E + |s|² c uᴴ C u = Σ_k Re((s [u]_k)ᴴ R_T*,k).
+/// G is skew and does no work. The value of node k is [M.52]
+///   Re((s [u]_k)ᴴ R_T*,k) / E.
+/// All values add up to σ + |s|² c uᴴ C u / E. The mean energy is E/4, and the work over a cycle is
+/// (π / Im s) E times the value.
+std::vector<double> frictionWork(const contact::Contact& contact, const elasticity::Bodies& bodies,
+                                 const std::vector<unsigned char>& closed,
+                                 const FrictionState& friction, const sweep::Parameters& at,
+                                 Complex s, const linalg::ComplexVector& u, Mat prestress);
+
+}  // namespace squeal::terms

@@ -1,0 +1,206 @@
+#include "problem/terms/influence.hpp"
+
+#include "algebra/linalg/complexvector.hpp"
+#include "base/petsc/arrays.hpp"
+#include "problem/terms/terms.hpp"
+#include "steady/steady/change.hpp"
+
+namespace squeal::terms {
+namespace {
+
+/// The step of central differences along the change of the steady state. It balances an error of
+/// its square against rounding divided by it.
+constexpr double step = 1e-4;
+
+/// Returns true if the steady state enters the terms of the point by the direction and law of slip,
+/// by friction damping or by prestress.
+bool followsSteadyState(const contact::Contact& contact, const sweep::Parameters& at,
+                        Mat prestress) {
+  const bool damping =
+      frictionDampingWanted() && (contact.mesh->dimension == 3 || !contact.law.constant());
+  return prestress || (contact.hasFriction(at.friction) && (damping || !contact.slipIsGiven()));
+}
+
+}  // namespace
+
+/// One parameter θ, and the change of the steady state with it.
+struct Influences::Influence {
+  std::string name;
+  double sweep::Parameters::*member = nullptr;  // θ in the point; null: θ belongs to a body
+  int body = -1;
+  bool density = false;  // θ is a factor on the density of the body; otherwise on its moduli
+  double size = 1;       // θ, for the step of differences
+  steady::Change change;
+  std::vector<double> responseForce;  // its change
+  OwnedMat prestress;                 // its change
+};
+
+/// A triple is given on all nodal displacements, so that
+///   yᴴ L(f)ᵀ X T x = zᴴ X u,   u = T x,   z = L(f) y.
+struct Influences::Projected {
+  Complex s;
+  linalg::ComplexVector u, z;  // T x, L(f) y
+  ContactMotion motion;
+  std::vector<ComplexPoint> test;  // [T y]
+};
+
+void Influences::derive(pencil::ComplexModes& point, const pencil::Pencil& pencil,
+                        const BodyPoint& state, const sensitivity::StartSpace& start) {
+  if (point.shapes.empty()) return;
+  const auto list = influences(state);
+  const sensitivity::Forms forms = [&](const sensitivity::EigenTriple& triple) {
+    const Projected pair = project(state, triple);
+    std::vector<pencil::Derivative> found;
+    for (const auto& influence : list) {
+      const Complex form =
+          influence.member ? sensitivity::parameterForm(pencil, state.at, triple, influence.member)
+                           : 0;
+      found.push_back({influence.name, form + materialForm(influence, state, pair) +
+                                           steadyForm(influence, state, pair)});
+    }
+    return found;
+  };
+  sensitivity::deriveShapes(point, pencil, start, state.system, forms);
+}
+
+std::vector<Influences::Influence> Influences::influences(const BodyPoint& state) {
+  for (int body = parts_.size(); body < std::ssize(mesh_.bodies); ++body)
+    parts_.push_back(elasticity::bodyPart(mesh_, body));
+  std::vector<Influence> list;
+  for (const auto& parameter : sweep::allParameters) {
+    list.emplace_back();
+    list.back().name = parameter.name, list.back().member = parameter.value;
+    if (parameter.value != &sweep::Parameters::friction)
+      list.back().size = state.at.*parameter.value;
+  }
+  for (int body = 0; body < std::ssize(mesh_.bodies); ++body)
+    for (const bool density : {false, true}) {
+      list.emplace_back();
+      list.back().name = (density ? "density_" : "young_") + mesh_.bodies[body];
+      list.back().body = body, list.back().density = density;
+    }
+  if (!followsSteadyState(contact_, state.at, state.prestress)) return list;
+  const steady::Problem problem(mesh_, bodies_, contact_);
+  for (auto& influence : list)
+    if (influence.member != &sweep::Parameters::damping)
+      followSteadyState(state, problem, influence);
+  return list;
+}
+
+void Influences::followSteadyState(const BodyPoint& state, const steady::Problem& problem,
+                                   Influence& influence) const {
+  const double v = state.at.speed;
+  const OwnedVec force = elasticity::nodalVector(mesh_);
+  steady::Cause cause;
+  cause.force = force;
+  //   dr = factor (K^R u − centrifugal forces), of one body or of all
+  const auto inertiaForms = [&](Mat rotationStiffness, Vec centrifugal, double factor) {
+    if (rotationStiffness) check(MatMult(rotationStiffness, state.solution.displacement, force));
+    check(VecAXPY(force, -1, centrifugal));
+    check(VecScale(force, factor));
+  };
+  if (influence.member == &sweep::Parameters::friction) cause.friction = 1;
+  if (influence.member == &sweep::Parameters::speed) {
+    inertiaForms(bodies_.rotationStiffness, bodies_.centrifugal, 2 * v);
+    cause.speed = 1;
+  }
+  if (influence.member == &sweep::Parameters::pressure) {
+    check(VecAXPY(force, -1, bodies_.load));
+    check(VecAXPY(force, 1, bodies_.centrifugal));
+    cause.held = contact_.offset;
+  }
+  if (!influence.member) {
+    const auto& part = parts_[influence.body];
+    if (influence.density)
+      inertiaForms(part.rotationStiffness, part.centrifugal, v * v);
+    else
+      check(MatMult(part.stiffness, state.solution.displacement, force));
+  }
+  influence.change = steady::change(problem, state.solution, state.system, cause);
+  influence.responseForce = responseForces(state.solution.closed, influence.change.normalForce);
+  if (state.prestress)
+    influence.prestress = elasticity::geometricStiffness(mesh_, influence.change.displacement);
+}
+
+Influences::Projected Influences::project(const BodyPoint& state,
+                                          const sensitivity::EigenTriple& triple) const {
+  const Mat trial = state.system.transformation().trial;
+  Projected pair{triple.s, product(trial, triple.x), product(trial, triple.y), {}, {}};
+  pair.motion =
+      contactMotion(contact_, state.solution.closed, pair.u,
+                    motionForces(bodies_, state.at, triple.s, pair.u, state.prestress).forces);
+  pair.test = atPadNodes(contact_, product(contact_.jump, pair.z));
+  //   L(f) y = T y + f Nᵀ S y
+  std::vector<double> alongReal, alongImaginary;
+  for (std::size_t k = 0; k < contact_.nodes.size(); ++k) {
+    const auto& slip = state.solution.slip[k];
+    Complex along = 0;
+    for (std::size_t d = 0; d < 3; ++d) along += slip.direction[d] * pair.test[k][d];
+    along *= slip.friction(state.at.friction);
+    alongReal.push_back(along.real()), alongImaginary.push_back(along.imag());
+  }
+  alongReal = contact_.gapCoefficients(alongReal);
+  alongImaginary = contact_.gapCoefficients(alongImaginary);
+  const linalg::ComplexVector slips = linalg::ComplexVector::like(pair.z.real);
+  {
+    const WriteArray real(slips.real), imaginary(slips.imaginary);
+    for (std::size_t k = 0; k < contact_.nodes.size(); ++k) {
+      if (!state.solution.closed[k]) continue;
+      const PetscInt row = contact_.gapRow(contact_.nodes[k]) - mesh_.dimension * mesh_.firstNode;
+      real[row] = alongReal[k], imaginary[row] = alongImaginary[k];
+    }
+  }
+  add(pair.z, 1, product(contact_.reaction, slips, true));
+  return pair;
+}
+
+/// Returns zᴴ (∂P/∂θ) u for the matrices of one body [M.47]: K, C and K_σ with its moduli, or M, C,
+/// G and K^R with its density.
+Complex Influences::materialForm(const Influence& influence, const BodyPoint& state,
+                                 const Projected& pair) const {
+  if (influence.member) return 0;
+  const auto& part = parts_[influence.body];
+  const auto form = [&](Mat matrix) { return matrix ? dot(pair.z, product(matrix, pair.u)) : 0; };
+  const Complex s = pair.s;
+  const double v = state.at.speed, c = state.at.damping;
+  if (influence.density)
+    return (s * s + s * c * part.massDamping) * form(part.mass) + s * v * form(part.gyroscopic) +
+           v * v * form(part.rotationStiffness);
+  Complex sum = (1.0 + s * c * part.stiffnessDamping) * form(part.stiffness);
+  if (state.prestress)
+    sum += form(elasticity::geometricStiffness(mesh_, state.solution.displacement, influence.body));
+  return sum;
+}
+
+/// Returns the part that comes from the change of the steady state. That of K_σ, which is linear in
+/// the displacement, is exact; that of friction is a central difference.
+Complex Influences::steadyForm(const Influence& influence, const BodyPoint& state,
+                               const Projected& pair) const {
+  if (!influence.change.displacement) return 0;
+  Complex sum = 0;
+  if (state.prestress) sum += dot(pair.z, product(influence.prestress, pair.u));
+  Complex friction = 0;
+  const double h = step * influence.size;
+  const OwnedVec u = elasticity::nodalVector(mesh_);
+  for (const double sign : {-1.0, 1.0}) {
+    sweep::Parameters at = state.solution.at;
+    if (influence.member) at.*influence.member += sign * h;
+    check(VecWAXPY(u, sign * h, influence.change.displacement, state.solution.displacement));
+    std::vector<double> force;
+    for (std::size_t k = 0; k < influence.responseForce.size(); ++k)
+      force.push_back(state.solution.contact[k].normalForce);
+    force = responseForces(state.solution.closed, std::move(force));
+    for (std::size_t k = 0; k < force.size(); ++k)
+      force[k] += sign * h * influence.responseForce[k];
+    FrictionState moved = frictionState(contact_, at, contact_.slip(at.speed, u), force);
+    // The f that multiplies the change of the normal force is held: it is a coefficient of the
+    // pencil.
+    moved.at.friction = state.at.friction;
+    for (const auto& form : frictionForms(contact_, moved, pair.s, pair.test, pair.motion))
+      friction += sign / (2 * h) * (form.pressing + form.turning);
+  }
+  check(MPI_Allreduce(MPI_IN_PLACE, &friction, 1, MPI_C_DOUBLE_COMPLEX, MPI_SUM, mesh_.comm));
+  return sum + friction;
+}
+
+}  // namespace squeal::terms

@@ -1,0 +1,64 @@
+#pragma once
+/// Derivatives of the eigenvalues with respect to the parameters of the point, and to the moduli
+/// and the density of each body, are made from the matrices of which the pencil is made.
+#include <vector>
+
+#include "algebra/linalg/complex.hpp"
+#include "eigen/pencil/complex_modes.hpp"
+#include "eigen/pencil/pencil.hpp"
+#include "eigen/sensitivity/derive.hpp"
+#include "eigen/sensitivity/left.hpp"
+#include "eigen/sensitivity/sensitivity.hpp"
+#include "eigen/sweep/parameters.hpp"
+#include "model/contact/coupled.hpp"
+#include "model/elasticity/elasticity.hpp"
+#include "model/mesh/mesh.hpp"
+#include "problem/terms/friction_work.hpp"
+#include "steady/steady/steady.hpp"
+
+namespace squeal::terms {
+
+/// One point of a sweep in the terms of the bodies. System, solution and prestress are borrowed.
+struct BodyPoint {
+  sweep::Parameters at;
+  const contact::CoupledSystem& system;
+  const steady::Solution& solution;
+  Mat prestress = nullptr;  ///< K_σ of the steady state; null: none
+};
+
+/// Computes total derivatives of eigenvalues.
+class Influences {
+ public:
+  /// Borrows all arguments during the life of the object.
+  Influences(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
+             const contact::Contact& contact)
+      : mesh_(mesh), bodies_(bodies), contact_(contact) {}
+
+  /// Collective. Appends to ComplexModes::sensitivities an entry for each shape of the point, whose
+  /// terms the pencil holds. The derivatives [M.46] include the terms that follow the steady state;
+  /// the active set and the matrix of modal damping are held. The parameters are friction, speed,
+  /// pressure and damping as in Parameters, a factor young_BODY on all moduli of a body (ds/d ln
+  /// E), and a factor density_BODY on its density (ds/d ln ρ). Left vectors are looked for from
+  /// `start`. Throws Error if the change of the steady state is not found.
+  void derive(pencil::ComplexModes& point, const pencil::Pencil& pencil, const BodyPoint& state,
+              const sensitivity::StartSpace& start);
+
+ private:
+  struct Influence;
+  struct Projected;
+  std::vector<Influence> influences(const BodyPoint& state);
+  void followSteadyState(const BodyPoint& state, const steady::Problem& problem,
+                         Influence& influence) const;
+  Complex materialForm(const Influence& influence, const BodyPoint& state,
+                       const Projected& pair) const;
+  Complex steadyForm(const Influence& influence, const BodyPoint& state,
+                     const Projected& pair) const;
+  Projected project(const BodyPoint& state, const sensitivity::EigenTriple& triple) const;
+
+  const mesh::Mesh& mesh_;
+  const elasticity::Bodies& bodies_;
+  const contact::Contact& contact_;
+  std::vector<elasticity::BodyPart> parts_;  // [body], made when first needed
+};
+
+}  // namespace squeal::terms

@@ -1,0 +1,120 @@
+#include "problem/terms/terms.hpp"
+
+#include "base/options/options.hpp"
+#include "problem/terms/friction_work.hpp"
+
+namespace squeal::terms {
+namespace {
+
+const FlagOption dampingOption("flutter", "flutter_friction_damping", true,
+                               "the friction force turns with the relative velocity and follows "
+                               "the friction law: friction-induced "
+                               "damping and, with convective terms, stiffness");
+
+/// The exponents of s, of the speed and of the damping factor for a matrix of the bodies.
+struct Role {
+  const contact::Projection& projection;
+  int power, speedExponent, dampingExponent;
+};
+
+std::vector<Role> roles(const contact::CoupledSystem& system) {
+  return {{system.projections().stiffness, 0, 0, 0},
+          {system.projections().mass, 2, 0, 0},
+          {system.projections().damping, 1, 0, 1},
+          {system.projections().gyroscopic, 1, 1, 0},
+          {system.projections().rotationStiffness, 0, 2, 0}};
+}
+
+/// Appends the terms f^a S_aᵀ N X T of one matrix X for all powers a, at the nodes that slide.
+void addFriction(std::vector<pencil::Term>& terms, const Role& role,
+                 const contact::Contact& contact, const contact::CoupledSystem& system,
+                 const std::vector<contact::Slip>& slip, const std::vector<unsigned char>& slides) {
+  for (const int exponent : contact.frictionExponents()) {
+    const OwnedMat rows = contact.slipRows(system.transformation(), slip, slides, exponent);
+    terms.push_back({role.projection.friction(rows), role.power, exponent, 1.0, role.speedExponent,
+                     role.dampingExponent, true});
+  }
+}
+
+/// Appends these terms for each matrix X of the bodies.
+void addFriction(std::vector<pencil::Term>& terms, const contact::Contact& contact,
+                 const contact::CoupledSystem& system, const std::vector<contact::Slip>& slip,
+                 const std::vector<unsigned char>& slides) {
+  for (const auto& role : roles(system))
+    if (role.projection) addFriction(terms, role, contact, system, slip, slides);
+}
+
+/// Appends the terms of the change −B w* of the friction force [4.7, M.21].
+void addVelocityResponse(std::vector<pencil::Term>& terms, const contact::Contact& contact,
+                         const contact::CoupledSystem& system, const steady::Solution& solution) {
+  const FrictionState friction = frictionState(contact, solution);
+  const Mat trial = system.transformation().trial;
+  OwnedMat jumps, answered, damping;
+  check(MatMatMult(contact.jump, trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, jumps.out()));
+  check(MatMatMult(friction.response, jumps, MAT_INITIAL_MATRIX, PETSC_DEFAULT, answered.out()));
+  check(MatTransposeMatMult(jumps, answered, MAT_INITIAL_MATRIX, PETSC_DEFAULT, damping.out()));
+  // With a constant law only rounding is left in the plane, and where motion across the sliding
+  // direction is held.
+  PetscReal size = 0, scale = 0;
+  check(MatNorm(damping, NORM_FROBENIUS, &size));
+  check(MatNorm(friction.response, NORM_FROBENIUS, &scale));
+  if (size <= 1e-14 * scale) return;
+  check(MatSetOption(damping, MAT_SYMMETRIC, PETSC_TRUE));
+  terms.push_back({std::move(damping), 1, 0, 1.0, 0, 0, true});
+  if (!contact.convected) return;
+  OwnedMat convected, turned, stiffness;
+  check(MatMatMult(contact.convected, trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT, convected.out()));
+  check(MatMatMult(friction.response, convected, MAT_INITIAL_MATRIX, PETSC_DEFAULT, turned.out()));
+  check(MatTransposeMatMult(jumps, turned, MAT_INITIAL_MATRIX, PETSC_DEFAULT, stiffness.out()));
+  terms.push_back({std::move(stiffness), 0, 0, -solution.at.speed, 0, 0, true});
+}
+
+}  // namespace
+
+pencil::Pencil affineTerms(const contact::Contact& contact, const contact::CoupledSystem& system) {
+  std::vector<pencil::Term> terms;
+  for (const auto& role : roles(system))
+    if (role.projection)
+      terms.push_back({role.projection.matrix.share(), role.power, 0, 1.0, role.speedExponent,
+                       role.dampingExponent});
+  pencil::Pencil pencil(std::move(terms));
+  pencil.add(slidingTerms(contact, system, system.closed()));
+  return pencil;
+}
+
+std::vector<pencil::Term> slidingTerms(const contact::Contact& contact,
+                                       const contact::CoupledSystem& system,
+                                       const std::vector<unsigned char>& slides) {
+  std::vector<pencil::Term> terms;
+  if (contact.slipIsGiven()) addFriction(terms, contact, system, contact.slip(1, nullptr), slides);
+  return terms;
+}
+
+std::vector<pencil::Term> pointTerms(const contact::Contact& contact,
+                                     const contact::CoupledSystem& system,
+                                     const steady::Solution& solution, Mat prestressChange) {
+  std::vector<pencil::Term> terms;
+  const bool friction = contact.hasFriction(solution.at.friction);
+  if (friction && !contact.slipIsGiven())
+    addFriction(terms, contact, system, solution.slip, solution.closed);
+  if (friction && dampingOption.get()) addVelocityResponse(terms, contact, system, solution);
+  if (prestressChange) {
+    contact::Projection change =
+        contact::project(contact, system.transformation(), prestressChange);
+    addFriction(terms, {change, 0, 0, 0}, contact, system, solution.slip, solution.closed);
+    terms.push_back({std::move(change.matrix), 0, 0, 1.0, 0});
+  }
+  return terms;
+}
+
+bool frictionDampingWanted() { return dampingOption.get(); }
+
+std::vector<double> responseForces(const std::vector<unsigned char>& closed,
+                                   std::vector<double> normalForce) {
+  if (!dampingOption.get()) return std::vector<double>(normalForce.size(), 0.0);
+  for (std::size_t i = 0; i < normalForce.size(); ++i)
+    if (!closed[i]) normalForce[i] = 0;
+  return normalForce;
+}
+
+}  // namespace squeal::terms

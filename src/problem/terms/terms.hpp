@@ -1,0 +1,42 @@
+#pragma once
+/// The terms of the friction-perturbed problem [4.15, 4.16] are made from the coupled matrices and
+/// the steady state.
+#include "eigen/pencil/pencil.hpp"
+#include "model/contact/coupled.hpp"
+#include "steady/steady/steady.hpp"
+
+namespace squeal::terms {
+
+/// Collective. Returns the terms that hold for all parameters: K0, M0, c C0, v G0, v² K^R0 and, if
+/// the slip is the same at all points, the friction f^a S_aᵀ N X T of each of these matrices for
+/// the powers a with which there is friction. The arguments are not needed afterwards.
+pencil::Pencil affineTerms(const contact::Contact& contact, const contact::CoupledSystem& system);
+
+/// Collective. Returns the friction among these terms of the contact nodes with slides[i] set,
+/// which may be open in `system`; none if the slip is not the same at all points.
+std::vector<pencil::Term> slidingTerms(const contact::Contact& contact,
+                                       const contact::CoupledSystem& system,
+                                       const std::vector<unsigned char>& slides);
+
+/// Collective. Returns the terms that depend on the steady state. The first of them is the friction
+/// f^a S_aᵀ N X T where the slip follows the deformation or a friction law. The second is the
+/// change of the friction force with the relative velocity w* = [u_t] − v D u_D, −B w* [4.7]. It
+/// gives [M.21]
+///   (J T)ᵀ B (J T) in Z̄, the paper's f[A],
+///   −v (J T)ᵀ B (D T) in K̄, the paper's f[B_T] + f[B_N], with convective terms.
+/// Both are left out where there is no friction. The last is `prestressChange`, N×N, the change of
+/// the geometric stiffness from that in `system`, with the friction that it causes; null: none.
+/// Without
+/// `-flutter_friction_damping` the friction force changes by R_T* = −f φ R_N* τ only.
+std::vector<pencil::Term> pointTerms(const contact::Contact& contact,
+                                     const contact::CoupledSystem& system,
+                                     const steady::Solution& solution, Mat prestressChange);
+
+/// Returns the option `-flutter_friction_damping`.
+bool frictionDampingWanted();
+/// Not collective. Returns the normal forces that enter B, [owned contact node], N: R_N at the
+/// `closed` nodes, zero at the others and without `-flutter_friction_damping`.
+std::vector<double> responseForces(const std::vector<unsigned char>& closed,
+                                   std::vector<double> normalForce);
+
+}  // namespace squeal::terms

@@ -1,0 +1,81 @@
+#pragma once
+/// A passage is a march over a single period, from what its first step finds to what its last step
+/// hands on [M.77].
+#include <mpi.h>
+
+#include <vector>
+
+#include "regime/march/massless.hpp"
+#include "regime/march/model.hpp"
+
+namespace squeal::cycles {
+
+using linalg::DenseMatrix;
+using march::Handed;
+using march::ReducedModel;
+
+/// A motion over one period, periodic or not.
+struct Orbit {
+  Handed start;         ///< what its first step finds
+  double period = 0;    ///< s
+  double friction = 0;  ///< the swept coefficient
+};
+
+/// Measures tell what happens over one period.
+struct Measures {
+  double largestKinetic = 0;       ///< J
+  double frictionPower = 0;        ///< heat of friction, W
+  double frictionCoefficient = 0;  ///< −Σ R_T·τ / Σ R_N
+  int opening = 0, sticking = 0;   ///< nodes that open, or come to rest, at some time
+  bool linear = true;              ///< no node opens, closes, rests or begins to slide
+};
+
+/// The end of a period.
+struct Passage {
+  Handed end;
+  Measures measures;
+  int quietest = 0;  ///< the number of steps after which the fewest nodes stick
+};
+
+/// The derivative of the end of a passage with respect to its start, in the entries of q and v and
+/// of those slips in z that stick at the start: other entries of z are forgotten in a few steps.
+struct Monodromy {
+  std::vector<PetscInt> stuck;  ///< rows of z
+  DenseMatrix end;              ///< of q, v and stuck z, square
+  DenseMatrix z;                ///< of all z, rows × columns of the above
+};
+
+/// Returns √(qᵀΛq + vᵀv + zᵀK_z z), √J.
+double norm(const ReducedModel& model, const Handed& x);
+/// Returns norm(end − start) over norm(start).
+double change(const ReducedModel& model, const Handed& start, const Handed& end);
+
+/// Makes passages of one model at any friction: the model is as exact at other frictions than its
+/// own, because static responses to friction are among its displacements.
+class Period {
+ public:
+  /// The model, which is copied, was made at the friction `friction`. A period has `steps` steps of
+  /// the massless scheme. All ranks of `comm` have the same model; they share the columns of
+  /// derivatives.
+  Period(MPI_Comm comm, ReducedModel model, double friction, int steps);
+  MPI_Comm comm() const { return comm_; }
+  const ReducedModel& model() const { return model_; }
+  int steps() const { return steps_; }
+
+  /// Collective. Returns the end of a period, or of its first `steps` steps. Throws Error where the
+  /// contact forces of a step do not converge or the motion is not finite.
+  Passage pass(const Orbit& orbit, int steps);
+  Passage pass(const Orbit& orbit) { return pass(orbit, steps_); }
+  /// Collective. Returns the derivative of pass().
+  Monodromy derivative(const Orbit& orbit);
+
+ private:
+  march::Massless schemeOf(const Orbit& orbit, const StopAsked& asked);
+  MPI_Comm comm_;
+  ReducedModel model_;
+  double modelFriction_;
+  std::vector<double> nodeFriction_;  // [node] at modelFriction_
+  int steps_;
+};
+
+}  // namespace squeal::cycles

@@ -1,0 +1,263 @@
+#include "regime/march/massless.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "algebra/linalg/lu.hpp"
+#include "algebra/linalg/symmetric.hpp"
+#include "base/petsc/check.hpp"
+#include "regime/march/products.hpp"
+
+namespace squeal::march {
+namespace {
+
+/// Returns (K_z + C_z / h)⁻¹, with zeros in the rows and columns of what does not move.
+DenseMatrix boundaryCompliance(const ReducedModel& model, double h) {
+  const PetscInt m = model.rows();
+  DenseMatrix a = model.boundaryStiffness, inverse(m, m);
+  linalg::addScaled(a, 1 / h, model.boundaryDamping);
+  for (PetscInt i = 0; i < m; ++i) inverse(i, i) = 1;
+  linalg::Lu<double>(std::move(a)).solve(inverse);
+  inverse = linalg::symmetricPart(inverse);
+  for (PetscInt i = 0; i < m; ++i)
+    for (PetscInt j = 0; j < m; ++j)
+      if (!model.moves[i] || !model.moves[j]) inverse(i, j) = 0;
+  return inverse;
+}
+
+/// Returns (1 + h C/2)⁻¹.
+DenseMatrix modalInverse(const ReducedModel& model, double h) {
+  const PetscInt k = model.modes();
+  DenseMatrix a(k, k), inverse(k, k);
+  for (PetscInt i = 0; i < k; ++i) a(i, i) = inverse(i, i) = 1;
+  linalg::addScaled(a, h / 2, model.damping);
+  linalg::Lu<double>(std::move(a)).solve(inverse);
+  return inverse;
+}
+
+}  // namespace
+
+Handed handedAt(const Start& start, double h) {
+  Handed handed{start.q, start.v, start.z};
+  for (std::size_t i = 0; i < start.acceleration.size(); ++i)
+    handed.v[i] -= h / 2 * start.acceleration[i];
+  for (std::size_t i = 0; i < start.zRate.size(); ++i) handed.z[i] -= h * start.zRate[i];
+  return handed;
+}
+
+Massless::Massless(const ReducedModel& model, const Handed& handed, double h)
+    : Scheme(model),
+      h_(h),
+      solver_(boundaryCompliance(model, h), model.dimension, model.moves),
+      modalInverse_(modalInverse(model, h)),
+      active_(model.nodes.size(), 1),
+      q_(handed.q),
+      v_(handed.v),
+      z_(handed.z),
+      jump_(handed.z),
+      damped_(model.rows()),
+      before_(steadyForce_) {
+  addProduct(model.boundaryDamping, z_, damped_);
+  std::vector<double> q = q_;  // of the step before
+  for (std::size_t i = 0; i < q.size(); ++i) q[i] -= h * v_[i];
+  addProduct(model.jump, q, jump_);
+  for (PetscInt row = 0; row < model.rows(); row += model.dimension)
+    stiffness_.push_back(1 / solver_.w()(row, row));
+  state_.time = -h;
+}
+
+void Massless::setAccuracy(double relative) { tolerance_ *= relative / accuracy; }
+
+void Massless::step() {
+  const PetscInt k = model_.modes(), m = model_.rows();
+  updateFriction();
+  // What acts on the boundary beside the contact forces, and these as the last two steps
+  // continue.
+  std::vector<double> guess(m), load(m);
+  for (PetscInt i = 0; i < m; ++i) {
+    guess[i] = 2 * state_.force[i] - before_[i];
+    load[i] = damped_[i] / h_ - steadyForce_[i];
+  }
+  for (PetscInt row = 0; row < m; row += model_.dimension)
+    if (guess[row] <= 0)
+      for (int c = 0; c < model_.dimension; ++c) guess[row + c] = 0;
+  addProduct(model_.couplingStiffness, q_, load, -1);
+  addProduct(model_.couplingDamping, v_, load, -1);
+  for (PetscInt i = 0; i < m; ++i) load[i] += guess[i];
+  std::vector<double> carried(m), jump(m);
+  addProduct(model_.jump, q_, carried);
+  addProduct(solver_.w(), load, jump);
+  increments_.resize(m);
+  for (PetscInt i = 0; i < m; ++i) {
+    jump[i] += carried[i];
+    increments_[i] = jump[i] + (isNormal(i) ? steadyGap_[i] : h_ * steadyVelocity_[i] - jump_[i]);
+  }
+  before_ = std::exchange(state_.force, std::move(guess));
+  sweeps_ = solver_.solve(friction_, active_, tolerance_, state_.force, increments_, stopAsked_);
+  std::vector<double> change(m), rate(m), z(m);  // R*, ż
+  for (PetscInt i = 0; i < m; ++i) {
+    jump[i] = increments_[i] - (isNormal(i) ? steadyGap_[i] : h_ * steadyVelocity_[i] - jump_[i]);
+    z[i] = jump[i] - carried[i];
+    rate[i] = (z[i] - z_[i]) / h_;
+    change[i] = state_.force[i] - steadyForce_[i];
+  }
+  std::vector<double> damped(m), force(k), mean(k), acceleration(k);
+  addProduct(model_.boundaryDamping, z, damped);
+  addProduct(model_.damping, v_, force, -1);
+  addProduct(model_.couplingDamping, rate, force, -1, true);
+  for (PetscInt i = 0; i < k; ++i) force[i] -= model_.stiffness[i] * q_[i];
+  addProduct(model_.couplingStiffness, z, force, -1, true);
+  addProduct(model_.jump, change, force, 1, true);
+  // C acts on the mean of the velocities before and after the step.
+  addProduct(modalInverse_, force, acceleration);
+  state_.q = q_;
+  double kinetic = 0;
+  for (PetscInt i = 0; i < k; ++i) {
+    mean[i] = v_[i] + h_ / 2 * acceleration[i];
+    kinetic += mean[i] * mean[i] / 2;
+    v_[i] += h_ * acceleration[i];
+    q_[i] += h_ * v_[i];
+  }
+  std::vector<double> resisting(k);  // of damping
+  addProduct(model_.damping, mean, resisting, -1);
+  addProduct(model_.couplingDamping, rate, resisting, -1, true);
+  if (!std::isfinite(kinetic)) throw Error("the motion is not finite: the time step is too long");
+  // Damping works on q and z; what it does to z is C_z ż + C_zq v.
+  std::vector<double> onBoundary(m);
+  addProduct(model_.couplingDamping, v_, onBoundary);
+  for (PetscInt i = 0; i < m; ++i) onBoundary[i] += (damped[i] - damped_[i]) / h_;
+  work_.damping += h_ * (dot(rate, onBoundary) - dot(mean, resisting));
+  std::vector<double> along(m);  // j v̄ + ż
+  addProduct(model_.jump, mean, along);
+  for (PetscInt i = 0; i < m; ++i) {
+    const double power = change[i] * (along[i] + rate[i]);
+    work_.contact += h_ * power;
+    work_.moved += h_ * std::abs(power);
+    state_.rate.resize(m);
+    state_.rate[i] = steadyVelocity_[i] + (jump[i] - jump_[i]) / h_;
+    if (!isNormal(i)) work_.friction -= h_ * state_.force[i] * state_.rate[i];
+  }
+  state_.v = std::move(mean);
+  state_.jump = jump;
+  state_.kinetic = kinetic;
+  state_.time += h_;
+  jump_ = std::move(jump), z_ = std::move(z), damped_ = std::move(damped);
+}
+
+double Massless::energy() const {
+  std::vector<double> force(model_.rows());
+  addProduct(model_.boundaryStiffness, z_, force, 0.5);
+  addProduct(model_.couplingStiffness, state_.q, force);
+  double sum = state_.kinetic + dot(force, z_);
+  for (PetscInt i = 0; i < model_.modes(); ++i)
+    sum += model_.stiffness[i] * state_.q[i] * state_.q[i] / 2;
+  return sum;
+}
+
+/// Returns true if both slips of a node that is in contact rested in the last step.
+bool Massless::sticks(std::size_t node) const {
+  const PetscInt row = node * model_.dimension;
+  double to[2] = {0, 0};
+  for (int c = 1; c < model_.dimension; ++c)
+    if (model_.moves[row + c])
+      to[c - 1] = state_.force[row + c] - stiffness_[node] * increments_[row + c];
+  // The projection onto the cone leaves what sticks within it.
+  return std::hypot(to[0], to[1]) < friction_[node] * state_.force[row];
+}
+
+std::vector<unsigned char> Massless::stuck() const {
+  std::vector<unsigned char> result(model_.rows());
+  for (std::size_t node = 0; node < model_.nodes.size(); ++node)
+    for (int c = 1; c < model_.dimension; ++c) {
+      const PetscInt row = node * model_.dimension;
+      result[row + c] = model_.moves[row + c] && state_.force[row] > 0 && sticks(node);
+    }
+  return result;
+}
+
+/// Returns the variations δR for given ones of b in d = b + W R. A node in contact has δd_N = 0;
+/// where it sticks δd_T = 0; where it slides, with e = d_T/|d_T|,
+///   δR_T = −f e δR_N − (f R_N/|d_T|) (1 − e eᵀ) δd_T.
+DenseMatrix Massless::forceVariations(const DenseMatrix& b) const {
+  const DenseMatrix& w = solver_.w();
+  const int dimension = model_.dimension;
+  std::vector<PetscInt> rows;  // that carry force
+  for (std::size_t node = 0; node < model_.nodes.size(); ++node)
+    for (int c = 0; c < dimension; ++c)
+      if (const PetscInt row = node * dimension + c;
+          state_.force[node * dimension] > 0 && (c == 0 || model_.moves[row]) && w(row, row) > 0)
+        rows.push_back(row);
+  const PetscInt n = std::ssize(rows), columns = b.columns();
+  DenseMatrix result(model_.rows(), columns);
+  if (n == 0) return result;
+  DenseMatrix a(n, n), right(n, columns);
+  for (PetscInt i = 0; i < n; ++i) {
+    const PetscInt row = rows[i], normal = row - row % dimension;
+    const std::size_t node = row / dimension;
+    if (isNormal(row) || sticks(node)) {
+      for (PetscInt j = 0; j < n; ++j) a(i, j) = w(row, rows[j]) / w(row, row);
+      for (PetscInt j = 0; j < columns; ++j) right(i, j) = -b(row, j) / w(row, row);
+      continue;
+    }
+    double d[2] = {0, 0};
+    for (int c = 1; c < dimension; ++c)
+      if (model_.moves[normal + c]) d[c - 1] = increments_[normal + c];
+    const double length = std::hypot(d[0], d[1]), f = friction_[node];
+    const double across = f * state_.force[normal] / length;
+    // The row is divided by the size of its diagonal.
+    const double scale = 1 / (1 + across * w(row, row));
+    const int own = row - normal - 1;
+    for (PetscInt j = 0; j < n; ++j) {
+      double sum = rows[j] == row ? 1 : rows[j] == normal ? f * d[own] / length : 0;
+      for (int c = 0; c + 1 < dimension; ++c)
+        if (model_.moves[normal + 1 + c])
+          sum +=
+              across * ((c == own) - d[own] * d[c] / length / length) * w(normal + 1 + c, rows[j]);
+      a(i, j) = scale * sum;
+    }
+    for (PetscInt j = 0; j < columns; ++j)
+      for (int c = 0; c + 1 < dimension; ++c)
+        if (model_.moves[normal + 1 + c])
+          right(i, j) -= scale * across * ((c == own) - d[own] * d[c] / length / length) *
+                         b(normal + 1 + c, j);
+  }
+  linalg::Lu<double>(std::move(a)).solve(right);
+  for (PetscInt j = 0; j < columns; ++j)
+    for (PetscInt i = 0; i < n; ++i) result(rows[i], j) = right(i, j);
+  return result;
+}
+
+void Massless::propagate(Variations& x) const {
+  using linalg::addScaled, linalg::multiplyAdd, linalg::product, linalg::transposedProduct;
+  const DenseMatrix& w = solver_.w();
+  DenseMatrix load(model_.rows(), x.q.columns());
+  multiplyAdd(model_.boundaryDamping, x.z, load, 1 / h_);
+  multiplyAdd(model_.couplingStiffness, x.q, load, -1);
+  multiplyAdd(model_.couplingDamping, x.v, load, -1);
+  // d without the forces: of a gap j q + W L, of a slip W L − z_{n−1} + h j v.
+  DenseMatrix increments = product(w, load);
+  const DenseMatrix gaps = product(model_.jump, x.q), slips = product(model_.jump, x.v);
+  for (PetscInt j = 0; j < increments.columns(); ++j)
+    for (PetscInt i = 0; i < increments.rows(); ++i)
+      increments(i, j) += isNormal(i) ? gaps(i, j) : h_ * slips(i, j) - x.z(i, j);
+  const DenseMatrix force = forceVariations(increments);
+  addScaled(load, 1, force);
+  DenseMatrix z = product(w, load), rate = z;  // h ż
+  addScaled(rate, -1, x.z);
+  DenseMatrix modal = transposedProduct(model_.jump, force);
+  addScaled(modal, -1, transposedProduct(model_.couplingStiffness, z));
+  addScaled(modal, -1 / h_, transposedProduct(model_.couplingDamping, rate));
+  multiplyAdd(model_.damping, x.v, modal, -1);
+  for (PetscInt j = 0; j < modal.columns(); ++j)
+    for (PetscInt i = 0; i < modal.rows(); ++i) modal(i, j) -= model_.stiffness[i] * x.q(i, j);
+  multiplyAdd(modalInverse_, modal, x.v, h_);
+  addScaled(x.q, h_, x.v);
+  x.z = std::move(z);
+}
+
+std::unique_ptr<Scheme> masslessScheme(const ReducedModel& model, const Start& start, double h) {
+  return std::make_unique<Massless>(model, handedAt(start, h), h);
+}
+
+}  // namespace squeal::march

@@ -1,0 +1,86 @@
+#pragma once
+/// The reduced model of the motion about steady sliding keeps the exact conditions of contact and
+/// friction at every contact node [M.70, M.71]:
+///   u = u_s + V q + Ψ z,   y = j q + z,
+///   q̈ + C q̇ + Λ q + K_zqᵀ z + C_zqᵀ ż = jᵀ R*,
+///   M_z z̈ + C_z ż + K_z z + K_zq q + C_zq q̇ = R*,
+/// with the jump y of gaps and slips and the contact forces R = R_s + R*. The contact moves with
+/// the modes, j q, and by z, which the modes do not carry. M_z is left out unless a scheme asks for
+/// it: the boundary is then massless, and an impact has no impulse.
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "algebra/linalg/dense.hpp"
+#include "base/system/termination.hpp"
+#include "model/mesh/mesh.hpp"
+
+namespace squeal::march {
+
+using linalg::DenseMatrix;
+using mesh::Point;
+
+/// A contact node of the reduced model with its steady state. Its rows of the jump are the gap and
+/// one slip along each tangent, in the coefficients E⁻¹ of contact::Contact.
+struct Node {
+  int interface = 0;
+  Point position{};
+  Point normal{};                    ///< unit, from disc to pad
+  std::array<Point, 2> tangents{};   ///< unit; the first along τ where the node slides
+  double friction = 0;               ///< coefficient of friction, at the steady sliding velocity
+  double lawCoefficient = 0;         ///< what the law is multiplied by; 0: no law applies
+  double frictionSlope = 0;          ///< derivative of `friction` by the speed of sliding, s/m
+  double sweptFriction = 0;          ///< derivative of `friction` by the swept one
+  double area = 0;                   ///< m²
+  double gap = 0;                    ///< steady gap, m; 0 where it is pressed
+  double normalForce = 0;            ///< steady R_N, N, ≥ 0
+  std::array<double, 2> shear{};     ///< steady friction force on the pad along the tangents, N
+  std::array<double, 2> velocity{};  ///< steady relative velocity of the pad, m/s; 0: it sticks
+  bool pressed() const { return normalForce > 0; }
+  bool rubs() const { return friction > 0 || lawCoefficient > 0; }
+  bool sticks() const { return velocity[0] == 0 && velocity[1] == 0; }
+};
+
+struct ReducedModel {
+  int dimension = 3;  ///< rows of the jump per node
+  std::vector<Node> nodes;
+  std::vector<double> stiffness;  ///< Λ, rad²/s², [mode]
+  DenseMatrix damping;            ///< C, modes × modes, 1/s
+  DenseMatrix jump;               ///< j, rows × modes
+  DenseMatrix boundaryMass;       ///< M_z, rows × rows
+  DenseMatrix boundaryDamping;    ///< C_z
+  DenseMatrix boundaryStiffness;  ///< K_z
+  DenseMatrix couplingDamping;    ///< C_zq, rows × modes
+  DenseMatrix couplingStiffness;  ///< K_zq
+  /// [row] false for a slip that supports hold, or that no friction acts on: it has no z.
+  std::vector<unsigned char> moves;
+  /// φ, the law of the sliding speed, m/s; empty: coefficients do not depend on it.
+  std::function<double(double)> law;
+
+  PetscInt modes() const { return std::ssize(stiffness); }
+  PetscInt rows() const { return std::ssize(nodes) * dimension; }
+};
+
+/// A motion of the linearised model, e^{st} times these amplitudes.
+struct LinearMode {
+  Complex s;  ///< 1/s
+  std::vector<Complex> q, z;
+  std::vector<Complex> jump;   ///< y, [row]
+  std::vector<Complex> force;  ///< R*, [row]
+};
+
+/// Not collective. Returns the eigenpair of the model linearised about steady sliding that Newton's
+/// method finds from s: pressed nodes stay closed, sliding ones obey
+///   R_T* = −f R_N* τ − R_N ((f/|w|) (1 − ττᵀ) + (df/d|w|) ττᵀ) ẏ_T   [4.7],
+/// sticking ones stick, open ones are free. Throws Error if the method does not converge, and
+/// Interrupted, on this rank alone, once asked() is true.
+LinearMode nearestMode(const ReducedModel& model, Complex s, const StopAsked& asked = {});
+
+/// Not collective. Returns the largest step, s, at which the leapfrog rule is stable with all nodes
+/// held: 2/ω of its fastest motion.
+double stableStep(const ReducedModel& model);
+/// Not collective. Returns the same with all nodes free. More nodes in contact make the model
+/// stiffer: a longer step is unstable whatever the contact does.
+double longestStep(const ReducedModel& model);
+
+}  // namespace squeal::march

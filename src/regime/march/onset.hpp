@@ -1,0 +1,41 @@
+#pragma once
+/// A mode grows linearly until a contact node opens or comes to rest for the first time, or one
+/// that sticks begins to slide [M.75].
+#include <span>
+#include <string>
+#include <vector>
+
+#include "algebra/linalg/complex.hpp"
+#include "regime/march/model.hpp"
+
+namespace squeal::march {
+
+/// The complex amplitudes of a mode at one contact node.
+struct NodeMotion {
+  Complex normalForce;             ///< R_N*, N
+  std::array<Complex, 2> shear{};  ///< R_T* along the tangents, N
+  std::array<Complex, 2> rate{};   ///< w* along the tangents, m/s
+};
+
+enum class Event { none, opens, rests, slides };
+const char* text(Event event);
+
+/// The first event of a mode u e^{st} that grows.
+struct Onset {
+  Event event = Event::none;
+  double factor = 0;     ///< of the mode as it is given, at the event
+  std::size_t node = 0;  ///< at which it happens, of those given
+  double turning = 0;    ///< largest |w*_⊥| / |w| of the nodes that slide, at this factor
+};
+
+/// Not collective. Returns the first event: at a pressed node that slides |R_N*| = R_N, or
+/// |τ·w*| = |w|; at one that sticks |R_N*| = R_N or |R_T + R_T*| = f (R_N + R_N*) at some phase.
+Onset firstEvent(std::span<const Node> nodes, std::span<const NodeMotion> motion);
+
+/// Not collective. Returns the amplitudes of a mode of the reduced model.
+std::vector<NodeMotion> motionAt(const ReducedModel& model, const LinearMode& mode);
+
+/// Returns the largest kinetic energy over a cycle of the mode of the reduced model, J.
+double largestKinetic(const LinearMode& mode);
+
+}  // namespace squeal::march

@@ -1,0 +1,186 @@
+#include "regime/regime/task.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/options/options.hpp"
+#include "base/petsc/check.hpp"
+#include "base/system/text.hpp"
+#include "regime/regime/record.hpp"
+
+namespace squeal::regime {
+namespace {
+
+using march::Event;
+
+/// A march of the largest default time, 4000 cycles of 128 steps, takes 5e5 steps.
+constexpr double mostSteps = 1e8;
+/// Peaks of cycles and spectra need as many steps in a period.
+constexpr int fewestSteps = 16;
+
+const RealOption timeOption(
+    "regime", "regime_time", 0, "s", nonNegative,
+    "maximum simulated time, at least 32 cycles of the mode; 0: the longer of 400 cycles and 10 "
+    "e-folding times of the mode, but no more than 4000 cycles");
+const RealOption stepOption(
+    "regime", "regime_step", 0, "s", nonNegative,
+    "time step, at least 16 in a period of the mode and at most 1e8 in a march; 0: a 128th of the "
+    "period, but no more than 0.8 of the stable step");
+const RealOption startOption("regime", "regime_start_factor", 0.5, "", Range{0, 100, true, false},
+                             "amplitude at the start, over that at which the first node opens or "
+                             "comes to rest");
+const ChoiceOption startsOption("regime", "regime_starts", {"fastest", "each", "all"}, "fastest",
+                                "starts of the motion: on the fastest growing unstable mode, on "
+                                "each of them, or on each and on their sum");
+const ChoiceOption boundaryOption(
+    "regime", "regime_boundary", {"massless", "mass"}, "massless",
+    "boundary of the reduced model: massless with the leapfrog rule, or with its mass by the "
+    "scheme of Moreau and Jean, to check the first");
+
+double frequencyOf(const Task& task) { return task.mode.s.imag() / (2 * M_PI); }
+
+/// Returns what is wrong with the number of steps; empty: nothing.
+std::string stepsBroken(double step, double time) {
+  const double steps = time / step;
+  if (steps <= mostSteps) return "";
+  const std::string number =
+      std::isfinite(steps) ? formatted("about %.2g", steps) : std::string("more than 1e308");
+  return formatted(
+      "-regime_step %g s: %s steps for %g s, more than the %.0e of a march; give a longer "
+      "-regime_step or a shorter -regime_time",
+      step, number.c_str(), time, mostSteps);
+}
+
+/// Returns the bound that step or time of a task break; empty: none.
+std::string boundBroken(const ReducedModel& model, const Task& task, double stableStep) {
+  if (const auto broken = stepsBroken(task.step, task.time); !broken.empty())
+    return broken + (stepOption.get() > 0 || task.step > 0.01 * task.shortestPeriod / 128
+                         ? ""
+                         : "; the stable step of the reduced model is short, and fewer "
+                           "-modes_count make it longer");
+  if (boundaryIsMassless() && task.step > stableStep)
+    if (const double longest = march::longestStep(model); task.step > longest)
+      return formatted(
+          "-regime_step %g s exceeds %.3g s, the stable step while all contact is open: 2/ω of the "
+          "highest frequency of the reduced model, %.4g Hz; while all contact sticks it is %.3g s",
+          task.step, longest, 1 / (M_PI * longest), stableStep);
+  if (task.step * fewestSteps > task.shortestPeriod * (1 + 1e-9))
+    return formatted(
+        "-regime_step %g s exceeds %.3g s, 1/%d of the period of %.5g Hz, which it must resolve; "
+        "the stable step while all contact sticks is %.3g s",
+        task.step, task.shortestPeriod / fewestSteps, fewestSteps, 1 / task.shortestPeriod,
+        stableStep);
+  const double window = Recorder::windowCycles / frequencyOf(task);
+  if (task.time < window * (1 - 1e-9))
+    return formatted(
+        "-regime_time %g s is shorter than the first window, %d cycles of %.5g Hz: give at least "
+        "%.3g s",
+        task.time, Recorder::windowCycles, frequencyOf(task), 1.01 * window);
+  return "";
+}
+
+/// Adds a to b.
+void add(std::vector<Complex>& a, const std::vector<Complex>& b) {
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] += b[i];
+}
+
+void scale(LinearMode& mode, double factor) {
+  for (auto* part : {&mode.q, &mode.z, &mode.jump, &mode.force})
+    for (Complex& entry : *part) entry *= factor;
+}
+
+/// Returns a march on one mode, without step and time.
+Task taskOn(const ReducedModel& model, const NumberedMode& one) {
+  Task task{std::to_string(one.number), one.mode, {}, 0, 0, 0, ""};
+  if (!(task.mode.s.imag() > 1e-9 * std::abs(task.mode.s))) {
+    task.failure =
+        "the mode grows without oscillation (divergence), and a march counts cycles; give "
+        "-regime_starts each, and more -flutter_shapes, to follow flutter modes";
+    return task;
+  }
+  task.shortestPeriod = 1 / frequencyOf(task);
+  task.onset = firstEvent(model.nodes, motionAt(model, task.mode));
+  if (task.onset.event == Event::none)
+    task.failure = "the mode moves no node that is in contact, so that nothing bounds its growth";
+  else if (!(task.onset.factor > 0))
+    task.failure =
+        "a node that sticks is at its limit of friction in steady sliding, so that the motion has "
+        "no linear range to start in (-contact_<interface>_release)";
+  else
+    scale(task.mode, task.onset.factor);
+  return task;
+}
+
+/// Sets step and time, and the failure where these break a bound.
+void setStepAndTime(const ReducedModel& model, double stableStep, Task& task) {
+  const double period = 1 / frequencyOf(task);
+  task.step = stepOption.get();
+  if (task.step == 0) task.step = std::min(task.shortestPeriod / 128, 0.8 * stableStep);
+  task.time = timeOption.get();
+  if (task.time == 0)
+    task.time = std::min(4000 * period, std::max(400 * period, 10 / task.mode.s.real()));
+  task.failure = boundBroken(model, task, stableStep);
+}
+
+/// Returns the march that starts on the sum of the modes of others that can be done.
+Task sumOf(const std::vector<Task>& tasks) {
+  Task sum;
+  int count = 0;
+  for (const Task& task : tasks) {
+    if (!task.failure.empty()) continue;
+    if (++count == 1) {
+      sum = task;
+      continue;
+    }
+    add(sum.mode.q, task.mode.q), add(sum.mode.z, task.mode.z);
+    add(sum.mode.jump, task.mode.jump), add(sum.mode.force, task.mode.force);
+    sum.shortestPeriod = std::min(sum.shortestPeriod, task.shortestPeriod);
+  }
+  if (count > 0)
+    scale(sum.mode, 1.0 / count);
+  else
+    sum = tasks.front(), sum.failure = "none of its modes can be followed";
+  sum.start = "all";
+  return sum;
+}
+
+}  // namespace
+
+std::vector<const Option*> taskOptions() {
+  return {&timeOption, &stepOption, &startOption, &startsOption, &boundaryOption};
+}
+
+void checkTaskOptions() {
+  if (!(stepOption.get() > 0) || !(timeOption.get() > 0)) return;
+  if (const auto broken = stepsBroken(stepOption.get(), timeOption.get()); !broken.empty())
+    throw Error("option " + broken);
+}
+
+bool boundaryIsMassless() { return boundaryOption.get() == "massless"; }
+
+double startFactor() { return startOption.get(); }
+
+double timeWanted() { return timeOption.get(); }
+
+std::vector<std::string> startsOn(std::span<const std::size_t> numbers) {
+  std::vector<std::string> names;
+  for (const std::size_t number : numbers) names.push_back(std::to_string(number));
+  if (startsOption.get() == "fastest" && !names.empty()) names.resize(1);
+  if (startsOption.get() == "all" && names.size() > 1) names.push_back("all");
+  return names;
+}
+
+std::vector<Task> tasksOn(const ReducedModel& model, std::span<const NumberedMode> modes,
+                          double stableStep) {
+  std::vector<Task> tasks;
+  for (const auto& one : modes) {
+    tasks.push_back(taskOn(model, one));
+    if (startsOption.get() == "fastest") break;
+  }
+  if (startsOption.get() == "all" && tasks.size() > 1) tasks.push_back(sumOf(tasks));
+  for (Task& task : tasks)
+    if (task.failure.empty()) setStepAndTime(model, stableStep, task);
+  return tasks;
+}
+
+}  // namespace squeal::regime

@@ -1,0 +1,21 @@
+#pragma once
+/// The boundary faces of all bodies are found from the cells: those that no other cell has.
+#include <vector>
+
+#include "model/mesh/mesh.hpp"
+
+namespace squeal::sound {
+
+/// A face of one cell that bounds the bodies; a line in the plane.
+struct BoundaryFace {
+  int type = 0;                 ///< gmsh element type
+  std::vector<PetscInt> nodes;  ///< local nodes, in gmsh's order
+  int sign = 1;  ///< +1 if the normal by node order points out of the cell, −1 if into it
+};
+
+/// Collective. Returns the boundary faces of the cells of this rank. Bodies in contact have nodes
+/// of their own, so that faces in contact are among them. Throws Error for a cell type whose faces
+/// are not known.
+std::vector<BoundaryFace> boundaryFaces(const mesh::Mesh& mesh);
+
+}  // namespace squeal::sound

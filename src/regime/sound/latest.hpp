@@ -1,0 +1,64 @@
+#pragma once
+/// The latest cycles of a march are kept, so that displacements can be made of them at its end.
+#include <mpi.h>
+
+#include <deque>
+#include <vector>
+
+#include "base/options/option_types.hpp"
+#include "regime/march/model.hpp"
+#include "regime/march/scheme.hpp"
+
+namespace squeal::sound {
+
+using linalg::DenseMatrix;
+using march::ReducedModel;
+using march::Scheme;
+
+/// The motion at one instant, in the coordinates of the reduced model.
+struct Sample {
+  double time = 0;            ///< s
+  std::vector<double> q, z;   ///< of modes and of static responses
+  std::vector<double> gap;    ///< [node], with the steady one, m
+  std::vector<double> force;  ///< R_N, [node], N
+};
+
+/// What is kept of a march beside its averages, on the rank that has marched.
+struct Trace {
+  DenseMatrix velocities;       ///< of the modes, samples × modes
+  double sampleTime = 0;        ///< from sample to sample of them, s
+  std::vector<Sample> samples;  ///< of the latest cycles
+};
+
+/// Collective. Sends samples from the rank `root` to all ranks.
+void share(MPI_Comm comm, int root, std::vector<Sample>& samples);
+
+/// Latest keeps the samples of the latest `-regime_cycles_kept` periods, and forgets earlier ones.
+class Latest {
+ public:
+  /// The period is that of a mode, s, and the step that of the march. The model is borrowed.
+  Latest(const ReducedModel& model, double period, double step);
+  void look(const Scheme& scheme);
+  /// Returns the samples in the order of time, the first and the last of them a whole number of
+  /// periods apart to a time step; fewer periods if the march was shorter.
+  std::vector<Sample> samples() const;
+
+ private:
+  const ReducedModel& model_;
+  int frames_;  // of a period
+  long most_;
+  double interval_, next_;  // from frame to frame, and the time of the next one, s
+  std::deque<march::State> states_;
+};
+
+/// Returns the number of frames of a period that are wanted, 0 where no period is kept.
+int framesWanted();
+/// Returns the number of frames of a period, s, that a march with this step, s, can give.
+int framesOfPeriod(double period, double step);
+
+/// Returns the options of this file.
+std::vector<const Option*> latestOptions();
+/// Throws Error for options of this file that are idle beside each other.
+void checkLatestOptions();
+
+}  // namespace squeal::sound

@@ -1,0 +1,98 @@
+#include "run/analysis/checks.hpp"
+
+#include <algorithm>
+
+#include "base/options/options.hpp"
+#include "base/petsc/finite.hpp"
+#include "eigen/direct/direct.hpp"
+#include "eigen/modes/modes.hpp"
+#include "eigen/pencil/modal_damping.hpp"
+
+namespace squeal::analysis {
+
+void settleFriction(const contact::Contact& contact, sweep::Sweep& sweep) {
+  if (contact.frictionExponents() != std::vector<int>{0}) return;
+  if (givenOptions().count("flutter_friction") && sweep.frictions != std::vector<double>{0})
+    throw Error(
+        "option -flutter_friction: no interface has this coefficient of friction, since each "
+        "sliding one has a -contact_<interface>_friction; leave one of them out");
+  sweep.frictions = {0};
+}
+
+void requireFiniteSweep(const elasticity::Bodies& bodies, const contact::Contact& contact,
+                        const sweep::Sweep& sweep) {
+  const auto& [frictions, speeds, pressures, dampings] = sweep;
+  double friction = 1;
+  for (const auto& interface : contact.options)
+    friction = std::max(friction, interface.friction.at(frictions.back()));
+  const double speed = std::max(1.0, speeds.back()), speed2 = speed * speed;
+  const std::string swept = " times the factors of the sweep";
+  requireFinite(bodies.stiffness, "the stiffness of the bodies" + swept, friction);
+  requireFinite(bodies.mass, "the mass of the bodies" + swept, friction);
+  requireFinite(bodies.damping, "the damping of the bodies" + swept,
+                friction * std::max(1.0, dampings.back()));
+  requireFinite(bodies.gyroscopic, "the gyroscopic matrix" + swept, friction * speed);
+  requireFinite(bodies.rotationStiffness, "the rotation stiffness" + swept, friction * speed2);
+  requireFinite(bodies.load, "the loads" + swept, std::max(pressures.back(), speed2));
+  requireFinite(contact.offset, "the displacements held" + swept, std::max(1.0, pressures.back()));
+}
+
+void requireFiniteSweep(const std::vector<matrices::NamedTerm>& terms, const sweep::Sweep& sweep) {
+  for (const auto& [name, term] : terms)
+    for (double friction : {sweep.frictions.front(), sweep.frictions.back()})
+      for (double speed : {sweep.speeds.front(), sweep.speeds.back()})
+        for (double damping : {sweep.dampings.front(), sweep.dampings.back()})
+          requireFinite(term.matrix, "matrix '" + name + "' times its factors",
+                        term.coefficient({friction, speed, 1, damping}));
+}
+
+void rejectIdleFactors(const elasticity::Bodies& bodies, const contact::Contact& contact,
+                       const sweep::Sweep& sweep) {
+  const auto given = [](const std::vector<double>& factors) {
+    return factors != std::vector<double>{1};
+  };
+  if (given(sweep.dampings) && !bodies.damping && !pencil::modalDampingWanted())
+    throw Error(
+        "option -flutter_damping scales the damping of the bodies, and there is none: give "
+        "-material_<group>_rayleigh_*, "
+        "-material_<group>_loss_factor, -ground_<group>_damping or -flutter_modal_damping");
+  if (!given(sweep.pressures)) return;
+  OwnedVec pressures;
+  check(VecDuplicate(bodies.load, pressures.out()));
+  check(VecWAXPY(pressures, -1, bodies.centrifugal, bodies.load));
+  PetscReal load = 0, displacement = 0;
+  check(VecNorm(pressures, NORM_INFINITY, &load));
+  check(VecNorm(contact.offset, NORM_INFINITY, &displacement));
+  if (load == 0 && displacement == 0)
+    throw Error(
+        "option -flutter_pressure scales what presses, and nothing does: give "
+        "-load_<group>_pressure, "
+        "-constraint_<group>_displacement or -contact_<interface>_obstacle_displacement");
+}
+
+void rejectIdleFactors(const std::vector<matrices::NamedTerm>& terms, const sweep::Sweep& sweep) {
+  const auto require = [&](const std::vector<double>& values, const std::string& name,
+                           auto exponent) {
+    if (values.size() > 1 && std::none_of(terms.begin(), terms.end(), [&](const auto& named) {
+          return exponent(named.term) != 0;
+        }))
+      throw Error("option -flutter_" + name + ": a sweep, but no matrix has -matrices_<name>_" +
+                  name + "_exponent");
+  };
+  require(sweep.frictions, "friction",
+          [](const pencil::Term& term) { return term.frictionExponent; });
+  require(sweep.speeds, "speed", [](const pencil::Term& term) { return term.speedExponent; });
+  if (!pencil::modalDampingWanted())
+    require(sweep.dampings, "damping",
+            [](const pencil::Term& term) { return term.dampingExponent; });
+  if (sweep.pressures != std::vector<double>{1})
+    throw Error("option -flutter_pressure: no matrix from a file depends on the pressure");
+}
+
+void warnOfDenseWork(MPI_Comm comm, const sweep::Sweep& sweep, PetscInt unknowns) {
+  if (direct::directWanted()) return;
+  const int modes = std::min<PetscInt>(modes::wantedCount(), unknowns);
+  sweep::warnOfLongSweep(comm, sweep, modes);
+}
+
+}  // namespace squeal::analysis

@@ -1,0 +1,21 @@
+#pragma once
+/// The contact nodes of all ranks that open and close between the points of a sweep.
+#include <vector>
+
+#include "run/analysis/analysis.hpp"
+
+namespace squeal::analysis {
+
+/// One node that opens or closes.
+struct PathEvent {
+  int order;  ///< along the path
+  sweep::Parameters at;
+  mesh::Point position;  ///< m
+  int interface;         ///< index into Contact::interfaces
+  bool opens;
+};
+
+/// Collective. Returns the events of all ranks in their order, the same on all ranks.
+std::vector<PathEvent> contactPath(const Analysis& analysis);
+
+}  // namespace squeal::analysis

@@ -1,0 +1,92 @@
+#include "run/analysis/matrix_route.hpp"
+
+#include <algorithm>
+
+#include "base/options/options.hpp"
+#include "base/session/stages.hpp"
+#include "base/system/termination.hpp"
+#include "base/system/text.hpp"
+#include "eigen/modes/benchmark.hpp"
+#include "eigen/modes/modes.hpp"
+#include "eigen/sensitivity/derive.hpp"
+#include "eigen/sensitivity/sensitivity.hpp"
+#include "eigen/sweep_solver/sweep_solver.hpp"
+#include "problem/matrices/associated.hpp"
+#include "problem/matrices/write.hpp"
+#include "run/analysis/checks.hpp"
+
+namespace squeal::analysis {
+namespace {
+
+/// The one segment of a problem from files: all points of the sweep.
+class MatrixSegment : public sweep_solver::SegmentProblem {
+ public:
+  /// Collective. Borrows the system and the pencil, and takes the points.
+  MatrixSegment(const factor::AssociatedSystem& system, const pencil::Pencil& pencil,
+                std::vector<sweep::Parameters> points)
+      : system_(system), pencil_(pencil), points_(std::move(points)) {
+    PetscInt local = 0;
+    check(MatGetLocalSize(system.k0(), &local, nullptr));
+    check(MatCreateConstantDiagonal(system.comm(), local, local, PETSC_DETERMINE, PETSC_DETERMINE,
+                                    1, identity_.out()));
+  }
+  const factor::AssociatedSystem& system() const override { return system_; }
+  Mat trial() const override { return identity_; }
+  const std::vector<sweep::Parameters>& steadyPoints() const override { return points_; }
+  pencil::Pencil pencil() const override { return pencil_.with({}); }
+  void examine(std::size_t, const pencil::Pencil& pencil, const sensitivity::StartSpace& start,
+               pencil::ComplexModes& point) override {
+    if (sensitivity::sensitivitiesWanted())
+      sensitivity::deriveParameters(point, pencil, start, system_);
+  }
+
+ private:
+  const factor::AssociatedSystem& system_;
+  const pencil::Pencil& pencil_;
+  std::vector<sweep::Parameters> points_;
+  OwnedMat identity_;
+};
+
+}  // namespace
+
+std::vector<matrices::NamedTerm> readMatrices(MPI_Comm comm, const sweep::Sweep& sweep) {
+  Stage stage(comm, "matrices");
+  auto named = matrices::readTerms(comm);
+  rejectIdleFactors(named, sweep);
+  requireFiniteSweep(named, sweep);
+  std::vector<std::string> files;
+  for (const auto& item : named)
+    files.push_back(resolvedOptions().at("matrices_" + item.name + "_file"));
+  stage.finish(formatted("%zu matrices: %s", named.size(), joined(files).c_str()));
+  return named;
+}
+
+void solveMatrices(Analysis& analysis) {
+  auto named = readMatrices(analysis.comm, analysis.sweep);
+  Stage stage(analysis.comm, "matrices");
+  const matrices::SymmetricPart symmetric = matrices::symmetricPart(named);
+  stage.finish(formatted(
+      "%" PetscInt_FMT " unknowns%s", symmetric.system.size(),
+      symmetric.asymmetry > 0
+          ? formatted("; stiffness without friction unsymmetric by %.1e: free modes of its "
+                      "symmetric part",
+                      symmetric.asymmetry)
+                .c_str()
+          : ""));
+  warnOfDenseWork(analysis.comm, analysis.sweep, symmetric.system.size());
+  std::vector<pencil::Term> terms;
+  for (auto& item : named) terms.push_back(std::move(item.term));
+  const pencil::Pencil pencil(std::move(terms));
+  const auto points = analysis.sweep.steadyPoints();
+  if (matrices::exportWanted()) matrices::exportPencil(pencil, analysis.sweep, points.size());
+  MatrixSegment problem(symmetric.system, pencil, points);
+  auto solved = sweep_solver::solveSegments(problem, analysis.sweep.dampings, analysis.checkpoint,
+                                            "matrices");
+  analysis.segments = std::move(solved.segments);
+  for (const auto& failure : solved.failures) addFailure(analysis, "flutter: " + failure);
+  if (!solved.complete) throw Interrupted();
+  if (modes::benchmarkWanted())
+    analysis.modesFloorSeconds = modes::floorSeconds(symmetric.system.k0());
+}
+
+}  // namespace squeal::analysis

@@ -1,0 +1,283 @@
+#include "run/analysis/mesh_sweep.hpp"
+
+#include <algorithm>
+
+#include "base/options/options.hpp"
+#include "base/session/stages.hpp"
+#include "base/system/concatenation.hpp"
+#include "base/system/text.hpp"
+#include "eigen/direct/direct.hpp"
+#include "eigen/pencil/modal_damping.hpp"
+#include "eigen/sensitivity/sensitivity.hpp"
+#include "model/elasticity/elasticity.hpp"
+#include "problem/matrices/write.hpp"
+#include "problem/terms/friction_work.hpp"
+#include "problem/terms/terms.hpp"
+
+namespace squeal::analysis {
+namespace {
+
+const IntegerOption releasedOption(
+    "flutter", "reduction_released", 150, 0, 100'000,
+    "largest number of contact nodes by which the active sets of points that share a factorisation "
+    "and a basis may differ; 0: each active set has its own");
+
+/// Stands for an active set that begins somewhere between two points.
+constexpr std::size_t unknownPlace = -1;
+
+/// Closes the nodes that another set closes, and holds those that it holds.
+void closeLike(const contact::ActiveSet& other, contact::ActiveSet& set) {
+  for (std::size_t i = 0; i < set.closed.size(); ++i) {
+    set.closed[i] = set.closed[i] || other.closed[i];
+    set.released[i] = set.released[i] && other.released[i];
+  }
+}
+
+/// Opens the nodes that another set opens, and releases those that it releases.
+void openLike(const contact::ActiveSet& other, contact::ActiveSet& set) {
+  for (std::size_t i = 0; i < set.closed.size(); ++i) {
+    set.closed[i] = set.closed[i] && other.closed[i];
+    set.released[i] = set.released[i] || other.released[i];
+  }
+}
+
+/// Collective. Returns the number of nodes in which two sets differ.
+PetscInt countDifferent(MPI_Comm comm, const contact::ActiveSet& a, const contact::ActiveSet& b) {
+  PetscInt count = 0;
+  for (std::size_t i = 0; i < a.closed.size(); ++i)
+    count += a.closed[i] != b.closed[i] || a.released[i] != b.released[i];
+  check(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPIU_INT, MPI_SUM, comm));
+  return count;
+}
+
+/// Collective. Computes the friction work of the shapes and, if wanted, the sensitivities of their
+/// eigenvalues.
+void examineShapes(const Analysis& analysis, const contact::CoupledSystem& system,
+                   const steady::Solution& solution, const pencil::Pencil& pencil,
+                   const sensitivity::StartSpace& start, terms::Influences& influences,
+                   pencil::ComplexModes& point) {
+  if (point.shapes.empty()) return;
+  OwnedMat prestress;
+  if (elasticity::prestressWanted())
+    prestress = elasticity::geometricStiffness(*analysis.mesh, solution.displacement);
+  const auto friction = terms::frictionState(analysis.contact, solution);
+  for (auto& shape : point.shapes)
+    shape.frictionWork =
+        terms::frictionWork(analysis.contact, analysis.bodies, solution.closed, friction, point.at,
+                            point.eigenvalues[shape.index].s,
+                            linalg::ComplexVector::copied(shape.real, shape.imaginary), prestress);
+  if (!sensitivity::sensitivitiesWanted()) return;
+  Stage stage(analysis.mesh->comm, "flutter");
+  influences.derive(point, pencil, {point.at, system, solution, prestress}, start);
+  double error = 0;
+  for (const auto& sensitivity : point.sensitivities)
+    error = std::max(error, sensitivity.leftBackwardError);
+  stage.finish(formatted("%s: sensitivities of %zu eigenvalues, worst left backward error %.1e",
+                         sweep::parameterText(point.at).c_str(), point.sensitivities.size(),
+                         error));
+}
+
+}  // namespace
+
+subspace::Substructure substructureOf(const contact::CoupledSystem& all,
+                                      const contact::CoupledSystem& interior) {
+  auto unknowns = contact::compared(all.transformation(), interior.transformation());
+  return {all.k0(), std::move(unknowns.shared), std::move(unknowns.released)};
+}
+
+std::size_t endOfShared(const Analysis& analysis, std::size_t first) {
+  // Modal damping is that of the free modes of a point, which prestress changes.
+  if (pencil::modalDampingWanted() && elasticity::prestressWanted()) return first + 1;
+  const bool alone = direct::directWanted() || sensitivity::sensitivitiesWanted() ||
+                     matrices::exportWanted() || pencil::modalDampingWanted();
+  const PetscInt most = alone ? 0 : releasedOption.get();
+  contact::ActiveSet anywhere = steady::activeSet(analysis.steady[first]), everywhere = anywhere;
+  std::size_t last = first;
+  for (; last < analysis.steady.size() && analysis.steady[last].converged; ++last) {
+    const contact::ActiveSet set = steady::activeSet(analysis.steady[last]);
+    closeLike(set, anywhere);
+    openLike(set, everywhere);
+    if (countDifferent(analysis.comm, anywhere, everywhere) > most) break;
+  }
+  return last;
+}
+
+MeshSegment::MeshSegment(const Analysis& analysis, std::size_t first, std::size_t last,
+                         CurrentSystem& current, terms::Influences& influences)
+    : analysis_(analysis), first_(first), current_(current), influences_(influences) {
+  for (std::size_t i = first; i < last; ++i) points_.push_back(analysis.steady[i].at);
+  findSets();
+  if (elasticity::prestressWanted())
+    prestress_ = elasticity::geometricStiffness(*analysis.mesh, steadyAt(0).displacement);
+  const auto systemOf = [&](const contact::ActiveSet& set) {
+    return std::make_unique<contact::CoupledSystem>(analysis.bodies, analysis.contact, set.closed,
+                                                    prestress_, set.released);
+  };
+  contact::ActiveSet everywhere = sets_.front().set;
+  anywhere_ = everywhere;
+  for (const auto& one : sets_) {
+    closeLike(one.set, anywhere_);
+    openLike(one.set, everywhere);
+  }
+  if (prestress_) stressed_ = systemOf(anywhere_);
+  all_ = interior_ = stressed_ ? stressed_.get() : &current.of(anywhere_);
+  if (contact::sameOnAllRanks(analysis.comm, anywhere_, everywhere)) return;
+  Stage stage(analysis.comm, "contact");
+  released_ = systemOf(everywhere);
+  all_ = released_.get();
+  substructure_ = substructureOf(*all_, *interior_);
+  stage.finish(formatted("%" PetscInt_FMT
+                         " nodes open or slide in some of %zu active sets that share a basis",
+                         countDifferent(analysis.comm, anywhere_, everywhere), sets_.size()));
+}
+
+/// Collective. Finds the active sets of the points and of the way between them.
+void MeshSegment::findSets() {
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    std::vector<sweep_solver::PathPiece> pieces;
+    if (i > 0 && sweep::growsInFriction(points_[i - 1], points_[i])) pieces = piecesBehind(i - 1);
+    const contact::ActiveSet set = steady::activeSet(steadyAt(i));
+    const double friction = points_[i].friction,
+                 from = pieces.empty() ? friction : pieces.back().to;
+    if (i > 0 && contact::sameOnAllRanks(analysis_.comm, set, steady::activeSet(steadyAt(i - 1)))) {
+      const std::size_t range = steps_.back().back().range;
+      sets_[range].last = i + 1;
+      pieces.push_back({range, from, friction});
+    } else {
+      sets_.push_back({set, i, i + 1});
+      pieces.push_back({sets_.size() - 1, from, friction});
+    }
+    steps_.push_back(std::move(pieces));
+  }
+}
+
+/// Collective. Returns the pieces of the path from a point to where the active set of the next one
+/// on its line begins. If that is not known, it begins at the next point.
+std::vector<sweep_solver::PathPiece> MeshSegment::piecesBehind(std::size_t point) {
+  const sweep::Parameters &here = points_[point], &next = points_[point + 1];
+  std::vector<condensed::ContactEvent> events;
+  for (const auto& event : analysis_.contactPath)
+    if (event.at.speed == here.speed && event.at.pressure == here.pressure &&
+        event.at.friction >= here.friction && event.at.friction <= next.friction)
+      events.push_back(event);
+  std::vector<double> own;
+  for (const auto& event : events) own.push_back(event.at.friction);
+  std::vector<double> frictions = concatenated(analysis_.comm, own);
+  std::ranges::sort(frictions);
+  frictions.erase(std::ranges::unique(frictions).begin(), frictions.end());
+  contact::ActiveSet set = steady::activeSet(steadyAt(point));
+  std::vector<contact::ActiveSet> behind;  // each of these frictions
+  for (const double friction : frictions) {
+    for (const auto& event : events)
+      if (event.at.friction == friction) set.closed[event.node] = !event.opens;
+    behind.push_back(set);
+  }
+  const contact::ActiveSet last = steady::activeSet(steadyAt(point + 1));
+  // What holds nodes that stick is settled at the points. Of the nodes that open or close it is
+  // known with that; where others begin to slide or are held again is not.
+  const std::vector<unsigned char>& closedBefore = steadyAt(point).closed;
+  for (std::size_t i = 0; i < set.released.size(); ++i)
+    if (!closedBefore[i] || !last.closed[i]) set.released[i] = last.released[i];
+  const std::size_t range = steps_[point].back().range;
+  const bool changes =
+      !contact::sameOnAllRanks(analysis_.comm, steady::activeSet(steadyAt(point)), last);
+  if (!contact::sameOnAllRanks(analysis_.comm, set, last) || (changes && frictions.empty()))
+    return {{unknownPlace, next.friction, next.friction}};
+  std::vector<sweep_solver::PathPiece> pieces;
+  double from = here.friction;
+  for (std::size_t k = 0; k < frictions.size(); ++k) {
+    pieces.push_back({k == 0 ? range : sets_.size() - 1, from, frictions[k]});
+    if (k + 1 < frictions.size()) sets_.push_back({behind[k], 0, 0});
+    from = frictions[k];
+  }
+  if (pieces.empty()) pieces.push_back({range, from, from});
+  return pieces;
+}
+
+std::vector<sweep_solver::PathPiece> MeshSegment::path(std::size_t first, std::size_t count) const {
+  const double friction = points_[first].friction;
+  std::vector<sweep_solver::PathPiece> joined{{steps_[first].back().range, friction, friction}};
+  for (std::size_t i = first + 1; i < first + count; ++i)
+    for (const auto& piece : steps_[i])
+      if (piece.range == joined.back().range && piece.from == joined.back().to)
+        joined.back().to = piece.to;
+      else if (piece.range != unknownPlace)
+        joined.push_back(piece);
+  return joined;
+}
+
+std::optional<double> MeshSegment::frictionBefore(std::size_t first) const {
+  if (first > 0 || first_ == 0) return {};
+  const steady::Solution& before = analysis_.steady[first_ - 1];
+  if (!before.converged || !sweep::growsInFriction(before.at, points_[0])) return {};
+  return before.at.friction;
+}
+
+std::vector<sweep_solver::PointRange> MeshSegment::ranges() const {
+  std::vector<sweep_solver::PointRange> found;
+  const auto& contact = analysis_.contact;
+  const PetscInt dimension = contact.mesh->dimension;
+  const auto& rows = all_->transformation().rows;
+  const Concatenation ranks(analysis_.comm, substructure_.boundary.size());
+  std::vector<PetscInt> contactNode(contact.mesh->ownedNodes, -1);
+  for (std::size_t i = 0; i < contact.nodes.size(); ++i) contactNode[contact.nodes[i].node] = i;
+  for (const auto& [set, first, last] : sets_) {
+    sweep_solver::PointRange range;
+    range.first = first, range.last = last;
+    range.openNodes = std::ranges::count(set.closed, 0);
+    check(MPI_Allreduce(MPI_IN_PLACE, &range.openNodes, 1, MPIU_INT, MPI_SUM, analysis_.comm));
+    std::vector<unsigned char> own;
+    for (const PetscInt k : substructure_.boundary) {
+      const PetscInt i = contactNode[rows[k] / dimension];
+      const bool isGap = rows[k] % dimension == dimension - 1;
+      own.push_back(!set.closed[i] || (!isGap && set.released[i]));
+    }
+    range.has = ranks.gathered(own);
+    std::vector<unsigned char> slides = set.closed;
+    for (std::size_t i = 0; i < slides.size(); ++i) slides[i] = slides[i] && !all_->closed()[i];
+    if (ranks.size() > 0) range.terms = terms::slidingTerms(contact, *all_, slides);
+    found.push_back(std::move(range));
+  }
+  return found;
+}
+
+pencil::Pencil MeshSegment::pencil() const { return terms::affineTerms(analysis_.contact, *all_); }
+
+std::vector<pencil::Term> MeshSegment::termsOf(std::size_t i) const { return termsOf(steadyAt(i)); }
+
+std::vector<pencil::Term> MeshSegment::termsOf(const steady::Solution& solution) const {
+  OwnedMat change;
+  if (prestress_ && &solution != &steadyAt(0)) {
+    change = elasticity::geometricStiffness(*analysis_.mesh, solution.displacement);
+    check(MatAXPY(change, -1, prestress_, SAME_NONZERO_PATTERN));
+  }
+  return terms::pointTerms(analysis_.contact, *all_, solution, change);
+}
+
+std::optional<std::vector<pencil::Term>> MeshSegment::termsAt(const sweep::Parameters& at,
+                                                              std::size_t like) {
+  sweep::Parameters steady = at;
+  steady.damping = 1;
+  const contact::ActiveSet set = steady::activeSet(steadyAt(like));
+  const auto ifShared = [&](const steady::Solution& solution) {
+    std::optional<std::vector<pencil::Term>> terms;
+    if (solution.converged &&
+        contact::sameOnAllRanks(analysis_.comm, steady::activeSet(solution), set))
+      terms = termsOf(solution);
+    return terms;
+  };
+  const auto known = std::find_if(analysis_.steady.begin(), analysis_.steady.end(),
+                                  [&](const auto& solution) { return solution.at == steady; });
+  if (known != analysis_.steady.end()) return ifShared(*known);
+  if (!problem_)
+    problem_ =
+        std::make_unique<steady::Problem>(*analysis_.mesh, analysis_.bodies, analysis_.contact);
+  return ifShared(problem_->solve(steady, current_.of(anywhere_)));
+}
+
+void MeshSegment::examine(std::size_t i, const pencil::Pencil& pencil,
+                          const sensitivity::StartSpace& start, pencil::ComplexModes& point) {
+  examineShapes(analysis_, *interior_, steadyAt(i), pencil, start, influences_, point);
+}
+
+}  // namespace squeal::analysis

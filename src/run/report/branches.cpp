@@ -1,0 +1,119 @@
+#include "run/report/branches.hpp"
+
+#include <cmath>
+
+#include "base/system/text.hpp"
+#include "eigen/sweep/parameters.hpp"
+
+namespace squeal::report {
+namespace {
+
+const char* kindName(tracking::Event::Kind kind) {
+  switch (kind) {
+    case tracking::Event::Kind::coalescence:
+      return "coalescence";
+    case tracking::Event::Kind::crossing:
+      return "hopf";
+    case tracking::Event::Kind::divergence:
+      return "divergence";
+    case tracking::Event::Kind::contact:
+      return "contact";
+  }
+  return "";
+}
+
+/// Calls `action` with all that was followed.
+template <class Action>
+void forAllFollowed(const analysis::Analysis& analysis, const Action& action) {
+  for (const auto& segment : analysis.segments)
+    for (const auto& followed : segment.followed) action(followed);
+}
+
+std::string parametersAt(sweep::Parameters at, double friction) {
+  at.friction = friction;
+  return sweep::parameterValues(at);
+}
+
+}  // namespace
+
+std::vector<std::vector<double>> branchRows(const analysis::Analysis& analysis) {
+  std::vector<std::vector<double>> rows;
+  forAllFollowed(analysis, [&](const stability::Followed& followed) {
+    const auto& line = followed.line;
+    for (int branch = 1; branch <= followed.branches.count; ++branch)
+      for (const auto& station : followed.branches.stations)
+        for (std::size_t i = 0; i < station.pairs.size(); ++i) {
+          if (station.branch[i] != branch || station.friction < followed.from) continue;
+          const auto s = station.pairs[i].s;
+          rows.push_back({double(followed.activeSet[station.piece]), double(branch),
+                          station.friction, line.speed, line.pressure, line.damping, s.real(),
+                          s.imag(), station.overlap[i], double(station.inBand[i]),
+                          station.swept ? 1.0 : 0.0});
+        }
+  });
+  return rows;
+}
+
+std::string branchTable(const analysis::Analysis& analysis) {
+  std::string table =
+      "active_set,branch," + sweep::parameterColumns() +
+      ",growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,overlap,in_band,swept\n";
+  for (const auto& row : branchRows(analysis))
+    table += formatted("%.0f,%.0f,", row[0], row[1]) +
+             sweep::parameterValues({row[2], row[3], row[4], row[5]}) +
+             formatted(",%.15e,%.15e,%.15e,%.4f,%.0f,%.0f\n", row[6], row[7], row[7] / (2 * M_PI),
+                       row[8], row[9], row[10]);
+  return table;
+}
+
+std::string criticalTable(const analysis::Analysis& analysis) {
+  std::string table = "active_set,branch,partner,kind,direction," + sweep::parameterColumns() +
+                      ",frequency_hz,slope,friction_error_estimate,backward_error,converged\n";
+  forAllFollowed(analysis, [&](const stability::Followed& followed) {
+    for (const auto& c : followed.criticals)
+      table += formatted("%d,%d,%d,%s,%s,", followed.activeSet[c.piece], c.branch, c.partner,
+                         kindName(c.kind), c.loss ? "loss" : "regain") +
+               parametersAt(followed.line, c.friction) +
+               formatted(",%.15e,%.6e,%.1e,%.1e,%d\n", c.angularFrequency / (2 * M_PI), c.slope,
+                         c.errorEstimate, c.backwardError, c.converged ? 1 : 0);
+  });
+  return table;
+}
+
+std::string followedText(const analysis::Analysis& analysis) {
+  constexpr int shown = 8;
+  std::string text;
+  forAllFollowed(analysis, [&](const stability::Followed& followed) {
+    const auto list = [&](bool converged, const char* head, const auto& item, const char* more) {
+      int count = 0;
+      for (const auto& c : followed.criticals)
+        if (c.converged == converged && ++count <= shown)
+          text += (count > 1 ? ", " : head) + item(c);
+      if (count > shown) text += formatted(more, count - shown);
+    };
+    list(
+        true, "\nStability changes at friction ",
+        [](const stability::Critical& c) {
+          return formatted("%.8g (%s, %.6g Hz%s)", c.friction, kindName(c.kind),
+                           c.angularFrequency / (2 * M_PI), c.loss ? "" : ", regained");
+        },
+        ", and at %d more in critical.csv");
+    list(
+        false, "\nStability also changes, at a friction not solved for, ",
+        [](const stability::Critical& c) {
+          return formatted("between %.6g and %.6g (%s near %.4g Hz%s)",
+                           c.friction - c.errorEstimate, c.friction + c.errorEstimate,
+                           kindName(c.kind), c.angularFrequency / (2 * M_PI),
+                           c.loss ? "" : ", regained");
+        },
+        ", and %d more in critical.csv");
+    text += "\nCompleteness";
+    for (const auto& parameter : sweep::allParameters)
+      if (parameter.value != &sweep::Parameters::friction && followed.line.*parameter.value != 1)
+        text += formatted(", %s %g", parameter.name, followed.line.*parameter.value);
+    text += ": " + followed.statement() + ".";
+  });
+  return text;
+}
+
+}  // namespace squeal::report

@@ -1,0 +1,17 @@
+#pragma once
+/// These functions write fields for ParaView and for other programs: steady displacement and
+/// pressure, free modes, complex modes and the squeal in motion.
+#include <filesystem>
+
+#include "run/analysis/analysis.hpp"
+
+namespace squeal::report {
+
+/// Collective. Writes results.h5 into `folder`. Throws Error as Hdf5File does.
+void writeHdf5(const analysis::Analysis& analysis, const std::filesystem::path& folder);
+
+/// Collective. Writes the VTK files of a run with a mesh into `folder`/vtk. Throws Error as
+/// writeVtu() does.
+void writeFields(const analysis::Analysis& analysis, const std::filesystem::path& folder);
+
+}  // namespace squeal::report

@@ -1,0 +1,40 @@
+#pragma once
+/// These functions tell the names of the files of a run, and the files that a version without a
+/// manifest left.
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/output/manifest.hpp"
+#include "eigen/sweep/parameters.hpp"
+
+namespace squeal::report {
+
+/// The option that names the folder of the results.
+inline constexpr char folderOption[] = "-report_dir";
+
+/// Returns the name of a point of the sweep as part of file and group names: FRICTION, then
+/// _speed_SPEED, _pressure_… for the factors that are not 1.
+std::string pointName(const sweep::Parameters& at);
+
+/// The names of the files and folders of a run over some points, relative to the folder of the
+/// results.
+class ResultNames {
+ public:
+  /// Notes the names of these points, and of their steady states.
+  explicit ResultNames(const std::vector<sweep::Parameters>& points);
+  /// Returns true if a run over these points may write this path, a file or a folder.
+  bool contains(const std::filesystem::path& path) const;
+
+ private:
+  bool isField(const std::vector<std::string>& parts) const;
+  std::set<std::string> points_;
+};
+
+/// Not collective. Returns the files in `folder` that version 0.1.0, which kept no manifest, left
+/// there, the plots of its scripts included; none unless summary.json and options.txt are of that
+/// version.
+output::Manifest formerResults(const std::filesystem::path& folder);
+
+}  // namespace squeal::report

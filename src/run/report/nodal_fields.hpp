@@ -1,0 +1,32 @@
+#pragma once
+/// Nodal vectors become fields for VTK files.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/petsc/owned.hpp"
+#include "model/mesh/mesh.hpp"
+#include "run/fieldfile/vtu.hpp"
+
+namespace squeal::report {
+
+/// Collective. Writes the VTK files of some fields in as many pieces as `-report_pieces` allows.
+void writeVtk(const mesh::Mesh& mesh, const std::filesystem::path& stem,
+              const std::vector<fieldfile::Field>& fields);
+
+/// Brings nodal values from their owners to all ranks whose cells need them. Its methods are
+/// collective.
+class Ghosts {
+ public:
+  explicit Ghosts(const mesh::Mesh& mesh);
+  fieldfile::Field vector(const std::string& name, Vec u) const;
+  /// Returns the field of one component alone.
+  fieldfile::Field scalar(const std::string& name, Vec u, std::size_t component = 0) const;
+
+ private:
+  const mesh::Mesh& mesh_;
+  OwnedVec local_;
+  OwnedScatter scatter_;
+};
+
+}  // namespace squeal::report

@@ -1,0 +1,19 @@
+#pragma once
+/// These functions write the fields of the motion after flutter: means at the contact nodes, and
+/// the latest cycles in motion.
+#include <filesystem>
+
+#include "run/analysis/analysis.hpp"
+#include "run/fieldfile/hdf5.hpp"
+#include "run/report/nodal_fields.hpp"
+
+namespace squeal::report {
+
+/// Collective. Writes the VTK files of each run of the regime into the folder `vtk`.
+void writeRegimeFields(const analysis::Analysis& analysis, const Ghosts& ghosts,
+                       const std::filesystem::path& vtk);
+
+/// Collective. Writes the means at the contact nodes to /regime/friction_POINT/start_START.
+void writeRegimeFields(const analysis::Analysis& analysis, fieldfile::Hdf5File& file);
+
+}  // namespace squeal::report

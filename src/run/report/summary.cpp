@@ -1,0 +1,282 @@
+#include "run/report/summary.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/options/options.hpp"
+#include "base/session/session.hpp"
+#include "base/session/stages.hpp"
+#include "eigen/direct/direct.hpp"
+#include "eigen/pencil/complex_modes.hpp"
+#include "eigen/sweep/parameters.hpp"
+#include "run/analysis/contact_path.hpp"
+#include "run/report/report.hpp"
+#include "run/report/table_shapes.hpp"
+#include "steady/steady/steady.hpp"
+
+namespace squeal::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json point3(const mesh::Point& p) { return Json::array({p[0], p[1], p[2]}); }
+
+Json parametersEntry(const sweep::Parameters& at) {
+  Json entry;
+  for (const auto& parameter : sweep::allParameters) entry[parameter.name] = at.*parameter.value;
+  return entry;
+}
+
+Json steadyEntry(const steady::Solution& solution) {
+  Json entry;
+  entry["snes_reason"] = solution.reason;
+  entry["converged"] = solution.converged;
+  entry["iterations"] = solution.iterations;
+  if (solution.existsTo) entry["exists_up_to"] = parametersEntry(*solution.existsTo);
+  if (!solution.converged) return entry;  // where SNES stopped means nothing
+  entry["open_nodes"] = solution.openNodes;
+  entry["smallest_pressure_pa"] = solution.smallestPressure;
+  entry["relative_residual"] = solution.residual;
+  entry["relative_imbalance"] = solution.imbalance;
+  if (solution.nodesOfAnother > 0) entry["nodes_of_another_solution"] = solution.nodesOfAnother;
+  for (const auto& resultant : solution.resultants)
+    entry["interfaces"][resultant.interface] = {
+        {"normal_force_n", point3(resultant.normalForce)},
+        {"friction_force_n", point3(resultant.frictionForce)},
+        {"moment_nm", point3(resultant.moment)},
+        {"moment_defect_nm", resultant.momentDefect}};
+  for (const auto& resultant : solution.resultants) {
+    auto& found = entry["interfaces"][resultant.interface];
+    if (resultant.leastFriction > 0) {
+      found["least_sufficient_friction"] = resultant.leastFriction;
+      found["least_sufficient_friction_at_m"] = point3(resultant.worst);
+    }
+    if (resultant.unheld > 0) found["nodes_unheld"] = resultant.unheld;
+    if (!resultant.stickingLimit) continue;
+    found["friction"] = *resultant.stickingLimit;
+    found["nodes_beyond_friction"] = resultant.overLimit;
+    found["nodes_released"] = resultant.released;
+  }
+  if (solution.revisions > 0) entry["revisions_of_sticking"] = solution.revisions;
+  return entry;
+}
+
+/// Returns what was found at the interfaces of a mesh, by name.
+Json interfaceEntries(const contact::Contact& contact) {
+  Json entries;
+  for (std::size_t i = 0; i < contact.options.size(); ++i) {
+    const auto& report = contact.reports[i];
+    Json entry = {{"role", interfaces::text(contact.options[i].role)},
+                  {"nodes", report.nodes},
+                  {"slave", contact.slaves[i].surface},
+                  {"slave_is", contact.slaves[i].sign > 0 ? "pad" : "disc"},
+                  {"coupling", contact.options[i].onObstacle() ? "rigid obstacle"
+                               : report.matching               ? "node on node"
+                                                               : "mortar"}};
+    if (!report.matching) {
+      entry["why_not_node_on_node"] = report.whyNot;
+      entry["slave_faces"] = report.slave.faces, entry["master_faces"] = report.master.faces;
+      entry["slave_area_m2"] = report.slave.area, entry["covered_area_m2"] = report.coveredArea;
+      entry["master_area_near_m2"] = report.master.nearArea;
+      entry["largest_gap_m"] = report.largestGap;
+      entry["nodes_without_condition"] = report.dropped;
+    }
+    if (contact.options[i].isTied()) {
+      entry["slave_area_m2"] = report.slave.area, entry["tied_area_m2"] = report.coveredArea;
+      entry["tied_nodes"] = report.nodes, entry["untied_nodes"] = report.untied;
+      entry["adjusted"] = contact.options[i].adjust;
+      entry["largest_adjustment_m"] = report.largestAdjustment;
+    }
+    entries[contact.options[i].label()] = entry;
+  }
+  return entries;
+}
+
+/// Returns the number, or null for NaN and infinity, which have no place in JSON.
+Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json uniquenessEntry(double speed, const uniqueness::Uniqueness& found) {
+  Json entry = {{"speed", speed},
+                {"positive_definite_up_to_friction",
+                 std::isinf(found.lostAt) ? Json("any") : finite(found.lostAt)}};
+  for (const auto& judgement : found.judgements)
+    entry["frictions"].push_back({{"friction", judgement.friction},
+                                  {"steady_state", judgement.verdict},
+                                  {"reason", judgement.reason},
+                                  {"smallest_eigenvalue_m_per_n", finite(judgement.smallest)}});
+  return entry;
+}
+
+Json unstableModes(const pencil::ComplexModes& point) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < point.eigenvalues.size(); ++i) {
+    const auto& e = point.eigenvalues[i];
+    if (e.unstable)
+      list.push_back({{"mode", i + 1},
+                      {"frequency_hz", e.s.imag() / (2 * M_PI)},
+                      {"growth_rate_1_per_s", e.s.real()},
+                      {"backward_error", e.backwardError},
+                      {"error_estimate", finite(e.errorEstimate())},
+                      {"certified", e.certified},
+                      {"verdict", text(e.verdict)}});
+  }
+  return list;
+}
+
+Json followedEntry(const stability::Followed& followed) {
+  Json entry = {{"speed", followed.line.speed},       {"pressure", followed.line.pressure},
+                {"damping", followed.line.damping},   {"branches", followed.branches.count},
+                {"complete", followed.complete()},    {"sturm_count_exact", followed.countExact},
+                {"whole_space", followed.wholeSpace}, {"entered", followed.branches.entered},
+                {"left", followed.branches.left},     {"statement", followed.statement()}};
+  entry["uncertain"] = Json::array();
+  for (const auto& gap : followed.branches.gaps)
+    entry["uncertain"].push_back({{"from_friction", gap.from},
+                                  {"to_friction", gap.to},
+                                  {"what", gap.what},
+                                  {"identity_only", gap.identityOnly}});
+  entry["active_sets"] = followed.activeSet;  // on the way; 0: that of no point
+  entry["critical_frictions"] = Json::array();
+  for (const auto& critical : followed.criticals) {
+    if (critical.converged)
+      entry["critical_frictions"].push_back(critical.friction);
+    else
+      entry["critical_frictions_between"].push_back(
+          {critical.friction - critical.errorEstimate, critical.friction + critical.errorEstimate});
+  }
+  return entry;
+}
+
+Json regimeEntry(const regime::Study& study, const regime::Run& run) {
+  const regime::Regime& regime = run.regime;
+  // A march that has measured nothing has no figures.
+  const auto measured = [&](double value) { return regime.measured() ? finite(value) : Json(); };
+  Json entry = parametersEntry(study.at);
+  entry["start"] = run.start;
+  entry["class"] = text(regime.kind);
+  entry["failure"] = run.failure.empty() ? Json() : Json(run.failure);
+  entry["settled"] = regime.settled;
+  entry["carrier_hz"] = regime.carrier > 0 ? measured(regime.carrier) : Json();
+  entry["flutter_frequency_hz"] = run.s.imag() / (2 * M_PI);
+  entry["modulation_hz"] = regime.modulation > 0 ? measured(regime.modulation) : Json();
+  entry["growth_rate_1_per_s"] = measured(regime.growth);
+  entry["certified_growth_rate_1_per_s"] = run.s.real();
+  entry["friction_coefficient"] = measured(regime.means.frictionCoefficient);
+  entry["friction_power_w"] = measured(regime.means.frictionPower);
+  entry["steady_friction_power_w"] = finite(study.steadyPower);
+  entry["open_nodes"] = measured(regime.means.open);
+  entry["sticking_nodes"] = measured(regime.means.sticking);
+  entry["largest_kinetic_energy_j"] = measured(regime.largestKinetic);
+  entry["sound_power_estimate_w"] = finite(run.outside.sound.power);
+  entry["sound_power_level_db"] = finite(run.outside.sound.level);
+  entry["largest_defect"] = measured(regime.largestDefect);
+  entry["model_error"] = finite(study.modelError);
+  entry["modes"] = study.modes > 0 ? Json(study.modes) : Json();
+  entry["gaps_and_slips"] = study.rows > 0 ? Json(study.rows) : Json();
+  entry["step_s"] = finite(run.step);
+  return entry;
+}
+
+}  // namespace
+
+void writeSummary(const analysis::Analysis& analysis, const std::filesystem::path& folder) {
+  int ranks = 1;
+  check(MPI_Comm_size(analysis.comm, &ranks));
+  Json summary;
+  summary["version"] = version();
+  const auto& options = resolvedOptions();
+  summary["case"] =
+      analysis.mesh ? std::filesystem::path(options.at("mesh_file")).stem().string() : "matrices";
+  summary["ranks"] = ranks;
+  summary["complete"] = !analysis.interrupted;
+  summary["resumed"] = analysis.checkpoint.resumed();
+  if (analysis.mesh) {
+    summary["nodes"] = analysis.mesh->totalNodes;
+    summary["cells"] = analysis.mesh->totalCells;
+    if (const auto& done = analysis.mesh->straightened; done.nodes > 0)
+      summary["straightened"] = {{"folded_cells", done.folded},
+                                 {"cells", done.cells},
+                                 {"nodes", done.nodes},
+                                 {"rounds", done.rounds},
+                                 {"largest_move_m", done.largestMove}};
+    summary["contact_nodes"] = analysis.contact.totalNodes;
+    summary["interfaces"] = interfaceEntries(analysis.contact);
+  }
+  summary["method"] = direct::directWanted() ? "direct" : "reduced";
+  summary["dofs"] = analysis.segments.empty() ? 0 : analysis.segments.front().unknowns;
+  summary["frictions"] = Json::array();
+  const auto points = analysis.sweep.points();
+  const std::size_t steadyPoints = analysis.sweep.steadyPoints().size();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    Json entry = parametersEntry(points[i]);
+    if (i % steadyPoints < analysis.steady.size())
+      entry["steady"] = steadyEntry(analysis.steady[i % steadyPoints]);
+    if (const auto* point = analysis.pointAt(points[i])) {
+      entry["eigenvalues"] = point->eigenvalues.size();
+      entry["worst_backward_error"] = point->worstBackwardError();
+      if (point->coveredTo > 0 && std::isfinite(point->coveredTo))
+        entry["covered_to_hz"] = point->coveredTo / (2 * M_PI);
+      if (point->bandTop > 0) {
+        entry["band_top_hz"] = finite(point->bandTop / (2 * M_PI));  // null: all eigenvalues
+        entry["free_modes_without_eigenvalue"] = point->modesWithoutEigenvalue();
+        entry["accuracy_asked"] = point->accuracy;
+        entry["tolerance_asked"] = point->tolerance;
+        entry["worst_error_estimate"] = finite(point->worstErrorEstimate());
+        entry["uncertified"] = point->uncertifiedCount();
+      }
+      entry["unstable_modes"] = unstableModes(*point);
+      entry["verdict"] = text(point->verdict());
+      for (const auto verdict : pencil::allVerdicts)
+        entry["verdicts"][text(verdict)] = point->count(verdict);
+    }
+    summary["frictions"].push_back(entry);
+  }
+  for (const auto& [speed, found] : analysis.uniqueness)
+    summary["steady_uniqueness"].push_back(uniquenessEntry(speed, found));
+  summary["active_sets"] = Json::array();
+  for (const auto& segment : analysis.segments) {
+    Json entry;
+    for (const auto& [word, point] :
+         {std::pair{"first_", &segment.points.front()}, {"last_", &segment.points.back()}})
+      for (const auto& parameter : sweep::allParameters)
+        entry[std::string(word) + parameter.name] = point->at.*parameter.value;
+    entry["open_nodes"] = segment.openNodes;
+    entry["dofs"] = segment.unknowns;
+    entry["modes"] = segment.modes.angularFrequency.size();
+    if (segment.modes.rounding > 0) entry["modes_rounding_error"] = segment.modes.rounding;
+    entry["solves"] = segment.solves;
+    if (segment.modes.inertiaShift > 0)
+      entry["sturm_count"] = {{"shift_rad2_per_s2", segment.modes.inertiaShift},
+                              {"eigenvalues_below", segment.modes.inertiaCount},
+                              {"confirmed", segment.modes.countConfirmed}};
+    for (const auto& followed : segment.followed)
+      entry["followed"].push_back(followedEntry(followed));
+    summary["active_sets"].push_back(entry);
+  }
+  for (const auto& event : analysis::contactPath(analysis))
+    summary["contact_path"].push_back({{"friction", event.at.friction},
+                                       {"speed", event.at.speed},
+                                       {"pressure", event.at.pressure},
+                                       {"position_m", event.position},
+                                       {"interface", analysis.contact.interfaces[event.interface]},
+                                       {"change", event.opens ? "opens" : "closes"}});
+  for (const auto& study : analysis.regimes)
+    for (const auto& run : study.runs) summary["regimes"].push_back(regimeEntry(study, run));
+  if (!analysis.failures.empty()) summary["failures"] = analysis.failures;
+  double total = 0;
+  for (const auto& record : stageRecords()) {
+    summary["stages"][record.name] = {{"wall_s", record.seconds},
+                                      {"peak_memory_bytes", record.peakMemoryBytes},
+                                      {"messages", record.traffic.messages},
+                                      {"message_bytes", record.traffic.bytes},
+                                      {"reductions", record.traffic.reductions}};
+    total += record.seconds;
+  }
+  summary["wall_s"] = total;
+  if (analysis.modesFloorSeconds > 0) summary["modes_floor_s"] = analysis.modesFloorSeconds;
+  summary["options"] = options;
+  summary["tables"] = tableShapes(analysis.comm, folder);
+  writeText(analysis.comm, folder / "summary.json", summary.dump(2) + "\n");
+}
+
+}  // namespace squeal::report

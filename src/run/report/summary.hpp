@@ -1,0 +1,13 @@
+#pragma once
+/// This function writes the summary of a run.
+#include <filesystem>
+
+#include "run/analysis/analysis.hpp"
+
+namespace squeal::report {
+
+/// Collective. Writes summary.json into `folder`, after the last stage, since it holds the times.
+/// Throws Error as writeText() does.
+void writeSummary(const analysis::Analysis& analysis, const std::filesystem::path& folder);
+
+}  // namespace squeal::report

@@ -1,0 +1,401 @@
+#include "steady/condensed/condensed_problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "algebra/linalg/block.hpp"
+#include "steady/condensed/gaps.hpp"
+#include "steady/condensed/pivots.hpp"
+#include "steady/steady/complementarity.hpp"
+
+namespace squeal::condensed {
+
+using impedance::ContactCase;
+using impedance::ContactConditions;
+using impedance::ContactVector;
+using linalg::DenseMatrix;
+using steady::accuracyNear;
+using steady::Hold;
+using steady::naturalResidual;
+
+namespace {
+
+/// Returns τ·[u] of u = T x in the rows of the gaps, in the basis of the gaps.
+OwnedMat unitSlipRows(const contact::Contact& contact,
+                      const contact::Transformation& transformation,
+                      std::vector<contact::Slip> slips) {
+  for (auto& slip : slips) slip.coefficient = {1, 0}, slip.law = 1;
+  return contact.slipRows(transformation, slips,
+                          std::vector<unsigned char>(contact.nodes.size(), 1), 0);
+}
+
+/// The largest number of corrections by the residual of all equations. Each has to halve it.
+constexpr int mostCorrections = 30;
+
+/// The active sets of the start are looked for with friction balanced to this part, in as many
+/// steps.
+constexpr double roughly = 1e-4;
+constexpr int mostSteps = 12;
+
+}  // namespace
+
+/// A state of the closed contact without friction.
+struct CondensedProblem::Loaded {
+  OwnedVec x;           // in the unknowns of the open contact
+  ContactVector given;  // (R, F)
+};
+
+/// A point with the holds and the gaps from which its solution is looked for.
+struct CondensedProblem::Start {
+  sweep::Parameters at;
+  Sticking sticking;
+  std::vector<double> gaps;  // [contact node], m; those of the solution in the end
+  bool withPivots = false;   // where SNES finds no gaps
+};
+
+/// A point on the way to its solution.
+struct CondensedProblem::Trial {
+  Start& start;
+  std::unique_ptr<Problem> own;  // with the holds, where something sticks
+  const Problem& held;           // that, or the problem of all points
+  OwnedMat direct;               // borrowed by the conditions
+  OwnedVec x;                    // in the unknowns of the open contact
+  ContactCase asked;             // with all gaps closed
+  double gapUnit = 0;
+  steady::Accuracy accuracy = {};
+  ContactVector causes = {};
+  Solution solution = {};
+  double left = 0;      // natural residual, N
+  bool isBest = false;  // a correction would not make that smaller
+
+  bool isAccurate() const { return left <= accuracy.asked * accuracy.forceUnit; }
+};
+
+bool CondensedProblem::isExact(const contact::Contact& contact, const elasticity::Bodies& bodies) {
+  return !contact.convected && !bodies.rotationStiffness;
+}
+
+CondensedProblem::CondensedProblem(const Problem& problem, const contact::CoupledSystem& closed)
+    : problem_(problem),
+      contact_(problem.contact()),
+      gaps_(contact_.nodes.size(), 0.0),
+      sticking_(Sticking::allHeld(contact_)) {
+  if (contact_.hasSticking())
+    free_ = std::make_unique<Problem>(problem.mesh(), problem.bodies(), contact_,
+                                      Sticking::allFree(contact_));
+  const auto& transformation = open().transformation();
+  impedance_ = std::make_unique<impedance::Impedance>(
+      contact_, transformation, problem.bodies().stiffness,
+      unitSlipRows(contact_, transformation, contact_.slip(1, nullptr)), closed);
+  solver_ = std::make_unique<impedance::ContactSolver>(*impedance_);
+}
+
+CondensedProblem::~CondensedProblem() = default;
+
+/// Returns what the loads of a point are made of, in the order of `loads_`: they are p times the
+/// pressures and held displacements, v² times the centrifugal forces, and what gaps there are
+/// without load.
+std::array<double, 3> CondensedProblem::loadFactors(const sweep::Parameters& at) {
+  if (loads_.empty()) findLoads();
+  return {1, at.pressure, at.speed * at.speed};
+}
+
+/// Returns (R, F) of the closed contact without friction under the loads of a point.
+ContactVector CondensedProblem::given(const sweep::Parameters& at) {
+  const auto factors = loadFactors(at);
+  ContactVector sum(impedance_->length(), 0.0);
+  for (std::size_t k = 0; k < factors.size(); ++k)
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += factors[k] * loads_[k].given[i];
+  return sum;
+}
+
+/// Returns the displacements that belong to that, in the unknowns of the open contact.
+OwnedVec CondensedProblem::loaded(const sweep::Parameters& at) {
+  const auto factors = loadFactors(at);
+  OwnedVec x = rightVector(open().transformation().trial);
+  for (std::size_t k = 0; k < factors.size(); ++k) check(VecAXPY(x, factors[k], loads_[k].x));
+  return x;
+}
+
+/// Finds the states without loads, and what p = 1 and v = 1 add, with the residual of each balanced
+/// by one solve.
+void CondensedProblem::findLoads() {
+  const Problem& open = this->open();
+  const std::vector<sweep::Parameters> points{{0, 0, 0}, {0, 0, 1}, {0, 1, 0}};
+  std::vector<OwnedVec> residuals;
+  std::vector<std::vector<double>> normal;
+  std::vector<Vec> wanted, x;
+  for (const auto& point : points) {
+    loads_.push_back({rightVector(open.transformation().trial), {}});
+    residuals.push_back(rightVector(open.transformation().trial));
+    const OwnedVec forces = open.forces(point, open.displacement(point, loads_.back().x));
+    check(MatMultTranspose(open.transformation().trial, forces, residuals.back()));
+    normal.push_back(open.normalForces(forces));
+    wanted.push_back(residuals.back());
+    x.push_back(loads_.back().x);
+  }
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    check(VecAXPY(residuals[k], -1, residuals[0]));
+    for (std::size_t i = 0; i < normal[k].size(); ++i) normal[k][i] -= normal[0][i];
+  }
+  const auto effects = impedance_->relax(wanted, x);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    loads_[k].given.assign(effects.column(k).begin(), effects.column(k).end());
+    for (std::size_t i = 0; i < normal[k].size(); ++i) loads_[k].given[i] += normal[k][i];
+  }
+}
+
+/// Returns the conditions with all gaps closed.
+ContactConditions CondensedProblem::conditions(const sweep::Parameters& at,
+                                               const Sticking& sticking) const {
+  ContactConditions result;
+  for (const auto& slip :
+       steady::withReleased(contact_, contact_.slip(at.speed, nullptr), sticking))
+    result.coefficient.push_back(slip.friction(at.friction));
+  const auto& nodeOf = impedance_->nodeOf();
+  result.free.assign(nodeOf.size(), 0);
+  for (std::size_t k = contact_.nodes.size(); k < nodeOf.size(); ++k)
+    result.free[k] = sticking.holds[nodeOf[k]] != Hold::held;
+  return result;
+}
+
+/// Collective. Returns what the friction of released nodes does to them; null if there are none.
+OwnedMat CondensedProblem::directFriction(const Sticking& sticking) {
+  int any = std::count(sticking.holds.begin(), sticking.holds.end(), Hold::released) > 0;
+  int known = directOf_.holds == sticking.holds && directOf_.direction == sticking.direction;
+  check(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_LOR, comm()));
+  check(MPI_Allreduce(MPI_IN_PLACE, &known, 1, MPI_INT, MPI_LAND, comm()));
+  if (!any) return {};
+  if (known) return direct_.share();
+  std::vector<contact::Slip> slips(contact_.nodes.size());
+  for (std::size_t i = 0; i < slips.size(); ++i)
+    if (sticking.holds[i] == Hold::released) slips[i].direction = sticking.direction[i];
+  direct_ = impedance_->directFriction(unitSlipRows(contact_, free_->transformation(), slips));
+  directOf_ = sticking;
+  return direct_.share();
+}
+
+std::vector<impedance::ContactSolution> CondensedProblem::onSets(
+    const std::vector<ChosenSet>& sets) {
+  const auto& nodeOf = impedance_->nodeOf();
+  std::vector<ContactCase> cases;
+  std::vector<OwnedMat> direct;  // borrowed by the cases
+  for (const ChosenSet& set : sets) {
+    cases.push_back({conditions(set.at, set.sticking), given(set.at)});
+    cases.back().conditions.direct = direct.emplace_back(directFriction(set.sticking));
+    for (std::size_t k = 0; k < nodeOf.size(); ++k)
+      if (!set.closed[nodeOf[k]]) cases.back().conditions.free[k] = 1;
+  }
+  return solver_->solve(cases);
+}
+
+/// Solves for the gaps of a trial, with these forces given, and returns (t, w).
+ContactVector CondensedProblem::complementarity(Trial& trial, const ContactVector& given) {
+  if (impedance_->size() == 0) return ContactVector(impedance_->length(), 0.0);
+  ContactCase asked = trial.asked;
+  asked.given = given;
+  auto& gaps = trial.start.gaps;
+  const auto solve = [&] {
+    return solveGaps(contact_, *solver_, asked, {trial.gapUnit, trial.accuracy.forceUnit},
+                     trial.accuracy.asked, gaps, trial.solution);
+  };
+  if (!solve() && trial.start.withPivots && pivotGaps(*solver_, comm(), asked, gaps)) solve();
+  return solver_->withGaps(gaps, asked).causes;
+}
+
+/// Moves the gaps from which the trials start to those of the active sets to which the primal-dual
+/// active set method leads (Hintermüller, Ito and Kunisch, SIAM J. Optim. 13, 2003), with friction
+/// balanced to the part `accuracy`. All trials move at once, so that what the solver has to learn
+/// is learnt in blocks. Returns the trials whose sets hold.
+std::vector<CondensedProblem::Trial*> CondensedProblem::approach(std::vector<Trial*> moving,
+                                                                 double accuracy) {
+  const std::size_t n = impedance_->nodes();
+  std::vector<Trial*> settled;
+  for (int step = 0; step < mostSteps && !moving.empty(); ++step) {
+    std::vector<ContactCase> cases;
+    for (const Trial* trial : moving) {
+      cases.push_back(trial->asked);
+      for (std::size_t i = 0; i < n; ++i)
+        cases.back().conditions.free[i] = trial->start.gaps[i] > 0;
+    }
+    const auto found = solver_->solve(cases, accuracy);
+    std::vector<int> changes(moving.size());
+    for (std::size_t k = 0; k < moving.size(); ++k) {
+      auto& gaps = moving[k]->start.gaps;
+      for (std::size_t i = 0; i < n; ++i) {
+        const double gap = found[k].causes[n + i], force = found[k].effects[n + i];
+        const bool isOpen = cases[k].conditions.free[i], opens = isOpen ? gap > 0 : force < 0;
+        if (opens != isOpen) changes[k] = 1;
+        // The size of a gap that is new is not known yet, and only its sign is looked at.
+        gaps[i] = !opens ? 0 : isOpen ? gap : moving[k]->gapUnit;
+      }
+    }
+    check(MPI_Allreduce(MPI_IN_PLACE, changes.data(), changes.size(), MPI_INT, MPI_LOR, comm()));
+    std::vector<Trial*> still;
+    for (std::size_t k = 0; k < moving.size(); ++k)
+      if (found[k].found) (changes[k] ? still : settled).push_back(moving[k]);
+    moving = std::move(still);
+  }
+  return settled;
+}
+
+/// Returns the unknowns x of the open contact that the holds of a trial leave.
+OwnedVec CondensedProblem::unknowns(const Trial& trial, Vec x) const {
+  const OwnedVec z = elasticity::nodalVector(problem_.mesh());
+  OwnedVec result = rightVector(trial.held.transformation().trial);
+  check(MatMult(open().transformation().selection, x, z));
+  check(MatMultTranspose(trial.held.transformation().selection, z, result));
+  return result;
+}
+
+CondensedProblem::Trial CondensedProblem::trialOf(Start& start) {
+  std::unique_ptr<Problem> own;
+  if (free_)
+    own = std::make_unique<Problem>(problem_.mesh(), problem_.bodies(), contact_, start.sticking);
+  const Problem& held = own ? *own : problem_;
+  Trial trial{start,
+              std::move(own),
+              held,
+              directFriction(start.sticking),
+              loaded(start.at),
+              {conditions(start.at, start.sticking), given(start.at)}};
+  trial.asked.conditions.direct = trial.direct;
+  std::vector<double> friction;
+  for (PetscInt i = 0; i < impedance_->nodes(); ++i)
+    friction.push_back(trial.asked.conditions.coefficient[i] * trial.asked.given[i]);
+  trial.asked.frictionUnit = linalg::length(comm(), friction);
+  trial.solution.at = start.at;
+  for (double gap : start.gaps) trial.gapUnit = std::max(trial.gapUnit, gap);
+  check(MPI_Allreduce(MPI_IN_PLACE, &trial.gapUnit, 1, MPI_DOUBLE, MPI_MAX, comm()));
+  if (trial.gapUnit == 0) check(VecNorm(trial.x, NORM_INFINITY, &trial.gapUnit));
+  if (trial.gapUnit == 0) trial.gapUnit = 1;
+  trial.accuracy = accuracyNear(trial.held, start.at, unknowns(trial, trial.x));
+  return trial;
+}
+
+std::vector<Solution> CondensedProblem::solveFrom(std::vector<Start>& starts) {
+  std::vector<Trial> trials;
+  std::vector<Trial*> all;
+  std::vector<Vec> x;
+  DenseMatrix causes(impedance_->length());
+  trials.reserve(starts.size());
+  for (Start& start : starts) all.push_back(&trials.emplace_back(trialOf(start)));
+  if (impedance_->size() > 0) approach(approach(all, roughly), impedance::ContactSolver::balanced);
+  for (Trial& trial : trials) {
+    trial.causes = complementarity(trial, trial.asked.given);
+    causes.append(trial.causes);
+    x.push_back(trial.x);
+  }
+  impedance_->addUnknowns(causes, x);
+  for (Trial& trial : trials) {
+    // Friction may move a weakly held body far, which is known only now.
+    trial.accuracy = accuracyNear(trial.held, trial.start.at, unknowns(trial, trial.x));
+    trial.left = naturalResidual(trial.held, trial.start.at, unknowns(trial, trial.x));
+  }
+  int corrections = 0;
+  while (corrections < mostCorrections && correct(trials)) ++corrections;
+  std::vector<Solution> solutions;
+  for (Trial& trial : trials) {
+    auto& solution = solutions.emplace_back(std::move(trial.solution));
+    steady::accept(solution, trial.left, trial.accuracy);
+    if (solution.reason.empty()) solution.reason = "LINEAR";
+    trial.held.conclude(unknowns(trial, trial.x), trial.left, solution);
+  }
+  return solutions;
+}
+
+/// Corrects the trials that are not accurate by the residual of all equations. Returns false if
+/// there is nothing to correct.
+bool CondensedProblem::correct(std::vector<Trial>& trials) {
+  std::vector<Trial*> some;
+  std::vector<OwnedVec> residuals, corrected;
+  std::vector<Vec> r, x;
+  std::vector<std::vector<double>> normal;
+  DenseMatrix causes(impedance_->length());
+  for (Trial& trial : trials) {
+    if (trial.isBest || trial.isAccurate()) continue;
+    // With t = c R and w as they are, y is corrected. What the contact then feels without t and w
+    // is the new start.
+    const auto& at = trial.start.at;
+    some.push_back(&trial);
+    residuals.push_back(rightVector(open().transformation().trial));
+    corrected.push_back(rightVector(open().transformation().trial));
+    r.push_back(residuals.back());
+    x.push_back(corrected.back());
+    open().residual(at, trial.x, r.back());
+    check(VecCopy(trial.x, x.back()));
+    normal.push_back(open().normalForces(open().forces(at, open().displacement(at, trial.x))));
+    for (std::size_t i = 0; i < normal.back().size(); ++i)
+      trial.causes[i] = trial.asked.conditions.coefficient[i] * normal.back()[i];
+    causes.append(trial.causes);
+  }
+  if (some.empty()) return false;
+  DenseMatrix given = impedance_->relax(r, x);
+  linalg::addScaled(given, -1, impedance_->responses(causes));
+  DenseMatrix steps(impedance_->length());
+  std::vector<ContactVector> better;
+  for (std::size_t k = 0; k < some.size(); ++k) {
+    const auto column = given.column(k);
+    for (std::size_t i = 0; i < normal[k].size(); ++i) column[i] += normal[k][i];
+    better.push_back(complementarity(*some[k], {column.begin(), column.end()}));
+    steps.append(better.back());
+  }
+  linalg::addScaled(steps, -1, causes);
+  impedance_->addUnknowns(steps, x);
+  for (std::size_t k = 0; k < some.size(); ++k) {
+    Trial& trial = *some[k];
+    const double now = naturalResidual(trial.held, trial.start.at, unknowns(trial, x[k]));
+    trial.isBest = !(now < 0.5 * trial.left);
+    if (trial.isBest) continue;
+    trial.left = now;
+    check(VecCopy(x[k], trial.x));
+    trial.causes = std::move(better[k]);
+  }
+  return true;
+}
+
+std::vector<Solution> CondensedProblem::solveTogether(const std::vector<sweep::Parameters>& points,
+                                                      bool withPivots) {
+  std::vector<Start> starts;
+  for (const auto& at : points) {
+    problem_.requireSlip(at);
+    starts.push_back({at, sticking_, gaps_, withPivots});
+  }
+  auto solutions = solveFrom(starts);
+  // Points whose holds are to be revised are solved for anew, together.
+  std::vector<std::size_t> unsettled(points.size());
+  std::iota(unsettled.begin(), unsettled.end(), 0);
+  while (true) {
+    std::vector<Start> again;
+    std::erase_if(unsettled, [&](std::size_t k) {
+      auto next = problem_.nextHolds(solutions[k]);
+      if (next) again.push_back({points[k], std::move(*next), starts[k].gaps, withPivots});
+      return !next;
+    });
+    if (unsettled.empty()) break;
+    auto better = solveFrom(again);
+    for (std::size_t i = 0; i < unsettled.size(); ++i) {
+      const std::size_t k = unsettled[i];
+      better[i].revisions = solutions[k].revisions + 1;
+      better[i].iterations += solutions[k].iterations;
+      solutions[k] = std::move(better[i]);
+      starts[k].gaps = std::move(again[i].gaps);
+    }
+  }
+  if (solutions.back().converged) {
+    continueFrom(solutions.back());
+    gaps_ = starts.back().gaps;
+  }
+  return solutions;
+}
+
+void CondensedProblem::continueFrom(const Solution& solution) {
+  sticking_ = Sticking::allHeld(contact_);
+  for (std::size_t i = 0; i < solution.closed.size(); ++i) {
+    if (!solution.closed[i]) sticking_.holds[i] = solution.sticking.holds[i];
+    gaps_[i] = solution.contact[i].coefficient;
+  }
+}
+
+}  // namespace squeal::condensed

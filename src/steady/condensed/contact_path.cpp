@@ -1,0 +1,297 @@
+#include "steady/condensed/contact_path.hpp"
+
+#include <algorithm>
+#include <array>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <tuple>
+
+#include "base/system/concatenation.hpp"
+#include "base/system/text.hpp"
+#include "model/interfaces/algebra.hpp"
+
+namespace squeal::condensed {
+namespace {
+
+/// A force below minus this part of the largest one pulls, and a gap overlaps likewise with the
+/// force that would open it so far; what lies between is rounding.
+constexpr double rounding = 1e-9;
+/// The length of the line behind an event where the new active set must hold.
+constexpr double behind = 1e-7;
+/// The largest number of nodes that may change together, beyond which SNES finds the new set.
+constexpr int mostTogether = 8;
+
+/// Where a force or a gap changes its sign.
+struct SignChange {
+  double at;                   ///< if it does so through infinity, a place shortly below
+  std::optional<double> pole;  ///< where it is infinite
+};
+
+/// Returns the pole of a function through four places near it: that of y = 0 on the polynomial
+/// through the places as a function of the reciprocals y.
+double poleNear(const std::array<double, 4>& places, const std::array<double, 4>& reciprocals) {
+  double sum = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    double term = places[i];
+    for (std::size_t j = 0; j < places.size(); ++j)
+      if (j != i) term *= reciprocals[j] / (reciprocals[j] - reciprocals[i]);
+    sum += term;
+  }
+  return sum;
+}
+
+sweep::Parameters between(const sweep::Parameters& from, const sweep::Parameters& to, double s) {
+  sweep::Parameters point = from;
+  for (const auto value :
+       {&sweep::Parameters::friction, &sweep::Parameters::speed, &sweep::Parameters::pressure})
+    point.*value = std::lerp(from.*value, to.*value, s);  // exact where both are equal
+  return point;
+}
+
+/// A contact node that differs between two solutions, and where it is expected to change.
+struct ExpectedChange {
+  double at;
+  int rank, node;
+  bool operator<(const ExpectedChange& other) const {
+    return std::tie(at, rank, node) < std::tie(other.at, other.rank, other.node);
+  }
+};
+
+/// Collective. Returns the changes of all ranks between two solutions in the order that is expected
+/// from the states on the set of the first one at both ends.
+std::vector<ExpectedChange> expectedChanges(MPI_Comm comm, const ContactWay& way,
+                                            const impedance::ContactSolution& begin,
+                                            const impedance::ContactSolution& end) {
+  int rank = 0;
+  check(MPI_Comm_rank(comm, &rank));
+  std::vector<ExpectedChange> own;
+  const auto &before = way.from->closed, &after = way.to->closed;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (before[i] == after[i]) continue;
+    const auto margin = [&](const impedance::ContactSolution& state) {
+      return (before[i] ? state.effects : state.causes)[before.size() + i];
+    };
+    const double atBegin = std::max(margin(begin), 0.0), atEnd = margin(end);
+    own.push_back({atEnd < 0 ? atBegin / (atBegin - atEnd) : 1, rank, static_cast<int>(i)});
+  }
+  auto all = concatenated(comm, own);
+  std::ranges::sort(all, std::less());
+  return all;
+}
+
+/// A PlaceName holds what a message says of a contact node.
+struct PlaceName {
+  mesh::Point position;
+  int interface;
+  bool isClosed;
+};
+
+/// The contact node where a condition is violated most, of all ranks.
+struct Place {
+  double margin = INFINITY;  ///< force or gap, relative
+  int rank = 0;
+  std::size_t node = 0;
+};
+
+class Follower {
+ public:
+  Follower(CondensedProblem& problem, const Solution& from, const sweep::Parameters& to)
+      : problem_(problem), from_(from.at), to_(to), closed_(from.closed), sticking_(from.sticking) {
+    check(MPI_Comm_rank(comm(), &rank_));
+    for (const auto& state : from.contact) forceUnit_ = std::max(forceUnit_, state.normalForce);
+    check(MPI_Allreduce(MPI_IN_PLACE, &forceUnit_, 1, MPI_DOUBLE, MPI_MAX, comm()));
+    if (forceUnit_ == 0) forceUnit_ = 1;  // nothing touches
+  }
+
+  ContactPath follow() {
+    ContactPath path;
+    path.end = to_;
+    double s = 0;
+    while (true) {
+      Place worst = worstAt(1);
+      if (worst.margin >= -rounding) break;
+      double event = 1;
+      // This is the first one of the nodes that violate a condition ahead.
+      Place first;
+      std::optional<double> pole;
+      while (worst.margin < -rounding && event > s) {
+        first = worst;
+        const SignChange found = signChange(first, s, event);
+        event = found.at, pole = found.pole;
+        worst = worstAt(event, &first);
+      }
+      if (pole) {
+        path.obstacle =
+            "the equations of its active set are singular there: forces and gaps grow "
+            "beyond all bounds";
+        path.end = at(*pole);
+        break;
+      }
+      const bool changesBack =
+          !(event > s) && path.count > 0 && last_.rank == first.rank && last_.node == first.node;
+      if (changesBack || !change(first, event, path)) {
+        path.obstacle = turningPoint(first);
+        path.end = at(event);
+        break;
+      }
+      s = event;
+    }
+    if (path.obstacle.empty()) {
+      for (std::size_t i = 0; i < closed_.size(); ++i)
+        path.gaps.push_back(closed_[i] ? 0 : std::max(0.0, state_.causes[closed_.size() + i]));
+      path.closed = closed_;
+      path.sticking = sticking_;
+    }
+    return path;
+  }
+
+ private:
+  MPI_Comm comm() const { return problem_.comm(); }
+  sweep::Parameters at(double s) const { return between(from_, to_, s); }
+  /// Returns the forces at closed nodes and the gaps at open ones, relative, [contact node].
+  const std::vector<double>& margins(double s) {
+    state_ = problem_.onSet({at(s), closed_, sticking_});
+    margins_.clear();
+    const std::size_t n = closed_.size();
+    for (std::size_t i = 0; i < n; ++i)
+      margins_.push_back(
+          (closed_[i] ? state_.effects[n + i] : problem_.gapStiffness(i) * state_.causes[n + i]) /
+          forceUnit_);
+    return margins_;
+  }
+  /// Returns the worst place, `but` for one.
+  Place worstAt(double s, const Place* but = nullptr) {
+    const auto& values = margins(s);
+    Place worst{INFINITY, rank_, 0};
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (values[i] < worst.margin && !(but && but->rank == rank_ && but->node == i))
+        worst.margin = values[i], worst.node = i;
+    struct {
+      double value;
+      int rank;
+    } least{worst.margin, rank_};
+    check(MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE_INT, MPI_MINLOC, comm()));
+    unsigned long node = worst.node;
+    check(MPI_Bcast(&node, 1, MPI_UNSIGNED_LONG, least.rank, comm()));
+    return {least.value, least.rank, node};
+  }
+  double marginOf(const Place& place, double s) {
+    const auto& values = margins(s);
+    double value = rank_ == place.rank ? values[place.node] : 0;
+    check(MPI_Bcast(&value, 1, MPI_DOUBLE, place.rank, comm()));
+    return value;
+  }
+  /// Collective. Says that a solution cannot be continued where this node changes.
+  std::string turningPoint(const Place& place) const {
+    PlaceName name{};
+    if (rank_ == place.rank) {
+      const auto& node = problem_.contact().nodes[place.node];
+      name = {node.position, node.interface, closed_[place.node] != 0};
+    }
+    check(MPI_Bcast(&name, sizeof name, MPI_BYTE, place.rank, comm()));
+    return formatted(
+        "the contact node at %s of interface '%s' %s there, and behind that no active set holds",
+        interfaces::text(name.position).c_str(),
+        problem_.contact().interfaces[name.interface].c_str(), name.isClosed ? "opens" : "closes");
+  }
+  /// Returns where the force or the gap of a node changes its sign, between `low` and `high`, where
+  /// it is negative.
+  SignChange signChange(const Place& place, double low, double high) {
+    const double atHigh = marginOf(place, high);
+    double from = low, atLow = marginOf(place, low);
+    if (!(atLow > 0)) {  // rounding, where the node has changed right there
+      from = std::min(low + behind, high);
+      atLow = marginOf(place, from);
+    }
+    if (!(atLow > 0)) return {low, {}};
+    if (!(atHigh < 0)) return {high, {}};
+    std::uintmax_t steps = 100;
+    const auto [a, b] = boost::math::tools::toms748_solve(
+        [&](double s) { return marginOf(place, s); }, from, high, atLow, atHigh,
+        [](double x, double y) { return std::abs(x - y) <= 1e-11; }, steps);
+    const double found = (a + b) / 2, near = 1e-3 * std::min(found - from, high - found);
+    // Towards a zero a function becomes small, towards a pole large. In the singular equations
+    // right at a pole rounding decides, hence the distance.
+    if (!(marginOf(place, found - near) > std::max(atLow, -atHigh))) return {found, {}};
+    const std::array places{found - 2 * near, found - near, found + near, found + 2 * near};
+    std::array<double, 4> reciprocals;
+    for (std::size_t i = 0; i < places.size(); ++i) reciprocals[i] = 1 / marginOf(place, places[i]);
+    return {found - near, poleNear(places, reciprocals)};
+  }
+  /// Opens or closes a node, and what changes together with it. Returns false if no active set
+  /// holds behind the event.
+  bool change(Place place, double s, ContactPath& path) {
+    const auto before = closed_;
+    const Sticking heldBefore = sticking_;
+    const double next = std::min(1.0, s + behind);
+    last_ = place;
+    for (int together = 0; together < mostTogether; ++together) {
+      if (rank_ == place.rank) closed_[place.node] = !closed_[place.node];
+      place = worstAt(next);
+      if (place.margin >= -rounding && state_.found) return record(before, s, path);
+    }
+    const Solution found = problem_.solve(at(next));
+    if (!found.converged) {
+      closed_ = before, sticking_ = heldBefore;
+      return false;
+    }
+    closed_ = found.closed, sticking_ = found.sticking;
+    return record(before, s, path);
+  }
+  bool record(const std::vector<unsigned char>& before, double s, ContactPath& path) {
+    int own = 0;
+    for (std::size_t i = 0; i < before.size(); ++i)
+      if (before[i] != closed_[i]) {
+        path.events.push_back({at(s), i, before[i] != 0, path.count});
+        ++own;
+      }
+    check(MPI_Allreduce(MPI_IN_PLACE, &own, 1, MPI_INT, MPI_SUM, comm()));
+    path.count += own;
+    return own > 0;
+  }
+
+  CondensedProblem& problem_;
+  sweep::Parameters from_, to_;
+  std::vector<unsigned char> closed_;
+  Sticking sticking_;
+  impedance::ContactSolution state_;  // the last one asked for
+  std::vector<double> margins_;
+  double forceUnit_ = 0;
+  int rank_ = 0;
+  Place last_;
+};
+
+}  // namespace
+
+void anticipateContact(CondensedProblem& problem, const std::vector<ContactWay>& ways) {
+  int rank = 0;
+  check(MPI_Comm_rank(problem.comm(), &rank));
+  std::vector<ChosenSet> ends, sets;
+  for (const auto& way : ways)
+    for (const auto* solution : {way.from, way.to})
+      ends.push_back({solution->at, way.from->closed, way.from->sticking});
+  const auto states = problem.onSets(ends);
+  for (std::size_t k = 0; k < ways.size(); ++k) {
+    ChosenSet set = ends[2 * k];
+    const auto expected =
+        expectedChanges(problem.comm(), ways[k], states[2 * k], states[2 * k + 1]);
+    for (const ExpectedChange& change : expected) {
+      if (change.rank == rank) set.closed[change.node] = !set.closed[change.node];
+      // A set is asked where it begins, and at the end to see which node changes next.
+      for (double s : {change.at, 1.0}) {
+        set.at = between(ways[k].from->at, ways[k].to->at, s);
+        sets.push_back(set);
+      }
+    }
+  }
+  problem.onSets(sets);
+}
+
+ContactPath followContact(CondensedProblem& problem, const Solution& from,
+                          const sweep::Parameters& to) {
+  return Follower(problem, from, to).follow();
+}
+
+}  // namespace squeal::condensed

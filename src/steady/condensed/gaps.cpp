@@ -1,0 +1,168 @@
+#include "steady/condensed/gaps.hpp"
+
+#include <petscsnes.h>
+
+#include <algorithm>
+
+#include "base/petsc/arrays.hpp"
+#include "base/system/text.hpp"
+#include "model/interfaces/algebra.hpp"
+#include "steady/steady/complementarity.hpp"
+
+namespace squeal::condensed {
+
+using impedance::ContactCase;
+
+namespace {
+
+/// The context of SNES, of the Jacobian and of its parts.
+struct GapProblem {
+  impedance::ContactSolver& solver;
+  ContactCase asked;  // `free` says of gaps which of them SNES lets open
+  GapUnits units;
+  MPI_Comm comm;
+  PetscInt first;  // number of the first contact node of this rank
+  std::size_t nodes;
+  std::vector<unsigned char> before = {};  // `free` of the Newton step before the last
+};
+
+/// Collective. Says which nodes the last two Newton steps disagree about; empty if about none.
+std::string alternating(const GapProblem& problem, const contact::Contact& contact) {
+  int count = 0, rank = 0;
+  std::size_t one = 0;
+  for (std::size_t i = 0; i < problem.nodes && !problem.before.empty(); ++i)
+    if (problem.before[i] != problem.asked.conditions.free[i] && count++ == 0) one = i;
+  check(MPI_Comm_rank(problem.comm, &rank));
+  struct {
+    int count, rank;
+  } most{count, rank};
+  check(MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_2INT, MPI_MAXLOC, problem.comm));
+  check(MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPI_INT, MPI_SUM, problem.comm));
+  if (count == 0) return "";
+  mesh::Point position{};
+  if (rank == most.rank) position = contact.nodes[one].position;
+  check(MPI_Bcast(position.data(), 3, MPI_DOUBLE, most.rank, problem.comm));
+  return formatted("%d %s in turn, such as that at %s", count,
+                   count == 1 ? "contact node opens and closes" : "contact nodes open and close",
+                   interfaces::text(position).c_str());
+}
+
+/// Sets F(g) in units, with the friction in balance.
+void forces(GapProblem& problem, const ContactCase& asked, Vec gaps, Vec f) {
+  std::vector<double> scaled;
+  for (const ReadArray values(gaps); double value : values)
+    scaled.push_back(problem.units.gap * value);
+  const auto found = problem.solver.withGaps(scaled, asked);
+  const WriteArray values(f);
+  for (PetscInt i = 0; i < values.size(); ++i)
+    values[i] = found.effects[values.size() + i] / problem.units.force;
+}
+
+/// The case with other forces given, zero so far.
+ContactCase unloaded(const GapProblem& problem) {
+  ContactCase result = problem.asked;
+  std::ranges::fill(result.given, 0);
+  return result;
+}
+
+PetscErrorCode evaluate(SNES, Vec gaps, Vec f, void* context) {
+  auto& problem = *static_cast<GapProblem*>(context);
+  PetscFunctionBegin;
+  forces(problem, problem.asked, gaps, f);
+  PetscFunctionReturn(0);
+}
+
+/// The Jacobian does not change.
+PetscErrorCode differentiate(SNES, Vec, Mat, Mat, void*) { return 0; }
+
+PetscErrorCode multiply(Mat jacobian, Vec gaps, Vec f) {
+  GapProblem* problem = nullptr;
+  PetscFunctionBegin;
+  PetscCall(MatShellGetContext(jacobian, &problem));
+  forces(*problem, unloaded(*problem), gaps, f);
+  PetscFunctionReturn(0);
+}
+
+/// Returns the part of the Jacobian for the gaps that SNES lets open.
+PetscErrorCode openPart(Mat jacobian, IS rows, IS, MatReuse, Mat* part) {
+  GapProblem* problem = nullptr;
+  PetscInt count = 0;
+  const PetscInt* indices = nullptr;
+  PetscFunctionBegin;
+  PetscCall(MatShellGetContext(jacobian, &problem));
+  PetscCall(ISGetLocalSize(rows, &count));
+  PetscCall(ISGetIndices(rows, &indices));
+  auto& free = problem->asked.conditions.free;
+  problem->before = free;
+  std::fill_n(free.begin(), problem->nodes, 0);
+  for (PetscInt i = 0; i < count; ++i) free[indices[i] - problem->first] = 1;
+  PetscCall(ISRestoreIndices(rows, &indices));
+  PetscCall(
+      MatCreateShell(problem->comm, count, count, PETSC_DETERMINE, PETSC_DETERMINE, problem, part));
+  PetscFunctionReturn(0);
+}
+
+/// Solves with the part of the Jacobian in use.
+PetscErrorCode solvePart(PC pc, Vec right, Vec gaps) {
+  GapProblem* problem = nullptr;
+  PetscFunctionBegin;
+  PetscCall(PCShellGetContext(pc, &problem));
+  const auto& open = problem->asked.conditions.free;
+  ContactCase asked = unloaded(*problem);
+  {
+    const ReadArray values(right);
+    for (std::size_t i = 0, k = 0; i < problem->nodes; ++i)
+      if (open[i]) asked.given[problem->nodes + i] = -problem->units.force * values[k++];
+  }
+  const auto found = problem->solver.solve(asked);
+  const WriteArray values(gaps);
+  for (std::size_t i = 0, k = 0; i < problem->nodes; ++i)
+    if (open[i]) values[k++] = found.causes[problem->nodes + i] / problem->units.gap;
+  PetscFunctionReturn(0);
+}
+
+}  // namespace
+
+bool solveGaps(const contact::Contact& contact, impedance::ContactSolver& solver,
+               const ContactCase& asked, const GapUnits& units, double accuracy,
+               std::vector<double>& gaps, steady::Solution& solution) {
+  const MPI_Comm comm = contact.mesh->comm;
+  const PetscInt n = gaps.size();
+  PetscInt end = 0;
+  check(MPI_Scan(&n, &end, 1, MPIU_INT, MPI_SUM, comm));
+  GapProblem problem{solver, asked, units, comm, end - n, gaps.size()};
+  std::fill_n(problem.asked.conditions.free.begin(), n, 1);  // where SNES asks for no part
+  OwnedMat jacobian;
+  check(MatCreateShell(comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, &problem, jacobian.out()));
+  check(MatShellSetOperation(jacobian, MATOP_MULT, reinterpret_cast<void (*)()>(multiply)));
+  check(MatShellSetOperation(jacobian, MATOP_CREATE_SUBMATRIX,
+                             reinterpret_cast<void (*)()>(openPart)));
+  const OwnedVec x = rightVector(jacobian), low = rightVector(jacobian),
+                 high = rightVector(jacobian), f = rightVector(jacobian);
+  {
+    const WriteArray start(x);
+    for (PetscInt i = 0; i < n; ++i) start[i] = gaps[i] / units.gap;
+  }
+  check(VecSet(high, PETSC_INFINITY));
+  const steady::OwnedSNES snes = steady::newSnes(comm, accuracy);
+  check(SNESSetFunction(snes, f, evaluate, &problem));
+  check(SNESSetJacobian(snes, jacobian, jacobian, differentiate, nullptr));
+  check(SNESVISetVariableBounds(snes, low, high));
+  KSP ksp = nullptr;
+  PC pc = nullptr;
+  check(SNESGetKSP(snes, &ksp));
+  check(KSPSetType(ksp, KSPPREONLY));
+  check(KSPGetPC(ksp, &pc));
+  check(PCSetType(pc, PCSHELL));
+  check(PCShellSetContext(pc, &problem));
+  check(PCShellSetApply(pc, solvePart));
+  const bool isFound = steady::solveSnes(snes, x, solution);
+  if (!isFound)
+    if (const std::string who = alternating(problem, contact); !who.empty())
+      solution.reason += ": " + who;
+  const ReadArray values(x);
+  for (PetscInt i = 0; i < n; ++i) gaps[i] = units.gap * values[i];
+  return isFound;
+}
+
+}  // namespace squeal::condensed

@@ -1,0 +1,202 @@
+#include "steady/condensed/pivots.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/petsc/check.hpp"
+
+namespace squeal::condensed {
+namespace {
+
+using impedance::ContactCase;
+using impedance::ContactSolution;
+
+/// A slope below this part of the terms that it is the sum of is rounding.
+constexpr double rounding = 1e-9;
+/// The largest number of pivots for each contact node, and besides. Problems of contact take about
+/// one for each node that opens or closes in the end.
+constexpr PetscInt mostPerNode = 4, mostBesides = 100;
+
+/// A contact node of one of the ranks.
+struct Place {
+  int rank = 0;
+  PetscInt node = 0;
+};
+
+/// What the state is on the present set while a parameter ν grows from 0, linear in it.
+struct Line {
+  double value, slope;
+
+  /// Returns the ν at which this becomes negative, or infinity; `size` is that of the terms of the
+  /// slope.
+  double end(double size) const {
+    return slope < -rounding * size ? std::max(value, 0.0) / -slope : INFINITY;
+  }
+};
+
+class Lemke {
+ public:
+  Lemke(impedance::ContactSolver& solver, MPI_Comm comm, const ContactCase& asked, std::size_t n)
+      : solver_(solver), comm_(comm), asked_(asked), open_(n, 0), cover_(n) {
+    check(MPI_Comm_rank(comm, &rank_));
+    PetscInt own = n, end = 0;
+    check(MPI_Scan(&own, &end, 1, MPIU_INT, MPI_SUM, comm));
+    check(MPI_Allreduce(&own, &total_, 1, MPIU_INT, MPI_SUM, comm));
+    // No two nodes should reach zero at once, as those of a symmetric brake would under equal
+    // forces: the fractions of the multiples of the golden ratio all differ.
+    for (std::size_t i = 0; i < n; ++i) {
+      const double multiple = 0.6180339887498949 * (end - own + i);
+      cover_[i] = 1 + multiple - std::floor(multiple);
+    }
+  }
+
+  bool solve(std::vector<double>& gaps) {
+    if (!start()) {
+      std::ranges::fill(gaps, 0);
+      return true;
+    }
+    for (PetscInt k = 0; k < mostPerNode * total_ + mostBesides; ++k) {
+      if (!findLines()) return false;
+      const double last = lambda_.end(lambdaSize_);
+      const auto [nu, place] = firstEnd();
+      if (last <= nu && last < INFINITY) {
+        for (std::size_t i = 0; i < gaps.size(); ++i)
+          gaps[i] = open_[i] || (isPivot(i) && opens_) ? valueAt(i, last) : 0;
+        return true;
+      }
+      if (!(nu < INFINITY)) return false;
+      // The pivot node has left zero for good, and the next one has come there.
+      if (rank_ == pivot_.rank && opens_) open_[pivot_.node] = 1;
+      int wasOpen = rank_ == place.rank && open_[place.node];
+      check(MPI_Bcast(&wasOpen, 1, MPI_INT, place.rank, comm_));
+      if (rank_ == place.rank) open_[place.node] = 0;
+      pivot_ = place;
+      opens_ = !wasOpen;
+    }
+    return false;
+  }
+
+ private:
+  bool isPivot(std::size_t i) const {
+    return rank_ == pivot_.rank && static_cast<PetscInt>(i) == pivot_.node;
+  }
+  double valueAt(std::size_t i, double nu) const {
+    return std::max(0.0, lines_[i].value + nu * lines_[i].slope);
+  }
+  /// Returns the conditions of the present set, in which the pivot node is closed.
+  ContactCase onSet(std::vector<double> given) const {
+    ContactCase result{asked_.conditions, std::move(given)};
+    std::ranges::copy(open_, result.conditions.free.begin());
+    return result;
+  }
+  std::vector<double> coverForces() const {
+    std::vector<double> forces(asked_.given.size(), 0.0);
+    for (std::size_t i = 0; i < cover_.size(); ++i) forces[cover_.size() + i] = cover_[i];
+    return forces;
+  }
+  /// Returns what a unit gap at the pivot node causes while all others are closed, without
+  /// friction.
+  std::vector<double> unitGap() const {
+    std::vector<double> unit(open_.size(), 0.0);
+    if (rank_ == pivot_.rank) unit[pivot_.node] = 1;
+    ContactCase bare{asked_.conditions, std::vector<double>(asked_.given.size(), 0.0)};
+    std::ranges::fill(bare.conditions.free, 0);
+    std::ranges::fill(bare.conditions.coefficient, 0);
+    return solver_.withGaps(unit, bare).effects;
+  }
+  /// Finds the node that opens first when λ decreases from where all are closed. Returns false if
+  /// they are closed at λ = 0.
+  bool start() {
+    const auto found = solver_.solve(onSet(asked_.given));
+    double worst = 0;
+    Place place{rank_, 0};
+    const std::size_t n = open_.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      const double needed = -found.effects[n + i] / cover_[i];
+      if (needed > worst) worst = needed, place.node = i;
+    }
+    const auto [largest, where] = leastOf(-worst, place);
+    pivot_ = where, opens_ = true;
+    return largest < 0;
+  }
+  /// Collective. Finds how λ and the forces and gaps depend on ν, the gap or the force of the pivot
+  /// node. Returns false if the set has no such state.
+  bool findLines() {
+    std::vector<ContactCase> cases{onSet(asked_.given), onSet(coverForces())};
+    std::vector<double> unit(asked_.given.size(), 0.0);
+    if (opens_) cases.push_back(onSet(unit = unitGap()));
+    const auto found = solver_.solve(cases);
+    if (!std::ranges::all_of(found, &ContactSolution::found)) return false;
+    const std::size_t n = open_.size();
+    const auto margin = [&](std::size_t k, std::size_t i) {
+      if (k >= found.size()) return 0.0;
+      return open_[i] ? found[k].causes[n + i] : found[k].effects[n + i];
+    };
+    // F of the pivot node is a + λ b + ν c, which is 0 while it opens and ν while it closes.
+    std::array<double, 4> atPivot{};
+    if (rank_ == pivot_.rank) {
+      for (std::size_t k = 0; k < 3; ++k) atPivot[k] = margin(k, pivot_.node);
+      atPivot[3] = opens_ ? unit[n + pivot_.node] : 1;
+    }
+    check(MPI_Bcast(atPivot.data(), 4, MPI_DOUBLE, pivot_.rank, comm_));
+    const auto [a, b, c, alone] = atPivot;
+    if (!(b != 0)) return false;
+    lambda_ = {-a / b, (opens_ ? -c : 1) / b};
+    lambdaSize_ = std::abs(alone / b);
+    lines_.resize(n);
+    sizes_.resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const double own = margin(2, i), covered = lambda_.slope * margin(1, i);
+      lines_[i] = {margin(0, i) + lambda_.value * margin(1, i), own + covered};
+      sizes_[i] = std::abs(own) + std::abs(covered);
+      if (opens_) sizes_[i] += open_[i] ? 1 : std::abs(unit[n + i]);  // for a unit gap
+      if (isPivot(i)) lines_[i] = {0, 1};                             // ν itself
+    }
+    return true;
+  }
+  /// Collective. Returns the first end of the forces and gaps of all nodes except the pivot node.
+  std::pair<double, Place> firstEnd() const {
+    double first = INFINITY;
+    Place place{rank_, 0};
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      if (isPivot(i)) continue;
+      if (const double end = lines_[i].end(sizes_[i]); end < first) first = end, place.node = i;
+    }
+    return leastOf(first, place);
+  }
+  /// Collective. Returns the least value of all ranks with its place.
+  std::pair<double, Place> leastOf(double value, Place place) const {
+    struct {
+      double value;
+      int rank;
+    } least{value, rank_};
+    check(MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE_INT, MPI_MINLOC, comm_));
+    check(MPI_Bcast(&place.node, 1, MPIU_INT, least.rank, comm_));
+    place.rank = least.rank;
+    return {least.value, place};
+  }
+
+  impedance::ContactSolver& solver_;
+  MPI_Comm comm_;
+  const ContactCase& asked_;
+  int rank_ = 0;
+  PetscInt total_ = 0;               // contact nodes of all ranks
+  std::vector<unsigned char> open_;  // [contact node]
+  std::vector<double> cover_;        // [contact node] d, N
+  Place pivot_;                      // where gap and force are zero and one of them is to grow
+  bool opens_ = true;                // it is the gap
+  Line lambda_{};
+  double lambdaSize_ = 0;
+  std::vector<Line> lines_;    // [contact node] gap where it is open, force where it is closed
+  std::vector<double> sizes_;  // [contact node] of the terms of the slope
+};
+
+}  // namespace
+
+bool pivotGaps(impedance::ContactSolver& solver, MPI_Comm comm, const ContactCase& asked,
+               std::vector<double>& gaps) {
+  return Lemke(solver, comm, asked, gaps.size()).solve(gaps);
+}
+
+}  // namespace squeal::condensed

@@ -1,0 +1,373 @@
+#include "steady/impedance/contact_solver.hpp"
+
+#include <slepcblaslapack.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "algebra/linalg/block.hpp"
+#include "algebra/linalg/symmetric.hpp"
+#include "base/system/concatenation.hpp"
+
+namespace squeal::impedance {
+
+using linalg::DenseMatrix;
+using linalg::DenseView;
+
+namespace {
+
+/// Friction that is left unbalanced by more than this part of what causes it has no solution.
+constexpr double accepted = 1e-8;
+/// Forces on free unknowns above this part of the largest given one are left by a loose body.
+constexpr double balancedForces = 1e-6;
+/// Directions of the stiffness of the open gaps that are softer than this part of the stiffest are
+/// those of a loose body.
+constexpr double loose = 1e-12;
+/// The largest number of directions that one call adds.
+constexpr PetscInt mostDirections = 500;
+/// What remains of a direction, a unit vector, must be longer: outside the space of friction
+/// magnitudes, and besides the others of its block. What is left out there comes with the next
+/// block.
+constexpr double newInSpace = 1e-10, newInBlock = 0.3;
+/// The largest number of bytes that stiffnesses of free unknowns may take, unless a single one
+/// does.
+constexpr double keptBytes = 256e6;
+/// The largest number of active sets that are kept.
+constexpr std::size_t mostBlocks = 32;
+
+/// Collective. Returns the rows of all ranks, on every rank.
+DenseMatrix gathered(const Concatenation& ranks, const DenseView& rows) {
+  DenseMatrix all(ranks.size(), rows.columns());
+  for (PetscInt j = 0; j < rows.columns(); ++j) ranks.gather(rows.column(j), all.column(j));
+  return all;
+}
+
+/// The inverse of a symmetric matrix that should be positive definite.
+class SymmetricInverse {
+ public:
+  explicit SymmetricInverse(DenseMatrix a) : factor_(std::move(a)) {
+    PetscBLASInt order = factor_.rows(), info = 0;
+    if (order == 0) return;
+    const DenseMatrix whole = factor_;
+    LAPACKpotrf_("L", &order, factor_.data(), &order, &info);
+    if (info == 0) return;
+    factor_ = whole;
+    values_ = linalg::symmetricEigen(factor_);
+  }
+  /// Replaces the columns of x by A⁻¹ x, without the directions in which A has no stiffness.
+  void apply(DenseMatrix& x) const {
+    PetscBLASInt order = factor_.rows(), columns = x.columns(), info = 0;
+    if (order == 0 || columns == 0) return;
+    if (values_.empty()) {
+      LAPACKpotrs_("L", &order, &columns, factor_.data(), &order, x.data(), &order, &info);
+      return;
+    }
+    DenseMatrix parts = linalg::transposedProduct(factor_, x);
+    for (PetscInt j = 0; j < parts.columns(); ++j)
+      for (PetscInt i = 0; i < parts.rows(); ++i)
+        parts(i, j) = values_[i] > loose * values_.back() ? parts(i, j) / values_[i] : 0;
+    x = linalg::product(factor_, parts);
+  }
+
+ private:
+  DenseMatrix factor_;          // Cholesky factor, or eigenvectors
+  std::vector<double> values_;  // eigenvalues, if the matrix is not positive definite
+};
+
+/// Collective. Returns the coefficients a for which |b − G a| is least. The normal equations are
+/// refined, which gives all digits as long as the condition of G is below some 1e7.
+DenseMatrix leastSquares(MPI_Comm comm, const DenseView& g, const DenseView& b) {
+  const SymmetricInverse inverse(linalg::transposedProduct(comm, g, g));
+  DenseMatrix sum(g.columns(), 1), rest(b);
+  for (int pass = 0; pass < 3; ++pass) {
+    DenseMatrix step = linalg::transposedProduct(comm, g, rest);
+    inverse.apply(step);
+    linalg::addScaled(sum, 1, step);
+    linalg::multiplyAdd(g, step, rest, -1);
+  }
+  return sum;
+}
+
+}  // namespace
+
+/// A FreeBlock holds what the conditions decide: the stiffness of the free unknowns, and what
+/// friction does while they are free.
+struct ContactSolver::FreeBlock {
+  std::vector<unsigned char> free;  // [released unknown]
+  OwnedMat direct;                  // kept, so that its address stays its own
+  std::vector<PetscInt> local;      // free unknowns of this rank
+  std::vector<PetscInt> places;     // [free unknown of any rank] its column
+  Concatenation ranks;              // of `local`
+  SymmetricInverse stiffness;       // F of w among the free unknowns
+  DenseMatrix normal;               // R of the friction magnitudes with the free unknowns released
+
+  double bytes() const { return 8.0 * ranks.size() * ranks.size(); }
+};
+
+/// A Search looks for the friction of one case in the space of friction magnitudes.
+struct ContactSolver::Search {
+  const ContactCase& asked;
+  std::shared_ptr<FreeBlock> block;
+  DenseMatrix wanted;         // t without its own effects, [contact node]
+  double unit = 0;            // what the part that stays unbalanced refers to, N
+  DenseMatrix weights{0, 1};  // [direction]
+  double left = 0;            // 2-norm of what is unbalanced, N
+};
+
+ContactSolver::ContactSolver(const Impedance& impedance)
+    : impedance_(impedance),
+      columns_(impedance.length()),
+      magnitudes_(impedance.nodes()),
+      responses_(impedance.length()) {
+  const PetscInt own = impedance.nodeOf().size();
+  check(MPI_Scan(&own, &first_, 1, MPIU_INT, MPI_SUM, impedance.comm()));
+  first_ -= own;
+}
+
+ContactSolver::~ContactSolver() = default;
+
+/// Finds the columns of unknowns that have not been free before.
+void ContactSolver::learn(std::span<const unsigned char> free) {
+  std::vector<PetscInt> wanted;
+  for (std::size_t i = 0; i < free.size(); ++i)
+    if (free[i] && place_.count(first_ + i) == 0) wanted.push_back(first_ + i);
+  const auto all = concatenated(impedance_.comm(), wanted);
+  if (all.empty()) return;
+  const PetscInt n = impedance_.nodes(), m = free.size();
+  DenseMatrix units(n + m, std::ssize(all));
+  for (PetscInt j = 0; j < units.columns(); ++j) {
+    if (const PetscInt i = all[j] - first_; i >= 0 && i < m) units(n + i, j) = 1;
+    place_.emplace(all[j], place_.size());
+  }
+  columns_.append(impedance_.responses(units));
+}
+
+double ContactSolver::gapStiffness(std::size_t node) const {
+  const auto place = place_.find(first_ + node);
+  return place == place_.end() ? 0 : columns_(impedance_.nodes() + node, place->second);
+}
+
+std::shared_ptr<ContactSolver::FreeBlock> ContactSolver::blockOf(
+    const ContactConditions& conditions) {
+  const MPI_Comm comm = impedance_.comm();
+  const auto& free = conditions.free;
+  const PetscInt n = impedance_.nodes();
+  std::vector<int> same;
+  for (const auto& block : blocks_)
+    same.push_back(block->free == free && block->direct.get() == conditions.direct);
+  check(MPI_Allreduce(MPI_IN_PLACE, same.data(), same.size(), MPI_INT, MPI_LAND, comm));
+  if (const auto known = std::ranges::find(same, 1); known != same.end()) {
+    const auto place = blocks_.begin() + (known - same.begin());
+    std::rotate(blocks_.begin(), place, place + 1);
+    return blocks_.front();
+  }
+  learn(free);
+  std::vector<PetscInt> local, mine;
+  for (std::size_t i = 0; i < free.size(); ++i)
+    if (free[i]) local.push_back(i), mine.push_back(place_.at(first_ + i));
+  const Concatenation ranks(comm, local.size());
+  auto places = ranks.gathered(mine);
+  DenseMatrix rows(local.size(), std::ssize(places));
+  for (PetscInt j = 0; j < rows.columns(); ++j)
+    for (std::size_t i = 0; i < local.size(); ++i) rows(i, j) = columns_(n + local[i], places[j]);
+  DenseMatrix stiffness = linalg::symmetricPart(gathered(ranks, rows));
+  OwnedMat direct;
+  if (conditions.direct) {
+    check(PetscObjectReference(reinterpret_cast<PetscObject>(conditions.direct)));
+    direct = OwnedMat(conditions.direct);
+  }
+  blocks_.insert(
+      blocks_.begin(),
+      std::make_shared<FreeBlock>(free, std::move(direct), std::move(local), std::move(places),
+                                  ranks, SymmetricInverse(std::move(stiffness)), DenseMatrix(n)));
+  double bytes = 0;
+  const auto kept =
+      std::ranges::find_if(blocks_.begin() + 1, blocks_.end(), [&](const auto& block) {
+        return (bytes += block->bytes()) + blocks_.front()->bytes() > keptBytes;
+      });
+  blocks_.erase(kept, blocks_.end());
+  if (blocks_.size() > mostBlocks) blocks_.resize(mostBlocks);
+  return blocks_.front();
+}
+
+/// Releases the free unknowns until F = 0 there. Returns them, [free unknown of any rank], and adds
+/// what they do to the effects.
+DenseMatrix ContactSolver::release(const FreeBlock& block, DenseMatrix& effects) const {
+  const PetscInt n = impedance_.nodes();
+  DenseMatrix rows(block.local.size(), effects.columns());
+  for (PetscInt j = 0; j < effects.columns(); ++j)
+    for (std::size_t i = 0; i < block.local.size(); ++i)
+      rows(i, j) = -effects(n + block.local[i], j);
+  DenseMatrix freed = gathered(block.ranks, rows);
+  block.stiffness.apply(freed);
+  DenseMatrix amounts(columns_.columns(), freed.columns());
+  for (PetscInt j = 0; j < freed.columns(); ++j)
+    for (PetscInt i = 0; i < freed.rows(); ++i) amounts(block.places[i], j) = freed(i, j);
+  if (!amounts.empty()) linalg::multiplyAdd(columns_, amounts, effects);
+  return freed;
+}
+
+/// Adds what the friction t, which may have several columns, causes directly to the effects.
+void ContactSolver::addDirect(const FreeBlock& block, const DenseView& t,
+                              DenseMatrix& effects) const {
+  if (!block.direct) return;
+  const PetscInt n = impedance_.nodes();
+  DenseMatrix forces(impedance_.length() - n);
+  linalg::appendProduct(block.direct, t, forces);
+  for (PetscInt j = 0; j < forces.columns(); ++j)
+    for (PetscInt i = 0; i < forces.rows(); ++i) effects(n + i, j) += forces(i, j);
+}
+
+/// Brings a block up to the friction magnitudes that are known by now.
+void ContactSolver::update(FreeBlock& block) const {
+  const PetscInt known = block.normal.columns(), all = magnitudes_.columns();
+  if (known == all) return;
+  DenseMatrix fresh(responses_.columnRange(known, all));
+  addDirect(block, magnitudes_.columnRange(known, all), fresh);
+  release(block, fresh);
+  block.normal.append(linalg::rowRange(fresh, 0, impedance_.nodes()));
+}
+
+/// Adds directions, [contact node]×[direction], to the space of friction magnitudes, but for what
+/// of them lies in it. Returns false if nothing remains.
+bool ContactSolver::extend(const DenseMatrix& directions) {
+  const PetscInt n = impedance_.nodes();
+  const MPI_Comm comm = impedance_.comm();
+  DenseMatrix rest = linalg::unitColumns(comm, directions), fresh(n);
+  for (int pass = 0; pass < 2; ++pass)
+    linalg::multiplyAdd(magnitudes_, linalg::transposedProduct(comm, magnitudes_, rest), rest, -1);
+  for (PetscInt j = 0; j < rest.columns(); ++j) {
+    DenseMatrix column(rest.columnRange(j, j + 1));
+    double length = linalg::length(comm, column.entries());
+    if (!(length > newInSpace)) continue;
+    for (double& entry : column.entries()) entry /= length;
+    for (int pass = 0; pass < 2; ++pass)
+      linalg::multiplyAdd(fresh, linalg::transposedProduct(comm, fresh, column), column, -1);
+    length = linalg::length(comm, column.entries());
+    if (!(length > newInBlock)) continue;
+    for (double& entry : column.entries()) entry /= length;
+    fresh.append(column);
+  }
+  if (fresh.columns() == 0) return false;
+  DenseMatrix causes(impedance_.length(), fresh.columns());
+  for (PetscInt j = 0; j < fresh.columns(); ++j)
+    std::ranges::copy(fresh.column(j), causes.column(j).begin());
+  magnitudes_.append(fresh);
+  responses_.append(impedance_.responses(causes));
+  return true;
+}
+
+/// Looks for the friction of all cases until each is balanced or nothing new is found.
+void ContactSolver::balance(std::vector<Search>& searches, double accuracy) {
+  const PetscInt n = impedance_.nodes(), most = magnitudes_.columns() + mostDirections;
+  const MPI_Comm comm = impedance_.comm();
+  DenseMatrix unbalanced(n);
+  do {
+    unbalanced.resizeColumns(0);
+    for (Search& search : searches) {
+      if (search.left <= accuracy * search.unit) continue;
+      update(*search.block);
+      const auto& coefficient = search.asked.conditions.coefficient;
+      DenseMatrix g = magnitudes_;  // t − c R
+      for (PetscInt j = 0; j < g.columns(); ++j)
+        for (PetscInt i = 0; i < n; ++i) g(i, j) -= coefficient[i] * search.block->normal(i, j);
+      search.weights = leastSquares(comm, g, search.wanted);
+      DenseMatrix rest = search.wanted;
+      linalg::multiplyAdd(g, search.weights, rest, -1);
+      search.left = linalg::length(comm, rest.entries());
+      if (!(search.left <= accuracy * search.unit)) unbalanced.append(rest);
+    }
+  } while (unbalanced.columns() > 0 && magnitudes_.columns() < most && extend(unbalanced));
+}
+
+ContactSolution ContactSolver::solution(const Search& search, double accuracy) const {
+  const PetscInt n = impedance_.nodes(), length = impedance_.length(),
+                 known = search.weights.rows();
+  const DenseMatrix t = linalg::product(magnitudes_.columnRange(0, known), search.weights);
+  DenseMatrix effects(length, 1, search.asked.given);
+  linalg::multiplyAdd(responses_.columnRange(0, known), search.weights, effects);
+  addDirect(*search.block, t, effects);
+  const DenseMatrix freed = release(*search.block, effects);
+  ContactSolution result;
+  const auto& local = search.block->local;
+  // Nothing balances forces on a loose body.
+  double largest[2] = {0, 0};  // of the forces on free unknowns, and of the given ones
+  for (const PetscInt i : local) largest[0] = std::max(largest[0], std::abs(effects(n + i, 0)));
+  for (const double force : search.asked.given) largest[1] = std::max(largest[1], std::abs(force));
+  check(MPI_Allreduce(MPI_IN_PLACE, largest, 2, MPI_DOUBLE, MPI_MAX, impedance_.comm()));
+  result.found = std::isfinite(search.left) &&
+                 search.left <= std::max(accuracy, accepted) * search.unit &&
+                 largest[0] <= balancedForces * largest[1];
+  result.causes.assign(length, 0.0);
+  std::ranges::copy(t.entries(), result.causes.begin());
+  for (std::size_t i = 0; i < local.size(); ++i)
+    result.causes[n + local[i]] = freed(search.block->ranks.ownBegin() + i, 0);
+  result.effects.assign(effects.entries().begin(), effects.entries().end());
+  return result;
+}
+
+/// Returns the first case of each group whose stiffnesses are kept at once, and the number of
+/// cases.
+std::vector<std::size_t> ContactSolver::groups(std::span<const ContactCase> cases) const {
+  std::vector<double> orders;
+  for (const auto& one : cases) orders.push_back(std::ranges::count(one.conditions.free, 1));
+  check(MPI_Allreduce(MPI_IN_PLACE, orders.data(), orders.size(), MPI_DOUBLE, MPI_SUM,
+                      impedance_.comm()));
+  std::vector<std::size_t> begins{0};
+  double bytes = 0;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const double more = 8 * orders[i] * orders[i];
+    if (i > begins.back() && bytes + more > keptBytes) begins.push_back(i), bytes = 0;
+    bytes += more;
+  }
+  begins.push_back(cases.size());
+  return begins;
+}
+
+std::vector<ContactSolution> ContactSolver::solve(std::span<const ContactCase> cases,
+                                                  double accuracy) {
+  const PetscInt n = impedance_.nodes(), length = impedance_.length();
+  std::vector<unsigned char> free(length - n);
+  for (const auto& one : cases)
+    std::ranges::transform(free, one.conditions.free, free.begin(), std::bit_or<unsigned char>());
+  learn(free);
+  std::vector<ContactSolution> solutions;
+  const auto begins = groups(cases);
+  for (std::size_t group = 0; group + 1 < begins.size(); ++group) {
+    std::vector<Search> searches;
+    for (std::size_t k = begins[group]; k < begins[group + 1]; ++k) {
+      Search search{cases[k], blockOf(cases[k].conditions), DenseMatrix(n, 1)};
+      DenseMatrix effects(length, 1, cases[k].given);
+      release(*search.block, effects);
+      for (PetscInt i = 0; i < n; ++i)
+        search.wanted(i, 0) = cases[k].conditions.coefficient[i] * effects(i, 0);
+      search.left = linalg::length(impedance_.comm(), search.wanted.entries());
+      search.unit = std::max(search.left, cases[k].frictionUnit);
+      searches.push_back(std::move(search));
+    }
+    balance(searches, accuracy);
+    for (const auto& search : searches) solutions.push_back(solution(search, accuracy));
+  }
+  return solutions;
+}
+
+ContactSolution ContactSolver::withGaps(const std::vector<double>& gaps, ContactCase one) {
+  const PetscInt n = impedance_.nodes();
+  std::vector<unsigned char> open(one.conditions.free.size(), 0);
+  for (PetscInt i = 0; i < n; ++i) open[i] = gaps[i] != 0;
+  learn(open);
+  DenseMatrix weights(columns_.columns(), 1), effects(impedance_.length(), 1, one.given);
+  for (PetscInt i = 0; i < n; ++i)
+    if (open[i]) weights(place_.at(first_ + i), 0) = gaps[i];
+  check(MPI_Allreduce(MPI_IN_PLACE, weights.data(), weights.size(), MPI_DOUBLE, MPI_SUM,
+                      impedance_.comm()));
+  if (!weights.empty()) linalg::multiplyAdd(columns_, weights, effects);
+  std::fill_n(one.conditions.free.begin(), n, 0);
+  one.given.assign(effects.entries().begin(), effects.entries().end());
+  auto result = solve(one);
+  std::ranges::copy(gaps, result.causes.begin() + n);
+  return result;
+}
+
+}  // namespace squeal::impedance

@@ -1,0 +1,34 @@
+#include "steady/steady/serialization.hpp"
+
+namespace squeal::steady {
+
+/// The streams find these two by their arguments.
+void fields(checkpoint::Stream& stream, Resultant& resultant);
+void fields(checkpoint::Stream& stream, Sticking& sticking);
+
+// All members are named, so that a new one does not compile until it is kept too.
+
+void fields(checkpoint::Stream& stream, Resultant& resultant) {
+  auto& [interface, normalForce, frictionForce, moment, leastFriction, worst, stickingLimit,
+         overLimit, released, unheld, momentDefect] = resultant;
+  stream(interface, normalForce, frictionForce, moment, leastFriction, worst, stickingLimit,
+         overLimit, released, unheld, momentDefect);
+}
+
+void fields(checkpoint::Stream& stream, Sticking& sticking) {
+  auto& [holds, direction, heldAgain] = sticking;
+  stream(holds, direction, heldAgain);
+}
+
+void exchange(checkpoint::Archive& archive, Solution& solution) {
+  auto& [at, converged, reason, existsTo, tolerance, iterations, residual, displacement, contact,
+         slip, closed, sticking, revisions, negligibleForce, openNodes, smallestPressure,
+         resultants, imbalance, nodesOfAnother] = solution;
+  archive.common(at, converged, reason, existsTo, tolerance, iterations, residual, revisions,
+                 negligibleForce, openNodes, smallestPressure, resultants, imbalance,
+                 nodesOfAnother);
+  archive.own(contact, slip, closed, sticking);
+  archive.vector(displacement);
+}
+
+}  // namespace squeal::steady

@@ -1,0 +1,394 @@
+#include "steady/steady/steady.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/petsc/arrays.hpp"
+#include "base/system/text.hpp"
+#include "model/contact/loose.hpp"
+#include "model/contact/response.hpp"
+#include "model/elasticity/elasticity.hpp"
+#include "model/mesh/mesh.hpp"
+#include "steady/steady/complementarity.hpp"
+#include "steady/steady/resultants.hpp"
+
+namespace squeal::steady {
+namespace {
+
+/// The largest relative residual with which a solution is accepted.
+constexpr double meaningful = 1e-6;
+/// How often the nodes that stick are revised; a few times are usual.
+constexpr int mostRevisions = 50;
+
+}  // namespace
+
+contact::ActiveSet activeSet(const Solution& solution) {
+  return {solution.closed, solution.sticking.free()};
+}
+
+Problem::Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
+                 const contact::Contact& contact)
+    : Problem(mesh, bodies, contact, Sticking::allHeld(contact)) {}
+
+Problem::Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
+                 const contact::Contact& contact, Sticking sticking)
+    : mesh_(mesh),
+      bodies_(bodies),
+      contact_(contact),
+      all_(contact.nodes.size(), 1),
+      sticking_(std::move(sticking)),
+      transformation_(contact.transformation(all_, sticking_.free())),
+      diagonal_(elasticity::nodalVector(mesh)) {
+  check(MatGetDiagonal(bodies.stiffness, diagonal_));
+  int released = std::count(sticking_.holds.begin(), sticking_.holds.end(), Hold::released);
+  check(MPI_Allreduce(MPI_IN_PLACE, &released, 1, MPI_INT, MPI_MAX, mesh.comm));
+  anyReleased_ = released > 0;
+  if (!contact.convected) return;
+  check(MatMatMult(contact.jump, transformation_.trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
+                   jumps_.out()));
+  check(MatMatMult(contact.convected, transformation_.trial, MAT_INITIAL_MATRIX, PETSC_DEFAULT,
+                   convected_.out()));
+}
+
+const contact::Projection& Problem::stiffness() const {
+  if (!stiffness_) stiffness_ = contact::project(contact_, transformation_, bodies_.stiffness);
+  return stiffness_;
+}
+
+OwnedVec Problem::load(const sweep::Parameters& at) const {
+  OwnedVec b = elasticity::nodalVector(mesh_);
+  check(VecAXPBYPCZ(b, at.pressure, at.speed * at.speed - at.pressure, 0, bodies_.load,
+                    bodies_.centrifugal));
+  return b;
+}
+
+OwnedVec Problem::springForces(double speed, Vec displacement) const {
+  OwnedVec r = elasticity::nodalVector(mesh_);
+  check(MatMult(bodies_.stiffness, displacement, r));
+  if (bodies_.rotationStiffness) {
+    const OwnedVec moving = elasticity::nodalVector(mesh_);
+    check(MatMult(bodies_.rotationStiffness, displacement, moving));
+    check(VecAXPY(r, speed * speed, moving));
+  }
+  return r;
+}
+
+OwnedVec Problem::forces(const sweep::Parameters& at, Vec displacement) const {
+  OwnedVec r = springForces(at.speed, displacement);
+  check(VecAXPY(r, -1, load(at)));
+  return r;
+}
+
+std::vector<double> Problem::normalForces(Vec forces) const {
+  const OwnedVec reactions = elasticity::nodalVector(mesh_);
+  check(MatMult(contact_.reaction, forces, reactions));
+  const ReadArray values(reactions);
+  std::vector<double> normal;
+  for (const auto& node : contact_.nodes)
+    normal.push_back(values[contact_.gapRow(node) - mesh_.dimension * mesh_.firstNode]);
+  return normal;
+}
+
+/// Returns L(f)ᵀ r in the form
+///   Tᵀ (r + Jᵀ f φ E⁻ᵀ R_N τ).
+OwnedVec Problem::test(const contact::Transformation& transformation,
+                       const std::vector<unsigned char>& slides, const sweep::Parameters& at,
+                       Vec forces, const std::vector<contact::Slip>& slip) const {
+  const OwnedVec friction = elasticity::nodalVector(mesh_), sum = elasticity::nodalVector(mesh_);
+  const auto normal = contact_.nodalForce(normalForces(forces), slides);
+  {
+    const WriteArray values(friction);
+    for (std::size_t i = 0; i < contact_.nodes.size(); ++i)
+      for (int d = 0; d < mesh_.dimension; ++d)
+        values[mesh_.dimension * contact_.nodes[i].node + d] =
+            slip[i].friction(at.friction) * normal[i] * slip[i].direction[d];
+  }
+  check(MatMultTransposeAdd(contact_.jump, friction, forces, sum));
+  OwnedVec result = rightVector(transformation.trial);
+  check(MatMultTranspose(transformation.trial, sum, result));
+  return result;
+}
+
+OwnedVec Problem::displacement(const contact::Transformation& transformation,
+                               const sweep::Parameters& at, Vec x) const {
+  OwnedVec u = elasticity::nodalVector(mesh_);
+  check(MatMult(transformation.trial, x, u));
+  check(VecAXPY(u, at.pressure, contact_.offset));
+  check(VecAXPY(u, 1, contact_.gapOffset));
+  return u;
+}
+
+void Problem::residual(const sweep::Parameters& at, Vec x, Vec f) const {
+  const OwnedVec u = displacement(at, x);
+  check(VecCopy(test(transformation_, all_, at, forces(at, u), slip(at.speed, u)), f));
+}
+
+/// Returns [M.14]
+///   Tᵀ (K + v² K^R) T + Sᵀ N (K + v² K^R) T − v (J T)ᵀ B (D T)
+/// with B of nodalResponse(). The last term, the turning of the slip, is there with convective
+/// terms only.
+OwnedMat Problem::jacobian(const sweep::Parameters& at, Vec x) const {
+  const OwnedVec u = displacement(at, x);
+  const auto slip = this->slip(at.speed, u);
+  const OwnedMat rows = slipRows(transformation_, slip, all_, at.friction);
+  OwnedMat sum = stiffness().tested(rows);
+  if (bodies_.rotationStiffness && !rotationStiffness_)
+    rotationStiffness_ = contact::project(contact_, transformation_, bodies_.rotationStiffness);
+  if (rotationStiffness_)
+    check(MatAXPY(sum, at.speed * at.speed, rotationStiffness_.tested(rows),
+                  DIFFERENT_NONZERO_PATTERN));
+  if (contact_.convected) {
+    const OwnedMat response = contact::nodalResponse(
+        contact_, slip, contact_.nodalForce(normalForces(forces(at, u))), at.friction);
+    OwnedMat change, turning;
+    check(MatMatMult(response, convected_, MAT_INITIAL_MATRIX, PETSC_DEFAULT, change.out()));
+    check(MatTransposeMatMult(jumps_, change, MAT_INITIAL_MATRIX, PETSC_DEFAULT, turning.out()));
+    check(MatAXPY(sum, -at.speed, turning, DIFFERENT_NONZERO_PATTERN));
+  }
+  return sum;
+}
+
+OwnedMat Problem::slipRows(const contact::Transformation& transformation,
+                           const std::vector<contact::Slip>& slip,
+                           const std::vector<unsigned char>& slides, double friction) const {
+  return contact_.hasFriction(friction) || anyReleased_
+             ? contact_.slipRowsAt(transformation, slip, slides, friction)
+             : OwnedMat();
+}
+
+double Problem::rounding(Vec displacement, Vec loads) const {
+  const OwnedVec magnitude = elasticity::nodalVector(mesh_);
+  PetscReal springs = 0, forces = 0;
+  check(VecPointwiseMult(magnitude, diagonal_, displacement));
+  check(VecNorm(magnitude, NORM_2, &springs));
+  if (loads) check(VecNorm(loads, NORM_2, &forces));
+  return PETSC_MACHINE_EPSILON * (springs + forces);
+}
+
+/// Returns the slip with that of the released nodes.
+std::vector<contact::Slip> Problem::slip(double speed, Vec displacement) const {
+  return withReleased(contact_, contact_.slip(speed, displacement), sticking_);
+}
+
+/// Collective. Returns why a body is loose with these holds; an empty text if none is.
+std::string Problem::whyLoose(const Sticking& sticking) const {
+  const auto loose =
+      contact::looseBody(mesh_, contact_, bodies_.springs, {.released = sticking.free()});
+  return loose ? "body '" + loose->body + "' can move rigidly (" + loose->motion +
+                     ") where nodes of sticking interfaces slide or have opened; hold it otherwise"
+               : "";
+}
+
+void Problem::requireSlip(const sweep::Parameters& at) const {
+  contact::requireSlip(contact_, contact_.slip(at.speed, nullptr), all_, at.friction);
+}
+
+/// Collective. Takes a solution back whose open contact leaves a body loose: its position is
+/// arbitrary, and no stiffness matrix of this active set is positive definite.
+void Problem::requireHeld(Solution& solution) const {
+  if (!solution.converged || solution.openNodes == 0) return;
+  const auto loose =
+      contact::looseBody(mesh_, contact_, bodies_.springs,
+                         {.closed = solution.closed, .released = solution.sticking.free()});
+  if (!loose) return;
+  solution.converged = false;
+  solution.reason = formatted(
+      "body '%s' is loose (%s): %" PetscInt_FMT " of %" PetscInt_FMT
+      " contact nodes are open, and nothing else holds it; begin the sweep at a friction that "
+      "presses it, or hold it with -constraint_<group>_clamped or -ground_<group>_stiffness",
+      loose->body.c_str(), loose->motion.c_str(), solution.openNodes, contact_.totalNodes);
+}
+
+Solution Problem::solve(const sweep::Parameters& at, const contact::CoupledSystem& system) const {
+  requireSlip(at);
+  const OwnedVec z = closedContact(at, system);
+  Solution solution = solveFrom(at, z);
+  while (auto next = nextHolds(solution)) {
+    Solution better = Problem(mesh_, bodies_, contact_, std::move(*next)).solveFrom(at, z);
+    better.revisions = solution.revisions + 1;
+    better.iterations += solution.iterations;
+    solution = std::move(better);
+  }
+  return solution;
+}
+
+std::optional<Sticking> Problem::nextHolds(Solution& solution) const {
+  if (!solution.converged) return {};
+  auto next = revised(contact_, solution);
+  if (!next) return {};
+  std::string failure = whyLoose(*next);
+  if (failure.empty() && solution.revisions == mostRevisions)
+    failure =
+        formatted("what holds the nodes of sticking interfaces has not settled after %d revisions",
+                  mostRevisions);
+  if (failure.empty()) return next;
+  solution.converged = false;
+  solution.reason = std::move(failure);
+  return {};
+}
+
+/// Collective. Solves with the nodes that stick as this problem holds them, from a start z, N
+/// entries, which becomes the solution.
+Solution Problem::solveFrom(const sweep::Parameters& at, Vec z) const {
+  Solution solution;
+  solution.at = at;
+  OwnedVec x = rightVector(transformation_.trial);
+  check(MatMultTranspose(transformation_.selection, z, x));
+  const double left = complementarity(*this, x, solution);
+  check(MatMult(transformation_.selection, x, z));
+  conclude(x, left, solution);
+  return solution;
+}
+
+void Problem::conclude(Vec x, double left, Solution& solution) const {
+  solution.sticking = sticking_;
+  if (solution.converged && solution.residual > meaningful) {
+    solution.converged = false;
+    solution.reason = formatted(
+        "rounding of the stiffness alone leaves %.1e of the forces out of balance, for "
+        "displacements reach %.3g m: a body is held "
+        "too "
+        "weakly for these loads; hold it by stiffer springs",
+        solution.residual, largestDisplacement(solution.at, x));
+  }
+  recover(x, left, solution);
+  requireHeld(solution);
+}
+
+double Problem::largestDisplacement(const sweep::Parameters& at, Vec x) const {
+  PetscReal largest = 0;
+  check(VecNorm(displacement(at, x), NORM_INFINITY, &largest));
+  return largest;
+}
+
+/// Collective. Solves the problem with the gaps of the active set held at zero, and returns the
+/// solution z, N entries. Under approximation A it is linear. With convective terms the matrix
+/// leaves out K^R and the turning of the slip, which are small and cost a few more steps of
+/// refinement.
+OwnedVec Problem::closedContact(const sweep::Parameters& at,
+                                const contact::CoupledSystem& system) const {
+  const auto& closed = system.transformation();
+  const OwnedMat rows = slipRows(closed, slip(at.speed, nullptr), system.closed(), at.friction);
+  const OwnedMat matrix = system.projections().stiffness.tested(rows);
+  const auto residual = [&](Vec y) {
+    const OwnedVec u = displacement(closed, at, y);
+    return Residual{test(closed, system.closed(), at, forces(at, u), slip(at.speed, u)),
+                    rounding(u, load(at))};
+  };
+  const OwnedVec y = rightVector(closed.trial);
+  if (refine(innerSolver(matrix, system.solver()), residual, y).relative() >
+      0.5) {  // near a friction without solution: the frictionless one to start from
+    check(VecSet(y, 0));
+    check(KSPSolve(system.solver(), residual(y).vector, y));
+    check(VecScale(y, -1));
+  }
+  OwnedVec z = elasticity::nodalVector(mesh_);
+  check(MatMult(closed.selection, y, z));
+  return z;
+}
+
+void Problem::recover(Vec x, double noise, Solution& solution) const {
+  solution.displacement = displacement(solution.at, x);
+  const OwnedVec force = forces(solution.at, solution.displacement),
+                 folded = elasticity::nodalVector(mesh_);
+  check(
+      MatMultTranspose(contact_.periodic, force,
+                       folded));  // a contact node on a periodic boundary is pressed on both sides
+  solution.slip = contact_.slip(solution.at.speed, solution.displacement);
+  const auto normal = normalForces(force);
+
+  PetscInt first = 0;
+  check(VecGetOwnershipRange(x, &first, nullptr));
+  const ReadArray values(x);
+  std::vector<double> gaps;
+  for (PetscInt column : transformation_.gapColumn) gaps.push_back(values[column - first]);
+  gaps = contact_.nodalGap(gaps);
+  double largest = 0;
+  for (std::size_t i = 0; i < contact_.nodes.size(); ++i) {
+    const auto& node = contact_.nodes[i];
+    ContactState state;
+    state.coefficient = values[transformation_.gapColumn[i] - first];
+    state.gap = gaps[i];
+    state.normalForce = normal[i];
+    const auto& slip = solution.slip[i];
+    for (std::size_t d = 0; d < 3; ++d)
+      state.frictionForce[d] =
+          -slip.friction(solution.at.friction) * state.normalForce * slip.direction[d];
+    state.pressure = state.normalForce / node.area;
+    largest = std::max(largest, std::abs(state.normalForce));
+    solution.contact.push_back(state);
+  }
+  check(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, mesh_.comm));
+  double smallest = INFINITY;
+  // SNES leaves a force of the order of its tolerance at an open gap.
+  solution.negligibleForce = std::max(1e-8 * largest, 10 * noise);
+  for (const auto& state : solution.contact) {
+    const bool closed = state.normalForce > solution.negligibleForce;
+    solution.closed.push_back(closed);
+    solution.openNodes += !closed;
+    smallest = std::min(smallest, state.pressure);
+  }
+  check(MPI_Allreduce(MPI_IN_PLACE, &solution.openNodes, 1, MPIU_INT, MPI_SUM, mesh_.comm));
+  check(MPI_Allreduce(MPI_IN_PLACE, &smallest, 1, MPI_DOUBLE, MPI_MIN, mesh_.comm));
+  solution.smallestPressure = contact_.totalNodes ? smallest : 0;
+  if (solution.converged)
+    contact::requireSlip(contact_, solution.slip, solution.closed, solution.at.friction);
+
+  const auto tangential =
+      tangentialForces(contact_, solution, withReleased(contact_, solution.slip, sticking_), force);
+  setStickingForces(contact_, tangential, solution);
+  const auto onPads = forcesOnPads(contact_, solution, tangential);
+  for (int i = 0; i < std::ssize(contact_.interfaces); ++i)
+    if (!contact_.options[i].isTied())
+      solution.resultants.push_back(resultantOf(contact_, i, solution, onPads));
+  solution.imbalance = imbalance(solution, folded, onPads);
+}
+
+/// Returns the worst imbalance of the forces on a connected part, relative to the sum of all
+/// magnitudes, as a check of signs and solution. The forces are those of contact by the friction
+/// law, of supports where components are held, and loads.
+double Problem::imbalance(const Solution& solution, Vec nodalForces,
+                          const std::vector<Point>& onPads) const {
+  const int dimension = mesh_.dimension;
+  const OwnedVec atNodes = elasticity::nodalVector(mesh_),
+                 contactForces = elasticity::nodalVector(mesh_);
+  {
+    const WriteArray values(atNodes);
+    for (std::size_t i = 0; i < contact_.nodes.size(); ++i)
+      for (int d = 0; d < dimension; ++d)
+        values[dimension * contact_.nodes[i].node + d] = onPads[i][d];
+  }
+  check(MatMultTranspose(contact_.jump, atNodes, contactForces));
+  addTieForces(contact_, nodalForces, contactForces);
+  // [part][contact, supports, load][component], and at the end the sum of all magnitudes. That is
+  // the scale of the terms that cancel; resultants may vanish by themselves.
+  std::vector<double> sums(mesh_.parts * 9 + 1, 0.0);
+  const auto at = [&](int part, int kind, int d) -> double& {
+    return sums[part * 9 + kind * 3 + d];
+  };
+  const OwnedVec load = this->load(solution.at), springs = elasticity::nodalVector(mesh_);
+  if (bodies_.springs) check(VecPointwiseMult(springs, bodies_.springs, solution.displacement));
+  const ReadArray forces(nodalForces), loads(load), grounded(springs), contacts(contactForces);
+  for (PetscInt node = 0; node < mesh_.ownedNodes; ++node)
+    for (int d = 0; d < dimension; ++d) {
+      const int part = mesh_.nodePart[node];
+      const PetscInt row = dimension * node + d;
+      const double support =
+          (contact_.constraints.supported[row] ? forces[row] - contacts[row] : 0) - grounded[row];
+      at(part, 0, d) += contacts[row];
+      at(part, 1, d) += support;
+      at(part, 2, d) += loads[row];
+      sums.back() += std::abs(contacts[row]) + std::abs(support) + std::abs(loads[row]);
+    }
+  check(MPI_Allreduce(MPI_IN_PLACE, sums.data(), sums.size(), MPI_DOUBLE, MPI_SUM, mesh_.comm));
+  double worst = 0;
+  for (int part = 0; part < mesh_.parts; ++part) {
+    double rest = 0;
+    for (int d = 0; d < dimension; ++d)
+      rest += std::pow(at(part, 0, d) + at(part, 1, d) + at(part, 2, d), 2);
+    worst = std::max(worst, std::sqrt(rest));
+  }
+  return sums.back() > 0 ? worst / sums.back() : 0;
+}
+
+}  // namespace squeal::steady

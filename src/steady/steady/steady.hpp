@@ -1,0 +1,170 @@
+#pragma once
+/// Steady sliding (paper, section 3) is equilibrium with
+///   g ≥ 0,   R_N ≥ 0,   g R_N = 0   [3.3],   R_T = −f φ R_N τ   [3.4].
+#include <string>
+#include <vector>
+
+#include "eigen/sweep/parameters.hpp"
+#include "model/contact/active_set.hpp"
+#include "model/contact/coupled.hpp"
+#include "model/elasticity/elasticity.hpp"
+#include "model/mesh/mesh.hpp"
+#include "steady/steady/iterative_refinement.hpp"
+#include "steady/steady/sticking.hpp"
+
+namespace squeal::steady {
+
+/// The steady state of one contact node.
+struct ContactState {
+  double gap = 0;          ///< n·[u], m
+  double coefficient = 0;  ///< h of g = E h, m, ≥ 0; the gap itself but for tri6 and quad8 faces
+  double normalForce = 0;  ///< R_N, N, ≥ 0 in compression
+  double pressure = 0;     ///< R_N over the nodal area, Pa
+  Point frictionForce{};   ///< R_T on the pad, N; on sticking interfaces what holds it
+};
+
+/// The contact forces of one interface.
+struct Resultant {
+  std::string interface;
+  Point normalForce{}, frictionForce{};  ///< sums over the interface, on the pad, N
+  Point moment{};  ///< of both about the origin, on the pad, N·m (in the plane along z)
+  /// Largest |R_T| / R_N of the closed nodes of a sticking interface that are held: the least
+  /// coefficient of friction that holds them; zero on other interfaces.
+  double leastFriction = 0;
+  Point worst{};                        ///< position of the node that needs it, m
+  std::optional<double> stickingLimit;  ///< its coefficient of friction, where it sticks
+  PetscInt overLimit = 0;  ///< held nodes that need more than the limit of the interface
+  PetscInt released = 0;   ///< closed nodes of a sticking interface that slide
+  PetscInt unheld = 0;     ///< closed nodes of a sticking interface that are free
+  /// Magnitude of the sum of the moments on both sides, which the coupling of surfaces that lie
+  /// apart leaves, N·m.
+  double momentDefect = 0;
+};
+
+/// The steady state at one point of the sweep.
+struct Solution {
+  sweep::Parameters at;
+  bool converged = false;
+  std::string reason;  ///< SNES converged reason, or why there is no solution
+  /// Without a solution: the point up to which one exists, on the way from a neighbour that has
+  /// one.
+  std::optional<sweep::Parameters> existsTo;
+  double tolerance = 0;  ///< that SNES was asked for, relative
+  int iterations = 0;    ///< Newton steps of SNES; 0 where it is not called
+  /// Relative residual: its 2-norm divided by that without displacements [M.15].
+  double residual = 0;
+  OwnedVec displacement;              ///< u, N entries, m
+  std::vector<ContactState> contact;  ///< [owned contact node]
+  std::vector<contact::Slip> slip;    ///< [owned contact node] sliding of sliding interfaces
+  std::vector<unsigned char> closed;  ///< [owned contact node] active: closed and pressed
+  Sticking sticking;                  ///< what holds the nodes of sticking interfaces
+  int revisions = 0;                  ///< how often that was changed to find this state
+  double negligibleForce = 0;         ///< forces of contact that are rounding, N
+  PetscInt openNodes = 0;             ///< contact nodes that are not active, over all ranks
+  double smallestPressure = 0;        ///< smallest pressure of all contact nodes, Pa
+  std::vector<Resultant> resultants;  ///< [interface]
+  double imbalance = 0;  ///< worst |contact + supports + load| of a connected part over the sum of
+                         ///< the magnitudes of all nodal forces
+  /// Contact nodes, over all ranks, by which another solution at these parameters differs; 0: none
+  /// is known.
+  PetscInt nodesOfAnother = 0;
+};
+
+/// Returns the active set of a steady state.
+contact::ActiveSet activeSet(const Solution& solution);
+
+/// The complementarity problem [3.3–3.4, M.13] is, with u = T x + p u0,
+///   r = (K + v² K^R) u − b,   b = p × pressures + v² × centrifugal forces,
+///   F(x) = Tᵀ r + Sᵀ N r,   S = S_0 + f S_1,
+///   0 ≤ g ⟂ F_g = R_N ≥ 0 at the gaps,   F = 0 in all other rows.
+/// Under approximation A it is linear but for the inequalities. With convective terms the slip rows
+/// S follow w = −v (V + D u_D). Nodes of sticking interfaces that are free have tangential
+/// unknowns, and released ones are in S with their limit as coefficient.
+class Problem {
+ public:
+  /// Collective. Borrows mesh, bodies and contact during the life of the object.
+  Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies,
+          const contact::Contact& contact);
+  /// Collective. The same with nodes of sticking interfaces that are free or released.
+  Problem(const mesh::Mesh& mesh, const elasticity::Bodies& bodies, const contact::Contact& contact,
+          Sticking sticking);
+  /// Collective. Solves by SNES VI (-steady_snes_*), starting from the solution with the active set
+  /// of `system` held closed, which its factorisation gives. The nodes that stick are held at first
+  /// and then revised(), until nothing changes. `converged` and `reason` tell whether
+  /// there is a solution. Throws Error if |w| = 0 at a node that carries friction.
+  Solution solve(const sweep::Parameters& at, const contact::CoupledSystem& system) const;
+
+  /// Collective. Sets f = F(x), n entries.
+  void residual(const sweep::Parameters& at, Vec x, Vec f) const;
+  /// Collective. Returns the exact derivative dF/dx [M.14], n×n, as a new matrix whose pattern is
+  /// the same at every x.
+  OwnedMat jacobian(const sweep::Parameters& at, Vec x) const;
+  /// Collective. Returns u = T x + p u0, N entries, m.
+  OwnedVec displacement(const sweep::Parameters& at, Vec x) const {
+    return displacement(transformation_, at, x);
+  }
+  /// Collective. Returns r = (K + v² K^R) u − b, the nodal forces of supports and contact, N.
+  OwnedVec forces(const sweep::Parameters& at, Vec displacement) const;
+  /// Collective. Throws Error if f > 0 and |w| = 0 at a node that carries friction.
+  void requireSlip(const sweep::Parameters& at) const;
+  /// Collective. Returns how the nodes that stick are to be held after a solution that holds them
+  /// otherwise; nothing if it has settled. A solution whose holds cannot be revised becomes one
+  /// that has not converged.
+  std::optional<Sticking> nextHolds(Solution& solution) const;
+  /// Collective. Fills the rest of a solution from the unknowns x, whose natural residual has the
+  /// 2-norm `left`, N.
+  void conclude(Vec x, double left, Solution& solution) const;
+  /// Collective. Returns b with the pressures and the centrifugal forces of this point, N entries,
+  /// N.
+  OwnedVec load(const sweep::Parameters& at) const;
+  /// Collective. Returns (K + v² K^R) u, N entries, N.
+  OwnedVec springForces(double speed, Vec displacement) const;
+  /// Collective. Returns R_N = N r of nodal forces r, [contact node].
+  std::vector<double> normalForces(Vec forces) const;
+  /// Collective. Returns an estimate of the rounding error of F, N, as in the numerator of [M.16],
+  ///   ε (‖diag(K) u‖ + ‖b‖).
+  /// `loads` b may be null.
+  double rounding(Vec displacement, Vec loads) const;
+
+  const mesh::Mesh& mesh() const { return mesh_; }
+  const contact::Contact& contact() const { return contact_; }
+  /// Returns T with all gaps unknown, and the tangents of the nodes that stick as far as they are
+  /// free.
+  const contact::Transformation& transformation() const { return transformation_; }
+  const elasticity::Bodies& bodies() const { return bodies_; }
+  /// Collective on the first call. Returns the projections of K by this transformation.
+  const contact::Projection& stiffness() const;
+
+ private:
+  Solution solveFrom(const sweep::Parameters& at, Vec z) const;
+  std::string whyLoose(const Sticking& sticking) const;
+  void requireHeld(Solution& solution) const;
+  std::vector<contact::Slip> slip(double speed, Vec displacement) const;
+  OwnedVec displacement(const contact::Transformation& transformation, const sweep::Parameters& at,
+                        Vec x) const;
+  OwnedVec test(const contact::Transformation& transformation,
+                const std::vector<unsigned char>& slides, const sweep::Parameters& at, Vec forces,
+                const std::vector<contact::Slip>& slip) const;
+  /// Returns S_0 + f S_1; null where there is no friction.
+  OwnedMat slipRows(const contact::Transformation& transformation,
+                    const std::vector<contact::Slip>& slip,
+                    const std::vector<unsigned char>& slides, double friction) const;
+  double largestDisplacement(const sweep::Parameters& at, Vec x) const;
+  OwnedVec closedContact(const sweep::Parameters& at, const contact::CoupledSystem& system) const;
+  void recover(Vec x, double noise, Solution& solution) const;
+  double imbalance(const Solution& solution, Vec nodalForces,
+                   const std::vector<Point>& onPads) const;
+
+  const mesh::Mesh& mesh_;
+  const elasticity::Bodies& bodies_;
+  const contact::Contact& contact_;
+  std::vector<unsigned char> all_;  // [contact node] 1
+  Sticking sticking_;
+  bool anyReleased_ = false;                                   // of all ranks
+  contact::Transformation transformation_;                     // all gaps unknown
+  mutable contact::Projection stiffness_, rotationStiffness_;  // made when first wanted
+  OwnedVec diagonal_;                                          // diagonal of K, N entries
+  OwnedMat jumps_, convected_;  // J T and D T, N×n; empty without convective terms
+};
+
+}  // namespace squeal::steady

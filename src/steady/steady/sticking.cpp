@@ -1,0 +1,107 @@
+#include "steady/steady/sticking.hpp"
+
+#include <algorithm>
+
+#include "base/petsc/arrays.hpp"
+#include "model/mesh/vector.hpp"
+#include "steady/steady/steady.hpp"
+
+namespace squeal::steady {
+
+namespace {
+
+/// A slip against the friction, relative to the largest jump, below which it is rounding.
+constexpr double slipRounding = 1e-8;
+
+/// Collective. Returns the jumps along the surface, m, [contact node].
+std::vector<Point> tangentialJumps(const contact::Contact& contact, Vec displacement) {
+  const auto& mesh = *contact.mesh;
+  const OwnedVec jump = elasticity::nodalVector(mesh);
+  check(MatMult(contact.jump, displacement, jump));
+  const ReadArray values(jump);
+  std::vector<Point> found;
+  for (const auto& node : contact.nodes) {
+    Point u{};
+    for (int d = 0; d < mesh.dimension; ++d) u[d] = values[mesh.dimension * node.node + d];
+    found.push_back(mesh::tangential(u, node.normal));
+  }
+  return found;
+}
+
+double largestLength(MPI_Comm comm, const std::vector<Point>& points) {
+  double largest = 0;
+  for (const auto& point : points) largest = std::max(largest, mesh::length(point));
+  check(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, comm));
+  return largest;
+}
+
+}  // namespace
+
+Sticking Sticking::allHeld(const contact::Contact& contact) {
+  return {std::vector<Hold>(contact.nodes.size(), Hold::held),
+          std::vector<Point>(contact.nodes.size(), Point{}),
+          std::vector<unsigned char>(contact.nodes.size(), 0)};
+}
+
+Sticking Sticking::allFree(const contact::Contact& contact) {
+  Sticking sticking = allHeld(contact);
+  std::fill(sticking.holds.begin(), sticking.holds.end(), Hold::open);
+  return sticking;
+}
+
+std::vector<unsigned char> Sticking::free() const {
+  std::vector<unsigned char> found;
+  for (const Hold hold : holds) found.push_back(hold != Hold::held);
+  return found;
+}
+
+std::vector<contact::Slip> withReleased(const contact::Contact& contact,
+                                        std::vector<contact::Slip> slip, const Sticking& sticking) {
+  for (std::size_t i = 0; i < slip.size(); ++i)
+    if (sticking.holds[i] == Hold::released)
+      slip[i] = {sticking.direction[i],
+                 0,
+                 1,
+                 0,
+                 {*contact.options[contact.nodes[i].interface].stickingLimit, 0}};
+  return slip;
+}
+
+bool exceedsLimit(const contact::Contact& contact, const Solution& solution, std::size_t i) {
+  const auto& limit = contact.options[contact.nodes[i].interface].stickingLimit;
+  const auto& state = solution.contact[i];
+  return limit && solution.closed[i] && solution.sticking.holds[i] == Hold::held &&
+         mesh::length(state.frictionForce) > *limit * state.normalForce + solution.negligibleForce;
+}
+
+std::optional<Sticking> revised(const contact::Contact& contact, const Solution& solution) {
+  const auto& options = contact.options;
+  if (!contact.hasSticking()) return {};
+  const MPI_Comm comm = contact.mesh->comm;
+  const auto jumps = tangentialJumps(contact, solution.displacement);
+  const double nothing = slipRounding * largestLength(comm, jumps);
+  Sticking next = solution.sticking;
+  for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
+    const auto& node = contact.nodes[i];
+    Hold& hold = next.holds[i];
+    if (node.role != contact::Role::sticking) continue;
+    const bool slidesBack =
+        hold == Hold::released && mesh::dot(next.direction[i], jumps[i]) < -nothing;
+    if (!solution.closed[i]) {
+      hold = Hold::open;
+    } else if (hold == Hold::open || slidesBack) {
+      hold = next.heldAgain[i] ? Hold::open : Hold::held;
+      next.heldAgain[i] = 1;
+    } else if (hold == Hold::held && options[node.interface].releases &&
+               exceedsLimit(contact, solution, i)) {
+      hold = Hold::released;
+      next.direction[i] = mesh::scaled(mesh::unit(solution.contact[i].frictionForce), -1);
+    }
+  }
+  int same = next.holds == solution.sticking.holds;
+  check(MPI_Allreduce(MPI_IN_PLACE, &same, 1, MPI_INT, MPI_LAND, comm));
+  if (same) return {};
+  return next;
+}
+
+}  // namespace squeal::steady

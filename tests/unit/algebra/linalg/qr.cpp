@@ -1,0 +1,40 @@
+// The QR factorisation of a Vandermonde matrix.
+#include "algebra/linalg/qr.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/case.hpp"
+
+namespace squeal {
+namespace {
+
+using linalg::DenseMatrix;
+
+TEST(Qr, OrthogonalAndInverse) {
+  DenseMatrix a(6, 4), wanted(3, 4);
+  for (PetscInt i = 0; i < 6; ++i)
+    for (PetscInt j = 0; j < 4; ++j) a(i, j) = std::pow(0.2 * i, j);
+  for (PetscInt i = 0; i < 3; ++i)
+    for (PetscInt j = 0; j < 4; ++j) wanted(i, j) = i - 2.0 * j;
+  const linalg::Qr qr(a);
+  const DenseMatrix unit = linalg::transposedProduct(qr.q(), qr.q()),
+                    r = linalg::transposedProduct(qr.q(), a);
+  for (PetscInt i = 0; i < 6; ++i)
+    for (PetscInt j = 0; j < 6; ++j) EXPECT_NEAR(unit(i, j), i == j, 1e-14);
+  for (PetscInt j = 0; j < 4; ++j)
+    for (PetscInt i = j + 1; i < 6; ++i) EXPECT_NEAR(r(i, j), 0, 1e-14);
+  // B = W R gives W again; the condition number of R is some 1e2.
+  DenseMatrix b = linalg::product(wanted, linalg::rowRange(r, 0, 4));
+  qr.divideByR(b);
+  for (PetscInt i = 0; i < 3; ++i)
+    for (PetscInt j = 0; j < 4; ++j) EXPECT_NEAR(b(i, j), wanted(i, j), 1e-12);
+}
+
+TEST(Qr, WithoutColumns) {
+  const linalg::Qr qr(DenseMatrix(3, 0));
+  ASSERT_EQ(qr.q().columns(), 3);
+  for (PetscInt i = 0; i < 3; ++i) EXPECT_NEAR(std::abs(qr.q()(i, i)), 1, 1e-15);
+}
+
+}  // namespace
+}  // namespace squeal

@@ -1,0 +1,133 @@
+// Norms of the terms of a pencil, and backward errors of eigenpairs.
+#include "eigen/pencil/pencil.hpp"
+
+#include <gtest/gtest.h>
+#include <petscsys.h>  // before the next header, which needs it
+
+#include <petscblaslapack.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "algebra/linalg/complexvector.hpp"
+#include "algebra/linalg/lapack.hpp"
+#include "algebra/linalg/quadratic.hpp"
+#include "problem/terms/terms.hpp"
+#include "support/case.hpp"
+#include "support/entry_matrix.hpp"
+#include "support/full_problem.hpp"
+#include "support/layers.hpp"
+#include "support/worst.hpp"
+
+namespace squeal {
+namespace {
+
+using test::Layers;
+
+double largestSingularValue(linalg::DenseMatrix a) {
+  PetscBLASInt n = a.rows(), one = 1, info = 0;
+  std::vector<double> values(n);
+  linalg::callWithWork([&](double* work, PetscBLASInt length) {
+    LAPACKgesvd_("N", "N", &n, &n, a.data(), &n, values.data(), nullptr, &one, nullptr, &one, work,
+                 &length, &info);
+  });
+  EXPECT_EQ(info, 0);
+  return values.at(0);
+}
+
+// From below, so that no backward error is flattered, and not far below.
+TEST(Norm, IsJustBelowTheLargestSingularValue) {
+  const Layers layers;
+  const auto pencil = terms::affineTerms(layers.model.contact, *layers.system);
+  EXPECT_EQ(pencil.norm(1, {0.3}), 0);  // no damping
+  for (const int power : {0, 2})
+    for (const double f : {0.0, 0.3, 0.5, 2.0}) {
+      const double exact = largestSingularValue(test::fullMatrix(pencil, power, {f})),
+                   estimate = pencil.norm(power, {f});
+      test::print("norm of the terms in s^%d at f = %g: estimate / exact = %.4f\n", power, f,
+                  estimate / exact);
+      EXPECT_LE(estimate, (1 + 1e-12) * exact);
+      EXPECT_GE(estimate, 0.95 * exact);
+    }
+}
+
+// A term that is zero at the first friction of a sweep, as friction-induced damping is at f = 0,
+// has a norm at the next.
+TEST(Norm, RecoversFromAVanishingTerm) {
+  std::vector<pencil::Term> terms;
+  terms.push_back({test::matrixOf(2, {{0, 0, 3}, {1, 1, -5}}), 1, 1, 1});
+  const pencil::Pencil pencil(std::move(terms));
+  EXPECT_EQ(pencil.norm(1, {0}), 0);
+  EXPECT_NEAR(pencil.norm(1, {0.5}), 2.5, 0.05 * 2.5);
+}
+
+// Exact eigenpairs of the layers, from LAPACK on all their unknowns, and the same pairs with s
+// moved by a known step:
+//   P(s + δ) d = (2 s δ + δ²) M̄ d.
+TEST(BackwardError, OfExactAndOfPerturbedPairs) {
+  constexpr double friction = 0.4;
+  const Layers layers;
+  const auto pencil = terms::affineTerms(layers.model.contact, *layers.system);
+  const auto problem = test::fullProblem(pencil, {friction});
+  const double stiffnessNorm = largestSingularValue(problem.stiffness),
+               massNorm = largestSingularValue(problem.mass);
+  const auto pairs = linalg::solveQuadratic(problem);
+  const auto forces = linalg::timesVectors(problem.mass, pairs);  // M̄ d
+  EXPECT_TRUE(std::any_of(pairs.begin(), pairs.end(), [](const auto& pair) {
+    return pair.s.real() > 1e-3;
+  }));  // complex ones among them
+  linalg::ComplexVector d;
+  check(MatCreateVecs(layers.system->k0(), d.real.out(), d.imaginary.out()));
+  double worst = 0;
+  for (std::size_t k = 0; k < pairs.size(); k += 7) {
+    const auto& s = pairs[k].s;
+    const auto& q = pairs[k].q;
+    for (std::size_t i = 0; i < q.size(); ++i) {
+      check(VecSetValue(d.real, i, q[i].real(), INSERT_VALUES));
+      check(VecSetValue(d.imaginary, i, q[i].imag(), INSERT_VALUES));
+    }
+    double length = 0;
+    for (const Complex force : forces.column(k)) length += std::norm(force);
+    for (Vec part : {d.real.get(), d.imaginary.get()})
+      check(VecAssemblyBegin(part)), check(VecAssemblyEnd(part));
+    worst = test::worse(worst, pencil::backwardError(pencil, {friction}, s, d));
+    for (const Complex step : {Complex(1e-3, 0), Complex(0, -1e-6), Complex(2e-9, 1e-9)}) {
+      const Complex delta = step * std::abs(s), there = s + delta;
+      const double size = std::abs(there);
+      const double exact = std::abs(2.0 * s * delta + delta * delta) * std::sqrt(length) /
+                           (size * size * massNorm + stiffnessNorm);
+      EXPECT_NEAR(pencil::backwardError(pencil, {friction}, there, d), exact,
+                  0.05 * exact);  // norms are estimates
+    }
+  }
+  test::print("backward error of LAPACK's pairs, %d unknowns: %.1e\n",
+              static_cast<int>(problem.order()), worst);
+  // Rounding of a backward stable method: a few units times a power of the size.
+  EXPECT_LT(worst, 1e-14);
+}
+
+// s = 0 is an eigenvalue like any other.
+TEST(BackwardError, OfARealVectorAndOfZero) {
+  std::vector<pencil::Term> terms;
+  terms.push_back({test::matrixOf(2, {{0, 0, 4}}), 0, 0, 1});
+  terms.push_back({test::matrixOf(2, {{0, 0, 1}, {1, 1, 1}}), 2, 0, 1});
+  const pencil::Pencil pencil(std::move(terms));
+  linalg::ComplexVector d;
+  check(MatCreateVecs(pencil.terms()[0].matrix, d.real.out(), d.imaginary.out()));
+  check(VecZeroEntries(d.imaginary));
+  const auto set = [&](double a, double b) {
+    check(VecSetValue(d.real, 0, a, INSERT_VALUES));
+    check(VecSetValue(d.real, 1, b, INSERT_VALUES));
+    check(VecAssemblyBegin(d.real));
+    check(VecAssemblyEnd(d.real));
+  };
+  set(3, 0);
+  EXPECT_LT(pencil::backwardError(pencil, {}, {0, 2}, d), 1e-15);
+  EXPECT_NEAR(pencil::backwardError(pencil, {}, {0, 1}, d), (4 - 1) / (1.0 * 1 + 4), 1e-6);
+  set(0, 5);
+  EXPECT_LT(pencil::backwardError(pencil, {}, 0, d), 1e-15);
+}
+
+}  // namespace
+}  // namespace squeal

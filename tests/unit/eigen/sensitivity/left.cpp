@@ -1,0 +1,149 @@
+// Left eigenvectors of full problems against LAPACK, and derivatives of two coupled oscillators in
+// closed form.
+#include "eigen/sensitivity/left.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "algebra/linalg/complexvector.hpp"
+#include "algebra/linalg/quadratic.hpp"
+#include "eigen/pencil/pencil.hpp"
+#include "eigen/sensitivity/sensitivity.hpp"
+#include "eigen/subspace/basis.hpp"
+#include "eigen/sweep/parameters.hpp"
+#include "model/contact/coupled.hpp"
+#include "problem/terms/terms.hpp"
+#include "support/full_problem.hpp"
+#include "support/layers.hpp"
+
+namespace squeal {
+namespace {
+
+using Complex = std::complex<double>;
+
+linalg::ComplexVector vectorOf(Mat layout, const std::vector<Complex>& entries) {
+  linalg::ComplexVector vector;
+  check(MatCreateVecs(layout, vector.real.out(), vector.imaginary.out()));
+  PetscInt first = 0, end = 0;
+  check(VecGetOwnershipRange(vector.real, &first, &end));
+  for (PetscInt i = first; i < end; ++i) {
+    check(VecSetValue(vector.real, i, entries[i].real(), INSERT_VALUES));
+    check(VecSetValue(vector.imaginary, i, entries[i].imag(), INSERT_VALUES));
+  }
+  for (Vec part : {vector.real.get(), vector.imaginary.get()})
+    check(VecAssemblyBegin(part)), check(VecAssemblyEnd(part));
+  return vector;
+}
+
+// Sixty free modes of the layers' 156 unknowns; pairs of the lower two fifths, as in the band of
+// the reduced problem. The left vectors of LAPACK on all unknowns span the same lines: with
+// backward errors of 1e-10 and eigenvalues apart by some hundredths they turn by 1e-7 at most,
+// which changes the cosine by the square.
+TEST(Left, VectorsAreThoseOfAllUnknowns) {
+  for (const std::string damping : {"", " -material_pad_rayleigh_stiffness 0.01"}) {
+    const test::Layers layers("-modes_count 60" + damping);
+    const auto& system = *layers.system;
+    const auto pencil = terms::affineTerms(layers.model.contact, system);
+    const auto modes = layers.modes();
+    const sweep::Parameters at{0.4};
+    const auto full = linalg::solveQuadratic(test::fullProblem(pencil, at), linalg::Vectors::both);
+    EXPECT_EQ(pencil.hasPower(1), !damping.empty());
+    std::vector<linalg::ComplexVector> right, left;
+    std::vector<sensitivity::RightPair> pairs;
+    for (std::size_t i = 0; i < 24; i += 4) {
+      right.push_back(vectorOf(system.k0(), full[i].q));
+      left.push_back(vectorOf(system.k0(), full[i].left));
+    }
+    for (std::size_t i = 0; i < right.size(); ++i) pairs.push_back({full[4 * i].s, &right[i]});
+    const auto found = sensitivity::leftVectors(
+        pencil, at, {modes.vectors.share(), system.m0(), {}}, system.solver(), pairs);
+    EXPECT_EQ(found.size(), pairs.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const double cosine = std::abs(linalg::dot(found[i].y, left[i])) /
+                            (linalg::length(found[i].y) * linalg::length(left[i]));
+      test::print("s = %.4f%+.4fi: backward error %.0e, cosine less 1: %.0e\n", pairs[i].s.real(),
+                  pairs[i].s.imag(), found[i].backwardError, cosine - 1);
+      EXPECT_LT(found[i].backwardError, 1e-10);
+      EXPECT_NEAR(cosine, 1, 1e-11);
+    }
+  }
+}
+
+OwnedMat matrix2(double a, double b, double c, double d) {
+  OwnedMat result;
+  check(MatCreateAIJ(PETSC_COMM_WORLD, PETSC_DECIDE, PETSC_DECIDE, 2, 2, 2, nullptr, 2, nullptr,
+                     result.out()));
+  const double entries[2][2] = {{a, b}, {c, d}};
+  PetscInt first = 0, end = 0;
+  check(MatGetOwnershipRange(result, &first, &end));
+  for (PetscInt i = first; i < end; ++i)
+    for (PetscInt j = 0; j < 2; ++j) check(MatSetValue(result, i, j, entries[i][j], INSERT_VALUES));
+  check(MatAssemblyBegin(result, MAT_FINAL_ASSEMBLY));
+  check(MatAssemblyEnd(result, MAT_FINAL_ASSEMBLY));
+  return result;
+}
+
+// M = I, K = diag(k1, k2) + f k3 [0 1; −1 0]: s² = −μ, μ = (k1 + k2)/2 ± √(((k1 − k2)/2)² − f²
+// k3²), so that
+//   2 s ds/df = ± f k3² / √(…),   and the condition number is |k1 − k2|/2 over |√(…)| below the
+//   critical friction, f k3 over it beyond.
+TEST(Left, DerivativesOfCoupledOscillators) {
+  const double k1 = 1.0, k2 = 1.5, k3 = 0.8, critical = (k2 - k1) / (2 * k3);
+  std::vector<pencil::Term> terms;
+  terms.push_back({matrix2(k1, 0, 0, k2), 0, 0, 1});
+  terms.push_back({matrix2(0, k3, -k3, 0), 0, 1, 1});
+  terms.push_back({matrix2(1, 0, 0, 1), 2, 0, 1});
+  const pencil::Pencil pencil(std::move(terms));
+  const Mat stiffness = pencil.terms()[0].matrix, mass = pencil.terms()[2].matrix;
+  OwnedKSP solver;
+  PC pc = nullptr;
+  check(KSPCreate(PETSC_COMM_WORLD, solver.out()));
+  check(KSPSetOperators(solver, stiffness, stiffness));
+  check(KSPSetType(solver, KSPPREONLY));
+  check(KSPGetPC(solver, &pc));
+  check(PCSetType(pc, PCCHOLESKY));
+  check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  OwnedBV whole;
+  check(BVCreate(PETSC_COMM_WORLD, whole.out()));
+  check(BVSetSizes(whole, PETSC_DECIDE, 2, 2));
+  check(BVSetType(whole, BVSVEC));
+  for (PetscInt j = 0; j < 2; ++j) {
+    Vec column = nullptr;
+    check(BVGetColumn(whole, j, &column));
+    check(VecZeroEntries(column));
+    check(VecSetValue(column, j, 1, INSERT_VALUES));
+    check(VecAssemblyBegin(column));
+    check(VecAssemblyEnd(column));
+    check(BVRestoreColumn(whole, j, &column));
+  }
+  for (const double f : {0.5 * critical, 0.99 * critical, critical, 1.01 * critical, 2 * critical})
+    for (const double sign : {-1.0, 1.0}) {
+      const Complex root = std::sqrt(Complex((k2 - k1) * (k2 - k1) / 4 - f * f * k3 * k3)),
+                    s = std::sqrt(-((k1 + k2) / 2 + sign * root));
+      const auto right = vectorOf(stiffness, {f * k3, -(k1 + s * s)});
+      const sweep::Parameters at{f};
+      const auto left =
+          sensitivity::leftVectors(pencil, at, {whole.share(), mass, {}}, solver, {{s, &right}});
+      const sensitivity::EigenTriple triple{s, right, left[0].y};
+      const Complex slope = sensitivity::slopeForm(pencil, at, triple);
+      const double condition = sensitivity::condition(triple, slope, mass);
+      const pencil::Sensitivity sensitivity{condition, 1, left[0].backwardError, {}};
+      test::print("f = %.4f: condition %.6g, left backward error %.0e\n", f, condition,
+                  left[0].backwardError);
+      EXPECT_EQ(sensitivity.regular(), f != critical);
+      if (f == critical) continue;
+      const Complex found = -sensitivity::parameterForm(pencil, at, triple,
+                                                        &sweep::Parameters::friction) /
+                            slope,
+                    wanted = sign * f * k3 * k3 / root / (2.0 * s);
+      // Rounding of s and of the vectors, times the square of the condition number at most.
+      const double tolerance = 1e-14 * condition * condition;
+      EXPECT_LT(std::abs(found - wanted), tolerance * std::abs(wanted));
+      EXPECT_NEAR(condition, std::max((k2 - k1) / 2, f * k3) / std::abs(root),
+                  tolerance * condition);
+    }
+}
+
+}  // namespace
+}  // namespace squeal

@@ -1,0 +1,175 @@
+// One basis for several active sets: each has constraint modes of its own gaps, and its eigenvalues
+// and the number of its free modes are those of a system in which just these gaps are open.
+#include "eigen/subspace/substructure.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "algebra/linalg/symmetric.hpp"
+#include "base/system/concatenation.hpp"
+#include "eigen/reduction/reduced.hpp"
+#include "problem/terms/terms.hpp"
+#include "run/analysis/mesh_sweep.hpp"
+#include "support/blocks.hpp"
+#include "support/dense.hpp"
+#include "support/full_problem.hpp"
+#include "support/layers.hpp"
+#include "support/spectrum.hpp"
+
+namespace squeal {
+namespace {
+
+using Nodes = std::vector<unsigned char>;
+
+/// The two layers with 12 contact nodes, of which those at x = 1, 1.25, …, 2 are open in some sets.
+struct Fixture : test::Layers {
+  std::unique_ptr<contact::CoupledSystem> all;
+  std::unique_ptr<reduction::ReducedProblem> reduced;
+  std::unique_ptr<pencil::Pencil> terms;
+  subspace::Substructure substructure;
+
+  Fixture() : Layers("-modes_count 60 -mesh_set nx=12,ny_disc=4,ny_pad=3") {
+    const auto free = modes();
+    all =
+        std::make_unique<contact::CoupledSystem>(model.bodies, model.contact, closedBut(0.9, 2.1));
+    terms = std::make_unique<pencil::Pencil>(terms::affineTerms(model.contact, *all));
+    substructure = analysis::substructureOf(*all, *system);
+    reduced = std::make_unique<reduction::ReducedProblem>(
+        *terms, *system, free, reduction::Options::given(), substructure);
+  }
+
+  /// The nodes outside of this range of x.
+  Nodes closedBut(double from, double to) const {
+    Nodes closed;
+    for (const auto& node : model.contact.nodes)
+      closed.push_back(!(node.position[0] > from && node.position[0] < to));
+    return closed;
+  }
+
+  /// Adds the set with open nodes in this range.
+  int add(double from, double to, pencil::Pencil& own) {
+    const Nodes closed = closedBut(from, to);
+    Nodes slides = closed, mine;
+    for (std::size_t i = 0; i < slides.size(); ++i) slides[i] = closed[i] && !all->closed()[i];
+    own.add(terms::slidingTerms(model.contact, *all, slides));
+    const int dimension = model.mesh->dimension;
+    for (const PetscInt k : substructure.boundary)
+      for (std::size_t i = 0; i < closed.size(); ++i)
+        if (model.contact.nodes[i].node == all->transformation().rows[k] / dimension)
+          mine.push_back(!closed[i]);
+    return reduced->addSet(own, concatenated(model.mesh->comm, mine));
+  }
+};
+
+const std::vector<std::pair<double, double>> ranges{{0, 0}, {0.9, 1.6}, {1.6, 2.1}, {0.9, 2.1}};
+
+// Against the problem of all 156 unknowns and more, solved by LAPACK. Corrections stop at 1e-8; the
+// estimate includes what is left.
+TEST(Substructure, EigenvaluesAreThoseOfEachActiveSet) {
+  Fixture f;
+  EXPECT_EQ(f.reduced->basis().boundarySize(), 5);
+  for (const auto& [from, to] : ranges) {
+    pencil::Pencil own = f.terms->with({});
+    const int set = f.add(from, to, own);
+    std::vector<reduction::PointProblem> batch;
+    for (const double friction : {0.0, 0.3, 0.6}) batch.push_back({{friction}, own.with({}), set});
+    const auto points = f.reduced->solve(batch, f.all->transformation().trial);
+    const contact::CoupledSystem alone(f.model.bodies, f.model.contact, f.closedBut(from, to));
+    const auto whole = terms::affineTerms(f.model.contact, alone);
+    for (const auto& point : points) {
+      std::vector<Complex> exact;
+      for (const auto& pair :
+           linalg::solveTogether(whole.comm(), test::fullProblem(whole, point.at)))
+        if (std::abs(pair.s) <= point.bandTop) exact.push_back(pair.s);
+      const auto found = test::eigenvaluesOf(point);
+      EXPECT_EQ(found.size(), exact.size());
+      const auto match = test::matched(found, exact);
+      double worst = 0;
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        const double error = std::abs(found[i] - match[i]) / std::abs(match[i]);
+        // LAPACK's rounding grows with the norm of the matrices, some 1e-12 of the lowest s.
+        EXPECT_LT(error, 2 * point.eigenvalues[i].errorEstimate() + 1e-11);
+        EXPECT_TRUE(point.eigenvalues[i].certified);
+        worst = test::worse(worst, error);
+      }
+      test::print("open from %g to %g, friction %g: %zu eigenvalues to %.1e, estimated %.1e\n",
+                  from, to, point.at.friction, found.size(), worst, point.worstErrorEstimate());
+    }
+  }
+}
+
+// Free modes of each set, and their number up to the top of the band, against LAPACK.
+TEST(Substructure, FreeModesAreCountedWithoutAnotherFactorisation) {
+  Fixture f;
+  for (const auto& [from, to] : ranges) {
+    pencil::Pencil own = f.terms->with({});
+    const int set = f.add(from, to, own);
+    const auto modes = f.reduced->freeModes(set, *f.terms);
+    EXPECT_TRUE(modes.countConfirmed);
+    const contact::CoupledSystem alone(f.model.bodies, f.model.contact, f.closedBut(from, to));
+    linalg::DenseMatrix stiffness = test::denseCopy(alone.k0()), mass = test::denseCopy(alone.m0());
+    const auto exact = linalg::symmetricEigen(stiffness, mass);
+    ASSERT_LT(modes.lambda.size(), exact.size());
+    EXPECT_GT(exact[modes.lambda.size()], std::pow(f.reduced->band().top, 2));
+    for (std::size_t i = 0; i < modes.lambda.size(); ++i) {
+      EXPECT_NEAR(modes.lambda[i], exact[i], 2e-8 * exact[i]);
+      EXPECT_LT(modes.relativeResidual[i], 1e-3);  // its square is the error, in another norm
+    }
+  }
+}
+
+// Below any frequency: where a number is told, it is right, and it is told but next to a mode,
+// where the bounds of what the modes leave out are too wide.
+TEST(Substructure, NumberOfModesBelowAnyFrequency) {
+  Fixture f;
+  const auto free = f.modes();
+  ASSERT_TRUE(free.countConfirmed);
+  subspace::Basis basis(free, *f.system, f.substructure);
+  const subspace::ModeCount count(basis, free, f.all->m0());
+  EXPECT_FALSE(count.below(1.01 * free.inertiaShift, {}));  // above what is known of the interior
+  std::vector<PetscInt> own;
+  int told = 0, asked = 0;
+  for (PetscInt open = 0; open <= basis.boundarySize(); ++open) {
+    if (open > 0) own.push_back(open - 1);
+    // The unknowns of this set: those of the interior and the gaps in question, in their place.
+    const linalg::DenseMatrix allStiffness = test::denseCopy(f.all->k0()),
+                              allMass = test::denseCopy(f.all->m0());
+    std::vector<PetscInt> first, rows = f.substructure.boundary;
+    PetscInt begin = 0;
+    check(MatGetOwnershipRange(f.all->k0(), &begin, nullptr));
+    for (PetscInt& row : rows) row += begin;
+    const auto gaps = concatenated(f.model.mesh->comm, rows);
+    for (PetscInt row = 0; row < allMass.rows(); ++row) {
+      const auto gap = std::ranges::find(gaps, row) - gaps.begin();
+      if (gap >= open) {
+        if (gap == std::ssize(gaps)) first.push_back(row);
+      } else {
+        first.push_back(row);
+      }
+    }
+    const PetscInt n = std::ssize(first);
+    linalg::DenseMatrix stiffness(n, n), mass(n, n);
+    for (PetscInt j = 0; j < n; ++j)
+      for (PetscInt i = 0; i < n; ++i) {
+        stiffness(i, j) = allStiffness(first[i], first[j]);
+        mass(i, j) = allMass(first[i], first[j]);
+      }
+    const auto exact = linalg::symmetricEigen(stiffness, mass);
+    for (double part = 0.013; part < 0.8; part += 0.013) {
+      const double sigma = part * free.inertiaShift;
+      const auto found = count.below(sigma, own);
+      ++asked;
+      if (!found) continue;
+      ++told;
+      EXPECT_EQ(*found, std::ranges::count_if(exact, [&](double value) { return value < sigma; }));
+    }
+  }
+  test::print("%d of %d numbers told\n", told, asked);
+  EXPECT_GT(told, 0.8 * asked);
+}
+
+}  // namespace
+}  // namespace squeal

@@ -1,0 +1,435 @@
+// Existence and uniqueness of the steady sliding state: the condensed matrix A(f) of the contact,
+// and what is concluded from it.
+#include <petscsys.h>  // first: the next header needs it
+
+#include <petscblaslapack.h>
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "model/contact/coupled.hpp"
+#include "model/mesh/mesh.hpp"
+#include "model/mesh/read.hpp"
+#include "steady/uniqueness/compliance.hpp"
+#include "steady/uniqueness/uniqueness.hpp"
+#include "support/case.hpp"
+#include "support/contact_cases.hpp"
+#include "support/dense.hpp"
+#include "support/gathered.hpp"
+#include "support/model.hpp"
+#include "support/worst.hpp"
+
+namespace squeal {
+namespace {
+
+using test::contains;
+using test::errorOf;
+using test::Model;
+using test::square;
+using test::contact_cases::layers;
+
+TEST(PMatrix, KnownOnes) {
+  EXPECT_TRUE(uniqueness::pMatrix(square({1, 0, 0, 1})));
+  EXPECT_TRUE(
+      uniqueness::pMatrix(square({1, 0, -3, 1})));  // its symmetric part has the eigenvalue 1 − 1.5
+  EXPECT_FALSE(uniqueness::pMatrix(square({1, 2, 2, 1})));  // determinant −3
+  EXPECT_FALSE(uniqueness::pMatrix(square({0, -1, 1, 0})));
+  EXPECT_FALSE(uniqueness::pMatrix(square({-1})));
+  // [1 0 −c; −c 1 0; 0 −c 1]: all minors of order two are 1, the determinant is 1 − c³.
+  for (const double c : {0.99, 1.01})
+    EXPECT_EQ(uniqueness::pMatrix(square({1, -c, 0, 0, 1, -c, -c, 0, 1})), c < 1);
+  // Tiny units are no smaller minors.
+  EXPECT_TRUE(uniqueness::pMatrix(square({1e-9, 0, -3e-9, 1e-9})));
+  EXPECT_TRUE(uniqueness::pMatrix(square({1e-20, 0, 0, 1})));
+}
+
+/// Product of the pivots of Gaussian elimination with row pivoting.
+double determinant(linalg::DenseMatrix a) {
+  const PetscInt n = a.rows();
+  double result = 1;
+  for (PetscInt k = 0; k < n; ++k) {
+    PetscInt pivot = k;
+    for (PetscInt i = k + 1; i < n; ++i)
+      if (std::abs(a(i, k)) > std::abs(a(pivot, k))) pivot = i;
+    if (a(pivot, k) == 0) return 0;
+    if (pivot != k) result = -result;
+    for (PetscInt j = k; j < n; ++j) std::swap(a(k, j), a(pivot, j));
+    result *= a(k, k);
+    for (PetscInt i = k + 1; i < n; ++i) {
+      const double factor = a(i, k) / a(k, k);
+      for (PetscInt j = k; j < n; ++j) a(i, j) -= factor * a(k, j);
+    }
+  }
+  return result;
+}
+
+/// The smallest of all principal minors.
+double smallestMinor(const linalg::DenseMatrix& a) {
+  double smallest = INFINITY;
+  for (unsigned set = 1; set < 1U << a.rows(); ++set) {
+    std::vector<PetscInt> kept;
+    for (PetscInt i = 0; i < a.rows(); ++i)
+      if (set >> i & 1U) kept.push_back(i);
+    const PetscInt size = std::ssize(kept);
+    linalg::DenseMatrix part(size, size);
+    for (PetscInt j = 0; j < size; ++j)
+      for (PetscInt i = 0; i < size; ++i) part(i, j) = a(kept[i], kept[j]);
+    smallest = std::min(smallest, determinant(part));
+  }
+  return smallest;
+}
+
+TEST(PMatrix, AgreesWithAllMinors) {
+  std::mt19937 generator(5);
+  int yes = 0, no = 0, indefinite = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    linalg::DenseMatrix a(6, 6);
+    for (double& entry : a.entries()) entry = 1.5 * test::uniform(generator);
+    for (PetscInt i = 0; i < 6; ++i) a(i, i) = 0.8 + std::abs(a(i, i));
+    const bool expected = smallestMinor(a) > 0;
+    EXPECT_EQ(uniqueness::pMatrix(a), expected) << "trial " << trial;
+    ++(expected ? yes : no);
+    indefinite += expected && uniqueness::symmetricEigenvalues(a).front() < 0;
+  }
+  test::print("%d P-matrices, %d of them not positive definite, %d others\n", yes, indefinite, no);
+  EXPECT_GE(yes, 20);
+  EXPECT_GE(no, 20);
+  EXPECT_GE(indefinite, 5);
+}
+
+TEST(Verdict, IsTheStrongestThatHolds) {
+  const auto verdict = [](const std::vector<double>& a, int limit = 18) {
+    return uniqueness::examineMatrix(square(a), 0.3, limit).verdict;
+  };
+  EXPECT_EQ(verdict({2, -1, -1, 2}), "one solution");
+  EXPECT_EQ(verdict({2, -1, -1, 2}, 0), "one solution");
+  EXPECT_EQ(verdict({1, 0, -3, 1}), "one solution");  // a P-matrix, not positive definite
+  EXPECT_EQ(verdict({1, 0, -3, 1}, 1), "not decided");
+  EXPECT_EQ(verdict({1, 2, 2, 1}), "a solution exists");  // g = A R + F with F = (−1, −1) has three
+  EXPECT_EQ(verdict({1, -2, -2, 1}), "not decided");
+  EXPECT_EQ(verdict({1, -1, -1, 1}), "not decided");  // on the border
+  const auto judgement = uniqueness::examineMatrix(square({1, 2, 2, 1}), 0.3, 18);
+  EXPECT_EQ(judgement.friction, 0.3);
+  EXPECT_NEAR(judgement.smallest, -1, 1e-14);
+  EXPECT_TRUE(contains(judgement.reason, "no P-matrix")) << judgement.reason;
+}
+
+TEST(Loss, IsTheFirstFrictionWithoutPositivity) {
+  EXPECT_NEAR(uniqueness::lossOfPositivity(square({1, 0, 0, 1}), square({0, -2, 0, 0})), 1,
+              1e-14);  // 1 − f² = 0
+  EXPECT_NEAR(uniqueness::lossOfPositivity(square({2, 0, 0, 1}), square({-1, 0, 0, 0.25})), 2,
+              1e-14);  // 2 − f = 0
+  EXPECT_EQ(uniqueness::lossOfPositivity(square({2, 0, 0, 1}), square({0, -5, 5, 0})),
+            INFINITY);  // skew
+  EXPECT_EQ(uniqueness::lossOfPositivity(square({2, 0, 0, 1}), square({1, 0, 0, 0})), INFINITY);
+  EXPECT_EQ(uniqueness::lossOfPositivity(square({1, 2, 2, 1}), square({1, 0, 0, 1})), 0);
+}
+
+// --- the condensed matrix ---
+
+const std::string cylinders =
+    "-mesh_file meshes/cylinders.geo -mesh_set n_inner=2,n_outer=2,n_theta=16,order=2 "
+    "-motion_inner_speed 2" +
+    test::material("inner", "1", "0.3", "1") + test::material("outer", "0.3", "0.2", "1") +
+    "-contact_ring_pad outer_face -contact_ring_disc inner_face -constraint_sym_x_clamped x "
+    "-constraint_sym_y_clamped y ";
+/// Two slabs that slide obliquely: both tangential directions take part.
+const std::string slabs =
+    "-mesh_file meshes/two_slabs.geo -mesh_set nx=3,ny_disc=2,ny_pad=2,nz=2,depth=1.3 "
+    "-motion_disc_velocity 1,0,-2" +
+    test::material("disc", "1", "0.3", "1") + test::material("pad", "0.4", "0.25", "1") +
+    "-constraint_disc_bottom_clamped xyz -constraint_pad_top_clamped xyz -contact_face_pad "
+    "pad_face -contact_face_disc disc_face "
+    "-constraint_disc_right_image_of disc_left -constraint_pad_right_image_of pad_left ";
+/// A block clamped at its foot under a sliding plate.
+std::string block(int nx, int ny) {
+  return "-mesh_file meshes/layer.geo -mesh_set Lx=0.5,nx=" + std::to_string(nx) +
+         ",ny=" + std::to_string(ny) + test::material("layer", "1e9", "0.3", "1000") +
+         "-constraint_bottom_clamped xy -contact_plate_pad top -contact_plate_obstacle_velocity "
+         "1,0,0 ";
+}
+
+uniqueness::Compliance complianceOf(const Model& model) {
+  return uniqueness::OpenContact(model.contact, model.bodies.stiffness,
+                                 model.contact.slip(1, nullptr))
+      .dense();
+}
+
+uniqueness::Uniqueness examined(const Model& model, const std::vector<double>& frictions) {
+  return uniqueness::examine(model.bodies, model.contact, 1, frictions);
+}
+
+/// All gaps unknown, all nodes sliding.
+struct Coupled {
+  contact::Transformation transformation;
+  OwnedMat k0, k1;
+};
+
+Coupled coupledOf(const Model& model) {
+  const std::vector<unsigned char> all(model.contact.nodes.size(), 1);
+  Coupled coupled{model.contact.transformation(all), {}, {}};
+  auto stiffness = contact::project(model.contact, coupled.transformation, model.bodies.stiffness);
+  coupled.k1 = stiffness.friction(
+      model.contact.slipRows(coupled.transformation, model.contact.slip(1, nullptr), all, 1));
+  coupled.k0 = std::move(stiffness.matrix);
+  return coupled;
+}
+
+/// X of A X = B by LAPACK.
+linalg::DenseMatrix solved(linalg::DenseMatrix a, linalg::DenseMatrix b) {
+  PetscBLASInt n = a.rows(), columns = b.columns(), info = 0;
+  std::vector<PetscBLASInt> pivots(n);
+  LAPACKgesv_(&n, &columns, a.data(), &n, pivots.data(), b.data(), &n, &info);
+  EXPECT_EQ(info, 0);
+  return b;
+}
+
+/// The gap block of the inverse of L(f)ᵀ K T, all entries at once: no symmetry used, and none of
+/// K_o, e and U.
+linalg::DenseMatrix gapBlock(const Coupled& coupled, double friction) {
+  const auto gaps = test::gathered(coupled.transformation.gapColumn, MPIU_INT);
+  OwnedMat jacobian;
+  check(MatDuplicate(coupled.k0, MAT_COPY_VALUES, jacobian.out()));
+  check(MatAXPY(jacobian, friction, coupled.k1, SUBSET_NONZERO_PATTERN));
+  const auto full = test::denseCopy(jacobian);
+  const PetscInt count = std::ssize(gaps);
+  linalg::DenseMatrix units(full.rows(), count), result(count, count);
+  for (PetscInt j = 0; j < count; ++j) units(gaps[j], j) = 1;
+  const auto columns = solved(full, units);
+  for (PetscInt j = 0; j < count; ++j)
+    for (PetscInt i = 0; i < count; ++i) result(i, j) = columns(gaps[i], j);
+  return result;
+}
+
+TEST(Condensed, IsTheGapBlockOfTheInverse) {
+  const auto layersCase = [] { test::setCase("two_layers", layers); };
+  const auto with = [](const std::string& options) {
+    return [options] { test::setOptions(options); };
+  };
+  const std::pair<const char*, std::function<void()>> cases[] = {
+      {"layers", layersCase},
+      {"cylinders", with(cylinders)},
+      {"slabs", with(slabs)},
+      {"block", with(block(70, 2))}};  // more than one block of columns
+  for (const auto& [name, set] : cases) {
+    set();
+    const Model model = test::buildModel();
+    const auto compliance = complianceOf(model);
+    ASSERT_EQ(compliance.a0.rows(), model.contact.totalNodes);
+    ASSERT_EQ(compliance.a1.rows(), model.contact.totalNodes);
+    const auto coupled = coupledOf(model);
+    double worst = 0;
+    for (const double friction : {0.0, 0.3, 1.7}) {
+      const auto expected = gapBlock(coupled, friction);
+      worst = test::worse(worst, test::largestDifference(compliance.at(friction), expected) /
+                                     test::largestEntry(expected));
+    }
+    // The part of friction is not nothing; both inverses lose digits with the condition of K, below
+    // 1e5 here.
+    const double a0 = test::largestEntry(compliance.a0), a1 = test::largestEntry(compliance.a1);
+    EXPECT_GT(a1, 0.01 * a0);
+    EXPECT_LT(worst, 1e-10) << name;
+    test::print(
+        "%s: %d contact nodes, entries of A(f) differ by %.1e of the largest, |A1| / |A0| %.2f\n",
+        name, static_cast<int>(compliance.a0.rows()), worst, a1 / a0);
+  }
+}
+
+// One contact node. Two unit squares of bilinear cells side by side, clamped below and at the right
+// end; the plate slides on the upper side of the left one, whose two nodes are tied. Their
+// displacement spreads as φ = 1 + y in the left square and (2 − x)(1 + y) in the right one: ∫φ_x² =
+// 1/3, ∫φ_y² = 1 + 1/3, ∫φ_x φ_y = −1/4, so
+//   K_xx = (λ+2μ)/3 + 4μ/3,  K_yy = 4(λ+2μ)/3 + μ/3,  K_xy = −(λ+μ)/4.
+// n = (0, −1) and τ = −V/|V|. With a = τ_x K_ny = −τ_x K_xy, K_xx u + a g = −f R and a u + K_yy g =
+// R give
+//   g = A(f) R,  A(f) = (1 + f a / K_xx) / (K_yy − a² / K_xx),
+// which vanishes at f* = −K_xx / a, the critical friction of Klarbring (1990), if the plate pushes
+// towards the clamped end.
+std::string oneNode(double velocity) {
+  const auto file = test::writeFile("one_node.geo", R"(
+Point(1) = {0, -1, 0}; Point(2) = {1, -1, 0}; Point(3) = {2, -1, 0};
+Point(4) = {0, 0, 0}; Point(5) = {1, 0, 0}; Point(6) = {2, 0, 0};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 6}; Line(4) = {6, 5}; Line(5) = {5, 4};
+Line(6) = {4, 1}; Line(7) = {2, 5};
+Curve Loop(1) = {1, 7, 5, 6}; Curve Loop(2) = {2, 3, 4, -7};
+Plane Surface(1) = {1}; Plane Surface(2) = {2};
+Transfinite Curve {1 : 7} = 2;
+Transfinite Surface {1, 2};
+Recombine Surface {1, 2};
+Physical Point("first") = {4};
+Physical Point("second") = {5};
+Physical Curve("face") = {5};
+Physical Curve("fixed") = {1, 2, 3};
+Physical Surface("body") = {1, 2};
+)");
+  return "-mesh_file " + file + test::material("body", "1", "0.25", "1") +
+         "-elasticity_incompatible_modes none -constraint_fixed_clamped xy "
+         "-constraint_second_image_of first "
+         "-contact_plate_pad face -contact_plate_obstacle_velocity " +
+         std::to_string(velocity) + ",0,0 ";
+}
+
+TEST(Uniqueness, OneNodeLosesItAtTheKnownFriction) {
+  const double lambda = 0.4, mu = 0.4, kxx = (lambda + 6 * mu) / 3, kyy = (4 * lambda + 9 * mu) / 3,
+               kxy = -(lambda + mu) / 4;
+  const double critical = kxx / -kxy;
+  EXPECT_NEAR(critical, 14.0 / 3, 1e-14);
+  for (const double velocity : {1.0, -1.0})
+    for (const std::string limit : {"1000", "0"}) {
+      test::setOptions(oneNode(velocity) + "-steady_uniqueness_dense " + limit);
+      const Model model = test::buildModel();
+      ASSERT_EQ(model.contact.totalNodes, 1);
+      const double a = (velocity > 0 ? 1 : -1) * kxy;
+      const auto result = examined(model, {0, 0.3, 4.66, 4.67});
+      for (const auto& judgement : result.judgements) {
+        if (limit == "1000") {
+          EXPECT_NEAR(judgement.smallest, (1 + judgement.friction * a / kxx) / (kyy - a * a / kxx),
+                      1e-13);
+        }
+        EXPECT_EQ(judgement.verdict,
+                  velocity > 0 && judgement.friction > critical ? "not decided" : "one solution");
+      }
+      if (velocity > 0)
+        EXPECT_NEAR(result.lostAt, critical, 1e-12);
+      else
+        EXPECT_EQ(result.lostAt, INFINITY);
+    }
+}
+
+// A strip that looks the same after a turn about z: friction to the left and to the right are one,
+// so sym(A1) = 0.
+TEST(Uniqueness, LayersNeverLoseIt) {
+  test::setCase("two_layers", layers);
+  const auto result = examined(test::buildModel(), {0, 0.5, 5});
+  EXPECT_EQ(result.lostAt, INFINITY);
+  for (const auto& judgement : result.judgements) {
+    EXPECT_EQ(judgement.verdict, "one solution") << judgement.reason;
+    EXPECT_GT(judgement.smallest, 0);
+    EXPECT_NEAR(judgement.smallest / result.judgements[0].smallest, 1, 1e-9);
+  }
+  test::setCase("two_layers", layers + " -steady_uniqueness_dense 0");
+  EXPECT_EQ(examined(test::buildModel(), {5}).lostAt, INFINITY);
+}
+
+// The verdicts follow from A(f): all its principal minors, its symmetric part on either side of the
+// loss.
+TEST(Uniqueness, VerdictsOfABlock) {
+  test::setOptions(block(4, 8));
+  const Model model = test::buildModel();
+  const auto compliance = complianceOf(model);
+  const double lost = examined(model, {}).lostAt;
+  std::vector<double> frictions = {0, lost * (1 - 1e-6), lost * (1 + 1e-6)};
+  for (int i = 1; i <= 20; ++i) frictions.push_back(0.1 * i);
+  const auto result = examined(model, frictions);
+  ASSERT_EQ(result.judgements.size(), frictions.size());
+  EXPECT_GT(result.judgements[1].smallest, 0);
+  EXPECT_LT(result.judgements[2].smallest, 0);
+  double noLonger = INFINITY;
+  for (const auto& judgement : result.judgements) {
+    const bool unique = smallestMinor(compliance.at(judgement.friction)) > 0;
+    EXPECT_EQ(judgement.verdict == "one solution", unique)
+        << "friction " << judgement.friction << ": " << judgement.reason;
+    EXPECT_EQ(judgement.smallest > 0, judgement.friction < lost);
+    if (!unique) noLonger = std::min(noLonger, judgement.friction);
+  }
+  test::print("block: sym(A) positive definite below friction %.4f, no P-matrix at %.1f\n", lost,
+              noLonger);
+  EXPECT_LT(lost, noLonger);
+  EXPECT_LT(noLonger, 2.1);
+}
+
+// A never formed: the same loss, and the verdicts that follow from it.
+TEST(Uniqueness, MatrixFreeAgrees) {
+  for (const auto& options :
+       {block(40, 10), slabs + "-constraint_disc_left_clamped x -constraint_pad_left_clamped x "}) {
+    std::vector<uniqueness::Uniqueness> results;
+    for (const std::string limit : {"1000", "0"}) {
+      test::setOptions(options + "-steady_uniqueness_pmatrix 0 -steady_uniqueness_dense " + limit);
+      const Model model = test::buildModel();
+      results.push_back(examined(model, {0, 0.2, 0.7, 1.5}));
+    }
+    test::print("formed: lost at %.10g; matrix-free: %.10g\n", results[0].lostAt,
+                results[1].lostAt);
+    if (std::isfinite(results[0].lostAt))
+      EXPECT_NEAR(results[1].lostAt / results[0].lostAt, 1, 1e-5);
+    else
+      EXPECT_EQ(results[1].lostAt, INFINITY);
+    for (std::size_t i = 0; i < results[0].judgements.size(); ++i) {
+      const auto &formed = results[0].judgements[i], &free = results[1].judgements[i];
+      EXPECT_EQ(free.verdict == "one solution", formed.verdict == "one solution");
+    }
+  }
+}
+
+// The same on one rank as on all: every rank examines the block alone as well.
+TEST(Uniqueness, DoesNotDependOnTheRanks) {
+  test::setOptions(block(12, 6));
+  const auto together = examined(test::buildModel(), {0.3, 1.2});
+  mesh::Mesh mesh = mesh::read(PETSC_COMM_SELF, analysis::meshRequest());
+  auto ties = ties::findTies(mesh);
+  const auto bodies = elasticity::assemble(mesh);
+  const auto contact = contact::build(mesh, bodies, std::move(ties));
+  const auto alone = uniqueness::examine(bodies, contact, 1, {0.3, 1.2});
+  EXPECT_NEAR(together.lostAt / alone.lostAt, 1, 1e-9);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_NEAR(together.judgements[i].smallest / alone.judgements[i].smallest, 1, 1e-8);
+    EXPECT_EQ(together.judgements[i].verdict, alone.judgements[i].verdict);
+  }
+}
+
+TEST(Uniqueness, IsNotDecidedWithoutTheMatrix) {
+  test::setCase("two_layers",
+                layers + " -constraint_pad_top_clamped x -constraint_pad_top_displacement 0,0,0");
+  auto result = examined(test::buildModel(), {0, 0.5});
+  ASSERT_EQ(result.judgements.size(), 2u);
+  EXPECT_TRUE(std::isnan(result.lostAt));
+  for (const auto& judgement : result.judgements) {
+    EXPECT_TRUE(std::isnan(judgement.smallest));
+    EXPECT_EQ(judgement.verdict, "not decided");
+    EXPECT_EQ(judgement.reason,
+              "body 'pad' is held by the contact alone, so the condensed matrix does not exist");
+  }
+}
+
+// The gaps of tri6 faces are combined so that their forces have one sign under pressure. A0 is
+// positive definite as the inverse of a stiffness is.
+TEST(Uniqueness, IsDecidedOnTri6) {
+  test::setOptions(
+      "-mesh_file meshes/beam.geo -mesh_set Lx=1,Ly=0.4,Lz=0.4,nx=2,ny=1,nz=1,recombine=0,order=2" +
+      test::material("beam", "1", "0.3", "1") +
+      "-constraint_clamped_clamped xyz -contact_plate_pad tip -contact_plate_obstacle_velocity "
+      "0,1,0");
+  const auto result = examined(test::buildModel(), {0, 0.5});
+  for (const auto& judgement : result.judgements)
+    EXPECT_EQ(judgement.verdict, "one solution") << judgement.reason;
+  EXPECT_GT(result.judgements.at(0).smallest, 0);
+}
+
+// Beyond a critical speed, here K − σ M with σ = 1e7: the lowest eigenvalue of the cantilever is
+// about 3.5² E h² / (12 ρ L⁴) = 3e5. A0 is no inner product that the eigenvalue solver could use.
+TEST(Uniqueness, IndefiniteStiffnessNeedsTheMatrixFormed) {
+  test::setOptions(block(4, 8) + "-steady_uniqueness_dense 0");
+  const Model model = test::buildModel();
+  check(MatAXPY(model.bodies.stiffness, -1e7, model.bodies.mass, SAME_NONZERO_PATTERN));
+  const auto result = examined(model, {0.3});
+  EXPECT_EQ(result.judgements.at(0).verdict, "not decided");
+  EXPECT_TRUE(contains(result.judgements[0].reason, "stiffness")) << result.judgements[0].reason;
+}
+
+TEST(Uniqueness, UnknownSolverOptionIsNamed) {
+  for (const std::string limit : {"1000", "0"}) {
+    const std::string size = "-steady_uniqueness_dense " + limit;
+    test::setOptions(block(4, 2) + size + " -steady_uniqueness_ksp_typo 1");
+    const Model model = test::buildModel();
+    EXPECT_TRUE(contains(errorOf([&] { examined(model, {0.5}); }), "-steady_uniqueness_ksp_typo"));
+    test::setOptions(
+        block(4, 2) + size +
+        " -steady_uniqueness_eps_max_it 77 -steady_uniqueness_pc_factor_mat_ordering_type rcm");
+    EXPECT_EQ(errorOf([&] { examined(model, {0.5}); }), "");
+  }
+}
+
+}  // namespace
+}  // namespace squeal
