@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-2-Clause
-"""Writes to folders of results, by the rules of the program (src/output).
+"""Writes to folders of results, by the rules of the program (src/base/output).
 
 manifest.txt lists the files of a run, so that a later run removes no others. Whoever writes to the
 folder holds a lock on .squeal.lock. A file appears under its name when it is complete.
@@ -98,7 +98,7 @@ class Folder:
 
     @contextlib.contextmanager
     def _lock(self):
-        """Locks the folder as the program does (src/output/lock.cpp)."""
+        """Locks the folder as the program does (src/base/output/lock.cpp)."""
         path = self.path / LOCK
         file = open_regular(path, os.O_RDWR | os.O_CREAT)
         try:

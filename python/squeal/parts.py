@@ -13,7 +13,7 @@ from squeal.results import Results
 TABLES = ("eigenvalues", "stability_map", "branches", "critical", "friction_work", "sensitivities")
 NEEDED = ("eigenvalues", "stability_map")
 # Options that change no number, and beginnings of their names. They include those that the program
-# ignores when it resumes a run (src/checkpoint).
+# ignores when it resumes a run (src/base/checkpoint).
 INDIFFERENT = ("resume", "checkpoint", "checkpoint_interval", "quiet", "progress", "options_file")
 INDIFFERENT_BEGINNINGS = ("report_", "log_")
 SWEPT = tuple(f"flutter_{name}" for name in PARAMETERS)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-2-Clause
 """The schema of the tables of a run: columns, units and allowed values.
 
-To add a column, add it here and to the writer (src/report). tests/python/test_schema.py compares
-the two; docs/results.md lists the columns.
+To add a column, add it here and to the writer (src/run/report). tests/python/test_schema.py
+compares the two; docs/results.md lists the columns.
 """
 import dataclasses
 import math

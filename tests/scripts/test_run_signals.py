@@ -108,7 +108,7 @@ class Lists(unittest.TestCase):
     def test_merge_and_checkpoint_agree_on_what_changes_no_number(self):
         import re
 
-        source = (ROOT / "src" / "checkpoint" / "identity.cpp").read_text()
+        source = (ROOT / "src/base/checkpoint/identity.cpp").read_text()
         exact = re.search(r"exact\{(.*?)\};", source, re.S).group(1)
         sys.path.insert(0, str(ROOT / "python"))
         from squeal import parts
