@@ -221,7 +221,13 @@ def _steady_forces(summary):
 
 
 def verdict(results):
-    """Returns one sentence on the stability of the sweep."""
+    """Returns one sentence on the stability of the sweep, by the program, or for a merge by its
+    tables."""
+    given = results.summary.get("verdict")
+    return given["sentence"] if given else _verdict_of_merge(results)
+
+
+def _verdict_of_merge(results):
     table, points, critical = results.eigenvalues, results.stability_map, results.critical
     grows = table[table["grows"]]
     if len(points) == 0:

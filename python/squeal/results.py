@@ -17,7 +17,7 @@ from squeal.files import ResultsError, is_there, open_regular, read_text
 from squeal.keys import PARAMETERS, words_of
 from squeal.tables import read_table
 
-# Without an estimate of its error, a growth rate below this fraction of |s| is taken as round-off.
+# A growth rate below this fraction of |s| is round-off, if there is no estimate of its error.
 NOISE = 1e-6
 NUMBER = (float, int)
 # The form of summary.json, as far as this package reads it: a name with ? may be missing, * means
@@ -44,6 +44,7 @@ SUMMARY = {
     "active_sets?": [{"followed?": [{"critical_frictions?": [NUMBER], "statement?": str}]}],
     "stages?": {"*": {"wall_s?": NUMBER, "peak_memory_bytes?": NUMBER}},
     "wall_s?": NUMBER,
+    "verdict?": {"sentence": str},
     "parts?": [{"folder": str}],
     "tables?": {"*": {"rows": int, "columns": [str]}},
     "regimes?": [{**dict.fromkeys(PARAMETERS, NUMBER), "start": str, "class": str}],
@@ -117,21 +118,11 @@ class Results:
 
     @functools.cached_property
     def eigenvalues(self):
-        """All eigenvalues of the band, with two more columns.
-
-        `s` is the complex eigenvalue in 1/s. `grows` is true if a mode counts as unstable: by
-        its verdict or, for `uncertified`, if it grows by more than round-off and
-        -flutter_unstable_tolerance, by the rule of the program.
-        """
+        """All eigenvalues of the band, with two more columns: `s`, the complex eigenvalue in
+        1/s, and `grows`, which is true if the program counts the mode as unstable."""
         table = self._needed("eigenvalues")
         s = table["growth_rate_1_per_s"] + 1j * table["angular_frequency_rad_per_s"]
-        least = max(
-            NOISE, float(self.summary.get("options", {}).get("flutter_unstable_tolerance", "0"))
-        )
-        uncertified = (table["verdict"] == "uncertified") & (
-            table["growth_rate_1_per_s"] > least * s.abs()
-        )
-        return table.assign(s=s, grows=(table["verdict"] == "unstable") | uncertified)
+        return table.assign(s=s, grows=table["unstable"] == 1)
 
     @functools.cached_property
     def stability_map(self):

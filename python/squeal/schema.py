@@ -105,6 +105,7 @@ TABLES = {
             number("error_estimate", least=0, open=True, read=False),
             flag("certified", read=False),
             word("verdict", *VERDICTS),
+            flag("unstable"),
         ),
         counted=("friction", "speed", "pressure", "damping", "mode"),
     ),

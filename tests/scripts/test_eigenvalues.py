@@ -94,14 +94,16 @@ class Plot(unittest.TestCase):
                     growth = 100 * (f - 0.25 - 0.05 * c)
                     at = f"{f},{v},1,{c}"
                     verdict = "unstable" if growth > 0 else "stable"
-                    modes.append(f"{at},1,{growth},6e3,955,0,1e-10,1e-9,1,{verdict}")
+                    modes.append(
+                        f"{at},1,{growth},6e3,955,0,1e-10,1e-9,1,{verdict},{int(growth > 0)}"
+                    )
                     cells = f"{int(growth > 0)},{growth},955,1e-10,,{verdict},0"
                     if (f, v) == (0.6, 3):  # no steady sliding there
                         cells = ",,,,,,"
                     points.append(f"{at},{cells}")
         names = (
             "mode,growth_rate_1_per_s,angular_frequency_rad_per_s,frequency_hz,damping_ratio,"
-            "backward_error,error_estimate,certified,verdict"
+            "backward_error,error_estimate,certified,verdict,unstable"
         )
         (folder / "eigenvalues.csv").write_text("\n".join([f"{self.head},{names}", *modes, ""]))
         names = (
