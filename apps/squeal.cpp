@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-2-Clause
 /// squeal: flutter of the steady sliding state of brakes. The method itself is
 /// squeal::analysis::analyse (src/analysis/analysis.cpp).
 #include <cstdio>
@@ -39,7 +40,7 @@ constexpr const char* usage =
     "Exit code: 0 done, 2 some point or stage has no result, 3 asked to stop (SIGTERM, SIGUSR1; "
     "-resume goes on), 1 error.\n";
 
-/// Prints an error and tells it to programs.
+/// Prints an error and reports it to other programs.
 void tellError(const squeal::Session& session, const std::string& message, bool onAllRanks) {
   squeal::tellEvent("error", {{"text", message}});
   const squeal::LineAway away;
