@@ -141,12 +141,15 @@ def done(folder, options, ranks=2):
 
 
 def files_of(folder):
-    """All files but the lock, which a killed run leaves and later runs ignore."""
-    return {
+    """All files except the lock and the options that a killed run leaves: the next run removes
+    them, even if it is refused."""
+    left = {".squeal.lock", ".partial/options.txt"}
+    files = {
         str(path.relative_to(folder)): path.read_bytes()
         for path in Path(folder).rglob("*")
-        if path.is_file() and path.name != ".squeal.lock"
+        if path.is_file()
     }
+    return {name: content for name, content in files.items() if name not in left}
 
 
 class Resumed(unittest.TestCase):
